@@ -1,0 +1,91 @@
+# Do two rough solids stick? From random surfaces to stickiness verdicts.
+#
+#   model surfaces ──► repulsive BEM ──► ensembles ──► a_V, kappa ──► criteria ──► figures
+#        └─ lattice spectrum ─► Persson's theory ──────┘               ▲           claims
+#   real surfaces ──► PSD, H, C0 ──────────────────────────────────────┘           report
+
+from snakemake.utils import min_version
+
+min_version("9.0")
+
+
+configfile: "config/config.yaml"
+
+
+include: "rules/common.smk"
+include: "rules/surfaces.smk"
+include: "rules/bem.smk"
+include: "rules/persson.smk"
+include: "rules/fits.smk"
+include: "rules/adhesion.smk"
+include: "rules/real_surfaces.smk"
+include: "rules/criteria.smk"
+include: "rules/figures.smk"
+include: "rules/report.smk"
+
+
+localrules:
+    all,
+    fig1,
+    fig2,
+    fig3,
+    fig4,
+    fig5,
+    fig6,
+    claims,
+    verdicts,
+    report,
+
+
+rule all:
+    default_target: True
+    input:
+        expand(f"{RESULTS}/figures/{{figure}}.png", figure=FIGURES),
+        f"{RESULTS}/criteria/verdicts.md",
+        f"{RESULTS}/claims/claims.md",
+        f"{RESULTS}/report/report.html",
+
+
+rule fig1:
+    input:
+        f"{RESULTS}/figures/fig1.png",
+
+
+rule fig2:
+    input:
+        f"{RESULTS}/figures/fig2.png",
+
+
+rule fig3:
+    input:
+        f"{RESULTS}/figures/fig3.png",
+
+
+rule fig4:
+    input:
+        f"{RESULTS}/figures/fig4.png",
+
+
+rule fig5:
+    input:
+        f"{RESULTS}/figures/fig5.png",
+
+
+rule fig6:
+    input:
+        f"{RESULTS}/figures/fig6.png",
+
+
+rule verdicts:
+    input:
+        f"{RESULTS}/criteria/verdicts.md",
+
+
+rule claims:
+    input:
+        f"{RESULTS}/claims/claims.md",
+
+
+rule report:
+    input:
+        f"{RESULTS}/report/report.html",

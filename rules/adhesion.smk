@@ -1,0 +1,21 @@
+# Adhesion in the DMT limit: attraction summed over the gaps of the repulsive solution.
+
+
+rule adhesion_dmt:
+    input:
+        library=library_of("adhesion_dmt.py"),
+        ensemble=lambda wildcards: (
+            f"{RESULTS}/ensembles/{ADHESION[wildcards.adhesion]['case']}.nc"
+        ),
+    output:
+        f"{RESULTS}/adhesion/{{adhesion}}.nc",
+    params:
+        adhesion=lambda wildcards: ADHESION[wildcards.adhesion],
+    log:
+        f"{LOGS}/adhesion_dmt/{{adhesion}}.log",
+    benchmark:
+        f"{BENCHMARKS}/adhesion_dmt/{{adhesion}}.tsv"
+    resources:
+        mem_mb=500,
+    script:
+        "../scripts/adhesion_dmt.py"

@@ -1,0 +1,96 @@
+# Turns the configuration into case tables, once it has been checked, and says what each job
+# depends on. No rule lives here.
+
+import ast
+import os
+from functools import cache
+from pathlib import Path
+
+sys.path.insert(0, str(Path(workflow.basedir) / "scripts"))
+
+from snakemake.exceptions import WorkflowError
+from stickiness import config as configuration
+
+# One thread a job: `-j` runs seeds and cases side by side, which scales better than threaded
+# linear algebra on arrays of this size, and sums do not depend on the number of cores.
+for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
+    os.environ.setdefault(name, "1")
+
+
+def checked_configuration():
+    """Materials and real surfaces, after every file of the configuration has been checked."""
+    schemas = Path(workflow.basedir) / "config" / "schemas"
+    configuration.check_schema(config, schemas / "config.schema.yaml", "config/config.yaml")
+    configuration.check_config(config)
+    tables = []
+    for table in ("materials", "surfaces"):
+        content = configuration.load(config[table])
+        configuration.check_schema(content, schemas / f"{table}.schema.yaml", config[table])
+        configuration.check_units(content, config[table])
+        tables.append(content[table])
+    configuration.check_surfaces(tables[1], config["surfaces"])
+    return tables
+
+
+try:
+    MATERIALS, REAL_SURFACES = checked_configuration()
+except configuration.ConfigError as error:
+    raise WorkflowError(str(error)) from None
+
+FIDELITY = config["fidelities"][config["fidelity"]]
+RESULTS = f"{config['results']}/{config['fidelity']}"
+LOGS, BENCHMARKS = f"{RESULTS}/logs", f"{RESULTS}/benchmarks"
+CASES, SWEEPS, ADHESION = config["cases"], config["theory"]["sweeps"], config["adhesion"]
+FIGURES = [f"fig{number}" for number in range(1, 7)]
+
+
+wildcard_constraints:
+    seed=r"\d+",
+    case="|".join(map(re.escape, CASES)) or "none",
+    model_surface="|".join(map(re.escape, config["model_surfaces"])) or "none",
+    sweep="|".join(map(re.escape, SWEEPS)) or "none",
+    adhesion="|".join(map(re.escape, ADHESION)) or "none",
+    real_surface="|".join(map(re.escape, REAL_SURFACES)),
+    figure="|".join(FIGURES),
+
+
+def seeds_of(case):
+    """Seeds of a case: its own number of realisations, the configuration's or the preset's."""
+    count = CASES[case].get("seeds", config.get("seeds", FIDELITY["seeds"]))
+    return range(1, count + 1)
+
+
+def realisations(wildcards):
+    """Files of all realisations of a case."""
+    return [f"{RESULTS}/bem/{wildcards.case}/seed{seed}.nc" for seed in seeds_of(wildcards.case)]
+
+
+@cache
+def library_of(script):
+    """Library modules that a script uses, found by following its imports.
+
+    Snakemake watches the script of a rule but not what the script imports; with these among the
+    inputs, a changed module re-runs the stages that use it and no others.
+    """
+    root = Path(workflow.basedir) / "scripts"
+    found, todo = set(), [root / script]
+    while todo:
+        for path in imported_modules(todo.pop(), root):
+            if path not in found:
+                found.add(path)
+                todo.append(path)
+    return sorted(os.path.relpath(path) for path in found)
+
+
+def imported_modules(path, root):
+    """Files below `root` that a Python file imports from the library or from beside itself."""
+    candidates = []
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.Import):
+            candidates += [root / alias.name.replace(".", "/") for alias in node.names]
+        elif isinstance(node, ast.ImportFrom):
+            base = path.parent if node.level else root
+            base = base / (node.module or "").replace(".", "/")
+            candidates += [base, *(base / alias.name for alias in node.names)]
+    files = [c.with_suffix(".py") for c in candidates] + [c / "__init__.py" for c in candidates]
+    return [file for file in files if file.is_file()]

@@ -1,0 +1,51 @@
+# Stickiness criteria: the map of the paper and a verdict for every material on every surface.
+
+
+def measured_a_v(wildcards):
+    """Fit of the a_V that the derived criterion uses."""
+    return f"{RESULTS}/fits/ensembles/{config['criteria']['a_v']['case']}.nc"
+
+
+rule map_criterion:
+    input:
+        library=library_of("map_criterion.py"),
+        a_v=measured_a_v,
+    output:
+        f"{RESULTS}/criteria/map.nc",
+    params:
+        map=config["criteria"]["map"],
+        pressure=config["criteria"]["a_v"]["pressure"],
+    log:
+        f"{LOGS}/map_criterion.log",
+    benchmark:
+        f"{BENCHMARKS}/map_criterion.tsv"
+    resources:
+        mem_mb=500,
+    script:
+        "../scripts/map_criterion.py"
+
+
+rule judge:
+    input:
+        library=library_of("judge.py"),
+        a_v=measured_a_v,
+        surfaces=expand(
+            f"{RESULTS}/real_surfaces/{{real_surface}}.nc", real_surface=REAL_SURFACES
+        ),
+    output:
+        dataset=f"{RESULTS}/criteria/verdicts.nc",
+        table=report(
+            f"{RESULTS}/criteria/verdicts.md", category="Verdicts", caption="../report/verdicts.rst"
+        ),
+    params:
+        materials=MATERIALS,
+        surfaces=list(REAL_SURFACES),
+        pressure=config["criteria"]["a_v"]["pressure"],
+    log:
+        f"{LOGS}/judge.log",
+    benchmark:
+        f"{BENCHMARKS}/judge.tsv"
+    resources:
+        mem_mb=500,
+    script:
+        "../scripts/judge.py"

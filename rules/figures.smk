@@ -1,0 +1,141 @@
+# The paper's six figures, with what was measured added.
+
+
+def bem_cases(wildcards=None):
+    return list(CASES)
+
+
+def figure_outputs(name):
+    return {suffix: f"{RESULTS}/figures/{name}.{suffix}" for suffix in ("png", "pdf")}
+
+
+rule plot_fig1:
+    input:
+        library=library_of("plot_fig1.py"),
+        density=f"{RESULTS}/persson/fig1a.nc",
+        convergence=f"{RESULTS}/persson/fig1b.nc",
+        ensemble=f"{RESULTS}/ensembles/H0.8_zeta64.nc",
+        lattice=f"{RESULTS}/persson_lattice/H0.8_zeta64.nc",
+    output:
+        png=report(
+            f"{RESULTS}/figures/fig1.png", category="Figures", caption="../report/fig1.rst"
+        ),
+        pdf=f"{RESULTS}/figures/fig1.pdf",
+    log:
+        f"{LOGS}/plot_fig1.log",
+    benchmark:
+        f"{BENCHMARKS}/plot_fig1.tsv"
+    resources:
+        mem_mb=500,
+    script:
+        "../scripts/plot_fig1.py"
+
+
+rule plot_fig2:
+    input:
+        library=library_of("plot_fig2.py"),
+        kappa=expand(
+            f"{RESULTS}/fits/kappa/{{case}}.nc", case=["H0.8_zeta32", "H0.8_zeta64", "H0.8_zeta128"]
+        ),
+        maps=f"{RESULTS}/bem/H0.8_zeta64/maps.nc",
+        adhesion=f"{RESULTS}/adhesion/fig2.nc",
+    output:
+        png=report(
+            f"{RESULTS}/figures/fig2.png", category="Figures", caption="../report/fig2.rst"
+        ),
+        pdf=f"{RESULTS}/figures/fig2.pdf",
+    log:
+        f"{LOGS}/plot_fig2.log",
+    benchmark:
+        f"{BENCHMARKS}/plot_fig2.tsv"
+    resources:
+        mem_mb=1000,
+    script:
+        "../scripts/plot_fig2.py"
+
+
+rule plot_fig3:
+    input:
+        library=library_of("plot_fig3.py"),
+        sweeps=expand(f"{RESULTS}/persson/fig3{{panel}}.nc", panel=list("abcd")),
+        fits=expand(f"{RESULTS}/fits/persson/fig3{{panel}}.nc", panel=list("abcd")),
+        bem=expand(f"{RESULTS}/ensembles/{{case}}.nc", case=CASES),
+        bem_fits=expand(f"{RESULTS}/fits/ensembles/{{case}}.nc", case=CASES),
+        lattice_fits=expand(f"{RESULTS}/fits/persson_lattice/{{case}}.nc", case=CASES),
+    output:
+        png=report(
+            f"{RESULTS}/figures/fig3.png", category="Figures", caption="../report/fig3.rst"
+        ),
+        pdf=f"{RESULTS}/figures/fig3.pdf",
+    log:
+        f"{LOGS}/plot_fig3.log",
+    benchmark:
+        f"{BENCHMARKS}/plot_fig3.tsv"
+    resources:
+        mem_mb=500,
+    script:
+        "../scripts/plot_fig3.py"
+
+
+rule plot_fig4:
+    input:
+        library=library_of("plot_fig4.py"),
+        curve=f"{RESULTS}/adhesion/fig2.nc",
+        rough=f"{RESULTS}/adhesion/fig4b_rough.nc",
+        smooth=f"{RESULTS}/adhesion/fig4b_smooth.nc",
+        a_v=measured_a_v,
+    output:
+        png=report(
+            f"{RESULTS}/figures/fig4.png", category="Figures", caption="../report/fig4.rst"
+        ),
+        pdf=f"{RESULTS}/figures/fig4.pdf",
+    params:
+        pressure=config["criteria"]["a_v"]["pressure"],
+    log:
+        f"{LOGS}/plot_fig4.log",
+    benchmark:
+        f"{BENCHMARKS}/plot_fig4.tsv"
+    resources:
+        mem_mb=500,
+    script:
+        "../scripts/plot_fig4.py"
+
+
+rule plot_fig5:
+    input:
+        library=library_of("plot_fig5.py"),
+        map=f"{RESULTS}/criteria/map.nc",
+    output:
+        png=report(
+            f"{RESULTS}/figures/fig5.png", category="Figures", caption="../report/fig5.rst"
+        ),
+        pdf=f"{RESULTS}/figures/fig5.pdf",
+    log:
+        f"{LOGS}/plot_fig5.log",
+    benchmark:
+        f"{BENCHMARKS}/plot_fig5.tsv"
+    resources:
+        mem_mb=500,
+    script:
+        "../scripts/plot_fig5.py"
+
+
+rule plot_fig6:
+    input:
+        library=library_of("plot_fig6.py"),
+        surfaces=expand(
+            f"{RESULTS}/real_surfaces/{{real_surface}}.nc", real_surface=REAL_SURFACES
+        ),
+    output:
+        png=report(
+            f"{RESULTS}/figures/fig6.png", category="Figures", caption="../report/fig6.rst"
+        ),
+        pdf=f"{RESULTS}/figures/fig6.pdf",
+    log:
+        f"{LOGS}/plot_fig6.log",
+    benchmark:
+        f"{BENCHMARKS}/plot_fig6.tsv"
+    resources:
+        mem_mb=500,
+    script:
+        "../scripts/plot_fig6.py"

@@ -1,0 +1,39 @@
+# a_V and kappa_rep from simulation and theory, with their errors and window sensitivity.
+
+
+rule fit_a_v:
+    input:
+        library=library_of("fit_a_v.py"),
+        areas=f"{RESULTS}/{{source}}/{{name}}.nc",
+    output:
+        f"{RESULTS}/fits/{{source}}/{{name}}.nc",
+    wildcard_constraints:
+        source="ensembles|persson|persson_lattice",
+        name="[^/]+",
+    params:
+        windows=config["a_v"]["windows"],
+    log:
+        f"{LOGS}/fit_a_v/{{source}}/{{name}}.log",
+    benchmark:
+        f"{BENCHMARKS}/fit_a_v/{{source}}/{{name}}.tsv"
+    resources:
+        mem_mb=500,
+    script:
+        "../scripts/fit_a_v.py"
+
+
+rule fit_kappa:
+    input:
+        library=library_of("fit_kappa.py"),
+        ensemble=f"{RESULTS}/ensembles/{{case}}.nc",
+        theory=f"{RESULTS}/persson_lattice/{{case}}.nc",
+    output:
+        f"{RESULTS}/fits/kappa/{{case}}.nc",
+    log:
+        f"{LOGS}/fit_kappa/{{case}}.log",
+    benchmark:
+        f"{BENCHMARKS}/fit_kappa/{{case}}.tsv"
+    resources:
+        mem_mb=500,
+    script:
+        "../scripts/fit_kappa.py"

@@ -1,0 +1,43 @@
+# Persson's theory: on continuous spectra for the paper's sweeps, and on the lattice spectrum that
+# the window of a simulated case really holds.
+
+
+rule persson_sweep:
+    input:
+        library=library_of("persson_sweep.py"),
+    output:
+        f"{RESULTS}/persson/{{sweep}}.nc",
+    params:
+        sweep=lambda wildcards: SWEEPS[wildcards.sweep],
+        variants=config["theory"]["variants"],
+        gamma=config["theory"]["gamma"],
+        gaps=config["gaps"],
+    log:
+        f"{LOGS}/persson_sweep/{{sweep}}.log",
+    benchmark:
+        f"{BENCHMARKS}/persson_sweep/{{sweep}}.tsv"
+    resources:
+        mem_mb=1000,
+    script:
+        "../scripts/persson_sweep.py"
+
+
+rule persson_lattice:
+    input:
+        library=library_of("persson_lattice.py"),
+    output:
+        f"{RESULTS}/persson_lattice/{{case}}.nc",
+    params:
+        surface=lambda wildcards: config["model_surfaces"][CASES[wildcards.case]["surface"]],
+        pressures=lambda wildcards: CASES[wildcards.case]["pressures"],
+        variants=config["theory"]["variants"],
+        gamma=config["theory"]["gamma"],
+        gaps=config["gaps"],
+    log:
+        f"{LOGS}/persson_lattice/{{case}}.log",
+    benchmark:
+        f"{BENCHMARKS}/persson_lattice/{{case}}.tsv"
+    resources:
+        mem_mb=1000,
+    script:
+        "../scripts/persson_lattice.py"

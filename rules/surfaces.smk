@@ -1,0 +1,19 @@
+# Random surfaces on a periodic window, one file per surface and seed.
+
+
+rule synthesise_surface:
+    input:
+        library=library_of("synthesise_surface.py"),
+    output:
+        f"{RESULTS}/surfaces/{{model_surface}}/seed{{seed}}.nc",
+    params:
+        surface=lambda wildcards: config["model_surfaces"][wildcards.model_surface],
+        pixels_per_wavelength=FIDELITY["pixels_per_wavelength"],
+    log:
+        f"{LOGS}/synthesise_surface/{{model_surface}}/seed{{seed}}.log",
+    benchmark:
+        f"{BENCHMARKS}/synthesise_surface/{{model_surface}}/seed{{seed}}.tsv"
+    resources:
+        mem_mb=1000,
+    script:
+        "../scripts/synthesise_surface.py"

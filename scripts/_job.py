@@ -1,0 +1,62 @@
+"""What every script shares: its log, and a stand-in for Snakemake when it is run by hand."""
+
+from __future__ import annotations
+
+import logging
+import sys
+from pathlib import Path
+from typing import Any
+
+
+def start(names: dict[str, Any], rule: str, **wildcards: Any) -> Any:
+    """Return the job's `snakemake` object, with log and error reporting set up.
+
+    Parameters
+    ----------
+    names : dict
+        ``globals()`` of the script. Run by Snakemake it holds `snakemake`; run by hand
+        (``python scripts/NAME.py``) the job of `rule` with `wildcards` is looked up in the
+        workflow, so that a script can be debugged alone, from the project's top folder.
+    rule, **wildcards
+        Example job for a run by hand.
+    """
+    job = names.get("snakemake") or job_of(rule, **wildcards)
+    Path(job.log[0]).parent.mkdir(parents=True, exist_ok=True)
+    logging.basicConfig(
+        filename=job.log[0],
+        filemode="w",
+        level=logging.INFO,
+        format="%(asctime)s %(levelname)s %(message)s",
+        force=True,
+    )
+    sys.excepthook = _report
+    return job
+
+
+def _report(kind: type[BaseException], error: BaseException, trace: Any) -> None:
+    """One line on the terminal, the trace in the log."""
+    logging.error("%s: %s", kind.__name__, error, exc_info=(kind, error, trace))
+    print(f"{kind.__name__}: {error}", file=sys.stderr)
+
+
+def job_of(rule: str, **wildcards: Any) -> Any:
+    """The job of `rule` with these wildcards: `input`, `output`, `params`, `log` as in a run."""
+    from types import SimpleNamespace
+
+    from snakemake.api import SnakemakeApi
+    from snakemake.io import Wildcards
+    from snakemake.settings.types import OutputSettings, ResourceSettings
+
+    with SnakemakeApi(OutputSettings(quiet=None)) as api:
+        workflow_api = api.workflow(ResourceSettings(cores=1), snakefile=Path("Snakefile"))
+        workflow = workflow_api._workflow
+        workflow.include(Path("Snakefile").resolve(), overwrite_default_target=True)
+        found = workflow.get_rule(rule)
+        values = Wildcards(fromdict={key: str(value) for key, value in wildcards.items()})
+        inputs, *_ = found.expand_input(values, groupid=None)
+        outputs, _ = found.expand_output(values)
+        params = found.expand_params(values, inputs, outputs, found)
+        log = found.expand_log(values)
+        return SimpleNamespace(
+            rule=rule, wildcards=values, input=inputs, output=outputs, params=params, log=log
+        )

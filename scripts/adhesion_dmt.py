@@ -1,0 +1,93 @@
+"""Area-load curves with attraction in the DMT limit: the gaps stay those without adhesion."""
+
+import numpy as np
+import xarray as xr
+from _job import start
+from _model import DESCRIBED
+from stickiness import criteria, datasets
+from stickiness.units import si
+
+
+def main(job):
+    asked = job.params.adhesion
+    ensemble = datasets.read(job.input.ensemble, ["attractive_area", "area_fraction", "rms_slope"])
+    q0_h_rms = roughness(asked)
+    lengths = axis("adhesion_length_over_range", asked)
+    ranges = axis("range_over_h_rms", asked)
+    area = area_within(ensemble.attractive_area, ranges)
+    attraction = lengths * area / q0_h_rms
+    external = ensemble.pressure - attraction
+    inverse_kappa = external / (ensemble.area_fraction * ensemble.rms_slope)
+    dataset = xr.Dataset({"area_fraction": ensemble.area_fraction_mean, "q0_h_rms": q0_h_rms})
+    add(dataset, "attraction", attraction)
+    add(dataset, "inverse_kappa", inverse_kappa)
+    add(dataset, "inverse_kappa_ad", attraction / ensemble.pressure / 2)
+    dataset["dmt_valid"] = dmt_valid(q0_h_rms, lengths, ranges)
+    datasets.write(
+        annotated(dataset),
+        job.output[0],
+        title="adhesion in the DMT limit, Maugis traction",
+        parameters={**datasets.parameters(ensemble), **asked, "model": "DMT", "law": "Maugis"},
+    )
+
+
+def roughness(asked):
+    """Dimensionless roughness q0 h_rms, given as such or by a window and an rms height."""
+    if "q0_h_rms" in asked:
+        return float(asked["q0_h_rms"])
+    return 2 * np.pi / si(asked["window"], "m") * si(asked["h_rms"], "m")
+
+
+def dmt_valid(q0_h_rms, lengths, ranges):
+    """Where the JTB condition lets the repulsive gaps stand, with lengths in units of 1/q0."""
+    length, range_ = xr.broadcast(lengths, ranges)
+    range_ = range_ * q0_h_rms
+    valid = criteria.dmt_validity(q0_h_rms, 1.0, (length * range_).values, range_.values).valid
+    return length.dims, np.asarray(valid, dtype="i1")
+
+
+def axis(name, asked):
+    values = np.sort(np.array(asked[name], dtype=float))
+    return xr.DataArray(values, dims=name, coords={name: values})
+
+
+def area_within(area, ranges):
+    """Attractive area at ranges between those stored, along a power law from point to point."""
+    logs = xr.apply_ufunc(np.log, area).assign_coords(range=np.log(area["range"]))
+    return np.exp(logs.interp(range=np.log(ranges))).drop_vars("range")
+
+
+def add(dataset, name, values):
+    """Mean over seeds, its standard error and the change from half the resolution."""
+    fine = values.isel(resolution=-1, drop=True)
+    count = fine.sizes["seed"]
+    spread = fine.std("seed", ddof=1) if count > 1 else fine.mean("seed") * np.nan
+    change = values.diff("resolution").isel(resolution=-1, drop=True)
+    dataset[name] = fine.mean("seed")
+    dataset[f"{name}_standard_error"] = spread / np.sqrt(count)
+    dataset[f"{name}_discretisation_error"] = abs(change.mean("seed"))
+
+
+def annotated(dataset):
+    described = {
+        "pressure": DESCRIBED["pressure"],
+        "area_fraction": DESCRIBED["area_fraction"],
+        "q0_h_rms": ("1", "lowest wave number times rms height"),
+        "adhesion_length_over_range": ("1", "adhesion length over range, sigma0/E*"),
+        "range_over_h_rms": ("1", "range of attraction over h_rms"),
+        "dmt_valid": ("1", "1 where the JTB condition for the DMT limit holds"),
+    }
+    quantities = {
+        "attraction": "attractive pressure over E* q0 h_rms",
+        "inverse_kappa": "1/kappa = p_ext A_nom/(A_rep E* h'_rms)",
+        "inverse_kappa_ad": "1/kappa_ad = p_ad/(2 p_rep)",
+    }
+    for name, text in quantities.items():
+        described[name] = ("1", text)
+        described[f"{name}_standard_error"] = ("1", f"{text}: standard error", "a single seed")
+        described[f"{name}_discretisation_error"] = ("1", f"{text}: change from half resolution")
+    return datasets.annotate(dataset, **described)
+
+
+if __name__ == "__main__":
+    main(start(globals(), "adhesion_dmt", adhesion="fig2"))

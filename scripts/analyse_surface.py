@@ -1,0 +1,179 @@
+"""Spectrum and moments of a real surface, given by parameters or by a measured topography.
+
+Both kinds end in the same variables, so that criteria need not know which it was: a smooth and a
+rough end of what is known of the surface, each with its moments.
+"""
+
+import logging
+
+import numpy as np
+import xarray as xr
+from _job import start
+from stickiness import datasets, measured
+from stickiness.spectrum import SelfAffine
+from stickiness.units import si
+
+ENDS = ["smooth", "rough"]
+REFERENCE_HURST = 0.8  # of the paper's lines C0 = 1e-3 and 1e-5 m^0.4
+SIGMAS = 2  # ends of a measured surface, in standard errors of its rms height
+POINTS_PER_DECADE = 10
+
+
+def main(job):
+    asked = job.params.surface
+    dataset = measured_surface(asked) if asked["kind"] == "measured" else self_affine(asked)
+    datasets.write(
+        annotated(dataset),
+        job.output[0],
+        title=f"spectrum of a real surface: {asked['label']}",
+        parameters={"surface": job.wildcards.real_surface, **asked},
+    )
+
+
+def self_affine(asked):
+    """Both ends of the range of a parametric surface."""
+    spectra = [spectrum_of(asked, end) for end in (0, -1)]
+    q = np.geomspace(spectra[0].q0, spectra[0].q1, points(spectra[0].magnification))
+    dataset = moments_of(spectra, [s.h_rms for s in spectra])
+    dataset["psd"] = (("end", "wave_number"), [s.psd(q) for s in spectra])
+    dataset["C0"] = ("end", [s.C0 for s in spectra])
+    line = [(s.psd(q) * q ** (2 * REFERENCE_HURST + 2)).max() for s in spectra]
+    dataset["C0_reference_upper"] = ("end", line)
+    return dataset.assign(
+        hurst=asked["hurst"],
+        q0=spectra[0].q0 if spectra[0].q_rolloff is None else spectra[0].q_rolloff,
+        q1=spectra[0].q1,
+    ).assign_coords(wave_number=q)
+
+
+def spectrum_of(asked, end):
+    def bound(key, unit):
+        value = asked[key]
+        return si(value[end] if isinstance(value, list) else value, unit)
+
+    hurst = asked["hurst"]
+    size = {"h_rms": bound("h_rms", "m")} if "h_rms" in asked else {}
+    if "C0" in asked:
+        size["C0"] = bound("C0", f"m^{2 - 2 * hurst:g}")
+    return SelfAffine(
+        hurst=hurst,
+        q0=wave_number(asked, "q0", "longest_wavelength"),
+        q1=wave_number(asked, "q1", "shortest_wavelength"),
+        q_rolloff=wave_number(asked, "", "rolloff_wavelength"),
+        **size,
+    )
+
+
+def wave_number(asked, key, wavelength):
+    if key in asked:
+        return si(asked[key], "1/m")
+    return 2 * np.pi / si(asked[wavelength], "m") if wavelength in asked else None
+
+
+def measured_surface(asked):
+    """Level, window and average the spectrum of a topography; fit H and C0."""
+    found = measured.analyse(asked)
+    plane, rings, fit = found.spectrum, found.radial, found.fit
+    line = fit.c0_at_hurst(REFERENCE_HURST)
+    for remark in found.remarks():
+        logging.info(remark)
+    spread = SIGMAS * relative_error_of_h_rms(rings)
+    scale = np.exp([-spread, spread])
+    dataset = resolved_moments(plane, fit.q_max, found.topography.h_rms, scale)
+    if fit.q_rolloff is not None:
+        dataset["q_rolloff"] = fit.q_rolloff
+    return (
+        dataset.assign(
+            psd=(("end", "wave_number"), [rings.psd, rings.psd]),
+            psd_standard_error=("wave_number", rings.standard_error),
+            psd_fit=("wave_number", fit.psd(rings.q)),
+            fitted=("wave_number", ((rings.q >= fit.q_min) & (rings.q <= fit.q_max)).astype("i1")),
+            C0=("end", fit.c0 * np.ones(2)),
+            C0_relative_error=fit.c0_se / fit.c0,
+            C0_reference=line.c0,
+            C0_reference_error=line.c0_se,
+            C0_reference_upper=("end", [line.upper, line.upper]),
+            hurst=fit.hurst,
+            hurst_error=fit.hurst_se,
+            misfit=fit.misfit,
+            anisotropy=found.anisotropy,
+            q0=fit.q_rolloff or min(plane.dqx, plane.dqy),
+            q1=fit.q_max,
+            missing_fraction=found.topography.missing_fraction,
+        )
+        .assign_coords(wave_number=rings.q)
+        .assign_attrs(remarks="; ".join(found.remarks()))
+    )
+
+
+def relative_error_of_h_rms(rings):
+    """Sampling error of the rms height: the few longest waves carry most of the variance."""
+    variance = rings.psd * rings.modes
+    return float(np.sqrt(np.sum(variance**2 / rings.dof)) / variance.sum() / 2)
+
+
+def resolved_moments(plane, q_max, h_rms, scale):
+    """Moments of the waves up to q_max; beyond it the instrument decides, not the surface."""
+    weight = plane.multiplicity * plane.dqx * plane.dqy * np.where(plane.q <= q_max, plane.psd, 0)
+    slope, curvature, energy = (np.sum(weight * plane.q**power) for power in (2, 4, 1))
+    return xr.Dataset(
+        {
+            "h_rms": ("end", h_rms * scale),
+            "rms_slope": ("end", np.sqrt(slope) * scale),
+            "rms_curvature": ("end", np.sqrt(curvature) * scale),
+            "elastic_energy": ("end", energy / 4 * scale**2),
+        },
+        coords={"end": ENDS},
+    )
+
+
+def moments_of(spectra, h_rms):
+    return xr.Dataset(
+        {
+            "h_rms": ("end", h_rms),
+            "rms_slope": ("end", [s.rms_slope for s in spectra]),
+            "rms_curvature": ("end", [s.rms_curvature for s in spectra]),
+            "elastic_energy": ("end", [s.elastic_energy() for s in spectra]),
+        },
+        coords={"end": ENDS},
+    )
+
+
+def points(magnification):
+    return int(np.ceil(POINTS_PER_DECADE * np.log10(magnification))) + 2
+
+
+def annotated(dataset):
+    exponent = 2 - 2 * float(dataset.hurst)
+    reference = f"m^{2 - 2 * REFERENCE_HURST:g}"
+    described = {
+        "end": ("1", "smooth or rough end of what is known of the surface"),
+        "wave_number": ("1/m", "wave number"),
+        "psd": ("m^4", "power spectral density C, h_rms^2 = 2 pi int q C dq"),
+        "psd_standard_error": ("m^4", "sampling error of the power spectral density"),
+        "psd_fit": ("m^4", "fitted self-affine spectrum"),
+        "fitted": ("1", "1 where the wave number is within the range of the fit"),
+        "h_rms": ("m", "rms height"),
+        "rms_slope": ("1", "rms gradient, of waves up to q1"),
+        "rms_curvature": ("1/m", "rms Laplacian, of waves up to q1"),
+        "elastic_energy": ("m", "elastic energy of full contact per area over E*"),
+        "hurst": ("1", "Hurst exponent"),
+        "hurst_error": ("1", "standard error of the Hurst exponent"),
+        "C0": (f"m^{exponent:.4g}", "prefactor of C = C0 q^(-2(H+1))"),
+        "C0_relative_error": ("1", "relative standard error of C0"),
+        "C0_reference": (reference, f"prefactor of the line fitted at H = {REFERENCE_HURST}"),
+        "C0_reference_error": (reference, f"standard error of C0 at H = {REFERENCE_HURST}"),
+        "C0_reference_upper": (reference, f"largest C q^(2(H+1)) at H = {REFERENCE_HURST}"),
+        "q_rolloff": ("1/m", "end of the plateau"),
+        "misfit": ("1", "departure of the spectrum from the fit beyond sampling noise"),
+        "q0": ("1/m", "lowest wave number of the self-affine range"),
+        "q1": ("1/m", "highest wave number"),
+        "anisotropy": ("1", "amplitude of the spectrum's dependence on direction, cos 2 phi"),
+        "missing_fraction": ("1", "share of points that were missing and interpolated"),
+    }
+    present = {name: text for name, text in described.items() if name in dataset.variables}
+    return datasets.annotate(dataset, **present)
+
+
+if __name__ == "__main__":
+    main(start(globals(), "analyse_surface", real_surface="jacksboro"))

@@ -1,0 +1,95 @@
+"""Fit a_V to attractive areas, of simulation or theory, in every window of the configuration."""
+
+import numpy as np
+import xarray as xr
+from _job import start
+from stickiness import datasets, dmt
+
+
+def main(job):
+    areas = datasets.read(job.input.areas, ["attractive_area", "pressure"])
+    dataset = fitted(areas.attractive_area, areas.pressure, job.params.windows)
+    dataset["exponent"] = local_exponent(areas.attractive_area)
+    if "seed" in dataset.a_v.dims:
+        dataset = with_statistics(dataset)
+    datasets.write(
+        annotated(dataset),
+        job.output[0],
+        title="a_V from attractive areas",
+        parameters={**datasets.parameters(areas), "windows": job.params.windows},
+    )
+
+
+def fitted(area, pressure, windows):
+    """a_V and the standard error of its fit along every dimension but the range's."""
+    fits = [
+        xr.apply_ufunc(
+            lambda values, load, window=window: fit_one(area["range"].values, values, load, window),
+            area,
+            pressure,
+            input_core_dims=[["range"], []],
+            output_core_dims=[["result"]],
+            vectorize=True,
+        )
+        for window in windows
+    ]
+    both = xr.concat(fits, "window")
+    return xr.Dataset(
+        {
+            "a_v": both.isel(result=0),
+            "a_v_fit_error": both.isel(result=1),
+            "window_low": ("window", [float(low) for low, _ in windows]),
+            "window_high": ("window", [float(high) for _, high in windows]),
+        }
+    )
+
+
+def fit_one(ranges, area, pressure, window):
+    fit = dmt.fit_a_v(ranges, area, float(pressure), window=tuple(window))
+    return np.array([fit.value, fit.standard_error])
+
+
+def local_exponent(area):
+    """Exponent d ln A_ad/d ln(range): 2/3 where P(u) falls as u^(-1/3)."""
+    if "seed" in area.dims:
+        area = area.isel(resolution=-1, drop=True).mean("seed")
+    return xr.apply_ufunc(
+        lambda a: dmt.local_exponent(area["range"].values, a),
+        area,
+        input_core_dims=[["range"]],
+        output_core_dims=[["range"]],
+        vectorize=True,
+    )
+
+
+def with_statistics(dataset):
+    """Mean over seeds with its standard error, and the change from half the resolution."""
+    fine = dataset.a_v.isel(resolution=-1, drop=True)
+    count = fine.sizes["seed"]
+    spread = fine.std("seed", ddof=1) if count > 1 else fine.mean("seed") * np.nan
+    change = dataset.a_v.diff("resolution").isel(resolution=-1, drop=True)
+    return dataset.assign(
+        a_v_mean=fine.mean("seed"),
+        a_v_standard_error=spread / np.sqrt(count),
+        a_v_discretisation_error=abs(change.mean("seed")),
+    )
+
+
+def annotated(dataset):
+    described = {
+        "a_v": ("1", "a_V, slope of A_ad against (3/2) p (range/h_rms)^(2/3)"),
+        "a_v_fit_error": ("1", "standard error of the fit of a_V within its window"),
+        "window_low": ("1", "low end of the fit window of range/h_rms"),
+        "window_high": ("1", "high end of the fit window of range/h_rms"),
+        "exponent": ("1", "local exponent d ln A_ad/d ln range", "no area within so small a range"),
+        "a_v_mean": ("1", "a_V, mean over seeds"),
+        "a_v_standard_error": ("1", "a_V, standard error of the mean over seeds", "a single seed"),
+        "a_v_discretisation_error": ("1", "a_V, change from half the resolution"),
+    }
+    return datasets.annotate(
+        dataset, **{name: text for name, text in described.items() if name in dataset}
+    )
+
+
+if __name__ == "__main__":
+    main(start(globals(), "fit_a_v", source="ensembles", name="H0.8_zeta64"))

@@ -1,0 +1,55 @@
+"""Persson's theory on the lattice spectrum that the window of a simulated case holds."""
+
+import numpy as np
+import xarray as xr
+from _job import start
+from _model import DESCRIBED, logarithmic_grid, middles, spectrum_of, window_of
+from stickiness import datasets
+from stickiness.persson import Persson
+from stickiness.surface import lattice_spectrum
+
+
+def main(job):
+    asked = job.params.surface
+    lattice = lattice_spectrum(spectrum_of(asked), window_of(asked))
+    pressures, ranges = np.sort(job.params.pressures), logarithmic_grid(job.params.gaps)
+    parts = [
+        state(Persson(lattice, variant=variant, gamma=job.params.gamma), pressures, ranges)
+        for variant in job.params.variants
+    ]
+    names = xr.DataArray(list(job.params.variants), dims="variant", name="variant")
+    dataset = xr.concat(parts, names).assign(rms_slope=lattice.rms_slope)
+    datasets.write(
+        datasets.annotate(
+            dataset,
+            **DESCRIBED,
+            variant=("1", "variant of the theory"),
+            rms_slope=("1", "rms gradient of the lattice spectrum over q0 h_rms"),
+        ),
+        job.output[0],
+        title="Persson's theory on the lattice spectrum of a case",
+        parameters={**asked, "case": job.wildcards.case, "gamma": job.params.gamma},
+    )
+
+
+def state(theory, pressures, ranges):
+    gaps = middles(ranges)
+    return xr.Dataset(
+        {
+            "mean_gap": ("pressure", [float(theory.mean_gap(p)) for p in pressures]),
+            "area_fraction": ("pressure", [float(theory.area_fraction(p)) for p in pressures]),
+            "attractive_area": (
+                ("pressure", "range"),
+                [theory.gap_cumulative(ranges, p) for p in pressures],
+            ),
+            "gap_density": (
+                ("pressure", "gap"),
+                [theory.gap_density(gaps, p) for p in pressures],
+            ),
+        },
+        coords={"pressure": pressures, "range": ranges, "gap": gaps},
+    )
+
+
+if __name__ == "__main__":
+    main(start(globals(), "persson_lattice", case="H0.8_zeta64"))

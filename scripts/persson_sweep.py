@@ -1,0 +1,76 @@
+"""Persson's theory on continuous self-affine spectra, over a sweep of the configuration."""
+
+from itertools import product
+
+import numpy as np
+import xarray as xr
+from _job import start
+from _model import DESCRIBED, logarithmic_grid, middles, spectrum_of
+from stickiness import datasets
+from stickiness.persson import Persson
+
+
+def main(job):
+    sweep, ranges = job.params.sweep, logarithmic_grid(job.params.gaps)
+    axes = {
+        "variant": job.params.variants,
+        "hurst": sweep["hurst"],
+        "magnification": [float(m) for m in sweep["magnification"]],
+    }
+    parts = [
+        state(theory(*point, job.params.gamma), sweep, ranges).expand_dims(
+            {name: [value] for name, value in zip(axes, point, strict=True)}
+        )
+        for point in product(*axes.values())
+    ]
+    datasets.write(
+        annotated(xr.combine_by_coords(parts)),
+        job.output[0],
+        title="Persson's theory on continuous self-affine spectra",
+        parameters={**sweep, "variants": job.params.variants, "gamma": job.params.gamma},
+    )
+
+
+def theory(variant, hurst, magnification, gamma):
+    spectrum = spectrum_of({"hurst": hurst, "magnification": magnification})
+    return Persson(spectrum, variant=variant, gamma=gamma)
+
+
+def state(theory, sweep, ranges):
+    """Everything at the sweep's loads, which are pressures or mean gaps."""
+    if "pressure" in sweep:
+        pressures = np.array(sweep["pressure"], dtype=float)
+    else:
+        pressures = np.array([theory.pressure_at(gap) for gap in sweep["mean_gap"]])
+    gaps = middles(ranges)
+    return xr.Dataset(
+        {
+            "pressure": ("load", pressures),
+            "mean_gap": ("load", [float(theory.mean_gap(p)) for p in pressures]),
+            "area_fraction": ("load", [float(theory.area_fraction(p)) for p in pressures]),
+            "attractive_area": (
+                ("load", "range"),
+                [theory.gap_cumulative(ranges, p) for p in pressures],
+            ),
+            "gap_density": (("load", "gap"), [theory.gap_density(gaps, p) for p in pressures]),
+            "rms_slope": ((), theory.spectrum.rms_slope),
+            "rms_curvature": ((), theory.spectrum.rms_curvature),
+        },
+        coords={"range": ranges, "gap": gaps},
+    )
+
+
+def annotated(dataset):
+    return datasets.annotate(
+        dataset,
+        **DESCRIBED,
+        variant=("1", "variant of the theory"),
+        hurst=("1", "Hurst exponent"),
+        magnification=("1", "magnification q1/q0"),
+        rms_slope=("1", "rms gradient over q0 h_rms"),
+        rms_curvature=("1", "rms Laplacian over q0^2 h_rms"),
+    )
+
+
+if __name__ == "__main__":
+    main(start(globals(), "persson_sweep", sweep="fig1a"))

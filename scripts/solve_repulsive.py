@@ -1,0 +1,93 @@
+"""Walk one realisation along its load path, on its grid and on every second point of it.
+
+The coarse grid samples the same band-limited surface, so the difference of the two is a measure
+of the discretisation error.
+"""
+
+import logging
+
+import numpy as np
+import xarray as xr
+from _job import start
+from _model import DESCRIBED, logarithmic_grid
+from stickiness import datasets, dmt, repulsive
+
+SOLVED = ("area_fraction", "mean_gap", "residual", "iterations", "fft_pairs")
+SCALARS = (*SOLVED, "pixel_area_fraction", "edge_gap")
+
+
+def main(job):
+    surface = datasets.read(job.input.surface, ["height", "window_length", "rms_slope"])
+    pressures = np.sort(job.params.pressures)
+    ranges = logarithmic_grid(job.params.gaps)
+    heights, length = surface.height.values, float(surface.window_length)
+    curves = [
+        load_curve(heights[::step, ::step], length, pressures, ranges, job.params.tolerance)
+        for step in (2, 1)
+    ]
+    resolution = np.array([1 / 2, 1]) * pixels(surface)
+    dataset = xr.concat(curves, xr.DataArray(resolution, dims="resolution", name="resolution"))
+    dataset["rms_slope"] = surface.rms_slope.sel(source="heights", drop=True)
+    datasets.write(
+        annotated(dataset),
+        job.output[0],
+        title="repulsive contact of one realisation along its load path",
+        parameters={
+            **datasets.parameters(surface),
+            "case": job.wildcards.case,
+            "tolerance": job.params.tolerance,
+            "largest_residual": float(dataset.residual.max()),
+        },
+    )
+
+
+def pixels(surface):
+    """Grid points per shortest wavelength, as realised by the grid."""
+    made = datasets.parameters(surface)
+    return made["grid_points"] / (made["magnification"] * made.get("window", 1.0))
+
+
+def load_curve(heights, length, pressures, ranges, tolerance):
+    """Contact quantities at every pressure, each load started from the one before."""
+    rows = []
+    for contact in repulsive.load_path(heights, length, pressures, tol=tolerance):
+        touching = contact.gap == 0
+        row = {name: float(getattr(contact, name)) for name in SOLVED}
+        row["pixel_area_fraction"] = row["area_fraction"]
+        row["area_fraction"] -= dmt.boundary_strip(touching)
+        row["edge_gap"] = dmt.edge_gap(contact.gap) if 0 < row["area_fraction"] < 1 else 0.0
+        row["attractive_area"] = dmt.attractive_area(contact.gap, ranges, subpixel=True)
+        rows.append(row)
+        logging.info(
+            "n = %d: load %d of %d, area %.4f, residual %.1e, %d iterations",
+            len(heights),
+            len(rows),
+            len(pressures),
+            contact.area_fraction,
+            contact.residual,
+            contact.iterations,
+        )
+    return xr.Dataset(
+        {name: ("pressure", [row[name] for row in rows]) for name in SCALARS}
+        | {"attractive_area": (("pressure", "range"), [row["attractive_area"] for row in rows])},
+        coords={"pressure": pressures, "range": ranges},
+    )
+
+
+def annotated(dataset):
+    names = ("pressure", "range", "area_fraction", "mean_gap", "attractive_area")
+    return datasets.annotate(
+        dataset,
+        **{name: DESCRIBED[name] for name in names},
+        resolution=("1", "grid points per shortest wavelength"),
+        pixel_area_fraction=("1", "repulsive contact area as counted in pixels, over nominal area"),
+        edge_gap=("1", "gap of the pixels next to the contact over h_rms: smallest range resolved"),
+        residual=("1", "complementarity residual over h_rms"),
+        iterations=("1", "conjugate gradient iterations"),
+        fft_pairs=("1", "pairs of Fourier transforms in units of this grid"),
+        rms_slope=("1", "rms gradient of this realisation over q0 h_rms"),
+    )
+
+
+if __name__ == "__main__":
+    main(start(globals(), "solve_repulsive", case="H0.8_zeta64", seed=1))

@@ -1,0 +1,239 @@
+"""Checks of the configuration: one line per error, naming the key, its value and the remedy."""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import Any
+
+import jsonschema
+import yaml
+
+from .units import si
+
+# Keys whose values are strings with units, and the unit that fixes their dimension.
+_UNITS = {
+    "plane_strain_modulus": "Pa",
+    "youngs_modulus": "Pa",
+    "work_of_adhesion": "J/m^2",
+    "range": "m",
+    "longest_wavelength": "m",
+    "shortest_wavelength": "m",
+    "rolloff_wavelength": "m",
+    "q0": "1/m",
+    "q1": "1/m",
+    "h_rms": "m",
+    "size": "m",
+    "pixel_size": "m",
+}
+
+
+class ConfigError(ValueError):
+    """A key of the configuration is unknown, missing or has a value that cannot be used."""
+
+
+def load(path: str | Path) -> dict[str, Any]:
+    """Read a YAML file of the configuration.
+
+    Raises
+    ------
+    ConfigError
+        If the file is missing or is not valid YAML.
+    """
+    try:
+        content = yaml.safe_load(Path(path).read_text(encoding="utf-8"))
+    except FileNotFoundError:
+        raise ConfigError(f"{path}: no such file; set its path in config/config.yaml") from None
+    except yaml.YAMLError as error:
+        mark = getattr(error, "problem_mark", None)
+        line = f" line {mark.line + 1}" if mark else ""
+        raise ConfigError(
+            f"{path}:{line} is not valid YAML: {getattr(error, 'problem', error)}"
+        ) from None
+    if not isinstance(content, dict):
+        raise ConfigError(f"{path}: must hold keys and values, found {type(content).__name__}")
+    return content
+
+
+def check_schema(content: Mapping[str, Any], schema: str | Path, name: str) -> None:
+    """Check `content`, read from the file `name`, against a JSON schema in YAML."""
+    validator = jsonschema.Draft202012Validator(load(schema))
+    errors = sorted(
+        validator.iter_errors(content), key=lambda error: (-len(error.path), str(error.path))
+    )
+    if errors:
+        raise ConfigError(f"{name}: {_one_line(errors[0])}")
+
+
+def check_config(config: Mapping[str, Any], name: str = "config/config.yaml") -> None:
+    """Check what the schema of config.yaml cannot say: references, orders, units, resolution."""
+    for problem in _config_problems(config):
+        raise ConfigError(f"{name}: {problem}")
+
+
+def check_units(content: Mapping[str, Any], name: str) -> None:
+    """Check that every value that needs a unit has one of the right dimension and is positive."""
+    for key, value, unit in _with_units(content, ""):
+        try:
+            magnitude = si(value, unit)
+        except ValueError as error:
+            raise ConfigError(f"{name}: {key} = {error}") from None
+        if not magnitude > 0:
+            raise ConfigError(f"{name}: {key} = {value!r} must be positive")
+
+
+def check_surfaces(surfaces: Mapping[str, Any], name: str = "config/surfaces.yaml") -> None:
+    """Check bands, ranges and files of the real surfaces."""
+    for key, surface in surfaces.items():
+        for problem in _surface_problems(surface):
+            raise ConfigError(f"{name}: surfaces.{key}.{problem}")
+
+
+def _config_problems(config: Mapping[str, Any]) -> Iterator[str]:
+    fidelity = config["fidelity"]
+    if fidelity not in config["fidelities"]:
+        yield f"fidelity = {fidelity!r} is unknown; choose one of {', '.join(config['fidelities'])}"
+    yield from _grid_problems("gaps", config["gaps"])
+    for key, case in config["cases"].items():
+        if case["surface"] not in config["model_surfaces"]:
+            yield _unknown(f"cases.{key}.surface", case["surface"], config["model_surfaces"])
+        for load_ in case.get("maps", []):
+            if load_ not in case["pressures"]:
+                yield f"cases.{key}.maps: {load_!r} is not among the case's pressures"
+    for key, surface in config["model_surfaces"].items():
+        rolloff, magnification = surface.get("rolloff"), surface["magnification"]
+        if rolloff is not None and rolloff >= magnification:
+            yield (
+                f"model_surfaces.{key}.rolloff = {rolloff!r} must be below "
+                f"magnification = {magnification!r}"
+            )
+    for key, window in enumerate(config["a_v"]["windows"]):
+        if not window[0] < window[1]:
+            yield f"a_v.windows[{key}] = {window!r} must be [low, high] with low < high"
+        gaps = config["gaps"]
+        if window[0] < gaps["minimum"] or window[1] > gaps["maximum"]:
+            yield f"a_v.windows[{key}] = {window!r} must lie within gaps.minimum … gaps.maximum"
+    for key, adhesion in config["adhesion"].items():
+        if adhesion["case"] not in config["cases"]:
+            yield _unknown(f"adhesion.{key}.case", adhesion["case"], config["cases"])
+        for unit_key in ("window", "h_rms"):
+            yield from _unit_problem(f"adhesion.{key}.{unit_key}", adhesion.get(unit_key), "m")
+    chosen = config["criteria"]["a_v"]
+    if chosen["case"] not in config["cases"]:
+        yield _unknown("criteria.a_v.case", chosen["case"], config["cases"])
+    elif chosen["pressure"] not in config["cases"][chosen["case"]]["pressures"]:
+        yield (
+            f"criteria.a_v.pressure = {chosen['pressure']!r} is not among the pressures of "
+            f"cases.{chosen['case']}"
+        )
+    for key in ("range_times_q0", "adhesion_length_over_range"):
+        yield from _grid_problems(f"criteria.map.{key}", config["criteria"]["map"][key])
+
+
+def _surface_problems(surface: Mapping[str, Any]) -> Iterator[str]:
+    if surface["kind"] == "measured":
+        file = surface["file"]
+        if not file.startswith("builtin:") and not Path(file).is_file():
+            yield f"file = {file!r}: no such file; give a path from the working directory"
+        return
+    longest = _wavelength(surface, "longest_wavelength", "q0")
+    shortest = _wavelength(surface, "shortest_wavelength", "q1")
+    if not shortest < longest:
+        yield f"shortest_wavelength = {shortest:g} m must be below the longest, {longest:g} m"
+    if "rolloff_wavelength" in surface:
+        rolloff = si(surface["rolloff_wavelength"], "m")
+        if not shortest < rolloff < longest:
+            yield f"rolloff_wavelength = {rolloff:g} m must be in {shortest:g} … {longest:g} m"
+    unit = f"m^{2 - 2 * surface['hurst']:g}"
+    for value in _as_list(surface.get("C0", [])):
+        yield from _unit_problem("C0", value, unit)
+    for key, key_unit in (("C0", unit), ("h_rms", "m")):
+        values = [si(value, key_unit) for value in _as_list(surface.get(key, []))]
+        if values != sorted(values):
+            yield f"{key} = {surface[key]!r} must be [low, high]"
+
+
+def _wavelength(surface: Mapping[str, Any], wavelength: str, wave_number: str) -> float:
+    if wavelength in surface:
+        return si(surface[wavelength], "m")
+    return 2 * 3.141592653589793 / si(surface[wave_number], "1/m")
+
+
+def _as_list(value: Any) -> list[Any]:
+    return value if isinstance(value, list) else [value]
+
+
+def _unit_problem(key: str, value: str | None, unit: str) -> Iterator[str]:
+    if value is None:
+        return
+    try:
+        if not si(value, unit) > 0:
+            yield f"{key} = {value!r} must be positive"
+    except ValueError as error:
+        yield f"{key} = {error}"
+
+
+def _grid_problems(key: str, grid: Mapping[str, float]) -> Iterator[str]:
+    if not grid["minimum"] < grid["maximum"]:
+        yield f"{key}.minimum = {grid['minimum']!r} must be below maximum = {grid['maximum']!r}"
+
+
+def _with_units(node: Any, key: str) -> Iterator[tuple[str, Any, str]]:
+    if isinstance(node, Mapping):
+        for name, value in node.items():
+            below = f"{key}.{name}" if key else name
+            if name in _UNITS and not isinstance(value, Mapping):
+                values = enumerate(value) if isinstance(value, list) else [(None, value)]
+                for index, item in values:
+                    yield below if index is None else f"{below}[{index}]", item, _UNITS[name]
+            else:
+                yield from _with_units(value, below)
+
+
+def _unknown(key: str, value: str, known: Mapping[str, Any]) -> str:
+    return f"{key} = {value!r} is unknown; {_suggest(value, known)}"
+
+
+def _suggest(value: str, known: Mapping[str, Any]) -> str:
+    close = difflib.get_close_matches(str(value), [str(name) for name in known], n=1)
+    return f"did you mean {close[0]!r}?" if close else f"choose one of {', '.join(map(str, known))}"
+
+
+def _one_line(error: jsonschema.ValidationError) -> str:
+    key = "".join(f"[{p}]" if isinstance(p, int) else f".{p}" for p in error.absolute_path).lstrip(
+        "."
+    )
+    where = f"{key}: " if key else ""
+    match error.validator:
+        case "additionalProperties":
+            known = error.schema.get("properties", {})
+            extra = next(name for name in error.instance if name not in known)
+            return f"{where}unknown key {extra!r}; {_suggest(extra, known)}"
+        case "required":
+            missing = next(name for name in error.validator_value if name not in error.instance)
+            hint = error.schema.get("properties", {}).get(missing, {}).get("description")
+            return f"{where}the key {missing!r} is missing" + (f" ({hint})" if hint else "")
+        case "oneOf" | "anyOf":
+            choices = [" and ".join(choice.get("required", [])) for choice in error.validator_value]
+            return f"{where}give exactly one of: {'; '.join(filter(None, choices))}"
+        case "enum":
+            choices = dict.fromkeys(error.validator_value)
+            return f"{key} = {error.instance!r} is unknown; {_suggest(error.instance, choices)}"
+    reasons = {
+        "minimum": "must be at least {}",
+        "maximum": "must be at most {}",
+        "exclusiveMinimum": "must be greater than {}",
+        "exclusiveMaximum": "must be below {}",
+        "multipleOf": "must be a multiple of {}",
+        "type": "must be of type {}",
+        "minItems": "needs at least {} item(s)",
+        "maxItems": "takes at most {} item(s)",
+        "minProperties": "needs at least {} entry",
+        "minLength": "must not be empty",
+        "pattern": "does not match {}",
+        "uniqueItems": "must not repeat a value",
+    }
+    reason = reasons.get(error.validator, error.message).format(error.validator_value)
+    hint = error.schema.get("description") if isinstance(error.schema, Mapping) else None
+    return f"{key} = {error.instance!r} {reason}" + (f" ({hint})" if hint else "")

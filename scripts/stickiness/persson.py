@@ -1,0 +1,224 @@
+"""Persson's theory of purely repulsive contact: area, mean gap and distribution of gaps.
+
+The scale of resolution is measured by m, the profile variance of the gradient from q0 up to that
+scale (m = m2 for the whole surface); everything then holds alike for continuous spectra, tables
+and the shells of a periodic window. With E* = 1, M = m2 and p(m) = p/A(m):
+
+- relative contact area A = erf(y), where m = p^2 T(y);
+- mean gap where the contact at m is in sight, ubar(m) = (2/sqrt(pi)) int ds F(p(m)/s) / q(m + s^2)
+  with s from 0 to sqrt(M - m);
+- gap where contact is lost on resolving m, u1 = d(A ubar)/dA.
+
+Both integrals by parts are sums of positive terms over 1/q (nothing cancels, and C(q), which
+shells do not have, drops out):
+
+    ubar = (2/sqrt(pi)) int d(-1/q) K(s),                K = s kappa(p(m)/s),
+    u1   = (2/sqrt(pi)) int d(-1/q) F(p(m)/s) (s + a/(2 s)),   s^2 = m(q) - m,  a = -A/(dA/dm),
+
+the integral running from q(m) up and ending with a jump of -1/q to zero at q1.
+"""
+
+from __future__ import annotations
+
+from typing import Literal
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from scipy.optimize import brentq
+from scipy.special import erf
+
+from .persson_gaps import GapProfile, Setting, gap_profile, scale_nodes
+from .persson_gaps import cumulative as _cumulative
+from .persson_gaps import density as _density
+from .persson_gaps import first_moment as _first_moment
+from .persson_kernels import kernels
+from .spectrum import Spectrum
+
+Variant = Literal["afferrante2018", "almqvist2011"]
+
+_VARIANTS = ("afferrante2018", "almqvist2011")
+_REACH = 16.0  # gaps up to 0.6 of this many h_rms are resolved without being asked for
+_FARTHEST = 1024.0  # in h_rms; the theory's tail P ~ 1/(u ln u)^2 beyond means nothing
+
+
+class Persson:
+    """Persson's contact theory for one surface spectrum.
+
+    Parameters
+    ----------
+    spectrum : Spectrum
+        Continuous, tabulated, or the shells of a periodic window.
+    variant : {"afferrante2018", "almqvist2011"}
+        Width of the Gaussians that P(u) is made of: the rms height h of the roughness that is not
+        in sight yet (Almqvist et al. 2011, doi:10.1016/j.jmps.2011.08.004), or h_eff with
+        h_eff^-2 = h^-2 + u1^-2 (Afferrante et al. 2018, doi:10.1007/s11249-018-1026-x).
+    gamma : float
+        Correction gamma + (1 - gamma) A^2 of the elastic energy and of the diffusion of
+        pressure (Yang & Persson 2008, doi:10.1088/0953-8984/20/21/215214); 1 switches it off.
+    nodes : float
+        Multiplies the number of quadrature nodes; 1 errs by less than 1e-6, 2 is the check.
+
+    Raises
+    ------
+    ValueError
+        If an argument is out of range.
+
+    Notes
+    -----
+    Pressures are in units of E*, lengths in the spectrum's. Arrays of pressures and gaps are
+    accepted; results have the shape ``p.shape + u.shape``.
+
+    Examples
+    --------
+    >>> from stickiness.spectrum import SelfAffine
+    >>> theory = Persson(SelfAffine(hurst=0.8, q0=1.0, q1=64.0, h_rms=1.0))
+    >>> area = theory.area_fraction(0.065)
+    >>> bool(abs(theory.gap_cumulative(1e9, 0.065) + area - 1) < 1e-8)
+    True
+    """
+
+    def __init__(
+        self,
+        spectrum: Spectrum,
+        variant: Variant = "afferrante2018",
+        gamma: float = 0.45,
+        nodes: float = 1.0,
+    ):
+        if variant not in _VARIANTS:
+            raise ValueError(f"variant must be one of {_VARIANTS}, got {variant!r}")
+        if not (np.isfinite(nodes) and nodes > 0):
+            raise ValueError(f"nodes must be positive and finite, got {nodes!r}")
+        self.spectrum, self.variant, self.gamma, self.nodes = spectrum, variant, gamma, nodes
+        m2 = 0.5 * float(spectrum.variance_below(spectrum.q1, 2))
+        scales = scale_nodes(spectrum, nodes)
+        self._setting = Setting(spectrum, kernels(gamma), scales, m2, variant, nodes)
+        self._profiles: dict[tuple[float, float], GapProfile] = {}
+
+    def area_fraction(self, p: ArrayLike, magnification: float | None = None) -> NDArray:
+        """Relative contact area A/A_nom.
+
+        Parameters
+        ----------
+        p : array_like
+            Mean pressure over E*, p >= 0.
+        magnification : float, optional
+            Resolution zeta' >= 1 (q up to zeta' q0) at which the area is seen; the finest by
+            default.
+
+        Returns
+        -------
+        array of the shape of `p`
+        """
+        p = np.asarray(p, dtype=float)
+        if not np.all(np.isfinite(p) & (p >= 0)):
+            raise ValueError(f"p must be finite and not negative, got {p!r}")
+        m = self._setting.m2
+        if magnification is not None:
+            if not magnification >= 1:
+                raise ValueError(f"magnification must be at least 1, got {magnification!r}")
+            q = magnification * self.spectrum.q0
+            m = 0.5 * float(self.spectrum.variance_below(q, 2))
+        if m == 0:
+            return np.where(p > 0, 1.0, 0.0)[()]
+        y = self._setting.kernels.invert_area_scale(m / np.where(p > 0, p, 1.0) ** 2)
+        return np.where(p > 0, erf(y), 0.0)[()]
+
+    def mean_gap(self, p: ArrayLike) -> NDArray:
+        """Mean gap ubar [length] at mean pressure `p` > 0 (array of the shape of `p`)."""
+        p = _positive("p", p)
+        s = np.sqrt(self._setting.scales.below)
+        x2 = (p[..., None] / s) ** 2
+        kernel = s * np.exp(-x2) * self._setting.kernels.mean_kernel(x2)
+        return 2 / np.sqrt(np.pi) * np.sum(self._setting.scales.weight * kernel, axis=-1)
+
+    def pressure_at(self, mean_gap: ArrayLike) -> NDArray:
+        """Mean pressure over E* at which the mean gap is `mean_gap` > 0 [length]."""
+        target = _positive("mean_gap", mean_gap)
+        return np.vectorize(self._pressure_at, otypes=[float])(target)[()]
+
+    def gap_density(self, u: ArrayLike, p: ArrayLike) -> NDArray:
+        """Density P(u) [1/length] of gaps u > 0 over the nominal area.
+
+        Parameters
+        ----------
+        u : array_like
+            Gaps [length], u >= 0. P(0) is infinite in the variant of 2018, where P grows as
+            1/(u ln^2 u) towards zero.
+        p : array_like
+            Mean pressure over E*.
+
+        Returns
+        -------
+        array of shape ``p.shape + u.shape``
+            Integrates over u to 1 - A/A_nom.
+        """
+        return self._over_gaps(u, p, _density)
+
+    def gap_cumulative(self, u: ArrayLike, p: ArrayLike) -> NDArray:
+        """Share of the nominal area with gaps between 0 and `u`, the contact not included.
+
+        The integral of P from 0 to `u`, in closed form under the integral over scales. Also the
+        relative attractive area of a traction that acts up to the gap `u`.
+
+        Parameters
+        ----------
+        u : array_like
+            Gaps [length], u >= 0.
+        p : array_like
+            Mean pressure over E*.
+
+        Returns
+        -------
+        array of shape ``p.shape + u.shape``
+        """
+        return self._over_gaps(u, p, _cumulative)
+
+    def first_moment(self, p: ArrayLike) -> NDArray:
+        """Mean gap [length] that P(u) implies, int u P du.
+
+        The theory does not make it equal to `mean_gap`; the difference measures how well P(u)
+        closes.
+        """
+        p = _positive("p", p)
+        values = [_first_moment(self._profile(float(x), _REACH)) for x in p.ravel()]
+        return np.reshape(values, p.shape)[()]
+
+    def _pressure_at(self, target: float) -> float:
+        def excess(log_p: float) -> float:
+            return float(np.log(np.maximum(self.mean_gap(np.exp(log_p)), 1e-250) / target))
+
+        h_rms = self.spectrum.h_rms
+        high = np.log(np.sqrt(self._setting.m2)) - 2 * target / h_rms
+        low = high
+        while excess(low) < 0:
+            low -= 2.0
+        while excess(high) > 0:
+            high += 0.5
+        return float(np.exp(brentq(excess, low, high, xtol=1e-13, rtol=1e-13)))
+
+    def _over_gaps(self, u: ArrayLike, p: ArrayLike, evaluate) -> NDArray:
+        p = _positive("p", p)
+        u = np.asarray(u, dtype=float)
+        if not np.all(u >= 0):
+            raise ValueError(f"u must not be negative, got {u!r}")
+        finite = u[np.isfinite(u)]
+        largest = float(np.max(finite, initial=0.0)) / self.spectrum.h_rms
+        # In powers of two, so that profiles are shared between calls.
+        doublings = max(0.0, np.ceil(np.log2(max(largest, 1.0) / (0.6 * _REACH))))
+        reach = min(_REACH * 2**doublings, _FARTHEST)
+        rows = [evaluate(u.ravel(), self._profile(float(x), reach)) for x in p.ravel()]
+        return np.reshape(rows, p.shape + u.shape)[()]
+
+    def _profile(self, p: float, reach: float) -> GapProfile:
+        if (p, reach) not in self._profiles:
+            if len(self._profiles) >= 64:
+                self._profiles.clear()
+            self._profiles[p, reach] = gap_profile(self._setting, p, reach)
+        return self._profiles[p, reach]
+
+
+def _positive(name: str, value: ArrayLike) -> NDArray:
+    value = np.asarray(value, dtype=float)
+    if not np.all(np.isfinite(value) & (value > 0)):
+        raise ValueError(f"{name} must be positive and finite, got {value!r}")
+    return value

@@ -1,0 +1,346 @@
+"""Frictionless, non-adhesive contact of a periodic half-space with a rough rigid surface.
+
+Given heights ``h`` and a mean pressure, find the pressure ``p >= 0`` and the gap ``g >= 0`` with
+``p g = 0`` where ``g = u + shift - h`` and ``u_q = 2 p_q / |q|`` (Polonsky and Keer, Wear 231:206,
+1999, doi 10.1016/S0043-1648(99)00113-1; Stanley and Kato, doi 10.1115/1.2833523).
+
+The method is an active-set one:
+
+* For a guess of the contact set, conjugate gradients solve ``g = 0`` there for the pressure. They
+  are preconditioned with the stiffness ``|q| / 2``, the exact inverse of the compliance in full
+  contact, between an extension of the residual beyond the edge of contact and the transpose of
+  that extension. The number of iterations hardly depends on the grid.
+* Points under tension are released, points that penetrate are added, and so on. Early on the
+  inner solution is a rough one, for a wrong set deserves no better.
+* Coarser grids supply the first guess. A point is put into contact where ``p > c k g``, with the
+  stiffness ``k`` of a single pixel: one application of the compliance then predicts the set to a few
+  per cent.
+
+Everything is solved in units of one side of the cell, ``h_rms`` and E*.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from stickiness import _active_set, fourier
+
+__all__ = ["Contact", "ConvergenceError", "load_path", "solve"]
+
+_COARSEST = 16  # points along the shorter side of the coarsest grid
+_COARSE_TOLERANCE = 1e-3  # of h_rms: a guess for the next grid needs no more
+_NEARLY_FULL = 0.9  # contact area fraction from which the full-contact pressure is the better guess
+
+
+@dataclass(frozen=True, eq=False)
+class Contact:
+    """Solution of a repulsive contact problem.
+
+    Attributes
+    ----------
+    pressure : numpy.ndarray
+        Contact pressure in units of E*, zero outside contact, ``(n0, n1)``.
+    gap : numpy.ndarray
+        Gap in the unit of the heights; zero in contact, positive outside.
+    mean_pressure : float
+        Prescribed mean pressure in units of E*.
+    area_fraction : float
+        Share of points with positive pressure.
+    mean_gap : float
+        Mean of `gap`, unit of the heights.
+    shift : float
+        Rigid displacement in ``gap = u + shift - h``, with u of zero mean; unit of the heights.
+    residual : float
+        Largest violation of the contact conditions, in units of h_rms: the maximum over the grid
+        of ``|u + shift - h|`` in contact and of the penetration ``-(u + shift - h)`` outside it.
+        Pressure is non-negative and balances the load to rounding, and is not part of it.
+    iterations : int
+        Iterations of conjugate gradients on the given grid.
+    fft_pairs : float
+        Convolutions (a forward and a backward transform each) on all grids, those on
+        coarser ones counted by their share of the points of the given grid.
+    length : tuple of float
+        Sides of the periodic cell.
+    rms_height : float
+        Root mean square of the heights about their mean.
+    """
+
+    pressure: np.ndarray
+    gap: np.ndarray
+    mean_pressure: float
+    area_fraction: float
+    mean_gap: float
+    shift: float
+    residual: float
+    iterations: int
+    fft_pairs: float
+    length: tuple
+    rms_height: float
+
+
+class ConvergenceError(RuntimeError):
+    """The contact conditions were not met to the tolerance.
+
+    Attributes
+    ----------
+    contact : Contact
+        Best iterate.
+    residual : float
+        Its residual, in units of h_rms.
+    """
+
+    def __init__(self, message, contact):
+        super().__init__(message)
+        self.contact = contact
+        self.residual = contact.residual
+
+
+def solve(
+    heights,
+    length,
+    pressure,
+    tol=1e-8,
+    start=None,
+    max_iterations=1000,
+    logger=None,
+):
+    """Solve the contact of a half-space with a rigid periodic surface at a mean pressure.
+
+    Parameters
+    ----------
+    heights : array_like
+        Heights ``(n0, n1)`` of the rigid surface (positive towards the half-space), any unit.
+    length : float or tuple of float
+        Side of the cell along axis 0 (pixels are then square), or both sides; same unit as the
+        heights.
+    pressure : float
+        Mean pressure in units of E*. Zero stands for touching at the summit, without contact.
+    tol : float
+        Largest accepted `Contact.residual`, relative to h_rms.
+    start : Contact, optional
+        Solution on the same grid at another, preferably near, load.
+    max_iterations : int
+        Largest number of iterations on the given grid.
+    logger : logging.Logger, optional
+        Told the progress at level INFO.
+
+    Returns
+    -------
+    Contact
+        Pressure, gap and how well they meet the contact conditions.
+
+    Raises
+    ------
+    ValueError
+        If an argument is not what it should be.
+    ConvergenceError
+        If `max_iterations` do not suffice; it carries the best iterate.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> x = np.arange(32) / 32
+    >>> wave = 0.01 * np.cos(2 * np.pi * x)[:, None] * np.ones(32)
+    >>> solve(wave, length=1.0, pressure=0.1).area_fraction  # beyond pi * 0.01: full contact
+    1.0
+    """
+    heights = _check_heights(heights)
+    lengths = _check_length(length, heights.shape)
+    pressure = _check_positive("pressure", pressure, zero=True)
+    tol = _check_positive("tol", tol)
+    if start is not None and start.pressure.shape != heights.shape:
+        raise ValueError(
+            f"start has the shape {start.pressure.shape}, the heights {heights.shape}: "
+            "pass a solution on the same grid"
+        )
+    mean, rms = _scale(heights)
+    if rms == 0:
+        return _flat(heights, lengths, pressure)
+    if pressure == 0:
+        return _touching(heights, lengths, rms)
+    scaled = (heights - mean) / rms
+    load = pressure * (lengths[0] / rms)
+    sides = (1.0, lengths[1] / lengths[0])
+    if start is None:
+        guess, work = _coarse_guess(scaled, sides, load, logger)
+    else:
+        guess, work = start.pressure * (load / start.pressure.mean()), 0.0
+    state = _active_set.relax(
+        fourier.half_space(scaled.shape, sides),
+        scaled,
+        load,
+        guess,
+        predict=True,
+        tol=tol,
+        max_iterations=max_iterations,
+        logger=logger,
+    )
+    contact = Contact(
+        pressure=state.pressure * (rms / lengths[0]),
+        gap=state.gap * rms,
+        mean_pressure=pressure,
+        area_fraction=state.area_fraction,
+        mean_gap=float(state.gap.mean()) * rms,
+        shift=state.shift * rms + mean,
+        residual=state.residual,
+        iterations=state.iterations,
+        fft_pairs=state.pairs + work,
+        length=lengths,
+        rms_height=rms,
+    )
+    if not state.residual <= tol:
+        raise ConvergenceError(
+            f"residual {state.residual:.2e} h_rms after {state.iterations} iterations, "
+            f"asked for {tol:.2e}: raise max_iterations, or tol if it is near rounding",
+            contact,
+        )
+    return contact
+
+
+def load_path(heights, length, pressures, tol=1e-8, **options):
+    """Solve one surface at several mean pressures, each from the solution before.
+
+    Parameters
+    ----------
+    heights, length, tol
+        As for `solve`.
+    pressures : iterable of float
+        Mean pressures in units of E*, best in monotonic order.
+    **options
+        Further arguments of `solve` but `start`.
+
+    Yields
+    ------
+    Contact
+        One solution per pressure, in the order given.
+    """
+    start = None
+    for pressure in pressures:
+        contact = solve(heights, length, pressure, tol=tol, start=start, **options)
+        yield contact
+        start = contact if pressure > 0 else None
+
+
+def _coarse_guess(heights, sides, load, logger):
+    """First guess of the pressure from coarser grids, and the work it took in fine pairs."""
+    shape = tuple(_coarser(n) for n in heights.shape)
+    if min(heights.shape) < 2 * _COARSEST or shape == heights.shape:
+        return np.full(heights.shape, load), 0.0
+    coarse = _sampled(heights, shape)
+    share = coarse.size / heights.size
+    guess, work = _coarse_guess(coarse, sides, load, logger)
+    state = _active_set.relax(
+        fourier.half_space(shape, sides),
+        coarse,
+        load,
+        guess,
+        predict=work > 0,
+        tol=_COARSE_TOLERANCE,
+        max_iterations=200,
+        logger=logger,
+    )
+    if state.area_fraction > _NEARLY_FULL:
+        full = fourier.half_space(heights.shape, sides).stiffness(heights)
+        return np.maximum(full + load, 0), share * (work + state.pairs) + 1
+    return _interpolated(state.pressure, heights.shape), share * (work + state.pairs)
+
+
+def _coarser(n):
+    return n // 2 if n % 2 == 0 else (n + 1) // 2
+
+
+def _sampled(field, shape):
+    """Sample a periodic field on a grid about half as fine."""
+    if all(n == 2 * m for n, m in zip(field.shape, shape, strict=True)):
+        return np.ascontiguousarray(field[::2, ::2])
+    return _interpolated(field, shape)
+
+
+def _interpolated(field, shape):
+    """Interpolate a periodic field linearly along both axes, onto a grid of any shape."""
+    for axis, n in enumerate(shape):
+        m = field.shape[axis]
+        position = np.arange(n) * (m / n)
+        left = np.floor(position).astype(int)
+        fraction = position - left
+        fraction = fraction[:, None] if axis == 0 else fraction
+        lower = np.take(field, left % m, axis=axis)
+        upper = np.take(field, (left + 1) % m, axis=axis)
+        upper -= lower
+        upper *= fraction
+        lower += upper
+        field = lower
+    return field
+
+
+def _flat(heights, lengths, pressure):
+    return Contact(
+        pressure=np.full(heights.shape, pressure),
+        gap=np.zeros(heights.shape),
+        mean_pressure=pressure,
+        area_fraction=1.0 if pressure > 0 else 0.0,
+        mean_gap=0.0,
+        shift=float(heights.flat[0]),
+        residual=0.0,
+        iterations=0,
+        fft_pairs=0.0,
+        length=lengths,
+        rms_height=0.0,
+    )
+
+
+def _touching(heights, lengths, rms):
+    top = float(heights.max())
+    gap = top - heights
+    return Contact(
+        pressure=np.zeros(heights.shape),
+        gap=gap,
+        mean_pressure=0.0,
+        area_fraction=0.0,
+        mean_gap=float(gap.mean()),
+        shift=top,
+        residual=0.0,
+        iterations=0,
+        fft_pairs=0.0,
+        length=lengths,
+        rms_height=rms,
+    )
+
+
+def _scale(heights):
+    """Mean and root mean square about it, safe from overflow and underflow of the squares."""
+    mean = float(heights.mean())
+    largest = float(np.abs(heights - mean).max())
+    # Heights that differ by rounding only are flat.
+    if largest <= 8 * np.finfo(float).eps * abs(mean):
+        return mean, 0.0
+    return mean, largest * float(np.sqrt(np.mean(((heights - mean) / largest) ** 2)))
+
+
+def _check_heights(heights):
+    heights = np.ascontiguousarray(heights, dtype=float)
+    if heights.ndim != 2 or heights.size == 0:
+        raise ValueError(f"heights must be a grid (n0, n1), got the shape {heights.shape}")
+    bad = heights.size - int(np.count_nonzero(np.isfinite(heights)))
+    if bad:
+        raise ValueError(f"heights must be finite, got {bad} NaN or infinite values")
+    return heights
+
+
+def _check_length(length, shape):
+    sides = np.atleast_1d(np.asarray(length, dtype=float))
+    if sides.size == 1:
+        sides = np.array([sides[0], sides[0] * shape[1] / shape[0]])
+    if sides.size != 2 or not np.all(np.isfinite(sides)) or np.any(sides <= 0):
+        raise ValueError(f"length must be one or two positive numbers, got {length!r}")
+    return float(sides[0]), float(sides[1])
+
+
+def _check_positive(name, value, zero=False):
+    number = float(value)
+    if not np.isfinite(number) or number < 0 or (number == 0 and not zero):
+        raise ValueError(
+            f"{name} must be a finite {'non-negative' if zero else 'positive'} number, "
+            f"got {value!r}"
+        )
+    return number
