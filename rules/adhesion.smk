@@ -9,13 +9,13 @@ rule adhesion_dmt:
         ),
     output:
         f"{RESULTS}/adhesion/{{adhesion}}.nc",
-    params:
-        adhesion=lambda wildcards: ADHESION[wildcards.adhesion],
     log:
         f"{LOGS}/adhesion_dmt/{{adhesion}}.log",
     benchmark:
         f"{BENCHMARKS}/adhesion_dmt/{{adhesion}}.tsv"
     resources:
         mem_mb=500,
+    params:
+        adhesion=lambda wildcards: ADHESION[wildcards.adhesion],
     script:
         "../scripts/adhesion_dmt.py"

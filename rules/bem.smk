@@ -12,17 +12,17 @@ rule solve_repulsive:
         surface=surface_of,
     output:
         f"{RESULTS}/bem/{{case}}/seed{{seed}}.nc",
-    params:
-        pressures=lambda wildcards: CASES[wildcards.case]["pressures"],
-        tolerance=FIDELITY["tolerance"],
-        pixels_per_wavelength=FIDELITY["pixels_per_wavelength"],
-        gaps=config["gaps"],
     log:
         f"{LOGS}/solve_repulsive/{{case}}/seed{{seed}}.log",
     benchmark:
         f"{BENCHMARKS}/solve_repulsive/{{case}}/seed{{seed}}.tsv"
     resources:
         mem_mb=2000,
+    params:
+        pressures=lambda wildcards: CASES[wildcards.case]["pressures"],
+        tolerance=FIDELITY["tolerance"],
+        pixels_per_wavelength=FIDELITY["pixels_per_wavelength"],
+        gaps=config["gaps"],
     script:
         "../scripts/solve_repulsive.py"
 
@@ -33,15 +33,15 @@ rule contact_maps:
         surface=lambda wildcards: surface_of(wildcards).format(seed=1),
     output:
         f"{RESULTS}/bem/{{case}}/maps.nc",
-    params:
-        pressures=lambda wildcards: CASES[wildcards.case].get("maps", []),
-        tolerance=FIDELITY["tolerance"],
     log:
         f"{LOGS}/contact_maps/{{case}}.log",
     benchmark:
         f"{BENCHMARKS}/contact_maps/{{case}}.tsv"
     resources:
         mem_mb=2000,
+    params:
+        pressures=lambda wildcards: CASES[wildcards.case].get("maps", []),
+        tolerance=FIDELITY["tolerance"],
     script:
         "../scripts/contact_maps.py"
 

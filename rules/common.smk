@@ -2,9 +2,15 @@
 # depends on. No rule lives here.
 
 import ast
+import json
 import os
+import platform
+import re
+import sys
 from functools import cache
 from pathlib import Path
+
+import psutil
 
 sys.path.insert(0, str(Path(workflow.basedir) / "scripts"))
 
@@ -17,30 +23,21 @@ for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
     os.environ.setdefault(name, "1")
 
 
-def checked_configuration():
-    """Materials and real surfaces, after every file of the configuration has been checked."""
-    schemas = Path(workflow.basedir) / "config" / "schemas"
-    configuration.check_schema(config, schemas / "config.schema.yaml", "config/config.yaml")
-    configuration.check_config(config)
-    tables = []
-    for table in ("materials", "surfaces"):
-        content = configuration.load(config[table])
-        configuration.check_schema(content, schemas / f"{table}.schema.yaml", config[table])
-        configuration.check_units(content, config[table])
-        tables.append(content[table])
-    configuration.check_surfaces(tables[1], config["surfaces"])
-    return tables
-
-
 try:
-    MATERIALS, REAL_SURFACES = checked_configuration()
+    MATERIALS, REAL_SURFACES = configuration.checked(
+        config, Path(workflow.basedir) / "config/schemas"
+    )
 except configuration.ConfigError as error:
     raise WorkflowError(str(error)) from None
 
 FIDELITY = config["fidelities"][config["fidelity"]]
 RESULTS = f"{config['results']}/{config['fidelity']}"
 LOGS, BENCHMARKS = f"{RESULTS}/logs", f"{RESULTS}/benchmarks"
-CASES, SWEEPS, ADHESION = config["cases"], config["theory"]["sweeps"], config["adhesion"]
+CASES, SWEEPS, ADHESION = (
+    config["cases"],
+    config["theory"]["sweeps"],
+    config["adhesion"],
+)
 FIGURES = [f"fig{number}" for number in range(1, 7)]
 
 
@@ -94,3 +91,46 @@ def imported_modules(path, root):
             candidates += [base, *(base / alias.name for alias in node.names)]
     files = [c.with_suffix(".py") for c in candidates] + [c / "__init__.py" for c in candidates]
     return [file for file in files if file.is_file()]
+
+
+# --- A killed run ----------------------------------------------------------------------------
+# Snakemake's lock outlives a run that was killed outright. The run that holds it leaves its
+# process on record, so that the next one can tell a dead run's lock from a living one's.
+
+RUN_RECORD = Path(".snakemake/run.json")
+
+
+def this_run():
+    me = psutil.Process()
+    return {"host": platform.node(), "pid": me.pid, "started": me.create_time()}
+
+
+def remove_stale_lock():
+    """Remove the lock of a run on this machine whose process is no more."""
+    try:
+        run = json.loads(RUN_RECORD.read_text())
+        if run["host"] != platform.node():
+            return
+        if psutil.pid_exists(run["pid"]):
+            if abs(psutil.Process(run["pid"]).create_time() - run["started"]) < 1:
+                return
+    except (OSError, ValueError, KeyError, psutil.Error):
+        return
+    for lock in Path(".snakemake/locks").glob("*.lock"):
+        lock.unlink(missing_ok=True)
+    RUN_RECORD.unlink(missing_ok=True)
+
+
+remove_stale_lock()
+
+
+onstart:
+    RUN_RECORD.write_text(json.dumps(this_run()))
+
+
+onsuccess:
+    RUN_RECORD.unlink(missing_ok=True)
+
+
+onerror:
+    RUN_RECORD.unlink(missing_ok=True)

@@ -12,15 +12,15 @@ rule map_criterion:
         a_v=measured_a_v,
     output:
         f"{RESULTS}/criteria/map.nc",
-    params:
-        map=config["criteria"]["map"],
-        pressure=config["criteria"]["a_v"]["pressure"],
     log:
         f"{LOGS}/map_criterion.log",
     benchmark:
         f"{BENCHMARKS}/map_criterion.tsv"
     resources:
         mem_mb=500,
+    params:
+        map=config["criteria"]["map"],
+        pressure=config["criteria"]["a_v"]["pressure"],
     script:
         "../scripts/map_criterion.py"
 
@@ -29,23 +29,23 @@ rule judge:
     input:
         library=library_of("judge.py"),
         a_v=measured_a_v,
-        surfaces=expand(
-            f"{RESULTS}/real_surfaces/{{real_surface}}.nc", real_surface=REAL_SURFACES
-        ),
+        surfaces=expand(f"{RESULTS}/real_surfaces/{{real_surface}}.nc", real_surface=REAL_SURFACES),
     output:
         dataset=f"{RESULTS}/criteria/verdicts.nc",
         table=report(
-            f"{RESULTS}/criteria/verdicts.md", category="Verdicts", caption="../report/verdicts.rst"
+            f"{RESULTS}/criteria/verdicts.md",
+            category="Verdicts",
+            caption="../report/verdicts.rst",
         ),
-    params:
-        materials=MATERIALS,
-        surfaces=list(REAL_SURFACES),
-        pressure=config["criteria"]["a_v"]["pressure"],
     log:
         f"{LOGS}/judge.log",
     benchmark:
         f"{BENCHMARKS}/judge.tsv"
     resources:
         mem_mb=500,
+    params:
+        materials=MATERIALS,
+        surfaces=list(REAL_SURFACES),
+        pressure=config["criteria"]["a_v"]["pressure"],
     script:
         "../scripts/judge.py"

@@ -5,6 +5,9 @@ def bem_cases(wildcards=None):
     return list(CASES)
 
 
+FIGURE_2_CASES = ["H0.8_zeta32", "H0.8_zeta64", "H0.8_zeta128"]
+
+
 def figure_outputs(name):
     return {suffix: f"{RESULTS}/figures/{name}.{suffix}" for suffix in ("png", "pdf")}
 
@@ -18,7 +21,9 @@ rule plot_fig1:
         lattice=f"{RESULTS}/persson_lattice/H0.8_zeta64.nc",
     output:
         png=report(
-            f"{RESULTS}/figures/fig1.png", category="Figures", caption="../report/fig1.rst"
+            f"{RESULTS}/figures/fig1.png",
+            category="Figures",
+            caption="../report/fig1.rst",
         ),
         pdf=f"{RESULTS}/figures/fig1.pdf",
     log:
@@ -35,13 +40,16 @@ rule plot_fig2:
     input:
         library=library_of("plot_fig2.py"),
         kappa=expand(
-            f"{RESULTS}/fits/kappa/{{case}}.nc", case=["H0.8_zeta32", "H0.8_zeta64", "H0.8_zeta128"]
+            f"{RESULTS}/fits/kappa/{{case}}.nc",
+            case=["H0.8_zeta32", "H0.8_zeta64", "H0.8_zeta128"],
         ),
         maps=f"{RESULTS}/bem/H0.8_zeta64/maps.nc",
         adhesion=f"{RESULTS}/adhesion/fig2.nc",
     output:
         png=report(
-            f"{RESULTS}/figures/fig2.png", category="Figures", caption="../report/fig2.rst"
+            f"{RESULTS}/figures/fig2.png",
+            category="Figures",
+            caption="../report/fig2.rst",
         ),
         pdf=f"{RESULTS}/figures/fig2.pdf",
     log:
@@ -64,7 +72,9 @@ rule plot_fig3:
         lattice_fits=expand(f"{RESULTS}/fits/persson_lattice/{{case}}.nc", case=CASES),
     output:
         png=report(
-            f"{RESULTS}/figures/fig3.png", category="Figures", caption="../report/fig3.rst"
+            f"{RESULTS}/figures/fig3.png",
+            category="Figures",
+            caption="../report/fig3.rst",
         ),
         pdf=f"{RESULTS}/figures/fig3.pdf",
     log:
@@ -86,17 +96,19 @@ rule plot_fig4:
         a_v=measured_a_v,
     output:
         png=report(
-            f"{RESULTS}/figures/fig4.png", category="Figures", caption="../report/fig4.rst"
+            f"{RESULTS}/figures/fig4.png",
+            category="Figures",
+            caption="../report/fig4.rst",
         ),
         pdf=f"{RESULTS}/figures/fig4.pdf",
-    params:
-        pressure=config["criteria"]["a_v"]["pressure"],
     log:
         f"{LOGS}/plot_fig4.log",
     benchmark:
         f"{BENCHMARKS}/plot_fig4.tsv"
     resources:
         mem_mb=500,
+    params:
+        pressure=config["criteria"]["a_v"]["pressure"],
     script:
         "../scripts/plot_fig4.py"
 
@@ -107,7 +119,9 @@ rule plot_fig5:
         map=f"{RESULTS}/criteria/map.nc",
     output:
         png=report(
-            f"{RESULTS}/figures/fig5.png", category="Figures", caption="../report/fig5.rst"
+            f"{RESULTS}/figures/fig5.png",
+            category="Figures",
+            caption="../report/fig5.rst",
         ),
         pdf=f"{RESULTS}/figures/fig5.pdf",
     log:
@@ -123,12 +137,12 @@ rule plot_fig5:
 rule plot_fig6:
     input:
         library=library_of("plot_fig6.py"),
-        surfaces=expand(
-            f"{RESULTS}/real_surfaces/{{real_surface}}.nc", real_surface=REAL_SURFACES
-        ),
+        surfaces=expand(f"{RESULTS}/real_surfaces/{{real_surface}}.nc", real_surface=REAL_SURFACES),
     output:
         png=report(
-            f"{RESULTS}/figures/fig6.png", category="Figures", caption="../report/fig6.rst"
+            f"{RESULTS}/figures/fig6.png",
+            category="Figures",
+            caption="../report/fig6.rst",
         ),
         pdf=f"{RESULTS}/figures/fig6.pdf",
     log:

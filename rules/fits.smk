@@ -7,17 +7,17 @@ rule fit_a_v:
         areas=f"{RESULTS}/{{source}}/{{name}}.nc",
     output:
         f"{RESULTS}/fits/{{source}}/{{name}}.nc",
-    wildcard_constraints:
-        source="ensembles|persson|persson_lattice",
-        name="[^/]+",
-    params:
-        windows=config["a_v"]["windows"],
     log:
         f"{LOGS}/fit_a_v/{{source}}/{{name}}.log",
     benchmark:
         f"{BENCHMARKS}/fit_a_v/{{source}}/{{name}}.tsv"
+    wildcard_constraints:
+        source="ensembles|persson|persson_lattice",
+        name="[^/]+",
     resources:
         mem_mb=500,
+    params:
+        windows=config["a_v"]["windows"],
     script:
         "../scripts/fit_a_v.py"
 

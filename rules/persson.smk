@@ -7,17 +7,17 @@ rule persson_sweep:
         library=library_of("persson_sweep.py"),
     output:
         f"{RESULTS}/persson/{{sweep}}.nc",
-    params:
-        sweep=lambda wildcards: SWEEPS[wildcards.sweep],
-        variants=config["theory"]["variants"],
-        gamma=config["theory"]["gamma"],
-        gaps=config["gaps"],
     log:
         f"{LOGS}/persson_sweep/{{sweep}}.log",
     benchmark:
         f"{BENCHMARKS}/persson_sweep/{{sweep}}.tsv"
     resources:
         mem_mb=1000,
+    params:
+        sweep=lambda wildcards: SWEEPS[wildcards.sweep],
+        variants=config["theory"]["variants"],
+        gamma=config["theory"]["gamma"],
+        gaps=config["gaps"],
     script:
         "../scripts/persson_sweep.py"
 
@@ -27,17 +27,17 @@ rule persson_lattice:
         library=library_of("persson_lattice.py"),
     output:
         f"{RESULTS}/persson_lattice/{{case}}.nc",
-    params:
-        surface=lambda wildcards: config["model_surfaces"][CASES[wildcards.case]["surface"]],
-        pressures=lambda wildcards: CASES[wildcards.case]["pressures"],
-        variants=config["theory"]["variants"],
-        gamma=config["theory"]["gamma"],
-        gaps=config["gaps"],
     log:
         f"{LOGS}/persson_lattice/{{case}}.log",
     benchmark:
         f"{BENCHMARKS}/persson_lattice/{{case}}.tsv"
     resources:
         mem_mb=1000,
+    params:
+        surface=lambda wildcards: config["model_surfaces"][CASES[wildcards.case]["surface"]],
+        pressures=lambda wildcards: CASES[wildcards.case]["pressures"],
+        variants=config["theory"]["variants"],
+        gamma=config["theory"]["gamma"],
+        gaps=config["gaps"],
     script:
         "../scripts/persson_lattice.py"

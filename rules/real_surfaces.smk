@@ -13,13 +13,13 @@ rule analyse_surface:
         topography=topography_file,
     output:
         f"{RESULTS}/real_surfaces/{{real_surface}}.nc",
-    params:
-        surface=lambda wildcards: REAL_SURFACES[wildcards.real_surface],
     log:
         f"{LOGS}/analyse_surface/{{real_surface}}.log",
     benchmark:
         f"{BENCHMARKS}/analyse_surface/{{real_surface}}.tsv"
     resources:
         mem_mb=1000,
+    params:
+        surface=lambda wildcards: REAL_SURFACES[wildcards.real_surface],
     script:
         "../scripts/analyse_surface.py"

@@ -6,14 +6,14 @@ rule synthesise_surface:
         library=library_of("synthesise_surface.py"),
     output:
         f"{RESULTS}/surfaces/{{model_surface}}/seed{{seed}}.nc",
-    params:
-        surface=lambda wildcards: config["model_surfaces"][wildcards.model_surface],
-        pixels_per_wavelength=FIDELITY["pixels_per_wavelength"],
     log:
         f"{LOGS}/synthesise_surface/{{model_surface}}/seed{{seed}}.log",
     benchmark:
         f"{BENCHMARKS}/synthesise_surface/{{model_surface}}/seed{{seed}}.tsv"
     resources:
         mem_mb=1000,
+    params:
+        surface=lambda wildcards: config["model_surfaces"][wildcards.model_surface],
+        pixels_per_wavelength=FIDELITY["pixels_per_wavelength"],
     script:
         "../scripts/synthesise_surface.py"

@@ -9,7 +9,7 @@ import logging
 import numpy as np
 import xarray as xr
 from _job import start
-from stickiness import datasets, measured
+from stickiness import datasets, psd, selfaffine, topography
 from stickiness.spectrum import SelfAffine
 from stickiness.units import si
 
@@ -21,7 +21,7 @@ POINTS_PER_DECADE = 10
 
 def main(job):
     asked = job.params.surface
-    dataset = measured_surface(asked) if asked["kind"] == "measured" else self_affine(asked)
+    dataset = measured(asked) if asked["kind"] == "measured" else self_affine(asked)
     datasets.write(
         annotated(dataset),
         job.output[0],
@@ -70,16 +70,24 @@ def wave_number(asked, key, wavelength):
     return 2 * np.pi / si(asked[wavelength], "m") if wavelength in asked else None
 
 
-def measured_surface(asked):
+def measured(asked):
     """Level, window and average the spectrum of a topography; fit H and C0."""
-    found = measured.analyse(asked)
-    plane, rings, fit = found.spectrum, found.radial, found.fit
+    heights = read(asked).detrended(asked.get("detrend", "plane"))
+    plane = psd.power_spectrum(heights.heights, heights.dx, heights.dy, asked.get("window", "hann"))
+    rings = psd.radial_average(plane, bins_per_decade=POINTS_PER_DECADE)
+    fit = selfaffine.fit_self_affine(
+        plane,
+        q_min=wave_number(asked, "", "fit_from"),
+        q_max=wave_number(asked, "", "fit_to"),
+    )
     line = fit.c0_at_hurst(REFERENCE_HURST)
-    for remark in found.remarks():
+    anisotropy, _ = plane.anisotropy(fit.q_min, fit.q_max)
+    remarks = selfaffine.remarks(fit, anisotropy)
+    for remark in remarks:
         logging.info(remark)
     spread = SIGMAS * relative_error_of_h_rms(rings)
     scale = np.exp([-spread, spread])
-    dataset = resolved_moments(plane, fit.q_max, found.topography.h_rms, scale)
+    dataset = resolved_moments(plane, fit.q_max, heights.h_rms, scale)
     if fit.q_rolloff is not None:
         dataset["q_rolloff"] = fit.q_rolloff
     return (
@@ -96,14 +104,21 @@ def measured_surface(asked):
             hurst=fit.hurst,
             hurst_error=fit.hurst_se,
             misfit=fit.misfit,
-            anisotropy=found.anisotropy,
+            anisotropy=anisotropy,
             q0=fit.q_rolloff or min(plane.dqx, plane.dqy),
             q1=fit.q_max,
-            missing_fraction=found.topography.missing_fraction,
+            missing_fraction=heights.missing_fraction,
         )
         .assign_coords(wave_number=rings.q)
-        .assign_attrs(remarks="; ".join(found.remarks()))
+        .assign_attrs(remarks="; ".join(remarks))
     )
+
+
+def read(asked):
+    if asked["file"] == "builtin:jacksboro":
+        return topography.jacksboro()
+    keys = ("length", "pixel_size", "height_unit", "variable", "missing_value", "max_missing")
+    return topography.read(asked["file"], **{key: asked[key] for key in keys if key in asked})
 
 
 def relative_error_of_h_rms(rings):

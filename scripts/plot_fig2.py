@@ -1,1 +1,151 @@
+"""Figure 2: area and load without adhesion, the threshold of stickiness, and maps of contact."""
+
+import numpy as np
 from _job import start
+from _style import (
+    BLACK,
+    COLOURS,
+    GREY,
+    MARKERS,
+    RED,
+    canvas,
+    key,
+    letters,
+    number,
+    points,
+    save,
+)
+from matplotlib.colors import to_rgb
+from stickiness import criteria, datasets
+
+LINEAR_UP_TO = 0.3  # area fraction up to which the paper calls the area linear in load
+LOADS = [0.0065, 0.065, 0.26]  # over E* q0 h_rms, of panel B
+VARIANT = "afferrante2018"  # both variants of the theory have the same area
+GAP_COLOUR, CONTACT_COLOUR, ATTRACTION_COLOUR = "white", BLACK, RED
+PRESSURE_LABEL = r"pressure $\hat{p}=p/(E^*q_0h_\mathrm{rms})$"
+AREA_LABEL = r"area $A_\mathrm{rep}/A_\mathrm{nom}$"
+
+
+def main(job):
+    kappas = read_all(job.input.kappa, ["kappa", "area_fraction"])
+    ensembles = read_all(job.input.ensembles, ["area_fraction_mean", "rms_slope"])
+    lattices = read_all(job.input.lattices, ["area_fraction"])
+    maps = datasets.read(job.input.maps, ["gap"])
+    adhesion = datasets.read(job.input.adhesion, ["inverse_kappa", "q0_h_rms"])
+    figure, panels = canvas("ABC;DEF;GHI", 7.9, height_ratios=[1.15, 1, 1])
+    panel_a(panels["A"], kappas)
+    panel_b(panels["B"], adhesion)
+    panel_c(panels["C"], list(zip(ensembles, lattices, strict=True)))
+    reach = float(adhesion.range_over_h_rms[0])
+    loads = maps.pressure.values
+    for name, load in zip("DEF", loads, strict=True):
+        contact_map(panels[name], maps.sel(pressure=load), None)
+    for name, load in zip("GHI", loads, strict=True):
+        contact_map(panels[name], maps.sel(pressure=load), reach)
+    letters(panels)
+    save(figure, job.output)
+
+
+def read_all(paths, variables):
+    """Datasets of all cases in the order of their magnification."""
+    return sorted((datasets.read(path, variables) for path in paths), key=magnification)
+
+
+def magnification(dataset):
+    return datasets.parameters(dataset)["magnification"]
+
+
+def panel_a(ax, kappas):
+    """kappa_rep load by load; open symbols beyond the area that is called linear."""
+    for index, kappa in enumerate(kappas):
+        colour, marker = COLOURS[index], MARKERS[index]
+        theory = kappa.kappa_theory.sel(variant=VARIANT)
+        ax.plot(kappa.pressure, theory, color=colour, linewidth=0.9)
+        errors = kappa.kappa_standard_error, kappa.kappa_discretisation_error
+        look = {"color": colour, "marker": marker, "markersize": 3.5}
+        points(ax, kappa.pressure, kappa.kappa, *errors, **look)
+        beyond = kappa.where(kappa.area_fraction > LINEAR_UP_TO)
+        ax.plot(kappa.pressure, beyond.kappa, linestyle="none", **look, mfc="white", zorder=5)
+    ax.axhline(2, color=GREY, linestyle="--", linewidth=0.9)
+    ax.text(1.1e-3, 1.98, r"$\kappa$ = 2", color=GREY, va="top", fontsize=8)
+    ax.set(xscale="log", ylim=(1.4, 3.2))
+    ax.set(
+        xlabel=PRESSURE_LABEL,
+        ylabel=r"$\kappa_\mathrm{rep}=A_\mathrm{rep}h'_\mathrm{rms}E^*/(A_\mathrm{nom}p)$",
+    )
+    ax.legend(handles=[*case_keys(kappas), key(label="theory")], loc="upper right")
+
+
+def case_keys(kappas):
+    """Symbols of the cases, shared by panels A and C."""
+    looks = zip(COLOURS, MARKERS, kappas, strict=False)
+    return [
+        key(
+            color=colour,
+            marker=marker,
+            linestyle="none",
+            label=rf"$\zeta$ = {number(magnification(kappa))}",
+        )
+        for colour, marker, kappa in looks
+    ]
+
+
+def panel_b(ax, adhesion):
+    """1/kappa in the DMT limit; sticky where it is negative."""
+    adhesion = adhesion.isel(range_over_h_rms=0)
+    lengths = adhesion.adhesion_length_over_range
+    for index, load in enumerate(LOADS):
+        at_load = adhesion.sel(pressure=load, method="nearest")
+        ax.plot(lengths, at_load.inverse_kappa, color=COLOURS[index], linewidth=0.9)
+        errors = (
+            at_load.inverse_kappa_standard_error,
+            at_load.inverse_kappa_discretisation_error,
+        )
+        label = rf"$\hat{{p}}$ = {float(at_load.pressure):g}"
+        look = {"color": COLOURS[index], "marker": MARKERS[index], "markersize": 3.5}
+        points(ax, lengths, at_load.inverse_kappa, *errors, label=label, **look)
+    low = -1.5
+    ax.axhspan(low, 0, color=GREY, alpha=0.15, linewidth=0)
+    ax.text(0.02, 0.03, f"sticky; {dmt_note(adhesion)}", transform=ax.transAxes, fontsize=8)
+    ax.set(xlabel=r"adhesion length $l_a/\epsilon$", ylabel=r"$1/\kappa$ with adhesion (DMT)")
+    ax.set(ylim=(low, 0.85), xlim=(0, 1.04 * float(lengths.max())))
+    ax.legend(loc="upper right")
+
+
+def dmt_note(adhesion):
+    """Where the DMT limit ends, as text: it lies far to the right of the points."""
+    reach, roughness = float(adhesion.range_over_h_rms), float(adhesion.q0_h_rms)
+    per_length = criteria.jtb_limit(roughness, reach, reach)  # proportional to the adhesion length
+    return rf"DMT valid to $l_a/\epsilon$ = {1 / per_length:.2g}"
+
+
+def panel_c(ax, cases):
+    """Area against load, with the straight line of kappa = 2 and theory."""
+    for index, (ensemble, lattice) in enumerate(cases):
+        look = {"color": COLOURS[index], "marker": MARKERS[index], "markersize": 3.5}
+        errors = ensemble.area_fraction_standard_error, ensemble.area_fraction_discretisation_error
+        points(ax, ensemble.pressure, ensemble.area_fraction_mean, *errors, **look)
+        theory = lattice.area_fraction.sel(variant=VARIANT)
+        ax.plot(theory.pressure, theory, color=COLOURS[index], linewidth=0.9)
+        line = 2 * ensemble.pressure * float((1 / ensemble.rms_slope).mean())
+        ax.plot(ensemble.pressure, line, ":", color=COLOURS[index], linewidth=0.9)
+    ax.set(xlabel=PRESSURE_LABEL, ylabel=AREA_LABEL, xlim=(0, 0.55), ylim=(0, 0.48))
+    straight = key(linestyle=":", label=r"$\kappa$ = 2, $\langle 1/h'_\mathrm{rms}\rangle$")
+    ax.legend(handles=[straight, key(label="theory")], loc="upper left")
+
+
+def contact_map(ax, state, reach):
+    """Repulsive contact black and, if `reach` is given, gaps up to it red."""
+    gap = state.gap.transpose("y", "x").values
+    picture = np.empty((*gap.shape, 3))
+    picture[:] = to_rgb(GAP_COLOUR)
+    if reach is not None:
+        picture[gap <= reach] = to_rgb(ATTRACTION_COLOUR)
+    picture[gap == 0] = to_rgb(CONTACT_COLOUR)
+    ax.imshow(picture, origin="lower", extent=(0, 1, 0, 1), aspect="equal")
+    ax.set(xticks=[0, 0.5, 1], yticks=[0, 0.5, 1], xlabel="$x/L$", ylabel="$y/L$")
+    ax.set_title(rf"$\hat{{p}}$ = {float(state.pressure):g}")
+
+
+if __name__ == "__main__":
+    main(start(globals(), "plot_fig2"))

@@ -56,6 +56,9 @@ def to_dataset(heights, length, spectrum, lattice, realised):
             "rms_slope": ("source", [s.rms_slope for s in spectra]),
             "rms_curvature": ("source", [s.rms_curvature for s in spectra]),
             "nayak": ("source", [s.nayak for s in spectra]),
+            "m40": ((), spectra[2].m40),
+            "m22": ((), spectra[2].m22),
+            "m04": ((), spectra[2].m04),
         },
         coords={"x": x, "y": x, "wave_number": lattice.q, "source": SOURCES},
     )
@@ -73,6 +76,9 @@ def to_dataset(heights, length, spectrum, lattice, realised):
         rms_slope=("1", "rms gradient over q0 h_rms"),
         rms_curvature=("1", "rms Laplacian over q0^2 h_rms"),
         nayak=("1", "Nayak's bandwidth parameter m0 m4/m2^2"),
+        m40=("1", "mean square of d2h/dx2 over q0^4 h_rms^2, from the heights"),
+        m22=("1", "mean square of d2h/dxdy over q0^4 h_rms^2, from the heights"),
+        m04=("1", "mean square of d2h/dy2 over q0^4 h_rms^2, from the heights"),
     )
 
 

@@ -196,7 +196,7 @@ def test_power_law_exponent_changes_sign_at_hurst_06():
 
 def test_fuller_tabor():
     h, radius, length = 0.5, 3.0, 0.01
-    theta = h**1.5 / (np.sqrt(radius) * length)
+    theta = float(h**1.5 / (np.sqrt(radius) * length))
     verdict = criteria.fuller_tabor(h, 2 / radius, length)
     assert verdict.margin == pytest.approx(10 / theta, rel=1e-13)
     assert verdict.sticky is (theta < 10)

@@ -38,10 +38,10 @@ def test_2_coefficient_by_balancing_tractions():
     a_v, p, q0, h, eps, length, u = sp.symbols("a_V p q_0 h epsilon l_a u", positive=True)
     density = a_v * p / (q0 * h) * (u / h) ** sp.Rational(-1, 3) / h
     attraction = length / eps * sp.integrate(density, (u, 0, eps))
-    # h at which attraction equals repulsion.
-    (limit,) = sp.solve(sp.Eq(attraction, p), h)
-    coefficient = sp.simplify((limit / eps) ** sp.Rational(5, 3) * eps * q0 * eps / length)
-    assert sp.simplify(coefficient - sp.Rational(3, 2) * a_v) == 0
+    # Sticky when attraction/p > 1, that is (h/eps)^(5/3) < coefficient (l_a/eps)/(eps q0).
+    form = length / eps / (eps * q0) * (eps / h) ** sp.Rational(5, 3)
+    coefficient = sp.simplify(attraction / p / form)
+    assert coefficient == sp.Rational(3, 2) * a_v
     assert coefficient.subs(a_v, 3) == NUMBERS[2]["coefficient_derived"] == 4.5
     assert coefficient.subs(a_v, sp.Rational(3, 2)) == NUMBERS[2]["coefficient_printed"] == 2.25
 
@@ -64,7 +64,7 @@ def _closed_form():
     x, u, b, modulus, h, p, v, q0 = sp.symbols("x u B E h p V q_0", positive=True)
     pressure, gap = sp.symbols("s g", positive=True)
     third = sp.Rational(1, 3)
-    # Persson's distribution of contact pressure; its slope at zero pressure is the density of edges.
+    # Persson's distribution of contact pressure; its slope at zero pressure counts the edges.
     distribution = (
         sp.exp(-((pressure - p) ** 2) / (2 * v)) - sp.exp(-((pressure + p) ** 2) / (2 * v))
     ) / sp.sqrt(2 * sp.pi * v)
@@ -127,8 +127,8 @@ def test_5_kilometres():
 
 
 def test_6_pastewka_robbins_constants():
-    # From the inequality, by algebra: sticky when X = 2 pi (3/16)^(2/3) (l/D) (h'' D)^(2/3)/h'^(7/3)
-    # exceeds 1; the area behind it is X over the stress l/D.
+    # From the inequality: its right side over its left is p_ad/p_rep, and the area behind that is
+    # p_ad over the stress l/D.
     slope, curvature, d, length, eps, q0, h, a_v = sp.symbols("m k D l e q_0 h a", positive=True)
     two = sp.Rational(2, 3)
     left = slope * d / (2 * length) * (slope * (4 * slope / curvature) / (4 * d)) ** two

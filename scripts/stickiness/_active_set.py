@@ -11,12 +11,15 @@ from scipy import sparse
 
 __all__ = ["State", "relax"]
 
-_PREDICTION = 0.7  # c in "contact where p > c k g": 0.5 to 1 predict about equally well
-_LOOSE = 0.3  # reduction of the gap on a set that is still changing
-_SETTLED = 1e-3  # share of points that may still change for a solution to full accuracy
-_EXTENSION = 0.6  # weight of the residual extended beyond the edge of contact
-_DIAGONAL = 0.7  # weight of a diagonal neighbour beside a direct one
+_PREDICTION = 0.8  # c in "contact where p > c k g": 0.5 to 1 predict about equally well
+_LOOSE = 0.3  # reduction of the gap on a set that is still changing much
+_CLOSER = 0.03  # and on one that changes little
+_SETTLED = 1e-3  # share of changing points below which a set changes little
+_ADMITTED = 0.7  # penetrations up to this multiple of the rms gap in contact may yet vanish
+_EXTENSION = 0.8  # weight of the residual extended beyond the edge of contact
+_DIAGONAL = 0.6  # weight of a diagonal neighbour beside a direct one
 _PATIENCE = 8  # updates without progress after which the set is solved ten times tighter
+_SURRENDER = 40  # updates without progress after which rounding is what limits the residual
 
 
 @dataclass(frozen=True, eq=False)
@@ -56,9 +59,7 @@ class _Grid:
         return self.image
 
 
-def relax(
-    operator, heights, load, guess, *, predict, tol, max_iterations, logger=None
-):
+def relax(operator, heights, load, guess, *, predict, tol, max_iterations, logger=None):
     """Find pressure and gap on one grid.
 
     Parameters
@@ -66,11 +67,11 @@ def relax(
     operator : stickiness.fourier.HalfSpace
         Half-space of the grid.
     heights : numpy.ndarray
-        Heights in units of their rms.
+        Heights in units of their rms, contiguous.
     load : float
         Mean pressure.
     guess : numpy.ndarray
-        Non-negative pressure of that mean, or proportional to one.
+        Non-negative pressure, of any positive mean.
     predict : bool
         Whether the guess deserves a prediction of the contact set from it.
     tol : float
@@ -86,45 +87,75 @@ def relax(
         The iterate of the smallest residual.
     """
     before = operator.pairs
-    grid = _Grid(operator, heights.ravel().reshape(heights.shape))
+    if guess.min() > 0:
+        full = _full_contact(operator, heights, load)
+        if full.pressure.min() >= 0:
+            return full
+    grid = _Grid(operator, heights)
     total = load * heights.size
     points, pressure = _compressed(guess, total)
     if predict and points.size < heights.size:
         points, pressure = _predicted(grid, points, pressure, total)
-    best = None
-    iterations, loose, stale, changed = 0, _LOOSE, 0, points.size
+    best, precondition = None, None
+    iterations, stale, loose, changed = 0, 0, _LOOSE, points.size
     while True:
-        shift, gaps, touching, scatter, depth = _gap(grid, points, pressure)
+        shift, gaps, below, scatter, depth = _gap(grid, points, pressure)
         residual = max(scatter, depth)
-        if logger is not None:
-            logger.info(
-                "%d x %d: residual %.1e, area %.5f, %d iterations",
-                *grid.shape, residual, points.size / heights.size, iterations,
-            )
+        stale += 1
         if best is None or residual < best[0]:
-            best = (residual, points, pressure, shift)
-            stale = 0
-        else:
-            stale += 1
-            if stale % _PATIENCE == 0:
-                loose = max(loose / 10, 1e-8)
-        if residual <= tol or iterations >= max_iterations or points.size + touching.size <= 1:
+            best, stale = (residual, points, pressure, shift), 0
+        if logger is not None:
+            _report(logger, grid, residual, points.size, iterations)
+        if residual <= tol or iterations >= max_iterations or stale > _SURRENDER:
             break
-        added = touching.size
-        if added:
-            points, pressure, gaps = _joined(grid, points, pressure, gaps, touching, shift)
-        settled = changed + added <= _SETTLED * points.size
-        change, count = _inner(
-            grid, points, -gaps, 0.5 * tol if settled else 0.0, loose, max_iterations - iterations
-        )
+        if below.size + points.size == 1:
+            break
+        if stale and stale % _PATIENCE == 0:
+            loose /= 10
+        admitted = below[grid.image[below] + shift < -_ADMITTED * np.sqrt(np.mean(gaps**2))]
+        if admitted.size:
+            points, pressure, gaps = _joined(grid, points, pressure, admitted, shift)
+            precondition = None
+        changed += admitted.size
+        if precondition is None:
+            precondition = _Preconditioner(grid, points)
+        if changed == 0:
+            goal = 0.5 * tol
+        else:
+            reduction = loose if changed > _SETTLED * points.size else min(loose, _CLOSER)
+            goal = max(reduction * float(np.std(gaps)), 0.1 * tol)
+        change, count = _inner(precondition, gaps, goal, changed == 0, max_iterations - iterations)
         iterations += count
         pressure = pressure + change
         keep = pressure > 0
-        changed = added + points.size - int(np.count_nonzero(keep))
-        if changed > added:
+        changed = points.size - int(np.count_nonzero(keep))
+        if changed:
             points, pressure = points[keep], pressure[keep]
             pressure *= total / pressure.sum()
-    return _state(grid, best, iterations, operator.pairs - before)
+            precondition = None
+        changed += admitted.size
+    return _state(grid, best, pressure, iterations, operator.pairs - before)
+
+
+def _full_contact(operator, heights, load):
+    """Full contact of any surface: the pressure is that of the heights as a displacement."""
+    varying = operator.stiffness(heights)
+    misfit = operator.compliance(varying)
+    misfit -= heights
+    residual = float(np.abs(misfit).max())
+    varying += load
+    misfit[...] = 0
+    return State(varying, misfit, 0.0, 1.0, residual, 0, 2)
+
+
+def _report(logger, grid, residual, size, iterations):
+    logger.info(
+        "%d x %d: residual %.1e h_rms, area %.5f, %d iterations",
+        *grid.shape,
+        residual,
+        size / grid.heights.size,
+        iterations,
+    )
 
 
 def _compressed(guess, total):
@@ -170,7 +201,7 @@ def _predicted(grid, points, pressure, total):
     return predicted, pressure * (total / pressure.sum())
 
 
-def _joined(grid, points, pressure, gaps, extra, shift):
+def _joined(grid, points, pressure, extra, shift):
     grid.active[points] = True
     grid.active[extra] = True
     joined = np.flatnonzero(grid.active)
@@ -181,26 +212,24 @@ def _joined(grid, points, pressure, gaps, extra, shift):
     return joined, pressure, grid.image[joined] + shift
 
 
-def _inner(grid, points, residual, target, loose, limit):
+def _inner(precondition, gaps, goal, largest, limit):
     """Change of pressure, of zero sum, that closes the gap on a set of points.
 
-    Preconditioned conjugate gradients in the space of vectors of zero sum, until the largest
-    residual is below `target` or, if that is zero, its norm is reduced by the factor `loose`.
+    Preconditioned conjugate gradients in the space of vectors of zero sum, until the rms
+    residual (or the `largest`) is down to `goal`.
     """
-    if points.size <= 1:
-        return np.zeros(points.size), 1
-    precondition = _Preconditioner(grid, points)
+    grid, points = precondition.grid, precondition.points
+    change, count = np.zeros(points.size), 1
+    if points.size == 1:
+        return change, count
     rows = grid.rows(points)
-    residual = residual - residual.mean()
-    goal = loose * np.linalg.norm(residual)
-    change = np.zeros(points.size)
+    residual = gaps.mean() - gaps
     direction, product = None, 1.0
-    count = 0
-    for count in range(1, max(limit, 1) + 1):
+    while True:
         z = precondition(residual)
         z -= z.mean()
         previous, product = product, float(residual @ z)
-        if not product > 0:
+        if not product > 0:  # nothing but rounding is left
             break
         if direction is None:
             direction = z
@@ -210,13 +239,13 @@ def _inner(grid, points, residual, target, loose, limit):
         image = grid.apply(grid.operator.compliance, points, direction, rows, rows)[points]
         step = product / float(direction @ image)
         change += step * direction
-        residual -= step * image
+        image *= step
+        residual -= image
         residual -= residual.mean()
-        if target > 0:
-            if np.abs(residual).max() <= target:
-                break
-        elif np.linalg.norm(residual) <= goal:
+        norm = np.abs(residual).max() if largest else np.sqrt(np.mean(residual**2))
+        if norm <= goal or count >= limit:
             break
+        count += 1
     return change, count
 
 
@@ -238,19 +267,13 @@ class _Preconditioner:
 
     def _extend(self):
         grid, points = self.grid, self.points
-        n0, n1 = grid.shape
         grid.active[points] = True
-        row, column = np.divmod(points, n1)
         targets, sources, weights = [], [], []
-        for i in (-1, 0, 1):
-            for j in (-1, 0, 1):
-                if i == 0 and j == 0:
-                    continue
-                neighbour = (row + i) % n0 * n1 + (column + j) % n1
-                outside = np.flatnonzero(~grid.active[neighbour])
-                targets.append(neighbour[outside])
-                sources.append(outside)
-                weights.append(np.full(outside.size, _DIAGONAL if i and j else 1.0))
+        for neighbour, weight in _neighbours(points, grid.shape):
+            outside = np.flatnonzero(~grid.active[neighbour])
+            targets.append(neighbour[outside])
+            sources.append(outside)
+            weights.append(np.full(outside.size, weight))
         grid.active[points] = False
         targets, sources = np.concatenate(targets), np.concatenate(sources)
         weights = np.concatenate(weights)
@@ -275,20 +298,41 @@ class _Preconditioner:
         return image[: points.size] + self.transpose @ image[points.size :]
 
 
-def _state(grid, best, iterations, pairs):
-    residual, points, pressure, shift = best
-    grid.apply(grid.operator.compliance, points, pressure, grid.rows(points))
+def _neighbours(points, shape):
+    """Flat indices of the eight periodic neighbours of points, each with its weight."""
+    n0, n1 = shape
+    column = points % n1
+    first, last = np.flatnonzero(column == 0), np.flatnonzero(column == n1 - 1)
+    for i in (-1, 0, 1):
+        row = points + i * n1
+        if i < 0:
+            row[row < 0] += n0 * n1
+        elif i > 0:
+            row[row >= n0 * n1] -= n0 * n1
+        left, right = row - 1, row + 1
+        left[first] += n1
+        right[last] -= n1
+        if i:
+            yield row, 1.0
+        yield left, _DIAGONAL if i else 1.0
+        yield right, _DIAGONAL if i else 1.0
+
+
+def _state(grid, best, last, iterations, pairs):
+    residual, touching, pressure, shift = best
     gap = grid.image
-    gap -= grid.heights.ravel()
+    if pressure is not last:  # the image belongs to a later, worse iterate
+        _gap(grid, touching, pressure)
+        pairs += 1
     gap += shift
     np.maximum(gap, 0, out=gap)
-    gap[points] = 0
-    grid.field[points] = pressure
+    gap[touching] = 0
+    grid.field[touching] = pressure
     return State(
         pressure=grid.field.reshape(grid.shape),
         gap=gap.reshape(grid.shape),
         shift=shift,
-        area_fraction=points.size / gap.size,
+        area_fraction=touching.size / gap.size,
         residual=residual,
         iterations=iterations,
         pairs=pairs,

@@ -24,9 +24,21 @@ _UNITS = {
     "q0": "1/m",
     "q1": "1/m",
     "h_rms": "m",
-    "size": "m",
+    "length": "m",
     "pixel_size": "m",
+    "fit_from": "m",
+    "fit_to": "m",
 }
+
+
+# What the figures and the claims ledger read; may be edited but not removed.
+_PAPER = {
+    "cases": ("H0.8_zeta32", "H0.8_zeta64", "H0.8_zeta128"),
+    "theory.sweeps": ("fig1a", "fig1b", "fig3a", "fig3b", "fig3c", "fig3d"),
+    "adhesion": ("fig2", "fig4b_rough", "fig4b_smooth"),
+}
+_PAPER_SURFACES = ("asphalt", "polished_steel")
+_BUILTIN = ("builtin:jacksboro",)
 
 
 class ConfigError(ValueError):
@@ -49,11 +61,48 @@ def load(path: str | Path) -> dict[str, Any]:
         mark = getattr(error, "problem_mark", None)
         line = f" line {mark.line + 1}" if mark else ""
         raise ConfigError(
-            f"{path}:{line} is not valid YAML: {getattr(error, 'problem', error)}"
+            f"{path}:{line}: not valid YAML: {getattr(error, 'problem', error)}"
         ) from None
     if not isinstance(content, dict):
         raise ConfigError(f"{path}: must hold keys and values, found {type(content).__name__}")
     return content
+
+
+def checked(
+    config: Mapping[str, Any], schemas: str | Path, name: str = "config/config.yaml"
+) -> tuple[dict[str, Any], dict[str, Any]]:
+    """Check the whole configuration and the files it names.
+
+    Parameters
+    ----------
+    config : mapping
+        Content of config.yaml with everything that overrides it.
+    schemas : path
+        Folder of the schemas.
+    name : str
+        What to call the configuration in errors.
+
+    Returns
+    -------
+    materials, surfaces : dict
+        The tables of materials.yaml and surfaces.yaml.
+
+    Raises
+    ------
+    ConfigError
+        On the first thing wrong, in one line.
+    """
+    schemas = Path(schemas)
+    check_schema(config, schemas / "config.schema.yaml", name)
+    check_config(config, name)
+    tables = []
+    for table in ("materials", "surfaces"):
+        content = load(config[table])
+        check_schema(content, schemas / f"{table}.schema.yaml", config[table])
+        check_units(content, config[table])
+        tables.append(content[table])
+    check_surfaces(tables[1], config["surfaces"])
+    return tables[0], tables[1]
 
 
 def check_schema(content: Mapping[str, Any], schema: str | Path, name: str) -> None:
@@ -85,6 +134,9 @@ def check_units(content: Mapping[str, Any], name: str) -> None:
 
 def check_surfaces(surfaces: Mapping[str, Any], name: str = "config/surfaces.yaml") -> None:
     """Check bands, ranges and files of the real surfaces."""
+    for key in _PAPER_SURFACES:
+        if key not in surfaces:
+            raise ConfigError(f"{name}: surfaces: {key!r} is missing; the paper's claims need it")
     for key, surface in surfaces.items():
         for problem in _surface_problems(surface):
             raise ConfigError(f"{name}: surfaces.{key}.{problem}")
@@ -95,6 +147,11 @@ def _config_problems(config: Mapping[str, Any]) -> Iterator[str]:
     if fidelity not in config["fidelities"]:
         yield f"fidelity = {fidelity!r} is unknown; choose one of {', '.join(config['fidelities'])}"
     yield from _grid_problems("gaps", config["gaps"])
+    tables = {"theory.sweeps": config["theory"]["sweeps"]}
+    for table, names in _PAPER.items():
+        for name in names:
+            if name not in tables.get(table, config.get(table)):
+                yield f"{table}: {name!r} is missing; the paper's figures and claims need it"
     for key, case in config["cases"].items():
         if case["surface"] not in config["model_surfaces"]:
             yield _unknown(f"cases.{key}.surface", case["surface"], config["model_surfaces"])
@@ -134,7 +191,9 @@ def _config_problems(config: Mapping[str, Any]) -> Iterator[str]:
 def _surface_problems(surface: Mapping[str, Any]) -> Iterator[str]:
     if surface["kind"] == "measured":
         file = surface["file"]
-        if not file.startswith("builtin:") and not Path(file).is_file():
+        if file.startswith("builtin:") and file not in _BUILTIN:
+            yield f"file = {file!r} is unknown; built in: {', '.join(_BUILTIN)}"
+        elif not file.startswith("builtin:") and not Path(file).is_file():
             yield f"file = {file!r}: no such file; give a path from the working directory"
         return
     longest = _wavelength(surface, "longest_wavelength", "q0")

@@ -119,10 +119,12 @@ class whole_file:  # noqa: N801 (a context manager, used as a verb)
         self._path = Path(path)
 
     def __enter__(self) -> Path:
-        self._path.parent.mkdir(parents=True, exist_ok=True)
-        handle, name = tempfile.mkstemp(
-            dir=self._path.parent, prefix=f".{self._path.stem}-", suffix=self._path.suffix
-        )
+        folder, name, suffix = self._path.parent, self._path.name, self._path.suffix
+        folder.mkdir(parents=True, exist_ok=True)
+        # What a killed job left. Should an orphan still write to it, only its own end fails.
+        for leftover in folder.glob(f".{name}.????????{suffix}"):
+            leftover.unlink(missing_ok=True)
+        handle, name = tempfile.mkstemp(dir=folder, prefix=f".{name}.", suffix=suffix)
         os.close(handle)
         self._temporary = Path(name)
         return self._temporary

@@ -46,11 +46,11 @@ class Erratum:
 
 
 def _fuller_tabor_units() -> dict[str, float]:
-    # Dimension in lengths of (l_a)^k h_rms^(3/2) R^(-1/2), k = 1 printed and -1 correct.
-    return {f"length_exponent_{name}": k + 3 / 2 - 1 / 2 for name, k in _FT_POWERS.items()}
-
-
-_FT_POWERS = {"printed": 1, "correct": -1}
+    # Dimension in lengths of (l_a)^k h_rms^(3/2) R^(-1/2).
+    return {
+        f"length_exponent_{name}": k + 3 / 2 - 1 / 2
+        for name, k in (("printed", 1), ("correct", -1))
+    }
 
 
 def _coefficient() -> dict[str, float]:

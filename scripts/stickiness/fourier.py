@@ -5,11 +5,11 @@ The half-space responds to a pressure wave ``p_q`` (in units of E*) with the dis
 Kato, J. Tribol. 119:481, 1997, doi 10.1115/1.2833523). `HalfSpace` applies this compliance and its
 inverse, the stiffness ``|q| / 2``, as convolutions. Both leave out the mean (q = 0).
 
-A two-dimensional transform of a large grid is bound by memory, not by arithmetic. The convolution is
-therefore blocked: blocks of rows are transformed and stored transposed; then a few wavenumbers at a
-time are transformed along the other axis, multiplied by the symbol and transformed back while
-they are in cache. Rows that hold nothing, or of which nothing is wanted, are left out; for a
-contact of a few per cent of the area that saves up to half the work.
+A two-dimensional transform of a large grid is bound by memory, not by arithmetic. The
+convolution is therefore blocked: blocks of rows are transformed and stored transposed; then a
+few wavenumbers at a time are transformed along the other axis, multiplied by the symbol and
+transformed back while they are in cache. Rows that hold nothing, or of which nothing is wanted,
+are left out; for a contact of a few per cent of the area that saves up to half the work.
 
 All plans are made with ``FFTW_ESTIMATE``: FFTW then never chooses an algorithm by timing, so that
 the last bits of a result do not depend on how busy the machine was.

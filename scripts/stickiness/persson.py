@@ -27,10 +27,9 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import brentq
 from scipy.special import erf
 
-from .persson_gaps import GapProfile, Setting, gap_profile, scale_nodes
+from .persson_gaps import GapProfile, Setting, closure_error, gap_profile, scale_nodes
 from .persson_gaps import cumulative as _cumulative
 from .persson_gaps import density as _density
-from .persson_gaps import first_moment as _first_moment
 from .persson_kernels import kernels
 from .spectrum import Spectrum
 
@@ -152,7 +151,10 @@ class Persson:
         array of shape ``p.shape + u.shape``
             Integrates over u to 1 - A/A_nom.
         """
-        return self._over_gaps(u, p, _density)
+        density = self._over_gaps(u, p, _density)
+        if self.variant == "afferrante2018":
+            density = np.where(np.asarray(u) == 0, np.inf, density)[()]
+        return density
 
     def gap_cumulative(self, u: ArrayLike, p: ArrayLike) -> NDArray:
         """Share of the nominal area with gaps between 0 and `u`, the contact not included.
@@ -180,8 +182,8 @@ class Persson:
         closes.
         """
         p = _positive("p", p)
-        values = [_first_moment(self._profile(float(x), _REACH)) for x in p.ravel()]
-        return np.reshape(values, p.shape)[()]
+        errors = [closure_error(self._profile(float(x), _REACH)) for x in p.ravel()]
+        return self.mean_gap(p) + np.reshape(errors, p.shape)[()]
 
     def _pressure_at(self, target: float) -> float:
         def excess(log_p: float) -> float:

@@ -17,6 +17,8 @@ from .spectrum import Shells, Spectrum
 
 _SMALLEST_LOG = 45.0  # gaps below exp(-45) of the others count as zero
 _TAIL_LOG = 38.0  # area lost beyond holds less than exp(-38) of what is lost in all
+_MOST_KINKS = 256  # of a tabulated spectrum, that quadrature over scales keeps to
+_NARROWEST = 1e-150  # Gaussians that much narrower than the widest are points
 
 
 @dataclass(frozen=True)
@@ -87,24 +89,42 @@ def scale_nodes(spectrum: Spectrum, nodes: float = 1.0) -> ScaleNodes:
     """Quadrature over the scales of a spectrum: exact for shells, composite Gauss otherwise."""
     if isinstance(spectrum, Shells):
         return _shell_nodes(spectrum, max_nodes=int(600 * nodes))
+    log_q, weight = _panel_nodes(_scale_edges(spectrum), nodes)
+    q = np.append(spectrum.q0 * np.exp(log_q), spectrum.q1)
+    weight = np.append(weight, 1.0) / q  # and the jump of -1/q to zero
+    below = 0.5 * spectrum.variance_below(q, 2)
+    return ScaleNodes(below, 0.5 * spectrum.variance_above(q, 2), weight)
+
+
+def _scale_edges(spectrum: Spectrum) -> NDArray:
+    """Edges of panels in ln(q/q0), graded towards both ends and split at kinks of C.
+
+    The integrand is like a square root near q0 at small loads and changes within small steps
+    from q1 where the last contact is lost.
+    """
     span = np.log(spectrum.q1 / spectrum.q0)
-    # Square-root-like ends: near q0 at small loads, near q1 where the last contact is lost.
-    low = 4.0 ** np.arange(-13, 0)
-    high = 4.0 ** np.arange(-9, 0)
     width = min(0.5, span / 2)
     count = int(np.ceil((span - 2 * width) / 0.7))
     middle = np.linspace(width, span - width, count + 1) if count else [width]
-    edges = np.concatenate([[0.0], width * low, middle, span - width * high[::-1], [span]])
-    knots = np.log(getattr(spectrum, "knots", np.empty(0)) / spectrum.q0)
-    if len(knots) <= 64:
-        edges = np.union1d(edges, knots[(knots > 1e-9) & (knots < span - 1e-9)])
-    x, w = np.polynomial.legendre.leggauss(max(2, round(10 * nodes)))
-    half = 0.5 * np.diff(edges)[:, None]
-    log_q = (edges[:-1, None] + half * (1 + x)).ravel()
-    q = np.append(spectrum.q0 * np.exp(log_q), spectrum.q1)
-    weight = np.append((half * w).ravel(), 1.0) / q
-    below = 0.5 * spectrum.variance_below(q, 2)
-    return ScaleNodes(below, 0.5 * spectrum.variance_above(q, 2), weight)
+    low, high = width * 4.0 ** np.arange(-13, 0), width * 4.0 ** np.arange(-1, -10, -1)
+    edges = np.concatenate([[0.0], low, middle, span - high, [span]])
+    inner = getattr(spectrum, "knots", np.empty(0))[1:-1]
+    if len(inner) > _MOST_KINKS:
+        kink = np.abs(np.diff(np.diff(np.log(spectrum.psd(spectrum.knots)))))
+        inner = inner[np.sort(np.argsort(kink)[-_MOST_KINKS:])]
+    return np.union1d(edges, np.log(inner / spectrum.q0))
+
+
+def _panel_nodes(edges: NDArray, nodes: float) -> tuple[NDArray, NDArray]:
+    """Gauss-Legendre nodes and weights on panels, fewer of them on narrow ones."""
+    width = np.diff(edges)
+    at, weight = [], []
+    for chosen, order in ((width > 0.1, 10), (width <= 0.1, 6)):
+        x, w = np.polynomial.legendre.leggauss(max(2, round(order * nodes)))
+        half = 0.5 * width[chosen, None]
+        at.append((edges[:-1][chosen, None] + half * (1 + x)).ravel())
+        weight.append((half * w).ravel())
+    return np.concatenate(at), np.concatenate(weight)
 
 
 def _shell_nodes(shells: Shells, max_nodes: int) -> ScaleNodes:
@@ -185,7 +205,8 @@ def _step_range(setting: Setting, y_end: float) -> tuple[float, float]:
         # u1 may vanish but the width goes as (M - m)^(1/2): that much must be negligible.
         return np.log(y_end) - 42.0, high
     slope = y_end**3 * float(setting.kernels.diffusion(y_end)) / 2
-    return float(np.log(slope / erf(y_end) ** 2 / (_SMALLEST_LOG + y_end**2))), high
+    low = float(np.log(slope / erf(y_end) ** 2 / (_SMALLEST_LOG + y_end**2)))
+    return min(low, high - 1.0), high  # next to full contact all gaps are that small
 
 
 def _grid(y_end: float, low: float, high: float, nodes: float) -> NDArray:
@@ -252,27 +273,47 @@ def _panel_edges(
 
 def density(u: NDArray, profile: GapProfile) -> NDArray:
     """P(u) [1/length] at gaps `u`, `(k,)`."""
-    shown = profile.width > 0
-    gap, width = profile.gap[shown], profile.width[shown]
-    amplitude = profile.weight[shown] / (np.sqrt(2 * np.pi) * width)
+    result = np.zeros(len(u))
+    order = np.argsort(u)
+    for block in np.array_split(order, max(1, len(u) // 25)) if len(u) else ():
+        result[block] = _density_of_neighbours(u[block], profile)
+    return result
+
+
+def _density_of_neighbours(u: NDArray, profile: GapProfile) -> NDArray:
+    """P(u) of gaps near each other: most Gaussians are too far off to count."""
+    far = 9.5 * profile.width
+    near = (profile.gap - far < u.max()) & (profile.gap + far > u.min())
+    near &= profile.width > _NARROWEST * profile.width.max()
+    gap, width = profile.gap[near], profile.width[near]
     to_left = (u[:, None] - gap) / width
     pair = np.exp(-0.5 * to_left**2)
-    pair += np.exp(-0.5 * (to_left + 2 * gap / width) ** 2)
-    return pair @ amplitude
+    to_left += 2 * gap / width
+    pair += np.exp(-0.5 * to_left**2)
+    return pair @ (profile.weight[near] / (np.sqrt(2 * np.pi) * width))
+
+
+def _bounded(width: NDArray) -> NDArray:
+    """Widths that may be divided by."""
+    return np.maximum(width, max(_NARROWEST * float(width.max()), 1e-300))
 
 
 def cumulative(u: NDArray, profile: GapProfile) -> NDArray:
     """Integral of P from 0 to `u`, `(k,)`."""
-    width = np.maximum(np.sqrt(2) * profile.width, 1e-300)
+    width = np.sqrt(2) * _bounded(profile.width)
     to_left = (u[:, None] - profile.gap) / width
     pair = erf(to_left) + erf(to_left + 2 * profile.gap / width)
     return 0.5 * pair @ profile.weight + np.where(u > 0, profile.closed, 0.0)
 
 
-def first_moment(profile: GapProfile) -> float:
-    """Integral of u P over all u [length]."""
-    width = np.maximum(profile.width, 1e-300)
+def closure_error(profile: GapProfile) -> float:
+    """Integral of u P over all u less the mean gap [length].
+
+    The integral of u1 over the area is the mean gap. The pair of Gaussians about u1 and -u1,
+    taken at positive gaps, has a larger mean by what this adds up.
+    """
+    width = _bounded(profile.width)
     ratio = profile.gap / width
-    folded = np.sqrt(2 / np.pi) * width * np.exp(-0.5 * ratio**2)
-    folded += profile.gap * erf(ratio / np.sqrt(2))
-    return float(profile.weight @ folded)
+    excess = np.sqrt(2 / np.pi) * width * np.exp(-0.5 * ratio**2)
+    excess -= profile.gap * erfc(ratio / np.sqrt(2))
+    return float(profile.weight @ excess)

@@ -12,9 +12,9 @@ The method is an active-set one:
   that extension. The number of iterations hardly depends on the grid.
 * Points under tension are released, points that penetrate are added, and so on. Early on the
   inner solution is a rough one, for a wrong set deserves no better.
-* Coarser grids supply the first guess. A point is put into contact where ``p > c k g``, with the
-  stiffness ``k`` of a single pixel: one application of the compliance then predicts the set to a few
-  per cent.
+* Coarser grids supply the first guess. A point is put into contact where ``p > c k g``, with
+  the stiffness ``k`` of a single pixel: one application of the compliance then predicts the set
+  to a few per cent.
 
 Everything is solved in units of one side of the cell, ``h_rms`` and E*.
 """

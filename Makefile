@@ -1,0 +1,53 @@
+# Needs make and Python 3.11 or newer; everything else goes into .venv.
+
+PYTHON ?= python3
+CORES ?= 2
+VENV := .venv
+BIN := $(VENV)/bin
+PIP := $(BIN)/python -m pip install --quiet --disable-pip-version-check -c envs/constraints.txt
+SNAKEMAKE := $(BIN)/snakemake -j$(CORES)
+
+.PHONY: reproduce draft test lint format dag benchmark
+
+reproduce: $(VENV)/.run  ## the full reproduction, at standard fidelity
+	$(SNAKEMAKE)
+
+draft: $(VENV)/.run  ## everything, quick and rough
+	$(SNAKEMAKE) --config fidelity=draft
+
+test: $(VENV)/.dev $(VENV)/.peers  ## all tests
+	$(BIN)/python -m pytest
+
+lint: $(VENV)/.dev  ## format and lint, nothing changed
+	$(BIN)/ruff format --check .
+	$(BIN)/ruff check .
+	$(BIN)/snakefmt --check Snakefile rules
+	$(BIN)/snakemake --lint
+
+format: $(VENV)/.dev
+	$(BIN)/ruff format .
+	$(BIN)/ruff check --fix .
+	$(BIN)/snakefmt Snakefile rules
+
+dag: $(VENV)/.run  ## what would run
+	$(BIN)/snakemake -n --quiet rules
+
+benchmark: $(VENV)/.dev $(VENV)/.peers  ## the contact solver beside its peers
+	$(BIN)/python benchmarks/repulsive_vs_peers.py
+
+$(VENV)/bin/python:
+	$(PYTHON) -c 'import sys; sys.exit("Python 3.11 or newer is needed: make PYTHON=…" if sys.version_info < (3, 11) else 0)'
+	$(PYTHON) -m venv $(VENV)
+
+$(VENV)/.run: envs/requirements.txt envs/constraints.txt | $(VENV)/bin/python
+	$(PIP) -r envs/requirements.txt
+	touch $@
+
+$(VENV)/.dev: envs/dev.txt $(VENV)/.run
+	$(PIP) -r envs/dev.txt
+	touch $@
+
+# Reference codes for the tests; where they do not install, those tests are skipped.
+$(VENV)/.peers: envs/peers.txt $(VENV)/.dev
+	-$(PIP) -r envs/peers.txt
+	touch $@

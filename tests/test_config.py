@@ -1,0 +1,116 @@
+"""Bad configuration: one line that names key, value and remedy."""
+
+import shutil
+from pathlib import Path
+
+import pytest
+import yaml
+from stickiness import config
+
+ROOT = Path(__file__).parents[1]
+CONFIG, MATERIALS, SURFACES = (
+    f"config/{name}.yaml" for name in ("config", "materials", "surfaces")
+)
+
+
+@pytest.fixture
+def folder(tmp_path, monkeypatch):
+    """A copy of the configuration, as the working directory."""
+    shutil.copytree(ROOT / "config", tmp_path / "config")
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+def check():
+    return config.checked(config.load(CONFIG), "config/schemas")
+
+
+def changed(path, *keys, value):
+    def edit():
+        file = Path(path)
+        content = yaml.safe_load(file.read_text(encoding="utf-8"))
+        node = content
+        for key in keys[:-1]:
+            node = node[key]
+        if value is None:
+            del node[keys[-1]]
+        else:
+            node[keys[-1]] = value
+        file.write_text(yaml.safe_dump(content), encoding="utf-8")
+
+    return edit
+
+
+def case(*keys, value):
+    return changed(CONFIG, "cases", "H0.8_zeta64", *keys, value=value)
+
+
+def material(*keys, value):
+    return changed(MATERIALS, "materials", "crystal", *keys, value=value)
+
+
+def steel(*keys, value):
+    return changed(SURFACES, "surfaces", "polished_steel", *keys, value=value)
+
+
+def model(*keys, value):
+    return changed(CONFIG, "model_surfaces", "H0.8_zeta64", *keys, value=value)
+
+
+@pytest.mark.parametrize(
+    ("edit", "words"),
+    [
+        (changed(CONFIG, "fidelty", value="draft"), ["fidelty", "fidelity"]),
+        (changed(CONFIG, "fidelity", value="best"), ["fidelity", "'best'", "draft"]),
+        (case("pressure", value=[0.1]), ["H0.8_zeta64", "'pressure'", "pressures"]),
+        (case("pressures", value=[0.1, -0.2]), ["pressures[1]", "-0.2", "greater than 0"]),
+        (case("surface", value="H0.8_zeta65"), ["surface", "H0.8_zeta65", "H0.8_zeta64"]),
+        (case("maps", value=[0.07]), ["maps", "0.07", "pressures"]),
+        (model("hurst", value=1.2), ["hurst", "1.2", "at most 1"]),
+        (model("hurst", value=0), ["hurst", "0", "(0, 1]"]),
+        (model("magnification", value=0.5), ["magnification", "0.5", "greater than 1"]),
+        (model("window", value=0.5), ["window", "0.5", "at least 1"]),
+        (material("plane_strain_modulus", value="-1 GPa"), ["crystal", "-1 GPa", "positive"]),
+        (material("plane_strain_modulus", value="1 GN"), ["plane_strain_modulus", "1 GN", "Pa"]),
+        (material("work_of_adhesion", value=0.05), ["work_of_adhesion", "0.05", "string"]),
+        (material("range", value="0.2 nanometre s"), ["range", "0.2 nanometre s", "unit"]),
+        (material("source", value=None), ["crystal", "source", "missing"]),
+        (steel("hurst", value=1.5), ["hurst", "1.5", "1"]),
+        (steel("h_rms", value=["2 um", "1 um"]), ["h_rms", "2 um", "[low, high]"]),
+        (steel("shortest_wavelength", value="1 mm"), ["shortest_wavelength", "longest"]),
+        (
+            changed(SURFACES, "surfaces", "jacksboro", "file", value="data/none.txt"),
+            ["jacksboro", "file", "data/none.txt", "no such file"],
+        ),
+        (
+            changed(SURFACES, "surfaces", "jacksboro", "file", value="builtin:jackson"),
+            ["jacksboro", "builtin:jackson", "jacksboro"],
+        ),
+        (changed(CONFIG, "surfaces", value="config/surfs.yaml"), ["config/surfs.yaml", "no such"]),
+        (changed(CONFIG, "cases", "H0.8_zeta32", value=None), ["cases", "H0.8_zeta32", "missing"]),
+        (
+            changed(CONFIG, "criteria", "a_v", "pressure", value=0.07),
+            ["criteria.a_v.pressure", "0.07", "H0.8_zeta128"],
+        ),
+    ],
+)
+def test_one_line_names_key_value_and_remedy(folder, edit, words):
+    edit()
+    with pytest.raises(config.ConfigError) as caught:
+        check()
+    message = str(caught.value)
+    assert "\n" not in message
+    for word in words:
+        assert word in message
+
+
+def test_shipped_configuration_is_valid(folder):
+    materials, surfaces = check()
+    assert len(materials) >= 6
+    assert "jacksboro" in surfaces
+
+
+def test_broken_yaml_names_file_and_line(folder):
+    Path(MATERIALS).write_text("materials:\n  psa: {label: [}\n", encoding="utf-8")
+    with pytest.raises(config.ConfigError, match=r"materials\.yaml: line 2"):
+        check()

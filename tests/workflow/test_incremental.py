@@ -1,0 +1,110 @@
+"""What a change re-runs, and that it is no more than that."""
+
+import time
+
+import pytest
+
+pytestmark = pytest.mark.workflow
+
+SEEDS, CASES, SURFACES = 2, 5, 5
+
+
+def test_clean_run_has_no_warnings(finished):
+    """A complete run says nothing that a user would have to look into."""
+    assert "100%" in finished.run.stdout
+    assert "warning" not in finished.run.stdout.lower()
+    for log in (finished / "results/tiny/logs").rglob("*.log"):
+        text = log.read_text(encoding="utf-8")
+        assert "WARNING" not in text, log
+        assert "ERROR" not in text, log
+
+
+def test_every_rule_logs_and_benchmarks(finished):
+    logs = {p.relative_to(finished / "results/tiny/logs").parts[0] for p in logs_of(finished)}
+    assert len(logs) >= 15
+    assert list((finished / "results/tiny/benchmarks").rglob("*.tsv"))
+
+
+def logs_of(workflow):
+    return list((workflow / "results/tiny/logs").rglob("*.log"))
+
+
+def test_touching_nothing_runs_nothing(finished):
+    assert finished.planned() == {}
+
+
+def test_editing_a_material_reruns_verdicts_and_report(copy_of_finished):
+    copy_of_finished.edit("config/materials.yaml", '"40 mJ/m^2"', '"45 mJ/m^2"')
+    assert set(copy_of_finished.planned()) == {"judge", "write_report"}
+
+
+def test_adding_a_seed_runs_that_seed_and_its_averages(copy_of_finished):
+    copy_of_finished.edit("config/tiny.yaml", "seeds: 2", "seeds: 3")
+    planned = copy_of_finished.planned()
+    assert planned["synthesise_surface"] == SURFACES
+    assert planned["solve_repulsive"] == CASES
+    assert planned["average_ensemble"] == CASES
+    unaffected = {"persson_sweep", "persson_lattice", "contact_maps", "analyse_surface"}
+    assert unaffected.isdisjoint(planned)
+
+
+def test_adding_a_seed_to_one_case_leaves_the_others(copy_of_finished):
+    with (copy_of_finished / "config/tiny.yaml").open("a", encoding="utf-8") as file:
+        file.write("cases:\n  H0.9_zeta64: {seeds: 3}\n")
+    planned = copy_of_finished.planned()
+    assert planned["synthesise_surface"] == planned["solve_repulsive"] == 1
+    assert planned["average_ensemble"] == 1
+
+
+@pytest.mark.parametrize(
+    ("module", "reruns", "leaves"),
+    [
+        (
+            "persson.py",
+            {"persson_sweep": 6, "persson_lattice": CASES},
+            {"synthesise_surface", "solve_repulsive", "analyse_surface", "average_ensemble"},
+        ),
+        (
+            "repulsive.py",
+            {"solve_repulsive": CASES * SEEDS, "contact_maps": 1},
+            {"synthesise_surface", "persson_sweep", "persson_lattice", "analyse_surface"},
+        ),
+        (
+            "topography.py",
+            {"analyse_surface": 7},
+            {"synthesise_surface", "solve_repulsive", "persson_sweep", "fit_a_v"},
+        ),
+        (
+            "errata.py",
+            {"check_claims": 1},
+            {"judge", "solve_repulsive", "persson_sweep", "fit_a_v", "analyse_surface"},
+        ),
+    ],
+)
+def test_changing_a_module_reruns_the_stages_that_use_it(copy_of_finished, module, reruns, leaves):
+    time.sleep(1.1)  # file systems with whole-second time stamps
+    with (copy_of_finished / "scripts/stickiness" / module).open("a", encoding="utf-8") as file:
+        file.write("\n# A change.\n")
+    planned = copy_of_finished.planned()
+    assert reruns.items() <= planned.items(), planned
+    assert leaves.isdisjoint(planned), planned
+
+
+@pytest.mark.parametrize(
+    ("target", "expected", "absent"),
+    [
+        ("fig3", {"plot_fig3": 1, "solve_repulsive": CASES * SEEDS}, {"analyse_surface", "judge"}),
+        ("fig6", {"plot_fig6": 1, "analyse_surface": 7}, {"solve_repulsive", "persson_sweep"}),
+        ("claims", {"check_claims": 1}, {"plot_fig1", "write_report"}),
+        ("results/tiny/persson/fig1a.nc", {"persson_sweep": 1}, {"solve_repulsive"}),
+        (
+            "results/tiny/ensembles/H0.9_zeta64.nc",
+            {"synthesise_surface": SEEDS, "solve_repulsive": SEEDS, "average_ensemble": 1},
+            {"persson_sweep"},
+        ),
+    ],
+)
+def test_targets(fresh, target, expected, absent):
+    planned = fresh.planned(target)
+    assert expected.items() <= planned.items(), planned
+    assert absent.isdisjoint(planned), planned

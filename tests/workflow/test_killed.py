@@ -1,0 +1,60 @@
+"""A run that was killed outright goes on with the same command, and nothing is corrupt."""
+
+import os
+import signal
+import subprocess
+import time
+
+import pytest
+from stickiness import datasets
+
+pytestmark = pytest.mark.workflow
+
+TARGET = "results/tiny/ensembles/H0.8_zeta64.nc"
+TINY = ["--configfile", "config/config.yaml", "config/tiny.yaml"]
+
+
+def test_killed_run_resumes(fresh, finished):
+    process = subprocess.Popen(
+        fresh.command(TARGET, *TINY),
+        cwd=fresh.folder,
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.DEVNULL,
+        start_new_session=True,
+    )
+    surfaces = fresh / "results/tiny/surfaces/H0.8_zeta64"
+    deadline = time.monotonic() + 120
+    while not list(surfaces.glob("seed*.nc")):
+        assert time.monotonic() < deadline, "no job finished within two minutes"
+        assert process.poll() is None, "the run ended before it could be killed"
+        time.sleep(0.05)
+    os.killpg(process.pid, signal.SIGKILL)
+    process.wait()
+    assert not (fresh / TARGET).exists()
+
+    done = fresh.snakemake(TARGET)
+    assert done.returncode == 0, done.stdout
+    resumed, whole = datasets.read(fresh / TARGET), datasets.read(finished / TARGET)
+    assert resumed.identical(whole)
+    assert not list((fresh / "results").rglob(".*-*.nc")), "a temporary file was left behind"
+
+
+def test_lock_of_a_living_run_is_respected(fresh):
+    process = subprocess.Popen(
+        fresh.command("claims", *TINY),
+        cwd=fresh.folder,
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.DEVNULL,
+        start_new_session=True,
+    )
+    try:
+        deadline = time.monotonic() + 120
+        while not (fresh / ".snakemake/run.json").exists():
+            assert time.monotonic() < deadline
+            time.sleep(0.05)
+        second = fresh.snakemake("claims")
+        assert second.returncode != 0
+        assert "lock" in second.stdout.lower()
+    finally:
+        os.killpg(process.pid, signal.SIGKILL)
+        process.wait()
