@@ -10,6 +10,7 @@ rule map_criterion:
     input:
         library=library_of("map_criterion.py"),
         a_v=measured_a_v,
+        theory=f"{RESULTS}/fits/persson/fig3c.nc",
     output:
         f"{RESULTS}/criteria/map.nc",
     log:
@@ -29,6 +30,7 @@ rule judge:
     input:
         library=library_of("judge.py"),
         a_v=measured_a_v,
+        theory=f"{RESULTS}/fits/persson/fig3c.nc",
         surfaces=expand(f"{RESULTS}/real_surfaces/{{real_surface}}.nc", real_surface=REAL_SURFACES),
     output:
         dataset=f"{RESULTS}/criteria/verdicts.nc",

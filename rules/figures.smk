@@ -1,15 +1,6 @@
 # The paper's six figures, with what was measured added.
 
-
-def bem_cases(wildcards=None):
-    return list(CASES)
-
-
 FIGURE_2_CASES = ["H0.8_zeta32", "H0.8_zeta64", "H0.8_zeta128"]
-
-
-def figure_outputs(name):
-    return {suffix: f"{RESULTS}/figures/{name}.{suffix}" for suffix in ("png", "pdf")}
 
 
 rule plot_fig1:
@@ -39,10 +30,9 @@ rule plot_fig1:
 rule plot_fig2:
     input:
         library=library_of("plot_fig2.py"),
-        kappa=expand(
-            f"{RESULTS}/fits/kappa/{{case}}.nc",
-            case=["H0.8_zeta32", "H0.8_zeta64", "H0.8_zeta128"],
-        ),
+        kappa=expand(f"{RESULTS}/fits/kappa/{{case}}.nc", case=FIGURE_2_CASES),
+        ensembles=expand(f"{RESULTS}/ensembles/{{case}}.nc", case=FIGURE_2_CASES),
+        lattices=expand(f"{RESULTS}/persson_lattice/{{case}}.nc", case=FIGURE_2_CASES),
         maps=f"{RESULTS}/bem/H0.8_zeta64/maps.nc",
         adhesion=f"{RESULTS}/adhesion/fig2.nc",
     output:

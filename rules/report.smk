@@ -6,7 +6,8 @@ def ledger_inputs():
     return {
         "kappa_64": f"{RESULTS}/fits/kappa/H0.8_zeta64.nc",
         "kappa_128": f"{RESULTS}/fits/kappa/H0.8_zeta128.nc",
-        "ensemble_128": f"{RESULTS}/ensembles/H0.8_zeta128.nc",
+        "ensemble_wide": f"{RESULTS}/ensembles/H0.8_zeta32_wide.nc",
+        "fit_bem_wide": f"{RESULTS}/fits/ensembles/H0.8_zeta32_wide.nc",
         "fit_bem_128": f"{RESULTS}/fits/ensembles/H0.8_zeta128.nc",
         **{f"fig{n}": f"{RESULTS}/persson/fig{n}.nc" for n in ("1b", "3a", "3b", "3c", "3d")},
         **{f"fit_fig{n}": f"{RESULTS}/fits/persson/fig{n}.nc" for n in ("3a", "3c", "3d")},

@@ -15,11 +15,11 @@ VERDICTS = ("not sticky", "depends", "sticky")
 
 
 def main(job):
-    a_v, error = measured_a_v(job.input.a_v, job.params.pressure)
+    a_v = measured_a_v(job.input.a_v, job.input.theory, job.params.pressure)
     surfaces = dict(zip(job.params.surfaces, job.input.surfaces, strict=True))
     surfaces = {name: datasets.read(path, NEEDED) for name, path in surfaces.items()}
     materials = {name: properties(entry) for name, entry in job.params.materials.items()}
-    dataset = judged(materials, surfaces, a_v, error)
+    dataset = judged(materials, surfaces, a_v.value, a_v.error)
     datasets.write(
         dataset,
         job.output.dataset,
@@ -27,7 +27,7 @@ def main(job):
         parameters={"materials": job.params.materials, "pressure": job.params.pressure},
     )
     with datasets.whole_file(job.output.table) as path:
-        path.write_text(markdown(dataset, job.params.materials, surfaces), encoding="utf-8")
+        path.write_text(markdown(dataset, a_v, job.params.materials, surfaces), encoding="utf-8")
 
 
 def properties(entry):
@@ -135,10 +135,10 @@ def annotated(dataset):
     )
 
 
-def markdown(dataset, materials, surfaces):
+def markdown(dataset, a_v, materials, surfaces):
     head = (
         "# Do they stick?\n\n"
-        f"Derived criterion with a_V = {float(dataset.a_v):.2f} ± {float(dataset.a_v_error):.2f}. "
+        f"Derived criterion with {a_v.describe()}. "
         "The margin is the largest rms height that sticks over the actual one, from the rough to "
         "the smooth end of what is known of the surface: above 1 sticks. E* threshold: modulus "
         "below which the pair sticks. † marks pairs for which the DMT limit, on which the "

@@ -10,8 +10,8 @@ from stickiness import criteria, datasets
 
 def main(job):
     asked = job.params.map
-    a_v, error = measured_a_v(job.input.a_v, job.params.pressure)
-    dataset = limits(asked, a_v, error)
+    a_v = measured_a_v(job.input.a_v, job.input.theory, job.params.pressure)
+    dataset = limits(asked, a_v.value, a_v.error)
     dataset = dataset.merge(slopes(asked["slope_parameter"], asked["slope_a_v"]))
     datasets.write(
         annotated(dataset),
@@ -32,7 +32,7 @@ def limits(asked, a_v, error):
     q0, length = xr.broadcast(q0, length)
     curves = {
         "h_rms_limit": a_v,
-        "h_rms_limit_low": a_v - error,
+        "h_rms_limit_low": max(a_v - error, 1e-9),
         "h_rms_limit_high": a_v + error,
         "h_rms_limit_printed": criteria.PRINTED_A_V,
     }
@@ -75,7 +75,10 @@ def annotated(dataset):
         h_rms_limit_printed=("1", f"{limit}, coefficient 9/4 as printed"),
         jtb_limit=("1", "smallest h_rms/range at which the DMT limit holds"),
         a_v=("1", "a_V of the derived criterion"),
-        a_v_error=("1", "sampling, discretisation and window errors of a_V in quadrature"),
+        a_v_error=(
+            "1",
+            "error of a_V: sampling, discretisation, fit window and bandwidth in quadrature",
+        ),
         slope_parameter=("1", "range q0/(adhesion length/range)"),
         h_rms_over_range=("1", "rms height over range"),
         slope_angle=("degree", "angle of the area-load line against the load axis"),

@@ -67,7 +67,7 @@ def panel_b(ax, theory):
     limit = float(at_gap(theory, REFERENCE_GAP)[-1])
     last = float(theory.magnification[-1])
     curves = [at_gap(theory, gap) for gap in GAPS]
-    labels = apart([curve[-1] for curve in curves], 1.11)
+    labels = apart([curve[-1] for curve in curves], 1.15)
     for colour, gap, curve, label in zip(shades(len(GAPS)), GAPS, curves, labels, strict=True):
         ax.loglog(theory.magnification, curve, ".-", color=colour)
         ax.text(1.7 * last, label, f"{gap:g}", color=colour, va="center", fontsize=8)
@@ -76,9 +76,9 @@ def panel_b(ax, theory):
             ax.plot([last / 30, last], [level, level], ":", color=GREY, linewidth=1.1)
     mean = float(theory.mean_gap.mean())
     ax.set_title(rf"$H$ = 0.8, $\bar{{u}}/h_\mathrm{{rms}}$ = {mean:.3g}")
-    ax.set(xlabel=r"magnification $\zeta$", ylabel=DENSITY_LABEL, xlim=(2, 3e7), ylim=(0.2, 3.2))
+    ax.set(xlabel=r"magnification $\zeta$", ylabel=DENSITY_LABEL, xlim=(2, 3e7), ylim=(0.2, 4))
     plain_ticks(ax.yaxis, [0.2, 0.3, 0.5, 1, 2, 3])
-    ax.text(1.7 * last, 2.75, r"$u/h_\mathrm{rms}$", ha="center", fontsize=8)
+    ax.text(1.7 * last, 2.95, r"$u/h_\mathrm{rms}$", ha="center", fontsize=8)
     law = rf"$u^{{-1/3}}$ through $u/h_\mathrm{{rms}}$ = {REFERENCE_GAP:g}"
     ax.legend(handles=[key(linestyle=":", label=law)], loc="upper left")
 

@@ -7,7 +7,7 @@ from _style import (
     COLOURS,
     GREY,
     MARKERS,
-    RED,
+    aside,
     canvas,
     key,
     letters,
@@ -21,8 +21,8 @@ from stickiness import criteria, datasets
 LINEAR_UP_TO = 0.3  # area fraction up to which the paper calls the area linear in load
 LOADS = [0.0065, 0.065, 0.26]  # over E* q0 h_rms, of panel B
 VARIANT = "afferrante2018"  # both variants of the theory have the same area
-GAP_COLOUR, CONTACT_COLOUR, ATTRACTION_COLOUR = "white", BLACK, RED
-PRESSURE_LABEL = r"pressure $\hat{p}=p/(E^*q_0h_\mathrm{rms})$"
+GAP_COLOUR, CONTACT_COLOUR, ATTRACTION_COLOUR = "white", BLACK, "#FF2A00"
+PRESSURE_LABEL = r"pressure $p/(E^*q_0h_\mathrm{rms})$"
 AREA_LABEL = r"area $A_\mathrm{rep}/A_\mathrm{nom}$"
 
 
@@ -38,10 +38,11 @@ def main(job):
     panel_c(panels["C"], list(zip(ensembles, lattices, strict=True)))
     reach = float(adhesion.range_over_h_rms[0])
     loads = maps.pressure.values
-    for name, load in zip("DEF", loads, strict=True):
-        contact_map(panels[name], maps.sel(pressure=load), None)
-    for name, load in zip("GHI", loads, strict=True):
-        contact_map(panels[name], maps.sel(pressure=load), reach)
+    for names, range_ in (("DEF", None), ("GHI", reach)):
+        for name, load in zip(names, loads, strict=True):
+            contact_map(panels[name], maps.sel(pressure=load), range_)
+    panels["D"].set_ylabel("repulsive contact\n$y/L$")
+    panels["G"].set_ylabel(rf"with the zone $u\leq\epsilon$ (DMT)" + "\n$y/L$")
     letters(panels)
     save(figure, job.output)
 
@@ -63,22 +64,20 @@ def panel_a(ax, kappas):
         ax.plot(kappa.pressure, theory, color=colour, linewidth=0.9)
         errors = kappa.kappa_standard_error, kappa.kappa_discretisation_error
         look = {"color": colour, "marker": marker, "markersize": 3.5}
-        points(ax, kappa.pressure, kappa.kappa, *errors, **look)
+        pressure = aside(kappa.pressure, index - 1)
+        points(ax, pressure, kappa.kappa, *errors, **look)
         beyond = kappa.where(kappa.area_fraction > LINEAR_UP_TO)
-        ax.plot(kappa.pressure, beyond.kappa, linestyle="none", **look, mfc="white", zorder=5)
+        ax.plot(pressure, beyond.kappa, linestyle="none", **look, mfc="white", zorder=5)
     ax.axhline(2, color=GREY, linestyle="--", linewidth=0.9)
     ax.text(1.1e-3, 1.98, r"$\kappa$ = 2", color=GREY, va="top", fontsize=8)
-    ax.set(xscale="log", ylim=(1.4, 3.2))
-    ax.set(
-        xlabel=PRESSURE_LABEL,
-        ylabel=r"$\kappa_\mathrm{rep}=A_\mathrm{rep}h'_\mathrm{rms}E^*/(A_\mathrm{nom}p)$",
-    )
+    ax.set(xscale="log", ylim=(1.4, 3.7), xlabel=PRESSURE_LABEL)
+    ax.set(ylabel=r"$\kappa_\mathrm{rep}=A_\mathrm{rep}h'_\mathrm{rms}E^*/(A_\mathrm{nom}p)$")
+    ax.set_title(f"open: area above {LINEAR_UP_TO:.0%}")
     ax.legend(handles=[*case_keys(kappas), key(label="theory")], loc="upper right")
 
 
 def case_keys(kappas):
     """Symbols of the cases, shared by panels A and C."""
-    looks = zip(COLOURS, MARKERS, kappas, strict=False)
     return [
         key(
             color=colour,
@@ -86,7 +85,7 @@ def case_keys(kappas):
             linestyle="none",
             label=rf"$\zeta$ = {number(magnification(kappa))}",
         )
-        for colour, marker, kappa in looks
+        for colour, marker, kappa in zip(COLOURS, MARKERS, kappas, strict=False)
     ]
 
 
@@ -104,19 +103,20 @@ def panel_b(ax, adhesion):
         label = rf"$\hat{{p}}$ = {float(at_load.pressure):g}"
         look = {"color": COLOURS[index], "marker": MARKERS[index], "markersize": 3.5}
         points(ax, lengths, at_load.inverse_kappa, *errors, label=label, **look)
-    low = -1.5
+    low, high = min(ax.get_ylim()[0], -0.45), 0.68
     ax.axhspan(low, 0, color=GREY, alpha=0.15, linewidth=0)
-    ax.text(0.02, 0.03, f"sticky; {dmt_note(adhesion)}", transform=ax.transAxes, fontsize=8)
+    ax.text(0.97, 0.03, "sticky", transform=ax.transAxes, ha="right", fontsize=8)
+    ax.text(0.97, 0.94, dmt_note(adhesion), transform=ax.transAxes, ha="right", fontsize=8)
     ax.set(xlabel=r"adhesion length $l_a/\epsilon$", ylabel=r"$1/\kappa$ with adhesion (DMT)")
-    ax.set(ylim=(low, 0.85), xlim=(0, 1.04 * float(lengths.max())))
-    ax.legend(loc="upper right")
+    ax.set(ylim=(low, high), xlim=(0, 1.04 * float(lengths.max())))
+    ax.legend(loc="lower left")
 
 
 def dmt_note(adhesion):
     """Where the DMT limit ends, as text: it lies far to the right of the points."""
     reach, roughness = float(adhesion.range_over_h_rms), float(adhesion.q0_h_rms)
     per_length = criteria.jtb_limit(roughness, reach, reach)  # proportional to the adhesion length
-    return rf"DMT valid to $l_a/\epsilon$ = {1 / per_length:.2g}"
+    return rf"DMT valid up to $l_a/\epsilon$ = {1 / per_length:.2g}"
 
 
 def panel_c(ax, cases):
@@ -142,8 +142,9 @@ def contact_map(ax, state, reach):
     if reach is not None:
         picture[gap <= reach] = to_rgb(ATTRACTION_COLOUR)
     picture[gap == 0] = to_rgb(CONTACT_COLOUR)
-    ax.imshow(picture, origin="lower", extent=(0, 1, 0, 1), aspect="equal")
-    ax.set(xticks=[0, 0.5, 1], yticks=[0, 0.5, 1], xlabel="$x/L$", ylabel="$y/L$")
+    extent = (0, 1, 0, 1)  # the window, as unit of length
+    ax.imshow(picture, origin="lower", extent=extent, aspect="equal", interpolation="none")
+    ax.set(xticks=[0, 0.5, 1], yticks=[0, 0.5, 1], xlabel="$x/L$")
     ax.set_title(rf"$\hat{{p}}$ = {float(state.pressure):g}")
 
 

@@ -1,1 +1,201 @@
+"""Figure 3: attractive area against range, and the prefactor a_V of its power law."""
+
+from dataclasses import dataclass
+
+import numpy as np
+import xarray as xr
 from _job import start
+from _style import (
+    BLACK,
+    COLOURS,
+    GREY,
+    MARKERS,
+    aside,
+    canvas,
+    key,
+    letters,
+    number,
+    points,
+    save,
+    shades,
+)
+from stickiness import criteria, datasets
+
+VARIANT = "afferrante2018"
+EXPONENT = 2 / 3
+LARGEST_RANGE = 0.3  # over h_rms, in panels A and B
+CONVERGED_A_V = 3.0  # of the paper, for the guides
+LOAD = 0.065  # over E* q0 h_rms, of the points in panels A and C
+RANGE_LABEL = r"$(\epsilon/h_\mathrm{rms})^{2/3}$"
+AREA_LABEL = r"attractive area $A_\mathrm{ad}/A_\mathrm{nom}$"
+PRESSURE_LABEL = r"pressure $p/(E^*q_0h_\mathrm{rms})$"
+
+
+@dataclass(frozen=True)
+class Case:
+    """A simulated case: its areas, its fits of a_V and those of theory on its spectrum."""
+
+    areas: xr.Dataset
+    fit: xr.Dataset
+    lattice: xr.Dataset
+
+    @property
+    def hurst(self):
+        return datasets.parameters(self.areas)["hurst"]
+
+    @property
+    def magnification(self):
+        return datasets.parameters(self.areas)["magnification"]
+
+
+def main(job):
+    sweeps = [datasets.read(path, ["attractive_area", "pressure"]) for path in job.input.sweeps]
+    fits = [datasets.read(path, ["a_v", "window_low"]) for path in job.input.fits]
+    cases = read_cases(job.input)
+    figure, panels = canvas("AB;CD", 6.2)
+    panel_a(panels["A"], sweeps[0], [case for case in cases if case.hurst == 0.8])
+    panel_b(panels["B"], sweeps[1])
+    panel_c(panels["C"], sweeps[2], fits[2], cases)
+    panel_d(panels["D"], sweeps[3], fits[3], [case for case in cases if case.hurst == 0.8])
+    letters(panels)
+    save(figure, job.output)
+
+
+def read_cases(files):
+    cases = [
+        Case(
+            datasets.read(areas, ["attractive_area_mean"]),
+            datasets.read(fit, ["a_v_mean"]),
+            datasets.read(lattice, ["a_v"]),
+        )
+        for areas, fit, lattice in zip(files.bem, files.bem_fits, files.lattice_fits, strict=True)
+    ]
+    return sorted(cases, key=lambda case: (case.hurst, case.magnification))
+
+
+def panel_a(ax, theory, cases):
+    """Areas at one pressure for a few magnifications, by theory and simulation."""
+    theory = theory.sel(variant=VARIANT).isel(hurst=0, load=0)
+    pressure = float(theory.pressure[0])
+    magnifications = theory.magnification.values
+    for colour, magnification in zip(shades(len(magnifications)), magnifications, strict=True):
+        curve = theory.attractive_area.sel(magnification=magnification)
+        ax.plot(curve["range"] ** EXPONENT, curve, color=colour, label=number(magnification))
+    for index, case in enumerate(cases):
+        simulated_areas(ax, case, pressure, COLOURS[index], MARKERS[index])
+    slope_guide(ax, pressure)
+    limits(ax, 0.22)
+    ax.set_title(rf"$H$ = 0.8, $\hat{{p}}$ = {pressure:g}")
+    lines = ax.legend(title=r"theory, $\zeta$ =", loc="upper left", ncols=2, title_fontsize=8)
+    ax.add_artist(lines)
+    law = key(linestyle=":", color=BLACK, label=rf"$a_V$ = {CONVERGED_A_V:g}")
+    handles = [*case_keys(cases), law]
+    ax.legend(handles=handles, loc="upper right", title="BEM", title_fontsize=8)
+
+
+def simulated_areas(ax, case, pressure, colour, marker):
+    area = case.areas.sel(pressure=pressure, method="nearest").sel(range=slice(3e-3, LARGEST_RANGE))
+    area = area.isel(range=slice(None, None, 4))
+    errors = area.attractive_area_standard_error, area.attractive_area_discretisation_error
+    x = area["range"] ** EXPONENT
+    points(ax, x, area.attractive_area_mean, *errors, color=colour, marker=marker)
+
+
+def case_keys(cases):
+    return [
+        key(
+            color=COLOURS[index],
+            marker=MARKERS[index],
+            linestyle="none",
+            label=rf"$\zeta$ = {number(case.magnification)}",
+        )
+        for index, case in enumerate(cases)
+    ]
+
+
+def slope_guide(ax, pressure):
+    """(3/2) a_V p (range/h_rms)^(2/3) for the paper's a_V."""
+    x = np.array([0, LARGEST_RANGE**EXPONENT])
+    ax.plot(x, 1.5 * CONVERGED_A_V * pressure * x, ":", color=BLACK, zorder=5)
+
+
+def limits(ax, top):
+    right = LARGEST_RANGE**EXPONENT
+    ax.set(xlim=(0, right), ylim=(0, top), xlabel=RANGE_LABEL, ylabel=AREA_LABEL)
+
+
+def panel_b(ax, theory):
+    """Areas at one magnification for a few pressures."""
+    theory = theory.sel(variant=VARIANT).isel(hurst=0, magnification=0)
+    for index, colour in enumerate(shades(theory.sizes["load"])):
+        curve = theory.isel(load=index)
+        x = curve["range"] ** EXPONENT
+        ax.plot(x, curve.attractive_area, color=colour, label=f"{float(curve.pressure):g}")
+    limits(ax, 0.75)
+    ax.set_title(rf"$H$ = 0.8, $\zeta$ = {number(theory.magnification)}, theory")
+    ax.legend(title=r"$\hat{p}$ =", loc="upper left", ncols=2, title_fontsize=8)
+
+
+def panel_c(ax, sweep, fit, cases):
+    """a_V against magnification with Pastewka and Robbins' and simulation."""
+    fit = fit.sel(variant=VARIANT).isel(load=0)
+    sweep = sweep.sel(variant=VARIANT).isel(load=0)
+    for index, hurst in enumerate(fit.hurst.values):
+        colour = COLOURS[index]
+        curve, moments = fit.a_v.sel(hurst=hurst), sweep.sel(hurst=hurst)
+        banded(ax, fit.magnification, curve, colour, "-")
+        slope, curvature = moments.rms_slope.values, moments.rms_curvature.values
+        robbins = criteria.pastewka_robbins_a_v(1.0, 1.0, slope, curvature)
+        ax.plot(fit.magnification, robbins, "--", color=colour, linewidth=0.9)
+        for case in cases:
+            if case.hurst == hurst:
+                case_points(ax, case, case.magnification, LOAD, colour, MARKERS[index])
+        ax.plot([], [], color=colour, marker=MARKERS[index], label=f"$H$ = {hurst:g}")
+    ax.set(xscale="log", yscale="log", ylim=(0.6, 400))
+    ax.set(xlabel=r"magnification $\zeta$", ylabel=r"$a_V$")
+    ax.set_title(rf"$\hat{{p}}$ = {float(sweep.pressure[0, 0]):g}")
+    handles, _ = ax.get_legend_handles_labels()
+    pastewka = key(linestyle="--", label="Pastewka & Robbins")
+    ax.legend(handles=[*handles, key(label="theory"), *point_keys(), pastewka], loc="upper left")
+
+
+def point_keys():
+    return [
+        key(linestyle="none", marker="o", label="BEM"),
+        key(linestyle="none", marker="o", mfc="white", label="theory, window's spectrum"),
+    ]
+
+
+def banded(ax, x, a_v, colour, line):
+    """a_V in the window quoted, and a band over all windows of the fit."""
+    ax.fill_between(x, a_v.min("window"), a_v.max("window"), color=colour, alpha=0.2, linewidth=0)
+    ax.plot(x, a_v.isel(window=0), line, color=colour)
+
+
+def case_points(ax, case, x, pressure, colour, marker):
+    """a_V of a case at a pressure, or at all if it is None, with theory on its spectrum."""
+    fit, lattice = case.fit.isel(window=0), case.lattice.isel(window=0).sel(variant=VARIANT)
+    if pressure is not None:
+        fit = fit.sel(pressure=[pressure], method="nearest")
+        lattice = lattice.sel(pressure=[pressure], method="nearest")
+    x = np.broadcast_to(x, fit.pressure.shape)
+    look = {"color": colour, "marker": marker}
+    ax.plot(x, lattice.a_v, linestyle="none", **look, mfc="white", zorder=3.5)
+    points(ax, x, fit.a_v_mean, fit.a_v_standard_error, fit.a_v_discretisation_error, **look)
+
+
+def panel_d(ax, sweep, fit, cases):
+    """a_V against pressure."""
+    sweep = sweep.sel(variant=VARIANT).isel(hurst=0, magnification=0)
+    curve = fit.a_v.sel(variant=VARIANT).isel(hurst=0, magnification=0)
+    banded(ax, sweep.pressure, curve, GREY, "-")
+    for index, case in enumerate(cases):
+        case_points(ax, case, aside(case.fit.pressure, index - 1), None, COLOURS[index], MARKERS[index])
+    ax.set(xscale="log", ylim=(0, 12), xlabel=PRESSURE_LABEL, ylabel=r"$a_V$")
+    ax.set_title("$H$ = 0.8")
+    theory = key(label=rf"theory, $\zeta$ = {number(sweep.magnification)}")
+    ax.legend(handles=[theory, *case_keys(cases), *point_keys()[1:]], loc="upper right")
+
+
+if __name__ == "__main__":
+    main(start(globals(), "plot_fig3"))

@@ -1,1 +1,62 @@
+"""One self-contained page: figures, claims, verdicts, errors, run times and provenance."""
+
+from pathlib import Path
+
+import _captions
+import _report
 from _job import start
+from jinja2 import Environment, FileSystemLoader, StrictUndefined
+from stickiness import datasets
+
+CLAIMS = ("statement", "quantity", "value", "uncertainty", "claimed", "verdict", "remark")
+VERDICTS = ("margin", "modulus_threshold", "dmt_valid", "verdict", "disagrees", "a_v", "a_v_error")
+SURFACES = ("h_rms", "hurst", "q0", "q1", "C0_reference_upper")
+ENSEMBLES = ("area_fraction_mean", "mean_gap_mean", "attractive_area_mean", "residual")
+
+
+def main(job):
+    captions = [Path(path).read_text(encoding="utf-8") for path in job.input.captions]
+    page = render(
+        job.input.template,
+        claims=datasets.read(job.input.claims, CLAIMS),
+        verdicts=datasets.read(job.input.verdicts, VERDICTS),
+        ensembles=[datasets.read(path, ENSEMBLES) for path in job.input.ensembles],
+        surfaces={Path(path).stem: datasets.read(path, SURFACES) for path in job.input.surfaces},
+        figures=[_captions.figure(*pair) for pair in zip(job.input.figures, captions, strict=True)],
+        benchmarks=job.params.benchmarks,
+        fidelity=job.params.fidelity,
+    )
+    with datasets.whole_file(job.output[0]) as path:
+        path.write_text(page, encoding="utf-8")
+
+
+def render(template, *, claims, verdicts, ensembles, surfaces, figures, benchmarks, fidelity):
+    """The page as text, from datasets and figures that have been read."""
+    template = Path(template)
+    environment = Environment(
+        loader=FileSystemLoader(template.parent),
+        autoescape=True,
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
+    environment.filters["linked"] = _captions.linked
+    return environment.get_template(template.name).render(
+        fidelity=fidelity,
+        summary=_report.summary(claims, verdicts, ensembles),
+        figures=figures,
+        claims=_report.claim_rows(claims),
+        errata=_report.errata_rows(claims),
+        matrix=_report.verdict_matrix(verdicts, surfaces),
+        disagreements=_report.disagreements(verdicts, surfaces),
+        surfaces=_report.surface_rows(surfaces),
+        budgets=_report.error_budgets(ensembles),
+        run_times=_report.run_times(benchmarks),
+        provenance=_report.provenance(
+            [claims, verdicts, *surfaces.values(), *ensembles], ensembles
+        ),
+    )
+
+
+if __name__ == "__main__":
+    main(start(globals(), "write_report"))

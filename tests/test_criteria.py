@@ -315,8 +315,9 @@ def test_dahlquist():
 
 
 def test_energy_criteria_agree_in_order_of_magnitude():
-    # Ciavarella (2019, arXiv:1908.06380): with lambda = 2 pi/q0 the bearing-area model gives
-    # h_rms < sqrt(0.6 lambda l_a) (repulsion 3/4), energy balance sqrt(0.24 lambda l_a), H = 0.8.
+    # For a broad band of H = 0.8 and lambda = 2 pi/q0 the bearing-area model (repulsion 3/4) gives
+    # h_rms < sqrt(0.6 lambda l_a), the energy balance sqrt(0.24 lambda l_a): they are known to be
+    # close (Ciavarella 2019, arXiv:1908.06380).
     q0, length = 1.0, 0.01
     s = spectrum.SelfAffine(hurst=0.8, q0=q0, q1=1e9, h_rms=1.0)
     energy = criteria.persson_tosatti(s, length).margin

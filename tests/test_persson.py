@@ -83,7 +83,7 @@ class Direct:
     def profile(self):
         """A' d(zeta), u1 and h at nodes graded to both ends of the magnifications."""
         z = self.q1 / self.q0 - 1
-        edges = np.unique([*0.5 ** np.arange(1, 13), *(1 - 0.5 ** np.arange(1, 14))])
+        edges = np.unique([*0.5 ** np.arange(1, 13), *(1 - 0.5 ** np.arange(1, 13, 0.4))])
         x, w = np.polynomial.legendre.leggauss(10)
         half = 0.5 * np.diff(edges)[:, None]
         zeta = 1 + z * (edges[:-1, None] + half * (1 + x)).ravel()
@@ -101,6 +101,8 @@ class Direct:
     def density(u, profile, variant):
         weight, gap, h = profile
         if variant == "afferrante2018":
+            open_ = gap > 1e-100  # else at no gap at all to any u > 0
+            weight, gap, h = weight[open_], gap[open_], h[open_]
             h = (h**-2.0 + gap**-2.0) ** -0.5
         u = np.asarray(u)[:, None]
         pair = np.exp(-((u - gap) ** 2) / (2 * h**2)) + np.exp(-((u + gap) ** 2) / (2 * h**2))
@@ -123,9 +125,9 @@ def test_agrees_with_the_formulas_evaluated_directly(hurst, magnification, gamma
         assert theory.area_fraction(p, zeta) == pytest.approx(direct.area(zeta), rel=1e-9)
         # 160 nodes against the logarithm of the inner integral at q0 are good for some 1e-7
         assert theory.mean_gap(p) == pytest.approx(direct.mean_gap(1.0), rel=1e-6)
-        # what the direct sum errs by where u1 climbs steeply, near q0
+        # the direct sum errs by some 1e-7 where u1 climbs steeply, near q0
         np.testing.assert_allclose(
-            theory.gap_density(u, p), direct.density(u, profile, variant), rtol=1e-5
+            theory.gap_density(u, p), direct.density(u, profile, variant), rtol=1e-6
         )
 
 

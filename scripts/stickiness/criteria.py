@@ -262,9 +262,9 @@ def fuller_tabor(
 
     The margin is threshold over theta. The original R is the radius of equal spheres on the
     surface. For random surfaces the default is R = 2/h'', the radius of the paraboloid whose
-    Laplacian is the root mean square one (the form of comparisons such as Pastewka & Robbins
-    2014); Nayak's mean summit curvature gives R = 1.085/h'' (`nayak_summit_radius`), a theta
-    larger by 1.36. The threshold is where the pull-off force has practically gone.
+    Laplacian is the root mean square one; Nayak's mean summit curvature gives R = 1.085/h''
+    (`nayak_summit_radius`), a theta larger by 1.36. The threshold is where the pull-off force
+    has practically gone.
 
     Parameters
     ----------

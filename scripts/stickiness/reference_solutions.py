@@ -24,8 +24,8 @@ class Westergaard:
     """Contact of a half-space with the wave ``amplitude * cos(2 pi x / wavelength)``.
 
     Westergaard, J. Appl. Mech. 6:49 (1939); Johnson, *Contact Mechanics* (1985), section 13.2.
-    The gap follows from the same complex function as the pressure: with psi = pi x / wavelength, its
-    real part is the pressure in contact, its imaginary part half the slope of the gap outside.
+    The gap follows from the same complex function as the pressure: its real part is the pressure
+    in contact, its imaginary part half the slope of the gap outside.
 
     Parameters
     ----------

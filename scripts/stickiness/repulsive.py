@@ -148,6 +148,8 @@ def solve(
     lengths = _check_length(length, heights.shape)
     pressure = _check_positive("pressure", pressure, zero=True)
     tol = _check_positive("tol", tol)
+    if max_iterations < 1:
+        raise ValueError(f"max_iterations must be at least 1, got {max_iterations!r}")
     if start is not None and start.pressure.shape != heights.shape:
         raise ValueError(
             f"start has the shape {start.pressure.shape}, the heights {heights.shape}: "

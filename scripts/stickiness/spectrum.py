@@ -115,6 +115,8 @@ class PowerLawSegments(Spectrum):
         Exponent a of each segment.
     """
 
+    prescribed = "C"
+
     def __init__(self, knots: ArrayLike, level: ArrayLike, exponent: ArrayLike):
         self._knots = np.asarray(knots, dtype=float)
         self._level = np.asarray(level, dtype=float)
@@ -266,8 +268,6 @@ class Tabulated(PowerLawSegments):
         Power spectral density [length^4] in this project's convention, positive.
     """
 
-    prescribed = "C"
-
     def __init__(self, q: ArrayLike, C: ArrayLike):
         q, C = np.asarray(q, dtype=float), np.asarray(C, dtype=float)
         if q.ndim != 1 or q.shape != C.shape or len(q) < 2:
@@ -341,7 +341,7 @@ class Shells(Spectrum):
     def truncated(self, q1: float) -> Shells:
         """Return the shells up to and including `q1`."""
         _check_cut(self, q1)
-        keep = self.q <= q1
+        keep = self.q <= q1 * (1 + _ROUNDING)
         return Shells(self.q[keep], self.variance[keep])
 
 

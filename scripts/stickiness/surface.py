@@ -72,7 +72,9 @@ def synthesise(
     Parameters
     ----------
     spectrum : Spectrum
-        Wave numbers from q0 >= 2 pi/length to q1 <= pi n/length.
+        Wave numbers from q0 >= 2 pi/length to q1 <= pi n/length. At that very limit the grid
+        shows only the cosine part of the two modes along its axes: a surface to be measured or
+        solved on the grid wants a few more pixels per wavelength.
     n : int
         Grid points per side.
     length : float
@@ -212,10 +214,24 @@ def _half_plane_modes(spectrum: Spectrum, length: float) -> tuple[NDArray, NDArr
     i, j, q = i[band], j[band], q[band]
     order = np.lexsort((j, i, i**2 + j**2))
     i, j, q = i[order], j[order], q[order]
-    variance = spectrum.psd(np.clip(q, spectrum.q0, spectrum.q1)) * dq**2
+    variance = _mode_variance(spectrum, q, dq)
     if not variance.any():
         raise ValueError(f"no wave vector of a window of length {length:.6g} lies in the band")
     return i, j, variance
+
+
+def _mode_variance(spectrum: Spectrum, q: NDArray, dq: float) -> NDArray:
+    """Height variance of each mode: C dq^2, or a shell's variance in equal parts."""
+    if not isinstance(spectrum, Shells):
+        return spectrum.psd(np.clip(q, spectrum.q0, spectrum.q1)) * dq**2
+    middle = (spectrum.q[1:] + spectrum.q[:-1]) / 2
+    shell = np.searchsorted(middle, q)
+    on_shell = np.abs(q - spectrum.q[shell]) <= _ROUNDING * q
+    count = 2 * np.bincount(shell[on_shell], minlength=len(spectrum.q))  # with mirror images
+    if not count.all():
+        missing = spectrum.q[np.argmin(count)]
+        raise ValueError(f"no wave vector of the window lies on the shell at q = {missing:.6g}")
+    return np.where(on_shell, (spectrum.variance / count)[shell], 0.0)
 
 
 def _evaluate(i: NDArray, j: NDArray, modes: NDArray, n: int) -> NDArray:

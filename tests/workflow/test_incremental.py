@@ -6,7 +6,7 @@ import pytest
 
 pytestmark = pytest.mark.workflow
 
-SEEDS, CASES, SURFACES = 2, 5, 5
+SEEDS, CASES, SURFACES = 2, 6, 6
 
 
 def test_clean_run_has_no_warnings(finished):

@@ -1,0 +1,71 @@
+"""Numbers as text for readers: rounded to what is known, with powers of ten and SI prefixes."""
+
+from __future__ import annotations
+
+import math
+
+_SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+_PREFIXES = {9: "G", 6: "M", 3: "k", 0: "", -3: "m", -6: "µ", -9: "n"}
+_PLAIN = range(-3, 5)  # decimal exponents written without a power of ten
+NOTHING = "–"
+
+
+def number(value: float, digits: int = 3) -> str:
+    """Value to `digits` significant digits, without trailing zeros."""
+    if not math.isfinite(value):
+        return NOTHING if math.isnan(value) else _signed(value, "∞")
+    power = _exponent(value, digits)
+    if power in _PLAIN:
+        text = _fixed(abs(value), digits - 1 - power)
+    else:
+        text = _fixed(abs(value) / 10.0**power, digits - 1)
+    text = text.rstrip("0").rstrip(".") if "." in text else text
+    return _signed(value, text + _times_ten_to(power))
+
+
+def with_error(value: float, error: float) -> str:
+    """``value ± error``, rounded to two digits of the error; an unknown or no error is left out."""
+    if not (math.isfinite(value) and math.isfinite(error) and error > 0):
+        return number(value, 4)
+    power = _exponent(max(abs(value), error), 4)
+    scale = 1.0 if power in _PLAIN else 10.0**power
+    decimals = 1 - _exponent(error / scale, 2)
+    shown, spread = (_fixed(abs(x) / scale, decimals) for x in (value, error))
+    text = f"{_signed(value, shown)} ± {spread}"
+    return text if power in _PLAIN else f"({text}){_times_ten_to(power)}"
+
+
+def interval(low: float, high: float, digits: int = 3) -> str:
+    """``low … high``, or one number where they agree."""
+    texts = number(low, digits), number(high, digits)
+    return texts[0] if texts[0] == texts[1] else " … ".join(texts)
+
+
+def quantity(low: float, high: float, unit: str, digits: int = 3) -> str:
+    """Interval in the SI prefix that suits its larger end."""
+    power = 3 * (_exponent(max(abs(low), abs(high)), digits) // 3)
+    power = min(max(power, min(_PREFIXES)), max(_PREFIXES))
+    scale = 10.0**power
+    return f"{interval(low / scale, high / scale, digits)} {_PREFIXES[power]}{unit}"
+
+
+def percent(share: float) -> str:
+    """Share as a percentage to two digits."""
+    return NOTHING if math.isnan(share) else f"{number(100 * share, 2)} %"
+
+
+def _exponent(value: float, digits: int) -> int:
+    """Decimal exponent of the value once it is rounded."""
+    return int(f"{value:.{digits - 1}e}".partition("e")[2])
+
+
+def _fixed(value: float, decimals: int) -> str:
+    return f"{round(value, decimals):.{max(decimals, 0)}f}"
+
+
+def _times_ten_to(power: int) -> str:
+    return "" if power in _PLAIN else f" × 10{str(power).translate(_SUPERSCRIPTS)}"
+
+
+def _signed(value: float, text: str) -> str:
+    return f"−{text}" if value < 0 else text

@@ -1,0 +1,267 @@
+"""Spectra: closed forms against quadrature and multiprecision, inverses, limits, errors."""
+
+import doctest
+
+import mpmath
+import numpy as np
+import pytest
+from scipy import integrate
+from stickiness import spectrum as module
+from stickiness.spectrum import SelfAffine, Shells, Tabulated
+
+
+def by_quadrature(s, a, b, power, breaks=()):
+    """2 pi int q^(1 + power) C dq over ln q, split where C has kinks."""
+    ends = np.unique(np.clip([a, b, *breaks], a, b))
+    parts = [
+        integrate.quad(
+            lambda t: 2 * np.pi * np.exp((2 + power) * t) * float(s.psd(np.exp(t))),
+            *np.log(pair),
+            epsabs=0,
+            epsrel=1e-11,
+            limit=200,
+        )[0]
+        for pair in zip(ends[:-1], ends[1:], strict=True)
+    ]
+    return sum(parts)
+
+
+@pytest.mark.parametrize("hurst", [1e-10, 0.3, 0.8, 1.0])
+@pytest.mark.parametrize(("q1", "q_rolloff"), [(3.0, None), (128.0, None), (2e4, 40.0)])
+@pytest.mark.parametrize("power", [0, 1, 2, 4])
+def test_moments_of_self_affine_spectra_agree_with_quadrature(hurst, q1, q_rolloff, power):
+    s = SelfAffine(hurst=hurst, q0=2.0, q1=q1, C0=0.3, q_rolloff=q_rolloff)
+    breaks = () if q_rolloff is None else (q_rolloff,)
+    for q in (2.0 * (q1 / 2.0) ** 0.2, 2.0 * (q1 / 2.0) ** 0.9):
+        below, above = (by_quadrature(s, *ends, power, breaks) for ends in ((2.0, q), (q, q1)))
+        # quad asks for 1e-11; C at the very ends is a matter of rounding
+        assert s.variance_below(q, power) == pytest.approx(below, rel=1e-9)
+        assert s.variance_above(q, power) == pytest.approx(above, rel=1e-9)
+    assert s.variance_below(q1, power) == pytest.approx(s.variance_above(2.0, power), rel=1e-14)
+
+
+@pytest.mark.parametrize("hurst", [0.2, 0.5, 0.9])
+def test_power_law_moments_in_closed_form(hurst):
+    q0, zeta, C0 = 0.7, 300.0, 2.0
+    s = SelfAffine(hurst=hurst, q0=q0, q1=q0 * zeta, C0=C0)
+    m0 = np.pi * C0 / hurst * q0 ** (-2 * hurst) * (1 - zeta ** (-2 * hurst))
+    m2 = np.pi * C0 / (2 - 2 * hurst) * q0 ** (2 - 2 * hurst) * (zeta ** (2 - 2 * hurst) - 1)
+    e4 = 4 - 2 * hurst
+    m4 = 0.75 * np.pi * C0 / e4 * q0**e4 * (zeta**e4 - 1)
+    for order, want in ((0, m0), (2, m2), (4, m4)):
+        assert s.moment(order) == pytest.approx(want, rel=1e-12)
+    assert s.h_rms == pytest.approx(np.sqrt(m0), rel=1e-12)
+    assert s.rms_slope == pytest.approx(np.sqrt(2 * m2), rel=1e-12)
+    assert s.rms_curvature == pytest.approx(np.sqrt(8 * m4 / 3), rel=1e-12)
+    assert s.nayak == pytest.approx(m0 * m4 / m2**2, rel=1e-12)
+
+
+def test_removable_singularities():
+    q0, zeta = 2.0, 1e3
+    unit_slope = SelfAffine(hurst=1.0, q0=q0, q1=q0 * zeta, C0=1.0)
+    assert unit_slope.moment(2) == pytest.approx(np.pi * np.log(zeta), rel=1e-14)
+    flat = SelfAffine(hurst=1e-14, q0=q0, q1=q0 * zeta, C0=1.0)
+    assert flat.moment(0) == pytest.approx(2 * np.pi * np.log(zeta), rel=1e-12)
+    near = SelfAffine(hurst=1 - 1e-9, q0=q0, q1=q0 * zeta, C0=1.0)
+    # relative change of m2 is (1 - H) ln(q0^2 zeta), here 1e-8
+    assert near.moment(2) == pytest.approx(unit_slope.moment(2), rel=2e-8)
+
+
+@pytest.mark.parametrize("q_rolloff", [None, 30.0])
+@pytest.mark.parametrize("zeta", [1.001, 64.0, 1e10])
+def test_prescribed_height(q_rolloff, zeta):
+    if q_rolloff is not None and zeta < 30:
+        q_rolloff = 1 + 0.5 * (zeta - 1)
+    s = SelfAffine(hurst=0.8, q0=1.0, q1=zeta, h_rms=2.5, q_rolloff=q_rolloff)
+    assert s.h_rms == pytest.approx(2.5, rel=1e-14)
+    same = SelfAffine(hurst=0.8, q0=1.0, q1=zeta, C0=s.C0, q_rolloff=q_rolloff)
+    assert same.h_rms == pytest.approx(2.5, rel=1e-14)
+    assert s.magnification == zeta
+    q = np.sqrt(zeta) if q_rolloff is None else np.sqrt(zeta * q_rolloff)
+    assert s.psd(q) == pytest.approx(s.C0 * q**-3.6, rel=1e-12)
+
+
+@pytest.mark.parametrize("hurst", [0.3, 0.8, 1.0])
+@pytest.mark.parametrize("distance", [1e-3, 1e-7, 1e-11])
+def test_no_cancellation_at_the_ends(hurst, distance):
+    s = SelfAffine(hurst=hurst, q0=1.0, q1=1e8, C0=1.0)
+    with mpmath.workdps(50):
+        for power in (0, 2):
+            e = mpmath.mpf(power) - 2 * mpmath.mpf(hurst)
+
+            def exact(a, b, e=e):
+                a, b = mpmath.mpf(a), mpmath.mpf(b)
+                return 2 * mpmath.pi * (mpmath.log(b / a) if e == 0 else (b**e - a**e) / e)
+
+            low, high = 1 + distance, 1e8 * (1 - distance)
+            # what is left is the rounding of q itself, 1e-16 in 1/distance
+            tolerance = 1e-13 + 4e-16 / distance
+            below, above = s.variance_below(low, power), s.variance_above(high, power)
+            assert float(below / exact(1, low) - 1) == pytest.approx(0, abs=tolerance)
+            assert float(above / exact(high, 1e8) - 1) == pytest.approx(0, abs=tolerance)
+
+
+SPECTRA = [
+    SelfAffine(hurst=0.8, q0=1.0, q1=1e4, h_rms=1.0),
+    SelfAffine(hurst=1.0, q0=1.0, q1=1e6, h_rms=1.0),
+    SelfAffine(hurst=0.3, q0=1.0, q1=1e4, C0=2.0, q_rolloff=10.0),
+    Tabulated([1.0, 2.0, 7.0, 500.0], [3.0, 1.0, 0.9, 1e-9]),
+]
+
+
+@pytest.mark.parametrize("s", SPECTRA)
+def test_inverse_of_the_gradient_variance(s):
+    q = s.q0 * s.magnification ** np.linspace(0, 1, 23)
+    back, above = s.at_gradient_variance(s.variance_below(q, 2))
+    # the steepest table has nearly all its gradient variance (1 - 1e-4) at low q: rounding of
+    # the variance moves q by up to 1e-11
+    np.testing.assert_allclose(back, q, rtol=1e-10)
+    np.testing.assert_allclose(above, s.variance_above(q), rtol=1e-9, atol=1e-13 * s.h_rms**2)
+
+
+@pytest.mark.parametrize("s", SPECTRA)
+@pytest.mark.parametrize("q1", [1.5, 10.0, 300.0])
+def test_truncation_keeps_the_rest(s, q1):
+    cut = s.truncated(q1)
+    q = np.geomspace(1.0, q1, 9)
+    np.testing.assert_allclose(cut.psd(q), s.psd(q), rtol=1e-12)
+    for power in (0, 2, 4):
+        assert cut.variance_below(q1, power) == pytest.approx(
+            s.variance_below(q1, power), rel=1e-12
+        )
+    assert (cut.q0, cut.q1) == (s.q0, q1)
+    assert cut.psd(q1 * 1.01) == 0
+    assert cut.prescribed != "h_rms"  # the part keeps C, not the whole's height
+
+
+def test_psd_is_zero_off_the_band_and_level_on_the_plateau():
+    s = SelfAffine(hurst=0.8, q0=1.0, q1=100.0, C0=2.0, q_rolloff=10.0)
+    assert list(s.psd([0.5, 100.1])) == [0, 0]
+    np.testing.assert_allclose(s.psd([1.0, 5.0, 10.0]), 2.0 * 10**-3.6, rtol=1e-13)
+    np.testing.assert_allclose(s.psd(100.0), 2.0 * 100**-3.6, rtol=1e-13)
+
+
+def test_table_is_linear_in_log_log():
+    q, C = np.array([1.0, 3.0, 4.0, 50.0]), np.array([2.0, 5.0, 0.1, 1e-6])
+    s = Tabulated(q, C)
+    at = np.array([1.0, 1.7, 3.5, 20.0, 50.0])
+    want = np.exp(np.interp(np.log(at), np.log(q), np.log(C)))
+    np.testing.assert_allclose(s.psd(at), want, rtol=1e-12)
+    for power in (0, 2, 4):
+        want = by_quadrature(s, 1.0, 50.0, power, q)
+        assert s.variance_below(50.0, power) == pytest.approx(want, rel=1e-9)
+    np.testing.assert_array_equal(s.knots, q)
+
+
+def test_table_of_a_plateau_and_a_power_law_is_the_roll_off_spectrum():
+    s = SelfAffine(hurst=0.7, q0=1.0, q1=1e3, C0=1.0, q_rolloff=10.0)
+    q = np.array([1.0, 4.0, 10.0, 90.0, 1e3])
+    table = Tabulated(q, s.psd(q))
+    for order in (0, 2, 4):
+        assert table.moment(order) == pytest.approx(s.moment(order), rel=1e-12)
+
+
+def test_shells_sum_up():
+    q, variance = np.array([1.0, 2.0, 5.0]), np.array([3.0, 0.5, 0.25])
+    s = Shells(q, variance)
+    for power in (0, 1, 2, 4):
+        terms = variance * q**power
+        at = [0.5, 1.0, 1.5, 2.0, 4.9, 5.0]
+        np.testing.assert_allclose(
+            s.variance_below(at, power), [terms[q <= a].sum() for a in at], rtol=1e-14
+        )
+        np.testing.assert_allclose(
+            s.variance_above(at, power), [terms[q > a].sum() for a in at], rtol=1e-14
+        )
+    # one wave a cos(kx) has h^2 = a^2/2, h'^2 = k^2 a^2/2, h''^2 = k^4 a^2/2
+    assert s.h_rms**2 == pytest.approx(3.75)
+    assert s.rms_slope**2 == pytest.approx(3 + 2 + 6.25)
+    assert s.rms_curvature**2 == pytest.approx(3 + 8 + 156.25)
+
+
+def test_shells_fill_in_proportion():
+    s = Shells([1.0, 2.0], [3.0, 0.5])
+    gradient = np.array([0.0, 1.5, 3.0, 4.0, 5.0])
+    q, above = s.at_gradient_variance(gradient)
+    np.testing.assert_array_equal(q, [1, 1, 1, 2, 2])
+    # half of the first shell leaves half its 3.0 and the 0.5 of the second
+    np.testing.assert_allclose(above, [3.5, 2.0, 0.5, 0.25, 0.0], atol=1e-15)
+
+
+def test_density_of_shells_holds_their_variance():
+    rng = np.random.default_rng(1)
+    q, variance = np.cumsum(rng.uniform(0.5, 2, 7)) + 1, rng.uniform(0.1, 1, 7)
+    s = Shells(q, variance)
+    at = np.linspace(0, q[-1] + 2, 400001)
+    total = integrate.trapezoid(2 * np.pi * at * s.psd(at), at)
+    # steps of C on a grid: first order, 4e5 points
+    assert total == pytest.approx(variance.sum(), rel=1e-4)
+
+
+def test_shells_leave_out_empty_ones_and_truncate():
+    s = Shells([1.0, 2.0, 3.0], [1.0, 0.0, 0.5])
+    np.testing.assert_array_equal(s.q, [1, 3])
+    assert s.truncated(2.5).variance.sum() == 1.0
+    # a cut at a shell keeps it whatever the last bit says
+    assert s.truncated(3.0 * (1 - 1e-15)).q1 == 3.0
+
+
+def test_elastic_energy():
+    # one wave of amplitude a under full contact: E* k a^2/8 (U = E* q <h^2>/4)
+    a, k = 0.3, 5.0
+    assert Shells([k], [a**2 / 2]).elastic_energy() == pytest.approx(k * a**2 / 8)
+    s = SelfAffine(hurst=0.8, q0=1.0, q1=64.0, C0=1.0)
+    want = np.pi / 2 * (1 - 64**-0.6) / 0.6  # (pi/2) int q^(2 - 3.6) dq
+    assert s.elastic_energy() == pytest.approx(want, rel=1e-12)
+
+
+def test_examples_in_the_documentation():
+    assert doctest.testmod(module).failed == 0
+
+
+GOOD = {"hurst": 0.8, "q0": 1.0, "q1": 10.0, "h_rms": 1.0}
+
+
+@pytest.mark.parametrize(
+    ("change", "name"),
+    [
+        ({"hurst": 0.0}, "hurst"),
+        ({"hurst": 1.2}, "hurst"),
+        ({"hurst": np.nan}, "hurst"),
+        ({"q0": 0.0}, "q0"),
+        ({"q1": 1.0}, "q1"),
+        ({"q1": np.inf}, "q1"),
+        ({"C0": 1.0}, "one of h_rms and C0"),
+        ({"h_rms": None}, "one of h_rms and C0"),
+        ({"h_rms": -1.0}, "h_rms"),
+        ({"h_rms": None, "C0": np.nan}, "C0"),
+        ({"q_rolloff": 0.5}, "q_rolloff"),
+        ({"q_rolloff": 10.0}, "q_rolloff"),
+    ],
+)
+def test_bad_self_affine_spectra_are_named(change, name):
+    with pytest.raises(ValueError, match=name):
+        SelfAffine(**{**GOOD, **change})
+
+
+@pytest.mark.parametrize(
+    ("call", "name"),
+    [
+        (lambda: Tabulated([1.0], [1.0]), "q and C"),
+        (lambda: Tabulated([1.0, 2.0], [1.0, 2.0, 3.0]), "q and C"),
+        (lambda: Tabulated([2.0, 1.0], [1.0, 1.0]), "increasing"),
+        (lambda: Tabulated([0.0, 1.0], [1.0, 1.0]), "q must be positive"),
+        (lambda: Tabulated([1.0, 2.0], [1.0, 0.0]), r"C\[1\]"),
+        (lambda: Tabulated([1.0, 2.0], [np.nan, 1.0]), r"C\[0\]"),
+        (lambda: Shells([1.0], [-1.0]), "variance"),
+        (lambda: Shells([1.0, 2.0], [0.0, 0.0]), "variance"),
+        (lambda: Shells([2.0, 1.0], [1.0, 1.0]), "increasing"),
+        (lambda: Shells([1.0], [1.0]).psd(1.0), "single shell"),
+        (lambda: SelfAffine(**GOOD).moment(3), "order"),
+        (lambda: SelfAffine(**GOOD).truncated(1.0), "q1"),
+        (lambda: SelfAffine(**GOOD).truncated(11.0), "q1"),
+    ],
+)
+def test_bad_spectra_are_named(call, name):
+    with pytest.raises(ValueError, match=name):
+        call()

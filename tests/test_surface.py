@@ -1,0 +1,254 @@
+"""Synthesised surfaces against lattice sums, analytic heights and each other."""
+
+import numpy as np
+import pytest
+from stickiness import surface
+from stickiness.spectrum import SelfAffine, Shells, Tabulated
+
+L = 2 * np.pi  # so that wave numbers are lattice indices
+
+
+def power_law(q1=16.0, q0=1.0, **kwargs):
+    size = kwargs or {"h_rms": 1.0}
+    return SelfAffine(hurst=0.8, q0=q0, q1=q1, **size)
+
+
+def test_window_holds_another_spectrum_than_the_continuum():
+    # the facts that theory and simulation must be compared with in mind, at H = 0.8, zeta = 64
+    s = power_law(64.0, C0=1.0)
+    window = surface.lattice_spectrum(s, L)
+    assert window.moment(0) / s.moment(0) == pytest.approx(1.72, abs=0.005)
+    assert window.moment(2) / s.moment(2) == pytest.approx(1.04, abs=0.005)
+    assert window.variance[0] / window.variance.sum() == pytest.approx(0.59, abs=0.005)
+    at_equal_height = surface.lattice_spectrum(power_law(64.0), L)
+    assert at_equal_height.h_rms == pytest.approx(1.0, rel=1e-13)
+    ratio = at_equal_height.rms_slope / power_law(64.0).rms_slope
+    assert ratio == pytest.approx(0.78, abs=0.005)
+
+
+@pytest.mark.parametrize("length", [L, 3.7])
+def test_lattice_spectrum_is_the_sum_over_wave_vectors(length):
+    dq = 2 * np.pi / length
+    s = SelfAffine(hurst=0.6, q0=1.5 * dq, q1=9.3 * dq, C0=2.0, q_rolloff=4 * dq)
+    sums = dict.fromkeys((0, 2, 4), 0.0)
+    for i in range(-12, 13):
+        for j in range(-12, 13):
+            q = dq * np.hypot(i, j)
+            if 1.5 * dq <= q <= 9.3 * dq:
+                C = 2.0 * max(q, 4 * dq) ** -3.2
+                for power in sums:
+                    sums[power] += C * dq**2 * q**power
+    window = surface.lattice_spectrum(s, length)
+    for power, want in sums.items():
+        assert window.variance_below(window.q1, power) == pytest.approx(want, rel=1e-12)
+    assert window.q0 == pytest.approx(2 * dq)
+    assert window.q1 == pytest.approx(dq * np.sqrt(85))  # 85 = 9^2 + 2^2, 86 is no sum of squares
+
+
+def test_lattice_sums_approach_the_integrals_in_large_windows():
+    # the number of lattice points within radius R differs from pi R^2 by some R^(2/3)
+    s = power_law(100.0, q0=20.0)
+    for length, tolerance in ((L, 2e-2), (4 * L, 4e-3)):
+        window = surface.lattice_spectrum(SelfAffine(hurst=0.8, q0=20.0, q1=100.0, C0=s.C0), length)
+        for order in (0, 2, 4):
+            assert window.moment(order) == pytest.approx(s.moment(order), rel=tolerance)
+
+
+@pytest.mark.parametrize("size", [{"h_rms": 0.3}, {"C0": 0.05}])
+def test_fixed_amplitudes_have_the_lattice_moments_exactly(size):
+    s = power_law(12.0, **size)
+    window = surface.lattice_spectrum(s, L)
+    m = surface.moments(surface.synthesise(s, 32, L, seed=5, amplitudes="fixed"), L)
+    assert m.m00 == pytest.approx(window.moment(0), rel=1e-12)
+    assert (m.m20 + m.m02) / 2 == pytest.approx(window.moment(2), rel=1e-12)
+    for name in ("h_rms", "rms_slope", "rms_curvature", "nayak"):
+        assert getattr(m, name) == pytest.approx(getattr(window, name), rel=1e-12)
+
+
+def test_isotropy_of_the_moments():
+    # 3 m22 = m40 = m04 holds for a ring of directions; q^5 C weighs the many modes near q1 = 64,
+    # whose directions are even to some 1e-3
+    m = surface.moments(surface.synthesise(power_law(64.0), 160, L, 1, amplitudes="fixed"), L)
+    assert m.m40 == pytest.approx(m.m04, rel=1e-12)  # the lattice has this symmetry
+    assert 3 * m.m22 == pytest.approx(m.m40, rel=5e-3)
+    assert m.m20 == pytest.approx(m.m02, rel=1e-12)
+
+
+def test_moments_of_one_wave():
+    n, length, a = 24, 3.0, 0.7
+    x = np.arange(n) * length / n
+    k = 2 * np.pi / length
+    h = a * np.cos(2 * k * x)[:, None] * np.ones(n) + 11.0
+    m = surface.moments(h, length)
+    assert m.m00 == pytest.approx(a**2 / 2)  # the mean does not count
+    assert m.m20 == pytest.approx((2 * k * a) ** 2 / 2)
+    assert m.m40 == pytest.approx((2 * k) ** 4 * a**2 / 2)
+    np.testing.assert_allclose([m.m02, m.m22, m.m04], 0, atol=1e-12 * m.m40)
+    product = a * np.cos(2 * k * x)[:, None] * np.sin(k * x)
+    assert surface.moments(product, length).m22 == pytest.approx(4 * k**4 * a**2 / 4)
+
+
+def test_gradient_agrees_with_finite_differences():
+    h = surface.synthesise(power_law(8.0), 32, L, seed=2)
+    fine = surface.resample(h, 512)
+    d = L / 512
+    gradient = [(np.roll(fine, -1, axis) - np.roll(fine, 1, axis)) / (2 * d) for axis in (0, 1)]
+    m = surface.moments(h, L)
+    # central differences lose (q d)^2/3 of the variance: 3e-3 at q = 8, less on average
+    assert np.mean(gradient[0] ** 2) == pytest.approx(m.m20, rel=3.3e-3)
+    assert np.mean(gradient[1] ** 2) == pytest.approx(m.m02, rel=3.3e-3)
+
+
+@pytest.mark.parametrize("amplitudes", ["gaussian", "fixed"])
+def test_height_is_as_prescribed(amplitudes):
+    for seed in range(3):
+        h = surface.synthesise(power_law(h_rms=0.2), 40, L, seed, amplitudes)
+        assert h.mean() == pytest.approx(0, abs=1e-15)
+        assert h.std() == pytest.approx(0.2, rel=1e-13)
+        assert h.shape == (40, 40)
+        assert h.dtype == np.float64
+
+
+def test_seed_decides():
+    s = power_law()
+    first, again, other = (surface.synthesise(s, 32, L, seed) for seed in (7, 7, 8))
+    np.testing.assert_array_equal(first, again)
+    correlation = np.mean(first * other)
+    # four modes hold more than half the variance, so chance correlations are sizeable
+    assert abs(correlation) < 0.9
+    assert np.abs(first - other).max() > 0.1
+
+
+@pytest.mark.parametrize("amplitudes", ["gaussian", "fixed"])
+def test_grids_sample_one_surface(amplitudes):
+    s = power_law(10.0)
+    coarse, fine, odd = (surface.synthesise(s, n, L, 3, amplitudes) for n in (24, 96, 72))
+    np.testing.assert_allclose(fine[::4, ::4], coarse, atol=1e-13)
+    np.testing.assert_allclose(odd[::3, ::3], coarse, atol=1e-13)
+
+
+def test_a_larger_band_adds_modes_to_those_there():
+    low, high = (surface.synthesise(power_law(q1, C0=0.1), 64, L, 11) for q1 in (8.0, 20.0))
+    k = np.fft.fftfreq(64, 1 / 64)
+    inside = np.hypot(*np.meshgrid(k, k)) <= 8 + 1e-9
+    difference = np.fft.fft2(high - low) / 64**2
+    assert np.abs(difference[inside]).max() < 1e-15
+    assert np.abs(difference[~inside]).max() > 1e-6
+
+
+def test_fixed_and_gaussian_surfaces_share_their_phases():
+    s = power_law()
+    gaussian, fixed = (
+        np.fft.fft2(surface.synthesise(s, 40, L, 4, kind)) for kind in ("gaussian", "fixed")
+    )
+    seen = np.abs(fixed) > 1e-6 * np.abs(fixed).max()
+    np.testing.assert_allclose(np.angle(gaussian[seen] / fixed[seen]), 0, atol=1e-9)
+
+
+@pytest.mark.parametrize(("q0", "q1"), [(1.0, 16.0), (2.0, 5.0), (np.sqrt(2), np.sqrt(50))])
+def test_band_limits_are_exact(q0, q1):
+    h = surface.synthesise(power_law(q1, q0), 64, L, 0)
+    k = np.fft.fftfreq(64, 1 / 64)
+    q = np.hypot(*np.meshgrid(k, k))
+    power = np.abs(np.fft.fft2(h) / 64**2) ** 2
+    band = (q > q0 - 1e-9) & (q < q1 + 1e-9)
+    assert power[~band].sum() < 1e-28
+    assert np.all(power[band] > 0)
+    realised = surface.realised_spectrum(h, L)
+    assert (realised.q0, realised.q1) == pytest.approx((q[band].min(), q[band].max()), rel=1e-12)
+    assert realised.h_rms == pytest.approx(1.0, rel=1e-12)
+
+
+def test_gaussian_modes_have_the_spectrum_on_average():
+    s = power_law(4.0, C0=1.0)
+    window = surface.lattice_spectrum(s, L)
+    seeds = 400
+    power = np.zeros((seeds, len(window.q)))
+    for seed in range(seeds):
+        realised = surface.realised_spectrum(surface.synthesise(s, 10, L, seed), L)
+        power[seed] = realised.variance
+    # each shell is a sum of count/2 exponential variables of equal mean
+    i, j = np.meshgrid(np.arange(-5, 6), np.arange(-5, 6))
+    count = np.array([np.sum(np.isclose(i**2 + j**2, q**2)) for q in window.q])
+    error = window.variance * np.sqrt(2 / count / seeds)
+    assert np.all(np.abs(power.mean(axis=0) - window.variance) < 4 * error)
+    # the standard error of a sample variance of 400 exponentials is 14 %
+    np.testing.assert_allclose(power.var(axis=0), window.variance**2 * 2 / count, rtol=4 * 0.14)
+
+
+@pytest.mark.parametrize("n", [33, 40, 64])
+def test_resampling_is_exact_for_a_band_limited_surface(n):
+    s = power_law(12.0)
+    h = surface.synthesise(s, 32, L, 9)
+    np.testing.assert_allclose(surface.resample(h, n), surface.synthesise(s, n, L, 9), atol=1e-12)
+    np.testing.assert_allclose(surface.resample(surface.resample(h, n), 32), h, atol=1e-12)
+    np.testing.assert_array_equal(surface.resample(h, 32), h)
+    with pytest.raises(ValueError, match="n = 20"):
+        surface.resample(h, 20)
+
+
+@pytest.mark.parametrize("amplitudes", ["gaussian", "fixed"])
+def test_surface_of_shells(amplitudes):
+    s = power_law(9.0, C0=1.0)
+    window = surface.lattice_spectrum(s, L)
+    # the shells of a window are on its lattice: same modes, same variances, same surface
+    np.testing.assert_allclose(
+        surface.synthesise(window, 24, L, 6, amplitudes),
+        surface.synthesise(s, 24, L, 6, amplitudes),
+        atol=1e-12,
+    )
+    again = surface.lattice_spectrum(window, L)
+    np.testing.assert_allclose(again.variance, window.variance, rtol=1e-12)
+    with pytest.raises(ValueError, match=r"shell at q = 2\.5"):
+        surface.synthesise(Shells([1.0, 2.5], [1.0, 1.0]), 24, L, 6)
+
+
+def test_truncated_and_tabulated_spectra_can_be_synthesised():
+    s = power_law(20.0, C0=1.0)
+    q = np.geomspace(1, 20, 5)
+    want = surface.synthesise(s.truncated(8.0), 64, L, 1)
+    got = surface.synthesise(Tabulated(q, s.psd(q)).truncated(8.0), 64, L, 1)
+    np.testing.assert_allclose(got, want, atol=1e-12)
+    plateau = SelfAffine(hurst=0.8, q0=1.0, q1=20.0, C0=1.0, q_rolloff=10.0).truncated(5.0)
+    window = surface.lattice_spectrum(plateau, L)
+    # 80 lattice points other than the origin lie within a radius of 5
+    assert window.h_rms**2 == pytest.approx(80 * 10**-3.6, rel=1e-12)
+
+
+def test_units_of_length_do_not_matter():
+    one = surface.synthesise(power_law(), 32, L, 1)
+    nano = SelfAffine(hurst=0.8, q0=1e9, q1=16e9, h_rms=1e-9)
+    np.testing.assert_allclose(surface.synthesise(nano, 32, L * 1e-9, 1) * 1e9, one, atol=1e-12)
+
+
+def test_two_pixels_per_wavelength_sample_the_surface_but_do_not_resolve_it():
+    # allowed, since the samples are the surface's; the sine part of the modes at the very limit
+    # is invisible on the grid, so its moments are not the surface's
+    s = power_law(16.0)
+    limit, fine = surface.synthesise(s, 32, L, 3), surface.synthesise(s, 64, L, 3)
+    np.testing.assert_allclose(fine[::2, ::2], limit, atol=1e-13)
+    assert fine.std() == pytest.approx(1.0, rel=1e-13)
+    assert limit.std() == pytest.approx(1.0, rel=1e-3)
+
+
+@pytest.mark.parametrize(
+    ("change", "name"),
+    [
+        ({"length": 0.9 * L}, "longest wavelength"),
+        ({"n": 31}, "n >= 32"),
+        ({"n": 1}, "n must"),
+        ({"n": 32.5}, "n must"),
+        ({"length": np.nan}, "length"),
+        ({"amplitudes": "random"}, "amplitudes"),
+        ({"spectrum": power_law(1.3, 1.1)}, "no wave vector"),
+    ],
+)
+def test_bad_arguments_are_named(change, name):
+    good = {"spectrum": power_law(), "n": 32, "length": L, "seed": 0}
+    with pytest.raises(ValueError, match=name):
+        surface.synthesise(**{**good, **change})
+
+
+def test_heights_must_be_square():
+    with pytest.raises(ValueError, match="square"):
+        surface.moments(np.zeros((3, 4)), 1.0)
