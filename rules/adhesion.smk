@@ -13,6 +13,8 @@ rule adhesion_dmt:
         f"{LOGS}/adhesion_dmt/{{adhesion}}.log",
     benchmark:
         f"{BENCHMARKS}/adhesion_dmt/{{adhesion}}.tsv"
+    conda:
+        "../envs/environment.yaml"
     resources:
         mem_mb=500,
     params:

@@ -2,10 +2,6 @@
 # the seeds of a case are averaged.
 
 
-def surface_of(wildcards):
-    return f"{RESULTS}/surfaces/{CASES[wildcards.case]['surface']}/seed{{seed}}.nc"
-
-
 rule solve_repulsive:
     input:
         library=library_of("solve_repulsive.py"),
@@ -16,6 +12,8 @@ rule solve_repulsive:
         f"{LOGS}/solve_repulsive/{{case}}/seed{{seed}}.log",
     benchmark:
         f"{BENCHMARKS}/solve_repulsive/{{case}}/seed{{seed}}.tsv"
+    conda:
+        "../envs/environment.yaml"
     resources:
         mem_mb=2000,
     params:
@@ -37,6 +35,8 @@ rule contact_maps:
         f"{LOGS}/contact_maps/{{case}}.log",
     benchmark:
         f"{BENCHMARKS}/contact_maps/{{case}}.tsv"
+    conda:
+        "../envs/environment.yaml"
     resources:
         mem_mb=2000,
     params:
@@ -56,6 +56,8 @@ rule average_ensemble:
         f"{LOGS}/average_ensemble/{{case}}.log",
     benchmark:
         f"{BENCHMARKS}/average_ensemble/{{case}}.tsv"
+    conda:
+        "../envs/environment.yaml"
     resources:
         mem_mb=1000,
     script:

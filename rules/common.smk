@@ -1,5 +1,5 @@
-# Turns the configuration into case tables, once it has been checked, and says what each job
-# depends on. No rule lives here.
+# Turns the configuration into case tables, once it has been checked, and says which files each
+# rule reads. No rule lives here.
 
 import ast
 import json
@@ -91,6 +91,45 @@ def imported_modules(path, root):
             candidates += [base, *(base / alias.name for alias in node.names)]
     files = [c.with_suffix(".py") for c in candidates] + [c / "__init__.py" for c in candidates]
     return [file for file in files if file.is_file()]
+
+
+def surface_of(wildcards):
+    """Surface of a case, with the seed left open."""
+    return f"{RESULTS}/surfaces/{CASES[wildcards.case]['surface']}/seed{{seed}}.nc"
+
+
+def topography_file(wildcards):
+    """The measured file of a real surface, if it has one of its own."""
+    file = REAL_SURFACES[wildcards.real_surface].get("file", "builtin:")
+    return [] if file.startswith("builtin:") else [file]
+
+
+def measured_a_v(wildcards):
+    """Fit of the a_V that the derived criterion uses."""
+    return f"{RESULTS}/fits/ensembles/{config['criteria']['a_v']['case']}.nc"
+
+
+def ledger_inputs():
+    """Files behind the claims, by the names that scripts/_claims.py uses."""
+    return {
+        "kappa_64": f"{RESULTS}/fits/kappa/H0.8_zeta64.nc",
+        "kappa_128": f"{RESULTS}/fits/kappa/H0.8_zeta128.nc",
+        "ensemble_wide": f"{RESULTS}/ensembles/H0.8_zeta32_wide.nc",
+        "fit_bem_wide": f"{RESULTS}/fits/ensembles/H0.8_zeta32_wide.nc",
+        "fit_bem_128": f"{RESULTS}/fits/ensembles/H0.8_zeta128.nc",
+        **{f"fig{n}": f"{RESULTS}/persson/fig{n}.nc" for n in ("1b", "3a", "3b", "3c", "3d")},
+        **{f"fit_fig{n}": f"{RESULTS}/fits/persson/fig{n}.nc" for n in ("3a", "3c", "3d")},
+        "adhesion_fig2": f"{RESULTS}/adhesion/fig2.nc",
+        "adhesion_rough": f"{RESULTS}/adhesion/fig4b_rough.nc",
+        "adhesion_smooth": f"{RESULTS}/adhesion/fig4b_smooth.nc",
+        "map": f"{RESULTS}/criteria/map.nc",
+        "asphalt": f"{RESULTS}/real_surfaces/asphalt.nc",
+        "polished_steel": f"{RESULTS}/real_surfaces/polished_steel.nc",
+        "surfaces": [f"{RESULTS}/real_surfaces/{name}.nc" for name in REAL_SURFACES],
+        "seeds": [
+            f"{RESULTS}/surfaces/H0.8_zeta64/seed{seed}.nc" for seed in seeds_of("H0.8_zeta64")
+        ],
+    }
 
 
 # --- A killed run ----------------------------------------------------------------------------

@@ -1,11 +1,6 @@
 # Stickiness criteria: the map of the paper and a verdict for every material on every surface.
 
 
-def measured_a_v(wildcards):
-    """Fit of the a_V that the derived criterion uses."""
-    return f"{RESULTS}/fits/ensembles/{config['criteria']['a_v']['case']}.nc"
-
-
 rule map_criterion:
     input:
         library=library_of("map_criterion.py"),
@@ -17,6 +12,8 @@ rule map_criterion:
         f"{LOGS}/map_criterion.log",
     benchmark:
         f"{BENCHMARKS}/map_criterion.tsv"
+    conda:
+        "../envs/environment.yaml"
     resources:
         mem_mb=500,
     params:
@@ -43,6 +40,8 @@ rule judge:
         f"{LOGS}/judge.log",
     benchmark:
         f"{BENCHMARKS}/judge.tsv"
+    conda:
+        "../envs/environment.yaml"
     resources:
         mem_mb=500,
     params:

@@ -21,6 +21,8 @@ rule plot_fig1:
         f"{LOGS}/plot_fig1.log",
     benchmark:
         f"{BENCHMARKS}/plot_fig1.tsv"
+    conda:
+        "../envs/environment.yaml"
     resources:
         mem_mb=500,
     script:
@@ -46,6 +48,8 @@ rule plot_fig2:
         f"{LOGS}/plot_fig2.log",
     benchmark:
         f"{BENCHMARKS}/plot_fig2.tsv"
+    conda:
+        "../envs/environment.yaml"
     resources:
         mem_mb=1000,
     script:
@@ -71,6 +75,8 @@ rule plot_fig3:
         f"{LOGS}/plot_fig3.log",
     benchmark:
         f"{BENCHMARKS}/plot_fig3.tsv"
+    conda:
+        "../envs/environment.yaml"
     resources:
         mem_mb=500,
     script:
@@ -95,6 +101,8 @@ rule plot_fig4:
         f"{LOGS}/plot_fig4.log",
     benchmark:
         f"{BENCHMARKS}/plot_fig4.tsv"
+    conda:
+        "../envs/environment.yaml"
     resources:
         mem_mb=500,
     params:
@@ -118,6 +126,8 @@ rule plot_fig5:
         f"{LOGS}/plot_fig5.log",
     benchmark:
         f"{BENCHMARKS}/plot_fig5.tsv"
+    conda:
+        "../envs/environment.yaml"
     resources:
         mem_mb=500,
     script:
@@ -139,6 +149,8 @@ rule plot_fig6:
         f"{LOGS}/plot_fig6.log",
     benchmark:
         f"{BENCHMARKS}/plot_fig6.tsv"
+    conda:
+        "../envs/environment.yaml"
     resources:
         mem_mb=500,
     script:

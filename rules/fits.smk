@@ -14,6 +14,8 @@ rule fit_a_v:
     wildcard_constraints:
         source="ensembles|persson|persson_lattice",
         name="[^/]+",
+    conda:
+        "../envs/environment.yaml"
     resources:
         mem_mb=500,
     params:
@@ -33,6 +35,8 @@ rule fit_kappa:
         f"{LOGS}/fit_kappa/{{case}}.log",
     benchmark:
         f"{BENCHMARKS}/fit_kappa/{{case}}.tsv"
+    conda:
+        "../envs/environment.yaml"
     resources:
         mem_mb=500,
     script:

@@ -11,6 +11,8 @@ rule persson_sweep:
         f"{LOGS}/persson_sweep/{{sweep}}.log",
     benchmark:
         f"{BENCHMARKS}/persson_sweep/{{sweep}}.tsv"
+    conda:
+        "../envs/environment.yaml"
     resources:
         mem_mb=1000,
     params:
@@ -31,6 +33,8 @@ rule persson_lattice:
         f"{LOGS}/persson_lattice/{{case}}.log",
     benchmark:
         f"{BENCHMARKS}/persson_lattice/{{case}}.tsv"
+    conda:
+        "../envs/environment.yaml"
     resources:
         mem_mb=1000,
     params:

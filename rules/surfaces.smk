@@ -10,6 +10,8 @@ rule synthesise_surface:
         f"{LOGS}/synthesise_surface/{{model_surface}}/seed{{seed}}.log",
     benchmark:
         f"{BENCHMARKS}/synthesise_surface/{{model_surface}}/seed{{seed}}.tsv"
+    conda:
+        "../envs/environment.yaml"
     resources:
         mem_mb=1000,
     params:

@@ -363,7 +363,10 @@ def roughness_limits(files: Files) -> Claim:
     printed = criteria.h_rms_limit(q0, 0.05, 1.0, criteria.PRINTED_A_V)
     a_v = float(files["map"].a_v)
     derived = criteria.h_rms_limit(q0, 0.05, 1.0, a_v)
-    relative = 0.6 * float(files["map"].a_v_error) / a_v
+    low, high = (
+        criteria.h_rms_limit(1e-9, 0.05, 1.0, float(end))
+        for end in (files["map"].a_v_low, files["map"].a_v_high)
+    )
     jtb = criteria.jtb_limit(q0, 0.05, 1.0)
     return Claim(
         13,
@@ -374,8 +377,9 @@ def roughness_limits(files: Files) -> Claim:
         67000.0,
         graded(False, abs(printed[1] / 67000 - 1) < 0.02),
         f"By 9/4: {printed[0]:.3g}, {printed[1]:.3g}, {printed[2]:.3g} (the last is not 1e6). With "
-        f"a_V = {a_v:.2f} as measured: {derived[0]:.3g}, {derived[1]:.3g}, {derived[2]:.3g}, each "
-        f"± {relative:.0%}. All below the roughness from which the DMT limit holds (JTB): "
+        f"a_V = {a_v:.2f} as measured: {derived[0]:.3g}, {derived[1]:.3g}, {derived[2]:.3g} "
+        f"({low / derived[1] - 1:+.0%}, {high / derived[1] - 1:+.0%}). All "
+        "below the roughness from which the DMT limit holds (JTB): "
         f"{jtb[0]:.3g}, {jtb[1]:.3g}, {jtb[2]:.3g}.",
         ("map",),
     )
@@ -388,8 +392,8 @@ def real_surfaces(files: Files) -> Claim:
     h_rms = np.sqrt(np.pi * c0 / float(rough.hurst)) * q0 ** -float(rough.hurst)
     printed = criteria.modulus_threshold(h_rms, q0, 0.05, 0.2e-9, criteria.PRINTED_A_V) / 1e6
     validity = criteria.dmt_validity(h_rms, q0, 0.05 / (printed * 1e6), 0.2e-9)
-    a_v, error = float(files["map"].a_v), float(files["map"].a_v_error)
-    derived = criteria.modulus_threshold(h_rms, q0, 0.05, 0.2e-9, a_v) / 1e6
+    a_v = [float(files["map"][name]) for name in ("a_v", "a_v_low", "a_v_high")]
+    derived = [criteria.modulus_threshold(h_rms, q0, 0.05, 0.2e-9, a) / 1e6 for a in a_v]
     above = [
         datasets.parameters(surface)["label"]
         for name, surface in files.items()
@@ -403,7 +407,8 @@ def real_surfaces(files: Files) -> Claim:
         np.nan,
         0.2,
         graded(abs(printed / 0.2 - 1) < 0.1 and not above, abs(printed / 0.2 - 1) < 0.2),
-        f"With a_V = {a_v:.2f} ± {error:.2f} as measured: {derived:.3g} MPa. Above the line: "
+        f"With a_V = {a_v[0]:.2f} as measured: {derived[0]:.3g} MPa ({derived[1]:.3g} to "
+        f"{derived[2]:.3g}). Above the line: "
         f"{', '.join(above) or 'none of the surfaces'}. Dahlquist's 1 MPa is of the same order. At "
         f"the threshold h_rms is {validity.margin:.1g} of what the DMT limit asks (JTB).",
         ("asphalt", "map"),

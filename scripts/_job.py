@@ -44,13 +44,12 @@ def job_of(rule: str, **wildcards: Any) -> Any:
     from types import SimpleNamespace
 
     from snakemake.api import SnakemakeApi
-    from snakemake.io import Wildcards
+    from snakemake.iocontainers import Wildcards
     from snakemake.settings.types import OutputSettings, ResourceSettings
 
     with SnakemakeApi(OutputSettings(quiet=None)) as api:
         workflow_api = api.workflow(ResourceSettings(cores=1), snakefile=Path("Snakefile"))
         workflow = workflow_api._workflow
-        workflow.include(Path("Snakefile").resolve(), overwrite_default_target=True)
         found = workflow.get_rule(rule)
         values = Wildcards(fromdict={key: str(value) for key, value in wildcards.items()})
         inputs, *_ = found.expand_input(values, groupid=None)

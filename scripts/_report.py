@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
-from _numbers import NOTHING, interval, number, percent, quantity, with_error
+from _numbers import interval, number, percent, quantity, with_error
 from stickiness import datasets
 from stickiness.errata import ERRATA
 
@@ -52,7 +52,8 @@ def summary(claims: xr.Dataset, verdicts: xr.Dataset, ensembles: Sequence[xr.Dat
     return {
         "claims": claims.sizes["claim"],
         "graded": [(name, graded[name], claim_tone(name)) for name in order if graded[name]],
-        "a_v": with_error(float(verdicts.a_v), float(verdicts.a_v_error)),
+        "a_v": number(float(verdicts.a_v)),
+        "a_v_range": interval(float(verdicts.a_v_low), float(verdicts.a_v_high)),
         "load": number(datasets.parameters(verdicts)["pressure"]),
         "pairs": verdicts.verdict.size,
         "materials": verdicts.sizes["material"],

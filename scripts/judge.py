@@ -19,7 +19,7 @@ def main(job):
     surfaces = dict(zip(job.params.surfaces, job.input.surfaces, strict=True))
     surfaces = {name: datasets.read(path, NEEDED) for name, path in surfaces.items()}
     materials = {name: properties(entry) for name, entry in job.params.materials.items()}
-    dataset = judged(materials, surfaces, a_v.value, a_v.error)
+    dataset = judged(materials, surfaces, a_v)
     datasets.write(
         dataset,
         job.output.dataset,
@@ -43,10 +43,10 @@ def properties(entry):
     }
 
 
-def judged(materials, surfaces, a_v, error):
+def judged(materials, surfaces, a_v):
     rows = [
         [
-            [state(material, surface.sel(end=end), a_v, error) for end in ENDS]
+            [state(material, surface.sel(end=end), a_v) for end in ENDS]
             for surface in surfaces.values()
         ]
         for material in materials.values()
@@ -68,8 +68,9 @@ def judged(materials, surfaces, a_v, error):
             "margin_high": collect("high"),
             "modulus_threshold": collect("threshold"),
             "dmt_valid": collect("dmt_valid"),
-            "a_v": ((), a_v),
-            "a_v_error": ((), error),
+            "a_v": ((), a_v.value),
+            "a_v_low": ((), a_v.low),
+            "a_v_high": ((), a_v.high),
         },
         coords=coords | {"criterion": names},
     )
@@ -78,14 +79,14 @@ def judged(materials, surfaces, a_v, error):
     return annotated(dataset)
 
 
-def state(material, surface, a_v, error):
+def state(material, surface, a_v):
     """Margins of all criteria for one material on one end of a surface, in SI units."""
     modulus, range_ = material["modulus"], material["range"]
     length = material["work_of_adhesion"] / modulus
     h, q0 = float(surface.h_rms), float(surface.q0)
     slope, curvature = float(surface.rms_slope), float(surface.rms_curvature)
     verdicts = (
-        criteria.violano(h, q0, length, range_, a_v),
+        criteria.violano(h, q0, length, range_, a_v.value),
         criteria.violano_printed(h, q0, length, range_),
         criteria.pastewka_robbins(slope, curvature, length, range_),
         criteria.fuller_tabor(h, curvature, length),
@@ -95,9 +96,11 @@ def state(material, surface, a_v, error):
     )
     return {
         "margins": {v.name: float(v.margin) for v in verdicts},
-        "low": float(criteria.violano(h, q0, length, range_, max(a_v - error, 1e-9)).margin),
-        "high": float(criteria.violano(h, q0, length, range_, a_v + error).margin),
-        "threshold": criteria.modulus_threshold(h, q0, material["work_of_adhesion"], range_, a_v),
+        "low": float(criteria.violano(h, q0, length, range_, a_v.low).margin),
+        "high": float(criteria.violano(h, q0, length, range_, a_v.high).margin),
+        "threshold": criteria.modulus_threshold(
+            h, q0, material["work_of_adhesion"], range_, a_v.value
+        ),
         "dmt_valid": int(criteria.dmt_validity(h, q0, length, range_).valid),
     }
 
@@ -124,12 +127,13 @@ def annotated(dataset):
         end=("1", "smooth or rough end of what is known of the surface"),
         criterion=("1", "stickiness criterion"),
         margin=("1", "threshold over actual value in the criterion's own form; sticky above 1"),
-        margin_low=("1", "margin of the derived criterion with a_V less its error"),
-        margin_high=("1", "margin of the derived criterion with a_V plus its error"),
+        margin_low=("1", "margin of the derived criterion at the low end of a_V"),
+        margin_high=("1", "margin of the derived criterion at the high end of a_V"),
         modulus_threshold=("Pa", "plane-strain modulus below which the pair sticks"),
         dmt_valid=("1", "1 where the JTB condition for the DMT limit holds"),
         a_v=("1", "a_V of the derived criterion"),
-        a_v_error=("1", "error of a_V"),
+        a_v_low=("1", "a_V less its sampling, discretisation and fit window errors"),
+        a_v_high=("1", "a_V plus these and its growth with bandwidth"),
         verdict=("1", "0 not sticky, 1 depends on what is not known, 2 sticky"),
         disagrees=("1", "1 where a criterion says the opposite of the derived one"),
     )

@@ -11,7 +11,7 @@ from stickiness import criteria, datasets
 def main(job):
     asked = job.params.map
     a_v = measured_a_v(job.input.a_v, job.input.theory, job.params.pressure)
-    dataset = limits(asked, a_v.value, a_v.error)
+    dataset = limits(asked, a_v)
     dataset = dataset.merge(slopes(asked["slope_parameter"], asked["slope_a_v"]))
     datasets.write(
         annotated(dataset),
@@ -21,7 +21,7 @@ def main(job):
     )
 
 
-def limits(asked, a_v, error):
+def limits(asked, a_v):
     """Largest h_rms/range that sticks, by measured and printed coefficient, and the DMT limit.
 
     With the range as unit of length only range q0 and l_a/range remain.
@@ -31,9 +31,9 @@ def limits(asked, a_v, error):
     length = xr.DataArray(length, dims="adhesion_length_over_range")
     q0, length = xr.broadcast(q0, length)
     curves = {
-        "h_rms_limit": a_v,
-        "h_rms_limit_low": max(a_v - error, 1e-9),
-        "h_rms_limit_high": a_v + error,
+        "h_rms_limit": a_v.value,
+        "h_rms_limit_low": a_v.low,
+        "h_rms_limit_high": a_v.high,
         "h_rms_limit_printed": criteria.PRINTED_A_V,
     }
     data = {
@@ -45,7 +45,8 @@ def limits(asked, a_v, error):
         "range_times_q0": q0.isel(adhesion_length_over_range=0).values,
         "adhesion_length_over_range": length.isel(range_times_q0=0).values,
     }
-    return xr.Dataset(data | {"a_v": a_v, "a_v_error": error}, coords=coords)
+    scalars = {"a_v": a_v.value, "a_v_low": a_v.low, "a_v_high": a_v.high}
+    return xr.Dataset(data | scalars, coords=coords)
 
 
 def slopes(parameters, a_v):
@@ -70,15 +71,13 @@ def annotated(dataset):
         range_times_q0=("1", "range times lowest wave number"),
         adhesion_length_over_range=("1", "adhesion length over range"),
         h_rms_limit=("1", f"{limit}, a_V as measured"),
-        h_rms_limit_low=("1", f"{limit}, a_V as measured less its error"),
-        h_rms_limit_high=("1", f"{limit}, a_V as measured plus its error"),
+        h_rms_limit_low=("1", f"{limit}, a_V at its low end"),
+        h_rms_limit_high=("1", f"{limit}, a_V at its high end"),
         h_rms_limit_printed=("1", f"{limit}, coefficient 9/4 as printed"),
         jtb_limit=("1", "smallest h_rms/range at which the DMT limit holds"),
         a_v=("1", "a_V of the derived criterion"),
-        a_v_error=(
-            "1",
-            "error of a_V: sampling, discretisation, fit window and bandwidth in quadrature",
-        ),
+        a_v_low=("1", "a_V less its sampling, discretisation and fit window errors"),
+        a_v_high=("1", "a_V plus these and its growth with bandwidth"),
         slope_parameter=("1", "range q0/(adhesion length/range)"),
         h_rms_over_range=("1", "rms height over range"),
         slope_angle=("degree", "angle of the area-load line against the load axis"),

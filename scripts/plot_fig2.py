@@ -4,6 +4,7 @@ import numpy as np
 from _job import start
 from _style import (
     BLACK,
+    BLUE,
     COLOURS,
     GREY,
     MARKERS,
@@ -16,10 +17,13 @@ from _style import (
     save,
 )
 from matplotlib.colors import to_rgb
+from matplotlib.patches import Rectangle
+from scipy.ndimage import uniform_filter
 from stickiness import criteria, datasets
 
 LINEAR_UP_TO = 0.3  # area fraction up to which the paper calls the area linear in load
 LOADS = [0.0065, 0.065, 0.26]  # over E* q0 h_rms, of panel B
+DETAIL = 0.35  # side of the detail in panels G to I, in window sides
 VARIANT = "afferrante2018"  # both variants of the theory have the same area
 GAP_COLOUR, CONTACT_COLOUR, ATTRACTION_COLOUR = "white", BLACK, "#FF2A00"
 PRESSURE_LABEL = r"pressure $p/(E^*q_0h_\mathrm{rms})$"
@@ -36,13 +40,18 @@ def main(job):
     panel_a(panels["A"], kappas)
     panel_b(panels["B"], adhesion)
     panel_c(panels["C"], list(zip(ensembles, lattices, strict=True)))
-    reach = float(adhesion.range_over_h_rms[0])
     loads = maps.pressure.values
-    for names, range_ in (("DEF", None), ("GHI", reach)):
-        for name, load in zip(names, loads, strict=True):
-            contact_map(panels[name], maps.sel(pressure=load), range_)
+    corner = densest(maps.gap.sel(pressure=loads[0]).transpose("y", "x").values == 0)
+    for name, load in zip("DEF", loads, strict=True):
+        contact_map(panels[name], maps.sel(pressure=load), None)
+        panels[name].add_patch(Rectangle(corner, DETAIL, DETAIL, fill=False, color=BLUE))
+        panels[name].set(xticks=[0, 0.5, 1], yticks=[0, 0.5, 1])
+    for name, load in zip("GHI", loads, strict=True):
+        contact_map(panels[name], maps.sel(pressure=load), float(adhesion.range_over_h_rms[0]))
+        x, y = corner
+        panels[name].set(xlim=(x, x + DETAIL), ylim=(y, y + DETAIL))
     panels["D"].set_ylabel("repulsive contact\n$y/L$")
-    panels["G"].set_ylabel(rf"with the zone $u\leq\epsilon$ (DMT)" + "\n$y/L$")
+    panels["G"].set_ylabel("blue frame, with attraction (DMT)\n$y/L$")
     letters(panels)
     save(figure, job.output)
 
@@ -134,6 +143,16 @@ def panel_c(ax, cases):
     ax.legend(handles=[straight, key(label="theory")], loc="upper left")
 
 
+def densest(contact):
+    """Lower left corner (x, y) of the detail with most contact, in window sides."""
+    size = round(DETAIL * len(contact))
+    inside = uniform_filter(contact.astype(float), size, mode="wrap")
+    margin = size // 2 + 1  # the detail does not wrap around
+    inner = inside[margin:-margin, margin:-margin]
+    row, column = np.unravel_index(np.argmax(inner), inner.shape)
+    return tuple((np.array([column, row]) + margin) / len(contact) - DETAIL / 2)
+
+
 def contact_map(ax, state, reach):
     """Repulsive contact black and, if `reach` is given, gaps up to it red."""
     gap = state.gap.transpose("y", "x").values
@@ -144,7 +163,7 @@ def contact_map(ax, state, reach):
     picture[gap == 0] = to_rgb(CONTACT_COLOUR)
     extent = (0, 1, 0, 1)  # the window, as unit of length
     ax.imshow(picture, origin="lower", extent=extent, aspect="equal", interpolation="none")
-    ax.set(xticks=[0, 0.5, 1], yticks=[0, 0.5, 1], xlabel="$x/L$")
+    ax.set_xlabel("$x/L$")
     ax.set_title(rf"$\hat{{p}}$ = {float(state.pressure):g}")
 
 

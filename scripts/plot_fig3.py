@@ -15,6 +15,7 @@ from _style import (
     key,
     letters,
     number,
+    plain_ticks,
     points,
     save,
     shades,
@@ -41,10 +42,12 @@ class Case:
 
     @property
     def hurst(self):
+        """Hurst exponent."""
         return datasets.parameters(self.areas)["hurst"]
 
     @property
     def magnification(self):
+        """Magnification q1/q0."""
         return datasets.parameters(self.areas)["magnification"]
 
 
@@ -82,22 +85,25 @@ def panel_a(ax, theory, cases):
         curve = theory.attractive_area.sel(magnification=magnification)
         ax.plot(curve["range"] ** EXPONENT, curve, color=colour, label=number(magnification))
     for index, case in enumerate(cases):
-        simulated_areas(ax, case, pressure, COLOURS[index], MARKERS[index])
+        sideways = 0.004 * (index - 1)
+        simulated_areas(ax, case, pressure, sideways, COLOURS[index], MARKERS[index])
     slope_guide(ax, pressure)
     limits(ax, 0.22)
     ax.set_title(rf"$H$ = 0.8, $\hat{{p}}$ = {pressure:g}")
-    lines = ax.legend(title=r"theory, $\zeta$ =", loc="upper left", ncols=2, title_fontsize=8)
+    lines = ax.legend(
+        title=r"theory, $\zeta$ =", loc="upper left", ncols=2, alignment="left", title_fontsize=8
+    )
     ax.add_artist(lines)
     law = key(linestyle=":", color=BLACK, label=rf"$a_V$ = {CONVERGED_A_V:g}")
     handles = [*case_keys(cases), law]
     ax.legend(handles=handles, loc="upper right", title="BEM", title_fontsize=8)
 
 
-def simulated_areas(ax, case, pressure, colour, marker):
+def simulated_areas(ax, case, pressure, sideways, colour, marker):
     area = case.areas.sel(pressure=pressure, method="nearest").sel(range=slice(3e-3, LARGEST_RANGE))
     area = area.isel(range=slice(None, None, 4))
     errors = area.attractive_area_standard_error, area.attractive_area_discretisation_error
-    x = area["range"] ** EXPONENT
+    x = area["range"] ** EXPONENT + sideways
     points(ax, x, area.attractive_area_mean, *errors, color=colour, marker=marker)
 
 
@@ -133,7 +139,7 @@ def panel_b(ax, theory):
         ax.plot(x, curve.attractive_area, color=colour, label=f"{float(curve.pressure):g}")
     limits(ax, 0.75)
     ax.set_title(rf"$H$ = 0.8, $\zeta$ = {number(theory.magnification)}, theory")
-    ax.legend(title=r"$\hat{p}$ =", loc="upper left", ncols=2, title_fontsize=8)
+    ax.legend(title=r"$\hat{p}$ =", loc="upper left", ncols=2, alignment="left", title_fontsize=8)
 
 
 def panel_c(ax, sweep, fit, cases):
@@ -149,7 +155,8 @@ def panel_c(ax, sweep, fit, cases):
         ax.plot(fit.magnification, robbins, "--", color=colour, linewidth=0.9)
         for case in cases:
             if case.hurst == hurst:
-                case_points(ax, case, case.magnification, LOAD, colour, MARKERS[index])
+                x = aside(case.magnification, 2 * (index - 1))
+                case_points(ax, case, x, LOAD, colour, MARKERS[index])
         ax.plot([], [], color=colour, marker=MARKERS[index], label=f"$H$ = {hurst:g}")
     ax.set(xscale="log", yscale="log", ylim=(0.6, 400))
     ax.set(xlabel=r"magnification $\zeta$", ylabel=r"$a_V$")
@@ -190,8 +197,11 @@ def panel_d(ax, sweep, fit, cases):
     curve = fit.a_v.sel(variant=VARIANT).isel(hurst=0, magnification=0)
     banded(ax, sweep.pressure, curve, GREY, "-")
     for index, case in enumerate(cases):
-        case_points(ax, case, aside(case.fit.pressure, index - 1), None, COLOURS[index], MARKERS[index])
-    ax.set(xscale="log", ylim=(0, 12), xlabel=PRESSURE_LABEL, ylabel=r"$a_V$")
+        case_points(
+            ax, case, aside(case.fit.pressure, index - 1), None, COLOURS[index], MARKERS[index]
+        )
+    ax.set(xscale="log", yscale="log", ylim=(1, 25), xlabel=PRESSURE_LABEL, ylabel=r"$a_V$")
+    plain_ticks(ax.yaxis, [1, 2, 3, 5, 10, 20])
     ax.set_title("$H$ = 0.8")
     theory = key(label=rf"theory, $\zeta$ = {number(sweep.magnification)}")
     ax.legend(handles=[theory, *case_keys(cases), *point_keys()[1:]], loc="upper right")

@@ -48,9 +48,7 @@ def panel_a(ax, curve):
     for index, (length, colour) in enumerate(zip(lengths, shades(len(lengths)), strict=True)):
         state = curve.sel(adhesion_length_over_range=length, method="nearest")
         external = state.pressure - state.attraction
-        error = total_error(
-            state.attraction_standard_error, state.attraction_discretisation_error
-        )
+        error = total_error(state.attraction_standard_error, state.attraction_discretisation_error)
         look = {"color": colour, "marker": MARKERS[index], "markersize": 3.5, "linewidth": 0.9}
         ax.errorbar(external, state.area_fraction, xerr=error, elinewidth=0.7, **look)
         ax.plot([], [], **look, label=f"{length:g}")
@@ -62,8 +60,9 @@ def panel_a(ax, curve):
         rf"$\zeta$ = {number(made['magnification'])}, "
         rf"$\epsilon/h_\mathrm{{rms}}$ = {number(curve.range_over_h_rms)}"
     )
-    ax.text(0.97, 0.05, "DMT: loading = unloading,\nno hysteresis", ha="right", transform=ax.transAxes)
-    ax.legend(title=LENGTH_LABEL.split()[-1], title_fontsize=8, loc="upper left")
+    text = "DMT: loading = unloading,\nno hysteresis"
+    ax.text(0.97, 0.05, text, ha="right", transform=ax.transAxes)
+    ax.legend(title=r"$l_a/\epsilon$", title_fontsize=8, loc="upper left")
 
 
 def panel_b(ax, sets, a_v):
@@ -79,6 +78,17 @@ def panel_b(ax, sets, a_v):
             measured(ax, at_range, lengths, 1.0, colour, marker)
     shaded(ax)
     ax.set(xscale="log", yscale="log", xlabel=LENGTH_LABEL, ylabel=r"$1/\kappa_\mathrm{ad}$")
+    ax.set_title(rf"DMT limit, $\hat{{p}}$ = {float(sets[0].pressure):g}")
+    families = ax.legend(
+        handles=range_keys(sets[0].range_over_h_rms.values),
+        title=r"$\epsilon/h_\mathrm{rms}$",
+        title_fontsize=8,
+        loc="upper left",
+        bbox_to_anchor=(0, 0.95),
+        ncols=2,
+        alignment="left",
+    )
+    ax.add_artist(families)
     ax.legend(handles=[*set_keys(sets), *line_keys(a_v)], loc="lower right")
 
 
@@ -104,6 +114,13 @@ def shaded(ax):
     ax.set_ylim(low, high)
     ax.axhspan(THRESHOLD, high, color=GREY, alpha=0.15, linewidth=0)
     ax.text(0.03, 0.965, r"sticky: $1/\kappa_\mathrm{ad}$ > 1/2", transform=ax.transAxes, va="top")
+
+
+def range_keys(ranges):
+    colours = shades(len(ranges))
+    return [
+        key(color=colour, label=f"{reach:g}") for colour, reach in zip(colours, ranges, strict=True)
+    ]
 
 
 def set_keys(sets):
@@ -139,8 +156,9 @@ def panel_c(ax, sets, a_v, error):
             measured(ax, one, x, scale[place], colour, marker)
     ax.axhline(1, color=GREY, linewidth=0.9)
     low, high = (a_v - error) / PAPER_A_V, (a_v + error) / PAPER_A_V
-    ax.axhspan(low, high, color=GREY, alpha=0.15, linewidth=0)
-    ax.axhline(a_v / PAPER_A_V, color=GREY, linestyle=":", linewidth=0.9)
+    band = ax.axhspan(low, high, color=GREY, alpha=0.15, linewidth=0)
+    line = ax.axhline(a_v / PAPER_A_V, color=GREY, linestyle=":", linewidth=0.9)
+    ax.legend([(band, line)], [rf"$a_V$ = {a_v:.1f} ± {error:.1f} as fitted"], loc="lower left")
     ax.set(xscale="log", xlabel=r"range $\epsilon/h_\mathrm{rms}$", ylim=(0, 2))
     ax.set(ylabel=rf"$1/\kappa_\mathrm{{ad}}$ over formula, $a_V$ = {PAPER_A_V:g}")
 

@@ -10,13 +10,12 @@ from _style import (
     canvas,
     key,
     letters,
-    number,
     save,
     shades,
 )
-from stickiness import criteria, datasets
+from stickiness import datasets
 
-LENGTHS = [0.001, 0.01, 0.05, 0.1, 1.0, 10.0]  # l_a/range
+LENGTHS = [0.001, 0.01, 0.1, 1.0, 10.0]  # l_a/range
 EMPHASISED = 0.05  # a crystal on itself
 CLAIMED = {1e-6: 1e3, 1e-9: 6.7e4, 1e-12: 1e6}  # range q0 and the paper's limit of h_rms/range
 ROUGHNESS_LABEL = r"roughness $h_\mathrm{rms}/\epsilon$"
@@ -36,11 +35,10 @@ def panel_a(ax, data):
     for length, colour in zip(LENGTHS, shades(len(LENGTHS)), strict=True):
         limit = at_length(data.h_rms_limit, length)
         ax.plot(data.range_times_q0, limit, color=colour, label=f"{length:g}")
-        if length == EMPHASISED:
-            emphasised(ax, data, length)
+    emphasised(ax, data, EMPHASISED)
     unsafe(ax, data)
-    ax.set(xscale="log", yscale="log", xlim=(1e-12, 1e-2), ylim=(1, 1e10))
-    ax.set(xlabel=r"$\epsilon q_0$", ylabel=rf"largest sticky {ROUGHNESS_LABEL}")
+    ax.set(xscale="log", yscale="log", xlim=(4e-13, 1e-2), ylim=(1, 1e10))
+    ax.set(xlabel=r"lowest wave number $\epsilon q_0$", ylabel=rf"largest sticky {ROUGHNESS_LABEL}")
     lines = ax.legend(title=r"$l_a/\epsilon$", title_fontsize=8, loc="upper right", ncols=2)
     ax.add_artist(lines)
     ax.legend(handles=emphasis_keys(data), loc="lower left")
@@ -74,16 +72,17 @@ def unsafe(ax, data):
     order = np.argsort(ratio)
     crossing = np.exp(np.interp(0.0, ratio[order], limit[order]))
     ax.axhspan(crossing, 1e10, color=GREY, alpha=0.15, linewidth=0)
-    ax.text(3e-12, 1.3 * crossing, "threshold outside the DMT range", fontsize=8)
+    ax.text(1e-12, 1.4 * crossing, "threshold outside\nthe DMT range", fontsize=8)
 
 
 def emphasis_keys(data):
     a_v, error = float(data.a_v), float(data.a_v_error)
+    text = rf"$l_a/\epsilon$ = {EMPHASISED:g}, $a_V$ = {a_v:.1f} ± {error:.1f}"
     return [
-        key(color=RED, linewidth=2, label=rf"$l_a/\epsilon$ = {EMPHASISED:g}, $a_V$ = {a_v:.2f} ± {error:.2f}"),
+        key(color=RED, linewidth=2, label=text),
         key(color=RED, linestyle="--", label="9/4 as printed"),
-        key(color=RED, linestyle="none", marker="o", mfc="white", label="numbers in the paper"),
-        key(color=BLACK, linestyle="-.", label="DMT valid above (JTB)"),
+        key(color=RED, linestyle="none", marker="o", mfc="white", label="the paper's numbers"),
+        key(color=BLACK, linestyle="-.", label="JTB: DMT valid above"),
     ]
 
 

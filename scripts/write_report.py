@@ -9,7 +9,8 @@ from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from stickiness import datasets
 
 CLAIMS = ("statement", "quantity", "value", "uncertainty", "claimed", "verdict", "remark")
-VERDICTS = ("margin", "modulus_threshold", "dmt_valid", "verdict", "disagrees", "a_v", "a_v_error")
+VERDICTS = ("margin", "modulus_threshold", "dmt_valid", "verdict", "disagrees")
+A_V = ("a_v", "a_v_low", "a_v_high")
 SURFACES = ("h_rms", "hurst", "q0", "q1", "C0_reference_upper")
 ENSEMBLES = ("area_fraction_mean", "mean_gap_mean", "attractive_area_mean", "residual")
 
@@ -19,7 +20,7 @@ def main(job):
     page = render(
         job.input.template,
         claims=datasets.read(job.input.claims, CLAIMS),
-        verdicts=datasets.read(job.input.verdicts, VERDICTS),
+        verdicts=datasets.read(job.input.verdicts, VERDICTS + A_V),
         ensembles=[datasets.read(path, ENSEMBLES) for path in job.input.ensembles],
         surfaces={Path(path).stem: datasets.read(path, SURFACES) for path in job.input.surfaces},
         figures=[_captions.figure(*pair) for pair in zip(job.input.figures, captions, strict=True)],

@@ -1,10 +1,12 @@
 """Persson's theory against its formulas evaluated directly, limits, and conservation of energy."""
 
+import doctest
+
 import mpmath
 import numpy as np
 import pytest
 from scipy import integrate, special
-from stickiness import surface
+from stickiness import persson, surface
 from stickiness.persson import Persson
 from stickiness.persson_kernels import kernels
 from stickiness.spectrum import SelfAffine, Shells, Tabulated
@@ -249,7 +251,7 @@ def test_load_falls_exponentially_with_the_gap():
     assert np.all(np.abs(decay / 2 - 1) < 0.15)
 
 
-@pytest.mark.parametrize("gap", [1e-6, 0.1, 1.0, 8.0])
+@pytest.mark.parametrize("gap", [1e-200, 1e-6, 0.1, 1.0, 8.0, 60.0])
 def test_pressure_at_inverts_mean_gap(gap):
     for s in (power_law(), power_law(1.01), Shells([1.0, 2.0], [1.0, 0.1])):
         theory = Persson(s)
@@ -444,8 +446,14 @@ def test_shapes():
         (lambda s: Persson(s).gap_cumulative(np.nan, 0.1), "u must"),
         (lambda s: Persson(s).gap_density(1.0, [0.1, np.inf]), "p must"),
         (lambda s: Persson(s).pressure_at(0.0), "mean_gap"),
+        (lambda s: Persson(s).pressure_at(1e4), "mean_gap must lie"),
+        (lambda s: Persson(s).pressure_at(1e-290), "mean_gap must lie"),
     ],
 )
 def test_bad_arguments_are_named(call, name):
     with pytest.raises(ValueError, match=name):
         call(power_law(10.0))
+
+
+def test_examples_in_the_documentation():
+    assert doctest.testmod(persson).failed == 0

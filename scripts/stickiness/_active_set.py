@@ -2,12 +2,18 @@
 
 See `stickiness.repulsive` for the problem and the method. Pressures of the contact set are kept as
 short vectors over its points; whole grids are touched once per update of the set.
+
+The gap is always computed in double precision. Corrections of the pressure between two updates are
+solved for in single precision: they reduce the gap by a factor of 10 or 1000, so that the seven
+digits are plenty, and the next update starts from the true gap again (iterative refinement).
 """
 
 from dataclasses import dataclass
 
 import numpy as np
 from scipy import sparse
+
+from stickiness import fourier
 
 __all__ = ["State", "relax"]
 
@@ -16,6 +22,7 @@ _LOOSE = 0.3  # reduction of the gap on a set that is still changing much
 _CLOSER = 0.03  # and on one that changes little
 _SETTLED = 1e-3  # share of changing points below which a set changes little
 _ADMITTED = 0.7  # penetrations up to this multiple of the rms gap in contact may yet vanish
+_RESOLVED = 1e-4  # largest reduction of the gap asked of a correction in single precision
 _EXTENSION = 0.8  # weight of the residual extended beyond the edge of contact
 _DIAGONAL = 0.6  # weight of a diagonal neighbour beside a direct one
 _PATIENCE = 8  # updates without progress after which the set is solved ten times tighter
@@ -35,21 +42,15 @@ class State:
     pairs: int
 
 
-class _Grid:
-    """Heights on a grid with its operator and two scratch fields."""
+class _Field:
+    """A field that is zero but at some points, and its image under an operator."""
 
-    def __init__(self, operator, heights):
+    def __init__(self, operator):
         self.operator = operator
-        self.heights = heights
-        self.shape = heights.shape
-        self.field = np.zeros(heights.size)
-        self.image = np.empty(heights.size)
-        self.active = np.zeros(heights.size, bool)
-
-    def rows(self, points):
-        hit = np.zeros(self.shape[0], bool)
-        hit[points // self.shape[1]] = True
-        return np.flatnonzero(hit)
+        self.shape = operator.shape
+        size = self.shape[0] * self.shape[1]
+        self.field = np.zeros(size, operator.dtype)
+        self.image = np.empty(size, operator.dtype)
 
     def apply(self, operation, points, values, rows_in, rows_out=None):
         """Image of a field that is zero but for `values` at `points`; `image` holds it."""
@@ -57,6 +58,30 @@ class _Grid:
         operation(self.field.reshape(self.shape), self.image.reshape(self.shape), rows_in, rows_out)
         self.field[points] = 0
         return self.image
+
+
+class _Grid(_Field):
+    """Heights on a grid, and scratch fields in double and in single precision."""
+
+    def __init__(self, operator, heights):
+        super().__init__(operator)
+        self.heights = heights
+        self.active = np.zeros(heights.size, bool)
+        self.quick = _Field(fourier.half_space(self.shape, operator.lengths, np.float32))
+        self._before = self._count()
+
+    def _count(self):
+        return self.operator.pairs + self.quick.operator.pairs
+
+    @property
+    def pairs(self):
+        """Convolutions since this object was made."""
+        return self._count() - self._before
+
+    def rows(self, points):
+        hit = np.zeros(self.shape[0], bool)
+        hit[points // self.shape[1]] = True
+        return np.flatnonzero(hit)
 
 
 def relax(operator, heights, load, guess, *, predict, tol, max_iterations, logger=None):
@@ -86,7 +111,6 @@ def relax(operator, heights, load, guess, *, predict, tol, max_iterations, logge
     State
         The iterate of the smallest residual.
     """
-    before = operator.pairs
     if guess.min() > 0:
         full = _full_contact(operator, heights, load)
         if full.pressure.min() >= 0:
@@ -134,7 +158,7 @@ def relax(operator, heights, load, guess, *, predict, tol, max_iterations, logge
             pressure *= total / pressure.sum()
             precondition = None
         changed += admitted.size
-    return _state(grid, best, pressure, iterations, operator.pairs - before)
+    return _state(grid, best, pressure, iterations)
 
 
 def _full_contact(operator, heights, load):
@@ -216,14 +240,15 @@ def _inner(precondition, gaps, goal, largest, limit):
     """Change of pressure, of zero sum, that closes the gap on a set of points.
 
     Preconditioned conjugate gradients in the space of vectors of zero sum, until the rms
-    residual (or the `largest`) is down to `goal`.
+    residual (or the `largest`) is down to `goal`. In single precision, in units of the rms gap.
     """
-    grid, points = precondition.grid, precondition.points
-    change, count = np.zeros(points.size), 1
-    if points.size == 1:
+    quick, points, rows = precondition.quick, precondition.points, precondition.inner_rows
+    scale = float(np.std(gaps))
+    change, count = np.zeros(points.size, np.float32), 1
+    if points.size == 1 or scale == 0:
         return change, count
-    rows = grid.rows(points)
-    residual = gaps.mean() - gaps
+    goal = max(goal / scale, _RESOLVED)
+    residual = ((gaps.mean() - gaps) / scale).astype(np.float32)
     direction, product = None, 1.0
     while True:
         z = precondition(residual)
@@ -234,10 +259,10 @@ def _inner(precondition, gaps, goal, largest, limit):
         if direction is None:
             direction = z
         else:
-            direction *= product / previous
+            direction *= np.float32(product / previous)
             direction += z
-        image = grid.apply(grid.operator.compliance, points, direction, rows, rows)[points]
-        step = product / float(direction @ image)
+        image = quick.apply(quick.operator.compliance, points, direction, rows, rows)[points]
+        step = np.float32(product / float(direction @ image))
         change += step * direction
         image *= step
         residual -= image
@@ -246,7 +271,9 @@ def _inner(precondition, gaps, goal, largest, limit):
         if norm <= goal or count >= limit:
             break
         count += 1
-    return change, count
+    change = change.astype(float)
+    change -= change.mean()
+    return scale * change, count
 
 
 class _Preconditioner:
@@ -257,44 +284,48 @@ class _Preconditioner:
     """
 
     def __init__(self, grid, points):
-        self.grid = grid
+        self.quick = grid.quick
         self.points = points
+        self.inner_rows = grid.rows(points)
         self.extension = None
         self.every = points
         if points.size < grid.heights.size:
-            self._extend()
+            self._extend(grid)
         self.rows = grid.rows(self.every)
 
-    def _extend(self):
-        grid, points = self.grid, self.points
+    def _extend(self, grid):
+        points = self.points
+        reached = np.zeros(grid.active.size, bool)
+        for neighbour, _ in _neighbours(points, grid.shape):
+            reached[neighbour] = True
+        reached[points] = False
+        band = np.flatnonzero(reached)
         grid.active[points] = True
-        targets, sources, weights = [], [], []
-        for neighbour, weight in _neighbours(points, grid.shape):
-            outside = np.flatnonzero(~grid.active[neighbour])
-            targets.append(neighbour[outside])
-            sources.append(outside)
-            weights.append(np.full(outside.size, weight))
+        position = grid.quick.image.view(np.int32)  # scratch: not in use here
+        position[points] = np.arange(points.size, dtype=np.int32)
+        # Eight entries a row, those of neighbours out of contact being zero: no sorting needed.
+        columns = np.zeros((band.size, 8), np.int32)
+        weights = np.zeros((band.size, 8), np.float32)
+        for i, (neighbour, weight) in enumerate(_neighbours(band, grid.shape)):
+            touching = grid.active[neighbour]
+            weights[:, i] = np.float32(weight) * touching
+            columns[:, i] = np.where(touching, position[neighbour], 0)
         grid.active[points] = False
-        targets, sources = np.concatenate(targets), np.concatenate(sources)
-        weights = np.concatenate(weights)
-        grid.active[targets] = True
-        band = np.flatnonzero(grid.active)
-        grid.active[band] = False
-        index = np.searchsorted(band, targets)
-        counts = np.bincount(index, weights, band.size)
-        weights *= _EXTENSION / (1 + counts[index])
+        weights *= np.float32(_EXTENSION) / (1 + weights.sum(axis=1, keepdims=True))
+        starts = np.arange(0, 8 * band.size + 1, 8, dtype=np.int32)
         size = (band.size, points.size)
-        self.extension = sparse.csr_array((weights, (index, sources)), shape=size)
-        self.transpose = self.extension.T.tocsr()
+        self.extension = sparse.csr_array((weights.ravel(), columns.ravel(), starts), shape=size)
+        self.transpose = self.extension.T
         self.every = np.concatenate([points, band])
 
     def __call__(self, residual):
-        grid, points = self.grid, self.points
-        operation = grid.operator.stiffness
+        """Approximate pressure for a displacement of the points, both in single precision."""
+        quick, points, rows = self.quick, self.points, self.rows
+        stiffness = quick.operator.stiffness
         if self.extension is None:
-            return grid.apply(operation, points, residual, self.rows, self.rows)[points]
+            return quick.apply(stiffness, points, residual, rows, rows)[points]
         values = np.concatenate([residual, self.extension @ residual])
-        image = grid.apply(operation, self.every, values, self.rows, self.rows)[self.every]
+        image = quick.apply(stiffness, self.every, values, rows, rows)[self.every]
         return image[: points.size] + self.transpose @ image[points.size :]
 
 
@@ -318,12 +349,11 @@ def _neighbours(points, shape):
         yield right, _DIAGONAL if i else 1.0
 
 
-def _state(grid, best, last, iterations, pairs):
+def _state(grid, best, last, iterations):
     residual, touching, pressure, shift = best
     gap = grid.image
     if pressure is not last:  # the image belongs to a later, worse iterate
         _gap(grid, touching, pressure)
-        pairs += 1
     gap += shift
     np.maximum(gap, 0, out=gap)
     gap[touching] = 0
@@ -335,5 +365,5 @@ def _state(grid, best, last, iterations, pairs):
         area_fraction=touching.size / gap.size,
         residual=residual,
         iterations=iterations,
-        pairs=pairs,
+        pairs=grid.pairs,
     )
