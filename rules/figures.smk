@@ -90,6 +90,7 @@ rule plot_fig4:
         rough=f"{RESULTS}/adhesion/fig4b_rough.nc",
         smooth=f"{RESULTS}/adhesion/fig4b_smooth.nc",
         a_v=measured_a_v,
+        theory=f"{RESULTS}/fits/persson/fig3c.nc",
     output:
         png=report(
             f"{RESULTS}/figures/fig4.png",

@@ -149,14 +149,3 @@ def plain_ticks(axis: Axis, values: Iterable[float]) -> None:
 def key(**look: Any) -> Line2D:
     """Legend handle that belongs to no curve in particular."""
     return Line2D([], [], **({"color": GREY} | look))
-
-
-def number(value: float) -> str:
-    """Short text of a parameter: 0.05, 500, 10⁴ (as mathtext), 2·10⁴."""
-    value = float(value)
-    if 1e-3 <= abs(value) < 1e4:
-        return f"{value:g}"
-    exponent = int(np.floor(np.log10(abs(value)) + 1e-9))
-    factor = f"{value / 10.0**exponent:.3g}"
-    power = f"10^{{{exponent}}}"
-    return f"${power}$" if factor == "1" else rf"${factor}\cdot{power}$"

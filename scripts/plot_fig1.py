@@ -2,6 +2,7 @@
 
 import numpy as np
 from _job import start
+from _numbers import number
 from _style import (
     COLOURS,
     GREY,
@@ -12,7 +13,6 @@ from _style import (
     guide,
     key,
     letters,
-    number,
     plain_ticks,
     save,
     shades,

@@ -2,6 +2,7 @@
 
 import numpy as np
 from _job import start
+from _numbers import number
 from _style import (
     BLACK,
     BLUE,
@@ -12,18 +13,17 @@ from _style import (
     canvas,
     key,
     letters,
-    number,
     points,
     save,
 )
 from matplotlib.colors import to_rgb
 from matplotlib.patches import Rectangle
-from scipy.ndimage import uniform_filter
+from scipy.ndimage import gaussian_filter
 from stickiness import criteria, datasets
 
 LINEAR_UP_TO = 0.3  # area fraction up to which the paper calls the area linear in load
 LOADS = [0.0065, 0.065, 0.26]  # over E* q0 h_rms, of panel B
-DETAIL = 0.35  # side of the detail in panels G to I, in window sides
+DETAIL = 0.3  # side of the detail in panels G to I, in window sides
 VARIANT = "afferrante2018"  # both variants of the theory have the same area
 GAP_COLOUR, CONTACT_COLOUR, ATTRACTION_COLOUR = "white", BLACK, "#FF2A00"
 PRESSURE_LABEL = r"pressure $p/(E^*q_0h_\mathrm{rms})$"
@@ -41,7 +41,7 @@ def main(job):
     panel_b(panels["B"], adhesion)
     panel_c(panels["C"], list(zip(ensembles, lattices, strict=True)))
     loads = maps.pressure.values
-    corner = densest(maps.gap.sel(pressure=loads[0]).transpose("y", "x").values == 0)
+    corner = densest(maps.gap.sel(pressure=loads[1]).transpose("y", "x").values == 0)
     for name, load in zip("DEF", loads, strict=True):
         contact_map(panels[name], maps.sel(pressure=load), None)
         panels[name].add_patch(Rectangle(corner, DETAIL, DETAIL, fill=False, color=BLUE))
@@ -144,13 +144,11 @@ def panel_c(ax, cases):
 
 
 def densest(contact):
-    """Lower left corner (x, y) of the detail with most contact, in window sides."""
-    size = round(DETAIL * len(contact))
-    inside = uniform_filter(contact.astype(float), size, mode="wrap")
-    margin = size // 2 + 1  # the detail does not wrap around
-    inner = inside[margin:-margin, margin:-margin]
-    row, column = np.unravel_index(np.argmax(inner), inner.shape)
-    return tuple((np.array([column, row]) + margin) / len(contact) - DETAIL / 2)
+    """Lower left corner (x, y) of the detail around the densest contact, in window sides."""
+    density = gaussian_filter(contact.astype(float), DETAIL * len(contact) / 4, mode="wrap")
+    row, column = np.unravel_index(np.argmax(density), density.shape)
+    centre = np.array([column, row]) / len(contact)
+    return tuple(np.clip(centre - DETAIL / 2, 0, 1 - DETAIL))
 
 
 def contact_map(ax, state, reach):

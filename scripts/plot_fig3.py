@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 import xarray as xr
 from _job import start
+from _numbers import number
 from _style import (
     BLACK,
     COLOURS,
@@ -14,7 +15,6 @@ from _style import (
     canvas,
     key,
     letters,
-    number,
     plain_ticks,
     points,
     save,
@@ -138,7 +138,7 @@ def panel_b(ax, theory):
         x = curve["range"] ** EXPONENT
         ax.plot(x, curve.attractive_area, color=colour, label=f"{float(curve.pressure):g}")
     limits(ax, 0.75)
-    ax.set_title(rf"$H$ = 0.8, $\zeta$ = {number(theory.magnification)}, theory")
+    ax.set_title(rf"$H$ = 0.8, $\zeta$ = {number(float(theory.magnification))}, theory")
     ax.legend(title=r"$\hat{p}$ =", loc="upper left", ncols=2, alignment="left", title_fontsize=8)
 
 
@@ -203,7 +203,7 @@ def panel_d(ax, sweep, fit, cases):
     ax.set(xscale="log", yscale="log", ylim=(1, 25), xlabel=PRESSURE_LABEL, ylabel=r"$a_V$")
     plain_ticks(ax.yaxis, [1, 2, 3, 5, 10, 20])
     ax.set_title("$H$ = 0.8")
-    theory = key(label=rf"theory, $\zeta$ = {number(sweep.magnification)}")
+    theory = key(label=rf"theory, $\zeta$ = {number(float(sweep.magnification))}")
     ax.legend(handles=[theory, *case_keys(cases), *point_keys()[1:]], loc="upper right")
 
 

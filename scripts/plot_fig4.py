@@ -3,6 +3,7 @@
 import numpy as np
 from _criteria import measured_a_v
 from _job import start
+from _numbers import number
 from _style import (
     BLACK,
     GREY,
@@ -10,7 +11,6 @@ from _style import (
     canvas,
     key,
     letters,
-    number,
     points,
     save,
     shades,
@@ -31,11 +31,11 @@ def main(job):
         datasets.read(path, names).sel(pressure=job.params.pressure, method="nearest")
         for path in (job.input.rough, job.input.smooth)
     ]
-    a_v, error = measured_a_v(job.input.a_v, job.params.pressure)
+    a_v = measured_a_v(job.input.a_v, job.input.theory, job.params.pressure)
     figure, panels = canvas("AB;CB", 5.2, width_ratios=[1, 1.15])
     panel_a(panels["A"], curve)
-    panel_b(panels["B"], sets, a_v)
-    panel_c(panels["C"], sets, a_v, error)
+    panel_b(panels["B"], sets, a_v.value)
+    panel_c(panels["C"], sets, a_v)
     letters(panels)
     save(figure, job.output)
 
@@ -58,7 +58,7 @@ def panel_a(ax, curve):
     ax.set(ylabel=r"area $A_\mathrm{rep}/A_\mathrm{nom}$")
     ax.set_title(
         rf"$\zeta$ = {number(made['magnification'])}, "
-        rf"$\epsilon/h_\mathrm{{rms}}$ = {number(curve.range_over_h_rms)}"
+        rf"$\epsilon/h_\mathrm{{rms}}$ = {number(float(curve.range_over_h_rms))}"
     )
     text = "DMT: loading = unloading,\nno hysteresis"
     ax.text(0.97, 0.05, text, ha="right", transform=ax.transAxes)
@@ -140,11 +140,11 @@ def line_keys(a_v):
     return [
         key(color=BLACK, marker="o", mfc="white", linestyle="none", label="DMT not valid"),
         key(label=rf"formula, $a_V$ = {PAPER_A_V:g}"),
-        key(linestyle=":", label=rf"formula, $a_V$ = {a_v:.2g} as fitted"),
+        key(linestyle=":", label=rf"formula, $a_V$ = {a_v:.2g} as measured"),
     ]
 
 
-def panel_c(ax, sets, a_v, error):
+def panel_c(ax, sets, a_v):
     """Simulation over formula against the range: the adhesion length drops out."""
     for index, (marker, data) in enumerate(zip(MARKERS, sets, strict=False)):
         data = data.isel(adhesion_length_over_range=0)
@@ -155,10 +155,12 @@ def panel_c(ax, sets, a_v, error):
             x = one.range_over_h_rms * 1.08 ** (index - 0.5)
             measured(ax, one, x, scale[place], colour, marker)
     ax.axhline(1, color=GREY, linewidth=0.9)
-    low, high = (a_v - error) / PAPER_A_V, (a_v + error) / PAPER_A_V
-    band = ax.axhspan(low, high, color=GREY, alpha=0.15, linewidth=0)
-    line = ax.axhline(a_v / PAPER_A_V, color=GREY, linestyle=":", linewidth=0.9)
-    ax.legend([(band, line)], [rf"$a_V$ = {a_v:.1f} ± {error:.1f} as fitted"], loc="lower left")
+    band = ax.axhspan(
+        a_v.low / PAPER_A_V, a_v.high / PAPER_A_V, color=GREY, alpha=0.15, linewidth=0
+    )
+    line = ax.axhline(a_v.value / PAPER_A_V, color=GREY, linestyle=":", linewidth=0.9)
+    text = rf"$a_V$ = {a_v.value:.1f} ({a_v.low:.1f} to {a_v.high:.1f}) as measured"
+    ax.legend([(band, line)], [text], loc="lower left")
     ax.set(xscale="log", xlabel=r"range $\epsilon/h_\mathrm{rms}$", ylim=(0, 2))
     ax.set(ylabel=rf"$1/\kappa_\mathrm{{ad}}$ over formula, $a_V$ = {PAPER_A_V:g}")
 

@@ -22,7 +22,7 @@ ROUGHNESS_LABEL = r"roughness $h_\mathrm{rms}/\epsilon$"
 
 
 def main(job):
-    data = datasets.read(job.input.map, ["h_rms_limit", "jtb_limit", "slope_angle"])
+    data = datasets.read(job.input.map, ["h_rms_limit", "jtb_limit", "slope_angle", "a_v_low"])
     figure, panels = canvas("AB", 3.9, width_ratios=[1.25, 1])
     panel_a(panels["A"], data)
     panel_b(panels["B"], data)
@@ -76,8 +76,8 @@ def unsafe(ax, data):
 
 
 def emphasis_keys(data):
-    a_v, error = float(data.a_v), float(data.a_v_error)
-    text = rf"$l_a/\epsilon$ = {EMPHASISED:g}, $a_V$ = {a_v:.1f} ± {error:.1f}"
+    a_v, low, high = (float(data[name]) for name in ("a_v", "a_v_low", "a_v_high"))
+    text = rf"$l_a/\epsilon$ = {EMPHASISED:g}, $a_V$ = {a_v:.1f} ({low:.1f} to {high:.1f})"
     return [
         key(color=RED, linewidth=2, label=text),
         key(color=RED, linestyle="--", label="9/4 as printed"),

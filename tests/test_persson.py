@@ -315,8 +315,8 @@ def test_closure_of_the_two_variants():
 
 
 def test_attractive_areas_of_the_first_evaluation():
-    # A_ad/(1.5 p (eps/h)^(2/3)) at p = 0.065, H = 0.8 from an independent implementation
-    # (trapezoidal sums over magnification), given to two digits
+    # A_ad/(1.5 p (eps/h)^(2/3)) at p = 0.065, H = 0.8 from an independent first evaluation of the
+    # theory, given to two digits
     eps = np.array([0.01, 0.03, 0.1])
     table = {
         128.0: [1.8, 1.9, 2.1],

@@ -27,8 +27,8 @@ from stickiness import _active_set, fourier
 
 __all__ = ["Contact", "ConvergenceError", "load_path", "solve"]
 
-_COARSEST = 16  # points along the shorter side of the coarsest grid
-_COARSE_TOLERANCE = 1e-3  # of h_rms: a guess for the next grid needs no more
+_COARSEST = 32  # points along the shorter side of the coarsest grid
+_COARSE_TOLERANCE = 1e-2  # of h_rms: a guess for the next grid needs no more
 _NEARLY_FULL = 0.9  # contact area fraction from which the full-contact pressure is the better guess
 
 
