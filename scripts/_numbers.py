@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 
 _SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 _PREFIXES = {9: "G", 6: "M", 3: "k", 0: "", -3: "m", -6: "µ", -9: "n"}
@@ -38,7 +39,14 @@ def with_error(value: float, error: float) -> str:
 def interval(low: float, high: float, digits: int = 3) -> str:
     """``low … high``, or one number where they agree."""
     texts = number(low, digits), number(high, digits)
-    return texts[0] if texts[0] == texts[1] else " … ".join(texts)
+    if texts[0] == texts[1]:
+        return texts[0]
+    powers = [_exponent(value, digits) if value else 0 for value in (low, high)]
+    if all(power in _PLAIN for power in powers) or abs(powers[1] - powers[0]) > 2:
+        return " … ".join(texts)
+    shared = max(powers, key=abs) if max(powers) in _PLAIN else max(powers)
+    scaled = (number(value / 10.0**shared, digits) for value in (low, high))
+    return f"({' … '.join(scaled)}){_times_ten_to(shared)}"
 
 
 def quantity(low: float, high: float, unit: str, digits: int = 3) -> str:
@@ -47,6 +55,11 @@ def quantity(low: float, high: float, unit: str, digits: int = 3) -> str:
     power = min(max(power, min(_PREFIXES)), max(_PREFIXES))
     scale = 10.0**power
     return f"{interval(low / scale, high / scale, digits)} {_PREFIXES[power]}{unit}"
+
+
+def superscripted(unit: str) -> str:
+    """A unit with ``^2`` as ``²``; broken exponents stay."""
+    return re.sub(r"\^(-?\d+)(?![\d.])", lambda found: found[1].translate(_SUPERSCRIPTS), unit)
 
 
 def percent(share: float) -> str:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import re
 from collections import Counter
 from collections.abc import Mapping, Sequence
@@ -10,7 +11,7 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
-from _numbers import interval, number, percent, quantity, with_error
+from _numbers import interval, number, percent, quantity, superscripted, with_error
 from stickiness import datasets
 from stickiness.errata import ERRATA
 
@@ -72,22 +73,37 @@ def claim_tone(verdict: str) -> str:
     return CLAIM_TONES.get(verdict, "open")
 
 
-def claim_rows(claims: xr.Dataset) -> list[Context]:
-    """One row for every claim."""
-    return [
-        {
-            "number": int(claim),
-            "statement": str(row.statement.item()),
-            "verdict": str(row.verdict.item()),
-            "tone": claim_tone(str(row.verdict.item())),
-            "quantity": str(row.quantity.item()),
-            "measured": with_error(float(row.value), float(row.uncertainty)),
-            "claimed": number(float(row.claimed), 4),
-            "remark": str(row.remark.item()),
-            "sources": grouped(str(row.sources.item()).split()) or ["closed form"],
-        }
-        for claim, row in ((c, claims.sel(claim=c)) for c in claims.claim.values)
-    ]
+def claims_table(claims: xr.Dataset) -> Context:
+    """One row for every claim, with its files relative to the folder that holds them all."""
+    paths = {
+        int(claim): str(claims.sources.sel(claim=claim).item()).split()
+        for claim in claims.claim.values
+    }
+    every = [path for sources in paths.values() for path in sources]
+    folder = os.path.commonpath([*map(os.path.dirname, every)]) if every else ""
+    return {
+        "folder": folder,
+        "rows": [
+            claim_row(claims.sel(claim=claim), [os.path.relpath(p, folder or ".") for p in sources])
+            for claim, sources in paths.items()
+        ],
+    }
+
+
+def claim_row(claim: xr.Dataset, sources: Sequence[str]) -> Context:
+    """One claim."""
+    verdict = str(claim.verdict.item())
+    return {
+        "number": int(claim.claim),
+        "statement": str(claim.statement.item()),
+        "verdict": verdict,
+        "tone": claim_tone(verdict),
+        "quantity": str(claim.quantity.item()),
+        "measured": with_error(float(claim.value), float(claim.uncertainty)),
+        "claimed": number(float(claim.claimed), 4),
+        "remark": str(claim.remark.item()),
+        "sources": grouped(sources) or ["closed form"],
+    }
 
 
 def grouped(paths: Sequence[str]) -> list[str]:
@@ -149,7 +165,7 @@ def material_row(name: str, entry: Mapping[str, Any]) -> Context:
         "name": name,
         "label": entry["label"],
         "modulus": modulus,
-        "work_of_adhesion": entry["work_of_adhesion"],
+        "work_of_adhesion": superscripted(entry["work_of_adhesion"]),
         "range": entry["range"],
         "source": entry.get("source", ""),
     }
@@ -157,14 +173,15 @@ def material_row(name: str, entry: Mapping[str, Any]) -> Context:
 
 def verdict_cell(pair: xr.Dataset) -> Context:
     """Verdict on one pair, with its margin and modulus threshold from rough to smooth end."""
-    margin = pair.margin.sel(criterion=DERIVED)
     ends = ("rough", "smooth")
+    margins = [float(pair.margin.sel(criterion=DERIVED, end=end)) for end in ends]
+    thresholds = [float(pair.modulus_threshold.sel(end=end)) for end in ends]
     return {
         "verdict": STICKINESS[int(pair.verdict)],
         "tone": STICKINESS_TONES[int(pair.verdict)],
         "outside": not bool(pair.dmt_valid.all()),
-        "margin": interval(*(float(margin.sel(end=end)) for end in ends)),
-        "threshold": quantity(*(float(pair.modulus_threshold.sel(end=end)) for end in ends), "Pa"),
+        "margin": interval(*margins, digits=2),
+        "threshold": quantity(*thresholds, "Pa", digits=2),
     }
 
 
@@ -225,7 +242,7 @@ def reference_prefactor(surface: xr.Dataset) -> str:
         return with_error(float(surface.C0_reference), float(surface.C0_reference_error))
     upper = surface.C0_reference_upper
     bound = "" if np.isclose(float(surface.hurst), 0.8) else "≤ "
-    return bound + interval(*(float(upper.sel(end=end)) for end in ("smooth", "rough")))
+    return bound + interval(*(float(upper.sel(end=end)) for end in ("smooth", "rough")), digits=2)
 
 
 def error_budgets(ensembles: Sequence[xr.Dataset]) -> list[Context]:

@@ -42,7 +42,7 @@ def main(job):
 
 def panel_a(ax, theory):
     """P(u) at a given mean gap for a few magnifications."""
-    theory = theory.isel(hurst=0, load=0)
+    hurst, theory = float(theory.hurst[0]), theory.isel(hurst=0, load=0)
     for colour, magnification in zip(COLOURS, theory.magnification.values, strict=False):
         for variant, line in VARIANT_LINES.items():
             curve = theory.gap_density.sel(variant=variant, magnification=magnification)
@@ -52,7 +52,7 @@ def panel_a(ax, theory):
     guide(ax, u, 0.9 * (u / u[0]) ** (-1 / 3), r"$u^{-1/3}$", (1.2e-2, 0.43))
     mean = float(theory.mean_gap.mean())
     ax.set(xlabel=GAP_LABEL, ylabel=DENSITY_LABEL, xlim=(1e-4, 10), ylim=(2e-2, 3))
-    ax.set_title(rf"$H$ = 0.8, $\bar{{u}}/h_\mathrm{{rms}}$ = {mean:.3g}")
+    ax.set_title(rf"$H$ = {hurst:g}, $\bar{{u}}/h_\mathrm{{rms}}$ = {mean:.3g}")
     handles, _ = ax.get_legend_handles_labels()
     ax.legend(handles=handles + variant_keys(), loc="lower left")
 
@@ -63,6 +63,7 @@ def variant_keys():
 
 def panel_b(ax, theory):
     """P at fixed gaps against magnification, and where u^(-1/3) would put the limits."""
+    hurst = float(theory.hurst[0])
     theory = theory.isel(hurst=0, load=0).sel(variant="afferrante2018")
     limit = float(at_gap(theory, REFERENCE_GAP)[-1])
     last = float(theory.magnification[-1])
@@ -75,7 +76,7 @@ def panel_b(ax, theory):
             level = limit * (gap / REFERENCE_GAP) ** (-1 / 3)
             ax.plot([last / 30, last], [level, level], ":", color=GREY, linewidth=1.1)
     mean = float(theory.mean_gap.mean())
-    ax.set_title(rf"$H$ = 0.8, $\bar{{u}}/h_\mathrm{{rms}}$ = {mean:.3g}")
+    ax.set_title(rf"$H$ = {hurst:g}, $\bar{{u}}/h_\mathrm{{rms}}$ = {mean:.3g}")
     ax.set(xlabel=r"magnification $\zeta$", ylabel=DENSITY_LABEL, xlim=(2, 3e7), ylim=(0.2, 4))
     plain_ticks(ax.yaxis, [0.2, 0.3, 0.5, 1, 2, 3])
     ax.text(1.7 * last, 2.95, r"$u/h_\mathrm{rms}$", ha="center", fontsize=8)

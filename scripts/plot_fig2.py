@@ -40,18 +40,7 @@ def main(job):
     panel_a(panels["A"], kappas)
     panel_b(panels["B"], adhesion)
     panel_c(panels["C"], list(zip(ensembles, lattices, strict=True)))
-    loads = maps.pressure.values
-    corner = densest(maps.gap.sel(pressure=loads[1]).transpose("y", "x").values == 0)
-    for name, load in zip("DEF", loads, strict=True):
-        contact_map(panels[name], maps.sel(pressure=load), None)
-        panels[name].add_patch(Rectangle(corner, DETAIL, DETAIL, fill=False, color=BLUE))
-        panels[name].set(xticks=[0, 0.5, 1], yticks=[0, 0.5, 1])
-    for name, load in zip("GHI", loads, strict=True):
-        contact_map(panels[name], maps.sel(pressure=load), float(adhesion.range_over_h_rms[0]))
-        x, y = corner
-        panels[name].set(xlim=(x, x + DETAIL), ylim=(y, y + DETAIL))
-    panels["D"].set_ylabel("repulsive contact\n$y/L$")
-    panels["G"].set_ylabel("blue frame, with attraction (DMT)\n$y/L$")
+    draw_maps(panels, maps, float(adhesion.range_over_h_rms[0]))
     letters(panels)
     save(figure, job.output)
 
@@ -141,6 +130,22 @@ def panel_c(ax, cases):
     ax.set(xlabel=PRESSURE_LABEL, ylabel=AREA_LABEL, xlim=(0, 0.55), ylim=(0, 0.48))
     straight = key(linestyle=":", label=r"$\kappa$ = 2, $\langle 1/h'_\mathrm{rms}\rangle$")
     ax.legend(handles=[straight, key(label="theory")], loc="upper left")
+
+
+def draw_maps(panels, maps, reach):
+    """Up to three loads: the window without, and its densest detail with adhesion."""
+    loads = maps.pressure.values
+    middle = maps.gap.sel(pressure=loads[len(loads) // 2]).transpose("y", "x").values
+    x, y = densest(middle == 0)
+    for name, load in zip("DEF", loads, strict=False):
+        contact_map(panels[name], maps.sel(pressure=load), None)
+        panels[name].add_patch(Rectangle((x, y), DETAIL, DETAIL, fill=False, color=BLUE))
+        panels[name].set(xticks=[0, 0.5, 1], yticks=[0, 0.5, 1])
+    for name, load in zip("GHI", loads, strict=False):
+        contact_map(panels[name], maps.sel(pressure=load), reach)
+        panels[name].set(xlim=(x, x + DETAIL), ylim=(y, y + DETAIL))
+    panels["D"].set_ylabel("repulsive contact\n$y/L$")
+    panels["G"].set_ylabel("blue frame, with attraction (DMT)\n$y/L$")
 
 
 def densest(contact):

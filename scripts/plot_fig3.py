@@ -26,6 +26,7 @@ VARIANT = "afferrante2018"
 EXPONENT = 2 / 3
 LARGEST_RANGE = 0.3  # over h_rms, in panels A and B
 CONVERGED_A_V = 3.0  # of the paper, for the guides
+WIDE_MARKER = MARKERS[3]  # of windows of several wavelengths, in panel C
 LOAD = 0.065  # over E* q0 h_rms, of the points in panels A and C
 RANGE_LABEL = r"$(\epsilon/h_\mathrm{rms})^{2/3}$"
 AREA_LABEL = r"attractive area $A_\mathrm{ad}/A_\mathrm{nom}$"
@@ -50,16 +51,28 @@ class Case:
         """Magnification q1/q0."""
         return datasets.parameters(self.areas)["magnification"]
 
+    @property
+    def window(self):
+        """Side of the window in longest wavelengths."""
+        return datasets.parameters(self.areas).get("window", 1)
+
+    @property
+    def label(self):
+        """Magnification and, if it holds several wavelengths, the window."""
+        side = f", {number(self.window)}×{number(self.window)} waves" if self.window > 1 else ""
+        return rf"$\zeta$ = {number(self.magnification)}{side}"
+
 
 def main(job):
     sweeps = [datasets.read(path, ["attractive_area", "pressure"]) for path in job.input.sweeps]
     fits = [datasets.read(path, ["a_v", "window_low"]) for path in job.input.fits]
     cases = read_cases(job.input)
+    alike = [case for case in cases if case.hurst == float(sweeps[0].hurst[0])]
     figure, panels = canvas("AB;CD", 6.2)
-    panel_a(panels["A"], sweeps[0], [case for case in cases if case.hurst == 0.8])
+    panel_a(panels["A"], sweeps[0], alike)
     panel_b(panels["B"], sweeps[1])
     panel_c(panels["C"], sweeps[2], fits[2], cases)
-    panel_d(panels["D"], sweeps[3], fits[3], [case for case in cases if case.hurst == 0.8])
+    panel_d(panels["D"], sweeps[3], fits[3], alike)
     letters(panels)
     save(figure, job.output)
 
@@ -73,11 +86,12 @@ def read_cases(files):
         )
         for areas, fit, lattice in zip(files.bem, files.bem_fits, files.lattice_fits, strict=True)
     ]
-    return sorted(cases, key=lambda case: (case.hurst, case.magnification))
+    return sorted(cases, key=lambda case: (case.hurst, case.window, case.magnification))
 
 
 def panel_a(ax, theory, cases):
     """Areas at one pressure for a few magnifications, by theory and simulation."""
+    hurst = float(theory.hurst[0])
     theory = theory.sel(variant=VARIANT).isel(hurst=0, load=0)
     pressure = float(theory.pressure[0])
     magnifications = theory.magnification.values
@@ -89,7 +103,7 @@ def panel_a(ax, theory, cases):
         simulated_areas(ax, case, pressure, sideways, COLOURS[index], MARKERS[index])
     slope_guide(ax, pressure)
     limits(ax, 0.22)
-    ax.set_title(rf"$H$ = 0.8, $\hat{{p}}$ = {pressure:g}")
+    ax.set_title(rf"$H$ = {hurst:g}, $\hat{{p}}$ = {pressure:g}")
     lines = ax.legend(
         title=r"theory, $\zeta$ =", loc="upper left", ncols=2, alignment="left", title_fontsize=8
     )
@@ -113,7 +127,7 @@ def case_keys(cases):
             color=COLOURS[index],
             marker=MARKERS[index],
             linestyle="none",
-            label=rf"$\zeta$ = {number(case.magnification)}",
+            label=case.label,
         )
         for index, case in enumerate(cases)
     ]
@@ -132,13 +146,14 @@ def limits(ax, top):
 
 def panel_b(ax, theory):
     """Areas at one magnification for a few pressures."""
+    hurst = float(theory.hurst[0])
     theory = theory.sel(variant=VARIANT).isel(hurst=0, magnification=0)
     for index, colour in enumerate(shades(theory.sizes["load"])):
         curve = theory.isel(load=index)
         x = curve["range"] ** EXPONENT
         ax.plot(x, curve.attractive_area, color=colour, label=f"{float(curve.pressure):g}")
     limits(ax, 0.75)
-    ax.set_title(rf"$H$ = 0.8, $\zeta$ = {number(float(theory.magnification))}, theory")
+    ax.set_title(rf"$H$ = {hurst:g}, $\zeta$ = {number(float(theory.magnification))}, theory")
     ax.legend(title=r"$\hat{p}$ =", loc="upper left", ncols=2, alignment="left", title_fontsize=8)
 
 
@@ -156,7 +171,8 @@ def panel_c(ax, sweep, fit, cases):
         for case in cases:
             if case.hurst == hurst:
                 x = aside(case.magnification, 2 * (index - 1))
-                case_points(ax, case, x, LOAD, colour, MARKERS[index])
+                marker = WIDE_MARKER if case.window > 1 else MARKERS[index]
+                case_points(ax, case, x, LOAD, colour, marker)
         ax.plot([], [], color=colour, marker=MARKERS[index], label=f"$H$ = {hurst:g}")
     ax.set(xscale="log", yscale="log", ylim=(0.6, 400))
     ax.set(xlabel=r"magnification $\zeta$", ylabel=r"$a_V$")
@@ -169,6 +185,7 @@ def panel_c(ax, sweep, fit, cases):
 def point_keys():
     return [
         key(linestyle="none", marker="o", label="BEM"),
+        key(linestyle="none", marker=WIDE_MARKER, label="BEM, wide window"),
         key(linestyle="none", marker="o", mfc="white", label="theory, window's spectrum"),
     ]
 
@@ -193,6 +210,7 @@ def case_points(ax, case, x, pressure, colour, marker):
 
 def panel_d(ax, sweep, fit, cases):
     """a_V against pressure."""
+    hurst = float(sweep.hurst[0])
     sweep = sweep.sel(variant=VARIANT).isel(hurst=0, magnification=0)
     curve = fit.a_v.sel(variant=VARIANT).isel(hurst=0, magnification=0)
     banded(ax, sweep.pressure, curve, GREY, "-")
@@ -200,11 +218,11 @@ def panel_d(ax, sweep, fit, cases):
         case_points(
             ax, case, aside(case.fit.pressure, index - 1), None, COLOURS[index], MARKERS[index]
         )
-    ax.set(xscale="log", yscale="log", ylim=(1, 25), xlabel=PRESSURE_LABEL, ylabel=r"$a_V$")
+    ax.set(xscale="log", yscale="log", ylim=(0.8, 25), xlabel=PRESSURE_LABEL, ylabel=r"$a_V$")
     plain_ticks(ax.yaxis, [1, 2, 3, 5, 10, 20])
-    ax.set_title("$H$ = 0.8")
+    ax.set_title(rf"$H$ = {hurst:g}")
     theory = key(label=rf"theory, $\zeta$ = {number(float(sweep.magnification))}")
-    ax.legend(handles=[theory, *case_keys(cases), *point_keys()[1:]], loc="upper right")
+    ax.legend(handles=[theory, *case_keys(cases), point_keys()[-1]], loc="upper right")
 
 
 if __name__ == "__main__":

@@ -8,9 +8,8 @@ from _job import start
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from stickiness import datasets
 
-CLAIMS = ("statement", "quantity", "value", "uncertainty", "claimed", "verdict", "remark")
-VERDICTS = ("margin", "modulus_threshold", "dmt_valid", "verdict", "disagrees")
-A_V = ("a_v", "a_v_low", "a_v_high")
+CLAIMS = ("statement", "quantity", "value", "uncertainty", "claimed", "verdict", "sources")
+VERDICTS = ("margin", "modulus_threshold", "dmt_valid", "verdict", "disagrees", "a_v", "a_v_low")
 SURFACES = ("h_rms", "hurst", "q0", "q1", "C0_reference_upper")
 ENSEMBLES = ("area_fraction_mean", "mean_gap_mean", "attractive_area_mean", "residual")
 
@@ -20,7 +19,7 @@ def main(job):
     page = render(
         job.input.template,
         claims=datasets.read(job.input.claims, CLAIMS),
-        verdicts=datasets.read(job.input.verdicts, VERDICTS + A_V),
+        verdicts=datasets.read(job.input.verdicts, VERDICTS),
         ensembles=[datasets.read(path, ENSEMBLES) for path in job.input.ensembles],
         surfaces={Path(path).stem: datasets.read(path, SURFACES) for path in job.input.surfaces},
         figures=[_captions.figure(*pair) for pair in zip(job.input.figures, captions, strict=True)],
@@ -46,7 +45,7 @@ def render(template, *, claims, verdicts, ensembles, surfaces, figures, benchmar
         fidelity=fidelity,
         summary=_report.summary(claims, verdicts, ensembles),
         figures=figures,
-        claims=_report.claim_rows(claims),
+        claims=_report.claims_table(claims),
         errata=_report.errata_rows(claims),
         matrix=_report.verdict_matrix(verdicts, surfaces),
         disagreements=_report.disagreements(verdicts, surfaces),

@@ -17,7 +17,7 @@ from stickiness import fourier
 
 __all__ = ["State", "relax"]
 
-_PREDICTION = 0.8  # c in "contact where p > c k g": 0.5 to 1 predict about equally well
+_PREDICTION = 0.7  # c in "contact where p > c k g": 0.5 to 1 predict about equally well
 _LOOSE = 0.3  # reduction of the gap on a set that is still changing much
 _CLOSER = 0.03  # and on one that changes little
 _SETTLED = 1e-3  # share of changing points below which a set changes little
@@ -84,7 +84,7 @@ class _Grid(_Field):
         return np.flatnonzero(hit)
 
 
-def relax(operator, heights, load, guess, *, predict, tol, max_iterations, logger=None):
+def relax(operator, heights, load, *, tol, max_iterations, gap=None, pressure=None, logger=None):
     """Find pressure and gap on one grid.
 
     Parameters
@@ -95,14 +95,13 @@ def relax(operator, heights, load, guess, *, predict, tol, max_iterations, logge
         Heights in units of their rms, contiguous.
     load : float
         Mean pressure.
-    guess : numpy.ndarray
-        Non-negative pressure, of any positive mean.
-    predict : bool
-        Whether the guess deserves a prediction of the contact set from it.
     tol : float
         Largest accepted residual.
     max_iterations : int
         Largest number of inner iterations; whatever is reached by then is returned.
+    gap, pressure : numpy.ndarray, optional
+        A guess of the gap in single precision, or one of the pressure of any positive mean;
+        without either the start is a uniform pressure.
     logger : logging.Logger, optional
         Told the progress.
 
@@ -111,15 +110,19 @@ def relax(operator, heights, load, guess, *, predict, tol, max_iterations, logge
     State
         The iterate of the smallest residual.
     """
-    if guess.min() > 0:
-        full = _full_contact(operator, heights, load)
-        if full.pressure.min() >= 0:
-            return full
     grid = _Grid(operator, heights)
     total = load * heights.size
-    points, pressure = _compressed(guess, total)
-    if predict and points.size < heights.size:
-        points, pressure = _predicted(grid, points, pressure, total)
+    if gap is not None:
+        points, pressure = _predicted_from_gap(grid, gap, load)
+        gap = None  # frees the memory, if nobody else holds it
+    elif pressure is not None:
+        points, pressure = _predicted_from_pressure(grid, pressure, total)
+    else:
+        points, pressure = np.arange(heights.size), np.full(heights.size, load)
+    if points.size == heights.size:
+        full = _full_contact(grid, load)
+        if full.pressure.min() >= 0:
+            return full
     best, precondition = None, None
     iterations, stale, loose, changed = 0, 0, _LOOSE, points.size
     while True:
@@ -161,15 +164,15 @@ def relax(operator, heights, load, guess, *, predict, tol, max_iterations, logge
     return _state(grid, best, pressure, iterations)
 
 
-def _full_contact(operator, heights, load):
+def _full_contact(grid, load):
     """Full contact of any surface: the pressure is that of the heights as a displacement."""
-    varying = operator.stiffness(heights)
-    misfit = operator.compliance(varying)
-    misfit -= heights
+    pressure = grid.operator.stiffness(grid.heights)
+    misfit = grid.operator.compliance(pressure)
+    misfit -= grid.heights
     residual = float(np.abs(misfit).max())
-    varying += load
+    pressure += load
     misfit[...] = 0
-    return State(varying, misfit, 0.0, 1.0, residual, 0, 2)
+    return State(pressure, misfit, 0.0, 1.0, residual, 0, grid.pairs)
 
 
 def _report(logger, grid, residual, size, iterations):
@@ -180,16 +183,6 @@ def _report(logger, grid, residual, size, iterations):
         size / grid.heights.size,
         iterations,
     )
-
-
-def _compressed(guess, total):
-    flat = guess.ravel()
-    points = np.flatnonzero(flat > 0)
-    if points.size == 0:
-        points = np.arange(flat.size)
-        return points, np.full(flat.size, total / flat.size)
-    pressure = flat[points]
-    return points, pressure * (total / pressure.sum())
 
 
 def _gap(grid, points, pressure):
@@ -212,17 +205,43 @@ def _gap(grid, points, pressure):
     return float(shift), gaps, below, float(np.abs(gaps).max()), depth
 
 
-def _predicted(grid, points, pressure, total):
-    shift, *_ = _gap(grid, points, pressure)
+def _predicted_from_gap(grid, gap, load):
+    """Contact set and pressure from a guess of the gap, in single precision.
+
+    The heights being exact, so is the pressure the guess implies well inside contact.
+    """
+    operator, shape = grid.quick.operator, grid.shape
+    surface = grid.quick.image.reshape(shape)  # scratch: not in use here
+    np.add(gap, grid.heights, out=surface, casting="same_kind")
+    pressure = operator.stiffness(surface)
+    pressure += np.float32(load)
+    np.multiply(gap, np.float32(_PREDICTION * operator.mean_stiffness), out=surface)
+    np.maximum(surface, 0, out=surface)
+    points = np.flatnonzero(pressure > surface)
+    if points.size == 0:
+        points = np.array([np.argmax(pressure)])
+    pressure = pressure.ravel()[points].astype(float)
+    return points, _balanced(np.maximum(pressure, 0), load * gap.size)
+
+
+def _predicted_from_pressure(grid, pressure, total):
+    """Contact set and pressure from a guess of the pressure."""
+    flat = pressure.ravel()
+    points = np.flatnonzero(flat > 0)
+    shift, *_ = _gap(grid, points, _balanced(flat[points], total))
     threshold = grid.image + shift
-    threshold *= _PREDICTION * grid.operator.mean_stiffness
-    full = np.zeros(threshold.size)
-    full[points] = pressure
-    predicted = np.flatnonzero(full > threshold)
-    if not full[predicted].sum() > 0:
-        return points, pressure
-    pressure = full[predicted]
-    return predicted, pressure * (total / pressure.sum())
+    threshold *= _PREDICTION * grid.operator.mean_stiffness * (flat.sum() / total)
+    predicted = np.flatnonzero(flat > np.maximum(threshold, 0))
+    if predicted.size:
+        points = predicted
+    return points, _balanced(flat[points], total)
+
+
+def _balanced(pressure, total):
+    force = pressure.sum()
+    if force > 0:
+        return pressure * (total / force)
+    return np.full(pressure.size, total / pressure.size)
 
 
 def _joined(grid, points, pressure, extra, shift):

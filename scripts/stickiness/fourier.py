@@ -16,7 +16,7 @@ the last bits of a result do not depend on how busy the machine was.
 """
 
 import threading
-from functools import lru_cache
+from functools import cached_property, lru_cache
 
 import numpy as np
 import pyfftw
@@ -122,25 +122,35 @@ class HalfSpace:
         self._symbols(modes, padded)
         self._complex = np.result_type(self.dtype, np.complex64)
         self._spectrum_in = pyfftw.zeros_aligned((padded, stride), self._complex)
-        self._spectrum_out = pyfftw.zeros_aligned((padded, stride), self._complex)
+        # In double precision one array holds the spectrum before and after: memory before speed.
+        self._spectrum_out = self._spectrum_in
+        if self.dtype == np.float32:
+            self._spectrum_out = pyfftw.zeros_aligned((padded, stride), self._complex)
         self._filled = np.zeros(n0, bool)
         self._plan(n0, n1, modes)
 
     def _symbols(self, modes, padded):
         n0, n1 = self.shape
-        q = wavenumbers(self.shape, self.lengths).T
         points = n0 * n1
-        self._stiffness = np.zeros((padded, n0), self.dtype)
-        self._compliance = np.zeros((padded, n0), self.dtype)
         # FFTW does not normalise; the symbols carry the 1 / (n0 n1) of the inverse transform.
-        self._stiffness[:modes] = q / (2 * points)
-        q[0, 0] = np.inf
-        self._compliance[:modes] = 2 / points / q
+        q = wavenumbers(self.shape, self.lengths).T
         weight = np.full(modes, 2.0)
         weight[0] = 1.0
         if n1 % 2 == 0:
             weight[-1] = 1.0
-        self.mean_stiffness = float(weight @ self._stiffness[:modes].sum(axis=1, dtype=float))
+        self.mean_stiffness = float(weight @ q.sum(axis=1)) / (2 * points)
+        q[0, 0] = np.inf
+        self._compliance = np.zeros((padded, n0), self.dtype)
+        np.divide(2 / points, q, out=self._compliance[:modes], casting="same_kind")
+
+    @cached_property
+    def _stiffness(self):
+        # Made on demand: in double precision the contact solvers rarely need it.
+        n0, n1 = self.shape
+        symbol = np.zeros(self._compliance.shape, self.dtype)
+        q = wavenumbers(self.shape, self.lengths).T
+        np.divide(q, 2 * n0 * n1, out=symbol[: q.shape[0]], casting="same_kind")
+        return symbol
 
     def _plan(self, n0, n1, modes):
         self._real = pyfftw.zeros_aligned((self._rows, n1), self.dtype)
@@ -215,12 +225,14 @@ class HalfSpace:
 
     def _forward_rows(self, field, rows):
         modes = self._half.shape[1]
-        stale = self._filled
-        stale[rows] = False
-        if stale.any():
-            self._spectrum_in[:, np.flatnonzero(stale)] = 0
-        stale[:] = False
-        stale[rows] = True
+        self._filled[rows] = False
+        if self._filled.any():  # rows that an earlier call filled and this one does not
+            if self._spectrum_in is self._spectrum_out:
+                self._spectrum_in[...] = 0
+            else:
+                self._spectrum_in[:, np.flatnonzero(self._filled)] = 0
+        self._filled[:] = self._spectrum_in is self._spectrum_out
+        self._filled[rows] = True
         for start in range(0, rows.size, self._rows):
             block = rows[start : start + self._rows]
             count = block.size

@@ -12,9 +12,9 @@ The method is an active-set one:
   that extension. The number of iterations hardly depends on the grid.
 * Points under tension are released, points that penetrate are added, and so on. Early on the
   inner solution is a rough one, for a wrong set deserves no better.
-* Coarser grids supply the first guess. A point is put into contact where ``p > c k g``, with
-  the stiffness ``k`` of a single pixel: one application of the compliance then predicts the set
-  to a few per cent.
+* Coarser grids supply a first guess of the gap, which is smooth enough to be interpolated. On
+  top of the exact heights it gives a pressure, and a point is put into contact where
+  ``p > c k g`` with the stiffness ``k`` of a single pixel: this predicts the set to a per cent.
 
 Everything is solved in units of one side of the cell, ``h_rms`` and E*.
 """
@@ -28,8 +28,8 @@ from stickiness import _active_set, fourier
 __all__ = ["Contact", "ConvergenceError", "load_path", "solve"]
 
 _COARSEST = 32  # points along the shorter side of the coarsest grid
+_NEAR = 0.005  # relative change of load up to which the last solution is the better start
 _COARSE_TOLERANCE = 1e-2  # of h_rms: a guess for the next grid needs no more
-_NEARLY_FULL = 0.9  # contact area fraction from which the full-contact pressure is the better guess
 
 
 @dataclass(frozen=True, eq=False)
@@ -118,7 +118,8 @@ def solve(
     tol : float
         Largest accepted `Contact.residual`, relative to h_rms.
     start : Contact, optional
-        Solution on the same grid at another, preferably near, load.
+        Solution on the same grid at nearly the same load; it saves a quarter of the work at a
+        change of 0.1 % and costs more than it saves beyond 1 %.
     max_iterations : int
         Largest number of iterations on the given grid.
     logger : logging.Logger, optional
@@ -160,33 +161,37 @@ def solve(
         return _flat(heights, lengths, pressure)
     if pressure == 0:
         return _touching(heights, lengths, rms)
-    scaled = (heights - mean) / rms
+    scaled = heights - mean
+    scaled /= rms
     load = pressure * (lengths[0] / rms)
     sides = (1.0, lengths[1] / lengths[0])
-    if start is None:
-        guess, work = _coarse_guess(scaled, sides, load, logger)
-    else:
-        guess, work = start.pressure * (load / start.pressure.mean()), 0.0
+    work = []
+    guess = None
+    if start is not None and start.area_fraction > 0:
+        guess = start.pressure
     state = _active_set.relax(
         fourier.half_space(scaled.shape, sides),
         scaled,
         load,
-        guess,
-        predict=True,
         tol=tol,
         max_iterations=max_iterations,
+        pressure=guess,
+        gap=_coarse_gap(scaled, sides, load, work, logger) if guess is None else None,
         logger=logger,
     )
+    # The fields are this call's own: scaled in place, for they may be large.
+    np.multiply(state.pressure, rms / lengths[0], out=state.pressure)
+    np.multiply(state.gap, rms, out=state.gap)
     contact = Contact(
-        pressure=state.pressure * (rms / lengths[0]),
-        gap=state.gap * rms,
+        pressure=state.pressure,
+        gap=state.gap,
         mean_pressure=pressure,
         area_fraction=state.area_fraction,
-        mean_gap=float(state.gap.mean()) * rms,
+        mean_gap=float(state.gap.mean()),
         shift=state.shift * rms + mean,
         residual=state.residual,
         iterations=state.iterations,
-        fft_pairs=state.pairs + work,
+        fft_pairs=state.pairs + sum(work) / scaled.size,
         length=lengths,
         rms_height=rms,
     )
@@ -200,14 +205,17 @@ def solve(
 
 
 def load_path(heights, length, pressures, tol=1e-8, **options):
-    """Solve one surface at several mean pressures, each from the solution before.
+    """Solve one surface at several mean pressures.
+
+    A solution at nearly the same pressure is the start of the next; beyond `_NEAR` of relative
+    change the coarser grids predict the contact set better, and every solution starts from those.
 
     Parameters
     ----------
     heights, length, tol
         As for `solve`.
     pressures : iterable of float
-        Mean pressures in units of E*, best in monotonic order.
+        Mean pressures in units of E*.
     **options
         Further arguments of `solve` but `start`.
 
@@ -216,35 +224,33 @@ def load_path(heights, length, pressures, tol=1e-8, **options):
     Contact
         One solution per pressure, in the order given.
     """
-    start = None
+    last = None
     for pressure in pressures:
-        contact = solve(heights, length, pressure, tol=tol, start=start, **options)
-        yield contact
-        start = contact if pressure > 0 else None
+        near = last is not None and abs(pressure - last.mean_pressure) < _NEAR * last.mean_pressure
+        start = last if near else None
+        last = solve(heights, length, pressure, tol=tol, start=start, **options)
+        yield last
 
 
-def _coarse_guess(heights, sides, load, logger):
-    """First guess of the pressure from coarser grids, and the work it took in fine pairs."""
-    shape = tuple(_coarser(n) for n in heights.shape)
-    if min(heights.shape) < 2 * _COARSEST or shape == heights.shape:
-        return np.full(heights.shape, load), 0.0
-    coarse = _sampled(heights, shape)
-    share = coarse.size / heights.size
-    guess, work = _coarse_guess(coarse, sides, load, logger)
+def _coarse_gap(heights, sides, load, work, logger):
+    """First guess of the gap from coarser grids, in single precision.
+
+    Appends to the list `work` the pairs of transforms times points of every grid.
+    """
+    if min(heights.shape) < 2 * _COARSEST:
+        return None
+    coarse = _sampled(heights, tuple(_coarser(n) for n in heights.shape))
     state = _active_set.relax(
-        fourier.half_space(shape, sides),
+        fourier.half_space(coarse.shape, sides),
         coarse,
         load,
-        guess,
-        predict=work > 0,
         tol=_COARSE_TOLERANCE,
         max_iterations=200,
+        gap=_coarse_gap(coarse, sides, load, work, logger),
         logger=logger,
     )
-    if state.area_fraction > _NEARLY_FULL:
-        full = fourier.half_space(heights.shape, sides).stiffness(heights)
-        return np.maximum(full + load, 0), share * (work + state.pairs) + 1
-    return _interpolated(state.pressure, heights.shape), share * (work + state.pairs)
+    work.append(state.pairs * coarse.size)
+    return _interpolated(state.gap.astype(np.float32), heights.shape)
 
 
 def _coarser(n):
@@ -259,20 +265,49 @@ def _sampled(field, shape):
 
 
 def _interpolated(field, shape):
-    """Interpolate a periodic field linearly along both axes, onto a grid of any shape."""
+    """Interpolate a periodic field by cubics along both axes, onto a grid of any shape."""
     for axis, n in enumerate(shape):
-        m = field.shape[axis]
-        position = np.arange(n) * (m / n)
-        left = np.floor(position).astype(int)
-        fraction = position - left
-        fraction = fraction[:, None] if axis == 0 else fraction
-        lower = np.take(field, left % m, axis=axis)
-        upper = np.take(field, (left + 1) % m, axis=axis)
-        upper -= lower
-        upper *= fraction
-        lower += upper
-        field = lower
+        if n == 2 * field.shape[axis]:
+            field = _doubled(field, axis)
+        elif n != field.shape[axis]:
+            field = _resampled(field, n, axis)
     return field
+
+
+def _doubled(field, axis):
+    """Put a point between any two, on the cubic through its four neighbours."""
+    between = field + np.roll(field, -1, axis)
+    between *= 9
+    between -= np.roll(field, 1, axis)
+    between -= np.roll(field, -2, axis)
+    between /= 16
+    shape = list(field.shape)
+    shape[axis] *= 2
+    fine = np.empty(shape, field.dtype)
+    even, odd = [slice(None)] * 2, [slice(None)] * 2
+    even[axis], odd[axis] = slice(0, None, 2), slice(1, None, 2)
+    fine[tuple(even)] = field
+    fine[tuple(odd)] = between
+    return fine
+
+
+def _resampled(field, n, axis):
+    """Sample at n points the cubics through any four neighbours."""
+    m = field.shape[axis]
+    position = np.arange(n) * (m / n)
+    left = np.floor(position).astype(int)
+    t = position - left
+    weights = {
+        -1: -t * (t - 1) * (t - 2) / 6,
+        0: (t + 1) * (t - 1) * (t - 2) / 2,
+        1: -(t + 1) * t * (t - 2) / 2,
+        2: (t + 1) * t * (t - 1) / 6,
+    }
+    total = 0.0
+    for offset, weight in weights.items():
+        weight = weight[:, None] if axis == 0 else weight
+        total = total + weight * np.take(field, (left + offset) % m, axis=axis)
+    return total.astype(field.dtype)
 
 
 def _flat(heights, lengths, pressure):
