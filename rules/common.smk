@@ -104,9 +104,14 @@ def topography_file(wildcards):
     return [] if file.startswith("builtin:") else [file]
 
 
-def measured_a_v(wildcards):
-    """Fit of the a_V that the derived criterion uses."""
-    return f"{RESULTS}/fits/ensembles/{config['criteria']['a_v']['case']}.nc"
+def a_v_inputs():
+    """Fits behind the a_V that the derived criterion uses."""
+    case = config["criteria"]["a_v"]["case"]
+    return {
+        "a_v": f"{RESULTS}/fits/ensembles/{case}.nc",
+        "lattice": f"{RESULTS}/fits/persson_lattice/{case}.nc",
+        "theory": f"{RESULTS}/fits/persson/fig3c.nc",
+    }
 
 
 def ledger_inputs():

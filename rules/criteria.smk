@@ -3,9 +3,8 @@
 
 rule map_criterion:
     input:
+        **a_v_inputs(),
         library=library_of("map_criterion.py"),
-        a_v=measured_a_v,
-        theory=f"{RESULTS}/fits/persson/fig3c.nc",
     output:
         f"{RESULTS}/criteria/map.nc",
     log:
@@ -25,9 +24,8 @@ rule map_criterion:
 
 rule judge:
     input:
+        **a_v_inputs(),
         library=library_of("judge.py"),
-        a_v=measured_a_v,
-        theory=f"{RESULTS}/fits/persson/fig3c.nc",
         surfaces=expand(f"{RESULTS}/real_surfaces/{{real_surface}}.nc", real_surface=REAL_SURFACES),
     output:
         dataset=f"{RESULTS}/criteria/verdicts.nc",

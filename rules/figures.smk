@@ -85,12 +85,11 @@ rule plot_fig3:
 
 rule plot_fig4:
     input:
+        **a_v_inputs(),
         library=library_of("plot_fig4.py"),
         curve=f"{RESULTS}/adhesion/fig2.nc",
         rough=f"{RESULTS}/adhesion/fig4b_rough.nc",
         smooth=f"{RESULTS}/adhesion/fig4b_smooth.nc",
-        a_v=measured_a_v,
-        theory=f"{RESULTS}/fits/persson/fig3c.nc",
     output:
         png=report(
             f"{RESULTS}/figures/fig4.png",

@@ -1,4 +1,4 @@
-"""The a_V that criteria use, with everything that is known of its error."""
+"""The a_V that criteria use: measured by simulation, carried by theory to broad spectra."""
 
 from dataclasses import dataclass
 
@@ -8,72 +8,91 @@ from stickiness import datasets
 
 @dataclass(frozen=True)
 class MeasuredAv:
-    """a_V of a simulated case and the parts of its error, all absolute.
+    """a_V of a broad spectrum and the parts of its error, all absolute.
 
     Attributes
     ----------
     value : float
-        Mean over seeds in the first window of the fit.
+        a_V of a simulated case in the first window of the fit, times the ratio of theory on the
+        broadest continuous spectrum to theory on the lattice spectrum of the case. Simulation
+        holds neither the bandwidth of real surfaces nor, on a small window, their long waves;
+        theory, which is close to simulation on one and the same spectrum, carries both.
+    simulated : float
+        a_V of the case itself.
+    magnification : float
+        Magnification that the value is carried to.
     sampling : float
-        Standard error over seeds, 0 for a single one, of which it is unknown.
+        Standard error over seeds; 0 for a single one, of which it is unknown.
     discretisation : float
         Change from half the resolution.
     window : float
         Half the spread between the windows of the fit: the 2/3 law holds only roughly, so that
         the window is part of the answer.
     bandwidth : float
-        Growth by theory from the magnification of the case to the largest one of the sweep:
-        real surfaces are broader than what can be simulated. It only adds.
+        Change of theory over the last two decades of magnification, in which a_V still grows.
     """
 
     value: float
+    simulated: float
+    magnification: float
     sampling: float
     discretisation: float
     window: float
     bandwidth: float
 
     @property
+    def error(self) -> float:
+        """All parts in quadrature."""
+        parts = (self.sampling, self.discretisation, self.window, self.bandwidth)
+        return float(np.linalg.norm(parts))
+
+    @property
     def low(self) -> float:
-        """Value less the parts that may go either way, in quadrature."""
-        return max(self.value - np.linalg.norm(self._either_way), 0.01 * self.value)
+        """Value less its error, kept positive."""
+        return max(self.value - self.error, 0.01 * self.value)
 
     @property
     def high(self) -> float:
-        """Value plus all parts in quadrature."""
-        return float(self.value + np.linalg.norm([*self._either_way, self.bandwidth]))
-
-    @property
-    def _either_way(self) -> list[float]:
-        return [self.sampling, self.discretisation, self.window]
+        """Value plus its error."""
+        return self.value + self.error
 
     def describe(self) -> str:
         """Value, error and parts in words."""
         return (
-            f"a_V = {self.value:.2f}, {self.low:.2f} to {self.high:.2f} (sampling "
-            f"± {self.sampling:.2f}, discretisation ± {self.discretisation:.2f}, fit window "
-            f"± {self.window:.2f}, bandwidth + {self.bandwidth:.2f})"
+            f"a_V = {self.value:.2f} ± {self.error:.2f} (simulated {self.simulated:.2f}, carried "
+            f"by theory to zeta = {self.magnification:.0e}; sampling {self.sampling:.2f}, "
+            f"discretisation {self.discretisation:.2f}, fit window {self.window:.2f}, bandwidth "
+            f"{self.bandwidth:.2f})"
         )
 
 
-def measured_a_v(path, theory_path, pressure):
-    """Return the `MeasuredAv` of a fit to simulation, with theory's sweep over magnification."""
-    fit = datasets.read(path, ["a_v_mean", "a_v_standard_error", "a_v_discretisation_error"])
-    made = datasets.parameters(fit)
-    at_load = fit.sel(pressure=pressure, method="nearest")
-    windows = at_load.a_v_mean.values
-    value = float(windows[0])
+def measured_a_v(inputs, pressure):
+    """`MeasuredAv` from the fits to simulation, lattice theory and theory over magnification.
+
+    Parameters
+    ----------
+    inputs : object
+        With the files `a_v` and `lattice` of one case and `theory`, a sweep over magnification.
+    pressure : float
+        Load over E* q0 h_rms.
+    """
+    fit = datasets.read(inputs.a_v, ["a_v_mean", "a_v_standard_error", "a_v_discretisation_error"])
+    fit = fit.sel(pressure=pressure, method="nearest")
+    lattice = datasets.read(inputs.lattice, ["a_v"]).a_v.isel(variant=0)
+    lattice = lattice.sel(pressure=pressure, method="nearest").values
+    theory = datasets.read(inputs.theory, ["a_v"]).a_v.isel(variant=0, load=0)
+    theory = theory.sel(hurst=datasets.parameters(fit)["hurst"], method="nearest")
+    broadest = float(theory.magnification.max())
+    ratio = theory.sel(magnification=broadest).values / lattice
+    carried = fit.a_v_mean.values * ratio
+    before = theory.isel(window=0).sel(magnification=broadest / 100, method="nearest")
+    growth = float(theory.isel(window=0).sel(magnification=broadest) / before) - 1
     return MeasuredAv(
-        value=value,
-        sampling=float(np.nan_to_num(at_load.a_v_standard_error.isel(window=0))),
-        discretisation=float(at_load.a_v_discretisation_error.isel(window=0)),
-        window=float(np.ptp(windows)) / 2,
-        bandwidth=value * abs(growth(theory_path, made["hurst"], made["magnification"]) - 1),
+        value=float(carried[0]),
+        simulated=float(fit.a_v_mean[0]),
+        magnification=broadest,
+        sampling=float(np.nan_to_num(fit.a_v_standard_error[0])) * float(ratio[0]),
+        discretisation=float(fit.a_v_discretisation_error[0]) * float(ratio[0]),
+        window=float(np.ptp(carried)) / 2,
+        bandwidth=float(carried[0]) * abs(growth),
     )
-
-
-def growth(path, hurst, magnification):
-    """Ratio of theory's a_V at the largest magnification of its sweep to that at this one."""
-    theory = datasets.read(path, ["a_v"]).a_v.isel(variant=0, window=0, load=0)
-    theory = theory.sel(hurst=hurst, method="nearest")
-    here = np.interp(np.log(magnification), np.log(theory.magnification), theory)
-    return float(theory.isel(magnification=-1)) / float(here)

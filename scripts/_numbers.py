@@ -41,7 +41,7 @@ def interval(low: float, high: float, digits: int = 3) -> str:
     texts = number(low, digits), number(high, digits)
     if texts[0] == texts[1]:
         return texts[0]
-    powers = [_exponent(value, digits) if value else 0 for value in (low, high)]
+    powers = [_exponent(value, digits) for value in (low, high)]
     if all(power in _PLAIN for power in powers) or abs(powers[1] - powers[0]) > 2:
         return " … ".join(texts)
     shared = max(powers, key=abs) if max(powers) in _PLAIN else max(powers)
@@ -68,7 +68,9 @@ def percent(share: float) -> str:
 
 
 def _exponent(value: float, digits: int) -> int:
-    """Decimal exponent of the value once it is rounded."""
+    """Decimal exponent of the value once it is rounded; 0 where it has none."""
+    if not math.isfinite(value):
+        return 0
     return int(f"{value:.{digits - 1}e}".partition("e")[2])
 
 

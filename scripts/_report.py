@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
-from _numbers import interval, number, percent, quantity, superscripted, with_error
+from _numbers import NOTHING, interval, number, percent, quantity, superscripted, with_error
 from stickiness import datasets
 from stickiness.errata import ERRATA
 
@@ -283,21 +283,27 @@ def budget_row(at: xr.Dataset, name: str, solver: float) -> Context:
         "solver": solver,
     }
     known = {source: error for source, error in errors.items() if np.isfinite(error)}
-    largest = max(known, key=known.get)
+    largest = max(known, key=known.get, default=NOTHING)
     return {
         "quantity": QUANTITIES[name],
         "mean": with_error(mean, float(np.sqrt(sum(error**2 for error in known.values())))),
-        "errors": {source: percent(error / mean) for source, error in errors.items()},
-        "dominates": largest if len(known) == len(errors) else "not known: a single seed",
+        "errors": {
+            source: percent(error / mean if mean else np.nan) for source, error in errors.items()
+        },
+        "dominates": largest if np.isfinite(errors["sampling"]) else "not known: a single seed",
     }
 
 
 def run_times(folder: str | Path) -> Context:
-    """Jobs, seconds and memory of each rule, from Snakemake's benchmark files."""
+    """Jobs, seconds and memory of each rule, from Snakemake's benchmark files.
+
+    The report's own file, if there is one, is of an earlier run and left out.
+    """
     jobs: dict[str, list[tuple[float, float]]] = {}
     for path in sorted(Path(folder).rglob("*.tsv")):
         rule = path.relative_to(folder).parts[0].removesuffix(".tsv")
-        jobs.setdefault(rule, []).extend(benchmark_lines(path))
+        if rule != "write_report":
+            jobs.setdefault(rule, []).extend(benchmark_lines(path))
     rows = [(rule, len(runs), *np.transpose(runs)) for rule, runs in jobs.items() if runs]
     rows.sort(key=lambda row: -np.nansum(row[2]))
     return {

@@ -15,7 +15,7 @@ VERDICTS = ("not sticky", "depends", "sticky")
 
 
 def main(job):
-    a_v = measured_a_v(job.input.a_v, job.input.theory, job.params.pressure)
+    a_v = measured_a_v(job.input, job.params.pressure)
     surfaces = dict(zip(job.params.surfaces, job.input.surfaces, strict=True))
     surfaces = {name: datasets.read(path, NEEDED) for name, path in surfaces.items()}
     materials = {name: properties(entry) for name, entry in job.params.materials.items()}
@@ -132,8 +132,8 @@ def annotated(dataset):
         modulus_threshold=("Pa", "plane-strain modulus below which the pair sticks"),
         dmt_valid=("1", "1 where the JTB condition for the DMT limit holds"),
         a_v=("1", "a_V of the derived criterion"),
-        a_v_low=("1", "a_V less its sampling, discretisation and fit window errors"),
-        a_v_high=("1", "a_V plus these and its growth with bandwidth"),
+        a_v_low=("1", "a_V less its error"),
+        a_v_high=("1", "a_V plus its error"),
         verdict=("1", "0 not sticky, 1 depends on what is not known, 2 sticky"),
         disagrees=("1", "1 where a criterion says the opposite of the derived one"),
     )

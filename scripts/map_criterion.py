@@ -10,7 +10,7 @@ from stickiness import criteria, datasets
 
 def main(job):
     asked = job.params.map
-    a_v = measured_a_v(job.input.a_v, job.input.theory, job.params.pressure)
+    a_v = measured_a_v(job.input, job.params.pressure)
     dataset = limits(asked, a_v)
     dataset = dataset.merge(slopes(asked["slope_parameter"], asked["slope_a_v"]))
     datasets.write(
@@ -76,8 +76,8 @@ def annotated(dataset):
         h_rms_limit_printed=("1", f"{limit}, coefficient 9/4 as printed"),
         jtb_limit=("1", "smallest h_rms/range at which the DMT limit holds"),
         a_v=("1", "a_V of the derived criterion"),
-        a_v_low=("1", "a_V less its sampling, discretisation and fit window errors"),
-        a_v_high=("1", "a_V plus these and its growth with bandwidth"),
+        a_v_low=("1", "a_V less its error"),
+        a_v_high=("1", "a_V plus its error"),
         slope_parameter=("1", "range q0/(adhesion length/range)"),
         h_rms_over_range=("1", "rms height over range"),
         slope_angle=("degree", "angle of the area-load line against the load axis"),

@@ -31,7 +31,7 @@ def main(job):
         datasets.read(path, names).sel(pressure=job.params.pressure, method="nearest")
         for path in (job.input.rough, job.input.smooth)
     ]
-    a_v = measured_a_v(job.input.a_v, job.input.theory, job.params.pressure)
+    a_v = measured_a_v(job.input, job.params.pressure)
     figure, panels = canvas("AB;CB", 5.2, width_ratios=[1, 1.15])
     panel_a(panels["A"], curve)
     panel_b(panels["B"], sets, a_v.value)
@@ -155,11 +155,10 @@ def panel_c(ax, sets, a_v):
             x = one.range_over_h_rms * 1.08 ** (index - 0.5)
             measured(ax, one, x, scale[place], colour, marker)
     ax.axhline(1, color=GREY, linewidth=0.9)
-    error = a_v.value - a_v.low  # without its growth with bandwidth, which both sides share
-    low, high = (a_v.value - error) / PAPER_A_V, (a_v.value + error) / PAPER_A_V
+    low, high = a_v.low / PAPER_A_V, a_v.high / PAPER_A_V
     band = ax.axhspan(low, high, color=GREY, alpha=0.15, linewidth=0)
     line = ax.axhline(a_v.value / PAPER_A_V, color=GREY, linestyle=":", linewidth=0.9)
-    text = rf"$a_V$ = {a_v.value:.1f} ± {error:.1f} as measured"
+    text = rf"$a_V$ = {a_v.value:.1f} ± {a_v.error:.1f} as measured"
     ax.legend([(band, line)], [text], loc="lower left")
     ax.set(xscale="log", xlabel=r"range $\epsilon/h_\mathrm{rms}$", ylim=(0, 2))
     ax.set(ylabel=rf"$1/\kappa_\mathrm{{ad}}$ over formula, $a_V$ = {PAPER_A_V:g}")

@@ -90,7 +90,7 @@ def model(*keys, value):
         (changed(CONFIG, "cases", "H0.8_zeta32", value=None), ["cases", "H0.8_zeta32", "missing"]),
         (
             changed(CONFIG, "criteria", "a_v", "pressure", value=0.07),
-            ["criteria.a_v.pressure", "0.07", "H0.8_zeta128"],
+            ["criteria.a_v.pressure", "0.07", "H0.8_zeta32_wide"],
         ),
     ],
 )

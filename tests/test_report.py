@@ -1,0 +1,411 @@
+"""The report's page, from small made-up data whose texts and numbers are known."""
+
+import json
+import re
+from html import unescape
+from html.parser import HTMLParser
+from pathlib import Path
+
+import _captions
+import _numbers
+import _report
+import numpy as np
+import pytest
+import write_report
+import xarray as xr
+from stickiness.errata import ERRATA
+
+TEMPLATE = Path(__file__).parents[1] / "report" / "report.html.j2"
+NASTY = '<script>alert("1 & 2")</script>'
+GRADES = ("reproduced", "reproduced with a qualification", "not reproduced", "undecided")
+VOID = {"meta", "link", "img", "br", "wbr", "input", "hr"}
+
+
+def made_by(dataset, **parameters):
+    return dataset.assign_attrs(parameters=json.dumps(parameters), version_numpy="9.8.7")
+
+
+@pytest.fixture
+def claims():
+    count = len(GRADES)
+    columns = {
+        "statement": [f"statement {n}" for n in range(1, count)] + [NASTY],
+        "quantity": [f"quantity {n}" for n in range(count)],
+        "value": [1.8912, -2.0, 3.0, 4.0],
+        "uncertainty": [0.0331, np.nan, 0.1, 0.1],
+        "claimed": [2.0, np.nan, 3.0, 4.0],
+        "verdict": list(GRADES),
+        "remark": [f"remark {n}, doi:10.1016/0043-1648(90)90154-3." for n in range(count)],
+        "sources": ["out/a/x.nc", "", "out/b/seed1.nc out/b/seed2.nc", "out/a/x.nc"],
+    }
+    data = {name: ("claim", np.array(values)) for name, values in columns.items()}
+    errata = {str(erratum.number): {"some_number": 0.5} for erratum in ERRATA}
+    return made_by(xr.Dataset(data, coords={"claim": range(1, count + 1)}), errata=errata)
+
+
+@pytest.fixture
+def verdicts():
+    """Two materials on two surfaces: jelly sticks to glass, depends on sand; iron does not stick.
+
+    On sand, the other criterion says the opposite of the derived one for iron alone.
+    """
+    derived = [[[9.0, 8.0], [2.0, 0.5]], [[0.1, 0.1], [0.01, 0.01]]]
+    other = [[[9.0, 8.0], [2.0, 0.5]], [[0.1, 0.1], [3.0, 2.0]]]
+    dims = ("material", "surface", "end")
+    dataset = xr.Dataset(
+        {
+            "margin": ((*dims, "criterion"), np.stack([derived, other], axis=-1)),
+            "modulus_threshold": (dims, np.full((2, 2, 2), 2.5e6)),
+            "dmt_valid": (dims, [[[1, 0], [1, 1]], [[1, 1], [1, 1]]]),
+            "verdict": (dims[:2], [[2, 1], [0, 0]]),
+            "disagrees": ((*dims[:2], "criterion"), [[[0, 0], [0, 0]], [[0, 0], [0, 1]]]),
+            "a_v": 3.21,
+            "a_v_low": 2.8,
+            "a_v_high": 4.4,
+        },
+        coords={
+            "material": ["jelly", "iron"],
+            "surface": ["glass", "sand"],
+            "end": ["smooth", "rough"],
+            "criterion": ["violano", "some_other"],
+        },
+    )
+    materials = {
+        "jelly": {
+            "label": "jelly & cream",
+            "youngs_modulus": "1 kPa",
+            "poisson_ratio": 0.5,
+            "work_of_adhesion": "50 mJ/m^2",
+            "range": "1 nm",
+            "source": "own",
+        },
+        "iron": {
+            "label": "iron",
+            "plane_strain_modulus": "2 GPa",
+            "work_of_adhesion": "1 J/m^2",
+            "range": "1 nm",
+        },
+    }
+    return made_by(dataset, materials=materials, pressure=0.065)
+
+
+@pytest.fixture
+def surfaces():
+    known = xr.Dataset(
+        {
+            "h_rms": ("end", [2e-7, 2e-6]),
+            "C0_reference_upper": ("end", [1e-5, 1e-3]),
+            "hurst": 0.8,
+            "q0": 1e3,
+            "q1": 1e9,
+        },
+        coords={"end": ["smooth", "rough"]},
+    )
+    measured = known.assign(
+        hurst=0.7, hurst_error=0.02, C0_reference=5.3e-3, C0_reference_error=4e-4
+    ).assign_attrs(remarks="noisy <spectrum>")
+    return {
+        "glass": made_by(known, kind="self_affine", label="glass pane", note="typical"),
+        "sand": made_by(measured, kind="measured", label="sand < 1 mm", source="own"),
+    }
+
+
+def ensemble(seeds=(1, 2), residual=1e-6):
+    """Area 0.05 ± 0.01 ± 0.002, gap 1 ± 0.001 ± 0.02, attractive area 2 range^(2/3)."""
+    ranges = np.geomspace(1e-3, 1, 200)
+    sampled = len(seeds) > 1
+    data = {
+        "residual": (("seed", "resolution", "pressure"), np.full((len(seeds), 2, 2), residual)),
+        "attractive_area_mean": (("pressure", "range"), np.tile(2 * ranges ** (2 / 3), (2, 1))),
+    }
+    for name, mean, sampling, discretisation in (
+        ("area_fraction", 0.05, 0.01, 0.002),
+        ("mean_gap", 1.0, 0.001, 0.02),
+    ):
+        data[f"{name}_mean"] = ("pressure", [mean, 7.0])
+        data[f"{name}_standard_error"] = ("pressure", [sampling if sampled else np.nan, 7.0])
+        data[f"{name}_discretisation_error"] = ("pressure", [discretisation, 7.0])
+    for name in ("standard_error", "discretisation_error"):
+        data[f"attractive_area_{name}"] = data["attractive_area_mean"][0], np.zeros((2, 200))
+    coords = {"seed": list(seeds), "resolution": [2, 4], "pressure": [0.06, 0.3], "range": ranges}
+    return made_by(
+        xr.Dataset(data, coords=coords),
+        case="case_of_two",
+        hurst=0.8,
+        magnification=64,
+        grid_points=256,
+        pixels_per_wavelength=4,
+        tolerance=1e-6,
+        largest_residual=residual,
+        seeds=list(seeds),
+    )
+
+
+@pytest.fixture
+def figures(tmp_path):
+    from matplotlib.figure import Figure
+
+    made = []
+    for number in range(1, 7):
+        path = tmp_path / f"fig{number}.png"
+        Figure(figsize=(2, 1)).savefig(path, dpi=50)
+        made.append(_captions.figure(path, f"Caption {number} of *a* & b < gamma. More {{words}}."))
+    return made
+
+
+@pytest.fixture
+def benchmarks(tmp_path):
+    folder = tmp_path / "benchmarks"
+    (folder / "slow_rule" / "case").mkdir(parents=True)
+    head = "s\th:m:s\tmax_rss\n"
+    (folder / "slow_rule" / "case" / "seed1.tsv").write_text(head + "10.5\t0:00:10\t200.0\n")
+    (folder / "slow_rule" / "case" / "seed2.tsv").write_text(head + "30.25\t0:00:30\t100.0\n")
+    (folder / "write_report.tsv").write_text(head + "99.0\t0:01:39\t999.0\n")  # an earlier run
+    (folder / "quick_rule.tsv").write_text(head + "0.5\t0:00:00\tNA\n")
+    return folder
+
+
+@pytest.fixture
+def page(claims, verdicts, surfaces, figures, benchmarks):
+    return write_report.render(
+        TEMPLATE,
+        claims=claims,
+        verdicts=verdicts,
+        surfaces=surfaces,
+        figures=figures,
+        ensembles=[ensemble()],
+        benchmarks=benchmarks,
+        fidelity="draft",
+    )
+
+
+class Reader(HTMLParser):
+    """Nesting errors, tags with their attributes, and texts of a page."""
+
+    def __init__(self, page):
+        super().__init__()
+        self.open, self.errors, self.tags, self.texts = [], [], [], []
+        self.feed(page)
+
+    def handle_starttag(self, tag, attrs):
+        self.tags.append((tag, dict(attrs)))
+        if tag not in VOID:
+            self.open.append(tag)
+
+    def handle_endtag(self, tag):
+        if not self.open or self.open.pop() != tag:
+            self.errors.append((tag, self.getpos()))
+
+    def handle_data(self, data):
+        self.texts.append(data)
+
+    def attributes(self, tag):
+        return [attributes for name, attributes in self.tags if name == tag]
+
+    @property
+    def text(self):
+        return " ".join(" ".join(self.texts).split())
+
+
+def test_page_is_well_formed(page):
+    reader = Reader(page)
+    assert not reader.errors
+    assert not reader.open
+    identities = [attributes["id"] for _, attributes in reader.tags if "id" in attributes]
+    assert len(identities) == len(set(identities))
+    targets = [a["href"][1:] for a in reader.attributes("a") if a["href"].startswith("#")]
+    assert set(targets) <= set(identities)
+
+
+def test_tables_have_captions_and_scopes(page):
+    reader = Reader(page)
+    assert len(reader.attributes("table")) == len(reader.attributes("caption")) >= 8
+    assert all("scope" in attributes for attributes in reader.attributes("th"))
+
+
+def test_nothing_is_fetched(page):
+    reader = Reader(page)
+    assert not reader.attributes("script")
+    for tag, attributes in reader.tags:
+        assert not any(name.startswith("on") for name in attributes), tag
+        for name in ("src", "srcset", "href", "data", "poster"):
+            address = attributes.get(name, "")
+            doi = tag == "a" and address.startswith("https://doi.org/10.")
+            assert doi or address.startswith(("#", "data:")) or address == "", address
+    assert not re.search(r"@import|url\(", page)
+
+
+def test_every_claim_and_figure_appears(page):
+    reader = Reader(page)
+    for number in range(1, 4):
+        assert f"statement {number}" in reader.text
+    for grade in GRADES:
+        assert grade in reader.text
+    images = reader.attributes("img")
+    assert [image["alt"] for image in images] == [
+        f"Figure {n}: Caption {n} of a & b < gamma." for n in range(1, 7)
+    ]
+    assert all((image["width"], image["height"]) == ("100", "50") for image in images)
+    assert "More {words}." in reader.text
+    for erratum in ERRATA:
+        assert erratum.subject in reader.text
+    assert reader.text.count("some number = 0.5") == len(ERRATA)
+
+
+def test_claims_show_value_error_and_files(page):
+    text = Reader(page).text
+    assert "1.891 ± 0.033" in text
+    assert "−2 quantity 1" in text  # no uncertainty known, none shown
+    assert "below out" in text
+    assert "b/ seed*.nc (2 files)" in text
+    assert "closed form" in text
+
+
+def test_texts_are_escaped(page):
+    assert NASTY not in page
+    assert NASTY in unescape(page)
+    assert "jelly &amp; cream" in page
+    assert "sand &lt; 1 mm" in page
+    assert "noisy &lt;spectrum&gt;" in page
+
+
+def test_summary_counts(claims, verdicts):
+    found = _report.summary(claims, verdicts, [ensemble(), ensemble(seeds=range(1, 5))])
+    assert [(name, count) for name, count, _ in found["graded"]] == [(g, 1) for g in GRADES]
+    assert (found["pairs"], found["sticky"], found["depends"], found["not_sticky"]) == (4, 1, 1, 2)
+    assert (found["outside"], found["sticky_outside"]) == (1, 1)
+    assert (found["a_v"], found["a_v_range"]) == ("3.21", "2.8 … 4.4")
+    assert found["realisations"] == "2 … 4"
+
+
+def test_every_verdict_stands_in_its_place(verdicts, surfaces):
+    matrix = _report.verdict_matrix(verdicts, surfaces)
+    assert [material["label"] for material in matrix["materials"]] == ["jelly & cream", "iron"]
+    found = [[(c["verdict"], c["outside"]) for c in row["cells"]] for row in matrix["rows"]]
+    assert found == [
+        [("sticky", True), ("not sticky", False)],
+        [("depends", False), ("not sticky", False)],
+    ]
+    sand = matrix["rows"][1]["cells"][0]
+    assert (sand["margin"], sand["threshold"]) == ("0.5 … 2", "2.5 MPa")
+    assert matrix["materials"][0]["work_of_adhesion"] == "50 mJ/m²"
+
+
+def test_verdicts_are_worded_on_the_page(page):
+    text = Reader(page).text
+    for words in ("sticky † m 8 … 9", "depends m 0.5 … 2", "not sticky m 0.1 E* 2.5 MPa"):
+        assert words in text
+
+
+def test_disagreement_names_pairs_and_direction(verdicts, surfaces):
+    (row,) = _report.disagreements(verdicts, surfaces)
+    assert (row["criterion"], row["count"]) == ("some other", 1)
+    assert row["sticky"] == [("iron", ["sand < 1 mm"])]
+    assert row["not_sticky"] == []
+
+
+def test_surfaces_with_and_without_errors(surfaces):
+    glass, sand = _report.surface_rows(surfaces)
+    assert (glass["hurst"], sand["hurst"]) == ("0.8", "0.700 ± 0.020")
+    assert (glass["c0"], sand["c0"]) == ("(1 … 100) × 10⁻⁵", "0.00530 ± 0.00040")
+    assert glass["h_rms"] == "0.2 … 2 µm"
+    assert sand["remarks"] == ["noisy <spectrum>"]
+
+
+def test_bound_of_prefactor_for_another_hurst_exponent(surfaces):
+    steeper = surfaces["glass"].assign(hurst=0.9)
+    assert _report.reference_prefactor(steeper).startswith("≤ ")
+
+
+def test_error_budget():
+    (budget,) = _report.error_budgets([ensemble()])
+    area, gap, attractive = budget["rows"]
+    assert budget["load"] == "0.06"
+    assert area["errors"]["sampling"] == "20 %"
+    assert area["errors"]["discretisation"] == "4 %"
+    assert (area["dominates"], gap["dominates"]) == ("sampling", "discretisation")
+    # sqrt(0.01^2 + 0.002^2) = 0.0102; the solver's part is far smaller.
+    assert area["mean"] == "0.050 ± 0.010"
+    # A residual of 1e-6 is 1e-6 of a mean gap of 1. The attractive area is an exact 2/3 law, so
+    # its strip is (1e-6/0.03)^(2/3) of it and, with an area of 0.05, 2 (1e-6)^(2/3)/0.05 of that.
+    assert gap["errors"]["solver"] == "1 × 10⁻⁴ %"
+    assert attractive["errors"]["solver"] == "0.1 %"
+    assert area["errors"]["solver"] == "0.4 %"
+    assert attractive["dominates"] == "solver"
+
+
+def test_error_budget_of_a_single_seed_leaves_sampling_open():
+    area = _report.error_budgets([ensemble(seeds=[5])])[0]["rows"][0]
+    assert area["errors"]["sampling"] == "–"
+    assert "single seed" in area["dominates"]
+
+
+def test_run_times_add_up(benchmarks):
+    times = _report.run_times(benchmarks)
+    slow, quick = times["rows"]
+    assert slow == {
+        "rule": "slow_rule",
+        "jobs": 2,
+        "total": "40.8",  # 10.5 + 30.25
+        "longest": "30.2",
+        "memory": "200",
+    }
+    assert (quick["rule"], quick["memory"]) == ("quick_rule", "–")
+    assert (times["jobs"], times["total"]) == (3, "41.2")
+
+
+def test_mixed_versions_are_pointed_out(claims):
+    other = claims.assign_attrs(version_numpy="1.0")
+    found = _report.provenance([claims, other], [])
+    assert found["versions"] == [("numpy", "1.0, 9.8.7")]
+    assert found["mixed"] == ["numpy"]
+    assert _report.provenance([claims, claims], [])["mixed"] == []
+
+
+def test_not_a_png_is_refused(tmp_path):
+    path = tmp_path / "fig1.png"
+    path.write_text("no picture")
+    with pytest.raises(ValueError, match="fig1.png: not a PNG"):
+        _captions.figure(path, "")
+
+
+def test_caption_cannot_smuggle_html():
+    html = _captions.caption_html(".. raw:: html\n\n   <b>bold</b>\n\nText <i>& more.")
+    assert "<b>" not in html
+    assert "&lt;i&gt;&amp; more." in html
+
+
+@pytest.mark.parametrize(
+    ("value", "error", "text"),
+    [
+        (1.8912, 0.0331, "1.891 ± 0.033"),
+        (3.68, 1.0, "3.7 ± 1.0"),
+        (0.99, 0.0996, "0.99 ± 0.10"),
+        (-4.2e-6, 3e-7, "(−4.20 ± 0.30) × 10⁻⁶"),
+        (67720, 120, "67720 ± 120"),
+        (2.0, np.nan, "2"),
+        (np.nan, np.nan, "–"),
+    ],
+)
+def test_value_with_error(value, error, text):
+    assert _numbers.with_error(value, error) == text
+
+
+@pytest.mark.parametrize(
+    ("low", "high", "text"),
+    [
+        (1.0, 1.0004, "1"),
+        (0.1, 20.0, "0.1 … 20"),
+        (5.08e-4, 1.61e-3, "(5.08 … 16.1) × 10⁻⁴"),
+        (7e-6, 3.0, "7 × 10⁻⁶ … 3"),
+        (2e4, 3e6, "(0.02 … 3) × 10⁶"),
+        (0.0, np.inf, "0 … ∞"),
+    ],
+)
+def test_interval(low, high, text):
+    assert _numbers.interval(low, high) == text
+
+
+def test_quantity_keeps_its_prefix_when_rounding_up():
+    assert _numbers.quantity(999.9999, 999.9999, "Pa") == "1 kPa"
+    assert _numbers.quantity(2e-12, 2e-12, "m") == "0.002 nm"
