@@ -1,6 +1,5 @@
 """A copy of the workflow in a folder of its own, run once at tiny size."""
 
-import os
 import re
 import shutil
 import subprocess
@@ -10,7 +9,7 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).parents[2]
-PARTS = ("Snakefile", "rules", "scripts", "config", "profiles", "report")
+PARTS = ("Snakefile", "rules", "scripts", "config", "envs", "profiles", "report")
 TINY = ["--configfile", "config/config.yaml", "config/tiny.yaml"]
 
 
@@ -36,7 +35,6 @@ class Workflow:
             text=True,
             timeout=600,
             check=False,
-            env=os.environ | {"PYTHONWARNINGS": "default"},
         )
 
     def planned(self, *arguments):
