@@ -17,6 +17,7 @@ for variable in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
 
 import contact_codes  # noqa: E402 - the number of threads must be set before numpy is loaded
 import numpy as np  # noqa: E402
+
 from stickiness import spectrum, surface  # noqa: E402
 
 CODES = {

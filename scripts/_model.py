@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+
 from stickiness.spectrum import SelfAffine
 
 # Dimensionless units of every model surface: q0 = 1, h_rms = 1, E* = 1, so that pressures come

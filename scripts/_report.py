@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
+
 from _numbers import NOTHING, interval, number, percent, quantity, superscripted, with_error
 from stickiness import datasets
 from stickiness.errata import ERRATA

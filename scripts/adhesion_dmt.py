@@ -2,6 +2,8 @@
 
 import numpy as np
 import xarray as xr
+
+from _errors import described, with_errors
 from _job import start
 from _model import DESCRIBED
 from stickiness import criteria, datasets
@@ -19,9 +21,10 @@ def main(job):
     external = ensemble.pressure - attraction
     inverse_kappa = external / (ensemble.area_fraction * ensemble.rms_slope)
     dataset = xr.Dataset({"area_fraction": ensemble.area_fraction_mean, "q0_h_rms": q0_h_rms})
-    add(dataset, "attraction", attraction)
-    add(dataset, "inverse_kappa", inverse_kappa)
-    add(dataset, "inverse_kappa_ad", attraction / ensemble.pressure / 2)
+    dataset = with_errors(dataset, "attraction", attraction, plain=True)
+    dataset = with_errors(dataset, "inverse_kappa", inverse_kappa, plain=True)
+    inverse_kappa_ad = attraction / ensemble.pressure / 2
+    dataset = with_errors(dataset, "inverse_kappa_ad", inverse_kappa_ad, plain=True)
     dataset["dmt_valid"] = dmt_valid(q0_h_rms, lengths, ranges)
     datasets.write(
         annotated(dataset),
@@ -57,36 +60,19 @@ def area_within(area, ranges):
     return np.exp(logs.interp(range=np.log(ranges))).drop_vars("range")
 
 
-def add(dataset, name, values):
-    """Mean over seeds, its standard error and the change from half the resolution."""
-    fine = values.isel(resolution=-1, drop=True)
-    count = fine.sizes["seed"]
-    spread = fine.std("seed", ddof=1) if count > 1 else fine.mean("seed") * np.nan
-    change = values.diff("resolution").isel(resolution=-1, drop=True)
-    dataset[name] = fine.mean("seed")
-    dataset[f"{name}_standard_error"] = spread / np.sqrt(count)
-    dataset[f"{name}_discretisation_error"] = abs(change.mean("seed"))
-
-
 def annotated(dataset):
-    described = {
-        "pressure": DESCRIBED["pressure"],
-        "area_fraction": DESCRIBED["area_fraction"],
-        "q0_h_rms": ("1", "lowest wave number times rms height"),
-        "adhesion_length_over_range": ("1", "adhesion length over range, sigma0/E*"),
-        "range_over_h_rms": ("1", "range of attraction over h_rms"),
-        "dmt_valid": ("1", "1 where the JTB condition for the DMT limit holds"),
-    }
-    quantities = {
-        "attraction": "attractive pressure over E* q0 h_rms",
-        "inverse_kappa": "1/kappa = p_ext A_nom/(A_rep E* h'_rms)",
-        "inverse_kappa_ad": "1/kappa_ad = p_ad/(2 p_rep)",
-    }
-    for name, text in quantities.items():
-        described[name] = ("1", text)
-        described[f"{name}_standard_error"] = ("1", f"{text}: standard error", "a single seed")
-        described[f"{name}_discretisation_error"] = ("1", f"{text}: change from half resolution")
-    return datasets.annotate(dataset, **described)
+    return datasets.annotate(
+        dataset,
+        pressure=DESCRIBED["pressure"],
+        area_fraction=DESCRIBED["area_fraction"],
+        q0_h_rms=("1", "lowest wave number times rms height"),
+        adhesion_length_over_range=("1", "adhesion length over range, sigma0/E*"),
+        range_over_h_rms=("1", "range of attraction over h_rms"),
+        dmt_valid=("1", "1 where the JTB condition for the DMT limit holds"),
+        **described("attraction", "attractive pressure over E* q0 h_rms", plain=True),
+        **described("inverse_kappa", "1/kappa = p_ext A_nom/(A_rep E* h'_rms)", plain=True),
+        **described("inverse_kappa_ad", "1/kappa_ad = p_ad/(2 p_rep)", plain=True),
+    )
 
 
 if __name__ == "__main__":

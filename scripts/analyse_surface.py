@@ -8,6 +8,7 @@ import logging
 
 import numpy as np
 import xarray as xr
+
 from _job import start
 from stickiness import datasets, psd, selfaffine, topography
 from stickiness.spectrum import SelfAffine

@@ -2,6 +2,8 @@
 
 import numpy as np
 import xarray as xr
+
+from _errors import described, with_errors
 from _job import start
 from _model import DESCRIBED, middles
 from stickiness import datasets
@@ -35,39 +37,19 @@ def gap_density(attractive_area):
 
 
 def with_statistics(realisations):
-    """Add mean, standard error and discretisation error of each quantity.
-
-    The standard error is that of the mean over seeds (NaN for one seed). The discretisation
-    error is the mean change from the coarse to the fine grid: with an error that falls at least
-    in proportion to the pixel size, it bounds what is left.
-    """
-    fine = realisations.isel(resolution=-1)
-    count = realisations.sizes["seed"]
-    added = {}
-    for name in AVERAGED:
-        spread = fine[name].std("seed", ddof=1) if count > 1 else fine[name].mean("seed") * np.nan
-        change = realisations[name].diff("resolution").isel(resolution=-1)
-        added[f"{name}_mean"] = fine[name].mean("seed")
-        added[f"{name}_standard_error"] = spread / np.sqrt(count)
-        added[f"{name}_discretisation_error"] = abs(change.mean("seed"))
+    """Mean and errors of every quantity, beside the values seed by seed."""
     kept = ["area_fraction", "mean_gap", "attractive_area", "residual", "iterations", "rms_slope"]
-    added = {name: value.drop_vars("resolution", errors="ignore") for name, value in added.items()}
-    return realisations[kept].assign(added)
+    dataset = realisations[kept]
+    for name in AVERAGED:
+        dataset = with_errors(dataset, name, realisations[name])
+    return dataset
 
 
 def annotated(dataset):
-    described = {"seed": ("1", "seed of the realisation"), "gap": DESCRIBED["gap"]}
-    statistics = {
-        "mean": "mean over seeds",
-        "standard_error": "standard error of the mean over seeds",
-        "discretisation_error": "change from half the resolution",
-    }
+    texts = {"seed": ("1", "seed of the realisation"), "gap": DESCRIBED["gap"]}
     for name in AVERAGED:
-        units, long_name = DESCRIBED[name]
-        for suffix, meaning in statistics.items():
-            described[f"{name}_{suffix}"] = (units, f"{long_name}: {meaning}")
-        described[f"{name}_standard_error"] += ("a single seed",)
-    return datasets.annotate(dataset, **described)
+        texts |= described(name, DESCRIBED[name][1])
+    return datasets.annotate(dataset, **texts)
 
 
 if __name__ == "__main__":

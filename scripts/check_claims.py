@@ -2,6 +2,7 @@
 
 import numpy as np
 import xarray as xr
+
 from _claims import CLAIMS
 from _job import start
 from _tables import table
@@ -37,7 +38,7 @@ def ledger_files(inputs):
 def source_paths(claim, paths):
     """Files behind a claim; one name may stand for a group of files."""
     found = [paths[name] for name in claim.sources if name in paths]
-    groups = {"surfaces": "seed:"}
+    groups = {"seeds": "seed:", "surfaces": "surface:"}
     for name in claim.sources:
         if name in groups:
             found += [path for key, path in paths.items() if key.startswith(groups[name])]

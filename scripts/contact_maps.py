@@ -2,6 +2,7 @@
 
 import numpy as np
 import xarray as xr
+
 from _job import start
 from _model import DESCRIBED
 from stickiness import datasets, repulsive

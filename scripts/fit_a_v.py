@@ -2,6 +2,8 @@
 
 import numpy as np
 import xarray as xr
+
+from _errors import described, with_errors
 from _job import start
 from stickiness import datasets, dmt
 
@@ -11,7 +13,7 @@ def main(job):
     dataset = fitted(areas.attractive_area, areas.pressure, job.params.windows)
     dataset["exponent"] = local_exponent(areas.attractive_area)
     if "seed" in dataset.a_v.dims:
-        dataset = with_statistics(dataset)
+        dataset = with_errors(dataset, "a_v", dataset.a_v)
     datasets.write(
         annotated(dataset),
         job.output[0],
@@ -62,33 +64,21 @@ def local_exponent(area):
     )
 
 
-def with_statistics(dataset):
-    """Mean over seeds with its standard error, and the change from half the resolution."""
-    fine = dataset.a_v.isel(resolution=-1, drop=True)
-    count = fine.sizes["seed"]
-    spread = fine.std("seed", ddof=1) if count > 1 else fine.mean("seed") * np.nan
-    change = dataset.a_v.diff("resolution").isel(resolution=-1, drop=True)
-    return dataset.assign(
-        a_v_mean=fine.mean("seed"),
-        a_v_standard_error=spread / np.sqrt(count),
-        a_v_discretisation_error=abs(change.mean("seed")),
-    )
-
-
 def annotated(dataset):
-    described = {
+    texts = {
         "a_v": ("1", "a_V, slope of A_ad against (3/2) p (range/h_rms)^(2/3)"),
         "a_v_fit_error": ("1", "standard error of the fit of a_V within its window"),
         "window_low": ("1", "low end of the fit window of range/h_rms"),
         "window_high": ("1", "high end of the fit window of range/h_rms"),
-        "exponent": ("1", "local exponent d ln A_ad/d ln range", "no area within so small a range"),
-        "a_v_mean": ("1", "a_V, mean over seeds"),
-        "a_v_standard_error": ("1", "a_V, standard error of the mean over seeds", "a single seed"),
-        "a_v_discretisation_error": ("1", "a_V, change from half the resolution"),
+        "exponent": (
+            "1",
+            "local exponent d ln A_ad/d ln range",
+            "no area within so small a range",
+        ),
     }
-    return datasets.annotate(
-        dataset, **{name: text for name, text in described.items() if name in dataset}
-    )
+    if "a_v_mean" in dataset:
+        texts |= described("a_v", "a_V")
+    return datasets.annotate(dataset, **texts)
 
 
 if __name__ == "__main__":

@@ -2,6 +2,7 @@
 
 import numpy as np
 import xarray as xr
+
 from _criteria import measured_a_v
 from _job import start
 from _tables import table

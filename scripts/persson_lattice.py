@@ -2,6 +2,7 @@
 
 import numpy as np
 import xarray as xr
+
 from _job import start
 from _model import DESCRIBED, logarithmic_grid, middles, spectrum_of, window_of
 from stickiness import datasets

@@ -4,6 +4,7 @@ from itertools import product
 
 import numpy as np
 import xarray as xr
+
 from _job import start
 from _model import DESCRIBED, logarithmic_grid, middles, spectrum_of
 from stickiness import datasets

@@ -1,6 +1,7 @@
 """Figure 1: distribution of gaps by Persson's theory, its convergence, and simulation."""
 
 import numpy as np
+
 from _job import start
 from _numbers import number
 from _style import (

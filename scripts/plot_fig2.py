@@ -1,6 +1,10 @@
 """Figure 2: area and load without adhesion, the threshold of stickiness, and maps of contact."""
 
 import numpy as np
+from matplotlib.colors import to_rgb
+from matplotlib.patches import Rectangle
+from scipy.ndimage import gaussian_filter
+
 from _job import start
 from _numbers import number
 from _style import (
@@ -16,9 +20,6 @@ from _style import (
     points,
     save,
 )
-from matplotlib.colors import to_rgb
-from matplotlib.patches import Rectangle
-from scipy.ndimage import gaussian_filter
 from stickiness import criteria, datasets
 
 LINEAR_UP_TO = 0.3  # area fraction up to which the paper calls the area linear in load

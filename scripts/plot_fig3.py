@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 import xarray as xr
+
 from _job import start
 from _numbers import number
 from _style import (

@@ -1,6 +1,7 @@
 """Figure 4: area against external load with adhesion, and the adhesive part of the slope."""
 
 import numpy as np
+
 from _criteria import measured_a_v
 from _job import start
 from _numbers import number

@@ -1,6 +1,7 @@
 """Figure 5: largest roughness that sticks, and the slope of the area-load line."""
 
 import numpy as np
+
 from _job import start
 from _style import (
     BLACK,

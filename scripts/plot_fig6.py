@@ -1,6 +1,7 @@
 """Figure 6: power spectra of real surfaces under the lines of constant C0."""
 
 import numpy as np
+
 from _job import start
 from _style import BLACK, COLOURS, GREY, canvas, letters, save
 from stickiness import datasets

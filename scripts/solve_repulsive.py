@@ -8,6 +8,7 @@ import logging
 
 import numpy as np
 import xarray as xr
+
 from _job import start
 from _model import DESCRIBED, logarithmic_grid
 from stickiness import datasets, dmt, repulsive

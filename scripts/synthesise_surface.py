@@ -4,9 +4,10 @@ import logging
 
 import numpy as np
 import xarray as xr
+from scipy.fft import next_fast_len
+
 from _job import start
 from _model import spectrum_of, window_of
-from scipy.fft import next_fast_len
 from stickiness import datasets, surface
 
 SOURCES = ["continuum", "lattice", "heights"]

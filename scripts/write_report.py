@@ -2,10 +2,11 @@
 
 from pathlib import Path
 
+from jinja2 import Environment, FileSystemLoader, StrictUndefined
+
 import _captions
 import _report
 from _job import start
-from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from stickiness import datasets
 
 CLAIMS = ("statement", "quantity", "value", "uncertainty", "claimed", "verdict", "sources")

@@ -5,6 +5,7 @@ from pathlib import Path
 
 import pytest
 import yaml
+
 from stickiness import config
 
 ROOT = Path(__file__).parents[1]

@@ -7,6 +7,7 @@ import pytest
 import yaml
 from scipy.optimize import brentq
 from scipy.stats import norm
+
 from stickiness import adhesive, criteria, dmt, spectrum, units
 
 # A point far from all thresholds and with no two numbers alike, in arbitrary units.

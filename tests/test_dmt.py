@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from scipy.integrate import quad
+
 from stickiness import adhesive, dmt, repulsive
 
 LAWS = (adhesive.Maugis, adhesive.Exponential, adhesive.LennardJones)

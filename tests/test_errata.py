@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 import sympy as sp
+
 from stickiness import criteria, errata
 
 NUMBERS = {erratum.number: erratum.recompute() for erratum in errata.ERRATA}

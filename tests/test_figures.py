@@ -1,17 +1,18 @@
 from pathlib import Path
 from types import SimpleNamespace
 
-import _style
-import map_criterion
 import matplotlib.image
 import matplotlib.pyplot as plt
 import numpy as np
-import plot_fig5
-import plot_fig6
 import pytest
 import xarray as xr
-from _criteria import MeasuredAv
 from matplotlib.text import Text
+
+import _style
+import map_criterion
+import plot_fig5
+import plot_fig6
+from _criteria import MeasuredAv
 from stickiness import datasets
 
 SMALLEST_FONT = 8  # points
@@ -39,7 +40,15 @@ def criterion_map(tmp_path):
         "slope_parameter": [1, 0.1],
         "slope_a_v": 3.0,
     }
-    a_v = MeasuredAv(3.0, sampling=0.2, discretisation=0.1, window=0.1, bandwidth=0.5)
+    a_v = MeasuredAv(
+        value=3.0,
+        simulated=2.0,
+        magnification=1e6,
+        sampling=0.2,
+        discretisation=0.1,
+        window=0.1,
+        bandwidth=0.5,
+    )
     data = map_criterion.limits(asked, a_v)
     data = data.merge(map_criterion.slopes(asked["slope_parameter"], asked["slope_a_v"]))
     path = tmp_path / "map.nc"

@@ -6,6 +6,7 @@ import warnings
 
 import numpy as np
 import pytest
+
 from stickiness import repulsive
 
 pytestmark = pytest.mark.peers

@@ -6,6 +6,7 @@ import mpmath
 import numpy as np
 import pytest
 from scipy import integrate, special
+
 from stickiness import persson, surface
 from stickiness.persson import Persson
 from stickiness.persson_kernels import kernels

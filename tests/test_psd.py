@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from scipy import special
+
 from stickiness import levelling, selfaffine, surface, topography
 from stickiness.psd import merge_rings, power_spectrum, radial_average
 from stickiness.selfaffine import fit_self_affine

@@ -6,13 +6,14 @@ from html import unescape
 from html.parser import HTMLParser
 from pathlib import Path
 
+import numpy as np
+import pytest
+import xarray as xr
+
 import _captions
 import _numbers
 import _report
-import numpy as np
-import pytest
 import write_report
-import xarray as xr
 from stickiness.errata import ERRATA
 
 TEMPLATE = Path(__file__).parents[1] / "report" / "report.html.j2"

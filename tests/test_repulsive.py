@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+
 from stickiness import fourier, repulsive
 from stickiness import reference_solutions as reference
 

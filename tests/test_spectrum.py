@@ -6,6 +6,7 @@ import mpmath
 import numpy as np
 import pytest
 from scipy import integrate
+
 from stickiness import spectrum as module
 from stickiness.spectrum import SelfAffine, Shells, Tabulated
 

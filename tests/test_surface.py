@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+
 from stickiness import surface
 from stickiness.spectrum import SelfAffine, Shells, Tabulated
 

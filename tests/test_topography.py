@@ -5,6 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import xarray as xr
+
 from stickiness import config, levelling, textmatrix, topography
 from stickiness.units import si
 

@@ -1,6 +1,7 @@
 """Values with units."""
 
 import pytest
+
 from stickiness.units import si
 
 

@@ -39,7 +39,7 @@ class Workflow:
 
     def planned(self, *arguments):
         """Rules and number of jobs that a dry-run lists, without the target rules."""
-        done = self.snakemake("-n", "--quiet", "host", *arguments)
+        done = self.snakemake("-n", *arguments, "--quiet", "host")
         assert done.returncode == 0, done.stdout
         table = re.search(r"^job\s+count\n[-\s]+\n(.*?)^total", done.stdout, re.M | re.S)
         if table is None:

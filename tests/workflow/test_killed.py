@@ -6,6 +6,7 @@ import subprocess
 import time
 
 import pytest
+
 from stickiness import datasets
 
 pytestmark = pytest.mark.workflow
