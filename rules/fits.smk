@@ -1,4 +1,5 @@
-# a_V and kappa_rep from simulation and theory, with their errors and window sensitivity.
+# a_V and kappa_rep from simulation and theory, with their errors and window sensitivity, and what
+# separates theory from simulation.
 
 
 rule fit_a_v:
@@ -41,3 +42,22 @@ rule fit_kappa:
         mem_mb=500,
     script:
         "../scripts/fit_kappa.py"
+
+
+rule compare_theory:
+    input:
+        library=library_of("compare_theory.py"),
+        ensemble=f"{RESULTS}/ensembles/{{case}}.nc",
+        theory=f"{RESULTS}/persson_lattice/{{case}}.nc",
+    output:
+        f"{RESULTS}/fits/theory/{{case}}.nc",
+    log:
+        f"{LOGS}/compare_theory/{{case}}.log",
+    benchmark:
+        f"{BENCHMARKS}/compare_theory/{{case}}.tsv"
+    conda:
+        "../envs/environment.yaml"
+    resources:
+        mem_mb=500,
+    script:
+        "../scripts/compare_theory.py"

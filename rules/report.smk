@@ -33,6 +33,7 @@ rule write_report:
         claims=f"{RESULTS}/claims/claims.nc",
         verdicts=f"{RESULTS}/criteria/verdicts.nc",
         ensembles=expand(f"{RESULTS}/ensembles/{{case}}.nc", case=CASES),
+        comparisons=expand(f"{RESULTS}/fits/theory/{{case}}.nc", case=CASES),
         surfaces=expand(f"{RESULTS}/real_surfaces/{{real_surface}}.nc", real_surface=REAL_SURFACES),
     output:
         report(

@@ -262,6 +262,24 @@ def error_budgets(ensembles: Sequence[xr.Dataset]) -> list[Context]:
     return budgets
 
 
+def theory_rows(comparisons: Sequence[xr.Dataset]) -> list[Context]:
+    """Difference of theory from simulation for every case, at three of its loads."""
+    rows = []
+    for comparison in comparisons:
+        at = comparison.isel(variant=0).interp({"range": RANGE})
+        loads = at.pressure.values
+        for load in loads[np.unique(np.linspace(0, len(loads) - 1, 5).astype(int)[1:4])]:
+            here = at.sel(pressure=load)
+            cells = {
+                name: f"{float(here[f'{name}_difference']):+.1%} ± "
+                f"{float(here[f'{name}_difference_error']):.1%}"
+                for name in QUANTITIES
+            }
+            case = datasets.parameters(comparison)["case"]
+            rows.append({"case": case, "load": number(float(load)), "cells": cells})
+    return rows
+
+
 def solver_errors(at: xr.Dataset) -> dict[str, float]:
     """Errors that the solver's residual causes, at one load and range.
 

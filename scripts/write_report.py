@@ -12,6 +12,7 @@ from stickiness import datasets
 CLAIMS = ("statement", "quantity", "value", "uncertainty", "claimed", "verdict", "sources")
 VERDICTS = ("margin", "modulus_threshold", "dmt_valid", "verdict", "disagrees", "a_v", "a_v_low")
 SURFACES = ("h_rms", "hurst", "q0", "q1", "C0_reference_upper")
+COMPARISONS = ("area_fraction_difference", "mean_gap_difference", "attractive_area_difference")
 ENSEMBLES = ("area_fraction_mean", "mean_gap_mean", "attractive_area_mean", "residual")
 
 
@@ -22,6 +23,7 @@ def main(job):
         claims=datasets.read(job.input.claims, CLAIMS),
         verdicts=datasets.read(job.input.verdicts, VERDICTS),
         ensembles=[datasets.read(path, ENSEMBLES) for path in job.input.ensembles],
+        comparisons=[datasets.read(path, COMPARISONS) for path in job.input.comparisons],
         surfaces={Path(path).stem: datasets.read(path, SURFACES) for path in job.input.surfaces},
         figures=[_captions.figure(*pair) for pair in zip(job.input.figures, captions, strict=True)],
         benchmarks=job.params.benchmarks,
@@ -31,7 +33,18 @@ def main(job):
         path.write_text(page, encoding="utf-8")
 
 
-def render(template, *, claims, verdicts, ensembles, surfaces, figures, benchmarks, fidelity):
+def render(
+    template,
+    *,
+    claims,
+    verdicts,
+    ensembles,
+    comparisons,
+    surfaces,
+    figures,
+    benchmarks,
+    fidelity,
+):
     """The page as text, from datasets and figures that have been read."""
     template = Path(template)
     environment = Environment(
@@ -52,6 +65,8 @@ def render(template, *, claims, verdicts, ensembles, surfaces, figures, benchmar
         disagreements=_report.disagreements(verdicts, surfaces),
         surfaces=_report.surface_rows(surfaces),
         budgets=_report.error_budgets(ensembles),
+        comparisons=_report.theory_rows(comparisons),
+        quantities=list(_report.QUANTITIES.values()),
         run_times=_report.run_times(benchmarks),
         provenance=_report.provenance(
             [claims, verdicts, *surfaces.values(), *ensembles], ensembles

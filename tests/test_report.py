@@ -166,6 +166,20 @@ def benchmarks(tmp_path):
     return folder
 
 
+def comparison():
+    """Theory 10 % above simulation, known to 3 %, at every load."""
+    ranges = np.geomspace(1e-3, 1, 20)
+    shape = (1, 5)
+    data = {}
+    for kind, value in (("difference", 0.1), ("difference_error", 0.03)):
+        for name in ("area_fraction", "mean_gap"):
+            data[f"{name}_{kind}"] = (("variant", "pressure"), np.full(shape, value))
+        full = np.full((*shape, 20), value)
+        data[f"attractive_area_{kind}"] = (("variant", "pressure", "range"), full)
+    coords = {"variant": ["a"], "pressure": [0.01, 0.03, 0.1, 0.3, 0.5], "range": ranges}
+    return made_by(xr.Dataset(data, coords=coords), case="case_of_two")
+
+
 @pytest.fixture
 def page(claims, verdicts, surfaces, figures, benchmarks):
     return write_report.render(
@@ -175,6 +189,7 @@ def page(claims, verdicts, surfaces, figures, benchmarks):
         surfaces=surfaces,
         figures=figures,
         ensembles=[ensemble()],
+        comparisons=[comparison()],
         benchmarks=benchmarks,
         fidelity="draft",
     )
@@ -339,6 +354,12 @@ def test_error_budget_of_a_single_seed_leaves_sampling_open():
     area = _report.error_budgets([ensemble(seeds=[5])])[0]["rows"][0]
     assert area["errors"]["sampling"] == "–"
     assert "single seed" in area["dominates"]
+
+
+def test_theory_is_compared_at_three_loads():
+    rows = _report.theory_rows([comparison()])
+    assert [row["load"] for row in rows] == ["0.03", "0.1", "0.3"]
+    assert all(cell == "+10.0% ± 3.0%" for row in rows for cell in row["cells"].values())
 
 
 def test_run_times_add_up(benchmarks):

@@ -21,7 +21,7 @@ def test_clean_run_has_no_warnings(finished):
 
 def test_every_rule_logs_and_benchmarks(finished):
     logs = {p.relative_to(finished / "results/tiny/logs").parts[0] for p in logs_of(finished)}
-    assert len(logs) >= 15
+    assert len(logs) >= 20
     assert list((finished / "results/tiny/benchmarks").rglob("*.tsv"))
 
 
