@@ -27,6 +27,9 @@ rule judge:
         **a_v_inputs(),
         library=library_of("judge.py"),
         surfaces=expand(f"{RESULTS}/real_surfaces/{{real_surface}}.nc", real_surface=REAL_SURFACES),
+        theories=expand(
+            f"{RESULTS}/persson_surface/{{real_surface}}.nc", real_surface=REAL_SURFACES
+        ),
     output:
         dataset=f"{RESULTS}/criteria/verdicts.nc",
         table=report(

@@ -1,5 +1,5 @@
-# Persson's theory: on continuous spectra for the paper's sweeps, and on the lattice spectrum that
-# the window of a simulated case really holds.
+# Persson's theory: on continuous spectra for the paper's sweeps, on the lattice spectrum that the
+# window of a simulated case really holds, and on the spectra of real surfaces.
 
 
 rule persson_sweep:
@@ -45,3 +45,25 @@ rule persson_lattice:
         gaps=config["gaps"],
     script:
         "../scripts/persson_lattice.py"
+
+
+rule persson_surface:
+    input:
+        library=library_of("persson_surface.py"),
+        surface=f"{RESULTS}/real_surfaces/{{real_surface}}.nc",
+    output:
+        f"{RESULTS}/persson_surface/{{real_surface}}.nc",
+    log:
+        f"{LOGS}/persson_surface/{{real_surface}}.log",
+    benchmark:
+        f"{BENCHMARKS}/persson_surface/{{real_surface}}.tsv"
+    conda:
+        "../envs/environment.yaml"
+    resources:
+        mem_mb=500,
+    params:
+        gamma=config["theory"]["gamma"],
+        pressure=config["criteria"]["a_v"]["pressure"],
+        ranges=config["criteria"]["ranges"],
+    script:
+        "../scripts/persson_surface.py"

@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from _model import VARIANT
 from stickiness import datasets
 
 
@@ -20,6 +21,8 @@ class MeasuredAv:
         theory, which is close to simulation on one and the same spectrum, carries both.
     simulated : float
         a_V of the case itself.
+    over_lattice : float
+        Ratio of simulation to theory on the lattice spectrum of the case.
     magnification : float
         Magnification that the value is carried to.
     sampling : float
@@ -35,6 +38,7 @@ class MeasuredAv:
 
     value: float
     simulated: float
+    over_lattice: float
     magnification: float
     sampling: float
     discretisation: float
@@ -79,9 +83,9 @@ def measured_a_v(inputs, pressure):
     """
     fit = datasets.read(inputs.a_v, ["a_v_mean", "a_v_standard_error", "a_v_discretisation_error"])
     fit = fit.sel(pressure=pressure, method="nearest")
-    lattice = datasets.read(inputs.lattice, ["a_v"]).a_v.isel(variant=0)
+    lattice = datasets.read(inputs.lattice, ["a_v"]).a_v.sel(variant=VARIANT)
     lattice = lattice.sel(pressure=pressure, method="nearest").values
-    theory = datasets.read(inputs.theory, ["a_v"]).a_v.isel(variant=0, load=0)
+    theory = datasets.read(inputs.theory, ["a_v"]).a_v.sel(variant=VARIANT).isel(load=0)
     theory = theory.sel(hurst=datasets.parameters(fit)["hurst"], method="nearest")
     broadest = float(theory.magnification.max())
     ratio = theory.sel(magnification=broadest).values / lattice
@@ -92,8 +96,49 @@ def measured_a_v(inputs, pressure):
         value=float(carried[0]),
         simulated=float(fit.a_v_mean[0]),
         magnification=broadest,
+        over_lattice=float(fit.a_v_mean[0] / lattice[0]),
         sampling=float(np.nan_to_num(fit.a_v_standard_error[0])) * float(ratio[0]),
         discretisation=float(fit.a_v_discretisation_error[0]) * float(ratio[0]),
         window=float(np.ptp(carried)) / 2,
         bandwidth=float(carried[0]) * abs(growth),
+    )
+
+
+@dataclass(frozen=True)
+class SurfaceAv:
+    """a_V of a real surface against the range, with the limits of what is known of it.
+
+    Theory on the surface's own spectrum, times the ratio of simulation to theory of the simulated
+    case. The limits are those of both variants of the theory, widened by the sampling and
+    discretisation error of the simulation.
+    """
+
+    ranges: np.ndarray
+    theory: np.ndarray
+    quoted: int
+    ratio: float
+    relative_error: float
+
+    def at(self, range_over_h_rms):
+        """Value, low and high limit at a range over h_rms, interpolated in logarithms."""
+        logs = [
+            np.interp(np.log(range_over_h_rms), np.log(self.ranges), np.log(a)) for a in self.theory
+        ]
+        every = self.ratio * np.exp(logs)
+        return (
+            float(every[self.quoted]),
+            float(every.min() * max(1 - self.relative_error, 0.01)),
+            float(every.max() * (1 + self.relative_error)),
+        )
+
+
+def surface_a_v(path, measured):
+    """`SurfaceAv` from a file of `persson_surface` and the `MeasuredAv` of the simulation."""
+    theory = datasets.read(path, ["a_v"]).a_v
+    return SurfaceAv(
+        ranges=theory["range"].values,
+        theory=theory.values,
+        quoted=list(theory["variant"].values).index(VARIANT),
+        ratio=measured.over_lattice,
+        relative_error=float(np.hypot(measured.sampling, measured.discretisation)) / measured.value,
     )

@@ -14,6 +14,10 @@ from stickiness.spectrum import SelfAffine
 # out in units of E* q0 h_rms.
 Q0 = 1.0
 
+VARIANT = "afferrante2018"  # of the theory, where one is quoted
+LOAD = 0.065  # over E* q0 h_rms, the load of the paper's Figures 3A and 3C
+LINEAR_UP_TO = 0.3  # area fraction up to which the paper calls the area linear in load
+
 DESCRIBED = {
     "pressure": ("1", "mean pressure over E* q0 h_rms"),
     "range": ("1", "range of attraction over h_rms"),

@@ -21,8 +21,8 @@ Context = dict[str, Any]
 
 LOAD, RANGE = 0.065, 0.03  # of the error budget: the paper's load, and amid the range of its fits
 DERIVED = "violano"
-STICKINESS = ("not sticky", "depends", "sticky")
-STICKINESS_TONES = ("no", "partly", "yes")
+STICKINESS = ("not sticky", "depends", "sticky", "undecided")
+STICKINESS_TONES = ("no", "partly", "yes", "open")
 CLAIM_TONES = {
     "reproduced": "yes",
     "reproduced with a qualification": "partly",
@@ -63,6 +63,7 @@ def summary(claims: xr.Dataset, verdicts: xr.Dataset, ensembles: Sequence[xr.Dat
         "sticky": int(sticky.sum()),
         "depends": int((verdicts.verdict == 1).sum()),
         "not_sticky": int((verdicts.verdict == 0).sum()),
+        "undecided": int((verdicts.verdict == 3).sum()),
         "outside": int(outside.sum()),
         "sticky_outside": int((sticky & outside).sum()),
         "realisations": interval(seeds[0], seeds[-1]),

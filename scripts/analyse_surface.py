@@ -16,7 +16,6 @@ from stickiness.units import si
 
 ENDS = ["smooth", "rough"]
 REFERENCE_HURST = 0.8  # of the paper's lines C0 = 1e-3 and 1e-5 m^0.4
-SIGMAS = 2  # ends of a measured surface, in standard errors of its rms height
 POINTS_PER_DECADE = 10
 
 
@@ -86,9 +85,10 @@ def measured(asked):
     remarks = selfaffine.remarks(fit, anisotropy)
     for remark in remarks:
         logging.info(remark)
-    spread = SIGMAS * relative_error_of_h_rms(rings)
-    scale = np.exp([-spread, spread])
-    dataset = resolved_moments(plane, fit.q_max, heights.h_rms, scale)
+    dataset = resolved_moments(rings, plane.dqx * plane.dqy, fit.q_max)
+    dataset["h_rms_measured"] = heights.h_rms
+    if fit.q_rolloff is None:
+        remarks.append("no roll-off within the scan: q0 is that of the scan, not of the surface")
     if fit.q_rolloff is not None:
         dataset["q_rolloff"] = fit.q_rolloff
     return (
@@ -122,25 +122,37 @@ def read(asked):
     return topography.read(asked["file"], **{key: asked[key] for key in keys if key in asked})
 
 
-def relative_error_of_h_rms(rings):
-    """Sampling error of the rms height: the few longest waves carry most of the variance."""
-    variance = rings.psd * rings.modes
-    return float(np.sqrt(np.sum(variance**2 / rings.dof)) / variance.sum() / 2)
+def resolved_moments(rings, cell, q_max):
+    """Moments of the spectrum at both ends of its sampling error.
 
-
-def resolved_moments(plane, q_max, h_rms, scale):
-    """Moments of the waves up to q_max; beyond it the instrument decides, not the surface."""
-    weight = plane.multiplicity * plane.dqx * plane.dqy * np.where(plane.q <= q_max, plane.psd, 0)
-    slope, curvature, energy = (np.sum(weight * plane.q**power) for power in (2, 4, 1))
+    All from the windowed spectrum, so that they belong together. Slope, curvature and energy are
+    of the waves up to q_max: beyond it the instrument decides, not the surface.
+    """
+    inside = rings.q <= q_max
+    h, h_error = root_and_error(rings, cell, 0)
+    slope, slope_error = root_and_error(rings, cell, 2, inside)
+    curvature, curvature_error = root_and_error(rings, cell, 4, inside)
+    energy, energy_error = root_and_error(rings, cell, 1, inside)
+    ends = np.array([-1, 1])
     return xr.Dataset(
         {
-            "h_rms": ("end", h_rms * scale),
-            "rms_slope": ("end", np.sqrt(slope) * scale),
-            "rms_curvature": ("end", np.sqrt(curvature) * scale),
-            "elastic_energy": ("end", energy / 4 * scale**2),
+            "h_rms": ("end", h * np.exp(ends * h_error)),
+            "rms_slope": ("end", slope * np.exp(ends * slope_error)),
+            "rms_curvature": ("end", curvature * np.exp(ends * curvature_error)),
+            "elastic_energy": ("end", (energy * np.exp(ends * energy_error)) ** 2 / 4),
         },
         coords={"end": ENDS},
     )
+
+
+def root_and_error(rings, cell, power, inside=True):
+    """Root of the variance 2 pi int q^(1 + power) C dq and its relative sampling error.
+
+    The error is large for the heights, whose variance sits in the few longest waves.
+    """
+    parts = np.where(inside, rings.psd * rings.modes * cell * rings.q**power, 0)
+    total = parts.sum()
+    return np.sqrt(total), np.sqrt(np.sum(parts**2 / rings.dof)) / total / 2
 
 
 def moments_of(spectra, h_rms):
@@ -170,6 +182,7 @@ def annotated(dataset):
         "psd_fit": ("m^4", "fitted self-affine spectrum"),
         "fitted": ("1", "1 where the wave number is within the range of the fit"),
         "h_rms": ("m", "rms height"),
+        "h_rms_measured": ("m", "rms height of the levelled heights, without a window"),
         "rms_slope": ("1", "rms gradient, of waves up to q1"),
         "rms_curvature": ("1/m", "rms Laplacian, of waves up to q1"),
         "elastic_energy": ("m", "elastic energy of full contact per area over E*"),

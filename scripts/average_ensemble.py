@@ -3,16 +3,17 @@
 import numpy as np
 import xarray as xr
 
-from _errors import described, with_errors
+from _errors import described, mean, with_errors
 from _job import start
 from _model import DESCRIBED, middles
 from stickiness import datasets
 
+KEPT = ("area_fraction", "mean_gap", "attractive_area", "residual", "iterations", "rms_slope")
 AVERAGED = ("area_fraction", "mean_gap", "attractive_area", "gap_density")
 
 
 def main(job):
-    needed = ("area_fraction", "mean_gap", "attractive_area", "residual", "rms_slope")
+    needed = ("area_fraction", "mean_gap", "attractive_area", "edge_gap", "residual", "rms_slope")
     files = [datasets.read(path, needed) for path in job.input.realisations]
     seeds = [datasets.parameters(file)["seed"] for file in files]
     realisations = xr.concat(files, xr.DataArray(seeds, dims="seed", name="seed"))
@@ -38,15 +39,19 @@ def gap_density(attractive_area):
 
 def with_statistics(realisations):
     """Mean and errors of every quantity, beside the values seed by seed."""
-    kept = ["area_fraction", "mean_gap", "attractive_area", "residual", "iterations", "rms_slope"]
-    dataset = realisations[kept]
+    dataset = realisations[list(KEPT)]
+    dataset["edge_gap_mean"] = mean(realisations.edge_gap)
     for name in AVERAGED:
         dataset = with_errors(dataset, name, realisations[name])
     return dataset
 
 
 def annotated(dataset):
-    texts = {"seed": ("1", "seed of the realisation"), "gap": DESCRIBED["gap"]}
+    texts = {
+        "seed": ("1", "seed of the realisation"),
+        "gap": DESCRIBED["gap"],
+        "edge_gap_mean": ("1", "gap next to the contact over h_rms: smallest range resolved"),
+    }
     for name in AVERAGED:
         texts |= described(name, DESCRIBED[name][1])
     return datasets.annotate(dataset, **texts)

@@ -12,6 +12,9 @@ def main(job):
     areas = datasets.read(job.input.areas, ["attractive_area", "pressure"])
     dataset = fitted(areas.attractive_area, areas.pressure, job.params.windows)
     dataset["exponent"] = local_exponent(areas.attractive_area)
+    if "edge_gap_mean" in areas:
+        resolved = areas["range"] >= areas.edge_gap_mean
+        dataset["exponent"] = dataset.exponent.where(resolved)
     if "seed" in dataset.a_v.dims:
         dataset = with_errors(dataset, "a_v", dataset.a_v)
     datasets.write(
@@ -73,7 +76,7 @@ def annotated(dataset):
         "exponent": (
             "1",
             "local exponent d ln A_ad/d ln range",
-            "no area within so small a range",
+            "a range that the grid does not resolve",
         ),
     }
     if "a_v_mean" in dataset:

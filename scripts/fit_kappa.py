@@ -4,10 +4,8 @@ import xarray as xr
 
 from _errors import described, with_errors
 from _job import start
-from _model import DESCRIBED
+from _model import DESCRIBED, LINEAR_UP_TO
 from stickiness import datasets
-
-LINEAR_UP_TO = 0.3  # area fraction up to which the paper calls the area linear in load
 
 
 def main(job):

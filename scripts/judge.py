@@ -3,7 +3,7 @@
 import numpy as np
 import xarray as xr
 
-from _criteria import measured_a_v
+from _criteria import measured_a_v, surface_a_v
 from _job import start
 from _tables import table
 from stickiness import criteria, datasets
@@ -12,15 +12,17 @@ from stickiness.units import si
 ENDS = ("smooth", "rough")
 NEEDED = ("h_rms", "rms_slope", "rms_curvature", "elastic_energy", "q0", "hurst")
 DERIVED = "violano"
-VERDICTS = ("not sticky", "depends", "sticky")
+NOT_STICKY, DEPENDS, STICKY, UNDECIDED = range(4)
+VERDICTS = ("not sticky", "depends", "sticky", "undecided")
 
 
 def main(job):
-    a_v = measured_a_v(job.input, job.params.pressure)
-    surfaces = dict(zip(job.params.surfaces, job.input.surfaces, strict=True))
-    surfaces = {name: datasets.read(path, NEEDED) for name, path in surfaces.items()}
+    constant = measured_a_v(job.input, job.params.pressure)
+    names = job.params.surfaces
+    surfaces = dict(zip(names, (datasets.read(f, NEEDED) for f in job.input.surfaces), strict=True))
+    a_v = dict(zip(names, (surface_a_v(f, constant) for f in job.input.theories), strict=True))
     materials = {name: properties(entry) for name, entry in job.params.materials.items()}
-    dataset = judged(materials, surfaces, a_v)
+    dataset = judged(materials, surfaces, a_v, constant)
     datasets.write(
         dataset,
         job.output.dataset,
@@ -28,7 +30,8 @@ def main(job):
         parameters={"materials": job.params.materials, "pressure": job.params.pressure},
     )
     with datasets.whole_file(job.output.table) as path:
-        path.write_text(markdown(dataset, a_v, job.params.materials, surfaces), encoding="utf-8")
+        text = markdown(dataset, constant, job.params.materials, surfaces)
+        path.write_text(text, encoding="utf-8")
 
 
 def properties(entry):
@@ -44,77 +47,90 @@ def properties(entry):
     }
 
 
-def judged(materials, surfaces, a_v):
+def judged(materials, surfaces, a_v, constant):
+    """Every criterion for every material on both ends of every surface."""
     rows = [
         [
-            [state(material, surface.sel(end=end), a_v) for end in ENDS]
-            for surface in surfaces.values()
+            [state(material, surface.sel(end=end), a_v[name], constant) for end in ENDS]
+            for name, surface in surfaces.items()
         ]
         for material in materials.values()
     ]
     dims = ("material", "surface", "end")
-    names = list(rows[0][0][0]["margins"])
-    coords = {"material": list(materials), "surface": list(surfaces), "end": list(ENDS)}
-
-    def collect(key):
-        return dims, [[[cell[key] for cell in row] for row in block] for block in rows]
-
-    margins = [
-        [[list(cell["margins"].values()) for cell in row] for row in block] for block in rows
-    ]
+    values = {
+        key: (dims, [[[cell[key] for cell in row] for row in block] for block in rows])
+        for key in rows[0][0][0]
+        if key != "margins"
+    }
+    margins = [[[list(c["margins"].values()) for c in row] for row in block] for block in rows]
     dataset = xr.Dataset(
-        {
+        values
+        | {
             "margin": ((*dims, "criterion"), margins),
-            "margin_low": collect("low"),
-            "margin_high": collect("high"),
-            "modulus_threshold": collect("threshold"),
-            "dmt_valid": collect("dmt_valid"),
-            "a_v": ((), a_v.value),
-            "a_v_low": ((), a_v.low),
-            "a_v_high": ((), a_v.high),
+            "a_v": constant.value,
+            "a_v_low": constant.low,
+            "a_v_high": constant.high,
         },
-        coords=coords | {"criterion": names},
+        coords={
+            "material": list(materials),
+            "surface": list(surfaces),
+            "end": list(ENDS),
+            "criterion": list(rows[0][0][0]["margins"]),
+        },
     )
     dataset["verdict"] = verdict(dataset)
     dataset["disagrees"] = disagreement(dataset)
     return annotated(dataset)
 
 
-def state(material, surface, a_v):
+def state(material, surface, a_v, constant):
     """Margins of all criteria for one material on one end of a surface, in SI units."""
     modulus, range_ = material["modulus"], material["range"]
-    length = material["work_of_adhesion"] / modulus
+    work = material["work_of_adhesion"]
+    length = work / modulus
     h, q0 = float(surface.h_rms), float(surface.q0)
     slope, curvature = float(surface.rms_slope), float(surface.rms_curvature)
-    verdicts = (
-        criteria.violano(h, q0, length, range_, a_v.value),
-        criteria.violano_printed(h, q0, length, range_),
-        criteria.pastewka_robbins(slope, curvature, length, range_),
-        criteria.fuller_tabor(h, curvature, length),
-        criteria.bearing_area(h, q0, length, range_),
-        criteria.persson_tosatti(float(surface.elastic_energy), length),
-        criteria.dahlquist(modulus),
-    )
+    value, low, high = a_v.at(range_ / h)
+    validity = criteria.dmt_validity(h, q0, length, range_)
+    verdicts = {
+        DERIVED: criteria.violano(h, q0, length, range_, value),
+        "violano_constant": criteria.violano(h, q0, length, range_, constant.value),
+        "violano_printed": criteria.violano_printed(h, q0, length, range_),
+        "pastewka_robbins": criteria.pastewka_robbins(slope, curvature, length, range_),
+        "fuller_tabor": criteria.fuller_tabor(h, curvature, length),
+        "bearing_area": criteria.bearing_area(h, q0, length, range_),
+        "persson_tosatti": criteria.persson_tosatti(float(surface.elastic_energy), length),
+        "dahlquist": criteria.dahlquist(modulus),
+    }
     return {
-        "margins": {v.name: float(v.margin) for v in verdicts},
-        "low": float(criteria.violano(h, q0, length, range_, a_v.low).margin),
-        "high": float(criteria.violano(h, q0, length, range_, a_v.high).margin),
-        "threshold": criteria.modulus_threshold(
-            h, q0, material["work_of_adhesion"], range_, a_v.value
-        ),
-        "dmt_valid": int(criteria.dmt_validity(h, q0, length, range_).valid),
+        "margins": {name: float(v.margin) for name, v in verdicts.items()},
+        "margin_low": float(criteria.violano(h, q0, length, range_, low).margin),
+        "margin_high": float(criteria.violano(h, q0, length, range_, high).margin),
+        "modulus_threshold": criteria.modulus_threshold(h, q0, work, range_, value),
+        "range_over_h_rms": range_ / h,
+        "pair_a_v": value,
+        "pair_a_v_low": low,
+        "pair_a_v_high": high,
+        "jtb_margin": float(validity.margin),
+        "dmt_valid": int(validity.valid),
     }
 
 
 def verdict(dataset):
-    """2 if sticky over the whole surface range and the error of a_V, 0 if nowhere, else 1."""
+    """Verdict over the whole range of the surface and the limits of a_V.
+
+    Where the DMT limit does not hold, attraction pulls the surfaces closer than the repulsive gaps
+    tell: what sticks there sticks all the more, but what does not is undecided.
+    """
     surely = (dataset.margin_low > 1).all("end")
     possibly = (dataset.margin_high > 1).any("end")
-    return surely.astype("i1") + possibly.astype("i1")
+    decided = NOT_STICKY + possibly.astype("i1") + surely.astype("i1")
+    outside = (dataset.dmt_valid == 0).any("end")
+    return decided.where((decided != NOT_STICKY) | ~outside, UNDECIDED).astype("i1")
 
 
 def disagreement(dataset):
-    """Criteria whose verdict at an end is the opposite of the derived one's there."""
+    """Tell which criteria say the opposite of the derived one at either end."""
     sticky = dataset.margin > 1
     differs = sticky != sticky.sel(criterion=DERIVED)
     return differs.any("end").astype("i1")
@@ -128,55 +144,59 @@ def annotated(dataset):
         end=("1", "smooth or rough end of what is known of the surface"),
         criterion=("1", "stickiness criterion"),
         margin=("1", "threshold over actual value in the criterion's own form; sticky above 1"),
-        margin_low=("1", "margin of the derived criterion at the low end of a_V"),
-        margin_high=("1", "margin of the derived criterion at the high end of a_V"),
+        margin_low=("1", "margin of the derived criterion at the low limit of the pair's a_V"),
+        margin_high=("1", "margin of the derived criterion at the high limit of the pair's a_V"),
+        range_over_h_rms=("1", "range of attraction over rms height"),
+        pair_a_v=("1", "a_V of the pair: its surface's spectrum, its range over h_rms"),
+        pair_a_v_low=("1", "low limit of the pair's a_V"),
+        pair_a_v_high=("1", "high limit of the pair's a_V"),
+        jtb_margin=("1", "rms height over the smallest at which the DMT limit holds (JTB)"),
         modulus_threshold=("Pa", "plane-strain modulus below which the pair sticks"),
         dmt_valid=("1", "1 where the JTB condition for the DMT limit holds"),
-        a_v=("1", "a_V of the derived criterion"),
+        a_v=("1", "constant a_V of a broad spectrum, in the window of the fit"),
         a_v_low=("1", "a_V less its error"),
         a_v_high=("1", "a_V plus its error"),
-        verdict=("1", "0 not sticky, 1 depends on what is not known, 2 sticky"),
+        verdict=("1", "0 not sticky, 1 depends on what is not known, 2 sticky, 3 undecided"),
         disagrees=("1", "1 where a criterion says the opposite of the derived one"),
     )
 
 
-def markdown(dataset, a_v, materials, surfaces):
+def markdown(dataset, constant, materials, surfaces):
     head = (
         "# Do they stick?\n\n"
-        f"Derived criterion with {a_v.describe()}. "
+        "By the derived criterion, with a_V of the pair: theory on the surface's own spectrum at "
+        "the material's range over h_rms, times the ratio of simulation to theory "
+        f"({constant.over_lattice:.2f}), from the lowest to the highest of the theory's variants. "
+        f"For comparison the constant {constant.describe()}.\n\n"
         "The margin is the largest rms height that sticks over the actual one, from the rough to "
-        "the smooth end of what is known of the surface: above 1 sticks. E* threshold: modulus "
-        "below which the pair sticks. † marks pairs for which the DMT limit, on which the "
-        "criterion rests, does not hold.\n\n"
+        "the smooth end of what is known of the surface: above 1 sticks. *Depends*: on that range "
+        "or on a_V. E* threshold: modulus below which the pair sticks. † marks pairs for which the "
+        "DMT limit, on which the criterion rests, does not hold (h_rms below the JTB limit, by the "
+        "factor given): attraction then pulls the surfaces closer, so that *sticky* stands but "
+        "*not sticky* becomes *undecided*.\n\n"
     )
-    rows = []
-    for material in dataset.material.values:
-        for surface in dataset.surface.values:
-            cell = dataset.sel(material=material, surface=surface)
-            margin = cell.margin.sel(criterion=DERIVED)
-            differs = [str(c) for c in cell.criterion.values if cell.disagrees.sel(criterion=c)]
-            dagger = "" if bool(cell.dmt_valid.all()) else " †"
-            rows.append(
-                (
-                    materials[material]["label"],
-                    datasets.parameters(surfaces[surface])["label"],
-                    VERDICTS[int(cell.verdict)] + dagger,
-                    interval(margin.sel(end="rough"), margin.sel(end="smooth")),
-                    interval(
-                        *(cell.modulus_threshold.sel(end=e) / 1e6 for e in ("rough", "smooth"))
-                    ),
-                    ", ".join(differs) or "none",
-                )
-            )
-    columns = (
-        "material",
-        "surface",
-        "verdict",
-        "margin",
-        "E* threshold [MPa]",
-        "criteria that disagree",
+    pairs = [(m, s) for m in dataset.material.values for s in dataset.surface.values]
+    columns = ("material", "surface", "verdict", "margin", "a_V of the pair")
+    columns += ("E* threshold [MPa]", "DMT", "criteria that disagree")
+    return head + table(columns, [row(dataset, *pair, materials, surfaces) for pair in pairs])
+
+
+def row(dataset, material, surface, materials, surfaces):
+    pair = dataset.sel(material=material, surface=surface)
+    rough, smooth = pair.sel(end="rough"), pair.sel(end="smooth")
+    margins = pair.margin.sel(criterion=DERIVED)
+    differs = [str(c) for c in pair.criterion.values if pair.disagrees.sel(criterion=c)]
+    valid = bool(pair.dmt_valid.all())
+    return (
+        materials[material]["label"],
+        datasets.parameters(surfaces[surface])["label"],
+        VERDICTS[int(pair.verdict)] + ("" if valid else " †"),
+        interval(margins.sel(end="rough"), margins.sel(end="smooth")),
+        interval(pair.pair_a_v_low.min(), pair.pair_a_v_high.max()),
+        interval(rough.modulus_threshold / 1e6, smooth.modulus_threshold / 1e6),
+        "holds" if valid else f"† {float(pair.jtb_margin.min()):.1g}",
+        ", ".join(differs) or "none",
     )
-    return head + table(columns, rows)
 
 
 def interval(low, high):

@@ -31,7 +31,7 @@ DENSITY_LABEL = r"probability density $h_\mathrm{rms}P(u)$"
 def main(job):
     density = datasets.read(job.input.density, ["gap_density"])
     convergence = datasets.read(job.input.convergence, ["gap_density"])
-    ensemble = datasets.read(job.input.ensemble, ["gap_density_mean"])
+    ensemble = datasets.read(job.input.ensemble, ["gap_density_mean", "edge_gap_mean"])
     lattice = datasets.read(job.input.lattice, ["gap_density"])
     figure, panels = canvas("AB;CC", 5.9, height_ratios=[1, 1.05])
     panel_a(panels["A"], density)
@@ -109,18 +109,26 @@ def panel_c(ax, ensemble, lattice):
     )
     handles, _ = ax.get_legend_handles_labels()
     dots = key(linestyle="none", marker=".", label="BEM, mean over realisations")
-    ax.legend(handles=handles + [dots, *variant_keys()], loc="upper right", ncols=2)
+    hollow = key(linestyle="none", marker="o", mfc="white", markersize=3, label="not resolved")
+    ax.legend(handles=handles + [dots, hollow, *variant_keys()], loc="upper right", ncols=2)
 
 
 def simulated(ax, measured, colour):
-    """Mean with the sampling error as a dark band and the discretisation error as a light one."""
+    """Mean with the sampling error as a dark band and the discretisation error as a light one.
+
+    Hollow below the gap next to the contact's edge, where the grid decides and not the surface.
+    """
     mean = measured.gap_density_mean.where(measured.gap_density_mean > 0)
     sampling = np.nan_to_num(measured.gap_density_standard_error)
     total = total_error(sampling, measured.gap_density_discretisation_error)
     for error, strength in ((total, 0.15), (sampling, 0.3)):
         low = np.maximum(mean - error, 1e-6)  # a band down to zero has no lower end on a log axis
         ax.fill_between(mean.gap, low, mean + error, color=colour, alpha=strength, linewidth=0)
-    ax.plot(mean.gap, mean, ".", color=colour, markersize=3.5)
+    resolved = mean.gap >= measured.edge_gap_mean
+    ax.plot(mean.gap, mean.where(resolved), ".", color=colour, markersize=3.5)
+    ax.plot(
+        mean.gap, mean.where(~resolved), "o", color=colour, markersize=2.2, mfc="white", mew=0.5
+    )
 
 
 if __name__ == "__main__":

@@ -184,6 +184,7 @@ def _config_problems(config: Mapping[str, Any]) -> Iterator[str]:
             f"criteria.a_v.pressure = {chosen['pressure']!r} is not among the pressures of "
             f"cases.{chosen['case']}"
         )
+    yield from _grid_problems("criteria.ranges", config["criteria"]["ranges"])
     for key in ("range_times_q0", "adhesion_length_over_range"):
         yield from _grid_problems(f"criteria.map.{key}", config["criteria"]["map"][key])
 
@@ -292,6 +293,7 @@ def _one_line(error: jsonschema.ValidationError) -> str:
         "minLength": "must not be empty",
         "pattern": "does not match {}",
         "uniqueItems": "must not repeat a value",
+        "contains": "lacks a value",
     }
     reason = reasons.get(error.validator, error.message).format(error.validator_value)
     hint = error.schema.get("description") if isinstance(error.schema, Mapping) else None

@@ -1,0 +1,72 @@
+"""Theory's attractive area on the spectrum of a real surface, as an a_V at every range."""
+
+import numpy as np
+import xarray as xr
+
+from _job import start
+from _model import DESCRIBED, logarithmic_grid
+from stickiness import datasets
+from stickiness.persson import Persson
+from stickiness.spectrum import Tabulated
+
+VARIANTS = ("afferrante2018", "almqvist2011")  # P(0) infinite and finite: limits on the truth
+LARGEST_EDGE = 0.1  # range over h_rms beyond which the gaps are no longer those of contact edges
+
+
+def main(job):
+    surface = datasets.read(job.input.surface, ["psd", "q0", "q1"])
+    spectrum = spectrum_of(surface)
+    ranges = logarithmic_grid(job.params.ranges)
+    load = job.params.pressure
+    pressure = load * float(surface.q0) * spectrum.h_rms
+    resolved = [
+        Persson(spectrum, variant=variant, gamma=job.params.gamma).gap_cumulative(
+            ranges * spectrum.h_rms, pressure
+        )
+        / (1.5 * load * ranges ** (2 / 3))
+        for variant in VARIANTS
+    ]
+    edge = edge_range(ranges, resolved[1])
+    a_v = [np.where(ranges < edge, a[ranges == edge], a) for a in resolved]
+    dataset = xr.Dataset(
+        {"a_v": (("variant", "range"), a_v), "edge_range": edge},
+        coords={"variant": list(VARIANTS), "range": ranges},
+    )
+    datasets.write(
+        datasets.annotate(
+            dataset,
+            variant=("1", "variant of the theory"),
+            range=DESCRIBED["range"],
+            a_v=("1", "a_V = A_ad/((3/2) p (range/h_rms)^(2/3)), constant below the edge range"),
+            edge_range=("1", "range over h_rms below which the edge law takes over from theory"),
+        ),
+        job.output[0],
+        title="a_V by Persson's theory on the spectrum of a real surface",
+        parameters={
+            **datasets.parameters(surface),
+            "pressure": load,
+            "gamma": job.params.gamma,
+        },
+    )
+
+
+def edge_range(ranges, a_v):
+    """Range below which theory no longer resolves the edges of the contact.
+
+    Next to an edge gaps grow as x^(3/2) and a_V does not depend on the range. Neither variant
+    knows: for small ranges the one makes a_V fall to zero, the other grow without bound. They part
+    where the first has its largest value, which is close to Pastewka and Robbins' for the shortest
+    waves; from there down it is kept.
+    """
+    return ranges[int(np.argmax(np.where(ranges <= LARGEST_EDGE, a_v, 0)))]
+
+
+def spectrum_of(surface):
+    """Spectrum up to q1; its level drops out, so that either end of the surface will do."""
+    inside = surface.wave_number <= float(surface.q1) * (1 + 1e-9)
+    known = surface.isel(end=-1, wave_number=np.flatnonzero(inside))
+    return Tabulated(known.wave_number.values, known.psd.values)
+
+
+if __name__ == "__main__":
+    main(start(globals(), "persson_surface", real_surface="asphalt"))
