@@ -43,6 +43,7 @@ def criterion_map(tmp_path):
     a_v = MeasuredAv(
         value=3.0,
         simulated=2.0,
+        over_lattice=1.0,
         magnification=1e6,
         sampling=0.2,
         discretisation=0.1,
