@@ -119,6 +119,9 @@ def ledger_inputs():
     return {
         "kappa_64": f"{RESULTS}/fits/kappa/H0.8_zeta64.nc",
         "kappa_128": f"{RESULTS}/fits/kappa/H0.8_zeta128.nc",
+        "kappa_wide": f"{RESULTS}/fits/kappa/H0.8_zeta32_wide.nc",
+        "lattice_wide": f"{RESULTS}/persson_lattice/H0.8_zeta32_wide.nc",
+        "fit_lattice_128": f"{RESULTS}/fits/persson_lattice/H0.8_zeta128.nc",
         "ensemble_wide": f"{RESULTS}/ensembles/H0.8_zeta32_wide.nc",
         "fit_bem_wide": f"{RESULTS}/fits/ensembles/H0.8_zeta32_wide.nc",
         "fit_bem_128": f"{RESULTS}/fits/ensembles/H0.8_zeta128.nc",

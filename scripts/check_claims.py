@@ -36,13 +36,15 @@ def ledger_files(inputs):
 
 
 def source_paths(claim, paths):
-    """Files behind a claim; one name may stand for a group of files."""
-    found = [paths[name] for name in claim.sources if name in paths]
+    """Files behind a claim, each once; one name may stand for a group of files."""
     groups = {"seeds": "seed:", "surfaces": "surface:"}
+    found = []
     for name in claim.sources:
         if name in groups:
             found += [path for key, path in paths.items() if key.startswith(groups[name])]
-    return found
+        else:
+            found.append(paths[name])
+    return list(dict.fromkeys(found))
 
 
 def to_dataset(claims, sources):

@@ -1,0 +1,85 @@
+"""One row of the claims ledger, and what every claim needs to state its numbers."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+import xarray as xr
+
+from _model import LOAD
+from stickiness import datasets
+
+REPRODUCED = "reproduced"
+QUALIFIED = "reproduced with a qualification"
+NOT = "not reproduced"
+WAITING = "waiting for the adhesive solver"
+
+Files = Mapping[str, xr.Dataset]
+
+
+@dataclass(frozen=True)
+class Claim:
+    """One row of the ledger.
+
+    Attributes
+    ----------
+    number : int
+        Position in the ledger.
+    statement : str
+        What the paper claims.
+    quantity : str
+        What `value` is, with its unit.
+    value, uncertainty, claimed : float
+        Measured value, its uncertainty (NaN where the value is exact) and the paper's value (NaN
+        where it gives none).
+    verdict : str
+        One of the verdicts above.
+    remark : str
+        The qualification or the reason, with its numbers.
+    sources : tuple of str
+        Names of the files that the value came from.
+    """
+
+    number: int
+    statement: str
+    quantity: str
+    value: float
+    uncertainty: float
+    claimed: float
+    verdict: str
+    remark: str
+    sources: tuple[str, ...]
+
+
+def graded(fully: bool, partly: bool) -> str:
+    """Verdict from whether the claim holds outright or within limits that the remark states."""
+    return REPRODUCED if fully else QUALIFIED if partly else NOT
+
+
+def total_error(data: xr.Dataset, name: str) -> xr.DataArray:
+    """Standard error and discretisation error of a mean, in quadrature."""
+    return np.hypot(data[f"{name}_standard_error"], data[f"{name}_discretisation_error"])
+
+
+def quoted(value: float, error: float) -> str:
+    """Value with its error, if it has one."""
+    return f"{float(value):.2f}" + (f" ± {float(error):.2f}" if np.isfinite(error) else "")
+
+
+def at_load(data: xr.Dataset) -> xr.Dataset:
+    """The point next to the load of the paper's figures."""
+    return data.sel(pressure=LOAD, method="nearest")
+
+
+def sample(data: xr.Dataset) -> str:
+    """Magnification and window of a simulated case in words."""
+    asked = datasets.parameters(data)
+    waves = asked.get("window", 1)
+    return f"zeta = {asked['magnification']:g}, window of {waves:g} longest wave{'s'[: waves > 1]}"
+
+
+def power(number: float) -> str:
+    """Magnification in words, 1000 or 5e4."""
+    return f"{number:g}" if number < 1e4 else f"{number:.2g}".replace("e+0", "e")
