@@ -15,12 +15,13 @@ def start(names: dict[str, Any], rule: str, **wildcards: Any) -> Any:
     ----------
     names : dict
         ``globals()`` of the script. Run by Snakemake it holds `snakemake`; run by hand
-        (``python scripts/NAME.py``) the job of `rule` with `wildcards` is looked up in the
-        workflow, so that a script can be debugged alone, from the project's top folder.
+        (``python scripts/NAME.py case=H0.8_zeta64 fidelity=draft``) the job of `rule` with these
+        wildcards is looked up in the workflow, so that a script can be debugged alone, from the
+        project's top folder.
     rule, **wildcards
         Example job for a run by hand.
     """
-    job = names.get("snakemake") or job_of(rule, **wildcards)
+    job = names.get("snakemake") or job_of(rule, **wildcards | given())
     Path(job.log[0]).parent.mkdir(parents=True, exist_ok=True)
     logging.basicConfig(
         filename=job.log[0],
@@ -35,8 +36,15 @@ def start(names: dict[str, Any], rule: str, **wildcards: Any) -> Any:
 
 def _report(kind: type[BaseException], error: BaseException, trace: Any) -> None:
     """One line on the terminal, the trace in the log."""
-    logging.error("%s: %s", kind.__name__, error, exc_info=(kind, error, trace))
+    # A ValueError says itself what is wrong with the input; anything else needs its trace.
+    shown = None if issubclass(kind, ValueError) else (kind, error, trace)
+    logging.error("%s: %s", kind.__name__, error, exc_info=shown)
     print(f"{kind.__name__}: {error}", file=sys.stderr)
+
+
+def given() -> dict[str, str]:
+    """What the command line says as KEY=VALUE: wildcards, or the fidelity."""
+    return dict(argument.split("=", 1) for argument in sys.argv[1:])
 
 
 def job_of(rule: str, **wildcards: Any) -> Any:
@@ -45,10 +53,15 @@ def job_of(rule: str, **wildcards: Any) -> Any:
 
     from snakemake.api import SnakemakeApi
     from snakemake.iocontainers import Wildcards
-    from snakemake.settings.types import OutputSettings, ResourceSettings
+    from snakemake.settings.types import ConfigSettings, OutputSettings, ResourceSettings
 
+    config = {key: wildcards.pop(key) for key in ("fidelity",) if key in wildcards}
     with SnakemakeApi(OutputSettings(quiet=None)) as api:
-        workflow_api = api.workflow(ResourceSettings(cores=1), snakefile=Path("Snakefile"))
+        workflow_api = api.workflow(
+            ResourceSettings(cores=1),
+            config_settings=ConfigSettings(config=config),
+            snakefile=Path("Snakefile"),
+        )
         workflow = workflow_api._workflow
         found = workflow.get_rule(rule)
         values = Wildcards(fromdict={key: str(value) for key, value in wildcards.items()})

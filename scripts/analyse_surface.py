@@ -88,7 +88,13 @@ def measured(asked):
     dataset = resolved_moments(rings, plane.dqx * plane.dqy, fit.q_max)
     dataset["h_rms_measured"] = heights.h_rms
     if fit.q_rolloff is None:
-        remarks.append("no roll-off within the scan: q0 is that of the scan, not of the surface")
+        lowest = 2 * np.pi / fit.q_min
+        remarks.append(
+            f"no roll-off was found below wavelengths of {lowest:.3g} m, and longer ones cannot "
+            "show one: q0 is that of the scan, not of the surface"
+        )
+    shortest = 2 * np.pi / fit.q_max
+    remarks.append(f"waves shorter than {shortest:.3g} m are not part of slope, curvature and a_V")
     if fit.q_rolloff is not None:
         dataset["q_rolloff"] = fit.q_rolloff
     return (

@@ -13,6 +13,21 @@ ENDS = ("smooth", "rough")
 NEEDED = ("h_rms", "rms_slope", "rms_curvature", "elastic_energy", "q0", "hurst")
 DERIVED = "violano"
 NOT_STICKY, DEPENDS, STICKY, UNDECIDED = range(4)
+HEAD = """\
+# Do they stick?
+
+By the derived criterion, with a_V of the pair: theory on the surface's own spectrum at the
+material's range over h_rms, times the ratio of simulation to theory ({ratio:.2f}), from the
+lowest to the highest of the theory's variants. For comparison the constant {constant}.
+
+The margin is the largest rms height that sticks over the actual one, from the rough end of the
+surface at the lowest a_V to its smooth end at the highest: above 1 sticks. *Depends*: on that
+range or on a_V. E* threshold: modulus below which the pair sticks. † marks pairs for which the
+DMT limit, on which the criterion rests, does not hold (h_rms below the JTB limit, by the factor
+given): attraction then pulls the surfaces closer, so that *sticky* stands but *not sticky*
+becomes *undecided*.
+
+"""
 VERDICTS = ("not sticky", "depends", "sticky", "undecided")
 
 
@@ -162,19 +177,7 @@ def annotated(dataset):
 
 
 def markdown(dataset, constant, materials, surfaces):
-    head = (
-        "# Do they stick?\n\n"
-        "By the derived criterion, with a_V of the pair: theory on the surface's own spectrum at "
-        "the material's range over h_rms, times the ratio of simulation to theory "
-        f"({constant.over_lattice:.2f}), from the lowest to the highest of the theory's variants. "
-        f"For comparison the constant {constant.describe()}.\n\n"
-        "The margin is the largest rms height that sticks over the actual one, from the rough to "
-        "the smooth end of what is known of the surface: above 1 sticks. *Depends*: on that range "
-        "or on a_V. E* threshold: modulus below which the pair sticks. † marks pairs for which the "
-        "DMT limit, on which the criterion rests, does not hold (h_rms below the JTB limit, by the "
-        "factor given): attraction then pulls the surfaces closer, so that *sticky* stands but "
-        "*not sticky* becomes *undecided*.\n\n"
-    )
+    head = HEAD.format(ratio=constant.over_lattice, constant=constant.describe())
     pairs = [(m, s) for m in dataset.material.values for s in dataset.surface.values]
     columns = ("material", "surface", "verdict", "margin", "a_V of the pair")
     columns += ("E* threshold [MPa]", "DMT", "criteria that disagree")
@@ -184,18 +187,17 @@ def markdown(dataset, constant, materials, surfaces):
 def row(dataset, material, surface, materials, surfaces):
     pair = dataset.sel(material=material, surface=surface)
     rough, smooth = pair.sel(end="rough"), pair.sel(end="smooth")
-    margins = pair.margin.sel(criterion=DERIVED)
     differs = [str(c) for c in pair.criterion.values if pair.disagrees.sel(criterion=c)]
     valid = bool(pair.dmt_valid.all())
     return (
         materials[material]["label"],
         datasets.parameters(surfaces[surface])["label"],
         VERDICTS[int(pair.verdict)] + ("" if valid else " †"),
-        interval(margins.sel(end="rough"), margins.sel(end="smooth")),
+        interval(pair.margin_low.min(), pair.margin_high.max()),
         interval(pair.pair_a_v_low.min(), pair.pair_a_v_high.max()),
         interval(rough.modulus_threshold / 1e6, smooth.modulus_threshold / 1e6),
         "holds" if valid else f"† {float(pair.jtb_margin.min()):.1g}",
-        ", ".join(differs) or "none",
+        ", ".join(differs).replace("_", " ") or "none",
     )
 
 

@@ -71,7 +71,7 @@ def annotated(dataset):
         dataset,
         range_times_q0=("1", "range times lowest wave number"),
         adhesion_length_over_range=("1", "adhesion length over range"),
-        h_rms_limit=("1", f"{limit}, a_V as measured"),
+        h_rms_limit=("1", f"{limit}, a_V of a broad spectrum"),
         h_rms_limit_low=("1", f"{limit}, a_V at its low end"),
         h_rms_limit_high=("1", f"{limit}, a_V at its high end"),
         h_rms_limit_printed=("1", f"{limit}, coefficient 9/4 as printed"),

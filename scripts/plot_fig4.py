@@ -141,7 +141,7 @@ def line_keys(a_v):
     return [
         key(color=BLACK, marker="o", mfc="white", linestyle="none", label="DMT not valid"),
         key(label=rf"formula, $a_V$ = {PAPER_A_V:g}"),
-        key(linestyle=":", label=rf"formula, $a_V$ = {a_v:.2g} as measured"),
+        key(linestyle=":", label=rf"formula, $a_V$ = {a_v:.2g}, carried to broad spectra"),
     ]
 
 
@@ -159,7 +159,7 @@ def panel_c(ax, sets, a_v):
     low, high = a_v.low / PAPER_A_V, a_v.high / PAPER_A_V
     band = ax.axhspan(low, high, color=GREY, alpha=0.15, linewidth=0)
     line = ax.axhline(a_v.value / PAPER_A_V, color=GREY, linestyle=":", linewidth=0.9)
-    text = rf"$a_V$ = {a_v.value:.1f} ± {a_v.error:.1f} as measured"
+    text = rf"$a_V$ = {a_v.value:.1f} ± {a_v.error:.1f}, carried to broad spectra"
     ax.legend([(band, line)], [text], loc="lower left")
     ax.set(xscale="log", xlabel=r"range $\epsilon/h_\mathrm{rms}$", ylim=(0, 2))
     ax.set(ylabel=rf"$1/\kappa_\mathrm{{ad}}$ over formula, $a_V$ = {PAPER_A_V:g}")

@@ -18,6 +18,9 @@ CONFIG, MATERIALS, SURFACES = (
 def folder(tmp_path, monkeypatch):
     """A copy of the configuration, as the working directory."""
     shutil.copytree(ROOT / "config", tmp_path / "config")
+    for entry in ROOT.iterdir():  # whatever else the configuration may name, such as data
+        if entry.name != "config":
+            (tmp_path / entry.name).symlink_to(entry)
     monkeypatch.chdir(tmp_path)
     return tmp_path
 
@@ -87,6 +90,11 @@ def model(*keys, value):
             changed(SURFACES, "surfaces", "jacksboro", "file", value="builtin:jackson"),
             ["jacksboro", "builtin:jackson", "jacksboro"],
         ),
+        (
+            changed(SURFACES, "surfaces", "jacksboro", "height_unit", value="kg"),
+            ["jacksboro", "height_unit", "kg", "m"],
+        ),
+        (material("range", value="2,5 nm"), ["crystal.range", "2,5 nm", "decimal point"]),
         (changed(CONFIG, "surfaces", value="config/surfs.yaml"), ["config/surfs.yaml", "no such"]),
         (changed(CONFIG, "cases", "H0.8_zeta32", value=None), ["cases", "H0.8_zeta32", "missing"]),
         (
@@ -109,6 +117,13 @@ def test_shipped_configuration_is_valid(folder):
     materials, surfaces = check()
     assert len(materials) >= 6
     assert "jacksboro" in surfaces
+
+
+def test_a_key_given_twice_is_refused(folder):
+    with Path(MATERIALS).open("a", encoding="utf-8") as file:
+        file.write("  psa: {label: another}\n")
+    with pytest.raises(config.ConfigError, match=r"materials\.yaml: line \d+: .*'psa' .* twice"):
+        check()
 
 
 def test_broken_yaml_names_file_and_line(folder):

@@ -59,9 +59,22 @@ def test_header_of_gwyddion_tells_size_and_unit(tmp_path, matrix, encoding):
 
 def test_the_caller_overrides_the_header(tmp_path, matrix):
     path = write(tmp_path / "a.txt", matrix, header=HEADER)
-    t = topography.read(path, length=["1 mm", "2 mm"], height_unit="m")
+    t = topography.read(path, length=["1 mm", "2 mm"])
     np.testing.assert_allclose(t.size, [1e-3, 2e-3], rtol=1e-12)
-    np.testing.assert_allclose(t.heights, matrix.T, rtol=1e-15)
+
+
+def test_units_of_height_must_not_disagree(tmp_path, matrix):
+    path = write(tmp_path / "a.txt", matrix, header=HEADER)
+    same = topography.read(path, height_unit="1e-9 m")
+    np.testing.assert_allclose(same.heights, 1e-9 * matrix.T, rtol=1e-12)
+    with pytest.raises(ValueError, match="height_unit = 'm', but the file says 'nm'"):
+        topography.read(path, height_unit="m")
+
+
+def test_a_flat_surface_is_refused(tmp_path):
+    path = write(tmp_path / "a.txt", np.ones((8, 8)), header=HEADER)
+    with pytest.raises(ValueError, match="all heights are 1e-09 m"):
+        topography.read(path)
 
 
 def test_one_length_means_square_pixels(tmp_path, matrix):

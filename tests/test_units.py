@@ -20,6 +20,11 @@ def test_converts_to_si(text, unit, value):
     assert si(text, unit) == pytest.approx(value, rel=1e-12)
 
 
+def test_a_decimal_comma_is_refused():
+    with pytest.raises(ValueError, match="decimal point"):
+        si("2,5 nm", "m")
+
+
 @pytest.mark.parametrize("text", ["5", "5 K", "five m", "", "5 mm^2", "m m m 3", 0.1, None])
 def test_anything_else_says_what_is_expected(text):
     with pytest.raises(ValueError, match="expected a number with a unit of the dimension of m"):

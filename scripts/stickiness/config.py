@@ -45,6 +45,21 @@ class ConfigError(ValueError):
     """A key of the configuration is unknown, missing or has a value that cannot be used."""
 
 
+class _UniqueKeys(yaml.SafeLoader):
+    """Loader that refuses a key given twice, of which YAML would keep the second."""
+
+    def construct_mapping(self, node: yaml.MappingNode, deep: bool = False) -> dict[Any, Any]:
+        seen = set()
+        for key, _ in node.value:
+            if key.value in seen and key.value != "<<":
+                problem = f"the key {key.value!r} is given twice"
+                raise yaml.constructor.ConstructorError(
+                    problem=problem, problem_mark=key.start_mark
+                )
+            seen.add(key.value)
+        return super().construct_mapping(node, deep)
+
+
 def load(path: str | Path) -> dict[str, Any]:
     """Read a YAML file of the configuration.
 
@@ -54,7 +69,7 @@ def load(path: str | Path) -> dict[str, Any]:
         If the file is missing or is not valid YAML.
     """
     try:
-        content = yaml.safe_load(Path(path).read_text(encoding="utf-8"))
+        content = yaml.load(Path(path).read_text(encoding="utf-8"), _UniqueKeys)
     except FileNotFoundError:
         raise ConfigError(f"{path}: no such file; set its path in config/config.yaml") from None
     except yaml.YAMLError as error:
@@ -196,6 +211,8 @@ def _surface_problems(surface: Mapping[str, Any]) -> Iterator[str]:
             yield f"file = {file!r} is unknown; built in: {', '.join(_BUILTIN)}"
         elif not file.startswith("builtin:") and not Path(file).is_file():
             yield f"file = {file!r}: no such file; give a path from the working directory"
+        if "height_unit" in surface:
+            yield from _unit_problem("height_unit", f"1 {surface['height_unit']}", "m")
         return
     longest = _wavelength(surface, "longest_wavelength", "q0")
     shortest = _wavelength(surface, "shortest_wavelength", "q1")

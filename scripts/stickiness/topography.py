@@ -88,7 +88,7 @@ def read(
     pixel_size : length or pair of lengths, optional
         Grid step, instead of `length`.
     height_unit : str, optional
-        Unit of the numbers: "nm". Overrides the file's.
+        Unit of the numbers: "nm", if the file does not say so itself.
     variable : str, optional
         NetCDF variable or npz key. Default: the only two-dimensional one.
     missing_value : float, optional
@@ -134,14 +134,27 @@ def read(
     if missing_value is not None:
         heights = np.where(heights == missing_value, np.nan, heights)
     steps = _steps(raw, length, pixel_size)
-    unit = height_unit or raw.unit
-    if unit is None:
+    heights = heights * _height_scale(raw, height_unit)
+    filled, missing = fill_missing(heights, max_missing, raw.source)
+    if np.ptp(filled) == 0:
+        raise ValueError(f"{raw.source}: all heights are {filled.flat[0]:g} m; nothing to analyse")
+    return Topography(filled, *steps, raw.source, missing)
+
+
+def _height_scale(raw: _Raw, height_unit: str | None) -> float:
+    """Metres per unit of height, given by the caller or by the file, which must not disagree."""
+    units = [unit for unit in (height_unit, raw.unit) if unit is not None]
+    if not units:
         raise ValueError(
             f"{raw.source}: the file does not tell the unit of height; give height_unit"
         )
-    heights = heights * _metres(f"1 {unit}", f"{raw.source}: height_unit")
-    filled, missing = fill_missing(heights, max_missing, raw.source)
-    return Topography(filled, *steps, raw.source, missing)
+    scales = [_metres(f"1 {unit}", f"{raw.source}: height_unit") for unit in units]
+    if not np.isclose(scales[0], scales[-1], rtol=1e-12, atol=0):
+        raise ValueError(
+            f"{raw.source}: height_unit = {height_unit!r}, but the file says {raw.unit!r}; "
+            "leave height_unit out, or correct the file"
+        )
+    return scales[0]
 
 
 def jacksboro() -> Topography:

@@ -35,6 +35,8 @@ def si(value: str, unit: str) -> float:
     expected = f"expected a number with a unit of the dimension of {unit}"
     if not isinstance(value, str):
         raise ValueError(f"{value!r} has no unit: {expected}, as a string")
+    if "," in value:  # a comma would be dropped, and 2,5 nm become 25 nm
+        raise ValueError(f"{value!r} holds a comma: write the number with a decimal point")
     try:
         quantity = _registry().Quantity(value)
         return float(quantity.to(unit).magnitude)

@@ -63,6 +63,10 @@ def copied(folder):
             shutil.copytree(ROOT / part, folder / part, ignore=ignore)
         else:
             shutil.copy2(ROOT / part, folder / part)
+    for entry in ROOT.iterdir():  # whatever the configuration may name, such as data
+        hidden = entry.name.startswith(".") or entry.name in (*PARTS, "results")
+        if entry.is_dir() and not hidden:
+            (folder / entry.name).symlink_to(entry)
     shutil.copy2(ROOT / "tests/workflow/tiny.yaml", folder / "config/tiny.yaml")
     return Workflow(folder)
 
