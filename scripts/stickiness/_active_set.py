@@ -3,28 +3,29 @@
 See `stickiness.repulsive` for the problem and the method. Pressures of the contact set are kept as
 short vectors over its points; whole grids are touched once per update of the set.
 
-The gap is always computed in double precision. Corrections of the pressure between two updates are
-solved for in single precision: they reduce the gap by a factor of 10 or 1000, so that the seven
-digits are plenty, and the next update starts from the true gap again (iterative refinement).
+Corrections of the pressure between two updates are solved for in single precision: they reduce the
+gap by a factor of 10 or 1000, so that the seven digits are plenty, and the next update starts from
+the true gap again (iterative refinement). That gap is computed in double precision as soon as the
+residual is small enough for rounding to matter, and always for what is returned.
 """
 
 from dataclasses import dataclass
 
 import numpy as np
-from scipy import sparse
+import pyfftw
 
 from stickiness import fourier
+from stickiness._precondition import Preconditioner
 
 __all__ = ["State", "relax"]
 
 _PREDICTION = 0.7  # c in "contact where p > c k g": 0.5 to 1 predict about equally well
-_LOOSE = 0.3  # reduction of the gap on a set that is still changing much
+_LOOSE = 0.15  # reduction of the gap on a set that is still changing much
 _CLOSER = 0.03  # and on one that changes little
 _SETTLED = 1e-3  # share of changing points below which a set changes little
 _ADMITTED = 0.7  # penetrations up to this multiple of the rms gap in contact may yet vanish
+_DOUBTFUL = 1e-4  # of the largest height: residual below which gaps need double precision
 _RESOLVED = 1e-4  # largest reduction of the gap asked of a correction in single precision
-_EXTENSION = 0.8  # weight of the residual extended beyond the edge of contact
-_DIAGONAL = 0.6  # weight of a diagonal neighbour beside a direct one
 _PATIENCE = 8  # updates without progress after which the set is solved ten times tighter
 _SURRENDER = 40  # updates without progress after which rounding is what limits the residual
 
@@ -39,18 +40,22 @@ class State:
     area_fraction: float
     residual: float
     iterations: int
-    pairs: int
+    pairs: float
 
 
 class _Field:
     """A field that is zero but at some points, and its image under an operator."""
 
-    def __init__(self, operator):
+    def __init__(self, operator, memory=None):
         self.operator = operator
         self.shape = operator.shape
         size = self.shape[0] * self.shape[1]
-        self.field = np.zeros(size, operator.dtype)
-        self.image = np.empty(size, operator.dtype)
+        if memory is None:
+            self.field = pyfftw.zeros_aligned(size, operator.dtype)
+            self.image = pyfftw.empty_aligned(size, operator.dtype)
+        else:  # zeros are zeros in any precision, and an image is read before the next is made
+            self.field = memory.field.view(operator.dtype)[:size]
+            self.image = memory.image.view(operator.dtype)[:size]
 
     def apply(self, operation, points, values, rows_in, rows_out=None):
         """Image of a field that is zero but for `values` at `points`; `image` holds it."""
@@ -60,18 +65,27 @@ class _Field:
         return self.image
 
 
-class _Grid(_Field):
-    """Heights on a grid, and scratch fields in double and in single precision."""
+class _Grid:
+    """Heights on a grid, and scratch fields in single and, unless `rough`, double precision."""
 
-    def __init__(self, operator, heights):
-        super().__init__(operator)
+    def __init__(self, heights, lengths, rough):
+        self.shape = heights.shape
         self.heights = heights
         self.active = np.zeros(heights.size, bool)
-        self.quick = _Field(fourier.half_space(self.shape, operator.lengths, np.float32))
+        dtype = np.float32 if rough else np.float64
+        self.exact = _Field(fourier.half_space(self.shape, lengths, dtype))
+        single = fourier.half_space(self.shape, lengths, np.float32)
+        self.quick = self.exact if rough else _Field(single, memory=self.exact)
+        self.coarse = fourier.coarse_stiffness(self.shape, lengths)
+        # Below this residual rounding in single precision (some 1e-6 of the heights) is felt.
+        self.doubtful = 0.0 if rough else _DOUBTFUL * float(np.abs(heights).max())
         self._before = self._count()
 
     def _count(self):
-        return self.operator.pairs + self.quick.operator.pairs
+        pairs = self.quick.operator.pairs
+        if self.exact is not self.quick:
+            pairs += self.exact.operator.pairs
+        return pairs if self.coarse is None else pairs + self.coarse.applications / 4
 
     @property
     def pairs(self):
@@ -84,15 +98,26 @@ class _Grid(_Field):
         return np.flatnonzero(hit)
 
 
-def relax(operator, heights, load, *, tol, max_iterations, gap=None, pressure=None, logger=None):
+def relax(
+    heights,
+    lengths,
+    load,
+    *,
+    tol,
+    max_iterations,
+    gap=None,
+    pressure=None,
+    rough=False,
+    logger=None,
+):
     """Find pressure and gap on one grid.
 
     Parameters
     ----------
-    operator : stickiness.fourier.HalfSpace
-        Half-space of the grid.
     heights : numpy.ndarray
         Heights in units of their rms, contiguous.
+    lengths : tuple of float
+        Sides of the cell.
     load : float
         Mean pressure.
     tol : float
@@ -102,6 +127,8 @@ def relax(operator, heights, load, *, tol, max_iterations, gap=None, pressure=No
     gap, pressure : numpy.ndarray, optional
         A guess of the gap in single precision, or one of the pressure of any positive mean;
         without either the start is a uniform pressure.
+    rough : bool
+        Single precision suffices: `tol` is well above 1e-5.
     logger : logging.Logger, optional
         Told the progress.
 
@@ -110,7 +137,8 @@ def relax(operator, heights, load, *, tol, max_iterations, gap=None, pressure=No
     State
         The iterate of the smallest residual.
     """
-    grid = _Grid(operator, heights)
+    grid = _Grid(heights, lengths, rough)
+    field = grid.quick if pressure is None else grid.exact
     total = load * heights.size
     if gap is not None:
         points, pressure = _predicted_from_gap(grid, gap, load)
@@ -126,11 +154,13 @@ def relax(operator, heights, load, *, tol, max_iterations, gap=None, pressure=No
     best, precondition = None, None
     iterations, stale, loose, changed = 0, 0, _LOOSE, points.size
     while True:
-        shift, gaps, below, scatter, depth = _gap(grid, points, pressure)
-        residual = max(scatter, depth)
+        shift, gaps, below, residual = _gap(grid, field, points, pressure)
+        if residual <= tol and field is not grid.exact:
+            field = grid.exact
+            continue
         stale += 1
-        if best is None or residual < best[0]:
-            best, stale = (residual, points, pressure, shift), 0
+        if best is None or residual < best[-1]:
+            best, stale = (points, pressure, shift, residual), 0
         if logger is not None:
             _report(logger, grid, residual, points.size, iterations)
         if residual <= tol or iterations >= max_iterations or stale > _SURRENDER:
@@ -139,21 +169,26 @@ def relax(operator, heights, load, *, tol, max_iterations, gap=None, pressure=No
             break
         if stale and stale % _PATIENCE == 0:
             loose /= 10
-        admitted = below[grid.image[below] + shift < -_ADMITTED * np.sqrt(np.mean(gaps**2))]
+        admitted = below[field.image[below] + shift < -_ADMITTED * np.sqrt(np.mean(gaps**2))]
         if admitted.size:
-            points, pressure, gaps = _joined(grid, points, pressure, admitted, shift)
+            points, pressure, gaps = _joined(grid, field, points, pressure, admitted, shift)
             precondition = None
         changed += admitted.size
         if precondition is None:
-            precondition = _Preconditioner(grid, points)
+            precondition = Preconditioner(grid, points)
         if changed == 0:
             goal = 0.5 * tol
         else:
             reduction = loose if changed > _SETTLED * points.size else min(loose, _CLOSER)
             goal = max(reduction * float(np.std(gaps)), 0.1 * tol)
-        change, count = _inner(precondition, gaps, goal, changed == 0, max_iterations - iterations)
+        residuals, scale = _scaled(gaps)
+        gaps = None  # frees memory
+        change, count = _inner(
+            precondition, residuals, goal / scale, changed == 0, max_iterations - iterations
+        )
         iterations += count
-        pressure = pressure + change
+        pressure = _changed(pressure, change, scale)
+        change = residuals = None
         keep = pressure > 0
         changed = points.size - int(np.count_nonzero(keep))
         if changed:
@@ -161,13 +196,16 @@ def relax(operator, heights, load, *, tol, max_iterations, gap=None, pressure=No
             pressure *= total / pressure.sum()
             precondition = None
         changed += admitted.size
-    return _state(grid, best, pressure, iterations)
+        field = grid.quick if residual > grid.doubtful else grid.exact
+    return _state(grid, best, field, pressure, iterations)
 
 
 def _full_contact(grid, load):
     """Full contact of any surface: the pressure is that of the heights as a displacement."""
-    pressure = grid.operator.stiffness(grid.heights)
-    misfit = grid.operator.compliance(pressure)
+    operator = grid.exact.operator
+    heights = grid.heights.astype(operator.dtype, copy=False)
+    pressure = operator.stiffness(heights)
+    misfit = operator.compliance(pressure)
     misfit -= grid.heights
     residual = float(np.abs(misfit).max())
     pressure += load
@@ -185,24 +223,24 @@ def _report(logger, grid, residual, size, iterations):
     )
 
 
-def _gap(grid, points, pressure):
-    """Gap of an iterate.
+def _gap(grid, field, points, pressure):
+    """Gap of an iterate, in the precision of a field of the grid.
 
     Returns the shift that makes its mean in contact vanish, the gap in contact, points outside
-    that penetrate, the largest gap in contact and the largest penetration. The image of `grid`
+    that penetrate and the largest violation of the conditions of contact. The image of `field`
     keeps the gap without the shift.
     """
-    image = grid.apply(grid.operator.compliance, points, pressure, grid.rows(points))
-    image -= grid.heights.ravel()
-    gaps = image[points]
-    shift = -gaps.mean()
+    image = field.apply(field.operator.compliance, points, pressure, grid.rows(points))
+    np.subtract(image, grid.heights.ravel(), out=image, casting="same_kind")
+    gaps = image[points].astype(float)
+    shift = float(-gaps.mean())
     gaps += shift
     below = np.flatnonzero(image < -shift)
     grid.active[points] = True
     below = below[~grid.active[below]]
     grid.active[points] = False
     depth = float(-(image[below].min() + shift)) if below.size else 0.0
-    return float(shift), gaps, below, float(np.abs(gaps).max()), depth
+    return shift, gaps, below, max(float(np.abs(gaps).max()), depth)
 
 
 def _predicted_from_gap(grid, gap, load):
@@ -228,9 +266,9 @@ def _predicted_from_pressure(grid, pressure, total):
     """Contact set and pressure from a guess of the pressure."""
     flat = pressure.ravel()
     points = np.flatnonzero(flat > 0)
-    shift, *_ = _gap(grid, points, _balanced(flat[points], total))
-    threshold = grid.image + shift
-    threshold *= _PREDICTION * grid.operator.mean_stiffness * (flat.sum() / total)
+    shift, *_ = _gap(grid, grid.exact, points, _balanced(flat[points], total))
+    threshold = grid.exact.image + shift
+    threshold *= _PREDICTION * grid.exact.operator.mean_stiffness * (flat.sum() / total)
     predicted = np.flatnonzero(flat > np.maximum(threshold, 0))
     if predicted.size:
         points = predicted
@@ -244,30 +282,44 @@ def _balanced(pressure, total):
     return np.full(pressure.size, total / pressure.size)
 
 
-def _joined(grid, points, pressure, extra, shift):
+def _joined(grid, field, points, pressure, extra, shift):
     grid.active[points] = True
     grid.active[extra] = True
     joined = np.flatnonzero(grid.active)
     grid.active[joined] = False
-    grid.field[points] = pressure
-    pressure = grid.field[joined]
-    grid.field[points] = 0
-    return joined, pressure, grid.image[joined] + shift
+    spread = np.zeros(joined.size)
+    spread[np.searchsorted(joined, points)] = pressure
+    return joined, spread, field.image[joined].astype(float) + shift
 
 
-def _inner(precondition, gaps, goal, largest, limit):
+def _scaled(gaps):
+    """Residuals of zero mean in single precision, and their unit: the rms gap."""
+    mean, scale = float(gaps.mean()), float(np.std(gaps)) or 1.0
+    residual = np.empty(gaps.size, np.float32)
+    np.subtract(mean, gaps, out=residual, casting="same_kind")
+    residual /= np.float32(scale)
+    return residual, scale
+
+
+def _changed(pressure, change, scale):
+    """Pressure plus a change of zero sum."""
+    total = np.multiply(change, scale, dtype=float)
+    total -= total.mean()
+    total += pressure
+    return total
+
+
+def _inner(precondition, residual, goal, largest, limit):
     """Change of pressure, of zero sum, that closes the gap on a set of points.
 
     Preconditioned conjugate gradients in the space of vectors of zero sum, until the rms
-    residual (or the `largest`) is down to `goal`. In single precision, in units of the rms gap.
+    residual (or the `largest`) is down to `goal`. In single precision; overwrites `residual`.
     """
     quick, points, rows = precondition.quick, precondition.points, precondition.inner_rows
-    scale = float(np.std(gaps))
     change, count = np.zeros(points.size, np.float32), 1
-    if points.size == 1 or scale == 0:
+    if points.size == 1 or not residual.any():
         return change, count
-    goal = max(goal / scale, _RESOLVED)
-    residual = ((gaps.mean() - gaps) / scale).astype(np.float32)
+    goal = max(goal, _RESOLVED)
     direction, product = None, 1.0
     while True:
         z = precondition(residual)
@@ -290,95 +342,21 @@ def _inner(precondition, gaps, goal, largest, limit):
         if norm <= goal or count >= limit:
             break
         count += 1
-    change = change.astype(float)
-    change -= change.mean()
-    return scale * change, count
+    return change, count
 
 
-class _Preconditioner:
-    """Stiffness between an extension of the residual beyond contact and its transpose.
-
-    The exact inverse extends the residual by the displacement of least energy; a weighted mean
-    over the neighbours in contact imitates that next to the edge, where it matters.
-    """
-
-    def __init__(self, grid, points):
-        self.quick = grid.quick
-        self.points = points
-        self.inner_rows = grid.rows(points)
-        self.extension = None
-        self.every = points
-        if points.size < grid.heights.size:
-            self._extend(grid)
-        self.rows = grid.rows(self.every)
-
-    def _extend(self, grid):
-        points = self.points
-        reached = np.zeros(grid.active.size, bool)
-        for neighbour, _ in _neighbours(points, grid.shape):
-            reached[neighbour] = True
-        reached[points] = False
-        band = np.flatnonzero(reached)
-        grid.active[points] = True
-        position = grid.quick.image.view(np.int32)  # scratch: not in use here
-        position[points] = np.arange(points.size, dtype=np.int32)
-        # Eight entries a row, those of neighbours out of contact being zero: no sorting needed.
-        columns = np.zeros((band.size, 8), np.int32)
-        weights = np.zeros((band.size, 8), np.float32)
-        for i, (neighbour, weight) in enumerate(_neighbours(band, grid.shape)):
-            touching = grid.active[neighbour]
-            weights[:, i] = np.float32(weight) * touching
-            columns[:, i] = np.where(touching, position[neighbour], 0)
-        grid.active[points] = False
-        weights *= np.float32(_EXTENSION) / (1 + weights.sum(axis=1, keepdims=True))
-        starts = np.arange(0, 8 * band.size + 1, 8, dtype=np.int32)
-        size = (band.size, points.size)
-        self.extension = sparse.csr_array((weights.ravel(), columns.ravel(), starts), shape=size)
-        self.transpose = self.extension.T
-        self.every = np.concatenate([points, band])
-
-    def __call__(self, residual):
-        """Approximate pressure for a displacement of the points, both in single precision."""
-        quick, points, rows = self.quick, self.points, self.rows
-        stiffness = quick.operator.stiffness
-        if self.extension is None:
-            return quick.apply(stiffness, points, residual, rows, rows)[points]
-        values = np.concatenate([residual, self.extension @ residual])
-        image = quick.apply(stiffness, self.every, values, rows, rows)[self.every]
-        return image[: points.size] + self.transpose @ image[points.size :]
-
-
-def _neighbours(points, shape):
-    """Flat indices of the eight periodic neighbours of points, each with its weight."""
-    n0, n1 = shape
-    column = points % n1
-    first, last = np.flatnonzero(column == 0), np.flatnonzero(column == n1 - 1)
-    for i in (-1, 0, 1):
-        row = points + i * n1
-        if i < 0:
-            row[row < 0] += n0 * n1
-        elif i > 0:
-            row[row >= n0 * n1] -= n0 * n1
-        left, right = row - 1, row + 1
-        left[first] += n1
-        right[last] -= n1
-        if i:
-            yield row, 1.0
-        yield left, _DIAGONAL if i else 1.0
-        yield right, _DIAGONAL if i else 1.0
-
-
-def _state(grid, best, last, iterations):
-    residual, touching, pressure, shift = best
-    gap = grid.image
-    if pressure is not last:  # the image belongs to a later, worse iterate
-        _gap(grid, touching, pressure)
-    gap += shift
+def _state(grid, best, field, last, iterations):
+    touching, pressure, shift, residual = best
+    # The image may belong to a later, worse iterate, or be in single precision.
+    if pressure is not last or field is not grid.exact:
+        shift, *_, residual = _gap(grid, grid.exact, touching, pressure)
+    gap, filled = grid.exact.image, grid.exact.field
+    gap += gap.dtype.type(shift)
     np.maximum(gap, 0, out=gap)
     gap[touching] = 0
-    grid.field[touching] = pressure
+    filled[touching] = pressure
     return State(
-        pressure=grid.field.reshape(grid.shape),
+        pressure=filled.reshape(grid.shape),
         gap=gap.reshape(grid.shape),
         shift=shift,
         area_fraction=touching.size / gap.size,

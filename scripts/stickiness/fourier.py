@@ -4,15 +4,6 @@ The half-space responds to a pressure wave ``p_q`` (in units of E*) with the dis
 ``u_q = 2 p_q / |q|`` for q != 0 (Johnson, *Contact Mechanics*, 1985, section 13.2; Stanley and
 Kato, J. Tribol. 119:481, 1997, doi 10.1115/1.2833523). `HalfSpace` applies this compliance and its
 inverse, the stiffness ``|q| / 2``, as convolutions. Both leave out the mean (q = 0).
-
-A two-dimensional transform of a large grid is bound by memory, not by arithmetic. The
-convolution is therefore blocked: blocks of rows are transformed and stored transposed; then a
-few wavenumbers at a time are transformed along the other axis, multiplied by the symbol and
-transformed back while they are in cache. Rows that hold nothing, or of which nothing is wanted,
-are left out; for a contact of a few per cent of the area that saves up to half the work.
-
-All plans are made with ``FFTW_ESTIMATE``: FFTW then never chooses an algorithm by timing, so that
-the last bits of a result do not depend on how busy the machine was.
 """
 
 import threading
@@ -21,11 +12,12 @@ from functools import cached_property, lru_cache
 import numpy as np
 import pyfftw
 
+from stickiness import _convolution
+
 __all__ = ["HalfSpace", "half_space", "irfft2", "rfft2", "wavenumbers"]
 
-_FLAGS = ("FFTW_ESTIMATE", "FFTW_DESTROY_INPUT")
-_STRIP = 2**14  # complex numbers transformed at a time along axis 0: 256 kB, inside a cache
-_ROWS = 64  # rows transformed at a time along axis 1: long runs in the transposed copies
+
+_SHORT = 0.9  # stiffness of all short waves over that of the shortest
 
 
 def wavenumbers(shape, lengths):
@@ -113,64 +105,27 @@ class HalfSpace:
         self.lengths = tuple(float(a) for a in lengths)
         self.pairs = 0
         n0, n1 = self.shape
-        modes = n1 // 2 + 1
-        self._rows = min(n0, _ROWS)
-        self._strip = max(1, min(modes, _STRIP // n0))
-        padded = -(-modes // self._strip) * self._strip
-        # A row length that is no multiple of 4 kB avoids cache conflicts in the transposed copies.
-        stride = -(-n0 // 8) * 8 + 8
-        self._symbols(modes, padded)
-        self._complex = np.result_type(self.dtype, np.complex64)
-        self._spectrum_in = pyfftw.zeros_aligned((padded, stride), self._complex)
-        # In double precision one array holds the spectrum before and after: memory before speed.
-        self._spectrum_out = self._spectrum_in
-        if self.dtype == np.float32:
-            self._spectrum_out = pyfftw.zeros_aligned((padded, stride), self._complex)
-        self._filled = np.zeros(n0, bool)
-        self._plan(n0, n1, modes)
-
-    def _symbols(self, modes, padded):
-        n0, n1 = self.shape
-        points = n0 * n1
+        packed = self.dtype == np.float32 and n1 % 2 == 0
+        self._convolution = (_convolution.Packed if packed else _convolution.Real)(
+            self.shape, self.dtype
+        )
         # FFTW does not normalise; the symbols carry the 1 / (n0 n1) of the inverse transform.
         q = wavenumbers(self.shape, self.lengths).T
-        weight = np.full(modes, 2.0)
+        weight = np.full(q.shape[0], 2.0)
         weight[0] = 1.0
         if n1 % 2 == 0:
             weight[-1] = 1.0
-        self.mean_stiffness = float(weight @ q.sum(axis=1)) / (2 * points)
+        self.mean_stiffness = float(weight @ q.sum(axis=1)) / (2 * n0 * n1)
         q[0, 0] = np.inf
-        self._compliance = np.zeros((padded, n0), self.dtype)
-        np.divide(2 / points, q, out=self._compliance[:modes], casting="same_kind")
+        np.divide(2 / (n0 * n1), q, out=q)
+        self._compliance = self._convolution.symbol(q)
 
     @cached_property
     def _stiffness(self):
         # Made on demand: in double precision the contact solvers rarely need it.
-        n0, n1 = self.shape
-        symbol = np.zeros(self._compliance.shape, self.dtype)
         q = wavenumbers(self.shape, self.lengths).T
-        np.divide(q, 2 * n0 * n1, out=symbol[: q.shape[0]], casting="same_kind")
-        return symbol
-
-    def _plan(self, n0, n1, modes):
-        self._real = pyfftw.zeros_aligned((self._rows, n1), self.dtype)
-        # An even row length keeps every row aligned for vector instructions.
-        half = pyfftw.zeros_aligned((self._rows, -(-modes // 8) * 8), self._complex)
-        self._half = half[:, :modes]
-        self._work = pyfftw.zeros_aligned((self._strip, n0), self._complex)
-        first_in = self._spectrum_in[: self._strip, :n0]
-        first_out = self._spectrum_out[: self._strip, :n0]
-
-        def plan(source, target, direction, flags=_FLAGS):
-            return pyfftw.FFTW(
-                source, target, axes=(1,), direction=direction, flags=flags, threads=1
-            )
-
-        self._rows_forward = plan(self._real, self._half, "FFTW_FORWARD")
-        self._rows_backward = plan(self._half, self._real, "FFTW_BACKWARD")
-        # Rows that stay empty must remain zero: the stored spectrum may not be destroyed.
-        self._columns_forward = plan(first_in, self._work, "FFTW_FORWARD", ("FFTW_ESTIMATE",))
-        self._columns_backward = plan(self._work, first_out, "FFTW_BACKWARD")
+        q /= 2 * self.shape[0] * self.shape[1]
+        return self._convolution.symbol(q)
 
     def compliance(self, pressure, out=None, rows_in=None, rows_out=None):
         """Displacement of the surface under a pressure field.
@@ -217,57 +172,70 @@ class HalfSpace:
             empty = np.empty if rows_out is None else np.zeros
             out = empty(self.shape, self.dtype)
         every = np.arange(self.shape[0])
-        self._forward_rows(field, every if rows_in is None else rows_in)
-        self._multiply_columns(symbol)
-        self._backward_rows(out, every if rows_out is None else rows_out)
+        rows_in = every if rows_in is None else rows_in
+        rows_out = every if rows_out is None else rows_out
+        self._convolution.apply(symbol, field, out, rows_in, rows_out)
         self.pairs += 1
         return out
 
-    def _forward_rows(self, field, rows):
-        modes = self._half.shape[1]
-        self._filled[rows] = False
-        if self._filled.any():  # rows that an earlier call filled and this one does not
-            if self._spectrum_in is self._spectrum_out:
-                self._spectrum_in[...] = 0
-            else:
-                self._spectrum_in[:, np.flatnonzero(self._filled)] = 0
-        self._filled[:] = self._spectrum_in is self._spectrum_out
-        self._filled[rows] = True
-        for start in range(0, rows.size, self._rows):
-            block = rows[start : start + self._rows]
-            count = block.size
-            span = _span(block)
-            self._real[:count] = field[span]
-            self._rows_forward.execute()
-            self._spectrum_in[:modes, span] = self._half[:count].T
 
-    def _multiply_columns(self, symbol):
-        n0 = self.shape[0]
-        source, target, work = self._spectrum_in, self._spectrum_out, self._work
-        for start in range(0, source.shape[0], self._strip):
-            strip = slice(start, start + self._strip)
-            self._columns_forward.update_arrays(source[strip, :n0], work)
-            self._columns_forward.execute()
-            np.multiply(work, symbol[strip], out=work)
-            self._columns_backward.update_arrays(work, target[strip, :n0])
-            self._columns_backward.execute()
+class CoarseStiffness:
+    """Part of an approximate stiffness that a grid half as fine along both axes carries.
 
-    def _backward_rows(self, out, rows):
-        modes = self._half.shape[1]
-        for start in range(0, rows.size, self._rows):
-            block = rows[start : start + self._rows]
-            count = block.size
-            span = _span(block)
-            self._half[:count] = self._spectrum_out[:modes, span].T
-            self._rows_backward.execute()
-            out[span] = self._real[:count]
+    With ``B`` the incidence of the points of the fine grid and the four, not always different,
+    coarse points around each, ``constant + B apply B^T`` approximates ``|q| / 2`` in single
+    precision: exactly for long waves (but for aliases), by the constant for short ones.
 
+    Parameters
+    ----------
+    shape : tuple of int
+        Points of the fine grid along both axes, even numbers.
+    lengths : tuple of float
+        Sides of the cell.
 
-def _span(rows):
-    """Index of some rows: a slice (quick, no copy) where they follow one another."""
-    if rows[-1] - rows[0] + 1 == rows.size:
-        return slice(int(rows[0]), int(rows[-1]) + 1)
-    return rows
+    Attributes
+    ----------
+    constant : float
+        Stiffness of the shortest waves.
+    applications : int
+        Convolutions on the coarse grid since construction.
+    """
+
+    def __init__(self, shape, lengths):
+        self.shape = tuple(n // 2 for n in shape)
+        self.applications = 0
+        # Squared transfer of full weighting, summed over the aliases along each axis.
+        weights = [(1 + np.cos(np.pi * np.fft.fftfreq(n)) ** 2) / 2 for n in self.shape]
+        q = wavenumbers(self.shape, lengths)
+        shortest = np.pi * np.hypot(shape[0] / lengths[0], shape[1] / lengths[1])
+        constant = _SHORT * shortest / 2
+        symbol = (q / 2 - constant) / np.outer(weights[0], weights[1][: q.shape[1]])
+        # full weighting is B^T / 16 and interpolation B / 4
+        symbol /= 64 * self.shape[0] * self.shape[1]
+        self.constant = np.float32(constant)
+        kind = _convolution.Packed if self.shape[1] % 2 == 0 else _convolution.Real
+        self._convolution = kind(self.shape, np.dtype(np.float32))
+        self._symbol = self._convolution.symbol(symbol.T)
+        self._every = np.arange(self.shape[0])
+        self._image = pyfftw.zeros_aligned(self.shape, np.float32)
+
+    def apply(self, field):
+        """Convolve.
+
+        Parameters
+        ----------
+        field : numpy.ndarray
+            Values at all points of the coarse grid, in single precision.
+
+        Returns
+        -------
+        numpy.ndarray
+            As many values; overwritten by the next call.
+        """
+        field = field.reshape(self.shape)
+        self._convolution.apply(self._symbol, field, self._image, self._every, self._every)
+        self.applications += 1
+        return self._image.ravel()
 
 
 def half_space(shape, lengths, dtype=np.float64):
@@ -293,3 +261,15 @@ def half_space(shape, lengths, dtype=np.float64):
 @lru_cache(maxsize=24)
 def _cached(shape, lengths, dtype, thread):
     return HalfSpace(shape, lengths, dtype)
+
+
+def coarse_stiffness(shape, lengths):
+    """`CoarseStiffness` of a grid, kept for the next call; None for a grid it does not suit."""
+    if min(shape) < 4 or shape[0] % 2 or shape[1] % 2:
+        return None
+    return _cached_coarse(tuple(shape), tuple(lengths), threading.get_ident())
+
+
+@lru_cache(maxsize=12)
+def _cached_coarse(shape, lengths, thread):
+    return CoarseStiffness(shape, lengths)

@@ -9,7 +9,8 @@ The method is an active-set one:
 * For a guess of the contact set, conjugate gradients solve ``g = 0`` there for the pressure. They
   are preconditioned with the stiffness ``|q| / 2``, the exact inverse of the compliance in full
   contact, between an extension of the residual beyond the edge of contact and the transpose of
-  that extension. The number of iterations hardly depends on the grid.
+  that extension. The number of iterations hardly depends on the grid. Up to a contact of 30 %
+  a grid half as fine carries the stiffness of long waves and a constant that of short ones.
 * Points under tension are released, points that penetrate are added, and so on. Early on the
   inner solution is a rough one, for a wrong set deserves no better.
 * Coarser grids supply a first guess of the gap, which is smooth enough to be interpolated. On
@@ -23,7 +24,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from stickiness import _active_set, fourier
+from stickiness import _active_set
 
 __all__ = ["Contact", "ConvergenceError", "load_path", "solve"]
 
@@ -58,7 +59,8 @@ class Contact:
         Iterations of conjugate gradients on the given grid.
     fft_pairs : float
         Convolutions (a forward and a backward transform each) on all grids, those on
-        coarser ones counted by their share of the points of the given grid.
+        coarser ones (also inside the preconditioner) counted by their share of the points of
+        the given grid.
     length : tuple of float
         Sides of the periodic cell.
     rms_height : float
@@ -170,8 +172,8 @@ def solve(
     if start is not None and start.area_fraction > 0:
         guess = start.pressure
     state = _active_set.relax(
-        fourier.half_space(scaled.shape, sides),
         scaled,
+        sides,
         load,
         tol=tol,
         max_iterations=max_iterations,
@@ -241,16 +243,17 @@ def _coarse_gap(heights, sides, load, work, logger):
         return None
     coarse = _sampled(heights, tuple(_coarser(n) for n in heights.shape))
     state = _active_set.relax(
-        fourier.half_space(coarse.shape, sides),
         coarse,
+        sides,
         load,
         tol=_COARSE_TOLERANCE,
         max_iterations=200,
         gap=_coarse_gap(coarse, sides, load, work, logger),
+        rough=True,
         logger=logger,
     )
     work.append(state.pairs * coarse.size)
-    return _interpolated(state.gap.astype(np.float32), heights.shape)
+    return _interpolated(state.gap, heights.shape)
 
 
 def _coarser(n):
