@@ -33,7 +33,7 @@ dag: $(VENV)/.run  ## what would run
 	$(BIN)/snakemake -n --quiet rules
 
 benchmark: $(VENV)/.dev $(VENV)/.peers  ## the contact solver beside its peers
-	$(BIN)/python benchmarks/repulsive_vs_peers.py
+	PYTHONPATH=scripts $(BIN)/python benchmarks/repulsive_vs_peers.py
 
 $(VENV)/bin/python:
 	$(PYTHON) -c 'import sys; sys.exit("Python 3.11 or newer is needed: make PYTHON=…" if sys.version_info < (3, 11) else 0)'
