@@ -6,6 +6,7 @@ from matplotlib.patches import Rectangle
 from scipy.ndimage import gaussian_filter
 
 from _job import start
+from _model import LINEAR_UP_TO
 from _numbers import number
 from _style import (
     BLACK,
@@ -22,7 +23,6 @@ from _style import (
 )
 from stickiness import criteria, datasets
 
-LINEAR_UP_TO = 0.3  # area fraction up to which the paper calls the area linear in load
 LOADS = [0.0065, 0.065, 0.26]  # over E* q0 h_rms, of panel B
 DETAIL = 0.3  # side of the detail in panels G to I, in window sides
 VARIANT = "afferrante2018"  # both variants of the theory have the same area

@@ -6,6 +6,7 @@ import numpy as np
 import xarray as xr
 
 from _job import start
+from _model import LOAD
 from _numbers import number
 from _style import (
     BLACK,
@@ -28,7 +29,6 @@ EXPONENT = 2 / 3
 LARGEST_RANGE = 0.3  # over h_rms, in panels A and B
 CONVERGED_A_V = 3.0  # of the paper, for the guides
 WIDE_MARKER = MARKERS[3]  # of windows of several wavelengths, in panel C
-LOAD = 0.065  # over E* q0 h_rms, of the points in panels A and C
 RANGE_LABEL = r"$(\epsilon/h_\mathrm{rms})^{2/3}$"
 AREA_LABEL = r"attractive area $A_\mathrm{ad}/A_\mathrm{nom}$"
 PRESSURE_LABEL = r"pressure $p/(E^*q_0h_\mathrm{rms})$"
