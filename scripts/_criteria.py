@@ -109,8 +109,9 @@ class SurfaceAv:
     """a_V of a real surface against the range, with the limits of what is known of it.
 
     Theory on the surface's own spectrum, times the ratio of simulation to theory of the simulated
-    case. The limits are those of both variants of the theory, widened by the sampling and
-    discretisation error of the simulation.
+    case. The limits are those of both variants of the theory and, below the edge range, of
+    Pastewka and Robbins' estimate, widened by the sampling and discretisation error of the
+    simulation.
     """
 
     ranges: np.ndarray

@@ -18,7 +18,8 @@ HEAD = """\
 
 By the derived criterion, with a_V of the pair: theory on the surface's own spectrum at the
 material's range over h_rms, times the ratio of simulation to theory ({ratio:.2f}), from the
-lowest to the highest of the theory's variants. For comparison the constant {constant}.
+lowest to the highest of the theory's variants and, for the smallest ranges, of Pastewka and
+Robbins' estimate. For comparison the constant {constant}.
 
 The margin is the largest rms height that sticks over the actual one, from the rough end of the
 surface at the lowest a_V to its smooth end at the highest: above 1 sticks. *Depends*: on that
