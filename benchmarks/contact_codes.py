@@ -24,7 +24,10 @@ class Run:
 
 
 def complementarity(pressure, heights, length):
-    """Largest gap in contact or penetration outside it, over h_rms, by numpy's transforms."""
+    """Residual and mean gap of a pressure over h_rms, by numpy's transforms.
+
+    The residual is the largest gap in contact or penetration outside it.
+    """
     n0, n1 = heights.shape
     q0 = 2 * np.pi * np.fft.fftfreq(n0, length / n0)
     q1 = 2 * np.pi * np.fft.rfftfreq(n1, length / n1)
@@ -33,7 +36,8 @@ def complementarity(pressure, heights, length):
     gap = np.fft.irfft2(2 * np.fft.rfft2(pressure) / q, s=heights.shape) - heights
     touching = pressure > 0
     gap -= gap[touching].mean()
-    return max(np.abs(gap[touching]).max(), -gap.min()) / heights.std()
+    residual = max(np.abs(gap[touching]).max(), -gap.min())
+    return residual / heights.std(), gap.mean() / heights.std()
 
 
 def stickiness(heights, length, pressure, tol):

@@ -418,7 +418,7 @@ def test_work_hardly_grows_with_the_grid():
 
 
 def test_failure_carries_the_best_iterate():
-    heights = rough(64, seed=16)
+    heights = rough(128, seed=16)
     with pytest.raises(repulsive.ConvergenceError, match="max_iterations") as failure:
         repulsive.solve(heights, 1.0, 0.4, max_iterations=2)
     best = failure.value.contact

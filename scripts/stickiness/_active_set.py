@@ -64,6 +64,13 @@ class _Field:
         self.field[points] = 0
         return self.image
 
+    def spread(self, points, values, wanted):
+        """Values, at other points, of a field that is zero but for `values` at `points`."""
+        self.field[points] = values
+        spread = self.field[wanted].astype(float)
+        self.field[points] = 0
+        return spread
+
 
 class _Grid:
     """Heights on a grid, and scratch fields in single and, unless `rough`, double precision."""
@@ -287,8 +294,7 @@ def _joined(grid, field, points, pressure, extra, shift):
     grid.active[extra] = True
     joined = np.flatnonzero(grid.active)
     grid.active[joined] = False
-    spread = np.zeros(joined.size)
-    spread[np.searchsorted(joined, points)] = pressure
+    spread = grid.exact.spread(points, pressure, joined)
     return joined, spread, field.image[joined].astype(float) + shift
 
 

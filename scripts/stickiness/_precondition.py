@@ -44,12 +44,8 @@ class Preconditioner:
 
     def _extend(self, grid):
         points = self.points
-        reached = np.zeros(grid.active.size, bool)
-        for neighbour, _ in _neighbours(points, grid.shape):
-            reached[neighbour] = True
-        reached[points] = False
-        band = np.flatnonzero(reached)
         grid.active[points] = True
+        band = np.flatnonzero(_surroundings(grid.active.reshape(grid.shape)))
         position = grid.quick.image.view(np.int32)  # scratch: not in use here
         position[points] = np.arange(points.size, dtype=np.int32)
         # Eight entries a row, those of neighbours out of contact being zero: no sorting needed.
@@ -82,6 +78,19 @@ class Preconditioner:
         image = self.corners @ self.coarse.apply(self.restrict @ values)
         image += self.coarse.constant * values
         return image
+
+
+def _surroundings(active):
+    """Points of a periodic grid that are not active but next to one that is."""
+    reached = active.copy()
+    for axis in (0, 1):
+        a, b = np.moveaxis(reached, axis, 0), np.moveaxis(reached.copy(), axis, 0)
+        a[1:] |= b[:-1]
+        a[:-1] |= b[1:]
+        a[0] |= b[-1]
+        a[-1] |= b[0]
+    reached &= ~active
+    return reached
 
 
 def _corners(points, shape):

@@ -28,7 +28,7 @@ from stickiness import _active_set
 
 __all__ = ["Contact", "ConvergenceError", "load_path", "solve"]
 
-_COARSEST = 32  # points along the shorter side of the coarsest grid
+_COARSEST = 64  # points along the shorter side of the coarsest grid
 _NEAR = 0.005  # relative change of load up to which the last solution is the better start
 _COARSE_TOLERANCE = 3e-3  # of h_rms: a guess for the next grid needs no more
 
