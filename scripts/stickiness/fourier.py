@@ -273,3 +273,9 @@ def coarse_stiffness(shape, lengths):
 @lru_cache(maxsize=12)
 def _cached_coarse(shape, lengths, thread):
     return CoarseStiffness(shape, lengths)
+
+
+def clear_caches():
+    """Free the plans and buffers kept by `half_space` and `coarse_stiffness`."""
+    _cached.cache_clear()
+    _cached_coarse.cache_clear()
