@@ -269,11 +269,11 @@ def test_normalised_and_converged(variant, hurst, magnification):
     p = np.array([1e-4, 0.065, 1.0])
     np.testing.assert_allclose(theory.mean_gap(p), fine.mean_gap(p), rtol=1e-9)
     total = theory.gap_cumulative(np.inf, p) + theory.area_fraction(p)
-    np.testing.assert_allclose(total, 1.0, rtol=0, atol=1e-8)
+    np.testing.assert_allclose(total, 1.0, rtol=0, atol=1e-10)
     for name in ("gap_density", "gap_cumulative"):
         coarse, best = getattr(theory, name)(u, p), getattr(fine, name)(u, p)
         seen = best > 1e-12 * best.max()
-        np.testing.assert_allclose(coarse[seen], best[seen], rtol=1e-5)
+        np.testing.assert_allclose(coarse[seen], best[seen], rtol=5e-7)
 
 
 @pytest.mark.parametrize("variant", VARIANTS)
@@ -360,7 +360,7 @@ def test_table_of_a_power_law_is_the_power_law(points):
     u = np.array([1e-3, 0.1, 2.0])
     assert Persson(table).mean_gap(0.1) == pytest.approx(Persson(s).mean_gap(0.1), rel=1e-9)
     np.testing.assert_allclose(
-        Persson(table).gap_density(u, 0.1), Persson(s).gap_density(u, 0.1), rtol=1e-5
+        Persson(table).gap_density(u, 0.1), Persson(s).gap_density(u, 0.1), rtol=5e-7
     )
 
 
@@ -370,10 +370,10 @@ def test_rough_table_with_many_points():
     table = Tabulated(q, q**-3.6 * np.exp(0.5 * rng.normal(size=q.size)))
     p = 0.065 * table.h_rms
     coarse, fine = Persson(table), Persson(table, nodes=4)
-    # half a decade of noise in C from point to point: only its 256 sharpest kinks are resolved
-    assert coarse.mean_gap(p) == pytest.approx(fine.mean_gap(p), rel=2e-4)
+    # a fifth of a decade of noise in C from point to point; panels keep to 250 of its 2000 kinks
+    assert coarse.mean_gap(p) == pytest.approx(fine.mean_gap(p), rel=1e-9)
     u = table.h_rms * np.array([1e-3, 0.1, 2.0])
-    np.testing.assert_allclose(coarse.gap_density(u, p), fine.gap_density(u, p), rtol=5e-4)
+    np.testing.assert_allclose(coarse.gap_density(u, p), fine.gap_density(u, p), rtol=2e-6)
 
 
 @pytest.mark.parametrize("variant", VARIANTS)
@@ -385,9 +385,9 @@ def test_dense_shells_approach_the_continuum(variant):
     shells = Shells(np.sqrt(gradient / variance), variance)
     u, p = np.array([0.01, 0.1, 1.0]), 0.065
     a, b = Persson(shells, variant), Persson(s, variant)
-    # shells 2e-4 apart, put together in 600 groups of relative width 1 %: second order in that
-    assert a.mean_gap(p) == pytest.approx(b.mean_gap(p), rel=1e-5)
-    np.testing.assert_allclose(a.gap_density(u, p), b.gap_density(u, p), rtol=1e-4)
+    # shells 2e-4 apart: the square of that, and the nodes' own errors
+    assert a.mean_gap(p) == pytest.approx(b.mean_gap(p), rel=4e-8)
+    np.testing.assert_allclose(a.gap_density(u, p), b.gap_density(u, p), rtol=2e-7)
 
 
 @pytest.mark.parametrize("variant", VARIANTS)
@@ -395,10 +395,10 @@ def test_window_spectrum_is_converged_and_normalised(variant):
     shells = surface.lattice_spectrum(power_law(128.0), 2 * np.pi)
     coarse, fine = Persson(shells, variant), Persson(shells, variant, nodes=8)
     u, p = np.geomspace(1e-4, 8, 20), 0.065
-    assert len(shells.q) > 600 > len(fine._setting.scales.weight) / 8
-    assert coarse.mean_gap(p) == pytest.approx(fine.mean_gap(p), rel=1e-7)
-    np.testing.assert_allclose(coarse.gap_density(u, p), fine.gap_density(u, p), rtol=5e-5)
-    assert coarse.gap_cumulative(np.inf, p) == pytest.approx(1 - coarse.area_fraction(p), abs=1e-8)
+    assert len(shells.q) > 2 * len(coarse._setting.scales.coarse.weight)
+    assert coarse.mean_gap(p) == pytest.approx(fine.mean_gap(p), rel=1e-12)
+    np.testing.assert_allclose(coarse.gap_density(u, p), fine.gap_density(u, p), rtol=5e-7)
+    assert coarse.gap_cumulative(np.inf, p) == pytest.approx(1 - coarse.area_fraction(p), abs=1e-10)
 
 
 @pytest.mark.parametrize("variant", VARIANTS)
@@ -406,7 +406,7 @@ def test_window_spectrum_is_converged_and_normalised(variant):
 def test_extreme_loads(variant, p):
     theory = Persson(power_law(100.0), variant)
     total = theory.gap_cumulative(np.inf, p)
-    assert total == pytest.approx(1 - theory.area_fraction(p), abs=1e-8)
+    assert total == pytest.approx(1 - theory.area_fraction(p), abs=1e-10)
     assert 0 <= theory.gap_density(0.01, p) < np.inf
     assert theory.mean_gap(p) >= 0
     assert theory.first_moment(p) >= theory.mean_gap(p)

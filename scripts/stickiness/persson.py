@@ -6,16 +6,25 @@ and the shells of a periodic window. With E* = 1, M = m2 and p(m) = p/A(m):
 
 - relative contact area A = erf(y), where m = p^2 T(y);
 - mean gap where the contact at m is in sight, ubar(m) = (2/sqrt(pi)) int ds F(p(m)/s) / q(m + s^2)
-  with s from 0 to sqrt(M - m);
+  with s from 0 to sqrt(M - m), F(x) = int_x^inf (dt/t) K(t) exp(-t^2);
 - gap where contact is lost on resolving m, u1 = d(A ubar)/dA.
 
 Both integrals by parts are sums of positive terms over 1/q (nothing cancels, and C(q), which
 shells do not have, drops out):
 
-    ubar = (2/sqrt(pi)) int d(-1/q) K(s),                K = s kappa(p(m)/s),
+    ubar = (2/sqrt(pi)) int d(-1/q) s kappa(p(m)/s),
     u1   = (2/sqrt(pi)) int d(-1/q) F(p(m)/s) (s + a/(2 s)),   s^2 = m(q) - m,  a = -A/(dA/dm),
 
-the integral running from q(m) up and ending with a jump of -1/q to zero at q1.
+the integral running from q(m) up and ending with a jump of -1/q to zero at q1. T and K belong to
+the correction of the theory, see `persson_kernels`.
+
+Between the finest scale and the rms height, h(zeta) << u << h_rms, contact is lost at the
+magnification z at gaps u1 ~ z^(-H) while A ~ z^(H-1), so that P ~ u^((1-2H)/H) and the area within
+u of contact, A + int P du, ~ u^((1-H)/H): exponents -3/4 and 1/4 at H = 0.8, against -1/3 and 2/3
+at the edges of single contacts, which agree at H = 0.6 only. At zeta = 1e8 the steepest exponents
+of P are -0.321, -0.556, -0.737 and -0.858 for H = 0.6, 0.7, 0.8 and 0.9 (laws: -0.333, -0.571,
+-0.750, -0.889). The prefactor a_V of a 2/3 law then grows as (eps/h_rms)^((3-5H)/(3H)) as the
+range eps falls towards h(zeta), where it is some zeta^((5H-3)/3).
 """
 
 from __future__ import annotations
@@ -27,10 +36,11 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import brentq
 from scipy.special import erf
 
-from .persson_gaps import GapProfile, Setting, closure_error, gap_profile, scale_nodes
+from .persson_gaps import GapProfile, Setting, closure_error, gap_profile
 from .persson_gaps import cumulative as _cumulative
 from .persson_gaps import density as _density
-from .persson_kernels import kernels
+from .persson_kernels import CorrectionName, kernels
+from .persson_scales import scale_nodes
 from .spectrum import Spectrum
 
 Variant = Literal["afferrante2018", "almqvist2011"]
@@ -51,12 +61,16 @@ class Persson:
         Width of the Gaussians that P(u) is made of: the rms height h of the roughness that is not
         in sight yet (Almqvist et al. 2011, doi:10.1016/j.jmps.2011.08.004), or h_eff with
         h_eff^-2 = h^-2 + u1^-2 (Afferrante et al. 2018, doi:10.1007/s11249-018-1026-x).
-    gamma : float
-        Correction gamma + (1 - gamma) A^2 of the elastic energy and of the diffusion of
-        pressure (Yang & Persson 2008, doi:10.1088/0953-8984/20/21/215214); 1 switches it off.
+    gamma : float, optional
+        Parameter of the correction, in (0, 1]: by default the source's own, 0.45, 5/9 and 0.45.
+        1 switches "yang2008" and "xu2024" off.
     nodes : float
         Multiplies the number of quadrature nodes. 1 errs by less than 1e-9 in the area and the mean
-        gap and 1e-5 in P(u) and its integral; 2 is the check.
+        gap, 5e-7 in P(u) and its integral and 1e-10 in the normalisation, for magnifications from
+        1.001 to 1e8; 0.5 by 1e-4 in P(u), 1.5 by 3e-8 and 2 by 1e-8.
+    correction : {"yang2008", "wang2017", "xu2024"}
+        How lost contact slows the diffusion of pressure and lowers the elastic energy:
+        `persson_kernels.Yang2008` (doi:10.1088/0953-8984/20/21/215214), `Wang2017` or `Xu2024`.
 
     Raises
     ------
@@ -81,17 +95,20 @@ class Persson:
         self,
         spectrum: Spectrum,
         variant: Variant = "afferrante2018",
-        gamma: float = 0.45,
+        gamma: float | None = None,
         nodes: float = 1.0,
+        correction: CorrectionName = "yang2008",
     ):
         if variant not in _VARIANTS:
             raise ValueError(f"variant must be one of {_VARIANTS}, got {variant!r}")
         if not (np.isfinite(nodes) and nodes > 0):
             raise ValueError(f"nodes must be positive and finite, got {nodes!r}")
-        self.spectrum, self.variant, self.gamma, self.nodes = spectrum, variant, gamma, nodes
+        universal = kernels(gamma, correction)
+        self.spectrum, self.variant, self.nodes = spectrum, variant, nodes
+        self.correction, self.gamma = correction, universal.correction.gamma
         m2 = 0.5 * float(spectrum.variance_below(spectrum.q1, 2))
         scales = scale_nodes(spectrum, nodes)
-        self._setting = Setting(spectrum, kernels(gamma), scales, m2, variant, nodes)
+        self._setting = Setting(spectrum, universal, scales, m2, variant, nodes)
         self._profiles: dict[tuple[float, float], GapProfile] = {}
 
     def area_fraction(self, p: ArrayLike, magnification: float | None = None) -> NDArray:
@@ -130,10 +147,10 @@ class Persson:
         integral over `p` is the elastic energy of full contact.
         """
         p = _positive("p", p)
-        s = np.sqrt(self._setting.scales.below)
+        s = np.sqrt(self._setting.scales.fine.below)
         x2 = (p[..., None] / s) ** 2
         kernel = s * np.exp(-x2) * self._setting.kernels.mean_kernel(x2)
-        return 2 / np.sqrt(np.pi) * np.sum(self._setting.scales.weight * kernel, axis=-1)
+        return 2 / np.sqrt(np.pi) * np.sum(self._setting.scales.fine.weight * kernel, axis=-1)
 
     def pressure_at(self, mean_gap: ArrayLike) -> NDArray:
         """Mean pressure over E* at which the mean gap is `mean_gap` > 0 [length].

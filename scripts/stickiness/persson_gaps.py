@@ -9,33 +9,24 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.interpolate import CubicSpline
 from scipy.special import erf, erfc
 
 from .persson_kernels import Kernels
+from .persson_scales import ScaleNodes, knots
 from .spectrum import Shells, Spectrum
 
 _SMALLEST_LOG = 45.0  # gaps below exp(-45) of the others count as zero
 _TAIL_LOG = 38.0  # area lost beyond holds less than exp(-38) of what is lost in all
-_MOST_KINKS = 256  # of a tabulated spectrum, that quadrature over scales keeps to
+_ORDER = 10  # of Gauss quadrature on panels
+_PANEL = 1.4  # change over a panel, see `_panel_edges`
+_MANY_PANELS = 350  # from there on those that see little change get half the nodes
+_LOOK, _LOOK_FAR = 0.2, 0.5  # steps in ln(y - y_end) and y^2 of the look that panels are laid by
+_MOST_SHELLS, _MOST_KNOTS = 600, 250  # that edges of panels keep to
+_STRONG = 0.02  # step of ln q from shell to shell that the approach to a shell shows
+_ONSETS = np.geomspace(1.5, 96.0, 13)  # of exp(-p^2/(m_shell - m)), negative exponents
+_SHARES = np.geomspace(0.03, 30.0, 7)  # height variance left in a shell over the finer ones'
+_BLOCK = 16  # values of m that share a set of nodes
 _NARROWEST = 1e-150  # Gaussians that much narrower than the widest are points
-
-
-@dataclass(frozen=True)
-class ScaleNodes:
-    """Quadrature over the scales of a surface: the integral of K d(-1/q) is sum(weight K).
-
-    Attributes
-    ----------
-    below, above : (k,) arrays
-        m at the nodes and M - m, each free of cancellation.
-    weight : (k,) array
-        [length]
-    """
-
-    below: NDArray
-    above: NDArray
-    weight: NDArray
 
 
 @dataclass(frozen=True)
@@ -85,68 +76,6 @@ class Setting:
     nodes: float
 
 
-def scale_nodes(spectrum: Spectrum, nodes: float = 1.0) -> ScaleNodes:
-    """Quadrature over the scales of a spectrum: exact for shells, composite Gauss otherwise."""
-    if isinstance(spectrum, Shells):
-        return _shell_nodes(spectrum, max_nodes=int(600 * nodes))
-    log_q, weight = _panel_nodes(_scale_edges(spectrum), nodes)
-    q = np.append(spectrum.q0 * np.exp(log_q), spectrum.q1)
-    weight = np.append(weight, 1.0) / q  # and the jump of -1/q to zero
-    below = 0.5 * spectrum.variance_below(q, 2)
-    return ScaleNodes(below, 0.5 * spectrum.variance_above(q, 2), weight)
-
-
-def _scale_edges(spectrum: Spectrum) -> NDArray:
-    """Edges of panels in ln(q/q0), graded towards both ends and split at kinks of C.
-
-    The integrand is like a square root near q0 at small loads and changes within small steps
-    from q1 where the last contact is lost.
-    """
-    span = np.log(spectrum.q1 / spectrum.q0)
-    width = min(0.5, span / 2)
-    count = int(np.ceil((span - 2 * width) / 0.7))
-    middle = np.linspace(width, span - width, count + 1) if count else [width]
-    low, high = width * 4.0 ** np.arange(-13, 0), width * 4.0 ** np.arange(-1, -10, -1)
-    edges = np.concatenate([[0.0], low, middle, span - high, [span]])
-    inner = getattr(spectrum, "knots", np.empty(0))[1:-1]
-    if len(inner) > _MOST_KINKS:
-        kink = np.abs(np.diff(np.diff(np.log(spectrum.psd(spectrum.knots)))))
-        inner = inner[np.sort(np.argsort(kink)[-_MOST_KINKS:])]
-    return np.union1d(edges, np.log(inner / spectrum.q0))
-
-
-def _panel_nodes(edges: NDArray, nodes: float) -> tuple[NDArray, NDArray]:
-    """Gauss-Legendre nodes and weights on panels, fewer of them on narrow ones."""
-    width = np.diff(edges)
-    at, weight = [], []
-    for chosen, order in ((width > 0.1, 10), (width <= 0.1, 6)):
-        x, w = np.polynomial.legendre.leggauss(max(2, round(order * nodes)))
-        half = 0.5 * width[chosen, None]
-        at.append((edges[:-1][chosen, None] + half * (1 + x)).ravel())
-        weight.append((half * w).ravel())
-    return np.concatenate(at), np.concatenate(weight)
-
-
-def _shell_nodes(shells: Shells, max_nodes: int) -> ScaleNodes:
-    """One node per shell; where there are very many, neighbours are put together.
-
-    A group's node sits at the weighted mean of m, which leaves an error of second order in the
-    group's narrow width.
-    """
-    gradient = 0.5 * shells.variance * shells.q**2
-    below = np.cumsum(gradient)
-    above = np.append(np.cumsum(gradient[::-1])[::-1][1:], 0.0)
-    weight = -np.diff(1 / shells.q, append=0.0)
-    if len(below) <= max_nodes:
-        return ScaleNodes(below, above, weight)
-    half = max_nodes // 2
-    edges = np.geomspace(half, len(below) - 1, max_nodes - half)
-    start = np.unique(np.concatenate([np.arange(half), edges.astype(int)]))
-    total = np.add.reduceat(weight, start)
-    mean = [np.add.reduceat(weight * m, start) / total for m in (below, above)]
-    return ScaleNodes(mean[0], mean[1], total)
-
-
 @dataclass(frozen=True)
 class _LostContact:
     """Contact lost at the scales where A = erf(y), y = y_end + step: what P(u) is made of."""
@@ -163,13 +92,16 @@ class _LostContact:
         y = y_end + step
         return cls(y, step, p**2 * setting.kernels.area_scale(y), rest)
 
+    def __getitem__(self, part: slice) -> _LostContact:
+        return _LostContact(self.y[part], self.step[part], self.m[part], self.rest[part])
+
 
 def gap_profile(setting: Setting, p: float, reach: float) -> GapProfile:
     """Quadrature of P(u) over the scales where contact is lost.
 
     The variable is ln(y - y_end): logarithmic in M - m at the fine end, where u1 vanishes as
     exp(-p(m)^2/(M - m)), and in y at the coarse one, where it grows as exp(y^2). Panels are
-    laid so that no Gaussian is narrower than one of them.
+    laid so that no Gaussian is much narrower than one of them.
 
     Parameters
     ----------
@@ -178,24 +110,32 @@ def gap_profile(setting: Setting, p: float, reach: float) -> GapProfile:
     reach : float
         Gaps up to this many h_rms are resolved.
     """
-    kernel = setting.kernels
-    y_end = float(kernel.invert_area_scale(setting.m2 / p**2))
-    low, high = _step_range(setting, y_end)
-    grid = _grid(y_end, low, high, setting.nodes)
-    coarse = _LostContact.at(setting, p, y_end, grid)
-    scaled = np.log(_scaled_gap(setting, p, coarse))
-    smooth = CubicSpline(grid, scaled)
-    edges = _panel_edges(setting, p, grid, coarse, scaled, reach)
-    x, w = np.polynomial.legendre.leggauss(10)
-    half = 0.5 * np.diff(edges)[:, None]
-    log_step = (edges[:-1, None] + half * (1 + x)).ravel()
-    fine = _LostContact.at(setting, p, y_end, log_step)
-    gap = np.exp(smooth(log_step) + _gap_exponent(p, fine))
-    area_per_log_step = 2 / np.sqrt(np.pi) * np.exp(-(fine.y**2)) * fine.step
-    closed = float(erfc(y_end) - erfc(y_end + np.exp(low)))
-    return GapProfile(
-        (half * w).ravel() * area_per_log_step, gap, _width(setting, fine, gap), closed
-    )
+    y_end = float(setting.kernels.invert_area_scale(setting.m2 / p**2))
+    start, log_step, weight = _panel_nodes(*_panel_edges(setting, p, y_end, reach))
+    lost = _LostContact.at(setting, p, y_end, log_step)
+    gap = np.exp(_log_gap(setting, p, lost))
+    area_per_log_step = 2 / np.sqrt(np.pi) * np.exp(-(lost.y**2)) * lost.step
+    # of the two complementary differences the one with more digits
+    ends = np.array([y_end, y_end + np.exp(start)])
+    closed = float(np.diff(erf(ends))[0] if y_end < 0.5 else -np.diff(erfc(ends))[0])
+    return GapProfile(weight * area_per_log_step, gap, _width(setting, lost, gap), closed)
+
+
+def _panel_nodes(edges: NDArray, change: NDArray) -> tuple[float, NDArray, NDArray]:
+    """Gauss-Legendre nodes, in order, and weights.
+
+    Where there are very many panels, those that see little change get fewer.
+    """
+    full = (change > 0.3) | (len(edges) < _MANY_PANELS)
+    at, weights = [], []
+    for chosen, order in ((full, _ORDER), (~full, _ORDER // 2)):
+        x, w = np.polynomial.legendre.leggauss(order)
+        half = 0.5 * np.diff(edges)[chosen, None]
+        at.append((edges[:-1][chosen, None] + half * (1 + x)).ravel())
+        weights.append((half * w).ravel())
+    at, weights = np.concatenate(at), np.concatenate(weights)
+    order = np.argsort(at)
+    return float(edges[0]), at[order], weights[order]
 
 
 def _step_range(setting: Setting, y_end: float) -> tuple[float, float]:
@@ -209,37 +149,28 @@ def _step_range(setting: Setting, y_end: float) -> tuple[float, float]:
     return min(low, high - 1.0), high  # next to full contact all gaps are that small
 
 
-def _grid(y_end: float, low: float, high: float, nodes: float) -> NDArray:
-    """Values of ln(y - y_end) to interpolate between: even in it, and at y > 1 in y^2 as well."""
-    probe = np.linspace(low, high, 500)
-    y2 = (y_end + np.exp(probe)) ** 2
-    number = np.sqrt(nodes) * ((probe - low) / 0.018 + (y2 - y2[0]) / 0.25)
-    return np.interp(np.linspace(0, number[-1], 2 + int(number[-1])), number, probe)
-
-
-def _gap_exponent(p: float, lost: _LostContact) -> NDArray:
-    """Exponent in which u1 spans hundreds of orders of magnitude; the rest of it is tame."""
-    return lost.y**2 - (p / erf(lost.y)) ** 2 / lost.rest
+def _log_gap(setting: Setting, p: float, lost: _LostContact) -> NDArray:
+    """Ln u1, free of underflow: u1 spans hundreds of orders of magnitude."""
+    parts = [slice(i, i + _BLOCK) for i in range(0, len(lost.y), _BLOCK)]
+    scaled = np.concatenate([_scaled_gap(setting, p, lost[part]) for part in parts])
+    return lost.y**2 - (p / erf(lost.y)) ** 2 / lost.rest + np.log(scaled)
 
 
 def _scaled_gap(setting: Setting, p: float, lost: _LostContact) -> NDArray:
-    """u1/exp(_gap_exponent) by the sum over scales finer than each m."""
-    scales, kernel = setting.scales, setting.kernels
-    s2 = np.where(
-        lost.m[:, None] < 0.5 * setting.m2,
-        scales.below - lost.m[:, None],
-        lost.rest[:, None] - scales.above,
-    )
-    pressure2 = (p / erf(lost.y)) ** 2
-    finest = pressure2 / lost.rest
-    row, column = np.nonzero(s2 * (1 + 1e-12) > pressure2[:, None] / (finest[:, None] + 60.0))
-    s2 = s2[row, column]
-    x2 = pressure2[row] / s2
+    """u1 less its exponential, by the sum over scales finer than each m."""
+    kernel = setting.kernels
+    nodes = setting.scales.beyond(lost.m.min(), lost.m.max())
+    coarse = (lost.m < 0.5 * setting.m2)[:, None]
+    s2 = np.where(coarse, nodes.below - lost.m[:, None], lost.rest[:, None] - nodes.above)
+    pressure2 = ((p / erf(lost.y)) ** 2)[:, None]
+    finest = pressure2 / lost.rest[:, None]
+    # What is not finer ends where the exponential is zero.
+    s2 = np.maximum(s2, pressure2 / (finest + 740.0))
+    x2 = pressure2 / s2
     a = np.sqrt(np.pi) * p**2 * erf(lost.y) / (lost.y**3 * kernel.diffusion(lost.y))
-    factor = s2 * np.exp(-(lost.y[row] ** 2)) + 0.5 * a[row]
-    terms = np.exp(finest[row] - x2) * kernel.gap_kernel(x2) * factor / np.sqrt(s2)
-    total = np.bincount(row, scales.weight[column] * terms, minlength=len(lost.y))
-    return 2 / np.sqrt(np.pi) * total
+    factor = s2 * np.exp(-(lost.y**2))[:, None] + 0.5 * a[:, None]
+    terms = np.exp(finest - x2) * kernel.gap_kernel(x2) * factor / np.sqrt(s2)
+    return 2 / np.sqrt(np.pi) * (terms @ nodes.weight)
 
 
 def _width(setting: Setting, lost: _LostContact, gap: NDArray) -> NDArray:
@@ -255,20 +186,68 @@ def _width(setting: Setting, lost: _LostContact, gap: NDArray) -> NDArray:
     return gap * h / np.hypot(gap, h)
 
 
-def _panel_edges(
-    setting: Setting, p: float, grid: NDArray, lost: _LostContact, scaled: NDArray, reach: float
-) -> NDArray:
-    """Edges of panels over each of which the Gaussians move and widen by about half their width."""
-    log_gap = scaled + _gap_exponent(p, lost)
+def _panel_edges(setting: Setting, p: float, y_end: float, reach: float) -> tuple[NDArray, NDArray]:
+    """Edges of panels in ln(y - y_end).
+
+    Over each the Gaussians move by some four of their widths at most, their widths and the area
+    that is left change by factors that ten nodes follow, and nothing has a strong kink.
+
+    Returns
+    -------
+    edges : (k + 1,) array
+    change : (k,) array
+        Over each panel; 1 where ten nodes are needed.
+    """
+    low, high = _step_range(setting, y_end)
+    probe = np.linspace(low, high, 300)
+    # u1 grows as exp(y^2) where y is large.
+    number = (probe - low) / _LOOK + (y_end + np.exp(probe)) ** 2 / _LOOK_FAR
+    number -= number[0]
+    grid = np.interp(np.linspace(0, number[-1], 2 + int(number[-1])), number, probe)
+    breaks, onsets = (x[(x > low) & (x < high)] for x in _breaks(setting, p, y_end))
+    grid = np.union1d(grid, np.append(breaks, onsets))
+    lost = _LostContact.at(setting, p, y_end, grid)
+    log_gap = _log_gap(setting, p, lost)
     gap = np.exp(log_gap)
     width = np.maximum(_width(setting, lost, gap), 1e-300)
     seen = np.minimum(gap, reach * setting.spectrum.h_rms)
     centre = 0.5 * (width[1:] + width[:-1])
-    change = 0.5 * np.diff(grid) + np.abs(np.diff(np.log(width))) + np.abs(np.diff(seen)) / centre
-    change += 0.3 * np.abs(np.diff(np.maximum(log_gap, np.log(width))))
+    change = 0.5 * np.diff(grid) + 0.6 * np.abs(np.diff(np.log(width)))
+    change += 0.3 * np.abs(np.diff(seen)) / centre + 0.3 * np.diff(lost.y**2)
+    change += 0.2 * np.abs(np.diff(np.maximum(log_gap, np.log(width))))
     total = np.append(0.0, np.cumsum(change))
-    count = int(np.ceil(total[-1] / 0.8 * setting.nodes))
-    return np.interp(np.linspace(0, total[-1], count + 1), total, grid)
+    count = int(np.ceil(total[-1] * setting.nodes / _PANEL))
+    even = np.interp(np.linspace(0, total[-1], count + 1), total, grid)
+    edges = np.union1d(even, np.append(breaks, onsets))
+    return edges, np.diff(np.interp(edges, grid, total)) * setting.nodes / _PANEL
+
+
+def _breaks(setting: Setting, p: float, y_end: float) -> tuple[NDArray, NDArray]:
+    """Values of ln(y - y_end) where q(m) is not smooth, the strongest of those that matter.
+
+    And, where q jumps, values next to it: on the coarse side of a shell its part in u1 vanishes
+    as exp(-p(m)^2/(m_shell - m)), and h falls to what the finer shells hold.
+    """
+    spectrum = setting.spectrum
+    shells = isinstance(spectrum, Shells)
+    if shells:
+        most, q, jump = _MOST_SHELLS, spectrum.q[:-1], np.diff(np.log(spectrum.q))
+    else:
+        most, q = _MOST_KNOTS, knots(spectrum)
+        at = np.concatenate([[spectrum.q0], q, [spectrum.q1]])
+        jump = np.abs(np.diff(np.diff(np.log(spectrum.psd(at))) / np.diff(np.log(at))))
+    m = 0.5 * spectrum.variance_below(q, 2)
+    y = setting.kernels.invert_area_scale(m / p**2)
+    matter = (y > y_end) & (y**2 < y_end**2 + _TAIL_LOG)
+    chosen = np.flatnonzero(matter)[np.argsort(jump[matter])[::-1][:most]]
+    strong = chosen[jump[chosen] > _STRONG] if shells else chosen[:0]
+    depth = (p / erf(y[strong])) ** 2 / _ONSETS[:, None]
+    if setting.variant == "almqvist2011":
+        finer = 0.5 * q[strong] ** 2 * spectrum.variance_above(q[strong])
+        depth = np.concatenate([depth, finer * _SHARES[:, None]])
+    before = np.maximum(m[strong] - depth, 1e-3 * m[strong]).ravel()
+    near = setting.kernels.invert_area_scale(before / p**2)
+    return np.log(y[chosen] - y_end), np.log(near[near > y_end] - y_end)
 
 
 def density(u: NDArray, profile: GapProfile) -> NDArray:
@@ -303,6 +282,11 @@ def cumulative(u: NDArray, profile: GapProfile) -> NDArray:
     width = np.sqrt(2) * _bounded(profile.width)
     to_left = (u[:, None] - profile.gap) / width
     pair = erf(to_left) + erf(to_left + 2 * profile.gap / width)
+    # Within a small part of the width about zero that is a difference of nearly equal numbers.
+    small = np.minimum(u[:, None] / width, 1e-4)
+    centre2 = np.minimum((profile.gap / width) ** 2, 700.0)
+    series = small * np.exp(-centre2) * (1 + (2 * centre2 - 1) / 3 * small**2)
+    pair = np.where(small < 1e-4, 4 / np.sqrt(np.pi) * series, pair)
     return 0.5 * pair @ profile.weight + np.where(u > 0, profile.closed, 0.0)
 
 
