@@ -1,17 +1,38 @@
-"""Traction laws of adhesion as functions of the gap.
+"""Adhesive contact: traction laws, states of equilibrium, loading and unloading curves.
 
-Pressures are in units of the plane-strain modulus E*, tension positive; gaps, ranges and the
-adhesion length l_a = (work of adhesion)/E* share one unit of length. A gap of zero is where the
-hard wall of the repulsive solution begins.
+Pressures are in units of the plane-strain modulus E*, tension positive for tractions; gaps, ranges
+and the adhesion length l_a = (work of adhesion)/E* share one unit of length. A gap of zero is where
+the hard wall of the repulsive solution begins.
+
+A law is a small class: traction, derivative and potential as functions of the gap, strength, and
+three properties that say how it is to be solved (`hard_wall`, `smooth`, `hardens`). `solve` finds a
+state at a prescribed pressure or mean gap, `path` follows states through loading and unloading.
 """
 
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+
+from stickiness._adhesive_path import PathPoint, path
+from stickiness._adhesive_solve import Adhesion, ConvergenceError, PullOffError, solve
+
+__all__ = [
+    "Adhesion",
+    "ConvergenceError",
+    "Exponential",
+    "LennardJones",
+    "Maugis",
+    "PathPoint",
+    "PullOffError",
+    "TractionLaw",
+    "path",
+    "solve",
+]
 
 # Separation over range at which the traction of the 9-3 law peaks: (range/g)^6 = 1/3.
 _LJ_PEAK = 3.0 ** (1 / 6)
@@ -32,10 +53,20 @@ class TractionLaw(ABC):
     ------
     ValueError
         If either is not positive and finite.
+
+    Attributes
+    ----------
+    hard_wall : bool
+        Whether a wall at gap 0 repels; if not, the law itself does, and gaps must exceed -range.
+    smooth : bool
+        Whether the traction is continuous beyond the wall; where it is not it must jump at
+        `range` between constants, as that of Maugis does.
     """
 
     adhesion_length: float
     range: float
+    hard_wall: ClassVar[bool] = True
+    smooth: ClassVar[bool] = True
 
     def __post_init__(self):
         for name in ("adhesion_length", "range"):
@@ -53,6 +84,16 @@ class TractionLaw(ABC):
     def strength(self) -> float:
         """Largest traction [E*], the theoretical strength of the interface."""
 
+    @property
+    def strength_gap(self) -> float:
+        """Gap of the largest traction [length], beyond which it never rises again."""
+        return 0.0
+
+    @property
+    def hardens(self) -> bool:
+        """Whether the traction rises anywhere with the gap."""
+        return self.strength_gap > 0
+
     @abstractmethod
     def traction(self, gap: ArrayLike) -> NDArray:
         """Traction [E*] at `gap` [length], positive where the surfaces attract."""
@@ -64,6 +105,14 @@ class TractionLaw(ABC):
     @abstractmethod
     def potential(self, gap: ArrayLike) -> NDArray:
         """Energy per area over E* [length], zero at infinite gap; its slope is the traction."""
+
+    def evaluate(self, gap: ArrayLike) -> tuple[NDArray, NDArray, NDArray]:
+        """Traction, derivative and potential at once, which may be cheaper."""
+        return self.traction(gap), self.derivative(gap), self.potential(gap)
+
+    def at(self, span: slice) -> TractionLaw:
+        """Law of some rows of a grid: the same everywhere."""
+        return self
 
 
 @dataclass(frozen=True)
@@ -77,6 +126,8 @@ class Maugis(TractionLaw):
     ----------
     Maugis, J. Colloid Interface Sci. 150, 243 (1992), doi:10.1016/0021-9797(92)90285-T.
     """
+
+    smooth: ClassVar[bool] = False
 
     @property
     def strength(self) -> float:
@@ -118,6 +169,11 @@ class Exponential(TractionLaw):
         """Energy per area over E* [length] at `gap`."""
         return -self.range * self.traction(gap)
 
+    def evaluate(self, gap: ArrayLike) -> tuple[NDArray, NDArray, NDArray]:
+        """Traction, derivative and potential from one exponential."""
+        traction = self.traction(gap)
+        return traction, traction / -self.range, traction * -self.range
+
 
 @dataclass(frozen=True)
 class LennardJones(TractionLaw):
@@ -125,7 +181,16 @@ class LennardJones(TractionLaw):
 
     sigma = (8 adhesion_length/(3 range)) [(range/g)^3 - (range/g)^9] with g = gap + range, so
     that gap 0 is the equilibrium separation. All methods need gap > -range.
+
+    Parameters
+    ----------
+    adhesion_length, range : float
+        As for every `TractionLaw`.
+    hard_wall : bool
+        Whether a wall at gap 0 takes the place of the law's own repulsion.
     """
+
+    hard_wall: bool = False
 
     @property
     def strength(self) -> float:
