@@ -1,6 +1,7 @@
 # Do two rough solids stick? From random surfaces to stickiness verdicts.
 #
 #   model surfaces ──► repulsive BEM ──► ensembles ──► a_V, kappa ──► criteria ──► figures
+#        ├─ adhesive BEM ──► slopes, loops, error of the DMT limit ─────┤
 #        └─ lattice spectrum ─► Persson's theory ──────┘               ▲           claims
 #   real surfaces ──► PSD, H, C0 ──────────────────────────────────────┘           report
 
@@ -35,6 +36,7 @@ localrules:
     fig4,
     fig5,
     fig6,
+    fig7,
     claims,
     verdicts,
     report,
@@ -77,6 +79,11 @@ rule fig5:
 rule fig6:
     input:
         f"{RESULTS}/figures/fig6.png",
+
+
+rule fig7:
+    input:
+        f"{RESULTS}/figures/fig7.png",
 
 
 rule verdicts:

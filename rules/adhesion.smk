@@ -1,4 +1,5 @@
-# Adhesion in the DMT limit: attraction summed over the gaps of the repulsive solution.
+# Adhesion in the DMT limit, summed over the gaps of the repulsive solution, and in full, by boundary
+# elements with a traction law.
 
 
 rule adhesion_dmt:
@@ -21,3 +22,85 @@ rule adhesion_dmt:
         adhesion=lambda wildcards: ADHESION[wildcards.adhesion],
     script:
         "../scripts/adhesion_dmt.py"
+
+
+rule solve_adhesive:
+    input:
+        library=library_of("solve_adhesive.py"),
+        surface=lambda wildcards: surface_of(adhesive_case(wildcards)),
+    output:
+        f"{RESULTS}/adhesive/{{adhesion}}/seed{{seed}}.nc",
+    log:
+        f"{LOGS}/solve_adhesive/{{adhesion}}/seed{{seed}}.log",
+    benchmark:
+        f"{BENCHMARKS}/solve_adhesive/{{adhesion}}/seed{{seed}}.tsv"
+    conda:
+        "../envs/environment.yaml"
+    resources:
+        mem_mb=2000,
+    params:
+        adhesion=lambda wildcards: ADHESION[wildcards.adhesion],
+        tolerance=FIDELITY["tolerance"],
+    script:
+        "../scripts/solve_adhesive.py"
+
+
+rule average_adhesive:
+    input:
+        library=library_of("average_adhesive.py"),
+        realisations=adhesive_realisations,
+    output:
+        f"{RESULTS}/adhesive/{{adhesion}}.nc",
+    log:
+        f"{LOGS}/average_adhesive/{{adhesion}}.log",
+    benchmark:
+        f"{BENCHMARKS}/average_adhesive/{{adhesion}}.tsv"
+    conda:
+        "../envs/environment.yaml"
+    resources:
+        mem_mb=500,
+    script:
+        "../scripts/average_adhesive.py"
+
+
+rule adhesive_maps:
+    input:
+        library=library_of("adhesive_maps.py"),
+        surface=lambda wildcards: surface_of(adhesive_case(wildcards)).format(seed=1),
+    output:
+        f"{RESULTS}/adhesive/{{adhesion}}/maps.nc",
+    log:
+        f"{LOGS}/adhesive_maps/{{adhesion}}.log",
+    benchmark:
+        f"{BENCHMARKS}/adhesive_maps/{{adhesion}}.tsv"
+    conda:
+        "../envs/environment.yaml"
+    resources:
+        mem_mb=2000,
+    params:
+        adhesion=lambda wildcards: ADHESION[wildcards.adhesion],
+    script:
+        "../scripts/adhesive_maps.py"
+
+
+rule follow_loop:
+    input:
+        library=library_of("follow_loop.py"),
+        surface=lambda wildcards: (
+            f"{RESULTS}/surfaces/{LOOPS[wildcards.loop]['surface']}/seed1.nc"
+        ),
+    output:
+        f"{RESULTS}/loops/{{loop}}.nc",
+    log:
+        f"{LOGS}/follow_loop/{{loop}}.log",
+    benchmark:
+        f"{BENCHMARKS}/follow_loop/{{loop}}.tsv"
+    conda:
+        "../envs/environment.yaml"
+    resources:
+        mem_mb=1000,
+    params:
+        loop=lambda wildcards: LOOPS[wildcards.loop],
+        pixels_per_wavelength=FIDELITY["pixels_per_wavelength"],
+    script:
+        "../scripts/follow_loop.py"

@@ -9,6 +9,7 @@ import re
 import sys
 from functools import cache
 from pathlib import Path
+from types import SimpleNamespace
 
 import psutil
 
@@ -33,12 +34,9 @@ except configuration.ConfigError as error:
 FIDELITY = config["fidelities"][config["fidelity"]]
 RESULTS = f"{config['results']}/{config['fidelity']}"
 LOGS, BENCHMARKS = f"{RESULTS}/logs", f"{RESULTS}/benchmarks"
-CASES, SWEEPS, ADHESION = (
-    config["cases"],
-    config["theory"]["sweeps"],
-    config["adhesion"],
-)
-FIGURES = [f"fig{number}" for number in range(1, 7)]
+CASES, SWEEPS = config["cases"], config["theory"]["sweeps"]
+ADHESION, LOOPS = config["adhesion"], config["loops"]
+FIGURES = [f"fig{number}" for number in range(1, 8)]
 
 
 wildcard_constraints:
@@ -47,6 +45,7 @@ wildcard_constraints:
     model_surface="|".join(map(re.escape, config["model_surfaces"])) or "none",
     sweep="|".join(map(re.escape, SWEEPS)) or "none",
     adhesion="|".join(map(re.escape, ADHESION)) or "none",
+    loop="|".join(map(re.escape, LOOPS)) or "none",
     real_surface="|".join(map(re.escape, REAL_SURFACES)),
     figure="|".join(FIGURES),
 
@@ -98,6 +97,19 @@ def surface_of(wildcards):
     return f"{RESULTS}/surfaces/{CASES[wildcards.case]['surface']}/seed{{seed}}.nc"
 
 
+def adhesive_case(wildcards):
+    """Wildcards of the contact case behind a set of adhesive parameters."""
+    return SimpleNamespace(case=ADHESION[wildcards.adhesion]["case"])
+
+
+def adhesive_realisations(wildcards):
+    """Files of all realisations of a set of adhesive parameters."""
+    asked = ADHESION[wildcards.adhesion]
+    most = asked["bem"].get("seeds", 10**9)
+    seeds = [seed for seed in seeds_of(asked["case"]) if seed <= most]
+    return [f"{RESULTS}/adhesive/{wildcards.adhesion}/seed{seed}.nc" for seed in seeds]
+
+
 def topography_file(wildcards):
     """The measured file of a real surface, if it has one of its own."""
     file = REAL_SURFACES[wildcards.real_surface].get("file", "builtin:")
@@ -127,6 +139,10 @@ def ledger_inputs():
         "fit_bem_128": f"{RESULTS}/fits/ensembles/H0.8_zeta128.nc",
         **{f"fig{n}": f"{RESULTS}/persson/fig{n}.nc" for n in ("1b", "3a", "3b", "3c", "3d")},
         **{f"fit_fig{n}": f"{RESULTS}/fits/persson/fig{n}.nc" for n in ("3a", "3c", "3d")},
+        "loop": f"{RESULTS}/loops/fig4a.nc",
+        "adhesive_fig2": f"{RESULTS}/adhesive/fig2.nc",
+        "adhesive_rough": f"{RESULTS}/adhesive/fig4b_rough.nc",
+        "adhesive_smooth": f"{RESULTS}/adhesive/fig4b_smooth.nc",
         "adhesion_fig2": f"{RESULTS}/adhesion/fig2.nc",
         "adhesion_rough": f"{RESULTS}/adhesion/fig4b_rough.nc",
         "adhesion_smooth": f"{RESULTS}/adhesion/fig4b_smooth.nc",

@@ -1,4 +1,4 @@
-# The paper's six figures, with what was measured added.
+# The paper's six figures, with what was measured added, and one on where the DMT limit holds.
 
 FIGURE_2_CASES = ["H0.8_zeta32", "H0.8_zeta64", "H0.8_zeta128"]
 
@@ -37,6 +37,8 @@ rule plot_fig2:
         lattices=expand(f"{RESULTS}/persson_lattice/{{case}}.nc", case=FIGURE_2_CASES),
         maps=f"{RESULTS}/bem/H0.8_zeta64/maps.nc",
         adhesion=f"{RESULTS}/adhesion/fig2.nc",
+        adhesive=f"{RESULTS}/adhesive/fig2.nc",
+        adhesive_maps=f"{RESULTS}/adhesive/fig2/maps.nc",
     output:
         png=report(
             f"{RESULTS}/figures/fig2.png",
@@ -85,11 +87,12 @@ rule plot_fig3:
 
 rule plot_fig4:
     input:
-        **a_v_inputs(),
         library=library_of("plot_fig4.py"),
-        curve=f"{RESULTS}/adhesion/fig2.nc",
+        loop=f"{RESULTS}/loops/fig4a.nc",
         rough=f"{RESULTS}/adhesion/fig4b_rough.nc",
         smooth=f"{RESULTS}/adhesion/fig4b_smooth.nc",
+        rough_full=f"{RESULTS}/adhesive/fig4b_rough.nc",
+        smooth_full=f"{RESULTS}/adhesive/fig4b_smooth.nc",
     output:
         png=report(
             f"{RESULTS}/figures/fig4.png",
@@ -155,3 +158,28 @@ rule plot_fig6:
         mem_mb=500,
     script:
         "../scripts/plot_fig6.py"
+
+
+rule plot_fig7:
+    input:
+        library=library_of("plot_fig7.py"),
+        adhesive=f"{RESULTS}/adhesive/dmt_error.nc",
+    output:
+        png=report(
+            f"{RESULTS}/figures/fig7.png",
+            category="Figures",
+            caption="../report/fig7.rst",
+        ),
+        pdf=f"{RESULTS}/figures/fig7.pdf",
+    log:
+        f"{LOGS}/plot_fig7.log",
+    benchmark:
+        f"{BENCHMARKS}/plot_fig7.tsv"
+    conda:
+        "../envs/environment.yaml"
+    resources:
+        mem_mb=500,
+    params:
+        pressure=config["criteria"]["a_v"]["pressure"],
+    script:
+        "../scripts/plot_fig7.py"

@@ -14,7 +14,6 @@ from stickiness import datasets
 REPRODUCED = "reproduced"
 QUALIFIED = "reproduced with a qualification"
 NOT = "not reproduced"
-WAITING = "waiting for the adhesive solver"
 
 Files = Mapping[str, xr.Dataset]
 

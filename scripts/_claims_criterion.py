@@ -6,7 +6,6 @@ import numpy as np
 import xarray as xr
 
 from _claim import (
-    WAITING,
     Claim,
     Files,
     at_load,
@@ -14,7 +13,7 @@ from _claim import (
     sample,
     total_error,
 )
-from _model import LOAD, spectrum_of, window_of
+from _model import spectrum_of, window_of
 from stickiness import adhesive, criteria, datasets, surface
 from stickiness.area_load import JTB_CONSTANT
 from stickiness.spectrum import SelfAffine
@@ -27,73 +26,136 @@ UPPER_LINE = 1e-3  # m^0.4, C0 of the line above real surfaces
 
 def kappa_threshold(files: Files) -> Claim:
     """Claim 5: kappa turns negative above a threshold of l_a/range."""
-    a = files["adhesion_fig2"].isel(range_over_h_rms=0, adhesion_length_over_range=0)
-    # In the DMT limit 1/kappa_ad grows in proportion to l_a/range; at 1/2 attraction equals load.
-    threshold = a.adhesion_length_over_range / (2 * a.inverse_kappa_ad)
-    error = threshold * total_error(a, "inverse_kappa_ad") / a.inverse_kappa_ad
-    at, ends = threshold.sel(pressure=LOAD, method="nearest"), threshold.isel(pressure=[0, -1])
+    full = at_load(files["adhesive_fig2"])
+    held = full.inverse_kappa.dropna("range_over_h_rms", how="all")
+    crossed = [r for r in held.range_over_h_rms if float(held.sel(range_over_h_rms=r).min()) < 0]
+    reach = crossed[0] if crossed else held.range_over_h_rms[-1]
+    at = full.sel(range_over_h_rms=reach)
+    threshold, error = zero_of(at)
+    limit = at_load(files["adhesion_fig2"]).sel(range_over_h_rms=reach)
+    dmt = limit.isel(adhesion_length_over_range=0)
+    dmt = float(dmt.adhesion_length_over_range / (2 * dmt.inverse_kappa_ad))
+    lowest = at.inverse_kappa.min()
     return Claim(
         5,
         "kappa grows with l_a/range and turns negative above a threshold (Figs. 2B, 2D-I)",
-        f"threshold l_a/range in the DMT limit at p = {float(at.pressure):g}, range/h_rms = "
-        f"{float(a.range_over_h_rms):g}, q0 h_rms = {float(a.q0_h_rms):g}, {sample(a)}",
-        float(at),
-        float(error.sel(pressure=at.pressure)),
+        f"threshold l_a/range at the mean gap of p = {float(at.pressure):g} without adhesion, on "
+        f"approach, range/h_rms = {float(reach):g}, q0 h_rms = {float(full.q0_h_rms):g}, "
+        f"{sample(full)}",
+        threshold,
+        error,
         np.nan,
-        WAITING,
-        f"The threshold depends on the load, {float(ends[0]):.2f} at p = "
-        f"{float(ends.pressure[0]):g} to {float(ends[1]):.2f} at {float(ends.pressure[1]):g}; by "
-        "the formula it would not. Maps drawn from the repulsive gaps.",
-        ("adhesion_fig2",),
+        graded(False, np.isfinite(threshold)),
+        f"Full simulation at given mean gaps; the DMT limit has the threshold at {dmt:.2f}. "
+        + (
+            ""
+            if np.isfinite(threshold)
+            else f"1/kappa falls to {float(lowest):.2f}; what would be beyond is not resolved. "
+        )
+        + "On separation a pull-off force is there at smaller l_a/range already (claim 10). At the "
+        f"printed range, {float(full.range_over_h_rms[0]):g} h_rms, the grid resolves the edge of "
+        f"the contact up to l_a/range = {largest_resolved(full, 0):g} only.",
+        ("adhesive_fig2", "adhesion_fig2"),
     )
+
+
+def zero_of(data: xr.Dataset) -> tuple[float, float]:
+    """Adhesion length at which 1/kappa is zero, between those simulated, and its error."""
+    data = data.where(np.isfinite(data.inverse_kappa), drop=True)
+    log_length = np.log(data.adhesion_length_over_range.values)
+    value, error = data.inverse_kappa.values, total_error(data, "inverse_kappa").values
+    below = np.flatnonzero(value < 0)
+    if not below.size or below[0] == 0:
+        return np.nan, np.nan
+    i = below[0]
+    slope = (value[i] - value[i - 1]) / (log_length[i] - log_length[i - 1])
+    zero = float(np.exp(log_length[i - 1] - value[i - 1] / slope))
+    return zero, float(zero * max(error[i - 1 : i + 1]) / abs(slope))
+
+
+def largest_resolved(data: xr.Dataset, index: int) -> float:
+    value = data.inverse_kappa.isel(range_over_h_rms=index)
+    return float(value.adhesion_length_over_range.where(np.isfinite(value)).max())
 
 
 def hysteresis(files: Files) -> Claim:
     """Claim 10: loading and unloading differ (Fig. 4A)."""
-    a = files["adhesion_fig2"]
-    tension = float((a.pressure - a.attraction).min())
+    loop = files["loop"]
+    strongest = loop.isel(adhesion_length_over_range=-1)
+    press, gap = strongest.sel(control="pressure"), strongest.sel(control="mean_gap")
+    last = press.dropna("state").isel(state=-1)
+    area, tension = float(last.repulsive_area_fraction), float(last.mean_pressure)
+    load = float(press.mean_pressure.max()) / 2
+    loading, unloading = (area_at(press, load, way) for way in (0, 1))
+    lost = float(gap.dissipated.sum() / gap.work.where(gap.work > 0).sum())
+    weak = loop.isel(adhesion_length_over_range=0).sel(control="pressure").dropna("state")
+    weak = weak.isel(state=-1)
+    made = datasets.parameters(loop)
+    holds = tension < 0 and area > 0 and unloading > 1.05 * loading
     return Claim(
         10,
         "loading-unloading loop, jump-in and pull-off at non-zero area (Fig. 4A)",
-        "smallest external pressure over E* q0 h_rms in the DMT limit, "
-        f"range/h_rms = {float(a.range_over_h_rms[0]):g}, "
-        f"l_a/range = {float(a.adhesion_length_over_range[-1]):g}",
+        "pull-off pressure over E* q0 h_rms, range/h_rms = "
+        f"{made['range_over_h_rms']:g}, l_a/range = "
+        f"{float(strongest.adhesion_length_over_range):g}, q0 h_rms = {made['q0_h_rms']:g}, "
+        f"{sample(loop)}, one realisation",
         tension,
         np.nan,
         np.nan,
-        WAITING,
-        "The DMT limit has no hysteresis; its area-load lines are drawn. The value is that of the "
-        "largest l_a/range of the configuration.",
-        ("adhesion_fig2",),
+        graded(holds, tension < 0),
+        f"Pull-off at an area of {area:.3f}; at p = {load:g} the area is {loading:.3f} on loading "
+        f"and {unloading:.3f} on unloading; at given mean gap {lost:.0%} of the work done on the "
+        f"surfaces is lost in the loop, in {int(gap.jumped.sum())} jumps and many small ones. With "
+        f"l_a/range = {float(weak.adhesion_length_over_range):g} they part at "
+        f"p = {float(weak.mean_pressure):.2g}, area {float(weak.repulsive_area_fraction):.3f}.",
+        ("loop",),
     )
+
+
+def area_at(curve: xr.Dataset, load: float, way: int) -> float:
+    """Repulsive area at a load on one leg of a loop."""
+    leg = curve.where(curve.separating == way, drop=True)
+    order = np.argsort(leg.mean_pressure.values)
+    pressure, area = leg.mean_pressure.values[order], leg.repulsive_area_fraction.values[order]
+    return float(np.interp(load, pressure, area))
 
 
 def inverse_kappa_ad(files: Files) -> Claim:
     """Claim 11: 1/kappa_ad of simulation against the formula with a_V = 2.8 (Fig. 4B)."""
-    ratios, errors = [], []
-    for name in ("adhesion_rough", "adhesion_smooth"):
-        a = at_load(files[name]).isel(adhesion_length_over_range=0)
-        formula = criteria.inverse_kappa_ad(
-            float(a.q0_h_rms),
+    ratios, limits, errors = [], [], []
+    for name in ("rough", "smooth"):
+        full, limit = (at_load(files[f"{kind}_{name}"]) for kind in ("adhesive", "adhesion"))
+        limit = limit.sel(adhesion_length_over_range=full.adhesion_length_over_range)
+        formula = xr.zeros_like(full.inverse_kappa_ad) + criteria.inverse_kappa_ad(
+            float(full.q0_h_rms),
             1.0,
-            (a.adhesion_length_over_range * a.range_over_h_rms * a.q0_h_rms).values,
-            (a.range_over_h_rms * a.q0_h_rms).values,
+            (full.adhesion_length_over_range * full.range_over_h_rms * full.q0_h_rms).values,
+            (full.range_over_h_rms * full.q0_h_rms).values,
             2.8,
         )
-        ratios += list((a.inverse_kappa_ad / formula).values)
-        errors += list((total_error(a, "inverse_kappa_ad") / formula).values)
+        error = total_error(full, "inverse_kappa_ad")
+        told = (full.inverse_kappa_ad > 2 * error).values
+        ratios.append((full.inverse_kappa_ad / formula).values[told])
+        limits.append((limit.inverse_kappa_ad / formula).values[told])
+        errors.append((error / formula).values[told])
+    ratios, limits, errors = map(np.concatenate, (ratios, limits, errors))
+    mean = float(np.exp(np.mean(np.log(ratios))))
+    apart = np.abs(np.log(ratios)).max()
     return Claim(
         11,
         "1/kappa_ad follows the formula with a_V = 2.8 over six decades (Fig. 4B)",
-        f"mean of DMT simulation over formula, {len(ratios)} parameter sets, "
-        f"p = {float(a.pressure):g}",
-        float(np.mean(ratios)),
+        f"geometric mean of full simulation over formula, {len(ratios)} parameter sets told from "
+        f"zero, p = {float(full.pressure):g}; ± mean error of one",
+        mean,
         float(np.mean(errors)),
         1.0,
-        WAITING,
-        f"DMT limit: ratios from {min(ratios):.2f} to {max(ratios):.2f}; the six decades come "
-        "from l_a/range, in which the limit is linear.",
-        ("adhesion_rough", "adhesion_smooth"),
+        graded(apart < np.log(1.25), apart < np.log(10)),
+        f"Ratios from {ratios.min():.2f} to {ratios.max():.2f}, of the DMT limit from "
+        f"{limits.min():.2f} to {limits.max():.2f}. The order of magnitude follows; but even the "
+        "weakest attraction next to the edge of a contact relieves it by more than its own sum, so "
+        "that 1/kappa_ad falls with the range more slowly than as (range/h_rms)^(2/3), and strong "
+        "attraction saturates (Fig. 7).",
+        ("adhesive_rough", "adhesive_smooth", "adhesion_rough", "adhesion_smooth"),
     )
 
 

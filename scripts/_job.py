@@ -67,7 +67,7 @@ def job_of(rule: str, **wildcards: Any) -> Any:
         values = Wildcards(fromdict={key: str(value) for key, value in wildcards.items()})
         inputs, *_ = found.expand_input(values, groupid=None)
         outputs, _ = found.expand_output(values)
-        params = found.expand_params(values, inputs, outputs, found)
+        params, _ = found.expand_params(values, inputs, outputs, found)
         log = found.expand_log(values)
         return SimpleNamespace(
             rule=rule, wildcards=values, input=inputs, output=outputs, params=params, log=log

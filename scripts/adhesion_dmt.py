@@ -3,11 +3,12 @@
 import numpy as np
 import xarray as xr
 
+from _adhesion import DESCRIBED as ADHESION_DESCRIBED
+from _adhesion import axis, roughness
 from _errors import described, with_errors
 from _job import start
 from _model import DESCRIBED
 from stickiness import criteria, datasets
-from stickiness.units import si
 
 
 def main(job):
@@ -34,24 +35,12 @@ def main(job):
     )
 
 
-def roughness(asked):
-    """Dimensionless roughness q0 h_rms, given as such or by a window and an rms height."""
-    if "q0_h_rms" in asked:
-        return float(asked["q0_h_rms"])
-    return 2 * np.pi / si(asked["window"], "m") * si(asked["h_rms"], "m")
-
-
 def dmt_valid(q0_h_rms, lengths, ranges):
     """Where the JTB condition lets the repulsive gaps stand, with lengths in units of 1/q0."""
     length, range_ = xr.broadcast(lengths, ranges)
     range_ = range_ * q0_h_rms
     valid = criteria.dmt_validity(q0_h_rms, 1.0, (length * range_).values, range_.values).valid
     return length.dims, np.asarray(valid, dtype="i1")
-
-
-def axis(name, asked):
-    values = np.sort(np.array(asked[name], dtype=float))
-    return xr.DataArray(values, dims=name, coords={name: values})
 
 
 def area_within(area, ranges):
@@ -65,9 +54,7 @@ def annotated(dataset):
         dataset,
         pressure=DESCRIBED["pressure"],
         area_fraction=DESCRIBED["area_fraction"],
-        q0_h_rms=("1", "lowest wave number times rms height"),
-        adhesion_length_over_range=("1", "adhesion length over range, sigma0/E*"),
-        range_over_h_rms=("1", "range of attraction over h_rms"),
+        **ADHESION_DESCRIBED,
         dmt_valid=("1", "1 where the JTB condition for the DMT limit holds"),
         **described("attraction", "attractive pressure over E* q0 h_rms", plain=True),
         **described("inverse_kappa", "1/kappa = p_ext A_nom/(A_rep E* h'_rms)", plain=True),

@@ -21,9 +21,8 @@ from _style import (
     points,
     save,
 )
-from stickiness import criteria, datasets
+from stickiness import datasets
 
-LOADS = [0.0065, 0.065, 0.26]  # over E* q0 h_rms, of panel B
 DETAIL = 0.3  # side of the detail in panels G to I, in window sides
 VARIANT = "afferrante2018"  # both variants of the theory have the same area
 GAP_COLOUR, CONTACT_COLOUR, ATTRACTION_COLOUR = "white", BLACK, "#FF2A00"
@@ -36,12 +35,14 @@ def main(job):
     ensembles = read_all(job.input.ensembles, ["area_fraction_mean", "rms_slope"])
     lattices = read_all(job.input.lattices, ["area_fraction"])
     maps = datasets.read(job.input.maps, ["gap"])
-    adhesion = datasets.read(job.input.adhesion, ["inverse_kappa", "q0_h_rms"])
+    limit = datasets.read(job.input.adhesion, ["inverse_kappa", "q0_h_rms"])
+    adhesive = datasets.read(job.input.adhesive, ["inverse_kappa", "q0_h_rms"])
+    adhesive_maps = datasets.read(job.input.adhesive_maps, ["gap"])
     figure, panels = canvas("ABC;DEF;GHI", 7.9, height_ratios=[1.15, 1, 1])
     panel_a(panels["A"], kappas)
-    panel_b(panels["B"], adhesion)
+    panel_b(panels["B"], limit, adhesive)
     panel_c(panels["C"], list(zip(ensembles, lattices, strict=True)))
-    draw_maps(panels, maps, float(adhesion.range_over_h_rms[0]))
+    draw_maps(panels, maps, adhesive_maps)
     letters(panels)
     save(figure, job.output)
 
@@ -88,34 +89,26 @@ def case_keys(kappas):
     ]
 
 
-def panel_b(ax, adhesion):
-    """1/kappa in the DMT limit; sticky where it is negative."""
-    adhesion = adhesion.isel(range_over_h_rms=0)
-    lengths = adhesion.adhesion_length_over_range
-    for index, load in enumerate(LOADS):
-        at_load = adhesion.sel(pressure=load, method="nearest")
-        ax.plot(lengths, at_load.inverse_kappa, color=COLOURS[index], linewidth=0.9)
-        errors = (
-            at_load.inverse_kappa_standard_error,
-            at_load.inverse_kappa_discretisation_error,
-        )
-        label = rf"$\hat{{p}}$ = {float(at_load.pressure):g}"
+def panel_b(ax, limit, adhesive):
+    """1/kappa by full simulation and in the DMT limit (dotted); sticky where it is negative."""
+    load = float(adhesive.pressure[-1])
+    for index, reach in enumerate(adhesive.range_over_h_rms.values):
+        full = adhesive.sel(pressure=load, range_over_h_rms=reach)
+        dmt = limit.sel(pressure=load, range_over_h_rms=reach, method="nearest")
         look = {"color": COLOURS[index], "marker": MARKERS[index], "markersize": 3.5}
-        points(ax, lengths, at_load.inverse_kappa, *errors, label=label, **look)
-    low, high = min(ax.get_ylim()[0], -0.45), 0.68
+        ax.plot(dmt.adhesion_length_over_range, dmt.inverse_kappa, ":", color=COLOURS[index])
+        errors = full.inverse_kappa_standard_error, full.inverse_kappa_discretisation_error
+        label = rf"$\epsilon/h_\mathrm{{rms}}$ = {reach:g}"
+        points(ax, full.adhesion_length_over_range, full.inverse_kappa, *errors, **look)
+        ax.plot([], [], linestyle="none", label=label, **look)
+    ax.plot([], [], ":", color=GREY, label="DMT limit")
+    low, high = -0.35, 0.68
     ax.axhspan(low, 0, color=GREY, alpha=0.15, linewidth=0)
-    ax.text(0.97, 0.03, "sticky", transform=ax.transAxes, ha="right", fontsize=8)
-    ax.text(0.97, 0.94, dmt_note(adhesion), transform=ax.transAxes, ha="right", fontsize=8)
-    ax.set(xlabel=r"adhesion length $l_a/\epsilon$", ylabel=r"$1/\kappa$ with adhesion (DMT)")
-    ax.set(ylim=(low, high), xlim=(0, 1.04 * float(lengths.max())))
-    ax.legend(loc="lower left")
-
-
-def dmt_note(adhesion):
-    """Where the DMT limit ends, as text: it lies far to the right of the points."""
-    reach, roughness = float(adhesion.range_over_h_rms), float(adhesion.q0_h_rms)
-    per_length = criteria.jtb_limit(roughness, reach, reach)  # proportional to the adhesion length
-    return rf"DMT valid up to $l_a/\epsilon$ = {1 / per_length:.2g}"
+    ax.text(0.03, 0.03, "sticky", transform=ax.transAxes, fontsize=8)
+    ax.set(xlabel=r"adhesion length $l_a/\epsilon$", ylabel=r"$1/\kappa$ with adhesion")
+    ax.set(ylim=(low, high), xscale="log")
+    ax.set_title(rf"$q_0h_\mathrm{{rms}}$ = {float(adhesive.q0_h_rms):g}, $\hat{{p}}$ = {load:g}")
+    ax.legend(loc="lower left", bbox_to_anchor=(0, 0.08))
 
 
 def panel_c(ax, cases):
@@ -133,8 +126,10 @@ def panel_c(ax, cases):
     ax.legend(handles=[straight, key(label="theory")], loc="upper left")
 
 
-def draw_maps(panels, maps, reach):
+def draw_maps(panels, maps, adhesive):
     """Up to three loads: the window without, and its densest detail with adhesion."""
+    made = datasets.parameters(adhesive)
+    reach = made["range_over_h_rms"]
     loads = maps.pressure.values
     middle = maps.gap.sel(pressure=loads[len(loads) // 2]).transpose("y", "x").values
     x, y = densest(middle == 0)
@@ -143,10 +138,10 @@ def draw_maps(panels, maps, reach):
         panels[name].add_patch(Rectangle((x, y), DETAIL, DETAIL, fill=False, color=BLUE))
         panels[name].set(xticks=[0, 0.5, 1], yticks=[0, 0.5, 1])
     for name, load in zip("GHI", loads, strict=False):
-        contact_map(panels[name], maps.sel(pressure=load), reach)
+        contact_map(panels[name], adhesive.sel(pressure=load, method="nearest"), reach)
         panels[name].set(xlim=(x, x + DETAIL), ylim=(y, y + DETAIL))
     panels["D"].set_ylabel("repulsive contact\n$y/L$")
-    panels["G"].set_ylabel("blue frame, with attraction (DMT)\n$y/L$")
+    panels["G"].set_ylabel("blue frame, with adhesion\n$y/L$")
 
 
 def densest(contact):

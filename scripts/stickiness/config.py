@@ -35,7 +35,8 @@ _UNITS = {
 _PAPER = {
     "cases": ("H0.8_zeta32", "H0.8_zeta64", "H0.8_zeta128", "H0.8_zeta32_wide"),
     "theory.sweeps": ("fig1a", "fig1b", "fig3a", "fig3b", "fig3c", "fig3d"),
-    "adhesion": ("fig2", "fig4b_rough", "fig4b_smooth"),
+    "adhesion": ("fig2", "fig4b_rough", "fig4b_smooth", "dmt_error"),
+    "loops": ("fig4a",),
 }
 _PAPER_SURFACES = ("asphalt", "polished_steel")
 _BUILTIN = ("builtin:jacksboro",)
@@ -191,6 +192,15 @@ def _config_problems(config: Mapping[str, Any]) -> Iterator[str]:
             yield _unknown(f"adhesion.{key}.case", adhesion["case"], config["cases"])
         for unit_key in ("window", "h_rms"):
             yield from _unit_problem(f"adhesion.{key}.{unit_key}", adhesion.get(unit_key), "m")
+        if key in _PAPER["adhesion"] and "bem" not in adhesion:
+            yield f"adhesion.{key}.bem is missing; figures and claims need it: {{law, pressures}}"
+    if "maps" not in config["adhesion"]["fig2"].get("bem", {}):
+        yield "adhesion.fig2.bem.maps is missing; Figure 2 needs it: {pressures, ...}"
+    for key, loop in config["loops"].items():
+        if loop["surface"] not in config["model_surfaces"]:
+            yield _unknown(f"loops.{key}.surface", loop["surface"], config["model_surfaces"])
+        for unit_key in ("window", "h_rms"):
+            yield from _unit_problem(f"loops.{key}.{unit_key}", loop.get(unit_key), "m")
     chosen = config["criteria"]["a_v"]
     if chosen["case"] not in config["cases"]:
         yield _unknown("criteria.a_v.case", chosen["case"], config["cases"])

@@ -1,0 +1,59 @@
+"""Keep the gap and pressure fields of one realisation in adhesive contact, for pictures."""
+
+import numpy as np
+import xarray as xr
+
+from _adhesion import roughness, scaled_law
+from _job import start
+from _model import DESCRIBED
+from stickiness import adhesive, datasets
+
+TOLERANCE = 1e-6  # of the residual: far below what a picture shows
+
+
+def main(job):
+    surface = datasets.read(job.input.surface, ["height", "window_length"])
+    asked, shown = job.params.adhesion, job.params.adhesion["bem"]["maps"]
+    heights, length = surface.height.values, float(surface.window_length)
+    law = scaled_law(
+        asked, asked["bem"]["law"], shown["adhesion_length_over_range"], shown["range_over_h_rms"]
+    )
+    pressures = np.sort(np.array(shown["pressures"], dtype=float))
+    # Loads grow: each state is where a press would find it on loading.
+    states = []
+    for pressure in pressures:
+        begin = states[-1] if states else None
+        states.append(
+            adhesive.solve(heights, length, law, pressure=pressure, start=begin, tol=TOLERANCE)
+        )
+    dims = ("pressure", "x", "y")
+    dataset = xr.Dataset(
+        {
+            "gap": (dims, [state.gap for state in states]),
+            "contact_pressure": (dims, [state.pressure for state in states]),
+            "residual": ("pressure", [state.residual for state in states]),
+        },
+        coords={"pressure": pressures, "x": surface.x, "y": surface.y},
+    )
+    datasets.write(
+        datasets.annotate(
+            dataset,
+            pressure=DESCRIBED["pressure"],
+            gap=DESCRIBED["gap"],
+            contact_pressure=("1", "repulsion less attraction over E* q0 h_rms"),
+            residual=("1", "unbalanced pressure over the strength or the flattening pressure"),
+        ),
+        job.output[0],
+        title="gap and pressure fields of one realisation in adhesive contact",
+        parameters={
+            **datasets.parameters(surface),
+            "law": asked["bem"]["law"],
+            "q0_h_rms": roughness(asked),
+            "range_over_h_rms": shown["range_over_h_rms"],
+            "adhesion_length_over_range": shown["adhesion_length_over_range"],
+        },
+    )
+
+
+if __name__ == "__main__":
+    main(start(globals(), "adhesive_maps", adhesion="fig2"))

@@ -1,0 +1,111 @@
+"""Average the adhesive realisations of a set: slopes of the area-load relation, and DMT's error.
+
+With kappa = 2 without adhesion, 1/kappa = 1/2 - 1/kappa_ad. Full simulation gives the latter by how
+much less pressure than without adhesion goes with the area, relative to that pressure; the DMT
+limit by the attraction over the gaps without adhesion.
+"""
+
+import numpy as np
+import xarray as xr
+
+from _adhesion import DESCRIBED as ADHESION_DESCRIBED
+from _adhesion import MISSING
+from _errors import described, with_errors
+from _job import start
+from _model import DESCRIBED
+from stickiness import cohesive_zone, criteria, datasets
+
+AVERAGED = {
+    "external_pressure": "mean pressure over E* q0 h_rms",
+    "repulsive_area": "repulsive contact area over nominal area",
+    "attractive_area": "area within the range of attraction, not in contact, over nominal area",
+    "inverse_kappa": "1/kappa = p_ext A_nom/(A_rep E* h'_rms)",
+    "inverse_kappa_fit": "1/kappa fitted through the origin over all loads",
+    "inverse_kappa_ad": "1/kappa_ad, from the fall of 1/kappa relative to that without adhesion",
+    "inverse_kappa_ad_direct": "p_ad/(2 p_rep) of the adhesive contact",
+    "inverse_kappa_ad_dmt": "p_ad/(2 p_rep) over the gaps without adhesion (DMT)",
+    "dmt_ratio": "1/kappa_ad of the full simulation over that of the DMT limit",
+}
+
+
+def main(job):
+    files = [datasets.read(path, ["external_pressure"]) for path in job.input.realisations]
+    made = datasets.parameters(files[0])
+    seeds = [datasets.parameters(file)["seed"] for file in files]
+    states = xr.concat(files, xr.DataArray(seeds, dims="seed", name="seed"))
+    states = with_slopes(states)
+    dataset = xr.Dataset({"q0_h_rms": made["q0_h_rms"]})
+    for name in AVERAGED:
+        dataset = with_errors(dataset, name, states[name], plain=True)
+    dataset["residual"] = states.residual.max(["seed", "resolution"])
+    dataset["iterations"] = states.iterations.isel(resolution=-1, drop=True).mean("seed")
+    dataset["dmt_valid"] = dmt_valid(states, made)
+    dataset["zone_strength"] = zone_strength(states, made)
+    made.pop("seed")
+    datasets.write(
+        annotated(dataset),
+        job.output[0],
+        title="adhesive contact averaged over realisations",
+        parameters={**made, "seeds": seeds, "model": "full boundary elements"},
+    )
+
+
+def with_slopes(states):
+    """Add what compares area and load with and without adhesion."""
+    alone = states.pressure / states.area_alone
+    held = states.external_pressure / states.repulsive_area
+    area = states.repulsive_area * states.rms_slope
+    direct = states.attraction / states.repulsive_pressure / 2
+    dmt = states.attraction_dmt / states.pressure / 2
+    full = (1 - held / alone) / 2
+    fit = (states.external_pressure * area).sum("pressure", skipna=False)
+    fit = fit / (area**2).sum("pressure", skipna=False)
+    return states.assign(
+        inverse_kappa=held / states.rms_slope,
+        inverse_kappa_fit=fit,
+        inverse_kappa_ad=full,
+        inverse_kappa_ad_direct=direct,
+        inverse_kappa_ad_dmt=dmt,
+        dmt_ratio=full / dmt,
+    )
+
+
+def dmt_valid(states, asked):
+    """1 where the JTB condition takes the gaps without adhesion to hold."""
+    length, range_ = xr.broadcast(states.adhesion_length_over_range, states.range_over_h_rms)
+    q0_h_rms = asked["q0_h_rms"]
+    range_ = range_ * q0_h_rms
+    valid = criteria.dmt_validity(q0_h_rms, 1.0, (length * range_).values, range_.values).valid
+    return length.dims, np.asarray(valid, dtype="i1")
+
+
+def zone_strength(states, asked):
+    """Width of the zone of attraction over epsilon^2/l_a: small where attraction bends little."""
+    fine = states.isel(resolution=-1)
+    edge, range_ = xr.broadcast(fine.edge_gap.mean("seed"), states.range_over_h_rms)
+    width = xr.DataArray(
+        cohesive_zone.zone_width(asked["pixel"], edge.values, range_.values), dims=edge.dims
+    ).assign_coords(pressure=states.pressure, range_over_h_rms=states.range_over_h_rms)
+    strength = states.adhesion_length_over_range / asked["q0_h_rms"]
+    return width * strength / states.range_over_h_rms
+
+
+def annotated(dataset):
+    texts = {}
+    for name, text in AVERAGED.items():
+        for key, value in described(name, text, plain=True).items():
+            texts[key] = (*value[:2], MISSING)
+    return datasets.annotate(
+        dataset,
+        pressure=DESCRIBED["pressure"],
+        residual=("1", "largest residual of all realisations", MISSING),
+        iterations=("1", "mean iterations on the fine grid", MISSING),
+        dmt_valid=("1", "1 where the JTB condition for the DMT limit holds"),
+        zone_strength=("1", "width of the zone of attraction over range^2/adhesion length"),
+        **ADHESION_DESCRIBED,
+        **texts,
+    )
+
+
+if __name__ == "__main__":
+    main(start(globals(), "average_adhesive", adhesion="fig4b_rough"))

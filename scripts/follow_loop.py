@@ -1,0 +1,133 @@
+"""Approach and separation of one realisation with adhesion, at a given mean gap and under a press.
+
+At a given mean gap the curve is followed through its turns; under a press, at a given mean
+pressure, it jumps where they are, and ends with the pull-off.
+"""
+
+import logging
+
+import numpy as np
+import xarray as xr
+
+from _adhesion import DESCRIBED as ADHESION_DESCRIBED
+from _adhesion import scaled_law
+from _job import start
+from stickiness import adhesive, datasets, repulsive
+
+CONTROLS = ("mean_gap", "pressure")
+TOLERANCE = 1e-5  # of the residual: far below what the width of a line shows
+BALANCE = 0.01  # dissipation of a step over the energies of the curve: jumps are larger
+STEPS = 20  # at least, either way
+MARGIN = 1.2  # ranges of attraction between the summit and the surface where the curve begins
+STATES = {
+    "mean_pressure": "mean pressure over E* q0 h_rms",
+    "mean_gap": "mean gap over h_rms",
+    "repulsive_area_fraction": "repulsive contact area over nominal area",
+    "adhesive_area_fraction": "area within the range, not in contact, over nominal area",
+    "elastic_energy": "elastic energy per nominal area over E* q0 h_rms^2",
+    "interaction_energy": "energy of the attraction per nominal area over E* q0 h_rms^2",
+    "residual": "unbalanced pressure over the strength or the flattening pressure",
+}
+STEPPED = {
+    "separating": "1 on the way back",
+    "jumped": "1 where a jump led here",
+    "work": "work of the control on the way from the state before, per nominal area",
+    "dissipated": "energy lost on the way from the state before, per nominal area",
+}
+
+
+def main(job):
+    surface = datasets.read(job.input.surface, ["height", "window_length"])
+    asked = job.params.loop
+    heights, length = surface.height.values, float(surface.window_length)
+    lengths = np.sort(np.array(asked["adhesion_length_over_range"], dtype=float))
+    curves = {
+        (control, value): curve(heights, length, asked, value, control)
+        for control in CONTROLS
+        for value in lengths
+    }
+    datasets.write(
+        annotated(gathered(curves, lengths)),
+        job.output[0],
+        title="approach and separation of one realisation with adhesion",
+        parameters={**datasets.parameters(surface), **asked},
+    )
+
+
+def curve(heights, length, asked, adhesion_length_over_range, control):
+    """States from afar to the largest pressure and back, as a list of dictionaries."""
+    law = scaled_law(asked, asked["law"], adhesion_length_over_range, asked["range_over_h_rms"])
+    far = float(heights.max() - heights.mean()) + MARGIN * law.range
+    nearest = repulsive.solve(heights, length, asked["pressure"], tol=TOLERANCE).mean_gap
+    turns = {
+        "mean_gap": (far, nearest, far),
+        "pressure": (0.0, asked["pressure"], -2 * law.strength),
+    }
+    points = adhesive.path(
+        heights,
+        length,
+        law,
+        turns[control],
+        control=control,
+        tol=TOLERANCE,
+        balance=BALANCE,
+        smallest_jump=BALANCE,
+        steps=STEPS,
+    )
+    rows = []
+    for point in points:
+        state = point.state
+        row = {name: getattr(state, name) for name in STATES}
+        row["separating"] = float(state.branch == "separation")
+        row["jumped"] = float(point.event in ("jump-in", "jump-out"))
+        row["work"], row["dissipated"] = float(point.work or 0), float(point.dissipated or 0)
+        if point.event != "pull-off":  # the last state that held is in the list already
+            rows.append(row)
+        logging.info(
+            "l_a/range %g, %s: p = %.4g, gap %.4g, area %.4f %s",
+            adhesion_length_over_range,
+            state.branch,
+            state.mean_pressure,
+            state.mean_gap,
+            state.repulsive_area_fraction,
+            point.event or "",
+        )
+    return rows
+
+
+def gathered(curves, lengths):
+    """Curves of different lengths as one dataset, filled up with NaN."""
+    longest = max(map(len, curves.values()))
+    shape = len(CONTROLS), len(lengths), longest
+    values = {name: np.full(shape, np.nan) for name in (*STATES, *STEPPED)}
+    for (control, value), rows in curves.items():
+        i, j = CONTROLS.index(control), int(np.flatnonzero(lengths == value)[0])
+        for k, row in enumerate(rows):
+            for name, number in row.items():
+                values[name][i, j, k] = number
+    dims = "control", "adhesion_length_over_range", "state"
+    return xr.Dataset(
+        {name: (dims, value) for name, value in values.items()},
+        coords={
+            "control": list(CONTROLS),
+            "adhesion_length_over_range": lengths,
+            "state": np.arange(longest),
+        },
+    )
+
+
+def annotated(dataset):
+    name = "adhesion_length_over_range"
+    missing = "beyond the end of the curve"
+    texts = {key: ("1", text, missing) for key, text in {**STATES, **STEPPED}.items()}
+    return datasets.annotate(
+        dataset,
+        control=("1", "what is prescribed"),
+        state=("1", "number of the state along the curve"),
+        **{name: ADHESION_DESCRIBED[name]},
+        **texts,
+    )
+
+
+if __name__ == "__main__":
+    main(start(globals(), "follow_loop", loop="fig4a"))
