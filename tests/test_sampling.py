@@ -113,7 +113,40 @@ def test_a_coarse_solution_that_is_the_fine_one_counts_as_more_seeds():
     plain = sampling.plain_mean(values[4:])
     np.testing.assert_allclose(estimate.mean, plain.mean, rtol=1e-14)
     np.testing.assert_allclose(estimate.standard_error, plain.standard_error, rtol=1e-14)
-    np.testing.assert_array_equal(estimate.coefficient, 1)
+    np.testing.assert_allclose(estimate.coefficient, 1, rtol=1e-14)
+
+
+def test_few_fine_seeds_take_the_ratio_of_means_without_their_own_sample():
+    rng = np.random.default_rng(20)
+    coarse, many = rng.exponential(size=(3, 2)), rng.exponential(size=(40, 2))
+    fine = 0.3 * coarse + 0.01 * rng.standard_normal((3, 2))
+    got = sampling.multilevel_mean(fine, coarse, many)
+    for column in range(2):
+        f, c, m = fine[:, column], coarse[:, column], many[:, column]
+        ratios = [np.delete(f, a).sum() / np.delete(c, a).sum() for a in range(3)]
+        terms = f - np.array(ratios) * (c - m.mean())
+        assert got.mean[column] == pytest.approx(terms.mean(), rel=1e-12)
+        assert got.coefficient[column] == pytest.approx(np.mean(ratios), rel=1e-12)
+    changing_sign = sampling.multilevel_mean(fine, coarse, many - many.mean(0))
+    np.testing.assert_array_equal(changing_sign.coefficient, 1)
+    none = sampling.multilevel_mean(fine, np.zeros((3, 2)), many)
+    np.testing.assert_array_equal(none.coefficient, 1)
+
+
+@pytest.mark.parametrize("few", [2, 4])
+def test_few_fine_seeds_without_bias_and_with_an_honest_error(few):
+    """Coarse areas three times too large with an offset, as at ranges that are not resolved."""
+    rng, found = np.random.default_rng([21, few]), []
+    for _ in range(2000):
+        coarse = 1 + rng.exponential(size=few + 32)
+        fine = 0.1 + coarse[:few] / 3 + 0.05 * rng.standard_normal(few)
+        found.append(sampling.multilevel_mean(fine, coarse[:few], coarse[few:]))
+    means = np.array([f.mean for f in found])
+    assert abs(means.mean() - (0.1 + 2 / 3)) < 4 * means.std() / np.sqrt(2000)
+    stated = np.mean([f.standard_error**2 for f in found])
+    # Samples share their ratios, which the error from their scatter does not know.
+    assert stated / means.var() == pytest.approx(1, abs=0.3)
+    assert means.var() < 0.5 * (1 / 9 + 0.05**2) / few
 
 
 def test_controls_without_scatter_are_left_out():
