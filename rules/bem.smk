@@ -1,5 +1,5 @@
-# Repulsive boundary-element contact: one job per case and seed walks the whole load path, then
-# the seeds of a case are averaged.
+# Repulsive boundary-element contact: one job per case and seed walks the whole load path, another
+# one walks it for many more seeds on a coarse grid, then all of these give the case's means.
 
 
 rule solve_repulsive:
@@ -23,6 +23,30 @@ rule solve_repulsive:
         gaps=config["gaps"],
     script:
         "../scripts/solve_repulsive.py"
+
+
+rule solve_coarse:
+    input:
+        library=library_of("solve_coarse.py"),
+    output:
+        f"{RESULTS}/bem/{{case}}/coarse.nc",
+    log:
+        f"{LOGS}/solve_coarse/{{case}}.log",
+    benchmark:
+        f"{BENCHMARKS}/solve_coarse/{{case}}.tsv"
+    conda:
+        "../envs/environment.yaml"
+    resources:
+        mem_mb=1000,
+    params:
+        surface=lambda wildcards: config["model_surfaces"][CASES[wildcards.case]["surface"]],
+        pressures=lambda wildcards: CASES[wildcards.case]["pressures"],
+        tolerance=FIDELITY["tolerance"],
+        gaps=config["gaps"],
+        seeds=FIDELITY.get("coarse_seeds", 64),
+        descriptor_seeds=config["sampling"]["descriptor_seeds"],
+    script:
+        "../scripts/solve_coarse.py"
 
 
 rule contact_maps:
@@ -50,6 +74,7 @@ rule average_ensemble:
     input:
         library=library_of("average_ensemble.py"),
         realisations=realisations,
+        coarse=coarse_solutions,
     output:
         f"{RESULTS}/ensembles/{{case}}.nc",
     log:

@@ -61,6 +61,12 @@ def realisations(wildcards):
     return [f"{RESULTS}/bem/{wildcards.case}/seed{seed}.nc" for seed in seeds_of(wildcards.case)]
 
 
+def coarse_solutions(wildcards):
+    """File of the coarse solutions behind a case's means, if it does not take plain ones."""
+    method = CASES[wildcards.case].get("sampling", config["sampling"]["method"])
+    return [f"{RESULTS}/bem/{wildcards.case}/coarse.nc"] if method == "multilevel" else []
+
+
 @cache
 def library_of(script):
     """Library modules that a script uses, found by following its imports.

@@ -278,7 +278,7 @@ def simulated_a_v(files: Files, continuous: xr.DataArray) -> str:
     theory = np.interp(np.log(asked["magnification"]), np.log(theory.magnification), theory)
     return (
         f"Simulation: {described(wide)} ({sample(wide)}); {described(narrow)} ({sample(narrow)}), "
-        "near 3 because such a window is no Gaussian surface: theory gives "
+        "set by the few long waves of such a window and not by the magnification: theory gives "
         f"{float(lattice.a_v.sel(variant=VARIANT)):.2f} on its spectrum, {theory:.2f} on the "
         "continuous one."
     )
@@ -310,6 +310,6 @@ def a_v_against_load(files: Files) -> Claim:
         1.0,
         graded(full < 1.2, value < 1.5),
         f"Up to p = {float(pressure.max()):g} the ratio is {full:.2f}. Simulation up to 0.1: "
-        f"{simulated}; the smallest window's few long waves are no Gaussian surface.",
+        f"{simulated}, whose contact at small loads is confined to the summits of few long waves.",
         ("fit_fig3d", "fig3d", "fit_bem_wide", "fit_bem_128"),
     )

@@ -1,21 +1,71 @@
-"""Mean and errors of quantities with the dimensions `seed` and `resolution`."""
+"""Mean and errors of quantities with the dimensions `seed` and `resolution`.
+
+A mean stands for the whole ensemble of surfaces that the case's window can hold, Gaussian unless
+the case says otherwise. It is the plain one over the seeds, or if there are coarse solutions of
+many more seeds the multilevel one of `stickiness.sampling`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
 
 import numpy as np
+import xarray as xr
+
+from stickiness import sampling
 
 SUFFIXES = {
-    "mean": "mean over seeds",
-    "standard_error": "standard error of the mean over seeds",
+    "mean": "ensemble mean",
+    "standard_error": "standard error of the ensemble mean",
     "discretisation_error": "change from half the resolution",
 }
+PREFIX = "coarse_"  # of what an ensemble's file keeps of coarse solutions, and of their seeds
+
+
+@dataclass(frozen=True)
+class Coarse:
+    """A quantity of seeds that are solved on the coarsest grid alone, and their long waves.
+
+    Attributes
+    ----------
+    values : xarray.DataArray
+        With the dimension `seed` and no `resolution`.
+    controls, elsewhere : xarray.DataArray
+        Descriptors of these seeds and of many more.
+    """
+
+    values: xr.DataArray
+    controls: xr.DataArray
+    elsewhere: xr.DataArray
+
+
+def coarse(ensemble: xr.Dataset, quantity: Callable[[xr.Dataset], xr.DataArray]) -> Coarse | None:
+    """A quantity of the coarse solutions of an ensemble; None if it has none.
+
+    Parameters
+    ----------
+    ensemble
+        As `average_ensemble` makes it, or anything with variables of the same names.
+    quantity
+        The quantity by the variables of the fine solutions, say ``area_fraction``; here it gets
+        those of the coarse ones under the same names.
+    """
+    if f"{PREFIX}seed" not in ensemble.dims:
+        return None
+    names = [name for name in ensemble.data_vars if name.startswith(PREFIX)]
+    names = {name: name.removeprefix(PREFIX) for name in (*names, f"{PREFIX}seed")}
+    solved = ensemble[list(names)].rename(names)
+    return Coarse(quantity(solved), ensemble.long_waves, ensemble.other_long_waves)
 
 
 def mean(values):
-    """Mean over seeds on the fine grid."""
+    """Plain mean over seeds on the fine grid."""
     return fine(values).mean("seed")
 
 
 def standard_error(values):
-    """Sampling error of the mean on the fine grid; NaN for a single seed."""
+    """Sampling error of the plain mean on the fine grid; NaN for a single seed."""
     return scatter(fine(values))
 
 
@@ -31,16 +81,41 @@ def discretisation_error(values):
     return np.hypot(bias, scatter(change).fillna(0))
 
 
-def with_errors(dataset, name, values, plain=False):
+def ensemble_mean(values, more=None):
+    """Mean over the ensemble and its standard error, with `more` solutions on the coarsest grid.
+
+    Plain without them, for a single seed, and in entries that are not finite in every seed.
+    """
+    plain = mean(values), standard_error(values)
+    if more is None or values.sizes["seed"] == 1:
+        return plain
+    few = fine(values).transpose("seed", ...)
+    twin = values.isel(resolution=0, drop=True).transpose(*few.dims)
+    many = more.values.transpose(*few.dims)
+    finite = np.all([np.isfinite(part).all("seed").values for part in (few, twin, many)], axis=0)
+    solved = (np.where(finite, part.values, 0.0) for part in (few, twin, many))
+    estimate = sampling.multilevel_mean(*solved, more.controls.values, more.elsewhere.values)
+    return tuple(
+        of_seeds.copy(data=np.where(finite, better, of_seeds.values))
+        for better, of_seeds in zip(
+            (estimate.mean, estimate.standard_error),
+            (part.transpose(*few.dims[1:]) for part in plain),
+            strict=True,
+        )
+    )
+
+
+def with_errors(dataset, name, values, more=None, plain=False):
     """Add mean, standard error and discretisation error of `values` to a dataset.
 
     They are called ``NAME_mean``, ``NAME_standard_error`` and ``NAME_discretisation_error``; with
-    `plain` the mean is just ``NAME``.
+    `plain` the mean is just ``NAME``. `more` is the same of coarse solutions, see `coarse`.
     """
+    best, error = ensemble_mean(values, more)
     return dataset.assign(
         {
-            name if plain else f"{name}_mean": mean(values),
-            f"{name}_standard_error": standard_error(values),
+            name if plain else f"{name}_mean": best,
+            f"{name}_standard_error": error,
             f"{name}_discretisation_error": discretisation_error(values),
         }
     )

@@ -383,7 +383,15 @@ def ensemble_row(made: Mapping[str, Any]) -> Context:
         "tolerance": number(made["tolerance"]),
         "residual": number(made["largest_residual"], 2),
         "seeds": runs_of(made["seeds"]),
+        "means": means(made),
     }
+
+
+def means(made: Mapping[str, Any]) -> str:
+    """Estimator of the means, with the seeds it uses besides those of the ensemble."""
+    if made["estimator"] == "plain":
+        return "plain"
+    return f"multilevel: {made['coarse_seeds']} coarse, {made['descriptor_seeds']} described"
 
 
 def runs_of(seeds: Sequence[int]) -> str:

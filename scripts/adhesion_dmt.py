@@ -5,7 +5,7 @@ import xarray as xr
 
 from _adhesion import DESCRIBED as ADHESION_DESCRIBED
 from _adhesion import axis, roughness
-from _errors import described, with_errors
+from _errors import coarse, described, with_errors
 from _job import start
 from _model import DESCRIBED
 from stickiness import criteria, datasets
@@ -17,15 +17,21 @@ def main(job):
     q0_h_rms = roughness(asked)
     lengths = axis("adhesion_length_over_range", asked)
     ranges = axis("range_over_h_rms", asked)
-    area = area_within(ensemble.attractive_area, ranges)
-    attraction = lengths * area / q0_h_rms
-    external = ensemble.pressure - attraction
-    inverse_kappa = external / (ensemble.area_fraction * ensemble.rms_slope)
+
+    def attraction(solved):
+        return lengths * area_within(solved.attractive_area, ranges) / q0_h_rms
+
+    def inverse_kappa(solved):
+        external = solved.pressure - attraction(solved)
+        return external / (solved.area_fraction * solved.rms_slope)
+
+    def inverse_kappa_ad(solved):
+        return attraction(solved) / solved.pressure / 2
+
     dataset = xr.Dataset({"area_fraction": ensemble.area_fraction_mean, "q0_h_rms": q0_h_rms})
-    dataset = with_errors(dataset, "attraction", attraction, plain=True)
-    dataset = with_errors(dataset, "inverse_kappa", inverse_kappa, plain=True)
-    inverse_kappa_ad = attraction / ensemble.pressure / 2
-    dataset = with_errors(dataset, "inverse_kappa_ad", inverse_kappa_ad, plain=True)
+    for quantity in (attraction, inverse_kappa, inverse_kappa_ad):
+        values, more = quantity(ensemble), coarse(ensemble, quantity)
+        dataset = with_errors(dataset, quantity.__name__, values, more, plain=True)
     dataset["dmt_valid"] = dmt_valid(q0_h_rms, lengths, ranges)
     datasets.write(
         annotated(dataset),

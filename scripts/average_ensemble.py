@@ -1,24 +1,32 @@
-"""Average the realisations of a case: means, standard errors and discretisation errors."""
+"""Average the realisations of a case: means, standard errors and discretisation errors.
+
+The coarse solutions of further seeds, if the case has them, are kept beside the values seed by
+seed, so that whatever is derived from those is averaged in the same way.
+"""
+
+from operator import itemgetter
 
 import numpy as np
 import xarray as xr
 
-from _errors import described, mean, with_errors
+from _errors import PREFIX, coarse, described, mean, with_errors
 from _job import start
 from _model import DESCRIBED, middles
 from stickiness import datasets
 
 KEPT = ("area_fraction", "mean_gap", "attractive_area", "residual", "iterations", "rms_slope")
-AVERAGED = ("area_fraction", "mean_gap", "attractive_area", "gap_density")
+COARSE = ("area_fraction", "mean_gap", "attractive_area", "rms_slope")
+LONG_WAVES = ("long_waves", "other_long_waves")
+SURFACES = {"gaussian": "Gaussian surfaces", "fixed": "surfaces of fixed amplitudes"}
 
 
 def main(job):
     needed = ("area_fraction", "mean_gap", "attractive_area", "edge_gap", "residual", "rms_slope")
     files = [datasets.read(path, needed) for path in job.input.realisations]
+    others = [datasets.read(path, (*COARSE, *LONG_WAVES)) for path in job.input.coarse]
     seeds = [datasets.parameters(file)["seed"] for file in files]
     realisations = xr.concat(files, xr.DataArray(seeds, dims="seed", name="seed"))
-    realisations = realisations.assign(gap_density=gap_density(realisations.attractive_area))
-    dataset = with_statistics(realisations)
+    dataset = with_statistics(realisations, renamed(others[0]) if others else xr.Dataset())
     parameters = datasets.parameters(files[0])
     parameters.pop("seed")
     parameters["largest_residual"] = float(realisations.residual.max())
@@ -26,23 +34,47 @@ def main(job):
         annotated(dataset),
         job.output[0],
         title="repulsive contact averaged over realisations",
-        parameters={**parameters, "seeds": seeds},
+        parameters={**parameters, "seeds": seeds, **sampled(parameters, dataset)},
     )
 
 
-def gap_density(attractive_area):
+def renamed(others):
+    """Coarse solutions under names that leave those of the fine ones free."""
+    names = {name: f"{PREFIX}{name}" for name in (*COARSE, "seed")}
+    return others[[*COARSE, *LONG_WAVES]].rename(names)
+
+
+def sampled(made, dataset):
+    """What the means stand for and how they are taken, for the parameters of the file."""
+    surfaces, window = SURFACES[made.get("amplitudes", "gaussian")], made.get("window", 1)
+    found = {
+        "estimates": f"mean over {surfaces} on a window of {window:g} longest wavelengths",
+        "estimator": "plain",
+    }
+    if f"{PREFIX}seed" in dataset.dims and dataset.sizes["seed"] > 1:
+        found["estimator"] = "multilevel"
+        found["coarse_seeds"] = dataset.sizes[f"{PREFIX}seed"]
+        found["descriptor_seeds"] = dataset.sizes["other"]
+    return found
+
+
+def gap_density(solutions):
     """P(u) between neighbouring ranges, as the slope of the attractive area."""
-    edges = attractive_area["range"].values
-    density = attractive_area.diff("range") / xr.DataArray(np.diff(edges), dims="range")
+    edges = solutions["range"].values
+    density = solutions.attractive_area.diff("range") / xr.DataArray(np.diff(edges), dims="range")
     return density.rename(range="gap").assign_coords(gap=middles(edges))
 
 
-def with_statistics(realisations):
+AVERAGED = {name: itemgetter(name) for name in ("area_fraction", "mean_gap", "attractive_area")}
+AVERAGED["gap_density"] = gap_density
+
+
+def with_statistics(realisations, others):
     """Mean and errors of every quantity, beside the values seed by seed."""
-    dataset = realisations[list(KEPT)]
+    dataset = realisations[list(KEPT)].merge(others)
     dataset["edge_gap_mean"] = mean(realisations.edge_gap)
-    for name in AVERAGED:
-        dataset = with_errors(dataset, name, realisations[name])
+    for name, quantity in AVERAGED.items():
+        dataset = with_errors(dataset, name, quantity(realisations), coarse(dataset, quantity))
     return dataset
 
 

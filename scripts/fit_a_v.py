@@ -3,20 +3,21 @@
 import numpy as np
 import xarray as xr
 
-from _errors import described, with_errors
+from _errors import coarse, described, with_errors
 from _job import start
 from stickiness import datasets, dmt
 
 
 def main(job):
     areas = datasets.read(job.input.areas, ["attractive_area", "pressure"])
-    dataset = fitted(areas.attractive_area, areas.pressure, job.params.windows)
-    dataset["exponent"] = local_exponent(areas.attractive_area)
+    dataset = fitted(areas, job.params.windows)
+    dataset["exponent"] = local_exponent(areas)
     if "edge_gap_mean" in areas:
         resolved = areas["range"] >= areas.edge_gap_mean
         dataset["exponent"] = dataset.exponent.where(resolved)
     if "seed" in dataset.a_v.dims:
-        dataset = with_errors(dataset, "a_v", dataset.a_v)
+        more = coarse(areas, lambda solved: fitted(solved, job.params.windows).a_v)
+        dataset = with_errors(dataset, "a_v", dataset.a_v, more)
     datasets.write(
         annotated(dataset),
         job.output[0],
@@ -25,8 +26,9 @@ def main(job):
     )
 
 
-def fitted(area, pressure, windows):
+def fitted(areas, windows):
     """a_V and the standard error of its fit along every dimension but the range's."""
+    area, pressure = areas.attractive_area, areas.pressure
     fits = [
         xr.apply_ufunc(
             lambda values, load, window=window: fit_one(area["range"].values, values, load, window),
@@ -54,12 +56,12 @@ def fit_one(ranges, area, pressure, window):
     return np.array([fit.value, fit.standard_error])
 
 
-def local_exponent(area):
-    """Exponent d ln A_ad/d ln(range): 2/3 where P(u) falls as u^(-1/3)."""
-    if "seed" in area.dims:
-        area = area.isel(resolution=-1, drop=True).mean("seed")
+def local_exponent(areas):
+    """Exponent d ln A_ad/d ln(range): 2/3 where P(u) falls as u^(-1/3); of means over seeds."""
+    area = areas.get("attractive_area_mean", areas.attractive_area)
+    ranges = area["range"].values
     return xr.apply_ufunc(
-        lambda a: dmt.local_exponent(area["range"].values, a),
+        lambda a: dmt.local_exponent(ranges, a) if np.all(a > 0) else np.full(len(a), np.nan),
         area,
         input_core_dims=[["range"]],
         output_core_dims=[["range"]],
@@ -76,7 +78,7 @@ def annotated(dataset):
         "exponent": (
             "1",
             "local exponent d ln A_ad/d ln range",
-            "a range that the grid does not resolve",
+            "a range that the grid does not resolve, or no area within one of them",
         ),
     }
     if "a_v_mean" in dataset:

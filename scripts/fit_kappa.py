@@ -2,7 +2,7 @@
 
 import xarray as xr
 
-from _errors import described, with_errors
+from _errors import coarse, described, with_errors
 from _job import start
 from _model import DESCRIBED, LINEAR_UP_TO
 from stickiness import datasets
@@ -11,15 +11,15 @@ from stickiness import datasets
 def main(job):
     ensemble = datasets.read(job.input.ensemble, ["area_fraction", "rms_slope"])
     theory = datasets.read(job.input.theory, ["area_fraction", "rms_slope"])
-    kappa = ensemble.area_fraction * ensemble.rms_slope / ensemble.pressure
     dataset = xr.Dataset(
         {
             "area_fraction": ensemble.area_fraction_mean,
             "kappa_theory": theory.area_fraction * theory.rms_slope / theory.pressure,
         }
     )
-    dataset = with_errors(dataset, "kappa", kappa, plain=True)
-    dataset = with_errors(dataset, "kappa_fit", fitted_slope(ensemble), plain=True)
+    for name, quantity in {"kappa": slope, "kappa_fit": fitted_slope}.items():
+        more = coarse(ensemble, quantity)
+        dataset = with_errors(dataset, name, quantity(ensemble), more, plain=True)
     datasets.write(
         annotated(dataset),
         job.output[0],
@@ -28,12 +28,17 @@ def main(job):
     )
 
 
+def slope(ensemble):
+    """Area h'_rms over pressure, load by load."""
+    return ensemble.area_fraction * ensemble.rms_slope / ensemble.pressure
+
+
 def fitted_slope(ensemble):
     """Least-squares slope of area h'_rms against pressure through the origin, A <= 30 %."""
     area = ensemble.area_fraction.where(ensemble.area_fraction <= LINEAR_UP_TO)
     pressure = ensemble.pressure.where(area.notnull())
-    slope = (area * pressure).sum("pressure") / (pressure**2).sum("pressure")
-    return slope * ensemble.rms_slope
+    fitted = (area * pressure).sum("pressure") / (pressure**2).sum("pressure")
+    return fitted * ensemble.rms_slope
 
 
 def annotated(dataset):

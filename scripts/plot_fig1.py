@@ -105,12 +105,18 @@ def panel_c(ax, ensemble, lattice):
     ax.set(xlim=(1e-4, 10), ylim=(1e-2, 20))
     ax.set_title(
         rf"simulation against theory on the window's spectrum, $H$ = {made['hurst']:g}, "
-        rf"$\zeta$ = {number(made['magnification'])}, {ensemble.sizes['seed']} realisations"
+        rf"$\zeta$ = {number(made['magnification'])}, {counted(ensemble)} realisations"
     )
     handles, _ = ax.get_legend_handles_labels()
-    dots = key(linestyle="none", marker=".", label="BEM, mean over realisations")
+    dots = key(linestyle="none", marker=".", label="BEM, ensemble mean")
     hollow = key(linestyle="none", marker="o", mfc="white", markersize=3, label="not resolved")
     ax.legend(handles=handles + [dots, hollow, *variant_keys()], loc="upper right", ncols=2)
+
+
+def counted(ensemble):
+    """Number of realisations, coarse ones apart."""
+    fine, coarse = ensemble.sizes["seed"], ensemble.sizes.get("coarse_seed")
+    return f"{fine} fine and {coarse} coarse" if coarse else f"{fine}"
 
 
 def simulated(ax, measured, colour):

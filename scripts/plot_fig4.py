@@ -162,10 +162,10 @@ def panel_c(ax, limits, full):
     """Full simulation and DMT limit over the formula, against the range."""
     for index, (marker, limit, data) in enumerate(zip(MARKERS, limits, full, strict=False)):
         length = weak(data)
-        data, limit = (one.sel(adhesion_length_over_range=length) for one in (data, limit))
+        data = data.sel(adhesion_length_over_range=length)
         reach = data.range_over_h_rms
         scale = by_formula(limit, length, reach.values, PAPER_A_V)
-        ax.plot(reach, limit.inverse_kappa_ad / scale, ":", color=GREY, linewidth=0.9)
+        ax.plot(reach, data.inverse_kappa_ad_dmt / scale, ":", color=GREY, linewidth=0.9)
         for colour, place in zip(shades(reach.size), range(reach.size), strict=True):
             one = data.isel(range_over_h_rms=[place])
             x = one.range_over_h_rms * 1.08 ** (index - 0.5)

@@ -1,7 +1,8 @@
-"""Walk one realisation along its load path, on its grid and on every second point of it.
+"""Walk one realisation along its load path, on its grid, every second point of it, and 2 pixels.
 
-The coarse grid samples the same band-limited surface, so the difference of the two is a measure
-of the discretisation error.
+The coarser grids sample the same band-limited surface. What changes from every second point to
+all of them is a measure of the discretisation error; the solution on 2 pixels per shortest
+wavelength is the control of `solve_coarse`'s many others.
 """
 
 import logging
@@ -15,6 +16,7 @@ from stickiness import datasets, dmt, repulsive
 
 SOLVED = ("area_fraction", "mean_gap", "residual", "iterations", "fft_pairs")
 SCALARS = (*SOLVED, "pixel_area_fraction", "edge_gap")
+COARSE = 2  # grid points per shortest wavelength on the coarsest grid, the fewest that hold it
 
 
 def main(job):
@@ -22,11 +24,12 @@ def main(job):
     pressures = np.sort(job.params.pressures)
     ranges = logarithmic_grid(job.params.gaps)
     heights, length = surface.height.values, float(surface.window_length)
+    steps = sorted({job.params.pixels_per_wavelength // COARSE, 2, 1}, reverse=True)
     curves = [
         load_curve(heights[::step, ::step], length, pressures, ranges, job.params.tolerance)
-        for step in (2, 1)
+        for step in steps
     ]
-    resolution = np.array([1 / 2, 1]) * pixels(surface)
+    resolution = pixels(surface) / np.array(steps)
     dataset = xr.concat(curves, xr.DataArray(resolution, dims="resolution", name="resolution"))
     dataset["rms_slope"] = surface.rms_slope.sel(source="heights", drop=True)
     datasets.write(

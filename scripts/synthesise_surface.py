@@ -38,9 +38,13 @@ def main(job):
 
 
 def grid_points(asked, pixels_per_wavelength):
-    """Even number of grid points, good for the FFT, with at least the pixels asked for."""
-    half = pixels_per_wavelength * asked["magnification"] * asked.get("window", 1.0) / 2
-    return 2 * next_fast_len(int(np.ceil(half - 1e-9)), real=True)
+    """Number of grid points, good for the FFT, with at least the pixels asked for.
+
+    A multiple of the even number that does so for 2 pixels, so that the coarser grids of the
+    solutions are part of it.
+    """
+    waves = asked["magnification"] * asked.get("window", 1.0)
+    return pixels_per_wavelength * next_fast_len(int(np.ceil(waves - 1e-9)), real=True)
 
 
 def to_dataset(heights, length, spectrum, lattice, realised):

@@ -70,6 +70,16 @@ def model(*keys, value):
         (case("pressures", value=[0.1, -0.2]), ["pressures[1]", "-0.2", "greater than 0"]),
         (case("surface", value="H0.8_zeta65"), ["surface", "H0.8_zeta65", "H0.8_zeta64"]),
         (case("maps", value=[0.07]), ["maps", "0.07", "pressures"]),
+        (case("sampling", value="best"), ["H0.8_zeta64.sampling", "'best'", "multilevel"]),
+        (changed(CONFIG, "sampling", "method", value="plan"), ["method", "'plan'", "'plain'?"]),
+        (
+            changed(CONFIG, "fidelities", "draft", "coarse_seeds", value=8),
+            ["fidelities.draft.coarse_seeds", "8", "at least 32"],
+        ),
+        (
+            changed(CONFIG, "sampling", "descriptor_seeds", value=0.5),
+            ["sampling.descriptor_seeds", "0.5", "integer"],
+        ),
         (model("hurst", value=1.2), ["hurst", "1.2", "at most 1"]),
         (model("hurst", value=0), ["hurst", "0", "(0, 1]"]),
         (model("magnification", value=0.5), ["magnification", "0.5", "greater than 1"]),

@@ -139,6 +139,9 @@ def ensemble(seeds=(1, 2), residual=1e-6):
         tolerance=1e-6,
         largest_residual=residual,
         seeds=list(seeds),
+        estimator="multilevel" if sampled else "plain",
+        coarse_seeds=32,
+        descriptor_seeds=100,
     )
 
 
@@ -382,6 +385,14 @@ def test_mixed_versions_are_pointed_out(claims):
     assert found["versions"] == [("numpy", "1.0, 9.8.7")]
     assert found["mixed"] == ["numpy"]
     assert _report.provenance([claims, claims], [])["mixed"] == []
+
+
+@pytest.mark.parametrize(
+    ("seeds", "want"), [((1, 2), "multilevel: 32 coarse, 100 described"), ((5,), "plain")]
+)
+def test_estimator_of_an_ensemble_is_named(seeds, want):
+    (row,) = _report.provenance([], [ensemble(seeds=seeds)])["ensembles"]
+    assert row["means"] == want
 
 
 def test_not_a_png_is_refused(tmp_path):

@@ -45,16 +45,16 @@ def test_coefficients_leave_their_own_sample_out():
 
 def test_fine_coefficient_leaves_its_own_sample_out():
     rng = np.random.default_rng(3)
-    coarse, many = rng.exponential(size=(9, 2)), rng.exponential(size=(40, 2))
-    fine = coarse**1.5 + 0.1 * rng.standard_normal((9, 2))
+    coarse, many = rng.exponential(size=(16, 2)), rng.exponential(size=(40, 2))
+    fine = coarse**1.5 + 0.1 * rng.standard_normal((16, 2))
     got = sampling.multilevel_mean(fine, coarse, many)
     for column in range(2):
         f, c, m = fine[:, column], coarse[:, column], many[:, column]
-        slopes = [np.polyfit(np.delete(c, a), np.delete(f, a), 1)[0] for a in range(9)]
+        slopes = [np.polyfit(np.delete(c, a), np.delete(f, a), 1)[0] for a in range(16)]
         terms = f - np.array(slopes) * (c - m.mean())
         assert got.mean[column] == pytest.approx(terms.mean(), rel=1e-10)
         assert got.coefficient[column] == pytest.approx(np.mean(slopes), rel=1e-10)
-        error = np.hypot(terms.std(ddof=1) / 3, np.mean(slopes) * m.std(ddof=1) / np.sqrt(40))
+        error = np.hypot(terms.std(ddof=1) / 4, np.mean(slopes) * m.std(ddof=1) / np.sqrt(40))
         assert got.standard_error[column] == pytest.approx(error, rel=1e-10)
 
 
@@ -78,15 +78,18 @@ def test_without_bias_and_with_an_honest_error():
     assert np.all(scatter < 0.3 * plain)
 
 
-def test_two_levels_without_bias_and_with_an_honest_error():
+@pytest.mark.parametrize("few", [8, 16])
+def test_two_levels_without_bias_and_with_an_honest_error(few):
     found = []
     for r in range(800):
         rng = np.random.default_rng([7, r])
-        x, z = rng.exponential(size=(48, 1)), rng.standard_normal((48, 2))
+        x, z = rng.exponential(size=(56, 1)), rng.standard_normal((56, 2))
         coarse = 2 * x + 0.5 * z[:, :1]
         fine = 1 + 0.8 * coarse + 0.05 * coarse**2 + 0.1 * z[:, 1:]
         elsewhere = rng.exponential(size=(300, 1))
-        found.append(sampling.multilevel_mean(fine[:8], coarse[:8], coarse[8:], x[8:], elsewhere))
+        found.append(
+            sampling.multilevel_mean(fine[:few], coarse[:few], coarse[few:], x[few:], elsewhere)
+        )
     means = np.array([f.mean for f in found])
     # E c = 2, E c^2 = 4 * 2 + 0.25
     exact = 1 + 1.6 + 0.05 * 8.25
@@ -113,7 +116,55 @@ def test_a_coarse_solution_that_is_the_fine_one_counts_as_more_seeds():
     plain = sampling.plain_mean(values[4:])
     np.testing.assert_allclose(estimate.mean, plain.mean, rtol=1e-14)
     np.testing.assert_allclose(estimate.standard_error, plain.standard_error, rtol=1e-14)
-    np.testing.assert_array_equal(estimate.coefficient, 1)
+    np.testing.assert_allclose(estimate.coefficient, 1, rtol=1e-14)
+
+
+def test_few_fine_seeds_take_the_ratio_of_means_without_their_own_sample():
+    rng = np.random.default_rng(20)
+    coarse, many = rng.exponential(size=(3, 2)), rng.exponential(size=(40, 2))
+    fine = 0.3 * coarse + 0.01 * rng.standard_normal((3, 2))
+    got = sampling.multilevel_mean(fine, coarse, many)
+    for column in range(2):
+        f, c, m = fine[:, column], coarse[:, column], many[:, column]
+        ratios = [np.delete(f, a).sum() / np.delete(c, a).sum() for a in range(3)]
+        terms = f - np.array(ratios) * (c - m.mean())
+        assert got.mean[column] == pytest.approx(terms.mean(), rel=1e-12)
+        assert got.coefficient[column] == pytest.approx(np.mean(ratios), rel=1e-12)
+    changing_sign = sampling.multilevel_mean(fine, coarse, many - many.mean(0))
+    np.testing.assert_array_equal(changing_sign.coefficient, 1)
+    none = sampling.multilevel_mean(fine, np.zeros((3, 2)), many)
+    np.testing.assert_array_equal(none.coefficient, 1)
+
+
+def test_few_fine_seeds_ignore_what_the_long_waves_do_not_explain():
+    """Of two quantities the first hangs on the control; the second is noise of the coarse grid."""
+    rng = np.random.default_rng(22)
+    x = rng.exponential(size=(36, 1))
+    many = np.hstack([1 + x, 1 + rng.exponential(size=(36, 1))])
+    fine = 0.5 * many[:4] + 0.01 * rng.standard_normal((4, 2))
+    elsewhere = rng.exponential(size=(2000, 1))
+    got = sampling.multilevel_mean(fine, many[:4], many[4:], x[4:], elsewhere)
+    plain = sampling.plain_mean(fine)
+    assert got.coefficient[0] == pytest.approx(0.5, abs=0.02)
+    assert got.standard_error[0] < 0.5 * plain.standard_error[0]
+    assert (got.coefficient[1], got.mean[1]) == (0, plain.mean[1])
+    assert got.standard_error[1] == pytest.approx(plain.standard_error[1], rel=1e-14)
+
+
+@pytest.mark.parametrize("few", [2, 4])
+def test_few_fine_seeds_without_bias_and_with_an_honest_error(few):
+    """Coarse areas three times too large with an offset, as at ranges that are not resolved."""
+    rng, found = np.random.default_rng([21, few]), []
+    for _ in range(2000):
+        coarse = 1 + rng.exponential(size=few + 32)
+        fine = 0.1 + coarse[:few] / 3 + 0.05 * rng.standard_normal(few)
+        found.append(sampling.multilevel_mean(fine, coarse[:few], coarse[few:]))
+    means = np.array([f.mean for f in found])
+    assert abs(means.mean() - (0.1 + 2 / 3)) < 4 * means.std() / np.sqrt(2000)
+    stated = np.mean([f.standard_error**2 for f in found])
+    # Samples share their ratios, which the error from their scatter does not know.
+    assert stated / means.var() == pytest.approx(1, abs=0.3)
+    assert means.var() < 0.5 * (1 / 9 + 0.05**2) / few
 
 
 def test_controls_without_scatter_are_left_out():

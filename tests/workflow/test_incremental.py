@@ -7,6 +7,7 @@ import pytest
 pytestmark = pytest.mark.workflow
 
 SEEDS, CASES, SURFACES = 2, 6, 6
+MULTILEVEL = 5  # cases with coarse solutions
 
 
 def test_clean_run_has_no_warnings(finished):
@@ -45,6 +46,7 @@ def test_adding_a_seed_runs_that_seed_and_its_averages(copy_of_finished):
     assert planned["solve_repulsive"] == CASES
     assert planned["average_ensemble"] == CASES
     unaffected = {"persson_sweep", "persson_lattice", "contact_maps", "analyse_surface"}
+    unaffected.add("solve_coarse")  # the new seed is solved on the coarse grid by its own job
     assert unaffected.isdisjoint(planned)
 
 
@@ -54,6 +56,22 @@ def test_adding_a_seed_to_one_case_leaves_the_others(copy_of_finished):
     planned = copy_of_finished.planned()
     assert planned["synthesise_surface"] == planned["solve_repulsive"] == 1
     assert planned["average_ensemble"] == 1
+
+
+def test_more_coarse_seeds_leave_the_fine_solutions(copy_of_finished):
+    copy_of_finished.edit("config/tiny.yaml", "coarse_seeds: 32", "coarse_seeds: 40")
+    planned = copy_of_finished.planned()
+    assert planned["solve_coarse"] == MULTILEVEL
+    assert planned["average_ensemble"] == MULTILEVEL
+    assert {"synthesise_surface", "solve_repulsive", "persson_lattice"}.isdisjoint(planned)
+
+
+def test_a_case_that_takes_plain_means_is_only_averaged_again(copy_of_finished):
+    with (copy_of_finished / "config/tiny.yaml").open("a", encoding="utf-8") as file:
+        file.write("cases:\n  H0.9_zeta64: {sampling: plain}\n")
+    planned = copy_of_finished.planned()
+    assert planned["average_ensemble"] == 1
+    assert {"synthesise_surface", "solve_repulsive", "solve_coarse"}.isdisjoint(planned)
 
 
 @pytest.mark.parametrize(
@@ -66,8 +84,13 @@ def test_adding_a_seed_to_one_case_leaves_the_others(copy_of_finished):
         ),
         (
             "repulsive.py",
-            {"solve_repulsive": CASES * SEEDS, "contact_maps": 1},
+            {"solve_repulsive": CASES * SEEDS, "solve_coarse": MULTILEVEL, "contact_maps": 1},
             {"synthesise_surface", "persson_sweep", "persson_lattice", "analyse_surface"},
+        ),
+        (
+            "sampling.py",
+            {"solve_coarse": MULTILEVEL, "average_ensemble": CASES},
+            {"synthesise_surface", "solve_repulsive", "persson_sweep", "analyse_surface"},
         ),
         (
             "topography.py",
@@ -99,7 +122,12 @@ def test_changing_a_module_reruns_the_stages_that_use_it(copy_of_finished, modul
         ("results/tiny/persson/fig1a.nc", {"persson_sweep": 1}, {"solve_repulsive"}),
         (
             "results/tiny/ensembles/H0.9_zeta64.nc",
-            {"synthesise_surface": SEEDS, "solve_repulsive": SEEDS, "average_ensemble": 1},
+            {
+                "synthesise_surface": SEEDS,
+                "solve_repulsive": SEEDS,
+                "solve_coarse": 1,
+                "average_ensemble": 1,
+            },
             {"persson_sweep"},
         ),
     ],

@@ -1,0 +1,75 @@
+"""Coarse contact solutions of many realisations, which correct the mean of a few fine ones.
+
+The seeds begin where those of the fine solutions can never reach. Their surfaces are solved on 2
+pixels per shortest wavelength, as every fine one is too; those of the last and largest set of
+seeds are not solved at all but only described by their long waves.
+"""
+
+import logging
+
+import numpy as np
+import xarray as xr
+
+from _job import start
+from _model import DESCRIBED, logarithmic_grid, spectrum_of, window_of
+from solve_repulsive import COARSE, load_curve
+from stickiness import datasets, sampling, surface
+from synthesise_surface import grid_points
+
+SOLVED_FROM, DESCRIBED_FROM = 100_001, 1_000_001  # first seeds; the schema keeps the sets apart
+KEPT = ("area_fraction", "mean_gap", "attractive_area", "residual")
+
+
+def main(job):
+    asked, pressures = job.params.surface, np.sort(job.params.pressures)
+    spectrum, length = spectrum_of(asked), window_of(asked)
+    amplitudes = asked.get("amplitudes", "gaussian")
+    seeds = SOLVED_FROM + np.arange(job.params.seeds)
+    others = DESCRIBED_FROM + np.arange(job.params.descriptor_seeds)
+    ranges, tolerance = logarithmic_grid(job.params.gaps), job.params.tolerance
+    curves = []
+    for seed in seeds:
+        logging.info("seed %d", seed)
+        n = grid_points(asked, 2 * COARSE)
+        heights = surface.synthesise(spectrum, n, length, int(seed), amplitudes)
+        curve = load_curve(heights[::2, ::2], length, pressures, ranges, tolerance)
+        # Of the finer grid: at two pixels the shortest waves are not all there.
+        curve["rms_slope"] = surface.moments(heights, length).rms_slope
+        curves.append(curve[[*KEPT, "rms_slope"]])
+    dataset = xr.concat(curves, xr.DataArray(seeds, dims="seed", name="seed"))
+    for name, dim, which in (("long_waves", "seed", seeds), ("other_long_waves", "other", others)):
+        rows = sampling.descriptors(spectrum, length, which, amplitudes)
+        dataset[name] = (dim, "descriptor"), rows
+    dataset = dataset.assign_coords(descriptor=list(sampling.DESCRIPTORS), other=others)
+    datasets.write(
+        annotated(dataset),
+        job.output[0],
+        title="coarse contact solutions and long waves of many realisations",
+        parameters={
+            **asked,
+            "case": job.wildcards.case,
+            "tolerance": tolerance,
+            "largest_residual": float(dataset.residual.max()),
+            "pixels_per_wavelength": COARSE,
+            "grid_points": n // 2,
+        },
+    )
+
+
+def annotated(dataset):
+    names = ("pressure", "range", "area_fraction", "mean_gap", "attractive_area")
+    return datasets.annotate(
+        dataset,
+        **{name: DESCRIBED[name] for name in names},
+        seed=("1", "seed of the realisation"),
+        other=("1", "seed of a realisation that is not solved"),
+        residual=("1", "complementarity residual over h_rms"),
+        rms_slope=("1", "rms gradient of this realisation over q0 h_rms"),
+        descriptor=("1", "what is described, lengths in units of 1/q0 and heights of h_rms"),
+        long_waves=("1", "descriptors of the long waves"),
+        other_long_waves=("1", "descriptors of the long waves of seeds that are not solved"),
+    )
+
+
+if __name__ == "__main__":
+    main(start(globals(), "solve_coarse", case="H0.8_zeta64"))
