@@ -98,10 +98,13 @@ def surface_of(wildcards):
     return f"{RESULTS}/surfaces/{CASES[wildcards.case]['surface']}/seed{{seed}}.nc"
 
 
-def topography_file(wildcards):
-    """The measured file of a real surface, if it has one of its own."""
-    file = REAL_SURFACES[wildcards.real_surface].get("file", "builtin:")
-    return [] if file.startswith("builtin:") else [file]
+def topography_files(wildcards):
+    """The measured files of a real surface, if it has any of its own."""
+    surface = REAL_SURFACES[wildcards.real_surface]
+    if surface["kind"] != "measured":
+        return []
+    files = [measurement["file"] for _, measurement in configuration.measurements(surface)]
+    return [file for file in files if not file.startswith("builtin:")]
 
 
 def a_v_inputs():

@@ -4,7 +4,7 @@
 rule analyse_surface:
     input:
         library=library_of("analyse_surface.py"),
-        topography=topography_file,
+        topographies=topography_files,
     output:
         f"{RESULTS}/real_surfaces/{{real_surface}}.nc",
     log:
