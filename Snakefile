@@ -37,6 +37,7 @@ localrules:
     fig6,
     claims,
     verdicts,
+    surfaces,
     report,
 
 
@@ -47,6 +48,7 @@ rule all:
         f"{RESULTS}/criteria/verdicts.md",
         f"{RESULTS}/claims/claims.md",
         f"{RESULTS}/report/report.html",
+        expand(f"{RESULTS}/report/surfaces/{{real_surface}}.html", real_surface=REAL_SURFACES),
 
 
 rule fig1:
@@ -82,6 +84,11 @@ rule fig6:
 rule verdicts:
     input:
         f"{RESULTS}/criteria/verdicts.md",
+
+
+rule surfaces:
+    input:
+        expand(f"{RESULTS}/report/surfaces/{{real_surface}}.html", real_surface=REAL_SURFACES),
 
 
 rule claims:

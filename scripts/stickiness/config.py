@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import difflib
 from collections.abc import Iterator, Mapping
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -120,6 +121,7 @@ def checked(
         check_schema(content, schemas / f"{table}.schema.yaml", config[table])
         check_units(content, config[table])
         tables.append(content[table])
+    check_materials(tables[0], config["materials"])
     check_surfaces(tables[1], config["surfaces"])
     return tables[0], tables[1]
 
@@ -149,6 +151,13 @@ def check_units(content: Mapping[str, Any], name: str) -> None:
             raise ConfigError(f"{name}: {key} = {error}") from None
         if not magnitude > 0:
             raise ConfigError(f"{name}: {key} = {value!r} must be positive")
+
+
+def check_materials(materials: Mapping[str, Any], name: str = "config/materials.yaml") -> None:
+    """Check moduli that depend on the rate: units, order, and that they cover 1 Hz."""
+    for key, material in materials.items():
+        for problem in _rate_problems(material):
+            raise ConfigError(f"{name}: materials.{key}.{problem}")
 
 
 def check_surfaces(surfaces: Mapping[str, Any], name: str = "config/surfaces.yaml") -> None:
@@ -203,9 +212,30 @@ def _config_problems(config: Mapping[str, Any]) -> Iterator[str]:
             f"criteria.a_v.pressure = {chosen['pressure']!r} is not among the pressures of "
             f"cases.{chosen['case']}"
         )
-    yield from _grid_problems("criteria.ranges", config["criteria"]["ranges"])
+    for key in ("ranges", "frequencies"):
+        yield from _grid_problems(f"criteria.{key}", config["criteria"][key])
     for key in ("range_times_q0", "adhesion_length_over_range"):
         yield from _grid_problems(f"criteria.map.{key}", config["criteria"]["map"][key])
+
+
+def _rate_problems(material: Mapping[str, Any]) -> Iterator[str]:
+    series = material.get("youngs_modulus_prony", {"terms": []})
+    yield from _unit_problem("youngs_modulus_prony.equilibrium", series.get("equilibrium"), "Pa")
+    for index, (modulus, time) in enumerate(series["terms"]):
+        yield from _unit_problem(f"youngs_modulus_prony.terms[{index}][0]", modulus, "Pa")
+        yield from _unit_problem(f"youngs_modulus_prony.terms[{index}][1]", time, "s")
+    pairs = material.get("youngs_modulus_table", [])
+    for index, (frequency, modulus) in enumerate(pairs):
+        yield from _unit_problem(f"youngs_modulus_table[{index}][0]", frequency, "Hz")
+        yield from _unit_problem(f"youngs_modulus_table[{index}][1]", modulus, "Pa")
+    frequencies = [si(frequency, "Hz") for frequency, _ in pairs]
+    if any(b <= a for a, b in pairwise(frequencies)):
+        yield "youngs_modulus_table: frequencies must ascend"
+    if pairs and not frequencies[0] <= 1 <= frequencies[-1]:
+        yield (
+            f"youngs_modulus_table runs from {pairs[0][0]} to {pairs[-1][0]} and must cover 1 Hz, "
+            "at which the verdict is quoted"
+        )
 
 
 def _surface_problems(surface: Mapping[str, Any]) -> Iterator[str]:
