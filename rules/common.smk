@@ -107,6 +107,12 @@ def topography_files(wildcards):
     return [file for file in files if not file.startswith("builtin:")]
 
 
+def pressed_heights(wildcards):
+    """Contact of the measured heights of a surface, if it is asked for."""
+    asked = "bem" in REAL_SURFACES[wildcards.real_surface]
+    return [f"{RESULTS}/bem_measured/{wildcards.real_surface}.nc"] if asked else []
+
+
 def a_v_inputs():
     """Fits behind the a_V that the derived criterion uses."""
     case = config["criteria"]["a_v"]["case"]

@@ -6,8 +6,10 @@ import numpy as np
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 
 import _captions
+import _pressed
 from _job import start
 from _materials import material, modulus_text
+from _model import LOAD
 from _numbers import NOTHING, interval, number, percent, quantity, with_error
 from _style import save
 from _surface_figure import drawn
@@ -36,12 +38,13 @@ def main(job):
         pairs=pairs,
         materials=datasets.parameters(verdicts)["materials"],
         figure=_captions.figure(job.output.figure, CAPTION),
+        bem=datasets.read(job.input.pressed[0], ["a_v"]) if job.input.pressed else None,
     )
     with datasets.whole_file(job.output.page) as path:
         path.write_text(page, encoding="utf-8")
 
 
-def render(template, *, surface, pairs, materials, figure):
+def render(template, *, surface, pairs, materials, figure, bem=None):
     """The page as text."""
     template = Path(template)
     environment = Environment(
@@ -61,6 +64,13 @@ def render(template, *, surface, pairs, materials, figure):
         known=known(surface),
         remarks=[t for t in (*surface.attrs.get("remarks", "").split("; "), made.get("note")) if t],
         files=[t for t in surface.attrs.get("files", "").split("; ") if t],
+        loads=_pressed.loads(bem) if bem is not None else [],
+        load=number(LOAD),
+        pressed=[
+            {"material": entry["label"], **_pressed.pair(bem, material(entry), surface)}
+            for entry in materials.values()
+            if bem is not None
+        ],
         verdicts=[
             verdict(pairs.sel(material=name), surface, materials[name])
             for name in map(str, pairs.material.values)

@@ -243,6 +243,9 @@ def _surface_problems(surface: Mapping[str, Any]) -> Iterator[str]:
         for name, measurement in measurements(surface):
             for problem in _file_problems(measurement):
                 yield f"{name}{problem}"
+        index, count = surface.get("bem", {}).get("measurement", 0), len(measurements(surface))
+        if index >= count:
+            yield f"bem.measurement = {index} is counted from 0 and must be below {count}"
         return
     longest = _wavelength(surface, "longest_wavelength", "q0")
     shortest = _wavelength(surface, "shortest_wavelength", "q1")
