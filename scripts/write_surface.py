@@ -67,8 +67,11 @@ def render(template, *, surface, pairs, materials, figure, bem=None):
         loads=_pressed.loads(bem) if bem is not None else [],
         load=number(LOAD),
         pressed=[
-            {"material": entry["label"], **_pressed.pair(bem, material(entry), surface)}
-            for entry in materials.values()
+            {
+                "material": materials[name]["label"],
+                **_pressed.pair(bem, material(materials[name]), surface),
+            }
+            for name in map(str, pairs.material.values)
             if bem is not None
         ],
         verdicts=[

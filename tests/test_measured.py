@@ -103,8 +103,10 @@ def test_detection_can_be_switched_off():
 
 def test_limits_that_leave_nothing_are_named():
     _, h, dx = patch()
-    with pytest.raises(ValueError, match="resolution of the instrument ends the spectrum"):
+    with pytest.raises(ValueError, match="resolution of the instrument ends the spectrum at"):
         measured.analyse(Topography(h, dx, dx, "here"), limits=Limits(resolution=2.0))
+    with pytest.raises(ValueError, match="shape of the tip ends the spectrum everywhere"):
+        measured.analyse(Topography(h, dx, dx, "here"), limits=Limits(tip_radius=1e6))
 
 
 def test_uneven_profile_is_trusted_to_its_largest_gap():

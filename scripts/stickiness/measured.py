@@ -212,10 +212,11 @@ def _cutoff(
         found.append(Cutoff(bend.q, reason, detected=True))
     lowest = min(found, key=lambda cutoff: cutoff.q)
     if not lowest.q > q_min:
+        end = f"at wavelengths of {2 * np.pi / lowest.q:.3g} m" if lowest.q else "everywhere"
         raise ValueError(
-            f"{lowest.reason} ends the spectrum at wavelengths of {2 * np.pi / lowest.q:.3g} m, "
-            f"above the longest that can be used, {2 * np.pi / q_min:.3g} m: nothing is left; "
-            "measure a larger area or give fit_from and fit_to"
+            f"{lowest.reason} ends the spectrum {end}, and the longest wavelength that can be used "
+            f"is {2 * np.pi / q_min:.3g} m: nothing is left; measure a larger area or give "
+            "fit_from and fit_to"
         )
     return lowest
 
