@@ -6,7 +6,7 @@ from dataclasses import fields
 import numpy as np
 import xarray as xr
 
-from stickiness import config, measured, moments, selfaffine, topography
+from stickiness import config, measured, moments, selfaffine, stitching, topography
 from stickiness.units import si
 
 ENDS = ["smooth", "rough"]
@@ -37,7 +37,7 @@ def analyse(asked):
         measured.analyse(h, one.get("window", "hann"), limits(one))
         for h, one in zip(heights, every, strict=True)
     ]
-    stitched = measured.stitch(spectra) if len(spectra) > 1 else None
+    stitched = stitching.stitch(spectra) if len(spectra) > 1 else None
     spectrum = stitched.spectrum if stitched else spectra[0]
     extend_to = 2 * np.pi / si(asked["extend_to"], "m") if "extend_to" in asked else None
     drawn = moments.draw(spectrum, DRAWS, SEED, stitched=stitched, extend_to=extend_to)

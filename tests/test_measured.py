@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy import ndimage
 
-from stickiness import measured, moments, psd, resolution, selfaffine, surface
+from stickiness import measured, moments, psd, resolution, selfaffine, stitching, surface
 from stickiness.measured import Limits
 from stickiness.spectrum import SelfAffine
 from stickiness.topography import Profile, Topography
@@ -153,7 +153,7 @@ def scans():
 
 def test_stitched_spectrum_covers_its_truth(scans):
     truth, pairs = scans
-    fits = [measured.stitch(pair).spectrum.fit for pair in pairs]
+    fits = [stitching.stitch(pair).spectrum.fit for pair in pairs]
     hurst = np.array([(fit.hurst - 0.8) / fit.hurst_se for fit in fits])
     c0 = np.array([np.log(fit.c0 / truth.C0) * fit.c0 / fit.c0_se for fit in fits])
     # Twelve values of unit variance have a standard deviation of 1 ± 0.2; offsets are judged from
@@ -164,7 +164,7 @@ def test_stitched_spectrum_covers_its_truth(scans):
 
 def test_stitching_reaches_from_the_lowest_to_the_highest(scans):
     _, pairs = scans
-    whole = measured.stitch(pairs[0])
+    whole = stitching.stitch(pairs[0])
     large, small = pairs[0]
     assert whole.spectrum.lowest == large.lowest
     assert whole.spectrum.cutoff.q == pytest.approx(small.cutoff.q, rel=0.1)
@@ -174,7 +174,7 @@ def test_stitching_reaches_from_the_lowest_to_the_highest(scans):
 
 def test_rings_of_one_measurement_alone_are_its_own(scans):
     _, pairs = scans
-    whole = measured.stitch(pairs[1])
+    whole = stitching.stitch(pairs[1])
     alone = np.isfinite(whole.levels[0]) & ~np.isfinite(whole.levels[1])
     rings = whole.spectrum.rings
     assert alone.sum() > 3
@@ -187,7 +187,7 @@ def test_an_offset_is_seen_and_widens_the_errors(scans):
     _, pairs = scans
     large, small = pairs[2]
     scaled = replace(small, narrow=replace(small.narrow, psd=4 * small.narrow.psd))
-    plain, off = measured.stitch([large, small]), measured.stitch([large, scaled])
+    plain, off = stitching.stitch([large, small]), stitching.stitch([large, scaled])
     # ln 4 between two, the standard deviation of a difference is sqrt(2) that of each.
     assert off.scatter == pytest.approx(np.log(4) / np.sqrt(2), abs=2 * plain.scatter + 0.1)
     assert off.spectrum.fit.hurst_se > 2 * plain.spectrum.fit.hurst_se
@@ -197,14 +197,26 @@ def test_measurements_that_do_not_overlap_say_nothing_of_their_offset(scans):
     _, pairs = scans
     large, small = pairs[0]
     apart = replace(small, q_min=1.3 * large.cutoff.q)
-    found = measured.stitch([large, apart])
+    found = stitching.stitch([large, apart])
     assert np.isnan(found.scatter)
     assert np.isnan(found.offsets).all()
 
 
+def test_a_map_and_a_profile_can_be_stitched():
+    s, h, dx = patch(n=1024, q1=400.0)
+    plane = measured.analyse(Topography(h[::4, ::4], 4 * dx, 4 * dx, "map").detrended())
+    line = measured.analyse(Profile(h[:, 100], dx, "line").detrended())
+    whole = stitching.stitch([plane, line])
+    assert whole.spectrum.cutoff.q == pytest.approx(line.cutoff.q, rel=0.1)
+    fit = whole.spectrum.fit
+    assert abs(fit.hurst - 0.8) < 3 * fit.hurst_se
+    # Both see the same spectrum, the profile by some tens of modes.
+    assert whole.scatter < 0.5
+
+
 def test_stitching_one_is_refused(scans):
     with pytest.raises(ValueError, match="two measurements at least, got 1"):
-        measured.stitch(scans[1][0][:1])
+        stitching.stitch(scans[1][0][:1])
 
 
 # Moments and their errors
@@ -268,7 +280,7 @@ def test_law_that_cannot_be_carried_on():
 
 
 def test_the_same_seed_draws_the_same(scans):
-    whole = measured.stitch(scans[1][0])
+    whole = stitching.stitch(scans[1][0])
     first, again = (
         moments.draw(whole.spectrum, 20, seed=3, stitched=whole).moments["h_rms"] for _ in range(2)
     )

@@ -13,8 +13,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from .measured import Spectrum, Stitched
+from .measured import MeasuredSpectrum
 from .spectrum import PowerLawSegments
+from .stitching import Stitched
 
 ORDERS = {"h_rms": 0, "rms_slope": 2, "rms_curvature": 4, "elastic_energy": 1}
 
@@ -42,7 +43,7 @@ class Draws:
 
 
 def draw(
-    spectrum: Spectrum,
+    spectrum: MeasuredSpectrum,
     count: int,
     seed: int,
     *,
@@ -53,7 +54,7 @@ def draw(
 
     Parameters
     ----------
-    spectrum : Spectrum
+    spectrum : MeasuredSpectrum
         Of one measurement, or `stitched.spectrum`.
     count : int
         Number of draws.
@@ -89,7 +90,7 @@ def draw(
     return Draws(moments, q0)
 
 
-def check_extension(spectrum: Spectrum, extend_to: float) -> None:
+def check_extension(spectrum: MeasuredSpectrum, extend_to: float) -> None:
     """Raise ValueError if the fitted law cannot be carried on to the wave number `extend_to`."""
     if not spectrum.fit.is_self_affine:
         raise ValueError(
@@ -104,7 +105,7 @@ def check_extension(spectrum: Spectrum, extend_to: float) -> None:
 
 
 def _relative(
-    spectrum: Spectrum, count: int, rng: np.random.Generator, stitched: Stitched | None
+    spectrum: MeasuredSpectrum, count: int, rng: np.random.Generator, stitched: Stitched | None
 ) -> NDArray:
     """Drawn over measured C in every ring (count, m)."""
     # The mean of dof exponential values has the relative variance 1/dof. A log-normal law of that
@@ -121,7 +122,7 @@ def _relative(
     return np.exp(logs + normal * np.sqrt(own) - variance / 2)
 
 
-def _laws(spectrum: Spectrum, count: int, rng: np.random.Generator) -> NDArray:
+def _laws(spectrum: MeasuredSpectrum, count: int, rng: np.random.Generator) -> NDArray:
     """Draws of (ln C at the cutoff, H) and, with a plateau, ln q_rolloff: (count, 2 or 3)."""
     fit = spectrum.fit
     centre = [np.log(fit.c0), fit.hurst] + ([np.log(fit.q_rolloff)] if fit.q_rolloff else [])

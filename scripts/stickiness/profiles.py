@@ -21,7 +21,7 @@ from .selfaffine import SelfAffineFit, fit_rings
 
 LOWEST_HURST = -0.4  # at -1/2 the transform of q^(-2(H+1)) no longer exists
 
-_FINE = 200  # rings per decade for the fit
+FINE = 200  # rings per decade for the fit
 _ROUNDS = 20
 
 
@@ -178,7 +178,7 @@ def isotropic(
         As `selfaffine.fit_rings`, and if the profile's spectrum falls so slowly that no isotropic
         surface has it: mere noise.
     """
-    profile = spectrum.rings(_FINE)
+    profile = spectrum.rings(FINE)
     rings = _scaled(profile, 1 / profile.q)
     fit = fit_rings(rings, q_min, q_max, rolloff)
     for _ in range(_ROUNDS):
