@@ -6,13 +6,17 @@ Lengths are in one unit of the caller's choice, pressures in units of the plane-
 from dataclasses import dataclass
 
 import numpy as np
+from scipy import optimize, special
 
 from stickiness import fourier
 
 __all__ = [
     "Hertz",
+    "HertzEllipse",
+    "Summit",
     "Westergaard",
     "full_contact_pressure",
+    "highest_summit",
     "wave_full_contact_pressure",
     "wave_small_load_area",
     "wave_large_load_area",
@@ -172,6 +176,142 @@ class Hertz:
         ratio = np.maximum(np.asarray(r, dtype=float) / self.contact_radius, 1.0)
         sunk = (2 - ratio**2) * np.arcsin(1 / ratio) + np.sqrt(ratio**2 - 1)
         return self.indentation * (0.5 * ratio**2 - 1 + sunk / np.pi)
+
+
+@dataclass(frozen=True)
+class HertzEllipse:
+    """Contact of a half-space with an elliptic paraboloid (Johnson 1985, eqs. 4.24 to 4.28).
+
+    The limit of every rough surface at vanishing load: one asperity, with the principal curvatures
+    of the `highest_summit`.
+
+    Parameters
+    ----------
+    curvatures : (float, float)
+        Principal curvatures of the summit, both positive, in any order.
+    load : float
+        Force over E*, in squared unit of length.
+
+    Raises
+    ------
+    ValueError
+        If an argument is not positive.
+    """
+
+    curvatures: tuple[float, float]
+    load: float
+
+    def __post_init__(self):
+        low, high = self.curvatures
+        if not (low > 0 and high > 0):
+            raise ValueError(f"curvatures must be two positive numbers, got {self.curvatures!r}")
+        if not self.load > 0:
+            raise ValueError(f"load must be positive, got {self.load!r}")
+
+    @property
+    def axis_ratio(self):
+        """Short over long axis of the ellipse; it depends on the curvatures alone."""
+        ratio = min(self.curvatures) / max(self.curvatures)
+        if ratio > 1 - 1e-6:  # the equation degenerates; there axes go as curvatures^(2/3)
+            return ratio ** (2 / 3)
+
+        def mismatch(log_axes):
+            axes = np.exp(log_axes)
+            first, second = special.ellipk(1 - axes**2), special.ellipe(1 - axes**2)
+            return (first - second) - ratio * (second / axes**2 - first)
+
+        # The ratio of the axes lies between that of the curvatures and its square root.
+        return float(np.exp(optimize.brentq(mismatch, np.log(ratio), 0.5 * np.log(ratio))))
+
+    @property
+    def semi_axes(self):
+        """Long and short semi-axis; the long one lies along the smaller curvature."""
+        ratio = self.axis_ratio
+        second = special.ellipe(1 - ratio**2)
+        cube = 3 * self.load * second / (np.pi * sum(self.curvatures) * ratio**2)
+        return float(np.cbrt(cube)), float(np.cbrt(cube) * ratio)
+
+    @property
+    def area(self):
+        """Area of contact."""
+        long, short = self.semi_axes
+        return np.pi * long * short
+
+    @property
+    def largest_pressure(self):
+        """Pressure in the middle, in units of E*."""
+        return 1.5 * self.load / self.area
+
+    @property
+    def indentation(self):
+        """Approach of distant points."""
+        long, short = self.semi_axes
+        return float(self.largest_pressure * short * special.ellipk(1 - (short / long) ** 2))
+
+
+@dataclass(frozen=True)
+class Summit:
+    """Highest point of a surface.
+
+    Attributes
+    ----------
+    position : (float, float)
+        Along axes 0 and 1, unit of length.
+    height : float
+        Height there.
+    curvatures : (float, float)
+        Principal curvatures, positive at a summit, the smaller first [1/length].
+    """
+
+    position: tuple[float, float]
+    height: float
+    curvatures: tuple[float, float]
+
+
+def highest_summit(heights, length):
+    """Highest summit of a periodic band-limited surface, between its points.
+
+    Parameters
+    ----------
+    heights : (n, n) array
+        Heights, of wavelengths longer than two pixels.
+    length : float
+        Side of the cell.
+
+    Returns
+    -------
+    Summit
+        Found by Newton's method on the Fourier series, from the highest grid point.
+
+    Raises
+    ------
+    RuntimeError
+        If it leaves the neighbourhood of that point: the surface is not resolved by its grid.
+    """
+    heights = np.asarray(heights, dtype=float)
+    n = heights.shape[0]
+    coefficients = np.fft.fft2(heights) / n**2
+    q = 2 * np.pi * np.fft.fftfreq(n, length / n)
+    start = np.array(np.unravel_index(np.argmax(heights), heights.shape)) * (length / n)
+    position = start.astype(float)
+
+    def series(factor_0, factor_1):
+        phase_0, phase_1 = np.exp(1j * q * position[0]), np.exp(1j * q * position[1])
+        return ((factor_0 * phase_0) @ coefficients @ (factor_1 * phase_1)).real
+
+    one, slope = np.ones(n), 1j * q
+    for _ in range(20):
+        gradient = np.array([series(slope, one), series(one, slope)])
+        mixed = series(slope, slope)
+        hessian = np.array([[series(slope**2, one), mixed], [mixed, series(one, slope**2)]])
+        step = np.linalg.solve(hessian, gradient)
+        position = position - step
+        if np.abs(position - start).max() > 2 * length / n:
+            raise RuntimeError("the highest summit is not near the highest point of the grid")
+        if np.abs(step).max() < 1e-12 * length:
+            break
+    high, low = np.linalg.eigvalsh(hessian)
+    return Summit(tuple(map(float, position)), float(series(one, one)), (-float(low), -float(high)))
 
 
 def wave_full_contact_pressure(amplitude, wavelength):

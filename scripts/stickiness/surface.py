@@ -98,15 +98,12 @@ def synthesise(
     ValueError
         If the window or the grid cannot hold the band, or an argument is out of range.
     """
-    _check_window(spectrum, n, length)
+    _check_window(spectrum, length)
+    _check_grid(spectrum, n, length)
     if amplitudes not in ("gaussian", "fixed"):
         raise ValueError(f"amplitudes must be 'gaussian' or 'fixed', got {amplitudes!r}")
     i, j, variance = _half_plane_modes(spectrum, length)
-    draws = np.random.Generator(np.random.PCG64(seed)).standard_normal((len(i), 2))
-    modes = draws[:, 0] + 1j * draws[:, 1]  # E|modes|^2 = 2
-    if amplitudes == "fixed":
-        modes *= np.sqrt(2) / np.abs(modes)
-    modes *= np.sqrt(variance / 2)
+    modes = _draw(variance, seed, amplitudes)
     heights = _evaluate(i, j, modes, n)
     if spectrum.prescribed == "h_rms":
         heights *= spectrum.h_rms / np.sqrt(2 * np.sum(np.abs(modes) ** 2))
@@ -177,17 +174,21 @@ def resample(heights: NDArray, n: int) -> NDArray:
     return fft.ifft2(fine).real * n**2
 
 
-def _check_window(spectrum: Spectrum, n: int, length: float) -> None:
+def _check_window(spectrum: Spectrum, length: float) -> None:
     if not (np.isfinite(length) and length > 0):
         raise ValueError(f"length must be positive and finite, got {length!r}")
-    if int(n) != n or n < 2:
-        raise ValueError(f"n must be an integer of at least 2, got {n!r}")
-    longest, shortest = 2 * np.pi / spectrum.q0, 2 * np.pi / spectrum.q1
+    longest = 2 * np.pi / spectrum.q0
     if longest > length * (1 + _ROUNDING):
         raise ValueError(
             f"the window does not hold the band: longest wavelength {longest:.6g} "
             f"exceeds length = {length:.6g}; enlarge length or raise q0"
         )
+
+
+def _check_grid(spectrum: Spectrum, n: int, length: float) -> None:
+    if int(n) != n or n < 2:
+        raise ValueError(f"n must be an integer of at least 2, got {n!r}")
+    shortest = 2 * np.pi / spectrum.q1
     if shortest < 2 * length / n * (1 - _ROUNDING):
         raise ValueError(
             f"the grid does not hold the band: shortest wavelength {shortest:.6g} is below two "
@@ -232,6 +233,16 @@ def _mode_variance(spectrum: Spectrum, q: NDArray, dq: float) -> NDArray:
         missing = spectrum.q[np.argmin(count)]
         raise ValueError(f"no wave vector of the window lies on the shell at q = {missing:.6g}")
     return np.where(on_shell, (spectrum.variance / count)[shell], 0.0)
+
+
+def _draw(variance: NDArray, seed: int, amplitudes: Amplitudes) -> NDArray:
+    """Complex amplitudes of modes of given variances; more modes leave the first ones as are."""
+    draws = np.random.Generator(np.random.PCG64(seed)).standard_normal((len(variance), 2))
+    modes = draws[:, 0] + 1j * draws[:, 1]  # E|modes|^2 = 2
+    if amplitudes == "fixed":
+        modes *= np.sqrt(2) / np.abs(modes)
+    modes *= np.sqrt(variance / 2)
+    return modes
 
 
 def _evaluate(i: NDArray, j: NDArray, modes: NDArray, n: int) -> NDArray:
