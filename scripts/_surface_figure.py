@@ -81,7 +81,8 @@ def psd(ax, surface):
     text = " and ".join(f"$10^{{{np.log10(c0):.0f}}}$" for c0 in LINES)
     ax.plot([], [], "--", color=GREY, linewidth=0.8, label=rf"$C_0$ = {text} m$^{{0.4}}$")
     ax.set(xscale="log", yscale="log", xlabel="wave number $q$ [1/m]", ylabel="$C(q)$ [m$^4$]")
-    ax.legend(loc="lower left", fontsize=7)
+    ax.set_ylim(bottom=low.min() / 1e3)  # room for the legend
+    ax.legend(loc="lower left")
 
 
 def each(ax, surface):
@@ -121,4 +122,4 @@ def rates(ax, pairs):
     ax.axhline(1, color=GREY, linewidth=0.9, linestyle="--")
     ax.axvline(1, color=GREY, linewidth=0.9, linestyle=":")
     ax.set(xscale="log", yscale="log", xlabel="frequency [Hz]", ylabel="margin (above 1 sticks)")
-    ax.legend(fontsize=7)
+    ax.legend()
