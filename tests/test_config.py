@@ -186,6 +186,7 @@ def test_broken_yaml_names_file_and_line(folder):
 def test_instruments_need_their_optional_dependency(folder, monkeypatch):
     Path("scan.sur").write_bytes(b"DIGITAL SURF\0\0")
     terrain(file="scan.sur")()
+    monkeypatch.setattr(config.readers, "can_read_instruments", lambda: True)
     check()
     monkeypatch.setattr(config.readers, "can_read_instruments", lambda: False)
     with pytest.raises(
