@@ -48,6 +48,7 @@ $(VENV)/.dev: envs/dev.txt $(VENV)/.run
 	touch $@
 
 # Reference codes for the tests; where they do not install, those tests are skipped.
-$(VENV)/.peers: envs/peers.txt $(VENV)/.dev
+$(VENV)/.peers: envs/peers.txt envs/instruments.txt $(VENV)/.dev
+	-$(PIP) -r envs/instruments.txt
 	-$(PIP) -r envs/peers.txt
 	touch $@

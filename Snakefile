@@ -39,6 +39,7 @@ localrules:
     fig7,
     claims,
     verdicts,
+    surfaces,
     report,
 
 
@@ -49,6 +50,7 @@ rule all:
         f"{RESULTS}/criteria/verdicts.md",
         f"{RESULTS}/claims/claims.md",
         f"{RESULTS}/report/report.html",
+        expand(f"{RESULTS}/report/surfaces/{{real_surface}}.html", real_surface=REAL_SURFACES),
 
 
 rule fig1:
@@ -89,6 +91,11 @@ rule fig7:
 rule verdicts:
     input:
         f"{RESULTS}/criteria/verdicts.md",
+
+
+rule surfaces:
+    input:
+        expand(f"{RESULTS}/report/surfaces/{{real_surface}}.html", real_surface=REAL_SURFACES),
 
 
 rule claims:

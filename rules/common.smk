@@ -116,10 +116,19 @@ def adhesive_realisations(wildcards):
     return [f"{RESULTS}/adhesive/{wildcards.adhesion}/seed{seed}.nc" for seed in seeds]
 
 
-def topography_file(wildcards):
-    """The measured file of a real surface, if it has one of its own."""
-    file = REAL_SURFACES[wildcards.real_surface].get("file", "builtin:")
-    return [] if file.startswith("builtin:") else [file]
+def topography_files(wildcards):
+    """The measured files of a real surface, if it has any of its own."""
+    surface = REAL_SURFACES[wildcards.real_surface]
+    if surface["kind"] != "measured":
+        return []
+    files = [measurement["file"] for _, measurement in configuration.measurements(surface)]
+    return [file for file in files if not file.startswith("builtin:")]
+
+
+def pressed_heights(wildcards):
+    """Contact of the measured heights of a surface, if it is asked for."""
+    asked = "bem" in REAL_SURFACES[wildcards.real_surface]
+    return [f"{RESULTS}/bem_measured/{wildcards.real_surface}.nc"] if asked else []
 
 
 def a_v_inputs():

@@ -49,5 +49,6 @@ rule judge:
         materials=MATERIALS,
         surfaces=list(REAL_SURFACES),
         pressure=config["criteria"]["a_v"]["pressure"],
+        frequencies=config["criteria"]["frequencies"],
     script:
         "../scripts/judge.py"

@@ -4,7 +4,7 @@
 rule analyse_surface:
     input:
         library=library_of("analyse_surface.py"),
-        topography=topography_file,
+        topographies=topography_files,
     output:
         f"{RESULTS}/real_surfaces/{{real_surface}}.nc",
     log:
@@ -19,3 +19,54 @@ rule analyse_surface:
         surface=lambda wildcards: REAL_SURFACES[wildcards.real_surface],
     script:
         "../scripts/analyse_surface.py"
+
+
+rule contact_measured:
+    input:
+        library=library_of("contact_measured.py"),
+        surface=f"{RESULTS}/real_surfaces/{{real_surface}}.nc",
+        topographies=topography_files,
+    output:
+        f"{RESULTS}/bem_measured/{{real_surface}}.nc",
+    log:
+        f"{LOGS}/contact_measured/{{real_surface}}.log",
+    benchmark:
+        f"{BENCHMARKS}/contact_measured/{{real_surface}}.tsv"
+    conda:
+        "../envs/environment.yaml"
+    resources:
+        mem_mb=4000,
+    params:
+        surface=lambda wildcards: REAL_SURFACES[wildcards.real_surface],
+        tolerance=FIDELITY["tolerance"],
+        pixels_per_wavelength=FIDELITY["pixels_per_wavelength"],
+        gamma=config["theory"]["gamma"],
+        gaps=config["gaps"],
+    script:
+        "../scripts/contact_measured.py"
+
+
+rule write_surface:
+    input:
+        library=library_of("write_surface.py"),
+        template="report/surface.html.j2",
+        surface=f"{RESULTS}/real_surfaces/{{real_surface}}.nc",
+        verdicts=f"{RESULTS}/criteria/verdicts.nc",
+        pressed=pressed_heights,
+    output:
+        figure=f"{RESULTS}/figures/surfaces/{{real_surface}}.png",
+        page=report(
+            f"{RESULTS}/report/surfaces/{{real_surface}}.html",
+            category="Surfaces",
+            caption="../report/surface.rst",
+        ),
+    log:
+        f"{LOGS}/write_surface/{{real_surface}}.log",
+    benchmark:
+        f"{BENCHMARKS}/write_surface/{{real_surface}}.tsv"
+    conda:
+        "../envs/environment.yaml"
+    resources:
+        mem_mb=500,
+    script:
+        "../scripts/write_surface.py"

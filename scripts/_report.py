@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from _materials import modulus_text
 from _model import LOAD
 from _numbers import NOTHING, interval, number, percent, quantity, superscripted, with_error
 from stickiness import datasets
@@ -160,14 +161,10 @@ def surface_labels(surfaces: Datasets) -> dict[str, str]:
 
 def material_row(name: str, entry: Mapping[str, Any]) -> Context:
     """Properties of a material as the configuration states them."""
-    if "plane_strain_modulus" in entry:
-        modulus = f"E* = {entry['plane_strain_modulus']}"
-    else:
-        modulus = f"E = {entry['youngs_modulus']}, ν = {entry['poisson_ratio']}"
     return {
         "name": name,
         "label": entry["label"],
-        "modulus": modulus,
+        "modulus": modulus_text(entry),
         "work_of_adhesion": superscripted(entry["work_of_adhesion"]),
         "range": entry["range"],
         "source": entry.get("source", ""),

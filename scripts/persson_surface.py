@@ -16,23 +16,16 @@ LARGEST_EDGE = 0.1  # range over h_rms beyond which the gaps are no longer those
 
 def main(job):
     surface = datasets.read(job.input.surface, ["psd", "q0", "q1", "rms_slope", "rms_curvature"])
-    spectrum = spectrum_of(surface)
     ranges = logarithmic_grid(job.params.ranges)
-    load = job.params.pressure
-    pressure = load * float(surface.q0) * spectrum.h_rms
-    resolved = [
-        Persson(spectrum, variant=variant, gamma=job.params.gamma).gap_cumulative(
-            ranges * spectrum.h_rms, pressure
-        )
-        / (1.5 * load * ranges ** (2 / 3))
-        for variant in VARIANTS
-    ]
-    edge = edge_range(ranges, resolved[1])
-    a_v = [np.where(ranges < edge, a[ranges == edge], a) for a in resolved]
-    a_v.append(np.where(ranges < edge, edge_a_v(surface), a_v[0]))
+    load, gamma = job.params.pressure, job.params.gamma
+    names, a_v, edge = a_v_of(surface, -1, ranges, load, gamma)
+    if not same_shape(surface):
+        # The law beyond the instrument's band is known with an error, which is that of a_V too.
+        more, other, _ = a_v_of(surface, 0, ranges, load, gamma)
+        names, a_v = [*names, *(f"{name}, smooth end" for name in more)], [*a_v, *other]
     dataset = xr.Dataset(
         {"a_v": (("variant", "range"), a_v), "edge_range": edge},
-        coords={"variant": [*VARIANTS, EDGE_LAW], "range": ranges},
+        coords={"variant": names, "range": ranges},
     )
     datasets.write(
         datasets.annotate(
@@ -44,18 +37,37 @@ def main(job):
         ),
         job.output[0],
         title="a_V by Persson's theory on the spectrum of a real surface",
-        parameters={
-            **datasets.parameters(surface),
-            "pressure": load,
-            "gamma": job.params.gamma,
-        },
+        parameters={**datasets.parameters(surface), "pressure": load, "gamma": gamma},
     )
 
 
-def edge_a_v(surface):
+def a_v_of(surface, end, ranges, load, gamma):
+    """a_V by every variant and by the edge law on one end of a surface, and the edge range."""
+    spectrum = spectrum_of(surface, end)
+    pressure = load * float(surface.q0) * spectrum.h_rms
+    resolved = [
+        Persson(spectrum, variant=variant, gamma=gamma).gap_cumulative(
+            ranges * spectrum.h_rms, pressure
+        )
+        / (1.5 * load * ranges ** (2 / 3))
+        for variant in VARIANTS
+    ]
+    edge = edge_range(ranges, resolved[1])
+    a_v = [np.where(ranges < edge, a[ranges == edge], a) for a in resolved]
+    a_v.append(np.where(ranges < edge, edge_a_v(surface, end), a_v[0]))
+    return [*VARIANTS, EDGE_LAW], a_v, edge
+
+
+def same_shape(surface):
+    """Whether both ends differ by a factor only, which drops out of a_V."""
+    ratio = surface.psd.isel(end=0) / surface.psd.isel(end=-1)
+    return bool(np.ptp(ratio.values) < 1e-6 * ratio.values.max())
+
+
+def edge_a_v(surface, end):
     """a_V equivalent to Pastewka and Robbins' attractive area, from slope and curvature."""
-    rough = surface.isel(end=-1)
-    moments = (float(rough[name]) for name in ("h_rms", "rms_slope", "rms_curvature"))
+    known = surface.isel(end=end)
+    moments = (float(known[name]) for name in ("h_rms", "rms_slope", "rms_curvature"))
     return criteria.pastewka_robbins_a_v(float(surface.q0), *moments)
 
 
@@ -71,10 +83,10 @@ def edge_range(ranges, a_v):
     return ranges[int(np.argmax(np.where(ranges <= LARGEST_EDGE, a_v, 0)))]
 
 
-def spectrum_of(surface):
-    """Spectrum up to q1; its level drops out, so that either end of the surface will do."""
+def spectrum_of(surface, end=-1):
+    """Spectrum of one end of the surface, up to q1."""
     inside = surface.wave_number <= float(surface.q1) * (1 + 1e-9)
-    known = surface.isel(end=-1, wave_number=np.flatnonzero(inside))
+    known = surface.isel(end=end, wave_number=np.flatnonzero(inside))
     return Tabulated(known.wave_number.values, known.psd.values)
 
 

@@ -69,7 +69,13 @@ def parametric(ax, surface, power, colour):
 
 
 def measured(ax, surface, power, colour):
-    """Radial averages with their sampling error, and the fit within its range."""
+    """Radial averages with their sampling error, and the fit within its range.
+
+    What the fitted law carries on beyond the instrument is no measurement and not drawn.
+    """
+    if "q_cutoff" in surface and float(surface.q1) > float(surface.q_cutoff):
+        inside = surface.wave_number.values <= float(surface.q_cutoff) * (1 + 1e-9)
+        surface = surface.isel(wave_number=np.flatnonzero(inside))
     scale = surface.wave_number**power
     psd, error = surface.psd.isel(end=0) * scale, surface.psd_standard_error * scale
     below = np.minimum(error, 0.9 * psd)  # a bar down to zero has no end on a log axis

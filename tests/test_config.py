@@ -57,6 +57,34 @@ def steel(*keys, value):
     return changed(SURFACES, "surfaces", "polished_steel", *keys, value=value)
 
 
+def terrain(**keys):
+    """Edit the measured surface: a text file, with these keys (None: without)."""
+
+    def edit():
+        file = Path(SURFACES)
+        content = yaml.safe_load(file.read_text(encoding="utf-8"))
+        surface = {"file": "README.md", **content["surfaces"]["jacksboro"], **keys}
+        if "file" not in keys:
+            surface["file"] = "README.md"
+        kept = {key: value for key, value in surface.items() if value is not None}
+        content["surfaces"]["jacksboro"] = kept
+        file.write_text(yaml.safe_dump(content), encoding="utf-8")
+
+    return edit
+
+
+def table(pairs):
+    def edit():
+        file = Path(MATERIALS)
+        content = yaml.safe_load(file.read_text(encoding="utf-8"))
+        crystal = content["materials"]["crystal"]
+        del crystal["plane_strain_modulus"]
+        crystal |= {"youngs_modulus_table": pairs, "poisson_ratio": 0.3}
+        file.write_text(yaml.safe_dump(content), encoding="utf-8")
+
+    return edit
+
+
 def model(*keys, value):
     return changed(CONFIG, "model_surfaces", "H0.8_zeta64", *keys, value=value)
 
@@ -104,6 +132,29 @@ def model(*keys, value):
             changed(SURFACES, "surfaces", "jacksboro", "height_unit", value="kg"),
             ["jacksboro", "height_unit", "kg", "m"],
         ),
+        (terrain(length="1 um", pixel_size="1 nm"), ["pixel_size", "not both"]),
+        (terrain(channel="Height"), ["channel", "'Height'", "text", "leave it out"]),
+        (terrain(variable="z"), ["variable", "'z'", "NetCDF"]),
+        (terrain(missing="guess"), ["missing", "'guess'", "fill"]),
+        (terrain(missing="crop", max_missing=0.2), ["max_missing", "0.2", "missing: crop"]),
+        (terrain(tip_radius="-3 nm"), ["jacksboro.tip_radius", "-3 nm", "positive"]),
+        (terrain(fit_from="1 um", fit_to="1 mm"), ["fit_to", "1 mm", "fit_from"]),
+        (terrain(cutoff="maybe"), ["cutoff", "'maybe'", "detect"]),
+        (terrain(file=None), ["jacksboro", "file; measurements"]),
+        (terrain(measurements=[{"file": "README.md"}] * 2), ["jacksboro", "file; measurements"]),
+        (
+            terrain(file=None, measurements=[{"file": "README.md"}, {"file": "none.txt"}]),
+            ["jacksboro.measurements[1].file", "none.txt", "no such file"],
+        ),
+        (terrain(file=None, measurements=[{"file": "README.md"}]), ["measurements", "at least 2"]),
+        (table([["1 Hz", "1 MPa"]]), ["youngs_modulus_table", "at least 2"]),
+        (table([["1 Hz", "1 MPa"], ["0.1 Hz", "1 MPa"]]), ["crystal", "ascend"]),
+        (table([["2 Hz", "1 MPa"], ["9 Hz", "1 MPa"]]), ["crystal", "2 Hz", "cover 1 Hz"]),
+        (table([["1 s", "1 MPa"], ["9 Hz", "1 MPa"]]), ["table[0][0]", "'1 s'", "Hz"]),
+        (
+            changed(CONFIG, "criteria", "frequencies", "minimum", value=1e9),
+            ["criteria.frequencies.minimum", "below maximum"],
+        ),
         (material("range", value="2,5 nm"), ["crystal.range", "2,5 nm", "decimal point"]),
         (changed(CONFIG, "surfaces", value="config/surfs.yaml"), ["config/surfs.yaml", "no such"]),
         (changed(CONFIG, "cases", "H0.8_zeta32", value=None), ["cases", "H0.8_zeta32", "missing"]),
@@ -140,3 +191,27 @@ def test_broken_yaml_names_file_and_line(folder):
     Path(MATERIALS).write_text("materials:\n  psa: {label: [}\n", encoding="utf-8")
     with pytest.raises(config.ConfigError, match=r"materials\.yaml: line 2"):
         check()
+
+
+def test_instruments_need_their_optional_dependency(folder, monkeypatch):
+    Path("scan.sur").write_bytes(b"DIGITAL SURF\0\0")
+    terrain(file="scan.sur")()
+    monkeypatch.setattr(config.readers, "can_read_instruments", lambda: True)
+    check()
+    monkeypatch.setattr(config.readers, "can_read_instruments", lambda: False)
+    with pytest.raises(
+        config.ConfigError, match=r"scan\.sur.*needs SurfaceTopography.*pip install"
+    ):
+        check()
+
+
+def test_keys_beside_the_list_hold_for_every_measurement():
+    surface = {
+        "kind": "measured",
+        "detrend": "quadratic",
+        "measurements": [{"file": "a"}, {"file": "b", "detrend": "mean"}],
+    }
+    (first, one), (second, two) = config.measurements(surface)
+    assert (first, second) == ("measurements[0].", "measurements[1].")
+    assert (one["file"], one["detrend"], two["detrend"]) == ("a", "quadratic", "mean")
+    assert "measurements" not in one

@@ -31,3 +31,9 @@ def test_constraints_agree(name):
     constraints = pip_pins("constraints.txt")
     for package, version in pip_pins(name).items():
         assert constraints[package] == version
+
+
+def test_instruments_are_optional_and_pinned():
+    optional = pip_pins("instruments.txt")
+    assert "surfacetopography" in optional
+    assert optional.keys().isdisjoint(pip_pins("requirements.txt"))

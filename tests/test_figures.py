@@ -117,6 +117,15 @@ def test_figure_6_draws_bands_points_and_no_line_twice(tmp_path, kept):
     assert [text.get_text() for text in legend.get_texts()] == ["road", "wafer"]
 
 
+def test_figure_6_draws_no_more_than_was_measured(tmp_path):
+    data = datasets.read(surface(tmp_path, "wafer", True)).assign(q1=1e6, q_cutoff=1e5)
+    figure, panels = _style.canvas("A", 3)
+    plot_fig6.measured(panels["A"], data, 0, "k")
+    furthest = max(line.get_xdata().max() for line in panels["A"].lines if len(line.get_xdata()))
+    assert furthest <= 1e5
+    plt.close(figure)
+
+
 def test_labels_move_apart_and_keep_their_order():
     assert _style.apart([1.0, 5.0, 1.05, 1.02], 1.1) == pytest.approx([1.0, 5.0, 1.21, 1.1])
 

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import difflib
 from collections.abc import Iterator, Mapping
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
 import jsonschema
 import yaml
 
+from . import readers
 from .units import si
 
 # Keys whose values are strings with units, and the unit that fixes their dimension.
@@ -28,6 +30,9 @@ _UNITS = {
     "pixel_size": "m",
     "fit_from": "m",
     "fit_to": "m",
+    "resolution": "m",
+    "tip_radius": "m",
+    "extend_to": "m",
 }
 
 
@@ -117,6 +122,7 @@ def checked(
         check_schema(content, schemas / f"{table}.schema.yaml", config[table])
         check_units(content, config[table])
         tables.append(content[table])
+    check_materials(tables[0], config["materials"])
     check_surfaces(tables[1], config["surfaces"])
     return tables[0], tables[1]
 
@@ -146,6 +152,13 @@ def check_units(content: Mapping[str, Any], name: str) -> None:
             raise ConfigError(f"{name}: {key} = {error}") from None
         if not magnitude > 0:
             raise ConfigError(f"{name}: {key} = {value!r} must be positive")
+
+
+def check_materials(materials: Mapping[str, Any], name: str = "config/materials.yaml") -> None:
+    """Check moduli that depend on the rate: units, order, and that they cover 1 Hz."""
+    for key, material in materials.items():
+        for problem in _rate_problems(material):
+            raise ConfigError(f"{name}: materials.{key}.{problem}")
 
 
 def check_surfaces(surfaces: Mapping[str, Any], name: str = "config/surfaces.yaml") -> None:
@@ -209,20 +222,40 @@ def _config_problems(config: Mapping[str, Any]) -> Iterator[str]:
             f"criteria.a_v.pressure = {chosen['pressure']!r} is not among the pressures of "
             f"cases.{chosen['case']}"
         )
-    yield from _grid_problems("criteria.ranges", config["criteria"]["ranges"])
+    for key in ("ranges", "frequencies"):
+        yield from _grid_problems(f"criteria.{key}", config["criteria"][key])
     for key in ("range_times_q0", "adhesion_length_over_range"):
         yield from _grid_problems(f"criteria.map.{key}", config["criteria"]["map"][key])
 
 
+def _rate_problems(material: Mapping[str, Any]) -> Iterator[str]:
+    series = material.get("youngs_modulus_prony", {"terms": []})
+    yield from _unit_problem("youngs_modulus_prony.equilibrium", series.get("equilibrium"), "Pa")
+    for index, (modulus, time) in enumerate(series["terms"]):
+        yield from _unit_problem(f"youngs_modulus_prony.terms[{index}][0]", modulus, "Pa")
+        yield from _unit_problem(f"youngs_modulus_prony.terms[{index}][1]", time, "s")
+    pairs = material.get("youngs_modulus_table", [])
+    for index, (frequency, modulus) in enumerate(pairs):
+        yield from _unit_problem(f"youngs_modulus_table[{index}][0]", frequency, "Hz")
+        yield from _unit_problem(f"youngs_modulus_table[{index}][1]", modulus, "Pa")
+    frequencies = [si(frequency, "Hz") for frequency, _ in pairs]
+    if any(b <= a for a, b in pairwise(frequencies)):
+        yield "youngs_modulus_table: frequencies must ascend"
+    if pairs and not frequencies[0] <= 1 <= frequencies[-1]:
+        yield (
+            f"youngs_modulus_table runs from {pairs[0][0]} to {pairs[-1][0]} and must cover 1 Hz, "
+            "at which the verdict is quoted"
+        )
+
+
 def _surface_problems(surface: Mapping[str, Any]) -> Iterator[str]:
     if surface["kind"] == "measured":
-        file = surface["file"]
-        if file.startswith("builtin:") and file not in _BUILTIN:
-            yield f"file = {file!r} is unknown; built in: {', '.join(_BUILTIN)}"
-        elif not file.startswith("builtin:") and not Path(file).is_file():
-            yield f"file = {file!r}: no such file; give a path from the working directory"
-        if "height_unit" in surface:
-            yield from _unit_problem("height_unit", f"1 {surface['height_unit']}", "m")
+        for name, measurement in measurements(surface):
+            for problem in _file_problems(measurement):
+                yield f"{name}{problem}"
+        index, count = surface.get("bem", {}).get("measurement", 0), len(measurements(surface))
+        if index >= count:
+            yield f"bem.measurement = {index} is counted from 0 and must be below {count}"
         return
     longest = _wavelength(surface, "longest_wavelength", "q0")
     shortest = _wavelength(surface, "shortest_wavelength", "q1")
@@ -239,6 +272,53 @@ def _surface_problems(surface: Mapping[str, Any]) -> Iterator[str]:
         values = [si(value, key_unit) for value in _as_list(surface.get(key, []))]
         if values != sorted(values):
             yield f"{key} = {surface[key]!r} must be [low, high]"
+
+
+def measurements(surface: Mapping[str, Any]) -> list[tuple[str, dict[str, Any]]]:
+    """Return every measurement of a measured surface: a prefix for messages, and all of its keys.
+
+    What stands beside the list `measurements` holds for each that does not say otherwise.
+    """
+    if "measurements" not in surface:
+        return [("", dict(surface))]
+    shared = {key: value for key, value in surface.items() if key != "measurements"}
+    several = enumerate(surface["measurements"])
+    return [(f"measurements[{index}].", shared | dict(one)) for index, one in several]
+
+
+def _file_problems(measurement: Mapping[str, Any]) -> Iterator[str]:
+    """What can be said of a measurement before its file is read."""
+    file = measurement["file"]
+    for key in ("height_unit", "position_unit"):
+        if key in measurement:
+            yield from _unit_problem(key, f"1 {measurement[key]}", "m")
+    if file.startswith("builtin:"):
+        if file not in _BUILTIN:
+            yield f"file = {file!r} is unknown; built in: {', '.join(_BUILTIN)}"
+        return
+    if not Path(file).is_file():
+        yield f"file = {file!r}: no such file; give a path from the working directory"
+        return
+    if "length" in measurement and "pixel_size" in measurement:
+        yield f"pixel_size = {measurement['pixel_size']!r}: give length or pixel_size, not both"
+    if measurement.get("missing", "fill") != "fill" and "max_missing" in measurement:
+        yield (
+            f"max_missing = {measurement['max_missing']!r} is the share that missing: fill fills; "
+            f"leave it out with missing: {measurement['missing']}"
+        )
+    kind = readers.format_of(file, measurement.get("format"))
+    if kind == readers.INSTRUMENT and not readers.can_read_instruments():
+        yield (
+            f"file = {file!r} is an instrument's and needs SurfaceTopography, which is not "
+            f"installed; run {readers.INSTALL}"
+        )
+    if kind != readers.INSTRUMENT and "channel" in measurement:
+        yield f"channel = {measurement['channel']!r}: a {kind} file has no channels; leave it out"
+    if kind not in ("netcdf", "numpy") and "variable" in measurement:
+        yield f"variable = {measurement['variable']!r} is for NetCDF and npz, this file is neither"
+    fit_from, fit_to = (measurement.get(key) for key in ("fit_from", "fit_to"))
+    if fit_from and fit_to and not si(fit_to, "m") < si(fit_from, "m"):
+        yield f"fit_to = {fit_to!r} must be below fit_from = {fit_from!r}"
 
 
 def _wavelength(surface: Mapping[str, Any], wavelength: str, wave_number: str) -> float:

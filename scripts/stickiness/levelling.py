@@ -1,4 +1,4 @@
-"""Levelling of measured heights and interpolation of missing points."""
+"""Levelling of measured heights; missing points, filled or cut off."""
 
 from __future__ import annotations
 
@@ -12,6 +12,9 @@ from scipy.sparse import linalg
 MAX_MISSING = 0.1  # default largest share of missing points that are filled
 
 Detrend = Literal["mean", "plane", "quadratic"]
+Missing = Literal["fill", "crop", "refuse"]
+
+_DEGREES = {"mean": 0, "plane": 1, "quadratic": 2}
 
 
 def detrend(heights: NDArray, kind: Detrend = "plane") -> NDArray:
@@ -29,13 +32,10 @@ def detrend(heights: NDArray, kind: Detrend = "plane") -> NDArray:
     ValueError
         If `kind` is unknown or the heights are not finite and 2D.
     """
-    degrees = {"mean": 0, "plane": 1, "quadratic": 2}
-    if kind not in degrees:
-        raise ValueError(f"detrend must be one of {sorted(degrees)}, got {kind!r}")
+    degree = _degree(kind)
     heights = np.asarray(heights, dtype=float)
     if heights.ndim != 2 or not np.all(np.isfinite(heights)):
         raise ValueError(f"heights must be 2D and finite, got shape {heights.shape}")
-    degree = degrees[kind]
     x, y = (np.linspace(-1, 1, n) if n > 1 else np.zeros(1) for n in heights.shape)
     # Legendre polynomials of each axis: nearly orthogonal on the grid, so the normal equations
     # (small, whatever the grid) lose no digits.
@@ -47,6 +47,28 @@ def detrend(heights: NDArray, kind: Detrend = "plane") -> NDArray:
     trend = np.zeros((degree + 1, degree + 1))
     trend[i, j] = coefficients
     return heights - px @ trend @ py.T
+
+
+def detrend_profile(heights: NDArray, kind: Detrend = "plane") -> NDArray:
+    """Subtract the mean, line ("plane") or parabola that fits a profile (n,) best.
+
+    Raises
+    ------
+    ValueError
+        If `kind` is unknown or the heights are not finite and 1D.
+    """
+    degree = _degree(kind)
+    heights = np.asarray(heights, dtype=float)
+    if heights.ndim != 1 or not np.all(np.isfinite(heights)):
+        raise ValueError(f"heights must be 1D and finite, got shape {heights.shape}")
+    basis = np.polynomial.legendre.legvander(np.linspace(-1, 1, len(heights)), degree)
+    return heights - basis @ np.linalg.lstsq(basis, heights, rcond=None)[0]
+
+
+def _degree(kind: str) -> int:
+    if kind not in _DEGREES:
+        raise ValueError(f"detrend must be one of {sorted(_DEGREES)}, got {kind!r}")
+    return _DEGREES[kind]
 
 
 def fill_missing(
@@ -70,19 +92,87 @@ def fill_missing(
         If more than the share `max_missing` of the points are missing; `source` is named.
     """
     hole = ~np.isfinite(heights)
-    missing = int(np.count_nonzero(hole))
-    share = missing / heights.size
-    if missing == heights.size or share > max_missing:
-        raise ValueError(
-            f"{source}: {missing} of {heights.size} points ({share:.1%}) are missing, more than "
-            f"the {max_missing:.1%} that are filled; crop the data, measure again or raise "
-            "max_missing"
-        )
+    missing = _check_missing(hole, max_missing, source)
     if not missing:
         return np.array(heights, dtype=float), 0
     filled = np.where(hole, 0.0, heights)
     filled[hole] = _harmonic(filled, hole)
     return filled, missing
+
+
+def fill_profile(
+    x: NDArray, heights: NDArray, max_missing: float = MAX_MISSING, source: str = "heights"
+) -> tuple[NDArray, int]:
+    """Fill the points of a profile that are not finite by linear interpolation.
+
+    Parameters
+    ----------
+    x : (n,) array
+        Increasing positions.
+    heights : (n,) array
+        Heights; beyond the first and the last known one, these go on.
+    max_missing, source
+        As in `fill_missing`, which also says what is returned and raised.
+    """
+    hole = ~np.isfinite(heights)
+    missing = _check_missing(hole, max_missing, source)
+    return np.interp(x, x[~hole], heights[~hole]), missing
+
+
+def complete_rectangle(known: NDArray, source: str = "heights") -> tuple[slice, slice]:
+    """Return the rectangle with most points among those in which every point is known.
+
+    Parameters
+    ----------
+    known : (nx, ny) bool array
+        Whether a point was measured.
+    source : str
+        Named in the error.
+
+    Raises
+    ------
+    ValueError
+        If no point is known.
+    """
+    # For every row the largest rectangle under the histogram of known points that end in it.
+    best, height = (0, slice(0), slice(0)), np.zeros(known.shape[1], dtype=int)
+    for row, line in enumerate(known):
+        height = np.where(line, height + 1, 0)
+        open_: list[tuple[int, int]] = []  # (start, height), increasing
+        for column, tall in enumerate([*height.tolist(), 0]):
+            start = column
+            while open_ and open_[-1][1] >= tall:
+                start, ended = open_.pop()
+                if ended * (column - start) > best[0]:
+                    rows = slice(row + 1 - ended, row + 1)
+                    best = ended * (column - start), rows, slice(start, column)
+            open_.append((start, tall))
+    if not best[0]:
+        raise ValueError(f"{source}: every point is missing")
+    return best[1], best[2]
+
+
+def complete_run(known: NDArray, source: str = "heights") -> slice:
+    """Return the longest stretch of a profile (n,) in which every point is known.
+
+    Raises
+    ------
+    ValueError
+        If no point is known.
+    """
+    return complete_rectangle(np.asarray(known)[None, :], source)[1]
+
+
+def _check_missing(hole: NDArray, max_missing: float, source: str) -> int:
+    missing = int(np.count_nonzero(hole))
+    share = missing / hole.size
+    if missing == hole.size or share > max_missing:
+        raise ValueError(
+            f"{source}: {missing} of {hole.size} points ({share:.1%}) are missing, more than "
+            f"the {max_missing:.1%} that are filled; cut them off with missing: crop, measure "
+            "again or raise max_missing"
+        )
+    return missing
 
 
 def _harmonic(heights: NDArray, hole: NDArray) -> NDArray:

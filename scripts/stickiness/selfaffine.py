@@ -11,15 +11,15 @@ scatter (Paule & Mandel 1982, doi:10.6028/jres.087.022).
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy import optimize, special
+from scipy import special
 
-from .psd import PowerSpectrum, RadialPSD, merge_rings, radial_average, wide_rings
+from . import _whittle
+from .psd import PowerSpectrum, RadialPSD, merge_rings, radial_average
 from .spectrum import SelfAffine
 
 LOWEST_MODES = 4  # lattice steps left out at low q if the spectrum was windowed
@@ -29,9 +29,6 @@ LARGE_MISFIT = 0.3  # relative; from here a power law is a caricature of the spe
 LARGE_ANISOTROPY = 0.5  # C along and across the lay then differ threefold
 
 _FINE = 200  # narrow rings per decade: C varies by 4 % across one, its mean by 7e-5
-_COARSE = 10  # rings per decade in which misfit is judged
-_ALTERNATIONS = 20
-_SLOPES = (-1e3, 1e3)  # bracket of the exponent s in C ~ q^-s; wide, plateaus are tried anywhere
 
 
 @dataclass(frozen=True)
@@ -205,21 +202,39 @@ def fit_self_affine(
         If fewer than five rings (ten a decade) or 20 independent modes lie in the range, or the
         spectrum vanishes there.
     """
-    rings = _fit_range(spectrum, q_min, q_max)
+    return fit_rings(narrow_rings(spectrum), *fit_range(spectrum, q_min, q_max), rolloff)
+
+
+def fit_rings(
+    rings: RadialPSD, q_min: float, q_max: float, rolloff: bool | None = None
+) -> SelfAffineFit:
+    """Fit a self-affine spectrum to rings, of whatever measurement they come.
+
+    Parameters
+    ----------
+    rings : RadialPSD
+        Rings that are narrow against the changes of C, in ascending order: C is taken to be the
+        law at `rings.q`.
+    q_min, q_max : float
+        Lowest and highest wave number used [1/length].
+    rolloff : bool, optional
+        As in `fit_self_affine`, which also says what is raised.
+    """
+    rings = _within(rings, q_min, q_max)
     # ln q from the middle of the data, where the exponent and the level are least correlated.
     scale = float(np.exp(np.average(np.log(rings.q), weights=rings.dof)))
     x = np.log(rings.q / scale)
-    plain, plain_misfit = _weighted_fit(_fit_power_law, x, rings)
+    plain, plain_misfit = _whittle.weighted_fit(_whittle.fit_power_law, x, rings)
     if rolloff is False:
         return _result(rings, scale, plain, plain_misfit, np.nan)
-    room = _room(x, rings)
+    room = _whittle.rolloff_room(x, rings)
     if room is None:
         if rolloff:
             raise ValueError("rolloff=True needs a wider range of q: lower q_min or raise q_max")
         return _result(rings, scale, plain, plain_misfit, np.nan)
-    bent, bent_misfit = _weighted_fit(partial(_fit_rolloff, room), x, rings)
-    judged = _limit_weight(rings, bent_misfit)
-    gain = 2 * (_deviance(x, judged, *plain) - _deviance(x, judged, *bent)) - 2
+    bent, bent_misfit = _whittle.weighted_fit(partial(_whittle.fit_rolloff, room), x, rings)
+    judged = _whittle.limit_weight(rings, bent_misfit)
+    gain = 2 * (_whittle.deviance(x, judged, *plain) - _whittle.deviance(x, judged, *bent)) - 2
     if rolloff or gain > ROLLOFF_AIC:
         return _result(rings, scale, bent, bent_misfit, gain)
     return _result(rings, scale, plain, plain_misfit, gain)
@@ -251,16 +266,28 @@ def remarks(fit: SelfAffineFit, anisotropy: float = 0.0) -> list[str]:
     return found
 
 
-def _fit_range(spectrum: PowerSpectrum, q_min: float | None, q_max: float | None) -> RadialPSD:
+def narrow_rings(spectrum: PowerSpectrum) -> RadialPSD:
+    """Return rings so narrow that the mean of C over one is C at its wave number."""
+    return radial_average(spectrum, bins_per_decade=_FINE)
+
+
+def fit_range(
+    spectrum: PowerSpectrum, q_min: float | None = None, q_max: float | None = None
+) -> tuple[float, float]:
+    """Return the range of wave numbers that `fit_self_affine` uses."""
     step = max(spectrum.dqx, spectrum.dqy)
-    # The slack keeps modes exactly on a limit, whatever the rounding of |q|.
     low = (LOWEST_MODES if spectrum.blur else 1) * step if q_min is None else q_min
     high = NYQUIST_SHARE * spectrum.q_nyquist if q_max is None else q_max
+    return low, high
+
+
+def _within(rings: RadialPSD, low: float, high: float) -> RadialPSD:
     if not 0 < low < high:
         raise ValueError(f"need 0 < q_min < q_max, got q_min = {low:.6g}, q_max = {high:.6g}")
+    # The slack keeps modes exactly on a limit, whatever the rounding of |q|.
     low, high = low * (1 - 1e-9), high * (1 + 1e-9)
-    rings = radial_average(spectrum, bins_per_decade=_FINE).between(low, high)
-    decades = len(merge_rings(rings, rings.psd, _COARSE)[0]) if len(rings) else 0
+    rings = rings.between(low, high)
+    decades = len(merge_rings(rings, rings.psd, _whittle.COARSE)[0]) if len(rings) else 0
     if decades < 5 or rings.dof.sum() < 20:
         raise ValueError(
             f"too few modes between q_min = {low:.6g} and q_max = {high:.6g} for a fit: "
@@ -269,95 +296,6 @@ def _fit_range(spectrum: PowerSpectrum, q_min: float | None, q_max: float | None
     if not np.all(rings.psd > 0):
         raise ValueError(f"the spectrum vanishes at q = {rings.q[np.argmin(rings.psd)]:.6g}")
     return rings
-
-
-def _fit_power_law(x: NDArray, rings: RadialPSD) -> tuple[float, float]:
-    """Maximise the likelihood of ln C = a - s x: (a, s). The likelihood has one maximum."""
-    weight = rings.dof / rings.dof.sum()
-    centre = float(weight @ x)
-    log_psd = np.log(rings.psd)
-
-    def moments(s: float) -> tuple[float, float]:
-        exponent = log_psd + s * (x - centre)
-        level = exponent.max()
-        share = weight * np.exp(exponent - level)
-        return float(np.log(share.sum()) + level), float(share @ (x - centre) / share.sum())
-
-    s = optimize.brentq(lambda s: moments(s)[1], *_SLOPES, xtol=1e-12)
-    return moments(s)[0] + s * centre, s
-
-
-def _room(x: NDArray, rings: RadialPSD) -> tuple[float, float] | None:
-    """Where a plateau may end: with some modes to stand on, a tenth of a decade before the end."""
-    inside = x[(np.cumsum(rings.dof) > 4) & (x < x[-1] - np.log(10) / 10)]
-    return (float(inside[0]), float(inside[-1])) if len(inside) > 1 else None
-
-
-def _fit_rolloff(
-    room: tuple[float, float], x: NDArray, rings: RadialPSD
-) -> tuple[float, float, float]:
-    """Maximise the likelihood of ln C = a - s max(x, c), c within `room`: (a, s, c)."""
-
-    def cost(c: float) -> float:
-        return _deviance(x, rings, *_fit_power_law(np.maximum(x, c), rings), c)
-
-    # The likelihood has kinks and several maxima in c: scan, then refine.
-    grid = np.linspace(*room, 40)
-    best = int(np.argmin([cost(c) for c in grid]))
-    bounds = grid[max(best - 1, 0)], grid[min(best + 1, len(grid) - 1)]
-    c = float(optimize.minimize_scalar(cost, bounds=bounds, method="bounded").x)
-    return *_fit_power_law(np.maximum(x, c), rings), c
-
-
-def _weighted_fit(fit: Callable, x: NDArray, rings: RadialPSD) -> tuple[tuple[float, ...], float]:
-    """Alternate between fitting with limited weights and the misfit that limits them."""
-    misfit = 0.0
-    parameters = fit(x, rings)
-    for _ in range(_ALTERNATIONS):
-        new = _misfit(rings, _model(x, *parameters), len(parameters))
-        done = abs(new - misfit) <= 0.01 * new  # far below what the scatter tells of it
-        misfit = new
-        if done:
-            break
-        parameters = fit(x, _limit_weight(rings, misfit))
-    return parameters, misfit
-
-
-def _misfit(rings: RadialPSD, model: NDArray, parameters: int) -> float:
-    """Return tau for which wide rings scatter as var(mean/C) = 1/dof + tau^2."""
-    _, ratio, dof = merge_rings(rings, rings.psd / model, _COARSE)
-    square = (ratio - 1) ** 2
-
-    def excess(variance: float) -> float:
-        return float(np.sum(square / (1 / dof + variance))) - (len(ratio) - parameters)
-
-    if excess(0.0) <= 0:
-        return 0.0
-    highest = float(square.sum())  # there every term is below 1, and their sum below 1
-    return float(np.sqrt(optimize.brentq(excess, 0.0, highest)))
-
-
-def _limit_weight(rings: RadialPSD, misfit: float) -> RadialPSD:
-    """Return narrow rings that count nu/(1 + nu tau^2), nu of the wide ring they belong to."""
-    index = wide_rings(rings, _COARSE)
-    wide = np.bincount(index, weights=rings.dof)[index]
-    return replace(rings, dof=rings.dof / (1 + wide * misfit**2))
-
-
-def _model(x: NDArray, a: float, s: float, c: float = -np.inf) -> NDArray:
-    return np.exp(a - s * np.maximum(x, c))
-
-
-def _deviance(x: NDArray, rings: RadialPSD, a: float, s: float, c: float = -np.inf) -> float:
-    """Negative logarithm of the likelihood, up to a constant."""
-    ratio = rings.psd / _model(x, a, s, c)
-    return float(rings.dof @ (ratio - np.log(ratio)))
-
-
-def _dispersion(rings: RadialPSD, model: NDArray, parameters: int) -> float:
-    """Pearson's chi-square of ring means (variance 1/dof for a Gamma law) per degree of freedom."""
-    _, ratio, dof = merge_rings(rings, rings.psd / model, _COARSE)
-    return float(np.sum(dof * (ratio - 1) ** 2) / (len(ratio) - parameters))
 
 
 def _result(
@@ -370,7 +308,7 @@ def _result(
     design = [np.ones_like(x), -2 * (log_q + np.log(scale))]
     design += [-s * (x < c) for c in corner]
     design = np.array(design)
-    information = (design * _limit_weight(rings, misfit).dof) @ design.T
+    information = (design * _whittle.limit_weight(rings, misfit).dof) @ design.T
     covariance = np.linalg.inv(information)
     c0 = float(np.exp(a + s * np.log(scale)))
     return SelfAffineFit(
@@ -383,7 +321,7 @@ def _result(
         q_max=float(rings.q[-1]),
         q_rolloff=scale * float(np.exp(corner[0])) if corner else None,
         dof=float(rings.dof.sum()),
-        dispersion=_dispersion(rings, _model(x, *parameters), len(parameters)),
+        dispersion=_whittle.dispersion(rings, _whittle.power_law(x, *parameters), len(parameters)),
         misfit=misfit,
         aic_gain=float(gain),
         rings=rings,

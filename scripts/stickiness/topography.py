@@ -1,4 +1,4 @@
-"""Measured topographies: reading, filling missing points, levelling. Lengths in metres.
+"""Measured topographies and line profiles: reading, missing points, levelling. Lengths in metres.
 
 Axes: ``heights[i, j]`` is the height at x_i, y_j. Instruments and images store a matrix whose rows
 run along y; such a matrix is transposed on reading.
@@ -13,14 +13,20 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from . import textmatrix
-from .levelling import MAX_MISSING, Detrend, detrend, fill_missing
-from .units import si
+from . import readers
+from .levelling import (
+    MAX_MISSING,
+    Detrend,
+    Missing,
+    complete_rectangle,
+    complete_run,
+    detrend,
+    detrend_profile,
+    fill_missing,
+    fill_profile,
+)
+from .readers import Length, Raw, metres, sides
 
-Length = str | float  # "10 um", or metres
-
-_X_NAMES = ("x", "lon", "longitude", "easting")
-_Y_NAMES = ("y", "lat", "latitude", "northing")
 _WGS84_A, _WGS84_E2 = 6378137.0, 6.69437999014e-3  # semi-major axis [m], eccentricity squared
 
 
@@ -38,6 +44,8 @@ class Topography:
         File (and variable) the heights came from.
     missing : int
         Number of points that were missing and have been interpolated.
+    cropped : float
+        Share of the measured points that was cut off to leave no missing ones.
     """
 
     heights: NDArray
@@ -45,6 +53,7 @@ class Topography:
     dy: float
     source: str
     missing: int = 0
+    cropped: float = 0.0
 
     @property
     def size(self) -> tuple[float, float]:
@@ -66,22 +75,71 @@ class Topography:
         return replace(self, heights=detrend(self.heights, kind))
 
 
+@dataclass(frozen=True)
+class Profile:
+    """Heights along a line, evenly spaced.
+
+    Attributes
+    ----------
+    heights : (n,) array
+        Heights [m].
+    dx : float
+        Step [m].
+    source : str
+        File (and variable or channel) the heights came from.
+    missing : int
+        Number of points that were missing and have been interpolated.
+    largest_gap : float
+        Largest distance between neighbouring points as measured [m]; above `dx` if they were
+        unevenly spaced and have been interpolated.
+    """
+
+    heights: NDArray
+    dx: float
+    source: str
+    missing: int = 0
+    largest_gap: float = 0.0
+
+    @property
+    def length(self) -> float:
+        """Length of the line [m]."""
+        return len(self.heights) * self.dx
+
+    @property
+    def h_rms(self) -> float:
+        """Root mean square height about the mean [m]."""
+        return float(np.std(self.heights))
+
+    @property
+    def missing_fraction(self) -> float:
+        """Share of the points that were missing."""
+        return self.missing / len(self.heights)
+
+    def detrended(self, kind: Detrend = "plane") -> Profile:
+        """Return the profile levelled by `detrend_profile`."""
+        return replace(self, heights=detrend_profile(self.heights, kind))
+
+
 def read(
     path: str | Path,
     *,
     length: Length | Sequence[Length] | None = None,
     pixel_size: Length | Sequence[Length] | None = None,
     height_unit: str | None = None,
+    position_unit: str | None = None,
     variable: str | None = None,
+    channel: str | int | None = None,
+    format: str | None = None,
     missing_value: float | None = None,
+    missing: Missing = "fill",
     max_missing: float = MAX_MISSING,
-) -> Topography:
-    """Read a topography from NetCDF (.nc), numpy (.npz, .npy) or a text matrix (anything else).
+) -> Topography | Profile:
+    """Read a topography or a line profile.
 
     Parameters
     ----------
     path : str or Path
-        The file.
+        NetCDF (.nc), numpy (.npz, .npy), text, or a file as an instrument wrote it.
     length : length or pair of lengths, optional
         Side of the measured area, along x and y: "10 um", ("10 um", "20 um") or metres. A single
         value is the side along x, the pixels are square. Overrides what the file says.
@@ -89,23 +147,35 @@ def read(
         Grid step, instead of `length`.
     height_unit : str, optional
         Unit of the numbers: "nm", if the file does not say so itself.
+    position_unit : str, optional
+        Unit of the positions of a line profile, likewise.
     variable : str, optional
-        NetCDF variable or npz key. Default: the only two-dimensional one.
+        NetCDF variable or npz key. Default: the only two-dimensional one, else the only profile.
+    channel : str or int, optional
+        Channel of an instrument's file, by name or counted from 0. Default: the file's own.
+    format : str, optional
+        "netcdf", "numpy", "text", "instrument" or SurfaceTopography's name of a format, if the
+        file's name and content mislead.
     missing_value : float, optional
         Number that marks missing points, besides NaN and masked values.
+    missing : {"fill", "crop", "refuse"}
+        What to do about missing points. "fill": interpolate harmonically from the neighbours,
+        which is smooth and takes out roughness there. "crop": keep the largest rectangle (or
+        stretch of a profile) without any. "refuse": raise.
     max_missing : float
         Largest share of missing points that may be filled.
 
     Returns
     -------
-    Topography
-        With missing points interpolated harmonically from their neighbours. That is smooth and
-        takes out roughness there, hence `max_missing`.
+    Topography or Profile
+        A profile if the file holds one: a one-dimensional array or channel, or text in one
+        column (heights) or two (positions, heights). Uneven positions are interpolated linearly
+        to as many even ones.
 
     Raises
     ------
     ValueError
-        If the file does not hold one usable 2D array, its size or unit is unknown or of a wrong
+        If the file does not hold one usable array, its size or unit is unknown or of a wrong
         dimension, or too much is missing. The message names file, variable and remedy.
     FileNotFoundError
         If there is no such file.
@@ -123,36 +193,88 @@ def read(
         raise ValueError("give length or pixel_size, not both")
     if not 0 <= max_missing < 1:
         raise ValueError(f"max_missing must be in 0 <= f < 1, got {max_missing!r}")
-    suffix = path.suffix.lower()
-    if suffix in (".nc", ".nc4", ".cdf"):
-        raw = _read_netcdf(path, variable)
-    elif suffix in (".npz", ".npy"):
-        raw = _read_numpy(path, variable)
-    else:
-        raw = _read_text(path)
+    if missing not in ("fill", "crop", "refuse"):
+        raise ValueError(f"missing must be 'fill', 'crop' or 'refuse', got {missing!r}")
+    raw = readers.read(path, format, variable, channel)
     heights = raw.heights
     if missing_value is not None:
         heights = np.where(heights == missing_value, np.nan, heights)
-    steps = _steps(raw, length, pixel_size)
-    heights = heights * _height_scale(raw, height_unit)
-    filled, missing = fill_missing(heights, max_missing, raw.source)
-    if np.ptp(filled) == 0:
-        raise ValueError(f"{raw.source}: all heights are {filled.flat[0]:g} m; nothing to analyse")
-    return Topography(filled, *steps, raw.source, missing)
+    limit = 0.0 if missing == "refuse" else max_missing
+    if heights.ndim == 1:
+        x = _positions(raw, length, pixel_size, position_unit)
+        found = _profile(x, heights, missing, limit, raw.source)
+    else:
+        found = _map(heights, _steps(raw, length, pixel_size), missing, limit, raw.source)
+    found = replace(found, heights=found.heights * _height_scale(raw, height_unit))
+    if np.ptp(found.heights) == 0:
+        flat = found.heights.flat[0]
+        raise ValueError(f"{raw.source}: all heights are {flat:g} m; nothing to analyse")
+    return found
 
 
-def _height_scale(raw: _Raw, height_unit: str | None) -> float:
-    """Metres per unit of height, given by the caller or by the file, which must not disagree."""
-    units = [unit for unit in (height_unit, raw.unit) if unit is not None]
-    if not units:
+def _map(
+    heights: NDArray, steps: tuple[float, ...], missing: Missing, limit: float, source: str
+) -> Topography:
+    measured = heights.size
+    if missing == "crop":
+        heights = heights[complete_rectangle(np.isfinite(heights), source)]
+    filled, count = fill_missing(heights, limit, source)
+    return Topography(filled, *steps, source, count, 1 - heights.size / measured)
+
+
+def _profile(x: NDArray, heights: NDArray, missing: Missing, limit: float, source: str) -> Profile:
+    order = np.argsort(x, kind="stable")
+    x, heights = x[order], heights[order]
+    if missing == "crop":
+        kept = complete_run(np.isfinite(heights), source)
+        x, heights = x[kept], heights[kept]
+    if len(x) < 2 or not np.all(np.diff(x) > 0):
+        raise ValueError(f"{source}: positions of a line profile must all differ")
+    filled, count = fill_profile(x, heights, limit, source)
+    gaps = np.diff(x)
+    even = np.linspace(x[0], x[-1], len(x))
+    step = float(even[1] - even[0])
+    if np.ptp(gaps) > 1e-3 * step:
+        filled = np.interp(even, x, filled)
+    return Profile(filled, step, source, count, float(gaps.max()))
+
+
+def _positions(
+    raw: Raw,
+    length: Length | Sequence[Length] | None,
+    pixel_size: Length | Sequence[Length] | None,
+    position_unit: str | None,
+) -> NDArray:
+    """Positions of a profile's points [m], as the caller says, else as the file does."""
+    n = len(raw.heights)
+    if length is not None:
+        return np.arange(n) * sides(length, (n,), f"{raw.source}: length")[0] / n
+    if pixel_size is not None:
+        return np.arange(n) * sides(pixel_size, (1,), f"{raw.source}: pixel_size")[0]
+    if raw.positions is None:
         raise ValueError(
-            f"{raw.source}: the file does not tell the unit of height; give height_unit"
+            f"{raw.source}: the file does not tell the profile's length; give length or pixel_size"
         )
-    scales = [_metres(f"1 {unit}", f"{raw.source}: height_unit") for unit in units]
+    if not np.all(np.isfinite(raw.positions)):
+        raise ValueError(f"{raw.source}: a position of the profile is missing")
+    return raw.positions * _scale(raw.source, "position_unit", position_unit, raw.position_unit)
+
+
+def _height_scale(raw: Raw, height_unit: str | None) -> float:
+    return _scale(raw.source, "height_unit", height_unit, raw.unit)
+
+
+def _scale(source: str, key: str, given: str | None, told: str | None) -> float:
+    """Metres per unit, given by the caller or told by the file, which must not disagree."""
+    units = [unit for unit in (given, told) if unit is not None]
+    if not units:
+        what = key.replace("_unit", "")
+        raise ValueError(f"{source}: the file does not tell the unit of {what}; give {key}")
+    scales = [metres(f"1 {unit}", f"{source}: {key}") for unit in units]
     if not np.isclose(scales[0], scales[-1], rtol=1e-12, atol=0):
         raise ValueError(
-            f"{raw.source}: height_unit = {height_unit!r}, but the file says {raw.unit!r}; "
-            "leave height_unit out, or correct the file"
+            f"{source}: {key} = {given!r}, but the file says {told!r}; "
+            f"leave {key} out, or correct the file"
         )
     return scales[0]
 
@@ -184,131 +306,19 @@ def metres_per_degree(latitude: float) -> tuple[float, float]:
 
 
 def _steps(
-    raw: _Raw,
+    raw: Raw,
     length: Length | Sequence[Length] | None,
     pixel_size: Length | Sequence[Length] | None,
-) -> tuple[float, float]:
+) -> tuple[float, ...]:
     """Grid steps [m] as the caller says, else as the file does."""
     shape = raw.heights.shape
     if length is not None:
-        sides = _sides(length, shape, f"{raw.source}: length")
-        return sides[0] / shape[0], sides[1] / shape[1]
+        size = sides(length, shape, f"{raw.source}: length")
+        return tuple(side / n for side, n in zip(size, shape, strict=True))
     if pixel_size is not None:
-        return _sides(pixel_size, (1, 1), f"{raw.source}: pixel_size")
+        return sides(pixel_size, (1, 1), f"{raw.source}: pixel_size")
     if raw.steps is None:
         raise ValueError(
             f"{raw.source}: the file does not tell its size; give length or pixel_size"
         )
     return raw.steps
-
-
-def _metres(value: Length, name: str) -> float:
-    """Convert "10 um", or a number of metres, to metres; errors name `name`."""
-    try:
-        metres = value if isinstance(value, int | float) else si(value, "m")
-    except ValueError as error:
-        raise ValueError(f"{name}: {error}") from None
-    if not (np.isfinite(metres) and metres > 0):
-        raise ValueError(f"{name} must be positive and finite, got {value!r}")
-    return float(metres)
-
-
-@dataclass(frozen=True)
-class _Raw:
-    """What a file holds: heights (nx, ny) in its own unit, what it tells of steps [m] and unit."""
-
-    heights: NDArray
-    steps: tuple[float, float] | None
-    unit: str | None
-    source: str
-
-
-def _sides(
-    value: Length | Sequence[Length], shape: tuple[int, int], name: str
-) -> tuple[float, float]:
-    if isinstance(value, str | int | float):
-        x = _metres(value, name)
-        return x, x * shape[1] / shape[0]
-    if len(value) != 2:
-        raise ValueError(f"{name} must be one length or two (x, y), got {value!r}")
-    x, y = (_metres(v, name) for v in value)
-    return x, y
-
-
-def _choose(names: Sequence[str], wanted: str | None, path: Path, what: str, every: list) -> str:
-    if wanted is not None:
-        if wanted not in every:
-            raise ValueError(f"{path}: no {what} {wanted!r}; the file has {sorted(every)}")
-        if wanted not in names:
-            raise ValueError(f"{path}: {what} {wanted!r} is not two-dimensional")
-        return wanted
-    if len(names) != 1:
-        raise ValueError(
-            f"{path}: needs one two-dimensional {what}, found {sorted(names)}; name one as variable"
-        )
-    return names[0]
-
-
-def _read_netcdf(path: Path, variable: str | None) -> _Raw:
-    import xarray as xr  # as matplotlib above: only this format needs it
-
-    try:
-        dataset = xr.load_dataset(path)
-    except (OSError, ValueError) as error:
-        raise ValueError(f"{path}: not a readable NetCDF file ({error})") from error
-    names = [str(n) for n, v in dataset.data_vars.items() if v.ndim == 2]
-    name = _choose(names, variable, path, "variable", [str(n) for n in dataset.variables])
-    data = dataset[name]
-    first, second = (str(d).lower() for d in data.dims)
-    transpose = not (first in _X_NAMES or second in _Y_NAMES)
-    data = data.transpose() if transpose else data
-    steps = tuple(_coordinate_step(dataset, str(d), path) for d in data.dims)
-    return _Raw(
-        np.array(data.values, dtype=float),
-        None if None in steps else steps,
-        data.attrs.get("units"),
-        f"{path}: {name}",
-    )
-
-
-def _coordinate_step(dataset, name: str, path: Path) -> float | None:
-    """Step of an evenly spaced coordinate with a unit of length [m]; None if it has no unit."""
-    if name not in dataset.coords or "units" not in dataset[name].attrs:
-        return None
-    x = np.asarray(dataset[name].values, dtype=float)
-    steps = np.diff(x)
-    if len(steps) == 0 or np.ptp(steps) > 1e-3 * abs(steps.mean()):
-        raise ValueError(f"{path}: coordinate {name!r} is not evenly spaced; resample the data")
-    try:
-        unit = si(f"1 {dataset[name].attrs['units']}", "m")
-    except ValueError:
-        return None  # degrees, pixels: the caller must say
-    return abs(float(steps.mean())) * unit
-
-
-def _read_numpy(path: Path, variable: str | None) -> _Raw:
-    try:
-        loaded = np.load(path, allow_pickle=False)
-    except (OSError, ValueError) as error:
-        raise ValueError(f"{path}: not a readable numpy file ({error})") from error
-    if isinstance(loaded, np.ndarray):
-        if loaded.ndim != 2:
-            raise ValueError(f"{path}: needs a two-dimensional array, got shape {loaded.shape}")
-        return _Raw(loaded.T.astype(float), None, None, str(path))
-    with loaded:
-        arrays = {name: loaded[name] for name in loaded.files}
-    names = [n for n, a in arrays.items() if a.ndim == 2]
-    name = _choose(names, variable, path, "key", list(arrays))
-    return _Raw(arrays[name].T.astype(float), None, None, f"{path}: {name}")
-
-
-def _read_text(path: Path) -> _Raw:
-    text = textmatrix.parse(path)
-    heights = text.values.T
-    steps = None
-    if text.width is not None:
-        # Without a height the pixels are square.
-        sides = text.width if text.height is None else (text.width, text.height)
-        width, height = _sides(sides, heights.shape, f"{path}: Width, Height in the header")
-        steps = width / heights.shape[0], height / heights.shape[1]
-    return _Raw(heights, steps, text.value_unit, str(path))

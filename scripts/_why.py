@@ -1,0 +1,81 @@
+"""Why a criterion says what it says of a pair: what it looks at, with the numbers of the pair."""
+
+from _numbers import number, quantity
+
+NAMES = {
+    "violano": "derived criterion",
+    "violano_constant": "derived, constant a_V",
+    "violano_printed": "as printed, 9/4",
+    "pastewka_robbins": "Pastewka–Robbins",
+    "fuller_tabor": "Fuller–Tabor",
+    "bearing_area": "bearing area (BAM)",
+    "persson_tosatti": "Persson–Tosatti",
+    "dahlquist": "Dahlquist",
+}
+REASONS = {
+    "violano": "h_rms = {h}, q0 = {q0}/m and a_V = {a_v}: long waves set the load, edges the pull",
+    "violano_constant": "the same with a_V = {constant} of a broad spectrum in place of {a_v}",
+    "violano_printed": "the same with a_V = 1.5 in place of {a_v}",
+    "pastewka_robbins": "slope {slope} and curvature {curvature}/m, those of the shortest waves; "
+    "neither h_rms nor q0",
+    "fuller_tabor": "h_rms = {h} against asperities of radius {radius}, that of the shortest waves",
+    "bearing_area": "attraction where heights reach within the range of the mean plane: h_rms = "
+    "{h} and q0 = {q0}/m, nothing finer",
+    "persson_tosatti": "energy of full contact, {energy}, against the work of adhesion, {work}: "
+    "contact need not be full to stick",
+    "dahlquist": "E* = {modulus} at 1 Hz against 1 MPa: no roughness at all",
+}
+
+
+def reasons(pair, surface, work_of_adhesion):
+    """One row a criterion for a material on a surface: what it says, its margin and on what.
+
+    Parameters
+    ----------
+    pair : xarray.Dataset
+        Verdicts of the pair.
+    surface : xarray.Dataset
+        The surface.
+    work_of_adhesion : float
+        [J/m^2].
+    """
+    said = facts(pair, surface, work_of_adhesion)
+    derived = pair.margin.sel(criterion="violano") > 1
+    rows = []
+    for name in map(str, pair.criterion.values):
+        margin = pair.margin.sel(criterion=name)
+        sticky = margin > 1
+        says = "sticks" if sticky.all() else "depends" if sticky.any() else "does not stick"
+        rows.append(
+            {
+                "name": NAMES.get(name, name.replace("_", " ")),
+                "says": says,
+                "margins": [float(margin.sel(end=end)) for end in ("rough", "smooth")],
+                "disagrees": bool((sticky != derived).any()),
+                "reason": REASONS.get(name, "").format(**said),
+            }
+        )
+    return rows
+
+
+def facts(pair, surface, work_of_adhesion):
+    """Numbers that the reasons quote, from the smooth to the rough end."""
+
+    def ends(name, unit):
+        return quantity(*(float(surface[name].sel(end=end)) for end in ("smooth", "rough")), unit)
+
+    curvature = float(surface.rms_curvature.sel(end="rough"))
+    modulus = float(pair.modulus_quoted)
+    energy = float(surface.elastic_energy.sel(end="rough")) * modulus
+    return {
+        "h": ends("h_rms", "m"),
+        "q0": number(float(surface.q0)),
+        "a_v": number(float(pair.pair_a_v.mean()), 2),
+        "constant": number(float(pair.a_v), 2),
+        "slope": number(float(surface.rms_slope.sel(end="rough")), 2),
+        "curvature": number(curvature, 2),
+        "radius": quantity(2 / curvature, 2 / curvature, "m", 2),
+        "energy": f"{number(energy, 2)} J/m²",
+        "work": f"{number(work_of_adhesion, 2)} J/m²",
+        "modulus": quantity(modulus, modulus, "Pa", 2),
+    }

@@ -1,0 +1,182 @@
+"""A page of one surface: its picture and spectrum, what is known of it, its verdicts and why."""
+
+from pathlib import Path
+
+import numpy as np
+from jinja2 import Environment, FileSystemLoader, StrictUndefined
+
+import _captions
+import _pressed
+from _job import start
+from _materials import material, modulus_text
+from _model import LOAD
+from _numbers import NOTHING, interval, number, percent, quantity, with_error
+from _style import save
+from _surface_figure import drawn
+from _why import reasons
+from stickiness import datasets
+from stickiness.viscoelastic import crossings
+
+ENDS = ("smooth", "rough")
+WORDS = ("not sticky", "depends", "sticky", "undecided")
+TONES = ("no", "partly", "yes", "open")
+CAPTION = """Heights, levelled (of the first measurement), and spectrum: rings with their sampling
+error, the self-affine law where it was fitted, the instrument's cutoff, the end of the plateau with
+its error if there is one, and the paper's lines. Grey: the law carried on beyond the instrument,
+with its error. If moduli depend on the rate, the margin against the frequency, between its limits.
+"""
+
+
+def main(job):
+    surface = datasets.read(job.input.surface, ["psd", "hurst", "q0", "q1"])
+    verdicts = datasets.read(job.input.verdicts, ["margin", "verdict", "probability"])
+    pairs = verdicts.sel(surface=job.wildcards.real_surface)
+    save(drawn(surface, pairs), [job.output.figure])
+    page = render(
+        job.input.template,
+        surface=surface,
+        pairs=pairs,
+        materials=datasets.parameters(verdicts)["materials"],
+        figure=_captions.figure(job.output.figure, CAPTION),
+        bem=datasets.read(job.input.pressed[0], ["a_v"]) if job.input.pressed else None,
+    )
+    with datasets.whole_file(job.output.page) as path:
+        path.write_text(page, encoding="utf-8")
+
+
+def render(template, *, surface, pairs, materials, figure, bem=None):
+    """The page as text."""
+    template = Path(template)
+    environment = Environment(
+        loader=FileSystemLoader(template.parent),
+        autoescape=True,
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
+    environment.filters["linked"] = _captions.linked
+    made = datasets.parameters(surface)
+    return environment.get_template(template.name).render(
+        label=made["label"],
+        kind=made["kind"].replace("_", "-"),
+        source=made.get("source", ""),
+        figure=figure,
+        known=known(surface),
+        remarks=[t for t in (*surface.attrs.get("remarks", "").split("; "), made.get("note")) if t],
+        files=[t for t in surface.attrs.get("files", "").split("; ") if t],
+        loads=_pressed.loads(bem) if bem is not None else [],
+        load=number(LOAD),
+        pressed=[
+            {
+                "material": materials[name]["label"],
+                **_pressed.pair(bem, material(materials[name]), surface),
+            }
+            for name in map(str, pairs.material.values)
+            if bem is not None
+        ],
+        verdicts=[
+            verdict(pairs.sel(material=name), surface, materials[name])
+            for name in map(str, pairs.material.values)
+        ],
+    )
+
+
+def known(surface):
+    """Parameters of the surface with their errors, as pairs of name and text."""
+
+    def error(name):
+        return float(surface[name]) if name in surface else np.nan
+
+    def ends(name, unit):
+        return quantity(*(float(surface[name].sel(end=end)) for end in ENDS), unit)
+
+    rows = [
+        ("Hurst exponent H", with_error(float(surface.hurst), error("hurst_error"))),
+        (f"C0 [{surface.C0.attrs['units']}]", prefactor(surface)),
+        (f"C0 at H = 0.8 [{surface.C0_reference_upper.attrs['units']}]", reference(surface)),
+        ("rms height, smooth … rough end", ends("h_rms", "m")),
+        ("rms slope", interval(*(float(surface.rms_slope.sel(end=end)) for end in ENDS))),
+        ("q0 [1/m]", with_error(float(surface.q0), error("q_rolloff_error"))),
+        ("roll-off", roll_off(surface)),
+        ("q1 [1/m]", number(float(surface.q1))),
+    ]
+    if "q_cutoff" in surface:
+        wavelength = 2 * np.pi / float(surface.q_cutoff)
+        text = f"{quantity(wavelength, wavelength, 'm')}: {surface.attrs['cutoff']}"
+        rows.append(("shortest wavelength of the instrument", text))
+        rows.append(("missing points, interpolated", percent(float(surface.missing_fraction))))
+        rows.append(("cut off for missing points", percent(float(surface.cropped_fraction))))
+    if "anisotropy" in surface:
+        rows.append(("dependence on direction, 0 … 2", number(float(surface.anisotropy), 2)))
+    if "scatter" in surface:
+        rows.append(("factor between measurements in C", number(np.exp(float(surface.scatter)), 3)))
+    return rows
+
+
+def prefactor(surface):
+    """C0, with a factor for its error: it is known at q = 1, far from the data."""
+    c0 = surface.C0.values
+    if "C0_relative_error" not in surface:
+        return interval(*map(float, c0))
+    return f"{number(float(c0[0]), 2)} ×÷ {number(float(np.exp(surface.C0_relative_error)), 2)}"
+
+
+def reference(surface):
+    """C0 of the line with H = 0.8, fitted or the highest that the spectrum touches."""
+    if "C0_reference" in surface:
+        return with_error(float(surface.C0_reference), float(surface.C0_reference_error))
+    upper = interval(*(float(surface.C0_reference_upper.sel(end=end)) for end in ENDS))
+    return f"at most {upper}"
+
+
+def roll_off(surface):
+    if "q_rolloff" not in surface:
+        return "none found" if "fitted" in surface else NOTHING
+    return f"{with_error(float(surface.q_rolloff), float(surface.q_rolloff_error))} 1/m"
+
+
+def verdict(pair, surface, entry):
+    """Verdict of one material, with its errors and every criterion's reason."""
+    solid = material(entry)
+    thresholds = [float(pair.modulus_threshold.sel(end=end)) for end in ("rough", "smooth")]
+    probability = float(pair.probability)
+    measured = np.isfinite(probability)
+    return {
+        "material": entry["label"],
+        "modulus": modulus_text(entry),
+        "verdict": WORDS[int(pair.verdict)],
+        "tone": TONES[int(pair.verdict)],
+        "outside": not bool(pair.dmt_valid.all()),
+        "margin": interval(float(pair.margin_low.min()), float(pair.margin_high.max()), 2),
+        "probability": percent(probability) if measured else NOTHING,
+        "drawn": interval(*map(float, pair.margin_quantile.values[[0, -1]]), 2)
+        if measured
+        else NOTHING,
+        "errors": f"spectrum {percent(float(pair.error_of_spectrum))}, a_V "
+        f"{percent(float(pair.error_of_a_v))}"
+        if measured
+        else NOTHING,
+        "threshold": quantity(*thresholds, "Pa", 2),
+        "rate": rate(solid, pair, thresholds) if solid.depends_on_rate else NOTHING,
+        "criteria": [
+            row | {"margins": interval(*row["margins"], 2)}
+            for row in reasons(pair, surface, solid.work_of_adhesion)
+        ],
+    }
+
+
+def rate(solid, pair, thresholds):
+    """Frequencies at which the modulus passes the threshold, at both ends of the surface."""
+    texts = []
+    for threshold in dict.fromkeys(thresholds):
+        found = crossings(solid.plane_strain, threshold, pair.frequency.values)
+        words = [f"{'below' if up else 'above'} {number(f, 2)} Hz" for f, up in found]
+        if not words:
+            highest = np.nanmax(pair.modulus.values)
+            words = ["at every frequency" if highest < threshold else "at none"]
+        texts.append(" and ".join(words))
+    return "sticks " + (" … ".join(dict.fromkeys(texts)))
+
+
+if __name__ == "__main__":
+    main(start(globals(), "write_surface", real_surface="jacksboro"))
