@@ -4,6 +4,7 @@ The coarse solutions of further seeds, if the case has them, are kept beside the
 seed, so that whatever is derived from those is averaged in the same way.
 """
 
+from dataclasses import replace
 from operator import itemgetter
 
 import numpy as np
@@ -73,8 +74,12 @@ def with_statistics(realisations, others):
     """Mean and errors of every quantity, beside the values seed by seed."""
     dataset = realisations[list(KEPT)].merge(others)
     dataset["edge_gap_mean"] = mean(realisations.edge_gap)
+    smallest = realisations.edge_gap.isel(resolution=0, drop=True).mean("seed")
     for name, quantity in AVERAGED.items():
-        dataset = with_errors(dataset, name, quantity(realisations), coarse(dataset, quantity))
+        more = coarse(dataset, quantity)
+        if more and name == "gap_density":  # below it the coarse P(u) is noise of that grid
+            more = replace(more, values=more.values.where(more.values.gap >= smallest))
+        dataset = with_errors(dataset, name, quantity(realisations), more)
     return dataset
 
 
