@@ -136,21 +136,6 @@ def test_few_fine_seeds_take_the_ratio_of_means_without_their_own_sample():
     np.testing.assert_array_equal(none.coefficient, 1)
 
 
-def test_few_fine_seeds_ignore_what_the_long_waves_do_not_explain():
-    """Of two quantities the first hangs on the control; the second is noise of the coarse grid."""
-    rng = np.random.default_rng(22)
-    x = rng.exponential(size=(36, 1))
-    many = np.hstack([1 + x, 1 + rng.exponential(size=(36, 1))])
-    fine = 0.5 * many[:4] + 0.01 * rng.standard_normal((4, 2))
-    elsewhere = rng.exponential(size=(2000, 1))
-    got = sampling.multilevel_mean(fine, many[:4], many[4:], x[4:], elsewhere)
-    plain = sampling.plain_mean(fine)
-    assert got.coefficient[0] == pytest.approx(0.5, abs=0.02)
-    assert got.standard_error[0] < 0.5 * plain.standard_error[0]
-    assert (got.coefficient[1], got.mean[1]) == (0, plain.mean[1])
-    assert got.standard_error[1] == pytest.approx(plain.standard_error[1], rel=1e-14)
-
-
 @pytest.mark.parametrize("few", [2, 4])
 def test_few_fine_seeds_without_bias_and_with_an_honest_error(few):
     """Coarse areas three times too large with an offset, as at ranges that are not resolved."""

@@ -57,7 +57,6 @@ DESCRIPTORS = (
 
 _SUMMITS = (0.01, 0.03, 0.1, 0.3)  # share of the area whose mean height is taken
 _FEWEST = 16  # seeds that a slope can be fitted to with profit
-_RELATED = 0.2  # share of coarse variance from which fewer seeds gain by coarse solutions
 _SINGULAR = 1e-10  # of the largest singular value or sum of squares: no scatter but rounding
 
 
@@ -183,9 +182,8 @@ def multilevel_mean(
         The same controls of seeds of which there is no solution at all.
     coefficient : float, optional
         Coefficient of the coarse solution. By default it is fitted to each entry: with at least
-        sixteen fine seeds the slope of fine against coarse, with fewer the ratio of their means, or
-        0 (the plain mean) in entries of which the controls explain less than 20 %. Only with a
-        number given here is the estimate linear in what goes in.
+        sixteen fine seeds the slope of fine against coarse, with fewer the ratio of their means.
+        Only with a number given here is the estimate linear in what goes in.
 
     Returns
     -------
@@ -207,10 +205,8 @@ def multilevel_mean(
     and 0.3 to 6 % in a_V; with a coefficient of 1 up to eight times that of a plain mean at small
     ranges. Where coarse solutions are not all of one sign a ratio means little, and 1 is taken.
 
-    What has no relation to the long waves is noise of the coarse grid's own, such as P(u) at gaps
-    it does not resolve, and would be added up to tenfold to four fine seeds. Whether it is, the
-    coarse solutions say alone (by the variance that their fit leaves, each sample left out), so
-    that the choice knows nothing of the fine ones and does not bias their mean.
+    Neither helps where the coarse solutions hold noise of their own, such as P(u) at gaps that
+    their grid does not resolve: leave these entries to `plain_mean`.
     """
     fine, coarse = _samples("fine", fine, 2), _samples("coarse", coarse, 2)
     many = _samples("many", many, 2)
@@ -230,8 +226,6 @@ def multilevel_mean(
     else:
         one_sign = np.all(many >= 0, axis=0) | np.all(many <= 0, axis=0)
         factor = np.where(one_sign, _left_out_ratios(fine, coarse), 1.0)
-        if controls is not None:
-            factor *= _explained(many, np.asarray(controls, dtype=float)) >= _RELATED
     corrected = fine - factor * (coarse - level.mean)
     factor = factor.mean(0)
     return Estimate(
@@ -326,15 +320,6 @@ def _left_out_slopes(fine: NDArray, coarse: NDArray) -> NDArray:
     xy = np.sum(x * y, axis=0) - n / (n - 1) * x * y
     scatters = xx > _SINGULAR * np.sum(coarse**2, axis=0)
     return np.where(scatters, xy / np.where(scatters, xx, 1.0), 1.0)
-
-
-def _explained(values: NDArray, controls: NDArray) -> NDArray:
-    """Share of the variance that a fit to the controls explains, leaving each sample out."""
-    flat = values.reshape(len(values), -1)
-    left = _regressed(flat, controls, controls.mean(0))[0].var(0)
-    total = flat.var(0)
-    share = 1 - left / np.where(total > 0, total, np.inf)
-    return np.where(total > 0, share, 0.0).reshape(values.shape[1:])
 
 
 def _left_out_ratios(fine: NDArray, coarse: NDArray) -> NDArray:
