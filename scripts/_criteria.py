@@ -28,7 +28,7 @@ class MeasuredAv:
     sampling : float
         Standard error over seeds; 0 for a single one, of which it is unknown.
     discretisation : float
-        Change from half the resolution.
+        What the attractive areas keep in the limit of fine grids.
     window : float
         Half the spread between the windows of the fit: the 2/3 law holds only roughly, so that
         the window is part of the answer.

@@ -105,26 +105,36 @@ def ensemble_mean(values, more=None):
     )
 
 
-def with_errors(dataset, name, values, more=None, plain=False):
+def with_errors(dataset, name, values, more=None, plain=False, limit=None):
     """Add mean, standard error and discretisation error of `values` to a dataset.
 
     They are called ``NAME_mean``, ``NAME_standard_error`` and ``NAME_discretisation_error``; with
     `plain` the mean is just ``NAME``. `more` is the same of coarse solutions, see `coarse`.
+    With a `limit`, a `_limits.Limit`, the mean is that in the limit of fine grids and the
+    discretisation error the one that is left, instead of the change from half the resolution.
     """
     best, error = ensemble_mean(values, more)
+    if limit is not None:
+        best = best + limit.shift
+    left = discretisation_error(values) if limit is None else limit.error
     return dataset.assign(
         {
             name if plain else f"{name}_mean": best,
             f"{name}_standard_error": error,
-            f"{name}_discretisation_error": discretisation_error(values),
+            f"{name}_discretisation_error": left.transpose(*best.dims),
         }
     )
 
 
-def described(name, text, plain=False, units="1"):
-    """Texts for `datasets.annotate` of what `with_errors` adds."""
+def described(name, text, plain=False, units="1", discretisation=None):
+    """Texts for `datasets.annotate` of what `with_errors` adds.
+
+    `discretisation` says what the discretisation error is, if not the change from half the
+    resolution.
+    """
+    suffixes = SUFFIXES | ({"discretisation_error": discretisation} if discretisation else {})
     texts = {
-        f"{name}_{suffix}": (units, f"{text}: {meaning}") for suffix, meaning in SUFFIXES.items()
+        f"{name}_{suffix}": (units, f"{text}: {meaning}") for suffix, meaning in suffixes.items()
     }
     texts[f"{name}_standard_error"] += ("a single seed",)
     if plain:

@@ -3,6 +3,7 @@
 import numpy as np
 import xarray as xr
 
+import _limits
 from _adhesion import DESCRIBED as ADHESION_DESCRIBED
 from _adhesion import axis, roughness
 from _errors import coarse, described, with_errors
@@ -31,7 +32,8 @@ def main(job):
     dataset = xr.Dataset({"area_fraction": ensemble.area_fraction_mean, "q0_h_rms": q0_h_rms})
     for quantity in (attraction, inverse_kappa, inverse_kappa_ad):
         values, more = quantity(ensemble), coarse(ensemble, quantity)
-        dataset = with_errors(dataset, quantity.__name__, values, more, plain=True)
+        limit = _limits.inherited(ensemble, quantity, ["area_fraction", "attractive_area"])
+        dataset = with_errors(dataset, quantity.__name__, values, more, plain=True, limit=limit)
     dataset["dmt_valid"] = dmt_valid(q0_h_rms, lengths, ranges)
     datasets.write(
         annotated(dataset),
@@ -55,16 +57,24 @@ def area_within(area, ranges):
     return np.exp(logs.interp(range=np.log(ranges))).drop_vars("range")
 
 
+QUANTITIES = {
+    "attraction": "attractive pressure over E* q0 h_rms",
+    "inverse_kappa": "1/kappa = p_ext A_nom/(A_rep E* h'_rms)",
+    "inverse_kappa_ad": "1/kappa_ad = p_ad/(2 p_rep)",
+}
+
+
 def annotated(dataset):
+    texts = {}
+    for name, text in QUANTITIES.items():
+        texts |= described(name, text, plain=True, discretisation=_limits.INHERITED)
     return datasets.annotate(
         dataset,
         pressure=DESCRIBED["pressure"],
         area_fraction=DESCRIBED["area_fraction"],
         **ADHESION_DESCRIBED,
         dmt_valid=("1", "1 where the JTB condition for the DMT limit holds"),
-        **described("attraction", "attractive pressure over E* q0 h_rms", plain=True),
-        **described("inverse_kappa", "1/kappa = p_ext A_nom/(A_rep E* h'_rms)", plain=True),
-        **described("inverse_kappa_ad", "1/kappa_ad = p_ad/(2 p_rep)", plain=True),
+        **texts,
     )
 
 

@@ -1,5 +1,7 @@
 """Average the realisations of a case: means, standard errors and discretisation errors.
 
+The means are those in the limit of fine grids, by `stickiness.continuum`.
+
 The coarse solutions of further seeds, if the case has them, are kept beside the values seed by
 seed, so that whatever is derived from those is averaged in the same way.
 """
@@ -10,20 +12,22 @@ from operator import itemgetter
 import numpy as np
 import xarray as xr
 
+import _limits
 from _errors import PREFIX, coarse, described, mean, with_errors
 from _job import start
+from _limits import EXTRAPOLATION
 from _model import DESCRIBED, middles
 from stickiness import datasets
 
 KEPT = ("area_fraction", "mean_gap", "attractive_area", "residual", "iterations", "rms_slope")
+NEEDED = (*KEPT, "pixel_area_fraction", "pixel_attractive_area", "edges", "edge_gap")
 COARSE = ("area_fraction", "mean_gap", "attractive_area", "rms_slope")
 LONG_WAVES = ("long_waves", "other_long_waves")
 SURFACES = {"gaussian": "Gaussian surfaces", "fixed": "surfaces of fixed amplitudes"}
 
 
 def main(job):
-    needed = ("area_fraction", "mean_gap", "attractive_area", "edge_gap", "residual", "rms_slope")
-    files = [datasets.read(path, needed) for path in job.input.realisations]
+    files = [datasets.read(path, NEEDED) for path in job.input.realisations]
     others = [datasets.read(path, (*COARSE, *LONG_WAVES)) for path in job.input.coarse]
     seeds = [datasets.parameters(file)["seed"] for file in files]
     realisations = xr.concat(files, xr.DataArray(seeds, dims="seed", name="seed"))
@@ -74,12 +78,15 @@ def with_statistics(realisations, others):
     """Mean and errors of every quantity, beside the values seed by seed."""
     dataset = realisations[list(KEPT)].merge(others)
     dataset["edge_gap_mean"] = mean(realisations.edge_gap)
+    limits = _limits.of_ensemble(realisations, AVERAGED)
     smallest = realisations.edge_gap.isel(resolution=0, drop=True).mean("seed")
     for name, quantity in AVERAGED.items():
         more = coarse(dataset, quantity)
         if more and name == "gap_density":  # below it the coarse P(u) is noise of that grid
             more = replace(more, values=more.values.where(more.values.gap >= smallest))
-        dataset = with_errors(dataset, name, quantity(realisations), more)
+        dataset = with_errors(dataset, name, quantity(realisations), more, limit=limits[name])
+    # The one quantity that has any.
+    dataset[f"attractive_area_{EXTRAPOLATION}"] = limits["attractive_area"].shift
     return dataset
 
 
@@ -90,7 +97,11 @@ def annotated(dataset):
         "edge_gap_mean": ("1", "gap next to the contact over h_rms: smallest range resolved"),
     }
     for name in AVERAGED:
-        texts |= described(name, DESCRIBED[name][1])
+        texts |= described(name, DESCRIBED[name][1], discretisation=_limits.DIRECT)
+    texts[f"attractive_area_{EXTRAPOLATION}"] = (
+        "1",
+        f"{DESCRIBED['attractive_area'][1]}: of the mean, extrapolated from below the edge gap",
+    )
     return datasets.annotate(dataset, **texts)
 
 

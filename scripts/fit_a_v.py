@@ -3,6 +3,7 @@
 import numpy as np
 import xarray as xr
 
+import _limits
 from _errors import coarse, described, with_errors
 from _job import start
 from stickiness import datasets, dmt
@@ -16,14 +17,23 @@ def main(job):
         resolved = areas["range"] >= areas.edge_gap_mean
         dataset["exponent"] = dataset.exponent.where(resolved)
     if "seed" in dataset.a_v.dims:
-        more = coarse(areas, lambda solved: fitted(solved, job.params.windows).a_v)
-        dataset = with_errors(dataset, "a_v", dataset.a_v, more)
+        dataset = averaged(dataset, areas, job.params.windows)
     datasets.write(
         annotated(dataset),
         job.output[0],
         title="a_V from attractive areas",
         parameters={**datasets.parameters(areas), "windows": job.params.windows},
     )
+
+
+def averaged(dataset, ensemble, windows):
+    """Add mean and errors, with what the attractive areas know of the limit of fine grids."""
+
+    def quantity(solved):
+        return fitted(solved, windows).a_v
+
+    limit = _limits.inherited(ensemble, quantity, ["attractive_area"])
+    return with_errors(dataset, "a_v", dataset.a_v, coarse(ensemble, quantity), limit=limit)
 
 
 def fitted(areas, windows):
@@ -82,7 +92,7 @@ def annotated(dataset):
         ),
     }
     if "a_v_mean" in dataset:
-        texts |= described("a_v", "a_V")
+        texts |= described("a_v", "a_V", discretisation=_limits.INHERITED)
     return datasets.annotate(dataset, **texts)
 
 

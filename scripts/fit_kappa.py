@@ -2,6 +2,7 @@
 
 import xarray as xr
 
+import _limits
 from _errors import coarse, described, with_errors
 from _job import start
 from _model import DESCRIBED, LINEAR_UP_TO
@@ -18,8 +19,9 @@ def main(job):
         }
     )
     for name, quantity in {"kappa": slope, "kappa_fit": fitted_slope}.items():
-        more = coarse(ensemble, quantity)
-        dataset = with_errors(dataset, name, quantity(ensemble), more, plain=True)
+        values, more = quantity(ensemble), coarse(ensemble, quantity)
+        limit = _limits.inherited(ensemble, quantity, ["area_fraction"])
+        dataset = with_errors(dataset, name, values, more, plain=True, limit=limit)
     datasets.write(
         annotated(dataset),
         job.output[0],
@@ -49,8 +51,8 @@ def annotated(dataset):
         pressure=DESCRIBED["pressure"],
         area_fraction=DESCRIBED["area_fraction"],
         kappa_theory=("1", f"{text} by Persson's theory on the lattice spectrum"),
-        **described("kappa", text, plain=True),
-        **described("kappa_fit", fit, plain=True),
+        **described("kappa", text, plain=True, discretisation=_limits.INHERITED),
+        **described("kappa_fit", fit, plain=True, discretisation=_limits.INHERITED),
     )
 
 

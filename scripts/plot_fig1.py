@@ -109,7 +109,7 @@ def panel_c(ax, ensemble, lattice):
     )
     handles, _ = ax.get_legend_handles_labels()
     dots = key(linestyle="none", marker=".", label="BEM, ensemble mean")
-    hollow = key(linestyle="none", marker="o", mfc="white", markersize=3, label="not resolved")
+    hollow = key(linestyle="none", marker="o", mfc="white", markersize=3, label="by the edge law")
     ax.legend(handles=handles + [dots, hollow, *variant_keys()], loc="upper right", ncols=2)
 
 
@@ -122,7 +122,7 @@ def counted(ensemble):
 def simulated(ax, measured, colour):
     """Mean with the sampling error as a dark band and the discretisation error as a light one.
 
-    Hollow below the gap next to the contact's edge, where the grid decides and not the surface.
+    Hollow below the gap next to the edge of contact, where the law of edges stands in for the grid.
     """
     mean = measured.gap_density_mean.where(measured.gap_density_mean > 0)
     sampling = np.nan_to_num(measured.gap_density_standard_error)

@@ -12,10 +12,11 @@ import xarray as xr
 
 from _job import start
 from _model import DESCRIBED, logarithmic_grid
-from stickiness import datasets, dmt, repulsive
+from stickiness import datasets, dmt, repulsive, subpixel
 
 SOLVED = ("area_fraction", "mean_gap", "residual", "iterations", "fft_pairs")
-SCALARS = (*SOLVED, "pixel_area_fraction", "edge_gap")
+SCALARS = (*SOLVED, "pixel_area_fraction", "edge_gap", "edges")
+AREAS = ("attractive_area", "pixel_attractive_area")
 COARSE = 2  # grid points per shortest wavelength on the coarsest grid, the fewest that hold it
 
 
@@ -60,7 +61,9 @@ def load_curve(heights, length, pressures, ranges, tolerance):
         row["pixel_area_fraction"] = row["area_fraction"]
         row["area_fraction"] -= dmt.boundary_strip(touching)
         row["edge_gap"] = dmt.edge_gap(contact.gap) if 0 < row["area_fraction"] < 1 else 0.0
+        row["edges"] = subpixel.edge_count(touching)
         row["attractive_area"] = dmt.attractive_area(contact.gap, ranges, subpixel=True)
+        row["pixel_attractive_area"] = dmt.attractive_area(contact.gap, ranges)
         rows.append(row)
         logging.info(
             "n = %d: load %d of %d, area %.4f, residual %.1e, %d iterations",
@@ -73,7 +76,7 @@ def load_curve(heights, length, pressures, ranges, tolerance):
         )
     return xr.Dataset(
         {name: ("pressure", [row[name] for row in rows]) for name in SCALARS}
-        | {"attractive_area": (("pressure", "range"), [row["attractive_area"] for row in rows])},
+        | {name: (("pressure", "range"), [row[name] for row in rows]) for name in AREAS},
         coords={"pressure": pressures, "range": ranges},
     )
 
@@ -85,6 +88,8 @@ def annotated(dataset):
         **{name: DESCRIBED[name] for name in names},
         resolution=("1", "grid points per shortest wavelength"),
         pixel_area_fraction=("1", "repulsive contact area as counted in pixels, over nominal area"),
+        pixel_attractive_area=("1", "attractive area as counted in pixels, over nominal area"),
+        edges=("1", "pixel sides between contact and gap"),
         edge_gap=("1", "gap of the pixels next to the contact over h_rms: smallest range resolved"),
         residual=("1", "complementarity residual over h_rms"),
         iterations=("1", "conjugate gradient iterations"),
