@@ -20,7 +20,7 @@ LAWS = {
     "exponential": adhesive.Exponential,
 }
 
-MISSING = "the grid does not resolve the edge, or the window closes"
+MISSING = "the grid does not resolve the edge, or a window closes"
 
 DESCRIBED = {
     "q0_h_rms": ("1", "lowest wave number times rms height"),

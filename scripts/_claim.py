@@ -14,6 +14,7 @@ from stickiness import datasets
 REPRODUCED = "reproduced"
 QUALIFIED = "reproduced with a qualification"
 NOT = "not reproduced"
+OPEN = "not decided at this resolution"
 
 Files = Mapping[str, xr.Dataset]
 

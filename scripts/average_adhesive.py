@@ -33,14 +33,20 @@ def main(job):
     made = datasets.parameters(files[0])
     seeds = [datasets.parameters(file)["seed"] for file in files]
     states = xr.concat(files, xr.DataArray(seeds, dims="seed", name="seed"))
+    # A mean over the seeds that happen to be solved would leave out the stickiest ones.
+    states.attrs = files[0].attrs
+    whole = states.external_pressure.isel(resolution=-1).notnull().all("seed")
+    wide = zone_width(states) >= cohesive_zone.NARROWEST * made["pixel"]
     states = with_slopes(states)
+    for name in AVERAGED:
+        states[name] = states[name].where(whole & wide)
     dataset = xr.Dataset({"q0_h_rms": made["q0_h_rms"]})
     for name in AVERAGED:
         dataset = with_errors(dataset, name, states[name], plain=True)
     dataset["residual"] = states.residual.max(["seed", "resolution"])
     dataset["iterations"] = states.iterations.isel(resolution=-1, drop=True).mean("seed")
     dataset["dmt_valid"] = dmt_valid(states, made)
-    dataset["zone_strength"] = zone_strength(states, made)
+    dataset["zone_strength"] = zone_strength(states, made["q0_h_rms"])
     made.pop("seed")
     datasets.write(
         annotated(dataset),
@@ -66,7 +72,7 @@ def with_slopes(states):
         inverse_kappa_ad=full,
         inverse_kappa_ad_direct=direct,
         inverse_kappa_ad_dmt=dmt,
-        dmt_ratio=full / dmt,
+        dmt_ratio=full / dmt.where(dmt > 0),
     )
 
 
@@ -79,15 +85,20 @@ def dmt_valid(states, asked):
     return length.dims, np.asarray(valid, dtype="i1")
 
 
-def zone_strength(states, asked):
+def zone_width(states):
+    """Mean width of the zone of attraction without adhesion, times q0."""
+    edge = states.edge_gap.isel(resolution=-1, drop=True).mean("seed")
+    edge, range_ = xr.broadcast(edge, states.range_over_h_rms)
+    width = cohesive_zone.zone_width(
+        datasets.parameters(states)["pixel"], edge.values, range_.values
+    )
+    return edge.copy(data=width)
+
+
+def zone_strength(states, q0_h_rms):
     """Width of the zone of attraction over epsilon^2/l_a: small where attraction bends little."""
-    fine = states.isel(resolution=-1)
-    edge, range_ = xr.broadcast(fine.edge_gap.mean("seed"), states.range_over_h_rms)
-    width = xr.DataArray(
-        cohesive_zone.zone_width(asked["pixel"], edge.values, range_.values), dims=edge.dims
-    ).assign_coords(pressure=states.pressure, range_over_h_rms=states.range_over_h_rms)
-    strength = states.adhesion_length_over_range / asked["q0_h_rms"]
-    return width * strength / states.range_over_h_rms
+    strength = states.adhesion_length_over_range / q0_h_rms
+    return zone_width(states) * strength / states.range_over_h_rms
 
 
 def annotated(dataset):

@@ -178,8 +178,8 @@ def panel_c(ax, limits, full):
 
 
 def weak(data):
-    """Largest adhesion length whose adhesion is still in proportion to it, at every range."""
-    largest = data.inverse_kappa_ad.max("range_over_h_rms", skipna=False)
+    """Largest adhesion length whose adhesion is still in proportion to it, at any range."""
+    largest = data.inverse_kappa_ad.max("range_over_h_rms")
     return float(data.adhesion_length_over_range.where(largest < WEAK).max())
 
 

@@ -5,7 +5,7 @@ import numpy as np
 
 from _job import start
 from _numbers import number
-from _style import COLOURS, GREY, MARKERS, canvas, guide, letters, points, save
+from _style import COLOURS, GREY, MARKERS, canvas, guide, key, letters, points, save
 from stickiness import criteria, datasets
 
 RANGE_LABEL = r"range $\epsilon/h_\mathrm{rms}$"
@@ -39,8 +39,8 @@ def panel_a(figure, ax, data):
     ax.set_ylabel(r"adhesion length $l_a/\epsilon$")
     limits = ax.get_xlim(), ax.get_ylim()
     strength = data.zone_strength.transpose("adhesion_length_over_range", "range_over_h_rms")
-    contour = ax.contour(ranges, lengths, strength.values, levels=[1], colors="black")
-    ax.clabel(contour, fmt={1: r"$l_ad/\epsilon^2$ = 1"}, fontsize=7)
+    ax.contour(ranges, lengths, strength.values, levels=[1], colors="black")
+    ax.legend(handles=[key(color="black", label=r"$l_ad/\epsilon^2$ = 1")], loc="upper left")
     jtb = 1 / criteria.jtb_limit(float(data.q0_h_rms), 1.0, 1.0)
     if limits[1][0] < jtb < limits[1][1]:
         ax.axhline(jtb, color="black", linestyle="--", linewidth=0.9)
@@ -64,7 +64,7 @@ def edges(values):
 
 def panel_b(ax, data):
     """Weak adhesion: what is left of the difference as the adhesion length goes to zero."""
-    weak = data.sel(adhesion_length_over_range=0.01, method="nearest")
+    weak = data.isel(adhesion_length_over_range=0)
     for index, load in enumerate(weak.pressure.values):
         one = weak.sel(pressure=load)
         errors = one.dmt_ratio_standard_error, one.dmt_ratio_discretisation_error
@@ -72,9 +72,9 @@ def panel_b(ax, data):
         points(ax, one.range_over_h_rms * 1.06 ** (index - 1), one.dmt_ratio, *errors, **look)
         ax.plot([], [], linestyle="none", label=rf"$\hat{{p}}$ = {load:g}", **look)
     x = np.array([0.01, 0.2])
-    guide(ax, x, 3.0 * (x / 0.01) ** (-1 / 3), r"$\epsilon^{-1/3}$", (0.04, 2.3))
+    guide(ax, x, 3.2 * (x / 0.01) ** (-1 / 3), r"$\epsilon^{-1/3}$", (0.04, 2.3))
     ax.axhline(1, color=GREY, linewidth=0.9)
-    ax.set(xscale="log", yscale="log", xlabel=RANGE_LABEL, ylabel=RATIO_LABEL)
+    ax.set(xscale="log", yscale="log", xlabel=RANGE_LABEL)
     ticks = [0.5, 1, 2, 4, 8]
     ax.set_yticks(ticks, [f"{tick:g}" for tick in ticks])
     ax.minorticks_off()

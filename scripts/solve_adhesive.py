@@ -16,6 +16,7 @@ from _adhesion import DESCRIBED as ADHESION_DESCRIBED
 from _adhesion import MISSING, axis, roughness, scaled_law
 from _job import start
 from stickiness import adhesive, cohesive_zone, datasets, dmt, repulsive
+from stickiness.surface import resample
 
 STATE = {
     "external_pressure": "mean pressure over E* q0 h_rms",
@@ -40,14 +41,15 @@ TIGHTEST = 1e-7  # tolerance: far below the errors of grid and sampling
 def main(job):
     surface = datasets.read(job.input.surface, ["height", "window_length", "rms_slope"])
     asked = job.params.adhesion
-    heights, length = surface.height.values, float(surface.window_length)
+    length, refine = float(surface.window_length), asked["bem"].get("refine", 1)
+    heights = resample(surface.height.values, refine * len(surface.height))
     chosen = list(combinations(asked, length / len(heights)))
     solved = [
         states(heights[::step, ::step], length, asked, chosen, max(job.params.tolerance, TIGHTEST))
         for step in (2, 1)
     ]
     made = datasets.parameters(surface)
-    pixels = made["grid_points"] / (made["magnification"] * made.get("window", 1.0))
+    pixels = len(heights) / (made["magnification"] * made.get("window", 1.0))
     resolution = xr.DataArray([pixels / 2, pixels], dims="resolution", name="resolution")
     dataset = xr.concat(solved, resolution, coords="minimal")
     dataset["rms_slope"] = surface.rms_slope.sel(source="heights", drop=True)
@@ -59,6 +61,7 @@ def main(job):
             **made,
             "q0_h_rms": roughness(asked),
             "law": asked["bem"]["law"],
+            "refine": refine,
             "pixel": length / len(heights),
             "strongest": STRONGEST,
             "coarsest": cohesive_zone.COARSEST,

@@ -13,7 +13,7 @@ import _claims_contact as contact
 import _claims_criterion as criterion
 import _model
 import check_claims
-from _claim import NOT, QUALIFIED, REPRODUCED
+from _claim import NOT, OPEN, QUALIFIED, REPRODUCED
 from _model import LOAD
 from stickiness import criteria, surface
 from stickiness.spectrum import SelfAffine
@@ -368,7 +368,7 @@ def test_threshold_lies_between_the_lengths_around_it(files):
 def test_threshold_that_is_not_reached_is_no_number_of_its_own(files):
     files["adhesive_fig2"] = adhesive(64, scale=1e-3)
     claim = criterion.kappa_threshold(files)
-    assert claim.verdict == NOT
+    assert claim.verdict == OPEN
     assert claim.value == float(files["adhesive_fig2"].adhesion_length_over_range[-1])
     assert "largest simulated" in claim.quantity
 
@@ -435,7 +435,7 @@ def test_loop_is_graded_by_its_width_and_its_pull_off(files, made, verdict):
 
 
 @pytest.mark.parametrize(
-    ("scale", "verdict"), [(1, REPRODUCED), (2, QUALIFIED), (20, NOT), (0.05, NOT)]
+    ("scale", "verdict"), [(1, REPRODUCED), (2, QUALIFIED), (5, NOT), (0.2, NOT)]
 )
 def test_simulation_is_compared_with_the_formula(files, scale, verdict):
     files["adhesive_rough"] = adhesive(64, q0_h_rms=0.3, scale=scale)

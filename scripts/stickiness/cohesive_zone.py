@@ -14,9 +14,12 @@ from numpy.typing import ArrayLike, NDArray
 
 from ._arguments import plain, positive
 
-# Pixels up to this share of epsilon^2/l_a count as fine enough. The change from half the
-# resolution measures what is left; for the law of Maugis it is the pinning of single points.
+# Pixels up to this share of epsilon^2/l_a count as fine enough. For the exponential law the mean
+# pressure at a given gap then hardly changes with the grid any more. The traction of Maugis is
+# another matter: its jump pins on the grid, and approach and separation differ by that much more.
 COARSEST = 0.5
+# Pixels across the zone of attraction below which an attraction is a statement about the grid.
+NARROWEST = 1.5
 
 
 def resolution(pixel: ArrayLike, range: ArrayLike, adhesion_length: ArrayLike) -> float | NDArray:
