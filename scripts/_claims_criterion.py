@@ -85,36 +85,43 @@ def largest_simulated(data: xr.Dataset) -> float:
 
 def hysteresis(files: Files) -> Claim:
     """Claim 10: loading and unloading differ (Fig. 4A)."""
-    loop = files["loop"]
+    coarse, loop = (files["loop"].isel(resolution=i) for i in (0, -1))
     strongest = loop.isel(adhesion_length_over_range=-1)
+    error = abs(pull_off(coarse) - pull_off(loop))
     press, gap = strongest.sel(control="pressure"), strongest.sel(control="mean_gap")
     last = press.dropna("state").isel(state=-1)
-    area, tension = float(last.repulsive_area_fraction), float(last.mean_pressure)
-    load = float(press.mean_pressure.max()) / 2
+    area, tension = float(last.repulsive_area_fraction), pull_off(loop)
+    load = float(press.mean_pressure.max()) / 5
     loading, unloading = (area_at(press, load, way) for way in (0, 1))
     lost = float(gap.dissipated.sum() / gap.work.where(gap.work > 0).sum())
     weak = loop.isel(adhesion_length_over_range=0).sel(control="pressure").dropna("state")
     weak = weak.isel(state=-1)
     made = datasets.parameters(loop)
-    holds = tension < 0 and area > 0 and unloading > 1.05 * loading
+    pulls = tension < -2 * error and area > 0
     return Claim(
         10,
         "loading-unloading loop, jump-in and pull-off at non-zero area (Fig. 4A)",
         "pull-off pressure over E* q0 h_rms, range/h_rms = "
         f"{made['range_over_h_rms']:g}, l_a/range = "
         f"{float(strongest.adhesion_length_over_range):g}, q0 h_rms = {made['q0_h_rms']:g}, "
-        f"{sample(loop)}, one realisation",
+        f"{sample(loop)}, one realisation; ± change from half the resolution",
         tension,
+        error,
         np.nan,
-        np.nan,
-        graded(holds, tension < 0),
+        graded(pulls and unloading > 1.05 * loading, pulls),
         f"Pull-off at an area of {area:.3f}; at p = {load:g} the area is {loading:.3f} on loading "
         f"and {unloading:.3f} on unloading; at given mean gap {lost:.0%} of the work done on the "
-        f"surfaces is lost in the loop, in {int(gap.jumped.sum())} jumps and many small ones. With "
+        f"surfaces is lost in the loop, in {int(gap.jumped.sum())} jumps. With "
         f"l_a/range = {float(weak.adhesion_length_over_range):g} they part at "
         f"p = {float(weak.mean_pressure):.2g}, area {float(weak.repulsive_area_fraction):.3f}.",
         ("loop",),
     )
+
+
+def pull_off(loop: xr.Dataset) -> float:
+    """Mean pressure of the last state under a press, at the largest adhesion length."""
+    press = loop.isel(adhesion_length_over_range=-1).sel(control="pressure")
+    return float(press.mean_pressure.dropna("state")[-1])
 
 
 def area_at(curve: xr.Dataset, load: float, way: int) -> float:

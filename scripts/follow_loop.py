@@ -1,7 +1,8 @@
 """Approach and separation of one realisation with adhesion, at a given mean gap and under a press.
 
 At a given mean gap the curve is followed through its turns; under a press, at a given mean
-pressure, it jumps where they are, and ends with the pull-off.
+pressure, it jumps where they are, and ends with the pull-off. Both on the grid of the realisation
+and on every second point of it, which shows what of it is the grid's.
 """
 
 import logging
@@ -17,7 +18,8 @@ from stickiness import adhesive, datasets, repulsive
 CONTROLS = ("mean_gap", "pressure")
 TOLERANCE = 1e-5  # of the residual: far below what the width of a line shows
 BALANCE = 0.01  # dissipation of a step over the energies of the curve: jumps are larger
-STEPS = 20  # at least, either way
+LEAST = 20  # states at least, either way
+STEPS = (2, 1)
 MARGIN = 1.2  # ranges of attraction between the summit and the surface where the curve begins
 STATES = {
     "mean_pressure": "mean pressure over E* q0 h_rms",
@@ -42,16 +44,23 @@ def main(job):
     heights, length = surface.height.values, float(surface.window_length)
     lengths = np.sort(np.array(asked["adhesion_length_over_range"], dtype=float))
     curves = {
-        (control, value): curve(heights, length, asked, value, control)
+        (step, control, value): curve(heights[::step, ::step], length, asked, value, control)
+        for step in STEPS
         for control in CONTROLS
         for value in lengths
     }
     datasets.write(
-        annotated(gathered(curves, lengths)),
+        annotated(gathered(curves, lengths, pixels(surface))),
         job.output[0],
         title="approach and separation of one realisation with adhesion",
         parameters={**datasets.parameters(surface), **asked},
     )
+
+
+def pixels(surface):
+    """Grid points per shortest wavelength, as realised by the grid."""
+    made = datasets.parameters(surface)
+    return made["grid_points"] / (made["magnification"] * made.get("window", 1.0))
 
 
 def curve(heights, length, asked, adhesion_length_over_range, control):
@@ -72,7 +81,7 @@ def curve(heights, length, asked, adhesion_length_over_range, control):
         tol=TOLERANCE,
         balance=BALANCE,
         smallest_jump=BALANCE,
-        steps=STEPS,
+        steps=LEAST,
     )
     rows = []
     for point in points:
@@ -95,20 +104,21 @@ def curve(heights, length, asked, adhesion_length_over_range, control):
     return rows
 
 
-def gathered(curves, lengths):
+def gathered(curves, lengths, finest):
     """Curves of different lengths as one dataset, filled up with NaN."""
     longest = max(map(len, curves.values()))
-    shape = len(CONTROLS), len(lengths), longest
+    shape = len(STEPS), len(CONTROLS), len(lengths), longest
     values = {name: np.full(shape, np.nan) for name in (*STATES, *STEPPED)}
-    for (control, value), rows in curves.items():
+    for (step, control, value), rows in curves.items():
         i, j = CONTROLS.index(control), int(np.flatnonzero(lengths == value)[0])
         for k, row in enumerate(rows):
             for name, number in row.items():
-                values[name][i, j, k] = number
-    dims = "control", "adhesion_length_over_range", "state"
+                values[name][STEPS.index(step), i, j, k] = number
+    dims = "resolution", "control", "adhesion_length_over_range", "state"
     return xr.Dataset(
         {name: (dims, value) for name, value in values.items()},
         coords={
+            "resolution": finest / np.array(STEPS),
             "control": list(CONTROLS),
             "adhesion_length_over_range": lengths,
             "state": np.arange(longest),
@@ -122,6 +132,7 @@ def annotated(dataset):
     texts = {key: ("1", text, missing) for key, text in {**STATES, **STEPPED}.items()}
     return datasets.annotate(
         dataset,
+        resolution=("1", "grid points per shortest wavelength"),
         control=("1", "what is prescribed"),
         state=("1", "number of the state along the curve"),
         **{name: ADHESION_DESCRIBED[name]},

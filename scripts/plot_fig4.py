@@ -27,6 +27,7 @@ LENGTH_LABEL = r"adhesion length $l_a/\epsilon$"
 
 def main(job):
     loop = datasets.read(job.input.loop, ["mean_pressure", "repulsive_area_fraction"])
+    loop = loop.isel(resolution=-1)
     limits, full = (
         [at_load(path, job.params.pressure) for path in paths]
         for paths in (

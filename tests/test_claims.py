@@ -137,25 +137,26 @@ def adhesive(zeta, q0_h_rms=0.1, scale=1.0):
     return made_by(data, **case(zeta))
 
 
-def loop(pull_off=-0.02, area=0.05, wider=1.5):
+def loop(pull_off=-0.02, area=0.03, wider=1.5):
     """Area on loading 2 p, on unloading `wider` times that from the pull-off on."""
-    there, back = np.linspace(0, 0.1, 11), np.linspace(0.1, pull_off, 11)
-    back_area = np.interp(back, [pull_off, 0, 0.05, 0.1], [area, area, 0.1 * wider, 0.2])
+    there, back = np.linspace(0, 0.1, 61), np.linspace(0.1, pull_off, 61)
+    back_area = np.interp(back, [pull_off, 0, 0.02, 0.1], [area, area, 0.04 * wider, 0.2])
     values = {
         "mean_pressure": np.concatenate([there, back]),
         "repulsive_area_fraction": np.concatenate([2 * there, back_area]),
-        "separating": np.repeat([0.0, 1.0], 11),
-        "jumped": np.zeros(22),
-        "work": np.full(22, 1.0),
-        "dissipated": np.full(22, 0.25),
+        "separating": np.repeat([0.0, 1.0], 61),
+        "jumped": np.zeros(122),
+        "work": np.full(122, 1.0),
+        "dissipated": np.full(122, 0.25),
     }
-    dims = "control", "adhesion_length_over_range", "state"
+    dims = "resolution", "control", "adhesion_length_over_range", "state"
     data = xr.Dataset(
-        {name: (dims, np.broadcast_to(value, (2, 2, 22))) for name, value in values.items()},
+        {name: (dims, np.broadcast_to(value, (2, 2, 2, 122))) for name, value in values.items()},
         coords={
+            "resolution": [4.0, 8.0],
             "control": ["mean_gap", "pressure"],
             "adhesion_length_over_range": [0.05, 0.1],
-            "state": np.arange(22),
+            "state": np.arange(122),
         },
     )
     return made_by(data, range_over_h_rms=0.1, q0_h_rms=0.1, **case(32))
@@ -430,7 +431,7 @@ def test_loop_is_graded_by_its_width_and_its_pull_off(files, made, verdict):
     claim = criterion.hysteresis(files)
     assert claim.verdict == verdict
     assert claim.value == pytest.approx(made.get("pull_off", -0.02))
-    assert "at p = 0.05 the area is 0.100 on loading" in claim.remark
+    assert "at p = 0.02 the area is 0.040 on loading" in claim.remark
     assert "25% of the work" in claim.remark
 
 
