@@ -31,6 +31,7 @@ def kappa_threshold(files: Files) -> Claim:
     full = at_load(files["adhesive_fig2"])
     held = full.inverse_kappa.dropna("range_over_h_rms", how="all")
     crossed = [r for r in held.range_over_h_rms if float(held.sel(range_over_h_rms=r).min()) < 0]
+    held = held if held.range_over_h_rms.size else full
     reach = crossed[0] if crossed else held.range_over_h_rms[-1]
     at = full.sel(range_over_h_rms=reach)
     threshold, error = zero_of(at)
@@ -54,7 +55,8 @@ def kappa_threshold(files: Files) -> Claim:
         + (
             ""
             if crosses
-            else f"1/kappa falls to {float(lowest):.2f}; what would be beyond is not resolved. "
+            else f"1/kappa falls to {float(lowest.fillna(0.5)):.2f}; what would be beyond is not "
+            "resolved. "
         )
         + "On separation a pull-off force is there at smaller l_a/range already (claim 10). At the "
         f"printed range, {float(full.range_over_h_rms[0]):g} h_rms, the grid resolves the edge of "
@@ -151,11 +153,16 @@ def inverse_kappa_ad(files: Files) -> Claim:
         limits.append((limit.inverse_kappa_ad / formula).values[told])
         errors.append((error / formula).values[told])
     ratios, limits, errors = map(np.concatenate, (ratios, limits, errors))
+    statement = "1/kappa_ad follows the formula with a_V = 2.8 over six decades (Fig. 4B)"
+    sources = ("adhesive_rough", "adhesive_smooth", "adhesion_rough", "adhesion_smooth")
+    if not ratios.size:
+        remark = "No parameter set is known to 30 %."
+        return Claim(11, statement, "-", np.nan, np.nan, 1.0, OPEN, remark, sources)
     mean = float(np.exp(np.mean(np.log(ratios))))
     apart = np.abs(np.log(ratios)).max()
     return Claim(
         11,
-        "1/kappa_ad follows the formula with a_V = 2.8 over six decades (Fig. 4B)",
+        statement,
         f"geometric mean of full simulation over formula, {len(ratios)} parameter sets with an "
         f"error below 30 % of it, p = {float(full.pressure):g}; ± mean error of one",
         mean,
@@ -167,7 +174,7 @@ def inverse_kappa_ad(files: Files) -> Claim:
         "weakest attraction next to the edge of a contact draws in more area than its sum would, "
         "so that 1/kappa_ad falls with the range more slowly than as (range/h_rms)^(2/3); strong "
         "attraction saturates (Fig. 7).",
-        ("adhesive_rough", "adhesive_smooth", "adhesion_rough", "adhesion_smooth"),
+        sources,
     )
 
 

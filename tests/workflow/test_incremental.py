@@ -8,6 +8,7 @@ pytestmark = pytest.mark.workflow
 
 SEEDS, CASES, SURFACES = 2, 6, 6
 MULTILEVEL = 5  # cases with coarse solutions
+ADHESIVE = 4  # sets of adhesive parameters
 
 
 def test_clean_run_has_no_warnings(finished):
@@ -91,6 +92,11 @@ def test_a_case_that_takes_plain_means_is_only_averaged_again(copy_of_finished):
             "sampling.py",
             {"solve_coarse": MULTILEVEL, "average_ensemble": CASES},
             {"synthesise_surface", "solve_repulsive", "persson_sweep", "analyse_surface"},
+        ),
+        (
+            "cohesive_zone.py",
+            {"solve_adhesive": ADHESIVE * SEEDS, "average_adhesive": ADHESIVE},
+            {"solve_repulsive", "adhesion_dmt", "follow_loop", "adhesive_maps"},
         ),
         (
             "topography.py",
