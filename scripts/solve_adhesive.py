@@ -34,7 +34,7 @@ ALONE = {
     "mean_gap": "mean gap over h_rms, the same with and without adhesion",
     "edge_gap": "gap next to the contact without adhesion over h_rms",
 }
-STRONGEST = 4.0  # attraction over repulsion, in the DMT limit, that is still looked at
+STRONGEST = 8.0  # attraction over repulsion, in the DMT limit, that is still looked at
 TIGHTEST = 1e-7  # tolerance: far below the errors of grid and sampling
 
 
