@@ -6,7 +6,6 @@ The coarse solutions of further seeds, if the case has them, are kept beside the
 seed, so that whatever is derived from those is averaged in the same way.
 """
 
-from dataclasses import replace
 from operator import itemgetter
 
 import numpy as np
@@ -79,11 +78,8 @@ def with_statistics(realisations, others):
     dataset = realisations[list(KEPT)].merge(others)
     dataset["edge_gap_mean"] = mean(realisations.edge_gap)
     limits = _limits.of_ensemble(realisations, AVERAGED)
-    smallest = realisations.edge_gap.isel(resolution=0, drop=True).mean("seed")
     for name, quantity in AVERAGED.items():
         more = coarse(dataset, quantity)
-        if more and name == "gap_density":  # below it the coarse P(u) is noise of that grid
-            more = replace(more, values=more.values.where(more.values.gap >= smallest))
         dataset = with_errors(dataset, name, quantity(realisations), more, limit=limits[name])
     # The one quantity that has any.
     dataset[f"attractive_area_{EXTRAPOLATION}"] = limits["attractive_area"].shift
