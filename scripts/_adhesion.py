@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from stickiness import adhesive
+from stickiness import adhesive, criteria
 from stickiness.units import si
 
 LAWS = {
@@ -48,3 +48,11 @@ def scaled_law(
     """Traction law in the units of the simulations."""
     strength = adhesion_length_over_range / roughness(asked)
     return LAWS[kind](adhesion_length=strength * range_over_h_rms, range=range_over_h_rms)
+
+
+def dmt_valid(q0_h_rms, lengths, ranges):
+    """Where the JTB condition lets the repulsive gaps stand, with lengths in units of 1/q0."""
+    length, range_ = xr.broadcast(lengths, ranges)
+    range_ = range_ * q0_h_rms
+    valid = criteria.dmt_validity(q0_h_rms, 1.0, (length * range_).values, range_.values).valid
+    return length.dims, np.asarray(valid, dtype="i1")

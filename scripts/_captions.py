@@ -10,6 +10,7 @@ from typing import Any
 
 from docutils.core import publish_doctree, publish_parts
 from docutils.writers.html5_polyglot import Writer
+from jinja2 import Environment, FileSystemLoader, StrictUndefined, Template
 from markupsafe import Markup, escape
 
 _RST = {
@@ -20,6 +21,20 @@ _RST = {
     "_disable_config": True,
 }
 _DOI = re.compile(r"doi:(10\.\d{4,9}/(?:\([^\s()]*\)|[^\s,;:()&]*[^\s,;:()&.])+)")
+
+
+def template_of(path: str | Path) -> Template:
+    """Template of a page: values are escaped, and an unknown one is an error."""
+    path = Path(path)
+    environment = Environment(
+        loader=FileSystemLoader(path.parent),
+        autoescape=True,
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
+    environment.filters["linked"] = linked
+    return environment.get_template(path.name)
 
 
 def linked(text: str) -> Markup:

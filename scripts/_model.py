@@ -6,8 +6,10 @@ from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
+import xarray as xr
 from numpy.typing import NDArray
 
+from stickiness import datasets
 from stickiness.spectrum import SelfAffine
 
 # Dimensionless units of every model surface: q0 = 1, h_rms = 1, E* = 1, so that pressures come
@@ -50,6 +52,12 @@ def logarithmic_grid(grid: Mapping[str, float]) -> NDArray:
     """Points from `minimum` to `maximum` with about `per_decade` points per decade."""
     decades = np.log10(grid["maximum"] / grid["minimum"])
     return np.geomspace(grid["minimum"], grid["maximum"], round(decades * grid["per_decade"]) + 1)
+
+
+def pixels(surface: xr.Dataset) -> float:
+    """Grid points per shortest wavelength of a surface's file, as realised by the grid."""
+    made = datasets.parameters(surface)
+    return made["grid_points"] / (made["magnification"] * made.get("window", 1.0))
 
 
 def middles(edges: NDArray) -> NDArray:

@@ -5,11 +5,11 @@ import xarray as xr
 
 import _limits
 from _adhesion import DESCRIBED as ADHESION_DESCRIBED
-from _adhesion import axis, roughness
+from _adhesion import axis, dmt_valid, roughness
 from _errors import coarse, described, with_errors
 from _job import start
 from _model import DESCRIBED
-from stickiness import criteria, datasets
+from stickiness import datasets
 
 
 def main(job):
@@ -41,14 +41,6 @@ def main(job):
         title="adhesion in the DMT limit, Maugis traction",
         parameters={**datasets.parameters(ensemble), **asked, "model": "DMT", "law": "Maugis"},
     )
-
-
-def dmt_valid(q0_h_rms, lengths, ranges):
-    """Where the JTB condition lets the repulsive gaps stand, with lengths in units of 1/q0."""
-    length, range_ = xr.broadcast(lengths, ranges)
-    range_ = range_ * q0_h_rms
-    valid = criteria.dmt_validity(q0_h_rms, 1.0, (length * range_).values, range_.values).valid
-    return length.dims, np.asarray(valid, dtype="i1")
 
 
 def area_within(area, ranges):

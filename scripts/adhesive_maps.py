@@ -1,11 +1,10 @@
 """Keep the gap and pressure fields of one realisation in adhesive contact, for pictures."""
 
 import numpy as np
-import xarray as xr
 
 from _adhesion import roughness, scaled_law
 from _job import start
-from _model import DESCRIBED
+from _maps import fields
 from stickiness import adhesive, datasets
 
 TOLERANCE = 1e-6  # of the residual: far below what a picture shows
@@ -26,22 +25,13 @@ def main(job):
         states.append(
             adhesive.solve(heights, length, law, pressure=pressure, start=begin, tol=TOLERANCE)
         )
-    dims = ("pressure", "x", "y")
-    dataset = xr.Dataset(
-        {
-            "gap": (dims, [state.gap for state in states]),
-            "contact_pressure": (dims, [state.pressure for state in states]),
-            "residual": ("pressure", [state.residual for state in states]),
-        },
-        coords={"pressure": pressures, "x": surface.x, "y": surface.y},
-    )
     datasets.write(
-        datasets.annotate(
-            dataset,
-            pressure=DESCRIBED["pressure"],
-            gap=DESCRIBED["gap"],
-            contact_pressure=("1", "repulsion less attraction over E* q0 h_rms"),
-            residual=("1", "unbalanced pressure over the strength or the flattening pressure"),
+        fields(
+            states,
+            pressures,
+            surface,
+            contact_pressure="repulsion less attraction over E* q0 h_rms",
+            residual="unbalanced pressure over the strength or the flattening pressure",
         ),
         job.output[0],
         title="gap and pressure fields of one realisation in adhesive contact",

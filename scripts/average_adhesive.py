@@ -5,15 +5,14 @@ much less pressure than without adhesion goes with the area, relative to that pr
 limit by the attraction over the gaps without adhesion.
 """
 
-import numpy as np
 import xarray as xr
 
 from _adhesion import DESCRIBED as ADHESION_DESCRIBED
-from _adhesion import MISSING
+from _adhesion import MISSING, dmt_valid
 from _errors import described, with_errors
 from _job import start
 from _model import DESCRIBED
-from stickiness import cohesive_zone, criteria, datasets
+from stickiness import cohesive_zone, datasets
 
 AVERAGED = {
     "external_pressure": "mean pressure over E* q0 h_rms",
@@ -45,7 +44,9 @@ def main(job):
         dataset = with_errors(dataset, name, states[name], plain=True)
     dataset["residual"] = states.residual.max(["seed", "resolution"])
     dataset["iterations"] = states.iterations.isel(resolution=-1, drop=True).mean("seed")
-    dataset["dmt_valid"] = dmt_valid(states, made)
+    dataset["dmt_valid"] = dmt_valid(
+        made["q0_h_rms"], states.adhesion_length_over_range, states.range_over_h_rms
+    )
     dataset["zone_strength"] = zone_strength(states, made["q0_h_rms"])
     made.pop("seed")
     datasets.write(
@@ -74,15 +75,6 @@ def with_slopes(states):
         inverse_kappa_ad_dmt=dmt,
         dmt_ratio=full / dmt.where(dmt > 0),
     )
-
-
-def dmt_valid(states, asked):
-    """1 where the JTB condition takes the gaps without adhesion to hold."""
-    length, range_ = xr.broadcast(states.adhesion_length_over_range, states.range_over_h_rms)
-    q0_h_rms = asked["q0_h_rms"]
-    range_ = range_ * q0_h_rms
-    valid = criteria.dmt_validity(q0_h_rms, 1.0, (length * range_).values, range_.values).valid
-    return length.dims, np.asarray(valid, dtype="i1")
 
 
 def zone_width(states):

@@ -1,10 +1,9 @@
 """Keep the gap and pressure fields of one realisation at a few loads, for pictures."""
 
 import numpy as np
-import xarray as xr
 
 from _job import start
-from _model import DESCRIBED
+from _maps import fields
 from stickiness import datasets, repulsive
 
 
@@ -19,22 +18,13 @@ def main(job):
             tol=job.params.tolerance,
         )
     )
-    dims = ("pressure", "x", "y")
-    dataset = xr.Dataset(
-        {
-            "gap": (dims, [contact.gap for contact in contacts]),
-            "contact_pressure": (dims, [contact.pressure for contact in contacts]),
-            "residual": ("pressure", [contact.residual for contact in contacts]),
-        },
-        coords={"pressure": pressures, "x": surface.x, "y": surface.y},
-    )
     datasets.write(
-        datasets.annotate(
-            dataset,
-            pressure=DESCRIBED["pressure"],
-            gap=DESCRIBED["gap"],
-            contact_pressure=("1", "contact pressure over E* q0 h_rms"),
-            residual=("1", "complementarity residual over h_rms"),
+        fields(
+            contacts,
+            pressures,
+            surface,
+            contact_pressure="contact pressure over E* q0 h_rms",
+            residual="complementarity residual over h_rms",
         ),
         job.output[0],
         title="gap and pressure fields of one realisation",

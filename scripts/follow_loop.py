@@ -13,6 +13,7 @@ import xarray as xr
 from _adhesion import DESCRIBED as ADHESION_DESCRIBED
 from _adhesion import scaled_law
 from _job import start
+from _model import pixels
 from stickiness import adhesive, datasets, repulsive
 
 CONTROLS = ("mean_gap", "pressure")
@@ -55,12 +56,6 @@ def main(job):
         title="approach and separation of one realisation with adhesion",
         parameters={**datasets.parameters(surface), **asked},
     )
-
-
-def pixels(surface):
-    """Grid points per shortest wavelength, as realised by the grid."""
-    made = datasets.parameters(surface)
-    return made["grid_points"] / (made["magnification"] * made.get("window", 1.0))
 
 
 def curve(heights, length, asked, adhesion_length_over_range, control):

@@ -15,6 +15,7 @@ import xarray as xr
 from _adhesion import DESCRIBED as ADHESION_DESCRIBED
 from _adhesion import MISSING, axis, roughness, scaled_law
 from _job import start
+from _model import pixels
 from stickiness import adhesive, cohesive_zone, datasets, dmt, repulsive
 from stickiness.surface import resample
 
@@ -49,8 +50,8 @@ def main(job):
         for step in (2, 1)
     ]
     made = datasets.parameters(surface)
-    pixels = len(heights) / (made["magnification"] * made.get("window", 1.0))
-    resolution = xr.DataArray([pixels / 2, pixels], dims="resolution", name="resolution")
+    finest = refine * pixels(surface)
+    resolution = xr.DataArray([finest / 2, finest], dims="resolution", name="resolution")
     dataset = xr.concat(solved, resolution, coords="minimal")
     dataset["rms_slope"] = surface.rms_slope.sel(source="heights", drop=True)
     datasets.write(

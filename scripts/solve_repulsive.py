@@ -11,7 +11,7 @@ import numpy as np
 import xarray as xr
 
 from _job import start
-from _model import DESCRIBED, logarithmic_grid
+from _model import DESCRIBED, logarithmic_grid, pixels
 from stickiness import datasets, dmt, repulsive, subpixel
 
 SOLVED = ("area_fraction", "mean_gap", "residual", "iterations", "fft_pairs")
@@ -44,12 +44,6 @@ def main(job):
             "largest_residual": float(dataset.residual.max()),
         },
     )
-
-
-def pixels(surface):
-    """Grid points per shortest wavelength, as realised by the grid."""
-    made = datasets.parameters(surface)
-    return made["grid_points"] / (made["magnification"] * made.get("window", 1.0))
 
 
 def load_curve(heights, length, pressures, ranges, tolerance):

@@ -2,8 +2,6 @@
 
 from pathlib import Path
 
-from jinja2 import Environment, FileSystemLoader, StrictUndefined
-
 import _captions
 import _report
 from _job import start
@@ -46,16 +44,7 @@ def render(
     fidelity,
 ):
     """The page as text, from datasets and figures that have been read."""
-    template = Path(template)
-    environment = Environment(
-        loader=FileSystemLoader(template.parent),
-        autoescape=True,
-        undefined=StrictUndefined,
-        trim_blocks=True,
-        lstrip_blocks=True,
-    )
-    environment.filters["linked"] = _captions.linked
-    return environment.get_template(template.name).render(
+    return _captions.template_of(template).render(
         fidelity=fidelity,
         summary=_report.summary(claims, verdicts, ensembles),
         figures=figures,

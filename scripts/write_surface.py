@@ -1,9 +1,6 @@
 """A page of one surface: its picture and spectrum, what is known of it, its verdicts and why."""
 
-from pathlib import Path
-
 import numpy as np
-from jinja2 import Environment, FileSystemLoader, StrictUndefined
 
 import _captions
 import _pressed
@@ -46,17 +43,8 @@ def main(job):
 
 def render(template, *, surface, pairs, materials, figure, bem=None):
     """The page as text."""
-    template = Path(template)
-    environment = Environment(
-        loader=FileSystemLoader(template.parent),
-        autoescape=True,
-        undefined=StrictUndefined,
-        trim_blocks=True,
-        lstrip_blocks=True,
-    )
-    environment.filters["linked"] = _captions.linked
     made = datasets.parameters(surface)
-    return environment.get_template(template.name).render(
+    return _captions.template_of(template).render(
         label=made["label"],
         kind=made["kind"].replace("_", "-"),
         source=made.get("source", ""),

@@ -1,8 +1,14 @@
 """What a change re-runs, and that it is no more than that."""
 
+import subprocess
+import sys
 import time
 
 import pytest
+import yaml
+from snakemake.utils import update_config
+
+from stickiness import datasets
 
 pytestmark = pytest.mark.workflow
 
@@ -142,3 +148,22 @@ def test_targets(fresh, target, expected, absent):
     planned = fresh.planned(target)
     assert expected.items() <= planned.items(), planned
     assert absent.isdisjoint(planned), planned
+
+
+def test_a_script_runs_by_hand(copy_of_finished):
+    target = copy_of_finished / "results/tiny/adhesion/fig2.nc"
+    before = datasets.read(target)
+    target.unlink()
+    tiny, config = (copy_of_finished / f"config/{name}.yaml" for name in ("tiny", "config"))
+    merged = yaml.safe_load(config.read_text(encoding="utf-8"))
+    update_config(merged, yaml.safe_load(tiny.read_text(encoding="utf-8")))
+    config.write_text(yaml.safe_dump(merged), encoding="utf-8")
+    run = subprocess.run(
+        [sys.executable, "scripts/adhesion_dmt.py", "adhesion=fig2"],
+        cwd=copy_of_finished.folder,
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert run.returncode == 0, run.stderr
+    assert datasets.read(target).equals(before)
