@@ -26,6 +26,7 @@ include: "rules/real_surfaces.smk"
 include: "rules/criteria.smk"
 include: "rules/figures.smk"
 include: "rules/report.smk"
+include: "rules/tradeoff.smk"
 
 
 localrules:

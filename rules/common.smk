@@ -16,6 +16,7 @@ import psutil
 sys.path.insert(0, str(Path(workflow.basedir) / "scripts"))
 
 from snakemake.exceptions import WorkflowError
+from stickiness import accuracy, plan
 from stickiness import config as configuration
 
 # One thread a job: `-j` runs seeds and cases side by side, which scales better than threaded
@@ -28,13 +29,17 @@ try:
     MATERIALS, REAL_SURFACES = configuration.checked(
         config, Path(workflow.basedir) / "config/schemas"
     )
-except configuration.ConfigError as error:
+    LAWS = accuracy.read_laws(config["tradeoff"]["table"])
+    PLANS = plan.plans_of(config, LAWS)
+except ValueError as error:
     raise WorkflowError(str(error)) from None
 
 FIDELITY = config["fidelities"][config["fidelity"]]
 RESULTS = f"{config['results']}/{config['fidelity']}"
 LOGS, BENCHMARKS = f"{RESULTS}/logs", f"{RESULTS}/benchmarks"
 CASES, SWEEPS = config["cases"], config["theory"]["sweeps"]
+# Figures and report hold the cases that are simulated for every quantity.
+COMPLETE = [case for case, planned in PLANS.items() if planned.complete]
 ADHESION, LOOPS = config["adhesion"], config["loops"]
 FIGURES = [f"fig{number}" for number in range(1, 8)]
 
@@ -42,6 +47,7 @@ FIGURES = [f"fig{number}" for number in range(1, 8)]
 wildcard_constraints:
     seed=r"\d+",
     case="|".join(map(re.escape, CASES)) or "none",
+    grid=r"(@\d+)?",
     model_surface="|".join(map(re.escape, config["model_surfaces"])) or "none",
     sweep="|".join(map(re.escape, SWEEPS)) or "none",
     adhesion="|".join(map(re.escape, ADHESION)) or "none",
@@ -51,20 +57,28 @@ wildcard_constraints:
 
 
 def seeds_of(case):
-    """Seeds of a case: its own number of realisations, the configuration's or the preset's."""
-    count = CASES[case].get("seeds", config.get("seeds", FIDELITY["seeds"]))
-    return range(1, count + 1)
+    """Seeds of a case."""
+    return range(1, PLANS[case].settings.seeds + 1)
 
 
 def realisations(wildcards):
-    """Files of all realisations of a case."""
-    return [f"{RESULTS}/bem/{wildcards.case}/seed{seed}.nc" for seed in seeds_of(wildcards.case)]
+    """Files of all realisations of a case, which it may share with an earlier one."""
+    owner = PLANS[wildcards.case].owner
+    return [f"{RESULTS}/bem/{owner}/seed{seed}.nc" for seed in seeds_of(wildcards.case)]
 
 
 def coarse_solutions(wildcards):
     """File of the coarse solutions behind a case's means, if it does not take plain ones."""
-    method = CASES[wildcards.case].get("sampling", config["sampling"]["method"])
-    return [f"{RESULTS}/bem/{wildcards.case}/coarse.nc"] if method == "multilevel" else []
+    own = PLANS[wildcards.case]
+    if not own.settings.coarse_seeds:
+        return []
+    same = PLANS[own.owner].settings.coarse_seeds == own.settings.coarse_seeds
+    return [f"{RESULTS}/bem/{own.owner if same else wildcards.case}/coarse.nc"]
+
+
+def gaps_of(wildcards):
+    """Ranges at which a case's attractive areas are taken; none if it does not want any."""
+    return config["gaps"] if PLANS[wildcards.case].gaps else None
 
 
 @cache
@@ -99,8 +113,20 @@ def imported_modules(path, root):
 
 
 def surface_of(wildcards):
-    """Surface of a case, with the seed left open."""
-    return f"{RESULTS}/surfaces/{CASES[wildcards.case]['surface']}/seed{{seed}}.nc"
+    """Surface of a case on the grid that it is solved on, with the seed left open."""
+    planned = PLANS[wildcards.case]
+    return f"{RESULTS}/surfaces/{planned.surface}{grid_suffix(planned)}/seed{{seed}}.nc"
+
+
+def grid_suffix(planned):
+    """What tells the grid of a plan from that of the preset, at the end of a folder's name."""
+    pixels = planned.settings.pixels_per_wavelength
+    return "" if pixels == FIDELITY["pixels_per_wavelength"] else f"@{pixels}"
+
+
+def pixels_of(wildcards):
+    """Grid points per shortest wavelength of a surface's file, the preset's unless it says so."""
+    return int(wildcards.grid.lstrip("@") or FIDELITY["pixels_per_wavelength"])
 
 
 def adhesive_case(wildcards):

@@ -17,7 +17,7 @@ from stickiness import datasets, sampling, surface
 from synthesise_surface import grid_points
 
 SOLVED_FROM, DESCRIBED_FROM = 100_001, 1_000_001  # first seeds; the schema keeps the sets apart
-KEPT = ("area_fraction", "mean_gap", "attractive_area", "residual")
+KEPT = ("area_fraction", "mean_gap", "residual", "rms_slope")
 
 
 def main(job):
@@ -35,7 +35,7 @@ def main(job):
         curve = load_curve(heights[::2, ::2], length, pressures, ranges, tolerance)
         # Of the finer grid: at two pixels the shortest waves are not all there.
         curve["rms_slope"] = surface.moments(heights, length).rms_slope
-        curves.append(curve[[*KEPT, "rms_slope"]])
+        curves.append(curve[[*KEPT, *(["attractive_area"] if len(ranges) else [])]])
     dataset = xr.concat(curves, xr.DataArray(seeds, dims="seed", name="seed"))
     for name, dim, which in (("long_waves", "seed", seeds), ("other_long_waves", "other", others)):
         rows = sampling.descriptors(spectrum, length, which, amplitudes)
@@ -60,7 +60,7 @@ def annotated(dataset):
     names = ("pressure", "range", "area_fraction", "mean_gap", "attractive_area")
     return datasets.annotate(
         dataset,
-        **{name: DESCRIBED[name] for name in names},
+        **{name: DESCRIBED[name] for name in names if name in dataset.variables},
         seed=("1", "seed of the realisation"),
         other=("1", "seed of a realisation that is not solved"),
         residual=("1", "complementarity residual over h_rms"),

@@ -184,6 +184,7 @@ def _config_problems(config: Mapping[str, Any]) -> Iterator[str]:
     for key, case in config["cases"].items():
         if case["surface"] not in config["model_surfaces"]:
             yield _unknown(f"cases.{key}.surface", case["surface"], config["model_surfaces"])
+        yield from _model_problems(f"cases.{key}", case, config["model_surfaces"])
         for load_ in case.get("maps", []):
             if load_ not in case["pressures"]:
                 yield f"cases.{key}.maps: {load_!r} is not among the case's pressures"
@@ -226,6 +227,25 @@ def _config_problems(config: Mapping[str, Any]) -> Iterator[str]:
         yield from _grid_problems(f"criteria.{key}", config["criteria"][key])
     for key in ("range_times_q0", "adhesion_length_over_range"):
         yield from _grid_problems(f"criteria.map.{key}", config["criteria"]["map"][key])
+
+
+def _model_problems(key: str, case: Mapping[str, Any], surfaces: Mapping[str, Any]) -> Iterator[str]:
+    """What a case may ask for depends on whether it is simulated."""
+    if case.get("model") == "theory":
+        for unused in ("accuracy", "seeds", "sampling", "maps"):
+            if unused in case:
+                yield (
+                    f"{key}.{unused} = {case[unused]!r} is for simulations; leave it out with "
+                    "model: theory"
+                )
+    magnification = surfaces.get(case["surface"], {}).get("magnification", 0)
+    if case.get("carry_to", magnification + 1) <= magnification:
+        yield (
+            f"{key}.carry_to = {case['carry_to']!r} must be above the magnification simulated, "
+            f"{magnification!r}"
+        )
+    if "accuracy" in case and "seeds" in case:
+        yield f"{key}.seeds = {case['seeds']!r}: give accuracy or seeds, not both"
 
 
 def _rate_problems(material: Mapping[str, Any]) -> Iterator[str]:
