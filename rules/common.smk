@@ -7,6 +7,7 @@ import os
 import platform
 import re
 import sys
+from dataclasses import asdict
 from functools import cache
 from pathlib import Path
 from types import SimpleNamespace
@@ -129,6 +130,34 @@ def pixels_of(wildcards):
     return int(wildcards.grid.lstrip("@") or FIDELITY["pixels_per_wavelength"])
 
 
+def behind_answer(wildcards):
+    """Files that what a case asks for rests on, and no others."""
+    case, planned = wildcards.case, PLANS[wildcards.case]
+    if not planned.simulated:
+        return {"solved": f"{RESULTS}/persson_lattice/{case}.nc"}
+    files = {"solved": f"{RESULTS}/ensembles/{case}.nc"}
+    if "a_v" in planned.quantities:
+        files["a_v"] = f"{RESULTS}/fits/ensembles/{case}.nc"
+    if "kappa" in planned.quantities:
+        files["kappa"] = f"{RESULTS}/fits/kappa/{case}.nc"
+    return files
+
+
+def summary_of_plan(case):
+    """What a case's answer needs to know of its plan."""
+    planned, surface = PLANS[case], config["model_surfaces"][CASES[case]["surface"]]
+    wider = {"carry_to": CASES[case]["carry_to"]} if "carry_to" in CASES[case] else {}
+    return {
+        "quantities": list(planned.quantities),
+        "pressures": list(planned.pressures),
+        "simulated": planned.simulated,
+        "settings": asdict(planned.settings),
+        "surface": surface,
+        "accuracy": CASES[case].get("accuracy"),
+        **wider,
+    }
+
+
 def adhesive_case(wildcards):
     """Wildcards of the contact case behind a set of adhesive parameters."""
     return SimpleNamespace(case=ADHESION[wildcards.adhesion]["case"])
@@ -158,10 +187,10 @@ def pressed_heights(wildcards):
 
 
 def a_v_inputs():
-    """Fits behind the a_V that the derived criterion uses."""
+    """What the a_V of the derived criterion rests on: what was measured once, and theory."""
     case = config["criteria"]["a_v"]["case"]
     return {
-        "a_v": f"{RESULTS}/fits/ensembles/{case}.nc",
+        "a_v": config["criteria"]["a_v"]["measured"],
         "lattice": f"{RESULTS}/fits/persson_lattice/{case}.nc",
         "theory": f"{RESULTS}/fits/persson/fig3c.nc",
     }

@@ -1,5 +1,5 @@
-# a_V and kappa_rep from simulation and theory, with their errors and window sensitivity, and what
-# separates theory from simulation.
+# a_V and kappa_rep from simulation and theory, with their errors and window sensitivity, what
+# separates theory from simulation, and what each case asks for with the sources of its errors.
 
 
 rule fit_a_v:
@@ -61,3 +61,24 @@ rule compare_theory:
         mem_mb=500,
     script:
         "../scripts/compare_theory.py"
+
+
+rule answer_case:
+    input:
+        unpack(behind_answer),
+        library=library_of("answer_case.py"),
+        laws=config["tradeoff"]["table"],
+    output:
+        f"{RESULTS}/cases/{{case}}.nc",
+    log:
+        f"{LOGS}/answer_case/{{case}}.log",
+    benchmark:
+        f"{BENCHMARKS}/answer_case/{{case}}.tsv"
+    conda:
+        "../envs/environment.yaml"
+    resources:
+        mem_mb=500,
+    params:
+        plan=lambda wildcards: summary_of_plan(wildcards.case),
+    script:
+        "../scripts/answer_case.py"

@@ -154,3 +154,55 @@ rule validate_accuracy:
         accuracies=TRADE["validation"]["accuracies"],
     script:
         "../scripts/validate_accuracy.py"
+
+
+rule choose_presets:
+    input:
+        library=library_of("choose_presets.py"),
+        laws=f"{TRADEOFF}/accuracy.csv",
+    output:
+        f"{TRADEOFF}/presets.md",
+    log:
+        f"{TRADEOFF}/logs/choose_presets.log",
+    benchmark:
+        f"{TRADEOFF}/benchmarks/choose_presets.tsv"
+    conda:
+        "../envs/environment.yaml"
+    resources:
+        mem_mb=500,
+    params:
+        presets=TRADE["presets"],
+        surface=config["model_surfaces"].get(TRADE["presets"]["surface"]),
+        fidelities=config["fidelities"],
+        descriptor_seeds=config["sampling"]["descriptor_seeds"],
+    script:
+        "../scripts/choose_presets.py"
+
+
+rule plot_tradeoff:
+    input:
+        library=library_of("plot_tradeoff.py"),
+        dataset=f"{TRADEOFF}/tradeoff.nc",
+        laws=f"{TRADEOFF}/accuracy.csv",
+    output:
+        png=report(
+            f"{TRADEOFF}/tradeoff.png",
+            category="Figures",
+            caption="../report/tradeoff.rst",
+        ),
+        pdf=f"{TRADEOFF}/tradeoff.pdf",
+    log:
+        f"{TRADEOFF}/logs/plot_tradeoff.log",
+    benchmark:
+        f"{TRADEOFF}/benchmarks/plot_tradeoff.tsv"
+    conda:
+        "../envs/environment.yaml"
+    resources:
+        mem_mb=500,
+    params:
+        presets=TRADE["presets"],
+        surface=config["model_surfaces"].get(TRADE["presets"]["surface"]),
+        fidelities=config["fidelities"],
+        descriptor_seeds=config["sampling"]["descriptor_seeds"],
+    script:
+        "../scripts/plot_tradeoff.py"

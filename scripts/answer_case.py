@@ -8,6 +8,7 @@ from _model import DESCRIBED, VARIANT, spectrum_of, window_of
 from fit_a_v import fit_one
 from measure_theory import contact_of
 from stickiness import accuracy, datasets
+from stickiness import plan as plan_of
 from stickiness.persson import Persson
 from stickiness.surface import lattice_spectrum
 
@@ -45,7 +46,8 @@ def main(job):
             "value": (("column", "pressure"), values),
             "error": (("source", "column", "pressure"), errors),
             "total_error": (("column", "pressure"), np.linalg.norm(errors, axis=0)),
-            "dominant": (("column", "pressure"), errors.argmax(0)),
+            # A single seed does not say what it scatters by, but that is more than all the rest.
+            "dominant": (("column", "pressure"), np.where(np.isnan(errors), np.inf, errors).argmax(0)),
         },
         coords={"column": columns, "pressure": pressures, "source": list(SOURCES)},
     )
@@ -66,7 +68,7 @@ class Simulated:
 
     def __call__(self, column):
         mean, sampling, grid = self.found(column)
-        settings, surface = self.plan["settings"], accuracy.Surface(**self.plan["spectrum"])
+        settings, surface = self.plan["settings"], plan_of.surface_of(self.plan["surface"])
         law = self.laws["solver", column]
         tolerance = settings["tolerance"]
         solver = [
@@ -75,8 +77,7 @@ class Simulated:
         return mean.values, {
             "discretisation": grid.values,
             "solver": mean.values * solver,
-            # A single seed does not say what it scatters by.
-            "sampling": accuracy.COVERS * sampling.fillna(np.inf).values,
+            "sampling": accuracy.COVERS * sampling.values,
         }
 
     def found(self, column):
@@ -103,11 +104,12 @@ class Theory:
 
     def __init__(self, inputs, plan, laws):
         self.plan, self.laws = plan, laws
-        self.state = datasets.read(inputs.solved, ["area_fraction", "mean_gap"]).sel(variant=VARIANT)
+        state = datasets.read(inputs.solved, ["area_fraction", "mean_gap", "attractive_area"])
+        self.state = state.sel(variant=VARIANT)
 
     def __call__(self, column):
         values = quoted(self.state, column)
-        surface, law = accuracy.Surface(**self.plan["spectrum"]), self.laws["theory", column]
+        surface, law = plan_of.surface_of(self.plan["surface"]), self.laws["theory", column]
         error = [law.spread * law(surface, p) for p in self.plan["pressures"]]
         return values, {"model": values * error}
 
@@ -132,7 +134,7 @@ def quoted(state, column):
 
 def carried(plan, laws, columns, pressures):
     """What theory says that a broader spectrum multiplies each column by, and the error of that."""
-    surface = plan["surface_keys"]
+    surface = plan["surface"]
     ranges = np.geomspace(1e-4, 10, 81)
     own, broad = (
         contact_of(

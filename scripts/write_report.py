@@ -5,12 +5,13 @@ from pathlib import Path
 import _captions
 import _report
 from _job import start
-from stickiness import datasets
+from stickiness import accuracy, datasets
 
 CLAIMS = ("statement", "quantity", "value", "uncertainty", "claimed", "verdict", "sources")
 VERDICTS = ("margin", "modulus_threshold", "dmt_valid", "verdict", "disagrees", "a_v", "a_v_low")
 SURFACES = ("h_rms", "hurst", "q0", "q1", "C0_reference_upper")
 COMPARISONS = ("area_fraction_difference", "mean_gap_difference", "attractive_area_difference")
+ANSWERS = ("value", "error", "total_error", "dominant")
 ENSEMBLES = ("area_fraction_mean", "mean_gap_mean", "attractive_area_mean", "residual")
 
 
@@ -21,6 +22,8 @@ def main(job):
         claims=datasets.read(job.input.claims, CLAIMS),
         verdicts=datasets.read(job.input.verdicts, VERDICTS),
         ensembles=[datasets.read(path, ENSEMBLES) for path in job.input.ensembles],
+        answers=[datasets.read(path, ANSWERS) for path in job.input.answers],
+        presets=_report.preset_rows(accuracy.read_laws(job.input.laws), **job.params.presets),
         comparisons=[datasets.read(path, COMPARISONS) for path in job.input.comparisons],
         surfaces={Path(path).stem: datasets.read(path, SURFACES) for path in job.input.surfaces},
         figures=[_captions.figure(*pair) for pair in zip(job.input.figures, captions, strict=True)],
@@ -37,6 +40,8 @@ def render(
     claims,
     verdicts,
     ensembles,
+    answers,
+    presets,
     comparisons,
     surfaces,
     figures,
@@ -53,7 +58,9 @@ def render(
         matrix=_report.verdict_matrix(verdicts, surfaces),
         disagreements=_report.disagreements(verdicts, surfaces),
         surfaces=_report.surface_rows(surfaces),
-        budgets=_report.error_budgets(ensembles),
+        budgets=_report.error_budgets(answers),
+        presets=presets,
+        asked_quantities=list(accuracy.QUANTITIES),
         comparisons=_report.theory_rows(comparisons),
         quantities=list(_report.QUANTITIES.values()),
         run_times=_report.run_times(benchmarks),

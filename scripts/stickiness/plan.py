@@ -87,20 +87,27 @@ def settings_of(name: str, config: Mapping[str, Any], laws: Laws | None) -> Sett
 
     `sampling` stands above both, `seeds` of the case or of the whole configuration above the preset.
     """
-    case, preset = config["cases"][name], config["fidelities"][config["fidelity"]]
+    case = config["cases"][name]
     method = case.get("sampling", config["sampling"]["method"])
     if "accuracy" in case and laws is not None:
         chosen = chosen_for(name, config, laws, method)
     else:
-        coarse = preset.get("coarse_seeds", FEWEST_COARSE)
-        chosen = Settings(
-            preset["pixels_per_wavelength"], preset["tolerance"], preset["seeds"], coarse
-        )
+        chosen = preset(config["fidelities"][config["fidelity"]])
     seeds = chosen.seeds
     if "accuracy" not in case:
         seeds = case.get("seeds", config.get("seeds", seeds))
     coarse_seeds = chosen.coarse_seeds if method == "multilevel" else 0
     return Settings(chosen.pixels_per_wavelength, chosen.tolerance, seeds, coarse_seeds)
+
+
+def preset(fidelity: Mapping[str, Any]) -> Settings:
+    """Return the settings of a preset of the configuration."""
+    return Settings(
+        fidelity["pixels_per_wavelength"],
+        fidelity["tolerance"],
+        fidelity["seeds"],
+        fidelity.get("coarse_seeds", FEWEST_COARSE),
+    )
 
 
 def chosen_for(name: str, config: Mapping[str, Any], laws: Laws, method: str) -> Settings:
