@@ -98,9 +98,7 @@ def bank_of(measured: xr.Dataset, finest: xr.Dataset | None = None) -> Bank:
     entries = {p: stacked(derived(one)) for p, one in solved.items()}
     fine = {p: values for p, (values, *_) in entries.items()}
     _, quantity, pressure = entries[COARSE]
-    more = {
-        kind: stacked(derived(renamed(measured, kind)))[0] for kind in ("coarse", "fixed")
-    }
+    more = {kind: stacked(derived(renamed(measured, kind)))[0] for kind in ("coarse", "fixed")}
     controls, elsewhere = measured.long_waves.values, measured.other_long_waves.values
     if finest is None:
         last, best = pixels[-1], pixels[-2]

@@ -73,7 +73,14 @@ class MeasuredAv:
         )
 
 
-RECORDED = ("pressure", "window_low", "window_high", "a_v", "standard_error", "discretisation_error")
+RECORDED = (
+    "pressure",
+    "window_low",
+    "window_high",
+    "a_v",
+    "standard_error",
+    "discretisation_error",
+)
 
 
 def recorded(path):

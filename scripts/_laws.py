@@ -5,10 +5,12 @@ from __future__ import annotations
 from collections import defaultdict
 
 import numpy as np
+import xarray as xr
 
-from _tradeoff import COVERED
+from _bank import extrapolated
+from _tradeoff import COVERED, derived, rms
 from stickiness import sampling
-from stickiness.accuracy import COARSE, Law, Surface
+from stickiness.accuracy import COARSE, FULL, Law, Surface
 
 FEATURES = ("constant", "hurst", "magnification", "window", "pressure", "pixels", "tolerance")
 FLOOR = 1e-10  # errors below are nothing, and say nothing of how they depend on what
@@ -92,3 +94,68 @@ def add_costs(points, surface, measured):
         points.add("fine_cost", "", surface, seconds / loads / unit, pixels=float(pixels))
     points.add("coarse_cost", "", surface, float(measured.coarse_seconds.mean()) / loads / unit)
     points.add("described_cost", "", surface, float(measured.describing_seconds) / unit)
+
+
+def estimates(measured):
+    """Ways from solutions to quantities: a name, values on all grids, and the grids they need."""
+    counted = measured.assign(
+        area_fraction=measured.pixel_area_fraction,
+        attractive_area=measured.pixel_attractive_area,
+    )
+    yield "counted", derived(counted), 1
+    yield "sub-pixel", derived(measured), 1
+    order = np.argsort(measured.pixels.values)
+    halves = np.clip(order - 1, 0, None)
+    half = measured.isel(setting=halves).assign_coords(setting=measured.setting)
+    area = xr.concat(
+        [
+            measured.attractive_area.isel(setting=k)
+            if measured.pixels.values[k] == COARSE
+            else extrapolated(half.isel(setting=k), measured.isel(setting=k))
+            for k in range(measured.sizes["setting"])
+        ],
+        "setting",
+    )
+    yield "extrapolated", derived(measured.assign(attractive_area=area)), 2
+
+
+def by_knob(measured, knob):
+    chosen = measured.isel(setting=np.flatnonzero(measured.knob == knob))
+    return chosen.assign_coords(setting=np.arange(chosen.sizes["setting"]))
+
+
+def add_grids(points, surface, measured):
+    """Points of the laws of discretisation, solver and what a tolerance saves."""
+    grids = by_knob(measured, "pixels")
+    *_, (_, quantities, _) = estimates(grids)
+    for quantity, values in quantities.items():
+        error = values / values.isel(setting=-1) - 1
+        noise = rms(error.std("seed", ddof=1)) / np.sqrt(error.sizes["seed"])
+        bias = rms(error.mean("seed"))
+        for k, pixels in enumerate(grids.pixels.values[:-1]):
+            if pixels == COARSE:
+                continue
+            for load in values.pressure.values:
+                at = {"pressure": load}
+                size, off = (float(x.isel(setting=k).sel(at)) for x in (noise, bias))
+                points.add(
+                    "discretisation",
+                    quantity,
+                    surface,
+                    np.hypot(size, off),
+                    load,
+                    float(pixels),
+                    at=off,
+                )
+    chosen = by_knob(measured, "tolerance")
+    seconds = (chosen.solution_time + chosen.evaluation_time).mean(["seed", "pressure"])
+    full = float(seconds[int(np.argmin(abs(np.log(chosen.tolerance.values / FULL))))])
+    for k, tolerance in enumerate(chosen.tolerance.values[:-1]):
+        points.add(
+            "tolerance_cost", "", surface, float(seconds[k]) / full, tolerance=tolerance / FULL
+        )
+        for quantity, values in derived(chosen).items():
+            error = rms(values.isel(setting=k) / values.isel(setting=-1) - 1)
+            for load in error.pressure.values:
+                value = float(np.sqrt((error.sel(pressure=load) ** 2).mean()))
+                points.add("solver", quantity, surface, value, load, tolerance=tolerance)

@@ -49,7 +49,7 @@ def window_of(surface: Mapping[str, Any]) -> float:
 
 
 def logarithmic_grid(grid: Mapping[str, float] | None) -> NDArray:
-    """Points from `minimum` to `maximum` with about `per_decade` points per decade; none of None."""
+    """Points from `minimum` to `maximum` with about `per_decade` a decade; none of None."""
     if grid is None:
         return np.array([])
     decades = np.log10(grid["maximum"] / grid["minimum"])

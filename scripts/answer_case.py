@@ -47,7 +47,10 @@ def main(job):
             "error": (("source", "column", "pressure"), errors),
             "total_error": (("column", "pressure"), np.linalg.norm(errors, axis=0)),
             # A single seed does not say what it scatters by, but that is more than all the rest.
-            "dominant": (("column", "pressure"), np.where(np.isnan(errors), np.inf, errors).argmax(0)),
+            "dominant": (
+                ("column", "pressure"),
+                np.where(np.isnan(errors), np.inf, errors).argmax(0),
+            ),
         },
         coords={"column": columns, "pressure": pressures, "source": list(SOURCES)},
     )
@@ -67,13 +70,12 @@ class Simulated:
         self.ensemble = datasets.read(inputs.solved, ["area_fraction_mean", "mean_gap_mean"])
 
     def __call__(self, column):
+        """Values of a column at every load, and its errors by source."""
         mean, sampling, grid = self.found(column)
         settings, surface = self.plan["settings"], plan_of.surface_of(self.plan["surface"])
         law = self.laws["solver", column]
         tolerance = settings["tolerance"]
-        solver = [
-            law.spread * law(surface, p, tolerance=tolerance) for p in self.plan["pressures"]
-        ]
+        solver = [law.spread * law(surface, p, tolerance=tolerance) for p in self.plan["pressures"]]
         return mean.values, {
             "discretisation": grid.values,
             "solver": mean.values * solver,
@@ -81,6 +83,7 @@ class Simulated:
         }
 
     def found(self, column):
+        """Mean, standard error and discretisation error of a column."""
         if column == "kappa":
             fit = datasets.read(self.inputs.kappa, ["kappa"])
             return fit.kappa, fit.kappa_standard_error, fit.kappa_discretisation_error
@@ -108,6 +111,7 @@ class Theory:
         self.state = state.sel(variant=VARIANT)
 
     def __call__(self, column):
+        """Values of a column at every load, and its errors by source."""
         values = quoted(self.state, column)
         surface, law = plan_of.surface_of(self.plan["surface"]), self.laws["theory", column]
         error = [law.spread * law(surface, p) for p in self.plan["pressures"]]

@@ -5,9 +5,9 @@ from _tables import table
 from stickiness import accuracy, datasets, plan
 
 HEAD = """\
-A preset is the cheapest settings whose predicted error, which covers 90 % of means, stays below that
-of the preset in every quantity, on the model surface {surface} at the pressures {pressures}. Cost:
-pairs of Fourier transforms of 1024 x 1024 doubles, for all these pressures.
+A preset is the cheapest settings whose predicted error, which covers 90 % of means, stays below
+that of the preset in every quantity, on the model surface {surface} at the pressures {pressures}.
+Cost: pairs of Fourier transforms of 1024 x 1024 doubles, for all these pressures.
 
 """
 COLUMNS = [column for columns in accuracy.QUANTITIES.values() for column in columns]
@@ -20,7 +20,10 @@ def main(job):
     for name, error in asked["accuracy"].items():
         chosen = chosen_for(laws, error, *where, job.params.descriptor_seeds)
         present = plan.preset(job.params.fidelities[name])
-        for text, one in ((f"{name}: below {error:.0%}", chosen), ("in the configuration", present)):
+        for text, one in (
+            (f"{name}: below {error:.0%}", chosen),
+            ("in the configuration", present),
+        ):
             lines.append(row(text, laws, one, *where, job.params.descriptor_seeds))
     head = ["preset", "pixels", "tolerance", "seeds", "coarse seeds", "cost", *COLUMNS]
     with datasets.whole_file(job.output[0]) as path:

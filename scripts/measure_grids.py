@@ -36,12 +36,13 @@ def main(job):
         parts = [solved(heights, length, pressures, ranges, finest, **s) for s in chosen]
         rows.append(xr.concat(parts, "setting").assign(rms_slope=slope, pair_time=pair_seconds()))
     dataset = xr.concat(rows, xr.DataArray(seeds, dims="seed", name="seed"))
-    dataset["memory"] = "setting", [
-        peak_megabytes(
-            lambda s=s: solved(heights, length, pressures[-1:], ranges, finest, **s)
-        )
-        for s in chosen
-    ]
+    dataset["memory"] = (
+        "setting",
+        [
+            peak_megabytes(lambda s=s: solved(heights, length, pressures[-1:], ranges, finest, **s))
+            for s in chosen
+        ],
+    )
     for key in KEYS:
         dataset[key] = "setting", [setting[key] for setting in chosen]
     datasets.write(

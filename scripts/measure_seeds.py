@@ -36,7 +36,9 @@ def main(job):
     )
     # Few are solved on the finest grid, which is the reference of the others.
     most = [counts["finest"] if p == finest else len(few) for p in pixels]
-    walk = Walk(asked, job.params.pressures, logarithmic_grid(job.params.gaps), job.params.tolerance)
+    walk = Walk(
+        asked, job.params.pressures, logarithmic_grid(job.params.gaps), job.params.tolerance
+    )
     fine = xr.concat(
         [walk.seeds(few[:count], p) for p, count in zip(pixels, most, strict=True)],
         xr.DataArray(pixels, dims="pixels", name="pixels"),
@@ -81,6 +83,7 @@ class Walk:
         return xr.concat(found, xr.DataArray(seeds, dims="seed", name="seed"))
 
     def one(self, seed, pixels, amplitudes):
+        """Contact of one seed at every load."""
         # Two pixels do not hold the shortest waves' slope: those surfaces are sampled from four.
         n = grid_points(self.asked, max(pixels, 2 * COARSE))
         heights = surface.synthesise(self.spectrum, n, self.length, seed, amplitudes)

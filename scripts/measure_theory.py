@@ -1,5 +1,7 @@
 """Persson's theory with more and fewer quadrature nodes on continuous spectra, timed."""
 
+from functools import partial
+
 import numpy as np
 import xarray as xr
 
@@ -16,17 +18,12 @@ def main(job):
     asked, pressures = job.params.nodes, np.array(job.params.pressures)
     ranges, cases, memory = logarithmic_grid(job.params.gaps), [], []
     for name, surface in asked["surfaces"].items():
-        spectrum = spectrum_of(surface)
         rows = []
         for nodes in asked["multiples"]:
-            states = [
-                timed(lambda m=nodes: contact_of(Persson(spectrum, nodes=m), pressures, ranges))
-                for _ in range(REPETITIONS)
-            ]
+            given = spectrum_of(surface), nodes, pressures, ranges
+            states = [timed(partial(state, *given)) for _ in range(REPETITIONS)]
             rows.append(states[0][0].assign(seconds=min(seconds for _, seconds in states)))
-            memory.append(
-                peak_megabytes(lambda m=nodes: contact_of(Persson(spectrum, nodes=m), [0.3], ranges))
-            )
+            memory.append(peak_megabytes(partial(state, *given)))
         part = xr.concat(rows, xr.DataArray(asked["multiples"], dims="nodes", name="nodes"))
         cases.append(part.expand_dims(case=[name]))
     dataset = xr.concat(cases, "case").assign(pair_time=pair_seconds())
@@ -48,6 +45,10 @@ def main(job):
         title="theory with more and fewer quadrature nodes",
         parameters=asked,
     )
+
+
+def state(spectrum, nodes, pressures, ranges):
+    return contact_of(Persson(spectrum, nodes=nodes), pressures, ranges)
 
 
 def contact_of(theory, pressures, ranges):

@@ -56,12 +56,16 @@ def grids(ax, found):
 def tolerances(ax, found):
     """Error against the tolerance of the solver."""
     by = middle(found)
-    values = sorted({setting for setting in found.setting}, key=float)
+    values = sorted(set(found.setting), key=float)
     for colour, marker, (quantity, label) in zip(COLOURS, MARKERS, SHOWN.items(), strict=False):
         at = by.loc[[(value, quantity) for value in values]]
         shown = at.error.to_numpy() > 0
         ax.plot(
-            np.array(values, float)[shown], at.error[shown], marker=marker, color=colour, label=label
+            np.array(values, float)[shown],
+            at.error[shown],
+            marker=marker,
+            color=colour,
+            label=label,
         )
     ax.set(xscale="log", yscale="log", xlabel=r"tolerance over $h_\mathrm{rms}$", ylabel=ERROR)
     ax.set_title("solver", loc="right")

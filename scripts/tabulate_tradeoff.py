@@ -4,20 +4,13 @@ import numpy as np
 import pandas as pd
 import xarray as xr
 
-from _bank import Bank, bank_of, extrapolated, stacked
+from _bank import bank_of
 from _job import start
-from _laws import Points, add_costs, add_sampling, surface_of
-from _model import spectrum_of, window_of
+from _laws import Points, add_costs, add_grids, add_sampling, surface_of
 from _tables import table
-from _tradeoff import COVERED, derived, rms, timed
-from measure_theory import contact_of
+from _trade_rows import adhesion_rows, band_rows, grid_rows, node_rows, seed_rows, theory_rows
 from stickiness import accuracy, datasets
-from stickiness.accuracy import COARSE, FULL, Settings
-from stickiness.persson import Persson
-from stickiness.surface import lattice_spectrum
 
-REPETITIONS = 60
-MEANS = ((4, 0), (8, 0), (16, 0), (32, 0), (2, 64), (4, 64), (8, 64), (4, 256), (8, 256))
 COLUMNS = {
     "knob": "what is varied",
     "setting": "its value",
@@ -30,6 +23,9 @@ COLUMNS = {
     "memory": "largest memory held at once",
 }
 UNITS = {"seconds": "s", "memory": "MB"}
+COMMENT = """\
+Laws of error and cost, fitted by the target tradeoff; scripts/stickiness/accuracy.py says how they
+are read. To take a new measurement over, copy it here and set the presets that it gives."""
 HEAD = """\
 Relative errors that cover 90 % and what they cost, a summary of tradeoff.nc: medians over cases.
 Cost: pairs of Fourier transforms of 1024 x 1024 doubles per solution (seeds: per mean at one load).
@@ -64,7 +60,7 @@ def main(job):
     )
     laws = points.laws()
     with datasets.whole_file(job.output.laws) as path:
-        accuracy.write_laws(path, laws, job.params.comment)
+        accuracy.write_laws(path, laws, COMMENT)
     with datasets.whole_file(job.output.table) as path:
         path.write_text(HEAD + summary(found), encoding="utf-8")
 
@@ -90,239 +86,6 @@ def dataset_of(found):
         for name, text in COLUMNS.items()
     }
     return datasets.annotate(dataset, row=("1", "number of the row"), **texts)
-
-
-def row(knob, setting, case, quantity, error, bias, seconds, unit, memory=np.nan):
-    """One row of the table; `unit` is the time of a pair of transforms."""
-    return (knob, str(setting), case, quantity, float(error), float(bias), seconds / unit, seconds,
-            memory)  # fmt: skip
-
-
-# --- grid, tolerance, precision ---------------------------------------------------------------
-
-
-def estimates(measured):
-    """Ways from solutions to quantities: a name, values on all grids, and the grids they need."""
-    counted = measured.assign(
-        area_fraction=measured.pixel_area_fraction,
-        attractive_area=measured.pixel_attractive_area,
-    )
-    yield "counted", derived(counted), 1
-    yield "sub-pixel", derived(measured), 1
-    order = np.argsort(measured.pixels.values)
-    halves = np.clip(order - 1, 0, None)
-    half = measured.isel(setting=halves).assign_coords(setting=measured.setting)
-    area = xr.concat(
-        [
-            measured.attractive_area.isel(setting=k)
-            if measured.pixels.values[k] == COARSE
-            else extrapolated(half.isel(setting=k), measured.isel(setting=k))
-            for k in range(measured.sizes["setting"])
-        ],
-        "setting",
-    )
-    yield "extrapolated", derived(measured.assign(attractive_area=area)), 2
-
-
-def by_knob(measured, knob):
-    chosen = measured.isel(setting=np.flatnonzero(measured.knob == knob))
-    return chosen.assign_coords(setting=np.arange(chosen.sizes["setting"]))
-
-
-def grid_rows(name, measured):
-    """Rows of the grid with every way to evaluate it, of tolerance and of precision."""
-    rows, grids = [], by_knob(measured, "pixels")
-    unit = float(measured.pair_time.median())
-    reference = None
-    for way, quantities, needed in reversed(list(estimates(grids))):
-        reference = reference or {q: v.isel(setting=-1) for q, v in quantities.items()}
-        seconds = (grids.solution_time + grids.evaluation_time).mean("seed")
-        if needed > 1:
-            seconds = seconds + seconds.shift(setting=1, fill_value=0.0)
-        for k in range(grids.sizes["setting"] - 1):
-            setting = f"{int(grids.pixels[k])} {way}"
-            rows += compared(
-                "pixels", setting, name, grids, quantities, reference, k, seconds, unit
-            )
-    for knob in ("tolerance", "precision"):
-        chosen = by_knob(measured, knob)
-        exact = by_knob(measured, "tolerance")
-        tight = {q: v.isel(setting=-1) for q, v in derived(exact).items()}
-        seconds = (chosen.solution_time + chosen.evaluation_time).mean("seed")
-        count = chosen.sizes["setting"] - (knob == "tolerance")
-        for k in range(count):
-            text = "single" if knob == "precision" else f"{float(chosen.tolerance[k]):g}"
-            rows += compared(knob, text, name, chosen, derived(chosen), tight, k, seconds, unit)
-    return rows
-
-
-def compared(knob, setting, name, measured, quantities, reference, k, seconds, unit):
-    """Rows of one setting against a reference, seed by seed."""
-    rows = []
-    for quantity, values in quantities.items():
-        error = values.isel(setting=k) / reference[quantity] - 1
-        single, mean = rms(error).quantile(COVERED, "seed"), rms(error.mean("seed"))
-        for load in error.pressure.values:
-            at = {"pressure": load}
-            cost = float(seconds.isel(setting=k).sel(at))
-            rows.append(
-                row(knob, setting, f"{name}, p = {load:g}", quantity, single.sel(at), mean.sel(at),
-                    cost, unit, float(measured.memory[k]))  # fmt: skip
-            )
-    return rows
-
-
-def add_grids(points, surface, measured):
-    """Points of the laws of discretisation, solver and what a tolerance saves."""
-    grids = by_knob(measured, "pixels")
-    *_, (_, quantities, _) = estimates(grids)
-    for quantity, values in quantities.items():
-        error = values / values.isel(setting=-1) - 1
-        noise = rms(error.std("seed", ddof=1)) / np.sqrt(error.sizes["seed"])
-        bias = rms(error.mean("seed"))
-        for k, pixels in enumerate(grids.pixels.values[:-1]):
-            if pixels == COARSE:
-                continue
-            for load in values.pressure.values:
-                at = {"pressure": load}
-                size, off = (float(x.isel(setting=k).sel(at)) for x in (noise, bias))
-                points.add("discretisation", quantity, surface, np.hypot(size, off), load,
-                           float(pixels), at=off)  # fmt: skip
-    chosen = by_knob(measured, "tolerance")
-    seconds = (chosen.solution_time + chosen.evaluation_time).mean(["seed", "pressure"])
-    full = float(seconds[int(np.argmin(abs(np.log(chosen.tolerance.values / FULL))))])
-    for k, tolerance in enumerate(chosen.tolerance.values[:-1]):
-        points.add("tolerance_cost", "", surface, float(seconds[k]) / full,
-                   tolerance=tolerance / FULL)  # fmt: skip
-        for quantity, values in derived(chosen).items():
-            error = rms(values.isel(setting=k) / values.isel(setting=-1) - 1)
-            for load in error.pressure.values:
-                value = float(np.sqrt((error.sel(pressure=load) ** 2).mean()))
-                points.add("solver", quantity, surface, value, load, tolerance=tolerance)
-
-
-# --- seeds, theory, bands, nodes, adhesion ----------------------------------------------------
-
-
-def seed_rows(name, measured, bank: Bank):
-    """Rows of the number and kind of seeds, on the finest grid of the file."""
-    rows, pixels = [], int(measured.pixels[-1])
-    loads, unit = measured.sizes["pressure"], float(measured.pair_time)
-    one = float(measured.seconds.mean("seed").sum()) / loads
-    coarse = float(measured.coarse_seconds.mean()) / loads
-    describe = float(measured.describing_seconds) * 2048 / loads
-    for seeds, more in MEANS:
-        settings = Settings(pixels, FULL, seeds, more)
-        errors = bank.by_quantity(bank.errors(settings, REPETITIONS, 2048))
-        seconds = seeds * one + more * coarse + (describe if more else 0.0)
-        text = f"{seeds} + {more}" if more else f"{seeds} plain"
-        for (quantity, load), error in errors.items():
-            rows.append(
-                row("seeds", text, f"{name}, p = {load:g}", quantity, np.quantile(error, COVERED),
-                    np.nan, seconds, unit)  # fmt: skip
-            )
-    mean = bank.by_quantity(bank.fixed.mean(0) / bank.truth - 1)
-    scatter = bank.by_quantity(bank.fixed.std(0, ddof=1) / bank.truth)
-    seconds = float(measured.fixed_seconds.mean()) / loads
-    for seeds in (4, 8):
-        for (quantity, load), bias in mean.items():
-            error = np.hypot(bias, accuracy.COVERS * scatter[quantity, load] / np.sqrt(seeds))
-            rows.append(
-                row("seeds", f"{seeds} fixed", f"{name}, p = {load:g}", quantity, error, bias,
-                    seeds * seconds, unit)  # fmt: skip
-            )
-    return rows
-
-
-def theory_rows(name, measured, bank, points):
-    """Rows of theory in place of simulation: its error is that of the model."""
-    asked = datasets.parameters(measured)
-    surface, loads = surface_of(asked), measured.pressure.values
-    lattice = lattice_spectrum(spectrum_of(asked), window_of(asked))
-    state, seconds = timed(
-        lambda: contact_of(Persson(lattice), loads, measured["range"].values)
-    )
-    values, *_ = stacked(derived(state.expand_dims("seed")))
-    rows = []
-    for (quantity, load), error in bank.by_quantity(values[0] / bank.truth - 1).items():
-        points.add("theory", quantity, surface, float(error), load)
-        rows.append(
-            row("model", "theory", f"{name}, p = {load:g}", quantity, error, error,
-                seconds / len(loads), float(measured.pair_time))  # fmt: skip
-        )
-    return rows
-
-
-def band_rows(measured, points):
-    """Rows of a spectrum that is cut, and of one that theory carries on from the cut."""
-    rows, unit = [], float(measured.pair_time)
-    hurst = datasets.parameters(measured)["hurst"]
-    theory = measured[["theory_area_fraction", "theory_mean_gap", "theory_attractive_area",
-                       "theory_rms_slope"]]  # fmt: skip
-    theory = theory.rename({name: name.removeprefix("theory_") for name in theory.data_vars})
-    simulated, known = derived(measured), derived(theory)
-    whole = {"magnification": int(measured.magnification[-1])}
-    name = f"H{hurst:g}_zeta{whole['magnification']}"
-    for cut in measured.magnification.values[:-1]:
-        at = {"magnification": cut}
-        seconds = float(measured.seconds.sel(at).mean()) / measured.sizes["pressure"]
-        for quantity, values in simulated.items():
-            factor = known[quantity].sel(whole) / known[quantity].sel(at)
-            mean, truth = (values.sel(where).mean("seed") for where in (at, whole))
-            for way, value in (("cut", mean), ("carried", mean * factor)):
-                error = rms(value / truth - 1)
-                for load in error.pressure.values:
-                    off = float(error.sel(pressure=load))
-                    rows.append(
-                        row("band", f"{cut} {way}", f"{name}, p = {load:g}", quantity, off, off,
-                            seconds, unit)  # fmt: skip
-                    )
-                    if way == "carried":
-                        size = float(rms(np.log(factor)).sel(pressure=load))
-                        points.add("carrying", quantity, accuracy.Surface(1, 1), off / size)
-    return rows
-
-
-def node_rows(measured):
-    """Rows of theory's quadrature, against its largest number of nodes."""
-    rows, unit = [], float(measured.pair_time)
-    for case in measured.case.values:
-        quantities = derived(measured.sel(case=case))
-        for nodes in measured.nodes.values[:-1]:
-            seconds = float(measured.seconds.sel(case=case, nodes=nodes))
-            for quantity, values in quantities.items():
-                error = rms(values.sel(nodes=nodes) / values.isel(nodes=-1) - 1)
-                for load in error.pressure.values:
-                    off = float(error.sel(pressure=load))
-                    rows.append(
-                        row("nodes", f"{nodes:g}", f"{case}, p = {load:g}", quantity, off, off,
-                            seconds / measured.sizes["pressure"], unit,
-                            float(measured.memory.sel(case=case, nodes=nodes)))  # fmt: skip
-                    )
-    return rows
-
-
-def adhesion_rows(inputs):
-    """Rows of the DMT limit in place of full adhesion, and of the pull-off's grid."""
-    rows, nothing = [], (np.nan, 1.0)
-    full = datasets.read(inputs.full, ["dmt_ratio"])
-    weak = full.isel(adhesion_length_over_range=0)
-    for reach in (0.01, 0.1):
-        for load in weak.pressure.values:
-            ratio = float(weak.dmt_ratio.sel(range_over_h_rms=reach, pressure=load))
-            if np.isfinite(ratio):
-                off = abs(1 / ratio - 1)
-                rows.append(row("adhesion", "DMT", f"H0.8_zeta32, p = {load:g}",
-                                f"attractive_area_{reach:g}", off, off, *nothing))  # fmt: skip
-    loop = datasets.read(inputs.loop, ["mean_pressure", "resolution"])
-    lowest = loop.mean_pressure.min(["state", "control"])
-    for k, length in enumerate(loop.adhesion_length_over_range.values):
-        half, whole = (float(x) for x in lowest.isel(adhesion_length_over_range=k).values)
-        off = abs(half / whole - 1)
-        rows.append(row("adhesion", f"pull-off on {float(loop.resolution[0]):g} pixels",
-                        f"H0.8_zeta32, l_a = {length:g} range", "pull_off", off, off,
-                        *nothing))  # fmt: skip
-    return rows
 
 
 def summary(found):

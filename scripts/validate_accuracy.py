@@ -85,9 +85,7 @@ def validated(name, measured, laws, params):
     candidates = sorted(
         (
             accuracy.Settings(pixels, TOLERANCE, seeds, coarse)
-            for pixels, seeds, coarse in itertools.product(
-                accuracy.PIXELS, SEEDS, COARSE_SEEDS
-            )
+            for pixels, seeds, coarse in itertools.product(accuracy.PIXELS, SEEDS, COARSE_SEEDS)
         ),
         key=lambda settings: cost_of(settings, measured),
     )
@@ -113,8 +111,19 @@ def validated(name, measured, laws, params):
         cost = cost_of(chosen, measured)
         ratio = np.nan if cheapest is None else cost / cost_of(cheapest, measured)
         rows.append(
-            (name, text, asked, float(chosen.pixels_per_wavelength), float(chosen.seeds),
-             float(chosen.coarse_seeds), within, worst, predicted, cost, ratio)  # fmt: skip
+            (
+                name,
+                text,
+                asked,
+                float(chosen.pixels_per_wavelength),
+                float(chosen.seeds),
+                float(chosen.coarse_seeds),
+                within,
+                worst,
+                predicted,
+                cost,
+                ratio,
+            )
         )
     return rows
 
@@ -125,9 +134,7 @@ def choose(laws, asked, surface, loads, quantities):
     for settings in sorted(
         (
             accuracy.Settings(pixels, TOLERANCE, seeds, coarse)
-            for pixels, seeds, coarse in itertools.product(
-                accuracy.PIXELS, SEEDS, COARSE_SEEDS
-            )
+            for pixels, seeds, coarse in itertools.product(accuracy.PIXELS, SEEDS, COARSE_SEEDS)
         ),
         key=lambda one: accuracy.predicted_cost(laws, one, surface, loads, DESCRIBED),
     ):
@@ -151,10 +158,11 @@ def markdown(columns, rows):
     lines = [[value if isinstance(value, str) else f"{value:.3g}" for value in row] for row in rows]
     reached = np.array([row[columns.index("within")] for row in rows])
     ratio = np.array([row[columns.index("cost_over_cheapest")] for row in rows])
+    known = ratio[np.isfinite(ratio)]
     total = (
         f"\nWithin the accuracy: {np.nanmean(reached):.1%} of all means. Cost over the cheapest: "
-        f"median {np.nanmedian(ratio):.2f}, at most 1.5 in {np.nanmean(ratio[np.isfinite(ratio)] <= 1.5):.0%}"
-        f" of {np.isfinite(ratio).sum()}, largest {np.nanmax(ratio):.2f}.\n"
+        f"median {np.median(known):.2f}, at most 1.5 in {np.mean(known <= 1.5):.0%} of "
+        f"{known.size}, largest {known.max():.2f}.\n"
     )
     return table(columns, lines) + total
 

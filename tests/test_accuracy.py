@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 import yaml
 
-from stickiness import accuracy, plan, repulsive, spectrum, surface
+from stickiness import accuracy, dmt, plan, repulsive, spectrum, surface
 from stickiness.accuracy import QUANTITIES, Law, Settings, Surface
 
 ROOT = Path(__file__).parents[1]
@@ -148,8 +148,6 @@ def test_table_agrees_with_a_fresh_measurement():
 
 
 def solved(band, n, seed, load):
-    from stickiness import dmt
-
     heights = surface.synthesise(band, n, 2 * np.pi, seed)
     contact = repulsive.solve(heights, 2 * np.pi, load, tol=1e-5)
     return contact.area_fraction - dmt.boundary_strip(contact.gap == 0), contact.mean_gap

@@ -1,9 +1,9 @@
 """What cases are solved with, and which of them share solutions."""
 
 import pytest
+from test_accuracy import made_up
 
 from stickiness import accuracy, plan
-from test_accuracy import made_up
 
 PRESET = {"pixels_per_wavelength": 8, "tolerance": 1e-8, "seeds": 5, "coarse_seeds": 40}
 

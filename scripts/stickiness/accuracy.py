@@ -1,9 +1,9 @@
 """Settings of a simulation for the accuracy that is asked for, from what was measured.
 
-What a mean over random surfaces errs by, and what it costs, was measured on a few surfaces with many
-settings (target `tradeoff`). Each part is kept as a `Law`: a power law in magnification, window,
-pressure, pixels and tolerance, times an exponential of the Hurst exponent. The relative error that
-covers 90 % is
+What a mean over random surfaces errs by, and what it costs, was measured on a few surfaces with
+many settings (target `tradeoff`). Each part is kept as a `Law`: a power law in magnification,
+window, pressure, pixels and tolerance, times an exponential of the Hurst exponent. The relative
+error that covers 90 % is
 
     error^2 = discretisation^2 + solver^2
               + z^2 scatter^2 (fine_share^2/n + coarse_share^2/N + (1 - coarse_share^2)/M)
@@ -174,9 +174,15 @@ def error_parts(
     pixels, tolerance = settings.pixels_per_wavelength, settings.tolerance
     grid, solver = laws["discretisation", column], laws["solver", column]
     variance = _variance(
-        laws, surface, pressure, column, pixels, descriptor_seeds, settings.seeds,
+        laws,
+        surface,
+        pressure,
+        column,
+        pixels,
+        descriptor_seeds,
+        settings.seeds,
         settings.coarse_seeds,
-    )  # fmt: skip
+    )
     return {
         "discretisation": grid.spread * grid(surface, pressure, pixels),
         "solver": solver.spread * solver(surface, pressure, tolerance=tolerance),
@@ -328,9 +334,7 @@ def _worst_errors(
                 grid.spread * grid(surface, pressure, pixels),
                 solver.spread * solver(surface, pressure, tolerance=tolerance),
             )
-            variance = _variance(
-                laws, surface, pressure, column, pixels, described, seeds, coarse
-            )
+            variance = _variance(laws, surface, pressure, column, pixels, described, seeds, coarse)
             worst = np.maximum(worst, np.sqrt(fixed**2 + COVERS**2 * variance))
     return worst
 

@@ -229,7 +229,9 @@ def _config_problems(config: Mapping[str, Any]) -> Iterator[str]:
         yield from _grid_problems(f"criteria.map.{key}", config["criteria"]["map"][key])
 
 
-def _model_problems(key: str, case: Mapping[str, Any], surfaces: Mapping[str, Any]) -> Iterator[str]:
+def _model_problems(
+    key: str, case: Mapping[str, Any], surfaces: Mapping[str, Any]
+) -> Iterator[str]:
     """What a case may ask for depends on whether it is simulated."""
     if case.get("model") == "theory":
         for unused in ("accuracy", "seeds", "sampling", "maps"):

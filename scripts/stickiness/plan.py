@@ -85,7 +85,8 @@ def plans_of(config: Mapping[str, Any], laws: Laws | None = None) -> dict[str, P
 def settings_of(name: str, config: Mapping[str, Any], laws: Laws | None) -> Settings:
     """Return the settings of a case: those of its own accuracy, or of the preset.
 
-    `sampling` stands above both, `seeds` of the case or of the whole configuration above the preset.
+    `sampling` stands above both; `seeds`, of the case or of the whole configuration, above the
+    preset.
     """
     case = config["cases"][name]
     method = case.get("sampling", config["sampling"]["method"])
