@@ -46,13 +46,17 @@ class Bank:
     truth_error: NDArray
 
     def mean(self, pixels: int, rng: np.random.Generator, n: int, coarse: int, described: int):
-        """Estimate from random ones of the seeds; plain if no coarse ones are asked for."""
+        """Estimate from random ones of the seeds; plain if no coarse ones are asked for.
+
+        Drawn with replacement: a mean of few of them then scatters about that of all as it would
+        about that of the whole ensemble.
+        """
         fine = self.fine[pixels]
-        chosen = rng.choice(len(fine), n, replace=False)
+        chosen = rng.choice(len(fine), n, replace=True)
         if not coarse:
             return fine[chosen].mean(0)
-        many = rng.choice(len(self.coarse), coarse, replace=False)
-        others = rng.choice(len(self.elsewhere), described, replace=False)
+        many = rng.choice(len(self.coarse), coarse, replace=True)
+        others = rng.choice(len(self.elsewhere), described, replace=True)
         return sampling.multilevel_mean(
             fine[chosen],
             self.fine[COARSE][chosen],

@@ -13,6 +13,7 @@ LOADS = ("0.01", "0.065", "0.3")
 SHOWN = {"area": "contact area", "a_v": r"$a_V$", "mean_gap": "mean gap"}
 COST = r"cost [FFT pairs of $1024^2$]"
 ERROR = "error, 90 %"
+ERROR_TICKS = (0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1)
 PRESET_MARKS = {"draft": "v", "standard": "o", "fine": "^"}
 
 
@@ -28,7 +29,7 @@ def main(job):
     for name, quantities in {"E": ["a_v"], "F": list(accuracy.QUANTITIES)}.items():
         together(panels[name], laws, quantities, job.params)
     panels["E"].set_title(r"all settings, $a_V$", loc="right")
-    panels["F"].set_title("all settings, every quantity", loc="right")
+    panels["F"].set_title("all settings, worst", loc="right")
     letters(panels)
     save(figure, job.output)
 
@@ -82,10 +83,12 @@ def seeds(ax, found, model):
     }
     for colour, marker, (kind, chosen) in zip(COLOURS, MARKERS, kinds.items(), strict=False):
         at = by.loc[[(setting, "a_v") for setting in chosen]].sort_values("cost")
-        ax.plot(at.cost, at.error, marker=marker, color=colour, label=kind, linestyle="none")
+        ax.plot(at.cost, at.error, marker=marker, color=colour, label=kind, linewidth=0.7)
     theory = middle(model).loc[("theory", "a_v")]
     ax.plot(theory.cost, theory.error, "*", color="black", markersize=9, label="theory")
     ax.set(xscale="log", yscale="log", xlabel=COST, ylabel=ERROR)
+    plain_ticks(ax.xaxis, [20, 50, 100, 200, 500, 1000, 2000])
+    plain_ticks(ax.yaxis, ERROR_TICKS)
     ax.set_title(r"seeds, $a_V$", loc="right")
     ax.legend()
 
@@ -100,7 +103,7 @@ def bands(ax, found):
             look = {"label": label} if way == "carried" else {"markerfacecolor": "white"}
             ax.plot(cuts, at.error, line, marker=marker, color=colour, **look)
     ax.set(xscale="log", yscale="log", xlabel=r"$\zeta$ simulated", ylabel="error of the mean")
-    ax.set_title(rf"cut (dashed), carried to {2 * cuts[-1]}", loc="right")
+    ax.set_title(f"cut, carried to {2 * cuts[-1]}", loc="right")
     ax.set_xticks(cuts, [str(cut) for cut in cuts])
     ax.minorticks_off()
     ax.legend()
@@ -126,6 +129,7 @@ def together(ax, laws, quantities, params):
             at = place(laws, preset, given, quantities, params.descriptor_seeds)
             ax.plot(*at, mark, color=colour, markersize=7, markeredgecolor="white", label=name)
     ax.set(xscale="log", yscale="log", xlabel=COST, ylabel="predicted error, 90 %")
+    plain_ticks(ax.yaxis, ERROR_TICKS)
     handles, _ = ax.get_legend_handles_labels()
     ax.legend(handles=[*handles, key(color="black", marker=".", label="cheapest")])
 

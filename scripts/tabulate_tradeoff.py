@@ -41,7 +41,8 @@ def main(job):
         add_grids(points, surface_of(datasets.parameters(measured)), measured)
     for name, path in named(job.input.seeds).items():
         measured = datasets.read(path)
-        bank = bank_of(measured, datasets.read(named(job.input.grids)[name]))
+        grids = named(job.input.grids)
+        bank = bank_of(measured, datasets.read(grids[name]) if name in grids else None)
         surface = surface_of(datasets.parameters(measured))
         add_sampling(points, surface, bank)
         add_costs(points, surface, measured)

@@ -74,10 +74,17 @@ def test_cheapest_is_that_of_all_settings(asked):
     assert accuracy.predicted_cost(laws, chosen, SMOOTH, LOADS) == pytest.approx(min(costs))
 
 
+def test_least_settings_are_kept():
+    least = Settings(16, 1e-6, 8, 64)
+    chosen = accuracy.cheapest(made_up(), 0.3, SMOOTH, LOADS, ["area"], least=least)
+    assert chosen == least
+    assert accuracy.cheapest(made_up(), 0.3, SMOOTH, LOADS, ["area"]) != least
+
+
 def test_out_of_reach_says_what_can_be_reached():
     with pytest.raises(accuracy.UnreachableError, match=r"reach is 0\.0\d+, for area at pressure"):
         accuracy.cheapest(made_up(), 1e-4, SMOOTH, LOADS, ["area"])
-    with pytest.raises(accuracy.UnreachableError, match="4000 points a side, above 2048"):
+    with pytest.raises(accuracy.UnreachableError, match="take 4000 points a side, above 2048"):
         accuracy.cheapest(made_up(), 0.1, Surface(0.8, 1000.0), LOADS, ["area"])
 
 
@@ -112,16 +119,10 @@ def config():
 
 def test_presets_are_what_the_rule_gives(config):
     laws, asked = accuracy.read_laws(TABLE), config["tradeoff"]["presets"]
-    where = plan.surface_of(config["model_surfaces"][asked["surface"]])
-    for name, error in asked["accuracy"].items():
-        chosen = accuracy.cheapest(
-            laws,
-            error,
-            where,
-            asked["pressures"],
-            QUANTITIES,
-            descriptor_seeds=config["sampling"]["descriptor_seeds"],
-            plain=False,
+    surface_asked = config["model_surfaces"][asked["surface"]]
+    for name in asked["accuracy"]:
+        chosen = plan.preset_by_rule(
+            laws, asked, name, surface_asked, config["sampling"]["descriptor_seeds"]
         )
         assert plan.preset(config["fidelities"][name]) == chosen, name
 

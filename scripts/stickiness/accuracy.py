@@ -270,6 +270,7 @@ def cheapest(
     descriptor_seeds: int = 2048,
     most_points: int = 2048,
     plain: bool | None = None,
+    least: Settings | None = None,
 ) -> Settings:
     """Return the cheapest settings predicted to reach an accuracy for all quantities wanted.
 
@@ -281,6 +282,8 @@ def cheapest(
         Largest number of grid points along a side.
     plain : bool, optional
         True for plain means only, False for multilevel ones only; by default whichever is cheaper.
+    least : Settings, optional
+        Fewest pixels and seeds, coarse ones too, and largest tolerance that others need.
 
     Raises
     ------
@@ -288,16 +291,24 @@ def cheapest(
         Saying what could be reached, for which quantity and at which pressure.
     """
     quantities, waves = list(quantities), surface.magnification * surface.window
-    grids = [pixels for pixels in PIXELS if pixels * waves <= most_points]
+    least = least or Settings(PIXELS[0], TOLERANCES[0], SEEDS[0], COARSE_SEEDS[0])
+    grids = [
+        pixels
+        for pixels in PIXELS
+        if pixels * waves <= most_points and pixels >= least.pixels_per_wavelength
+    ]
+    tolerances = [tolerance for tolerance in TOLERANCES if tolerance <= least.tolerance]
     if not grids:
         raise UnreachableError(
-            f"the coarsest grid, {PIXELS[0]} points per shortest wavelength, would take "
-            f"{PIXELS[0] * waves:.0f} points a side, above {most_points}"
+            f"the coarsest grid, {least.pixels_per_wavelength} points per shortest wavelength, "
+            f"would take {least.pixels_per_wavelength * waves:.0f} points a side, above "
+            f"{most_points}"
         )
-    seeds = np.array(SEEDS)[:, None]
-    coarse = np.array({None: COARSE_SEEDS, True: COARSE_SEEDS[:1], False: COARSE_SEEDS[1:]}[plain])
+    seeds = np.array([n for n in SEEDS if n >= least.seeds])[:, None]
+    kinds = {None: COARSE_SEEDS, True: COARSE_SEEDS[:1], False: COARSE_SEEDS[1:]}[plain]
+    coarse = np.array([n for n in kinds if n >= least.coarse_seeds])
     found = []
-    for pixels, tolerance in itertools.product(grids, TOLERANCES):
+    for pixels, tolerance in itertools.product(grids, tolerances):
         errors = _worst_errors(
             laws, surface, pressures, quantities, pixels, tolerance, descriptor_seeds, seeds, coarse
         )
@@ -307,7 +318,7 @@ def cheapest(
         costs = one * seeds + np.where(coarse > 0, many * coarse + fixed, 0.0)
         costs = np.where(errors <= accuracy, costs, np.inf)
         best = np.unravel_index(np.argmin(costs), costs.shape)
-        chosen = Settings(pixels, tolerance, SEEDS[best[0]], int(coarse[best[1]]))
+        chosen = Settings(pixels, tolerance, int(seeds[best[0], 0]), int(coarse[best[1]]))
         found.append((float(costs[best]), chosen))
     cost, chosen = min(found)
     if np.isfinite(cost):

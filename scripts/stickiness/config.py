@@ -223,10 +223,38 @@ def _config_problems(config: Mapping[str, Any]) -> Iterator[str]:
             f"criteria.a_v.pressure = {chosen['pressure']!r} is not among the pressures of "
             f"cases.{chosen['case']}"
         )
+    yield from _preset_problems(config)
+    yield from _whole_problems(config)
     for key in ("ranges", "frequencies"):
         yield from _grid_problems(f"criteria.{key}", config["criteria"][key])
     for key in ("range_times_q0", "adhesion_length_over_range"):
         yield from _grid_problems(f"criteria.map.{key}", config["criteria"]["map"][key])
+
+
+def _whole_problems(config: Mapping[str, Any]) -> Iterator[str]:
+    """Cases that others rest on must be simulated for every quantity."""
+    cases = dict.fromkeys(_PAPER["cases"], "the paper's figures and claims")
+    cases |= {adhesion["case"]: f"adhesion.{key}" for key, adhesion in config["adhesion"].items()}
+    cases[config["criteria"]["a_v"]["case"]] = "criteria.a_v"
+    for name, user in cases.items():
+        for key in ("quantities", "model"):
+            case = config["cases"].get(name, {})
+            if case.get(key, "simulation") != "simulation":
+                yield (
+                    f"cases.{name}.{key} = {case[key]!r}: leave it out, {user} needs every "
+                    "quantity by simulation; or add a case"
+                )
+
+
+def _preset_problems(config: Mapping[str, Any]) -> Iterator[str]:
+    """The rule of the presets must name what there is."""
+    rule = config["tradeoff"]["presets"]
+    if rule["surface"] not in config["model_surfaces"]:
+        yield _unknown("tradeoff.presets.surface", rule["surface"], config["model_surfaces"])
+    for name in rule["accuracy"]:
+        for table in (config["fidelities"], rule["least"]):
+            if name not in table:
+                yield _unknown("tradeoff.presets.accuracy", name, table)
 
 
 def _model_problems(

@@ -111,6 +111,44 @@ def preset(fidelity: Mapping[str, Any]) -> Settings:
     )
 
 
+def preset_by_rule(
+    laws: Laws,
+    asked: Mapping[str, Any],
+    name: str,
+    surface: Mapping[str, Any],
+    descriptor_seeds: int,
+    free: bool = False,
+) -> Settings:
+    """Return the cheapest settings for the error of a preset in every quantity.
+
+    Parameters
+    ----------
+    laws : mapping
+        Table of `accuracy.read_laws`.
+    asked : mapping
+        What the configuration says under ``tradeoff.presets``.
+    name : str
+        Name of the preset.
+    surface : mapping
+        The model surface that ``asked`` names.
+    descriptor_seeds : int
+        See ``sampling`` of the configuration.
+    free : bool
+        Whether to leave aside what full adhesion on the same realisations needs at least.
+    """
+    least = asked["least"][name]
+    return cheapest(
+        laws,
+        asked["accuracy"][name],
+        surface_of(surface),
+        asked["pressures"],
+        QUANTITIES,
+        descriptor_seeds=descriptor_seeds,
+        plain=False,
+        least=None if free else preset({"coarse_seeds": 0, **least}),
+    )
+
+
 def chosen_for(name: str, config: Mapping[str, Any], laws: Laws, method: str) -> Settings:
     """Return the cheapest settings for the accuracy that a case asks for."""
     case = config["cases"][name]
