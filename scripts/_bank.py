@@ -33,6 +33,9 @@ class Bank:
         Best estimate of the mean over all surfaces, on the finest grid.
     truth_error : (entry,) array
         Its standard error.
+    pool : (entry,) array
+        Mean of the fine seeds alone, on the finest grid: what plain means drawn from them scatter
+        about.
     """
 
     fine: dict[int, NDArray]
@@ -44,6 +47,7 @@ class Bank:
     quantity: NDArray
     truth: NDArray
     truth_error: NDArray
+    pool: NDArray
 
     def mean(self, pixels: int, rng: np.random.Generator, n: int, coarse: int, described: int):
         """Estimate from random ones of the seeds; plain if no coarse ones are asked for.
@@ -72,7 +76,7 @@ class Bank:
         rng = np.random.default_rng(seed)
         chosen = settings.pixels_per_wavelength, rng, settings.seeds, settings.coarse_seeds
         found = [self.mean(*chosen, described) for _ in range(repetitions)]
-        return np.array(found) / self.truth - 1
+        return np.array(found) / (self.truth if settings.coarse_seeds else self.pool) - 1
 
     def by_quantity(self, errors: NDArray) -> dict[tuple[str, float], NDArray]:
         """Root mean square over the entries of each quantity at each load; leading axes stay."""
@@ -124,6 +128,7 @@ def bank_of(measured: xr.Dataset, finest: xr.Dataset | None = None) -> Bank:
         quantity=quantity,
         truth=estimate.mean * ratio,
         truth_error=estimate.standard_error * ratio,
+        pool=fine[best].mean(0) * ratio,
     )
 
 

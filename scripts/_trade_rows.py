@@ -169,27 +169,26 @@ def band_rows(measured, points):
         at = {"magnification": cut}
         seconds = float(measured.seconds.sel(at).mean()) / measured.sizes["pressure"]
         for quantity, values in simulated.items():
-            factor = known[quantity].sel(whole) / known[quantity].sel(at)
+            theory_here, theory_whole = (known[quantity].sel(where) for where in (at, whole))
             mean, truth = (values.sel(where).mean("seed") for where in (at, whole))
-            for way, value in (("cut", mean), ("carried", mean * factor)):
+            ways = {
+                "cut": mean,
+                "difference": mean + theory_whole - theory_here,
+                "ratio": mean * theory_whole / theory_here,
+            }
+            for way, value in ways.items():
                 error = rms(value / truth - 1)
                 for load in error.pressure.values:
-                    off = float(error.sel(pressure=load))
+                    off, case = float(error.sel(pressure=load)), f"{name}, p = {load:g}"
                     rows.append(
-                        row(
-                            "band",
-                            f"{cut} {way}",
-                            f"{name}, p = {load:g}",
-                            quantity,
-                            off,
-                            off,
-                            seconds,
-                            unit,
-                        )
+                        row("band", f"{cut} {way}", case, quantity, off, off, seconds, unit)
                     )
-                    if way == "carried":
-                        size = float(rms(np.log(factor)).sel(pressure=load))
-                        points.add("carrying", quantity, accuracy.Surface(1, 1), off / size)
+                    if way == "difference":
+                        # kappa hardly changes, but errs as the area does that it is made of.
+                        like = known["area"] if quantity == "kappa" else known[quantity]
+                        part = like.sel(at) / (like.sel(whole) - like.sel(at))
+                        size = 1 / rms(part).sel(pressure=load)
+                        points.add("carrying", quantity, accuracy.Surface(1, 1), off / float(size))
     return rows
 
 

@@ -98,9 +98,9 @@ def bands(ax, found):
     by = middle(found)
     cuts = sorted({int(setting.split()[0]) for setting in found.setting})
     for colour, marker, (quantity, label) in zip(COLOURS, MARKERS, SHOWN.items(), strict=False):
-        for line, way in (("--", "cut"), ("-", "carried")):
+        for line, way in (("--", "cut"), ("-", "difference")):
             at = by.loc[[(f"{cut} {way}", quantity) for cut in cuts]]
-            look = {"label": label} if way == "carried" else {"markerfacecolor": "white"}
+            look = {"label": label} if way == "difference" else {"markerfacecolor": "white"}
             ax.plot(cuts, at.error, line, marker=marker, color=colour, **look)
     ax.set(xscale="log", yscale="log", xlabel=r"$\zeta$ simulated", ylabel="error of the mean")
     ax.set_title(f"cut, carried to {2 * cuts[-1]}", loc="right")

@@ -12,7 +12,7 @@ from _tables import table
 from _tradeoff import COVERED
 from stickiness import accuracy, datasets
 
-REPETITIONS = 60
+FEW, MANY = 60, 240  # repetitions, to look for settings and to confirm them
 SEEDS = tuple(n for n in accuracy.SEEDS if n <= 24)  # at most a third of the fine ones
 COARSE_SEEDS = tuple(n for n in accuracy.COARSE_SEEDS if n <= 1024)
 DESCRIBED = 2048
@@ -65,7 +65,7 @@ def main(job):
         ),
         job.output.dataset,
         title="accuracy asked for and reached",
-        parameters={"repetitions": REPETITIONS},
+        parameters={"repetitions": MANY},
     )
     with datasets.whole_file(job.output.table) as path:
         path.write_text(HEAD + markdown(columns, rows), encoding="utf-8")
@@ -76,11 +76,19 @@ def validated(name, measured, laws, params):
     bank, surface = bank_of(measured), surface_of(datasets.parameters(measured))
     loads, rows, found = measured.pressure.values, [], {}
 
-    def errors(settings):
-        if settings not in found:
-            drawn = bank.errors(settings, REPETITIONS, DESCRIBED)
-            found[settings] = bank.by_quantity(drawn)
-        return found[settings]
+    def errors(settings, repetitions=MANY):
+        if (settings, repetitions) not in found:
+            drawn = bank.errors(settings, repetitions, DESCRIBED, seed=repetitions)
+            found[settings, repetitions] = bank.by_quantity(drawn)
+        return found[settings, repetitions]
+
+    def reaches(settings, asked, keys):
+        # Of many settings some get there by luck: those are drawn anew, and more often.
+        return all(
+            np.quantile(errors(settings, repetitions)[key], COVERED) <= asked
+            for repetitions in (FEW, MANY)
+            for key in keys
+        )
 
     candidates = sorted(
         (
@@ -100,14 +108,7 @@ def validated(name, measured, laws, params):
         worst = max(np.quantile(reached[key], COVERED) for key in keys)
         within = np.mean([reached[key] <= asked for key in keys])
         predicted = accuracy.worst_error(laws, chosen, surface, loads, quantities, DESCRIBED)[0]
-        cheapest = next(
-            (
-                settings
-                for settings in candidates
-                if all(np.quantile(errors(settings)[key], COVERED) <= asked for key in keys)
-            ),
-            None,
-        )
+        cheapest = next((one for one in candidates if reaches(one, asked, keys)), None)
         cost = cost_of(chosen, measured)
         ratio = np.nan if cheapest is None else cost / cost_of(cheapest, measured)
         rows.append(

@@ -113,7 +113,10 @@ def model(*keys, value):
         (case("quantities", value=["areas"]), ["quantities[0]", "'areas'", "'area'?"]),
         (case("quantities", value=[]), ["quantities", "at least 1"]),
         (case("quantities", value=["area"]), ["H0.8_zeta64.quantities", "leave it out"]),
-        (case("model", value="theory"), ["H0.8_zeta64.model", "'theory'", "add a case"]),
+        (
+            changed(CONFIG, "cases", "H0.8_zeta32", "model", value="theory"),
+            ["H0.8_zeta32.model", "'theory'", "add a case"],
+        ),
         (case("carry_to", value=64), ["H0.8_zeta64.carry_to", "64", "above the magnification"]),
         (of_theory(seeds=3), ["mine.seeds", "3", "model: theory"]),
         (of_theory(accuracy=0.1), ["mine.accuracy", "0.1", "model: theory"]),

@@ -11,7 +11,7 @@ error that covers 90 % is
 with n fine, N coarse and M described seeds of the multilevel mean of `sampling` and z = 1.645; with
 plain means the bracket is 1/n. The shares are what a control leaves of the standard deviation.
 Beside these the table says what theory errs by in place of a simulation, and by what share of the
-logarithm of the factor with which it carries one to a broader spectrum.
+change that it adds to one where a broader spectrum is asked for.
 """
 
 from __future__ import annotations
