@@ -186,8 +186,7 @@ def band_rows(measured, points):
                     if way == "difference":
                         # kappa hardly changes, but errs as the area does that it is made of.
                         like = known["area"] if quantity == "kappa" else known[quantity]
-                        part = like.sel(at) / (like.sel(whole) - like.sel(at))
-                        size = 1 / rms(part).sel(pressure=load)
+                        size = rms(like.sel(whole) / like.sel(at) - 1).sel(pressure=load)
                         points.add("carrying", quantity, accuracy.Surface(1, 1), off / float(size))
     return rows
 

@@ -38,6 +38,7 @@ PARTS = (
 COSTS = ("fine_cost", "coarse_cost", "described_cost", "tolerance_cost")
 COVERS = 1.645  # standard deviations that cover 90 % of a normal distribution
 COARSE = 2  # pixels per shortest wavelength of the coarse seeds
+SAME_COST = 1.05  # ratio of costs that were not measured well enough to tell them apart
 FULL = 1e-8  # tolerance at which costs were measured
 
 # What a user may ask for, by the columns of the table that it depends on.
@@ -274,6 +275,8 @@ def cheapest(
 ) -> Settings:
     """Return the cheapest settings predicted to reach an accuracy for all quantities wanted.
 
+    Of those that cost within 5 % of the cheapest, the most accurate.
+
     Parameters
     ----------
     accuracy : float
@@ -316,13 +319,17 @@ def cheapest(
             laws, surface, len(pressures), descriptor_seeds, pixels, tolerance
         )
         costs = one * seeds + np.where(coarse > 0, many * coarse + fixed, 0.0)
-        costs = np.where(errors <= accuracy, costs, np.inf)
-        best = np.unravel_index(np.argmin(costs), costs.shape)
-        chosen = Settings(pixels, tolerance, int(seeds[best[0], 0]), int(coarse[best[1]]))
-        found.append((float(costs[best]), chosen))
-    cost, chosen = min(found)
-    if np.isfinite(cost):
-        return chosen
+        found += [
+            (float(cost), float(error), Settings(pixels, tolerance, int(n), int(more)))
+            for cost, error, n, more in zip(
+                *(part.ravel() for part in np.broadcast_arrays(costs, errors, seeds, coarse)),
+                strict=True,
+            )
+            if error <= accuracy
+        ]
+    if found:
+        lowest = min(cost for cost, *_ in found)
+        return min((e, c, one) for c, e, one in found if c <= SAME_COST * lowest)[-1]
     best = Settings(grids[-1], TOLERANCES[-1], SEEDS[-1], int(coarse[-1]))
     error, column, pressure = worst_error(
         laws, best, surface, pressures, quantities, descriptor_seeds
