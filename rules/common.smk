@@ -15,6 +15,7 @@ import psutil
 
 sys.path.insert(0, str(Path(workflow.basedir) / "scripts"))
 
+import _cost
 from snakemake.exceptions import WorkflowError
 from stickiness import config as configuration
 
@@ -169,6 +170,25 @@ def ledger_inputs():
             f"{RESULTS}/surfaces/H0.8_zeta64/seed{seed}.nc" for seed in seeds_of("H0.8_zeta64")
         ],
     }
+
+
+def memory_of(rule):
+    """Memory [MB] that jobs of a rule ask for: more, each time that one fails."""
+
+    def asked(wildcards, attempt):
+        return attempt * _cost.asked_mb(rule, _cost.work(config, rule, **dict(wildcards.items())))
+
+    return asked
+
+
+def runtime_of(rule):
+    """Time [min] that jobs of a rule ask for: more, each time that one fails."""
+
+    def asked(wildcards, attempt):
+        size = _cost.work(config, rule, **dict(wildcards.items()))
+        return attempt * _cost.asked_minutes(rule, size)
+
+    return asked
 
 
 # --- A killed run ----------------------------------------------------------------------------
