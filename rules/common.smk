@@ -85,6 +85,7 @@ def library_of(script):
     return sorted(os.path.relpath(path) for path in found)
 
 
+@cache
 def imported_modules(path, root):
     """Files below `root` that a Python file imports from the library or from beside itself."""
     candidates = []

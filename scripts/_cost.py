@@ -41,7 +41,7 @@ class Cost:
 
 COSTS = {
     "synthesise_surface": Cost(base_mb=125, arrays=9, per_megapixel=1.0),
-    "solve_repulsive": Cost(base_mb=135, arrays=17, per_megapixel=1.0),
+    "solve_repulsive": Cost(base_mb=135, arrays=17, per_megapixel=1.1),
     "solve_coarse": Cost(base_mb=135, arrays=12, per_megapixel=1.0),
     "contact_maps": Cost(base_mb=135, arrays=22, per_megapixel=1.0),
     "solve_adhesive": Cost(base_mb=135, arrays=28, per_megapixel=2.0),

@@ -1,0 +1,71 @@
+"""Memory and time that jobs ask for, beside what they were measured to take."""
+
+import csv
+from pathlib import Path
+
+import pytest
+import yaml
+
+import _cost
+from stickiness import config as configuration
+
+ROOT = Path(__file__).parents[1]
+MEASURED = ROOT / "tests/data/job_costs.csv"
+
+
+def rows(rule):
+    """Size, seconds and memory of every measured job of a rule."""
+    with MEASURED.open(encoding="utf-8") as file:
+        chosen = [row for row in csv.DictReader(file) if row["rule"] == rule]
+    return [
+        (
+            _cost.Work(*(int(row[name]) for name in ("stored", "solved", "solutions"))),
+            float(row["seconds"]),
+            float(row["max_rss_mb"]),
+        )
+        for row in chosen
+    ]
+
+
+@pytest.mark.parametrize("rule", _cost.COSTS)
+def test_memory_is_not_below_what_was_measured(rule):
+    measured = rows(rule)
+    assert len({size.stored for size, _, _ in measured}) >= 2, "says nothing about the grid"
+    for size, _, memory in measured:
+        assert memory <= _cost.memory_mb(rule, size), size
+    largest = max(measured, key=lambda row: row[0].stored)
+    assert _cost.memory_mb(rule, largest[0]) <= 1.5 * largest[2], "asks for far too much"
+
+
+@pytest.mark.parametrize("rule", _cost.COSTS)
+def test_time_asked_for_covers_what_was_measured(rule):
+    for size, seconds, _ in rows(rule):
+        within = seconds / _cost.seconds(rule, size)
+        assert within <= _cost.TIME_MARGIN, size
+        # The model must tell jobs apart, not call all of them long. Short ones are mostly start.
+        assert within >= 0.2, size
+
+
+def test_a_finer_grid_asks_for_more():
+    config = configuration.load(ROOT / "config/config.yaml")
+    asked = {}
+    for fidelity in ("draft", "standard", "fine"):
+        size = _cost.work(config | {"fidelity": fidelity}, "solve_repulsive", case="H0.8_zeta128")
+        asked[fidelity] = size.stored
+    assert asked["fine"] == 4 * asked["standard"] == 16 * asked["draft"] == 2048**2
+    size = _cost.work(config, "solve_adhesive", adhesion="fig4b_rough", seed="1")
+    assert (size.stored, size.solutions) == (1024**2, 20)  # refined twice; one load, 20 laws
+
+
+def test_profile_groups_rules_that_exist():
+    profile = yaml.safe_load((ROOT / "profiles/slurm/config.yaml").read_text(encoding="utf-8"))
+    rules = {
+        line.split()[1].rstrip(":")
+        for file in (ROOT / "rules").glob("*.smk")
+        for line in file.read_text(encoding="utf-8").splitlines()
+        if line.startswith("rule ")
+    }
+    groups = dict(entry.split("=") for entry in profile["groups"])
+    components = dict(entry.split("=") for entry in profile["group-components"])
+    assert groups.keys() <= rules
+    assert set(groups.values()) == components.keys()
