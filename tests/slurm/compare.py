@@ -1,7 +1,8 @@
-"""Compare all variables of all NetCDF files below two folders: compare.py ONE OTHER.
+"""Compare all variables of all NetCDF files of a run with those of another: compare.py RUN OTHER.
 
-Ends with an error if a file or variable is missing on either side, or if values are apart by more
-than rounding. Times of a run and versions of the codes are attributes and are left alone.
+Ends with an error if the other has no such file, if a variable is missing on either side, or if
+values are apart by more than rounding. What else the other holds, and attributes (parameters,
+versions of the codes), are left alone.
 """
 
 import sys

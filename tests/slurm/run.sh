@@ -2,7 +2,8 @@
 # Proof on a real Slurm: a run through sbatch survives the failure of its node and gives what a run
 # without Slurm gives.
 #
-#   tests/slurm/run.sh [--fidelity tiny|draft] [--cores N] [--reference RESULTS] [--keep]
+#   tests/slurm/run.sh [--fidelity tiny|draft] [--target "fig1 …"] [--cores N]
+#                      [--reference RESULTS] [--keep]
 #
 # For root on a Debian machine or in a container that has no Slurm of its own. Installs slurm-wlm and
 # munge if they are missing, and the executor into .venv; writes /etc/slurm/slurm.conf; starts munged,
@@ -12,11 +13,12 @@
 # code). Ends what it has started and removes what it has written; --keep leaves the results.
 set -euo pipefail
 
-FIDELITY=tiny REFERENCE="" KEEP=no CORES=$(nproc)
+FIDELITY=tiny TARGET=() REFERENCE="" KEEP=no CORES=$(nproc)
 while [ $# -gt 0 ]; do
   case $1 in
     --fidelity) FIDELITY=$2; shift 2 ;;
     --reference) REFERENCE=$(realpath "$2"); shift 2 ;;
+    --target) read -ra TARGET <<< "$2"; shift 2 ;;
     --cores) CORES=$2; shift 2 ;;
     --keep) KEEP=yes; shift ;;
     *) echo "unknown option $1: see the first lines of $0" >&2; exit 2 ;;
@@ -29,8 +31,8 @@ MARK="Written by tests/slurm/run.sh"
 CONF=/etc/slurm/slurm.conf
 TIMEOUT=20     # s without an answer after which a node has failed
 CREDENTIAL=30  # s, which Slurm waits before a job that has lost its node starts again
-STARTED=()     # processes to end, in this order
 MADE_CONF=no
+RUN="" CONTROLLER="" SLURMD="" MUNGED=""  # processes to end, in this order
 
 say() { echo "$(date +%T) $*"; }
 fail() { echo "$(date +%T) FAILED: $*" >&2; exit 1; }
@@ -77,21 +79,25 @@ steps() { # slurmstepd processes of the jobs in the queue, each with its tasks
 
 end() { # end processes by id and wait until they are gone
   local pid
-  kill "$@" 2> /dev/null || true
   for pid in "$@"; do
-    for _ in $(seq 50); do [ -d "/proc/$pid" ] || break; sleep 0.2; done
-    [ ! -d "/proc/$pid" ] || kill -9 "$pid" 2> /dev/null || true
+    kill "$pid" 2> /dev/null || continue
+    for _ in $(seq 50); do kill -0 "$pid" 2> /dev/null || break; sleep 0.2; done
+    kill -9 "$pid" 2> /dev/null || true
   done
 }
 
 finish() {
   local code=$?
   trap - EXIT
-  if [ -S "$STATE/munge.socket" ]; then
-    scancel --user=root 2> /dev/null || true
-    sleep 2
+  set +e
+  # shellcheck disable=SC2086  # those that were not started are left out
+  end $RUN
+  if [ -n "$CONTROLLER" ] && [ -n "$(timeout 10 squeue --noheader --states=running)" ]; then
+    timeout 10 scancel --user=root
+    sleep 8  # longer than KillWait
   fi
-  [ ${#STARTED[@]} = 0 ] || end "${STARTED[@]}"
+  # shellcheck disable=SC2086
+  end $CONTROLLER $SLURMD $MUNGED
   [ $MADE_CONF = no ] || rm -f "$CONF"
   if [ $code != 0 ]; then
     echo "what there is: $WORK" >&2
@@ -105,7 +111,6 @@ trap finish EXIT
 start_slurmd() {
   slurmd -D -f "$CONF" > "$STATE/slurmd.out" 2>&1 &
   SLURMD=$!
-  STARTED+=("$SLURMD")
 }
 
 wait_for() { # seconds, what is waited for, command...
@@ -118,9 +123,8 @@ wait_for() { # seconds, what is waited for, command...
 }
 
 node_is() { sinfo --noheader --format=%T 2> /dev/null | grep -Eq "^($1)"; }
-solving() { # a realisation is being solved, by a job that has run for a while
-  [ -n "$(find "$WORK/run/results" -path '*/logs/solve_*' -name '*.log' -newermt '-20 seconds' 2> /dev/null)" ] &&
-    [ -n "$(squeue --noheader --states=running --format=%A)" ]
+solving() { # a job with realisations to solve is on the node; its comment names its group or rule
+  squeue --noheader --states=running --format=%k | grep -Eq "rule_(repulsive|adhesive|solve)_"
 }
 
 # --- Slurm --------------------------------------------------------------------------------------
@@ -139,9 +143,8 @@ sed -e "s|@MARK@|$MARK|" -e "s|@HOST@|$(hostname -s)|" -e "s|@STATE@|$STATE|" \
   -e "s|@MEMORY@|$(awk '/MemTotal/ {print int($2 / 1024 * 0.9)}' /proc/meminfo)|" \
   "$PROJECT/tests/slurm/slurm.conf.in" > $CONF
 slurmctld -D -f $CONF > "$STATE/slurmctld.out" 2>&1 &
-STARTED+=($!)
+CONTROLLER=$!
 start_slurmd
-STARTED+=("$MUNGED")
 wait_for 60 "the node is idle" node_is idle
 say "Slurm $(sinfo --version | cut -d' ' -f2) on $(hostname -s), $CORES cores, no accounting"
 
@@ -151,19 +154,19 @@ cd "$WORK/run"
 CHOSEN=(--config fidelity="$FIDELITY")
 [ "$FIDELITY" != tiny ] || CHOSEN=(--configfile config/config.yaml config/tiny.yaml)
 BEGIN=$SECONDS
-"$PYTHON" -m snakemake --profile profiles/slurm "${CHOSEN[@]}" --slurm-no-account \
+"$PYTHON" -m snakemake "${TARGET[@]}" --profile profiles/slurm "${CHOSEN[@]}" --slurm-no-account \
   --slurm-status-command squeue --slurm-init-seconds-before-status-checks 5 --latency-wait 20 \
   --slurm-keep-successful-logs > "$WORK/slurm.log" 2>&1 &
 RUN=$!
-STARTED=("$RUN" "${STARTED[@]}")
-say "snakemake through sbatch, fidelity $FIDELITY"
+say "snakemake through sbatch: ${TARGET[*]:-everything}, fidelity $FIDELITY"
 
 # --- The failure --------------------------------------------------------------------------------
-wait_for 600 "a simulation runs" solving
-sleep 5
+wait_for 900 "a simulation runs" solving
+sleep 8
 LOST=$(squeue --noheader --states=running --format=%A | tr '\n' ' ')
 mapfile -t VICTIMS < <(steps)
 kill -9 "$SLURMD" "${VICTIMS[@]}"
+wait "$SLURMD" 2> /dev/null || true
 say "killed slurmd and ${#VICTIMS[@]} processes of jobs $LOST"
 wait_for 180 "Slurm gives the node up" node_is down
 say "Slurm has given the node up: $(squeue --noheader --states=all --format='%A %T %r' --jobs="${LOST// /,}" | tr '\n' ';')"
@@ -171,23 +174,29 @@ start_slurmd
 wait_for 120 "the node is back" node_is 'idle|mixed|allocated'
 say "slurmd is back"
 
-wait $RUN || { tail -40 "$WORK/slurm.log" >&2; fail "the run has not completed"; }
+if wait "$RUN"; then
+  RUN=""
+else
+  RUN=""
+  tail -40 "$WORK/slurm.log" >&2
+  fail "the run has not completed"
+fi
 say "the run has completed after $((SECONDS - BEGIN)) s"
 
 RESTARTED=0
 for job in $LOST; do
-  count=$(grep -c "Requeu.*JobId=$job\b\|requeue.*JobId=$job\b\|JobId=$job .*[Rr]equeu" "$STATE/slurmctld.log" || true)
-  [ "$count" = 0 ] || RESTARTED=$((RESTARTED + 1))
+  ! grep -qi "requeue job JobId=$job due to failure of node" "$STATE/slurmctld.log" ||
+    RESTARTED=$((RESTARTED + 1))
 done
 [ $RESTARTED -gt 0 ] || fail "none of the jobs $LOST was queued again"
-AGAIN=$("$PYTHON" -m snakemake -n "${CHOSEN[@]}" --quiet host)
+AGAIN=$("$PYTHON" -m snakemake -n "${TARGET[@]}" "${CHOSEN[@]}" --quiet host)
 grep -q "Nothing to be done" <<< "$AGAIN" || fail "not everything is there: $AGAIN"
 
 # --- The comparison -----------------------------------------------------------------------------
 if [ -z "$REFERENCE" ]; then
   say "the same without Slurm"
   "$PYTHON" "$PROJECT/tests/slurm/copy_workflow.py" "$WORK/local"
-  (cd "$WORK/local" && "$PYTHON" -m snakemake -j"$CORES" "${CHOSEN[@]}") > "$WORK/local.log" 2>&1 ||
+  (cd "$WORK/local" && "$PYTHON" -m snakemake "${TARGET[@]}" -j"$CORES" "${CHOSEN[@]}") > "$WORK/local.log" 2>&1 ||
     fail "the local run"
   REFERENCE=$WORK/local/results/$FIDELITY
 fi
