@@ -36,6 +36,7 @@ rule contact_measured:
         "../envs/environment.yaml"
     resources:
         mem_mb=4000,
+        runtime=60,
     params:
         surface=lambda wildcards: REAL_SURFACES[wildcards.real_surface],
         tolerance=FIDELITY["tolerance"],

@@ -7,6 +7,8 @@ import pytest
 import yaml
 
 import _cost
+import solve_repulsive
+import synthesise_surface
 from stickiness import config as configuration
 
 ROOT = Path(__file__).parents[1]
@@ -55,6 +57,16 @@ def test_a_finer_grid_asks_for_more():
     assert asked["fine"] == 4 * asked["standard"] == 16 * asked["draft"] == 2048**2
     size = _cost.work(config, "solve_adhesive", adhesion="fig4b_rough", seed="1")
     assert (size.stored, size.solutions) == (1024**2, 20)  # refined twice; one load, 20 laws
+
+
+def test_grids_are_those_of_the_scripts():
+    """Without scipy, which would slow down every start of Snakemake, the grid is a little smaller."""
+    assert _cost.COARSE == solve_repulsive.COARSE
+    for magnification in (16, 31, 67, 128, 509, 1023):
+        surface = {"hurst": 0.8, "magnification": magnification}
+        points = _cost.pixels({"model_surfaces": {"one": surface}}, "one", 8)
+        made = synthesise_surface.grid_points(surface, 8) ** 2
+        assert points <= made <= _cost.MEMORY_MARGIN * points
 
 
 def test_profile_groups_rules_that_exist():
