@@ -60,7 +60,7 @@ def test_a_finer_grid_asks_for_more():
 
 
 def test_grids_are_those_of_the_scripts():
-    """Without scipy, which would slow down every start of Snakemake, the grid is a little smaller."""
+    """A little smaller: without what the Fourier transform adds, which takes scipy to know."""
     assert _cost.COARSE == solve_repulsive.COARSE
     for magnification in (16, 31, 67, 128, 509, 1023):
         surface = {"hurst": 0.8, "magnification": magnification}
