@@ -26,7 +26,8 @@ WILDCARDS = {
     "adhesive_maps": ("adhesion",),
     "follow_loop": ("loop",),
 }
-COLUMNS = ("fidelity", "rule", "job", "stored", "solved", "solutions", "seconds", "max_rss_mb")
+SIZE = ("stored", "solved", "solutions")
+MEASURED = {"seconds": "s", "cpu_seconds": "cpu_time", "max_rss_mb": "max_rss"}
 
 
 def main():
@@ -39,7 +40,7 @@ def main():
         for key, value in yaml.safe_load(chosen.configfile.read_text()).items():
             config[key] = config[key] | value if isinstance(value, dict) else value
     table = csv.writer(sys.stdout, lineterminator="\n")
-    table.writerow(COLUMNS)
+    table.writerow(["fidelity", "rule", "job", *SIZE, *MEASURED])
     for folder in chosen.results:
         for rule in WILDCARDS:
             table.writerows(rows(config | {"fidelity": folder.name}, folder, rule))
@@ -53,16 +54,11 @@ def rows(config, folder, rule):
         size = _cost.work(config, rule, **dict(zip(WILDCARDS[rule], values, strict=True)))
         with file.open() as lines:
             measured = next(csv.DictReader(lines, delimiter="\t"))
-        yield (
-            folder.name,
-            rule,
-            job.as_posix(),
-            size.stored,
-            size.solved,
-            size.solutions,
-            measured["s"],
-            measured["max_rss"],
-        )
+        yield [
+            *(folder.name, rule, job.as_posix()),
+            *(getattr(size, name) for name in SIZE),
+            *(measured[column] for column in MEASURED.values()),
+        ]
 
 
 if __name__ == "__main__":

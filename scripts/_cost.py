@@ -1,9 +1,9 @@
 """What a job costs, from the size of its grid and the number of its solutions.
 
-Measured on results of two fidelities and one solution on 4096 by 4096 points
-(`tests/data/job_costs.csv`, made by `benchmarks/job_cost.py`). Memory is that of the whole grid in
-so many arrays; time grows with pixels times solutions, since conjugate gradients need hardly more
-iterations on finer grids. Rules that are not listed do not depend on a grid.
+Measured on results of two fidelities and on 4096 by 4096 points (`tests/data/job_costs.csv`, made
+by `benchmarks/job_cost.py`). Memory is that of the whole grid in so many arrays; time grows with
+pixels times solutions, since conjugate gradients need hardly more iterations on finer grids. Rules
+that are not listed do not depend on a grid.
 """
 
 from __future__ import annotations
@@ -44,8 +44,8 @@ COSTS = {
     "solve_repulsive": Cost(base_mb=135, arrays=17, per_megapixel=1.1),
     "solve_coarse": Cost(base_mb=135, arrays=12, per_megapixel=1.0),
     "contact_maps": Cost(base_mb=135, arrays=22, per_megapixel=1.0),
-    "solve_adhesive": Cost(base_mb=135, arrays=28, per_megapixel=2.0),
-    "adhesive_maps": Cost(base_mb=135, arrays=28, per_megapixel=2.0),
+    "solve_adhesive": Cost(base_mb=135, arrays=28, per_megapixel=3.4),
+    "adhesive_maps": Cost(base_mb=135, arrays=28, per_megapixel=3.4),
     "follow_loop": Cost(base_mb=135, arrays=28, per_megapixel=0.5),
 }
 
@@ -70,7 +70,7 @@ def memory_mb(rule: str, size: Work) -> int:
 
 
 def seconds(rule: str, size: Work) -> float:
-    """Time that a job takes on one core of its own [s]."""
+    """Processor time that a job takes at most [s]."""
     cost = COSTS[rule]
     each = cost.per_megapixel * 1e-6 * size.solved + cost.per_solution
     return cost.start + each * size.solutions
@@ -122,7 +122,7 @@ def _adhesive(config: Mapping[str, Any], adhesion: str, **_: str) -> Work:
     points = pixels(config, config["cases"][asked["case"]]["surface"])
     points *= asked["bem"].get("refine", 1) ** 2
     laws = len(asked["range_over_h_rms"]) * len(asked["adhesion_length_over_range"])
-    return Work(points, points, len(asked["bem"]["pressures"]) * laws)
+    return Work(points, points, len(asked["bem"]["pressures"]) * (1 + laws))  # 1: no adhesion
 
 
 def _adhesive_maps(config: Mapping[str, Any], adhesion: str) -> Work:

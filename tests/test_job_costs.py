@@ -16,14 +16,13 @@ MEASURED = ROOT / "tests/data/job_costs.csv"
 
 
 def rows(rule):
-    """Size, seconds and memory of every measured job of a rule."""
+    """Size, seconds, processor time and memory of every measured job of a rule."""
     with MEASURED.open(encoding="utf-8") as file:
         chosen = [row for row in csv.DictReader(file) if row["rule"] == rule]
     return [
         (
             _cost.Work(*(int(row[name]) for name in ("stored", "solved", "solutions"))),
-            float(row["seconds"]),
-            float(row["max_rss_mb"]),
+            *(float(row[name]) for name in ("seconds", "cpu_seconds", "max_rss_mb")),
         )
         for row in chosen
     ]
@@ -32,20 +31,19 @@ def rows(rule):
 @pytest.mark.parametrize("rule", _cost.COSTS)
 def test_memory_is_not_below_what_was_measured(rule):
     measured = rows(rule)
-    assert len({size.stored for size, _, _ in measured}) >= 2, "says nothing about the grid"
-    for size, _, memory in measured:
+    assert len({size.stored for size, *_ in measured}) >= 2, "says nothing about the grid"
+    for size, _, _, memory in measured:
         assert memory <= _cost.memory_mb(rule, size), size
     largest = max(measured, key=lambda row: row[0].stored)
-    assert _cost.memory_mb(rule, largest[0]) <= 1.5 * largest[2], "asks for far too much"
+    assert _cost.memory_mb(rule, largest[0]) <= 1.5 * largest[3], "asks for far too much"
 
 
 @pytest.mark.parametrize("rule", _cost.COSTS)
-def test_time_asked_for_covers_what_was_measured(rule):
-    for size, seconds, _ in rows(rule):
-        within = seconds / _cost.seconds(rule, size)
-        assert within <= _cost.TIME_MARGIN, size
-        # The model must tell jobs apart, not call all of them long. Short ones are mostly start.
-        assert within >= 0.2, size
+def test_time_is_not_below_what_was_measured(rule):
+    for size, seconds, processor, _ in rows(rule):
+        assert processor <= _cost.seconds(rule, size), size
+        # Nor do all jobs pass for long ones. Time on the clock, of a machine that others used too.
+        assert _cost.seconds(rule, size) <= 8 * seconds, size
 
 
 def test_a_finer_grid_asks_for_more():
@@ -56,7 +54,7 @@ def test_a_finer_grid_asks_for_more():
         asked[fidelity] = size.stored
     assert asked["fine"] == 4 * asked["standard"] == 16 * asked["draft"] == 2048**2
     size = _cost.work(config, "solve_adhesive", adhesion="fig4b_rough", seed="1")
-    assert (size.stored, size.solutions) == (1024**2, 20)  # refined twice; one load, 20 laws
+    assert (size.stored, size.solutions) == (1024**2, 21)  # refined twice; one load, no law and 20
 
 
 def test_grids_are_those_of_the_scripts():
