@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import Any
 
+import xarray as xr
+
 from _model import VARIANT
 from stickiness.persson_kernels import CORRECTIONS
 
@@ -21,3 +23,10 @@ def theories(variants: Iterable[str], gamma: float) -> dict[str, dict[str, Any]]
     for correction in CORRECTIONS[1:]:
         found[f"{VARIANT}, {correction}"] = {"variant": VARIANT, "correction": correction}
     return found
+
+
+def between_corrections(values: xr.DataArray) -> tuple[xr.DataArray, xr.DataArray]:
+    """Lowest and highest of the quoted variant by all its corrections, along `variant`."""
+    names = [name for name in values["variant"].values if str(name).startswith(VARIANT)]
+    chosen = values.sel(variant=names)
+    return chosen.min("variant"), chosen.max("variant")

@@ -32,8 +32,10 @@ def main(job):
     theory = datasets.read(job.input.theory, COMPARED)
     dataset = differences(simulated, theory).merge(distance(simulated, theory))
     dataset["highest_summit"] = highest_summit(datasets.parameters(simulated))
-    holds = theory.mean_gap.isel(variant=0) < dataset.highest_summit - MARGIN
-    dataset["window_holds"] = holds.drop_vars("variant").astype("i1")
+    dataset["theory_mean_gap"] = theory.mean_gap
+    holds = theory.mean_gap.isel(variant=0, drop=True) < dataset.highest_summit - MARGIN
+    dataset["window_holds"] = holds.astype("i1")
+    dataset["margin"] = MARGIN
     datasets.write(
         annotated(dataset),
         job.output[0],
@@ -105,9 +107,11 @@ def annotated(dataset):
     texts = {name: DESCRIBED[name] for name in ("pressure", "range", "gap")}
     texts["variant"] = _theories.DESCRIBED
     texts["highest_summit"] = ("1", "mean height of a window's highest point over h_rms")
+    texts["theory_mean_gap"] = ("1", "mean gap over h_rms by theory")
+    texts["margin"] = ("1", "least distance of theory's mean gap from the highest summit")
     texts["window_holds"] = (
         "1",
-        f"1 where theory's mean gap is {MARGIN:g} h_rms or more below the highest summit",
+        "1 where theory's mean gap is so far below the highest summit",
     )
     for name in COMPARED:
         text = f"theory over simulation less 1: {DESCRIBED[name][1]}"
