@@ -37,6 +37,7 @@ localrules:
     fig5,
     fig6,
     fig7,
+    fig8,
     claims,
     verdicts,
     surfaces,
@@ -86,6 +87,11 @@ rule fig6:
 rule fig7:
     input:
         f"{RESULTS}/figures/fig7.png",
+
+
+rule fig8:
+    input:
+        f"{RESULTS}/figures/fig8.png",
 
 
 rule verdicts:
