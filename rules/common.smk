@@ -37,6 +37,7 @@ LOGS, BENCHMARKS = f"{RESULTS}/logs", f"{RESULTS}/benchmarks"
 CASES, SWEEPS = config["cases"], config["theory"]["sweeps"]
 ADHESION, LOOPS = config["adhesion"], config["loops"]
 FIGURES = [f"fig{number}" for number in range(1, 8)]
+PAGE_PARTS = [f"report/{part}" for part in ("macros.html.j2", "page.css", "page.js")]
 
 
 wildcard_constraints:

@@ -1,6 +1,11 @@
 # Claims ledger and report: both read everything that came before.
 
 
+def data_of(rule_name):
+    """Datasets that a rule without wildcards reads."""
+    return [str(path) for path in getattr(rules, rule_name).input if str(path).endswith(".nc")]
+
+
 rule check_claims:
     input:
         **ledger_inputs(),
@@ -28,6 +33,7 @@ rule write_report:
     input:
         library=library_of("write_report.py"),
         template="report/report.html.j2",
+        parts=PAGE_PARTS,
         figures=expand(f"{RESULTS}/figures/{{figure}}.png", figure=FIGURES),
         captions=expand("report/{figure}.rst", figure=FIGURES),
         claims=f"{RESULTS}/claims/claims.nc",
@@ -52,5 +58,6 @@ rule write_report:
     params:
         benchmarks=BENCHMARKS,
         fidelity=config["fidelity"],
+        figure_sources={figure: data_of(f"plot_{figure}") for figure in FIGURES},
     script:
         "../scripts/write_report.py"
