@@ -25,11 +25,12 @@ _DOI = re.compile(r"doi:(10\.\d{4,9}/(?:\([^\s()]*\)|[^\s,;:()&]*[^\s,;:()&.])+)
 
 
 # Symbols as the texts of datasets spell them, escaped, and how a page shows them.
-_GREEK = {"kappa": "κ", "zeta": "ζ"}
+_GREEK = {"kappa": "κ", "zeta": "ζ", "sigma": "σ", "theta": "θ", "beta": "β", "Delta": "Δ"}
 _SUBSCRIPTED = re.compile(
-    r"(?<![\w/])(h(?:&#39;){0,2}|[aAlpκ])_(rms|ad|rep|nom|V,PR|V|a)(?![\w/])|(?<![\w/])([qC])([01])(?!\w)"
+    r"(?<!\w)(h(?:&#39;|'){0,2}|[aAlpκσΔ])_(rms|ad|rep|nom|th|V,PR|V|a|r)(?![A-Za-z0-9_])"
+    r"|(?<!\w)([qCσ])([01])(?![A-Za-z0-9_])"
 )
-_RAISED = re.compile(r"(?<=[\w)*])\^(?:\(([^()]+)\)|(-?\d+(?:\.\d+)?))")
+_RAISED = re.compile(r"(?<=[\w)*>])\^(?:\(((?:[^()]|\([^()]*\))+)\)|(-?\d+(?:\.\d+)?))")
 
 
 def template_of(path: str | Path, page: str | Path) -> Template:
@@ -58,6 +59,9 @@ def template_of(path: str | Path, page: str | Path) -> Template:
     environment.filters["typeset"] = typeset
     environment.filters["href"] = href
     environment.filters["place"] = lambda target: re.sub(r"^(\.\./)+", "", href(target))
+    environment.filters["breakable"] = lambda text: Markup(
+        re.sub("([/_])", r"\1<wbr>", str(escape(text)))
+    )
     return environment.get_template(path.name)
 
 
@@ -72,7 +76,7 @@ def typeset(text: str) -> Markup:
 def _symbols(text: str) -> str:
     """Symbols of an escaped text as HTML."""
     for name, letter in _GREEK.items():
-        text = re.sub(rf"\b{name}(?=\b|_)", letter, text)
+        text = re.sub(rf"\b{name}(?=\b|_|\d)", letter, text)
     text = _SUBSCRIPTED.sub(
         lambda found: f"{found[1] or found[3]}<sub>{found[2] or found[4]}</sub>", text
     )

@@ -104,7 +104,7 @@ def claim_row(claim: xr.Dataset) -> Context:
 
 def error_sources(claim: xr.Dataset) -> str:
     """What makes up the error of a claim's value."""
-    known = claim.error.dropna("error_source")
+    known = claim.error.dropna("error_source").sortby(-claim.error)
     return ", ".join(
         f"{source} {number(float(error), 2)}"
         for source, error in zip(known.error_source.values, known.values, strict=True)

@@ -25,7 +25,10 @@ def main(job):
             "claims": job.input.claims,
             "verdicts": job.input.verdicts,
             "figures": job.params.figure_sources,
-            **{group: by_name(job.input[group]) for group in ("ensembles", "comparisons", "surfaces")},
+            **{
+                group: by_name(job.input[group])
+                for group in ("ensembles", "comparisons", "surfaces")
+            },
         },
         figures=[_captions.figure(*pair) for pair in zip(job.input.figures, captions, strict=True)],
         benchmarks=job.params.benchmarks,

@@ -139,7 +139,9 @@ def verdict(pair, surface, entry):
         "material": entry["label"],
         "modulus": modulus_text(entry),
         **pair_texts(pair),
-        "rate": rate(solid, pair, ends(pair.modulus_threshold)) if solid.depends_on_rate else NOTHING,
+        "rate": rate(solid, pair, ends(pair.modulus_threshold))
+        if solid.depends_on_rate
+        else NOTHING,
         "criteria": [
             row | {"margins": interval(*row["margins"], 2)}
             for row in reasons(pair, surface, solid.work_of_adhesion)
