@@ -1,11 +1,6 @@
 # Claims ledger and report: both read everything that came before.
 
 
-def data_of(rule_name):
-    """Datasets that a rule without wildcards reads."""
-    return [str(path) for path in getattr(rules, rule_name).input if str(path).endswith(".nc")]
-
-
 rule check_claims:
     input:
         **ledger_inputs(),
