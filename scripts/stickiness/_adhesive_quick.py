@@ -170,7 +170,9 @@ class _Steps:
                 curvature, longest = stiffness, self.law.range
                 self.last_soft, self.soft = self.count, self.linear or convex
             longest /= self.unit * largest
-            if self.soft or not self._advance(slope, min(-slope / curvature, longest)):
+            # A uniform direction has no stiffness.
+            length = min(-slope / curvature, longest) if curvature > 0 else longest
+            if self.soft or not self._advance(slope, length):
                 break
 
     def _turn(self, step, weight):

@@ -33,7 +33,11 @@ class Adhesion:
         Positive and negative part of `pressure`, each averaged over the nominal area and
         positive: their difference is `mean_pressure` (to the residual).
     repulsive_area_fraction : float
-        Share of points at the wall, or with a negative gap if the law has no wall.
+        Share of points at the wall, or with a negative gap if the law has no wall: contact,
+        under whatever pressure.
+    net_repulsive_area_fraction : float
+        Share of those where the net pressure is compressive: next to the edge of contact the
+        attraction outweighs the wall's push.
     adhesive_area_fraction : float
         Share of other points with a gap up to the range.
     mean_gap : float
@@ -66,6 +70,7 @@ class Adhesion:
     repulsive_pressure: float
     adhesive_pressure: float
     repulsive_area_fraction: float
+    net_repulsive_area_fraction: float
     adhesive_area_fraction: float
     mean_gap: float
     elastic_energy: float
@@ -314,6 +319,7 @@ class Scaled:
             repulsive_pressure=float(np.mean(np.maximum(net, 0))),
             adhesive_pressure=float(np.mean(np.maximum(-net, 0))),
             repulsive_area_fraction=float(np.mean(touching)),
+            net_repulsive_area_fraction=float(np.mean(touching & (net > 0))),
             adhesive_area_fraction=float(np.mean(near)),
             mean_gap=float(gap.mean()) * self.height,
             elastic_energy=elastic * energy,
