@@ -15,7 +15,7 @@ from stickiness import repulsive
 from stickiness._active_set import PREDICTION
 from stickiness._adhesive_descent import descend
 from stickiness._adhesive_problem import FrozenTraction, Surface, with_law
-from stickiness._adhesive_quick import quick_descent, suits
+from stickiness._adhesive_quick import quick_descent
 from stickiness._adhesive_state import lowered
 
 __all__ = ["from_coarser_grids", "without_adhesion"]
