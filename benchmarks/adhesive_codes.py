@@ -306,10 +306,8 @@ def _adhesion_run(minimise, heights, length, law, pressure, limit):
             np.asarray(slope).ravel() * points_per_area + pressure,
         )
 
-    try:
+    with contextlib.suppress(_OutOfTime):
         last = minimise(energy, start, system).x
-    except _OutOfTime:
-        pass
     seconds = time.process_time() - begin
     return Run(np.reshape(last, heights.shape), seconds, calls)
 
