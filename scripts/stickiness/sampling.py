@@ -12,9 +12,9 @@ second over several times as many coarse solutions; the third over thousands of 
 three sets of seeds are disjoint, so that their errors add in quadrature.
 
 Coefficients are fitted on the samples themselves but applied to each sample leaving that one out
-(cf. Avramidis & Wilson, Oper. Res. Lett. 14, 187 (1993), doi:10.1016/0167-6377(93)90069-S). A
-coefficient is then independent of what it multiplies, and every mean here is without bias for any
-number of seeds, whatever the true relation; a poor control costs precision only.
+(cf. Avramidis & Wilson, Oper. Res. Lett. 14, 187 (1993)). A coefficient is then independent of
+what it multiplies, and every mean here is without bias for any number of seeds, whatever the true
+relation; a poor control costs precision only.
 
 Measured for H = 0.8, magnification 64, p/(E* q0 h_rms) = 0.065 on 8 pixels per wavelength: a
 solution on 2 pixels takes 0.18 of the time and leaves 0.4 % of the variance of a_V and of the
