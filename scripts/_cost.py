@@ -45,9 +45,9 @@ COSTS = {
     "solve_coarse": Cost(base_mb=135, arrays=12, per_megapixel=1.0),
     "solve_ensemble": Cost(base_mb=135, arrays=17, per_megapixel=1.1),
     "contact_maps": Cost(base_mb=135, arrays=22, per_megapixel=1.0),
-    "solve_adhesive": Cost(base_mb=135, arrays=28, per_megapixel=3.4),
-    "adhesive_maps": Cost(base_mb=135, arrays=28, per_megapixel=3.4),
-    "follow_loop": Cost(base_mb=135, arrays=28, per_megapixel=0.5),
+    "solve_adhesive": Cost(base_mb=135, arrays=36, per_megapixel=3.4),
+    "adhesive_maps": Cost(base_mb=135, arrays=36, per_megapixel=3.4),
+    "follow_loop": Cost(base_mb=135, arrays=36, per_megapixel=0.5),
 }
 
 
