@@ -32,7 +32,7 @@ def pair_texts(pair: xr.Dataset) -> dict[str, Any]:
         "limits": interval(*limits, digits=2),
         "lowest": limits[0],
         "threshold": quantity(*thresholds, "Pa", digits=2),
-        "modulus": thresholds[0],
+        "threshold_value": thresholds[0],
         "a_v": interval(*a_v, digits=2),
         "a_v_value": float(pair.pair_a_v.mean()),
         **drawn_texts(pair),

@@ -169,6 +169,7 @@ def test_page_shows_verdicts_errors_and_reasons(single, folder):
     for name in ("Dahlquist", "Pastewka–Robbins", "Fuller–Tabor", "Persson–Tosatti"):
         assert name in text
     assert "no roughness at all" in text
+    assert "E* = 230 GPa" in text
     # Steel is stiff: not sticky; the gel is soft at 1 Hz and stiff beyond its relaxation time.
     assert re.search(r"sticks\s+below [\d. ×⁰-⁹]+ Hz", text)
     assert "not sticky" in text
