@@ -28,7 +28,6 @@ ROWS = ("area_fraction", "mean_gap", "attractive_area", "gap_density", "distance
 LARGEST = 0.55  # relative difference shown
 CORRECTIONS = {"yang2008": "Yang & Persson", "wang2017": "Wang & Müser", "xu2024": "Xu et al."}
 PRESSURE_LABEL = r"pressure $p/(E^*q_0h_\mathrm{rms})$"
-SMALLEST_LOAD = 0.001
 
 
 @dataclass(frozen=True)
@@ -117,7 +116,7 @@ def draw_row(ax, row, theory, cases):
         draw_points(ax, case, y, error)
     deviations = np.concatenate(deviations)
     rms = np.sqrt(np.nanmean(deviations**2))
-    text = f"mean {np.nanmean(deviations):.3f}" if row == "distance" else f"rms {rms:.0%}"
+    text = f"mean {np.nanmean(deviations):.2f}" if row == "distance" else f"rms {rms:.0%}"
     ax.text(0.97, 0.93, text, ha="right", va="top", transform=ax.transAxes, fontsize=7.5)
 
 
@@ -156,7 +155,7 @@ def dress(ax, row, column):
     ax.set(xscale="log", xlim=(2e-3, 4) if density else (7e-4, 0.8))
     ax.set_xlabel(r"gap $u/h_\mathrm{rms}$" if density else "")
     if row == "distance":
-        ax.set(ylim=(0, 0.22), xlabel=PRESSURE_LABEL)
+        ax.set(yscale="log", ylim=(4e-3, 2), xlabel=PRESSURE_LABEL)
         label = r"$W_1/h_\mathrm{rms}$"
     else:
         ax.axhline(0, color=GREY, linewidth=0.7, zorder=0)
