@@ -21,11 +21,11 @@ RANGE = 0.1  # over h_rms, of the attractive area
 QUANTITIES = {
     "area_fraction": r"$A$",
     "mean_gap": r"$\bar{u}$",
-    "attractive_area": rf"$A_\mathrm{{ad}}$, $\epsilon$ = {RANGE:g} $h_\mathrm{{rms}}$",
-    "all": "all three",
+    "attractive_area": r"$A_\mathrm{ad}$",
+    "all": "all",
 }
 ROWS = ("area_fraction", "mean_gap", "attractive_area", "gap_density", "distance")
-LARGEST = 0.55  # relative difference shown
+LARGEST = 0.5  # relative difference shown
 CORRECTIONS = {"yang2008": "Yang & Persson", "wang2017": "Wang & Müser", "xu2024": "Xu et al."}
 PRESSURE_LABEL = r"pressure $p/(E^*q_0h_\mathrm{rms})$"
 
@@ -161,7 +161,7 @@ def dress(ax, row, column):
         ax.axhline(0, color=GREY, linewidth=0.7, zorder=0)
         ax.axhspan(-0.1, 0.1, color=GREY, alpha=0.13, linewidth=0, zorder=0)
         ax.set_ylim(-LARGEST, LARGEST)
-        name = r"$P(u)$" if density else QUANTITIES[row].split(",")[0]
+        name = r"$P(u)$" if density else QUANTITIES[row]
         label = f"theory/BEM − 1\n{name}"
     if column == 0:
         ax.set_ylabel(label)
@@ -200,7 +200,7 @@ def gamma_panel(ax, gamma):
     """Gamma with its confidence interval for each correction and quantity."""
     for index, (correction, label) in enumerate(CORRECTIONS.items()):
         at = gamma.sel(correction=correction)
-        y = np.arange(at.sizes["quantity"]) + 0.2 * (1 - index)
+        y = np.arange(at.sizes["quantity"]) + 0.26 * (1 - index)
         bars = np.abs([at.gamma - at.gamma_low, at.gamma_high - at.gamma])
         look = {"color": COLOURS[index], "marker": MARKERS[index], "linestyle": "none"}
         ax.errorbar(at.gamma, y, xerr=bars, elinewidth=1, capsize=2, **look, label=label)
@@ -211,8 +211,8 @@ def gamma_panel(ax, gamma):
     ax.plot([], [], linestyle="none", marker="o", color=BLACK, mfc="white", label="source's own")
     names = [QUANTITIES[str(name)] for name in gamma.quantity.values]
     ax.set_yticks(np.arange(len(names)), names)
-    ax.set(ylim=(3.7, -0.5), xlim=(0.2, 1.0), xlabel=r"best $\gamma$, 95 %, and misfit")
-    ax.legend(loc="upper right")
+    ax.set(ylim=(3.7, -0.5), xlim=(0.25, 1.0), xlabel=r"best $\gamma$, 95 %, and misfit")
+    ax.legend(loc="center right")
 
 
 if __name__ == "__main__":
