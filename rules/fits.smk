@@ -61,3 +61,22 @@ rule compare_theory:
         mem_mb=500,
     script:
         "../scripts/compare_theory.py"
+
+
+rule tabulate_a_v:
+    input:
+        library=library_of("tabulate_a_v.py"),
+        theory=f"{RESULTS}/persson/table.nc",
+        comparisons=expand(f"{RESULTS}/fits/theory/{{case}}.nc", case=CASES),
+    output:
+        f"{RESULTS}/fits/a_v_table.nc",
+    log:
+        f"{LOGS}/tabulate_a_v.log",
+    benchmark:
+        f"{BENCHMARKS}/tabulate_a_v.tsv"
+    conda:
+        "../envs/environment.yaml"
+    resources:
+        mem_mb=500,
+    script:
+        "../scripts/tabulate_a_v.py"

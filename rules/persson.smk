@@ -67,3 +67,23 @@ rule persson_surface:
         ranges=config["criteria"]["ranges"],
     script:
         "../scripts/persson_surface.py"
+
+
+rule persson_table:
+    input:
+        library=library_of("persson_table.py"),
+    output:
+        f"{RESULTS}/persson/table.nc",
+    log:
+        f"{LOGS}/persson_table.log",
+    benchmark:
+        f"{BENCHMARKS}/persson_table.tsv"
+    conda:
+        "../envs/environment.yaml"
+    resources:
+        mem_mb=1000,
+    params:
+        table=config["theory"]["table"],
+        gamma=config["theory"]["gamma"],
+    script:
+        "../scripts/persson_table.py"

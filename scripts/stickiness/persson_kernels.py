@@ -138,6 +138,7 @@ _CORRECTIONS: dict[str, type[Correction]] = {
     "wang2017": Wang2017,
     "xu2024": Xu2024,
 }
+CORRECTIONS = tuple(_CORRECTIONS)
 
 
 def correction_of(name: CorrectionName, gamma: float | None = None) -> Correction:
@@ -155,7 +156,7 @@ def correction_of(name: CorrectionName, gamma: float | None = None) -> Correctio
         If the name is unknown or gamma out of range.
     """
     if name not in _CORRECTIONS:
-        raise ValueError(f"correction must be one of {tuple(_CORRECTIONS)}, got {name!r}")
+        raise ValueError(f"correction must be one of {CORRECTIONS}, got {name!r}")
     kind = _CORRECTIONS[name]
     if gamma is None:
         return kind(kind.own_gamma)
