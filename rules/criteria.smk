@@ -5,6 +5,7 @@ rule map_criterion:
     input:
         **a_v_inputs(),
         library=library_of("map_criterion.py"),
+        a_v_table=f"{RESULTS}/fits/a_v_table.nc",
     output:
         f"{RESULTS}/criteria/map.nc",
     log:

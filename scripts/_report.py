@@ -22,7 +22,7 @@ Datasets = Mapping[str, xr.Dataset]
 Context = dict[str, Any]
 
 RANGE = 0.03  # of the error budget: amid the window of the fits
-DERIVED = "violano"
+EDGES = "edge_adhesion"
 STICKINESS = ("not sticky", "depends", "sticky", "undecided")
 STICKINESS_TONES = ("no", "partly", "yes", "open")
 CLAIM_TONES = {
@@ -31,7 +31,9 @@ CLAIM_TONES = {
     "not reproduced": "no",
 }
 CRITERIA = {
-    "violano": "derived criterion",
+    "edge_adhesion": "edges of contact",
+    "violano": "derived criterion, DMT limit",
+    "violano_constant": "derived, constant a_V",
     "violano_printed": "criterion as printed, 9/4",
     "pastewka_robbins": "Pastewka–Robbins",
     "fuller_tabor": "Fuller–Tabor",
@@ -50,7 +52,7 @@ def summary(claims: xr.Dataset, verdicts: xr.Dataset, ensembles: Sequence[xr.Dat
     """Numbers of the opening paragraph."""
     graded = Counter(str(verdict) for verdict in claims.verdict.values)
     order = [*CLAIM_TONES, *sorted(graded.keys() - CLAIM_TONES.keys())]
-    outside = ~verdicts.dmt_valid.astype(bool).all("end")
+    outside = ~verdicts.simulated.astype(bool).all("end")
     sticky = verdicts.verdict == 2
     seeds = sorted({len(datasets.parameters(ensemble)["seeds"]) for ensemble in ensembles})
     return {
@@ -174,23 +176,23 @@ def material_row(name: str, entry: Mapping[str, Any]) -> Context:
 def verdict_cell(pair: xr.Dataset) -> Context:
     """Verdict on one pair, with its margin and modulus threshold from rough to smooth end."""
     ends = ("rough", "smooth")
-    margins = [float(pair.margin.sel(criterion=DERIVED, end=end)) for end in ends]
+    margins = [float(pair.margin.sel(criterion=EDGES, end=end)) for end in ends]
     thresholds = [float(pair.modulus_threshold.sel(end=end)) for end in ends]
     return {
         "verdict": STICKINESS[int(pair.verdict)],
         "tone": STICKINESS_TONES[int(pair.verdict)],
-        "outside": not bool(pair.dmt_valid.all()),
+        "outside": not bool(pair.simulated.all()),
         "margin": interval(*margins, digits=2),
         "threshold": quantity(*thresholds, "Pa", digits=2),
     }
 
 
 def disagreements(verdicts: xr.Dataset, surfaces: Datasets) -> list[Context]:
-    """Criteria against the derived one: how many pairs differ, which, and in what direction."""
+    """Criteria against that of the edges: how many pairs differ, which, and in what direction."""
     labels = surface_labels(surfaces)
     materials = datasets.parameters(verdicts)["materials"]
     sticky = verdicts.margin > 1
-    derived = sticky.sel(criterion=DERIVED)
+    edges = sticky.sel(criterion=EDGES)
 
     def pairs(differs):
         found = []
@@ -205,11 +207,11 @@ def disagreements(verdicts: xr.Dataset, surfaces: Datasets) -> list[Context]:
         {
             "criterion": CRITERIA.get(name, name.replace("_", " ")),
             "count": int(verdicts.disagrees.sel(criterion=name).sum()),
-            "sticky": pairs((sticky.sel(criterion=name) & ~derived).any("end")),
-            "not_sticky": pairs((~sticky.sel(criterion=name) & derived).any("end")),
+            "sticky": pairs((sticky.sel(criterion=name) & ~edges).any("end")),
+            "not_sticky": pairs((~sticky.sel(criterion=name) & edges).any("end")),
         }
         for name in map(str, verdicts.criterion.values)
-        if name != DERIVED
+        if name != EDGES
     ]
 
 

@@ -27,7 +27,7 @@ class Uncertain:
     probability : float
         Share of the draws that stick.
     from_spectrum, from_model : float
-        Standard deviations of ln(margin) that the spectrum, or a_V and the model, alone would leave.
+        Standard deviations of ln(margin) that the spectrum, or a_V and model, alone would leave.
     """
 
     margins: np.ndarray

@@ -1,4 +1,4 @@
-"""Verdict for every material on every real surface, by the edges of contact and by other criteria."""
+"""Verdict for every material on every surface, by the edges of contact and other criteria."""
 
 import numpy as np
 import xarray as xr
@@ -21,23 +21,25 @@ DIMS = ("material", "surface", "end")
 HEAD = """\
 # Do they stick?
 
-By the attraction at the edges of the contact (stickiness.edge_adhesion): attraction over repulsion
-at equal area of contact, above 1 sticks. It takes the area within the range of attraction from a_V
+By attraction at the edges of the contact (stickiness.edge_adhesion): attraction over repulsion at
+equal area of contact, above 1 sticks. It takes the area within the range of attraction from a_V
 of the pair (theory on the surface's own spectrum at the material's range over h_rms, times the
-ratio of simulation to theory, {ratio:.2f}) and what this attraction does at an edge from the sphere of
-Maugis that has the same attractive area and the same edge. Edges tell which model that is: *weak*,
-the paper's criterion but for the effect next to edges, range and work of adhesion matter; *tough*,
-as in JKR, the work of adhesion alone, whatever the range; or *between*.
+ratio of simulation to theory, {ratio:.2f}), and what attraction does at an edge from the sphere of
+Maugis that has the same attractive area and the same edge. The strength of the edges, Tabor's
+parameter, tells which model that is: *weak*, the paper's criterion but for the effect at edges,
+range and work of adhesion matter; *tough*, as in JKR, the work of adhesion alone, whatever the
+range; or *between*.
 
 The margin goes from the rough end of the surface at the lowest a_V to its smooth end at the
-highest, the model's own error included: a factor of {weak:g} for weak edges and {strong:g} up to a strength
-of {strongest:g} against full simulation; † marks pairs beyond what was simulated, for which {beyond:g} is taken
-on the strength of closed forms alone. P: share of the spectra, a_V and model errors that agree with what was
-measured and stick, where there is a measurement. *Depends*: on that range (P between 5 and 95 %).
-*Undecided*: contact does not grow by itself, but full contact, once made, would hold by its energy.
-Moduli that depend on the rate are taken at 1 Hz; verdicts.nc has other rates. E* threshold: modulus
-below which the pair sticks. DMT: the margin, in the same form, that the paper's criterion
-would have with the same a_V; for comparison the constant {constant}.
+highest, the model's own error included: against full simulation a factor of {weak:g} for weak
+edges and of {strong:g} up to a strength of {strongest:g}; † marks pairs beyond what was simulated,
+which rest on closed forms alone and for which {beyond:g} is taken. P: share of the spectra, a_V and
+model errors that agree with what was measured and stick, where there is a measurement. *Depends*:
+on that range (P between 5 and 95 %). *Undecided*: contact does not grow by itself, but if full
+once it would hold by its energy. Moduli that depend on the rate are taken at 1 Hz; verdicts.nc
+has other rates. E* threshold: modulus below which the pair sticks. DMT: the margin, in the same
+form, of the paper's criterion with the same a_V; for comparison the constant
+{constant}.
 
 """
 VERDICTS = ("not sticky", "depends", "sticky", "undecided")

@@ -8,7 +8,7 @@ from _job import start
 from stickiness import datasets
 
 CLAIMS = ("statement", "quantity", "value", "uncertainty", "claimed", "verdict", "sources")
-VERDICTS = ("margin", "modulus_threshold", "dmt_valid", "verdict", "disagrees", "a_v", "a_v_low")
+VERDICTS = ("margin", "modulus_threshold", "simulated", "verdict", "disagrees", "a_v", "a_v_low")
 SURFACES = ("h_rms", "hurst", "q0", "q1", "C0_reference_upper")
 COMPARISONS = ("area_fraction_difference", "mean_gap_difference", "attractive_area_difference")
 ENSEMBLES = ("area_fraction_mean", "mean_gap_mean", "attractive_area_mean", "residual")

@@ -134,14 +134,14 @@ def verdict(pair, surface, entry):
         "modulus": modulus_text(entry),
         "verdict": WORDS[int(pair.verdict)],
         "tone": TONES[int(pair.verdict)],
-        "outside": not bool(pair.dmt_valid.all()),
+        "outside": not bool(pair.simulated.all()),
         "margin": interval(float(pair.margin_low.min()), float(pair.margin_high.max()), 2),
         "probability": percent(probability) if measured else NOTHING,
         "drawn": interval(*map(float, pair.margin_quantile.values[[0, -1]]), 2)
         if measured
         else NOTHING,
-        "errors": f"spectrum {percent(float(pair.error_of_spectrum))}, a_V "
-        f"{percent(float(pair.error_of_a_v))}"
+        "errors": f"spectrum {percent(float(pair.error_of_spectrum))}, a_V and model "
+        f"{percent(float(pair.error_of_model))}"
         if measured
         else NOTHING,
         "threshold": quantity(*thresholds, "Pa", 2),

@@ -57,7 +57,7 @@ def verdicts():
         {
             "margin": ((*dims, "criterion"), np.stack([derived, other], axis=-1)),
             "modulus_threshold": (dims, np.full((2, 2, 2), 2.5e6)),
-            "dmt_valid": (dims, [[[1, 0], [1, 1]], [[1, 1], [1, 1]]]),
+            "simulated": (dims, [[[1, 0], [1, 1]], [[1, 1], [1, 1]]]),
             "verdict": (dims[:2], [[2, 1], [0, 0]]),
             "disagrees": ((*dims[:2], "criterion"), [[[0, 0], [0, 0]], [[0, 0], [0, 1]]]),
             "a_v": 3.21,
@@ -68,7 +68,7 @@ def verdicts():
             "material": ["jelly", "iron"],
             "surface": ["glass", "sand"],
             "end": ["smooth", "rough"],
-            "criterion": ["violano", "some_other"],
+            "criterion": ["edge_adhesion", "some_other"],
         },
     )
     materials = {
