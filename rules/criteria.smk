@@ -23,6 +23,28 @@ rule map_criterion:
         "../scripts/map_criterion.py"
 
 
+rule compare_criteria:
+    input:
+        **a_v_inputs(),
+        library=library_of("compare_criteria.py"),
+        a_v_table=f"{RESULTS}/fits/a_v_table.nc",
+    output:
+        f"{RESULTS}/criteria/compared.nc",
+    log:
+        f"{LOGS}/compare_criteria.log",
+    benchmark:
+        f"{BENCHMARKS}/compare_criteria.tsv"
+    conda:
+        "../envs/environment.yaml"
+    resources:
+        mem_mb=500,
+    params:
+        compared=config["criteria"]["compared"],
+        pressure=config["criteria"]["a_v"]["pressure"],
+    script:
+        "../scripts/compare_criteria.py"
+
+
 rule judge:
     input:
         **a_v_inputs(),

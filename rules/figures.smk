@@ -183,3 +183,27 @@ rule plot_fig7:
         pressure=config["criteria"]["a_v"]["pressure"],
     script:
         "../scripts/plot_fig7.py"
+
+
+rule plot_fig8:
+    input:
+        library=library_of("plot_fig8.py"),
+        compared=f"{RESULTS}/criteria/compared.nc",
+        verdicts=f"{RESULTS}/criteria/verdicts.nc",
+    output:
+        png=report(
+            f"{RESULTS}/figures/fig8.png",
+            category="Figures",
+            caption="../report/fig8.rst",
+        ),
+        pdf=f"{RESULTS}/figures/fig8.pdf",
+    log:
+        f"{LOGS}/plot_fig8.log",
+    benchmark:
+        f"{BENCHMARKS}/plot_fig8.tsv"
+    conda:
+        "../envs/environment.yaml"
+    resources:
+        mem_mb=500,
+    script:
+        "../scripts/plot_fig8.py"

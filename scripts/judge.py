@@ -8,6 +8,7 @@ from _job import start
 from _materials import material
 from _model import logarithmic_grid
 from _tables import table
+from _thresholds import POWERS, threshold
 from _uncertain import DRAWN, QUANTILES, uncertain
 from stickiness import criteria, datasets, edge_adhesion
 
@@ -69,6 +70,8 @@ def judged(materials, surfaces, a_v, constant, frequencies):
     """Every criterion for every material on both ends of every surface."""
     pairs = known(materials, surfaces, a_v)
     margins = every_margin(pairs, constant)
+    of_edges = edges(pairs)
+    by_criterion = thresholds(pairs, margins, of_edges["modulus_threshold"][1])
     dataset = xr.Dataset(
         {
             "margin": ((*DIMS, "criterion"), np.stack(list(margins.values()), axis=-1)),
@@ -77,7 +80,8 @@ def judged(materials, surfaces, a_v, constant, frequencies):
             "a_v_high": constant.high,
             **{name: pairs[name] for name in ("pair_a_v", "pair_a_v_low", "pair_a_v_high")},
             "range_over_h_rms": (DIMS, pairs.range.values / pairs.h_rms.values),
-            **edges(pairs),
+            **of_edges,
+            "threshold_by_criterion": ((*DIMS, "criterion"), by_criterion),
         },
         coords={
             "material": list(materials),
@@ -139,6 +143,18 @@ def every_margin(pairs, constant):
     }
     ours = attraction(pairs, pairs.length.values, pairs.pair_a_v.values).ratio
     return {EDGES: ours} | {name: verdict.margin for name, verdict in verdicts.items()}
+
+
+def thresholds(pairs, margins, by_edges):
+    """Modulus below which each criterion calls a pair sticky, that of the edges being known."""
+    length, work = pairs.length.values, pairs.work.values
+    found = {
+        name: work / threshold(name, margins[name], length) if name in POWERS else np.nan * work
+        for name in margins
+    }
+    found["dahlquist"] = np.full_like(work, criteria.DAHLQUIST_LIMIT)
+    found[EDGES] = by_edges
+    return np.stack(list(found.values()), axis=-1)
 
 
 def attraction(pairs, length, a_v):
@@ -270,6 +286,7 @@ def annotated(dataset):
         simulated=("1", "1 where full simulation bears the model out"),
         jtb_margin=("1", "rms height over the smallest at which the DMT limit holds (JTB)"),
         modulus_threshold=("Pa", "plane-strain modulus below which the pair sticks"),
+        threshold_by_criterion=("Pa", "plane-strain modulus below which a criterion says sticky"),
         a_v=("1", "constant a_V of a broad spectrum, in the window of the fit"),
         a_v_low=("1", "a_V less its error"),
         a_v_high=("1", "a_V plus its error"),
