@@ -37,6 +37,8 @@ localrules:
     fig5,
     fig6,
     fig7,
+    fig8,
+    fig9,
     claims,
     verdicts,
     surfaces,
@@ -86,6 +88,16 @@ rule fig6:
 rule fig7:
     input:
         f"{RESULTS}/figures/fig7.png",
+
+
+rule fig8:
+    input:
+        f"{RESULTS}/figures/fig8.png",
+
+
+rule fig9:
+    input:
+        f"{RESULTS}/figures/fig9.png",
 
 
 rule verdicts:

@@ -35,13 +35,33 @@ FIDELITY = config["fidelities"][config["fidelity"]]
 RESULTS = f"{config['results']}/{config['fidelity']}"
 LOGS, BENCHMARKS = f"{RESULTS}/logs", f"{RESULTS}/benchmarks"
 CASES, SWEEPS = config["cases"], config["theory"]["sweeps"]
+COMPARISONS = {
+    name: config["comparisons"]["surfaces"][name]
+    for name in FIDELITY.get("comparisons", config["comparisons"]["surfaces"])
+}
+# Whatever theory is compared with: what it is, in the terms of a model surface, and its loads.
+COMPARED = {
+    **{
+        case: (config["model_surfaces"][asked["surface"]], asked["pressures"])
+        for case, asked in CASES.items()
+    },
+    **{
+        name: (
+            {key: asked[key] for key in ("hurst", "magnification", "window") if key in asked},
+            config["comparisons"]["pressures"],
+        )
+        for name, asked in COMPARISONS.items()
+    },
+}
 ADHESION, LOOPS = config["adhesion"], config["loops"]
-FIGURES = [f"fig{number}" for number in range(1, 9)]
+FIGURES = [f"fig{number}" for number in range(1, 10)]
 
 
 wildcard_constraints:
     seed=r"\d+",
     case="|".join(map(re.escape, CASES)) or "none",
+    comparison="|".join(map(re.escape, COMPARISONS)),
+    compared="|".join(map(re.escape, COMPARED)),
     model_surface="|".join(map(re.escape, config["model_surfaces"])) or "none",
     sweep="|".join(map(re.escape, SWEEPS)) or "none",
     adhesion="|".join(map(re.escape, ADHESION)) or "none",

@@ -1,4 +1,5 @@
-# The paper's six figures, with what was measured added, and one on where the DMT limit holds.
+# The paper's six figures, with what was measured added, one on where the DMT limit holds and one on
+# where the theory does.
 
 FIGURE_2_CASES = ["H0.8_zeta32", "H0.8_zeta64", "H0.8_zeta128"]
 
@@ -188,8 +189,8 @@ rule plot_fig7:
 rule plot_fig8:
     input:
         library=library_of("plot_fig8.py"),
-        compared=f"{RESULTS}/criteria/compared.nc",
-        verdicts=f"{RESULTS}/criteria/verdicts.nc",
+        comparisons=expand(f"{RESULTS}/fits/theory/{{compared}}.nc", compared=COMPARED),
+        gamma=f"{RESULTS}/fits/gamma.nc",
     output:
         png=report(
             f"{RESULTS}/figures/fig8.png",
@@ -207,3 +208,27 @@ rule plot_fig8:
         mem_mb=500,
     script:
         "../scripts/plot_fig8.py"
+
+
+rule plot_fig9:
+    input:
+        library=library_of("plot_fig9.py"),
+        compared=f"{RESULTS}/criteria/compared.nc",
+        verdicts=f"{RESULTS}/criteria/verdicts.nc",
+    output:
+        png=report(
+            f"{RESULTS}/figures/fig9.png",
+            category="Figures",
+            caption="../report/fig9.rst",
+        ),
+        pdf=f"{RESULTS}/figures/fig9.pdf",
+    log:
+        f"{LOGS}/plot_fig9.log",
+    benchmark:
+        f"{BENCHMARKS}/plot_fig9.tsv"
+    conda:
+        "../envs/environment.yaml"
+    resources:
+        mem_mb=500,
+    script:
+        "../scripts/plot_fig9.py"

@@ -28,18 +28,18 @@ rule persson_lattice:
     input:
         library=library_of("persson_lattice.py"),
     output:
-        f"{RESULTS}/persson_lattice/{{case}}.nc",
+        f"{RESULTS}/persson_lattice/{{compared}}.nc",
     log:
-        f"{LOGS}/persson_lattice/{{case}}.log",
+        f"{LOGS}/persson_lattice/{{compared}}.log",
     benchmark:
-        f"{BENCHMARKS}/persson_lattice/{{case}}.tsv"
+        f"{BENCHMARKS}/persson_lattice/{{compared}}.tsv"
     conda:
         "../envs/environment.yaml"
     resources:
         mem_mb=1000,
     params:
-        surface=lambda wildcards: config["model_surfaces"][CASES[wildcards.case]["surface"]],
-        pressures=lambda wildcards: CASES[wildcards.case]["pressures"],
+        surface=lambda wildcards: COMPARED[wildcards.compared][0],
+        pressures=lambda wildcards: COMPARED[wildcards.compared][1],
         variants=config["theory"]["variants"],
         gamma=config["theory"]["gamma"],
         gaps=config["gaps"],

@@ -8,10 +8,11 @@ import xarray as xr
 
 from _job import start
 from _model import DESCRIBED, VARIANT, logarithmic_grid, spectrum_of
+from _theories import DESCRIBED as DESCRIBED_THEORY
+from _theories import theories
 from stickiness import criteria, datasets
 from stickiness.a_v_table import edge_range, local_a_v
 from stickiness.persson import Persson
-from stickiness.persson_kernels import CORRECTIONS
 
 OTHER_VARIANT = "almqvist2011"
 # There the area within the smallest range of contact, the contact included, has converged to 1e-5
@@ -24,77 +25,65 @@ REFERENCE_NODES = 1.0
 def main(job):
     asked, gamma = job.params.table, job.params.gamma
     ranges = logarithmic_grid(asked["range"])
-    names, theories = members(gamma)
+    named = theories((VARIANT, OTHER_VARIANT), gamma)
+    names, options = list(named), list(named.values())
     axes = {
         "hurst": np.array(asked["hurst"], dtype=float),
         "magnification": np.array(asked["magnification"], dtype=float),
         "pressure": np.array(asked["pressure"], dtype=float),
     }
-    dataset = finite(axes, ranges, theories).merge(infinite(axes, ranges, theories))
+    dataset = finite(axes, ranges, options).merge(infinite(axes, ranges, options))
     dataset["quadrature_error"] = quadrature_error(axes, ranges, gamma)
     datasets.write(
-        annotated(dataset.assign_coords(theory=names, range=ranges)),
+        annotated(dataset.assign_coords(variant=names, range=ranges)),
         job.output[0],
         title="a_V by Persson's theory on self-affine spectra",
         parameters={**asked, "gamma": gamma, "quoted": names[0]},
     )
 
 
-def members(gamma):
-    """The quoted theory, its other variant and the other corrections with their own gamma."""
-    quoted = {"variant": VARIANT, "gamma": gamma}
-    found = {
-        VARIANT: quoted,
-        OTHER_VARIANT: {"variant": OTHER_VARIANT, "gamma": gamma},
-    }
-    for correction in CORRECTIONS:
-        if correction != CORRECTIONS[0]:
-            found[f"{VARIANT}, {correction}"] = {"variant": VARIANT, "correction": correction}
-    return list(found), list(found.values())
-
-
-def finite(axes, ranges, theories):
+def finite(axes, ranges, options):
     """a_V, edge range and the estimate of Pastewka and Robbins, at every magnification."""
     shape = tuple(map(len, axes.values()))
-    a_v = np.empty((len(theories), *shape, len(ranges)))
+    a_v = np.empty((len(options), *shape, len(ranges)))
     edge, robbins = np.empty(shape), np.empty(shape[:2])
     for (i, hurst), (j, magnification) in product(
         enumerate(axes["hurst"]), enumerate(axes["magnification"])
     ):
         spectrum = self_affine(hurst, magnification)
-        a_v[:, i, j] = a_v_of(spectrum, axes["pressure"], ranges, theories)
+        a_v[:, i, j] = a_v_of(spectrum, axes["pressure"], ranges, options)
         edge[i, j] = [edge_range(ranges, *pair) for pair in zip(*a_v[:2, i, j], strict=True)]
         robbins[i, j] = criteria.pastewka_robbins_a_v(
             1.0, 1.0, spectrum.rms_slope, spectrum.rms_curvature
         )
         logging.info("H = %g, zeta = %g", hurst, magnification)
     data = {
-        "a_v": (("theory", *axes, "range"), a_v),
+        "a_v": (("variant", *axes, "range"), a_v),
         "edge_range": (tuple(axes), edge),
         "edge_a_v": (("hurst", "magnification"), robbins),
     }
     return xr.Dataset(data, coords=axes)
 
 
-def infinite(axes, ranges, theories):
+def infinite(axes, ranges, options):
     """a_V in the limit of infinite magnification.
 
     There contact vanishes and all that was contact lies within the range: with the contact, the
     area converges far sooner.
     """
     rows = [
-        a_v_of(self_affine(hurst, INFINITE), axes["pressure"], ranges, theories, contact=True)
+        a_v_of(self_affine(hurst, INFINITE), axes["pressure"], ranges, options, contact=True)
         for hurst in axes["hurst"]
     ]
-    dims = ("theory", "hurst", "pressure", "range")
+    dims = ("variant", "hurst", "pressure", "range")
     return xr.Dataset({"a_v_limit": (dims, np.stack(rows, axis=1))})
 
 
-def a_v_of(spectrum, pressures, ranges, theories, contact=False, nodes=NODES):
-    """a_V, (theory, pressure, range), with or without the contact itself."""
+def a_v_of(spectrum, pressures, ranges, options, contact=False, nodes=NODES):
+    """a_V, (variant, pressure, range), with or without the contact itself."""
     rows = []
-    for options in theories:
-        theory = Persson(spectrum, nodes=nodes, **options)
+    for chosen in options:
+        theory = Persson(spectrum, nodes=nodes, **chosen)
         area = theory.gap_cumulative(ranges, pressures)
         if contact:
             area = area + theory.area_fraction(pressures)[:, None]
@@ -124,7 +113,7 @@ def self_affine(hurst, magnification):
 def annotated(dataset):
     return datasets.annotate(
         dataset,
-        theory=("1", "variant and correction of the theory, the quoted one first"),
+        variant=DESCRIBED_THEORY,
         hurst=("1", "Hurst exponent"),
         magnification=("1", "magnification q1/q0"),
         pressure=DESCRIBED["pressure"],

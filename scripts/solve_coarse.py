@@ -21,12 +21,36 @@ KEPT = ("area_fraction", "mean_gap", "attractive_area", "residual")
 
 
 def main(job):
-    asked, pressures = job.params.surface, np.sort(job.params.pressures)
+    asked = job.params.surface
+    dataset = coarse_solutions(
+        asked,
+        job.params.seeds,
+        job.params.descriptor_seeds,
+        np.sort(job.params.pressures),
+        logarithmic_grid(job.params.gaps),
+        job.params.tolerance,
+    )
+    datasets.write(
+        annotated(dataset),
+        job.output[0],
+        title="coarse contact solutions and long waves of many realisations",
+        parameters={
+            **asked,
+            "case": job.wildcards.case,
+            "tolerance": job.params.tolerance,
+            "largest_residual": float(dataset.residual.max()),
+            "pixels_per_wavelength": COARSE,
+            "grid_points": grid_points(asked, COARSE),
+        },
+    )
+
+
+def coarse_solutions(asked, count, others_count, pressures, ranges, tolerance):
+    """Solutions of `count` surfaces and the long waves of these and of `others_count` more."""
     spectrum, length = spectrum_of(asked), window_of(asked)
     amplitudes = asked.get("amplitudes", "gaussian")
-    seeds = SOLVED_FROM + np.arange(job.params.seeds)
-    others = DESCRIBED_FROM + np.arange(job.params.descriptor_seeds)
-    ranges, tolerance = logarithmic_grid(job.params.gaps), job.params.tolerance
+    seeds = SOLVED_FROM + np.arange(count)
+    others = DESCRIBED_FROM + np.arange(others_count)
     curves = []
     for seed in seeds:
         logging.info("seed %d", seed)
@@ -40,20 +64,7 @@ def main(job):
     for name, dim, which in (("long_waves", "seed", seeds), ("other_long_waves", "other", others)):
         rows = sampling.descriptors(spectrum, length, which, amplitudes)
         dataset[name] = (dim, "descriptor"), rows
-    dataset = dataset.assign_coords(descriptor=list(sampling.DESCRIPTORS), other=others)
-    datasets.write(
-        annotated(dataset),
-        job.output[0],
-        title="coarse contact solutions and long waves of many realisations",
-        parameters={
-            **asked,
-            "case": job.wildcards.case,
-            "tolerance": tolerance,
-            "largest_residual": float(dataset.residual.max()),
-            "pixels_per_wavelength": COARSE,
-            "grid_points": n // 2,
-        },
-    )
+    return dataset.assign_coords(descriptor=list(sampling.DESCRIPTORS), other=others)
 
 
 def annotated(dataset):

@@ -25,13 +25,9 @@ def main(job):
     pressures = np.sort(job.params.pressures)
     ranges = logarithmic_grid(job.params.gaps)
     heights, length = surface.height.values, float(surface.window_length)
-    steps = sorted({job.params.pixels_per_wavelength // COARSE, 2, 1}, reverse=True)
-    curves = [
-        load_curve(heights[::step, ::step], length, pressures, ranges, job.params.tolerance)
-        for step in steps
-    ]
-    resolution = pixels(surface) / np.array(steps)
-    dataset = xr.concat(curves, xr.DataArray(resolution, dims="resolution", name="resolution"))
+    steps = steps_of(job.params.pixels_per_wavelength)
+    dataset = load_curves(heights, length, steps, pressures, ranges, job.params.tolerance)
+    dataset = dataset.assign_coords(resolution=pixels(surface) / np.array(steps))
     dataset["rms_slope"] = surface.rms_slope.sel(source="heights", drop=True)
     datasets.write(
         annotated(dataset),
@@ -44,6 +40,19 @@ def main(job):
             "largest_residual": float(dataset.residual.max()),
         },
     )
+
+
+def steps_of(pixels_per_wavelength):
+    """Steps between the points that each grid takes from the finest, from coarse to fine."""
+    return sorted({pixels_per_wavelength // COARSE, 2, 1}, reverse=True)
+
+
+def load_curves(heights, length, steps, pressures, ranges, tolerance):
+    """Contact quantities on every grid, along the dimension `resolution`."""
+    curves = [
+        load_curve(heights[::step, ::step], length, pressures, ranges, tolerance) for step in steps
+    ]
+    return xr.concat(curves, "resolution")
 
 
 def load_curve(heights, length, pressures, ranges, tolerance):

@@ -17,7 +17,7 @@ def main(job):
         datasets.read(path, ["attractive_area_difference", "window_holds"])
         for path in job.input.comparisons
     ]
-    dataset = theory[list(THEORY)].isel(theory=0, drop=True).merge(reach(theory))
+    dataset = theory[list(THEORY)].isel(variant=0, drop=True).merge(reach(theory))
     dataset = dataset.merge(simulated(comparisons))
     datasets.write(
         annotated(dataset),
@@ -25,7 +25,7 @@ def main(job):
         title="a_V as a function of Hurst exponent, magnification, load and range, with its error",
         parameters={
             **datasets.parameters(theory),
-            "theories": [str(name) for name in theory.theory.values],
+            "variants": [str(name) for name in theory.variant.values],
             "cases": [datasets.parameters(comparison)["case"] for comparison in comparisons],
         },
     )
@@ -35,9 +35,9 @@ def reach(theory):
     """How far other variants and corrections reach below and above the quoted theory."""
     parts = {}
     for name, ending in (("a_v", ""), ("a_v_limit", "_limit")):
-        logs = np.log(theory[name]) - np.log(theory[name].isel(theory=0))
-        parts[f"theory_below{ending}"] = -logs.min("theory")
-        parts[f"theory_above{ending}"] = logs.max("theory")
+        logs = np.log(theory[name]) - np.log(theory[name].isel(variant=0))
+        parts[f"theory_below{ending}"] = -logs.min("variant")
+        parts[f"theory_above{ending}"] = logs.max("variant")
     return xr.Dataset(parts)
 
 

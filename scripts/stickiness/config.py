@@ -181,6 +181,7 @@ def _config_problems(config: Mapping[str, Any]) -> Iterator[str]:
         for name in names:
             if name not in tables.get(table, config.get(table)):
                 yield f"{table}: {name!r} is missing; the paper's figures and claims need it"
+    yield from _comparison_problems(config)
     for key, case in config["cases"].items():
         if case["surface"] not in config["model_surfaces"]:
             yield _unknown(f"cases.{key}.surface", case["surface"], config["model_surfaces"])
@@ -226,6 +227,16 @@ def _config_problems(config: Mapping[str, Any]) -> Iterator[str]:
         yield from _grid_problems(f"criteria.{key}", config["criteria"][key])
     for key in ("range_times_q0", "adhesion_length_over_range"):
         yield from _grid_problems(f"criteria.map.{key}", config["criteria"]["map"][key])
+
+
+def _comparison_problems(config: Mapping[str, Any]) -> Iterator[str]:
+    surfaces = config["comparisons"]["surfaces"]
+    for name in surfaces.keys() & config["cases"].keys():
+        yield f"comparisons.surfaces.{name} has the name of a case; give it another"
+    for key, fidelity in config["fidelities"].items():
+        for name in fidelity.get("comparisons", []):
+            if name not in surfaces:
+                yield _unknown(f"fidelities.{key}.comparisons", name, surfaces)
 
 
 def _rate_problems(material: Mapping[str, Any]) -> Iterator[str]:

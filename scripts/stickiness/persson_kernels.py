@@ -61,9 +61,10 @@ class Correction(ABC):
 class Yang2008(Correction):
     """S = gamma + (1 - gamma) A^2, of Yang & Persson 2008 (doi:10.1088/0953-8984/20/21/215214).
 
-    The theory of 2001 at gamma = 1. Sources take 0.42 to 0.5; 0.45 is what Almqvist et al. 2011
-    (doi:10.1016/j.jmps.2011.08.004) and Afferrante et al. 2018 (doi:10.1007/s11249-018-1026-x)
-    are compared with.
+    The theory of 2001 at gamma = 1. Sources take 0.42 to 0.5. Where 0.45 comes from is not
+    verified (Almqvist et al. 2011, doi:10.1016/j.jmps.2011.08.004, and Afferrante et al. 2018,
+    doi:10.1007/s11249-018-1026-x, use the correction); the code that Xu et al. published beside
+    `Xu2024` has 0.42 as the default of this one.
     """
 
     own_gamma = 0.45

@@ -1,0 +1,137 @@
+"""The gamma of each correction of the theory that agrees best with simulation, and how well."""
+
+import numpy as np
+import xarray as xr
+from scipy.interpolate import CubicSpline
+from scipy.optimize import minimize_scalar
+
+from _job import start
+from _model import VARIANT, spectrum_of, window_of
+from stickiness import datasets
+from stickiness.persson import Persson
+from stickiness.persson_kernels import CORRECTIONS, correction_of
+from stickiness.surface import lattice_spectrum
+
+GRID = np.geomspace(0.15, 1.0, 6)  # of gamma; logarithms of what is compared are smooth in ln gamma
+RANGES = (0.03, 0.1, 0.3)  # over h_rms, of attractive areas
+QUANTITIES = ("area_fraction", "mean_gap", "attractive_area")
+EVERY = "all"  # the three quantities with equal weights
+CONFIDENCE = 0.95
+DRAWS, SEED = 1000, 1
+
+
+def main(job):
+    cases = [
+        case(datasets.read(ensemble), datasets.read(comparison, ["window_holds"]))
+        for ensemble, comparison in zip(job.input.ensembles, job.input.comparisons, strict=True)
+    ]
+    cases = [deviations for deviations in cases if deviations["area_fraction"][0].size]
+    rng = np.random.default_rng(SEED)
+    draws = [sample(rng, cases) for _ in range(DRAWS)]
+    rows = [
+        [fitted(cases, draws, index, quantity) for quantity in (*QUANTITIES, EVERY)]
+        for index in range(len(CORRECTIONS))
+    ]
+    names = ("gamma", "gamma_low", "gamma_high", "misfit", "misfit_own")
+    dataset = xr.Dataset(
+        {
+            name: (("correction", "quantity"), [[r[i] for r in row] for row in rows])
+            for i, name in enumerate(names)
+        },
+        coords={"correction": list(CORRECTIONS), "quantity": [*QUANTITIES, EVERY]},
+    )
+    dataset["own_gamma"] = "correction", [correction_of(name).gamma for name in CORRECTIONS]
+    datasets.write(
+        annotated(dataset),
+        job.output[0],
+        title="gamma of the corrections of Persson's theory by simulation",
+        parameters={"cases": len(cases), "ranges": RANGES, "draws": DRAWS, "seed": SEED},
+    )
+
+
+def case(ensemble, comparison):
+    """Logarithms of theory over simulation, (correction, gamma, point), and their errors (point).
+
+    Loads for which the window holds summits enough.
+    """
+    made = datasets.parameters(ensemble)
+    lattice = lattice_spectrum(spectrum_of(made), window_of(made))
+    ensemble = ensemble.isel(pressure=comparison.window_holds.values == 1)
+    loads, ranges = ensemble.pressure.values, np.array(RANGES)
+    shape = (len(CORRECTIONS), len(GRID))
+    theory = {name: np.empty(shape, dtype=object) for name in QUANTITIES}
+    for i, correction in enumerate(CORRECTIONS):
+        for j, gamma in enumerate(GRID):
+            at = Persson(lattice, variant=VARIANT, gamma=gamma, correction=correction, nodes=0.5)
+            theory["area_fraction"][i, j] = at.area_fraction(loads)
+            theory["mean_gap"][i, j] = at.mean_gap(loads)
+            theory["attractive_area"][i, j] = at.gap_cumulative(ranges, loads).ravel()
+    found = {}
+    for name in QUANTITIES:
+        simulated = ensemble[
+            [f"{name}_{kind}" for kind in ("mean", "standard_error", "discretisation_error")]
+        ].transpose("pressure", ...)
+        if "range" in simulated.dims:
+            simulated = simulated.interp({"range": ranges})
+        mean, *errors = (part.values.ravel() for part in simulated.values())
+        values = np.array([[list(v) for v in row] for row in theory[name]])
+        found[name] = np.log(values / mean), np.nan_to_num(np.hypot(*errors) / mean)
+    return found
+
+
+def sample(rng, cases):
+    """Cases drawn with replacement, and how many errors each quantity of each is off by."""
+    chosen = rng.integers(len(cases), size=len(cases))
+    return chosen, rng.standard_normal((len(QUANTITIES), len(cases)))
+
+
+def fitted(cases, draws, correction, quantity):
+    """Gamma, the ends of its confidence interval, misfits at it and at the source's own."""
+    names = QUANTITIES if quantity == EVERY else (quantity,)
+    tables = {name: [case[name][0][correction] for case in cases] for name in names}
+    errors = {name: [case[name][1] for case in cases] for name in names}
+
+    def squares(chosen, off):
+        """Mean square deviation at every gamma of the grid."""
+        parts = []
+        for name in names:
+            shift = off[QUANTITIES.index(name)]
+            moved = (tables[name][k] - shift[i] * errors[name][k] for i, k in enumerate(chosen))
+            parts.append(np.mean([np.mean(part**2, axis=1) for part in moved], axis=0))
+        return np.mean(parts, axis=0)
+
+    still = np.zeros((len(QUANTITIES), len(cases)))
+    curve = CubicSpline(np.log(GRID), squares(np.arange(len(cases)), still))
+    best = lowest(curve)
+    ends = np.quantile(
+        [lowest(CubicSpline(np.log(GRID), squares(*draw))) for draw in draws],
+        [0.5 - CONFIDENCE / 2, 0.5 + CONFIDENCE / 2],
+    )
+    own = correction_of(CORRECTIONS[correction]).gamma
+    misfits = [np.sqrt(max(float(curve(np.log(gamma))), 0.0)) for gamma in (best, own)]
+    return best, *ends, *misfits
+
+
+def lowest(curve):
+    """Gamma at the lowest point of a curve over ln gamma, within the grid."""
+    bounds = np.log(GRID[[0, -1]])
+    return float(np.exp(minimize_scalar(curve, bounds=bounds, method="bounded").x))
+
+
+def annotated(dataset):
+    interval = f"{CONFIDENCE:.0%} confidence interval of gamma, over cases and their errors"
+    return datasets.annotate(
+        dataset,
+        correction=("1", "correction of the theory"),
+        quantity=("1", f"what is compared; {EVERY}: the three with equal weights"),
+        gamma=("1", "gamma at which theory agrees best with simulation"),
+        gamma_low=("1", f"low end of the {interval}"),
+        gamma_high=("1", f"high end of the {interval}"),
+        misfit=("1", "root mean square of ln(theory/simulation) at the best gamma"),
+        misfit_own=("1", "the same at the gamma of the correction's source"),
+        own_gamma=("1", "gamma of the correction's source"),
+    )
+
+
+if __name__ == "__main__":
+    main(start(globals(), "fit_gamma"))
