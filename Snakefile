@@ -39,6 +39,7 @@ localrules:
     fig7,
     fig8,
     fig9,
+    fig10,
     claims,
     verdicts,
     surfaces,
@@ -98,6 +99,11 @@ rule fig8:
 rule fig9:
     input:
         f"{RESULTS}/figures/fig9.png",
+
+
+rule fig10:
+    input:
+        f"{RESULTS}/figures/fig10.png",
 
 
 rule verdicts:

@@ -54,7 +54,7 @@ COMPARED = {
     },
 }
 ADHESION, LOOPS = config["adhesion"], config["loops"]
-FIGURES = [f"fig{number}" for number in range(1, 10)]
+FIGURES = [f"fig{number}" for number in range(1, 11)]
 
 
 wildcard_constraints:
@@ -134,6 +134,12 @@ def adhesive_realisations(wildcards):
     most = asked["bem"].get("seeds", 10**9)
     seeds = [seed for seed in seeds_of(asked["case"]) if seed <= most]
     return [f"{RESULTS}/adhesive/{wildcards.adhesion}/seed{seed}.nc" for seed in seeds]
+
+
+def simulated_edges():
+    """Attraction at the edges of contact, for every set of parameters with full simulation."""
+    names = [name for name in ADHESION if adhesive_realisations(SimpleNamespace(adhesion=name))]
+    return [f"{RESULTS}/fits/edges/{name}.nc" for name in names]
 
 
 def topography_files(wildcards):

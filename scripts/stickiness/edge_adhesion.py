@@ -25,9 +25,9 @@ without its own closing, has the ratio to DMT's attraction ``sigma_0 pi (c_0^2 -
     R = 2 [c^2 arccos(a/c) + a sqrt(c^2 - a^2)]/(pi (c_0^2 - a^2)).
 
 A rough contact is taken for its *equivalent sphere*: the one of equal t, attractive over contact
-area, and equal tau. This has no constant to fit. Full simulation at equal area over the model (104
-sets of magnification 32 to 128, load 0.0065 to 0.2, t from 0.2 to 85, tau up to 2.4) is 1.04 +- .06
-for tau < 0.2 (0.90 to 1.17) and 0.77 to 1.37 beyond. For small t the effect is ``c t^(-1/2)`` with
+area, and equal tau. This has no constant to fit. Full simulation at equal area over the model (103
+sets of magnification 32 to 128, load 0.0065 to 0.2, t from 0.2 to 85, tau up to 2.3) is 1.03 +- .06
+for tau < 0.2 (0.89 to 1.17) and 0.75 to 1.35 beyond. For small t the effect is ``c t^(-1/2)`` with
 c = 4/pi = 1.27 here, while edges of simulated contacts, whose B scatters, have 1.2 to 1.6. For
 smaller t and larger tau than were simulated the model is an extrapolation.
 
