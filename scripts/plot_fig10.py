@@ -72,15 +72,12 @@ def panel_b(ax, files):
 
 
 def look(index):
-    colour = COLOURS[index % len(COLOURS)]
-    marker = MARKERS[index % len(MARKERS)]
-    return {
-        "color": colour,
-        "marker": marker,
-        "linestyle": "none",
-        "markersize": 3,
-        "linewidth": 0.7,
+    chosen = {
+        "color": COLOURS[index % len(COLOURS)],
+        "marker": MARKERS[index % len(MARKERS)],
+        "markersize": 3.5,
     }
+    return chosen | {"linestyle": "none", "elinewidth": 0.7}
 
 
 def name(data):
