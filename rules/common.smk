@@ -189,6 +189,7 @@ def ledger_inputs():
         "adhesion_smooth": f"{RESULTS}/adhesion/fig4b_smooth.nc",
         "map": f"{RESULTS}/criteria/map.nc",
         "asphalt": f"{RESULTS}/real_surfaces/asphalt.nc",
+        "asphalt_theory": f"{RESULTS}/persson_surface/asphalt.nc",
         "polished_steel": f"{RESULTS}/real_surfaces/polished_steel.nc",
         "surfaces": [f"{RESULTS}/real_surfaces/{name}.nc" for name in REAL_SURFACES],
         "seeds": [
