@@ -26,8 +26,7 @@ def main(job):
         for ensemble, comparison in zip(job.input.ensembles, job.input.comparisons, strict=True)
     ]
     cases = [deviations for deviations in cases if deviations["area_fraction"][0].size]
-    rng = np.random.default_rng(SEED)
-    draws = [sample(rng, cases) for _ in range(DRAWS)]
+    draws = sample(np.random.default_rng(SEED), DRAWS, len(cases))
     rows = [
         [fitted(cases, draws, index, quantity) for quantity in (*QUANTITIES, EVERY)]
         for index in range(len(CORRECTIONS))
@@ -79,37 +78,45 @@ def case(ensemble, comparison):
     return found
 
 
-def sample(rng, cases):
+def sample(rng, count, cases):
     """Cases drawn with replacement, and how many errors each quantity of each is off by."""
-    chosen = rng.integers(len(cases), size=len(cases))
-    return chosen, rng.standard_normal((len(QUANTITIES), len(cases)))
+    chosen = rng.integers(cases, size=(count, cases))
+    return chosen, rng.standard_normal((len(QUANTITIES), count, cases))
 
 
 def fitted(cases, draws, correction, quantity):
     """Gamma, the ends of its confidence interval, misfits at it and at the source's own."""
     names = QUANTITIES if quantity == EVERY else (quantity,)
-    tables = {name: [case[name][0][correction] for case in cases] for name in names}
-    errors = {name: [case[name][1] for case in cases] for name in names}
-
-    def squares(chosen, off):
-        """Mean square deviation at every gamma of the grid."""
-        parts = []
-        for name in names:
-            shift = off[QUANTITIES.index(name)]
-            moved = (tables[name][k] - shift[i] * errors[name][k] for i, k in enumerate(chosen))
-            parts.append(np.mean([np.mean(part**2, axis=1) for part in moved], axis=0))
-        return np.mean(parts, axis=0)
-
-    still = np.zeros((len(QUANTITIES), len(cases)))
-    curve = CubicSpline(np.log(GRID), squares(np.arange(len(cases)), still))
+    every = np.arange(len(cases))[None]
+    still = every, np.zeros((len(QUANTITIES), *every.shape))
+    as_found, drawn = (
+        np.mean([mean_squares(cases, name, correction, *which) for name in names], axis=0)
+        for which in (still, draws)
+    )
+    curve = CubicSpline(np.log(GRID), as_found[0])
     best = lowest(curve)
     ends = np.quantile(
-        [lowest(CubicSpline(np.log(GRID), squares(*draw))) for draw in draws],
+        [lowest(CubicSpline(np.log(GRID), row)) for row in drawn],
         [0.5 - CONFIDENCE / 2, 0.5 + CONFIDENCE / 2],
     )
     own = correction_of(CORRECTIONS[correction]).gamma
     misfits = [np.sqrt(max(float(curve(np.log(gamma))), 0.0)) for gamma in (best, own)]
     return best, *ends, *misfits
+
+
+def mean_squares(cases, name, correction, chosen, off):
+    """Mean square deviation in one quantity, (draw, gamma), with the errors drawn.
+
+    The points of a case are off together.
+    """
+    tables, errors = zip(*(case[name] for case in cases), strict=True)
+    tables = [table[correction] for table in tables]
+    squares = np.array([np.mean(t**2, axis=1) for t in tables])
+    mixed = np.array([np.mean(t * e, axis=1) for t, e in zip(tables, errors, strict=True)])
+    own = np.array([np.mean(e**2) for e in errors])
+    shift = off[QUANTITIES.index(name)][..., None]
+    moved = squares[chosen] - 2 * shift * mixed[chosen] + shift**2 * own[chosen][..., None]
+    return moved.mean(axis=1)
 
 
 def lowest(curve):

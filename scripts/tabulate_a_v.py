@@ -53,6 +53,11 @@ def simulated(comparisons):
     weight = (1 / (errors**2 + scatter**2)).fillna(0)
     total = weight.sum("case")
     known = total.min("range") > 0
+    if not known.any():
+        raise ValueError(
+            "no load of any case has a window that holds summits enough to compare theory with; "
+            "add larger windows or higher pressures to cases or comparisons"
+        )
     mean = (weight * logs.fillna(0)).sum("case") / total
     mean, total = mean.isel(pressure=known.values), total.isel(pressure=known.values)
     # Towards smaller ranges: what a decade of simulated ones changes.

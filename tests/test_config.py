@@ -85,6 +85,9 @@ def table(pairs):
     return edit
 
 
+COMPARISON = {"hurst": 0.8, "magnification": 16, "seeds": 4}
+
+
 def model(*keys, value):
     return changed(CONFIG, "model_surfaces", "H0.8_zeta64", *keys, value=value)
 
@@ -103,6 +106,18 @@ def model(*keys, value):
         (
             changed(CONFIG, "fidelities", "draft", "coarse_seeds", value=8),
             ["fidelities.draft.coarse_seeds", "8", "at least 32"],
+        ),
+        (
+            changed(CONFIG, "fidelities", "draft", "comparisons", value=["H0.5_zeta16_4x5"]),
+            ["fidelities.draft.comparisons", "H0.5_zeta16_4x5", "H0.5_zeta16_4x4"],
+        ),
+        (
+            changed(CONFIG, "comparisons", "surfaces", "H0.8_zeta64", value=COMPARISON),
+            ["comparisons.surfaces.H0.8_zeta64", "name of a case"],
+        ),
+        (
+            changed(CONFIG, "theory", "table", "pressure", value=[0.1, 0.01, 0.2, 0.5]),
+            ["theory.table.pressure", "0.01", "increasing"],
         ),
         (
             changed(CONFIG, "sampling", "descriptor_seeds", value=0.5),

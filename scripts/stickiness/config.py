@@ -182,6 +182,11 @@ def _config_problems(config: Mapping[str, Any]) -> Iterator[str]:
             if name not in tables.get(table, config.get(table)):
                 yield f"{table}: {name!r} is missing; the paper's figures and claims need it"
     yield from _comparison_problems(config)
+    table = config["theory"]["table"]
+    for key in ("hurst", "magnification", "pressure"):
+        if sorted(table[key]) != table[key]:
+            yield f"theory.table.{key} = {table[key]!r} must be in increasing order"
+    yield from _grid_problems("theory.table.range", table["range"])
     for key, case in config["cases"].items():
         if case["surface"] not in config["model_surfaces"]:
             yield _unknown(f"cases.{key}.surface", case["surface"], config["model_surfaces"])
