@@ -7,6 +7,7 @@ from _criteria import measured_a_v, surface_a_v
 from _job import start
 from _materials import material
 from _model import logarithmic_grid
+from _numbers import interval
 from _tables import table
 from _thresholds import POWERS, threshold
 from _uncertain import DRAWN, QUANTILES, uncertain
@@ -41,6 +42,15 @@ once it would hold by its energy. Moduli that depend on the rate are taken at 1 
 has other rates. E* threshold: modulus below which the pair sticks. DMT: the margin, in the same
 form, of the paper's criterion with the same a_V; for comparison the constant
 {constant}.
+
+"""
+COMPARED = """
+
+# Criteria compared
+
+For each surface, over all materials and both of its ends: adhesion length, work of adhesion over
+E*, above which the pair sticks by the edges; and the modulus below which a pair sticks by another
+criterion, over the one by the edges. Figure 9 shows what the shortest wavelength does to them.
 
 """
 VERDICTS = ("not sticky", "depends", "sticky", "undecided")
@@ -81,6 +91,7 @@ def judged(materials, surfaces, a_v, constant, frequencies):
             **{name: pairs[name] for name in ("pair_a_v", "pair_a_v_low", "pair_a_v_high")},
             "range_over_h_rms": (DIMS, pairs.range.values / pairs.h_rms.values),
             **of_edges,
+            "work_of_adhesion": ("material", [m.work_of_adhesion for m in materials.values()]),
             "threshold_by_criterion": ((*DIMS, "criterion"), by_criterion),
         },
         coords={
@@ -286,6 +297,7 @@ def annotated(dataset):
         simulated=("1", "1 where full simulation bears the model out"),
         jtb_margin=("1", "rms height over the smallest at which the DMT limit holds (JTB)"),
         modulus_threshold=("Pa", "plane-strain modulus below which the pair sticks"),
+        work_of_adhesion=("J/m^2", "work of adhesion"),
         threshold_by_criterion=("Pa", "plane-strain modulus below which a criterion says sticky"),
         a_v=("1", "constant a_V of a broad spectrum, in the window of the fit"),
         a_v_low=("1", "a_V less its error"),
@@ -318,7 +330,29 @@ def markdown(dataset, constant, materials, surfaces):
     pairs = [(m, s) for m in dataset.material.values for s in dataset.surface.values]
     columns = ("material", "surface", "verdict", "margin", "P", "edges", "DMT", "a_V of the pair")
     columns += ("E* threshold [MPa]", "criteria that disagree")
-    return head + table(columns, [row(dataset, *pair, materials, surfaces) for pair in pairs])
+    verdicts = table(columns, [row(dataset, *pair, materials, surfaces) for pair in pairs])
+    return head + verdicts + COMPARED + comparison(dataset, surfaces)
+
+
+def comparison(dataset, surfaces):
+    """Table of thresholds by every criterion, for each surface over all materials and both ends."""
+    by = dataset.threshold_by_criterion
+    over = by / by.sel(criterion=EDGES)
+    names = [str(name) for name in by.criterion.values if name in POWERS]
+    length = dataset.work_of_adhesion / by.sel(criterion=EDGES) * 1e9
+    rows = [
+        (
+            datasets.parameters(surfaces[name])["label"],
+            span(length.sel(surface=name).min(), length.sel(surface=name).max(), 2),
+            *(
+                span(*(end(over.sel(surface=name, criterion=one)) for end in (np.min, np.max)), 2)
+                for one in names
+            ),
+        )
+        for name in by.surface.values
+    ]
+    columns = ("surface", "l_a at the threshold by the edges [nm]")
+    return table((*columns, *(name.replace("_", " ") for name in names)), rows)
 
 
 def row(dataset, material, surface, materials, surfaces):
@@ -330,12 +364,12 @@ def row(dataset, material, surface, materials, surfaces):
         materials[material]["label"],
         datasets.parameters(surfaces[surface])["label"],
         VERDICTS[int(pair.verdict)] + ("" if pair.simulated.all() else " †"),
-        interval(pair.margin_low.min(), pair.margin_high.max()),
+        span(pair.margin_low.min(), pair.margin_high.max()),
         f"{float(pair.probability):.0%}" if np.isfinite(pair.probability) else "–",
         edges_text(pair),
-        interval(dmt.min(), dmt.max()),
-        interval(pair.pair_a_v_low.min(), pair.pair_a_v_high.max()),
-        interval(rough.modulus_threshold / 1e6, smooth.modulus_threshold / 1e6),
+        span(dmt.min(), dmt.max()),
+        span(pair.pair_a_v_low.min(), pair.pair_a_v_high.max()),
+        span(rough.modulus_threshold / 1e6, smooth.modulus_threshold / 1e6),
         ", ".join(differs).replace("_", " ") or "none",
     )
 
@@ -343,14 +377,11 @@ def row(dataset, material, surface, materials, surfaces):
 def edges_text(pair):
     """Regime of the edges with their strength."""
     regimes = dict.fromkeys(REGIMES[int(regime)] for regime in pair.regime.values)
-    return f"{' to '.join(regimes)}, {interval(*np.sort(pair.edge_strength.values), 2)}"
+    return f"{' to '.join(regimes)}, {span(*np.sort(pair.edge_strength.values), 2)}"
 
 
-def interval(low, high, digits=3):
-    low, high = float(low), float(high)
-    if np.isclose(low, high):
-        return f"{low:.{digits}g}"
-    return f"{low:.{digits}g} … {high:.{digits}g}"
+def span(low, high, digits=3):
+    return interval(float(low), float(high), digits)
 
 
 if __name__ == "__main__":

@@ -11,10 +11,6 @@ from stickiness import area_load, criteria, datasets, edge_adhesion
 from stickiness.a_v_table import NEEDED, AvTable
 from stickiness.spectrum import SelfAffine
 
-LARGEST = 1e12  # h_rms/range looked at
-BROADEST = 1e8  # magnification at which the table of a_V ends
-NARROWEST = 10.0  # and begins
-
 
 def main(job):
     asked = job.params.map
@@ -37,10 +33,12 @@ class Roughness:
         self._table, self._pressure = table, pressure
         self._hurst = asked["hurst"]
         self._q1 = 2 * np.pi / asked["shortest_over_range"]
+        self._narrowest, self._broadest = table.bounds["magnification"]
+        self.largest = 1 / table.bounds["range"][0]  # h_rms/range at which a_V is still known
 
     def magnification(self, q0):
         """q1/q0, at least what the table of a_V begins with."""
-        return np.maximum(self._q1 / q0, NARROWEST)
+        return np.maximum(self._q1 / q0, self._narrowest)
 
     def slope(self, h, q0):
         """Root mean square gradient."""
@@ -59,7 +57,7 @@ class Roughness:
         against its finest waves, times what infinite magnification changes between the two.
         """
         reach, zeta = 1 / h, self.magnification(q0)
-        held = np.minimum(zeta, BROADEST)
+        held = np.minimum(zeta, self._broadest)
         moved = np.minimum(reach * (zeta / held) ** self._hurst, 1)
         between = self._at(reach, np.inf).value / self._at(moved, np.inf).value
         return getattr(self._at(moved, held), which) * between
@@ -106,7 +104,9 @@ def limits(asked, constant, roughness):
         "h_rms_limit_edges_high": edges("high", 1),
         "weak_limit": strength,
     }
-    data = {name: (dims, largest(ratio, *at)) for name, ratio in implicit.items()}
+    data = {
+        name: (dims, largest(ratio, *at, roughness.largest)) for name, ratio in implicit.items()
+    }
     for name, value in (("constant", constant.value), ("printed", criteria.PRINTED_A_V)):
         data[f"h_rms_limit_{name}"] = dims, criteria.h_rms_limit(*at, 1.0, value)
     data["jtb_limit"] = dims, criteria.jtb_limit(*at, 1.0)
@@ -114,9 +114,9 @@ def limits(asked, constant, roughness):
     return xr.Dataset(data | scalars, coords=dict(zip(dims, (q0, length), strict=True)))
 
 
-def largest(ratio, q0, length):
-    """Find the h_rms at which a ratio that falls with it passes 1, up to `LARGEST`; NaN if none."""
-    ends = np.zeros_like(q0), np.full_like(q0, np.log(LARGEST))
+def largest(ratio, q0, length, end):
+    """Find the h_rms at which a ratio that falls with it passes 1, from 1 to `end`; NaN if none."""
+    ends = np.zeros_like(q0), np.full_like(q0, np.log(end))
     found = elementwise.find_root(
         lambda log_h, q0, length: np.log(ratio(np.exp(log_h), q0, length)),
         ends,
@@ -144,7 +144,7 @@ def slopes(parameters, a_v):
 def annotated(dataset):
     limit = "largest h_rms/range that sticks"
     edges = f"{limit}, by the edges of contact"
-    missing = "none between 1 and 1e12"
+    missing = "none for which a_V is tabulated, or none above 1"
     return datasets.annotate(
         dataset,
         range_times_q0=("1", "range times lowest wave number"),
