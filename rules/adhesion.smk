@@ -37,7 +37,8 @@ rule solve_adhesive:
     conda:
         "../envs/environment.yaml"
     resources:
-        mem_mb=2000,
+        mem_mb=memory_of("solve_adhesive"),
+        runtime=runtime_of("solve_adhesive"),
     params:
         adhesion=lambda wildcards: ADHESION[wildcards.adhesion],
         tolerance=FIDELITY["tolerance"],
@@ -99,7 +100,8 @@ rule adhesive_maps:
     conda:
         "../envs/environment.yaml"
     resources:
-        mem_mb=2000,
+        mem_mb=memory_of("adhesive_maps"),
+        runtime=runtime_of("adhesive_maps"),
     params:
         adhesion=lambda wildcards: ADHESION[wildcards.adhesion],
     script:
@@ -121,7 +123,8 @@ rule follow_loop:
     conda:
         "../envs/environment.yaml"
     resources:
-        mem_mb=1000,
+        mem_mb=memory_of("follow_loop"),
+        runtime=runtime_of("follow_loop"),
     params:
         loop=lambda wildcards: LOOPS[wildcards.loop],
         pixels_per_wavelength=FIDELITY["pixels_per_wavelength"],

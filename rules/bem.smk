@@ -16,7 +16,8 @@ rule solve_repulsive:
     conda:
         "../envs/environment.yaml"
     resources:
-        mem_mb=2000,
+        mem_mb=memory_of("solve_repulsive"),
+        runtime=runtime_of("solve_repulsive"),
     params:
         pressures=lambda wildcards: CASES[wildcards.case]["pressures"],
         tolerance=FIDELITY["tolerance"],
@@ -38,7 +39,8 @@ rule solve_coarse:
     conda:
         "../envs/environment.yaml"
     resources:
-        mem_mb=1000,
+        mem_mb=memory_of("solve_coarse"),
+        runtime=runtime_of("solve_coarse"),
     params:
         surface=lambda wildcards: config["model_surfaces"][CASES[wildcards.case]["surface"]],
         pressures=lambda wildcards: CASES[wildcards.case]["pressures"],
@@ -63,7 +65,8 @@ rule contact_maps:
     conda:
         "../envs/environment.yaml"
     resources:
-        mem_mb=2000,
+        mem_mb=memory_of("contact_maps"),
+        runtime=runtime_of("contact_maps"),
     params:
         pressures=lambda wildcards: CASES[wildcards.case].get("maps", []),
         tolerance=FIDELITY["tolerance"],

@@ -15,7 +15,11 @@ import psutil
 
 sys.path.insert(0, str(Path(workflow.basedir) / "scripts"))
 
+import _cost
+from _progress import Progress, graded, jobs_of, quieten, summary
 from snakemake.exceptions import WorkflowError
+from snakemake.logging import logger
+from snakemake.settings.enums import Quietness
 from stickiness import config as configuration
 
 # One thread a job: `-j` runs seeds and cases side by side, which scales better than threaded
@@ -55,6 +59,7 @@ COMPARED = {
 }
 ADHESION, LOOPS = config["adhesion"], config["loops"]
 FIGURES = [f"fig{number}" for number in range(1, 11)]
+PAGE_PARTS = [f"report/{part}" for part in ("macros.html.j2", "page.css", "page.js")]
 
 
 wildcard_constraints:
@@ -104,6 +109,7 @@ def library_of(script):
     return sorted(os.path.relpath(path) for path in found)
 
 
+@cache
 def imported_modules(path, root):
     """Files below `root` that a Python file imports from the library or from beside itself."""
     candidates = []
@@ -157,6 +163,11 @@ def pressed_heights(wildcards):
     return [f"{RESULTS}/bem_measured/{wildcards.real_surface}.nc"] if asked else []
 
 
+def data_of(rule_name):
+    """Datasets that a rule without wildcards reads."""
+    return [str(path) for path in getattr(rules, rule_name).input if str(path).endswith(".nc")]
+
+
 def a_v_inputs():
     """Fits behind the a_V that the derived criterion uses."""
     case = config["criteria"]["a_v"]["case"]
@@ -198,6 +209,25 @@ def ledger_inputs():
     }
 
 
+def memory_of(rule):
+    """Memory [MB] that jobs of a rule ask for: more, each time that one fails."""
+
+    def asked(wildcards, attempt):
+        return attempt * _cost.asked_mb(rule, _cost.work(config, rule, **dict(wildcards.items())))
+
+    return asked
+
+
+def runtime_of(rule):
+    """Time [min] that jobs of a rule ask for: more, each time that one fails."""
+
+    def asked(wildcards, attempt):
+        size = _cost.work(config, rule, **dict(wildcards.items()))
+        return attempt * _cost.asked_minutes(rule, size)
+
+    return asked
+
+
 # --- A killed run ----------------------------------------------------------------------------
 # Snakemake's lock outlives a run that was killed outright. The run that holds it leaves its
 # process on record, so that the next one can tell a dead run's lock from a living one's.
@@ -229,13 +259,42 @@ def remove_stale_lock():
 remove_stale_lock()
 
 
+# --- What a run tells ------------------------------------------------------------------------
+
+progress = None  # of this run, once it has begun
+
+
+def begin():
+    """A line for every job in place of Snakemake's, unless it is to be quieter or more talkative."""
+    global progress
+    progress = Progress(jobs_of(workflow.dag), workflow.cores or 1)
+    settings = workflow.output_settings
+    if not settings.verbose and not {Quietness.ALL, Quietness.PROGRESS} & set(settings.quiet or ()):
+        quieten(logger)
+        print(progress.opening(), file=sys.stderr)
+    else:
+        progress.stream = open(os.devnull, "w")
+    logger.addHandler(progress)
+
+
+def conclude():
+    """The summary at the end of a run."""
+    RUN_RECORD.unlink(missing_ok=True)
+    if progress is None or Quietness.ALL in set(workflow.output_settings.quiet or ()):
+        return
+    reused = sum(not workflow.dag.needrun(job) for job in workflow.dag.jobs if job.output)
+    places = {"results": RESULTS, "report": f"{RESULTS}/report/report.html"}
+    print(summary(progress, reused, places, graded(RESULTS)), file=sys.stderr)
+
+
 onstart:
     RUN_RECORD.write_text(json.dumps(this_run()))
+    begin()
 
 
 onsuccess:
-    RUN_RECORD.unlink(missing_ok=True)
+    conclude()
 
 
 onerror:
-    RUN_RECORD.unlink(missing_ok=True)
+    conclude()

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 import xarray as xr
@@ -39,7 +39,9 @@ class Claim:
     remark : str
         The qualification or the reason, with its numbers.
     sources : tuple of str
-        Names of the files that the value came from.
+        Names of the files that the claim was judged by, that of the value first.
+    errors : mapping of str to float
+        What makes up the uncertainty, by its source.
     """
 
     number: int
@@ -51,11 +53,20 @@ class Claim:
     verdict: str
     remark: str
     sources: tuple[str, ...]
+    errors: Mapping[str, float] = field(default_factory=dict)
 
 
 def graded(fully: bool, partly: bool) -> str:
     """Verdict from whether the claim holds outright or within limits that the remark states."""
     return REPRODUCED if fully else QUALIFIED if partly else NOT
+
+
+def errors_of(data: xr.Dataset, name: str) -> dict[str, float]:
+    """Errors of a mean by their source."""
+    return {
+        "sampling": float(data[f"{name}_standard_error"]),
+        "discretisation": float(data[f"{name}_discretisation_error"]),
+    }
 
 
 def total_error(data: xr.Dataset, name: str) -> xr.DataArray:

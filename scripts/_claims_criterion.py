@@ -11,6 +11,7 @@ from _claim import (
     Claim,
     Files,
     at_load,
+    errors_of,
     graded,
     sample,
     total_error,
@@ -24,6 +25,7 @@ from stickiness.spectrum import SelfAffine
 RANGE, WORK_OF_ADHESION = 0.2e-9, 0.05  # m, J/m^2
 CRYSTAL = 0.05  # l_a/range
 UPPER_LINE = 1e-3  # m^0.4, C0 of the line above real surfaces
+PARTS_OF_SLOPE = ("inverse_kappa_ad_standard_error", "inverse_kappa_ad_discretisation_error")
 
 
 def kappa_threshold(files: Files) -> Claim:
@@ -34,7 +36,7 @@ def kappa_threshold(files: Files) -> Claim:
     held = held if held.range_over_h_rms.size else full
     reach = crossed[0] if crossed else held.range_over_h_rms[-1]
     at = full.sel(range_over_h_rms=reach)
-    threshold, error = zero_of(at)
+    threshold, errors = zero_of(at)
     crosses = np.isfinite(threshold)
     limit = at_load(files["adhesion_fig2"]).sel(range_over_h_rms=reach)
     dmt = limit.isel(adhesion_length_over_range=0)
@@ -48,7 +50,7 @@ def kappa_threshold(files: Files) -> Claim:
         f"approach, range/h_rms = {float(reach):g}, q0 h_rms = {float(full.q0_h_rms):g}, "
         f"{sample(full)}",
         threshold if crosses else largest_simulated(at),
-        error,
+        float(np.hypot(*errors.values())) if crosses else np.nan,
         np.nan,
         QUALIFIED if crosses else OPEN,
         f"Full simulation at given mean gaps; the DMT limit has the threshold at {dmt:.2f}. "
@@ -62,21 +64,31 @@ def kappa_threshold(files: Files) -> Claim:
         f"printed range, {float(full.range_over_h_rms[0]):g} h_rms, the grid resolves the edge of "
         f"the contact up to l_a/range = {largest_simulated(smallest):g} only.",
         ("adhesive_fig2", "adhesion_fig2"),
+        errors,
     )
 
 
-def zero_of(data: xr.Dataset) -> tuple[float, float]:
-    """Adhesion length at which 1/kappa is zero, between those simulated, and its error."""
+def zero_of(data: xr.Dataset) -> tuple[float, dict[str, float]]:
+    """Adhesion length at which 1/kappa is zero, between those simulated, and its errors.
+
+    They are those of the less certain of the two points beside it.
+    """
     data = data.where(np.isfinite(data.inverse_kappa), drop=True)
     log_length = np.log(data.adhesion_length_over_range.values)
     value, error = data.inverse_kappa.values, total_error(data, "inverse_kappa").values
     below = np.flatnonzero(value < 0)
     if not below.size or below[0] == 0:
-        return np.nan, np.nan
+        return np.nan, {}
     i = below[0]
     slope = (value[i] - value[i - 1]) / (log_length[i] - log_length[i - 1])
     zero = float(np.exp(log_length[i - 1] - value[i - 1] / slope))
-    return zero, float(zero * max(error[i - 1 : i + 1]) / abs(slope))
+    worse = i - 1 + int(np.argmax(error[i - 1 : i + 1]))
+    return zero, {
+        source: float(zero * size / abs(slope))
+        for source, size in errors_of(
+            data.isel(adhesion_length_over_range=worse), "inverse_kappa"
+        ).items()
+    }
 
 
 def largest_simulated(data: xr.Dataset) -> float:
@@ -117,6 +129,7 @@ def hysteresis(files: Files) -> Claim:
         f"l_a/range = {float(weak.adhesion_length_over_range):g} they part at "
         f"p = {float(weak.mean_pressure):.2g}, area {float(weak.repulsive_area_fraction):.3f}.",
         ("loop",),
+        {"discretisation": error},
     )
 
 
@@ -136,7 +149,7 @@ def area_at(curve: xr.Dataset, load: float, way: int) -> float:
 
 def inverse_kappa_ad(files: Files) -> Claim:
     """Claim 11: 1/kappa_ad of simulation against the formula with a_V = 2.8 (Fig. 4B)."""
-    ratios, limits, errors = [], [], []
+    ratios, limits, errors, parts = [], [], [], []
     for name in ("rough", "smooth"):
         full, limit = (at_load(files[f"{kind}_{name}"]) for kind in ("adhesive", "adhesion"))
         limit = limit.sel(adhesion_length_over_range=full.adhesion_length_over_range)
@@ -152,6 +165,7 @@ def inverse_kappa_ad(files: Files) -> Claim:
         ratios.append((full.inverse_kappa_ad / formula).values[told])
         limits.append((limit.inverse_kappa_ad / formula).values[told])
         errors.append((error / formula).values[told])
+        parts.append([(full[name] / formula).values[told] for name in PARTS_OF_SLOPE])
     ratios, limits, errors = map(np.concatenate, (ratios, limits, errors))
     statement = "1/kappa_ad follows the formula with a_V = 2.8 over six decades (Fig. 4B)"
     sources = ("adhesive_rough", "adhesive_smooth", "adhesion_rough", "adhesion_smooth")
@@ -175,6 +189,7 @@ def inverse_kappa_ad(files: Files) -> Claim:
         "so that 1/kappa_ad falls with the range more slowly than as (range/h_rms)^(2/3); strong "
         "attraction saturates (Fig. 7).",
         sources,
+        dict(zip(("sampling", "discretisation"), np.mean(np.hstack(parts), axis=1), strict=True)),
     )
 
 
@@ -373,6 +388,7 @@ def crystal_strength(files: Files) -> Claim:
         graded(abs(ratio / (9 * np.sqrt(3) / 16) - 1) < 1e-6, False),
         f"With sigma_th = E*/20, l_a/range = {ratio / 20:.4f}.",
         (),
+        {"spacing of gaps": float(gaps[1])},
     )
 
 
@@ -452,6 +468,7 @@ def spectral_moments(files: Files) -> Claim:
         f"{expected[1]:.3f}), h''_rms/√(8 m4/3) = {mean[2]:.4f} ± {error[2]:.4f} (lattice "
         f"{expected[2]:.4f}).",
         ("seeds",),
+        {"sampling": float(error[0])},
     )
 
 

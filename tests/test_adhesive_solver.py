@@ -81,6 +81,10 @@ def assert_equilibrium(a, heights, tol=1e-8, sides=(1.0, 1.0)):
     balance = a.repulsive_pressure - a.adhesive_pressure - a.mean_pressure
     assert abs(balance) <= 1.1 * tol * unit
     assert a.repulsive_area_fraction == np.mean(touching)
+    # the sign of the net pressure, taken from the elasticity where that is clear of the residual
+    pushing = touching & (elastic + a.mean_pressure > 0)
+    unclear = touching & (np.abs(elastic + a.mean_pressure) < 2 * tol * unit)
+    assert a.net_repulsive_area_fraction == pytest.approx(pushing.mean(), abs=unclear.mean())
     assert a.adhesive_area_fraction == np.mean((a.gap <= law.range) & ~touching)
     assert a.mean_gap == pytest.approx(a.gap.mean(), rel=1e-12)
     assert a.elastic_energy == pytest.approx(np.mean((a.gap + heights) * elastic) / 2, rel=1e-9)

@@ -91,6 +91,8 @@ def page_of(found, folder):
     save(_surface_figure.drawn(found, pairs), [folder / "plate.png"])
     return write_surface.render(
         TEMPLATE,
+        folder / "report/surfaces/plate.html",
+        files={"surface": folder / "plate.nc", "verdicts": folder / "verdicts.nc", "pressed": ""},
         surface=found,
         pairs=pairs,
         materials=MATERIALS,
@@ -159,7 +161,7 @@ def test_profile_goes_all_the_way(folder):
 
 def test_page_shows_verdicts_errors_and_reasons(single, folder):
     page = page_of(single, folder)
-    text = re.sub(r"<style>.*?</style>|<[^>]+>", " ", page, flags=re.S)
+    text = re.sub(r"<(style|script)>.*?</\1>|<[^>]+>", " ", page, flags=re.S)
     assert "gel &lt;soft&gt;" in page
     assert "plate &amp; co" in page
     for words in ("Hurst exponent H", "shortest wavelength of the instrument", "half the Nyquist"):
@@ -174,9 +176,10 @@ def test_page_shows_verdicts_errors_and_reasons(single, folder):
 
 def test_page_fetches_nothing(single, folder):
     page = page_of(single, folder)
-    assert "<script" not in page
+    assert "<script src" not in page
+    files = {"../report.html", "../../plate.nc", "../../verdicts.nc"}
     for address in re.findall(r'(?:src|href)="([^"]*)"', page):
-        assert address.startswith(("#", "data:", "https://doi.org/10."))
+        assert address in files or address.startswith(("#", "data:", "https://doi.org/10."))
 
 
 def test_page_of_a_stitched_surface_names_every_file(stitched, folder):
