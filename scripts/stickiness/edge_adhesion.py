@@ -28,9 +28,10 @@ A rough contact is taken for its *equivalent sphere*: the one of equal t, attrac
 area, and equal tau. This has no constant to fit. Full simulation at equal area over the model (103
 sets of magnification 32 to 128, load 0.0065 to 0.2, t from 0.2 to 85, tau up to 2.3) is 1.03 +- .06
 for tau < 0.2 (0.89 to 1.17; 1.25 at t < 0.2, where the grid hardly resolves the zone) and 0.75 to
-1.35 beyond. For small t the effect is ``c t^(-1/2)`` with c = 4/pi = 1.27 here, while edges of
-simulated contacts, whose B scatters, have 1.2 to 1.6. For smaller t and larger tau than were
-simulated the model is an extrapolation.
+1.35 beyond; finer grids (benchmarks/tough_edges.py) reach tau = 4.6 with 0.87 to 1.25. For small t
+the effect is ``c t^(-1/2)`` with c = 4/pi = 1.27 here, while edges of simulated contacts, whose B
+scatters, have 1.2 to 1.6. For smaller t and larger tau than were simulated the model is an
+extrapolation.
 
 Lengths are in one unit of the caller's choice, wave numbers in its inverse, pressures in units of
 E*; l_a = w/E*. Arguments broadcast.
