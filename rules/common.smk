@@ -210,7 +210,7 @@ def ledger_inputs():
 
 
 def memory_of(rule):
-    """Memory [MB] that jobs of a rule ask for: more, each time that one fails."""
+    """Memory [MB] that jobs of a rule ask for, and more each time that one fails."""
 
     def asked(wildcards, attempt):
         return attempt * _cost.asked_mb(rule, _cost.work(config, rule, **dict(wildcards.items())))
@@ -219,7 +219,7 @@ def memory_of(rule):
 
 
 def runtime_of(rule):
-    """Time [min] that jobs of a rule ask for: more, each time that one fails."""
+    """Time [min] that jobs of a rule ask for, and more each time that one fails."""
 
     def asked(wildcards, attempt):
         size = _cost.work(config, rule, **dict(wildcards.items()))

@@ -17,11 +17,9 @@ ROUNDING = 1e-9  # relative to the largest value of a variable
 def main():
     one, other = map(Path, sys.argv[1:3])
     files = {path.relative_to(one) for path in one.rglob("*.nc")}
-    unpaired = files ^ {path.relative_to(other) for path in other.rglob("*.nc")}
-    if unpaired or not files:
-        sys.exit(
-            f"only on one side: {', '.join(map(str, sorted(unpaired))) or 'no file on either'}"
-        )
+    missing = sorted(str(file) for file in files if not (other / file).is_file())
+    if missing or not files:
+        sys.exit(f"{other} has no {', '.join(missing)}" if missing else f"no .nc file in {one}")
     apart = {}
     variables = 0
     for file in sorted(files):
@@ -34,7 +32,7 @@ def main():
     for where, distance in sorted(apart.items(), key=lambda item: -item[1])[:10]:
         print(f"  {where} apart by {distance:.1e} of its largest value")
     if any(distance > ROUNDING for distance in apart.values()):
-        sys.exit(f"more than rounding ({ROUNDING:g})")
+        sys.exit(f"FAILED: more than rounding ({ROUNDING:g})")
 
 
 def distances(one, other):

@@ -56,7 +56,7 @@ fi
   "$PYTHON" -m pip install --quiet --disable-pip-version-check \
     -c "$PROJECT/envs/constraints.txt" -r "$PROJECT/envs/slurm.txt"
 
-WORK=$(mktemp -d "${TMPDIR:-/tmp}/slurm-proof-XXXXXX")
+WORK=$(mktemp -d -t slurm-proof-XXXXXX)
 STATE=$WORK/state
 export SLURM_CONF=$CONF
 export PATH=$PROJECT/.venv/bin:$PATH
@@ -123,8 +123,9 @@ wait_for() { # seconds, what is waited for, command...
 }
 
 node_is() { sinfo --noheader --format=%T 2> /dev/null | grep -Eq "^($1)"; }
-solving() { # a job with realisations to solve is on the node; its comment names its group or rule
-  squeue --noheader --states=running --format=%k | grep -Eq "rule_(repulsive|adhesive|solve)_"
+solving() { # a job with realisations to solve is on the node, and one has begun to be solved
+  squeue --noheader --states=running --format=%k | grep -Eq "rule_(repulsive|adhesive)_" &&
+    [ -n "$(find "$WORK/run/results" -path '*/logs/solve_[ra]*.log' -print -quit)" ]
 }
 
 # --- Slurm --------------------------------------------------------------------------------------
@@ -162,10 +163,10 @@ say "snakemake through sbatch: ${TARGET[*]:-everything}, fidelity $FIDELITY"
 
 # --- The failure --------------------------------------------------------------------------------
 wait_for 900 "a simulation runs" solving
-sleep 8
+sleep 2
 LOST=$(squeue --noheader --states=running --format=%A | tr '\n' ' ')
 mapfile -t VICTIMS < <(steps)
-kill -9 "$SLURMD" "${VICTIMS[@]}"
+kill -9 "$SLURMD" "${VICTIMS[@]}" 2> /dev/null || true  # some may just have ended
 wait "$SLURMD" 2> /dev/null || true
 say "killed slurmd and ${#VICTIMS[@]} processes of jobs $LOST"
 wait_for 180 "Slurm gives the node up" node_is down

@@ -18,7 +18,8 @@ import pytest
 
 import _style
 
-CHROMIUM = next(filter(None, map(shutil.which, ("chromium", "chromium-browser"))), None)
+NAMES = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable")
+CHROMIUM = next(filter(None, map(shutil.which, NAMES)), None)
 pytestmark = [
     pytest.mark.workflow,
     pytest.mark.skipif(CHROMIUM is None, reason="no chromium on the path (apt install chromium)"),
