@@ -38,6 +38,8 @@ localrules:
     fig6,
     fig7,
     fig8,
+    fig9,
+    fig10,
     claims,
     verdicts,
     surfaces,
@@ -92,6 +94,16 @@ rule fig7:
 rule fig8:
     input:
         f"{RESULTS}/figures/fig8.png",
+
+
+rule fig9:
+    input:
+        f"{RESULTS}/figures/fig9.png",
+
+
+rule fig10:
+    input:
+        f"{RESULTS}/figures/fig10.png",
 
 
 rule verdicts:

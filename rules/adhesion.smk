@@ -64,6 +64,29 @@ rule average_adhesive:
         "../scripts/average_adhesive.py"
 
 
+rule compare_edges:
+    input:
+        library=library_of("compare_edges.py"),
+        averages=f"{RESULTS}/adhesive/{{adhesion}}.nc",
+        realisations=adhesive_realisations,
+        alone=lambda wildcards: [
+            f"{RESULTS}/bem/{ADHESION[wildcards.adhesion]['case']}/{os.path.basename(path)}"
+            for path in adhesive_realisations(wildcards)
+        ],
+    output:
+        f"{RESULTS}/fits/edges/{{adhesion}}.nc",
+    log:
+        f"{LOGS}/compare_edges/{{adhesion}}.log",
+    benchmark:
+        f"{BENCHMARKS}/compare_edges/{{adhesion}}.tsv"
+    conda:
+        "../envs/environment.yaml"
+    resources:
+        mem_mb=500,
+    script:
+        "../scripts/compare_edges.py"
+
+
 rule adhesive_maps:
     input:
         library=library_of("adhesive_maps.py"),

@@ -58,7 +58,7 @@ COMPARED = {
     },
 }
 ADHESION, LOOPS = config["adhesion"], config["loops"]
-FIGURES = [f"fig{number}" for number in range(1, 9)]
+FIGURES = [f"fig{number}" for number in range(1, 11)]
 PAGE_PARTS = [f"report/{part}" for part in ("macros.html.j2", "page.css", "page.js")]
 
 
@@ -142,6 +142,12 @@ def adhesive_realisations(wildcards):
     return [f"{RESULTS}/adhesive/{wildcards.adhesion}/seed{seed}.nc" for seed in seeds]
 
 
+def simulated_edges():
+    """Attraction at the edges of contact, for every set of parameters with full simulation."""
+    names = [name for name in ADHESION if adhesive_realisations(SimpleNamespace(adhesion=name))]
+    return [f"{RESULTS}/fits/edges/{name}.nc" for name in names]
+
+
 def topography_files(wildcards):
     """The measured files of a real surface, if it has any of its own."""
     surface = REAL_SURFACES[wildcards.real_surface]
@@ -194,6 +200,7 @@ def ledger_inputs():
         "adhesion_smooth": f"{RESULTS}/adhesion/fig4b_smooth.nc",
         "map": f"{RESULTS}/criteria/map.nc",
         "asphalt": f"{RESULTS}/real_surfaces/asphalt.nc",
+        "asphalt_theory": f"{RESULTS}/persson_surface/asphalt.nc",
         "polished_steel": f"{RESULTS}/real_surfaces/polished_steel.nc",
         "surfaces": [f"{RESULTS}/real_surfaces/{name}.nc" for name in REAL_SURFACES],
         "seeds": [

@@ -208,3 +208,50 @@ rule plot_fig8:
         mem_mb=500,
     script:
         "../scripts/plot_fig8.py"
+
+
+rule plot_fig9:
+    input:
+        library=library_of("plot_fig9.py"),
+        compared=f"{RESULTS}/criteria/compared.nc",
+        verdicts=f"{RESULTS}/criteria/verdicts.nc",
+    output:
+        png=report(
+            f"{RESULTS}/figures/fig9.png",
+            category="Figures",
+            caption="../report/fig9.rst",
+        ),
+        pdf=f"{RESULTS}/figures/fig9.pdf",
+    log:
+        f"{LOGS}/plot_fig9.log",
+    benchmark:
+        f"{BENCHMARKS}/plot_fig9.tsv"
+    conda:
+        "../envs/environment.yaml"
+    resources:
+        mem_mb=500,
+    script:
+        "../scripts/plot_fig9.py"
+
+
+rule plot_fig10:
+    input:
+        library=library_of("plot_fig10.py"),
+        edges=simulated_edges(),
+    output:
+        png=report(
+            f"{RESULTS}/figures/fig10.png",
+            category="Figures",
+            caption="../report/fig10.rst",
+        ),
+        pdf=f"{RESULTS}/figures/fig10.pdf",
+    log:
+        f"{LOGS}/plot_fig10.log",
+    benchmark:
+        f"{BENCHMARKS}/plot_fig10.tsv"
+    conda:
+        "../envs/environment.yaml"
+    resources:
+        mem_mb=500,
+    script:
+        "../scripts/plot_fig10.py"

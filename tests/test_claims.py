@@ -162,7 +162,19 @@ def loop(pull_off=-0.02, area=0.03, wider=1.5):
     return made_by(data, range_over_h_rms=0.1, q0_h_rms=0.1, **case(32))
 
 
+LIMIT_FACTORS = {
+    "h_rms_limit": 1.0,
+    "h_rms_limit_edges": 2.0,
+    "h_rms_limit_edges_low": 1.0,
+    "h_rms_limit_edges_high": 3.0,
+    "weak_limit": 4.0,
+}
+
+
 def stickiness_map(a_v=(3.5, 2.5, 4.5)):
+    dims = "range_times_q0", "adhesion_length_over_range"
+    q0, length = np.geomspace(1e-12, 1e-2, 11), np.array([0.01, 0.1])
+    limit = 1 / np.sqrt(q0[:, None]) * length
     roughness, parameters = np.geomspace(0.1, 100, 301), np.array([1, 0.5])
     inverse = criteria.inverse_kappa_ad(roughness, parameters[:, None], 1.0, 1.0, 3.0)
     angles = np.degrees(criteria.slope_angle(criteria.inverse_kappa(inverse)))
@@ -170,10 +182,16 @@ def stickiness_map(a_v=(3.5, 2.5, 4.5)):
         {
             "slope_angle": (("slope_parameter", "h_rms_over_range"), angles),
             **dict(zip(("a_v", "a_v_low", "a_v_high"), a_v, strict=True)),
+            **{name: (dims, factor * limit) for name, factor in LIMIT_FACTORS.items()},
         },
-        coords={"slope_parameter": parameters, "h_rms_over_range": roughness},
+        coords={
+            "slope_parameter": parameters,
+            "h_rms_over_range": roughness,
+            dims[0]: q0,
+            dims[1]: length,
+        },
     )
-    return made_by(data, slope_a_v=3.0)
+    return made_by(data, slope_a_v=3.0, shortest_over_range=4)
 
 
 def real_surface(label, kind="self_affine", q0=1e3, c0=1e-3, h_rms=1e-6):
@@ -182,12 +200,21 @@ def real_surface(label, kind="self_affine", q0=1e3, c0=1e-3, h_rms=1e-6):
             "C0": ("end", [c0 / 10, c0]),
             "C0_reference_upper": ("end", [c0 / 10, c0]),
             "h_rms": ("end", [h_rms / 10, h_rms]),
+            "rms_slope": ("end", [0.1, 1.0]),
             "q0": q0,
             "hurst": 0.8,
         },
         coords={"end": ["smooth", "rough"]},
     )
     return made_by(data, kind=kind, label=label)
+
+
+def theory_on(label, a_v=4.0):
+    data = xr.Dataset(
+        {"a_v": (("variant", "range"), np.full((1, 2), a_v))},
+        coords={"variant": ["afferrante2018"], "range": [1e-9, 1.0]},
+    )
+    return made_by(data, label=label)
 
 
 def generated(seed, zeta=16, stretch=1.0):
@@ -235,6 +262,7 @@ def files():
         "adhesion_smooth": adhesion(128, q0_h_rms=0.006),
         "map": stickiness_map(),
         "asphalt": real_surface("asphalt"),
+        "asphalt_theory": theory_on("asphalt"),
         "polished_steel": real_surface("polished steel", q0=2 * np.pi / 1e-4),
         "surface:asphalt.nc": real_surface("asphalt"),
         "surface:terrain.nc": real_surface("terrain", kind="measured", c0=0.07),
@@ -474,12 +502,36 @@ def test_limits_count_those_outside_the_dmt_range(files):
     assert "5 of these 6" in criterion.roughness_limits(files).remark
 
 
+def test_limits_by_the_edges_are_read_off_the_map(files):
+    # limits are q0^(-1/2) l_a/range times 2, 1 and 3
+    remark = criterion.roughness_limits(files).remark
+    assert "100, 3.16e+03, 1e+05 (50, 1.58e+03, 5e+04 to 150, 4.74e+03, 1.5e+05)" in remark
+    assert "0% of the map's thresholds have weak edges" in criterion.slope_angle(files).remark
+
+
+def test_tough_edges_do_not_ask_for_more_adhesion_on_finer_surfaces():
+    """JKR with the edges of Pastewka and Robbins: zeta^(1 - 2H), from h'^3/h''."""
+    for hurst in (0.5, 0.8):
+        assert criterion.tough_exponent(hurst) == pytest.approx(1 - 2 * hurst, abs=1e-3)
+
+
+def test_asphalt_by_its_edges_does_not_know_the_range(files, monkeypatch):
+    files["asphalt"] = real_surface("asphalt", h_rms=1e-3)
+    texts = []
+    for reach in (1e-10, 2e-10):
+        monkeypatch.setattr(criterion, "RANGE", reach)
+        texts.append(criterion.asphalt_by_edges(files))
+    assert all("tough" in text for text in texts)
+    values = [text.split(": there")[0] for text in texts]
+    assert values[0] == values[1]
+
+
 def test_only_measured_surfaces_test_the_line(files):
     claim = criterion.real_surfaces(files)
     assert claim.verdict == QUALIFIED
     assert "terrain reaches 70 times the line" in claim.remark
     assert "asphalt reaches" not in claim.remark
-    assert set(claim.sources) == {"asphalt", "map", "surface:terrain.nc"}
+    assert set(claim.sources) == {"asphalt", "asphalt_theory", "map", "surface:terrain.nc"}
     del files["surface:terrain.nc"]
     assert "there are none" in criterion.real_surfaces(files).remark
 

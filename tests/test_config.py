@@ -174,6 +174,22 @@ def model(*keys, value):
         (changed(CONFIG, "surfaces", value="config/surfs.yaml"), ["config/surfs.yaml", "no such"]),
         (changed(CONFIG, "cases", "H0.8_zeta32", value=None), ["cases", "H0.8_zeta32", "missing"]),
         (
+            changed(CONFIG, "criteria", "map", "range_times_q0", "maximum", value=1e-13),
+            ["criteria.map.range_times_q0.minimum", "below maximum"],
+        ),
+        (
+            changed(CONFIG, "criteria", "compared", "magnification", "maximum", value=1e9),
+            ["criteria.compared.magnification.maximum", "theory.table.magnification", "100000000"],
+        ),
+        (
+            changed(CONFIG, "criteria", "compared", "quoted_h_rms_over_range", value=0.5),
+            ["criteria.compared.quoted_h_rms_over_range", "0.5", "theory.table.range"],
+        ),
+        (
+            changed(CONFIG, "criteria", "map", "hurst", value=0.1),
+            ["criteria.map.hurst", "0.1", "theory.table.hurst"],
+        ),
+        (
             changed(CONFIG, "criteria", "a_v", "pressure", value=0.07),
             ["criteria.a_v.pressure", "0.07", "H0.8_zeta32_wide"],
         ),

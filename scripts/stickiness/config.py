@@ -43,6 +43,10 @@ _PAPER = {
     "adhesion": ("fig2", "fig4b_rough", "fig4b_smooth", "dmt_error"),
     "loops": ("fig4a",),
 }
+_CRITERIA_GRIDS = {
+    "map": ("range_times_q0", "adhesion_length_over_range"),
+    "compared": ("h_rms_over_range", "magnification"),
+}
 _PAPER_SURFACES = ("asphalt", "polished_steel")
 _BUILTIN = ("builtin:jacksboro",)
 
@@ -182,6 +186,7 @@ def _config_problems(config: Mapping[str, Any]) -> Iterator[str]:
             if name not in tables.get(table, config.get(table)):
                 yield f"{table}: {name!r} is missing; the paper's figures and claims need it"
     yield from _comparison_problems(config)
+    yield from _criteria_problems(config)
     table = config["theory"]["table"]
     for key in ("hurst", "magnification", "pressure"):
         if sorted(table[key]) != table[key]:
@@ -228,10 +233,45 @@ def _config_problems(config: Mapping[str, Any]) -> Iterator[str]:
             f"criteria.a_v.pressure = {chosen['pressure']!r} is not among the pressures of "
             f"cases.{chosen['case']}"
         )
+
+
+def _criteria_problems(config: Mapping[str, Any]) -> Iterator[str]:
+    """What the maps of criteria ask of a_V and the table of it does not hold."""
+    criteria, table = config["criteria"], config["theory"]["table"]
     for key in ("ranges", "frequencies"):
-        yield from _grid_problems(f"criteria.{key}", config["criteria"][key])
-    for key in ("range_times_q0", "adhesion_length_over_range"):
-        yield from _grid_problems(f"criteria.map.{key}", config["criteria"]["map"][key])
+        yield from _grid_problems(f"criteria.{key}", criteria[key])
+    for part, grids in _CRITERIA_GRIDS.items():
+        for key in grids:
+            yield from _grid_problems(f"criteria.{part}.{key}", criteria[part][key])
+    compared = criteria["compared"]
+    roughness = compared["h_rms_over_range"]
+    asked = [
+        ("a_v.pressure", "pressure", criteria["a_v"]["pressure"]),
+        ("map.hurst", "hurst", criteria["map"]["hurst"]),
+        ("compared.hurst", "hurst", compared["hurst"]),
+        ("compared.quoted_magnification", "magnification", compared["quoted_magnification"]),
+    ]
+    for end in ("minimum", "maximum"):
+        key = f"magnification.{end}"
+        asked.append((f"compared.{key}", "magnification", compared["magnification"][end]))
+    for key, axis, value in asked:
+        if not min(table[axis]) <= value <= max(table[axis]):
+            yield (
+                f"criteria.{key} = {value!r} must lie within theory.table.{axis}, "
+                f"{min(table[axis])!r} … {max(table[axis])!r}"
+            )
+    largest = 1 / table["range"]["minimum"]
+    smallest = 1 / table["range"]["maximum"]
+    for key, value in (
+        ("h_rms_over_range.minimum", roughness["minimum"]),
+        ("h_rms_over_range.maximum", roughness["maximum"]),
+        ("quoted_h_rms_over_range", compared["quoted_h_rms_over_range"]),
+    ):
+        if not smallest <= value <= largest:
+            yield (
+                f"criteria.compared.{key} = {value!r} must lie within the inverse of "
+                f"theory.table.range, {smallest:g} … {largest:g}"
+            )
 
 
 def _comparison_problems(config: Mapping[str, Any]) -> Iterator[str]:
