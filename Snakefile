@@ -26,6 +26,7 @@ include: "rules/real_surfaces.smk"
 include: "rules/criteria.smk"
 include: "rules/figures.smk"
 include: "rules/report.smk"
+include: "rules/stability.smk"
 
 
 localrules:
@@ -42,6 +43,7 @@ localrules:
     verdicts,
     surfaces,
     report,
+    stability,
 
 
 rule all:
@@ -112,3 +114,8 @@ rule claims:
 rule report:
     input:
         f"{RESULTS}/report/report.html",
+
+
+rule stability:
+    input:
+        f"{RESULTS}/figures/stability.png",

@@ -7,7 +7,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from _probes_theory import SCALED, against, each_against, model
+from _probes_theory import each_against, model
 from _stability import Check, Component
 from stickiness import adhesive, continuum, dmt, repulsive, subpixel, surface
 
@@ -115,8 +115,8 @@ def probe_dmt(
     }[variant]()
     expected = adhesion_length_over_range * sigma.sum() / c.gap.size
     yield Check("attraction", abs(counted - expected) / max(expected, 1e-300), 1e-7)
-    strength = law.strength * (1 - (c.area_fraction - dmt.boundary_strip(c.gap == 0)))
-    yield Check("sub-pixel, below the strength", max(fine / strength - 1, 0.0), 1e-9)
+    open_share = 1 - (c.area_fraction - dmt.boundary_strip(c.gap == 0))
+    yield Check("sub-pixel, below the strength", max(fine / law.strength - open_share, 0.0), 1e-9)
     if variant == "maugis":
         area = adhesion_length_over_range * dmt.attractive_area(c.gap, eps, subpixel=True)
         yield Check("Maugis by areas", abs(fine - area) / max(area, 1e-300), 1e-9)
@@ -158,7 +158,7 @@ def probe_adhesive(
     adhesion = (range_over_h_rms, adhesion_length_over_range, q0_h_rms, unit)
     state = adhered(variant, *shape, *adhesion, grid=grid)
     heights = heights_of(hurst, magnification, q0_h_rms, unit, grid)
-    length, (law, control) = 2 * np.pi * unit, variant.split()
+    law, control = variant.split()
     n = grid
     k = np.hypot(*np.meshgrid(*[np.fft.fftfreq(n, 1 / n)] * 2)) / unit
     elastic = np.fft.ifft2(np.fft.fft2(state.gap + heights) * k / 2).real
@@ -188,9 +188,13 @@ def probe_adhesive(
         # Same surface and loads over q0 h_rms: so must be the adhesion, l_a/eps and all.
         plain = (range_over_h_rms, adhesion_length_over_range / q0_h_rms, 1.0, 1.0)
         same = adhered(variant, *shape, *plain, grid=grid)
-        scale = max(same.mean_gap, TOLERANCE)
         gap = state.mean_gap / (q0_h_rms * unit)
-        yield Check("gap, other unit", abs(gap - same.mean_gap) / scale, 1e-5)
+        allowed = 1e-5 * max(abs(same.mean_gap), 1e-3)
+        if not state.law.hard_wall and control == "pressure":
+            # The residual leaves the gap as uncertain as the law is weak beside the elasticity.
+            stiffness = abs(float(np.mean(state.law.derivative(state.gap))))
+            allowed += 4 * TOLERANCE * stress / stiffness / (q0_h_rms * unit)
+        yield Check("gap, other unit", abs(gap - same.mean_gap) / allowed, 1)
 
 
 _GRIDS = (2, 3, 4, 7, 16, 31, 32, 97, 128)
