@@ -271,9 +271,14 @@ THEORY = {
     "persson": Component(
         probe_persson,
         ("magnification", "hurst", "pressure", "range_over_h_rms", "q0_h_rms", "unit"),
-        pairs=(
-pairs=(
-            ("magnification", "pressure"),    ),
+        pairs=(("magnification", "pressure"), ("hurst", "pressure"), ("hurst", "magnification")),
+        variants=THEORIES,
+        values={
+            "magnification": (1.01, 8, 64, 1e3, 1e6, 1e10),
+            "hurst": (0.05, 0.5, 0.8, 1.0),
+            "pressure": (1e-8, 1e-3, 0.03, 0.3, 3.0, 100.0, 1e6),
+        },
+    ),
     "criteria": Component(
         probe_criteria,
         (

@@ -160,14 +160,8 @@ def is_refusal(error: Exception) -> bool:
 def _arguments() -> Iterator[str]:
     """Names of all arguments of the library's public functions and classes."""
     for module in _MODULES:
-        for name, value in vars(module).items():
-            if (
-                not name.startswith("_")
-                and callable(value)
-                and inspect.isroutine(value)
-                or inspect.isclass(value)
-                and value.__module__.startswith("stickiness")
-            ):
+        for value in vars(module).values():
+            if callable(value) and getattr(value, "__module__", "").startswith("stickiness"):
                 yield from inspect.signature(value).parameters
 
 
