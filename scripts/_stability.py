@@ -54,13 +54,17 @@ class Axis:
 
 
 AXES = {
-    "magnification": Axis("magnification ζ", (1.01, 2, 8, 64, 1e3, 1e6, 1e10), 64),
-    "hurst": Axis("Hurst exponent H", (0.05, 0.2, 0.5, 0.6, 0.8, 1.0), 0.8),
-    "pressure": Axis("load p/(E* q₀ h_rms)", (1e-8, 1e-5, 1e-3, 0.03, 0.3, 3.0, 100.0, 1e6), 0.03),
-    "range_over_h_rms": Axis("range ε/h_rms", (1e-6, 1e-4, 1e-2, 0.3, 3.0, 30.0, 1e3), 0.3),
-    "adhesion_length_over_range": Axis("adhesion l_a/ε", (1e-6, 1e-4, 1e-2, 0.1, 1.0, 10.0), 0.01),
-    "q0_h_rms": Axis("roughness q₀ h_rms", (1e-9, 1e-6, 1e-3, 0.1, 1.0, 10.0), 0.1),
-    "unit": Axis("1/q₀ in units of length", (1e-9, 1e-6, 1e-3, 1.0, 1e3), 1.0),
+    "magnification": Axis("magnification q1/q0", (1.01, 2, 8, 64, 1e3, 1e6, 1e10), 64),
+    "hurst": Axis("Hurst exponent", (0.05, 0.2, 0.5, 0.6, 0.8, 1.0), 0.8),
+    "pressure": Axis(
+        "mean pressure over E* q0 h_rms", (1e-8, 1e-5, 1e-3, 0.03, 0.3, 3, 100, 1e6), 0.03
+    ),
+    "range_over_h_rms": Axis("range over h_rms", (1e-6, 1e-4, 1e-2, 0.3, 3, 30, 1e3), 0.3),
+    "adhesion_length_over_range": Axis(
+        "adhesion length over range", (1e-6, 1e-4, 1e-2, 0.1, 1, 10), 0.01
+    ),
+    "q0_h_rms": Axis("q0 times h_rms", (1e-9, 1e-6, 1e-3, 0.1, 1, 10), 0.1),
+    "unit": Axis("1/q0 in units of length", (1e-9, 1e-6, 1e-3, 1, 1e3), 1),
     "grid": Axis("grid points a side", (2, 3, 4, 7, 16, 31, 32, 97, 128), 32),
 }
 
@@ -106,9 +110,16 @@ class Component:
         """Values that an axis is tried at."""
         return tuple(self.values.get(axis, AXES[axis].values))
 
+    def middle(self) -> dict[str, Any]:
+        """The point that all others start from, of the first variant."""
+        return self._reference() | ({"variant": self.variants[0]} if self.variants else {})
+
+    def _reference(self) -> dict[str, float]:
+        return {name: self.reference.get(name, AXES[name].reference) for name in self.axes}
+
     def points(self) -> list[dict[str, Any]]:
         """Every point once: the reference with one or two axes moved, for every variant."""
-        reference = {name: self.reference.get(name, AXES[name].reference) for name in self.axes}
+        reference = self._reference()
         pairs = combinations(self.axes, 2) if self.pairs is None else self.pairs
         moves = [
             dict(zip(moved, values, strict=True))
@@ -160,12 +171,14 @@ def is_refusal(error: Exception) -> bool:
 def _arguments() -> Iterator[str]:
     """Names of all arguments of the library's public functions and classes."""
     for module in _MODULES:
-        for value in vars(module).values():
-            if callable(value) and getattr(value, "__module__", "").startswith("stickiness"):
+        for name, value in vars(module).items():
+            own = callable(value) and getattr(value, "__module__", "").startswith("stickiness")
+            if own and not name.startswith("_"):
                 yield from inspect.signature(value).parameters
 
 
-_ARGUMENTS = frozenset(_arguments())
+# Less the words that any message may hold.
+_ARGUMENTS = frozenset(_arguments()) - {"args", "error", "kwargs", "mean", "message", "value"}
 
 
 @contextmanager
