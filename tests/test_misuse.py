@@ -19,7 +19,8 @@ from stickiness.persson import Persson
 SIDE = 2 * np.pi
 BAND = spectrum.SelfAffine(hurst=0.8, q0=1.0, q1=4.0, h_rms=1.0)
 HEIGHTS = surface.synthesise(BAND, 16, SIDE, seed=1)
-HOLED = np.where(HEIGHTS > 0.99 * HEIGHTS.max(), np.nan, HEIGHTS)
+HOLED = HEIGHTS.copy()
+HOLED[3, 4] = np.nan
 MASKED = np.ma.masked_greater(HEIGHTS, 1.0)
 LAW = adhesive.Exponential(0.01, 0.1)
 
