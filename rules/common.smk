@@ -291,6 +291,18 @@ if workflow.is_main_process:
     check_clock()
 
 
+def check_writable():
+    """Refuse folders of results that may not be written to, on which Snakemake breaks off."""
+    existing = next(p for p in (Path(RESULTS), *Path(RESULTS).parents) if p.exists())
+    below = [path for path in Path(RESULTS).rglob("*") if path.is_dir()]
+    for folder in (existing, *below):
+        if not os.access(folder, os.W_OK):
+            raise WorkflowError(
+                f"{folder} may not be written to: allow it (chmod -R u+w {existing}), or name "
+                "another folder under results in config/config.yaml"
+            )
+
+
 # --- What a run tells ------------------------------------------------------------------------
 
 progress = None  # of this run, once it has begun
@@ -320,6 +332,7 @@ def conclude():
 
 
 onstart:
+    check_writable()
     RUN_RECORD.write_text(json.dumps(this_run()))
     begin()
 
