@@ -199,6 +199,10 @@ def probe_adhesive(
 
 _GRIDS = (2, 3, 4, 7, 16, 31, 32, 97, 128)
 _SURFACE = {"magnification": 8}
+_FINE = tuple(
+    {"grid": 128, "magnification": 16, "range_over_h_rms": eps, "adhesion_length_over_range": la}
+    for eps, la in ((0.3, 0.01), (1e-4, 1e-4), (1e-2, 10), (100, 10))
+)
 _MAGNIFICATIONS = {"magnification": (1.01, 2, 4, 8, 16, 64, 1e6)}
 
 CONTACT = {
@@ -207,7 +211,7 @@ CONTACT = {
         ("magnification", "hurst", "pressure", "q0_h_rms", "unit", "grid"),
         reference=_SURFACE,
         values=_MAGNIFICATIONS,
-        alone={"grid": (509, 1024)},
+        further=({"grid": 509}, {"grid": 1024}),
     ),
     "sub-pixel": Component(
         probe_edges,
@@ -237,5 +241,6 @@ CONTACT = {
         variants=CONTROLS,
         reference=_SURFACE | {"grid": 16},
         values={"magnification": (1.01, 2, 4, 8, 64), "grid": (2, 3, 4, 7, 16, 31, 64)},
+        further=_FINE,
     ),
 }  # fmt: skip

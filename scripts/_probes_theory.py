@@ -266,7 +266,7 @@ THEORY = {
         ("magnification", "hurst", "q0_h_rms", "unit", "grid"),
         reference={"magnification": 8},
         values={"magnification": (1.01, 2, 8, 64, 1e3, 1e6)},
-        alone={"grid": (509, 1024)},
+        further=({"grid": 509}, {"grid": 1024}),
     ),
     "persson": Component(
         probe_persson,

@@ -94,8 +94,8 @@ class Component:
         Kinds that are tried at every point.
     reference, values : mapping
         What differs from `AXES`.
-    alone : mapping
-        Further values of an axis, tried with all others at their reference.
+    further : sequence of mapping
+        Further points, by what they differ in from the reference.
     """
 
     probe: Callable[..., Iterable[Check]]
@@ -104,7 +104,7 @@ class Component:
     variants: Sequence[str] = ()
     reference: Mapping[str, float] = field(default_factory=dict)
     values: Mapping[str, tuple[float, ...]] = field(default_factory=dict)
-    alone: Mapping[str, tuple[float, ...]] = field(default_factory=dict)
+    further: Sequence[Mapping[str, float]] = ()
 
     def values_of(self, axis: str) -> tuple[float, ...]:
         """Values that an axis is tried at."""
@@ -126,7 +126,7 @@ class Component:
             for moved in [*pairs, *((name,) for name in self.axes)]
             for values in product(*map(self.values_of, moved))
         ]
-        moves += [{name: value} for name, values in self.alone.items() for value in values]
+        moves += self.further
         found = {tuple((reference | move).values()): reference | move for move in moves}
         if not self.variants:
             return list(found.values())

@@ -73,7 +73,7 @@ def test_points_move_pairs_of_axes_and_each_comes_once():
         ("hurst", "unit", "grid"),
         pairs=(("hurst", "unit"),),
         variants=("a", "b"),
-        alone={"grid": (1024,)},
+        further=({"grid": 1024},),
     )
     points = component.points()
     size = {name: len(component.values_of(name)) for name in component.axes}
