@@ -26,6 +26,7 @@ include: "rules/real_surfaces.smk"
 include: "rules/criteria.smk"
 include: "rules/figures.smk"
 include: "rules/report.smk"
+include: "rules/stability.smk"
 
 
 localrules:
@@ -44,6 +45,7 @@ localrules:
     verdicts,
     surfaces,
     report,
+    stability,
 
 
 rule all:
@@ -124,3 +126,8 @@ rule claims:
 rule report:
     input:
         f"{RESULTS}/report/report.html",
+
+
+rule stability:
+    input:
+        f"{RESULTS}/figures/stability.png",

@@ -7,6 +7,7 @@ import os
 import platform
 import re
 import sys
+import time
 from functools import cache
 from pathlib import Path
 from types import SimpleNamespace
@@ -150,7 +151,12 @@ def simulated_edges():
 
 def topography_files(wildcards):
     """The measured files of a real surface, if it has any of its own."""
-    surface = REAL_SURFACES[wildcards.real_surface]
+    return measured_files(wildcards.real_surface)
+
+
+def measured_files(name):
+    """Files of a real surface's measurements, those that come with the project left out."""
+    surface = REAL_SURFACES[name]
     if surface["kind"] != "measured":
         return []
     files = [measurement["file"] for _, measurement in configuration.measurements(surface)]
@@ -259,6 +265,51 @@ def remove_stale_lock():
 remove_stale_lock()
 
 
+# --- A clock that is or was wrong --------------------------------------------------------------
+# What is newer than anything made from it would be re-made for ever; Snakemake itself says so only
+# after the first such job.
+
+LEEWAY = 60  # seconds that clocks of a network may differ by
+
+
+def files_from_the_future():
+    """Files that jobs may read with times of change that are yet to come."""
+    own = [Path(workflow.basedir) / part for part in ("scripts", "config", "report")]
+    files = [file for folder in (*own, Path(RESULTS)) for file in folder.rglob("*.*")]
+    files += [Path(file) for name in REAL_SURFACES for file in measured_files(name)]
+    latest = time.time() + LEEWAY
+    return [file for file in files if file.exists() and file.stat().st_mtime > latest]
+
+
+def check_clock():
+    found = [os.path.relpath(file) for file in files_from_the_future()]
+    if found:
+        more = f" (and {len(found) - 1} more)" if len(found) > 1 else ""
+        command = f"touch {' '.join(found)}"
+        if len(found) > 5:
+            command = f"find scripts config report {RESULTS} -newermt now -exec touch {{}} +"
+        raise WorkflowError(
+            f"{found[0]}{more} was changed in the future, by this machine's clock. If the clock "
+            f"is right, run: {command}"
+        )
+
+
+if workflow.is_main_process:
+    check_clock()
+
+
+def check_writable():
+    """Refuse folders of results that may not be written to, on which Snakemake breaks off."""
+    existing = next(p for p in (Path(RESULTS), *Path(RESULTS).parents) if p.exists())
+    below = [path for path in Path(RESULTS).rglob("*") if path.is_dir()]
+    for folder in (existing, *below):
+        if not os.access(folder, os.W_OK):
+            raise WorkflowError(
+                f"{folder} may not be written to: allow it (chmod -R u+w {existing}), or name "
+                "another folder under results in config/config.yaml"
+            )
+
+
 # --- What a run tells ------------------------------------------------------------------------
 
 progress = None  # of this run, once it has begun
@@ -288,6 +339,7 @@ def conclude():
 
 
 onstart:
+    check_writable()
     RUN_RECORD.write_text(json.dumps(this_run()))
     begin()
 

@@ -184,6 +184,8 @@ def adhesive_pressure(
         On malformed or negative gaps.
     """
     gap, contact = gap_and_contact(gap, contact)
+    if not hasattr(law, "traction"):
+        raise ValueError(f"law must be a traction law such as adhesive.Maugis(...), got {law!r}")
     if not subpixel:
         return float(np.sum(law.traction(gap[~contact]))) / gap.size
     largest = float(gap[~contact].max(initial=0.0))

@@ -42,6 +42,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy import fft
 
+from ._arguments import integer
 from .spectrum import Spectrum
 from .surface import Amplitudes, _check_window, _draw, _evaluate, _half_plane_modes
 
@@ -278,8 +279,10 @@ def descriptors(
     n = fft.next_fast_len(max(16, 4 * int(np.abs([i, j]).max())), real=True)
     counts = [max(1, round(share * n * n)) for share in _SUMMITS]
     rows = []
+    if not isinstance(seeds, Iterable):
+        raise ValueError(f"seeds must be a sequence of integers, got {seeds!r}")
     for seed in seeds:
-        modes = _draw(variance, seed, amplitudes)
+        modes = _draw(variance, integer("seeds", seed, least=0), amplitudes)
         power = 2 * np.abs(modes) ** 2
         square, energy, slope = (beyond[k] + float(np.sum(power * q**k)) for k in range(3))
         heights = np.sort(_evaluate(i, j, modes, n), axis=None)
