@@ -41,6 +41,7 @@ localrules:
     claims,
     verdicts,
     surfaces,
+    dmt_error,
     report,
 
 
@@ -102,6 +103,11 @@ rule verdicts:
 rule surfaces:
     input:
         expand(f"{RESULTS}/report/surfaces/{{real_surface}}.html", real_surface=REAL_SURFACES),
+
+
+rule dmt_error:
+    input:
+        f"{RESULTS}/adhesive/dmt_error.csv",
 
 
 rule claims:

@@ -70,8 +70,10 @@ def errors_of(data: xr.Dataset, name: str) -> dict[str, float]:
 
 
 def total_error(data: xr.Dataset, name: str) -> xr.DataArray:
-    """Standard error and discretisation error of a mean, in quadrature."""
-    return np.hypot(data[f"{name}_standard_error"], data[f"{name}_discretisation_error"])
+    """Errors of a mean in quadrature: standard, of discretisation and, if it has one, of the model."""
+    error = np.hypot(data[f"{name}_standard_error"], data[f"{name}_discretisation_error"])
+    model = f"{name}_model_error"
+    return np.hypot(error, data[model]) if model in data else error
 
 
 def quoted(value: float, error: float) -> str:
