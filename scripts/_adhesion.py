@@ -33,7 +33,7 @@ DESCRIBED = {
 def axis(name: str, asked: Mapping[str, Any], key: str | None = None) -> xr.DataArray:
     """One list of the configuration (under `key`, by default its name), in increasing order."""
     values = np.sort(np.array(asked[key or name], dtype=float))
-    return xr.DataArray(values, dims=name, coords={name: values})
+    return xr.DataArray(values, dims=name, coords={name: values}, name=name)
 
 
 def axes(asked: Mapping[str, Any]) -> tuple[xr.DataArray, xr.DataArray, xr.DataArray]:

@@ -70,7 +70,7 @@ def errors_of(data: xr.Dataset, name: str) -> dict[str, float]:
 
 
 def total_error(data: xr.Dataset, name: str) -> xr.DataArray:
-    """Errors of a mean in quadrature: standard, of discretisation and, if it has one, of the model."""
+    """Errors of a mean in quadrature: standard, discretisation and, if there is one, model."""
     error = np.hypot(data[f"{name}_standard_error"], data[f"{name}_discretisation_error"])
     model = f"{name}_model_error"
     return np.hypot(error, data[model]) if model in data else error

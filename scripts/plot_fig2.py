@@ -20,6 +20,7 @@ from _style import (
     letters,
     points,
     save,
+    with_model,
 )
 from stickiness import datasets
 
@@ -90,17 +91,22 @@ def case_keys(kappas):
 
 
 def panel_b(ax, limit, adhesive):
-    """1/kappa by full simulation and in the DMT limit (dotted); sticky where it is negative."""
+    """1/kappa at one load, fitted over all, by the net area, and in the DMT limit (dotted)."""
     load = float(adhesive.pressure[-1])
     for index, reach in enumerate(adhesive.range_over_h_rms.values):
         full = adhesive.sel(pressure=load, range_over_h_rms=reach)
         dmt = limit.sel(pressure=load, range_over_h_rms=reach, method="nearest")
         look = {"color": COLOURS[index], "marker": MARKERS[index], "markersize": 3.5}
         ax.plot(dmt.adhesion_length_over_range, dmt.inverse_kappa, ":", color=COLOURS[index])
-        errors = full.inverse_kappa_standard_error, full.inverse_kappa_discretisation_error
+        lengths = full.adhesion_length_over_range
+        ax.plot(lengths, full.inverse_kappa_fit, "-", color=COLOURS[index], linewidth=0.9)
+        ax.plot(lengths, full.inverse_kappa_net, linestyle="none", **look, mfc="white", zorder=3)
         label = rf"$\epsilon/h_\mathrm{{rms}}$ = {reach:g}"
-        points(ax, full.adhesion_length_over_range, full.inverse_kappa, *errors, **look)
+        points(ax, lengths, full.inverse_kappa, *with_model(full, "inverse_kappa"), **look)
         ax.plot([], [], linestyle="none", label=label, **look)
+    ax.plot([], [], color=GREY, linewidth=0.9, label="fit over loads")
+    net = {"marker": "o", "markersize": 3.5, "mfc": "white", "linestyle": "none"}
+    ax.plot([], [], color=GREY, **net, label="compressed area")
     ax.plot([], [], ":", color=GREY, label="DMT limit")
     low, high = -0.35, 0.68
     ax.axhspan(low, 0, color=GREY, alpha=0.15, linewidth=0)

@@ -3,13 +3,15 @@
 import matplotlib as mpl
 import numpy as np
 
+from _claim import total_error
 from _job import start
 from _numbers import number
-from _style import COLOURS, GREY, MARKERS, canvas, guide, key, letters, points, save
+from _style import COLOURS, GREY, MARKERS, canvas, guide, key, letters, points, save, with_model
 from stickiness import criteria, datasets
 
 RANGE_LABEL = r"range $\epsilon/h_\mathrm{rms}$"
 RATIO_LABEL = r"$1/\kappa_\mathrm{ad}$, full over DMT"
+ACCURACY = 0.15  # of the DMT limit, as Figure 4B asks
 SPAN = 4.0  # largest ratio, up or down, that the colours tell apart
 
 
@@ -25,7 +27,9 @@ def main(job):
 def panel_a(figure, ax, data):
     """Ratio in colour and in figures, with the conditions under which DMT is taken to hold."""
     ranges, lengths = data.range_over_h_rms.values, data.adhesion_length_over_range.values
-    ratio = data.dmt_ratio.transpose("adhesion_length_over_range", "range_over_h_rms").values
+    dims = "adhesion_length_over_range", "range_over_h_rms"
+    ratio = data.dmt_ratio.transpose(*dims).values
+    good = (error_of_dmt(data) <= ACCURACY).transpose(*dims).values
     norm = mpl.colors.LogNorm(1 / SPAN, SPAN)
     mesh = ax.pcolormesh(edges(ranges), edges(lengths), ratio, norm=norm, cmap="RdYlBu_r")
     for row, length in enumerate(lengths):
@@ -34,11 +38,13 @@ def panel_a(figure, ax, data):
             text = f"{value:.2f}" if np.isfinite(value) else "·"
             dark = np.isfinite(value) and abs(np.log(value)) > np.log(2.2)
             colour = "white" if dark else "black"
-            ax.text(reach, length, text, ha="center", va="center", fontsize=7, color=colour)
+            weight = "bold" if good[row, column] else "normal"
+            look = {"ha": "center", "va": "center", "fontsize": 7}
+            ax.text(reach, length, text, color=colour, weight=weight, **look)
     ax.set(xscale="log", yscale="log", xlabel=RANGE_LABEL)
     ax.set_ylabel(r"adhesion length $l_a/\epsilon$")
     limits = ax.get_xlim(), ax.get_ylim()
-    strength = data.zone_strength.transpose("adhesion_length_over_range", "range_over_h_rms")
+    strength = data.zone_strength.transpose(*dims)
     ax.contour(ranges, lengths, strength.values, levels=[1], colors="black")
     ax.legend(handles=[key(color="black", label=r"$l_ad/\epsilon^2$ = 1")], loc="upper left")
     jtb = 1 / criteria.jtb_limit(float(data.q0_h_rms), 1.0, 1.0)
@@ -56,6 +62,12 @@ def panel_a(figure, ax, data):
     )
 
 
+def error_of_dmt(data):
+    """Relative error of the DMT limit, as far as its measurement allows."""
+    log_error = total_error(data, "dmt_ratio") / data.dmt_ratio
+    return abs(np.expm1(abs(np.log(data.dmt_ratio)) + log_error))
+
+
 def edges(values):
     """Edges of the cells around values on a log axis."""
     middle = np.sqrt(values[1:] * values[:-1])
@@ -67,8 +79,8 @@ def panel_b(ax, data):
     weak = data.isel(adhesion_length_over_range=0)
     for index, load in enumerate(weak.pressure.values):
         one = weak.sel(pressure=load)
-        errors = one.dmt_ratio_standard_error, one.dmt_ratio_discretisation_error
         look = {"color": COLOURS[index], "marker": MARKERS[index], "markersize": 3.5}
+        errors = with_model(one, "dmt_ratio")
         points(ax, one.range_over_h_rms * 1.06 ** (index - 1), one.dmt_ratio, *errors, **look)
         ax.plot([], [], linestyle="none", label=rf"$\hat{{p}}$ = {load:g}", **look)
     x = np.array([0.01, 0.2])
