@@ -75,13 +75,16 @@ def edges(values):
 
 
 def panel_b(ax, data):
-    """Weak adhesion: what is left of the difference as the adhesion length goes to zero."""
+    """Weak adhesion, by the area at zero gap and by its compressed part (open)."""
     weak = data.isel(adhesion_length_over_range=0)
     for index, load in enumerate(weak.pressure.values):
         one = weak.sel(pressure=load)
         look = {"color": COLOURS[index], "marker": MARKERS[index], "markersize": 3.5}
         errors = with_model(one, "dmt_ratio")
-        points(ax, one.range_over_h_rms * 1.06 ** (index - 1), one.dmt_ratio, *errors, **look)
+        x = one.range_over_h_rms * 1.06 ** (index - 1)
+        net = (one[f"dmt_ratio_net_{kind}"] for kind in ("standard_error", "discretisation_error"))
+        points(ax, x, one.dmt_ratio_net, *net, **look, mfc="white")
+        points(ax, x, one.dmt_ratio, *errors, **look)
         ax.plot([], [], linestyle="none", label=rf"$\hat{{p}}$ = {load:g}", **look)
     x = np.array([0.01, 0.2])
     guide(ax, x, 3.2 * (x / 0.01) ** (-1 / 3), r"$\epsilon^{-1/3}$", (0.04, 2.3))
@@ -90,6 +93,7 @@ def panel_b(ax, data):
     ticks = [0.5, 1, 2, 4, 8]
     ax.set_yticks(ticks, [f"{tick:g}" for tick in ticks])
     ax.minorticks_off()
+    ax.plot([], [], "o", color=GREY, mfc="white", markersize=3.5, label="compressed area")
     ax.set_title(rf"weak adhesion, $l_a/\epsilon$ = {float(weak.adhesion_length_over_range):g}")
     ax.legend(loc="upper right")
 
