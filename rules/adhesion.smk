@@ -42,7 +42,7 @@ rule solve_adhesive:
         mem_mb=memory_of("solve_adhesive"),
         runtime=runtime_of("solve_adhesive"),
     params:
-        adhesion=lambda wildcards: ADHESION[wildcards.adhesion],
+        adhesion=solved_in_full,
         full=lambda wildcards: model_of(wildcards.adhesion).full.tolist(),
         tolerance=FIDELITY["tolerance"],
     script:

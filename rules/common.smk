@@ -144,6 +144,12 @@ def model_of(adhesion):
     return model_choice.choose(asked, surface, DMT_ERRORS)
 
 
+def solved_in_full(wildcards):
+    """What a full solution depends on, of a set of adhesive parameters, beside its model."""
+    others = ("model", "accuracy", "seeds", "maps")
+    return {key: value for key, value in ADHESION[wildcards.adhesion].items() if key not in others}
+
+
 def adhesive_realisations(wildcards):
     """Files of all realisations to be solved in full; none if the DMT limit is good enough."""
     if not model_of(wildcards.adhesion).full.any():

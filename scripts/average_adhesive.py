@@ -40,6 +40,7 @@ FITS = {
     "inverse_kappa_fit": ("1/kappa fitted over the loads up to 30 % area", "inverse_kappa_fit"),
     "inverse_kappa_ad_fit": ("1/kappa_ad from fitted 1/kappa", "inverse_kappa_ad_fit"),
 }
+LOADWISE = {"inverse_kappa_fit": "inverse_kappa", "inverse_kappa_ad_fit": "inverse_kappa_ad"}
 RATIOS = {
     "dmt_ratio": ("1/kappa_ad of the full simulation over that of the DMT limit", None),
     "dmt_ratio_net": ("the same with the net repulsive area", None),
@@ -50,7 +51,8 @@ OTHERS = {
     "inverse_kappa_ad_model_error": "error of 1/kappa_ad by the model: of the DMT limit as "
     "measured, of the full one by comparing at equal area instead of equal mean gap",
     "dmt_ratio_model_error": "change of the ratio from comparing at equal area",
-    "inverse_kappa_fit_linearity_error": "half the range of 1/kappa over the loads of the fit",
+    "inverse_kappa_fit_model_error": "half the range of 1/kappa over the loads of the fit",
+    "inverse_kappa_ad_fit_model_error": "half the range of 1/kappa_ad over the loads of the fit",
     "residual": "largest residual of all realisations",
     "iterations": "mean iterations on the fine grid",
     "zone_strength": "width of the zone of attraction over range^2/adhesion length",
@@ -72,7 +74,7 @@ def main(job):
     files = [datasets.read(path, ["external_pressure"]) for path in job.input.realisations]
     made = datasets.parameters(files[0]) if files else datasets.parameters(ensemble)
     seeds = [datasets.parameters(file)["seed"] for file in files]
-    dataset = in_dmt_limit(limit)
+    dataset = in_dmt_limit(limit, dmt.linear)
     if files:
         states = xr.concat(files, xr.DataArray(seeds, dims="seed", name="seed"))
         solved = averaged(states, full, ensemble, dmt, made)
@@ -88,7 +90,7 @@ def main(job):
     )
 
 
-def in_dmt_limit(limit):
+def in_dmt_limit(limit, linear):
     """The averages as the DMT limit has them, which knows one area only."""
     area, none = limit.area_fraction, xr.zeros_like(limit.inverse_kappa)
     states = {
@@ -105,7 +107,7 @@ def in_dmt_limit(limit):
     dataset["inverse_kappa_ad_model_error"] = relative * limit.inverse_kappa_ad
     without = limit.inverse_kappa / (1 - 2 * limit.inverse_kappa_ad)
     dataset["inverse_kappa_model_error"] = 2 * relative * limit.inverse_kappa_ad * without
-    return dataset
+    return dataset.assign(fit_errors(dataset, linear))
 
 
 def averaged(states, full, ensemble, dmt, made):
@@ -113,7 +115,7 @@ def averaged(states, full, ensemble, dmt, made):
     whole = fine(states.external_pressure).notnull().all("seed") | ~full
     wide = zone_width(ensemble, states) >= cohesive_zone.NARROWEST * made["pixel"]
     states = with_dmt(states, full)
-    linear = dmt.linear & (fine(states.repulsive_area).mean("seed") <= LINEAR_UP_TO)
+    linear = dmt.linear & ~(fine(states.repulsive_area).mean("seed") > LINEAR_UP_TO)
     states = with_slopes(states, ensemble, linear)
     # A mean over the seeds that happen to be solved would leave out the stickiest ones.
     told = whole & (wide | ~full)
@@ -132,13 +134,20 @@ def averaged(states, full, ensemble, dmt, made):
     for name in ("inverse_kappa_ad", "dmt_ratio"):
         change = fine(states[f"{name}_equal_area"] - states[name]).mean("seed", skipna=False)
         dataset[f"{name}_model_error"] = abs(change).where(told)
-    scatter = linearity_error(dataset.inverse_kappa, linear)
-    dataset["inverse_kappa_fit_linearity_error"] = scatter.where(
-        dataset.inverse_kappa_fit.notnull()
-    )
+    dataset = dataset.assign(fit_errors(dataset, linear))
     dataset["residual"] = states.residual.max(["seed", "resolution"])
     dataset["iterations"] = fine(states.iterations).mean("seed")
     return dataset
+
+
+def fit_errors(dataset, linear):
+    """What the straight lines of the fits leave out, NaN where there is no fit."""
+    return {
+        f"{name}_model_error": linearity_error(dataset[source], linear).where(
+            dataset[name].notnull()
+        )
+        for name, source in LOADWISE.items()
+    }
 
 
 def controls(ensemble, quantity, seeds):

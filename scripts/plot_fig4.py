@@ -99,11 +99,9 @@ def panel_b(ax, full, a_v):
             hollow = {"color": colour, "marker": marker, "mfc": "white", "markersize": 3}
             direct = here.inverse_kappa_ad_direct
             ax.plot(lengths, direct, linestyle="none", **hollow, zorder=3)
-            by_slopes(ax, here, lengths, 1.0, colour, marker)
-            chosen = here.where(here.model == "dmt", drop=True)
-            cross = {"marker": "x", "color": RED, "markersize": 3.5, "zorder": 6}
-            x = chosen.adhesion_length_over_range
-            ax.plot(x, chosen.inverse_kappa_ad, linestyle="none", **cross)
+            by_slopes(ax, here, "inverse_kappa_ad_fit", lengths, 1.0, colour, marker)
+            chosen = here.inverse_kappa_ad.where(here.model == "dmt")
+            ax.plot(lengths, chosen, "x", color=RED, markersize=3.5, zorder=6)
     shaded(ax)
     ax.set(xscale="log", yscale="log", xlabel=LENGTH_LABEL, ylabel=r"$1/\kappa_\mathrm{ad}$")
     ax.set_title(rf"$\hat{{p}}$ = {float(full[0].pressure):g}")
@@ -125,12 +123,10 @@ def by_formula(data, lengths, reach, a_v):
     return criteria.inverse_kappa_ad(1.0, float(data.q0_h_rms), lengths * reach, reach, a_v)
 
 
-def by_slopes(ax, data, x, scale, colour, marker):
+def by_slopes(ax, data, name, x, scale, colour, marker):
     """1/kappa_ad over `scale` where it is larger than its errors, with these."""
-    data = data[[name for name in data if name.startswith("inverse_kappa_ad")]]
-    errors = with_model(data, "inverse_kappa_ad")
-    known = total_error(*errors) < data.inverse_kappa_ad
-    value = data.inverse_kappa_ad.where(known) / scale
+    errors = with_model(data, name)
+    value = data[name].where(total_error(*errors) < data[name]) / scale
     points(ax, x, value, *(one / scale for one in errors), color=colour, marker=marker)
 
 
@@ -164,7 +160,7 @@ def set_keys(sets):
 def kind_keys():
     hollow = {"marker": "o", "linestyle": "none", "markersize": 3, "color": BLACK}
     return [
-        key(**hollow, label="by slopes"),
+        key(**hollow, label="by fitted slopes"),
         key(**hollow, mfc="white", label=r"$p_\mathrm{ad}/2p_\mathrm{rep}$"),
         key(marker="x", linestyle="none", color=RED, label="DMT limit chosen"),
         key(label=rf"formula, $a_V$ = {PAPER_A_V:g}"),
@@ -185,7 +181,7 @@ def panel_c(ax, full, a_v):
             hollow = {"color": colour, "marker": marker, "mfc": "white", "markersize": 3}
             direct = one.inverse_kappa_ad_direct / scale[place]
             ax.plot(x, direct, linestyle="none", **hollow)
-            by_slopes(ax, one, x, scale[place], colour, marker)
+            by_slopes(ax, one, "inverse_kappa_ad", x, scale[place], colour, marker)
         ax.axhline(measured / PAPER_A_V, color=GREY, linestyle="--", linewidth=0.8)
     ax.axhline(1, color=GREY, linewidth=0.9)
     ax.set(xscale="log", xlabel=r"range $\epsilon/h_\mathrm{rms}$")
