@@ -104,17 +104,19 @@ def panel_b(ax, limit, adhesive):
         label = rf"$\epsilon/h_\mathrm{{rms}}$ = {reach:g}"
         points(ax, lengths, full.inverse_kappa, *with_model(full, "inverse_kappa"), **look)
         ax.plot([], [], linestyle="none", label=label, **look)
-    ax.plot([], [], color=GREY, linewidth=0.9, label="fit over loads")
-    net = {"marker": "o", "markersize": 3.5, "mfc": "white", "linestyle": "none"}
-    ax.plot([], [], color=GREY, **net, label="compressed area")
-    ax.plot([], [], ":", color=GREY, label="DMT limit")
+    kinds = [
+        key(linewidth=0.9, label="fit over loads"),
+        key(marker="o", markersize=3.5, mfc="white", linestyle="none", label="compressed"),
+        key(linestyle=":", label="DMT limit"),
+    ]
+    ax.add_artist(ax.legend(loc="upper right", borderaxespad=0.2))
     low, high = -0.35, 0.68
     ax.axhspan(low, 0, color=GREY, alpha=0.15, linewidth=0)
     ax.text(0.03, 0.03, "sticky", transform=ax.transAxes, fontsize=8)
     ax.set(xlabel=r"adhesion length $l_a/\epsilon$", ylabel=r"$1/\kappa$ with adhesion")
     ax.set(ylim=(low, high), xscale="log")
     ax.set_title(rf"$q_0h_\mathrm{{rms}}$ = {float(adhesive.q0_h_rms):g}, $\hat{{p}}$ = {load:g}")
-    ax.legend(loc="lower left", bbox_to_anchor=(0, 0.08))
+    ax.legend(handles=kinds, loc="lower left", bbox_to_anchor=(0, 0.08))
 
 
 def panel_c(ax, cases):

@@ -131,7 +131,7 @@ def by_slopes(ax, data, name, x, scale, colour, marker):
 
 
 def shaded(ax):
-    low, high = 1e-7, 1e5
+    low, high = 1e-7, 1e3
     ax.set_ylim(low, high)
     ax.axhspan(THRESHOLD, high, color=GREY, alpha=0.15, linewidth=0)
     ax.text(0.03, 0.965, r"sticky: $1/\kappa_\mathrm{ad}$ > 1/2", transform=ax.transAxes, va="top")

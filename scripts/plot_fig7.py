@@ -82,8 +82,7 @@ def panel_b(ax, data):
         look = {"color": COLOURS[index], "marker": MARKERS[index], "markersize": 3.5}
         errors = with_model(one, "dmt_ratio")
         x = one.range_over_h_rms * 1.06 ** (index - 1)
-        net = (one[f"dmt_ratio_net_{kind}"] for kind in ("standard_error", "discretisation_error"))
-        points(ax, x, one.dmt_ratio_net, *net, **look, mfc="white")
+        ax.plot(x, one.dmt_ratio_net, linestyle="none", **look, mfc="white", zorder=3)
         points(ax, x, one.dmt_ratio, *errors, **look)
         ax.plot([], [], linestyle="none", label=rf"$\hat{{p}}$ = {load:g}", **look)
     x = np.array([0.01, 0.2])
