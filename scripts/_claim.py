@@ -16,6 +16,9 @@ QUALIFIED = "reproduced with a qualification"
 NOT = "not reproduced"
 OPEN = "not decided at this resolution"
 
+# Sources of error by the names that variables have for them.
+KINDS = {"sampling": "standard", "discretisation": "discretisation", "model": "model"}
+
 Files = Mapping[str, xr.Dataset]
 
 
@@ -64,8 +67,9 @@ def graded(fully: bool, partly: bool) -> str:
 def errors_of(data: xr.Dataset, name: str) -> dict[str, float]:
     """Errors of a mean by their source."""
     return {
-        "sampling": float(data[f"{name}_standard_error"]),
-        "discretisation": float(data[f"{name}_discretisation_error"]),
+        source: float(data[f"{name}_{kind}_error"])
+        for source, kind in KINDS.items()
+        if f"{name}_{kind}_error" in data
     }
 
 

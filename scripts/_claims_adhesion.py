@@ -5,7 +5,19 @@ from __future__ import annotations
 import numpy as np
 import xarray as xr
 
-from _claim import OPEN, QUALIFIED, Claim, Files, at_load, graded, quoted, sample, total_error
+from _claim import (
+    KINDS,
+    OPEN,
+    QUALIFIED,
+    Claim,
+    Files,
+    at_load,
+    errors_of,
+    graded,
+    quoted,
+    sample,
+    total_error,
+)
 from _model import LOAD
 from stickiness import criteria, datasets
 
@@ -21,12 +33,13 @@ def kappa_threshold(files: Files) -> Claim:
     held = held if held.range_over_h_rms.size else full
     reach = crossed[0] if crossed else held.range_over_h_rms[-1]
     at = full.sel(range_over_h_rms=reach)
-    threshold, error = zero_of(at, "inverse_kappa")
+    threshold, errors = zero_of(at, "inverse_kappa")
     crosses = np.isfinite(threshold)
     limit = at_load(files["adhesion_fig2"]).sel(range_over_h_rms=reach)
     dmt = limit.isel(adhesion_length_over_range=0)
     dmt = float(dmt.adhesion_length_over_range / (2 * dmt.inverse_kappa_ad))
-    fit = quoted(*zero_of(at, "inverse_kappa_fit"))
+    fitted, fit_errors = zero_of(at, "inverse_kappa_fit")
+    fit = f"By the slope fitted over all loads it is {quoted(fitted, total(fit_errors))}. "
     lowest, smallest = at.inverse_kappa.min(), full.isel(range_over_h_rms=0)
     return Claim(
         5,
@@ -36,12 +49,12 @@ def kappa_threshold(files: Files) -> Claim:
         f"approach, range/h_rms = {float(reach):g}, q0 h_rms = {float(full.q0_h_rms):g}, "
         f"{sample(full)}",
         threshold if crosses else largest_simulated(at),
-        error,
+        total(errors) if crosses else np.nan,
         np.nan,
         QUALIFIED if crosses else OPEN,
         f"Full simulation at given mean gaps; the DMT limit has the threshold at {dmt:.2f}. "
         + (
-            f"By the slope fitted over all loads it is {fit}. {by_area(at)} "
+            f"{fit if np.isfinite(fitted) else ''}{by_area(at)} "
             if crosses
             else f"1/kappa falls to {float(lowest.fillna(0.5)):.2f}; what would be beyond is not "
             "resolved. "
@@ -50,7 +63,13 @@ def kappa_threshold(files: Files) -> Claim:
         f"printed range, {float(full.range_over_h_rms[0]):g} h_rms, the grid resolves the edge of "
         f"the contact up to l_a/range = {largest_simulated(smallest):g} only.",
         ("adhesive_fig2", "adhesion_fig2"),
+        errors,
     )
+
+
+def total(errors: dict[str, float]) -> float:
+    """Errors in quadrature."""
+    return float(np.linalg.norm([*errors.values()]))
 
 
 def by_area(data: xr.Dataset) -> str:
@@ -67,18 +86,23 @@ def by_area(data: xr.Dataset) -> str:
     )
 
 
-def zero_of(data: xr.Dataset, name: str) -> tuple[float, float]:
-    """Adhesion length at which a slope is zero, between those simulated, and its error."""
+def zero_of(data: xr.Dataset, name: str) -> tuple[float, dict[str, float]]:
+    """Adhesion length at which a slope is zero, between those simulated, and its errors.
+
+    They are those of the less certain of the two points beside it.
+    """
     data = data.where(np.isfinite(data[name]), drop=True)
     log_length = np.log(data.adhesion_length_over_range.values)
     value, error = data[name].values, total_error(data, name).values
     below = np.flatnonzero(value < 0)
     if not below.size or below[0] == 0:
-        return np.nan, np.nan
+        return np.nan, {}
     i = below[0]
     slope = (value[i] - value[i - 1]) / (log_length[i] - log_length[i - 1])
     zero = float(np.exp(log_length[i - 1] - value[i - 1] / slope))
-    return zero, float(zero * max(error[i - 1 : i + 1]) / abs(slope))
+    worse = data.isel(adhesion_length_over_range=i - 1 + int(np.argmax(error[i - 1 : i + 1])))
+    sizes = errors_of(worse, name)
+    return zero, {source: float(zero * size / abs(slope)) for source, size in sizes.items()}
 
 
 def largest_simulated(data: xr.Dataset) -> float:
@@ -121,6 +145,7 @@ def hysteresis(files: Files) -> Claim:
         f"l_a/range = {float(weak.adhesion_length_over_range):g} they part at "
         f"p = {float(weak.mean_pressure):.2g}, area {float(weak.repulsive_area_fraction):.3f}.",
         ("loop",),
+        {"discretisation": error},
     )
 
 
@@ -177,6 +202,7 @@ def inverse_kappa_ad(files: Files) -> Claim:
         "than its sum would, so that 1/kappa_ad falls with the range more slowly than as "
         "(range/h_rms)^(2/3); strong attraction saturates (Fig. 7).",
         sources,
+        {source: float(np.mean(ratios[source][told])) for source in KINDS},
     )
 
 
@@ -194,6 +220,9 @@ def over_formula(files: Files, name: str, zeta: int) -> dict:
     names = ("inverse_kappa_ad", "inverse_kappa_ad_net", "inverse_kappa_ad_direct")
     found = {key: full[key] / formula for key in names}
     found["error"] = total_error(full, "inverse_kappa_ad") / formula
+    for source, kind in KINDS.items():
+        part = f"inverse_kappa_ad_{kind}_error"
+        found[source] = full.get(part, xr.zeros_like(formula)) / formula
     found["limit"] = limit.inverse_kappa_ad / formula
     found["dmt"] = full.model == "dmt"
     found["direct"] = full.inverse_kappa_ad_direct
