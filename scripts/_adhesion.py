@@ -47,8 +47,3 @@ def scaled_law(
     """Traction law in the units of the simulations."""
     strength = adhesion_length_over_range / roughness(asked)
     return LAWS[kind](adhesion_length=strength * range_over_h_rms, range=range_over_h_rms)
-
-
-def net_repulsive_area(state: adhesive.Adhesion) -> float:
-    """Share of the points at the wall that press more than they attract."""
-    return float(np.mean((state.gap <= 0) & (state.pressure > 0)))

@@ -118,7 +118,9 @@ def hysteresis(files: Files) -> Claim:
     error = abs(pull_off(coarse) - pull_off(loop))
     press, gap = strongest.sel(control="pressure"), strongest.sel(control="mean_gap")
     last = press.dropna("state").isel(state=-1)
-    area, net = (float(last[name]) for name in ("repulsive_area_fraction", "net_repulsive_area"))
+    area, net = (
+        float(last[name]) for name in ("repulsive_area_fraction", "net_repulsive_area_fraction")
+    )
     tension = pull_off(loop)
     load = float(press.mean_pressure.max()) / 5
     loading, unloading = (area_at(press, load, way) for way in (0, 1))

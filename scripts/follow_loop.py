@@ -11,7 +11,7 @@ import numpy as np
 import xarray as xr
 
 from _adhesion import DESCRIBED as ADHESION_DESCRIBED
-from _adhesion import net_repulsive_area, scaled_law
+from _adhesion import scaled_law
 from _job import start
 from _model import pixels
 from stickiness import adhesive, datasets, repulsive
@@ -26,13 +26,13 @@ STATES = {
     "mean_pressure": "mean pressure over E* q0 h_rms",
     "mean_gap": "mean gap over h_rms",
     "repulsive_area_fraction": "area at a gap of zero over nominal area",
+    "net_repulsive_area_fraction": "area at a gap of zero and compressed over nominal area",
     "adhesive_area_fraction": "area within the range, not in contact, over nominal area",
     "elastic_energy": "elastic energy per nominal area over E* q0 h_rms^2",
     "interaction_energy": "energy of the attraction per nominal area over E* q0 h_rms^2",
     "residual": "unbalanced pressure over the strength or the flattening pressure",
 }
 STEPPED = {
-    "net_repulsive_area": "area at a gap of zero and under compression over nominal area",
     "separating": "1 on the way back",
     "jumped": "1 where a jump led here",
     "work": "work of the control on the way from the state before, per nominal area",
@@ -83,7 +83,6 @@ def curve(heights, length, asked, adhesion_length_over_range, control):
     for point in points:
         state = point.state
         row = {name: getattr(state, name) for name in STATES}
-        row["net_repulsive_area"] = net_repulsive_area(state)
         row["separating"] = float(state.branch == "separation")
         row["jumped"] = float(point.event in ("jump-in", "jump-out"))
         row["work"], row["dissipated"] = float(point.work or 0), float(point.dissipated or 0)

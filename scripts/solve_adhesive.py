@@ -13,7 +13,7 @@ import logging
 import numpy as np
 import xarray as xr
 
-from _adhesion import AXES, MISSING, axes, net_repulsive_area, roughness, scaled_law
+from _adhesion import AXES, MISSING, axes, roughness, scaled_law
 from _adhesion import DESCRIBED as ADHESION_DESCRIBED
 from _job import start
 from _model import pixels
@@ -129,7 +129,7 @@ def closed(heights, length, law, contact, tolerance):
         "repulsive_pressure": state.repulsive_pressure,
         "attraction": state.adhesive_pressure,
         "repulsive_area": state.repulsive_area_fraction,
-        "net_repulsive_area": net_repulsive_area(state),
+        "net_repulsive_area": state.net_repulsive_area_fraction,
         "attractive_area": state.adhesive_area_fraction,
         "elastic_energy": state.elastic_energy,
         "interaction_energy": state.interaction_energy,
