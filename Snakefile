@@ -44,6 +44,7 @@ localrules:
     claims,
     verdicts,
     surfaces,
+    dmt_error,
     report,
     stability,
 
@@ -116,6 +117,11 @@ rule verdicts:
 rule surfaces:
     input:
         expand(f"{RESULTS}/report/surfaces/{{real_surface}}.html", real_surface=REAL_SURFACES),
+
+
+rule dmt_error:
+    input:
+        f"{RESULTS}/adhesive/dmt_error.csv",
 
 
 rule claims:

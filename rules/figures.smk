@@ -90,10 +90,9 @@ rule plot_fig4:
     input:
         library=library_of("plot_fig4.py"),
         loop=f"{RESULTS}/loops/fig4a.nc",
-        rough=f"{RESULTS}/adhesion/fig4b_rough.nc",
-        smooth=f"{RESULTS}/adhesion/fig4b_smooth.nc",
-        rough_full=f"{RESULTS}/adhesive/fig4b_rough.nc",
-        smooth_full=f"{RESULTS}/adhesive/fig4b_smooth.nc",
+        rough=f"{RESULTS}/adhesive/fig4b_rough.nc",
+        smooth=f"{RESULTS}/adhesive/fig4b_smooth.nc",
+        a_v=[f"{RESULTS}/fits/ensembles/{case}.nc" for case in ("H0.8_zeta64", "H0.8_zeta128")],
     output:
         png=report(
             f"{RESULTS}/figures/fig4.png",

@@ -134,15 +134,15 @@ def _maps(config: Mapping[str, Any], case: str) -> Work:
 def _adhesive(config: Mapping[str, Any], adhesion: str, **_: str) -> Work:
     asked = config["adhesion"][adhesion]
     points = pixels(config, config["cases"][asked["case"]]["surface"])
-    points *= asked["bem"].get("refine", 1) ** 2
+    points *= asked.get("refine", 1) ** 2
     laws = len(asked["range_over_h_rms"]) * len(asked["adhesion_length_over_range"])
-    return Work(points, points, len(asked["bem"]["pressures"]) * (1 + laws))  # 1: no adhesion
+    return Work(points, points, len(asked["pressures"]) * (1 + laws))  # 1: no adhesion
 
 
 def _adhesive_maps(config: Mapping[str, Any], adhesion: str) -> Work:
     asked = config["adhesion"][adhesion]
     points = pixels(config, config["cases"][asked["case"]]["surface"])
-    return Work(points, points, len(asked["bem"]["maps"]["pressures"]))
+    return Work(points, points, len(asked["maps"]["pressures"]))
 
 
 def _loop(config: Mapping[str, Any], loop: str) -> Work:

@@ -212,14 +212,12 @@ def _config_problems(config: Mapping[str, Any]) -> Iterator[str]:
         if window[0] < gaps["minimum"] or window[1] > gaps["maximum"]:
             yield f"a_v.windows[{key}] = {window!r} must lie within gaps.minimum … gaps.maximum"
     for key, adhesion in config["adhesion"].items():
-        if adhesion["case"] not in config["cases"]:
-            yield _unknown(f"adhesion.{key}.case", adhesion["case"], config["cases"])
-        for unit_key in ("window", "h_rms"):
-            yield from _unit_problem(f"adhesion.{key}.{unit_key}", adhesion.get(unit_key), "m")
-        if key in _PAPER["adhesion"] and "bem" not in adhesion:
-            yield f"adhesion.{key}.bem is missing; figures and claims need it: {{law, pressures}}"
-    if "maps" not in config["adhesion"]["fig2"].get("bem", {}):
-        yield "adhesion.fig2.bem.maps is missing; Figure 2 needs it: {pressures, ...}"
+        for problem in _adhesion_problems(adhesion, config):
+            yield f"adhesion.{key}.{problem}"
+    if "maps" not in config["adhesion"]["fig2"]:
+        yield "adhesion.fig2.maps is missing; Figure 2 needs it: {pressures, ...}"
+    if config["adhesion"]["dmt_error"]["model"] != "full":
+        yield "adhesion.dmt_error.model must be full; the error of the DMT limit is measured there"
     for key, loop in config["loops"].items():
         if loop["surface"] not in config["model_surfaces"]:
             yield _unknown(f"loops.{key}.surface", loop["surface"], config["model_surfaces"])
@@ -282,6 +280,32 @@ def _comparison_problems(config: Mapping[str, Any]) -> Iterator[str]:
         for name in fidelity.get("comparisons", []):
             if name not in surfaces:
                 yield _unknown(f"fidelities.{key}.comparisons", name, surfaces)
+
+
+def _adhesion_problems(adhesion: Mapping[str, Any], config: Mapping[str, Any]) -> Iterator[str]:
+    """What of an adhesive set does not fit its case, its model or the gaps."""
+    if adhesion["case"] not in config["cases"]:
+        yield _unknown("case", adhesion["case"], config["cases"])
+        return
+    for key in ("window", "h_rms"):
+        yield from _unit_problem(key, adhesion.get(key), "m")
+    for pressure in adhesion["pressures"]:
+        if pressure not in config["cases"][adhesion["case"]]["pressures"]:
+            yield f"pressures: {pressure!r} is not among those of cases.{adhesion['case']}"
+    gaps, model = config["gaps"], adhesion["model"]
+    for value in adhesion["range_over_h_rms"]:
+        if not gaps["minimum"] <= value <= gaps["maximum"]:
+            yield (
+                f"range_over_h_rms: {value!r} must lie within gaps.minimum … gaps.maximum, "
+                f"{gaps['minimum']:g} … {gaps['maximum']:g}"
+            )
+    if model == "auto" and "accuracy" not in adhesion:
+        yield "accuracy is missing; model: auto chooses by it, relative in 1/kappa_ad"
+    if model != "auto" and "accuracy" in adhesion:
+        yield f"accuracy = {adhesion['accuracy']!r} needs model: auto, which chooses by it"
+    for key in ("seeds", "refine", "maps"):
+        if model == "dmt" and key in adhesion:
+            yield f"{key} = {adhesion[key]!r} is of the full model; leave it out with model: dmt"
 
 
 def _rate_problems(material: Mapping[str, Any]) -> Iterator[str]:

@@ -165,6 +165,7 @@ def multilevel_mean(
     controls: ArrayLike | None = None,
     elsewhere: ArrayLike | None = None,
     coefficient: float | None = None,
+    fewest: int = _FEWEST,
 ) -> Estimate:
     """Mean of a few fine solutions, corrected by many coarse ones.
 
@@ -183,8 +184,11 @@ def multilevel_mean(
         The same controls of seeds of which there is no solution at all.
     coefficient : float, optional
         Coefficient of the coarse solution. By default it is fitted to each entry: with at least
-        sixteen fine seeds the slope of fine against coarse, with fewer the ratio of their means.
+        `fewest` fine seeds the slope of fine against coarse, with fewer the ratio of their means.
         Only with a number given here is the estimate linear in what goes in.
+    fewest : int
+        Sixteen for solutions that differ by their grid. Fewer will do where the two are close to a
+        straight line that is not one through the origin.
 
     Returns
     -------
@@ -222,7 +226,7 @@ def multilevel_mean(
     level = plain_mean(many) if controls is None else controlled_mean(many, controls, elsewhere)
     if coefficient is not None:
         factor = np.full_like(fine, coefficient)
-    elif len(fine) >= _FEWEST:
+    elif len(fine) >= fewest:
         factor = _left_out_slopes(fine, coarse)
     else:
         one_sign = np.all(many >= 0, axis=0) | np.all(many <= 0, axis=0)
