@@ -7,7 +7,9 @@ BIN := $(VENV)/bin
 PIP := $(BIN)/python -m pip install --quiet --disable-pip-version-check -c envs/constraints.txt
 SNAKEMAKE := $(BIN)/snakemake -j$(CORES)
 
-.PHONY: reproduce draft test lint format dag benchmark
+.PHONY: install reproduce draft test lint format dag benchmark docs
+
+install: $(VENV)/.run  ## the environment alone
 
 reproduce: $(VENV)/.run  ## the full reproduction, at standard fidelity
 	$(SNAKEMAKE)
@@ -31,6 +33,9 @@ format: $(VENV)/.dev
 
 dag: $(VENV)/.run  ## what would run
 	$(BIN)/snakemake -n --quiet rules
+
+docs: $(VENV)/.run  ## the reference of the configuration, from the schemas
+	$(BIN)/python docs/write_config.py
 
 benchmark: $(VENV)/.dev $(VENV)/.peers  ## the contact solver beside its peers
 	PYTHONPATH=scripts $(BIN)/python benchmarks/repulsive_vs_peers.py

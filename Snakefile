@@ -27,6 +27,7 @@ include: "rules/criteria.smk"
 include: "rules/figures.smk"
 include: "rules/tradeoff.smk"
 include: "rules/report.smk"
+include: "rules/stability.smk"
 
 
 localrules:
@@ -38,13 +39,18 @@ localrules:
     fig5,
     fig6,
     fig7,
+    fig8,
+    fig9,
+    fig10,
     claims,
     verdicts,
     surfaces,
     cases,
     a_v,
     tradeoff,
+    dmt_error,
     report,
+    stability,
 
 
 rule all:
@@ -92,6 +98,21 @@ rule fig7:
         f"{RESULTS}/figures/fig7.png",
 
 
+rule fig8:
+    input:
+        f"{RESULTS}/figures/fig8.png",
+
+
+rule fig9:
+    input:
+        f"{RESULTS}/figures/fig9.png",
+
+
+rule fig10:
+    input:
+        f"{RESULTS}/figures/fig10.png",
+
+
 rule verdicts:
     input:
         f"{RESULTS}/criteria/verdicts.md",
@@ -100,6 +121,11 @@ rule verdicts:
 rule surfaces:
     input:
         expand(f"{RESULTS}/report/surfaces/{{real_surface}}.html", real_surface=REAL_SURFACES),
+
+
+rule dmt_error:
+    input:
+        f"{RESULTS}/adhesive/dmt_error.csv",
 
 
 rule claims:
@@ -128,3 +154,8 @@ rule tradeoff:
 rule report:
     input:
         f"{RESULTS}/report/report.html",
+
+
+rule stability:
+    input:
+        f"{RESULTS}/figures/stability.png",

@@ -1,9 +1,10 @@
 """Drivers of the reference codes with adhesion: same heights, load and law, one thread.
 
 Every driver takes heights ``(n, n)``, the side of the square cell, a traction law, the mean
-pressure in units of E* and a tolerance relative to the law's strength, and returns a `Run`. What
-a run really reached is measured for all codes by `assess`. Only solutions are timed, not the
-set-up of operators and plans, and in processor seconds.
+pressure in units of E*, a tolerance relative to the law's strength, the mean gap of the solution
+(which some codes are told) and a limit of processor seconds, and returns a `Run`. What a run
+really reached is measured for all codes by `assess`. Only solutions are timed, not the set-up of
+operators and plans, and in processor seconds.
 
 The peers' own ways, as found with Tamaas 2.9.0 and Adhesion 0.93 with NuMPI 0.18.1:
 
@@ -12,19 +13,24 @@ The peers' own ways, as found with Tamaas 2.9.0 and Adhesion 0.93 with NuMPI 0.1
   constraints a mean gap is met in a tenth of the iterations of a mean pressure (which comes to
   a halt near 1e-6). A load is therefore best found by iterating on the mean gap. Every
   solution starts afresh, whatever the model holds.
-* Adhesion prescribes a displacement. Its energy and gradient with the gap as variable take a
-  load by one more term, p times the mean gap, if the half-space is told not to resist its mean
-  displacement (``stiffness_q0=0``; the default does). Its minimiser, L-BFGS-B of scipy, stops at
-  some 1e-6 of the strength, where changes of the energy drown in rounding; the trust-region
-  Newton method of NuMPI, to which the package's Hessian products can be given, does not.
+* Adhesion prescribes a displacement, and minimises with L-BFGS-B of scipy at scipy's tolerances:
+  that is how it comes (`adhesion_shipped`, which is told the displacement that belongs to the
+  load). Its energy and gradient with the gap as variable take a load by one more term, p times
+  the mean gap, if the half-space is told not to resist its mean displacement
+  (``stiffness_q0=0``; the default does). L-BFGS-B then stops at some 1e-6 of the strength however
+  small its tolerances, where changes of the energy drown in rounding. The other minimisers of
+  NuMPI can be given the same energy, its gradient and the package's Hessian products:
+  conjugate gradients with bounds, and a trust-region Newton method, the strongest found.
 """
 
-import functools
+import contextlib
+import io
 import time
 import warnings
 from dataclasses import dataclass
 
 import numpy as np
+from scipy import optimize
 
 
 @dataclass(frozen=True, eq=False)
@@ -38,7 +44,7 @@ class Run:
     seconds : float
         Processor time of all solutions.
     iterations : int or None
-        As the code counts them.
+        As the code counts them, or evaluations of the energy.
     solves : int
         Solutions it took to meet the load.
     last : float or None
@@ -103,7 +109,7 @@ def assess(gap, heights, length, law, pressure):
     return Assessment(float(residual), float(energy), float(np.mean(gap == 0)), float(near.mean()))
 
 
-def stickiness(heights, length, law, pressure, tol):
+def stickiness(heights, length, law, pressure, tol, known=None, limit=np.inf):
     """Run this project's solver."""
     from stickiness import surface
     from stickiness.adhesive import solve
@@ -117,7 +123,7 @@ def stickiness(heights, length, law, pressure, tol):
     return Run(contact.gap, seconds, contact.iterations)
 
 
-def tamaas(heights, length, law, pressure, tol):
+def tamaas(heights, length, law, pressure, tol, known=None, limit=np.inf):
     """Run Tamaas, `PolonskyKeerRey` on the gap, at the mean gap that belongs to the load.
 
     Frerot et al. 2020, doi 10.21105/joss.02121; Rey, Anciaux & Molinari 2017, doi
@@ -137,7 +143,8 @@ def tamaas(heights, length, law, pressure, tol):
     gap, load = load_at(guess, max(tol, 1e-4))
     # A smaller gap carries more: without adhesion some exp(-2 gap/h_rms).
     step = np.clip((load - 1) * heights.std() / 4, -0.2 * guess, 0.2 * guess)
-    while solves < 15:
+    restart = begin
+    while solves < 15 and time.process_time() - begin < limit:
         tolerance = tol if abs(load - 1) < 1e-2 else max(tol, 1e-4)
         guess, before = guess + step, load
         restart = time.process_time()
@@ -149,7 +156,14 @@ def tamaas(heights, length, law, pressure, tol):
     return Run(gap, end - begin, None, solves, end - restart)
 
 
-def tamaas_load(heights, length, law, pressure, tol):
+def tamaas_told(heights, length, law, pressure, tol, known=None, limit=np.inf):
+    """Run Tamaas as `tamaas` does, once, at the mean gap that belongs to the load."""
+    begin = time.process_time()
+    gap, _ = _tamaas_solve(heights, length, law, known, tol, by_gap=True)
+    return Run(gap, time.process_time() - begin, None)
+
+
+def tamaas_load(heights, length, law, pressure, tol, known=None, limit=np.inf):
     """Run Tamaas, `PolonskyKeerRey` on the gap with the mean pressure as its constraint."""
     begin = time.process_time()
     gap, _ = _tamaas_solve(heights, length, law, pressure, tol, by_gap=False, max_iter=1000)
@@ -191,65 +205,127 @@ def _tamaas_functional(tm, law):
         raise NotImplementedError(f"Tamaas has no {type(law).__name__} law") from None
 
 
-def adhesion(heights, length, law, pressure, tol):
-    """Run Adhesion's energy with NuMPI's bounded trust-region Newton method.
+def adhesion(heights, length, law, pressure, tol, known=None, limit=np.inf):
+    """Run Adhesion's energy with NuMPI's bounded trust-region Newton method."""
 
-    As `adhesion_lbfgs` it starts from the gap without adhesion, which is not timed.
-    """
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")  # it warns of a missing MPI on import
+    def newton(energy, start, system):
         from NuMPI.Optimization import tr_newton_bounded
 
-    energy, start, system = _adhesion_energy(heights, length, law, pressure)
+        return tr_newton_bounded(
+            energy,
+            start,
+            _hessian_product(system, heights, length),
+            jac=True,
+            bounds_lo=0.0,
+            gtol=tol * law.strength,
+            maxiter=500,
+            delta0=0.1 * heights.std(),
+            delta_max=heights.std(),
+        )
 
-    def product(gap, direction):
-        return system.primal_hessian_product(gap, direction).ravel() * heights.size / length**2
-
-    begin = time.process_time()
-    result = tr_newton_bounded(
-        energy,
-        start,
-        functools.partial(_shaped, product, heights.shape),
-        jac=True,
-        bounds_lo=0.0,
-        gtol=tol * law.strength,
-        maxiter=500,
-        delta0=0.1 * heights.std(),
-        delta_max=heights.std(),
-    )
-    seconds = time.process_time() - begin
-    return Run(np.reshape(result.x, heights.shape), seconds, result.nb_hessp)
+    return _adhesion_run(newton, heights, length, law, pressure, limit)
 
 
-def adhesion_lbfgs(heights, length, law, pressure, tol):
-    """Run Adhesion's energy with the minimiser it calls by itself, scipy's L-BFGS-B."""
-    from scipy import optimize
+def adhesion_ccg(heights, length, law, pressure, tol, known=None, limit=np.inf):
+    """Run Adhesion's energy with NuMPI's bound-constrained conjugate gradients."""
 
-    energy, start, _ = _adhesion_energy(heights, length, law, pressure)
+    def conjugate_gradients(energy, start, system):
+        from NuMPI.Optimization import constrained_conjugate_gradients
+
+        return constrained_conjugate_gradients(
+            energy,
+            _hessian_product(system, heights, length),
+            start,
+            gtol=tol * law.strength,
+            maxiter=5000,
+            bounds=np.zeros_like(start),
+        )
+
+    return _adhesion_run(conjugate_gradients, heights, length, law, pressure, limit)
+
+
+def adhesion_lbfgs(heights, length, law, pressure, tol, known=None, limit=np.inf):
+    """Run Adhesion's energy with scipy's L-BFGS-B, its tolerances as small as they go."""
     options = {"maxiter": 5000, "maxfun": 10_000, "ftol": 0, "gtol": tol * law.strength}
+
+    def lbfgs(energy, start, system):
+        return optimize.minimize(
+            energy,
+            start,
+            jac=True,
+            method="L-BFGS-B",
+            bounds=optimize.Bounds(0, np.inf),
+            options=options | {"maxcor": 20},
+        )
+
+    return _adhesion_run(lbfgs, heights, length, law, pressure, limit)
+
+
+def adhesion_shipped(heights, length, law, pressure, tol, known=None, limit=np.inf):
+    """Run Adhesion's `minimize_proxy` at the displacement that belongs to the load.
+
+    All is as it comes but for the tolerance of the gradient: scipy's, 1e-5 of whatever unit, is
+    met by the start.
+    """
+    system = _adhesion_system(heights, length, law)
+    # By default the half-space resists its mean displacement as it does the longest wave.
+    offset = pressure * length / np.pi - known - heights.mean()
+    options = {"gtol": tol * law.strength * length**2 / heights.size}
     begin = time.process_time()
-    result = optimize.minimize(
-        energy,
-        start,
-        jac=True,
-        method="L-BFGS-B",
-        bounds=optimize.Bounds(0, np.inf),
-        options=options | {"maxcor": 20},
-    )
+    with contextlib.redirect_stdout(io.StringIO()):
+        result = system.minimize_proxy(offset=offset, options=options)
     seconds = time.process_time() - begin
-    return Run(np.reshape(result.x, heights.shape), seconds, result.nit)
+    gap = np.reshape(result.x, heights.shape) - heights - offset
+    # What rounds to contact is contact: the bound is a difference of heights.
+    gap[gap < 1e-14 * np.abs(heights).max()] = 0
+    return Run(gap, seconds, result.nit)
 
 
-def _shaped(product, shape, gap, direction):
-    return product(gap.reshape(shape), direction.reshape(shape))
+class _OutOfTime(Exception):
+    """Raised by a function that has no time left."""
 
 
-def _adhesion_energy(heights, length, law, pressure):
-    """Energy and gradient per point over E* as functions of the gap, start, and the system."""
+def _adhesion_run(minimise, heights, length, law, pressure, limit):
+    """Minimise Adhesion's energy from the gap without adhesion, which is not timed."""
     from stickiness import repulsive
 
+    system = _adhesion_system(heights, length, law, stiffness_q0=0.0)
+    objective = system.primal_objective(0.0, gradient=True)
+    points_per_area = heights.size / length**2
+    start = repulsive.solve(heights, length, pressure, tol=1e-6).gap.ravel()
+    begin, calls, last = time.process_time(), 0, start
+
+    def energy(gap):
+        nonlocal calls, last
+        if time.process_time() - begin > limit:
+            raise _OutOfTime
+        calls, last = calls + 1, np.array(gap)
+        value, slope = objective(gap)
+        return (
+            value * points_per_area + pressure * gap.sum(),
+            np.asarray(slope).ravel() * points_per_area + pressure,
+        )
+
+    with contextlib.suppress(_OutOfTime):
+        last = minimise(energy, start, system).x
+    seconds = time.process_time() - begin
+    return Run(np.reshape(last, heights.shape), seconds, calls)
+
+
+def _hessian_product(system, heights, length):
+    """Product of Adhesion's Hessian with a direction, per point."""
+
+    def product(gap, direction):
+        shaped = (field.reshape(heights.shape) for field in (gap, direction))
+        return system.primal_hessian_product(*shaped).ravel() * heights.size / length**2
+
+    return product
+
+
+def _adhesion_system(heights, length, law, **options):
+    """Half-space, heights and interaction as Adhesion has them."""
     with warnings.catch_warnings():
-        warnings.simplefilter("ignore")
+        warnings.simplefilter("ignore")  # it warns of a missing MPI on import
         import ContactMechanics
         from Adhesion.Interactions import Exponential
         from Adhesion.System import BoundedSmoothContactSystem
@@ -258,21 +334,8 @@ def _adhesion_energy(heights, length, law, pressure):
     if type(law).__name__ != "Exponential":
         raise NotImplementedError(f"Adhesion's driver has no {type(law).__name__} law")
     sides = (length, length)
-    half_space = ContactMechanics.PeriodicFFTElasticHalfSpace(
-        heights.shape, 1.0, sides, stiffness_q0=0.0
-    )
+    half_space = ContactMechanics.PeriodicFFTElasticHalfSpace(heights.shape, 1.0, sides, **options)
     topography = Topography(heights, physical_sizes=sides, periodic=True)
-    interaction = Exponential(law.adhesion_length, law.range)
-    system = BoundedSmoothContactSystem(half_space, interaction, topography)
-    objective = system.primal_objective(0.0, gradient=True)
-    points_per_area = heights.size / length**2
-
-    def energy(gap):
-        value, slope = objective(gap)
-        return (
-            value * points_per_area + pressure * gap.sum(),
-            np.asarray(slope) * points_per_area + pressure,
-        )
-
-    start = repulsive.solve(heights, length, pressure, tol=1e-6).gap.ravel()
-    return energy, start, system
+    return BoundedSmoothContactSystem(
+        half_space, Exponential(law.adhesion_length, law.range), topography
+    )

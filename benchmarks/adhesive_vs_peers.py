@@ -8,11 +8,16 @@ independent function, `adhesive_codes.assess`. Example::
 Surfaces are self-affine with H = 0.8 and q0 h_rms = 0.1, the load is p/(E* q0 h_rms) = 0.065, the
 law exponential unless told otherwise. Times are processor seconds on one thread; compare ratios
 within a run rather than seconds. Tamaas solves at mean gaps and has to search for the load: the
-columns "solves" and "last" tell how many solutions that took and how long the last one.
+columns "solves" and "last" tell how many solutions that took and how long the last one. Codes with
+"told" or "shipped" in their name are told the mean gap or displacement that this solver found.
+A time above --limit is a lower bound: the code was stopped, or would have searched on.
 """
 
 import argparse
+import csv
 import os
+import pathlib
+import statistics
 from dataclasses import dataclass
 
 for variable in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
@@ -26,14 +31,17 @@ from stickiness import adhesive, spectrum, surface  # noqa: E402
 CODES = {
     "stickiness": adhesive_codes.stickiness,
     "adhesion": adhesive_codes.adhesion,
+    "adhesion-ccg": adhesive_codes.adhesion_ccg,
     "adhesion-lbfgs": adhesive_codes.adhesion_lbfgs,
+    "adhesion-shipped": adhesive_codes.adhesion_shipped,
     "tamaas": adhesive_codes.tamaas,
+    "tamaas-told": adhesive_codes.tamaas_told,
     "tamaas-load": adhesive_codes.tamaas_load,
 }
 LAWS = {"exponential": adhesive.Exponential, "maugis": adhesive.Maugis}
 SCALED_PRESSURE, SLOPE, HURST = 0.065, 0.1, 0.8
 HEADER = (
-    "   n zeta eps/h l_a/eps code             seconds solves    last  iter  residual  contact  "
+    "   n zeta eps/h l_a/eps code              seconds solves    last  iter  residual  contact  "
     "attract.        energy   ratio"
 )
 
@@ -63,6 +71,8 @@ def options():
     parser.add_argument("--law", choices=sorted(LAWS), default="exponential")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--codes", nargs="+", choices=sorted(CODES), default=list(CODES))
+    parser.add_argument("--limit", type=float, default=300.0, help="processor seconds of a run")
+    parser.add_argument("--output", type=pathlib.Path, help="CSV file to append the results to")
     parser.add_argument("--tol", type=float, default=1e-8, help="asked for, over the strength")
     return parser.parse_args()
 
@@ -78,17 +88,38 @@ def problem(case, law, seed):
     return heights, law, SCALED_PRESSURE * SLOPE
 
 
-def report(case, name, run, heights, law, pressure, reference):
-    reached = adhesive_codes.assess(run.gap, heights, 1.0, law, pressure)
-    iterations = "-" if run.iterations is None else run.iterations
-    last = "-" if run.last is None else f"{run.last:.2f}"
-    ratio = "-" if reference is None else f"{run.seconds / reference:.2f}"
+def report(case, name, run, reached, reference, output):
+    row = {
+        "n": case.n,
+        "magnification": case.magnification,
+        "range_over_h_rms": case.range,
+        "adhesion_length_over_range": case.strength,
+        "code": name,
+        "seconds": round(run.seconds, 3),
+        "solves": run.solves,
+        "last": None if run.last is None else round(run.last, 3),
+        "iterations": run.iterations,
+        "residual": float(f"{reached.residual:.2e}"),
+        "contact": round(reached.contact, 6),
+        "attractive": round(reached.attractive, 6),
+        "energy": float(f"{reached.energy:.9e}"),
+        "ratio": round(run.seconds / reference, 2),
+    }
+    shown = {key: "-" if value is None else value for key, value in row.items()}
     print(
-        f"{case.n:4d} {case.magnification:4g} {case.range:5g} {case.strength:7g} {name:15s} "
-        f"{run.seconds:8.2f} {run.solves:6d} {last:>7} {iterations:>5} {reached.residual:9.1e} "
-        f"{reached.contact:8.5f} {reached.attractive:9.5f} {reached.energy:13.6e} {ratio:>7}",
+        "{n:4d} {magnification:4g} {range_over_h_rms:5g} {adhesion_length_over_range:7g} "
+        "{code:16s} {seconds:8.2f} {solves:6d} {last:>7} {iterations:>5} {residual:9.1e} "
+        "{contact:8.5f} {attractive:9.5f} {energy:13.6e} {ratio:>7}".format(**shown),
         flush=True,
     )
+    if output is not None:
+        output.parent.mkdir(parents=True, exist_ok=True)
+        new = not output.exists()
+        with output.open("a", newline="") as stream:
+            writer = csv.DictWriter(stream, row)
+            if new:
+                writer.writeheader()
+            writer.writerow(row)
 
 
 def warm_up(names, law):
@@ -96,7 +127,7 @@ def warm_up(names, law):
     heights, law, pressure = problem(Case(64, 8, 1.0, 0.01), law, 0)
     for name in names:
         try:
-            CODES[name](heights, 1.0, law, pressure, 1e-3)
+            CODES[name](heights, 1.0, law, pressure, 1e-3, known=heights.max())
         except (ImportError, NotImplementedError):
             continue
 
@@ -109,17 +140,20 @@ def main():
         if not chosen.smallest <= case.n <= chosen.largest:
             continue
         heights, law, pressure = problem(case, chosen.law, chosen.seed)
-        reference = None
+        arguments = heights, 1.0, law, pressure, chosen.tol
+        runs = [adhesive_codes.stickiness(*arguments) for _ in range(3)]
+        ours = statistics.median_low(run.seconds for run in runs)
+        known = float(runs[0].gap.mean())
         for name in chosen.codes:
             try:
-                run = CODES[name](heights, 1.0, law, pressure, chosen.tol)
+                run = CODES[name](*arguments, known=known, limit=chosen.limit)
             except ImportError as error:
                 print(f"{case.n:4d} {name}: not installed ({error}); see envs/peers.txt")
             except NotImplementedError as error:
                 print(f"{case.n:4d} {name}: {error}")
             else:
-                reference = reference or run.seconds
-                report(case, name, run, heights, law, pressure, reference)
+                reached = adhesive_codes.assess(run.gap, heights, 1.0, law, pressure)
+                report(case, name, run, reached, ours, chosen.output)
 
 
 if __name__ == "__main__":

@@ -1,5 +1,6 @@
 # Repulsive boundary-element contact: one job per case and seed walks the whole load path, another
 # one walks it for many more seeds on a coarse grid, then all of these give the case's means.
+# Surfaces that theory alone is compared with take one job for all of it.
 
 
 rule solve_repulsive:
@@ -15,7 +16,8 @@ rule solve_repulsive:
     conda:
         "../envs/environment.yaml"
     resources:
-        mem_mb=2000,
+        mem_mb=memory_of("solve_repulsive"),
+        runtime=runtime_of("solve_repulsive"),
     params:
         pressures=lambda wildcards: CASES[wildcards.case]["pressures"],
         tolerance=lambda wildcards: PLANS[wildcards.case].settings.tolerance,
@@ -39,7 +41,8 @@ rule solve_coarse:
     conda:
         "../envs/environment.yaml"
     resources:
-        mem_mb=1000,
+        mem_mb=memory_of("solve_coarse"),
+        runtime=runtime_of("solve_coarse"),
     params:
         surface=lambda wildcards: config["model_surfaces"][CASES[wildcards.case]["surface"]],
         pressures=lambda wildcards: CASES[wildcards.case]["pressures"],
@@ -64,7 +67,8 @@ rule contact_maps:
     conda:
         "../envs/environment.yaml"
     resources:
-        mem_mb=2000,
+        mem_mb=memory_of("contact_maps"),
+        runtime=runtime_of("contact_maps"),
     params:
         pressures=lambda wildcards: CASES[wildcards.case].get("maps", []),
         tolerance=lambda wildcards: PLANS[wildcards.case].settings.tolerance,
@@ -92,3 +96,33 @@ rule average_ensemble:
         quantities=lambda wildcards: PLANS[wildcards.case].quantities,
     script:
         "../scripts/average_ensemble.py"
+
+
+rule solve_ensemble:
+    input:
+        library=library_of("solve_ensemble.py"),
+    output:
+        f"{RESULTS}/ensembles/{{comparison}}.nc",
+    log:
+        f"{LOGS}/solve_ensemble/{{comparison}}.log",
+    benchmark:
+        f"{BENCHMARKS}/solve_ensemble/{{comparison}}.tsv"
+    conda:
+        "../envs/environment.yaml"
+    resources:
+        mem_mb=memory_of("solve_ensemble"),
+        runtime=runtime_of("solve_ensemble"),
+    params:
+        surface=lambda wildcards: COMPARED[wildcards.comparison][0],
+        pressures=config["comparisons"]["pressures"],
+        seeds=lambda wildcards: COMPARISONS[wildcards.comparison]["seeds"],
+        coarse_seeds=lambda wildcards: COMPARISONS[wildcards.comparison].get("coarse_seeds", 0),
+        descriptor_seeds=config["sampling"]["descriptor_seeds"],
+        tolerance=FIDELITY["tolerance"],
+        pixels_per_wavelength=lambda wildcards: min(
+            COMPARISONS[wildcards.comparison].get("pixels_per_wavelength", 10**9),
+            FIDELITY["pixels_per_wavelength"],
+        ),
+        gaps=config["gaps"],
+    script:
+        "../scripts/solve_ensemble.py"

@@ -8,6 +8,7 @@ import platform
 import re
 import sys
 from dataclasses import asdict
+import time
 from functools import cache
 from pathlib import Path
 from types import SimpleNamespace
@@ -16,9 +17,14 @@ import psutil
 
 sys.path.insert(0, str(Path(workflow.basedir) / "scripts"))
 
+import _cost
+from _progress import Progress, graded, jobs_of, quieten, summary
 from snakemake.exceptions import WorkflowError
 from stickiness import accuracy, plan
+from snakemake.logging import logger
+from snakemake.settings.enums import Quietness
 from stickiness import config as configuration
+from stickiness import model_choice
 
 # One thread a job: `-j` runs seeds and cases side by side, which scales better than threaded
 # linear algebra on arrays of this size, and sums do not depend on the number of cores.
@@ -32,6 +38,7 @@ try:
     )
     LAWS = accuracy.read_laws(config["tradeoff"]["table"])
     PLANS = plan.plans_of(config, LAWS)
+    DMT_ERRORS = model_choice.read_table(config["dmt_error"])
 except ValueError as error:
     raise WorkflowError(str(error)) from None
 
@@ -41,14 +48,37 @@ LOGS, BENCHMARKS = f"{RESULTS}/logs", f"{RESULTS}/benchmarks"
 CASES, SWEEPS = config["cases"], config["theory"]["sweeps"]
 # Figures and report hold the cases that are simulated for every quantity.
 COMPLETE = [case for case, planned in PLANS.items() if planned.complete]
+COMPARISONS = {
+    name: config["comparisons"]["surfaces"][name]
+    for name in FIDELITY.get("comparisons", config["comparisons"]["surfaces"])
+}
+# Whatever theory is compared with: what it is, in the terms of a model surface, and its loads.
+COMPARED = {
+    **{
+        case: (config["model_surfaces"][asked["surface"]], asked["pressures"])
+        for case, asked in CASES.items()
+    },
+    **{
+        name: (
+            {key: asked[key] for key in ("hurst", "magnification", "window") if key in asked},
+            config["comparisons"]["pressures"],
+        )
+        for name, asked in COMPARISONS.items()
+    },
+}
+# Of these, what is simulated for every quantity.
+SIMULATED = [name for name in COMPARED if name in COMPLETE or name in COMPARISONS]
 ADHESION, LOOPS = config["adhesion"], config["loops"]
-FIGURES = [f"fig{number}" for number in range(1, 8)]
+FIGURES = [f"fig{number}" for number in range(1, 11)]
+PAGE_PARTS = [f"report/{part}" for part in ("macros.html.j2", "page.css", "page.js")]
 
 
 wildcard_constraints:
     seed=r"\d+",
     case="|".join(map(re.escape, CASES)) or "none",
     grid=r"(@\d+)?",
+    comparison="|".join(map(re.escape, COMPARISONS)),
+    compared="|".join(map(re.escape, COMPARED)),
     model_surface="|".join(map(re.escape, config["model_surfaces"])) or "none",
     sweep="|".join(map(re.escape, SWEEPS)) or "none",
     adhesion="|".join(map(re.escape, ADHESION)) or "none",
@@ -99,6 +129,7 @@ def library_of(script):
     return sorted(os.path.relpath(path) for path in found)
 
 
+@cache
 def imported_modules(path, root):
     """Files below `root` that a Python file imports from the library or from beside itself."""
     candidates = []
@@ -163,17 +194,44 @@ def adhesive_case(wildcards):
     return SimpleNamespace(case=ADHESION[wildcards.adhesion]["case"])
 
 
+@cache
+def model_of(adhesion):
+    """Model of every point of a set of adhesive parameters."""
+    asked = ADHESION[adhesion]
+    surface = config["model_surfaces"][CASES[asked["case"]]["surface"]]
+    return model_choice.choose(asked, surface, DMT_ERRORS)
+
+
+def solved_in_full(wildcards):
+    """What a full solution depends on, of a set of adhesive parameters, beside its model."""
+    others = ("model", "accuracy", "seeds", "maps")
+    return {key: value for key, value in ADHESION[wildcards.adhesion].items() if key not in others}
+
+
 def adhesive_realisations(wildcards):
-    """Files of all realisations of a set of adhesive parameters."""
+    """Files of all realisations to be solved in full; none if the DMT limit is good enough."""
+    if not model_of(wildcards.adhesion).full.any():
+        return []
     asked = ADHESION[wildcards.adhesion]
-    most = asked["bem"].get("seeds", 10**9)
+    most = asked.get("seeds", 10**9)
     seeds = [seed for seed in seeds_of(asked["case"]) if seed <= most]
     return [f"{RESULTS}/adhesive/{wildcards.adhesion}/seed{seed}.nc" for seed in seeds]
 
 
+def simulated_edges():
+    """Attraction at the edges of contact, for every set of parameters with full simulation."""
+    names = [name for name in ADHESION if adhesive_realisations(SimpleNamespace(adhesion=name))]
+    return [f"{RESULTS}/fits/edges/{name}.nc" for name in names]
+
+
 def topography_files(wildcards):
     """The measured files of a real surface, if it has any of its own."""
-    surface = REAL_SURFACES[wildcards.real_surface]
+    return measured_files(wildcards.real_surface)
+
+
+def measured_files(name):
+    """Files of a real surface's measurements, those that come with the project left out."""
+    surface = REAL_SURFACES[name]
     if surface["kind"] != "measured":
         return []
     files = [measurement["file"] for _, measurement in configuration.measurements(surface)]
@@ -184,6 +242,11 @@ def pressed_heights(wildcards):
     """Contact of the measured heights of a surface, if it is asked for."""
     asked = "bem" in REAL_SURFACES[wildcards.real_surface]
     return [f"{RESULTS}/bem_measured/{wildcards.real_surface}.nc"] if asked else []
+
+
+def data_of(rule_name):
+    """Datasets that a rule without wildcards reads."""
+    return [str(path) for path in getattr(rules, rule_name).input if str(path).endswith(".nc")]
 
 
 def a_v_inputs():
@@ -206,6 +269,7 @@ def ledger_inputs():
         "fit_lattice_128": f"{RESULTS}/fits/persson_lattice/H0.8_zeta128.nc",
         "ensemble_wide": f"{RESULTS}/ensembles/H0.8_zeta32_wide.nc",
         "fit_bem_wide": f"{RESULTS}/fits/ensembles/H0.8_zeta32_wide.nc",
+        "fit_bem_64": f"{RESULTS}/fits/ensembles/H0.8_zeta64.nc",
         "fit_bem_128": f"{RESULTS}/fits/ensembles/H0.8_zeta128.nc",
         **{f"fig{n}": f"{RESULTS}/persson/fig{n}.nc" for n in ("1b", "3a", "3b", "3c", "3d")},
         **{f"fit_fig{n}": f"{RESULTS}/fits/persson/fig{n}.nc" for n in ("3a", "3c", "3d")},
@@ -218,12 +282,32 @@ def ledger_inputs():
         "adhesion_smooth": f"{RESULTS}/adhesion/fig4b_smooth.nc",
         "map": f"{RESULTS}/criteria/map.nc",
         "asphalt": f"{RESULTS}/real_surfaces/asphalt.nc",
+        "asphalt_theory": f"{RESULTS}/persson_surface/asphalt.nc",
         "polished_steel": f"{RESULTS}/real_surfaces/polished_steel.nc",
         "surfaces": [f"{RESULTS}/real_surfaces/{name}.nc" for name in REAL_SURFACES],
         "seeds": [
             f"{RESULTS}/surfaces/H0.8_zeta64/seed{seed}.nc" for seed in seeds_of("H0.8_zeta64")
         ],
     }
+
+
+def memory_of(rule):
+    """Memory [MB] that jobs of a rule ask for, and more each time that one fails."""
+
+    def asked(wildcards, attempt):
+        return attempt * _cost.asked_mb(rule, _cost.work(config, rule, **dict(wildcards.items())))
+
+    return asked
+
+
+def runtime_of(rule):
+    """Time [min] that jobs of a rule ask for, and more each time that one fails."""
+
+    def asked(wildcards, attempt):
+        size = _cost.work(config, rule, **dict(wildcards.items()))
+        return attempt * _cost.asked_minutes(rule, size)
+
+    return asked
 
 
 # --- A killed run ----------------------------------------------------------------------------
@@ -257,13 +341,88 @@ def remove_stale_lock():
 remove_stale_lock()
 
 
+# --- A clock that is or was wrong --------------------------------------------------------------
+# What is newer than anything made from it would be re-made for ever; Snakemake itself says so only
+# after the first such job.
+
+LEEWAY = 60  # seconds that clocks of a network may differ by
+
+
+def files_from_the_future():
+    """Files that jobs may read with times of change that are yet to come."""
+    own = [Path(workflow.basedir) / part for part in ("scripts", "config", "report")]
+    files = [file for folder in (*own, Path(RESULTS)) for file in folder.rglob("*.*")]
+    files += [Path(file) for name in REAL_SURFACES for file in measured_files(name)]
+    latest = time.time() + LEEWAY
+    return [file for file in files if file.exists() and file.stat().st_mtime > latest]
+
+
+def check_clock():
+    found = [os.path.relpath(file) for file in files_from_the_future()]
+    if found:
+        more = f" (and {len(found) - 1} more)" if len(found) > 1 else ""
+        command = f"touch {' '.join(found)}"
+        if len(found) > 5:
+            command = f"find scripts config report {RESULTS} -newermt now -exec touch {{}} +"
+        raise WorkflowError(
+            f"{found[0]}{more} was changed in the future, by this machine's clock. If the clock "
+            f"is right, run: {command}"
+        )
+
+
+if workflow.is_main_process:
+    check_clock()
+
+
+def check_writable():
+    """Refuse folders of results that may not be written to, on which Snakemake breaks off."""
+    existing = next(p for p in (Path(RESULTS), *Path(RESULTS).parents) if p.exists())
+    below = [path for path in Path(RESULTS).rglob("*") if path.is_dir()]
+    for folder in (existing, *below):
+        if not os.access(folder, os.W_OK):
+            raise WorkflowError(
+                f"{folder} may not be written to: allow it (chmod -R u+w {existing}), or name "
+                "another folder under results in config/config.yaml"
+            )
+
+
+# --- What a run tells ------------------------------------------------------------------------
+
+progress = None  # of this run, once it has begun
+
+
+def begin():
+    """A line for every job in place of Snakemake's, unless it is to be quieter or more talkative."""
+    global progress
+    progress = Progress(jobs_of(workflow.dag), workflow.cores or 1)
+    settings = workflow.output_settings
+    if not settings.verbose and not {Quietness.ALL, Quietness.PROGRESS} & set(settings.quiet or ()):
+        quieten(logger)
+        print(progress.opening(), file=sys.stderr)
+    else:
+        progress.stream = open(os.devnull, "w")
+    logger.addHandler(progress)
+
+
+def conclude():
+    """The summary at the end of a run."""
+    RUN_RECORD.unlink(missing_ok=True)
+    if progress is None or Quietness.ALL in set(workflow.output_settings.quiet or ()):
+        return
+    reused = sum(not workflow.dag.needrun(job) for job in workflow.dag.jobs if job.output)
+    places = {"results": RESULTS, "report": f"{RESULTS}/report/report.html"}
+    print(summary(progress, reused, places, graded(RESULTS)), file=sys.stderr)
+
+
 onstart:
+    check_writable()
     RUN_RECORD.write_text(json.dumps(this_run()))
+    begin()
 
 
 onsuccess:
-    RUN_RECORD.unlink(missing_ok=True)
+    conclude()
 
 
 onerror:
-    RUN_RECORD.unlink(missing_ok=True)
+    conclude()

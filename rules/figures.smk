@@ -1,4 +1,5 @@
-# The paper's six figures, with what was measured added, and one on where the DMT limit holds.
+# The paper's six figures, with what was measured added, one on where the DMT limit holds and one on
+# where the theory does.
 
 FIGURE_2_CASES = ["H0.8_zeta32", "H0.8_zeta64", "H0.8_zeta128"]
 
@@ -89,10 +90,9 @@ rule plot_fig4:
     input:
         library=library_of("plot_fig4.py"),
         loop=f"{RESULTS}/loops/fig4a.nc",
-        rough=f"{RESULTS}/adhesion/fig4b_rough.nc",
-        smooth=f"{RESULTS}/adhesion/fig4b_smooth.nc",
-        rough_full=f"{RESULTS}/adhesive/fig4b_rough.nc",
-        smooth_full=f"{RESULTS}/adhesive/fig4b_smooth.nc",
+        rough=f"{RESULTS}/adhesive/fig4b_rough.nc",
+        smooth=f"{RESULTS}/adhesive/fig4b_smooth.nc",
+        a_v=[f"{RESULTS}/fits/ensembles/{case}.nc" for case in ("H0.8_zeta64", "H0.8_zeta128")],
     output:
         png=report(
             f"{RESULTS}/figures/fig4.png",
@@ -183,3 +183,74 @@ rule plot_fig7:
         pressure=config["criteria"]["a_v"]["pressure"],
     script:
         "../scripts/plot_fig7.py"
+
+
+rule plot_fig8:
+    input:
+        library=library_of("plot_fig8.py"),
+        comparisons=expand(f"{RESULTS}/fits/theory/{{compared}}.nc", compared=COMPARED),
+        gamma=f"{RESULTS}/fits/gamma.nc",
+    output:
+        png=report(
+            f"{RESULTS}/figures/fig8.png",
+            category="Figures",
+            caption="../report/fig8.rst",
+        ),
+        pdf=f"{RESULTS}/figures/fig8.pdf",
+    log:
+        f"{LOGS}/plot_fig8.log",
+    benchmark:
+        f"{BENCHMARKS}/plot_fig8.tsv"
+    conda:
+        "../envs/environment.yaml"
+    resources:
+        mem_mb=500,
+    script:
+        "../scripts/plot_fig8.py"
+
+
+rule plot_fig9:
+    input:
+        library=library_of("plot_fig9.py"),
+        compared=f"{RESULTS}/criteria/compared.nc",
+        verdicts=f"{RESULTS}/criteria/verdicts.nc",
+    output:
+        png=report(
+            f"{RESULTS}/figures/fig9.png",
+            category="Figures",
+            caption="../report/fig9.rst",
+        ),
+        pdf=f"{RESULTS}/figures/fig9.pdf",
+    log:
+        f"{LOGS}/plot_fig9.log",
+    benchmark:
+        f"{BENCHMARKS}/plot_fig9.tsv"
+    conda:
+        "../envs/environment.yaml"
+    resources:
+        mem_mb=500,
+    script:
+        "../scripts/plot_fig9.py"
+
+
+rule plot_fig10:
+    input:
+        library=library_of("plot_fig10.py"),
+        edges=simulated_edges(),
+    output:
+        png=report(
+            f"{RESULTS}/figures/fig10.png",
+            category="Figures",
+            caption="../report/fig10.rst",
+        ),
+        pdf=f"{RESULTS}/figures/fig10.pdf",
+    log:
+        f"{LOGS}/plot_fig10.log",
+    benchmark:
+        f"{BENCHMARKS}/plot_fig10.tsv"
+    conda:
+        "../envs/environment.yaml"
+    resources:
+        mem_mb=500,
+    script:
+        "../scripts/plot_fig10.py"

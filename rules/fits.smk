@@ -47,14 +47,14 @@ rule fit_kappa:
 rule compare_theory:
     input:
         library=library_of("compare_theory.py"),
-        ensemble=f"{RESULTS}/ensembles/{{case}}.nc",
-        theory=f"{RESULTS}/persson_lattice/{{case}}.nc",
+        ensemble=f"{RESULTS}/ensembles/{{compared}}.nc",
+        theory=f"{RESULTS}/persson_lattice/{{compared}}.nc",
     output:
-        f"{RESULTS}/fits/theory/{{case}}.nc",
+        f"{RESULTS}/fits/theory/{{compared}}.nc",
     log:
-        f"{LOGS}/compare_theory/{{case}}.log",
+        f"{LOGS}/compare_theory/{{compared}}.log",
     benchmark:
-        f"{BENCHMARKS}/compare_theory/{{case}}.tsv"
+        f"{BENCHMARKS}/compare_theory/{{compared}}.tsv"
     conda:
         "../envs/environment.yaml"
     resources:
@@ -82,3 +82,41 @@ rule answer_case:
         plan=lambda wildcards: summary_of_plan(wildcards.case),
     script:
         "../scripts/answer_case.py"
+
+
+rule tabulate_a_v:
+    input:
+        library=library_of("tabulate_a_v.py"),
+        theory=f"{RESULTS}/persson/table.nc",
+        comparisons=expand(f"{RESULTS}/fits/theory/{{compared}}.nc", compared=SIMULATED),
+    output:
+        f"{RESULTS}/fits/a_v_table.nc",
+    log:
+        f"{LOGS}/tabulate_a_v.log",
+    benchmark:
+        f"{BENCHMARKS}/tabulate_a_v.tsv"
+    conda:
+        "../envs/environment.yaml"
+    resources:
+        mem_mb=500,
+    script:
+        "../scripts/tabulate_a_v.py"
+
+
+rule fit_gamma:
+    input:
+        library=library_of("fit_gamma.py"),
+        ensembles=expand(f"{RESULTS}/ensembles/{{compared}}.nc", compared=SIMULATED),
+        comparisons=expand(f"{RESULTS}/fits/theory/{{compared}}.nc", compared=SIMULATED),
+    output:
+        f"{RESULTS}/fits/gamma.nc",
+    log:
+        f"{LOGS}/fit_gamma.log",
+    benchmark:
+        f"{BENCHMARKS}/fit_gamma.tsv"
+    conda:
+        "../envs/environment.yaml"
+    resources:
+        mem_mb=500,
+    script:
+        "../scripts/fit_gamma.py"

@@ -28,18 +28,18 @@ rule persson_lattice:
     input:
         library=library_of("persson_lattice.py"),
     output:
-        f"{RESULTS}/persson_lattice/{{case}}.nc",
+        f"{RESULTS}/persson_lattice/{{compared}}.nc",
     log:
-        f"{LOGS}/persson_lattice/{{case}}.log",
+        f"{LOGS}/persson_lattice/{{compared}}.log",
     benchmark:
-        f"{BENCHMARKS}/persson_lattice/{{case}}.tsv"
+        f"{BENCHMARKS}/persson_lattice/{{compared}}.tsv"
     conda:
         "../envs/environment.yaml"
     resources:
         mem_mb=1000,
     params:
-        surface=lambda wildcards: config["model_surfaces"][CASES[wildcards.case]["surface"]],
-        pressures=lambda wildcards: CASES[wildcards.case]["pressures"],
+        surface=lambda wildcards: COMPARED[wildcards.compared][0],
+        pressures=lambda wildcards: COMPARED[wildcards.compared][1],
         variants=config["theory"]["variants"],
         gamma=config["theory"]["gamma"],
         gaps=config["gaps"],
@@ -67,3 +67,24 @@ rule persson_surface:
         ranges=config["criteria"]["ranges"],
     script:
         "../scripts/persson_surface.py"
+
+
+rule persson_table:
+    input:
+        library=library_of("persson_table.py"),
+    output:
+        f"{RESULTS}/persson/table.nc",
+    log:
+        f"{LOGS}/persson_table.log",
+    benchmark:
+        f"{BENCHMARKS}/persson_table.tsv"
+    conda:
+        "../envs/environment.yaml"
+    resources:
+        mem_mb=1000,
+        runtime=20,
+    params:
+        table=config["theory"]["table"],
+        gamma=config["theory"]["gamma"],
+    script:
+        "../scripts/persson_table.py"

@@ -36,6 +36,7 @@ rule contact_measured:
         "../envs/environment.yaml"
     resources:
         mem_mb=4000,
+        runtime=60,
     params:
         surface=lambda wildcards: REAL_SURFACES[wildcards.real_surface],
         tolerance=FIDELITY["tolerance"],
@@ -50,6 +51,7 @@ rule write_surface:
     input:
         library=library_of("write_surface.py"),
         template="report/surface.html.j2",
+        parts=PAGE_PARTS,
         surface=f"{RESULTS}/real_surfaces/{{real_surface}}.nc",
         verdicts=f"{RESULTS}/criteria/verdicts.nc",
         pressed=pressed_heights,

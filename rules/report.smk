@@ -28,6 +28,7 @@ rule write_report:
     input:
         library=library_of("write_report.py"),
         template="report/report.html.j2",
+        parts=PAGE_PARTS,
         figures=expand(f"{RESULTS}/figures/{{figure}}.png", figure=FIGURES),
         captions=expand("report/{figure}.rst", figure=FIGURES),
         claims=f"{RESULTS}/claims/claims.nc",
@@ -60,5 +61,6 @@ rule write_report:
             "descriptor_seeds": config["sampling"]["descriptor_seeds"],
         },
         fidelity=config["fidelity"],
+        figure_sources={figure: data_of(f"plot_{figure}") for figure in FIGURES},
     script:
         "../scripts/write_report.py"

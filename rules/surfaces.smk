@@ -13,7 +13,8 @@ rule synthesise_surface:
     conda:
         "../envs/environment.yaml"
     resources:
-        mem_mb=1000,
+        mem_mb=memory_of("synthesise_surface"),
+        runtime=runtime_of("synthesise_surface"),
     params:
         surface=lambda wildcards: config["model_surfaces"][wildcards.model_surface],
         pixels_per_wavelength=pixels_of,

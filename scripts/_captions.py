@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import base64
+import os
 import re
 import struct
 from pathlib import Path
@@ -23,8 +24,26 @@ _RST = {
 _DOI = re.compile(r"doi:(10\.\d{4,9}/(?:\([^\s()]*\)|[^\s,;:()&]*[^\s,;:()&.])+)")
 
 
-def template_of(path: str | Path) -> Template:
-    """Template of a page: values are escaped, and an unknown one is an error."""
+# Symbols as the texts of datasets spell them, escaped, and how a page shows them.
+_GREEK = {"kappa": "κ", "zeta": "ζ", "sigma": "σ", "theta": "θ", "beta": "β", "Delta": "Δ"}
+_SUBSCRIPTED = re.compile(
+    r"(?<!\w)(h(?:&#39;|'){0,2}|[aAlpκσΔ])_(rms|ad|rep|nom|th|V,PR|V|a|r)(?![A-Za-z0-9_])"
+    r"|(?<!\w)([qCσ])([01])(?![A-Za-z0-9_])"
+)
+_RAISED = re.compile(r"(?<=[\w)*>])\^(?:\(((?:[^()]|\([^()]*\))+)\)|(-?\d+(?:\.\d+)?))")
+
+
+def template_of(path: str | Path, page: str | Path) -> Template:
+    """Template of a page: values are escaped, and an unknown one is an error.
+
+    Parameters
+    ----------
+    path
+        The template.
+    page
+        Where the page will lie; links to other files are relative to its folder, whatever that is
+        called: ``{{ path | href }}``, or for the reader ``{{ path | place }}``.
+    """
     path = Path(path)
     environment = Environment(
         loader=FileSystemLoader(path.parent),
@@ -33,13 +52,35 @@ def template_of(path: str | Path) -> Template:
         trim_blocks=True,
         lstrip_blocks=True,
     )
-    environment.filters["linked"] = linked
+
+    def href(target: str | Path) -> str:
+        return Path(os.path.relpath(target, Path(page).parent)).as_posix()
+
+    environment.filters["typeset"] = typeset
+    environment.filters["href"] = href
+    environment.filters["place"] = lambda target: re.sub(r"^(\.\./)+", "", href(target))
+    environment.filters["breakable"] = lambda text: Markup(
+        re.sub("([/_])", r"\1<wbr>", str(escape(text)))
+    )
     return environment.get_template(path.name)
 
 
-def linked(text: str) -> Markup:
-    """Escaped text with its DOIs made links."""
-    return Markup(_DOI.sub(r'<a href="https://doi.org/\1">doi:\1</a>', str(escape(text))))
+def typeset(text: str) -> Markup:
+    """Escaped text with its DOIs made links, and symbols such as h_rms, q0 and x^(2/3) set."""
+    parts = _DOI.split(str(escape(text)))
+    parts[::2] = map(_symbols, parts[::2])
+    parts[1::2] = [f'<a href="https://doi.org/{doi}">doi:{doi}</a>' for doi in parts[1::2]]
+    return Markup("".join(parts))
+
+
+def _symbols(text: str) -> str:
+    """Symbols of an escaped text as HTML."""
+    for name, letter in _GREEK.items():
+        text = re.sub(rf"\b{name}(?=\b|_|\d)", letter, text)
+    text = _SUBSCRIPTED.sub(
+        lambda found: f"{found[1] or found[3]}<sub>{found[2] or found[4]}</sub>", text
+    )
+    return _RAISED.sub(lambda found: f"<sup>{found[1] or found[2]}</sup>".replace("-", "−"), text)
 
 
 def figure(path: str | Path, caption: str) -> dict[str, Any]:
@@ -67,9 +108,11 @@ def figure(path: str | Path, caption: str) -> dict[str, Any]:
 
 
 def caption_html(caption: str) -> Markup:
-    """Caption in reStructuredText as HTML; docutils escapes what is not markup."""
-    parts = publish_parts(caption, writer=Writer(), settings_overrides=_RST)
-    return Markup(parts["body"])
+    """Caption in reStructuredText as HTML, symbols set; docutils escapes what is not markup."""
+    body = publish_parts(caption, writer=Writer(), settings_overrides=_RST)["body"]
+    pieces = re.split(r"(<[^>]*>)", body)
+    pieces[::2] = map(_symbols, pieces[::2])
+    return Markup("".join(pieces))
 
 
 def first_sentence(caption: str) -> str:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 import xarray as xr
@@ -15,6 +15,9 @@ REPRODUCED = "reproduced"
 QUALIFIED = "reproduced with a qualification"
 NOT = "not reproduced"
 OPEN = "not decided at this resolution"
+
+# Sources of error by the names that variables have for them.
+KINDS = {"sampling": "standard", "discretisation": "discretisation", "model": "model"}
 
 Files = Mapping[str, xr.Dataset]
 
@@ -39,7 +42,9 @@ class Claim:
     remark : str
         The qualification or the reason, with its numbers.
     sources : tuple of str
-        Names of the files that the value came from.
+        Names of the files that the claim was judged by, that of the value first.
+    errors : mapping of str to float
+        What makes up the uncertainty, by its source.
     """
 
     number: int
@@ -51,6 +56,7 @@ class Claim:
     verdict: str
     remark: str
     sources: tuple[str, ...]
+    errors: Mapping[str, float] = field(default_factory=dict)
 
 
 def graded(fully: bool, partly: bool) -> str:
@@ -58,9 +64,20 @@ def graded(fully: bool, partly: bool) -> str:
     return REPRODUCED if fully else QUALIFIED if partly else NOT
 
 
+def errors_of(data: xr.Dataset, name: str) -> dict[str, float]:
+    """Errors of a mean by their source."""
+    return {
+        source: float(data[f"{name}_{kind}_error"])
+        for source, kind in KINDS.items()
+        if f"{name}_{kind}_error" in data
+    }
+
+
 def total_error(data: xr.Dataset, name: str) -> xr.DataArray:
-    """Standard error and discretisation error of a mean, in quadrature."""
-    return np.hypot(data[f"{name}_standard_error"], data[f"{name}_discretisation_error"])
+    """Errors of a mean in quadrature: standard, discretisation and, if there is one, model."""
+    error = np.hypot(data[f"{name}_standard_error"], data[f"{name}_discretisation_error"])
+    model = f"{name}_model_error"
+    return np.hypot(error, data[model]) if model in data else error
 
 
 def quoted(value: float, error: float) -> str:

@@ -9,6 +9,7 @@ from _claim import (
     Claim,
     Files,
     at_load,
+    errors_of,
     graded,
     power,
     quoted,
@@ -42,6 +43,7 @@ def area_slope(files: Files) -> Claim:
         f"{quoted(k.kappa_fit, total_error(k, 'kappa_fit'))}. Theory on the window's spectrum "
         f"{float(at.kappa_theory.sel(variant=VARIANT)):.2f}. {others}.",
         ("kappa_128", "kappa_64", "kappa_wide"),
+        errors_of(at, "kappa"),
     )
 
 
@@ -71,16 +73,18 @@ def density_converges(files: Files) -> Claim:
     limit = float(settled.max()) if settled.size else float(sweep.gap.min())
     zetas = power(float(before.magnification)), power(float(last.magnification))
     worst = float(change.sel(gap=0.01, method="nearest"))
+    spacing = float(np.diff(np.log(sweep.gap.values)).mean() * limit)
     return Claim(
         2,
         "P(u) at fixed mean gap converges with magnification (Figs. 1A, 1B)",
         f"u/h_rms above which P changes by < 5 % from zeta = {zetas[0]} to {zetas[1]}",
         limit,
-        float(np.diff(np.log(sweep.gap.values)).mean() * limit),
+        spacing,
         np.nan,
         graded(limit <= float(sweep.gap.min()), limit < 0.5),
         f"Converged for larger gaps only; at u/h_rms = 0.01 P still changes by {worst:.0%}.",
         ("fig1b",),
+        {"spacing of gaps": spacing},
     )
 
 
@@ -92,17 +96,19 @@ def small_gap_exponent(files: Files) -> Claim:
     at = np.interp(np.log(gaps), np.log(broad.gap), broad)
     low, high = close_to_third(broad)
     zeta = power(float(broad.magnification))
+    spread = float(np.ptp(at)) / 2
     return Claim(
         3,
         "P(u) ~ u^(-1/3) at small gaps",
         f"d ln P/d ln u at u/h_rms = 0.01, theory, zeta = {zeta}; ± half its range, 0.001 to 0.1",
         float(at[1]),
-        float(np.ptp(at)) / 2,
+        spread,
         -1 / 3,
         graded(np.abs(at + 1 / 3).max() < 0.05, high / low >= 10),
         f"At zeta = {zeta} it is {at[0]:.2f}, {at[1]:.2f}, {at[2]:.2f} at u/h_rms = 0.001, 0.01, "
         f"0.1; it keeps within 0.05 of -1/3 longest {spanned(low, high)}. {widest_third(exponent)}",
         ("fig3a",),
+        {"range of gaps": spread},
     )
 
 
@@ -264,6 +270,7 @@ def a_v_against_magnification(files: Files) -> Claim:
         f"the windows give {float(windows.min()):.2f} to {float(windows.max()):.2f}. "
         f"{simulated_a_v(files, first)}",
         ("fit_fig3c", "fit_bem_128", "fit_lattice_128", "fit_bem_wide"),
+        {"window of the fit": error},
     )
 
 

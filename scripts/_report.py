@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import dataclasses
-import os
-import re
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -16,6 +14,7 @@ import xarray as xr
 from _materials import modulus_text
 from _model import LOAD
 from _numbers import NOTHING, interval, number, percent, quantity, superscripted, with_error
+from _verdict import EDGES, STICKINESS, STICKINESS_TONES, pair_texts
 from stickiness import accuracy, datasets, plan
 from stickiness.errata import ERRATA
 
@@ -23,7 +22,6 @@ Datasets = Mapping[str, xr.Dataset]
 Context = dict[str, Any]
 
 RANGE = 0.03  # of the error budget: amid the window of the fits
-DERIVED = "violano"
 UNKNOWN = "not known: a single seed"
 COLUMNS = {
     "area": "contact area",
@@ -34,15 +32,15 @@ COLUMNS = {
     "a_v": "a_V",
     "kappa": "κ",
 }
-STICKINESS = ("not sticky", "depends", "sticky", "undecided")
-STICKINESS_TONES = ("no", "partly", "yes", "open")
 CLAIM_TONES = {
     "reproduced": "yes",
     "reproduced with a qualification": "partly",
     "not reproduced": "no",
 }
 CRITERIA = {
-    "violano": "derived criterion",
+    "edge_adhesion": "edges of contact",
+    "violano": "derived criterion, DMT limit",
+    "violano_constant": "derived, constant a_V",
     "violano_printed": "criterion as printed, 9/4",
     "pastewka_robbins": "Pastewka–Robbins",
     "fuller_tabor": "Fuller–Tabor",
@@ -61,7 +59,7 @@ def summary(claims: xr.Dataset, verdicts: xr.Dataset, ensembles: Sequence[xr.Dat
     """Numbers of the opening paragraph."""
     graded = Counter(str(verdict) for verdict in claims.verdict.values)
     order = [*CLAIM_TONES, *sorted(graded.keys() - CLAIM_TONES.keys())]
-    outside = ~verdicts.dmt_valid.astype(bool).all("end")
+    outside = ~verdicts.simulated.astype(bool).all("end")
     sticky = verdicts.verdict == 2
     seeds = sorted({len(datasets.parameters(ensemble)["seeds"]) for ensemble in ensembles})
     return {
@@ -74,9 +72,11 @@ def summary(claims: xr.Dataset, verdicts: xr.Dataset, ensembles: Sequence[xr.Dat
         "materials": verdicts.sizes["material"],
         "surfaces": verdicts.sizes["surface"],
         "sticky": int(sticky.sum()),
-        "depends": int((verdicts.verdict == 1).sum()),
-        "not_sticky": int((verdicts.verdict == 0).sum()),
-        "undecided": int((verdicts.verdict == 3).sum()),
+        "judged": [
+            (STICKINESS[code], count, STICKINESS_TONES[code])
+            for code in (2, 1, 0, 3)
+            if (count := int((verdicts.verdict == code).sum()))
+        ],
         "outside": int(outside.sum()),
         "sticky_outside": int((sticky & outside).sum()),
         "realisations": interval(seeds[0], seeds[-1]),
@@ -88,44 +88,50 @@ def claim_tone(verdict: str) -> str:
     return CLAIM_TONES.get(verdict, "open")
 
 
-def claims_table(claims: xr.Dataset) -> Context:
-    """One row for every claim, with its files relative to the folder that holds them all."""
-    paths = {
-        int(claim): str(claims.sources.sel(claim=claim).item()).split()
-        for claim in claims.claim.values
-    }
-    every = [path for sources in paths.values() for path in sources]
-    folder = os.path.commonpath([*map(os.path.dirname, every)]) if every else ""
-    return {
-        "folder": folder,
-        "rows": [
-            claim_row(claims.sel(claim=claim), [os.path.relpath(p, folder or ".") for p in sources])
-            for claim, sources in paths.items()
-        ],
-    }
+def claim_rows(claims: xr.Dataset) -> list[Context]:
+    """One row for every claim."""
+    return [claim_row(claims.sel(claim=claim)) for claim in claims.claim.values]
 
 
-def claim_row(claim: xr.Dataset, sources: Sequence[str]) -> Context:
-    """One claim."""
+def claim_row(claim: xr.Dataset) -> Context:
+    """One claim, with the files it came from and the one of its value, the first of them."""
     verdict = str(claim.verdict.item())
+    paths = str(claim.sources.item()).split()
     return {
         "number": int(claim.claim),
         "statement": str(claim.statement.item()),
         "verdict": verdict,
+        "grade": list(CLAIM_TONES).index(verdict) if verdict in CLAIM_TONES else "",
         "tone": claim_tone(verdict),
         "quantity": str(claim.quantity.item()),
+        "value": float(claim.value),
         "measured": with_error(float(claim.value), float(claim.uncertainty)),
+        "errors": error_sources(claim),
         "claimed": number(float(claim.claimed), 4),
+        "claimed_value": float(claim.claimed),
         "remark": str(claim.remark.item()),
-        "sources": grouped(sources) or ["closed form"],
+        "origin": paths[0] if paths else "",
+        "sources": grouped(paths),
     }
 
 
-def grouped(paths: Sequence[str]) -> list[str]:
-    """Paths, with the realisations of one folder as a single entry."""
-    seeds = Counter(str(Path(path).parent) for path in paths if Path(path).stem.startswith("seed"))
-    single = [path for path in paths if not Path(path).stem.startswith("seed")]
-    return single + [f"{folder}/seed*.nc ({count} files)" for folder, count in seeds.items()]
+def error_sources(claim: xr.Dataset) -> str:
+    """What makes up the error of a claim's value."""
+    known = claim.error.dropna("error_source").sortby(-claim.error)
+    return ", ".join(
+        f"{source} {number(float(error), 2)}"
+        for source, error in zip(known.error_source.values, known.values, strict=True)
+    )
+
+
+def grouped(paths: Sequence[str]) -> list[tuple[str, str]]:
+    """Paths with notes; the realisations of one folder are a single entry, by their first."""
+    seeds: dict[Path, list[str]] = {}
+    for path in paths:
+        if Path(path).stem.startswith("seed"):
+            seeds.setdefault(Path(path).parent, []).append(path)
+    single = [(path, "") for path in paths if not Path(path).stem.startswith("seed")]
+    return single + [(found[0], f" and {len(found) - 1} more") for found in seeds.values()]
 
 
 def errata_rows(claims: xr.Dataset) -> list[Context]:
@@ -148,20 +154,33 @@ def errata_rows(claims: xr.Dataset) -> list[Context]:
 
 
 def verdict_matrix(verdicts: xr.Dataset, surfaces: Datasets) -> Context:
-    """Materials against surfaces."""
+    """Materials against surfaces, and every pair on its own."""
     labels = surface_labels(surfaces)
     materials = datasets.parameters(verdicts)["materials"]
+    names = [str(name) for name in verdicts.material.values]
+    cells = {
+        (material, surface): pair_texts(verdicts.sel(material=material, surface=surface))
+        for material in names
+        for surface in map(str, verdicts.surface.values)
+    }
     return {
-        "materials": [material_row(name, materials[name]) for name in verdicts.material.values],
+        "materials": [material_row(name, materials[name]) for name in names],
         "rows": [
             {
+                "name": surface,
                 "surface": labels[surface],
-                "cells": [
-                    verdict_cell(verdicts.sel(material=material, surface=surface))
-                    for material in verdicts.material.values
-                ],
+                "cells": [cells[material, surface] for material in names],
             }
-            for surface in verdicts.surface.values
+            for surface in map(str, verdicts.surface.values)
+        ],
+        "pairs": [
+            {
+                "material": materials[material]["label"],
+                "name": surface,
+                "surface": labels[surface],
+                **cell,
+            }
+            for (material, surface), cell in cells.items()
         ],
     }
 
@@ -182,26 +201,12 @@ def material_row(name: str, entry: Mapping[str, Any]) -> Context:
     }
 
 
-def verdict_cell(pair: xr.Dataset) -> Context:
-    """Verdict on one pair, with its margin and modulus threshold from rough to smooth end."""
-    ends = ("rough", "smooth")
-    margins = [float(pair.margin.sel(criterion=DERIVED, end=end)) for end in ends]
-    thresholds = [float(pair.modulus_threshold.sel(end=end)) for end in ends]
-    return {
-        "verdict": STICKINESS[int(pair.verdict)],
-        "tone": STICKINESS_TONES[int(pair.verdict)],
-        "outside": not bool(pair.dmt_valid.all()),
-        "margin": interval(*margins, digits=2),
-        "threshold": quantity(*thresholds, "Pa", digits=2),
-    }
-
-
 def disagreements(verdicts: xr.Dataset, surfaces: Datasets) -> list[Context]:
-    """Criteria against the derived one: how many pairs differ, which, and in what direction."""
+    """Criteria against that of the edges: how many pairs differ, which, and in what direction."""
     labels = surface_labels(surfaces)
     materials = datasets.parameters(verdicts)["materials"]
     sticky = verdicts.margin > 1
-    derived = sticky.sel(criterion=DERIVED)
+    edges = sticky.sel(criterion=EDGES)
 
     def pairs(differs):
         found = []
@@ -216,17 +221,17 @@ def disagreements(verdicts: xr.Dataset, surfaces: Datasets) -> list[Context]:
         {
             "criterion": CRITERIA.get(name, name.replace("_", " ")),
             "count": int(verdicts.disagrees.sel(criterion=name).sum()),
-            "sticky": pairs((sticky.sel(criterion=name) & ~derived).any("end")),
-            "not_sticky": pairs((~sticky.sel(criterion=name) & derived).any("end")),
+            "sticky": pairs((sticky.sel(criterion=name) & ~edges).any("end")),
+            "not_sticky": pairs((~sticky.sel(criterion=name) & edges).any("end")),
         }
         for name in map(str, verdicts.criterion.values)
-        if name != DERIVED
+        if name != EDGES
     ]
 
 
 def surface_rows(surfaces: Datasets) -> list[Context]:
     """Parameters of the real surfaces."""
-    return [surface_row(data) for data in surfaces.values()]
+    return [{"name": name, **surface_row(data)} for name, data in surfaces.items()]
 
 
 def surface_row(surface: xr.Dataset) -> Context:
@@ -332,89 +337,3 @@ def preset_rows(
             }
         )
     return rows
-
-
-def run_times(folder: str | Path) -> Context:
-    """Jobs, seconds and memory of each rule, from Snakemake's benchmark files.
-
-    The report's own file, if there is one, is of an earlier run and left out.
-    """
-    jobs: dict[str, list[tuple[float, float]]] = {}
-    for path in sorted(Path(folder).rglob("*.tsv")):
-        rule = path.relative_to(folder).parts[0].removesuffix(".tsv")
-        if rule != "write_report":
-            jobs.setdefault(rule, []).extend(benchmark_lines(path))
-    rows = [(rule, len(runs), *np.transpose(runs)) for rule, runs in jobs.items() if runs]
-    rows.sort(key=lambda row: -np.nansum(row[2]))
-    return {
-        "rows": [
-            {
-                "rule": rule,
-                "jobs": count,
-                "total": number(np.nansum(seconds)),
-                "longest": number(largest(seconds)),
-                "memory": number(largest(memory)),
-            }
-            for rule, count, seconds, memory in rows
-        ],
-        "jobs": sum(row[1] for row in rows),
-        "total": number(sum(np.nansum(row[2]) for row in rows)),
-    }
-
-
-def benchmark_lines(path: Path) -> list[tuple[float, float]]:
-    """Seconds and largest memory [MB] of each run; NaN where a run was too short to tell."""
-    head, *lines = (line.split("\t") for line in path.read_text(encoding="utf-8").splitlines())
-
-    def value(line, column):
-        text = dict(zip(head, line, strict=False)).get(column, "")
-        return float(text) if re.fullmatch(r"\d+(\.\d+)?", text) else np.nan
-
-    return [(value(line, "s"), value(line, "max_rss")) for line in lines if line]
-
-
-def largest(values: np.ndarray) -> float:
-    return np.nan if np.isnan(values).all() else float(np.nanmax(values))
-
-
-def provenance(files: Sequence[xr.Dataset], ensembles: Sequence[xr.Dataset]) -> Context:
-    """Versions that the files name, all of them where they differ, and what was run."""
-    versions: dict[str, set[str]] = {}
-    for file in files:
-        for name, value in file.attrs.items():
-            if name.startswith("version_"):
-                versions.setdefault(name.removeprefix("version_"), set()).add(str(value))
-    return {
-        "versions": [(name, ", ".join(sorted(found))) for name, found in sorted(versions.items())],
-        "mixed": sorted(name for name, found in versions.items() if len(found) > 1),
-        "ensembles": [ensemble_row(datasets.parameters(ensemble)) for ensemble in ensembles],
-    }
-
-
-def ensemble_row(made: Mapping[str, Any]) -> Context:
-    """Parameters of an ensemble."""
-    return {
-        "case": made["case"],
-        "hurst": number(made["hurst"]),
-        "magnification": number(made["magnification"]),
-        "grid": f"{made['grid_points']} × {made['grid_points']}",
-        "pixels": number(made["pixels_per_wavelength"]),
-        "tolerance": number(made["tolerance"]),
-        "residual": number(made["largest_residual"], 2),
-        "seeds": runs_of(made["seeds"]),
-        "means": means(made),
-    }
-
-
-def means(made: Mapping[str, Any]) -> str:
-    """Estimator of the means, with the seeds it uses besides those of the ensemble."""
-    if made["estimator"] == "plain":
-        return "plain"
-    return f"multilevel: {made['coarse_seeds']} coarse, {made['descriptor_seeds']} described"
-
-
-def runs_of(seeds: Sequence[int]) -> str:
-    """Seeds, with unbroken runs shortened: 1 … 8."""
-    seeds = sorted(seeds)
-    unbroken = len(seeds) > 2 and seeds == list(range(seeds[0], seeds[-1] + 1))
-    return f"{seeds[0]} … {seeds[-1]}" if unbroken else ", ".join(map(str, seeds))

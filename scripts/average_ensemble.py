@@ -63,7 +63,7 @@ def read(path, names, loads):
     return datasets.read(path, names).sel(pressure=loads)
 
 
-def renamed(others, kept):
+def renamed(others, kept=(*COARSE, *GAPS)):
     """Coarse solutions under names that leave those of the fine ones free."""
     names = {name: f"{PREFIX}{name}" for name in (*kept, "seed")}
     return others[[*kept, *LONG_WAVES]].rename(names)
@@ -108,7 +108,7 @@ def with_statistics(realisations, others, averaged=AVERAGED):
     return dataset
 
 
-def annotated(dataset, averaged):
+def annotated(dataset, averaged=AVERAGED):
     texts = {
         "seed": ("1", "seed of the realisation"),
         "edge_gap_mean": ("1", "gap next to the contact over h_rms: smallest range resolved"),

@@ -48,6 +48,9 @@ def source_paths(claim, paths):
 
 
 def to_dataset(claims, sources):
+    kinds = sorted({kind for claim in claims for kind in claim.errors})
+    errors = np.array([[claim.errors.get(kind, np.nan) for kind in kinds] for claim in claims])
+
     def column(name, dtype=None):
         return "claim", np.array([getattr(claim, name) for claim in claims], dtype=dtype)
 
@@ -57,12 +60,13 @@ def to_dataset(claims, sources):
             "quantity": column("quantity", object),
             "value": column("value", float),
             "uncertainty": column("uncertainty", float),
+            "error": (("claim", "error_source"), errors),
             "claimed": column("claimed", float),
             "verdict": column("verdict", object),
             "remark": column("remark", object),
             "sources": ("claim", np.array([" ".join(files) for files in sources], dtype=object)),
         },
-        coords={"claim": [claim.number for claim in claims]},
+        coords={"claim": [claim.number for claim in claims], "error_source": kinds},
     )
     return datasets.annotate(
         dataset,
@@ -71,6 +75,8 @@ def to_dataset(claims, sources):
         quantity=("1", "what the value is, with its unit"),
         value=("1", "measured value, in the unit that `quantity` names"),
         uncertainty=("1", "uncertainty of the value", "an exact value or none known"),
+        error=("1", "part of the uncertainty by its source", "no such part"),
+        error_source=("1", "source of an error"),
         claimed=("1", "the paper's value", "the paper gives none"),
         verdict=("1", "verdict"),
         remark=("1", "qualification or reason"),
@@ -105,6 +111,8 @@ def markdown(claims, sources):
 
 
 def number(value, uncertainty):
+    if uncertainty == 0:
+        return f"{value:.4g} (exact)"
     error = "" if np.isnan(uncertainty) else f" ± {uncertainty:.2g}"
     return f"{value:.4g}{error}"
 

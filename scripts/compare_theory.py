@@ -1,18 +1,52 @@
-"""Theory on the lattice spectrum of a case against its simulation, with the errors of both."""
+"""Theory on the lattice spectrum of a case against its simulation, with the errors of both.
+
+Distributions of the gap are compared by the area between the cumulative ones, contact included,
+
+    W1 = int_0^inf |A + int_0^u P du' - the same of theory| du,
+
+which is Wasserstein's distance: the mean length by which gaps would have to be moved to turn one
+distribution into the other. It takes the atom of contact at u = 0 and an infinite P(0) in its
+stride, needs no bins, has a unit, and bounds the difference of mean gaps.
+
+Theory's heights are Gaussian without end, those of a window end at its highest summit. Where theory
+puts the mean gap near or above it, the window holds too few summits to be compared with.
+"""
 
 import numpy as np
 import xarray as xr
 
+import _theories
+from _errors import coarse, ensemble_mean
 from _job import start
-from _model import DESCRIBED
-from stickiness import datasets
+from _model import DESCRIBED, spectrum_of, window_of
+from stickiness import datasets, surface
+from synthesise_surface import grid_points
 
-COMPARED = ("area_fraction", "mean_gap", "attractive_area")
+WINDOWS = 64  # random ones, whose highest summits are averaged
+LONG_WAVES = 64.0  # wave number over q0 beyond which waves add nothing to the highest summit
+MARGIN = 0.75  # over h_rms, of theory's mean gap below the highest summit
+COMPARED = ("area_fraction", "mean_gap", "attractive_area", "gap_density")
 
 
 def main(job):
     simulated = datasets.read(job.input.ensemble, [f"{name}_mean" for name in COMPARED])
     theory = datasets.read(job.input.theory, COMPARED)
+    dataset = differences(simulated, theory).merge(distance(simulated, theory))
+    dataset["highest_summit"] = highest_summit(datasets.parameters(simulated))
+    dataset["theory_mean_gap"] = theory.mean_gap
+    holds = theory.mean_gap.isel(variant=0, drop=True) < dataset.highest_summit - MARGIN
+    dataset["window_holds"] = holds.astype("i1")
+    dataset["margin"] = MARGIN
+    datasets.write(
+        annotated(dataset),
+        job.output[0],
+        title="theory on the lattice spectrum against simulation",
+        parameters=datasets.parameters(simulated),
+    )
+
+
+def differences(simulated, theory):
+    """Relative difference of theory from simulation in every quantity, and its error."""
     dataset = xr.Dataset()
     for name in COMPARED:
         mean = simulated[f"{name}_mean"].where(simulated[f"{name}_mean"] > 0)
@@ -22,17 +56,65 @@ def main(job):
         ratio = theory[name] / mean
         dataset[f"{name}_difference"] = ratio - 1
         dataset[f"{name}_difference_error"] = ratio * np.hypot(*errors) / mean
-    datasets.write(
-        annotated(dataset),
-        job.output[0],
-        title="theory on the lattice spectrum against simulation",
-        parameters=datasets.parameters(simulated),
+    return dataset
+
+
+def distance(simulated, theory):
+    """W1 with its errors, and the W1 that sampling alone would give."""
+    expected = theory.area_fraction + theory.attractive_area
+    mean = simulated.area_fraction_mean + simulated.attractive_area_mean
+    difference = mean - expected
+    side = np.sign(difference)
+
+    def moved(solved):
+        """W1 of one realisation, were its distribution on the same side as the mean everywhere."""
+        return integral(side * (solved.area_fraction + solved.attractive_area))
+
+    sampling = ensemble_mean(moved(simulated), coarse(simulated, moved))[1]
+    parts = [simulated[f"{name}_standard_error"] for name in ("area_fraction", "attractive_area")]
+    left = [f"{name}_discretisation_error" for name in ("area_fraction", "attractive_area")]
+    return xr.Dataset(
+        {
+            "distance": integral(abs(difference)),
+            "distance_standard_error": sampling,
+            "distance_discretisation_error": integral(np.hypot(*(simulated[n] for n in left))),
+            # Mean modulus of a normal deviate; areas of contact and of gaps rise and fall together.
+            "distance_floor": np.sqrt(2 / np.pi) * integral(sum(parts)),
+        }
+    )
+
+
+def integral(values):
+    """Integral over gaps from 0, below the smallest of which the integrand is held constant."""
+    ranges = values["range"].values
+    return values.integrate("range") + values.isel(range=0, drop=True) * ranges[0]
+
+
+def highest_summit(made):
+    """Mean height over h_rms of the highest point of a window."""
+    asked = {**made, "magnification": min(made["magnification"], LONG_WAVES)}
+    spectrum, length, n = spectrum_of(asked), window_of(asked), grid_points(asked, 4)
+    amplitudes = made.get("amplitudes", "gaussian")
+    return float(
+        np.mean(
+            [
+                surface.synthesise(spectrum, n, length, seed, amplitudes).max()
+                for seed in range(WINDOWS)
+            ]
+        )
     )
 
 
 def annotated(dataset):
-    texts = {name: DESCRIBED[name] for name in ("pressure", "range")}
-    texts["variant"] = ("1", "variant of the theory")
+    texts = {name: DESCRIBED[name] for name in ("pressure", "range", "gap")}
+    texts["variant"] = _theories.DESCRIBED
+    texts["highest_summit"] = ("1", "mean height of a window's highest point over h_rms")
+    texts["theory_mean_gap"] = ("1", "mean gap over h_rms by theory")
+    texts["margin"] = ("1", "least distance of theory's mean gap from the highest summit")
+    texts["window_holds"] = (
+        "1",
+        "1 where theory's mean gap is so far below the highest summit",
+    )
     for name in COMPARED:
         text = f"theory over simulation less 1: {DESCRIBED[name][1]}"
         texts[f"{name}_difference"] = ("1", text, "nothing simulated within the range")
@@ -41,8 +123,16 @@ def annotated(dataset):
             f"{text}: sampling and discretisation error in quadrature",
             "nothing simulated within the range, or a single seed",
         )
+    text = "area between the cumulative distributions of the gap (Wasserstein distance) over h_rms"
+    unknown = "a single seed"
+    texts |= {
+        "distance": ("1", text),
+        "distance_standard_error": ("1", f"{text}: standard error", unknown),
+        "distance_discretisation_error": ("1", f"{text}: error in the limit of fine grids"),
+        "distance_floor": ("1", f"{text}: mean that sampling errors alone give", unknown),
+    }
     return datasets.annotate(dataset, **texts)
 
 
 if __name__ == "__main__":
-    main(start(globals(), "compare_theory", case="H0.8_zeta64"))
+    main(start(globals(), "compare_theory", compared="H0.8_zeta64"))

@@ -5,6 +5,8 @@ import xarray as xr
 
 from _job import start
 from _model import DESCRIBED, logarithmic_grid, middles, spectrum_of, window_of
+from _theories import DESCRIBED as DESCRIBED_THEORY
+from _theories import theories
 from stickiness import datasets
 from stickiness.persson import Persson
 from stickiness.surface import lattice_spectrum
@@ -14,22 +16,20 @@ def main(job):
     asked = job.params.surface
     lattice = lattice_spectrum(spectrum_of(asked), window_of(asked))
     pressures, ranges = np.sort(job.params.pressures), logarithmic_grid(job.params.gaps)
-    parts = [
-        state(Persson(lattice, variant=variant, gamma=job.params.gamma), pressures, ranges)
-        for variant in job.params.variants
-    ]
-    names = xr.DataArray(list(job.params.variants), dims="variant", name="variant")
+    named = theories(job.params.variants, job.params.gamma)
+    parts = [state(Persson(lattice, **options), pressures, ranges) for options in named.values()]
+    names = xr.DataArray(list(named), dims="variant", name="variant")
     dataset = xr.concat(parts, names).assign(rms_slope=lattice.rms_slope)
     datasets.write(
         datasets.annotate(
             dataset,
             **DESCRIBED,
-            variant=("1", "variant of the theory"),
+            variant=DESCRIBED_THEORY,
             rms_slope=("1", "rms gradient of the lattice spectrum over q0 h_rms"),
         ),
         job.output[0],
         title="Persson's theory on the lattice spectrum of a case",
-        parameters={**asked, "case": job.wildcards.case, "gamma": job.params.gamma},
+        parameters={**asked, "case": job.wildcards.compared, "gamma": job.params.gamma},
     )
 
 
@@ -53,4 +53,4 @@ def state(theory, pressures, ranges):
 
 
 if __name__ == "__main__":
-    main(start(globals(), "persson_lattice", case="H0.8_zeta64"))
+    main(start(globals(), "persson_lattice", compared="H0.8_zeta64"))

@@ -6,12 +6,12 @@ import xarray as xr
 from _job import start
 from _model import DESCRIBED, logarithmic_grid
 from stickiness import criteria, datasets
+from stickiness.a_v_table import edge_range, local_a_v
 from stickiness.persson import Persson
 from stickiness.spectrum import Tabulated
 
 VARIANTS = ("afferrante2018", "almqvist2011")  # P(0) infinite and finite: limits on the truth
 EDGE_LAW = "pastewka_robbins"  # independent estimate of what the edges alone give
-LARGEST_EDGE = 0.1  # range over h_rms beyond which the gaps are no longer those of contact edges
 
 
 def main(job):
@@ -42,18 +42,25 @@ def main(job):
 
 
 def a_v_of(surface, end, ranges, load, gamma):
-    """a_V by every variant and by the edge law on one end of a surface, and the edge range."""
+    """a_V by every variant and by the edge law on one end of a surface, and the edge range.
+
+    Below the edge range theory is held constant, with the edge law as the other limit.
+    """
     spectrum = spectrum_of(surface, end)
     pressure = load * float(surface.q0) * spectrum.h_rms
     resolved = [
-        Persson(spectrum, variant=variant, gamma=gamma).gap_cumulative(
-            ranges * spectrum.h_rms, pressure
+        local_a_v(
+            Persson(spectrum, variant=variant, gamma=gamma).gap_cumulative(
+                ranges * spectrum.h_rms, pressure
+            ),
+            load,
+            ranges,
         )
-        / (1.5 * load * ranges ** (2 / 3))
         for variant in VARIANTS
     ]
-    edge = edge_range(ranges, resolved[1])
-    a_v = [np.where(ranges < edge, a[ranges == edge], a) for a in resolved]
+    edge = edge_range(ranges, *resolved)
+    at_edge = np.exp(np.interp(np.log(edge), np.log(ranges), np.log(resolved[0])))
+    a_v = [np.where(ranges < edge, at_edge, a) for a in resolved]
     a_v.append(np.where(ranges < edge, edge_a_v(surface, end), a_v[0]))
     return [*VARIANTS, EDGE_LAW], a_v, edge
 
@@ -69,18 +76,6 @@ def edge_a_v(surface, end):
     known = surface.isel(end=end)
     moments = (float(known[name]) for name in ("h_rms", "rms_slope", "rms_curvature"))
     return criteria.pastewka_robbins_a_v(float(surface.q0), *moments)
-
-
-def edge_range(ranges, a_v):
-    """Range below which theory no longer resolves the edges of the contact.
-
-    Next to an edge gaps grow as x^(3/2) and a_V does not depend on the range. Neither variant
-    knows: for small ranges the one makes a_V fall to zero, the other grow without bound. They part
-    where the first has its largest value; from there down it is kept, with Pastewka and Robbins'
-    as the other limit. The two grow alike with magnification, but the ratio of theory's to theirs
-    falls from 2.9 at H = 0.6 over 0.8 at H = 0.8 to 0.57 at H = 0.9 (zeta = 1e6).
-    """
-    return ranges[int(np.argmax(np.where(ranges <= LARGEST_EDGE, a_v, 0)))]
 
 
 def spectrum_of(surface, end=-1):

@@ -7,19 +7,22 @@ import xarray as xr
 
 from _job import start
 from _model import DESCRIBED, logarithmic_grid, middles, spectrum_of
+from _theories import DESCRIBED as DESCRIBED_THEORY
+from _theories import theories
 from stickiness import datasets
 from stickiness.persson import Persson
 
 
 def main(job):
     sweep, ranges = job.params.sweep, logarithmic_grid(job.params.gaps)
+    named = theories(job.params.variants, job.params.gamma)
     axes = {
-        "variant": job.params.variants,
+        "variant": list(named),
         "hurst": sweep["hurst"],
         "magnification": [float(m) for m in sweep["magnification"]],
     }
     parts = [
-        state(theory(*point, job.params.gamma), sweep, ranges).expand_dims(
+        state(theory(named[point[0]], *point[1:]), sweep, ranges).expand_dims(
             {name: [value] for name, value in zip(axes, point, strict=True)}
         )
         for point in product(*axes.values())
@@ -32,9 +35,8 @@ def main(job):
     )
 
 
-def theory(variant, hurst, magnification, gamma):
-    spectrum = spectrum_of({"hurst": hurst, "magnification": magnification})
-    return Persson(spectrum, variant=variant, gamma=gamma)
+def theory(options, hurst, magnification):
+    return Persson(spectrum_of({"hurst": hurst, "magnification": magnification}), **options)
 
 
 def state(theory, sweep, ranges):
@@ -65,7 +67,7 @@ def annotated(dataset):
     return datasets.annotate(
         dataset,
         **DESCRIBED,
-        variant=("1", "variant of the theory"),
+        variant=DESCRIBED_THEORY,
         hurst=("1", "Hurst exponent"),
         magnification=("1", "magnification q1/q0"),
         rms_slope=("1", "rms gradient over q0 h_rms"),

@@ -1,8 +1,10 @@
 """Figure 1: distribution of gaps by Persson's theory, its convergence, and simulation."""
 
 import numpy as np
+import xarray as xr
 
 from _job import start
+from _model import VARIANT
 from _numbers import number
 from _style import (
     COLOURS,
@@ -19,6 +21,7 @@ from _style import (
     shades,
     total_error,
 )
+from _theories import between_corrections
 from stickiness import datasets
 
 GAPS = [0.003, 0.01, 0.03, 0.1, 0.3, 1.0]  # over h_rms, of panel B
@@ -45,8 +48,10 @@ def panel_a(ax, theory):
     """P(u) at a given mean gap for a few magnifications."""
     hurst, theory = float(theory.hurst[0]), theory.isel(hurst=0, load=0)
     for colour, magnification in zip(COLOURS, theory.magnification.values, strict=False):
+        density = theory.gap_density.sel(magnification=magnification)
+        banded(ax, density, colour)
         for variant, line in VARIANT_LINES.items():
-            curve = theory.gap_density.sel(variant=variant, magnification=magnification)
+            curve = density.sel(variant=variant)
             ax.loglog(curve.gap, curve, line, color=colour)
         ax.plot([], [], color=colour, label=rf"$\zeta$ = {number(magnification)}")
     u = np.array([1e-3, 1e-1])
@@ -58,6 +63,12 @@ def panel_a(ax, theory):
     ax.legend(handles=handles + variant_keys(), loc="lower left")
 
 
+def banded(ax, density, colour):
+    """Band between the corrections of the theory."""
+    low, high = between_corrections(density)
+    ax.fill_between(low.gap, low, high, color=colour, alpha=0.3, linewidth=0)
+
+
 def variant_keys():
     return [key(linestyle=VARIANT_LINES[name], label=text) for name, text in VARIANT_LABELS.items()]
 
@@ -65,13 +76,19 @@ def variant_keys():
 def panel_b(ax, theory):
     """P at fixed gaps against magnification, and where u^(-1/3) would put the limits."""
     hurst = float(theory.hurst[0])
-    theory = theory.isel(hurst=0, load=0).sel(variant="afferrante2018")
+    every = theory.isel(hurst=0, load=0)
+    theory = every.sel(variant=VARIANT)
     limit = float(at_gap(theory, REFERENCE_GAP)[-1])
     last = float(theory.magnification[-1])
     curves = [at_gap(theory, gap) for gap in GAPS]
     labels = apart([curve[-1] for curve in curves], 1.15)
     for colour, gap, curve, label in zip(shades(len(GAPS)), GAPS, curves, labels, strict=True):
         ax.loglog(theory.magnification, curve, ".-", color=colour)
+        low, high = (
+            at_gap(xr.Dataset({"gap_density": end}), gap)
+            for end in between_corrections(every.gap_density)
+        )
+        ax.fill_between(theory.magnification, low, high, color=colour, alpha=0.3, linewidth=0)
         ax.text(1.7 * last, label, f"{gap:g}", color=colour, va="center", fontsize=8)
         if gap <= 0.1:  # beyond, the power law does not hold
             level = limit * (gap / REFERENCE_GAP) ** (-1 / 3)

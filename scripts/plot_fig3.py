@@ -6,7 +6,7 @@ import numpy as np
 import xarray as xr
 
 from _job import start
-from _model import LOAD
+from _model import LOAD, VARIANT
 from _numbers import number
 from _style import (
     BLACK,
@@ -22,9 +22,9 @@ from _style import (
     save,
     shades,
 )
+from _theories import between_corrections
 from stickiness import criteria, datasets
 
-VARIANT = "afferrante2018"
 EXPONENT = 2 / 3
 LARGEST_RANGE = 0.3  # over h_rms, in panels A and B
 CONVERGED_A_V = 3.0  # of the paper, for the guides
@@ -66,14 +66,15 @@ class Case:
 
 def main(job):
     sweeps = [datasets.read(path, ["attractive_area", "pressure"]) for path in job.input.sweeps]
-    fits = [datasets.read(path, ["a_v", "window_low"]) for path in job.input.fits]
+    fits = [datasets.read(path, ["a_v", "window_low", "exponent"]) for path in job.input.fits]
     cases = read_cases(job.input)
     alike = [case for case in cases if case.hurst == float(sweeps[0].hurst[0])]
-    figure, panels = canvas("AB;CD", 6.2)
+    figure, panels = canvas("AB;CD;EE", 8.6, height_ratios=[1, 1, 0.85])
     panel_a(panels["A"], sweeps[0], alike)
     panel_b(panels["B"], sweeps[1])
     panel_c(panels["C"], sweeps[2], fits[2], cases)
     panel_d(panels["D"], sweeps[3], fits[3], alike)
+    panel_e(panels["E"], fits[0], alike)
     letters(panels)
     save(figure, job.output)
 
@@ -93,11 +94,13 @@ def read_cases(files):
 def panel_a(ax, theory, cases):
     """Areas at one pressure for a few magnifications, by theory and simulation."""
     hurst = float(theory.hurst[0])
+    every = theory.attractive_area.isel(hurst=0, load=0)
     theory = theory.sel(variant=VARIANT).isel(hurst=0, load=0)
     pressure = float(theory.pressure[0])
     magnifications = theory.magnification.values
     for colour, magnification in zip(shades(len(magnifications)), magnifications, strict=True):
         curve = theory.attractive_area.sel(magnification=magnification)
+        between(ax, curve["range"] ** EXPONENT, every.sel(magnification=magnification), colour)
         ax.plot(curve["range"] ** EXPONENT, curve, color=colour, label=number(magnification))
     for index, case in enumerate(cases):
         sideways = 0.004 * (index - 1)
@@ -112,6 +115,11 @@ def panel_a(ax, theory, cases):
     law = key(linestyle=":", color=BLACK, label=rf"$a_V$ = {CONVERGED_A_V:g}")
     handles = [*case_keys(cases), law]
     ax.legend(handles=handles, loc="upper right", title="BEM", title_fontsize=8)
+
+
+def between(ax, x, values, colour):
+    """Band between the corrections of the theory."""
+    ax.fill_between(x, *between_corrections(values), color=colour, alpha=0.3, linewidth=0)
 
 
 def simulated_areas(ax, case, pressure, sideways, colour, marker):
@@ -148,10 +156,12 @@ def limits(ax, top):
 def panel_b(ax, theory):
     """Areas at one magnification for a few pressures."""
     hurst = float(theory.hurst[0])
+    every = theory.attractive_area.isel(hurst=0, magnification=0)
     theory = theory.sel(variant=VARIANT).isel(hurst=0, magnification=0)
     for index, colour in enumerate(shades(theory.sizes["load"])):
         curve = theory.isel(load=index)
         x = curve["range"] ** EXPONENT
+        between(ax, x, every.isel(load=index), colour)
         ax.plot(x, curve.attractive_area, color=colour, label=f"{float(curve.pressure):g}")
     limits(ax, 0.75)
     ax.set_title(rf"$H$ = {hurst:g}, $\zeta$ = {number(float(theory.magnification))}, theory")
@@ -160,12 +170,14 @@ def panel_b(ax, theory):
 
 def panel_c(ax, sweep, fit, cases):
     """a_V against magnification with Pastewka and Robbins' and simulation."""
+    every = fit.a_v.isel(load=0, window=0)
     fit = fit.sel(variant=VARIANT).isel(load=0)
     sweep = sweep.sel(variant=VARIANT).isel(load=0)
     for index, hurst in enumerate(fit.hurst.values):
         colour = COLOURS[index]
         curve, moments = fit.a_v.sel(hurst=hurst), sweep.sel(hurst=hurst)
         banded(ax, fit.magnification, curve, colour, "-")
+        between(ax, fit.magnification, every.sel(hurst=hurst), colour)
         slope, curvature = moments.rms_slope.values, moments.rms_curvature.values
         robbins = criteria.pastewka_robbins_a_v(1.0, 1.0, slope, curvature)
         ax.plot(fit.magnification, robbins, "--", color=colour, linewidth=0.9)
@@ -213,8 +225,9 @@ def panel_d(ax, sweep, fit, cases):
     """a_V against pressure."""
     hurst = float(sweep.hurst[0])
     sweep = sweep.sel(variant=VARIANT).isel(hurst=0, magnification=0)
-    curve = fit.a_v.sel(variant=VARIANT).isel(hurst=0, magnification=0)
-    banded(ax, sweep.pressure, curve, GREY, "-")
+    every = fit.a_v.isel(hurst=0, magnification=0)
+    banded(ax, sweep.pressure, every.sel(variant=VARIANT), GREY, "-")
+    between(ax, sweep.pressure, every.isel(window=0), GREY)
     for index, case in enumerate(cases):
         case_points(
             ax, case, aside(case.fit.pressure, index - 1), None, COLOURS[index], MARKERS[index]
@@ -224,6 +237,28 @@ def panel_d(ax, sweep, fit, cases):
     ax.set_title(rf"$H$ = {hurst:g}")
     theory = key(label=rf"theory, $\zeta$ = {number(float(sweep.magnification))}")
     ax.legend(handles=[theory, *case_keys(cases), point_keys()[-1]], loc="upper right")
+
+
+def panel_e(ax, fit, cases):
+    """Local exponent of the attractive area against the range."""
+    every = fit.exponent.isel(hurst=0, load=0)
+    hurst, magnifications = float(fit.hurst[0]), fit.magnification.values
+    for colour, magnification in zip(shades(len(magnifications)), magnifications, strict=True):
+        curve = every.sel(magnification=magnification)
+        between(ax, curve["range"], curve, colour)
+        ax.semilogx(curve["range"], curve.sel(variant=VARIANT), color=colour)
+    for index, case in enumerate(cases):
+        exponent = case.fit.exponent.sel(pressure=LOAD, method="nearest")
+        exponent = exponent.isel(range=slice(None, None, 2))
+        look = {"color": COLOURS[index], "marker": MARKERS[index], "linestyle": "none"}
+        ax.plot(exponent["range"], exponent, **look, markersize=3)
+    for level, text in ((EXPONENT, "2/3: edges"), ((1 - hurst) / hurst, r"$(1-H)/H$: fractal")):
+        ax.axhline(level, color=BLACK, linestyle=":", linewidth=0.9)
+        ax.text(9, level + 0.015, text, ha="right", fontsize=8)
+    ax.set(xlim=(1e-4, 10), ylim=(0, 1.3), xlabel=r"range $\epsilon/h_\mathrm{rms}$")
+    ax.set_ylabel(r"$\mathrm{d}\ln A_\mathrm{ad}/\mathrm{d}\ln\epsilon$")
+    ax.legend(handles=case_keys(cases), loc="upper left", title="BEM", title_fontsize=8)
+    ax.set_title(rf"$H$ = {hurst:g}, $\hat{{p}}$ = {LOAD:g}, theory as in A")
 
 
 if __name__ == "__main__":

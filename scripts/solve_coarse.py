@@ -11,8 +11,8 @@ import numpy as np
 import xarray as xr
 
 from _job import start
-from _model import DESCRIBED, logarithmic_grid, spectrum_of, window_of
-from solve_repulsive import COARSE, load_curve
+from _model import logarithmic_grid, spectrum_of, window_of
+from solve_repulsive import COARSE, CURVE, load_curve
 from stickiness import datasets, sampling, surface
 from synthesise_surface import grid_points
 
@@ -21,12 +21,36 @@ KEPT = ("area_fraction", "mean_gap", "residual", "rms_slope")
 
 
 def main(job):
-    asked, pressures = job.params.surface, np.sort(job.params.pressures)
+    asked = job.params.surface
+    dataset = coarse_solutions(
+        asked,
+        job.params.seeds,
+        job.params.descriptor_seeds,
+        np.sort(job.params.pressures),
+        logarithmic_grid(job.params.gaps),
+        job.params.tolerance,
+    )
+    datasets.write(
+        annotated(dataset),
+        job.output[0],
+        title="coarse contact solutions and long waves of many realisations",
+        parameters={
+            **asked,
+            "case": job.wildcards.case,
+            "tolerance": job.params.tolerance,
+            "largest_residual": float(dataset.residual.max()),
+            "pixels_per_wavelength": COARSE,
+            "grid_points": grid_points(asked, COARSE),
+        },
+    )
+
+
+def coarse_solutions(asked, count, others_count, pressures, ranges, tolerance):
+    """Solutions of `count` surfaces and the long waves of these and of `others_count` more."""
     spectrum, length = spectrum_of(asked), window_of(asked)
     amplitudes = asked.get("amplitudes", "gaussian")
-    seeds = SOLVED_FROM + np.arange(job.params.seeds)
-    others = DESCRIBED_FROM + np.arange(job.params.descriptor_seeds)
-    ranges, tolerance = logarithmic_grid(job.params.gaps), job.params.tolerance
+    seeds = SOLVED_FROM + np.arange(count)
+    others = DESCRIBED_FROM + np.arange(others_count)
     curves = []
     for seed in seeds:
         logging.info("seed %d", seed)
@@ -40,31 +64,15 @@ def main(job):
     for name, dim, which in (("long_waves", "seed", seeds), ("other_long_waves", "other", others)):
         rows = sampling.descriptors(spectrum, length, which, amplitudes)
         dataset[name] = (dim, "descriptor"), rows
-    dataset = dataset.assign_coords(descriptor=list(sampling.DESCRIPTORS), other=others)
-    datasets.write(
-        annotated(dataset),
-        job.output[0],
-        title="coarse contact solutions and long waves of many realisations",
-        parameters={
-            **asked,
-            "case": job.wildcards.case,
-            "tolerance": tolerance,
-            "largest_residual": float(dataset.residual.max()),
-            "pixels_per_wavelength": COARSE,
-            "grid_points": n // 2,
-        },
-    )
+    return dataset.assign_coords(descriptor=list(sampling.DESCRIPTORS), other=others)
 
 
 def annotated(dataset):
-    names = ("pressure", "range", "area_fraction", "mean_gap", "attractive_area")
     return datasets.annotate(
         dataset,
-        **{name: DESCRIBED[name] for name in names if name in dataset.variables},
+        **{name: texts for name, texts in CURVE.items() if name in dataset.variables},
         seed=("1", "seed of the realisation"),
         other=("1", "seed of a realisation that is not solved"),
-        residual=("1", "complementarity residual over h_rms"),
-        rms_slope=("1", "rms gradient of this realisation over q0 h_rms"),
         descriptor=("1", "what is described, lengths in units of 1/q0 and heights of h_rms"),
         long_waves=("1", "descriptors of the long waves"),
         other_long_waves=("1", "descriptors of the long waves of seeds that are not solved"),

@@ -17,6 +17,12 @@ from stickiness import datasets, dmt, repulsive, subpixel
 SOLVED = ("area_fraction", "mean_gap", "residual", "iterations", "fft_pairs")
 SCALARS = (*SOLVED, "pixel_area_fraction", "edge_gap", "edges")
 AREAS = ("attractive_area", "pixel_attractive_area")
+CURVE = {
+    **{name: DESCRIBED[name] for name in ("pressure", "range", "area_fraction", "mean_gap")},
+    "attractive_area": DESCRIBED["attractive_area"],
+    "residual": ("1", "complementarity residual over h_rms"),
+    "rms_slope": ("1", "rms gradient of this realisation over q0 h_rms"),
+}
 COARSE = 2  # grid points per shortest wavelength on the coarsest grid, the fewest that hold it
 
 
@@ -25,13 +31,9 @@ def main(job):
     pressures = np.sort(job.params.pressures)
     ranges = logarithmic_grid(job.params.gaps)
     heights, length = surface.height.values, float(surface.window_length)
-    steps = sorted({job.params.pixels_per_wavelength // COARSE, 2, 1}, reverse=True)
-    curves = [
-        load_curve(heights[::step, ::step], length, pressures, ranges, job.params.tolerance)
-        for step in steps
-    ]
-    resolution = pixels(surface) / np.array(steps)
-    dataset = xr.concat(curves, xr.DataArray(resolution, dims="resolution", name="resolution"))
+    steps = steps_of(job.params.pixels_per_wavelength)
+    dataset = load_curves(heights, length, steps, pressures, ranges, job.params.tolerance)
+    dataset = dataset.assign_coords(resolution=pixels(surface) / np.array(steps))
     dataset["rms_slope"] = surface.rms_slope.sel(source="heights", drop=True)
     datasets.write(
         annotated(dataset),
@@ -44,6 +46,19 @@ def main(job):
             "largest_residual": float(dataset.residual.max()),
         },
     )
+
+
+def steps_of(pixels_per_wavelength):
+    """Steps between the points that each grid takes from the finest, from coarse to fine."""
+    return sorted({pixels_per_wavelength // COARSE, 2, 1}, reverse=True)
+
+
+def load_curves(heights, length, steps, pressures, ranges, tolerance):
+    """Contact quantities on every grid, along the dimension `resolution`."""
+    curves = [
+        load_curve(heights[::step, ::step], length, pressures, ranges, tolerance) for step in steps
+    ]
+    return xr.concat(curves, "resolution")
 
 
 def load_curve(heights, length, pressures, ranges, tolerance):
@@ -79,9 +94,8 @@ def measured(contact, ranges):
 
 
 def annotated(dataset):
-    texts = {name: DESCRIBED[name] for name in ("pressure", "area_fraction", "mean_gap")}
+    texts = {name: text for name, text in CURVE.items() if name in dataset.variables}
     if "range" in dataset.dims:
-        texts |= {name: DESCRIBED[name] for name in ("range", "attractive_area")}
         texts["pixel_attractive_area"] = (
             "1",
             "attractive area as counted in pixels, over nominal area",
@@ -93,10 +107,8 @@ def annotated(dataset):
         pixel_area_fraction=("1", "repulsive contact area as counted in pixels, over nominal area"),
         edges=("1", "pixel sides between contact and gap"),
         edge_gap=("1", "gap of the pixels next to the contact over h_rms: smallest range resolved"),
-        residual=("1", "complementarity residual over h_rms"),
         iterations=("1", "conjugate gradient iterations"),
         fft_pairs=("1", "pairs of Fourier transforms in units of this grid"),
-        rms_slope=("1", "rms gradient of this realisation over q0 h_rms"),
     )
 
 

@@ -2,13 +2,24 @@
 
 from pathlib import Path
 
+import _benchmarks
 import _captions
+import _provenance
 import _report
 from _job import start
 from stickiness import accuracy, datasets
 
-CLAIMS = ("statement", "quantity", "value", "uncertainty", "claimed", "verdict", "sources")
-VERDICTS = ("margin", "modulus_threshold", "dmt_valid", "verdict", "disagrees", "a_v", "a_v_low")
+CLAIMS = ("statement", "quantity", "value", "uncertainty", "error", "claimed", "verdict", "sources")
+VERDICTS = (
+    "margin",
+    "modulus_threshold",
+    "probability",
+    "simulated",
+    "verdict",
+    "disagrees",
+    "a_v",
+    "a_v_low",
+)
 SURFACES = ("h_rms", "hurst", "q0", "q1", "C0_reference_upper")
 COMPARISONS = ("area_fraction_difference", "mean_gap_difference", "attractive_area_difference")
 ANSWERS = ("value", "error", "total_error", "dominant")
@@ -19,24 +30,50 @@ def main(job):
     captions = [Path(path).read_text(encoding="utf-8") for path in job.input.captions]
     page = render(
         job.input.template,
-        claims=datasets.read(job.input.claims, CLAIMS),
-        verdicts=datasets.read(job.input.verdicts, VERDICTS),
-        ensembles=[datasets.read(path, ENSEMBLES) for path in job.input.ensembles],
-        answers=[datasets.read(path, ANSWERS) for path in job.input.answers],
-        presets=_report.preset_rows(accuracy.read_laws(job.input.laws), **job.params.presets),
-        comparisons=[datasets.read(path, COMPARISONS) for path in job.input.comparisons],
-        surfaces={Path(path).stem: datasets.read(path, SURFACES) for path in job.input.surfaces},
+        job.output[0],
+        files={
+            "claims": job.input.claims,
+            "verdicts": job.input.verdicts,
+            "figures": job.params.figure_sources,
+            **{
+                group: by_name(job.input[group])
+                for group in ("ensembles", "answers", "comparisons", "surfaces")
+            },
+        },
         figures=[_captions.figure(*pair) for pair in zip(job.input.figures, captions, strict=True)],
         benchmarks=job.params.benchmarks,
         fidelity=job.params.fidelity,
+        presets=_report.preset_rows(accuracy.read_laws(job.input.laws), **job.params.presets),
+        **read(job.input),
     )
     with datasets.whole_file(job.output[0]) as path:
         path.write_text(page, encoding="utf-8")
 
 
+def by_name(paths):
+    """Paths by the names of their files, which are those of cases or surfaces."""
+    return {Path(path).stem: path for path in paths}
+
+
+def read(inputs):
+    """The datasets that the page is made of."""
+    return {
+        "claims": datasets.read(inputs.claims, CLAIMS),
+        "verdicts": datasets.read(inputs.verdicts, VERDICTS),
+        "ensembles": [datasets.read(path, ENSEMBLES) for path in inputs.ensembles],
+        "answers": [datasets.read(path, ANSWERS) for path in inputs.answers],
+        "comparisons": [datasets.read(path, COMPARISONS) for path in inputs.comparisons],
+        "surfaces": {
+            name: datasets.read(path, SURFACES) for name, path in by_name(inputs.surfaces).items()
+        },
+    }
+
+
 def render(
     template,
+    page,
     *,
+    files,
     claims,
     verdicts,
     ensembles,
@@ -48,12 +85,17 @@ def render(
     benchmarks,
     fidelity,
 ):
-    """The page as text, from datasets and figures that have been read."""
-    return _captions.template_of(template).render(
+    """The page as text, from datasets and figures that have been read.
+
+    `files` says where they were read from: paths of `claims` and `verdicts`, and paths by name of
+    `surfaces`, `ensembles`, `answers`, `comparisons` and, a list for each, of the `figures`.
+    """
+    return _captions.template_of(template, page).render(
         fidelity=fidelity,
+        files_of=files,
         summary=_report.summary(claims, verdicts, ensembles),
         figures=figures,
-        claims=_report.claims_table(claims),
+        claims=_report.claim_rows(claims),
         errata=_report.errata_rows(claims),
         matrix=_report.verdict_matrix(verdicts, surfaces),
         disagreements=_report.disagreements(verdicts, surfaces),
@@ -63,8 +105,8 @@ def render(
         asked_quantities=list(accuracy.QUANTITIES),
         comparisons=_report.theory_rows(comparisons),
         quantities=list(_report.QUANTITIES.values()),
-        run_times=_report.run_times(benchmarks),
-        provenance=_report.provenance(
+        run_times=_benchmarks.run_times(benchmarks),
+        provenance=_provenance.provenance(
             [claims, verdicts, *surfaces.values(), *ensembles], ensembles
         ),
     )

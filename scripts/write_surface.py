@@ -1,5 +1,7 @@
 """A page of one surface: its picture and spectrum, what is known of it, its verdicts and why."""
 
+from pathlib import Path
+
 import numpy as np
 
 import _captions
@@ -10,13 +12,12 @@ from _model import LOAD
 from _numbers import NOTHING, interval, number, percent, quantity, with_error
 from _style import save
 from _surface_figure import drawn
+from _verdict import ends, pair_texts
 from _why import reasons
 from stickiness import datasets
 from stickiness.viscoelastic import crossings
 
 ENDS = ("smooth", "rough")
-WORDS = ("not sticky", "depends", "sticky", "undecided")
-TONES = ("no", "partly", "yes", "open")
 CAPTION = """Heights, levelled (of the first measurement), and spectrum: rings with their sampling
 error, the self-affine law where it was fitted, the instrument's cutoff, the end of the plateau with
 its error if there is one, and the paper's lines. Grey: the law carried on beyond the instrument,
@@ -31,6 +32,12 @@ def main(job):
     save(drawn(surface, pairs), [job.output.figure])
     page = render(
         job.input.template,
+        job.output.page,
+        files={
+            "surface": job.input.surface,
+            "verdicts": job.input.verdicts,
+            "pressed": job.input.pressed[0] if job.input.pressed else "",
+        },
         surface=surface,
         pairs=pairs,
         materials=datasets.parameters(verdicts)["materials"],
@@ -41,17 +48,19 @@ def main(job):
         path.write_text(page, encoding="utf-8")
 
 
-def render(template, *, surface, pairs, materials, figure, bem=None):
-    """The page as text."""
+def render(template, page, *, files, surface, pairs, materials, figure, bem=None):
+    """The page as text, with links to the files behind it from where it will lie."""
     made = datasets.parameters(surface)
-    return _captions.template_of(template).render(
+    return _captions.template_of(template, page).render(
+        files_of=files,
+        report=Path(page).parents[1] / "report.html",
         label=made["label"],
         kind=made["kind"].replace("_", "-"),
         source=made.get("source", ""),
         figure=figure,
         known=known(surface),
         remarks=[t for t in (*surface.attrs.get("remarks", "").split("; "), made.get("note")) if t],
-        files=[t for t in surface.attrs.get("files", "").split("; ") if t],
+        measured=[t for t in surface.attrs.get("files", "").split("; ") if t],
         loads=_pressed.loads(bem) if bem is not None else [],
         load=number(LOAD),
         pressed=[
@@ -126,26 +135,13 @@ def roll_off(surface):
 def verdict(pair, surface, entry):
     """Verdict of one material, with its errors and every criterion's reason."""
     solid = material(entry)
-    thresholds = [float(pair.modulus_threshold.sel(end=end)) for end in ("rough", "smooth")]
-    probability = float(pair.probability)
-    measured = np.isfinite(probability)
     return {
         "material": entry["label"],
         "modulus": modulus_text(entry),
-        "verdict": WORDS[int(pair.verdict)],
-        "tone": TONES[int(pair.verdict)],
-        "outside": not bool(pair.dmt_valid.all()),
-        "margin": interval(float(pair.margin_low.min()), float(pair.margin_high.max()), 2),
-        "probability": percent(probability) if measured else NOTHING,
-        "drawn": interval(*map(float, pair.margin_quantile.values[[0, -1]]), 2)
-        if measured
+        **pair_texts(pair),
+        "rate": rate(solid, pair, ends(pair.modulus_threshold))
+        if solid.depends_on_rate
         else NOTHING,
-        "errors": f"spectrum {percent(float(pair.error_of_spectrum))}, a_V "
-        f"{percent(float(pair.error_of_a_v))}"
-        if measured
-        else NOTHING,
-        "threshold": quantity(*thresholds, "Pa", 2),
-        "rate": rate(solid, pair, thresholds) if solid.depends_on_rate else NOTHING,
         "criteria": [
             row | {"margins": interval(*row["margins"], 2)}
             for row in reasons(pair, surface, solid.work_of_adhesion)

@@ -4,6 +4,7 @@ import itertools
 
 import numpy as np
 import pytest
+from scipy import integrate
 
 from stickiness import adhesive
 from stickiness import adhesive_references as references
@@ -109,7 +110,13 @@ def test_sphere_between_the_limits_pulls_off_as_maugis_has_it():
 
 
 def test_strongly_adhesive_sphere_pulls_off_as_johnson_kendall_roberts_have_it():
-    """Tabor 5, by a law without a jump, which delays the edge of contact far less."""
+    """Tabor 5, by a law without a jump, which delays the edge of contact far less.
+
+    Pull-off forces over pi R w are -1.828, -1.547, -1.530 on 128, 256, 512 points, where the range
+    is 0.25, 0.5, 1 pixel; to first order in the pixel the last two lead to -1.514, against -1.500
+    of JKR and -1.505 of Maugis and Dugdale. With the law of Maugis the pixels hold the edge far
+    longer: -2.70 and -2.38 on 128 and 256 points, which cannot be extrapolated.
+    """
     law = sphere_law(Exponential, 5.0, 0.15)
     exact = references.JKRSphere(RADIUS, law.adhesion_length)
     expected = exact.pull_off_force
@@ -122,18 +129,22 @@ def test_strongly_adhesive_sphere_pulls_off_as_johnson_kendall_roberts_have_it()
     assert radius == pytest.approx(exact.contact_radius(0.0), rel=0.015)
 
 
-def test_every_law_pulls_a_sphere_off_near_maugis():
-    """Same work of adhesion and Tabor parameter 0.5: laws differ by a few per cent only."""
+@pytest.mark.parametrize("tabor", [0.5, 1.0])
+def test_laws_with_tails_pull_a_sphere_off_alike(tabor):
+    """Same work of adhesion: two smooth laws agree, and their tails exceed Maugis by 5 per cent."""
     forces = []
-    for kind in (Maugis, Exponential, LennardJones):
-        law = sphere_law(kind, 0.5, 0.12)
-        dmt = references.DMTSphere(RADIUS, law.adhesion_length).pull_off_force
+    for kind in (Exponential, LennardJones):
+        law = sphere_law(kind, tabor, 0.12)
+        exact = references.MaugisSphere(RADIUS, law.adhesion_length, law.range).pull_off.force
+        coarse, fine = (pull_off(paraboloid(n), 1.0, law, exact) for n in (64, 96))
+        assert coarse == pytest.approx(fine, rel=5e-3)
+        forces.append(fine)
+        assert fine / exact == pytest.approx(1.05, abs=0.01)
+        # between the limits of short and long range
         jkr = references.JKRSphere(RADIUS, law.adhesion_length).pull_off_force
-        force = pull_off(paraboloid(64), 1.0, law, dmt)
-        # between the limits, but for a delay of some per cent on this grid
-        assert 1.1 * dmt < force < jkr
-        forces.append(force)
-    assert np.ptp(forces) < 0.15 * abs(np.mean(forces))
+        dmt = references.DMTSphere(RADIUS, law.adhesion_length).pull_off_force
+        assert dmt < fine < 1.05 * jkr
+    assert forces[0] == pytest.approx(forces[1], rel=5e-3)
 
 
 @pytest.mark.parametrize(("strength", "tolerance"), [(0.5, 0.003), (1.0, 0.01)])
@@ -170,27 +181,42 @@ def test_wave_pulls_off_as_maugis_has_it(strength, tolerance):
     assert 2 * areas[1] - areas[0] == pytest.approx(expected, abs=0.01 * expected + 2 / 1024)
 
 
+def energy(gap, heights, law):
+    """Elastic plus interaction energy of a gap on a side of 1, by numpy's transforms."""
+    n = len(heights)
+    q = 2 * np.pi * np.hypot(*np.meshgrid(*2 * [np.fft.fftfreq(n, 1 / n)]))
+    u = gap + heights
+    elastic = np.fft.ifft2(np.fft.fft2(u) * q / 2).real
+    return np.mean(u * elastic / 2 + law.potential(gap))
+
+
 @pytest.mark.parametrize("kind", [Exponential, LennardJones])
-@pytest.mark.parametrize("control", ["pressure", "mean_gap"])
-def test_reversible_path_balances_its_energy(kind, control):
-    """There and back through a stretch without jumps: no work is lost, to 1e-4."""
+def test_work_of_the_load_is_the_energy_gained(kind):
+    """Pressures and gaps against energies of the fields, on a stretch without jumps, to 1e-4.
+
+    The work is Simpson's integral over 33 states at equal steps. (On a grid the curve has a kink
+    where a point touches: 17 states leave 1.0e-4, 33 leave 4.7e-5 with the wall; without one,
+    8.5e-6 and 5e-7.) A path through the same stretch, which integrates over its own steps, must
+    come to the same work and the same end.
+    """
     law = kind(adhesion_length=5e-5, range=0.01)
-    values = (0.0, 0.01, 0.0) if control == "pressure" else (0.03, 0.01, 0.03)
-    points = list(
-        adhesive.path(
-            bumps(32), 1.0, law, values, control=control, balance=1e-6, smallest_jump=1e-6, steps=5
+    heights = bumps(32)
+    first, last = (adhesive.solve(heights, 1.0, law, pressure=p) for p in (1e-3, 1e-2))
+    gaps, state, pressures = np.linspace(first.mean_gap, last.mean_gap, 33), first, []
+    for gap in gaps:
+        state = adhesive.solve(heights, 1.0, law, mean_gap=gap, start=state)
+        assert state.gap.mean() == pytest.approx(gap, rel=1e-12)
+        pressures.append(state.pressure.mean())
+    work = -integrate.simpson(pressures, x=gaps)
+    gained = energy(last.gap, heights, law) - energy(first.gap, heights, law)
+    assert work == pytest.approx(gained, rel=1e-4)
+    for control, values in (("pressure", (1e-3, 1e-2)), ("mean_gap", (gaps[0], gaps[-1]))):
+        points = list(
+            adhesive.path(heights, 1.0, law, values, control=control, start=first, balance=1e-6)
         )
-    )
-    assert not any(point.event for point in points)
-    first, last = points[0].state, points[-1].state
-    np.testing.assert_allclose(last.gap, first.gap, atol=1e-6)
-    energies = np.array([point.state.energy for point in points])
-    scale = np.ptp(energies)
-    work = np.cumsum([point.work for point in points])
-    np.testing.assert_allclose(work, energies - energies[0], atol=1e-4 * scale)
-    for point, before in itertools.pairwise(reversed(points)):
-        gain = point.state.energy - before.state.energy
-        assert point.dissipated == pytest.approx(point.work - gain, abs=1e-15)
+        assert not any(point.event for point in points)
+        assert sum(point.work for point in points) == pytest.approx(work, rel=1e-4)
+        np.testing.assert_allclose(points[-1].state.gap, last.gap, atol=1e-6 * np.ptp(heights))
 
 
 def test_jumps_are_bracketed_and_lose_enthalpy():
@@ -233,20 +259,42 @@ def test_jumps_are_bracketed_and_lose_enthalpy():
             assert one.dissipated == pytest.approx(other.dissipated, rel=0.02)
 
 
-def test_closed_cycle_loses_what_its_jumps_dissipate():
-    law = Maugis(adhesion_length=2e-4, range=2e-3)
-    points = list(adhesive.path(bumps(16), 1.0, law, (0.05, 0.01, 0.05), control="mean_gap"))
-    first, last = points[0].state, points[-1].state
-    # parted at either end: no pressure, no energy
-    assert first.energy == pytest.approx(0, abs=1e-12)
-    assert last.energy == pytest.approx(0, abs=1e-12)
-    work = sum(point.work for point in points)
-    assert work == pytest.approx(sum(point.dissipated for point in points), abs=1e-12)
-    jumps = sum(point.dissipated for point in points if point.event)
-    # the other steps lose what their own small jumps do, less the error of integration
-    assert 0 < jumps <= 1.01 * work
-    assert {point.event for point in points} == {None, "jump-in", "jump-out"}
-    assert all(point.dissipated > 0 for point in points if point.event)
+def test_loop_encloses_the_energy_that_its_jumps_lose():
+    """A sphere that jumps in and out again: area of the loop, energies of fields, two grids."""
+    law = sphere_law(Exponential, 2.0, 0.12)
+    areas = []
+    for n in (64, 96):
+        heights = paraboloid(n)
+        far, near = heights.max() - heights.mean() + law.range * np.array([4.5, 1.5])
+        points = list(
+            adhesive.path(
+                heights,
+                1.0,
+                law,
+                (far, near, far),
+                control="mean_gap",
+                balance=1e-4,
+                smallest_jump=1e-2,
+                located=1e-3,
+                steps=60,
+            )
+        )
+        assert {point.event for point in points} == {None, "jump-in", "jump-out"}
+        gaps = np.array([point.state.gap.mean() for point in points])
+        pressures = np.array([point.state.pressure.mean() for point in points])
+        energies = np.array([energy(point.state.gap, heights, law) for point in points])
+        steps = -np.diff(gaps) * (pressures[1:] + pressures[:-1]) / 2
+        lost = steps - np.diff(energies)
+        jumps = np.array([point.event is not None for point in points[1:]])
+        # the integral over a bracket of a jump is uncertain by the jump of the pressure there
+        dissipated = [point.dissipated for point in points if point.event]
+        np.testing.assert_allclose(dissipated, lost[jumps], rtol=0.05, atol=0.02 * lost.max())
+        areas.append(steps.sum())
+        assert areas[-1] == pytest.approx(lost[jumps].sum(), rel=0.03)
+        # it closes: the sphere is back where it was
+        np.testing.assert_allclose(points[-1].state.gap, points[0].state.gap, atol=1e-8)
+    # range of a fifth and a third of a pixel
+    assert areas[0] == pytest.approx(areas[1], rel=0.1)
 
 
 def test_mean_gap_follows_the_curve_beyond_pull_off():

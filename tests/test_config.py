@@ -59,6 +59,10 @@ def with_accuracy(**keys):
     return changed(CONFIG, "cases", "mine", value=asked | keys)
 
 
+def adhesion(*keys, value):
+    return changed(CONFIG, "adhesion", "fig2", *keys, value=value)
+
+
 def material(*keys, value):
     return changed(MATERIALS, "materials", "crystal", *keys, value=value)
 
@@ -95,6 +99,9 @@ def table(pairs):
     return edit
 
 
+COMPARISON = {"hurst": 0.8, "magnification": 16, "seeds": 4}
+
+
 def model(*keys, value):
     return changed(CONFIG, "model_surfaces", "H0.8_zeta64", *keys, value=value)
 
@@ -107,6 +114,17 @@ def model(*keys, value):
         (case("pressure", value=[0.1]), ["H0.8_zeta64", "'pressure'", "pressures"]),
         (case("pressures", value=[0.1, -0.2]), ["pressures[1]", "-0.2", "greater than 0"]),
         (case("surface", value="H0.8_zeta65"), ["surface", "H0.8_zeta65", "H0.8_zeta64"]),
+        (adhesion("accuracy", value=None), ["adhesion.fig2.accuracy", "missing", "auto"]),
+        (adhesion("model", value="full"), ["adhesion.fig2.accuracy", "0.1", "model: auto"]),
+        (adhesion("model", value="best"), ["adhesion.fig2.model", "'best'", "auto, dmt, full"]),
+        (adhesion("pressures", value=[0.07]), ["fig2.pressures", "0.07", "cases.H0.8_zeta64"]),
+        (adhesion("range_over_h_rms", value=[20]), ["fig2.range_over_h_rms", "20", "0.0001"]),
+        (adhesion("case", value="H0.8_zeta65"), ["fig2.case", "H0.8_zeta65", "H0.8_zeta64"]),
+        (adhesion("accuracy", value=2), ["fig2.accuracy", "2", "at most 1"]),
+        (
+            changed(CONFIG, "adhesion", "dmt_error", "model", value="dmt"),
+            ["dmt_error", "seeds", "full model", "model: dmt"],
+        ),
         (case("maps", value=[0.07]), ["maps", "0.07", "pressures"]),
         (case("accuracy", value=3), ["H0.8_zeta64.accuracy", "3", "at most 1"]),
         (case("accuracy", value=0), ["H0.8_zeta64.accuracy", "0", "greater than 0"]),
@@ -138,6 +156,18 @@ def model(*keys, value):
         (
             changed(CONFIG, "fidelities", "draft", "coarse_seeds", value=8),
             ["fidelities.draft.coarse_seeds", "8", "at least 32"],
+        ),
+        (
+            changed(CONFIG, "fidelities", "draft", "comparisons", value=["H0.5_zeta16_4x5"]),
+            ["fidelities.draft.comparisons", "H0.5_zeta16_4x5", "H0.5_zeta16_4x4"],
+        ),
+        (
+            changed(CONFIG, "comparisons", "surfaces", "H0.8_zeta64", value=COMPARISON),
+            ["comparisons.surfaces.H0.8_zeta64", "name of a case"],
+        ),
+        (
+            changed(CONFIG, "theory", "table", "pressure", value=[0.1, 0.01, 0.2, 0.5]),
+            ["theory.table.pressure", "0.01", "increasing"],
         ),
         (
             changed(CONFIG, "sampling", "descriptor_seeds", value=0.5),
@@ -193,6 +223,22 @@ def model(*keys, value):
         (material("range", value="2,5 nm"), ["crystal.range", "2,5 nm", "decimal point"]),
         (changed(CONFIG, "surfaces", value="config/surfs.yaml"), ["config/surfs.yaml", "no such"]),
         (changed(CONFIG, "cases", "H0.8_zeta32", value=None), ["cases", "H0.8_zeta32", "missing"]),
+        (
+            changed(CONFIG, "criteria", "map", "range_times_q0", "maximum", value=1e-13),
+            ["criteria.map.range_times_q0.minimum", "below maximum"],
+        ),
+        (
+            changed(CONFIG, "criteria", "compared", "magnification", "maximum", value=1e9),
+            ["criteria.compared.magnification.maximum", "theory.table.magnification", "100000000"],
+        ),
+        (
+            changed(CONFIG, "criteria", "compared", "quoted_h_rms_over_range", value=0.5),
+            ["criteria.compared.quoted_h_rms_over_range", "0.5", "theory.table.range"],
+        ),
+        (
+            changed(CONFIG, "criteria", "map", "hurst", value=0.1),
+            ["criteria.map.hurst", "0.1", "theory.table.hurst"],
+        ),
         (
             changed(CONFIG, "criteria", "a_v", "pressure", value=0.07),
             ["criteria.a_v.pressure", "0.07", "H0.8_zeta32_wide"],

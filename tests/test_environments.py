@@ -26,7 +26,7 @@ def test_conda_and_pip_agree():
         assert release.startswith(pins[CONDA_NAMES.get(package, package)])
 
 
-@pytest.mark.parametrize("name", ["requirements.txt", "dev.txt"])
+@pytest.mark.parametrize("name", ["requirements.txt", "dev.txt", "slurm.txt"])
 def test_constraints_agree(name):
     constraints = pip_pins("constraints.txt")
     for package, version in pip_pins(name).items():

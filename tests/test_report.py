@@ -10,8 +10,10 @@ import numpy as np
 import pytest
 import xarray as xr
 
+import _benchmarks
 import _captions
 import _numbers
+import _provenance
 import _report
 import write_report
 from stickiness.errata import ERRATA
@@ -40,8 +42,16 @@ def claims():
         "sources": ["out/a/x.nc", "", "out/b/seed1.nc out/b/seed2.nc", "out/a/x.nc"],
     }
     data = {name: ("claim", np.array(values)) for name, values in columns.items()}
+    parts = np.full((count, 2), np.nan)
+    parts[0] = 0.0315, 0.0102
+    data["error"] = (("claim", "error_source"), parts)
     errata = {str(erratum.number): {"some_number": 0.5} for erratum in ERRATA}
-    return made_by(xr.Dataset(data, coords={"claim": range(1, count + 1)}), errata=errata)
+    return made_by(
+        xr.Dataset(
+            data, coords={"claim": range(1, count + 1), "error_source": ["grid", "sampling"]}
+        ),
+        errata=errata,
+    )
 
 
 @pytest.fixture
@@ -57,8 +67,17 @@ def verdicts():
         {
             "margin": ((*dims, "criterion"), np.stack([derived, other], axis=-1)),
             "modulus_threshold": (dims, np.full((2, 2, 2), 2.5e6)),
-            "dmt_valid": (dims, [[[1, 0], [1, 1]], [[1, 1], [1, 1]]]),
+            "simulated": (dims, [[[1, 0], [1, 1]], [[1, 1], [1, 1]]]),
             "verdict": (dims[:2], [[2, 1], [0, 0]]),
+            "margin_low": (dims, np.array(derived) * 0.9),
+            "margin_high": (dims, np.array(derived) * 1.1),
+            "pair_a_v": (dims, np.full((2, 2, 2), 3.0)),
+            "pair_a_v_low": (dims, np.full((2, 2, 2), 2.0)),
+            "pair_a_v_high": (dims, np.full((2, 2, 2), 4.0)),
+            "probability": (dims[:2], [[np.nan, 0.42], [np.nan, 0.0]]),
+            "margin_quantile": ((*dims[:2], "quantile"), np.tile([0.5, 1.0, 2.0], (2, 2, 1))),
+            "error_of_spectrum": (dims[:2], np.full((2, 2), 0.3)),
+            "error_of_model": (dims[:2], np.full((2, 2), 0.4)),
             "disagrees": ((*dims[:2], "criterion"), [[[0, 0], [0, 0]], [[0, 0], [0, 1]]]),
             "a_v": 3.21,
             "a_v_low": 2.8,
@@ -68,7 +87,7 @@ def verdicts():
             "material": ["jelly", "iron"],
             "surface": ["glass", "sand"],
             "end": ["smooth", "rough"],
-            "criterion": ["violano", "some_other"],
+            "criterion": ["edge_adhesion", "some_other"],
         },
     )
     materials = {
@@ -223,6 +242,16 @@ PRESET = {
 def page(claims, verdicts, surfaces, figures, benchmarks):
     return write_report.render(
         TEMPLATE,
+        "out/report/report.html",
+        files={
+            "claims": "out/claims.nc",
+            "verdicts": "out/verdicts.nc",
+            "surfaces": {name: f"out/surfaces/{name}.nc" for name in surfaces},
+            "ensembles": {"case_of_two": "out/ensembles/case_of_two.nc"},
+            "answers": {"case_of_two": "out/cases/case_of_two.nc"},
+            "comparisons": {"case_of_two": "out/fits/case_of_two.nc"},
+            "figures": {figure["name"]: [f"out/a/{figure['name']}.nc"] for figure in figures},
+        },
         claims=claims,
         verdicts=verdicts,
         surfaces=surfaces,
@@ -282,13 +311,14 @@ def test_tables_have_captions_and_scopes(page):
 
 def test_nothing_is_fetched(page):
     reader = Reader(page)
-    assert not reader.attributes("script")
+    assert reader.attributes("script") == [{}]
     for tag, attributes in reader.tags:
         assert not any(name.startswith("on") for name in attributes), tag
         for name in ("src", "srcset", "href", "data", "poster"):
             address = attributes.get(name, "")
             doi = tag == "a" and address.startswith("https://doi.org/10.")
-            assert doi or address.startswith(("#", "data:")) or address == "", address
+            file = tag == "a" and re.fullmatch(r"(\.\./|surfaces/)[\w./]+\.(nc|html)", address)
+            assert doi or file or address.startswith(("#", "data:")) or address == "", address
     assert not re.search(r"@import|url\(", page)
 
 
@@ -305,17 +335,20 @@ def test_every_claim_and_figure_appears(page):
     assert all((image["width"], image["height"]) == ("100", "50") for image in images)
     assert "More {words}." in reader.text
     for erratum in ERRATA:
-        assert erratum.subject in reader.text
+        assert str(_captions.typeset(erratum.subject)) in page
     assert reader.text.count("some number = 0.5") == len(ERRATA)
 
 
 def test_claims_show_value_error_and_files(page):
     text = Reader(page).text
     assert "1.891 ± 0.033" in text
+    assert "grid 0.032, sampling 0.01" in text  # largest first
     assert "−2 quantity 1" in text  # no uncertainty known, none shown
-    assert "below out" in text
-    assert "b/ seed*.nc (2 files)" in text
+    assert "b/ seed1.nc and 1 more" in text
     assert "closed form" in text
+    # The value leads to the first file behind it, a closed form's to the ledger.
+    assert '<a class="data" href="../a/x.nc" title="a/x.nc">1.891 ± 0.033</a>' in page
+    assert '<a class="data" href="../claims.nc" title="claims.nc">−2</a>' in page
 
 
 def test_texts_are_escaped(page):
@@ -329,7 +362,12 @@ def test_texts_are_escaped(page):
 def test_summary_counts(claims, verdicts):
     found = _report.summary(claims, verdicts, [ensemble(), ensemble(seeds=range(1, 5))])
     assert [(name, count) for name, count, _ in found["graded"]] == [(g, 1) for g in GRADES]
-    assert (found["pairs"], found["sticky"], found["depends"], found["not_sticky"]) == (4, 1, 1, 2)
+    assert (found["pairs"], found["sticky"]) == (4, 1)
+    assert [pair[:2] for pair in found["judged"]] == [
+        ("sticky", 1),
+        ("depends", 1),
+        ("not sticky", 2),
+    ]
     assert (found["outside"], found["sticky_outside"]) == (1, 1)
     assert (found["a_v"], found["a_v_range"]) == ("3.21", "2.8 … 4.4")
     assert found["realisations"] == "2 … 4"
@@ -344,14 +382,49 @@ def test_every_verdict_stands_in_its_place(verdicts, surfaces):
         [("depends", False), ("not sticky", False)],
     ]
     sand = matrix["rows"][1]["cells"][0]
-    assert (sand["margin"], sand["threshold"]) == ("0.5 … 2", "2.5 MPa")
+    assert (sand["margin"], sand["limits"]) == ("0.5 … 2", "0.45 … 2.2")
+    assert (sand["threshold"], sand["a_v"]) == ("2.5 MPa", "2 … 4")
     assert matrix["materials"][0]["work_of_adhesion"] == "50 mJ/m²"
 
 
 def test_verdicts_are_worded_on_the_page(page):
     text = Reader(page).text
-    for words in ("sticky † m 8 … 9", "depends m 0.5 … 2", "not sticky m 0.1 E* 2.5 MPa"):
+    for words in (
+        "sticky † m 8 … 9 (7.2 … 9.9) E* 2.5 MPa",
+        "depends m 0.5 … 2 (0.45 … 2.2)",
+        "not sticky m 0.1 (0.09 … 0.11) E* 2.5 MPa",
+    ):
         assert words in text
+
+
+def test_errors_of_a_pair_are_told_where_it_was_drawn(verdicts, surfaces):
+    pairs = _report.verdict_matrix(verdicts, surfaces)["pairs"]
+    assert [(pair["material"], pair["name"]) for pair in pairs][:2] == [
+        ("jelly & cream", "glass"),
+        ("jelly & cream", "sand"),
+    ]
+    on_glass, on_sand = pairs[:2]
+    assert on_glass["probability"] == on_glass["errors"] == "–"
+    assert (on_sand["probability"], on_sand["drawn"]) == ("42 %", "0.5 … 2")
+    assert on_sand["errors"] == "spectrum 30 %, a_V and model 40 %"
+    assert on_sand["error"] == pytest.approx(0.5)
+
+
+@pytest.mark.parametrize(
+    ("text", "html"),
+    [
+        ("u/h_rms, q0 h'_rms", "u/h<sub>rms</sub>, q<sub>0</sub> h&#39;<sub>rms</sub>"),
+        ("a_V,PR ~ zeta^((5H-3)/3)", "a<sub>V,PR</sub> ~ ζ<sup>(5H−3)/3</sup>"),
+        ("C0 = 1e-3 m^0.4", "C<sub>0</sub> = 1e-3 m<sup>0.4</sup>"),
+        ("shape_a q01 x_rms_y", "shape_a q01 x_rms_y"),
+        (
+            "<i> & doi:10.1234/q0",
+            '&lt;i&gt; &amp; <a href="https://doi.org/10.1234/q0">doi:10.1234/q0</a>',
+        ),
+    ],
+)
+def test_symbols_are_set(text, html):
+    assert _captions.typeset(text) == html
 
 
 def test_disagreement_names_pairs_and_direction(verdicts, surfaces):
@@ -399,7 +472,7 @@ def test_theory_is_compared_at_three_loads():
 
 
 def test_run_times_add_up(benchmarks):
-    times = _report.run_times(benchmarks)
+    times = _benchmarks.run_times(benchmarks)
     slow, quick = times["rows"]
     assert slow == {
         "rule": "slow_rule",
@@ -414,17 +487,17 @@ def test_run_times_add_up(benchmarks):
 
 def test_mixed_versions_are_pointed_out(claims):
     other = claims.assign_attrs(version_numpy="1.0")
-    found = _report.provenance([claims, other], [])
+    found = _provenance.provenance([claims, other], [])
     assert found["versions"] == [("numpy", "1.0, 9.8.7")]
     assert found["mixed"] == ["numpy"]
-    assert _report.provenance([claims, claims], [])["mixed"] == []
+    assert _provenance.provenance([claims, claims], [])["mixed"] == []
 
 
 @pytest.mark.parametrize(
     ("seeds", "want"), [((1, 2), "multilevel: 32 coarse, 100 described"), ((5,), "plain")]
 )
 def test_estimator_of_an_ensemble_is_named(seeds, want):
-    (row,) = _report.provenance([], [ensemble(seeds=seeds)])["ensembles"]
+    (row,) = _provenance.provenance([], [ensemble(seeds=seeds)])["ensembles"]
     assert row["means"] == want
 
 

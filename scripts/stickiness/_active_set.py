@@ -17,9 +17,9 @@ import pyfftw
 from stickiness import fourier
 from stickiness._precondition import Preconditioner
 
-__all__ = ["State", "relax"]
+__all__ = ["PREDICTION", "State", "relax"]
 
-_PREDICTION = 0.7  # c in "contact where p > c k g": 0.5 to 1 predict about equally well
+PREDICTION = 0.7  # c in "contact where p > c k g": 0.5 to 1 predict about equally well
 _LOOSE = 0.15  # reduction of the gap on a set that is still changing much
 _CLOSER = 0.03  # and on one that changes little
 _SETTLED = 1e-3  # share of changing points below which a set changes little
@@ -260,7 +260,7 @@ def _predicted_from_gap(grid, gap, load):
     np.add(gap, grid.heights, out=surface, casting="same_kind")
     pressure = operator.stiffness(surface)
     pressure += np.float32(load)
-    np.multiply(gap, np.float32(_PREDICTION * operator.mean_stiffness), out=surface)
+    np.multiply(gap, np.float32(PREDICTION * operator.mean_stiffness), out=surface)
     np.maximum(surface, 0, out=surface)
     points = np.flatnonzero(pressure > surface)
     if points.size == 0:
@@ -275,7 +275,7 @@ def _predicted_from_pressure(grid, pressure, total):
     points = np.flatnonzero(flat > 0)
     shift, *_ = _gap(grid, grid.exact, points, _balanced(flat[points], total))
     threshold = grid.exact.image + shift
-    threshold *= _PREDICTION * grid.exact.operator.mean_stiffness * (flat.sum() / total)
+    threshold *= PREDICTION * grid.exact.operator.mean_stiffness * (flat.sum() / total)
     predicted = np.flatnonzero(flat > np.maximum(threshold, 0))
     if predicted.size:
         points = predicted

@@ -15,6 +15,8 @@ import numpy as np
 
 from stickiness._adhesive_descent import descend
 from stickiness._adhesive_problem import FrozenTraction, with_law
+from stickiness._adhesive_quick import quick_descent, suits
+from stickiness._adhesive_start import from_coarser_grids, has_coarser_grids, without_adhesion
 from stickiness._adhesive_state import State, balanced, evaluate, lowered
 
 __all__ = ["relax"]
@@ -32,8 +34,8 @@ def relax(problem, gap, tol, max_iterations, closing=True, logger=None):
     ----------
     problem : Problem
         What is to be solved.
-    gap : numpy.ndarray
-        Start; has the mean gap if that is prescribed.
+    gap : numpy.ndarray or None
+        Start; has the mean gap if that is prescribed. None stands for loading from afar.
     tol : float
         Residual to reach.
     max_iterations : int
@@ -52,9 +54,16 @@ def relax(problem, gap, tol, max_iterations, closing=True, logger=None):
     """
     watch = _Watch(problem, logger)
     run = _relax_smooth if problem.law.smooth else _relax_frozen
-    spent = 0
+    spent, state, work = 0, None, []
+    if gap is None:
+        if has_coarser_grids(problem):
+            state = from_coarser_grids(problem, tol, max_iterations, watch, work)
+        if state is None:
+            gap, pairs = without_adhesion(problem, max_iterations)
+            work.append(pairs * gap.size)
     for _ in range(_ESCAPES):
-        state = run(problem, gap, tol, max_iterations - spent, watch)
+        if state is None or gap is not None:
+            state = run(problem, gap, tol, max_iterations - spent, watch)
         spent += state.iterations
         state.iterations = spent
         if watch.separated or not state.residual <= tol or spent >= max_iterations:
@@ -65,6 +74,7 @@ def relax(problem, gap, tol, max_iterations, closing=True, logger=None):
         if mode is None:
             break
         gap = _left(problem, state, mode, closing)
+    state.start_pairs = sum(work) / state.gap.size
     return state, watch.separated
 
 
@@ -88,7 +98,15 @@ class _Watch:
 
 
 def _relax_smooth(problem, gap, tol, max_iterations, watch):
-    return descend(problem, gap, tol, max_iterations, watch)
+    spent = 0
+    if suits(problem):
+        state, finished = quick_descent(problem, gap, tol, max_iterations, watch)
+        if finished:
+            return state
+        gap, spent = state.gap, state.iterations
+    state = descend(problem, gap, tol, max_iterations - spent, watch)
+    state.iterations += spent
+    return state
 
 
 def _relax_frozen(problem, gap, tol, max_iterations, watch):

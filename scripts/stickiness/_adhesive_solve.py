@@ -5,8 +5,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from stickiness import repulsive
-from stickiness._adhesive_descent import descend
-from stickiness._adhesive_problem import FrozenTraction, Problem, Surface
+from stickiness._adhesive_problem import Problem, Surface
 from stickiness._adhesive_relax import relax
 from stickiness._adhesive_state import lowered
 from stickiness.repulsive import ConvergenceError
@@ -15,7 +14,6 @@ __all__ = ["Adhesion", "ConvergenceError", "PullOffError", "solve"]
 
 APPROACH, SEPARATION = "approach", "separation"
 _CLOSEST = 0.9  # of the range: penetration of a start, or in the mean, without a wall
-_ROUGH = 1e-3  # tolerance of a solution without adhesion that is only a start
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,7 +33,11 @@ class Adhesion:
         Positive and negative part of `pressure`, each averaged over the nominal area and
         positive: their difference is `mean_pressure` (to the residual).
     repulsive_area_fraction : float
-        Share of points at the wall, or with a negative gap if the law has no wall.
+        Share of points at the wall, or with a negative gap if the law has no wall: contact,
+        under whatever pressure.
+    net_repulsive_area_fraction : float
+        Share of those where the net pressure is compressive: next to the edge of contact the
+        attraction outweighs the wall's push.
     adhesive_area_fraction : float
         Share of other points with a gap up to the range.
     mean_gap : float
@@ -68,6 +70,7 @@ class Adhesion:
     repulsive_pressure: float
     adhesive_pressure: float
     repulsive_area_fraction: float
+    net_repulsive_area_fraction: float
     adhesive_area_fraction: float
     mean_gap: float
     elastic_energy: float
@@ -128,10 +131,12 @@ def solve(
     mean_gap : float
         Mean gap, same unit as the heights.
     start : str, Adhesion, repulsive.Contact or array_like, optional
-        "approach" (default): from the solution without adhesion at the same control; under
-        tension, from the adhesive solution at zero pressure. "separation": from full contact,
-        at a prescribed pressure only (`path` follows a mean gap back). Or any state on the same
-        grid, or its gap: the start of a descent.
+        "approach" (default): as from the solution without adhesion at the same control; under
+        tension, from the adhesive solution at zero pressure. At a prescribed pressure coarser
+        grids lead there, unless a descent on any of them meets negative curvature, which a jump
+        would; a `repulsive.Contact` as the start does without them. "separation": from full
+        contact, at a prescribed pressure only (`path` follows a mean gap back). Or any state on
+        the same grid, or its gap: the start of a descent.
     tol : float
         Largest accepted `Adhesion.residual`.
     max_iterations : int
@@ -198,7 +203,8 @@ def relaxed(
         problem, gap, tol, max_iterations, closing=branch == APPROACH, logger=logger
     )
     state.iterations += spent[0]
-    result = scaled.adhesion(state, branch, problem, scaled.surface.pairs - before + spent[1])
+    pairs = scaled.surface.pairs - before + state.start_pairs + spent[1]
+    result = scaled.adhesion(state, branch, problem, pairs)
     if pressure is not None:  # as given, not as scaled there and back
         result = replace(result, mean_pressure=float(pressure))
     if separated:
@@ -315,6 +321,7 @@ class Scaled:
             repulsive_pressure=float(np.mean(np.maximum(net, 0))),
             adhesive_pressure=float(np.mean(np.maximum(-net, 0))),
             repulsive_area_fraction=float(np.mean(touching)),
+            net_repulsive_area_fraction=float(np.mean(touching & (net > 0))),
             adhesive_area_fraction=float(np.mean(near)),
             mean_gap=float(gap.mean()) * self.height,
             elastic_energy=elastic * energy,
@@ -331,43 +338,21 @@ class Scaled:
 
 
 def _first_gap(scaled, start, pressure, mean_gap, tol, max_iterations):
-    """Start of the descent in scaled units, its branch, and iterations and convolutions spent."""
-    shape = scaled.surface.heights.shape
+    """Start of the descent, its branch, and iterations and convolutions spent.
+
+    The start is in scaled units, or None for loading from afar.
+    """
     nothing = (0, 0.0)
     if isinstance(start, str) and start == SEPARATION:
-        return np.zeros(shape), SEPARATION, nothing
+        return np.zeros(scaled.surface.heights.shape), SEPARATION, nothing
     if start is not None and not isinstance(start, str):
         return scaled.first_gap(start, mean_gap), getattr(start, "branch", APPROACH), nothing
-    if mean_gap is not None:
-        gap, pairs = _without_adhesion(scaled, mean_gap / scaled.height, max_iterations)
-        return gap, APPROACH, (0, pairs)
-    if pressure >= 0:
-        contact = repulsive.solve(
-            scaled.surface.heights, scaled.surface.sides, pressure / scaled.stress, tol=_ROUGH
-        )
-        return contact.gap, APPROACH, (0, contact.fft_pairs)
-    gap, _, (_, pairs) = _first_gap(scaled, None, 0.0, None, tol, max_iterations)
+    if mean_gap is not None or pressure >= 0:
+        return None, APPROACH, nothing
     before = scaled.surface.pairs
-    state, _ = relax(scaled.problem(pressure=0.0), gap, tol, max_iterations)
-    return state.gap, APPROACH, (state.iterations, pairs + scaled.surface.pairs - before)
-
-
-def _without_adhesion(scaled, mean, max_iterations):
-    """Gap of the solution without adhesion at a mean gap, and the convolutions it took."""
-    gap = mean - scaled.surface.heights
-    if gap.min() >= 0:
-        return gap, 0.0
-    if mean <= 0:
-        return np.full(gap.shape, mean), 0.0
-    before = scaled.surface.pairs
-    problem = Problem(
-        scaled.surface,
-        FrozenTraction(0.0, scaled.law.range),
-        scaled.residual_unit,
-        mean_gap=mean,
-    )
-    gap = descend(problem, lowered(gap, mean), _ROUGH, max_iterations).gap
-    return gap, scaled.surface.pairs - before
+    state, _ = relax(scaled.problem(pressure=0.0), None, tol, max_iterations)
+    pairs = scaled.surface.pairs - before + state.start_pairs
+    return state.gap, APPROACH, (state.iterations, pairs)
 
 
 def _check_control(pressure, mean_gap, law):

@@ -41,6 +41,8 @@ class State:
         Iterations so far.
     last_run : int
         Iterations since a direction of negative curvature was met.
+    start_pairs : float
+        Convolutions that the start took, those on coarser grids by their share of the points.
     """
 
     gap: np.ndarray
@@ -54,6 +56,7 @@ class State:
     residual: float = np.inf
     iterations: int = 0
     last_run: int = 0
+    start_pairs: float = 0.0
 
     @classmethod
     def empty(cls, shape):

@@ -1,4 +1,4 @@
-"""Checks and conversions of arguments that closed-form functions share."""
+"""Checks and conversions of arguments that public functions share."""
 
 from __future__ import annotations
 
@@ -6,15 +6,99 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 
+def numbers(name: str, value: ArrayLike) -> NDArray:
+    """Return `value` as an array of floats; ValueError unless it holds real numbers."""
+    array = np.asarray(value)
+    if array.dtype.kind not in "biuf":
+        raise ValueError(f"{name} must be a number, got {value!r}")
+    return np.asarray(array, dtype=float)
+
+
 def positive(**values: ArrayLike) -> tuple[NDArray, ...]:
     """Return the named values as float arrays; ValueError unless all are positive and finite."""
     arrays = []
     for name, value in values.items():
-        array = np.asarray(value, dtype=float)
+        array = numbers(name, value)
         if not (np.all(np.isfinite(array)) and np.all(array > 0)):
             raise ValueError(f"{name} must be positive and finite, got {value!r}")
         arrays.append(array)
     return tuple(arrays)
+
+
+def finite(**values: ArrayLike) -> tuple[NDArray, ...]:
+    """Return the named values as float arrays; ValueError unless all are finite."""
+    arrays = []
+    for name, value in values.items():
+        array = numbers(name, value)
+        if not np.all(np.isfinite(array)):
+            raise ValueError(f"{name} must be finite, got {value!r}")
+        arrays.append(array)
+    return tuple(arrays)
+
+
+def nonnegative(**values: ArrayLike) -> tuple[NDArray, ...]:
+    """Return the named values as float arrays; ValueError if any is negative or NaN."""
+    arrays = []
+    for name, value in values.items():
+        array = numbers(name, value)
+        if not np.all(array >= 0):
+            raise ValueError(f"{name} must not be negative or NaN, got {value!r}")
+        arrays.append(array)
+    return tuple(arrays)
+
+
+def number(name: str, value: float, *, zero: bool = False, most: float = np.inf) -> float:
+    """Return one positive (or, if `zero` is allowed, non-negative) finite number of at most `most`.
+
+    Raises
+    ------
+    ValueError
+        Naming the argument and its value otherwise.
+    """
+    array = numbers(name, value)
+    allowed = array.ndim == 0 and np.isfinite(array) and (array > 0 or (zero and array == 0))
+    if not (allowed and array <= most):
+        kind = "non-negative" if zero else "positive"
+        limit = f"at most {most:g}" if np.isfinite(most) else "finite"
+        raise ValueError(f"{name} must be {kind} and {limit}, got {value!r}")
+    return float(array)
+
+
+def integer(name: str, value: int, least: int) -> int:
+    """Return `value` as an int; ValueError unless it is a whole number of at least `least`."""
+    whole = isinstance(value, (int, np.integer)) and not isinstance(value, bool)
+    if not whole and isinstance(value, float):
+        whole = value.is_integer()
+    if not whole or value < least:
+        raise ValueError(f"{name} must be an integer of at least {least}, got {value!r}")
+    return int(value)
+
+
+def grid(name: str, values: ArrayLike, square: bool = False) -> NDArray:
+    """Return values on a grid ``(n0, n1)`` as floats in C order.
+
+    Raises
+    ------
+    ValueError
+        If they are masked, no real numbers, not finite, not on a grid, or, where it has to be, not
+        on a square one.
+    """
+    masked = int(np.count_nonzero(np.ma.getmask(values)))
+    if masked:
+        raise ValueError(
+            f"{name} must not be masked, got {masked} masked points: fill them or cut them off"
+        )
+    array = np.asarray(values)
+    if array.dtype.kind not in "iuf":
+        raise ValueError(f"{name} must be real numbers, got an array of {array.dtype}")
+    array = np.ascontiguousarray(array, dtype=float)
+    if array.ndim != 2 or array.size == 0 or (square and array.shape[0] != array.shape[1]):
+        shape = "square array (n, n)" if square else "grid (n0, n1)"
+        raise ValueError(f"{name} must be a {shape}, got shape {array.shape}")
+    bad = array.size - int(np.count_nonzero(np.isfinite(array)))
+    if bad:
+        raise ValueError(f"{name} must be finite, got {bad} NaN or infinite values")
+    return array
 
 
 def plain(value: ArrayLike) -> bool | float | NDArray:

@@ -13,7 +13,7 @@ done on the points of contact only.
 import numpy as np
 from scipy import sparse
 
-__all__ = ["Preconditioner"]
+__all__ = ["Preconditioner", "beside", "rows_of_eight"]
 
 _EXTENSION = 0.8  # weight of the residual extended beyond the edge of contact
 _DIAGONAL = 0.6  # weight of a diagonal neighbour beside a direct one
@@ -45,21 +45,13 @@ class Preconditioner:
     def _extend(self, grid):
         points = self.points
         grid.active[points] = True
-        band = np.flatnonzero(_surroundings(grid.active.reshape(grid.shape)))
+        band, columns, weights = beside(grid.active, grid.shape)
+        grid.active[points] = False
         position = grid.quick.image.view(np.int32)  # scratch: not in use here
         position[points] = np.arange(points.size, dtype=np.int32)
-        # Eight entries a row, those of neighbours out of contact being zero: no sorting needed.
-        columns = np.zeros((band.size, 8), np.int32)
-        weights = np.zeros((band.size, 8), np.float32)
-        for i, (neighbour, weight) in enumerate(_neighbours(band, grid.shape)):
-            touching = grid.active[neighbour]
-            weights[:, i] = np.float32(weight) * touching
-            columns[:, i] = np.where(touching, position[neighbour], 0)
-        grid.active[points] = False
-        weights *= np.float32(_EXTENSION) / (1 + weights.sum(axis=1, keepdims=True))
-        starts = np.arange(0, 8 * band.size + 1, 8, dtype=np.int32)
-        size = (band.size, points.size)
-        self.extension = sparse.csr_array((weights.ravel(), columns.ravel(), starts), shape=size)
+        self.extension = rows_of_eight(
+            weights * np.float32(_EXTENSION), position[columns], points.size
+        )
         self.transpose = self.extension.T
         self.every = np.concatenate([points, band])
 
@@ -78,6 +70,43 @@ class Preconditioner:
         image = self.corners @ self.coarse.apply(self.restrict @ values)
         image += self.coarse.constant * values
         return image
+
+
+def beside(active, shape):
+    """Points beside an active set, with means over their active neighbours.
+
+    Parameters
+    ----------
+    active : numpy.ndarray of bool
+        Flat, periodic, not empty.
+    shape : tuple of int
+        Of the grid.
+
+    Returns
+    -------
+    band : numpy.ndarray of int
+        Flat indices of the points that are not active but next to one that is.
+    columns, weights : numpy.ndarray
+        Flat indices ``(band.size, 8)`` of active points, and their weights: zero for an entry that
+        stands for a neighbour that is not active, their sum below one.
+    """
+    band = np.flatnonzero(_surroundings(active.reshape(shape)))
+    first = int(np.argmax(active))
+    columns = np.zeros((band.size, 8), np.int32)
+    weights = np.zeros((band.size, 8), np.float32)
+    for i, (neighbour, weight) in enumerate(_neighbours(band, shape)):
+        touching = active[neighbour]
+        weights[:, i] = np.float32(weight) * touching
+        columns[:, i] = np.where(touching, neighbour, first)
+    weights /= 1 + weights.sum(axis=1, keepdims=True)
+    return band, columns, weights
+
+
+def rows_of_eight(weights, columns, width):
+    """Sparse matrix of eight entries a row, those of neighbours that do not count being zero."""
+    starts = np.arange(0, weights.size + 1, 8, dtype=np.int32)
+    shape = (weights.shape[0], width)
+    return sparse.csr_array((weights.ravel(), columns.ravel(), starts), shape=shape)
 
 
 def _surroundings(active):

@@ -38,6 +38,12 @@ __all__ = [
 _LJ_PEAK = 3.0 ** (1 / 6)
 
 
+def _reals(gap: ArrayLike) -> NDArray:
+    """Gaps as an array of floating point numbers, in single precision if they are."""
+    gap = np.asarray(gap)
+    return gap if np.issubdtype(gap.dtype, np.floating) else gap.astype(float)
+
+
 @dataclass(frozen=True)
 class TractionLaw(ABC):
     """Attraction between two smooth half-spaces at a uniform gap.
@@ -159,7 +165,7 @@ class Exponential(TractionLaw):
 
     def traction(self, gap: ArrayLike) -> NDArray:
         """Traction [E*] at `gap` [length]."""
-        return self.maugis_stress * np.exp(-np.asarray(gap, dtype=float) / self.range)
+        return self.maugis_stress * np.exp(_reals(gap) / -self.range)
 
     def derivative(self, gap: ArrayLike) -> NDArray:
         """Derivative of the traction with respect to the gap [E*/length]."""

@@ -16,7 +16,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ._arguments import plain, positive
+from ._arguments import finite, plain, positive
 
 JTB_CONSTANT = 4 / 75
 
@@ -80,7 +80,8 @@ def inverse_kappa(inverse_kappa_ad: ArrayLike, kappa_rep: ArrayLike = 2.0) -> fl
     kappa is the slope of A_rep/A_nom against p/(E* h'_rms), p the external pressure.
     """
     (kappa_rep,) = positive(kappa_rep=kappa_rep)
-    return plain(1 / kappa_rep - np.asarray(inverse_kappa_ad, dtype=float))
+    (inverse_kappa_ad,) = finite(inverse_kappa_ad=inverse_kappa_ad)
+    return plain(1 / kappa_rep - inverse_kappa_ad)
 
 
 def kappa(inverse_kappa_ad: ArrayLike, kappa_rep: ArrayLike = 2.0) -> float | NDArray:
@@ -97,7 +98,8 @@ def slope_angle(inverse_kappa: ArrayLike) -> float | NDArray:
     at the threshold (pi/2) towards the negative load axis (pi), so the angle lies in (0, pi) and
     the contact is sticky above pi/2.
     """
-    return plain(np.pi / 2 - np.arctan(np.asarray(inverse_kappa, dtype=float)))
+    (inverse_kappa,) = finite(inverse_kappa=inverse_kappa)
+    return plain(np.pi / 2 - np.arctan(inverse_kappa))
 
 
 def h_rms_limit(
@@ -136,6 +138,8 @@ def violano_c0_limit(
         zeta = q1/q0 > 1; infinite for a broad band.
     """
     hurst, q0 = positive(hurst=hurst, q0=q0)
+    if not np.all(hurst <= 1):
+        raise ValueError(f"hurst must be in (0, 1], got {hurst!r}")
     magnification = np.asarray(magnification, dtype=float)
     if not np.all(magnification > 1):
         raise ValueError(f"magnification must exceed 1, got {magnification!r}")

@@ -133,6 +133,8 @@ def estimate(
         raise ValueError(f"quantity must be one of {', '.join(RULES)}, got {quantity!r}")
     if len(values) not in (2, 3):
         raise ValueError(f"values must be those of two or three grids, got {len(values)}")
+    if not all(np.all(np.isfinite(each)) for each in (*values, part)):
+        raise ValueError("values and part must be finite, got NaN or infinite ones")
     rule = RULES[quantity]
     change = values[-1] - values[-2]
     square = change**2

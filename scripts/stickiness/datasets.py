@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import shutil
 import tempfile
 from collections.abc import Iterable, Mapping
 from importlib.metadata import version
@@ -21,6 +22,10 @@ _CODES = ("numpy", "scipy", "pyfftw", "xarray", "netCDF4")
 
 class DatasetError(ValueError):
     """A file between stages is missing, unreadable or lacks what the reader needs."""
+
+
+class WriteError(DatasetError, OSError):
+    """A file could not be written."""
 
 
 def provenance() -> dict[str, str]:
@@ -63,6 +68,8 @@ def write(
     ------
     DatasetError
         If a variable lacks one of these texts.
+    WriteError
+        If the disk is full, may not be written to, or fails; an old file is left as it was.
     """
     path = Path(path)
     for name in dataset.variables:
@@ -77,14 +84,18 @@ def write(
         title=title,
         Conventions="CF-1.11",
         parameters=json.dumps(parameters, sort_keys=True),
+        written_as="/".join(_place(path)),
         **provenance(),
     )
     with whole_file(path) as temporary:
-        dataset.to_netcdf(temporary, engine="netcdf4")
+        try:
+            dataset.to_netcdf(temporary, engine="netcdf4")
+        except RuntimeError as error:  # what netCDF4 makes of a failing disk
+            raise OSError(str(error)) from None
 
 
 def read(path: str | Path, variables: Iterable[str] = ()) -> xr.Dataset:
-    """Read a dataset into memory and check that it holds `variables`.
+    """Read a dataset into memory, check that it is the one of this name and holds `variables`.
 
     Raises
     ------
@@ -101,6 +112,7 @@ def read(path: str | Path, variables: Iterable[str] = ()) -> xr.Dataset:
         raise DatasetError(
             f"{path}: not a readable NetCDF file ({error}); delete it and re-run"
         ) from None
+    _check_origin(dataset, path)
     missing = [name for name in variables if name not in dataset.variables]
     if missing:
         raise DatasetError(f"{path}: lacks the variable {missing[0]!r}; delete it and re-run")
@@ -112,13 +124,36 @@ def parameters(dataset: xr.Dataset) -> dict[str, Any]:
     return json.loads(dataset.attrs["parameters"])
 
 
+def _check_origin(dataset: xr.Dataset, path: Path) -> None:
+    """Refuse a file that no stage wrote, or that was written as another one and put here."""
+    if "parameters" not in dataset.attrs:
+        raise DatasetError(f"{path}: not written by this project; delete it and re-run")
+    written_as = dataset.attrs.get("written_as", path.name)
+    if not path.absolute().as_posix().endswith(f"/{written_as}"):
+        raise DatasetError(f"{path}: holds what belongs in {written_as}; delete it and re-run")
+
+
+def _place(path: Path) -> tuple[str, ...]:
+    """Last parts of a path: what tells a result from others, wherever all of them are moved."""
+    return path.parts[1:] if not path.is_absolute() and len(path.parts) > 1 else path.parts[-2:]
+
+
 class whole_file:  # noqa: N801 (a context manager, used as a verb)
-    """Context manager: a temporary path that replaces `path` on success and vanishes on failure."""
+    """Context manager: a temporary path that replaces `path` on success and vanishes on failure.
+
+    What the operating system refuses is raised as a `WriteError` that names `path`.
+    """
 
     def __init__(self, path: str | Path):
         self._path = Path(path)
 
     def __enter__(self) -> Path:
+        try:
+            return self._made()
+        except OSError as error:
+            raise self._failure(error) from None
+
+    def _made(self) -> Path:
         folder, name, suffix = self._path.parent, self._path.name, self._path.suffix
         folder.mkdir(parents=True, exist_ok=True)
         # What a killed job left. Should an orphan still write to it, only its own end fails.
@@ -129,12 +164,31 @@ class whole_file:  # noqa: N801 (a context manager, used as a verb)
         self._temporary = Path(name)
         return self._temporary
 
-    def __exit__(self, kind: type | None, *_: object) -> None:
+    def __exit__(self, kind: type | None, error: BaseException | None, _: object) -> None:
         if kind is None:
-            self._temporary.chmod(0o666 & ~_umask())
-            self._temporary.replace(self._path)
+            try:
+                self._temporary.chmod(0o666 & ~_umask())
+                self._temporary.replace(self._path)
+            except OSError as failed:
+                raise self._failure(failed) from None
         else:
             self._temporary.unlink(missing_ok=True)
+            if isinstance(error, OSError):
+                raise self._failure(error) from None
+
+    def _failure(self, error: OSError) -> WriteError:
+        """The error with what may have caused it: who may write here, and the room left."""
+        folder = self._path.parent
+        while not os.path.exists(folder):  # which is False, too, where one may not look
+            folder = folder.parent
+        if isinstance(error, PermissionError) or not os.access(folder, os.W_OK):
+            remedy = f"allow writing in {folder}"
+        else:
+            free = shutil.disk_usage(folder).free / 1e6
+            remedy = f"{free:.0f} MB are free in {folder}; make room"
+        return WriteError(
+            f"{self._path}: could not be written ({error}): {remedy} and run the same command again"
+        )
 
 
 def _umask() -> int:

@@ -36,6 +36,7 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import brentq
 from scipy.special import erf
 
+from ._arguments import finite, nonnegative, number, positive
 from .persson_gaps import GapProfile, Setting, closure_error, gap_profile
 from .persson_gaps import cumulative as _cumulative
 from .persson_gaps import density as _density
@@ -67,7 +68,8 @@ class Persson:
     nodes : float
         Multiplies the number of quadrature nodes. 1 errs by less than 1e-9 in the area and the mean
         gap, 5e-7 in P(u) and its integral and 1e-10 in the normalisation, for magnifications from
-        1.001 to 1e8; 0.5 by 1e-4 in P(u), 1.5 by 3e-8 and 2 by 1e-8.
+        1.001 to 1e8; 0.5 by 1e-4 in P(u), 1.5 by 3e-8 and 2 by 1e-8. Next to full contact, in
+        spectra broader than about 1e5, P(u) errs by 5e-6, its integral by 2e-7 of the open area.
     correction : {"yang2008", "wang2017", "xu2024"}
         How lost contact slows the diffusion of pressure and lowers the elastic energy:
         `persson_kernels.Yang2008` (doi:10.1088/0953-8984/20/21/215214), `Wang2017` or `Xu2024`.
@@ -99,10 +101,11 @@ class Persson:
         nodes: float = 1.0,
         correction: CorrectionName = "yang2008",
     ):
+        if not isinstance(spectrum, Spectrum):
+            raise ValueError(f"spectrum must be a Spectrum, got {type(spectrum).__name__}")
         if variant not in _VARIANTS:
             raise ValueError(f"variant must be one of {_VARIANTS}, got {variant!r}")
-        if not (np.isfinite(nodes) and nodes > 0):
-            raise ValueError(f"nodes must be positive and finite, got {nodes!r}")
+        nodes = number("nodes", nodes)
         universal = kernels(gamma, correction)
         self.spectrum, self.variant, self.nodes = spectrum, variant, nodes
         self.correction, self.gamma = correction, universal.correction.gamma
@@ -126,13 +129,15 @@ class Persson:
         -------
         array of the shape of `p`
         """
-        p = np.asarray(p, dtype=float)
-        if not np.all(np.isfinite(p) & (p >= 0)):
+        (p,) = finite(p=p)
+        if not np.all(p >= 0):
             raise ValueError(f"p must be finite and not negative, got {p!r}")
         m = self._setting.m2
         if magnification is not None:
-            if not magnification >= 1:
-                raise ValueError(f"magnification must be at least 1, got {magnification!r}")
+            if np.ndim(magnification) or not magnification >= 1:
+                raise ValueError(
+                    f"magnification must be a number of at least 1, got {magnification!r}"
+                )
             q = magnification * self.spectrum.q0
             m = 0.5 * float(self.spectrum.variance_below(q, 2))
         if m == 0:
@@ -146,7 +151,7 @@ class Persson:
         Persson 2007 (doi:10.1103/PhysRevLett.99.125502), corrected as in Yang & Persson 2008. Its
         integral over `p` is the elastic energy of full contact.
         """
-        p = _positive("p", p)
+        (p,) = positive(p=p)
         s = np.sqrt(self._setting.scales.fine.below)
         x2 = (p[..., None] / s) ** 2
         kernel = s * np.exp(-x2) * self._setting.kernels.mean_kernel(x2)
@@ -160,7 +165,7 @@ class Persson:
         ValueError
             If the gap is so large or so small that the pressure is out of floating-point range.
         """
-        target = _positive("mean_gap", mean_gap)
+        (target,) = positive(mean_gap=mean_gap)
         return np.vectorize(self._pressure_at, otypes=[float])(target)[()]
 
     def gap_density(self, u: ArrayLike, p: ArrayLike) -> NDArray:
@@ -209,7 +214,7 @@ class Persson:
         The theory does not make it equal to `mean_gap`; the difference measures how well P(u)
         closes.
         """
-        p = _positive("p", p)
+        (p,) = positive(p=p)
         errors = [closure_error(self._profile(float(x), _REACH)) for x in p.ravel()]
         return self.mean_gap(p) + np.reshape(errors, p.shape)[()]
 
@@ -232,10 +237,8 @@ class Persson:
         return float(np.exp(brentq(excess, low, high, xtol=1e-13, rtol=1e-13)))
 
     def _over_gaps(self, u: ArrayLike, p: ArrayLike, evaluate) -> NDArray:
-        p = _positive("p", p)
-        u = np.asarray(u, dtype=float)
-        if not np.all(u >= 0):
-            raise ValueError(f"u must not be negative, got {u!r}")
+        (p,) = positive(p=p)
+        (u,) = nonnegative(u=u)
         finite = u[np.isfinite(u)]
         largest = float(np.max(finite, initial=0.0)) / self.spectrum.h_rms
         # In powers of two, so that profiles are shared between calls.
@@ -250,10 +253,3 @@ class Persson:
                 self._profiles.clear()
             self._profiles[p, reach] = gap_profile(self._setting, p, reach)
         return self._profiles[p, reach]
-
-
-def _positive(name: str, value: ArrayLike) -> NDArray:
-    value = np.asarray(value, dtype=float)
-    if not np.all(np.isfinite(value) & (value > 0)):
-        raise ValueError(f"{name} must be positive and finite, got {value!r}")
-    return value

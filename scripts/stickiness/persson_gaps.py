@@ -19,6 +19,7 @@ _SMALLEST_LOG = 45.0  # gaps below exp(-45) of the others count as zero
 _TAIL_LOG = 38.0  # area lost beyond holds less than exp(-38) of what is lost in all
 _ORDER = 10  # of Gauss quadrature on panels
 _PANEL = 1.4  # change over a panel, see `_panel_edges`
+_MOST_MOVES = 2000  # panels laid for Gaussians that move by many of their widths
 _MANY_PANELS = 350  # from there on those that see little change get half the nodes
 _LOOK, _LOOK_FAR = 0.2, 0.5  # steps in ln(y - y_end) and y^2 of the look that panels are laid by
 _MOST_SHELLS, _MOST_KNOTS = 600, 250  # that edges of panels keep to
@@ -111,14 +112,19 @@ def gap_profile(setting: Setting, p: float, reach: float) -> GapProfile:
         Gaps up to this many h_rms are resolved.
     """
     y_end = float(setting.kernels.invert_area_scale(setting.m2 / p**2))
-    start, log_step, weight = _panel_nodes(*_panel_edges(setting, p, y_end, reach))
+    edges, change, thinned = _panel_edges(setting, p, y_end, reach)
+    start, log_step, weight = _panel_nodes(edges, change)
     lost = _LostContact.at(setting, p, y_end, log_step)
     gap = np.exp(_log_gap(setting, p, lost))
+    width = _width(setting, lost, gap)
+    if thinned:  # narrower than they are apart they would make a comb of P(u)
+        apart = np.where(gap < reach * setting.spectrum.h_rms, np.abs(np.gradient(gap)), 0.0)
+        width = np.maximum(width, apart)
     area_per_log_step = 2 / np.sqrt(np.pi) * np.exp(-(lost.y**2)) * lost.step
     # of the two complementary differences the one with more digits
     ends = np.array([y_end, y_end + np.exp(start)])
     closed = float(np.diff(erf(ends))[0] if y_end < 0.5 else -np.diff(erfc(ends))[0])
-    return GapProfile(weight * area_per_log_step, gap, _width(setting, lost, gap), closed)
+    return GapProfile(weight * area_per_log_step, gap, width, closed)
 
 
 def _panel_nodes(edges: NDArray, change: NDArray) -> tuple[float, NDArray, NDArray]:
@@ -186,17 +192,23 @@ def _width(setting: Setting, lost: _LostContact, gap: NDArray) -> NDArray:
     return gap * h / np.hypot(gap, h)
 
 
-def _panel_edges(setting: Setting, p: float, y_end: float, reach: float) -> tuple[NDArray, NDArray]:
+def _panel_edges(
+    setting: Setting, p: float, y_end: float, reach: float
+) -> tuple[NDArray, NDArray, bool]:
     """Edges of panels in ln(y - y_end).
 
     Over each the Gaussians move by some four of their widths at most, their widths and the area
-    that is left change by factors that ten nodes follow, and nothing has a strong kink.
+    that is left change by factors that ten nodes follow, and nothing has a strong kink. Next to
+    full contact of a broad spectrum, where they are thousands of times narrower than far from
+    zero, their moves are larger.
 
     Returns
     -------
     edges : (k + 1,) array
     change : (k,) array
         Over each panel; 1 where ten nodes are needed.
+    thinned : bool
+        Whether the Gaussians move by more than four of their widths.
     """
     low, high = _step_range(setting, y_end)
     probe = np.linspace(low, high, 300)
@@ -213,13 +225,16 @@ def _panel_edges(setting: Setting, p: float, y_end: float, reach: float) -> tupl
     seen = np.minimum(gap, reach * setting.spectrum.h_rms)
     centre = 0.5 * (width[1:] + width[:-1])
     change = 0.5 * np.diff(grid) + 0.6 * np.abs(np.diff(np.log(width)))
-    change += 0.3 * np.abs(np.diff(seen)) / centre + 0.3 * np.diff(lost.y**2)
+    moves = 0.3 * np.abs(np.diff(seen)) / centre
+    most = _MOST_MOVES * _PANEL
+    thinned = bool(moves.sum() > most)
+    change += moves * (most / moves.sum() if thinned else 1.0) + 0.3 * np.diff(lost.y**2)
     change += 0.2 * np.abs(np.diff(np.maximum(log_gap, np.log(width))))
     total = np.append(0.0, np.cumsum(change))
     count = int(np.ceil(total[-1] * setting.nodes / _PANEL))
     even = np.interp(np.linspace(0, total[-1], count + 1), total, grid)
     edges = np.union1d(even, np.append(breaks, onsets))
-    return edges, np.diff(np.interp(edges, grid, total)) * setting.nodes / _PANEL
+    return edges, np.diff(np.interp(edges, grid, total)) * setting.nodes / _PANEL, thinned
 
 
 def _breaks(setting: Setting, p: float, y_end: float) -> tuple[NDArray, NDArray]:

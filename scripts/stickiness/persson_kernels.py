@@ -61,9 +61,10 @@ class Correction(ABC):
 class Yang2008(Correction):
     """S = gamma + (1 - gamma) A^2, of Yang & Persson 2008 (doi:10.1088/0953-8984/20/21/215214).
 
-    The theory of 2001 at gamma = 1. Sources take 0.42 to 0.5; 0.45 is what Almqvist et al. 2011
-    (doi:10.1016/j.jmps.2011.08.004) and Afferrante et al. 2018 (doi:10.1007/s11249-018-1026-x)
-    are compared with.
+    The theory of 2001 at gamma = 1. Sources take 0.42 to 0.5. Where 0.45 comes from is not
+    verified (Almqvist et al. 2011, doi:10.1016/j.jmps.2011.08.004, and Afferrante et al. 2018,
+    doi:10.1007/s11249-018-1026-x, use the correction); the code that Xu et al. published beside
+    `Xu2024` has 0.42 as the default of this one.
     """
 
     own_gamma = 0.45
@@ -138,6 +139,7 @@ _CORRECTIONS: dict[str, type[Correction]] = {
     "wang2017": Wang2017,
     "xu2024": Xu2024,
 }
+CORRECTIONS = tuple(_CORRECTIONS)
 
 
 def correction_of(name: CorrectionName, gamma: float | None = None) -> Correction:
@@ -155,7 +157,7 @@ def correction_of(name: CorrectionName, gamma: float | None = None) -> Correctio
         If the name is unknown or gamma out of range.
     """
     if name not in _CORRECTIONS:
-        raise ValueError(f"correction must be one of {tuple(_CORRECTIONS)}, got {name!r}")
+        raise ValueError(f"correction must be one of {CORRECTIONS}, got {name!r}")
     kind = _CORRECTIONS[name]
     if gamma is None:
         return kind(kind.own_gamma)
@@ -230,7 +232,7 @@ class Kernels:
         return table(inside) - self.correction.gamma * np.minimum(log_x - inside, 0.0)
 
 
-@lru_cache(maxsize=16)
+@lru_cache(maxsize=128)
 def kernels(gamma: float | None = None, correction: CorrectionName = "yang2008") -> Kernels:
     """Tabulate the universal functions for one correction.
 

@@ -104,7 +104,7 @@ def scale_nodes(spectrum: Spectrum, nodes: float = 1.0) -> ScaleNodes:
     if len(coarse.weight) > 2 * _MOST_COARSE * max(nodes, 1.0):
         return _grouped_nodes(_gauss_nodes(spectrum, edges, max(2, round(4 * nodes))), nodes)
     edge = 0.5 * spectrum.variance_below(spectrum.q0 * np.exp(edges), 2)
-    growth = np.log(edge[1:] / np.maximum(edge[:-1], 1e-300))
+    growth = np.log(edge[1:]) - np.log(np.maximum(edge[:-1], 1e-300))  # a ratio may overflow
     parts = np.clip(np.ceil(growth / _FINE), 1, _MOST_PARTS).astype(int)
     start = np.concatenate([[0], np.cumsum(parts)])
     fine_edges = np.interp(np.arange(start[-1] + 1), start, edges)

@@ -25,11 +25,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from stickiness import _active_set
+from stickiness._arguments import grid, integer, number, positive
 
 __all__ = ["Contact", "ConvergenceError", "load_path", "solve"]
 
 _COARSEST = 64  # points along the shorter side of the coarsest grid
 _NEAR = 0.005  # relative change of load up to which the last solution is the better start
+_LOOSEST = 0.1  # of h_rms: beyond this no solution is worth the name
 _COARSE_TOLERANCE = 3e-3  # of h_rms: a guess for the next grid needs no more
 
 
@@ -118,7 +120,7 @@ def solve(
     pressure : float
         Mean pressure in units of E*. Zero stands for touching at the summit, without contact.
     tol : float
-        Largest accepted `Contact.residual`, relative to h_rms.
+        Largest accepted `Contact.residual`, relative to h_rms; at most 0.1.
     start : Contact, optional
         Solution on the same grid at nearly the same load; it saves a quarter of the work at a
         change of 0.1 % and costs more than it saves beyond 1 %.
@@ -149,10 +151,11 @@ def solve(
     """
     heights = _check_heights(heights)
     lengths = _check_length(length, heights.shape)
-    pressure = _check_positive("pressure", pressure, zero=True)
-    tol = _check_positive("tol", tol)
-    if max_iterations < 1:
-        raise ValueError(f"max_iterations must be at least 1, got {max_iterations!r}")
+    pressure = number("pressure", pressure, zero=True)
+    tol = number("tol", tol, most=_LOOSEST)
+    max_iterations = integer("max_iterations", max_iterations, least=1)
+    if not (start is None or isinstance(start, Contact)):
+        raise ValueError(f"start must be a Contact of the same grid, got {type(start).__name__}")
     if start is not None and start.pressure.shape != heights.shape:
         raise ValueError(
             f"start has the shape {start.pressure.shape}, the heights {heights.shape}: "
@@ -358,29 +361,17 @@ def _scale(heights):
 
 
 def _check_heights(heights):
-    heights = np.ascontiguousarray(heights, dtype=float)
-    if heights.ndim != 2 or heights.size == 0:
-        raise ValueError(f"heights must be a grid (n0, n1), got the shape {heights.shape}")
-    bad = heights.size - int(np.count_nonzero(np.isfinite(heights)))
-    if bad:
-        raise ValueError(f"heights must be finite, got {bad} NaN or infinite values")
-    return heights
+    return grid("heights", heights)
 
 
 def _check_length(length, shape):
-    sides = np.atleast_1d(np.asarray(length, dtype=float))
+    (sides,) = positive(length=length)
     if sides.size == 1:
-        sides = np.array([sides[0], sides[0] * shape[1] / shape[0]])
-    if sides.size != 2 or not np.all(np.isfinite(sides)) or np.any(sides <= 0):
+        side = float(sides.ravel()[0])
+        return side, side * shape[1] / shape[0]
+    if sides.shape != (2,):
         raise ValueError(f"length must be one or two positive numbers, got {length!r}")
     return float(sides[0]), float(sides[1])
 
 
-def _check_positive(name, value, zero=False):
-    number = float(value)
-    if not np.isfinite(number) or number < 0 or (number == 0 and not zero):
-        raise ValueError(
-            f"{name} must be a finite {'non-negative' if zero else 'positive'} number, "
-            f"got {value!r}"
-        )
-    return number
+_check_positive = number

@@ -13,6 +13,8 @@ from abc import ABC, abstractmethod
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ._arguments import nonnegative, number
+
 _ROUNDING = 1e-12  # q within this relative distance of the band's end still belongs to it
 
 
@@ -134,7 +136,7 @@ class PowerLawSegments(Spectrum):
 
     def psd(self, q: ArrayLike) -> NDArray:
         """C(q) [length^4]; zero outside the band."""
-        q = np.asarray(q, dtype=float)
+        (q,) = nonnegative(q=q)
         inside = (q >= self.q0 * (1 - _ROUNDING)) & (q <= self.q1 * (1 + _ROUNDING))
         i = self._segment(q)
         ratio = np.where(inside, q, self._knots[i]) / self._knots[i]
@@ -153,21 +155,21 @@ class PowerLawSegments(Spectrum):
 
     def variance_below(self, q: ArrayLike, power: float = 0) -> NDArray:
         """See `Spectrum.variance_below`."""
-        q = np.clip(np.asarray(q, dtype=float), self.q0, self.q1)
+        q = np.clip(*nonnegative(q=q), self.q0, self.q1)
         i = self._segment(q)
         before = np.concatenate([[0.0], np.cumsum(self._whole_segments(power))])
         return before[i] + self._integral(i, self._knots[i], q, power)
 
     def variance_above(self, q: ArrayLike, power: float = 0) -> NDArray:
         """See `Spectrum.variance_above`."""
-        q = np.clip(np.asarray(q, dtype=float), self.q0, self.q1)
+        q = np.clip(*nonnegative(q=q), self.q0, self.q1)
         i = self._segment(q)
         after = np.concatenate([np.cumsum(self._whole_segments(power)[::-1])[::-1], [0.0]])
         return after[i + 1] + self._integral(i, q, self._knots[i + 1], power)
 
     def at_gradient_variance(self, variance: ArrayLike) -> tuple[NDArray, NDArray]:
         """See `Spectrum.at_gradient_variance`."""
-        variance = np.asarray(variance, dtype=float)
+        (variance,) = nonnegative(variance=variance)
         before = np.concatenate([[0.0], np.cumsum(self._whole_segments(2))])
         i = np.clip(np.searchsorted(before, variance, side="right") - 1, 0, len(self._level) - 1)
         beta = self._exponent[i] + 4
@@ -226,11 +228,11 @@ class SelfAffine(PowerLawSegments):
         if (h_rms is None) == (C0 is None):
             raise ValueError(f"give one of h_rms and C0, got h_rms={h_rms!r} and C0={C0!r}")
         name, size = ("h_rms", h_rms) if C0 is None else ("C0", C0)
-        if not (np.isfinite(size) and size > 0):
-            raise ValueError(f"{name} must be positive and finite, got {size!r}")
+        size = number(name, size)
         self.hurst, self.q_rolloff, self.prescribed = hurst, q_rolloff, name
+        _check_scale(hurst, q0, q1, size)
         self._build(q0, q1, 1.0)
-        self.C0 = C0 if C0 is not None else h_rms**2 / float(self.variance_below(q1))
+        self.C0 = size if h_rms is None else size**2 / float(self.variance_below(q1))
         self._build(q0, q1, self.C0)
 
     def _build(self, q0: float, q1: float, prefactor: float) -> None:
@@ -314,7 +316,7 @@ class Shells(Spectrum):
             [[self.q0 - (middle[0] - self.q0)], middle, [2 * self.q1 - middle[-1]]]
         )
         density = self.variance / (np.pi * np.diff(edges**2))
-        q = np.asarray(q, dtype=float)
+        (q,) = nonnegative(q=q)
         i = np.searchsorted(edges, q, side="right") - 1
         inside = (i >= 0) & (i < len(density))
         return np.where(inside, density[np.clip(i, 0, len(density) - 1)], 0.0)
@@ -322,17 +324,19 @@ class Shells(Spectrum):
     def variance_below(self, q: ArrayLike, power: float = 0) -> NDArray:
         """See `Spectrum.variance_below`; a shell at `q` itself counts as below."""
         before = np.concatenate([[0.0], np.cumsum(self.variance * self.q**power)])
-        return before[np.searchsorted(self.q, np.asarray(q, dtype=float), side="right")]
+        (q,) = nonnegative(q=q)
+        return before[np.searchsorted(self.q, q, side="right")]
 
     def variance_above(self, q: ArrayLike, power: float = 0) -> NDArray:
         """See `Spectrum.variance_above`; a shell at `q` itself counts as below."""
         after = np.concatenate([np.cumsum((self.variance * self.q**power)[::-1])[::-1], [0.0]])
-        return after[np.searchsorted(self.q, np.asarray(q, dtype=float), side="right")]
+        (q,) = nonnegative(q=q)
+        return after[np.searchsorted(self.q, q, side="right")]
 
     def at_gradient_variance(self, variance: ArrayLike) -> tuple[NDArray, NDArray]:
         """See `Spectrum.at_gradient_variance`."""
         gradient = np.cumsum(self.variance * self.q**2)
-        variance = np.asarray(variance, dtype=float)
+        (variance,) = nonnegative(variance=variance)
         i = np.minimum(np.searchsorted(gradient, variance, side="left"), len(self.q) - 1)
         after = np.concatenate([np.cumsum(self.variance[::-1])[::-1], [0.0]])
         rest = np.maximum(gradient[i] - variance, 0.0) / self.q[i] ** 2
@@ -346,20 +350,30 @@ class Shells(Spectrum):
 
 
 def _check_band(hurst: float, q0: float, q1: float, q_rolloff: float | None) -> None:
-    if not 0 < hurst <= 1:
+    number("hurst", hurst)
+    if not hurst <= 1:
         raise ValueError(f"hurst must be in (0, 1], got {hurst!r}")
-    if not (np.isfinite(q0) and q0 > 0):
-        raise ValueError(f"q0 must be positive and finite, got {q0!r}")
-    if not (np.isfinite(q1) and q1 > q0):
+    number("q0", q0)
+    if not number("q1", q1) > q0:
         raise ValueError(f"q1 must be finite and above q0 = {q0!r}, got {q1!r}")
-    if q_rolloff is not None and not q0 < q_rolloff < q1:
+    if q_rolloff is not None and not q0 < number("q_rolloff", q_rolloff) < q1:
         raise ValueError(
             f"q_rolloff must lie between q0 = {q0!r} and q1 = {q1!r}, got {q_rolloff!r}"
         )
 
 
+def _check_scale(hurst: float, q0: float, q1: float, size: float) -> None:
+    """Refuse lengths so far from 1 that powers of them leave the range of floats."""
+    largest = max(abs(np.log10(x)) for x in (q0, q1, size))
+    if 2 * (hurst + 3) * largest > np.log10(np.finfo(float).max):
+        raise ValueError(
+            f"q0 = {q0!r}, q1 = {q1!r} or the height or C0 {size!r} is out of range: "
+            "take a unit of length in which they are nearer to 1"
+        )
+
+
 def _check_cut(spectrum: Spectrum, q1: float) -> None:
-    if not spectrum.q0 < q1 <= spectrum.q1:
+    if not spectrum.q0 < number("q1", q1) <= spectrum.q1:
         raise ValueError(
             f"truncated: q1 must lie in (q0, q1] = ({spectrum.q0!r}, {spectrum.q1!r}], got {q1!r}"
         )

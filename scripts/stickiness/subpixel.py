@@ -27,7 +27,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ._arguments import positive
+from ._arguments import numbers, positive
 
 STRIP_WIDTH = 0.100  # pixels per pixel side of boundary, in this discretisation
 
@@ -181,7 +181,7 @@ def attractive_area(
 
 def gap_and_contact(gap: ArrayLike, contact: ArrayLike | None) -> tuple[NDArray, NDArray]:
     """Return checked arrays of the gap and of where it counts as contact."""
-    gap = np.asarray(gap, dtype=float)
+    gap = numbers("gap", gap)
     if gap.size == 0 or not np.all(np.isfinite(gap)):
         raise ValueError(f"gap must be a non-empty array of finite numbers, got shape {gap.shape}")
     if contact is None:

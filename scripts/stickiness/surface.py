@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import fft
 
+from ._arguments import grid, integer, number
 from .spectrum import Shells, Spectrum
 
 Amplitudes = Literal["gaussian", "fixed"]
@@ -99,6 +100,7 @@ def synthesise(
         If the window or the grid cannot hold the band, or an argument is out of range.
     """
     _check_window(spectrum, length)
+    n, seed = integer("n", n, least=2), integer("seed", seed, least=0)
     _check_grid(spectrum, n, length)
     if amplitudes not in ("gaussian", "fixed"):
         raise ValueError(f"amplitudes must be 'gaussian' or 'fixed', got {amplitudes!r}")
@@ -116,6 +118,7 @@ def lattice_spectrum(spectrum: Spectrum, length: float) -> Shells:
     Each wave vector carries C(q) (2 pi/length)^2. If `spectrum` was prescribed by its h_rms, the
     shells are scaled to that height, as `synthesise` scales its surfaces.
     """
+    _check_window(spectrum, length)
     i, j, variance = _half_plane_modes(spectrum, length)
     square, shell = np.unique(i**2 + j**2, return_inverse=True)
     total = 2 * np.bincount(shell, weights=variance)  # each mode and its mirror image
@@ -127,6 +130,9 @@ def lattice_spectrum(spectrum: Spectrum, length: float) -> Shells:
 def realised_spectrum(heights: NDArray, length: float) -> Shells:
     """Return the spectrum of given periodic heights `(n, n)`, one shell per distinct |q|."""
     i, j, power = _periodogram(heights)
+    if not power.ravel()[1:].any():
+        raise ValueError("heights must not be flat: they hold no wave")
+    length = number("length", length)
     square, shell = np.unique(i**2 + j**2, return_inverse=True)
     total = np.bincount(shell.ravel(), weights=power.ravel())
     # Modes that hold nothing but rounding are not part of the surface's band.
@@ -137,6 +143,7 @@ def realised_spectrum(heights: NDArray, length: float) -> Shells:
 def moments(heights: NDArray, length: float) -> Moments:
     """Spectral moments of periodic heights `(n, n)`, derivatives taken in Fourier space."""
     i, j, power = _periodogram(heights)
+    length = number("length", length)
     power = np.where((i == 0) & (j == 0), 0.0, power)
     dq = 2 * np.pi / length
     kx, ky = i * dq, j * dq
@@ -159,6 +166,7 @@ def resample(heights: NDArray, n: int) -> NDArray:
     ValueError
         If the coarser grid cannot hold what the heights contain.
     """
+    heights, n = grid("heights", heights, square=True), integer("n", n, least=1)
     old = heights.shape[0]
     if n == old:
         return heights.copy()
@@ -175,8 +183,9 @@ def resample(heights: NDArray, n: int) -> NDArray:
 
 
 def _check_window(spectrum: Spectrum, length: float) -> None:
-    if not (np.isfinite(length) and length > 0):
-        raise ValueError(f"length must be positive and finite, got {length!r}")
+    if not isinstance(spectrum, Spectrum):
+        raise ValueError(f"spectrum must be a Spectrum, got {type(spectrum).__name__}")
+    length = number("length", length)
     longest = 2 * np.pi / spectrum.q0
     if longest > length * (1 + _ROUNDING):
         raise ValueError(
@@ -186,8 +195,6 @@ def _check_window(spectrum: Spectrum, length: float) -> None:
 
 
 def _check_grid(spectrum: Spectrum, n: int, length: float) -> None:
-    if int(n) != n or n < 2:
-        raise ValueError(f"n must be an integer of at least 2, got {n!r}")
     shortest = 2 * np.pi / spectrum.q1
     if shortest < 2 * length / n * (1 - _ROUNDING):
         raise ValueError(
@@ -255,9 +262,7 @@ def _evaluate(i: NDArray, j: NDArray, modes: NDArray, n: int) -> NDArray:
 
 def _periodogram(heights: NDArray) -> tuple[NDArray, NDArray, NDArray]:
     """Integer wave vectors and |h_k|^2, which sums to the mean square of the heights."""
-    heights = np.asarray(heights, dtype=float)
-    if heights.ndim != 2 or heights.shape[0] != heights.shape[1]:
-        raise ValueError(f"heights must be a square array (n, n), got shape {heights.shape}")
+    heights = grid("heights", heights, square=True)
     n = heights.shape[0]
     index = fft.fftfreq(n, 1 / n).round().astype(int)
     i, j = np.meshgrid(index, index, indexing="ij")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from functools import cache
 
 import pint
@@ -39,10 +40,13 @@ def si(value: str, unit: str) -> float:
         raise ValueError(f"{value!r} holds a comma: write the number with a decimal point")
     try:
         quantity = _registry().Quantity(value)
-        return float(quantity.to(unit).magnitude)
+        magnitude = float(quantity.to(unit).magnitude)
     except pint.DimensionalityError:
         raise ValueError(
             f"{value!r} has the dimension {quantity.dimensionality}: {expected}"
         ) from None
     except Exception:  # pint raises tokenizer, attribute and type errors alike on malformed text
         raise ValueError(f"{value!r} cannot be read: {expected}") from None
+    if not math.isfinite(magnitude):
+        raise ValueError(f"{value!r} is not finite: {expected}")
+    return magnitude

@@ -1,0 +1,246 @@
+"""Probes of contact: equilibrium recomputed with plain transforms, balances, other units."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import lru_cache
+
+import numpy as np
+
+from _probes_theory import each_against, model
+from _stability import Check, Component
+from stickiness import adhesive, continuum, dmt, repulsive, subpixel, surface
+
+TOLERANCE = 1e-8  # asked of the solvers
+_SLACK = 2.0  # for what rounding adds to a residual that was met to the tolerance
+LAWS = {
+    "maugis": adhesive.Maugis,
+    "exponential": adhesive.Exponential,
+    "lennard_jones": adhesive.LennardJones,
+}
+CONTROLS = tuple(f"{law} {control}" for law in LAWS for control in ("pressure", "mean_gap"))
+
+
+@lru_cache(maxsize=4)
+def heights_of(hurst, magnification, q0_h_rms, unit, grid):
+    """Heights of a model surface as far as the grid holds it, one wave at the least."""
+    held = min(magnification, grid / 2) if grid > 2 else magnification
+    s = model(hurst, max(held, 1.01), q0_h_rms, unit)
+    return surface.synthesise(s, n=grid, length=2 * np.pi * unit, seed=3)
+
+
+@lru_cache(maxsize=256)
+def pressed(hurst, magnification, pressure, q0_h_rms=1.0, unit=1.0, grid=32):
+    """Repulsive contact; by default in the unit in which everything is of order one."""
+    heights = heights_of(hurst, magnification, q0_h_rms, unit, grid)
+    return repulsive.solve(heights, 2 * np.pi * unit, pressure * q0_h_rms, tol=TOLERANCE)
+
+
+def response(pressure, length):
+    """Displacement of zero mean under a pressure over E*, by a transform of its own."""
+    n0, n1 = pressure.shape
+    k = np.hypot(np.fft.fftfreq(n0, 1 / n0)[:, None], np.fft.fftfreq(n1, 1 / n1)[None, :])
+    k[0, 0] = np.inf
+    return np.fft.ifft2(np.fft.fft2(pressure) / (np.pi * k / length)).real
+
+
+def probe_repulsive(hurst, magnification, pressure, q0_h_rms, unit, grid) -> Iterator[Check]:
+    parameters = (hurst, magnification, pressure, q0_h_rms, unit, grid)
+    heights, c = heights_of(hurst, magnification, *parameters[3:]), pressed(*parameters)
+    h_rms, p = q0_h_rms * unit, pressure * q0_h_rms
+    yield each_against("mean pressure", c.pressure.mean(), p, 1e-11)
+    gap = response(c.pressure, 2 * np.pi * unit) - heights
+    gap += c.shift
+    # Rounding of the transform grows with the largest pressure, far beyond full contact.
+    rounding = 1e-14 * float(c.pressure.max()) * 2 * np.pi * unit
+    allowed = _SLACK * (TOLERANCE * c.rms_height + rounding)
+    touching = c.pressure > 0
+    inside = float(np.max(np.abs(gap[touching]), initial=0))
+    yield Check("gap in contact", inside / allowed, 1)
+    outside = float(np.max(-gap[~touching], initial=0))
+    yield Check("penetration", outside / allowed, 1)
+    yield Check("gap reported", float(np.max(np.abs(np.maximum(gap, 0) - c.gap))) / allowed, 1)
+    yield Check("tension", 0.0 if c.pressure.min() >= 0 else 1.0, 0.5)
+    yield each_against("area", c.area_fraction, np.mean(touching), 1e-12)
+    same = pressed(hurst, magnification, pressure, grid=grid)
+    # A point on the verge may be counted either way.
+    pixel = 1.5 / heights.size
+    yield Check("area, other unit", abs(c.area_fraction - same.area_fraction) / pixel, 1)
+    scale = max(same.mean_gap, TOLERANCE)
+    yield Check("gap, other unit", abs(c.mean_gap / h_rms - same.mean_gap) / scale, 1e-6)
+
+
+def probe_edges(
+    hurst, magnification, pressure, range_over_h_rms, q0_h_rms, unit, grid
+) -> Iterator[Check]:
+    """Sub-pixel areas, and the limit of fine grids from them and every second point."""
+    h_rms = q0_h_rms * unit
+    c = pressed(hurst, magnification, pressure, q0_h_rms, unit, grid)
+    same = pressed(hurst, magnification, pressure, grid=grid)
+    ranges = np.array([range_over_h_rms, 1e6])
+    area = dmt.attractive_area(c.gap, ranges * h_rms, subpixel=True)
+    strip = dmt.boundary_strip(c.gap == 0)
+    contact = float(np.mean(c.gap == 0)) - strip
+    # Areas of contact and gap add up to one, up to what clefts and narrow spots leave.
+    yield Check("areas add up", abs(contact + area[1] - 1), 1e-9)
+    yield Check("sign and order", 0.0 if -1e-12 <= area[0] <= area[1] + 1e-12 else 1.0, 0.5)
+    other = dmt.attractive_area(same.gap, ranges, subpixel=True)
+    # Contacts that differ by a point have edges that differ by a few.
+    yield Check("other unit", float(np.max(np.abs(area - other))) * grid**2 / 4, 1)
+    values = [dmt.attractive_area(g, ranges * h_rms) for g in (c.gap[::2, ::2], c.gap)]
+    limit = continuum.estimate(
+        "attractive_area", values, area - values[1], subpixel.edge_count(c.gap == 0), ranges
+    )
+    yield Check("limit", 0.0 if np.all(np.isfinite([limit.value, limit.error])) else 1.0, 0.5)
+    edges = np.array([0.0, *(np.geomspace(1e-7, 1e4, 23) * h_rms)])
+    share = np.sum(dmt.gap_density(c.gap, edges) * np.diff(edges))
+    yield Check("P(u) normalised", abs(share + np.mean(c.gap == 0) - 1), 1e-9)
+
+
+def probe_dmt(
+    hurst, magnification, pressure, range_over_h_rms, adhesion_length_over_range, q0_h_rms, unit,
+    variant,
+) -> Iterator[Check]:  # fmt: skip
+    h_rms = q0_h_rms * unit
+    c = pressed(hurst, magnification, pressure, q0_h_rms, unit)
+    eps = range_over_h_rms * h_rms
+    law = LAWS[variant](adhesion_length_over_range * eps, eps)
+    counted, fine = (dmt.adhesive_pressure(c.gap, law, subpixel=kind) for kind in (False, True))
+    # Anew from the gaps over the range, largest first.
+    x = np.sort(c.gap[c.gap > 0])[::-1] / eps
+    sigma = {
+        "maugis": lambda: np.where(x <= 1, 1.0, 0.0),
+        "exponential": lambda: np.exp(-x),
+        "lennard_jones": lambda: 8 / 3 * (np.exp(-3 * np.log1p(x)) - np.exp(-9 * np.log1p(x))),
+    }[variant]()
+    expected = adhesion_length_over_range * sigma.sum() / c.gap.size
+    yield Check("attraction", abs(counted - expected) / max(expected, 1e-300), 1e-7)
+    open_share = 1 - (c.area_fraction - dmt.boundary_strip(c.gap == 0))
+    yield Check("sub-pixel, below the strength", max(fine / law.strength - open_share, 0.0), 1e-9)
+    if variant == "maugis":
+        area = adhesion_length_over_range * dmt.attractive_area(c.gap, eps, subpixel=True)
+        yield Check("Maugis by areas", abs(fine - area) / max(area, 1e-300), 1e-9)
+    same = LAWS[variant](adhesion_length_over_range * range_over_h_rms, range_over_h_rms)
+    plain = pressed(hurst, magnification, pressure)
+    other = dmt.adhesive_pressure(plain.gap, same, subpixel=True)
+    allowed = 4 * law.strength / c.gap.size  # contacts may differ by a point
+    yield Check("other unit", abs(fine - other) / allowed, 1)
+    ranges = np.geomspace(0.01, 0.1, 5) * h_rms
+    made = 1.5 * 3 * pressure * (ranges / h_rms) ** (2 / 3)
+    fit = dmt.fit_a_v(ranges, made, pressure * q0_h_rms, h_rms, 1 / unit)
+    yield each_against("a_V", fit.value, 3)
+
+
+@lru_cache(maxsize=64)
+def adhered(variant, hurst, magnification, pressure, *adhesion, grid):
+    """Adhesive contact at a load, or at the mean gap that this load has without adhesion."""
+    eps_over_h, length_over_eps, q0_h_rms, unit = adhesion
+    law, control = variant.split()
+    heights = heights_of(hurst, magnification, q0_h_rms, unit, grid)
+    eps = eps_over_h * q0_h_rms * unit
+    value = pressure * q0_h_rms
+    if control == "mean_gap":
+        value = pressed(hurst, magnification, pressure, q0_h_rms, unit, grid).mean_gap
+    return adhesive.solve(
+        heights,
+        2 * np.pi * unit,
+        LAWS[law](length_over_eps * eps, eps),
+        **{control: value},
+        tol=TOLERANCE,
+    )
+
+
+def probe_adhesive(
+    hurst, magnification, pressure, range_over_h_rms, adhesion_length_over_range, q0_h_rms, unit,
+    grid, variant,
+) -> Iterator[Check]:  # fmt: skip
+    shape = (hurst, magnification, pressure)
+    adhesion = (range_over_h_rms, adhesion_length_over_range, q0_h_rms, unit)
+    state = adhered(variant, *shape, *adhesion, grid=grid)
+    heights = heights_of(hurst, magnification, q0_h_rms, unit, grid)
+    law, control = variant.split()
+    n = grid
+    k = np.hypot(*np.meshgrid(*[np.fft.fftfreq(n, 1 / n)] * 2)) / unit
+    elastic = np.fft.ifft2(np.fft.fft2(state.gap + heights) * k / 2).real
+    elastic += state.mean_pressure  # pressure that the half-space asks for
+    traction = state.law.traction(state.gap)
+    slope = np.sqrt(np.mean(np.abs(np.fft.fft2(heights) / n**2) ** 2 * k**2) * n**2)
+    stress = max(slope / 2, state.law.strength)
+    excess = elastic + traction  # what is left for the wall
+    at_wall = (state.gap <= 0) & state.law.hard_wall
+    free = ~at_wall
+    if law == "maugis":
+        # At the jump of the law any traction between its two sides is in equilibrium.
+        jump = np.abs(state.gap - state.law.range) <= 1e-9 * state.law.range
+        within = (elastic <= TOLERANCE * stress) & (-elastic <= state.law.strength * (1 + 1e-9))
+        free &= ~(jump & within)
+    yield Check("equilibrium", float(np.max(np.abs(excess[free]), initial=0)) / stress, 2e-8)
+    yield Check("wall", float(np.max(-excess[at_wall], initial=0)) / stress, 2e-8)
+    if control == "pressure":
+        balance = state.pressure.mean() - pressure * q0_h_rms
+        yield Check("mean pressure", abs(balance) / stress, 2e-8)
+        yield each_against("load", state.mean_pressure, pressure * q0_h_rms, 1e-12)
+    else:
+        asked = pressed(*shape, q0_h_rms, unit, grid).mean_gap
+        error = abs(state.gap.mean() - asked) / (q0_h_rms * unit)
+        yield Check("mean gap", error, 1e-9)
+    if q0_h_rms != 1 or unit != 1:
+        # Same surface and loads over q0 h_rms: so must be the adhesion, l_a/eps and all.
+        plain = (range_over_h_rms, adhesion_length_over_range / q0_h_rms, 1.0, 1.0)
+        same = adhered(variant, *shape, *plain, grid=grid)
+        gap = state.mean_gap / (q0_h_rms * unit)
+        allowed = 1e-5 * max(abs(same.mean_gap), 1e-3)
+        if not state.law.hard_wall and control == "pressure":
+            # The residual leaves the gap as uncertain as the law is weak beside the elasticity.
+            stiffness = abs(float(np.mean(state.law.derivative(state.gap))))
+            allowed += 4 * TOLERANCE * stress / stiffness / (q0_h_rms * unit)
+        yield Check("gap, other unit", abs(gap - same.mean_gap) / allowed, 1)
+
+
+_GRIDS = (2, 3, 4, 7, 16, 31, 32, 97, 128)
+_SURFACE = {"magnification": 8}
+_FINE = tuple(
+    {"grid": 128, "magnification": 16, "range_over_h_rms": eps, "adhesion_length_over_range": la}
+    for eps, la in ((0.3, 0.01), (1e-4, 1e-4), (1e-2, 10), (100, 10))
+)
+_MAGNIFICATIONS = {"magnification": (1.01, 2, 4, 8, 16, 64, 1e6)}
+
+CONTACT = {
+    "repulsive": Component(
+        probe_repulsive,
+        ("magnification", "hurst", "pressure", "q0_h_rms", "unit", "grid"),
+        reference=_SURFACE,
+        values=_MAGNIFICATIONS,
+        further=({"grid": 509}, {"grid": 1024}),
+    ),
+    "sub-pixel": Component(
+        probe_edges,
+        ("magnification", "hurst", "pressure", "range_over_h_rms", "q0_h_rms", "unit", "grid"),
+        pairs=(("pressure", "range_over_h_rms"), ("pressure", "grid"), ("pressure", "hurst"),
+               ("q0_h_rms", "unit"), ("pressure", "unit"), ("pressure", "magnification")),
+        reference=_SURFACE,
+        values=_MAGNIFICATIONS,
+    ),
+    "dmt": Component(
+        probe_dmt,
+        ("magnification", "hurst", "pressure", "range_over_h_rms", "adhesion_length_over_range",
+         "q0_h_rms", "unit"),
+        pairs=(("pressure", "range_over_h_rms"), ("q0_h_rms", "unit"),
+               ("adhesion_length_over_range", "range_over_h_rms"),
+               ("range_over_h_rms", "unit")),
+        variants=tuple(LAWS),
+        reference=_SURFACE,
+        values=_MAGNIFICATIONS,
+    ),
+    "adhesive": Component(
+        probe_adhesive,
+        ("magnification", "hurst", "pressure", "range_over_h_rms", "adhesion_length_over_range",
+         "q0_h_rms", "unit", "grid"),
+        pairs=(("range_over_h_rms", "adhesion_length_over_range"),
+               ("pressure", "adhesion_length_over_range")),
+        variants=CONTROLS,
+        reference=_SURFACE | {"grid": 16},
+        values={"magnification": (1.01, 2, 4, 8, 64), "grid": (2, 3, 4, 7, 16, 31, 64)},
+        further=_FINE,
+    ),
+}  # fmt: skip

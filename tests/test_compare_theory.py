@@ -1,0 +1,161 @@
+"""Theory against simulation: distance of distributions, gamma, and ensembles of one job."""
+
+import numpy as np
+import pytest
+import xarray as xr
+
+import average_ensemble
+import compare_theory
+import fit_gamma
+import solve_ensemble
+from stickiness import datasets
+from stickiness.persson import Persson
+from stickiness.spectrum import SelfAffine
+from stickiness.surface import lattice_spectrum
+
+RANGES = np.geomspace(1e-4, 10, 161)
+ASKED = {"hurst": 0.8, "magnification": 4, "window": 1}
+
+
+def exponential(contact, mean):
+    """Share of gaps up to a range: contact, the others exponentially distributed."""
+    return (1 - contact) * (1 - np.exp(-RANGES / mean))
+
+
+def ensemble(contacts, means):
+    """Realisations whose gaps are exponential."""
+    areas = [[[exponential(*pair)]] for pair in zip(contacts, means, strict=True)]
+    data = {
+        "area_fraction": (("seed", "resolution", "pressure"), [[[c]] for c in contacts]),
+        "attractive_area": (("seed", "resolution", "pressure", "range"), areas),
+    }
+    simulated = xr.Dataset(data, coords={"range": RANGES, "pressure": [0.1]})
+    for name in data:
+        fine = simulated[name].isel(resolution=-1)
+        simulated[f"{name}_mean"] = fine.mean("seed")
+        simulated[f"{name}_standard_error"] = fine.std("seed", ddof=1) / np.sqrt(len(contacts))
+        simulated[f"{name}_discretisation_error"] = 0 * fine.mean("seed")
+    return simulated
+
+
+def theory(contact, mean):
+    data = {
+        "area_fraction": (("variant", "pressure"), [[contact]]),
+        "attractive_area": (("variant", "pressure", "range"), [[exponential(contact, mean)]]),
+    }
+    return xr.Dataset(data, coords={"range": RANGES, "pressure": [0.1], "variant": ["a"]})
+
+
+def test_distance_of_exponential_distributions():
+    # Of one sign everywhere: the difference of the means, 0.9 (1 - 0.8)
+    found = compare_theory.distance(ensemble([0.1, 0.1], [1.0, 1.0]), theory(0.1, 0.8))
+    assert float(found.distance.squeeze()) == pytest.approx(0.18, rel=2e-3)
+    assert float(found.distance_standard_error.squeeze()) == pytest.approx(0, abs=1e-12)
+
+
+def test_distance_knows_contact():
+    # Equal mean gaps, so that only the distance tells them apart.
+    found = compare_theory.distance(ensemble([0.0, 0.0], [1.0, 1.0]), theory(0.5, 2.0))
+    # int |exp(-u) - exp(-u/2)/2| du = 1/2, less exp(-5) beyond the largest gap of 10
+    assert float(found.distance.squeeze()) == pytest.approx(0.5 - np.exp(-5), rel=2e-3)
+
+
+def test_distance_has_the_sampling_error_of_the_mean():
+    means = [0.9, 1.0, 1.1, 1.2]
+    found = compare_theory.distance(ensemble([0.0] * 4, means), theory(0.0, 0.5))
+    # all on one side of theory: the standard error of the mean gap
+    want = np.std(means, ddof=1) / 2
+    assert float(found.distance_standard_error.squeeze()) == pytest.approx(want, rel=5e-3)
+    floor = float(found.distance_floor.squeeze())
+    assert floor == pytest.approx(np.sqrt(2 / np.pi) * want, rel=0.02)
+
+
+def test_highest_summit_is_that_of_the_window():
+    # Gaussian heights of n independent summits reach about sqrt(2 ln n) h_rms.
+    small, large = (
+        compare_theory.highest_summit({"hurst": 0.8, "magnification": 8, "window": window})
+        for window in (1, 4)
+    )
+    assert 2.3 < small < 2.8
+    assert 3.3 < large < 4.0
+
+
+def test_highest_summit_hardly_depends_on_short_waves(monkeypatch):
+    made = {"hurst": 0.8, "magnification": 64}
+    full = compare_theory.highest_summit(made)
+    monkeypatch.setattr(compare_theory, "LONG_WAVES", 16.0)
+    # one and the same rms height; four times the waves make it a few per cent higher
+    assert compare_theory.highest_summit(made) == pytest.approx(full, rel=0.06)
+
+
+@pytest.fixture(scope="module")
+def solved(tmp_path_factory):
+    """Ensemble of one job, multilevel."""
+    path = tmp_path_factory.mktemp("ensemble") / "e.nc"
+
+    class Job:
+        class wildcards:  # noqa: N801
+            comparison = "small"
+
+        class params:  # noqa: N801
+            surface = ASKED
+            pressures = [0.2, 0.05]
+            seeds = 3
+            coarse_seeds = 32
+            descriptor_seeds = 100
+            tolerance = 1e-8
+            pixels_per_wavelength = 4
+            gaps = {"minimum": 1e-3, "maximum": 10, "per_decade": 8}
+
+        output = [path]
+
+    solve_ensemble.main(Job)
+    return datasets.read(path)
+
+
+def test_ensemble_of_one_job_has_what_averages_have(solved):
+    for name in average_ensemble.AVERAGED:
+        for kind in ("mean", "standard_error", "discretisation_error"):
+            assert f"{name}_{kind}" in solved
+    made = datasets.parameters(solved)
+    assert made["estimator"] == "multilevel"
+    assert made["seeds"] == [1, 2, 3]
+    assert list(solved.pressure) == [0.05, 0.2]
+    assert solved.resolution.values.tolist() == [2.0, 4.0]
+    assert np.all(np.diff(solved.area_fraction_mean) > 0)
+    assert datasets.parameters(solved)["largest_residual"] <= 1e-8
+
+
+GAMMA = 0.52
+
+
+@pytest.fixture(scope="module")
+def made_by_theory():
+    """What theory itself has at another gamma, in place of simulation."""
+    lattice = lattice_spectrum(SelfAffine(hurst=0.8, q0=1.0, q1=16.0, h_rms=1.0), 2 * np.pi)
+    loads, ranges = [0.03, 0.2], np.array([0.01, 0.03, 0.1, 0.3, 1.0])
+    at = Persson(lattice, gamma=GAMMA)
+    data = {
+        "area_fraction": ("pressure", at.area_fraction(loads)),
+        "mean_gap": ("pressure", at.mean_gap(loads)),
+        "attractive_area": (("pressure", "range"), at.gap_cumulative(ranges, loads)),
+    }
+    made = xr.Dataset(
+        {
+            f"{name}_{kind}": (dims, values * factor)
+            for name, (dims, values) in data.items()
+            for kind, factor in (("mean", 1), ("standard_error", 0.02), ("discretisation_error", 0))
+        },
+        coords={"pressure": loads, "range": ranges},
+        attrs={"parameters": '{"hurst": 0.8, "magnification": 16}'},
+    )
+    return fit_gamma.case(made, xr.Dataset({"window_holds": ("pressure", [1, 1])}))
+
+
+@pytest.mark.parametrize("quantity", ["area_fraction", "mean_gap", "attractive_area", "all"])
+def test_gamma_of_the_theory_itself_is_found(made_by_theory, quantity):
+    draws = fit_gamma.sample(np.random.default_rng(1), 200, 1)
+    best, low, high, misfit, own = fit_gamma.fitted([made_by_theory], draws, 0, quantity)
+    assert best == pytest.approx(GAMMA, rel=0.01)
+    assert low < GAMMA < high
+    assert misfit < 0.01 < own

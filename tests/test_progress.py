@@ -1,0 +1,120 @@
+"""The line of every finished job, the time left and the summary, from made-up events."""
+
+import io
+import logging
+
+import pytest
+from snakemake_interface_logger_plugins.common import LogEvent
+
+import _progress
+from _progress import Job, Progress
+
+
+@pytest.fixture
+def clock(monkeypatch):
+    """A clock that the test sets."""
+    now = [100.0]
+    monkeypatch.setattr(_progress.time, "monotonic", lambda: now[0])
+    return now
+
+
+def told(progress, event, **extra):
+    progress.emit(logging.makeLogRecord({"event": event, **extra}))
+
+
+@pytest.fixture
+def progress(clock, tmp_path):
+    """Five jobs: quick ones of 1 s and a slow one of 10 s, by earlier runs; one is not known."""
+    log = tmp_path / "slow.log"
+    log.write_text("first\nValueError: too rough\n\n")
+    jobs = {number: Job("quick", f"quick {number}", 1.0, started=clock[0]) for number in (1, 2, 3)}
+    jobs[4] = Job("slow", "slow 4", 10.0, str(log), started=clock[0])
+    jobs[5] = Job("other", "other 5", None, started=clock[0])
+    return Progress(jobs, cores=2, stream=io.StringIO())
+
+
+def run(progress, clock, numbers, each=2.0):
+    for number in numbers:
+        told(progress, LogEvent.JOB_STARTED, jobs=[number])
+        clock[0] += each
+        told(progress, LogEvent.JOB_FINISHED, job_id=number)
+
+
+def test_line_of_a_job(progress, clock):
+    run(progress, clock, [1])
+    assert progress.stream.getvalue() == "[1/5] quick 1, 2 s\n"
+
+
+def test_time_left_follows_what_jobs_took_earlier(progress, clock):
+    run(progress, clock, [1, 2, 3])
+    # 3 s of earlier work took 6 s; left are 10 s and one that counts as the mean, 13/4 s.
+    assert progress.left() == pytest.approx(2 * (10 + 13 / 4))
+    assert progress.stream.getvalue().endswith("[3/5] quick 3, 2 s; about 26 s left\n")
+
+
+def test_no_guess_from_too_few_jobs(progress, clock):
+    run(progress, clock, [1, 2])
+    assert progress.left() is None
+
+
+def test_opening(progress):
+    # 13 s and one unknown of 13/4 s on two cores.
+    assert progress.opening() == "5 jobs to run; by earlier runs about 8 s"
+    unknown = Progress({1: Job("a", "a", None), 2: Job("b", "b", None)})
+    assert unknown.opening() == "2 jobs to run"
+
+
+def test_summary_of_a_run_that_ended_well(progress, clock, tmp_path):
+    run(progress, clock, [1, 2, 3, 4, 5], each=60)
+    text = _progress.summary(
+        progress,
+        7,
+        {"results": str(tmp_path), "report": str(tmp_path / "missing.html")},
+        [("claims", "3 reproduced")],
+    )
+    head, *lines = text.strip().splitlines()
+    assert head == "Done in 5 min: 5 jobs ran, 7 were up to date."
+    assert lines == [
+        "  ran       quick 3, slow 1, other 1",
+        f"  results   {tmp_path}",
+        "  claims    3 reproduced",
+    ]
+
+
+def test_summary_names_the_job_that_failed_and_what_its_log_says(progress, clock):
+    run(progress, clock, [1, 2])
+    told(progress, LogEvent.JOB_ERROR, jobid=4)
+    told(progress, LogEvent.JOB_ERROR, jobid=4)  # told twice where it is tried again
+    text = _progress.summary(progress, 0, {})
+    assert "Stopped after 4 s: 2 jobs ran, 0 were up to date, 1 failed, 2 were not reached." in text
+    assert "failed    slow 4" in text
+    assert "ValueError: too rough" in text
+    assert "slow.log" in text
+    assert "the same command again" in text
+
+
+def test_target_rules_are_not_counted(progress):
+    told(progress, LogEvent.JOB_FINISHED, job_id=0)
+    assert progress.stream.getvalue() == ""
+
+
+def test_own_lines_replace_those_of_the_terminal_alone():
+    logger = logging.Logger("some")
+    for name in ("DefaultStreamHandler", "DefaultLogFileHandler"):
+        handler = logging.StreamHandler(io.StringIO())
+        handler.name = name
+        logger.addHandler(handler)
+    _progress.quieten(logger)
+    logger.info("Finished jobid 3", extra={"event": LogEvent.JOB_FINISHED, "job_id": 3})
+    logger.info("Select jobs to execute...")
+    logger.error("Error in rule x", extra={"event": LogEvent.JOB_ERROR, "jobid": 3})
+    terminal, file = (handler.stream.getvalue() for handler in logger.handlers)
+    assert terminal == "Error in rule x\n"
+    assert file.count("\n") == 3
+
+
+@pytest.mark.parametrize(
+    ("seconds", "text"), [(4.4, "4 s"), (99, "99 s"), (130, "2 min"), (11160, "3.1 h")]
+)
+def test_duration(seconds, text):
+    assert _progress.duration(seconds) == text

@@ -1,0 +1,130 @@
+"""Faults on the way: one message that says what to do, nothing lost, and the next run completes."""
+
+import os
+import shutil
+import signal
+import subprocess
+import time
+from contextlib import contextmanager
+from pathlib import Path
+
+import psutil
+import pytest
+
+from stickiness import datasets
+
+pytestmark = pytest.mark.workflow
+
+RESULTS = "results/tiny"
+SURFACE = f"{RESULTS}/surfaces/H0.9_zeta64/seed1.nc"
+SOLVED = f"{RESULTS}/bem/H0.9_zeta64/seed1.nc"
+TINY = ["--configfile", "config/config.yaml", "config/tiny.yaml"]
+
+
+def errors(run):
+    """The run has failed, and told so without a trace."""
+    assert run.returncode != 0, run.stdout
+    assert "Traceback" not in run.stdout, run.stdout
+    return run.stdout
+
+
+def completes(workflow, reference):
+    run = workflow.snakemake(SOLVED)
+    assert run.returncode == 0, run.stdout
+    solved = datasets.read(workflow / SOLVED)
+    assert solved.equals(reference)
+    assert not list((workflow / "results").rglob(".*.nc")), "a temporary file was left behind"
+
+
+@pytest.fixture
+def solved(finished, fresh):
+    """A folder with the surface and the solution of one realisation only, as a run left them."""
+    for path in (SURFACE, SOLVED):
+        (fresh / path).parent.mkdir(parents=True)
+        shutil.copy2(finished / path, fresh / path)
+    return fresh
+
+
+@pytest.fixture
+def reference(finished):
+    return datasets.read(finished / SOLVED)
+
+
+def test_killed_job(fresh, reference):
+    """The job alone, as by the kernel when memory runs out."""
+    run = subprocess.Popen(
+        fresh.command(SOLVED, *TINY),
+        cwd=fresh.folder,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+    )
+    deadline, killed = time.monotonic() + 120, None
+    while killed is None:
+        assert time.monotonic() < deadline, "no job within two minutes"
+        assert run.poll() is None, "the run ended before a job could be killed"
+        for child in psutil.Process(run.pid).children(recursive=True):
+            if any(word.endswith("solve_repulsive.py") for word in cmdline(child)):
+                os.kill(child.pid, signal.SIGKILL)
+                killed = child
+        time.sleep(0.02)
+    output, _ = run.communicate(timeout=120)
+    assert run.returncode != 0
+    assert "solve_repulsive" in output
+    assert (fresh / SURFACE).exists(), "what had been finished is lost"
+    assert not (fresh / SOLVED).exists()
+    completes(fresh, reference)
+
+
+def cmdline(process):
+    try:
+        return process.cmdline()
+    except psutil.Error:
+        return []
+
+
+def test_truncated_and_foreign_files(solved, finished, reference):
+    other = SURFACE.replace("seed1", "seed2")
+    good = (solved / SURFACE).read_bytes()
+    (solved / SURFACE).write_bytes(good[: len(good) // 2])
+    shutil.copy(finished / SURFACE, solved / other)
+    said = errors(solved.snakemake("-k", SOLVED, SOLVED.replace("seed1", "seed2")))
+    assert f"{SURFACE}: not a readable NetCDF file" in said
+    assert f"{other}: holds what belongs in {SURFACE.removeprefix('results/')}; delete" in said
+    (solved / SURFACE).unlink()
+    completes(solved, reference)
+    assert (solved / SURFACE).read_bytes() == good
+
+
+def test_wrong_clock_and_results_that_may_not_be_written(solved, reference):
+    tomorrow = time.time() + 86400
+    module = "scripts/stickiness/repulsive.py"
+    for path in (module, SURFACE):
+        os.utime(solved / path, (tomorrow, tomorrow))
+    said = errors(solved.snakemake(SOLVED))
+    assert f"{module} (and 1 more) was changed in the future" in said
+    command = said.split("run: ")[1].splitlines()[0]
+    assert command == f"touch {module} {SURFACE}"
+    subprocess.run(command.split(), cwd=solved.folder, check=True)
+
+    (solved / SURFACE).unlink()
+    with read_only(solved / Path(SOLVED).parent):
+        said = errors(solved.snakemake(SOLVED))
+    assert f"{Path(SOLVED).parent} may not be written to" in said
+    assert not (solved / SURFACE).exists(), "jobs ran that had no use"
+    completes(solved, reference)
+
+
+@contextmanager
+def read_only(folder):
+    """No writing below, also for root, whom permissions do not stop."""
+    stop, allow = (["chmod", "a-w"], ["chmod", "u+w"])
+    if os.geteuid() == 0:
+        stop, allow = (["chattr", "+i"], ["chattr", "-i"])
+    done = subprocess.run([*stop, folder], capture_output=True, check=False)
+    if done.returncode:
+        pytest.skip("root, on a file system that nothing can be made read-only on")
+    try:
+        yield
+    finally:
+        subprocess.run([*allow, folder], check=True)

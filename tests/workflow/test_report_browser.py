@@ -1,0 +1,287 @@
+"""The report and the pages of surfaces as a real browser shows and prints them.
+
+Chromium runs without a window and without a network. A probe, a script appended to a copy of the
+page, measures the page in the browser and puts what it found in the page's place.
+"""
+
+import base64
+import json
+import re
+import shutil
+import struct
+import subprocess
+from functools import cache
+from html import unescape
+from urllib.parse import unquote
+
+import pytest
+
+import _style
+
+NAMES = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable")
+CHROMIUM = next(filter(None, map(shutil.which, NAMES)), None)
+pytestmark = [
+    pytest.mark.workflow,
+    pytest.mark.skipif(CHROMIUM is None, reason="no chromium on the path (apt install chromium)"),
+]
+FLAGS = [
+    "--headless",
+    "--no-sandbox",
+    "--disable-gpu",
+    "--disable-quic",
+    "--no-first-run",
+    "--disable-background-networking",
+    "--disable-component-update",
+    "--disable-sync",
+    "--disable-dev-shm-usage",
+    "--hide-scrollbars",
+    "--host-resolver-rules=MAP * ~NOTFOUND",
+    "--enable-logging=stderr",
+    "--virtual-time-budget=5000",
+]
+A4 = 680  # CSS pixels between the margins of 15 mm
+PROBE = """
+(() => {
+  for (const details of document.querySelectorAll("details")) details.open = true;
+  const name = (e) => `${e.tagName}#${e.id}.${e.className}`;
+  const boxed = (e) => e.closest(".wide, .frame, nav.contents, .skip") !== null;
+  const found = {
+    width: innerWidth,
+    scroll: document.documentElement.scrollWidth,
+    beyond: [...document.body.querySelectorAll("*")]
+      .filter((e) => !boxed(e) && e.getBoundingClientRect().right > innerWidth + 1).map(name),
+    scrolling: [...document.querySelectorAll(".wide, .frame")]
+      .filter((e) => e.scrollWidth > e.clientWidth + 1).map(name),
+    images: [...document.images].map((e) => [e.complete, e.naturalWidth, e.clientWidth]),
+    loaded: performance.getEntriesByType("resource").map((entry) => entry.name.slice(0, 200))
+      .filter((address) => !address.startsWith("data:")),
+    tables: [...document.querySelectorAll("table.sortable")].map((table) => {
+      const heads = [...table.tHead.rows[0].cells];
+      const column = (i) => [...table.tBodies[0].rows].map(
+        (row) => row.cells[i].dataset.value ?? row.cells[i].textContent.trim());
+      return {
+        name: table.className,
+        columns: heads.map((head, i) => {
+          const button = head.querySelector("button");
+          if (!button) return null;
+          const states = [[head.getAttribute("aria-sort"), column(i)]];
+          for (let press = 0; press < 3; ++press) {
+            button.click();
+            states.push([head.getAttribute("aria-sort"), column(i)]);
+          }
+          button.click();
+          dispatchEvent(new Event("beforeprint"));
+          const printed = column(i);
+          dispatchEvent(new Event("afterprint"));
+          const back = column(i);
+          button.click();
+          button.click();
+          return { label: button.textContent.trim(), states, printed, back };
+        }),
+      };
+    }),
+  };
+  const told = document.createElement("pre");
+  told.textContent = JSON.stringify(found);
+  document.documentElement.replaceChildren(told);
+})();
+"""
+
+
+def chromium(page, profile, *arguments, width=1280):
+    """Run the browser on a page; what it prints, and what the page says on its console."""
+    done = subprocess.run(
+        [
+            CHROMIUM,
+            *FLAGS,
+            f"--user-data-dir={profile}",
+            f"--window-size={width},2000",
+            *arguments,
+            page.as_uri(),
+        ],
+        capture_output=True,
+        text=True,
+        timeout=120,
+        check=False,
+    )
+    console = [line for line in done.stderr.splitlines() if "CONSOLE" in line]
+    return done.stdout, console
+
+
+@cache
+def probed(page, folder, width=1280, change=None):
+    """What the probe finds in a page, changed by `change`, at a width of the window."""
+    text = page.read_text(encoding="utf-8")
+    copy = folder / f"{page.stem}-{width}.html"
+    text = change(text) if change else text
+    copy.write_text(text.replace("</body>", f"<script>{PROBE}</script></body>"), encoding="utf-8")
+    dom, console = chromium(copy, folder / "profile", "--dump-dom", width=width)
+    told = re.search(r"<pre>(.*?)</pre>", dom, re.S)
+    assert told, dom[:2000]
+    return json.loads(unescape(told[1])), console
+
+
+def as_printed(text):
+    """The page with its style for print on the screen, and none for small screens."""
+    assert "@media print" in text
+    return text.replace("@media screen and", "@media not all and").replace(
+        "@media print", "@media screen"
+    )
+
+
+@pytest.fixture(scope="module")
+def report(finished):
+    return finished / "results/tiny/report/report.html"
+
+
+@pytest.fixture(scope="module")
+def measured_page(finished):
+    return finished / "results/tiny/report/surfaces/jacksboro.html"
+
+
+@pytest.fixture(scope="module")
+def scratch(tmp_path_factory):
+    return tmp_path_factory.mktemp("browser")
+
+
+@pytest.fixture(params=["report", "measured_page"])
+def page(request):
+    return request.getfixturevalue(request.param)
+
+
+def pixels_per_inch(page):
+    """Resolution at which a page's first picture was drawn."""
+    text = page.read_text(encoding="utf-8")
+    png = base64.b64decode(re.search(r"data:image/png;base64,([^\"]+)", text)[1])
+    at = png.index(b"pHYs") + 4
+    return struct.unpack(">I", png[at : at + 4])[0] * 0.0254
+
+
+@pytest.mark.parametrize("width", [1280, 1440])
+def test_fits_a_laptop(page, scratch, width):
+    found, console = probed(page, scratch, width)
+    assert found["width"] == width
+    assert found["scroll"] <= width
+    assert found["beyond"] == []
+    # Only the matrix, a column for every material, may scroll in its frame.
+    assert set(found["scrolling"]) <= {"DIV#matrix.wide"}
+    assert console == []
+
+
+def test_fits_a_phone(page, scratch):
+    found, console = probed(page, scratch, 500)  # no headless window is narrower
+    assert found["scroll"] <= found["width"] <= 500
+    assert found["beyond"] == []
+    assert console == []
+
+
+def test_fits_paper(page, scratch):
+    found, _ = probed(page, scratch, A4, as_printed)
+    assert found["scroll"] <= A4
+    assert found["beyond"] == found["scrolling"] == []
+
+
+@pytest.mark.parametrize(
+    ("width", "change", "least"),
+    [(1280, None, 10), (1440, None, 10), (500, None, 9), (A4, as_printed, 9)],
+)
+def test_letters_of_figures_are_legible(page, scratch, width, change, least):
+    found, _ = probed(page, scratch, width, change)
+    letters = ("font.size", "titlesize", "labelsize", "fontsize")
+    smallest = min(size for name, size in _style._SETTINGS.items() if name.endswith(letters))
+    resolution = pixels_per_inch(page)
+    assert found["images"]
+    for complete, natural, shown in found["images"]:
+        assert complete
+        assert smallest / 72 * resolution * shown / natural >= least  # CSS pixels
+
+
+def test_loads_nothing(page, scratch):
+    found, console = probed(page, scratch)
+    assert found["loaded"] == []
+    assert console == []
+
+
+def test_would_notice_a_picture_from_elsewhere_and_an_error(page, scratch):
+    def spoilt(text):
+        extra = '<img src="https://example.invalid/x.png"><script>undefinedName()</script>'
+        return text.replace("</main>", f"{extra}</main>")
+
+    _, console = probed(page, scratch, change=spoilt)
+    assert any("Content Security Policy" in line for line in console)
+    assert any("undefinedName" in line for line in console)
+
+
+def ordered(values, direction):
+    """Whether values, those known before the unknown, stand in an order."""
+    unknown = [value in ("", "nan") for value in values]
+    assert unknown == sorted(unknown)
+    known = [value for value, missing in zip(values, unknown, strict=True) if not missing]
+    try:
+        keys = [float(value) for value in known]
+    except ValueError:
+        return True  # texts: a permutation, in the language's order
+    return keys == sorted(keys, reverse=direction == "descending")
+
+
+def test_tables_sort(page, scratch):
+    found, _ = probed(page, scratch)
+    names = {table["name"].split()[0] for table in found["tables"]}
+    assert names == ({"claims", "matrix", "pairs"} if page.stem == "report" else {"pairs"})
+    for table in found["tables"]:
+        columns = [column for column in table["columns"] if column]
+        assert len(columns) >= 5
+        for column in columns:
+            assert column["label"]
+            (_, written), up, down, again = column["states"]
+            assert (up[0], down[0], again[0]) == ("ascending", "descending", None)
+            assert sorted(up[1]) == sorted(down[1]) == sorted(written) == sorted(again[1])
+            assert ordered(up[1], "ascending")
+            assert ordered(down[1], "descending")
+            assert again[1] == column["printed"] == written
+            assert column["back"] == up[1]
+        moved = [column for column in columns if column["states"][1][1] != column["states"][0][1]]
+        assert moved
+
+
+def test_prints(page, scratch):
+    pdf = scratch / "page.pdf"
+    chromium(page, scratch / "profile", f"--print-to-pdf={pdf}", "--no-pdf-header-footer")
+    content = pdf.read_bytes()
+    assert content.startswith(b"%PDF")
+    pages = len(re.findall(rb"/Type\s*/Page\b", content))
+    assert 2 <= pages <= 40
+
+
+def test_files_behind_the_numbers_exist(finished, report):
+    pages = [report, *sorted((report.parent / "surfaces").glob("*.html"))]
+    assert len(pages) > 2
+    for page in pages:
+        text = page.read_text(encoding="utf-8")
+        targets = [unquote(unescape(t)) for t in re.findall(r'href="([^"#]+)"', text)]
+        files = [t for t in targets if not t.startswith(("https://doi.org/", "data:"))]
+        assert any(t.endswith(".nc") for t in files)
+        for target in files:
+            assert (page.parent / target).is_file(), f"{page.name}: {target}"
+
+
+def test_every_table_of_results_leads_to_its_data(finished, report):
+    pages = [report, *sorted((report.parent / "surfaces").glob("*.html"))]
+    for page in pages:
+        text = page.read_text(encoding="utf-8")
+        for table in re.findall(r"<table.*?</table>", text, re.S):
+            caption = re.search(r"<caption>(.*?)</caption>", table, re.S)[1]
+            head = re.sub("<[^>]+>", "", caption)[:40]
+            if "benchmark files" in caption:
+                continue
+            rows = re.findall(r"<tr[ >].*?</tr>", table.split("</caption>")[1], re.S)
+            bodies = table.split("<tbody>")[1:]
+            linked = '.nc"' in caption or all('.nc"' in body for body in bodies)
+            assert linked, f"{page.name}: {head}"
+            assert rows
+    text = report.read_text(encoding="utf-8")
+    claims = re.findall(r'<tr id="claim-\d+">.*?</tr>', text, re.S)
+    assert len(claims) == 18
+    for claim in claims:
+        measured = re.search(r'data-label="Measured".*?</td>', claim, re.S)[0]
+        assert re.search(r'<b class="nb"><a class="data" href="[^"]+\.nc"', measured), claim
