@@ -184,8 +184,8 @@ def band_rows(measured, points):
                         row("band", f"{cut} {way}", case, quantity, off, off, seconds, unit)
                     )
                     if way == "difference":
-                        # kappa hardly changes, but errs as the area does that it is made of.
-                        like = known["area"] if quantity == "kappa" else known[quantity]
+                        # What is beyond the cut is measured by what it takes of the area.
+                        like = known["area"]
                         size = rms(like.sel(whole) / like.sel(at) - 1).sel(pressure=load)
                         points.add("carrying", quantity, accuracy.Surface(1, 1), off / float(size))
     return rows

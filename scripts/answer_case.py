@@ -139,10 +139,10 @@ def quoted(state, column):
 
 
 def carried(plan, columns, pressures):
-    """What theory says that a broader spectrum adds to each column, and its relative size.
+    """What theory says that a broader spectrum adds to each column, and what it takes of the area.
 
     The difference, not the ratio: from magnification 64 to 512 it leaves a third to a half of the
-    error. kappa errs as the area does that it is made of.
+    error. The error is measured as a share of the relative change of the area.
     """
     surface, ranges = plan["surface"], logarithmic_grid(RANGES)
     own, broad = (
@@ -152,9 +152,8 @@ def carried(plan, columns, pressures):
         for asked in (surface, surface | {"magnification": plan["carry_to"]})
     )
     change = np.array([quoted(broad, column) - quoted(own, column) for column in columns])
-    made_of = ["area" if column == "kappa" else column for column in columns]
-    size = np.array([quoted(broad, column) / quoted(own, column) - 1 for column in made_of])
-    return change, np.abs(size)
+    size = np.abs(quoted(broad, "area") / quoted(own, "area") - 1)
+    return change, size
 
 
 def annotated(dataset, columns):

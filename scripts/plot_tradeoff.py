@@ -50,6 +50,7 @@ def grids(ax, found):
     ax.plot([], [], "--", color=GREY, label=r"$A_\mathrm{ad}(0.01)$")
     ax.set(xscale="log", yscale="log", xlabel=COST, ylabel=ERROR)
     plain_ticks(ax.xaxis, [0.5, 1, 2, 5, 10, 20, 50])
+    ax.set_ylim(bottom=2e-5)
     ax.set_title("grid: 2, 4, 8, 16 points", loc="right")
     ax.legend(loc="lower left")
 
@@ -106,7 +107,8 @@ def bands(ax, found):
     ax.set_title(f"cut, carried to {2 * cuts[-1]}", loc="right")
     ax.set_xticks(cuts, [str(cut) for cut in cuts])
     ax.minorticks_off()
-    ax.legend()
+    ax.set_ylim(top=60)
+    ax.legend(loc="upper right")
 
 
 def together(ax, laws, quantities, params):

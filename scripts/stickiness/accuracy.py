@@ -10,8 +10,8 @@ error that covers 90 % is
 
 with n fine, N coarse and M described seeds of the multilevel mean of `sampling` and z = 1.645; with
 plain means the bracket is 1/n. The shares are what a control leaves of the standard deviation.
-Beside these the table says what theory errs by in place of a simulation, and by what share of the
-change that it adds to one where a broader spectrum is asked for.
+Beside these the table says what theory errs by in place of a simulation, and what is left of the
+change of the area, as a share of it, where theory adds a broader spectrum's difference to one.
 """
 
 from __future__ import annotations
