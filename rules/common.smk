@@ -291,11 +291,25 @@ def ledger_inputs():
     }
 
 
+def sized(wildcards):
+    """The configuration with the grid and coarse seeds that the job's own case has, if any."""
+    chosen = {}
+    if hasattr(wildcards, "case"):
+        settings = PLANS[wildcards.case].settings
+        chosen = {
+            "pixels_per_wavelength": settings.pixels_per_wavelength,
+            "coarse_seeds": settings.coarse_seeds,
+        }
+    elif hasattr(wildcards, "grid"):
+        chosen = {"pixels_per_wavelength": pixels_of(wildcards)}
+    return config | {"fidelities": {config["fidelity"]: FIDELITY | chosen}}
+
+
 def memory_of(rule):
     """Memory [MB] that jobs of a rule ask for, and more each time that one fails."""
 
     def asked(wildcards, attempt):
-        return attempt * _cost.asked_mb(rule, _cost.work(config, rule, **dict(wildcards.items())))
+        return attempt * _cost.asked_mb(rule, _cost.work(sized(wildcards), rule, **dict(wildcards.items())))
 
     return asked
 
@@ -304,7 +318,7 @@ def runtime_of(rule):
     """Time [min] that jobs of a rule ask for, and more each time that one fails."""
 
     def asked(wildcards, attempt):
-        size = _cost.work(config, rule, **dict(wildcards.items()))
+        size = _cost.work(sized(wildcards), rule, **dict(wildcards.items()))
         return attempt * _cost.asked_minutes(rule, size)
 
     return asked
