@@ -39,9 +39,12 @@ localrules:
     fig6,
     fig7,
     fig8,
+    fig9,
+    fig10,
     claims,
     verdicts,
     surfaces,
+    dmt_error,
     report,
     stability,
 
@@ -96,6 +99,16 @@ rule fig8:
         f"{RESULTS}/figures/fig8.png",
 
 
+rule fig9:
+    input:
+        f"{RESULTS}/figures/fig9.png",
+
+
+rule fig10:
+    input:
+        f"{RESULTS}/figures/fig10.png",
+
+
 rule verdicts:
     input:
         f"{RESULTS}/criteria/verdicts.md",
@@ -104,6 +117,11 @@ rule verdicts:
 rule surfaces:
     input:
         expand(f"{RESULTS}/report/surfaces/{{real_surface}}.html", real_surface=REAL_SURFACES),
+
+
+rule dmt_error:
+    input:
+        f"{RESULTS}/adhesive/dmt_error.csv",
 
 
 rule claims:

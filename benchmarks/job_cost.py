@@ -21,6 +21,7 @@ WILDCARDS = {
     "synthesise_surface": ("model_surface", "seed"),
     "solve_repulsive": ("case", "seed"),
     "solve_coarse": ("case",),
+    "solve_ensemble": ("comparison",),
     "contact_maps": ("case",),
     "solve_adhesive": ("adhesion", "seed"),
     "adhesive_maps": ("adhesion",),

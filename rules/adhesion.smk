@@ -1,5 +1,5 @@
 # Adhesion in the DMT limit, summed over the gaps of the repulsive solution, and in full, by boundary
-# elements with a traction law.
+# elements with a traction law, at the points where the former is not known to be good enough.
 
 
 rule adhesion_dmt:
@@ -20,6 +20,8 @@ rule adhesion_dmt:
         mem_mb=500,
     params:
         adhesion=lambda wildcards: ADHESION[wildcards.adhesion],
+        dmt_error=lambda wildcards: model_of(wildcards.adhesion).dmt_error.tolist(),
+        jtb=lambda wildcards: model_of(wildcards.adhesion).jtb.tolist(),
     script:
         "../scripts/adhesion_dmt.py"
 
@@ -40,7 +42,8 @@ rule solve_adhesive:
         mem_mb=memory_of("solve_adhesive"),
         runtime=runtime_of("solve_adhesive"),
     params:
-        adhesion=lambda wildcards: ADHESION[wildcards.adhesion],
+        adhesion=solved_in_full,
+        full=lambda wildcards: model_of(wildcards.adhesion).full.tolist(),
         tolerance=FIDELITY["tolerance"],
     script:
         "../scripts/solve_adhesive.py"
@@ -49,6 +52,10 @@ rule solve_adhesive:
 rule average_adhesive:
     input:
         library=library_of("average_adhesive.py"),
+        limit=f"{RESULTS}/adhesion/{{adhesion}}.nc",
+        ensemble=lambda wildcards: (
+            f"{RESULTS}/ensembles/{ADHESION[wildcards.adhesion]['case']}.nc"
+        ),
         realisations=adhesive_realisations,
     output:
         f"{RESULTS}/adhesive/{{adhesion}}.nc",
@@ -60,8 +67,52 @@ rule average_adhesive:
         "../envs/environment.yaml"
     resources:
         mem_mb=500,
+    params:
+        full=lambda wildcards: model_of(wildcards.adhesion).full.tolist(),
     script:
         "../scripts/average_adhesive.py"
+
+
+rule compare_edges:
+    input:
+        library=library_of("compare_edges.py"),
+        averages=f"{RESULTS}/adhesive/{{adhesion}}.nc",
+        realisations=adhesive_realisations,
+        alone=lambda wildcards: [
+            f"{RESULTS}/bem/{ADHESION[wildcards.adhesion]['case']}/{os.path.basename(path)}"
+            for path in adhesive_realisations(wildcards)
+        ],
+    output:
+        f"{RESULTS}/fits/edges/{{adhesion}}.nc",
+    log:
+        f"{LOGS}/compare_edges/{{adhesion}}.log",
+    benchmark:
+        f"{BENCHMARKS}/compare_edges/{{adhesion}}.tsv"
+    conda:
+        "../envs/environment.yaml"
+    resources:
+        mem_mb=500,
+    script:
+        "../scripts/compare_edges.py"
+
+
+# The committed table is a copy of this one, so that models can be chosen before anything is solved.
+rule tabulate_dmt_error:
+    input:
+        library=library_of("tabulate_dmt_error.py"),
+        adhesive=[f"{RESULTS}/adhesive/{name}.nc" for name in ("dmt_error", "dmt_error_zeta128")],
+    output:
+        f"{RESULTS}/adhesive/dmt_error.csv",
+    log:
+        f"{LOGS}/tabulate_dmt_error.log",
+    benchmark:
+        f"{BENCHMARKS}/tabulate_dmt_error.tsv"
+    conda:
+        "../envs/environment.yaml"
+    resources:
+        mem_mb=500,
+    script:
+        "../scripts/tabulate_dmt_error.py"
 
 
 rule adhesive_maps:

@@ -105,7 +105,8 @@ rule solve_ensemble:
     conda:
         "../envs/environment.yaml"
     resources:
-        mem_mb=2000,
+        mem_mb=memory_of("solve_ensemble"),
+        runtime=runtime_of("solve_ensemble"),
     params:
         surface=lambda wildcards: COMPARED[wildcards.comparison][0],
         pressures=config["comparisons"]["pressures"],

@@ -22,6 +22,7 @@ from snakemake.exceptions import WorkflowError
 from snakemake.logging import logger
 from snakemake.settings.enums import Quietness
 from stickiness import config as configuration
+from stickiness import model_choice
 
 # One thread a job: `-j` runs seeds and cases side by side, which scales better than threaded
 # linear algebra on arrays of this size, and sums do not depend on the number of cores.
@@ -33,7 +34,8 @@ try:
     MATERIALS, REAL_SURFACES = configuration.checked(
         config, Path(workflow.basedir) / "config/schemas"
     )
-except configuration.ConfigError as error:
+    DMT_ERRORS = model_choice.read_table(config["dmt_error"])
+except ValueError as error:
     raise WorkflowError(str(error)) from None
 
 FIDELITY = config["fidelities"][config["fidelity"]]
@@ -59,7 +61,7 @@ COMPARED = {
     },
 }
 ADHESION, LOOPS = config["adhesion"], config["loops"]
-FIGURES = [f"fig{number}" for number in range(1, 9)]
+FIGURES = [f"fig{number}" for number in range(1, 11)]
 PAGE_PARTS = [f"report/{part}" for part in ("macros.html.j2", "page.css", "page.js")]
 
 
@@ -135,12 +137,34 @@ def adhesive_case(wildcards):
     return SimpleNamespace(case=ADHESION[wildcards.adhesion]["case"])
 
 
+@cache
+def model_of(adhesion):
+    """Model of every point of a set of adhesive parameters."""
+    asked = ADHESION[adhesion]
+    surface = config["model_surfaces"][CASES[asked["case"]]["surface"]]
+    return model_choice.choose(asked, surface, DMT_ERRORS)
+
+
+def solved_in_full(wildcards):
+    """What a full solution depends on, of a set of adhesive parameters, beside its model."""
+    others = ("model", "accuracy", "seeds", "maps")
+    return {key: value for key, value in ADHESION[wildcards.adhesion].items() if key not in others}
+
+
 def adhesive_realisations(wildcards):
-    """Files of all realisations of a set of adhesive parameters."""
+    """Files of all realisations to be solved in full; none if the DMT limit is good enough."""
+    if not model_of(wildcards.adhesion).full.any():
+        return []
     asked = ADHESION[wildcards.adhesion]
-    most = asked["bem"].get("seeds", 10**9)
+    most = asked.get("seeds", 10**9)
     seeds = [seed for seed in seeds_of(asked["case"]) if seed <= most]
     return [f"{RESULTS}/adhesive/{wildcards.adhesion}/seed{seed}.nc" for seed in seeds]
+
+
+def simulated_edges():
+    """Attraction at the edges of contact, for every set of parameters with full simulation."""
+    names = [name for name in ADHESION if adhesive_realisations(SimpleNamespace(adhesion=name))]
+    return [f"{RESULTS}/fits/edges/{name}.nc" for name in names]
 
 
 def topography_files(wildcards):
@@ -188,6 +212,7 @@ def ledger_inputs():
         "fit_lattice_128": f"{RESULTS}/fits/persson_lattice/H0.8_zeta128.nc",
         "ensemble_wide": f"{RESULTS}/ensembles/H0.8_zeta32_wide.nc",
         "fit_bem_wide": f"{RESULTS}/fits/ensembles/H0.8_zeta32_wide.nc",
+        "fit_bem_64": f"{RESULTS}/fits/ensembles/H0.8_zeta64.nc",
         "fit_bem_128": f"{RESULTS}/fits/ensembles/H0.8_zeta128.nc",
         **{f"fig{n}": f"{RESULTS}/persson/fig{n}.nc" for n in ("1b", "3a", "3b", "3c", "3d")},
         **{f"fit_fig{n}": f"{RESULTS}/fits/persson/fig{n}.nc" for n in ("3a", "3c", "3d")},
@@ -200,6 +225,7 @@ def ledger_inputs():
         "adhesion_smooth": f"{RESULTS}/adhesion/fig4b_smooth.nc",
         "map": f"{RESULTS}/criteria/map.nc",
         "asphalt": f"{RESULTS}/real_surfaces/asphalt.nc",
+        "asphalt_theory": f"{RESULTS}/persson_surface/asphalt.nc",
         "polished_steel": f"{RESULTS}/real_surfaces/polished_steel.nc",
         "surfaces": [f"{RESULTS}/real_surfaces/{name}.nc" for name in REAL_SURFACES],
         "seeds": [

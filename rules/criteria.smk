@@ -5,6 +5,7 @@ rule map_criterion:
     input:
         **a_v_inputs(),
         library=library_of("map_criterion.py"),
+        a_v_table=f"{RESULTS}/fits/a_v_table.nc",
     output:
         f"{RESULTS}/criteria/map.nc",
     log:
@@ -20,6 +21,28 @@ rule map_criterion:
         pressure=config["criteria"]["a_v"]["pressure"],
     script:
         "../scripts/map_criterion.py"
+
+
+rule compare_criteria:
+    input:
+        **a_v_inputs(),
+        library=library_of("compare_criteria.py"),
+        a_v_table=f"{RESULTS}/fits/a_v_table.nc",
+    output:
+        f"{RESULTS}/criteria/compared.nc",
+    log:
+        f"{LOGS}/compare_criteria.log",
+    benchmark:
+        f"{BENCHMARKS}/compare_criteria.tsv"
+    conda:
+        "../envs/environment.yaml"
+    resources:
+        mem_mb=500,
+    params:
+        compared=config["criteria"]["compared"],
+        pressure=config["criteria"]["a_v"]["pressure"],
+    script:
+        "../scripts/compare_criteria.py"
 
 
 rule judge:

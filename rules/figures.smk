@@ -90,10 +90,9 @@ rule plot_fig4:
     input:
         library=library_of("plot_fig4.py"),
         loop=f"{RESULTS}/loops/fig4a.nc",
-        rough=f"{RESULTS}/adhesion/fig4b_rough.nc",
-        smooth=f"{RESULTS}/adhesion/fig4b_smooth.nc",
-        rough_full=f"{RESULTS}/adhesive/fig4b_rough.nc",
-        smooth_full=f"{RESULTS}/adhesive/fig4b_smooth.nc",
+        rough=f"{RESULTS}/adhesive/fig4b_rough.nc",
+        smooth=f"{RESULTS}/adhesive/fig4b_smooth.nc",
+        a_v=[f"{RESULTS}/fits/ensembles/{case}.nc" for case in ("H0.8_zeta64", "H0.8_zeta128")],
     output:
         png=report(
             f"{RESULTS}/figures/fig4.png",
@@ -208,3 +207,50 @@ rule plot_fig8:
         mem_mb=500,
     script:
         "../scripts/plot_fig8.py"
+
+
+rule plot_fig9:
+    input:
+        library=library_of("plot_fig9.py"),
+        compared=f"{RESULTS}/criteria/compared.nc",
+        verdicts=f"{RESULTS}/criteria/verdicts.nc",
+    output:
+        png=report(
+            f"{RESULTS}/figures/fig9.png",
+            category="Figures",
+            caption="../report/fig9.rst",
+        ),
+        pdf=f"{RESULTS}/figures/fig9.pdf",
+    log:
+        f"{LOGS}/plot_fig9.log",
+    benchmark:
+        f"{BENCHMARKS}/plot_fig9.tsv"
+    conda:
+        "../envs/environment.yaml"
+    resources:
+        mem_mb=500,
+    script:
+        "../scripts/plot_fig9.py"
+
+
+rule plot_fig10:
+    input:
+        library=library_of("plot_fig10.py"),
+        edges=simulated_edges(),
+    output:
+        png=report(
+            f"{RESULTS}/figures/fig10.png",
+            category="Figures",
+            caption="../report/fig10.rst",
+        ),
+        pdf=f"{RESULTS}/figures/fig10.pdf",
+    log:
+        f"{LOGS}/plot_fig10.log",
+    benchmark:
+        f"{BENCHMARKS}/plot_fig10.tsv"
+    conda:
+        "../envs/environment.yaml"
+    resources:
+        mem_mb=500,
+    script:
+        "../scripts/plot_fig10.py"

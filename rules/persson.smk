@@ -82,6 +82,7 @@ rule persson_table:
         "../envs/environment.yaml"
     resources:
         mem_mb=1000,
+        runtime=20,
     params:
         table=config["theory"]["table"],
         gamma=config["theory"]["gamma"],

@@ -12,8 +12,8 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from stickiness import adhesive, criteria
-from stickiness.units import si
+from stickiness import adhesive
+from stickiness.model_choice import roughness
 
 LAWS = {
     "maugis": adhesive.Maugis,
@@ -22,6 +22,7 @@ LAWS = {
 
 MISSING = "the grid does not resolve the edge, or a window closes"
 
+AXES = ("pressure", "adhesion_length_over_range", "range_over_h_rms")
 DESCRIBED = {
     "q0_h_rms": ("1", "lowest wave number times rms height"),
     "adhesion_length_over_range": ("1", "adhesion length over range, sigma0/E*"),
@@ -29,17 +30,15 @@ DESCRIBED = {
 }
 
 
-def roughness(asked: Mapping[str, Any]) -> float:
-    """Dimensionless roughness q0 h_rms, given as such or by a window and an rms height."""
-    if "q0_h_rms" in asked:
-        return float(asked["q0_h_rms"])
-    return 2 * np.pi / si(asked["window"], "m") * si(asked["h_rms"], "m")
+def axis(name: str, asked: Mapping[str, Any], key: str | None = None) -> xr.DataArray:
+    """One list of the configuration (under `key`, by default its name), in increasing order."""
+    values = np.sort(np.array(asked[key or name], dtype=float))
+    return xr.DataArray(values, dims=name, coords={name: values}, name=name)
 
 
-def axis(name: str, asked: Mapping[str, Any]) -> xr.DataArray:
-    """One list of the configuration as a coordinate, in increasing order."""
-    values = np.sort(np.array(asked[name], dtype=float))
-    return xr.DataArray(values, dims=name, coords={name: values})
+def axes(asked: Mapping[str, Any]) -> tuple[xr.DataArray, xr.DataArray, xr.DataArray]:
+    """Pressures, adhesion lengths and ranges of a set, in the order of `AXES`."""
+    return tuple(axis(name, asked, "pressures" if name == "pressure" else None) for name in AXES)
 
 
 def scaled_law(
@@ -48,11 +47,3 @@ def scaled_law(
     """Traction law in the units of the simulations."""
     strength = adhesion_length_over_range / roughness(asked)
     return LAWS[kind](adhesion_length=strength * range_over_h_rms, range=range_over_h_rms)
-
-
-def dmt_valid(q0_h_rms, lengths, ranges):
-    """Where the JTB condition lets the repulsive gaps stand, with lengths in units of 1/q0."""
-    length, range_ = xr.broadcast(lengths, ranges)
-    range_ = range_ * q0_h_rms
-    valid = criteria.dmt_validity(q0_h_rms, 1.0, (length * range_).values, range_.values).valid
-    return length.dims, np.asarray(valid, dtype="i1")

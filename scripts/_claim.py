@@ -16,6 +16,9 @@ QUALIFIED = "reproduced with a qualification"
 NOT = "not reproduced"
 OPEN = "not decided at this resolution"
 
+# Sources of error by the names that variables have for them.
+KINDS = {"sampling": "standard", "discretisation": "discretisation", "model": "model"}
+
 Files = Mapping[str, xr.Dataset]
 
 
@@ -64,14 +67,17 @@ def graded(fully: bool, partly: bool) -> str:
 def errors_of(data: xr.Dataset, name: str) -> dict[str, float]:
     """Errors of a mean by their source."""
     return {
-        "sampling": float(data[f"{name}_standard_error"]),
-        "discretisation": float(data[f"{name}_discretisation_error"]),
+        source: float(data[f"{name}_{kind}_error"])
+        for source, kind in KINDS.items()
+        if f"{name}_{kind}_error" in data
     }
 
 
 def total_error(data: xr.Dataset, name: str) -> xr.DataArray:
-    """Standard error and discretisation error of a mean, in quadrature."""
-    return np.hypot(data[f"{name}_standard_error"], data[f"{name}_discretisation_error"])
+    """Errors of a mean in quadrature: standard, discretisation and, if there is one, model."""
+    error = np.hypot(data[f"{name}_standard_error"], data[f"{name}_discretisation_error"])
+    model = f"{name}_model_error"
+    return np.hypot(error, data[model]) if model in data else error
 
 
 def quoted(value: float, error: float) -> str:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+import _claims_adhesion as adhesion
 import _claims_contact as contact
 import _claims_criterion as criterion
 from _claim import Claim, Files
@@ -17,13 +18,13 @@ CLAIMS: tuple[Callable[[Files], Claim], ...] = (
     contact.density_converges,
     contact.small_gap_exponent,
     contact.load_separation,
-    criterion.kappa_threshold,
+    adhesion.kappa_threshold,
     contact.area_against_range,
     contact.area_against_load,
     contact.a_v_against_magnification,
     contact.a_v_against_load,
-    criterion.hysteresis,
-    criterion.inverse_kappa_ad,
+    adhesion.hysteresis,
+    adhesion.inverse_kappa_ad,
     criterion.slope_angle,
     criterion.roughness_limits,
     criterion.real_surfaces,

@@ -1,23 +1,13 @@
-"""Claims on adhesion, the criterion and what it says of real surfaces, and on moments."""
+"""Claims on the criterion and what it says of real surfaces, and on moments."""
 
 from __future__ import annotations
 
 import numpy as np
 import xarray as xr
 
-from _claim import (
-    OPEN,
-    QUALIFIED,
-    Claim,
-    Files,
-    at_load,
-    errors_of,
-    graded,
-    sample,
-    total_error,
-)
-from _model import spectrum_of, window_of
-from stickiness import adhesive, criteria, datasets, surface
+from _claim import Claim, Files, graded, sample
+from _model import VARIANT, spectrum_of, window_of
+from stickiness import adhesive, criteria, datasets, edge_adhesion, surface
 from stickiness.area_load import JTB_CONSTANT
 from stickiness.spectrum import SelfAffine
 
@@ -25,172 +15,6 @@ from stickiness.spectrum import SelfAffine
 RANGE, WORK_OF_ADHESION = 0.2e-9, 0.05  # m, J/m^2
 CRYSTAL = 0.05  # l_a/range
 UPPER_LINE = 1e-3  # m^0.4, C0 of the line above real surfaces
-PARTS_OF_SLOPE = ("inverse_kappa_ad_standard_error", "inverse_kappa_ad_discretisation_error")
-
-
-def kappa_threshold(files: Files) -> Claim:
-    """Claim 5: kappa turns negative above a threshold of l_a/range."""
-    full = at_load(files["adhesive_fig2"])
-    held = full.inverse_kappa.dropna("range_over_h_rms", how="all")
-    crossed = [r for r in held.range_over_h_rms if float(held.sel(range_over_h_rms=r).min()) < 0]
-    held = held if held.range_over_h_rms.size else full
-    reach = crossed[0] if crossed else held.range_over_h_rms[-1]
-    at = full.sel(range_over_h_rms=reach)
-    threshold, errors = zero_of(at)
-    crosses = np.isfinite(threshold)
-    limit = at_load(files["adhesion_fig2"]).sel(range_over_h_rms=reach)
-    dmt = limit.isel(adhesion_length_over_range=0)
-    dmt = float(dmt.adhesion_length_over_range / (2 * dmt.inverse_kappa_ad))
-    lowest, smallest = at.inverse_kappa.min(), full.isel(range_over_h_rms=0)
-    return Claim(
-        5,
-        "kappa grows with l_a/range and turns negative above a threshold (Figs. 2B, 2D-I)",
-        f"{'threshold' if crosses else 'largest simulated'} l_a/range at the mean gap of "
-        f"p = {float(at.pressure):g} without adhesion, on "
-        f"approach, range/h_rms = {float(reach):g}, q0 h_rms = {float(full.q0_h_rms):g}, "
-        f"{sample(full)}",
-        threshold if crosses else largest_simulated(at),
-        float(np.hypot(*errors.values())) if crosses else np.nan,
-        np.nan,
-        QUALIFIED if crosses else OPEN,
-        f"Full simulation at given mean gaps; the DMT limit has the threshold at {dmt:.2f}. "
-        + (
-            ""
-            if crosses
-            else f"1/kappa falls to {float(lowest.fillna(0.5)):.2f}; what would be beyond is not "
-            "resolved. "
-        )
-        + "On separation a pull-off force is there at smaller l_a/range already (claim 10). At the "
-        f"printed range, {float(full.range_over_h_rms[0]):g} h_rms, the grid resolves the edge of "
-        f"the contact up to l_a/range = {largest_simulated(smallest):g} only.",
-        ("adhesive_fig2", "adhesion_fig2"),
-        errors,
-    )
-
-
-def zero_of(data: xr.Dataset) -> tuple[float, dict[str, float]]:
-    """Adhesion length at which 1/kappa is zero, between those simulated, and its errors.
-
-    They are those of the less certain of the two points beside it.
-    """
-    data = data.where(np.isfinite(data.inverse_kappa), drop=True)
-    log_length = np.log(data.adhesion_length_over_range.values)
-    value, error = data.inverse_kappa.values, total_error(data, "inverse_kappa").values
-    below = np.flatnonzero(value < 0)
-    if not below.size or below[0] == 0:
-        return np.nan, {}
-    i = below[0]
-    slope = (value[i] - value[i - 1]) / (log_length[i] - log_length[i - 1])
-    zero = float(np.exp(log_length[i - 1] - value[i - 1] / slope))
-    worse = i - 1 + int(np.argmax(error[i - 1 : i + 1]))
-    return zero, {
-        source: float(zero * size / abs(slope))
-        for source, size in errors_of(
-            data.isel(adhesion_length_over_range=worse), "inverse_kappa"
-        ).items()
-    }
-
-
-def largest_simulated(data: xr.Dataset) -> float:
-    """Largest adhesion length over range that was simulated at one range; 0 if none was."""
-    length = data.adhesion_length_over_range.where(np.isfinite(data.inverse_kappa))
-    return float(length.max().fillna(0))
-
-
-def hysteresis(files: Files) -> Claim:
-    """Claim 10: loading and unloading differ (Fig. 4A)."""
-    coarse, loop = (files["loop"].isel(resolution=i) for i in (0, -1))
-    strongest = loop.isel(adhesion_length_over_range=-1)
-    error = abs(pull_off(coarse) - pull_off(loop))
-    press, gap = strongest.sel(control="pressure"), strongest.sel(control="mean_gap")
-    last = press.dropna("state").isel(state=-1)
-    area, tension = float(last.repulsive_area_fraction), pull_off(loop)
-    load = float(press.mean_pressure.max()) / 5
-    loading, unloading = (area_at(press, load, way) for way in (0, 1))
-    lost = float(gap.dissipated.sum() / gap.work.where(gap.work > 0).sum())
-    weak = loop.isel(adhesion_length_over_range=0).sel(control="pressure").dropna("state")
-    weak = weak.isel(state=-1)
-    made = datasets.parameters(loop)
-    pulls = tension < -2 * error and area > 0
-    return Claim(
-        10,
-        "loading-unloading loop, jump-in and pull-off at non-zero area (Fig. 4A)",
-        "pull-off pressure over E* q0 h_rms, range/h_rms = "
-        f"{made['range_over_h_rms']:g}, l_a/range = "
-        f"{float(strongest.adhesion_length_over_range):g}, q0 h_rms = {made['q0_h_rms']:g}, "
-        f"{sample(loop)}, one realisation; ± change from half the resolution",
-        tension,
-        error,
-        np.nan,
-        graded(pulls and unloading > 1.05 * loading, pulls),
-        f"Pull-off at an area of {area:.3f}; at p = {load:g} the area is {loading:.3f} on loading "
-        f"and {unloading:.3f} on unloading; at given mean gap {lost:.0%} of the work done on the "
-        f"surfaces is lost in the loop, in {int(gap.jumped.sum())} jumps. With "
-        f"l_a/range = {float(weak.adhesion_length_over_range):g} they part at "
-        f"p = {float(weak.mean_pressure):.2g}, area {float(weak.repulsive_area_fraction):.3f}.",
-        ("loop",),
-        {"discretisation": error},
-    )
-
-
-def pull_off(loop: xr.Dataset) -> float:
-    """Mean pressure of the last state under a press, at the largest adhesion length."""
-    press = loop.isel(adhesion_length_over_range=-1).sel(control="pressure")
-    return float(press.mean_pressure.dropna("state")[-1])
-
-
-def area_at(curve: xr.Dataset, load: float, way: int) -> float:
-    """Repulsive area at a load on one leg of a loop."""
-    leg = curve.where(curve.separating == way, drop=True)
-    order = np.argsort(leg.mean_pressure.values)
-    pressure, area = leg.mean_pressure.values[order], leg.repulsive_area_fraction.values[order]
-    return float(np.interp(load, pressure, area))
-
-
-def inverse_kappa_ad(files: Files) -> Claim:
-    """Claim 11: 1/kappa_ad of simulation against the formula with a_V = 2.8 (Fig. 4B)."""
-    ratios, limits, errors, parts = [], [], [], []
-    for name in ("rough", "smooth"):
-        full, limit = (at_load(files[f"{kind}_{name}"]) for kind in ("adhesive", "adhesion"))
-        limit = limit.sel(adhesion_length_over_range=full.adhesion_length_over_range)
-        formula = xr.zeros_like(full.inverse_kappa_ad) + criteria.inverse_kappa_ad(
-            float(full.q0_h_rms),
-            1.0,
-            (full.adhesion_length_over_range * full.range_over_h_rms * full.q0_h_rms).values,
-            (full.range_over_h_rms * full.q0_h_rms).values,
-            2.8,
-        )
-        error = total_error(full, "inverse_kappa_ad")
-        told = (error < 0.3 * formula).values
-        ratios.append((full.inverse_kappa_ad / formula).values[told])
-        limits.append((limit.inverse_kappa_ad / formula).values[told])
-        errors.append((error / formula).values[told])
-        parts.append([(full[name] / formula).values[told] for name in PARTS_OF_SLOPE])
-    ratios, limits, errors = map(np.concatenate, (ratios, limits, errors))
-    statement = "1/kappa_ad follows the formula with a_V = 2.8 over six decades (Fig. 4B)"
-    sources = ("adhesive_rough", "adhesive_smooth", "adhesion_rough", "adhesion_smooth")
-    if not ratios.size:
-        remark = "No parameter set is known to 30 %."
-        return Claim(11, statement, "-", np.nan, np.nan, 1.0, OPEN, remark, sources)
-    mean = float(np.exp(np.mean(np.log(ratios))))
-    apart = np.abs(np.log(ratios)).max()
-    return Claim(
-        11,
-        statement,
-        f"geometric mean of full simulation over formula, {len(ratios)} parameter sets with an "
-        f"error below 30 % of it, p = {float(full.pressure):g}; ± mean error of one",
-        mean,
-        float(np.mean(errors)),
-        1.0,
-        graded(apart < np.log(1.25), apart < np.log(4)),
-        f"Ratios from {ratios.min():.2f} to {ratios.max():.2f}, of the DMT limit from "
-        f"{limits.min():.2f} to {limits.max():.2f}. The order of magnitude follows; but even the "
-        "weakest attraction next to the edge of a contact draws in more area than its sum would, "
-        "so that 1/kappa_ad falls with the range more slowly than as (range/h_rms)^(2/3); strong "
-        "attraction saturates (Fig. 7).",
-        sources,
-        dict(zip(("sampling", "discretisation"), np.mean(np.hstack(parts), axis=1), strict=True)),
-    )
 
 
 def slope_angle(files: Files) -> Claim:
@@ -208,14 +32,27 @@ def slope_angle(files: Files) -> Claim:
         "map of stickiness with the JTB line; slope angles through 90° at a_V = 3 (Fig. 5)",
         f"h_rms/range at 90° for range q0/(l_a/range) = {float(m.slope_parameter[-1]):g}",
         crossing[-1],
-        np.nan,
+        worst * crossing[-1],
         float(expected[-1]),
         graded(False, worst < 0.01),
         "A check of the algebra: crossings from the drawn angles within "
         f"{worst:.1g} of the closed form. Thresholds above h_rms/range = {largest_dmt(a_v):.0f} "
         f"(a_V = {a_v:g}) lie outside the DMT range (JTB), so that the criterion finds no rougher "
-        "surface sticky within its own assumptions.",
+        f"surface sticky within its own assumptions. {weak_edges(m)}",
         ("map",),
+    )
+
+
+def weak_edges(m: xr.Dataset) -> str:
+    """Share of the map's thresholds with weak adhesion, and what the DMT limit makes of them."""
+    found = m.h_rms_limit_edges.notnull()
+    weak = float((m.h_rms_limit_edges > m.weak_limit).where(found).mean())
+    ratio = m.h_rms_limit / m.h_rms_limit_edges
+    return (
+        "By the edges of contact, with roughness down to "
+        f"{datasets.parameters(m)['shortest_over_range']:g} ranges, {weak:.0%} of the map's "
+        "thresholds have weak edges; the DMT limit with the same a_V is at "
+        f"{float(ratio.min()):.2f} to {float(ratio.max()):.2f} times their roughness."
     )
 
 
@@ -243,14 +80,27 @@ def roughness_limits(files: Files) -> Claim:
         "h_rms/range up to 1000, 67000, 1e6 at range q0 = 1e-6, 1e-9, 1e-12, l_a/range = 0.05",
         "h_rms/range at range q0 = 1e-9 by the printed coefficient 9/4",
         float(printed[1]),
-        np.nan,
+        0.0,
         67000.0,
         graded(False, abs(printed[1] / 67000 - 1) < 0.02),
         f"By 9/4: {listed(printed)} (the last is not 1e6). With a_V = {a_v:.2f} (simulated, "
         f"carried by theory): {listed(derived)} ({low[1] / derived[1] - 1:+.0%}, "
         f"{high[1] / derived[1] - 1:+.0%}). {beyond} of these 6 lie below the roughness from which "
-        f"the DMT limit holds (JTB): {listed(jtb)}.",
+        f"the DMT limit holds (JTB): {listed(jtb)}. {limits_by_edges(files['map'], q0)}",
         ("map",),
+    )
+
+
+def limits_by_edges(m: xr.Dataset, q0: np.ndarray) -> str:
+    """Limits of h_rms/range by the edges, a_V as tabulated, read off the map."""
+    names = [f"h_rms_limit_edges{end}" for end in ("", "_low", "_high")]
+    logs = np.log(m[names].interp(adhesion_length_over_range=CRYSTAL, method="linear"))
+    logs = logs.assign_coords(range_times_q0=np.log(m.range_times_q0))
+    value, low, high = (np.exp(logs[name].interp(range_times_q0=np.log(q0))) for name in names)
+    return (
+        "By the edges of contact, with a_V as tabulated for roughness down to "
+        f"{datasets.parameters(m)['shortest_over_range']:g} ranges: {listed(value.values)} "
+        f"({listed(low.values)} to {listed(high.values)})."
     )
 
 
@@ -279,14 +129,32 @@ def real_surfaces(files: Files) -> Claim:
         "real spectra lie under C0 = 1e-3 m^0.4; asphalt sticks below E* = 0.2 MPa (Fig. 6)",
         "E* threshold on asphalt [MPa], range 0.2 nm, 50 mJ/m^2, by the printed coefficient 9/4",
         printed / 1e6,
-        np.nan,
+        0.0,
         0.2,
         graded(False, abs(printed / 0.2e6 - 1) < 0.2),
         f"With a_V = {measured_a_v(files)[0]:.2f} (simulated, carried by theory): "
         f"{derived / 1e6:.3g} MPa ({low / 1e6:.3g} to {high / 1e6:.3g}), of the order of "
         f"Dahlquist's 1 MPa. At the threshold h_rms is {validity.margin:.1g} of what the DMT limit "
-        f"asks (JTB). {text}",
-        ("asphalt", "map", *names),
+        f"asks (JTB). {asphalt_by_edges(files)} {text}",
+        ("asphalt", "asphalt_theory", "map", *names),
+    )
+
+
+def asphalt_by_edges(files: Files) -> str:
+    """Modulus threshold of the example by the edges of contact, with the spectrum's own a_V."""
+    rough = files["asphalt"].sel(end="rough")
+    h, q0, slope = (float(rough[name]) for name in ("h_rms", "q0", "rms_slope"))
+    a_v = files["asphalt_theory"].a_v.sel(variant=VARIANT)
+    logs = np.log(a_v).assign_coords({"range": np.log(a_v["range"])})
+    own = float(np.exp(logs.interp(range=np.log(RANGE / h))))
+    factor = edge_adhesion.ERROR_BEYOND ** np.array([0.0, -1.0, 1.0])
+    length = edge_adhesion.adhesion_length_threshold(h, q0, slope, RANGE, own, factor)
+    value, low, high = WORK_OF_ADHESION / length / 1e6
+    tau = edge_adhesion.attraction(h, q0, slope, length[0], RANGE, own).strength
+    tough = tau > edge_adhesion.STRONGEST_SIMULATED
+    return (
+        f"By the edges of contact it is {value:.2g} MPa ({low:.2g} to {high:.2g}): there they have "
+        f"a strength of {tau:.1g}" + (" and are tough, whatever the range." if tough else ".")
     )
 
 
@@ -318,7 +186,7 @@ def polished_steel(files: Files) -> Claim:
         "polished steel, L = 0.1 mm, h_rms = 1 µm: q0 h_rms = 0.1 and the JTB condition holds",
         "q0 h_rms",
         q0 * h,
-        np.nan,
+        0.0,
         0.1,
         graded(abs(q0 * h / 0.1 - 1) < 0.1 and validity.valid, validity.valid),
         f"2π h_rms/L = {q0 * h:.3f}; h_rms exceeds the JTB limit {validity.margin:.3g} times at "
@@ -362,7 +230,10 @@ def pastewka_robbins(files: Files) -> Claim:
         0.0,
         graded(worst < 1e-3, worst < 0.05),
         f"The exponent vanishes at H = 0.6, D = 2.4; π(3/16)^(2/3) = {criteria.PR_CONSTANT:.3f}. "
-        "The nearer H is to 1, the later the limit is reached.",
+        "The nearer H is to 1, the later the limit is reached. With that attractive area and tough "
+        "edges the adhesion asked for goes as zeta^(1-2H) (within "
+        f"{max(abs(tough_exponent(h) - (1 - 2 * h)) for h in hursts):.1g}), so that surfaces "
+        "with D < 2.5 stick in that limit.",
         (),
     )
 
@@ -375,6 +246,25 @@ def pr_exponent(hurst: float, magnification: float = 1e12) -> float:
     ]
     a_v = [criteria.pastewka_robbins_a_v(1.0, 1.0, s.rms_slope, s.rms_curvature) for s in pair]
     return float(np.log10(a_v[1] / a_v[0]))
+
+
+def tough_exponent(hurst: float, magnification: float = 1e12) -> float:
+    """Exponent of the threshold of adhesion in zeta, for tough edges with Pastewka-Robbins' a_V."""
+    pair = [
+        SelfAffine(hurst=hurst, q0=1.0, q1=zeta, h_rms=1.0)
+        for zeta in (magnification, 10 * magnification)
+    ]
+    lengths = [
+        edge_adhesion.adhesion_length_threshold(
+            1.0,
+            1.0,
+            s.rms_slope,
+            1e-30,
+            criteria.pastewka_robbins_a_v(1.0, 1.0, s.rms_slope, s.rms_curvature),
+        )
+        for s in pair
+    ]
+    return float(np.log10(lengths[1] / lengths[0]))
 
 
 def spectral_moments(files: Files) -> Claim:

@@ -43,10 +43,11 @@ COSTS = {
     "synthesise_surface": Cost(base_mb=125, arrays=9, per_megapixel=1.0),
     "solve_repulsive": Cost(base_mb=135, arrays=17, per_megapixel=1.1),
     "solve_coarse": Cost(base_mb=135, arrays=12, per_megapixel=1.0),
+    "solve_ensemble": Cost(base_mb=135, arrays=17, per_megapixel=1.1),
     "contact_maps": Cost(base_mb=135, arrays=22, per_megapixel=1.0),
-    "solve_adhesive": Cost(base_mb=135, arrays=28, per_megapixel=3.4),
-    "adhesive_maps": Cost(base_mb=135, arrays=28, per_megapixel=3.4),
-    "follow_loop": Cost(base_mb=135, arrays=28, per_megapixel=0.5),
+    "solve_adhesive": Cost(base_mb=135, arrays=36, per_megapixel=3.4),
+    "adhesive_maps": Cost(base_mb=135, arrays=36, per_megapixel=3.4),
+    "follow_loop": Cost(base_mb=135, arrays=36, per_megapixel=0.5),
 }
 
 
@@ -88,10 +89,13 @@ def asked_minutes(rule: str, size: Work) -> int:
 
 def pixels(config: Mapping[str, Any], surface: str, per_wavelength: float | None = None) -> int:
     """Points of a model surface's grid, but for those that the Fourier transform adds."""
-    asked = config["model_surfaces"][surface]
     if per_wavelength is None:
         per_wavelength = config["fidelities"][config["fidelity"]]["pixels_per_wavelength"]
-    waves = math.ceil(asked["magnification"] * asked.get("window", 1.0) - 1e-9)
+    return _points(config["model_surfaces"][surface], per_wavelength)
+
+
+def _points(surface: Mapping[str, Any], per_wavelength: float) -> int:
+    waves = math.ceil(surface["magnification"] * surface.get("window", 1.0) - 1e-9)
     return round(per_wavelength * waves) ** 2
 
 
@@ -112,6 +116,16 @@ def _coarse(config: Mapping[str, Any], case: str) -> Work:
     return Work(4 * solved, solved, seeds * len(asked["pressures"]))
 
 
+def _ensemble(config: Mapping[str, Any], comparison: str) -> Work:
+    asked = config["comparisons"]["surfaces"][comparison]
+    fidelity = config["fidelities"][config["fidelity"]]["pixels_per_wavelength"]
+    per_wavelength = min(asked.get("pixels_per_wavelength", fidelity), fidelity)
+    points = _points(asked, per_wavelength)
+    coarse = asked.get("coarse_seeds", 0) * (COARSE / per_wavelength) ** 2
+    loads = len(config["comparisons"]["pressures"])
+    return Work(points, points, math.ceil((asked["seeds"] + coarse) * loads))
+
+
 def _maps(config: Mapping[str, Any], case: str) -> Work:
     points = pixels(config, config["cases"][case]["surface"])
     return Work(points, points, len(config["cases"][case].get("maps", [])))
@@ -120,15 +134,15 @@ def _maps(config: Mapping[str, Any], case: str) -> Work:
 def _adhesive(config: Mapping[str, Any], adhesion: str, **_: str) -> Work:
     asked = config["adhesion"][adhesion]
     points = pixels(config, config["cases"][asked["case"]]["surface"])
-    points *= asked["bem"].get("refine", 1) ** 2
+    points *= asked.get("refine", 1) ** 2
     laws = len(asked["range_over_h_rms"]) * len(asked["adhesion_length_over_range"])
-    return Work(points, points, len(asked["bem"]["pressures"]) * (1 + laws))  # 1: no adhesion
+    return Work(points, points, len(asked["pressures"]) * (1 + laws))  # 1: no adhesion
 
 
 def _adhesive_maps(config: Mapping[str, Any], adhesion: str) -> Work:
     asked = config["adhesion"][adhesion]
     points = pixels(config, config["cases"][asked["case"]]["surface"])
-    return Work(points, points, len(asked["bem"]["maps"]["pressures"]))
+    return Work(points, points, len(asked["maps"]["pressures"]))
 
 
 def _loop(config: Mapping[str, Any], loop: str) -> Work:
@@ -142,6 +156,7 @@ _WORK = {
     "synthesise_surface": _surface,
     "solve_repulsive": _repulsive,
     "solve_coarse": _coarse,
+    "solve_ensemble": _ensemble,
     "contact_maps": _maps,
     "solve_adhesive": _adhesive,
     "adhesive_maps": _adhesive_maps,

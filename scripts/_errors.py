@@ -20,6 +20,7 @@ SUFFIXES = {
     "standard_error": "standard error of the ensemble mean",
     "discretisation_error": "change from half the resolution",
 }
+FEWEST = 8  # seeds from which on a slope fitted to them is better than none
 PREFIX = "coarse_"  # of what an ensemble's file keeps of coarse solutions, and of their seeds
 
 
@@ -33,11 +34,16 @@ class Coarse:
         With the dimension `seed` and no `resolution`.
     controls, elsewhere : xarray.DataArray
         Descriptors of these seeds and of many more.
+    twin : xarray.DataArray, optional
+        The same of the seeds of the mean; by default those values themselves, on the coarsest
+        grid. One of its own may be another model, not in proportion to the values: its
+        coefficient is then a slope, and it needs `FEWEST` seeds.
     """
 
     values: xr.DataArray
     controls: xr.DataArray
     elsewhere: xr.DataArray
+    twin: xr.DataArray | None = None
 
 
 def coarse(ensemble: xr.Dataset, quantity: Callable[[xr.Dataset], xr.DataArray]) -> Coarse | None:
@@ -87,14 +93,20 @@ def ensemble_mean(values, more=None):
     Plain without them, for a single seed, and in entries that are not finite in every seed.
     """
     plain = mean(values), standard_error(values)
-    if more is None or values.sizes["seed"] == 1:
+    count = values.sizes["seed"]
+    if more is None or count == 1 or (more.twin is not None and count < FEWEST):
         return plain
     few = fine(values).transpose("seed", ...)
-    twin = values.isel(resolution=0, drop=True).transpose(*few.dims)
+    own = more.twin is None
+    twin = values.isel(resolution=0, drop=True) if own else more.twin
+    twin = twin.transpose(*few.dims)
     many = more.values.transpose(*few.dims)
     finite = np.all([np.isfinite(part).all("seed").values for part in (few, twin, many)], axis=0)
     solved = (np.where(finite, part.values, 0.0) for part in (few, twin, many))
-    estimate = sampling.multilevel_mean(*solved, more.controls.values, more.elsewhere.values)
+    slopes = {} if own else {"fewest": FEWEST}
+    estimate = sampling.multilevel_mean(
+        *solved, more.controls.values, more.elsewhere.values, **slopes
+    )
     return tuple(
         of_seeds.copy(data=np.where(finite, better, of_seeds.values))
         for better, of_seeds in zip(

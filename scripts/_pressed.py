@@ -4,7 +4,7 @@ import numpy as np
 
 from _model import LOAD
 from _numbers import NOTHING, interval, number, with_error
-from stickiness import criteria
+from stickiness import edge_adhesion
 
 RANGE = 0.03  # over h_rms, amid the window of the fits
 WAYS = {"taper": "tapered", "mirror": "mirrored"}
@@ -61,7 +61,9 @@ def pair(bem, solid, surface):
     resolved = ratio >= float(at.edge_gap.isel(resolution=-1).max())
     length = solid.work_of_adhesion / solid.modulus
     limits = [max(value - error, 0.01 * value), value + error]
-    margins = criteria.violano(h, float(surface.q0), length, solid.range, limits).margin
+    slope = float(np.sqrt(np.prod(surface.rms_slope.values)))
+    found = edge_adhesion.attraction(h, float(surface.q0), slope, length, solid.range, limits)
+    margins = found.ratio * found.error_factor ** np.array([-1.0, 1.0])
     return {
         "range": number(ratio, 2),
         "a_v": with_error(value, error),

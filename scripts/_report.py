@@ -13,7 +13,7 @@ import xarray as xr
 from _materials import modulus_text
 from _model import LOAD
 from _numbers import NOTHING, interval, number, percent, quantity, superscripted, with_error
-from _verdict import DERIVED, STICKINESS, STICKINESS_TONES, pair_texts
+from _verdict import EDGES, STICKINESS, STICKINESS_TONES, pair_texts
 from stickiness import datasets
 from stickiness.errata import ERRATA
 
@@ -27,7 +27,9 @@ CLAIM_TONES = {
     "not reproduced": "no",
 }
 CRITERIA = {
-    "violano": "derived criterion",
+    "edge_adhesion": "edges of contact",
+    "violano": "derived criterion, DMT limit",
+    "violano_constant": "derived, constant a_V",
     "violano_printed": "criterion as printed, 9/4",
     "pastewka_robbins": "Pastewka–Robbins",
     "fuller_tabor": "Fuller–Tabor",
@@ -46,7 +48,7 @@ def summary(claims: xr.Dataset, verdicts: xr.Dataset, ensembles: Sequence[xr.Dat
     """Numbers of the opening paragraph."""
     graded = Counter(str(verdict) for verdict in claims.verdict.values)
     order = [*CLAIM_TONES, *sorted(graded.keys() - CLAIM_TONES.keys())]
-    outside = ~verdicts.dmt_valid.astype(bool).all("end")
+    outside = ~verdicts.simulated.astype(bool).all("end")
     sticky = verdicts.verdict == 2
     seeds = sorted({len(datasets.parameters(ensemble)["seeds"]) for ensemble in ensembles})
     return {
@@ -189,11 +191,11 @@ def material_row(name: str, entry: Mapping[str, Any]) -> Context:
 
 
 def disagreements(verdicts: xr.Dataset, surfaces: Datasets) -> list[Context]:
-    """Criteria against the derived one: how many pairs differ, which, and in what direction."""
+    """Criteria against that of the edges: how many pairs differ, which, and in what direction."""
     labels = surface_labels(surfaces)
     materials = datasets.parameters(verdicts)["materials"]
     sticky = verdicts.margin > 1
-    derived = sticky.sel(criterion=DERIVED)
+    edges = sticky.sel(criterion=EDGES)
 
     def pairs(differs):
         found = []
@@ -208,11 +210,11 @@ def disagreements(verdicts: xr.Dataset, surfaces: Datasets) -> list[Context]:
         {
             "criterion": CRITERIA.get(name, name.replace("_", " ")),
             "count": int(verdicts.disagrees.sel(criterion=name).sum()),
-            "sticky": pairs((sticky.sel(criterion=name) & ~derived).any("end")),
-            "not_sticky": pairs((~sticky.sel(criterion=name) & derived).any("end")),
+            "sticky": pairs((sticky.sel(criterion=name) & ~edges).any("end")),
+            "not_sticky": pairs((~sticky.sel(criterion=name) & edges).any("end")),
         }
         for name in map(str, verdicts.criterion.values)
-        if name != DERIVED
+        if name != EDGES
     ]
 
 

@@ -13,6 +13,7 @@ mpl.use("Agg")  # no display on a cluster
 
 import matplotlib.pyplot as plt
 import numpy as np
+import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.axis import Axis
 from matplotlib.figure import Figure
@@ -101,6 +102,12 @@ def shades(count: int) -> NDArray:
 def total_error(sampling: ArrayLike, discretisation: ArrayLike) -> NDArray:
     """Both errors in quadrature; the sampling error of a single seed is unknown and left out."""
     return np.sqrt(np.nansum(np.square([sampling, discretisation]), axis=0))
+
+
+def with_model(data: xr.Dataset, name: str) -> tuple[NDArray, NDArray]:
+    """Standard error of a variable, and its errors of discretisation and model, for `points`."""
+    others = (data[f"{name}_{kind}_error"] for kind in ("discretisation", "model"))
+    return data[f"{name}_standard_error"].values, total_error(*others)
 
 
 def points(

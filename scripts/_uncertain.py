@@ -1,24 +1,24 @@
-"""Verdicts of the derived criterion under all that is uncertain, and at other rates.
+"""Verdicts by the edges of contact under all that is uncertain.
 
-The spectrum enters by its draws (`stickiness.moments`), a_V by its limits, between which its
-logarithm is drawn evenly: they bound what two variants of the theory, an independent estimate and
-the simulation's errors leave open.
+The spectrum enters by its draws (`stickiness.moments`), a_V and the model's error by their limits,
+between which logarithms are drawn evenly: they bound what two variants of the theory, an
+independent estimate and the errors of simulation leave open.
 """
 
 from dataclasses import dataclass
 
 import numpy as np
 
-from stickiness import criteria
+from stickiness import edge_adhesion
 
 QUANTILES = (0.05, 0.5, 0.95)
 SEED = 2
-DRAWN = ("h_rms_draws", "q0_draws")
+DRAWN = ("h_rms_draws", "q0_draws", "rms_slope_draws")
 
 
 @dataclass(frozen=True)
 class Uncertain:
-    """Margin of the derived criterion as a distribution.
+    """Margin, attraction over repulsion, as a distribution.
 
     Attributes
     ----------
@@ -26,14 +26,14 @@ class Uncertain:
         At the reference frequency, one for each draw.
     probability : float
         Share of the draws that stick.
-    from_spectrum, from_a_v : float
-        Standard deviations of ln(margin) that either alone would leave.
+    from_spectrum, from_model : float
+        Standard deviations of ln(margin) that the spectrum, or a_V and model, alone would leave.
     """
 
     margins: np.ndarray
     probability: float
     from_spectrum: float
-    from_a_v: float
+    from_model: float
 
     @property
     def quantiles(self):
@@ -43,23 +43,18 @@ class Uncertain:
 
 def uncertain(material, surface, a_v):
     """`Uncertain` margin of a `Material` on a surface with draws, under a `SurfaceAv`."""
-    h, q0 = (surface[name].values for name in DRAWN)
+    h, q0, slope = (surface[name].values for name in DRAWN)
     length = material.work_of_adhesion / material.modulus
     value, low, high = np.transpose([a_v.at(material.range / x) for x in h])
-    share = np.random.default_rng(SEED).random(len(h))
-    drawn = low * (high / low) ** share
-    margins = criteria.violano(h, q0, length, material.range, drawn).margin
-    spectrum = criteria.violano(h, q0, length, material.range, value).margin
-    a_v_alone = np.log(drawn / value) * 0.6  # margin ~ a_V^(3/5)
-    return Uncertain(
-        margins=np.asarray(margins),
-        probability=float(np.mean(np.asarray(margins) > 1)),
-        from_spectrum=float(np.std(np.log(spectrum))),
-        from_a_v=float(np.std(a_v_alone)),
+    share, sign = np.random.default_rng(SEED).random((2, len(h)))
+    at_value, drawn = (
+        edge_adhesion.attraction(h, q0, slope, length, material.range, found)
+        for found in (value, low * (high / low) ** share)
     )
-
-
-def at_frequencies(material, margin, frequencies):
-    """Margin at other frequencies: E* enters as E*^(-3/5), a_V does not depend on it."""
-    moduli = np.asarray(material.plane_strain.storage(frequencies))
-    return margin * (moduli / material.modulus) ** -0.6
+    margins = drawn.ratio * drawn.error_factor ** (2 * sign - 1)
+    return Uncertain(
+        margins=margins,
+        probability=float(np.mean(margins > 1)),
+        from_spectrum=float(np.std(np.log(at_value.ratio))),
+        from_model=float(np.std(np.log(margins / at_value.ratio))),
+    )

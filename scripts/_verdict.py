@@ -9,7 +9,7 @@ import xarray as xr
 
 from _numbers import NOTHING, interval, percent, quantity
 
-DERIVED = "violano"
+EDGES = "edge_adhesion"
 STICKINESS = ("not sticky", "depends", "sticky", "undecided")  # by the code in the dataset
 STICKINESS_TONES = ("no", "partly", "yes", "open")
 GRADES = (0, 2, 3, 1)  # of the codes: an undecided pair stands next to one that does not stick
@@ -18,7 +18,7 @@ GRADES = (0, 2, 3, 1)  # of the codes: an undecided pair stands next to one that
 def pair_texts(pair: xr.Dataset) -> dict[str, Any]:
     """What the pages say of a pair; from the rough to the smooth end of the surface."""
     code = int(pair.verdict)
-    margins = ends(pair.margin.sel(criterion=DERIVED))
+    margins = ends(pair.margin.sel(criterion=EDGES))
     thresholds = ends(pair.modulus_threshold)
     limits = float(pair.margin_low.min()), float(pair.margin_high.max())
     a_v = float(pair.pair_a_v_low.min()), float(pair.pair_a_v_high.max())
@@ -26,13 +26,13 @@ def pair_texts(pair: xr.Dataset) -> dict[str, Any]:
         "verdict": STICKINESS[code],
         "tone": STICKINESS_TONES[code],
         "grade": GRADES[code],
-        "outside": not bool(pair.dmt_valid.all()),
+        "outside": not bool(pair.simulated.all()),
         "margin": interval(*margins, digits=2),
         "order": float(np.sqrt(np.prod(margins))),
         "limits": interval(*limits, digits=2),
         "lowest": limits[0],
         "threshold": quantity(*thresholds, "Pa", digits=2),
-        "modulus": thresholds[0],
+        "threshold_value": thresholds[0],
         "a_v": interval(*a_v, digits=2),
         "a_v_value": float(pair.pair_a_v.mean()),
         **drawn_texts(pair),
@@ -50,13 +50,13 @@ def drawn_texts(pair: xr.Dataset) -> dict[str, Any]:
     numbers = {
         "share": share,
         "quantile": float(pair.margin_quantile[0]),
-        "error": float(np.hypot(pair.error_of_spectrum, pair.error_of_a_v)),
+        "error": float(np.hypot(pair.error_of_spectrum, pair.error_of_model)),
     }
     if not np.isfinite(share):
         return numbers | {"probability": NOTHING, "drawn": NOTHING, "errors": NOTHING}
     return numbers | {
         "probability": percent(share),
         "drawn": interval(*map(float, pair.margin_quantile.values[[0, -1]]), 2),
-        "errors": f"spectrum {percent(float(pair.error_of_spectrum))}, a_V "
-        f"{percent(float(pair.error_of_a_v))}",
+        "errors": f"spectrum {percent(float(pair.error_of_spectrum))}, a_V and model "
+        f"{percent(float(pair.error_of_model))}",
     }

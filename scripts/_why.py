@@ -1,9 +1,12 @@
 """Why a criterion says what it says of a pair: what it looks at, with the numbers of the pair."""
 
-from _numbers import number, quantity
+from _numbers import interval, number, quantity
+
+REGIMES = ("weak", "between weak and tough", "tough, as in JKR")
 
 NAMES = {
-    "violano": "derived criterion",
+    "edge_adhesion": "edges of contact",
+    "violano": "derived, DMT limit",
     "violano_constant": "derived, constant a_V",
     "violano_printed": "as printed, 9/4",
     "pastewka_robbins": "Pastewka–Robbins",
@@ -13,7 +16,10 @@ NAMES = {
     "dahlquist": "Dahlquist",
 }
 REASONS = {
-    "violano": "h_rms = {h}, q0 = {q0}/m and a_V = {a_v}: long waves set the load, edges the pull",
+    "edge_adhesion": "attractive over contact area {t}, edges of strength {tau} ({regime}): "
+    "{over_dmt} times the attraction of the DMT limit",
+    "violano": "h_rms = {h}, q0 = {q0}/m and a_V = {a_v}: long waves set the load, the pull is "
+    "that over gaps without adhesion",
     "violano_constant": "the same with a_V = {constant} of a broad spectrum in place of {a_v}",
     "violano_printed": "the same with a_V = 1.5 in place of {a_v}",
     "pastewka_robbins": "slope {slope} and curvature {curvature}/m, those of the shortest waves; "
@@ -40,7 +46,7 @@ def reasons(pair, surface, work_of_adhesion):
         [J/m^2].
     """
     said = facts(pair, surface, work_of_adhesion)
-    derived = pair.margin.sel(criterion="violano") > 1
+    edges = pair.margin.sel(criterion="edge_adhesion") > 1
     rows = []
     for name in map(str, pair.criterion.values):
         margin = pair.margin.sel(criterion=name)
@@ -51,7 +57,7 @@ def reasons(pair, surface, work_of_adhesion):
                 "name": NAMES.get(name, name.replace("_", " ")),
                 "says": says,
                 "margins": [float(margin.sel(end=end)) for end in ("rough", "smooth")],
-                "disagrees": bool((sticky != derived).any()),
+                "disagrees": bool((sticky != edges).any()),
                 "reason": REASONS.get(name, "").format(**said),
             }
         )
@@ -67,7 +73,15 @@ def facts(pair, surface, work_of_adhesion):
     curvature = float(surface.rms_curvature.sel(end="rough"))
     modulus = float(pair.modulus_quoted)
     energy = float(surface.elastic_energy.sel(end="rough")) * modulus
+
+    def of_edges(name):
+        return interval(*sorted(map(float, pair[name].values)), 2)
+
     return {
+        "t": of_edges("attractive_over_contact"),
+        "tau": of_edges("edge_strength"),
+        "over_dmt": of_edges("over_dmt"),
+        "regime": " to ".join(dict.fromkeys(REGIMES[int(regime)] for regime in pair.regime)),
         "h": ends("h_rms", "m"),
         "q0": number(float(surface.q0)),
         "a_v": number(float(pair.pair_a_v.mean()), 2),

@@ -4,69 +4,58 @@ import numpy as np
 import xarray as xr
 
 import _limits
+from _adhesion import AXES, axes, roughness
 from _adhesion import DESCRIBED as ADHESION_DESCRIBED
-from _adhesion import axis, dmt_valid, roughness
+from _dmt_limit import QUANTITIES, DmtLimit
 from _errors import coarse, described, with_errors
 from _job import start
 from _model import DESCRIBED
 from stickiness import datasets
 
+OUTSIDE = "outside the table of measured errors"
+
 
 def main(job):
     asked = job.params.adhesion
     ensemble = datasets.read(job.input.ensemble, ["attractive_area", "area_fraction", "rms_slope"])
-    q0_h_rms = roughness(asked)
-    lengths = axis("adhesion_length_over_range", asked)
-    ranges = axis("range_over_h_rms", asked)
-
-    def attraction(solved):
-        return lengths * area_within(solved.attractive_area, ranges) / q0_h_rms
-
-    def inverse_kappa(solved):
-        external = solved.pressure - attraction(solved)
-        return external / (solved.area_fraction * solved.rms_slope)
-
-    def inverse_kappa_ad(solved):
-        return attraction(solved) / solved.pressure / 2
-
-    dataset = xr.Dataset({"area_fraction": ensemble.area_fraction_mean, "q0_h_rms": q0_h_rms})
-    for quantity in (attraction, inverse_kappa, inverse_kappa_ad):
+    limit = DmtLimit.of(asked, ensemble)
+    pressures, lengths, ranges = axes(asked)
+    coordinates = {one.name: one for one in (pressures, lengths, ranges)}
+    dataset = xr.Dataset(
+        {
+            "area_fraction": ensemble.area_fraction_mean.sel(pressure=pressures),
+            "dmt_valid": (AXES, np.asarray(job.params.jtb, dtype="i1")),
+            "dmt_error": (AXES, np.asarray(job.params.dmt_error, dtype=float)),
+            "q0_h_rms": roughness(asked),
+        },
+        coords=coordinates,
+    )
+    for name in QUANTITIES:
+        quantity = getattr(limit, name)
+        left = _limits.inherited(ensemble, quantity, ["area_fraction", "attractive_area"])
         values, more = quantity(ensemble), coarse(ensemble, quantity)
-        limit = _limits.inherited(ensemble, quantity, ["area_fraction", "attractive_area"])
-        dataset = with_errors(dataset, quantity.__name__, values, more, plain=True, limit=limit)
-    dataset["dmt_valid"] = dmt_valid(q0_h_rms, lengths, ranges)
+        dataset = with_errors(dataset, name, values, more, plain=True, limit=left)
     datasets.write(
         annotated(dataset),
         job.output[0],
-        title="adhesion in the DMT limit, Maugis traction",
-        parameters={**datasets.parameters(ensemble), **asked, "model": "DMT", "law": "Maugis"},
+        title=f"adhesion in the DMT limit, {asked['law']} traction",
+        parameters={**datasets.parameters(ensemble), **asked},
     )
-
-
-def area_within(area, ranges):
-    """Attractive area at ranges between those stored, along a power law from point to point."""
-    logs = xr.apply_ufunc(np.log, area).assign_coords(range=np.log(area["range"]))
-    return np.exp(logs.interp(range=np.log(ranges))).drop_vars("range")
-
-
-QUANTITIES = {
-    "attraction": "attractive pressure over E* q0 h_rms",
-    "inverse_kappa": "1/kappa = p_ext A_nom/(A_rep E* h'_rms)",
-    "inverse_kappa_ad": "1/kappa_ad = p_ad/(2 p_rep)",
-}
 
 
 def annotated(dataset):
     texts = {}
     for name, text in QUANTITIES.items():
         texts |= described(name, text, plain=True, discretisation=_limits.INHERITED)
+    few = "fewer than two loads, or a single seed"
     return datasets.annotate(
         dataset,
         pressure=DESCRIBED["pressure"],
         area_fraction=DESCRIBED["area_fraction"],
         **ADHESION_DESCRIBED,
         dmt_valid=("1", "1 where the JTB condition for the DMT limit holds"),
-        **texts,
+        dmt_error=("1", "measured relative error of this 1/kappa_ad", OUTSIDE),
+        **{name: (*text[:2], few) if "fit" in name else text for name, text in texts.items()},
     )
 
 

@@ -12,10 +12,10 @@ TOLERANCE = 1e-6  # of the residual: far below what a picture shows
 
 def main(job):
     surface = datasets.read(job.input.surface, ["height", "window_length"])
-    asked, shown = job.params.adhesion, job.params.adhesion["bem"]["maps"]
+    asked, shown = job.params.adhesion, job.params.adhesion["maps"]
     heights, length = surface.height.values, float(surface.window_length)
     law = scaled_law(
-        asked, asked["bem"]["law"], shown["adhesion_length_over_range"], shown["range_over_h_rms"]
+        asked, asked["law"], shown["adhesion_length_over_range"], shown["range_over_h_rms"]
     )
     pressures = np.sort(np.array(shown["pressures"], dtype=float))
     # Loads grow: each state is where a press would find it on loading.
@@ -37,7 +37,7 @@ def main(job):
         title="gap and pressure fields of one realisation in adhesive contact",
         parameters={
             **datasets.parameters(surface),
-            "law": asked["bem"]["law"],
+            "law": asked["law"],
             "q0_h_rms": roughness(asked),
             "range_over_h_rms": shown["range_over_h_rms"],
             "adhesion_length_over_range": shown["adhesion_length_over_range"],

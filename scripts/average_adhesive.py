@@ -1,110 +1,264 @@
-"""Average the adhesive realisations of a set: slopes of the area-load relation, and DMT's error.
+"""Adhesion of a set of parameters: at every point by the model chosen, with all its errors.
 
-With kappa = 2 without adhesion, 1/kappa = 1/2 - 1/kappa_ad. Full simulation gives the latter by how
-much less pressure than without adhesion goes with the area, relative to that pressure; the DMT
-limit by the attraction over the gaps without adhesion.
+Where that is the full one, its realisations are averaged: slopes of the area-load relation, and how
+far the DMT limit is. With kappa = 2 without adhesion, 1/kappa = 1/2 - 1/kappa_ad. Full simulation
+gives the latter by how much less pressure than without adhesion goes with the area, relative to
+that pressure; the sum of its tractions gives it directly, as in the DMT limit, but misses the area
+that they draw in. The area is that at a gap of zero; with ``_net`` it is what of it is compressed,
+which converges far more slowly with the grid.
 """
 
+from dataclasses import replace
+
+import numpy as np
 import xarray as xr
 
+from _adhesion import AXES, MISSING
 from _adhesion import DESCRIBED as ADHESION_DESCRIBED
-from _adhesion import MISSING, dmt_valid
-from _errors import described, with_errors
+from _dmt_limit import DmtLimit, fitted, linearity_error
+from _errors import coarse, described, fine, with_errors
 from _job import start
-from _model import DESCRIBED
+from _model import DESCRIBED, LINEAR_UP_TO, window_of
+from adhesion_dmt import OUTSIDE
 from stickiness import cohesive_zone, datasets
 
-AVERAGED = {
-    "external_pressure": "mean pressure over E* q0 h_rms",
-    "repulsive_area": "repulsive contact area over nominal area",
-    "attractive_area": "area within the range of attraction, not in contact, over nominal area",
-    "inverse_kappa": "1/kappa = p_ext A_nom/(A_rep E* h'_rms)",
-    "inverse_kappa_fit": "1/kappa fitted through the origin over all loads",
-    "inverse_kappa_ad": "1/kappa_ad, from the fall of 1/kappa relative to that without adhesion",
-    "inverse_kappa_ad_direct": "p_ad/(2 p_rep) of the adhesive contact",
-    "inverse_kappa_ad_dmt": "p_ad/(2 p_rep) over the gaps without adhesion (DMT)",
-    "dmt_ratio": "1/kappa_ad of the full simulation over that of the DMT limit",
+# Averages, with the quantity of the DMT limit that is their control, if any.
+STATES = {
+    "external_pressure": ("mean pressure over E* q0 h_rms", None),
+    "repulsive_area": ("area at a gap of zero over nominal area", None),
+    "net_repulsive_area": ("area at a gap of zero and compressed over nominal area", None),
+    "attractive_area": ("area within the range, not in contact, over nominal area", None),
 }
+SLOPES = {
+    "inverse_kappa": ("1/kappa = p_ext A_nom/(A_rep E* h'_rms)", "inverse_kappa"),
+    "inverse_kappa_net": ("1/kappa with the net repulsive area", "inverse_kappa"),
+    "inverse_kappa_ad": ("1/kappa_ad, from the fall of 1/kappa by adhesion", "inverse_kappa_ad"),
+    "inverse_kappa_ad_net": ("1/kappa_ad with the net repulsive area", "inverse_kappa_ad"),
+    "inverse_kappa_ad_direct": ("p_ad/(2 p_rep) of the adhesive contact", "inverse_kappa_ad"),
+}
+FITS = {
+    "inverse_kappa_fit": ("1/kappa fitted over the loads up to 30 % area", "inverse_kappa_fit"),
+    "inverse_kappa_ad_fit": ("1/kappa_ad from fitted 1/kappa", "inverse_kappa_ad_fit"),
+}
+LOADWISE = {"inverse_kappa_fit": "inverse_kappa", "inverse_kappa_ad_fit": "inverse_kappa_ad"}
+RATIOS = {
+    "dmt_ratio": ("1/kappa_ad of the full simulation over that of the DMT limit", None),
+    "dmt_ratio_net": ("the same with the net repulsive area", None),
+}
+OTHERS = {
+    "model": "dmt: attraction over the gaps without adhesion; full: boundary elements with it",
+    "inverse_kappa_model_error": "error of the DMT limit in 1/kappa where that is the model",
+    "inverse_kappa_ad_model_error": "error of 1/kappa_ad by the model: of the DMT limit as "
+    "measured, of the full one by comparing at equal area instead of equal mean gap",
+    "dmt_ratio_model_error": "change of the ratio from comparing at equal area",
+    "inverse_kappa_fit_model_error": "half the range of 1/kappa over the loads of the fit",
+    "inverse_kappa_ad_fit_model_error": "half the range of 1/kappa_ad over the loads of the fit",
+    "residual": "largest residual of all realisations",
+    "iterations": "mean iterations on the fine grid",
+    "zone_strength": "width of the zone of attraction over range^2/adhesion length",
+}
+# Along the edge a strip at zero gap is under tension. Next to a smooth edge and for weak attraction
+# it is second order in the strength, (sigma0/B)^2 where the pressure rises as B x^(1/2), but the
+# pixels make it first order: what is left of the difference falls as the root of the pixel only.
+SLOW = 1 / (np.sqrt(2) - 1)  # over the change from half the resolution
+SLOWLY = "2.4 times the change from half the resolution, as it falls with the root of the pixel"
+FEW = f"DMT limit, {MISSING}, a single seed, or fewer than two loads to fit"
 
 
 def main(job):
+    limit = datasets.read(job.input.limit, ["inverse_kappa_ad", "dmt_error", "dmt_valid"])
+    ensemble = datasets.read(job.input.ensemble, ["attractive_area", "area_fraction", "rms_slope"])
+    full = xr.DataArray(np.array(job.params.full), dims=AXES)
+    asked = datasets.parameters(limit)
+    dmt = DmtLimit.of(asked, ensemble)
     files = [datasets.read(path, ["external_pressure"]) for path in job.input.realisations]
-    made = datasets.parameters(files[0])
+    made = datasets.parameters(files[0]) if files else datasets.parameters(ensemble)
     seeds = [datasets.parameters(file)["seed"] for file in files]
-    states = xr.concat(files, xr.DataArray(seeds, dims="seed", name="seed"))
-    # A mean over the seeds that happen to be solved would leave out the stickiest ones.
-    states.attrs = files[0].attrs
-    whole = states.external_pressure.isel(resolution=-1).notnull().all("seed")
-    wide = zone_width(states) >= cohesive_zone.NARROWEST * made["pixel"]
-    states = with_slopes(states)
-    for name in AVERAGED:
-        states[name] = states[name].where(whole & wide)
-    dataset = xr.Dataset({"q0_h_rms": made["q0_h_rms"]})
-    for name in AVERAGED:
-        dataset = with_errors(dataset, name, states[name], plain=True)
-    dataset["residual"] = states.residual.max(["seed", "resolution"])
-    dataset["iterations"] = states.iterations.isel(resolution=-1, drop=True).mean("seed")
-    dataset["dmt_valid"] = dmt_valid(
-        made["q0_h_rms"], states.adhesion_length_over_range, states.range_over_h_rms
-    )
-    dataset["zone_strength"] = zone_strength(states, made["q0_h_rms"])
-    made.pop("seed")
+    dataset = in_dmt_limit(limit, dmt.linear)
+    if files:
+        states = xr.concat(files, xr.DataArray(seeds, dims="seed", name="seed"))
+        solved = averaged(states, full, ensemble, dmt, made)
+        dataset = joined(solved, dataset, full)
+    dataset["model"] = (AXES, np.where(full, "full", "dmt"))
+    strength = limit.adhesion_length_over_range / limit.q0_h_rms
+    dataset["zone_strength"] = zone_width(ensemble, limit) * strength / limit.range_over_h_rms
     datasets.write(
         annotated(dataset),
         job.output[0],
-        title="adhesive contact averaged over realisations",
-        parameters={**made, "seeds": seeds, "model": "full boundary elements"},
+        title="adhesive contact averaged over realisations, by the model chosen",
+        parameters={**made, **asked, "seeds": seeds},
     )
 
 
-def with_slopes(states):
+def in_dmt_limit(limit, linear):
+    """The averages as the DMT limit has them, which knows one area only."""
+    area, none = limit.area_fraction, xr.zeros_like(limit.inverse_kappa)
+    states = {
+        "external_pressure": limit.pressure - limit.attraction,
+        "repulsive_area": area + none,
+        "net_repulsive_area": area + none,
+    }
+    dataset = limit[["q0_h_rms", "dmt_valid", "dmt_error"]].assign(states)
+    for name in (*SLOPES, *FITS):
+        source = name.removesuffix("_net").removesuffix("_direct")
+        for ending in ("", "_standard_error", "_discretisation_error"):
+            dataset[name + ending] = limit[source + ending]
+    relative = limit.dmt_error
+    dataset["inverse_kappa_ad_model_error"] = relative * limit.inverse_kappa_ad
+    without = limit.inverse_kappa / (1 - 2 * limit.inverse_kappa_ad)
+    dataset["inverse_kappa_model_error"] = 2 * relative * limit.inverse_kappa_ad * without
+    return dataset.assign(fit_errors(dataset, linear))
+
+
+def averaged(states, full, ensemble, dmt, made):
+    """Means over the realisations solved in full; where they are not, their own DMT limit."""
+    whole = fine(states.external_pressure).notnull().all("seed") | ~full
+    wide = zone_width(ensemble, states) >= cohesive_zone.NARROWEST * made["pixel"]
+    states = with_dmt(states, full)
+    linear = dmt.linear & ~(fine(states.repulsive_area).mean("seed") > LINEAR_UP_TO)
+    states = with_slopes(states, ensemble, linear)
+    # A mean over the seeds that happen to be solved would leave out the stickiest ones.
+    told = whole & (wide | ~full)
+    resolved = dict.fromkeys(STATES | SLOPES, told)
+    resolved |= {name: (told | ~linear).all("pressure") for name in FITS}
+    resolved |= dict.fromkeys(RATIOS, told & full)
+    dataset = xr.Dataset()
+    for name, (_, control) in (STATES | SLOPES | FITS | RATIOS).items():
+        values, more = states[name].where(resolved[name]), None
+        if control is not None:
+            more = controls(ensemble, getattr(dmt, control), states.seed)
+        dataset = with_errors(dataset, name, values, more, plain=True)
+        if "net" in name.split("_"):
+            dataset[f"{name}_discretisation_error"] *= SLOW
+    dataset["inverse_kappa_model_error"] = xr.zeros_like(dataset.inverse_kappa).where(told)
+    for name in ("inverse_kappa_ad", "dmt_ratio"):
+        change = fine(states[f"{name}_equal_area"] - states[name]).mean("seed", skipna=False)
+        dataset[f"{name}_model_error"] = abs(change).where(told)
+    dataset = dataset.assign(fit_errors(dataset, linear))
+    dataset["residual"] = states.residual.max(["seed", "resolution"])
+    dataset["iterations"] = fine(states.iterations).mean("seed")
+    return dataset
+
+
+def fit_errors(dataset, linear):
+    """What the straight lines of the fits leave out, NaN where there is no fit."""
+    return {
+        f"{name}_model_error": linearity_error(dataset[source], linear).where(
+            dataset[name].notnull()
+        )
+        for name, source in LOADWISE.items()
+    }
+
+
+def controls(ensemble, quantity, seeds):
+    """The DMT limit of the coarsest solutions: of these seeds, and of many more."""
+    more = coarse(ensemble, quantity)
+    if more is None:
+        return None
+    twin = quantity(ensemble.sel(seed=seeds)).isel(resolution=0, drop=True)
+    return replace(more, twin=twin)
+
+
+def with_dmt(states, full):
+    """States with those of the DMT limit where there is no full one asked for."""
+    external = states.pressure - states.attraction_dmt
+    limit = {
+        "external_pressure": external,
+        "repulsive_area": states.area_alone,
+        "net_repulsive_area": states.area_alone,
+        "attraction": states.attraction_dmt,
+        "repulsive_pressure": states.pressure,
+    }
+    return states.assign({name: states[name].where(full, value) for name, value in limit.items()})
+
+
+def with_slopes(states, ensemble, linear):
     """Add what compares area and load with and without adhesion."""
     alone = states.pressure / states.area_alone
-    held = states.external_pressure / states.repulsive_area
-    area = states.repulsive_area * states.rms_slope
-    direct = states.attraction / states.repulsive_pressure / 2
-    dmt = states.attraction_dmt / states.pressure / 2
-    full = (1 - held / alone) / 2
-    fit = (states.external_pressure * area).sum("pressure", skipna=False)
-    fit = fit / (area**2).sum("pressure", skipna=False)
-    return states.assign(
-        inverse_kappa=held / states.rms_slope,
-        inverse_kappa_fit=fit,
-        inverse_kappa_ad=full,
-        inverse_kappa_ad_direct=direct,
-        inverse_kappa_ad_dmt=dmt,
-        dmt_ratio=full / dmt.where(dmt > 0),
+    external, area = states.external_pressure, states.repulsive_area
+    held, net = external / area, external / states.net_repulsive_area
+    slopes = {
+        "inverse_kappa": held / states.rms_slope,
+        "inverse_kappa_net": net / states.rms_slope,
+        "inverse_kappa_ad": (1 - held / alone) / 2,
+        "inverse_kappa_ad_net": (1 - net / alone) / 2,
+        "inverse_kappa_ad_direct": states.attraction / states.repulsive_pressure / 2,
+        "inverse_kappa_ad_equal_area": (1 - external / pressure_at(states, ensemble)) / 2,
+    }
+    fit = fitted(external, area, linear)
+    fit_alone = fitted(states.pressure, states.area_alone, linear)
+    slopes["inverse_kappa_fit"] = fit / states.rms_slope
+    slopes["inverse_kappa_ad_fit"] = (1 - fit / fit_alone) / 2
+    limit = states.attraction_dmt / states.pressure / 2
+    for ending in ("", "_net", "_equal_area"):
+        slopes[f"dmt_ratio{ending}"] = ratio(slopes[f"inverse_kappa_ad{ending}"], limit)
+    return states.assign(slopes)
+
+
+def pressure_at(states, ensemble):
+    """Pressure without adhesion at the area of the adhesive contact, NaN beyond the largest load.
+
+    Along the load curve of the same seed, whose edges are between the pixels: it is scaled to the
+    area in pixels at the pressure of the same mean gap.
+    """
+    curve = fine(ensemble.area_fraction).sel(seed=states.seed)
+    area = states.repulsive_area / states.area_alone * curve.sel(pressure=states.pressure)
+    loads = np.log(curve.pressure.values)
+
+    def inverted(wanted, known):
+        logs = np.interp(np.log(wanted), np.log(known), loads, left=np.nan, right=np.nan)
+        return np.exp(logs)
+
+    return xr.apply_ufunc(
+        inverted,
+        area,
+        curve.rename(pressure="load"),
+        input_core_dims=[[], ["load"]],
+        vectorize=True,
     )
 
 
-def zone_width(states):
+def ratio(values, others):
+    """Ratio of the means over seeds, as samples that scatter about it to first order."""
+    value, other = values.mean("seed", skipna=False), others.mean("seed", skipna=False)
+    best = value / other
+    return best + (values - best * others) / other
+
+
+def zone_width(ensemble, at):
     """Mean width of the zone of attraction without adhesion, times q0."""
-    edge = states.edge_gap.isel(resolution=-1, drop=True).mean("seed")
-    edge, range_ = xr.broadcast(edge, states.range_over_h_rms)
-    width = cohesive_zone.zone_width(
-        datasets.parameters(states)["pixel"], edge.values, range_.values
-    )
-    return edge.copy(data=width)
+    made = datasets.parameters(ensemble)
+    edge = ensemble.edge_gap_mean.sel(pressure=at.pressure)
+    edge, range_ = xr.broadcast(edge, at.range_over_h_rms)
+    pixel = window_of(made) / made["grid_points"]
+    return edge.copy(data=cohesive_zone.zone_width(pixel, edge.values, range_.values))
 
 
-def zone_strength(states, q0_h_rms):
-    """Width of the zone of attraction over epsilon^2/l_a: small where attraction bends little."""
-    strength = states.adhesion_length_over_range / q0_h_rms
-    return zone_width(states) * strength / states.range_over_h_rms
+def joined(solved, limit, full):
+    """Variables of both models, each where it was chosen."""
+    dataset = solved.copy()
+    for name, values in limit.items():
+        if name not in solved:
+            dataset[name] = values
+            continue
+        chosen = full if "pressure" in values.dims else full.any("pressure")
+        dataset[name] = solved[name].where(chosen, values)
+    return dataset
 
 
 def annotated(dataset):
     texts = {}
-    for name, text in AVERAGED.items():
-        for key, value in described(name, text, plain=True).items():
-            texts[key] = (*value[:2], MISSING)
+    for name, (text, _) in (STATES | SLOPES | FITS | RATIOS).items():
+        slow = {"discretisation": SLOWLY} if "net" in name.split("_") else {}
+        for key, value in described(name, text, plain=True, **slow).items():
+            if key in dataset:
+                texts[key] = (*value[:2], FEW)
+    texts |= {name: ("1", text, FEW) for name, text in OTHERS.items() if name in dataset}
     return datasets.annotate(
         dataset,
         pressure=DESCRIBED["pressure"],
-        residual=("1", "largest residual of all realisations", MISSING),
-        iterations=("1", "mean iterations on the fine grid", MISSING),
         dmt_valid=("1", "1 where the JTB condition for the DMT limit holds"),
-        zone_strength=("1", "width of the zone of attraction over range^2/adhesion length"),
+        dmt_error=("1", "measured relative error of the DMT limit in 1/kappa_ad", OUTSIDE),
         **ADHESION_DESCRIBED,
         **texts,
     )

@@ -111,6 +111,8 @@ def markdown(claims, sources):
 
 
 def number(value, uncertainty):
+    if uncertainty == 0:
+        return f"{value:.4g} (exact)"
     error = "" if np.isnan(uncertainty) else f" ± {uncertainty:.2g}"
     return f"{value:.4g}{error}"
 

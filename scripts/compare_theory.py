@@ -20,9 +20,10 @@ from _errors import coarse, ensemble_mean
 from _job import start
 from _model import DESCRIBED, spectrum_of, window_of
 from stickiness import datasets, surface
+from synthesise_surface import grid_points
 
 WINDOWS = 64  # random ones, whose highest summits are averaged
-LONG_WAVES = 16.0  # wave number over q0 up to which waves matter to the highest summit
+LONG_WAVES = 64.0  # wave number over q0 beyond which waves add nothing to the highest summit
 MARGIN = 0.75  # over h_rms, of theory's mean gap below the highest summit
 COMPARED = ("area_fraction", "mean_gap", "attractive_area", "gap_density")
 
@@ -91,16 +92,17 @@ def integral(values):
 
 def highest_summit(made):
     """Mean height over h_rms of the highest point of a window."""
-    spectrum, length = spectrum_of(made), window_of(made)
-    if spectrum.magnification > LONG_WAVES:
-        spectrum = spectrum.truncated(LONG_WAVES * spectrum.q0)
-    points = int(4 * spectrum.magnification * length * spectrum.q0 / (2 * np.pi))
+    asked = {**made, "magnification": min(made["magnification"], LONG_WAVES)}
+    spectrum, length, n = spectrum_of(asked), window_of(asked), grid_points(asked, 4)
     amplitudes = made.get("amplitudes", "gaussian")
-    summits = [
-        surface.synthesise(spectrum, points, length, seed, amplitudes).max()
-        for seed in range(WINDOWS)
-    ]
-    return float(np.mean(summits)) / spectrum.h_rms
+    return float(
+        np.mean(
+            [
+                surface.synthesise(spectrum, n, length, seed, amplitudes).max()
+                for seed in range(WINDOWS)
+            ]
+        )
+    )
 
 
 def annotated(dataset):

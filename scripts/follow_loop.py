@@ -25,7 +25,8 @@ MARGIN = 1.2  # ranges of attraction between the summit and the surface where th
 STATES = {
     "mean_pressure": "mean pressure over E* q0 h_rms",
     "mean_gap": "mean gap over h_rms",
-    "repulsive_area_fraction": "repulsive contact area over nominal area",
+    "repulsive_area_fraction": "area at a gap of zero over nominal area",
+    "net_repulsive_area_fraction": "area at a gap of zero and compressed over nominal area",
     "adhesive_area_fraction": "area within the range, not in contact, over nominal area",
     "elastic_energy": "elastic energy per nominal area over E* q0 h_rms^2",
     "interaction_energy": "energy of the attraction per nominal area over E* q0 h_rms^2",

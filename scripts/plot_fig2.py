@@ -20,6 +20,7 @@ from _style import (
     letters,
     points,
     save,
+    with_model,
 )
 from stickiness import datasets
 
@@ -90,25 +91,32 @@ def case_keys(kappas):
 
 
 def panel_b(ax, limit, adhesive):
-    """1/kappa by full simulation and in the DMT limit (dotted); sticky where it is negative."""
+    """1/kappa at one load, fitted over all, by the net area, and in the DMT limit (dotted)."""
     load = float(adhesive.pressure[-1])
     for index, reach in enumerate(adhesive.range_over_h_rms.values):
         full = adhesive.sel(pressure=load, range_over_h_rms=reach)
         dmt = limit.sel(pressure=load, range_over_h_rms=reach, method="nearest")
         look = {"color": COLOURS[index], "marker": MARKERS[index], "markersize": 3.5}
         ax.plot(dmt.adhesion_length_over_range, dmt.inverse_kappa, ":", color=COLOURS[index])
-        errors = full.inverse_kappa_standard_error, full.inverse_kappa_discretisation_error
+        lengths = full.adhesion_length_over_range
+        ax.plot(lengths, full.inverse_kappa_fit, "-", color=COLOURS[index], linewidth=0.9)
+        ax.plot(lengths, full.inverse_kappa_net, linestyle="none", **look, mfc="white", zorder=3)
         label = rf"$\epsilon/h_\mathrm{{rms}}$ = {reach:g}"
-        points(ax, full.adhesion_length_over_range, full.inverse_kappa, *errors, **look)
+        points(ax, lengths, full.inverse_kappa, *with_model(full, "inverse_kappa"), **look)
         ax.plot([], [], linestyle="none", label=label, **look)
-    ax.plot([], [], ":", color=GREY, label="DMT limit")
+    kinds = [
+        key(linewidth=0.9, label="fit over loads"),
+        key(marker="o", markersize=3.5, mfc="white", linestyle="none", label="compressed"),
+        key(linestyle=":", label="DMT limit"),
+    ]
+    ax.add_artist(ax.legend(loc="upper right", borderaxespad=0.2))
     low, high = -0.35, 0.68
     ax.axhspan(low, 0, color=GREY, alpha=0.15, linewidth=0)
     ax.text(0.03, 0.03, "sticky", transform=ax.transAxes, fontsize=8)
     ax.set(xlabel=r"adhesion length $l_a/\epsilon$", ylabel=r"$1/\kappa$ with adhesion")
     ax.set(ylim=(low, high), xscale="log")
     ax.set_title(rf"$q_0h_\mathrm{{rms}}$ = {float(adhesive.q0_h_rms):g}, $\hat{{p}}$ = {load:g}")
-    ax.legend(loc="lower left", bbox_to_anchor=(0, 0.08))
+    ax.legend(handles=kinds, loc="lower left", bbox_to_anchor=(0, 0.08))
 
 
 def panel_c(ax, cases):

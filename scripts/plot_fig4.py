@@ -16,6 +16,8 @@ from _style import (
     points,
     save,
     shades,
+    total_error,
+    with_model,
 )
 from stickiness import criteria, datasets
 
@@ -28,17 +30,12 @@ LENGTH_LABEL = r"adhesion length $l_a/\epsilon$"
 def main(job):
     loop = datasets.read(job.input.loop, ["mean_pressure", "repulsive_area_fraction"])
     loop = loop.isel(resolution=-1)
-    limits, full = (
-        [at_load(path, job.params.pressure) for path in paths]
-        for paths in (
-            (job.input.rough, job.input.smooth),
-            (job.input.rough_full, job.input.smooth_full),
-        )
-    )
-    figure, panels = canvas("AB;CB", 5.2, width_ratios=[1, 1.15])
+    full = [at_load(path, job.params.pressure) for path in (job.input.rough, job.input.smooth)]
+    a_v = [measured_a_v(path, job.params.pressure) for path in job.input.a_v]
+    figure, panels = canvas("AB;CB", 5.4, width_ratios=[1, 1.15])
     panel_a(panels["A"], loop)
-    panel_b(panels["B"], limits, full)
-    panel_c(panels["C"], limits, full)
+    panel_b(panels["B"], full, a_v)
+    panel_c(panels["C"], full, a_v)
     letters(panels)
     save(figure, job.output)
 
@@ -46,6 +43,12 @@ def main(job):
 def at_load(path, pressure):
     data = datasets.read(path, ["inverse_kappa_ad", "q0_h_rms"])
     return data.sel(pressure=pressure, method="nearest")
+
+
+def measured_a_v(path, pressure):
+    """a_V of the surfaces of one set, in the window that is quoted."""
+    fit = datasets.read(path, ["a_v_mean"]).sel(pressure=pressure, method="nearest")
+    return float(fit.a_v_mean.isel(window=0))
 
 
 def panel_a(ax, loop):
@@ -83,20 +86,25 @@ def panel_a(ax, loop):
     ax.legend(title=r"$l_a/\epsilon$", title_fontsize=8, loc="upper left")
 
 
-def panel_b(ax, limits, full):
-    """1/kappa_ad by full simulation, in the DMT limit (thin) and by formula."""
-    for marker, limit, data in zip(MARKERS, limits, full, strict=False):
+def panel_b(ax, full, a_v):
+    """1/kappa_ad by slopes and directly, beside the formula with either a_V."""
+    for marker, data, measured in zip(MARKERS, full, a_v, strict=False):
         ranges = data.range_over_h_rms.values
+        lengths = data.adhesion_length_over_range.values
         for colour, reach in zip(shades(len(ranges)), ranges, strict=True):
-            here, dmt = (one.sel(range_over_h_rms=reach) for one in (data, limit))
-            lengths = dmt.adhesion_length_over_range
-            formula = by_formula(limit, lengths.values, reach, PAPER_A_V)
-            ax.plot(lengths, formula, "-", color=colour, linewidth=0.9)
-            ax.plot(lengths, dmt.inverse_kappa_ad, ":", color=colour, linewidth=0.9)
-            measured(ax, here, here.adhesion_length_over_range, 1.0, colour, marker)
+            here = data.sel(range_over_h_rms=reach)
+            for value, line in ((PAPER_A_V, "-"), (measured, "--")):
+                formula = by_formula(data, lengths, reach, value)
+                ax.plot(lengths, formula, line, color=colour, linewidth=0.8)
+            hollow = {"color": colour, "marker": marker, "mfc": "white", "markersize": 3}
+            direct = here.inverse_kappa_ad_direct
+            ax.plot(lengths, direct, linestyle="none", **hollow, zorder=3)
+            by_slopes(ax, here, "inverse_kappa_ad_fit", lengths, 1.0, colour, marker)
+            chosen = here.inverse_kappa_ad.where(here.model == "dmt")
+            ax.plot(lengths, chosen, "x", color=RED, markersize=3.5, zorder=6)
     shaded(ax)
     ax.set(xscale="log", yscale="log", xlabel=LENGTH_LABEL, ylabel=r"$1/\kappa_\mathrm{ad}$")
-    ax.set_title(rf"full simulation, $\hat{{p}}$ = {float(full[0].pressure):g}")
+    ax.set_title(rf"$\hat{{p}}$ = {float(full[0].pressure):g}")
     families = ax.legend(
         handles=range_keys(full[0].range_over_h_rms.values),
         title=r"$\epsilon/h_\mathrm{rms}$",
@@ -107,7 +115,7 @@ def panel_b(ax, limits, full):
         alignment="left",
     )
     ax.add_artist(families)
-    ax.legend(handles=[*set_keys(limits), *line_keys()], loc="lower right")
+    ax.legend(handles=[*set_keys(full), *kind_keys()], loc="lower right")
 
 
 def by_formula(data, lengths, reach, a_v):
@@ -115,18 +123,15 @@ def by_formula(data, lengths, reach, a_v):
     return criteria.inverse_kappa_ad(1.0, float(data.q0_h_rms), lengths * reach, reach, a_v)
 
 
-def measured(ax, data, x, scale, colour, marker):
-    """1/kappa_ad over `scale` with its errors."""
-    value = data.inverse_kappa_ad / scale
-    errors = (
-        data.inverse_kappa_ad_standard_error / scale,
-        data.inverse_kappa_ad_discretisation_error / scale,
-    )
-    points(ax, x, value, *errors, color=colour, marker=marker)
+def by_slopes(ax, data, name, x, scale, colour, marker):
+    """1/kappa_ad over `scale` where it is larger than its errors, with these."""
+    errors = with_model(data, name)
+    value = data[name].where(total_error(*errors) < data[name]) / scale
+    points(ax, x, value, *(one / scale for one in errors), color=colour, marker=marker)
 
 
 def shaded(ax):
-    low, high = 1e-5, 1e4
+    low, high = 1e-7, 1e3
     ax.set_ylim(low, high)
     ax.axhspan(THRESHOLD, high, color=GREY, alpha=0.15, linewidth=0)
     ax.text(0.03, 0.965, r"sticky: $1/\kappa_\mathrm{ad}$ > 1/2", transform=ax.transAxes, va="top")
@@ -152,27 +157,33 @@ def set_keys(sets):
     ]
 
 
-def line_keys():
+def kind_keys():
+    hollow = {"marker": "o", "linestyle": "none", "markersize": 3, "color": BLACK}
     return [
-        key(linestyle=":", label="DMT limit"),
+        key(**hollow, label="by fitted slopes"),
+        key(**hollow, mfc="white", label=r"$p_\mathrm{ad}/2p_\mathrm{rep}$"),
+        key(marker="x", linestyle="none", color=RED, label="DMT limit chosen"),
         key(label=rf"formula, $a_V$ = {PAPER_A_V:g}"),
+        key(linestyle="--", label=r"formula, $a_V$ measured"),
     ]
 
 
-def panel_c(ax, limits, full):
-    """Full simulation and DMT limit over the formula, against the range."""
-    for index, (marker, limit, data) in enumerate(zip(MARKERS, limits, full, strict=False)):
+def panel_c(ax, full, a_v):
+    """Slopes, tractions and DMT limit over the formula, against the range."""
+    for index, (marker, data, measured) in enumerate(zip(MARKERS, full, a_v, strict=False)):
         length = weak(data)
         data = data.sel(adhesion_length_over_range=length)
         reach = data.range_over_h_rms
-        scale = by_formula(limit, length, reach.values, PAPER_A_V)
-        ax.plot(reach, data.inverse_kappa_ad_dmt / scale, ":", color=GREY, linewidth=0.9)
+        scale = by_formula(data, length, reach.values, PAPER_A_V)
         for colour, place in zip(shades(reach.size), range(reach.size), strict=True):
             one = data.isel(range_over_h_rms=[place])
             x = one.range_over_h_rms * 1.08 ** (index - 0.5)
-            measured(ax, one, x, scale[place], colour, marker)
+            hollow = {"color": colour, "marker": marker, "mfc": "white", "markersize": 3}
+            direct = one.inverse_kappa_ad_direct / scale[place]
+            ax.plot(x, direct, linestyle="none", **hollow)
+            by_slopes(ax, one, "inverse_kappa_ad", x, scale[place], colour, marker)
+        ax.axhline(measured / PAPER_A_V, color=GREY, linestyle="--", linewidth=0.8)
     ax.axhline(1, color=GREY, linewidth=0.9)
-    ax.text(0.97, 0.95, "dotted: DMT limit", ha="right", va="top", transform=ax.transAxes)
     ax.set(xscale="log", xlabel=r"range $\epsilon/h_\mathrm{rms}$")
     ax.set_ylim(bottom=0)
     ax.set(ylabel=rf"$1/\kappa_\mathrm{{ad}}$ over formula, $a_V$ = {PAPER_A_V:g}")

@@ -19,12 +19,22 @@ from stickiness import datasets
 LENGTHS = [0.001, 0.01, 0.1, 1.0, 10.0]  # l_a/range
 EMPHASISED = 0.05  # a crystal on itself
 CLAIMED = {1e-6: 1e3, 1e-9: 6.7e4, 1e-12: 1e6}  # range q0 and the paper's limit of h_rms/range
+FORMS = {
+    "h_rms_limit": {"color": BLACK, "linewidth": 1.0},
+    "h_rms_limit_constant": {"color": RED, "linewidth": 1.2, "linestyle": "-."},
+    "h_rms_limit_printed": {"color": RED, "linewidth": 1.2, "linestyle": "--"},
+    "jtb_limit": {"color": BLACK, "linewidth": 1.0, "linestyle": "-."},
+    "weak_limit": {"color": BLACK, "linewidth": 1.2, "linestyle": ":"},
+}
 ROUGHNESS_LABEL = r"roughness $h_\mathrm{rms}/\epsilon$"
 
 
+LIMITS = ("h_rms_limit", "h_rms_limit_edges", "jtb_limit", "weak_limit")
+
+
 def main(job):
-    data = datasets.read(job.input.map, ["h_rms_limit", "jtb_limit", "slope_angle", "a_v_low"])
-    figure, panels = canvas("AB", 3.9, width_ratios=[1.25, 1])
+    data = datasets.read(job.input.map, [*LIMITS, "slope_angle", "a_v"])
+    figure, panels = canvas("AB", 4.2, width_ratios=[1.35, 1])
     panel_a(panels["A"], data)
     panel_b(panels["B"], data)
     letters(panels)
@@ -32,58 +42,48 @@ def main(job):
 
 
 def panel_a(ax, data):
-    """Limit of stickiness for a few adhesion lengths, as measured and as printed."""
+    """Limit of stickiness for a few adhesion lengths, by the edges, and where its forms hold."""
     for length, colour in zip(LENGTHS, shades(len(LENGTHS)), strict=True):
-        limit = at_length(data.h_rms_limit, length)
+        limit = at_length(data.h_rms_limit_edges, length)
         ax.plot(data.range_times_q0, limit, color=colour, label=f"{length:g}")
     emphasised(ax, data, EMPHASISED)
-    unsafe(ax, data)
-    ax.set(xscale="log", yscale="log", xlim=(4e-13, 1e-2), ylim=(1, 1e10))
+    ax.set(xscale="log", yscale="log", xlim=(4e-13, 1e-2), ylim=(1, 1e14))
     ax.set(xlabel=r"lowest wave number $\epsilon q_0$", ylabel=rf"largest sticky {ROUGHNESS_LABEL}")
-    lines = ax.legend(title=r"$l_a/\epsilon$", title_fontsize=8, loc="upper right", ncols=2)
+    lines = ax.legend(title=r"$l_a/\epsilon$", title_fontsize=8, loc="lower left", ncols=2)
     ax.add_artist(lines)
-    ax.legend(handles=emphasis_keys(data), loc="lower left")
+    ax.legend(handles=emphasis_keys(data), loc="upper right")
 
 
 def at_length(limit, length):
-    """A limit between the adhesion lengths tabulated: a power law, so exact in logarithms."""
+    """A limit between the adhesion lengths tabulated, nearly a power law of them."""
     name = "adhesion_length_over_range"
     logs = np.log(limit).assign_coords({name: np.log(limit[name])})
     return np.exp(logs.interp({name: np.log(length)}))
 
 
 def emphasised(ax, data, length):
-    """Error band, printed coefficient, DMT limit and the paper's numbers at one length."""
+    """Error band, other forms of the criterion, their limits and the paper's numbers."""
     x = data.range_times_q0
-    low, high = at_length(data.h_rms_limit_low, length), at_length(data.h_rms_limit_high, length)
-    ax.fill_between(x, low, high, color=RED, alpha=0.3, linewidth=0)
-    ax.plot(x, at_length(data.h_rms_limit, length), color=RED, linewidth=2)
-    ax.plot(x, at_length(data.h_rms_limit_printed, length), "--", color=RED, linewidth=1.2)
-    ax.plot(x, at_length(data.jtb_limit, length), "-.", color=BLACK, linewidth=1.2)
+    low, high = (at_length(data[f"h_rms_limit_edges_{end}"], length) for end in ("low", "high"))
+    ax.fill_between(x, low, high, color=RED, alpha=0.25, linewidth=0)
+    ax.plot(x, at_length(data.h_rms_limit_edges, length), color=RED, linewidth=2)
+    for name, look in FORMS.items():
+        ax.plot(x, at_length(data[name], length), **look)
     ax.plot(CLAIMED.keys(), CLAIMED.values(), "o", color=RED, mfc="white", zorder=5)
 
 
-def unsafe(ax, data):
-    """Shade roughness at which the threshold lies outside the DMT range.
-
-    Threshold and DMT limit depend on (l_a/range)/(range q0) alone, and cross once.
-    """
-    ratio = np.log(data.h_rms_limit / data.jtb_limit).values.ravel()
-    limit = np.log(data.h_rms_limit).values.ravel()
-    order = np.argsort(ratio)
-    crossing = np.exp(np.interp(0.0, ratio[order], limit[order]))
-    ax.axhspan(crossing, 1e10, color=GREY, alpha=0.15, linewidth=0)
-    ax.text(1e-12, 1.4 * crossing, "threshold outside\nthe DMT range", fontsize=8)
-
-
 def emphasis_keys(data):
-    a_v, low, high = (float(data[name]) for name in ("a_v", "a_v_low", "a_v_high"))
-    text = rf"$l_a/\epsilon$ = {EMPHASISED:g}, $a_V$ = {a_v:.1f} ({low:.1f} to {high:.1f})"
+    def of(name, text):
+        return key(label=text, **FORMS[name])
+
     return [
-        key(color=RED, linewidth=2, label=text),
-        key(color=RED, linestyle="--", label="9/4 as printed"),
+        key(color=RED, linewidth=2, label=rf"edges, $l_a/\epsilon$ = {EMPHASISED:g}, with error"),
+        of("h_rms_limit", r"DMT limit, $a_V$ as tabulated"),
+        of("h_rms_limit_constant", rf"DMT limit, constant $a_V$ = {float(data.a_v):.1f}"),
+        of("h_rms_limit_printed", "DMT limit, 9/4 as printed"),
         key(color=RED, linestyle="none", marker="o", mfc="white", label="the paper's numbers"),
-        key(color=BLACK, linestyle="-.", label="JTB: DMT valid above"),
+        of("jtb_limit", "JTB: DMT valid above"),
+        of("weak_limit", r"edges weak above, tough below"),
     ]
 
 

@@ -21,14 +21,13 @@ RANGE = 0.1  # over h_rms, of the attractive area
 QUANTITIES = {
     "area_fraction": r"$A$",
     "mean_gap": r"$\bar{u}$",
-    "attractive_area": rf"$A_\mathrm{{ad}}$, $\epsilon$ = {RANGE:g} $h_\mathrm{{rms}}$",
-    "all": "all three",
+    "attractive_area": r"$A_\mathrm{ad}$",
+    "all": "all",
 }
 ROWS = ("area_fraction", "mean_gap", "attractive_area", "gap_density", "distance")
-LARGEST = 0.55  # relative difference shown
+LARGEST = 0.5  # relative difference shown
 CORRECTIONS = {"yang2008": "Yang & Persson", "wang2017": "Wang & Müser", "xu2024": "Xu et al."}
 PRESSURE_LABEL = r"pressure $p/(E^*q_0h_\mathrm{rms})$"
-SMALLEST_LOAD = 0.001
 
 
 @dataclass(frozen=True)
@@ -117,7 +116,7 @@ def draw_row(ax, row, theory, cases):
         draw_points(ax, case, y, error)
     deviations = np.concatenate(deviations)
     rms = np.sqrt(np.nanmean(deviations**2))
-    text = f"mean {np.nanmean(deviations):.3f}" if row == "distance" else f"rms {rms:.0%}"
+    text = f"mean {np.nanmean(deviations):.2f}" if row == "distance" else f"rms {rms:.0%}"
     ax.text(0.97, 0.93, text, ha="right", va="top", transform=ax.transAxes, fontsize=7.5)
 
 
@@ -156,13 +155,13 @@ def dress(ax, row, column):
     ax.set(xscale="log", xlim=(2e-3, 4) if density else (7e-4, 0.8))
     ax.set_xlabel(r"gap $u/h_\mathrm{rms}$" if density else "")
     if row == "distance":
-        ax.set(ylim=(0, 0.22), xlabel=PRESSURE_LABEL)
+        ax.set(yscale="log", ylim=(4e-3, 2), xlabel=PRESSURE_LABEL)
         label = r"$W_1/h_\mathrm{rms}$"
     else:
         ax.axhline(0, color=GREY, linewidth=0.7, zorder=0)
         ax.axhspan(-0.1, 0.1, color=GREY, alpha=0.13, linewidth=0, zorder=0)
         ax.set_ylim(-LARGEST, LARGEST)
-        name = r"$P(u)$" if density else QUANTITIES[row].split(",")[0]
+        name = r"$P(u)$" if density else QUANTITIES[row]
         label = f"theory/BEM − 1\n{name}"
     if column == 0:
         ax.set_ylabel(label)
@@ -201,7 +200,7 @@ def gamma_panel(ax, gamma):
     """Gamma with its confidence interval for each correction and quantity."""
     for index, (correction, label) in enumerate(CORRECTIONS.items()):
         at = gamma.sel(correction=correction)
-        y = np.arange(at.sizes["quantity"]) + 0.2 * (1 - index)
+        y = np.arange(at.sizes["quantity"]) + 0.26 * (1 - index)
         bars = np.abs([at.gamma - at.gamma_low, at.gamma_high - at.gamma])
         look = {"color": COLOURS[index], "marker": MARKERS[index], "linestyle": "none"}
         ax.errorbar(at.gamma, y, xerr=bars, elinewidth=1, capsize=2, **look, label=label)
@@ -212,8 +211,8 @@ def gamma_panel(ax, gamma):
     ax.plot([], [], linestyle="none", marker="o", color=BLACK, mfc="white", label="source's own")
     names = [QUANTITIES[str(name)] for name in gamma.quantity.values]
     ax.set_yticks(np.arange(len(names)), names)
-    ax.set(ylim=(3.7, -0.5), xlim=(0.2, 1.0), xlabel=r"best $\gamma$, 95 %, and misfit")
-    ax.legend(loc="upper right")
+    ax.set(ylim=(3.7, -0.5), xlim=(0.25, 1.0), xlabel=r"best $\gamma$, 95 %, and misfit")
+    ax.legend(loc="center right")
 
 
 if __name__ == "__main__":

@@ -3,7 +3,8 @@
 At a prescribed mean gap the attraction shows whole: in the mean pressure that is left, and in the
 area. A press would jump where the pressure falls on closing. Every state is solved on the grid of
 the realisation and on every second point of it. What the grid does not resolve is left out, and so
-is attraction so strong that the window closes altogether.
+is attraction so strong that the window closes altogether, and where the DMT limit is good enough
+nothing is solved.
 """
 
 import itertools
@@ -12,8 +13,8 @@ import logging
 import numpy as np
 import xarray as xr
 
+from _adhesion import AXES, MISSING, axes, roughness, scaled_law
 from _adhesion import DESCRIBED as ADHESION_DESCRIBED
-from _adhesion import MISSING, axis, roughness, scaled_law
 from _job import start
 from _model import pixels
 from stickiness import adhesive, cohesive_zone, datasets, dmt, repulsive
@@ -23,7 +24,8 @@ STATE = {
     "external_pressure": "mean pressure over E* q0 h_rms",
     "repulsive_pressure": "repulsive part of the mean pressure over E* q0 h_rms",
     "attraction": "attractive part of the mean pressure over E* q0 h_rms",
-    "repulsive_area": "repulsive contact area over nominal area, by pixels",
+    "repulsive_area": "area at a gap of zero over nominal area, by pixels",
+    "net_repulsive_area": "area at a gap of zero and compressed over nominal area, by pixels",
     "attractive_area": "area within the range of attraction, not in contact, over nominal area",
     "elastic_energy": "elastic energy per nominal area over E* q0 h_rms^2",
     "interaction_energy": "energy of the attraction per nominal area over E* q0 h_rms^2",
@@ -42,9 +44,9 @@ TIGHTEST = 1e-7  # tolerance: far below the errors of grid and sampling
 def main(job):
     surface = datasets.read(job.input.surface, ["height", "window_length", "rms_slope"])
     asked = job.params.adhesion
-    length, refine = float(surface.window_length), asked["bem"].get("refine", 1)
+    length, refine = float(surface.window_length), asked.get("refine", 1)
     heights = resample(surface.height.values, refine * len(surface.height))
-    chosen = list(combinations(asked, length / len(heights)))
+    chosen = combinations(asked, length / len(heights), np.array(job.params.full))
     solved = [
         states(heights[::step, ::step], length, asked, chosen, max(job.params.tolerance, TIGHTEST))
         for step in (2, 1)
@@ -61,7 +63,7 @@ def main(job):
         parameters={
             **made,
             "q0_h_rms": roughness(asked),
-            "law": asked["bem"]["law"],
+            "law": asked["law"],
             "refine": refine,
             "pixel": length / len(heights),
             "strongest": STRONGEST,
@@ -70,45 +72,40 @@ def main(job):
     )
 
 
-def combinations(asked, pixel):
-    """Indices (l_a/range, range) that the grid resolves, with their traction laws."""
-    lengths = axis("adhesion_length_over_range", asked).values
-    ranges = axis("range_over_h_rms", asked).values
-    for j, k in itertools.product(range(len(lengths)), range(len(ranges))):
-        law = scaled_law(asked, asked["bem"]["law"], lengths[j], ranges[k])
-        if (
-            cohesive_zone.resolution(pixel, law.range, law.adhesion_length)
-            <= cohesive_zone.COARSEST
-        ):
-            yield j, k, law
-        else:
+def combinations(asked, pixel, full):
+    """By pressure, the indices (l_a/range, range) to be solved in full that the grid resolves."""
+    _, lengths, ranges = axes(asked)
+    resolved = np.zeros(full.shape[1:], bool)
+    for j, k in np.ndindex(resolved.shape):
+        law = scaled_law(asked, asked["law"], lengths.values[j], ranges.values[k])
+        bent = cohesive_zone.resolution(pixel, law.range, law.adhesion_length)
+        resolved[j, k] = bent <= cohesive_zone.COARSEST
+        if full[:, j, k].any() and not resolved[j, k]:
             logging.info("l_a/range %g, range %g: not resolved", lengths[j], ranges[k])
+    return full & resolved
 
 
 def states(heights, length, asked, chosen, tolerance):
-    """Adhesive states on one grid, NaN where there is none."""
-    pressures = np.sort(np.array(asked["bem"]["pressures"], dtype=float))
-    lengths, ranges = axis("adhesion_length_over_range", asked), axis("range_over_h_rms", asked)
-    shape = len(pressures), lengths.size, ranges.size
-    values = {name: np.full(shape, np.nan) for name in (*STATE, "attraction_dmt")}
+    """Adhesive states on one grid, NaN where there is none, and the attraction in the DMT limit."""
+    pressures, lengths, ranges = axes(asked)
+    values = {name: np.full(chosen.shape, np.nan) for name in (*STATE, "attraction_dmt")}
     alone = {name: np.empty(len(pressures)) for name in ALONE}
-    for i, contact in enumerate(repulsive.load_path(heights, length, pressures, tol=tolerance)):
+    path = repulsive.load_path(heights, length, pressures.values, tol=tolerance)
+    for i, contact in enumerate(path):
         alone["area_alone"][i] = contact.area_fraction
         alone["mean_gap"][i] = contact.mean_gap
         alone["edge_gap"][i] = dmt.edge_gap(contact.gap)
-        for j, k, law in chosen:
-            attraction = float(np.mean(law.traction(contact.gap), where=contact.gap > 0))
-            attraction *= 1 - contact.area_fraction
-            if attraction > STRONGEST * pressures[i]:
-                continue
+        for j, k in itertools.product(range(lengths.size), range(ranges.size)):
+            law = scaled_law(asked, asked["law"], lengths.values[j], ranges.values[k])
+            attraction = dmt.adhesive_pressure(contact.gap, law)
             values["attraction_dmt"][i, j, k] = attraction
-            for name, value in closed(heights, length, law, contact, tolerance).items():
-                values[name][i, j, k] = value
-    dims = "pressure", "adhesion_length_over_range", "range_over_h_rms"
+            if chosen[i, j, k] and attraction <= STRONGEST * contact.mean_pressure:
+                for name, value in closed(heights, length, law, contact, tolerance).items():
+                    values[name][i, j, k] = value
     return xr.Dataset(
-        {name: (dims, value) for name, value in values.items()}
+        {name: (AXES, value) for name, value in values.items()}
         | {name: ("pressure", value) for name, value in alone.items()},
-        coords={"pressure": pressures} | {a.name or a.dims[0]: a for a in (lengths, ranges)},
+        coords={one.name: one for one in (pressures, lengths, ranges)},
     )
 
 
@@ -132,6 +129,7 @@ def closed(heights, length, law, contact, tolerance):
         "repulsive_pressure": state.repulsive_pressure,
         "attraction": state.adhesive_pressure,
         "repulsive_area": state.repulsive_area_fraction,
+        "net_repulsive_area": state.net_repulsive_area_fraction,
         "attractive_area": state.adhesive_area_fraction,
         "elastic_energy": state.elastic_energy,
         "interaction_energy": state.interaction_energy,
@@ -149,11 +147,10 @@ def annotated(dataset):
         attraction_dmt=(
             "1",
             "attraction over the gaps without adhesion, p_ad/(E* q0 h_rms)",
-            MISSING,
         ),
         **{name: ADHESION_DESCRIBED[name] for name in dataset.dims if name in ADHESION_DESCRIBED},
         **{name: ("1", text) for name, text in ALONE.items()},
-        **{name: ("1", text, MISSING) for name, text in STATE.items()},
+        **{name: ("1", text, f"DMT limit, or {MISSING}") for name, text in STATE.items()},
     )
 
 

@@ -11,8 +11,8 @@ import numpy as np
 import xarray as xr
 
 from _job import start
-from _model import DESCRIBED, logarithmic_grid, spectrum_of, window_of
-from solve_repulsive import COARSE, load_curve
+from _model import logarithmic_grid, spectrum_of, window_of
+from solve_repulsive import COARSE, CURVE, load_curve
 from stickiness import datasets, sampling, surface
 from synthesise_surface import grid_points
 
@@ -68,14 +68,11 @@ def coarse_solutions(asked, count, others_count, pressures, ranges, tolerance):
 
 
 def annotated(dataset):
-    names = ("pressure", "range", "area_fraction", "mean_gap", "attractive_area")
     return datasets.annotate(
         dataset,
-        **{name: DESCRIBED[name] for name in names},
+        **CURVE,
         seed=("1", "seed of the realisation"),
         other=("1", "seed of a realisation that is not solved"),
-        residual=("1", "complementarity residual over h_rms"),
-        rms_slope=("1", "rms gradient of this realisation over q0 h_rms"),
         descriptor=("1", "what is described, lengths in units of 1/q0 and heights of h_rms"),
         long_waves=("1", "descriptors of the long waves"),
         other_long_waves=("1", "descriptors of the long waves of seeds that are not solved"),

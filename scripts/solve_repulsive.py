@@ -17,6 +17,12 @@ from stickiness import datasets, dmt, repulsive, subpixel
 SOLVED = ("area_fraction", "mean_gap", "residual", "iterations", "fft_pairs")
 SCALARS = (*SOLVED, "pixel_area_fraction", "edge_gap", "edges")
 AREAS = ("attractive_area", "pixel_attractive_area")
+CURVE = {
+    **{name: DESCRIBED[name] for name in ("pressure", "range", "area_fraction", "mean_gap")},
+    "attractive_area": DESCRIBED["attractive_area"],
+    "residual": ("1", "complementarity residual over h_rms"),
+    "rms_slope": ("1", "rms gradient of this realisation over q0 h_rms"),
+}
 COARSE = 2  # grid points per shortest wavelength on the coarsest grid, the fewest that hold it
 
 
@@ -85,19 +91,16 @@ def load_curve(heights, length, pressures, ranges, tolerance):
 
 
 def annotated(dataset):
-    names = ("pressure", "range", "area_fraction", "mean_gap", "attractive_area")
     return datasets.annotate(
         dataset,
-        **{name: DESCRIBED[name] for name in names},
+        **CURVE,
         resolution=("1", "grid points per shortest wavelength"),
         pixel_area_fraction=("1", "repulsive contact area as counted in pixels, over nominal area"),
         pixel_attractive_area=("1", "attractive area as counted in pixels, over nominal area"),
         edges=("1", "pixel sides between contact and gap"),
         edge_gap=("1", "gap of the pixels next to the contact over h_rms: smallest range resolved"),
-        residual=("1", "complementarity residual over h_rms"),
         iterations=("1", "conjugate gradient iterations"),
         fft_pairs=("1", "pairs of Fourier transforms in units of this grid"),
-        rms_slope=("1", "rms gradient of this realisation over q0 h_rms"),
     )
 
 

@@ -45,7 +45,8 @@ def simulated(comparisons):
     """Ratio of simulation to theory at every load and range, pooled over cases.
 
     Cases differ by more than their errors: the ratio is a mean with a variance between cases (a
-    random effect, by moments over all loads), and its error is that of a further case.
+    random effect, by moments over all loads), and its error is that of a further case. The cases'
+    own errors are not taken to average out, for grids err to one side in all of them.
     """
     logs, errors = zip(*map(log_ratio, comparisons), strict=True)
     logs, errors = (xr.concat(part, "case", join="outer") for part in (logs, errors))
@@ -59,13 +60,14 @@ def simulated(comparisons):
             "add larger windows or higher pressures to cases or comparisons"
         )
     mean = (weight * logs.fillna(0)).sum("case") / total
-    mean, total = mean.isel(pressure=known.values), total.isel(pressure=known.values)
+    common = (weight * errors.fillna(0) ** 2).sum("case") / total
+    mean, common = mean.isel(pressure=known.values), common.isel(pressure=known.values)
     # Towards smaller ranges: what a decade of simulated ones changes.
     change = mean.sel(range=10 * SMALLEST_RANGE, method="nearest") - mean.isel(range=0)
     found = xr.Dataset(
         {
             "simulation_ratio": np.exp(mean),
-            "simulation_error": np.sqrt(scatter**2 + 1 / total),
+            "simulation_error": np.sqrt(scatter**2 + common),
             "extrapolation_error": np.sqrt((change**2).mean()),
         }
     )

@@ -10,7 +10,16 @@ from _job import start
 from stickiness import datasets
 
 CLAIMS = ("statement", "quantity", "value", "uncertainty", "error", "claimed", "verdict", "sources")
-VERDICTS = ("margin", "modulus_threshold", "probability", "verdict", "disagrees", "a_v", "a_v_low")
+VERDICTS = (
+    "margin",
+    "modulus_threshold",
+    "probability",
+    "simulated",
+    "verdict",
+    "disagrees",
+    "a_v",
+    "a_v_low",
+)
 SURFACES = ("h_rms", "hurst", "q0", "q1", "C0_reference_upper")
 COMPARISONS = ("area_fraction_difference", "mean_gap_difference", "attractive_area_difference")
 ENSEMBLES = ("area_fraction_mean", "mean_gap_mean", "attractive_area_mean", "residual")

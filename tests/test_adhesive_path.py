@@ -110,7 +110,13 @@ def test_sphere_between_the_limits_pulls_off_as_maugis_has_it():
 
 
 def test_strongly_adhesive_sphere_pulls_off_as_johnson_kendall_roberts_have_it():
-    """Tabor 5, by a law without a jump, which delays the edge of contact far less."""
+    """Tabor 5, by a law without a jump, which delays the edge of contact far less.
+
+    Pull-off forces over pi R w are -1.828, -1.547, -1.530 on 128, 256, 512 points, where the range
+    is 0.25, 0.5, 1 pixel; to first order in the pixel the last two lead to -1.514, against -1.500
+    of JKR and -1.505 of Maugis and Dugdale. With the law of Maugis the pixels hold the edge far
+    longer: -2.70 and -2.38 on 128 and 256 points, which cannot be extrapolated.
+    """
     law = sphere_law(Exponential, 5.0, 0.15)
     exact = references.JKRSphere(RADIUS, law.adhesion_length)
     expected = exact.pull_off_force
@@ -123,18 +129,22 @@ def test_strongly_adhesive_sphere_pulls_off_as_johnson_kendall_roberts_have_it()
     assert radius == pytest.approx(exact.contact_radius(0.0), rel=0.015)
 
 
-def test_every_law_pulls_a_sphere_off_near_maugis():
-    """Same work of adhesion and Tabor parameter 0.5: laws differ by a few per cent only."""
+@pytest.mark.parametrize("tabor", [0.5, 1.0])
+def test_laws_with_tails_pull_a_sphere_off_alike(tabor):
+    """Same work of adhesion: two smooth laws agree, and their tails exceed Maugis by 5 per cent."""
     forces = []
-    for kind in (Maugis, Exponential, LennardJones):
-        law = sphere_law(kind, 0.5, 0.12)
-        dmt = references.DMTSphere(RADIUS, law.adhesion_length).pull_off_force
+    for kind in (Exponential, LennardJones):
+        law = sphere_law(kind, tabor, 0.12)
+        exact = references.MaugisSphere(RADIUS, law.adhesion_length, law.range).pull_off.force
+        coarse, fine = (pull_off(paraboloid(n), 1.0, law, exact) for n in (64, 96))
+        assert coarse == pytest.approx(fine, rel=5e-3)
+        forces.append(fine)
+        assert fine / exact == pytest.approx(1.05, abs=0.01)
+        # between the limits of short and long range
         jkr = references.JKRSphere(RADIUS, law.adhesion_length).pull_off_force
-        force = pull_off(paraboloid(64), 1.0, law, dmt)
-        # between the limits, but for a delay of some per cent on this grid
-        assert 1.1 * dmt < force < jkr
-        forces.append(force)
-    assert np.ptp(forces) < 0.15 * abs(np.mean(forces))
+        dmt = references.DMTSphere(RADIUS, law.adhesion_length).pull_off_force
+        assert dmt < fine < 1.05 * jkr
+    assert forces[0] == pytest.approx(forces[1], rel=5e-3)
 
 
 @pytest.mark.parametrize(("strength", "tolerance"), [(0.5, 0.003), (1.0, 0.01)])

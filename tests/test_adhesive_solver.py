@@ -7,6 +7,7 @@ import pytest
 from scipy import optimize
 
 from stickiness import adhesive, dmt, repulsive
+from stickiness import adhesive_references as references
 from stickiness.adhesive import Exponential, LennardJones, Maugis
 
 LAWS = (Exponential, Maugis, LennardJones)
@@ -270,12 +271,72 @@ def test_any_grid(shape, kind):
         assert a.length == pytest.approx(sides)
 
 
+def test_branches_on_a_rough_surface_differ_and_the_deeper_is_told():
+    """Loaded from afar and unloaded from full contact: two stable states of unlike enthalpy.
+
+    Up to some three times the load the state of less contact is the deeper one, beyond that of
+    full contact is, before loading gets there.
+    """
+    heights = rough(64)
+    law = law_of(Exponential, 0.1, 0.5)
+    for load, approach_deeper in ((LOAD, True), (3 * LOAD, True), (5 * LOAD, False)):
+        a, b = (
+            adhesive.solve(heights, 1.0, law, pressure=load, start=start)
+            for start in ("approach", "separation")
+        )
+        assert_equilibrium(a, heights)
+        assert_equilibrium(b, heights)
+        assert b.repulsive_area_fraction > a.repulsive_area_fraction + 0.1
+        enthalpies = []
+        for state in (a, b):
+            u = state.gap + heights
+            enthalpies.append(np.mean(u * stiffness(u) / 2 + law.potential(state.gap)))
+            enthalpies[-1] += load * state.gap.mean()
+        assert np.argmin(enthalpies) == (0 if approach_deeper else 1)
+        assert (a.enthalpy < b.enthalpy) == approach_deeper
+        # both are minima: a start nearby comes back
+        for state in (a, b):
+            moved = state.gap + 1e-3 * law.range * (state.gap > 0)
+            back = adhesive.solve(heights, 1.0, law, pressure=load, start=moved)
+            np.testing.assert_allclose(back.gap, state.gap, atol=1e-5 * HEIGHT)
+
+
 def test_iterations_do_not_grow_with_the_grid():
     """The same surface on finer grids: what is preconditioned has no length of its own."""
-    law = law_of(Exponential, 0.3, 0.05)
-    counts = [adhesive.solve(rough(n), 1.0, law, pressure=LOAD).iterations for n in (64, 128, 256)]
-    assert max(counts) < 40
-    assert counts[2] < 1.5 * counts[0]
+    for eps in (0.3, 1.0):
+        law = law_of(Exponential, eps, 0.05)
+        states = [adhesive.solve(rough(n), 1.0, law, pressure=LOAD) for n in (64, 128, 256)]
+        counts = [state.iterations for state in states]
+        assert max(counts) < 30
+        assert counts[2] < 1.1 * counts[1] < 1.21 * counts[0]
+
+
+@pytest.mark.parametrize(("eps", "la"), [(1.0, 0.05), (0.3, 0.02), (0.1, 0.05), (3.0, 0.1)])
+def test_coarser_grids_lead_to_the_same_state(eps, la):
+    """Starts from coarser grids, against a descent from the solution without adhesion."""
+    heights = rough(256, magnification=16, modes=64)
+    law = law_of(Exponential, eps, la)
+    a = adhesive.solve(heights, 1.0, law, pressure=LOAD)
+    alone = repulsive.solve(heights, 1.0, LOAD)
+    b = adhesive.solve(heights, 1.0, law, pressure=LOAD, start=alone)
+    assert a.repulsive_area_fraction == b.repulsive_area_fraction
+    np.testing.assert_allclose(a.gap, b.gap, atol=1e-5 * HEIGHT)
+    assert a.iterations < b.iterations
+
+
+def test_edge_of_contact_is_pulled():
+    """A sphere at Tabor 5: net repulsion is confined to the inner circle that JKR has."""
+    radius, n = 1.0, 192
+    length = 8 * 0.15**3 / (9 * np.pi)
+    law = Exponential(length, length ** (2 / 3) / 5)
+    exact = references.JKRSphere(radius, length)
+    x = (np.arange(n) + 0.5) / n - 0.5
+    heights = -(x[:, None] ** 2 + x[None, :] ** 2) / (2 * radius)
+    a = adhesive.solve(heights, 1.0, law, pressure=0.0)
+    contact = exact.contact_radius(0.0)
+    inner = np.sqrt(a.net_repulsive_area_fraction / np.pi)
+    assert inner == pytest.approx(exact.repulsive_radius(contact), rel=0.03)
+    assert a.net_repulsive_area_fraction < 0.8 * a.repulsive_area_fraction
 
 
 @pytest.mark.parametrize("kind", LAWS)
@@ -341,31 +402,58 @@ def test_flats_at_a_mean_gap_break_up_where_they_must(kind):
             assert a.energy < float(law.potential(gap))
 
 
-def extremes():
-    for eps in (1e-3, 1e-1, 1e3):
-        for la in (1e-6, 0.1, 10.0):
-            for kind in (*LAWS, walled):
-                yield kind, eps, la
-
-
-@pytest.mark.parametrize(("kind", "eps", "la"), list(extremes()))
-def test_extremes_end_in_a_state_or_a_clear_error(kind, eps, la):
-    heights = rough(32)
-    law = law_of(kind, eps, la)
+def controls(law, shape):
+    """Loads, mean gaps and starts that are hard on a solver."""
     for load in (LOAD, 0.0, -0.5 * law.strength, -1.1 * law.strength):
         for start in ("approach", "separation"):
-            try:
-                a = adhesive.solve(heights, 1.0, law, pressure=load, start=start)
-            except adhesive.PullOffError as error:
-                assert load < 0
-                a = error.contact
-                # parted: no point is left that could hold the load
-                assert float(law.traction(a.gap.min())) < -load
-            else:
-                assert -load < law.strength * (1 + 1e-7)
-                assert a.residual <= 1e-8
-            assert np.all(np.isfinite(a.gap))
-            assert np.all(np.isfinite(a.pressure))
+            yield {"pressure": load, "start": start}
+    noise = np.abs(np.random.default_rng(0).standard_normal(shape))
+    yield {"pressure": LOAD, "start": 2 * law.range * noise}
+    # flats at half a range are unstable, and so is much of a rough surface there
+    yield {"pressure": 0.0, "start": np.full(shape, 0.5 * law.range)}
+    for mean_gap in (0.0, 1e-3 * HEIGHT, HEIGHT, 10 * HEIGHT):
+        yield {"mean_gap": mean_gap}
+
+
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize("kind", [*LAWS, walled])
+@pytest.mark.parametrize("la", [1e-6, 1e-3, 0.1, 10.0])
+@pytest.mark.parametrize("eps", [1e-3, 1e-1, 1.0, 1e3])
+def test_extremes_end_in_a_state_or_a_clear_error(kind, eps, la):
+    """Range over height and adhesion length over range at their ends, under every control."""
+    heights = rough(24)
+    law = law_of(kind, eps, la)
+    for control in controls(law, heights.shape):
+        load = control.get("pressure")
+        try:
+            a = adhesive.solve(heights, 1.0, law, **control)
+        except adhesive.PullOffError as error:
+            assert load < 0
+            a = error.contact
+            # parted: no point is left that could hold the load
+            assert float(law.traction(a.gap.min())) < -load
+        else:
+            assert load is None or -load < law.strength * (1 + 1e-7)
+            assert a.residual <= 1e-8
+            assert a.branch in ("approach", "separation")
+        assert a.iterations < 3000
+        assert np.all(np.isfinite(a.gap))
+        assert np.all(np.isfinite(a.pressure))
+        assert np.isfinite([a.mean_pressure, a.energy, a.enthalpy]).all()
+
+
+@pytest.mark.parametrize("kind", [Exponential, Maugis])
+def test_window_snaps_in_as_a_whole(kind):
+    """A long adhesion length closes every gap from any distance within reach, without a load."""
+    heights = rough(32)
+    law = law_of(kind, 1.0, 10.0)
+    for start in ("approach", "separation"):
+        a = adhesive.solve(heights, 1.0, law, pressure=0.0, start=start)
+        assert a.repulsive_area_fraction == 1.0
+        assert a.interaction_energy == pytest.approx(float(law.potential(0.0)), rel=1e-12)
+        # what flattens the surface takes that much elastic energy
+        expected = np.mean(heights * stiffness(heights)) / 2
+        assert a.elastic_energy == pytest.approx(expected, rel=1e-9)
 
 
 def test_convergence_error_carries_the_last_iterate():

@@ -1,17 +1,24 @@
+import itertools
+
 import numpy as np
 import pytest
+import xarray as xr
+from scipy import optimize
 
 import average_adhesive
 import solve_adhesive
 from _adhesion import scaled_law
-from stickiness import adhesive, cohesive_zone, repulsive, spectrum, surface
+from _dmt_limit import DmtLimit, fitted, linearity_error
+from stickiness import adhesive, cohesive_zone, dmt, repulsive, sampling, spectrum, surface
 
 LENGTH = 2 * np.pi
+AXES = "pressures", "adhesion_length_over_range", "range_over_h_rms"
 ASKED = {
     "q0_h_rms": 0.1,
     "range_over_h_rms": [0.3],
     "adhesion_length_over_range": [1e-3],
-    "bem": {"law": "maugis", "pressures": [0.1]},
+    "pressures": [0.1],
+    "law": "maugis",
 }
 
 
@@ -21,20 +28,39 @@ def heights():
     return surface.synthesise(s, 64, LENGTH, seed=3)
 
 
-def solved(heights, **changes):
+def solved(heights, curve=None, **changes):
+    """States in full and what compares them with contact without adhesion, at one resolution."""
     asked = ASKED | changes
-    chosen = list(solve_adhesive.combinations(asked, LENGTH / len(heights)))
+    full = np.ones([len(asked[name]) for name in AXES], bool)
+    chosen = solve_adhesive.combinations(asked, LENGTH / len(heights), full)
     states = solve_adhesive.states(heights, LENGTH, asked, chosen, 1e-9)
-    return states.assign(rms_slope=2.0)
+    states = states.assign(rms_slope=2.0).expand_dims(seed=[3], resolution=[8.0])
+    linear = states.area_alone.squeeze() < 1
+    curve = load_curve(heights) if curve is None else curve
+    return average_adhesive.with_slopes(states, curve, linear.expand_dims("pressure"))
+
+
+def load_curve(heights, loads=(0.02, 0.05, 0.1, 0.2)):
+    """Area without adhesion at loads around that of the states, as an ensemble has it."""
+    loads = np.unique([*loads, 0.1])
+    path = repulsive.load_path(heights, LENGTH, loads, tol=1e-9)
+    area = np.array([[[contact.area_fraction for contact in path]]])
+    return xr.Dataset(
+        {"area_fraction": (("seed", "resolution", "pressure"), area)},
+        coords={"seed": [3], "resolution": [8.0], "pressure": loads},
+    )
 
 
 def test_attraction_beyond_all_gaps_is_a_load(heights):
     """Felt everywhere at once, it takes its strength off the pressure and leaves the area."""
-    states = solved(heights, range_over_h_rms=[100.0])
-    one = average_adhesive.with_slopes(states).squeeze()
+    one = solved(heights, range_over_h_rms=[100.0]).squeeze()
     strength = 1e-3 / 0.1
     np.testing.assert_allclose(one.external_pressure, 0.1 - strength, rtol=1e-6)
     assert float(one.repulsive_area) == float(one.area_alone)
+    # the same area is at the same mean gap
+    np.testing.assert_allclose(one.inverse_kappa_ad_equal_area, one.inverse_kappa_ad, rtol=1e-6)
+    contact = repulsive.solve(heights, LENGTH, 0.1, tol=1e-9)
+    assert float(one.net_repulsive_area) == np.mean(contact.pressure > strength)
     # DMT sums it over the open area only
     np.testing.assert_allclose(one.dmt_ratio, 1 / (1 - one.area_alone), rtol=1e-6)
 
@@ -66,9 +92,8 @@ def test_what_the_grid_does_not_resolve_is_left_out(heights):
 
 def test_grid_hardly_matters_to_the_exponential_law(heights):
     """At half the resolution the relief by adhesion changes by less than a twentieth."""
-    asked = {"bem": {"law": "exponential", "pressures": [0.1]}}
     fine, coarse = (
-        average_adhesive.with_slopes(solved(part, adhesion_length_over_range=[0.03], **asked))
+        solved(part, adhesion_length_over_range=[0.03], law="exponential")
         for part in (surface.resample(heights, 256), surface.resample(heights, 128))
     )
     one, other = (float(part.inverse_kappa_ad.squeeze()) for part in (fine, coarse))
@@ -85,3 +110,92 @@ def test_units_of_the_laws():
 def test_width_of_the_zone_follows_the_edge_law():
     # u = C x^(3/2) with one pixel from the edge: eight times the gap at four times the distance
     assert cohesive_zone.zone_width(0.1, 0.01, 0.08) == pytest.approx(0.4)
+
+
+def test_equal_area_is_found_on_the_load_curve(heights):
+    """Against a search for the pressure that gives the same pixels without adhesion."""
+    curve = load_curve(heights, np.linspace(0.08, 0.5, 43))
+    one = solved(heights, curve, adhesion_length_over_range=[0.05]).squeeze()
+    area = float(one.repulsive_area)
+    assert area > 1.03 * float(one.area_alone)
+
+    def excess(pressure):
+        return repulsive.solve(heights, LENGTH, pressure, tol=1e-9).area_fraction - area
+
+    held = optimize.bisect(excess, 0.1, 0.5, xtol=1e-4)
+    expected = (1 - float(one.external_pressure) / held) / 2
+    assert float(one.inverse_kappa_ad_equal_area) == pytest.approx(expected, rel=0.01)
+    assert float(one.inverse_kappa_ad) != pytest.approx(expected, rel=0.01)
+
+
+def test_fits_go_through_the_origin_and_over_the_linear_loads_only():
+    pressure = xr.DataArray([1.0, 2.0, 4.0], dims="pressure")
+    area, linear = 0.5 * pressure, xr.DataArray([True, True, False], dims="pressure")
+    external = pressure - xr.DataArray([0.2, 0.1, 9.0], dims="pressure")
+    expected = (0.5 * 0.8 + 1.0 * 1.9) / (0.5**2 + 1.0**2)
+    assert float(fitted(external, area, linear)) == pytest.approx(expected)
+    gap = external.where(external != external[0])
+    assert np.isnan(fitted(gap, area, linear))  # one load is not solved
+    assert np.isnan(fitted(external, area, linear & (pressure < 2)))  # a single load
+    assert float(linearity_error(external / area, linear)) == pytest.approx((1.9 - 1.6) / 2)
+
+
+def test_dmt_attraction_of_areas_is_that_over_the_gaps(heights):
+    """From the attractive areas of an ensemble as from the gaps themselves, for either law."""
+    contact = repulsive.solve(heights, LENGTH, 0.1, tol=1e-9)
+    gaps = np.geomspace(1e-4, 10, 81)
+    solved = xr.Dataset(
+        {
+            "attractive_area": (("pressure", "range"), [dmt.attractive_area(contact.gap, gaps)]),
+            "area_fraction": ("pressure", [contact.area_fraction]),
+            "rms_slope": 2.0,
+        },
+        coords={"pressure": [0.1], "range": gaps},
+    )
+    for law in ("maugis", "exponential"):
+        asked = ASKED | {"law": law, "range_over_h_rms": [0.3, 3.0]}
+        asked["adhesion_length_over_range"] = [1e-3, 2e-3]
+        limit = DmtLimit(asked, xr.DataArray([True], dims="pressure"))
+        got = limit.attraction(solved).squeeze()
+        for length, reach in itertools.product(*(got[name].values for name in got.dims[::-1])):
+            one = scaled_law(asked, law, length, reach)
+            expected = dmt.adhesive_pressure(contact.gap, one)
+            at = got.sel(adhesion_length_over_range=length, range_over_h_rms=reach)
+            # 16 areas a decade, which count the points one by one
+            assert float(at) == pytest.approx(expected, rel=0.01)
+
+
+def test_dmt_of_coarse_solutions_is_a_control_without_bias():
+    """Means over eight seeds, controlled, against the plain mean over all of many."""
+    full, coarse = many_solutions(range(320))
+    plain, controlled = [], []
+    groups = np.arange(len(full)).reshape(-1, 8)
+    for group in groups:
+        others = np.setdiff1d(np.arange(len(full)), group)
+        got = sampling.multilevel_mean(full[group], coarse[group], coarse[others], fewest=8)
+        plain.append(full[group].mean(0))
+        controlled.append(got.mean)
+    plain, controlled = np.array(plain), np.array(controlled)
+    # The means of the groups are nearly the same for all, so it is their difference that tells.
+    difference = controlled - plain
+    error = difference.std(0, ddof=1) / np.sqrt(len(groups))
+    assert np.all(np.abs(difference.mean(0)) < 3 * error)
+    gain = plain.var(0, ddof=1) / controlled.var(0, ddof=1)
+    # With so few pixels much of the scatter is theirs, of which no control knows.
+    assert np.all(gain > 1.5)
+
+
+def many_solutions(seeds):
+    """1/kappa_ad in full, weak and strong adhesion, and in the DMT limit on 2 points a wave."""
+    asked = ASKED | {"law": "exponential", "adhesion_length_over_range": [0.01, 0.1]}
+    s = spectrum.SelfAffine(hurst=0.8, q0=1.0, q1=8.0, h_rms=1.0)
+    none, both = np.zeros((1, 2, 1), bool), np.ones((1, 2, 1), bool)
+    full, limit = [], []
+    for seed in seeds:
+        heights = surface.synthesise(s, 32, LENGTH, seed=seed)
+        one = solve_adhesive.states(heights, LENGTH, asked, both, 1e-6).squeeze()
+        held = one.external_pressure / one.repulsive_area
+        full.append(((1 - held / (one.pressure / one.area_alone)) / 2).values)
+        coarse = solve_adhesive.states(heights[::2, ::2], LENGTH, asked, none, 1e-6).squeeze()
+        limit.append((coarse.attraction_dmt / coarse.pressure / 2).values)
+    return np.array(full), np.array(limit)

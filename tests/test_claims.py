@@ -9,11 +9,12 @@ import xarray as xr
 
 import _claim
 import _claims
+import _claims_adhesion as adhesive_claims
 import _claims_contact as contact
 import _claims_criterion as criterion
 import _model
 import check_claims
-from _claim import NOT, OPEN, QUALIFIED, REPRODUCED
+from _claim import NOT, OPEN, QUALIFIED, REPRODUCED, total_error
 from _model import LOAD
 from stickiness import criteria, surface
 from stickiness.spectrum import SelfAffine
@@ -132,8 +133,13 @@ def adhesive(zeta, q0_h_rms=0.1, scale=1.0):
     data = data[["inverse_kappa_ad", "q0_h_rms"]]
     data["inverse_kappa_ad"] = scale * data.inverse_kappa_ad
     data = with_errors(data, "inverse_kappa_ad", suffix="")
+    data["inverse_kappa_ad_net"] = 0.9 * data.inverse_kappa_ad
+    data["inverse_kappa_ad_direct"] = 0.8 * data.inverse_kappa_ad
     data["inverse_kappa"] = 0.5 - data.inverse_kappa_ad
-    data = with_errors(data, "inverse_kappa", suffix="")
+    data["inverse_kappa_net"] = 1.1 * data.inverse_kappa
+    data["inverse_kappa_fit"] = data.inverse_kappa.mean("pressure")
+    data["model"] = xr.full_like(data.inverse_kappa, "full", dtype="U4")
+    data = with_errors(data, "inverse_kappa", "inverse_kappa_net", "inverse_kappa_fit", suffix="")
     return made_by(data, **case(zeta))
 
 
@@ -144,6 +150,7 @@ def loop(pull_off=-0.02, area=0.03, wider=1.5):
     values = {
         "mean_pressure": np.concatenate([there, back]),
         "repulsive_area_fraction": np.concatenate([2 * there, back_area]),
+        "net_repulsive_area_fraction": np.concatenate([2 * there, 0.75 * back_area]),
         "separating": np.repeat([0.0, 1.0], 61),
         "jumped": np.zeros(122),
         "work": np.full(122, 1.0),
@@ -162,7 +169,19 @@ def loop(pull_off=-0.02, area=0.03, wider=1.5):
     return made_by(data, range_over_h_rms=0.1, q0_h_rms=0.1, **case(32))
 
 
+LIMIT_FACTORS = {
+    "h_rms_limit": 1.0,
+    "h_rms_limit_edges": 2.0,
+    "h_rms_limit_edges_low": 1.0,
+    "h_rms_limit_edges_high": 3.0,
+    "weak_limit": 4.0,
+}
+
+
 def stickiness_map(a_v=(3.5, 2.5, 4.5)):
+    dims = "range_times_q0", "adhesion_length_over_range"
+    q0, length = np.geomspace(1e-12, 1e-2, 11), np.array([0.01, 0.1])
+    limit = 1 / np.sqrt(q0[:, None]) * length
     roughness, parameters = np.geomspace(0.1, 100, 301), np.array([1, 0.5])
     inverse = criteria.inverse_kappa_ad(roughness, parameters[:, None], 1.0, 1.0, 3.0)
     angles = np.degrees(criteria.slope_angle(criteria.inverse_kappa(inverse)))
@@ -170,10 +189,16 @@ def stickiness_map(a_v=(3.5, 2.5, 4.5)):
         {
             "slope_angle": (("slope_parameter", "h_rms_over_range"), angles),
             **dict(zip(("a_v", "a_v_low", "a_v_high"), a_v, strict=True)),
+            **{name: (dims, factor * limit) for name, factor in LIMIT_FACTORS.items()},
         },
-        coords={"slope_parameter": parameters, "h_rms_over_range": roughness},
+        coords={
+            "slope_parameter": parameters,
+            "h_rms_over_range": roughness,
+            dims[0]: q0,
+            dims[1]: length,
+        },
     )
-    return made_by(data, slope_a_v=3.0)
+    return made_by(data, slope_a_v=3.0, shortest_over_range=4)
 
 
 def real_surface(label, kind="self_affine", q0=1e3, c0=1e-3, h_rms=1e-6):
@@ -182,12 +207,21 @@ def real_surface(label, kind="self_affine", q0=1e3, c0=1e-3, h_rms=1e-6):
             "C0": ("end", [c0 / 10, c0]),
             "C0_reference_upper": ("end", [c0 / 10, c0]),
             "h_rms": ("end", [h_rms / 10, h_rms]),
+            "rms_slope": ("end", [0.1, 1.0]),
             "q0": q0,
             "hurst": 0.8,
         },
         coords={"end": ["smooth", "rough"]},
     )
     return made_by(data, kind=kind, label=label)
+
+
+def theory_on(label, a_v=4.0):
+    data = xr.Dataset(
+        {"a_v": (("variant", "range"), np.full((1, 2), a_v))},
+        coords={"variant": ["afferrante2018"], "range": [1e-9, 1.0]},
+    )
+    return made_by(data, label=label)
 
 
 def generated(seed, zeta=16, stretch=1.0):
@@ -216,6 +250,7 @@ def files():
         "ensemble_wide": wide,
         "lattice_wide": lattice(),
         "fit_bem_wide": fit(wide, 2.9, 3.0, 3.1),
+        "fit_bem_64": fit(ensemble(64), 2.9, 3.0, 3.1),
         "fit_bem_128": fit(narrow, 2.9, 3.0, 3.1),
         "fit_lattice_128": fit(lattice(), 3.0, 3.0, 3.0),
         "fig1b": sweep((100.0, 1e4, 1e6)),
@@ -235,6 +270,7 @@ def files():
         "adhesion_smooth": adhesion(128, q0_h_rms=0.006),
         "map": stickiness_map(),
         "asphalt": real_surface("asphalt"),
+        "asphalt_theory": theory_on("asphalt"),
         "polished_steel": real_surface("polished steel", q0=2 * np.pi / 1e-4),
         "surface:asphalt.nc": real_surface("asphalt"),
         "surface:terrain.nc": real_surface("terrain", kind="measured", c0=0.07),
@@ -357,18 +393,20 @@ def test_separation_is_graded_on_theory_and_simulation(files, theory, simulation
 
 def test_threshold_lies_between_the_lengths_around_it(files):
     full = files["adhesive_fig2"]
-    claim = criterion.kappa_threshold(files)
+    claim = adhesive_claims.kappa_threshold(files)
     below = full.inverse_kappa.sel(pressure=LOAD, method="nearest").isel(range_over_h_rms=0)
     # the last length with a positive slope and the first with a negative one
     lengths = full.adhesion_length_over_range.values
     first = int(np.flatnonzero(below.values < 0)[0])
     assert lengths[first - 1] < claim.value < lengths[first]
     assert claim.verdict == QUALIFIED
+    at = full.inverse_kappa.sel(pressure=LOAD, method="nearest").isel(range_over_h_rms=0)[first - 1]
+    assert f"1/kappa is {at:.2f} ± {0.05 * at:.2f} by that area and {1.1 * at:.2f}" in claim.remark
 
 
 def test_threshold_that_is_not_reached_is_no_number_of_its_own(files):
     files["adhesive_fig2"] = adhesive(64, scale=1e-3)
-    claim = criterion.kappa_threshold(files)
+    claim = adhesive_claims.kappa_threshold(files)
     assert claim.verdict == OPEN
     assert claim.value == float(files["adhesive_fig2"].adhesion_length_over_range[-1])
     assert "largest simulated" in claim.quantity
@@ -428,10 +466,12 @@ def test_continuous_a_v_is_taken_at_the_magnification_of_the_simulation(files):
 )
 def test_loop_is_graded_by_its_width_and_its_pull_off(files, made, verdict):
     files["loop"] = loop(**made)
-    claim = criterion.hysteresis(files)
+    claim = adhesive_claims.hysteresis(files)
     assert claim.verdict == verdict
     assert claim.value == pytest.approx(made.get("pull_off", -0.02))
     assert "at p = 0.02 the area is 0.040 on loading" in claim.remark
+    if "pull_off" not in made:
+        assert "0.030 at zero gap, 0.022 of it compressed" in claim.remark
     assert "25% of the work" in claim.remark
 
 
@@ -441,10 +481,19 @@ def test_loop_is_graded_by_its_width_and_its_pull_off(files, made, verdict):
 def test_simulation_is_compared_with_the_formula(files, scale, verdict):
     files["adhesive_rough"] = adhesive(64, q0_h_rms=0.3, scale=scale)
     files["adhesive_smooth"] = adhesive(128, q0_h_rms=0.006, scale=scale)
-    claim = criterion.inverse_kappa_ad(files)
+    claim = adhesive_claims.inverse_kappa_ad(files)
     assert claim.value == pytest.approx(scale)
     assert claim.uncertainty == pytest.approx(0.05 * scale)
     assert claim.verdict == verdict
+    assert f"{0.8 * scale:.2f} to {0.8 * scale:.2f}" in claim.remark  # directly
+    assert "2.90 ± 0.14" in claim.remark  # a_V of the surfaces
+
+
+def test_the_error_of_the_model_counts(files):
+    full = files["adhesive_rough"]
+    full["inverse_kappa_ad_model_error"] = 0.12 * full.inverse_kappa_ad
+    error = total_error(full, "inverse_kappa_ad") / full.inverse_kappa_ad
+    np.testing.assert_allclose(error, 0.13)  # 0.05 and 0.12 in quadrature
 
 
 @pytest.mark.parametrize("a_v", [1.5, 3.0])
@@ -474,12 +523,36 @@ def test_limits_count_those_outside_the_dmt_range(files):
     assert "5 of these 6" in criterion.roughness_limits(files).remark
 
 
+def test_limits_by_the_edges_are_read_off_the_map(files):
+    # limits are q0^(-1/2) l_a/range times 2, 1 and 3
+    remark = criterion.roughness_limits(files).remark
+    assert "100, 3.16e+03, 1e+05 (50, 1.58e+03, 5e+04 to 150, 4.74e+03, 1.5e+05)" in remark
+    assert "0% of the map's thresholds have weak edges" in criterion.slope_angle(files).remark
+
+
+def test_tough_edges_do_not_ask_for_more_adhesion_on_finer_surfaces():
+    """JKR with the edges of Pastewka and Robbins: zeta^(1 - 2H), from h'^3/h''."""
+    for hurst in (0.5, 0.8):
+        assert criterion.tough_exponent(hurst) == pytest.approx(1 - 2 * hurst, abs=1e-3)
+
+
+def test_asphalt_by_its_edges_does_not_know_the_range(files, monkeypatch):
+    files["asphalt"] = real_surface("asphalt", h_rms=1e-3)
+    texts = []
+    for reach in (1e-10, 2e-10):
+        monkeypatch.setattr(criterion, "RANGE", reach)
+        texts.append(criterion.asphalt_by_edges(files))
+    assert all("tough" in text for text in texts)
+    values = [text.split(": there")[0] for text in texts]
+    assert values[0] == values[1]
+
+
 def test_only_measured_surfaces_test_the_line(files):
     claim = criterion.real_surfaces(files)
     assert claim.verdict == QUALIFIED
     assert "terrain reaches 70 times the line" in claim.remark
     assert "asphalt reaches" not in claim.remark
-    assert set(claim.sources) == {"asphalt", "map", "surface:terrain.nc"}
+    assert set(claim.sources) == {"asphalt", "asphalt_theory", "map", "surface:terrain.nc"}
     del files["surface:terrain.nc"]
     assert "there are none" in criterion.real_surfaces(files).remark
 

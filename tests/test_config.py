@@ -49,6 +49,10 @@ def case(*keys, value):
     return changed(CONFIG, "cases", "H0.8_zeta64", *keys, value=value)
 
 
+def adhesion(*keys, value):
+    return changed(CONFIG, "adhesion", "fig2", *keys, value=value)
+
+
 def material(*keys, value):
     return changed(MATERIALS, "materials", "crystal", *keys, value=value)
 
@@ -100,6 +104,17 @@ def model(*keys, value):
         (case("pressure", value=[0.1]), ["H0.8_zeta64", "'pressure'", "pressures"]),
         (case("pressures", value=[0.1, -0.2]), ["pressures[1]", "-0.2", "greater than 0"]),
         (case("surface", value="H0.8_zeta65"), ["surface", "H0.8_zeta65", "H0.8_zeta64"]),
+        (adhesion("accuracy", value=None), ["adhesion.fig2.accuracy", "missing", "auto"]),
+        (adhesion("model", value="full"), ["adhesion.fig2.accuracy", "0.1", "model: auto"]),
+        (adhesion("model", value="best"), ["adhesion.fig2.model", "'best'", "auto, dmt, full"]),
+        (adhesion("pressures", value=[0.07]), ["fig2.pressures", "0.07", "cases.H0.8_zeta64"]),
+        (adhesion("range_over_h_rms", value=[20]), ["fig2.range_over_h_rms", "20", "0.0001"]),
+        (adhesion("case", value="H0.8_zeta65"), ["fig2.case", "H0.8_zeta65", "H0.8_zeta64"]),
+        (adhesion("accuracy", value=2), ["fig2.accuracy", "2", "at most 1"]),
+        (
+            changed(CONFIG, "adhesion", "dmt_error", "model", value="dmt"),
+            ["dmt_error", "seeds", "full model", "model: dmt"],
+        ),
         (case("maps", value=[0.07]), ["maps", "0.07", "pressures"]),
         (case("sampling", value="best"), ["H0.8_zeta64.sampling", "'best'", "multilevel"]),
         (changed(CONFIG, "sampling", "method", value="plan"), ["method", "'plan'", "'plain'?"]),
@@ -173,6 +188,22 @@ def model(*keys, value):
         (material("range", value="2,5 nm"), ["crystal.range", "2,5 nm", "decimal point"]),
         (changed(CONFIG, "surfaces", value="config/surfs.yaml"), ["config/surfs.yaml", "no such"]),
         (changed(CONFIG, "cases", "H0.8_zeta32", value=None), ["cases", "H0.8_zeta32", "missing"]),
+        (
+            changed(CONFIG, "criteria", "map", "range_times_q0", "maximum", value=1e-13),
+            ["criteria.map.range_times_q0.minimum", "below maximum"],
+        ),
+        (
+            changed(CONFIG, "criteria", "compared", "magnification", "maximum", value=1e9),
+            ["criteria.compared.magnification.maximum", "theory.table.magnification", "100000000"],
+        ),
+        (
+            changed(CONFIG, "criteria", "compared", "quoted_h_rms_over_range", value=0.5),
+            ["criteria.compared.quoted_h_rms_over_range", "0.5", "theory.table.range"],
+        ),
+        (
+            changed(CONFIG, "criteria", "map", "hurst", value=0.1),
+            ["criteria.map.hurst", "0.1", "theory.table.hurst"],
+        ),
         (
             changed(CONFIG, "criteria", "a_v", "pressure", value=0.07),
             ["criteria.a_v.pressure", "0.07", "H0.8_zeta32_wide"],

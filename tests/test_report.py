@@ -67,7 +67,7 @@ def verdicts():
         {
             "margin": ((*dims, "criterion"), np.stack([derived, other], axis=-1)),
             "modulus_threshold": (dims, np.full((2, 2, 2), 2.5e6)),
-            "dmt_valid": (dims, [[[1, 0], [1, 1]], [[1, 1], [1, 1]]]),
+            "simulated": (dims, [[[1, 0], [1, 1]], [[1, 1], [1, 1]]]),
             "verdict": (dims[:2], [[2, 1], [0, 0]]),
             "margin_low": (dims, np.array(derived) * 0.9),
             "margin_high": (dims, np.array(derived) * 1.1),
@@ -77,7 +77,7 @@ def verdicts():
             "probability": (dims[:2], [[np.nan, 0.42], [np.nan, 0.0]]),
             "margin_quantile": ((*dims[:2], "quantile"), np.tile([0.5, 1.0, 2.0], (2, 2, 1))),
             "error_of_spectrum": (dims[:2], np.full((2, 2), 0.3)),
-            "error_of_a_v": (dims[:2], np.full((2, 2), 0.4)),
+            "error_of_model": (dims[:2], np.full((2, 2), 0.4)),
             "disagrees": ((*dims[:2], "criterion"), [[[0, 0], [0, 0]], [[0, 0], [0, 1]]]),
             "a_v": 3.21,
             "a_v_low": 2.8,
@@ -87,7 +87,7 @@ def verdicts():
             "material": ["jelly", "iron"],
             "surface": ["glass", "sand"],
             "end": ["smooth", "rough"],
-            "criterion": ["violano", "some_other"],
+            "criterion": ["edge_adhesion", "some_other"],
         },
     )
     materials = {
@@ -367,7 +367,7 @@ def test_errors_of_a_pair_are_told_where_it_was_drawn(verdicts, surfaces):
     on_glass, on_sand = pairs[:2]
     assert on_glass["probability"] == on_glass["errors"] == "–"
     assert (on_sand["probability"], on_sand["drawn"]) == ("42 %", "0.5 … 2")
-    assert on_sand["errors"] == "spectrum 30 %, a_V 40 %"
+    assert on_sand["errors"] == "spectrum 30 %, a_V and model 40 %"
     assert on_sand["error"] == pytest.approx(0.5)
 
 

@@ -6,8 +6,9 @@ import xarray as xr
 
 import judge
 import persson_surface
-from _criteria import SurfaceAv
-from stickiness import criteria
+from _criteria import MeasuredAv, SurfaceAv
+from _materials import material
+from stickiness import criteria, edge_adhesion
 from stickiness.a_v_table import edge_range, local_a_v
 from stickiness.persson import Persson
 from stickiness.spectrum import SelfAffine
@@ -56,18 +57,89 @@ def test_pair_takes_its_own_range():
 
 
 @pytest.mark.parametrize(
-    ("low", "high", "valid", "expected"),
+    ("low", "high", "full", "expected"),
     [
-        ((2.0, 1.5), (3.0, 2.0), (1, 1), "sticky"),
-        ((2.0, 1.5), (3.0, 2.0), (0, 0), "sticky"),
-        ((2.0, 0.5), (3.0, 0.9), (1, 1), "depends"),
-        ((0.8, 0.5), (1.2, 0.6), (0, 1), "depends"),
-        ((0.5, 0.1), (0.9, 0.2), (1, 1), "not sticky"),
-        ((0.5, 0.1), (0.9, 0.2), (1, 0), "undecided"),
+        ((2.0, 1.5), (3.0, 2.0), (2.0, 1.5), "sticky"),
+        ((2.0, 1.5), (3.0, 2.0), (0.1, 0.1), "sticky"),
+        ((2.0, 0.5), (3.0, 0.9), (0.1, 0.1), "depends"),
+        ((0.8, 0.5), (1.2, 0.6), (2.0, 0.1), "depends"),
+        ((0.5, 0.1), (0.9, 0.2), (0.9, 0.1), "not sticky"),
+        ((0.5, 0.1), (0.9, 0.2), (1.1, 0.1), "undecided"),
     ],
 )
-def test_verdict(low, high, valid, expected):
+def test_verdict(low, high, full, expected):
+    """What does not stick by itself, but would hold in full contact, is undecided."""
     ends = {"end": ["smooth", "rough"]}
-    data = {"margin_low": low, "margin_high": high, "dmt_valid": valid}
-    dataset = xr.Dataset({name: ("end", list(v)) for name, v in data.items()}, coords=ends)
-    assert judge.VERDICTS[int(judge.verdict(dataset))] == expected
+    data = {"margin_low": ("end", list(low)), "margin_high": ("end", list(high))}
+    data["margin"] = ("end", "criterion"), [[x] for x in full]
+    coords = ends | {"criterion": [judge.FULL_CONTACT]}
+    assert judge.VERDICTS[int(judge.verdict(xr.Dataset(data, coords=coords)))] == expected
+
+
+def pairs_of(modulus, ranges, h_rms=1e-6):
+    """Verdicts on one surface for materials of one modulus and several ranges."""
+    solids = {
+        f"range {reach:g}": material(
+            {
+                "plane_strain_modulus": f"{modulus} Pa",
+                "work_of_adhesion": "0.05 J/m^2",
+                "range": f"{reach} m",
+            }
+        )
+        for reach in ranges
+    }
+    s = SelfAffine(hurst=0.8, q0=1e5, q1=1e8, h_rms=h_rms)
+    known = {
+        "h_rms": s.h_rms,
+        "rms_slope": s.rms_slope,
+        "rms_curvature": s.rms_curvature,
+        "elastic_energy": s.elastic_energy(),
+    }
+    surface = xr.Dataset(
+        {name: ("end", [value, value]) for name, value in known.items()} | {"q0": s.q0},
+        coords={"end": ["smooth", "rough"]},
+    )
+    a_v = SurfaceAv(np.array([1e-9, 1.0]), np.full((2, 2), 4.0), 0, 1.0, 0.0)
+    parts = dict.fromkeys(("sampling", "discretisation", "window", "bandwidth"), 0.1)
+    constant = MeasuredAv(3.0, simulated=2.0, over_lattice=1.0, magnification=1e6, **parts)
+    return judge.judged(solids, {"one": surface}, {"one": a_v}, constant, np.array([1.0, 1e3]))
+
+
+def test_tough_edges_do_not_know_the_range():
+    # a_V constant, as next to smooth edges: the DMT limit goes as range^(-1/3), JKR not at all
+    found = pairs_of(1e5, [1e-10, 1e-9]).isel(end=0, surface=0)
+    assert list(found.regime.values) == [judge.TOUGH] * 2
+    edges = found.margin.sel(criterion="edge_adhesion").values
+    dmt = found.margin.sel(criterion="violano").values ** (5 / 3)
+    assert edges[0] == pytest.approx(edges[1], rel=0.05)
+    assert dmt[0] == pytest.approx(dmt[1] * 10 ** (1 / 3), rel=1e-9)
+    assert np.all(edges < dmt / 10)
+
+
+def test_weak_edges_attract_more_than_the_sum():
+    found = pairs_of(1e11, [1e-9]).isel(end=0, surface=0, material=0)
+    assert int(found.regime) == judge.WEAK
+    t = float(found.attractive_over_contact)
+    dmt = float(found.margin.sel(criterion="violano")) ** (5 / 3)
+    assert float(found.margin.sel(criterion="edge_adhesion")) == pytest.approx(
+        dmt * edge_adhesion.weak_effect(t), rel=0.02
+    )
+    assert float(found.over_dmt) > 1.5
+
+
+def test_threshold_is_where_attraction_balances_repulsion():
+    threshold = float(pairs_of(1e6, [1e-9]).modulus_threshold[0, 0, 0])
+    margins = [
+        float(pairs_of(threshold * by, [1e-9]).margin.sel(criterion="edge_adhesion")[0, 0, 0])
+        for by in (0.99, 1.01)
+    ]
+    assert margins[0] > 1 > margins[1]
+
+
+def test_margin_at_another_rate_is_that_of_its_modulus():
+    found = pairs_of(1e6, [1e-9]).squeeze()
+    # a constant modulus: at every frequency that of 1 Hz
+    for limit in ("low", "high"):
+        np.testing.assert_allclose(
+            found[f"margin_{limit}_at_rate"], float(found[f"margin_{limit}"][0]), rtol=1e-12
+        )

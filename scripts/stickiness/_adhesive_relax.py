@@ -16,7 +16,7 @@ import numpy as np
 from stickiness._adhesive_descent import descend
 from stickiness._adhesive_problem import FrozenTraction, with_law
 from stickiness._adhesive_quick import quick_descent, suits
-from stickiness._adhesive_start import from_coarser_grids, without_adhesion
+from stickiness._adhesive_start import from_coarser_grids, has_coarser_grids, without_adhesion
 from stickiness._adhesive_state import State, balanced, evaluate, lowered
 
 __all__ = ["relax"]
@@ -56,7 +56,7 @@ def relax(problem, gap, tol, max_iterations, closing=True, logger=None):
     run = _relax_smooth if problem.law.smooth else _relax_frozen
     spent, state, work = 0, None, []
     if gap is None:
-        if suits(problem) and problem.law.smooth:
+        if has_coarser_grids(problem):
             state = from_coarser_grids(problem, tol, max_iterations, watch, work)
         if state is None:
             gap, pairs = without_adhesion(problem, max_iterations)

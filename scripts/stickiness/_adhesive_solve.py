@@ -131,10 +131,12 @@ def solve(
     mean_gap : float
         Mean gap, same unit as the heights.
     start : str, Adhesion, repulsive.Contact or array_like, optional
-        "approach" (default): from the solution without adhesion at the same control; under
-        tension, from the adhesive solution at zero pressure. "separation": from full contact,
-        at a prescribed pressure only (`path` follows a mean gap back). Or any state on the same
-        grid, or its gap: the start of a descent.
+        "approach" (default): as from the solution without adhesion at the same control; under
+        tension, from the adhesive solution at zero pressure. At a prescribed pressure coarser
+        grids lead there, unless a descent on any of them meets negative curvature, which a jump
+        would; a `repulsive.Contact` as the start does without them. "separation": from full
+        contact, at a prescribed pressure only (`path` follows a mean gap back). Or any state on
+        the same grid, or its gap: the start of a descent.
     tol : float
         Largest accepted `Adhesion.residual`.
     max_iterations : int

@@ -15,14 +15,20 @@ from stickiness import repulsive
 from stickiness._active_set import PREDICTION
 from stickiness._adhesive_descent import descend
 from stickiness._adhesive_problem import FrozenTraction, Surface, with_law
-from stickiness._adhesive_quick import quick_descent
+from stickiness._adhesive_quick import quick_descent, suits
 from stickiness._adhesive_state import lowered
 
-__all__ = ["from_coarser_grids", "without_adhesion"]
+__all__ = ["from_coarser_grids", "has_coarser_grids", "without_adhesion"]
 
 _ROUGH = 1e-3  # tolerance of a solution without adhesion that is only a start
 _COARSE = 1e-2  # of one on a coarser grid
 _COARSEST = 128  # points along the shorter side of a grid from which coarser ones are used
+
+
+def has_coarser_grids(problem):
+    """Whether `from_coarser_grids` is for this problem and its grid."""
+    fine = min(problem.surface.heights.shape) >= _COARSEST
+    return fine and suits(problem) and problem.law.smooth
 
 
 def from_coarser_grids(problem, tol, max_iterations, observer, work):

@@ -238,7 +238,7 @@ class MaugisSphere:
         t = np.asarray(t, dtype=float)
         unit = np.cbrt(0.75 * np.pi * self.adhesion_length * self.radius**2)
         lam = self.maugis_parameter
-        first = lam / 2 * _opening(t)
+        first = lam / 2 * opening(t)
         second = 4 / 3 * lam**2 * (t * np.sin(t) - 2 * np.sin(t / 2) ** 2)
         c = 2 / (second + np.sqrt(second**2 + 4 * first))  # first c^2 + second c = 1
         a = np.where(t == _EDGE, 0.0, c * np.cos(t))
@@ -276,7 +276,7 @@ class MaugisSphere:
         return float(optimize.brentq(excess, lowest, highest, xtol=1e-300, rtol=1e-14))
 
 
-def _opening(t: NDArray) -> NDArray:
+def opening(t: NDArray) -> NDArray:
     """Evaluate sin t cos t - t cos 2t, by its series where the terms cancel."""
     x = np.minimum(2 * t, 0.5)
     series = x**3 / 6 * (1 - x**2 / 10 * (1 - x**2 / 28 * (1 - x**2 / 54 * (1 - x**2 / 88))))

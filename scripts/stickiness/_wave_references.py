@@ -238,8 +238,8 @@ class MaugisWave(_Wave):
 
     References
     ----------
-    The same problem by other means: Hui, Lin, Baney & Kramer, J. Polym. Sci. B 39, 1195 (2001),
-    doi:10.1002/polb.1094.
+    The same problem by other means: Hui, Lin, Baney & Kramer, The mechanics of contact and
+    adhesion of periodically rough surfaces, J. Polym. Sci. B 39, 1195 (2001).
     """
 
     range: float

@@ -146,6 +146,11 @@ class AvTable:
         self._simulated = float(table.simulated_range.min())
         self._extrapolation = float(table.extrapolation_error)
 
+    @property
+    def bounds(self) -> dict[str, tuple[float, float]]:
+        """Ends of hurst, magnification, pressure and range (over h_rms) in the table."""
+        return dict(self._bounds)
+
     def a_v_at(
         self,
         hurst: ArrayLike,

@@ -175,19 +175,8 @@ class DMTSphere(_Sphere):
 
     Hertz' contact under the force plus 2 pi R l_a. Valid for `tabor_parameter` below about 0.1.
     Derjaguin, Muller & Toporov, J. Colloid Interface Sci. 53, 314 (1975),
-    doi:10.1016/0021-9797(75)90018-1; in this form Maugis (1992).
-
-    Parameters
-    ----------
-    radius : float
-        Radius of curvature [length].
-    adhesion_length : float
-        Work of adhesion over E* [length].
-
-    Raises
-    ------
-    ValueError
-        If an argument is not positive and finite; methods: if a force lies beyond pull-off.
+    doi:10.1016/0021-9797(75)90018-1; in this form Maugis (1992). Parameters and errors are those
+    of `JKRSphere`.
     """
 
     @property

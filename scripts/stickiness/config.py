@@ -43,6 +43,10 @@ _PAPER = {
     "adhesion": ("fig2", "fig4b_rough", "fig4b_smooth", "dmt_error"),
     "loops": ("fig4a",),
 }
+_CRITERIA_GRIDS = {
+    "map": ("range_times_q0", "adhesion_length_over_range"),
+    "compared": ("h_rms_over_range", "magnification"),
+}
 _PAPER_SURFACES = ("asphalt", "polished_steel")
 _BUILTIN = ("builtin:jacksboro",)
 
@@ -182,6 +186,7 @@ def _config_problems(config: Mapping[str, Any]) -> Iterator[str]:
             if name not in tables.get(table, config.get(table)):
                 yield f"{table}: {name!r} is missing; the paper's figures and claims need it"
     yield from _comparison_problems(config)
+    yield from _criteria_problems(config)
     table = config["theory"]["table"]
     for key in ("hurst", "magnification", "pressure"):
         if sorted(table[key]) != table[key]:
@@ -207,14 +212,12 @@ def _config_problems(config: Mapping[str, Any]) -> Iterator[str]:
         if window[0] < gaps["minimum"] or window[1] > gaps["maximum"]:
             yield f"a_v.windows[{key}] = {window!r} must lie within gaps.minimum … gaps.maximum"
     for key, adhesion in config["adhesion"].items():
-        if adhesion["case"] not in config["cases"]:
-            yield _unknown(f"adhesion.{key}.case", adhesion["case"], config["cases"])
-        for unit_key in ("window", "h_rms"):
-            yield from _unit_problem(f"adhesion.{key}.{unit_key}", adhesion.get(unit_key), "m")
-        if key in _PAPER["adhesion"] and "bem" not in adhesion:
-            yield f"adhesion.{key}.bem is missing; figures and claims need it: {{law, pressures}}"
-    if "maps" not in config["adhesion"]["fig2"].get("bem", {}):
-        yield "adhesion.fig2.bem.maps is missing; Figure 2 needs it: {pressures, ...}"
+        for problem in _adhesion_problems(adhesion, config):
+            yield f"adhesion.{key}.{problem}"
+    if "maps" not in config["adhesion"]["fig2"]:
+        yield "adhesion.fig2.maps is missing; Figure 2 needs it: {pressures, ...}"
+    if config["adhesion"]["dmt_error"]["model"] != "full":
+        yield "adhesion.dmt_error.model must be full; the error of the DMT limit is measured there"
     for key, loop in config["loops"].items():
         if loop["surface"] not in config["model_surfaces"]:
             yield _unknown(f"loops.{key}.surface", loop["surface"], config["model_surfaces"])
@@ -228,10 +231,45 @@ def _config_problems(config: Mapping[str, Any]) -> Iterator[str]:
             f"criteria.a_v.pressure = {chosen['pressure']!r} is not among the pressures of "
             f"cases.{chosen['case']}"
         )
+
+
+def _criteria_problems(config: Mapping[str, Any]) -> Iterator[str]:
+    """What the maps of criteria ask of a_V and the table of it does not hold."""
+    criteria, table = config["criteria"], config["theory"]["table"]
     for key in ("ranges", "frequencies"):
-        yield from _grid_problems(f"criteria.{key}", config["criteria"][key])
-    for key in ("range_times_q0", "adhesion_length_over_range"):
-        yield from _grid_problems(f"criteria.map.{key}", config["criteria"]["map"][key])
+        yield from _grid_problems(f"criteria.{key}", criteria[key])
+    for part, grids in _CRITERIA_GRIDS.items():
+        for key in grids:
+            yield from _grid_problems(f"criteria.{part}.{key}", criteria[part][key])
+    compared = criteria["compared"]
+    roughness = compared["h_rms_over_range"]
+    asked = [
+        ("a_v.pressure", "pressure", criteria["a_v"]["pressure"]),
+        ("map.hurst", "hurst", criteria["map"]["hurst"]),
+        ("compared.hurst", "hurst", compared["hurst"]),
+        ("compared.quoted_magnification", "magnification", compared["quoted_magnification"]),
+    ]
+    for end in ("minimum", "maximum"):
+        key = f"magnification.{end}"
+        asked.append((f"compared.{key}", "magnification", compared["magnification"][end]))
+    for key, axis, value in asked:
+        if not min(table[axis]) <= value <= max(table[axis]):
+            yield (
+                f"criteria.{key} = {value!r} must lie within theory.table.{axis}, "
+                f"{min(table[axis])!r} … {max(table[axis])!r}"
+            )
+    largest = 1 / table["range"]["minimum"]
+    smallest = 1 / table["range"]["maximum"]
+    for key, value in (
+        ("h_rms_over_range.minimum", roughness["minimum"]),
+        ("h_rms_over_range.maximum", roughness["maximum"]),
+        ("quoted_h_rms_over_range", compared["quoted_h_rms_over_range"]),
+    ):
+        if not smallest <= value <= largest:
+            yield (
+                f"criteria.compared.{key} = {value!r} must lie within the inverse of "
+                f"theory.table.range, {smallest:g} … {largest:g}"
+            )
 
 
 def _comparison_problems(config: Mapping[str, Any]) -> Iterator[str]:
@@ -242,6 +280,32 @@ def _comparison_problems(config: Mapping[str, Any]) -> Iterator[str]:
         for name in fidelity.get("comparisons", []):
             if name not in surfaces:
                 yield _unknown(f"fidelities.{key}.comparisons", name, surfaces)
+
+
+def _adhesion_problems(adhesion: Mapping[str, Any], config: Mapping[str, Any]) -> Iterator[str]:
+    """What of an adhesive set does not fit its case, its model or the gaps."""
+    if adhesion["case"] not in config["cases"]:
+        yield _unknown("case", adhesion["case"], config["cases"])
+        return
+    for key in ("window", "h_rms"):
+        yield from _unit_problem(key, adhesion.get(key), "m")
+    for pressure in adhesion["pressures"]:
+        if pressure not in config["cases"][adhesion["case"]]["pressures"]:
+            yield f"pressures: {pressure!r} is not among those of cases.{adhesion['case']}"
+    gaps, model = config["gaps"], adhesion["model"]
+    for value in adhesion["range_over_h_rms"]:
+        if not gaps["minimum"] <= value <= gaps["maximum"]:
+            yield (
+                f"range_over_h_rms: {value!r} must lie within gaps.minimum … gaps.maximum, "
+                f"{gaps['minimum']:g} … {gaps['maximum']:g}"
+            )
+    if model == "auto" and "accuracy" not in adhesion:
+        yield "accuracy is missing; model: auto chooses by it, relative in 1/kappa_ad"
+    if model != "auto" and "accuracy" in adhesion:
+        yield f"accuracy = {adhesion['accuracy']!r} needs model: auto, which chooses by it"
+    for key in ("seeds", "refine", "maps"):
+        if model == "dmt" and key in adhesion:
+            yield f"{key} = {adhesion[key]!r} is of the full model; leave it out with model: dmt"
 
 
 def _rate_problems(material: Mapping[str, Any]) -> Iterator[str]:

@@ -41,6 +41,7 @@ __all__ = [
     "STRIP_WIDTH",
     "AvFit",
     "adhesive_pressure",
+    "attraction_of_areas",
     "attractive_area",
     "boundary_strip",
     "edge_gap",
@@ -197,9 +198,32 @@ def adhesive_pressure(
     if jump is not None and jump <= largest:
         ranges = np.union1d(ranges, [jump])
     area = edges_of_contact.attractive_area(gap, ranges, contact)
+    return float(attraction_of_areas(area, ranges, law))
+
+
+def attraction_of_areas(area: ArrayLike, ranges: ArrayLike, law: HasTraction) -> NDArray:
+    """Mean attraction p_ad [E*] from attractive areas, the integral of sigma over them.
+
+    Parameters
+    ----------
+    area : (..., k) array
+        A_ad/A_nom within each of the ranges.
+    ranges : (k,) array
+        Ranges [length] in increasing order, close to each other on a log scale; where the law is
+        discontinuous one of them.
+    law : object with ``traction(gap)``
+        Traction law, tension positive [E*].
+
+    Returns
+    -------
+    (...) array
+        Gaps up to the smallest range count with the traction at half of it, those beyond the
+        largest not at all.
+    """
+    area, ranges = np.asarray(area, dtype=float), np.asarray(ranges, dtype=float)
     middle = np.sqrt(ranges[1:] * ranges[:-1])
-    within = float(law.traction(ranges[0] / 2)) * area[0]
-    return within + float(np.sum(law.traction(middle) * np.diff(area)))
+    within = law.traction(ranges[0] / 2) * area[..., 0]
+    return within + np.diff(area) @ law.traction(middle)
 
 
 def local_exponent(eps: ArrayLike, area: ArrayLike) -> NDArray:

@@ -232,7 +232,7 @@ class Kernels:
         return table(inside) - self.correction.gamma * np.minimum(log_x - inside, 0.0)
 
 
-@lru_cache(maxsize=16)
+@lru_cache(maxsize=128)
 def kernels(gamma: float | None = None, correction: CorrectionName = "yang2008") -> Kernels:
     """Tabulate the universal functions for one correction.
 

@@ -12,9 +12,9 @@ second over several times as many coarse solutions; the third over thousands of 
 three sets of seeds are disjoint, so that their errors add in quadrature.
 
 Coefficients are fitted on the samples themselves but applied to each sample leaving that one out
-(cf. Avramidis & Wilson, Oper. Res. Lett. 14, 187 (1993), doi:10.1016/0167-6377(93)90069-S). A
-coefficient is then independent of what it multiplies, and every mean here is without bias for any
-number of seeds, whatever the true relation; a poor control costs precision only.
+(cf. Avramidis & Wilson, Oper. Res. Lett. 14, 187 (1993)). A coefficient is then independent of
+what it multiplies, and every mean here is without bias for any number of seeds, whatever the true
+relation; a poor control costs precision only.
 
 Measured for H = 0.8, magnification 64, p/(E* q0 h_rms) = 0.065 on 8 pixels per wavelength: a
 solution on 2 pixels takes 0.18 of the time and leaves 0.4 % of the variance of a_V and of the
@@ -165,6 +165,7 @@ def multilevel_mean(
     controls: ArrayLike | None = None,
     elsewhere: ArrayLike | None = None,
     coefficient: float | None = None,
+    fewest: int = _FEWEST,
 ) -> Estimate:
     """Mean of a few fine solutions, corrected by many coarse ones.
 
@@ -183,8 +184,11 @@ def multilevel_mean(
         The same controls of seeds of which there is no solution at all.
     coefficient : float, optional
         Coefficient of the coarse solution. By default it is fitted to each entry: with at least
-        sixteen fine seeds the slope of fine against coarse, with fewer the ratio of their means.
+        `fewest` fine seeds the slope of fine against coarse, with fewer the ratio of their means.
         Only with a number given here is the estimate linear in what goes in.
+    fewest : int
+        Sixteen for solutions that differ by their grid. Fewer will do where the two are close to a
+        straight line that is not one through the origin.
 
     Returns
     -------
@@ -222,7 +226,7 @@ def multilevel_mean(
     level = plain_mean(many) if controls is None else controlled_mean(many, controls, elsewhere)
     if coefficient is not None:
         factor = np.full_like(fine, coefficient)
-    elif len(fine) >= _FEWEST:
+    elif len(fine) >= fewest:
         factor = _left_out_slopes(fine, coarse)
     else:
         one_sign = np.all(many >= 0, axis=0) | np.all(many <= 0, axis=0)

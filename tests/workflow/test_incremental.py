@@ -13,6 +13,7 @@ from stickiness import datasets
 pytestmark = pytest.mark.workflow
 
 SEEDS, CASES, SURFACES = 2, 6, 6
+SMALLEST = "{hurst: 0.8, magnification: 32}"  # of the measured errors of the DMT limit
 MULTILEVEL = 5  # cases with coarse solutions
 ADHESIVE = 4  # sets of adhesive parameters
 
@@ -43,7 +44,8 @@ def test_touching_nothing_runs_nothing(finished):
 
 def test_editing_a_material_reruns_verdicts_and_report(copy_of_finished):
     copy_of_finished.edit("config/materials.yaml", '"40 mJ/m^2"', '"45 mJ/m^2"')
-    assert set(copy_of_finished.planned()) == {"judge", "write_report", "write_surface"}
+    planned = set(copy_of_finished.planned())
+    assert planned == {"judge", "plot_fig9", "write_report", "write_surface"}
 
 
 def test_adding_a_seed_runs_that_seed_and_its_averages(copy_of_finished):
@@ -148,6 +150,28 @@ def test_targets(fresh, target, expected, absent):
     planned = fresh.planned(target)
     assert expected.items() <= planned.items(), planned
     assert absent.isdisjoint(planned), planned
+
+
+@pytest.mark.parametrize(
+    ("asked", "solved"),
+    [
+        ("model: auto, accuracy: 0.15", 0),
+        ("model: auto, accuracy: 0.01", SEEDS),
+        ("model: dmt", 0),
+        ("model: full", SEEDS),
+    ],
+)
+def test_full_adhesion_is_solved_only_where_the_dmt_limit_is_not_good_enough(fresh, asked, solved):
+    fresh.edit("config/tiny.yaml", "{hurst: 0.8, magnification: 4}", SMALLEST)
+    with (fresh / "config/tiny.yaml").open("a", encoding="utf-8") as file:
+        file.write(
+            "adhesion:\n  mine: {case: H0.8_zeta32, q0_h_rms: 0.1, range_over_h_rms: [3], "
+            "adhesion_length_over_range: [0.003, 0.01], pressures: [0.0065, 0.065], "
+            f"law: exponential, {asked}}}\n"
+        )
+    planned = fresh.planned("results/tiny/adhesive/mine.nc")
+    assert planned.get("solve_adhesive", 0) == solved
+    assert planned["adhesion_dmt"] == planned["average_adhesive"] == 1
 
 
 def test_a_script_runs_by_hand(copy_of_finished):

@@ -1,0 +1,119 @@
+"""Full simulation against the model of the edges of contact, at equal area of contact.
+
+Adhesive states are held against the contact without adhesion that has the same area, seed by seed:
+what adhesion takes off the load, over the attraction in the DMT limit, is the effect that
+`stickiness.edge_adhesion` models.
+"""
+
+import numpy as np
+import xarray as xr
+
+from _adhesion import DESCRIBED as ADHESION_DESCRIBED
+from _job import start
+from _model import DESCRIBED
+from stickiness import datasets, edge_adhesion
+
+MISSING = "not resolved, a window closes, or the area is beyond the curve without adhesion"
+NEEDED = ("external_pressure", "repulsive_area", "attraction_dmt", "area_alone")
+
+
+def main(job):
+    averages = datasets.read(job.input.averages, ["dmt_ratio", "q0_h_rms"])
+    q0_h_rms = float(averages.q0_h_rms)
+    seeds = [
+        compared(
+            datasets.read(path, NEEDED).isel(resolution=-1, drop=True),
+            datasets.read(alone, ["pixel_area_fraction", "attractive_area"]),
+            q0_h_rms,
+        )
+        for path, alone in zip(job.input.realisations, job.input.alone, strict=True)
+    ]
+    states = xr.concat(seeds, "seed")
+    resolved = states.effect.notnull().all("seed") & averages.dmt_ratio.notnull()
+    dataset = states.mean("seed").where(resolved).assign(q0_h_rms=q0_h_rms)
+    over = states.effect / states.effect_model
+    dataset["over_model"] = over.mean("seed").where(resolved)
+    dataset["over_model_standard_error"] = over.std("seed", ddof=1) / np.sqrt(len(seeds))
+    datasets.write(
+        annotated(dataset),
+        job.output[0],
+        title="attraction at equal area of contact, simulation and model of the edges",
+        parameters=datasets.parameters(averages),
+    )
+
+
+def compared(adhesive, alone, q0_h_rms):
+    """Effect of attraction, measured and modelled, for one realisation."""
+    strength = adhesive.adhesion_length_over_range / q0_h_rms
+    attractive = adhesive.attraction_dmt / strength
+    load, growth = at_equal_area(adhesive, alone.isel(resolution=-1, drop=True))
+    attractive = attractive * growth
+    t = attractive / adhesive.repulsive_area
+    tau = t.copy(data=np.full(t.shape, np.nan))
+    model = tau.copy(deep=True)
+    known = (t * load).notnull().values & (t > 0).values
+    over_mean_pressure = (strength * adhesive.repulsive_area / load).transpose(*t.dims)
+    at = t.values[known]
+    tau.values[known] = edge_adhesion.edge_strength(at, over_mean_pressure.values[known])
+    model.values[known] = edge_adhesion.effect(at, tau.values[known])
+    return xr.Dataset(
+        {
+            "attractive_over_contact": t,
+            "edge_strength": tau,
+            "effect": (load - adhesive.external_pressure) / (strength * attractive),
+            "effect_model": model,
+        }
+    )
+
+
+def at_equal_area(adhesive, alone):
+    """Load without adhesion at the area with it, and growth of the attractive area to there.
+
+    Both grids are of whole pixels but not the same, so that relative changes are compared.
+    """
+    logs = np.log(alone.pressure.values), np.log(alone.pixel_area_fraction.values)
+    pressure = adhesive.pressure
+
+    def moved(pressure, ratio):
+        begin = np.interp(np.log(pressure), *logs)
+        return np.exp(np.interp(begin + np.log(ratio), *logs[::-1], right=np.nan))
+
+    ratio = adhesive.repulsive_area / adhesive.area_alone
+    ratio = ratio.where(ratio > 0)
+    load = xr.apply_ufunc(moved, *xr.broadcast(pressure, ratio))
+    load = load / xr.apply_ufunc(moved, pressure, 1.0) * pressure
+    law = datasets.parameters(adhesive)["law"]
+    areas = np.log(attractive_area(alone.attractive_area, adhesive.range_over_h_rms, law))
+    of_loads = areas.assign_coords(pressure=np.log(areas.pressure)).drop_vars(
+        "range", errors="ignore"
+    )
+    growth = of_loads.interp(pressure=np.log(load)) - of_loads.interp(pressure=np.log(pressure))
+    return load, np.exp(growth.drop_vars("pressure", errors="ignore"))
+
+
+def attractive_area(areas, ranges, law):
+    """Attraction over its strength, for a law: an area weighted by the traction."""
+    if law == "maugis":
+        return areas.interp(range=ranges)
+    gaps = areas["range"]
+    # By parts: the integral of the area over minus the traction's slope, and what lies beyond.
+    weight = np.exp(-gaps / ranges) / ranges
+    return (areas * weight).integrate("range") + areas.isel(range=-1) * np.exp(-gaps[-1] / ranges)
+
+
+def annotated(dataset):
+    return datasets.annotate(
+        dataset,
+        pressure=DESCRIBED["pressure"],
+        attractive_over_contact=("1", "attractive over contact area without adhesion", MISSING),
+        edge_strength=("1", "Tabor's parameter of the edges", MISSING),
+        effect=("1", "attraction at equal area of contact over the DMT limit", MISSING),
+        effect_model=("1", "the same by the equivalent sphere", MISSING),
+        over_model=("1", "simulation over model, mean over realisations", MISSING),
+        over_model_standard_error=("1", "its standard error", MISSING),
+        **ADHESION_DESCRIBED,
+    )
+
+
+if __name__ == "__main__":
+    main(start(globals(), "compare_edges", adhesion="dmt_error"))

@@ -1,0 +1,171 @@
+"""Attraction at the edges of a contact against closed forms and against full simulation."""
+
+import numpy as np
+import pytest
+from scipy.optimize import brentq
+
+from stickiness import adhesive, criteria, edge_adhesion, repulsive, spectrum, surface
+from stickiness.adhesive_references import JKRSphere, MaugisSphere, MaugisWave
+from stickiness.reference_solutions import Hertz, Westergaard
+
+RADIUS = 1.0
+
+
+def sphere_effect(contact_radius, attractive_over_contact, strength):
+    """R and tau from Maugis' curve of the sphere, which knows nothing of the module."""
+    a, t = contact_radius, attractive_over_contact
+    force = 4 * a**3 / (3 * RADIUS)
+    reach = float(Hertz(RADIUS, force).gap(a * np.sqrt(1 + t)))
+    maugis = MaugisSphere(RADIUS, strength * reach, reach)
+    lost = force - maugis.at_contact_radius(a).force
+    return lost / (strength * np.pi * a**2 * t)
+
+
+@pytest.mark.parametrize("t", [1e-4, 0.03, 0.5, 4.0, 80.0])
+@pytest.mark.parametrize("tau", [1e-4, 0.2, 3.0, 1e3])
+def test_effect_is_that_of_maugis_sphere(t, tau):
+    a = 0.1
+    # tau = sigma_0 d/range with range/d = (8/3pi) sqrt(t) a/R, the small zone's, at any t
+    strength = tau * 8 / (3 * np.pi) * np.sqrt(t) * a / RADIUS
+    # a difference of forces, of which weak attraction leaves few digits
+    lost_digits = 1e-12 / (strength * t / a)
+    assert edge_adhesion.effect(t, tau) == pytest.approx(
+        sphere_effect(a, t, strength), rel=1e-8 + lost_digits
+    )
+
+
+def test_zone_of_the_sphere_has_the_strength_of_its_edge():
+    """For small zones the strength of the sphere is l_a d/range^2 with d from the gap alone."""
+    a, d = 0.1, 1e-6
+    reach = float(Hertz(RADIUS, 4 * a**3 / (3 * RADIUS)).gap(a + d))
+    t = 2 * d / a
+    assert reach / d == pytest.approx(8 / (3 * np.pi) * np.sqrt(t) * a / RADIUS, rel=1e-4)
+
+
+@pytest.mark.parametrize("t", [1e-6, 1e-2, 1.0, 100.0])
+def test_limits_of_the_effect(t):
+    assert edge_adhesion.effect(t, 1e-9) == pytest.approx(edge_adhesion.weak_effect(t), rel=1e-8)
+    # weakest: DMT's at long range, the edge law at short range
+    assert edge_adhesion.weak_effect(1e8) == pytest.approx(1, abs=1e-3)
+    assert edge_adhesion.weak_effect(1e-10) * 1e-5 == pytest.approx(4 / np.pi, rel=1e-4)
+
+
+@pytest.mark.parametrize("t", [1e-6, 1e-3])
+def test_tough_edges_are_those_of_jkr(t):
+    a, tau = 0.1, 1e6
+    assert edge_adhesion.effect(t, tau) == pytest.approx(
+        edge_adhesion.tough_effect(t, tau), rel=2e-3
+    )
+    strength = tau * 8 / (3 * np.pi) * np.sqrt(t) * a / RADIUS
+    force = 4 * a**3 / (3 * RADIUS)
+    work = strength * float(Hertz(RADIUS, force).gap(a * np.sqrt(1 + t)))
+    lost = force - JKRSphere(RADIUS, work).force(a)
+    assert edge_adhesion.effect(t, tau) * strength * np.pi * a**2 * t == pytest.approx(
+        lost, rel=2e-3
+    )
+
+
+def test_range_drops_out_of_tough_edges():
+    # a_V does not depend on the range next to smooth edges; l_a is kept.
+    surfaces = {"h_rms": 1e-6, "q0": 1e5, "rms_slope": 0.5, "adhesion_length": 1e-7, "a_v": 4.0}
+    short, long = (edge_adhesion.attraction(range=r, **surfaces) for r in (1e-13, 4e-13))
+    assert short.strength > 1e3
+    assert short.ratio == pytest.approx(long.ratio, rel=1e-2)
+    dmt = [criteria.traction_ratio(1e-6, 1e5, 1e-7, r, 4.0) for r in (1e-13, 4e-13)]
+    assert dmt[0] / dmt[1] == pytest.approx(4 ** (1 / 3), rel=1e-9)
+
+
+def edge_pressure_of_wave(wave):
+    """B/E* from the contact pressure next to the edge."""
+    half = wave.area_fraction * wave.wavelength / 2
+    x = 1e-8 * wave.wavelength
+    return float(wave.contact_pressure(half - x)) / np.sqrt(x)
+
+
+@pytest.mark.parametrize("strength", [1e-3, 0.1, 10.0])
+def test_advance_of_a_straight_edge(strength):
+    """Edges of a wave are no circles: the local law has to hold for them as well."""
+    wave = Westergaard(amplitude=1e-2, wavelength=1.0, pressure=1e-2)
+    half = wave.area_fraction / 2
+    reach = float(wave.gap(half + 1e-6))
+    length = strength * reach**2 / 1e-6
+    moved = edge_adhesion.edge_advance(edge_pressure_of_wave(wave), length, reach)
+    law = MaugisWave(1e-2, 1.0, length, reach)
+    # equilibrium at the same load, from its cohesive fraction
+    ahead = brentq(
+        lambda x: law.at_cohesive_fraction(2 * (half + x)).pressure - 1e-2,
+        moved * 0.2,
+        moved * 3 + 1e-6 * 3,
+        xtol=1e-16,
+    )
+    found = law.at_cohesive_fraction(2 * (half + ahead)).area_fraction / 2 - half
+    # of first order in zone over contact; the shift is a difference of two widths
+    assert moved == pytest.approx(found, rel=5e-3)
+
+
+def test_zone_share_solves_its_cubic():
+    tau = np.geomspace(1e-6, 1e6, 25)
+    y = edge_adhesion.zone_share(tau)
+    np.testing.assert_allclose(y**1.5 + 4 / np.pi * tau * y, 1, rtol=1e-12)
+    # the tough limit knows the work of adhesion alone: delta = (2/B) sqrt(l_a/pi)
+    moved = edge_adhesion.edge_advance(0.3, 1e-2, np.array([1e-5, 1e-6]))
+    np.testing.assert_allclose(moved, 2 / 0.3 * np.sqrt(1e-2 / np.pi), rtol=2e-3)
+
+
+@pytest.mark.parametrize("adhesion_length", [1e-4, 1e-2])
+def test_rough_contact_obeys_its_equivalent_sphere(adhesion_length):
+    """A small rough surface in full simulation, of which the model has nothing but t."""
+    length, load, reach = 2 * np.pi, 0.05, 0.1
+    s = spectrum.SelfAffine(hurst=0.8, q0=1.0, q1=8.0, h_rms=1.0)
+    heights = surface.synthesise(s, 256, length, seed=5)
+    alone = repulsive.solve(heights, length, load, tol=1e-9)
+    law = adhesive.Exponential(adhesion_length=adhesion_length, range=reach)
+    held = adhesive.solve(heights, length, law, mean_gap=alone.mean_gap, start=alone, tol=1e-9)
+    # the contact without adhesion that has the area of the adhesive one
+    area = held.repulsive_area_fraction
+    exponent = 0.93  # d ln area/d ln load, to bring the load to that area
+    without = load * (area / alone.area_fraction) ** (1 / exponent)
+    attractive = float(np.mean(law.traction(alone.gap) * (alone.gap > 0))) / law.strength
+    t = attractive / alone.area_fraction
+    traction = law.strength * alone.area_fraction / load
+    expected = edge_adhesion.effect(t, edge_adhesion.edge_strength(t, traction))
+    found = (1 - held.mean_pressure / without) / (law.strength * attractive / load)
+    assert expected > 1.2
+    assert found == pytest.approx(expected, rel=0.15)
+
+
+@pytest.mark.parametrize("slope", [0.01, 3.0, 300.0])
+def test_threshold_balances_attraction_and_repulsion(slope):
+    surfaces = {"h_rms": 1e-6, "q0": 1e5, "rms_slope": slope}
+    reach = np.array([1e-11, 1e-9, 1e-6])
+    for factor in (0.5, 1.0, 2.0):
+        length = edge_adhesion.adhesion_length_threshold(
+            **surfaces, range=reach, a_v=3.0, factor=factor
+        )
+        found = edge_adhesion.attraction(**surfaces, adhesion_length=length, range=reach, a_v=3.0)
+        np.testing.assert_allclose(found.ratio * factor, 1, rtol=1e-9)
+
+
+def test_attraction_overtakes_repulsion_once():
+    """The ratio, (4/3) tau t^(3/2) R, does not always grow with adhesion, but crosses 1 once."""
+    t = np.geomspace(1e-6, 1e3, 40)[:, None]
+    tau = np.geomspace(1e-7, 1e13, 400)
+    sticky = 4 / 3 * tau * t**1.5 * edge_adhesion.effect(t, tau) > 1
+    np.testing.assert_array_equal(np.diff(sticky.astype(int), axis=1).sum(axis=1), 1)
+    assert np.all(np.abs(np.diff(sticky.astype(int), axis=1)).sum(axis=1) == 1)
+
+
+def test_error_grows_beyond_what_was_simulated():
+    factors = edge_adhesion.error_factor([1.0, 1.0, 1.0, 0.01], [0.1, 1.0, 100.0, 0.1])
+    np.testing.assert_array_equal(factors, [1.3, 1.4, 2.0, 2.0])
+    inside = edge_adhesion.attraction(1.0, 1.0, 3.0, 1e-4, 0.1, 2.0)
+    beyond = edge_adhesion.attraction(1.0, 1.0, 3.0, 1e-4, 1e-6, 2.0)
+    assert inside.simulated is True
+    assert beyond.simulated is False
+
+
+@pytest.mark.parametrize("name", ["h_rms", "rms_slope", "range", "a_v"])
+def test_arguments_must_be_positive(name):
+    values = {"h_rms": 1.0, "q0": 1.0, "rms_slope": 1.0, "adhesion_length": 0.1, "range": 0.1}
+    with pytest.raises(ValueError, match=name):
+        edge_adhesion.attraction(**(values | {"a_v": 1.0, name: 0.0}))
