@@ -489,7 +489,7 @@ def test_restart_from_a_state_costs_nothing():
         ({"pressure": None}, "exactly one of pressure and mean_gap"),
         ({"mean_gap": 1.0}, "exactly one of pressure and mean_gap"),
         ({"pressure": np.nan}, "pressure must be a finite number"),
-        ({"pressure": "a"}, "pressure must be a finite number"),
+        ({"pressure": "a"}, "pressure must be a number"),
         ({"pressure": None, "mean_gap": [1, 2]}, "mean_gap must be a finite number"),
         ({"pressure": None, "mean_gap": -1.0}, "mean_gap must be at least"),
         ({"law": "Maugis"}, "law must be a TractionLaw"),

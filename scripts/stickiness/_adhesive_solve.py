@@ -1,7 +1,6 @@
 """Adhesive contact of a periodic half-space at a prescribed mean pressure or mean gap."""
 
 from dataclasses import dataclass, replace
-from numbers import Integral
 
 import numpy as np
 
@@ -9,7 +8,7 @@ from stickiness import repulsive
 from stickiness._adhesive_problem import Problem, Surface
 from stickiness._adhesive_relax import relax
 from stickiness._adhesive_state import lowered
-from stickiness._arguments import is_number
+from stickiness._arguments import grid, integer, number, numbers
 from stickiness.repulsive import ConvergenceError
 
 __all__ = ["Adhesion", "ConvergenceError", "PullOffError", "solve"]
@@ -168,11 +167,10 @@ def solve(
     >>> adhesive.solve(np.zeros((8, 8)), 1.0, law, pressure=-0.099).repulsive_area_fraction
     1.0
     """
-    heights = repulsive._check_heights(heights)
+    heights = grid("heights", heights)
     lengths = repulsive._check_length(length, heights.shape)
-    tol = repulsive._check_positive("tol", tol)
-    if not (isinstance(max_iterations, Integral) and max_iterations >= 1):
-        raise ValueError(f"max_iterations must be an integer of at least 1, got {max_iterations!r}")
+    tol = number("tol", tol)
+    max_iterations = integer("max_iterations", max_iterations, least=1)
     if isinstance(law, type) or not hasattr(law, "evaluate"):
         raise ValueError(f"law must be a TractionLaw such as Maugis(...), got {law!r}")
     _check_control(pressure, mean_gap, law)
@@ -363,7 +361,8 @@ def _check_control(pressure, mean_gap, law):
             f"exactly one of pressure and mean_gap must be given, got {pressure!r}, {mean_gap!r}"
         )
     name, value = ("pressure", pressure) if mean_gap is None else ("mean_gap", mean_gap)
-    if not is_number(value):
+    array = numbers(name, value)
+    if array.ndim or not np.isfinite(array):
         raise ValueError(f"{name} must be a finite number, got {value!r}")
     if mean_gap is not None:
         lowest = 0.0 if law.hard_wall else -_CLOSEST * law.range
