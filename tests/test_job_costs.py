@@ -54,7 +54,7 @@ def test_a_finer_grid_asks_for_more():
         asked[fidelity] = size.stored
     assert asked["fine"] == 4 * asked["standard"] == 16 * asked["draft"] == 2048**2
     size = _cost.work(config, "solve_adhesive", adhesion="fig4b_rough", seed="1")
-    assert (size.stored, size.solutions) == (1024**2, 21)  # refined twice; one load, no law and 20
+    assert (size.stored, size.solutions) == (1024**2, 50)  # refined twice; 2 loads, no law and 24
 
 
 def test_grids_are_those_of_the_scripts():
