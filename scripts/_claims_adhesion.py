@@ -195,8 +195,8 @@ def inverse_kappa_ad(files: Files) -> Claim:
         float(np.mean(error[told])),
         1.0,
         graded(apart < np.log(1.25), apart < np.log(4)),
-        f"Ratios from {spread(slopes[told])}; by the compressed area {spread(net)} ({net.size} points); of the DMT "
-        f"limit {spread(limit)}. {int(ratios['dmt'][told].sum())} points are good enough in the "
+        f"Ratios from {spread(slopes[told])}; by the compressed area {spread(net)} ({net.size} "
+        f"points); of the DMT limit {spread(limit)}. {int(ratios['dmt'][told].sum())} points are good enough in the "
         f"DMT limit. Directly from the tractions, which resolves all {decades:.1f} decades "
         f"of 1/kappa_ad ({direct.size} points): {spread(direct)}. With the a_V of these "
         f"surfaces ({', '.join(one['a_v'] for one in sets)}) all ratios are "
