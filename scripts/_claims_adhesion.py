@@ -196,10 +196,10 @@ def inverse_kappa_ad(files: Files) -> Claim:
         1.0,
         graded(apart < np.log(1.25), apart < np.log(4)),
         f"Ratios from {spread(slopes[told])}; by the compressed area {spread(net)} ({net.size} "
-        f"points); of the DMT limit {spread(limit)}. {int(ratios['dmt'][told].sum())} "
-        f"points are good enough in the DMT limit. Directly from the tractions, which resolves all {decades:.1f} decades "
-        f"of 1/kappa_ad ({direct.size} points): {spread(direct)}. With the a_V of these "
-        f"surfaces ({', '.join(one['a_v'] for one in sets)}) all ratios are "
+        f"points); of the DMT limit {spread(limit)}, which is good enough at "
+        f"{int(ratios['dmt'][told].sum())} points. Directly from the tractions, which resolves all "
+        f"{decades:.1f} decades of 1/kappa_ad ({direct.size} points): {spread(direct)}. With the "
+        f"a_V of these surfaces ({', '.join(one['a_v'] for one in sets)}) all ratios are "
         f"{', '.join(one['factor'] for one in sets)} times as large. The order of magnitude "
         "follows; but even the weakest attraction next to the edge of a contact draws in more area "
         "than its sum would, so that 1/kappa_ad falls with the range more slowly than as "
