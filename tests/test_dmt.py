@@ -80,7 +80,7 @@ def test_maugis_includes_its_range():
 
 
 @pytest.mark.parametrize("kind", LAWS)
-@pytest.mark.parametrize("bad", [0.0, -1.0, np.nan, np.inf])
+@pytest.mark.parametrize("bad", [0.0, -1.0, np.nan, np.inf, "1", None])
 def test_laws_reject_bad_parameters(kind, bad):
     with pytest.raises(ValueError, match="adhesion_length must be positive"):
         kind(adhesion_length=bad, range=1.0)

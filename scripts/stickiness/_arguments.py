@@ -105,3 +105,10 @@ def plain(value: ArrayLike) -> bool | float | NDArray:
     """Return a Python scalar for a scalar, so that results print and serialise as one expects."""
     value = np.asarray(value)
     return value if value.ndim else value.item()
+
+
+def is_number(value: object) -> bool:
+    """Whether a value is one finite real number, also as an array without dimensions."""
+    array = np.asarray(value)
+    real = np.issubdtype(array.dtype, np.floating) or np.issubdtype(array.dtype, np.integer)
+    return array.ndim == 0 and real and bool(np.isfinite(array))

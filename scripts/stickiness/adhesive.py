@@ -20,6 +20,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from stickiness._adhesive_path import PathPoint, path
 from stickiness._adhesive_solve import Adhesion, ConvergenceError, PullOffError, solve
+from stickiness._arguments import is_number
 
 __all__ = [
     "Adhesion",
@@ -77,7 +78,7 @@ class TractionLaw(ABC):
     def __post_init__(self):
         for name in ("adhesion_length", "range"):
             value = getattr(self, name)
-            if not (np.isfinite(value) and value > 0):
+            if not (is_number(value) and value > 0):
                 raise ValueError(f"{name} must be positive and finite, got {value!r}")
 
     @property
