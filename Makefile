@@ -7,7 +7,7 @@ BIN := $(VENV)/bin
 PIP := $(BIN)/python -m pip install --quiet --disable-pip-version-check -c envs/constraints.txt
 SNAKEMAKE := $(BIN)/snakemake -j$(CORES)
 
-.PHONY: install reproduce draft test lint format dag benchmark docs
+.PHONY: install reproduce draft test lint format dag benchmark docs pictures
 
 install: $(VENV)/.run  ## the environment alone
 
@@ -36,6 +36,9 @@ dag: $(VENV)/.run  ## what would run
 
 docs: $(VENV)/.run  ## the reference of the configuration, from the schemas
 	$(BIN)/python docs/write_config.py
+
+pictures: $(VENV)/.run  ## the pictures of README.md, from results/standard and with Chromium
+	$(BIN)/python docs/take_pictures.py
 
 benchmark: $(VENV)/.dev $(VENV)/.peers  ## the contact solver beside its peers
 	PYTHONPATH=scripts $(BIN)/python benchmarks/repulsive_vs_peers.py

@@ -57,6 +57,7 @@ rule all:
     default_target: True
     input:
         expand(f"{RESULTS}/figures/{{figure}}.png", figure=FIGURES),
+        f"{RESULTS}/fits/a_v_table.nc",
         f"{RESULTS}/criteria/verdicts.md",
         f"{RESULTS}/claims/claims.md",
         f"{RESULTS}/report/report.html",

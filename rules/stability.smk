@@ -29,6 +29,7 @@ rule probe_stability:
         "../envs/environment.yaml"
     resources:
         mem_mb=500,
+        runtime=20,
     script:
         "../scripts/probe_stability.py"
 

@@ -180,11 +180,12 @@ def inverse_kappa_ad(files: Files) -> Claim:
     if not told.any():
         remark = "No parameter set is known to 30 %."
         return Claim(11, statement, "-", np.nan, np.nan, 1.0, OPEN, remark, sources)
-    net, limit = ratios["inverse_kappa_ad_net"][told], ratios["limit"][told]
+    limit = ratios["limit"][told]
+    net = ratios["inverse_kappa_ad_net"][ratios["net_error"] < KNOWN]
     resolved = np.isfinite(ratios["direct"])
     direct = ratios["inverse_kappa_ad_direct"][resolved]
     decades = np.ptp(np.log10(ratios["direct"][resolved]))
-    apart = np.abs(np.log(np.concatenate([slopes[told], net[net > 0]]))).max()
+    apart = np.abs(np.log(np.concatenate([slopes[told], net]))).max()
     return Claim(
         11,
         statement,
@@ -194,11 +195,11 @@ def inverse_kappa_ad(files: Files) -> Claim:
         float(np.mean(error[told])),
         1.0,
         graded(apart < np.log(1.25), apart < np.log(4)),
-        f"Ratios from {spread(slopes[told])}; by the compressed area {spread(net)}; of the DMT "
-        f"limit {spread(limit)}. {int(ratios['dmt'][told].sum())} points are good enough in the "
-        f"DMT limit. Directly from the tractions, which resolves all {decades:.1f} decades "
-        f"of 1/kappa_ad ({direct.size} points): {spread(direct)}. With the a_V of these "
-        f"surfaces ({', '.join(one['a_v'] for one in sets)}) all ratios are "
+        f"Ratios from {spread(slopes[told])}; by the compressed area {spread(net)} ({net.size} "
+        f"points); of the DMT limit {spread(limit)}, which is good enough at "
+        f"{int(ratios['dmt'][told].sum())} points. Directly from the tractions, which resolves all "
+        f"{decades:.1f} decades of 1/kappa_ad ({direct.size} points): {spread(direct)}. With the "
+        f"a_V of these surfaces ({', '.join(one['a_v'] for one in sets)}) all ratios are "
         f"{', '.join(one['factor'] for one in sets)} times as large. The order of magnitude "
         "follows; but even the weakest attraction next to the edge of a contact draws in more area "
         "than its sum would, so that 1/kappa_ad falls with the range more slowly than as "
@@ -222,6 +223,7 @@ def over_formula(files: Files, name: str, zeta: int) -> dict:
     names = ("inverse_kappa_ad", "inverse_kappa_ad_net", "inverse_kappa_ad_direct")
     found = {key: full[key] / formula for key in names}
     found["error"] = total_error(full, "inverse_kappa_ad") / formula
+    found["net_error"] = total_error(full, "inverse_kappa_ad_net") / formula
     for source, kind in KINDS.items():
         part = f"inverse_kappa_ad_{kind}_error"
         found[source] = full.get(part, xr.zeros_like(formula)) / formula
@@ -235,4 +237,6 @@ def over_formula(files: Files, name: str, zeta: int) -> dict:
 
 
 def spread(ratios: np.ndarray) -> str:
+    if not ratios.size:
+        return "not known"
     return f"{ratios.min():.2f} to {ratios.max():.2f}"

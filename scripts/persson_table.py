@@ -17,7 +17,7 @@ from stickiness.persson import Persson
 OTHER_VARIANT = "almqvist2011"
 # There the area within the smallest range of contact, the contact included, has converged to 1e-5
 # for H from 0.3 to 1; contact itself vanishes, be it as slowly as 1/sqrt(ln zeta) for H = 1.
-INFINITE = 1e40
+INFINITE = 1e36
 NODES = 0.5  # of the quadrature, in units of the library's; `quadrature_error` says what it costs
 REFERENCE_NODES = 1.0
 

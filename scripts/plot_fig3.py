@@ -252,9 +252,12 @@ def panel_e(ax, fit, cases):
         exponent = exponent.isel(range=slice(None, None, 2))
         look = {"color": COLOURS[index], "marker": MARKERS[index], "linestyle": "none"}
         ax.plot(exponent["range"], exponent, **look, markersize=3)
-    for level, text in ((EXPONENT, "2/3: edges"), ((1 - hurst) / hurst, r"$(1-H)/H$: fractal")):
+    for x, level, text in (
+        (6, EXPONENT, "2/3: edges"),
+        (0.05, (1 - hurst) / hurst, r"$(1-H)/H$: fractal"),
+    ):
         ax.axhline(level, color=BLACK, linestyle=":", linewidth=0.9)
-        ax.text(9, level + 0.015, text, ha="right", fontsize=8)
+        ax.text(x, level + 0.015, text, ha="center", fontsize=8)
     ax.set(xlim=(1e-4, 10), ylim=(0, 1.3), xlabel=r"range $\epsilon/h_\mathrm{rms}$")
     ax.set_ylabel(r"$\mathrm{d}\ln A_\mathrm{ad}/\mathrm{d}\ln\epsilon$")
     ax.legend(handles=case_keys(cases), loc="upper left", title="BEM", title_fontsize=8)

@@ -139,7 +139,8 @@ def adhesive(zeta, q0_h_rms=0.1, scale=1.0):
     data["inverse_kappa_net"] = 1.1 * data.inverse_kappa
     data["inverse_kappa_fit"] = data.inverse_kappa.mean("pressure")
     data["model"] = xr.full_like(data.inverse_kappa, "full", dtype="U4")
-    data = with_errors(data, "inverse_kappa", "inverse_kappa_net", "inverse_kappa_fit", suffix="")
+    slopes = "inverse_kappa", "inverse_kappa_net", "inverse_kappa_fit", "inverse_kappa_ad_net"
+    data = with_errors(data, *slopes, suffix="")
     return made_by(data, **case(zeta))
 
 

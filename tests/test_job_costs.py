@@ -1,6 +1,8 @@
 """Memory and time that jobs ask for, beside what they were measured to take."""
 
 import csv
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -54,7 +56,10 @@ def test_a_finer_grid_asks_for_more():
         asked[fidelity] = size.stored
     assert asked["fine"] == asked["standard"] == 4 * asked["draft"] == 1024**2
     size = _cost.work(config, "solve_adhesive", adhesion="fig4b_rough", seed="1")
-    assert (size.stored, size.solutions) == (1024**2, 21)  # refined twice; one load, no law and 20
+    asked = config["adhesion"]["fig4b_rough"]
+    laws = len(asked["range_over_h_rms"]) * len(asked["adhesion_length_over_range"])
+    assert size.stored == (asked.get("refine", 1) * 512) ** 2
+    assert size.solutions == len(asked["pressures"]) * (1 + laws)
 
 
 def test_grids_are_those_of_the_scripts():
@@ -79,3 +84,14 @@ def test_profile_groups_rules_that_exist():
     components = dict(entry.split("=") for entry in profile["group-components"])
     assert groups.keys() <= rules
     assert set(groups.values()) == components.keys()
+
+
+@pytest.mark.workflow
+def test_no_group_of_the_profile_depends_on_itself(tmp_path):
+    """Snakemake refuses groups that are left and entered again; no executor is needed to see it."""
+    profile = yaml.safe_load((ROOT / "profiles/slurm/config.yaml").read_text(encoding="utf-8"))
+    command = [sys.executable, "-m", "snakemake", "-n", "--quiet", "all"]
+    command += ["--groups", *profile["groups"], "--group-components", *profile["group-components"]]
+    command += ["--config", f"results={tmp_path}"]
+    planned = subprocess.run(command, cwd=ROOT, text=True, capture_output=True, check=False)
+    assert planned.returncode == 0, planned.stdout + planned.stderr

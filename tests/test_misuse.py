@@ -94,7 +94,7 @@ MISUSES = {
     ),
     "magnification below 1": (
         lambda: criteria.pastewka_robbins_a_v_power_law(0.8, 0.5),
-        "magnification must exceed 1",
+        "magnification must be at least 1",
     ),
     "limit of NaN": (
         lambda: continuum.estimate("area_fraction", [0.1, np.nan], 0, 10),

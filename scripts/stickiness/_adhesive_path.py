@@ -22,7 +22,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from stickiness import repulsive
 from stickiness._adhesive_solve import (
     APPROACH,
     SEPARATION,
@@ -33,6 +32,7 @@ from stickiness._adhesive_solve import (
     relaxed,
     solve,
 )
+from stickiness._arguments import grid, number
 
 __all__ = ["PathPoint", "path"]
 
@@ -140,7 +140,7 @@ def path(
         ("located", located),
         ("steps", steps),
     ):
-        repulsive._check_positive(name, value)
+        number(name, value)
     first = solve(
         heights,
         length,
@@ -154,7 +154,7 @@ def path(
     yield PathPoint(first)
     follower = _Follower(
         first=first,
-        scaled=Scaled.of(repulsive._check_heights(heights), first.length, law),
+        scaled=Scaled.of(grid("heights", heights), first.length, law),
         control=control,
         options={"tol": tol, "max_iterations": max_iterations},
         balance=balance,

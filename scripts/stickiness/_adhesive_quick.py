@@ -1,15 +1,14 @@
 """Quick descent for laws that only soften, at a prescribed pressure, mostly in single precision.
 
-The steps are those of `_adhesive_descent`. What saves time: the potential of such a law is concave,
-so that energies need not be compared at every step, only between rounds of steps. In a round
-increments of gap and force are in single precision; between rounds gap, traction, force and energy
-are those of double precision (iterative refinement). Once the force is small its change is linear
-in that of the gap and the law is not evaluated any more.
+The steps are those of `_adhesive_descent`. They go in rounds. In a round increments of gap, force
+and energy are in single precision; between rounds gap, traction, force and energy are those of
+double precision (iterative refinement). Once the force is small its change is linear in that of
+the gap: the law is then not evaluated any more, nor are energies compared, but for those of rounds.
 
 The preconditioner knows of the edge of contact: a force next to it is taken by the wall in part, so
 that a share is subtracted from it there before it is smoothed, and the transpose of that after.
 
-If a round should raise the energy the general descent takes over from the state before.
+Should a round raise the energy or come to nothing, the general descent takes over.
 """
 
 import numpy as np
@@ -57,7 +56,7 @@ def quick_descent(problem, gap, tol, max_iterations, observer=None, convex=False
     state : State
         The last one.
     finished : bool
-        False if a round raised the energy, or the descent was given up.
+        False if a round raised the energy or came to nothing, or the descent was given up.
     """
     state, other = State.empty(gap.shape), State.empty(gap.shape)
     state.gap[...] = gap
@@ -71,7 +70,8 @@ def quick_descent(problem, gap, tol, max_iterations, observer=None, convex=False
             break
         steps.begin(state)
         steps.descend(max(_FALL * state.residual, _MARGIN * tol), max_iterations, convex)
-        finished = _moved(problem, state, steps, other) and not (convex and steps.last_soft)
+        finished = not (convex and steps.last_soft) and (steps.soft or steps.change.any())
+        finished = finished and _moved(problem, state, steps, other)
         if finished:
             state, other = other, state
     state.iterations, state.last_run = steps.count, steps.count - steps.last_soft
@@ -108,6 +108,8 @@ class _Steps:
         The change that closes the gap.
     count, last_soft : int
         Steps so far, and up to the last direction of negative curvature.
+    soft : bool
+        Whether the round ended at such a direction, which its tangent is no guide along.
     """
 
     def __init__(self, problem, shape):

@@ -8,6 +8,7 @@ from stickiness import repulsive
 from stickiness._adhesive_problem import Problem, Surface
 from stickiness._adhesive_relax import relax
 from stickiness._adhesive_state import lowered
+from stickiness._arguments import grid, integer, number, numbers
 from stickiness.repulsive import ConvergenceError
 
 __all__ = ["Adhesion", "ConvergenceError", "PullOffError", "solve"]
@@ -166,12 +167,11 @@ def solve(
     >>> adhesive.solve(np.zeros((8, 8)), 1.0, law, pressure=-0.099).repulsive_area_fraction
     1.0
     """
-    heights = repulsive._check_heights(heights)
+    heights = grid("heights", heights)
     lengths = repulsive._check_length(length, heights.shape)
-    tol = repulsive._check_positive("tol", tol)
-    if max_iterations < 1:
-        raise ValueError(f"max_iterations must be at least 1, got {max_iterations!r}")
-    if not hasattr(law, "evaluate"):
+    tol = number("tol", tol)
+    max_iterations = integer("max_iterations", max_iterations, least=1)
+    if isinstance(law, type) or not hasattr(law, "evaluate"):
         raise ValueError(f"law must be a TractionLaw such as Maugis(...), got {law!r}")
     _check_control(pressure, mean_gap, law)
     scaled = Scaled.of(heights, lengths, law)
@@ -361,8 +361,9 @@ def _check_control(pressure, mean_gap, law):
             f"exactly one of pressure and mean_gap must be given, got {pressure!r}, {mean_gap!r}"
         )
     name, value = ("pressure", pressure) if mean_gap is None else ("mean_gap", mean_gap)
-    if not np.isfinite(value):
-        raise ValueError(f"{name} must be finite, got {value!r}")
+    array = numbers(name, value)
+    if array.ndim or not np.isfinite(array):
+        raise ValueError(f"{name} must be a finite number, got {value!r}")
     if mean_gap is not None:
         lowest = 0.0 if law.hard_wall else -_CLOSEST * law.range
         if mean_gap < lowest:

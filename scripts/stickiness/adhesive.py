@@ -20,6 +20,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from stickiness._adhesive_path import PathPoint, path
 from stickiness._adhesive_solve import Adhesion, ConvergenceError, PullOffError, solve
+from stickiness._arguments import number
 
 __all__ = [
     "Adhesion",
@@ -75,10 +76,8 @@ class TractionLaw(ABC):
     smooth: ClassVar[bool] = True
 
     def __post_init__(self):
-        for name in ("adhesion_length", "range"):
-            value = getattr(self, name)
-            if not (np.isfinite(value) and value > 0):
-                raise ValueError(f"{name} must be positive and finite, got {value!r}")
+        number("adhesion_length", self.adhesion_length)
+        number("range", self.range)
 
     @property
     def maugis_stress(self) -> float:

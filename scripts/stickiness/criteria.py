@@ -246,8 +246,8 @@ def pastewka_robbins_a_v_power_law(
     hurst, magnification = positive(hurst=hurst, magnification=magnification)
     if not np.all(hurst < 1):
         raise ValueError(f"hurst must be below 1 for this limit, got {hurst!r}")
-    if not np.all(magnification > 1):
-        raise ValueError(f"magnification must exceed 1, got {magnification!r}")
+    if not np.all(magnification >= 1):
+        raise ValueError(f"magnification must be at least 1, got {magnification!r}")
     slope = np.sqrt(hurst / (1 - hurst)) * magnification ** (1 - hurst)
     curvature = np.sqrt(hurst / (2 - hurst)) * magnification ** (2 - hurst)
     return pastewka_robbins_a_v(1.0, 1.0, slope, curvature, range_ratio)

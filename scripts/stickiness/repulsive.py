@@ -149,7 +149,7 @@ def solve(
     >>> solve(wave, length=1.0, pressure=0.1).area_fraction  # beyond pi * 0.01: full contact
     1.0
     """
-    heights = _check_heights(heights)
+    heights = grid("heights", heights)
     lengths = _check_length(length, heights.shape)
     pressure = number("pressure", pressure, zero=True)
     tol = number("tol", tol, most=_LOOSEST)
@@ -360,10 +360,6 @@ def _scale(heights):
     return mean, largest * float(np.sqrt(np.mean(((heights - mean) / largest) ** 2)))
 
 
-def _check_heights(heights):
-    return grid("heights", heights)
-
-
 def _check_length(length, shape):
     (sides,) = positive(length=length)
     if sides.size == 1:
@@ -372,6 +368,3 @@ def _check_length(length, shape):
     if sides.shape != (2,):
         raise ValueError(f"length must be one or two positive numbers, got {length!r}")
     return float(sides[0]), float(sides[1])
-
-
-_check_positive = number

@@ -230,17 +230,23 @@ class SelfAffine(PowerLawSegments):
         name, size = ("h_rms", h_rms) if C0 is None else ("C0", C0)
         size = number(name, size)
         self.hurst, self.q_rolloff, self.prescribed = hurst, q_rolloff, name
-        _check_scale(hurst, q0, q1, size)
-        self._build(q0, q1, 1.0)
-        self.C0 = size if h_rms is None else size**2 / float(self.variance_below(q1))
-        self._build(q0, q1, self.C0)
+        with np.errstate(over="ignore", under="ignore", invalid="ignore", divide="ignore"):
+            self._build(q0, q1, np.float64(1.0))
+            self.C0 = size if h_rms is None else float(size**2 / self.variance_below(q1))
+            self._build(q0, q1, np.float64(self.C0))
+            variances = np.array([self.variance_below(q1, power) for power in (0, 2, 4)])
+        if not np.all(np.isfinite(variances) & (variances > 0)):
+            raise ValueError(
+                f"q0 = {q0!r}, q1 = {q1!r} and {name} = {size!r} leave the range of floats: take a "
+                "unit of length in which they are nearer to 1"
+            )
 
     def _build(self, q0: float, q1: float, prefactor: float) -> None:
         slope = -2 * (self.hurst + 1)
         if self.q_rolloff is None:
-            super().__init__([q0, q1], [prefactor * q0**slope], [slope])
+            super().__init__([q0, q1], [prefactor * np.float64(q0) ** slope], [slope])
         else:
-            level = prefactor * self.q_rolloff**slope
+            level = prefactor * np.float64(self.q_rolloff) ** slope
             super().__init__([q0, self.q_rolloff, q1], [level, level], [0.0, slope])
 
     def truncated(self, q1: float) -> SelfAffine:
@@ -359,16 +365,6 @@ def _check_band(hurst: float, q0: float, q1: float, q_rolloff: float | None) -> 
     if q_rolloff is not None and not q0 < number("q_rolloff", q_rolloff) < q1:
         raise ValueError(
             f"q_rolloff must lie between q0 = {q0!r} and q1 = {q1!r}, got {q_rolloff!r}"
-        )
-
-
-def _check_scale(hurst: float, q0: float, q1: float, size: float) -> None:
-    """Refuse lengths so far from 1 that powers of them leave the range of floats."""
-    largest = max(abs(np.log10(x)) for x in (q0, q1, size))
-    if 2 * (hurst + 3) * largest > np.log10(np.finfo(float).max):
-        raise ValueError(
-            f"q0 = {q0!r}, q1 = {q1!r} or the height or C0 {size!r} is out of range: "
-            "take a unit of length in which they are nearer to 1"
         )
 
 

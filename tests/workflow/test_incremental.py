@@ -166,7 +166,7 @@ def test_full_adhesion_is_solved_only_where_the_dmt_limit_is_not_good_enough(fre
     with (fresh / "config/tiny.yaml").open("a", encoding="utf-8") as file:
         file.write(
             "adhesion:\n  mine: {case: H0.8_zeta32, q0_h_rms: 0.1, range_over_h_rms: [3], "
-            "adhesion_length_over_range: [0.003, 0.01], pressures: [0.0065, 0.065], "
+            "adhesion_length_over_range: [0.001, 0.003], pressures: [0.0065, 0.065], "
             f"law: exponential, {asked}}}\n"
         )
     planned = fresh.planned("results/tiny/adhesive/mine.nc")
