@@ -142,7 +142,8 @@ def carried(plan, columns, pressures):
     """What theory says that a broader spectrum adds to each column, and what it takes of the area.
 
     The difference, not the ratio: from magnification 64 to 512 it leaves half the error of the
-    ratio in attractive areas at H = 0.8, and about the same at H = 0.5. The error is measured as a share of the relative change of the area.
+    ratio in attractive areas at H = 0.8, and about the same at H = 0.5. The error is measured as a
+    share of the relative change of the area.
     """
     surface, ranges = plan["surface"], logarithmic_grid(RANGES)
     own, broad = (
