@@ -309,9 +309,8 @@ def memory_of(rule):
     """Memory [MB] that jobs of a rule ask for, and more each time that one fails."""
 
     def asked(wildcards, attempt):
-        return attempt * _cost.asked_mb(
-            rule, _cost.work(sized(wildcards), rule, **dict(wildcards.items()))
-        )
+        size = _cost.work(sized(wildcards), rule, **dict(wildcards.items()))
+        return attempt * _cost.asked_mb(rule, size)
 
     return asked
 
