@@ -25,6 +25,7 @@ include: "rules/adhesion.smk"
 include: "rules/real_surfaces.smk"
 include: "rules/criteria.smk"
 include: "rules/figures.smk"
+include: "rules/tradeoff.smk"
 include: "rules/report.smk"
 include: "rules/stability.smk"
 
@@ -44,6 +45,9 @@ localrules:
     claims,
     verdicts,
     surfaces,
+    cases,
+    a_v,
+    tradeoff,
     dmt_error,
     report,
     stability,
@@ -128,6 +132,24 @@ rule dmt_error:
 rule claims:
     input:
         f"{RESULTS}/claims/claims.md",
+
+
+rule cases:
+    input:
+        expand(f"{RESULTS}/cases/{{case}}.nc", case=CASES),
+
+
+rule a_v:
+    input:
+        f"{RESULTS}/criteria/a_v.csv",
+
+
+rule tradeoff:
+    input:
+        f"{TRADEOFF}/tradeoff.md",
+        f"{TRADEOFF}/presets.md",
+        f"{TRADEOFF}/validation.md",
+        f"{TRADEOFF}/tradeoff.png",
 
 
 rule report:

@@ -20,9 +20,11 @@ rule solve_repulsive:
         runtime=runtime_of("solve_repulsive"),
     params:
         pressures=lambda wildcards: CASES[wildcards.case]["pressures"],
-        tolerance=FIDELITY["tolerance"],
-        pixels_per_wavelength=FIDELITY["pixels_per_wavelength"],
-        gaps=config["gaps"],
+        tolerance=lambda wildcards: PLANS[wildcards.case].settings.tolerance,
+        pixels_per_wavelength=lambda wildcards: (
+            PLANS[wildcards.case].settings.pixels_per_wavelength
+        ),
+        gaps=gaps_of,
     script:
         "../scripts/solve_repulsive.py"
 
@@ -44,9 +46,9 @@ rule solve_coarse:
     params:
         surface=lambda wildcards: config["model_surfaces"][CASES[wildcards.case]["surface"]],
         pressures=lambda wildcards: CASES[wildcards.case]["pressures"],
-        tolerance=FIDELITY["tolerance"],
-        gaps=config["gaps"],
-        seeds=FIDELITY.get("coarse_seeds", 64),
+        tolerance=lambda wildcards: PLANS[wildcards.case].settings.tolerance,
+        gaps=gaps_of,
+        seeds=lambda wildcards: PLANS[wildcards.case].settings.coarse_seeds,
         descriptor_seeds=config["sampling"]["descriptor_seeds"],
     script:
         "../scripts/solve_coarse.py"
@@ -69,7 +71,7 @@ rule contact_maps:
         runtime=runtime_of("contact_maps"),
     params:
         pressures=lambda wildcards: CASES[wildcards.case].get("maps", []),
-        tolerance=FIDELITY["tolerance"],
+        tolerance=lambda wildcards: PLANS[wildcards.case].settings.tolerance,
     script:
         "../scripts/contact_maps.py"
 
@@ -89,6 +91,9 @@ rule average_ensemble:
         "../envs/environment.yaml"
     resources:
         mem_mb=1000,
+    params:
+        pressures=lambda wildcards: PLANS[wildcards.case].pressures,
+        quantities=lambda wildcards: PLANS[wildcards.case].quantities,
     script:
         "../scripts/average_ensemble.py"
 

@@ -7,6 +7,7 @@ import os
 import platform
 import re
 import sys
+from dataclasses import asdict
 import time
 from functools import cache
 from pathlib import Path
@@ -19,6 +20,7 @@ sys.path.insert(0, str(Path(workflow.basedir) / "scripts"))
 import _cost
 from _progress import Progress, graded, jobs_of, quieten, summary
 from snakemake.exceptions import WorkflowError
+from stickiness import accuracy, plan
 from snakemake.logging import logger
 from snakemake.settings.enums import Quietness
 from stickiness import config as configuration
@@ -34,6 +36,8 @@ try:
     MATERIALS, REAL_SURFACES = configuration.checked(
         config, Path(workflow.basedir) / "config/schemas"
     )
+    LAWS = accuracy.read_laws(config["tradeoff"]["table"])
+    PLANS = plan.plans_of(config, LAWS)
     DMT_ERRORS = model_choice.read_table(config["dmt_error"])
 except ValueError as error:
     raise WorkflowError(str(error)) from None
@@ -42,6 +46,8 @@ FIDELITY = config["fidelities"][config["fidelity"]]
 RESULTS = f"{config['results']}/{config['fidelity']}"
 LOGS, BENCHMARKS = f"{RESULTS}/logs", f"{RESULTS}/benchmarks"
 CASES, SWEEPS = config["cases"], config["theory"]["sweeps"]
+# Figures and report hold the cases that are simulated for every quantity.
+COMPLETE = [case for case, planned in PLANS.items() if planned.complete]
 COMPARISONS = {
     name: config["comparisons"]["surfaces"][name]
     for name in FIDELITY.get("comparisons", config["comparisons"]["surfaces"])
@@ -60,6 +66,8 @@ COMPARED = {
         for name, asked in COMPARISONS.items()
     },
 }
+# Of these, what is simulated for every quantity.
+SIMULATED = [name for name in COMPARED if name in COMPLETE or name in COMPARISONS]
 ADHESION, LOOPS = config["adhesion"], config["loops"]
 FIGURES = [f"fig{number}" for number in range(1, 11)]
 PAGE_PARTS = [f"report/{part}" for part in ("macros.html.j2", "page.css", "page.js")]
@@ -68,6 +76,7 @@ PAGE_PARTS = [f"report/{part}" for part in ("macros.html.j2", "page.css", "page.
 wildcard_constraints:
     seed=r"\d+",
     case="|".join(map(re.escape, CASES)) or "none",
+    grid=r"(@\d+)?",
     comparison="|".join(map(re.escape, COMPARISONS)),
     compared="|".join(map(re.escape, COMPARED)),
     model_surface="|".join(map(re.escape, config["model_surfaces"])) or "none",
@@ -79,20 +88,28 @@ wildcard_constraints:
 
 
 def seeds_of(case):
-    """Seeds of a case: its own number of realisations, the configuration's or the preset's."""
-    count = CASES[case].get("seeds", config.get("seeds", FIDELITY["seeds"]))
-    return range(1, count + 1)
+    """Seeds of a case."""
+    return range(1, PLANS[case].settings.seeds + 1)
 
 
 def realisations(wildcards):
-    """Files of all realisations of a case."""
-    return [f"{RESULTS}/bem/{wildcards.case}/seed{seed}.nc" for seed in seeds_of(wildcards.case)]
+    """Files of all realisations of a case, which it may share with an earlier one."""
+    owner = PLANS[wildcards.case].owner
+    return [f"{RESULTS}/bem/{owner}/seed{seed}.nc" for seed in seeds_of(wildcards.case)]
 
 
 def coarse_solutions(wildcards):
     """File of the coarse solutions behind a case's means, if it does not take plain ones."""
-    method = CASES[wildcards.case].get("sampling", config["sampling"]["method"])
-    return [f"{RESULTS}/bem/{wildcards.case}/coarse.nc"] if method == "multilevel" else []
+    own = PLANS[wildcards.case]
+    if not own.settings.coarse_seeds:
+        return []
+    same = PLANS[own.owner].settings.coarse_seeds == own.settings.coarse_seeds
+    return [f"{RESULTS}/bem/{own.owner if same else wildcards.case}/coarse.nc"]
+
+
+def gaps_of(wildcards):
+    """Ranges at which a case's attractive areas are taken; none if it does not want any."""
+    return config["gaps"] if PLANS[wildcards.case].gaps else None
 
 
 @cache
@@ -128,8 +145,48 @@ def imported_modules(path, root):
 
 
 def surface_of(wildcards):
-    """Surface of a case, with the seed left open."""
-    return f"{RESULTS}/surfaces/{CASES[wildcards.case]['surface']}/seed{{seed}}.nc"
+    """Surface of a case on the grid that it is solved on, with the seed left open."""
+    planned = PLANS[wildcards.case]
+    return f"{RESULTS}/surfaces/{planned.surface}{grid_suffix(planned)}/seed{{seed}}.nc"
+
+
+def grid_suffix(planned):
+    """What tells the grid of a plan from that of the preset, at the end of a folder's name."""
+    pixels = planned.settings.pixels_per_wavelength
+    return "" if pixels == FIDELITY["pixels_per_wavelength"] else f"@{pixels}"
+
+
+def pixels_of(wildcards):
+    """Grid points per shortest wavelength of a surface's file, the preset's unless it says so."""
+    return int(wildcards.grid.lstrip("@") or FIDELITY["pixels_per_wavelength"])
+
+
+def behind_answer(wildcards):
+    """Files that what a case asks for rests on, and no others."""
+    case, planned = wildcards.case, PLANS[wildcards.case]
+    if not planned.simulated:
+        return {"solved": f"{RESULTS}/persson_lattice/{case}.nc"}
+    files = {"solved": f"{RESULTS}/ensembles/{case}.nc"}
+    if "a_v" in planned.quantities:
+        files["a_v"] = f"{RESULTS}/fits/ensembles/{case}.nc"
+    if "kappa" in planned.quantities:
+        files["kappa"] = f"{RESULTS}/fits/kappa/{case}.nc"
+    return files
+
+
+def summary_of_plan(case):
+    """What a case's answer needs to know of its plan."""
+    planned, surface = PLANS[case], config["model_surfaces"][CASES[case]["surface"]]
+    wider = {"carry_to": CASES[case]["carry_to"]} if "carry_to" in CASES[case] else {}
+    return {
+        "quantities": list(planned.quantities),
+        "pressures": list(planned.pressures),
+        "simulated": planned.simulated,
+        "settings": asdict(planned.settings),
+        "surface": surface,
+        "accuracy": CASES[case].get("accuracy"),
+        **wider,
+    }
 
 
 def adhesive_case(wildcards):
@@ -193,10 +250,10 @@ def data_of(rule_name):
 
 
 def a_v_inputs():
-    """Fits behind the a_V that the derived criterion uses."""
+    """What the a_V of the derived criterion rests on: what was measured once, and theory."""
     case = config["criteria"]["a_v"]["case"]
     return {
-        "a_v": f"{RESULTS}/fits/ensembles/{case}.nc",
+        "a_v": config["criteria"]["a_v"]["measured"],
         "lattice": f"{RESULTS}/fits/persson_lattice/{case}.nc",
         "theory": f"{RESULTS}/fits/persson/fig3c.nc",
     }
@@ -234,11 +291,25 @@ def ledger_inputs():
     }
 
 
+def sized(wildcards):
+    """The configuration with the grid and coarse seeds that the job's own case has, if any."""
+    chosen = {}
+    if hasattr(wildcards, "case"):
+        settings = PLANS[wildcards.case].settings
+        chosen = {
+            "pixels_per_wavelength": settings.pixels_per_wavelength,
+            "coarse_seeds": settings.coarse_seeds,
+        }
+    elif hasattr(wildcards, "grid"):
+        chosen = {"pixels_per_wavelength": pixels_of(wildcards)}
+    return config | {"fidelities": {config["fidelity"]: FIDELITY | chosen}}
+
+
 def memory_of(rule):
     """Memory [MB] that jobs of a rule ask for, and more each time that one fails."""
 
     def asked(wildcards, attempt):
-        return attempt * _cost.asked_mb(rule, _cost.work(config, rule, **dict(wildcards.items())))
+        return attempt * _cost.asked_mb(rule, _cost.work(sized(wildcards), rule, **dict(wildcards.items())))
 
     return asked
 
@@ -247,7 +318,7 @@ def runtime_of(rule):
     """Time [min] that jobs of a rule ask for, and more each time that one fails."""
 
     def asked(wildcards, attempt):
-        size = _cost.work(config, rule, **dict(wildcards.items()))
+        size = _cost.work(sized(wildcards), rule, **dict(wildcards.items()))
         return attempt * _cost.asked_minutes(rule, size)
 
     return asked

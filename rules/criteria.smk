@@ -75,3 +75,23 @@ rule judge:
         frequencies=config["criteria"]["frequencies"],
     script:
         "../scripts/judge.py"
+
+
+rule record_a_v:
+    input:
+        library=library_of("record_a_v.py"),
+        a_v=f"{RESULTS}/fits/ensembles/{config['criteria']['a_v']['case']}.nc",
+    output:
+        f"{RESULTS}/criteria/a_v.csv",
+    log:
+        f"{LOGS}/record_a_v.log",
+    benchmark:
+        f"{BENCHMARKS}/record_a_v.tsv"
+    conda:
+        "../envs/environment.yaml"
+    resources:
+        mem_mb=500,
+    params:
+        pressure=config["criteria"]["a_v"]["pressure"],
+    script:
+        "../scripts/record_a_v.py"

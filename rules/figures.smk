@@ -64,9 +64,9 @@ rule plot_fig3:
         library=library_of("plot_fig3.py"),
         sweeps=expand(f"{RESULTS}/persson/fig3{{panel}}.nc", panel=list("abcd")),
         fits=expand(f"{RESULTS}/fits/persson/fig3{{panel}}.nc", panel=list("abcd")),
-        bem=expand(f"{RESULTS}/ensembles/{{case}}.nc", case=CASES),
-        bem_fits=expand(f"{RESULTS}/fits/ensembles/{{case}}.nc", case=CASES),
-        lattice_fits=expand(f"{RESULTS}/fits/persson_lattice/{{case}}.nc", case=CASES),
+        bem=expand(f"{RESULTS}/ensembles/{{case}}.nc", case=COMPLETE),
+        bem_fits=expand(f"{RESULTS}/fits/ensembles/{{case}}.nc", case=COMPLETE),
+        lattice_fits=expand(f"{RESULTS}/fits/persson_lattice/{{case}}.nc", case=COMPLETE),
     output:
         png=report(
             f"{RESULTS}/figures/fig3.png",

@@ -1,5 +1,5 @@
-# a_V and kappa_rep from simulation and theory, with their errors and window sensitivity, and what
-# separates theory from simulation.
+# a_V and kappa_rep from simulation and theory, with their errors and window sensitivity, what
+# separates theory from simulation, and what each case asks for with the sources of its errors.
 
 
 rule fit_a_v:
@@ -63,11 +63,32 @@ rule compare_theory:
         "../scripts/compare_theory.py"
 
 
+rule answer_case:
+    input:
+        unpack(behind_answer),
+        library=library_of("answer_case.py"),
+        laws=config["tradeoff"]["table"],
+    output:
+        f"{RESULTS}/cases/{{case}}.nc",
+    log:
+        f"{LOGS}/answer_case/{{case}}.log",
+    benchmark:
+        f"{BENCHMARKS}/answer_case/{{case}}.tsv"
+    conda:
+        "../envs/environment.yaml"
+    resources:
+        mem_mb=500,
+    params:
+        plan=lambda wildcards: summary_of_plan(wildcards.case),
+    script:
+        "../scripts/answer_case.py"
+
+
 rule tabulate_a_v:
     input:
         library=library_of("tabulate_a_v.py"),
         theory=f"{RESULTS}/persson/table.nc",
-        comparisons=expand(f"{RESULTS}/fits/theory/{{compared}}.nc", compared=COMPARED),
+        comparisons=expand(f"{RESULTS}/fits/theory/{{compared}}.nc", compared=SIMULATED),
     output:
         f"{RESULTS}/fits/a_v_table.nc",
     log:
@@ -85,8 +106,8 @@ rule tabulate_a_v:
 rule fit_gamma:
     input:
         library=library_of("fit_gamma.py"),
-        ensembles=expand(f"{RESULTS}/ensembles/{{compared}}.nc", compared=COMPARED),
-        comparisons=expand(f"{RESULTS}/fits/theory/{{compared}}.nc", compared=COMPARED),
+        ensembles=expand(f"{RESULTS}/ensembles/{{compared}}.nc", compared=SIMULATED),
+        comparisons=expand(f"{RESULTS}/fits/theory/{{compared}}.nc", compared=SIMULATED),
     output:
         f"{RESULTS}/fits/gamma.nc",
     log:

@@ -33,9 +33,11 @@ rule write_report:
         captions=expand("report/{figure}.rst", figure=FIGURES),
         claims=f"{RESULTS}/claims/claims.nc",
         verdicts=f"{RESULTS}/criteria/verdicts.nc",
-        ensembles=expand(f"{RESULTS}/ensembles/{{case}}.nc", case=CASES),
-        comparisons=expand(f"{RESULTS}/fits/theory/{{case}}.nc", case=CASES),
+        ensembles=expand(f"{RESULTS}/ensembles/{{case}}.nc", case=COMPLETE),
+        comparisons=expand(f"{RESULTS}/fits/theory/{{case}}.nc", case=COMPLETE),
         surfaces=expand(f"{RESULTS}/real_surfaces/{{real_surface}}.nc", real_surface=REAL_SURFACES),
+        answers=expand(f"{RESULTS}/cases/{{case}}.nc", case=CASES),
+        laws=config["tradeoff"]["table"],
     output:
         report(
             f"{RESULTS}/report/report.html",
@@ -52,6 +54,12 @@ rule write_report:
         mem_mb=500,
     params:
         benchmarks=BENCHMARKS,
+        presets={
+            "fidelities": config["fidelities"],
+            "asked": TRADE["presets"],
+            "surface": config["model_surfaces"].get(TRADE["presets"]["surface"]),
+            "descriptor_seeds": config["sampling"]["descriptor_seeds"],
+        },
         fidelity=config["fidelity"],
         figure_sources={figure: data_of(f"plot_{figure}") for figure in FIGURES},
     script:

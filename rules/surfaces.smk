@@ -1,15 +1,15 @@
-# Random surfaces on a periodic window, one file per surface and seed.
+# Random surfaces on a periodic window, one file per surface, grid if not the preset's, and seed.
 
 
 rule synthesise_surface:
     input:
         library=library_of("synthesise_surface.py"),
     output:
-        f"{RESULTS}/surfaces/{{model_surface}}/seed{{seed}}.nc",
+        f"{RESULTS}/surfaces/{{model_surface}}{{grid}}/seed{{seed}}.nc",
     log:
-        f"{LOGS}/synthesise_surface/{{model_surface}}/seed{{seed}}.log",
+        f"{LOGS}/synthesise_surface/{{model_surface}}{{grid}}/seed{{seed}}.log",
     benchmark:
-        f"{BENCHMARKS}/synthesise_surface/{{model_surface}}/seed{{seed}}.tsv"
+        f"{BENCHMARKS}/synthesise_surface/{{model_surface}}{{grid}}/seed{{seed}}.tsv"
     conda:
         "../envs/environment.yaml"
     resources:
@@ -17,6 +17,6 @@ rule synthesise_surface:
         runtime=runtime_of("synthesise_surface"),
     params:
         surface=lambda wildcards: config["model_surfaces"][wildcards.model_surface],
-        pixels_per_wavelength=FIDELITY["pixels_per_wavelength"],
+        pixels_per_wavelength=pixels_of,
     script:
         "../scripts/synthesise_surface.py"

@@ -1,6 +1,8 @@
 """The a_V that criteria use: measured by simulation, carried by theory to broad spectra."""
 
+import csv
 from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
 
@@ -71,34 +73,59 @@ class MeasuredAv:
         )
 
 
+RECORDED = (
+    "pressure",
+    "window_low",
+    "window_high",
+    "a_v",
+    "standard_error",
+    "discretisation_error",
+)
+
+
+def recorded(path):
+    """Columns of a table of measured a_V, one row for every window of the fit."""
+    lines = Path(path).read_text(encoding="utf-8").splitlines()
+    rows = list(csv.DictReader(line for line in lines if not line.startswith("#")))
+    try:
+        return {name: np.array([float(row[name]) for row in rows]) for name in RECORDED}
+    except (KeyError, TypeError, ValueError) as error:
+        raise ValueError(f"{path}: not a table of measured a_V ({error!r})") from None
+
+
 def measured_a_v(inputs, pressure):
-    """`MeasuredAv` from the fits to simulation, lattice theory and theory over magnification.
+    """`MeasuredAv` from the measured a_V of the configuration and two fits to theory.
 
     Parameters
     ----------
     inputs : object
-        With the files `a_v` and `lattice` of one case and `theory`, a sweep over magnification.
+        With the files `a_v`, a table as `record_a_v` writes it; `lattice`, the fit to theory on the
+        lattice spectrum of the same case; and `theory`, a sweep over magnification.
     pressure : float
         Load over E* q0 h_rms.
     """
-    fit = datasets.read(inputs.a_v, ["a_v_mean", "a_v_standard_error", "a_v_discretisation_error"])
-    fit = fit.sel(pressure=pressure, method="nearest")
-    lattice = datasets.read(inputs.lattice, ["a_v"]).a_v.sel(variant=VARIANT)
-    lattice = lattice.sel(pressure=pressure, method="nearest").values
+    fit = recorded(inputs.a_v)
+    if not np.isclose(fit["pressure"][0], pressure):
+        raise ValueError(
+            f"{inputs.a_v}: was measured at pressure {fit['pressure'][0]:g}, and "
+            f"criteria.a_v.pressure = {pressure:g}; record it anew (target a_v)"
+        )
+    known = datasets.read(inputs.lattice, ["a_v"])
+    lattice = known.a_v.sel(variant=VARIANT).sel(pressure=pressure, method="nearest").values
     theory = datasets.read(inputs.theory, ["a_v"]).a_v.sel(variant=VARIANT).isel(load=0)
-    theory = theory.sel(hurst=datasets.parameters(fit)["hurst"], method="nearest")
+    theory = theory.sel(hurst=datasets.parameters(known)["hurst"], method="nearest")
     broadest = float(theory.magnification.max())
     ratio = theory.sel(magnification=broadest).values / lattice
-    carried = fit.a_v_mean.values * ratio
+    carried = fit["a_v"] * ratio
     before = theory.isel(window=0).sel(magnification=broadest / 100, method="nearest")
     growth = float(theory.isel(window=0).sel(magnification=broadest) / before) - 1
     return MeasuredAv(
         value=float(carried[0]),
-        simulated=float(fit.a_v_mean[0]),
+        simulated=float(fit["a_v"][0]),
         magnification=broadest,
-        over_lattice=float(fit.a_v_mean[0] / lattice[0]),
-        sampling=float(np.nan_to_num(fit.a_v_standard_error[0])) * float(ratio[0]),
-        discretisation=float(fit.a_v_discretisation_error[0]) * float(ratio[0]),
+        over_lattice=float(fit["a_v"][0] / lattice[0]),
+        sampling=float(fit["standard_error"][0]) * float(ratio[0]),
+        discretisation=float(fit["discretisation_error"][0]) * float(ratio[0]),
         window=float(np.ptp(carried)) / 2,
         bandwidth=float(carried[0]) * abs(growth),
     )

@@ -42,17 +42,19 @@ def of_ensemble(
     """
     fine = realisations.isel(resolution=-1, drop=True)
     edge_gap = fine.edge_gap.mean("seed")
-    # Nothing is below the gap next to an edge where there is no edge.
-    climbs = (fine["range"] / edge_gap).where(edge_gap > 0, np.inf)
     limits = {}
     for name, quantity in quantities.items():
+        climbs = np.inf
+        if name == "attractive_area":
+            # Nothing is below the gap next to an edge where there is no edge.
+            climbs = (fine["range"] / edge_gap).where(edge_gap > 0, np.inf)
         values = quantity(realisations)
         found = continuum.estimate(
             name,
             [values.isel(resolution=k, drop=True).mean("seed") for k in halved(realisations)],
             subpixel_part(name, fine, quantity(fine)).mean("seed"),
             fine.edges.sum("seed"),
-            climbs if name == "attractive_area" else np.inf,
+            climbs,
         )
         limits[name] = Limit(found.value - values.isel(resolution=-1).mean("seed"), found.error)
     return limits
@@ -72,17 +74,16 @@ def halved(realisations: xr.Dataset) -> list[int]:
 def subpixel_part(name: str, fine: xr.Dataset, values: xr.DataArray) -> xr.DataArray:
     """What sub-pixel edges contribute to a quantity on one grid, see `continuum.estimate`."""
     area = fine.area_fraction - fine.pixel_area_fraction
+    if name == "area_fraction":
+        return area
+    if name == "mean_gap":
+        return area * fine.edge_gap
     attractive = fine.attractive_area - fine.pixel_attractive_area
-    if name == "gap_density":
-        share = (attractive / fine.attractive_area).where(fine.attractive_area > 0, 0.0)
-        share = share.isel(range=slice(-1)).rename(range="gap")
-        return values * share.assign_coords(gap=values.gap)
-    parts = {
-        "area_fraction": area,
-        "mean_gap": area * fine.edge_gap,
-        "attractive_area": attractive,
-    }
-    return parts[name]
+    if name == "attractive_area":
+        return attractive
+    share = (attractive / fine.attractive_area).where(fine.attractive_area > 0, 0.0)
+    share = share.isel(range=slice(-1)).rename(range="gap")
+    return values * share.assign_coords(gap=values.gap)
 
 
 def inherited(

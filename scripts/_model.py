@@ -48,8 +48,10 @@ def window_of(surface: Mapping[str, Any]) -> float:
     return surface.get("window", 1.0) * 2 * np.pi / Q0
 
 
-def logarithmic_grid(grid: Mapping[str, float]) -> NDArray:
-    """Points from `minimum` to `maximum` with about `per_decade` points per decade."""
+def logarithmic_grid(grid: Mapping[str, float] | None) -> NDArray:
+    """Points from `minimum` to `maximum` with about `per_decade` a decade; none of None."""
+    if grid is None:
+        return np.array([])
     decades = np.log10(grid["maximum"] / grid["minimum"])
     return np.geomspace(grid["minimum"], grid["maximum"], round(decades * grid["per_decade"]) + 1)
 

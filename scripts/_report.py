@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -14,13 +15,23 @@ from _materials import modulus_text
 from _model import LOAD
 from _numbers import NOTHING, interval, number, percent, quantity, superscripted, with_error
 from _verdict import EDGES, STICKINESS, STICKINESS_TONES, pair_texts
-from stickiness import datasets
+from stickiness import accuracy, datasets, plan
 from stickiness.errata import ERRATA
 
 Datasets = Mapping[str, xr.Dataset]
 Context = dict[str, Any]
 
 RANGE = 0.03  # of the error budget: amid the window of the fits
+UNKNOWN = "not known: a single seed"
+COLUMNS = {
+    "area": "contact area",
+    "mean_gap": "mean gap",
+    "attractive_area_0.01": "attractive area at range 0.01",
+    "attractive_area_0.1": "attractive area at range 0.1",
+    "gap_distribution": "P(u) at gap 0.1",
+    "a_v": "a_V",
+    "kappa": "κ",
+}
 CLAIM_TONES = {
     "reproduced": "yes",
     "reproduced with a qualification": "partly",
@@ -250,17 +261,17 @@ def reference_prefactor(surface: xr.Dataset) -> str:
     return bound + interval(*(float(upper.sel(end=end)) for end in ("smooth", "rough")), digits=2)
 
 
-def error_budgets(ensembles: Sequence[xr.Dataset]) -> list[Context]:
-    """Error budget of every ensemble at the load next to `LOAD`."""
+def error_budgets(answers: Sequence[xr.Dataset]) -> list[Context]:
+    """Error budget of every case, by source, at the load next to `LOAD`."""
     budgets = []
-    for ensemble in ensembles:
-        at = ensemble.sel(pressure=LOAD, method="nearest").interp({"range": RANGE})
-        solver = solver_errors(at)
+    for answer in answers:
+        at, made = answer.sel(pressure=LOAD, method="nearest"), datasets.parameters(answer)
         budgets.append(
             {
-                "case": datasets.parameters(ensemble)["case"],
+                "case": made["case"],
                 "load": number(float(at.pressure)),
-                "rows": [budget_row(at, name, solver[name]) for name in QUANTITIES],
+                "asked": NOTHING if made["accuracy"] is None else percent(made["accuracy"]),
+                "rows": [budget_row(at.sel(column=name)) for name in at.column.values],
             }
         )
     return budgets
@@ -284,34 +295,45 @@ def theory_rows(comparisons: Sequence[xr.Dataset]) -> list[Context]:
     return rows
 
 
-def solver_errors(at: xr.Dataset) -> dict[str, float]:
-    """Errors that the solver's residual causes, at one load and range.
-
-    The residual r is the largest violation of the contact conditions, a length. It shifts the mean
-    gap by at most r. Areas change by the strip of gaps below r along the edge of contact, which
-    is estimated from the attractive area A at the range by the 2/3 law, A (r/range)^(2/3); what
-    r changes at the outer end of the range is of higher order.
-    """
-    residual = float(at.residual.isel(resolution=-1).max())
-    strip = float(at.attractive_area_mean) * (residual / float(at["range"])) ** (2 / 3)
-    return {"area_fraction": strip, "mean_gap": residual, "attractive_area": strip}
-
-
-def budget_row(at: xr.Dataset, name: str, solver: float) -> Context:
-    """Contributions relative to the mean, and the largest of them."""
-    mean = float(at[f"{name}_mean"])
-    errors = {
-        "sampling": float(at[f"{name}_standard_error"]),
-        "discretisation": float(at[f"{name}_discretisation_error"]),
-        "solver": solver,
-    }
-    known = {source: error for source, error in errors.items() if np.isfinite(error)}
-    largest = max(known, key=known.get, default=NOTHING)
+def budget_row(at: xr.Dataset) -> Context:
+    """Value of a column, its errors relative to it, and the largest of them."""
+    value, total = float(at.value), float(at.total_error)
+    known = np.isfinite(total)
     return {
-        "quantity": QUANTITIES[name],
-        "mean": with_error(mean, float(np.sqrt(sum(error**2 for error in known.values())))),
+        "quantity": COLUMNS.get(str(at.column.item()), str(at.column.item())),
+        "value": with_error(value, total) if known else number(value),
         "errors": {
-            source: percent(error / mean if mean else np.nan) for source, error in errors.items()
+            str(source): percent(float(at.error.sel(source=source)) / value if value else np.nan)
+            for source in at.source.values
         },
-        "dominates": largest if np.isfinite(errors["sampling"]) else "not known: a single seed",
+        "dominates": str(at.source[int(at.dominant)].item()) if known else UNKNOWN,
     }
+
+
+def preset_rows(
+    laws: accuracy.Laws,
+    fidelities: Mapping[str, Any],
+    asked: Mapping[str, Any],
+    surface: Mapping[str, Any],
+    descriptor_seeds: int,
+) -> list[Context]:
+    """Settings of every preset, what they were measured to cost and to err by."""
+    given = plan.surface_of(surface), asked["pressures"]
+    rows = []
+    for name, error in asked["accuracy"].items():
+        chosen = plan.preset(fidelities[name])
+        errors = (
+            accuracy.worst_error(laws, chosen, *given, [quantity], descriptor_seeds)[0]
+            for quantity in accuracy.QUANTITIES
+        )
+        cost = accuracy.predicted_cost(laws, chosen, *given, descriptor_seeds)
+        rows.append(
+            {
+                "name": name,
+                "asked": percent(error),
+                "settings": dataclasses.asdict(chosen),
+                "cost": number(cost),
+                "errors": [percent(value) for value in errors],
+            }
+        )
+    return rows

@@ -16,36 +16,57 @@ from _errors import PREFIX, coarse, described, mean, with_errors
 from _job import start
 from _limits import EXTRAPOLATION
 from _model import DESCRIBED, middles
-from stickiness import datasets
+from stickiness import datasets, plan
 
-KEPT = ("area_fraction", "mean_gap", "attractive_area", "residual", "iterations", "rms_slope")
-NEEDED = (*KEPT, "pixel_area_fraction", "pixel_attractive_area", "edges", "edge_gap")
-COARSE = ("area_fraction", "mean_gap", "attractive_area", "rms_slope")
+KEPT = ("area_fraction", "mean_gap", "residual", "iterations", "rms_slope")
+NEEDED = (*KEPT, "pixel_area_fraction", "edges", "edge_gap")
+COARSE = ("area_fraction", "mean_gap", "rms_slope")
+GAPS = ("attractive_area",)  # what is there besides if ranges were asked for
 LONG_WAVES = ("long_waves", "other_long_waves")
 SURFACES = {"gaussian": "Gaussian surfaces", "fixed": "surfaces of fixed amplitudes"}
 
 
 def main(job):
-    files = [datasets.read(path, NEEDED) for path in job.input.realisations]
-    others = [datasets.read(path, (*COARSE, *LONG_WAVES)) for path in job.input.coarse]
+    averaged = wanted(job.params.quantities)
+    gaps = [name for name in GAPS if name in averaged]
+    loads = list(job.params.pressures)
+    files = [read(path, (*NEEDED, *gaps), loads) for path in job.input.realisations]
+    others = [read(path, (*COARSE, *gaps, *LONG_WAVES), loads) for path in job.input.coarse]
     seeds = [datasets.parameters(file)["seed"] for file in files]
     realisations = xr.concat(files, xr.DataArray(seeds, dims="seed", name="seed"))
-    dataset = with_statistics(realisations, renamed(others[0]) if others else xr.Dataset())
+    more = renamed(others[0], (*COARSE, *gaps)) if others else xr.Dataset()
+    dataset = with_statistics(realisations, more, averaged)
     parameters = datasets.parameters(files[0])
     parameters.pop("seed")
+    parameters["case"] = job.wildcards.case
     parameters["largest_residual"] = float(realisations.residual.max())
     datasets.write(
-        annotated(dataset),
+        annotated(dataset, averaged),
         job.output[0],
         title="repulsive contact averaged over realisations",
         parameters={**parameters, "seeds": seeds, **sampled(parameters, dataset)},
     )
 
 
-def renamed(others):
+def wanted(quantities):
+    """What to average for the quantities wanted of a case; areas and mean gaps come for free."""
+    names = ["area_fraction", "mean_gap"]
+    if any(quantity in plan.OF_GAPS for quantity in quantities):
+        names.append("attractive_area")
+    if "gap_distribution" in quantities:
+        names.append("gap_density")
+    return {name: AVERAGED[name] for name in names}
+
+
+def read(path, names, loads):
+    """Solutions at the loads of this case; the file may be that of another one with more."""
+    return datasets.read(path, names).sel(pressure=loads)
+
+
+def renamed(others, kept=(*COARSE, *GAPS)):
     """Coarse solutions under names that leave those of the fine ones free."""
-    names = {name: f"{PREFIX}{name}" for name in (*COARSE, "seed")}
-    return others[[*COARSE, *LONG_WAVES]].rename(names)
+    names = {name: f"{PREFIX}{name}" for name in (*kept, "seed")}
+    return others[[*kept, *LONG_WAVES]].rename(names)
 
 
 def sampled(made, dataset):
@@ -73,31 +94,34 @@ AVERAGED = {name: itemgetter(name) for name in ("area_fraction", "mean_gap", "at
 AVERAGED["gap_density"] = gap_density
 
 
-def with_statistics(realisations, others):
+def with_statistics(realisations, others, averaged=AVERAGED):
     """Mean and errors of every quantity, beside the values seed by seed."""
-    dataset = realisations[list(KEPT)].merge(others)
+    gaps = [name for name in GAPS if name in averaged]
+    dataset = realisations[[*KEPT, *gaps]].merge(others)
     dataset["edge_gap_mean"] = mean(realisations.edge_gap)
-    limits = _limits.of_ensemble(realisations, AVERAGED)
-    for name, quantity in AVERAGED.items():
+    limits = _limits.of_ensemble(realisations, averaged)
+    for name, quantity in averaged.items():
         more = coarse(dataset, quantity)
         dataset = with_errors(dataset, name, quantity(realisations), more, limit=limits[name])
-    # The one quantity that has any.
-    dataset[f"attractive_area_{EXTRAPOLATION}"] = limits["attractive_area"].shift
+    if "attractive_area" in averaged:  # the one quantity that has any
+        dataset[f"attractive_area_{EXTRAPOLATION}"] = limits["attractive_area"].shift
     return dataset
 
 
-def annotated(dataset):
+def annotated(dataset, averaged=AVERAGED):
     texts = {
         "seed": ("1", "seed of the realisation"),
-        "gap": DESCRIBED["gap"],
         "edge_gap_mean": ("1", "gap next to the contact over h_rms: smallest range resolved"),
     }
-    for name in AVERAGED:
+    for name in averaged:
         texts |= described(name, DESCRIBED[name][1], discretisation=_limits.DIRECT)
-    texts[f"attractive_area_{EXTRAPOLATION}"] = (
-        "1",
-        f"{DESCRIBED['attractive_area'][1]}: of the mean, extrapolated from below the edge gap",
-    )
+    if "gap_density" in averaged:
+        texts["gap"] = DESCRIBED["gap"]
+    if "attractive_area" in averaged:
+        texts[f"attractive_area_{EXTRAPOLATION}"] = (
+            "1",
+            f"{DESCRIBED['attractive_area'][1]}: of the mean, extrapolated from below the edge gap",
+        )
     return datasets.annotate(dataset, **texts)
 
 

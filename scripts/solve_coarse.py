@@ -17,7 +17,7 @@ from stickiness import datasets, sampling, surface
 from synthesise_surface import grid_points
 
 SOLVED_FROM, DESCRIBED_FROM = 100_001, 1_000_001  # first seeds; the schema keeps the sets apart
-KEPT = ("area_fraction", "mean_gap", "attractive_area", "residual")
+KEPT = ("area_fraction", "mean_gap", "residual", "rms_slope")
 
 
 def main(job):
@@ -59,7 +59,7 @@ def coarse_solutions(asked, count, others_count, pressures, ranges, tolerance):
         curve = load_curve(heights[::2, ::2], length, pressures, ranges, tolerance)
         # Of the finer grid: at two pixels the shortest waves are not all there.
         curve["rms_slope"] = surface.moments(heights, length).rms_slope
-        curves.append(curve[[*KEPT, "rms_slope"]])
+        curves.append(curve[[*KEPT, *(["attractive_area"] if len(ranges) else [])]])
     dataset = xr.concat(curves, xr.DataArray(seeds, dims="seed", name="seed"))
     for name, dim, which in (("long_waves", "seed", seeds), ("other_long_waves", "other", others)):
         rows = sampling.descriptors(spectrum, length, which, amplitudes)
@@ -70,7 +70,7 @@ def coarse_solutions(asked, count, others_count, pressures, ranges, tolerance):
 def annotated(dataset):
     return datasets.annotate(
         dataset,
-        **CURVE,
+        **{name: texts for name, texts in CURVE.items() if name in dataset.variables},
         seed=("1", "seed of the realisation"),
         other=("1", "seed of a realisation that is not solved"),
         descriptor=("1", "what is described, lengths in units of 1/q0 and heights of h_rms"),

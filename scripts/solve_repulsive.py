@@ -65,15 +65,7 @@ def load_curve(heights, length, pressures, ranges, tolerance):
     """Contact quantities at every pressure, each load started from the one before."""
     rows = []
     for contact in repulsive.load_path(heights, length, pressures, tol=tolerance):
-        touching = contact.gap == 0
-        row = {name: float(getattr(contact, name)) for name in SOLVED}
-        row["pixel_area_fraction"] = row["area_fraction"]
-        row["area_fraction"] -= dmt.boundary_strip(touching)
-        row["edge_gap"] = dmt.edge_gap(contact.gap) if 0 < row["area_fraction"] < 1 else 0.0
-        row["edges"] = subpixel.edge_count(touching)
-        row["attractive_area"] = dmt.attractive_area(contact.gap, ranges, subpixel=True)
-        row["pixel_attractive_area"] = dmt.attractive_area(contact.gap, ranges)
-        rows.append(row)
+        rows.append(measured(contact, ranges))
         logging.info(
             "n = %d: load %d of %d, area %.4f, residual %.1e, %d iterations",
             len(heights),
@@ -83,20 +75,36 @@ def load_curve(heights, length, pressures, ranges, tolerance):
             contact.residual,
             contact.iterations,
         )
-    return xr.Dataset(
-        {name: ("pressure", [row[name] for row in rows]) for name in SCALARS}
-        | {name: (("pressure", "range"), [row[name] for row in rows]) for name in AREAS},
-        coords={"pressure": pressures, "range": ranges},
-    )
+    return xr.concat(rows, xr.DataArray(pressures, dims="pressure", name="pressure"))
+
+
+def measured(contact, ranges):
+    """Quantities of one solution; attractive areas only if there are `ranges` to take them at."""
+    touching = contact.gap == 0
+    found = {name: float(getattr(contact, name)) for name in SOLVED}
+    found["pixel_area_fraction"] = found["area_fraction"]
+    found["area_fraction"] -= dmt.boundary_strip(touching)
+    found["edge_gap"] = dmt.edge_gap(contact.gap) if 0 < found["area_fraction"] < 1 else 0.0
+    found["edges"] = subpixel.edge_count(touching)
+    if len(ranges):
+        areas = (dmt.attractive_area(contact.gap, ranges, subpixel=fine) for fine in (True, False))
+        found |= {name: ("range", area) for name, area in zip(AREAS, areas, strict=True)}
+        return xr.Dataset(found, {"range": ranges})
+    return xr.Dataset(found)
 
 
 def annotated(dataset):
+    texts = {name: text for name, text in CURVE.items() if name in dataset.variables}
+    if "range" in dataset.dims:
+        texts["pixel_attractive_area"] = (
+            "1",
+            "attractive area as counted in pixels, over nominal area",
+        )
     return datasets.annotate(
         dataset,
-        **CURVE,
+        **texts,
         resolution=("1", "grid points per shortest wavelength"),
         pixel_area_fraction=("1", "repulsive contact area as counted in pixels, over nominal area"),
-        pixel_attractive_area=("1", "attractive area as counted in pixels, over nominal area"),
         edges=("1", "pixel sides between contact and gap"),
         edge_gap=("1", "gap of the pixels next to the contact over h_rms: smallest range resolved"),
         iterations=("1", "conjugate gradient iterations"),

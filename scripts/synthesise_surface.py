@@ -96,4 +96,4 @@ def realised_on(lattice, realised):
 
 
 if __name__ == "__main__":
-    main(start(globals(), "synthesise_surface", model_surface="H0.8_zeta64", seed=1))
+    main(start(globals(), "synthesise_surface", model_surface="H0.8_zeta64", grid="", seed=1))

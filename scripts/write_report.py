@@ -7,7 +7,7 @@ import _captions
 import _provenance
 import _report
 from _job import start
-from stickiness import datasets
+from stickiness import accuracy, datasets
 
 CLAIMS = ("statement", "quantity", "value", "uncertainty", "error", "claimed", "verdict", "sources")
 VERDICTS = (
@@ -22,6 +22,7 @@ VERDICTS = (
 )
 SURFACES = ("h_rms", "hurst", "q0", "q1", "C0_reference_upper")
 COMPARISONS = ("area_fraction_difference", "mean_gap_difference", "attractive_area_difference")
+ANSWERS = ("value", "error", "total_error", "dominant")
 ENSEMBLES = ("area_fraction_mean", "mean_gap_mean", "attractive_area_mean", "residual")
 
 
@@ -36,12 +37,13 @@ def main(job):
             "figures": job.params.figure_sources,
             **{
                 group: by_name(job.input[group])
-                for group in ("ensembles", "comparisons", "surfaces")
+                for group in ("ensembles", "answers", "comparisons", "surfaces")
             },
         },
         figures=[_captions.figure(*pair) for pair in zip(job.input.figures, captions, strict=True)],
         benchmarks=job.params.benchmarks,
         fidelity=job.params.fidelity,
+        presets=_report.preset_rows(accuracy.read_laws(job.input.laws), **job.params.presets),
         **read(job.input),
     )
     with datasets.whole_file(job.output[0]) as path:
@@ -59,6 +61,7 @@ def read(inputs):
         "claims": datasets.read(inputs.claims, CLAIMS),
         "verdicts": datasets.read(inputs.verdicts, VERDICTS),
         "ensembles": [datasets.read(path, ENSEMBLES) for path in inputs.ensembles],
+        "answers": [datasets.read(path, ANSWERS) for path in inputs.answers],
         "comparisons": [datasets.read(path, COMPARISONS) for path in inputs.comparisons],
         "surfaces": {
             name: datasets.read(path, SURFACES) for name, path in by_name(inputs.surfaces).items()
@@ -74,6 +77,8 @@ def render(
     claims,
     verdicts,
     ensembles,
+    answers,
+    presets,
     comparisons,
     surfaces,
     figures,
@@ -83,7 +88,7 @@ def render(
     """The page as text, from datasets and figures that have been read.
 
     `files` says where they were read from: paths of `claims` and `verdicts`, and paths by name of
-    `surfaces`, `ensembles`, `comparisons` and, a list for each, of the `figures`.
+    `surfaces`, `ensembles`, `answers`, `comparisons` and, a list for each, of the `figures`.
     """
     return _captions.template_of(template, page).render(
         fidelity=fidelity,
@@ -95,7 +100,9 @@ def render(
         matrix=_report.verdict_matrix(verdicts, surfaces),
         disagreements=_report.disagreements(verdicts, surfaces),
         surfaces=_report.surface_rows(surfaces),
-        budgets=_report.error_budgets(ensembles),
+        budgets=_report.error_budgets(answers),
+        presets=presets,
+        asked_quantities=list(accuracy.QUANTITIES),
         comparisons=_report.theory_rows(comparisons),
         quantities=list(_report.QUANTITIES.values()),
         run_times=_benchmarks.run_times(benchmarks),

@@ -49,6 +49,16 @@ def case(*keys, value):
     return changed(CONFIG, "cases", "H0.8_zeta64", *keys, value=value)
 
 
+def of_theory(**keys):
+    asked = {"surface": "H0.8_zeta64", "pressures": [0.1], "model": "theory"}
+    return changed(CONFIG, "cases", "mine", value=asked | keys)
+
+
+def with_accuracy(**keys):
+    asked = {"surface": "H0.8_zeta64", "pressures": [0.1], "accuracy": 0.1}
+    return changed(CONFIG, "cases", "mine", value=asked | keys)
+
+
 def adhesion(*keys, value):
     return changed(CONFIG, "adhesion", "fig2", *keys, value=value)
 
@@ -116,6 +126,31 @@ def model(*keys, value):
             ["dmt_error", "seeds", "full model", "model: dmt"],
         ),
         (case("maps", value=[0.07]), ["maps", "0.07", "pressures"]),
+        (case("accuracy", value=3), ["H0.8_zeta64.accuracy", "3", "at most 1"]),
+        (case("accuracy", value=0), ["H0.8_zeta64.accuracy", "0", "greater than 0"]),
+        (case("quantities", value=["areas"]), ["quantities[0]", "'areas'", "'area'?"]),
+        (case("quantities", value=[]), ["quantities", "at least 1"]),
+        (case("quantities", value=["area"]), ["H0.8_zeta64.quantities", "leave it out"]),
+        (
+            changed(CONFIG, "cases", "H0.8_zeta32", "model", value="theory"),
+            ["H0.8_zeta32.model", "'theory'", "add a case"],
+        ),
+        (case("carry_to", value=64), ["H0.8_zeta64.carry_to", "64", "above the magnification"]),
+        (of_theory(seeds=3), ["mine.seeds", "3", "model: theory"]),
+        (of_theory(accuracy=0.1), ["mine.accuracy", "0.1", "model: theory"]),
+        (with_accuracy(seeds=3), ["mine.seeds", "3", "accuracy or seeds"]),
+        (
+            changed(CONFIG, "tradeoff", "presets", "surface", value="H0.8_zeta65"),
+            ["tradeoff.presets.surface", "H0.8_zeta65", "H0.8_zeta64"],
+        ),
+        (
+            changed(CONFIG, "tradeoff", "presets", "accuracy", value={"drift": 0.1}),
+            ["tradeoff.presets.accuracy", "drift", "draft"],
+        ),
+        (
+            changed(CONFIG, "tradeoff", "settings", "at_tolerances", value=1),
+            ["tradeoff.settings", "at_tolerances", "at_tolerance"],
+        ),
         (case("sampling", value="best"), ["H0.8_zeta64.sampling", "'best'", "multilevel"]),
         (changed(CONFIG, "sampling", "method", value="plan"), ["method", "'plan'", "'plain'?"]),
         (

@@ -202,6 +202,42 @@ def comparison():
     return made_by(xr.Dataset(data, coords=coords), case="case_of_two")
 
 
+def answer(sampling=0.01):
+    """Area 0.05 ± 0.01 ± 0.002, gap 1 ± 0.001 ± 0.02, and a solver's part of 1e-6 in both."""
+    errors = np.zeros((5, 2, 2))
+    errors[:, 0, 0] = 0.002, 1e-6, sampling, 0, 0
+    errors[:, 1, 0] = 0.02, 1e-6, 0.001, 0, 0
+    dims = ("column", "pressure")
+    dataset = xr.Dataset(
+        {
+            "value": (dims, [[0.05, 7.0], [1.0, 7.0]]),
+            "error": (("source", *dims), errors),
+            "total_error": (dims, np.linalg.norm(errors, axis=0)),
+            "dominant": (dims, [[2, 0], [0, 0]]),
+        },
+        coords={
+            "column": ["area", "mean_gap"],
+            "pressure": [0.06, 0.3],
+            "source": ["discretisation", "solver", "sampling", "bandwidth", "model"],
+        },
+    )
+    return made_by(dataset, case="case_of_two", accuracy=0.03)
+
+
+PRESET = {
+    "name": "quick",
+    "asked": "30 %",
+    "settings": {
+        "pixels_per_wavelength": 4,
+        "tolerance": 1e-4,
+        "seeds": 3,
+        "coarse_seeds": 32,
+    },
+    "cost": "120",
+    "errors": ["1 %"] * 6,
+}
+
+
 @pytest.fixture
 def page(claims, verdicts, surfaces, figures, benchmarks):
     return write_report.render(
@@ -212,6 +248,7 @@ def page(claims, verdicts, surfaces, figures, benchmarks):
             "verdicts": "out/verdicts.nc",
             "surfaces": {name: f"out/surfaces/{name}.nc" for name in surfaces},
             "ensembles": {"case_of_two": "out/ensembles/case_of_two.nc"},
+            "answers": {"case_of_two": "out/cases/case_of_two.nc"},
             "comparisons": {"case_of_two": "out/fits/case_of_two.nc"},
             "figures": {figure["name"]: [f"out/a/{figure['name']}.nc"] for figure in figures},
         },
@@ -220,6 +257,8 @@ def page(claims, verdicts, surfaces, figures, benchmarks):
         surfaces=surfaces,
         figures=figures,
         ensembles=[ensemble()],
+        answers=[answer()],
+        presets=[PRESET],
         comparisons=[comparison()],
         benchmarks=benchmarks,
         fidelity="draft",
@@ -409,24 +448,19 @@ def test_bound_of_prefactor_for_another_hurst_exponent(surfaces):
 
 
 def test_error_budget():
-    (budget,) = _report.error_budgets([ensemble()])
-    area, gap, attractive = budget["rows"]
-    assert budget["load"] == "0.06"
+    (budget,) = _report.error_budgets([answer()])
+    area, gap = budget["rows"]
+    assert (budget["load"], budget["asked"]) == ("0.06", "3 %")
     assert area["errors"]["sampling"] == "20 %"
     assert area["errors"]["discretisation"] == "4 %"
     assert (area["dominates"], gap["dominates"]) == ("sampling", "discretisation")
     # sqrt(0.01^2 + 0.002^2) = 0.0102; the solver's part is far smaller.
-    assert area["mean"] == "0.050 ± 0.010"
-    # A residual of 1e-6 is 1e-6 of a mean gap of 1. The attractive area is an exact 2/3 law, so
-    # its strip is (1e-6/0.03)^(2/3) of it and, with an area of 0.05, 2 (1e-6)^(2/3)/0.05 of that.
+    assert area["value"] == "0.050 ± 0.010"
     assert gap["errors"]["solver"] == "1 × 10⁻⁴ %"
-    assert attractive["errors"]["solver"] == "0.1 %"
-    assert area["errors"]["solver"] == "0.4 %"
-    assert attractive["dominates"] == "solver"
 
 
 def test_error_budget_of_a_single_seed_leaves_sampling_open():
-    area = _report.error_budgets([ensemble(seeds=[5])])[0]["rows"][0]
+    area = _report.error_budgets([answer(sampling=np.nan)])[0]["rows"][0]
     assert area["errors"]["sampling"] == "–"
     assert "single seed" in area["dominates"]
 

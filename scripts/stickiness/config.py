@@ -195,6 +195,7 @@ def _config_problems(config: Mapping[str, Any]) -> Iterator[str]:
     for key, case in config["cases"].items():
         if case["surface"] not in config["model_surfaces"]:
             yield _unknown(f"cases.{key}.surface", case["surface"], config["model_surfaces"])
+        yield from _model_problems(f"cases.{key}", case, config["model_surfaces"])
         for load_ in case.get("maps", []):
             if load_ not in case["pressures"]:
                 yield f"cases.{key}.maps: {load_!r} is not among the case's pressures"
@@ -231,6 +232,8 @@ def _config_problems(config: Mapping[str, Any]) -> Iterator[str]:
             f"criteria.a_v.pressure = {chosen['pressure']!r} is not among the pressures of "
             f"cases.{chosen['case']}"
         )
+    yield from _preset_problems(config)
+    yield from _whole_problems(config)
 
 
 def _criteria_problems(config: Mapping[str, Any]) -> Iterator[str]:
@@ -306,6 +309,53 @@ def _adhesion_problems(adhesion: Mapping[str, Any], config: Mapping[str, Any]) -
     for key in ("seeds", "refine", "maps"):
         if model == "dmt" and key in adhesion:
             yield f"{key} = {adhesion[key]!r} is of the full model; leave it out with model: dmt"
+
+
+def _whole_problems(config: Mapping[str, Any]) -> Iterator[str]:
+    """Cases that others rest on must be simulated for every quantity."""
+    cases = dict.fromkeys(_PAPER["cases"], "the paper's figures and claims")
+    cases |= {adhesion["case"]: f"adhesion.{key}" for key, adhesion in config["adhesion"].items()}
+    cases[config["criteria"]["a_v"]["case"]] = "criteria.a_v"
+    for name, user in cases.items():
+        for key in ("quantities", "model"):
+            case = config["cases"].get(name, {})
+            if case.get(key, "simulation") != "simulation":
+                yield (
+                    f"cases.{name}.{key} = {case[key]!r}: leave it out, {user} needs every "
+                    "quantity by simulation; or add a case"
+                )
+
+
+def _preset_problems(config: Mapping[str, Any]) -> Iterator[str]:
+    """The rule of the presets must name what there is."""
+    rule = config["tradeoff"]["presets"]
+    if rule["surface"] not in config["model_surfaces"]:
+        yield _unknown("tradeoff.presets.surface", rule["surface"], config["model_surfaces"])
+    for name in rule["accuracy"]:
+        for table in (config["fidelities"], rule["least"]):
+            if name not in table:
+                yield _unknown("tradeoff.presets.accuracy", name, table)
+
+
+def _model_problems(
+    key: str, case: Mapping[str, Any], surfaces: Mapping[str, Any]
+) -> Iterator[str]:
+    """What a case may ask for depends on whether it is simulated."""
+    if case.get("model") == "theory":
+        for unused in ("accuracy", "seeds", "sampling", "maps"):
+            if unused in case:
+                yield (
+                    f"{key}.{unused} = {case[unused]!r} is for simulations; leave it out with "
+                    "model: theory"
+                )
+    magnification = surfaces.get(case["surface"], {}).get("magnification", 0)
+    if case.get("carry_to", magnification + 1) <= magnification:
+        yield (
+            f"{key}.carry_to = {case['carry_to']!r} must be above the magnification simulated, "
+            f"{magnification!r}"
+        )
+    if "accuracy" in case and "seeds" in case:
+        yield f"{key}.seeds = {case['seeds']!r}: give accuracy or seeds, not both"
 
 
 def _rate_problems(material: Mapping[str, Any]) -> Iterator[str]:

@@ -1,0 +1,210 @@
+# What accuracy costs: every knob of simulation and theory varied on a few surfaces, its error in
+# each quantity beside its cost. Measured apart from the fidelities, which come from it.
+
+TRADE = config["tradeoff"]
+TRADEOFF = f"{config['results']}/tradeoff"
+TRADE_SURFACES = TRADE["cases"]["surfaces"] | TRADE["validation"]["surfaces"]
+# A wide window averages over more of the same grid errors, at the cost of many points.
+NARROW = [name for name, asked in TRADE["cases"]["surfaces"].items() if "window" not in asked]
+
+
+def trade_set(wildcards):
+    """The part of the configuration that a surface belongs to."""
+    measured = wildcards.trade_case in TRADE["cases"]["surfaces"]
+    return TRADE["cases" if measured else "validation"]
+
+
+rule measure_grids:
+    input:
+        library=library_of("measure_grids.py"),
+    output:
+        f"{TRADEOFF}/grids/{{trade_case}}.nc",
+    log:
+        f"{TRADEOFF}/logs/measure_grids/{{trade_case}}.log",
+    benchmark:
+        f"{TRADEOFF}/benchmarks/measure_grids/{{trade_case}}.tsv"
+    wildcard_constraints:
+        trade_case="|".join(map(re.escape, TRADE_SURFACES)),
+    conda:
+        "../envs/environment.yaml"
+    resources:
+        mem_mb=3000,
+    params:
+        case=lambda wildcards: TRADE_SURFACES[wildcards.trade_case],
+        settings=TRADE["settings"],
+        pressures=TRADE["pressures"],
+        seeds=TRADE["seeds"],
+        gaps=config["gaps"],
+    script:
+        "../scripts/measure_grids.py"
+
+
+rule measure_seeds:
+    input:
+        library=library_of("measure_seeds.py"),
+    output:
+        f"{TRADEOFF}/seeds/{{trade_case}}.nc",
+    log:
+        f"{TRADEOFF}/logs/measure_seeds/{{trade_case}}.log",
+    benchmark:
+        f"{TRADEOFF}/benchmarks/measure_seeds/{{trade_case}}.tsv"
+    wildcard_constraints:
+        trade_case="|".join(map(re.escape, TRADE_SURFACES)),
+    conda:
+        "../envs/environment.yaml"
+    resources:
+        mem_mb=2000,
+    params:
+        case=lambda wildcards: TRADE_SURFACES[wildcards.trade_case],
+        pressures=lambda wildcards: trade_set(wildcards).get("pressures", TRADE["pressures"]),
+        pixels=lambda wildcards: trade_set(wildcards)["pixels"],
+        counts=lambda wildcards: trade_set(wildcards)["counts"],
+        tolerance=TRADE["settings"]["at_tolerance"],
+        first_seed=lambda wildcards: trade_set(wildcards)["first_seed"],
+        gaps=config["gaps"],
+    script:
+        "../scripts/measure_seeds.py"
+
+
+rule measure_bands:
+    input:
+        library=library_of("measure_bands.py"),
+    output:
+        f"{TRADEOFF}/bands/H{{hurst}}.nc",
+    log:
+        f"{TRADEOFF}/logs/measure_bands/H{{hurst}}.log",
+    benchmark:
+        f"{TRADEOFF}/benchmarks/measure_bands/H{{hurst}}.tsv"
+    wildcard_constraints:
+        hurst="|".join(re.escape(str(hurst)) for hurst in TRADE["bands"]["hurst"]),
+    conda:
+        "../envs/environment.yaml"
+    resources:
+        mem_mb=3000,
+    params:
+        bands=TRADE["bands"],
+        pressures=TRADE["pressures"],
+        tolerance=TRADE["settings"]["at_tolerance"],
+        gaps=config["gaps"],
+    script:
+        "../scripts/measure_bands.py"
+
+
+rule measure_theory:
+    input:
+        library=library_of("measure_theory.py"),
+    output:
+        f"{TRADEOFF}/theory.nc",
+    log:
+        f"{TRADEOFF}/logs/measure_theory.log",
+    benchmark:
+        f"{TRADEOFF}/benchmarks/measure_theory.tsv"
+    conda:
+        "../envs/environment.yaml"
+    resources:
+        mem_mb=1000,
+    params:
+        nodes=TRADE["nodes"],
+        pressures=TRADE["pressures"],
+        gaps=config["gaps"],
+    script:
+        "../scripts/measure_theory.py"
+
+
+rule tabulate_tradeoff:
+    input:
+        library=library_of("tabulate_tradeoff.py"),
+        grids=expand(f"{TRADEOFF}/grids/{{name}}.nc", name=NARROW),
+        seeds=expand(f"{TRADEOFF}/seeds/{{name}}.nc", name=TRADE["cases"]["surfaces"]),
+        bands=expand(f"{TRADEOFF}/bands/H{{hurst}}.nc", hurst=TRADE["bands"]["hurst"]),
+        theory=f"{TRADEOFF}/theory.nc",
+        full=f"{RESULTS}/adhesive/dmt_error.nc",
+        loop=f"{RESULTS}/loops/fig4a.nc",
+    output:
+        dataset=f"{TRADEOFF}/tradeoff.nc",
+        laws=f"{TRADEOFF}/accuracy.csv",
+        table=f"{TRADEOFF}/tradeoff.md",
+    log:
+        f"{TRADEOFF}/logs/tabulate_tradeoff.log",
+    benchmark:
+        f"{TRADEOFF}/benchmarks/tabulate_tradeoff.tsv"
+    conda:
+        "../envs/environment.yaml"
+    resources:
+        mem_mb=1000,
+    script:
+        "../scripts/tabulate_tradeoff.py"
+
+
+rule validate_accuracy:
+    input:
+        library=library_of("validate_accuracy.py"),
+        laws=f"{TRADEOFF}/accuracy.csv",
+        seeds=expand(f"{TRADEOFF}/seeds/{{name}}.nc", name=TRADE["validation"]["surfaces"]),
+    output:
+        dataset=f"{TRADEOFF}/validation.nc",
+        table=f"{TRADEOFF}/validation.md",
+    log:
+        f"{TRADEOFF}/logs/validate_accuracy.log",
+    benchmark:
+        f"{TRADEOFF}/benchmarks/validate_accuracy.tsv"
+    conda:
+        "../envs/environment.yaml"
+    resources:
+        mem_mb=1000,
+    params:
+        accuracies=TRADE["validation"]["accuracies"],
+    script:
+        "../scripts/validate_accuracy.py"
+
+
+rule choose_presets:
+    input:
+        library=library_of("choose_presets.py"),
+        laws=f"{TRADEOFF}/accuracy.csv",
+    output:
+        f"{TRADEOFF}/presets.md",
+    log:
+        f"{TRADEOFF}/logs/choose_presets.log",
+    benchmark:
+        f"{TRADEOFF}/benchmarks/choose_presets.tsv"
+    conda:
+        "../envs/environment.yaml"
+    resources:
+        mem_mb=500,
+    params:
+        presets=TRADE["presets"],
+        surface=config["model_surfaces"].get(TRADE["presets"]["surface"]),
+        fidelities=config["fidelities"],
+        descriptor_seeds=config["sampling"]["descriptor_seeds"],
+    script:
+        "../scripts/choose_presets.py"
+
+
+rule plot_tradeoff:
+    input:
+        library=library_of("plot_tradeoff.py"),
+        dataset=f"{TRADEOFF}/tradeoff.nc",
+        laws=f"{TRADEOFF}/accuracy.csv",
+    output:
+        png=report(
+            f"{TRADEOFF}/tradeoff.png",
+            category="Figures",
+            caption="../report/tradeoff.rst",
+        ),
+        pdf=f"{TRADEOFF}/tradeoff.pdf",
+    log:
+        f"{TRADEOFF}/logs/plot_tradeoff.log",
+    benchmark:
+        f"{TRADEOFF}/benchmarks/plot_tradeoff.tsv"
+    conda:
+        "../envs/environment.yaml"
+    resources:
+        mem_mb=500,
+    params:
+        presets=TRADE["presets"],
+        surface=config["model_surfaces"].get(TRADE["presets"]["surface"]),
+        fidelities=config["fidelities"],
+        descriptor_seeds=config["sampling"]["descriptor_seeds"],
+    script:
+        "../scripts/plot_tradeoff.py"

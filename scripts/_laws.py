@@ -1,0 +1,161 @@
+"""Laws of `stickiness.accuracy`, fitted to what was measured."""
+
+from __future__ import annotations
+
+from collections import defaultdict
+
+import numpy as np
+import xarray as xr
+
+from _bank import extrapolated
+from _tradeoff import COVERED, derived, rms
+from stickiness import sampling
+from stickiness.accuracy import COARSE, FULL, Law, Surface
+
+FEATURES = ("constant", "hurst", "magnification", "window", "pressure", "pixels", "tolerance")
+FLOOR = 1e-10  # errors below are nothing, and say nothing of how they depend on what
+
+
+class Points:
+    """Collects measured values and what they depend on, by part and quantity."""
+
+    def __init__(self):
+        self.rows = defaultdict(list)
+
+    def add(self, part, quantity, surface, value, pressure=1.0, pixels=1.0, tolerance=1.0, at=None):
+        """Add a value to be fitted, and if it is another one the value to be covered."""
+        row = [
+            1.0,
+            surface.hurst,
+            *np.log([surface.magnification, surface.window, pressure, pixels, tolerance]),
+        ]
+        self.rows[part, quantity].append((row, value, value if at is None else at))
+
+    def laws(self):
+        """Fit every part by least squares of logarithms."""
+        return {key: fitted(rows) for key, rows in self.rows.items()}
+
+
+def fitted(rows):
+    """Fit one law; features that no two points differ in stay out."""
+    rows = [row for row in rows if row[1] > FLOOR] or rows[-1:]
+    features = np.array([row for row, *_ in rows])
+    values, covered = (np.maximum([row[k] for row in rows], FLOOR) for k in (1, 2))
+    varied = np.ptp(features, axis=0) > 0
+    varied[0] = True
+    coefficients = np.zeros(features.shape[1])
+    coefficients[varied], *_ = np.linalg.lstsq(features[:, varied], np.log(values))
+    ratio = covered / np.exp(features @ coefficients)
+    return Law(
+        **dict(zip(FEATURES, coefficients.tolist(), strict=True)),
+        spread=float(np.quantile(ratio, COVERED)),
+        points=len(rows),
+    )
+
+
+def surface_of(parameters):
+    """`Surface` from the parameters of a file."""
+    return Surface(parameters["hurst"], parameters["magnification"], parameters.get("window", 1.0))
+
+
+def add_sampling(points, surface, bank):
+    """Scatter of single surfaces, and what either control leaves of it."""
+    finest = max(bank.fine)
+    add = {"surface": surface}
+    for (quantity, load), scatter in bank.by_quantity(relative(bank.fine[finest], bank)).items():
+        points.add("scatter", quantity, **add, value=scatter, pressure=load)
+    whole = bank.fine[finest].std(0, ddof=1)
+    for pixels, fine in bank.fine.items():
+        if pixels == COARSE:
+            continue
+        twin = bank.fine[COARSE]
+        left = fine - fine.sum(0) / twin.sum(0) * twin
+        share = bank.by_quantity(left.std(0, ddof=1) / whole)
+        for (quantity, load), value in share.items():
+            points.add("fine_share", quantity, **add, value=value, pressure=load, pixels=pixels)
+    estimate = sampling.controlled_mean(bank.coarse, bank.controls, bank.elsewhere)
+    slopes = np.std(bank.elsewhere @ estimate.coefficient, axis=0, ddof=1)
+    explained = slopes / bank.coarse.std(0, ddof=1)
+    left = bank.by_quantity(np.sqrt(1 - np.minimum(explained, 1) ** 2))
+    for (quantity, load), value in left.items():
+        points.add("coarse_share", quantity, **add, value=value, pressure=load)
+
+
+def relative(values, bank):
+    """Standard deviation between seeds over the mean, per entry."""
+    return values.std(0, ddof=1) / np.abs(bank.truth)
+
+
+def add_costs(points, surface, measured):
+    """Cost of one solution on every grid, with its surface and areas; of describing a seed."""
+    unit, loads = float(measured.pair_time), measured.sizes["pressure"]
+    for pixels in measured.pixels.values:
+        seconds = float(measured.seconds.sel(pixels=pixels).mean())
+        points.add("fine_cost", "", surface, seconds / loads / unit, pixels=float(pixels))
+    points.add("coarse_cost", "", surface, float(measured.coarse_seconds.mean()) / loads / unit)
+    points.add("described_cost", "", surface, float(measured.describing_seconds) / unit)
+
+
+def estimates(measured):
+    """Ways from solutions to quantities: a name, values on all grids, and the grids they need."""
+    counted = measured.assign(
+        area_fraction=measured.pixel_area_fraction,
+        attractive_area=measured.pixel_attractive_area,
+    )
+    yield "counted", derived(counted), 1
+    yield "sub-pixel", derived(measured), 1
+    order = np.argsort(measured.pixels.values)
+    halves = np.clip(order - 1, 0, None)
+    half = measured.isel(setting=halves).assign_coords(setting=measured.setting)
+    area = xr.concat(
+        [
+            measured.attractive_area.isel(setting=k)
+            if measured.pixels.values[k] == COARSE
+            else extrapolated(half.isel(setting=k), measured.isel(setting=k))
+            for k in range(measured.sizes["setting"])
+        ],
+        "setting",
+    )
+    yield "extrapolated", derived(measured.assign(attractive_area=area)), 2
+
+
+def by_knob(measured, knob):
+    chosen = measured.isel(setting=np.flatnonzero(measured.knob == knob))
+    return chosen.assign_coords(setting=np.arange(chosen.sizes["setting"]))
+
+
+def add_grids(points, surface, measured):
+    """Points of the laws of discretisation, solver and what a tolerance saves."""
+    grids = by_knob(measured, "pixels")
+    *_, (_, quantities, _) = estimates(grids)
+    for quantity, values in quantities.items():
+        error = values / values.isel(setting=-1) - 1
+        noise = rms(error.std("seed", ddof=1)) / np.sqrt(error.sizes["seed"])
+        bias = rms(error.mean("seed"))
+        for k, pixels in enumerate(grids.pixels.values[:-1]):
+            if pixels == COARSE:
+                continue
+            for load in values.pressure.values:
+                at = {"pressure": load}
+                size, off = (float(x.isel(setting=k).sel(at)) for x in (noise, bias))
+                points.add(
+                    "discretisation",
+                    quantity,
+                    surface,
+                    np.hypot(size, off),
+                    load,
+                    float(pixels),
+                    at=off,
+                )
+    chosen = by_knob(measured, "tolerance")
+    seconds = (chosen.solution_time + chosen.evaluation_time).mean(["seed", "pressure"])
+    full = float(seconds[int(np.argmin(abs(np.log(chosen.tolerance.values / FULL))))])
+    for k, tolerance in enumerate(chosen.tolerance.values[:-1]):
+        points.add(
+            "tolerance_cost", "", surface, float(seconds[k]) / full, tolerance=tolerance / FULL
+        )
+        for quantity, values in derived(chosen).items():
+            error = rms(values.isel(setting=k) / values.isel(setting=-1) - 1)
+            for load in error.pressure.values:
+                value = float(np.sqrt((error.sel(pressure=load) ** 2).mean()))
+                points.add("solver", quantity, surface, value, load, tolerance=tolerance)

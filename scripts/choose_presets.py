@@ -1,0 +1,62 @@
+"""Presets of accuracy from the measured laws, beside those of the configuration."""
+
+from _job import start
+from _tables import table
+from stickiness import accuracy, datasets, plan
+
+HEAD = """\
+A preset is the cheapest settings whose predicted error, which covers 90 % of means, stays below
+that of the preset in every quantity, on the model surface {surface} at the pressures {pressures},
+and that have the pixels, tolerance and seeds that full adhesion on the same realisations needs at
+least; without full adhesion, cheaper ones would do. Cost: pairs of Fourier transforms of
+1024 x 1024 doubles, for all these pressures.
+
+"""
+COLUMNS = [column for columns in accuracy.QUANTITIES.values() for column in columns]
+
+
+def main(job):
+    laws, asked = accuracy.read_laws(job.input.laws), job.params.presets
+    where = plan.surface_of(job.params.surface), asked["pressures"], job.params.descriptor_seeds
+    given = job.params.surface, job.params.descriptor_seeds
+    lines = []
+    for name, error in asked["accuracy"].items():
+        chosen = {
+            f"{name}: below {error:.0%}": plan.preset_by_rule(laws, asked, name, *given),
+            "in the configuration": plan.preset(job.params.fidelities[name]),
+            "without full adhesion": plan.preset_by_rule(laws, asked, name, *given, free=True),
+        }
+        lines += [row(text, laws, settings, *where) for text, settings in chosen.items()]
+    head = ["preset", "pixels", "tolerance", "seeds", "coarse seeds", "cost", *COLUMNS]
+    with datasets.whole_file(job.output[0]) as path:
+        text = HEAD.format(surface=asked["surface"], pressures=", ".join(map(str, where[1])))
+        path.write_text(text + table(head, lines), encoding="utf-8")
+
+
+def errors(laws, chosen, surface, pressures, descriptor_seeds):
+    """Largest predicted error of each column over the pressures."""
+    return [
+        max(
+            accuracy.predicted_error(laws, chosen, surface, p, column, descriptor_seeds)
+            for p in pressures
+        )
+        for column in COLUMNS
+    ]
+
+
+def row(text, laws, chosen, surface, pressures, descriptor_seeds):
+    cost = accuracy.predicted_cost(laws, chosen, surface, pressures, descriptor_seeds)
+    found = errors(laws, chosen, surface, pressures, descriptor_seeds)
+    return [
+        text,
+        chosen.pixels_per_wavelength,
+        f"{chosen.tolerance:.0e}",
+        chosen.seeds,
+        chosen.coarse_seeds,
+        f"{cost:.0f}",
+        *(f"{100 * error:.2g} %" for error in found),
+    ]
+
+
+if __name__ == "__main__":
+    main(start(globals(), "choose_presets"))

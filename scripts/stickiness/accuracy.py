@@ -1,0 +1,361 @@
+"""Settings of a simulation for the accuracy that is asked for, from what was measured.
+
+What a mean over random surfaces errs by, and what it costs, was measured on a few surfaces with
+many settings (target `tradeoff`). Each part is kept as a `Law`: a power law in magnification,
+window, pressure, pixels and tolerance, times an exponential of the Hurst exponent. The relative
+error that covers 90 % is
+
+    error^2 = discretisation^2 + solver^2
+              + z^2 scatter^2 (fine_share^2/n + coarse_share^2/N + (1 - coarse_share^2)/M)
+
+with n fine, N coarse and M described seeds of the multilevel mean of `sampling` and z = 1.645; with
+plain means the bracket is 1/n. The shares are what a control leaves of the standard deviation.
+Beside these the table says what theory errs by in place of a simulation, and what is left of the
+change of the area, as a share of it, where theory adds a broader spectrum's difference to one.
+"""
+
+from __future__ import annotations
+
+import csv
+import itertools
+import math
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, fields
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+PARTS = (
+    "discretisation",
+    "solver",
+    "scatter",
+    "fine_share",
+    "coarse_share",
+    "theory",
+    "carrying",
+)
+COSTS = ("fine_cost", "coarse_cost", "described_cost", "tolerance_cost")
+COVERS = 1.645  # standard deviations that cover 90 % of a normal distribution
+COARSE = 2  # pixels per shortest wavelength of the coarse seeds
+SAME_COST = 1.05  # ratio of costs that were not measured well enough to tell them apart
+FULL = 1e-8  # tolerance at which costs were measured
+
+# What a user may ask for, by the columns of the table that it depends on.
+QUANTITIES = {
+    "area": ("area",),
+    "mean_gap": ("mean_gap",),
+    "attractive_area": ("attractive_area_0.01", "attractive_area_0.1"),
+    "gap_distribution": ("gap_distribution",),
+    "a_v": ("a_v",),
+    "kappa": ("kappa",),
+}
+
+# From what settings are put together; the pixels are those for which errors were measured.
+PIXELS = (4, 8, 16)
+TOLERANCES = (1e-3, 1e-4, 1e-5, 1e-6, 1e-8)
+SEEDS = (2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64, 96, 128)
+COARSE_SEEDS = (0, 32, 64, 96, 128, 192, 256, 384, 512, 768, 1024, 2048)
+
+
+@dataclass(frozen=True)
+class Surface:
+    """What settings depend on: Hurst exponent, q1/q0, side over longest wavelength."""
+
+    hurst: float
+    magnification: float
+    window: float = 1.0
+
+
+@dataclass(frozen=True, order=True)
+class Settings:
+    """Settings of a case; no coarse seeds stand for plain means."""
+
+    pixels_per_wavelength: int
+    tolerance: float
+    seeds: int
+    coarse_seeds: int
+
+
+@dataclass(frozen=True)
+class Law:
+    """One measured quantity over everything that it depends on.
+
+    ``spread`` is the factor above the fit below which 90 % of the measured points lie, ``points``
+    their number.
+    """
+
+    constant: float
+    hurst: float = 0.0
+    magnification: float = 0.0
+    window: float = 0.0
+    pressure: float = 0.0
+    pixels: float = 0.0
+    tolerance: float = 0.0
+    spread: float = 1.0
+    points: int = 0
+
+    def __call__(
+        self, surface: Surface, pressure: float = 1.0, pixels: float = 1.0, tolerance: float = 1.0
+    ) -> float:
+        """Return the value by the fit, without the spread."""
+        return math.exp(
+            self.constant
+            + self.hurst * surface.hurst
+            + self.magnification * math.log(surface.magnification)
+            + self.window * math.log(surface.window)
+            + self.pressure * math.log(pressure)
+            + self.pixels * math.log(pixels)
+            + self.tolerance * math.log(tolerance)
+        )
+
+
+Laws = Mapping[tuple[str, str], Law]
+
+
+class UnreachableError(ValueError):
+    """No settings within reach are predicted to be as accurate as asked for."""
+
+
+def read_laws(path: str | Path) -> dict[tuple[str, str], Law]:
+    """Read the table of laws, by part and quantity (costs have none).
+
+    Raises
+    ------
+    ValueError
+        Naming the file, if it is missing or a part or quantity is.
+    """
+    try:
+        with Path(path).open(encoding="utf-8", newline="") as file:
+            rows = list(csv.DictReader(line for line in file if not line.startswith("#")))
+        laws = {(row.pop("part"), row.pop("quantity")): _law(row) for row in rows}
+    except FileNotFoundError:
+        raise ValueError(f"{path}: no such file; the target tradeoff makes it") from None
+    except (KeyError, TypeError, ValueError) as error:
+        raise ValueError(f"{path}: not a table of laws ({error})") from None
+    wanted = itertools.product(PARTS, itertools.chain(*QUANTITIES.values()))
+    for part, quantity in (*wanted, *((cost, "") for cost in COSTS)):
+        if (part, quantity) not in laws:
+            raise ValueError(f"{path}: lacks {part} of {quantity or 'a solution'}")
+    return laws
+
+
+def write_laws(path: str | Path, laws: Laws, comment: str) -> None:
+    """Write a table of laws, with lines of comment before it."""
+    names = [field.name for field in fields(Law)]
+    with Path(path).open("w", encoding="utf-8", newline="") as file:
+        file.writelines(f"# {line}\n" for line in comment.splitlines())
+        table = csv.writer(file, lineterminator="\n")
+        table.writerow(["part", "quantity", *names])
+        for (part, quantity), law in laws.items():
+            table.writerow([part, quantity, *(f"{getattr(law, name):.5g}" for name in names)])
+
+
+def error_parts(
+    laws: Laws,
+    settings: Settings,
+    surface: Surface,
+    pressure: float,
+    column: str,
+    descriptor_seeds: int = 2048,
+) -> dict[str, float]:
+    """Relative errors by discretisation, solver and sampling, each covering 90 % of means.
+
+    Parameters
+    ----------
+    laws : mapping
+        From `read_laws`.
+    pressure : float
+        Mean pressure over E* q0 h_rms.
+    column : str
+        A column of the table, see `QUANTITIES`.
+    descriptor_seeds : int
+        Seeds of which only the long waves are looked at.
+    """
+    pixels, tolerance = settings.pixels_per_wavelength, settings.tolerance
+    grid, solver = laws["discretisation", column], laws["solver", column]
+    variance = _variance(
+        laws,
+        surface,
+        pressure,
+        column,
+        pixels,
+        descriptor_seeds,
+        settings.seeds,
+        settings.coarse_seeds,
+    )
+    return {
+        "discretisation": grid.spread * grid(surface, pressure, pixels),
+        "solver": solver.spread * solver(surface, pressure, tolerance=tolerance),
+        "sampling": COVERS * float(np.sqrt(variance)),
+    }
+
+
+def predicted_error(
+    laws: Laws,
+    settings: Settings,
+    surface: Surface,
+    pressure: float,
+    column: str,
+    descriptor_seeds: int = 2048,
+) -> float:
+    """Relative error that covers 90 % of means; all parts of `error_parts` in quadrature."""
+    parts = error_parts(laws, settings, surface, pressure, column, descriptor_seeds)
+    return math.hypot(*parts.values())
+
+
+def _variance(laws, surface, pressure, column, pixels, described, seeds, coarse_seeds):
+    """Relative variance of a mean; numbers of seeds may be arrays that broadcast."""
+    fine = laws["fine_share", column](surface, pressure, pixels)
+    coarse = min(laws["coarse_share", column](surface, pressure), 1.0)
+    several = np.maximum(coarse_seeds, 1)
+    multilevel = fine**2 / seeds + coarse**2 / several + (1 - coarse**2) / described
+    scatter = laws["scatter", column](surface, pressure)
+    return scatter**2 * np.where(np.equal(coarse_seeds, 0), 1 / np.asarray(seeds), multilevel)
+
+
+def predicted_cost(
+    laws: Laws,
+    settings: Settings,
+    surface: Surface,
+    pressures: Sequence[float],
+    descriptor_seeds: int = 2048,
+) -> float:
+    """Cost of a case in pairs of Fourier transforms of 1024 x 1024 doubles.
+
+    With the coarser grids on which every realisation is solved too.
+    """
+    grid = settings.pixels_per_wavelength, settings.tolerance
+    one, coarse, fixed = _costs(laws, surface, len(pressures), descriptor_seeds, *grid)
+    many = coarse * settings.coarse_seeds + fixed if settings.coarse_seeds else 0.0
+    return one * settings.seeds + many
+
+
+def _costs(laws, surface, loads, described, pixels, tolerance):
+    """Cost of one fine seed and of one coarse one at all loads, and of all that are described."""
+    saved = loads * laws["tolerance_cost", ""](surface, tolerance=tolerance / FULL)
+    grids = {pixels, pixels // 2, COARSE}
+    one = saved * sum(laws["fine_cost", ""](surface, pixels=grid) for grid in grids)
+    coarse = saved * laws["coarse_cost", ""](surface)
+    return one, coarse, described * laws["described_cost", ""](surface)
+
+
+def worst_error(
+    laws: Laws,
+    settings: Settings,
+    surface: Surface,
+    pressures: Iterable[float],
+    quantities: Iterable[str],
+    descriptor_seeds: int = 2048,
+) -> tuple[float, str, float]:
+    """Largest predicted error of the quantities wanted; its column and pressure."""
+    return max(
+        (
+            predicted_error(laws, settings, surface, pressure, column, descriptor_seeds),
+            column,
+            pressure,
+        )
+        for pressure in pressures
+        for quantity in quantities
+        for column in QUANTITIES[quantity]
+    )
+
+
+def cheapest(
+    laws: Laws,
+    accuracy: float,
+    surface: Surface,
+    pressures: Sequence[float],
+    quantities: Iterable[str],
+    *,
+    descriptor_seeds: int = 2048,
+    most_points: int = 2048,
+    plain: bool | None = None,
+    least: Settings | None = None,
+) -> Settings:
+    """Return the cheapest settings predicted to reach an accuracy for all quantities wanted.
+
+    Of those that cost within 5 % of the cheapest, the most accurate.
+
+    Parameters
+    ----------
+    accuracy : float
+        Relative error that is to cover 90 % at every pressure.
+    most_points : int
+        Largest number of grid points along a side.
+    plain : bool, optional
+        True for plain means only, False for multilevel ones only; by default whichever is cheaper.
+    least : Settings, optional
+        Fewest pixels and seeds, coarse ones too, and largest tolerance that others need.
+
+    Raises
+    ------
+    UnreachableError
+        Saying what could be reached, for which quantity and at which pressure.
+    """
+    quantities, waves = list(quantities), surface.magnification * surface.window
+    least = least or Settings(PIXELS[0], TOLERANCES[0], SEEDS[0], COARSE_SEEDS[0])
+    grids = [
+        pixels
+        for pixels in PIXELS
+        if pixels * waves <= most_points and pixels >= least.pixels_per_wavelength
+    ]
+    tolerances = [tolerance for tolerance in TOLERANCES if tolerance <= least.tolerance]
+    if not grids:
+        raise UnreachableError(
+            f"the coarsest grid, {least.pixels_per_wavelength} points per shortest wavelength, "
+            f"would take {least.pixels_per_wavelength * waves:.0f} points a side, above "
+            f"{most_points}"
+        )
+    seeds = np.array([n for n in SEEDS if n >= least.seeds])[:, None]
+    kinds = {None: COARSE_SEEDS, True: COARSE_SEEDS[:1], False: COARSE_SEEDS[1:]}[plain]
+    coarse = np.array([n for n in kinds if n >= least.coarse_seeds])
+    found = []
+    for pixels, tolerance in itertools.product(grids, tolerances):
+        errors = _worst_errors(
+            laws, surface, pressures, quantities, pixels, tolerance, descriptor_seeds, seeds, coarse
+        )
+        one, many, fixed = _costs(
+            laws, surface, len(pressures), descriptor_seeds, pixels, tolerance
+        )
+        costs = one * seeds + np.where(coarse > 0, many * coarse + fixed, 0.0)
+        found += [
+            (float(cost), float(error), Settings(pixels, tolerance, int(n), int(more)))
+            for cost, error, n, more in zip(
+                *(part.ravel() for part in np.broadcast_arrays(costs, errors, seeds, coarse)),
+                strict=True,
+            )
+            if error <= accuracy
+        ]
+    if found:
+        lowest = min(cost for cost, *_ in found)
+        return min((e, c, one) for c, e, one in found if c <= SAME_COST * lowest)[-1]
+    best = Settings(grids[-1], TOLERANCES[-1], SEEDS[-1], int(coarse[-1]))
+    error, column, pressure = worst_error(
+        laws, best, surface, pressures, quantities, descriptor_seeds
+    )
+    raise UnreachableError(
+        f"the best that {best.seeds} seeds on {best.pixels_per_wavelength} points per shortest "
+        f"wavelength reach is {error:.2g}, for {column} at pressure {pressure:g}"
+    )
+
+
+def _worst_errors(
+    laws, surface, pressures, quantities, pixels, tolerance, described, seeds, coarse
+) -> NDArray:
+    """Largest predicted error on one grid for all numbers of seeds."""
+    worst = np.zeros(np.broadcast_shapes(seeds.shape, coarse.shape))
+    for pressure in pressures:
+        for column in itertools.chain(*(QUANTITIES[quantity] for quantity in quantities)):
+            grid, solver = laws["discretisation", column], laws["solver", column]
+            fixed = math.hypot(
+                grid.spread * grid(surface, pressure, pixels),
+                solver.spread * solver(surface, pressure, tolerance=tolerance),
+            )
+            variance = _variance(laws, surface, pressure, column, pixels, described, seeds, coarse)
+            worst = np.maximum(worst, np.sqrt(fixed**2 + COVERS**2 * variance))
+    return worst
+
+
+def _law(row: Mapping[str, str]) -> Law:
+    return Law(**{name: float(value) for name, value in row.items()})

@@ -1,0 +1,120 @@
+"""Put every measurement of the trade into one table, and the laws that settings are chosen by."""
+
+import numpy as np
+import pandas as pd
+import xarray as xr
+
+from _bank import bank_of
+from _job import start
+from _laws import Points, add_costs, add_grids, add_sampling, surface_of
+from _tables import table
+from _trade_rows import adhesion_rows, band_rows, grid_rows, node_rows, seed_rows, theory_rows
+from stickiness import accuracy, datasets
+
+COLUMNS = {
+    "knob": "what is varied",
+    "setting": "its value",
+    "case": "surface and load",
+    "quantity": "what the error is of",
+    "error": "relative error that covers 90 % of single surfaces, or of means for seeds",
+    "bias": "relative error of the mean over the surfaces measured",
+    "cost": "cost over that of a pair of transforms of 1024 x 1024 doubles",
+    "seconds": "processor time",
+    "memory": "largest memory held at once",
+}
+UNITS = {"seconds": "s", "memory": "MB"}
+COMMENT = """\
+Laws of error and cost, fitted by the target tradeoff; scripts/stickiness/accuracy.py says how they
+are read. To take a new measurement over, copy it here and set the presets that it gives."""
+HEAD = """\
+Relative errors that cover 90 % and what they cost, a summary of tradeoff.nc: medians over cases.
+Cost: pairs of Fourier transforms of 1024 x 1024 doubles per solution (seeds: per mean at one load).
+
+"""
+
+
+def main(job):
+    rows, points = [], Points()
+    for name, path in named(job.input.grids).items():
+        measured = datasets.read(path)
+        rows += grid_rows(name, measured)
+        add_grids(points, surface_of(datasets.parameters(measured)), measured)
+    for name, path in named(job.input.seeds).items():
+        measured = datasets.read(path)
+        grids = named(job.input.grids)
+        bank = bank_of(measured, datasets.read(grids[name]) if name in grids else None)
+        surface = surface_of(datasets.parameters(measured))
+        add_sampling(points, surface, bank)
+        add_costs(points, surface, measured)
+        rows += seed_rows(name, measured, bank)
+        rows += theory_rows(name, measured, bank, points)
+    for path in job.input.bands:
+        rows += band_rows(datasets.read(path), points)
+    rows += node_rows(datasets.read(job.input.theory))
+    rows += adhesion_rows(job.input)
+    found = pd.DataFrame(rows, columns=list(COLUMNS))
+    datasets.write(
+        dataset_of(found),
+        job.output.dataset,
+        title="error and cost of every setting",
+        parameters={"cases": list(named(job.input.grids))},
+    )
+    laws = points.laws()
+    with datasets.whole_file(job.output.laws) as path:
+        accuracy.write_laws(path, laws, COMMENT)
+    with datasets.whole_file(job.output.table) as path:
+        path.write_text(HEAD + summary(found), encoding="utf-8")
+
+
+def named(paths):
+    """Files by the name of their surface."""
+    return {path.rsplit("/", 1)[1].removesuffix(".nc"): path for path in paths}
+
+
+def dataset_of(found):
+    """The table as a dataset with one row for every setting, case and quantity."""
+    dataset = xr.Dataset(
+        {
+            name: ("row", found[name].astype(float if name in list(COLUMNS)[4:] else str).values)
+            for name in COLUMNS
+        },
+        coords={"row": np.arange(len(found))},
+    )
+    missing = {"bias": "not measured", "memory": "not measured", "seconds": "not measured"}
+    missing["cost"] = "not measured"
+    texts = {
+        name: (UNITS.get(name, "1"), text, *([missing[name]] if name in missing else []))
+        for name, text in COLUMNS.items()
+    }
+    return datasets.annotate(dataset, row=("1", "number of the row"), **texts)
+
+
+def summary(found):
+    """Markdown: a table for every knob, with one row for every setting."""
+    texts = []
+    for knob in dict.fromkeys(found.knob):
+        part = found[found.knob == knob]
+        quantities = list(dict.fromkeys(part.quantity))
+        lines = []
+        for setting in dict.fromkeys(part.setting):
+            one = part[part.setting == setting]
+            errors = [
+                percent(one.error[one.quantity == quantity].median()) for quantity in quantities
+            ]
+            cost, memory = one.cost.median(), one.memory.median()
+            lines.append([setting, *errors, plain(cost), plain(memory)])
+        head = [knob, *quantities, "cost", "memory [MB]"]
+        texts.append(table(head, lines))
+    return "\n".join(texts)
+
+
+def percent(value):
+    return "–" if not np.isfinite(value) else f"{100 * value:.2g} %"
+
+
+def plain(value):
+    return "–" if not np.isfinite(value) else f"{value:.3g}"
+
+
+if __name__ == "__main__":
+    main(start(globals(), "tabulate_tradeoff"))

@@ -1,0 +1,71 @@
+"""What cases are solved with, and which of them share solutions."""
+
+import pytest
+from test_accuracy import made_up
+
+from stickiness import accuracy, plan
+
+PRESET = {"pixels_per_wavelength": 8, "tolerance": 1e-8, "seeds": 5, "coarse_seeds": 40}
+
+
+def config(**cases):
+    surfaces = {"one": {"hurst": 0.8, "magnification": 32}}
+    cases = {
+        name: {"surface": "one", "pressures": [0.1, 0.01]} | case for name, case in cases.items()
+    }
+    return {
+        "fidelity": "some",
+        "fidelities": {"some": PRESET},
+        "sampling": {"method": "multilevel", "descriptor_seeds": 2048},
+        "model_surfaces": surfaces | {"other": surfaces["one"]},
+        "cases": cases,
+    }
+
+
+def test_preset_unless_the_case_says_otherwise():
+    plans = plan.plans_of(config(a={}, b={"seeds": 3, "sampling": "plain"}), made_up())
+    assert plans["a"].settings == accuracy.Settings(8, 1e-8, 5, 40)
+    assert plans["b"].settings == accuracy.Settings(8, 1e-8, 3, 0)
+    assert plans["a"].pressures == (0.01, 0.1)
+    assert plans["a"].complete
+    given = config(a={}) | {"seeds": 7}
+    assert plan.plans_of(given, made_up())["a"].settings.seeds == 7
+
+
+def test_accuracy_chooses_the_cheapest():
+    asked = {"accuracy": 0.05, "quantities": ["area", "mean_gap"]}
+    plans = plan.plans_of(config(a=asked), made_up())
+    where = accuracy.Surface(0.8, 32.0)
+    want = accuracy.cheapest(made_up(), 0.05, where, [0.01, 0.1], ["area", "mean_gap"])
+    assert plans["a"].settings == want
+    assert not plans["a"].gaps
+    assert not plans["a"].complete
+
+
+def test_accuracy_out_of_reach_names_the_case():
+    with pytest.raises(
+        accuracy.UnreachableError, match=r"cases\.a\.accuracy = 0\.0001 is out of reach: the best"
+    ):
+        plan.plans_of(config(a={"accuracy": 1e-4}), made_up())
+
+
+@pytest.mark.parametrize(
+    ("later", "shares"),
+    [
+        ({"pressures": [0.1]}, True),
+        ({"quantities": ["area"]}, True),
+        ({"seeds": 9}, True),  # other realisations of the same solutions
+        ({"pressures": [0.1, 0.2]}, False),
+        ({"surface": "other"}, False),
+        ({"accuracy": 0.3}, False),  # another grid
+        ({"model": "theory"}, False),
+    ],
+)
+def test_sharing(later, shares):
+    plans = plan.plans_of(config(first={}, later=later), made_up())
+    assert plans["later"].owner == ("first" if shares else "later")
+
+
+def test_what_holds_no_gaps_is_not_shared_with_what_needs_them():
+    plans = plan.plans_of(config(first={"quantities": ["area"]}, later={}), made_up())
+    assert plans["later"].owner == "later"
