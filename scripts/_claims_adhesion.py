@@ -73,15 +73,16 @@ def total(errors: dict[str, float]) -> float:
 
 
 def by_area(data: xr.Dataset) -> str:
-    """1/kappa by the area at zero gap and by its compressed part, where most of it is left."""
-    positive = data.where(data.inverse_kappa > 0, drop=True).isel(adhesion_length_over_range=-1)
+    """1/kappa by the area at zero gap and by its compressed part, where half of it is left."""
+    nearest = abs(data.inverse_kappa - 0.25).argmin("adhesion_length_over_range")
+    half = data.isel(adhesion_length_over_range=nearest)
     whole, net = (
-        quoted(positive[name], total_error(positive, name))
+        quoted(half[name], total_error(half, name))
         for name in ("inverse_kappa", "inverse_kappa_net")
     )
     return (
         "The area taken is that at zero gap; the threshold, where the pressure vanishes, does not "
-        f"depend on it. At l_a/range = {float(positive.adhesion_length_over_range):g} 1/kappa is "
+        f"depend on it. At l_a/range = {float(half.adhesion_length_over_range):g} 1/kappa is "
         f"{whole} by that area and {net} by what of it is compressed."
     )
 
@@ -171,7 +172,7 @@ def inverse_kappa_ad(files: Files) -> Claim:
     arrays = [name for name, value in sets[0].items() if isinstance(value, np.ndarray)]
     ratios = {name: np.concatenate([one[name] for one in sets]) for name in arrays}
     slopes, error = ratios["inverse_kappa_ad"], ratios["error"]
-    told = error < KNOWN
+    told = (error < KNOWN) & (slopes > 0)
     statement = "1/kappa_ad follows the formula with a_V = 2.8 over six decades (Fig. 4B)"
     sources = [
         f"{kind}_{name}" for kind in ("adhesive", "adhesion") for name in ("rough", "smooth")
@@ -181,7 +182,8 @@ def inverse_kappa_ad(files: Files) -> Claim:
         remark = "No parameter set is known to 30 %."
         return Claim(11, statement, "-", np.nan, np.nan, 1.0, OPEN, remark, sources)
     limit = ratios["limit"][told]
-    net = ratios["inverse_kappa_ad_net"][ratios["net_error"] < KNOWN]
+    net = ratios["inverse_kappa_ad_net"]
+    net = net[(ratios["net_error"] < KNOWN) & (net > 0)]
     resolved = np.isfinite(ratios["direct"])
     direct = ratios["inverse_kappa_ad_direct"][resolved]
     decades = np.ptp(np.log10(ratios["direct"][resolved]))
