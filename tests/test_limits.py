@@ -116,7 +116,8 @@ def test_a_v_is_that_of_the_extrapolated_areas(ensemble):
         ("attractive_area_discretisation_error", "a_v_discretisation_error"),
     ):
         area = ensemble[["pressure", variable]].rename({variable: "attractive_area"})
-        np.testing.assert_allclose(dataset[fit], fitted(area, WINDOWS).a_v, rtol=1e-9)
+        # Discretisation errors are small differences of fits of order 1, exact to their rounding.
+        np.testing.assert_allclose(dataset[fit], fitted(area, WINDOWS).a_v, rtol=1e-9, atol=1e-11)
     np.testing.assert_allclose(
         dataset.a_v_standard_error, _errors.standard_error(dataset.a_v), rtol=1e-12
     )
