@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 import yaml
 
-from stickiness import config
+from stickiness import config, readers
 
 ROOT = Path(__file__).parents[1]
 CONFIG, MATERIALS, SURFACES = (
@@ -277,9 +277,9 @@ def test_broken_yaml_names_file_and_line(folder):
 def test_instruments_need_their_optional_dependency(folder, monkeypatch):
     Path("scan.sur").write_bytes(b"DIGITAL SURF\0\0")
     terrain(file="scan.sur")()
-    monkeypatch.setattr(config.readers, "can_read_instruments", lambda: True)
+    monkeypatch.setattr(readers, "can_read_instruments", lambda: True)
     check()
-    monkeypatch.setattr(config.readers, "can_read_instruments", lambda: False)
+    monkeypatch.setattr(readers, "can_read_instruments", lambda: False)
     with pytest.raises(
         config.ConfigError, match=r"scan\.sur.*needs SurfaceTopography.*pip install"
     ):
