@@ -45,6 +45,16 @@ def test_parseval(window, shape):
         assert spectrum.variance == pytest.approx(np.var(heights), rel=1e-12)
 
 
+@pytest.mark.parametrize("window", WINDOWS)
+@pytest.mark.parametrize("shape", [(32, 48), (33, 20), (31, 45)])
+def test_mirrored_or_lifted_heights_have_the_same_rings(window, shape):
+    heights = np.random.default_rng(3).normal(size=shape)
+    rings = radial_average(power_spectrum(heights, 0.3, 0.7, window)).psd
+    for same in (heights[::-1], heights[:, ::-1], heights + 100):
+        other = radial_average(power_spectrum(same, 0.3, 0.7, window)).psd
+        np.testing.assert_allclose(other, rings, rtol=1e-9)
+
+
 def test_one_wave_on_unequal_spacings():
     nx, ny, dx, dy = 24, 40, 0.5, 0.2
     kx, ky = TAU * 3 / (nx * dx), TAU * 5 / (ny * dy)

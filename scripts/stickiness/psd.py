@@ -153,13 +153,16 @@ def power_spectrum(
     window : {"none", "hann", "hann_radial"}
         "none" for periodic heights. "hann": product of a Hann window along each axis.
         "hann_radial": Hann window of the distance from the centre, zero beyond the largest
-        inscribed circle; isotropic, but it uses less of the data.
+        inscribed circle; isotropic, but it uses less of the data. Both have the middle of the
+        area as centre, whatever the number of points, so that a mirrored map has the same rings;
+        SurfaceTopography's peaks on pixel n//2, half a pixel aside if n is even.
 
     Returns
     -------
     PowerSpectrum
         Scaled by the window's mean square, so that it estimates C whatever the window. The mean
-        weighted by the window is taken off first.
+        weighted by the window is taken off first: the plain mean, zero after levelling, would
+        leave a constant that leaks into the lowest modes.
 
     Raises
     ------
