@@ -15,6 +15,7 @@ from stickiness.spectrum import SelfAffine
 RANGE, WORK_OF_ADHESION = 0.2e-9, 0.05  # m, J/m^2
 CRYSTAL = 0.05  # l_a/range
 UPPER_LINE = 1e-3  # m^0.4, C0 of the line above real surfaces
+FINEST = 1e-9  # m, as the configuration has it for the paper's lines
 
 
 def slope_angle(files: Files) -> Claim:
@@ -142,20 +143,48 @@ def real_surfaces(files: Files) -> Claim:
 
 def asphalt_by_edges(files: Files) -> str:
     """Modulus threshold of the example by the edges of contact, with the spectrum's own a_V."""
-    rough = files["asphalt"].sel(end="rough")
-    h, q0, slope = (float(rough[name]) for name in ("h_rms", "q0", "rms_slope"))
-    a_v = files["asphalt_theory"].a_v.sel(variant=VARIANT)
+    asphalt, a_v = files["asphalt"], files["asphalt_theory"].a_v.sel(variant=VARIANT)
     logs = np.log(a_v).assign_coords({"range": np.log(a_v["range"])})
-    own = float(np.exp(logs.interp(range=np.log(RANGE / h))))
-    factor = edge_adhesion.ERROR_BEYOND ** np.array([0.0, -1.0, 1.0])
-    length = edge_adhesion.adhesion_length_threshold(h, q0, slope, RANGE, own, factor)
-    value, low, high = WORK_OF_ADHESION / length / 1e6
-    tau = edge_adhesion.attraction(h, q0, slope, length[0], RANGE, own).strength
-    tough = tau > edge_adhesion.STRONGEST_SIMULATED
+
+    def threshold(surface, factors):
+        h, q0, slope = (float(surface[name]) for name in ("h_rms", "q0", "rms_slope"))
+        own = float(np.exp(logs.interp(range=np.log(RANGE / h))))
+        lengths = edge_adhesion.adhesion_length_threshold(h, q0, slope, RANGE, own, factors)
+        edges = edge_adhesion.attraction(h, q0, slope, lengths[0], RANGE, own)
+        return WORK_OF_ADHESION / lengths / 1e6, edges
+
+    model = edge_adhesion.ERROR_BEYOND
+    rough, smooth = asphalt.sel(end="rough"), asphalt.sel(end="smooth")
+    (value, low), edges = threshold(rough, np.array([1.0, 1 / model]))
+    (smoother, high), _ = threshold(smooth, np.array([1.0, model]))
+    shortest = 2 * np.pi / float(asphalt.q1)
+    long, short, finest = cutoff_factors(rough, [10 * shortest, shortest / 10, FINEST])
     return (
-        f"By the edges of contact it is {value:.2g} MPa ({low:.2g} to {high:.2g}): there they have "
-        f"a strength of {tau:.1g}" + (" and are tough, whatever the range." if tough else ".")
+        f"By the edges of contact it is {value:.2g} MPa, which hinges on the shortest wavelength, "
+        f"assumed as {shortest * 1e6:.2g} µm: by Pastewka and Robbins' edges {value * long:.2g} "
+        f"MPa for one of {shortest * 1e7:.2g} µm, {value * short:.2g} for {shortest * 1e5:.2g} µm "
+        f"and {value * finest:.2g} for {FINEST * 1e9:g} nm. C0 = {float(smooth.C0):g} in place of "
+        f"{float(rough.C0):g} m^0.4 gives {smoother:.2g} MPa. With both C0, that wavelength within "
+        f"a factor of 10 and the model's factor of {model:g} in attraction: {low * long:.2g} to "
+        f"{high * short:.2g} MPa. At the threshold edges have a strength of {edges.strength:.1g}"
+        + (" and are tough, so that the range counts through a_V alone." if edges.tough else ".")
     )
+
+
+def cutoff_factors(surface: xr.Dataset, wavelengths: list[float]) -> np.ndarray:
+    """Modulus thresholds for other shortest wavelengths over the one with the surface's own.
+
+    At the same C0, with Pastewka and Robbins' a_V, which needs no more than moments.
+    """
+    q0, c0, hurst = float(surface.q0), float(surface.C0), float(surface.hurst)
+    lengths = []
+    for q1 in (float(surface.q1), *(2 * np.pi / np.array(wavelengths))):
+        s = SelfAffine(hurst=hurst, q0=q0, q1=q1, C0=c0)
+        a_v = criteria.pastewka_robbins_a_v(q0, s.h_rms, s.rms_slope, s.rms_curvature)
+        lengths.append(
+            edge_adhesion.adhesion_length_threshold(s.h_rms, q0, s.rms_slope, RANGE, a_v)
+        )
+    return lengths[0] / np.array(lengths[1:])
 
 
 def against_upper_line(files: Files) -> tuple[list[str], str]:

@@ -2,7 +2,7 @@
 
 from _numbers import interval, number, quantity
 
-REGIMES = ("weak", "between weak and tough", "tough, as in JKR")
+REGIMES = ("weak", "between weak and tough", "tough, near JKR", "strong, but not near JKR")
 
 NAMES = {
     "edge_adhesion": "edges of contact",

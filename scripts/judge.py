@@ -18,7 +18,7 @@ NEEDED = ("h_rms", "rms_slope", "rms_curvature", "elastic_energy", "q0", "hurst"
 EDGES = "edge_adhesion"
 FULL_CONTACT = "persson_tosatti"
 NOT_STICKY, DEPENDS, STICKY, UNDECIDED = range(4)
-WEAK, BETWEEN, TOUGH = range(3)
+WEAK, BETWEEN, TOUGH, STRONG = range(4)
 DIMS = ("material", "surface", "end")
 HEAD = """\
 # Do they stick?
@@ -28,9 +28,11 @@ equal area of contact, above 1 sticks. It takes the area within the range of att
 of the pair (theory on the surface's own spectrum at the material's range over h_rms, times the
 ratio of simulation to theory, {ratio:.2f}), and what attraction does at an edge from the sphere of
 Maugis that has the same attractive area and the same edge. The strength of the edges, Tabor's
-parameter, tells which model that is: *weak*, the paper's criterion but for the effect at edges,
-range and work of adhesion matter; *tough*, as in JKR, the work of adhesion alone, whatever the
-range; or *between*.
+parameter, tells which model that is: *weak* (up to {weakest:g}), the paper's criterion but for
+the effect at edges, range and work of adhesion matter; *tough* (from {tough:g} on, within
+{within:.0%} of JKR), the work of adhesion alone, the range only through a_V; *strong* (from
+{tough:g} on, but not near JKR), attraction reaches as far as the patches of contact are wide, so
+that the range still matters; or *between*.
 
 The margin goes from the rough end of the surface at the lowest a_V to its smooth end at the
 highest, the model's own error included: against full simulation a factor of {weak:g} for weak
@@ -54,7 +56,7 @@ criterion, over the one by the edges. Figure 9 shows what the shortest wavelengt
 
 """
 VERDICTS = ("not sticky", "depends", "sticky", "undecided")
-REGIMES = ("weak", "between", "tough")
+REGIMES = ("weak", "between", "tough", "strong")
 
 
 def main(job):
@@ -189,18 +191,18 @@ def edges(pairs):
     h, q0, slope, reach = (pairs[name].values for name in ("h_rms", "q0", "rms_slope", "range"))
     threshold = edge_adhesion.adhesion_length_threshold(h, q0, slope, reach, pairs.pair_a_v.values)
     validity = criteria.dmt_validity(h, q0, pairs.length.values, reach)
-    tau = found.strength
+    t, tau = found.attractive_over_contact, found.strength
     regime = np.select(
-        [tau <= edge_adhesion.WEAK, tau <= edge_adhesion.STRONGEST_SIMULATED],
-        [WEAK, BETWEEN],
-        TOUGH,
+        [tau <= edge_adhesion.WEAK, tau < edge_adhesion.TOUGH, found.tough],
+        [WEAK, BETWEEN, TOUGH],
+        STRONG,
     )
     values = {
         "margin_low": low,
         "margin_high": high,
         "modulus_threshold": pairs.work.values / threshold,
         "edge_strength": tau,
-        "attractive_over_contact": found.attractive_over_contact,
+        "attractive_over_contact": t,
         "over_dmt": found.effect,
         "regime": regime.astype("i1"),
         "simulated": found.simulated.astype("i1"),
@@ -293,7 +295,7 @@ def annotated(dataset):
         edge_strength=("1", "Tabor's parameter of the edges of contact, l_a d/range^2"),
         attractive_over_contact=("1", "area within the range over area of contact"),
         over_dmt=("1", "attraction over that of the DMT limit, at equal area of contact"),
-        regime=("1", "edges: 0 weak, 1 between, 2 tough (JKR)"),
+        regime=("1", "edges: 0 weak, 1 between, 2 tough (JKR), 3 strong, not JKR"),
         simulated=("1", "1 where full simulation bears the model out"),
         jtb_margin=("1", "rms height over the smallest at which the DMT limit holds (JTB)"),
         modulus_threshold=("Pa", "plane-strain modulus below which the pair sticks"),
@@ -322,6 +324,9 @@ def markdown(dataset, constant, materials, surfaces):
     head = HEAD.format(
         ratio=constant.over_lattice,
         constant=constant.describe(),
+        weakest=edge_adhesion.WEAK,
+        tough=edge_adhesion.TOUGH,
+        within=edge_adhesion.TOUGH_WITHIN,
         weak=edge_adhesion.ERROR_WEAK,
         strong=edge_adhesion.ERROR_STRONG,
         strongest=edge_adhesion.STRONGEST_SIMULATED,

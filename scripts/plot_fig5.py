@@ -83,7 +83,7 @@ def emphasis_keys(data):
         of("h_rms_limit_printed", "DMT limit, 9/4 as printed"),
         key(color=RED, linestyle="none", marker="o", mfc="white", label="the paper's numbers"),
         of("jtb_limit", "JTB: DMT valid above"),
-        of("weak_limit", r"edges weak above, tough below"),
+        of("weak_limit", r"edges weak above, stronger below"),
     ]
 
 

@@ -1,6 +1,7 @@
 """The ledger's claims on made-up files, for which the verdict and the number are known."""
 
 import json
+import re
 from pathlib import Path
 
 import numpy as np
@@ -16,7 +17,7 @@ import _model
 import check_claims
 from _claim import NOT, OPEN, QUALIFIED, REPRODUCED, total_error
 from _model import LOAD
-from stickiness import criteria, surface
+from stickiness import criteria, edge_adhesion, surface
 from stickiness.spectrum import SelfAffine
 
 RULES = Path(__file__).parents[1] / "rules" / "common.smk"
@@ -210,6 +211,7 @@ def real_surface(label, kind="self_affine", q0=1e3, c0=1e-3, h_rms=1e-6):
             "h_rms": ("end", [h_rms / 10, h_rms]),
             "rms_slope": ("end", [0.1, 1.0]),
             "q0": q0,
+            "q1": 2 * np.pi / 1e-6,
             "hurst": 0.8,
         },
         coords={"end": ["smooth", "rough"]},
@@ -544,8 +546,38 @@ def test_asphalt_by_its_edges_does_not_know_the_range(files, monkeypatch):
         monkeypatch.setattr(criterion, "RANGE", reach)
         texts.append(criterion.asphalt_by_edges(files))
     assert all("tough" in text for text in texts)
-    values = [text.split(": there")[0] for text in texts]
-    assert values[0] == values[1]
+    assert len({text.split(" µm and")[0] for text in texts}) == 1
+    assert len({text.split("in attraction: ")[1].split(". At")[0] for text in texts}) == 1
+
+
+def test_asphalt_by_its_edges_hinges_on_the_shortest_wavelength(files):
+    """Tough edges with Pastewka and Robbins' a_V: E* goes as wavelength^(1 - 2H), here -0.6."""
+    found = criterion.cutoff_factors(files["asphalt"].sel(end="rough"), [1e-5, 1e-6, 1e-7])
+    # The limit of broad spectra and of tough edges, which these are near.
+    np.testing.assert_allclose(found, [10**-0.6, 1, 10**0.6], rtol=0.1)
+    files["asphalt"] = real_surface("asphalt", h_rms=1e-3)
+    text = criterion.asphalt_by_edges(files)
+    assert "are tough" in text
+    number = r"([-+.\de]+)"
+    value, long, short, finest, smooth, low, high = (
+        float(re.search(pattern.replace("#", number), text).group(1))
+        for pattern in (
+            "it is # MPa",
+            "edges # MPa",
+            "10 µm, # for",
+            "0.1 µm and # for 1 nm",
+            "gives # MPa",
+            "attraction: # to",
+            "to # MPa. At",
+        )
+    )
+    # numbers are quoted with two digits
+    assert long / value == pytest.approx(found[0], rel=0.1)
+    assert short / value == pytest.approx(found[2], rel=0.1)
+    # of tough edges attraction goes as the root of the adhesion length
+    assert low == pytest.approx(long / edge_adhesion.ERROR_BEYOND**2, rel=0.1)
+    assert high == pytest.approx(smooth * found[2] * edge_adhesion.ERROR_BEYOND**2, rel=0.1)
+    assert low < long < value < short < min(finest, high)
 
 
 def test_only_measured_surfaces_test_the_line(files):

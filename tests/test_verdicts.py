@@ -76,7 +76,7 @@ def test_verdict(low, high, full, expected):
     assert judge.VERDICTS[int(judge.verdict(xr.Dataset(data, coords=coords)))] == expected
 
 
-def pairs_of(modulus, ranges, h_rms=1e-6):
+def pairs_of(modulus, ranges, h_rms=1e-6, a_v=(4.0, 4.0, 4.0)):
     """Verdicts on one surface for materials of one modulus and several ranges."""
     solids = {
         f"range {reach:g}": material(
@@ -99,7 +99,7 @@ def pairs_of(modulus, ranges, h_rms=1e-6):
         {name: ("end", [value, value]) for name, value in known.items()} | {"q0": s.q0},
         coords={"end": ["smooth", "rough"]},
     )
-    a_v = SurfaceAv(np.array([1e-9, 1.0]), np.full((2, 2), 4.0), 0, 1.0, 0.0)
+    a_v = SurfaceAv(np.array([1e-9, 1.0]), np.transpose([a_v, a_v]), 0, 1.0, 0.0)
     parts = dict.fromkeys(("sampling", "discretisation", "window", "bandwidth"), 0.1)
     constant = MeasuredAv(3.0, simulated=2.0, over_lattice=1.0, magnification=1e6, **parts)
     return judge.judged(solids, {"one": surface}, {"one": a_v}, constant, np.array([1.0, 1e3]))
@@ -125,6 +125,34 @@ def test_weak_edges_attract_more_than_the_sum():
         dmt * edge_adhesion.weak_effect(t), rel=0.02
     )
     assert float(found.over_dmt) > 1.5
+
+
+@pytest.mark.parametrize(
+    ("modulus", "reach", "error"),
+    [
+        (1e11, 1e-7, edge_adhesion.ERROR_WEAK),
+        (1e6, 1e-7, edge_adhesion.ERROR_STRONG),
+        (1e6, 1e-10, edge_adhesion.ERROR_BEYOND),
+    ],
+)
+def test_margin_goes_from_low_a_v_and_model_to_high_ones(modulus, reach, error):
+    found = pairs_of(modulus, [reach], a_v=(4.0, 3.0, 5.0)).isel(end=0, surface=0, material=0)
+    s = SelfAffine(hurst=0.8, q0=1e5, q1=1e8, h_rms=1e-6)
+    low, value, high = (
+        edge_adhesion.attraction(s.h_rms, 1e5, s.rms_slope, 0.05 / modulus, reach, a_v).ratio
+        for a_v in (3.0, 4.0, 5.0)
+    )
+    assert float(found.margin.sel(criterion="edge_adhesion")) == pytest.approx(value, rel=1e-9)
+    assert float(found.margin_low) == pytest.approx(low / error, rel=1e-9)
+    assert float(found.margin_high) == pytest.approx(high * error, rel=1e-9)
+    assert float(found.margin_low) < value < float(found.margin_high)
+
+
+def test_wide_zones_of_strong_edges_are_not_called_tough():
+    found = pairs_of(1e3, [1e-6]).isel(end=0, surface=0, material=0)
+    assert float(found.attractive_over_contact) > 10
+    assert float(found.edge_strength) > edge_adhesion.TOUGH
+    assert int(found.regime) == judge.STRONG
 
 
 def test_threshold_is_where_attraction_balances_repulsion():

@@ -15,7 +15,8 @@ the edge, ``tau = l_a d/range^2``:
   same load spread evenly would move the edge by ``(dA/dF) sigma_0 d`` per length only. The ratio
   grows as ``d^(-1/2)``, that is range^(-1/3): weak adhesion is not the DMT limit.
 * ``tau >> 1``, *tough*: ``delta = (2/B) sqrt(E* w/pi)`` knows the work of adhesion w alone, as in
-  JKR. The traction and its range drop out.
+  JKR. The traction and its range drop out. Small zones are within 10 % of that from ``tau = 2`` on;
+  zones as wide as the patches of contact (t above about 1) later, t = 10 at ``tau = 13``.
 
 At a given area of contact the external load is smaller by ``int delta ds/(dA/dF)`` than without
 adhesion. Where the zone is not small against the patches of contact, the sphere shows what becomes
@@ -58,6 +59,7 @@ KAPPA_REP = 2.0  # area over load without adhesion, A_rep/A_nom = kappa p/(E* h'
 
 WEAK = 0.2  # strength tau up to which adhesion is weak
 STRONGEST_SIMULATED = 4.0  # strength tau up to which the model was held against simulation
+TOUGH, TOUGH_WITHIN = 2.0, 0.1  # see `tough`
 SMALLEST_SIMULATED = 0.13  # attractive over contact area from which on it was
 # Factors, up or down, within which simulation agrees with the model; beyond what was simulated a
 # guess that allows for edges with scattered B and for contacts that are no spheres.
@@ -79,7 +81,7 @@ class EdgeAttraction:
     attractive_over_contact : float or array
         Area within the range over area of contact, without adhesion.
     strength : float or array
-        Tabor's parameter tau of the edges: weak below `WEAK`, tough (JKR) far above 1.
+        Tabor's parameter tau of the edges: weak below `WEAK`; for `tough` ones see there.
     """
 
     ratio: float | NDArray
@@ -92,6 +94,11 @@ class EdgeAttraction:
     def simulated(self) -> bool | NDArray:
         """Whether the model was held against simulation there."""
         return plain(np.asarray(self.error_factor) < ERROR_BEYOND)
+
+    @property
+    def tough(self) -> bool | NDArray:
+        """Whether the edges are `tough`."""
+        return tough(self.attractive_over_contact, self.strength)
 
 
 def attraction(
@@ -173,7 +180,7 @@ def effect(attractive_over_contact: ArrayLike, strength: ArrayLike) -> float | N
     Returns
     -------
     float or array
-        `weak_effect` for small strengths, `tough_effect` for large ones with small zones.
+        `weak_effect` for small strengths, `tough_effect` for large ones.
     """
     t, tau = np.broadcast_arrays(
         *positive(attractive_over_contact=attractive_over_contact, strength=strength)
@@ -207,13 +214,26 @@ def weak_effect(attractive_over_contact: ArrayLike) -> float | NDArray:
 
 
 def tough_effect(attractive_over_contact: ArrayLike, strength: ArrayLike) -> float | NDArray:
-    """`effect` at large strength and small zones: JKR, ``(4/pi) sqrt(pi/(4 t tau))``.
+    """`effect` at large strength: JKR, ``(4/pi) sqrt(pi/(4 t tau))`` for small t.
 
     The ratio to repulsion is then ``t^(3/4)`` times the root of the adhesion length: t grows as
     range^(2/3), so that the range drops out.
     """
     t, tau = positive(attractive_over_contact=attractive_over_contact, strength=strength)
-    return plain(2 / np.sqrt(np.pi * t * tau))
+    # sqrt(8 pi w a^3) over sigma_0 pi a^2 t, in the units and with the traction of `effect`.
+    reach = _hertz_gap(np.arctan(np.sqrt(t)))
+    return plain(np.sqrt(3 * reach / (tau * np.sqrt(t))) / t)
+
+
+def tough(attractive_over_contact: ArrayLike, strength: ArrayLike) -> bool | NDArray:
+    """Whether `effect` is within `TOUGH_WITHIN` of `tough_effect`, from the strength `TOUGH` on.
+
+    Small zones reach that at tau = 1.93. Wide ones cross the limit at small strength, where they
+    have nothing of it, and approach it later.
+    """
+    t, tau = np.asarray(attractive_over_contact), np.asarray(strength)
+    over = np.asarray(effect(t, tau)) / tough_effect(t, tau)
+    return plain((tau >= TOUGH) & (np.abs(over - 1) <= TOUGH_WITHIN))
 
 
 def zone_share(strength: ArrayLike) -> float | NDArray:
