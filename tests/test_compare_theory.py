@@ -70,6 +70,33 @@ def test_distance_has_the_sampling_error_of_the_mean():
     assert floor == pytest.approx(np.sqrt(2 / np.pi) * want, rel=0.02)
 
 
+def test_contact_that_trades_with_gaps_next_to_it_is_no_distance():
+    # Contact differs by seed, but the gaps it gives up are next to zero: W1 of mean and seeds is
+    # that of the gaps below 1e-3, though either area scatters at every range.
+    contacts, gap = [0.1, 0.2, 0.3, 0.4], 1e-3
+    small = ensemble(contacts, [gap] * 4)
+    found = compare_theory.distance(small, theory(0.25, gap))
+    # 1 - (1 - c) exp(-u/gap): the deviation of c times exp(-u/gap)
+    error = np.std(contacts, ddof=1) / 2
+    want = np.sqrt(2 / np.pi) * error * gap
+    assert float(found.distance_floor.squeeze()) == pytest.approx(want, rel=0.01)
+
+
+def test_grid_errors_of_contact_and_gaps_cancel_in_the_distance():
+    # Halving the grid moves 0.1 from contact to gaps of mean 1e-3, alike in both seeds.
+    gap, fine = 1e-3, ensemble([0.3, 0.3], [1e-3] * 2)
+    rough = ensemble([0.2, 0.2], [gap] * 2)
+    both = fine.drop_vars(compare_theory.PARTS)
+    for name in compare_theory.PARTS:
+        both[name] = xr.concat([rough[name], fine[name]], "resolution")
+        both[f"{name}_discretisation_error"] = abs(fine[name] - rough[name]).isel(
+            seed=0, resolution=0
+        )
+    found = compare_theory.distance(both, theory(0.3, gap))
+    error = float(found.distance_discretisation_error.squeeze())
+    assert error == pytest.approx(0.1 * gap, rel=0.01)
+
+
 def test_highest_summit_is_that_of_the_window():
     # Gaussian heights of n independent summits reach about sqrt(2 ln n) h_rms.
     small, large = (
