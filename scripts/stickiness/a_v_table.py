@@ -28,6 +28,9 @@ NEEDED = (
     "quadrature_error",
     "simulation_ratio",
     "simulation_error",
+    "simulation_trend",
+    "smallest_magnification",
+    "largest_magnification",
     "extrapolation_error",
 )
 _AXES = ("hurst", "magnification", "pressure", "range")
@@ -81,7 +84,8 @@ class AvEstimate:
     Attributes
     ----------
     value : array
-        Theory as quoted times the ratio of simulation to theory.
+        Theory as quoted times the ratio of simulation to theory, which follows the trend with the
+        magnification between simulated ones and is held constant beyond them.
     low, high : array
         Limits: all parts of the error in quadrature, as factors.
     theory_below, theory_above : array
@@ -143,6 +147,9 @@ class AvTable:
         self._quadrature = float(table.quadrature_error)
         self._ratio = _held(np.log(table.simulation_ratio))
         self._ratio_error = _held(table.simulation_error)
+        self._trend = _held(table.simulation_trend)
+        ends = table.smallest_magnification, table.largest_magnification
+        self._doublings = np.log2([float(end) for end in ends])
         self._simulated = float(table.simulated_range.min())
         self._extrapolation = float(table.extrapolation_error)
 
@@ -193,8 +200,10 @@ class AvTable:
             found = self._at_finite(*(np.log(x[rest]) for x in (zeta, p, eps)), h[rest])
             logs[rest], below[rest], above[rest], edge[rest] = found
         where = np.stack([np.log(p), np.log(eps)], axis=-1)
-        value = np.exp(logs + self._ratio(where))
-        simulation = self._ratio_error(where)
+        trend = self._trend(where[:, 1:])
+        held = np.clip(np.log2(zeta), *self._doublings) - self._doublings[1]
+        value = np.exp(logs + self._ratio(where) + trend * held)
+        simulation = np.hypot(self._ratio_error(where), trend * self._unseen(zeta))
         beyond = np.where(eps < self._simulated, self._extrapolation, 0.0)
         simulation = np.hypot(simulation, beyond)
         others = simulation**2 + self._quadrature**2
@@ -209,6 +218,15 @@ class AvTable:
             "edge": edge,
         }
         return AvEstimate(**{name: part.reshape(shape)[()] for name, part in parts.items()})
+
+    def _unseen(self, zeta):
+        """Doublings of the magnification over which the trend may go on beyond simulation.
+
+        The ratio has a limit, for simulation and theory both converge, but its trend does not
+        level off where it was simulated: at most half as many doublings as were.
+        """
+        low, high = self._doublings
+        return np.clip(np.log2(zeta) - high, 0, (high - low) / 2)
 
     def _at_finite(self, log_zeta, log_p, log_eps, h):
         """Logarithm of a_V, reach of the other theories below and above, below the edge range."""
@@ -261,8 +279,8 @@ def _linear(table: xr.DataArray, axes: tuple[str, ...]) -> RegularGridInterpolat
 
 
 def _held(table: xr.DataArray):
-    """Linear between simulated loads and ranges, held constant beyond them."""
-    axes = ("simulated_pressure", "simulated_range")
+    """Linear between simulated loads and ranges, or ranges alone, held constant beyond them."""
+    axes = [name for name in ("simulated_pressure", "simulated_range") if name in table.dims]
     interpolator = _interpolator(table, axes, "linear")
     low, high = (np.array([end(x) for x in interpolator.grid]) for end in (np.min, np.max))
     return lambda at: interpolator(np.clip(at, low, high))
