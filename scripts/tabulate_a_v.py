@@ -175,7 +175,7 @@ def annotated(dataset):
         "largest_magnification": ("1", "largest magnification simulated"),
         "extrapolation_error": (
             "1",
-            "standard relative error added over the first decade below the simulated ranges",
+            "standard relative error that a decade below the simulated ranges adds",
         ),
     }
     for name in ("theory_below", "theory_above"):

@@ -102,8 +102,10 @@ def test_errors_hold_the_simulations_own(table):
     found = AvTable(table).a_v_at(0.8, 0.05, 0.05, 1e4)
     # two cases that agree: their own error, which is not taken to average out
     assert found.simulation == pytest.approx(RATIO_ERROR, rel=1e-6)
-    assert found.low < found.value * (1 - 0.9 * found.simulation)
-    assert found.high > found.value * (1 + 0.9 * found.simulation)
+    for limit, reach in ((found.low, found.theory_below), (found.high, found.theory_above)):
+        # 90 % of a normal error, and extremes as they are
+        want = np.sqrt(reach**2 + (1.6449 * RATIO_ERROR) ** 2 + found.quadrature**2)
+        assert abs(np.log(limit / found.value)) == pytest.approx(want, rel=1e-4)
     assert found.quadrature < 1e-5
 
 
@@ -162,6 +164,16 @@ def test_loads_of_too_small_windows_are_left_out():
     found = tabulate_a_v.simulated([comparison(1.1), small])
     np.testing.assert_allclose(found.simulation_ratio.isel(simulated_pressure=0), 1.1, rtol=1e-6)
     assert np.all(found.simulation_ratio.isel(simulated_pressure=1) > 1.5)
+
+
+@pytest.mark.parametrize("magnification", [1e3, np.inf])
+def test_error_grows_with_every_decade_below_the_simulated_ranges(table, magnification):
+    drift = 0.09
+    known = AvTable(table.assign(extrapolation_error=drift))
+    found = known.a_v_at(0.8, 0.05, 10.0 ** np.array([-1, -2, -3, -4, -8]), magnification)
+    assert found.edge[-1] == np.isfinite(magnification)  # a constant a_V is extrapolated as well
+    more = np.sqrt(found.simulation**2 - found.simulation[0] ** 2)
+    np.testing.assert_allclose(more, drift * np.sqrt([0, 0, 1, 2, 6]), rtol=1e-4, atol=1e-9)
 
 
 def test_no_load_at_all_is_an_error():
