@@ -16,8 +16,9 @@ import numpy as np
 import xarray as xr
 
 import _theories
-from _errors import coarse, ensemble_mean
+from _errors import coarse, discretisation_error, ensemble_mean
 from _job import start
+from _limits import EXTRAPOLATION
 from _model import DESCRIBED, spectrum_of, window_of
 from stickiness import datasets, surface
 from synthesise_surface import grid_points
@@ -25,6 +26,7 @@ from synthesise_surface import grid_points
 WINDOWS = 64  # random ones, whose highest summits are averaged
 LONG_WAVES = 64.0  # wave number over q0 beyond which waves add nothing to the highest summit
 MARGIN = 0.75  # over h_rms, of theory's mean gap below the highest summit
+PARTS = ("area_fraction", "attractive_area")  # of the cumulative distribution
 COMPARED = ("area_fraction", "mean_gap", "attractive_area", "gap_density")
 
 
@@ -60,28 +62,46 @@ def differences(simulated, theory):
 
 
 def distance(simulated, theory):
-    """W1 with its errors, and the W1 that sampling alone would give."""
-    expected = theory.area_fraction + theory.attractive_area
-    mean = simulated.area_fraction_mean + simulated.attractive_area_mean
-    difference = mean - expected
+    """W1 with its errors, and the W1 that sampling alone would give.
+
+    Contact and gaps next to it trade places: at large gaps errors of the two areas cancel, for
+    together they are all of the surface. So both errors are those of their sum.
+    """
+    mean, sampling = ensemble_mean(cumulative(simulated), coarse(simulated, cumulative))
+    mean = mean + sum(simulated.get(f"{name}_{EXTRAPOLATION}", 0) for name in PARTS)
+    difference = mean - (theory.area_fraction + theory.attractive_area)
     side = np.sign(difference)
 
     def moved(solved):
         """W1 of one realisation, were its distribution on the same side as the mean everywhere."""
-        return integral(side * (solved.area_fraction + solved.attractive_area))
+        return integral(side * cumulative(solved))
 
-    sampling = ensemble_mean(moved(simulated), coarse(simulated, moved))[1]
-    parts = [simulated[f"{name}_standard_error"] for name in ("area_fraction", "attractive_area")]
-    left = [f"{name}_discretisation_error" for name in ("area_fraction", "attractive_area")]
     return xr.Dataset(
         {
             "distance": integral(abs(difference)),
-            "distance_standard_error": sampling,
-            "distance_discretisation_error": integral(np.hypot(*(simulated[n] for n in left))),
-            # Mean modulus of a normal deviate; areas of contact and of gaps rise and fall together.
-            "distance_floor": np.sqrt(2 / np.pi) * integral(sum(parts)),
+            "distance_standard_error": ensemble_mean(moved(simulated), coarse(simulated, moved))[1],
+            "distance_discretisation_error": integral(left(simulated)),
+            # Mean modulus of a normal deviate.
+            "distance_floor": np.sqrt(2 / np.pi) * integral(sampling),
         }
     )
+
+
+def cumulative(solved):
+    """Share of the surface in contact or with a gap up to the range."""
+    return solved.area_fraction + solved.attractive_area
+
+
+def left(simulated):
+    """Discretisation error of the cumulative distribution.
+
+    Two bounds, the lower of which holds: the errors left in its parts, as if independent, and the
+    change of the sum from half the resolution.
+    """
+    parts = np.hypot(*(simulated[f"{name}_discretisation_error"] for name in PARTS))
+    if simulated.sizes["resolution"] == 1:
+        return parts
+    return np.minimum(parts, discretisation_error(cumulative(simulated)))
 
 
 def integral(values):

@@ -1,4 +1,9 @@
-"""The gamma of each correction of the theory that agrees best with simulation, and how well."""
+"""The gamma of each correction of the theory that agrees best with simulation, and how well.
+
+Cases of one window are made with the same seeds, hence share their long waves, and with these most
+of their deviations (correlations of 0.9 to 1): their errors rise and fall together, and a window is
+drawn with its cases when confidence intervals are taken.
+"""
 
 import numpy as np
 import xarray as xr
@@ -28,7 +33,8 @@ def main(job):
         for ensemble, comparison in zip(job.input.ensembles, job.input.comparisons, strict=True)
     ]
     cases = [deviations for deviations in cases if deviations is not None]
-    draws = sample(np.random.default_rng(SEED), DRAWS, len(cases))
+    windows = [deviations.pop("window") for deviations in cases]
+    draws = sample(np.random.default_rng(SEED), DRAWS, windows)
     rows = [
         [fitted(cases, draws, index, quantity) for quantity in (*QUANTITIES, EVERY)]
         for index in range(len(CORRECTIONS))
@@ -41,6 +47,7 @@ def main(job):
         },
         coords={"correction": list(CORRECTIONS), "quantity": [*QUANTITIES, EVERY]},
     )
+    dataset["quantities_agree"] = agreement(dataset).astype("i1")
     dataset["own_gamma"] = "correction", [correction_of(name).gamma for name in CORRECTIONS]
     datasets.write(
         annotated(dataset),
@@ -75,7 +82,8 @@ def case(ensemble, comparison):
             theory[name].append(np.log(values))
         areas = [attractive(lattice, g, correction, few) for g in FEW]
         theory["attractive_area"].append(CubicSpline(np.log(FEW), np.log(areas))(np.log(GRID)))
-    return {name: against(ensemble, name, few, np.array(theory[name])) for name in QUANTITIES}
+    found = {name: against(ensemble, name, few, np.array(theory[name])) for name in QUANTITIES}
+    return {**found, "window": made.get("window", 1)}
 
 
 def attractive(lattice, gamma, correction, loads):
@@ -95,10 +103,26 @@ def against(ensemble, name, few, theory):
     return theory - np.log(mean), np.nan_to_num(np.hypot(*errors) / mean)
 
 
-def sample(rng, count, cases):
-    """Cases drawn with replacement, and how many errors each quantity of each is off by."""
-    chosen = rng.integers(cases, size=(count, cases))
-    return chosen, rng.standard_normal((len(QUANTITIES), count, cases))
+def sample(rng, count, windows):
+    """Cases drawn, and how many errors each quantity of each is off by.
+
+    Windows are drawn with replacement, then as many cases as there are from theirs. Cases of one
+    window are off together.
+    """
+    names, member = np.unique(windows, return_inverse=True)
+    size = len(windows)
+    chosen = np.empty((count, size), dtype=int)
+    for row in chosen:
+        drawn = rng.integers(len(names), size=len(names))
+        row[:] = rng.choice(np.concatenate([np.flatnonzero(member == w) for w in drawn]), size)
+    off = rng.standard_normal((len(QUANTITIES), count, len(names)))
+    return chosen, np.take_along_axis(off, member[chosen][None], axis=2)
+
+
+def agreement(dataset):
+    """Whether one gamma lies within the intervals of all quantities, for each correction."""
+    each = dataset.sel(quantity=list(QUANTITIES))
+    return each.gamma_low.max("quantity") <= each.gamma_high.min("quantity")
 
 
 def fitted(cases, draws, correction, quantity):
@@ -143,7 +167,9 @@ def lowest(curve):
 
 
 def annotated(dataset):
-    interval = f"{CONFIDENCE:.0%} confidence interval of gamma, over cases and their errors"
+    interval = (
+        f"{CONFIDENCE:.0%} confidence interval of gamma, over windows, their cases and errors"
+    )
     return datasets.annotate(
         dataset,
         correction=("1", "correction of the theory"),
@@ -153,6 +179,11 @@ def annotated(dataset):
         gamma_high=("1", f"high end of the {interval}"),
         misfit=("1", "root mean square of ln(theory/simulation) at the best gamma"),
         misfit_own=("1", "the same at the gamma of the correction's source"),
+        quantities_agree=(
+            "1",
+            "1 where one gamma lies within the intervals of the three quantities; where 0, that of "
+            f"{EVERY} is a compromise that none of them may hold",
+        ),
         own_gamma=("1", "gamma of the correction's source"),
     )
 

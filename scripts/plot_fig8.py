@@ -51,7 +51,7 @@ class Case:
 
 def main(job):
     cases = looks([datasets.read(path, ["distance"]) for path in job.input.comparisons])
-    gamma = datasets.read(job.input.gamma, ["gamma", "gamma_low", "gamma_high"])
+    gamma = datasets.read(job.input.gamma, ["gamma", "gamma_low", "gamma_high", "quantities_agree"])
     grid = [[f"{row}{column}" for column in range(len(THEORIES))] for row in ROWS]
     figure, panels = canvas(
         [*grid, ["A", "A", "B", "B"]], 10.2, height_ratios=[1] * len(ROWS) + [1.65]
@@ -197,16 +197,24 @@ def window_panel(ax, cases):
 
 
 def gamma_panel(ax, gamma):
-    """Gamma with its confidence interval for each correction and quantity."""
+    """Gamma with its confidence interval for each correction and quantity.
+
+    Of all quantities together only where they agree, for else it is nobody's gamma.
+    """
+    small = {"va": "center", "fontsize": 7}
     for index, (correction, label) in enumerate(CORRECTIONS.items()):
         at = gamma.sel(correction=correction)
+        if not at.quantities_agree:
+            at = at.sel(quantity=at["quantity"] != "all")
         y = np.arange(at.sizes["quantity"]) + 0.26 * (1 - index)
         bars = np.abs([at.gamma - at.gamma_low, at.gamma_high - at.gamma])
         look = {"color": COLOURS[index], "marker": MARKERS[index], "linestyle": "none"}
         ax.errorbar(at.gamma, y, xerr=bars, elinewidth=1, capsize=2, **look, label=label)
         for height, best, misfit in zip(y, at.gamma_high.values, at.misfit.values, strict=True):
-            ax.text(best + 0.015, height, f"{misfit:.0%}", va="center", fontsize=7)
+            ax.text(best + 0.015, height, f"{misfit:.0%}", **small)
         own = float(at.own_gamma)
+        if not at.quantities_agree:
+            ax.text(0.27, 3 + 0.26 * (1 - index), f"{label}: none fits all", **small)
         ax.plot(own, 3.55, marker=MARKERS[index], color=COLOURS[index], mfc="white", clip_on=False)
     ax.plot([], [], linestyle="none", marker="o", color=BLACK, mfc="white", label="source's own")
     names = [QUANTITIES[str(name)] for name in gamma.quantity.values]

@@ -42,36 +42,113 @@ def reach(theory):
 
 
 def simulated(comparisons):
-    """Ratio of simulation to theory at every load and range, pooled over cases.
+    """Ratio of simulation to theory at every range, smooth in load and magnification.
 
-    Cases differ by more than their errors: the ratio is a mean with a variance between cases (a
-    random effect, by moments over all loads), and its error is that of a further case. The cases'
-    own errors are not taken to average out, for grids err to one side in all of them.
+    ln ratio = parabola in ln p + trend log2(zeta/largest zeta), fitted at each range over all cases
+    and loads, each case with the same say however many loads it has. The ratio is that at the
+    largest magnification. Cases differ by more than their errors, by Hurst exponent and window: a
+    variance between them (a random effect, by moments) enters weights and error, the latter that of
+    a further case. It adds what leaving out one case after the other changes (jackknife), and the
+    cases' own errors, not taken to average out, for grids err to one side in all of them.
     """
-    logs, errors = zip(*map(log_ratio, comparisons), strict=True)
-    logs, errors = (xr.concat(part, "case", join="outer") for part in (logs, errors))
-    scatter = between_cases(logs, errors)
-    weight = (1 / (errors**2 + scatter**2)).fillna(0)
-    total = weight.sum("case")
-    known = total.min("range") > 0
-    if not known.any():
-        raise ValueError(
-            "no load of any case has a window that holds summits enough to compare theory with; "
-            "add larger windows or higher pressures to cases or comparisons"
-        )
-    mean = (weight * logs.fillna(0)).sum("case") / total
-    common = (weight * errors.fillna(0) ** 2).sum("case") / total
-    mean, common = mean.isel(pressure=known.values), common.isel(pressure=known.values)
+    points = collected(comparisons)
+    loads = np.unique(points.pressure)
+    between = scatter(points)
+    error = np.hypot(points.error, between)
+    largest = float(points.magnification.max())
+    mean, trend = fitted(points, error, loads, largest)
+    say = 1 / (error**2 * points.sharing)
+    common = (say * points.error**2).sum("point") / say.sum("point")
+    spread = np.hypot(between, jackknife(points, error, loads, largest))
     # Towards smaller ranges: what a decade of simulated ones changes.
     change = mean.sel(range=10 * SMALLEST_RANGE, method="nearest") - mean.isel(range=0)
     found = xr.Dataset(
         {
             "simulation_ratio": np.exp(mean),
-            "simulation_error": np.sqrt(scatter**2 + common),
+            "simulation_error": np.sqrt(spread**2 + common),
+            "simulation_trend": trend,
+            "smallest_magnification": points.magnification.min(),
+            "largest_magnification": largest,
             "extrapolation_error": np.sqrt((change**2).mean()),
         }
     )
     return found.rename({"pressure": "simulated_pressure", "range": "simulated_range"})
+
+
+def collected(comparisons):
+    """Logarithms of the ratio and their errors at every load of every case that is known."""
+    parts = []
+    for case, comparison in enumerate(comparisons):
+        logs, errors = log_ratio(comparison)
+        part = xr.Dataset({"log": logs, "error": errors}).rename(pressure="point")
+        part = part.dropna("point")
+        part["case"] = "point", np.full(part.sizes["point"], case)
+        part["sharing"] = "point", np.full(part.sizes["point"], part.sizes["point"])
+        zeta = float(datasets.parameters(comparison)["magnification"])
+        part["magnification"] = "point", np.full(part.sizes["point"], zeta)
+        part["pressure"] = "point", part.point.values
+        parts.append(part.drop_vars("point"))
+    points = xr.concat(parts, "point").transpose("point", "range")
+    if not points.sizes["point"]:
+        raise ValueError(
+            "no load of any case has a window that holds summits enough to compare theory with; "
+            "add larger windows or higher pressures to cases or comparisons"
+        )
+    return points
+
+
+def fitted(points, error, loads, largest):
+    """Log ratio at the magnification `largest` and `loads`, and its change per doubling of it."""
+    degree = min(2, len(np.unique(points.pressure)) - 1)
+    several = len(np.unique(points.magnification)) > 1
+
+    def terms(load, zeta):
+        powers = np.log(load / loads[-1])[:, None] ** np.arange(degree + 1)
+        return np.column_stack([powers, np.log2(zeta / largest)]) if several else powers
+
+    matrix = terms(points.pressure.values, points.magnification.values)
+    root = 1 / np.maximum(error * np.sqrt(points.sharing), 1e-9).values
+    found = np.transpose(
+        [
+            np.linalg.lstsq(matrix * w[:, None], y * w, rcond=None)[0]
+            for w, y in zip(root.T, points.log.values.T, strict=True)
+        ]
+    )
+    coords = {"pressure": loads, "range": points["range"].values}
+    mean = terms(loads, np.full(len(loads), largest)) @ found
+    trend = found[-1] if several else np.zeros(found.shape[1])
+    return (
+        xr.DataArray(mean, coords, ("pressure", "range")),
+        xr.DataArray(trend, {"range": coords["range"]}, ("range",)),
+    )
+
+
+def scatter(points):
+    """Standard deviation between cases at each range, what their errors explain taken away."""
+    loads = np.unique(points.pressure)
+    largest = float(points.magnification.max())
+    mean, trend = fitted(points, xr.ones_like(points.error), loads, largest)
+    doublings = np.log2(points.magnification / largest)
+    left = points.log - mean.sel(pressure=points.pressure).drop_vars("pressure") - trend * doublings
+    squares, explained = (
+        (part**2).groupby(points.case).mean().mean("case") for part in (left, points.error)
+    )
+    count = len(np.unique(points.case))
+    spent = 1 + (len(np.unique(points.magnification)) > 1)
+    return np.sqrt(np.maximum(squares * count / max(count - spent, 1) - explained, 0))
+
+
+def jackknife(points, error, loads, largest):
+    """Standard error of the fit, by leaving out one case after the other."""
+    cases = np.unique(points.case)
+    if len(cases) == 1:
+        return 0.0
+    means = []
+    for case in cases:
+        kept = (points.case != case).values
+        rest = points.isel(point=kept), error.isel(point=kept)
+        means.append(fitted(*rest, loads, largest)[0])
+    return np.sqrt((len(cases) - 1) * xr.concat(means, "case").var("case"))
 
 
 def log_ratio(comparison):
@@ -84,15 +161,6 @@ def log_ratio(comparison):
     return -np.log(over), quoted.attractive_area_difference_error / over
 
 
-def between_cases(logs, errors):
-    """Standard deviation between cases at each range, what their errors explain taken away."""
-    count = logs.notnull().sum("case")
-    several = count > 1
-    spread = logs.var("case", ddof=1).where(several).mean("pressure")
-    explained = (errors**2).mean("case").where(several).mean("pressure")
-    return np.sqrt(np.maximum(spread - explained, 0).fillna(0))
-
-
 def annotated(dataset):
     theory = "a_V by theory"
     texts = {
@@ -100,9 +168,15 @@ def annotated(dataset):
         "a_v_limit": ("1", f"{theory} in the limit of infinite magnification"),
         "simulated_pressure": ("1", "mean pressure over E* q0 h_rms of simulations"),
         "simulated_range": ("1", "range of attraction over h_rms of simulations"),
-        "simulation_ratio": ("1", "simulation over theory on the same spectrum, pooled over cases"),
-        "simulation_error": ("1", "relative error of this ratio for a further surface"),
-        "extrapolation_error": ("1", "relative error added below the simulated ranges"),
+        "simulation_ratio": ("1", "simulation over theory at the largest magnification simulated"),
+        "simulation_error": ("1", "standard relative error of this ratio for a further surface"),
+        "simulation_trend": ("1", "change of ln of this ratio per doubling of the magnification"),
+        "smallest_magnification": ("1", "smallest magnification simulated"),
+        "largest_magnification": ("1", "largest magnification simulated"),
+        "extrapolation_error": (
+            "1",
+            "standard relative error that a decade below the simulated ranges adds",
+        ),
     }
     for name in ("theory_below", "theory_above"):
         side = name.removeprefix("theory_")

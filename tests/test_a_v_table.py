@@ -32,10 +32,10 @@ def table():
     return dataset.assign_coords(range=RANGES)
 
 
-def comparison(ratio, error=RATIO_ERROR):
+def comparison(ratio, error=RATIO_ERROR, zeta=32, loads=(0.01, 0.1)):
     """Theory against a simulation that is `ratio` times it at every load and range."""
-    loads, ranges = [0.01, 0.1], np.geomspace(1e-3, 2, 40)
-    full = np.full((2, 2, len(ranges)), 1 / ratio - 1)
+    loads, ranges = list(loads), np.geomspace(1e-3, 2, 40)
+    full = np.full((2, len(loads), len(ranges)), 1 / ratio - 1)
     return xr.Dataset(
         {
             "attractive_area_difference": (("variant", "pressure", "range"), full),
@@ -43,9 +43,10 @@ def comparison(ratio, error=RATIO_ERROR):
                 ("variant", "pressure", "range"),
                 np.full(full.shape, error / ratio),
             ),
-            "window_holds": ("pressure", [1, 1]),
+            "window_holds": ("pressure", [1] * len(loads)),
         },
         coords={"variant": ["a", "b"], "pressure": loads, "range": ranges},
+        attrs={"parameters": f'{{"magnification": {zeta}}}'},
     )
 
 
@@ -101,18 +102,60 @@ def test_errors_hold_the_simulations_own(table):
     found = AvTable(table).a_v_at(0.8, 0.05, 0.05, 1e4)
     # two cases that agree: their own error, which is not taken to average out
     assert found.simulation == pytest.approx(RATIO_ERROR, rel=1e-6)
-    assert found.low < found.value * (1 - 0.9 * found.simulation)
-    assert found.high > found.value * (1 + 0.9 * found.simulation)
+    for limit, reach in ((found.low, found.theory_below), (found.high, found.theory_above)):
+        # 90 % of a normal error, and extremes as they are
+        want = np.sqrt(reach**2 + (1.6449 * RATIO_ERROR) ** 2 + found.quadrature**2)
+        assert abs(np.log(limit / found.value)) == pytest.approx(want, rel=1e-4)
     assert found.quadrature < 1e-5
 
 
 def test_cases_that_differ_make_the_error_larger():
     agree = tabulate_a_v.simulated([comparison(1.1), comparison(1.1)])
     differ = tabulate_a_v.simulated([comparison(0.9), comparison(1.3)])
-    scatter = np.log(1.3 / 0.9) / np.sqrt(2)
+    scatter = np.log(1.3 / 0.9) / np.sqrt(2) * np.sqrt(1 + 1 / 2)  # of a further case and the mean
     np.testing.assert_allclose(agree.simulation_error, RATIO_ERROR, rtol=1e-6)
     # their own errors are part of the scatter seen
     np.testing.assert_allclose(differ.simulation_error, scatter, rtol=1e-3)
+
+
+def test_trend_with_magnification_is_no_scatter():
+    # 3 % less per doubling, as simulation has it
+    zetas = np.array([16, 16, 32, 64, 128, 256])
+    cases = [comparison(0.94 * 0.97 ** np.log2(z / 256), zeta=int(z)) for z in zetas]
+    found = tabulate_a_v.simulated(cases)
+    np.testing.assert_allclose(found.simulation_ratio, 0.94, rtol=1e-6)
+    np.testing.assert_allclose(found.simulation_trend, np.log(0.97), rtol=1e-6)
+    np.testing.assert_allclose(found.simulation_error, RATIO_ERROR, rtol=1e-6)
+    assert (found.smallest_magnification, found.largest_magnification) == (16, 256)
+
+
+def test_ratio_is_smooth_in_load_where_the_set_of_cases_changes():
+    loads = np.geomspace(0.01, 0.5, 9)
+    cases = [comparison(1.2, loads=loads[::4]), comparison(1.0, loads=loads)]
+    logs = np.log(tabulate_a_v.simulated(cases).simulation_ratio)
+    jumps = np.abs(logs.diff("simulated_pressure"))
+    assert float(jumps.max()) < 0.2 * np.log(1.2)
+    # equal say, in spite of three times the loads
+    assert float(logs.mean()) == pytest.approx(np.log(1.2) / 2, abs=0.01)
+
+
+def test_trend_holds_between_simulated_magnifications_and_widens_the_error_beyond(table):
+    cases = [comparison(1.0, zeta=16), comparison(0.9, zeta=256)]
+    simulation = tabulate_a_v.simulated(cases)
+    known = AvTable(table.drop_vars(simulation.variables).merge(simulation))
+    plain = AvTable(table)
+    zeta = np.array([1e2, 256.0, 1e3, 1e4, np.inf])
+    ratio = known.a_v_at(0.8, 0.05, 0.1, zeta).value / plain.a_v_at(0.8, 0.05, 0.1, zeta).value
+    trend = np.log(0.9) / 4
+    want = 0.9 * np.exp([trend * np.log2(100 / 256), 0, 0, 0, 0])
+    np.testing.assert_allclose(ratio * RATIO, want, rtol=1e-4)
+    errors = known.a_v_at(0.8, 0.05, 0.1, zeta).simulation
+    assert errors[1] == pytest.approx(errors[0])
+    # beyond: as if the trend went on, over half as many doublings as were simulated at most
+    more = np.sqrt(errors**2 - errors[1] ** 2)[2:]
+    np.testing.assert_allclose(
+        more, np.abs(trend) * np.array([np.log2(1e3 / 256), 2, 2]), rtol=1e-4
+    )
 
 
 def test_loads_of_too_small_windows_are_left_out():
@@ -121,6 +164,23 @@ def test_loads_of_too_small_windows_are_left_out():
     found = tabulate_a_v.simulated([comparison(1.1), small])
     np.testing.assert_allclose(found.simulation_ratio.isel(simulated_pressure=0), 1.1, rtol=1e-6)
     assert np.all(found.simulation_ratio.isel(simulated_pressure=1) > 1.5)
+
+
+@pytest.mark.parametrize("magnification", [1e3, np.inf])
+def test_error_grows_with_every_decade_below_the_simulated_ranges(table, magnification):
+    drift = 0.09
+    known = AvTable(table.assign(extrapolation_error=drift))
+    found = known.a_v_at(0.8, 0.05, 10.0 ** np.array([-1, -2, -3, -4, -8]), magnification)
+    assert found.edge[-1] == np.isfinite(magnification)  # a constant a_V is extrapolated as well
+    more = np.sqrt(found.simulation**2 - found.simulation[0] ** 2)
+    np.testing.assert_allclose(more, drift * np.sqrt([0, 0, 1, 2, 6]), rtol=1e-4, atol=1e-9)
+
+
+def test_no_load_at_all_is_an_error():
+    small = comparison(1.1)
+    small["window_holds"] = "pressure", [0, 0]
+    with pytest.raises(ValueError, match="no load of any case"):
+        tabulate_a_v.simulated([small, small])
 
 
 @pytest.mark.parametrize(

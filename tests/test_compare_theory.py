@@ -70,6 +70,33 @@ def test_distance_has_the_sampling_error_of_the_mean():
     assert floor == pytest.approx(np.sqrt(2 / np.pi) * want, rel=0.02)
 
 
+def test_contact_that_trades_with_gaps_next_to_it_is_no_distance():
+    # Contact differs by seed, but the gaps it gives up are next to zero: W1 of mean and seeds is
+    # that of the gaps below 1e-3, though either area scatters at every range.
+    contacts, gap = [0.1, 0.2, 0.3, 0.4], 1e-3
+    small = ensemble(contacts, [gap] * 4)
+    found = compare_theory.distance(small, theory(0.25, gap))
+    # 1 - (1 - c) exp(-u/gap): the deviation of c times exp(-u/gap)
+    error = np.std(contacts, ddof=1) / 2
+    want = np.sqrt(2 / np.pi) * error * gap
+    assert float(found.distance_floor.squeeze()) == pytest.approx(want, rel=0.01)
+
+
+def test_grid_errors_of_contact_and_gaps_cancel_in_the_distance():
+    # Halving the grid moves 0.1 from contact to gaps of mean 1e-3, alike in both seeds.
+    gap, fine = 1e-3, ensemble([0.3, 0.3], [1e-3] * 2)
+    rough = ensemble([0.2, 0.2], [gap] * 2)
+    both = fine.drop_vars(compare_theory.PARTS)
+    for name in compare_theory.PARTS:
+        both[name] = xr.concat([rough[name], fine[name]], "resolution")
+        both[f"{name}_discretisation_error"] = abs(fine[name] - rough[name]).isel(
+            seed=0, resolution=0
+        )
+    found = compare_theory.distance(both, theory(0.3, gap))
+    error = float(found.distance_discretisation_error.squeeze())
+    assert error == pytest.approx(0.1 * gap, rel=0.01)
+
+
 def test_highest_summit_is_that_of_the_window():
     # Gaussian heights of n independent summits reach about sqrt(2 ln n) h_rms.
     small, large = (
@@ -154,8 +181,44 @@ def made_by_theory():
 
 @pytest.mark.parametrize("quantity", ["area_fraction", "mean_gap", "attractive_area", "all"])
 def test_gamma_of_the_theory_itself_is_found(made_by_theory, quantity):
-    draws = fit_gamma.sample(np.random.default_rng(1), 200, 1)
+    draws = fit_gamma.sample(np.random.default_rng(1), 200, [1])
     best, low, high, misfit, own = fit_gamma.fitted([made_by_theory], draws, 0, quantity)
     assert best == pytest.approx(GAMMA, rel=0.01)
     assert low < GAMMA < high
     assert misfit < 0.01 < own
+
+
+def test_cases_of_one_window_do_not_average_their_errors_out(made_by_theory):
+    rng = np.random.default_rng
+    width = {}
+    for windows in ([1] * 8, list(range(8))):
+        draws = fit_gamma.sample(rng(1), 400, windows)
+        _, low, high, *_ = fit_gamma.fitted([made_by_theory] * 8, draws, 0, "area_fraction")
+        width[len(set(windows))] = np.log(high / low)
+    draws = fit_gamma.sample(rng(1), 400, [1])
+    _, low, high, *_ = fit_gamma.fitted([made_by_theory], draws, 0, "area_fraction")
+    assert width[1] == pytest.approx(np.log(high / low), rel=0.15)  # eight copies know no more
+    # Of 8 windows, some are drawn more than once: errors average out by less than sqrt(8).
+    assert 0.35 * width[1] < width[8] < 0.75 * width[1]
+
+
+def test_drawn_cases_come_with_their_window():
+    windows = np.array([1, 1, 1, 1, 4, 4, 4, 4])
+    chosen, off = fit_gamma.sample(np.random.default_rng(1), 400, windows)
+    of_first = (windows[chosen] == 1).mean(axis=1)
+    assert np.mean(np.isin(of_first, (0, 1))) == pytest.approx(0.5, abs=0.1)
+    for shifts, cases in zip(off[0], chosen, strict=True):
+        assert len(np.unique(shifts)) == len(np.unique(windows[cases]))
+
+
+@pytest.mark.parametrize(("lows", "agree"), [((0.4, 0.45, 0.48), True), ((0.3, 0.4, 0.51), False)])
+def test_quantities_agree_where_their_intervals_share_a_gamma(lows, agree):
+    lows = np.array([*lows, 0.45])
+    intervals = xr.Dataset(
+        {
+            "gamma_low": (("correction", "quantity"), [lows]),
+            "gamma_high": (("correction", "quantity"), [lows + 0.2]),
+        },
+        coords={"quantity": [*fit_gamma.QUANTITIES, fit_gamma.EVERY]},
+    )
+    assert bool(fit_gamma.agreement(intervals).all()) is agree

@@ -14,8 +14,10 @@ import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike, NDArray
 from scipy.interpolate import RegularGridInterpolator
+from scipy.special import ndtri
 
 PARTED = 1.5  # ratio of the theory's variants from which on neither resolves the edges of contact
+NORMAL_90 = float(ndtri(0.95))  # standard errors either side that cover 90 %
 NEEDED = (
     "a_v",
     "a_v_limit",
@@ -28,6 +30,9 @@ NEEDED = (
     "quadrature_error",
     "simulation_ratio",
     "simulation_error",
+    "simulation_trend",
+    "smallest_magnification",
+    "largest_magnification",
     "extrapolation_error",
 )
 _AXES = ("hurst", "magnification", "pressure", "range")
@@ -81,16 +86,21 @@ class AvEstimate:
     Attributes
     ----------
     value : array
-        Theory as quoted times the ratio of simulation to theory.
+        Theory as quoted times the ratio of simulation to theory, which follows the trend with the
+        magnification between simulated ones and is held constant beyond them.
     low, high : array
-        Limits: all parts of the error in quadrature, as factors.
+        Limits meant to cover about 90 %, as factors: in quadrature `NORMAL_90` times the standard
+        error of the ratio, and the reach of the other theories and the largest error of the
+        quadrature as they are, for these are extremes. Not covered: what all theories and
+        simulations share (Gaussian heights, elastic half-space, no roll-off).
     theory_below, theory_above : array
         Natural logarithms of how far the other variants and corrections of the theory reach below
         and above the quoted one, or below the edge range the estimate of Pastewka and Robbins.
     simulation : array
-        Relative error of the ratio of simulation to theory.
+        Standard relative error of the ratio of simulation to theory, with what its trend may
+        change beyond the simulated magnifications and its drift below the simulated ranges.
     quadrature : array
-        Relative error of the theory's quadrature.
+        Largest relative error of the theory's quadrature.
     edge : boolean array
         Where the range is below the edge range, so that a_V no longer depends on it.
     """
@@ -143,6 +153,9 @@ class AvTable:
         self._quadrature = float(table.quadrature_error)
         self._ratio = _held(np.log(table.simulation_ratio))
         self._ratio_error = _held(table.simulation_error)
+        self._trend = _held(table.simulation_trend)
+        ends = table.smallest_magnification, table.largest_magnification
+        self._doublings = np.log2([float(end) for end in ends])
         self._simulated = float(table.simulated_range.min())
         self._extrapolation = float(table.extrapolation_error)
 
@@ -193,11 +206,12 @@ class AvTable:
             found = self._at_finite(*(np.log(x[rest]) for x in (zeta, p, eps)), h[rest])
             logs[rest], below[rest], above[rest], edge[rest] = found
         where = np.stack([np.log(p), np.log(eps)], axis=-1)
-        value = np.exp(logs + self._ratio(where))
-        simulation = self._ratio_error(where)
-        beyond = np.where(eps < self._simulated, self._extrapolation, 0.0)
-        simulation = np.hypot(simulation, beyond)
-        others = simulation**2 + self._quadrature**2
+        trend = self._trend(where[:, 1:])
+        held = np.clip(np.log2(zeta), *self._doublings) - self._doublings[1]
+        value = np.exp(logs + self._ratio(where) + trend * held)
+        simulation = np.hypot(self._ratio_error(where), trend * self._unseen(zeta))
+        simulation = np.hypot(simulation, self._drift(eps))
+        others = (NORMAL_90 * simulation) ** 2 + self._quadrature**2
         parts = {
             "value": value,
             "low": value * np.exp(-np.sqrt(below**2 + others)),
@@ -209,6 +223,26 @@ class AvTable:
             "edge": edge,
         }
         return AvEstimate(**{name: part.reshape(shape)[()] for name, part in parts.items()})
+
+    def _drift(self, eps):
+        """Standard error that extrapolation adds below the simulated ranges.
+
+        As of a random walk with one step a decade. Both theory and simulation have to follow the
+        same power laws there (self-affine scaling, then the gap's 3/2 law next to edges, which is
+        why it grows below the edge range too), so that their ratio has no trend of its own; and
+        from one simulated decade to the next its drift changes size and at small loads sign.
+        """
+        decades = np.clip(np.log10(self._simulated / eps), 0, None)
+        return self._extrapolation * np.sqrt(decades)
+
+    def _unseen(self, zeta):
+        """Doublings of the magnification over which the trend may go on beyond simulation.
+
+        The ratio has a limit, for simulation and theory both converge, but its trend does not
+        level off where it was simulated: at most half as many doublings as were.
+        """
+        low, high = self._doublings
+        return np.clip(np.log2(zeta) - high, 0, (high - low) / 2)
 
     def _at_finite(self, log_zeta, log_p, log_eps, h):
         """Logarithm of a_V, reach of the other theories below and above, below the edge range."""
@@ -261,8 +295,8 @@ def _linear(table: xr.DataArray, axes: tuple[str, ...]) -> RegularGridInterpolat
 
 
 def _held(table: xr.DataArray):
-    """Linear between simulated loads and ranges, held constant beyond them."""
-    axes = ("simulated_pressure", "simulated_range")
+    """Linear between simulated loads and ranges, or ranges alone, held constant beyond them."""
+    axes = [name for name in ("simulated_pressure", "simulated_range") if name in table.dims]
     interpolator = _interpolator(table, axes, "linear")
     low, high = (np.array([end(x) for x in interpolator.grid]) for end in (np.min, np.max))
     return lambda at: interpolator(np.clip(at, low, high))
