@@ -269,7 +269,7 @@ def covering_factor(
 
 
 def _level_shares(laws, surface, pressure, column, pixels):
-    """Standard deviation left at the fine, coarse and described level, over that of a plain mean."""
+    """Standard deviation left at the fine, coarse and described level, over that of one seed."""
     surface, pressure, _ = measured(surface, pressure)
     coarse = min(laws["coarse_share", column](surface, pressure), 1.0)
     fine = laws["fine_share", column](surface, pressure, pixels)
