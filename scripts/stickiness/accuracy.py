@@ -58,7 +58,7 @@ MEASURED = {
     "pressure": (0.0065, 0.3),
 }
 CARRIED_TIMES, CARRIED_TO = 8, 512  # magnification, up to which theory's difference was measured
-OUTSIDE = 2.0  # factor by which errors outside are widened; P(u) at magnification 128 needs 1.2
+OUTSIDE = 2.0  # factor by which errors outside are widened; P(u) at magnification 128 needs 1.1
 
 # What a user may ask for, by the columns of the table that it depends on.
 QUANTITIES = {
