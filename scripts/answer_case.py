@@ -39,15 +39,14 @@ def main(job):
             errors[SOURCES.index(source), row] = np.abs(part)
     if "carry_to" in plan:
         change, size = carried(plan, columns, pressures)
-        shares = [laws["carrying", column] for column in columns]
-        share = np.array([[law.spread * np.exp(law.constant)] for law in shares])
-        errors[SOURCES.index("bandwidth")] = share * size * np.abs(values)
+        errors[SOURCES.index("bandwidth")] = carrying_error(laws, plan, columns, values, size)
         values += change
     dataset = xr.Dataset(
         {
             "value": (("column", "pressure"), values),
             "error": (("source", "column", "pressure"), errors),
             "total_error": (("column", "pressure"), np.linalg.norm(errors, axis=0)),
+            "extrapolated": ("pressure", outside(plan, pressures).astype(np.int8)),
             # A single seed does not say what it scatters by, but that is more than all the rest.
             "dominant": (
                 ("column", "pressure"),
@@ -74,14 +73,21 @@ class Simulated:
     def __call__(self, column):
         """Values of a column at every load, and its errors by source."""
         mean, sampling, grid = self.found(column)
-        settings, surface = self.plan["settings"], plan_of.surface_of(self.plan["surface"])
-        law = self.laws["solver", column]
-        tolerance = settings["tolerance"]
-        solver = [law.spread * law(surface, p, tolerance=tolerance) for p in self.plan["pressures"]]
+        settings = accuracy.Settings(**self.plan["settings"])
+        surface, pressures = plan_of.surface_of(self.plan["surface"]), self.plan["pressures"]
+        solver = [
+            accuracy.single_error(
+                self.laws, "solver", column, surface, p, tolerance=settings.tolerance
+            )
+            for p in pressures
+        ]
+        factor = [
+            accuracy.covering_factor(self.laws, settings, surface, p, column) for p in pressures
+        ]
         return mean.values, {
             "discretisation": grid.values,
             "solver": mean.values * solver,
-            "sampling": accuracy.COVERS * sampling.values,
+            "sampling": factor * sampling.values,
         }
 
     def found(self, column):
@@ -115,8 +121,11 @@ class Theory:
     def __call__(self, column):
         """Values of a column at every load, and its errors by source."""
         values = quoted(self.state, column)
-        surface, law = plan_of.surface_of(self.plan["surface"]), self.laws["theory", column]
-        error = [law.spread * law(surface, p) for p in self.plan["pressures"]]
+        surface = plan_of.surface_of(self.plan["surface"])
+        error = [
+            accuracy.single_error(self.laws, "theory", column, surface, p)
+            for p in self.plan["pressures"]
+        ]
         return values, {"model": values * error}
 
 
@@ -138,12 +147,31 @@ def quoted(state, column):
     return areas.sel(range=float(column.rsplit("_", 1)[1]), method="nearest").values
 
 
+def outside(plan, pressures):
+    """Where surface or load is outside what the laws were measured on, by load."""
+    surface = plan_of.surface_of(plan["surface"])
+    return np.array([accuracy.measured(surface, p)[-1] > 1 for p in pressures])
+
+
+def carrying_error(laws, plan, columns, values, size):
+    """Error of theory's difference, covering 90 %: a share of the value simulated, before it.
+
+    `size` is by how much of itself theory changes the area. As measured up to 8 times the
+    magnification, the configuration allows no more.
+    """
+    surface = plan_of.surface_of(plan["surface"])
+    share = [
+        [accuracy.single_error(laws, "carrying", column, surface, p) for p in plan["pressures"]]
+        for column in columns
+    ]
+    return share * size * np.abs(values)
+
+
 def carried(plan, columns, pressures):
     """What theory says that a broader spectrum adds to each column, and what it takes of the area.
 
     The difference, not the ratio: from magnification 64 to 512 it leaves half the error of the
-    ratio in attractive areas at H = 0.8, and about the same at H = 0.5. The error is measured as a
-    share of the relative change of the area.
+    ratio in attractive areas at H = 0.8, and about the same at H = 0.5.
     """
     surface, ranges = plan["surface"], logarithmic_grid(RANGES)
     own, broad = (
@@ -166,6 +194,10 @@ def annotated(dataset, columns):
         value=("1", "value of the column at a load"),
         error=("1", "error by source; covers 90 %", "the scatter of a single seed is unknown"),
         total_error=("1", "all sources in quadrature", "the scatter of a single seed is unknown"),
+        extrapolated=(
+            "1",
+            "1 where surface or load is outside what the laws of solver and model were measured on",
+        ),
         dominant=("1", f"source of the largest error, counted from 0: {', '.join(SOURCES)}"),
     )
 

@@ -129,28 +129,91 @@ def test_presets_are_what_the_rule_gives(config):
         assert plan.preset(config["fidelities"][name]) == chosen, name
 
 
-def test_table_agrees_with_a_fresh_measurement():
-    """Scatter and grid error of areas and mean gaps on a surface that no law was fitted to.
-
-    Twenty-four surfaces know their own scatter to 15 %, and the mean of the grid error, of
-    either sign, to a fifth of its scatter.
-    """
-    laws, seeds, load = accuracy.read_laws(TABLE), range(7001, 7025), 0.1
-    rough = Surface(hurst=0.7, magnification=24.0)
-    band = spectrum.SelfAffine(hurst=rough.hurst, q0=1.0, q1=rough.magnification, h_rms=1.0)
+def test_grid_errors_of_coarse_pixels_are_within_their_law():
+    """Mean change from 4 to 16 points, of 48 surfaces that no law was fitted to."""
+    laws, seeds = accuracy.read_laws(TABLE), range(7001, 7049)
     coarse, fine = (
-        np.array([solved(band, n, seed, load) for seed in seeds]) for n in (4 * 24, 16 * 24)
+        np.array([solved(BAND, n, seed, LOAD) for seed in seeds]) for n in (4 * 24, 16 * 24)
     )
-    scatter = fine.std(0, ddof=1) / fine.mean(0)
-    known = [laws["scatter", column](rough, load) for column in ("area", "mean_gap")]
-    np.testing.assert_allclose(scatter, known, rtol=0.5)
-    error = np.abs(coarse.mean(0) / fine.mean(0) - 1)
-    for column, found in zip(("area", "mean_gap"), error, strict=True):
-        law = laws["discretisation", column]
-        assert found <= 2 * law.spread * law(rough, load, 4.0)
+    change = (coarse - fine) / fine.mean(0)
+    found, noise = np.abs(change.mean(0)), change.std(0, ddof=1) / math.sqrt(len(seeds))
+    known = [
+        accuracy.single_error(laws, "discretisation", column, ROUGH, LOAD, pixels=4.0)
+        for column in ("area", "mean_gap")
+    ]
+    assert (noise < 0.25 * np.array(known)).all()
+    assert (found <= known + noise).all(), (found, known)
+
+
+def test_scatter_is_that_of_fresh_surfaces():
+    """Sixty-four surfaces know their scatter to 9 %; the law, a power of the load, is good to 18 %.
+
+    The grid hardly matters to it.
+    """
+    laws = accuracy.read_laws(TABLE)
+    found = np.array([solved(BAND, 4 * 24, seed, LOAD) for seed in range(7001, 7065)])
+    scatter = found.std(0, ddof=1) / found.mean(0)
+    known = [laws["scatter", column](ROUGH, LOAD) for column in ("area", "mean_gap")]
+    np.testing.assert_allclose(scatter, known, rtol=0.3)
+
+
+ROUGH, LOAD = Surface(hurst=0.7, magnification=24.0), 0.1
+BAND = spectrum.SelfAffine(hurst=ROUGH.hurst, q0=1.0, q1=ROUGH.magnification, h_rms=1.0)
 
 
 def solved(band, n, seed, load):
     heights = surface.synthesise(band, n, 2 * np.pi, seed)
     contact = repulsive.solve(heights, 2 * np.pi, load, tol=1e-5)
     return contact.area_fraction - dmt.boundary_strip(contact.gap == 0), contact.mean_gap
+
+
+# --- sampling, and what lies beyond the measurement ---------------------------------------------
+
+
+@pytest.mark.parametrize("seeds", [2, 3, 4, 8])
+def test_plain_errors_of_few_skewed_seeds_cover_nine_in_ten(seeds):
+    """Log-normal samples of scatter 0.4; 1.645 standard errors would cover 63, 74, 78 and 84 %."""
+    samples = np.random.default_rng(1).lognormal(sigma=0.4, size=(20000, seeds))
+    error = samples.std(1, ddof=1) / math.sqrt(seeds)
+    settings = Settings(8, 1e-8, seeds, 0)
+    factor = accuracy.covering_factor(made_up(), settings, SMOOTH, 0.1, "area")
+    covered = np.mean(np.abs(samples.mean(1) - math.exp(0.08)) <= factor * error)
+    assert 0.87 <= covered <= 0.93
+
+
+@pytest.mark.parametrize(("seeds", "coarse"), [(2, 32), (4, 32), (8, 64)])
+def test_multilevel_errors_cover_nine_in_ten(seeds, coarse):
+    """Skewed levels whose scatter is that of the laws, which say 0.1 and 0.5 of a plain one."""
+    rng, settings = np.random.default_rng(2), Settings(8, 1e-8, seeds, coarse)
+    mean, variance = np.zeros(20000), np.zeros(20000)
+    for scatter, number in ((0.1, seeds), (0.5, coarse)):
+        samples = scatter * (rng.gamma(4.0, 0.5, size=(20000, number)) - 2.0)
+        mean += samples.mean(1)
+        variance += samples.var(1, ddof=1) / number
+    factor = accuracy.covering_factor(made_up(), settings, SMOOTH, 0.1, "area")
+    assert 0.87 <= np.mean(np.abs(mean) <= factor * np.sqrt(variance)) <= 0.95
+
+
+def test_single_seed_covers_nothing_known():
+    assert math.isnan(
+        accuracy.covering_factor(made_up(), Settings(8, 1e-8, 1, 0), SMOOTH, 0.1, "area")
+    )
+
+
+def test_outside_the_measurement_laws_stop_and_widen():
+    """P(u) on 4 points at magnification 128, H = 0.8, erred by 1.4 and 1.3 %; laws went below."""
+    laws, beyond = accuracy.read_laws(TABLE), Surface(0.8, 128.0)
+    for load, found in ((0.03, 0.014), (0.3, 0.013)):
+        where = laws, Settings(4, 1e-8, 128, 2048), beyond, load, "gap_distribution"
+        assert accuracy.error_parts(*where)["discretisation"] >= found
+    far = accuracy.single_error(laws, "theory", "area", Surface(0.8, 1e4), 0.03)
+    edge = accuracy.single_error(laws, "theory", "area", Surface(0.8, 64.0), 0.03)
+    assert far == pytest.approx(accuracy.OUTSIDE * edge)
+
+
+def test_safety_widens_what_is_chosen_by():
+    settings = Settings(8, 1e-4, 4, 100)
+    parts = accuracy.error_parts(made_up(), settings, SMOOTH, 0.1, "area", 2000)
+    whole = accuracy.predicted_error(made_up(), settings, SMOOTH, 0.1, "area", 2000)
+    assert accuracy.SAFETY > 1
+    assert whole == pytest.approx(accuracy.SAFETY * math.hypot(*parts.values()))

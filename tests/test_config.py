@@ -136,6 +136,11 @@ def model(*keys, value):
             ["H0.8_zeta32.model", "'theory'", "add a case"],
         ),
         (case("carry_to", value=64), ["H0.8_zeta64.carry_to", "64", "above the magnification"]),
+        (case("carry_to", value=1024), ["H0.8_zeta64.carry_to", "1024", "at most 512"]),
+        (
+            changed(CONFIG, "cases", "H0.8_zeta32", "carry_to", value=300),
+            ["H0.8_zeta32.carry_to", "300", "at most 256"],
+        ),
         (of_theory(seeds=3), ["mine.seeds", "3", "model: theory"]),
         (of_theory(accuracy=0.1), ["mine.accuracy", "0.1", "model: theory"]),
         (with_accuracy(seeds=3), ["mine.seeds", "3", "accuracy or seeds"]),

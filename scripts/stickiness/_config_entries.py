@@ -6,6 +6,7 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 from ._config_messages import grid_problems, unit_problem, unknown
+from .accuracy import CARRIED_TIMES, CARRIED_TO
 
 # What the figures and the claims ledger read; may be edited but not removed.
 _PAPER = {
@@ -224,6 +225,12 @@ def _model_problems(
         yield (
             f"{key}.carry_to = {case['carry_to']!r} must be above the magnification simulated, "
             f"{magnification!r}"
+        )
+    most = min(CARRIED_TIMES * magnification, CARRIED_TO)
+    if magnification < case.get("carry_to", 0) and case["carry_to"] > most:
+        yield (
+            f"{key}.carry_to = {case['carry_to']!r} is beyond what was measured: at most "
+            f"{most:g}, {CARRIED_TIMES} times the magnification simulated and {CARRIED_TO} in all"
         )
     if "accuracy" in case and "seeds" in case:
         yield f"{key}.seeds = {case['seeds']!r}: give accuracy or seeds, not both"

@@ -5,13 +5,16 @@ many settings (target `tradeoff`). Each part is kept as a `Law`: a power law in 
 window, pressure, pixels and tolerance, times an exponential of the Hurst exponent. The relative
 error that covers 90 % is
 
-    error^2 = discretisation^2 + solver^2
-              + z^2 scatter^2 (fine_share^2/n + coarse_share^2/N + (1 - coarse_share^2)/M)
+    error^2 = w^2 (discretisation^2 + solver^2
+              + z^2 scatter^2 (fine_share^2/n + coarse_share^2/N + (1 - coarse_share^2)/M))
 
 with n fine, N coarse and M described seeds of the multilevel mean of `sampling` and z = 1.645; with
-plain means the bracket is 1/n. The shares are what a control leaves of the standard deviation.
-Beside these the table says what theory errs by in place of a simulation, and what is left of the
-change of the area, as a share of it, where theory adds a broader spectrum's difference to one.
+plain means the inner bracket is 1/n. The shares are what a control leaves of the standard
+deviation. The factor w is `SAFETY`, and outside what was measured (`MEASURED`) twice that, with
+the laws taken at the edge of it.
+Beside these the table says what theory errs by in place of a simulation, and what a value to which
+theory adds a broader spectrum's difference errs by: as a share of the value before it, over the
+relative change of the area by theory.
 """
 
 from __future__ import annotations
@@ -25,6 +28,7 @@ from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy import stats
 
 PARTS = (
     "discretisation",
@@ -37,9 +41,24 @@ PARTS = (
 )
 COSTS = ("fine_cost", "coarse_cost", "described_cost", "tolerance_cost")
 COVERS = 1.645  # standard deviations that cover 90 % of a normal distribution
+_QUANTILE = 0.95  # one-sided, of the same
 COARSE = 2  # pixels per shortest wavelength of the coarse seeds
 SAME_COST = 1.05  # ratio of costs that were not measured well enough to tell them apart
 FULL = 1e-8  # tolerance at which costs were measured
+# Without it 66 of 80 choices on the surfaces of the validation reached what was asked for, and nine
+# in ten erred by less than 1.12 times what was predicted. Set on these surfaces, so that what they
+# reach with it (validation.md of the target `tradeoff`) is no longer a blind test.
+SAFETY = 1.15
+# Where the laws were fitted or, at the largest Hurst exponent and the smallest pressure, compared
+# with other simulations.
+MEASURED = {
+    "hurst": (0.5, 0.9),
+    "magnification": (16.0, 64.0),
+    "window": (1.0, 4.0),
+    "pressure": (0.0065, 0.3),
+}
+CARRIED_TIMES, CARRIED_TO = 8, 512  # magnification, up to which theory's difference was measured
+OUTSIDE = 2.0  # factor by which errors outside are widened; P(u) at magnification 128 needs 1.1
 
 # What a user may ask for, by the columns of the table that it depends on.
 QUANTITIES = {
@@ -113,6 +132,25 @@ class Law:
 Laws = Mapping[tuple[str, str], Law]
 
 
+def measured(surface: Surface, pressure: float) -> tuple[Surface, float, float]:
+    """Return the nearest surface and pressure measured, and what to widen errors there by.
+
+    The factor is 1 for what lies within `MEASURED` itself, otherwise `OUTSIDE`.
+    """
+    asked = {**vars(surface), "pressure": pressure}
+    near = {name: min(max(asked[name], low), high) for name, (low, high) in MEASURED.items()}
+    factor = 1.0 if near == asked else OUTSIDE
+    return Surface(**{name: near[name] for name in vars(surface)}), near["pressure"], factor
+
+
+def single_error(
+    laws: Laws, part: str, column: str, surface: Surface, pressure: float, **knob: float
+) -> float:
+    """Return what one law says of an error, covering 90 %; wider outside what was measured."""
+    law, (surface, pressure, factor) = laws[part, column], measured(surface, pressure)
+    return factor * law.spread * law(surface, pressure, **knob)
+
+
 class UnreachableError(ValueError):
     """No settings within reach are predicted to be as accurate as asked for."""
 
@@ -173,20 +211,13 @@ def error_parts(
         Seeds of which only the long waves are looked at.
     """
     pixels, tolerance = settings.pixels_per_wavelength, settings.tolerance
-    grid, solver = laws["discretisation", column], laws["solver", column]
-    variance = _variance(
-        laws,
-        surface,
-        pressure,
-        column,
-        pixels,
-        descriptor_seeds,
-        settings.seeds,
-        settings.coarse_seeds,
-    )
+    where = laws, surface, pressure, column
+    seeds = settings.seeds, settings.coarse_seeds
+    variance = _variance(*where, pixels, descriptor_seeds, *seeds)
+    grid, solver = _fixed_errors(*where, pixels, tolerance)
     return {
-        "discretisation": grid.spread * grid(surface, pressure, pixels),
-        "solver": solver.spread * solver(surface, pressure, tolerance=tolerance),
+        "discretisation": grid,
+        "solver": solver,
         "sampling": COVERS * float(np.sqrt(variance)),
     }
 
@@ -199,19 +230,62 @@ def predicted_error(
     column: str,
     descriptor_seeds: int = 2048,
 ) -> float:
-    """Relative error that covers 90 % of means; all parts of `error_parts` in quadrature."""
+    """Relative error that covers 90 % of means; `error_parts` in quadrature, with `SAFETY`."""
     parts = error_parts(laws, settings, surface, pressure, column, descriptor_seeds)
-    return math.hypot(*parts.values())
+    return SAFETY * math.hypot(*parts.values())
+
+
+def _fixed_errors(laws, surface, pressure, column, pixels, tolerance):
+    """Errors by discretisation and solver, which more seeds do not reduce."""
+    where = column, surface, pressure
+    return (
+        single_error(laws, "discretisation", *where, pixels=pixels),
+        single_error(laws, "solver", *where, tolerance=tolerance),
+    )
+
+
+def covering_factor(
+    laws: Laws,
+    settings: Settings,
+    surface: Surface,
+    pressure: float,
+    column: str,
+    descriptor_seeds: int = 2048,
+) -> float:
+    """Return how many standard errors, themselves of the seeds at hand, cover 90 % of means.
+
+    Student's t: with n - 1 degrees of freedom for plain means, with those of Welch and
+    Satterthwaite for multilevel ones, the share of each level in the variance being that of the
+    laws. NaN for a single seed, whose standard error is unknown.
+    """
+    if settings.seeds < 2:
+        return math.nan
+    if not settings.coarse_seeds:
+        return float(stats.t.ppf(_QUANTILE, settings.seeds - 1))
+    numbers = np.array([settings.seeds, settings.coarse_seeds, descriptor_seeds])
+    shares = _level_shares(laws, surface, pressure, column, settings.pixels_per_wavelength)
+    parts = np.square(shares) / numbers
+    return float(stats.t.ppf(_QUANTILE, parts.sum() ** 2 / np.sum(parts**2 / (numbers - 1))))
+
+
+def _level_shares(laws, surface, pressure, column, pixels):
+    """Standard deviation left at the fine, coarse and described level, over that of one seed."""
+    surface, pressure, _ = measured(surface, pressure)
+    coarse = min(laws["coarse_share", column](surface, pressure), 1.0)
+    fine = laws["fine_share", column](surface, pressure, pixels)
+    return fine, coarse, math.sqrt(1 - coarse**2)
 
 
 def _variance(laws, surface, pressure, column, pixels, described, seeds, coarse_seeds):
     """Relative variance of a mean; numbers of seeds may be arrays that broadcast."""
-    fine = laws["fine_share", column](surface, pressure, pixels)
-    coarse = min(laws["coarse_share", column](surface, pressure), 1.0)
+    fine, coarse, long = _level_shares(laws, surface, pressure, column, pixels)
     several = np.maximum(coarse_seeds, 1)
-    multilevel = fine**2 / seeds + coarse**2 / several + (1 - coarse**2) / described
+    multilevel = fine**2 / seeds + coarse**2 / several + long**2 / described
+    surface, pressure, factor = measured(surface, pressure)
     scatter = laws["scatter", column](surface, pressure)
-    return scatter**2 * np.where(np.equal(coarse_seeds, 0), 1 / np.asarray(seeds), multilevel)
+    return (factor * scatter) ** 2 * np.where(
+        np.equal(coarse_seeds, 0), 1 / np.asarray(seeds), multilevel
+    )
 
 
 def predicted_cost(
@@ -347,14 +421,11 @@ def _worst_errors(
     worst = np.zeros(np.broadcast_shapes(seeds.shape, coarse.shape))
     for pressure in pressures:
         for column in itertools.chain(*(QUANTITIES[quantity] for quantity in quantities)):
-            grid, solver = laws["discretisation", column], laws["solver", column]
-            fixed = math.hypot(
-                grid.spread * grid(surface, pressure, pixels),
-                solver.spread * solver(surface, pressure, tolerance=tolerance),
-            )
-            variance = _variance(laws, surface, pressure, column, pixels, described, seeds, coarse)
+            where = laws, surface, pressure, column
+            fixed = math.hypot(*_fixed_errors(*where, pixels, tolerance))
+            variance = _variance(*where, pixels, described, seeds, coarse)
             worst = np.maximum(worst, np.sqrt(fixed**2 + COVERS**2 * variance))
-    return worst
+    return SAFETY * worst
 
 
 def _law(row: Mapping[str, str]) -> Law:
