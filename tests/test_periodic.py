@@ -182,7 +182,8 @@ def test_rows_of_the_page_hold_value_error_and_theory(whole):
 def test_margin_is_shown_where_the_grid_resolves_the_range(whole, range_, shown):
     _, found = whole
     entry = {"plane_strain_modulus": "1 Pa", "work_of_adhesion": "0.1 J/m^2", "range": range_}
-    known = found.isel(resolution=-1, periodisation=0)[[]].assign(h_rms=("end", [1.0, 1.0]), q0=1.0)
+    ends = {"h_rms": ("end", [1.0, 1.0]), "rms_slope": ("end", [3.0, 3.0])}
+    known = found.isel(resolution=-1, periodisation=0)[[]].assign(ends | {"q0": 1.0})
     row = _pressed.pair(found, material(entry), known)
     assert row["resolved"] == shown
     assert (row["margin"] != "–") == shown
