@@ -33,7 +33,7 @@ class Workflow:
             stdout=subprocess.PIPE,
             stderr=subprocess.STDOUT,
             text=True,
-            timeout=600,
+            timeout=3600,  # minutes on a quiet machine
             check=False,
         )
 
