@@ -13,7 +13,12 @@ from _job import start
 from _model import DESCRIBED
 from stickiness import datasets, edge_adhesion
 
-MISSING = "not resolved, a window closes, or the area is beyond the curve without adhesion"
+MISSING = (
+    "not resolved, fewer than 100 points of the grid drawn into contact, a window closes, or the "
+    "area is beyond the curve without adhesion"
+)
+# Points of the grid that adhesion must draw into contact for their number to tell an area to 10 %.
+FEWEST_POINTS = 100
 NEEDED = ("external_pressure", "repulsive_area", "attraction_dmt", "area_alone")
 
 
@@ -56,11 +61,15 @@ def compared(adhesive, alone, q0_h_rms):
     at = t.values[known]
     tau.values[known] = edge_adhesion.edge_strength(at, over_mean_pressure.values[known])
     model.values[known] = edge_adhesion.effect(at, tau.values[known])
+    effect = (load - adhesive.external_pressure) / (strength * attractive)
+    made = datasets.parameters(adhesive)
+    points = (made["grid_points"] * made["refine"]) ** 2
+    drawn_in = (adhesive.repulsive_area - adhesive.area_alone) * points
     return xr.Dataset(
         {
             "attractive_over_contact": t,
             "edge_strength": tau,
-            "effect": (load - adhesive.external_pressure) / (strength * attractive),
+            "effect": effect.where(drawn_in >= FEWEST_POINTS),
             "effect_model": model,
         }
     )

@@ -239,10 +239,12 @@ def test_simulation_of_spheres_is_the_model_of_the_edges():
             "area_alone": ("pressure", 0.9 * at),
         },
         coords=dict(zip(dims, (at, lengths, ranges), strict=True)),
-        attrs={"parameters": '{"law": "maugis"}'},
+        attrs={"parameters": '{"law": "maugis", "grid_points": 512, "refine": 1}'},
     )
     found = compare_edges.compared(adhesive, alone, q0_h_rms)
     np.testing.assert_allclose(found.effect, found.effect_model, rtol=1e-3)
+    few = adhesive.assign_attrs(parameters='{"law": "maugis", "grid_points": 64, "refine": 1}')
+    assert compare_edges.compared(few, alone, q0_h_rms).effect.isnull().all()
     np.testing.assert_allclose(found.edge_strength.transpose(*dims)[0], tau, rtol=1e-3)
 
 
