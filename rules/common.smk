@@ -69,6 +69,11 @@ COMPARED = {
 # Of these, what is simulated for every quantity.
 SIMULATED = [name for name in COMPARED if name in COMPLETE or name in COMPARISONS]
 ADHESION, LOOPS = config["adhesion"], config["loops"]
+TRADE = config["tradeoff"]
+TRADEOFF = f"{config['results']}/tradeoff"
+TRADE_SURFACES = TRADE["cases"]["surfaces"] | TRADE["validation"]["surfaces"]
+# A wide window averages over more of the same grid errors, at the cost of many points.
+NARROW = [name for name, asked in TRADE["cases"]["surfaces"].items() if "window" not in asked]
 FIGURES = [f"fig{number}" for number in range(1, 11)]
 PAGE_PARTS = [f"report/{part}" for part in ("macros.html.j2", "page.css", "page.js")]
 
@@ -110,6 +115,12 @@ def coarse_solutions(wildcards):
 def gaps_of(wildcards):
     """Ranges at which a case's attractive areas are taken; none if it does not want any."""
     return config["gaps"] if PLANS[wildcards.case].gaps else None
+
+
+def trade_set(wildcards):
+    """The part of the configuration that a surface belongs to."""
+    measured = wildcards.trade_case in TRADE["cases"]["surfaces"]
+    return TRADE["cases" if measured else "validation"]
 
 
 @cache

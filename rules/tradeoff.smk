@@ -1,18 +1,6 @@
 # What accuracy costs: every knob of simulation and theory varied on a few surfaces, its error in
 # each quantity beside its cost. Measured apart from the fidelities, which come from it.
 
-TRADE = config["tradeoff"]
-TRADEOFF = f"{config['results']}/tradeoff"
-TRADE_SURFACES = TRADE["cases"]["surfaces"] | TRADE["validation"]["surfaces"]
-# A wide window averages over more of the same grid errors, at the cost of many points.
-NARROW = [name for name, asked in TRADE["cases"]["surfaces"].items() if "window" not in asked]
-
-
-def trade_set(wildcards):
-    """The part of the configuration that a surface belongs to."""
-    measured = wildcards.trade_case in TRADE["cases"]["surfaces"]
-    return TRADE["cases" if measured else "validation"]
-
 
 rule measure_grids:
     input:

@@ -62,8 +62,8 @@ def test_accuracy_has_its_own_grid_and_seeds(fresh):
     """Three plain seeds or more on whatever grid; not those of the tiny preset."""
     cases(
         fresh,
-        "  rough: {surface: H0.7_zeta64, pressures: [0.05], accuracy: 0.2, quantities: [area]}\n"
-        "  close: {surface: H0.7_zeta64, pressures: [0.05], accuracy: 0.05, quantities: [area]}\n",
+        "  rough: {surface: H0.7_zeta64, pressures: [0.05], accuracy: 0.3, quantities: [area]}\n"
+        "  close: {surface: H0.7_zeta64, pressures: [0.05], accuracy: 0.1, quantities: [area]}\n",
     )
     rough, close = (fresh.planned(f"results/tiny/cases/{name}.nc") for name in ("rough", "close"))
     assert "fit_a_v" not in close
