@@ -96,7 +96,9 @@ def at_equal_area(adhesive, alone):
     of_loads = areas.assign_coords(pressure=np.log(areas.pressure)).drop_vars(
         "range", errors="ignore"
     )
-    growth = of_loads.interp(pressure=np.log(load)) - of_loads.interp(pressure=np.log(pressure))
+    # Where the load is unknown, any will do: xarray warns of coordinates that are all missing.
+    reached = of_loads.interp(pressure=np.log(load.fillna(pressure))).where(load.notnull())
+    growth = reached - of_loads.interp(pressure=np.log(pressure))
     return load, np.exp(growth.drop_vars("pressure", errors="ignore"))
 
 
