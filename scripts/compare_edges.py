@@ -9,9 +9,10 @@ import numpy as np
 import xarray as xr
 
 from _adhesion import DESCRIBED as ADHESION_DESCRIBED
+from _adhesion import LAWS
 from _job import start
 from _model import DESCRIBED
-from stickiness import datasets, edge_adhesion
+from stickiness import datasets, dmt, edge_adhesion
 
 MISSING = (
     "not resolved, fewer than 100 points of the grid drawn into contact, a window closes, or the "
@@ -106,10 +107,16 @@ def attractive_area(areas, ranges, law):
     """Attraction over its strength, for a law: an area weighted by the traction."""
     if law == "maugis":
         return areas.interp(range=ranges)
-    gaps = areas["range"]
-    # By parts: the integral of the area over minus the traction's slope, and what lies beyond.
-    weight = np.exp(-gaps / ranges) / ranges
-    return (areas * weight).integrate("range") + areas.isel(range=-1) * np.exp(-gaps[-1] / ranges)
+    areas = areas.transpose(..., "range")
+    parts = [
+        areas.isel(range=0, drop=True).copy(
+            data=dmt.attraction_of_areas(
+                areas.values, areas["range"].values, LAWS[law](adhesion_length=reach, range=reach)
+            )
+        )
+        for reach in ranges.values
+    ]
+    return xr.concat(parts, ranges)
 
 
 def annotated(dataset):
