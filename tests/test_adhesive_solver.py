@@ -456,6 +456,17 @@ def test_window_snaps_in_as_a_whole(kind):
         assert a.elastic_energy == pytest.approx(expected, rel=1e-9)
 
 
+@pytest.mark.parametrize(("eps", "la"), [(0.01, 10.0), (0.003, 100.0)])
+def test_stiff_law_at_a_mean_gap(eps, la):
+    """Where surfaces touch, the law is 10^4 to 10^6 times as stiff as the half-space."""
+    heights, mean = rough(16), 0.7 * HEIGHT
+    a = adhesive.solve(heights, 1.0, law_of(LennardJones, eps, la), mean_gap=mean)
+    # 155 and 140; with the constraint on all points alike 818, and none after 3000.
+    assert a.iterations < 300
+    assert a.mean_gap == pytest.approx(mean, rel=1e-12)
+    assert_equilibrium(a, heights)
+
+
 def test_convergence_error_carries_the_last_iterate():
     heights = rough(32)
     for kind in LAWS:

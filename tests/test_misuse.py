@@ -4,15 +4,23 @@ import numpy as np
 import pytest
 
 from stickiness import (
+    a_v_table,
     adhesive,
     continuum,
     criteria,
     dmt,
+    edge_adhesion,
+    measured,
+    model_choice,
+    psd,
     repulsive,
     sampling,
     spectrum,
+    subpixel,
     surface,
+    topography,
     units,
+    viscoelastic,
 )
 from stickiness.persson import Persson
 
@@ -27,6 +35,10 @@ LAW = adhesive.Exponential(0.01, 0.1)
 
 def band(**changes):
     return spectrum.SelfAffine(**({"hurst": 0.8, "q0": 1.0, "q1": 4.0, "h_rms": 1.0} | changes))
+
+
+def analysed(heights):
+    return measured.analyse(topography.Topography(heights, 1.0, 1.0, "test"))
 
 
 def press(heights=HEIGHTS, length=SIDE, pressure=0.1, **options):
@@ -102,6 +114,91 @@ MISUSES = {
     ),
     "one seed for several": (lambda: sampling.descriptors(BAND, SIDE, 3), "seeds must be"),
     "a name for a seed": (lambda: sampling.descriptors(BAND, SIDE, ["a"]), "seeds must be"),
+    "number of edges not a number": (
+        lambda: continuum.estimate("area_fraction", [0.1, 0.2], 0, np.nan),
+        "edges must not be negative or NaN",
+    ),
+    "climb of NaN": (
+        lambda: continuum.estimate("attractive_area", [0.1, 0.2], 0, 9, np.nan),
+        "climbs must not be negative or NaN",
+    ),
+    "a gap for its contact": (lambda: subpixel.boundary_strip(HEIGHTS), "contact must be a non-em"),
+    "no contact": (
+        lambda: subpixel.perimeter(np.zeros((0, 0), bool)),
+        "contact must be a non-empty",
+    ),
+    "ranges the wrong way round": (
+        lambda: dmt.attraction_of_areas([0.3, 0.2, 0.1], [3, 2, 1], LAW),
+        "ranges must be an increasing sequence",
+    ),
+    "too few areas": (
+        lambda: dmt.attraction_of_areas([0.1, 0.2], [1, 2, 3], LAW),
+        "with one area each",
+    ),
+    "no load": (lambda: a_v_table.local_a_v(0.1, 0.0, 0.1), "pressure must be positive"),
+    "areas of NaN": (
+        lambda: a_v_table.edge_range([1, 2], [np.nan, 1], [1, 1]),
+        "infinite must be positive and finite",
+    ),
+    "slope of area not a number": (
+        lambda: edge_adhesion.attraction(1, 1, 1, 0.1, 0.1, 2, kappa_rep=np.nan),
+        "kappa_rep must be positive",
+    ),
+    "error at no strength": (
+        lambda: edge_adhesion.error_factor(1.0, -1.0),
+        "strength must be positive",
+    ),
+    "DMT error at no load": (
+        lambda: model_choice.ErrorTable({("maugis", 0.8): ((), 0, 0)}).relative_error(
+            "maugis", 0.8, 32, 0.0, 0.1, 0.1
+        ),
+        "values must be positive",
+    ),
+    "terms that are no pairs": (
+        lambda: viscoelastic.Prony(1.0, ((1.0, 2.0, 3.0),)),
+        "terms must be pairs",
+    ),
+    "falling frequencies": (
+        lambda: viscoelastic.crossings(viscoelastic.Constant(1.0), 2.0, [2.0, 1.0]),
+        "frequencies must be one increasing",
+    ),
+    "spectrum of masked heights": (
+        lambda: psd.power_spectrum(MASKED, 1.0),
+        "heights must not be masked",
+    ),
+    "spectrum of complex heights": (
+        lambda: psd.power_spectrum(HEIGHTS + 0j, 1.0),
+        "heights must be real",
+    ),
+    "spectrum beyond floats": (
+        lambda: psd.power_spectrum(1e160 * HEIGHTS, 1.0),
+        "heights leave the range of floats",
+    ),
+    "rings without end": (
+        lambda: psd.radial_average(psd.power_spectrum(HEIGHTS, 1.0), bins_per_decade=np.inf),
+        "bins_per_decade must be positive and finite",
+    ),
+    "lay of a plane": (
+        lambda: psd.power_spectrum(0 * HEIGHTS, 1.0).anisotropy(1.0, 3.0),
+        "no modes between",
+    ),
+    "lay at no wave number": (
+        lambda: psd.power_spectrum(HEIGHTS, 1.0).anisotropy(0.0, 3.0),
+        "q_min must be positive",
+    ),
+    "a plane, lifted": (lambda: analysed(0 * HEIGHTS + 3), "heights must not be flat, got 3 thr"),
+    "a flat line": (
+        lambda: measured.analyse(topography.Profile(np.ones(64), 1.0, "test")),
+        "heights must not be flat",
+    ),
+    "an instrument without resolution": (
+        lambda: measured.Limits(resolution=0.0),
+        "resolution must be positive",
+    ),
+    "a fit from a negative wavelength": (
+        lambda: measured.Limits(fit_from=-1.0),
+        "fit_from must be positive",
+    ),
     "NaN with a unit": (lambda: units.si("nan m", "m"), "not finite"),
 }
 

@@ -151,9 +151,9 @@ def test_anisotropy_tells_amplitude_and_direction():
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        ({"heights": np.zeros(5)}, "heights must be 2D"),
+        ({"heights": np.zeros(5)}, "heights must be a grid"),
         ({"heights": np.zeros((3, 9))}, r"at least 4 x 4 points, got \(3, 9\)"),
-        ({"heights": np.full((8, 8), np.nan)}, "64 of 64"),
+        ({"heights": np.full((8, 8), np.nan)}, "finite, got 64"),
         ({"dx": 0.0}, "dx must be positive.*0.0"),
         ({"dy": np.inf}, "dy must be positive.*inf"),
         ({"window": "hamming"}, "window must be.*'hamming'"),

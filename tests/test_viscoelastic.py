@@ -44,6 +44,18 @@ def test_table_is_interpolated_in_logarithms_and_says_nothing_beyond():
     assert np.isnan(table.storage([0.01, 100.0])).all()
 
 
+@pytest.mark.parametrize("frequency", [1e-300, 1e160, 1e300])
+def test_extreme_frequencies_have_the_limits(frequency):
+    assert SERIES.storage(frequency) == pytest.approx(1e4 if frequency < 1 else 2.4e5, rel=1e-15)
+
+
+def test_crossings_between_the_end_of_a_table_and_the_next_frequency_count():
+    """The grid has one point in the table, and none of the peak between."""
+    table = Table((0.1, 1.0, 10.0), (1e3, 1e5, 1e3))
+    found = crossings(table, 1e4, [0.01, 5.0, 100.0])
+    assert found == [(pytest.approx(10**-0.5), True), (pytest.approx(10**0.5), False)]
+
+
 def test_crossings_of_a_table_are_exact_and_know_their_direction():
     table = Table((0.01, 1.0, 100.0), (1e4, 1e6, 1e4))  # slopes +1 and -1
     grid = np.geomspace(1e-3, 1e3, 25)

@@ -113,6 +113,7 @@ class _Conjugate:
         self.pixel = problem.surface.quick.mean_stiffness
         self.stiff_limit = _STIFF * np.sqrt(LONGEST * self.pixel)
         self.hardens = problem.law.hardens
+        self._stiffness = LONGEST
         self._direction = np.empty(problem.surface.heights.shape, np.float32)
         self._force = np.empty_like(self._direction)
         self._image = np.empty_like(self._direction)
@@ -126,8 +127,12 @@ class _Conjugate:
         """Next direction and its image, overwritten by the next call."""
         problem = self.problem
         force = state.force
+        if self.hardens:  # of every point on its own, or in the longest wave
+            self._stiffness = np.where(
+                state.slope > self.stiff_limit, state.slope + self.stiff_limit, LONGEST
+            )
         if problem.pressure is None:
-            force = balanced(force.copy(), state.free)
+            force = self._less_mean(force.copy(), state.free)
         step = self._precondition(force, state)
         product, cross = 0.0, 0.0
         for span in self.spans:
@@ -140,7 +145,7 @@ class _Conjugate:
             self._update(span, step[span], state, weight)
             self._force[span] = force[span]
         if problem.pressure is None:
-            balanced(self._direction, state.gap > 0 if problem.wall else None)
+            self._balance(self._direction, state.gap > 0 if problem.wall else state.free)
         # No product, no conjugacy: all forces are zero or too small to square.
         self._product = product if product > 0 else None
         return self._direction, problem.surface.quick.stiffness(self._direction, out=self._image)
@@ -161,16 +166,33 @@ class _Conjugate:
     def _precondition(self, force, state):
         smooth = self.problem.surface.smoother.apply
         if self.hardens:
-            stiff = state.slope > self.stiff_limit
+            stiff = self._stiffness > self.stiff_limit
             step = smooth(np.where(stiff, np.float32(0), force))
-            np.divide(
-                force, state.slope + self.stiff_limit, out=step, where=stiff, casting="unsafe"
-            )
+            np.divide(force, self._stiffness, out=step, where=stiff, casting="unsafe")
         else:
             step = smooth(force)
         for span in self.spans:
             step[span] *= state.free[span]
-        return balanced(step, state.free) if self.problem.pressure is None else step
+        return self._balance(step, state.free) if self.problem.pressure is None else step
+
+    def _less_mean(self, force, points):
+        """Subtract, in place, the mean force on some points, by what each would give way."""
+        if not self.hardens:
+            return balanced(force, points)
+        weight = points / self._stiffness
+        force -= np.vdot(weight, force) / max(weight.sum(), 1e-300) * points
+        return force
+
+    def _balance(self, field, points):
+        """Subtract, in place, the mean of a field on some points, most of it where they give way.
+
+        Spread evenly, the rounding of single precision alone would press stiff points hard.
+        """
+        if not self.hardens:
+            return balanced(field, points)
+        weight = points / self._stiffness
+        field -= field.sum(dtype=float) / max(weight.sum(), 1e-300) * weight
+        return field
 
 
 def _step(problem, state, direction, image, lower):

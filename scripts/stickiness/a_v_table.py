@@ -16,6 +16,8 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.interpolate import RegularGridInterpolator
 from scipy.special import ndtri
 
+from ._arguments import positive
+
 PARTED = 1.5  # ratio of the theory's variants from which on neither resolves the edges of contact
 NORMAL_90 = float(ndtri(0.95))  # standard errors either side that cover 90 %
 NEEDED = (
@@ -41,7 +43,8 @@ _LIMIT_AXES = ("hurst", "pressure", "range")
 
 def local_a_v(area: ArrayLike, pressure: ArrayLike, ranges: ArrayLike) -> NDArray:
     """a_V of attractive areas, for pressures over E* q0 h_rms and ranges over h_rms."""
-    return np.asarray(area) / (1.5 * np.asarray(pressure) * np.asarray(ranges) ** (2 / 3))
+    pressure, ranges = positive(pressure=pressure, ranges=ranges)
+    return np.asarray(area) / (1.5 * pressure * ranges ** (2 / 3))
 
 
 def edge_range(ranges: ArrayLike, infinite: ArrayLike, finite: ArrayLike) -> float:
@@ -66,8 +69,14 @@ def edge_range(ranges: ArrayLike, infinite: ArrayLike, finite: ArrayLike) -> flo
     -------
     float
         Between the ranges, along a power law; the smallest of them if the variants never part.
+
+    Raises
+    ------
+    ValueError
+        If an argument is not positive and finite.
     """
-    logs = np.log(np.asarray(infinite) / np.asarray(finite)) - np.log(PARTED)
+    ranges, infinite, finite = positive(ranges=ranges, infinite=infinite, finite=finite)
+    logs = np.log(infinite / finite) - np.log(PARTED)
     apart = np.flatnonzero(logs > 0)
     if apart.size == 0:
         return float(ranges[0])
@@ -75,7 +84,7 @@ def edge_range(ranges: ArrayLike, infinite: ArrayLike, finite: ArrayLike) -> flo
     if last == len(logs) - 1:
         return float(ranges[-1])
     share = logs[last] / (logs[last] - logs[last + 1])
-    steps = np.log(np.asarray(ranges)[last : last + 2])
+    steps = np.log(ranges[last : last + 2])
     return float(np.exp(steps[0] + share * (steps[1] - steps[0])))
 
 

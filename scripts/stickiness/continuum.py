@@ -121,7 +121,8 @@ def estimate(
     Raises
     ------
     ValueError
-        If the quantity is unknown or there are not two or three grids.
+        If the quantity is unknown, there are not two or three grids, values are not finite, or
+        `edges` or `climbs` negative or NaN.
 
     Examples
     --------
@@ -135,6 +136,9 @@ def estimate(
         raise ValueError(f"values must be those of two or three grids, got {len(values)}")
     if not all(np.all(np.isfinite(each)) for each in (*values, part)):
         raise ValueError("values and part must be finite, got NaN or infinite ones")
+    for name, given in (("edges", edges), ("climbs", climbs)):
+        if not np.all(np.asarray(given) >= 0):
+            raise ValueError(f"{name} must not be negative or NaN, got {given!r}")
     rule = RULES[quantity]
     change = values[-1] - values[-2]
     square = change**2

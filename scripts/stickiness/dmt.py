@@ -34,7 +34,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import subpixel as edges_of_contact
-from ._arguments import positive
+from ._arguments import numbers, positive
 from .subpixel import STRIP_WIDTH, boundary_strip, edge_gap, gap_and_contact
 
 __all__ = [
@@ -218,9 +218,19 @@ def attraction_of_areas(area: ArrayLike, ranges: ArrayLike, law: HasTraction) ->
     -------
     (...) array
         Gaps up to the smallest range count with the traction at half of it, those beyond the
-        largest not at all.
+        largest not at all. NaN where an area is.
+
+    Raises
+    ------
+    ValueError
+        If the ranges are not positive and increasing, or not one for each area.
     """
-    area, ranges = np.asarray(area, dtype=float), np.asarray(ranges, dtype=float)
+    area, (ranges,) = numbers("area", area), positive(ranges=ranges)
+    if ranges.ndim != 1 or not np.all(np.diff(ranges) > 0) or area.shape[-1:] != ranges.shape:
+        raise ValueError(
+            "ranges must be an increasing sequence with one area each, "
+            f"got shapes {ranges.shape} and {area.shape}"
+        )
     middle = np.sqrt(ranges[1:] * ranges[:-1])
     within = law.traction(ranges[0] / 2) * area[..., 0]
     return within + np.diff(area) @ law.traction(middle)

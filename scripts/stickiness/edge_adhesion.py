@@ -125,7 +125,7 @@ def attraction(
     kappa_rep : float
         Slope of area against load without adhesion.
     """
-    (slope,) = positive(rms_slope=rms_slope)
+    slope, kappa_rep = positive(rms_slope=rms_slope, kappa_rep=kappa_rep)
     dmt = traction_ratio(h_rms, q0, adhesion_length, range, a_v)
     # Mean pressure in the contact is E* h'/kappa, attraction over it sigma_0 t.
     strength_over_pressure = np.asarray(adhesion_length) / range * kappa_rep / slope
@@ -160,10 +160,9 @@ def edge_strength(attractive_over_contact: ArrayLike, traction: ArrayLike) -> fl
 
 def error_factor(attractive_over_contact: ArrayLike, strength: ArrayLike) -> float | NDArray:
     """Factor, up or down, within which `effect` holds for rough contacts."""
-    simulated = (np.asarray(attractive_over_contact) >= SMALLEST_SIMULATED) & (
-        np.asarray(strength) <= STRONGEST_SIMULATED
-    )
-    within = np.where(np.asarray(strength) <= WEAK, ERROR_WEAK, ERROR_STRONG)
+    t, tau = positive(attractive_over_contact=attractive_over_contact, strength=strength)
+    simulated = (t >= SMALLEST_SIMULATED) & (tau <= STRONGEST_SIMULATED)
+    within = np.where(tau <= WEAK, ERROR_WEAK, ERROR_STRONG)
     return plain(np.where(simulated, within, ERROR_BEYOND))
 
 

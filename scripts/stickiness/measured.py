@@ -8,11 +8,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import profiles, resolution
+from ._arguments import number, numbers
 from .psd import PowerSpectrum, RadialPSD, Window, merge_rings, power_spectrum, radial_average
 from .selfaffine import LOWEST_MODES, NYQUIST_SHARE, SelfAffineFit, fit_rings, narrow_rings
 from .topography import Profile, Topography
 
 RINGS = 10  # per decade, of the spectrum that is shown and integrated
+_ROUNDING = 1e-13  # relative range of heights below which they are one number
 
 
 @dataclass(frozen=True)
@@ -90,6 +92,11 @@ class Limits:
     tip_radius: float | None = None
     detect: bool = True
 
+    def __post_init__(self):
+        for name in ("fit_from", "fit_to", "resolution", "tip_radius"):
+            if getattr(self, name) is not None:
+                number(name, getattr(self, name))
+
 
 def analyse(
     heights: Topography | Profile, window: Window = "hann", limits: Limits | None = None
@@ -108,9 +115,12 @@ def analyse(
     Raises
     ------
     ValueError
-        If what the limits leave is too little for a fit.
+        If the heights are flat, or what the limits leave is too little for a fit.
     """
     limits = Limits() if limits is None else limits
+    values = numbers("heights", heights.heights)
+    if values.size and np.ptp(values) <= _ROUNDING * np.max(np.abs(values)):
+        raise ValueError(f"heights must not be flat, got {values.flat[0]:.6g} throughout")
     if isinstance(heights, Profile):
         return _analyse_profile(heights, window, limits)
     plane = power_spectrum(heights.heights, heights.dx, heights.dy, window)

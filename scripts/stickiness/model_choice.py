@@ -20,6 +20,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ._arguments import positive
 from .area_load import jtb_limit
 from .units import si
 
@@ -56,9 +57,15 @@ class ErrorTable:
         -------
         float
             |DMT/full - 1| with the ratio as far from 1 as its error allows.
+
+        Raises
+        ------
+        ValueError
+            If a value is not positive and finite.
         """
         if (law, hurst) not in self.lattices:
             return np.nan
+        positive(values=values)
         axes, ratio, error = self.lattices[law, hurst]
         weights = [_weights(axis, np.log(value)) for axis, value in zip(axes, values, strict=True)]
         if any(weight is None for weight in weights):

@@ -15,6 +15,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy import fft
 
+from ._arguments import grid, number
+
 Window = Literal["none", "hann", "hann_radial"]
 Spacing = Literal["log", "linear"]
 
@@ -86,14 +88,16 @@ class PowerSpectrum:
         direction : float
             phi0 [rad], the direction of the wave vectors with the largest C, in (-pi/2, pi/2].
         """
+        number("q_min", q_min)
         q = self.q
         inside = (q >= q_min) & (q <= q_max)
-        if not inside.any():
+        if not np.any(self.psd[inside] > 0):
             raise ValueError(f"no modes between q_min = {q_min:.6g} and q_max = {q_max:.6g}")
         weight = np.broadcast_to(self.multiplicity, q.shape)[inside]
         ring = np.rint(np.log10(q[inside] / q_min) * 20).astype(int)
         modes = np.bincount(ring, weights=weight)
         mean = np.bincount(ring, weights=weight * self.psd[inside]) / np.maximum(modes, 1)
+        mean[mean == 0] = np.inf  # rings without power, whose modes are alike
         phi = np.arctan2(*np.broadcast_arrays(self.qy[None, :], self.qx[:, None]))[inside]
         # The ring's mean is taken off: its modes are not spread evenly over the directions.
         excess = weight * (self.psd[inside] / mean[ring] - 1)
@@ -170,18 +174,20 @@ def power_spectrum(
         If the heights are not a finite 2D array of at least 4 by 4 points, a step is not
         positive, or the window is unknown.
     """
-    heights = np.asarray(heights, dtype=float)
-    dy = dx if dy is None else dy
-    _check_heights(heights)
-    for name, step in (("dx", dx), ("dy", dy)):
-        if not (np.isfinite(step) and step > 0):
-            raise ValueError(f"{name} must be positive and finite, got {step!r}")
+    heights = grid("heights", heights)
+    if min(heights.shape) < 4:
+        raise ValueError(f"heights must have at least 4 x 4 points, got {heights.shape}")
+    dx, dy = number("dx", dx), number("dy", dx if dy is None else dy)
     nx, ny = heights.shape
     w, blur = _window(window, (nx, ny), (dx, dy))
     power = np.mean(w**2)
     windowed = w * (heights - np.mean(w * heights) / np.mean(w))
     modes = fft.rfft2(windowed) / (nx * ny)
     cell = (2 * np.pi) ** 2 / (nx * dx * ny * dy)
+    with np.errstate(over="ignore"):
+        variance = float(np.mean(windowed**2) / power)
+    if not np.isfinite(variance / cell):
+        raise ValueError("heights leave the range of floats: take a larger unit of length")
     multiplicity = np.full(modes.shape[1], 2.0)
     multiplicity[0] = 1.0
     if ny % 2 == 0:
@@ -191,7 +197,7 @@ def power_spectrum(
         qy=2 * np.pi * fft.rfftfreq(ny, dy),
         psd=np.abs(modes) ** 2 / (power * cell),
         multiplicity=multiplicity,
-        variance=float(np.mean(windowed**2) / power),
+        variance=variance,
         independence=float(power**2 / np.mean(w**4)),
         blur=blur,
         window=window,
@@ -223,8 +229,7 @@ def radial_average(
     """
     if spacing not in ("log", "linear"):
         raise ValueError(f"spacing must be 'log' or 'linear', got {spacing!r}")
-    if not bins_per_decade > 0:
-        raise ValueError(f"bins_per_decade must be positive, got {bins_per_decade!r}")
+    bins_per_decade = number("bins_per_decade", bins_per_decade)
     q = spectrum.q.ravel()
     weight = np.broadcast_to(spectrum.multiplicity, spectrum.psd.shape).ravel()
     q, weight, psd = q[1:], weight[1:], spectrum.psd.ravel()[1:]  # the first mode is q = 0
@@ -284,14 +289,3 @@ def _window(name: str, shape: tuple[int, int], step: tuple[float, float]) -> tup
         r = np.hypot(x[:, None] * sides[0], y * sides[1]) / min(sides)
         return np.where(r < 0.5, np.cos(np.pi * r) ** 2, 0.0), 2.0
     raise ValueError(f"window must be 'none', 'hann' or 'hann_radial', got {name!r}")
-
-
-def _check_heights(heights: NDArray) -> None:
-    if heights.ndim != 2 or min(heights.shape) < 4:
-        raise ValueError(f"heights must be 2D with at least 4 x 4 points, got {heights.shape}")
-    bad = np.count_nonzero(~np.isfinite(heights))
-    if bad:
-        raise ValueError(
-            f"heights must be finite, got {bad} of {heights.size} that are not; "
-            "topography.read fills missing points"
-        )

@@ -64,13 +64,13 @@ def boundary_strip(contact: ArrayLike) -> float:
     Raises
     ------
     ValueError
-        If `contact` has fewer than two dimensions.
+        If `contact` is not boolean, empty, or has fewer than two dimensions.
 
     References
     ----------
     Yastrebov, Anciaux & Molinari, Tribol. Int. 114, 161 (2017), arXiv:1701.02727.
     """
-    contact = np.asarray(contact, dtype=bool)
+    contact = _mask(contact)
     sides = _sides(contact)
     if not sides.any():
         return 0.0
@@ -82,7 +82,7 @@ def boundary_strip(contact: ArrayLike) -> float:
 
 def edge_count(contact: ArrayLike) -> int:
     """Count the pixel sides between contact and gap, periodic in the last two axes."""
-    return int(_sides(np.asarray(contact, dtype=bool)).sum())
+    return int(_sides(_mask(contact)).sum())
 
 
 def perimeter(contact: ArrayLike) -> float:
@@ -96,7 +96,7 @@ def perimeter(contact: ArrayLike) -> float:
     contact : (..., n, n) bool array
         True where the surfaces touch; periodic in the last two axes.
     """
-    contact = np.asarray(contact, dtype=bool)
+    contact = _mask(contact)
     return float(np.pi / 4 * edge_count(contact) / contact.size)
 
 
@@ -205,9 +205,20 @@ def _require_grid(name: str, array: NDArray) -> None:
         raise ValueError(f"{name} must be at least two-dimensional, got shape {array.shape}")
 
 
+def _mask(contact: ArrayLike) -> NDArray:
+    """Return a checked mask of the contact."""
+    contact = np.asarray(contact)
+    if contact.dtype != bool or contact.size == 0:
+        raise ValueError(
+            "contact must be a non-empty boolean array, True where the surfaces touch, "
+            f"got {contact.dtype} of shape {contact.shape}"
+        )
+    _require_grid("contact", contact)
+    return contact
+
+
 def _sides(contact: NDArray) -> NDArray:
     """Number of pixel sides between contact and gap that lines along axes -2 and -1 cross."""
-    _require_grid("contact", contact)
     return np.array(
         [float(np.count_nonzero(contact ^ np.roll(contact, 1, axis))) for axis in (-2, -1)]
     )

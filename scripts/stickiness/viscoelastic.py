@@ -16,6 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 from ._arguments import plain, positive
 
 REFERENCE_FREQUENCY = 1.0  # Hz, Dahlquist's
+_GLASSY = 1e100  # x from which on a term is E_i to rounding; its square does not overflow
 
 
 @dataclass(frozen=True)
@@ -58,7 +59,9 @@ class Prony:
         positive(equilibrium=self.equilibrium)
         if not len(self.terms):
             raise ValueError("terms of a Prony series must not be empty; give a constant instead")
-        positive(terms=self.terms)
+        (terms,) = positive(terms=self.terms)
+        if terms.ndim != 2 or terms.shape[1] != 2:
+            raise ValueError(f"terms must be pairs of modulus and time, got {self.terms!r}")
 
     def storage(self, frequency: ArrayLike) -> float | NDArray:
         """Storage modulus [Pa] at frequencies [Hz].
@@ -68,7 +71,7 @@ class Prony:
         """
         (frequency,) = positive(frequency=frequency)
         moduli, times = np.array(self.terms).T
-        x = 2 * np.pi * frequency[..., None] * times
+        x = np.minimum(2 * np.pi * frequency[..., None] * times, _GLASSY)
         return plain(self.equilibrium + np.sum(moduli * x**2 / (1 + x**2), axis=-1))
 
 
@@ -116,7 +119,8 @@ def crossings(
     threshold : float
         Modulus [Pa].
     frequencies : (n,) array
-        Increasing; crossings are looked for between neighbours, and interpolated in logarithms.
+        Increasing; crossings are looked for between neighbours, those of a table too, and
+        interpolated in logarithms.
 
     Returns
     -------
@@ -125,6 +129,11 @@ def crossings(
     """
     (frequencies,) = positive(frequencies=frequencies)
     (limit,) = positive(threshold=threshold)
+    if frequencies.ndim != 1 or not np.all(np.diff(frequencies) > 0):
+        raise ValueError(f"frequencies must be one increasing sequence, got {frequencies!r}")
+    if isinstance(modulus, Table) and frequencies.size:
+        inside = np.clip(modulus.frequencies, frequencies[0], frequencies[-1])
+        frequencies = np.union1d(frequencies, inside)
     excess = np.log(np.asarray(modulus.storage(frequencies)) / limit)
     found = []
     for i in np.flatnonzero(np.diff(np.sign(excess)) != 0):
