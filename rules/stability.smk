@@ -3,14 +3,24 @@
 
 COMPONENTS = [
     "spectrum",
+    "odd-spectra",
     "synthesise",
+    "measured",
     "sampling",
+    "accuracy",
     "persson",
-    "criteria",
     "repulsive",
     "sub-pixel",
     "dmt",
+    "dmt-limit",
     "adhesive",
+    "tension",
+    "paths",
+    "model-choice",
+    "edge-adhesion",
+    "a_v-table",
+    "criteria",
+    "moduli",
 ]
 
 

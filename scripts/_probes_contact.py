@@ -150,6 +150,35 @@ def adhered(variant, hurst, magnification, pressure, *adhesion, grid):
     )
 
 
+def closing_pressure(displacement, unit):
+    """Pressure of zero mean that a displacement needs, on a side of 2 pi units."""
+    n = len(displacement)
+    k = np.hypot(*np.meshgrid(*[np.fft.fftfreq(n, 1 / n)] * 2)) / unit
+    return np.fft.ifft2(np.fft.fft2(displacement) * k / 2).real
+
+
+def stress_unit(heights, unit, law):
+    """Pressure that residuals are relative to."""
+    return max(float(np.sqrt(np.mean(closing_pressure(heights, unit) ** 2))), law.strength)
+
+
+def equilibrium(state, heights, unit) -> Iterator[Check]:
+    """Balance of pressures at every point of an adhesive state."""
+    stress = stress_unit(heights, unit, state.law)
+    # Pressure that the half-space asks for.
+    elastic = closing_pressure(state.gap + heights, unit) + state.mean_pressure
+    excess = elastic + state.law.traction(state.gap)  # what is left for the wall
+    at_wall = (state.gap <= 0) & state.law.hard_wall
+    free = ~at_wall
+    if not state.law.smooth:
+        # At the jump of the law any traction between its two sides is in equilibrium.
+        jump = np.abs(state.gap - state.law.range) <= 1e-9 * state.law.range
+        within = (elastic <= TOLERANCE * stress) & (-elastic <= state.law.strength * (1 + 1e-9))
+        free &= ~(jump & within)
+    yield Check("equilibrium", float(np.max(np.abs(excess[free]), initial=0)) / stress, 2e-8)
+    yield Check("wall", float(np.max(-excess[at_wall], initial=0)) / stress, 2e-8)
+
+
 def probe_adhesive(
     hurst, magnification, pressure, range_over_h_rms, adhesion_length_over_range, q0_h_rms, unit,
     grid, variant,
@@ -158,24 +187,9 @@ def probe_adhesive(
     adhesion = (range_over_h_rms, adhesion_length_over_range, q0_h_rms, unit)
     state = adhered(variant, *shape, *adhesion, grid=grid)
     heights = heights_of(hurst, magnification, q0_h_rms, unit, grid)
-    law, control = variant.split()
-    n = grid
-    k = np.hypot(*np.meshgrid(*[np.fft.fftfreq(n, 1 / n)] * 2)) / unit
-    elastic = np.fft.ifft2(np.fft.fft2(state.gap + heights) * k / 2).real
-    elastic += state.mean_pressure  # pressure that the half-space asks for
-    traction = state.law.traction(state.gap)
-    slope = np.sqrt(np.mean(np.abs(np.fft.fft2(heights) / n**2) ** 2 * k**2) * n**2)
-    stress = max(slope / 2, state.law.strength)
-    excess = elastic + traction  # what is left for the wall
-    at_wall = (state.gap <= 0) & state.law.hard_wall
-    free = ~at_wall
-    if law == "maugis":
-        # At the jump of the law any traction between its two sides is in equilibrium.
-        jump = np.abs(state.gap - state.law.range) <= 1e-9 * state.law.range
-        within = (elastic <= TOLERANCE * stress) & (-elastic <= state.law.strength * (1 + 1e-9))
-        free &= ~(jump & within)
-    yield Check("equilibrium", float(np.max(np.abs(excess[free]), initial=0)) / stress, 2e-8)
-    yield Check("wall", float(np.max(-excess[at_wall], initial=0)) / stress, 2e-8)
+    control = variant.split()[1]
+    stress = stress_unit(heights, unit, state.law)
+    yield from equilibrium(state, heights, unit)
     if control == "pressure":
         balance = state.pressure.mean() - pressure * q0_h_rms
         yield Check("mean pressure", abs(balance) / stress, 2e-8)
@@ -197,13 +211,116 @@ def probe_adhesive(
         yield Check("gap, other unit", abs(gap - same.mean_gap) / allowed, 1)
 
 
-_GRIDS = (2, 3, 4, 7, 16, 31, 32, 97, 128)
+# --- Zero load, tension, states from full contact; what is pulled off must have been. ---
+
+STARTS = tuple(
+    f"{law} {kind}" for law in LAWS for kind in ("unloaded", "pulled", "separation", "closed")
+)
+
+
+def probe_tension(
+    pressure, range_over_h_rms, adhesion_length_over_range, grid, variant
+) -> Iterator[Check]:
+    """The pressure pulls; `closed` prescribes the mean gap zero."""
+    name, kind = variant.split()
+    heights = heights_of(0.8, 4, 1.0, 1.0, grid)
+    law = LAWS[name](adhesion_length_over_range * range_over_h_rms, range_over_h_rms)
+    control = {"pressure": 0.0 if kind == "unloaded" else -pressure}
+    if kind == "closed":
+        control = {"mean_gap": 0.0}
+    start = kind if kind == "separation" else None
+    # Full contact holds as long as the wall pushes everywhere.
+    flattened = closing_pressure(heights, 1.0)
+    holds = law.hard_wall and law.traction(0.0) - pressure > -flattened.min()
+    try:
+        state = adhesive.solve(heights, 2 * np.pi, law, start=start, tol=TOLERANCE, **control)
+    except adhesive.PullOffError as error:
+        yield Check("pulled off without a pull", float(kind in ("unloaded", "closed")), 0.5)
+        yield Check("full contact holds", float(holds and kind == "separation"), 0.5)
+        held = _largest_tension(heights, law) if kind == "pulled" else 0.0
+        yield Check("tension held at a mean gap", held / pressure, 1 + 1e-6)
+        _ = error
+        return
+    yield from equilibrium(state, heights, 1.0)
+    yield Check("beyond the strength", -state.mean_pressure / law.strength, 1 + 1e-7)
+    if kind == "separation":
+        yield Check("full contact", float((state.repulsive_area_fraction < 1) and holds), 0.5)
+    if kind == "closed" and law.hard_wall:
+        yield Check("full contact", 1 - state.repulsive_area_fraction, 0.5 / heights.size)
+    if kind == "unloaded":
+        # No descent ends above the energy that it began with, of contact without adhesion.
+        alone = np.max(heights) - heights
+        before = float(np.mean(law.potential(alone)))
+        yield Check("energy", (state.energy - before) / law.adhesion_length, 1e-9)
+
+
+def _largest_tension(heights, law):
+    """Largest tension at mean gaps beyond that of no load, a lower bound of the branch's."""
+    state = adhesive.solve(heights, 2 * np.pi, law, pressure=0.0, tol=TOLERANCE)
+    most, first = 0.0, state.mean_gap
+    for share in (0.02, 0.05, 0.1, 0.2, 0.4, 0.7, 1.0):
+        mean_gap = first + share * law.range
+        state = adhesive.solve(
+            heights, 2 * np.pi, law, mean_gap=mean_gap, start=state, tol=TOLERANCE
+        )
+        most = max(most, -state.mean_pressure)
+    return most
+
+
+# --- Paths: equilibrium, no energy out of nothing, and back to where a reversible one began. ---
+
+
+def probe_path(
+    pressure, range_over_h_rms, adhesion_length_over_range, grid, variant
+) -> Iterator[Check]:
+    name, control = variant.split()
+    heights = heights_of(0.8, 4, 1.0, 1.0, grid)
+    law = LAWS[name](adhesion_length_over_range * range_over_h_rms, range_over_h_rms)
+    if control == "pressure":
+        loop = [pressure, 3 * pressure, pressure, -2 * law.strength]
+    else:  # to the gap of this load, where contact may be full
+        closest = pressed(0.8, 4, pressure, grid=grid).mean_gap
+        loop = [closest + law.range, closest, closest + law.range]
+    points = list(
+        adhesive.path(
+            heights, 2 * np.pi, law, loop, control, steps=6, balance=1e-4, located=1e-2,
+            smallest_jump=1e-2, max_states=400, tol=TOLERANCE,
+        )
+    )  # fmt: skip
+    for point in points[:: max(len(points) // 8, 1)]:
+        yield from equilibrium(point.state, heights, 1.0)
+    first = points[0].state
+    energies = [point.state.energy - first.energy for point in points]
+    scale = max(np.max(np.abs(energies)), 1e-3 * law.adhesion_length)
+    lost = np.cumsum([p.dissipated for p in points if np.isfinite(p.dissipated)])
+    yield Check("energy out of nothing", -lost[-1] / scale, 1e-2)
+    if control == "pressure":
+        last = points[-1]
+        yield Check("held beyond the strength", float(last.event != "pull-off"), 0.5)
+        yield Check("pull-off", -last.state.mean_pressure / law.strength, 1 + 1e-7)
+        back = max(k for k, p in enumerate(points) if p.state.mean_pressure == pressure)
+        # Unloading keeps what loading closed.
+        wider = points[back].state.mean_gap - first.mean_gap
+        yield Check("hysteresis", wider / max(first.mean_gap, law.range), 1e-5)
+    else:
+        back = len(points) - 1
+        yield Check("mean gap at the end", abs(points[back].state.mean_gap / loop[-1] - 1), 1e-9)
+    if not any(p.event for p in points[: back + 1]) and lost[back] < 1e-6 * scale:
+        yield Check("reversible", abs(energies[back]) / scale, 1e-3)
+
+
 _SURFACE = {"magnification": 8}
 _FINE = tuple(
     {"grid": 128, "magnification": 16, "range_over_h_rms": eps, "adhesion_length_over_range": la}
     for eps, la in ((0.3, 0.01), (1e-4, 1e-4), (1e-2, 10), (100, 10))
 )
 _MAGNIFICATIONS = {"magnification": (1.01, 2, 4, 8, 16, 64, 1e6)}
+_BRANCHES = {
+    "pressure": (1e-8, 1e-3, 0.03, 0.3, 3, 100),
+    "range_over_h_rms": (1e-2, 0.1, 0.3, 3, 1e3),
+    "adhesion_length_over_range": (1e-6, 1e-2, 0.1, 1, 10),
+    "grid": (9, 12, 16, 17),
+}
 
 CONTACT = {
     "repulsive": Component(
@@ -242,5 +359,22 @@ CONTACT = {
         reference=_SURFACE | {"grid": 16},
         values={"magnification": (1.01, 2, 4, 8, 64), "grid": (2, 3, 4, 7, 16, 31, 64)},
         further=_FINE,
+    ),
+    "tension": Component(
+        probe_tension,
+        ("pressure", "range_over_h_rms", "adhesion_length_over_range", "grid"),
+        pairs=(("pressure", "adhesion_length_over_range"),
+               ("range_over_h_rms", "adhesion_length_over_range")),
+        variants=STARTS,
+        reference={"grid": 16, "adhesion_length_over_range": 0.1},
+        values=_BRANCHES,
+    ),
+    "paths": Component(
+        probe_path,
+        ("pressure", "range_over_h_rms", "adhesion_length_over_range", "grid"),
+        pairs=(),
+        variants=CONTROLS,
+        reference={"grid": 16, "adhesion_length_over_range": 0.1},
+        values=_BRANCHES | {"pressure": (1e-5, 1e-3, 0.03, 0.3, 3)},
     ),
 }  # fmt: skip

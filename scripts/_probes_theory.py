@@ -9,7 +9,7 @@ import numpy as np
 from scipy.integrate import quad
 from scipy.special import erf, erfinv
 
-from _stability import Check, Component
+from _stability import AXES, Check, Component
 from stickiness import criteria, sampling, surface
 from stickiness.persson import Persson
 from stickiness.spectrum import SelfAffine, Tabulated
@@ -259,13 +259,15 @@ def probe_sampling(hurst, magnification, q0_h_rms, unit) -> Iterator[Check]:
 
 THEORY = {
     "spectrum": Component(
-        probe_spectrum, ("magnification", "hurst", "q0_h_rms", "unit")
+        probe_spectrum,
+        ("magnification", "hurst", "q0_h_rms", "unit"),
+        values={"magnification": (1.001, *AXES["magnification"].values[1:])},
     ),
     "synthesise": Component(
         probe_synthesis,
         ("magnification", "hurst", "q0_h_rms", "unit", "grid"),
         reference={"magnification": 8},
-        values={"magnification": (1.01, 2, 8, 64, 1e3, 1e6)},
+        values={"magnification": (1.001, 2, 8, 64, 1e3, 1e6)},
         further=({"grid": 509}, {"grid": 1024}),
     ),
     "persson": Component(
@@ -274,7 +276,7 @@ THEORY = {
         pairs=(("magnification", "pressure"), ("hurst", "pressure"), ("hurst", "magnification")),
         variants=THEORIES,
         values={
-            "magnification": (1.01, 8, 64, 1e3, 1e6, 1e10),
+            "magnification": (1.001, 8, 64, 1e3, 1e6, 1e10),
             "hurst": (0.05, 0.5, 0.8, 1.0),
             "pressure": (1e-8, 1e-3, 0.03, 0.3, 3.0, 100.0, 1e6),
         },
@@ -285,11 +287,18 @@ THEORY = {
             "magnification", "hurst", "range_over_h_rms", "adhesion_length_over_range",
             "q0_h_rms", "unit",
         ),
+        values={
+            "magnification": (1.001, *AXES["magnification"].values[1:]),
+            "range_over_h_rms": (1e-12, 1e-9, *AXES["range_over_h_rms"].values),
+            "adhesion_length_over_range": (
+                *AXES["adhesion_length_over_range"].values, 1e4, 1e7,
+            ),
+        },
     ),
     "sampling": Component(
         probe_sampling,
         ("magnification", "hurst", "q0_h_rms", "unit"),
         reference={"magnification": 8},
-        values={"magnification": (1.01, 2, 8, 32)},
+        values={"magnification": (1.001, 2, 8, 32)},
     ),
 }  # fmt: skip

@@ -22,16 +22,25 @@ import numpy as np
 
 import stickiness
 from stickiness import (
+    a_v_table,
+    accuracy,
     adhesive,
     continuum,
     criteria,
     dmt,
+    edge_adhesion,
+    measured,
+    model_choice,
     persson,
+    psd,
     repulsive,
     sampling,
+    selfaffine,
     spectrum,
+    stitching,
     subpixel,
     surface,
+    viscoelastic,
 )
 
 RIGHT, REFUSED, UNCONVERGED, FAILED = range(4)
@@ -39,7 +48,9 @@ OUTCOMES = ("right", "refused", "not converged", "failed")
 TIME_LIMIT = 30  # seconds of computing for a point; most take less than 0.1
 
 _MODULES = (
-    adhesive, continuum, criteria, dmt, persson, repulsive, sampling, spectrum, subpixel, surface,
+    a_v_table, accuracy, adhesive, continuum, criteria, dmt, edge_adhesion, measured, model_choice,
+    persson, psd, repulsive, sampling, selfaffine, spectrum, stitching, subpixel, surface,
+    viscoelastic,
 )  # fmt: skip
 _LIBRARY = Path(stickiness.__file__).parent
 
@@ -66,6 +77,11 @@ AXES = {
     "q0_h_rms": Axis("q0 times h_rms", (1e-9, 1e-6, 1e-3, 0.1, 1, 10), 0.1),
     "unit": Axis("1/q0 in units of length", (1e-9, 1e-6, 1e-3, 1, 1e3), 1),
     "grid": Axis("grid points a side", (2, 3, 4, 7, 16, 31, 32, 97, 128), 32),
+    "frequency": Axis(
+        "frequency times relaxation time",
+        (1e-300, 1e-100, 1e-9, 1e-3, 0.1, 1, 30, 1e6, 1e100, 1e200, 1e300),
+        1,
+    ),
 }
 
 
@@ -173,7 +189,8 @@ def _arguments() -> Iterator[str]:
     for module in _MODULES:
         for name, value in vars(module).items():
             own = callable(value) and getattr(value, "__module__", "").startswith("stickiness")
-            if own and not name.startswith("_"):
+            error = isinstance(value, type) and issubclass(value, Exception)
+            if own and not error and not name.startswith("_"):
                 yield from inspect.signature(value).parameters
 
 

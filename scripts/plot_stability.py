@@ -18,9 +18,10 @@ LABELS = {
     "q0_h_rms": "roughness\n$q_0h_\\mathrm{rms}$",
     "unit": "unit\n$1/q_0$",
     "grid": "grid points\na side",
+    "frequency": "rate\n$f\\tau$",
 }
 LOOKS = ((BLUE, ""), (YELLOW, ""), (ORANGE, "///"), (BLACK, ""))  # in the order of the outcomes
-ROW = 0.62  # inches
+ROW = 0.5  # inches
 
 
 def main(job):

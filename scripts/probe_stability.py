@@ -8,11 +8,12 @@ import xarray as xr
 
 from _job import start
 from _probes_contact import CONTACT
+from _probes_models import MODELS
 from _probes_theory import THEORY
 from _stability import AXES, OUTCOMES, probed
 from stickiness import datasets
 
-COMPONENTS = THEORY | CONTACT
+COMPONENTS = THEORY | CONTACT | MODELS
 _LONGEST = 160  # characters of a message that are kept
 
 

@@ -347,6 +347,7 @@ def test_path_gives_up_when_told_to():
     [
         ({"values": (0.1,)}, "values must be at least two"),
         ({"values": (0.1, np.nan)}, "values must be at least two"),
+        ({"values": (0.1, 0.1, 0.2)}, "values must differ from one to the next"),
         ({"control": "force"}, "control must be"),
         ({"balance": 0.0}, "balance must be"),
         ({"smallest_jump": -1.0}, "smallest_jump must be"),

@@ -1,14 +1,32 @@
 """What must hold for every surface, load and unit: scaling, order, conservation, symmetry."""
 
+from tempfile import TemporaryDirectory
+
 import numpy as np
 import pytest
-from hypothesis import given
+import xarray as xr
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as arrays
 
-from stickiness import adhesive, continuum, criteria, dmt, repulsive, sampling, surface
+from stickiness import (
+    a_v_table,
+    adhesive,
+    continuum,
+    criteria,
+    datasets,
+    dmt,
+    edge_adhesion,
+    measured,
+    repulsive,
+    sampling,
+    stitching,
+    surface,
+)
 from stickiness.persson import Persson
-from stickiness.spectrum import SelfAffine
+from stickiness.spectrum import SelfAffine, Shells
+from stickiness.topography import Topography
+from stickiness.viscoelastic import Prony, Table, crossings
 
 TOL = 1e-8
 N = 24
@@ -95,7 +113,93 @@ def test_means_shift_and_scale_with_what_is_averaged(seed, factor, shift):
     assert other.standard_error == pytest.approx(factor * one.standard_error, rel=1e-6)
 
 
+@given(arrays.arrays(float, 5, elements=st.floats(1e-6, 1.0)), hursts, loads, factors, factors)
+def test_theory_of_shells_scales(variance, hurst, load, unit, flat):
+    """Spectra with gaps between few shells, over up to eight decades."""
+    q = np.array([1.0, 1.001, 30.0, 1e4, 1e8])
+    variance = variance * q ** (-2 * hurst)
+    one, other = (
+        Persson(Shells(q, variance)),
+        Persson(Shells(q / unit, variance * (unit * flat) ** 2)),
+    )
+    assert other.area_fraction(load * flat) == pytest.approx(one.area_fraction(load), rel=1e-9)
+    gap = other.mean_gap(load * flat) / (unit * flat)
+    assert gap == pytest.approx(one.mean_gap(load), rel=1e-8, abs=1e-12)
+    whole = one.area_fraction(load) + one.gap_cumulative(np.inf, load)
+    assert whole == pytest.approx(1, abs=1e-8)
+
+
+@given(st.floats(-12, 3), st.floats(-6, 7), factors, st.floats(0, 3), st.floats(-9, 9))
+def test_edge_adhesion_does_not_know_the_unit(log_range, log_adhesion, h, log_slope, log_unit):
+    eps, unit = 10**log_range * h, 10**log_unit
+    lengths = np.array([h, 0.1 * h, 10**log_adhesion * eps, eps])  # h_rms, q0, l_a, range
+    lengths[1] = 0.1 / h
+    powers = np.array([1, -1, 1, 1])
+    one, other = (
+        edge_adhesion.attraction(*each[:2], 10**log_slope, *each[2:], 3.0)
+        for each in (lengths, lengths * unit**powers)
+    )
+    assert other.ratio == pytest.approx(one.ratio, rel=1e-7)
+    assert other.strength == pytest.approx(one.strength, rel=1e-9)
+    assert 0 < one.effect <= edge_adhesion.weak_effect(one.attractive_over_contact) * (1 + 1e-9)
+
+
+@settings(max_examples=5)
+@given(seeds, hursts, st.floats(-9, 9), st.floats(-6, 0))
+def test_a_measured_law_does_not_know_the_unit(seed, hurst, log_unit, log_flat):
+    unit, height = 10**log_unit, 10 ** (log_unit + log_flat)
+    h = heights_of(seed, 32, hurst, 12)
+    limits = measured.Limits(detect=False)
+    maps = Topography(h, 1.0, 1.0, "one"), Topography(h * height, unit, unit, "other")
+    one, other = (measured.analyse(each, "none", limits).fit for each in maps)
+    assert other.hurst == pytest.approx(one.hurst, abs=1e-7)
+    assert other.hurst_se == pytest.approx(one.hurst_se, rel=1e-5)
+    assert other.psd(1 / unit) == pytest.approx(one.psd(1.0) * height**2 * unit**2, rel=1e-6)
+
+
+@given(st.floats(-12, 3), factors, st.floats(0.01, 0.9))
+def test_areas_of_a_power_law_have_one_edge_and_their_attraction_scales(log_range, factor, power):
+    ranges = np.geomspace(1e-3, 10, 41) * 10**log_range
+    area = 0.1 * (ranges / ranges[-1]) ** power
+    apart = (ranges / ranges[20]) ** -power
+    edge = a_v_table.edge_range(ranges, apart, np.ones(41))
+    assert edge == pytest.approx(ranges[20] * a_v_table.PARTED ** (-1 / power), rel=1e-6) or (
+        edge == ranges[0]
+    )
+    found = [
+        dmt.attraction_of_areas(area, ranges * f, adhesive.Exponential(0.1 * f, ranges[30] * f))
+        for f in (1.0, factor)
+    ]
+    assert found[1] == pytest.approx(found[0], rel=1e-9)
+
+
 # --- order ---
+
+
+@given(st.floats(-6, 6), st.floats(-12, 12), st.floats(1.001, 1e6))
+def test_tougher_edges_draw_in_less_beside_dmt_s(log_t, log_tau, more):
+    """At one attractive area the effect falls with the strength, but never as fast as its inverse,
+    so that the attraction itself grows."""
+    t, tau = 10**log_t, 10**log_tau
+    soft, tough = edge_adhesion.effect(t, tau), edge_adhesion.effect(t, tau * more)
+    assert tough <= soft * (1 + 1e-9)
+    assert tough * more >= soft * (1 - 1e-9)
+
+
+@given(st.floats(-8, 8), st.floats(-8, 8), st.floats(0.01, 8), st.floats(0.01, 0.99))
+def test_moduli_rise_with_the_rate_and_pass_a_threshold_once(rest, glassy, decades, share):
+    solid = Prony(10**rest, ((10**glassy, 1.0), (10**glassy, 10**decades)))
+    frequencies = np.geomspace(1e-12, 1e6, 181)
+    moduli = solid.storage(frequencies)
+    assert np.all(np.diff(moduli) >= -1e-12 * moduli[1:])
+    assert 10**rest <= moduli[0] <= moduli[-1] <= 10**rest + 2 * 10**glassy * (1 + 1e-12)
+    threshold = moduli[0] ** (1 - share) * moduli[-1] ** share
+    if moduli[-1] / moduli[0] < 1 + 1e-6:
+        return
+    ((found, upwards),) = crossings(solid, threshold, frequencies)
+    assert upwards
+    table = Table(tuple(frequencies), tuple(moduli))
+    assert table.storage(found) == pytest.approx(threshold, rel=1e-9)
 
 
 @given(seeds, hursts, loads, st.floats(1.01, 10))
@@ -217,8 +321,64 @@ def test_the_same_input_gives_the_same_bits(seed, n, hurst, load):
     assert fields[0] == fields[1]
 
 
+@settings(max_examples=3)
+@given(seeds, hursts)
+def test_spectra_and_their_stitching_do_not_depend_on_order(seed, hurst):
+    """The same maps give the same bits, and stitch to one spectrum in whatever order."""
+    limits = measured.Limits(detect=False)
+    wide, close = (
+        measured.analyse(
+            Topography(heights_of(seed + k, 64, hurst, 24)[: 64 - k], step, step, "map"),
+            "none",
+            limits,
+        )
+        for k, step in ((0, 1.0), (1, 0.5))
+    )
+    one, same, other = (
+        stitching.stitch(each) for each in ([wide, close], [wide, close], [close, wide])
+    )
+    assert one.spectrum.rings.psd.tobytes() == same.spectrum.rings.psd.tobytes()
+    np.testing.assert_allclose(other.spectrum.rings.psd, one.spectrum.rings.psd, rtol=1e-9)
+    assert other.spectrum.fit.hurst == pytest.approx(one.spectrum.fit.hurst, abs=1e-6)
+    assert other.scatter == pytest.approx(one.scatter, rel=1e-6)
+
+
 @given(seeds, laws)
 def test_the_same_adhesion_gives_the_same_bits(seed, law):
     states = [adhered(heights_of(seed, 16), law, 0.5, 0.1, 0.05) for _ in range(2)]
     assert states[0].gap.tobytes() == states[1].gap.tobytes()
     assert states[0].pressure.tobytes() == states[1].pressure.tobytes()
+
+
+# --- files ---
+
+texts = st.text(st.characters(codec="utf-8", exclude_characters="\0", exclude_categories=["Cs"]))
+
+
+@settings(max_examples=6)
+@given(
+    arrays.arrays(float, st.tuples(st.just(2), st.integers(1, 3)), elements=st.floats(width=64)),
+    arrays.arrays(np.int8, 2, elements=st.integers(-128, 127)),
+    st.lists(texts, min_size=2, max_size=2),
+    st.dictionaries(st.text("abc_", min_size=1), st.floats(allow_nan=False) | st.none() | texts),
+)
+def test_files_give_back_every_bit(values, outcomes, words, parameters):
+    """NaN, infinite and denormal numbers, small integers and any text."""
+    data = xr.Dataset(
+        {
+            "value": (("point", "kind"), values),
+            "outcome": ("point", outcomes),
+            "text": ("point", np.array(words, dtype=object)),
+        }
+    )
+    for name in data:
+        data[name].attrs = {"units": "1", "long_name": "any", "nan_means": "nothing"}
+    with TemporaryDirectory() as folder:
+        path = f"{folder}/one.nc"
+        datasets.write(data, path, title="any", parameters=parameters)
+        again = datasets.read(path, data.variables)
+    assert datasets.parameters(again) == parameters
+    assert again.value.values.tobytes() == values.tobytes()
+    assert np.array_equal(again.outcome, outcomes)
+    assert again.outcome.dtype == outcomes.dtype
+    assert list(again.text.values) == words

@@ -13,7 +13,17 @@ import plot_stability
 import probe_stability
 from _stability import FAILED, REFUSED, RIGHT, UNCONVERGED, Check, Component, probed
 from probe_stability import COMPONENTS
-from stickiness import datasets, repulsive, spectrum
+from stickiness import (
+    a_v_table,
+    accuracy,
+    datasets,
+    dmt,
+    edge_adhesion,
+    model_choice,
+    repulsive,
+    spectrum,
+    viscoelastic,
+)
 
 
 def outcome(probe, **point):
@@ -107,6 +117,25 @@ def test_a_solver_that_errs_is_found_out(monkeypatch, field, factor):
         assert found.outcome == FAILED
     finally:
         _probes_contact.pressed.cache_clear()
+
+
+@pytest.mark.parametrize(
+    ("component", "place", "name"),
+    [
+        ("edge-adhesion", edge_adhesion, "effect"),
+        ("dmt-limit", dmt, "attraction_of_areas"),
+        ("accuracy", accuracy, "_variance"),
+        ("moduli", viscoelastic.Prony, "storage"),
+        ("a_v-table", a_v_table.AvTable, "_drift"),
+        ("model-choice", model_choice.ErrorTable, "relative_error"),
+    ],
+)
+def test_a_model_that_errs_is_found_out(monkeypatch, component, place, name):
+    right = getattr(place, name)
+    monkeypatch.setattr(place, name, lambda *a, **options: 1.01 * right(*a, **options) + 1e-3)
+    component = COMPONENTS[component]
+    found = [probed(component, point).outcome for point in component.points()[:40]]
+    assert FAILED in found
 
 
 def test_map_is_stored_and_drawn(tmp_path):

@@ -95,8 +95,8 @@ def path(
     heights, length, law, tol, max_iterations, logger
         As for `solve`.
     values : sequence of float
-        At least two values of the control to go through in turn, in units of E* (pressure) or
-        of the heights (mean gap). Steps between them adapt.
+        At least two values of the control to go through in turn, each different from the one
+        before, in units of E* (pressure) or of the heights (mean gap). Steps between them adapt.
     control : {"pressure", "mean_gap"}
         What is prescribed. A press controls the pressure and jumps where the curve turns back;
         control of the mean gap follows the curve through most of its turns.
@@ -320,4 +320,6 @@ def _check_values(values):
     values = [float(value) for value in values]
     if len(values) < 2 or not np.all(np.isfinite(values)):
         raise ValueError(f"values must be at least two finite numbers, got {values!r}")
+    if not np.all(np.diff(values)):
+        raise ValueError(f"values must differ from one to the next, got {values!r}")
     return values
