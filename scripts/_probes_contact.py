@@ -214,32 +214,42 @@ def probe_adhesive(
 # --- Zero load, tension, states from full contact; what is pulled off must have been. ---
 
 STARTS = tuple(
-    f"{law} {kind}" for law in LAWS for kind in ("unloaded", "pulled", "separation", "closed")
+    f"{law} {kind}"
+    for law in LAWS
+    for kind in ("unloaded", "pulled", "separation", "closed", "flattened")
 )
 
 
 def probe_tension(
     pressure, range_over_h_rms, adhesion_length_over_range, grid, variant
 ) -> Iterator[Check]:
-    """The pressure pulls; `closed` prescribes the mean gap zero."""
+    """The pressure pulls; `closed` and `flattened` prescribe the mean gap.
+
+    `closed` makes it zero, `flattened` begins with the same gap everywhere, where the law softens.
+    """
     name, kind = variant.split()
     heights = heights_of(0.8, 4, 1.0, 1.0, grid)
     law = LAWS[name](adhesion_length_over_range * range_over_h_rms, range_over_h_rms)
     control = {"pressure": 0.0 if kind == "unloaded" else -pressure}
-    if kind == "closed":
+    start, before = None, None
+    if kind == "separation":
+        start = kind
+    elif kind == "closed":
         control = {"mean_gap": 0.0}
-    start = kind if kind == "separation" else None
+    elif kind == "flattened":
+        control = {"mean_gap": 0.9 * law.range}
+        start = np.full(heights.shape, control["mean_gap"])
+        before = _energy(start, heights, law)
     # Full contact holds as long as the wall pushes everywhere.
     flattened = closing_pressure(heights, 1.0)
     holds = law.hard_wall and law.traction(0.0) - pressure > -flattened.min()
     try:
         state = adhesive.solve(heights, 2 * np.pi, law, start=start, tol=TOLERANCE, **control)
-    except adhesive.PullOffError as error:
-        yield Check("pulled off without a pull", float(kind in ("unloaded", "closed")), 0.5)
+    except adhesive.PullOffError:
+        yield Check("pulled off without a pull", float(kind not in ("pulled", "separation")), 0.5)
         yield Check("full contact holds", float(holds and kind == "separation"), 0.5)
         held = _largest_tension(heights, law) if kind == "pulled" else 0.0
         yield Check("tension held at a mean gap", held / pressure, 1 + 1e-6)
-        _ = error
         return
     yield from equilibrium(state, heights, 1.0)
     yield Check("beyond the strength", -state.mean_pressure / law.strength, 1 + 1e-7)
@@ -248,10 +258,18 @@ def probe_tension(
     if kind == "closed" and law.hard_wall:
         yield Check("full contact", 1 - state.repulsive_area_fraction, 0.5 / heights.size)
     if kind == "unloaded":
-        # No descent ends above the energy that it began with, of contact without adhesion.
-        alone = np.max(heights) - heights
-        before = float(np.mean(law.potential(alone)))
-        yield Check("energy", (state.energy - before) / law.adhesion_length, 1e-9)
+        # The first touch without adhesion, from where the descent at no load begins.
+        before = _energy(np.max(heights) - heights, heights, law)
+    if before is not None:
+        scale = law.adhesion_length + abs(before)
+        yield Check("energy has not risen", (state.energy - before) / scale, 1e-7)
+        yield each_against("energy", state.energy, _energy(state.gap, heights, law), 1e-6)
+
+
+def _energy(gap, heights, law):
+    """Elastic plus interaction energy per area."""
+    elastic = 0.5 * float(np.mean((gap + heights) * closing_pressure(gap + heights, 1.0)))
+    return elastic + float(np.mean(law.potential(gap)))
 
 
 def _largest_tension(heights, law):

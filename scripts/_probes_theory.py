@@ -257,11 +257,17 @@ def probe_sampling(hurst, magnification, q0_h_rms, unit) -> Iterator[Check]:
     yield each_against("linear", linear.mean, 3 * many[:, 0].mean())
 
 
+WIDE = {  # of closed forms, which no grid limits
+    "range_over_h_rms": (1e-12, 1e-9, *AXES["range_over_h_rms"].values),
+    "adhesion_length_over_range": (*AXES["adhesion_length_over_range"].values, 1e4, 1e7),
+    "magnification": (1.001, *AXES["magnification"].values[1:]),
+}
+
 THEORY = {
     "spectrum": Component(
         probe_spectrum,
         ("magnification", "hurst", "q0_h_rms", "unit"),
-        values={"magnification": (1.001, *AXES["magnification"].values[1:])},
+        values=WIDE,
     ),
     "synthesise": Component(
         probe_synthesis,
@@ -287,13 +293,7 @@ THEORY = {
             "magnification", "hurst", "range_over_h_rms", "adhesion_length_over_range",
             "q0_h_rms", "unit",
         ),
-        values={
-            "magnification": (1.001, *AXES["magnification"].values[1:]),
-            "range_over_h_rms": (1e-12, 1e-9, *AXES["range_over_h_rms"].values),
-            "adhesion_length_over_range": (
-                *AXES["adhesion_length_over_range"].values, 1e4, 1e7,
-            ),
-        },
+        values=WIDE,
     ),
     "sampling": Component(
         probe_sampling,

@@ -8,12 +8,13 @@ import xarray as xr
 
 from _job import start
 from _probes_contact import CONTACT
-from _probes_models import MODELS
+from _probes_inputs import INPUTS
 from _probes_theory import THEORY
+from _probes_verdicts import VERDICTS
 from _stability import AXES, OUTCOMES, probed
 from stickiness import datasets
 
-COMPONENTS = THEORY | CONTACT | MODELS
+COMPONENTS = THEORY | INPUTS | CONTACT | VERDICTS
 _LONGEST = 160  # characters of a message that are kept
 
 
