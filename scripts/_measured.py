@@ -26,6 +26,7 @@ READING = (
     "missing_value",
     "missing",
     "max_missing",
+    "missing_rim",
 )
 
 
@@ -56,6 +57,7 @@ def analyse(asked):
     return dataset.assign(
         h_rms_measured=heights[0].h_rms,
         missing_fraction=max(h.missing_fraction for h in heights),
+        dropped_points=sum(h.dropped for h in heights),
         cropped_fraction=max(getattr(h, "cropped", 0.0) for h in heights),
     ).assign_attrs(
         remarks="; ".join(remarks),
@@ -177,6 +179,11 @@ def of_files(heights):
     for one in heights:
         if getattr(one, "cropped", 0):
             found.append(f"{one.cropped:.0%} of {one.source} cut off to leave no missing points")
+        if one.dropped:
+            found.append(
+                f"{one.dropped} points of {one.source} beside missing ones were measured and are "
+                "not used (missing_rim)"
+            )
         if one.missing:
             found.append(
                 f"{one.missing_fraction:.1%} of the points of {one.source} were missing and are "

@@ -102,6 +102,7 @@ def known(surface):
         text = f"{quantity(wavelength, wavelength, 'm')}: {surface.attrs['cutoff']}"
         rows.append(("shortest wavelength of the instrument", text))
         rows.append(("missing points, interpolated", percent(float(surface.missing_fraction))))
+        rows.append(("dropped beside missing points", f"{int(surface.dropped_points)} points"))
         rows.append(("cut off for missing points", percent(float(surface.cropped_fraction))))
     if "anisotropy" in surface:
         rows.append(("dependence on direction, 0 … 2", number(float(surface.anisotropy), 2)))
