@@ -6,6 +6,7 @@ from dataclasses import fields
 import numpy as np
 import xarray as xr
 
+from _numbers import quantity
 from stickiness import config, measured, moments, selfaffine, stitching, topography
 from stickiness.units import si
 
@@ -199,18 +200,22 @@ def of_limits(spectrum, extend_to):
     found, fit = [], spectrum.fit
     if fit.q_rolloff is None:
         found.append(
-            f"no roll-off was found below wavelengths of {2 * np.pi / fit.q_min:.3g} m, and longer "
+            f"no roll-off was found below wavelengths of {wavelength(fit.q_min)}, and longer "
             "ones cannot show one: q0 is that of the scan, not of the surface"
         )
-    shortest = f"{2 * np.pi / spectrum.cutoff.q:.3g} m ({spectrum.cutoff.reason})"
+    shortest = f"{wavelength(spectrum.cutoff.q)} ({spectrum.cutoff.reason})"
     if extend_to is None:
         found.append(f"waves shorter than {shortest} are not part of slope, curvature and a_V")
     else:
         found.append(
             f"waves shorter than {shortest} follow the fitted law down to "
-            f"{2 * np.pi / extend_to:.3g} m: carried on, not measured"
+            f"{wavelength(extend_to)}: carried on, not measured"
         )
     return found
+
+
+def wavelength(q):
+    return quantity(2 * np.pi / q, 2 * np.pi / q, "m")
 
 
 def of_offsets(stitched):

@@ -9,7 +9,7 @@ import _pressed
 from _job import start
 from _materials import material, modulus_text
 from _model import LOAD
-from _numbers import NOTHING, interval, number, percent, quantity, with_error
+from _numbers import NOTHING, interval, number, percent, quantity, quantity_with_error, with_error
 from _style import save
 from _surface_figure import drawn
 from _verdict import ends, pair_texts
@@ -84,16 +84,27 @@ def known(surface):
     def error(name):
         return float(surface[name]) if name in surface else np.nan
 
-    def ends(name, unit):
-        return quantity(*(float(surface[name].sel(end=end)) for end in ENDS), unit)
+    def ends(name):
+        return [float(surface[name].sel(end=end)) for end in ENDS]
 
+    # Both ends of a measured surface are one standard error off, those of another are its range.
+    h_rms, slope = ends("h_rms"), ends("rms_slope")
+    if "draw" in surface.dims:
+        sizes = [
+            ("rms height", quantity_with_error(*middle(*h_rms), "m")),
+            ("rms slope", with_error(*middle(*slope))),
+        ]
+    else:
+        sizes = [
+            ("rms height, smooth … rough end", quantity(*h_rms, "m")),
+            ("rms slope", interval(*slope)),
+        ]
     rows = [
         ("Hurst exponent H", with_error(float(surface.hurst), error("hurst_error"))),
         (f"C0 [{surface.C0.attrs['units']}]", prefactor(surface)),
         (f"C0 at H = 0.8 [{surface.C0_reference_upper.attrs['units']}]", reference(surface)),
-        ("rms height, smooth … rough end", ends("h_rms", "m")),
-        ("rms slope", interval(*(float(surface.rms_slope.sel(end=end)) for end in ENDS))),
-        ("q0 [1/m]", with_error(float(surface.q0), error("q_rolloff_error"))),
+        *sizes,
+        ("q0 [1/m]", lowest(surface)),
         ("roll-off", roll_off(surface)),
         ("q1 [1/m]", number(float(surface.q1))),
     ]
@@ -109,6 +120,18 @@ def known(surface):
     if "scatter" in surface:
         rows.append(("factor between measurements in C", number(np.exp(float(surface.scatter)), 3)))
     return rows
+
+
+def middle(low, high):
+    """Middle of two limits, and how far off they are."""
+    return (low + high) / 2, (high - low) / 2
+
+
+def lowest(surface):
+    """Wave number q0, of a roll-off with its error."""
+    if "q_rolloff" in surface:
+        return with_error(float(surface.q0), float(surface.q_rolloff_error))
+    return number(float(surface.q0))
 
 
 def prefactor(surface):
