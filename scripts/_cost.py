@@ -42,7 +42,7 @@ class Cost:
 COSTS = {
     "synthesise_surface": Cost(base_mb=130, arrays=9, per_megapixel=1.0),
     "solve_repulsive": Cost(base_mb=140, arrays=17, per_megapixel=1.1),
-    "solve_coarse": Cost(base_mb=138, arrays=14, per_megapixel=1.0, per_solution=0.012),
+    "solve_coarse": Cost(base_mb=138, arrays=14, per_megapixel=1.05, per_solution=0.012),
     "solve_ensemble": Cost(base_mb=175, arrays=17, per_megapixel=1.1, per_solution=0.02, start=5.0),
     "contact_maps": Cost(base_mb=135, arrays=22, per_megapixel=1.0),
     "solve_adhesive": Cost(base_mb=160, arrays=27, per_megapixel=2.3),
