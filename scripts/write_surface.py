@@ -9,15 +9,15 @@ import _pressed
 from _job import start
 from _materials import material, modulus_text
 from _model import LOAD
-from _numbers import NOTHING, interval, number, percent, quantity, quantity_with_error, with_error
+from _numbers import NOTHING, interval, number, percent, quantity, with_error
 from _style import save
 from _surface_figure import drawn
+from _surface_texts import reference_prefactor, rms_height, rms_slope
 from _verdict import ends, pair_texts
 from _why import reasons
 from stickiness import datasets
 from stickiness.viscoelastic import crossings
 
-ENDS = ("smooth", "rough")
 CAPTION = """Heights, levelled (of the first measurement), and spectrum: rings with their sampling
 error, the self-affine law where it was fitted, the instrument's cutoff, the end of the plateau with
 its error if there is one, and the paper's lines. Grey: the law carried on beyond the instrument,
@@ -84,26 +84,15 @@ def known(surface):
     def error(name):
         return float(surface[name]) if name in surface else np.nan
 
-    def ends(name):
-        return [float(surface[name].sel(end=end)) for end in ENDS]
-
-    # Both ends of a measured surface are one standard error off, those of another are its range.
-    h_rms, slope = ends("h_rms"), ends("rms_slope")
-    if "draw" in surface.dims:
-        sizes = [
-            ("rms height", quantity_with_error(*middle(*h_rms), "m")),
-            ("rms slope", with_error(*middle(*slope))),
-        ]
-    else:
-        sizes = [
-            ("rms height, smooth … rough end", quantity(*h_rms, "m")),
-            ("rms slope", interval(*slope)),
-        ]
     rows = [
         ("Hurst exponent H", with_error(float(surface.hurst), error("hurst_error"))),
         (f"C0 [{surface.C0.attrs['units']}]", prefactor(surface)),
-        (f"C0 at H = 0.8 [{surface.C0_reference_upper.attrs['units']}]", reference(surface)),
-        *sizes,
+        (
+            f"C0 at H = 0.8 [{surface.C0_reference_upper.attrs['units']}]",
+            reference_prefactor(surface),
+        ),
+        ("rms height", rms_height(surface)),
+        ("rms slope", rms_slope(surface)),
         ("q0 [1/m]", lowest(surface)),
         ("roll-off", roll_off(surface)),
         ("q1 [1/m]", number(float(surface.q1))),
@@ -122,11 +111,6 @@ def known(surface):
     return rows
 
 
-def middle(low, high):
-    """Middle of two limits, and how far off they are."""
-    return (low + high) / 2, (high - low) / 2
-
-
 def lowest(surface):
     """Wave number q0, of a roll-off with its error."""
     if "q_rolloff" in surface:
@@ -140,14 +124,6 @@ def prefactor(surface):
     if "C0_relative_error" not in surface:
         return interval(*map(float, c0))
     return f"{number(float(c0[0]), 2)} ×÷ {number(float(np.exp(surface.C0_relative_error)), 2)}"
-
-
-def reference(surface):
-    """C0 of the line with H = 0.8, fitted or the highest that the spectrum touches."""
-    if "C0_reference" in surface:
-        return with_error(float(surface.C0_reference), float(surface.C0_reference_error))
-    upper = interval(*(float(surface.C0_reference_upper.sel(end=end)) for end in ENDS))
-    return f"at most {upper}"
 
 
 def roll_off(surface):

@@ -15,6 +15,7 @@ import _captions
 import _numbers
 import _provenance
 import _report
+import _surface_texts
 import write_report
 from stickiness.errata import ERRATA
 
@@ -444,7 +445,7 @@ def test_surfaces_with_and_without_errors(surfaces):
 
 def test_bound_of_prefactor_for_another_hurst_exponent(surfaces):
     steeper = surfaces["glass"].assign(hurst=0.9)
-    assert _report.reference_prefactor(steeper).startswith("≤ ")
+    assert _surface_texts.reference_prefactor(steeper).startswith("≤ ")
 
 
 def test_error_budget():
