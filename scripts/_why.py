@@ -67,7 +67,6 @@ def reasons(pair, surface, work_of_adhesion):
 
 def facts(pair, surface, work_of_adhesion):
     """Numbers that the reasons quote, from the smooth to the rough end."""
-
     curvature = float(surface.rms_curvature.sel(end="rough"))
     modulus = float(pair.modulus_quoted)
     energy = float(surface.elastic_energy.sel(end="rough")) * modulus
