@@ -2,8 +2,9 @@
 
 Measured on results of two fidelities and on 4096 by 4096 points (`tests/data/job_costs.csv`, made
 by `benchmarks/job_cost.py`). Memory is that of the whole grid in so many arrays; time grows with
-pixels times solutions, since conjugate gradients need hardly more iterations on finer grids. Rules
-that are not listed do not depend on a grid.
+pixels times solutions, since conjugate gradients need hardly more iterations on finer grids, those
+with adhesion a few more: their rate is that of the largest grid. Rules that are not listed do not
+depend on a grid.
 """
 
 from __future__ import annotations
@@ -40,13 +41,13 @@ class Cost:
 
 
 COSTS = {
-    "synthesise_surface": Cost(base_mb=125, arrays=9, per_megapixel=1.0),
-    "solve_repulsive": Cost(base_mb=135, arrays=17, per_megapixel=1.1),
-    "solve_coarse": Cost(base_mb=135, arrays=12, per_megapixel=1.0),
-    "solve_ensemble": Cost(base_mb=135, arrays=17, per_megapixel=1.1),
+    "synthesise_surface": Cost(base_mb=130, arrays=9, per_megapixel=1.0),
+    "solve_repulsive": Cost(base_mb=140, arrays=17, per_megapixel=1.1),
+    "solve_coarse": Cost(base_mb=138, arrays=14, per_megapixel=1.05, per_solution=0.012),
+    "solve_ensemble": Cost(base_mb=175, arrays=17, per_megapixel=1.1, per_solution=0.02, start=5.0),
     "contact_maps": Cost(base_mb=135, arrays=22, per_megapixel=1.0),
-    "solve_adhesive": Cost(base_mb=135, arrays=36, per_megapixel=3.4),
-    "adhesive_maps": Cost(base_mb=135, arrays=36, per_megapixel=3.4),
+    "solve_adhesive": Cost(base_mb=160, arrays=27, per_megapixel=4.1),
+    "adhesive_maps": Cost(base_mb=160, arrays=27, per_megapixel=4.1),
     "follow_loop": Cost(base_mb=135, arrays=36, per_megapixel=0.5),
 }
 

@@ -6,6 +6,7 @@ from dataclasses import fields
 import numpy as np
 import xarray as xr
 
+from _numbers import quantity
 from stickiness import config, measured, moments, selfaffine, stitching, topography
 from stickiness.units import si
 
@@ -26,6 +27,7 @@ READING = (
     "missing_value",
     "missing",
     "max_missing",
+    "missing_rim",
 )
 
 
@@ -56,6 +58,7 @@ def analyse(asked):
     return dataset.assign(
         h_rms_measured=heights[0].h_rms,
         missing_fraction=max(h.missing_fraction for h in heights),
+        dropped_points=sum(h.dropped for h in heights),
         cropped_fraction=max(getattr(h, "cropped", 0.0) for h in heights),
     ).assign_attrs(
         remarks="; ".join(remarks),
@@ -177,6 +180,11 @@ def of_files(heights):
     for one in heights:
         if getattr(one, "cropped", 0):
             found.append(f"{one.cropped:.0%} of {one.source} cut off to leave no missing points")
+        if one.dropped:
+            found.append(
+                f"{one.dropped} points of {one.source} beside missing ones were measured and are "
+                "not used (missing_rim)"
+            )
         if one.missing:
             found.append(
                 f"{one.missing_fraction:.1%} of the points of {one.source} were missing and are "
@@ -192,18 +200,22 @@ def of_limits(spectrum, extend_to):
     found, fit = [], spectrum.fit
     if fit.q_rolloff is None:
         found.append(
-            f"no roll-off was found below wavelengths of {2 * np.pi / fit.q_min:.3g} m, and longer "
+            f"no roll-off was found below wavelengths of {wavelength(fit.q_min)}, and longer "
             "ones cannot show one: q0 is that of the scan, not of the surface"
         )
-    shortest = f"{2 * np.pi / spectrum.cutoff.q:.3g} m ({spectrum.cutoff.reason})"
+    shortest = f"{wavelength(spectrum.cutoff.q)} ({spectrum.cutoff.reason})"
     if extend_to is None:
         found.append(f"waves shorter than {shortest} are not part of slope, curvature and a_V")
     else:
         found.append(
             f"waves shorter than {shortest} follow the fitted law down to "
-            f"{2 * np.pi / extend_to:.3g} m: carried on, not measured"
+            f"{wavelength(extend_to)}: carried on, not measured"
         )
     return found
+
+
+def wavelength(q):
+    return quantity(2 * np.pi / q, 2 * np.pi / q, "m")
 
 
 def of_offsets(stitched):

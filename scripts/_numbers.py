@@ -51,10 +51,20 @@ def interval(low: float, high: float, digits: int = 3) -> str:
 
 def quantity(low: float, high: float, unit: str, digits: int = 3) -> str:
     """Interval in the SI prefix that suits its larger end."""
-    power = 3 * (_exponent(max(abs(low), abs(high)), digits) // 3)
+    scale, prefix = _prefixed(max(abs(low), abs(high)), digits)
+    return f"{interval(low / scale, high / scale, digits)} {prefix}{unit}"
+
+
+def quantity_with_error(value: float, error: float, unit: str) -> str:
+    """``(value ± error)``, rounded to two digits of the error, in the SI prefix that suits it."""
+    scale, prefix = _prefixed(max(abs(value), error), 3)
+    return f"({with_error(value / scale, error / scale)}) {prefix}{unit}"
+
+
+def _prefixed(largest: float, digits: int) -> tuple[float, str]:
+    power = 3 * (_exponent(largest, digits) // 3)
     power = min(max(power, min(_PREFIXES)), max(_PREFIXES))
-    scale = 10.0**power
-    return f"{interval(low / scale, high / scale, digits)} {_PREFIXES[power]}{unit}"
+    return 10.0**power, _PREFIXES[power]
 
 
 def superscripted(unit: str) -> str:

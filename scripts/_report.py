@@ -13,7 +13,8 @@ import xarray as xr
 
 from _materials import modulus_text
 from _model import LOAD
-from _numbers import NOTHING, interval, number, percent, quantity, superscripted, with_error
+from _numbers import NOTHING, interval, number, percent, superscripted, with_error
+from _surface_texts import reference_prefactor, rms_height
 from _verdict import EDGES, STICKINESS, STICKINESS_TONES, pair_texts
 from stickiness import accuracy, datasets, plan
 from stickiness.errata import ERRATA
@@ -237,28 +238,18 @@ def surface_rows(surfaces: Datasets) -> list[Context]:
 def surface_row(surface: xr.Dataset) -> Context:
     """What is known of one surface; of a measured one with the errors of the fit."""
     made = datasets.parameters(surface)
-    ends = ("smooth", "rough")
     error = float(surface.hurst_error) if "hurst_error" in surface else np.nan
     return {
         "label": made["label"],
         "kind": made["kind"].replace("_", "-"),
         "hurst": with_error(float(surface.hurst), error),
         "c0": reference_prefactor(surface),
-        "h_rms": quantity(*(float(surface.h_rms.sel(end=end)) for end in ends), "m"),
+        "h_rms": rms_height(surface),
         "q0": number(float(surface.q0)),
         "q1": number(float(surface.q1)),
         "remarks": [text for text in (surface.attrs.get("remarks"), made.get("note")) if text],
         "source": made.get("source", ""),
     }
-
-
-def reference_prefactor(surface: xr.Dataset) -> str:
-    """C0 of the line with H = 0.8: fitted, or the highest such line that the spectrum touches."""
-    if "C0_reference" in surface:
-        return with_error(float(surface.C0_reference), float(surface.C0_reference_error))
-    upper = surface.C0_reference_upper
-    bound = "" if np.isclose(float(surface.hurst), 0.8) else "≤ "
-    return bound + interval(*(float(upper.sel(end=end)) for end in ("smooth", "rough")), digits=2)
 
 
 def error_budgets(answers: Sequence[xr.Dataset]) -> list[Context]:

@@ -1,6 +1,7 @@
 """Why a criterion says what it says of a pair: what it looks at, with the numbers of the pair."""
 
 from _numbers import interval, number, quantity
+from _surface_texts import rms_height
 
 REGIMES = ("weak", "between weak and tough", "tough, near JKR", "strong, but not near JKR")
 
@@ -66,10 +67,6 @@ def reasons(pair, surface, work_of_adhesion):
 
 def facts(pair, surface, work_of_adhesion):
     """Numbers that the reasons quote, from the smooth to the rough end."""
-
-    def ends(name, unit):
-        return quantity(*(float(surface[name].sel(end=end)) for end in ("smooth", "rough")), unit)
-
     curvature = float(surface.rms_curvature.sel(end="rough"))
     modulus = float(pair.modulus_quoted)
     energy = float(surface.elastic_energy.sel(end="rough")) * modulus
@@ -82,7 +79,7 @@ def facts(pair, surface, work_of_adhesion):
         "tau": of_edges("edge_strength"),
         "over_dmt": of_edges("over_dmt"),
         "regime": " to ".join(dict.fromkeys(REGIMES[int(regime)] for regime in pair.regime)),
-        "h": ends("h_rms", "m"),
+        "h": rms_height(surface),
         "q0": number(float(surface.q0)),
         "a_v": number(float(pair.pair_a_v.mean()), 2),
         "constant": number(float(pair.a_v), 2),

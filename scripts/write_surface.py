@@ -12,12 +12,12 @@ from _model import LOAD
 from _numbers import NOTHING, interval, number, percent, quantity, with_error
 from _style import save
 from _surface_figure import drawn
+from _surface_texts import reference_prefactor, rms_height, rms_slope
 from _verdict import ends, pair_texts
 from _why import reasons
 from stickiness import datasets
 from stickiness.viscoelastic import crossings
 
-ENDS = ("smooth", "rough")
 CAPTION = """Heights, levelled (of the first measurement), and spectrum: rings with their sampling
 error, the self-affine law where it was fitted, the instrument's cutoff, the end of the plateau with
 its error if there is one, and the paper's lines. Grey: the law carried on beyond the instrument,
@@ -84,16 +84,16 @@ def known(surface):
     def error(name):
         return float(surface[name]) if name in surface else np.nan
 
-    def ends(name, unit):
-        return quantity(*(float(surface[name].sel(end=end)) for end in ENDS), unit)
-
     rows = [
         ("Hurst exponent H", with_error(float(surface.hurst), error("hurst_error"))),
         (f"C0 [{surface.C0.attrs['units']}]", prefactor(surface)),
-        (f"C0 at H = 0.8 [{surface.C0_reference_upper.attrs['units']}]", reference(surface)),
-        ("rms height, smooth … rough end", ends("h_rms", "m")),
-        ("rms slope", interval(*(float(surface.rms_slope.sel(end=end)) for end in ENDS))),
-        ("q0 [1/m]", with_error(float(surface.q0), error("q_rolloff_error"))),
+        (
+            f"C0 at H = 0.8 [{surface.C0_reference_upper.attrs['units']}]",
+            reference_prefactor(surface),
+        ),
+        ("rms height", rms_height(surface)),
+        ("rms slope", rms_slope(surface)),
+        ("q0 [1/m]", lowest(surface)),
         ("roll-off", roll_off(surface)),
         ("q1 [1/m]", number(float(surface.q1))),
     ]
@@ -102,6 +102,7 @@ def known(surface):
         text = f"{quantity(wavelength, wavelength, 'm')}: {surface.attrs['cutoff']}"
         rows.append(("shortest wavelength of the instrument", text))
         rows.append(("missing points, interpolated", percent(float(surface.missing_fraction))))
+        rows.append(("dropped beside missing points", f"{int(surface.dropped_points)} points"))
         rows.append(("cut off for missing points", percent(float(surface.cropped_fraction))))
     if "anisotropy" in surface:
         rows.append(("dependence on direction, 0 … 2", number(float(surface.anisotropy), 2)))
@@ -110,20 +111,19 @@ def known(surface):
     return rows
 
 
+def lowest(surface):
+    """Wave number q0, of a roll-off with its error."""
+    if "q_rolloff" in surface:
+        return with_error(float(surface.q0), float(surface.q_rolloff_error))
+    return number(float(surface.q0))
+
+
 def prefactor(surface):
     """C0, with a factor for its error: it is known at q = 1, far from the data."""
     c0 = surface.C0.values
     if "C0_relative_error" not in surface:
         return interval(*map(float, c0))
     return f"{number(float(c0[0]), 2)} ×÷ {number(float(np.exp(surface.C0_relative_error)), 2)}"
-
-
-def reference(surface):
-    """C0 of the line with H = 0.8, fitted or the highest that the spectrum touches."""
-    if "C0_reference" in surface:
-        return with_error(float(surface.C0_reference), float(surface.C0_reference_error))
-    upper = interval(*(float(surface.C0_reference_upper.sel(end=end)) for end in ENDS))
-    return f"at most {upper}"
 
 
 def roll_off(surface):

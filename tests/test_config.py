@@ -207,6 +207,8 @@ def model(*keys, value):
         (terrain(variable="z"), ["variable", "'z'", "NetCDF"]),
         (terrain(missing="guess"), ["missing", "'guess'", "fill"]),
         (terrain(missing="crop", max_missing=0.2), ["max_missing", "0.2", "missing: crop"]),
+        (terrain(missing_rim=-1), ["missing_rim", "-1", "detect"]),
+        (terrain(missing_rim="wide"), ["missing_rim", "wide", "detect"]),
         (terrain(tip_radius="-3 nm"), ["jacksboro.tip_radius", "-3 nm", "positive"]),
         (terrain(fit_from="1 um", fit_to="1 mm"), ["fit_to", "1 mm", "fit_from"]),
         (terrain(cutoff="maybe"), ["cutoff", "'maybe'", "detect"]),

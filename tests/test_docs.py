@@ -12,12 +12,16 @@ import yaml
 ROOT = Path(__file__).parents[1]
 
 
-@pytest.fixture(scope="module")
-def write_config():
-    spec = importlib.util.spec_from_file_location("write_config", ROOT / "docs/write_config.py")
+def script_of_docs(name):
+    spec = importlib.util.spec_from_file_location(name, ROOT / f"docs/{name}.py")
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
     return module
+
+
+@pytest.fixture(scope="module")
+def write_config():
+    return script_of_docs("write_config")
 
 
 def test_every_key_is_described(write_config):
@@ -72,6 +76,18 @@ def test_library_example_runs(tmp_path):
     assert 2 * 0.065 / 3 < area < 0.065 * 3
     assert float(found["a_V"].split()[0]) > 1
     assert "sticky" in done.stdout
+
+
+def test_tutorial_can_be_walked():
+    text = (ROOT / "docs/tutorial.md").read_text(encoding="utf-8")
+    steps = script_of_docs("walk_tutorial").steps(text)
+    assert steps[0][1].startswith("make install\n")
+    commands = [step for _, step in steps if step]
+    assert "".join(commands).count("```") == 0
+    assert sum("snakemake -j2 results/draft/report" in step for step in commands) >= 3
+    for step in commands:
+        done = subprocess.run(["bash", "-nc", step], capture_output=True, text=True, check=False)
+        assert done.returncode == 0, done.stderr
 
 
 def test_version_is_the_same_everywhere():

@@ -15,6 +15,7 @@ import _captions
 import _numbers
 import _provenance
 import _report
+import _surface_texts
 import write_report
 from stickiness.errata import ERRATA
 
@@ -444,7 +445,7 @@ def test_surfaces_with_and_without_errors(surfaces):
 
 def test_bound_of_prefactor_for_another_hurst_exponent(surfaces):
     steeper = surfaces["glass"].assign(hurst=0.9)
-    assert _report.reference_prefactor(steeper).startswith("≤ ")
+    assert _surface_texts.reference_prefactor(steeper).startswith("≤ ")
 
 
 def test_error_budget():
@@ -548,3 +549,8 @@ def test_interval(low, high, text):
 def test_quantity_keeps_its_prefix_when_rounding_up():
     assert _numbers.quantity(999.9999, 999.9999, "Pa") == "1 kPa"
     assert _numbers.quantity(2e-12, 2e-12, "m") == "0.002 nm"
+
+
+def test_quantity_with_error_is_rounded_to_it():
+    assert _numbers.quantity_with_error(1.6347e2, 20.49, "m") == "(163 ± 20) m"
+    assert _numbers.quantity_with_error(2.7049e-8, 2.449e-9, "m") == "(27.0 ± 2.4) nm"

@@ -119,6 +119,22 @@ def test_stitched_surface_keeps_its_measurements(stitched):
     assert "2 measurements stitched" in stitched.attrs["remarks"]
 
 
+def test_points_dropped_beside_missing_ones_are_told(folder, single):
+    path = Path(scan(folder / "rim.txt"))
+    heights = np.loadtxt(path)
+    heights[39:51, 39:51] += 1e5
+    heights[40:50, 40:50] = np.nan
+    head = "\n".join(path.read_text(encoding="utf-8").splitlines()[:2]) + "\n"
+    path.write_text(head, encoding="utf-8")
+    with path.open("a", encoding="utf-8") as file:
+        np.savetxt(file, heights, delimiter="\t")
+    found = analysed(folder / "rim.nc", file=str(path))
+    assert int(found.dropped_points) == 12**2 - 10**2
+    assert "44 points" in found.attrs["remarks"]
+    assert dict(write_surface.known(found))["dropped beside missing points"] == "44 points"
+    assert float(found.h_rms_measured) == pytest.approx(float(single.h_rms_measured), rel=0.05)
+
+
 def test_law_carried_on_reaches_its_end_and_opens_up(folder):
     found = analysed(folder / "on.nc", file=scan(folder / "a.txt"), extend_to="10 nm")
     assert float(found.q1) == pytest.approx(2 * np.pi / 10e-9)

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from scipy import ndimage, signal
+from scipy import signal
 
 from stickiness import levelling, profiles, psd, readers, resolution, surface, topography
 from stickiness.spectrum import SelfAffine
@@ -138,7 +138,7 @@ def test_tip_cutoff_is_theirs():
 def test_spectrum_of_a_sample_file_is_theirs_within_five_per_cent(file):
     path, theirs = sample(file)
     heights = theirs.heights()
-    ours = topography.read(path, missing="crop").detrended()
+    ours = topography.read(path, missing="crop", missing_rim=0).detrended()
     kept = levelling.complete_rectangle(~np.ma.getmaskarray(heights))
     heights = np.ma.getdata(heights)[kept]
     size = tuple(n * step for n, step in zip(heights.shape, theirs.pixel_size, strict=True))
@@ -156,7 +156,7 @@ def test_spectrum_of_a_sample_file_is_theirs_within_five_per_cent(file):
 @pytest.mark.parametrize("file", FILES)
 def test_spectrum_of_a_whole_sample_file_is_theirs_in_the_same_window(file, window):
     path, theirs = sample(file)
-    ours = topography.read(path, max_missing=0.3).detrended()
+    ours = topography.read(path, max_missing=0.3, missing_rim=0).detrended()
     size = theirs.physical_sizes
     heights = theirs.interpolate_undefined_data().detrend("height").heights()
     windowed = middle_window(window, heights.shape, size) * without_level(heights, size, window)
@@ -166,24 +166,22 @@ def test_spectrum_of_a_whole_sample_file_is_theirs_in_the_same_window(file, wind
 
 def test_filled_points_are_theirs():
     path, theirs = sample("frt-2.frt")
-    ours = topography.read(path, max_missing=0.3)
+    ours = topography.read(path, max_missing=0.3, missing_rim=0)
     assert ours.missing == 12314
     filled = theirs.interpolate_undefined_data().heights()
     np.testing.assert_allclose(ours.heights, filled, atol=1e-9 * ours.h_rms)
 
 
-def test_half_a_pixel_matters_in_the_filled_file_for_the_rims_of_its_holes_only():
+@pytest.mark.parametrize("rim", [1, 2, 3])
+def test_rims_of_holes_decide_on_height_and_spectrum(rim):
     # On the rims of the holes the instrument wrote outliers of hundreds of times the roughness,
     # halfway down the flank of the window: there half a pixel makes 14 %.
     path, theirs = sample("frt-2.frt")
     size, Topography = theirs.physical_sizes, reference().Topography
     worst, rms = [], []
-    for rim in (0, 1):
-        heights = np.ma.filled(theirs.heights(), np.nan)
-        if rim:
-            heights[ndimage.binary_dilation(np.isnan(heights), np.ones((3, 3)))] = np.nan
-        filled, _ = levelling.fill_missing(heights, max_missing=0.3)
-        ours = topography.Topography(filled, *theirs.pixel_size, str(path)).detrended()
+    for dropped in (0, rim):
+        ours = topography.read(path, max_missing=0.4, missing_rim=dropped).detrended()
+        heights, _ = levelling.without_rims(np.ma.filled(theirs.heights(), np.nan), dropped)
         missing = Topography(np.ma.masked_invalid(heights), size).interpolate_undefined_data()
         level = without_level(missing.detrend("height").heights(), size)
         ratio, _ = both(ours, Topography(level, size))
@@ -192,3 +190,9 @@ def test_half_a_pixel_matters_in_the_filled_file_for_the_rims_of_its_holes_only(
     assert worst[0] == pytest.approx(0.145, abs=0.01)
     assert worst[1] < 0.02
     assert rms[0] > 50 * rms[1]
+    assert rms[1] == pytest.approx(2.91e-7, rel=0.04)
+
+
+def test_outliers_on_rims_are_found():
+    path, _ = sample("frt-2.frt")
+    assert topography.read(path, max_missing=0.3).dropped == 675

@@ -244,6 +244,54 @@ def test_filling_makes_no_new_extremes_and_keeps_the_rest():
     assert filled.min() >= heights[~hole].min()
 
 
+def with_hole(width, scale=100.0):
+    """A rough map with a hole of 10 x 8 points, whose rim of so many points is far off."""
+    heights = np.random.default_rng(2).normal(size=(60, 50)).cumsum(0).cumsum(1)
+    rim = np.zeros(heights.shape, bool)
+    rim[20 - width : 30 + width, 30 - width : 38 + width] = True
+    spoilt = heights + scale * np.std(np.diff(heights, axis=0)) * rim
+    spoilt[20:30, 30:38] = np.nan
+    return spoilt, heights
+
+
+@pytest.mark.parametrize("width", [0, 1, 2, 3])
+def test_rims_are_dropped_as_far_as_they_stand_out(width):
+    spoilt, heights = with_hole(width)
+    kept, dropped = levelling.without_rims(spoilt)
+    assert dropped == (10 + 2 * width) * (8 + 2 * width) - 80
+    known = np.isfinite(kept)
+    np.testing.assert_array_equal(kept[known], heights[known])
+    assert levelling.without_rims(spoilt, 1)[1] == 12 * 10 - 80  # as asked for
+
+
+def test_rims_stay_where_nothing_stands_out_or_is_missing():
+    spoilt, heights = with_hole(1, scale=0.5)
+    assert levelling.without_rims(spoilt)[1] == 0
+    assert levelling.without_rims(heights)[1] == 0
+    holes = np.random.default_rng(4).random(heights.shape) < 0.05
+    assert levelling.without_rims(np.where(holes, np.nan, heights))[1] == 0
+
+
+@pytest.mark.parametrize("missing", ["fill", "crop"])
+def test_rims_are_dropped_on_reading(tmp_path, missing):
+    spoilt, heights = with_hole(1)
+    np.save(tmp_path / "map.npy", spoilt)
+    np.save(tmp_path / "line.npy", spoilt[25])
+    asked = {"pixel_size": "1 um", "height_unit": "um", "missing": missing, "max_missing": 0.3}
+    plane = topography.read(tmp_path / "map.npy", **asked)
+    line = topography.read(tmp_path / "line.npy", **asked)
+    assert (plane.dropped, line.dropped) == (40, 2)
+    assert plane.h_rms < 1.1e-6 * np.std(heights)
+    plane = topography.read(tmp_path / "map.npy", **asked, missing_rim=0)
+    assert plane.dropped == 0
+    with pytest.raises(ValueError, match="missing_rim.*-1"):
+        topography.read(tmp_path / "map.npy", **asked, missing_rim=-1)
+    with pytest.raises(
+        ValueError, match=r"npy, 40 points beside missing ones dropped: 120 of 3000"
+    ):
+        topography.read(tmp_path / "map.npy", **asked | {"missing": "fill", "max_missing": 0.03})
+
+
 @pytest.mark.parametrize("share", [0.2, 1.0])
 def test_too_many_missing_points_are_refused(share):
     heights = np.zeros(1000).reshape(20, 50)

@@ -10,9 +10,12 @@ from scipy import ndimage, sparse
 from scipy.sparse import linalg
 
 MAX_MISSING = 0.1  # default largest share of missing points that are filled
+OUTSTANDING = 5.0  # steps at a rim over those elsewhere, from which it is not believed
+LARGEST_RIM = 5  # points that are dropped unasked
 
 Detrend = Literal["mean", "plane", "quadratic"]
 Missing = Literal["fill", "crop", "refuse"]
+Rim = int | Literal["detect"]
 
 _DEGREES = {"mean": 0, "plane": 1, "quadratic": 2}
 
@@ -69,6 +72,63 @@ def _degree(kind: str) -> int:
     if kind not in _DEGREES:
         raise ValueError(f"detrend must be one of {sorted(_DEGREES)}, got {kind!r}")
     return _DEGREES[kind]
+
+
+def without_rims(heights: NDArray, rim: Rim = "detect") -> tuple[NDArray, int]:
+    """Take the points beside missing ones for missing, too.
+
+    Instruments see steep flanks and the edges of holes badly: what they write there may be far off.
+
+    Parameters
+    ----------
+    heights : (nx, ny) or (n,) array
+        Heights, not finite where missing.
+    rim : int or "detect"
+        How far the rims reach [points], diagonals counted as one. "detect": as far as they stand
+        out (`outstanding_rim`).
+
+    Returns
+    -------
+    kept : array
+        Copy of the heights, NaN where missing or dropped.
+    dropped : int
+        How many points were measured and are dropped.
+    """
+    hole = ~np.isfinite(heights)
+    wide = _widened(hole, outstanding_rim(heights) if rim == "detect" else rim)
+    return np.where(wide, np.nan, heights), int(np.count_nonzero(wide & ~hole))
+
+
+def outstanding_rim(heights: NDArray) -> int:
+    """How far around missing points steps of height are much larger than elsewhere [points].
+
+    A rim stands out if the rms step from it to what lies beyond is more than `OUTSTANDING` times
+    that between neighbours beyond. Around holes cut into three measured surfaces where these are
+    steepest, sharpest, lowest, highest or at random it is 0.75 to 3.4 times, around those of an
+    instrument that wrote outliers 40 times and, one point further out, 0.9 times.
+    """
+    hole = ~np.isfinite(heights)
+    for rim in range(LARGEST_RIM if hole.any() else 0, 0, -1):
+        # 0 within, 1 the last of the rim, 2 beyond.
+        zone = 2 - _widened(hole, rim - 1).astype(int) - _widened(hole, rim)
+        to_rim, beyond = [], []
+        for axis in range(heights.ndim):
+            step = np.diff(heights, axis=axis)
+            pair = np.delete(zone, 0, axis) * np.delete(zone, -1, axis)
+            to_rim.append(step[pair == 2])
+            beyond.append(step[pair == 4])
+        at_rim, elsewhere = (_rms(np.concatenate(steps)) for steps in (to_rim, beyond))
+        if at_rim > OUTSTANDING * elsewhere > 0:
+            return rim
+    return 0
+
+
+def _widened(hole: NDArray, rim: int) -> NDArray:
+    return ndimage.maximum_filter(hole, size=2 * rim + 1, mode="constant", cval=False)
+
+
+def _rms(values: NDArray) -> float:
+    return float(np.sqrt(np.mean(values**2))) if values.size else 0.0
 
 
 def fill_missing(

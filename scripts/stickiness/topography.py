@@ -18,12 +18,14 @@ from .levelling import (
     MAX_MISSING,
     Detrend,
     Missing,
+    Rim,
     complete_rectangle,
     complete_run,
     detrend,
     detrend_profile,
     fill_missing,
     fill_profile,
+    without_rims,
 )
 from .readers import Length, Raw, metres, sides
 
@@ -46,6 +48,8 @@ class Topography:
         Number of points that were missing and have been interpolated.
     cropped : float
         Share of the measured points that was cut off to leave no missing ones.
+    dropped : int
+        Number of points that were measured beside missing ones and not used.
     """
 
     heights: NDArray
@@ -54,6 +58,7 @@ class Topography:
     source: str
     missing: int = 0
     cropped: float = 0.0
+    dropped: int = 0
 
     @property
     def size(self) -> tuple[float, float]:
@@ -92,6 +97,8 @@ class Profile:
     largest_gap : float
         Largest distance between neighbouring points as measured [m]; above `dx` if they were
         unevenly spaced and have been interpolated.
+    dropped : int
+        Number of points that were measured beside missing ones and not used.
     """
 
     heights: NDArray
@@ -99,6 +106,7 @@ class Profile:
     source: str
     missing: int = 0
     largest_gap: float = 0.0
+    dropped: int = 0
 
     @property
     def length(self) -> float:
@@ -133,6 +141,7 @@ def read(
     missing_value: float | None = None,
     missing: Missing = "fill",
     max_missing: float = MAX_MISSING,
+    missing_rim: Rim = "detect",
 ) -> Topography | Profile:
     """Read a topography or a line profile.
 
@@ -163,7 +172,10 @@ def read(
         which is smooth and takes out roughness there. "crop": keep the largest rectangle (or
         stretch of a profile) without any. "refuse": raise.
     max_missing : float
-        Largest share of missing points that may be filled.
+        Largest share of missing points, those dropped included, that may be filled.
+    missing_rim : int or "detect"
+        How far around missing points those that were measured are dropped [points]; as far as
+        they stand out.
 
     Returns
     -------
@@ -195,6 +207,8 @@ def read(
         raise ValueError(f"max_missing must be in 0 <= f < 1, got {max_missing!r}")
     if missing not in ("fill", "crop", "refuse"):
         raise ValueError(f"missing must be 'fill', 'crop' or 'refuse', got {missing!r}")
+    if missing_rim != "detect" and not (isinstance(missing_rim, int) and missing_rim >= 0):
+        raise ValueError(f"missing_rim must be a number of points or 'detect', got {missing_rim!r}")
     raw = readers.read(path, format, variable, channel)
     heights = raw.heights
     if missing_value is not None:
@@ -202,9 +216,11 @@ def read(
     limit = 0.0 if missing == "refuse" else max_missing
     if heights.ndim == 1:
         x = _positions(raw, length, pixel_size, position_unit)
-        found = _profile(x, heights, missing, limit, raw.source)
+        found = _profile(x, heights, missing, missing_rim, limit, raw.source)
     else:
-        found = _map(heights, _steps(raw, length, pixel_size), missing, limit, raw.source)
+        found = _map(
+            heights, _steps(raw, length, pixel_size), missing, missing_rim, limit, raw.source
+        )
     found = replace(found, heights=found.heights * _height_scale(raw, height_unit))
     if np.ptp(found.heights) == 0:
         flat = found.heights.flat[0]
@@ -213,30 +229,42 @@ def read(
 
 
 def _map(
-    heights: NDArray, steps: tuple[float, ...], missing: Missing, limit: float, source: str
+    heights: NDArray,
+    steps: tuple[float, ...],
+    missing: Missing,
+    rim: Rim,
+    limit: float,
+    source: str,
 ) -> Topography:
     measured = heights.size
+    heights, dropped = without_rims(heights, rim)
     if missing == "crop":
         heights = heights[complete_rectangle(np.isfinite(heights), source)]
-    filled, count = fill_missing(heights, limit, source)
-    return Topography(filled, *steps, source, count, 1 - heights.size / measured)
+    filled, count = fill_missing(heights, limit, _with_dropped(source, dropped))
+    return Topography(filled, *steps, source, count, 1 - heights.size / measured, dropped)
 
 
-def _profile(x: NDArray, heights: NDArray, missing: Missing, limit: float, source: str) -> Profile:
+def _profile(
+    x: NDArray, heights: NDArray, missing: Missing, rim: Rim, limit: float, source: str
+) -> Profile:
     order = np.argsort(x, kind="stable")
-    x, heights = x[order], heights[order]
+    x, (heights, dropped) = x[order], without_rims(heights[order], rim)
     if missing == "crop":
         kept = complete_run(np.isfinite(heights), source)
         x, heights = x[kept], heights[kept]
     if len(x) < 2 or not np.all(np.diff(x) > 0):
         raise ValueError(f"{source}: positions of a line profile must all differ")
-    filled, count = fill_profile(x, heights, limit, source)
+    filled, count = fill_profile(x, heights, limit, _with_dropped(source, dropped))
     gaps = np.diff(x)
     even = np.linspace(x[0], x[-1], len(x))
     step = float(even[1] - even[0])
     if np.ptp(gaps) > 1e-3 * step:
         filled = np.interp(even, x, filled)
-    return Profile(filled, step, source, count, float(gaps.max()))
+    return Profile(filled, step, source, count, float(gaps.max()), dropped)
+
+
+def _with_dropped(source: str, dropped: int) -> str:
+    return f"{source}, {dropped} points beside missing ones dropped" if dropped else source
 
 
 def _positions(

@@ -123,6 +123,7 @@ wait_for() { # seconds, what is waited for, command...
 }
 
 node_is() { sinfo --noheader --format=%T 2> /dev/null | grep -Eq "^($1)"; }
+restarted() { [ -n "$(squeue --noheader --states=running,completed --format=%A --jobs="${LOST// /,}")" ]; }
 solving() { # a job with realisations to solve is on the node, and one has begun to be solved
   squeue --noheader --states=running --format=%k | grep -Eq "rule_(repulsive|adhesive)_" &&
     [ -n "$(find "$WORK/run/results" -path '*/logs/solve_[ra]*.log' -print -quit)" ]
@@ -150,7 +151,7 @@ wait_for 60 "the node is idle" node_is idle
 say "Slurm $(sinfo --version | cut -d' ' -f2) on $(hostname -s), $CORES cores, no accounting"
 
 # --- The run ------------------------------------------------------------------------------------
-"$PYTHON" "$PROJECT/tests/slurm/copy_workflow.py" "$WORK/run"
+"$PYTHON" "$PROJECT/tests/workflow/copy_workflow.py" "$WORK/run"
 cd "$WORK/run"
 CHOSEN=(--config fidelity="$FIDELITY")
 [ "$FIDELITY" != tiny ] || CHOSEN=(--configfile config/config.yaml config/tiny.yaml)
@@ -162,9 +163,12 @@ RUN=$!
 say "snakemake through sbatch: ${TARGET[*]:-everything}, fidelity $FIDELITY"
 
 # --- The failure --------------------------------------------------------------------------------
-wait_for 900 "a simulation runs" solving
+wait_for 1800 "a simulation runs" solving
 sleep 2
 LOST=$(squeue --noheader --states=running --format=%A | tr '\n' ' ')
+STARTS=$(squeue --noheader --states=running --format=%S)
+FAILURE=$(date +%s) REDONE=0
+for start in $STARTS; do REDONE=$((REDONE + FAILURE - $(date -d "$start" +%s))); done
 mapfile -t VICTIMS < <(steps)
 kill -9 "$SLURMD" "${VICTIMS[@]}" 2> /dev/null || true  # some may just have ended
 wait "$SLURMD" 2> /dev/null || true
@@ -174,6 +178,9 @@ say "Slurm has given the node up: $(squeue --noheader --states=all --format='%A 
 start_slurmd
 wait_for 120 "the node is back" node_is 'idle|mixed|allocated'
 say "slurmd is back"
+wait_for 300 "a lost job starts again" restarted
+OUTAGE=$(($(date +%s) - FAILURE))
+say "a lost job has started again, $OUTAGE s after the failure"
 
 if wait "$RUN"; then
   RUN=""
@@ -196,7 +203,7 @@ grep -q "Nothing to be done" <<< "$AGAIN" || fail "not everything is there: $AGA
 # --- The comparison -----------------------------------------------------------------------------
 if [ -z "$REFERENCE" ]; then
   say "the same without Slurm"
-  "$PYTHON" "$PROJECT/tests/slurm/copy_workflow.py" "$WORK/local"
+  "$PYTHON" "$PROJECT/tests/workflow/copy_workflow.py" "$WORK/local"
   (cd "$WORK/local" && "$PYTHON" -m snakemake "${TARGET[@]}" -j"$CORES" "${CHOSEN[@]}") > "$WORK/local.log" 2>&1 ||
     fail "the local run"
   REFERENCE=$WORK/local/results/$FIDELITY
@@ -204,4 +211,5 @@ fi
 "$PYTHON" "$PROJECT/tests/slurm/compare.py" "$WORK/run/results/$FIDELITY" "$REFERENCE"
 JOBS=$(grep -c "has been submitted with SLURM jobid" "$WORK/slurm.log")
 STEPS=$(grep -oP "^total\s+\K\d+" "$WORK/slurm.log" | head -1)
-say "PASSED: $STEPS jobs of the workflow in $JOBS of Slurm, $RESTARTED started again after the failure"
+say "PASSED: $STEPS jobs of the workflow in $JOBS of Slurm, $RESTARTED started again after the failure;" \
+  "lost to it: $OUTAGE s without a node, and $REDONE s that jobs had run for"

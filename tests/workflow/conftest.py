@@ -1,15 +1,13 @@
 """A copy of the workflow in a folder of its own, run once at tiny size."""
 
 import re
-import shutil
 import subprocess
 import sys
 from pathlib import Path
 
 import pytest
+from copy_workflow import copy_workflow
 
-ROOT = Path(__file__).parents[2]
-PARTS = ("Snakefile", "rules", "scripts", "config", "envs", "profiles", "report")
 TINY = ["--configfile", "config/config.yaml", "config/tiny.yaml"]
 
 
@@ -57,17 +55,7 @@ class Workflow:
 
 
 def copied(folder):
-    for part in PARTS:
-        if (ROOT / part).is_dir():
-            ignore = shutil.ignore_patterns("__pycache__")
-            shutil.copytree(ROOT / part, folder / part, ignore=ignore)
-        else:
-            shutil.copy2(ROOT / part, folder / part)
-    for entry in ROOT.iterdir():  # whatever the configuration may name, such as data
-        hidden = entry.name.startswith(".") or entry.name in (*PARTS, "results")
-        if entry.is_dir() and not hidden:
-            (folder / entry.name).symlink_to(entry)
-    shutil.copy2(ROOT / "tests/workflow/tiny.yaml", folder / "config/tiny.yaml")
+    copy_workflow(folder)
     return Workflow(folder)
 
 
