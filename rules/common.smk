@@ -71,7 +71,10 @@ SIMULATED = [name for name in COMPARED if name in COMPLETE or name in COMPARISON
 ADHESION, LOOPS = config["adhesion"], config["loops"]
 TRADE = config["tradeoff"]
 TRADEOFF = f"{config['results']}/tradeoff"
-TRADE_SURFACES = TRADE["cases"]["surfaces"] | TRADE["validation"]["surfaces"]
+TRADE_SETS = {
+    name: TRADE[part] for part in ("cases", "finer", "validation") for name in TRADE[part]["surfaces"]
+}
+TRADE_SURFACES = {name: part["surfaces"][name] for name, part in TRADE_SETS.items()}
 # A wide window averages over more of the same grid errors, at the cost of many points.
 NARROW = [name for name, asked in TRADE["cases"]["surfaces"].items() if "window" not in asked]
 FIGURES = [f"fig{number}" for number in range(1, 11)]
@@ -119,8 +122,7 @@ def gaps_of(wildcards):
 
 def trade_set(wildcards):
     """The part of the configuration that a surface belongs to."""
-    measured = wildcards.trade_case in TRADE["cases"]["surfaces"]
-    return TRADE["cases" if measured else "validation"]
+    return TRADE_SETS[wildcards.trade_case]
 
 
 @cache

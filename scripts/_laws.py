@@ -68,9 +68,9 @@ def add_sampling(points, surface, bank):
     for pixels, fine in bank.fine.items():
         if pixels == COARSE:
             continue
-        twin = bank.fine[COARSE]
+        twin = bank.fine[COARSE][: len(fine)]
         left = fine - fine.sum(0) / twin.sum(0) * twin
-        share = bank.by_quantity(left.std(0, ddof=1) / whole)
+        share = bank.by_quantity(left.std(0, ddof=1) / fine.std(0, ddof=1))
         for (quantity, load), value in share.items():
             points.add("fine_share", quantity, **add, value=value, pressure=load, pixels=pixels)
     estimate = sampling.controlled_mean(bank.coarse, bank.controls, bank.elsewhere)
