@@ -27,7 +27,7 @@ from dataclasses import dataclass, fields
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 from scipy import stats
 
 PARTS = (
@@ -213,7 +213,7 @@ def error_parts(
     pixels, tolerance = settings.pixels_per_wavelength, settings.tolerance
     where = laws, surface, pressure, column
     seeds = settings.seeds, settings.coarse_seeds
-    variance = _variance(*where, pixels, descriptor_seeds, *seeds)
+    variance = mean_variance(*where, pixels, descriptor_seeds, *seeds)
     grid, solver = _fixed_errors(*where, pixels, tolerance)
     return {
         "discretisation": grid,
@@ -260,12 +260,38 @@ def covering_factor(
     """
     if settings.seeds < 2:
         return math.nan
-    if not settings.coarse_seeds:
-        return float(stats.t.ppf(_QUANTILE, settings.seeds - 1))
-    numbers = np.array([settings.seeds, settings.coarse_seeds, descriptor_seeds])
-    shares = _level_shares(laws, surface, pressure, column, settings.pixels_per_wavelength)
-    parts = np.square(shares) / numbers
-    return float(stats.t.ppf(_QUANTILE, parts.sum() ** 2 / np.sum(parts**2 / (numbers - 1))))
+    numbers = descriptor_seeds, settings.seeds, settings.coarse_seeds
+    where = laws, surface, pressure, column, settings.pixels_per_wavelength
+    return float(covers(degrees_of_freedom(*where, *numbers)))
+
+
+def covers(freedom: ArrayLike) -> NDArray:
+    """Return how many standard errors with so many degrees of freedom cover 90 %."""
+    return stats.t.ppf(_QUANTILE, freedom)
+
+
+def degrees_of_freedom(
+    laws: Laws,
+    surface: Surface,
+    pressure: float,
+    column: str,
+    pixels: float,
+    described: int,
+    seeds: ArrayLike,
+    coarse_seeds: ArrayLike,
+) -> NDArray:
+    """Return the degrees of freedom of a standard error; the seeds may be arrays that broadcast.
+
+    One less than the seeds of plain means; those of Welch and Satterthwaite for multilevel ones.
+    """
+    seeds, several = np.asarray(seeds), np.maximum(coarse_seeds, 2)
+    shares = _level_shares(laws, surface, pressure, column, pixels)
+    levels = [
+        (share**2 / n, n - 1) for share, n in zip(shares, (seeds, several, described), strict=True)
+    ]
+    total = sum(part for part, _ in levels) ** 2
+    welch = total / sum(part**2 / freedom for part, freedom in levels)
+    return np.where(np.equal(coarse_seeds, 0), seeds - 1, welch)
 
 
 def _level_shares(laws, surface, pressure, column, pixels):
@@ -276,8 +302,17 @@ def _level_shares(laws, surface, pressure, column, pixels):
     return fine, coarse, math.sqrt(1 - coarse**2)
 
 
-def _variance(laws, surface, pressure, column, pixels, described, seeds, coarse_seeds):
-    """Relative variance of a mean; numbers of seeds may be arrays that broadcast."""
+def mean_variance(
+    laws: Laws,
+    surface: Surface,
+    pressure: float,
+    column: str,
+    pixels: float,
+    described: int,
+    seeds: ArrayLike,
+    coarse_seeds: ArrayLike,
+) -> NDArray:
+    """Return the relative variance of a mean; the numbers of seeds may be arrays that broadcast."""
     fine, coarse, long = _level_shares(laws, surface, pressure, column, pixels)
     several = np.maximum(coarse_seeds, 1)
     multilevel = fine**2 / seeds + coarse**2 / several + long**2 / described
@@ -423,7 +458,7 @@ def _worst_errors(
         for column in itertools.chain(*(QUANTITIES[quantity] for quantity in quantities)):
             where = laws, surface, pressure, column
             fixed = math.hypot(*_fixed_errors(*where, pixels, tolerance))
-            variance = _variance(*where, pixels, described, seeds, coarse)
+            variance = mean_variance(*where, pixels, described, seeds, coarse)
             worst = np.maximum(worst, np.sqrt(fixed**2 + COVERS**2 * variance))
     return SAFETY * worst
 
