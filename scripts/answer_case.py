@@ -3,27 +3,18 @@
 import numpy as np
 import xarray as xr
 
+from _columns import GAP, TEXTS, statistics
 from _job import start
 from _model import DESCRIBED, VARIANT, logarithmic_grid, spectrum_of, window_of
 from fit_a_v import fit_one
 from measure_theory import contact_of
-from stickiness import accuracy, datasets
+from stickiness import accuracy, datasets, stopping
 from stickiness import plan as plan_of
 from stickiness.persson import Persson
 from stickiness.surface import lattice_spectrum
 
 SOURCES = ("discretisation", "solver", "sampling", "bandwidth", "model")
 RANGES = {"minimum": 1e-4, "maximum": 10.0, "per_decade": 16}
-GAP = 0.1  # over h_rms, at which P(u) is quoted; the ensemble's file has all of it
-TEXTS = {
-    "area": "repulsive contact area over nominal area",
-    "mean_gap": "mean gap over h_rms",
-    "attractive_area_0.01": "attractive area at range 0.01 h_rms over nominal area",
-    "attractive_area_0.1": "attractive area at range 0.1 h_rms over nominal area",
-    "gap_distribution": "P(u) times h_rms at gap 0.1 h_rms",
-    "a_v": "a_V",
-    "kappa": "kappa_rep",
-}
 
 
 def main(job):
@@ -67,12 +58,23 @@ class Simulated:
     """Values and errors that cover 90 %, by source, from the files of an ensemble."""
 
     def __init__(self, inputs, plan, laws):
-        self.inputs, self.plan, self.laws = inputs, plan, laws
+        self.plan, self.laws = plan, laws
         self.ensemble = datasets.read(inputs.solved, ["area_fraction_mean", "mean_gap_mean"])
+        self.fits = {
+            name: datasets.read(inputs[name], [f"{name}_standard_error"])
+            for name in ("a_v", "kappa")
+            if inputs.get(name)
+        }
+        self.drawn = None
+        if inputs.get("drawn"):
+            self.drawn = datasets.read(inputs.drawn, ["sampling_error", "state"])
+            for name in ("seeds", "coarse_seeds"):
+                plan["settings"][name] = int(self.drawn[name])
+            plan["stopped"] = stopping.STATES[int(self.drawn.state)]
 
     def __call__(self, column):
         """Values of a column at every load, and its errors by source."""
-        mean, sampling, grid = self.found(column)
+        mean, sampling, grid = statistics(column, self.ensemble, **self.fits)
         settings = accuracy.Settings(**self.plan["settings"])
         surface, pressures = plan_of.surface_of(self.plan["surface"]), self.plan["pressures"]
         solver = [
@@ -81,33 +83,18 @@ class Simulated:
             )
             for p in pressures
         ]
-        factor = [
-            accuracy.covering_factor(self.laws, settings, surface, p, column) for p in pressures
-        ]
+        if self.drawn is not None:  # what the seeds were stopped by
+            covers = mean.values * self.drawn.sampling_error.sel(column=column).values
+        else:
+            factor = [
+                accuracy.covering_factor(self.laws, settings, surface, p, column) for p in pressures
+            ]
+            covers = factor * sampling.values
         return mean.values, {
             "discretisation": grid.values,
             "solver": mean.values * solver,
-            "sampling": factor * sampling.values,
+            "sampling": covers,
         }
-
-    def found(self, column):
-        """Mean, standard error and discretisation error of a column."""
-        if column == "kappa":
-            fit = datasets.read(self.inputs.kappa, ["kappa"])
-            return fit.kappa, fit.kappa_standard_error, fit.kappa_discretisation_error
-        if column == "a_v":
-            fit, name = datasets.read(self.inputs.a_v, ["a_v_mean"]).isel(window=0), "a_v"
-        else:
-            name, where = {
-                "area": ("area_fraction", {}),
-                "mean_gap": ("mean_gap", {}),
-                "attractive_area_0.01": ("attractive_area", {"range": 0.01}),
-                "attractive_area_0.1": ("attractive_area", {"range": 0.1}),
-                "gap_distribution": ("gap_density", {"gap": GAP}),
-            }[column]
-            fit = self.ensemble.sel(where, method="nearest") if where else self.ensemble
-        endings = ("mean", "standard_error", "discretisation_error")
-        return tuple(fit[f"{name}_{ending}"] for ending in endings)
 
 
 class Theory:

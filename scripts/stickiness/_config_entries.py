@@ -214,7 +214,7 @@ def _model_problems(
 ) -> Iterator[str]:
     """What a case may ask for depends on whether it is simulated."""
     if case.get("model") == "theory":
-        for unused in ("accuracy", "seeds", "sampling", "maps"):
+        for unused in ("accuracy", "at_most", "seeds", "sampling", "maps"):
             if unused in case:
                 yield (
                     f"{key}.{unused} = {case[unused]!r} is for simulations; leave it out with "
@@ -232,5 +232,7 @@ def _model_problems(
             f"{key}.carry_to = {case['carry_to']!r} is beyond what was measured: at most "
             f"{most:g}, {CARRIED_TIMES} times the magnification simulated and {CARRIED_TO} in all"
         )
+    if "at_most" in case and "accuracy" not in case:
+        yield f"{key}.at_most = {case['at_most']!r} needs accuracy; give seeds for a fixed number"
     if "accuracy" in case and "seeds" in case:
         yield f"{key}.seeds = {case['seeds']!r}: give accuracy or seeds, not both"
