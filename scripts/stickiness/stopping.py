@@ -40,7 +40,7 @@ FEWEST = 3  # fine seeds of the first round, unless fewer were chosen in advance
 COARSE_TIMES = 16  # coarse seeds at most, times the cap of fine ones
 # Share of the accuracy that is always left to sampling: more seeds do not make up for a grid that
 # takes all of it.
-ROOM = 0.5
+ROOM = 0.7
 
 ENOUGH, MORE, CAP, GRID = STATES = ("enough", "more", "cap", "grid")
 
@@ -142,7 +142,7 @@ def first(laws: Laws, asked: Asked, chosen: Settings) -> Settings:
             for column, load in itertools.product(asked.columns, asked.pressures)
         ]
     ).reshape(len(asked.columns), len(asked.pressures), 1)
-    return _cheapest(laws, asked, least, seeds, coarse, sampling <= _room(asked, fixed))
+    return _cheapest(laws, asked, least, seeds, coarse, _joint(asked, fixed, sampling))
 
 
 def assess(laws: Laws, asked: Asked, settings: Settings, measured: Measured) -> Decision:
@@ -166,19 +166,18 @@ def assess(laws: Laws, asked: Asked, settings: Settings, measured: Measured) -> 
         found = (np.where(told, part, np.nan)[..., 0] for part in (error, sampling))
         return Decision(state, settings, *found)
 
-    if not told.any() or known.joint_error(error[told]) <= asked.accuracy:
+    fixed, sampling = (np.where(told, part, 0.0) for part in (fixed, sampling))
+    if known.joint_error(np.hypot(fixed, sampling).ravel()) <= asked.accuracy:
         return decided(ENOUGH, settings)
-    room = _room(asked, fixed)
-    if np.all((sampling <= room)[told]):
+    if _joint(asked, fixed, sampling)[0] <= asked.accuracy:
         return decided(GRID, settings)
     seeds, coarse = _candidates(asked, settings)
     if len(seeds) == 1:
         return decided(CAP, settings)
     freedom, variance = _sampling_by_law(laws, asked, settings, seeds, coarse)
     expected = known.covers(freedom + prior) * np.sqrt(pooled * variance / by_law)
-    return decided(
-        MORE, _cheapest(laws, asked, settings, seeds, coarse, (expected <= room) | ~told)
-    )
+    error = _joint(asked, fixed, np.where(told, expected, 0.0))
+    return decided(MORE, _cheapest(laws, asked, settings, seeds, coarse, error))
 
 
 def worst(decision: Decision, asked: Asked) -> tuple[float, str, float]:
@@ -199,9 +198,9 @@ def _candidates(asked: Asked, least: Settings) -> tuple[NDArray, NDArray]:
     return tuple(np.array(list(both)).T)
 
 
-def _cheapest(laws, asked, least, seeds, coarse, does) -> Settings:
-    """Cheapest of the candidates that do for every column and load, or the largest if none does."""
-    does = does.all(axis=(0, 1))
+def _cheapest(laws, asked, least, seeds, coarse, error) -> Settings:
+    """Cheapest of the candidates whose error is within the accuracy, or the largest if none is."""
+    does = error <= asked.accuracy
     loads, described = len(asked.pressures), asked.descriptor_seeds
     costs = known.costs_of_seeds(laws, least, asked.surface, loads, described, seeds, coarse)
     best = int(np.argmin(np.where(does, costs, np.inf))) if does.any() else -1
@@ -240,10 +239,11 @@ def _by_law(laws: Laws, asked: Asked, part: str, **knob: float) -> NDArray:
     return np.array(errors)[..., None]
 
 
-def _room(asked: Asked, fixed: NDArray) -> NDArray:
-    """Sampling error that the other errors leave room for."""
-    rest = np.sqrt(np.maximum(asked.accuracy**2 - fixed**2, 0))
-    return np.maximum(rest, ROOM * asked.accuracy)
+def _joint(asked: Asked, fixed: NDArray, sampling: NDArray) -> NDArray:
+    """Error of the worst column and load, with no more by the grid than leaves `ROOM` for seeds."""
+    most = math.sqrt(1 - ROOM**2) * asked.accuracy
+    error = np.hypot(np.minimum(fixed, most), sampling)
+    return known.joint_error(error.reshape(-1, error.shape[-1]))
 
 
 def _grid(settings: Settings) -> Sequence[float]:
