@@ -19,7 +19,7 @@ import psutil
 sys.path.insert(0, str(Path(workflow.basedir) / "scripts"))
 
 import _cost
-from _progress import Progress, graded, jobs_of, quieten, summary
+from _progress import Progress, graded, jobs_of, missed, quieten, summary
 from snakemake.exceptions import WorkflowError
 from stickiness import accuracy, plan, stopping
 from snakemake.logging import logger
@@ -255,6 +255,8 @@ def summary_of_plan(case):
     """What a case's answer needs to know of its plan."""
     planned, surface = PLANS[case], config["model_surfaces"][CASES[case]["surface"]]
     wider = {"carry_to": CASES[case]["carry_to"]} if "carry_to" in CASES[case] else {}
+    if case in DRAWN:
+        wider["asked"] = asdict(planned.asked)
     return {
         "quantities": list(planned.quantities),
         "pressures": list(planned.pressures),
@@ -488,7 +490,9 @@ progress = None  # of this run, once it has begun
 def begin():
     """A line for every job in place of Snakemake's, unless it is to be quieter or more talkative."""
     global progress
-    progress = Progress(jobs_of(workflow.dag), workflow.cores or 1)
+    progress = Progress(
+        jobs_of(workflow.dag), workflow.cores or 1, more=lambda: jobs_of(workflow.dag)
+    )
     settings = workflow.output_settings
     if not settings.verbose and not {Quietness.ALL, Quietness.PROGRESS} & set(settings.quiet or ()):
         quieten(logger)
@@ -505,7 +509,8 @@ def conclude():
         return
     reused = sum(not workflow.dag.needrun(job) for job in workflow.dag.jobs if job.output)
     places = {"results": RESULTS, "report": f"{RESULTS}/report/report.html"}
-    print(summary(progress, reused, places, graded(RESULTS)), file=sys.stderr)
+    lines = [*graded(RESULTS), *missed(f"{RESULTS}/cases/{case}.nc" for case in DRAWN)]
+    print(summary(progress, reused, places, lines), file=sys.stderr)
 
 
 onstart:

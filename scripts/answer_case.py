@@ -1,5 +1,7 @@
 """What a case asks for: values at its loads, their error by source, and which source dominates."""
 
+import logging
+
 import numpy as np
 import xarray as xr
 
@@ -46,6 +48,9 @@ def main(job):
         },
         coords={"column": columns, "pressure": pressures, "source": list(SOURCES)},
     )
+    if "asked" in plan and (text := missed(dataset, plan)):
+        dataset.attrs["missed"] = f"{job.wildcards.case}: {text}"
+        logging.warning("%s", text)
     datasets.write(
         annotated(dataset, columns),
         job.output[0],
@@ -114,6 +119,23 @@ class Theory:
             for p in self.plan["pressures"]
         ]
         return values, {"model": values * error}
+
+
+def missed(dataset, plan):
+    """What keeps a case from the accuracy that it asks for, in words; None if nothing does."""
+    relative = (dataset.total_error / abs(dataset.value)).values
+    error, column, load = stopping.worst(relative, stopping.Asked(**plan["asked"]))
+    if error <= plan["accuracy"]:
+        return None
+    seeds = "{seeds} seeds and {coarse_seeds} coarse ones".format(**plan["settings"])
+    why = {
+        stopping.CAP: f"at the cap, {seeds}",
+        stopping.GRID: f"its grid errs too much for any number of seeds, {seeds} so far",
+        stopping.ENOUGH: "what theory adds of the spectrum errs too much",
+    }[plan["stopped"]]
+    return (
+        f"error {error:.3g} of {plan['accuracy']:g} asked, of {column} at pressure {load:g}; {why}"
+    )
 
 
 def quoted(state, column):

@@ -49,7 +49,7 @@ def measured(ensemble, asked, windows):
 
 def told(decision, asked, settings):
     """The decision in words."""
-    worst, column, load = stopping.worst(decision, asked)
+    worst, column, load = stopping.worst(decision.error, asked)
     after = {
         stopping.MORE: f"next {decision.settings.seeds} and {decision.settings.coarse_seeds}",
         stopping.ENOUGH: "enough",

@@ -34,7 +34,7 @@ from numpy.typing import NDArray
 from . import accuracy as known
 from .accuracy import Laws, Settings, Surface
 
-PRIOR = 8.0  # degrees of freedom of the laws' scatter: as good as that of so many more seeds
+PRIOR = 4.0  # degrees of freedom of the laws' scatter: as good as that of so many more seeds
 START = 1.5  # times the accuracy asked for, at which the first round aims
 FEWEST = 3  # fine seeds of the first round, unless fewer were chosen in advance
 COARSE_TIMES = 16  # coarse seeds at most, times the cap of fine ones
@@ -180,10 +180,10 @@ def assess(laws: Laws, asked: Asked, settings: Settings, measured: Measured) -> 
     return decided(MORE, _cheapest(laws, asked, settings, seeds, coarse, error))
 
 
-def worst(decision: Decision, asked: Asked) -> tuple[float, str, float]:
-    """Largest error that a decision knows of, its column and its load."""
-    row, at = np.unravel_index(np.nanargmax(decision.error), decision.error.shape)
-    return float(decision.error[row, at]), asked.columns[row], asked.pressures[at]
+def worst(error: NDArray, asked: Asked) -> tuple[float, str, float]:
+    """Return what of the errors `(column, pressure)` is held against the accuracy, and where."""
+    row, at = np.unravel_index(np.nanargmax(error), error.shape)
+    return float(error[row, at]), asked.columns[row], asked.pressures[at]
 
 
 def _candidates(asked: Asked, least: Settings) -> tuple[NDArray, NDArray]:
