@@ -78,8 +78,6 @@ TRADE_SETS = {
     name: TRADE[part] for part in ("cases", "finer", "validation") for name in TRADE[part]["surfaces"]
 }
 TRADE_SURFACES = {name: part["surfaces"][name] for name, part in TRADE_SETS.items()}
-# A wide window averages over more of the same grid errors, at the cost of many points.
-NARROW = [name for name, asked in TRADE["cases"]["surfaces"].items() if "window" not in asked]
 FIGURES = [f"fig{number}" for number in range(1, 11)]
 PAGE_PARTS = [f"report/{part}" for part in ("macros.html.j2", "page.css", "page.js")]
 

@@ -40,7 +40,8 @@ class Bank:
         Mean of the fine seeds alone, on the finest grid: what plain means drawn from them scatter
         about.
     offsets : dict of pair of (entry,) arrays
-        By pixels, relative error of the mean by the grid, and the standard error of that.
+        By pixels, relative error of the mean by the grid, and the standard error of that; none if
+        no grid is fine enough to tell.
     """
 
     fine: dict[int, NDArray]
@@ -150,7 +151,9 @@ def bank_of(measured: xr.Dataset, finest: xr.Dataset | None = None) -> Bank:
         truth=estimate.mean * ratio,
         truth_error=estimate.standard_error * ratio,
         pool=fine[best].mean(0) * ratio,
-        offsets=offsets_of({p: values for p, values in fine.items() if p <= best}, pairs, best),
+        offsets=offsets_of({p: values for p, values in fine.items() if p <= best}, pairs, best)
+        if finest is not None or pixels[-1] >= FINEST
+        else {},
     )
 
 

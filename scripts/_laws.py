@@ -15,7 +15,7 @@ from stickiness.accuracy import COARSE, FULL, Law, Surface
 
 FEATURES = ("constant", "hurst", "magnification", "window", "pressure", "pixels", "tolerance")
 FLOOR = 1e-10  # errors below are nothing, and say nothing of how they depend on what
-STIFF = 200.0  # twice the variance of exponents before anything is known of them
+STIFF = 8.0  # twice the variance of exponents before anything is known of them
 
 
 class Points:
@@ -56,27 +56,39 @@ def likeliest(rows):
     """Law of the standard deviation of what may have either sign and is known with some noise.
 
     Values are taken as normal about zero, their variance being that of the law and of the noise.
-    Few realisations thus do not make out an error to be larger than it is.
+    Few realisations thus do not make out an error to be larger than it is. The spread is that over
+    laws fitted without the surface that a value is of.
     """
     features, values, noise = (np.array(part) for part in zip(*rows, strict=True))
-    varied = varying(features)
-    centre = features[:, varied].mean(0) * (np.ptp(features[:, varied], axis=0) > 0)
-    chosen = features[:, varied] - centre
+    surfaces = [tuple(row) for row in features[:, 1:4]]
+    ratio = np.empty(len(rows))
+    for one in set(surfaces):
+        own = np.array([surface == one for surface in surfaces])
+        others = ~own if len(set(surfaces)) > 1 else own
+        law = np.exp(features[own] @ likeliest_exponents(features, values, noise, others))
+        ratio[own] = np.abs(values[own]) / np.hypot(law, noise[own])
+    every = np.ones(len(rows), bool)
+    return law_of(likeliest_exponents(features, values, noise, every), ratio)
 
-    def variance(coefficients):
-        return np.exp(2 * chosen @ coefficients) + noise**2
+
+def likeliest_exponents(features, values, noise, chosen):
+    """Coefficients of the features by some of the values."""
+    features, values, noise = features[chosen], values[chosen], noise[chosen]
+    varied = varying(features)
+    centre = np.where(np.arange(varied.sum()) > 0, features[:, varied].mean(0), 0.0)
+    apart = features[:, varied] - centre
 
     def unlikely(coefficients):
-        own = variance(coefficients)
+        own = np.exp(2 * apart @ coefficients) + noise**2
         return 0.5 * np.sum(np.log(own) + values**2 / own) + np.sum(coefficients[1:] ** 2) / STIFF
 
-    begin = np.zeros(chosen.shape[1])
+    begin = np.zeros(varied.sum())
     begin[0] = np.log(np.sqrt(np.mean(values**2)))
     found = optimize.minimize(unlikely, begin, method="BFGS").x
     coefficients = np.zeros(features.shape[1])
     coefficients[varied] = found
     coefficients[0] -= centre @ found
-    return law_of(coefficients, np.abs(values) / np.sqrt(variance(found)))
+    return coefficients
 
 
 def varying(features):

@@ -32,7 +32,7 @@ def main(job):
             errors[SOURCES.index(source), row] = np.abs(part)
     if "carry_to" in plan:
         change, size = carried(plan, columns, pressures)
-        errors[SOURCES.index("bandwidth")] = carrying_error(laws, plan, columns, values, size)
+        errors[SOURCES.index("bandwidth")] = carrying_errors(laws, plan, columns, values, size)
         values += change
     dataset = xr.Dataset(
         {
@@ -95,8 +95,13 @@ class Simulated:
                 accuracy.covering_factor(self.laws, settings, surface, p, column) for p in pressures
             ]
             covers = factor * sampling.values
+        size, pixels = np.abs(mean.values), settings.pixels_per_wavelength
+        grid_error = [
+            accuracy.grid_error(self.laws, column, surface, p, pixels, found)
+            for p, found in zip(pressures, np.abs(grid.values) / size, strict=True)
+        ]
         return mean.values, {
-            "discretisation": grid.values,
+            "discretisation": size * grid_error,
             "solver": mean.values * solver,
             "sampling": covers,
         }
@@ -157,23 +162,24 @@ def quoted(state, column):
 
 
 def outside(plan, pressures):
-    """Where surface or load is outside what the laws were measured on, by load."""
+    """Where surface, load, grid or tolerance is outside what the laws were measured on, by load."""
+    surface, settings = plan_of.surface_of(plan["surface"]), plan["settings"]
+    knobs = (settings["pixels_per_wavelength"], settings["tolerance"]) if plan["simulated"] else ()
+    return np.array([accuracy.extrapolated(surface, p, *knobs) for p in pressures])
+
+
+def carrying_errors(laws, plan, columns, values, size):
+    """Error of theory's difference, covering 90 %, by column and load."""
     surface = plan_of.surface_of(plan["surface"])
-    return np.array([accuracy.measured(surface, p)[-1] > 1 for p in pressures])
-
-
-def carrying_error(laws, plan, columns, values, size):
-    """Error of theory's difference, covering 90 %: a share of the value simulated, before it.
-
-    `size` is by how much of itself theory changes the area. As measured up to 8 times the
-    magnification, the configuration allows no more.
-    """
-    surface = plan_of.surface_of(plan["surface"])
+    loads = list(zip(plan["pressures"], size, strict=True))
     share = [
-        [accuracy.single_error(laws, "carrying", column, surface, p) for p in plan["pressures"]]
+        [
+            accuracy.carrying_error(laws, surface, plan["carry_to"], change, column, p)
+            for p, change in loads
+        ]
         for column in columns
     ]
-    return share * size * np.abs(values)
+    return share * np.abs(values)
 
 
 def carried(plan, columns, pressures):
@@ -205,7 +211,7 @@ def annotated(dataset, columns):
         total_error=("1", "all sources in quadrature", "the scatter of a single seed is unknown"),
         extrapolated=(
             "1",
-            "1 where surface or load is outside what the laws of solver and model were measured on",
+            "1 where surface, load, grid or tolerance is outside what the laws were measured on",
         ),
         dominant=("1", f"source of the largest error, counted from 0: {', '.join(SOURCES)}"),
     )

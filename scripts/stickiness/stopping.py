@@ -5,7 +5,8 @@ the relative error that covers 90 % is, for every quantity and load,
 
     error^2 = discretisation^2 + solver^2 + sampling^2,    sampling = t(f) sqrt(v),
 
-with the discretisation error and the standard error s of the mean measured on the seeds drawn. Few
+with the standard error s of the mean measured on the seeds drawn, and the discretisation error by
+`accuracy.grid_error`. All of them hold at once by `accuracy.joint_error`. Few
 seeds do not know their own scatter: stopping at the first round that looks good would stop where s
 is too small by luck. So their variance is pooled with that of the laws of `accuracy`, which counts
 as an earlier sample of `PRIOR` degrees of freedom,
@@ -153,12 +154,11 @@ def assess(laws: Laws, asked: Asked, settings: Settings, measured: Measured) -> 
     prior = _prior(laws, asked)
     with np.errstate(divide="ignore", invalid="ignore"):
         scatter = (measured.standard_error / measured.mean)[..., None]
-        grid = np.abs(measured.discretisation / measured.mean)[..., None]
-    # Both cover 90 %; that of a single case is wide, for it knows no other.
-    grid = np.fmin(grid, _by_law(laws, asked, "discretisation", pixels=_grid(settings)[0]))
+        found = np.abs(measured.discretisation / measured.mean)
+    grid = _grid_error(laws, asked, settings, found)
     pooled = (freedom * scatter**2 + prior * by_law) / (freedom + prior)
     sampling = known.covers(freedom + prior) * np.sqrt(pooled)
-    fixed = np.hypot(grid, _by_law(laws, asked, "solver", tolerance=settings.tolerance))
+    fixed = np.hypot(grid, _solver(laws, asked, settings))
     error = np.hypot(fixed, sampling)
     told = np.isfinite(error)
 
@@ -181,9 +181,10 @@ def assess(laws: Laws, asked: Asked, settings: Settings, measured: Measured) -> 
 
 
 def worst(error: NDArray, asked: Asked) -> tuple[float, str, float]:
-    """Return what of the errors `(column, pressure)` is held against the accuracy, and where."""
+    """Return what is held against the accuracy, and where errors `(column, pressure)` are largest."""
     row, at = np.unravel_index(np.nanargmax(error), error.shape)
-    return float(error[row, at]), asked.columns[row], asked.pressures[at]
+    of_all = float(known.joint_error(error[np.isfinite(error)]))
+    return of_all, asked.columns[row], asked.pressures[at]
 
 
 def _candidates(asked: Asked, least: Settings) -> tuple[NDArray, NDArray]:
@@ -227,16 +228,33 @@ def _prior(laws: Laws, asked: Asked) -> NDArray:
     return (PRIOR / factors**2)[None, :, None]
 
 
-def _by_law(laws: Laws, asked: Asked, part: str, **knob: float) -> NDArray:
-    """Relative error of one source by the laws."""
+def _grid_error(laws: Laws, asked: Asked, settings: Settings, found: NDArray) -> NDArray:
+    """Relative error by the grid, where that of the case's own grids is `found`."""
     errors = [
         [
-            known.single_error(laws, part, column, asked.surface, load, **knob)
-            for load in asked.pressures
+            known.grid_error(
+                laws, column, asked.surface, load, settings.pixels_per_wavelength, own
+            )
+            for load, own in zip(asked.pressures, of_loads, strict=True)
         ]
-        for column in asked.columns
+        for column, of_loads in zip(asked.columns, found, strict=True)
     ]
     return np.array(errors)[..., None]
+
+
+def _solver(laws: Laws, asked: Asked, settings: Settings) -> NDArray:
+    """Relative error by the solver's tolerance."""
+    return np.array(
+        [
+            [
+                known.single_error(
+                    laws, "solver", column, asked.surface, load, tolerance=settings.tolerance
+                )
+                for load in asked.pressures
+            ]
+            for column in asked.columns
+        ]
+    )[..., None]
 
 
 def _joint(asked: Asked, fixed: NDArray, sampling: NDArray) -> NDArray:
