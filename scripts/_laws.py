@@ -118,7 +118,6 @@ def add_sampling(points, surface, bank):
     add = {"surface": surface}
     for (quantity, load), scatter in bank.by_quantity(relative(bank.fine[finest], bank)).items():
         points.add("scatter", quantity, **add, value=scatter, pressure=load)
-    whole = bank.fine[finest].std(0, ddof=1)
     for pixels, fine in bank.fine.items():
         if pixels == COARSE:
             continue

@@ -157,6 +157,7 @@ class Cost:
         self.law = laws["tolerance_cost", ""]
 
     def __call__(self, settings):
+        """Cost of a case with some settings."""
         pixels, tolerance = settings.pixels_per_wavelength, settings.tolerance / accuracy.FULL
         saved = self.law(self.surface, tolerance=tolerance) if tolerance > 1 else 1.0
         one = sum(self.seconds[grid] for grid in {pixels, pixels // 2, accuracy.COARSE})
@@ -264,10 +265,11 @@ def summary(columns, rows):
     """In how many runs and cases the accuracy is reached, and at what cost."""
     wanted = ("accuracy", "within", "error", "cost_over_cheapest")
     opened = ("accuracy", "open_within", "error", "open_cost_over_cheapest")
-    return "".join(
-        f"{text}: {told(np.array([[row[columns.index(name)] for name in names] for row in rows]))}\n"
-        for text, names in (("As it is run", wanted), ("Without rounds", opened))
-    )
+    lines = []
+    for text, names in (("As it is run", wanted), ("Without rounds", opened)):
+        part = np.array([[row[columns.index(name)] for name in names] for row in rows])
+        lines.append(f"{text}: {told(part.astype(float))}\n")
+    return "\n".join(lines)
 
 
 def told(part):
@@ -279,8 +281,8 @@ def told(part):
         f"{within.mean():.1%} of runs within the accuracy in every quantity at every load; at "
         f"least 90 % of them in {reached.sum()} of {reached.size} cases, at least 85 % in "
         f"{(within >= 0.85).sum()}, fewest {within.min():.0%}. Cost over the cheapest: median "
-        f"{np.median(ratio[known]):.2f}, at most {DEAR:g} in {cheap.sum()} of {known.sum()}, largest "
-        f"{ratio[known].max():.2f}; both in {(reached & cheap).sum()}."
+        f"{np.median(ratio[known]):.2f}, at most {DEAR:g} in {cheap.sum()} of {known.sum()}, "
+        f"largest {ratio[known].max():.2f}; both in {(reached & cheap).sum()}."
     )
 
 

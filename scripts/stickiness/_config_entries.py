@@ -203,7 +203,9 @@ def _preset_problems(config: Mapping[str, Any]) -> Iterator[str]:
     rule = config["tradeoff"]["presets"]
     for name in config["tradeoff"]["settings"]["surfaces"]:
         if name not in config["tradeoff"]["cases"]["surfaces"]:
-            yield unknown("tradeoff.settings.surfaces", name, config["tradeoff"]["cases"]["surfaces"])
+            yield unknown(
+                "tradeoff.settings.surfaces", name, config["tradeoff"]["cases"]["surfaces"]
+            )
     if rule["surface"] not in config["model_surfaces"]:
         yield unknown("tradeoff.presets.surface", rule["surface"], config["model_surfaces"])
     for name in rule["accuracy"]:

@@ -76,8 +76,14 @@ QUANTITIES = {
 # From what settings are put together; the pixels are those for which errors were measured.
 PIXELS = (4, 8, 16)
 TOLERANCES = (1e-3, 1e-4, 1e-5, 1e-6, 1e-8)
-SEEDS = (2, 3, 4, 5, 6, 8, 10, 12, 14, 16, 20, 24, 28, 32, 40, 48, 56, 64, 80, 96, 112, 128)
-COARSE_SEEDS = (0, 32, 48, 64, 96, 128, 160, 192, 256, 320, 384, 512, 640, 768, 1024, 1536, 2048)
+SEEDS = (
+    *(2, 3, 4, 5, 6, 8, 10, 12, 14, 16, 20, 24, 28, 32),
+    *(40, 48, 56, 64, 80, 96, 112, 128),
+)
+COARSE_SEEDS = (
+    *(0, 32, 64, 96, 128, 160, 192, 256, 320, 384),
+    *(512, 640, 768, 1024, 1536, 2048),
+)
 
 
 @dataclass(frozen=True)
@@ -453,7 +459,7 @@ def worst_error(
     quantities: Iterable[str],
     descriptor_seeds: int = 2048,
 ) -> tuple[float, str, float]:
-    """Error of the worst of the quantities wanted; the column and pressure that it is largest at."""
+    """Error of the worst of the quantities wanted; column and pressure of the largest."""
     errors = {
         (column, pressure): predicted_error(
             laws, settings, surface, pressure, column, descriptor_seeds

@@ -181,7 +181,7 @@ def assess(laws: Laws, asked: Asked, settings: Settings, measured: Measured) -> 
 
 
 def worst(error: NDArray, asked: Asked) -> tuple[float, str, float]:
-    """Return what is held against the accuracy, and where errors `(column, pressure)` are largest."""
+    """Return what is held against the accuracy, and where `(column, pressure)` errors are largest."""
     row, at = np.unravel_index(np.nanargmax(error), error.shape)
     of_all = float(known.joint_error(error[np.isfinite(error)]))
     return of_all, asked.columns[row], asked.pressures[at]
@@ -232,9 +232,7 @@ def _grid_error(laws: Laws, asked: Asked, settings: Settings, found: NDArray) ->
     """Relative error by the grid, where that of the case's own grids is `found`."""
     errors = [
         [
-            known.grid_error(
-                laws, column, asked.surface, load, settings.pixels_per_wavelength, own
-            )
+            known.grid_error(laws, column, asked.surface, load, settings.pixels_per_wavelength, own)
             for load, own in zip(asked.pressures, of_loads, strict=True)
         ]
         for column, of_loads in zip(asked.columns, found, strict=True)
