@@ -44,9 +44,9 @@ _QUANTILE = 0.95  # one-sided, of the same
 COARSE = 2  # pixels per shortest wavelength of the coarse seeds
 SAME_COST = 1.05  # ratio of costs that were not measured well enough to tell them apart
 FULL = 1e-8  # tolerance at which costs were measured
-# By how much the error of the worst quantity is widened, see `joint_error`. With 1.1 and laws fitted
-# without the surface at hand, 96 % of runs on the four surfaces of `finer` were within the accuracy,
-# at a median of 1.23 times the least cost; without it 88 % on the hardest of these.
+# By how much the error of the worst quantity is widened, see `joint_error`. With 1.1 and laws
+# fitted without the surface at hand, 96 % of runs on the four surfaces of `finer` were within the
+# accuracy, at a median of 1.23 times the least cost; without it 88 % on the hardest of these.
 SAFETY = 1.05
 TOGETHER = 2.0  # power with which chances add up; 1 would be a plain sum, infinity their largest
 _BISECTIONS = 16
@@ -59,7 +59,7 @@ MEASURED = {
     "pressure": (0.0065, 0.3),
 }
 # What is finer errs no more than at the edge, what is coarser as outside.
-KNOBS = {"pixels": (4.0, 32.0), "tolerance": (1e-10, 1e-3)}
+KNOBS = {"pixels": (4.0, 16.0), "tolerance": (1e-8, 1e-3)}
 CARRIED_TIMES, CARRIED_TO = 8, 512  # magnification, up to which theory's difference was measured
 OUTSIDE = 2.0  # factor by which errors outside are widened; P(u) at magnification 128 needs 1.1
 

@@ -181,7 +181,7 @@ def assess(laws: Laws, asked: Asked, settings: Settings, measured: Measured) -> 
 
 
 def worst(error: NDArray, asked: Asked) -> tuple[float, str, float]:
-    """Return what is held against the accuracy, and where `(column, pressure)` errors are largest."""
+    """Return what is held against the accuracy, and the column and load of the largest error."""
     row, at = np.unravel_index(np.nanargmax(error), error.shape)
     of_all = float(known.joint_error(error[np.isfinite(error)]))
     return of_all, asked.columns[row], asked.pressures[at]
