@@ -176,8 +176,8 @@ def assess(laws: Laws, asked: Asked, settings: Settings, measured: Measured) -> 
         return decided(CAP, settings)
     freedom, variance = _sampling_by_law(laws, asked, settings, seeds, coarse)
     expected = known.covers(freedom + prior) * np.sqrt(pooled * variance / by_law)
-    error = _joint(asked, fixed, np.where(told, expected, 0.0))
-    return decided(MORE, _cheapest(laws, asked, settings, seeds, coarse, error))
+    foreseen = _joint(asked, fixed, np.where(told, expected, 0.0))
+    return decided(MORE, _cheapest(laws, asked, settings, seeds, coarse, foreseen))
 
 
 def worst(error: NDArray, asked: Asked) -> tuple[float, str, float]:
