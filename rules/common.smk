@@ -75,7 +75,9 @@ DRAWN = [case for case, planned in PLANS.items() if planned.asked and planned.si
 TRADE = config["tradeoff"]
 TRADEOFF = f"{config['results']}/tradeoff"
 TRADE_SETS = {
-    name: TRADE[part] for part in ("cases", "finer", "validation") for name in TRADE[part]["surfaces"]
+    name: TRADE[part]
+    for part in ("cases", "finer", "validation")
+    for name in TRADE[part]["surfaces"]
 }
 TRADE_SURFACES = {name: part["surfaces"][name] for name, part in TRADE_SETS.items()}
 FIGURES = [f"fig{number}" for number in range(1, 11)]
@@ -121,9 +123,7 @@ def in_round(wildcards):
 
 def next_settings(settings, found):
     """Settings that an assessed round asks for next."""
-    return replace(
-        settings, seeds=int(found.next_seeds), coarse_seeds=int(found.next_coarse_seeds)
-    )
+    return replace(settings, seeds=int(found.next_seeds), coarse_seeds=int(found.next_coarse_seeds))
 
 
 def drawn(case):
