@@ -2,12 +2,13 @@
 # rule reads. No rule lives here.
 
 import ast
+import itertools
 import json
 import os
 import platform
 import re
 import sys
-from dataclasses import asdict
+from dataclasses import asdict, replace
 import time
 from functools import cache
 from pathlib import Path
@@ -18,9 +19,9 @@ import psutil
 sys.path.insert(0, str(Path(workflow.basedir) / "scripts"))
 
 import _cost
-from _progress import Progress, graded, jobs_of, quieten, summary
+from _progress import Progress, graded, jobs_of, missed, quieten, summary
 from snakemake.exceptions import WorkflowError
-from stickiness import accuracy, plan
+from stickiness import accuracy, plan, stopping
 from snakemake.logging import logger
 from snakemake.settings.enums import Quietness
 from stickiness import config as configuration
@@ -69,17 +70,24 @@ COMPARED = {
 # Of these, what is simulated for every quantity.
 SIMULATED = [name for name in COMPARED if name in COMPLETE or name in COMPARISONS]
 ADHESION, LOOPS = config["adhesion"], config["loops"]
+# Cases whose seeds are drawn in rounds, until the accuracy that they ask for is reached.
+DRAWN = [case for case, planned in PLANS.items() if planned.asked and planned.simulated]
 TRADE = config["tradeoff"]
 TRADEOFF = f"{config['results']}/tradeoff"
-TRADE_SURFACES = TRADE["cases"]["surfaces"] | TRADE["validation"]["surfaces"]
-# A wide window averages over more of the same grid errors, at the cost of many points.
-NARROW = [name for name, asked in TRADE["cases"]["surfaces"].items() if "window" not in asked]
+TRADE_SETS = {
+    name: TRADE[part]
+    for part in ("cases", "finer", "validation")
+    for name in TRADE[part]["surfaces"]
+}
+TRADE_SURFACES = {name: part["surfaces"][name] for name, part in TRADE_SETS.items()}
 FIGURES = [f"fig{number}" for number in range(1, 11)]
 PAGE_PARTS = [f"report/{part}" for part in ("macros.html.j2", "page.css", "page.js")]
 
 
 wildcard_constraints:
     seed=r"\d+",
+    round=r"\d+",
+    part=r"(\+\d+)?",
     case="|".join(map(re.escape, CASES)) or "none",
     grid=r"(@\d+)?",
     comparison="|".join(map(re.escape, COMPARISONS)),
@@ -93,23 +101,78 @@ wildcard_constraints:
 
 
 def seeds_of(case):
-    """Seeds of a case."""
+    """Seeds that a case has for certain: those of the first round if they are drawn in rounds."""
     return range(1, PLANS[case].settings.seeds + 1)
 
 
+def assessed(case, number):
+    """File of a round of a case, and its content, once that is up to date."""
+    from stickiness import datasets
+
+    file = checkpoints.assess_seeds.get(case=case, round=number).output[0]
+    return file, datasets.read(file)
+
+
+def in_round(wildcards):
+    """Case and settings of one of its rounds, which the round before has chosen."""
+    settings, number = PLANS[wildcards.case].settings, int(wildcards.round)
+    if number > 1:
+        settings = next_settings(settings, assessed(wildcards.case, number - 1)[1])
+    return wildcards.case, settings
+
+
+def next_settings(settings, found):
+    """Settings that an assessed round asks for next."""
+    return replace(settings, seeds=int(found.next_seeds), coarse_seeds=int(found.next_coarse_seeds))
+
+
+def drawn(case):
+    """Settings of a case, and the file of its last round if its seeds are drawn in rounds."""
+    settings, file = PLANS[case].settings, None
+    if case not in DRAWN:
+        return settings, file
+    for number in itertools.count(1):
+        file, found = assessed(case, number)
+        settings = next_settings(settings, found)
+        if stopping.STATES[int(found.state)] != stopping.MORE:
+            return settings, file
+
+
 def realisations(wildcards):
-    """Files of all realisations of a case, which it may share with an earlier one."""
-    owner = PLANS[wildcards.case].owner
-    return [f"{RESULTS}/bem/{owner}/seed{seed}.nc" for seed in seeds_of(wildcards.case)]
+    """Files of all realisations of a case."""
+    return realisations_of(wildcards.case, drawn(wildcards.case)[0])
+
+
+def realisations_of(case, settings):
+    """Files of so many realisations of a case, which it may share with an earlier one."""
+    seeds = range(1, settings.seeds + 1)
+    return [f"{RESULTS}/bem/{PLANS[case].owner}/seed{seed}.nc" for seed in seeds]
 
 
 def coarse_solutions(wildcards):
-    """File of the coarse solutions behind a case's means, if it does not take plain ones."""
-    own = PLANS[wildcards.case]
-    if not own.settings.coarse_seeds:
+    """Files of the coarse solutions behind a case's means."""
+    return coarse_files(wildcards.case, drawn(wildcards.case)[0])
+
+
+def coarse_files(case, settings):
+    """Files of so many coarse solutions of a case, which it may share; none for plain means."""
+    own, count = PLANS[case], settings.coarse_seeds
+    first = PLANS[own.owner]
+    if not count:
         return []
-    same = PLANS[own.owner].settings.coarse_seeds == own.settings.coarse_seeds
-    return [f"{RESULTS}/bem/{own.owner if same else wildcards.case}/coarse.nc"]
+    if case in DRAWN:
+        folder = own.owner if own.owner in DRAWN else case
+        return [f"{RESULTS}/bem/{folder}/coarse+{rung}.nc" for rung in plan.rungs(count)]
+    same = own.owner not in DRAWN and first.settings.coarse_seeds == count
+    return [f"{RESULTS}/bem/{own.owner if same else case}/coarse.nc"]
+
+
+def coarse_range(wildcards):
+    """Coarse seeds, numbered from 0, of one file: all of a case or one step of its rounds."""
+    if not wildcards.part:
+        return range(PLANS[wildcards.case].settings.coarse_seeds)
+    last = int(wildcards.part)
+    return range(([0] + plan.rungs(last - 1))[-1], last)
 
 
 def gaps_of(wildcards):
@@ -119,8 +182,7 @@ def gaps_of(wildcards):
 
 def trade_set(wildcards):
     """The part of the configuration that a surface belongs to."""
-    measured = wildcards.trade_case in TRADE["cases"]["surfaces"]
-    return TRADE["cases" if measured else "validation"]
+    return TRADE_SETS[wildcards.trade_case]
 
 
 @cache
@@ -178,6 +240,8 @@ def behind_answer(wildcards):
     if not planned.simulated:
         return {"solved": f"{RESULTS}/persson_lattice/{case}.nc"}
     files = {"solved": f"{RESULTS}/ensembles/{case}.nc"}
+    if case in DRAWN:
+        files["drawn"] = drawn(case)[1]
     if "a_v" in planned.quantities:
         files["a_v"] = f"{RESULTS}/fits/ensembles/{case}.nc"
     if "kappa" in planned.quantities:
@@ -189,6 +253,8 @@ def summary_of_plan(case):
     """What a case's answer needs to know of its plan."""
     planned, surface = PLANS[case], config["model_surfaces"][CASES[case]["surface"]]
     wider = {"carry_to": CASES[case]["carry_to"]} if "carry_to" in CASES[case] else {}
+    if case in DRAWN:
+        wider["asked"] = asdict(planned.asked)
     return {
         "quantities": list(planned.quantities),
         "pressures": list(planned.pressures),
@@ -311,6 +377,8 @@ def sized(wildcards):
             "pixels_per_wavelength": settings.pixels_per_wavelength,
             "coarse_seeds": settings.coarse_seeds,
         }
+        if hasattr(wildcards, "part"):
+            chosen["coarse_seeds"] = len(coarse_range(wildcards))
     elif hasattr(wildcards, "grid"):
         chosen = {"pixels_per_wavelength": pixels_of(wildcards)}
     return config | {"fidelities": {config["fidelity"]: FIDELITY | chosen}}
@@ -420,7 +488,9 @@ progress = None  # of this run, once it has begun
 def begin():
     """A line for every job in place of Snakemake's, unless it is to be quieter or more talkative."""
     global progress
-    progress = Progress(jobs_of(workflow.dag), workflow.cores or 1)
+    progress = Progress(
+        jobs_of(workflow.dag), workflow.cores or 1, more=lambda: jobs_of(workflow.dag)
+    )
     settings = workflow.output_settings
     if not settings.verbose and not {Quietness.ALL, Quietness.PROGRESS} & set(settings.quiet or ()):
         quieten(logger)
@@ -437,7 +507,8 @@ def conclude():
         return
     reused = sum(not workflow.dag.needrun(job) for job in workflow.dag.jobs if job.output)
     places = {"results": RESULTS, "report": f"{RESULTS}/report/report.html"}
-    print(summary(progress, reused, places, graded(RESULTS)), file=sys.stderr)
+    lines = [*graded(RESULTS), *missed(f"{RESULTS}/cases/{case}.nc" for case in DRAWN)]
+    print(summary(progress, reused, places, lines), file=sys.stderr)
 
 
 onstart:

@@ -19,7 +19,7 @@ rule measure_grids:
         mem_mb=3000,
     params:
         case=lambda wildcards: TRADE_SURFACES[wildcards.trade_case],
-        settings=TRADE["settings"],
+        settings={k: v for k, v in TRADE["settings"].items() if k != "surfaces"},
         pressures=TRADE["pressures"],
         seeds=TRADE["seeds"],
         gaps=config["gaps"],
@@ -102,8 +102,11 @@ rule measure_theory:
 rule tabulate_tradeoff:
     input:
         library=library_of("tabulate_tradeoff.py"),
-        grids=expand(f"{TRADEOFF}/grids/{{name}}.nc", name=NARROW),
-        seeds=expand(f"{TRADEOFF}/seeds/{{name}}.nc", name=TRADE["cases"]["surfaces"]),
+        grids=expand(f"{TRADEOFF}/grids/{{name}}.nc", name=TRADE["settings"]["surfaces"]),
+        seeds=expand(
+            f"{TRADEOFF}/seeds/{{name}}.nc",
+            name=[*TRADE["cases"]["surfaces"], *TRADE["finer"]["surfaces"]],
+        ),
         bands=expand(f"{TRADEOFF}/bands/H{{hurst}}.nc", hurst=TRADE["bands"]["hurst"]),
         theory=f"{TRADEOFF}/theory.nc",
         full=f"{RESULTS}/adhesive/dmt_error.nc",

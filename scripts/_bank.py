@@ -10,9 +10,12 @@ from numpy.typing import NDArray
 
 from _tradeoff import derived
 from stickiness import continuum, sampling
-from stickiness.accuracy import COARSE, Settings
+from stickiness.accuracy import COARSE, COARSE_SEEDS, SEEDS, Settings
 
 KEPT = ("area_fraction", "mean_gap", "attractive_area", "rms_slope")
+LEVEL = ("mean", "standard_error")
+FINEST = 32  # pixels of the reference in files of `measure_grids`
+FEWEST_FINE = 32  # seeds of a grid that means are drawn from; the finest may have fewer
 
 
 @dataclass(frozen=True)
@@ -36,6 +39,9 @@ class Bank:
     pool : (entry,) array
         Mean of the fine seeds alone, on the finest grid: what plain means drawn from them scatter
         about.
+    offsets : dict of pair of (entry,) arrays
+        By pixels, relative error of the mean by the grid, and the standard error of that; none if
+        no grid is fine enough to tell.
     """
 
     fine: dict[int, NDArray]
@@ -48,35 +54,7 @@ class Bank:
     truth: NDArray
     truth_error: NDArray
     pool: NDArray
-
-    def mean(self, pixels: int, rng: np.random.Generator, n: int, coarse: int, described: int):
-        """Estimate from random ones of the seeds; plain if no coarse ones are asked for.
-
-        Drawn with replacement: a mean of few of them then scatters about that of all as it would
-        about that of the whole ensemble.
-        """
-        fine = self.fine[pixels]
-        chosen = rng.choice(len(fine), n, replace=True)
-        if not coarse:
-            return fine[chosen].mean(0)
-        many = rng.choice(len(self.coarse), coarse, replace=True)
-        others = rng.choice(len(self.elsewhere), described, replace=True)
-        return sampling.multilevel_mean(
-            fine[chosen],
-            self.fine[COARSE][chosen],
-            self.coarse[many],
-            self.controls[many],
-            self.elsewhere[others],
-        ).mean
-
-    def errors(
-        self, settings: Settings, repetitions: int, described: int, seed: int = 1
-    ) -> NDArray:
-        """Relative errors of repeated estimates, `(repetition, entry)`."""
-        rng = np.random.default_rng(seed)
-        chosen = settings.pixels_per_wavelength, rng, settings.seeds, settings.coarse_seeds
-        found = [self.mean(*chosen, described) for _ in range(repetitions)]
-        return np.array(found) / (self.truth if settings.coarse_seeds else self.pool) - 1
+    offsets: dict[int, tuple[NDArray, NDArray]]
 
     def by_quantity(self, errors: NDArray) -> dict[tuple[str, float], NDArray]:
         """Root mean square over the entries of each quantity at each load; leading axes stay."""
@@ -89,6 +67,51 @@ class Bank:
             )
             for quantity, load in keys
         }
+
+
+class Draws:
+    """Repeated estimates from random ones of a bank's seeds.
+
+    Drawn with replacement: a mean of few of them then scatters about that of all as it would about
+    that of the whole ensemble. Within one repetition more seeds hold all those of fewer, as the
+    rounds of a case do.
+    """
+
+    def __init__(self, bank: Bank, repetitions: int, described: int, seed: int = 1):
+        rng = np.random.default_rng(seed)
+        self.bank, self.levels = bank, {}
+        count = min(len(fine) for fine in bank.fine.values() if len(fine) >= FEWEST_FINE)
+        self.fine = rng.integers(count, size=(SEEDS[-1], repetitions))
+        self.many = rng.integers(len(bank.coarse), size=(repetitions, COARSE_SEEDS[-1]))
+        self.others = rng.integers(len(bank.elsewhere), size=(repetitions, described))
+
+    def __call__(self, settings: Settings) -> tuple[NDArray, NDArray]:
+        """Relative errors and standard errors of the repetitions, `(repetition, entry)`.
+
+        The standard errors are relative to the mean estimated, the errors to that of the bank.
+        """
+        bank, chosen = self.bank, self.fine[: settings.seeds]
+        fine = bank.fine[settings.pixels_per_wavelength][chosen]
+        if settings.coarse_seeds:
+            twin, level = bank.fine[COARSE][chosen], self.level(settings.coarse_seeds)
+            found, truth = sampling.corrected_mean(fine, twin, level), bank.truth
+        else:
+            found, truth = sampling.plain_mean(fine), bank.pool
+        return found.mean / truth - 1, found.standard_error / np.abs(found.mean)
+
+    def level(self, count: int) -> sampling.Estimate:
+        """Means of so many coarse solutions, for all repetitions."""
+        if count not in self.levels:
+            bank = self.bank
+            found = [
+                sampling.controlled_mean(
+                    bank.coarse[many[:count]], bank.controls[many[:count]], bank.elsewhere[others]
+                )
+                for many, others in zip(self.many, self.others, strict=True)
+            ]
+            parts = (np.array([getattr(one, name) for one in found]) for name in LEVEL)
+            self.levels[count] = sampling.Estimate(*parts, np.empty(0))
+        return self.levels[count]
 
 
 def bank_of(measured: xr.Dataset, finest: xr.Dataset | None = None) -> Bank:
@@ -110,12 +133,11 @@ def bank_of(measured: xr.Dataset, finest: xr.Dataset | None = None) -> Bank:
     controls, elsewhere = measured.long_waves.values, measured.other_long_waves.values
     if finest is None:
         last, best = pixels[-1], pixels[-2]
-        ratio = fine[last].sum(0) / fine[best][: len(fine[last])].sum(0)
+        pairs = {best: (fine[best][: len(fine[last])], fine[last])}
     else:
-        best = pixels[-1]
-        grids = finest.isel(setting=np.flatnonzero(finest.knob == "pixels"))
-        at = [grids.isel(setting=int(np.argmax(grids.pixels.values == p))) for p in (best, 32)]
-        ratio = np.divide(*(stacked(derived(one))[0].sum(0) for one in reversed(at)))
+        best, grids = pixels[-1], by_pixels(finest)
+        pairs = {p: (grids[p], grids[FINEST]) for p in grids if best <= p < FINEST}
+    ratio = pairs[best][1].sum(0) / pairs[best][0].sum(0)
     estimate = sampling.multilevel_mean(
         fine[best], fine[COARSE], more["coarse"], controls, elsewhere
     )
@@ -129,7 +151,41 @@ def bank_of(measured: xr.Dataset, finest: xr.Dataset | None = None) -> Bank:
         truth=estimate.mean * ratio,
         truth_error=estimate.standard_error * ratio,
         pool=fine[best].mean(0) * ratio,
+        offsets=offsets_of({p: values for p, values in fine.items() if p <= best}, pairs, best)
+        if finest is not None or pixels[-1] >= FINEST
+        else {},
     )
+
+
+def offsets_of(fine, pairs, best):
+    """Relative errors by the grid and their standard errors; see `Bank`.
+
+    Up to the `best` grid with many seeds against it, from there on with few against the finest.
+    """
+
+    def compared(coarse, exact):
+        count = len(exact)
+        noise = (coarse / exact.mean(0) - exact * coarse.mean(0) / exact.mean(0) ** 2).std(0)
+        return coarse.mean(0) / exact.mean(0) - 1, noise / np.sqrt(max(count - 1, 1))
+
+    found = {p: compared(*pair) for p, pair in pairs.items()}
+    for p, values in fine.items():
+        if p < best:
+            off, noise = compared(values, fine[best])
+            found[p] = (1 + off) * (1 + found[best][0]) - 1, np.hypot(noise, found[best][1])
+    return found
+
+
+def by_pixels(finest: xr.Dataset) -> dict[int, NDArray]:
+    """Values `(seed, entry)` by grid from a file of `measure_grids`."""
+    grids = finest.isel(setting=np.flatnonzero(finest.knob == "pixels"))
+    pixels = grids.pixels.values
+    solved = {int(p): grids.isel(setting=int(np.argmax(pixels == p))) for p in pixels}
+    return {
+        p: stacked(derived(one.assign(attractive_area=extrapolated(solved[p // 2], one))))[0]
+        for p, one in solved.items()
+        if p // 2 in solved
+    }
 
 
 def one_grid(measured: xr.Dataset, pixels: int) -> xr.Dataset:

@@ -110,7 +110,7 @@ def _repulsive(config: Mapping[str, Any], case: str, **_: str) -> Work:
     return Work(points, points, len(config["cases"][case]["pressures"]))
 
 
-def _coarse(config: Mapping[str, Any], case: str) -> Work:
+def _coarse(config: Mapping[str, Any], case: str, **_: str) -> Work:
     asked = config["cases"][case]
     seeds = config["fidelities"][config["fidelity"]].get("coarse_seeds", 64)
     solved = pixels(config, asked["surface"], COARSE)

@@ -6,6 +6,7 @@ from collections import defaultdict
 
 import numpy as np
 import xarray as xr
+from scipy import optimize
 
 from _bank import extrapolated
 from _tradeoff import COVERED, derived, rms
@@ -14,6 +15,7 @@ from stickiness.accuracy import COARSE, FULL, Law, Surface
 
 FEATURES = ("constant", "hurst", "magnification", "window", "pressure", "pixels", "tolerance")
 FLOOR = 1e-10  # errors below are nothing, and say nothing of how they depend on what
+STIFF = 8.0  # twice the variance of exponents before anything is known of them
 
 
 class Points:
@@ -22,34 +24,86 @@ class Points:
     def __init__(self):
         self.rows = defaultdict(list)
 
-    def add(self, part, quantity, surface, value, pressure=1.0, pixels=1.0, tolerance=1.0, at=None):
-        """Add a value to be fitted, and if it is another one the value to be covered."""
+    def add(self, part, quantity, surface, value, pressure=1.0, pixels=1.0, tolerance=1.0, noise=0):
+        """Add a value, and if it is not known well the standard error of it."""
         row = [
             1.0,
             surface.hurst,
             *np.log([surface.magnification, surface.window, pressure, pixels, tolerance]),
         ]
-        self.rows[part, quantity].append((row, value, value if at is None else at))
+        self.rows[part, quantity].append((row, value, noise))
 
     def laws(self):
-        """Fit every part by least squares of logarithms."""
-        return {key: fitted(rows) for key, rows in self.rows.items()}
+        """Fit every part: least squares of logarithms, or what is likeliest of noisy values."""
+        return {
+            key: likeliest(rows) if any(noise for *_, noise in rows) else fitted(rows)
+            for key, rows in self.rows.items()
+        }
 
 
 def fitted(rows):
     """Fit one law; features that no two points differ in stay out."""
     rows = [row for row in rows if row[1] > FLOOR] or rows[-1:]
     features = np.array([row for row, *_ in rows])
-    values, covered = (np.maximum([row[k] for row in rows], FLOOR) for k in (1, 2))
-    varied = np.ptp(features, axis=0) > 0
-    varied[0] = True
+    values = np.maximum([value for _, value, _ in rows], FLOOR)
+    varied = varying(features)
     coefficients = np.zeros(features.shape[1])
     coefficients[varied], *_ = np.linalg.lstsq(features[:, varied], np.log(values))
-    ratio = covered / np.exp(features @ coefficients)
+    return law_of(coefficients, values / np.exp(features @ coefficients))
+
+
+def likeliest(rows):
+    """Law of the standard deviation of what may have either sign and is known with some noise.
+
+    Values are taken as normal about zero, their variance being that of the law and of the noise.
+    Few realisations thus do not make out an error to be larger than it is. The spread is that over
+    laws fitted without the surface that a value is of.
+    """
+    features, values, noise = (np.array(part) for part in zip(*rows, strict=True))
+    surfaces = [tuple(row) for row in features[:, 1:4]]
+    ratio = np.empty(len(rows))
+    for one in set(surfaces):
+        own = np.array([surface == one for surface in surfaces])
+        others = ~own if len(set(surfaces)) > 1 else own
+        law = np.exp(features[own] @ likeliest_exponents(features, values, noise, others))
+        ratio[own] = np.abs(values[own]) / np.hypot(law, noise[own])
+    every = np.ones(len(rows), bool)
+    return law_of(likeliest_exponents(features, values, noise, every), ratio)
+
+
+def likeliest_exponents(features, values, noise, chosen):
+    """Coefficients of the features by some of the values."""
+    features, values, noise = features[chosen], values[chosen], noise[chosen]
+    varied = varying(features)
+    centre = np.where(np.arange(varied.sum()) > 0, features[:, varied].mean(0), 0.0)
+    apart = features[:, varied] - centre
+
+    def unlikely(coefficients):
+        own = np.exp(2 * apart @ coefficients) + noise**2
+        return 0.5 * np.sum(np.log(own) + values**2 / own) + np.sum(coefficients[1:] ** 2) / STIFF
+
+    begin = np.zeros(varied.sum())
+    begin[0] = np.log(np.sqrt(np.mean(values**2)))
+    found = optimize.minimize(unlikely, begin, method="BFGS").x
+    coefficients = np.zeros(features.shape[1])
+    coefficients[varied] = found
+    coefficients[0] -= centre @ found
+    return coefficients
+
+
+def varying(features):
+    """Which features differ between points; the constant counts."""
+    varied = np.ptp(features, axis=0) > 0
+    varied[0] = True
+    return varied
+
+
+def law_of(coefficients, ratio):
+    """Law of coefficients, with the ratios of what was measured to it."""
     return Law(
         **dict(zip(FEATURES, coefficients.tolist(), strict=True)),
         spread=float(np.quantile(ratio, COVERED)),
-        points=len(rows),
+        points=len(ratio),
     )
 
 
@@ -64,13 +118,12 @@ def add_sampling(points, surface, bank):
     add = {"surface": surface}
     for (quantity, load), scatter in bank.by_quantity(relative(bank.fine[finest], bank)).items():
         points.add("scatter", quantity, **add, value=scatter, pressure=load)
-    whole = bank.fine[finest].std(0, ddof=1)
     for pixels, fine in bank.fine.items():
         if pixels == COARSE:
             continue
-        twin = bank.fine[COARSE]
+        twin = bank.fine[COARSE][: len(fine)]
         left = fine - fine.sum(0) / twin.sum(0) * twin
-        share = bank.by_quantity(left.std(0, ddof=1) / whole)
+        share = bank.by_quantity(left.std(0, ddof=1) / fine.std(0, ddof=1))
         for (quantity, load), value in share.items():
             points.add("fine_share", quantity, **add, value=value, pressure=load, pixels=pixels)
     estimate = sampling.controlled_mean(bank.coarse, bank.controls, bank.elsewhere)
@@ -79,6 +132,23 @@ def add_sampling(points, surface, bank):
     left = bank.by_quantity(np.sqrt(1 - np.minimum(explained, 1) ** 2))
     for (quantity, load), value in left.items():
         points.add("coarse_share", quantity, **add, value=value, pressure=load)
+
+
+def add_offsets(points, surface, bank):
+    """Errors of means by the grid, with their own standard errors."""
+    for pixels, parts in bank.offsets.items():
+        off, noise = (bank.by_quantity(part) for part in parts)
+        if pixels > COARSE:
+            for (quantity, load), value in off.items():
+                points.add(
+                    "discretisation",
+                    quantity,
+                    surface,
+                    value,
+                    load,
+                    float(pixels),
+                    noise=noise[quantity, load],
+                )
 
 
 def relative(values, bank):
@@ -125,28 +195,7 @@ def by_knob(measured, knob):
 
 
 def add_grids(points, surface, measured):
-    """Points of the laws of discretisation, solver and what a tolerance saves."""
-    grids = by_knob(measured, "pixels")
-    *_, (_, quantities, _) = estimates(grids)
-    for quantity, values in quantities.items():
-        error = values / values.isel(setting=-1) - 1
-        noise = rms(error.std("seed", ddof=1)) / np.sqrt(error.sizes["seed"])
-        bias = rms(error.mean("seed"))
-        for k, pixels in enumerate(grids.pixels.values[:-1]):
-            if pixels == COARSE:
-                continue
-            for load in values.pressure.values:
-                at = {"pressure": load}
-                size, off = (float(x.isel(setting=k).sel(at)) for x in (noise, bias))
-                points.add(
-                    "discretisation",
-                    quantity,
-                    surface,
-                    np.hypot(size, off),
-                    load,
-                    float(pixels),
-                    at=off,
-                )
+    """Points of the laws of the solver and of what a tolerance saves."""
     chosen = by_knob(measured, "tolerance")
     seconds = (chosen.solution_time + chosen.evaluation_time).mean(["seed", "pressure"])
     full = float(seconds[int(np.argmin(abs(np.log(chosen.tolerance.values / FULL))))])

@@ -6,7 +6,7 @@ import logging
 import sys
 import time
 from collections import Counter
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, TextIO
@@ -59,10 +59,20 @@ class Progress(logging.Handler):
         Number of jobs that may run at once, for the first guess of the time needed.
     stream : file
         Where to print.
+    more : callable, optional
+        The jobs that are to run by now, called when one begins that is not known: what a round of
+        seeds asks for next is known only once it has been assessed.
     """
 
-    def __init__(self, jobs: Mapping[int, Job], cores: int = 1, stream: TextIO = sys.stderr):
+    def __init__(
+        self,
+        jobs: Mapping[int, Job],
+        cores: int = 1,
+        stream: TextIO = sys.stderr,
+        more: Callable[[], Mapping[int, Job]] = dict,
+    ):
         super().__init__()
+        self.more = more
         self.jobs, self.cores, self.stream = dict(jobs), max(cores, 1), stream
         self.finished: list[int] = []
         self.failed: list[int] = []
@@ -71,6 +81,8 @@ class Progress(logging.Handler):
     def emit(self, record: logging.LogRecord) -> None:
         event = getattr(record, "event", None)
         if event == LogEvent.JOB_STARTED:
+            if set(record.jobs) - self.jobs.keys():
+                self.jobs = {**self.more(), **self.jobs}
             for number in set(record.jobs) & self.jobs.keys():
                 self.jobs[number].started = time.monotonic()
         elif event == LogEvent.JOB_ERROR and record.jobid in self.jobs:
@@ -222,6 +234,14 @@ def graded(results: str) -> list[tuple[str, str]]:
         codes = datasets.read(verdicts, ["verdict"]).verdict.values.ravel()
         lines.append(("pairs", counted(Counter(STICKINESS[code] for code in codes))))
     return lines
+
+
+def missed(files: Iterable[str]) -> list[tuple[str, str]]:
+    """Cases that were not solved as accurately as they ask for, by their files that exist."""
+    from stickiness import datasets
+
+    answers = (datasets.read(path) for path in files if Path(path).exists())
+    return [("missed", text) for answer in answers if (text := answer.attrs.get("missed"))]
 
 
 def counted(counts: Counter[str]) -> str:

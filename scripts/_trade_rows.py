@@ -4,13 +4,13 @@ import itertools
 
 import numpy as np
 
-from _bank import stacked
+from _bank import FEWEST_FINE, Draws, stacked
 from _laws import by_knob, estimates, surface_of
 from _model import spectrum_of, window_of
 from _tradeoff import COVERED, derived, rms, timed
 from measure_theory import contact_of
 from stickiness import accuracy, datasets
-from stickiness.accuracy import FULL, Settings
+from stickiness.accuracy import COARSE, FULL, Settings
 from stickiness.persson import Persson
 from stickiness.surface import lattice_spectrum
 
@@ -86,15 +86,16 @@ def compared(knob, setting, name, measured, quantities, reference, k, seconds, u
 
 
 def seed_rows(name, measured, bank):
-    """Rows of the number and kind of seeds, on the finest grid of the file."""
-    rows, pixels = [], int(measured.pixels[-1])
+    """Rows of the number and kind of seeds, on the finest grid that has many."""
+    rows, draws = [], Draws(bank, REPETITIONS, 2048)
+    pixels = max(p for p, fine in bank.fine.items() if len(fine) >= FEWEST_FINE)
     loads, unit = measured.sizes["pressure"], float(measured.pair_time)
-    one = float(measured.seconds.mean("seed").sum()) / loads
+    grids = sorted({pixels, pixels // 2, COARSE})
+    one = float(measured.seconds.mean("seed").sel(pixels=grids).sum()) / loads
     coarse = float(measured.coarse_seconds.mean()) / loads
     describe = float(measured.describing_seconds) * 2048 / loads
     for seeds, more in MEANS:
-        settings = Settings(pixels, FULL, seeds, more)
-        errors = bank.by_quantity(bank.errors(settings, REPETITIONS, 2048))
+        errors = bank.by_quantity(draws(Settings(pixels, FULL, seeds, more))[0])
         seconds = seeds * one + more * coarse + (describe if more else 0.0)
         text = f"{seeds} + {more}" if more else f"{seeds} plain"
         for (quantity, load), error in errors.items():
@@ -110,6 +111,8 @@ def seed_rows(name, measured, bank):
                     unit,
                 )
             )
+    if len(bank.fixed) < FEWEST_FINE:
+        return rows
     mean = bank.by_quantity(bank.fixed.mean(0) / bank.truth - 1)
     scatter = bank.by_quantity(bank.fixed.std(0, ddof=1) / bank.truth)
     seconds = float(measured.fixed_seconds.mean()) / loads
@@ -138,9 +141,10 @@ def theory_rows(name, measured, bank, points):
     lattice = lattice_spectrum(spectrum_of(asked), window_of(asked))
     state, seconds = timed(lambda: contact_of(Persson(lattice), loads, measured["range"].values))
     values, *_ = stacked(derived(state.expand_dims("seed")))
-    rows = []
+    rows, known = [], bank.by_quantity(bank.truth_error / bank.truth)
     for (quantity, load), error in bank.by_quantity(values[0] / bank.truth - 1).items():
-        points.add("theory", quantity, surface, float(error), load)
+        noise = known[quantity, load]
+        points.add("theory", quantity, surface, float(error), load, noise=float(noise))
         rows.append(
             row(
                 "model",
@@ -185,28 +189,30 @@ def band_rows(measured, points):
                     rows.append(
                         row("band", f"{cut} {way}", case, quantity, off, off, seconds, unit)
                     )
-    add_carrying(simulated, known, points)
+    add_carrying(hurst, simulated, known, points)
     return rows
 
 
-def add_carrying(simulated, theory, points):
+def add_carrying(hurst, simulated, theory, points):
     """Points of the law of theory's difference, between all spectra that it may be carried by.
 
-    Relative to the value simulated, not to the broader one: that is the one at hand. What is
-    beyond the cut is measured by what it takes of the area. One share for all: how it depends on
-    surface and load, two Hurst exponents and four realisations do not say well enough.
+    Relative to the value simulated, not to the broader one: that is the one at hand; and to what is
+    beyond the cut, measured by what it takes of the area. The Hurst exponent alone is left to the
+    law: laws in cut and load too foretell a Hurst exponent that they were not fitted to worse.
     """
-    area, surface = theory["area"], accuracy.Surface(1, 1)
+    area, surface = theory["area"], accuracy.Surface(hurst, 1)
     for cut, to in itertools.combinations(area.magnification.values.tolist(), 2):
         if to > accuracy.CARRIED_TIMES * cut:
             continue
         at, whole = {"magnification": cut}, {"magnification": to}
         size = abs(area.sel(whole) / area.sel(at) - 1)
         for quantity, values in simulated.items():
-            mean, truth = (values.sel(where).mean("seed") for where in (at, whole))
             change = theory[quantity].sel(whole) - theory[quantity].sel(at)
-            for share in (rms((mean + change - truth) / mean) / size).values:
-                points.add("carrying", quantity, surface, float(share))
+            off = values.sel(at) + change - values.sel(whole)
+            share = off / values.sel(at).mean("seed") / size
+            noise = rms(share.std("seed", ddof=1)) / np.sqrt(share.sizes["seed"])
+            for error, known in zip(rms(share.mean("seed")).values, noise.values, strict=True):
+                points.add("carrying", quantity, surface, float(error), noise=float(known))
 
 
 def node_rows(measured):

@@ -1,29 +1,22 @@
 """What a case asks for: values at its loads, their error by source, and which source dominates."""
 
+import logging
+
 import numpy as np
 import xarray as xr
 
+from _columns import GAP, TEXTS, statistics
 from _job import start
 from _model import DESCRIBED, VARIANT, logarithmic_grid, spectrum_of, window_of
 from fit_a_v import fit_one
 from measure_theory import contact_of
-from stickiness import accuracy, datasets
+from stickiness import accuracy, datasets, stopping
 from stickiness import plan as plan_of
 from stickiness.persson import Persson
 from stickiness.surface import lattice_spectrum
 
 SOURCES = ("discretisation", "solver", "sampling", "bandwidth", "model")
 RANGES = {"minimum": 1e-4, "maximum": 10.0, "per_decade": 16}
-GAP = 0.1  # over h_rms, at which P(u) is quoted; the ensemble's file has all of it
-TEXTS = {
-    "area": "repulsive contact area over nominal area",
-    "mean_gap": "mean gap over h_rms",
-    "attractive_area_0.01": "attractive area at range 0.01 h_rms over nominal area",
-    "attractive_area_0.1": "attractive area at range 0.1 h_rms over nominal area",
-    "gap_distribution": "P(u) times h_rms at gap 0.1 h_rms",
-    "a_v": "a_V",
-    "kappa": "kappa_rep",
-}
 
 
 def main(job):
@@ -39,7 +32,7 @@ def main(job):
             errors[SOURCES.index(source), row] = np.abs(part)
     if "carry_to" in plan:
         change, size = carried(plan, columns, pressures)
-        errors[SOURCES.index("bandwidth")] = carrying_error(laws, plan, columns, values, size)
+        errors[SOURCES.index("bandwidth")] = carrying_errors(laws, plan, columns, values, size)
         values += change
     dataset = xr.Dataset(
         {
@@ -55,6 +48,9 @@ def main(job):
         },
         coords={"column": columns, "pressure": pressures, "source": list(SOURCES)},
     )
+    if "asked" in plan and (text := missed(dataset, plan)):
+        dataset.attrs["missed"] = f"{job.wildcards.case}: {text}"
+        logging.warning("%s", text)
     datasets.write(
         annotated(dataset, columns),
         job.output[0],
@@ -67,12 +63,23 @@ class Simulated:
     """Values and errors that cover 90 %, by source, from the files of an ensemble."""
 
     def __init__(self, inputs, plan, laws):
-        self.inputs, self.plan, self.laws = inputs, plan, laws
+        self.plan, self.laws = plan, laws
         self.ensemble = datasets.read(inputs.solved, ["area_fraction_mean", "mean_gap_mean"])
+        self.fits = {
+            name: datasets.read(inputs[name], [f"{name}_standard_error"])
+            for name in ("a_v", "kappa")
+            if inputs.get(name)
+        }
+        self.drawn = None
+        if inputs.get("drawn"):
+            self.drawn = datasets.read(inputs.drawn, ["sampling_error", "state"])
+            for name in ("seeds", "coarse_seeds"):
+                plan["settings"][name] = int(self.drawn[name])
+            plan["stopped"] = stopping.STATES[int(self.drawn.state)]
 
     def __call__(self, column):
         """Values of a column at every load, and its errors by source."""
-        mean, sampling, grid = self.found(column)
+        mean, sampling, grid = statistics(column, self.ensemble, **self.fits)
         settings = accuracy.Settings(**self.plan["settings"])
         surface, pressures = plan_of.surface_of(self.plan["surface"]), self.plan["pressures"]
         solver = [
@@ -81,33 +88,23 @@ class Simulated:
             )
             for p in pressures
         ]
-        factor = [
-            accuracy.covering_factor(self.laws, settings, surface, p, column) for p in pressures
+        if self.drawn is not None:  # what the seeds were stopped by
+            covers = mean.values * self.drawn.sampling_error.sel(column=column).values
+        else:
+            factor = [
+                accuracy.covering_factor(self.laws, settings, surface, p, column) for p in pressures
+            ]
+            covers = factor * sampling.values
+        size, pixels = np.abs(mean.values), settings.pixels_per_wavelength
+        grid_error = [
+            accuracy.grid_error(self.laws, column, surface, p, pixels, found)
+            for p, found in zip(pressures, np.abs(grid.values) / size, strict=True)
         ]
         return mean.values, {
-            "discretisation": grid.values,
+            "discretisation": size * grid_error,
             "solver": mean.values * solver,
-            "sampling": factor * sampling.values,
+            "sampling": covers,
         }
-
-    def found(self, column):
-        """Mean, standard error and discretisation error of a column."""
-        if column == "kappa":
-            fit = datasets.read(self.inputs.kappa, ["kappa"])
-            return fit.kappa, fit.kappa_standard_error, fit.kappa_discretisation_error
-        if column == "a_v":
-            fit, name = datasets.read(self.inputs.a_v, ["a_v_mean"]).isel(window=0), "a_v"
-        else:
-            name, where = {
-                "area": ("area_fraction", {}),
-                "mean_gap": ("mean_gap", {}),
-                "attractive_area_0.01": ("attractive_area", {"range": 0.01}),
-                "attractive_area_0.1": ("attractive_area", {"range": 0.1}),
-                "gap_distribution": ("gap_density", {"gap": GAP}),
-            }[column]
-            fit = self.ensemble.sel(where, method="nearest") if where else self.ensemble
-        endings = ("mean", "standard_error", "discretisation_error")
-        return tuple(fit[f"{name}_{ending}"] for ending in endings)
 
 
 class Theory:
@@ -129,6 +126,23 @@ class Theory:
         return values, {"model": values * error}
 
 
+def missed(dataset, plan):
+    """What keeps a case from the accuracy that it asks for, in words; None if nothing does."""
+    relative = (dataset.total_error / abs(dataset.value)).values
+    error, column, load = stopping.worst(relative, stopping.Asked(**plan["asked"]))
+    if error <= plan["accuracy"]:
+        return None
+    seeds = "{seeds} seeds and {coarse_seeds} coarse ones".format(**plan["settings"])
+    why = {
+        stopping.CAP: f"at the cap, {seeds}",
+        stopping.GRID: f"its grid errs too much for any number of seeds, {seeds} so far",
+        stopping.ENOUGH: "what theory adds of the spectrum errs too much",
+    }[plan["stopped"]]
+    return (
+        f"error {error:.3g} of {plan['accuracy']:g} asked, of {column} at pressure {load:g}; {why}"
+    )
+
+
 def quoted(state, column):
     """One column of a contact by theory, along its pressures."""
     if column == "area":
@@ -148,23 +162,24 @@ def quoted(state, column):
 
 
 def outside(plan, pressures):
-    """Where surface or load is outside what the laws were measured on, by load."""
+    """Where surface, load, grid or tolerance is outside what the laws were measured on, by load."""
+    surface, settings = plan_of.surface_of(plan["surface"]), plan["settings"]
+    knobs = (settings["pixels_per_wavelength"], settings["tolerance"]) if plan["simulated"] else ()
+    return np.array([accuracy.extrapolated(surface, p, *knobs) for p in pressures])
+
+
+def carrying_errors(laws, plan, columns, values, size):
+    """Error of theory's difference, covering 90 %, by column and load."""
     surface = plan_of.surface_of(plan["surface"])
-    return np.array([accuracy.measured(surface, p)[-1] > 1 for p in pressures])
-
-
-def carrying_error(laws, plan, columns, values, size):
-    """Error of theory's difference, covering 90 %: a share of the value simulated, before it.
-
-    `size` is by how much of itself theory changes the area. As measured up to 8 times the
-    magnification, the configuration allows no more.
-    """
-    surface = plan_of.surface_of(plan["surface"])
+    loads = list(zip(plan["pressures"], size, strict=True))
     share = [
-        [accuracy.single_error(laws, "carrying", column, surface, p) for p in plan["pressures"]]
+        [
+            accuracy.carrying_error(laws, surface, plan["carry_to"], change, column, p)
+            for p, change in loads
+        ]
         for column in columns
     ]
-    return share * size * np.abs(values)
+    return share * np.abs(values)
 
 
 def carried(plan, columns, pressures):
@@ -196,7 +211,7 @@ def annotated(dataset, columns):
         total_error=("1", "all sources in quadrature", "the scatter of a single seed is unknown"),
         extrapolated=(
             "1",
-            "1 where surface or load is outside what the laws of solver and model were measured on",
+            "1 where surface, load, grid or tolerance is outside what the laws were measured on",
         ),
         dominant=("1", f"source of the largest error, counted from 0: {', '.join(SOURCES)}"),
     )

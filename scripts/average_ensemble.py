@@ -28,24 +28,34 @@ SURFACES = {"gaussian": "Gaussian surfaces", "fixed": "surfaces of fixed amplitu
 
 def main(job):
     averaged = wanted(job.params.quantities)
-    gaps = [name for name in GAPS if name in averaged]
-    loads = list(job.params.pressures)
-    files = [read(path, (*NEEDED, *gaps), loads) for path in job.input.realisations]
-    others = [read(path, (*COARSE, *gaps, *LONG_WAVES), loads) for path in job.input.coarse]
-    seeds = [datasets.parameters(file)["seed"] for file in files]
-    realisations = xr.concat(files, xr.DataArray(seeds, dims="seed", name="seed"))
-    more = renamed(others[0], (*COARSE, *gaps)) if others else xr.Dataset()
-    dataset = with_statistics(realisations, more, averaged)
-    parameters = datasets.parameters(files[0])
-    parameters.pop("seed")
-    parameters["case"] = job.wildcards.case
-    parameters["largest_residual"] = float(realisations.residual.max())
+    dataset, parameters = ensemble_of(job.input, list(job.params.pressures), averaged)
     datasets.write(
         annotated(dataset, averaged),
         job.output[0],
         title="repulsive contact averaged over realisations",
-        parameters={**parameters, "seeds": seeds, **sampled(parameters, dataset)},
+        parameters={**parameters, "case": job.wildcards.case},
     )
+
+
+def ensemble_of(inputs, loads, averaged):
+    """Means and errors from the files of realisations and coarse solutions, and what made them."""
+    gaps = [name for name in GAPS if name in averaged]
+    files = [read(path, (*NEEDED, *gaps), loads) for path in inputs.realisations]
+    others = [read(path, (*COARSE, *gaps), loads) for path in inputs.coarse]
+    seeds = [datasets.parameters(file)["seed"] for file in files]
+    realisations = xr.concat(files, xr.DataArray(seeds, dims="seed", name="seed"))
+    more = renamed(joined(others), (*COARSE, *gaps)) if others else xr.Dataset()
+    dataset = with_statistics(realisations, more, averaged)
+    parameters = datasets.parameters(files[0])
+    parameters["largest_residual"] = float(realisations.residual.max())
+    del parameters["seed"]
+    return dataset, {**parameters, "seeds": seeds, **sampled(parameters, dataset)}
+
+
+def joined(files):
+    """Coarse solutions of all files; the seeds that are not solved are in the first."""
+    solved = xr.concat([file.drop_dims("other") for file in files], "seed", data_vars="minimal")
+    return solved.merge(files[0][["other_long_waves"]])
 
 
 def wanted(quantities):

@@ -19,15 +19,20 @@ def main(job):
         }
     )
     for name, quantity in {"kappa": slope, "kappa_fit": fitted_slope}.items():
-        values, more = quantity(ensemble), coarse(ensemble, quantity)
-        limit = _limits.inherited(ensemble, quantity, ["area_fraction"])
-        dataset = with_errors(dataset, name, values, more, plain=True, limit=limit)
+        dataset = averaged(dataset, name, quantity, ensemble)
     datasets.write(
         annotated(dataset),
         job.output[0],
         title="slope of the area-load relation",
         parameters={**datasets.parameters(ensemble), "linear_up_to": LINEAR_UP_TO},
     )
+
+
+def averaged(dataset, name, quantity, ensemble):
+    """Add mean and errors of a slope, with what the areas know of the limit of fine grids."""
+    limit = _limits.inherited(ensemble, quantity, ["area_fraction"])
+    values, more = quantity(ensemble), coarse(ensemble, quantity)
+    return with_errors(dataset, name, values, more, plain=True, limit=limit)
 
 
 def slope(ensemble):

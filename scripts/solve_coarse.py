@@ -24,7 +24,7 @@ def main(job):
     asked = job.params.surface
     dataset = coarse_solutions(
         asked,
-        job.params.seeds,
+        range(job.params.after, job.params.seeds),
         job.params.descriptor_seeds,
         np.sort(job.params.pressures),
         logarithmic_grid(job.params.gaps),
@@ -45,12 +45,15 @@ def main(job):
     )
 
 
-def coarse_solutions(asked, count, others_count, pressures, ranges, tolerance):
-    """Solutions of `count` surfaces and the long waves of these and of `others_count` more."""
+def coarse_solutions(asked, which, others_count, pressures, ranges, tolerance):
+    """Solutions of surfaces, numbered from 0, and the long waves of these and of others.
+
+    Those that are not solved go with the first of those that are.
+    """
     spectrum, length = spectrum_of(asked), window_of(asked)
     amplitudes = asked.get("amplitudes", "gaussian")
-    seeds = SOLVED_FROM + np.arange(count)
-    others = DESCRIBED_FROM + np.arange(others_count)
+    seeds = SOLVED_FROM + np.array(which)
+    others = DESCRIBED_FROM + np.arange(others_count if which[0] == 0 else 0)
     curves = []
     for seed in seeds:
         logging.info("seed %d", seed)
@@ -61,10 +64,11 @@ def coarse_solutions(asked, count, others_count, pressures, ranges, tolerance):
         curve["rms_slope"] = surface.moments(heights, length).rms_slope
         curves.append(curve[[*KEPT, *(["attractive_area"] if len(ranges) else [])]])
     dataset = xr.concat(curves, xr.DataArray(seeds, dims="seed", name="seed"))
-    for name, dim, which in (("long_waves", "seed", seeds), ("other_long_waves", "other", others)):
-        rows = sampling.descriptors(spectrum, length, which, amplitudes)
+    dataset = dataset.assign_coords(descriptor=list(sampling.DESCRIPTORS), other=others)
+    for name, dim in (("long_waves", "seed"), ("other_long_waves", "other")):
+        rows = sampling.descriptors(spectrum, length, dataset[dim].values, amplitudes)
         dataset[name] = (dim, "descriptor"), rows
-    return dataset.assign_coords(descriptor=list(sampling.DESCRIPTORS), other=others)
+    return dataset
 
 
 def annotated(dataset):

@@ -28,7 +28,7 @@ def main(job):
     )
     others = xr.Dataset()
     if params.coarse_seeds:
-        count = params.coarse_seeds, params.descriptor_seeds
+        count = range(params.coarse_seeds), params.descriptor_seeds
         others = solve_coarse.coarse_solutions(asked, *count, *curves)
         others = renamed(solve_coarse.annotated(others))
     dataset = with_statistics(solve_repulsive.annotated(fine), others)

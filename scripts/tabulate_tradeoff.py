@@ -6,7 +6,7 @@ import xarray as xr
 
 from _bank import bank_of
 from _job import start
-from _laws import Points, add_costs, add_grids, add_sampling, surface_of
+from _laws import Points, add_costs, add_grids, add_offsets, add_sampling, surface_of
 from _tables import table
 from _trade_rows import adhesion_rows, band_rows, grid_rows, node_rows, seed_rows, theory_rows
 from stickiness import accuracy, datasets
@@ -45,6 +45,7 @@ def main(job):
         bank = bank_of(measured, datasets.read(grids[name]) if name in grids else None)
         surface = surface_of(datasets.parameters(measured))
         add_sampling(points, surface, bank)
+        add_offsets(points, surface, bank)
         add_costs(points, surface, measured)
         rows += seed_rows(name, measured, bank)
         rows += theory_rows(name, measured, bank, points)

@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import yaml
+from scipy import stats
 
 from stickiness import accuracy, dmt, plan, repulsive, spectrum, surface
 from stickiness.accuracy import QUANTITIES, Law, Settings, Surface
@@ -211,9 +212,76 @@ def test_outside_the_measurement_laws_stop_and_widen():
     assert far == pytest.approx(accuracy.OUTSIDE * edge)
 
 
-def test_safety_widens_what_is_chosen_by():
-    settings = Settings(8, 1e-4, 4, 100)
-    parts = accuracy.error_parts(made_up(), settings, SMOOTH, 0.1, "area", 2000)
-    whole = accuracy.predicted_error(made_up(), settings, SMOOTH, 0.1, "area", 2000)
-    assert accuracy.SAFETY > 1
-    assert whole == pytest.approx(accuracy.SAFETY * math.hypot(*parts.values()))
+@pytest.mark.parametrize(
+    ("knob", "factor"), [({"pixels": 2.0}, 2.0), ({"pixels": 64.0}, 1.0), ({"pixels": 8.0}, 1.0)]
+)
+def test_grids_outside_the_measurement_widen(knob, factor):
+    """Coarser ones by a factor; finer ones are not taken to be better than the finest measured."""
+    found = accuracy.single_error(made_up(), "discretisation", "area", SMOOTH, 0.1, **knob)
+    assert found == pytest.approx(factor * 2 / min(knob["pixels"], 16.0) ** 2)
+
+
+def test_tolerances_outside_the_measurement_widen():
+    where = made_up(), "solver", "area", SMOOTH, 0.1
+    assert accuracy.single_error(*where, tolerance=1e-2) == pytest.approx(2e-2)
+    assert accuracy.single_error(*where, tolerance=1e-14) == pytest.approx(1e-8)
+
+
+@pytest.mark.parametrize(
+    ("where", "outside"),
+    [
+        ((SMOOTH, 0.1), False),
+        ((SMOOTH, 1e-4), True),
+        ((Surface(0.8, 128.0), 0.1), True),
+        ((SMOOTH, 0.1, 2, 1e-8), True),
+        ((SMOOTH, 0.1, 64, 1e-12), False),
+        ((SMOOTH, 0.1, 8, 1e-2), True),
+    ],
+)
+def test_what_is_extrapolated_is_flagged(where, outside):
+    assert accuracy.extrapolated(*where) is outside
+
+
+def test_grid_error_is_the_smaller_of_law_and_case_within_the_measurement():
+    where = "area", SMOOTH, 0.1, 8
+    assert accuracy.grid_error(made_up(), *where, 0.5) == pytest.approx(2 / 64)
+    assert accuracy.grid_error(made_up(), *where, 0.01) == 0.01
+    assert accuracy.grid_error(made_up(), "area", Surface(0.8, 128.0), 0.1, 8, 0.5) == 0.5
+
+
+def test_carrying_is_refused_beyond_what_was_measured():
+    where = made_up(), Surface(0.8, 32.0)
+    found = accuracy.carrying_error(*where, 256, 0.4, "area", 0.1)
+    assert found == pytest.approx(0.04)
+    # The cut itself may be beyond what was simulated for everything else.
+    wide = made_up(), Surface(0.8, 128.0)
+    assert accuracy.carrying_error(*wide, 512, 0.4, "area", 0.1) == pytest.approx(0.04)
+    with pytest.raises(ValueError, match="carry_to = 300 must be at most 8 times"):
+        accuracy.carrying_error(*where, 300, 0.4, "area", 0.1)
+
+
+# --- the worst of several errors ----------------------------------------------------------------
+
+
+def test_joint_error_by_hand():
+    """Tails of 0.0707 each add up to 0.1 with the power two."""
+    margin = accuracy.SAFETY
+    assert accuracy.joint_error([0.2]) == pytest.approx(0.2 * margin, rel=1e-4)
+    assert accuracy.joint_error([0.2, 1e-3, 0.0]) == pytest.approx(0.2 * margin, rel=1e-3)
+    tail = 0.1 / math.sqrt(2)
+    factor = stats.norm.isf(tail / 2) / stats.norm.isf(0.05)
+    assert accuracy.joint_error([0.2, 0.2]) == pytest.approx(0.2 * factor * margin, rel=1e-3)
+    both = accuracy.joint_error([[0.2, 0.3], [0.2, 0.0]])
+    assert both == pytest.approx([0.2 * factor * margin, 0.3 * margin], rel=1e-3)
+
+
+def test_joint_error_covers_the_worst_of_errors_that_are_correlated_as_quantities_are():
+    """Seven quantities at three loads; correlations between those of 32 surfaces are 0.3 to 1."""
+    rng, shape = np.random.default_rng(3), (4000, 7, 3)
+    errors = 0.6 * rng.normal(size=(4000, 1, 1)) + 0.55 * rng.normal(size=(4000, 7, 1))
+    errors = errors + 0.5 * rng.normal(size=(4000, 1, 3)) + 0.3 * rng.normal(size=shape)
+    size = np.linspace(0.3, 1.0, 21).reshape(7, 3)
+    worst = np.abs(errors * size).max(axis=(1, 2))
+    single = accuracy.COVERS * size * errors.std(axis=(0, 1, 2))
+    covered = np.mean(worst <= accuracy.joint_error(single.ravel()) / accuracy.SAFETY)
+    assert 0.86 <= covered <= 0.95

@@ -40,7 +40,7 @@ def test_carried_values_are_within_their_errors(hurst):
     narrow, broad = (simulated(hurst, zeta, pressures) for zeta in (16, 64))
     change, size = answer_case.carried(plan, COLUMNS, pressures)
     laws = accuracy.read_laws(ROOT / "config/accuracy.csv")
-    claimed = answer_case.carrying_error(laws, plan, COLUMNS, narrow, size)
+    claimed = answer_case.carrying_errors(laws, plan, COLUMNS, narrow, size)
     off = np.abs(narrow + change - broad)
     assert (off <= claimed).all(), off / claimed
     # Left as it is, a value is wrong by much more than that in area.

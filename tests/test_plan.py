@@ -3,7 +3,7 @@
 import pytest
 from test_accuracy import made_up
 
-from stickiness import accuracy, plan
+from stickiness import accuracy, plan, stopping
 
 PRESET = {"pixels_per_wavelength": 8, "tolerance": 1e-8, "seeds": 5, "coarse_seeds": 40}
 
@@ -32,14 +32,32 @@ def test_preset_unless_the_case_says_otherwise():
     assert plan.plans_of(given, made_up())["a"].settings.seeds == 7
 
 
-def test_accuracy_chooses_the_cheapest():
+def test_accuracy_begins_from_the_cheapest():
     asked = {"accuracy": 0.05, "quantities": ["area", "mean_gap"]}
     plans = plan.plans_of(config(a=asked), made_up())
     where = accuracy.Surface(0.8, 32.0)
-    want = accuracy.cheapest(made_up(), 0.05, where, [0.01, 0.1], ["area", "mean_gap"])
-    assert plans["a"].settings == want
+    asked = stopping.Asked(0.05, where, (0.01, 0.1), ("area", "mean_gap"))
+    chosen = accuracy.cheapest(made_up(), 0.05, where, asked.pressures, asked.quantities)
+    assert plans["a"].asked == asked
+    assert plans["a"].settings == stopping.first(made_up(), asked, chosen)
     assert not plans["a"].gaps
     assert not plans["a"].complete
+
+
+def test_cap_of_a_case_is_above_that_of_all():
+    asked = {"accuracy": 0.05}
+    given = config(a=asked, b=asked | {"at_most": 5}, c={})
+    given["sampling"]["at_most"] = 3
+    plans = plan.plans_of(given, made_up())
+    assert (plans["a"].asked.at_most, plans["b"].asked.at_most) == (3, 5)
+    assert plans["a"].settings.seeds <= 3
+    assert plans["c"].asked is None
+
+
+def test_files_of_coarse_seeds_end_at_the_same_numbers_whatever_the_rounds():
+    assert plan.rungs(0) == []
+    assert plan.rungs(32) == [32]
+    assert plan.rungs(96) == [n for n in accuracy.COARSE_SEEDS if 0 < n <= 96]
 
 
 def test_accuracy_out_of_reach_names_the_case():

@@ -4,10 +4,12 @@ import io
 import logging
 
 import pytest
+import xarray as xr
 from snakemake_interface_logger_plugins.common import LogEvent
 
 import _progress
 from _progress import Job, Progress
+from stickiness import datasets
 
 
 @pytest.fixture
@@ -96,6 +98,33 @@ def test_summary_names_the_job_that_failed_and_what_its_log_says(progress, clock
 def test_target_rules_are_not_counted(progress):
     told(progress, LogEvent.JOB_FINISHED, job_id=0)
     assert progress.stream.getvalue() == ""
+
+
+def test_jobs_that_a_checkpoint_adds_are_told(progress, clock):
+    """The graph is asked for them when the first of them begins; the rest then counts, too."""
+    run(progress, clock, [1, 2, 3, 4])
+    asked = []
+
+    def more():
+        asked.append(1)
+        return {number: Job("late", f"late {number}", 4.0) for number in (6, 7)}
+
+    progress.more = more
+    run(progress, clock, [5, 6, 7])
+    lines = progress.stream.getvalue().splitlines()
+    assert lines[4].startswith("[5/5] other 5")
+    assert lines[5].startswith("[6/7] late 6, 2 s; about")
+    assert lines[6] == "[7/7] late 7, 2 s"
+    assert len(asked) == 1
+
+
+def test_summary_names_the_cases_that_missed_their_accuracy(tmp_path):
+    for name, text in (("mine", "mine: error 0.3 of 0.2 asked"), ("yours", "")):
+        dataset = datasets.annotate(xr.Dataset({"value": 1}), value=("1", "some value"))
+        dataset.attrs |= {"missed": text} if text else {}
+        datasets.write(dataset, tmp_path / f"{name}.nc", title="answer", parameters={})
+    files = [str(tmp_path / f"{name}.nc") for name in ("mine", "yours", "not_yet")]
+    assert _progress.missed(files) == [("missed", "mine: error 0.3 of 0.2 asked")]
 
 
 def test_own_lines_replace_those_of_the_terminal_alone():

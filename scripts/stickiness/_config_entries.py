@@ -199,8 +199,13 @@ def _whole_problems(config: Mapping[str, Any]) -> Iterator[str]:
 
 
 def _preset_problems(config: Mapping[str, Any]) -> Iterator[str]:
-    """The rule of the presets must name what there is."""
+    """Rule of the presets and measured settings must name what there is."""
     rule = config["tradeoff"]["presets"]
+    for name in config["tradeoff"]["settings"]["surfaces"]:
+        if name not in config["tradeoff"]["cases"]["surfaces"]:
+            yield unknown(
+                "tradeoff.settings.surfaces", name, config["tradeoff"]["cases"]["surfaces"]
+            )
     if rule["surface"] not in config["model_surfaces"]:
         yield unknown("tradeoff.presets.surface", rule["surface"], config["model_surfaces"])
     for name in rule["accuracy"]:
@@ -214,7 +219,7 @@ def _model_problems(
 ) -> Iterator[str]:
     """What a case may ask for depends on whether it is simulated."""
     if case.get("model") == "theory":
-        for unused in ("accuracy", "seeds", "sampling", "maps"):
+        for unused in ("accuracy", "at_most", "seeds", "sampling", "maps"):
             if unused in case:
                 yield (
                     f"{key}.{unused} = {case[unused]!r} is for simulations; leave it out with "
@@ -232,5 +237,7 @@ def _model_problems(
             f"{key}.carry_to = {case['carry_to']!r} is beyond what was measured: at most "
             f"{most:g}, {CARRIED_TIMES} times the magnification simulated and {CARRIED_TO} in all"
         )
+    if "at_most" in case and "accuracy" not in case:
+        yield f"{key}.at_most = {case['at_most']!r} needs accuracy; give seeds for a fixed number"
     if "accuracy" in case and "seeds" in case:
         yield f"{key}.seeds = {case['seeds']!r}: give accuracy or seeds, not both"

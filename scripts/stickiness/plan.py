@@ -6,7 +6,17 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from .accuracy import QUANTITIES, Laws, Settings, Surface, UnreachableError, cheapest
+from . import stopping
+from .accuracy import (
+    COARSE_SEEDS,
+    QUANTITIES,
+    SEEDS,
+    Laws,
+    Settings,
+    Surface,
+    UnreachableError,
+    cheapest,
+)
 
 # Quantities that rest on the gaps, which take longer to evaluate than areas and mean gaps.
 OF_GAPS = ("attractive_area", "gap_distribution", "a_v")
@@ -20,7 +30,7 @@ class Plan:
     Attributes
     ----------
     settings : Settings
-        Grid, tolerance and numbers of seeds.
+        Grid, tolerance and numbers of seeds; if an accuracy is asked for, those of the first round.
     quantities : tuple of str
         What is wanted, of `accuracy.QUANTITIES`.
     pressures : tuple of float
@@ -32,6 +42,8 @@ class Plan:
     owner : str
         Case whose solutions of single realisations are used: the case itself or an earlier one on
         the same surface and settings that has all its loads.
+    asked : stopping.Asked or None
+        The accuracy asked for, by which seeds are drawn in rounds; None if their number is given.
     """
 
     settings: Settings
@@ -40,6 +52,7 @@ class Plan:
     surface: str
     simulated: bool
     owner: str
+    asked: stopping.Asked | None = None
 
     @property
     def gaps(self) -> bool:
@@ -76,6 +89,7 @@ def plans_of(config: Mapping[str, Any], laws: Laws | None = None) -> dict[str, P
             surface=case["surface"],
             simulated=case.get("model", "simulation") == "simulation",
             owner=name,
+            asked=asked_of(name, config) if "accuracy" in case and laws is not None else None,
         )
         owner = next((key for key, plan in plans.items() if shares(plan, own)), name)
         plans[name] = Plan(**{**vars(own), "owner": owner})
@@ -83,22 +97,42 @@ def plans_of(config: Mapping[str, Any], laws: Laws | None = None) -> dict[str, P
 
 
 def settings_of(name: str, config: Mapping[str, Any], laws: Laws | None) -> Settings:
-    """Return the settings of a case: those of its own accuracy, or of the preset.
+    """Return the settings of a case: of the first round for its own accuracy, or of the preset.
 
     `sampling` stands above both; `seeds`, of the case or of the whole configuration, above the
     preset.
     """
     case = config["cases"][name]
-    method = case.get("sampling", config["sampling"]["method"])
     if "accuracy" in case and laws is not None:
-        chosen = chosen_for(name, config, laws, method)
-    else:
-        chosen = preset(config["fidelities"][config["fidelity"]])
-    seeds = chosen.seeds
-    if "accuracy" not in case:
-        seeds = case.get("seeds", config.get("seeds", seeds))
-    coarse_seeds = chosen.coarse_seeds if method == "multilevel" else 0
+        return stopping.first(laws, asked_of(name, config), chosen_for(name, config, laws))
+    chosen = preset(config["fidelities"][config["fidelity"]])
+    seeds = case.get("seeds", config.get("seeds", chosen.seeds))
+    coarse_seeds = 0 if plain(case, config) else chosen.coarse_seeds
     return Settings(chosen.pixels_per_wavelength, chosen.tolerance, seeds, coarse_seeds)
+
+
+def plain(case: Mapping[str, Any], config: Mapping[str, Any]) -> bool:
+    """Whether a case takes plain means."""
+    return case.get("sampling", config["sampling"]["method"]) == "plain"
+
+
+def asked_of(name: str, config: Mapping[str, Any]) -> stopping.Asked:
+    """Return what a case asks for that gives an accuracy."""
+    case, sampling = config["cases"][name], config["sampling"]
+    return stopping.Asked(
+        accuracy=case["accuracy"],
+        surface=surface_of(config["model_surfaces"][case["surface"]]),
+        pressures=tuple(sorted(case["pressures"])),
+        quantities=tuple(case.get("quantities", QUANTITIES)),
+        at_most=case.get("at_most", sampling.get("at_most", SEEDS[-1])),
+        plain=plain(case, config),
+        descriptor_seeds=sampling["descriptor_seeds"],
+    )
+
+
+def rungs(coarse_seeds: int) -> list[int]:
+    """Return where the files of coarse seeds drawn in rounds end, up to so many in all."""
+    return [rung for rung in COARSE_SEEDS[1:] if rung <= coarse_seeds]
 
 
 def preset(fidelity: Mapping[str, Any]) -> Settings:
@@ -149,22 +183,22 @@ def preset_by_rule(
     )
 
 
-def chosen_for(name: str, config: Mapping[str, Any], laws: Laws, method: str) -> Settings:
-    """Return the cheapest settings for the accuracy that a case asks for."""
-    case = config["cases"][name]
+def chosen_for(name: str, config: Mapping[str, Any], laws: Laws) -> Settings:
+    """Return the settings predicted to be the cheapest for the accuracy that a case asks for."""
+    asked = asked_of(name, config)
     try:
         return cheapest(
             laws,
-            case["accuracy"],
-            surface_of(config["model_surfaces"][case["surface"]]),
-            case["pressures"],
-            case.get("quantities", QUANTITIES),
-            descriptor_seeds=config["sampling"]["descriptor_seeds"],
-            plain=True if method == "plain" else None,
+            asked.accuracy,
+            asked.surface,
+            asked.pressures,
+            asked.quantities,
+            descriptor_seeds=asked.descriptor_seeds,
+            plain=True if asked.plain else None,
         )
     except UnreachableError as error:
         raise UnreachableError(
-            f"cases.{name}.accuracy = {case['accuracy']!r} is out of reach: {error}; ask for less "
+            f"cases.{name}.accuracy = {asked.accuracy!r} is out of reach: {error}; ask for less "
             "accuracy or fewer quantities, or give the case settings of its own"
         ) from None
 

@@ -224,12 +224,33 @@ def multilevel_mean(
     if coefficient is not None and not np.isfinite(coefficient):
         raise ValueError(f"coefficient must be finite, got {coefficient!r}")
     level = plain_mean(many) if controls is None else controlled_mean(many, controls, elsewhere)
+    one_sign = np.all(many >= 0, axis=0) | np.all(many <= 0, axis=0)
+    return corrected_mean(fine, coarse, level, one_sign, coefficient, fewest)
+
+
+def corrected_mean(
+    fine: ArrayLike,
+    coarse: ArrayLike,
+    level: Estimate,
+    one_sign: ArrayLike = True,
+    coefficient: float | None = None,
+    fewest: int = _FEWEST,
+) -> Estimate:
+    """Mean of a few fine solutions, corrected by a mean of coarse ones: see `multilevel_mean`.
+
+    Parameters
+    ----------
+    level : Estimate
+        Mean of the coarse solutions of other seeds, of the shape of one sample.
+    one_sign : bool or array
+        Whether coarse solutions are all of one sign, so that a ratio to them means something.
+    """
+    fine, coarse = np.asarray(fine), np.asarray(coarse)
     if coefficient is not None:
         factor = np.full_like(fine, coefficient)
     elif len(fine) >= fewest:
         factor = _left_out_slopes(fine, coarse)
     else:
-        one_sign = np.all(many >= 0, axis=0) | np.all(many <= 0, axis=0)
         factor = np.where(one_sign, _left_out_ratios(fine, coarse), 1.0)
     corrected = fine - factor * (coarse - level.mean)
     factor = factor.mean(0)
