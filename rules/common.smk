@@ -120,9 +120,7 @@ def in_round(wildcards):
 
 def next_settings(settings, found):
     """Settings that an assessed round asks for next."""
-    return replace(
-        settings, seeds=int(found.next_seeds), coarse_seeds=int(found.next_coarse_seeds)
-    )
+    return replace(settings, seeds=int(found.next_seeds), coarse_seeds=int(found.next_coarse_seeds))
 
 
 def drawn(case):
