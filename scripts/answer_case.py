@@ -72,7 +72,7 @@ class Simulated:
         }
         self.drawn = None
         if inputs.get("drawn"):
-            self.drawn = datasets.read(inputs.drawn, ["error", "sampling_error", "state"])
+            self.drawn = datasets.read(inputs.drawn, ["sampling_error", "state"])
             for name in ("seeds", "coarse_seeds"):
                 plan["settings"][name] = int(self.drawn[name])
             plan["stopped"] = stopping.STATES[int(self.drawn.state)]
@@ -88,25 +88,17 @@ class Simulated:
             )
             for p in pressures
         ]
-        if self.drawn is not None:
-            return mean.values, self.stopped_by(column, mean.values, np.array(solver))
-        factor = [
-            accuracy.covering_factor(self.laws, settings, surface, p, column) for p in pressures
-        ]
+        if self.drawn is not None:  # what the seeds were stopped by
+            covers = mean.values * self.drawn.sampling_error.sel(column=column).values
+        else:
+            factor = [
+                accuracy.covering_factor(self.laws, settings, surface, p, column) for p in pressures
+            ]
+            covers = factor * sampling.values
         return mean.values, {
             "discretisation": grid.values,
             "solver": mean.values * solver,
-            "sampling": factor * sampling.values,
-        }
-
-    def stopped_by(self, column, mean, solver):
-        """Errors by which it was decided that the seeds are enough, or that there are no more."""
-        found = self.drawn.sel(column=column)
-        rest = found.error**2 - found.sampling_error**2 - solver**2
-        return {
-            "discretisation": mean * np.sqrt(np.maximum(rest.values, 0)),
-            "solver": mean * solver,
-            "sampling": mean * found.sampling_error.values,
+            "sampling": covers,
         }
 
 
