@@ -554,3 +554,8 @@ def test_quantity_keeps_its_prefix_when_rounding_up():
 def test_quantity_with_error_is_rounded_to_it():
     assert _numbers.quantity_with_error(1.6347e2, 20.49, "m") == "(163 ± 20) m"
     assert _numbers.quantity_with_error(2.7049e-8, 2.449e-9, "m") == "(27.0 ± 2.4) nm"
+
+
+def test_accuracy_that_was_not_reached_is_named():
+    (budget,) = _report.error_budgets([answer().assign_attrs(missed="mine: error 0.2 of 0.03")])
+    assert budget["asked"] == "3 %, not reached"
