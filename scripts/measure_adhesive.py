@@ -33,7 +33,8 @@ ALONE = {
 
 def main(job):
     asked, wanted = job.params.case, job.params.adhesion
-    chosen = settings(wanted)
+    grids = [p for p in wanted["pixels"] if grid_points(asked, p) <= wanted["most_points"]]
+    chosen = settings(wanted, grids)
     finest = max(setting["pixels"] for setting in chosen)
     length, n = window_of(asked), grid_points(asked, finest)
     seeds, rows, few = np.arange(1, wanted["more_seeds"] + 1), [], wanted["seeds"]
@@ -62,12 +63,12 @@ def main(job):
     )
 
 
-def settings(wanted):
+def settings(wanted, grids):
     """Every setting to solve with, grids first: one knob varied, the others at a fixed value."""
     pixels, tolerance, law = wanted["at_pixels"], wanted["at_tolerance"], wanted["law"]
     usual = {"knob": "pixels", "pixels": pixels, "tolerance": tolerance, "law": law}
     return [
-        *(usual | {"pixels": points} for points in sorted(wanted["pixels"])),
+        *(usual | {"pixels": points} for points in sorted(grids)),
         *(
             usual | {"knob": "tolerance", "tolerance": value}
             for value in (*wanted["tolerances"], FINEST_TOLERANCE)

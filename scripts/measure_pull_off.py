@@ -24,9 +24,7 @@ DECADES, PER_DECADE = 4, 10  # of the loads below the largest, for the DMT limit
 
 def main(job):
     asked, wanted = job.params.case, job.params.pull_off
-    # What a press passes on its way is many states: large grids would take the most of the time.
-    pixels = [p for p in wanted["pixels"] if grid_points(asked, p) <= wanted["most_points"]]
-    chosen, finest = settings(wanted, pixels), max(pixels)
+    chosen, finest = settings(wanted), max(wanted["pixels"])
     length, points = window_of(asked), np.array(wanted["points"])
     seeds, rows = np.arange(1, wanted["seeds"] + 1), []
     for seed in seeds:
@@ -52,7 +50,7 @@ def main(job):
     )
 
 
-def settings(wanted, pixels):
+def settings(wanted):
     """Every setting: grids, then tolerances, then steps of the path on two grids."""
     usual = {
         "knob": "pixels",
@@ -61,7 +59,7 @@ def settings(wanted, pixels):
         "balance": wanted["at_balance"],
     }
     return [
-        *(usual | {"pixels": points} for points in pixels),
+        *(usual | {"pixels": points} for points in wanted["pixels"]),
         *(usual | {"knob": "tolerance", "tolerance": value} for value in wanted["tolerances"]),
         *(
             usual | {"knob": "step", "pixels": points, "balance": value}
