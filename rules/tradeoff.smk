@@ -155,8 +155,8 @@ rule tabulate_tradeoff:
         seeds=expand(f"{TRADEOFF}/seeds/{{name}}.nc", name=TRADE["cases"]["surfaces"]),
         bands=expand(f"{TRADEOFF}/bands/H{{hurst}}.nc", hurst=TRADE["bands"]["hurst"]),
         theory=f"{TRADEOFF}/theory.nc",
-        full=f"{RESULTS}/adhesive/dmt_error.nc",
-        loop=f"{RESULTS}/loops/fig4a.nc",
+        adhesive=expand(f"{TRADEOFF}/adhesive/{{name}}.nc", name=TRADE["adhesion"]["surfaces"]),
+        pull_off=expand(f"{TRADEOFF}/pull_off/{{name}}.nc", name=TRADE["adhesion"]["surfaces"]),
     output:
         dataset=f"{TRADEOFF}/tradeoff.nc",
         laws=f"{TRADEOFF}/accuracy.csv",

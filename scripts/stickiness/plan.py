@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from . import adhesive_accuracy
 from .accuracy import QUANTITIES, Laws, Settings, Surface, UnreachableError, cheapest
 
 # Quantities that rest on the gaps, which take longer to evaluate than areas and mean gaps.
@@ -119,7 +120,7 @@ def preset_by_rule(
     descriptor_seeds: int,
     free: bool = False,
 ) -> Settings:
-    """Return the cheapest settings for the error of a preset in every quantity.
+    """Return the cheapest settings for the error of a preset in every quantity, adhesive ones too.
 
     Parameters
     ----------
@@ -134,18 +135,15 @@ def preset_by_rule(
     descriptor_seeds : int
         See ``sampling`` of the configuration.
     free : bool
-        Whether to leave aside what full adhesion on the same realisations needs at least.
+        Whether to leave aside the quantities of full adhesion, on the same realisations.
     """
-    least = asked["least"][name]
+    where = laws, asked["accuracy"][name], surface_of(surface), asked["pressures"]
     return cheapest(
-        laws,
-        asked["accuracy"][name],
-        surface_of(surface),
-        asked["pressures"],
+        *where,
         QUANTITIES,
         descriptor_seeds=descriptor_seeds,
         plain=False,
-        least=None if free else preset({"coarse_seeds": 0, **least}),
+        least=None if free else adhesive_accuracy.least(*where, descriptor_seeds),
     )
 
 
