@@ -41,13 +41,12 @@ def main(job):
     for seed in seeds:
         heights = surface.synthesise(spectrum_of(asked), n, length, int(seed))
         most = len(chosen) if seed <= few else 2
-        rows.append(
-            xr.concat(
-                [solved(heights, length, wanted, finest, **s) for s in chosen[:most]], "setting"
-            )
-        )
+        parts = [solved(heights, length, wanted, finest, **s) for s in chosen[:most]]
+        rows.append(xr.concat(parts, xr.DataArray(np.arange(most), dims="setting", name="setting")))
         logging.info("seed %d", seed)
-    dataset = xr.concat(rows, xr.DataArray(seeds, dims="seed", name="seed"), join="outer")
+    dataset = xr.concat(
+        rows, xr.DataArray(seeds, dims="seed", name="seed"), join="outer"
+    ).drop_vars("setting")
     one = wanted | {"pressures": wanted["pressures"][-1:], "points": wanted["points"][-1:]}
     dataset["memory"] = (
         "setting",
