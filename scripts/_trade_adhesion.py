@@ -39,6 +39,16 @@ class Measured:
     limit: dict[str, xr.DataArray]
     seconds: xr.DataArray
 
+    def solved(self) -> Measured:
+        """Leave out loads at which a window closes with some setting."""
+        value = next(iter(self.full.values()))
+        loads = {"pressure": value.notnull().any("seed").all("setting").values}
+        full, limit = (
+            {quantity: values.sel(loads) for quantity, values in one.items()}
+            for one in (self.full, self.limit)
+        )
+        return Measured(self.label, full, limit, self.seconds.sel(loads))
+
 
 def states(measured: xr.Dataset) -> Iterator[Measured]:
     """1/kappa_ad and the area at every point, and the threshold of all points together."""
@@ -136,7 +146,7 @@ def rows_and_laws(
     """Rows of every setting, of the DMT limit and of numbers of seeds; adds points of the laws."""
     rows, unit = [], float(measured.pair_time)
     surface, usual = surface_of(datasets.parameters(measured)), usual_of(measured)[1]
-    for one in quantities:
+    for one in (each.solved() for each in quantities):
         place, seconds = f"{name}, {one.label}", one.seconds.mean("seed")
         ways = {"": (one.full, seconds), " extrapolated": extrapolated(one.full, seconds)}
         for (way, (values, cost)), each in itertools.product(ways.items(), varied(measured)):

@@ -46,7 +46,7 @@ def main(job):
         annotated(dataset.assign(pair_time=pair_seconds())),
         job.output[0],
         title="pull-off of the same realisations with various settings",
-        parameters={**asked, "q0_h_rms": wanted["q0_h_rms"], "grid_points": len(heights)},
+        parameters={**asked, "q0_h_rms": wanted["q0_h_rms"], "pressure": wanted["pressure"]},
     )
 
 
