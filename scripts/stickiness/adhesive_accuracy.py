@@ -1,9 +1,9 @@
 """Settings that full adhesion needs for an accuracy, from what was measured.
 
 Full adhesion is solved on the realisations of a case, with their grid and tolerance. What its
-quantities err by follows from laws of the same kind as those of `accuracy` and by the same sum. Means
-have the DMT limit of the coarse seeds as their control, from `FEWEST` seeds on; below they are plain.
-A pull-off is followed on a single realisation and is no mean: its grid and tolerance count alone.
+quantities err by follows from laws of the same kind as those of `accuracy` and by the same sum.
+Means have the DMT limit of the coarse seeds as their control, from `FEWEST` seeds on; below they
+are plain. A pull-off is that of one realisation, no mean: only grid and tolerance count.
 """
 
 from __future__ import annotations
