@@ -156,7 +156,7 @@ rule tabulate_tradeoff:
         bands=expand(f"{TRADEOFF}/bands/H{{hurst}}.nc", hurst=TRADE["bands"]["hurst"]),
         theory=f"{TRADEOFF}/theory.nc",
         adhesive=expand(f"{TRADEOFF}/adhesive/{{name}}.nc", name=TRADE["adhesion"]["surfaces"]),
-        pull_off=expand(f"{TRADEOFF}/pull_off/{{name}}.nc", name=TRADE["adhesion"]["pull_off"]["surfaces"]),
+        pull_off=expand(f"{TRADEOFF}/pull_off/{{name}}.nc", name=TRADE["adhesion"]["surfaces"]),
     output:
         dataset=f"{TRADEOFF}/tradeoff.nc",
         laws=f"{TRADEOFF}/accuracy.csv",

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+from collections import defaultdict
 from collections.abc import Iterator
 from dataclasses import dataclass
 
@@ -12,6 +13,7 @@ import xarray as xr
 
 from _laws import Points, surface_of
 from _trade_rows import compared, row
+from _tradeoff import COVERED
 from stickiness import datasets
 from stickiness.accuracy import COARSE, COVERS
 
@@ -146,6 +148,7 @@ def rows_and_laws(
     """Rows of every setting, of the DMT limit and of numbers of seeds; adds points of the laws."""
     rows, unit = [], float(measured.pair_time)
     surface, usual = surface_of(datasets.parameters(measured)), usual_of(measured)[1]
+    by_tolerance = defaultdict(list)
     for one in (each.solved() for each in quantities):
         place, seconds = f"{name}, {one.label}", one.seconds.mean("seed")
         ways = {"": (one.full, seconds), " extrapolated": extrapolated(one.full, seconds)}
@@ -159,10 +162,19 @@ def rows_and_laws(
         exact = {q: v.isel(setting=usual) for q, v in one.full.items()}
         free = f"{what} model", "DMT", place, measured
         rows += compared(*free, one.limit, exact, usual, seconds * 0, unit)
+        column, value = next(iter(one.full.items()))
         for knob, _, k, reference in varied(measured):
-            add_errors(points, surface, measured, one, knob, k, reference)
+            error = value.isel(setting=k) / value.isel(setting=reference) - 1
+            if knob == "pixels" and measured.pixels[k] != COARSE:
+                add_grid(points, column, surface, error, float(measured.pixels[k]))
+            elif knob == "tolerance":
+                by_tolerance[column, float(measured.tolerance[k])].append(abs(error).values.ravel())
         if what == "adhesive":
             rows += seed_rows(points, surface, place, one, seconds, unit)
+    # By a tolerance next to nothing changes but where a pixel turns: all cases taken together.
+    for (column, tolerance), errors in by_tolerance.items():
+        covered = float(np.nanquantile(np.concatenate(errors), COVERED))
+        points.add("solver", column, surface, covered, tolerance=tolerance)
     for k in np.flatnonzero(measured.knob == "pixels"):
         if what == "adhesive" and measured.pixels[k] != COARSE:
             cost = float(measured.seconds.isel(setting=k).mean()) / unit
@@ -176,24 +188,17 @@ def extrapolated(full, seconds):
     return to_nothing, seconds + seconds.shift(setting=1)
 
 
-def add_errors(points, surface, measured, one, knob, k, reference):
-    """Points of the laws of grid and solver."""
-    column, value = next(iter(one.full.items()))
-    error = value.isel(setting=k) / value.isel(setting=reference) - 1
+def add_grid(points, column, surface, error, pixels):
+    """Points of the law of the grid, at loads at which windows stay open."""
     for load in error.pressure.values:
         off = error.sel(pressure=load).dropna("seed").values
         if not off.size:
             continue
         size = bias = np.sqrt(np.mean(off**2))
-        if knob == "pixels" and measured.pixels[k] != COARSE:
-            if column != "pull_off":  # that of one surface, all others are means
-                bias = abs(off.mean())
-                size = np.hypot(bias, off.std(ddof=1) / np.sqrt(off.size))
-            pixels = float(measured.pixels[k])
-            points.add("discretisation", column, surface, size, load, pixels, at=bias)
-        elif knob == "tolerance":
-            tolerance = float(measured.tolerance[k])
-            points.add("solver", column, surface, size, load, tolerance=tolerance)
+        if column != "pull_off":  # that of one surface, all others are means
+            bias = abs(off.mean())
+            size = np.hypot(bias, off.std(ddof=1) / np.sqrt(off.size))
+        points.add("discretisation", column, surface, size, load, pixels, at=bias)
 
 
 def seed_rows(points, surface, place, one, seconds, unit):

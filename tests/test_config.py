@@ -153,10 +153,6 @@ def model(*keys, value):
             ["tradeoff.presets.accuracy", "drift", "draft"],
         ),
         (
-            changed(CONFIG, "tradeoff", "adhesion", "pull_off", "surfaces", value=["H0.5_zeta61"]),
-            ["tradeoff.adhesion.pull_off.surfaces", "H0.5_zeta61", "H0.5_zeta16"],
-        ),
-        (
             changed(CONFIG, "tradeoff", "settings", "at_tolerances", value=1),
             ["tradeoff.settings", "at_tolerances", "at_tolerance"],
         ),

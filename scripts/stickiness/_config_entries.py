@@ -199,17 +199,13 @@ def _whole_problems(config: Mapping[str, Any]) -> Iterator[str]:
 
 
 def _preset_problems(config: Mapping[str, Any]) -> Iterator[str]:
-    """The rule of the presets and its measurements must name what there is."""
+    """The rule of the presets must name what there is."""
     rule = config["tradeoff"]["presets"]
     if rule["surface"] not in config["model_surfaces"]:
         yield unknown("tradeoff.presets.surface", rule["surface"], config["model_surfaces"])
     for name in rule["accuracy"]:
         if name not in config["fidelities"]:
             yield unknown("tradeoff.presets.accuracy", name, config["fidelities"])
-    measured = config["tradeoff"]["adhesion"]
-    for name in measured["pull_off"]["surfaces"]:
-        if name not in measured["surfaces"]:
-            yield unknown("tradeoff.adhesion.pull_off.surfaces", name, measured["surfaces"])
 
 
 def _model_problems(
