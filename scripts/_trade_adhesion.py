@@ -19,6 +19,7 @@ from stickiness.accuracy import COARSE, COVERS
 
 ENSEMBLE = 1  # setting whose many seeds say how quantities scatter: the second coarsest grid
 MEANS = (4, 8, 16, 32)  # seeds that rows are given for
+WEAK = 1e-4  # l_a/range below which an area changes by less than a few pixels
 AREA = "area_with_adhesion"
 
 
@@ -56,7 +57,10 @@ def states(measured: xr.Dataset) -> Iterator[Measured]:
     """1/kappa_ad and the area at every point, and the threshold of all points together."""
     measured = measured.where(measured.external_pressure.notnull())
     for label, one in by_point(measured):
-        column = f"inverse_kappa_ad_{float(one.range_over_h_rms):g}"
+        kind = f"{float(one.range_over_h_rms):g}"
+        if one.adhesion_length_over_range < WEAK:
+            kind = "weak"
+        column = f"inverse_kappa_ad_{kind}"
         fall = one.external_pressure / one.repulsive_area * one.area_alone / one.pressure
         dmt = one.attraction_dmt / one.pressure / 2
         yield Measured(
