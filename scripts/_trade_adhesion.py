@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import itertools
-from collections import defaultdict
 from collections.abc import Iterator
 from dataclasses import dataclass
 
@@ -13,9 +12,9 @@ import xarray as xr
 
 from _laws import Points, surface_of
 from _trade_rows import compared, row
-from _tradeoff import COVERED
 from stickiness import datasets
 from stickiness.accuracy import COARSE, COVERS
+from stickiness.adhesive_accuracy import COLUMNS
 
 ENSEMBLE = 1  # setting whose many seeds say how quantities scatter: the second coarsest grid
 MEANS = (4, 8, 16, 32)  # seeds that rows are given for
@@ -152,7 +151,6 @@ def rows_and_laws(
     """Rows of every setting, of the DMT limit and of numbers of seeds; adds points of the laws."""
     rows, unit = [], float(measured.pair_time)
     surface, usual = surface_of(datasets.parameters(measured)), usual_of(measured)[1]
-    by_tolerance = defaultdict(list)
     for one in (each.solved() for each in quantities):
         place, seconds = f"{name}, {one.label}", one.seconds.mean("seed")
         ways = {"": (one.full, seconds), " extrapolated": extrapolated(one.full, seconds)}
@@ -169,16 +167,12 @@ def rows_and_laws(
         column, value = next(iter(one.full.items()))
         for knob, _, k, reference in varied(measured):
             error = value.isel(setting=k) / value.isel(setting=reference) - 1
+            if column not in COLUMNS:
+                continue
             if knob == "pixels" and measured.pixels[k] != COARSE:
                 add_grid(points, column, surface, error, float(measured.pixels[k]))
-            elif knob == "tolerance":
-                by_tolerance[column, float(measured.tolerance[k])].append(abs(error).values.ravel())
         if what == "adhesive":
             rows += seed_rows(points, surface, place, one, seconds, unit)
-    # By a tolerance next to nothing changes but where a pixel turns: all cases taken together.
-    for (column, tolerance), errors in by_tolerance.items():
-        covered = float(np.nanquantile(np.concatenate(errors), COVERED))
-        points.add("solver", column, surface, covered, tolerance=tolerance)
     for k in np.flatnonzero(measured.knob == "pixels"):
         if what == "adhesive" and measured.pixels[k] != COARSE:
             cost = float(measured.seconds.isel(setting=k).mean()) / unit
@@ -214,8 +208,9 @@ def seed_rows(points, surface, place, one, seconds, unit):
         spread, left = float(scatter.sel(at)), float(share.sel(at))
         if not np.isfinite(spread * left):
             continue
-        points.add("scatter", column, surface, spread, load)
-        points.add("fine_share", column, surface, left, load)
+        if column in COLUMNS:
+            points.add("scatter", column, surface, spread, load)
+            points.add("fine_share", column, surface, left, load)
         cost = float(seconds.isel(setting=ENSEMBLE).sel(at))
         for seeds, (kind, rest) in itertools.product(
             MEANS, {"plain": 1.0, "controlled": left}.items()

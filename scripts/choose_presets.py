@@ -6,11 +6,10 @@ from stickiness import accuracy, adhesive_accuracy, datasets, plan
 
 HEAD = """\
 A preset is the cheapest settings whose predicted error, which covers 90 % of means, stays below
-that of the preset in every quantity, on the model surface {surface} at the pressures {pressures},
-those of full adhesion on the same realisations included; without these, other settings would do. A
-number behind a quantity is the range over h_rms; 1/kappa_ad is from 0.01 on. Cost: pairs of Fourier
-transforms of 1024 x 1024 doubles, for all these pressures without adhesion, and for one adhesive
-state of all seeds.
+that of the preset in every quantity, on the model surface {surface} at the pressures {pressures}.
+Of full adhesion on the same realisations {adhesive} count; without these, other
+settings would do. A number behind a quantity is a range over h_rms. Cost: pairs of Fourier transforms
+of 1024 x 1024 doubles for all these pressures, and for one adhesive state of all seeds.
 
 """
 COLUMNS = [column for columns in accuracy.QUANTITIES.values() for column in columns]
@@ -41,7 +40,11 @@ def main(job):
         *ADHESIVE,
     ]
     with datasets.whole_file(job.output[0]) as path:
-        text = HEAD.format(surface=asked["surface"], pressures=", ".join(map(str, where[1])))
+        text = HEAD.format(
+            surface=asked["surface"],
+            pressures=", ".join(map(str, where[1])),
+            adhesive=" and ".join(asked["adhesive"]),
+        )
         path.write_text(text + table(head, lines), encoding="utf-8")
 
 

@@ -1,11 +1,10 @@
 """Settings that full adhesion needs for an accuracy, from what was measured.
 
-Full adhesion is solved on the realisations of a case, with their grid and tolerance. What its
-quantities err by follows from laws of the same kind as those of `accuracy` and by the same sum.
-Means have the DMT limit of the coarse seeds as their control, from `FEWEST` seeds on; below they
-are plain. A pull-off is that of one realisation, no mean: only grid and tolerance count. Adhesion too weak to
-change the area by a few pixels (``inverse_kappa_ad_weak``) no grid here resolves; what the solver
-adds to that is to be small all the same.
+Full adhesion is solved on the realisations of a case and with their grid. What its quantities err
+by follows from laws of the same kind as those of `accuracy` and by the same sum, but for the
+solver: it has a tolerance of its own, by which they change by less than 0.001. Means have the DMT
+limit of the coarse seeds as their control, from `FEWEST` seeds on; below they are plain. A pull-off
+is that of one realisation, no mean.
 """
 
 from __future__ import annotations
@@ -13,24 +12,17 @@ from __future__ import annotations
 import itertools
 import math
 from bisect import bisect_left
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
 from . import accuracy
-from .accuracy import COARSE_SEEDS, FULL, PIXELS, SEEDS, TOLERANCES, Laws, Settings, Surface
+from .accuracy import COARSE_SEEDS, PIXELS, SEEDS, TOLERANCES, Laws, Settings, Surface
 
 QUANTITIES = {
-    "inverse_kappa_ad": (
-        "inverse_kappa_ad_0.0075",
-        "inverse_kappa_ad_0.1",
-        "inverse_kappa_ad_1",
-        "inverse_kappa_ad_weak",
-    ),
+    "inverse_kappa_ad": ("inverse_kappa_ad_0.0075", "inverse_kappa_ad_0.1", "inverse_kappa_ad_1"),
     "threshold": ("threshold",),
     "pull_off": ("pull_off",),
 }
-# Parts of the error that count, where it is not all of them.
-PARTS = {"inverse_kappa_ad_weak": ("solver",), "pull_off": ("discretisation", "solver")}
 COLUMNS = tuple(itertools.chain(*QUANTITIES.values()))
 FEWEST = 8  # seeds from which on a mean has a control
 
@@ -47,20 +39,14 @@ def predicted_error(
 
     Arguments are those of `accuracy.predicted_error`.
     """
-    if column in PARTS:
-        knobs = {
-            "discretisation": {"pixels": settings.pixels_per_wavelength},
-            "solver": {"tolerance": settings.tolerance},
-        }
-        return math.hypot(
-            *(
-                accuracy.single_error(laws, part, column, surface, pressure, **knobs[part])
-                for part in PARTS[column]
-            )
-        )
+    if column == "pull_off":
+        grid = {"pixels": settings.pixels_per_wavelength}
+        return accuracy.single_error(laws, "discretisation", column, surface, pressure, **grid)
     if settings.seeds < FEWEST:
         settings = replace(settings, coarse_seeds=0)
-    return accuracy.predicted_error(laws, settings, surface, pressure, column, descriptor_seeds)
+    where = surface, pressure, column, descriptor_seeds
+    parts = accuracy.error_parts(laws, settings, *where)
+    return accuracy.SAFETY * math.hypot(parts["discretisation"], parts["sampling"])
 
 
 def worst_error(
@@ -68,16 +54,18 @@ def worst_error(
     settings: Settings,
     surface: Surface,
     pressures: Sequence[float],
+    quantities: Iterable[str],
     descriptor_seeds: int = 2048,
 ) -> tuple[float, str, float]:
-    """Return the largest predicted error of all `COLUMNS`; its column and pressure."""
+    """Return the largest predicted error of some of `QUANTITIES`; its column and pressure."""
+    columns = itertools.chain(*(QUANTITIES[quantity] for quantity in quantities))
     return max(
         (
             predicted_error(laws, settings, surface, pressure, column, descriptor_seeds),
             column,
             pressure,
         )
-        for pressure, column in itertools.product(pressures, COLUMNS)
+        for pressure, column in itertools.product(pressures, columns)
     )
 
 
@@ -87,10 +75,8 @@ def predicted_cost(laws: Laws, settings: Settings, surface: Surface) -> float:
     In pairs of Fourier transforms of 1024 x 1024 doubles.
     """
     pixels = settings.pixels_per_wavelength
-    saved = laws["tolerance_cost", ""](surface, tolerance=settings.tolerance / FULL)
     state = sum(laws["adhesive_cost", ""](surface, pixels=grid) for grid in (pixels, pixels // 2))
-    coarse = laws["coarse_cost", ""](surface)
-    return saved * (settings.seeds * state + settings.coarse_seeds * coarse)
+    return settings.seeds * state + settings.coarse_seeds * laws["coarse_cost", ""](surface)
 
 
 def least(
@@ -98,29 +84,31 @@ def least(
     error: float,
     surface: Surface,
     pressures: Sequence[float],
+    quantities: Iterable[str],
     descriptor_seeds: int = 2048,
 ) -> Settings:
-    """Return the cheapest settings whose predicted error in every adhesive quantity is below one.
+    """Return the cheapest settings whose predicted error in all quantities wanted is below one.
 
     Raises
     ------
     accuracy.UnreachableError
         Saying what could be reached, for which quantity and at which pressure.
     """
+    where = surface, pressures, list(quantities), descriptor_seeds
 
-    def reached(settings):
-        return worst_error(laws, settings, surface, pressures, descriptor_seeds)[0] <= error
+    def reached(settings: Settings) -> bool:
+        return worst_error(laws, settings, *where)[0] <= error
 
     found = []
-    for pixels, tolerance, coarse in itertools.product(PIXELS, TOLERANCES, COARSE_SEEDS):
-        chosen = [Settings(pixels, tolerance, seeds, coarse) for seeds in SEEDS]
+    for pixels, coarse in itertools.product(PIXELS, COARSE_SEEDS):
+        chosen = [Settings(pixels, TOLERANCES[0], seeds, coarse) for seeds in SEEDS]
         if reached(chosen[-1]):
             enough = chosen[bisect_left(chosen, True, key=reached)]
             found.append((predicted_cost(laws, enough, surface), enough))
     if found:
         return min(found)[1]
-    best = Settings(PIXELS[-1], TOLERANCES[-1], SEEDS[-1], COARSE_SEEDS[-1])
-    left, column, pressure = worst_error(laws, best, surface, pressures, descriptor_seeds)
+    best = Settings(PIXELS[-1], TOLERANCES[0], SEEDS[-1], COARSE_SEEDS[-1])
+    left, column, pressure = worst_error(laws, best, *where)
     raise accuracy.UnreachableError(
         f"the best that full adhesion reaches is {left:.2g}, for {column} at pressure {pressure:g}"
     )

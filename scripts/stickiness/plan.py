@@ -143,7 +143,9 @@ def preset_by_rule(
         QUANTITIES,
         descriptor_seeds=descriptor_seeds,
         plain=False,
-        least=None if free else adhesive_accuracy.least(*where, descriptor_seeds),
+        least=None
+        if free
+        else adhesive_accuracy.least(*where, asked["adhesive"], descriptor_seeds),
     )
 
 
