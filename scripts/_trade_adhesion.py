@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import pandas as pd
@@ -12,11 +12,10 @@ import xarray as xr
 
 from _laws import Points, surface_of
 from _trade_rows import compared, row
+from _tradeoff import COVERED
 from stickiness import datasets
 from stickiness.accuracy import COARSE, COVERS
-from stickiness.adhesive_accuracy import COLUMNS
 
-ENSEMBLE = 1  # setting whose many seeds say how quantities scatter: the second coarsest grid
 MEANS = (4, 8, 16, 32)  # seeds that rows are given for
 WEAK = 1e-4  # l_a/range below which an area changes by less than a few pixels
 AREA = "area_with_adhesion"
@@ -34,12 +33,16 @@ class Measured:
         By name, of full adhesion and in the DMT limit; the first is the one that has laws.
     seconds : xarray.DataArray
         Processor time of full adhesion.
+    law : bool
+        Whether laws are fitted to it: of 1/kappa_ad to the weakest adhesion of each range that
+        changes the area by more than a few pixels, which has the largest errors.
     """
 
     label: str
     full: dict[str, xr.DataArray]
     limit: dict[str, xr.DataArray]
     seconds: xr.DataArray
+    law: bool = True
 
     def solved(self) -> Measured:
         """Leave out loads at which a window closes with some setting."""
@@ -49,17 +52,19 @@ class Measured:
             {quantity: values.sel(loads) for quantity, values in one.items()}
             for one in (self.full, self.limit)
         )
-        return Measured(self.label, full, limit, self.seconds.sel(loads))
+        return replace(self, full=full, limit=limit, seconds=self.seconds.sel(loads))
 
 
 def states(measured: xr.Dataset) -> Iterator[Measured]:
     """1/kappa_ad and the area at every point, and the threshold of all points together."""
     measured = measured.where(measured.external_pressure.notnull())
+    strengths = measured.adhesion_length_over_range
     for label, one in by_point(measured):
-        kind = f"{float(one.range_over_h_rms):g}"
-        if one.adhesion_length_over_range < WEAK:
-            kind = "weak"
-        column = f"inverse_kappa_ad_{kind}"
+        reach, strength = one.range_over_h_rms, one.adhesion_length_over_range
+        others = strengths.where((strengths >= WEAK) & (measured.range_over_h_rms == reach))
+        column = (
+            f"inverse_kappa_ad_{float(reach):g}" if strength >= WEAK else "inverse_kappa_ad_weak"
+        )
         fall = one.external_pressure / one.repulsive_area * one.area_alone / one.pressure
         dmt = one.attraction_dmt / one.pressure / 2
         yield Measured(
@@ -67,6 +72,7 @@ def states(measured: xr.Dataset) -> Iterator[Measured]:
             {column: (1 - fall) / 2, AREA: one.repulsive_area},
             {column: dmt, AREA: one.area_alone},
             one.seconds,
+            bool(strength == others.min()),
         )
     left = measured.pressure - measured.attraction_dmt
     yield Measured(
@@ -167,12 +173,14 @@ def rows_and_laws(
         column, value = next(iter(one.full.items()))
         for knob, _, k, reference in varied(measured):
             error = value.isel(setting=k) / value.isel(setting=reference) - 1
-            if column not in COLUMNS:
-                continue
-            if knob == "pixels" and measured.pixels[k] != COARSE:
+            if one.law and knob == "pixels" and measured.pixels[k] != COARSE:
                 add_grid(points, column, surface, error, float(measured.pixels[k]))
+            elif one.law and knob == "tolerance":
+                # Next to nothing changes but where a pixel turns: all loads and seeds together.
+                size, tolerance = abs(error).quantile(COVERED), float(measured.tolerance[k])
+                points.add("solver", column, surface, float(size), tolerance=tolerance)
         if what == "adhesive":
-            rows += seed_rows(points, surface, place, one, seconds, unit)
+            rows += seed_rows(points, surface, place, one, usual, unit)
     for k in np.flatnonzero(measured.knob == "pixels"):
         if what == "adhesive" and measured.pixels[k] != COARSE:
             cost = float(measured.seconds.isel(setting=k).mean()) / unit
@@ -199,19 +207,20 @@ def add_grid(points, column, surface, error, pixels):
         points.add("discretisation", column, surface, size, load, pixels, at=bias)
 
 
-def seed_rows(points, surface, place, one, seconds, unit):
+def seed_rows(points, surface, place, one, usual, unit):
     """Rows of means, plain and with the DMT limit of the coarsest grid as control variate."""
     rows, (column, value) = [], next(iter(one.full.items()))
-    scatter, share = scattered(value, one.limit[column])
+    scatter, share = scattered(value.isel(setting=usual), one.limit[column].isel(setting=0))
+    seconds = one.seconds.isel(setting=usual).mean("seed")
     for load in value.pressure.values:
         at = {"pressure": load}
         spread, left = float(scatter.sel(at)), float(share.sel(at))
         if not np.isfinite(spread * left):
             continue
-        if column in COLUMNS:
+        if one.law:
             points.add("scatter", column, surface, spread, load)
             points.add("fine_share", column, surface, left, load)
-        cost = float(seconds.isel(setting=ENSEMBLE).sel(at))
+        cost = float(seconds.sel(at))
         for seeds, (kind, rest) in itertools.product(
             MEANS, {"plain": 1.0, "controlled": left}.items()
         ):
@@ -223,14 +232,13 @@ def seed_rows(points, surface, place, one, seconds, unit):
     return rows
 
 
-def scattered(value: xr.DataArray, limit: xr.DataArray) -> tuple[xr.DataArray, xr.DataArray]:
+def scattered(full: xr.DataArray, twin: xr.DataArray) -> tuple[xr.DataArray, xr.DataArray]:
     """Standard deviation of single surfaces over the mean, and the share a control leaves of it.
 
     The control is the DMT limit of the same seeds on the coarsest grid, its mean taken as known;
     its coefficient is a slope over the seeds, which leaves two degrees of freedom less. NaN where
     a window closes with any seed.
     """
-    full, twin = value.isel(setting=ENSEMBLE), limit.isel(setting=0)
     off, of_twin = (x - x.mean("seed", skipna=False) for x in (full, twin))
     slope = (off * of_twin).sum("seed", skipna=False) / (of_twin**2).sum("seed", skipna=False)
     count = full.sizes["seed"]

@@ -7,9 +7,10 @@ from stickiness import accuracy, adhesive_accuracy, datasets, plan
 HEAD = """\
 A preset is the cheapest settings whose predicted error, which covers 90 % of means, stays below
 that of the preset in every quantity, on the model surface {surface} at the pressures {pressures}.
-Of full adhesion on the same realisations {adhesive} count; without these, other
-settings would do. A number behind a quantity is a range over h_rms. Cost: pairs of Fourier transforms
-of 1024 x 1024 doubles for all these pressures, and for one adhesive state of all seeds.
+Of full adhesion on the same realisations {adhesive} count; without
+these, other settings would do. A number behind a quantity is a range over h_rms. Cost: pairs of
+Fourier transforms of 1024 x 1024 doubles for all these pressures, and for one adhesive state of
+all seeds.
 
 """
 COLUMNS = [column for columns in accuracy.QUANTITIES.values() for column in columns]

@@ -1,7 +1,8 @@
 """Full adhesion on the same realisations with every grid, tolerance and law, and time each state.
 
-A few realisations are solved with every setting, more on the coarsest two grids alone: those say
-how the quantities scatter, and what the DMT limit on the coarsest leaves of it as their control.
+A few realisations are solved with every setting, more on the usual grid and coarser ones alone:
+those say how the quantities scatter, and what the DMT limit on the coarsest grid leaves of it as
+their control.
 """
 
 import logging
@@ -33,14 +34,15 @@ ALONE = {
 
 def main(job):
     asked, wanted = job.params.case, job.params.adhesion
-    grids = [p for p in wanted["pixels"] if grid_points(asked, p) <= wanted["most_points"]]
+    grids = [p for p in sorted(wanted["pixels"]) if grid_points(asked, p) <= wanted["most_points"]]
     chosen = settings(wanted, grids)
     finest = max(setting["pixels"] for setting in chosen)
     length, n = window_of(asked), grid_points(asked, finest)
     seeds, rows, few = np.arange(1, wanted["more_seeds"] + 1), [], wanted["seeds"]
+    usual = 1 + grids.index(wanted["at_pixels"])
     for seed in seeds:
         heights = surface.synthesise(spectrum_of(asked), n, length, int(seed))
-        most = len(chosen) if seed <= few else 2
+        most = len(chosen) if seed <= few else usual
         parts = [solved(heights, length, wanted, finest, **s) for s in chosen[:most]]
         rows.append(xr.concat(parts, xr.DataArray(np.arange(most), dims="setting", name="setting")))
         logging.info("seed %d", seed)
@@ -67,7 +69,7 @@ def settings(wanted, grids):
     pixels, tolerance, law = wanted["at_pixels"], wanted["at_tolerance"], wanted["law"]
     usual = {"knob": "pixels", "pixels": pixels, "tolerance": tolerance, "law": law}
     return [
-        *(usual | {"pixels": points} for points in sorted(grids)),
+        *(usual | {"pixels": points} for points in grids),
         *(
             usual | {"knob": "tolerance", "tolerance": value}
             for value in (*wanted["tolerances"], FINEST_TOLERANCE)

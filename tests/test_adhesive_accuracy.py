@@ -10,6 +10,8 @@ import pytest
 import xarray as xr
 import yaml
 
+import _errors
+import solve_adhesive
 from _trade_adhesion import scattered, threshold, varied
 from stickiness import accuracy, adhesive, adhesive_accuracy, plan, repulsive, spectrum, surface
 from stickiness.accuracy import Law, Settings, Surface
@@ -34,6 +36,11 @@ def made_up():
     laws["adhesive_cost", ""] = Law(0.0, pixels=2.0)
     laws["coarse_cost", ""] = Law(math.log(4.0))
     return laws
+
+
+def test_constants_are_those_of_the_stages():
+    assert adhesive_accuracy.TOLERANCE == solve_adhesive.TOLERANCE
+    assert adhesive_accuracy.FEWEST == _errors.FEWEST
 
 
 def test_few_seeds_have_no_control():
@@ -119,10 +126,7 @@ def test_what_a_control_leaves():
     rng = np.random.default_rng(3)
     twin, noise = rng.standard_normal((2, 4000))
     full = 10 + 4 * twin + 3 * noise
-    dims = "setting", "seed"
-    scatter, share = scattered(
-        xr.DataArray([full, full], dims=dims), xr.DataArray([twin, 0 * twin], dims=dims)
-    )
+    scatter, share = scattered(xr.DataArray(full, dims="seed"), xr.DataArray(twin, dims="seed"))
     assert float(scatter) == pytest.approx(0.5, rel=0.05)
     assert float(share) == pytest.approx(0.6, rel=0.05)
 

@@ -1,16 +1,14 @@
 """Settings that full adhesion needs for an accuracy, from what was measured.
 
-Full adhesion is solved on the realisations of a case and with their grid. What its quantities err
-by follows from laws of the same kind as those of `accuracy` and by the same sum, but for the
-solver: it has a tolerance of its own, by which they change by less than 0.001. Means have the DMT
-limit of the coarse seeds as their control, from `FEWEST` seeds on; below they are plain. A pull-off
-is that of one realisation, no mean.
+Full adhesion is solved on the realisations of a case and with their grid, to a tolerance of its
+own. What its quantities err by follows from laws of the same kind as those of `accuracy` and by the
+same sum. Means have the DMT limit of the coarse seeds as their control, from `FEWEST` seeds on;
+below they are plain. A pull-off is that of one realisation, no mean: its grid alone counts.
 """
 
 from __future__ import annotations
 
 import itertools
-import math
 from bisect import bisect_left
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
@@ -24,6 +22,7 @@ QUANTITIES = {
     "pull_off": ("pull_off",),
 }
 COLUMNS = tuple(itertools.chain(*QUANTITIES.values()))
+TOLERANCE = 1e-7  # of the solver of full adhesion, whatever that of the settings
 FEWEST = 8  # seeds from which on a mean has a control
 
 
@@ -42,11 +41,9 @@ def predicted_error(
     if column == "pull_off":
         grid = {"pixels": settings.pixels_per_wavelength}
         return accuracy.single_error(laws, "discretisation", column, surface, pressure, **grid)
-    if settings.seeds < FEWEST:
-        settings = replace(settings, coarse_seeds=0)
-    where = surface, pressure, column, descriptor_seeds
-    parts = accuracy.error_parts(laws, settings, *where)
-    return accuracy.SAFETY * math.hypot(parts["discretisation"], parts["sampling"])
+    coarse = settings.coarse_seeds if settings.seeds >= FEWEST else 0
+    settings = replace(settings, tolerance=TOLERANCE, coarse_seeds=coarse)
+    return accuracy.predicted_error(laws, settings, surface, pressure, column, descriptor_seeds)
 
 
 def worst_error(
