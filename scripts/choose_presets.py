@@ -7,8 +7,8 @@ from stickiness import accuracy, adhesive_accuracy, datasets, plan
 HEAD = """\
 A preset is the cheapest settings whose predicted error, which covers 90 % of means, stays below
 that of the preset in every quantity, on the model surface {surface} at the pressures {pressures}.
-Of full adhesion on the same realisations {adhesive} count; without
-these, other settings would do. A number behind a quantity is a range over h_rms. Cost: pairs of
+Of full adhesion on the same realisations {adhesive} may err by {errors};
+without it other settings would do. A number behind a quantity is a range over h_rms. Cost: pairs of
 Fourier transforms of 1024 x 1024 doubles for all these pressures, and for one adhesive state of
 all seeds.
 
@@ -44,7 +44,10 @@ def main(job):
         text = HEAD.format(
             surface=asked["surface"],
             pressures=", ".join(map(str, where[1])),
-            adhesive=" and ".join(asked["adhesive"]),
+            adhesive=" and ".join(asked["adhesive"]["quantities"]),
+            errors=", ".join(
+                f"{error:.3g} ({name})" for name, error in asked["adhesive"]["accuracy"].items()
+            ),
         )
         path.write_text(text + table(head, lines), encoding="utf-8")
 

@@ -137,15 +137,20 @@ def preset_by_rule(
     free : bool
         Whether to leave aside the quantities of full adhesion, on the same realisations.
     """
-    where = laws, asked["accuracy"][name], surface_of(surface), asked["pressures"]
+    where, least = (surface_of(surface), asked["pressures"]), None
+    if not free:
+        wanted = asked["adhesive"]
+        least = adhesive_accuracy.least(
+            laws, wanted["accuracy"][name], *where, wanted["quantities"], descriptor_seeds
+        )
     return cheapest(
+        laws,
+        asked["accuracy"][name],
         *where,
         QUANTITIES,
         descriptor_seeds=descriptor_seeds,
         plain=False,
-        least=None
-        if free
-        else adhesive_accuracy.least(*where, asked["adhesive"], descriptor_seeds),
+        least=least,
     )
 
 
