@@ -84,12 +84,12 @@ def combinations(asked, pixel, full):
     return full & resolved
 
 
-def states(heights, length, asked, chosen):
+def states(heights, length, asked, chosen, tolerance=TOLERANCE):
     """Adhesive states on one grid, NaN where there is none, and the attraction in the DMT limit."""
     pressures, lengths, ranges = axes(asked)
     values = {name: np.full(chosen.shape, np.nan) for name in (*STATE, "attraction_dmt")}
     alone = {name: np.empty(len(pressures)) for name in ALONE}
-    path = repulsive.load_path(heights, length, pressures.values, tol=TOLERANCE)
+    path = repulsive.load_path(heights, length, pressures.values, tol=tolerance)
     for i, contact in enumerate(path):
         alone["area_alone"][i] = contact.area_fraction
         alone["mean_gap"][i] = contact.mean_gap
@@ -99,7 +99,7 @@ def states(heights, length, asked, chosen):
             attraction = dmt.adhesive_pressure(contact.gap, law)
             values["attraction_dmt"][i, j, k] = attraction
             if chosen[i, j, k] and attraction <= STRONGEST * contact.mean_pressure:
-                for name, value in closed(heights, length, law, contact).items():
+                for name, value in closed(heights, length, law, contact, tolerance).items():
                     values[name][i, j, k] = value
     return xr.Dataset(
         {name: (AXES, value) for name, value in values.items()}
@@ -108,7 +108,7 @@ def states(heights, length, asked, chosen):
     )
 
 
-def closed(heights, length, law, contact, tolerance=TOLERANCE):
+def closed(heights, length, law, contact, tolerance):
     """State at the mean gap of a contact without adhesion, reached from that contact."""
     state = adhesive.solve(
         heights, length, law, mean_gap=contact.mean_gap, start=contact, tol=tolerance
