@@ -158,6 +158,8 @@ def rows_and_laws(
     rows, unit = [], float(measured.pair_time)
     surface, usual = surface_of(datasets.parameters(measured)), usual_of(measured)[1]
     for one in (each.solved() for each in quantities):
+        if not one.seconds.size:
+            continue
         place, seconds = f"{name}, {one.label}", one.seconds.mean("seed")
         ways = {"": (one.full, seconds), " extrapolated": extrapolated(one.full, seconds)}
         for (way, (values, cost)), each in itertools.product(ways.items(), varied(measured)):
