@@ -137,7 +137,7 @@ def adhesive_grids(ax, found):
     for by, look in of_adhesion(found, "pixels"):
         ax.plot(by.cost, by.error, **look)
     ax.set(xscale="log", yscale="log", xlabel=COST, ylabel=ERROR)
-    ax.set_title("full adhesion: 2, 4, 8 points", loc="right")
+    ax.set_title("full adhesion: grid", loc="right")
     ax.legend()
 
 
@@ -162,7 +162,7 @@ def adhesive_seeds(ax, found):
         error = model.error[model.quantity == quantity].median()
         ax.axhline(error, color=colour, linestyle=":", linewidth=0.8)
     ax.set(xscale="log", yscale="log", xlabel=COST, ylabel=ERROR)
-    ax.set_title("full adhesion: 4 … 32 seeds", loc="right")
+    ax.set_title("full adhesion: seeds", loc="right")
     handles = [key(color=GREY, linestyle=line) for line in ("--", "-", ":")]
     ax.legend(handles, ["plain", "controlled", "DMT limit"])
 

@@ -52,8 +52,11 @@ def main(job):
     for path in job.input.bands:
         rows += band_rows(datasets.read(path), points)
     rows += node_rows(datasets.read(job.input.theory))
-    for what, quantities in (("adhesive", states), ("pull_off", pull_offs)):
-        for name, path in named(job.input[what]).items():
+    for what, files, quantities in (
+        ("adhesive", job.input.adhesive, states),
+        ("pull_off", job.input.pull_off, pull_offs),
+    ):
+        for name, path in named(files).items():
             measured = datasets.read(path)
             rows += rows_and_laws(name, measured, quantities(measured), points, what)
     found = pd.DataFrame(rows, columns=list(COLUMNS))
