@@ -44,7 +44,6 @@ rule solve_adhesive:
     params:
         adhesion=solved_in_full,
         full=lambda wildcards: model_of(wildcards.adhesion).full.tolist(),
-        tolerance=FIDELITY["tolerance"],
     script:
         "../scripts/solve_adhesive.py"
 

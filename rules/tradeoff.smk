@@ -99,6 +99,55 @@ rule measure_theory:
         "../scripts/measure_theory.py"
 
 
+rule measure_adhesive:
+    input:
+        library=library_of("measure_adhesive.py"),
+    output:
+        f"{TRADEOFF}/adhesive/{{trade_case}}.nc",
+    log:
+        f"{TRADEOFF}/logs/measure_adhesive/{{trade_case}}.log",
+    benchmark:
+        f"{TRADEOFF}/benchmarks/measure_adhesive/{{trade_case}}.tsv"
+    wildcard_constraints:
+        trade_case="|".join(map(re.escape, TRADE["adhesion"]["surfaces"])),
+    conda:
+        "../envs/environment.yaml"
+    resources:
+        mem_mb=2000,
+    params:
+        case=lambda wildcards: TRADE["adhesion"]["surfaces"][wildcards.trade_case],
+        adhesion={
+            key: value
+            for key, value in TRADE["adhesion"].items()
+            if key not in ("surfaces", "pull_off")
+        },
+    script:
+        "../scripts/measure_adhesive.py"
+
+
+rule measure_pull_off:
+    input:
+        library=library_of("measure_pull_off.py"),
+    output:
+        f"{TRADEOFF}/pull_off/{{trade_case}}.nc",
+    log:
+        f"{TRADEOFF}/logs/measure_pull_off/{{trade_case}}.log",
+    benchmark:
+        f"{TRADEOFF}/benchmarks/measure_pull_off/{{trade_case}}.tsv"
+    wildcard_constraints:
+        trade_case="|".join(map(re.escape, TRADE["adhesion"]["surfaces"])),
+    conda:
+        "../envs/environment.yaml"
+    resources:
+        mem_mb=1000,
+    params:
+        case=lambda wildcards: TRADE["adhesion"]["surfaces"][wildcards.trade_case],
+        pull_off=TRADE["adhesion"]["pull_off"]
+        | {key: TRADE["adhesion"][key] for key in ("q0_h_rms", "law", "at_pixels")},
+    script:
+        "../scripts/measure_pull_off.py"
+
+
 rule tabulate_tradeoff:
     input:
         library=library_of("tabulate_tradeoff.py"),
@@ -109,8 +158,8 @@ rule tabulate_tradeoff:
         ),
         bands=expand(f"{TRADEOFF}/bands/H{{hurst}}.nc", hurst=TRADE["bands"]["hurst"]),
         theory=f"{TRADEOFF}/theory.nc",
-        full=f"{RESULTS}/adhesive/dmt_error.nc",
-        loop=f"{RESULTS}/loops/fig4a.nc",
+        adhesive=expand(f"{TRADEOFF}/adhesive/{{name}}.nc", name=TRADE["adhesion"]["surfaces"]),
+        pull_off=expand(f"{TRADEOFF}/pull_off/{{name}}.nc", name=TRADE["adhesion"]["surfaces"]),
     output:
         dataset=f"{TRADEOFF}/tradeoff.nc",
         laws=f"{TRADEOFF}/accuracy.csv",

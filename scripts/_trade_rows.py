@@ -79,7 +79,7 @@ def compared(knob, setting, name, measured, quantities, reference, k, seconds, u
                     mean.sel(at),
                     cost,
                     unit,
-                    float(measured.memory[k]),
+                    float(measured.memory[k]) if "memory" in measured else np.nan,
                 )
             )
     return rows
@@ -239,44 +239,4 @@ def node_rows(measured):
                             float(measured.memory.sel(case=case, nodes=nodes)),
                         )
                     )
-    return rows
-
-
-def adhesion_rows(inputs):
-    """Rows of the DMT limit in place of full adhesion, and of the pull-off's grid."""
-    rows, nothing = [], (np.nan, 1.0)
-    full = datasets.read(inputs.full, ["dmt_ratio"])
-    weak = full.isel(adhesion_length_over_range=0)
-    for reach in (0.01, 0.1):
-        for load in weak.pressure.values:
-            ratio = float(weak.dmt_ratio.sel(range_over_h_rms=reach, pressure=load))
-            if np.isfinite(ratio):
-                off = abs(1 / ratio - 1)
-                rows.append(
-                    row(
-                        "adhesion",
-                        "DMT",
-                        f"H0.8_zeta32, p = {load:g}",
-                        f"attractive_area_{reach:g}",
-                        off,
-                        off,
-                        *nothing,
-                    )
-                )
-    loop = datasets.read(inputs.loop, ["mean_pressure", "resolution"])
-    lowest = loop.mean_pressure.min(["state", "control"])
-    for k, length in enumerate(loop.adhesion_length_over_range.values):
-        half, whole = (float(x) for x in lowest.isel(adhesion_length_over_range=k).values)
-        off = abs(half / whole - 1)
-        rows.append(
-            row(
-                "adhesion",
-                f"pull-off on {float(loop.resolution[0]):g} pixels",
-                f"H0.8_zeta32, l_a = {length:g} range",
-                "pull_off",
-                off,
-                off,
-                *nothing,
-            )
-        )
     return rows

@@ -2,17 +2,19 @@
 
 from _job import start
 from _tables import table
-from stickiness import accuracy, datasets, plan
+from stickiness import accuracy, adhesive_accuracy, datasets, plan
 
 HEAD = """\
 A preset is the cheapest settings whose predicted error, which covers 90 % of means, stays below
-that of the preset in every quantity, on the model surface {surface} at the pressures {pressures},
-and that have the pixels, tolerance and seeds that full adhesion on the same realisations needs at
-least; without full adhesion, cheaper ones would do. Cost: pairs of Fourier transforms of
-1024 x 1024 doubles, for all these pressures.
+that of the preset in every quantity, on the model surface {surface} at the pressures {pressures}.
+Of full adhesion on the same realisations {adhesive} may err by {errors};
+without it other settings would do. A number behind a quantity is a range over h_rms. Cost: pairs of
+Fourier transforms of 1024 x 1024 doubles for all these pressures, and for one adhesive state of
+all seeds.
 
 """
 COLUMNS = [column for columns in accuracy.QUANTITIES.values() for column in columns]
+ADHESIVE = list(adhesive_accuracy.COLUMNS)
 
 
 def main(job):
@@ -27,9 +29,26 @@ def main(job):
             "without full adhesion": plan.preset_by_rule(laws, asked, name, *given, free=True),
         }
         lines += [row(text, laws, settings, *where) for text, settings in chosen.items()]
-    head = ["preset", "pixels", "tolerance", "seeds", "coarse seeds", "cost", *COLUMNS]
+    head = [
+        "preset",
+        "pixels",
+        "tolerance",
+        "seeds",
+        "coarse seeds",
+        "cost",
+        "adhesive cost",
+        *COLUMNS,
+        *ADHESIVE,
+    ]
     with datasets.whole_file(job.output[0]) as path:
-        text = HEAD.format(surface=asked["surface"], pressures=", ".join(map(str, where[1])))
+        text = HEAD.format(
+            surface=asked["surface"],
+            pressures=", ".join(map(str, where[1])),
+            adhesive=" and ".join(asked["adhesive"]["quantities"]),
+            errors=", ".join(
+                f"{error:.3g} ({name})" for name, error in asked["adhesive"]["accuracy"].items()
+            ),
+        )
         path.write_text(text + table(head, lines), encoding="utf-8")
 
 
@@ -37,10 +56,11 @@ def errors(laws, chosen, surface, pressures, descriptor_seeds):
     """Largest predicted error of each column over the pressures."""
     return [
         max(
-            accuracy.predicted_error(laws, chosen, surface, p, column, descriptor_seeds)
+            model.predicted_error(laws, chosen, surface, p, column, descriptor_seeds)
             for p in pressures
         )
-        for column in COLUMNS
+        for model, columns in ((accuracy, COLUMNS), (adhesive_accuracy, ADHESIVE))
+        for column in columns
     ]
 
 
@@ -54,6 +74,7 @@ def row(text, laws, chosen, surface, pressures, descriptor_seeds):
         chosen.seeds,
         chosen.coarse_seeds,
         f"{cost:.0f}",
+        f"{adhesive_accuracy.predicted_cost(laws, chosen, surface):.0f}",
         *(f"{100 * error:.2g} %" for error in found),
     ]
 

@@ -14,13 +14,20 @@ SHOWN = {"area": "contact area", "a_v": r"$a_V$", "mean_gap": "mean gap"}
 COST = r"cost [FFT pairs of $1024^2$]"
 ERROR = "error, 90 %"
 ERROR_TICKS = (0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1)
+ADHESIVE = {
+    "inverse_kappa_ad_0.0075": r"$1/\kappa_\mathrm{ad}(0.0075)$",
+    "inverse_kappa_ad_0.1": r"$1/\kappa_\mathrm{ad}(0.1)$",
+    "threshold": "threshold",
+    "pull_off": "pull-off",
+}
+SMALLEST = 1e-6  # error that is shown
 PRESET_MARKS = {"draft": "v", "standard": "o", "fine": "^"}
 
 
 def main(job):
     data = datasets.read(job.input.dataset, ["knob", "setting", "error", "cost"])
     found = pd.DataFrame({name: data[name].values for name in data.data_vars})
-    figure, panels = canvas("ABC;DEF", 5.2)
+    figure, panels = canvas("ABC;DEF;GHI", 7.8)
     grids(panels["A"], found[found.knob == "pixels"])
     tolerances(panels["B"], found[found.knob == "tolerance"])
     seeds(panels["C"], found[found.knob == "seeds"], found[found.knob == "model"])
@@ -30,6 +37,9 @@ def main(job):
         together(panels[name], laws, quantities, job.params)
     panels["E"].set_title(r"all settings, $a_V$", loc="right")
     panels["F"].set_title("all settings, worst", loc="right")
+    adhesive_grids(panels["G"], found)
+    adhesive_tolerances(panels["H"], found)
+    adhesive_seeds(panels["I"], found)
     letters(panels)
     save(figure, job.output)
 
@@ -109,6 +119,52 @@ def bands(ax, found):
     ax.minorticks_off()
     ax.set_ylim(top=60)
     ax.legend(loc="upper right")
+
+
+def of_adhesion(found, knob):
+    """For every quantity of full adhesion, medians over its cases by the value of a knob."""
+    for colour, marker, (quantity, label) in zip(COLOURS, MARKERS, ADHESIVE.items(), strict=False):
+        kind = "pull_off" if quantity == "pull_off" else "adhesive"
+        one = found[(found.knob == f"{kind} {knob}") & (found.quantity == quantity)]
+        one = one[~one.setting.str.contains("extrapolated")]
+        by = one.groupby("setting")[["error", "cost"]].median()
+        by = by.loc[sorted(by.index, key=float)] if knob != "seeds" else by
+        yield by, {"marker": marker, "color": colour, "label": label}
+
+
+def adhesive_grids(ax, found):
+    """Error of adhesive quantities against cost, from coarse to fine grids."""
+    for by, look in of_adhesion(found, "pixels"):
+        ax.plot(by.cost, by.error, **look)
+    ax.set(xscale="log", yscale="log", xlabel=COST, ylabel=ERROR)
+    ax.set_title("full adhesion: grid", loc="right")
+    ax.legend()
+
+
+def adhesive_tolerances(ax, found):
+    """Error of adhesive quantities against the tolerance of their solver."""
+    for by, look in of_adhesion(found, "tolerance"):
+        by = by[by.error > SMALLEST]
+        ax.plot(by.index.astype(float), by.error, **look)
+    ax.set(xscale="log", yscale="log", xlabel="tolerance", ylabel=ERROR)
+    ax.set_title("full adhesion: solver", loc="right")
+
+
+def adhesive_seeds(ax, found):
+    """Error of adhesive means against cost, and of the DMT limit in their place."""
+    for by, look in of_adhesion(found[found.quantity != "pull_off"], "seeds"):
+        for line, kind in (("--", "plain"), ("-", "controlled")):
+            at = by[by.index.str.endswith(kind)].sort_values("cost")
+            filled = {} if kind == "controlled" else {"markerfacecolor": "white"}
+            ax.plot(at.cost, at.error, line, **(look | filled))
+    model = found[found.knob == "adhesive model"]
+    for colour, quantity in zip(COLOURS, ADHESIVE, strict=False):
+        error = model.error[model.quantity == quantity].median()
+        ax.axhline(error, color=colour, linestyle=":", linewidth=0.8)
+    ax.set(xscale="log", yscale="log", xlabel=COST, ylabel=ERROR)
+    ax.set_title("full adhesion: seeds", loc="right")
+    handles = [key(color=GREY, linestyle=line) for line in ("--", "-", ":")]
+    ax.legend(handles, ["plain", "controlled", "DMT limit"])
 
 
 def together(ax, laws, quantities, params):

@@ -8,7 +8,8 @@ from _bank import bank_of
 from _job import start
 from _laws import Points, add_costs, add_grids, add_offsets, add_sampling, surface_of
 from _tables import table
-from _trade_rows import adhesion_rows, band_rows, grid_rows, node_rows, seed_rows, theory_rows
+from _trade_adhesion import pull_offs, rows_and_laws, states
+from _trade_rows import band_rows, grid_rows, node_rows, seed_rows, theory_rows
 from stickiness import accuracy, datasets
 
 COLUMNS = {
@@ -52,7 +53,13 @@ def main(job):
     for path in job.input.bands:
         rows += band_rows(datasets.read(path), points)
     rows += node_rows(datasets.read(job.input.theory))
-    rows += adhesion_rows(job.input)
+    for what, files, quantities in (
+        ("adhesive", job.input.adhesive, states),
+        ("pull_off", job.input.pull_off, pull_offs),
+    ):
+        for name, path in named(files).items():
+            measured = datasets.read(path)
+            rows += rows_and_laws(name, measured, quantities(measured), points, what)
     found = pd.DataFrame(rows, columns=list(COLUMNS))
     datasets.write(
         dataset_of(found),
@@ -61,6 +68,12 @@ def main(job):
         parameters={"cases": list(named(job.input.grids))},
     )
     laws = points.laws()
+    laws |= {
+        # The control of full adhesion is its DMT limit, in proportion to an attractive area.
+        ("coarse_share", column): laws["coarse_share", "attractive_area_0.1"]
+        for part, column in [*laws]
+        if part == "fine_share" and ("coarse_share", column) not in laws
+    }
     with datasets.whole_file(job.output.laws) as path:
         accuracy.write_laws(path, laws, COMMENT)
     with datasets.whole_file(job.output.table) as path:

@@ -209,7 +209,7 @@ def _preset_problems(config: Mapping[str, Any]) -> Iterator[str]:
     if rule["surface"] not in config["model_surfaces"]:
         yield unknown("tradeoff.presets.surface", rule["surface"], config["model_surfaces"])
     for name in rule["accuracy"]:
-        for table in (config["fidelities"], rule["least"]):
+        for table in (config["fidelities"], rule["adhesive"]["accuracy"]):
             if name not in table:
                 yield unknown("tradeoff.presets.accuracy", name, table)
 

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from . import stopping
+from . import adhesive_accuracy, stopping
 from .accuracy import (
     COARSE_SEEDS,
     QUANTITIES,
@@ -153,7 +153,7 @@ def preset_by_rule(
     descriptor_seeds: int,
     free: bool = False,
 ) -> Settings:
-    """Return the cheapest settings for the error of a preset in every quantity.
+    """Return the cheapest settings for the error of a preset in every quantity, adhesive ones too.
 
     Parameters
     ----------
@@ -168,18 +168,22 @@ def preset_by_rule(
     descriptor_seeds : int
         See ``sampling`` of the configuration.
     free : bool
-        Whether to leave aside what full adhesion on the same realisations needs at least.
+        Whether to leave aside the quantities of full adhesion, on the same realisations.
     """
-    least = asked["least"][name]
+    where, least = (surface_of(surface), asked["pressures"]), None
+    if not free:
+        wanted = asked["adhesive"]
+        least = adhesive_accuracy.least(
+            laws, wanted["accuracy"][name], *where, wanted["quantities"], descriptor_seeds
+        )
     return cheapest(
         laws,
         asked["accuracy"][name],
-        surface_of(surface),
-        asked["pressures"],
+        *where,
         QUANTITIES,
         descriptor_seeds=descriptor_seeds,
         plain=False,
-        least=None if free else preset({"coarse_seeds": 0, **least}),
+        least=least,
     )
 
 
