@@ -91,7 +91,8 @@ def seeds(ax, found, model):
     plain_ticks(ax.xaxis, [20, 50, 100, 200, 500, 1000, 2000])
     plain_ticks(ax.yaxis, ERROR_TICKS)
     ax.set_title(r"seeds, $a_V$", loc="right")
-    ax.legend()
+    ax.set_ylim(bottom=0.006)
+    ax.legend(loc="lower left")
 
 
 def bands(ax, found):
