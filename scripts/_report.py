@@ -266,11 +266,14 @@ def error_budgets(answers: Sequence[xr.Dataset]) -> list[Context]:
     budgets = []
     for answer in answers:
         at, made = answer.sel(pressure=LOAD, method="nearest"), datasets.parameters(answer)
+        missed = ", not reached" if "missed" in answer.attrs else ""
         budgets.append(
             {
                 "case": made["case"],
                 "load": number(float(at.pressure)),
-                "asked": NOTHING if made["accuracy"] is None else percent(made["accuracy"]),
+                "asked": NOTHING
+                if made["accuracy"] is None
+                else percent(made["accuracy"]) + missed,
                 "rows": [budget_row(at.sel(column=name)) for name in at.column.values],
             }
         )

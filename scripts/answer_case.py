@@ -139,7 +139,8 @@ def missed(dataset, plan):
         stopping.ENOUGH: "what theory adds of the spectrum errs too much",
     }[plan["stopped"]]
     return (
-        f"error {error:.3g} of {plan['accuracy']:g} asked, of {column} at pressure {load:g}; {why}"
+        f"error {error:.3g} of {plan['accuracy']:g} asked, largest in {column} at pressure "
+        f"{load:g}; {why}"
     )
 
 

@@ -58,7 +58,7 @@ def told(decision, asked, settings):
     }[decision.state]
     return (
         f"{settings.seeds} seeds and {settings.coarse_seeds} coarse ones: error {worst:.3g} of "
-        f"{asked.accuracy:g} asked, of {column} at pressure {load:g}; {after}"
+        f"{asked.accuracy:g} asked, largest in {column} at pressure {load:g}; {after}"
     )
 
 

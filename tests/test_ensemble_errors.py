@@ -7,7 +7,9 @@ import pytest
 import xarray as xr
 
 import _errors
-from stickiness import sampling
+import average_ensemble
+import solve_coarse
+from stickiness import datasets, sampling
 
 FINE, COARSE, DESCRIBED = 3, 40, 200
 LOADS = [0.01, 0.1]
@@ -117,3 +119,21 @@ def test_dimensions_may_come_in_any_order(ensemble):
     want = _errors.ensemble_mean(ensemble.area, _errors.coarse(ensemble, attrgetter("area")))
     xr.testing.assert_allclose(best, want[0], rtol=1e-14)
     xr.testing.assert_allclose(error, want[1], rtol=1e-14)
+
+
+def test_coarse_solutions_in_parts_are_those_of_one_file(tmp_path):
+    """Parts are read back from files: those after the first describe no other seeds."""
+    asked = {"hurst": 0.8, "magnification": 4}
+    curves = [np.array([0.05, 0.1]), np.array([0.01, 0.1]), 1e-6]
+    parts = {"one": range(48), "first": range(32), "second": range(32, 48)}
+    files = {}
+    for name, which in parts.items():
+        solved = solve_coarse.coarse_solutions(asked, which, 20, *curves)
+        path = tmp_path / f"{name}.nc"
+        datasets.write(solve_coarse.annotated(solved), path, title=name, parameters=asked)
+        files[name] = datasets.read(path)
+    assert files["second"].sizes["other"] == 0
+    whole = average_ensemble.renamed(average_ensemble.joined([files["one"]]))
+    both = average_ensemble.renamed(average_ensemble.joined([files["first"], files["second"]]))
+    xr.testing.assert_equal(both, whole)
+    assert both.sizes["other"] == 20

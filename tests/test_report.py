@@ -548,3 +548,8 @@ def test_interval(low, high, text):
 def test_quantity_keeps_its_prefix_when_rounding_up():
     assert _numbers.quantity(999.9999, 999.9999, "Pa") == "1 kPa"
     assert _numbers.quantity(2e-12, 2e-12, "m") == "0.002 nm"
+
+
+def test_accuracy_that_was_not_reached_is_named():
+    (budget,) = _report.error_budgets([answer().assign_attrs(missed="mine: error 0.2 of 0.03")])
+    assert budget["asked"] == "3 %, not reached"

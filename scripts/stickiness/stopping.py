@@ -18,8 +18,12 @@ laws were measured on they count a quarter as much.
 
 What the next round holds is the cheapest that is expected to do: v changes with the numbers of
 seeds as the laws say, from where it was measured. Fixed-width intervals by such rules are Stein's
-and Chow and Robbins's (Ann. Math. Statist. 16, 243 (1945) and 36, 457 (1965)); as theirs, this one
-covers a little less than a mean of as many seeds drawn at once, see the tests.
+and Chow and Robbins's (Ann. Math. Statist. 16, 243 (1945) and 36, 457 (1965)).
+
+In simulations of surfaces that scatter 0.7, 1 and 1.4 times as much as the laws say, with 4 degrees
+of freedom for the laws 98, 92 and 90 % of the plain means that it stops at are within the accuracy,
+and 99, 94 and 91 % of multilevel ones (250 each, two standard deviations 4 %). With 16 the last are
+88 and 84 %, at 10 and 16 % less cost where the laws are right.
 """
 
 from __future__ import annotations
