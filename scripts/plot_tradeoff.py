@@ -118,7 +118,10 @@ def together(ax, laws, quantities, params):
     chosen = [
         accuracy.Settings(*each)
         for each in itertools.product(
-            accuracy.PIXELS, accuracy.TOLERANCES[1:4:2], accuracy.SEEDS[:16:2], accuracy.COARSE_SEEDS
+            accuracy.PIXELS,
+            accuracy.TOLERANCES[1:4:2],
+            accuracy.SEEDS[:16:2],
+            accuracy.COARSE_SEEDS,
         )
     ]
     points = [place(laws, each, given, quantities, params.descriptor_seeds) for each in chosen]
