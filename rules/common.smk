@@ -505,7 +505,9 @@ def conclude():
     RUN_RECORD.unlink(missing_ok=True)
     if progress is None or Quietness.ALL in set(workflow.output_settings.quiet or ()):
         return
-    reused = sum(not workflow.dag.needrun(job) for job in workflow.dag.jobs if job.output)
+    # After a checkpoint Snakemake takes what has run for up to date.
+    old = (job for job in workflow.dag.jobs if job.output and job.jobid not in progress.jobs)
+    reused = sum(not workflow.dag.needrun(job) for job in old)
     places = {"results": RESULTS, "report": f"{RESULTS}/report/report.html"}
     lines = [*graded(RESULTS), *missed(f"{RESULTS}/cases/{case}.nc" for case in DRAWN)]
     print(summary(progress, reused, places, lines), file=sys.stderr)

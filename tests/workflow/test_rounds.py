@@ -74,6 +74,9 @@ def test_rounds(fresh):
     ran = re.search(r"^  ran +(.*)", said, re.M)[1]
     assert "average_ensemble 1" in ran
     assert "answer_case 1" in ran
+    counts = re.search(r"(\d+) jobs ran, (\d+) were up to date", said).groups()
+    rounds = len(list((fresh / "results/tiny/draws/mine").glob("*.nc")))
+    assert sum(map(int, counts)) == 2 * len(easy) + rounds + 2  # average_ensemble and answer_case
     assert fresh.planned(ANSWER) == {}
 
     # More accuracy adds seeds, up to the cap: that is told, not a failure.
