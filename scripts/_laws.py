@@ -15,6 +15,7 @@ from stickiness.accuracy import COARSE, FULL, Law, Surface
 
 FEATURES = ("constant", "hurst", "magnification", "window", "pressure", "pixels", "tolerance")
 FLOOR = 1e-10  # errors below are nothing, and say nothing of how they depend on what
+CAUTIOUS = "carrying"  # the part of which noise exceeds the error itself, in areas
 STIFF = 8.0  # twice the variance of exponents before anything is known of them
 
 
@@ -36,7 +37,7 @@ class Points:
     def laws(self):
         """Fit every part: least squares of logarithms, or what is likeliest of noisy values."""
         return {
-            key: likeliest(rows) if any(noise for *_, noise in rows) else fitted(rows)
+            key: likeliest(rows, key[0] == CAUTIOUS) if any(n for *_, n in rows) else fitted(rows)
             for key, rows in self.rows.items()
         }
 
@@ -52,22 +53,22 @@ def fitted(rows):
     return law_of(coefficients, values / np.exp(features @ coefficients))
 
 
-def likeliest(rows):
+def likeliest(rows, cautious=False):
     """Law of the standard deviation of what may have either sign and is known with some noise.
 
     Values are taken as normal about zero, their variance being that of the law and of the noise.
     Few realisations thus do not make out an error to be larger than it is. The spread is that over
-    laws fitted without the surface that a value is of.
+    laws fitted without the surface that a value is of. To be cautious, noise counts as error in it,
+    of surfaces that the law is fitted to: without those it would not know the error from the noise.
     """
     features, values, noise = (np.array(part) for part in zip(*rows, strict=True))
     surfaces = [tuple(row) for row in features[:, 1:4]]
-    ratio = np.empty(len(rows))
+    every, ratio = np.ones(len(rows), bool), np.empty(len(rows))
     for one in set(surfaces):
         own = np.array([surface == one for surface in surfaces])
-        others = ~own if len(set(surfaces)) > 1 else own
+        others = every if cautious or own.all() else ~own
         law = np.exp(features[own] @ likeliest_exponents(features, values, noise, others))
-        ratio[own] = np.abs(values[own]) / np.hypot(law, noise[own])
-    every = np.ones(len(rows), bool)
+        ratio[own] = np.abs(values[own]) / np.hypot(law, 0.0 if cautious else noise[own])
     return law_of(likeliest_exponents(features, values, noise, every), ratio)
 
 

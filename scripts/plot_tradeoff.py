@@ -101,7 +101,8 @@ def seeds(ax, found, model):
     plain_ticks(ax.xaxis, [20, 50, 100, 200, 500, 1000, 2000])
     plain_ticks(ax.yaxis, ERROR_TICKS)
     ax.set_title(r"seeds, $a_V$", loc="right")
-    ax.legend()
+    ax.set_ylim(bottom=0.006)
+    ax.legend(loc="lower left")
 
 
 def bands(ax, found):
@@ -173,7 +174,10 @@ def together(ax, laws, quantities, params):
     chosen = [
         accuracy.Settings(*each)
         for each in itertools.product(
-            accuracy.PIXELS, accuracy.TOLERANCES[1:4:2], accuracy.SEEDS[:16:2], accuracy.COARSE_SEEDS
+            accuracy.PIXELS,
+            accuracy.TOLERANCES[1:4:2],
+            accuracy.SEEDS[:16:2],
+            accuracy.COARSE_SEEDS,
         )
     ]
     points = [place(laws, each, given, quantities, params.descriptor_seeds) for each in chosen]

@@ -13,7 +13,7 @@ COLUMNS, SEEDS = ["area", "mean_gap"], range(8101, 8107)
 
 
 def simulated(hurst, magnification, pressures):
-    """Mean of area and mean gap, `(column, pressure)`, on four points per shortest wavelength."""
+    """Area and mean gap, `(seed, column, pressure)`, on four points per shortest wavelength."""
     band = spectrum.SelfAffine(hurst=hurst, q0=1.0, q1=magnification, h_rms=1.0)
     values = []
     for seed in SEEDS:
@@ -25,7 +25,7 @@ def simulated(hurst, magnification, pressures):
                 [one.mean_gap for one in of_loads],
             ]
         )
-    return np.mean(values, axis=0)
+    return np.array(values)
 
 
 @pytest.mark.parametrize("hurst", [0.5, 0.8])
@@ -38,10 +38,16 @@ def test_carried_values_are_within_their_errors(hurst):
         "pressures": pressures.tolist(),
     }
     narrow, broad = (simulated(hurst, zeta, pressures) for zeta in (16, 64))
+    # Six surfaces do not know the mean change any better than this.
+    noise = (broad - narrow).std(0, ddof=1) / np.sqrt(len(SEEDS))
+    narrow, broad = narrow.mean(0), broad.mean(0)
     change, size = answer_case.carried(plan, COLUMNS, pressures)
     laws = accuracy.read_laws(ROOT / "config/accuracy.csv")
     claimed = answer_case.carrying_errors(laws, plan, COLUMNS, narrow, size)
     off = np.abs(narrow + change - broad)
-    assert (off <= claimed).all(), off / claimed
+    # Errors that cover 90 %: of four one may be beyond, but not by far.
+    ratio = off / np.hypot(claimed, accuracy.COVERS * noise)
+    assert np.sum(ratio <= 1) >= 3, ratio
+    assert ratio.max() <= 1.5, ratio
     # Left as it is, a value is wrong by much more than that in area.
     assert (claimed[0] < 0.4 * np.abs(broad - narrow)[0]).all(), claimed[0] / (broad - narrow)[0]
