@@ -177,10 +177,10 @@ class _Conjugate:
 
     def _less_mean(self, force, points):
         """Subtract, in place, the mean force on some points, by what each would give way."""
-        if not self.hardens:
+        if not self.hardens or not points.any():
             return balanced(force, points)
         weight = points / self._stiffness
-        force -= np.vdot(weight, force) / max(weight.sum(), 1e-300) * points
+        force -= np.vdot(weight, force) / weight.sum() * points
         return force
 
     def _balance(self, field, points):
@@ -188,10 +188,10 @@ class _Conjugate:
 
         Spread evenly, the rounding of single precision alone would press stiff points hard.
         """
-        if not self.hardens:
+        if not self.hardens or not points.any():
             return balanced(field, points)
         weight = points / self._stiffness
-        field -= field.sum(dtype=float) / max(weight.sum(), 1e-300) * weight
+        field -= field.sum(dtype=float) / weight.sum() * weight
         return field
 
 
