@@ -139,7 +139,6 @@ def adhesive_grids(ax, found):
         ax.plot(by.cost, by.error, **look)
     ax.set(xscale="log", yscale="log", xlabel=COST, ylabel=ERROR)
     ax.set_title("full adhesion: grid", loc="right")
-    ax.legend()
 
 
 def adhesive_tolerances(ax, found):
@@ -149,6 +148,8 @@ def adhesive_tolerances(ax, found):
         ax.plot(by.index.astype(float), by.error, **look)
     ax.set(xscale="log", yscale="log", xlabel="tolerance", ylabel=ERROR)
     ax.set_title("full adhesion: solver", loc="right")
+    ax.set_ylim(top=5)
+    ax.legend(loc="upper left", title="in G to I")
 
 
 def adhesive_seeds(ax, found):

@@ -39,7 +39,7 @@ ALONE = {
 }
 STRONGEST = 8.0  # attraction over repulsion, in the DMT limit, that is still looked at
 # Not that of the contact without adhesion: a looser one turns single pixels, and their area is all
-# that weak adhesion changes. From 1e-4 it costs a quarter more.
+# that weak adhesion changes. It costs a third more than 1e-4.
 TOLERANCE = 1e-7
 
 

@@ -23,6 +23,7 @@ QUANTITIES = {
 }
 COLUMNS = tuple(itertools.chain(*QUANTITIES.values()))
 TOLERANCE = 1e-7  # of the solver of full adhesion, whatever that of the settings
+PULL_OFF_UP_TO = 32  # magnification to which pull-offs were measured
 FEWEST = 8  # seeds from which on a mean has a control
 
 
@@ -39,6 +40,9 @@ def predicted_error(
     Arguments are those of `accuracy.predicted_error`.
     """
     if column == "pull_off":
+        # It falls so steeply that the law would promise too much beyond what was measured.
+        nearest = min(surface.magnification, PULL_OFF_UP_TO)
+        surface = replace(surface, magnification=nearest)
         grid = {"pixels": settings.pixels_per_wavelength}
         return accuracy.single_error(laws, "discretisation", column, surface, pressure, **grid)
     coarse = settings.coarse_seeds if settings.seeds >= FEWEST else 0
