@@ -28,7 +28,7 @@ def test_perfect_theory_leaves_everything_to_simulation_but_its_weight():
     part = accuracy.Surface(0.8, 64.0)
     kept = cut.left_to_simulation(laws(1e-12), 0.05, part, 256.0, LOADS, ["mean_gap"])
     assert kept == pytest.approx(0.05)
-    # The mean square slope goes with magnification^(2 - 2H) - 1; small areas go with its inverse root.
+    # Small areas go with the inverse rms slope, its square with magnification^(2 - 2H) - 1.
     grown = math.sqrt((256.0**0.4 - 1) / (64.0**0.4 - 1))
     area = cut.left_to_simulation(laws(1e-12), 0.05, part, 256.0, (1e-4,), ["area"])
     assert area == pytest.approx(0.05 / grown, rel=0.02)
