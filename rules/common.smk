@@ -38,6 +38,7 @@ try:
         config, Path(workflow.basedir) / "config/schemas"
     )
     LAWS = accuracy.read_laws(config["tradeoff"]["table"])
+    config.update(plan.with_cuts(config, LAWS))
     PLANS = plan.plans_of(config, LAWS)
     DMT_ERRORS = model_choice.read_table(config["dmt_error"])
 except ValueError as error:

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from . import adhesive_accuracy, stopping
+from . import adhesive_accuracy, cut, stopping
 from .accuracy import (
     COARSE_SEEDS,
     QUANTITIES,
@@ -89,7 +89,7 @@ def plans_of(config: Mapping[str, Any], laws: Laws | None = None) -> dict[str, P
             surface=case["surface"],
             simulated=case.get("model", "simulation") == "simulation",
             owner=name,
-            asked=asked_of(name, config) if "accuracy" in case and laws is not None else None,
+            asked=asked_of(name, config, laws) if "accuracy" in case and laws is not None else None,
         )
         owner = next((key for key, plan in plans.items() if shares(plan, own)), name)
         plans[name] = Plan(**{**vars(own), "owner": owner})
@@ -104,7 +104,7 @@ def settings_of(name: str, config: Mapping[str, Any], laws: Laws | None) -> Sett
     """
     case = config["cases"][name]
     if "accuracy" in case and laws is not None:
-        return stopping.first(laws, asked_of(name, config), chosen_for(name, config, laws))
+        return stopping.first(laws, asked_of(name, config, laws), chosen_for(name, config, laws))
     chosen = preset(config["fidelities"][config["fidelity"]])
     seeds = case.get("seeds", config.get("seeds", chosen.seeds))
     coarse_seeds = 0 if plain(case, config) else chosen.coarse_seeds
@@ -116,14 +116,40 @@ def plain(case: Mapping[str, Any], config: Mapping[str, Any]) -> bool:
     return case.get("sampling", config["sampling"]["method"]) == "plain"
 
 
-def asked_of(name: str, config: Mapping[str, Any]) -> stopping.Asked:
-    """Return what a case asks for that gives an accuracy."""
+def with_cuts(config: Mapping[str, Any], laws: Laws) -> dict[str, Any]:
+    """Return a checked configuration whose cases are on cut spectra where `cut` has that cheaper.
+
+    A cut surface is one more of ``model_surfaces``, and its case has theory ``carry_to`` the
+    magnification of the whole.
+    """
+    surfaces, cases = dict(config["model_surfaces"]), dict(config["cases"])
+    for name, case in config["cases"].items():
+        surface = surfaces[case["surface"]]
+        if not cut.may_be_cut(case, surface):
+            continue
+        magnification = cheapest_for(name, config, laws)[0]
+        if magnification < surface["magnification"]:
+            own = cut.name_of(case["surface"], magnification)
+            surfaces[own] = {**surface, "magnification": magnification}
+            cases[name] = {**case, "surface": own, "carry_to": surface["magnification"]}
+    return {**config, "model_surfaces": surfaces, "cases": cases}
+
+
+def asked_of(name: str, config: Mapping[str, Any], laws: Laws) -> stopping.Asked:
+    """Return what a case that gives an accuracy asks of its simulation."""
     case, sampling = config["cases"][name], config["sampling"]
+    surface = surface_of(config["model_surfaces"][case["surface"]])
+    wanted, pressures = tuple(case.get("quantities", QUANTITIES)), tuple(sorted(case["pressures"]))
+    accuracy = case["accuracy"]
+    if "carry_to" in case:
+        accuracy = cut.left_to_simulation(
+            laws, accuracy, surface, case["carry_to"], pressures, wanted
+        )
     return stopping.Asked(
-        accuracy=case["accuracy"],
-        surface=surface_of(config["model_surfaces"][case["surface"]]),
-        pressures=tuple(sorted(case["pressures"])),
-        quantities=tuple(case.get("quantities", QUANTITIES)),
+        accuracy=accuracy,
+        surface=surface,
+        pressures=pressures,
+        quantities=wanted,
         at_most=case.get("at_most", sampling.get("at_most", SEEDS[-1])),
         plain=plain(case, config),
         descriptor_seeds=sampling["descriptor_seeds"],
@@ -189,21 +215,39 @@ def preset_by_rule(
 
 def chosen_for(name: str, config: Mapping[str, Any], laws: Laws) -> Settings:
     """Return the settings predicted to be the cheapest for the accuracy that a case asks for."""
-    asked = asked_of(name, config)
+    return cheapest_for(name, config, laws, whole=True)[1]
+
+
+def cheapest_for(
+    name: str, config: Mapping[str, Any], laws: Laws, whole: bool = False
+) -> tuple[float, Settings]:
+    """Return the magnification and the settings predicted to be the cheapest for a case.
+
+    Parameters
+    ----------
+    whole : bool
+        Whether to keep the spectrum as it is.
+    """
+    asked, case = asked_of(name, config, laws), config["cases"][name]
+    wanted = laws, asked.accuracy, asked.surface, asked.pressures, asked.quantities
+    options = {
+        "descriptor_seeds": asked.descriptor_seeds,
+        "plain": True if asked.plain else None,
+    }
     try:
-        return cheapest(
-            laws,
-            asked.accuracy,
-            asked.surface,
-            asked.pressures,
-            asked.quantities,
-            descriptor_seeds=asked.descriptor_seeds,
-            plain=True if asked.plain else None,
-        )
+        if whole:
+            return asked.surface.magnification, cheapest(*wanted, **options)
+        return cut.cheapest(*wanted, **options)
     except UnreachableError as error:
+        carried = (
+            f", of which carrying to magnification {case['carry_to']:g} by theory leaves "
+            f"{asked.accuracy:.2g} to the simulation"
+            if "carry_to" in case
+            else ""
+        )
         raise UnreachableError(
-            f"cases.{name}.accuracy = {asked.accuracy!r} is out of reach: {error}; ask for less "
-            "accuracy or fewer quantities, or give the case settings of its own"
+            f"cases.{name}.accuracy = {case['accuracy']!r}{carried} is out of reach: {error}; ask "
+            "for less accuracy or fewer quantities, or give the case settings of its own"
         ) from None
 
 
