@@ -202,11 +202,11 @@ def add_grid(points, column, surface, error, pixels):
         off = error.sel(pressure=load).dropna("seed").values
         if not off.size:
             continue
-        size = bias = np.sqrt(np.mean(off**2))
-        if column != "pull_off":  # that of one surface, all others are means
-            bias = abs(off.mean())
-            size = np.hypot(bias, off.std(ddof=1) / np.sqrt(off.size))
-        points.add("discretisation", column, surface, size, load, pixels, at=bias)
+        if column == "pull_off":  # that of one surface, all others are means
+            size, noise = np.sqrt(np.mean(off**2)), 0.0
+        else:
+            size, noise = off.mean(), off.std(ddof=1) / np.sqrt(off.size)
+        points.add("discretisation", column, surface, size, load, pixels, noise=noise)
 
 
 def seed_rows(points, surface, place, one, usual, unit):
