@@ -1,18 +1,22 @@
 """What a case asks for: values at its loads, their error by source, and which source dominates."""
 
+from typing import ClassVar
+
 import numpy as np
 import xarray as xr
 
+from _budgets import BY_THEORY, QUADRATURE, SIMULATED
 from _job import start
 from _model import DESCRIBED, VARIANT, logarithmic_grid, spectrum_of, window_of
 from fit_a_v import fit_one
 from measure_theory import contact_of
 from stickiness import accuracy, datasets
 from stickiness import plan as plan_of
+from stickiness.budget import SOURCES, Part, absent, with_budget
 from stickiness.persson import Persson
 from stickiness.surface import lattice_spectrum
 
-SOURCES = ("discretisation", "solver", "sampling", "bandwidth", "model")
+DIMS = ("column", "pressure")
 RANGES = {"minimum": 1e-4, "maximum": 10.0, "per_decade": 16}
 GAP = 0.1  # over h_rms, at which P(u) is quoted; the ensemble's file has all of it
 TEXTS = {
@@ -32,31 +36,29 @@ def main(job):
     pressures = np.array(plan["pressures"])
     values = np.full((len(columns), len(pressures)), np.nan)
     errors = np.zeros((len(SOURCES), *values.shape))
-    at = Simulated(job.input, plan, laws) if plan["simulated"] else Theory(job.input, plan, laws)
+    at = Simulated(job.input) if plan["simulated"] else Theory(job.input, plan, laws)
     for row, column in enumerate(columns):
-        values[row], parts = at(column)
-        for source, part in parts.items():
-            errors[SOURCES.index(source), row] = np.abs(part)
+        values[row], errors[:, row] = at(column)
+    bandwidth = absent("the case's own spectrum")
     if "carry_to" in plan:
         change, size = carried(plan, columns, pressures)
-        errors[SOURCES.index("bandwidth")] = carrying_error(laws, plan, columns, values, size)
+        error = carrying_error(laws, plan, columns, values, size)
+        bandwidth = Part(xr.DataArray(error, dims=DIMS), "of the difference that theory adds")
         values += change
     dataset = xr.Dataset(
         {
-            "value": (("column", "pressure"), values),
-            "error": (("source", "column", "pressure"), errors),
-            "total_error": (("column", "pressure"), np.linalg.norm(errors, axis=0)),
+            "value": (DIMS, values),
             "extrapolated": ("pressure", outside(plan, pressures).astype(np.int8)),
-            # A single seed does not say what it scatters by, but that is more than all the rest.
-            "dominant": (
-                ("column", "pressure"),
-                np.where(np.isnan(errors), np.inf, errors).argmax(0),
-            ),
         },
-        coords={"column": columns, "pressure": pressures, "source": list(SOURCES)},
+        coords={"column": columns, "pressure": pressures},
     )
+    parts = {
+        source: Part(xr.DataArray(error, dims=DIMS), at.texts[source])
+        for source, error in zip(SOURCES, errors, strict=True)
+        if source != "bandwidth"
+    }
     datasets.write(
-        annotated(dataset, columns),
+        with_budget(annotated(dataset, columns), "value", bandwidth=bandwidth, **parts),
         job.output[0],
         title="quantities of a case and their errors",
         parameters={**plan, "case": job.wildcards.case},
@@ -66,52 +68,48 @@ def main(job):
 class Simulated:
     """Values and errors that cover 90 %, by source, from the files of an ensemble."""
 
-    def __init__(self, inputs, plan, laws):
-        self.inputs, self.plan, self.laws = inputs, plan, laws
+    texts: ClassVar = {
+        "discretisation": "left in the limit of fine grids",
+        "solver": "by the tolerance, as measured",
+        "sampling": "Student's t of the standard error",
+        "model": SIMULATED["model"].text,
+    }
+
+    def __init__(self, inputs):
+        self.inputs = inputs
         self.ensemble = datasets.read(inputs.solved, ["area_fraction_mean", "mean_gap_mean"])
 
     def __call__(self, column):
         """Values of a column at every load, and its errors by source."""
-        mean, sampling, grid = self.found(column)
-        settings = accuracy.Settings(**self.plan["settings"])
-        surface, pressures = plan_of.surface_of(self.plan["surface"]), self.plan["pressures"]
-        solver = [
-            accuracy.single_error(
-                self.laws, "solver", column, surface, p, tolerance=settings.tolerance
-            )
-            for p in pressures
-        ]
-        factor = [
-            accuracy.covering_factor(self.laws, settings, surface, p, column) for p in pressures
-        ]
-        return mean.values, {
-            "discretisation": grid.values,
-            "solver": mean.values * solver,
-            "sampling": factor * sampling.values,
-        }
+        found, name = self.found(column)
+        return found[name].values, found[f"{name}_error"].transpose("source", "pressure").values
 
     def found(self, column):
-        """Mean, standard error and discretisation error of a column."""
+        """Dataset and name of a column."""
         if column == "kappa":
-            fit = datasets.read(self.inputs.kappa, ["kappa"])
-            return fit.kappa, fit.kappa_standard_error, fit.kappa_discretisation_error
+            return datasets.read(self.inputs.kappa, ["kappa", "kappa_error"]), "kappa"
         if column == "a_v":
-            fit, name = datasets.read(self.inputs.a_v, ["a_v_mean"]).isel(window=0), "a_v"
-        else:
-            name, where = {
-                "area": ("area_fraction", {}),
-                "mean_gap": ("mean_gap", {}),
-                "attractive_area_0.01": ("attractive_area", {"range": 0.01}),
-                "attractive_area_0.1": ("attractive_area", {"range": 0.1}),
-                "gap_distribution": ("gap_density", {"gap": GAP}),
-            }[column]
-            fit = self.ensemble.sel(where, method="nearest") if where else self.ensemble
-        endings = ("mean", "standard_error", "discretisation_error")
-        return tuple(fit[f"{name}_{ending}"] for ending in endings)
+            return datasets.read(self.inputs.a_v, ["a_v_mean_error"]).isel(window=0), "a_v_mean"
+        name, where = {
+            "area": ("area_fraction_mean", {}),
+            "mean_gap": ("mean_gap_mean", {}),
+            "attractive_area_0.01": ("attractive_area_mean", {"range": 0.01}),
+            "attractive_area_0.1": ("attractive_area_mean", {"range": 0.1}),
+            "gap_distribution": ("gap_density_mean", {"gap": GAP}),
+        }[column]
+        found = self.ensemble[[name, f"{name}_error"]]
+        return found.sel(where, method="nearest") if where else found, name
 
 
 class Theory:
     """Values of Persson's theory on the lattice spectrum, and what it errs by."""
+
+    texts: ClassVar = {
+        "discretisation": "of the quadrature, as tested",
+        "solver": BY_THEORY["solver"].text,
+        "sampling": BY_THEORY["sampling"].text,
+        "model": "of theory in place of simulation, as measured",
+    }
 
     def __init__(self, inputs, plan, laws):
         self.plan, self.laws = plan, laws
@@ -126,7 +124,8 @@ class Theory:
             accuracy.single_error(self.laws, "theory", column, surface, p)
             for p in self.plan["pressures"]
         ]
-        return values, {"model": values * error}
+        parts = {"discretisation": QUADRATURE["gap_density"] * values, "model": values * error}
+        return values, np.abs([parts.get(source, 0 * values) for source in SOURCES])
 
 
 def quoted(state, column):
@@ -190,15 +189,11 @@ def annotated(dataset, columns):
         dataset,
         column=("1", "; ".join(f"{column}: {TEXTS[column]}" for column in columns)),
         pressure=DESCRIBED["pressure"],
-        source=("1", "where an error comes from"),
         value=("1", "value of the column at a load"),
-        error=("1", "error by source; covers 90 %", "the scatter of a single seed is unknown"),
-        total_error=("1", "all sources in quadrature", "the scatter of a single seed is unknown"),
         extrapolated=(
             "1",
             "1 where surface or load is outside what the laws of solver and model were measured on",
         ),
-        dominant=("1", f"source of the largest error, counted from 0: {', '.join(SOURCES)}"),
     )
 
 
