@@ -75,6 +75,7 @@ rule persson_surface:
 rule persson_table:
     input:
         library=library_of("persson_table.py"),
+        laws=config["tradeoff"]["table"],
     output:
         f"{RESULTS}/persson/table.nc",
     log:

@@ -9,15 +9,12 @@ import numpy as np
 import xarray as xr
 
 from _model import LOAD
-from stickiness import datasets
+from stickiness import budget, datasets
 
 REPRODUCED = "reproduced"
 QUALIFIED = "reproduced with a qualification"
 NOT = "not reproduced"
 OPEN = "not decided at this resolution"
-
-# Sources of error by the names that variables have for them.
-KINDS = {"sampling": "standard", "discretisation": "discretisation", "model": "model"}
 
 Files = Mapping[str, xr.Dataset]
 
@@ -66,18 +63,12 @@ def graded(fully: bool, partly: bool) -> str:
 
 def errors_of(data: xr.Dataset, name: str) -> dict[str, float]:
     """Errors of a mean by their source."""
-    return {
-        source: float(data[f"{name}_{kind}_error"])
-        for source, kind in KINDS.items()
-        if f"{name}_{kind}_error" in data
-    }
+    return {s: float(budget.part(data, name, s)) for s in budget.SOURCES}
 
 
 def total_error(data: xr.Dataset, name: str) -> xr.DataArray:
-    """Errors of a mean in quadrature: standard, discretisation and, if there is one, model."""
-    error = np.hypot(data[f"{name}_standard_error"], data[f"{name}_discretisation_error"])
-    model = f"{name}_model_error"
-    return np.hypot(error, data[model]) if model in data else error
+    """All errors of a mean in quadrature."""
+    return data[f"{name}_total_error"]
 
 
 def quoted(value: float, error: float) -> str:

@@ -6,7 +6,6 @@ import numpy as np
 import xarray as xr
 
 from _claim import (
-    KINDS,
     OPEN,
     QUALIFIED,
     Claim,
@@ -19,7 +18,7 @@ from _claim import (
     total_error,
 )
 from _model import LOAD
-from stickiness import criteria, datasets
+from stickiness import budget, criteria, datasets
 
 PAPER_A_V = 2.8  # of the formula in Figure 4B
 KNOWN = 0.3  # error over formula up to which a point is compared with it
@@ -207,7 +206,7 @@ def inverse_kappa_ad(files: Files) -> Claim:
         "than its sum would, so that 1/kappa_ad falls with the range more slowly than as "
         "(range/h_rms)^(2/3); strong attraction saturates (Fig. 7).",
         sources,
-        {source: float(np.mean(ratios[source][told])) for source in KINDS},
+        {source: float(np.mean(ratios[source][told])) for source in budget.SOURCES},
     )
 
 
@@ -226,14 +225,13 @@ def over_formula(files: Files, name: str, zeta: int) -> dict:
     found = {key: full[key] / formula for key in names}
     found["error"] = total_error(full, "inverse_kappa_ad") / formula
     found["net_error"] = total_error(full, "inverse_kappa_ad_net") / formula
-    for source, kind in KINDS.items():
-        part = f"inverse_kappa_ad_{kind}_error"
-        found[source] = full.get(part, xr.zeros_like(formula)) / formula
+    for source in budget.SOURCES:
+        found[source] = budget.part(full, "inverse_kappa_ad", source) / formula
     found["limit"] = limit.inverse_kappa_ad / formula
     found["dmt"] = full.model == "dmt"
     found["direct"] = full.inverse_kappa_ad_direct
     found = {key: values.values.ravel() for key, values in found.items()}
-    found["a_v"] = quoted(a_v.a_v_mean, total_error(a_v, "a_v"))
+    found["a_v"] = quoted(a_v.a_v_mean, total_error(a_v, "a_v_mean"))
     found["factor"] = f"{PAPER_A_V / float(a_v.a_v_mean):.2f}"
     return found
 

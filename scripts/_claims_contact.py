@@ -292,7 +292,7 @@ def simulated_a_v(files: Files, continuous: xr.DataArray) -> str:
 
 
 def described(fit: xr.Dataset) -> str:
-    return quoted(fit.a_v_mean, total_error(fit, "a_v"))
+    return quoted(fit.a_v_mean, total_error(fit, "a_v_mean"))
 
 
 def a_v_against_load(files: Files) -> Claim:

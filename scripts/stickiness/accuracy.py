@@ -261,11 +261,16 @@ def covering_factor(
     if settings.seeds < 2:
         return math.nan
     if not settings.coarse_seeds:
-        return float(stats.t.ppf(_QUANTILE, settings.seeds - 1))
+        return students_t(settings.seeds)
     numbers = np.array([settings.seeds, settings.coarse_seeds, descriptor_seeds])
     shares = _level_shares(laws, surface, pressure, column, settings.pixels_per_wavelength)
     parts = np.square(shares) / numbers
     return float(stats.t.ppf(_QUANTILE, parts.sum() ** 2 / np.sum(parts**2 / (numbers - 1))))
+
+
+def students_t(seeds: int) -> float:
+    """Return how many standard errors cover 90 % of plain means; NaN for a single seed."""
+    return float(stats.t.ppf(_QUANTILE, seeds - 1)) if seeds > 1 else math.nan
 
 
 def _level_shares(laws, surface, pressure, column, pixels):
