@@ -88,12 +88,12 @@ def known(surface):
         return quantity(*(float(surface[name].sel(end=end)) for end in ENDS), unit)
 
     rows = [
-        ("Hurst exponent H", with_error(float(surface.hurst), error("hurst_error"))),
+        ("Hurst exponent H", with_error(float(surface.hurst), error("hurst_total_error"))),
         (f"C0 [{surface.C0.attrs['units']}]", prefactor(surface)),
         (f"C0 at H = 0.8 [{surface.C0_reference_upper.attrs['units']}]", reference(surface)),
         ("rms height, smooth … rough end", ends("h_rms", "m")),
         ("rms slope", interval(*(float(surface.rms_slope.sel(end=end)) for end in ENDS))),
-        ("q0 [1/m]", with_error(float(surface.q0), error("q_rolloff_error"))),
+        ("q0 [1/m]", with_error(float(surface.q0), error("q_rolloff_total_error"))),
         ("roll-off", roll_off(surface)),
         ("q1 [1/m]", number(float(surface.q1))),
     ]
@@ -121,7 +121,7 @@ def prefactor(surface):
 def reference(surface):
     """C0 of the line with H = 0.8, fitted or the highest that the spectrum touches."""
     if "C0_reference" in surface:
-        return with_error(float(surface.C0_reference), float(surface.C0_reference_error))
+        return with_error(float(surface.C0_reference), float(surface.C0_reference_total_error))
     upper = interval(*(float(surface.C0_reference_upper.sel(end=end)) for end in ENDS))
     return f"at most {upper}"
 
@@ -129,7 +129,7 @@ def reference(surface):
 def roll_off(surface):
     if "q_rolloff" not in surface:
         return "none found" if "fitted" in surface else NOTHING
-    return f"{with_error(float(surface.q_rolloff), float(surface.q_rolloff_error))} 1/m"
+    return f"{with_error(float(surface.q_rolloff), float(surface.q_rolloff_total_error))} 1/m"
 
 
 def verdict(pair, surface, entry):

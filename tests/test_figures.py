@@ -259,7 +259,7 @@ def test_figure_10(tmp_path, kept):
         "effect": effect,
         "effect_model": effect,
         "over_model": np.ones_like(t),
-        "over_model_standard_error": 0.05 * np.ones_like(t),
+        "over_model_total_error": 0.05 * np.ones_like(t),
     }
     coords = dict(zip(dims, ([0.065], [0.01, 0.1], [0.01, 0.03, 0.1, 1]), strict=True))
     data = xr.Dataset({n: (dims, v) for n, v in values.items()} | {"q0_h_rms": 0.1}, coords=coords)
