@@ -31,9 +31,8 @@ class Claim:
         What the paper claims.
     quantity : str
         What `value` is, with its unit.
-    value, uncertainty, claimed : float
-        Measured value, its uncertainty (NaN where the value is exact) and the paper's value (NaN
-        where it gives none).
+    value, claimed : float
+        Measured value, and the paper's (NaN where it gives none).
     verdict : str
         One of the verdicts above.
     remark : str
@@ -41,19 +40,27 @@ class Claim:
     sources : tuple of str
         Names of the files that the claim was judged by, that of the value first.
     errors : mapping of str to float
-        What makes up the uncertainty, by its source.
+        What the value errs by, covering 90 %, by its source; NaN where that is not known, and
+        none of a source that does not apply.
+    comment : str
+        Why errors are not known or do not apply, or what they are.
     """
 
     number: int
     statement: str
     quantity: str
     value: float
-    uncertainty: float
     claimed: float
     verdict: str
     remark: str
     sources: tuple[str, ...]
     errors: Mapping[str, float] = field(default_factory=dict)
+    comment: str = "as in the file of the value"
+
+    @property
+    def uncertainty(self) -> float:
+        """All errors in quadrature; NaN where one of them is not known."""
+        return float(np.linalg.norm([*self.errors.values()])) if self.errors else 0.0
 
 
 def graded(fully: bool, partly: bool) -> str:

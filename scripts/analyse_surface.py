@@ -67,9 +67,8 @@ ERRORS = {
 def main(job):
     asked = job.params.surface
     dataset = _measured.analyse(asked) if asked["kind"] == "measured" else self_affine(asked)
-    errors = {name: dataset[name] for name in ERRORS.values() if name in dataset}
     datasets.write(
-        budgeted(annotated(dataset.drop_vars(errors)), errors),
+        annotated(dataset),
         job.output[0],
         title=f"spectrum of a real surface: {asked['label']}",
         parameters={"surface": job.wildcards.real_surface, **asked},
@@ -149,6 +148,8 @@ def budgeted(dataset, errors):
 
 
 def annotated(dataset):
+    errors = {name: dataset[name] for name in ERRORS.values() if name in dataset}
+    dataset = dataset.drop_vars(errors)
     exponent = 2 - 2 * float(dataset.hurst)
     reference = f"m^{2 - 2 * REFERENCE_HURST:g}"
     prefactor = f"m^{exponent:.4g}"
@@ -158,7 +159,7 @@ def annotated(dataset):
         "C0_reference_upper": (reference, f"largest C q^(2(H+1)) at H = {REFERENCE_HURST}"),
     }
     present = {name: text for name, text in texts.items() if name in dataset.variables}
-    return datasets.annotate(dataset, **present)
+    return budgeted(datasets.annotate(dataset, **present), errors)
 
 
 if __name__ == "__main__":
