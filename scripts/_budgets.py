@@ -171,7 +171,6 @@ def theory_error(
     return found.where(like["variant"] == VARIANT) if "variant" in like.coords else found
 
 
-
 def theory_parts(
     laws: accuracy.Laws, name: str, value: xr.DataArray, surface: Mapping[str, Any] | None = None
 ) -> dict[str, Part]:

@@ -265,9 +265,7 @@ def surface_row(surface: xr.Dataset) -> Context:
 def reference_prefactor(surface: xr.Dataset) -> str:
     """C0 of the line with H = 0.8: fitted, or the highest such line that the spectrum touches."""
     if "C0_reference" in surface:
-        return with_error(
-            float(surface.C0_reference), float(surface.C0_reference_total_error)
-        )
+        return with_error(float(surface.C0_reference), float(surface.C0_reference_total_error))
     upper = surface.C0_reference_upper
     bound = "" if np.isclose(float(surface.hurst), 0.8) else "≤ "
     return bound + interval(*(float(upper.sel(end=end)) for end in ("smooth", "rough")), digits=2)

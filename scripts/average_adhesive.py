@@ -146,7 +146,9 @@ def averaged(states, full, ensemble, dmt, made):
     }
     models |= {name: linearity_error(dataset[of], linear) for name, of in LOADWISE.items()}
     for name in STATES | SLOPES | FITS | RATIOS:
-        dataset[f"{name}_error"] = errors(dataset, name, models.get(name, 0.0), states.sizes["seed"])
+        dataset[f"{name}_error"] = errors(
+            dataset, name, models.get(name, 0.0), states.sizes["seed"]
+        )
     dataset["residual"] = states.residual.max(["seed", "resolution"])
     dataset["iterations"] = fine(states.iterations).mean("seed")
     return dataset

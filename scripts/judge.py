@@ -191,7 +191,9 @@ def edges(pairs):
     found = attraction(pairs, pairs.length.values, pairs.pair_a_v.values)
     low, high = limits(pairs, pairs.length.values)
     h, q0, reach = (pairs[name].values for name in ("h_rms", "q0", "range"))
-    thresholds = [threshold_length(pairs, *limit) for limit in (("", 0), ("_low", -1), ("_high", 1))]
+    thresholds = [
+        threshold_length(pairs, *limit) for limit in (("", 0), ("_low", -1), ("_high", 1))
+    ]
     validity = criteria.dmt_validity(h, q0, pairs.length.values, reach)
     t, tau = found.attractive_over_contact, found.strength
     regime = np.select(

@@ -393,7 +393,8 @@ def test_separation_is_graded_on_theory_and_simulation(files, theory, simulation
     files["ensemble_wide"] = ensemble(32, separation=simulation, window=4)
     claim = contact.load_separation(files)
     assert claim.verdict == verdict
-    assert claim.uncertainty == pytest.approx(claim.errors["model"]) and claim.uncertainty > 0
+    assert claim.uncertainty == pytest.approx(claim.errors["model"])
+    assert claim.uncertainty > 0
     assert ("disagrees" in claim.remark) == (simulation != 1)
 
 

@@ -232,7 +232,14 @@ def answer(sampling=0.01):
 
 
 TRADE = {
-    "figure": {"name": "trade", "data": "", "width": 9, "height": 9, "alt": "", "caption": "Costs."},
+    "figure": {
+        "name": "trade",
+        "data": "",
+        "width": 9,
+        "height": 9,
+        "alt": "",
+        "caption": "Costs.",
+    },
     "tables": [(["seeds", "area", "cost"], [["4 plain", "13 %", "40"]])],
 }
 PRESET = {
