@@ -13,8 +13,8 @@ import pandas as pd
 
 COLUMNS = ("knob", "setting", "quantity", "error", "cost", "memory")
 COMMENT = """\
-# What every setting errs by and costs, medians over surfaces and loads, from the target tradeoff. To
-# take a new measurement over, copy it here. Errors are relative and cover 90 %; cost in pairs of
+# What every setting errs by and costs, medians over surfaces and loads, from the target tradeoff.
+# To take a new measurement over, copy it here. Errors are relative and cover 90 %; cost in pairs of
 # Fourier transforms of 1024 x 1024 doubles; memory in MB.
 """
 

@@ -58,9 +58,9 @@ OTHERS = {
 # pixels make it first order: what is left of the difference falls as the root of the pixel only.
 SLOW = 1 / (np.sqrt(2) - 1)  # over the change from half the resolution
 SLOWLY = "2.4 times the change from half the resolution, as it falls with the root of the pixel"
-# Relative. Of 24 states solved to 1e-7 and to 1e-9 (loads 0.03 and 0.065, range 0.1 h_rms, l_a/range
-# 0.05 to 0.4, magnifications 16 and 32) 22 changed by less than 3e-8 of the load. Two of the
-# stickiest ended on another branch, by 2e-3 of it.
+# Relative. Of 24 states solved to 1e-7 and to 1e-9 (loads 0.03 and 0.065, range 0.1 h_rms,
+# l_a/range 0.05 to 0.4, magnifications 16 and 32) 22 changed by less than 3e-8 of the load. Two of
+# the stickiest ended on another branch, 2e-3 of it away.
 SOLVER = 1e-6
 AREA_OF_DMT = {"repulsive_area", "net_repulsive_area"}  # without what attraction draws in
 LEFT = {

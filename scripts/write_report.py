@@ -99,9 +99,9 @@ def render(
 ):
     """The page as text, from datasets and figures that have been read.
 
-    `files` says where they were read from: paths of `claims`, `verdicts` and `trade`, and paths by name of
-    `surfaces`, `ensembles`, `answers`, `comparisons` and, a list for each, of the `figures`. `trade`
-    is what accuracy costs: its figure and a table for each knob.
+    `files` says where they were read from: paths of `claims`, `verdicts` and `trade`, and paths by
+    name of `surfaces`, `ensembles`, `answers`, `comparisons` and, a list for each, of the
+    `figures`. `trade` is what accuracy costs: its figure and a table for each knob.
     """
     return _captions.template_of(template, page).render(
         fidelity=fidelity,

@@ -1,5 +1,7 @@
 """Error budgets: sources, total and the largest of them, and what is not known."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 import xarray as xr
@@ -7,7 +9,7 @@ import xarray as xr
 import _budgets
 from stickiness import accuracy, budget, datasets
 
-LAWS = accuracy.read_laws("config/accuracy.csv")
+LAWS = accuracy.read_laws(Path(__file__).parents[1] / "config/accuracy.csv")
 NONE = budget.absent("made up")
 
 
