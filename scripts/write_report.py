@@ -38,7 +38,6 @@ def main(job):
             "claims": job.input.claims,
             "verdicts": job.input.verdicts,
             "figures": job.params.figure_sources,
-            "trade": job.input.trade,
             **{
                 group: by_name(job.input[group])
                 for group in ("ensembles", "answers", "comparisons", "surfaces")
@@ -52,6 +51,7 @@ def main(job):
                 job.input.trade_figure,
                 Path(job.input.trade_caption).read_text(encoding="utf-8"),
             ),
+            "source": job.input.trade,
             "tables": list(_trade_summary.tables(_trade_summary.read(job.input.trade))),
         },
         presets=_report.preset_rows(accuracy.read_laws(job.input.laws), **job.params.presets),
@@ -99,9 +99,9 @@ def render(
 ):
     """The page as text, from datasets and figures that have been read.
 
-    `files` says where they were read from: paths of `claims`, `verdicts` and `trade`, and paths by
-    name of `surfaces`, `ensembles`, `answers`, `comparisons` and, a list for each, of the
-    `figures`. `trade` is what accuracy costs: its figure and a table for each knob.
+    `files` says where they were read from: paths of `claims` and `verdicts`, and paths by name of
+    `surfaces`, `ensembles`, `answers`, `comparisons` and, a list for each, of the `figures`.
+    `trade` is what accuracy costs: its figure, a table for each knob, and the `source` of both.
     """
     return _captions.template_of(template, page).render(
         fidelity=fidelity,

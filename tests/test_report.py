@@ -233,13 +233,14 @@ def answer(sampling=0.01):
 
 TRADE = {
     "figure": {
-        "name": "trade",
+        "name": "tradeoff",
         "data": "",
-        "width": 9,
-        "height": 9,
-        "alt": "",
-        "caption": "Costs.",
+        "width": 100,
+        "height": 50,
+        "alt": "What it costs.",
+        "caption": "What it costs.",
     },
+    "source": "config/trade.csv",
     "tables": [(["seeds", "area", "cost"], [["4 plain", "13 %", "40"]])],
 }
 PRESET = {
@@ -266,7 +267,6 @@ def page(claims, verdicts, surfaces, figures, benchmarks):
             "verdicts": "out/verdicts.nc",
             "surfaces": {name: f"out/surfaces/{name}.nc" for name in surfaces},
             "ensembles": {"case_of_two": "out/ensembles/case_of_two.nc"},
-            "trade": "config/trade.csv",
             "answers": {"case_of_two": "out/cases/case_of_two.nc"},
             "comparisons": {"case_of_two": "out/fits/case_of_two.nc"},
             "figures": {figure["name"]: [f"out/a/{figure['name']}.nc"] for figure in figures},
@@ -350,7 +350,8 @@ def test_every_claim_and_figure_appears(page):
         assert grade in reader.text
     images = reader.attributes("img")
     assert [image["alt"] for image in images] == [
-        f"Figure {n}: Caption {n} of a & b < gamma." for n in range(1, 7)
+        *(f"Figure {n}: Caption {n} of a & b < gamma." for n in range(1, 7)),
+        "What it costs.",
     ]
     assert all((image["width"], image["height"]) == ("100", "50") for image in images)
     assert "More {words}." in reader.text
@@ -364,7 +365,7 @@ def test_claims_show_value_error_and_files(page):
     assert "1.891 ± 0.033" in text
     assert "sampling 0.032, discretisation 0.01" in text  # largest first
     assert "sampling, not known" in text
-    assert "−2 quantity 1" in text  # no uncertainty known, none shown
+    assert "−2 sampling not known quantity 1" in text
     assert "b/ seed1.nc and 1 more" in text
     assert "closed form" in text
     # The value leads to the first file behind it, a closed form's to the ledger.
@@ -411,9 +412,9 @@ def test_every_verdict_stands_in_its_place(verdicts, surfaces):
 def test_verdicts_are_worded_on_the_page(page):
     text = Reader(page).text
     for words in (
-        "sticky † m 8 … 9 (7.2 … 9.9) E* 2.5 MPa",
-        "depends m 0.5 … 2 (0.45 … 2.2)",
-        "not sticky m 0.1 (0.09 … 0.11) E* 2.5 MPa",
+        "sticky † m 8 … 9 (7.2 … 9.9) by model E* 2.5 MPa",
+        "depends m 0.5 … 2 (0.45 … 2.2) by model",
+        "not sticky m 0.1 (0.09 … 0.11) by model E* 2.5 MPa",
     ):
         assert words in text
 
