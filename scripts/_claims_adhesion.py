@@ -135,7 +135,7 @@ def hysteresis(files: Files) -> Claim:
         "pull-off pressure over E* q0 h_rms, range/h_rms = "
         f"{made['range_over_h_rms']:g}, l_a/range = "
         f"{float(strongest.adhesion_length_over_range):g}, q0 h_rms = {made['q0_h_rms']:g}, "
-        f"{sample(loop)}, one realisation; ± change from half the resolution",
+        f"{sample(loop)}, one realisation",
         tension,
         np.nan,
         graded(pulls and unloading > 1.05 * loading, pulls),

@@ -87,7 +87,7 @@ def sweep(zetas=(1000.0,), hursts=(0.8,), loads=(LOAD,), exponent=-1 / 3, power=
     pressure = np.broadcast_to(loads, shape)
     scale = 3.0 * pressure[..., None] ** power
     area = scale * RANGES ** (1 + exponent) / (1 + exponent)
-    data = xr.Dataset(
+    return xr.Dataset(
         {
             "pressure": (dims, pressure),
             "mean_gap": (dims, -np.log(pressure) / 2),
@@ -102,7 +102,6 @@ def sweep(zetas=(1000.0,), hursts=(0.8,), loads=(LOAD,), exponent=-1 / 3, power=
             "gap": GAPS,
         },
     )
-    return with_errors(data, "mean_gap", model=0.1)
 
 
 def fit(of, *slopes):
@@ -393,8 +392,7 @@ def test_separation_is_graded_on_theory_and_simulation(files, theory, simulation
     files["ensemble_wide"] = ensemble(32, separation=simulation, window=4)
     claim = contact.load_separation(files)
     assert claim.verdict == verdict
-    assert claim.uncertainty == pytest.approx(claim.errors["model"])
-    assert claim.uncertainty > 0
+    assert (claim.uncertainty > 1e-9) == (simulation != 1)  # theory is at 1 on the same spectrum
     assert ("disagrees" in claim.remark) == (simulation != 1)
 
 
