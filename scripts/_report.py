@@ -9,8 +9,10 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import pandas as pd
 import xarray as xr
 
+import _trade_summary
 from _materials import modulus_text
 from _model import LOAD
 from _numbers import NOTHING, interval, number, percent, quantity, superscripted, with_error
@@ -30,6 +32,13 @@ COLUMNS = {
     "gap_distribution": "P(u) at gap 0.1",
     "a_v": "a_V",
     "kappa": "κ",
+}
+HEADS = {
+    "attractive_area_0.01": "A_ad(0.01)",
+    "attractive_area_0.1": "A_ad(0.1)",
+    "gap_distribution": "P(u)",
+    "a_v": "a_V",
+    "memory [MB]": "MB",
 }
 CLAIM_TONES = {
     "reproduced": "yes",
@@ -285,6 +294,14 @@ def error_budgets(answers: Sequence[xr.Dataset]) -> list[Context]:
             }
         )
     return budgets
+
+
+def trade_tables(medians: pd.DataFrame) -> list[tuple[list[str], list[list[str]]]]:
+    """Tables of what accuracy costs under heads that fit a page."""
+    return [
+        ([HEADS.get(name, name.replace("_", " ")) for name in head], lines)
+        for head, lines in _trade_summary.tables(medians)
+    ]
 
 
 def theory_rows(comparisons: Sequence[xr.Dataset]) -> list[Context]:

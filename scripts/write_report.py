@@ -52,7 +52,7 @@ def main(job):
                 Path(job.input.trade_caption).read_text(encoding="utf-8"),
             ),
             "source": job.input.trade,
-            "tables": list(_trade_summary.tables(_trade_summary.read(job.input.trade))),
+            "tables": _report.trade_tables(_trade_summary.read(job.input.trade)),
         },
         presets=_report.preset_rows(accuracy.read_laws(job.input.laws), **job.params.presets),
         **read(job.input),
