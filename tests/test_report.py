@@ -363,9 +363,9 @@ def test_every_claim_and_figure_appears(page):
 def test_claims_show_value_error_and_files(page):
     text = Reader(page).text
     assert "1.891 ± 0.033" in text
-    assert "by sampling: sampling 0.032, discretisation 0.01" in text  # largest first
+    assert "by sampling : sampling 0.032, discretisation 0.01" in text  # largest first
     assert "sampling, not known" in text
-    assert "−2 by sampling, not known: sampling not known quantity 1" in text
+    assert "−2 by sampling, not known : sampling not known quantity 1" in text
     assert "b/ seed1.nc and 1 more" in text
     assert "closed form" in text
     # The value leads to the first file behind it, a closed form's to the ledger.
