@@ -1,4 +1,4 @@
-"""Error budgets of verdicts: by the spectrum of a surface, and by a_V and the model of the edges."""
+"""Error budgets of verdicts: by the spectrum of a surface, by a_V and by the model of the edges."""
 
 import numpy as np
 import xarray as xr
