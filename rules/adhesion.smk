@@ -5,6 +5,7 @@
 rule adhesion_dmt:
     input:
         library=library_of("adhesion_dmt.py"),
+        laws=config["tradeoff"]["table"],
         ensemble=lambda wildcards: (
             f"{RESULTS}/ensembles/{ADHESION[wildcards.adhesion]['case']}.nc"
         ),

@@ -107,6 +107,7 @@ rule contact_maps:
 rule average_ensemble:
     input:
         library=library_of("average_ensemble.py"),
+        laws=config["tradeoff"]["table"],
         realisations=realisations,
         coarse=coarse_solutions,
     output:
@@ -129,6 +130,7 @@ rule average_ensemble:
 rule solve_ensemble:
     input:
         library=library_of("solve_ensemble.py"),
+        laws=config["tradeoff"]["table"],
     output:
         f"{RESULTS}/ensembles/{{comparison}}.nc",
     log:

@@ -5,6 +5,7 @@
 rule fit_a_v:
     input:
         library=library_of("fit_a_v.py"),
+        laws=config["tradeoff"]["table"],
         areas=f"{RESULTS}/{{source}}/{{name}}.nc",
     output:
         f"{RESULTS}/fits/{{source}}/{{name}}.nc",
@@ -28,6 +29,7 @@ rule fit_a_v:
 rule fit_kappa:
     input:
         library=library_of("fit_kappa.py"),
+        laws=config["tradeoff"]["table"],
         ensemble=f"{RESULTS}/ensembles/{{case}}.nc",
         theory=f"{RESULTS}/persson_lattice/{{case}}.nc",
     output:

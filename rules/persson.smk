@@ -5,6 +5,7 @@
 rule persson_sweep:
     input:
         library=library_of("persson_sweep.py"),
+        laws=config["tradeoff"]["table"],
     output:
         f"{RESULTS}/persson/{{sweep}}.nc",
     log:
@@ -27,6 +28,7 @@ rule persson_sweep:
 rule persson_lattice:
     input:
         library=library_of("persson_lattice.py"),
+        laws=config["tradeoff"]["table"],
     output:
         f"{RESULTS}/persson_lattice/{{compared}}.nc",
     log:
@@ -50,6 +52,7 @@ rule persson_lattice:
 rule persson_surface:
     input:
         library=library_of("persson_surface.py"),
+        laws=config["tradeoff"]["table"],
         surface=f"{RESULTS}/real_surfaces/{{real_surface}}.nc",
     output:
         f"{RESULTS}/persson_surface/{{real_surface}}.nc",
@@ -72,6 +75,7 @@ rule persson_surface:
 rule persson_table:
     input:
         library=library_of("persson_table.py"),
+        laws=config["tradeoff"]["table"],
     output:
         f"{RESULTS}/persson/table.nc",
     log:

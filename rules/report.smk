@@ -38,6 +38,9 @@ rule write_report:
         surfaces=expand(f"{RESULTS}/real_surfaces/{{real_surface}}.nc", real_surface=REAL_SURFACES),
         answers=expand(f"{RESULTS}/cases/{{case}}.nc", case=CASES),
         laws=config["tradeoff"]["table"],
+        trade=config["tradeoff"]["summary"],
+        trade_figure=f"{RESULTS}/figures/tradeoff.png",
+        trade_caption="report/tradeoff.rst",
     output:
         report(
             f"{RESULTS}/report/report.html",

@@ -9,15 +9,12 @@ import numpy as np
 import xarray as xr
 
 from _model import LOAD
-from stickiness import datasets
+from stickiness import budget, datasets
 
 REPRODUCED = "reproduced"
 QUALIFIED = "reproduced with a qualification"
 NOT = "not reproduced"
 OPEN = "not decided at this resolution"
-
-# Sources of error by the names that variables have for them.
-KINDS = {"sampling": "standard", "discretisation": "discretisation", "model": "model"}
 
 Files = Mapping[str, xr.Dataset]
 
@@ -34,9 +31,8 @@ class Claim:
         What the paper claims.
     quantity : str
         What `value` is, with its unit.
-    value, uncertainty, claimed : float
-        Measured value, its uncertainty (NaN where the value is exact) and the paper's value (NaN
-        where it gives none).
+    value, claimed : float
+        Measured value, and the paper's (NaN where it gives none).
     verdict : str
         One of the verdicts above.
     remark : str
@@ -44,19 +40,27 @@ class Claim:
     sources : tuple of str
         Names of the files that the claim was judged by, that of the value first.
     errors : mapping of str to float
-        What makes up the uncertainty, by its source.
+        What the value errs by, covering 90 %, by its source; NaN where that is not known, and
+        none of a source that does not apply.
+    comment : str
+        Why errors are not known or do not apply, or what they are.
     """
 
     number: int
     statement: str
     quantity: str
     value: float
-    uncertainty: float
     claimed: float
     verdict: str
     remark: str
     sources: tuple[str, ...]
     errors: Mapping[str, float] = field(default_factory=dict)
+    comment: str = "as in the file of the value"
+
+    @property
+    def uncertainty(self) -> float:
+        """All errors in quadrature; NaN where one of them is not known."""
+        return float(np.linalg.norm([*self.errors.values()])) if self.errors else 0.0
 
 
 def graded(fully: bool, partly: bool) -> str:
@@ -66,18 +70,12 @@ def graded(fully: bool, partly: bool) -> str:
 
 def errors_of(data: xr.Dataset, name: str) -> dict[str, float]:
     """Errors of a mean by their source."""
-    return {
-        source: float(data[f"{name}_{kind}_error"])
-        for source, kind in KINDS.items()
-        if f"{name}_{kind}_error" in data
-    }
+    return {s: float(budget.part(data, name, s)) for s in budget.SOURCES}
 
 
 def total_error(data: xr.Dataset, name: str) -> xr.DataArray:
-    """Errors of a mean in quadrature: standard, discretisation and, if there is one, model."""
-    error = np.hypot(data[f"{name}_standard_error"], data[f"{name}_discretisation_error"])
-    model = f"{name}_model_error"
-    return np.hypot(error, data[model]) if model in data else error
+    """All errors of a mean in quadrature."""
+    return data[f"{name}_total_error"]
 
 
 def quoted(value: float, error: float) -> str:

@@ -6,7 +6,6 @@ import numpy as np
 import xarray as xr
 
 from _claim import (
-    KINDS,
     OPEN,
     QUALIFIED,
     Claim,
@@ -19,7 +18,7 @@ from _claim import (
     total_error,
 )
 from _model import LOAD
-from stickiness import criteria, datasets
+from stickiness import budget, criteria, datasets
 
 PAPER_A_V = 2.8  # of the formula in Figure 4B
 KNOWN = 0.3  # error over formula up to which a point is compared with it
@@ -49,7 +48,6 @@ def kappa_threshold(files: Files) -> Claim:
         f"approach, range/h_rms = {float(reach):g}, q0 h_rms = {float(full.q0_h_rms):g}, "
         f"{sample(full)}",
         threshold if crosses else largest_simulated(at),
-        total(errors) if crosses else np.nan,
         np.nan,
         QUALIFIED if crosses else OPEN,
         f"Full simulation at given mean gaps; the DMT limit has the threshold at {dmt:.2f}. "
@@ -64,6 +62,7 @@ def kappa_threshold(files: Files) -> Claim:
         f"the contact up to l_a/range = {largest_simulated(smallest):g} only.",
         ("adhesive_fig2", "adhesion_fig2"),
         errors,
+        "of 1/kappa at the less certain point beside the threshold",
     )
 
 
@@ -136,9 +135,8 @@ def hysteresis(files: Files) -> Claim:
         "pull-off pressure over E* q0 h_rms, range/h_rms = "
         f"{made['range_over_h_rms']:g}, l_a/range = "
         f"{float(strongest.adhesion_length_over_range):g}, q0 h_rms = {made['q0_h_rms']:g}, "
-        f"{sample(loop)}, one realisation; ± change from half the resolution",
+        f"{sample(loop)}, one realisation",
         tension,
-        error,
         np.nan,
         graded(pulls and unloading > 1.05 * loading, pulls),
         f"Pull-off at an area of {area:.3f} at zero gap, {net:.3f} of it compressed; at "
@@ -148,7 +146,9 @@ def hysteresis(files: Files) -> Claim:
         f"l_a/range = {float(weak.adhesion_length_over_range):g} they part at "
         f"p = {float(weak.mean_pressure):.2g}, area {float(weak.repulsive_area_fraction):.3f}.",
         ("loop",),
-        {"discretisation": error},
+        {"discretisation": error, "sampling": np.nan},
+        "discretisation: change from half the resolution; sampling: not known, a single "
+        "realisation",
     )
 
 
@@ -180,7 +180,7 @@ def inverse_kappa_ad(files: Files) -> Claim:
     sources = (*sources, "fit_bem_64", "fit_bem_128")
     if not told.any():
         remark = "No parameter set is known to 30 %."
-        return Claim(11, statement, "-", np.nan, np.nan, 1.0, OPEN, remark, sources)
+        return Claim(11, statement, "-", np.nan, 1.0, OPEN, remark, sources)
     limit = ratios["limit"][told]
     net = ratios["inverse_kappa_ad_net"]
     net = net[(ratios["net_error"] < KNOWN) & (net > 0)]
@@ -194,7 +194,6 @@ def inverse_kappa_ad(files: Files) -> Claim:
         f"geometric mean of 1/kappa_ad by slopes over formula, {told.sum()} points of 8 parameter "
         f"sets with an error below 30 % of it, p = {LOAD:g}; ± mean error of one",
         float(np.exp(np.mean(np.log(slopes[told])))),
-        float(np.mean(error[told])),
         1.0,
         graded(apart < np.log(1.25), apart < np.log(4)),
         f"Ratios from {spread(slopes[told])}; by the compressed area {spread(net)} ({net.size} "
@@ -207,7 +206,8 @@ def inverse_kappa_ad(files: Files) -> Claim:
         "than its sum would, so that 1/kappa_ad falls with the range more slowly than as "
         "(range/h_rms)^(2/3); strong attraction saturates (Fig. 7).",
         sources,
-        {source: float(np.mean(ratios[source][told])) for source in KINDS},
+        {source: float(np.mean(ratios[source][told])) for source in budget.SOURCES},
+        "means of the errors of single points",
     )
 
 
@@ -226,14 +226,13 @@ def over_formula(files: Files, name: str, zeta: int) -> dict:
     found = {key: full[key] / formula for key in names}
     found["error"] = total_error(full, "inverse_kappa_ad") / formula
     found["net_error"] = total_error(full, "inverse_kappa_ad_net") / formula
-    for source, kind in KINDS.items():
-        part = f"inverse_kappa_ad_{kind}_error"
-        found[source] = full.get(part, xr.zeros_like(formula)) / formula
+    for source in budget.SOURCES:
+        found[source] = budget.part(full, "inverse_kappa_ad", source) / formula
     found["limit"] = limit.inverse_kappa_ad / formula
     found["dmt"] = full.model == "dmt"
     found["direct"] = full.inverse_kappa_ad_direct
     found = {key: values.values.ravel() for key, values in found.items()}
-    found["a_v"] = quoted(a_v.a_v_mean, total_error(a_v, "a_v"))
+    found["a_v"] = quoted(a_v.a_v_mean, total_error(a_v, "a_v_mean"))
     found["factor"] = f"{PAPER_A_V / float(a_v.a_v_mean):.2f}"
     return found
 

@@ -5,9 +5,12 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+import xarray as xr
+from numpy.typing import ArrayLike
 
 from _model import VARIANT
 from stickiness import datasets
+from stickiness.budget import COVERS, Part, absent
 
 
 @dataclass(frozen=True)
@@ -28,7 +31,7 @@ class MeasuredAv:
     magnification : float
         Magnification that the value is carried to.
     sampling : float
-        Standard error over seeds; 0 for a single one, of which it is unknown.
+        Of the mean over seeds, covers 90 %; 0 for a single one, of which it is unknown.
     discretisation : float
         What the attractive areas keep in the limit of fine grids.
     window : float
@@ -53,6 +56,17 @@ class MeasuredAv:
         parts = (self.sampling, self.discretisation, self.window, self.bandwidth)
         return float(np.linalg.norm(parts))
 
+    def parts(self, times: ArrayLike) -> dict[str, Part]:
+        """Parts of a budget: `times` its own relative errors."""
+        scale = times / self.value
+        return {
+            "discretisation": Part(self.discretisation * scale, "of the case simulated"),
+            "solver": absent("far below what is recorded of the case"),
+            "sampling": Part(self.sampling * scale, "of the case simulated"),
+            "bandwidth": Part(self.bandwidth * scale, "growth over the last two decades"),
+            "model": Part(self.window * scale, "half the spread between windows of the fit"),
+        }
+
     @property
     def low(self) -> float:
         """Value less its error, kept positive."""
@@ -71,6 +85,21 @@ class MeasuredAv:
             f"discretisation {self.discretisation:.2f}, fit window {self.window:.2f}, bandwidth "
             f"{self.bandwidth:.2f})"
         )
+
+
+IN_A_V = absent("in a_V's error, counted with the model")
+CLOSED = {
+    "discretisation": IN_A_V,
+    "solver": absent("closed forms"),
+    "sampling": IN_A_V,
+    "bandwidth": absent("of the spectrum stated"),
+}
+LIMITS = "of a_V, its sources together, and of the model of the edges; the farther of both limits"
+
+
+def between(value: xr.DataArray, low: xr.DataArray, high: xr.DataArray) -> Part:
+    """Part of the budget of a value that is known between two limits."""
+    return Part(np.maximum(abs(high - value), abs(value - low)), LIMITS)
 
 
 RECORDED = (
@@ -124,7 +153,7 @@ def measured_a_v(inputs, pressure):
         simulated=float(fit["a_v"][0]),
         magnification=broadest,
         over_lattice=float(fit["a_v"][0] / lattice[0]),
-        sampling=float(fit["standard_error"][0]) * float(ratio[0]),
+        sampling=COVERS * float(fit["standard_error"][0]) * float(ratio[0]),
         discretisation=float(fit["discretisation_error"][0]) * float(ratio[0]),
         window=float(np.ptp(carried)) / 2,
         bandwidth=float(carried[0]) * abs(growth),

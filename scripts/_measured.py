@@ -105,10 +105,10 @@ def of_spectrum(spectrum, extend_to):
             "C0": ("end", fit.c0 * np.ones(2)),
             "C0_relative_error": fit.c0_se / fit.c0,
             "C0_reference": line.c0,
-            "C0_reference_error": line.c0_se,
+            "C0_reference_standard_error": line.c0_se,
             "C0_reference_upper": ("end", [line.upper, line.upper]),
             "hurst": fit.hurst,
-            "hurst_error": fit.hurst_se,
+            "hurst_standard_error": fit.hurst_se,
             "misfit": fit.misfit,
             "q0": fit.q_rolloff or spectrum.lowest,
             "q1": top if extend_to is None else extend_to,
@@ -121,7 +121,7 @@ def of_spectrum(spectrum, extend_to):
         dataset["anisotropy"] = spectrum.anisotropy
     if fit.q_rolloff is not None:
         dataset["q_rolloff"] = fit.q_rolloff
-        dataset["q_rolloff_error"] = fit.q_rolloff_se
+        dataset["q_rolloff_standard_error"] = fit.q_rolloff_se
     return dataset
 
 

@@ -9,21 +9,22 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import pandas as pd
 import xarray as xr
 
+import _trade_summary
 from _materials import modulus_text
 from _model import LOAD
 from _numbers import NOTHING, interval, number, percent, superscripted, with_error
 from _surface_texts import reference_prefactor, rms_height
 from _verdict import EDGES, STICKINESS, STICKINESS_TONES, pair_texts
-from stickiness import accuracy, datasets, plan
+from stickiness import accuracy, budget, datasets, plan
 from stickiness.errata import ERRATA
 
 Datasets = Mapping[str, xr.Dataset]
 Context = dict[str, Any]
 
 RANGE = 0.03  # of the error budget: amid the window of the fits
-UNKNOWN = "not known: a single seed"
 COLUMNS = {
     "area": "contact area",
     "mean_gap": "mean gap",
@@ -32,6 +33,13 @@ COLUMNS = {
     "gap_distribution": "P(u) at gap 0.1",
     "a_v": "a_V",
     "kappa": "κ",
+}
+HEADS = {
+    "attractive_area_0.01": "A_ad(0.01)",
+    "attractive_area_0.1": "A_ad(0.1)",
+    "gap_distribution": "P(u)",
+    "a_v": "a_V",
+    "memory [MB]": "MB",
 }
 CLAIM_TONES = {
     "reproduced": "yes",
@@ -106,8 +114,9 @@ def claim_row(claim: xr.Dataset) -> Context:
         "tone": claim_tone(verdict),
         "quantity": str(claim.quantity.item()),
         "value": float(claim.value),
-        "measured": with_error(float(claim.value), float(claim.uncertainty)),
+        "measured": with_error(float(claim.value), float(claim.value_total_error)),
         "errors": error_sources(claim),
+        "dominates": dominating(claim, "value"),
         "claimed": number(float(claim.claimed), 4),
         "claimed_value": float(claim.claimed),
         "remark": str(claim.remark.item()),
@@ -118,11 +127,21 @@ def claim_row(claim: xr.Dataset) -> Context:
 
 def error_sources(claim: xr.Dataset) -> str:
     """What makes up the error of a claim's value."""
-    known = claim.error.dropna("error_source").sortby(-claim.error)
+    error = claim.value_error.fillna(np.inf)
+    parts = error.where(error > 0, drop=True).sortby(-error)
     return ", ".join(
-        f"{source} {number(float(error), 2)}"
-        for source, error in zip(known.error_source.values, known.values, strict=True)
+        f"{source} {number(value, 2) if np.isfinite(value) else 'not known'}"
+        for source, value in zip(parts.source.values, map(float, parts), strict=True)
     )
+
+
+def dominating(data: xr.Dataset, name: str) -> str:
+    """Source of the largest error of a number in words, or which is not known."""
+    source = budget.dominant(data, name)
+    if source == "none":
+        return NOTHING
+    known = np.isfinite(float(data[f"{name}_total_error"]))
+    return source if known else f"{source}, not known"
 
 
 def grouped(paths: Sequence[str]) -> list[tuple[str, str]]:
@@ -238,7 +257,7 @@ def surface_rows(surfaces: Datasets) -> list[Context]:
 def surface_row(surface: xr.Dataset) -> Context:
     """What is known of one surface; of a measured one with the errors of the fit."""
     made = datasets.parameters(surface)
-    error = float(surface.hurst_error) if "hurst_error" in surface else np.nan
+    error = float(surface.hurst_total_error)
     return {
         "label": made["label"],
         "kind": made["kind"].replace("_", "-"),
@@ -271,6 +290,14 @@ def error_budgets(answers: Sequence[xr.Dataset]) -> list[Context]:
     return budgets
 
 
+def trade_tables(medians: pd.DataFrame) -> list[tuple[list[str], list[list[str]]]]:
+    """Tables of what accuracy costs under heads that fit a page."""
+    return [
+        ([HEADS.get(name, name.replace("_", " ")) for name in head], lines)
+        for head, lines in _trade_summary.tables(medians)
+    ]
+
+
 def theory_rows(comparisons: Sequence[xr.Dataset]) -> list[Context]:
     """Difference of theory from simulation for every case, at three of its loads."""
     rows = []
@@ -281,7 +308,7 @@ def theory_rows(comparisons: Sequence[xr.Dataset]) -> list[Context]:
             here = at.sel(pressure=load)
             cells = {
                 name: f"{float(here[f'{name}_difference']):+.1%} ± "
-                f"{float(here[f'{name}_difference_error']):.1%}"
+                f"{float(here[f'{name}_difference_total_error']):.1%}"
                 for name in QUANTITIES
             }
             case = datasets.parameters(comparison)["case"]
@@ -291,16 +318,13 @@ def theory_rows(comparisons: Sequence[xr.Dataset]) -> list[Context]:
 
 def budget_row(at: xr.Dataset) -> Context:
     """Value of a column, its errors relative to it, and the largest of them."""
-    value, total = float(at.value), float(at.total_error)
-    known = np.isfinite(total)
+    value, total = float(at.value), float(at.value_total_error)
+    errors = at.value_error / value if value else at.value_error * np.nan
     return {
         "quantity": COLUMNS.get(str(at.column.item()), str(at.column.item())),
-        "value": with_error(value, total) if known else number(value),
-        "errors": {
-            str(source): percent(float(at.error.sel(source=source)) / value if value else np.nan)
-            for source in at.source.values
-        },
-        "dominates": str(at.source[int(at.dominant)].item()) if known else UNKNOWN,
+        "value": with_error(value, total) if np.isfinite(total) else number(value),
+        "errors": {source: percent(float(errors.sel(source=source))) for source in budget.SOURCES},
+        "dominates": dominating(at, "value"),
     }
 
 

@@ -21,7 +21,7 @@ from matplotlib.lines import Line2D
 from matplotlib.ticker import FixedLocator, FuncFormatter, NullFormatter
 from numpy.typing import ArrayLike, NDArray
 
-from stickiness import datasets
+from stickiness import budget, datasets
 
 # Okabe & Ito, Color Universal Design (2008).
 BLACK, ORANGE, SKY, GREEN, YELLOW, BLUE, RED, PURPLE = (
@@ -105,9 +105,10 @@ def total_error(sampling: ArrayLike, discretisation: ArrayLike) -> NDArray:
 
 
 def with_model(data: xr.Dataset, name: str) -> tuple[NDArray, NDArray]:
-    """Standard error of a variable, and its errors of discretisation and model, for `points`."""
-    others = (data[f"{name}_{kind}_error"] for kind in ("discretisation", "model"))
-    return data[f"{name}_standard_error"].values, total_error(*others)
+    """Sampling error of a variable, and all its others, for `points`."""
+    error = data[f"{name}_error"]
+    others = error.sel(source=[s for s in budget.SOURCES if s != "sampling"])
+    return error.sel(source="sampling").values, np.sqrt((others**2).sum("source")).values
 
 
 def points(

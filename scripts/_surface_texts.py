@@ -27,7 +27,7 @@ def rms_slope(surface: xr.Dataset) -> str:
 def reference_prefactor(surface: xr.Dataset) -> str:
     """C0 of the line with H = 0.8: fitted, or the highest such line that the spectrum touches."""
     if "C0_reference" in surface:
-        return with_error(float(surface.C0_reference), float(surface.C0_reference_error))
+        return with_error(float(surface.C0_reference), float(surface.C0_reference_total_error))
     bound = "" if np.isclose(float(surface.hurst), 0.8) else "≤ "
     return bound + interval(*ends(surface.C0_reference_upper), digits=2)
 

@@ -10,7 +10,7 @@ from collections.abc import Callable
 import numpy as np
 import xarray as xr
 
-from _model import middles
+from _model import GAPS_MEASURED, middles
 from fit_a_v import fit_one
 from stickiness import fourier
 
@@ -26,7 +26,6 @@ QUANTITIES = {
     "a_v": "a_V and threshold of E*",
     "kappa": "kappa_rep",
 }
-GAPS = (0.01, 1.0)  # over h_rms, between which the error of P(u) is taken
 WINDOW = (0.01, 0.1)  # of the fit of a_V, the one that is quoted
 UNIT = 1024  # side of the grid whose pair of transforms is the unit of cost
 COVERED = 0.9  # share of cases that a stated error covers
@@ -56,7 +55,7 @@ def derived(solved: xr.Dataset, area: str = "attractive_area") -> dict[str, xr.D
         "mean_gap": solved.mean_gap,
         "attractive_area_0.01": areas.sel(range=0.01, method="nearest", drop=True),
         "attractive_area_0.1": areas.sel(range=0.1, method="nearest", drop=True),
-        "gap_distribution": density.sel(gap=slice(*GAPS)),
+        "gap_distribution": density.sel(gap=slice(*GAPS_MEASURED)),
         "a_v": fitted,
         "kappa": solved.area_fraction * solved.rms_slope / solved.pressure,
     }

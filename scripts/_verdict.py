@@ -8,6 +8,7 @@ import numpy as np
 import xarray as xr
 
 from _numbers import NOTHING, interval, percent, quantity
+from stickiness import budget
 
 EDGES = "edge_adhesion"
 STICKINESS = ("not sticky", "depends", "sticky", "undecided")  # by the code in the dataset
@@ -31,12 +32,26 @@ def pair_texts(pair: xr.Dataset) -> dict[str, Any]:
         "order": float(np.sqrt(np.prod(margins))),
         "limits": interval(*limits, digits=2),
         "lowest": limits[0],
+        "by": dominating(pair),
         "threshold": quantity(*thresholds, "Pa", digits=2),
+        "threshold_limits": quantity(
+            float(pair.modulus_threshold_low.min()),
+            float(pair.modulus_threshold_high.max()),
+            "Pa",
+            digits=2,
+        ),
         "threshold_value": thresholds[0],
         "a_v": interval(*a_v, digits=2),
         "a_v_value": float(pair.pair_a_v.mean()),
         **drawn_texts(pair),
     }
+
+
+def dominating(pair: xr.Dataset) -> str:
+    """Source of the largest error of the margin, at the end of the surface with the larger."""
+    margin = pair.sel(criterion=EDGES)
+    worst = (margin.margin_total_error / margin.margin).argmax("end")
+    return budget.dominant(margin.isel(end=worst), "margin")
 
 
 def ends(values: xr.DataArray) -> tuple[float, float]:

@@ -6,13 +6,17 @@ import xarray as xr
 import _limits
 from _adhesion import AXES, axes, roughness
 from _adhesion import DESCRIBED as ADHESION_DESCRIBED
-from _dmt_limit import QUANTITIES, DmtLimit
+from _budgets import SIMULATED, Simulation, along
+from _dmt_limit import QUANTITIES, DmtLimit, linearity_error
 from _errors import coarse, described, with_errors
 from _job import start
 from _model import DESCRIBED
-from stickiness import datasets
+from stickiness import accuracy, datasets
+from stickiness.budget import ENDINGS, Part, with_budget
 
 OUTSIDE = "outside the table of measured errors"
+MODEL = "of the DMT limit against full simulation, as measured"
+MODEL_OF_FIT = f"{MODEL}, and what the straight line leaves out"
 
 
 def main(job):
@@ -35,12 +39,55 @@ def main(job):
         left = _limits.inherited(ensemble, quantity, ["area_fraction", "attractive_area"])
         values, more = quantity(ensemble), coarse(ensemble, quantity)
         dataset = with_errors(dataset, name, values, more, plain=True, limit=left)
+    simulation = Simulation.of(accuracy.read_laws(job.input.laws), datasets.parameters(ensemble))
+    dataset = budgeted(annotated(dataset), simulation, limit.linear)
+    for ending in ENDINGS:
+        known = ensemble[f"area_fraction_mean{ending}"]
+        dataset[f"area_fraction{ending}"] = known.sel(pressure=pressures)
     datasets.write(
-        annotated(dataset),
+        dataset,
         job.output[0],
         title=f"adhesion in the DMT limit, {asked['law']} traction",
         parameters={**datasets.parameters(ensemble), **asked},
     )
+
+
+def budgeted(dataset, simulation, linear):
+    """Every quantity with its errors, those of fits as at the least certain of their loads."""
+    for name in QUANTITIES:
+        fitted = "fit" in name
+        solver, factor, model = (
+            one.where(linear).max("pressure") if fitted else one
+            for one in relative(dataset, simulation)
+        )
+        pull = dataset[name]
+        if name.startswith("inverse_kappa") and "ad" not in name.split("_"):
+            # The fall by attraction from what is left without.
+            fall = dataset[name.replace("kappa", "kappa_ad")]
+            pull = 2 * fall * pull / (1 - 2 * fall)
+        error = model * abs(pull)
+        if fitted:
+            loadwise = dataset[name.removesuffix("_fit")]
+            error = np.hypot(error, linearity_error(loadwise, linear))
+        dataset = with_budget(
+            dataset,
+            name,
+            discretisation=Part(dataset[f"{name}_discretisation_error"], _limits.INHERITED),
+            solver=Part(solver * (abs(dataset[name]) + abs(pull)), "by the tolerance, as measured"),
+            sampling=Part(factor * dataset[f"{name}_standard_error"], "Student's t"),
+            bandwidth=SIMULATED["bandwidth"],
+            model=Part(error, MODEL_OF_FIT if fitted else MODEL),
+        )
+    return dataset.drop_vars(f"{name}_discretisation_error" for name in QUANTITIES)
+
+
+def relative(dataset, simulation):
+    """Relative error by the solver, factor of standard errors, relative error of the DMT limit."""
+    like = dataset.attraction.rename(range_over_h_rms="range")
+    area = along(simulation.solver, "area_fraction", dataset.area_fraction)
+    gaps = along(simulation.solver, "attractive_area", like).rename(range="range_over_h_rms")
+    factor = along(simulation.factor, "attractive_area", like).rename(range="range_over_h_rms")
+    return np.hypot(area, gaps), factor, dataset.dmt_error
 
 
 def annotated(dataset):

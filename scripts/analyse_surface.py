@@ -11,6 +11,7 @@ import _measured
 from _job import start
 from _measured import ENDS, POINTS_PER_DECADE, REFERENCE_HURST
 from stickiness import datasets
+from stickiness.budget import COVERS, Part, absent, with_budget
 from stickiness.spectrum import SelfAffine
 from stickiness.units import si
 
@@ -33,10 +34,8 @@ DESCRIBED = {
     "elastic_energy_draws": ("m", "elastic energy of full contact per area over E*, every draw"),
     "q0_draws": ("1/m", "lowest wave number of the self-affine range of every draw"),
     "hurst": ("1", "Hurst exponent"),
-    "hurst_error": ("1", "standard error of the Hurst exponent"),
     "C0_relative_error": ("1", "relative standard error of C0"),
     "q_rolloff": ("1/m", "end of the plateau"),
-    "q_rolloff_error": ("1/m", "standard error of the end of the plateau"),
     "misfit": ("1", "departure of the spectrum from the fit beyond sampling noise"),
     "q0": ("1/m", "lowest wave number of the self-affine range"),
     "q1": ("1/m", "highest wave number"),
@@ -55,6 +54,14 @@ DESCRIBED = {
     "psd_measurement": ("m^4", "power spectral density of each measurement", "outside its band"),
     "offset": ("1", "ln C of a measurement less the stitched one", "overlaps with no other"),
     "scatter": ("1", "standard deviation of the offsets", "no two measurements overlap"),
+}
+
+
+# Quoted numbers, and the standard errors of those that were fitted.
+ERRORS = {
+    "hurst": "hurst_standard_error",
+    "C0_reference": "C0_reference_standard_error",
+    "q_rolloff": "q_rolloff_standard_error",
 }
 
 
@@ -125,18 +132,35 @@ def points(magnification):
     return int(np.ceil(POINTS_PER_DECADE * np.log10(magnification))) + 2
 
 
+def budgeted(dataset, errors):
+    """Quoted parameters with their errors; what has two ends is known between these."""
+    given, band = absent("given in the configuration"), absent("of the band that was fitted")
+    for name, error in ERRORS.items():
+        if name not in dataset:
+            continue
+        fitted = error in errors
+        parts = dict.fromkeys(("discretisation", "solver", "bandwidth"), band if fitted else given)
+        parts |= {"sampling": given, "model": given}
+        if fitted:
+            parts["sampling"] = Part(COVERS * errors[error], "of the spectrum measured")
+            parts["model"] = absent("the law is what is quoted; its misfit stands beside")
+        dataset = with_budget(dataset, name, **parts)
+    return dataset
+
+
 def annotated(dataset):
+    errors = {name: dataset[name] for name in ERRORS.values() if name in dataset}
+    dataset = dataset.drop_vars(errors)
     exponent = 2 - 2 * float(dataset.hurst)
     reference = f"m^{2 - 2 * REFERENCE_HURST:g}"
     prefactor = f"m^{exponent:.4g}"
     texts = DESCRIBED | {
         "C0": (prefactor, "prefactor of C = C0 q^(-2(H+1))"),
         "C0_reference": (reference, f"prefactor of the line fitted at H = {REFERENCE_HURST}"),
-        "C0_reference_error": (reference, f"standard error of C0 at H = {REFERENCE_HURST}"),
         "C0_reference_upper": (reference, f"largest C q^(2(H+1)) at H = {REFERENCE_HURST}"),
     }
     present = {name: text for name, text in texts.items() if name in dataset.variables}
-    return datasets.annotate(dataset, **present)
+    return budgeted(datasets.annotate(dataset, **present), errors)
 
 
 if __name__ == "__main__":

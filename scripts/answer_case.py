@@ -1,10 +1,12 @@
 """What a case asks for: values at its loads, their error by source, and which source dominates."""
 
 import logging
+from typing import ClassVar
 
 import numpy as np
 import xarray as xr
 
+from _budgets import BY_THEORY, QUADRATURE, SIMULATED
 from _columns import GAP, TEXTS, statistics
 from _job import start
 from _model import DESCRIBED, VARIANT, logarithmic_grid, spectrum_of, window_of
@@ -12,10 +14,11 @@ from fit_a_v import fit_one
 from measure_theory import contact_of
 from stickiness import accuracy, datasets, stopping
 from stickiness import plan as plan_of
+from stickiness.budget import SOURCES, Part, absent, with_budget
 from stickiness.persson import Persson
 from stickiness.surface import lattice_spectrum
 
-SOURCES = ("discretisation", "solver", "sampling", "bandwidth", "model")
+DIMS = ("column", "pressure")
 RANGES = {"minimum": 1e-4, "maximum": 10.0, "per_decade": 16}
 
 
@@ -27,32 +30,31 @@ def main(job):
     errors = np.zeros((len(SOURCES), *values.shape))
     at = Simulated(job.input, plan, laws) if plan["simulated"] else Theory(job.input, plan, laws)
     for row, column in enumerate(columns):
-        values[row], parts = at(column)
-        for source, part in parts.items():
-            errors[SOURCES.index(source), row] = np.abs(part)
+        values[row], errors[:, row] = at(column)
+    bandwidth = absent("the case's own spectrum")
     if "carry_to" in plan:
         change, size = carried(plan, columns, pressures)
-        errors[SOURCES.index("bandwidth")] = carrying_errors(laws, plan, columns, values, size)
+        error = carrying_errors(laws, plan, columns, values, size)
+        bandwidth = Part(xr.DataArray(error, dims=DIMS), "of the difference that theory adds")
         values += change
     dataset = xr.Dataset(
         {
-            "value": (("column", "pressure"), values),
-            "error": (("source", "column", "pressure"), errors),
-            "total_error": (("column", "pressure"), np.linalg.norm(errors, axis=0)),
+            "value": (DIMS, values),
             "extrapolated": ("pressure", outside(plan, pressures).astype(np.int8)),
-            # A single seed does not say what it scatters by, but that is more than all the rest.
-            "dominant": (
-                ("column", "pressure"),
-                np.where(np.isnan(errors), np.inf, errors).argmax(0),
-            ),
         },
-        coords={"column": columns, "pressure": pressures, "source": list(SOURCES)},
+        coords={"column": columns, "pressure": pressures},
     )
+    parts = {
+        source: Part(xr.DataArray(error, dims=DIMS), at.texts[source])
+        for source, error in zip(SOURCES, errors, strict=True)
+        if source != "bandwidth"
+    }
+    dataset = with_budget(annotated(dataset, columns), "value", bandwidth=bandwidth, **parts)
     if "asked" in plan and (text := missed(dataset, plan)):
         dataset.attrs["missed"] = f"{job.wildcards.case}: {text}"
         logging.warning("%s", text)
     datasets.write(
-        annotated(dataset, columns),
+        dataset,
         job.output[0],
         title="quantities of a case and their errors",
         parameters={**plan, "case": job.wildcards.case},
@@ -61,6 +63,13 @@ def main(job):
 
 class Simulated:
     """Values and errors that cover 90 %, by source, from the files of an ensemble."""
+
+    texts: ClassVar = {
+        "discretisation": "left in the limit of fine grids, or as measured if that is less",
+        "solver": "by the tolerance, as measured",
+        "sampling": "Student's t of the standard error, which rounds of seeds pool with the laws'",
+        "model": SIMULATED["model"].text,
+    }
 
     def __init__(self, inputs, plan, laws):
         self.plan, self.laws = plan, laws
@@ -100,15 +109,23 @@ class Simulated:
             accuracy.grid_error(self.laws, column, surface, p, pixels, found)
             for p, found in zip(pressures, np.abs(grid.values) / size, strict=True)
         ]
-        return mean.values, {
+        parts = {
             "discretisation": size * grid_error,
-            "solver": mean.values * solver,
+            "solver": size * solver,
             "sampling": covers,
         }
+        return mean.values, np.abs([parts.get(source, 0 * size) for source in SOURCES])
 
 
 class Theory:
     """Values of Persson's theory on the lattice spectrum, and what it errs by."""
+
+    texts: ClassVar = {
+        "discretisation": "of the quadrature, as tested",
+        "solver": BY_THEORY["solver"].text,
+        "sampling": BY_THEORY["sampling"].text,
+        "model": "of theory in place of simulation, as measured",
+    }
 
     def __init__(self, inputs, plan, laws):
         self.plan, self.laws = plan, laws
@@ -123,12 +140,13 @@ class Theory:
             accuracy.single_error(self.laws, "theory", column, surface, p)
             for p in self.plan["pressures"]
         ]
-        return values, {"model": values * error}
+        parts = {"discretisation": QUADRATURE["gap_density"] * values, "model": values * error}
+        return values, np.abs([parts.get(source, 0 * values) for source in SOURCES])
 
 
 def missed(dataset, plan):
     """What keeps a case from the accuracy that it asks for, in words; None if nothing does."""
-    relative = (dataset.total_error / abs(dataset.value)).values
+    relative = (dataset.value_total_error / abs(dataset.value)).values
     error, column, load = stopping.worst(relative, stopping.Asked(**plan["asked"]))
     if error <= plan["accuracy"]:
         return None
@@ -206,15 +224,11 @@ def annotated(dataset, columns):
         dataset,
         column=("1", "; ".join(f"{column}: {TEXTS[column]}" for column in columns)),
         pressure=DESCRIBED["pressure"],
-        source=("1", "where an error comes from"),
         value=("1", "value of the column at a load"),
-        error=("1", "error by source; covers 90 %", "the scatter of a single seed is unknown"),
-        total_error=("1", "all sources in quadrature", "the scatter of a single seed is unknown"),
         extrapolated=(
             "1",
             "1 where surface, load, grid or tolerance is outside what the laws were measured on",
         ),
-        dominant=("1", f"source of the largest error, counted from 0: {', '.join(SOURCES)}"),
     )
 
 

@@ -12,11 +12,13 @@ import numpy as np
 import xarray as xr
 
 import _limits
+from _budgets import Simulation
 from _errors import PREFIX, coarse, described, mean, with_errors
 from _job import start
 from _limits import EXTRAPOLATION
 from _model import DESCRIBED, middles
-from stickiness import datasets, plan
+from stickiness import accuracy, datasets, plan
+from stickiness.budget import with_budget
 
 KEPT = ("area_fraction", "mean_gap", "residual", "iterations", "rms_slope")
 NEEDED = (*KEPT, "pixel_area_fraction", "edges", "edge_gap")
@@ -29,11 +31,12 @@ SURFACES = {"gaussian": "Gaussian surfaces", "fixed": "surfaces of fixed amplitu
 def main(job):
     averaged = wanted(job.params.quantities)
     dataset, parameters = ensemble_of(job.input, list(job.params.pressures), averaged)
+    parameters["case"] = job.wildcards.case
     datasets.write(
-        annotated(dataset, averaged),
+        budgeted(annotated(dataset, averaged), parameters, job.input.laws, averaged),
         job.output[0],
         title="repulsive contact averaged over realisations",
-        parameters={**parameters, "case": job.wildcards.case},
+        parameters=parameters,
     )
 
 
@@ -115,6 +118,19 @@ def with_statistics(realisations, others, averaged=AVERAGED):
         dataset = with_errors(dataset, name, quantity(realisations), more, limit=limits[name])
     if "attractive_area" in averaged:  # the one quantity that has any
         dataset[f"attractive_area_{EXTRAPOLATION}"] = limits["attractive_area"].shift
+    return dataset
+
+
+def budgeted(dataset, made, laws, averaged=AVERAGED):
+    """The means with their errors by source."""
+    simulation = Simulation.of(accuracy.read_laws(laws), made)
+    for name in averaged:
+        parts = simulation.parts(
+            name,
+            *(dataset[f"{name}_{kind}"] for kind in ("mean", "standard_error")),
+            dataset[f"{name}_discretisation_error"],
+        )
+        dataset = with_budget(dataset, f"{name}_mean", **parts)
     return dataset
 
 

@@ -6,7 +6,7 @@ import xarray as xr
 from _claims import CLAIMS
 from _job import start
 from _tables import table
-from stickiness import datasets
+from stickiness import budget, datasets
 from stickiness.errata import ERRATA
 
 
@@ -48,8 +48,6 @@ def source_paths(claim, paths):
 
 
 def to_dataset(claims, sources):
-    kinds = sorted({kind for claim in claims for kind in claim.errors})
-    errors = np.array([[claim.errors.get(kind, np.nan) for kind in kinds] for claim in claims])
 
     def column(name, dtype=None):
         return "claim", np.array([getattr(claim, name) for claim in claims], dtype=dtype)
@@ -59,29 +57,34 @@ def to_dataset(claims, sources):
             "statement": column("statement", object),
             "quantity": column("quantity", object),
             "value": column("value", float),
-            "uncertainty": column("uncertainty", float),
-            "error": (("claim", "error_source"), errors),
+            "comment": column("comment", object),
             "claimed": column("claimed", float),
             "verdict": column("verdict", object),
             "remark": column("remark", object),
             "sources": ("claim", np.array([" ".join(files) for files in sources], dtype=object)),
         },
-        coords={"claim": [claim.number for claim in claims], "error_source": kinds},
+        coords={"claim": [claim.number for claim in claims]},
     )
-    return datasets.annotate(
+    dataset = datasets.annotate(
         dataset,
         claim=("1", "number of the claim"),
         statement=("1", "what the paper claims"),
         quantity=("1", "what the value is, with its unit"),
         value=("1", "measured value, in the unit that `quantity` names"),
-        uncertainty=("1", "uncertainty of the value", "an exact value or none known"),
-        error=("1", "part of the uncertainty by its source", "no such part"),
-        error_source=("1", "source of an error"),
+        comment=("1", "what the errors are, or why they are not known or do not apply"),
         claimed=("1", "the paper's value", "the paper gives none"),
         verdict=("1", "verdict"),
         remark=("1", "qualification or reason"),
         sources=("1", "files that the value came from"),
     )
+    errors = {
+        source: [claim.errors.get(source, 0.0) for claim in claims] for source in budget.SOURCES
+    }
+    parts = {
+        source: budget.Part(xr.DataArray(error, dims="claim"), "see the comment of each claim")
+        for source, error in errors.items()
+    }
+    return budget.with_budget(dataset, "value", **parts)
 
 
 def markdown(claims, sources):
@@ -91,13 +94,14 @@ def markdown(claims, sources):
             claim.statement,
             f"**{claim.verdict}**",
             f"{claim.quantity}: {number(claim.value, claim.uncertainty)}",
+            dominant(claim),
             "" if np.isnan(claim.claimed) else f"{claim.claimed:.4g}",
             claim.remark,
             "; ".join(files) or "closed form",
         )
         for claim, files in zip(claims, sources, strict=True)
     ]
-    columns = ("#", "claim", "verdict", "measured", "claimed", "remark", "from")
+    columns = ("#", "claim", "verdict", "measured", "error by", "claimed", "remark", "from")
     errata = [
         (e.number, e.subject, e.printed, e.correct, e.proof, numbers(e.recompute())) for e in ERRATA
     ]
@@ -108,6 +112,14 @@ def markdown(claims, sources):
         + "\n# Errata of the manuscript\n\n"
         + table(heads, errata)
     )
+
+
+def dominant(claim):
+    """Largest source of the error; of those not known, all."""
+    unknown = [source for source, error in claim.errors.items() if np.isnan(error)]
+    if unknown:
+        return f"{', '.join(unknown)} (not known)"
+    return max(claim.errors, key=claim.errors.get) if claim.uncertainty else ""
 
 
 def number(value, uncertainty):

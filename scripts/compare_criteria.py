@@ -5,15 +5,18 @@ once over the magnification at fixed h_rms and longest wavelength, which tells w
 of the finest waves.
 """
 
+from dataclasses import replace
+
 import numpy as np
 import xarray as xr
 
-from _criteria import measured_a_v
+from _criteria import CLOSED, between, measured_a_v
 from _job import start
 from _model import logarithmic_grid
 from _thresholds import threshold
 from stickiness import criteria, datasets, edge_adhesion
 from stickiness.a_v_table import NEEDED, AvTable
+from stickiness.budget import with_budget
 from stickiness.spectrum import SelfAffine
 
 EDGES = "edge_adhesion"
@@ -45,7 +48,7 @@ def main(job):
         },
     )
     datasets.write(
-        annotated(dataset),
+        budgeted(annotated(dataset)),
         job.output[0],
         title="adhesion at the threshold of stickiness by every criterion",
         parameters={**asked, "pressure": load, "constant_a_v": constant},
@@ -80,6 +83,17 @@ def thresholds(hurst, q0, h, zeta, load, table, constant):
         error = edge_adhesion.attraction(h, q0, slope, length, 1.0, prefactor).error_factor
         found[name] = by_edges(h, q0, slope, 1.0, prefactor, error**sign)
     return found
+
+
+def budgeted(dataset):
+    """Thresholds with their errors; criteria but that of the edges state none."""
+    for name in ("against_roughness", "against_magnification"):
+        value = dataset[name]
+        ends = (value.sel(criterion=end, drop=True) for end in (LOW, HIGH))
+        model = between(value, *ends)
+        model = replace(model, error=model.error.where(value.criterion == EDGES))
+        dataset = with_budget(dataset, name, model=model, **CLOSED)
+    return dataset
 
 
 def annotated(dataset):

@@ -10,9 +10,12 @@ import xarray as xr
 
 from _adhesion import DESCRIBED as ADHESION_DESCRIBED
 from _adhesion import LAWS
+from _budgets import SIMULATED
 from _job import start
 from _model import DESCRIBED
-from stickiness import datasets, dmt, edge_adhesion
+from average_adhesive import SOLVER
+from stickiness import accuracy, datasets, dmt, edge_adhesion
+from stickiness.budget import Part, with_budget
 
 MISSING = (
     "not resolved, fewer than 100 points of the grid drawn into contact, a window closes, or the "
@@ -20,36 +23,50 @@ MISSING = (
 )
 # Points of the grid that adhesion must draw into contact for their number to tell an area to 10 %.
 FEWEST_POINTS = 100
+QUOTED = ("effect", "over_model")
+ALONE = ("pixel_area_fraction", "attractive_area")
 NEEDED = ("external_pressure", "repulsive_area", "attraction_dmt", "area_alone")
 
 
 def main(job):
     averages = datasets.read(job.input.averages, ["dmt_ratio", "q0_h_rms"])
     q0_h_rms = float(averages.q0_h_rms)
-    seeds = [
-        compared(
-            datasets.read(path, NEEDED).isel(resolution=-1, drop=True),
-            datasets.read(alone, ["pixel_area_fraction", "attractive_area"]),
-            q0_h_rms,
-        )
+    files = [
+        (datasets.read(path, NEEDED), datasets.read(alone, ALONE))
         for path, alone in zip(job.input.realisations, job.input.alone, strict=True)
     ]
-    states = xr.concat(seeds, "seed")
+    coarse, states = (
+        xr.concat([compared(one, alone, q0_h_rms, grid) for one, alone in files], "seed")
+        for grid in (0, -1)
+    )
     resolved = states.effect.notnull().all("seed") & averages.dmt_ratio.notnull()
     dataset = states.mean("seed").where(resolved).assign(q0_h_rms=q0_h_rms)
-    over = states.effect / states.effect_model
-    dataset["over_model"] = over.mean("seed").where(resolved)
-    dataset["over_model_standard_error"] = over.std("seed", ddof=1) / np.sqrt(len(seeds))
+    dataset = annotated(dataset)
+    for name in QUOTED:
+        dataset = with_budget(dataset, name, **parts(coarse[name], states[name]))
     datasets.write(
-        annotated(dataset),
+        dataset,
         job.output[0],
         title="attraction at equal area of contact, simulation and model of the edges",
         parameters=datasets.parameters(averages),
     )
 
 
-def compared(adhesive, alone, q0_h_rms):
-    """Effect of attraction, measured and modelled, for one realisation."""
+def parts(coarse, fine):
+    """Parts of the budget of a mean over seeds, known on two grids."""
+    change = abs((fine - coarse).mean("seed", skipna=False))
+    error = accuracy.students_t(fine.sizes["seed"]) * fine.std("seed", ddof=1)
+    return {
+        "discretisation": Part(change, "change from half the resolution"),
+        "solver": Part(SOLVER * fine.mean("seed"), "by the tolerance, as measured"),
+        "sampling": Part(error / np.sqrt(fine.sizes["seed"]), "Student's t"),
+        **SIMULATED,
+    }
+
+
+def compared(adhesive, alone, q0_h_rms, grid):
+    """Effect of attraction, measured and modelled, for one realisation on one of its grids."""
+    adhesive = adhesive.isel(resolution=grid, drop=True)
     strength = adhesive.adhesion_length_over_range / q0_h_rms
     attractive = adhesive.attraction_dmt / strength
     load, growth = at_equal_area(adhesive, alone.isel(resolution=-1, drop=True))
@@ -66,12 +83,14 @@ def compared(adhesive, alone, q0_h_rms):
     made = datasets.parameters(adhesive)
     points = (made["grid_points"] * made["refine"]) ** 2
     drawn_in = (adhesive.repulsive_area - adhesive.area_alone) * points
+    told = drawn_in >= FEWEST_POINTS if grid else drawn_in > 0
     return xr.Dataset(
         {
             "attractive_over_contact": t,
             "edge_strength": tau,
-            "effect": effect.where(drawn_in >= FEWEST_POINTS),
+            "effect": effect.where(told),
             "effect_model": model,
+            "over_model": (effect / model).where(told),
         }
     )
 
@@ -128,7 +147,6 @@ def annotated(dataset):
         effect=("1", "attraction at equal area of contact over the DMT limit", MISSING),
         effect_model=("1", "the same by the equivalent sphere", MISSING),
         over_model=("1", "simulation over model, mean over realisations", MISSING),
-        over_model_standard_error=("1", "its standard error", MISSING),
         **ADHESION_DESCRIBED,
     )
 

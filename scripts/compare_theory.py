@@ -21,6 +21,7 @@ from _job import start
 from _limits import EXTRAPOLATION
 from _model import DESCRIBED, spectrum_of, window_of
 from stickiness import datasets, surface
+from stickiness.budget import SOURCES, Part, absent, part, with_budget
 from synthesise_surface import grid_points
 
 WINDOWS = 64  # random ones, whose highest summits are averaged
@@ -40,7 +41,7 @@ def main(job):
     dataset["window_holds"] = holds.astype("i1")
     dataset["margin"] = MARGIN
     datasets.write(
-        annotated(dataset),
+        budgeted(annotated(dataset), simulated, theory),
         job.output[0],
         title="theory on the lattice spectrum against simulation",
         parameters=datasets.parameters(simulated),
@@ -48,17 +49,37 @@ def main(job):
 
 
 def differences(simulated, theory):
-    """Relative difference of theory from simulation in every quantity, and its error."""
+    """Relative difference of theory from simulation in every quantity."""
     dataset = xr.Dataset()
     for name in COMPARED:
         mean = simulated[f"{name}_mean"].where(simulated[f"{name}_mean"] > 0)
-        errors = [
-            simulated[f"{name}_{kind}"] for kind in ("standard_error", "discretisation_error")
-        ]
-        ratio = theory[name] / mean
-        dataset[f"{name}_difference"] = ratio - 1
-        dataset[f"{name}_difference_error"] = ratio * np.hypot(*errors) / mean
+        dataset[f"{name}_difference"] = theory[name] / mean - 1
     return dataset
+
+
+def budgeted(dataset, simulated, theory):
+    """Differences with the errors of the simulation: theory's own is what they are."""
+    own = {"model": absent("the difference is that of the model")}
+    for name in COMPARED:
+        mean = f"{name}_mean"
+        scale = theory[name] / simulated[mean].where(simulated[mean] > 0) ** 2
+        parts = {
+            source: Part(scale * part(simulated, mean, source), "of the simulation")
+            for source in SOURCES[:-1]
+        }
+        dataset = with_budget(dataset, f"{name}_difference", **parts, **own)
+    # Student's t, the same for all quantities of an ensemble but for the shares of its levels.
+    factor = part(simulated, "mean_gap_mean", "sampling") / simulated.mean_gap_standard_error
+    solver = [part(simulated, f"{name}_mean", "solver") for name in PARTS]
+    return with_budget(
+        dataset,
+        "distance",
+        discretisation=Part(dataset.distance_discretisation_error, "in the limit of fine grids"),
+        solver=Part(integral(np.hypot(*solver)), "of both areas, by the tolerance"),
+        sampling=Part(factor * dataset.distance_standard_error, "Student's t"),
+        bandwidth=absent("one spectrum for both"),
+        **own,
+    )
 
 
 def distance(simulated, theory):
@@ -138,11 +159,6 @@ def annotated(dataset):
     for name in COMPARED:
         text = f"theory over simulation less 1: {DESCRIBED[name][1]}"
         texts[f"{name}_difference"] = ("1", text, "nothing simulated within the range")
-        texts[f"{name}_difference_error"] = (
-            "1",
-            f"{text}: sampling and discretisation error in quadrature",
-            "nothing simulated within the range, or a single seed",
-        )
     text = "area between the cumulative distributions of the gap (Wasserstein distance) over h_rms"
     unknown = "a single seed"
     texts |= {

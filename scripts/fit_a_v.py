@@ -4,9 +4,11 @@ import numpy as np
 import xarray as xr
 
 import _limits
-from _errors import coarse, described, with_errors
+from _budgets import BY_THEORY, MODEL, QUADRATURE, SIMULATED, Simulation, along, theory_error
+from _errors import coarse, described, standard_error, with_errors
 from _job import start
-from stickiness import datasets, dmt
+from stickiness import accuracy, datasets, dmt
+from stickiness.budget import Part, unknown, with_budget
 
 
 def main(job):
@@ -16,10 +18,12 @@ def main(job):
     if "edge_gap_mean" in areas:
         resolved = areas["range"] >= areas.edge_gap_mean
         dataset["exponent"] = dataset.exponent.where(resolved)
-    if "seed" in dataset.a_v.dims:
+    simulated, laws = "seed" in dataset.a_v.dims, accuracy.read_laws(job.input.laws)
+    if simulated:
         dataset = averaged(dataset, areas, job.params.windows)
+    dataset = annotated(dataset)
     datasets.write(
-        annotated(dataset),
+        of_simulation(dataset, areas, laws) if simulated else of_theory(dataset, areas, laws),
         job.output[0],
         title="a_V from attractive areas",
         parameters={**datasets.parameters(areas), "windows": job.params.windows},
@@ -34,6 +38,55 @@ def averaged(dataset, ensemble, windows):
 
     limit = _limits.inherited(ensemble, quantity, ["attractive_area"])
     return with_errors(dataset, "a_v", dataset.a_v, coarse(ensemble, quantity), limit=limit)
+
+
+def of_simulation(dataset, ensemble, laws):
+    """Budgets of the means over the seeds; a window is part of what is asked."""
+    simulation = Simulation.of(laws, datasets.parameters(ensemble))
+    parts = simulation.parts(
+        "a_v",
+        dataset.a_v_mean,
+        dataset.a_v_standard_error,
+        dataset.a_v_discretisation_error,
+        _limits.INHERITED,
+    )
+    dataset = with_budget(dataset, "a_v_mean", **parts)
+    solver = along(simulation.solver, "attractive_area", dataset.exponent)
+    factor = along(simulation.factor, "attractive_area", dataset.exponent)
+    limit = _limits.inherited(ensemble, local_exponent, ["attractive_area"])
+    seeds = local_exponent(ensemble[["attractive_area", "pressure"]])
+    steps = np.diff(np.log(ensemble["range"].values)).min()
+    return with_budget(
+        dataset,
+        "exponent",
+        discretisation=Part(limit.error, _limits.INHERITED),
+        solver=Part(2 * solver / steps, "of neighbouring areas, by the tolerance, as measured"),
+        sampling=Part(factor * standard_error(seeds), "Student's t, of the plain mean of seeds"),
+        **SIMULATED,
+    )
+
+
+def of_theory(dataset, areas, laws):
+    """Budgets of the fits to theory, on a lattice spectrum or on continuous ones."""
+    made = datasets.parameters(areas)
+    like = dataset.a_v.assign_coords(pressure=areas.pressure)
+    model = theory_error(laws, "a_v", like, made if "case" in made else None)
+    quadrature = QUADRATURE["attractive_area"]
+    dataset = with_budget(
+        dataset,
+        "a_v",
+        discretisation=Part(quadrature * dataset.a_v, "of the quadrature, as tested"),
+        model=Part(model * dataset.a_v, MODEL),
+        **BY_THEORY,
+    )
+    steps = np.diff(np.log(areas["range"].values)).min()
+    return with_budget(
+        dataset,
+        "exponent",
+        discretisation=Part(2 * quadrature / steps, "of the quadrature in neighbouring areas"),
+        model=unknown("how theory's error changes with the range is not measured"),
+        **BY_THEORY,
+    )
 
 
 def fitted(areas, windows):

@@ -13,6 +13,7 @@ from scipy.optimize import minimize_scalar
 from _job import start
 from _model import spectrum_of, window_of
 from stickiness import datasets
+from stickiness.budget import COVERS, Part, absent, with_budget
 from stickiness.persson import Persson
 from stickiness.persson_kernels import CORRECTIONS, correction_of
 from stickiness.surface import lattice_spectrum
@@ -39,7 +40,7 @@ def main(job):
         [fitted(cases, draws, index, quantity) for quantity in (*QUANTITIES, EVERY)]
         for index in range(len(CORRECTIONS))
     ]
-    names = ("gamma", "gamma_low", "gamma_high", "misfit", "misfit_own")
+    names = ("gamma", "gamma_low", "gamma_high", "spread", "misfit", "misfit_own")
     dataset = xr.Dataset(
         {
             name: (("correction", "quantity"), [[r[i] for r in row] for row in rows])
@@ -50,7 +51,7 @@ def main(job):
     dataset["quantities_agree"] = agreement(dataset).astype("i1")
     dataset["own_gamma"] = "correction", [correction_of(name).gamma for name in CORRECTIONS]
     datasets.write(
-        annotated(dataset),
+        budgeted(annotated(dataset.drop_vars("spread")), dataset.spread),
         job.output[0],
         title="gamma of the corrections of Persson's theory by simulation",
         parameters={
@@ -94,13 +95,11 @@ def attractive(lattice, gamma, correction, loads):
 
 def against(ensemble, name, few, theory):
     """Logarithms of theory less those of simulation, and the simulation's relative errors."""
-    simulated = ensemble[
-        [f"{name}_{kind}" for kind in ("mean", "standard_error", "discretisation_error")]
-    ].transpose("pressure", ...)
+    simulated = ensemble[[f"{name}_mean", f"{name}_mean_total_error"]].transpose("pressure", ...)
     if "range" in simulated.dims:
         simulated = simulated.sel(pressure=few).interp({"range": list(RANGES)})
-    mean, *errors = (part.values.ravel() for part in simulated.values())
-    return theory - np.log(mean), np.nan_to_num(np.hypot(*errors) / mean)
+    mean, error = (part.values.ravel() for part in simulated.values())
+    return theory - np.log(mean), np.nan_to_num(error / COVERS / mean)
 
 
 def sample(rng, count, windows):
@@ -136,13 +135,31 @@ def fitted(cases, draws, correction, quantity):
     )
     curve = CubicSpline(np.log(GRID), as_found[0])
     best = lowest(curve)
-    ends = np.quantile(
-        [lowest(CubicSpline(np.log(GRID), row)) for row in drawn],
-        [0.5 - CONFIDENCE / 2, 0.5 + CONFIDENCE / 2],
-    )
+    gammas = [lowest(CubicSpline(np.log(GRID), row)) for row in drawn]
+    ends = np.quantile(gammas, [0.5 - CONFIDENCE / 2, 0.5 + CONFIDENCE / 2])
+    spread = np.quantile(np.abs(np.array(gammas) - best), 0.9)
     own = correction_of(CORRECTIONS[correction]).gamma
     misfits = [np.sqrt(max(float(curve(np.log(gamma))), 0.0)) for gamma in (best, own)]
-    return best, *ends, *misfits
+    return best, *ends, spread, *misfits
+
+
+def budgeted(dataset, spread):
+    """Gamma with its errors: drawn, and for all quantities together what each asks for."""
+    each = dataset.gamma.sel(quantity=list(QUANTITIES))
+    apart = abs(each - dataset.gamma.sel(quantity=EVERY)).max("quantity")
+    drawn = absent("drawn with the sampling")
+    return with_budget(
+        dataset,
+        "gamma",
+        discretisation=drawn,
+        solver=drawn,
+        sampling=Part(spread, "windows, cases and their errors drawn"),
+        bandwidth=absent("of the spectra simulated"),
+        model=Part(
+            apart.where(dataset.quantity == EVERY, 0.0),
+            f"how far the gammas of single quantities are from that of {EVERY}",
+        ),
+    )
 
 
 def mean_squares(cases, name, correction, chosen, off):

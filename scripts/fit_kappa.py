@@ -3,10 +3,12 @@
 import xarray as xr
 
 import _limits
+from _budgets import BY_THEORY, MODEL, QUADRATURE, Simulation, theory_error
 from _errors import coarse, described, with_errors
 from _job import start
 from _model import DESCRIBED, LINEAR_UP_TO
-from stickiness import datasets
+from stickiness import accuracy, datasets
+from stickiness.budget import ENDINGS, Part, with_budget
 
 
 def main(job):
@@ -20,8 +22,12 @@ def main(job):
     )
     for name, quantity in {"kappa": slope, "kappa_fit": fitted_slope}.items():
         dataset = averaged(dataset, name, quantity, ensemble)
+    laws = accuracy.read_laws(job.input.laws)
+    dataset = budgeted(annotated(dataset), laws, datasets.parameters(ensemble))
+    for ending in ENDINGS:
+        dataset[f"area_fraction{ending}"] = ensemble[f"area_fraction_mean{ending}"]
     datasets.write(
-        annotated(dataset),
+        dataset,
         job.output[0],
         title="slope of the area-load relation",
         parameters={**datasets.parameters(ensemble), "linear_up_to": LINEAR_UP_TO},
@@ -33,6 +39,26 @@ def averaged(dataset, name, quantity, ensemble):
     limit = _limits.inherited(ensemble, quantity, ["area_fraction"])
     values, more = quantity(ensemble), coarse(ensemble, quantity)
     return with_errors(dataset, name, values, more, plain=True, limit=limit)
+
+
+def budgeted(dataset, laws, made):
+    """Every kappa with its errors by source, those of the fit as at the largest of its loads."""
+    simulation, inside = Simulation.of(laws, made), dataset.area_fraction <= LINEAR_UP_TO
+    loads = {"kappa": dataset.pressure, "kappa_fit": dataset.pressure.where(inside).max()}
+    for name, pressure in loads.items():
+        kinds = ("standard_error", "discretisation_error")
+        errors = (dataset[f"{name}_{kind}"] for kind in kinds)
+        value = dataset[name].assign_coords(pressure=pressure)
+        parts = simulation.parts("kappa", value, *errors, _limits.INHERITED)
+        dataset = with_budget(dataset, name, **parts)
+    value, quadrature = dataset.kappa_theory, QUADRATURE["area_fraction"]
+    return with_budget(
+        dataset,
+        "kappa_theory",
+        discretisation=Part(quadrature * value, "of the quadrature, as tested"),
+        model=Part(theory_error(laws, "kappa", value, made) * value, MODEL),
+        **BY_THEORY,
+    )
 
 
 def slope(ensemble):

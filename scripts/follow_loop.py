@@ -12,9 +12,12 @@ import xarray as xr
 
 from _adhesion import DESCRIBED as ADHESION_DESCRIBED
 from _adhesion import scaled_law
+from _budgets import SIMULATED
 from _job import start
 from _model import pixels
+from average_adhesive import SOLVER
 from stickiness import adhesive, datasets, repulsive
+from stickiness.budget import Part, unknown, with_budget
 
 CONTROLS = ("mean_gap", "pressure")
 TOLERANCE = 1e-5  # of the residual: far below what the width of a line shows
@@ -31,6 +34,11 @@ STATES = {
     "elastic_energy": "elastic energy per nominal area over E* q0 h_rms^2",
     "interaction_energy": "energy of the attraction per nominal area over E* q0 h_rms^2",
     "residual": "unbalanced pressure over the strength or the flattening pressure",
+}
+QUOTED = {
+    "pull_off_pressure": "mean pressure over E* q0 h_rms at which a press lets go",
+    "pull_off_area": "area at a gap of zero over nominal area at pull-off",
+    "lost_share": "energy lost over the work done on the surfaces, at given mean gaps",
 }
 STEPPED = {
     "separating": "1 on the way back",
@@ -51,8 +59,9 @@ def main(job):
         for control in CONTROLS
         for value in lengths
     }
+    dataset = annotated(gathered(curves, lengths, pixels(surface)))
     datasets.write(
-        annotated(gathered(curves, lengths, pixels(surface))),
+        with_quoted(dataset),
         job.output[0],
         title="approach and separation of one realisation with adhesion",
         parameters={**datasets.parameters(surface), **asked},
@@ -120,6 +129,32 @@ def gathered(curves, lengths, finest):
             "state": np.arange(longest),
         },
     )
+
+
+def with_quoted(dataset):
+    """What is quoted of the curves, on the fine grid, with its errors."""
+    press, gap = dataset.sel(control="pressure"), dataset.sel(control="mean_gap")
+    last = press.mean_pressure.notnull().sum("state") - 1
+    found = {
+        "pull_off_pressure": press.mean_pressure.isel(state=last),
+        "pull_off_area": press.repulsive_area_fraction.isel(state=last),
+        "lost_share": gap.dissipated.sum("state") / gap.work.where(gap.work > 0).sum("state"),
+    }
+    for name, values in found.items():
+        coarse, fine = (
+            values.isel(resolution=grid).reset_coords(drop=True).drop_vars("state", errors="ignore")
+            for grid in (0, -1)
+        )
+        dataset[name] = fine.assign_attrs(units="1", long_name=QUOTED[name])
+        dataset = with_budget(
+            dataset,
+            name,
+            discretisation=Part(fine - coarse, "change from half the resolution"),
+            solver=Part(SOLVER * fine, "by the tolerance, as measured for states between turns"),
+            sampling=unknown("a single realisation"),
+            **SIMULATED,
+        )
+    return dataset
 
 
 def annotated(dataset):

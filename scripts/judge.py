@@ -11,6 +11,7 @@ from _numbers import interval
 from _tables import table
 from _thresholds import POWERS, threshold
 from _uncertain import DRAWN, QUANTILES, uncertain
+from _verdict_budgets import budgeted
 from stickiness import criteria, datasets, edge_adhesion
 
 ENDS = ("smooth", "rough")
@@ -107,7 +108,8 @@ def judged(materials, surfaces, a_v, constant, frequencies):
     dataset = dataset.assign(rates(pairs, materials, frequencies))
     dataset["verdict"] = verdict(dataset)
     dataset["disagrees"] = disagreement(dataset)
-    return annotated(dataset)
+    draws = {name: surface.sizes.get("draw", 0) for name, surface in surfaces.items()}
+    return budgeted(annotated(dataset), constant, draws)
 
 
 def known(materials, surfaces, a_v):
@@ -188,8 +190,10 @@ def edges(pairs):
     """What the edges of every pair are, and the modulus at which attraction balances repulsion."""
     found = attraction(pairs, pairs.length.values, pairs.pair_a_v.values)
     low, high = limits(pairs, pairs.length.values)
-    h, q0, slope, reach = (pairs[name].values for name in ("h_rms", "q0", "rms_slope", "range"))
-    threshold = edge_adhesion.adhesion_length_threshold(h, q0, slope, reach, pairs.pair_a_v.values)
+    h, q0, reach = (pairs[name].values for name in ("h_rms", "q0", "range"))
+    thresholds = [
+        threshold_length(pairs, *limit) for limit in (("", 0), ("_low", -1), ("_high", 1))
+    ]
     validity = criteria.dmt_validity(h, q0, pairs.length.values, reach)
     t, tau = found.attractive_over_contact, found.strength
     regime = np.select(
@@ -200,7 +204,9 @@ def edges(pairs):
     values = {
         "margin_low": low,
         "margin_high": high,
-        "modulus_threshold": pairs.work.values / threshold,
+        "modulus_threshold": pairs.work.values / thresholds[0],
+        "modulus_threshold_low": pairs.work.values / thresholds[1],
+        "modulus_threshold_high": pairs.work.values / thresholds[2],
         "edge_strength": tau,
         "attractive_over_contact": t,
         "over_dmt": found.effect,
@@ -209,6 +215,18 @@ def edges(pairs):
         "jtb_margin": validity.margin,
     }
     return {name: (DIMS, value) for name, value in values.items()}
+
+
+def threshold_length(pairs, end, sign):
+    """Adhesion length at which attraction balances repulsion, at one limit of a_V and model."""
+    h, q0, slope, reach = (pairs[name].values for name in ("h_rms", "q0", "rms_slope", "range"))
+    a_v, by_edges = pairs[f"pair_a_v{end}"].values, edge_adhesion.adhesion_length_threshold
+    length = by_edges(h, q0, slope, reach, a_v)
+    if not sign:
+        return length
+    # The model's error is that at the threshold it has without.
+    error = edge_adhesion.attraction(h, q0, slope, length, reach, a_v).error_factor
+    return by_edges(h, q0, slope, reach, a_v, error**sign)
 
 
 def probabilities(materials, surfaces, a_v):
@@ -279,6 +297,7 @@ def disagreement(dataset):
 
 def annotated(dataset):
     of_edges = "attraction over repulsion at equal area of contact, by the edges"
+    threshold = "plane-strain modulus below which the pair sticks"
     return datasets.annotate(
         dataset,
         material=("1", "material"),
@@ -298,7 +317,9 @@ def annotated(dataset):
         regime=("1", "edges: 0 weak, 1 between, 2 tough (JKR), 3 strong, not JKR"),
         simulated=("1", "1 where full simulation bears the model out"),
         jtb_margin=("1", "rms height over the smallest at which the DMT limit holds (JTB)"),
-        modulus_threshold=("Pa", "plane-strain modulus below which the pair sticks"),
+        modulus_threshold=("Pa", threshold),
+        modulus_threshold_low=("Pa", f"{threshold}, at the low limits of a_V and of the model"),
+        modulus_threshold_high=("Pa", f"{threshold}, at the high limits of a_V and of the model"),
         work_of_adhesion=("J/m^2", "work of adhesion"),
         threshold_by_criterion=("Pa", "plane-strain modulus below which a criterion says sticky"),
         a_v=("1", "constant a_V of a broad spectrum, in the window of the fit"),

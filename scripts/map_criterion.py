@@ -4,11 +4,12 @@ import numpy as np
 import xarray as xr
 from scipy.optimize import elementwise
 
-from _criteria import measured_a_v
+from _criteria import CLOSED, between, measured_a_v
 from _job import start
 from _model import logarithmic_grid
 from stickiness import area_load, criteria, datasets, edge_adhesion
 from stickiness.a_v_table import NEEDED, AvTable
+from stickiness.budget import with_budget
 from stickiness.spectrum import SelfAffine
 
 
@@ -19,7 +20,7 @@ def main(job):
     dataset = limits(asked, constant, Roughness(table, asked, job.params.pressure))
     dataset = dataset.merge(slopes(asked["slope_parameter"], asked["slope_a_v"]))
     datasets.write(
-        annotated(dataset),
+        budgeted(annotated(dataset), constant),
         job.output[0],
         title="map of the stickiness criterion",
         parameters={**asked, "pressure": job.params.pressure},
@@ -139,6 +140,17 @@ def slopes(parameters, a_v):
         {"slope_angle": (("slope_parameter", "h_rms_over_range"), np.degrees(angles))},
         coords={"slope_parameter": list(parameters), "h_rms_over_range": roughness},
     )
+
+
+def budgeted(dataset, constant):
+    """Limits and the constant a_V with their errors."""
+    for name in ("h_rms_limit", "h_rms_limit_edges"):
+        ends = (dataset[f"{name}{end}"] for end in ("", "_low", "_high"))
+        dataset = with_budget(dataset, name, model=between(*ends), **CLOSED)
+    dataset = with_budget(dataset, "a_v", **constant.parts(constant.value))
+    # In proportion to a_V^(3/5).
+    parts = constant.parts(3 / 5 * dataset.h_rms_limit_constant)
+    return with_budget(dataset, "h_rms_limit_constant", **parts)
 
 
 def annotated(dataset):

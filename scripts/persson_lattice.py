@@ -3,11 +3,13 @@
 import numpy as np
 import xarray as xr
 
+from _budgets import QUADRATURE, theory_parts
 from _job import start
 from _model import DESCRIBED, logarithmic_grid, middles, spectrum_of, window_of
 from _theories import DESCRIBED as DESCRIBED_THEORY
 from _theories import theories
-from stickiness import datasets
+from stickiness import accuracy, datasets
+from stickiness.budget import with_budget
 from stickiness.persson import Persson
 from stickiness.surface import lattice_spectrum
 
@@ -20,13 +22,18 @@ def main(job):
     parts = [state(Persson(lattice, **options), pressures, ranges) for options in named.values()]
     names = xr.DataArray(list(named), dims="variant", name="variant")
     dataset = xr.concat(parts, names).assign(rms_slope=lattice.rms_slope)
+    dataset = datasets.annotate(
+        dataset,
+        **DESCRIBED,
+        variant=DESCRIBED_THEORY,
+        rms_slope=("1", "rms gradient of the lattice spectrum over q0 h_rms"),
+    )
+    laws = accuracy.read_laws(job.input.laws)
+    for name in QUADRATURE:
+        parts = theory_parts(laws, name, dataset[name], asked)
+        dataset = with_budget(dataset, name, **parts)
     datasets.write(
-        datasets.annotate(
-            dataset,
-            **DESCRIBED,
-            variant=DESCRIBED_THEORY,
-            rms_slope=("1", "rms gradient of the lattice spectrum over q0 h_rms"),
-        ),
+        dataset,
         job.output[0],
         title="Persson's theory on the lattice spectrum of a case",
         parameters={**asked, "case": job.wildcards.compared, "gamma": job.params.gamma},

@@ -3,19 +3,22 @@
 import numpy as np
 import xarray as xr
 
+from _budgets import BY_THEORY, QUADRATURE, theory_error
 from _job import start
-from _model import DESCRIBED, logarithmic_grid
-from stickiness import criteria, datasets
+from _model import DESCRIBED, VARIANT, logarithmic_grid
+from stickiness import accuracy, criteria, datasets
 from stickiness.a_v_table import edge_range, local_a_v
+from stickiness.budget import Part, with_budget
 from stickiness.persson import Persson
 from stickiness.spectrum import Tabulated
 
 VARIANTS = ("afferrante2018", "almqvist2011")  # P(0) infinite and finite: limits on the truth
+NEEDED = ("psd", "hurst", "q0", "q1", "rms_slope", "rms_curvature")
 EDGE_LAW = "pastewka_robbins"  # independent estimate of what the edges alone give
 
 
 def main(job):
-    surface = datasets.read(job.input.surface, ["psd", "q0", "q1", "rms_slope", "rms_curvature"])
+    surface = datasets.read(job.input.surface, NEEDED)
     ranges = logarithmic_grid(job.params.ranges)
     load, gamma = job.params.pressure, job.params.gamma
     names, a_v, edge = a_v_of(surface, -1, ranges, load, gamma)
@@ -27,17 +30,40 @@ def main(job):
         {"a_v": (("variant", "range"), a_v), "edge_range": edge},
         coords={"variant": names, "range": ranges},
     )
+    dataset = datasets.annotate(
+        dataset,
+        variant=("1", "variant of the theory, or the edge law below the edge range"),
+        range=DESCRIBED["range"],
+        a_v=("1", "a_V = A_ad/((3/2) p (range/h_rms)^(2/3)), constant below the edge range"),
+        edge_range=("1", "range over h_rms below which the edge law takes over from theory"),
+    )
     datasets.write(
-        datasets.annotate(
-            dataset,
-            variant=("1", "variant of the theory, or the edge law below the edge range"),
-            range=DESCRIBED["range"],
-            a_v=("1", "a_V = A_ad/((3/2) p (range/h_rms)^(2/3)), constant below the edge range"),
-            edge_range=("1", "range over h_rms below which the edge law takes over from theory"),
-        ),
+        budgeted(dataset, surface, load, accuracy.read_laws(job.input.laws)),
         job.output[0],
         title="a_V by Persson's theory on the spectrum of a real surface",
         parameters={**datasets.parameters(surface), "pressure": load, "gamma": gamma},
+    )
+
+
+def budgeted(dataset, surface, load, laws):
+    """The quoted a_V with its errors: as measured, or how far the others are if that is more."""
+    a_v = dataset.a_v.assign_coords(
+        pressure=load,
+        hurst=float(surface.hurst),
+        magnification=float(surface.q1 / surface.q0),
+    )
+    spread = abs(a_v - a_v.sel(variant=VARIANT)).max("variant")
+    model = theory_error(laws, "attractive_area", a_v) * a_v
+    return with_budget(
+        dataset,
+        "a_v",
+        discretisation=Part(QUADRATURE["attractive_area"] * a_v, "of the quadrature, as tested"),
+        model=Part(
+            np.maximum(model, spread),
+            f"of {VARIANT} as measured, or how far the others are if that is more; of others not "
+            "measured",
+        ),
+        **BY_THEORY,
     )
 
 

@@ -5,11 +5,13 @@ from itertools import product
 import numpy as np
 import xarray as xr
 
+from _budgets import QUADRATURE, theory_parts
 from _job import start
 from _model import DESCRIBED, logarithmic_grid, middles, spectrum_of
 from _theories import DESCRIBED as DESCRIBED_THEORY
 from _theories import theories
-from stickiness import datasets
+from stickiness import accuracy, datasets
+from stickiness.budget import with_budget
 from stickiness.persson import Persson
 
 
@@ -27,8 +29,12 @@ def main(job):
         )
         for point in product(*axes.values())
     ]
+    dataset, laws = annotated(xr.combine_by_coords(parts)), accuracy.read_laws(job.input.laws)
+    for name in QUADRATURE:
+        value = dataset[name].assign_coords(pressure=dataset.pressure)
+        dataset = with_budget(dataset, name, **theory_parts(laws, name, value))
     datasets.write(
-        annotated(xr.combine_by_coords(parts)),
+        dataset,
         job.output[0],
         title="Persson's theory on continuous self-affine spectra",
         parameters={**sweep, "variants": job.params.variants, "gamma": job.params.gamma},

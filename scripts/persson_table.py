@@ -6,12 +6,14 @@ from itertools import product
 import numpy as np
 import xarray as xr
 
+from _budgets import BY_THEORY, MODEL, theory_error
 from _job import start
 from _model import DESCRIBED, VARIANT, logarithmic_grid, spectrum_of
 from _theories import DESCRIBED as DESCRIBED_THEORY
 from _theories import theories
-from stickiness import criteria, datasets
+from stickiness import accuracy, criteria, datasets
 from stickiness.a_v_table import edge_range, local_a_v
+from stickiness.budget import Part, absent, unknown, with_budget
 from stickiness.persson import Persson
 
 OTHER_VARIANT = "almqvist2011"
@@ -34,8 +36,9 @@ def main(job):
     }
     dataset = finite(axes, ranges, options).merge(infinite(axes, ranges, options))
     dataset["quadrature_error"] = quadrature_error(axes, ranges, gamma)
+    dataset = annotated(dataset.assign_coords(variant=names, range=ranges))
     datasets.write(
-        annotated(dataset.assign_coords(variant=names, range=ranges)),
+        budgeted(dataset, accuracy.read_laws(job.input.laws)),
         job.output[0],
         title="a_V by Persson's theory on self-affine spectra",
         parameters={**asked, "gamma": gamma, "quoted": names[0]},
@@ -104,6 +107,30 @@ def quadrature_error(axes, ranges, gamma):
         )
         changes.append(np.abs(few / many - 1).max())
     return max(changes)
+
+
+def budgeted(dataset, laws):
+    """a_V with its errors, as large as those of the attractive area, and the edges' estimate."""
+    limit = dataset.a_v_limit.assign_coords(magnification=np.inf)
+    for name, value in {"a_v": dataset.a_v, "a_v_limit": limit}.items():
+        model = theory_error(laws, "attractive_area", value) * value
+        dataset = with_budget(
+            dataset,
+            name,
+            discretisation=Part(dataset.quadrature_error * value, "of the quadrature, the largest"),
+            model=Part(model, MODEL),
+            **BY_THEORY,
+        )
+    closed = absent("a closed form")
+    return with_budget(
+        dataset,
+        "edge_a_v",
+        discretisation=closed,
+        solver=closed,
+        sampling=closed,
+        bandwidth=BY_THEORY["bandwidth"],
+        model=unknown("another estimate of what edges give"),
+    )
 
 
 def self_affine(hurst, magnification):

@@ -7,7 +7,7 @@ from _numbers import number
 from _style import BLACK, COLOURS, GREY, MARKERS, canvas, guide, letters, plain_ticks, save
 from stickiness import datasets, edge_adhesion
 
-NEEDED = ("effect", "over_model", "over_model_standard_error", "edge_strength")
+NEEDED = ("effect", "over_model", "over_model_total_error", "edge_strength")
 LARGEST_ERROR = 0.15  # standard error of a point that is drawn
 AREA_LABEL = r"attractive over contact area $A_\mathrm{ad}/A_\mathrm{rep}$"
 
@@ -28,7 +28,7 @@ def known(data):
         "edge_strength",
         "effect",
         "over_model",
-        "over_model_standard_error",
+        "over_model_total_error",
     )
     dims = data.effect.dims
     columns = np.array([data[name].transpose(*dims).values.ravel() for name in parts])

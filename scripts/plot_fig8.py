@@ -125,7 +125,7 @@ def value(at, row):
     if row == "distance":
         errors = at.distance_standard_error, at.distance_discretisation_error
         return at.distance.values, np.hypot(*(np.nan_to_num(error) for error in errors))
-    return at[f"{row}_difference"].values, np.nan_to_num(at[f"{row}_difference_error"])
+    return at[f"{row}_difference"].values, np.nan_to_num(at[f"{row}_difference_total_error"])
 
 
 def draw_points(ax, case, y, error):
@@ -143,7 +143,7 @@ def draw_points(ax, case, y, error):
 def draw_density(ax, case, at):
     """P(u) by theory over simulation against u at one load, where simulation is certain enough."""
     at = at.sel(pressure=LOAD, method="nearest")
-    y, error = at.gap_density_difference, at.gap_density_difference_error
+    y, error = at.gap_density_difference, at.gap_density_difference_total_error
     known = (error < 0.2 * (1 + y)) & (at.gap < 3)
     ax.plot(at.gap.where(known), y.where(known), color=case.colour, linewidth=0.8)
     return y.where(known).values
@@ -174,7 +174,7 @@ def window_panel(ax, cases):
     for case in cases:
         at = case.differences.sel(variant=VARIANT).interp({"range": RANGE})
         over = 1 / (1 + at.attractive_area_difference)
-        error = over**2 * at.attractive_area_difference_error
+        error = over**2 * at.attractive_area_difference_total_error
         below = at.highest_summit - at.theory_mean_gap
         look = {"color": case.colour, "marker": case.marker, "markersize": 3}
         ax.errorbar(

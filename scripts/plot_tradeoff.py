@@ -3,11 +3,11 @@
 import itertools
 
 import numpy as np
-import pandas as pd
 
+import _trade_summary
 from _job import start
 from _style import COLOURS, GREY, MARKERS, canvas, key, letters, plain_ticks, save
-from stickiness import accuracy, datasets, plan
+from stickiness import accuracy, plan
 
 LOADS = ("0.01", "0.065", "0.3")
 SHOWN = {"area": "contact area", "a_v": r"$a_V$", "mean_gap": "mean gap"}
@@ -25,8 +25,7 @@ PRESET_MARKS = {"draft": "v", "standard": "o", "fine": "^"}
 
 
 def main(job):
-    data = datasets.read(job.input.dataset, ["knob", "setting", "error", "cost"])
-    found = pd.DataFrame({name: data[name].values for name in data.data_vars})
+    found = _trade_summary.read(job.input.summary)
     figure, panels = canvas("ABC;DEF;GHI", 7.8)
     grids(panels["A"], found[found.knob == "pixels"])
     tolerances(panels["B"], found[found.knob == "tolerance"])
@@ -45,8 +44,8 @@ def main(job):
 
 
 def middle(found):
-    """Medians over cases for every setting and quantity."""
-    return found.groupby(["setting", "quantity"])[["error", "cost"]].median()
+    """Error and cost by setting and quantity."""
+    return found.set_index(["setting", "quantity"])[["error", "cost"]].sort_index()
 
 
 def grids(ax, found):

@@ -13,7 +13,7 @@ import solve_coarse
 import solve_repulsive
 from _job import start
 from _model import logarithmic_grid, spectrum_of, window_of
-from average_ensemble import annotated, renamed, sampled, with_statistics
+from average_ensemble import annotated, budgeted, renamed, sampled, with_statistics
 from stickiness import datasets, surface
 from synthesise_surface import grid_points
 
@@ -41,11 +41,12 @@ def main(job):
         "pixels_per_wavelength": params.pixels_per_wavelength,
         "grid_points": grid_points(asked, params.pixels_per_wavelength),
     }
+    parameters |= sampled(parameters, dataset)
     datasets.write(
-        annotated(dataset),
+        budgeted(annotated(dataset), parameters, job.input.laws),
         job.output[0],
         title="repulsive contact averaged over realisations",
-        parameters={**parameters, **sampled(parameters, dataset)},
+        parameters=parameters,
     )
 
 

@@ -5,10 +5,17 @@ import xarray as xr
 
 from _job import start
 from stickiness import datasets
+from stickiness.budget import COVERS, ENDINGS, Part, absent, unknown, with_budget
 
 SMALLEST_RANGE = 0.01  # over h_rms; below, simulated areas are extrapolated on most grids
 PER_DECADE = 4  # simulated ranges
-THEORY = ("a_v", "a_v_limit", "edge_range", "edge_a_v", "quadrature_error")
+QUOTED = ("a_v", "a_v_limit", "edge_a_v")
+THEORY = (
+    *QUOTED,
+    *(f"{name}{ending}" for name in QUOTED for ending in ENDINGS),
+    "edge_range",
+    "quadrature_error",
+)
 
 
 def main(job):
@@ -20,7 +27,7 @@ def main(job):
     dataset = theory[list(THEORY)].isel(variant=0, drop=True).merge(reach(theory))
     dataset = dataset.merge(simulated(comparisons))
     datasets.write(
-        annotated(dataset),
+        budgeted(annotated(dataset)),
         job.output[0],
         title="a_V as a function of Hurst exponent, magnification, load and range, with its error",
         parameters={
@@ -158,7 +165,21 @@ def log_ratio(comparison):
     ranges = np.geomspace(SMALLEST_RANGE, 1, round(decades * PER_DECADE) + 1)
     quoted = quoted.interp({"range": ranges}).where(quoted.window_holds == 1)
     over = 1 + quoted.attractive_area_difference
-    return -np.log(over), quoted.attractive_area_difference_error / over
+    return -np.log(over), quoted.attractive_area_difference_total_error / COVERS / over
+
+
+def budgeted(dataset):
+    """The ratio to simulation with its error, which the errors of all cases are in together."""
+    error = COVERS * dataset.simulation_error * dataset.simulation_ratio
+    return with_budget(
+        dataset,
+        "simulation_ratio",
+        discretisation=absent("counted with the sampling"),
+        solver=absent("counted with the sampling"),
+        sampling=Part(error, "of a further surface, the errors of the cases included"),
+        bandwidth=unknown("the trend beyond the largest magnification is not simulated"),
+        model=absent("simulation over theory is what is quoted"),
+    )
 
 
 def annotated(dataset):

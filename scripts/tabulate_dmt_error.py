@@ -13,7 +13,7 @@ from stickiness.model_choice import COLUMNS
 def main(job):
     rows = []
     for path in job.input.adhesive:
-        rows += measured(datasets.read(path, ["dmt_ratio", "dmt_ratio_model_error", "q0_h_rms"]))
+        rows += measured(datasets.read(path, ["dmt_ratio", "dmt_ratio_total_error", "q0_h_rms"]))
     with datasets.whole_file(job.output[0]) as temporary, temporary.open("w", newline="") as file:
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(COLUMNS)

@@ -4,6 +4,7 @@ import numpy as np
 import pandas as pd
 import xarray as xr
 
+import _trade_summary
 from _bank import bank_of
 from _job import start
 from _laws import Points, add_costs, add_grids, add_offsets, add_sampling, surface_of
@@ -76,8 +77,12 @@ def main(job):
     }
     with datasets.whole_file(job.output.laws) as path:
         accuracy.write_laws(path, laws, COMMENT)
+    medians = middle(found)
+    with datasets.whole_file(job.output.summary) as path:
+        _trade_summary.write(path, medians)
     with datasets.whole_file(job.output.table) as path:
-        path.write_text(HEAD + summary(found), encoding="utf-8")
+        tables = _trade_summary.tables(medians)
+        path.write_text(HEAD + "\n".join(table(*each) for each in tables), encoding="utf-8")
 
 
 def named(paths):
@@ -103,31 +108,10 @@ def dataset_of(found):
     return datasets.annotate(dataset, row=("1", "number of the row"), **texts)
 
 
-def summary(found):
-    """Markdown: a table for every knob, with one row for every setting."""
-    texts = []
-    for knob in dict.fromkeys(found.knob):
-        part = found[found.knob == knob]
-        quantities = list(dict.fromkeys(part.quantity))
-        lines = []
-        for setting in dict.fromkeys(part.setting):
-            one = part[part.setting == setting]
-            errors = [
-                percent(one.error[one.quantity == quantity].median()) for quantity in quantities
-            ]
-            cost, memory = one.cost.median(), one.memory.median()
-            lines.append([setting, *errors, plain(cost), plain(memory)])
-        head = [knob, *quantities, "cost", "memory [MB]"]
-        texts.append(table(head, lines))
-    return "\n".join(texts)
-
-
-def percent(value):
-    return "–" if not np.isfinite(value) else f"{100 * value:.2g} %"
-
-
-def plain(value):
-    return "–" if not np.isfinite(value) else f"{value:.3g}"
+def middle(found):
+    """Medians over cases, with one row for every setting of every knob and every quantity."""
+    keys, values = ["knob", "setting", "quantity"], ["error", "cost", "memory"]
+    return found.groupby(keys, sort=False)[values].median().reset_index()
 
 
 if __name__ == "__main__":

@@ -6,13 +6,16 @@ import _benchmarks
 import _captions
 import _provenance
 import _report
+import _trade_summary
 from _job import start
 from stickiness import accuracy, datasets
 
-CLAIMS = ("statement", "quantity", "value", "uncertainty", "error", "claimed", "verdict", "sources")
+CLAIMS = ("statement", "quantity", "value", "value_error", "claimed", "verdict", "sources")
 VERDICTS = (
     "margin",
+    "margin_total_error",
     "modulus_threshold",
+    "modulus_threshold_low",
     "probability",
     "simulated",
     "verdict",
@@ -20,9 +23,9 @@ VERDICTS = (
     "a_v",
     "a_v_low",
 )
-SURFACES = ("h_rms", "hurst", "q0", "q1", "C0_reference_upper")
+SURFACES = ("h_rms", "hurst", "hurst_total_error", "q0", "q1", "C0_reference_upper")
 COMPARISONS = ("area_fraction_difference", "mean_gap_difference", "attractive_area_difference")
-ANSWERS = ("value", "error", "total_error", "dominant")
+ANSWERS = ("value", "value_error", "value_total_error", "value_dominant")
 ENSEMBLES = ("area_fraction_mean", "mean_gap_mean", "attractive_area_mean", "residual")
 
 
@@ -43,6 +46,14 @@ def main(job):
         figures=[_captions.figure(*pair) for pair in zip(job.input.figures, captions, strict=True)],
         benchmarks=job.params.benchmarks,
         fidelity=job.params.fidelity,
+        trade={
+            "figure": _captions.figure(
+                job.input.trade_figure,
+                Path(job.input.trade_caption).read_text(encoding="utf-8"),
+            ),
+            "source": job.input.trade,
+            "tables": _report.trade_tables(_trade_summary.read(job.input.trade)),
+        },
         presets=_report.preset_rows(accuracy.read_laws(job.input.laws), **job.params.presets),
         **read(job.input),
     )
@@ -79,6 +90,7 @@ def render(
     ensembles,
     answers,
     presets,
+    trade,
     comparisons,
     surfaces,
     figures,
@@ -89,6 +101,7 @@ def render(
 
     `files` says where they were read from: paths of `claims` and `verdicts`, and paths by name of
     `surfaces`, `ensembles`, `answers`, `comparisons` and, a list for each, of the `figures`.
+    `trade` is what accuracy costs: its figure, a table for each knob, and the `source` of both.
     """
     return _captions.template_of(template, page).render(
         fidelity=fidelity,
@@ -102,6 +115,7 @@ def render(
         surfaces=_report.surface_rows(surfaces),
         budgets=_report.error_budgets(answers),
         presets=presets,
+        trade=trade,
         asked_quantities=list(accuracy.QUANTITIES),
         comparisons=_report.theory_rows(comparisons),
         quantities=list(_report.QUANTITIES.values()),

@@ -85,7 +85,7 @@ def known(surface):
         return float(surface[name]) if name in surface else np.nan
 
     rows = [
-        ("Hurst exponent H", with_error(float(surface.hurst), error("hurst_error"))),
+        ("Hurst exponent H", with_error(float(surface.hurst), error("hurst_total_error"))),
         (f"C0 [{surface.C0.attrs['units']}]", prefactor(surface)),
         (
             f"C0 at H = 0.8 [{surface.C0_reference_upper.attrs['units']}]",
@@ -114,7 +114,7 @@ def known(surface):
 def lowest(surface):
     """Wave number q0, of a roll-off with its error."""
     if "q_rolloff" in surface:
-        return with_error(float(surface.q0), float(surface.q_rolloff_error))
+        return with_error(float(surface.q0), float(surface.q_rolloff_total_error))
     return number(float(surface.q0))
 
 
@@ -129,7 +129,7 @@ def prefactor(surface):
 def roll_off(surface):
     if "q_rolloff" not in surface:
         return "none found" if "fitted" in surface else NOTHING
-    return f"{with_error(float(surface.q_rolloff), float(surface.q_rolloff_error))} 1/m"
+    return f"{with_error(float(surface.q_rolloff), float(surface.q_rolloff_total_error))} 1/m"
 
 
 def verdict(pair, surface, entry):

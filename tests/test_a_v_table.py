@@ -39,7 +39,7 @@ def comparison(ratio, error=RATIO_ERROR, zeta=32, loads=(0.01, 0.1)):
     return xr.Dataset(
         {
             "attractive_area_difference": (("variant", "pressure", "range"), full),
-            "attractive_area_difference_error": (
+            "attractive_area_difference_total_error": (
                 ("variant", "pressure", "range"),
                 np.full(full.shape, error / ratio),
             ),

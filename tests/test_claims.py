@@ -17,7 +17,7 @@ import _model
 import check_claims
 from _claim import NOT, OPEN, QUALIFIED, REPRODUCED, total_error
 from _model import LOAD
-from stickiness import criteria, edge_adhesion, surface
+from stickiness import budget, criteria, edge_adhesion, surface
 from stickiness.spectrum import SelfAffine
 
 RULES = Path(__file__).parents[1] / "rules" / "common.smk"
@@ -25,7 +25,6 @@ LOADS = np.array([0.001, 0.0065, 0.03, LOAD, 0.13, 0.52])
 RANGES = np.geomspace(1e-4, 10, 81)
 GAPS = np.sqrt(RANGES[1:] * RANGES[:-1])
 WINDOWS = [[0.01, 0.1], [0.003, 0.03], [0.03, 0.3]]
-ERRORS = ("standard_error", "discretisation_error")
 
 
 def made_by(dataset, **parameters):
@@ -36,11 +35,14 @@ def case(zeta, **more):
     return {"case": f"made up {zeta}", "hurst": 0.8, "magnification": zeta, **more}
 
 
-def with_errors(dataset, *names, relative=0.03, suffix="_mean"):
-    """Standard errors of 3 % and discretisation errors of 4 %: 5 % in all."""
+def with_errors(dataset, *names, model=0.0):
+    """Sampling errors of 3 % and discretisation errors of 4 %: 5 % in all, but for the model's."""
+    none = budget.absent("made up")
     for name in names:
-        for kind, factor in zip(ERRORS, (1, 4 / 3), strict=True):
-            dataset[f"{name}_{kind}"] = abs(dataset[name + suffix]) * relative * factor
+        value = dataset[name] = dataset[name].assign_attrs(units="1", long_name="made up")
+        parts = {"discretisation": 0.04, "sampling": 0.03, "model": model}
+        parts = {source: budget.Part(part * value, "made up") for source, part in parts.items()}
+        dataset = budget.with_budget(dataset, name, solver=none, bandwidth=none, **parts)
     return dataset
 
 
@@ -56,7 +58,7 @@ def kappa(zeta, fall=0.0, level=2.0, **more):
         },
         coords={"pressure": LOADS, "variant": [_model.VARIANT]},
     )
-    return made_by(with_errors(data, "kappa", "kappa_fit", suffix=""), **case(zeta, **more))
+    return made_by(with_errors(data, "kappa", "kappa_fit"), **case(zeta, **more))
 
 
 def ensemble(zeta, separation=1.0, power=1.0, **more):
@@ -110,7 +112,7 @@ def fit(of, *slopes):
     low, high = np.transpose(WINDOWS)
     data = xr.Dataset({"a_v": a_v, "window_low": ("window", low), "window_high": ("window", high)})
     data["a_v_mean"] = data.a_v
-    return with_errors(data, "a_v").assign_attrs(of.attrs)
+    return with_errors(data, "a_v", "a_v_mean").assign_attrs(of.attrs)
 
 
 def adhesion(zeta, q0_h_rms=0.1):
@@ -125,7 +127,7 @@ def adhesion(zeta, q0_h_rms=0.1):
     inverse = inverse * xr.ones_like(xr.DataArray(LOADS, dims="pressure", coords=[LOADS]))
     data = xr.Dataset({"inverse_kappa_ad": inverse, "q0_h_rms": q0_h_rms})
     data["attraction"] = 2 * inverse * data.pressure
-    return made_by(with_errors(data, "inverse_kappa_ad", suffix=""), **case(zeta))
+    return made_by(with_errors(data, "inverse_kappa_ad"), **case(zeta))
 
 
 def adhesive(zeta, q0_h_rms=0.1, scale=1.0):
@@ -133,7 +135,7 @@ def adhesive(zeta, q0_h_rms=0.1, scale=1.0):
     data = adhesion(zeta, q0_h_rms=q0_h_rms).drop_attrs(deep=False)
     data = data[["inverse_kappa_ad", "q0_h_rms"]]
     data["inverse_kappa_ad"] = scale * data.inverse_kappa_ad
-    data = with_errors(data, "inverse_kappa_ad", suffix="")
+    data = with_errors(data, "inverse_kappa_ad")
     data["inverse_kappa_ad_net"] = 0.9 * data.inverse_kappa_ad
     data["inverse_kappa_ad_direct"] = 0.8 * data.inverse_kappa_ad
     data["inverse_kappa"] = 0.5 - data.inverse_kappa_ad
@@ -141,7 +143,7 @@ def adhesive(zeta, q0_h_rms=0.1, scale=1.0):
     data["inverse_kappa_fit"] = data.inverse_kappa.mean("pressure")
     data["model"] = xr.full_like(data.inverse_kappa, "full", dtype="U4")
     slopes = "inverse_kappa", "inverse_kappa_net", "inverse_kappa_fit", "inverse_kappa_ad_net"
-    data = with_errors(data, *slopes, suffix="")
+    data = with_errors(data, *slopes)
     return made_by(data, **case(zeta))
 
 
@@ -369,7 +371,7 @@ def test_exponent_is_that_of_the_density(files):
     files["fig3a"] = sweep((1000.0, 5e4), exponent=-0.55)
     claim = contact.small_gap_exponent(files)
     assert claim.value == pytest.approx(-0.55)
-    assert claim.uncertainty == pytest.approx(0, abs=1e-9)
+    assert claim.errors["model"] == pytest.approx(0, abs=1e-9)
     assert claim.verdict == NOT
 
 
@@ -390,7 +392,7 @@ def test_separation_is_graded_on_theory_and_simulation(files, theory, simulation
     files["ensemble_wide"] = ensemble(32, separation=simulation, window=4)
     claim = contact.load_separation(files)
     assert claim.verdict == verdict
-    assert np.isnan(claim.uncertainty)
+    assert (claim.uncertainty > 1e-9) == (simulation != 1)  # theory is at 1 on the same spectrum
     assert ("disagrees" in claim.remark) == (simulation != 1)
 
 
@@ -452,7 +454,9 @@ def test_load_is_graded_on_theory_and_simulation(files, theory, simulation, verd
 def test_a_v_is_graded_with_its_uncertainty(files, slopes, verdict):
     files["fit_fig3c"] = fit(files["fig3c"], *slopes)
     claim = contact.a_v_against_magnification(files)
-    assert claim.uncertainty == pytest.approx(np.ptp(slopes) / 2)
+    parts = np.array([0.04, 0.03, 0.0]) * slopes[0]  # grid, sampling, growth
+    expected = np.linalg.norm([*parts, np.ptp(slopes) / 2])
+    assert claim.uncertainty == pytest.approx(expected)
     assert claim.verdict == verdict
 
 
@@ -494,7 +498,7 @@ def test_simulation_is_compared_with_the_formula(files, scale, verdict):
 
 def test_the_error_of_the_model_counts(files):
     full = files["adhesive_rough"]
-    full["inverse_kappa_ad_model_error"] = 0.12 * full.inverse_kappa_ad
+    full = with_errors(full, "inverse_kappa_ad", model=0.12)
     error = total_error(full, "inverse_kappa_ad") / full.inverse_kappa_ad
     np.testing.assert_allclose(error, 0.13)  # 0.05 and 0.12 in quadrature
 
@@ -620,7 +624,7 @@ def test_moments_of_isotropic_surfaces_agree_and_of_stretched_ones_do_not(files)
     ratios = [criterion.moment_ratios(*criterion.heights_of(generated(s)))[0] for s in (1, 2, 3)]
     assert claim.value == pytest.approx(np.mean(ratios))
     scatter = np.var(ratios, axis=0, ddof=1).mean()  # x and y each about their own mean
-    assert claim.uncertainty == pytest.approx(np.sqrt(scatter / 6))
+    assert claim.uncertainty == pytest.approx(2.92 * np.sqrt(scatter / 6), rel=1e-3)  # t, 2 dof
     assert claim.verdict != NOT
     files |= {f"seed:{seed}": generated(seed, stretch=2.0) for seed in (1, 2, 3)}
     assert criterion.spectral_moments(files).verdict == NOT

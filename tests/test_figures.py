@@ -18,7 +18,7 @@ import plot_fig9
 import plot_fig10
 from _criteria import MeasuredAv
 from _model import logarithmic_grid
-from stickiness import criteria, datasets, edge_adhesion
+from stickiness import budget, criteria, datasets, edge_adhesion
 from stickiness.spectrum import SelfAffine
 
 SMALLEST_FONT = 8  # points
@@ -240,11 +240,11 @@ def test_simulation_of_spheres_is_the_model_of_the_edges():
         },
         coords=dict(zip(dims, (at, lengths, ranges), strict=True)),
         attrs={"parameters": '{"law": "maugis", "grid_points": 512, "refine": 1}'},
-    )
-    found = compare_edges.compared(adhesive, alone, q0_h_rms)
+    ).expand_dims(resolution=[8.0])
+    found = compare_edges.compared(adhesive, alone, q0_h_rms, -1)
     np.testing.assert_allclose(found.effect, found.effect_model, rtol=1e-3)
     few = adhesive.assign_attrs(parameters='{"law": "maugis", "grid_points": 64, "refine": 1}')
-    assert compare_edges.compared(few, alone, q0_h_rms).effect.isnull().all()
+    assert compare_edges.compared(few, alone, q0_h_rms, -1).effect.isnull().all()
     np.testing.assert_allclose(found.edge_strength.transpose(*dims)[0], tau, rtol=1e-3)
 
 
@@ -259,13 +259,15 @@ def test_figure_10(tmp_path, kept):
         "effect": effect,
         "effect_model": effect,
         "over_model": np.ones_like(t),
-        "over_model_standard_error": 0.05 * np.ones_like(t),
     }
     coords = dict(zip(dims, ([0.065], [0.01, 0.1], [0.01, 0.03, 0.1, 1]), strict=True))
     data = xr.Dataset({n: (dims, v) for n, v in values.items()} | {"q0_h_rms": 0.1}, coords=coords)
     path = tmp_path / "edges.nc"
     parameters = {"magnification": 32, "q0_h_rms": 0.1}
-    datasets.write(compare_edges.annotated(data), path, title="e", parameters=parameters)
+    data, none = compare_edges.annotated(data), budget.absent("made up")
+    parts = dict.fromkeys(budget.SOURCES, none) | {"sampling": budget.Part(0.05, "made up")}
+    data = budget.with_budget(data, "over_model", **parts)
+    datasets.write(data, path, title="e", parameters=parameters)
     made = job(tmp_path, "fig10", edges=[path])
     plot_fig10.main(made)
     assert_drawn(made.output)

@@ -17,6 +17,7 @@ import _provenance
 import _report
 import _surface_texts
 import write_report
+from stickiness import budget
 from stickiness.errata import ERRATA
 
 TEMPLATE = Path(__file__).parents[1] / "report" / "report.html.j2"
@@ -29,6 +30,18 @@ def made_by(dataset, **parameters):
     return dataset.assign_attrs(parameters=json.dumps(parameters), version_numpy="9.8.7")
 
 
+def budgeted(dataset, name, **errors):
+    """The dataset with a budget of one of its variables; sources left out have no part."""
+    value = dataset[name] = dataset[name].assign_attrs(units="1", long_name=name)
+    parts = {
+        source: budget.Part(xr.DataArray(errors.get(source, 0.0), dims=value.dims), "made up")
+        if source in errors
+        else budget.absent("made up")
+        for source in budget.SOURCES
+    }
+    return budget.with_budget(dataset, name, **parts)
+
+
 @pytest.fixture
 def claims():
     count = len(GRADES)
@@ -36,23 +49,16 @@ def claims():
         "statement": [f"statement {n}" for n in range(1, count)] + [NASTY],
         "quantity": [f"quantity {n}" for n in range(count)],
         "value": [1.8912, -2.0, 3.0, 4.0],
-        "uncertainty": [0.0331, np.nan, 0.1, 0.1],
         "claimed": [2.0, np.nan, 3.0, 4.0],
         "verdict": list(GRADES),
         "remark": [f"remark {n}, doi:10.1016/0043-1648(90)90154-3." for n in range(count)],
         "sources": ["out/a/x.nc", "", "out/b/seed1.nc out/b/seed2.nc", "out/a/x.nc"],
     }
     data = {name: ("claim", np.array(values)) for name, values in columns.items()}
-    parts = np.full((count, 2), np.nan)
-    parts[0] = 0.0315, 0.0102
-    data["error"] = (("claim", "error_source"), parts)
     errata = {str(erratum.number): {"some_number": 0.5} for erratum in ERRATA}
-    return made_by(
-        xr.Dataset(
-            data, coords={"claim": range(1, count + 1), "error_source": ["grid", "sampling"]}
-        ),
-        errata=errata,
-    )
+    dataset = xr.Dataset(data, coords={"claim": range(1, count + 1)})
+    errors = {"sampling": [0.0315, np.nan, 0.1, 0.1], "discretisation": [0.0102, 0.0, 0.0, 0.0]}
+    return made_by(budgeted(dataset, "value", **errors), errata=errata)
 
 
 @pytest.fixture
@@ -70,6 +76,8 @@ def verdicts():
             "modulus_threshold": (dims, np.full((2, 2, 2), 2.5e6)),
             "simulated": (dims, [[[1, 0], [1, 1]], [[1, 1], [1, 1]]]),
             "verdict": (dims[:2], [[2, 1], [0, 0]]),
+            "modulus_threshold_low": (dims, np.full((2, 2, 2), 1.5e6)),
+            "modulus_threshold_high": (dims, np.full((2, 2, 2), 4.5e6)),
             "margin_low": (dims, np.array(derived) * 0.9),
             "margin_high": (dims, np.array(derived) * 1.1),
             "pair_a_v": (dims, np.full((2, 2, 2), 3.0)),
@@ -91,6 +99,8 @@ def verdicts():
             "criterion": ["edge_adhesion", "some_other"],
         },
     )
+    model = np.full((2, 2, 2, 2), 0.5)
+    dataset = budgeted(dataset, "margin", model=model)
     materials = {
         "jelly": {
             "label": "jelly & cream",
@@ -122,9 +132,10 @@ def surfaces():
         },
         coords={"end": ["smooth", "rough"]},
     )
-    measured = known.assign(
-        hurst=0.7, hurst_error=0.02, C0_reference=5.3e-3, C0_reference_error=4e-4
-    ).assign_attrs(remarks="noisy <spectrum>")
+    measured = known.assign(hurst=0.7, C0_reference=5.3e-3)
+    measured = budgeted(budgeted(measured, "hurst", sampling=0.02), "C0_reference", sampling=4e-4)
+    known = budgeted(known, "hurst")
+    measured = measured.assign_attrs(remarks="noisy <spectrum>")
     return {
         "glass": made_by(known, kind="self_affine", label="glass pane", note="typical"),
         "sand": made_by(measured, kind="measured", label="sand < 1 mm", source="own"),
@@ -194,7 +205,7 @@ def comparison():
     ranges = np.geomspace(1e-3, 1, 20)
     shape = (1, 5)
     data = {}
-    for kind, value in (("difference", 0.1), ("difference_error", 0.03)):
+    for kind, value in (("difference", 0.1), ("difference_total_error", 0.03)):
         for name in ("area_fraction", "mean_gap"):
             data[f"{name}_{kind}"] = (("variant", "pressure"), np.full(shape, value))
         full = np.full((*shape, 20), value)
@@ -205,26 +216,34 @@ def comparison():
 
 def answer(sampling=0.01):
     """Area 0.05 ± 0.01 ± 0.002, gap 1 ± 0.001 ± 0.02, and a solver's part of 1e-6 in both."""
-    errors = np.zeros((5, 2, 2))
-    errors[:, 0, 0] = 0.002, 1e-6, sampling, 0, 0
-    errors[:, 1, 0] = 0.02, 1e-6, 0.001, 0, 0
+    errors = {
+        "discretisation": [[0.002, 0], [0.02, 0]],
+        "solver": [[1e-6, 0], [1e-6, 0]],
+        "sampling": [[sampling, 0], [0.001, 0]],
+    }
     dims = ("column", "pressure")
     dataset = xr.Dataset(
         {
             "value": (dims, [[0.05, 7.0], [1.0, 7.0]]),
-            "error": (("source", *dims), errors),
-            "total_error": (dims, np.linalg.norm(errors, axis=0)),
-            "dominant": (dims, [[2, 0], [0, 0]]),
         },
-        coords={
-            "column": ["area", "mean_gap"],
-            "pressure": [0.06, 0.3],
-            "source": ["discretisation", "solver", "sampling", "bandwidth", "model"],
-        },
+        coords={"column": ["area", "mean_gap"], "pressure": [0.06, 0.3]},
     )
+    dataset = budgeted(dataset, "value", **errors)
     return made_by(dataset, case="case_of_two", accuracy=0.03)
 
 
+TRADE = {
+    "figure": {
+        "name": "tradeoff",
+        "data": "",
+        "width": 100,
+        "height": 50,
+        "alt": "What it costs.",
+        "caption": "What it costs.",
+    },
+    "source": "config/trade.csv",
+    "tables": [(["seeds", "area", "cost"], [["4 plain", "13 %", "40"]])],
+}
 PRESET = {
     "name": "quick",
     "asked": "30 %",
@@ -259,6 +278,7 @@ def page(claims, verdicts, surfaces, figures, benchmarks):
         figures=figures,
         ensembles=[ensemble()],
         answers=[answer()],
+        trade=TRADE,
         presets=[PRESET],
         comparisons=[comparison()],
         benchmarks=benchmarks,
@@ -331,7 +351,8 @@ def test_every_claim_and_figure_appears(page):
         assert grade in reader.text
     images = reader.attributes("img")
     assert [image["alt"] for image in images] == [
-        f"Figure {n}: Caption {n} of a & b < gamma." for n in range(1, 7)
+        *(f"Figure {n}: Caption {n} of a & b < gamma." for n in range(1, 7)),
+        "What it costs.",
     ]
     assert all((image["width"], image["height"]) == ("100", "50") for image in images)
     assert "More {words}." in reader.text
@@ -343,8 +364,9 @@ def test_every_claim_and_figure_appears(page):
 def test_claims_show_value_error_and_files(page):
     text = Reader(page).text
     assert "1.891 ± 0.033" in text
-    assert "grid 0.032, sampling 0.01" in text  # largest first
-    assert "−2 quantity 1" in text  # no uncertainty known, none shown
+    assert "by sampling : sampling 0.032, discretisation 0.01" in text  # largest first
+    assert "sampling, not known" in text
+    assert "−2 by sampling, not known : sampling not known quantity 1" in text
     assert "b/ seed1.nc and 1 more" in text
     assert "closed form" in text
     # The value leads to the first file behind it, a closed form's to the ledger.
@@ -391,9 +413,9 @@ def test_every_verdict_stands_in_its_place(verdicts, surfaces):
 def test_verdicts_are_worded_on_the_page(page):
     text = Reader(page).text
     for words in (
-        "sticky † m 8 … 9 (7.2 … 9.9) E* 2.5 MPa",
-        "depends m 0.5 … 2 (0.45 … 2.2)",
-        "not sticky m 0.1 (0.09 … 0.11) E* 2.5 MPa",
+        "sticky † m 8 … 9 (7.2 … 9.9) by model E* 2.5 MPa",
+        "depends m 0.5 … 2 (0.45 … 2.2) by model",
+        "not sticky m 0.1 (0.09 … 0.11) by model E* 2.5 MPa",
     ):
         assert words in text
 
@@ -463,7 +485,7 @@ def test_error_budget():
 def test_error_budget_of_a_single_seed_leaves_sampling_open():
     area = _report.error_budgets([answer(sampling=np.nan)])[0]["rows"][0]
     assert area["errors"]["sampling"] == "–"
-    assert "single seed" in area["dominates"]
+    assert area["dominates"] == "sampling, not known"
 
 
 def test_theory_is_compared_at_three_loads():

@@ -388,6 +388,11 @@ def degrees_of_freedom(
     return np.where(np.equal(coarse_seeds, 0), seeds - 1, welch)
 
 
+def students_t(seeds: int) -> float:
+    """Return how many standard errors cover 90 % of plain means; NaN for a single seed."""
+    return float(covers(seeds - 1)) if seeds > 1 else math.nan
+
+
 def _level_shares(laws, surface, pressure, column, pixels):
     """Standard deviation left at the fine, coarse and described level, over that of one seed."""
     surface, pressure, _ = measured(surface, pressure)
