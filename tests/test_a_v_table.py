@@ -8,6 +8,7 @@ import persson_table
 import tabulate_a_v
 from _theories import theories
 from stickiness.a_v_table import NEEDED, PARTED, AvTable, edge_range, local_a_v
+from stickiness.budget import COVERS
 from stickiness.persson import Persson
 from stickiness.spectrum import SelfAffine
 
@@ -41,7 +42,7 @@ def comparison(ratio, error=RATIO_ERROR, zeta=32, loads=(0.01, 0.1)):
             "attractive_area_difference": (("variant", "pressure", "range"), full),
             "attractive_area_difference_total_error": (
                 ("variant", "pressure", "range"),
-                np.full(full.shape, error / ratio),
+                np.full(full.shape, COVERS * error / ratio),
             ),
             "window_holds": ("pressure", [1] * len(loads)),
         },

@@ -124,7 +124,7 @@ def test_a_solver_that_errs_is_found_out(monkeypatch, field, factor):
     [
         ("edge-adhesion", edge_adhesion, "effect"),
         ("dmt-limit", dmt, "attraction_of_areas"),
-        ("accuracy", accuracy, "_variance"),
+        ("accuracy", accuracy, "mean_variance"),
         ("moduli", viscoelastic.Prony, "storage"),
         ("a_v-table", a_v_table.AvTable, "_drift"),
         ("model-choice", model_choice.ErrorTable, "relative_error"),
