@@ -4,6 +4,7 @@ import numpy as np
 import xarray as xr
 
 from _numbers import interval, quantity, quantity_with_error, with_error
+from stickiness.budget import COVERS
 
 ENDS = ("smooth", "rough")
 
@@ -27,9 +28,14 @@ def rms_slope(surface: xr.Dataset) -> str:
 def reference_prefactor(surface: xr.Dataset) -> str:
     """C0 of the line with H = 0.8: fitted, or the highest such line that the spectrum touches."""
     if "C0_reference" in surface:
-        return with_error(float(surface.C0_reference), float(surface.C0_reference_total_error))
+        return with_error(float(surface.C0_reference), standard_error(surface, "C0_reference"))
     bound = "" if np.isclose(float(surface.hurst), 0.8) else "≤ "
     return bound + interval(*ends(surface.C0_reference_upper), digits=2)
+
+
+def standard_error(surface: xr.Dataset, name: str) -> float:
+    """Of a parameter that was fitted, whose budget covers 90 %."""
+    return float(surface[f"{name}_total_error"]) / COVERS
 
 
 def measured(surface: xr.Dataset) -> bool:
