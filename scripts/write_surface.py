@@ -12,7 +12,7 @@ from _model import LOAD
 from _numbers import NOTHING, interval, number, percent, quantity, with_error
 from _style import save
 from _surface_figure import drawn
-from _surface_texts import reference_prefactor, rms_height, rms_slope
+from _surface_texts import reference_prefactor, rms_height, rms_slope, standard_error
 from _verdict import ends, pair_texts
 from _why import reasons
 from stickiness import datasets
@@ -80,12 +80,8 @@ def render(template, page, *, files, surface, pairs, materials, figure, bem=None
 
 def known(surface):
     """Parameters of the surface with their errors, as pairs of name and text."""
-
-    def error(name):
-        return float(surface[name]) if name in surface else np.nan
-
     rows = [
-        ("Hurst exponent H", with_error(float(surface.hurst), error("hurst_total_error"))),
+        ("Hurst exponent H", with_error(float(surface.hurst), standard_error(surface, "hurst"))),
         (f"C0 [{surface.C0.attrs['units']}]", prefactor(surface)),
         (
             f"C0 at H = 0.8 [{surface.C0_reference_upper.attrs['units']}]",
@@ -114,7 +110,7 @@ def known(surface):
 def lowest(surface):
     """Wave number q0, of a roll-off with its error."""
     if "q_rolloff" in surface:
-        return with_error(float(surface.q0), float(surface.q_rolloff_total_error))
+        return with_error(float(surface.q0), standard_error(surface, "q_rolloff"))
     return number(float(surface.q0))
 
 
@@ -129,7 +125,7 @@ def prefactor(surface):
 def roll_off(surface):
     if "q_rolloff" not in surface:
         return "none found" if "fitted" in surface else NOTHING
-    return f"{with_error(float(surface.q_rolloff), float(surface.q_rolloff_total_error))} 1/m"
+    return f"{with_error(float(surface.q_rolloff), standard_error(surface, 'q_rolloff'))} 1/m"
 
 
 def verdict(pair, surface, entry):

@@ -90,6 +90,16 @@ def test_cases_of_the_configuration(asked, to):
     assert plan.plans_of(after, laws(0.01))["a"].asked.accuracy < 0.1
 
 
+def test_a_surface_of_ones_own_is_not_cut_over():
+    wanted = {"surface": "broad", "accuracy": 0.1, "quantities": ["mean_gap"]}
+    given = config(a=wanted, b=wanted)
+    given["model_surfaces"]["broad"] = {"hurst": 0.8, "magnification": 256}
+    assert plan.with_cuts(given, laws(0.01))["cases"]["b"]["surface"] == "broad_to64"
+    given["model_surfaces"]["broad_to64"] = {"hurst": 0.5, "magnification": 20}
+    with pytest.raises(ValueError, match=r"model_surfaces\.broad_to64: cases\.a needs this name"):
+        plan.with_cuts(given, laws(0.01))
+
+
 def test_what_carrying_leaves_is_named():
     given = config(a={"accuracy": 0.05, "quantities": ["area"], "carry_to": 128})
     with pytest.raises(

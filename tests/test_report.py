@@ -133,7 +133,9 @@ def surfaces():
         coords={"end": ["smooth", "rough"]},
     )
     measured = known.assign(hurst=0.7, C0_reference=5.3e-3)
-    measured = budgeted(budgeted(measured, "hurst", sampling=0.02), "C0_reference", sampling=4e-4)
+    of_fit = {"hurst": 0.02, "C0_reference": 4e-4}  # standard errors
+    for name, error in of_fit.items():
+        measured = budgeted(measured, name, sampling=budget.COVERS * error)
     known = budgeted(known, "hurst")
     measured = measured.assign_attrs(remarks="noisy <spectrum>")
     return {

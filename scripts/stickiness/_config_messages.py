@@ -51,7 +51,14 @@ def one_line(error: jsonschema.ValidationError) -> str:
             return f"{where}the key {missing!r} is missing" + (f" ({hint})" if hint else "")
         case "oneOf" | "anyOf":
             choices = [" and ".join(choice.get("required", [])) for choice in error.validator_value]
-            return f"{where}give exactly one of: {'; '.join(filter(None, choices))}"
+            if any(choices):
+                return f"{where}give exactly one of: {'; '.join(filter(None, choices))}"
+            # Choices of a value, not of keys: what is wrong with the one of its type, if any is.
+            inside = (e for e in error.context if e.relative_path or e.validator != "type")
+            if (nearest := next(inside, None)) is not None:
+                return one_line(nearest)
+            kinds = " or ".join(choice["type"] for choice in error.validator_value)
+            return f"{key} = {error.instance!r} must be of type {kinds}, with its unit"
         case "enum":
             choices = dict.fromkeys(error.validator_value)
             return f"{key} = {error.instance!r} is unknown; {suggest(error.instance, choices)}"
@@ -70,6 +77,9 @@ def one_line(error: jsonschema.ValidationError) -> str:
         "uniqueItems": "must not repeat a value",
         "contains": "lacks a value",
     }
-    reason = reasons.get(error.validator, error.message).format(error.validator_value)
+    wanted = error.validator_value
+    if error.validator == "type" and not isinstance(wanted, str):
+        wanted = " or ".join(wanted)
+    reason = reasons.get(error.validator, error.message).format(wanted)
     hint = error.schema.get("description") if isinstance(error.schema, Mapping) else None
     return f"{key} = {error.instance!r} {reason}" + (f" ({hint})" if hint else "")

@@ -121,6 +121,11 @@ def with_cuts(config: Mapping[str, Any], laws: Laws) -> dict[str, Any]:
 
     A cut surface is one more of ``model_surfaces``, and its case has theory ``carry_to`` the
     magnification of the whole.
+
+    Raises
+    ------
+    ValueError
+        If another surface of the configuration has the name of a cut one.
     """
     surfaces, cases = dict(config["model_surfaces"]), dict(config["cases"])
     for name, case in config["cases"].items():
@@ -130,7 +135,13 @@ def with_cuts(config: Mapping[str, Any], laws: Laws) -> dict[str, Any]:
         magnification = cheapest_for(name, config, laws)[0]
         if magnification < surface["magnification"]:
             own = cut.name_of(case["surface"], magnification)
-            surfaces[own] = {**surface, "magnification": magnification}
+            part = {**surface, "magnification": magnification}
+            if surfaces.get(own, part) != part:
+                raise ValueError(
+                    f"model_surfaces.{own}: cases.{name} needs this name for {case['surface']} cut "
+                    f"at magnification {magnification:g}; give yours another"
+                )
+            surfaces[own] = part
             cases[name] = {**case, "surface": own, "carry_to": surface["magnification"]}
     return {**config, "model_surfaces": surfaces, "cases": cases}
 
