@@ -228,6 +228,14 @@ def carrying_error(
 class UnreachableError(ValueError):
     """No settings within reach are predicted to be as accurate as asked for."""
 
+    remedy = "ask for less accuracy or fewer quantities, or give the case settings of its own"
+
+
+class GridError(UnreachableError):
+    """Even the coarsest grid is too large."""
+
+    remedy = "simulate a smaller magnification or window"
+
 
 def read_laws(path: str | Path) -> dict[tuple[str, str], Law]:
     """Read the table of laws, by part and quantity (costs have none).
@@ -517,7 +525,7 @@ def cheapest(
     ]
     tolerances = [tolerance for tolerance in TOLERANCES if tolerance <= least.tolerance]
     if not grids:
-        raise UnreachableError(
+        raise GridError(
             f"the coarsest grid, {least.pixels_per_wavelength} points per shortest wavelength, "
             f"would take {least.pixels_per_wavelength * waves:.0f} points a side, above "
             f"{most_points}"

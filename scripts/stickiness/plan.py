@@ -250,16 +250,15 @@ def cheapest_for(
             return asked.surface.magnification, cheapest(*wanted, **options)
         return cut.cheapest(*wanted, **options)
     except UnreachableError as error:
-        carried = (
-            f", of which carrying to magnification {case['carry_to']:g} by theory leaves "
-            f"{asked.accuracy:.2g} to the simulation"
-            if "carry_to" in case
-            else ""
-        )
-        raise UnreachableError(
-            f"cases.{name}.accuracy = {case['accuracy']!r}{carried} is out of reach: {error}; ask "
-            "for less accuracy or fewer quantities, or give the case settings of its own"
-        ) from None
+        refused = f"cases.{name}.accuracy = {case['accuracy']!r} is out of reach: "
+        if asked.accuracy <= 0:
+            raise UnreachableError(
+                f"{refused}theory that carries to magnification {case['carry_to']:g} errs by more "
+                "than that; ask for less accuracy, carry less far or simulate more"
+            ) from None
+        if "carry_to" in case:
+            refused += f"carried by theory, the simulation has to reach {asked.accuracy:.2g}, and "
+        raise UnreachableError(f"{refused}{error}; {error.remedy}") from None
 
 
 def surface_of(surface: Mapping[str, Any]) -> Surface:
