@@ -1,9 +1,10 @@
-"""Sizes of a real surface as texts, rounded to what is known of them."""
+"""Sizes of a real surface as texts, rounded to what is known of them; errors cover 90 %."""
 
 import numpy as np
 import xarray as xr
 
 from _numbers import interval, quantity, quantity_with_error, with_error
+from stickiness.budget import COVERS
 
 ENDS = ("smooth", "rough")
 
@@ -12,7 +13,7 @@ def rms_height(surface: xr.Dataset) -> str:
     """The height with its error, or its range for a surface that is given by one."""
     low, high = ends(surface.h_rms)
     if measured(surface):
-        return quantity_with_error((low + high) / 2, (high - low) / 2, "m")
+        return quantity_with_error((low + high) / 2, COVERS * (high - low) / 2, "m")
     return quantity(low, high, "m")
 
 
@@ -20,7 +21,7 @@ def rms_slope(surface: xr.Dataset) -> str:
     """The slope, likewise."""
     low, high = ends(surface.rms_slope)
     if measured(surface):
-        return with_error((low + high) / 2, (high - low) / 2)
+        return with_error((low + high) / 2, COVERS * (high - low) / 2)
     return interval(low, high)
 
 

@@ -8,7 +8,7 @@ from _style import BLACK, COLOURS, GREY, MARKERS, canvas, guide, letters, plain_
 from stickiness import datasets, edge_adhesion
 
 NEEDED = ("effect", "over_model", "over_model_total_error", "edge_strength")
-LARGEST_ERROR = 0.15  # standard error of a point that is drawn
+LARGEST_ERROR = 0.15  # error, covering 90 %, of a point that is drawn
 AREA_LABEL = r"attractive over contact area $A_\mathrm{ad}/A_\mathrm{rep}$"
 
 

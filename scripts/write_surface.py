@@ -16,6 +16,7 @@ from _surface_texts import reference_prefactor, rms_height, rms_slope
 from _verdict import ends, pair_texts
 from _why import reasons
 from stickiness import datasets
+from stickiness.budget import COVERS
 from stickiness.viscoelastic import crossings
 
 CAPTION = """Heights, levelled (of the first measurement), and spectrum: rings with their sampling
@@ -123,7 +124,8 @@ def prefactor(surface):
     c0 = surface.C0.values
     if "C0_relative_error" not in surface:
         return interval(*map(float, c0))
-    return f"{number(float(c0[0]), 2)} ×÷ {number(float(np.exp(surface.C0_relative_error)), 2)}"
+    factor = float(np.exp(COVERS * surface.C0_relative_error))
+    return f"{number(float(c0[0]), 2)} ×÷ {number(factor, 2)}"
 
 
 def roll_off(surface):
