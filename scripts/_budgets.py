@@ -78,6 +78,10 @@ class Simulation:
             self.laws, self.settings, self.surface, pressure, column, self.described
         )
 
+    def factors(self, name: str, like: xr.DataArray) -> xr.DataArray:
+        """`factor` along a variable: it goes with what was measured, wherever that is."""
+        return along(self.factor, name, like, widened=False)
+
     def parts(
         self,
         name: str,
@@ -97,7 +101,7 @@ class Simulation:
         text : str
             What the discretisation error is.
         """
-        solver, factor = (along(by, name, value) for by in (self.solver, self.factor))
+        solver, factor = along(self.solver, name, value), self.factors(name, value)
         return {
             "discretisation": Part(discretisation, text),
             "solver": Part(solver * abs(value), "by the tolerance, as measured"),
@@ -106,23 +110,29 @@ class Simulation:
         }
 
 
-def along(law: Callable[[str, float], float], name: str, like: xr.DataArray) -> xr.DataArray:
+def along(
+    law: Callable[[str, float], float], name: str, like: xr.DataArray, widened: bool = True
+) -> xr.DataArray:
     """Values of a law by column and pressure, along the pressures and ranges of a variable."""
 
     def by(column):
         return xr.apply_ufunc(law, column, like.pressure, vectorize=True)
 
     if name != "attractive_area":
-        return by(COLUMNS.get(name, name)) * widened_gaps(like)
-    return between_ranges({reach: by(column) for reach, column in RANGES.items()}, like["range"])
+        return by(COLUMNS.get(name, name)) * (widened_gaps(like) if widened else 1.0)
+    ends = {reach: by(column) for reach, column in RANGES.items()}
+    return between_ranges(ends, like["range"], widened)
 
 
-def between_ranges(ends: Mapping[float, xr.DataArray], ranges: xr.DataArray) -> xr.DataArray:
+def between_ranges(
+    ends: Mapping[float, xr.DataArray], ranges: xr.DataArray, widened: bool = True
+) -> xr.DataArray:
     """A power law between the two ranges measured, held and widened outside."""
     (low, first), (high, last) = ends.items()
     share = np.log(ranges / low) / np.log(high / low)
     inside = share.clip(0, 1)
-    return first ** (1 - inside) * last**inside * xr.where(share == inside, 1, accuracy.OUTSIDE)
+    found = first ** (1 - inside) * last**inside
+    return found * xr.where(share == inside, 1, accuracy.OUTSIDE) if widened else found
 
 
 def widened_gaps(like: xr.DataArray) -> xr.DataArray | float:

@@ -16,7 +16,7 @@ import _trade_summary
 from _materials import modulus_text
 from _model import LOAD
 from _numbers import NOTHING, interval, number, percent, superscripted, with_error
-from _surface_texts import reference_prefactor, rms_height, standard_error
+from _surface_texts import reference_prefactor, rms_height
 from _verdict import EDGES, STICKINESS, STICKINESS_TONES, pair_texts
 from stickiness import accuracy, budget, datasets, plan
 from stickiness.errata import ERRATA
@@ -257,7 +257,7 @@ def surface_rows(surfaces: Datasets) -> list[Context]:
 def surface_row(surface: xr.Dataset) -> Context:
     """What is known of one surface; of a measured one with the errors of the fit."""
     made = datasets.parameters(surface)
-    error = standard_error(surface, "hurst")
+    error = float(surface.hurst_total_error)
     return {
         "label": made["label"],
         "kind": made["kind"].replace("_", "-"),

@@ -3,7 +3,6 @@
 import numpy as np
 
 from _style import BLACK, COLOURS, GREY, canvas, letters
-from _surface_texts import standard_error
 
 HURST = 0.8  # of the lines
 LINES = (1e-3, 1e-5)  # m^0.4
@@ -96,7 +95,7 @@ def each(ax, surface):
 
 
 def law_text(surface):
-    text = f"fit: $H$ = {float(surface.hurst):.2f} ± {standard_error(surface, 'hurst'):.2f}"
+    text = f"fit: $H$ = {float(surface.hurst):.2f} ± {float(surface.hurst_total_error):.2f}"
     if "q_rolloff" in surface:
         text += ", roll-off"
     return text
@@ -109,7 +108,7 @@ def limits(ax, surface):
     text = "cutoff (found)" if int(surface.cutoff_detected) else "cutoff"
     ax.plot([], [], color=COLOURS[1], linewidth=0.9, linestyle=":", label=text)
     if "q_rolloff" in surface:
-        q, error = float(surface.q_rolloff), standard_error(surface, "q_rolloff")
+        q, error = float(surface.q_rolloff), float(surface.q_rolloff_total_error)
         ax.axvspan(max(q - error, q / 3), q + error, color=COLOURS[2], alpha=0.25, linewidth=0)
 
 

@@ -1,4 +1,4 @@
-"""Sizes of a real surface as texts, rounded to their standard errors."""
+"""Sizes of a real surface as texts, rounded to what is known of them; errors cover 90 %."""
 
 import numpy as np
 import xarray as xr
@@ -13,7 +13,7 @@ def rms_height(surface: xr.Dataset) -> str:
     """The height with its error, or its range for a surface that is given by one."""
     low, high = ends(surface.h_rms)
     if measured(surface):
-        return quantity_with_error((low + high) / 2, (high - low) / 2, "m")
+        return quantity_with_error((low + high) / 2, COVERS * (high - low) / 2, "m")
     return quantity(low, high, "m")
 
 
@@ -21,21 +21,16 @@ def rms_slope(surface: xr.Dataset) -> str:
     """The slope, likewise."""
     low, high = ends(surface.rms_slope)
     if measured(surface):
-        return with_error((low + high) / 2, (high - low) / 2)
+        return with_error((low + high) / 2, COVERS * (high - low) / 2)
     return interval(low, high)
 
 
 def reference_prefactor(surface: xr.Dataset) -> str:
     """C0 of the line with H = 0.8: fitted, or the highest such line that the spectrum touches."""
     if "C0_reference" in surface:
-        return with_error(float(surface.C0_reference), standard_error(surface, "C0_reference"))
+        return with_error(float(surface.C0_reference), float(surface.C0_reference_total_error))
     bound = "" if np.isclose(float(surface.hurst), 0.8) else "≤ "
     return bound + interval(*ends(surface.C0_reference_upper), digits=2)
-
-
-def standard_error(surface: xr.Dataset, name: str) -> float:
-    """Of a parameter that was fitted, whose budget covers 90 %."""
-    return float(surface[f"{name}_total_error"]) / COVERS
 
 
 def measured(surface: xr.Dataset) -> bool:

@@ -86,7 +86,7 @@ def relative(dataset, simulation):
     like = dataset.attraction.rename(range_over_h_rms="range")
     area = along(simulation.solver, "area_fraction", dataset.area_fraction)
     gaps = along(simulation.solver, "attractive_area", like).rename(range="range_over_h_rms")
-    factor = along(simulation.factor, "attractive_area", like).rename(range="range_over_h_rms")
+    factor = simulation.factors("attractive_area", like).rename(range="range_over_h_rms")
     return np.hypot(area, gaps), factor, dataset.dmt_error
 
 

@@ -147,6 +147,10 @@ class Theory:
 def missed(dataset, plan):
     """What keeps a case from the accuracy that it asks for, in words; None if nothing does."""
     relative = (dataset.value_total_error / abs(dataset.value)).values
+    if not np.isfinite(relative).all():
+        row, at = np.argwhere(~np.isfinite(relative))[0]
+        column, load = str(dataset.column.values[row]), float(dataset.pressure[at])
+        return f"error of {column} at pressure {load:g} not known"
     error, column, load = stopping.worst(relative, stopping.Asked(**plan["asked"]))
     if error <= plan["accuracy"]:
         return None

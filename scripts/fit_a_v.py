@@ -52,7 +52,7 @@ def of_simulation(dataset, ensemble, laws):
     )
     dataset = with_budget(dataset, "a_v_mean", **parts)
     solver = along(simulation.solver, "attractive_area", dataset.exponent)
-    factor = along(simulation.factor, "attractive_area", dataset.exponent)
+    factor = simulation.factors("attractive_area", dataset.exponent)
     limit = _limits.inherited(ensemble, local_exponent, ["attractive_area"])
     seeds = local_exponent(ensemble[["attractive_area", "pressure"]])
     steps = np.diff(np.log(ensemble["range"].values)).min()

@@ -20,6 +20,7 @@ from _style import (
     save,
     shades,
     total_error,
+    with_model,
 )
 from _theories import between_corrections
 from stickiness import datasets
@@ -142,8 +143,8 @@ def simulated(ax, measured, colour):
     Hollow below the gap next to the edge of contact, where the law of edges stands in for the grid.
     """
     mean = measured.gap_density_mean.where(measured.gap_density_mean > 0)
-    sampling = np.nan_to_num(measured.gap_density_standard_error)
-    total = total_error(sampling, measured.gap_density_discretisation_error)
+    sampling, others = with_model(measured, "gap_density_mean")
+    sampling, total = np.nan_to_num(sampling), total_error(sampling, others)
     for error, strength in ((total, 0.15), (sampling, 0.3)):
         low = np.maximum(mean - error, 1e-6)  # a band down to zero has no lower end on a log axis
         ax.fill_between(mean.gap, low, mean + error, color=colour, alpha=strength, linewidth=0)

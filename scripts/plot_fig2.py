@@ -63,10 +63,9 @@ def panel_a(ax, kappas):
         colour, marker = COLOURS[index], MARKERS[index]
         theory = kappa.kappa_theory.sel(variant=VARIANT)
         ax.plot(kappa.pressure, theory, color=colour, linewidth=0.9)
-        errors = kappa.kappa_standard_error, kappa.kappa_discretisation_error
         look = {"color": colour, "marker": marker, "markersize": 3.5}
         pressure = aside(kappa.pressure, index - 1)
-        points(ax, pressure, kappa.kappa, *errors, **look)
+        points(ax, pressure, kappa.kappa, *with_model(kappa, "kappa"), **look)
         beyond = kappa.where(kappa.area_fraction > LINEAR_UP_TO)
         ax.plot(pressure, beyond.kappa, linestyle="none", **look, mfc="white", zorder=5)
     ax.axhline(2, color=GREY, linestyle="--", linewidth=0.9)
@@ -123,7 +122,7 @@ def panel_c(ax, cases):
     """Area against load, with the straight line of kappa = 2 and theory."""
     for index, (ensemble, lattice) in enumerate(cases):
         look = {"color": COLOURS[index], "marker": MARKERS[index], "markersize": 3.5}
-        errors = ensemble.area_fraction_standard_error, ensemble.area_fraction_discretisation_error
+        errors = with_model(ensemble, "area_fraction_mean")
         points(ax, ensemble.pressure, ensemble.area_fraction_mean, *errors, **look)
         theory = lattice.area_fraction.sel(variant=VARIANT)
         ax.plot(theory.pressure, theory, color=COLOURS[index], linewidth=0.9)

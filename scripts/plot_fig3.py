@@ -21,6 +21,7 @@ from _style import (
     points,
     save,
     shades,
+    with_model,
 )
 from _theories import between_corrections
 from stickiness import criteria, datasets
@@ -125,7 +126,7 @@ def between(ax, x, values, colour):
 def simulated_areas(ax, case, pressure, sideways, colour, marker):
     area = case.areas.sel(pressure=pressure, method="nearest").sel(range=slice(3e-3, LARGEST_RANGE))
     area = area.isel(range=slice(None, None, 4))
-    errors = area.attractive_area_standard_error, area.attractive_area_discretisation_error
+    errors = with_model(area, "attractive_area_mean")
     x = area["range"] ** EXPONENT + sideways
     points(ax, x, area.attractive_area_mean, *errors, color=colour, marker=marker)
 
@@ -218,7 +219,7 @@ def case_points(ax, case, x, pressure, colour, marker):
     x = np.broadcast_to(x, fit.pressure.shape)
     look = {"color": colour, "marker": marker}
     ax.plot(x, lattice.a_v, linestyle="none", **look, mfc="white", zorder=3.5)
-    points(ax, x, fit.a_v_mean, fit.a_v_standard_error, fit.a_v_discretisation_error, **look)
+    points(ax, x, fit.a_v_mean, *with_model(fit, "a_v_mean"), **look)
 
 
 def panel_d(ax, sweep, fit, cases):

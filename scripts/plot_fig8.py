@@ -123,8 +123,7 @@ def draw_row(ax, row, theory, cases):
 def value(at, row):
     """What is drawn of a quantity and its error."""
     if row == "distance":
-        errors = at.distance_standard_error, at.distance_discretisation_error
-        return at.distance.values, np.hypot(*(np.nan_to_num(error) for error in errors))
+        return at.distance.values, np.nan_to_num(at.distance_total_error)
     return at[f"{row}_difference"].values, np.nan_to_num(at[f"{row}_difference_total_error"])
 
 

@@ -12,10 +12,11 @@ from _model import LOAD
 from _numbers import NOTHING, interval, number, percent, quantity, with_error
 from _style import save
 from _surface_figure import drawn
-from _surface_texts import reference_prefactor, rms_height, rms_slope, standard_error
+from _surface_texts import reference_prefactor, rms_height, rms_slope
 from _verdict import ends, pair_texts
 from _why import reasons
 from stickiness import datasets
+from stickiness.budget import COVERS
 from stickiness.viscoelastic import crossings
 
 CAPTION = """Heights, levelled (of the first measurement), and spectrum: rings with their sampling
@@ -81,7 +82,7 @@ def render(template, page, *, files, surface, pairs, materials, figure, bem=None
 def known(surface):
     """Parameters of the surface with their errors, as pairs of name and text."""
     rows = [
-        ("Hurst exponent H", with_error(float(surface.hurst), standard_error(surface, "hurst"))),
+        ("Hurst exponent H", with_error(float(surface.hurst), float(surface.hurst_total_error))),
         (f"C0 [{surface.C0.attrs['units']}]", prefactor(surface)),
         (
             f"C0 at H = 0.8 [{surface.C0_reference_upper.attrs['units']}]",
@@ -110,7 +111,7 @@ def known(surface):
 def lowest(surface):
     """Wave number q0, of a roll-off with its error."""
     if "q_rolloff" in surface:
-        return with_error(float(surface.q0), standard_error(surface, "q_rolloff"))
+        return with_error(float(surface.q0), float(surface.q_rolloff_total_error))
     return number(float(surface.q0))
 
 
@@ -119,13 +120,14 @@ def prefactor(surface):
     c0 = surface.C0.values
     if "C0_relative_error" not in surface:
         return interval(*map(float, c0))
-    return f"{number(float(c0[0]), 2)} ×÷ {number(float(np.exp(surface.C0_relative_error)), 2)}"
+    factor = float(np.exp(COVERS * surface.C0_relative_error))
+    return f"{number(float(c0[0]), 2)} ×÷ {number(factor, 2)}"
 
 
 def roll_off(surface):
     if "q_rolloff" not in surface:
         return "none found" if "fitted" in surface else NOTHING
-    return f"{with_error(float(surface.q_rolloff), standard_error(surface, 'q_rolloff'))} 1/m"
+    return f"{with_error(float(surface.q_rolloff), float(surface.q_rolloff_total_error))} 1/m"
 
 
 def verdict(pair, surface, entry):

@@ -7,6 +7,7 @@ import pytest
 import xarray as xr
 
 import _budgets
+import answer_case
 from stickiness import accuracy, budget, datasets
 
 LAWS = accuracy.read_laws(Path(__file__).parents[1] / "config/accuracy.csv")
@@ -70,6 +71,30 @@ def test_sampling_covers_90_per_cent_by_students_t(seeds, factor):
     surface = accuracy.Surface(0.8, 32)
     solver = accuracy.single_error(LAWS, "solver", "area", surface, 0.065, tolerance=1e-6)
     assert float(parts["solver"].error[0]) == pytest.approx(solver * 0.05)
+
+
+@pytest.mark.parametrize(
+    ("name", "along"),
+    [("attractive_area", {"range": [1e-3, 0.03, 1.0]}), ("gap_density", {"gap": [1e-3, 0.1, 3.0]})],
+)
+def test_what_was_measured_is_not_widened_outside_the_laws(name, along):
+    shape = {"pressure": [0.065], **along}
+    value = xr.DataArray(np.ones((1, 3)), dims=list(shape), coords=shape)
+    parts = ensemble_of(8).parts(name, value, 0.01 * value, 0.002 * value)
+    np.testing.assert_allclose(parts["sampling"].error, 0.01895, rtol=1e-3)
+    solver = parts["solver"].error.values.ravel()
+    assert solver[0] >= 1.9 * accuracy.single_error(
+        LAWS, "solver", "gap_distribution" if name == "gap_density" else "attractive_area_0.01",
+        accuracy.Surface(0.8, 32), 0.065, tolerance=1e-6,
+    )  # fmt: skip
+
+
+def test_an_accuracy_of_which_nothing_is_known_is_missed():
+    at = {"column": ["area", "a_v"], "pressure": [0.01, 0.1]}
+    known = xr.DataArray([[0.01, 0.01], [0.01, np.nan]], dims=list(at), coords=at)
+    answer = xr.Dataset({"value": xr.ones_like(known), "value_total_error": known})
+    text = answer_case.missed(answer, {"accuracy": 0.05, "asked": {}})
+    assert text == "error of a_v at pressure 0.1 not known"
 
 
 def test_a_single_seed_has_no_total():

@@ -37,10 +37,40 @@ def test_perfect_theory_leaves_everything_to_simulation_but_its_weight():
 def test_errors_add_in_quadrature_and_run_out():
     part = accuracy.Surface(0.8, 64.0)
     asked = 0.05, part, 256.0, (0.01,), ["mean_gap"]
-    share = 1 - cut._area(0.8, 256.0, 0.01) / cut._area(0.8, 64.0, 0.01)
+    share = 1 - area(0.8, 256.0, 0.01) / area(0.8, 64.0, 0.01)
     left = cut.left_to_simulation(laws(0.03 / share), *asked)
-    assert left == pytest.approx(0.04)
+    assert left == pytest.approx(math.sqrt(0.05**2 - (accuracy.SAFETY * 0.03) ** 2))
     assert cut.left_to_simulation(laws(0.06 / share), *asked) == 0
+
+
+def area(hurst, magnification, pressure):
+    return cut._values(hurst, magnification, pressure)["area"]
+
+
+@pytest.mark.parametrize("hurst", [0.5, 0.8])
+@pytest.mark.parametrize("wanted", [["area"], ["mean_gap", "a_v"], list(accuracy.QUANTITIES)])
+def test_what_is_carried_is_as_accurate_as_asked_if_the_simulation_is(hurst, wanted):
+    part, whole, loads = accuracy.Surface(hurst, 64.0), 256.0, (0.0065, 0.065, 0.3)
+    table = laws(0.01)
+    left = cut.left_to_simulation(table, 0.05, part, whole, loads, wanted)
+    settings = accuracy.Settings(8, 1e-4, 8, 64)
+    where = [(p, c) for p in loads for name in wanted for c in accuracy.QUANTITIES[name]]
+    own = np.array([accuracy.predicted_error(table, settings, part, p, c) for p, c in where])
+    own *= left / accuracy.joint_error(own)
+    values = [[cut._values(hurst, zeta, p)[c] for p, c in where] for zeta in (64.0, whole)]
+    size = [1 - area(hurst, whole, p) / area(hurst, 64.0, p) for p, _ in where]
+    carrying = [
+        accuracy.carrying_error(table, part, whole, change, c, p)
+        for change, (p, c) in zip(size, where, strict=True)
+    ]
+    carried = np.divide(*values) * np.hypot(own, carrying)
+    assert accuracy.joint_error(carried) <= 0.05 * (1 + 1e-9)
+
+
+def test_finer_waves_take_attractive_area_away_at_small_hurst_exponents():
+    asked = accuracy.Surface(0.5, 64.0), 512.0, (0.0065,), ["attractive_area"]
+    kept = cut.left_to_simulation(laws(1e-12), 0.05, *asked)
+    assert kept == pytest.approx(0.05 / 1.35, rel=0.01)
 
 
 def test_cut_where_that_is_cheaper_and_not_where_theory_errs():
@@ -109,5 +139,5 @@ def test_what_carrying_leaves_is_named():
 
 
 def test_area_by_theory_falls_with_finer_waves():
-    areas = [cut._area(0.8, z, 0.05) for z in (16.0, 64.0, 256.0)]
+    areas = [area(0.8, z, 0.05) for z in (16.0, 64.0, 256.0)]
     assert np.all(np.diff(areas) < 0)

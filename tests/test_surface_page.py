@@ -5,10 +5,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import xarray as xr
 
 import _captions
 import _measured
 import _surface_figure
+import _surface_texts
 import analyse_surface
 import judge
 import persson_surface
@@ -241,3 +243,19 @@ def test_rates_of_the_page_follow_the_modulus(single):
     assert np.exp(quoted) == pytest.approx(float(pair.margin_high.max()), rel=0.01)
     assert write_surface.rate(solid, pair, [1e30]) == "sticks at every frequency"
     assert write_surface.rate(solid, pair, [1.0]) == "sticks at none"
+
+
+def test_errors_of_sizes_cover_what_those_of_the_fit_do():
+    ends = {"end": ["smooth", "rough"], "draw": [0, 1]}
+    sizes = {"h_rms": ("end", [0.9e-6, 1.1e-6]), "rms_slope": ("end", [0.19, 0.21])}
+    measured = xr.Dataset(sizes, coords=ends)
+    assert _surface_texts.rms_height(measured) == "(1.00 ± 0.16) µm"
+    assert _surface_texts.rms_slope(measured) == "0.200 ± 0.016"
+    assert _surface_texts.rms_height(measured.drop_vars("draw")) == "0.9 … 1.1 µm"
+
+
+@pytest.mark.parametrize("number", [1, 2, 3, 4, 7, 8, 10])
+def test_figures_draw_errors_of_one_kind(number):
+    """Budgets cover 90 %; a standard error beside one would be another kind of bar."""
+    text = (Path(write_surface.__file__).parent / f"plot_fig{number}.py").read_text()
+    assert "_standard_error" not in text

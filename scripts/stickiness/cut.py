@@ -7,8 +7,10 @@ left
 
     left^2 = (accuracy^2 - carrying^2) / s^2,
 
-s being the value simulated over the one carried: more than 1 for the area, which finer waves take
-away, so that errors of the simulation weigh more.
+s being the largest value simulated over the one carried: more than 1 for the area, which finer
+waves take away, and at small Hurst exponents for attractive areas too, so that errors of the
+simulation weigh more. Both accuracies are of all quantities at all loads together, and so is
+carrying, by `accuracy.joint_error`: the sum in quadrature then bounds that of what is carried.
 """
 
 from __future__ import annotations
@@ -54,20 +56,22 @@ def left_to_simulation(
     Returns
     -------
     float
-        The least over loads and quantities; 0 if theory alone errs by more.
+        Of all quantities at all loads together; 0 if theory alone errs by more.
     """
-    left = accuracy
+    columns = {c for quantity in quantities for c in known.QUANTITIES[quantity]}
+    weights, errors = [], []
     for pressure in pressures:
-        grown = _area(surface.hurst, surface.magnification, pressure) / _area(
-            surface.hurst, carry_to, pressure
+        own, broad = (
+            _values(surface.hurst, magnification, pressure)
+            for magnification in (surface.magnification, carry_to)
         )
-        for column in {c for quantity in quantities for c in known.QUANTITIES[quantity]}:
-            # Theory has the other quantities change little, or grow.
-            weight = grown if column == "area" else 1.0
-            error = known.carrying_error(laws, surface, carry_to, 1 - 1 / grown, column, pressure)
-            rest = max(accuracy**2 - (weight * error) ** 2, 0.0)
-            left = min(left, math.sqrt(rest) / weight)
-    return left
+        size = 1 - broad["area"] / own["area"]
+        for column in columns:
+            error = known.carrying_error(laws, surface, carry_to, size, column, pressure)
+            weights.append(max(own[column] / broad[column], 1.0))
+            errors.append(weights[-1] * error)
+    rest = accuracy**2 - float(known.joint_error(errors)) ** 2
+    return math.sqrt(max(rest, 0.0)) / max(weights)
 
 
 def cheapest(
@@ -131,7 +135,18 @@ def _parts(whole: float) -> list[float]:
 
 
 @cache
-def _area(hurst: float, magnification: float, pressure: float) -> float:
-    """Area fraction by theory on the continuous spectrum."""
+def _values(hurst: float, magnification: float, pressure: float) -> dict[str, float]:
+    """What changes of every column with the magnification, by theory on continuous spectra."""
     spectrum = SelfAffine(hurst=hurst, q0=1.0, q1=magnification, h_rms=1.0)
-    return float(np.asarray(Persson(spectrum).area_fraction(pressure)))
+    theory = Persson(spectrum)
+    area = float(theory.area_fraction(pressure))
+    near, far = map(float, theory.gap_cumulative(np.array([0.01, 0.1]), pressure))
+    return {
+        "area": area,
+        "mean_gap": float(theory.mean_gap(pressure)),
+        "attractive_area_0.01": near,
+        "attractive_area_0.1": far,
+        "gap_distribution": float(theory.gap_density(0.1, pressure)),
+        "a_v": math.sqrt(near * far),  # fitted between the two
+        "kappa": area * spectrum.rms_slope,
+    }
