@@ -133,9 +133,8 @@ def surfaces():
         coords={"end": ["smooth", "rough"]},
     )
     measured = known.assign(hurst=0.7, C0_reference=5.3e-3)
-    of_fit = {"hurst": 0.02, "C0_reference": 4e-4}  # standard errors
-    for name, error in of_fit.items():
-        measured = budgeted(measured, name, sampling=budget.COVERS * error)
+    for name, error in {"hurst": 0.02, "C0_reference": 4e-4}.items():
+        measured = budgeted(measured, name, sampling=error)
     known = budgeted(known, "hurst")
     measured = measured.assign_attrs(remarks="noisy <spectrum>")
     return {
