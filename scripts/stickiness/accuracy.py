@@ -46,7 +46,8 @@ SAME_COST = 1.05  # ratio of costs that were not measured well enough to tell th
 FULL = 1e-8  # tolerance at which costs were measured
 # By how much the error of the worst quantity is widened, see `joint_error`. With 1.1 and laws
 # fitted without the surface at hand, 96 % of runs on the four surfaces of `finer` were within the
-# accuracy, at a median of 1.23 times the least cost; without it 88 % on the hardest of these.
+# accuracy, at a median of 1.23 times the least cost; without it 88 % on the hardest of these. Half
+# of that was taken before the surfaces of `validation` were looked at.
 SAFETY = 1.05
 TOGETHER = 2.0  # power with which chances add up; 1 would be a plain sum, infinity their largest
 _BISECTIONS = 16
