@@ -14,7 +14,7 @@ import numpy as np
 import xarray as xr
 
 from _model import GAPS_MEASURED, VARIANT
-from stickiness import accuracy, plan
+from stickiness import accuracy
 from stickiness.budget import Part, absent
 
 COLUMNS = {"area_fraction": "area", "mean_gap": "mean_gap", "gap_density": "gap_distribution"}
@@ -63,7 +63,7 @@ class Simulation:
             len(made["seeds"]),
             made.get("coarse_seeds", 0),
         )
-        return cls(laws, plan.surface_of(made), settings, made.get("descriptor_seeds", 2048))
+        return cls(laws, accuracy.Surface.of(made), settings, made.get("descriptor_seeds", 2048))
 
     def solver(self, column: str, pressure: float) -> float:
         """Relative error of a column by the tolerance of the solver."""
@@ -163,7 +163,7 @@ def theory_error(
         at = accuracy.Surface(hurst, magnification, window)
         return accuracy.single_error(laws, "theory", column, at, pressure)
 
-    known = plan.surface_of(surface) if surface else None
+    known = accuracy.Surface.of(surface) if surface else None
     where = (
         (known.hurst, known.magnification, known.window)
         if known

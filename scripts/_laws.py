@@ -11,7 +11,7 @@ from scipy import optimize
 from _bank import extrapolated
 from _tradeoff import COVERED, derived, rms
 from stickiness import sampling
-from stickiness.accuracy import COARSE, FULL, Law, Surface
+from stickiness.accuracy import COARSE, FULL, Law
 
 FEATURES = ("constant", "hurst", "magnification", "window", "pressure", "pixels", "tolerance")
 FLOOR = 1e-10  # errors below are nothing, and say nothing of how they depend on what
@@ -106,11 +106,6 @@ def law_of(coefficients, ratio):
         spread=float(np.quantile(ratio, COVERED)),
         points=len(ratio),
     )
-
-
-def surface_of(parameters):
-    """`Surface` from the parameters of a file."""
-    return Surface(parameters["hurst"], parameters["magnification"], parameters.get("window", 1.0))
 
 
 def add_sampling(points, surface, bank):

@@ -336,7 +336,7 @@ def preset_rows(
     descriptor_seeds: int,
 ) -> list[Context]:
     """Settings of every preset, what they were measured to cost and to err by."""
-    given = plan.surface_of(surface), asked["pressures"]
+    given = accuracy.Surface.of(surface), asked["pressures"]
     rows = []
     for name, error in asked["accuracy"].items():
         chosen = plan.preset(fidelities[name])

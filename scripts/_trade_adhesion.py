@@ -10,11 +10,11 @@ import numpy as np
 import pandas as pd
 import xarray as xr
 
-from _laws import Points, surface_of
+from _laws import Points
 from _trade_rows import compared, row
 from _tradeoff import COVERED
 from stickiness import datasets
-from stickiness.accuracy import COARSE, COVERS
+from stickiness.accuracy import COARSE, COVERS, Surface
 
 MEANS = (4, 8, 16, 32)  # seeds that rows are given for
 WEAK = 1e-4  # l_a/range below which an area changes by less than a few pixels
@@ -156,7 +156,7 @@ def rows_and_laws(
 ) -> list[tuple]:
     """Rows of every setting, of the DMT limit and of numbers of seeds; adds points of the laws."""
     rows, unit = [], float(measured.pair_time)
-    surface, usual = surface_of(datasets.parameters(measured)), usual_of(measured)[1]
+    surface, usual = Surface.of(datasets.parameters(measured)), usual_of(measured)[1]
     for one in (each.solved() for each in quantities):
         if not one.seconds.size:
             continue

@@ -5,7 +5,7 @@ import itertools
 import numpy as np
 
 from _bank import FEWEST_FINE, Draws, stacked
-from _laws import by_knob, estimates, surface_of
+from _laws import by_knob, estimates
 from _model import spectrum_of, window_of
 from _tradeoff import COVERED, derived, rms, timed
 from measure_theory import contact_of
@@ -137,7 +137,7 @@ def seed_rows(name, measured, bank):
 def theory_rows(name, measured, bank, points):
     """Rows of theory in place of simulation: its error is that of the model."""
     asked = datasets.parameters(measured)
-    surface, loads = surface_of(asked), measured.pressure.values
+    surface, loads = accuracy.Surface.of(asked), measured.pressure.values
     lattice = lattice_spectrum(spectrum_of(asked), window_of(asked))
     state, seconds = timed(lambda: contact_of(Persson(lattice), loads, measured["range"].values))
     values, *_ = stacked(derived(state.expand_dims("seed")))

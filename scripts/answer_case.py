@@ -13,7 +13,6 @@ from _model import DESCRIBED, VARIANT, logarithmic_grid, spectrum_of, window_of
 from fit_a_v import fit_one
 from measure_theory import contact_of
 from stickiness import accuracy, datasets, stopping
-from stickiness import plan as plan_of
 from stickiness.budget import SOURCES, Part, absent, with_budget
 from stickiness.persson import Persson
 from stickiness.surface import lattice_spectrum
@@ -90,7 +89,7 @@ class Simulated:
         """Values of a column at every load, and its errors by source."""
         mean, sampling, grid = statistics(column, self.ensemble, **self.fits)
         settings = accuracy.Settings(**self.plan["settings"])
-        surface, pressures = plan_of.surface_of(self.plan["surface"]), self.plan["pressures"]
+        surface, pressures = accuracy.Surface.of(self.plan["surface"]), self.plan["pressures"]
         solver = [
             accuracy.single_error(
                 self.laws, "solver", column, surface, p, tolerance=settings.tolerance
@@ -135,7 +134,7 @@ class Theory:
     def __call__(self, column):
         """Values of a column at every load, and its errors by source."""
         values = quoted(self.state, column)
-        surface = plan_of.surface_of(self.plan["surface"])
+        surface = accuracy.Surface.of(self.plan["surface"])
         error = [
             accuracy.single_error(self.laws, "theory", column, surface, p)
             for p in self.plan["pressures"]
@@ -186,14 +185,14 @@ def quoted(state, column):
 
 def outside(plan, pressures):
     """Where surface, load, grid or tolerance is outside what the laws were measured on, by load."""
-    surface, settings = plan_of.surface_of(plan["surface"]), plan["settings"]
+    surface, settings = accuracy.Surface.of(plan["surface"]), plan["settings"]
     knobs = (settings["pixels_per_wavelength"], settings["tolerance"]) if plan["simulated"] else ()
     return np.array([accuracy.extrapolated(surface, p, *knobs) for p in pressures])
 
 
 def carrying_errors(laws, plan, columns, values, size):
     """Error of theory's difference, covering 90 %, by column and load."""
-    surface = plan_of.surface_of(plan["surface"])
+    surface = accuracy.Surface.of(plan["surface"])
     loads = list(zip(plan["pressures"], size, strict=True))
     share = [
         [

@@ -17,7 +17,7 @@ from _errors import PREFIX, coarse, described, mean, with_errors
 from _job import start
 from _limits import EXTRAPOLATION
 from _model import DESCRIBED, middles
-from stickiness import accuracy, datasets, plan
+from stickiness import accuracy, datasets
 from stickiness.budget import with_budget
 
 KEPT = ("area_fraction", "mean_gap", "residual", "iterations", "rms_slope")
@@ -64,7 +64,7 @@ def joined(files):
 def wanted(quantities):
     """What to average for the quantities wanted of a case; areas and mean gaps come for free."""
     names = ["area_fraction", "mean_gap"]
-    if any(quantity in plan.OF_GAPS for quantity in quantities):
+    if any(quantity in accuracy.OF_GAPS for quantity in quantities):
         names.append("attractive_area")
     if "gap_distribution" in quantities:
         names.append("gap_density")

@@ -19,7 +19,7 @@ ADHESIVE = list(adhesive_accuracy.COLUMNS)
 
 def main(job):
     laws, asked = accuracy.read_laws(job.input.laws), job.params.presets
-    where = plan.surface_of(job.params.surface), asked["pressures"], job.params.descriptor_seeds
+    where = accuracy.Surface.of(job.params.surface), asked["pressures"], job.params.descriptor_seeds
     given = job.params.surface, job.params.descriptor_seeds
     lines = []
     for name, error in asked["accuracy"].items():

@@ -170,7 +170,7 @@ def adhesive_seeds(ax, found):
 
 def together(ax, laws, quantities, params):
     """All settings as predicted, those that nothing cheaper beats, and the presets."""
-    given = plan.surface_of(params.surface), params.presets["pressures"]
+    given = accuracy.Surface.of(params.surface), params.presets["pressures"]
     chosen = [
         accuracy.Settings(*each)
         for each in itertools.product(

@@ -7,7 +7,7 @@ import xarray as xr
 import _trade_summary
 from _bank import bank_of
 from _job import start
-from _laws import Points, add_costs, add_grids, add_offsets, add_sampling, surface_of
+from _laws import Points, add_costs, add_grids, add_offsets, add_sampling
 from _tables import table
 from _trade_adhesion import pull_offs, rows_and_laws, states
 from _trade_rows import band_rows, grid_rows, node_rows, seed_rows, theory_rows
@@ -40,12 +40,12 @@ def main(job):
     for name, path in named(job.input.grids).items():
         measured = datasets.read(path)
         rows += grid_rows(name, measured)
-        add_grids(points, surface_of(datasets.parameters(measured)), measured)
+        add_grids(points, accuracy.Surface.of(datasets.parameters(measured)), measured)
     for name, path in named(job.input.seeds).items():
         measured = datasets.read(path)
         grids = named(job.input.grids)
         bank = bank_of(measured, datasets.read(grids[name]) if name in grids else None)
-        surface = surface_of(datasets.parameters(measured))
+        surface = accuracy.Surface.of(datasets.parameters(measured))
         add_sampling(points, surface, bank)
         add_offsets(points, surface, bank)
         add_costs(points, surface, measured)

@@ -14,7 +14,6 @@ import xarray as xr
 
 from _bank import Draws, bank_of
 from _job import start
-from _laws import surface_of
 from _tables import table
 from _tradeoff import COVERED
 from stickiness import accuracy, datasets, stopping
@@ -63,7 +62,7 @@ def main(job):
     laws, rows, known = accuracy.read_laws(job.input.laws), [], []
     for path in job.input.seeds:
         measured = datasets.read(path)
-        bank, surface = bank_of(measured), surface_of(datasets.parameters(measured))
+        bank, surface = bank_of(measured), accuracy.Surface.of(datasets.parameters(measured))
         name = path.rsplit("/", 1)[1].removesuffix(".nc")
         rows += validated(name, bank, measured, surface, laws, job.params.accuracies)
         _, noise = bank.offsets[max(bank.offsets)]

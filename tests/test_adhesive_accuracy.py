@@ -138,7 +138,7 @@ def test_presets_reach_their_error_with_full_adhesion():
     config = yaml.safe_load((ROOT / "config/config.yaml").read_text(encoding="utf-8"))
     laws, asked = accuracy.read_laws(TABLE), config["tradeoff"]["presets"]
     wanted, surface_asked = asked["adhesive"], config["model_surfaces"][asked["surface"]]
-    where = plan.surface_of(surface_asked), asked["pressures"], wanted["quantities"]
+    where = accuracy.Surface.of(surface_asked), asked["pressures"], wanted["quantities"]
     for name, error in wanted["accuracy"].items():
         settings = plan.preset(config["fidelities"][name])
         assert adhesive_accuracy.worst_error(laws, settings, *where)[0] <= error, name

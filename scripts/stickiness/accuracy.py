@@ -24,6 +24,7 @@ import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, fields
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -73,6 +74,8 @@ QUANTITIES = {
     "a_v": ("a_v",),
     "kappa": ("kappa",),
 }
+# Quantities that rest on the gaps, which take longer to evaluate than areas and mean gaps.
+OF_GAPS = ("attractive_area", "gap_distribution", "a_v")
 
 # From what settings are put together; the pixels are those for which errors were measured.
 PIXELS = (4, 8, 16)
@@ -94,6 +97,11 @@ class Surface:
     hurst: float
     magnification: float
     window: float = 1.0
+
+    @classmethod
+    def of(cls, made: Mapping[str, Any]) -> Surface:
+        """From a model surface of the configuration, or the parameters of a file."""
+        return cls(made["hurst"], made["magnification"], made.get("window", 1.0))
 
 
 @dataclass(frozen=True, order=True)

@@ -9,6 +9,7 @@ from typing import Any
 from . import adhesive_accuracy, cut, stopping
 from .accuracy import (
     COARSE_SEEDS,
+    OF_GAPS,
     QUANTITIES,
     SEEDS,
     Laws,
@@ -18,8 +19,6 @@ from .accuracy import (
     cheapest,
 )
 
-# Quantities that rest on the gaps, which take longer to evaluate than areas and mean gaps.
-OF_GAPS = ("attractive_area", "gap_distribution", "a_v")
 FEWEST_COARSE = 64  # coarse seeds if nothing says how many
 
 
@@ -149,7 +148,7 @@ def with_cuts(config: Mapping[str, Any], laws: Laws) -> dict[str, Any]:
 def asked_of(name: str, config: Mapping[str, Any], laws: Laws) -> stopping.Asked:
     """Return what a case that gives an accuracy asks of its simulation."""
     case, sampling = config["cases"][name], config["sampling"]
-    surface = surface_of(config["model_surfaces"][case["surface"]])
+    surface = Surface.of(config["model_surfaces"][case["surface"]])
     wanted, pressures = tuple(case.get("quantities", QUANTITIES)), tuple(sorted(case["pressures"]))
     accuracy = case["accuracy"]
     if "carry_to" in case:
@@ -207,7 +206,7 @@ def preset_by_rule(
     free : bool
         Whether to leave aside the quantities of full adhesion, on the same realisations.
     """
-    where, least = (surface_of(surface), asked["pressures"]), None
+    where, least = (Surface.of(surface), asked["pressures"]), None
     if not free:
         wanted = asked["adhesive"]
         least = adhesive_accuracy.least(
@@ -259,11 +258,6 @@ def cheapest_for(
         if "carry_to" in case:
             refused += f"carried by theory, the simulation has to reach {asked.accuracy:.2g}, and "
         raise UnreachableError(f"{refused}{error}; {error.remedy}") from None
-
-
-def surface_of(surface: Mapping[str, Any]) -> Surface:
-    """Return what settings depend on, of a model surface of the configuration."""
-    return Surface(surface["hurst"], surface["magnification"], surface.get("window", 1.0))
 
 
 def shares(plan: Plan, own: Plan) -> bool:
