@@ -39,6 +39,11 @@ HEADS = {
     "attractive_area_0.1": "A_ad(0.1)",
     "gap_distribution": "P(u)",
     "a_v": "a_V",
+    "inverse_kappa_ad_0.0075": "1/κ_ad(0.0075)",
+    "inverse_kappa_ad_0.1": "1/κ_ad(0.1)",
+    "inverse_kappa_ad_1": "1/κ_ad(1)",
+    "inverse_kappa_ad_weak": "1/κ_ad, weakest",
+    "area_with_adhesion": "area",
     "memory [MB]": "MB",
 }
 CLAIM_TONES = {

@@ -75,10 +75,10 @@ def test_grids_are_those_of_the_scripts():
 def test_profile_groups_rules_that_exist():
     profile = yaml.safe_load((ROOT / "profiles/slurm/config.yaml").read_text(encoding="utf-8"))
     rules = {
-        line.split()[1].rstrip(":")
+        line.removesuffix(" with:").split()[-1].rstrip(":")  # also of "use rule … as … with:"
         for file in (ROOT / "rules").glob("*.smk")
         for line in file.read_text(encoding="utf-8").splitlines()
-        if line.startswith("rule ")
+        if line.startswith(("rule ", "use rule "))
     }
     groups = dict(entry.split("=") for entry in profile["groups"])
     components = dict(entry.split("=") for entry in profile["group-components"])

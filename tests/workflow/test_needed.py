@@ -91,7 +91,7 @@ def test_a_case_of_area_alone_runs(fresh):
     # Finer waves take area away: theory carries it down. Its error is a part of what it takes.
     taken = ensemble.area_fraction_mean.values - area.value.values
     assert (taken > 0).all()
-    bandwidth = area.error.sel(source="bandwidth").values
+    bandwidth = area.value_error.sel(source="bandwidth").values
     assert ((bandwidth > 0.2 * taken) & (bandwidth < taken)).all(), bandwidth / taken
     # Magnification 8 is below what was measured.
     assert (answer.extrapolated == 1).all()

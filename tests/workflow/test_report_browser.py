@@ -272,7 +272,9 @@ def test_every_table_of_results_leads_to_its_data(finished, report):
         for table in re.findall(r"<table.*?</table>", text, re.S):
             caption = re.search(r"<caption>(.*?)</caption>", table, re.S)[1]
             head = re.sub("<[^>]+>", "", caption)[:40]
-            if "benchmark files" in caption or "tradeoff.table" in caption:
+            if any(
+                apart in caption for apart in ("benchmark files", "tradeoff.table", ".csv</code>")
+            ):
                 continue  # measured apart from the results
             rows = re.findall(r"<tr[ >].*?</tr>", table.split("</caption>")[1], re.S)
             bodies = table.split("<tbody>")[1:]

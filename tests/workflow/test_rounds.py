@@ -68,7 +68,7 @@ def test_rounds(fresh):
     said, answer, easy = answered(fresh)
     assert {path: path.stat().st_mtime_ns for path in begun} == begun
     assert datasets.parameters(answer)["settings"]["seeds"] == len(easy)
-    assert (answer.total_error <= 0.3 * answer.value).all()
+    assert (answer.value_total_error <= 0.3 * answer.value).all()
     assert "missed" not in {*answer.attrs, *said.split()}
     # Jobs after the last round are told as well, and then nothing is left to do.
     ran = re.search(r"^  ran +(.*)", said, re.M)[1]
