@@ -28,7 +28,7 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy import special, stats
+from scipy import special  # not stats, whose import would cost every job half a second
 
 PARTS = (
     "discretisation",
@@ -305,7 +305,7 @@ def error_parts(
     where = laws, surface, pressure, column
     seeds = settings.seeds, settings.coarse_seeds
     variance = mean_variance(*where, pixels, descriptor_seeds, *seeds)
-    grid, solver = _fixed_errors(*where, pixels, tolerance)
+    grid, solver = fixed_errors(*where, pixels, tolerance)
     return {
         "discretisation": grid,
         "solver": solver,
@@ -335,7 +335,7 @@ def joint_error(errors: ArrayLike) -> NDArray:
     """
     single = np.asarray(errors, float)
     low, high = np.ones((2, *single.shape[1:]))
-    high *= stats.norm.isf((1 - 0.9) / 2 / len(single)) / COVERS
+    high *= -special.ndtri((1 - 0.9) / 2 / len(single)) / COVERS
     largest = single.max(axis=0)
     with np.errstate(divide="ignore", invalid="ignore"):
         share = np.where(largest > 0, COVERS / math.sqrt(2) * largest / single, np.inf)
@@ -346,8 +346,10 @@ def joint_error(errors: ArrayLike) -> NDArray:
     return SAFETY * high * largest
 
 
-def _fixed_errors(laws, surface, pressure, column, pixels, tolerance):
-    """Errors by discretisation and solver, which more seeds do not reduce."""
+def fixed_errors(
+    laws: Laws, surface: Surface, pressure: float, column: str, pixels: float, tolerance: float
+) -> tuple[float, float]:
+    """Return the errors by discretisation and solver, which more seeds do not reduce."""
     where = column, surface, pressure
     return (
         single_error(laws, "discretisation", *where, pixels=pixels),
@@ -378,7 +380,7 @@ def covering_factor(
 
 def covers(freedom: ArrayLike) -> NDArray:
     """Return how many standard errors with so many degrees of freedom cover 90 %."""
-    return stats.t.ppf(_QUANTILE, freedom)
+    return special.stdtrit(freedom, _QUANTILE)
 
 
 def degrees_of_freedom(
@@ -585,7 +587,7 @@ def _worst_errors(
     for pressure in pressures:
         for column in itertools.chain(*(QUANTITIES[quantity] for quantity in quantities)):
             where = laws, surface, pressure, column
-            fixed = math.hypot(*_fixed_errors(*where, pixels, tolerance))
+            fixed = math.hypot(*fixed_errors(*where, pixels, tolerance))
             variance = mean_variance(*where, pixels, described, seeds, coarse)
             errors.append(np.sqrt(fixed**2 + COVERS**2 * variance))
     return joint_error(errors)

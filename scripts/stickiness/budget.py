@@ -20,8 +20,9 @@ from dataclasses import dataclass
 import numpy as np
 import xarray as xr
 
+from .accuracy import COVERS as COVERS
+
 SOURCES = ("discretisation", "solver", "sampling", "bandwidth", "model")
-COVERS = 1.645  # standard deviations that cover 90 % of a normal distribution
 NONE = -1  # flag of what has no error, or no value
 ENDINGS = ("_error", "_total_error", "_dominant")
 SOURCE_TEXTS = ("1", "where an error comes from")

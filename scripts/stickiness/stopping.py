@@ -144,7 +144,7 @@ def first(laws: Laws, asked: Asked, chosen: Settings) -> Settings:
     sampling = known.covers(freedom + _prior(laws, asked)) * np.sqrt(variance) / START
     fixed = np.array(
         [
-            [math.hypot(*known._fixed_errors(laws, asked.surface, load, column, *_grid(chosen)))]
+            [math.hypot(*known.fixed_errors(laws, asked.surface, load, column, *_grid(chosen)))]
             for column, load in itertools.product(asked.columns, asked.pressures)
         ]
     ).reshape(len(asked.columns), len(asked.pressures), 1)
