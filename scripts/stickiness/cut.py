@@ -24,8 +24,6 @@ import numpy as np
 
 from . import accuracy as known
 from .accuracy import Laws, Settings, Surface, UnreachableError
-from .persson import Persson
-from .spectrum import SelfAffine
 
 SHARES = (1, 2, 4, 8)  # parts of the magnification to simulate, up to what was measured
 
@@ -137,6 +135,10 @@ def _parts(whole: float) -> list[float]:
 @cache
 def _values(hurst: float, magnification: float, pressure: float) -> dict[str, float]:
     """What changes of every column with the magnification, by theory on continuous spectra."""
+    # Every job of a run reads the configuration; theory is loaded only if a spectrum is to be cut.
+    from .persson import Persson
+    from .spectrum import SelfAffine
+
     spectrum = SelfAffine(hurst=hurst, q0=1.0, q1=magnification, h_rms=1.0)
     theory = Persson(spectrum)
     area = float(theory.area_fraction(pressure))
