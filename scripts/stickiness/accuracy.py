@@ -28,7 +28,7 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy import special  # not stats, whose import would cost every job half a second
+from scipy import special  # not stats, whose import would cost every job a third of a second
 
 PARTS = (
     "discretisation",
