@@ -20,7 +20,8 @@ for variable in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
 import numpy as np  # noqa: E402 - the number of threads must be set before numpy is loaded
 import xarray as xr  # noqa: E402
 
-from stickiness import continuum, dmt, repulsive, spectrum, subpixel, surface  # noqa: E402
+from stickiness import dmt, repulsive, spectrum, surface  # noqa: E402
+from stickiness.contact import grid_limit, subpixel
 
 RANGES = 10.0 ** (np.arange(-64, 17) / 16)  # over h_rms, as in config.yaml
 YASTREBOV = (np.pi - 1 + np.log(2)) / 24
@@ -189,7 +190,7 @@ def print_reference(data):
         if name.startswith("P"):
             continue
         own = fine.sel(pixels=64)
-        counts = continuum.richardson(counted.sel(pixels=32), counted.sel(pixels=64))
+        counts = grid_limit.richardson(counted.sel(pixels=32), counted.sel(pixels=64))
         difference = 100 * (own / counts - 1)
         change = 100 * rms(own / fine.sel(pixels=32) - 1)
         print(
@@ -206,7 +207,7 @@ def print_orders(data):
             relative = values / finest(fine)[0]
             by = [relative.sel(pixels=p).values for p in (2, *pixels)]
             change = [100 * np.sqrt(np.nanmean((b - a) ** 2)) for a, b in zip(by, by[1:])]  # noqa: B905
-            orders = (continuum.observed_order(*by[i : i + 3]) for i in (1, 2))
+            orders = (grid_limit.observed_order(*by[i : i + 3]) for i in (1, 2))
             print(
                 f"{name:12s}{label:10s}"
                 + "".join(f"{c:9.3f}" for c in change)
@@ -225,7 +226,7 @@ def print_coverage(data):
         for name, rule, eps, fine, counted, part in quantities(data):
             at = {"pixels": grids[-1]}
             climbs = np.inf if eps is None else eps / data.edge_gap.sel(**at)
-            found = continuum.estimate(
+            found = grid_limit.estimate(
                 rule,
                 [fine.sel(pixels=p) for p in grids],
                 part.sel(**at),
@@ -256,7 +257,7 @@ def print_ensembles(data):
                 _, rule, eps, fine, _, part = row
                 at = {"pixels": grids[-1]}
                 mean_gap = members.edge_gap.sel(**at).mean("case")
-                found = continuum.estimate(
+                found = grid_limit.estimate(
                     rule,
                     [fine.sel(pixels=p).mean("case") for p in grids],
                     part.sel(**at).mean("case"),
@@ -304,7 +305,7 @@ def print_cheapest(data):
         cells = []
         for p in (4, 8, 16):
             steps = [counted.sel(pixels=q) for q in (p // 2, p)]
-            three = (steps[1], continuum.richardson(*steps), fine.sel(pixels=p))
+            three = (steps[1], grid_limit.richardson(*steps), fine.sel(pixels=p))
             cells.append(" / ".join(f"{100 * rms(value / true - 1):7.3f}" for value in three))
         print(f"  {name:12s}" + "   ".join(cells))
 

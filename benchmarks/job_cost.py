@@ -14,8 +14,8 @@ import yaml
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "scripts"))
 
-import _cost
-from stickiness import config as configuration
+from pipeline import job_cost
+from stickiness.config import checks as configuration
 
 WILDCARDS = {
     "synthesise_surface": ("model_surface", "seed"),
@@ -52,7 +52,7 @@ def rows(config, folder, rule):
     for file in sorted((folder / "benchmarks" / rule).rglob("*.tsv")):
         job = file.relative_to(folder / "benchmarks" / rule).with_suffix("")
         values = [part.removeprefix("seed") for part in job.parts]
-        size = _cost.work(config, rule, **dict(zip(WILDCARDS[rule], values, strict=True)))
+        size = job_cost.work(config, rule, **dict(zip(WILDCARDS[rule], values, strict=True)))
         with file.open() as lines:
             measured = next(csv.DictReader(lines, delimiter="\t"))
         yield [

@@ -15,7 +15,8 @@ for variable in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
 
 import numpy as np  # noqa: E402 - the number of threads must be set before numpy is loaded
 
-from stickiness import fourier, repulsive, spectrum, surface  # noqa: E402
+from stickiness import repulsive, spectrum, surface  # noqa: E402
+from stickiness.contact import half_space
 
 Q0 = 2 * np.pi
 LOADS = (0.003, 0.01, 0.065, 0.3, 1.0, 3.0)
@@ -79,7 +80,7 @@ def memory(chosen):
     n = chosen.sizes[-1]
     heights = heights_of(n, chosen.hurst, chosen.seeds[0])
     for load in LOADS:
-        fourier.clear_caches()
+        half_space.clear_caches()
         tracemalloc.start()
         contact = repulsive.solve(heights, 1.0, load * Q0)
         peak = tracemalloc.get_traced_memory()[1] / heights.nbytes

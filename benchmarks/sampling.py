@@ -20,7 +20,9 @@ import numpy as np  # noqa: E402 - the number of threads must be set before nump
 import xarray as xr  # noqa: E402
 from scipy import stats  # noqa: E402
 
-from stickiness import datasets, dmt, repulsive, sampling, spectrum, surface  # noqa: E402
+from stickiness import dmt, repulsive, spectrum, surface
+from stickiness.accuracy import multilevel  # noqa: E402
+from stickiness.core import datasets
 from stickiness.persson import Persson  # noqa: E402
 
 RANGES = np.geomspace(1e-3, 1, 49)
@@ -216,7 +218,7 @@ def controls(case, fine, seconds, coarse, coarse_seconds, table):
 
 def described(case, seeds):
     start = time.process_time()
-    x = sampling.descriptors(case.spectrum(), case.length, seeds)
+    x = multilevel.descriptors(case.spectrum(), case.length, seeds)
     return x, (time.process_time() - start) / len(x)
 
 
@@ -228,7 +230,9 @@ def experiments(case, chosen, fine, seconds, coarse, coarse_seconds, table):
     sets = len(fine) // 2
     elsewhere, cost = described(case, np.arange(sets * chosen.descriptors) + DRAWS)
     elsewhere = elsewhere.reshape(sets, chosen.descriptors, -1)
-    everything = sampling.multilevel_mean(fine, coarse, many, x, elsewhere.reshape(-1, x.shape[1]))
+    everything = multilevel.multilevel_mean(
+        fine, coarse, many, x, elsewhere.reshape(-1, x.shape[1])
+    )
     print("  best mean     ", np.round(everything.mean, 5))
     print("  standard error", np.round(everything.standard_error, 5))
     print("  plain mean    ", np.round(fine.mean(0), 5), "of the same fine seeds")
@@ -239,7 +243,7 @@ def experiments(case, chosen, fine, seconds, coarse, coarse_seconds, table):
             for r in range(repeats):
                 a, b = slice(r * few, (r + 1) * few), slice(r * pool, (r + 1) * pool)
                 last = (x[b], elsewhere[r]) if with_controls else ()
-                found.append(sampling.multilevel_mean(fine[a], coarse[a], many[b], *last))
+                found.append(multilevel.multilevel_mean(fine[a], coarse[a], many[b], *last))
             spent = few * (seconds + coarse_seconds) + pool * coarse_seconds
             spent += with_controls * chosen.descriptors * cost
             name = f"{few} fine + {pool} coarse" + with_controls * " + descriptors"

@@ -8,7 +8,8 @@ Every state is held against the contact without adhesion of the same area. Run i
 
 import numpy as np
 
-from stickiness import adhesive, cohesive_zone, edge_adhesion, repulsive, spectrum, surface
+from stickiness import adhesive, repulsive, spectrum, surface
+from stickiness.adhesion import edge_zone, equivalent_sphere
 
 LENGTH, POINTS = 2 * np.pi, 768
 LOADS = np.array([0.02, 0.04, 0.065, 0.1, 0.15, 0.22, 0.3])  # over E* q0 h_rms, at h_rms = 1
@@ -44,8 +45,8 @@ def states(zeta, seed, reach):
     for tau in STRENGTHS:
         strength = tau * np.sqrt(attractive[START] / area[START]) / 0.75 * pressed
         law = adhesive.Exponential(adhesion_length=strength * reach, range=reach)
-        bent = cohesive_zone.resolution(LENGTH / POINTS, reach, law.adhesion_length)
-        if bent > cohesive_zone.COARSEST:
+        bent = edge_zone.resolution(LENGTH / POINTS, reach, law.adhesion_length)
+        if bent > edge_zone.COARSEST:
             return
         gap = alone[START].mean_gap
         state = adhesive.solve(heights, LENGTH, law, mean_gap=gap, start=state, tol=1e-6)
@@ -55,9 +56,9 @@ def states(zeta, seed, reach):
         load = np.exp(np.interp(np.log(held), np.log(area), np.log(LOADS)))
         there = np.exp(np.interp(np.log(load), np.log(LOADS), np.log(attractive)))
         t = there / held
-        found = edge_adhesion.edge_strength(t, strength * held / load)
+        found = equivalent_sphere.edge_strength(t, strength * held / load)
         rho = 1 - state.mean_pressure / load
-        model = edge_adhesion.effect(t, found)
+        model = equivalent_sphere.effect(t, found)
         yield t, found, rho, rho / (strength * there / load), model
 
 

@@ -4,7 +4,7 @@
 
 rule adhesion_dmt:
     input:
-        library=library_of("adhesion_dmt.py"),
+        library=library_of("adhesion/adhesion_dmt.py"),
         laws=config["tradeoff"]["table"],
         ensemble=lambda wildcards: (
             f"{RESULTS}/ensembles/{ADHESION[wildcards.adhesion]['case']}.nc"
@@ -24,12 +24,12 @@ rule adhesion_dmt:
         dmt_error=lambda wildcards: model_of(wildcards.adhesion).dmt_error.tolist(),
         jtb=lambda wildcards: model_of(wildcards.adhesion).jtb.tolist(),
     script:
-        "../scripts/adhesion_dmt.py"
+        "../scripts/adhesion/adhesion_dmt.py"
 
 
 rule solve_adhesive:
     input:
-        library=library_of("solve_adhesive.py"),
+        library=library_of("adhesion/solve_adhesive.py"),
         surface=lambda wildcards: surface_of(adhesive_case(wildcards)),
     output:
         f"{RESULTS}/adhesive/{{adhesion}}/seed{{seed}}.nc",
@@ -46,12 +46,12 @@ rule solve_adhesive:
         adhesion=solved_in_full,
         full=lambda wildcards: model_of(wildcards.adhesion).full.tolist(),
     script:
-        "../scripts/solve_adhesive.py"
+        "../scripts/adhesion/solve_adhesive.py"
 
 
 rule average_adhesive:
     input:
-        library=library_of("average_adhesive.py"),
+        library=library_of("adhesion/average_adhesive.py"),
         limit=f"{RESULTS}/adhesion/{{adhesion}}.nc",
         ensemble=lambda wildcards: (
             f"{RESULTS}/ensembles/{ADHESION[wildcards.adhesion]['case']}.nc"
@@ -70,12 +70,12 @@ rule average_adhesive:
     params:
         full=lambda wildcards: model_of(wildcards.adhesion).full.tolist(),
     script:
-        "../scripts/average_adhesive.py"
+        "../scripts/adhesion/average_adhesive.py"
 
 
 rule compare_edges:
     input:
-        library=library_of("compare_edges.py"),
+        library=library_of("adhesion/compare_edges.py"),
         averages=f"{RESULTS}/adhesive/{{adhesion}}.nc",
         realisations=adhesive_realisations,
         alone=lambda wildcards: [
@@ -93,13 +93,13 @@ rule compare_edges:
     resources:
         mem_mb=500,
     script:
-        "../scripts/compare_edges.py"
+        "../scripts/adhesion/compare_edges.py"
 
 
 # The committed table is a copy of this one, so that models can be chosen before anything is solved.
 rule tabulate_dmt_error:
     input:
-        library=library_of("tabulate_dmt_error.py"),
+        library=library_of("adhesion/tabulate_dmt_error.py"),
         adhesive=[f"{RESULTS}/adhesive/{name}.nc" for name in ("dmt_error", "dmt_error_zeta128")],
     output:
         f"{RESULTS}/adhesive/dmt_error.csv",
@@ -112,12 +112,12 @@ rule tabulate_dmt_error:
     resources:
         mem_mb=500,
     script:
-        "../scripts/tabulate_dmt_error.py"
+        "../scripts/adhesion/tabulate_dmt_error.py"
 
 
 rule adhesive_maps:
     input:
-        library=library_of("adhesive_maps.py"),
+        library=library_of("adhesion/adhesive_maps.py"),
         surface=lambda wildcards: surface_of(adhesive_case(wildcards)).format(seed=1),
     output:
         f"{RESULTS}/adhesive/{{adhesion}}/maps.nc",
@@ -133,12 +133,12 @@ rule adhesive_maps:
     params:
         adhesion=lambda wildcards: ADHESION[wildcards.adhesion],
     script:
-        "../scripts/adhesive_maps.py"
+        "../scripts/adhesion/adhesive_maps.py"
 
 
 rule follow_loop:
     input:
-        library=library_of("follow_loop.py"),
+        library=library_of("adhesion/follow_loop.py"),
         surface=lambda wildcards: (
             f"{RESULTS}/surfaces/{LOOPS[wildcards.loop]['surface']}/seed1.nc"
         ),
@@ -157,4 +157,4 @@ rule follow_loop:
         loop=lambda wildcards: LOOPS[wildcards.loop],
         pixels_per_wavelength=FIDELITY["pixels_per_wavelength"],
     script:
-        "../scripts/follow_loop.py"
+        "../scripts/adhesion/follow_loop.py"

@@ -6,7 +6,7 @@
 
 rule solve_repulsive:
     input:
-        library=library_of("solve_repulsive.py"),
+        library=library_of("contact/solve_repulsive.py"),
         surface=surface_of,
     output:
         f"{RESULTS}/bem/{{case}}/seed{{seed}}.nc",
@@ -27,12 +27,12 @@ rule solve_repulsive:
         ),
         gaps=gaps_of,
     script:
-        "../scripts/solve_repulsive.py"
+        "../scripts/contact/solve_repulsive.py"
 
 
 rule solve_coarse:
     input:
-        library=library_of("solve_coarse.py"),
+        library=library_of("contact/solve_coarse.py"),
     output:
         f"{RESULTS}/bem/{{case}}/coarse{{part}}.nc",
     log:
@@ -53,12 +53,12 @@ rule solve_coarse:
         after=lambda wildcards: coarse_range(wildcards).start,
         descriptor_seeds=config["sampling"]["descriptor_seeds"],
     script:
-        "../scripts/solve_coarse.py"
+        "../scripts/contact/solve_coarse.py"
 
 
 checkpoint assess_seeds:
     input:
-        library=library_of("assess_seeds.py"),
+        library=library_of("contact/assess_seeds.py"),
         realisations=lambda wildcards: realisations_of(*in_round(wildcards)),
         coarse=lambda wildcards: coarse_files(*in_round(wildcards)),
         laws=config["tradeoff"]["table"],
@@ -79,12 +79,12 @@ checkpoint assess_seeds:
         asked=lambda wildcards: asdict(PLANS[wildcards.case].asked),
         windows=config["a_v"]["windows"][:1],
     script:
-        "../scripts/assess_seeds.py"
+        "../scripts/contact/assess_seeds.py"
 
 
 rule contact_maps:
     input:
-        library=library_of("contact_maps.py"),
+        library=library_of("contact/contact_maps.py"),
         surface=lambda wildcards: surface_of(wildcards).format(seed=1),
     output:
         f"{RESULTS}/bem/{{case}}/maps.nc",
@@ -101,12 +101,12 @@ rule contact_maps:
         pressures=lambda wildcards: CASES[wildcards.case].get("maps", []),
         tolerance=lambda wildcards: PLANS[wildcards.case].settings.tolerance,
     script:
-        "../scripts/contact_maps.py"
+        "../scripts/contact/contact_maps.py"
 
 
 rule average_ensemble:
     input:
-        library=library_of("average_ensemble.py"),
+        library=library_of("contact/average_ensemble.py"),
         laws=config["tradeoff"]["table"],
         realisations=realisations,
         coarse=coarse_solutions,
@@ -124,12 +124,12 @@ rule average_ensemble:
         pressures=lambda wildcards: PLANS[wildcards.case].pressures,
         quantities=lambda wildcards: PLANS[wildcards.case].quantities,
     script:
-        "../scripts/average_ensemble.py"
+        "../scripts/contact/average_ensemble.py"
 
 
 rule solve_ensemble:
     input:
-        library=library_of("solve_ensemble.py"),
+        library=library_of("contact/solve_ensemble.py"),
         laws=config["tradeoff"]["table"],
     output:
         f"{RESULTS}/ensembles/{{comparison}}.nc",
@@ -155,4 +155,4 @@ rule solve_ensemble:
         ),
         gaps=config["gaps"],
     script:
-        "../scripts/solve_ensemble.py"
+        "../scripts/contact/solve_ensemble.py"

@@ -16,16 +16,18 @@ from types import SimpleNamespace
 
 import psutil
 
+# Here and in every job, which inherits it.
 sys.path.insert(0, str(Path(workflow.basedir) / "scripts"))
+os.environ["PYTHONPATH"] = f"{workflow.basedir}/scripts"
 
-import _cost
-from _progress import Progress, graded, jobs_of, missed, quieten, summary
+from pipeline import job_cost as _cost
+from pipeline.run_summary import Progress, graded, jobs_of, missed, quieten, summary
 from snakemake.exceptions import WorkflowError
-from stickiness import accuracy, plan, stopping
+from stickiness.accuracy import error_laws as accuracy, plan, sequential as stopping
 from snakemake.logging import logger
 from snakemake.settings.enums import Quietness
-from stickiness import config as configuration
-from stickiness import model_choice
+from stickiness.adhesion import model_choice
+from stickiness.config import checks as configuration
 
 # One thread a job: `-j` runs seeds and cases side by side, which scales better than threaded
 # linear algebra on arrays of this size, and sums do not depend on the number of cores.
@@ -108,7 +110,7 @@ def seeds_of(case):
 
 def assessed(case, number):
     """File of a round of a case, and its content, once that is up to date."""
-    from stickiness import datasets
+    from stickiness.core import datasets
 
     file = checkpoints.assess_seeds.get(case=case, round=number).output[0]
     return file, datasets.read(file)

@@ -4,7 +4,7 @@
 rule map_criterion:
     input:
         **a_v_inputs(),
-        library=library_of("map_criterion.py"),
+        library=library_of("criteria/map_criterion.py"),
         a_v_table=f"{RESULTS}/fits/a_v_table.nc",
     output:
         f"{RESULTS}/criteria/map.nc",
@@ -20,13 +20,13 @@ rule map_criterion:
         map=config["criteria"]["map"],
         pressure=config["criteria"]["a_v"]["pressure"],
     script:
-        "../scripts/map_criterion.py"
+        "../scripts/criteria/map_criterion.py"
 
 
 rule compare_criteria:
     input:
         **a_v_inputs(),
-        library=library_of("compare_criteria.py"),
+        library=library_of("criteria/compare_criteria.py"),
         a_v_table=f"{RESULTS}/fits/a_v_table.nc",
     output:
         f"{RESULTS}/criteria/compared.nc",
@@ -42,13 +42,13 @@ rule compare_criteria:
         compared=config["criteria"]["compared"],
         pressure=config["criteria"]["a_v"]["pressure"],
     script:
-        "../scripts/compare_criteria.py"
+        "../scripts/criteria/compare_criteria.py"
 
 
 rule judge:
     input:
         **a_v_inputs(),
-        library=library_of("judge.py"),
+        library=library_of("criteria/judge.py"),
         surfaces=expand(f"{RESULTS}/real_surfaces/{{real_surface}}.nc", real_surface=REAL_SURFACES),
         theories=expand(
             f"{RESULTS}/persson_surface/{{real_surface}}.nc", real_surface=REAL_SURFACES
@@ -74,12 +74,12 @@ rule judge:
         pressure=config["criteria"]["a_v"]["pressure"],
         frequencies=config["criteria"]["frequencies"],
     script:
-        "../scripts/judge.py"
+        "../scripts/criteria/judge.py"
 
 
 rule record_a_v:
     input:
-        library=library_of("record_a_v.py"),
+        library=library_of("criteria/record_a_v.py"),
         a_v=f"{RESULTS}/fits/ensembles/{config['criteria']['a_v']['case']}.nc",
     output:
         f"{RESULTS}/criteria/a_v.csv",
@@ -94,4 +94,4 @@ rule record_a_v:
     params:
         pressure=config["criteria"]["a_v"]["pressure"],
     script:
-        "../scripts/record_a_v.py"
+        "../scripts/criteria/record_a_v.py"

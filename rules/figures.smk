@@ -6,7 +6,7 @@ FIGURE_2_CASES = ["H0.8_zeta32", "H0.8_zeta64", "H0.8_zeta128"]
 
 rule plot_fig1:
     input:
-        library=library_of("plot_fig1.py"),
+        library=library_of("figures/plot_fig1.py"),
         density=f"{RESULTS}/persson/fig1a.nc",
         convergence=f"{RESULTS}/persson/fig1b.nc",
         ensemble=f"{RESULTS}/ensembles/H0.8_zeta64.nc",
@@ -27,12 +27,12 @@ rule plot_fig1:
     resources:
         mem_mb=500,
     script:
-        "../scripts/plot_fig1.py"
+        "../scripts/figures/plot_fig1.py"
 
 
 rule plot_fig2:
     input:
-        library=library_of("plot_fig2.py"),
+        library=library_of("figures/plot_fig2.py"),
         kappa=expand(f"{RESULTS}/fits/kappa/{{case}}.nc", case=FIGURE_2_CASES),
         ensembles=expand(f"{RESULTS}/ensembles/{{case}}.nc", case=FIGURE_2_CASES),
         lattices=expand(f"{RESULTS}/persson_lattice/{{case}}.nc", case=FIGURE_2_CASES),
@@ -56,12 +56,12 @@ rule plot_fig2:
     resources:
         mem_mb=1000,
     script:
-        "../scripts/plot_fig2.py"
+        "../scripts/figures/plot_fig2.py"
 
 
 rule plot_fig3:
     input:
-        library=library_of("plot_fig3.py"),
+        library=library_of("figures/plot_fig3.py"),
         sweeps=expand(f"{RESULTS}/persson/fig3{{panel}}.nc", panel=list("abcd")),
         fits=expand(f"{RESULTS}/fits/persson/fig3{{panel}}.nc", panel=list("abcd")),
         bem=expand(f"{RESULTS}/ensembles/{{case}}.nc", case=COMPLETE),
@@ -83,12 +83,12 @@ rule plot_fig3:
     resources:
         mem_mb=500,
     script:
-        "../scripts/plot_fig3.py"
+        "../scripts/figures/plot_fig3.py"
 
 
 rule plot_fig4:
     input:
-        library=library_of("plot_fig4.py"),
+        library=library_of("figures/plot_fig4.py"),
         loop=f"{RESULTS}/loops/fig4a.nc",
         rough=f"{RESULTS}/adhesive/fig4b_rough.nc",
         smooth=f"{RESULTS}/adhesive/fig4b_smooth.nc",
@@ -111,12 +111,12 @@ rule plot_fig4:
     params:
         pressure=config["criteria"]["a_v"]["pressure"],
     script:
-        "../scripts/plot_fig4.py"
+        "../scripts/figures/plot_fig4.py"
 
 
 rule plot_fig5:
     input:
-        library=library_of("plot_fig5.py"),
+        library=library_of("figures/plot_fig5.py"),
         map=f"{RESULTS}/criteria/map.nc",
     output:
         png=report(
@@ -134,12 +134,12 @@ rule plot_fig5:
     resources:
         mem_mb=500,
     script:
-        "../scripts/plot_fig5.py"
+        "../scripts/figures/plot_fig5.py"
 
 
 rule plot_fig6:
     input:
-        library=library_of("plot_fig6.py"),
+        library=library_of("figures/plot_fig6.py"),
         surfaces=expand(f"{RESULTS}/real_surfaces/{{real_surface}}.nc", real_surface=REAL_SURFACES),
     output:
         png=report(
@@ -157,12 +157,12 @@ rule plot_fig6:
     resources:
         mem_mb=500,
     script:
-        "../scripts/plot_fig6.py"
+        "../scripts/figures/plot_fig6.py"
 
 
 rule plot_fig7:
     input:
-        library=library_of("plot_fig7.py"),
+        library=library_of("figures/plot_fig7.py"),
         adhesive=f"{RESULTS}/adhesive/dmt_error.nc",
     output:
         png=report(
@@ -182,12 +182,12 @@ rule plot_fig7:
     params:
         pressure=config["criteria"]["a_v"]["pressure"],
     script:
-        "../scripts/plot_fig7.py"
+        "../scripts/figures/plot_fig7.py"
 
 
 rule plot_fig8:
     input:
-        library=library_of("plot_fig8.py"),
+        library=library_of("figures/plot_fig8.py"),
         comparisons=expand(f"{RESULTS}/fits/theory/{{compared}}.nc", compared=COMPARED),
         gamma=f"{RESULTS}/fits/gamma.nc",
     output:
@@ -206,12 +206,12 @@ rule plot_fig8:
     resources:
         mem_mb=500,
     script:
-        "../scripts/plot_fig8.py"
+        "../scripts/figures/plot_fig8.py"
 
 
 rule plot_fig9:
     input:
-        library=library_of("plot_fig9.py"),
+        library=library_of("figures/plot_fig9.py"),
         compared=f"{RESULTS}/criteria/compared.nc",
         verdicts=f"{RESULTS}/criteria/verdicts.nc",
     output:
@@ -230,12 +230,12 @@ rule plot_fig9:
     resources:
         mem_mb=500,
     script:
-        "../scripts/plot_fig9.py"
+        "../scripts/figures/plot_fig9.py"
 
 
 rule plot_fig10:
     input:
-        library=library_of("plot_fig10.py"),
+        library=library_of("figures/plot_fig10.py"),
         edges=simulated_edges(),
     output:
         png=report(
@@ -253,4 +253,4 @@ rule plot_fig10:
     resources:
         mem_mb=500,
     script:
-        "../scripts/plot_fig10.py"
+        "../scripts/figures/plot_fig10.py"

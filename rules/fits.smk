@@ -4,7 +4,7 @@
 
 rule fit_a_v:
     input:
-        library=library_of("fit_a_v.py"),
+        library=library_of("fits/fit_a_v.py"),
         laws=config["tradeoff"]["table"],
         areas=f"{RESULTS}/{{source}}/{{name}}.nc",
     output:
@@ -23,12 +23,12 @@ rule fit_a_v:
     params:
         windows=config["a_v"]["windows"],
     script:
-        "../scripts/fit_a_v.py"
+        "../scripts/fits/fit_a_v.py"
 
 
 rule fit_kappa:
     input:
-        library=library_of("fit_kappa.py"),
+        library=library_of("fits/fit_kappa.py"),
         laws=config["tradeoff"]["table"],
         ensemble=f"{RESULTS}/ensembles/{{case}}.nc",
         theory=f"{RESULTS}/persson_lattice/{{case}}.nc",
@@ -43,12 +43,12 @@ rule fit_kappa:
     resources:
         mem_mb=500,
     script:
-        "../scripts/fit_kappa.py"
+        "../scripts/fits/fit_kappa.py"
 
 
 rule compare_theory:
     input:
-        library=library_of("compare_theory.py"),
+        library=library_of("fits/compare_theory.py"),
         ensemble=f"{RESULTS}/ensembles/{{compared}}.nc",
         theory=f"{RESULTS}/persson_lattice/{{compared}}.nc",
     output:
@@ -62,13 +62,13 @@ rule compare_theory:
     resources:
         mem_mb=500,
     script:
-        "../scripts/compare_theory.py"
+        "../scripts/fits/compare_theory.py"
 
 
 rule answer_case:
     input:
         unpack(behind_answer),
-        library=library_of("answer_case.py"),
+        library=library_of("cases/answer_case.py"),
         laws=config["tradeoff"]["table"],
     output:
         f"{RESULTS}/cases/{{case}}.nc",
@@ -83,12 +83,12 @@ rule answer_case:
     params:
         plan=lambda wildcards: summary_of_plan(wildcards.case),
     script:
-        "../scripts/answer_case.py"
+        "../scripts/cases/answer_case.py"
 
 
 rule tabulate_a_v:
     input:
-        library=library_of("tabulate_a_v.py"),
+        library=library_of("fits/tabulate_a_v.py"),
         theory=f"{RESULTS}/persson/table.nc",
         comparisons=expand(f"{RESULTS}/fits/theory/{{compared}}.nc", compared=SIMULATED),
     output:
@@ -102,12 +102,12 @@ rule tabulate_a_v:
     resources:
         mem_mb=500,
     script:
-        "../scripts/tabulate_a_v.py"
+        "../scripts/fits/tabulate_a_v.py"
 
 
 rule fit_gamma:
     input:
-        library=library_of("fit_gamma.py"),
+        library=library_of("fits/fit_gamma.py"),
         ensembles=expand(f"{RESULTS}/ensembles/{{compared}}.nc", compared=SIMULATED),
         comparisons=expand(f"{RESULTS}/fits/theory/{{compared}}.nc", compared=SIMULATED),
     output:
@@ -121,4 +121,4 @@ rule fit_gamma:
     resources:
         mem_mb=500,
     script:
-        "../scripts/fit_gamma.py"
+        "../scripts/fits/fit_gamma.py"

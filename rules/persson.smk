@@ -4,7 +4,7 @@
 
 rule persson_sweep:
     input:
-        library=library_of("persson_sweep.py"),
+        library=library_of("persson/persson_sweep.py"),
         laws=config["tradeoff"]["table"],
     output:
         f"{RESULTS}/persson/{{sweep}}.nc",
@@ -22,12 +22,12 @@ rule persson_sweep:
         gamma=config["theory"]["gamma"],
         gaps=config["gaps"],
     script:
-        "../scripts/persson_sweep.py"
+        "../scripts/persson/persson_sweep.py"
 
 
 rule persson_lattice:
     input:
-        library=library_of("persson_lattice.py"),
+        library=library_of("persson/persson_lattice.py"),
         laws=config["tradeoff"]["table"],
     output:
         f"{RESULTS}/persson_lattice/{{compared}}.nc",
@@ -46,12 +46,12 @@ rule persson_lattice:
         gamma=config["theory"]["gamma"],
         gaps=config["gaps"],
     script:
-        "../scripts/persson_lattice.py"
+        "../scripts/persson/persson_lattice.py"
 
 
 rule persson_surface:
     input:
-        library=library_of("persson_surface.py"),
+        library=library_of("persson/persson_surface.py"),
         laws=config["tradeoff"]["table"],
         surface=f"{RESULTS}/real_surfaces/{{real_surface}}.nc",
     output:
@@ -69,12 +69,12 @@ rule persson_surface:
         pressure=config["criteria"]["a_v"]["pressure"],
         ranges=config["criteria"]["ranges"],
     script:
-        "../scripts/persson_surface.py"
+        "../scripts/persson/persson_surface.py"
 
 
 rule persson_table:
     input:
-        library=library_of("persson_table.py"),
+        library=library_of("persson/persson_table.py"),
         laws=config["tradeoff"]["table"],
     output:
         f"{RESULTS}/persson/table.nc",
@@ -91,4 +91,4 @@ rule persson_table:
         table=config["theory"]["table"],
         gamma=config["theory"]["gamma"],
     script:
-        "../scripts/persson_table.py"
+        "../scripts/persson/persson_table.py"

@@ -3,7 +3,7 @@
 
 rule analyse_surface:
     input:
-        library=library_of("analyse_surface.py"),
+        library=library_of("real_surfaces/analyse_surface.py"),
         topographies=topography_files,
     output:
         f"{RESULTS}/real_surfaces/{{real_surface}}.nc",
@@ -18,12 +18,12 @@ rule analyse_surface:
     params:
         surface=lambda wildcards: REAL_SURFACES[wildcards.real_surface],
     script:
-        "../scripts/analyse_surface.py"
+        "../scripts/real_surfaces/analyse_surface.py"
 
 
 rule contact_measured:
     input:
-        library=library_of("contact_measured.py"),
+        library=library_of("real_surfaces/contact_measured.py"),
         surface=f"{RESULTS}/real_surfaces/{{real_surface}}.nc",
         topographies=topography_files,
     output:
@@ -44,12 +44,12 @@ rule contact_measured:
         gamma=config["theory"]["gamma"],
         gaps=config["gaps"],
     script:
-        "../scripts/contact_measured.py"
+        "../scripts/real_surfaces/contact_measured.py"
 
 
 rule write_surface:
     input:
-        library=library_of("write_surface.py"),
+        library=library_of("report/write_surface.py"),
         template="report/surface.html.j2",
         parts=PAGE_PARTS,
         surface=f"{RESULTS}/real_surfaces/{{real_surface}}.nc",
@@ -71,4 +71,4 @@ rule write_surface:
     resources:
         mem_mb=500,
     script:
-        "../scripts/write_surface.py"
+        "../scripts/report/write_surface.py"

@@ -4,7 +4,7 @@
 rule check_claims:
     input:
         **ledger_inputs(),
-        library=library_of("check_claims.py"),
+        library=library_of("claims/check_claims.py"),
     output:
         dataset=f"{RESULTS}/claims/claims.nc",
         table=report(
@@ -21,12 +21,12 @@ rule check_claims:
     resources:
         mem_mb=1000,
     script:
-        "../scripts/check_claims.py"
+        "../scripts/claims/check_claims.py"
 
 
 rule write_report:
     input:
-        library=library_of("write_report.py"),
+        library=library_of("report/write_report.py"),
         template="report/report.html.j2",
         parts=PAGE_PARTS,
         figures=expand(f"{RESULTS}/figures/{{figure}}.png", figure=FIGURES),
@@ -66,4 +66,4 @@ rule write_report:
         fidelity=config["fidelity"],
         figure_sources={figure: data_of(f"plot_{figure}") for figure in FIGURES},
     script:
-        "../scripts/write_report.py"
+        "../scripts/report/write_report.py"

@@ -26,7 +26,7 @@ COMPONENTS = [
 
 rule probe_stability:
     input:
-        library=library_of("probe_stability.py"),
+        library=library_of("stability/probe_stability.py"),
     output:
         f"{RESULTS}/stability/{{component}}.nc",
     log:
@@ -41,12 +41,12 @@ rule probe_stability:
         mem_mb=500,
         runtime=20,
     script:
-        "../scripts/probe_stability.py"
+        "../scripts/stability/probe_stability.py"
 
 
 rule plot_stability:
     input:
-        library=library_of("plot_stability.py"),
+        library=library_of("stability/plot_stability.py"),
         components=expand(f"{RESULTS}/stability/{{component}}.nc", component=COMPONENTS),
     output:
         png=report(
@@ -64,4 +64,4 @@ rule plot_stability:
     resources:
         mem_mb=500,
     script:
-        "../scripts/plot_stability.py"
+        "../scripts/stability/plot_stability.py"

@@ -3,7 +3,7 @@
 
 rule synthesise_surface:
     input:
-        library=library_of("synthesise_surface.py"),
+        library=library_of("surfaces/synthesise_surface.py"),
     output:
         f"{RESULTS}/surfaces/{{model_surface}}{{grid}}/seed{{seed}}.nc",
     log:
@@ -19,4 +19,4 @@ rule synthesise_surface:
         surface=lambda wildcards: config["model_surfaces"][wildcards.model_surface],
         pixels_per_wavelength=pixels_of,
     script:
-        "../scripts/synthesise_surface.py"
+        "../scripts/surfaces/synthesise_surface.py"

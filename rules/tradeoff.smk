@@ -4,7 +4,7 @@
 
 rule measure_grids:
     input:
-        library=library_of("measure_grids.py"),
+        library=library_of("tradeoff/measure_grids.py"),
     output:
         f"{TRADEOFF}/grids/{{trade_case}}.nc",
     log:
@@ -24,12 +24,12 @@ rule measure_grids:
         seeds=TRADE["seeds"],
         gaps=config["gaps"],
     script:
-        "../scripts/measure_grids.py"
+        "../scripts/tradeoff/measure_grids.py"
 
 
 rule measure_seeds:
     input:
-        library=library_of("measure_seeds.py"),
+        library=library_of("tradeoff/measure_seeds.py"),
     output:
         f"{TRADEOFF}/seeds/{{trade_case}}.nc",
     log:
@@ -51,12 +51,12 @@ rule measure_seeds:
         first_seed=lambda wildcards: trade_set(wildcards)["first_seed"],
         gaps=config["gaps"],
     script:
-        "../scripts/measure_seeds.py"
+        "../scripts/tradeoff/measure_seeds.py"
 
 
 rule measure_bands:
     input:
-        library=library_of("measure_bands.py"),
+        library=library_of("tradeoff/measure_bands.py"),
     output:
         f"{TRADEOFF}/bands/H{{hurst}}.nc",
     log:
@@ -75,12 +75,12 @@ rule measure_bands:
         tolerance=TRADE["settings"]["at_tolerance"],
         gaps=config["gaps"],
     script:
-        "../scripts/measure_bands.py"
+        "../scripts/tradeoff/measure_bands.py"
 
 
 rule measure_theory:
     input:
-        library=library_of("measure_theory.py"),
+        library=library_of("tradeoff/measure_theory.py"),
     output:
         f"{TRADEOFF}/theory.nc",
     log:
@@ -96,12 +96,12 @@ rule measure_theory:
         pressures=TRADE["pressures"],
         gaps=config["gaps"],
     script:
-        "../scripts/measure_theory.py"
+        "../scripts/tradeoff/measure_theory.py"
 
 
 rule measure_adhesive:
     input:
-        library=library_of("measure_adhesive.py"),
+        library=library_of("tradeoff/measure_adhesive.py"),
     output:
         f"{TRADEOFF}/adhesive/{{trade_case}}.nc",
     log:
@@ -122,12 +122,12 @@ rule measure_adhesive:
             if key not in ("surfaces", "pull_off")
         },
     script:
-        "../scripts/measure_adhesive.py"
+        "../scripts/tradeoff/measure_adhesive.py"
 
 
 rule measure_pull_off:
     input:
-        library=library_of("measure_pull_off.py"),
+        library=library_of("tradeoff/measure_pull_off.py"),
     output:
         f"{TRADEOFF}/pull_off/{{trade_case}}.nc",
     log:
@@ -145,12 +145,12 @@ rule measure_pull_off:
         pull_off=TRADE["adhesion"]["pull_off"]
         | {key: TRADE["adhesion"][key] for key in ("q0_h_rms", "law", "at_pixels")},
     script:
-        "../scripts/measure_pull_off.py"
+        "../scripts/tradeoff/measure_pull_off.py"
 
 
 rule tabulate_tradeoff:
     input:
-        library=library_of("tabulate_tradeoff.py"),
+        library=library_of("tradeoff/tabulate_tradeoff.py"),
         grids=expand(f"{TRADEOFF}/grids/{{name}}.nc", name=TRADE["settings"]["surfaces"]),
         seeds=expand(
             f"{TRADEOFF}/seeds/{{name}}.nc",
@@ -174,12 +174,12 @@ rule tabulate_tradeoff:
     resources:
         mem_mb=1000,
     script:
-        "../scripts/tabulate_tradeoff.py"
+        "../scripts/tradeoff/tabulate_tradeoff.py"
 
 
 rule validate_accuracy:
     input:
-        library=library_of("validate_accuracy.py"),
+        library=library_of("tradeoff/validate_accuracy.py"),
         laws=f"{TRADEOFF}/accuracy.csv",
         seeds=expand(f"{TRADEOFF}/seeds/{{name}}.nc", name=TRADE["validation"]["surfaces"]),
     output:
@@ -196,12 +196,12 @@ rule validate_accuracy:
     params:
         accuracies=TRADE["validation"]["accuracies"],
     script:
-        "../scripts/validate_accuracy.py"
+        "../scripts/tradeoff/validate_accuracy.py"
 
 
 rule choose_presets:
     input:
-        library=library_of("choose_presets.py"),
+        library=library_of("tradeoff/choose_presets.py"),
         laws=f"{TRADEOFF}/accuracy.csv",
     output:
         f"{TRADEOFF}/presets.md",
@@ -219,12 +219,12 @@ rule choose_presets:
         fidelities=config["fidelities"],
         descriptor_seeds=config["sampling"]["descriptor_seeds"],
     script:
-        "../scripts/choose_presets.py"
+        "../scripts/tradeoff/choose_presets.py"
 
 
 rule plot_tradeoff:
     input:
-        library=library_of("plot_tradeoff.py"),
+        library=library_of("tradeoff/plot_tradeoff.py"),
         summary=f"{TRADEOFF}/tradeoff.csv",
         laws=f"{TRADEOFF}/accuracy.csv",
     output:
@@ -248,13 +248,13 @@ rule plot_tradeoff:
         fidelities=config["fidelities"],
         descriptor_seeds=config["sampling"]["descriptor_seeds"],
     script:
-        "../scripts/plot_tradeoff.py"
+        "../scripts/tradeoff/plot_tradeoff.py"
 
 
 # The report shows the measurement that is in use: the committed tables.
 use rule plot_tradeoff as plot_measured_trade with:
     input:
-        library=library_of("plot_tradeoff.py"),
+        library=library_of("tradeoff/plot_tradeoff.py"),
         summary=TRADE["summary"],
         laws=TRADE["table"],
     output:

@@ -6,7 +6,7 @@ import sys
 from pathlib import Path
 
 import pytest
-from copy_workflow import copy_workflow
+from helpers.copy_workflow import copy_workflow
 
 TINY = ["--configfile", "config/config.yaml", "config/tiny.yaml"]
 

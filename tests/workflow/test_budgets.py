@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 import yaml
 
-from stickiness import budget, datasets
+from stickiness.core import budget, datasets
 
 pytestmark = pytest.mark.workflow
 

@@ -11,7 +11,7 @@ from pathlib import Path
 import psutil
 import pytest
 
-from stickiness import datasets
+from stickiness.core import datasets
 
 pytestmark = pytest.mark.workflow
 

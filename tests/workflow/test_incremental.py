@@ -9,7 +9,7 @@ import pytest
 import yaml
 from snakemake.utils import update_config
 
-from stickiness import datasets
+from stickiness.core import datasets
 
 pytestmark = pytest.mark.workflow
 

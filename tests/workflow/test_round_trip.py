@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from stickiness import datasets
+from stickiness.core import datasets
 
 pytestmark = pytest.mark.workflow
 

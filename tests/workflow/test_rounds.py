@@ -8,7 +8,7 @@ import time
 
 import pytest
 
-from stickiness import datasets
+from stickiness.core import datasets
 
 pytestmark = pytest.mark.workflow
 

@@ -1,0 +1,50 @@
+"""Keep the gap and pressure fields of one realisation in adhesive contact, for pictures."""
+
+import numpy as np
+
+from pipeline.adhesion_sets import roughness, scaled_law
+from pipeline.fields import fields
+from pipeline.job import start
+from stickiness import adhesive
+from stickiness.core import datasets
+
+TOLERANCE = 1e-6  # of the residual: far below what a picture shows
+
+
+def main(job):
+    surface = datasets.read(job.input.surface, ["height", "window_length"])
+    asked, shown = job.params.adhesion, job.params.adhesion["maps"]
+    heights, length = surface.height.values, float(surface.window_length)
+    law = scaled_law(
+        asked, asked["law"], shown["adhesion_length_over_range"], shown["range_over_h_rms"]
+    )
+    pressures = np.sort(np.array(shown["pressures"], dtype=float))
+    # Loads grow: each state is where a press would find it on loading.
+    states = []
+    for pressure in pressures:
+        begin = states[-1] if states else None
+        states.append(
+            adhesive.solve(heights, length, law, pressure=pressure, start=begin, tol=TOLERANCE)
+        )
+    datasets.write(
+        fields(
+            states,
+            pressures,
+            surface,
+            contact_pressure="repulsion less attraction over E* q0 h_rms",
+            residual="unbalanced pressure over the strength or the flattening pressure",
+        ),
+        job.output[0],
+        title="gap and pressure fields of one realisation in adhesive contact",
+        parameters={
+            **datasets.parameters(surface),
+            "law": asked["law"],
+            "q0_h_rms": roughness(asked),
+            "range_over_h_rms": shown["range_over_h_rms"],
+            "adhesion_length_over_range": shown["adhesion_length_over_range"],
+        },
+    )
+
+
+if __name__ == "__main__":
+    main(start(globals(), "adhesive_maps", adhesion="fig2"))

@@ -1,0 +1,295 @@
+"""Adhesion of a set of parameters: at every point by the model chosen, with all its errors.
+
+Where that is the full one, its realisations are averaged: slopes of the area-load relation, and how
+far the DMT limit is. With kappa = 2 without adhesion, 1/kappa = 1/2 - 1/kappa_ad. Full simulation
+gives the latter by how much less pressure than without adhesion goes with the area, relative to
+that pressure; the sum of its tractions gives it directly, as in the DMT limit, but misses the area
+that they draw in. The area is that at a gap of zero; with ``_net`` it is what of it is compressed,
+which converges far more slowly with the grid.
+"""
+
+from dataclasses import replace
+
+import numpy as np
+import xarray as xr
+
+from pipeline.adhesion_sets import AXES, MISSING, OUTSIDE, SOLVER
+from pipeline.adhesion_sets import DESCRIBED as ADHESION_DESCRIBED
+from pipeline.conventions import DESCRIBED, LINEAR_UP_TO, window_of
+from pipeline.dmt_limit import DmtLimit, fitted, linearity_error
+from pipeline.ensemble_means import coarse, described, fine, with_errors
+from pipeline.error_budgets import SIMULATED
+from pipeline.job import start
+from stickiness.accuracy import error_laws
+from stickiness.adhesion import edge_zone
+from stickiness.core import datasets
+from stickiness.core.budget import SOURCES, split, with_budget
+
+# Averages, with the quantity of the DMT limit that is their control, if any.
+STATES = {
+    "external_pressure": ("mean pressure over E* q0 h_rms", None),
+    "repulsive_area": ("area at a gap of zero over nominal area", None),
+    "net_repulsive_area": ("area at a gap of zero and compressed over nominal area", None),
+    "attractive_area": ("area within the range, not in contact, over nominal area", None),
+}
+SLOPES = {
+    "inverse_kappa": ("1/kappa = p_ext A_nom/(A_rep E* h'_rms)", "inverse_kappa"),
+    "inverse_kappa_net": ("1/kappa with the net repulsive area", "inverse_kappa"),
+    "inverse_kappa_ad": ("1/kappa_ad, from the fall of 1/kappa by adhesion", "inverse_kappa_ad"),
+    "inverse_kappa_ad_net": ("1/kappa_ad with the net repulsive area", "inverse_kappa_ad"),
+    "inverse_kappa_ad_direct": ("p_ad/(2 p_rep) of the adhesive contact", "inverse_kappa_ad"),
+}
+FITS = {
+    "inverse_kappa_fit": ("1/kappa fitted over the loads up to 30 % area", "inverse_kappa_fit"),
+    "inverse_kappa_ad_fit": ("1/kappa_ad from fitted 1/kappa", "inverse_kappa_ad_fit"),
+}
+LOADWISE = {"inverse_kappa_fit": "inverse_kappa", "inverse_kappa_ad_fit": "inverse_kappa_ad"}
+RATIOS = {
+    "dmt_ratio": ("1/kappa_ad of the full simulation over that of the DMT limit", None),
+    "dmt_ratio_net": ("the same with the net repulsive area", None),
+}
+OTHERS = {
+    "model": "dmt: attraction over the gaps without adhesion; full: boundary elements with it",
+    "residual": "largest residual of all realisations",
+    "iterations": "mean iterations on the fine grid",
+    "zone_strength": "width of the zone of attraction over range^2/adhesion length",
+}
+# Along the edge a strip at zero gap is under tension. Next to a smooth edge and for weak attraction
+# it is second order in the strength, (sigma0/B)^2 where the pressure rises as B x^(1/2), but the
+# pixels make it first order: what is left of the difference falls as the root of the pixel only.
+SLOW = 1 / (np.sqrt(2) - 1)  # over the change from half the resolution
+SLOWLY = "2.4 times the change from half the resolution, as it falls with the root of the pixel"
+AREA_OF_DMT = {"repulsive_area", "net_repulsive_area"}  # without what attraction draws in
+LEFT = {
+    "discretisation": "change from half the resolution, or in the DMT limit what is left of it",
+    "solver": "by the tolerance, as measured",
+    "sampling": "Student's t of the standard error",
+    "bandwidth": SIMULATED["bandwidth"].text,
+    "model": "of the DMT limit as measured, of areas not known; of full simulation what comparing "
+    "at equal area instead of equal mean gap changes, or what a straight line leaves out",
+}
+FEW = f"DMT limit, {MISSING}, a single seed, or fewer than two loads to fit"
+
+
+def main(job):
+    limit = datasets.read(job.input.limit, ["inverse_kappa_ad", "dmt_error", "dmt_valid"])
+    ensemble = datasets.read(job.input.ensemble, ["attractive_area", "area_fraction", "rms_slope"])
+    full = xr.DataArray(np.array(job.params.full), dims=AXES)
+    asked = datasets.parameters(limit)
+    dmt = DmtLimit.of(asked, ensemble)
+    files = [datasets.read(path, ["external_pressure"]) for path in job.input.realisations]
+    made = datasets.parameters(files[0]) if files else datasets.parameters(ensemble)
+    seeds = [datasets.parameters(file)["seed"] for file in files]
+    dataset = in_dmt_limit(limit)
+    if files:
+        states = xr.concat(files, xr.DataArray(seeds, dims="seed", name="seed"))
+        solved = averaged(states, full, ensemble, dmt, made)
+        dataset = joined(solved, dataset, full)
+    dataset = dataset.drop_vars(n for n in dataset if n.endswith("_discretisation_error"))
+    dataset["model"] = (AXES, np.where(full, "full", "dmt"))
+    strength = limit.adhesion_length_over_range / limit.q0_h_rms
+    dataset["zone_strength"] = zone_width(ensemble, limit) * strength / limit.range_over_h_rms
+    datasets.write(
+        budgeted(annotated(dataset)),
+        job.output[0],
+        title="adhesive contact averaged over realisations, by the model chosen",
+        parameters={**made, **asked, "seeds": seeds},
+    )
+
+
+def in_dmt_limit(limit):
+    """The averages as the DMT limit has them, which knows one area only."""
+    area, none = limit.area_fraction, xr.zeros_like(limit.inverse_kappa)
+    states = {
+        "external_pressure": limit.pressure - limit.attraction,
+        "repulsive_area": area + none,
+        "net_repulsive_area": area + none,
+    }
+    dataset = limit[["q0_h_rms", "dmt_valid", "dmt_error"]].assign(states)
+    for name in (*SLOPES, *FITS):
+        source = name.removesuffix("_net").removesuffix("_direct")
+        dataset[name] = limit[source]
+        dataset[f"{name}_error"] = limit[f"{source}_error"]
+    dataset["external_pressure_error"] = limit.attraction_error
+    for name in AREA_OF_DMT:
+        known = limit.area_fraction_error.where(limit.source != "model")
+        dataset[f"{name}_error"] = known + none
+    return dataset
+
+
+def averaged(states, full, ensemble, dmt, made):
+    """Means over the realisations solved in full; where they are not, their own DMT limit."""
+    whole = fine(states.external_pressure).notnull().all("seed") | ~full
+    wide = zone_width(ensemble, states) >= edge_zone.NARROWEST * made["pixel"]
+    states = with_dmt(states, full)
+    linear = dmt.linear & ~(fine(states.repulsive_area).mean("seed") > LINEAR_UP_TO)
+    states = with_slopes(states, ensemble, linear)
+    # A mean over the seeds that happen to be solved would leave out the stickiest ones.
+    told = whole & (wide | ~full)
+    resolved = dict.fromkeys(STATES | SLOPES, told)
+    resolved |= {name: (told | ~linear).all("pressure") for name in FITS}
+    resolved |= dict.fromkeys(RATIOS, told & full)
+    dataset = xr.Dataset()
+    for name, (_, control) in (STATES | SLOPES | FITS | RATIOS).items():
+        values, more = states[name].where(resolved[name]), None
+        if control is not None:
+            more = controls(ensemble, getattr(dmt, control), states.seed)
+        dataset = with_errors(dataset, name, values, more, plain=True)
+        if "net" in name.split("_"):
+            dataset[f"{name}_discretisation_error"] *= SLOW
+    models = {
+        name: fine(states[f"{name}_equal_area"] - states[name]).mean("seed", skipna=False)
+        for name in ("inverse_kappa_ad", "dmt_ratio")
+    }
+    models |= {name: linearity_error(dataset[of], linear) for name, of in LOADWISE.items()}
+    for name in STATES | SLOPES | FITS | RATIOS:
+        dataset[f"{name}_error"] = errors(
+            dataset, name, models.get(name, 0.0), states.sizes["seed"]
+        )
+    dataset["residual"] = states.residual.max(["seed", "resolution"])
+    dataset["iterations"] = fine(states.iterations).mean("seed")
+    return dataset
+
+
+def errors(dataset, name, model, seeds):
+    """Errors of a mean of full simulations, along `source`.
+
+    Of multilevel means, too, Student's t is that of the seeds solved in full: more than enough.
+    """
+    value = dataset[name]
+    parts = {
+        "discretisation": dataset[f"{name}_discretisation_error"],
+        "solver": SOLVER * abs(value),
+        "sampling": error_laws.students_t(seeds) * dataset[f"{name}_standard_error"],
+        "bandwidth": 0.0,
+        "model": abs(model),
+    }
+    parts = [(xr.zeros_like(value) + parts[source]).transpose(*value.dims) for source in SOURCES]
+    return xr.concat(parts, xr.DataArray(list(SOURCES), dims="source", name="source"))
+
+
+def budgeted(dataset):
+    """All averages with their errors by source."""
+    for name in STATES | SLOPES | FITS | RATIOS:
+        if name in dataset:
+            parts = split(dataset[f"{name}_error"], LEFT)
+            dataset = with_budget(dataset, name, **parts)
+    return dataset
+
+
+def controls(ensemble, quantity, seeds):
+    """The DMT limit of the coarsest solutions: of these seeds, and of many more."""
+    more = coarse(ensemble, quantity)
+    if more is None:
+        return None
+    twin = quantity(ensemble.sel(seed=seeds)).isel(resolution=0, drop=True)
+    return replace(more, twin=twin)
+
+
+def with_dmt(states, full):
+    """States with those of the DMT limit where there is no full one asked for."""
+    external = states.pressure - states.attraction_dmt
+    limit = {
+        "external_pressure": external,
+        "repulsive_area": states.area_alone,
+        "net_repulsive_area": states.area_alone,
+        "attraction": states.attraction_dmt,
+        "repulsive_pressure": states.pressure,
+    }
+    return states.assign({name: states[name].where(full, value) for name, value in limit.items()})
+
+
+def with_slopes(states, ensemble, linear):
+    """Add what compares area and load with and without adhesion."""
+    alone = states.pressure / states.area_alone
+    external, area = states.external_pressure, states.repulsive_area
+    held, net = external / area, external / states.net_repulsive_area
+    slopes = {
+        "inverse_kappa": held / states.rms_slope,
+        "inverse_kappa_net": net / states.rms_slope,
+        "inverse_kappa_ad": (1 - held / alone) / 2,
+        "inverse_kappa_ad_net": (1 - net / alone) / 2,
+        "inverse_kappa_ad_direct": states.attraction / states.repulsive_pressure / 2,
+        "inverse_kappa_ad_equal_area": (1 - external / pressure_at(states, ensemble)) / 2,
+    }
+    fit = fitted(external, area, linear)
+    fit_alone = fitted(states.pressure, states.area_alone, linear)
+    slopes["inverse_kappa_fit"] = fit / states.rms_slope
+    slopes["inverse_kappa_ad_fit"] = (1 - fit / fit_alone) / 2
+    limit = states.attraction_dmt / states.pressure / 2
+    for ending in ("", "_net", "_equal_area"):
+        slopes[f"dmt_ratio{ending}"] = ratio(slopes[f"inverse_kappa_ad{ending}"], limit)
+    return states.assign(slopes)
+
+
+def pressure_at(states, ensemble):
+    """Pressure without adhesion at the area of the adhesive contact, NaN beyond the largest load.
+
+    Along the load curve of the same seed, whose edges are between the pixels: it is scaled to the
+    area in pixels at the pressure of the same mean gap.
+    """
+    curve = fine(ensemble.area_fraction).sel(seed=states.seed)
+    area = states.repulsive_area / states.area_alone * curve.sel(pressure=states.pressure)
+    loads = np.log(curve.pressure.values)
+
+    def inverted(wanted, known):
+        logs = np.interp(np.log(wanted), np.log(known), loads, left=np.nan, right=np.nan)
+        return np.exp(logs)
+
+    return xr.apply_ufunc(
+        inverted,
+        area,
+        curve.rename(pressure="load"),
+        input_core_dims=[[], ["load"]],
+        vectorize=True,
+    )
+
+
+def ratio(values, others):
+    """Ratio of the means over seeds, as samples that scatter about it to first order."""
+    value, other = values.mean("seed", skipna=False), others.mean("seed", skipna=False)
+    best = value / other
+    return best + (values - best * others) / other
+
+
+def zone_width(ensemble, at):
+    """Mean width of the zone of attraction without adhesion, times q0."""
+    made = datasets.parameters(ensemble)
+    edge = ensemble.edge_gap_mean.sel(pressure=at.pressure)
+    edge, range_ = xr.broadcast(edge, at.range_over_h_rms)
+    pixel = window_of(made) / made["grid_points"]
+    return edge.copy(data=edge_zone.zone_width(pixel, edge.values, range_.values))
+
+
+def joined(solved, limit, full):
+    """Variables of both models, each where it was chosen."""
+    dataset = solved.copy()
+    for name, values in limit.items():
+        if name not in solved:
+            dataset[name] = values
+            continue
+        chosen = full if "pressure" in values.dims else full.any("pressure")
+        dataset[name] = solved[name].where(chosen, values)
+    return dataset
+
+
+def annotated(dataset):
+    texts = {}
+    for name, (text, _) in (STATES | SLOPES | FITS | RATIOS).items():
+        slow = {"discretisation": SLOWLY} if "net" in name.split("_") else {}
+        for key, value in described(name, text, plain=True, **slow).items():
+            if key in dataset:
+                texts[key] = (*value[:2], FEW)
+    texts |= {name: ("1", text, FEW) for name, text in OTHERS.items() if name in dataset}
+    return datasets.annotate(
+        dataset,
+        pressure=DESCRIBED["pressure"],
+        dmt_valid=("1", "1 where the JTB condition for the DMT limit holds"),
+        dmt_error=("1", "measured relative error of the DMT limit in 1/kappa_ad", OUTSIDE),
+        **ADHESION_DESCRIBED,
+        **texts,
+    )
+
+
+if __name__ == "__main__":
+    main(start(globals(), "average_adhesive", adhesion="fig4b_rough"))

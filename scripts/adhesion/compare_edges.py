@@ -1,0 +1,156 @@
+"""Full simulation against the model of the edges of contact, at equal area of contact.
+
+Adhesive states are held against the contact without adhesion that has the same area, seed by seed:
+what adhesion takes off the load, over the attraction in the DMT limit, is the effect that
+`stickiness.edge_adhesion` models.
+"""
+
+import numpy as np
+import xarray as xr
+
+from pipeline.adhesion_sets import DESCRIBED as ADHESION_DESCRIBED
+from pipeline.adhesion_sets import LAWS, SOLVER
+from pipeline.conventions import DESCRIBED
+from pipeline.error_budgets import SIMULATED
+from pipeline.job import start
+from stickiness.accuracy import error_laws
+from stickiness.adhesion import dmt, equivalent_sphere
+from stickiness.core import datasets
+from stickiness.core.budget import Part, with_budget
+
+MISSING = (
+    "not resolved, fewer than 100 points of the grid drawn into contact, a window closes, or the "
+    "area is beyond the curve without adhesion"
+)
+# Points of the grid that adhesion must draw into contact for their number to tell an area to 10 %.
+FEWEST_POINTS = 100
+QUOTED = ("effect", "over_model")
+ALONE = ("pixel_area_fraction", "attractive_area")
+NEEDED = ("external_pressure", "repulsive_area", "attraction_dmt", "area_alone")
+
+
+def main(job):
+    averages = datasets.read(job.input.averages, ["dmt_ratio", "q0_h_rms"])
+    q0_h_rms = float(averages.q0_h_rms)
+    files = [
+        (datasets.read(path, NEEDED), datasets.read(alone, ALONE))
+        for path, alone in zip(job.input.realisations, job.input.alone, strict=True)
+    ]
+    coarse, states = (
+        xr.concat([compared(one, alone, q0_h_rms, grid) for one, alone in files], "seed")
+        for grid in (0, -1)
+    )
+    resolved = states.effect.notnull().all("seed") & averages.dmt_ratio.notnull()
+    dataset = states.mean("seed").where(resolved).assign(q0_h_rms=q0_h_rms)
+    dataset = annotated(dataset)
+    for name in QUOTED:
+        dataset = with_budget(dataset, name, **parts(coarse[name], states[name]))
+    datasets.write(
+        dataset,
+        job.output[0],
+        title="attraction at equal area of contact, simulation and model of the edges",
+        parameters=datasets.parameters(averages),
+    )
+
+
+def parts(coarse, fine):
+    """Parts of the budget of a mean over seeds, known on two grids."""
+    change = abs((fine - coarse).mean("seed", skipna=False))
+    error = error_laws.students_t(fine.sizes["seed"]) * fine.std("seed", ddof=1)
+    return {
+        "discretisation": Part(change, "change from half the resolution"),
+        "solver": Part(SOLVER * fine.mean("seed"), "by the tolerance, as measured"),
+        "sampling": Part(error / np.sqrt(fine.sizes["seed"]), "Student's t"),
+        **SIMULATED,
+    }
+
+
+def compared(adhesive, alone, q0_h_rms, grid):
+    """Effect of attraction, measured and modelled, for one realisation on one of its grids."""
+    adhesive = adhesive.isel(resolution=grid, drop=True)
+    strength = adhesive.adhesion_length_over_range / q0_h_rms
+    attractive = adhesive.attraction_dmt / strength
+    load, growth = at_equal_area(adhesive, alone.isel(resolution=-1, drop=True))
+    attractive = attractive * growth
+    t = attractive / adhesive.repulsive_area
+    tau = t.copy(data=np.full(t.shape, np.nan))
+    model = tau.copy(deep=True)
+    known = (t * load).notnull().values & (t > 0).values
+    over_mean_pressure = (strength * adhesive.repulsive_area / load).transpose(*t.dims)
+    at = t.values[known]
+    tau.values[known] = equivalent_sphere.edge_strength(at, over_mean_pressure.values[known])
+    model.values[known] = equivalent_sphere.effect(at, tau.values[known])
+    effect = (load - adhesive.external_pressure) / (strength * attractive)
+    made = datasets.parameters(adhesive)
+    points = (made["grid_points"] * made["refine"]) ** 2
+    drawn_in = (adhesive.repulsive_area - adhesive.area_alone) * points
+    told = drawn_in >= FEWEST_POINTS if grid else drawn_in > 0
+    return xr.Dataset(
+        {
+            "attractive_over_contact": t,
+            "edge_strength": tau,
+            "effect": effect.where(told),
+            "effect_model": model,
+            "over_model": (effect / model).where(told),
+        }
+    )
+
+
+def at_equal_area(adhesive, alone):
+    """Load without adhesion at the area with it, and growth of the attractive area to there.
+
+    Both grids are of whole pixels but not the same, so that relative changes are compared.
+    """
+    logs = np.log(alone.pressure.values), np.log(alone.pixel_area_fraction.values)
+    pressure = adhesive.pressure
+
+    def moved(pressure, ratio):
+        begin = np.interp(np.log(pressure), *logs)
+        return np.exp(np.interp(begin + np.log(ratio), *logs[::-1], right=np.nan))
+
+    ratio = adhesive.repulsive_area / adhesive.area_alone
+    ratio = ratio.where(ratio > 0)
+    load = xr.apply_ufunc(moved, *xr.broadcast(pressure, ratio))
+    load = load / xr.apply_ufunc(moved, pressure, 1.0) * pressure
+    law = datasets.parameters(adhesive)["law"]
+    areas = np.log(attractive_area(alone.attractive_area, adhesive.range_over_h_rms, law))
+    of_loads = areas.assign_coords(pressure=np.log(areas.pressure)).drop_vars(
+        "range", errors="ignore"
+    )
+    # Where the load is unknown, any will do: xarray warns of coordinates that are all missing.
+    reached = of_loads.interp(pressure=np.log(load.fillna(pressure))).where(load.notnull())
+    growth = reached - of_loads.interp(pressure=np.log(pressure))
+    return load, np.exp(growth.drop_vars("pressure", errors="ignore"))
+
+
+def attractive_area(areas, ranges, law):
+    """Attraction over its strength, for a law: an area weighted by the traction."""
+    if law == "maugis":
+        return areas.interp(range=ranges)
+    areas = areas.transpose(..., "range")
+    parts = [
+        areas.isel(range=0, drop=True).copy(
+            data=dmt.attraction_of_areas(
+                areas.values, areas["range"].values, LAWS[law](adhesion_length=reach, range=reach)
+            )
+        )
+        for reach in ranges.values
+    ]
+    return xr.concat(parts, ranges)
+
+
+def annotated(dataset):
+    return datasets.annotate(
+        dataset,
+        pressure=DESCRIBED["pressure"],
+        attractive_over_contact=("1", "attractive over contact area without adhesion", MISSING),
+        edge_strength=("1", "Tabor's parameter of the edges", MISSING),
+        effect=("1", "attraction at equal area of contact over the DMT limit", MISSING),
+        effect_model=("1", "the same by the equivalent sphere", MISSING),
+        over_model=("1", "simulation over model, mean over realisations", MISSING),
+        **ADHESION_DESCRIBED,
+    )
+
+
+if __name__ == "__main__":
+    main(start(globals(), "compare_edges", adhesion="dmt_error"))

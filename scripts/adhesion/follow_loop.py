@@ -1,0 +1,177 @@
+"""Approach and separation of one realisation with adhesion, at a given mean gap and under a press.
+
+At a given mean gap the curve is followed through its turns; under a press, at a given mean
+pressure, it jumps where they are, and ends with the pull-off. Both on the grid of the realisation
+and on every second point of it, which shows what of it is the grid's.
+"""
+
+import logging
+
+import numpy as np
+import xarray as xr
+
+from pipeline.adhesion_sets import DESCRIBED as ADHESION_DESCRIBED
+from pipeline.adhesion_sets import LEAST, scaled_law
+from pipeline.conventions import pixels
+from pipeline.error_budgets import SIMULATED
+from pipeline.job import start
+from stickiness import adhesive
+from stickiness.contact import solver
+from stickiness.core import datasets
+from stickiness.core.budget import Part, unknown, with_budget
+
+CONTROLS = ("mean_gap", "pressure")
+TOLERANCE = 1e-5  # of the residual: far below what the width of a line shows
+# Relative, of pull-offs to this tolerance and to 1e-7 in the target tradeoff: 4e-5 to 4e-4 of six.
+SOLVER = 5e-4
+BALANCE = 0.01  # dissipation of a step over the energies of the curve: jumps are larger
+STEPS = (2, 1)
+MARGIN = 1.2  # ranges of attraction between the summit and the surface where the curve begins
+STATES = {
+    "mean_pressure": "mean pressure over E* q0 h_rms",
+    "mean_gap": "mean gap over h_rms",
+    "repulsive_area_fraction": "area at a gap of zero over nominal area",
+    "net_repulsive_area_fraction": "area at a gap of zero and compressed over nominal area",
+    "adhesive_area_fraction": "area within the range, not in contact, over nominal area",
+    "elastic_energy": "elastic energy per nominal area over E* q0 h_rms^2",
+    "interaction_energy": "energy of the attraction per nominal area over E* q0 h_rms^2",
+    "residual": "unbalanced pressure over the strength or the flattening pressure",
+}
+QUOTED = {
+    "pull_off_pressure": "mean pressure over E* q0 h_rms at which a press lets go",
+    "pull_off_area": "area at a gap of zero over nominal area at pull-off",
+    "lost_share": "energy lost over the work done on the surfaces, at given mean gaps",
+}
+STEPPED = {
+    "separating": "1 on the way back",
+    "jumped": "1 where a jump led here",
+    "work": "work of the control on the way from the state before, per nominal area",
+    "dissipated": "energy lost on the way from the state before, per nominal area",
+}
+
+
+def main(job):
+    surface = datasets.read(job.input.surface, ["height", "window_length"])
+    asked = job.params.loop
+    heights, length = surface.height.values, float(surface.window_length)
+    lengths = np.sort(np.array(asked["adhesion_length_over_range"], dtype=float))
+    curves = {
+        (step, control, value): curve(heights[::step, ::step], length, asked, value, control)
+        for step in STEPS
+        for control in CONTROLS
+        for value in lengths
+    }
+    dataset = annotated(gathered(curves, lengths, pixels(surface)))
+    datasets.write(
+        with_quoted(dataset),
+        job.output[0],
+        title="approach and separation of one realisation with adhesion",
+        parameters={**datasets.parameters(surface), **asked},
+    )
+
+
+def curve(heights, length, asked, adhesion_length_over_range, control):
+    """States from afar to the largest pressure and back, as a list of dictionaries."""
+    law = scaled_law(asked, asked["law"], adhesion_length_over_range, asked["range_over_h_rms"])
+    far = float(heights.max() - heights.mean()) + MARGIN * law.range
+    nearest = solver.solve(heights, length, asked["pressure"], tol=TOLERANCE).mean_gap
+    turns = {
+        "mean_gap": (far, nearest, far),
+        "pressure": (0.0, asked["pressure"], -2 * law.strength),
+    }
+    points = adhesive.path(
+        heights,
+        length,
+        law,
+        turns[control],
+        control=control,
+        tol=TOLERANCE,
+        balance=BALANCE,
+        smallest_jump=BALANCE,
+        steps=LEAST,
+    )
+    rows = []
+    for point in points:
+        state = point.state
+        row = {name: getattr(state, name) for name in STATES}
+        row["separating"] = float(state.branch == "separation")
+        row["jumped"] = float(point.event in ("jump-in", "jump-out"))
+        row["work"], row["dissipated"] = float(point.work or 0), float(point.dissipated or 0)
+        if point.event != "pull-off":  # the last state that held is in the list already
+            rows.append(row)
+        logging.info(
+            "l_a/range %g, %s: p = %.4g, gap %.4g, area %.4f %s",
+            adhesion_length_over_range,
+            state.branch,
+            state.mean_pressure,
+            state.mean_gap,
+            state.repulsive_area_fraction,
+            point.event or "",
+        )
+    return rows
+
+
+def gathered(curves, lengths, finest):
+    """Curves of different lengths as one dataset, filled up with NaN."""
+    longest = max(map(len, curves.values()))
+    shape = len(STEPS), len(CONTROLS), len(lengths), longest
+    values = {name: np.full(shape, np.nan) for name in (*STATES, *STEPPED)}
+    for (step, control, value), rows in curves.items():
+        i, j = CONTROLS.index(control), int(np.flatnonzero(lengths == value)[0])
+        for k, row in enumerate(rows):
+            for name, number in row.items():
+                values[name][STEPS.index(step), i, j, k] = number
+    dims = "resolution", "control", "adhesion_length_over_range", "state"
+    return xr.Dataset(
+        {name: (dims, value) for name, value in values.items()},
+        coords={
+            "resolution": finest / np.array(STEPS),
+            "control": list(CONTROLS),
+            "adhesion_length_over_range": lengths,
+            "state": np.arange(longest),
+        },
+    )
+
+
+def with_quoted(dataset):
+    """What is quoted of the curves, on the fine grid, with its errors."""
+    press, gap = dataset.sel(control="pressure"), dataset.sel(control="mean_gap")
+    last = press.mean_pressure.notnull().sum("state") - 1
+    found = {
+        "pull_off_pressure": press.mean_pressure.isel(state=last),
+        "pull_off_area": press.repulsive_area_fraction.isel(state=last),
+        "lost_share": gap.dissipated.sum("state") / gap.work.where(gap.work > 0).sum("state"),
+    }
+    for name, values in found.items():
+        coarse, fine = (
+            values.isel(resolution=grid).reset_coords(drop=True).drop_vars("state", errors="ignore")
+            for grid in (0, -1)
+        )
+        dataset[name] = fine.assign_attrs(units="1", long_name=QUOTED[name])
+        dataset = with_budget(
+            dataset,
+            name,
+            discretisation=Part(fine - coarse, "change from half the resolution"),
+            solver=Part(SOLVER * fine, "by the tolerance, as measured of pull-offs"),
+            sampling=unknown("a single realisation"),
+            **SIMULATED,
+        )
+    return dataset
+
+
+def annotated(dataset):
+    name = "adhesion_length_over_range"
+    missing = "beyond the end of the curve"
+    texts = {key: ("1", text, missing) for key, text in {**STATES, **STEPPED}.items()}
+    return datasets.annotate(
+        dataset,
+        resolution=("1", "grid points per shortest wavelength"),
+        control=("1", "what is prescribed"),
+        state=("1", "number of the state along the curve"),
+        **{name: ADHESION_DESCRIBED[name]},
+        **texts,
+    )
+
+
+if __name__ == "__main__":
+    main(start(globals(), "follow_loop", loop="fig4a"))

@@ -1,0 +1,129 @@
+"""Bring one realisation into adhesive contact at the mean gaps it has without adhesion.
+
+At a prescribed mean gap the attraction shows whole: in the mean pressure that is left, and in the
+area. A press would jump where the pressure falls on closing. Every state is solved on the grid of
+the realisation and on every second point of it. What the grid does not resolve is left out, and so
+is attraction so strong that the window closes altogether, and where the DMT limit is good enough
+nothing is solved.
+"""
+
+import itertools
+import logging
+
+import numpy as np
+import xarray as xr
+
+from pipeline.adhesion_sets import AXES, MISSING, STRONGEST, axes, closed, roughness, scaled_law
+from pipeline.adhesion_sets import DESCRIBED as ADHESION_DESCRIBED
+from pipeline.conventions import pixels
+from pipeline.job import start
+from stickiness.adhesion import dmt, edge_zone
+from stickiness.contact import solver, subpixel
+from stickiness.core import datasets
+from stickiness.surfaces.synthesis import resample
+
+STATE = {
+    "external_pressure": "mean pressure over E* q0 h_rms",
+    "repulsive_pressure": "repulsive part of the mean pressure over E* q0 h_rms",
+    "attraction": "attractive part of the mean pressure over E* q0 h_rms",
+    "repulsive_area": "area at a gap of zero over nominal area, by pixels",
+    "net_repulsive_area": "area at a gap of zero and compressed over nominal area, by pixels",
+    "attractive_area": "area within the range of attraction, not in contact, over nominal area",
+    "elastic_energy": "elastic energy per nominal area over E* q0 h_rms^2",
+    "interaction_energy": "energy of the attraction per nominal area over E* q0 h_rms^2",
+    "residual": "unbalanced pressure over the strength or the flattening pressure",
+    "iterations": "iterations of conjugate gradients",
+}
+ALONE = {
+    "area_alone": "contact area without adhesion over nominal area, by pixels",
+    "mean_gap": "mean gap over h_rms, the same with and without adhesion",
+    "edge_gap": "gap next to the contact without adhesion over h_rms",
+}
+# Not that of the contact without adhesion: a looser one turns single pixels, and their area is all
+# that weak adhesion changes. It costs a third more than 1e-4.
+TOLERANCE = 1e-7
+
+
+def main(job):
+    surface = datasets.read(job.input.surface, ["height", "window_length", "rms_slope"])
+    asked = job.params.adhesion
+    length, refine = float(surface.window_length), asked.get("refine", 1)
+    heights = resample(surface.height.values, refine * len(surface.height))
+    chosen = combinations(asked, length / len(heights), np.array(job.params.full))
+    solved = [states(heights[::step, ::step], length, asked, chosen) for step in (2, 1)]
+    made = datasets.parameters(surface)
+    finest = refine * pixels(surface)
+    resolution = xr.DataArray([finest / 2, finest], dims="resolution", name="resolution")
+    dataset = xr.concat(solved, resolution, coords="minimal")
+    dataset["rms_slope"] = surface.rms_slope.sel(source="heights", drop=True)
+    datasets.write(
+        annotated(dataset),
+        job.output[0],
+        title="adhesive contact of one realisation at given mean gaps",
+        parameters={
+            **made,
+            "q0_h_rms": roughness(asked),
+            "law": asked["law"],
+            "refine": refine,
+            "pixel": length / len(heights),
+            "strongest": STRONGEST,
+            "coarsest": edge_zone.COARSEST,
+        },
+    )
+
+
+def combinations(asked, pixel, full):
+    """By pressure, the indices (l_a/range, range) to be solved in full that the grid resolves."""
+    _, lengths, ranges = axes(asked)
+    resolved = np.zeros(full.shape[1:], bool)
+    for j, k in np.ndindex(resolved.shape):
+        law = scaled_law(asked, asked["law"], lengths.values[j], ranges.values[k])
+        bent = edge_zone.resolution(pixel, law.range, law.adhesion_length)
+        resolved[j, k] = bent <= edge_zone.COARSEST
+        if full[:, j, k].any() and not resolved[j, k]:
+            logging.info("l_a/range %g, range %g: not resolved", lengths[j], ranges[k])
+    return full & resolved
+
+
+def states(heights, length, asked, chosen, tolerance=TOLERANCE):
+    """Adhesive states on one grid, NaN where there is none, and the attraction in the DMT limit."""
+    pressures, lengths, ranges = axes(asked)
+    values = {name: np.full(chosen.shape, np.nan) for name in (*STATE, "attraction_dmt")}
+    alone = {name: np.empty(len(pressures)) for name in ALONE}
+    path = solver.load_path(heights, length, pressures.values, tol=tolerance)
+    for i, contact in enumerate(path):
+        alone["area_alone"][i] = contact.area_fraction
+        alone["mean_gap"][i] = contact.mean_gap
+        alone["edge_gap"][i] = subpixel.edge_gap(contact.gap)
+        for j, k in itertools.product(range(lengths.size), range(ranges.size)):
+            law = scaled_law(asked, asked["law"], lengths.values[j], ranges.values[k])
+            attraction = dmt.adhesive_pressure(contact.gap, law)
+            values["attraction_dmt"][i, j, k] = attraction
+            if chosen[i, j, k] and attraction <= STRONGEST * contact.mean_pressure:
+                for name, value in closed(heights, length, law, contact, tolerance).items():
+                    values[name][i, j, k] = value
+    return xr.Dataset(
+        {name: (AXES, value) for name, value in values.items()}
+        | {name: ("pressure", value) for name, value in alone.items()},
+        coords={one.name: one for one in (pressures, lengths, ranges)},
+    )
+
+
+def annotated(dataset):
+    return datasets.annotate(
+        dataset,
+        pressure=("1", "mean pressure without adhesion at the same mean gap over E* q0 h_rms"),
+        resolution=("1", "grid points per shortest wavelength"),
+        rms_slope=("1", "rms gradient of this realisation over q0 h_rms"),
+        attraction_dmt=(
+            "1",
+            "attraction over the gaps without adhesion, p_ad/(E* q0 h_rms)",
+        ),
+        **{name: ADHESION_DESCRIBED[name] for name in dataset.dims if name in ADHESION_DESCRIBED},
+        **{name: ("1", text) for name, text in ALONE.items()},
+        **{name: ("1", text, f"DMT limit, or {MISSING}") for name, text in STATE.items()},
+    )
+
+
+if __name__ == "__main__":
+    main(start(globals(), "solve_adhesive", adhesion="fig4b_rough", seed=1))

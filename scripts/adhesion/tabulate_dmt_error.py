@@ -1,0 +1,42 @@
+"""Tabulate how far the DMT limit is from the full solution, for the choice between them."""
+
+import csv
+
+import numpy as np
+
+from pipeline.claims.claim import total_error
+from pipeline.job import start
+from stickiness.adhesion.model_choice import COLUMNS
+from stickiness.core import datasets
+
+
+def main(job):
+    rows = []
+    for path in job.input.adhesive:
+        rows += measured(datasets.read(path, ["dmt_ratio", "dmt_ratio_total_error", "q0_h_rms"]))
+    with datasets.whole_file(job.output[0]) as temporary, temporary.open("w", newline="") as file:
+        writer = csv.writer(file, lineterminator="\n")
+        writer.writerow(COLUMNS)
+        writer.writerows(rows)
+
+
+def measured(data):
+    """Rows of the table for every point that the grid resolves."""
+    made, error = datasets.parameters(data), total_error(data, "dmt_ratio")
+    for index in np.ndindex(data.dmt_ratio.shape):
+        at = dict(zip(data.dmt_ratio.dims, index, strict=True))
+        point, spread = data.isel(at), float(error.isel(at))
+        if np.isfinite(spread):
+            yield (
+                made["law"],
+                made["hurst"],
+                made["magnification"],
+                *(f"{float(point[name]):g}" for name in ("pressure", "range_over_h_rms")),
+                f"{float(point.adhesion_length_over_range / point.q0_h_rms):g}",
+                f"{float(point.dmt_ratio):.4g}",
+                f"{spread:.2g}",
+            )
+
+
+if __name__ == "__main__":
+    main(start(globals(), "tabulate_dmt_error"))

@@ -1,0 +1,37 @@
+"""Keep the gap and pressure fields of one realisation at a few loads, for pictures."""
+
+import numpy as np
+
+from pipeline.fields import fields
+from pipeline.job import start
+from stickiness.contact import solver
+from stickiness.core import datasets
+
+
+def main(job):
+    surface = datasets.read(job.input.surface, ["height", "window_length"])
+    pressures = np.sort(job.params.pressures)
+    contacts = list(
+        solver.load_path(
+            surface.height.values,
+            float(surface.window_length),
+            pressures,
+            tol=job.params.tolerance,
+        )
+    )
+    datasets.write(
+        fields(
+            contacts,
+            pressures,
+            surface,
+            contact_pressure="contact pressure over E* q0 h_rms",
+            residual="complementarity residual over h_rms",
+        ),
+        job.output[0],
+        title="gap and pressure fields of one realisation",
+        parameters={**datasets.parameters(surface), "case": job.wildcards.case},
+    )
+
+
+if __name__ == "__main__":
+    main(start(globals(), "contact_maps", case="H0.8_zeta64"))

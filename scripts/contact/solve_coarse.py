@@ -1,0 +1,43 @@
+"""Coarse contact solutions of many realisations, which correct the mean of a few fine ones.
+
+The seeds begin where those of the fine solutions can never reach. Their surfaces are solved on 2
+pixels per shortest wavelength, as every fine one is too; those of the last and largest set of
+seeds are not solved at all but only described by their long waves.
+"""
+
+import numpy as np
+
+from pipeline.coarse_solutions import annotated, coarse_solutions
+from pipeline.contact_curves import COARSE
+from pipeline.conventions import grid_points, logarithmic_grid
+from pipeline.job import start
+from stickiness.core import datasets
+
+
+def main(job):
+    asked = job.params.surface
+    dataset = coarse_solutions(
+        asked,
+        range(job.params.after, job.params.seeds),
+        job.params.descriptor_seeds,
+        np.sort(job.params.pressures),
+        logarithmic_grid(job.params.gaps),
+        job.params.tolerance,
+    )
+    datasets.write(
+        annotated(dataset),
+        job.output[0],
+        title="coarse contact solutions and long waves of many realisations",
+        parameters={
+            **asked,
+            "case": job.wildcards.case,
+            "tolerance": job.params.tolerance,
+            "largest_residual": float(dataset.residual.max()),
+            "pixels_per_wavelength": COARSE,
+            "grid_points": grid_points(asked, COARSE),
+        },
+    )
+
+
+if __name__ == "__main__":
+    main(start(globals(), "solve_coarse", case="H0.8_zeta64"))

@@ -1,0 +1,67 @@
+"""All realisations of a comparison case in one job: synthesised, pressed and averaged.
+
+For surfaces that only theory is compared with: nothing is kept of the single realisation but its
+areas and gaps.
+"""
+
+import logging
+
+import numpy as np
+import xarray as xr
+
+from contact import solve_coarse, solve_repulsive
+from pipeline.conventions import grid_points, logarithmic_grid, spectrum_of, window_of
+from pipeline.ensembles import annotated, budgeted, renamed, sampled, with_statistics
+from pipeline.job import start
+from stickiness.core import datasets
+from stickiness.surfaces import synthesis
+
+
+def main(job):
+    asked, params = job.params.surface, job.params
+    curves = np.sort(params.pressures), logarithmic_grid(params.gaps), params.tolerance
+    seeds = np.arange(1, params.seeds + 1)
+    fine = xr.concat(
+        [realisation(asked, int(seed), params.pixels_per_wavelength, curves) for seed in seeds],
+        xr.DataArray(seeds, dims="seed", name="seed"),
+    )
+    others = xr.Dataset()
+    if params.coarse_seeds:
+        count = range(params.coarse_seeds), params.descriptor_seeds
+        others = solve_coarse.coarse_solutions(asked, *count, *curves)
+        others = renamed(solve_coarse.annotated(others))
+    dataset = with_statistics(solve_repulsive.annotated(fine), others)
+    parameters = {
+        **asked,
+        "case": job.wildcards.comparison,
+        "seeds": seeds.tolist(),
+        "tolerance": params.tolerance,
+        "largest_residual": float(fine.residual.max()),
+        "pixels_per_wavelength": params.pixels_per_wavelength,
+        "grid_points": grid_points(asked, params.pixels_per_wavelength),
+    }
+    parameters |= sampled(parameters, dataset)
+    datasets.write(
+        budgeted(annotated(dataset), parameters, job.input.laws),
+        job.output[0],
+        title="repulsive contact averaged over realisations",
+        parameters=parameters,
+    )
+
+
+def realisation(asked, seed, pixels_per_wavelength, curves):
+    """Contact of one random surface on all its grids."""
+    logging.info("seed %d", seed)
+    length, n = window_of(asked), grid_points(asked, pixels_per_wavelength)
+    heights = synthesis.synthesise(
+        spectrum_of(asked), n, length, seed, asked.get("amplitudes", "gaussian")
+    )
+    steps = solve_repulsive.steps_of(pixels_per_wavelength)
+    dataset = solve_repulsive.load_curves(heights, length, steps, *curves)
+    waves = asked["magnification"] * asked.get("window", 1.0)
+    dataset["rms_slope"] = synthesis.moments(heights, length).rms_slope
+    return dataset.assign_coords(resolution=n / waves / np.array(steps))
+
+
+if __name__ == "__main__":
+    main(start(globals(), "solve_ensemble", comparison="H0.5_zeta16_4x4"))

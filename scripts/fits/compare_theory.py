@@ -1,0 +1,174 @@
+"""Theory on the lattice spectrum of a case against its simulation, with the errors of both.
+
+Distributions of the gap are compared by the area between the cumulative ones, contact included,
+
+    W1 = int_0^inf |A + int_0^u P du' - the same of theory| du,
+
+which is Wasserstein's distance: the mean length by which gaps would have to be moved to turn one
+distribution into the other. It takes the atom of contact at u = 0 and an infinite P(0) in its
+stride, needs no bins, has a unit, and bounds the difference of mean gaps.
+
+Theory's heights are Gaussian without end, those of a window end at its highest summit. Where theory
+puts the mean gap near or above it, the window holds too few summits to be compared with.
+"""
+
+import numpy as np
+import xarray as xr
+
+from pipeline import theory as theories
+from pipeline.conventions import DESCRIBED, grid_points, spectrum_of, window_of
+from pipeline.ensemble_means import coarse, discretisation_error, ensemble_mean
+from pipeline.grid_limits import EXTRAPOLATION
+from pipeline.job import start
+from stickiness.core import datasets
+from stickiness.core.budget import SOURCES, Part, absent, part, with_budget
+from stickiness.surfaces import synthesis
+
+WINDOWS = 64  # random ones, whose highest summits are averaged
+LONG_WAVES = 64.0  # wave number over q0 beyond which waves add nothing to the highest summit
+MARGIN = 0.75  # over h_rms, of theory's mean gap below the highest summit
+PARTS = ("area_fraction", "attractive_area")  # of the cumulative distribution
+COMPARED = ("area_fraction", "mean_gap", "attractive_area", "gap_density")
+
+
+def main(job):
+    simulated = datasets.read(job.input.ensemble, [f"{name}_mean" for name in COMPARED])
+    theory = datasets.read(job.input.theory, COMPARED)
+    dataset = differences(simulated, theory).merge(distance(simulated, theory))
+    dataset["highest_summit"] = highest_summit(datasets.parameters(simulated))
+    dataset["theory_mean_gap"] = theory.mean_gap
+    holds = theory.mean_gap.isel(variant=0, drop=True) < dataset.highest_summit - MARGIN
+    dataset["window_holds"] = holds.astype("i1")
+    dataset["margin"] = MARGIN
+    datasets.write(
+        budgeted(annotated(dataset), simulated, theory),
+        job.output[0],
+        title="theory on the lattice spectrum against simulation",
+        parameters=datasets.parameters(simulated),
+    )
+
+
+def differences(simulated, theory):
+    """Relative difference of theory from simulation in every quantity."""
+    dataset = xr.Dataset()
+    for name in COMPARED:
+        mean = simulated[f"{name}_mean"].where(simulated[f"{name}_mean"] > 0)
+        dataset[f"{name}_difference"] = theory[name] / mean - 1
+    return dataset
+
+
+def budgeted(dataset, simulated, theory):
+    """Differences with the errors of the simulation: theory's own is what they are."""
+    own = {"model": absent("the difference is that of the model")}
+    for name in COMPARED:
+        mean = f"{name}_mean"
+        scale = theory[name] / simulated[mean].where(simulated[mean] > 0) ** 2
+        parts = {
+            source: Part(scale * part(simulated, mean, source), "of the simulation")
+            for source in SOURCES[:-1]
+        }
+        dataset = with_budget(dataset, f"{name}_difference", **parts, **own)
+    # Student's t, the same for all quantities of an ensemble but for the shares of its levels.
+    factor = part(simulated, "mean_gap_mean", "sampling") / simulated.mean_gap_standard_error
+    solver = [part(simulated, f"{name}_mean", "solver") for name in PARTS]
+    return with_budget(
+        dataset,
+        "distance",
+        discretisation=Part(dataset.distance_discretisation_error, "in the limit of fine grids"),
+        solver=Part(integral(np.hypot(*solver)), "of both areas, by the tolerance"),
+        sampling=Part(factor * dataset.distance_standard_error, "Student's t"),
+        bandwidth=absent("one spectrum for both"),
+        **own,
+    )
+
+
+def distance(simulated, theory):
+    """W1 with its errors, and the W1 that sampling alone would give.
+
+    Contact and gaps next to it trade places: at large gaps errors of the two areas cancel, for
+    together they are all of the surface. So both errors are those of their sum.
+    """
+    mean, sampling = ensemble_mean(cumulative(simulated), coarse(simulated, cumulative))
+    mean = mean + sum(simulated.get(f"{name}_{EXTRAPOLATION}", 0) for name in PARTS)
+    difference = mean - (theory.area_fraction + theory.attractive_area)
+    side = np.sign(difference)
+
+    def moved(solved):
+        """W1 of one realisation, were its distribution on the same side as the mean everywhere."""
+        return integral(side * cumulative(solved))
+
+    return xr.Dataset(
+        {
+            "distance": integral(abs(difference)),
+            "distance_standard_error": ensemble_mean(moved(simulated), coarse(simulated, moved))[1],
+            "distance_discretisation_error": integral(left(simulated)),
+            # Mean modulus of a normal deviate.
+            "distance_floor": np.sqrt(2 / np.pi) * integral(sampling),
+        }
+    )
+
+
+def cumulative(solved):
+    """Share of the surface in contact or with a gap up to the range."""
+    return solved.area_fraction + solved.attractive_area
+
+
+def left(simulated):
+    """Discretisation error of the cumulative distribution.
+
+    Two bounds, the lower of which holds: the errors left in its parts, as if independent, and the
+    change of the sum from half the resolution.
+    """
+    parts = np.hypot(*(simulated[f"{name}_discretisation_error"] for name in PARTS))
+    if simulated.sizes["resolution"] == 1:
+        return parts
+    return np.minimum(parts, discretisation_error(cumulative(simulated)))
+
+
+def integral(values):
+    """Integral over gaps from 0, below the smallest of which the integrand is held constant."""
+    ranges = values["range"].values
+    return values.integrate("range") + values.isel(range=0, drop=True) * ranges[0]
+
+
+def highest_summit(made):
+    """Mean height over h_rms of the highest point of a window."""
+    asked = {**made, "magnification": min(made["magnification"], LONG_WAVES)}
+    spectrum, length, n = spectrum_of(asked), window_of(asked), grid_points(asked, 4)
+    amplitudes = made.get("amplitudes", "gaussian")
+    return float(
+        np.mean(
+            [
+                synthesis.synthesise(spectrum, n, length, seed, amplitudes).max()
+                for seed in range(WINDOWS)
+            ]
+        )
+    )
+
+
+def annotated(dataset):
+    texts = {name: DESCRIBED[name] for name in ("pressure", "range", "gap")}
+    texts["variant"] = theories.DESCRIBED
+    texts["highest_summit"] = ("1", "mean height of a window's highest point over h_rms")
+    texts["theory_mean_gap"] = ("1", "mean gap over h_rms by theory")
+    texts["margin"] = ("1", "least distance of theory's mean gap from the highest summit")
+    texts["window_holds"] = (
+        "1",
+        "1 where theory's mean gap is so far below the highest summit",
+    )
+    for name in COMPARED:
+        text = f"theory over simulation less 1: {DESCRIBED[name][1]}"
+        texts[f"{name}_difference"] = ("1", text, "nothing simulated within the range")
+    text = "area between the cumulative distributions of the gap (Wasserstein distance) over h_rms"
+    unknown = "a single seed"
+    texts |= {
+        "distance": ("1", text),
+        "distance_standard_error": ("1", f"{text}: standard error", unknown),
+        "distance_discretisation_error": ("1", f"{text}: error in the limit of fine grids"),
+        "distance_floor": ("1", f"{text}: mean that sampling errors alone give", unknown),
+    }
+    return datasets.annotate(dataset, **texts)
+
+
+if __name__ == "__main__":
+    main(start(globals(), "compare_theory", compared="H0.8_zeta64"))

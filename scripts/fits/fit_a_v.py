@@ -1,0 +1,134 @@
+"""Fit a_V to attractive areas, of simulation or theory, in every window of the configuration."""
+
+import numpy as np
+import xarray as xr
+
+from pipeline import grid_limits
+from pipeline.ensemble_means import coarse, described, standard_error, with_errors
+from pipeline.error_budgets import (
+    BY_THEORY,
+    MODEL,
+    QUADRATURE,
+    SIMULATED,
+    Simulation,
+    along,
+    theory_error,
+)
+from pipeline.fits import fitted
+from pipeline.job import start
+from stickiness.accuracy import error_laws
+from stickiness.core import datasets
+from stickiness.core.budget import Part, unknown, with_budget
+from stickiness.criteria import a_v_fit
+
+
+def main(job):
+    areas = datasets.read(job.input.areas, ["attractive_area", "pressure"])
+    dataset = fitted(areas, job.params.windows)
+    dataset["exponent"] = local_exponent(areas)
+    if "edge_gap_mean" in areas:
+        resolved = areas["range"] >= areas.edge_gap_mean
+        dataset["exponent"] = dataset.exponent.where(resolved)
+    simulated, laws = "seed" in dataset.a_v.dims, error_laws.read_laws(job.input.laws)
+    if simulated:
+        dataset = averaged(dataset, areas, job.params.windows)
+    dataset = annotated(dataset)
+    datasets.write(
+        of_simulation(dataset, areas, laws) if simulated else of_theory(dataset, areas, laws),
+        job.output[0],
+        title="a_V from attractive areas",
+        parameters={**datasets.parameters(areas), "windows": job.params.windows},
+    )
+
+
+def averaged(dataset, ensemble, windows):
+    """Add mean and errors, with what the attractive areas know of the limit of fine grids."""
+
+    def quantity(solved):
+        return fitted(solved, windows).a_v
+
+    limit = grid_limits.inherited(ensemble, quantity, ["attractive_area"])
+    return with_errors(dataset, "a_v", dataset.a_v, coarse(ensemble, quantity), limit=limit)
+
+
+def of_simulation(dataset, ensemble, laws):
+    """Budgets of the means over the seeds; a window is part of what is asked."""
+    simulation = Simulation.of(laws, datasets.parameters(ensemble))
+    parts = simulation.parts(
+        "a_v",
+        dataset.a_v_mean,
+        dataset.a_v_standard_error,
+        dataset.a_v_discretisation_error,
+        grid_limits.INHERITED,
+    )
+    dataset = with_budget(dataset, "a_v_mean", **parts)
+    solver = along(simulation.solver, "attractive_area", dataset.exponent)
+    factor = simulation.factors("attractive_area", dataset.exponent)
+    limit = grid_limits.inherited(ensemble, local_exponent, ["attractive_area"])
+    seeds = local_exponent(ensemble[["attractive_area", "pressure"]])
+    steps = np.diff(np.log(ensemble["range"].values)).min()
+    return with_budget(
+        dataset,
+        "exponent",
+        discretisation=Part(limit.error, grid_limits.INHERITED),
+        solver=Part(2 * solver / steps, "of neighbouring areas, by the tolerance, as measured"),
+        sampling=Part(factor * standard_error(seeds), "Student's t, of the plain mean of seeds"),
+        **SIMULATED,
+    )
+
+
+def of_theory(dataset, areas, laws):
+    """Budgets of the fits to theory, on a lattice spectrum or on continuous ones."""
+    made = datasets.parameters(areas)
+    like = dataset.a_v.assign_coords(pressure=areas.pressure)
+    model = theory_error(laws, "a_v", like, made if "case" in made else None)
+    quadrature = QUADRATURE["attractive_area"]
+    dataset = with_budget(
+        dataset,
+        "a_v",
+        discretisation=Part(quadrature * dataset.a_v, "of the quadrature, as tested"),
+        model=Part(model * dataset.a_v, MODEL),
+        **BY_THEORY,
+    )
+    steps = np.diff(np.log(areas["range"].values)).min()
+    return with_budget(
+        dataset,
+        "exponent",
+        discretisation=Part(2 * quadrature / steps, "of the quadrature in neighbouring areas"),
+        model=unknown("how theory's error changes with the range is not measured"),
+        **BY_THEORY,
+    )
+
+
+def local_exponent(areas):
+    """Exponent d ln A_ad/d ln(range): 2/3 where P(u) falls as u^(-1/3); of means over seeds."""
+    area = areas.get("attractive_area_mean", areas.attractive_area)
+    ranges = area["range"].values
+    return xr.apply_ufunc(
+        lambda a: a_v_fit.local_exponent(ranges, a) if np.all(a > 0) else np.full(len(a), np.nan),
+        area,
+        input_core_dims=[["range"]],
+        output_core_dims=[["range"]],
+        vectorize=True,
+    )
+
+
+def annotated(dataset):
+    texts = {
+        "a_v": ("1", "a_V, slope of A_ad against (3/2) p (range/h_rms)^(2/3)"),
+        "a_v_fit_error": ("1", "standard error of the fit of a_V within its window"),
+        "window_low": ("1", "low end of the fit window of range/h_rms"),
+        "window_high": ("1", "high end of the fit window of range/h_rms"),
+        "exponent": (
+            "1",
+            "local exponent d ln A_ad/d ln range",
+            "a range that the grid does not resolve, or no area within one of them",
+        ),
+    }
+    if "a_v_mean" in dataset:
+        texts |= described("a_v", "a_V", discretisation=grid_limits.INHERITED)
+    return datasets.annotate(dataset, **texts)
+
+
+if __name__ == "__main__":
+    main(start(globals(), "fit_a_v", source="ensembles", name="H0.8_zeta64"))

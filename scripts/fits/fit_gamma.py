@@ -1,0 +1,209 @@
+"""The gamma of each correction of the theory that agrees best with simulation, and how well.
+
+Cases of one window are made with the same seeds, hence share their long waves, and with these most
+of their deviations (correlations of 0.9 to 1): their errors rise and fall together, and a window is
+drawn with its cases when confidence intervals are taken.
+"""
+
+import numpy as np
+import xarray as xr
+from scipy.interpolate import CubicSpline
+from scipy.optimize import minimize_scalar
+
+from pipeline.conventions import spectrum_of, window_of
+from pipeline.job import start
+from stickiness.core import datasets
+from stickiness.core.budget import COVERS, Part, absent, with_budget
+from stickiness.persson.kernels import CORRECTIONS, correction_of
+from stickiness.persson.theory import Persson
+from stickiness.surfaces.synthesis import lattice_spectrum
+
+GRID = np.geomspace(0.15, 1.0, 16)  # of gamma
+FEW = np.geomspace(0.15, 1.0, 4)  # of gamma, for attractive areas: their logarithms are smooth
+LOADS = (0.065, 0.2)  # over E* q0 h_rms, for attractive areas, which take longest
+RANGES = (0.03, 0.1, 0.3)  # over h_rms, of attractive areas
+QUANTITIES = ("area_fraction", "mean_gap", "attractive_area")
+EVERY = "all"  # the three quantities with equal weights
+CONFIDENCE = 0.95
+DRAWS, SEED = 1000, 1
+
+
+def main(job):
+    cases = [
+        case(datasets.read(ensemble), datasets.read(comparison, ["window_holds"]))
+        for ensemble, comparison in zip(job.input.ensembles, job.input.comparisons, strict=True)
+    ]
+    cases = [deviations for deviations in cases if deviations is not None]
+    windows = [deviations.pop("window") for deviations in cases]
+    draws = sample(np.random.default_rng(SEED), DRAWS, windows)
+    rows = [
+        [fitted(cases, draws, index, quantity) for quantity in (*QUANTITIES, EVERY)]
+        for index in range(len(CORRECTIONS))
+    ]
+    names = ("gamma", "gamma_low", "gamma_high", "spread", "misfit", "misfit_own")
+    dataset = xr.Dataset(
+        {
+            name: (("correction", "quantity"), [[r[i] for r in row] for row in rows])
+            for i, name in enumerate(names)
+        },
+        coords={"correction": list(CORRECTIONS), "quantity": [*QUANTITIES, EVERY]},
+    )
+    dataset["quantities_agree"] = agreement(dataset).astype("i1")
+    dataset["own_gamma"] = "correction", [correction_of(name).gamma for name in CORRECTIONS]
+    datasets.write(
+        budgeted(annotated(dataset.drop_vars("spread")), dataset.spread),
+        job.output[0],
+        title="gamma of the corrections of Persson's theory by simulation",
+        parameters={
+            "cases": len(cases),
+            "ranges": RANGES,
+            "loads": LOADS,
+            "draws": DRAWS,
+            "seed": SEED,
+        },
+    )
+
+
+def case(ensemble, comparison):
+    """Logarithms of theory over simulation, (correction, gamma, point), and their errors (point).
+
+    Loads for which the window holds summits enough.
+    """
+    made = datasets.parameters(ensemble)
+    lattice = lattice_spectrum(spectrum_of(made), window_of(made))
+    ensemble = ensemble.isel(pressure=comparison.window_holds.values == 1)
+    if not ensemble.sizes["pressure"]:
+        return None
+    few = np.unique(ensemble.pressure.sel(pressure=list(LOADS), method="nearest"))
+    theory = {name: [] for name in QUANTITIES}
+    for correction in CORRECTIONS:
+        at = [Persson(lattice, gamma=g, correction=correction) for g in GRID]
+        for name in ("area_fraction", "mean_gap"):
+            values = [getattr(t, name)(ensemble.pressure.values) for t in at]
+            theory[name].append(np.log(values))
+        areas = [attractive(lattice, g, correction, few) for g in FEW]
+        theory["attractive_area"].append(CubicSpline(np.log(FEW), np.log(areas))(np.log(GRID)))
+    found = {name: against(ensemble, name, few, np.array(theory[name])) for name in QUANTITIES}
+    return {**found, "window": made.get("window", 1)}
+
+
+def attractive(lattice, gamma, correction, loads):
+    """Attractive areas at all loads and ranges, one after the other."""
+    theory = Persson(lattice, gamma=gamma, correction=correction, nodes=0.5)
+    return theory.gap_cumulative(np.array(RANGES), loads).ravel()
+
+
+def against(ensemble, name, few, theory):
+    """Logarithms of theory less those of simulation, and the simulation's relative errors."""
+    simulated = ensemble[[f"{name}_mean", f"{name}_mean_total_error"]].transpose("pressure", ...)
+    if "range" in simulated.dims:
+        simulated = simulated.sel(pressure=few).interp({"range": list(RANGES)})
+    mean, error = (part.values.ravel() for part in simulated.values())
+    return theory - np.log(mean), np.nan_to_num(error / COVERS / mean)
+
+
+def sample(rng, count, windows):
+    """Cases drawn, and how many errors each quantity of each is off by.
+
+    Windows are drawn with replacement, then as many cases as there are from theirs. Cases of one
+    window are off together.
+    """
+    names, member = np.unique(windows, return_inverse=True)
+    size = len(windows)
+    chosen = np.empty((count, size), dtype=int)
+    for row in chosen:
+        drawn = rng.integers(len(names), size=len(names))
+        row[:] = rng.choice(np.concatenate([np.flatnonzero(member == w) for w in drawn]), size)
+    off = rng.standard_normal((len(QUANTITIES), count, len(names)))
+    return chosen, np.take_along_axis(off, member[chosen][None], axis=2)
+
+
+def agreement(dataset):
+    """Whether one gamma lies within the intervals of all quantities, for each correction."""
+    each = dataset.sel(quantity=list(QUANTITIES))
+    return each.gamma_low.max("quantity") <= each.gamma_high.min("quantity")
+
+
+def fitted(cases, draws, correction, quantity):
+    """Gamma, the ends of its confidence interval, misfits at it and at the source's own."""
+    names = QUANTITIES if quantity == EVERY else (quantity,)
+    every = np.arange(len(cases))[None]
+    still = every, np.zeros((len(QUANTITIES), *every.shape))
+    as_found, drawn = (
+        np.mean([mean_squares(cases, name, correction, *which) for name in names], axis=0)
+        for which in (still, draws)
+    )
+    curve = CubicSpline(np.log(GRID), as_found[0])
+    best = lowest(curve)
+    gammas = [lowest(CubicSpline(np.log(GRID), row)) for row in drawn]
+    ends = np.quantile(gammas, [0.5 - CONFIDENCE / 2, 0.5 + CONFIDENCE / 2])
+    spread = np.quantile(np.abs(np.array(gammas) - best), 0.9)
+    own = correction_of(CORRECTIONS[correction]).gamma
+    misfits = [np.sqrt(max(float(curve(np.log(gamma))), 0.0)) for gamma in (best, own)]
+    return best, *ends, spread, *misfits
+
+
+def budgeted(dataset, spread):
+    """Gamma with its errors: drawn, and for all quantities together what each asks for."""
+    each = dataset.gamma.sel(quantity=list(QUANTITIES))
+    apart = abs(each - dataset.gamma.sel(quantity=EVERY)).max("quantity")
+    drawn = absent("drawn with the sampling")
+    return with_budget(
+        dataset,
+        "gamma",
+        discretisation=drawn,
+        solver=drawn,
+        sampling=Part(spread, "windows, cases and their errors drawn"),
+        bandwidth=absent("of the spectra simulated"),
+        model=Part(
+            apart.where(dataset.quantity == EVERY, 0.0),
+            f"how far the gammas of single quantities are from that of {EVERY}",
+        ),
+    )
+
+
+def mean_squares(cases, name, correction, chosen, off):
+    """Mean square deviation in one quantity, (draw, gamma), with the errors drawn.
+
+    The points of a case are off together.
+    """
+    tables, errors = zip(*(case[name] for case in cases), strict=True)
+    tables = [table[correction] for table in tables]
+    squares = np.array([np.mean(t**2, axis=1) for t in tables])
+    mixed = np.array([np.mean(t * e, axis=1) for t, e in zip(tables, errors, strict=True)])
+    own = np.array([np.mean(e**2) for e in errors])
+    shift = off[QUANTITIES.index(name)][..., None]
+    moved = squares[chosen] - 2 * shift * mixed[chosen] + shift**2 * own[chosen][..., None]
+    return moved.mean(axis=1)
+
+
+def lowest(curve):
+    """Gamma at the lowest point of a curve over ln gamma, within the grid."""
+    bounds = np.log(GRID[[0, -1]])
+    return float(np.exp(minimize_scalar(curve, bounds=bounds, method="bounded").x))
+
+
+def annotated(dataset):
+    interval = (
+        f"{CONFIDENCE:.0%} confidence interval of gamma, over windows, their cases and errors"
+    )
+    return datasets.annotate(
+        dataset,
+        correction=("1", "correction of the theory"),
+        quantity=("1", f"what is compared; {EVERY}: the three with equal weights"),
+        gamma=("1", "gamma at which theory agrees best with simulation"),
+        gamma_low=("1", f"low end of the {interval}"),
+        gamma_high=("1", f"high end of the {interval}"),
+        misfit=("1", "root mean square of ln(theory/simulation) at the best gamma"),
+        misfit_own=("1", "the same at the gamma of the correction's source"),
+        quantities_agree=(
+            "1",
+            "1 where one gamma lies within the intervals of the three quantities; where 0, that of "
+            f"{EVERY} is a compromise that none of them may hold",
+        ),
+        own_gamma=("1", "gamma of the correction's source"),
+    )
+
+
+if __name__ == "__main__":
+    main(start(globals(), "fit_gamma"))

@@ -1,0 +1,92 @@
+"""kappa_rep = A_rep E* h'_rms/(A_nom p) of a case, load by load and fitted, beside theory's."""
+
+import xarray as xr
+
+from pipeline import grid_limits
+from pipeline.conventions import DESCRIBED, LINEAR_UP_TO
+from pipeline.ensemble_means import coarse, described, with_errors
+from pipeline.error_budgets import BY_THEORY, MODEL, QUADRATURE, Simulation, theory_error
+from pipeline.job import start
+from stickiness.accuracy import error_laws
+from stickiness.core import datasets
+from stickiness.core.budget import ENDINGS, Part, with_budget
+
+
+def main(job):
+    ensemble = datasets.read(job.input.ensemble, ["area_fraction", "rms_slope"])
+    theory = datasets.read(job.input.theory, ["area_fraction", "rms_slope"])
+    dataset = xr.Dataset(
+        {
+            "area_fraction": ensemble.area_fraction_mean,
+            "kappa_theory": theory.area_fraction * theory.rms_slope / theory.pressure,
+        }
+    )
+    for name, quantity in {"kappa": slope, "kappa_fit": fitted_slope}.items():
+        dataset = averaged(dataset, name, quantity, ensemble)
+    laws = error_laws.read_laws(job.input.laws)
+    dataset = budgeted(annotated(dataset), laws, datasets.parameters(ensemble))
+    for ending in ENDINGS:
+        dataset[f"area_fraction{ending}"] = ensemble[f"area_fraction_mean{ending}"]
+    datasets.write(
+        dataset,
+        job.output[0],
+        title="slope of the area-load relation",
+        parameters={**datasets.parameters(ensemble), "linear_up_to": LINEAR_UP_TO},
+    )
+
+
+def averaged(dataset, name, quantity, ensemble):
+    """Add mean and errors of a slope, with what the areas know of the limit of fine grids."""
+    limit = grid_limits.inherited(ensemble, quantity, ["area_fraction"])
+    values, more = quantity(ensemble), coarse(ensemble, quantity)
+    return with_errors(dataset, name, values, more, plain=True, limit=limit)
+
+
+def budgeted(dataset, laws, made):
+    """Every kappa with its errors by source, those of the fit as at the largest of its loads."""
+    simulation, inside = Simulation.of(laws, made), dataset.area_fraction <= LINEAR_UP_TO
+    loads = {"kappa": dataset.pressure, "kappa_fit": dataset.pressure.where(inside).max()}
+    for name, pressure in loads.items():
+        kinds = ("standard_error", "discretisation_error")
+        errors = (dataset[f"{name}_{kind}"] for kind in kinds)
+        value = dataset[name].assign_coords(pressure=pressure)
+        parts = simulation.parts("kappa", value, *errors, grid_limits.INHERITED)
+        dataset = with_budget(dataset, name, **parts)
+    value, quadrature = dataset.kappa_theory, QUADRATURE["area_fraction"]
+    return with_budget(
+        dataset,
+        "kappa_theory",
+        discretisation=Part(quadrature * value, "of the quadrature, as tested"),
+        model=Part(theory_error(laws, "kappa", value, made) * value, MODEL),
+        **BY_THEORY,
+    )
+
+
+def slope(ensemble):
+    """Area h'_rms over pressure, load by load."""
+    return ensemble.area_fraction * ensemble.rms_slope / ensemble.pressure
+
+
+def fitted_slope(ensemble):
+    """Least-squares slope of area h'_rms against pressure through the origin, A <= 30 %."""
+    area = ensemble.area_fraction.where(ensemble.area_fraction <= LINEAR_UP_TO)
+    pressure = ensemble.pressure.where(area.notnull())
+    fitted = (area * pressure).sum("pressure") / (pressure**2).sum("pressure")
+    return fitted * ensemble.rms_slope
+
+
+def annotated(dataset):
+    text = "kappa = A_rep E* h'_rms/(A_nom p)"
+    fit = f"{text}, fitted through the origin up to {LINEAR_UP_TO:.0%} area"
+    return datasets.annotate(
+        dataset,
+        pressure=DESCRIBED["pressure"],
+        area_fraction=DESCRIBED["area_fraction"],
+        kappa_theory=("1", f"{text} by Persson's theory on the lattice spectrum"),
+        **described("kappa", text, plain=True, discretisation=grid_limits.INHERITED),
+        **described("kappa_fit", fit, plain=True, discretisation=grid_limits.INHERITED),
+    )
+
+
+if __name__ == "__main__":
+    main(start(globals(), "fit_kappa", case="H0.8_zeta64"))

@@ -1,0 +1,210 @@
+"""Table of a_V with its error: theory, what other theories say, and what simulation says of it."""
+
+import numpy as np
+import xarray as xr
+
+from pipeline.job import start
+from stickiness.core import datasets
+from stickiness.core.budget import COVERS, ENDINGS, Part, absent, unknown, with_budget
+
+SMALLEST_RANGE = 0.01  # over h_rms; below, simulated areas are extrapolated on most grids
+PER_DECADE = 4  # simulated ranges
+QUOTED = ("a_v", "a_v_limit", "edge_a_v")
+THEORY = (
+    *QUOTED,
+    *(f"{name}{ending}" for name in QUOTED for ending in ENDINGS),
+    "edge_range",
+    "quadrature_error",
+)
+
+
+def main(job):
+    theory = datasets.read(job.input.theory, THEORY)
+    comparisons = [
+        datasets.read(path, ["attractive_area_difference", "window_holds"])
+        for path in job.input.comparisons
+    ]
+    dataset = theory[list(THEORY)].isel(variant=0, drop=True).merge(reach(theory))
+    dataset = dataset.merge(simulated(comparisons))
+    datasets.write(
+        budgeted(annotated(dataset)),
+        job.output[0],
+        title="a_V as a function of Hurst exponent, magnification, load and range, with its error",
+        parameters={
+            **datasets.parameters(theory),
+            "variants": [str(name) for name in theory.variant.values],
+            "cases": [datasets.parameters(comparison)["case"] for comparison in comparisons],
+        },
+    )
+
+
+def reach(theory):
+    """How far other variants and corrections reach below and above the quoted theory."""
+    parts = {}
+    for name, ending in (("a_v", ""), ("a_v_limit", "_limit")):
+        logs = np.log(theory[name]) - np.log(theory[name].isel(variant=0))
+        parts[f"theory_below{ending}"] = -logs.min("variant")
+        parts[f"theory_above{ending}"] = logs.max("variant")
+    return xr.Dataset(parts)
+
+
+def simulated(comparisons):
+    """Ratio of simulation to theory at every range, smooth in load and magnification.
+
+    ln ratio = parabola in ln p + trend log2(zeta/largest zeta), fitted at each range over all cases
+    and loads, each case with the same say however many loads it has. The ratio is that at the
+    largest magnification. Cases differ by more than their errors, by Hurst exponent and window: a
+    variance between them (a random effect, by moments) enters weights and error, the latter that of
+    a further case. It adds what leaving out one case after the other changes (jackknife), and the
+    cases' own errors, not taken to average out, for grids err to one side in all of them.
+    """
+    points = collected(comparisons)
+    loads = np.unique(points.pressure)
+    between = scatter(points)
+    error = np.hypot(points.error, between)
+    largest = float(points.magnification.max())
+    mean, trend = fitted(points, error, loads, largest)
+    say = 1 / (error**2 * points.sharing)
+    common = (say * points.error**2).sum("point") / say.sum("point")
+    spread = np.hypot(between, jackknife(points, error, loads, largest))
+    # Towards smaller ranges: what a decade of simulated ones changes.
+    change = mean.sel(range=10 * SMALLEST_RANGE, method="nearest") - mean.isel(range=0)
+    found = xr.Dataset(
+        {
+            "simulation_ratio": np.exp(mean),
+            "simulation_error": np.sqrt(spread**2 + common),
+            "simulation_trend": trend,
+            "smallest_magnification": points.magnification.min(),
+            "largest_magnification": largest,
+            "extrapolation_error": np.sqrt((change**2).mean()),
+        }
+    )
+    return found.rename({"pressure": "simulated_pressure", "range": "simulated_range"})
+
+
+def collected(comparisons):
+    """Logarithms of the ratio and their errors at every load of every case that is known."""
+    parts = []
+    for case, comparison in enumerate(comparisons):
+        logs, errors = log_ratio(comparison)
+        part = xr.Dataset({"log": logs, "error": errors}).rename(pressure="point")
+        part = part.dropna("point")
+        part["case"] = "point", np.full(part.sizes["point"], case)
+        part["sharing"] = "point", np.full(part.sizes["point"], part.sizes["point"])
+        zeta = float(datasets.parameters(comparison)["magnification"])
+        part["magnification"] = "point", np.full(part.sizes["point"], zeta)
+        part["pressure"] = "point", part.point.values
+        parts.append(part.drop_vars("point"))
+    points = xr.concat(parts, "point").transpose("point", "range")
+    if not points.sizes["point"]:
+        raise ValueError(
+            "no load of any case has a window that holds summits enough to compare theory with; "
+            "add larger windows or higher pressures to cases or comparisons"
+        )
+    return points
+
+
+def fitted(points, error, loads, largest):
+    """Log ratio at the magnification `largest` and `loads`, and its change per doubling of it."""
+    degree = min(2, len(np.unique(points.pressure)) - 1)
+    several = len(np.unique(points.magnification)) > 1
+
+    def terms(load, zeta):
+        powers = np.log(load / loads[-1])[:, None] ** np.arange(degree + 1)
+        return np.column_stack([powers, np.log2(zeta / largest)]) if several else powers
+
+    matrix = terms(points.pressure.values, points.magnification.values)
+    root = 1 / np.maximum(error * np.sqrt(points.sharing), 1e-9).values
+    found = np.transpose(
+        [
+            np.linalg.lstsq(matrix * w[:, None], y * w, rcond=None)[0]
+            for w, y in zip(root.T, points.log.values.T, strict=True)
+        ]
+    )
+    coords = {"pressure": loads, "range": points["range"].values}
+    mean = terms(loads, np.full(len(loads), largest)) @ found
+    trend = found[-1] if several else np.zeros(found.shape[1])
+    return (
+        xr.DataArray(mean, coords, ("pressure", "range")),
+        xr.DataArray(trend, {"range": coords["range"]}, ("range",)),
+    )
+
+
+def scatter(points):
+    """Standard deviation between cases at each range, what their errors explain taken away."""
+    loads = np.unique(points.pressure)
+    largest = float(points.magnification.max())
+    mean, trend = fitted(points, xr.ones_like(points.error), loads, largest)
+    doublings = np.log2(points.magnification / largest)
+    left = points.log - mean.sel(pressure=points.pressure).drop_vars("pressure") - trend * doublings
+    squares, explained = (
+        (part**2).groupby(points.case).mean().mean("case") for part in (left, points.error)
+    )
+    count = len(np.unique(points.case))
+    spent = 1 + (len(np.unique(points.magnification)) > 1)
+    return np.sqrt(np.maximum(squares * count / max(count - spent, 1) - explained, 0))
+
+
+def jackknife(points, error, loads, largest):
+    """Standard error of the fit, by leaving out one case after the other."""
+    cases = np.unique(points.case)
+    if len(cases) == 1:
+        return 0.0
+    means = []
+    for case in cases:
+        kept = (points.case != case).values
+        rest = points.isel(point=kept), error.isel(point=kept)
+        means.append(fitted(*rest, loads, largest)[0])
+    return np.sqrt((len(cases) - 1) * xr.concat(means, "case").var("case"))
+
+
+def log_ratio(comparison):
+    """Logarithm of simulation over theory and its error, where the window is large enough."""
+    quoted = comparison.isel(variant=0, drop=True)
+    decades = -np.log10(SMALLEST_RANGE)
+    ranges = np.geomspace(SMALLEST_RANGE, 1, round(decades * PER_DECADE) + 1)
+    quoted = quoted.interp({"range": ranges}).where(quoted.window_holds == 1)
+    over = 1 + quoted.attractive_area_difference
+    return -np.log(over), quoted.attractive_area_difference_total_error / COVERS / over
+
+
+def budgeted(dataset):
+    """The ratio to simulation with its error, which the errors of all cases are in together."""
+    error = COVERS * dataset.simulation_error * dataset.simulation_ratio
+    return with_budget(
+        dataset,
+        "simulation_ratio",
+        discretisation=absent("counted with the sampling"),
+        solver=absent("counted with the sampling"),
+        sampling=Part(error, "of a further surface, the errors of the cases included"),
+        bandwidth=unknown("the trend beyond the largest magnification is not simulated"),
+        model=absent("simulation over theory is what is quoted"),
+    )
+
+
+def annotated(dataset):
+    theory = "a_V by theory"
+    texts = {
+        "a_v": ("1", f"{theory}; to be held constant below edge_range"),
+        "a_v_limit": ("1", f"{theory} in the limit of infinite magnification"),
+        "simulated_pressure": ("1", "mean pressure over E* q0 h_rms of simulations"),
+        "simulated_range": ("1", "range of attraction over h_rms of simulations"),
+        "simulation_ratio": ("1", "simulation over theory at the largest magnification simulated"),
+        "simulation_error": ("1", "standard relative error of this ratio for a further surface"),
+        "simulation_trend": ("1", "change of ln of this ratio per doubling of the magnification"),
+        "smallest_magnification": ("1", "smallest magnification simulated"),
+        "largest_magnification": ("1", "largest magnification simulated"),
+        "extrapolation_error": (
+            "1",
+            "standard relative error that a decade below the simulated ranges adds",
+        ),
+    }
+    for name in ("theory_below", "theory_above"):
+        side = name.removeprefix("theory_")
+        text = f"ln of how far other variants and corrections of the theory are {side} the quoted"
+        texts |= {name: ("1", text), f"{name}_limit": ("1", f"{text}, infinite magnification")}
+    return datasets.annotate(dataset, **texts)
+
+
+if __name__ == "__main__":
+    main(start(globals(), "tabulate_a_v"))

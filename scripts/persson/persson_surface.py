@@ -1,0 +1,117 @@
+"""Theory's attractive area on the spectrum of a real surface, as an a_V at every range."""
+
+import numpy as np
+import xarray as xr
+
+from pipeline.conventions import DESCRIBED, VARIANT, logarithmic_grid
+from pipeline.error_budgets import BY_THEORY, QUADRATURE, theory_error
+from pipeline.job import start
+from stickiness import criteria
+from stickiness.accuracy import error_laws
+from stickiness.core import datasets
+from stickiness.core.budget import Part, with_budget
+from stickiness.criteria.a_v_table import edge_range, local_a_v
+from stickiness.persson.theory import Persson
+from stickiness.surfaces.spectrum import Tabulated
+
+VARIANTS = ("afferrante2018", "almqvist2011")  # P(0) infinite and finite: limits on the truth
+NEEDED = ("psd", "hurst", "q0", "q1", "rms_slope", "rms_curvature")
+EDGE_LAW = "pastewka_robbins"  # independent estimate of what the edges alone give
+
+
+def main(job):
+    surface = datasets.read(job.input.surface, NEEDED)
+    ranges = logarithmic_grid(job.params.ranges)
+    load, gamma = job.params.pressure, job.params.gamma
+    names, a_v, edge = a_v_of(surface, -1, ranges, load, gamma)
+    if not same_shape(surface):
+        # The law beyond the instrument's band is known with an error, which is that of a_V too.
+        more, other, _ = a_v_of(surface, 0, ranges, load, gamma)
+        names, a_v = [*names, *(f"{name}, smooth end" for name in more)], [*a_v, *other]
+    dataset = xr.Dataset(
+        {"a_v": (("variant", "range"), a_v), "edge_range": edge},
+        coords={"variant": names, "range": ranges},
+    )
+    dataset = datasets.annotate(
+        dataset,
+        variant=("1", "variant of the theory, or the edge law below the edge range"),
+        range=DESCRIBED["range"],
+        a_v=("1", "a_V = A_ad/((3/2) p (range/h_rms)^(2/3)), constant below the edge range"),
+        edge_range=("1", "range over h_rms below which the edge law takes over from theory"),
+    )
+    datasets.write(
+        budgeted(dataset, surface, load, error_laws.read_laws(job.input.laws)),
+        job.output[0],
+        title="a_V by Persson's theory on the spectrum of a real surface",
+        parameters={**datasets.parameters(surface), "pressure": load, "gamma": gamma},
+    )
+
+
+def budgeted(dataset, surface, load, laws):
+    """The quoted a_V with its errors: as measured, or how far the others are if that is more."""
+    a_v = dataset.a_v.assign_coords(
+        pressure=load,
+        hurst=float(surface.hurst),
+        magnification=float(surface.q1 / surface.q0),
+    )
+    spread = abs(a_v - a_v.sel(variant=VARIANT)).max("variant")
+    model = theory_error(laws, "attractive_area", a_v) * a_v
+    return with_budget(
+        dataset,
+        "a_v",
+        discretisation=Part(QUADRATURE["attractive_area"] * a_v, "of the quadrature, as tested"),
+        model=Part(
+            np.maximum(model, spread),
+            f"of {VARIANT} as measured, or how far the others are if that is more; of others not "
+            "measured",
+        ),
+        **BY_THEORY,
+    )
+
+
+def a_v_of(surface, end, ranges, load, gamma):
+    """a_V by every variant and by the edge law on one end of a surface, and the edge range.
+
+    Below the edge range theory is held constant, with the edge law as the other limit.
+    """
+    spectrum = spectrum_of(surface, end)
+    pressure = load * float(surface.q0) * spectrum.h_rms
+    resolved = [
+        local_a_v(
+            Persson(spectrum, variant=variant, gamma=gamma).gap_cumulative(
+                ranges * spectrum.h_rms, pressure
+            ),
+            load,
+            ranges,
+        )
+        for variant in VARIANTS
+    ]
+    edge = edge_range(ranges, *resolved)
+    at_edge = np.exp(np.interp(np.log(edge), np.log(ranges), np.log(resolved[0])))
+    a_v = [np.where(ranges < edge, at_edge, a) for a in resolved]
+    a_v.append(np.where(ranges < edge, edge_a_v(surface, end), a_v[0]))
+    return [*VARIANTS, EDGE_LAW], a_v, edge
+
+
+def same_shape(surface):
+    """Whether both ends differ by a factor only, which drops out of a_V."""
+    ratio = surface.psd.isel(end=0) / surface.psd.isel(end=-1)
+    return bool(np.ptp(ratio.values) < 1e-6 * ratio.values.max())
+
+
+def edge_a_v(surface, end):
+    """a_V equivalent to Pastewka and Robbins' attractive area, from slope and curvature."""
+    known = surface.isel(end=end)
+    moments = (float(known[name]) for name in ("h_rms", "rms_slope", "rms_curvature"))
+    return criteria.pastewka_robbins_a_v(float(surface.q0), *moments)
+
+
+def spectrum_of(surface, end=-1):
+    """Spectrum of one end of the surface, up to q1."""
+    inside = surface.wave_number <= float(surface.q1) * (1 + 1e-9)
+    known = surface.isel(end=end, wave_number=np.flatnonzero(inside))
+    return Tabulated(known.wave_number.values, known.psd.values)
+
+
+if __name__ == "__main__":
+    main(start(globals(), "persson_surface", real_surface="asphalt"))

@@ -1,0 +1,159 @@
+"""Theory's a_V over Hurst exponent, load, range and magnification, up to an infinite one."""
+
+import logging
+from itertools import product
+
+import numpy as np
+import xarray as xr
+
+from pipeline.conventions import DESCRIBED, VARIANT, logarithmic_grid, spectrum_of
+from pipeline.error_budgets import BY_THEORY, MODEL, theory_error
+from pipeline.job import start
+from pipeline.theory import DESCRIBED as DESCRIBED_THEORY
+from pipeline.theory import theories
+from stickiness import criteria
+from stickiness.accuracy import error_laws
+from stickiness.core import datasets
+from stickiness.core.budget import Part, absent, unknown, with_budget
+from stickiness.criteria.a_v_table import edge_range, local_a_v
+from stickiness.persson.theory import Persson
+
+OTHER_VARIANT = "almqvist2011"
+# There the area within the smallest range of contact, the contact included, has converged to 1e-5
+# for H from 0.3 to 1; contact itself vanishes, be it as slowly as 1/sqrt(ln zeta) for H = 1.
+INFINITE = 1e36
+NODES = 0.5  # of the quadrature, in units of the library's; `quadrature_error` says what it costs
+REFERENCE_NODES = 1.0
+
+
+def main(job):
+    asked, gamma = job.params.table, job.params.gamma
+    ranges = logarithmic_grid(asked["range"])
+    named = theories((VARIANT, OTHER_VARIANT), gamma)
+    names, options = list(named), list(named.values())
+    axes = {
+        "hurst": np.array(asked["hurst"], dtype=float),
+        "magnification": np.array(asked["magnification"], dtype=float),
+        "pressure": np.array(asked["pressure"], dtype=float),
+    }
+    dataset = finite(axes, ranges, options).merge(infinite(axes, ranges, options))
+    dataset["quadrature_error"] = quadrature_error(axes, ranges, gamma)
+    dataset = annotated(dataset.assign_coords(variant=names, range=ranges))
+    datasets.write(
+        budgeted(dataset, error_laws.read_laws(job.input.laws)),
+        job.output[0],
+        title="a_V by Persson's theory on self-affine spectra",
+        parameters={**asked, "gamma": gamma, "quoted": names[0]},
+    )
+
+
+def finite(axes, ranges, options):
+    """a_V, edge range and the estimate of Pastewka and Robbins, at every magnification."""
+    shape = tuple(map(len, axes.values()))
+    a_v = np.empty((len(options), *shape, len(ranges)))
+    edge, robbins = np.empty(shape), np.empty(shape[:2])
+    for (i, hurst), (j, magnification) in product(
+        enumerate(axes["hurst"]), enumerate(axes["magnification"])
+    ):
+        spectrum = self_affine(hurst, magnification)
+        a_v[:, i, j] = a_v_of(spectrum, axes["pressure"], ranges, options)
+        edge[i, j] = [edge_range(ranges, *pair) for pair in zip(*a_v[:2, i, j], strict=True)]
+        robbins[i, j] = criteria.pastewka_robbins_a_v(
+            1.0, 1.0, spectrum.rms_slope, spectrum.rms_curvature
+        )
+        logging.info("H = %g, zeta = %g", hurst, magnification)
+    data = {
+        "a_v": (("variant", *axes, "range"), a_v),
+        "edge_range": (tuple(axes), edge),
+        "edge_a_v": (("hurst", "magnification"), robbins),
+    }
+    return xr.Dataset(data, coords=axes)
+
+
+def infinite(axes, ranges, options):
+    """a_V in the limit of infinite magnification.
+
+    There contact vanishes and all that was contact lies within the range: with the contact, the
+    area converges far sooner.
+    """
+    rows = [
+        a_v_of(self_affine(hurst, INFINITE), axes["pressure"], ranges, options, contact=True)
+        for hurst in axes["hurst"]
+    ]
+    dims = ("variant", "hurst", "pressure", "range")
+    return xr.Dataset({"a_v_limit": (dims, np.stack(rows, axis=1))})
+
+
+def a_v_of(spectrum, pressures, ranges, options, contact=False, nodes=NODES):
+    """a_V, (variant, pressure, range), with or without the contact itself."""
+    rows = []
+    for chosen in options:
+        theory = Persson(spectrum, nodes=nodes, **chosen)
+        area = theory.gap_cumulative(ranges, pressures)
+        if contact:
+            area = area + theory.area_fraction(pressures)[:, None]
+        rows.append(local_a_v(area, pressures[:, None], ranges))
+    return np.array(rows)
+
+
+def quadrature_error(axes, ranges, gamma):
+    """Largest relative change from more nodes, at the ends of the table and for infinite zeta."""
+    ends = [axes["hurst"][[0, -1]], [*axes["magnification"][[0, -1]], INFINITE]]
+    quoted = [{"variant": VARIANT, "gamma": gamma}]
+    pressures, changes = axes["pressure"][[0, -1]], []
+    for hurst, magnification in product(*ends):
+        spectrum = self_affine(hurst, magnification)
+        few, many = (
+            a_v_of(spectrum, pressures, ranges, quoted, nodes=nodes)
+            for nodes in (NODES, REFERENCE_NODES)
+        )
+        changes.append(np.abs(few / many - 1).max())
+    return max(changes)
+
+
+def budgeted(dataset, laws):
+    """a_V with its errors, as large as those of the attractive area, and the edges' estimate."""
+    limit = dataset.a_v_limit.assign_coords(magnification=np.inf)
+    for name, value in {"a_v": dataset.a_v, "a_v_limit": limit}.items():
+        model = theory_error(laws, "attractive_area", value) * value
+        dataset = with_budget(
+            dataset,
+            name,
+            discretisation=Part(dataset.quadrature_error * value, "of the quadrature, the largest"),
+            model=Part(model, MODEL),
+            **BY_THEORY,
+        )
+    closed = absent("a closed form")
+    return with_budget(
+        dataset,
+        "edge_a_v",
+        discretisation=closed,
+        solver=closed,
+        sampling=closed,
+        bandwidth=BY_THEORY["bandwidth"],
+        model=unknown("another estimate of what edges give"),
+    )
+
+
+def self_affine(hurst, magnification):
+    return spectrum_of({"hurst": hurst, "magnification": magnification})
+
+
+def annotated(dataset):
+    return datasets.annotate(
+        dataset,
+        variant=DESCRIBED_THEORY,
+        hurst=("1", "Hurst exponent"),
+        magnification=("1", "magnification q1/q0"),
+        pressure=DESCRIBED["pressure"],
+        range=DESCRIBED["range"],
+        a_v=("1", "a_V = A_ad/((3/2) p (range/h_rms)^(2/3)); of no meaning below edge_range"),
+        a_v_limit=("1", "a_V in the limit of infinite magnification"),
+        edge_range=("1", "range over h_rms below which theory does not resolve edges of contact"),
+        edge_a_v=("1", "a_V below the edge range by Pastewka and Robbins' attractive area"),
+        quadrature_error=("1", "largest relative error of a_V by the quadrature"),
+    )
+
+
+if __name__ == "__main__":
+    main(start(globals(), "persson_table"))

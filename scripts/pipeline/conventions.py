@@ -1,0 +1,79 @@
+"""Names shared by the scripts of simulation and theory: surfaces, gaps and what is measured."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+from scipy.fft import next_fast_len
+
+from stickiness.core import datasets
+from stickiness.surfaces.spectrum import SelfAffine
+
+# Dimensionless units of every model surface: q0 = 1, h_rms = 1, E* = 1, so that pressures come
+# out in units of E* q0 h_rms.
+Q0 = 1.0
+
+VARIANT = "afferrante2018"  # of the theory, where one is quoted
+LOAD = 0.065  # over E* q0 h_rms, the load of the paper's Figures 3A and 3C
+GAPS_MEASURED = (0.01, 1.0)  # over h_rms, between which the trade measures the error of P(u)
+LINEAR_UP_TO = 0.3  # area fraction up to which the paper calls the area linear in load
+
+DESCRIBED = {
+    "pressure": ("1", "mean pressure over E* q0 h_rms"),
+    "range": ("1", "range of attraction over h_rms"),
+    "gap": ("1", "gap over h_rms"),
+    "area_fraction": ("1", "repulsive contact area over nominal area"),
+    "mean_gap": ("1", "mean gap over h_rms"),
+    "attractive_area": ("1", "area with gaps between 0 and the range, over nominal area"),
+    "gap_density": ("1", "probability density of the gap, times h_rms"),
+}
+
+
+def spectrum_of(surface: Mapping[str, Any]) -> SelfAffine:
+    """Spectrum of a model surface of the configuration, in units of q0 and h_rms."""
+    rolloff = surface.get("rolloff")
+    return SelfAffine(
+        hurst=surface["hurst"],
+        q0=Q0,
+        q1=Q0 * surface["magnification"],
+        h_rms=1.0,
+        q_rolloff=None if rolloff is None else Q0 * rolloff,
+    )
+
+
+def window_of(surface: Mapping[str, Any]) -> float:
+    """Side of a model surface's window, in units of 1/q0."""
+    return surface.get("window", 1.0) * 2 * np.pi / Q0
+
+
+def logarithmic_grid(grid: Mapping[str, float] | None) -> NDArray:
+    """Points from `minimum` to `maximum` with about `per_decade` a decade; none of None."""
+    if grid is None:
+        return np.array([])
+    decades = np.log10(grid["maximum"] / grid["minimum"])
+    return np.geomspace(grid["minimum"], grid["maximum"], round(decades * grid["per_decade"]) + 1)
+
+
+def pixels(surface: xr.Dataset) -> float:
+    """Grid points per shortest wavelength of a surface's file, as realised by the grid."""
+    made = datasets.parameters(surface)
+    return made["grid_points"] / (made["magnification"] * made.get("window", 1.0))
+
+
+def middles(edges: NDArray) -> NDArray:
+    """Geometric middles of neighbouring points."""
+    return np.sqrt(edges[1:] * edges[:-1])
+
+
+def grid_points(asked, pixels_per_wavelength):
+    """Number of grid points, good for the FFT, with at least the pixels asked for.
+
+    A multiple of the even number that does so for 2 pixels, so that the coarser grids of the
+    solutions are part of it.
+    """
+    waves = asked["magnification"] * asked.get("window", 1.0)
+    return pixels_per_wavelength * next_fast_len(int(np.ceil(waves - 1e-9)), real=True)

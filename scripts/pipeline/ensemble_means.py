@@ -1,0 +1,166 @@
+"""Mean and errors of quantities with the dimensions `seed` and `resolution`.
+
+A mean stands for the whole ensemble of surfaces that the case's window can hold, Gaussian unless
+the case says otherwise. It is the plain one over the seeds, or if there are coarse solutions of
+many more seeds the multilevel one of `stickiness.sampling`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+import xarray as xr
+
+from stickiness.accuracy import multilevel
+
+SUFFIXES = {
+    "mean": "ensemble mean",
+    "standard_error": "standard error of the ensemble mean",
+    "discretisation_error": "change from half the resolution",
+}
+FEWEST = 8  # seeds from which on a slope fitted to them is better than none
+PREFIX = "coarse_"  # of what an ensemble's file keeps of coarse solutions, and of their seeds
+
+
+@dataclass(frozen=True)
+class Coarse:
+    """A quantity of seeds that are solved on the coarsest grid alone, and their long waves.
+
+    Attributes
+    ----------
+    values : xarray.DataArray
+        With the dimension `seed` and no `resolution`.
+    controls, elsewhere : xarray.DataArray
+        Descriptors of these seeds and of many more.
+    twin : xarray.DataArray, optional
+        The same of the seeds of the mean; by default those values themselves, on the coarsest
+        grid. One of its own may be another model, not in proportion to the values: its
+        coefficient is then a slope, and it needs `FEWEST` seeds.
+    """
+
+    values: xr.DataArray
+    controls: xr.DataArray
+    elsewhere: xr.DataArray
+    twin: xr.DataArray | None = None
+
+
+def coarse(ensemble: xr.Dataset, quantity: Callable[[xr.Dataset], xr.DataArray]) -> Coarse | None:
+    """A quantity of the coarse solutions of an ensemble; None if it has none.
+
+    Parameters
+    ----------
+    ensemble
+        As `average_ensemble` makes it, or anything with variables of the same names.
+    quantity
+        The quantity by the variables of the fine solutions, say ``area_fraction``; here it gets
+        those of the coarse ones under the same names.
+    """
+    if f"{PREFIX}seed" not in ensemble.dims:
+        return None
+    names = [name for name in ensemble.data_vars if name.startswith(PREFIX)]
+    names = {name: name.removeprefix(PREFIX) for name in (*names, f"{PREFIX}seed")}
+    solved = ensemble[list(names)].rename(names)
+    return Coarse(quantity(solved), ensemble.long_waves, ensemble.other_long_waves)
+
+
+def mean(values):
+    """Plain mean over seeds on the fine grid."""
+    return fine(values).mean("seed")
+
+
+def standard_error(values):
+    """Sampling error of the plain mean on the fine grid; NaN for a single seed."""
+    return scatter(fine(values))
+
+
+def discretisation_error(values):
+    """Discretisation error of the mean, from the change between the coarse and the fine grid.
+
+    The mean change and its own standard error in quadrature, so that changes of either sign do
+    not cancel to nothing. With an error that falls at least in proportion to the pixel size, the
+    change bounds what is left.
+    """
+    change = values.diff("resolution").isel(resolution=-1, drop=True)
+    bias = change.mean("seed")
+    return np.hypot(bias, scatter(change).fillna(0))
+
+
+def ensemble_mean(values, more=None):
+    """Mean over the ensemble and its standard error, with `more` solutions on the coarsest grid.
+
+    Plain without them, for a single seed, and in entries that are not finite in every seed.
+    """
+    plain = mean(values), standard_error(values)
+    count = values.sizes["seed"]
+    if more is None or count == 1 or (more.twin is not None and count < FEWEST):
+        return plain
+    few = fine(values).transpose("seed", ...)
+    own = more.twin is None
+    twin = values.isel(resolution=0, drop=True) if own else more.twin
+    twin = twin.transpose(*few.dims)
+    many = more.values.transpose(*few.dims)
+    finite = np.all([np.isfinite(part).all("seed").values for part in (few, twin, many)], axis=0)
+    solved = (np.where(finite, part.values, 0.0) for part in (few, twin, many))
+    slopes = {} if own else {"fewest": FEWEST}
+    estimate = multilevel.multilevel_mean(
+        *solved, more.controls.values, more.elsewhere.values, **slopes
+    )
+    return tuple(
+        of_seeds.copy(data=np.where(finite, better, of_seeds.values))
+        for better, of_seeds in zip(
+            (estimate.mean, estimate.standard_error),
+            (part.transpose(*few.dims[1:]) for part in plain),
+            strict=True,
+        )
+    )
+
+
+def with_errors(dataset, name, values, more=None, plain=False, limit=None):
+    """Add mean, standard error and discretisation error of `values` to a dataset.
+
+    They are called ``NAME_mean``, ``NAME_standard_error`` and ``NAME_discretisation_error``; with
+    `plain` the mean is just ``NAME``. `more` is the same of coarse solutions, see `coarse`.
+    With a `limit`, a `_limits.Limit`, the mean is that in the limit of fine grids and the
+    discretisation error the one that is left, instead of the change from half the resolution.
+    """
+    best, error = ensemble_mean(values, more)
+    if limit is not None:
+        best = best + limit.shift
+    left = discretisation_error(values) if limit is None else limit.error
+    return dataset.assign(
+        {
+            name if plain else f"{name}_mean": best,
+            f"{name}_standard_error": error,
+            f"{name}_discretisation_error": left.transpose(*best.dims),
+        }
+    )
+
+
+def described(name, text, plain=False, units="1", discretisation=None):
+    """Texts for `datasets.annotate` of what `with_errors` adds.
+
+    `discretisation` says what the discretisation error is, if not the change from half the
+    resolution.
+    """
+    suffixes = SUFFIXES | ({"discretisation_error": discretisation} if discretisation else {})
+    texts = {
+        f"{name}_{suffix}": (units, f"{text}: {meaning}") for suffix, meaning in suffixes.items()
+    }
+    texts[f"{name}_standard_error"] += ("a single seed",)
+    if plain:
+        texts[name] = (units, text)
+        del texts[f"{name}_mean"]
+    return texts
+
+
+def fine(values):
+    return values.isel(resolution=-1, drop=True)
+
+
+def scatter(values):
+    count = values.sizes["seed"]
+    if count == 1:
+        return values.mean("seed") * np.nan
+    return values.std("seed", ddof=1) / np.sqrt(count)

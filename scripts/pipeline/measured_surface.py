@@ -1,0 +1,237 @@
+"""Measured surfaces: files to one spectrum with its law, moments and their errors, as a dataset."""
+
+import logging
+from dataclasses import fields
+
+import numpy as np
+import xarray as xr
+
+from pipeline.numbers import quantity
+from stickiness.config import checks
+from stickiness.core.units import si
+from stickiness.measured import (
+    instrument_spectrum,
+    self_affine_fit,
+    spectrum_draws,
+    stitching,
+    topography,
+)
+
+ENDS = ["smooth", "rough"]
+LEVELS = (0.16, 0.84)  # of the ends: one standard error
+DRAWS, SEED = 200, 1
+REFERENCE_HURST = 0.8  # of the paper's lines C0 = 1e-3 and 1e-5 m^0.4
+POINTS_PER_DECADE = 10
+PICTURE = 400  # points a side of the picture of the heights
+READING = (
+    "length",
+    "pixel_size",
+    "height_unit",
+    "position_unit",
+    "variable",
+    "channel",
+    "format",
+    "missing_value",
+    "missing",
+    "max_missing",
+    "missing_rim",
+)
+
+
+def analyse(asked):
+    """Dataset of a measured surface as the configuration asks for it."""
+    every = [one for _, one in checks.measurements(asked)]
+    heights = [read(one).detrended(one.get("detrend", "plane")) for one in every]
+    spectra = [
+        instrument_spectrum.analyse(h, one.get("window", "hann"), limits(one))
+        for h, one in zip(heights, every, strict=True)
+    ]
+    stitched = stitching.stitch(spectra) if len(spectra) > 1 else None
+    spectrum = stitched.spectrum if stitched else spectra[0]
+    extend_to = 2 * np.pi / si(asked["extend_to"], "m") if "extend_to" in asked else None
+    drawn = spectrum_draws.draw(spectrum, DRAWS, SEED, stitched=stitched, extend_to=extend_to)
+    dataset = of_spectrum(spectrum, extend_to)
+    dataset = dataset.merge(of_draws(drawn)).merge(of_heights(heights[0]))
+    if stitched:
+        dataset = dataset.merge(of_stitching(stitched))
+    remarks = [
+        *self_affine_fit.remarks(spectrum.fit, np.nan_to_num(spectrum.anisotropy)),
+        *of_files(heights),
+        *of_limits(spectrum, extend_to),
+        *of_offsets(stitched),
+    ]
+    for remark in remarks:
+        logging.info(remark)
+    return dataset.assign(
+        h_rms_measured=heights[0].h_rms,
+        missing_fraction=max(h.missing_fraction for h in heights),
+        dropped_points=sum(h.dropped for h in heights),
+        cropped_fraction=max(getattr(h, "cropped", 0.0) for h in heights),
+    ).assign_attrs(
+        remarks="; ".join(remarks),
+        cutoff=spectrum.cutoff.reason,
+        files="; ".join(h.source for h in heights),
+    )
+
+
+def read(one):
+    if one["file"] == "builtin:jacksboro":
+        return topography.jacksboro()
+    return topography.read(one["file"], **{key: one[key] for key in READING if key in one})
+
+
+def limits(one):
+    """What the configuration says of an instrument's limits."""
+    names = [field.name for field in fields(instrument_spectrum.Limits) if field.name != "detect"]
+    lengths = {name: si(one[name], "m") for name in names if name in one}
+    return instrument_spectrum.Limits(**lengths, detect=one.get("cutoff", "detect") == "detect")
+
+
+def of_spectrum(spectrum, extend_to):
+    """Spectrum, law and the line at the paper's exponent; carried on by the law if asked for."""
+    fit, rings = spectrum.fit, spectrum.rings
+    line = fit.c0_at_hurst(REFERENCE_HURST)
+    q, psd, error = rings.q, rings.psd, rings.standard_error
+    psd = [psd, psd]
+    top = spectrum.cutoff.q
+    if extend_to is not None:
+        inside = q <= top * (1 + 1e-9)
+        count = int(np.ceil(np.log10(extend_to / top) * POINTS_PER_DECADE)) + 1
+        more = np.geomspace(top, extend_to, count)[0 if q[inside][-1] < top * 0.99 else 1 :]
+        q = np.append(q[inside], more)
+        spread = law_error(fit, more)
+        psd = [np.append(rings.psd[inside], fit.psd(more) * np.exp(s * spread)) for s in (-1, 1)]
+        error = np.append(error[inside], fit.psd(more) * spread)
+    fitted = (q >= fit.q_min * (1 - 1e-9)) & (q <= fit.q_max * (1 + 1e-9))
+    dataset = xr.Dataset(
+        {
+            "psd": (("end", "wave_number"), psd),
+            "psd_standard_error": ("wave_number", error),
+            "psd_fit": ("wave_number", fit.psd(q)),
+            "fitted": ("wave_number", fitted.astype("i1")),
+            "C0": ("end", fit.c0 * np.ones(2)),
+            "C0_relative_error": fit.c0_se / fit.c0,
+            "C0_reference": line.c0,
+            "C0_reference_standard_error": line.c0_se,
+            "C0_reference_upper": ("end", [line.upper, line.upper]),
+            "hurst": fit.hurst,
+            "hurst_standard_error": fit.hurst_se,
+            "misfit": fit.misfit,
+            "q0": fit.q_rolloff or spectrum.lowest,
+            "q1": top if extend_to is None else extend_to,
+            "q_cutoff": top,
+            "cutoff_detected": int(spectrum.cutoff.detected),
+        },
+        coords={"end": ENDS, "wave_number": q},
+    )
+    if np.isfinite(spectrum.anisotropy):
+        dataset["anisotropy"] = spectrum.anisotropy
+    if fit.q_rolloff is not None:
+        dataset["q_rolloff"] = fit.q_rolloff
+        dataset["q_rolloff_standard_error"] = fit.q_rolloff_se
+    return dataset
+
+
+def law_error(fit, q):
+    """Standard error of ln C under the law at wave numbers beyond the plateau."""
+    design = np.array([np.ones_like(q), -2 * np.log(q)])
+    return np.sqrt(np.einsum("in,ij,jn->n", design, fit.log_covariance[:2, :2], design))
+
+
+def of_draws(drawn):
+    """Both ends of every moment, and the draws themselves for what depends on several."""
+    ends = {
+        name: ("end", values)
+        for name in drawn.moments
+        for values in [drawn.quantiles(name, LEVELS)]
+    }
+    draws = {f"{name}_draws": ("draw", values) for name, values in drawn.moments.items()}
+    return xr.Dataset(
+        ends | draws | {"q0_draws": ("draw", drawn.q0)},
+        coords={"end": ENDS, "draw": np.arange(len(drawn.q0))},
+    )
+
+
+def of_heights(heights):
+    """The levelled heights of the first measurement, thinned to what a picture shows."""
+    if heights.heights.ndim == 1:
+        x = np.arange(len(heights.heights)) * heights.dx
+        return xr.Dataset({"profile": ("x", heights.heights)}, coords={"x": x})
+    thin = max(1, *(n // PICTURE for n in heights.heights.shape))
+    picture = heights.heights[::thin, ::thin]
+    x, y = (
+        np.arange(n) * thin * d
+        for n, d in zip(picture.shape, (heights.dx, heights.dy), strict=True)
+    )
+    return xr.Dataset({"heights": (("x", "y"), picture.astype("f4"))}, coords={"x": x, "y": y})
+
+
+def of_stitching(stitched):
+    """Spectrum of every measurement by itself, and what separates them."""
+    return xr.Dataset(
+        {
+            "psd_measurement": (("measurement", "wave_number_measured"), stitched.levels),
+            "offset": ("measurement", stitched.offsets),
+            "scatter": stitched.scatter,
+        },
+        coords={
+            "measurement": np.arange(len(stitched.offsets)),
+            "wave_number_measured": stitched.spectrum.rings.q,
+        },
+    )
+
+
+def of_files(heights):
+    """Remarks on what was missing."""
+    found = []
+    for one in heights:
+        if getattr(one, "cropped", 0):
+            found.append(f"{one.cropped:.0%} of {one.source} cut off to leave no missing points")
+        if one.dropped:
+            found.append(
+                f"{one.dropped} points of {one.source} beside missing ones were measured and are "
+                "not used (missing_rim)"
+            )
+        if one.missing:
+            found.append(
+                f"{one.missing_fraction:.1%} of the points of {one.source} were missing and are "
+                "interpolated, smoother than the surface"
+            )
+        if one.heights.ndim == 1:
+            found.append(f"{one.source} is a line profile: isotropy is assumed, not seen")
+    return found
+
+
+def of_limits(spectrum, extend_to):
+    """Remarks on the ends of the spectrum."""
+    found, fit = [], spectrum.fit
+    if fit.q_rolloff is None:
+        found.append(
+            f"no roll-off was found below wavelengths of {wavelength(fit.q_min)}, and longer "
+            "ones cannot show one: q0 is that of the scan, not of the surface"
+        )
+    shortest = f"{wavelength(spectrum.cutoff.q)} ({spectrum.cutoff.reason})"
+    if extend_to is None:
+        found.append(f"waves shorter than {shortest} are not part of slope, curvature and a_V")
+    else:
+        found.append(
+            f"waves shorter than {shortest} follow the fitted law down to "
+            f"{wavelength(extend_to)}: carried on, not measured"
+        )
+    return found
+
+
+def wavelength(q):
+    return quantity(2 * np.pi / q, 2 * np.pi / q, "m")
+
+
+def of_offsets(stitched):
+    """Remarks on how well several measurements agree."""
+    if stitched is None:
+        return []
+    if np.isnan(stitched.scatter):
+        return ["no two measurements overlap: whether they agree in height cannot be told"]
+    return [
+        f"{len(stitched.offsets)} measurements stitched, which differ by a factor of "
+        f"{np.exp(stitched.scatter):.2f} in C (standard deviation)"
+    ]

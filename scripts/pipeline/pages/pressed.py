@@ -1,0 +1,72 @@
+"""What the contact of the measured heights themselves says, for the page of their surface."""
+
+import numpy as np
+
+from pipeline.conventions import LOAD
+from pipeline.numbers import NOTHING, interval, number, with_error
+from stickiness.adhesion import equivalent_sphere
+
+RANGE = 0.03  # over h_rms, amid the window of the fits
+WAYS = {"taper": "tapered", "mirror": "mirrored"}
+
+
+def loads(bem):
+    """One row a load: area and a_V both ways, their error, and theory on the same heights."""
+    rows = []
+    for pressure in bem.pressure.values:
+        at = bem.sel(pressure=pressure).interp({"range": RANGE})
+        rows.append(
+            {
+                "pressure": number(float(pressure)),
+                "area": compared(at, "area_fraction", "theory_area_fraction"),
+                "a_v": compared(at, "a_v", "theory_a_v"),
+            }
+        )
+    return rows
+
+
+def compared(at, name, theory):
+    """Simulation with all its errors, its two ways, and theory, as texts."""
+    value, error = with_all_errors(at[name])
+    return {
+        "value": with_error(value, error),
+        "ways": ", ".join(
+            f"{WAYS[way]} {number(float(at[name].sel(periodisation=way).isel(resolution=-1)), 2)}"
+            for way in map(str, at.periodisation.values)
+        ),
+        "theory": interval(*sorted(map(float, at[theory].values)), 2),
+    }
+
+
+def with_all_errors(values):
+    """Mean of both ways; half their difference and the change from half resolution as its error."""
+    fine = values.isel(resolution=-1)
+    change = values.diff("resolution").isel(resolution=-1).mean("periodisation")
+    return float(fine.mean()), float(np.hypot(np.ptp(fine.values) / 2, change))
+
+
+def pair(bem, solid, surface):
+    """a_V of a material's range on the pressed heights, and the margin that follows.
+
+    Both are a dash where the range lies outside the gaps computed; the margin is also where the
+    range is below the gap of the pixels next to the contact, which the grid does not resolve.
+    """
+    at = bem.sel(pressure=LOAD, method="nearest")
+    h = float(np.sqrt(np.prod(surface.h_rms.values)))
+    ratio = solid.range / h
+    ranges = at["range"].values
+    if not ranges[0] <= ratio <= ranges[-1]:
+        return {"range": number(ratio, 2), "a_v": NOTHING, "margin": NOTHING, "resolved": False}
+    value, error = with_all_errors(at.a_v.interp({"range": ratio}))
+    resolved = ratio >= float(at.edge_gap.isel(resolution=-1).max())
+    length = solid.work_of_adhesion / solid.modulus
+    limits = [max(value - error, 0.01 * value), value + error]
+    slope = float(np.sqrt(np.prod(surface.rms_slope.values)))
+    found = equivalent_sphere.attraction(h, float(surface.q0), slope, length, solid.range, limits)
+    margins = found.ratio * found.error_factor ** np.array([-1.0, 1.0])
+    return {
+        "range": number(ratio, 2),
+        "a_v": with_error(value, error),
+        "margin": interval(*map(float, margins), 2) if resolved else NOTHING,
+        "resolved": resolved,
+    }

@@ -1,0 +1,1 @@
+"""What accuracy costs: studies of every setting and the error models fitted to them."""

@@ -1,0 +1,1 @@
+"""What a verdict on a pair of material and surface rests on."""

@@ -1,0 +1,80 @@
+"""Materials of the configuration in SI units."""
+
+from dataclasses import dataclass
+
+from stickiness.core.units import si
+from stickiness.criteria.moduli import REFERENCE_FREQUENCY, Constant, Modulus, Prony, Table
+
+RATE_KEYS = ("youngs_modulus_table", "youngs_modulus_prony")
+
+
+@dataclass(frozen=True)
+class Material:
+    """Pair of a solid and a rigid rough counterface.
+
+    Attributes
+    ----------
+    plane_strain : Modulus
+        E* [Pa] against the frequency.
+    work_of_adhesion : float
+        [J/m^2].
+    range : float
+        Of the attraction [m].
+    depends_on_rate : bool
+        Whether the modulus is more than a constant.
+    """
+
+    plane_strain: Modulus
+    work_of_adhesion: float
+    range: float
+    depends_on_rate: bool
+
+    @property
+    def modulus(self):
+        """E* at the reference frequency of 1 Hz [Pa]."""
+        return float(self.plane_strain.storage(REFERENCE_FREQUENCY))
+
+
+def material(entry):
+    """`Material` from its entry in the configuration."""
+    return Material(
+        plane_strain=plane_strain(entry),
+        work_of_adhesion=si(entry["work_of_adhesion"], "J/m^2"),
+        range=si(entry["range"], "m"),
+        depends_on_rate=any(key in entry for key in RATE_KEYS),
+    )
+
+
+def plane_strain(entry):
+    """Modulus E* = E/(1 - nu^2) as a function of the frequency."""
+    if "plane_strain_modulus" in entry:
+        return Constant(si(entry["plane_strain_modulus"], "Pa"))
+    factor = 1 / (1 - entry["poisson_ratio"] ** 2)
+    if "youngs_modulus_table" in entry:
+        pairs = entry["youngs_modulus_table"]
+        return Table(
+            tuple(si(frequency, "Hz") for frequency, _ in pairs),
+            tuple(factor * si(modulus, "Pa") for _, modulus in pairs),
+        )
+    if "youngs_modulus_prony" in entry:
+        series = entry["youngs_modulus_prony"]
+        return Prony(
+            factor * si(series["equilibrium"], "Pa"),
+            tuple((factor * si(modulus, "Pa"), si(time, "s")) for modulus, time in series["terms"]),
+        )
+    return Constant(factor * si(entry["youngs_modulus"], "Pa"))
+
+
+def modulus_text(entry):
+    """Modulus as the configuration states it, in a few words."""
+    if "plane_strain_modulus" in entry:
+        return f"E* = {entry['plane_strain_modulus']}"
+    if "youngs_modulus_table" in entry:
+        pairs = entry["youngs_modulus_table"]
+        text = f"E′ = {pairs[0][1]} at {pairs[0][0]} … {pairs[-1][1]} at {pairs[-1][0]}"
+    elif "youngs_modulus_prony" in entry:
+        series = entry["youngs_modulus_prony"]
+        text = f"E = {series['equilibrium']} at rest, {len(series['terms'])} Prony terms"
+    else:
+        text = f"E = {entry['youngs_modulus']}"
+    return f"{text}, ν = {entry['poisson_ratio']}"

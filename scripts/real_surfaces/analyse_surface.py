@@ -1,0 +1,167 @@
+"""Spectrum and moments of a real surface, given by parameters or by a measured topography.
+
+Both kinds end in the same variables, so that criteria need not know which it was: a smooth and a
+rough end of what is known of the surface, each with its moments.
+"""
+
+import numpy as np
+import xarray as xr
+
+from pipeline import measured_surface
+from pipeline.job import start
+from pipeline.measured_surface import ENDS, POINTS_PER_DECADE, REFERENCE_HURST
+from stickiness.core import datasets
+from stickiness.core.budget import COVERS, Part, absent, with_budget
+from stickiness.core.units import si
+from stickiness.surfaces.spectrum import SelfAffine
+
+DESCRIBED = {
+    "end": ("1", "smooth or rough end of what is known of the surface"),
+    "wave_number": ("1/m", "wave number"),
+    "psd": ("m^4", "power spectral density C, h_rms^2 = 2 pi int q C dq"),
+    "psd_standard_error": ("m^4", "sampling error of the power spectral density"),
+    "psd_fit": ("m^4", "fitted self-affine spectrum"),
+    "fitted": ("1", "1 where the wave number is within the range of the fit"),
+    "h_rms": ("m", "rms height"),
+    "h_rms_measured": ("m", "rms height of the levelled heights, without a window"),
+    "rms_slope": ("1", "rms gradient, of waves up to q1"),
+    "rms_curvature": ("1/m", "rms Laplacian, of waves up to q1"),
+    "elastic_energy": ("m", "elastic energy of full contact per area over E*"),
+    "draw": ("1", "spectra drawn that agree with the measured one"),
+    "h_rms_draws": ("m", "rms height of every draw"),
+    "rms_slope_draws": ("1", "rms gradient of every draw"),
+    "rms_curvature_draws": ("1/m", "rms Laplacian of every draw"),
+    "elastic_energy_draws": ("m", "elastic energy of full contact per area over E*, every draw"),
+    "q0_draws": ("1/m", "lowest wave number of the self-affine range of every draw"),
+    "hurst": ("1", "Hurst exponent"),
+    "C0_relative_error": ("1", "relative standard error of C0"),
+    "q_rolloff": ("1/m", "end of the plateau"),
+    "misfit": ("1", "departure of the spectrum from the fit beyond sampling noise"),
+    "q0": ("1/m", "lowest wave number of the self-affine range"),
+    "q1": ("1/m", "highest wave number"),
+    "q_cutoff": ("1/m", "highest wave number that the instrument resolves"),
+    "cutoff_detected": ("1", "1 if that was found in the data rather than given or by default"),
+    "anisotropy": ("1", "amplitude of the spectrum's dependence on direction, cos 2 phi"),
+    "missing_fraction": ("1", "share of points that were missing or dropped, and interpolated"),
+    "dropped_points": ("1", "points measured beside missing ones, not used"),
+    "cropped_fraction": ("1", "share of points cut off to leave no missing ones"),
+    "x": ("m", "position along x"),
+    "y": ("m", "position along y"),
+    "heights": ("m", "levelled heights of the first measurement, thinned"),
+    "profile": ("m", "levelled heights of the first measurement"),
+    "measurement": ("1", "measurement of the surface, as listed"),
+    "wave_number_measured": ("1/m", "wave number of the rings of the measurements"),
+    "psd_measurement": ("m^4", "power spectral density of each measurement", "outside its band"),
+    "offset": ("1", "ln C of a measurement less the stitched one", "overlaps with no other"),
+    "scatter": ("1", "standard deviation of the offsets", "no two measurements overlap"),
+}
+
+
+# Quoted numbers, and the standard errors of those that were fitted.
+ERRORS = {
+    "hurst": "hurst_standard_error",
+    "C0_reference": "C0_reference_standard_error",
+    "q_rolloff": "q_rolloff_standard_error",
+}
+
+
+def main(job):
+    asked = job.params.surface
+    dataset = measured_surface.analyse(asked) if asked["kind"] == "measured" else self_affine(asked)
+    datasets.write(
+        annotated(dataset),
+        job.output[0],
+        title=f"spectrum of a real surface: {asked['label']}",
+        parameters={"surface": job.wildcards.real_surface, **asked},
+    )
+
+
+def self_affine(asked):
+    """Both ends of the range of a parametric surface."""
+    spectra = [spectrum_of(asked, end) for end in (0, -1)]
+    q = np.geomspace(spectra[0].q0, spectra[0].q1, points(spectra[0].magnification))
+    dataset = moments_of(spectra, [s.h_rms for s in spectra])
+    dataset["psd"] = (("end", "wave_number"), [s.psd(q) for s in spectra])
+    dataset["C0"] = ("end", [s.C0 for s in spectra])
+    line = [(s.psd(q) * q ** (2 * REFERENCE_HURST + 2)).max() for s in spectra]
+    dataset["C0_reference_upper"] = ("end", line)
+    return dataset.assign(
+        hurst=asked["hurst"],
+        q0=spectra[0].q0 if spectra[0].q_rolloff is None else spectra[0].q_rolloff,
+        q1=spectra[0].q1,
+    ).assign_coords(wave_number=q)
+
+
+def spectrum_of(asked, end):
+    def bound(key, unit):
+        value = asked[key]
+        return si(value[end] if isinstance(value, list) else value, unit)
+
+    hurst = asked["hurst"]
+    size = {"h_rms": bound("h_rms", "m")} if "h_rms" in asked else {}
+    if "C0" in asked:
+        size["C0"] = bound("C0", f"m^{2 - 2 * hurst:g}")
+    return SelfAffine(
+        hurst=hurst,
+        q0=wave_number(asked, "q0", "longest_wavelength"),
+        q1=wave_number(asked, "q1", "shortest_wavelength"),
+        q_rolloff=wave_number(asked, "", "rolloff_wavelength"),
+        **size,
+    )
+
+
+def wave_number(asked, key, wavelength):
+    if key in asked:
+        return si(asked[key], "1/m")
+    return 2 * np.pi / si(asked[wavelength], "m") if wavelength in asked else None
+
+
+def moments_of(spectra, h_rms):
+    return xr.Dataset(
+        {
+            "h_rms": ("end", h_rms),
+            "rms_slope": ("end", [s.rms_slope for s in spectra]),
+            "rms_curvature": ("end", [s.rms_curvature for s in spectra]),
+            "elastic_energy": ("end", [s.elastic_energy() for s in spectra]),
+        },
+        coords={"end": ENDS},
+    )
+
+
+def points(magnification):
+    return int(np.ceil(POINTS_PER_DECADE * np.log10(magnification))) + 2
+
+
+def budgeted(dataset, errors):
+    """Quoted parameters with their errors; what has two ends is known between these."""
+    given, band = absent("given in the configuration"), absent("of the band that was fitted")
+    for name, error in ERRORS.items():
+        if name not in dataset:
+            continue
+        fitted = error in errors
+        parts = dict.fromkeys(("discretisation", "solver", "bandwidth"), band if fitted else given)
+        parts |= {"sampling": given, "model": given}
+        if fitted:
+            parts["sampling"] = Part(COVERS * errors[error], "of the spectrum measured")
+            parts["model"] = absent("the law is what is quoted; its misfit stands beside")
+        dataset = with_budget(dataset, name, **parts)
+    return dataset
+
+
+def annotated(dataset):
+    errors = {name: dataset[name] for name in ERRORS.values() if name in dataset}
+    dataset = dataset.drop_vars(errors)
+    exponent = 2 - 2 * float(dataset.hurst)
+    reference = f"m^{2 - 2 * REFERENCE_HURST:g}"
+    prefactor = f"m^{exponent:.4g}"
+    texts = DESCRIBED | {
+        "C0": (prefactor, "prefactor of C = C0 q^(-2(H+1))"),
+        "C0_reference": (reference, f"prefactor of the line fitted at H = {REFERENCE_HURST}"),
+        "C0_reference_upper": (reference, f"largest C q^(2(H+1)) at H = {REFERENCE_HURST}"),
+    }
+    present = {name: text for name, text in texts.items() if name in dataset.variables}
+    return budgeted(datasets.annotate(dataset, **present), errors)
+
+
+if __name__ == "__main__":
+    main(start(globals(), "analyse_surface", real_surface="jacksboro"))

@@ -1,0 +1,163 @@
+"""A page of one surface: its picture and spectrum, what is known of it, its verdicts and why."""
+
+from pathlib import Path
+
+import numpy as np
+
+from pipeline.conventions import LOAD
+from pipeline.job import start
+from pipeline.numbers import NOTHING, interval, number, percent, quantity, with_error
+from pipeline.pages import captions, pressed
+from pipeline.pages.reasons import reasons
+from pipeline.pages.style import save
+from pipeline.pages.surface_figure import drawn
+from pipeline.pages.surface_texts import reference_prefactor, rms_height, rms_slope
+from pipeline.pages.verdict_texts import ends, pair_texts
+from pipeline.verdicts.materials import material, modulus_text
+from stickiness.core import datasets
+from stickiness.core.budget import COVERS
+from stickiness.criteria.moduli import crossings
+
+CAPTION = """Heights, levelled (of the first measurement), and spectrum: rings with their sampling
+error, the self-affine law where it was fitted, the instrument's cutoff, the end of the plateau with
+its error if there is one, and the paper's lines. Grey: the law carried on beyond the instrument,
+with its error. If moduli depend on the rate, the margin against the frequency, between its limits.
+"""
+
+
+def main(job):
+    surface = datasets.read(job.input.surface, ["psd", "hurst", "q0", "q1"])
+    verdicts = datasets.read(job.input.verdicts, ["margin", "verdict", "probability"])
+    pairs = verdicts.sel(surface=job.wildcards.real_surface)
+    save(drawn(surface, pairs), [job.output.figure])
+    page = render(
+        job.input.template,
+        job.output.page,
+        files={
+            "surface": job.input.surface,
+            "verdicts": job.input.verdicts,
+            "pressed": job.input.pressed[0] if job.input.pressed else "",
+        },
+        surface=surface,
+        pairs=pairs,
+        materials=datasets.parameters(verdicts)["materials"],
+        figure=captions.figure(job.output.figure, CAPTION),
+        bem=datasets.read(job.input.pressed[0], ["a_v"]) if job.input.pressed else None,
+    )
+    with datasets.whole_file(job.output.page) as path:
+        path.write_text(page, encoding="utf-8")
+
+
+def render(template, page, *, files, surface, pairs, materials, figure, bem=None):
+    """The page as text, with links to the files behind it from where it will lie."""
+    made = datasets.parameters(surface)
+    return captions.template_of(template, page).render(
+        files_of=files,
+        report=Path(page).parents[1] / "report.html",
+        label=made["label"],
+        kind=made["kind"].replace("_", "-"),
+        source=made.get("source", ""),
+        figure=figure,
+        known=known(surface),
+        remarks=[t for t in (*surface.attrs.get("remarks", "").split("; "), made.get("note")) if t],
+        measured=[t for t in surface.attrs.get("files", "").split("; ") if t],
+        loads=pressed.loads(bem) if bem is not None else [],
+        load=number(LOAD),
+        pressed=[
+            {
+                "material": materials[name]["label"],
+                **pressed.pair(bem, material(materials[name]), surface),
+            }
+            for name in map(str, pairs.material.values)
+            if bem is not None
+        ],
+        verdicts=[
+            verdict(pairs.sel(material=name), surface, materials[name])
+            for name in map(str, pairs.material.values)
+        ],
+    )
+
+
+def known(surface):
+    """Parameters of the surface with their errors, as pairs of name and text."""
+    rows = [
+        ("Hurst exponent H", with_error(float(surface.hurst), float(surface.hurst_total_error))),
+        (f"C0 [{surface.C0.attrs['units']}]", prefactor(surface)),
+        (
+            f"C0 at H = 0.8 [{surface.C0_reference_upper.attrs['units']}]",
+            reference_prefactor(surface),
+        ),
+        ("rms height", rms_height(surface)),
+        ("rms slope", rms_slope(surface)),
+        ("q0 [1/m]", lowest(surface)),
+        ("roll-off", roll_off(surface)),
+        ("q1 [1/m]", number(float(surface.q1))),
+    ]
+    if "q_cutoff" in surface:
+        wavelength = 2 * np.pi / float(surface.q_cutoff)
+        text = f"{quantity(wavelength, wavelength, 'm')}: {surface.attrs['cutoff']}"
+        rows.append(("shortest wavelength of the instrument", text))
+        rows.append(("missing points, interpolated", percent(float(surface.missing_fraction))))
+        rows.append(("dropped beside missing points", f"{int(surface.dropped_points)} points"))
+        rows.append(("cut off for missing points", percent(float(surface.cropped_fraction))))
+    if "anisotropy" in surface:
+        rows.append(("dependence on direction, 0 … 2", number(float(surface.anisotropy), 2)))
+    if "scatter" in surface:
+        rows.append(("factor between measurements in C", number(np.exp(float(surface.scatter)), 3)))
+    return rows
+
+
+def lowest(surface):
+    """Wave number q0, of a roll-off with its error."""
+    if "q_rolloff" in surface:
+        return with_error(float(surface.q0), float(surface.q_rolloff_total_error))
+    return number(float(surface.q0))
+
+
+def prefactor(surface):
+    """C0, with a factor for its error: it is known at q = 1, far from the data."""
+    c0 = surface.C0.values
+    if "C0_relative_error" not in surface:
+        return interval(*map(float, c0))
+    factor = float(np.exp(COVERS * surface.C0_relative_error))
+    return f"{number(float(c0[0]), 2)} ×÷ {number(factor, 2)}"
+
+
+def roll_off(surface):
+    if "q_rolloff" not in surface:
+        return "none found" if "fitted" in surface else NOTHING
+    return f"{with_error(float(surface.q_rolloff), float(surface.q_rolloff_total_error))} 1/m"
+
+
+def verdict(pair, surface, entry):
+    """Verdict of one material, with its errors and every criterion's reason."""
+    solid = material(entry)
+    return {
+        "material": entry["label"],
+        "modulus": modulus_text(entry),
+        **pair_texts(pair),
+        "rate": rate(solid, pair, ends(pair.modulus_threshold))
+        if solid.depends_on_rate
+        else NOTHING,
+        "criteria": [
+            row | {"margins": interval(*row["margins"], 2)}
+            for row in reasons(pair, surface, solid.work_of_adhesion)
+        ],
+    }
+
+
+def rate(solid, pair, thresholds):
+    """Frequencies at which the modulus passes the threshold, at both ends of the surface."""
+    texts = []
+    for threshold in dict.fromkeys(thresholds):
+        found = crossings(solid.plane_strain, threshold, pair.frequency.values)
+        words = [f"{'below' if up else 'above'} {number(f, 2)} Hz" for f, up in found]
+        if not words:
+            highest = np.nanmax(pair.modulus.values)
+            words = ["at every frequency" if highest < threshold else "at none"]
+        texts.append(" and ".join(words))
+    return "sticks " + (" … ".join(dict.fromkeys(texts)))
+
+
+if __name__ == "__main__":
+    main(start(globals(), "write_surface", real_surface="jacksboro"))

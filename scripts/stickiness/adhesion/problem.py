@@ -1,0 +1,159 @@
+"""One problem of adhesive contact in its own units: operators, traction law and what is prescribed.
+
+Lengths along the surface are in units of one side of the cell, heights and gaps in units of
+h_rms (of the range of attraction if the surface is flat), pressures in E* times their quotient.
+The energy per area is then
+
+    E(g) = <u K u> / 2 + <phi(g)>,   u = g + h,   K = |q| / 2,   phi' = traction,
+
+and a state of equilibrium at the mean pressure p has ``r = K u + traction(g) + p = 0``, or, with a
+hard wall at ``g = 0``, ``r >= 0`` where ``g = 0`` and ``r = 0`` elsewhere.
+"""
+
+import threading
+from dataclasses import dataclass, replace
+from functools import lru_cache
+
+import numpy as np
+
+from stickiness.contact import convolution, half_space
+
+__all__ = ["LONGEST", "FrozenTraction", "Problem", "Surface", "with_law"]
+
+LONGEST = np.pi  # |q| / 2 of the longest wave across a side of 1
+
+
+@dataclass(frozen=True, eq=False)
+class Surface:
+    """Heights with the elasticity of the half-space on their grid.
+
+    Parameters
+    ----------
+    heights : numpy.ndarray
+        Heights about their mean, in units of h_rms.
+    sides : tuple of float
+        Sides of the cell in units of the first.
+    """
+
+    heights: np.ndarray
+    sides: tuple
+
+    @property
+    def exact(self):
+        """Half-space in double precision."""
+        return half_space.half_space(self.heights.shape, self.sides)
+
+    @property
+    def quick(self):
+        """Half-space in single precision."""
+        return half_space.half_space(self.heights.shape, self.sides, np.float32)
+
+    @property
+    def smoother(self):
+        """Approximate inverse of the stiffness."""
+        return _smoother(self.heights.shape, self.sides, threading.get_ident())
+
+    @property
+    def pairs(self):
+        """Convolutions so far by all operators of this grid."""
+        return self.exact.pairs + self.quick.pairs + self.smoother.pairs
+
+    def elastic(self, gap):
+        """Pressure of zero mean that deforms the half-space to a gap."""
+        return self.exact.stiffness(gap + self.heights)
+
+    def flattening_pressure(self):
+        """Root mean square pressure that closes the gap everywhere."""
+        return float(np.sqrt(np.mean(self.exact.stiffness(self.heights) ** 2)))
+
+
+@dataclass(frozen=True, eq=False)
+class Problem:
+    """Surface, law and control; exactly one of `pressure` and `mean_gap` is prescribed.
+
+    Parameters
+    ----------
+    surface : Surface
+        Heights and operators.
+    law : TractionLaw or FrozenTraction
+        In the units of the surface.
+    unit : float
+        Pressure that residuals are measured in.
+    pressure, mean_gap : float or None
+        Control.
+    """
+
+    surface: Surface
+    law: object
+    unit: float
+    pressure: float | None = None
+    mean_gap: float | None = None
+
+    @property
+    def wall(self):
+        """Whether gaps end at a hard wall."""
+        return self.law.hard_wall
+
+
+def with_law(problem, law):
+    """Same problem with another law; residuals keep their unit."""
+    return replace(problem, law=law)
+
+
+@dataclass(frozen=True, eq=False)
+class FrozenTraction:
+    """Traction that does not depend on the gap: with the hard wall the problem is convex.
+
+    Parameters
+    ----------
+    field : numpy.ndarray or float
+        Traction at every point.
+    range : float
+        Of the law it is frozen from.
+    """
+
+    field: np.ndarray
+    range: float
+    hard_wall = True
+    hardens = False
+
+    def at(self, span):
+        """Law of some rows."""
+        return FrozenTraction(self.field[span], self.range) if np.ndim(self.field) else self
+
+    def evaluate(self, gap):
+        """Traction, its derivative and its potential."""
+        return self.field, 0.0, self.field * gap
+
+
+class Smoother:
+    """Convolution with ``1 / (|q| / 2 + shift)`` in single precision.
+
+    The shift is the stiffness of the longest wave: it stands for the grip of what touches on the
+    mean gap, which no elasticity holds.
+
+    Attributes
+    ----------
+    pairs : int
+        Convolutions since construction.
+    """
+
+    def __init__(self, shape, sides):
+        kind = convolution.Packed if shape[1] % 2 == 0 else convolution.Real
+        self._convolution = kind(shape, np.dtype(np.float32))
+        self._every = np.arange(shape[0])
+        symbol = 1 / (half_space.wavenumbers(shape, sides).T / 2 + LONGEST)
+        self._symbol = self._convolution.symbol(symbol / (shape[0] * shape[1]))
+        self.pairs = 0
+
+    def apply(self, field):
+        """Convolve a field in single precision."""
+        out = np.empty_like(field)
+        self._convolution.apply(self._symbol, field, out, self._every, self._every)
+        self.pairs += 1
+        return out
+
+
+@lru_cache(maxsize=24)
+def _smoother(shape, sides, thread):
+    return Smoother(shape, sides)

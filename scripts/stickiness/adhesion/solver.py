@@ -1,0 +1,370 @@
+"""Adhesive contact of a periodic half-space at a prescribed mean pressure or mean gap."""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from stickiness.adhesion.equilibrium import relax
+from stickiness.adhesion.problem import Problem, Surface
+from stickiness.adhesion.state import lowered
+from stickiness.contact import solver
+from stickiness.contact.solver import ConvergenceError
+from stickiness.core.arguments import grid, integer, number, numbers
+
+__all__ = ["Adhesion", "ConvergenceError", "PullOffError", "solve"]
+
+APPROACH, SEPARATION = "approach", "separation"
+_CLOSEST = 0.9  # of the range: penetration of a start, or in the mean, without a wall
+
+
+@dataclass(frozen=True, eq=False)
+class Adhesion:
+    """State of equilibrium of an adhesive contact; pressures in units of E*.
+
+    Attributes
+    ----------
+    pressure : numpy.ndarray
+        Net pressure at the interface, repulsion minus attraction, ``(n0, n1)``.
+    gap : numpy.ndarray
+        Gap in the unit of the heights: zero at the hard wall. A law without a wall has its
+        equilibrium separation at gap 0, and negative gaps where it repels.
+    mean_pressure : float
+        Mean pressure that keeps the state, prescribed or that of the prescribed mean gap.
+    repulsive_pressure, adhesive_pressure : float
+        Positive and negative part of `pressure`, each averaged over the nominal area and
+        positive: their difference is `mean_pressure` (to the residual).
+    repulsive_area_fraction : float
+        Share of points at the wall, or with a negative gap if the law has no wall: contact,
+        under whatever pressure.
+    net_repulsive_area_fraction : float
+        Share of those where the net pressure is compressive: next to the edge of contact the
+        attraction outweighs the wall's push.
+    adhesive_area_fraction : float
+        Share of other points with a gap up to the range.
+    mean_gap : float
+        Mean of `gap`.
+    elastic_energy, interaction_energy : float
+        Per nominal area, in units of E* times length; the latter is the mean of the potential.
+    residual : float
+        Largest violation of equilibrium at any point, over the larger of the rms pressure that
+        flattens the surface (half its rms gradient times E*) and the law's strength. The
+        violation is the unbalanced pressure, at the wall only if it pulls.
+    iterations : int
+        Iterations of conjugate gradients.
+    fft_pairs : float
+        Convolutions (a forward and a backward transform each), those of the start included.
+    branch : str
+        "approach" if the state was reached from wider gaps, "separation" if from closer ones.
+    control : str
+        "pressure" or "mean_gap".
+    law : TractionLaw
+        Attraction.
+    length : tuple of float
+        Sides of the periodic cell.
+    rms_height : float
+        Root mean square of the heights about their mean.
+    """
+
+    pressure: np.ndarray
+    gap: np.ndarray
+    mean_pressure: float
+    repulsive_pressure: float
+    adhesive_pressure: float
+    repulsive_area_fraction: float
+    net_repulsive_area_fraction: float
+    adhesive_area_fraction: float
+    mean_gap: float
+    elastic_energy: float
+    interaction_energy: float
+    residual: float
+    iterations: int
+    fft_pairs: float
+    branch: str
+    control: str
+    law: object
+    length: tuple
+    rms_height: float
+
+    @property
+    def energy(self):
+        """Elastic plus interaction energy per nominal area [E* length]."""
+        return self.elastic_energy + self.interaction_energy
+
+    @property
+    def enthalpy(self):
+        """Energy plus that of the load, least among the states at one pressure [E* length]."""
+        return self.energy + self.mean_pressure * self.mean_gap
+
+
+class PullOffError(ConvergenceError):
+    """The tension exceeds what the interface can hold: there is no equilibrium but at infinity."""
+
+
+def solve(
+    heights,
+    length,
+    law,
+    pressure=None,
+    mean_gap=None,
+    start=None,
+    tol=1e-8,
+    max_iterations=3000,
+    logger=None,
+):
+    """Solve the adhesive contact of a half-space with a rigid periodic surface.
+
+    The problem has several solutions in general. The one found is the stable state that a
+    descent in energy reaches from `start`. At a prescribed pressure the states are ordered:
+    that with the widest gaps is where loading from afar ends, that with the closest
+    where unloading from full contact does. `Adhesion.enthalpy` tells which of two states at one
+    pressure is the deeper minimum, `Adhesion.energy` at one mean gap.
+
+    Parameters
+    ----------
+    heights : array_like
+        Heights ``(n0, n1)`` of the rigid surface (positive towards the half-space), any unit.
+    length : float or tuple of float
+        Side of the cell along axis 0 (pixels are then square), or both sides; same unit.
+    law : TractionLaw
+        Attraction, its adhesion length and range in the same unit.
+    pressure : float
+        Mean pressure in units of E*, negative for tension. Give this or `mean_gap`.
+    mean_gap : float
+        Mean gap, same unit as the heights.
+    start : str, Adhesion, repulsive.Contact or array_like, optional
+        "approach" (default): as from the solution without adhesion at the same control; under
+        tension, from the adhesive solution at zero pressure. At a prescribed pressure coarser
+        grids lead there, unless a descent on any of them meets negative curvature, which a jump
+        would; a `solver.Contact` as the start does without them. "separation": from full
+        contact, at a prescribed pressure only (`path` follows a mean gap back). Or any state on
+        the same grid, or its gap: the start of a descent.
+    tol : float
+        Largest accepted `Adhesion.residual`.
+    max_iterations : int
+        Largest number of iterations.
+    logger : logging.Logger, optional
+        Told the progress at level DEBUG.
+
+    Returns
+    -------
+    Adhesion
+        Fields, areas, energies, and how well they are in equilibrium.
+
+    Raises
+    ------
+    ValueError
+        If an argument is not what it should be.
+    PullOffError
+        If the tension tears the surfaces apart; it carries the last iterate.
+    ConvergenceError
+        If `max_iterations` do not suffice; it carries the last iterate.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from stickiness import adhesive
+    >>> law = adhesive.Maugis(adhesion_length=1e-4, range=1e-3)
+    >>> adhesive.solve(np.zeros((8, 8)), 1.0, law, pressure=-0.099).repulsive_area_fraction
+    1.0
+    """
+    heights = grid("heights", heights)
+    lengths = solver._check_length(length, heights.shape)
+    tol = number("tol", tol)
+    max_iterations = integer("max_iterations", max_iterations, least=1)
+    if isinstance(law, type) or not hasattr(law, "evaluate"):
+        raise ValueError(f"law must be a TractionLaw such as Maugis(...), got {law!r}")
+    _check_control(pressure, mean_gap, law)
+    scaled = Scaled.of(heights, lengths, law)
+    scaled.check_start(start, mean_gap)
+    gap, branch, spent = _first_gap(scaled, start, pressure, mean_gap, tol, max_iterations)
+    return relaxed(
+        scaled,
+        gap,
+        branch,
+        pressure=pressure,
+        mean_gap=mean_gap,
+        tol=tol,
+        max_iterations=max_iterations,
+        logger=logger,
+        spent=spent,
+    )
+
+
+def relaxed(
+    scaled, gap, branch, pressure, mean_gap, tol, max_iterations, logger=None, spent=(0, 0)
+):
+    """`Adhesion` from a gap in scaled units; the arguments and errors are those of `solve`.
+
+    `spent` counts the iterations and convolutions that went into the gap.
+    """
+    before = scaled.surface.pairs
+    problem = scaled.problem(pressure, mean_gap)
+    state, separated = relax(
+        problem, gap, tol, max_iterations, closing=branch == APPROACH, logger=logger
+    )
+    state.iterations += spent[0]
+    pairs = scaled.surface.pairs - before + state.start_pairs + spent[1]
+    result = scaled.adhesion(state, branch, problem, pairs)
+    if pressure is not None:  # as given, not as scaled there and back
+        result = replace(result, mean_pressure=float(pressure))
+    if separated:
+        raise PullOffError(
+            f"pressure = {pressure!r} pulls the surfaces apart: they hold less on this branch "
+            f"(the strength of the law is {scaled.original_law.strength:.6g}); "
+            "control mean_gap instead",
+            result,
+        )
+    if not state.residual <= tol:
+        raise ConvergenceError(
+            f"residual {state.residual:.2e} after {state.iterations} iterations, "
+            f"asked for {tol:.2e}: raise max_iterations, or tol if it is near rounding",
+            result,
+        )
+    return result
+
+
+@dataclass(frozen=True, eq=False)
+class Scaled:
+    """Surface and law in the solver's own units, and the way back."""
+
+    surface: Surface
+    law: object
+    original_law: object
+    lengths: tuple
+    height: float  # unit of heights and gaps
+    rms_height: float
+    residual_unit: float
+
+    @classmethod
+    def of(cls, heights, lengths, law):
+        """Scale heights and law."""
+        mean, rms = solver._scale(heights)
+        height = rms if rms > 0 else law.range
+        scaled = (heights - mean) / height if rms > 0 else np.zeros(heights.shape)
+        surface = Surface(scaled, (1.0, lengths[1] / lengths[0]))
+        own_law = replace(
+            law,
+            adhesion_length=law.adhesion_length * lengths[0] / height**2,
+            range=law.range / height,
+        )
+        unit = max(surface.flattening_pressure(), own_law.strength)
+        return cls(surface, own_law, law, lengths, height, rms, unit)
+
+    @property
+    def stress(self):
+        """Unit of pressure over E*."""
+        return self.height / self.lengths[0]
+
+    def problem(self, pressure=None, mean_gap=None):
+        """Problem at one value of the control."""
+        return Problem(
+            self.surface,
+            self.law,
+            self.residual_unit,
+            pressure=None if pressure is None else pressure / self.stress,
+            mean_gap=None if mean_gap is None else mean_gap / self.height,
+        )
+
+    def check_start(self, start, mean_gap):
+        """Raise ValueError unless `start` can be one."""
+        shape = self.surface.heights.shape
+        if isinstance(start, str):
+            if start not in (APPROACH, SEPARATION):
+                raise ValueError(
+                    f"start must be 'approach', 'separation' or a state, got {start!r}"
+                )
+            if start == SEPARATION and mean_gap is not None:
+                raise ValueError(
+                    "start='separation' needs a prescribed pressure, got mean_gap = "
+                    f"{mean_gap!r}: follow the mean gap back with path, or start from a state"
+                )
+        elif start is not None:
+            gap = np.asarray(getattr(start, "gap", start), dtype=float)
+            if gap.shape != shape:
+                raise ValueError(f"start has the shape {gap.shape}, the heights {shape}")
+            if not np.all(np.isfinite(gap)):
+                raise ValueError("start must have finite gaps, got NaN or infinite values")
+
+    def first_gap(self, start, mean_gap=None):
+        """Gap of a state in own units, made to have a prescribed mean.
+
+        It is changed in proportion, so that contact stays contact, or rigidly where there is none.
+        """
+        lowest = 0.0 if self.law.hard_wall else -_CLOSEST * self.law.range
+        gap = np.asarray(getattr(start, "gap", start), dtype=float) / self.height
+        gap = np.maximum(gap, lowest)
+        if mean_gap is None:
+            return gap
+        mean, old = mean_gap / self.height, float(gap.mean())
+        if self.law.hard_wall and old > 0 and gap.min() == 0:
+            return gap * (mean / old)
+        return lowered(gap + max(mean - old, 0.0), mean, lowest)
+
+    def adhesion(self, state, branch, problem, pairs):
+        """`Adhesion` in the caller's units."""
+        law, gap = self.law, state.gap
+        at_wall = gap <= 0
+        if law.hard_wall:
+            reaction = state.elastic + state.traction + state.pressure
+            reaction = np.where(at_wall, np.maximum(reaction, 0), 0)
+        else:
+            reaction = np.zeros(gap.shape)
+        net = (reaction - state.traction) * self.stress
+        touching = at_wall if law.hard_wall else gap < 0
+        near = (gap <= law.range) & ~touching
+        energy = self.height * self.stress
+        elastic = 0.5 * float(np.mean((gap + self.surface.heights) * state.elastic))
+        return Adhesion(
+            pressure=net,
+            gap=gap * self.height,
+            mean_pressure=state.pressure * self.stress,
+            repulsive_pressure=float(np.mean(np.maximum(net, 0))),
+            adhesive_pressure=float(np.mean(np.maximum(-net, 0))),
+            repulsive_area_fraction=float(np.mean(touching)),
+            net_repulsive_area_fraction=float(np.mean(touching & (net > 0))),
+            adhesive_area_fraction=float(np.mean(near)),
+            mean_gap=float(gap.mean()) * self.height,
+            elastic_energy=elastic * energy,
+            interaction_energy=state.potential * energy,
+            residual=state.residual,
+            iterations=state.iterations,
+            fft_pairs=float(pairs),
+            branch=branch,
+            control="pressure" if problem.pressure is not None else "mean_gap",
+            law=self.original_law,
+            length=self.lengths,
+            rms_height=self.rms_height,
+        )
+
+
+def _first_gap(scaled, start, pressure, mean_gap, tol, max_iterations):
+    """Start of the descent, its branch, and iterations and convolutions spent.
+
+    The start is in scaled units, or None for loading from afar.
+    """
+    nothing = (0, 0.0)
+    if isinstance(start, str) and start == SEPARATION:
+        return np.zeros(scaled.surface.heights.shape), SEPARATION, nothing
+    if start is not None and not isinstance(start, str):
+        return scaled.first_gap(start, mean_gap), getattr(start, "branch", APPROACH), nothing
+    if mean_gap is not None or pressure >= 0:
+        return None, APPROACH, nothing
+    before = scaled.surface.pairs
+    state, _ = relax(scaled.problem(pressure=0.0), None, tol, max_iterations)
+    pairs = scaled.surface.pairs - before + state.start_pairs
+    return state.gap, APPROACH, (state.iterations, pairs)
+
+
+def _check_control(pressure, mean_gap, law):
+    if (pressure is None) == (mean_gap is None):
+        raise ValueError(
+            f"exactly one of pressure and mean_gap must be given, got {pressure!r}, {mean_gap!r}"
+        )
+    name, value = ("pressure", pressure) if mean_gap is None else ("mean_gap", mean_gap)
+    array = numbers(name, value)
+    if array.ndim or not np.isfinite(array):
+        raise ValueError(f"{name} must be a finite number, got {value!r}")
+    if mean_gap is not None:
+        lowest = 0.0 if law.hard_wall else -_CLOSEST * law.range
+        if mean_gap < lowest:
+            raise ValueError(f"mean_gap must be at least {lowest!r}, got {mean_gap!r}")

@@ -1,0 +1,92 @@
+"""Where a descent starts when loading begins from afar: contact without adhesion, coarser grids.
+
+The solution without adhesion has wider gaps than any adhesive state: descents from there end on the
+branch of approach. A better start is the adhesive state on a grid half as fine, found likewise. It
+might lie beyond a jump that the fine grid does not make. A descent that meets no direction of
+negative curvature makes no jump: coarser grids are relied on only as long as no descent meets one,
+on any of the grids.
+"""
+
+from dataclasses import replace
+
+import numpy as np
+
+from stickiness.adhesion.descent import descend
+from stickiness.adhesion.problem import FrozenTraction, Surface, with_law
+from stickiness.adhesion.softening_descent import quick_descent, suits
+from stickiness.adhesion.state import lowered
+from stickiness.contact import solver
+from stickiness.contact.active_set import PREDICTION
+
+__all__ = ["from_coarser_grids", "has_coarser_grids", "without_adhesion"]
+
+_ROUGH = 1e-3  # tolerance of a solution without adhesion that is only a start
+_COARSE = 1e-2  # of one on a coarser grid
+_COARSEST = 128  # points along the shorter side of a grid from which coarser ones are used
+
+
+def has_coarser_grids(problem):
+    """Whether `from_coarser_grids` is for this problem and its grid."""
+    fine = min(problem.surface.heights.shape) >= _COARSEST
+    return fine and suits(problem) and problem.law.smooth
+
+
+def from_coarser_grids(problem, tol, max_iterations, observer, work):
+    """State at a prescribed pressure by way of coarser grids.
+
+    Parameters
+    ----------
+    problem : Problem
+        What is to be solved, one that suits `quick_descent`.
+    tol, max_iterations, observer
+        As for `quick_descent`.
+    work : list of float
+        Gets the convolutions of the starts, times their points.
+
+    Returns
+    -------
+    State or None
+        None if any descent meets a direction of negative curvature.
+    """
+    shape = problem.surface.heights.shape
+    if min(shape) < _COARSEST:
+        gap, pairs = without_adhesion(problem, max_iterations)
+        work.append(pairs * gap.size)
+    else:
+        coarser = tuple(solver._coarser(n) for n in shape)
+        heights = solver._sampled(problem.surface.heights, coarser)
+        coarse = replace(problem, surface=Surface(heights, problem.surface.sides))
+        before = coarse.surface.pairs
+        state = from_coarser_grids(coarse, _COARSE, max_iterations, None, work)
+        work.append((coarse.surface.pairs - before) * heights.size)
+        if state is None:
+            return None
+        gap = _predicted(problem, solver._interpolated(state.gap, shape))
+    state, finished = quick_descent(problem, gap, tol, max_iterations, observer, convex=True)
+    return state if finished else None
+
+
+def _predicted(problem, gap):
+    """Gap interpolated from a coarser grid, closed where the heights of this one press."""
+    surface = problem.surface
+    pressure = surface.quick.stiffness((gap + surface.heights).astype(np.float32))
+    pressure += problem.pressure + problem.law.traction(np.maximum(gap, 0))
+    pressing = pressure > PREDICTION * surface.quick.mean_stiffness * gap
+    return np.where(pressing, 0, np.maximum(gap, 0))
+
+
+def without_adhesion(problem, max_iterations):
+    """Gap without adhesion at the control of a problem, and the convolutions it took."""
+    surface = problem.surface
+    if problem.pressure is not None:
+        contact = solver.solve(surface.heights, surface.sides, problem.pressure, tol=_ROUGH)
+        return contact.gap, contact.fft_pairs
+    gap = problem.mean_gap - surface.heights
+    if gap.min() >= 0:
+        return gap, 0.0
+    if problem.mean_gap <= 0:
+        return np.full(gap.shape, problem.mean_gap), 0.0
+    before = surface.pairs
+    alone = with_law(problem, FrozenTraction(0.0, problem.law.range))
+    gap = descend(alone, lowered(gap, problem.mean_gap), _ROUGH, max_iterations).gap
+    return gap, surface.pairs - before

@@ -1,0 +1,391 @@
+"""Closed forms of elastic contact without adhesion, to check the numerical solutions against.
+
+Lengths are in one unit of the caller's choice, pressures in units of the plane-strain modulus E*.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy import optimize, special
+
+from stickiness.contact import half_space
+
+__all__ = [
+    "Hertz",
+    "HertzEllipse",
+    "Summit",
+    "Westergaard",
+    "full_contact_pressure",
+    "highest_summit",
+    "wave_full_contact_pressure",
+    "wave_small_load_area",
+    "wave_large_load_area",
+]
+
+
+@dataclass(frozen=True)
+class Westergaard:
+    """Contact of a half-space with the wave ``amplitude * cos(2 pi x / wavelength)``.
+
+    Westergaard, J. Appl. Mech. 6:49 (1939); Johnson, *Contact Mechanics* (1985), section 13.2.
+    The gap follows from the same complex function as the pressure: its real part is the pressure
+    in contact, its imaginary part half the slope of the gap outside.
+
+    Parameters
+    ----------
+    amplitude, wavelength : float
+        Of the wave, in one unit of length.
+    pressure : float
+        Mean pressure in units of E*.
+
+    Raises
+    ------
+    ValueError
+        If an argument is not positive.
+    """
+
+    amplitude: float
+    wavelength: float
+    pressure: float
+
+    def __post_init__(self):
+        for name in ("amplitude", "wavelength", "pressure"):
+            if not getattr(self, name) > 0:
+                raise ValueError(f"{name} must be positive, got {getattr(self, name)!r}")
+
+    @property
+    def full_contact_pressure(self):
+        """Mean pressure from which on contact is full, in units of E*."""
+        return np.pi * self.amplitude / self.wavelength
+
+    @property
+    def area_fraction(self):
+        """Width of contact over the wavelength."""
+        share = min(self.pressure / self.full_contact_pressure, 1.0)
+        return float(2 / np.pi * np.arcsin(np.sqrt(share)))
+
+    def contact_pressure(self, x):
+        """Pressure in units of E*.
+
+        Parameters
+        ----------
+        x : array_like
+            Distance from a crest.
+
+        Returns
+        -------
+        numpy.ndarray
+            Zero outside contact.
+        """
+        psi = np.pi * np.asarray(x, dtype=float) / self.wavelength
+        full = self.full_contact_pressure
+        if self.pressure >= full:
+            return self.pressure + full * np.cos(2 * psi)
+        inside = np.maximum(self.pressure / full - np.sin(psi) ** 2, 0)
+        return 2 * full * np.abs(np.cos(psi)) * np.sqrt(inside)
+
+    def gap(self, x):
+        """Gap in the unit of length.
+
+        Parameters
+        ----------
+        x : array_like
+            Distance from a crest.
+
+        Returns
+        -------
+        numpy.ndarray
+            Zero in contact.
+        """
+        edge = np.sqrt(min(self.pressure / self.full_contact_pressure, 1.0))
+        ratio = np.abs(np.sin(np.pi * np.asarray(x, dtype=float) / self.wavelength)) / edge
+        ratio = np.maximum(ratio, 1.0)
+        profile = ratio * np.sqrt(ratio**2 - 1) - np.arccosh(ratio)
+        return 2 * self.amplitude * edge**2 * profile
+
+
+@dataclass(frozen=True)
+class Hertz:
+    """Contact of a half-space with a paraboloid (Johnson 1985, section 4.2).
+
+    Parameters
+    ----------
+    radius : float
+        Radius of curvature of the summit.
+    load : float
+        Force over E*, in squared unit of length.
+
+    Raises
+    ------
+    ValueError
+        If an argument is not positive.
+    """
+
+    radius: float
+    load: float
+
+    def __post_init__(self):
+        for name in ("radius", "load"):
+            if not getattr(self, name) > 0:
+                raise ValueError(f"{name} must be positive, got {getattr(self, name)!r}")
+
+    @property
+    def contact_radius(self):
+        """Radius of the circle of contact."""
+        return (0.75 * self.load * self.radius) ** (1 / 3)
+
+    @property
+    def largest_pressure(self):
+        """Pressure in the middle, in units of E*."""
+        return 1.5 * self.load / (np.pi * self.contact_radius**2)
+
+    @property
+    def indentation(self):
+        """Approach of distant points."""
+        return self.contact_radius**2 / self.radius
+
+    def contact_pressure(self, r):
+        """Pressure in units of E*, zero outside contact.
+
+        Parameters
+        ----------
+        r : array_like
+            Distance from the axis.
+
+        Returns
+        -------
+        numpy.ndarray
+            Pressure at that distance.
+        """
+        ratio = np.asarray(r, dtype=float) / self.contact_radius
+        return self.largest_pressure * np.sqrt(np.maximum(1 - ratio**2, 0))
+
+    def gap(self, r):
+        """Gap, zero in contact.
+
+        Parameters
+        ----------
+        r : array_like
+            Distance from the axis.
+
+        Returns
+        -------
+        numpy.ndarray
+            Gap at that distance.
+        """
+        ratio = np.maximum(np.asarray(r, dtype=float) / self.contact_radius, 1.0)
+        sunk = (2 - ratio**2) * np.arcsin(1 / ratio) + np.sqrt(ratio**2 - 1)
+        return self.indentation * (0.5 * ratio**2 - 1 + sunk / np.pi)
+
+
+@dataclass(frozen=True)
+class HertzEllipse:
+    """Contact of a half-space with an elliptic paraboloid (Johnson 1985, eqs. 4.24 to 4.28).
+
+    The limit of every rough surface at vanishing load: one asperity, with the principal curvatures
+    of the `highest_summit`.
+
+    Parameters
+    ----------
+    curvatures : (float, float)
+        Principal curvatures of the summit, both positive, in any order.
+    load : float
+        Force over E*, in squared unit of length.
+
+    Raises
+    ------
+    ValueError
+        If an argument is not positive.
+    """
+
+    curvatures: tuple[float, float]
+    load: float
+
+    def __post_init__(self):
+        low, high = self.curvatures
+        if not (low > 0 and high > 0):
+            raise ValueError(f"curvatures must be two positive numbers, got {self.curvatures!r}")
+        if not self.load > 0:
+            raise ValueError(f"load must be positive, got {self.load!r}")
+
+    @property
+    def axis_ratio(self):
+        """Short over long axis of the ellipse; it depends on the curvatures alone."""
+        ratio = min(self.curvatures) / max(self.curvatures)
+        if ratio > 1 - 1e-6:  # the equation degenerates; there axes go as curvatures^(2/3)
+            return ratio ** (2 / 3)
+
+        def mismatch(log_axes):
+            axes = np.exp(log_axes)
+            first, second = special.ellipk(1 - axes**2), special.ellipe(1 - axes**2)
+            return (first - second) - ratio * (second / axes**2 - first)
+
+        # The ratio of the axes lies between that of the curvatures and its square root.
+        return float(np.exp(optimize.brentq(mismatch, np.log(ratio), 0.5 * np.log(ratio))))
+
+    @property
+    def semi_axes(self):
+        """Long and short semi-axis; the long one lies along the smaller curvature."""
+        ratio = self.axis_ratio
+        second = special.ellipe(1 - ratio**2)
+        cube = 3 * self.load * second / (np.pi * sum(self.curvatures) * ratio**2)
+        return float(np.cbrt(cube)), float(np.cbrt(cube) * ratio)
+
+    @property
+    def area(self):
+        """Area of contact."""
+        long, short = self.semi_axes
+        return np.pi * long * short
+
+    @property
+    def largest_pressure(self):
+        """Pressure in the middle, in units of E*."""
+        return 1.5 * self.load / self.area
+
+    @property
+    def indentation(self):
+        """Approach of distant points."""
+        long, short = self.semi_axes
+        return float(self.largest_pressure * short * special.ellipk(1 - (short / long) ** 2))
+
+
+@dataclass(frozen=True)
+class Summit:
+    """Highest point of a surface.
+
+    Attributes
+    ----------
+    position : (float, float)
+        Along axes 0 and 1, unit of length.
+    height : float
+        Height there.
+    curvatures : (float, float)
+        Principal curvatures, positive at a summit, the smaller first [1/length].
+    """
+
+    position: tuple[float, float]
+    height: float
+    curvatures: tuple[float, float]
+
+
+def highest_summit(heights, length):
+    """Highest summit of a periodic band-limited surface, between its points.
+
+    Parameters
+    ----------
+    heights : (n, n) array
+        Heights, of wavelengths longer than two pixels.
+    length : float
+        Side of the cell.
+
+    Returns
+    -------
+    Summit
+        Found by Newton's method on the Fourier series, from the highest grid point.
+
+    Raises
+    ------
+    RuntimeError
+        If it leaves the neighbourhood of that point: the surface is not resolved by its grid.
+    """
+    heights = np.asarray(heights, dtype=float)
+    n = heights.shape[0]
+    coefficients = np.fft.fft2(heights) / n**2
+    q = 2 * np.pi * np.fft.fftfreq(n, length / n)
+    start = np.array(np.unravel_index(np.argmax(heights), heights.shape)) * (length / n)
+    position = start.astype(float)
+
+    def series(factor_0, factor_1):
+        phase_0, phase_1 = np.exp(1j * q * position[0]), np.exp(1j * q * position[1])
+        return ((factor_0 * phase_0) @ coefficients @ (factor_1 * phase_1)).real
+
+    one, slope = np.ones(n), 1j * q
+    for _ in range(20):
+        gradient = np.array([series(slope, one), series(one, slope)])
+        mixed = series(slope, slope)
+        hessian = np.array([[series(slope**2, one), mixed], [mixed, series(one, slope**2)]])
+        step = np.linalg.solve(hessian, gradient)
+        position = position - step
+        if np.abs(position - start).max() > 2 * length / n:
+            raise RuntimeError("the highest summit is not near the highest point of the grid")
+        if np.abs(step).max() < 1e-12 * length:
+            break
+    high, low = np.linalg.eigvalsh(hessian)
+    return Summit(tuple(map(float, position)), float(series(one, one)), (-float(low), -float(high)))
+
+
+def wave_full_contact_pressure(amplitude, wavelength):
+    """Mean pressure of full contact with ``amplitude cos(2 pi x / l) cos(2 pi y / l)``.
+
+    Johnson, Greenwood and Higginson, Int. J. Mech. Sci. 27:383 (1985),
+    doi 10.1016/0020-7403(85)90029-3.
+
+    Parameters
+    ----------
+    amplitude, wavelength : float
+        Of the wave.
+
+    Returns
+    -------
+    float
+        Pressure in units of E*.
+    """
+    return np.sqrt(2) * np.pi * amplitude / wavelength
+
+
+def wave_small_load_area(ratio):
+    """Area fraction of the doubly sinusoidal wave at small loads: Hertz on every crest.
+
+    Parameters
+    ----------
+    ratio : float
+        Mean pressure over that of full contact, well below one.
+
+    Returns
+    -------
+    float
+        Contact area over nominal area (Johnson, Greenwood and Higginson 1985, eq. 25).
+    """
+    return np.pi * (3 * ratio / (8 * np.pi)) ** (2 / 3)
+
+
+def wave_large_load_area(ratio):
+    """Area fraction of the doubly sinusoidal wave near full contact.
+
+    Parameters
+    ----------
+    ratio : float
+        Mean pressure over that of full contact, just below one.
+
+    Returns
+    -------
+    float
+        Contact area over nominal area (Johnson, Greenwood and Higginson 1985): the troughs keep
+        circular holes, loaded like pressurised penny-shaped cracks.
+    """
+    return 1 - 1.5 / np.pi * (1 - ratio)
+
+
+def full_contact_pressure(heights, length, pressure):
+    """Pressure under any periodic surface pressed into full contact.
+
+    Parameters
+    ----------
+    heights : numpy.ndarray
+        Heights ``(n0, n1)``.
+    length : float or tuple of float
+        Side along axis 0 (pixels are then square), or both sides.
+    pressure : float
+        Mean pressure in units of E*.
+
+    Returns
+    -------
+    numpy.ndarray
+        ``p_q = |q| h_q / 2`` plus the mean; negative where contact would need tension.
+    """
+    heights = np.asarray(heights, dtype=float)
+    sides = np.atleast_1d(np.asarray(length, dtype=float))
+    if sides.size == 1:
+        sides = np.array([sides[0], sides[0] * heights.shape[1] / heights.shape[0]])
+    spectrum = np.fft.rfft2(heights) * half_space.wavenumbers(heights.shape, tuple(sides)) / 2
+    return np.fft.irfft2(spectrum, s=heights.shape) + pressure

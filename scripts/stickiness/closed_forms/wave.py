@@ -1,0 +1,375 @@
+"""Adhesive contact of a half-space with a one-dimensional wave: limit of short range, Maugis law.
+
+Units and signs are those of `adhesive_references`, through which this is imported. The rigid wave
+is ``amplitude * cos(2 pi x / wavelength)``, x the distance from a crest. Phases are
+psi = pi x / wavelength, so that contact of half-width a stands for psi_a = pi a / wavelength and
+for the area fraction ``2 psi_a / pi``.
+
+Fields are real and imaginary parts of one function of the complex phase, as without adhesion
+(`reference_solutions.Westergaard`): the real part on the axis is the pressure, the imaginary part
+half the slope of the gap, the value at infinity the mean pressure.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from scipy import optimize
+
+from stickiness.closed_forms.contact import Westergaard
+from stickiness.core.arguments import plain, positive
+
+# Gauss-Legendre on [0, 1] after a substitution that is flat of third order at either end: it
+# removes a square root at one and a logarithm at the other to some 1e-11.
+_NODES, _WEIGHTS = np.polynomial.legendre.leggauss(96)
+_NODES = (_NODES + 1) / 2
+_STEP = _NODES**3 * (10 - 15 * _NODES + 6 * _NODES**2)
+_STEP_WEIGHTS = _WEIGHTS / 2 * 30 * _NODES**2 * (1 - _NODES) ** 2
+_SAMPLES = 400  # points on which the curve of equilibria is searched for turning points
+
+
+@dataclass(frozen=True)
+class _Wave:
+    amplitude: float
+    wavelength: float
+    adhesion_length: float
+
+    def __post_init__(self):
+        positive(**vars(self))
+
+    @property
+    def full_contact_amplitude(self) -> float:
+        """Amplitude of the pressure in full contact [E*], pi amplitude/wavelength."""
+        return float(np.pi * self.amplitude / self.wavelength)
+
+    @property
+    def alpha(self) -> float:
+        """Johnson's alpha: tension over `full_contact_amplitude`, dimensionless.
+
+        alpha^2 = 2 E* w/(wavelength p*^2): two over pi times the work of adhesion over
+        ``amplitude * p*``.
+        """
+        return float(
+            np.sqrt(2 * self.adhesion_length / self.wavelength) / self.full_contact_amplitude
+        )
+
+    def _phase(self, fraction: ArrayLike, name: str = "area_fraction") -> NDArray:
+        share = np.asarray(fraction, dtype=float)
+        if not np.all((share > 0) & (share < 1)):
+            raise ValueError(f"{name} must lie between 0 and 1, got {fraction!r}")
+        return np.pi / 2 * share
+
+    def _position(self, x: ArrayLike) -> NDArray:
+        """Phase of the distance to the nearest crest, from 0 to pi/2."""
+        share = np.asarray(x, dtype=float) / self.wavelength
+        return np.pi * np.abs(share - np.round(share))
+
+    def _westergaard(self, area_fraction: float) -> Westergaard:
+        """Contact of the given extent without adhesion."""
+        load = self.full_contact_amplitude * np.sin(np.pi / 2 * area_fraction) ** 2
+        return Westergaard(self.amplitude, self.wavelength, float(load))
+
+
+@dataclass(frozen=True)
+class AdhesiveWave(_Wave):
+    """Wave in adhesive contact when the range of attraction is short (JKR's limit).
+
+    Valid while the cohesive zone is short against the contact and its complement; `MaugisWave`
+    has no such limit. With psi half the contact in phase the mean pressure is
+    ``p* (sin^2 psi - alpha sqrt(tan psi))``.
+
+    Parameters
+    ----------
+    amplitude, wavelength : float
+        Of the wave [length].
+    adhesion_length : float
+        Work of adhesion over E* [length].
+
+    Raises
+    ------
+    ValueError
+        If an argument is not positive and finite.
+
+    References
+    ----------
+    Johnson, Int. J. Solids Struct. 32, 423 (1995), doi:10.1016/0020-7683(94)00111-9;
+    mean gap: Carbone & Mangialardi, J. Mech. Phys. Solids 52, 1267 (2004),
+    doi:10.1016/j.jmps.2003.12.001.
+    """
+
+    # Largest alpha at which contact is partial without load, (27/256)^(1/4) = 0.570: the largest
+    # sin^2/sqrt(tan), at psi = pi/3.
+    CRITICAL_ALPHA = (27 / 256) ** 0.25
+    # Largest alpha with a stable partial contact at any load, 1.065: the largest
+    # 4 sin^(3/2) cos^(5/2), at tan^2 = 3/5.
+    LARGEST_ALPHA = 4 * (3 / 8) ** 0.75 * (5 / 8) ** 1.25
+
+    def pressure(self, area_fraction: ArrayLike):
+        """Mean pressure [E*] of a contact of given area fraction, stable or not."""
+        psi = self._phase(area_fraction)
+        return plain(
+            self.full_contact_amplitude * (np.sin(psi) ** 2 - self.alpha * np.sqrt(np.tan(psi)))
+        )
+
+    @property
+    def turning_points(self) -> tuple[tuple[float, float], tuple[float, float]]:
+        """Pull-off and jump into full contact, as pairs of area fraction and pressure [E*].
+
+        Partial contact is stable under load control between them.
+
+        Raises
+        ------
+        ValueError
+            If alpha exceeds `LARGEST_ALPHA`: the wave then jumps from apart to full contact.
+        """
+        if self.alpha >= self.LARGEST_ALPHA:
+            raise ValueError(
+                f"alpha = {self.alpha:.6g} leaves no stable partial contact; "
+                f"it must be below {self.LARGEST_ALPHA:.6g}: raise amplitude or lower "
+                "adhesion_length"
+            )
+
+        def slope(psi):
+            return 4 * np.sin(psi) ** 1.5 * np.cos(psi) ** 2.5 - self.alpha
+
+        middle = np.arctan(np.sqrt(0.6))
+        ends = (
+            optimize.brentq(slope, 0, middle, xtol=1e-15),
+            optimize.brentq(slope, middle, np.pi / 2, xtol=1e-15),
+        )
+        first, last = (float(2 / np.pi * psi) for psi in ends)
+        return (first, self.pressure(first)), (last, self.pressure(last))
+
+    def area_fraction(self, pressure: float) -> float:
+        """Area fraction of the stable partial contact at a mean pressure [E*].
+
+        Raises
+        ------
+        ValueError
+            If there is none, for pressures below pull-off or above the jump into full contact.
+        """
+        (first, least), (last, most) = self.turning_points
+        if not least <= pressure <= most:
+            raise ValueError(
+                f"pressure must lie between pull-off {least:.6g} and the jump into full contact "
+                f"{most:.6g}, got {pressure!r}"
+            )
+        if pressure in (least, most):
+            return first if pressure == least else last
+        return float(
+            optimize.brentq(lambda x: self.pressure(x) - pressure, first, last, xtol=1e-15)
+        )
+
+    def mean_gap(self, area_fraction: float) -> float:
+        """Mean gap [length] of a contact of given area fraction."""
+        psi = self._phase(area_fraction)
+        load = self.pressure(area_fraction) / self.full_contact_amplitude
+        return float(self.amplitude * (np.cos(psi) ** 2 + 2 * load * np.log(np.sin(psi))))
+
+    def contact_pressure(self, x: ArrayLike, area_fraction: float):
+        """Pressure [E*] at distances `x` [length] from a crest; zero outside contact."""
+        psi, here = self._phase(area_fraction), self._position(x)
+        inside = np.sqrt(np.maximum(np.sin(psi) ** 2 - np.sin(here) ** 2, 0))
+        with np.errstate(divide="ignore"):
+            tension = self._tension(psi) * np.cos(here) / inside
+        pressure = 2 * self.full_contact_amplitude * np.cos(here) * inside - tension
+        return plain(np.where(here > psi, 0.0, pressure))
+
+    def gap(self, x: ArrayLike, area_fraction: float):
+        """Gap [length] at distances `x` [length] from a crest; zero in contact."""
+        psi, here = self._phase(area_fraction), self._position(x)
+        ratio = np.maximum(np.sin(here) / np.sin(psi), 1.0)
+        opening = 2 * self._tension(psi) * self.wavelength / np.pi * np.arccosh(ratio)
+        return plain(self._westergaard(float(area_fraction)).gap(x) + opening)
+
+    def _tension(self, psi: NDArray) -> NDArray:
+        """Mean tension [E*] of the superposed periodic flat punch."""
+        return self.full_contact_amplitude * self.alpha * np.sqrt(np.tan(psi))
+
+
+@dataclass(frozen=True)
+class WaveState:
+    """One equilibrium of the wave under the Maugis law, or arrays of them along a curve.
+
+    Attributes
+    ----------
+    pressure : float or array
+        Mean pressure [E*].
+    area_fraction : float or array
+        Share of the wave in contact.
+    cohesive_fraction : float or array
+        Share of the wave within the range of attraction, that in contact included; one if the
+        cohesive zones of neighbouring crests have met.
+    """
+
+    pressure: float | NDArray
+    area_fraction: float | NDArray
+    cohesive_fraction: float | NDArray
+
+
+@dataclass(frozen=True)
+class MaugisWave(_Wave):
+    """Wave in adhesive contact under the Maugis law, any range.
+
+    Contact reaches to the phase a, the strength s acts between a and c. On top of Westergaard's
+    solution of the same contact stands the real part of ``-(2 s/pi) arctan y``,
+    ``y^2 = (tan^2 c - tan^2 a)/(tan^2 a - tan^2 psi)``: it is minus the strength between a and c,
+    zero beyond, and leaves the gap flat in contact. Hence the mean pressure
+    ``p* sin^2 a - (2 s/pi) arccos(cos c/cos a)``. The gap at c is the range, which for a given c
+    has one root a; the curve of equilibria is therefore followed along c, and, once c has reached
+    the trough, along a with ``p* sin^2 a - s``.
+
+    Parameters
+    ----------
+    amplitude, wavelength : float
+        Of the wave [length].
+    adhesion_length : float
+        Work of adhesion over E* [length].
+    range : float
+        Range of the traction adhesion_length/range [length].
+
+    Raises
+    ------
+    ValueError
+        If an argument is not positive and finite.
+
+    References
+    ----------
+    The same problem by other means: Hui, Lin, Baney & Kramer, The mechanics of contact and
+    adhesion of periodically rough surfaces, J. Polym. Sci. B 39, 1195 (2001).
+    """
+
+    range: float
+
+    @property
+    def strength(self) -> float:
+        """Traction within the range [E*]."""
+        return self.adhesion_length / self.range
+
+    @property
+    def full_contact_pull_off(self) -> float:
+        """Mean pressure [E*] below which full contact begins to open in the troughs."""
+        return self.full_contact_amplitude - self.strength
+
+    def at_cohesive_fraction(self, cohesive_fraction: float) -> WaveState:
+        """Return the equilibrium whose attraction covers a given share of the wave, below one.
+
+        Raises
+        ------
+        ValueError
+            If the share is not between 0 and 1, or the gap could not be so small there even with
+            a point contact.
+        """
+        c = float(self._phase(cohesive_fraction, "cohesive_fraction"))
+        a = self._contact_phase(c)
+        if a is None:
+            raise ValueError(
+                f"cohesive_fraction = {cohesive_fraction!r} belongs to no contact: the gap at its "
+                "edge is below the range even with a point contact"
+            )
+        return self._state(a, c)
+
+    @cached_property
+    def _curve(self) -> tuple[NDArray, NDArray]:
+        """Phases a and c along the curve of equilibria, by rising c and then a.
+
+        a is nan where no contact has its attraction end at c.
+        """
+        even = np.linspace(0, 1, _SAMPLES + 1)[1:]
+        start = np.geomspace(1e-4, even[0], 50)[:-1]  # short ranges begin with small contacts
+        c = np.append(start, even) * np.pi / 2
+        a = np.array([self._contact_phase(float(x)) for x in c], dtype=float)  # None is nan
+        widest = 0.0 if np.isnan(a[-1]) else a[-1]
+        wider = np.linspace(widest, np.pi / 2, _SAMPLES)[1:-1]
+        return np.append(a, wider), np.append(c, np.full_like(wider, np.pi / 2))
+
+    def curve(self) -> WaveState:
+        """Equilibria from the smallest to full contact, arrays of some hundred points."""
+        a, c = self._curve
+        there = ~np.isnan(a)
+        return self._state(a[there], c[there])
+
+    def equilibria(self, pressure: float) -> tuple[list[WaveState], list[bool]]:
+        """All partial contacts at a mean pressure [E*] and whether each is stable.
+
+        Stable means under load control: along the curve the pressure rises there with the
+        contact. States follow each other by growing attractive area. The point contact where the
+        curve starts, and full contact where it ends, are left out.
+        """
+        if not np.isfinite(pressure):
+            raise ValueError(f"pressure must be finite, got {pressure!r}")
+        a, c = self._curve
+        excess = self._state(a, c).pressure - pressure
+        states, stable = [], []
+        crossed = (excess[1:] * excess[:-1] < 0) | (excess[:-1] == 0)  # nan crosses nothing
+        for i in np.flatnonzero(crossed):
+            states.append(self._between(pressure, (a[i], c[i]), (a[i + 1], c[i + 1])))
+            stable.append(bool(excess[i + 1] > excess[i]))
+        return states, stable
+
+    def contact_pressure(self, x: ArrayLike, state: WaveState):
+        """Net pressure [E*] at distances `x` [length] from a crest."""
+        a, c = np.pi / 2 * state.area_fraction, np.pi / 2 * state.cohesive_fraction
+        here = self._position(x)
+        hertzian = self._westergaard(state.area_fraction).contact_pressure(x)
+        inside = np.maximum(np.sin(a) ** 2 - np.sin(here) ** 2, 0)
+        outer = (np.sin(c) ** 2 - np.sin(a) ** 2) * np.cos(here) ** 2
+        angle = np.arctan2(np.sqrt(outer), np.cos(c) * np.sqrt(inside))
+        angle = np.where(here > a, np.pi / 2, angle)
+        return plain(np.where(here > c, 0.0, hertzian - 2 * self.strength / np.pi * angle))
+
+    def _between(self, pressure: float, low: tuple, high: tuple) -> WaveState:
+        """Equilibrium at a pressure between two neighbours of the curve."""
+        if low[1] == np.pi / 2:
+            sine = np.sqrt((pressure + self.strength) / self.full_contact_amplitude)
+            return self._state(float(np.arcsin(sine)), np.pi / 2)
+        c = optimize.brentq(
+            lambda c: self._state(self._contact_phase(c), c).pressure - pressure,
+            low[1],
+            high[1],
+            xtol=1e-14,
+        )
+        return self._state(self._contact_phase(c), c)
+
+    def _state(self, a, c) -> WaveState:
+        spread = np.maximum(np.sin(c - a) * np.sin(c + a), 0)
+        angle = np.arctan2(np.sqrt(spread), np.cos(c))  # arccos(cos c/cos a), precise for c near a
+        pressure = self.full_contact_amplitude * np.sin(a) ** 2 - 2 * self.strength / np.pi * angle
+        return WaveState(plain(pressure), plain(2 / np.pi * a), plain(2 / np.pi * c))
+
+    def _contact_phase(self, c: float) -> float | None:
+        """Phase a of the contact with a gap of the range at c; None if even a = 0 falls short."""
+        smallest = 1e-9 * c
+        if self._edge_gap(smallest, c) < self.range:
+            return None
+        return float(
+            optimize.brentq(
+                lambda a: self._edge_gap(a, c) - self.range, smallest, c, xtol=1e-15 * c
+            )
+        )
+
+    def _edge_gap(self, a: float, c: float) -> float:
+        """Gap [length] at the phase c where the strength acts between a and c."""
+        if a >= c:
+            return 0.0
+        ratio = np.sin(c) / np.sin(a)
+        hertzian = ratio * np.sqrt(ratio**2 - 1) - np.arccosh(ratio)
+        opening = 4 * self.strength * self.wavelength / np.pi**2 * _slope_integral(a, c)
+        return float(2 * self.amplitude * np.sin(a) ** 2 * hertzian + opening)
+
+
+def _slope_integral(a: float, c: float) -> float:
+    """Integral over the cohesive zone of artanh(1/y), y as in `MaugisWave`."""
+    if c >= np.pi / 2:
+        return 0.0
+    width = c - a
+    psi = a + width * _STEP
+    spread = np.sin(width) * np.sin(c + a)  # sin^2 c - sin^2 a
+    inverse = np.sqrt(np.sin(width * _STEP) * np.sin(psi + a) / spread) * np.cos(c) / np.cos(psi)
+    # 1 - 1/y^2 as a product: close to c the difference would lose all its digits. The
+    # substitution is symmetric, 1 - _STEP is itself in reverse.
+    rest = np.cos(a) * np.sqrt(np.sin(width * _STEP[::-1]) * np.sin(c + psi) / spread)
+    return float(width * np.sum(_STEP_WEIGHTS * np.log((1 + inverse) * np.cos(psi) / rest)))

@@ -1,0 +1,187 @@
+"""Checks of the configuration: one line per error, naming the key, its value and the remedy."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import Any
+
+import jsonschema
+import yaml
+
+from stickiness.config.cross_checks import config_problems
+from stickiness.config.messages import one_line
+from stickiness.config.surface_entries import measurements, rate_problems, surface_problems
+from stickiness.core.units import si
+
+__all__ = [
+    "ConfigError",
+    "check_config",
+    "check_materials",
+    "check_schema",
+    "check_surfaces",
+    "check_units",
+    "checked",
+    "load",
+    "measurements",
+]
+
+# Keys whose values are strings with units, and the unit that fixes their dimension.
+_UNITS = {
+    "plane_strain_modulus": "Pa",
+    "youngs_modulus": "Pa",
+    "work_of_adhesion": "J/m^2",
+    "range": "m",
+    "longest_wavelength": "m",
+    "shortest_wavelength": "m",
+    "rolloff_wavelength": "m",
+    "q0": "1/m",
+    "q1": "1/m",
+    "h_rms": "m",
+    "length": "m",
+    "pixel_size": "m",
+    "fit_from": "m",
+    "fit_to": "m",
+    "resolution": "m",
+    "tip_radius": "m",
+    "extend_to": "m",
+}
+
+
+_PAPER_SURFACES = ("asphalt", "polished_steel")
+
+
+class ConfigError(ValueError):
+    """A key of the configuration is unknown, missing or has a value that cannot be used."""
+
+
+class _UniqueKeys(yaml.SafeLoader):
+    """Loader that refuses a key given twice, of which YAML would keep the second."""
+
+    def construct_mapping(self, node: yaml.MappingNode, deep: bool = False) -> dict[Any, Any]:
+        seen = set()
+        for key, _ in node.value:
+            if key.value in seen and key.value != "<<":
+                problem = f"the key {key.value!r} is given twice"
+                raise yaml.constructor.ConstructorError(
+                    problem=problem, problem_mark=key.start_mark
+                )
+            seen.add(key.value)
+        return super().construct_mapping(node, deep)
+
+
+def load(path: str | Path) -> dict[str, Any]:
+    """Read a YAML file of the configuration.
+
+    Raises
+    ------
+    ConfigError
+        If the file is missing or is not valid YAML.
+    """
+    try:
+        content = yaml.load(Path(path).read_text(encoding="utf-8"), _UniqueKeys)
+    except FileNotFoundError:
+        raise ConfigError(f"{path}: no such file; set its path in config/config.yaml") from None
+    except yaml.YAMLError as error:
+        mark = getattr(error, "problem_mark", None)
+        line = f" line {mark.line + 1}" if mark else ""
+        raise ConfigError(
+            f"{path}:{line}: not valid YAML: {getattr(error, 'problem', error)}"
+        ) from None
+    if not isinstance(content, dict):
+        raise ConfigError(f"{path}: must hold keys and values, found {type(content).__name__}")
+    return content
+
+
+def checked(
+    config: Mapping[str, Any], schemas: str | Path, name: str = "config/config.yaml"
+) -> tuple[dict[str, Any], dict[str, Any]]:
+    """Check the whole configuration and the files it names.
+
+    Parameters
+    ----------
+    config : mapping
+        Content of config.yaml with everything that overrides it.
+    schemas : path
+        Folder of the schemas.
+    name : str
+        What to call the configuration in errors.
+
+    Returns
+    -------
+    materials, surfaces : dict
+        The tables of materials.yaml and surfaces.yaml.
+
+    Raises
+    ------
+    ConfigError
+        On the first thing wrong, in one line.
+    """
+    schemas = Path(schemas)
+    check_schema(config, schemas / "config.schema.yaml", name)
+    check_config(config, name)
+    tables = []
+    for table in ("materials", "surfaces"):
+        content = load(config[table])
+        check_schema(content, schemas / f"{table}.schema.yaml", config[table])
+        check_units(content, config[table])
+        tables.append(content[table])
+    check_materials(tables[0], config["materials"])
+    check_surfaces(tables[1], config["surfaces"])
+    return tables[0], tables[1]
+
+
+def check_schema(content: Mapping[str, Any], schema: str | Path, name: str) -> None:
+    """Check `content`, read from the file `name`, against a JSON schema in YAML."""
+    validator = jsonschema.Draft202012Validator(load(schema))
+    errors = sorted(
+        validator.iter_errors(content), key=lambda error: (-len(error.path), str(error.path))
+    )
+    if errors:
+        raise ConfigError(f"{name}: {one_line(errors[0])}")
+
+
+def check_config(config: Mapping[str, Any], name: str = "config/config.yaml") -> None:
+    """Check what the schema of config.yaml cannot say: references, orders, units, resolution."""
+    for problem in config_problems(config):
+        raise ConfigError(f"{name}: {problem}")
+
+
+def check_units(content: Mapping[str, Any], name: str) -> None:
+    """Check that every value that needs a unit has one of the right dimension and is positive."""
+    for key, value, unit in _with_units(content, ""):
+        try:
+            magnitude = si(value, unit)
+        except ValueError as error:
+            raise ConfigError(f"{name}: {key} = {error}") from None
+        if not magnitude > 0:
+            raise ConfigError(f"{name}: {key} = {value!r} must be positive")
+
+
+def check_materials(materials: Mapping[str, Any], name: str = "config/materials.yaml") -> None:
+    """Check moduli that depend on the rate: units, order, and that they cover 1 Hz."""
+    for key, material in materials.items():
+        for problem in rate_problems(material):
+            raise ConfigError(f"{name}: materials.{key}.{problem}")
+
+
+def check_surfaces(surfaces: Mapping[str, Any], name: str = "config/surfaces.yaml") -> None:
+    """Check bands, ranges and files of the real surfaces."""
+    for key in _PAPER_SURFACES:
+        if key not in surfaces:
+            raise ConfigError(f"{name}: surfaces: {key!r} is missing; the paper's claims need it")
+    for key, surface in surfaces.items():
+        for problem in surface_problems(surface):
+            raise ConfigError(f"{name}: surfaces.{key}.{problem}")
+
+
+def _with_units(node: Any, key: str) -> Iterator[tuple[str, Any, str]]:
+    if isinstance(node, Mapping):
+        for name, value in node.items():
+            below = f"{key}.{name}" if key else name
+            if name in _UNITS and not isinstance(value, Mapping):
+                values = enumerate(value) if isinstance(value, list) else [(None, value)]
+                for index, item in values:
+                    yield below if index is None else f"{below}[{index}]", item, _UNITS[name]
+            else:
+                yield from _with_units(value, below)

@@ -1,0 +1,243 @@
+"""What the schema of config.yaml cannot say: references, orders, what goes together."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+from stickiness.accuracy.error_laws import CARRIED_TIMES, CARRIED_TO
+from stickiness.config.messages import grid_problems, unit_problem, unknown
+
+# What the figures and the claims ledger read; may be edited but not removed.
+_PAPER = {
+    "cases": ("H0.8_zeta32", "H0.8_zeta64", "H0.8_zeta128", "H0.8_zeta32_wide"),
+    "theory.sweeps": ("fig1a", "fig1b", "fig3a", "fig3b", "fig3c", "fig3d"),
+    "adhesion": ("fig2", "fig4b_rough", "fig4b_smooth", "dmt_error"),
+    "loops": ("fig4a",),
+}
+_CRITERIA_GRIDS = {
+    "map": ("range_times_q0", "adhesion_length_over_range"),
+    "compared": ("h_rms_over_range", "magnification"),
+}
+
+
+def config_problems(config: Mapping[str, Any]) -> Iterator[str]:
+    """Yield what is wrong in a config.yaml that its schema lets pass, a line each."""
+    fidelity = config["fidelity"]
+    if fidelity not in config["fidelities"]:
+        yield f"fidelity = {fidelity!r} is unknown; choose one of {', '.join(config['fidelities'])}"
+    yield from grid_problems("gaps", config["gaps"])
+    yield from _paper_problems(config)
+    yield from _comparison_problems(config)
+    yield from _criteria_problems(config)
+    yield from _theory_problems(config["theory"]["table"])
+    yield from _case_problems(config)
+    yield from _window_problems(config["a_v"]["windows"], config["gaps"])
+    yield from _adhesion_table_problems(config)
+    yield from _loop_problems(config)
+    yield from _preset_problems(config)
+    yield from _whole_problems(config)
+
+
+def _paper_problems(config: Mapping[str, Any]) -> Iterator[str]:
+    """What figures and claims read must be there."""
+    tables = {"theory.sweeps": config["theory"]["sweeps"]}
+    for table, names in _PAPER.items():
+        for name in names:
+            if name not in tables.get(table, config.get(table)):
+                yield f"{table}: {name!r} is missing; the paper's figures and claims need it"
+
+
+def _theory_problems(table: Mapping[str, Any]) -> Iterator[str]:
+    for key in ("hurst", "magnification", "pressure"):
+        if sorted(table[key]) != table[key]:
+            yield f"theory.table.{key} = {table[key]!r} must be in increasing order"
+    yield from grid_problems("theory.table.range", table["range"])
+
+
+def _case_problems(config: Mapping[str, Any]) -> Iterator[str]:
+    """Cases, the surfaces that they name, and the case that a_V is measured on."""
+    surfaces = config["model_surfaces"]
+    for key, case in config["cases"].items():
+        if case["surface"] not in surfaces:
+            yield unknown(f"cases.{key}.surface", case["surface"], surfaces)
+        yield from _model_problems(f"cases.{key}", case, surfaces)
+        for pressure in case.get("maps", []):
+            if pressure not in case["pressures"]:
+                yield f"cases.{key}.maps: {pressure!r} is not among the case's pressures"
+    for key, surface in surfaces.items():
+        rolloff, magnification = surface.get("rolloff"), surface["magnification"]
+        if rolloff is not None and rolloff >= magnification:
+            yield (
+                f"model_surfaces.{key}.rolloff = {rolloff!r} must be below "
+                f"magnification = {magnification!r}"
+            )
+    chosen = config["criteria"]["a_v"]
+    if chosen["case"] not in config["cases"]:
+        yield unknown("criteria.a_v.case", chosen["case"], config["cases"])
+    elif chosen["pressure"] not in config["cases"][chosen["case"]]["pressures"]:
+        yield (
+            f"criteria.a_v.pressure = {chosen['pressure']!r} is not among the pressures of "
+            f"cases.{chosen['case']}"
+        )
+
+
+def _window_problems(windows: list[list[float]], gaps: Mapping[str, float]) -> Iterator[str]:
+    for key, window in enumerate(windows):
+        if not window[0] < window[1]:
+            yield f"a_v.windows[{key}] = {window!r} must be [low, high] with low < high"
+        if window[0] < gaps["minimum"] or window[1] > gaps["maximum"]:
+            yield f"a_v.windows[{key}] = {window!r} must lie within gaps.minimum … gaps.maximum"
+
+
+def _adhesion_table_problems(config: Mapping[str, Any]) -> Iterator[str]:
+    for key, adhesion in config["adhesion"].items():
+        for problem in _adhesion_problems(adhesion, config):
+            yield f"adhesion.{key}.{problem}"
+    if "maps" not in config["adhesion"]["fig2"]:
+        yield "adhesion.fig2.maps is missing; Figure 2 needs it: {pressures, ...}"
+    if config["adhesion"]["dmt_error"]["model"] != "full":
+        yield "adhesion.dmt_error.model must be full; the error of the DMT limit is measured there"
+
+
+def _loop_problems(config: Mapping[str, Any]) -> Iterator[str]:
+    for key, loop in config["loops"].items():
+        if loop["surface"] not in config["model_surfaces"]:
+            yield unknown(f"loops.{key}.surface", loop["surface"], config["model_surfaces"])
+        for unit_key in ("window", "h_rms"):
+            yield from unit_problem(f"loops.{key}.{unit_key}", loop.get(unit_key), "m")
+
+
+def _criteria_problems(config: Mapping[str, Any]) -> Iterator[str]:
+    """What the maps of criteria ask of a_V and the table of it does not hold."""
+    criteria, table = config["criteria"], config["theory"]["table"]
+    for key in ("ranges", "frequencies"):
+        yield from grid_problems(f"criteria.{key}", criteria[key])
+    for part, grids in _CRITERIA_GRIDS.items():
+        for key in grids:
+            yield from grid_problems(f"criteria.{part}.{key}", criteria[part][key])
+    compared = criteria["compared"]
+    roughness = compared["h_rms_over_range"]
+    asked = [
+        ("a_v.pressure", "pressure", criteria["a_v"]["pressure"]),
+        ("map.hurst", "hurst", criteria["map"]["hurst"]),
+        ("compared.hurst", "hurst", compared["hurst"]),
+        ("compared.quoted_magnification", "magnification", compared["quoted_magnification"]),
+    ]
+    for end in ("minimum", "maximum"):
+        key = f"magnification.{end}"
+        asked.append((f"compared.{key}", "magnification", compared["magnification"][end]))
+    for key, axis, value in asked:
+        if not min(table[axis]) <= value <= max(table[axis]):
+            yield (
+                f"criteria.{key} = {value!r} must lie within theory.table.{axis}, "
+                f"{min(table[axis])!r} … {max(table[axis])!r}"
+            )
+    largest = 1 / table["range"]["minimum"]
+    smallest = 1 / table["range"]["maximum"]
+    for key, value in (
+        ("h_rms_over_range.minimum", roughness["minimum"]),
+        ("h_rms_over_range.maximum", roughness["maximum"]),
+        ("quoted_h_rms_over_range", compared["quoted_h_rms_over_range"]),
+    ):
+        if not smallest <= value <= largest:
+            yield (
+                f"criteria.compared.{key} = {value!r} must lie within the inverse of "
+                f"theory.table.range, {smallest:g} … {largest:g}"
+            )
+
+
+def _comparison_problems(config: Mapping[str, Any]) -> Iterator[str]:
+    surfaces = config["comparisons"]["surfaces"]
+    for name in surfaces.keys() & config["cases"].keys():
+        yield f"comparisons.surfaces.{name} has the name of a case; give it another"
+    for key, fidelity in config["fidelities"].items():
+        for name in fidelity.get("comparisons", []):
+            if name not in surfaces:
+                yield unknown(f"fidelities.{key}.comparisons", name, surfaces)
+
+
+def _adhesion_problems(adhesion: Mapping[str, Any], config: Mapping[str, Any]) -> Iterator[str]:
+    """What of an adhesive set does not fit its case, its model or the gaps."""
+    if adhesion["case"] not in config["cases"]:
+        yield unknown("case", adhesion["case"], config["cases"])
+        return
+    for key in ("window", "h_rms"):
+        yield from unit_problem(key, adhesion.get(key), "m")
+    for pressure in adhesion["pressures"]:
+        if pressure not in config["cases"][adhesion["case"]]["pressures"]:
+            yield f"pressures: {pressure!r} is not among those of cases.{adhesion['case']}"
+    gaps, model = config["gaps"], adhesion["model"]
+    for value in adhesion["range_over_h_rms"]:
+        if not gaps["minimum"] <= value <= gaps["maximum"]:
+            yield (
+                f"range_over_h_rms: {value!r} must lie within gaps.minimum … gaps.maximum, "
+                f"{gaps['minimum']:g} … {gaps['maximum']:g}"
+            )
+    if model == "auto" and "accuracy" not in adhesion:
+        yield "accuracy is missing; model: auto chooses by it, relative in 1/kappa_ad"
+    if model != "auto" and "accuracy" in adhesion:
+        yield f"accuracy = {adhesion['accuracy']!r} needs model: auto, which chooses by it"
+    for key in ("seeds", "refine", "maps"):
+        if model == "dmt" and key in adhesion:
+            yield f"{key} = {adhesion[key]!r} is of the full model; leave it out with model: dmt"
+
+
+def _whole_problems(config: Mapping[str, Any]) -> Iterator[str]:
+    """Cases that others rest on must be simulated for every quantity."""
+    cases = dict.fromkeys(_PAPER["cases"], "the paper's figures and claims")
+    cases |= {adhesion["case"]: f"adhesion.{key}" for key, adhesion in config["adhesion"].items()}
+    cases[config["criteria"]["a_v"]["case"]] = "criteria.a_v"
+    for name, user in cases.items():
+        for key in ("quantities", "model"):
+            case = config["cases"].get(name, {})
+            if case.get(key, "simulation") != "simulation":
+                yield (
+                    f"cases.{name}.{key} = {case[key]!r}: leave it out, {user} needs every "
+                    "quantity by simulation; or add a case"
+                )
+
+
+def _preset_problems(config: Mapping[str, Any]) -> Iterator[str]:
+    """Rule of the presets and measured settings must name what there is."""
+    rule = config["tradeoff"]["presets"]
+    for name in config["tradeoff"]["settings"]["surfaces"]:
+        if name not in config["tradeoff"]["cases"]["surfaces"]:
+            yield unknown(
+                "tradeoff.settings.surfaces", name, config["tradeoff"]["cases"]["surfaces"]
+            )
+    if rule["surface"] not in config["model_surfaces"]:
+        yield unknown("tradeoff.presets.surface", rule["surface"], config["model_surfaces"])
+    for name in rule["accuracy"]:
+        for table in (config["fidelities"], rule["adhesive"]["accuracy"]):
+            if name not in table:
+                yield unknown("tradeoff.presets.accuracy", name, table)
+
+
+def _model_problems(
+    key: str, case: Mapping[str, Any], surfaces: Mapping[str, Any]
+) -> Iterator[str]:
+    """What a case may ask for depends on whether it is simulated."""
+    if case.get("model") == "theory":
+        for unused in ("accuracy", "at_most", "seeds", "sampling", "maps"):
+            if unused in case:
+                yield (
+                    f"{key}.{unused} = {case[unused]!r} is for simulations; leave it out with "
+                    "model: theory"
+                )
+    magnification = surfaces.get(case["surface"], {}).get("magnification", 0)
+    if case.get("carry_to", magnification + 1) <= magnification:
+        yield (
+            f"{key}.carry_to = {case['carry_to']!r} must be above the magnification simulated, "
+            f"{magnification!r}"
+        )
+    most = min(CARRIED_TIMES * magnification, CARRIED_TO)
+    if magnification < case.get("carry_to", 0) and case["carry_to"] > most:
+        yield (
+            f"{key}.carry_to = {case['carry_to']!r} is beyond what was measured: at most "
+            f"{most:g}, {CARRIED_TIMES} times the magnification simulated and {CARRIED_TO} in all"
+        )
+    if "at_most" in case and "accuracy" not in case:
+        yield f"{key}.at_most = {case['at_most']!r} needs accuracy; give seeds for a fixed number"
+    if "accuracy" in case and "seeds" in case:
+        yield f"{key}.seeds = {case['seeds']!r}: give accuracy or seeds, not both"

@@ -1,0 +1,117 @@
+"""What the schemas of materials and real surfaces cannot say: orders, units, files."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from itertools import pairwise
+from pathlib import Path
+from typing import Any
+
+from stickiness.config.messages import unit_problem
+from stickiness.core.units import si
+from stickiness.measured import readers
+
+_BUILTIN = ("builtin:jacksboro",)
+
+
+def rate_problems(material: Mapping[str, Any]) -> Iterator[str]:
+    series = material.get("youngs_modulus_prony", {"terms": []})
+    yield from unit_problem("youngs_modulus_prony.equilibrium", series.get("equilibrium"), "Pa")
+    for index, (modulus, time) in enumerate(series["terms"]):
+        yield from unit_problem(f"youngs_modulus_prony.terms[{index}][0]", modulus, "Pa")
+        yield from unit_problem(f"youngs_modulus_prony.terms[{index}][1]", time, "s")
+    pairs = material.get("youngs_modulus_table", [])
+    for index, (frequency, modulus) in enumerate(pairs):
+        yield from unit_problem(f"youngs_modulus_table[{index}][0]", frequency, "Hz")
+        yield from unit_problem(f"youngs_modulus_table[{index}][1]", modulus, "Pa")
+    frequencies = [si(frequency, "Hz") for frequency, _ in pairs]
+    if any(b <= a for a, b in pairwise(frequencies)):
+        yield "youngs_modulus_table: frequencies must ascend"
+    if pairs and not frequencies[0] <= 1 <= frequencies[-1]:
+        yield (
+            f"youngs_modulus_table runs from {pairs[0][0]} to {pairs[-1][0]} and must cover 1 Hz, "
+            "at which the verdict is quoted"
+        )
+
+
+def surface_problems(surface: Mapping[str, Any]) -> Iterator[str]:
+    if surface["kind"] == "measured":
+        for name, measurement in measurements(surface):
+            for problem in _file_problems(measurement):
+                yield f"{name}{problem}"
+        index, count = surface.get("bem", {}).get("measurement", 0), len(measurements(surface))
+        if index >= count:
+            yield f"bem.measurement = {index} is counted from 0 and must be below {count}"
+        return
+    longest = _wavelength(surface, "longest_wavelength", "q0")
+    shortest = _wavelength(surface, "shortest_wavelength", "q1")
+    if not shortest < longest:
+        yield f"shortest_wavelength = {shortest:g} m must be below the longest, {longest:g} m"
+    if "rolloff_wavelength" in surface:
+        rolloff = si(surface["rolloff_wavelength"], "m")
+        if not shortest < rolloff < longest:
+            yield f"rolloff_wavelength = {rolloff:g} m must be in {shortest:g} … {longest:g} m"
+    unit = f"m^{2 - 2 * surface['hurst']:g}"
+    for value in _as_list(surface.get("C0", [])):
+        yield from unit_problem("C0", value, unit)
+    for key, key_unit in (("C0", unit), ("h_rms", "m")):
+        values = [si(value, key_unit) for value in _as_list(surface.get(key, []))]
+        if values != sorted(values):
+            yield f"{key} = {surface[key]!r} must be [low, high]"
+
+
+def measurements(surface: Mapping[str, Any]) -> list[tuple[str, dict[str, Any]]]:
+    """Return every measurement of a measured surface: a prefix for messages, and all of its keys.
+
+    What stands beside the list `measurements` holds for each that does not say otherwise.
+    """
+    if "measurements" not in surface:
+        return [("", dict(surface))]
+    shared = {key: value for key, value in surface.items() if key != "measurements"}
+    several = enumerate(surface["measurements"])
+    return [(f"measurements[{index}].", shared | dict(one)) for index, one in several]
+
+
+def _file_problems(measurement: Mapping[str, Any]) -> Iterator[str]:
+    """What can be said of a measurement before its file is read."""
+    file = measurement["file"]
+    for key in ("height_unit", "position_unit"):
+        if key in measurement:
+            yield from unit_problem(key, f"1 {measurement[key]}", "m")
+    if file.startswith("builtin:"):
+        if file not in _BUILTIN:
+            yield f"file = {file!r} is unknown; built in: {', '.join(_BUILTIN)}"
+        return
+    if not Path(file).is_file():
+        yield f"file = {file!r}: no such file; give a path from the working directory"
+        return
+    if "length" in measurement and "pixel_size" in measurement:
+        yield f"pixel_size = {measurement['pixel_size']!r}: give length or pixel_size, not both"
+    if measurement.get("missing", "fill") != "fill" and "max_missing" in measurement:
+        yield (
+            f"max_missing = {measurement['max_missing']!r} is the share that missing: fill fills; "
+            f"leave it out with missing: {measurement['missing']}"
+        )
+    kind = readers.format_of(file, measurement.get("format"))
+    if kind == readers.INSTRUMENT and not readers.can_read_instruments():
+        yield (
+            f"file = {file!r} is an instrument's and needs SurfaceTopography, which is not "
+            f"installed; run {readers.INSTALL}"
+        )
+    if kind != readers.INSTRUMENT and "channel" in measurement:
+        yield f"channel = {measurement['channel']!r}: a {kind} file has no channels; leave it out"
+    if kind not in ("netcdf", "numpy") and "variable" in measurement:
+        yield f"variable = {measurement['variable']!r} is for NetCDF and npz, this file is neither"
+    fit_from, fit_to = (measurement.get(key) for key in ("fit_from", "fit_to"))
+    if fit_from and fit_to and not si(fit_to, "m") < si(fit_from, "m"):
+        yield f"fit_to = {fit_to!r} must be below fit_from = {fit_from!r}"
+
+
+def _wavelength(surface: Mapping[str, Any], wavelength: str, wave_number: str) -> float:
+    if wavelength in surface:
+        return si(surface[wavelength], "m")
+    return 2 * 3.141592653589793 / si(surface[wave_number], "1/m")
+
+
+def _as_list(value: Any) -> list[Any]:
+    return value if isinstance(value, list) else [value]

@@ -1,0 +1,372 @@
+"""Active-set iteration of the repulsive contact problem, in dimensionless variables.
+
+See `stickiness.repulsive` for the problem and the method. Pressures of the contact set are kept as
+short vectors over its points; whole grids are touched once per update of the set.
+
+Corrections of the pressure between two updates are solved for in single precision: they reduce the
+gap by a factor of 10 or 1000, so that the seven digits are plenty, and the next update starts from
+the true gap again (iterative refinement). That gap is computed in double precision as soon as the
+residual is small enough for rounding to matter, and always for what is returned.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+import pyfftw
+
+from stickiness.contact import half_space
+from stickiness.contact.preconditioner import Preconditioner
+
+__all__ = ["PREDICTION", "State", "relax"]
+
+PREDICTION = 0.7  # c in "contact where p > c k g": 0.5 to 1 predict about equally well
+_LOOSE = 0.15  # reduction of the gap on a set that is still changing much
+_CLOSER = 0.03  # and on one that changes little
+_SETTLED = 1e-3  # share of changing points below which a set changes little
+_ADMITTED = 0.7  # penetrations up to this multiple of the rms gap in contact may yet vanish
+_DOUBTFUL = 1e-4  # of the largest height: residual below which gaps need double precision
+_RESOLVED = 1e-4  # largest reduction of the gap asked of a correction in single precision
+_PATIENCE = 8  # updates without progress after which the set is solved ten times tighter
+_SURRENDER = 40  # updates without progress after which rounding is what limits the residual
+
+
+@dataclass(frozen=True, eq=False)
+class State:
+    """Outcome of `relax`: fields in units of the side, the rms height and E*."""
+
+    pressure: np.ndarray
+    gap: np.ndarray
+    shift: float
+    area_fraction: float
+    residual: float
+    iterations: int
+    pairs: float
+
+
+class _Field:
+    """A field that is zero but at some points, and its image under an operator."""
+
+    def __init__(self, operator, memory=None):
+        self.operator = operator
+        self.shape = operator.shape
+        size = self.shape[0] * self.shape[1]
+        if memory is None:
+            self.field = pyfftw.zeros_aligned(size, operator.dtype)
+            self.image = pyfftw.empty_aligned(size, operator.dtype)
+        else:  # zeros are zeros in any precision, and an image is read before the next is made
+            self.field = memory.field.view(operator.dtype)[:size]
+            self.image = memory.image.view(operator.dtype)[:size]
+
+    def apply(self, operation, points, values, rows_in, rows_out=None):
+        """Image of a field that is zero but for `values` at `points`; `image` holds it."""
+        self.field[points] = values
+        operation(self.field.reshape(self.shape), self.image.reshape(self.shape), rows_in, rows_out)
+        self.field[points] = 0
+        return self.image
+
+    def spread(self, points, values, wanted):
+        """Values, at other points, of a field that is zero but for `values` at `points`."""
+        self.field[points] = values
+        spread = self.field[wanted].astype(float)
+        self.field[points] = 0
+        return spread
+
+
+class _Grid:
+    """Heights on a grid, and scratch fields in single and, unless `rough`, double precision."""
+
+    def __init__(self, heights, lengths, rough):
+        self.shape = heights.shape
+        self.heights = heights
+        self.active = np.zeros(heights.size, bool)
+        dtype = np.float32 if rough else np.float64
+        self.exact = _Field(half_space.half_space(self.shape, lengths, dtype))
+        single = half_space.half_space(self.shape, lengths, np.float32)
+        self.quick = self.exact if rough else _Field(single, memory=self.exact)
+        self.coarse = half_space.coarse_stiffness(self.shape, lengths)
+        # Below this residual rounding in single precision (some 1e-6 of the heights) is felt.
+        self.doubtful = 0.0 if rough else _DOUBTFUL * float(np.abs(heights).max())
+        self._before = self._count()
+
+    def _count(self):
+        pairs = self.quick.operator.pairs
+        if self.exact is not self.quick:
+            pairs += self.exact.operator.pairs
+        return pairs if self.coarse is None else pairs + self.coarse.applications / 4
+
+    @property
+    def pairs(self):
+        """Convolutions since this object was made."""
+        return self._count() - self._before
+
+    def rows(self, points):
+        hit = np.zeros(self.shape[0], bool)
+        hit[points // self.shape[1]] = True
+        return np.flatnonzero(hit)
+
+
+def relax(
+    heights,
+    lengths,
+    load,
+    *,
+    tol,
+    max_iterations,
+    gap=None,
+    pressure=None,
+    rough=False,
+    logger=None,
+):
+    """Find pressure and gap on one grid.
+
+    Parameters
+    ----------
+    heights : numpy.ndarray
+        Heights in units of their rms, contiguous.
+    lengths : tuple of float
+        Sides of the cell.
+    load : float
+        Mean pressure.
+    tol : float
+        Largest accepted residual.
+    max_iterations : int
+        Largest number of inner iterations; whatever is reached by then is returned.
+    gap, pressure : numpy.ndarray, optional
+        A guess of the gap in single precision, or one of the pressure of any positive mean;
+        without either the start is a uniform pressure.
+    rough : bool
+        Single precision suffices: `tol` is well above 1e-5.
+    logger : logging.Logger, optional
+        Told the progress.
+
+    Returns
+    -------
+    State
+        The iterate of the smallest residual.
+    """
+    grid = _Grid(heights, lengths, rough)
+    field = grid.quick if pressure is None else grid.exact
+    total = load * heights.size
+    if gap is not None:
+        points, pressure = _predicted_from_gap(grid, gap, load)
+        gap = None  # frees the memory, if nobody else holds it
+    elif pressure is not None:
+        points, pressure = _predicted_from_pressure(grid, pressure, total)
+    else:
+        points, pressure = np.arange(heights.size), np.full(heights.size, load)
+    if points.size == heights.size:
+        full = _full_contact(grid, load)
+        if full.pressure.min() >= 0:
+            return full
+    best, precondition = None, None
+    iterations, stale, loose, changed = 0, 0, _LOOSE, points.size
+    while True:
+        shift, gaps, below, residual = _gap(grid, field, points, pressure)
+        if residual <= tol and field is not grid.exact:
+            field = grid.exact
+            continue
+        stale += 1
+        if best is None or residual < best[-1]:
+            best, stale = (points, pressure, shift, residual), 0
+        if logger is not None:
+            _report(logger, grid, residual, points.size, iterations)
+        if residual <= tol or iterations >= max_iterations or stale > _SURRENDER:
+            break
+        if below.size + points.size == 1:
+            break
+        if stale and stale % _PATIENCE == 0:
+            loose /= 10
+        admitted = below[field.image[below] + shift < -_ADMITTED * np.sqrt(np.mean(gaps**2))]
+        if admitted.size:
+            points, pressure, gaps = _joined(grid, field, points, pressure, admitted, shift)
+            precondition = None
+        changed += admitted.size
+        if precondition is None:
+            precondition = Preconditioner(grid, points)
+        if changed == 0:
+            goal = 0.5 * tol
+        else:
+            reduction = loose if changed > _SETTLED * points.size else min(loose, _CLOSER)
+            goal = max(reduction * float(np.std(gaps)), 0.1 * tol)
+        residuals, scale = _scaled(gaps)
+        gaps = None  # frees memory
+        change, count = _inner(
+            precondition, residuals, goal / scale, changed == 0, max_iterations - iterations
+        )
+        iterations += count
+        pressure = _changed(pressure, change, scale)
+        change = residuals = None
+        keep = pressure > 0
+        changed = points.size - int(np.count_nonzero(keep))
+        if changed:
+            points, pressure = points[keep], pressure[keep]
+            pressure *= total / pressure.sum()
+            precondition = None
+        changed += admitted.size
+        field = grid.quick if residual > grid.doubtful else grid.exact
+    return _state(grid, best, field, pressure, iterations)
+
+
+def _full_contact(grid, load):
+    """Full contact of any surface: the pressure is that of the heights as a displacement."""
+    operator = grid.exact.operator
+    heights = grid.heights.astype(operator.dtype, copy=False)
+    pressure = operator.stiffness(heights)
+    misfit = operator.compliance(pressure)
+    misfit -= grid.heights
+    residual = float(np.abs(misfit).max())
+    pressure += load
+    misfit[...] = 0
+    return State(pressure, misfit, 0.0, 1.0, residual, 0, grid.pairs)
+
+
+def _report(logger, grid, residual, size, iterations):
+    logger.info(
+        "%d x %d: residual %.1e h_rms, area %.5f, %d iterations",
+        *grid.shape,
+        residual,
+        size / grid.heights.size,
+        iterations,
+    )
+
+
+def _gap(grid, field, points, pressure):
+    """Gap of an iterate, in the precision of a field of the grid.
+
+    Returns the shift that makes its mean in contact vanish, the gap in contact, points outside
+    that penetrate and the largest violation of the conditions of contact. The image of `field`
+    keeps the gap without the shift.
+    """
+    image = field.apply(field.operator.compliance, points, pressure, grid.rows(points))
+    np.subtract(image, grid.heights.ravel(), out=image, casting="same_kind")
+    gaps = image[points].astype(float)
+    shift = float(-gaps.mean())
+    gaps += shift
+    below = np.flatnonzero(image < -shift)
+    grid.active[points] = True
+    below = below[~grid.active[below]]
+    grid.active[points] = False
+    depth = float(-(image[below].min() + shift)) if below.size else 0.0
+    return shift, gaps, below, max(float(np.abs(gaps).max()), depth)
+
+
+def _predicted_from_gap(grid, gap, load):
+    """Contact set and pressure from a guess of the gap, in single precision.
+
+    The heights being exact, so is the pressure the guess implies well inside contact.
+    """
+    operator, shape = grid.quick.operator, grid.shape
+    surface = grid.quick.image.reshape(shape)  # scratch: not in use here
+    np.add(gap, grid.heights, out=surface, casting="same_kind")
+    pressure = operator.stiffness(surface)
+    pressure += np.float32(load)
+    np.multiply(gap, np.float32(PREDICTION * operator.mean_stiffness), out=surface)
+    np.maximum(surface, 0, out=surface)
+    points = np.flatnonzero(pressure > surface)
+    if points.size == 0:
+        points = np.array([np.argmax(pressure)])
+    pressure = pressure.ravel()[points].astype(float)
+    return points, _balanced(np.maximum(pressure, 0), load * gap.size)
+
+
+def _predicted_from_pressure(grid, pressure, total):
+    """Contact set and pressure from a guess of the pressure."""
+    flat = pressure.ravel()
+    points = np.flatnonzero(flat > 0)
+    shift, *_ = _gap(grid, grid.exact, points, _balanced(flat[points], total))
+    threshold = grid.exact.image + shift
+    threshold *= PREDICTION * grid.exact.operator.mean_stiffness * (flat.sum() / total)
+    predicted = np.flatnonzero(flat > np.maximum(threshold, 0))
+    if predicted.size:
+        points = predicted
+    return points, _balanced(flat[points], total)
+
+
+def _balanced(pressure, total):
+    force = pressure.sum()
+    if force > 0:
+        return pressure * (total / force)
+    return np.full(pressure.size, total / pressure.size)
+
+
+def _joined(grid, field, points, pressure, extra, shift):
+    grid.active[points] = True
+    grid.active[extra] = True
+    joined = np.flatnonzero(grid.active)
+    grid.active[joined] = False
+    spread = grid.exact.spread(points, pressure, joined)
+    return joined, spread, field.image[joined].astype(float) + shift
+
+
+def _scaled(gaps):
+    """Residuals of zero mean in single precision, and their unit: the rms gap."""
+    mean, scale = float(gaps.mean()), float(np.std(gaps)) or 1.0
+    residual = np.empty(gaps.size, np.float32)
+    np.subtract(mean, gaps, out=residual, casting="same_kind")
+    residual /= np.float32(scale)
+    return residual, scale
+
+
+def _changed(pressure, change, scale):
+    """Pressure plus a change of zero sum."""
+    total = np.multiply(change, scale, dtype=float)
+    total -= total.mean()
+    total += pressure
+    return total
+
+
+def _inner(precondition, residual, goal, largest, limit):
+    """Change of pressure, of zero sum, that closes the gap on a set of points.
+
+    Preconditioned conjugate gradients in the space of vectors of zero sum, until the rms
+    residual (or the `largest`) is down to `goal`. In single precision; overwrites `residual`.
+    """
+    quick, points, rows = precondition.quick, precondition.points, precondition.inner_rows
+    change, count = np.zeros(points.size, np.float32), 1
+    if points.size == 1 or not residual.any():
+        return change, count
+    goal = max(goal, _RESOLVED)
+    direction, product = None, 1.0
+    while True:
+        z = precondition(residual)
+        z -= z.mean()
+        previous, product = product, float(residual @ z)
+        if not product > 0:  # nothing but rounding is left
+            break
+        if direction is None:
+            direction = z
+        else:
+            direction *= np.float32(product / previous)
+            direction += z
+        image = quick.apply(quick.operator.compliance, points, direction, rows, rows)[points]
+        step = np.float32(product / float(direction @ image))
+        change += step * direction
+        image *= step
+        residual -= image
+        residual -= residual.mean()
+        norm = np.abs(residual).max() if largest else np.sqrt(np.mean(residual**2))
+        if norm <= goal or count >= limit:
+            break
+        count += 1
+    return change, count
+
+
+def _state(grid, best, field, last, iterations):
+    touching, pressure, shift, residual = best
+    # The image may belong to a later, worse iterate, or be in single precision.
+    if pressure is not last or field is not grid.exact:
+        shift, *_, residual = _gap(grid, grid.exact, touching, pressure)
+    gap, filled = grid.exact.image, grid.exact.field
+    gap += gap.dtype.type(shift)
+    np.maximum(gap, 0, out=gap)
+    gap[touching] = 0
+    filled[touching] = pressure
+    return State(
+        pressure=filled.reshape(grid.shape),
+        gap=gap.reshape(grid.shape),
+        shift=shift,
+        area_fraction=touching.size / gap.size,
+        residual=residual,
+        iterations=iterations,
+        pairs=grid.pairs,
+    )

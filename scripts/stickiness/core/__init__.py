@@ -1,0 +1,1 @@
+"""What every part shares: checks of arguments, units, datasets, error budgets."""

@@ -1,0 +1,197 @@
+"""NetCDF files between the stages: written whole or not at all, checked when read."""
+
+from __future__ import annotations
+
+import json
+import os
+import shutil
+import tempfile
+from collections.abc import Iterable, Mapping
+from importlib.metadata import version
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from .. import __version__
+
+_TEXTS = ("units", "long_name", "nan_means")
+_CODES = ("numpy", "scipy", "pyfftw", "xarray", "netCDF4")
+
+
+class DatasetError(ValueError):
+    """A file between stages is missing, unreadable or lacks what the reader needs."""
+
+
+class WriteError(DatasetError, OSError):
+    """A file could not be written."""
+
+
+def provenance() -> dict[str, str]:
+    """Versions of this package and of the codes that its numbers depend on."""
+    codes = {f"version_{name.lower()}": version(name) for name in _CODES}
+    return {"version_stickiness": __version__, **codes, "version_fftw": _fftw_version()}
+
+
+def _fftw_version() -> str:
+    import pyfftw  # here, not above: figures and reports need no FFTW
+
+    return str(pyfftw.fftw_version)
+
+
+def annotate(dataset: xr.Dataset, **described: tuple[str, ...]) -> xr.Dataset:
+    """Set `units`, `long_name` and, if a variable may hold NaN, what that means (in this order)."""
+    for name, texts in described.items():
+        dataset[name].attrs = dict(zip(_TEXTS, texts, strict=False))
+    return dataset
+
+
+def write(
+    dataset: xr.Dataset, path: str | Path, *, title: str, parameters: Mapping[str, Any]
+) -> None:
+    """Write a dataset with its parameters and provenance, whole or not at all.
+
+    Parameters
+    ----------
+    dataset : xarray.Dataset
+        Every variable and coordinate carries `units` and `long_name`, and `nan_means` if it holds
+        values that are not finite.
+    path : path
+        Target. The data go to a temporary file beside it that takes its name once complete.
+    title : str
+        What the file holds.
+    parameters : mapping
+        What made it; stored as JSON in the attribute `parameters`.
+
+    Raises
+    ------
+    DatasetError
+        If a variable lacks one of these texts.
+    WriteError
+        If the disk is full, may not be written to, or fails; an old file is left as it was.
+    """
+    path = Path(path)
+    for name in dataset.variables:
+        values, attributes = dataset[name].values, dataset[name].attrs
+        missing = {"units", "long_name"} - attributes.keys()
+        if missing:
+            raise DatasetError(f"{path}: variable {name!r} lacks {', '.join(sorted(missing))}")
+        unexplained = values.dtype.kind == "f" and "nan_means" not in attributes
+        if unexplained and not np.isfinite(values).all():
+            raise DatasetError(f"{path}: variable {name!r} holds values that are not finite")
+    dataset = dataset.assign_attrs(
+        title=title,
+        Conventions="CF-1.11",
+        parameters=json.dumps(parameters, sort_keys=True),
+        written_as="/".join(_place(path)),
+        **provenance(),
+    )
+    with whole_file(path) as temporary:
+        try:
+            dataset.to_netcdf(temporary, engine="netcdf4")
+        except RuntimeError as error:  # what netCDF4 makes of a failing disk
+            raise OSError(str(error)) from None
+
+
+def read(path: str | Path, variables: Iterable[str] = ()) -> xr.Dataset:
+    """Read a dataset into memory, check that it is the one of this name and holds `variables`.
+
+    Raises
+    ------
+    DatasetError
+        Naming the file and, if one is missing, the variable.
+    """
+    path = Path(path)
+    try:
+        with xr.open_dataset(path, engine="netcdf4") as opened:
+            dataset = opened.load()
+    except FileNotFoundError:
+        raise DatasetError(f"{path}: no such file; the rule that makes it has not run") from None
+    except (OSError, ValueError, RuntimeError) as error:
+        raise DatasetError(
+            f"{path}: not a readable NetCDF file ({error}); delete it and re-run"
+        ) from None
+    _check_origin(dataset, path)
+    missing = [name for name in variables if name not in dataset.variables]
+    if missing:
+        raise DatasetError(f"{path}: lacks the variable {missing[0]!r}; delete it and re-run")
+    return dataset
+
+
+def parameters(dataset: xr.Dataset) -> dict[str, Any]:
+    """The parameters that made a dataset, as given to `write`."""
+    return json.loads(dataset.attrs["parameters"])
+
+
+def _check_origin(dataset: xr.Dataset, path: Path) -> None:
+    """Refuse a file that no stage wrote, or that was written as another one and put here."""
+    if "parameters" not in dataset.attrs:
+        raise DatasetError(f"{path}: not written by this project; delete it and re-run")
+    written_as = dataset.attrs.get("written_as", path.name)
+    if not path.absolute().as_posix().endswith(f"/{written_as}"):
+        raise DatasetError(f"{path}: holds what belongs in {written_as}; delete it and re-run")
+
+
+def _place(path: Path) -> tuple[str, ...]:
+    """Last parts of a path: what tells a result from others, wherever all of them are moved."""
+    return path.parts[1:] if not path.is_absolute() and len(path.parts) > 1 else path.parts[-2:]
+
+
+class whole_file:  # noqa: N801 (a context manager, used as a verb)
+    """Context manager: a temporary path that replaces `path` on success and vanishes on failure.
+
+    What the operating system refuses is raised as a `WriteError` that names `path`.
+    """
+
+    def __init__(self, path: str | Path):
+        self._path = Path(path)
+
+    def __enter__(self) -> Path:
+        try:
+            return self._made()
+        except OSError as error:
+            raise self._failure(error) from None
+
+    def _made(self) -> Path:
+        folder, name, suffix = self._path.parent, self._path.name, self._path.suffix
+        folder.mkdir(parents=True, exist_ok=True)
+        # What a killed job left. Should an orphan still write to it, only its own end fails.
+        for leftover in folder.glob(f".{name}.????????{suffix}"):
+            leftover.unlink(missing_ok=True)
+        handle, name = tempfile.mkstemp(dir=folder, prefix=f".{name}.", suffix=suffix)
+        os.close(handle)
+        self._temporary = Path(name)
+        return self._temporary
+
+    def __exit__(self, kind: type | None, error: BaseException | None, _: object) -> None:
+        if kind is None:
+            try:
+                self._temporary.chmod(0o666 & ~_umask())
+                self._temporary.replace(self._path)
+            except OSError as failed:
+                raise self._failure(failed) from None
+        else:
+            self._temporary.unlink(missing_ok=True)
+            if isinstance(error, OSError):
+                raise self._failure(error) from None
+
+    def _failure(self, error: OSError) -> WriteError:
+        """The error with what may have caused it: who may write here, and the room left."""
+        folder = self._path.parent
+        while not os.path.exists(folder):  # which is False, too, where one may not look
+            folder = folder.parent
+        if isinstance(error, PermissionError) or not os.access(folder, os.W_OK):
+            remedy = f"allow writing in {folder}"
+        else:
+            free = shutil.disk_usage(folder).free / 1e6
+            remedy = f"{free:.0f} MB are free in {folder}; make room"
+        return WriteError(
+            f"{self._path}: could not be written ({error}): {remedy} and run the same command again"
+        )
+
+
+def _umask() -> int:
+    mask = os.umask(0)
+    os.umask(mask)
+    return mask

@@ -1,0 +1,154 @@
+"""The prefactor a_V of the attractive area, fitted within an interval of ranges."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from stickiness.core.arguments import positive
+
+__all__ = ["AvFit", "fit_a_v", "local_exponent", "window_sensitivity"]
+
+
+def local_exponent(eps: ArrayLike, area: ArrayLike) -> NDArray:
+    """Local exponent d ln A_ad/d ln eps; 2/3 where the edges alone govern the small gaps.
+
+    Parameters
+    ----------
+    eps, area : (m,) arrays
+        Increasing ranges [length] and attractive area fractions, m >= 3.
+
+    Raises
+    ------
+    ValueError
+        If the arrays do not match, are too short or not positive.
+    """
+    eps, area = positive(eps=eps, area=area)
+    if eps.ndim != 1 or eps.shape != area.shape or eps.size < 3 or not np.all(np.diff(eps) > 0):
+        raise ValueError(
+            "eps must be an increasing sequence of at least 3 and area match it, "
+            f"got shapes {eps.shape} and {area.shape}"
+        )
+    return np.gradient(np.log(area), np.log(eps))
+
+
+@dataclass(frozen=True)
+class AvFit:
+    """Prefactor a_V of A_ad/A_nom = (3/2) a_V p/(E* q0 h_rms) (range/h_rms)^(2/3).
+
+    Attributes
+    ----------
+    value : float
+        Fitted a_V, dimensionless.
+    standard_error : float
+        Of the fit. Areas at several ranges of one surface are strongly correlated: without
+        `sigma` this measures how well the 2/3 law holds inside the window, not the scatter
+        between surfaces, which only several surfaces give.
+    window : (float, float)
+        Limits of range/h_rms.
+    n_points : int
+        Number of points inside the window.
+    relative_residual : float
+        Root mean square residual over the root mean square area.
+    """
+
+    value: float
+    standard_error: float
+    window: tuple[float, float]
+    n_points: int
+    relative_residual: float
+
+
+def fit_a_v(
+    eps: ArrayLike,
+    area: ArrayLike,
+    pressure: ArrayLike,
+    h_rms: float = 1.0,
+    q0: float = 1.0,
+    window: tuple[float, float] = (0.01, 0.1),
+    sigma: ArrayLike | None = None,
+) -> AvFit:
+    """Fit a_V by least squares through the origin inside a window of ranges.
+
+    Parameters
+    ----------
+    eps, area : (m,) arrays
+        Ranges [length] and attractive area fractions, in any order; points of several loads or
+        surfaces may be pooled.
+    pressure : float or (m,) array
+        Mean repulsive pressure [E*].
+    h_rms, q0 : float
+        Root mean square height [length] and lowest wave number [1/length].
+    window : (float, float)
+        Limits of eps/h_rms, both included.
+    sigma : (m,) array, optional
+        Standard deviations of `area`. They weight the points and set the standard error;
+        without them the residuals do.
+
+    Raises
+    ------
+    ValueError
+        On mismatched shapes, values that are not positive, or fewer than two points in the
+        window.
+
+    References
+    ----------
+    Violano et al., J. Adhesion (2019), doi:10.1080/00218464.2019.1685384.
+    """
+    eps, pressure, h_rms, q0 = positive(eps=eps, pressure=pressure, h_rms=h_rms, q0=q0)
+    area = np.asarray(area, dtype=float)
+    if sigma is not None:
+        (sigma,) = positive(sigma=sigma)
+    if eps.ndim != 1 or area.shape != eps.shape or not np.all(np.isfinite(area)):
+        raise ValueError(
+            f"area must be finite and match eps of shape {eps.shape}, got shape {area.shape}"
+        )
+    for name, values in (("pressure", pressure), ("sigma", sigma)):
+        if values is not None and values.ndim and values.shape != eps.shape:
+            raise ValueError(f"{name} must have the shape {eps.shape} of eps, got {values.shape}")
+    low, high = _window(window)
+
+    ratio = eps / h_rms
+    # A limit that went through unit conversion must still include itself.
+    inside = (ratio >= low * (1 - 1e-12)) & (ratio <= high * (1 + 1e-12))
+    n = int(np.count_nonzero(inside))
+    if n < 2:
+        raise ValueError(f"window {window!r} must hold at least two of eps/h_rms, holds {n}")
+    x = (1.5 * pressure / (q0 * h_rms) * ratio ** (2 / 3))[inside]
+    y = area[inside]
+    weight = 1.0 if sigma is None else 1 / np.broadcast_to(sigma, eps.shape)[inside]
+    (value,), *_ = np.linalg.lstsq((weight * x)[:, None], weight * y)
+    residual = y - value * x
+    variance = 1 / np.sum((weight * x) ** 2)
+    if sigma is None:
+        variance *= np.sum(residual**2) / (n - 1)
+    return AvFit(
+        value=float(value),
+        standard_error=float(np.sqrt(variance)),
+        window=(low, high),
+        n_points=n,
+        relative_residual=float(np.sqrt(np.mean(residual**2) / np.mean(y**2))) if y.any() else 0.0,
+    )
+
+
+def window_sensitivity(
+    eps: ArrayLike,
+    area: ArrayLike,
+    pressure: ArrayLike,
+    windows: Iterable[tuple[float, float]],
+    h_rms: float = 1.0,
+    q0: float = 1.0,
+    sigma: ArrayLike | None = None,
+) -> tuple[AvFit, ...]:
+    """Fit a_V in each of several windows; see `fit_a_v` for the parameters."""
+    return tuple(fit_a_v(eps, area, pressure, h_rms, q0, window, sigma) for window in windows)
+
+
+def _window(window: tuple[float, float]) -> tuple[float, float]:
+    low, high = (float(limit) for limit in window)
+    if not 0 <= low < high:
+        raise ValueError(f"window must be two increasing limits of eps/h_rms, got {window!r}")
+    return low, high

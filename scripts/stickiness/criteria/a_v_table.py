@@ -1,0 +1,311 @@
+"""a_V as a function of Hurst exponent, load, range and magnification, with its error.
+
+A_ad/A_nom = (3/2) a_V p/(E* q0 h_rms) (range/h_rms)^(2/3) defines a local a_V at every range, for
+theory does not have it constant. Between the finest scale and the rms height it goes as
+range^((3-5H)/(3H)) for H > 1/2; next to the edges of contact, where gaps grow by their 3/2 law, it
+does not depend on the range. There the variants of the theory part, see `edge_range`.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import xarray as xr
+from numpy.typing import ArrayLike, NDArray
+from scipy.interpolate import RegularGridInterpolator
+from scipy.special import ndtri
+
+from stickiness.core.arguments import positive
+
+PARTED = 1.5  # ratio of the theory's variants from which on neither resolves the edges of contact
+NORMAL_90 = float(ndtri(0.95))  # standard errors either side that cover 90 %
+NEEDED = (
+    "a_v",
+    "a_v_limit",
+    "edge_range",
+    "theory_below",
+    "theory_above",
+    "theory_below_limit",
+    "theory_above_limit",
+    "edge_a_v",
+    "quadrature_error",
+    "simulation_ratio",
+    "simulation_error",
+    "simulation_trend",
+    "smallest_magnification",
+    "largest_magnification",
+    "extrapolation_error",
+)
+_AXES = ("hurst", "magnification", "pressure", "range")
+_LIMIT_AXES = ("hurst", "pressure", "range")
+
+
+def local_a_v(area: ArrayLike, pressure: ArrayLike, ranges: ArrayLike) -> NDArray:
+    """a_V of attractive areas, for pressures over E* q0 h_rms and ranges over h_rms."""
+    pressure, ranges = positive(pressure=pressure, ranges=ranges)
+    return np.asarray(area) / (1.5 * pressure * ranges ** (2 / 3))
+
+
+def edge_range(ranges: ArrayLike, infinite: ArrayLike, finite: ArrayLike) -> float:
+    """Range below which Persson's theory no longer resolves the edges of the contact.
+
+    Below it one variant of the theory lets P(u) grow without bound, the other tends to a constant,
+    while gaps next to an edge have P ~ u^(-1/3). The range is the largest at which the
+    attractive area of the one is `PARTED` times that of the other. What theory has there, held
+    constant below, is 1.0 to 1.2 times what simulation finds next to edges (H = 0.7 to 0.9,
+    magnification 32 to 128, loads from 0.0065 to 0.46), and agrees with the estimate of Pastewka
+    and Robbins, which knows nothing of this theory: for magnifications of 10^3 and 10^6 it is 1.4
+    times theirs at H = 0.6, 1.2 and 1.1 at 0.7, 1.1 and 0.95 at 0.8, 0.95 and 0.8 at 0.9.
+
+    Parameters
+    ----------
+    ranges : (n,) array
+        Increasing.
+    infinite, finite : (n,) arrays
+        Attractive areas (or a_V) by the variants with infinite and finite P(0).
+
+    Returns
+    -------
+    float
+        Between the ranges, along a power law; the smallest of them if the variants never part.
+
+    Raises
+    ------
+    ValueError
+        If an argument is not positive and finite.
+    """
+    ranges, infinite, finite = positive(ranges=ranges, infinite=infinite, finite=finite)
+    logs = np.log(infinite / finite) - np.log(PARTED)
+    apart = np.flatnonzero(logs > 0)
+    if apart.size == 0:
+        return float(ranges[0])
+    last = int(apart[-1])
+    if last == len(logs) - 1:
+        return float(ranges[-1])
+    share = logs[last] / (logs[last] - logs[last + 1])
+    steps = np.log(ranges[last : last + 2])
+    return float(np.exp(steps[0] + share * (steps[1] - steps[0])))
+
+
+@dataclass(frozen=True)
+class AvEstimate:
+    """a_V with its error; arrays of the common shape of the arguments.
+
+    Attributes
+    ----------
+    value : array
+        Theory as quoted times the ratio of simulation to theory, which follows the trend with the
+        magnification between simulated ones and is held constant beyond them.
+    low, high : array
+        Limits meant to cover about 90 %, as factors: in quadrature `NORMAL_90` times the standard
+        error of the ratio, and the reach of the other theories and the largest error of the
+        quadrature as they are, for these are extremes. Not covered: what all theories and
+        simulations share (Gaussian heights, elastic half-space, no roll-off).
+    theory_below, theory_above : array
+        Natural logarithms of how far the other variants and corrections of the theory reach below
+        and above the quoted one, or below the edge range the estimate of Pastewka and Robbins.
+    simulation : array
+        Standard relative error of the ratio of simulation to theory, with what its trend may
+        change beyond the simulated magnifications and its drift below the simulated ranges.
+    quadrature : array
+        Largest relative error of the theory's quadrature.
+    edge : boolean array
+        Where the range is below the edge range, so that a_V no longer depends on it.
+    """
+
+    value: NDArray
+    low: NDArray
+    high: NDArray
+    theory_below: NDArray
+    theory_above: NDArray
+    simulation: NDArray
+    quadrature: NDArray
+    edge: NDArray
+
+
+class AvTable:
+    """Interpolates the file ``fits/a_v_table.nc``, in logarithms.
+
+    Between its points that errs by less than 3 % (0.5 % root mean square).
+
+    Parameters
+    ----------
+    table : xarray.Dataset
+        With the variables `NEEDED`.
+
+    Raises
+    ------
+    ValueError
+        If a variable is missing.
+    """
+
+    def __init__(self, table: xr.Dataset):
+        missing = [name for name in NEEDED if name not in table]
+        if missing:
+            raise ValueError(f"the table lacks {missing[0]!r}")
+        self._bounds = {
+            name: (float(table[name].min()), float(table[name].max())) for name in _AXES
+        }
+        self._finite = {
+            "a_v": _smooth(np.log(table.a_v), _AXES),
+            "edge": _smooth(np.log(table.edge_range), _AXES[:3]),
+            "below": _linear(table.theory_below, _AXES),
+            "above": _linear(table.theory_above, _AXES),
+            "edge_a_v": _smooth(np.log(table.edge_a_v), _AXES[:2]),
+        }
+        self._limit = {
+            "a_v": _smooth(np.log(table.a_v_limit), _LIMIT_AXES),
+            "below": _linear(table.theory_below_limit, _LIMIT_AXES),
+            "above": _linear(table.theory_above_limit, _LIMIT_AXES),
+        }
+        self._quadrature = float(table.quadrature_error)
+        self._ratio = _held(np.log(table.simulation_ratio))
+        self._ratio_error = _held(table.simulation_error)
+        self._trend = _held(table.simulation_trend)
+        ends = table.smallest_magnification, table.largest_magnification
+        self._doublings = np.log2([float(end) for end in ends])
+        self._simulated = float(table.simulated_range.min())
+        self._extrapolation = float(table.extrapolation_error)
+
+    @property
+    def bounds(self) -> dict[str, tuple[float, float]]:
+        """Ends of hurst, magnification, pressure and range (over h_rms) in the table."""
+        return dict(self._bounds)
+
+    def a_v_at(
+        self,
+        hurst: ArrayLike,
+        pressure: ArrayLike,
+        range_over_h_rms: ArrayLike,
+        magnification: ArrayLike = np.inf,
+    ) -> AvEstimate:
+        """a_V of a self-affine surface without roll-off.
+
+        Parameters
+        ----------
+        hurst : array_like
+        pressure : array_like
+            Mean pressure over E* q0 h_rms.
+        range_over_h_rms : array_like
+            Range of attraction over rms height.
+        magnification : array_like
+            q1/q0; infinite by default.
+
+        Raises
+        ------
+        ValueError
+            If an argument lies outside the table.
+        """
+        given = (hurst, magnification, pressure, range_over_h_rms)
+        given = np.broadcast_arrays(*(np.asarray(x, dtype=float) for x in given))
+        for name, values in zip(_AXES, given, strict=True):
+            self._check(name, values)
+        shape = given[0].shape
+        h, zeta, p, eps = (x.ravel() for x in given)
+        logs, below, above = (np.empty(h.size) for _ in range(3))
+        edge = np.zeros(h.size, dtype=bool)
+        broad = np.isinf(zeta)
+        at = np.stack([h, np.log(p), np.log(eps)], axis=-1)[broad]
+        logs[broad], below[broad], above[broad] = (
+            self._limit[name](at) for name in ("a_v", "below", "above")
+        )
+        rest = ~broad
+        if rest.any():
+            found = self._at_finite(*(np.log(x[rest]) for x in (zeta, p, eps)), h[rest])
+            logs[rest], below[rest], above[rest], edge[rest] = found
+        where = np.stack([np.log(p), np.log(eps)], axis=-1)
+        trend = self._trend(where[:, 1:])
+        held = np.clip(np.log2(zeta), *self._doublings) - self._doublings[1]
+        value = np.exp(logs + self._ratio(where) + trend * held)
+        simulation = np.hypot(self._ratio_error(where), trend * self._unseen(zeta))
+        simulation = np.hypot(simulation, self._drift(eps))
+        others = (NORMAL_90 * simulation) ** 2 + self._quadrature**2
+        parts = {
+            "value": value,
+            "low": value * np.exp(-np.sqrt(below**2 + others)),
+            "high": value * np.exp(np.sqrt(above**2 + others)),
+            "theory_below": below,
+            "theory_above": above,
+            "simulation": simulation,
+            "quadrature": np.full(h.size, self._quadrature),
+            "edge": edge,
+        }
+        return AvEstimate(**{name: part.reshape(shape)[()] for name, part in parts.items()})
+
+    def _drift(self, eps):
+        """Standard error that extrapolation adds below the simulated ranges.
+
+        As of a random walk with one step a decade. Both theory and simulation have to follow the
+        same power laws there (self-affine scaling, then the gap's 3/2 law next to edges, which is
+        why it grows below the edge range too), so that their ratio has no trend of its own; and
+        from one simulated decade to the next its drift changes size and at small loads sign.
+        """
+        decades = np.clip(np.log10(self._simulated / eps), 0, None)
+        return self._extrapolation * np.sqrt(decades)
+
+    def _unseen(self, zeta):
+        """Doublings of the magnification over which the trend may go on beyond simulation.
+
+        The ratio has a limit, for simulation and theory both converge, but its trend does not
+        level off where it was simulated: at most half as many doublings as were.
+        """
+        low, high = self._doublings
+        return np.clip(np.log2(zeta) - high, 0, (high - low) / 2)
+
+    def _at_finite(self, log_zeta, log_p, log_eps, h):
+        """Logarithm of a_V, reach of the other theories below and above, below the edge range."""
+        know = self._finite
+        log_edge = know["edge"](np.stack([h, log_zeta, log_p], axis=-1))
+        edge = log_eps < log_edge
+        held = np.clip(np.where(edge, log_edge, log_eps), None, np.log(self._bounds["range"][1]))
+        at = np.stack([h, log_zeta, log_p, held], axis=-1)
+        logs, below, above = (know[name](at) for name in ("a_v", "below", "above"))
+        # The variants part here by definition; another estimate of what edges give takes over.
+        other = know["edge_a_v"](np.stack([h, log_zeta], axis=-1)) - logs
+        below = np.where(edge, np.maximum(-other, 0), below)
+        above = np.where(edge, np.maximum(other, 0), above)
+        return logs, below, above, edge
+
+    def _check(self, name: str, values: NDArray) -> None:
+        low, high = self._bounds[name]
+        slack = 1e-9
+        inside = (values >= low * (1 - slack)) & (values <= high * (1 + slack))
+        if name == "magnification":
+            inside |= np.isposinf(values)
+        if not inside.all():
+            worst = np.asarray(values)[~inside].flat[0]
+            infinite = " or infinite" if name == "magnification" else ""
+            raise ValueError(
+                f"{name} must lie between {low:g} and {high:g}{infinite}, where a_V is "
+                f"tabulated, got {worst:g}"
+            )
+
+
+def _axis(table: xr.DataArray, name: str) -> NDArray:
+    values = table[name].values.astype(float)
+    return values if name == "hurst" else np.log(values)
+
+
+def _interpolator(table, axes, method):
+    grid = tuple(_axis(table, name) for name in axes)
+    # Points within rounding of an end count as inside; a_v_at has checked the rest.
+    return RegularGridInterpolator(
+        grid, table.transpose(*axes).values, method, bounds_error=False, fill_value=None
+    )
+
+
+def _smooth(table: xr.DataArray, axes: tuple[str, ...]) -> RegularGridInterpolator:
+    return _interpolator(table, axes, "cubic")
+
+
+def _linear(table: xr.DataArray, axes: tuple[str, ...]) -> RegularGridInterpolator:
+    return _interpolator(table, axes, "linear")
+
+
+def _held(table: xr.DataArray):
+    """Linear between simulated loads and ranges, or ranges alone, held constant beyond them."""
+    axes = [name for name in ("simulated_pressure", "simulated_range") if name in table.dims]
+    interpolator = _interpolator(table, axes, "linear")
+    low, high = (np.array([end(x) for x in interpolator.grid]) for end in (np.min, np.max))
+    return lambda at: interpolator(np.clip(at, low, high))

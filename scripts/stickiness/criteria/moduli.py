@@ -1,0 +1,145 @@
+"""Moduli that depend on the rate: a Prony series, a table, or a constant.
+
+What a contact feels at a frequency f is the storage modulus E'(f): it holds the elastic energy that
+competes with adhesion, and Dahlquist's limit is one on it, at 1 Hz. What is dissipated adds to the
+work of adhesion, which no criterion here knows. Moduli in Pa, frequencies in Hz, times in s.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from stickiness.core.arguments import plain, positive
+
+REFERENCE_FREQUENCY = 1.0  # Hz, Dahlquist's
+_GLASSY = 1e100  # x from which on a term is E_i to rounding; its square does not overflow
+
+
+@dataclass(frozen=True)
+class Constant:
+    """Modulus of an elastic solid.
+
+    Attributes
+    ----------
+    modulus : float
+        At every frequency [Pa].
+    """
+
+    modulus: float
+
+    def __post_init__(self):
+        positive(modulus=self.modulus)
+
+    def storage(self, frequency: ArrayLike) -> float | NDArray:
+        """Storage modulus [Pa] at frequencies [Hz]."""
+        (frequency,) = positive(frequency=frequency)
+        return plain(np.full(frequency.shape, self.modulus))
+
+
+@dataclass(frozen=True)
+class Prony:
+    """Relaxation modulus E(t) = equilibrium + sum of E_i exp(-t/tau_i).
+
+    Attributes
+    ----------
+    equilibrium : float
+        Modulus at rest [Pa].
+    terms : tuple of (modulus [Pa], time [s])
+        E_i and tau_i.
+    """
+
+    equilibrium: float
+    terms: tuple[tuple[float, float], ...]
+
+    def __post_init__(self):
+        positive(equilibrium=self.equilibrium)
+        if not len(self.terms):
+            raise ValueError("terms of a Prony series must not be empty; give a constant instead")
+        (terms,) = positive(terms=self.terms)
+        if terms.ndim != 2 or terms.shape[1] != 2:
+            raise ValueError(f"terms must be pairs of modulus and time, got {self.terms!r}")
+
+    def storage(self, frequency: ArrayLike) -> float | NDArray:
+        """Storage modulus [Pa] at frequencies [Hz].
+
+        equilibrium + sum of E_i x_i^2/(1 + x_i^2), x_i = 2 pi f tau_i (Ferry, Viscoelastic
+        Properties of Polymers, 1980).
+        """
+        (frequency,) = positive(frequency=frequency)
+        moduli, times = np.array(self.terms).T
+        x = np.minimum(2 * np.pi * frequency[..., None] * times, _GLASSY)
+        return plain(self.equilibrium + np.sum(moduli * x**2 / (1 + x**2), axis=-1))
+
+
+@dataclass(frozen=True)
+class Table:
+    """Storage modulus as measured, interpolated in logarithms.
+
+    Attributes
+    ----------
+    frequencies : tuple of float
+        Increasing [Hz].
+    moduli : tuple of float
+        Storage moduli [Pa].
+    """
+
+    frequencies: tuple[float, ...]
+    moduli: tuple[float, ...]
+
+    def __post_init__(self):
+        frequencies, _ = positive(frequencies=self.frequencies, moduli=self.moduli)
+        if len(self.frequencies) != len(self.moduli) or len(self.frequencies) < 2:
+            raise ValueError("a table needs two pairs of frequency and modulus at least")
+        if not np.all(np.diff(frequencies) > 0):
+            raise ValueError(f"frequencies must increase, got {self.frequencies!r}")
+
+    def storage(self, frequency: ArrayLike) -> float | NDArray:
+        """Storage modulus [Pa] at frequencies [Hz]; NaN beyond the table, which says nothing."""
+        (frequency,) = positive(frequency=frequency)
+        x, y = np.log(self.frequencies), np.log(self.moduli)
+        return plain(np.exp(np.interp(np.log(frequency), x, y, left=np.nan, right=np.nan)))
+
+
+Modulus = Constant | Prony | Table
+
+
+def crossings(
+    modulus: Modulus, threshold: float, frequencies: ArrayLike
+) -> Sequence[tuple[float, bool]]:
+    """Frequencies at which the storage modulus passes a threshold.
+
+    Parameters
+    ----------
+    modulus : Modulus
+        Any of the above.
+    threshold : float
+        Modulus [Pa].
+    frequencies : (n,) array
+        Increasing; crossings are looked for between neighbours, those of a table too, and
+        interpolated in logarithms.
+
+    Returns
+    -------
+    list of (frequency, upwards)
+        In ascending order; `upwards` where the modulus exceeds the threshold beyond.
+    """
+    (frequencies,) = positive(frequencies=frequencies)
+    (limit,) = positive(threshold=threshold)
+    if frequencies.ndim != 1 or not np.all(np.diff(frequencies) > 0):
+        raise ValueError(f"frequencies must be one increasing sequence, got {frequencies!r}")
+    if isinstance(modulus, Table) and frequencies.size:
+        inside = np.clip(modulus.frequencies, frequencies[0], frequencies[-1])
+        frequencies = np.union1d(frequencies, inside)
+    excess = np.log(np.asarray(modulus.storage(frequencies)) / limit)
+    found = []
+    for i in np.flatnonzero(np.diff(np.sign(excess)) != 0):
+        a, b = excess[i], excess[i + 1]
+        if np.isfinite(a) and np.isfinite(b) and a != 0:
+            share = a / (a - b)
+            x = frequencies[i] * (frequencies[i + 1] / frequencies[i]) ** share
+            found.append((float(x), bool(b > a)))
+    return found

@@ -1,0 +1,1 @@
+"""Measured topographies: reading, levelling, spectra and what they say of the surface."""

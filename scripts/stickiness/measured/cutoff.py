@@ -1,0 +1,161 @@
+"""Where an instrument stops seeing the surface: tip radius, blur and noise at high wave numbers."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from scipy import special
+
+from stickiness.measured.psd import RadialPSD, merge_rings
+
+TIP_FACTOR = 0.5  # curvature over 1/R from which the tip's shape shows (Sanner et al. 2022)
+BLUR_EXPONENT = 5.0  # C ~ q^-s falls faster than any self-affine surface does (s = 4 at H = 1)
+NOISE_EXPONENT = 1.5  # and slower than any (s = 2 at H = 0)
+
+_RINGS = 20  # per decade
+_WIDTH = np.log(10) / 4  # of the interval for the local exponent
+_SCATTER = 0.05  # of ln C beyond sampling, lest the rings of most modes decide alone
+_ROOM = 10**0.5  # left between the lowest wave number and the bend
+
+
+@dataclass(frozen=True)
+class Bend:
+    """Place from which a spectrum is the instrument's rather than the surface's.
+
+    Attributes
+    ----------
+    q : float
+        Highest wave number to be trusted [1/length].
+    kind : {"blur", "noise"}
+        Whether the spectrum falls faster or slower beyond than a surface's can.
+    exponent : float
+        s in C ~ q^-s just beyond.
+    """
+
+    q: float
+    kind: Literal["blur", "noise"]
+    exponent: float
+
+
+def tip_cutoff(heights: ArrayLike, steps: tuple[float, ...], radius: float) -> float | None:
+    """Wavelength below which a spherical tip has left its own shape in the heights.
+
+    A tip of radius R leaves no peak sharper than itself: heights are not to be believed at
+    distances over which some second difference reaches -1/(2R) (Sanner, Nöhring, Thimons, Jacobs
+    & Pastewka 2022, doi:10.1016/j.apsadv.2021.100190).
+
+    Parameters
+    ----------
+    heights : (nx, ny) or (n,) array
+        Heights [length].
+    steps : tuple of float
+        Grid steps along the axes [length].
+    radius : float
+        Radius of the tip [length].
+
+    Returns
+    -------
+    float or None
+        Length of the stencil at which the sharpest peak reaches the limit [length], the largest
+        over both axes; None if no peak is so sharp; infinity if the peaks are so at every distance.
+
+    Raises
+    ------
+    ValueError
+        If `radius` is not positive.
+    """
+    if not radius > 0:
+        raise ValueError(f"radius must be positive, got {radius!r}")
+    heights = np.asarray(heights, dtype=float)
+    found = [
+        _tip_cutoff_along(np.moveaxis(heights, axis, 0), step, TIP_FACTOR / radius)
+        for axis, step in enumerate(steps)
+    ]
+    return max((length for length in found if length is not None), default=None)
+
+
+def _tip_cutoff_along(h: NDArray, step: float, limit: float) -> float | None:
+    def sharpest(k: int) -> float:
+        return -float(np.min(h[2 * k :] - 2 * h[k:-k] + h[: -2 * k])) / (k * step) ** 2
+
+    distances = np.unique(np.geomspace(1, len(h) // 4, 30).astype(int))
+    curvatures = np.array([sharpest(int(k)) for k in distances])
+    if curvatures[0] < limit:
+        return None
+    below = np.flatnonzero(curvatures < limit)
+    if not len(below):
+        return np.inf
+    i = below[0]  # the curve falls as a power between the two distances
+    share = np.log(curvatures[i - 1] / limit) / np.log(
+        curvatures[i - 1] / max(curvatures[i], limit * 1e-9)
+    )
+    k = distances[i - 1] * (distances[i] / distances[i - 1]) ** share
+    return float(2 * k * step)
+
+
+def find_bend(rings: RadialPSD, q_min: float, q_nyquist: float) -> Bend | None:
+    """Find the wave number from which blur or noise of the instrument takes over, if any does.
+
+    The local exponent s of C ~ q^-s is fitted in intervals of a quarter of a decade. From the
+    Nyquist wave number downwards, what falls slower than q^-1.5 is noise, and below that, what
+    falls faster than q^-5 is blur: no self-affine surface does either, whatever its roll-off.
+    Blur that leaves less than half a decade above `q_min` is not called so; the surface may be
+    smooth.
+
+    Parameters
+    ----------
+    rings : RadialPSD
+        Narrow rings of C in ascending order.
+    q_min : float
+        Lowest wave number looked at [1/length].
+    q_nyquist : float
+        Nyquist wave number [1/length].
+    """
+    q, slope = local_exponents(rings.between(q_min, q_nyquist))
+    if not len(q):
+        return None
+    end = len(q)
+    noise = _run_from_the_top(slope < NOISE_EXPONENT)
+    blur = _run_from_the_top((slope > BLUR_EXPONENT)[: end - noise])
+    start = end - noise - blur
+    if blur and start and q[start - 1] > q_min * _ROOM:
+        return Bend(float(q[start - 1]), "blur", float(slope[start]))
+    start = end - noise
+    if noise and start and q[start - 1] > q_min * _ROOM:
+        return Bend(float(q[start - 1]), "noise", float(slope[start]))
+    return None
+
+
+def local_exponents(rings: RadialPSD) -> tuple[NDArray, NDArray]:
+    """Exponent s of C ~ q^-s about each ring of twenty a decade.
+
+    Returns
+    -------
+    q, exponent : (m,) arrays
+        For the rings with others on both sides.
+    """
+    if not len(rings):
+        return np.empty(0), np.empty(0)
+    q, mean, dof = merge_rings(rings, rings.psd, _RINGS)
+    inside = mean > 0
+    x, y, dof = np.log(q[inside]), np.log(mean[inside]), dof[inside]
+    y = y - special.digamma(dof) + np.log(dof)
+    weight = 1 / (special.polygamma(1, dof) + _SCATTER**2)
+    found = []
+    for centre in x:
+        near = np.abs(x - centre) <= _WIDTH / 2
+        if np.count_nonzero(near) < 4 or np.ptp(x[near]) < _WIDTH * 0.7:
+            continue
+        w, dx = weight[near], x[near] - np.average(x[near], weights=weight[near])
+        found.append((np.exp(centre), -np.sum(w * dx * y[near]) / np.sum(w * dx**2)))
+    q, slope = np.array(found).reshape(-1, 2).T
+    return q, slope
+
+
+def _run_from_the_top(flags: NDArray) -> int:
+    """How many of the last entries hold without a break."""
+    others = np.flatnonzero(~flags)
+    return len(flags) - (others[-1] + 1 if len(others) else 0)

@@ -1,0 +1,234 @@
+"""One measurement of a surface, map or line profile, as an isotropic spectrum with its limits."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from stickiness.core.arguments import number, numbers
+from stickiness.measured import cutoff as resolution
+from stickiness.measured import profiles
+from stickiness.measured.psd import (
+    PowerSpectrum,
+    RadialPSD,
+    Window,
+    merge_rings,
+    power_spectrum,
+    radial_average,
+)
+from stickiness.measured.self_affine_fit import (
+    LOWEST_MODES,
+    NYQUIST_SHARE,
+    SelfAffineFit,
+    fit_rings,
+    narrow_rings,
+)
+from stickiness.measured.topography import Profile, Topography
+
+RINGS = 10  # per decade, of the spectrum that is shown and integrated
+_ROUNDING = 1e-13  # relative range of heights below which they are one number
+
+
+@dataclass(frozen=True)
+class Cutoff:
+    """Highest wave number that is the surface's, and why.
+
+    Attributes
+    ----------
+    q : float
+        Wave number [1/length].
+    reason : str
+        In a few words.
+    detected : bool
+        Whether it was found in the spectrum or the heights rather than given or by default.
+    """
+
+    q: float
+    reason: str
+    detected: bool = False
+
+
+@dataclass(frozen=True)
+class MeasuredSpectrum:
+    """Isotropic spectrum of a surface as measured.
+
+    Attributes
+    ----------
+    rings : RadialPSD
+        C in rings, to show and to integrate [length^4].
+    area : (m,) array
+        Area of each ring in the plane of q: sum of C times this is the variance [1/length^2].
+    narrow : RadialPSD
+        Rings for the fit of the law.
+    q_min : float
+        Lowest wave number that window and levelling have left alone [1/length].
+    cutoff : Cutoff
+        The highest that the instrument has.
+    lowest : float
+        Lowest wave number there is [1/length].
+    anisotropy : float
+        Amplitude of the dependence on direction; NaN of profiles, which do not tell.
+    fit : SelfAffineFit
+        The law.
+    """
+
+    rings: RadialPSD
+    area: NDArray
+    narrow: RadialPSD
+    q_min: float
+    cutoff: Cutoff
+    lowest: float
+    anisotropy: float
+    fit: SelfAffineFit
+
+
+@dataclass(frozen=True)
+class Limits:
+    """What is known of an instrument's limits, all optional; lengths in that of the heights.
+
+    Attributes
+    ----------
+    fit_from, fit_to : float or None
+        Longest and shortest wavelength to be used; `fit_to` overrides all below.
+    resolution : float or None
+        Shortest wavelength that the instrument resolves.
+    tip_radius : float or None
+        Radius of a scanning tip.
+    detect : bool
+        Whether to look for blur and noise in the spectrum.
+    """
+
+    fit_from: float | None = None
+    fit_to: float | None = None
+    resolution: float | None = None
+    tip_radius: float | None = None
+    detect: bool = True
+
+    def __post_init__(self):
+        for name in ("fit_from", "fit_to", "resolution", "tip_radius"):
+            if getattr(self, name) is not None:
+                number(name, getattr(self, name))
+
+
+def analyse(
+    heights: Topography | Profile, window: Window = "hann", limits: Limits | None = None
+) -> MeasuredSpectrum:
+    """Isotropic spectrum of one levelled measurement, with its limits and the law fitted.
+
+    Parameters
+    ----------
+    heights : Topography or Profile
+        Levelled.
+    window : {"hann", "hann_radial", "none"}
+        As in `psd.power_spectrum`.
+    limits : Limits, optional
+        Of the instrument.
+
+    Raises
+    ------
+    ValueError
+        If the heights are flat, or what the limits leave is too little for a fit.
+    """
+    limits = Limits() if limits is None else limits
+    values = numbers("heights", heights.heights)
+    if values.size and np.ptp(values) <= _ROUNDING * np.max(np.abs(values)):
+        raise ValueError(f"heights must not be flat, got {values.flat[0]:.6g} throughout")
+    if isinstance(heights, Profile):
+        return _analyse_profile(heights, window, limits)
+    plane = power_spectrum(heights.heights, heights.dx, heights.dy, window)
+    narrow = narrow_rings(plane)
+    step = max(plane.dqx, plane.dqy)
+    q_min = _lowest(limits, step, plane.blur)
+    steps = heights.dx, heights.dy
+    cutoff = _cutoff(limits, narrow, q_min, plane.q_nyquist, heights.heights, steps)
+    fit = fit_rings(narrow, q_min, cutoff.q)
+    rings = radial_average(plane, bins_per_decade=RINGS)
+    return MeasuredSpectrum(
+        rings=rings,
+        area=rings.modes * plane.dqx * plane.dqy,
+        narrow=narrow,
+        q_min=fit.q_min,
+        cutoff=replace(cutoff, q=fit.q_max),
+        lowest=min(plane.dqx, plane.dqy),
+        anisotropy=_anisotropy(plane, fit),
+        fit=fit,
+    )
+
+
+def _analyse_profile(heights: Profile, window: Window, limits: Limits) -> MeasuredSpectrum:
+    line = profiles.profile_spectrum(heights.heights, heights.dx, window)
+    lowest = float(line.q[0])
+    q_min = _lowest(limits, lowest, line.blur)
+    # Between uneven points nothing was measured that is shorter than twice the largest gap.
+    nyquist = min(line.q_nyquist, np.pi / max(heights.largest_gap, heights.dx))
+    pilot = line.rings(profiles.FINE)
+    pilot = replace(pilot, psd=pilot.psd / pilot.q)  # C but for a factor
+    cutoff = _cutoff(limits, pilot, q_min, nyquist, heights.heights, (heights.dx,))
+    narrow, fit = profiles.isotropic(line, q_min, cutoff.q)
+    q, mean, dof = merge_rings(narrow, narrow.psd, RINGS)
+    rings = RadialPSD(q, mean, mean / np.sqrt(dof), np.rint(dof).astype(int), dof)
+    return MeasuredSpectrum(
+        rings=rings,
+        area=ring_areas(q, lowest),
+        narrow=narrow,
+        q_min=fit.q_min,
+        cutoff=replace(cutoff, q=fit.q_max),
+        lowest=lowest,
+        anisotropy=np.nan,
+        fit=fit,
+    )
+
+
+def ring_areas(q: NDArray, lowest: float) -> NDArray:
+    """Areas of adjoining rings about the wave numbers q (m,), which begin half of `lowest` below.
+
+    Neighbours meet at their geometric mean.
+    """
+    middle = np.sqrt(q[1:] * q[:-1])
+    edges = np.concatenate([[max(q[0] - lowest / 2, 0.0)], middle, [q[-1] ** 2 / middle[-1]]])
+    return np.pi * np.diff(edges**2)
+
+
+def _anisotropy(plane: PowerSpectrum, fit: SelfAffineFit) -> float:
+    return plane.anisotropy(fit.q_min, fit.q_max)[0]
+
+
+def _lowest(limits: Limits, step: float, blur: float) -> float:
+    if limits.fit_from is not None:
+        return 2 * np.pi / limits.fit_from
+    return (LOWEST_MODES if blur else 1) * step
+
+
+def _cutoff(
+    limits: Limits,
+    rings: RadialPSD,
+    q_min: float,
+    q_nyquist: float,
+    heights: NDArray,
+    steps: tuple[float, ...],
+) -> Cutoff:
+    """Lowest of the limits that are given, detected or general."""
+    if limits.fit_to is not None:
+        return Cutoff(2 * np.pi / limits.fit_to, "as given (fit_to)")
+    found = [Cutoff(NYQUIST_SHARE * q_nyquist, "half the Nyquist wave number")]
+    if limits.resolution is not None:
+        found.append(Cutoff(2 * np.pi / limits.resolution, "resolution of the instrument"))
+    if limits.tip_radius is not None:
+        blunt = resolution.tip_cutoff(heights, steps, limits.tip_radius)
+        if blunt is not None:
+            found.append(Cutoff(2 * np.pi / blunt, "shape of the tip", detected=True))
+    bend = resolution.find_bend(rings, q_min, q_nyquist) if limits.detect else None
+    if bend is not None:
+        reason = f"{bend.kind} of the instrument (C falls as q^-{max(bend.exponent, 0):.1f} beyond)"
+        found.append(Cutoff(bend.q, reason, detected=True))
+    lowest = min(found, key=lambda cutoff: cutoff.q)
+    if not lowest.q > q_min:
+        end = f"at wavelengths of {2 * np.pi / lowest.q:.3g} m" if lowest.q else "everywhere"
+        raise ValueError(
+            f"{lowest.reason} ends the spectrum {end}, and the longest wavelength that can be used "
+            f"is {2 * np.pi / q_min:.3g} m: nothing is left; measure a larger area or give "
+            "fit_from and fit_to"
+        )
+    return lowest

@@ -1,0 +1,119 @@
+"""Measured heights made periodic, for a solver that knows periodic surfaces only.
+
+No way of doing so is right; two wrong ones bracket the truth. A taper keeps the scan's size, but
+pulls its rim to the mean plane: it loses height variance there. A mirror keeps every height and
+joins them without a jump, at four times the cost, but repeats them: its long waves are coherent,
+and slopes change sign across the seams. The difference is the error of having no neighbours.
+"""
+
+from __future__ import annotations
+
+from typing import Literal
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from scipy import fft
+
+from stickiness.measured.psd import power_spectrum
+from stickiness.surfaces.spectrum import Shells
+
+Periodisation = Literal["taper", "mirror"]
+
+RIM = 0.125  # of a side over which a taper falls to zero, at either end
+SHELLS = 200  # per decade
+
+
+def periodise(heights: ArrayLike, kind: Periodisation) -> NDArray:
+    """Return heights that go on periodically without a jump.
+
+    Parameters
+    ----------
+    heights : (nx, ny) array
+        Levelled heights.
+    kind : {"taper", "mirror"}
+        "taper": the heights about their mean, times a window that is 1 but for a cosine rim of an
+        eighth of each side. "mirror": the heights and their mirror images, (2 nx, 2 ny).
+
+    Raises
+    ------
+    ValueError
+        If the heights are not 2D or `kind` is unknown.
+    """
+    heights = np.asarray(heights, dtype=float)
+    if heights.ndim != 2:
+        raise ValueError(f"heights must be a map (nx, ny), got shape {heights.shape}")
+    if kind == "mirror":
+        wide = np.concatenate([heights, heights[::-1]])
+        return np.concatenate([wide, wide[:, ::-1]], axis=1)
+    if kind != "taper":
+        raise ValueError(f"kind must be 'taper' or 'mirror', got {kind!r}")
+    wx, wy = (_rim(n) for n in heights.shape)
+    window = wx[:, None] * wy
+    return window * (heights - np.sum(window * heights) / window.sum())
+
+
+def _rim(n: int) -> NDArray:
+    x = (np.arange(n) + 0.5) / n
+    depth = np.minimum(np.minimum(x, 1 - x) / RIM, 1.0)
+    return np.sin(np.pi / 2 * depth) ** 2
+
+
+def band_limited(
+    heights: ArrayLike, sides: tuple[float, float], q_max: float, pixels: int
+) -> NDArray:
+    """Periodic heights without waves beyond `q_max`, on a grid that resolves what is left.
+
+    Parameters
+    ----------
+    heights : (nx, ny) array
+        Periodic heights [length].
+    sides : pair of float
+        Of the period along x and y [length].
+    q_max : float
+        Highest wave number kept [1/length], below the Nyquist one.
+    pixels : int
+        Grid points per shortest wavelength, at least.
+
+    Returns
+    -------
+    (mx, my) array
+        Numbers of points are multiples of four, so that every second point is a grid, too.
+
+    Raises
+    ------
+    ValueError
+        If the given grid does not hold waves up to `q_max`.
+    """
+    heights = np.asarray(heights, dtype=float)
+    nyquist = np.pi * min(n / side for n, side in zip(heights.shape, sides, strict=True))
+    if not 0 < q_max < nyquist * (1 + 1e-9):
+        raise ValueError(f"q_max must be in 0 < q <= {nyquist:.6g} (Nyquist), got {q_max!r}")
+    modes = fft.fft2(heights) / heights.size
+    index = [np.rint(fft.fftfreq(n, 1 / n)).astype(int) for n in heights.shape]
+    qx, qy = (2 * np.pi * i / side for i, side in zip(index, sides, strict=True))
+    modes[np.hypot(qx[:, None], qy) > q_max] = 0.0
+    shape = tuple(_points(side * q_max / (2 * np.pi) * pixels) for side in sides)
+    keep = [np.flatnonzero(np.abs(i) < m / 2) for i, m in zip(index, shape, strict=True)]
+    fine = np.zeros(shape, dtype=complex)
+    where = np.ix_(*(i[k] % m for i, k, m in zip(index, keep, shape, strict=True)))
+    fine[where] = modes[np.ix_(*keep)]
+    return fft.ifft2(fine).real * fine.size
+
+
+def _points(least: float) -> int:
+    """Smallest number of points from `least` up that is 4 times one quick to transform."""
+    return 4 * fft.next_fast_len(int(np.ceil(least / 4)), real=True)
+
+
+def shells(heights: ArrayLike, sides: tuple[float, float]) -> Shells:
+    """Spectrum of periodic heights (nx, ny) on a period of any sides, in narrow shells."""
+    heights = np.asarray(heights, dtype=float)
+    steps = (side / n for side, n in zip(sides, heights.shape, strict=True))
+    plane = power_spectrum(heights, *steps)
+    variance = (plane.psd * plane.multiplicity * plane.dqx * plane.dqy).ravel()[1:]
+    q = plane.q.ravel()[1:]
+    index = np.rint(np.log10(q / q.min()) * SHELLS).astype(int)
+    total = np.bincount(index, weights=variance)
+    full = total > 1e-24 * total.sum()  # the rest is rounding
+    square = np.bincount(index, weights=variance * q**2)[full] / total[full]
+    return Shells(np.sqrt(square), total[full])

@@ -1,0 +1,200 @@
+"""Line profiles: one-dimensional spectra, and the isotropic two-dimensional ones behind them.
+
+Convention of the project, one dimension less: h_rms^2 is the integral of C1 dq over all q, both
+signs. A profile across an isotropic surface has C1(q) = integral of C(sqrt(q^2 + k^2)) dk over all
+k, Abel's transform of C (Nayak 1971, doi:10.1115/1.3451608). Its inverse takes a derivative of a
+noisy spectrum; here the ratio C/C1 is that of the self-affine law fitted to the profile itself,
+which is exact where the law is, and elsewhere errs by the change of the exponent only: for
+C ~ q^-s the ratio is Gamma(s/2)/(sqrt(pi) Gamma(s/2 - 1/2))/q.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from scipy import fft, special
+
+from stickiness.measured.psd import RadialPSD, Window
+from stickiness.measured.self_affine_fit import SelfAffineFit, fit_rings
+
+LOWEST_HURST = -0.4  # at -1/2 the transform of q^(-2(H+1)) no longer exists
+
+FINE = 200  # rings per decade for the fit
+_ROUNDS = 20
+
+
+@dataclass(frozen=True)
+class ProfileSpectrum:
+    """One-dimensional power spectral density of a line profile, q > 0.
+
+    Attributes
+    ----------
+    q : (m,) array
+        Wave numbers, multiples of 2 pi over the length [1/length].
+    psd : (m,) array
+        C1(q) [length^3].
+    variance : float
+        Mean square of the windowed heights over the mean square of the window [length^2].
+    independence, blur : float
+        As in `psd.PowerSpectrum`.
+    n : int
+        Points of the profile.
+    """
+
+    q: NDArray
+    psd: NDArray
+    variance: float
+    independence: float
+    blur: float
+    n: int
+
+    @property
+    def q_nyquist(self) -> float:
+        """Highest wave number, pi over the step [1/length]."""
+        return float(self.q[0]) * self.n / 2
+
+    def total(self) -> float:
+        """Sum of C1 over both signs of q times dq: equals `variance` [length^2]."""
+        both = np.full(len(self.q), 2.0)
+        if self.n % 2 == 0:
+            both[-1] = 1.0  # the Nyquist mode is its own conjugate
+        return float(both @ self.psd * self.q[0])
+
+    def rings(self, bins_per_decade: float) -> RadialPSD:
+        """Means of C1 (not C) over logarithmic intervals of q."""
+        index = np.floor(np.log10(self.q / self.q[0]) * bins_per_decade + 0.5).astype(int)
+        modes = np.bincount(index)
+        keep = modes > 0
+        modes = modes[keep]
+        mean = np.bincount(index, weights=self.psd)[keep] / modes
+        log_q = np.bincount(index, weights=np.log(self.q))[keep] / modes
+        dof = modes * self.independence
+        return RadialPSD(np.exp(log_q), mean, mean / np.sqrt(dof), modes, dof)
+
+
+def profile_spectrum(heights: ArrayLike, dx: float, window: Window = "hann") -> ProfileSpectrum:
+    """One-dimensional power spectral density of heights along a line.
+
+    Parameters
+    ----------
+    heights : (n,) array
+        Heights [length], levelled beforehand if they are measured.
+    dx : float
+        Step [length].
+    window : {"hann", "hann_radial", "none"}
+        Along a line both Hann windows are the same.
+
+    Raises
+    ------
+    ValueError
+        If the heights are not at least 16 finite values, the step is not positive or the window
+        is unknown.
+    """
+    heights = np.asarray(heights, dtype=float)
+    if heights.ndim != 1 or len(heights) < 16 or not np.all(np.isfinite(heights)):
+        raise ValueError(
+            f"heights of a profile must be 1D, finite and at least 16, got {heights.shape}"
+        )
+    if not (np.isfinite(dx) and dx > 0):
+        raise ValueError(f"dx must be positive and finite, got {dx!r}")
+    if window not in ("none", "hann", "hann_radial"):
+        raise ValueError(f"window must be 'none', 'hann' or 'hann_radial', got {window!r}")
+    n = len(heights)
+    w, blur = np.ones(n), 0.0
+    if window != "none":
+        w, blur = np.sin(np.pi * (np.arange(n) + 0.5) / n) ** 2, 2.0
+    power = np.mean(w**2)
+    windowed = w * (heights - np.mean(w * heights) / np.mean(w))
+    dq = 2 * np.pi / (n * dx)
+    modes = fft.rfft(windowed)[1:] / n
+    return ProfileSpectrum(
+        q=dq * np.arange(1, len(modes) + 1),
+        psd=np.abs(modes) ** 2 / (power * dq),
+        variance=float(np.mean(windowed**2) / power),
+        independence=float(power**2 / np.mean(w**4)),
+        blur=blur,
+        n=n,
+    )
+
+
+def abel_ratio(q: ArrayLike, hurst: float, q_rolloff: float | None = None) -> NDArray:
+    """C/C1 [1/length] of a self-affine law without an upper end.
+
+    Parameters
+    ----------
+    q : array_like
+        Wave numbers [1/length].
+    hurst : float
+        H in C ~ q^(-2(H+1)), above -1/2.
+    q_rolloff : float, optional
+        End of the plateau of C [1/length].
+
+    Raises
+    ------
+    ValueError
+        If C1 does not exist: `hurst` is not above -1/2.
+    """
+    if not hurst > -0.5:
+        raise ValueError(f"hurst must be above -1/2 for a profile's spectrum, got {hurst!r}")
+    q = np.asarray(q, dtype=float)
+    if q_rolloff is None:
+        return special.gamma(hurst + 1) / (np.sqrt(np.pi) * special.gamma(hurst + 0.5)) / q
+    # With C = 1 on the plateau. Beyond q_rolloff the integral over k is an incomplete beta
+    # function in t = (q/|q|)^2, below it that of a constant.
+    t = np.minimum((q / q_rolloff) ** 2, 1.0)
+    level = np.minimum((q / q_rolloff) ** (-2 * (hurst + 1)), 1.0)
+    tail = special.betainc(hurst + 0.5, 0.5, t) * special.beta(hurst + 0.5, 0.5)
+    sloped = q_rolloff * (q / q_rolloff) ** (-2 * hurst - 1) * tail
+    flat = 2 * np.sqrt(np.maximum(q_rolloff**2 - q**2, 0.0))
+    return level / (sloped + flat)
+
+
+def isotropic(
+    spectrum: ProfileSpectrum, q_min: float, q_max: float, rolloff: bool | None = None
+) -> tuple[RadialPSD, SelfAffineFit]:
+    """Two-dimensional isotropic spectrum behind a profile, and the law fitted to it.
+
+    Parameters
+    ----------
+    spectrum : ProfileSpectrum
+        From `profile_spectrum`.
+    q_min, q_max : float
+        Range of the fit [1/length].
+    rolloff : bool, optional
+        As in `selfaffine.fit_self_affine`.
+
+    Returns
+    -------
+    rings : RadialPSD
+        Narrow rings of C [length^4], with the degrees of freedom of the profile.
+    fit : SelfAffineFit
+        In the convention of two dimensions.
+
+    Raises
+    ------
+    ValueError
+        As `selfaffine.fit_rings`, and if the profile's spectrum falls so slowly that no isotropic
+        surface has it: mere noise.
+    """
+    profile = spectrum.rings(FINE)
+    rings = _scaled(profile, 1 / profile.q)
+    fit = fit_rings(rings, q_min, q_max, rolloff)
+    for _ in range(_ROUNDS):
+        before = fit
+        if not fit.hurst > LOWEST_HURST:
+            raise ValueError(
+                f"the profile's spectrum falls as q^{-2 * fit.hurst - 1:.2f}: too slowly for a "
+                "surface, rather noise; lower the highest wave number of the fit"
+            )
+        rings = _scaled(profile, abel_ratio(profile.q, fit.hurst, fit.q_rolloff))
+        # Once chosen the model stays: else a plateau might come and go for ever.
+        fit = fit_rings(rings, q_min, q_max, fit.q_rolloff is not None)
+        if abs(fit.hurst - before.hurst) < 1e-3 * fit.hurst_se:
+            break
+    return rings, fit
+
+
+def _scaled(rings: RadialPSD, ratio: NDArray) -> RadialPSD:
+    return replace(rings, psd=rings.psd * ratio, standard_error=rings.standard_error * ratio)

@@ -1,0 +1,291 @@
+"""Power spectral density of a measured or computed topography: window, 2D spectrum, rings.
+
+The project's convention: h_rms^2 = double integral of C d^2q = 2 pi * integral of q C(q) dq, no
+factor 1/(4 pi^2). A measured topography is not periodic; without a window the jump across its
+edges leaks a false q^-2 tail along the axes into the spectrum (Jacobs, Junge & Pastewka 2017,
+doi:10.1088/2051-672X/aa51f8). Lengths are in any one unit; C then has that unit to the fourth.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from scipy import fft
+
+from stickiness.core.arguments import grid, number
+
+Window = Literal["none", "hann", "hann_radial"]
+Spacing = Literal["log", "linear"]
+
+
+@dataclass(frozen=True)
+class PowerSpectrum:
+    """Two-dimensional power spectral density on the half plane q_y >= 0.
+
+    Attributes
+    ----------
+    qx : (nx,) array
+        Wave numbers along the first axis [1/length], in the order of the FFT.
+    qy : (ny//2 + 1,) array
+        Wave numbers along the second axis [1/length], not negative.
+    psd : (nx, ny//2 + 1) array
+        C(qx, qy) [length^4].
+    multiplicity : (ny//2 + 1,) array
+        How many modes of the full plane each column stands for (2; 1 for columns that hold
+        both members of each conjugate pair).
+    variance : float
+        Mean square of the windowed heights over the mean square of the window [length^2].
+    independence : float
+        Independent modes per mode: 1 without a window, (mean w^2)^2/mean w^4 with one, because a
+        window correlates neighbouring modes.
+    blur : float
+        Half width of the window's main lobe, in lattice steps: 0 without a window. Modes
+        nearer to q = 0 than this are mixed with the mean and the trend.
+    window : str
+        Name of the window.
+    """
+
+    qx: NDArray
+    qy: NDArray
+    psd: NDArray
+    multiplicity: NDArray
+    variance: float
+    independence: float
+    blur: float
+    window: str
+
+    @property
+    def dqx(self) -> float:
+        """Lattice step along the first axis, 2 pi over the side [1/length]."""
+        return float(self.qx[1])
+
+    @property
+    def dqy(self) -> float:
+        """Lattice step along the second axis [1/length]."""
+        return float(self.qy[1])
+
+    @property
+    def q(self) -> NDArray:
+        """|q| of every mode, shape of `psd` [1/length]."""
+        return np.hypot(self.qx[:, None], self.qy[None, :])
+
+    @property
+    def q_nyquist(self) -> float:
+        """Smaller of the two Nyquist wave numbers [1/length]; circles up to it are complete."""
+        return float(min(np.abs(self.qx).max(), self.qy.max()))
+
+    def anisotropy(self, q_min: float, q_max: float) -> tuple[float, float]:
+        """Dependence of C on direction between two wave numbers.
+
+        Returns
+        -------
+        amplitude : float
+            A in C ~ 1 + A cos 2(phi - phi0), averaged over the modes after division by the mean
+            of their ring: 0 if isotropic, towards 2 for a pure lay.
+        direction : float
+            phi0 [rad], the direction of the wave vectors with the largest C, in (-pi/2, pi/2].
+        """
+        number("q_min", q_min)
+        q = self.q
+        inside = (q >= q_min) & (q <= q_max)
+        if not np.any(self.psd[inside] > 0):
+            raise ValueError(f"no modes between q_min = {q_min:.6g} and q_max = {q_max:.6g}")
+        weight = np.broadcast_to(self.multiplicity, q.shape)[inside]
+        ring = np.rint(np.log10(q[inside] / q_min) * 20).astype(int)
+        modes = np.bincount(ring, weights=weight)
+        mean = np.bincount(ring, weights=weight * self.psd[inside]) / np.maximum(modes, 1)
+        mean[mean == 0] = np.inf  # rings without power, whose modes are alike
+        phi = np.arctan2(*np.broadcast_arrays(self.qy[None, :], self.qx[:, None]))[inside]
+        # The ring's mean is taken off: its modes are not spread evenly over the directions.
+        excess = weight * (self.psd[inside] / mean[ring] - 1)
+        harmonic = 2 * np.sum(excess * np.exp(2j * phi)) / weight.sum()
+        return float(np.abs(harmonic)), float(np.angle(harmonic) / 2)
+
+    def total(self) -> float:
+        """Sum of C over the full plane times dqx dqy: equals `variance` (Parseval) [length^2]."""
+        return float(np.sum(self.psd @ self.multiplicity)) * self.dqx * self.dqy
+
+
+@dataclass(frozen=True)
+class RadialPSD:
+    """Radially averaged power spectral density, one entry for each ring that holds modes.
+
+    Attributes
+    ----------
+    q : (m,) array
+        Wave number of the ring, geometric mean over its modes [1/length].
+    psd : (m,) array
+        Mean of C over the modes of the ring [length^4].
+    standard_error : (m,) array
+        Sampling error of `psd` for a Gaussian isotropic surface, psd/sqrt(dof) [length^4].
+    modes : (m,) int array
+        Lattice modes of the full plane in the ring.
+    dof : (m,) array
+        Independent exponentially distributed values among them: half of `modes` (conjugate
+        pairs), times the window's `independence`. The mean has a Gamma law of this shape.
+    """
+
+    q: NDArray
+    psd: NDArray
+    standard_error: NDArray
+    modes: NDArray
+    dof: NDArray
+
+    def __len__(self) -> int:
+        return len(self.q)
+
+    def between(self, q_min: float, q_max: float) -> RadialPSD:
+        """Return the rings with q_min <= q <= q_max."""
+        keep = (self.q >= q_min) & (self.q <= q_max)
+        return RadialPSD(*(getattr(self, name)[keep] for name in self.__dataclass_fields__))
+
+
+def power_spectrum(
+    heights: ArrayLike, dx: float, dy: float | None = None, window: Window = "none"
+) -> PowerSpectrum:
+    """Two-dimensional power spectral density of heights on a rectangular grid.
+
+    Parameters
+    ----------
+    heights : (nx, ny) array
+        Heights [length], the first axis along x; levelled beforehand if they are measured.
+    dx, dy : float
+        Grid steps along the first and second axis [length]; `dy` defaults to `dx`.
+    window : {"none", "hann", "hann_radial"}
+        "none" for periodic heights. "hann": product of a Hann window along each axis.
+        "hann_radial": Hann window of the distance from the centre, zero beyond the largest
+        inscribed circle; isotropic, but it uses less of the data. Both have the middle of the
+        area as centre, whatever the number of points, so that a mirrored map has the same rings;
+        SurfaceTopography's peaks on pixel n//2, half a pixel aside if n is even.
+
+    Returns
+    -------
+    PowerSpectrum
+        Scaled by the window's mean square, so that it estimates C whatever the window. The mean
+        weighted by the window is taken off first: the plain mean, zero after levelling, would
+        leave a constant that leaks into the lowest modes.
+
+    Raises
+    ------
+    ValueError
+        If the heights are not a finite 2D array of at least 4 by 4 points, a step is not
+        positive, or the window is unknown.
+    """
+    heights = grid("heights", heights)
+    if min(heights.shape) < 4:
+        raise ValueError(f"heights must have at least 4 x 4 points, got {heights.shape}")
+    dx, dy = number("dx", dx), number("dy", dx if dy is None else dy)
+    nx, ny = heights.shape
+    w, blur = _window(window, (nx, ny), (dx, dy))
+    power = np.mean(w**2)
+    windowed = w * (heights - np.mean(w * heights) / np.mean(w))
+    modes = fft.rfft2(windowed) / (nx * ny)
+    cell = (2 * np.pi) ** 2 / (nx * dx * ny * dy)
+    with np.errstate(over="ignore"):
+        variance = float(np.mean(windowed**2) / power)
+    if not np.isfinite(variance / cell):
+        raise ValueError("heights leave the range of floats: take a larger unit of length")
+    multiplicity = np.full(modes.shape[1], 2.0)
+    multiplicity[0] = 1.0
+    if ny % 2 == 0:
+        multiplicity[-1] = 1.0
+    return PowerSpectrum(
+        qx=2 * np.pi * fft.fftfreq(nx, dx),
+        qy=2 * np.pi * fft.rfftfreq(ny, dy),
+        psd=np.abs(modes) ** 2 / (power * cell),
+        multiplicity=multiplicity,
+        variance=variance,
+        independence=float(power**2 / np.mean(w**4)),
+        blur=blur,
+        window=window,
+    )
+
+
+def radial_average(
+    spectrum: PowerSpectrum, spacing: Spacing = "log", bins_per_decade: float = 10
+) -> RadialPSD:
+    """Average a 2D spectrum over rings of |q|.
+
+    Every mode but q = 0 falls into exactly one ring, those in the corners beyond `q_nyquist`
+    included, so that the sum of psd * modes * dqx * dqy is still the variance.
+
+    Parameters
+    ----------
+    spectrum : PowerSpectrum
+        From `power_spectrum`.
+    spacing : {"log", "linear"}
+        Rings of equal ratio, or of the width of one lattice step.
+    bins_per_decade : float
+        Logarithmic rings per decade. The average over a ring exceeds C at its mean q by about
+        s^2 (ln 10/bins_per_decade)^2/24 for C ~ q^-s: 3 % at 10 a decade and s = 3.6.
+
+    Raises
+    ------
+    ValueError
+        If `spacing` is unknown or `bins_per_decade` is not positive.
+    """
+    if spacing not in ("log", "linear"):
+        raise ValueError(f"spacing must be 'log' or 'linear', got {spacing!r}")
+    bins_per_decade = number("bins_per_decade", bins_per_decade)
+    q = spectrum.q.ravel()
+    weight = np.broadcast_to(spectrum.multiplicity, spectrum.psd.shape).ravel()
+    q, weight, psd = q[1:], weight[1:], spectrum.psd.ravel()[1:]  # the first mode is q = 0
+    ring = _rings(q, spectrum, spacing, bins_per_decade)
+    modes = np.bincount(ring, weights=weight)
+    keep = modes > 0
+    modes = modes[keep]
+    mean = np.bincount(ring, weights=weight * psd)[keep] / modes
+    log_q = np.bincount(ring, weights=weight * np.log(q))[keep] / modes
+    dof = modes / 2 * spectrum.independence
+    return RadialPSD(np.exp(log_q), mean, mean / np.sqrt(dof), np.rint(modes).astype(int), dof)
+
+
+def wide_rings(rings: RadialPSD, bins_per_decade: float) -> NDArray:
+    """Index of the wider logarithmic ring, counted from the first, that each ring falls into."""
+    # The slack keeps a ring on an edge where it belongs, whatever the rounding.
+    return np.floor(np.log10(rings.q / rings.q[0]) * bins_per_decade + 1e-9).astype(int)
+
+
+def merge_rings(
+    rings: RadialPSD, values: NDArray, bins_per_decade: float
+) -> tuple[NDArray, NDArray, NDArray]:
+    """Gather narrow rings into wider ones.
+
+    Returns
+    -------
+    q, mean, dof : (k,) arrays
+        Of each wider ring that holds any: geometric mean wave number, mean of `values` weighted
+        by independent modes, and the number of these.
+    """
+    index = wide_rings(rings, bins_per_decade)
+    dof = np.bincount(index, weights=rings.dof)
+    keep = dof > 0
+    dof = dof[keep]
+    log_q = np.bincount(index, weights=rings.dof * np.log(rings.q))[keep] / dof
+    mean = np.bincount(index, weights=rings.dof * values)[keep] / dof
+    return np.exp(log_q), mean, dof
+
+
+def _rings(q: NDArray, spectrum: PowerSpectrum, spacing: str, bins_per_decade: float) -> NDArray:
+    if spacing == "linear":
+        return np.rint(q / max(spectrum.dqx, spectrum.dqy)).astype(int)
+    # Half a ring of offset keeps the lowest modes, all of one |q|, clear of a ring's edge, where
+    # rounding would decide.
+    return np.floor(np.log10(q / q.min()) * bins_per_decade + 0.5).astype(int)
+
+
+def _window(name: str, shape: tuple[int, int], step: tuple[float, float]) -> tuple[NDArray, float]:
+    """Return the window's values at the pixels' centres and its half width in lattice steps."""
+    if name == "none":
+        return np.ones((1, 1)), 0.0
+    x, y = ((np.arange(n) + 0.5) / n - 0.5 for n in shape)  # in units of the sides
+    if name == "hann":
+        return np.cos(np.pi * x[:, None]) ** 2 * np.cos(np.pi * y) ** 2, 2.0
+    if name == "hann_radial":
+        sides = shape[0] * step[0], shape[1] * step[1]
+        r = np.hypot(x[:, None] * sides[0], y * sides[1]) / min(sides)
+        return np.where(r < 0.5, np.cos(np.pi * r) ** 2, 0.0), 2.0
+    raise ValueError(f"window must be 'none', 'hann' or 'hann_radial', got {name!r}")

@@ -1,0 +1,328 @@
+"""Hurst exponent and prefactor of a measured spectrum, by Whittle's likelihood.
+
+A mode of the periodogram of a Gaussian surface is exponentially distributed about C(q), the mean
+of nu independent ones has a Gamma law of shape nu. Least squares on its logarithm are biased by
+digamma(nu) - ln(nu) (-0.58 for a single mode); the likelihood
+-sum nu (ln C + I/C) (Whittle 1953, doi:10.1007/BF02590998) is not. The modes at high q are so
+many that they alone would settle the exponent of a spectrum that is no power law; so a ring of
+modes counts nu/(1 + nu tau^2), with tau the rms misfit beyond sampling, found from the rings'
+scatter (Paule & Mandel 1982, doi:10.6028/jres.087.022).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import partial
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from scipy import special
+
+from stickiness.measured import whittle
+from stickiness.measured.psd import PowerSpectrum, RadialPSD, merge_rings, radial_average
+from stickiness.surfaces.spectrum import SelfAffine
+
+LOWEST_MODES = 4  # lattice steps left out at low q if the spectrum was windowed
+NYQUIST_SHARE = 0.5  # default highest q over q_Nyquist
+ROLLOFF_AIC = 10.0  # gain in AIC below which the simpler model is kept
+LARGE_MISFIT = 0.3  # relative; from here a power law is a caricature of the spectrum
+LARGE_ANISOTROPY = 0.5  # C along and across the lay then differ threefold
+
+_FINE = 200  # narrow rings per decade: C varies by 4 % across one, its mean by 7e-5
+
+
+@dataclass(frozen=True)
+class HurstLine:
+    """Prefactors of C = C0 q^(-2(H+1)) at a given Hurst exponent.
+
+    Attributes
+    ----------
+    hurst : float
+        The exponent that was imposed.
+    c0, c0_se : float
+        Least squares of ln C over logarithmic rings of equal weight, corrected for the bias of
+        the logarithm, and its standard error from the scatter about the line
+        [length^(2 - 2H)].
+    q : (m,) array
+        Wave numbers of the rings [1/length].
+    c0_of_q : (m,) array
+        C q^(2(H+1)) in each ring [length^(2 - 2H)].
+    c0_of_q_se : (m,) array
+        Sampling error of `c0_of_q`.
+    """
+
+    hurst: float
+    c0: float
+    c0_se: float
+    q: NDArray
+    c0_of_q: NDArray
+    c0_of_q_se: NDArray
+
+    @property
+    def upper(self) -> float:
+        """Upper envelope: the largest `c0_of_q` of all rings [length^(2 - 2H)]."""
+        return float(self.c0_of_q.max())
+
+    @property
+    def q_upper(self) -> float:
+        """Wave number at which the spectrum touches its upper envelope [1/length]."""
+        return float(self.q[np.argmax(self.c0_of_q)])
+
+    def below(self, c0: float) -> NDArray:
+        """Tell for each ring whether the spectrum lies under the line of prefactor `c0`."""
+        return self.c0_of_q < c0
+
+
+@dataclass(frozen=True)
+class SelfAffineFit:
+    """Power law C = C0 q^(-2(H+1)) fitted to a spectrum, with a plateau below `q_rolloff` if any.
+
+    Attributes
+    ----------
+    hurst, hurst_se : float
+        Hurst exponent as fitted (it may fall outside 0 < H <= 1) and its standard error.
+    c0, c0_se : float
+        Prefactor [length^(2 - 2H), so its unit depends on H] and its standard error.
+    log_covariance : (2, 2) or (3, 3) array
+        Covariance of (ln c0, hurst) or of (ln c0, hurst, ln q_rolloff). ln c0 and hurst are
+        strongly correlated: q = 1 lies far from the data.
+    q_min, q_max : float
+        Lowest and highest wave number used [1/length].
+    q_rolloff : float or None
+        End of the plateau [1/length]; None if the data do not ask for one.
+    dof : float
+        Independent modes in the range.
+    dispersion : float
+        Mean square misfit of rings (ten a decade) over that of sampling alone: about 1 for an
+        isotropic Gaussian power law, below 1 with a window (it correlates the modes of a ring
+        less than `dof` assumes).
+    misfit : float
+        Relative rms departure of the spectrum from the fitted law beyond sampling noise; 0 if
+        sampling explains it all. Every ring's weight is limited to 1/misfit^2, and the standard
+        errors grow with it: where the law fails, no number of modes pins its exponent down.
+    aic_gain : float
+        Akaike's criterion without plateau minus with one; positive speaks for a plateau.
+        NaN if not compared.
+    rings : RadialPSD
+        The narrow rings the fit used.
+    """
+
+    hurst: float
+    hurst_se: float
+    c0: float
+    c0_se: float
+    log_covariance: NDArray
+    q_min: float
+    q_max: float
+    q_rolloff: float | None
+    dof: float
+    dispersion: float
+    misfit: float
+    aic_gain: float
+    rings: RadialPSD
+
+    @property
+    def q_rolloff_se(self) -> float | None:
+        """Standard error of `q_rolloff` [1/length]; None without one."""
+        if self.q_rolloff is None:
+            return None
+        return self.q_rolloff * float(np.sqrt(self.log_covariance[2, 2]))
+
+    @property
+    def is_self_affine(self) -> bool:
+        """Whether 0 < H <= 1, as a self-affine surface needs."""
+        return 0 < self.hurst <= 1
+
+    def psd(self, q: ArrayLike) -> NDArray:
+        """Fitted C(q) [length^4], at any `q` [1/length]."""
+        q = np.asarray(q, dtype=float)
+        q = q if self.q_rolloff is None else np.maximum(q, self.q_rolloff)
+        return self.c0 * q ** (-2 * (self.hurst + 1))
+
+    def spectrum(self, q0: float | None = None, q1: float | None = None) -> SelfAffine:
+        """Return the fit as a `SelfAffine` spectrum, from q_min to q_max unless told otherwise."""
+        if not self.is_self_affine:
+            raise ValueError(f"hurst must be in 0 < H <= 1 for a spectrum, fitted {self.hurst:.3f}")
+        return SelfAffine(
+            hurst=self.hurst,
+            q0=self.q_min if q0 is None else q0,
+            q1=self.q_max if q1 is None else q1,
+            C0=self.c0,
+            q_rolloff=self.q_rolloff,
+        )
+
+    def c0_at_hurst(self, hurst: float = 0.8, bins_per_decade: float = 10) -> HurstLine:
+        """Prefactors at an imposed exponent, in a unit that can be compared between surfaces.
+
+        The line's level is taken above `q_rolloff`, the values ring by ring over the whole range.
+
+        Raises
+        ------
+        ValueError
+            If `hurst` is not in 0 < H <= 1.
+        """
+        if not 0 < hurst <= 1:
+            raise ValueError(f"hurst must be in 0 < H <= 1, got {hurst!r}")
+        rings = self.rings
+        level = rings.psd * rings.q ** (2 * (hurst + 1))
+        q, mean, dof = merge_rings(rings, level, bins_per_decade)
+        sloped = q >= (0.0 if self.q_rolloff is None else self.q_rolloff)
+        logs = np.log(mean) - special.digamma(dof) + np.log(dof)
+        logs = logs[sloped]
+        scatter = np.std(logs, ddof=1) if len(logs) > 1 else np.nan
+        c0 = float(np.exp(logs.mean()))
+        se = c0 * float(scatter / np.sqrt(len(logs)))
+        return HurstLine(hurst, c0, se, q, mean, mean / np.sqrt(dof))
+
+
+def fit_self_affine(
+    spectrum: PowerSpectrum,
+    q_min: float | None = None,
+    q_max: float | None = None,
+    rolloff: bool | None = None,
+) -> SelfAffineFit:
+    """Fit a self-affine spectrum, with or without a plateau at low q.
+
+    Parameters
+    ----------
+    spectrum : PowerSpectrum
+        From `psd.power_spectrum`.
+    q_min : float, optional
+        Lowest wave number used [1/length]. Default: the lowest of the lattice without a window;
+        with one four lattice steps, below which the window and levelling change the spectrum.
+    q_max : float, optional
+        Highest wave number used [1/length]. Default: half of `q_nyquist`, above which aliasing
+        and the instrument's finite resolution bend the spectrum. Give less for a blunt tip.
+    rolloff : bool, optional
+        Fit a plateau or not. Default: only if it gains more than 10 in Akaike's criterion.
+
+    Raises
+    ------
+    ValueError
+        If fewer than five rings (ten a decade) or 20 independent modes lie in the range, or the
+        spectrum vanishes there.
+    """
+    return fit_rings(narrow_rings(spectrum), *fit_range(spectrum, q_min, q_max), rolloff)
+
+
+def fit_rings(
+    rings: RadialPSD, q_min: float, q_max: float, rolloff: bool | None = None
+) -> SelfAffineFit:
+    """Fit a self-affine spectrum to rings, of whatever measurement they come.
+
+    Parameters
+    ----------
+    rings : RadialPSD
+        Rings that are narrow against the changes of C, in ascending order: C is taken to be the
+        law at `rings.q`.
+    q_min, q_max : float
+        Lowest and highest wave number used [1/length].
+    rolloff : bool, optional
+        As in `fit_self_affine`, which also says what is raised.
+    """
+    rings = _within(rings, q_min, q_max)
+    # ln q from the middle of the data, where the exponent and the level are least correlated.
+    scale = float(np.exp(np.average(np.log(rings.q), weights=rings.dof)))
+    x = np.log(rings.q / scale)
+    plain, plain_misfit = whittle.weighted_fit(whittle.fit_power_law, x, rings)
+    if rolloff is False:
+        return _result(rings, scale, plain, plain_misfit, np.nan)
+    room = whittle.rolloff_room(x, rings)
+    if room is None:
+        if rolloff:
+            raise ValueError("rolloff=True needs a wider range of q: lower q_min or raise q_max")
+        return _result(rings, scale, plain, plain_misfit, np.nan)
+    bent, bent_misfit = whittle.weighted_fit(partial(whittle.fit_rolloff, room), x, rings)
+    judged = whittle.limit_weight(rings, bent_misfit)
+    gain = 2 * (whittle.deviance(x, judged, *plain) - whittle.deviance(x, judged, *bent)) - 2
+    if rolloff or gain > ROLLOFF_AIC:
+        return _result(rings, scale, bent, bent_misfit, gain)
+    return _result(rings, scale, plain, plain_misfit, gain)
+
+
+def remarks(fit: SelfAffineFit, anisotropy: float = 0.0) -> list[str]:
+    """Say, in one line each, what keeps a surface from being isotropic and self-affine.
+
+    Parameters
+    ----------
+    fit : SelfAffineFit
+        Of the surface's spectrum.
+    anisotropy : float
+        Amplitude from `PowerSpectrum.anisotropy`.
+    """
+    found = []
+    if not fit.is_self_affine:
+        found.append(
+            f"H = {fit.hurst:.2f} is outside 0 < H <= 1: the range of q may hold noise (H too low) "
+            "or the instrument's blur (H too high)"
+        )
+    if fit.misfit > LARGE_MISFIT:
+        found.append(f"the spectrum departs from a power law by {fit.misfit:.0%} (rms)")
+    if anisotropy > LARGE_ANISOTROPY:
+        found.append(
+            f"C depends on direction (amplitude {anisotropy:.2f} of cos 2 phi): theory for "
+            "isotropic surfaces applies to its average at best"
+        )
+    return found
+
+
+def narrow_rings(spectrum: PowerSpectrum) -> RadialPSD:
+    """Return rings so narrow that the mean of C over one is C at its wave number."""
+    return radial_average(spectrum, bins_per_decade=_FINE)
+
+
+def fit_range(
+    spectrum: PowerSpectrum, q_min: float | None = None, q_max: float | None = None
+) -> tuple[float, float]:
+    """Return the range of wave numbers that `fit_self_affine` uses."""
+    step = max(spectrum.dqx, spectrum.dqy)
+    low = (LOWEST_MODES if spectrum.blur else 1) * step if q_min is None else q_min
+    high = NYQUIST_SHARE * spectrum.q_nyquist if q_max is None else q_max
+    return low, high
+
+
+def _within(rings: RadialPSD, low: float, high: float) -> RadialPSD:
+    if not 0 < low < high:
+        raise ValueError(f"need 0 < q_min < q_max, got q_min = {low:.6g}, q_max = {high:.6g}")
+    # The slack keeps modes exactly on a limit, whatever the rounding of |q|.
+    low, high = low * (1 - 1e-9), high * (1 + 1e-9)
+    rings = rings.between(low, high)
+    decades = len(merge_rings(rings, rings.psd, whittle.COARSE)[0]) if len(rings) else 0
+    if decades < 5 or rings.dof.sum() < 20:
+        raise ValueError(
+            f"too few modes between q_min = {low:.6g} and q_max = {high:.6g} for a fit: "
+            f"{rings.dof.sum():.0f} independent ones in {decades} rings, need 20 in 5"
+        )
+    if not np.all(rings.psd > 0):
+        raise ValueError(f"the spectrum vanishes at q = {rings.q[np.argmin(rings.psd)]:.6g}")
+    return rings
+
+
+def _result(
+    rings: RadialPSD, scale: float, parameters: tuple[float, ...], misfit: float, gain: float
+) -> SelfAffineFit:
+    a, s, *corner = parameters
+    x = np.log(rings.q / scale)
+    # In the unit of the data: ln C = ln c0 - 2 (H + 1) max(ln q, ln q_r).
+    log_q = np.maximum(x, *corner) if corner else x
+    design = [np.ones_like(x), -2 * (log_q + np.log(scale))]
+    design += [-s * (x < c) for c in corner]
+    design = np.array(design)
+    information = (design * whittle.limit_weight(rings, misfit).dof) @ design.T
+    covariance = np.linalg.inv(information)
+    c0 = float(np.exp(a + s * np.log(scale)))
+    return SelfAffineFit(
+        hurst=s / 2 - 1,
+        hurst_se=float(np.sqrt(covariance[1, 1])),
+        c0=c0,
+        c0_se=c0 * float(np.sqrt(covariance[0, 0])),
+        log_covariance=covariance,
+        q_min=float(rings.q[0]),
+        q_max=float(rings.q[-1]),
+        q_rolloff=scale * float(np.exp(corner[0])) if corner else None,
+        dof=float(rings.dof.sum()),
+        dispersion=whittle.dispersion(rings, whittle.power_law(x, *parameters), len(parameters)),
+        misfit=misfit,
+        aic_gain=float(gain),
+        rings=rings,
+    )

@@ -1,0 +1,209 @@
+"""Several measurements of one surface as one spectrum.
+
+Measurements at different magnifications see different wave numbers of one surface, at different
+places. Where they overlap, ln C is averaged with weights 1/(sampling variance + tau^2); tau is what
+separates them as a whole: place, calibration, instrument (Jacobs, Junge & Pastewka 2017,
+doi:10.1088/2051-672X/aa51f8, recommend geometric averages of spectra).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from itertools import combinations
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import special
+
+from stickiness.measured.instrument_spectrum import MeasuredSpectrum, ring_areas
+from stickiness.measured.psd import RadialPSD
+from stickiness.measured.self_affine_fit import SelfAffineFit, fit_rings
+
+RINGS = 20  # per decade
+REFERENCE_EXPONENT = 3.6  # of C ~ q^-s, taken out before a mean over a ring: H = 0.8
+
+
+@dataclass(frozen=True)
+class Stitched:
+    """Several measurements of one surface as one spectrum.
+
+    Attributes
+    ----------
+    spectrum : MeasuredSpectrum
+        The whole; `fit`'s errors include what separates the measurements.
+    levels : (k, m) array
+        C of each measurement in the rings of `spectrum`, NaN outside its band [length^4].
+    offsets : (k,) array
+        Mean of ln C less the stitched one, where others were measured too; NaN if nowhere.
+    shares : (k, m) array
+        Weight of each measurement in each ring, 1 in all.
+    scatter : float
+        tau, standard deviation of the offsets in ln C between measurements; NaN if no two overlap.
+    """
+
+    spectrum: MeasuredSpectrum
+    levels: NDArray
+    offsets: NDArray
+    shares: NDArray
+    scatter: float
+
+
+def stitch(measurements: Sequence[MeasuredSpectrum]) -> Stitched:
+    """Log-average several measurements of one surface into one spectrum.
+
+    Each counts between its `q_min` and its cutoff only; below, the one that reaches lowest goes on
+    to its lowest wave number, where the heights' variance is.
+
+    Raises
+    ------
+    ValueError
+        If there are fewer than two.
+
+    Notes
+    -----
+    The errors of the fit are those of the rings plus, for each measurement, the change of the fit
+    when it alone is raised by tau: offsets tilt the spectrum, and no number of modes tells.
+    """
+    if len(measurements) < 2:
+        raise ValueError(f"stitching needs two measurements at least, got {len(measurements)}")
+    broadest = min(measurements, key=lambda m: m.lowest)
+    q_low = broadest.lowest
+    logs, variances, q, present = _on_common_rings(measurements, broadest, q_low)
+    tau2 = _between(logs, variances)
+    mean, error2 = _average(logs, variances, tau2)
+    rings = _as_rings(q, mean, error2)
+    top = max(measurements, key=lambda m: m.cutoff.q)
+    q_min = min(m.q_min for m in measurements)
+    fit = fit_rings(rings, q_min, top.cutoff.q)
+    tau = float(np.sqrt(tau2)) if np.isfinite(tau2) else np.nan
+    if tau > 0:
+        fit = _with_offsets(fit, logs, variances, tau, q, (q_min, top.cutoff.q))
+    overlap = present.sum(0) > 1
+    offsets = np.array(
+        [
+            np.mean((row - mean)[overlap & here]) if np.any(overlap & here) else np.nan
+            for row, here in zip(logs, present, strict=True)
+        ]
+    )
+    whole = MeasuredSpectrum(
+        rings=rings,
+        area=ring_areas(rings.q, q_low),
+        narrow=rings,
+        q_min=fit.q_min,
+        cutoff=replace(top.cutoff, q=fit.q_max),
+        lowest=q_low,
+        anisotropy=float(_largest([m.anisotropy for m in measurements])),
+        fit=fit,
+    )
+    levels = np.exp(logs + special.digamma(rings.dof) - np.log(rings.dof))
+    return Stitched(whole, levels, offsets, _shares(variances, tau2), tau)
+
+
+def _largest(values: list[float]) -> float:
+    known = [value for value in values if np.isfinite(value)]
+    return max(known, default=np.nan)
+
+
+def _on_common_rings(
+    measurements: Sequence[MeasuredSpectrum], broadest: MeasuredSpectrum, q_low: float
+) -> tuple[NDArray, NDArray, NDArray, NDArray]:
+    """Logarithm of C, its sampling variance (k, m), the rings (m,), and where there is any."""
+    top = max(m.cutoff.q for m in measurements)
+    count = int(np.ceil(np.log10(top / q_low) * RINGS)) + 1
+    centres = q_low * 10 ** (np.arange(count) / RINGS)
+    logs = np.full((len(measurements), count), np.nan)
+    variances = np.full_like(logs, np.nan)
+    for k, measurement in enumerate(measurements):
+        low = measurement.lowest if measurement is broadest else measurement.q_min
+        slack = 1 + 1e-9
+        rings = measurement.narrow.between(low / slack, measurement.cutoff.q * slack)
+        index = np.rint(np.log10(rings.q / q_low) * RINGS).astype(int)
+        dof = np.bincount(index, weights=rings.dof, minlength=count)
+        # The mean of C over a ring is not C at its middle: without the slope it nearly is.
+        level = rings.dof * rings.psd * (rings.q / centres[index]) ** REFERENCE_EXPONENT
+        sums = np.bincount(index, weights=level, minlength=count)
+        here = (dof > 0) & (sums > 0)
+        # digamma: the mean logarithm of a Gamma law lies below the logarithm of its mean
+        bias = special.digamma(dof[here]) - np.log(dof[here])
+        logs[k, here] = np.log(sums[here] / dof[here]) - bias
+        variances[k, here] = special.polygamma(1, dof[here])
+    present = np.isfinite(logs)
+    used = present.any(0)
+    return logs[:, used], variances[:, used], centres[used], present[:, used]
+
+
+def _average(logs: NDArray, variances: NDArray, tau2: float) -> tuple[NDArray, NDArray]:
+    total = np.nansum(_weights(variances, tau2), axis=0)
+    return np.nansum(_shares(variances, tau2) * logs, axis=0), 1 / total
+
+
+def _weights(variances: NDArray, tau2: float) -> NDArray:
+    return 1 / (variances + (tau2 if np.isfinite(tau2) else 0.0))
+
+
+def _shares(variances: NDArray, tau2: float) -> NDArray:
+    weight = np.nan_to_num(_weights(variances, tau2))
+    return weight / weight.sum(axis=0)
+
+
+def _between(logs: NDArray, variances: NDArray) -> float:
+    """Variance between measurements, from the mean offsets of all pairs that overlap.
+
+    An offset smaller than its own sampling error cannot be told from none, and counts as that.
+    """
+    squares = []
+    for j, k in combinations(range(len(logs)), 2):
+        weight = 1 / (variances[j] + variances[k])
+        if np.isfinite(weight).any():
+            total = np.nansum(weight)
+            offset = np.nansum(weight * (logs[j] - logs[k])) / total
+            squares.append(max(offset**2, 1 / total))
+    return float(np.mean(squares)) / 2 if squares else np.nan
+
+
+def _as_rings(q: NDArray, mean: NDArray, error2: NDArray) -> RadialPSD:
+    """Rings of Gamma laws whose logarithm has this mean and variance.
+
+    Where there is one measurement only, these are its own rings again.
+    """
+    dof = _inverse_trigamma(error2)
+    level = np.exp(mean + special.digamma(dof) - np.log(dof))
+    modes = np.maximum(np.rint(dof), 1).astype(int)
+    return RadialPSD(q, level, level / np.sqrt(dof), modes, dof)
+
+
+def _inverse_trigamma(value: NDArray) -> NDArray:
+    """Solve polygamma(1, x) = value: Newton's method on 1/polygamma, nearly linear in x."""
+    x = 0.5 + 1 / value
+    for _ in range(20):
+        trigamma = special.polygamma(1, x)
+        x = x + trigamma * (1 - trigamma / value) / special.polygamma(2, x)
+    return x
+
+
+def _with_offsets(
+    fit: SelfAffineFit,
+    logs: NDArray,
+    variances: NDArray,
+    tau: float,
+    q: NDArray,
+    band: tuple[float, float],
+) -> SelfAffineFit:
+    """Add to the covariance what raising each measurement by tau changes."""
+    covariance = fit.log_covariance.copy()
+    bent = fit.q_rolloff is not None
+    for k in range(len(logs)):
+        raised = logs.copy()
+        raised[k] += tau
+        mean, error2 = _average(raised, variances, tau**2)
+        other = fit_rings(_as_rings(q, mean, error2), *band, rolloff=bent)
+        change = [np.log(other.c0 / fit.c0), other.hurst - fit.hurst]
+        change += [np.log(other.q_rolloff / fit.q_rolloff)] if bent else []
+        covariance += np.outer(change, change)
+    return replace(
+        fit,
+        log_covariance=covariance,
+        hurst_se=float(np.sqrt(covariance[1, 1])),
+        c0_se=fit.c0 * float(np.sqrt(covariance[0, 0])),
+    )

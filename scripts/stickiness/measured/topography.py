@@ -1,0 +1,352 @@
+"""Measured topographies and line profiles: reading, missing points, levelling. Lengths in metres.
+
+Axes: ``heights[i, j]`` is the height at x_i, y_j. Instruments and images store a matrix whose rows
+run along y; such a matrix is transposed on reading.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from stickiness.measured import readers
+from stickiness.measured.levelling import (
+    MAX_MISSING,
+    Detrend,
+    Missing,
+    Rim,
+    complete_rectangle,
+    complete_run,
+    detrend,
+    detrend_profile,
+    fill_missing,
+    fill_profile,
+    without_rims,
+)
+from stickiness.measured.readers import Length, Raw, metres, sides
+
+_WGS84_A, _WGS84_E2 = 6378137.0, 6.69437999014e-3  # semi-major axis [m], eccentricity squared
+
+
+@dataclass(frozen=True)
+class Topography:
+    """Heights of a surface on a rectangular grid.
+
+    Attributes
+    ----------
+    heights : (nx, ny) array
+        Heights [m], the first axis along x.
+    dx, dy : float
+        Grid steps along x and y [m].
+    source : str
+        File (and variable) the heights came from.
+    missing : int
+        Number of points that were missing and have been interpolated.
+    cropped : float
+        Share of the measured points that was cut off to leave no missing ones.
+    dropped : int
+        Number of points that were measured beside missing ones and not used.
+    """
+
+    heights: NDArray
+    dx: float
+    dy: float
+    source: str
+    missing: int = 0
+    cropped: float = 0.0
+    dropped: int = 0
+
+    @property
+    def size(self) -> tuple[float, float]:
+        """Sides along x and y [m]."""
+        return self.heights.shape[0] * self.dx, self.heights.shape[1] * self.dy
+
+    @property
+    def h_rms(self) -> float:
+        """Root mean square height about the mean [m]."""
+        return float(np.std(self.heights))
+
+    @property
+    def missing_fraction(self) -> float:
+        """Share of the points that were missing."""
+        return self.missing / self.heights.size
+
+    def detrended(self, kind: Detrend = "plane") -> Topography:
+        """Return the topography levelled by `detrend`."""
+        return replace(self, heights=detrend(self.heights, kind))
+
+
+@dataclass(frozen=True)
+class Profile:
+    """Heights along a line, evenly spaced.
+
+    Attributes
+    ----------
+    heights : (n,) array
+        Heights [m].
+    dx : float
+        Step [m].
+    source : str
+        File (and variable or channel) the heights came from.
+    missing : int
+        Number of points that were missing and have been interpolated.
+    largest_gap : float
+        Largest distance between neighbouring points as measured [m]; above `dx` if they were
+        unevenly spaced and have been interpolated.
+    dropped : int
+        Number of points that were measured beside missing ones and not used.
+    """
+
+    heights: NDArray
+    dx: float
+    source: str
+    missing: int = 0
+    largest_gap: float = 0.0
+    dropped: int = 0
+
+    @property
+    def length(self) -> float:
+        """Length of the line [m]."""
+        return len(self.heights) * self.dx
+
+    @property
+    def h_rms(self) -> float:
+        """Root mean square height about the mean [m]."""
+        return float(np.std(self.heights))
+
+    @property
+    def missing_fraction(self) -> float:
+        """Share of the points that were missing."""
+        return self.missing / len(self.heights)
+
+    def detrended(self, kind: Detrend = "plane") -> Profile:
+        """Return the profile levelled by `detrend_profile`."""
+        return replace(self, heights=detrend_profile(self.heights, kind))
+
+
+def read(
+    path: str | Path,
+    *,
+    length: Length | Sequence[Length] | None = None,
+    pixel_size: Length | Sequence[Length] | None = None,
+    height_unit: str | None = None,
+    position_unit: str | None = None,
+    variable: str | None = None,
+    channel: str | int | None = None,
+    format: str | None = None,
+    missing_value: float | None = None,
+    missing: Missing = "fill",
+    max_missing: float = MAX_MISSING,
+    missing_rim: Rim = "detect",
+) -> Topography | Profile:
+    """Read a topography or a line profile.
+
+    Parameters
+    ----------
+    path : str or Path
+        NetCDF (.nc), numpy (.npz, .npy), text, or a file as an instrument wrote it.
+    length : length or pair of lengths, optional
+        Side of the measured area, along x and y: "10 um", ("10 um", "20 um") or metres. A single
+        value is the side along x, the pixels are square. Overrides what the file says.
+    pixel_size : length or pair of lengths, optional
+        Grid step, instead of `length`.
+    height_unit : str, optional
+        Unit of the numbers: "nm", if the file does not say so itself.
+    position_unit : str, optional
+        Unit of the positions of a line profile, likewise.
+    variable : str, optional
+        NetCDF variable or npz key. Default: the only two-dimensional one, else the only profile.
+    channel : str or int, optional
+        Channel of an instrument's file, by name or counted from 0. Default: the file's own.
+    format : str, optional
+        "netcdf", "numpy", "text", "instrument" or SurfaceTopography's name of a format, if the
+        file's name and content mislead.
+    missing_value : float, optional
+        Number that marks missing points, besides NaN and masked values.
+    missing : {"fill", "crop", "refuse"}
+        What to do about missing points. "fill": interpolate harmonically from the neighbours,
+        which is smooth and takes out roughness there. "crop": keep the largest rectangle (or
+        stretch of a profile) without any. "refuse": raise.
+    max_missing : float
+        Largest share of missing points, those dropped included, that may be filled.
+    missing_rim : int or "detect"
+        How far around missing points those that were measured are dropped [points]; as far as
+        they stand out.
+
+    Returns
+    -------
+    Topography or Profile
+        A profile if the file holds one: a one-dimensional array or channel, or text in one
+        column (heights) or two (positions, heights). Uneven positions are interpolated linearly
+        to as many even ones.
+
+    Raises
+    ------
+    ValueError
+        If the file does not hold one usable array, its size or unit is unknown or of a wrong
+        dimension, or too much is missing. The message names file, variable and remedy.
+    FileNotFoundError
+        If there is no such file.
+
+    Notes
+    -----
+    In NetCDF the axis named x (or lon) is x, else the last one; grid steps come from evenly
+    spaced coordinates with a unit of length. A text matrix may have a header as Gwyddion
+    writes it (Width, Height, Value units).
+    """
+    path = Path(path)
+    if not path.is_file():
+        raise FileNotFoundError(f"no topography file {str(path)!r}")
+    if length is not None and pixel_size is not None:
+        raise ValueError("give length or pixel_size, not both")
+    if not 0 <= max_missing < 1:
+        raise ValueError(f"max_missing must be in 0 <= f < 1, got {max_missing!r}")
+    if missing not in ("fill", "crop", "refuse"):
+        raise ValueError(f"missing must be 'fill', 'crop' or 'refuse', got {missing!r}")
+    if missing_rim != "detect" and not (isinstance(missing_rim, int) and missing_rim >= 0):
+        raise ValueError(f"missing_rim must be a number of points or 'detect', got {missing_rim!r}")
+    raw = readers.read(path, format, variable, channel)
+    heights = raw.heights
+    if missing_value is not None:
+        heights = np.where(heights == missing_value, np.nan, heights)
+    limit = 0.0 if missing == "refuse" else max_missing
+    if heights.ndim == 1:
+        x = _positions(raw, length, pixel_size, position_unit)
+        found = _profile(x, heights, missing, missing_rim, limit, raw.source)
+    else:
+        found = _map(
+            heights, _steps(raw, length, pixel_size), missing, missing_rim, limit, raw.source
+        )
+    found = replace(found, heights=found.heights * _height_scale(raw, height_unit))
+    if np.ptp(found.heights) == 0:
+        flat = found.heights.flat[0]
+        raise ValueError(f"{raw.source}: all heights are {flat:g} m; nothing to analyse")
+    return found
+
+
+def _map(
+    heights: NDArray,
+    steps: tuple[float, ...],
+    missing: Missing,
+    rim: Rim,
+    limit: float,
+    source: str,
+) -> Topography:
+    measured = heights.size
+    heights, dropped = without_rims(heights, rim)
+    if missing == "crop":
+        heights = heights[complete_rectangle(np.isfinite(heights), source)]
+    filled, count = fill_missing(heights, limit, _with_dropped(source, dropped))
+    return Topography(filled, *steps, source, count, 1 - heights.size / measured, dropped)
+
+
+def _profile(
+    x: NDArray, heights: NDArray, missing: Missing, rim: Rim, limit: float, source: str
+) -> Profile:
+    order = np.argsort(x, kind="stable")
+    x, (heights, dropped) = x[order], without_rims(heights[order], rim)
+    if missing == "crop":
+        kept = complete_run(np.isfinite(heights), source)
+        x, heights = x[kept], heights[kept]
+    if len(x) < 2 or not np.all(np.diff(x) > 0):
+        raise ValueError(f"{source}: positions of a line profile must all differ")
+    filled, count = fill_profile(x, heights, limit, _with_dropped(source, dropped))
+    gaps = np.diff(x)
+    even = np.linspace(x[0], x[-1], len(x))
+    step = float(even[1] - even[0])
+    if np.ptp(gaps) > 1e-3 * step:
+        filled = np.interp(even, x, filled)
+    return Profile(filled, step, source, count, float(gaps.max()), dropped)
+
+
+def _with_dropped(source: str, dropped: int) -> str:
+    return f"{source}, {dropped} points beside missing ones dropped" if dropped else source
+
+
+def _positions(
+    raw: Raw,
+    length: Length | Sequence[Length] | None,
+    pixel_size: Length | Sequence[Length] | None,
+    position_unit: str | None,
+) -> NDArray:
+    """Positions of a profile's points [m], as the caller says, else as the file does."""
+    n = len(raw.heights)
+    if length is not None:
+        return np.arange(n) * sides(length, (n,), f"{raw.source}: length")[0] / n
+    if pixel_size is not None:
+        return np.arange(n) * sides(pixel_size, (1,), f"{raw.source}: pixel_size")[0]
+    if raw.positions is None:
+        raise ValueError(
+            f"{raw.source}: the file does not tell the profile's length; give length or pixel_size"
+        )
+    if not np.all(np.isfinite(raw.positions)):
+        raise ValueError(f"{raw.source}: a position of the profile is missing")
+    return raw.positions * _scale(raw.source, "position_unit", position_unit, raw.position_unit)
+
+
+def _height_scale(raw: Raw, height_unit: str | None) -> float:
+    return _scale(raw.source, "height_unit", height_unit, raw.unit)
+
+
+def _scale(source: str, key: str, given: str | None, told: str | None) -> float:
+    """Metres per unit, given by the caller or told by the file, which must not disagree."""
+    units = [unit for unit in (given, told) if unit is not None]
+    if not units:
+        what = key.replace("_unit", "")
+        raise ValueError(f"{source}: the file does not tell the unit of {what}; give {key}")
+    scales = [metres(f"1 {unit}", f"{source}: {key}") for unit in units]
+    if not np.isclose(scales[0], scales[-1], rtol=1e-12, atol=0):
+        raise ValueError(
+            f"{source}: {key} = {given!r}, but the file says {told!r}; "
+            f"leave {key} out, or correct the file"
+        )
+    return scales[0]
+
+
+def jacksboro() -> Topography:
+    """Elevations about the Jacksboro fault, Tennessee: matplotlib's sample data set.
+
+    344 x 403 points (SRTM, 3 arc seconds); the steps in degrees are converted on the WGS 84
+    ellipsoid at the mean latitude, so that they differ along x (west to east) and y.
+    """
+    # Only this reader needs matplotlib.
+    from matplotlib import cbook
+
+    with cbook.get_sample_data("jacksboro_fault_dem.npz") as data:
+        latitude = np.deg2rad((float(data["ymin"]) + float(data["ymax"])) / 2)
+        heights = np.ascontiguousarray(data["elevation"].T, dtype=float)
+        dx, dy = float(data["dx"]), float(data["dy"])
+    east, north = metres_per_degree(latitude)
+    source = "matplotlib sample data jacksboro_fault_dem.npz: elevation"
+    return Topography(heights, dx * east, dy * north, source)
+
+
+def metres_per_degree(latitude: float) -> tuple[float, float]:
+    """Length of a degree of longitude and of latitude on WGS 84 [m] at `latitude` [rad]."""
+    w = 1 - _WGS84_E2 * np.sin(latitude) ** 2
+    east = _WGS84_A / np.sqrt(w) * np.cos(latitude)
+    north = _WGS84_A * (1 - _WGS84_E2) / w**1.5
+    return float(np.deg2rad(east)), float(np.deg2rad(north))
+
+
+def _steps(
+    raw: Raw,
+    length: Length | Sequence[Length] | None,
+    pixel_size: Length | Sequence[Length] | None,
+) -> tuple[float, ...]:
+    """Grid steps [m] as the caller says, else as the file does."""
+    shape = raw.heights.shape
+    if length is not None:
+        size = sides(length, shape, f"{raw.source}: length")
+        return tuple(side / n for side, n in zip(size, shape, strict=True))
+    if pixel_size is not None:
+        return sides(pixel_size, (1, 1), f"{raw.source}: pixel_size")
+    if raw.steps is None:
+        raise ValueError(
+            f"{raw.source}: the file does not tell its size; give length or pixel_size"
+        )
+    return raw.steps

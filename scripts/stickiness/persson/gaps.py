@@ -1,0 +1,318 @@
+"""Where contact is lost, scale by scale, in Persson's setting, and the gaps that opens.
+
+The sums and integrals behind `persson.Persson`; see there for the relations.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.special import erf, erfc
+
+from stickiness.persson.kernels import Kernels
+from stickiness.persson.scale_quadrature import ScaleNodes, knots
+from stickiness.surfaces.spectrum import Shells, Spectrum
+
+_SMALLEST_LOG = 45.0  # gaps below exp(-45) of the others count as zero
+_TAIL_LOG = 38.0  # area lost beyond holds less than exp(-38) of what is lost in all
+_ORDER = 10  # of Gauss quadrature on panels
+_PANEL = 1.4  # change over a panel, see `_panel_edges`
+_MOST_MOVES = 2000  # panels laid for Gaussians that move by many of their widths
+_MANY_PANELS = 350  # from there on those that see little change get half the nodes
+_LOOK, _LOOK_FAR = 0.2, 0.5  # steps in ln(y - y_end) and y^2 of the look that panels are laid by
+_MOST_SHELLS, _MOST_KNOTS = 600, 250  # that edges of panels keep to
+_STRONG = 0.02  # step of ln q from shell to shell that the approach to a shell shows
+_ONSETS = np.geomspace(1.5, 96.0, 13)  # of exp(-p^2/(m_shell - m)), negative exponents
+_SHARES = np.geomspace(0.03, 30.0, 7)  # height variance left in a shell over the finer ones'
+_BLOCK = 16  # values of m that share a set of nodes
+_NARROWEST = 1e-150  # Gaussians that much narrower than the widest are points
+
+
+@dataclass(frozen=True)
+class GapProfile:
+    """Where contact is lost on the way from the coarsest to the finest resolution, at one load.
+
+    Attributes
+    ----------
+    weight : (n,) array
+        Shares of the nominal area.
+    gap : (n,) array
+        u1 of each share [length].
+    width : (n,) array
+        Standard deviation of the Gaussian about it [length].
+    closed : float
+        Share whose gap and width are below exp(-45) of the others', not in `weight`.
+    """
+
+    weight: NDArray
+    gap: NDArray
+    width: NDArray
+    closed: float
+
+
+@dataclass(frozen=True)
+class Setting:
+    """A surface as the theory sees it, at no particular load.
+
+    Attributes
+    ----------
+    spectrum : Spectrum
+    kernels : Kernels
+    scales : ScaleNodes
+    m2 : float
+        Profile variance of the gradient of the whole surface.
+    variant : str
+        See `persson.Persson`.
+    nodes : float
+        Multiplies the number of quadrature nodes.
+    """
+
+    spectrum: Spectrum
+    kernels: Kernels
+    scales: ScaleNodes
+    m2: float
+    variant: str
+    nodes: float
+
+
+@dataclass(frozen=True)
+class _LostContact:
+    """Contact lost at the scales where A = erf(y), y = y_end + step: what P(u) is made of."""
+
+    y: NDArray
+    step: NDArray
+    m: NDArray
+    rest: NDArray  # M - m
+
+    @classmethod
+    def at(cls, setting: Setting, p: float, y_end: float, log_step: NDArray) -> _LostContact:
+        step = np.exp(log_step)
+        rest = p**2 * setting.kernels.area_scale_step(y_end, step)
+        y = y_end + step
+        return cls(y, step, p**2 * setting.kernels.area_scale(y), rest)
+
+    def __getitem__(self, part: slice) -> _LostContact:
+        return _LostContact(self.y[part], self.step[part], self.m[part], self.rest[part])
+
+
+def gap_profile(setting: Setting, p: float, reach: float) -> GapProfile:
+    """Quadrature of P(u) over the scales where contact is lost.
+
+    The variable is ln(y - y_end): logarithmic in M - m at the fine end, where u1 vanishes as
+    exp(-p(m)^2/(M - m)), and in y at the coarse one, where it grows as exp(y^2). Panels are
+    laid so that no Gaussian is much narrower than one of them.
+
+    Parameters
+    ----------
+    setting : Setting
+    p : float
+    reach : float
+        Gaps up to this many h_rms are resolved.
+    """
+    y_end = float(setting.kernels.invert_area_scale(setting.m2 / p**2))
+    edges, change, thinned = _panel_edges(setting, p, y_end, reach)
+    start, log_step, weight = _panel_nodes(edges, change)
+    lost = _LostContact.at(setting, p, y_end, log_step)
+    gap = np.exp(_log_gap(setting, p, lost))
+    width = _width(setting, lost, gap)
+    if thinned:  # narrower than they are apart they would make a comb of P(u)
+        apart = np.where(gap < reach * setting.spectrum.h_rms, np.abs(np.gradient(gap)), 0.0)
+        width = np.maximum(width, apart)
+    area_per_log_step = 2 / np.sqrt(np.pi) * np.exp(-(lost.y**2)) * lost.step
+    # of the two complementary differences the one with more digits
+    ends = np.array([y_end, y_end + np.exp(start)])
+    closed = float(np.diff(erf(ends))[0] if y_end < 0.5 else -np.diff(erfc(ends))[0])
+    return GapProfile(weight * area_per_log_step, gap, width, closed)
+
+
+def _panel_nodes(edges: NDArray, change: NDArray) -> tuple[float, NDArray, NDArray]:
+    """Gauss-Legendre nodes, in order, and weights.
+
+    Where there are very many panels, those that see little change get fewer.
+    """
+    full = (change > 0.3) | (len(edges) < _MANY_PANELS)
+    at, weights = [], []
+    for chosen, order in ((full, _ORDER), (~full, _ORDER // 2)):
+        x, w = np.polynomial.legendre.leggauss(order)
+        half = 0.5 * np.diff(edges)[chosen, None]
+        at.append((edges[:-1][chosen, None] + half * (1 + x)).ravel())
+        weights.append((half * w).ravel())
+    at, weights = np.concatenate(at), np.concatenate(weights)
+    order = np.argsort(at)
+    return float(edges[0]), at[order], weights[order]
+
+
+def _step_range(setting: Setting, y_end: float) -> tuple[float, float]:
+    """Range of ln(y - y_end) that matters."""
+    high = np.log(_TAIL_LOG / (y_end + np.sqrt(y_end**2 + _TAIL_LOG)))
+    if setting.variant == "almqvist2011":
+        # u1 may vanish but the width goes as (M - m)^(1/2): that much must be negligible.
+        return np.log(y_end) - 42.0, high
+    slope = y_end**3 * float(setting.kernels.diffusion(y_end)) / 2
+    low = float(np.log(slope / erf(y_end) ** 2 / (_SMALLEST_LOG + y_end**2)))
+    return min(low, high - 1.0), high  # next to full contact all gaps are that small
+
+
+def _log_gap(setting: Setting, p: float, lost: _LostContact) -> NDArray:
+    """Ln u1, free of underflow: u1 spans hundreds of orders of magnitude."""
+    parts = [slice(i, i + _BLOCK) for i in range(0, len(lost.y), _BLOCK)]
+    scaled = np.concatenate([_scaled_gap(setting, p, lost[part]) for part in parts])
+    return lost.y**2 - (p / erf(lost.y)) ** 2 / lost.rest + np.log(scaled)
+
+
+def _scaled_gap(setting: Setting, p: float, lost: _LostContact) -> NDArray:
+    """u1 less its exponential, by the sum over scales finer than each m."""
+    kernel = setting.kernels
+    nodes = setting.scales.beyond(lost.m.min(), lost.m.max())
+    coarse = (lost.m < 0.5 * setting.m2)[:, None]
+    s2 = np.where(coarse, nodes.below - lost.m[:, None], lost.rest[:, None] - nodes.above)
+    pressure2 = ((p / erf(lost.y)) ** 2)[:, None]
+    finest = pressure2 / lost.rest[:, None]
+    # What is not finer ends where the exponential is zero.
+    s2 = np.maximum(s2, pressure2 / (finest + 740.0))
+    x2 = pressure2 / s2
+    a = np.sqrt(np.pi) * p**2 * erf(lost.y) / (lost.y**3 * kernel.diffusion(lost.y))
+    factor = s2 * np.exp(-(lost.y**2))[:, None] + 0.5 * a[:, None]
+    terms = np.exp(finest - x2) * kernel.gap_kernel(x2) * factor / np.sqrt(s2)
+    return 2 / np.sqrt(np.pi) * (terms @ nodes.weight)
+
+
+def _width(setting: Setting, lost: _LostContact, gap: NDArray) -> NDArray:
+    """Standard deviation of the Gaussians."""
+    spectrum, m2 = setting.spectrum, setting.m2
+    _, variance = spectrum.at_gradient_variance(2 * lost.m)
+    # Next to the finest scale the height variance is the difference of nearly equal numbers;
+    # there q hardly varies.
+    q, _ = spectrum.at_gradient_variance(2 * (m2 - 0.5 * lost.rest))
+    h = np.sqrt(np.where(lost.rest < 1e-6 * m2, 2 * lost.rest / q**2, variance))
+    if setting.variant == "almqvist2011":
+        return h
+    return gap * h / np.hypot(gap, h)
+
+
+def _panel_edges(
+    setting: Setting, p: float, y_end: float, reach: float
+) -> tuple[NDArray, NDArray, bool]:
+    """Edges of panels in ln(y - y_end).
+
+    Over each the Gaussians move by some four of their widths at most, their widths and the area
+    that is left change by factors that ten nodes follow, and nothing has a strong kink. Next to
+    full contact of a broad spectrum, where they are thousands of times narrower than far from
+    zero, their moves are larger.
+
+    Returns
+    -------
+    edges : (k + 1,) array
+    change : (k,) array
+        Over each panel; 1 where ten nodes are needed.
+    thinned : bool
+        Whether the Gaussians move by more than four of their widths.
+    """
+    low, high = _step_range(setting, y_end)
+    probe = np.linspace(low, high, 300)
+    # u1 grows as exp(y^2) where y is large.
+    number = (probe - low) / _LOOK + (y_end + np.exp(probe)) ** 2 / _LOOK_FAR
+    number -= number[0]
+    grid = np.interp(np.linspace(0, number[-1], 2 + int(number[-1])), number, probe)
+    breaks, onsets = (x[(x > low) & (x < high)] for x in _breaks(setting, p, y_end))
+    grid = np.union1d(grid, np.append(breaks, onsets))
+    lost = _LostContact.at(setting, p, y_end, grid)
+    log_gap = _log_gap(setting, p, lost)
+    gap = np.exp(log_gap)
+    width = np.maximum(_width(setting, lost, gap), 1e-300)
+    seen = np.minimum(gap, reach * setting.spectrum.h_rms)
+    centre = 0.5 * (width[1:] + width[:-1])
+    change = 0.5 * np.diff(grid) + 0.6 * np.abs(np.diff(np.log(width)))
+    moves = 0.3 * np.abs(np.diff(seen)) / centre
+    most = _MOST_MOVES * _PANEL
+    thinned = bool(moves.sum() > most)
+    change += moves * (most / moves.sum() if thinned else 1.0) + 0.3 * np.diff(lost.y**2)
+    change += 0.2 * np.abs(np.diff(np.maximum(log_gap, np.log(width))))
+    total = np.append(0.0, np.cumsum(change))
+    count = int(np.ceil(total[-1] * setting.nodes / _PANEL))
+    even = np.interp(np.linspace(0, total[-1], count + 1), total, grid)
+    edges = np.union1d(even, np.append(breaks, onsets))
+    return edges, np.diff(np.interp(edges, grid, total)) * setting.nodes / _PANEL, thinned
+
+
+def _breaks(setting: Setting, p: float, y_end: float) -> tuple[NDArray, NDArray]:
+    """Values of ln(y - y_end) where q(m) is not smooth, the strongest of those that matter.
+
+    And, where q jumps, values next to it: on the coarse side of a shell its part in u1 vanishes
+    as exp(-p(m)^2/(m_shell - m)), and h falls to what the finer shells hold.
+    """
+    spectrum = setting.spectrum
+    shells = isinstance(spectrum, Shells)
+    if shells:
+        most, q, jump = _MOST_SHELLS, spectrum.q[:-1], np.diff(np.log(spectrum.q))
+    else:
+        most, q = _MOST_KNOTS, knots(spectrum)
+        at = np.concatenate([[spectrum.q0], q, [spectrum.q1]])
+        jump = np.abs(np.diff(np.diff(np.log(spectrum.psd(at))) / np.diff(np.log(at))))
+    m = 0.5 * spectrum.variance_below(q, 2)
+    y = setting.kernels.invert_area_scale(m / p**2)
+    matter = (y > y_end) & (y**2 < y_end**2 + _TAIL_LOG)
+    chosen = np.flatnonzero(matter)[np.argsort(jump[matter])[::-1][:most]]
+    strong = chosen[jump[chosen] > _STRONG] if shells else chosen[:0]
+    depth = (p / erf(y[strong])) ** 2 / _ONSETS[:, None]
+    if setting.variant == "almqvist2011":
+        finer = 0.5 * q[strong] ** 2 * spectrum.variance_above(q[strong])
+        depth = np.concatenate([depth, finer * _SHARES[:, None]])
+    before = np.maximum(m[strong] - depth, 1e-3 * m[strong]).ravel()
+    near = setting.kernels.invert_area_scale(before / p**2)
+    return np.log(y[chosen] - y_end), np.log(near[near > y_end] - y_end)
+
+
+def density(u: NDArray, profile: GapProfile) -> NDArray:
+    """P(u) [1/length] at gaps `u`, `(k,)`."""
+    result = np.zeros(len(u))
+    order = np.argsort(u)
+    for block in np.array_split(order, max(1, len(u) // 25)) if len(u) else ():
+        result[block] = _density_of_neighbours(u[block], profile)
+    return result
+
+
+def _density_of_neighbours(u: NDArray, profile: GapProfile) -> NDArray:
+    """P(u) of gaps near each other: most Gaussians are too far off to count."""
+    far = 9.5 * profile.width
+    near = (profile.gap - far < u.max()) & (profile.gap + far > u.min())
+    near &= profile.width > _NARROWEST * profile.width.max()
+    gap, width = profile.gap[near], profile.width[near]
+    to_left = (u[:, None] - gap) / width
+    pair = np.exp(-0.5 * to_left**2)
+    to_left += 2 * gap / width
+    pair += np.exp(-0.5 * to_left**2)
+    return pair @ (profile.weight[near] / (np.sqrt(2 * np.pi) * width))
+
+
+def _bounded(width: NDArray) -> NDArray:
+    """Widths that may be divided by."""
+    return np.maximum(width, max(_NARROWEST * float(width.max()), 1e-300))
+
+
+def cumulative(u: NDArray, profile: GapProfile) -> NDArray:
+    """Integral of P from 0 to `u`, `(k,)`."""
+    width = np.sqrt(2) * _bounded(profile.width)
+    to_left = (u[:, None] - profile.gap) / width
+    pair = erf(to_left) + erf(to_left + 2 * profile.gap / width)
+    # Within a small part of the width about zero that is a difference of nearly equal numbers.
+    small = np.minimum(u[:, None] / width, 1e-4)
+    centre2 = np.minimum((profile.gap / width) ** 2, 700.0)
+    series = small * np.exp(-centre2) * (1 + (2 * centre2 - 1) / 3 * small**2)
+    pair = np.where(small < 1e-4, 4 / np.sqrt(np.pi) * series, pair)
+    return 0.5 * pair @ profile.weight + np.where(u > 0, profile.closed, 0.0)
+
+
+def closure_error(profile: GapProfile) -> float:
+    """Integral of u P over all u less the mean gap [length].
+
+    The integral of u1 over the area is the mean gap. The pair of Gaussians about u1 and -u1,
+    taken at positive gaps, has a larger mean by what this adds up.
+    """
+    width = _bounded(profile.width)
+    ratio = profile.gap / width
+    excess = np.sqrt(2 / np.pi) * width * np.exp(-0.5 * ratio**2)
+    excess -= profile.gap * erfc(ratio / np.sqrt(2))
+    return float(profile.weight @ excess)

@@ -1,0 +1,219 @@
+"""Quadrature over the scales of a rough surface, for Persson's contact theory.
+
+The theory integrates over d(-1/q) functions that depend on q through m(q) alone, the profile
+variance of the gradient up to q. Such a function sets in at some m like exp(-c m/(m(q) - m)): all
+its derivatives vanish there, but c is about a third at small loads, so that Gauss quadrature takes
+some hundred nodes per unit of ln m across the onset. Beyond, seven nodes do for any panel that is
+not wider than thrice its distance. Hence two sets of nodes.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from stickiness.surfaces.spectrum import Shells, Spectrum
+
+_ORDER = 7  # of Gauss quadrature on panels
+_WIDEST = 0.7  # panels, in ln q
+_FINE = 0.1  # parts of panels, in ln m
+_MOST_PARTS = 10
+_MOST_NODES, _MOST_COARSE = 4000, 700  # fine ones and coarse ones; more are put together
+_FINE_GROUP = 0.006  # in ln(m/(M - m))
+_RATIO = 8  # of coarse groups to fine ones
+_PANEL_MARGIN, _GROUP_MARGIN = 0.35, 8.0
+
+
+@dataclass(frozen=True)
+class Nodes:
+    """Nodes of a quadrature: the integral of f d(-1/q) is sum(weight f).
+
+    Attributes
+    ----------
+    below, above : (k,) arrays
+        m at the nodes and M - m, each free of cancellation, M being m of the whole surface.
+    weight : (k,) array
+        [length]
+    """
+
+    below: NDArray
+    above: NDArray
+    weight: NDArray
+
+    def __getitem__(self, part: slice) -> Nodes:
+        return Nodes(self.below[part], self.above[part], self.weight[part])
+
+    def joined(self, other: Nodes) -> Nodes:
+        """Return these nodes and then the `other` ones."""
+        pairs = zip(vars(self).values(), vars(other).values(), strict=True)
+        return Nodes(*(np.concatenate(pair) for pair in pairs))
+
+
+@dataclass(frozen=True)
+class ScaleNodes:
+    """Two quadratures over the same panels of scales.
+
+    Attributes
+    ----------
+    fine, coarse : Nodes
+        In order of m.
+    edge : (k + 1,) array
+        m at the edges of the panels.
+    fine_start, coarse_start : (k + 1,) int arrays
+        First node of each panel, and the first beyond the last panel: the jump of -1/q at q1.
+    margin : float
+        The coarse nodes of a panel will do at so many times its width from it.
+    """
+
+    fine: Nodes
+    coarse: Nodes
+    edge: NDArray
+    fine_start: NDArray
+    coarse_start: NDArray
+    margin: float
+
+    def beyond(self, lowest: float, highest: float) -> Nodes:
+        """Nodes for functions that set in at some m from `lowest` to `highest`."""
+        remote = self.edge[:-1] - self.margin * np.diff(self.edge)
+        remote = np.minimum.accumulate(remote[::-1])[::-1]
+        far = int(np.searchsorted(remote, highest))
+        near = min(max(int(np.searchsorted(self.edge, lowest, side="right")) - 1, 0), far)
+        fine = self.fine[self.fine_start[near] : self.fine_start[far]]
+        return fine.joined(self.coarse[self.coarse_start[far] :])
+
+
+def scale_nodes(spectrum: Spectrum, nodes: float = 1.0) -> ScaleNodes:
+    """Quadratures over the scales of a spectrum.
+
+    Composite Gauss quadrature for continuous spectra; every shell is a node of its own. Where there
+    are very many shells or points of a table, neighbours are put together.
+
+    Parameters
+    ----------
+    spectrum : Spectrum
+    nodes : float
+        Multiplies the number of nodes.
+    """
+    if isinstance(spectrum, Shells):
+        return _grouped_nodes(_shell_nodes(spectrum), nodes)
+    edges = _panel_edges(spectrum)
+    order = max(2, round(_ORDER * nodes))
+    coarse = _gauss_nodes(spectrum, edges, order)
+    if len(coarse.weight) > 2 * _MOST_COARSE * max(nodes, 1.0):
+        return _grouped_nodes(_gauss_nodes(spectrum, edges, max(2, round(4 * nodes))), nodes)
+    edge = 0.5 * spectrum.variance_below(spectrum.q0 * np.exp(edges), 2)
+    growth = np.log(edge[1:]) - np.log(np.maximum(edge[:-1], 1e-300))  # a ratio may overflow
+    parts = np.clip(np.ceil(growth / _FINE), 1, _MOST_PARTS).astype(int)
+    start = np.concatenate([[0], np.cumsum(parts)])
+    fine_edges = np.interp(np.arange(start[-1] + 1), start, edges)
+    fine = _gauss_nodes(spectrum, fine_edges, order)
+    panels = np.arange(len(edges))
+    return ScaleNodes(fine, coarse, edge, order * start, order * panels, _PANEL_MARGIN)
+
+
+def knots(spectrum: Spectrum) -> NDArray:
+    """Wave numbers within the band at which C(q) is not smooth."""
+    return getattr(spectrum, "knots", np.empty(0))[1:-1]
+
+
+def _panel_edges(spectrum: Spectrum) -> NDArray:
+    """Edges of panels in ln(q/q0), graded towards both ends and split at kinks of C.
+
+    The integrand is like a square root near q0 at small loads and changes within small steps
+    from q1 where the last contact is lost.
+    """
+    span = np.log(spectrum.q1 / spectrum.q0)
+    width = min(0.5, span / 2)
+    count = int(np.ceil((span - 2 * width) / _WIDEST))
+    middle = np.linspace(width, span - width, count + 1) if count else [width]
+    low, high = width * 4.0 ** np.arange(-13, 0), width * 4.0 ** np.arange(-1, -10, -1)
+    edges = np.concatenate([[0.0], low, middle, span - high, [span]])
+    return np.union1d(edges, np.log(knots(spectrum) / spectrum.q0))
+
+
+def _gauss_nodes(spectrum: Spectrum, edges: NDArray, order: int) -> Nodes:
+    """Gauss-Legendre nodes between edges in ln(q/q0), and the jump of -1/q to zero at q1."""
+    x, w = np.polynomial.legendre.leggauss(order)
+    half = 0.5 * np.diff(edges)[:, None]
+    q = spectrum.q0 * np.exp((edges[:-1, None] + half * (1 + x)).ravel())
+    q = np.append(q, spectrum.q1)
+    weight = np.append((half * w).ravel(), 1.0) / q
+    below = 0.5 * spectrum.variance_below(q, 2)
+    return Nodes(below, 0.5 * spectrum.variance_above(q, 2), weight)
+
+
+def _shell_nodes(shells: Shells) -> Nodes:
+    """One node per shell."""
+    gradient = 0.5 * shells.variance * shells.q**2
+    above = np.append(np.cumsum(gradient[::-1])[::-1][1:], 0.0)
+    return Nodes(np.cumsum(gradient), above, -np.diff(1 / shells.q, append=0.0))
+
+
+def _grouped_nodes(discrete: Nodes, nodes: float) -> ScaleNodes:
+    """Quadratures that put neighbours together, the last node, at M, excepted."""
+    inner, last = discrete[:-1], discrete[-1:]
+    count = len(inner.weight)
+    if count <= _MOST_COARSE:
+        edge = discrete.below[[0, -1]]
+        ends = np.array([0, count])
+        return ScaleNodes(discrete, discrete, edge, ends, ends, _GROUP_MARGIN)
+    label = np.floor(np.log(inner.below / inner.above) * nodes / _FINE_GROUP)
+    wide = np.floor(label / _RATIO)
+    first = np.flatnonzero(np.diff(wide, prepend=-np.inf))
+    edge = np.append(inner.below[first], inner.below[-1])
+    coarse, coarse_start = _grouped(inner, wide, first)
+    fine, fine_start = inner, np.append(first, count)
+    if count > _MOST_NODES * nodes:
+        fine, fine_start = _grouped(inner, label, first)
+    return ScaleNodes(
+        fine.joined(last), coarse.joined(last), edge, fine_start, coarse_start, _GROUP_MARGIN
+    )
+
+
+def _grouped(nodes: Nodes, label: NDArray, first: NDArray) -> tuple[Nodes, NDArray]:
+    """Two nodes in place of all that share a label.
+
+    They are the Gauss quadrature of the group's own distribution over m, which keeps four moments
+    and so errs by the fourth power of the group's width.
+
+    Parameters
+    ----------
+    nodes : Nodes
+    label : (k,) array
+        In order.
+    first : (j,) int array
+        Nodes that begin a label.
+
+    Returns
+    -------
+    nodes : Nodes
+    start : (j + 1,) int array
+        Where the nodes of `first` have gone, and the end.
+    """
+    begin = np.flatnonzero(np.diff(label, prepend=-np.inf))
+    size = np.diff(begin, append=len(label))
+    origin = np.repeat(begin, size)
+    offset = np.where(
+        nodes.above < nodes.below,
+        nodes.above[origin] - nodes.above,
+        nodes.below - nodes.below[origin],
+    )
+    total = np.add.reduceat(nodes.weight, begin)
+    mean = np.add.reduceat(nodes.weight * offset, begin) / total
+    rest = offset - np.repeat(mean, size)
+    second, third = (np.add.reduceat(nodes.weight * rest**n, begin) / total for n in (2, 3))
+    several = (size > 1) & (second > 0)
+    lean = 0.5 * np.divide(third, second**1.5, out=np.zeros_like(third), where=several)
+    spread = np.hypot(1.0, lean)
+    sign = np.array([-1.0, 1.0])
+    moved = mean[:, None] + np.sqrt(second)[:, None] * (lean[:, None] + sign * spread[:, None])
+    share = 0.5 * total[:, None] * (1 - sign * (lean / spread)[:, None])
+    share[~several] = np.stack([total, np.zeros_like(total)], axis=1)[~several]
+    keep = share > 0
+    below = np.maximum(nodes.below[begin, None] + moved, 0.0)[keep]
+    above = np.maximum(nodes.above[begin, None] - moved, 0.0)[keep]
+    start = np.append(0, np.cumsum(keep.sum(axis=1)))
+    chosen = np.append(np.searchsorted(begin, first), len(begin))
+    return Nodes(below, above, share[keep]), start[chosen]

@@ -1,0 +1,255 @@
+"""Persson's theory of purely repulsive contact: area, mean gap and distribution of gaps.
+
+The scale of resolution is measured by m, the profile variance of the gradient from q0 up to that
+scale (m = m2 for the whole surface); everything then holds alike for continuous spectra, tables
+and the shells of a periodic window. With E* = 1, M = m2 and p(m) = p/A(m):
+
+- relative contact area A = erf(y), where m = p^2 T(y);
+- mean gap where the contact at m is in sight, ubar(m) = (2/sqrt(pi)) int ds F(p(m)/s) / q(m + s^2)
+  with s from 0 to sqrt(M - m), F(x) = int_x^inf (dt/t) K(t) exp(-t^2);
+- gap where contact is lost on resolving m, u1 = d(A ubar)/dA.
+
+Both integrals by parts are sums of positive terms over 1/q (nothing cancels, and C(q), which
+shells do not have, drops out):
+
+    ubar = (2/sqrt(pi)) int d(-1/q) s kappa(p(m)/s),
+    u1   = (2/sqrt(pi)) int d(-1/q) F(p(m)/s) (s + a/(2 s)),   s^2 = m(q) - m,  a = -A/(dA/dm),
+
+the integral running from q(m) up and ending with a jump of -1/q to zero at q1. T and K belong to
+the correction of the theory, see `persson_kernels`.
+
+Between the finest scale and the rms height, h(zeta) << u << h_rms, contact is lost at the
+magnification z at gaps u1 ~ z^(-H) while A ~ z^(H-1), so that P ~ u^((1-2H)/H) and the area within
+u of contact, A + int P du, ~ u^((1-H)/H): exponents -3/4 and 1/4 at H = 0.8, against -1/3 and 2/3
+at the edges of single contacts, which agree at H = 0.6 only. At zeta = 1e8 the steepest exponents
+of P are -0.321, -0.556, -0.737 and -0.858 for H = 0.6, 0.7, 0.8 and 0.9 (laws: -0.333, -0.571,
+-0.750, -0.889). The prefactor a_V of a 2/3 law then grows as (eps/h_rms)^((3-5H)/(3H)) as the
+range eps falls towards h(zeta), where it is some zeta^((5H-3)/3).
+"""
+
+from __future__ import annotations
+
+from typing import Literal
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from scipy.optimize import brentq
+from scipy.special import erf
+
+from stickiness.core.arguments import finite, nonnegative, number, positive
+from stickiness.persson.gaps import GapProfile, Setting, closure_error, gap_profile
+from stickiness.persson.gaps import cumulative as _cumulative
+from stickiness.persson.gaps import density as _density
+from stickiness.persson.kernels import CorrectionName, kernels
+from stickiness.persson.scale_quadrature import scale_nodes
+from stickiness.surfaces.spectrum import Spectrum
+
+Variant = Literal["afferrante2018", "almqvist2011"]
+
+_VARIANTS = ("afferrante2018", "almqvist2011")
+_REACH = 16.0  # gaps up to 0.6 of this many h_rms are resolved without being asked for
+_FARTHEST = 1024.0  # in h_rms; the theory's tail P ~ 1/(u ln u)^2 beyond means nothing
+
+
+class Persson:
+    """Persson's contact theory for one surface spectrum.
+
+    Parameters
+    ----------
+    spectrum : Spectrum
+        Continuous, tabulated, or the shells of a periodic window.
+    variant : {"afferrante2018", "almqvist2011"}
+        Width of the Gaussians that P(u) is made of: the rms height h of the roughness that is not
+        in sight yet (Almqvist et al. 2011, doi:10.1016/j.jmps.2011.08.004), or h_eff with
+        h_eff^-2 = h^-2 + u1^-2 (Afferrante et al. 2018, doi:10.1007/s11249-018-1026-x).
+    gamma : float, optional
+        Parameter of the correction, in (0, 1]: by default the source's own, 0.45, 5/9 and 0.45.
+        1 switches "yang2008" and "xu2024" off.
+    nodes : float
+        Multiplies the number of quadrature nodes. 1 errs by less than 1e-9 in the area and the mean
+        gap, 5e-7 in P(u) and its integral and 1e-10 in the normalisation, for magnifications from
+        1.001 to 1e8; 0.5 by 1e-4 in P(u), 1.5 by 3e-8 and 2 by 1e-8. Next to full contact, in
+        spectra broader than about 1e5, P(u) errs by 5e-6, its integral by 2e-7 of the open area.
+    correction : {"yang2008", "wang2017", "xu2024"}
+        How lost contact slows the diffusion of pressure and lowers the elastic energy:
+        `persson_kernels.Yang2008` (doi:10.1088/0953-8984/20/21/215214), `Wang2017` or `Xu2024`.
+
+    Raises
+    ------
+    ValueError
+        If an argument is out of range.
+
+    Notes
+    -----
+    Pressures are in units of E*, lengths in the spectrum's. Arrays of pressures and gaps are
+    accepted; results have the shape ``p.shape + u.shape``.
+
+    Examples
+    --------
+    >>> from stickiness.spectrum import SelfAffine
+    >>> theory = Persson(SelfAffine(hurst=0.8, q0=1.0, q1=64.0, h_rms=1.0))
+    >>> area = theory.area_fraction(0.065)
+    >>> bool(abs(theory.gap_cumulative(1e9, 0.065) + area - 1) < 1e-8)
+    True
+    """
+
+    def __init__(
+        self,
+        spectrum: Spectrum,
+        variant: Variant = "afferrante2018",
+        gamma: float | None = None,
+        nodes: float = 1.0,
+        correction: CorrectionName = "yang2008",
+    ):
+        if not isinstance(spectrum, Spectrum):
+            raise ValueError(f"spectrum must be a Spectrum, got {type(spectrum).__name__}")
+        if variant not in _VARIANTS:
+            raise ValueError(f"variant must be one of {_VARIANTS}, got {variant!r}")
+        nodes = number("nodes", nodes)
+        universal = kernels(gamma, correction)
+        self.spectrum, self.variant, self.nodes = spectrum, variant, nodes
+        self.correction, self.gamma = correction, universal.correction.gamma
+        m2 = 0.5 * float(spectrum.variance_below(spectrum.q1, 2))
+        scales = scale_nodes(spectrum, nodes)
+        self._setting = Setting(spectrum, universal, scales, m2, variant, nodes)
+        self._profiles: dict[tuple[float, float], GapProfile] = {}
+
+    def area_fraction(self, p: ArrayLike, magnification: float | None = None) -> NDArray:
+        """Relative contact area A/A_nom.
+
+        Parameters
+        ----------
+        p : array_like
+            Mean pressure over E*, p >= 0.
+        magnification : float, optional
+            Resolution zeta' >= 1 (q up to zeta' q0) at which the area is seen; the finest by
+            default.
+
+        Returns
+        -------
+        array of the shape of `p`
+        """
+        (p,) = finite(p=p)
+        if not np.all(p >= 0):
+            raise ValueError(f"p must be finite and not negative, got {p!r}")
+        m = self._setting.m2
+        if magnification is not None:
+            if np.ndim(magnification) or not magnification >= 1:
+                raise ValueError(
+                    f"magnification must be a number of at least 1, got {magnification!r}"
+                )
+            q = magnification * self.spectrum.q0
+            m = 0.5 * float(self.spectrum.variance_below(q, 2))
+        if m == 0:
+            return np.where(p > 0, 1.0, 0.0)[()]
+        y = self._setting.kernels.invert_area_scale(m / np.where(p > 0, p, 1.0) ** 2)
+        return np.where(p > 0, erf(y), 0.0)[()]
+
+    def mean_gap(self, p: ArrayLike) -> NDArray:
+        """Mean gap ubar [length] at mean pressure `p` > 0 (array of the shape of `p`).
+
+        Persson 2007 (doi:10.1103/PhysRevLett.99.125502), corrected as in Yang & Persson 2008. Its
+        integral over `p` is the elastic energy of full contact.
+        """
+        (p,) = positive(p=p)
+        s = np.sqrt(self._setting.scales.fine.below)
+        x2 = (p[..., None] / s) ** 2
+        kernel = s * np.exp(-x2) * self._setting.kernels.mean_kernel(x2)
+        return 2 / np.sqrt(np.pi) * np.sum(self._setting.scales.fine.weight * kernel, axis=-1)
+
+    def pressure_at(self, mean_gap: ArrayLike) -> NDArray:
+        """Mean pressure over E* at which the mean gap is `mean_gap` > 0 [length].
+
+        Raises
+        ------
+        ValueError
+            If the gap is so large or so small that the pressure is out of floating-point range.
+        """
+        (target,) = positive(mean_gap=mean_gap)
+        return np.vectorize(self._pressure_at, otypes=[float])(target)[()]
+
+    def gap_density(self, u: ArrayLike, p: ArrayLike) -> NDArray:
+        """Density P(u) [1/length] of gaps u > 0 over the nominal area.
+
+        Parameters
+        ----------
+        u : array_like
+            Gaps [length], u >= 0. P(0) is infinite in the variant of 2018, where P grows as
+            1/(u ln^2 u) towards zero.
+        p : array_like
+            Mean pressure over E*.
+
+        Returns
+        -------
+        array of shape ``p.shape + u.shape``
+            Integrates over u to 1 - A/A_nom.
+        """
+        density = self._over_gaps(u, p, _density)
+        if self.variant == "afferrante2018":
+            density = np.where(np.asarray(u) == 0, np.inf, density)[()]
+        return density
+
+    def gap_cumulative(self, u: ArrayLike, p: ArrayLike) -> NDArray:
+        """Share of the nominal area with gaps between 0 and `u`, the contact not included.
+
+        The integral of P from 0 to `u`, in closed form under the integral over scales. Also the
+        relative attractive area of a traction that acts up to the gap `u`.
+
+        Parameters
+        ----------
+        u : array_like
+            Gaps [length], u >= 0.
+        p : array_like
+            Mean pressure over E*.
+
+        Returns
+        -------
+        array of shape ``p.shape + u.shape``
+        """
+        return self._over_gaps(u, p, _cumulative)
+
+    def first_moment(self, p: ArrayLike) -> NDArray:
+        """Mean gap [length] that P(u) implies, int u P du.
+
+        The theory does not make it equal to `mean_gap`; the difference measures how well P(u)
+        closes.
+        """
+        (p,) = positive(p=p)
+        errors = [closure_error(self._profile(float(x), _REACH)) for x in p.ravel()]
+        return self.mean_gap(p) + np.reshape(errors, p.shape)[()]
+
+    def _pressure_at(self, target: float) -> float:
+        def excess(log_p: float) -> float:
+            return float(np.log(np.maximum(self.mean_gap(np.exp(log_p)), 1e-300) / target))
+
+        root_m2 = np.sqrt(self._setting.m2)
+        lowest, highest = -300.0, float(np.log(24 * root_m2))
+        if excess(lowest) < 0 or excess(highest) > 0:
+            raise ValueError(
+                f"mean_gap must lie between {self.mean_gap(np.exp(highest)):.3g} (full contact to "
+                f"rounding) and {self.mean_gap(np.exp(lowest)):.3g}, got {target!r}"
+            )
+        low = high = float(np.clip(np.log(root_m2) - 2 * target / self.spectrum.h_rms, -299, None))
+        while excess(low) < 0:
+            low = max(low - 2.0, lowest)
+        while excess(high) > 0:
+            high = min(high + 0.5, highest)
+        return float(np.exp(brentq(excess, low, high, xtol=1e-13, rtol=1e-13)))
+
+    def _over_gaps(self, u: ArrayLike, p: ArrayLike, evaluate) -> NDArray:
+        (p,) = positive(p=p)
+        (u,) = nonnegative(u=u)
+        finite = u[np.isfinite(u)]
+        largest = float(np.max(finite, initial=0.0)) / self.spectrum.h_rms
+        # In powers of two, so that profiles are shared between calls.
+        doublings = max(0.0, np.ceil(np.log2(max(largest, 1.0) / (0.6 * _REACH))))
+        reach = min(_REACH * 2**doublings, _FARTHEST)
+        rows = [evaluate(u.ravel(), self._profile(float(x), reach)) for x in p.ravel()]
+        return np.reshape(rows, p.shape + u.shape)[()]
+
+    def _profile(self, p: float, reach: float) -> GapProfile:
+        if (p, reach) not in self._profiles:
+            if len(self._profiles) >= 64:
+                self._profiles.clear()
+            self._profiles[p, reach] = gap_profile(self._setting, p, reach)
+        return self._profiles[p, reach]

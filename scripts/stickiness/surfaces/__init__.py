@@ -1,0 +1,1 @@
+"""Random rough surfaces: spectra, their moments, and heights with a given spectrum."""

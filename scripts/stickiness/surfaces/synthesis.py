@@ -1,0 +1,269 @@
+"""Random surfaces on a periodic square window: synthesis, spectrum and moments.
+
+A window of side L holds the wave vectors 2 pi (i, j)/L and no others. What a surface made on it
+really has is its lattice spectrum, not the continuous one that was asked for (at H = 0.8 the
+four modes of the longest wavelength carry more than half the height variance), so that is what
+simulation and theory are compared on.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import fft
+
+from stickiness.core.arguments import grid, integer, number
+from stickiness.surfaces.spectrum import Shells, Spectrum
+
+Amplitudes = Literal["gaussian", "fixed"]
+
+_ROUNDING = 1e-9  # relative slack on band limits that coincide with lattice wave numbers
+
+
+@dataclass(frozen=True)
+class Moments:
+    """Spectral moments of a periodic surface, from its heights.
+
+    ``m20`` stands for the mean of (dh/dx)^2, ``m22`` of (d2h/dx dy)^2 and so on; lengths as the
+    heights' and the window's.
+    """
+
+    m00: float
+    m20: float
+    m02: float
+    m40: float
+    m22: float
+    m04: float
+
+    @property
+    def h_rms(self) -> float:
+        """Root mean square height."""
+        return float(np.sqrt(self.m00))
+
+    @property
+    def rms_slope(self) -> float:
+        """Root mean square gradient."""
+        return float(np.sqrt(self.m20 + self.m02))
+
+    @property
+    def rms_curvature(self) -> float:
+        """Root mean square Laplacian."""
+        return float(np.sqrt(self.m40 + 2 * self.m22 + self.m04))
+
+    @property
+    def nayak(self) -> float:
+        """Bandwidth m0 m4/m2^2 with m2, m4 averaged over direction for an isotropic surface."""
+        m2 = (self.m20 + self.m02) / 2
+        m4 = 3 / 8 * (self.m40 + 2 * self.m22 + self.m04)
+        return self.m00 * m4 / m2**2
+
+
+def synthesise(
+    spectrum: Spectrum,
+    n: int,
+    length: float,
+    seed: int,
+    amplitudes: Amplitudes = "gaussian",
+) -> NDArray:
+    """Random periodic surface with a given spectrum, band limits exact.
+
+    Parameters
+    ----------
+    spectrum : Spectrum
+        Wave numbers from q0 >= 2 pi/length to q1 <= pi n/length. At that very limit the grid
+        shows only the cosine part of the two modes along its axes: a surface to be measured or
+        solved on the grid wants a few more pixels per wavelength.
+    n : int
+        Grid points per side.
+    length : float
+        Side of the window [length].
+    seed : int
+        The surface depends on spectrum, length, seed and kind alone, not on `n`: grids of other
+        sizes sample the same surface, and a larger q1 adds modes to those already there.
+    amplitudes : {"gaussian", "fixed"}
+        "gaussian": independent Gaussian modes, the samples of a Gaussian random field.
+        "fixed": every amplitude at its rms value, only the phases random (those of the Gaussian
+        surface of the same seed). Its ensemble is narrower and is not the Gaussian one.
+
+    Returns
+    -------
+    heights : (n, n) array
+        Zero mean [length]. If the spectrum was prescribed by its h_rms, the rms height of every
+        surface is exactly that; if by its C0 or a table, it scatters as the modes do.
+
+    Raises
+    ------
+    ValueError
+        If the window or the grid cannot hold the band, or an argument is out of range.
+    """
+    _check_window(spectrum, length)
+    n, seed = integer("n", n, least=2), integer("seed", seed, least=0)
+    _check_grid(spectrum, n, length)
+    if amplitudes not in ("gaussian", "fixed"):
+        raise ValueError(f"amplitudes must be 'gaussian' or 'fixed', got {amplitudes!r}")
+    i, j, variance = _half_plane_modes(spectrum, length)
+    modes = _draw(variance, seed, amplitudes)
+    heights = _evaluate(i, j, modes, n)
+    if spectrum.prescribed == "h_rms":
+        heights *= spectrum.h_rms / np.sqrt(2 * np.sum(np.abs(modes) ** 2))
+    return heights
+
+
+def lattice_spectrum(spectrum: Spectrum, length: float) -> Shells:
+    """Return the spectrum that a periodic window holds, as delta-like shells.
+
+    Each wave vector carries C(q) (2 pi/length)^2. If `spectrum` was prescribed by its h_rms, the
+    shells are scaled to that height, as `synthesise` scales its surfaces.
+    """
+    _check_window(spectrum, length)
+    i, j, variance = _half_plane_modes(spectrum, length)
+    square, shell = np.unique(i**2 + j**2, return_inverse=True)
+    total = 2 * np.bincount(shell, weights=variance)  # each mode and its mirror image
+    if spectrum.prescribed == "h_rms":
+        total *= spectrum.h_rms**2 / total.sum()
+    return Shells(2 * np.pi / length * np.sqrt(square), total)
+
+
+def realised_spectrum(heights: NDArray, length: float) -> Shells:
+    """Return the spectrum of given periodic heights `(n, n)`, one shell per distinct |q|."""
+    i, j, power = _periodogram(heights)
+    if not power.ravel()[1:].any():
+        raise ValueError("heights must not be flat: they hold no wave")
+    length = number("length", length)
+    square, shell = np.unique(i**2 + j**2, return_inverse=True)
+    total = np.bincount(shell.ravel(), weights=power.ravel())
+    # Modes that hold nothing but rounding are not part of the surface's band.
+    keep = (square > 0) & (total > 1e-24 * total[1:].sum())
+    return Shells(2 * np.pi / length * np.sqrt(square[keep]), total[keep])
+
+
+def moments(heights: NDArray, length: float) -> Moments:
+    """Spectral moments of periodic heights `(n, n)`, derivatives taken in Fourier space."""
+    i, j, power = _periodogram(heights)
+    length = number("length", length)
+    power = np.where((i == 0) & (j == 0), 0.0, power)
+    dq = 2 * np.pi / length
+    kx, ky = i * dq, j * dq
+    orders = {
+        "m00": (0, 0),
+        "m20": (2, 0),
+        "m02": (0, 2),
+        "m40": (4, 0),
+        "m22": (2, 2),
+        "m04": (0, 4),
+    }
+    return Moments(**{k: float(np.sum(kx**a * ky**b * power)) for k, (a, b) in orders.items()})
+
+
+def resample(heights: NDArray, n: int) -> NDArray:
+    """Same band-limited surface on a grid of `n` x `n`, by Fourier interpolation.
+
+    Raises
+    ------
+    ValueError
+        If the coarser grid cannot hold what the heights contain.
+    """
+    heights, n = grid("heights", heights, square=True), integer("n", n, least=1)
+    old = heights.shape[0]
+    if n == old:
+        return heights.copy()
+    coefficients = fft.fft2(heights) / old**2
+    i = fft.fftfreq(old, 1 / old).astype(int)
+    keep = np.abs(i) <= n / 2
+    lost = np.sum(np.abs(coefficients[~keep, :]) ** 2) + np.sum(np.abs(coefficients[:, ~keep]) ** 2)
+    if lost > 1e-20 * np.sum(np.abs(coefficients) ** 2):
+        raise ValueError(f"n = {n} is too coarse: the surface has waves shorter than two pixels")
+    fine = np.zeros((n, n), dtype=complex)
+    where = np.ix_(i[keep] % n, i[keep] % n)
+    np.add.at(fine, where, coefficients[np.ix_(keep, keep)])
+    return fft.ifft2(fine).real * n**2
+
+
+def _check_window(spectrum: Spectrum, length: float) -> None:
+    if not isinstance(spectrum, Spectrum):
+        raise ValueError(f"spectrum must be a Spectrum, got {type(spectrum).__name__}")
+    length = number("length", length)
+    longest = 2 * np.pi / spectrum.q0
+    if longest > length * (1 + _ROUNDING):
+        raise ValueError(
+            f"the window does not hold the band: longest wavelength {longest:.6g} "
+            f"exceeds length = {length:.6g}; enlarge length or raise q0"
+        )
+
+
+def _check_grid(spectrum: Spectrum, n: int, length: float) -> None:
+    shortest = 2 * np.pi / spectrum.q1
+    if shortest < 2 * length / n * (1 - _ROUNDING):
+        raise ValueError(
+            f"the grid does not hold the band: shortest wavelength {shortest:.6g} is below two "
+            f"pixels of {length / n:.6g}; take n >= {int(np.ceil(2 * length / shortest))} "
+            f"or lower q1"
+        )
+
+
+def _half_plane_modes(spectrum: Spectrum, length: float) -> tuple[NDArray, NDArray, NDArray]:
+    """Lattice indices (i, j) of the band, one of each pair +-k, by rising |k|, with variances.
+
+    The order depends on |k| first, so that random numbers drawn in it stay with their modes when
+    the band grows at its upper end.
+    """
+    dq = 2 * np.pi / length
+    reach = int(np.floor(spectrum.q1 / dq * (1 + _ROUNDING)))
+    if reach < 1:
+        raise ValueError(f"no wave vector of a window of length {length:.6g} lies in the band")
+    i, j = np.meshgrid(np.arange(reach + 1), np.arange(-reach, reach + 1), indexing="ij")
+    half = (i > 0) | (j > 0)
+    i, j = i[half], j[half]
+    q = dq * np.hypot(i, j)
+    band = (q >= spectrum.q0 * (1 - _ROUNDING)) & (q <= spectrum.q1 * (1 + _ROUNDING))
+    i, j, q = i[band], j[band], q[band]
+    order = np.lexsort((j, i, i**2 + j**2))
+    i, j, q = i[order], j[order], q[order]
+    variance = _mode_variance(spectrum, q, dq)
+    if not variance.any():
+        raise ValueError(f"no wave vector of a window of length {length:.6g} lies in the band")
+    return i, j, variance
+
+
+def _mode_variance(spectrum: Spectrum, q: NDArray, dq: float) -> NDArray:
+    """Height variance of each mode: C dq^2, or a shell's variance in equal parts."""
+    if not isinstance(spectrum, Shells):
+        return spectrum.psd(np.clip(q, spectrum.q0, spectrum.q1)) * dq**2
+    middle = (spectrum.q[1:] + spectrum.q[:-1]) / 2
+    shell = np.searchsorted(middle, q)
+    on_shell = np.abs(q - spectrum.q[shell]) <= _ROUNDING * q
+    count = 2 * np.bincount(shell[on_shell], minlength=len(spectrum.q))  # with mirror images
+    if not count.all():
+        missing = spectrum.q[np.argmin(count)]
+        raise ValueError(f"no wave vector of the window lies on the shell at q = {missing:.6g}")
+    return np.where(on_shell, (spectrum.variance / count)[shell], 0.0)
+
+
+def _draw(variance: NDArray, seed: int, amplitudes: Amplitudes) -> NDArray:
+    """Complex amplitudes of modes of given variances; more modes leave the first ones as are."""
+    draws = np.random.Generator(np.random.PCG64(seed)).standard_normal((len(variance), 2))
+    modes = draws[:, 0] + 1j * draws[:, 1]  # E|modes|^2 = 2
+    if amplitudes == "fixed":
+        modes *= np.sqrt(2) / np.abs(modes)
+    modes *= np.sqrt(variance / 2)
+    return modes
+
+
+def _evaluate(i: NDArray, j: NDArray, modes: NDArray, n: int) -> NDArray:
+    """Sum of modes exp(i k x) + complex conjugate on the n x n grid."""
+    coefficients = np.zeros((n, n), dtype=complex)
+    np.add.at(coefficients, (i % n, j % n), modes)
+    np.add.at(coefficients, (-i % n, -j % n), modes.conj())
+    return fft.ifft2(coefficients).real * n**2
+
+
+def _periodogram(heights: NDArray) -> tuple[NDArray, NDArray, NDArray]:
+    """Integer wave vectors and |h_k|^2, which sums to the mean square of the heights."""
+    heights = grid("heights", heights, square=True)
+    n = heights.shape[0]
+    index = fft.fftfreq(n, 1 / n).round().astype(int)
+    i, j = np.meshgrid(index, index, indexing="ij")
+    return i, j, np.abs(fft.fft2(heights) / n**2) ** 2

@@ -1,0 +1,158 @@
+"""The map of validity: what it calls right, refused and failed, and that it can tell."""
+
+import warnings
+from types import SimpleNamespace
+
+import matplotlib.image
+import numpy as np
+import pytest
+
+from pipeline.stability import components
+from pipeline.stability import contact as probes_contact
+from pipeline.stability.components import (
+    FAILED,
+    REFUSED,
+    RIGHT,
+    UNCONVERGED,
+    Check,
+    Component,
+    probed,
+)
+from stability import plot_stability, probe_stability
+from stability.probe_stability import COMPONENTS
+from stickiness import dmt, repulsive, spectrum
+from stickiness.accuracy import error_laws
+from stickiness.adhesion import equivalent_sphere, model_choice
+from stickiness.core import datasets
+from stickiness.criteria import a_v_table, moduli
+
+
+def outcome(probe, **point):
+    return probed(Component(probe, ()), point).outcome
+
+
+def returning(*errors):
+    return lambda: [Check("a check", error, 1.0) for error in errors]
+
+
+@pytest.mark.parametrize(
+    ("errors", "expected"),
+    [((0.0, 1.0), RIGHT), ((0.0, 1.1), FAILED), ((0.0, np.nan), FAILED), ((np.inf, 0.0), FAILED)],
+)
+def test_what_is_wrong_or_not_finite_has_failed(errors, expected):
+    assert outcome(returning(*errors)) == expected
+
+
+def test_refusals_are_the_library_s_own_and_name_an_argument():
+    assert outcome(lambda: spectrum.SelfAffine(hurst=2, q0=1, q1=2, h_rms=1)) == REFUSED
+
+    def foreign():
+        np.ones(3) + np.ones(4)
+
+    def unnamed():
+        raise ValueError("hurst")  # not from within the library
+
+    for probe in (foreign, unnamed, lambda: 1 / 0, lambda: [][0]):
+        assert outcome(probe) == FAILED
+
+
+def test_a_warning_is_a_failure():
+    assert outcome(lambda: warnings.warn("overflow", RuntimeWarning, stacklevel=1)) == FAILED
+
+
+def test_giving_up_is_told_from_failing():
+    def gives_up():
+        heights = np.random.default_rng(1).normal(size=(32, 32))
+        repulsive.solve(heights, 1.0, 0.1, max_iterations=1)
+
+    assert outcome(gives_up) == UNCONVERGED
+
+
+def test_what_takes_too_long_has_failed(monkeypatch):
+    monkeypatch.setattr(components, "TIME_LIMIT", 0.05)
+
+    def endless():
+        while True:
+            pass
+
+    assert outcome(endless) == FAILED
+
+
+def test_points_move_pairs_of_axes_and_each_comes_once():
+    component = Component(
+        returning(0.0),
+        ("hurst", "unit", "grid"),
+        pairs=(("hurst", "unit"),),
+        variants=("a", "b"),
+        further=({"grid": 1024},),
+    )
+    points = component.points()
+    size = {name: len(component.values_of(name)) for name in component.axes}
+    assert len(points) == 2 * (size["hurst"] * size["unit"] + size["grid"] - 1 + 1)
+    assert len({tuple(point.items()) for point in points}) == len(points)
+
+
+@pytest.mark.parametrize("name", COMPONENTS)
+def test_the_middle_of_every_map_is_right(name):
+    component = COMPONENTS[name]
+    found = probed(component, component.middle())
+    assert found.outcome == RIGHT, found
+
+
+@pytest.mark.parametrize(
+    ("field", "factor"), [("pressure", 1.001), ("gap", 1.001), ("area_fraction", 1.01)]
+)
+def test_a_solver_that_errs_is_found_out(monkeypatch, field, factor):
+    right = repulsive.solve
+
+    def wrong(*arguments, **options):
+        contact = right(*arguments, **options)
+        object.__setattr__(contact, field, getattr(contact, field) * factor)
+        return contact
+
+    monkeypatch.setattr(repulsive, "solve", wrong)
+    probes_contact.pressed.cache_clear()
+    try:
+        component = COMPONENTS["repulsive"]
+        found = probed(component, component.middle())
+        assert found.outcome == FAILED
+    finally:
+        probes_contact.pressed.cache_clear()
+
+
+@pytest.mark.parametrize(
+    ("component", "place", "name"),
+    [
+        ("edge-adhesion", equivalent_sphere, "effect"),
+        ("dmt-limit", dmt, "attraction_of_areas"),
+        ("accuracy", error_laws, "mean_variance"),
+        ("moduli", moduli.Prony, "storage"),
+        ("a_v-table", a_v_table.AvTable, "_drift"),
+        ("model-choice", model_choice.ErrorTable, "relative_error"),
+    ],
+)
+def test_a_model_that_errs_is_found_out(monkeypatch, component, place, name):
+    right = getattr(place, name)
+    monkeypatch.setattr(place, name, lambda *a, **options: 1.01 * right(*a, **options) + 1e-3)
+    component = COMPONENTS[component]
+    found = [probed(component, point).outcome for point in component.points()[:12]]
+    assert FAILED in found
+
+
+def test_map_is_stored_and_drawn(tmp_path):
+    files = []
+    for name, axes in (("spectrum", ("hurst", "unit")), ("sampling", ("hurst",))):
+        component = Component(lambda hurst, **_: returning(hurst)(), axes)
+        data = probe_stability.validity(component)
+        assert np.all((data.outcome == RIGHT) == (data.hurst <= 1))
+        files.append(tmp_path / f"{name}.nc")
+        parameters = {"outcomes": list(components.OUTCOMES)}
+        datasets.write(data, files[-1], title="map", parameters=parameters)
+    outputs = [str(tmp_path / f"map.{suffix}") for suffix in ("png", "pdf")]
+    plot_stability.main(SimpleNamespace(input=SimpleNamespace(components=files), output=outputs))
+    assert matplotlib.image.imread(outputs[0])[..., :3].std() > 0.05
+
+
+def test_axes_have_labels():
+    assert plot_stability.LABELS.keys() == components.AXES.keys()
+    assert len(plot_stability.LOOKS) == len(components.OUTCOMES)

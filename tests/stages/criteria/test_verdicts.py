@@ -1,0 +1,174 @@
+"""The a_V of a pair and the verdict that follows."""
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from criteria import judge
+from persson import persson_surface
+from pipeline.verdicts.a_v import MeasuredAv, SurfaceAv
+from pipeline.verdicts.materials import material
+from stickiness import criteria
+from stickiness.adhesion import equivalent_sphere
+from stickiness.criteria.a_v_table import edge_range, local_a_v
+from stickiness.persson import Persson
+from stickiness.spectrum import SelfAffine
+
+LOAD = 0.065
+
+
+def edge_ratio(hurst, magnification):
+    """Theory's a_V of the edges over the one equivalent to Pastewka and Robbins'."""
+    spectrum = SelfAffine(hurst=hurst, q0=1.0, q1=magnification, h_rms=1.0)
+    ranges = np.geomspace(1e-12, 10, 105)
+    a_v = [
+        local_a_v(Persson(spectrum, variant=variant).gap_cumulative(ranges, LOAD), LOAD, ranges)
+        for variant in persson_surface.VARIANTS
+    ]
+    edge = edge_range(ranges, *a_v)
+    at_edge = np.exp(np.interp(np.log(edge), np.log(ranges), np.log(a_v[0])))
+    theirs = criteria.pastewka_robbins_a_v(1.0, 1.0, spectrum.rms_slope, spectrum.rms_curvature)
+    return float(at_edge) / theirs
+
+
+@pytest.mark.parametrize("hurst", [0.6, 0.7, 0.8, 0.9])
+def test_edges_grow_with_magnification_as_pastewka_and_robbins_have_it(hurst):
+    # Theirs rests on rms slope and curvature alone and knows nothing of Persson's theory. 0.03 is
+    # small against the exponents (5H - 3)/3 of 0 to 0.5, and what two decades leave of transients.
+    exponent = np.log(edge_ratio(hurst, 1e6) / edge_ratio(hurst, 1e4)) / np.log(100)
+    assert abs(exponent) < 0.03
+
+
+@pytest.mark.parametrize("magnification", [1e3, 1e5])
+@pytest.mark.parametrize("hurst", [0.6, 0.7, 0.8, 0.9])
+def test_edges_agree_with_pastewka_and_robbins(hurst, magnification):
+    # Estimates of the contact area alone differ by kappa = 2 against 2.36; both enter the limits
+    # of a pair's a_V.
+    assert edge_ratio(hurst, magnification) == pytest.approx(1.1, rel=0.35)
+
+
+def test_pair_takes_its_own_range():
+    ranges = np.array([1e-4, 1e-2, 1.0])
+    theory = np.array([[4.0, 2.0, 1.0], [2.0, 2.0, 3.0]])
+    pair = SurfaceAv(ranges, theory, quoted=0, ratio=1.5, relative_error=0.1)
+    value, low, high = pair.at(1e-4)
+    assert (value, low, high) == pytest.approx((6.0, 3.0 * 0.9, 6.0 * 1.1))
+    assert pair.at(1e-3)[0] == pytest.approx(1.5 * np.sqrt(4.0 * 2.0))  # halfway in logarithms
+    assert pair.at(1e-9) == pytest.approx(pair.at(1e-4))
+
+
+@pytest.mark.parametrize(
+    ("low", "high", "full", "expected"),
+    [
+        ((2.0, 1.5), (3.0, 2.0), (2.0, 1.5), "sticky"),
+        ((2.0, 1.5), (3.0, 2.0), (0.1, 0.1), "sticky"),
+        ((2.0, 0.5), (3.0, 0.9), (0.1, 0.1), "depends"),
+        ((0.8, 0.5), (1.2, 0.6), (2.0, 0.1), "depends"),
+        ((0.5, 0.1), (0.9, 0.2), (0.9, 0.1), "not sticky"),
+        ((0.5, 0.1), (0.9, 0.2), (1.1, 0.1), "undecided"),
+    ],
+)
+def test_verdict(low, high, full, expected):
+    """What does not stick by itself, but would hold in full contact, is undecided."""
+    ends = {"end": ["smooth", "rough"]}
+    data = {"margin_low": ("end", list(low)), "margin_high": ("end", list(high))}
+    data["margin"] = ("end", "criterion"), [[x] for x in full]
+    coords = ends | {"criterion": [judge.FULL_CONTACT]}
+    assert judge.VERDICTS[int(judge.verdict(xr.Dataset(data, coords=coords)))] == expected
+
+
+def pairs_of(modulus, ranges, h_rms=1e-6, a_v=(4.0, 4.0, 4.0)):
+    """Verdicts on one surface for materials of one modulus and several ranges."""
+    solids = {
+        f"range {reach:g}": material(
+            {
+                "plane_strain_modulus": f"{modulus} Pa",
+                "work_of_adhesion": "0.05 J/m^2",
+                "range": f"{reach} m",
+            }
+        )
+        for reach in ranges
+    }
+    s = SelfAffine(hurst=0.8, q0=1e5, q1=1e8, h_rms=h_rms)
+    known = {
+        "h_rms": s.h_rms,
+        "rms_slope": s.rms_slope,
+        "rms_curvature": s.rms_curvature,
+        "elastic_energy": s.elastic_energy(),
+    }
+    surface = xr.Dataset(
+        {name: ("end", [value, value]) for name, value in known.items()} | {"q0": s.q0},
+        coords={"end": ["smooth", "rough"]},
+    )
+    a_v = SurfaceAv(np.array([1e-9, 1.0]), np.transpose([a_v, a_v]), 0, 1.0, 0.0)
+    parts = dict.fromkeys(("sampling", "discretisation", "window", "bandwidth"), 0.1)
+    constant = MeasuredAv(3.0, simulated=2.0, over_lattice=1.0, magnification=1e6, **parts)
+    return judge.judged(solids, {"one": surface}, {"one": a_v}, constant, np.array([1.0, 1e3]))
+
+
+def test_tough_edges_do_not_know_the_range():
+    # a_V constant, as next to smooth edges: the DMT limit goes as range^(-1/3), JKR not at all
+    found = pairs_of(1e5, [1e-10, 1e-9]).isel(end=0, surface=0)
+    assert list(found.regime.values) == [judge.TOUGH] * 2
+    edges = found.margin.sel(criterion="edge_adhesion").values
+    dmt = found.margin.sel(criterion="violano").values ** (5 / 3)
+    assert edges[0] == pytest.approx(edges[1], rel=0.05)
+    assert dmt[0] == pytest.approx(dmt[1] * 10 ** (1 / 3), rel=1e-9)
+    assert np.all(edges < dmt / 10)
+
+
+def test_weak_edges_attract_more_than_the_sum():
+    found = pairs_of(1e11, [1e-9]).isel(end=0, surface=0, material=0)
+    assert int(found.regime) == judge.WEAK
+    t = float(found.attractive_over_contact)
+    dmt = float(found.margin.sel(criterion="violano")) ** (5 / 3)
+    assert float(found.margin.sel(criterion="edge_adhesion")) == pytest.approx(
+        dmt * equivalent_sphere.weak_effect(t), rel=0.02
+    )
+    assert float(found.over_dmt) > 1.5
+
+
+@pytest.mark.parametrize(
+    ("modulus", "reach", "error"),
+    [
+        (1e11, 1e-7, equivalent_sphere.ERROR_WEAK),
+        (1e6, 1e-7, equivalent_sphere.ERROR_STRONG),
+        (1e6, 1e-10, equivalent_sphere.ERROR_BEYOND),
+    ],
+)
+def test_margin_goes_from_low_a_v_and_model_to_high_ones(modulus, reach, error):
+    found = pairs_of(modulus, [reach], a_v=(4.0, 3.0, 5.0)).isel(end=0, surface=0, material=0)
+    s = SelfAffine(hurst=0.8, q0=1e5, q1=1e8, h_rms=1e-6)
+    low, value, high = (
+        equivalent_sphere.attraction(s.h_rms, 1e5, s.rms_slope, 0.05 / modulus, reach, a_v).ratio
+        for a_v in (3.0, 4.0, 5.0)
+    )
+    assert float(found.margin.sel(criterion="edge_adhesion")) == pytest.approx(value, rel=1e-9)
+    assert float(found.margin_low) == pytest.approx(low / error, rel=1e-9)
+    assert float(found.margin_high) == pytest.approx(high * error, rel=1e-9)
+    assert float(found.margin_low) < value < float(found.margin_high)
+
+
+def test_wide_zones_of_strong_edges_are_not_called_tough():
+    found = pairs_of(1e3, [1e-6]).isel(end=0, surface=0, material=0)
+    assert float(found.attractive_over_contact) > 10
+    assert float(found.edge_strength) > equivalent_sphere.TOUGH
+    assert int(found.regime) == judge.STRONG
+
+
+def test_threshold_is_where_attraction_balances_repulsion():
+    threshold = float(pairs_of(1e6, [1e-9]).modulus_threshold[0, 0, 0])
+    margins = [
+        float(pairs_of(threshold * by, [1e-9]).margin.sel(criterion="edge_adhesion")[0, 0, 0])
+        for by in (0.99, 1.01)
+    ]
+    assert margins[0] > 1 > margins[1]
+
+
+def test_margin_at_another_rate_is_that_of_its_modulus():
+    found = pairs_of(1e6, [1e-9]).squeeze()
+    # a constant modulus: at every frequency that of 1 Hz
+    for limit in ("low", "high"):
+        np.testing.assert_allclose(
+            found[f"margin_{limit}_at_rate"], float(found[f"margin_{limit}"][0]), rtol=1e-12
+        )

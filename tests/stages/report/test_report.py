@@ -1,0 +1,581 @@
+"""The report's page, from small made-up data whose texts and numbers are known."""
+
+import json
+import re
+from html import unescape
+from html.parser import HTMLParser
+from pathlib import Path
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from pipeline import numbers
+from pipeline.pages import benchmarks as _benchmarks
+from pipeline.pages import captions, provenance, report, surface_texts
+from report import write_report
+from stickiness.core import budget
+from stickiness.criteria.errata import ERRATA
+
+TEMPLATE = Path(__file__).parents[3] / "report" / "report.html.j2"
+NASTY = '<script>alert("1 & 2")</script>'
+GRADES = ("reproduced", "reproduced with a qualification", "not reproduced", "undecided")
+VOID = {"meta", "link", "img", "br", "wbr", "input", "hr"}
+
+
+def made_by(dataset, **parameters):
+    return dataset.assign_attrs(parameters=json.dumps(parameters), version_numpy="9.8.7")
+
+
+def budgeted(dataset, name, **errors):
+    """The dataset with a budget of one of its variables; sources left out have no part."""
+    value = dataset[name] = dataset[name].assign_attrs(units="1", long_name=name)
+    parts = {
+        source: budget.Part(xr.DataArray(errors.get(source, 0.0), dims=value.dims), "made up")
+        if source in errors
+        else budget.absent("made up")
+        for source in budget.SOURCES
+    }
+    return budget.with_budget(dataset, name, **parts)
+
+
+@pytest.fixture
+def claims():
+    count = len(GRADES)
+    columns = {
+        "statement": [f"statement {n}" for n in range(1, count)] + [NASTY],
+        "quantity": [f"quantity {n}" for n in range(count)],
+        "value": [1.8912, -2.0, 3.0, 4.0],
+        "claimed": [2.0, np.nan, 3.0, 4.0],
+        "verdict": list(GRADES),
+        "remark": [f"remark {n}, doi:10.1016/0043-1648(90)90154-3." for n in range(count)],
+        "sources": ["out/a/x.nc", "", "out/b/seed1.nc out/b/seed2.nc", "out/a/x.nc"],
+    }
+    data = {name: ("claim", np.array(values)) for name, values in columns.items()}
+    errata = {str(erratum.number): {"some_number": 0.5} for erratum in ERRATA}
+    dataset = xr.Dataset(data, coords={"claim": range(1, count + 1)})
+    errors = {"sampling": [0.0315, np.nan, 0.1, 0.1], "discretisation": [0.0102, 0.0, 0.0, 0.0]}
+    return made_by(budgeted(dataset, "value", **errors), errata=errata)
+
+
+@pytest.fixture
+def verdicts():
+    """Two materials on two surfaces: jelly sticks to glass, depends on sand; iron does not stick.
+
+    On sand, the other criterion says the opposite of the derived one for iron alone.
+    """
+    derived = [[[9.0, 8.0], [2.0, 0.5]], [[0.1, 0.1], [0.01, 0.01]]]
+    other = [[[9.0, 8.0], [2.0, 0.5]], [[0.1, 0.1], [3.0, 2.0]]]
+    dims = ("material", "surface", "end")
+    dataset = xr.Dataset(
+        {
+            "margin": ((*dims, "criterion"), np.stack([derived, other], axis=-1)),
+            "modulus_threshold": (dims, np.full((2, 2, 2), 2.5e6)),
+            "simulated": (dims, [[[1, 0], [1, 1]], [[1, 1], [1, 1]]]),
+            "verdict": (dims[:2], [[2, 1], [0, 0]]),
+            "modulus_threshold_low": (dims, np.full((2, 2, 2), 1.5e6)),
+            "modulus_threshold_high": (dims, np.full((2, 2, 2), 4.5e6)),
+            "margin_low": (dims, np.array(derived) * 0.9),
+            "margin_high": (dims, np.array(derived) * 1.1),
+            "pair_a_v": (dims, np.full((2, 2, 2), 3.0)),
+            "pair_a_v_low": (dims, np.full((2, 2, 2), 2.0)),
+            "pair_a_v_high": (dims, np.full((2, 2, 2), 4.0)),
+            "probability": (dims[:2], [[np.nan, 0.42], [np.nan, 0.0]]),
+            "margin_quantile": ((*dims[:2], "quantile"), np.tile([0.5, 1.0, 2.0], (2, 2, 1))),
+            "error_of_spectrum": (dims[:2], np.full((2, 2), 0.3)),
+            "error_of_model": (dims[:2], np.full((2, 2), 0.4)),
+            "disagrees": ((*dims[:2], "criterion"), [[[0, 0], [0, 0]], [[0, 0], [0, 1]]]),
+            "a_v": 3.21,
+            "a_v_low": 2.8,
+            "a_v_high": 4.4,
+        },
+        coords={
+            "material": ["jelly", "iron"],
+            "surface": ["glass", "sand"],
+            "end": ["smooth", "rough"],
+            "criterion": ["edge_adhesion", "some_other"],
+        },
+    )
+    model = np.full((2, 2, 2, 2), 0.5)
+    dataset = budgeted(dataset, "margin", model=model)
+    materials = {
+        "jelly": {
+            "label": "jelly & cream",
+            "youngs_modulus": "1 kPa",
+            "poisson_ratio": 0.5,
+            "work_of_adhesion": "50 mJ/m^2",
+            "range": "1 nm",
+            "source": "own",
+        },
+        "iron": {
+            "label": "iron",
+            "plane_strain_modulus": "2 GPa",
+            "work_of_adhesion": "1 J/m^2",
+            "range": "1 nm",
+        },
+    }
+    return made_by(dataset, materials=materials, pressure=0.065)
+
+
+@pytest.fixture
+def surfaces():
+    known = xr.Dataset(
+        {
+            "h_rms": ("end", [2e-7, 2e-6]),
+            "C0_reference_upper": ("end", [1e-5, 1e-3]),
+            "hurst": 0.8,
+            "q0": 1e3,
+            "q1": 1e9,
+        },
+        coords={"end": ["smooth", "rough"]},
+    )
+    measured = known.assign(hurst=0.7, C0_reference=5.3e-3)
+    for name, error in {"hurst": 0.02, "C0_reference": 4e-4}.items():
+        measured = budgeted(measured, name, sampling=error)
+    known = budgeted(known, "hurst")
+    measured = measured.assign_attrs(remarks="noisy <spectrum>")
+    return {
+        "glass": made_by(known, kind="self_affine", label="glass pane", note="typical"),
+        "sand": made_by(measured, kind="measured", label="sand < 1 mm", source="own"),
+    }
+
+
+def ensemble(seeds=(1, 2), residual=1e-6):
+    """Area 0.05 ± 0.01 ± 0.002, gap 1 ± 0.001 ± 0.02, attractive area 2 range^(2/3)."""
+    ranges = np.geomspace(1e-3, 1, 200)
+    sampled = len(seeds) > 1
+    data = {
+        "residual": (("seed", "resolution", "pressure"), np.full((len(seeds), 2, 2), residual)),
+        "attractive_area_mean": (("pressure", "range"), np.tile(2 * ranges ** (2 / 3), (2, 1))),
+    }
+    for name, mean, sampling, discretisation in (
+        ("area_fraction", 0.05, 0.01, 0.002),
+        ("mean_gap", 1.0, 0.001, 0.02),
+    ):
+        data[f"{name}_mean"] = ("pressure", [mean, 7.0])
+        data[f"{name}_standard_error"] = ("pressure", [sampling if sampled else np.nan, 7.0])
+        data[f"{name}_discretisation_error"] = ("pressure", [discretisation, 7.0])
+    for name in ("standard_error", "discretisation_error"):
+        data[f"attractive_area_{name}"] = data["attractive_area_mean"][0], np.zeros((2, 200))
+    coords = {"seed": list(seeds), "resolution": [2, 4], "pressure": [0.06, 0.3], "range": ranges}
+    return made_by(
+        xr.Dataset(data, coords=coords),
+        case="case_of_two",
+        hurst=0.8,
+        magnification=64,
+        grid_points=256,
+        pixels_per_wavelength=4,
+        tolerance=1e-6,
+        largest_residual=residual,
+        seeds=list(seeds),
+        estimator="multilevel" if sampled else "plain",
+        coarse_seeds=32,
+        descriptor_seeds=100,
+    )
+
+
+@pytest.fixture
+def figures(tmp_path):
+    from matplotlib.figure import Figure
+
+    made = []
+    for number in range(1, 7):
+        path = tmp_path / f"fig{number}.png"
+        Figure(figsize=(2, 1)).savefig(path, dpi=50)
+        made.append(captions.figure(path, f"Caption {number} of *a* & b < gamma. More {{words}}."))
+    return made
+
+
+@pytest.fixture
+def benchmarks(tmp_path):
+    folder = tmp_path / "benchmarks"
+    (folder / "slow_rule" / "case").mkdir(parents=True)
+    head = "s\th:m:s\tmax_rss\n"
+    (folder / "slow_rule" / "case" / "seed1.tsv").write_text(head + "10.5\t0:00:10\t200.0\n")
+    (folder / "slow_rule" / "case" / "seed2.tsv").write_text(head + "30.25\t0:00:30\t100.0\n")
+    (folder / "write_report.tsv").write_text(head + "99.0\t0:01:39\t999.0\n")  # an earlier run
+    (folder / "quick_rule.tsv").write_text(head + "0.5\t0:00:00\tNA\n")
+    return folder
+
+
+def comparison():
+    """Theory 10 % above simulation, known to 3 %, at every load."""
+    ranges = np.geomspace(1e-3, 1, 20)
+    shape = (1, 5)
+    data = {}
+    for kind, value in (("difference", 0.1), ("difference_total_error", 0.03)):
+        for name in ("area_fraction", "mean_gap"):
+            data[f"{name}_{kind}"] = (("variant", "pressure"), np.full(shape, value))
+        full = np.full((*shape, 20), value)
+        data[f"attractive_area_{kind}"] = (("variant", "pressure", "range"), full)
+    coords = {"variant": ["a"], "pressure": [0.01, 0.03, 0.1, 0.3, 0.5], "range": ranges}
+    return made_by(xr.Dataset(data, coords=coords), case="case_of_two")
+
+
+def answer(sampling=0.01):
+    """Area 0.05 ± 0.01 ± 0.002, gap 1 ± 0.001 ± 0.02, and a solver's part of 1e-6 in both."""
+    errors = {
+        "discretisation": [[0.002, 0], [0.02, 0]],
+        "solver": [[1e-6, 0], [1e-6, 0]],
+        "sampling": [[sampling, 0], [0.001, 0]],
+    }
+    dims = ("column", "pressure")
+    dataset = xr.Dataset(
+        {
+            "value": (dims, [[0.05, 7.0], [1.0, 7.0]]),
+        },
+        coords={"column": ["area", "mean_gap"], "pressure": [0.06, 0.3]},
+    )
+    dataset = budgeted(dataset, "value", **errors)
+    return made_by(dataset, case="case_of_two", accuracy=0.03)
+
+
+TRADE = {
+    "figure": {
+        "name": "tradeoff",
+        "data": "",
+        "width": 100,
+        "height": 50,
+        "alt": "What it costs.",
+        "caption": "What it costs.",
+    },
+    "source": "config/trade.csv",
+    "tables": [(["seeds", "area", "cost"], [["4 plain", "13 %", "40"]])],
+}
+PRESET = {
+    "name": "quick",
+    "asked": "30 %",
+    "settings": {
+        "pixels_per_wavelength": 4,
+        "tolerance": 1e-4,
+        "seeds": 3,
+        "coarse_seeds": 32,
+    },
+    "cost": "120",
+    "errors": ["1 %"] * 6,
+}
+
+
+@pytest.fixture
+def page(claims, verdicts, surfaces, figures, benchmarks):
+    return write_report.render(
+        TEMPLATE,
+        "out/report/report.html",
+        files={
+            "claims": "out/claims.nc",
+            "verdicts": "out/verdicts.nc",
+            "surfaces": {name: f"out/surfaces/{name}.nc" for name in surfaces},
+            "ensembles": {"case_of_two": "out/ensembles/case_of_two.nc"},
+            "answers": {"case_of_two": "out/cases/case_of_two.nc"},
+            "comparisons": {"case_of_two": "out/fits/case_of_two.nc"},
+            "figures": {figure["name"]: [f"out/a/{figure['name']}.nc"] for figure in figures},
+        },
+        claims=claims,
+        verdicts=verdicts,
+        surfaces=surfaces,
+        figures=figures,
+        ensembles=[ensemble()],
+        answers=[answer()],
+        trade=TRADE,
+        presets=[PRESET],
+        comparisons=[comparison()],
+        benchmarks=benchmarks,
+        fidelity="draft",
+    )
+
+
+class Reader(HTMLParser):
+    """Nesting errors, tags with their attributes, and texts of a page."""
+
+    def __init__(self, page):
+        super().__init__()
+        self.open, self.errors, self.tags, self.texts = [], [], [], []
+        self.feed(page)
+
+    def handle_starttag(self, tag, attrs):
+        self.tags.append((tag, dict(attrs)))
+        if tag not in VOID:
+            self.open.append(tag)
+
+    def handle_endtag(self, tag):
+        if not self.open or self.open.pop() != tag:
+            self.errors.append((tag, self.getpos()))
+
+    def handle_data(self, data):
+        self.texts.append(data)
+
+    def attributes(self, tag):
+        return [attributes for name, attributes in self.tags if name == tag]
+
+    @property
+    def text(self):
+        return " ".join(" ".join(self.texts).split())
+
+
+def test_page_is_well_formed(page):
+    reader = Reader(page)
+    assert not reader.errors
+    assert not reader.open
+    identities = [attributes["id"] for _, attributes in reader.tags if "id" in attributes]
+    assert len(identities) == len(set(identities))
+    targets = [a["href"][1:] for a in reader.attributes("a") if a["href"].startswith("#")]
+    assert set(targets) <= set(identities)
+
+
+def test_tables_have_captions_and_scopes(page):
+    reader = Reader(page)
+    assert len(reader.attributes("table")) == len(reader.attributes("caption")) >= 8
+    assert all("scope" in attributes for attributes in reader.attributes("th"))
+
+
+def test_nothing_is_fetched(page):
+    reader = Reader(page)
+    assert reader.attributes("script") == [{}]
+    for tag, attributes in reader.tags:
+        assert not any(name.startswith("on") for name in attributes), tag
+        for name in ("src", "srcset", "href", "data", "poster"):
+            address = attributes.get(name, "")
+            doi = tag == "a" and address.startswith("https://doi.org/10.")
+            file = tag == "a" and re.fullmatch(r"(\.\./|surfaces/)[\w./]+\.(nc|html)", address)
+            assert doi or file or address.startswith(("#", "data:")) or address == "", address
+    assert not re.search(r"@import|url\(", page)
+
+
+def test_every_claim_and_figure_appears(page):
+    reader = Reader(page)
+    for number in range(1, 4):
+        assert f"statement {number}" in reader.text
+    for grade in GRADES:
+        assert grade in reader.text
+    images = reader.attributes("img")
+    assert [image["alt"] for image in images] == [
+        *(f"Figure {n}: Caption {n} of a & b < gamma." for n in range(1, 7)),
+        "What it costs.",
+    ]
+    assert all((image["width"], image["height"]) == ("100", "50") for image in images)
+    assert "More {words}." in reader.text
+    for erratum in ERRATA:
+        assert str(captions.typeset(erratum.subject)) in page
+    assert reader.text.count("some number = 0.5") == len(ERRATA)
+
+
+def test_claims_show_value_error_and_files(page):
+    text = Reader(page).text
+    assert "1.891 ± 0.033" in text
+    assert "by sampling : sampling 0.032, discretisation 0.01" in text  # largest first
+    assert "sampling, not known" in text
+    assert "−2 by sampling, not known : sampling not known quantity 1" in text
+    assert "b/ seed1.nc and 1 more" in text
+    assert "closed form" in text
+    # The value leads to the first file behind it, a closed form's to the ledger.
+    assert '<a class="data" href="../a/x.nc" title="a/x.nc">1.891 ± 0.033</a>' in page
+    assert '<a class="data" href="../claims.nc" title="claims.nc">−2</a>' in page
+
+
+def test_texts_are_escaped(page):
+    assert NASTY not in page
+    assert NASTY in unescape(page)
+    assert "jelly &amp; cream" in page
+    assert "sand &lt; 1 mm" in page
+    assert "noisy &lt;spectrum&gt;" in page
+
+
+def test_summary_counts(claims, verdicts):
+    found = report.summary(claims, verdicts, [ensemble(), ensemble(seeds=range(1, 5))])
+    assert [(name, count) for name, count, _ in found["graded"]] == [(g, 1) for g in GRADES]
+    assert (found["pairs"], found["sticky"]) == (4, 1)
+    assert [pair[:2] for pair in found["judged"]] == [
+        ("sticky", 1),
+        ("depends", 1),
+        ("not sticky", 2),
+    ]
+    assert (found["outside"], found["sticky_outside"]) == (1, 1)
+    assert (found["a_v"], found["a_v_range"]) == ("3.21", "2.8 … 4.4")
+    assert found["realisations"] == "2 … 4"
+
+
+def test_every_verdict_stands_in_its_place(verdicts, surfaces):
+    matrix = report.verdict_matrix(verdicts, surfaces)
+    assert [material["label"] for material in matrix["materials"]] == ["jelly & cream", "iron"]
+    found = [[(c["verdict"], c["outside"]) for c in row["cells"]] for row in matrix["rows"]]
+    assert found == [
+        [("sticky", True), ("not sticky", False)],
+        [("depends", False), ("not sticky", False)],
+    ]
+    sand = matrix["rows"][1]["cells"][0]
+    assert (sand["margin"], sand["limits"]) == ("0.5 … 2", "0.45 … 2.2")
+    assert (sand["threshold"], sand["a_v"]) == ("2.5 MPa", "2 … 4")
+    assert matrix["materials"][0]["work_of_adhesion"] == "50 mJ/m²"
+
+
+def test_verdicts_are_worded_on_the_page(page):
+    text = Reader(page).text
+    for words in (
+        "sticky † m 8 … 9 (7.2 … 9.9) by model E* 2.5 MPa",
+        "depends m 0.5 … 2 (0.45 … 2.2) by model",
+        "not sticky m 0.1 (0.09 … 0.11) by model E* 2.5 MPa",
+    ):
+        assert words in text
+
+
+def test_errors_of_a_pair_are_told_where_it_was_drawn(verdicts, surfaces):
+    pairs = report.verdict_matrix(verdicts, surfaces)["pairs"]
+    assert [(pair["material"], pair["name"]) for pair in pairs][:2] == [
+        ("jelly & cream", "glass"),
+        ("jelly & cream", "sand"),
+    ]
+    on_glass, on_sand = pairs[:2]
+    assert on_glass["probability"] == on_glass["errors"] == "–"
+    assert (on_sand["probability"], on_sand["drawn"]) == ("42 %", "0.5 … 2")
+    assert on_sand["errors"] == "spectrum 30 %, a_V and model 40 %"
+    assert on_sand["error"] == pytest.approx(0.5)
+
+
+@pytest.mark.parametrize(
+    ("text", "html"),
+    [
+        ("u/h_rms, q0 h'_rms", "u/h<sub>rms</sub>, q<sub>0</sub> h&#39;<sub>rms</sub>"),
+        ("a_V,PR ~ zeta^((5H-3)/3)", "a<sub>V,PR</sub> ~ ζ<sup>(5H−3)/3</sup>"),
+        ("C0 = 1e-3 m^0.4", "C<sub>0</sub> = 1e-3 m<sup>0.4</sup>"),
+        ("shape_a q01 x_rms_y", "shape_a q01 x_rms_y"),
+        (
+            "<i> & doi:10.1234/q0",
+            '&lt;i&gt; &amp; <a href="https://doi.org/10.1234/q0">doi:10.1234/q0</a>',
+        ),
+    ],
+)
+def test_symbols_are_set(text, html):
+    assert captions.typeset(text) == html
+
+
+def test_disagreement_names_pairs_and_direction(verdicts, surfaces):
+    (row,) = report.disagreements(verdicts, surfaces)
+    assert (row["criterion"], row["count"]) == ("some other", 1)
+    assert row["sticky"] == [("iron", ["sand < 1 mm"])]
+    assert row["not_sticky"] == []
+
+
+def test_surfaces_with_and_without_errors(surfaces):
+    glass, sand = report.surface_rows(surfaces)
+    assert (glass["hurst"], sand["hurst"]) == ("0.8", "0.700 ± 0.020")
+    assert (glass["c0"], sand["c0"]) == ("(1 … 100) × 10⁻⁵", "0.00530 ± 0.00040")
+    assert glass["h_rms"] == "0.2 … 2 µm"
+    assert sand["remarks"] == ["noisy <spectrum>"]
+
+
+def test_bound_of_prefactor_for_another_hurst_exponent(surfaces):
+    steeper = surfaces["glass"].assign(hurst=0.9)
+    assert surface_texts.reference_prefactor(steeper).startswith("≤ ")
+
+
+def test_error_budget():
+    (budget,) = report.error_budgets([answer()])
+    area, gap = budget["rows"]
+    assert (budget["load"], budget["asked"]) == ("0.06", "3 %")
+    assert area["errors"]["sampling"] == "20 %"
+    assert area["errors"]["discretisation"] == "4 %"
+    assert (area["dominates"], gap["dominates"]) == ("sampling", "discretisation")
+    # sqrt(0.01^2 + 0.002^2) = 0.0102; the solver's part is far smaller.
+    assert area["value"] == "0.050 ± 0.010"
+    assert gap["errors"]["solver"] == "1 × 10⁻⁴ %"
+
+
+def test_error_budget_of_a_single_seed_leaves_sampling_open():
+    area = report.error_budgets([answer(sampling=np.nan)])[0]["rows"][0]
+    assert area["errors"]["sampling"] == "–"
+    assert area["dominates"] == "sampling, not known"
+
+
+def test_theory_is_compared_at_three_loads():
+    rows = report.theory_rows([comparison()])
+    assert [row["load"] for row in rows] == ["0.03", "0.1", "0.3"]
+    assert all(cell == "+10.0% ± 3.0%" for row in rows for cell in row["cells"].values())
+
+
+def test_run_times_add_up(benchmarks):
+    times = _benchmarks.run_times(benchmarks)
+    slow, quick = times["rows"]
+    assert slow == {
+        "rule": "slow_rule",
+        "jobs": 2,
+        "total": "40.8",  # 10.5 + 30.25
+        "longest": "30.2",
+        "memory": "200",
+    }
+    assert (quick["rule"], quick["memory"]) == ("quick_rule", "–")
+    assert (times["jobs"], times["total"]) == (3, "41.2")
+
+
+def test_mixed_versions_are_pointed_out(claims):
+    other = claims.assign_attrs(version_numpy="1.0")
+    found = provenance.provenance([claims, other], [])
+    assert found["versions"] == [("numpy", "1.0, 9.8.7")]
+    assert found["mixed"] == ["numpy"]
+    assert provenance.provenance([claims, claims], [])["mixed"] == []
+
+
+@pytest.mark.parametrize(
+    ("seeds", "want"), [((1, 2), "multilevel: 32 coarse, 100 described"), ((5,), "plain")]
+)
+def test_estimator_of_an_ensemble_is_named(seeds, want):
+    (row,) = provenance.provenance([], [ensemble(seeds=seeds)])["ensembles"]
+    assert row["means"] == want
+
+
+def test_not_a_png_is_refused(tmp_path):
+    path = tmp_path / "fig1.png"
+    path.write_text("no picture")
+    with pytest.raises(ValueError, match="fig1.png: not a PNG"):
+        captions.figure(path, "")
+
+
+def test_caption_cannot_smuggle_html():
+    html = captions.caption_html(".. raw:: html\n\n   <b>bold</b>\n\nText <i>& more.")
+    assert "<b>" not in html
+    assert "&lt;i&gt;&amp; more." in html
+
+
+@pytest.mark.parametrize(
+    ("value", "error", "text"),
+    [
+        (1.8912, 0.0331, "1.891 ± 0.033"),
+        (3.68, 1.0, "3.7 ± 1.0"),
+        (0.99, 0.0996, "0.99 ± 0.10"),
+        (-4.2e-6, 3e-7, "(−4.20 ± 0.30) × 10⁻⁶"),
+        (67720, 120, "67720 ± 120"),
+        (2.0, np.nan, "2"),
+        (np.nan, np.nan, "–"),
+    ],
+)
+def test_value_with_error(value, error, text):
+    assert numbers.with_error(value, error) == text
+
+
+@pytest.mark.parametrize(
+    ("low", "high", "text"),
+    [
+        (1.0, 1.0004, "1"),
+        (0.1, 20.0, "0.1 … 20"),
+        (5.08e-4, 1.61e-3, "(5.08 … 16.1) × 10⁻⁴"),
+        (7e-6, 3.0, "7 × 10⁻⁶ … 3"),
+        (2e4, 3e6, "(0.02 … 3) × 10⁶"),
+        (0.0, np.inf, "0 … ∞"),
+    ],
+)
+def test_interval(low, high, text):
+    assert numbers.interval(low, high) == text
+
+
+def test_quantity_keeps_its_prefix_when_rounding_up():
+    assert numbers.quantity(999.9999, 999.9999, "Pa") == "1 kPa"
+    assert numbers.quantity(2e-12, 2e-12, "m") == "0.002 nm"
+
+
+def test_quantity_with_error_is_rounded_to_it():
+    assert numbers.quantity_with_error(1.6347e2, 20.49, "m") == "(163 ± 20) m"
+    assert numbers.quantity_with_error(2.7049e-8, 2.449e-9, "m") == "(27.0 ± 2.4) nm"
+
+
+def test_accuracy_that_was_not_reached_is_named():
+    (budget,) = report.error_budgets([answer().assign_attrs(missed="mine: error 0.2 of 0.03")])
+    assert budget["asked"] == "3 %, not reached"

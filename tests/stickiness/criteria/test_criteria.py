@@ -1,0 +1,408 @@
+"""Stickiness criteria against independent derivations and against each other's limits."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+import yaml
+from scipy.optimize import brentq
+from scipy.stats import norm
+
+from stickiness import adhesive, criteria, dmt, spectrum
+from stickiness.core import units
+
+# A point far from all thresholds and with no two numbers alike, in arbitrary units.
+POINT = {"h_rms": 2.0, "q0": 0.03, "adhesion_length": 0.011, "range": 0.3}
+MATERIALS = Path(__file__).parents[3] / "config" / "materials.yaml"
+
+
+def _maps():
+    h = np.geomspace(0.1, 1e4, 40)[:, None]
+    length = np.geomspace(1e-3, 1e3, 30)[None, :]
+    return h, length
+
+
+# --- Violano et al. ------------------------------------------------------------------------
+
+
+def test_traction_ratio_from_gaps_that_obey_the_law():
+    # Gaps with the density P(u) = a_V p/(q0 h h) (u/h)^(-1/3), drawn as quantiles, and the general
+    # DMT integral must give the closed form.
+    a_v, p = 2.5, 1e-3
+    h, q0, length, eps = POINT.values()
+    top = 1.1 * eps
+    share = 1.5 * a_v * p / (q0 * h) * (top / h) ** (2 / 3)
+    n = 200_000
+    gaps = top * ((np.arange(n) + 0.5) / n) ** 1.5
+    pressure = dmt.adhesive_pressure(gaps, adhesive.Maugis(length, eps)) * share
+    # Quantiles resolve the area to one in n.
+    assert pressure / p == pytest.approx(criteria.traction_ratio(**POINT, a_v=a_v), rel=3e-5)
+
+
+def test_inequality_forms_agree_on_a_map():
+    h, length = _maps()
+    eps, q0, a_v = 1.0, 1e-3, 2.8
+    verdict = criteria.violano(h, q0, length, eps, a_v)
+    assert verdict.name == "violano"
+    assert verdict.sticky.shape == verdict.margin.shape == (40, 30)
+    assert verdict.sticky.any()
+    assert not verdict.sticky.all()
+    # The first of the two printed forms, (eps/l_a)(h/eps)^(2/3) < (3/2) a_V/(q0 h).
+    np.testing.assert_array_equal(
+        verdict.sticky, eps / length * (h / eps) ** (2 / 3) < 1.5 * a_v / (q0 * h)
+    )
+    inverse = criteria.inverse_kappa(criteria.inverse_kappa_ad(h, q0, length, eps, a_v))
+    np.testing.assert_array_equal(verdict.sticky, inverse < 0)
+    np.testing.assert_array_equal(verdict.sticky, criteria.slope_angle(inverse) > np.pi / 2)
+    ratio = criteria.traction_ratio(h, q0, length, eps, a_v)
+    np.testing.assert_allclose(verdict.margin, ratio**0.6, rtol=1e-13)
+
+
+def test_inverse_kappa_ad_as_printed():
+    h, q0, length, eps = POINT.values()
+    expected = 3 * 2.8 / 4 / (q0 * h) * (length / eps) * (eps / h) ** (2 / 3)
+    assert criteria.inverse_kappa_ad(**POINT, a_v=2.8) == pytest.approx(expected, rel=1e-14)
+
+
+def test_kappa_from_the_slope_of_area_against_external_pressure():
+    # A_rep = kappa_rep p_rep/h' and p_ext = p_rep (1 - ratio): the slope of one on the other.
+    slope, kappa_rep = 0.2, 2.1
+    ratio = criteria.traction_ratio(**POINT, a_v=2.8)
+    p_rep = np.array([1e-3, 2e-3])
+    area, external = kappa_rep * p_rep / slope, p_rep * (1 - ratio)
+    inverse_ad = criteria.inverse_kappa_ad(**POINT, a_v=2.8, kappa_rep=kappa_rep)
+    assert criteria.kappa(inverse_ad, kappa_rep) == pytest.approx(
+        slope * np.diff(area).item() / np.diff(external).item(), rel=1e-10
+    )
+
+
+def test_slope_angle_turns_continuously_from_arctan_2_to_pi():
+    inverse = np.linspace(0.5, -50, 2001)
+    angle = criteria.slope_angle(inverse)
+    assert angle[0] == pytest.approx(np.arctan(2), rel=1e-14)
+    assert np.all(np.diff(angle) > 0)
+    assert angle[-1] < np.pi
+    assert criteria.slope_angle(0.0) == np.pi / 2
+    np.testing.assert_allclose(np.tan(angle), 1 / inverse, rtol=1e-9)
+    assert criteria.kappa(0.5) == np.inf
+    assert criteria.kappa(0.75) == pytest.approx(-4, rel=1e-14)
+
+
+def test_limits_sit_on_the_threshold():
+    h, q0, length, eps = POINT.values()
+    limit = criteria.h_rms_limit(q0, length, eps, 2.8)
+    assert criteria.traction_ratio(limit, q0, length, eps, 2.8) == pytest.approx(1, rel=1e-13)
+    # The modulus at which l_a = work of adhesion/E* puts the same surface on the threshold.
+    modulus = criteria.modulus_threshold(h, q0, 0.05, eps, 2.8)
+    assert criteria.violano(h, q0, 0.05 / modulus, eps, 2.8).margin == pytest.approx(1, rel=1e-13)
+    assert criteria.violano(h, q0, 0.05 / (0.99 * modulus), eps, 2.8).sticky is True
+
+
+@pytest.mark.parametrize("hurst", [0.3, 0.8, 1.0])
+@pytest.mark.parametrize("magnification", [3.0, 1e4])
+def test_c0_limit_is_the_h_rms_limit_of_the_spectrum(hurst, magnification):
+    q0, length, eps, a_v = 0.02, 0.05, 1.0, 3.0
+    c0 = criteria.violano_c0_limit(hurst, q0, length, eps, a_v, magnification)
+    s = spectrum.SelfAffine(hurst=hurst, q0=q0, q1=q0 * magnification, C0=c0)
+    assert s.h_rms == pytest.approx(criteria.h_rms_limit(q0, length, eps, a_v), rel=1e-12)
+
+
+def test_c0_limit_as_printed_for_hurst_08():
+    q0, length, eps, a_v = 0.02, 0.05, 1.3, 3.0
+    expected = 0.8 / np.pi * eps**0.8 * q0**0.4 * (1.5 * a_v * length / eps) ** 1.2
+    assert criteria.violano_c0_limit(0.8, q0, length, eps, a_v) == pytest.approx(
+        expected, rel=1e-13
+    )
+
+
+def test_printed_form_has_nine_quarters():
+    h, q0, length, eps = POINT.values()
+    verdict = criteria.violano_printed(**POINT)
+    assert verdict.name == "violano_printed"
+    assert verdict.margin == pytest.approx(
+        (9 / 4 * (length / eps) / (eps * q0)) ** (3 / 5) / (h / eps), rel=1e-14
+    )
+
+
+def test_dmt_validity_as_printed():
+    h, length = _maps()
+    eps, q0 = 1.0, 1e-3
+    validity = criteria.dmt_validity(h, q0, length, eps)
+    np.testing.assert_array_equal(validity.valid, h / eps > 4 / 75 * (length / eps) / (eps * q0))
+    assert validity.valid.any()
+    assert not validity.valid.all()
+
+
+def test_sticky_boundary_leaves_the_dmt_range_at_strong_adhesion():
+    # x = (l_a/eps)/(eps q0): the limits (c x)^(3/5) and (4/75) x cross at x = c^(3/2) (75/4)^(5/2),
+    # so the limits at l_a/eps = 0.05 and eps q0 <= 1e-6 lie where DMT does not hold.
+    a_v = 3.0
+    crossing = brentq(
+        lambda x: criteria.h_rms_limit(1.0, x, 1.0, a_v) / criteria.jtb_limit(1.0, x, 1.0) - 1,
+        1.0,
+        1e9,
+    )
+    assert crossing == pytest.approx((1.5 * a_v) ** 1.5 * (75 / 4) ** 2.5, rel=1e-9)
+    assert crossing < 0.05 / 1e-6
+
+
+# --- Pastewka and Robbins ------------------------------------------------------------------
+
+
+def test_pastewka_robbins_as_printed():
+    slope, curvature, length, eps = 0.3, 2.0, 0.05, 1.1
+    delta = eps * np.sqrt(24 * length / eps)
+    diameter = 4 * slope / curvature
+    left = slope * delta / (2 * length) * (slope * diameter / (4 * delta)) ** (2 / 3)
+    verdict = criteria.pastewka_robbins(slope, curvature, length, eps)
+    assert verdict.margin == pytest.approx(np.pi * (3 / 16) ** (2 / 3) / left, rel=1e-13)
+    assert pytest.approx(1.03, abs=0.005) == criteria.PR_CONSTANT
+
+
+@pytest.mark.parametrize("ratio", [1.0, np.sqrt(1.2), 3.0])
+def test_equivalent_a_v_reproduces_the_verdict(ratio):
+    # For Delta_r = ratio * range the inequality and violano's agree everywhere once a_V of the
+    # area is divided by the ratio, for the stress l_a/Delta_r falls as the area grows.
+    rng = np.random.default_rng(0)
+    h, q0, slope, curvature, length, eps = 10 ** rng.uniform(-2, 1, (6, 500))
+    a_v = criteria.pastewka_robbins_a_v(q0, h, slope, curvature, ratio) / ratio
+    ours = criteria.violano(h, q0, length, eps, a_v)
+    theirs = criteria.pastewka_robbins(slope, curvature, length, eps, ratio * eps)
+    # Margins are x^(3/5) of the balance of tractions and x itself.
+    np.testing.assert_allclose(ours.margin ** (5 / 3), theirs.margin, rtol=1e-11)
+    assert 50 < np.count_nonzero(ours.sticky) < 450
+
+
+@pytest.mark.parametrize("hurst", [0.5, 0.6, 0.8, 0.9])
+def test_power_law_a_v_is_the_limit_of_a_broad_spectrum(hurst):
+    magnification = 1e7
+    s = spectrum.SelfAffine(hurst=hurst, q0=2.0, q1=2.0 * magnification, h_rms=0.1)
+    a_v = criteria.pastewka_robbins_a_v(s.q0, s.h_rms, s.rms_slope, s.rms_curvature)
+    # The slowest correction is that of the slope, zeta^(2H-2), 4 % for H = 0.9 times 7/6.
+    rel = 2 * magnification ** max(2 * hurst - 2, -2 * hurst)
+    assert a_v == pytest.approx(
+        criteria.pastewka_robbins_a_v_power_law(hurst, magnification), rel=max(rel, 1e-6)
+    )
+
+
+def test_power_law_exponent_changes_sign_at_hurst_06():
+    for hurst in (0.3, 0.6, 0.8):
+        a_v = criteria.pastewka_robbins_a_v_power_law(hurst, np.array([1e2, 1e4]))
+        assert np.log(a_v[1] / a_v[0]) / np.log(100) == pytest.approx(
+            (5 * hurst - 3) / 3, abs=1e-12
+        )
+
+
+# --- others --------------------------------------------------------------------------------
+
+
+def test_fuller_tabor():
+    h, radius, length = 0.5, 3.0, 0.01
+    theta = float(h**1.5 / (np.sqrt(radius) * length))
+    verdict = criteria.fuller_tabor(h, 2 / radius, length)
+    assert verdict.margin == pytest.approx(10 / theta, rel=1e-13)
+    assert verdict.sticky is (theta < 10)
+    assert criteria.fuller_tabor(h, 99.0, length, radius=radius).margin == pytest.approx(
+        10 / theta, rel=1e-13
+    )
+    assert criteria.fuller_tabor(h, 2 / radius, length, threshold=20.0).sticky is (theta < 20)
+
+
+def test_default_radius_is_that_of_a_paraboloid():
+    # h = r^2/2R on a grid: its Laplacian is 2/R, the rms curvature of the default.
+    radius = 3.0
+    x = np.linspace(-1, 1, 41)
+    h = (x[:, None] ** 2 + x[None, :] ** 2) / (2 * radius)
+    step = x[1] - x[0]
+    laplacian = (
+        h[2:, 1:-1] + h[:-2, 1:-1] + h[1:-1, 2:] + h[1:-1, :-2] - 4 * h[1:-1, 1:-1]
+    ) / step**2
+    curvature = np.sqrt(np.mean(laplacian**2))
+    margin = criteria.fuller_tabor(0.5, curvature, 0.01).margin
+    assert margin == pytest.approx(
+        criteria.fuller_tabor(0.5, 1.0, 0.01, radius=radius).margin, rel=1e-10
+    )
+
+
+def test_nayak_summit_radius_of_a_spectrum():
+    s = spectrum.SelfAffine(hurst=0.8, q0=1.0, q1=50.0, h_rms=0.1)
+    # Nayak (1971) in McCool's form: 1/R = (8/3) sqrt(m4/pi).
+    assert criteria.nayak_summit_radius(s.rms_curvature) == pytest.approx(
+        1 / (8 / 3 * np.sqrt(s.moment(4) / np.pi)), rel=1e-12
+    )
+    assert criteria.nayak_summit_radius(1.0) == pytest.approx(1.085, abs=5e-4)
+
+
+@pytest.mark.parametrize("eps", [1e-7, 1e-3, 0.1, 0.49, 0.51, 1.0, 5.0, 40.0])
+def test_bearing_area_margin_by_brute_force(eps):
+    # Grid search with scipy's normal distribution; its tail difference loses digits below
+    # eps = 1e-6, where the density at the middle is exact to eps^2.
+    x = np.linspace(0.01, eps + 6, 400_001)
+    tail = norm.logsf(x - eps) + np.log(-np.expm1(norm.logsf(x) - norm.logsf(x - eps)))
+    if eps < 1e-5:
+        tail = norm.logpdf(x - eps / 2) + np.log(eps)
+    # Bearing area between u - eps and u for u > eps/2 is the difference of survival functions.
+    expected = np.exp(np.max(2 * x + tail)) * 0.2 / (eps * 0.5)
+    margin = criteria.bearing_area(1.0, 0.5, 0.2, eps).margin
+    # Grid step squared times the second derivative (about 1) is 1e-8.
+    assert margin == pytest.approx(expected, rel=1e-6)
+
+
+def test_bearing_area_short_range_limit():
+    h, q0, length = 2.0, 0.3, 0.7
+    margin = criteria.bearing_area(h, q0, length, 1e-6 * h).margin
+    # Corrections are of first order in range/h: the middle of the window is half of it away.
+    assert margin == pytest.approx(np.e**2 / np.sqrt(2 * np.pi) * length / (q0 * h**2), rel=1e-5)
+    assert criteria.bearing_area(h, q0, length, 1e-6 * h, 0.75).margin == pytest.approx(
+        margin / 0.75, rel=1e-12
+    )
+
+
+def test_bearing_area_margin_and_minimum_pressure_agree():
+    rng = np.random.default_rng(4)
+    for _ in range(60):
+        h, q0, eps = 10 ** rng.uniform(-1, 1, 3)
+        unit = criteria.bearing_area(h, q0, 1.0, eps).margin
+        for factor in (0.98, 1.02):
+            length = factor / unit
+            pressure, gap = criteria.bearing_area_pull_off(h, q0, length, eps)
+            assert (pressure < 0) is criteria.bearing_area(h, q0, length, eps).sticky
+            assert gap > eps / 2
+
+
+def test_bearing_area_minimum_by_brute_force():
+    h, q0, length, eps = 1.3, 0.4, 2.0, 0.9
+    u = np.linspace(0, 15, 300_001)
+    area = norm.cdf(u / h) - norm.cdf((u - eps) / h)
+    net = q0 * h * np.exp(-2 * u / h) - length / eps * area
+    pressure, gap = criteria.bearing_area_pull_off(h, q0, length, eps)
+    assert pressure == pytest.approx(net.min(), rel=1e-7)
+    assert gap == pytest.approx(u[net.argmin()], abs=1e-3)
+
+
+def test_bearing_area_broadcasts_and_saturates():
+    verdict = criteria.bearing_area(np.array([[1.0], [1e-4]]), 0.5, 0.2, np.array([0.1, 1.0]))
+    assert verdict.sticky.shape == (2, 2)
+    assert verdict.margin[1, 1] == np.inf
+    assert verdict.margin[0, 0] == criteria.bearing_area(1.0, 0.5, 0.2, 0.1).margin
+
+
+def test_persson_tosatti_of_a_power_law():
+    hurst, q0, h = 0.8, 0.3, 0.2
+    s = spectrum.SelfAffine(hurst=hurst, q0=q0, q1=q0 * 1e9, h_rms=h)
+    # (pi/2) int q^2 C dq with C0 = H h^2 q0^(2H)/pi over a broad band.
+    energy = hurst * h**2 * q0 / (2 * (2 * hurst - 1))
+    verdict = criteria.persson_tosatti(s, 0.01)
+    # The band's end carries zeta^(1-2H) = 4e-6 of it.
+    assert verdict.margin == pytest.approx(0.01 / energy, rel=1e-5)
+    assert criteria.persson_tosatti(energy, 1.001 * energy).sticky is True
+    assert criteria.persson_tosatti(energy, 0.999 * energy).sticky is False
+
+
+def test_persson_tosatti_energy_of_one_wave():
+    # Full contact of h cos(qx) costs E* q h^2/8 per area (Johnson 1985): h^2 = 2 h_rms^2.
+    q, h = 2.0, 0.3
+    x = np.arange(64) / 64 * 2 * np.pi / q
+    displacement = h * np.cos(q * x)
+    pressure = q / 2 * displacement
+    energy = np.mean(pressure * displacement) / 2
+    s = spectrum.SelfAffine(hurst=0.5, q0=q * (1 - 1e-6), q1=q * (1 + 1e-6), h_rms=h / np.sqrt(2))
+    assert s.elastic_energy() == pytest.approx(energy, rel=1e-5)
+
+
+def test_dahlquist():
+    assert criteria.dahlquist(0.1e6).margin == pytest.approx(10)
+    np.testing.assert_array_equal(criteria.dahlquist([0.5e6, 2e6]).sticky, [True, False])
+    assert criteria.dahlquist(0.5e6, limit=0.1e6).sticky is False
+
+
+def test_energy_criteria_agree_in_order_of_magnitude():
+    # For a broad band of H = 0.8 and lambda = 2 pi/q0 the bearing-area model (repulsion 3/4) gives
+    # h_rms < sqrt(0.6 lambda l_a), the energy balance sqrt(0.24 lambda l_a): they are known to be
+    # close (Ciavarella 2019, arXiv:1908.06380).
+    q0, length = 1.0, 0.01
+    s = spectrum.SelfAffine(hurst=0.8, q0=q0, q1=1e9, h_rms=1.0)
+    energy = criteria.persson_tosatti(s, length).margin
+    bearing = criteria.bearing_area(1.0, q0, length, 1e-6, repulsion=0.75).margin
+    wave = 2 * np.pi / q0 * length
+    assert energy / wave == pytest.approx(0.24, abs=0.005)
+    assert bearing / wave == pytest.approx(0.6, abs=0.05)
+
+
+def test_margins_fall_with_roughness():
+    h = np.geomspace(0.01, 10, 20)
+    margins = (
+        criteria.violano(h, 0.1, 0.05, 1.0, 3.0).margin,
+        criteria.bearing_area(h, 0.1, 0.05, 1.0).margin,
+        criteria.fuller_tabor(h, h, 0.05).margin,
+        criteria.pastewka_robbins(h, h, 0.05, 1.0).margin,
+        criteria.persson_tosatti(h**2, 0.05).margin,
+    )
+    for margin in margins:
+        assert np.all(np.diff(margin) < 0)
+
+
+@pytest.mark.parametrize("bad", [0.0, -1.0, np.nan, np.inf])
+@pytest.mark.parametrize("name", [*POINT, "a_v"])
+def test_violano_refuses_by_name(name, bad):
+    with pytest.raises(ValueError, match=f"^{name} must be positive and finite"):
+        criteria.violano(**{**POINT, "a_v": 3.0, name: bad})
+
+
+@pytest.mark.parametrize(
+    ("call", "message"),
+    [
+        (lambda: criteria.pastewka_robbins(0.0, 1.0, 1.0, 1.0), "rms_slope must"),
+        (lambda: criteria.pastewka_robbins(1.0, 1.0, 1.0, 1.0, -1.0), "interaction_range must"),
+        (lambda: criteria.pastewka_robbins_a_v_power_law(1.0, 10.0), "hurst must be below 1"),
+        (lambda: criteria.fuller_tabor(1.0, 1.0, 1.0, radius=0.0), "radius must"),
+        (lambda: criteria.bearing_area(1.0, 1.0, 1.0, 0.0), "range must"),
+        (lambda: criteria.persson_tosatti(0.0, 1.0), "elastic_energy must"),
+        (lambda: criteria.dahlquist(-1.0), "modulus_pa must"),
+        (lambda: criteria.jtb_limit(1.0, 0.0, 1.0), "adhesion_length must"),
+        (lambda: criteria.kappa(0.1, 0.0), "kappa_rep must"),
+        (
+            lambda: criteria.violano_c0_limit(0.8, 1.0, 1.0, 1.0, 3.0, magnification=1.0),
+            "magnification must exceed 1",
+        ),
+    ],
+)
+def test_refusals_name_the_argument(call, message):
+    with pytest.raises(ValueError, match=message):
+        call()
+
+
+def test_scalars_come_back_plain():
+    verdict = criteria.violano(**POINT, a_v=3.0)
+    assert type(verdict.sticky) is bool
+    assert type(verdict.margin) is float
+    assert type(criteria.bearing_area(**POINT).margin) is float
+
+
+# --- materials -----------------------------------------------------------------------------
+
+
+def _materials():
+    return yaml.safe_load(MATERIALS.read_text())["materials"]
+
+
+@pytest.mark.parametrize("name", _materials())
+def test_material_has_dimensions_and_a_source(name):
+    entry = dict(_materials()[name])
+    assert entry.pop("label")
+    assert entry.pop("source")
+    assert 0.1e-9 <= units.si(entry.pop("range"), "m") <= 1e-9
+    assert 0.01 <= units.si(entry.pop("work_of_adhesion"), "J/m^2") <= 3
+    if "plane_strain_modulus" in entry:
+        assert units.si(entry.pop("plane_strain_modulus"), "Pa") > 0
+    else:
+        assert units.si(entry.pop("youngs_modulus"), "Pa") > 0
+        assert 0 < entry.pop("poisson_ratio") <= 0.5
+    assert not entry
+
+
+def test_crystal_has_the_papers_adhesion_length():
+    crystal = _materials()["crystal"]
+    modulus = units.si(crystal["plane_strain_modulus"], "Pa")
+    length = units.si(crystal["work_of_adhesion"], "J/m^2") / modulus
+    assert length == pytest.approx(0.05 * units.si(crystal["range"], "m"), rel=1e-12)

@@ -1,0 +1,300 @@
+"""Instruments' limits, stitching of measurements, and moments drawn with all errors."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from scipy import ndimage
+
+from stickiness import surface
+from stickiness.measured import (
+    cutoff,
+    instrument_spectrum,
+    psd,
+    self_affine_fit,
+    spectrum_draws,
+    stitching,
+)
+from stickiness.measured.instrument_spectrum import Limits
+from stickiness.measured.topography import Profile, Topography
+from stickiness.spectrum import SelfAffine
+
+# Where an instrument stops seeing
+
+
+def patch(hurst=0.8, seed=1, n=512, q1=250.0):
+    """A quarter of a periodic surface, so not periodic itself; step of its lattice 2."""
+    s = SelfAffine(hurst=hurst, q0=1.0, q1=q1, h_rms=1.0)
+    h = surface.synthesise(s, n=n, length=2 * np.pi, seed=seed)[: n // 2, : n // 2]
+    return s, h, 2 * np.pi / n
+
+
+def bend(h, dx):
+    plane = psd.power_spectrum(h - h.mean(), dx, window="hann")
+    rings = self_affine_fit.narrow_rings(plane)
+    return cutoff.find_bend(rings, self_affine_fit.fit_range(plane)[0], plane.q_nyquist)
+
+
+@pytest.mark.parametrize("hurst", [0.5, 0.8, 0.95])
+@pytest.mark.parametrize("seed", [1, 2])
+def test_a_surface_without_instrument_has_no_bend_below_its_own_end(hurst, seed):
+    _, h, dx = patch(hurst, seed)
+    found = bend(h, dx)
+    assert found is None or found.q > 0.7 * 250
+
+
+@pytest.mark.parametrize("level", [0.05, 0.15])
+def test_noise_is_found_where_it_meets_the_spectrum(level):
+    s, h, dx = patch()
+    noisy = h + level * np.random.default_rng(0).normal(size=h.shape)
+    # White noise has C = level^2 dx^2/(4 pi^2); it meets C0 q^-3.6 at
+    meeting = (s.C0 / (level * dx / (2 * np.pi)) ** 2) ** (1 / 3.6)
+    found = bend(noisy, dx)
+    assert found.kind == "noise"
+    # There the local exponent is 1.8; 1.5 is reached 12 % higher, and rings are 12 % apart.
+    assert found.q == pytest.approx(meeting, rel=0.3)
+
+
+def test_blur_is_found_where_it_sets_in():
+    _, h, dx = patch(hurst=0.8)
+    width = 2 * dx
+    found = bend(ndimage.gaussian_filter(h, 2), dx)
+    # C ~ q^-3.6 exp(-(width q)^2) has the local exponent 3.6 + 2 (width q)^2, 5 at
+    assert found.kind == "blur"
+    assert found.q == pytest.approx(np.sqrt(0.7) / width, rel=0.35)
+
+
+def test_tip_cutoff_of_a_wave_is_known():
+    k, radius = 2.0, 0.5
+    x = np.arange(0, 40, 0.02)
+    heights = 1.5 * np.cos(k * x)  # curvature 6 at the peaks, limit 1/(2R) = 1
+    # Second difference over d: 2 a (1 - cos k d)/d^2 = 1/(2R), solved for d; the stencil is 2 d.
+    d = np.linspace(0.5, 2.5, 100001)
+    expected = 2 * d[np.argmin(np.abs(3 * (1 - np.cos(k * d)) / d**2 - 1 / (2 * radius)))]
+    found = cutoff.tip_cutoff(heights, (0.02,), radius)
+    assert found == pytest.approx(expected, rel=0.05)
+    assert cutoff.tip_cutoff(heights, (0.02,), radius=0.05) is None  # 10 > 6: sharp enough
+    with pytest.raises(ValueError, match="radius must be positive"):
+        cutoff.tip_cutoff(heights, (0.02,), 0.0)
+
+
+@pytest.mark.parametrize(
+    ("limits", "reason", "wavelength"),
+    [
+        (Limits(), "half the Nyquist", None),
+        (Limits(resolution=0.2), "resolution of the instrument", 0.2),
+        (Limits(fit_to=0.1, resolution=0.2), "as given", 0.1),
+        (Limits(resolution=0.001), "half the Nyquist", None),
+    ],
+)
+def test_lowest_limit_is_the_cutoff_and_says_why(limits, reason, wavelength):
+    _, h, dx = patch()
+    found = instrument_spectrum.analyse(Topography(h, dx, dx, "here").detrended(), limits=limits)
+    assert reason in found.cutoff.reason
+    if wavelength:
+        # The highest ring within: the lattice is fine there.
+        assert found.cutoff.q == pytest.approx(2 * np.pi / wavelength, rel=0.03)
+    assert found.fit.q_max == found.cutoff.q
+
+
+def test_detection_can_be_switched_off():
+    _, h, dx = patch()
+    noisy = Topography(h + 0.05 * np.random.default_rng(0).normal(size=h.shape), dx, dx, "here")
+    with_it = instrument_spectrum.analyse(noisy.detrended())
+    assert with_it.cutoff.detected
+    assert "noise" in with_it.cutoff.reason
+    without = instrument_spectrum.analyse(noisy.detrended(), limits=Limits(detect=False))
+    assert without.cutoff.q > with_it.cutoff.q
+    # Noise makes the surface look rougher: the fit with it has the lower H.
+    assert without.fit.hurst < with_it.fit.hurst
+
+
+def test_limits_that_leave_nothing_are_named():
+    _, h, dx = patch()
+    with pytest.raises(ValueError, match="resolution of the instrument ends the spectrum at"):
+        instrument_spectrum.analyse(Topography(h, dx, dx, "here"), limits=Limits(resolution=2.0))
+    with pytest.raises(ValueError, match="shape of the tip ends the spectrum everywhere"):
+        instrument_spectrum.analyse(Topography(h, dx, dx, "here"), limits=Limits(tip_radius=1e6))
+
+
+def test_uneven_profile_is_trusted_to_its_largest_gap():
+    _, h, dx = patch(n=1024, q1=500.0)
+    even = instrument_spectrum.analyse(Profile(h[:, 7], dx, "here").detrended())
+    torn = instrument_spectrum.analyse(Profile(h[:, 7], dx, "here", largest_gap=3 * dx).detrended())
+    assert even.cutoff.q == pytest.approx(3 * torn.cutoff.q, rel=0.05)
+    assert np.isnan(torn.anisotropy)
+
+
+def test_profile_and_map_agree_on_moments():
+    s, h, dx = patch(n=1024, q1=400.0)
+    plane = instrument_spectrum.analyse(Topography(h, dx, dx, "map").detrended())
+    lines = [
+        instrument_spectrum.analyse(Profile(h[:, j], dx, "line").detrended())
+        for j in range(0, 512, 64)
+    ]
+
+    def slope(spectrum):
+        inside = spectrum.rings.q <= plane.cutoff.q
+        square = spectrum.rings.psd * spectrum.rings.q**2 * spectrum.area
+        return np.sqrt(np.sum(square[inside]))
+
+    # Eight profiles of one map: their slopes scatter by some 10 % each.
+    assert np.mean([slope(line) for line in lines]) == pytest.approx(slope(plane), rel=0.12)
+
+
+# Stitching
+
+
+@pytest.fixture(scope="module")
+def scans():
+    """Twelve pairs of a large and a small scan of one surface, each off in height by 10 %."""
+    truth = SelfAffine(hurst=0.8, q0=1.0, q1=1e3, h_rms=1.0, q_rolloff=5.0)
+    pairs = []
+    for trial in range(12):
+        pair = []
+        for k, (length, q0, q1) in enumerate([(8 * np.pi, 1.0, 30.0), (np.pi, 2.0, 250.0)]):
+            s = SelfAffine(hurst=0.8, q0=q0, q1=q1, C0=truth.C0, q_rolloff=5.0)
+            h = surface.synthesise(s, n=256, length=length, seed=100 * trial + k)
+            h = h * np.exp(0.1 * np.random.default_rng(10 * trial + k).normal())
+            step = length / 256
+            pair.append(instrument_spectrum.analyse(Topography(h, step, step, f"scan {k}"), "none"))
+        pairs.append(pair)
+    return truth, pairs
+
+
+def test_stitched_spectrum_covers_its_truth(scans):
+    truth, pairs = scans
+    fits = [stitching.stitch(pair).spectrum.fit for pair in pairs]
+    hurst = np.array([(fit.hurst - 0.8) / fit.hurst_se for fit in fits])
+    c0 = np.array([np.log(fit.c0 / truth.C0) * fit.c0 / fit.c0_se for fit in fits])
+    # Twelve values of unit variance have a standard deviation of 1 ± 0.2; offsets are judged from
+    # one pair each and never below their own error, which makes the errors rather large.
+    for z in (hurst, c0):
+        assert 0.4 < np.sqrt(np.mean(z**2)) < 1.5
+
+
+def test_stitching_reaches_from_the_lowest_to_the_highest(scans):
+    _, pairs = scans
+    whole = stitching.stitch(pairs[0])
+    large, small = pairs[0]
+    assert whole.spectrum.lowest == large.lowest
+    assert whole.spectrum.cutoff.q == pytest.approx(small.cutoff.q, rel=0.1)
+    assert np.isfinite(whole.levels[0]).sum() < len(whole.spectrum.rings)
+    np.testing.assert_allclose(whole.shares.sum(0), 1, rtol=1e-12)
+
+
+def test_rings_of_one_measurement_alone_are_its_own(scans):
+    _, pairs = scans
+    whole = stitching.stitch(pairs[1])
+    alone = np.isfinite(whole.levels[0]) & ~np.isfinite(whole.levels[1])
+    rings = whole.spectrum.rings
+    assert alone.sum() > 3
+    np.testing.assert_allclose(whole.levels[0][alone], rings.psd[alone], rtol=0.3)
+    lowest = pairs[1][0].narrow
+    assert rings.psd[0] == pytest.approx(lowest.psd[0] * (lowest.q[0] / rings.q[0]) ** 3.6)
+
+
+def test_an_offset_is_seen_and_widens_the_errors(scans):
+    _, pairs = scans
+    large, small = pairs[2]
+    scaled = replace(small, narrow=replace(small.narrow, psd=4 * small.narrow.psd))
+    plain, off = stitching.stitch([large, small]), stitching.stitch([large, scaled])
+    # ln 4 between two, the standard deviation of a difference is sqrt(2) that of each.
+    assert off.scatter == pytest.approx(np.log(4) / np.sqrt(2), abs=2 * plain.scatter + 0.1)
+    assert off.spectrum.fit.hurst_se > 2 * plain.spectrum.fit.hurst_se
+
+
+def test_measurements_that_do_not_overlap_say_nothing_of_their_offset(scans):
+    _, pairs = scans
+    large, small = pairs[0]
+    apart = replace(small, q_min=1.3 * large.cutoff.q)
+    found = stitching.stitch([large, apart])
+    assert np.isnan(found.scatter)
+    assert np.isnan(found.offsets).all()
+
+
+def test_a_map_and_a_profile_can_be_stitched():
+    s, h, dx = patch(n=1024, q1=400.0)
+    plane = instrument_spectrum.analyse(Topography(h[::4, ::4], 4 * dx, 4 * dx, "map").detrended())
+    line = instrument_spectrum.analyse(Profile(h[:, 100], dx, "line").detrended())
+    whole = stitching.stitch([plane, line])
+    assert whole.spectrum.cutoff.q == pytest.approx(line.cutoff.q, rel=0.1)
+    fit = whole.spectrum.fit
+    assert abs(fit.hurst - 0.8) < 3 * fit.hurst_se
+    # Both see the same spectrum, the profile by some tens of modes.
+    assert whole.scatter < 0.5
+
+
+def test_stitching_one_is_refused(scans):
+    with pytest.raises(ValueError, match="two measurements at least, got 1"):
+        stitching.stitch(scans[1][0][:1])
+
+
+# Moments and their errors
+
+
+def test_draws_scatter_about_the_moments_of_the_surface():
+    s = SelfAffine(hurst=0.8, q0=1.0, q1=60.0, h_rms=1.0, q_rolloff=4.0)
+    length, n = 4 * np.pi, 512
+    h = surface.synthesise(s, n=n, length=length, seed=4)
+    found = instrument_spectrum.analyse(Topography(h, length / n, length / n, "here"), "none")
+    drawn = spectrum_draws.draw(found, 400, seed=1)
+    # A periodic surface keeps its variance whatever the spectrum estimated from it.
+    assert np.mean(drawn.moments["h_rms"] ** 2) == pytest.approx(np.var(h), rel=0.02)
+    inside = s.truncated(found.cutoff.q)
+    assert np.mean(drawn.moments["rms_slope"]) == pytest.approx(inside.rms_slope, rel=0.05)
+    assert np.mean(drawn.moments["elastic_energy"]) == pytest.approx(
+        inside.elastic_energy(), rel=0.1
+    )
+    # The relative error of the variance is that of its rings, 1/dof each.
+    share = found.rings.psd * found.area
+    expected = np.sqrt(np.sum(share**2 / found.rings.dof)) / share.sum()
+    spread = np.std(drawn.moments["h_rms"] ** 2) / np.mean(drawn.moments["h_rms"] ** 2)
+    assert spread == pytest.approx(expected, rel=0.15)
+    # The end of the plateau is drawn with the error of its fit.
+    fit = found.fit
+    assert np.std(np.log(drawn.q0)) == pytest.approx(fit.q_rolloff_se / fit.q_rolloff, rel=0.15)
+
+
+def test_without_a_plateau_q0_is_that_of_the_scan():
+    _, h, dx = patch()
+    found = instrument_spectrum.analyse(Topography(h, dx, dx, "here").detrended())
+    assert found.fit.q_rolloff is None
+    np.testing.assert_array_equal(spectrum_draws.draw(found, 5, seed=1).q0, found.lowest)
+
+
+def test_law_carried_on_adds_its_waves_and_their_uncertainty():
+    _, h, dx = patch()
+    found = instrument_spectrum.analyse(Topography(h, dx, dx, "here").detrended())
+    end = 100 * found.cutoff.q
+    plain = spectrum_draws.draw(found, 400, seed=1).moments
+    more = spectrum_draws.draw(found, 400, seed=1, extend_to=end).moments
+    law = found.fit.spectrum(found.cutoff.q, end)
+    added = np.median(more["rms_slope"] ** 2) - np.median(plain["rms_slope"] ** 2)
+    assert added == pytest.approx(law.rms_slope**2, rel=0.15)
+    assert np.median(more["h_rms"]) == pytest.approx(np.median(plain["h_rms"]), rel=0.02)
+
+    def error(drawn, name):
+        return np.std(np.log(drawn[name]))
+
+    assert error(more, "rms_curvature") > 2 * error(plain, "rms_curvature")
+
+
+def test_law_that_cannot_be_carried_on():
+    _, h, dx = patch()
+    found = instrument_spectrum.analyse(Topography(h, dx, dx, "here").detrended())
+    with pytest.raises(ValueError, match="extend_to must be below the shortest wavelength"):
+        spectrum_draws.draw(found, 5, seed=1, extend_to=0.5 * found.cutoff.q)
+    smooth = replace(found, fit=replace(found.fit, hurst=1.4))
+    with pytest.raises(ValueError, match=r"H = 1\.40 is no self-affine"):
+        spectrum_draws.draw(smooth, 5, seed=1, extend_to=2 * found.cutoff.q)
+
+
+def test_the_same_seed_draws_the_same(scans):
+    whole = stitching.stitch(scans[1][0])
+    first, again = (
+        spectrum_draws.draw(whole.spectrum, 20, seed=3, stitched=whole).moments["h_rms"]
+        for _ in range(2)
+    )
+    np.testing.assert_array_equal(first, again)
+    assert np.std(first) > 0

@@ -1,0 +1,114 @@
+"""Documentation that can go stale: reference of the configuration, links, the example."""
+
+import importlib.util
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+import yaml
+
+ROOT = Path(__file__).parents[2]
+
+
+def script_of_docs(name):
+    spec = importlib.util.spec_from_file_location(name, ROOT / f"docs/{name}.py")
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+@pytest.fixture(scope="module")
+def write_config():
+    return script_of_docs("write_config")
+
+
+def test_every_key_is_described(write_config):
+    assert write_config.undescribed() == []
+
+
+def test_reference_of_the_configuration_is_up_to_date(write_config):
+    text = (ROOT / "docs/config.md").read_text(encoding="utf-8")
+    assert text == write_config.reference(), "run: python docs/write_config.py"
+
+
+def leaves(value, path=""):
+    if isinstance(value, dict):
+        for key, inner in value.items():
+            yield from leaves(inner, f"{path}.{key}" if path else str(key))
+    else:
+        yield path
+
+
+def test_reference_knows_every_key_in_use(write_config):
+    """Keys of config.yaml, found by the schemas' patterns: none is missed by the walk."""
+    known = re.findall(r"^\| \**`([^`]+)`", write_config.section("config"), re.M)
+    patterns = [re.compile(re.escape(key).replace(r"\*", r"[A-Za-z0-9._-]+")) for key in known]
+    config = yaml.safe_load((ROOT / "config/config.yaml").read_text(encoding="utf-8"))
+    grid = re.compile(r"\.(minimum|maximum|per_decade)$")
+    for path in leaves(config):
+        assert any(p.fullmatch(path) or p.fullmatch(grid.sub("", path)) for p in patterns), path
+
+
+@pytest.mark.parametrize("page", ["README.md", *(f"docs/{p.name}" for p in ROOT.glob("docs/*.md"))])
+def test_links_between_pages_lead_somewhere(page):
+    text = (ROOT / page).read_text(encoding="utf-8")
+    for target in re.findall(r"\]\(([^)#\s]+)(?:#[^)]*)?\)", text):
+        if not target.startswith(("https://", "http://")):
+            assert ((ROOT / page).parent / target).exists(), f"{page}: {target}"
+
+
+def test_library_example_runs(tmp_path):
+    done = subprocess.run(
+        [sys.executable, ROOT / "examples/library.py"],
+        cwd=tmp_path,
+        env={"PYTHONPATH": str(ROOT / "scripts"), "OMP_NUM_THREADS": "1", "PATH": ""},
+        capture_output=True,
+        text=True,
+        check=False,
+        timeout=120,
+    )
+    assert done.returncode == 0, done.stderr
+    found = dict(line.split(" = ", 1) for line in done.stdout.splitlines() if " = " in line)
+    area, theory = (float(found[name].split()[0]) for name in ("contact area", "area by theory"))
+    assert area == pytest.approx(theory, rel=0.3)
+    assert 2 * 0.065 / 3 < area < 0.065 * 3
+    assert float(found["a_V"].split()[0]) > 1
+    assert "sticky" in done.stdout
+
+
+def test_tutorial_can_be_walked():
+    text = (ROOT / "docs/tutorial.md").read_text(encoding="utf-8")
+    steps = script_of_docs("walk_tutorial").steps(text)
+    assert steps[0][1].startswith("make install\n")
+    commands = [step for _, step in steps if step]
+    assert "".join(commands).count("```") == 0
+    assert sum("snakemake -j2 results/draft/report" in step for step in commands) >= 3
+    for step in commands:
+        done = subprocess.run(["bash", "-nc", step], capture_output=True, text=True, check=False)
+        assert done.returncode == 0, done.stderr
+
+
+def test_version_is_the_same_everywhere():
+    from stickiness import __version__
+
+    citation = yaml.safe_load((ROOT / "CITATION.cff").read_text(encoding="utf-8"))
+    project = (ROOT / "pyproject.toml").read_text(encoding="utf-8")
+    assert citation["version"] == __version__
+    assert f'version = "{__version__}"' in project
+    # What the citation file format asks for.
+    assert {"cff-version", "message", "title", "authors"} <= citation.keys()
+
+
+def test_changelog_keeps_its_form():
+    text = (ROOT / "CHANGELOG.md").read_text(encoding="utf-8")
+    headings = re.findall(r"^### (.*)$", text, re.M)
+    assert set(headings) <= {"Added", "Changed", "Deprecated", "Removed", "Fixed", "Security"}
+    assert re.findall(r"^## (.*)$", text, re.M)[0].startswith("Unreleased")
+
+
+def test_metadata_of_the_catalog():
+    catalog = yaml.safe_load((ROOT / ".snakemake-workflow-catalog.yml").read_text(encoding="utf-8"))
+    assert catalog["usage"]["software-stack-deployment"]["conda"] is True
+    assert catalog["usage"]["report"] is True
