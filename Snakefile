@@ -18,7 +18,7 @@ report: "report/workflow.rst"
 
 include: "rules/common.smk"
 include: "rules/surfaces.smk"
-include: "rules/bem.smk"
+include: "rules/contact.smk"
 include: "rules/persson.smk"
 include: "rules/fits.smk"
 include: "rules/adhesion.smk"
@@ -126,7 +126,7 @@ rule surfaces:
 
 rule dmt_error:
     input:
-        f"{RESULTS}/adhesive/dmt_error.csv",
+        f"{RESULTS}/adhesion/dmt_error.csv",
 
 
 rule claims:

@@ -7,10 +7,10 @@ rule adhesion_dmt:
         library=library_of("adhesion/adhesion_dmt.py"),
         laws=config["tradeoff"]["table"],
         ensemble=lambda wildcards: (
-            f"{RESULTS}/ensembles/{ADHESION[wildcards.adhesion]['case']}.nc"
+            f"{RESULTS}/contact/ensembles/{ADHESION[wildcards.adhesion]['case']}.nc"
         ),
     output:
-        f"{RESULTS}/adhesion/{{adhesion}}.nc",
+        f"{RESULTS}/adhesion/dmt/{{adhesion}}.nc",
     log:
         f"{LOGS}/adhesion_dmt/{{adhesion}}.log",
     benchmark:
@@ -32,7 +32,7 @@ rule solve_adhesive:
         library=library_of("adhesion/solve_adhesive.py"),
         surface=lambda wildcards: surface_of(adhesive_case(wildcards)),
     output:
-        f"{RESULTS}/adhesive/{{adhesion}}/seed{{seed}}.nc",
+        f"{RESULTS}/adhesion/full/{{adhesion}}/seed{{seed}}.nc",
     log:
         f"{LOGS}/solve_adhesive/{{adhesion}}/seed{{seed}}.log",
     benchmark:
@@ -52,13 +52,13 @@ rule solve_adhesive:
 rule average_adhesive:
     input:
         library=library_of("adhesion/average_adhesive.py"),
-        limit=f"{RESULTS}/adhesion/{{adhesion}}.nc",
+        limit=f"{RESULTS}/adhesion/dmt/{{adhesion}}.nc",
         ensemble=lambda wildcards: (
-            f"{RESULTS}/ensembles/{ADHESION[wildcards.adhesion]['case']}.nc"
+            f"{RESULTS}/contact/ensembles/{ADHESION[wildcards.adhesion]['case']}.nc"
         ),
         realisations=adhesive_realisations,
     output:
-        f"{RESULTS}/adhesive/{{adhesion}}.nc",
+        f"{RESULTS}/adhesion/full/{{adhesion}}.nc",
     log:
         f"{LOGS}/average_adhesive/{{adhesion}}.log",
     benchmark:
@@ -76,14 +76,14 @@ rule average_adhesive:
 rule compare_edges:
     input:
         library=library_of("adhesion/compare_edges.py"),
-        averages=f"{RESULTS}/adhesive/{{adhesion}}.nc",
+        averages=f"{RESULTS}/adhesion/full/{{adhesion}}.nc",
         realisations=adhesive_realisations,
         alone=lambda wildcards: [
-            f"{RESULTS}/bem/{ADHESION[wildcards.adhesion]['case']}/{os.path.basename(path)}"
+            f"{RESULTS}/contact/{ADHESION[wildcards.adhesion]['case']}/{os.path.basename(path)}"
             for path in adhesive_realisations(wildcards)
         ],
     output:
-        f"{RESULTS}/fits/edges/{{adhesion}}.nc",
+        f"{RESULTS}/adhesion/edges/{{adhesion}}.nc",
     log:
         f"{LOGS}/compare_edges/{{adhesion}}.log",
     benchmark:
@@ -100,9 +100,9 @@ rule compare_edges:
 rule tabulate_dmt_error:
     input:
         library=library_of("adhesion/tabulate_dmt_error.py"),
-        adhesive=[f"{RESULTS}/adhesive/{name}.nc" for name in ("dmt_error", "dmt_error_zeta128")],
+        adhesive=[f"{RESULTS}/adhesion/full/{name}.nc" for name in ("dmt_error", "dmt_error_zeta128")],
     output:
-        f"{RESULTS}/adhesive/dmt_error.csv",
+        f"{RESULTS}/adhesion/dmt_error.csv",
     log:
         f"{LOGS}/tabulate_dmt_error.log",
     benchmark:
@@ -120,7 +120,7 @@ rule adhesive_maps:
         library=library_of("adhesion/adhesive_maps.py"),
         surface=lambda wildcards: surface_of(adhesive_case(wildcards)).format(seed=1),
     output:
-        f"{RESULTS}/adhesive/{{adhesion}}/maps.nc",
+        f"{RESULTS}/adhesion/full/{{adhesion}}/maps.nc",
     log:
         f"{LOGS}/adhesive_maps/{{adhesion}}.log",
     benchmark:
@@ -143,7 +143,7 @@ rule follow_loop:
             f"{RESULTS}/surfaces/{LOOPS[wildcards.loop]['surface']}/seed1.nc"
         ),
     output:
-        f"{RESULTS}/loops/{{loop}}.nc",
+        f"{RESULTS}/adhesion/loops/{{loop}}.nc",
     log:
         f"{LOGS}/follow_loop/{{loop}}.log",
     benchmark:

@@ -149,7 +149,7 @@ def realisations(wildcards):
 def realisations_of(case, settings):
     """Files of so many realisations of a case, which it may share with an earlier one."""
     seeds = range(1, settings.seeds + 1)
-    return [f"{RESULTS}/bem/{PLANS[case].owner}/seed{seed}.nc" for seed in seeds]
+    return [f"{RESULTS}/contact/{PLANS[case].owner}/seed{seed}.nc" for seed in seeds]
 
 
 def coarse_solutions(wildcards):
@@ -165,9 +165,9 @@ def coarse_files(case, settings):
         return []
     if case in DRAWN:
         folder = own.owner if own.owner in DRAWN else case
-        return [f"{RESULTS}/bem/{folder}/coarse+{rung}.nc" for rung in plan.rungs(count)]
+        return [f"{RESULTS}/contact/{folder}/coarse+{rung}.nc" for rung in plan.rungs(count)]
     same = own.owner not in DRAWN and first.settings.coarse_seeds == count
-    return [f"{RESULTS}/bem/{own.owner if same else case}/coarse.nc"]
+    return [f"{RESULTS}/contact/{own.owner if same else case}/coarse.nc"]
 
 
 def coarse_range(wildcards):
@@ -241,12 +241,12 @@ def behind_answer(wildcards):
     """Files that what a case asks for rests on, and no others."""
     case, planned = wildcards.case, PLANS[wildcards.case]
     if not planned.simulated:
-        return {"solved": f"{RESULTS}/persson_lattice/{case}.nc"}
-    files = {"solved": f"{RESULTS}/ensembles/{case}.nc"}
+        return {"solved": f"{RESULTS}/persson/lattice/{case}.nc"}
+    files = {"solved": f"{RESULTS}/contact/ensembles/{case}.nc"}
     if case in DRAWN:
         files["drawn"] = drawn(case)[1]
     if "a_v" in planned.quantities:
-        files["a_v"] = f"{RESULTS}/fits/ensembles/{case}.nc"
+        files["a_v"] = f"{RESULTS}/fits/a_v/ensembles/{case}.nc"
     if "kappa" in planned.quantities:
         files["kappa"] = f"{RESULTS}/fits/kappa/{case}.nc"
     return files
@@ -295,13 +295,13 @@ def adhesive_realisations(wildcards):
     asked = ADHESION[wildcards.adhesion]
     most = asked.get("seeds", 10**9)
     seeds = [seed for seed in seeds_of(asked["case"]) if seed <= most]
-    return [f"{RESULTS}/adhesive/{wildcards.adhesion}/seed{seed}.nc" for seed in seeds]
+    return [f"{RESULTS}/adhesion/full/{wildcards.adhesion}/seed{seed}.nc" for seed in seeds]
 
 
 def simulated_edges():
     """Attraction at the edges of contact, for every set of parameters with full simulation."""
     names = [name for name in ADHESION if adhesive_realisations(SimpleNamespace(adhesion=name))]
-    return [f"{RESULTS}/fits/edges/{name}.nc" for name in names]
+    return [f"{RESULTS}/adhesion/edges/{name}.nc" for name in names]
 
 
 def topography_files(wildcards):
@@ -321,7 +321,7 @@ def measured_files(name):
 def pressed_heights(wildcards):
     """Contact of the measured heights of a surface, if it is asked for."""
     asked = "bem" in REAL_SURFACES[wildcards.real_surface]
-    return [f"{RESULTS}/bem_measured/{wildcards.real_surface}.nc"] if asked else []
+    return [f"{RESULTS}/real_surfaces/contact/{wildcards.real_surface}.nc"] if asked else []
 
 
 def data_of(rule_name):
@@ -334,8 +334,8 @@ def a_v_inputs():
     case = config["criteria"]["a_v"]["case"]
     return {
         "a_v": config["criteria"]["a_v"]["measured"],
-        "lattice": f"{RESULTS}/fits/persson_lattice/{case}.nc",
-        "theory": f"{RESULTS}/fits/persson/fig3c.nc",
+        "lattice": f"{RESULTS}/fits/a_v/lattice/{case}.nc",
+        "theory": f"{RESULTS}/fits/a_v/sweeps/fig3c.nc",
     }
 
 
@@ -345,24 +345,24 @@ def ledger_inputs():
         "kappa_64": f"{RESULTS}/fits/kappa/H0.8_zeta64.nc",
         "kappa_128": f"{RESULTS}/fits/kappa/H0.8_zeta128.nc",
         "kappa_wide": f"{RESULTS}/fits/kappa/H0.8_zeta32_wide.nc",
-        "lattice_wide": f"{RESULTS}/persson_lattice/H0.8_zeta32_wide.nc",
-        "fit_lattice_128": f"{RESULTS}/fits/persson_lattice/H0.8_zeta128.nc",
-        "ensemble_wide": f"{RESULTS}/ensembles/H0.8_zeta32_wide.nc",
-        "fit_bem_wide": f"{RESULTS}/fits/ensembles/H0.8_zeta32_wide.nc",
-        "fit_bem_64": f"{RESULTS}/fits/ensembles/H0.8_zeta64.nc",
-        "fit_bem_128": f"{RESULTS}/fits/ensembles/H0.8_zeta128.nc",
-        **{f"fig{n}": f"{RESULTS}/persson/fig{n}.nc" for n in ("1b", "3a", "3b", "3c", "3d")},
-        **{f"fit_fig{n}": f"{RESULTS}/fits/persson/fig{n}.nc" for n in ("3a", "3c", "3d")},
-        "loop": f"{RESULTS}/loops/fig4a.nc",
-        "adhesive_fig2": f"{RESULTS}/adhesive/fig2.nc",
-        "adhesive_rough": f"{RESULTS}/adhesive/fig4b_rough.nc",
-        "adhesive_smooth": f"{RESULTS}/adhesive/fig4b_smooth.nc",
-        "adhesion_fig2": f"{RESULTS}/adhesion/fig2.nc",
-        "adhesion_rough": f"{RESULTS}/adhesion/fig4b_rough.nc",
-        "adhesion_smooth": f"{RESULTS}/adhesion/fig4b_smooth.nc",
+        "lattice_wide": f"{RESULTS}/persson/lattice/H0.8_zeta32_wide.nc",
+        "fit_lattice_128": f"{RESULTS}/fits/a_v/lattice/H0.8_zeta128.nc",
+        "ensemble_wide": f"{RESULTS}/contact/ensembles/H0.8_zeta32_wide.nc",
+        "fit_bem_wide": f"{RESULTS}/fits/a_v/ensembles/H0.8_zeta32_wide.nc",
+        "fit_bem_64": f"{RESULTS}/fits/a_v/ensembles/H0.8_zeta64.nc",
+        "fit_bem_128": f"{RESULTS}/fits/a_v/ensembles/H0.8_zeta128.nc",
+        **{f"fig{n}": f"{RESULTS}/persson/sweeps/fig{n}.nc" for n in ("1b", "3a", "3b", "3c", "3d")},
+        **{f"fit_fig{n}": f"{RESULTS}/fits/a_v/sweeps/fig{n}.nc" for n in ("3a", "3c", "3d")},
+        "loop": f"{RESULTS}/adhesion/loops/fig4a.nc",
+        "adhesive_fig2": f"{RESULTS}/adhesion/full/fig2.nc",
+        "adhesive_rough": f"{RESULTS}/adhesion/full/fig4b_rough.nc",
+        "adhesive_smooth": f"{RESULTS}/adhesion/full/fig4b_smooth.nc",
+        "adhesion_fig2": f"{RESULTS}/adhesion/dmt/fig2.nc",
+        "adhesion_rough": f"{RESULTS}/adhesion/dmt/fig4b_rough.nc",
+        "adhesion_smooth": f"{RESULTS}/adhesion/dmt/fig4b_smooth.nc",
         "map": f"{RESULTS}/criteria/map.nc",
         "asphalt": f"{RESULTS}/real_surfaces/asphalt.nc",
-        "asphalt_theory": f"{RESULTS}/persson_surface/asphalt.nc",
+        "asphalt_theory": f"{RESULTS}/persson/surfaces/asphalt.nc",
         "polished_steel": f"{RESULTS}/real_surfaces/polished_steel.nc",
         "surfaces": [f"{RESULTS}/real_surfaces/{name}.nc" for name in REAL_SURFACES],
         "seeds": [

@@ -51,7 +51,7 @@ rule judge:
         library=library_of("criteria/judge.py"),
         surfaces=expand(f"{RESULTS}/real_surfaces/{{real_surface}}.nc", real_surface=REAL_SURFACES),
         theories=expand(
-            f"{RESULTS}/persson_surface/{{real_surface}}.nc", real_surface=REAL_SURFACES
+            f"{RESULTS}/persson/surfaces/{{real_surface}}.nc", real_surface=REAL_SURFACES
         ),
     output:
         dataset=f"{RESULTS}/criteria/verdicts.nc",
@@ -80,7 +80,7 @@ rule judge:
 rule record_a_v:
     input:
         library=library_of("criteria/record_a_v.py"),
-        a_v=f"{RESULTS}/fits/ensembles/{config['criteria']['a_v']['case']}.nc",
+        a_v=f"{RESULTS}/fits/a_v/ensembles/{config['criteria']['a_v']['case']}.nc",
     output:
         f"{RESULTS}/criteria/a_v.csv",
     log:

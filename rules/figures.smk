@@ -7,10 +7,10 @@ FIGURE_2_CASES = ["H0.8_zeta32", "H0.8_zeta64", "H0.8_zeta128"]
 rule plot_fig1:
     input:
         library=library_of("figures/plot_fig1.py"),
-        density=f"{RESULTS}/persson/fig1a.nc",
-        convergence=f"{RESULTS}/persson/fig1b.nc",
-        ensemble=f"{RESULTS}/ensembles/H0.8_zeta64.nc",
-        lattice=f"{RESULTS}/persson_lattice/H0.8_zeta64.nc",
+        density=f"{RESULTS}/persson/sweeps/fig1a.nc",
+        convergence=f"{RESULTS}/persson/sweeps/fig1b.nc",
+        ensemble=f"{RESULTS}/contact/ensembles/H0.8_zeta64.nc",
+        lattice=f"{RESULTS}/persson/lattice/H0.8_zeta64.nc",
     output:
         png=report(
             f"{RESULTS}/figures/fig1.png",
@@ -34,12 +34,12 @@ rule plot_fig2:
     input:
         library=library_of("figures/plot_fig2.py"),
         kappa=expand(f"{RESULTS}/fits/kappa/{{case}}.nc", case=FIGURE_2_CASES),
-        ensembles=expand(f"{RESULTS}/ensembles/{{case}}.nc", case=FIGURE_2_CASES),
-        lattices=expand(f"{RESULTS}/persson_lattice/{{case}}.nc", case=FIGURE_2_CASES),
-        maps=f"{RESULTS}/bem/H0.8_zeta64/maps.nc",
-        adhesion=f"{RESULTS}/adhesion/fig2.nc",
-        adhesive=f"{RESULTS}/adhesive/fig2.nc",
-        adhesive_maps=f"{RESULTS}/adhesive/fig2/maps.nc",
+        ensembles=expand(f"{RESULTS}/contact/ensembles/{{case}}.nc", case=FIGURE_2_CASES),
+        lattices=expand(f"{RESULTS}/persson/lattice/{{case}}.nc", case=FIGURE_2_CASES),
+        maps=f"{RESULTS}/contact/H0.8_zeta64/maps.nc",
+        adhesion=f"{RESULTS}/adhesion/dmt/fig2.nc",
+        adhesive=f"{RESULTS}/adhesion/full/fig2.nc",
+        adhesive_maps=f"{RESULTS}/adhesion/full/fig2/maps.nc",
     output:
         png=report(
             f"{RESULTS}/figures/fig2.png",
@@ -62,11 +62,11 @@ rule plot_fig2:
 rule plot_fig3:
     input:
         library=library_of("figures/plot_fig3.py"),
-        sweeps=expand(f"{RESULTS}/persson/fig3{{panel}}.nc", panel=list("abcd")),
-        fits=expand(f"{RESULTS}/fits/persson/fig3{{panel}}.nc", panel=list("abcd")),
-        bem=expand(f"{RESULTS}/ensembles/{{case}}.nc", case=COMPLETE),
-        bem_fits=expand(f"{RESULTS}/fits/ensembles/{{case}}.nc", case=COMPLETE),
-        lattice_fits=expand(f"{RESULTS}/fits/persson_lattice/{{case}}.nc", case=COMPLETE),
+        sweeps=expand(f"{RESULTS}/persson/sweeps/fig3{{panel}}.nc", panel=list("abcd")),
+        fits=expand(f"{RESULTS}/fits/a_v/sweeps/fig3{{panel}}.nc", panel=list("abcd")),
+        bem=expand(f"{RESULTS}/contact/ensembles/{{case}}.nc", case=COMPLETE),
+        bem_fits=expand(f"{RESULTS}/fits/a_v/ensembles/{{case}}.nc", case=COMPLETE),
+        lattice_fits=expand(f"{RESULTS}/fits/a_v/lattice/{{case}}.nc", case=COMPLETE),
     output:
         png=report(
             f"{RESULTS}/figures/fig3.png",
@@ -89,10 +89,10 @@ rule plot_fig3:
 rule plot_fig4:
     input:
         library=library_of("figures/plot_fig4.py"),
-        loop=f"{RESULTS}/loops/fig4a.nc",
-        rough=f"{RESULTS}/adhesive/fig4b_rough.nc",
-        smooth=f"{RESULTS}/adhesive/fig4b_smooth.nc",
-        a_v=[f"{RESULTS}/fits/ensembles/{case}.nc" for case in ("H0.8_zeta64", "H0.8_zeta128")],
+        loop=f"{RESULTS}/adhesion/loops/fig4a.nc",
+        rough=f"{RESULTS}/adhesion/full/fig4b_rough.nc",
+        smooth=f"{RESULTS}/adhesion/full/fig4b_smooth.nc",
+        a_v=[f"{RESULTS}/fits/a_v/ensembles/{case}.nc" for case in ("H0.8_zeta64", "H0.8_zeta128")],
     output:
         png=report(
             f"{RESULTS}/figures/fig4.png",
@@ -163,7 +163,7 @@ rule plot_fig6:
 rule plot_fig7:
     input:
         library=library_of("figures/plot_fig7.py"),
-        adhesive=f"{RESULTS}/adhesive/dmt_error.nc",
+        adhesive=f"{RESULTS}/adhesion/full/dmt_error.nc",
     output:
         png=report(
             f"{RESULTS}/figures/fig7.png",

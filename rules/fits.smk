@@ -1,20 +1,27 @@
 # a_V and kappa_rep from simulation and theory, with their errors and window sensitivity, what
 # separates theory from simulation, and what each case asks for with the sources of its errors.
 
+# Where the attractive areas behind a fit of a_V come from.
+A_V_SOURCES = {
+    "ensembles": "contact/ensembles",
+    "sweeps": "persson/sweeps",
+    "lattice": "persson/lattice",
+}
+
 
 rule fit_a_v:
     input:
         library=library_of("fits/fit_a_v.py"),
         laws=config["tradeoff"]["table"],
-        areas=f"{RESULTS}/{{source}}/{{name}}.nc",
+        areas=lambda wildcards: f"{RESULTS}/{A_V_SOURCES[wildcards.source]}/{wildcards.name}.nc",
     output:
-        f"{RESULTS}/fits/{{source}}/{{name}}.nc",
+        f"{RESULTS}/fits/a_v/{{source}}/{{name}}.nc",
     log:
         f"{LOGS}/fit_a_v/{{source}}/{{name}}.log",
     benchmark:
         f"{BENCHMARKS}/fit_a_v/{{source}}/{{name}}.tsv"
     wildcard_constraints:
-        source="ensembles|persson|persson_lattice",
+        source="|".join(A_V_SOURCES),
         name="[^/]+",
     conda:
         "../envs/environment.yaml"
@@ -30,8 +37,8 @@ rule fit_kappa:
     input:
         library=library_of("fits/fit_kappa.py"),
         laws=config["tradeoff"]["table"],
-        ensemble=f"{RESULTS}/ensembles/{{case}}.nc",
-        theory=f"{RESULTS}/persson_lattice/{{case}}.nc",
+        ensemble=f"{RESULTS}/contact/ensembles/{{case}}.nc",
+        theory=f"{RESULTS}/persson/lattice/{{case}}.nc",
     output:
         f"{RESULTS}/fits/kappa/{{case}}.nc",
     log:
@@ -49,8 +56,8 @@ rule fit_kappa:
 rule compare_theory:
     input:
         library=library_of("fits/compare_theory.py"),
-        ensemble=f"{RESULTS}/ensembles/{{compared}}.nc",
-        theory=f"{RESULTS}/persson_lattice/{{compared}}.nc",
+        ensemble=f"{RESULTS}/contact/ensembles/{{compared}}.nc",
+        theory=f"{RESULTS}/persson/lattice/{{compared}}.nc",
     output:
         f"{RESULTS}/fits/theory/{{compared}}.nc",
     log:
@@ -108,7 +115,7 @@ rule tabulate_a_v:
 rule fit_gamma:
     input:
         library=library_of("fits/fit_gamma.py"),
-        ensembles=expand(f"{RESULTS}/ensembles/{{compared}}.nc", compared=SIMULATED),
+        ensembles=expand(f"{RESULTS}/contact/ensembles/{{compared}}.nc", compared=SIMULATED),
         comparisons=expand(f"{RESULTS}/fits/theory/{{compared}}.nc", compared=SIMULATED),
     output:
         f"{RESULTS}/fits/gamma.nc",

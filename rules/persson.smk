@@ -7,7 +7,7 @@ rule persson_sweep:
         library=library_of("persson/persson_sweep.py"),
         laws=config["tradeoff"]["table"],
     output:
-        f"{RESULTS}/persson/{{sweep}}.nc",
+        f"{RESULTS}/persson/sweeps/{{sweep}}.nc",
     log:
         f"{LOGS}/persson_sweep/{{sweep}}.log",
     benchmark:
@@ -30,7 +30,7 @@ rule persson_lattice:
         library=library_of("persson/persson_lattice.py"),
         laws=config["tradeoff"]["table"],
     output:
-        f"{RESULTS}/persson_lattice/{{compared}}.nc",
+        f"{RESULTS}/persson/lattice/{{compared}}.nc",
     log:
         f"{LOGS}/persson_lattice/{{compared}}.log",
     benchmark:
@@ -55,7 +55,7 @@ rule persson_surface:
         laws=config["tradeoff"]["table"],
         surface=f"{RESULTS}/real_surfaces/{{real_surface}}.nc",
     output:
-        f"{RESULTS}/persson_surface/{{real_surface}}.nc",
+        f"{RESULTS}/persson/surfaces/{{real_surface}}.nc",
     log:
         f"{LOGS}/persson_surface/{{real_surface}}.log",
     benchmark:

@@ -27,7 +27,7 @@ rule contact_measured:
         surface=f"{RESULTS}/real_surfaces/{{real_surface}}.nc",
         topographies=topography_files,
     output:
-        f"{RESULTS}/bem_measured/{{real_surface}}.nc",
+        f"{RESULTS}/real_surfaces/contact/{{real_surface}}.nc",
     log:
         f"{LOGS}/contact_measured/{{real_surface}}.log",
     benchmark:

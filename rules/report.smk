@@ -33,7 +33,7 @@ rule write_report:
         captions=expand("report/{figure}.rst", figure=FIGURES),
         claims=f"{RESULTS}/claims/claims.nc",
         verdicts=f"{RESULTS}/criteria/verdicts.nc",
-        ensembles=expand(f"{RESULTS}/ensembles/{{case}}.nc", case=COMPLETE),
+        ensembles=expand(f"{RESULTS}/contact/ensembles/{{case}}.nc", case=COMPLETE),
         comparisons=expand(f"{RESULTS}/fits/theory/{{case}}.nc", case=COMPLETE),
         surfaces=expand(f"{RESULTS}/real_surfaces/{{real_surface}}.nc", real_surface=REAL_SURFACES),
         answers=expand(f"{RESULTS}/cases/{{case}}.nc", case=CASES),

@@ -17,7 +17,7 @@ pytestmark = pytest.mark.workflow
 
 RESULTS = "results/tiny"
 SURFACE = f"{RESULTS}/surfaces/H0.9_zeta64/seed1.nc"
-SOLVED = f"{RESULTS}/bem/H0.9_zeta64/seed1.nc"
+SOLVED = f"{RESULTS}/contact/H0.9_zeta64/seed1.nc"
 TINY = ["--configfile", "config/config.yaml", "config/tiny.yaml"]
 
 

@@ -135,9 +135,9 @@ def test_changing_a_module_reruns_the_stages_that_use_it(copy_of_finished, modul
         ("fig3", {"plot_fig3": 1, "solve_repulsive": CASES * SEEDS}, {"analyse_surface", "judge"}),
         ("fig6", {"plot_fig6": 1, "analyse_surface": 7}, {"solve_repulsive", "persson_sweep"}),
         ("claims", {"check_claims": 1}, {"plot_fig1", "write_report"}),
-        ("results/tiny/persson/fig1a.nc", {"persson_sweep": 1}, {"solve_repulsive"}),
+        ("results/tiny/persson/sweeps/fig1a.nc", {"persson_sweep": 1}, {"solve_repulsive"}),
         (
-            "results/tiny/ensembles/H0.9_zeta64.nc",
+            "results/tiny/contact/ensembles/H0.9_zeta64.nc",
             {
                 "synthesise_surface": SEEDS,
                 "solve_repulsive": SEEDS,
@@ -171,13 +171,13 @@ def test_full_adhesion_is_solved_only_where_the_dmt_limit_is_not_good_enough(fre
             "adhesion_length_over_range: [0.001, 0.003], pressures: [0.0065, 0.065], "
             f"law: exponential, {asked}}}\n"
         )
-    planned = fresh.planned("results/tiny/adhesive/mine.nc")
+    planned = fresh.planned("results/tiny/adhesion/full/mine.nc")
     assert planned.get("solve_adhesive", 0) == solved
     assert planned["adhesion_dmt"] == planned["average_adhesive"] == 1
 
 
 def test_a_script_runs_by_hand(copy_of_finished):
-    target = copy_of_finished / "results/tiny/adhesion/fig2.nc"
+    target = copy_of_finished / "results/tiny/adhesion/dmt/fig2.nc"
     before = datasets.read(target)
     target.unlink()
     tiny, config = (copy_of_finished / f"config/{name}.yaml" for name in ("tiny", "config"))

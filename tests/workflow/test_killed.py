@@ -11,7 +11,7 @@ from stickiness.core import datasets
 
 pytestmark = pytest.mark.workflow
 
-TARGET = "results/tiny/ensembles/H0.8_zeta64.nc"
+TARGET = "results/tiny/contact/ensembles/H0.8_zeta64.nc"
 TINY = ["--configfile", "config/config.yaml", "config/tiny.yaml"]
 
 

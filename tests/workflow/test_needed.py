@@ -86,7 +86,7 @@ def test_a_case_of_area_alone_runs(fresh):
     assert list(answer.column.values) == ["area", "mean_gap"]
     area = answer.sel(column="area")
     assert (area.value < [0.2, 0.4]).all()
-    ensemble = datasets.read(fresh / "results/tiny/ensembles/mine.nc")
+    ensemble = datasets.read(fresh / "results/tiny/contact/ensembles/mine.nc")
     assert "attractive_area" not in ensemble
     # Finer waves take area away: theory carries it down. Its error is a part of what it takes.
     taken = ensemble.area_fraction_mean.values - area.value.values

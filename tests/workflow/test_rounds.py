@@ -29,7 +29,7 @@ def answered(workflow):
     """Run, and return what was said, the answer, and when each seed's file was written."""
     done = workflow.snakemake(ANSWER)
     assert done.returncode == 0, done.stdout
-    files = (workflow / "results/tiny/bem/mine").glob("*.nc")
+    files = (workflow / "results/tiny/contact/mine").glob("*.nc")
     return (
         done.stdout,
         datasets.read(workflow / ANSWER),

@@ -9,7 +9,7 @@ rule solve_repulsive:
         library=library_of("contact/solve_repulsive.py"),
         surface=surface_of,
     output:
-        f"{RESULTS}/bem/{{case}}/seed{{seed}}.nc",
+        f"{RESULTS}/contact/{{case}}/seed{{seed}}.nc",
     log:
         f"{LOGS}/solve_repulsive/{{case}}/seed{{seed}}.log",
     benchmark:
@@ -34,7 +34,7 @@ rule solve_coarse:
     input:
         library=library_of("contact/solve_coarse.py"),
     output:
-        f"{RESULTS}/bem/{{case}}/coarse{{part}}.nc",
+        f"{RESULTS}/contact/{{case}}/coarse{{part}}.nc",
     log:
         f"{LOGS}/solve_coarse/{{case}}{{part}}.log",
     benchmark:
@@ -87,7 +87,7 @@ rule contact_maps:
         library=library_of("contact/contact_maps.py"),
         surface=lambda wildcards: surface_of(wildcards).format(seed=1),
     output:
-        f"{RESULTS}/bem/{{case}}/maps.nc",
+        f"{RESULTS}/contact/{{case}}/maps.nc",
     log:
         f"{LOGS}/contact_maps/{{case}}.log",
     benchmark:
@@ -111,7 +111,7 @@ rule average_ensemble:
         realisations=realisations,
         coarse=coarse_solutions,
     output:
-        f"{RESULTS}/ensembles/{{case}}.nc",
+        f"{RESULTS}/contact/ensembles/{{case}}.nc",
     log:
         f"{LOGS}/average_ensemble/{{case}}.log",
     benchmark:
@@ -132,7 +132,7 @@ rule solve_ensemble:
         library=library_of("contact/solve_ensemble.py"),
         laws=config["tradeoff"]["table"],
     output:
-        f"{RESULTS}/ensembles/{{comparison}}.nc",
+        f"{RESULTS}/contact/ensembles/{{comparison}}.nc",
     log:
         f"{LOGS}/solve_ensemble/{{comparison}}.log",
     benchmark:
