@@ -95,18 +95,3 @@ def test_a_case_of_area_alone_runs(fresh):
     assert ((bandwidth > 0.2 * taken) & (bandwidth < taken)).all(), bandwidth / taken
     # Magnification 8 is below what was measured.
     assert (answer.extrapolated == 1).all()
-
-
-def test_a_broad_spectrum_is_cut_for_what_hardly_feels_it(fresh):
-    """Theory adds what magnifications above 32 or 64 change of the mean gap, not of everything."""
-    with (fresh / "config/tiny.yaml").open("a", encoding="utf-8") as file:
-        file.write("model_surfaces:\n  broad: {hurst: 0.8, magnification: 256}\n")
-    case = "{surface: broad, pressures: [0.05], accuracy: 0.2"
-    cases(fresh, f"  gap: {case}, quantities: [mean_gap]}}\n  all: {case}}}\n")
-    listed = {
-        name: fresh.snakemake("-n", f"results/tiny/cases/{name}.nc").stdout
-        for name in ("gap", "all")
-    }
-    assert "surfaces/broad_to" in listed["gap"]
-    assert "surfaces/broad_to" not in listed["all"]
-    assert "surfaces/broad" in listed["all"]
