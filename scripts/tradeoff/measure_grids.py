@@ -82,11 +82,9 @@ def in_single_precision(heights, length, pressure, tolerance):
     """
     h_rms, sides = heights.std(), (1.0, 1.0)
     scaled, load = (heights - heights.mean()) / h_rms, pressure * length / h_rms
-    work = []
-    gap = solver._coarse_gap(scaled, sides, load, work, None)
-    state = active_set.relax(
-        scaled, sides, load, tol=tolerance, max_iterations=1000, gap=gap, rough=True
-    )
+    problem, work = active_set.Problem(scaled, sides, load), []
+    gap = solver.coarse_gap(problem, work)
+    state = active_set.relax(problem, tol=tolerance, max_iterations=1000, gap=gap, rough=True)
     return SimpleNamespace(
         gap=state.gap.astype(float) * h_rms,
         area_fraction=state.area_fraction,

@@ -26,10 +26,12 @@ from stickiness.adhesion.solver import (
     APPROACH,
     SEPARATION,
     Adhesion,
+    Control,
     ConvergenceError,
+    Effort,
     PullOffError,
     Scaled,
-    relaxed,
+    relax_from,
     solve,
 )
 from stickiness.core.arguments import grid, number
@@ -156,7 +158,7 @@ def path(
         first=first,
         scaled=Scaled.of(grid("heights", heights), first.length, law),
         control=control,
-        options={"tol": tol, "max_iterations": max_iterations},
+        effort=Effort(tol, max_iterations),
         balance=balance,
         smallest_jump=max(smallest_jump, balance),
         located=located,
@@ -192,7 +194,7 @@ class _Follower:
     first: Adhesion
     scaled: Scaled
     control: str
-    options: dict
+    effort: Effort
     balance: float
     smallest_jump: float
     located: float
@@ -246,10 +248,10 @@ class _Follower:
         if self.left <= 0:
             raise ConvergenceError("max_states do not suffice for this path: raise it", state)
         self.left -= 1
-        prescribed = {name: value if name == self.control else None for name in _CONTROLS}
-        gap = self.scaled.first_gap(state, prescribed["mean_gap"])
+        prescribed = Control(**{self.control: value})
+        gap = self.scaled.first_gap(state, prescribed.mean_gap)
         try:
-            successor = relaxed(self.scaled, gap, branch, **prescribed, **self.options)
+            successor = relax_from(self.scaled, gap, branch, prescribed, self.effort)
         except PullOffError:
             return None
         if self.logger is not None:

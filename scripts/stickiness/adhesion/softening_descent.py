@@ -14,7 +14,7 @@ Should a round raise the energy or come to nothing, the general descent takes ov
 import numpy as np
 
 from stickiness.adhesion.state import State, evaluate, spans
-from stickiness.contact.preconditioner import beside, rows_of_eight
+from stickiness.contact.preconditioner import average_neighbours, build_neighbour_matrix
 
 __all__ = ["quick_descent", "suits"]
 
@@ -276,8 +276,8 @@ class _Preconditioner:
     def __init__(self, surface, free):
         self.smooth, self.edge = surface.smoother.apply, None
         if not free.all() and free.any():
-            self.band, columns, weights = beside(free.ravel(), free.shape)
-            self.edge = rows_of_eight(weights * np.float32(-_SHARE), columns, free.size)
+            self.band, columns, weights = average_neighbours(free.ravel(), free.shape)
+            self.edge = build_neighbour_matrix(weights * np.float32(-_SHARE), columns, free.size)
             self.transpose = self.edge.T
 
     def __call__(self, force):

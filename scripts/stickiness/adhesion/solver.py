@@ -7,7 +7,7 @@ import numpy as np
 from stickiness.adhesion.equilibrium import relax
 from stickiness.adhesion.problem import Problem, Surface
 from stickiness.adhesion.state import lowered
-from stickiness.contact import solver
+from stickiness.contact.grids import check_length, measure_scale
 from stickiness.contact.solver import ConvergenceError
 from stickiness.core.arguments import grid, integer, number, numbers
 
@@ -168,7 +168,7 @@ def solve(
     1.0
     """
     heights = grid("heights", heights)
-    lengths = solver._check_length(length, heights.shape)
+    lengths = check_length(length, heights.shape)
     tol = number("tol", tol)
     max_iterations = integer("max_iterations", max_iterations, least=1)
     if isinstance(law, type) or not hasattr(law, "evaluate"):
@@ -176,31 +176,61 @@ def solve(
     _check_control(pressure, mean_gap, law)
     scaled = Scaled.of(heights, lengths, law)
     scaled.check_start(start, mean_gap)
-    gap, branch, spent = _first_gap(scaled, start, pressure, mean_gap, tol, max_iterations)
-    return relaxed(
-        scaled,
-        gap,
-        branch,
-        pressure=pressure,
-        mean_gap=mean_gap,
-        tol=tol,
-        max_iterations=max_iterations,
-        logger=logger,
-        spent=spent,
-    )
+    control, effort = Control(pressure, mean_gap), Effort(tol, max_iterations, logger)
+    gap, branch, spent = _find_start(scaled, start, control, effort)
+    return relax_from(scaled, gap, branch, control, effort, spent)
 
 
-def relaxed(
-    scaled, gap, branch, pressure, mean_gap, tol, max_iterations, logger=None, spent=(0, 0)
-):
-    """`Adhesion` from a gap in scaled units; the arguments and errors are those of `solve`.
+@dataclass(frozen=True)
+class Control:
+    """What is prescribed, in the caller's units: one of the two, the other is None."""
 
-    `spent` counts the iterations and convolutions that went into the gap.
+    pressure: float | None = None
+    mean_gap: float | None = None
+
+
+@dataclass(frozen=True)
+class Effort:
+    """When to stop, and who is told the progress: see `solve`."""
+
+    tol: float
+    max_iterations: int
+    logger: object = None
+
+
+def relax_from(scaled, gap, branch, control, effort, spent=(0, 0)):
+    """Find the state that a descent from a gap ends in.
+
+    Parameters
+    ----------
+    scaled : Scaled
+        Surface and law.
+    gap : numpy.ndarray or None
+        Start in scaled units; None stands for loading from afar.
+    branch : str
+        "approach" or "separation".
+    control : Control
+        Mean pressure or mean gap.
+    effort : Effort
+        Tolerance and largest number of iterations.
+    spent : (int, float)
+        Iterations and convolutions that went into the start.
+
+    Returns
+    -------
+    Adhesion
+        In the caller's units; errors are those of `solve`.
     """
     before = scaled.surface.pairs
-    problem = scaled.problem(pressure, mean_gap)
+    problem = scaled.problem(control)
+    pressure, tol = control.pressure, effort.tol
     state, separated = relax(
-        problem, gap, tol, max_iterations, closing=branch == APPROACH, logger=logger
+        problem,
+        gap,
+        tol,
+        effort.max_iterations,
+        closing=branch == APPROACH,
+        logger=effort.logger,
     )
     state.iterations += spent[0]
     pairs = scaled.surface.pairs - before + state.start_pairs + spent[1]
@@ -238,7 +268,7 @@ class Scaled:
     @classmethod
     def of(cls, heights, lengths, law):
         """Scale heights and law."""
-        mean, rms = solver._scale(heights)
+        mean, rms = measure_scale(heights)
         height = rms if rms > 0 else law.range
         scaled = (heights - mean) / height if rms > 0 else np.zeros(heights.shape)
         surface = Surface(scaled, (1.0, lengths[1] / lengths[0]))
@@ -255,8 +285,9 @@ class Scaled:
         """Unit of pressure over E*."""
         return self.height / self.lengths[0]
 
-    def problem(self, pressure=None, mean_gap=None):
+    def problem(self, control):
         """Problem at one value of the control."""
+        pressure, mean_gap = control.pressure, control.mean_gap
         return Problem(
             self.surface,
             self.law,
@@ -337,20 +368,18 @@ class Scaled:
         )
 
 
-def _first_gap(scaled, start, pressure, mean_gap, tol, max_iterations):
-    """Start of the descent, its branch, and iterations and convolutions spent.
-
-    The start is in scaled units, or None for loading from afar.
-    """
-    nothing = (0, 0.0)
+def _find_start(scaled, start, control, effort):
+    """Start of the descent as in `relax_from`, its branch, and what went into it."""
+    nothing, mean_gap = (0, 0.0), control.mean_gap
     if isinstance(start, str) and start == SEPARATION:
         return np.zeros(scaled.surface.heights.shape), SEPARATION, nothing
     if start is not None and not isinstance(start, str):
         return scaled.first_gap(start, mean_gap), getattr(start, "branch", APPROACH), nothing
-    if mean_gap is not None or pressure >= 0:
+    if mean_gap is not None or control.pressure >= 0:
         return None, APPROACH, nothing
     before = scaled.surface.pairs
-    state, _ = relax(scaled.problem(pressure=0.0), None, tol, max_iterations)
+    unloaded = scaled.problem(Control(pressure=0.0))
+    state, _ = relax(unloaded, None, effort.tol, effort.max_iterations)
     pairs = scaled.surface.pairs - before + state.start_pairs
     return state.gap, APPROACH, (state.iterations, pairs)
 

@@ -17,6 +17,7 @@ from stickiness.adhesion.softening_descent import quick_descent, suits
 from stickiness.adhesion.state import lowered
 from stickiness.contact import solver
 from stickiness.contact.active_set import PREDICTION
+from stickiness.contact.grids import coarsen, interpolate, sample
 
 __all__ = ["from_coarser_grids", "has_coarser_grids", "without_adhesion"]
 
@@ -53,15 +54,15 @@ def from_coarser_grids(problem, tol, max_iterations, observer, work):
         gap, pairs = without_adhesion(problem, max_iterations)
         work.append(pairs * gap.size)
     else:
-        coarser = tuple(solver._coarser(n) for n in shape)
-        heights = solver._sampled(problem.surface.heights, coarser)
+        coarser = tuple(coarsen(n) for n in shape)
+        heights = sample(problem.surface.heights, coarser)
         coarse = replace(problem, surface=Surface(heights, problem.surface.sides))
         before = coarse.surface.pairs
         state = from_coarser_grids(coarse, _COARSE, max_iterations, None, work)
         work.append((coarse.surface.pairs - before) * heights.size)
         if state is None:
             return None
-        gap = _predicted(problem, solver._interpolated(state.gap, shape))
+        gap = _predicted(problem, interpolate(state.gap, shape))
     state, finished = quick_descent(problem, gap, tol, max_iterations, observer, convex=True)
     return state if finished else None
 
