@@ -1,7 +1,6 @@
 """What a job costs, from the size of its grid and the number of its solutions.
 
-Measured on results of two fidelities and on 4096 by 4096 points (`tests/data/job_costs.csv`, made
-by `benchmarks/job_cost.py`). Memory is that of the whole grid in so many arrays; time grows with
+Measured on results of two fidelities and on 4096 by 4096 points. Memory is that of the whole grid in so many arrays; time grows with
 pixels times solutions, since conjugate gradients need hardly more iterations on finer grids, those
 with adhesion a few more: their rate is that of the largest grid. Rules that are not listed do not
 depend on a grid.
