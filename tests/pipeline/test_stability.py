@@ -20,9 +20,10 @@ from pipeline.stability.components import (
 )
 from stability import plot_stability, probe_stability
 from stability.probe_stability import COMPONENTS
-from stickiness import dmt, repulsive, spectrum
+from stickiness import spectrum
 from stickiness.accuracy import error_laws
-from stickiness.adhesion import equivalent_sphere, model_choice
+from stickiness.adhesion import dmt, equivalent_sphere, model_choice
+from stickiness.contact import solver
 from stickiness.core import datasets
 from stickiness.criteria import a_v_table, moduli
 
@@ -63,7 +64,7 @@ def test_a_warning_is_a_failure():
 def test_giving_up_is_told_from_failing():
     def gives_up():
         heights = np.random.default_rng(1).normal(size=(32, 32))
-        repulsive.solve(heights, 1.0, 0.1, max_iterations=1)
+        solver.solve(heights, 1.0, 0.1, max_iterations=1)
 
     assert outcome(gives_up) == UNCONVERGED
 
@@ -103,14 +104,14 @@ def test_the_middle_of_every_map_is_right(name):
     ("field", "factor"), [("pressure", 1.001), ("gap", 1.001), ("area_fraction", 1.01)]
 )
 def test_a_solver_that_errs_is_found_out(monkeypatch, field, factor):
-    right = repulsive.solve
+    right = solver.solve
 
     def wrong(*arguments, **options):
         contact = right(*arguments, **options)
         object.__setattr__(contact, field, getattr(contact, field) * factor)
         return contact
 
-    monkeypatch.setattr(repulsive, "solve", wrong)
+    monkeypatch.setattr(solver, "solve", wrong)
     probes_contact.pressed.cache_clear()
     try:
         component = COMPONENTS["repulsive"]
