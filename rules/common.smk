@@ -340,7 +340,7 @@ def a_v_inputs():
 
 
 def ledger_inputs():
-    """Files behind the claims, by the names that scripts/_claims.py uses."""
+    """Files behind the claims, by the names that the claims in scripts/pipeline/claims use."""
     return {
         "kappa_64": f"{RESULTS}/fits/kappa/H0.8_zeta64.nc",
         "kappa_128": f"{RESULTS}/fits/kappa/H0.8_zeta128.nc",
@@ -351,7 +351,7 @@ def ledger_inputs():
         "fit_bem_wide": f"{RESULTS}/fits/a_v/ensembles/H0.8_zeta32_wide.nc",
         "fit_bem_64": f"{RESULTS}/fits/a_v/ensembles/H0.8_zeta64.nc",
         "fit_bem_128": f"{RESULTS}/fits/a_v/ensembles/H0.8_zeta128.nc",
-        **{f"fig{n}": f"{RESULTS}/persson/sweeps/fig{n}.nc" for n in ("1b", "3a", "3b", "3c", "3d")},
+        **{f"fig{n}": f"{RESULTS}/persson/sweeps/fig{n}.nc" for n in ("1b", "3a", "3b", "3d")},
         **{f"fit_fig{n}": f"{RESULTS}/fits/a_v/sweeps/fig{n}.nc" for n in ("3a", "3c", "3d")},
         "loop": f"{RESULTS}/adhesion/loops/fig4a.nc",
         "adhesive_fig2": f"{RESULTS}/adhesion/full/fig2.nc",
@@ -364,7 +364,11 @@ def ledger_inputs():
         "asphalt": f"{RESULTS}/real_surfaces/asphalt.nc",
         "asphalt_theory": f"{RESULTS}/persson/surfaces/asphalt.nc",
         "polished_steel": f"{RESULTS}/real_surfaces/polished_steel.nc",
-        "surfaces": [f"{RESULTS}/real_surfaces/{name}.nc" for name in REAL_SURFACES],
+        "measured_surfaces": [
+            f"{RESULTS}/real_surfaces/{name}.nc"
+            for name, surface in REAL_SURFACES.items()
+            if surface["kind"] == "measured"
+        ],
         "seeds": [
             f"{RESULTS}/surfaces/H0.8_zeta64/seed{seed}.nc" for seed in seeds_of("H0.8_zeta64")
         ],
