@@ -2,7 +2,7 @@
 
 
 def ledger_inputs():
-    """Files behind the claims, by the names that scripts/pipeline/claims uses."""
+    """Files behind the claims, by the names that the claims in scripts/pipeline/claims use."""
     return {
         "kappa_64": f"{RESULTS}/fits/kappa/H0.8_zeta64.nc",
         "kappa_128": f"{RESULTS}/fits/kappa/H0.8_zeta128.nc",
@@ -13,9 +13,7 @@ def ledger_inputs():
         "fit_bem_wide": a_v_of_simulation("H0.8_zeta32_wide"),
         "fit_bem_64": a_v_of_simulation("H0.8_zeta64"),
         "fit_bem_128": a_v_of_simulation("H0.8_zeta128"),
-        **{
-            f"fig{n}": f"{RESULTS}/persson/sweeps/fig{n}.nc" for n in ("1b", "3a", "3b", "3c", "3d")
-        },
+        **{f"fig{n}": f"{RESULTS}/persson/sweeps/fig{n}.nc" for n in ("1b", "3a", "3b", "3d")},
         **{f"fit_fig{n}": f"{RESULTS}/fits/a_v/sweeps/fig{n}.nc" for n in ("3a", "3c", "3d")},
         "loop": f"{RESULTS}/adhesion/loops/fig4a.nc",
         "adhesive_fig2": f"{RESULTS}/adhesion/full/fig2.nc",
@@ -28,7 +26,11 @@ def ledger_inputs():
         "asphalt": f"{RESULTS}/real_surfaces/asphalt.nc",
         "asphalt_theory": f"{RESULTS}/persson/surfaces/asphalt.nc",
         "polished_steel": f"{RESULTS}/real_surfaces/polished_steel.nc",
-        "surfaces": [f"{RESULTS}/real_surfaces/{name}.nc" for name in REAL_SURFACES],
+        "measured_surfaces": [
+            f"{RESULTS}/real_surfaces/{name}.nc"
+            for name, surface in REAL_SURFACES.items()
+            if surface["kind"] == "measured"
+        ],
         "seeds": [surface_of("H0.8_zeta64").format(seed=seed) for seed in seeds_of("H0.8_zeta64")],
     }
 

@@ -3,7 +3,6 @@
 import matplotlib as mpl
 import numpy as np
 
-from pipeline.claims.claim import total_error
 from pipeline.job import start
 from pipeline.numbers import number
 from pipeline.pages.style import (
@@ -19,7 +18,7 @@ from pipeline.pages.style import (
     with_model,
 )
 from stickiness import criteria
-from stickiness.core import datasets
+from stickiness.core import budget, datasets
 
 RANGE_LABEL = r"range $\epsilon/h_\mathrm{rms}$"
 RATIO_LABEL = r"$1/\kappa_\mathrm{ad}$, full over DMT"
@@ -76,7 +75,7 @@ def panel_a(figure, ax, data):
 
 def error_of_dmt(data):
     """Relative error of the DMT limit, as far as its measurement allows."""
-    log_error = total_error(data, "dmt_ratio") / data.dmt_ratio
+    log_error = budget.total_error(data, "dmt_ratio") / data.dmt_ratio
     return abs(np.expm1(abs(np.log(data.dmt_ratio)) + log_error))
 
 

@@ -50,6 +50,11 @@ def window_of(surface: Mapping[str, Any]) -> float:
     return surface.get("window", 1.0) * 2 * np.pi / Q0
 
 
+def at_load(data: xr.Dataset) -> xr.Dataset:
+    """The point next to `LOAD`."""
+    return data.sel(pressure=LOAD, method="nearest")
+
+
 def logarithmic_grid(grid: Mapping[str, float] | None) -> NDArray:
     """Points from `minimum` to `maximum` with about `per_decade` a decade; none of None."""
     if grid is None:

@@ -118,6 +118,11 @@ def part(dataset: xr.Dataset, name: str, source: str) -> xr.DataArray:
     return dataset[f"{name}_error"].sel(source=source, drop=True)
 
 
+def total_error(dataset: xr.Dataset, name: str) -> xr.DataArray:
+    """Error of a quoted variable by all sources, in quadrature; NaN where one is not known."""
+    return dataset[f"{name}_total_error"]
+
+
 def dominant(dataset: xr.Dataset, name: str) -> str:
     """Word for the source of the largest error of a single number."""
     flag = dataset[f"{name}_dominant"]
