@@ -6,7 +6,7 @@ from scipy.optimize import elementwise
 
 from pipeline.conventions import logarithmic_grid
 from pipeline.job import start
-from pipeline.verdicts.a_v import CLOSED, between, measured_a_v
+from pipeline.verdicts.a_v import CLOSED, between, measure_a_v
 from stickiness import criteria
 from stickiness.adhesion import area_load, equivalent_sphere
 from stickiness.core import datasets
@@ -17,12 +17,12 @@ from stickiness.surfaces.spectrum import SelfAffine
 
 def main(job):
     asked = job.params.map
-    constant = measured_a_v(job.input, job.params.pressure)
+    constant = measure_a_v(job.input, job.params.pressure)
     table = AvTable(datasets.read(job.input.a_v_table, NEEDED))
     dataset = limits(asked, constant, Roughness(table, asked, job.params.pressure))
     dataset = dataset.merge(slopes(asked["slope_parameter"], asked["slope_a_v"]))
     datasets.write(
-        budgeted(annotated(dataset), constant),
+        add_budgets(describe(dataset), constant),
         job.output[0],
         title="map of the stickiness criterion",
         parameters={**asked, "pressure": job.params.pressure},
@@ -144,7 +144,7 @@ def slopes(parameters, a_v):
     )
 
 
-def budgeted(dataset, constant):
+def add_budgets(dataset, constant):
     """Limits and the constant a_V with their errors."""
     for name in ("h_rms_limit", "h_rms_limit_edges"):
         ends = (dataset[f"{name}{end}"] for end in ("", "_low", "_high"))
@@ -155,7 +155,7 @@ def budgeted(dataset, constant):
     return with_budget(dataset, "h_rms_limit_constant", **parts)
 
 
-def annotated(dataset):
+def describe(dataset):
     limit = "largest h_rms/range that sticks"
     edges = f"{limit}, by the edges of contact"
     missing = "none for which a_V is tabulated, or none above 1"

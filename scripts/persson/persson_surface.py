@@ -10,13 +10,10 @@ from stickiness import criteria
 from stickiness.accuracy import error_laws
 from stickiness.core import datasets
 from stickiness.core.budget import Part, with_budget
-from stickiness.criteria.a_v_table import edge_range, local_a_v
-from stickiness.persson.theory import Persson
+from stickiness.criteria.surface_a_v import theory_a_v
 from stickiness.surfaces.spectrum import Tabulated
 
-VARIANTS = ("afferrante2018", "almqvist2011")  # P(0) infinite and finite: limits on the truth
 NEEDED = ("psd", "hurst", "q0", "q1", "rms_slope", "rms_curvature")
-EDGE_LAW = "pastewka_robbins"  # independent estimate of what the edges alone give
 
 
 def main(job):
@@ -70,27 +67,15 @@ def budgeted(dataset, surface, load, laws):
 
 
 def a_v_of(surface, end, ranges, load, gamma):
-    """a_V by every variant and by the edge law on one end of a surface, and the edge range.
-
-    Below the edge range theory is held constant, with the edge law as the other limit.
-    """
-    spectrum = spectrum_of(surface, end)
-    pressure = load * float(surface.q0) * spectrum.h_rms
-    resolved = [
-        local_a_v(
-            Persson(spectrum, variant=variant, gamma=gamma).gap_cumulative(
-                ranges * spectrum.h_rms, pressure
-            ),
-            load,
-            ranges,
-        )
-        for variant in VARIANTS
-    ]
-    edge = edge_range(ranges, *resolved)
-    at_edge = np.exp(np.interp(np.log(edge), np.log(ranges), np.log(resolved[0])))
-    a_v = [np.where(ranges < edge, at_edge, a) for a in resolved]
-    a_v.append(np.where(ranges < edge, edge_a_v(surface, end), a_v[0]))
-    return [*VARIANTS, EDGE_LAW], a_v, edge
+    """a_V by every variant and by the edge law on one end of a surface, and the edge range."""
+    return theory_a_v(
+        spectrum_of(surface, end),
+        ranges,
+        load,
+        edge_a_v(surface, end),
+        q0=float(surface.q0),
+        gamma=gamma,
+    )
 
 
 def same_shape(surface):

@@ -8,11 +8,10 @@ from pipeline.conventions import LOAD
 from pipeline.job import start
 from pipeline.numbers import NOTHING, interval, number, percent, quantity, with_error
 from pipeline.pages import captions, pressed
-from pipeline.pages.reasons import reasons
 from pipeline.pages.style import save
 from pipeline.pages.surface_figure import drawn
 from pipeline.pages.surface_texts import reference_prefactor, rms_height, rms_slope
-from pipeline.pages.verdict_texts import ends, pair_texts
+from pipeline.pages.verdict_texts import ends, explain, pair_texts
 from pipeline.verdicts.materials import material, modulus_text
 from stickiness.core import datasets
 from stickiness.core.budget import COVERS
@@ -139,10 +138,7 @@ def verdict(pair, surface, entry):
         "rate": rate(solid, pair, ends(pair.modulus_threshold))
         if solid.depends_on_rate
         else NOTHING,
-        "criteria": [
-            row | {"margins": interval(*row["margins"], 2)}
-            for row in reasons(pair, surface, solid.work_of_adhesion)
-        ],
+        "criteria": explain(pair, surface, solid.work_of_adhesion),
     }
 
 

@@ -21,6 +21,7 @@ from pipeline.verdicts.materials import modulus_text
 from stickiness.accuracy import error_laws, plan
 from stickiness.core import budget, datasets
 from stickiness.criteria.errata import ERRATA
+from stickiness.criteria.registry import CRITERIA
 
 Datasets = Mapping[str, xr.Dataset]
 Context = dict[str, Any]
@@ -51,17 +52,6 @@ CLAIM_TONES = {
     "reproduced": "yes",
     "reproduced with a qualification": "partly",
     "not reproduced": "no",
-}
-CRITERIA = {
-    "edge_adhesion": "edges of contact",
-    "violano": "derived criterion, DMT limit",
-    "violano_constant": "derived, constant a_V",
-    "violano_printed": "criterion as printed, 9/4",
-    "pastewka_robbins": "Pastewka–Robbins",
-    "fuller_tabor": "Fuller–Tabor",
-    "bearing_area": "bearing area (BAM)",
-    "persson_tosatti": "Persson–Tosatti",
-    "dahlquist": "Dahlquist",
 }
 QUANTITIES = {
     "area_fraction": "contact area",
@@ -245,7 +235,7 @@ def disagreements(verdicts: xr.Dataset, surfaces: Datasets) -> list[Context]:
 
     return [
         {
-            "criterion": CRITERIA.get(name, name.replace("_", " ")),
+            "criterion": CRITERIA[name].label,
             "count": int(verdicts.disagrees.sel(criterion=name).sum()),
             "sticky": pairs((sticky.sel(criterion=name) & ~edges).any("end")),
             "not_sticky": pairs((~sticky.sel(criterion=name) & edges).any("end")),

@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 from pipeline.conventions import VARIANT
 from stickiness.core import datasets
 from stickiness.core.budget import COVERS, Part, absent
+from stickiness.criteria.surface_a_v import SurfaceAv
 
 
 @dataclass(frozen=True)
@@ -122,7 +123,7 @@ def recorded(path):
         raise ValueError(f"{path}: not a table of measured a_V ({error!r})") from None
 
 
-def measured_a_v(inputs, pressure):
+def measure_a_v(inputs, pressure):
     """`MeasuredAv` from the measured a_V of the configuration and two fits to theory.
 
     Parameters
@@ -160,36 +161,7 @@ def measured_a_v(inputs, pressure):
     )
 
 
-@dataclass(frozen=True)
-class SurfaceAv:
-    """a_V of a real surface against the range, with the limits of what is known of it.
-
-    Theory on the surface's own spectrum, times the ratio of simulation to theory of the simulated
-    case. The limits are those of both variants of the theory and, below the edge range, of
-    Pastewka and Robbins' estimate, widened by the sampling and discretisation error of the
-    simulation.
-    """
-
-    ranges: np.ndarray
-    theory: np.ndarray
-    quoted: int
-    ratio: float
-    relative_error: float
-
-    def at(self, range_over_h_rms):
-        """Value, low and high limit at a range over h_rms, interpolated in logarithms."""
-        logs = [
-            np.interp(np.log(range_over_h_rms), np.log(self.ranges), np.log(a)) for a in self.theory
-        ]
-        every = self.ratio * np.exp(logs)
-        return (
-            float(every[self.quoted]),
-            float(every.min() * max(1 - self.relative_error, 0.01)),
-            float(every.max() * (1 + self.relative_error)),
-        )
-
-
-def surface_a_v(path, measured):
+def scale_theory(path, measured):
     """`SurfaceAv` from a file of `persson_surface` and the `MeasuredAv` of the simulation."""
     theory = datasets.read(path, ["a_v"]).a_v
     return SurfaceAv(
