@@ -68,6 +68,7 @@ for figure, files in FIGURE_INPUTS.items():
             ),
             pdf=f"{RESULTS}/figures/{figure}.pdf",
         params:
+            figure=figure,
             pressure=config["criteria"]["a_v"]["pressure"],
         script:
-            f"../scripts/figures/plot_{figure}.py"
+            "../scripts/figures/plot_{params.figure}.py"

@@ -17,4 +17,4 @@ for each in workflow.rules:
         each.conda_env = f"{workflow.basedir}/envs/environment.yaml"
         each.set_log(mirrored(str(each.output[0]), "logs", each.name, ".log"))
         each.benchmark = mirrored(str(each.output[0]), "benchmarks", each.name, ".tsv")
-        each.set_params(code=code_of(SCRIPTS, each.script))
+        each.set_params(code=code_of(SCRIPTS, each.script.format(params=each.params)))

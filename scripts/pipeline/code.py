@@ -4,45 +4,32 @@ from __future__ import annotations
 
 import ast
 import hashlib
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from functools import cache
 from pathlib import Path
-from typing import Any
 
 
-def code_of(scripts: str, script: str) -> str | Callable[[Any], str]:
-    """Hash of a rule's script and of all that it imports from below `scripts`.
+def code_of(scripts: str, script: str) -> str:
+    """Hash of the syntax of a rule's script and of all that it imports from below `scripts`.
 
     Parameters
     ----------
     scripts : str
         Folder of all scripts and packages.
     script : str
-        As the rule names it, relative to the folder of rules. If it holds wildcards, a function
-        of these is returned.
+        As the rule names it, relative to the folder of rules.
     """
-    path = Path(scripts, "..", "rules", script).resolve()
-    if "{" in script:
-        return lambda wildcards: hash_of(Path(str(path).format(wildcards=wildcards)), Path(scripts))
-    return hash_of(path, Path(scripts))
-
-
-def hash_of(script: Path, scripts: Path) -> str:
-    """Hash of the syntax of a script and of all that it imports from below `scripts`."""
-    found, todo = {script}, [script]
+    folder = Path(scripts)
+    first = Path(scripts, "..", "rules", script).resolve()
+    found, todo = {first}, [first]
     while todo:
-        for path in imports(todo.pop(), scripts):
+        for path in imports(todo.pop(), folder):
             if path not in found:
                 found.add(path)
                 todo.append(path)
-    names = sorted((path.relative_to(scripts).as_posix(), path) for path in found)
+    names = sorted((path.relative_to(folder).as_posix(), path) for path in found)
     text = "\n".join(f"{name}: {syntax(path)}" for name, path in names)
     return hashlib.sha256(text.encode()).hexdigest()[:16]
-
-
-@cache
-def parsed(path: Path) -> ast.Module:
-    return ast.parse(path.read_text(encoding="utf-8"))
 
 
 @cache
@@ -65,7 +52,11 @@ def is_text(statement: ast.stmt) -> bool:
 @cache
 def imports(path: Path, scripts: Path) -> tuple[Path, ...]:
     """Files below `scripts` that a file imports, packages on the way to them included."""
-    return tuple(file for module in modules(parsed(path)) for file in files_of(module, scripts))
+    return tuple(
+        file
+        for module in modules(ast.parse(path.read_text(encoding="utf-8")))
+        for file in files_of(module, scripts)
+    )
 
 
 def modules(tree: ast.Module) -> Iterator[str]:
@@ -82,6 +73,8 @@ def files_of(module: str, scripts: Path) -> Iterator[Path]:
     path = scripts
     for part in module.split("."):
         path = path / part
-        file = path.with_suffix(".py") if path.with_suffix(".py").is_file() else path / "__init__.py"
+        file = (
+            path.with_suffix(".py") if path.with_suffix(".py").is_file() else path / "__init__.py"
+        )
         if file.is_file():
             yield file
