@@ -17,4 +17,5 @@ for each in workflow.rules:
         each.conda_env = f"{workflow.basedir}/envs/environment.yaml"
         each.set_log(mirrored(str(each.output[0]), "logs", each.name, ".log"))
         each.benchmark = mirrored(str(each.output[0]), "benchmarks", each.name, ".tsv")
-        each.set_params(code=code_of(SCRIPTS, each.script.format(params=each.params)))
+        if workflow.is_main_process:  # which alone decides and records what is up to date
+            each.set_params(code=code_of(SCRIPTS, each.script.format(params=each.params)))

@@ -7,10 +7,14 @@ import hashlib
 from collections.abc import Iterator
 from functools import cache
 from pathlib import Path
+from types import CodeType
+from typing import Any
+
+DOCUMENTED = (ast.Module, ast.ClassDef, ast.FunctionDef, ast.AsyncFunctionDef)
 
 
 def code_of(scripts: str, script: str) -> str:
-    """Hash of the syntax of a rule's script and of all that it imports from below `scripts`.
+    """Hash of a rule's script and of all that it imports from below `scripts`.
 
     Parameters
     ----------
@@ -28,44 +32,44 @@ def code_of(scripts: str, script: str) -> str:
                 found.add(path)
                 todo.append(path)
     names = sorted((path.relative_to(folder).as_posix(), path) for path in found)
-    text = "\n".join(f"{name}: {syntax(path)}" for name, path in names)
+    text = "\n".join(f"{name}: {instructions(path)}" for name, path in names)
     return hashlib.sha256(text.encode()).hexdigest()[:16]
 
 
 @cache
-def syntax(path: Path) -> str:
-    """The syntax tree of a file as text, without docstrings."""
-    tree = ast.parse(path.read_text(encoding="utf-8"))
+def parsed(path: Path) -> tuple[ast.Module, list[str]]:
+    """Syntax tree of a file without docstrings, and the names it imports that may be modules."""
+    tree, names = ast.parse(path.read_text(encoding="utf-8")), []
     for node in ast.walk(tree):
-        body = getattr(node, "body", None)
-        if isinstance(body, list) and body and is_text(body[0]):
-            node.body = body[1:]
-    return ast.dump(tree)
+        if isinstance(node, ast.Import):
+            names += [alias.name for alias in node.names]
+        elif isinstance(node, ast.ImportFrom):
+            names += [f"{node.module}.{alias.name}" for alias in node.names]
+        elif isinstance(node, DOCUMENTED) and ast.get_docstring(node, clean=False) is not None:
+            node.body = node.body[1:] or [ast.copy_location(ast.Pass(), node.body[0])]
+    return tree, names
 
 
-def is_text(statement: ast.stmt) -> bool:
-    """Whether a statement is nothing but a string."""
-    value = getattr(statement, "value", None) if isinstance(statement, ast.Expr) else None
-    return isinstance(value, ast.Constant) and isinstance(value.value, str)
+@cache
+def instructions(path: Path) -> str:
+    """What a file is compiled to, without docstrings, assertions and line numbers, as text."""
+    return repr(parts_of(compile(parsed(path)[0], path.name, "exec", optimize=2)))
+
+
+def parts_of(constant: Any) -> Any:
+    """A compiled constant as something whose text is always the same."""
+    if isinstance(constant, CodeType):
+        names = constant.co_names, constant.co_varnames, constant.co_freevars, constant.co_cellvars
+        counts = constant.co_argcount, constant.co_posonlyargcount, constant.co_kwonlyargcount
+        inner = [parts_of(each) for each in constant.co_consts]
+        return constant.co_name, constant.co_flags, counts, names, constant.co_code, inner
+    return sorted(map(repr, constant)) if isinstance(constant, frozenset) else constant
 
 
 @cache
 def imports(path: Path, scripts: Path) -> tuple[Path, ...]:
     """Files below `scripts` that a file imports, packages on the way to them included."""
-    return tuple(
-        file
-        for module in modules(ast.parse(path.read_text(encoding="utf-8")))
-        for file in files_of(module, scripts)
-    )
-
-
-def modules(tree: ast.Module) -> Iterator[str]:
-    """Names that are imported anywhere in a file and may be modules."""
-    for node in ast.walk(tree):
-        if isinstance(node, ast.Import):
-            yield from (alias.name for alias in node.names)
-        elif isinstance(node, ast.ImportFrom):
-            yield from (f"{node.module}.{alias.name}" for alias in node.names)
+    return tuple(file for module in parsed(path)[1] for file in files_of(module, scripts))
 
 
 def files_of(module: str, scripts: Path) -> Iterator[Path]:

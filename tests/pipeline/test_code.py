@@ -20,7 +20,8 @@ def hashed(tmp_path):
         (tmp_path / name).write_text(text, encoding="utf-8")
 
     def hash_now():
-        code.syntax.cache_clear()
+        code.parsed.cache_clear()
+        code.instructions.cache_clear()
         code.imports.cache_clear()
         return code.code_of(str(tmp_path / "scripts"), "../scripts/stage/rule.py")
 
