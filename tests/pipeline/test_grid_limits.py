@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from pipeline.contact_curves import load_curve
 from fits.fit_a_v import averaged, fitted
 from fits.fit_kappa import fitted_slope, slope
 from pipeline import ensemble_means, grid_limits
+from pipeline.contact_curves import load_curve
 from pipeline.ensembles import AVERAGED, with_statistics
 from stickiness import spectrum, surface
 from stickiness.contact import grid_limit

@@ -8,10 +8,10 @@ import xarray as xr
 from pipeline.claims.claim import Claim, Files, graded, sample
 from pipeline.conventions import VARIANT, spectrum_of, window_of
 from stickiness import adhesive, criteria
-from stickiness.accuracy import error_laws
 from stickiness.adhesion import equivalent_sphere
 from stickiness.adhesion.area_load import JTB_CONSTANT
 from stickiness.core import datasets
+from stickiness.core.statistics import students_t
 from stickiness.surfaces import synthesis
 from stickiness.surfaces.spectrum import SelfAffine
 
@@ -326,7 +326,7 @@ def spectral_moments(files: Files) -> Claim:
         f"{expected[1]:.3f}), h''_rms/√(8 m4/3) = {mean[2]:.4f} ± {error[2]:.4f} (lattice "
         f"{expected[2]:.4f}).",
         ("seeds",),
-        {"sampling": error_laws.students_t(len(surfaces)) * float(error[0])},
+        {"sampling": students_t(len(surfaces)) * float(error[0])},
         "sampling: Student's t, of the surfaces",
     )
 

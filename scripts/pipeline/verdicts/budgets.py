@@ -5,7 +5,8 @@ import xarray as xr
 
 from pipeline.pages.verdict_texts import EDGES
 from pipeline.verdicts.a_v import CLOSED, LIMITS, between
-from stickiness.core.budget import COVERS, Part, absent, with_budget
+from stickiness.core.budget import Part, absent, with_budget
+from stickiness.core.statistics import COVERS
 
 
 def budgeted(dataset, constant, draws):

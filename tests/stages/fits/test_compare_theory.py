@@ -9,7 +9,7 @@ import xarray as xr
 from contact import average_ensemble, solve_ensemble
 from fits import compare_theory, fit_gamma
 from stickiness.core import datasets
-from stickiness.core.budget import COVERS
+from stickiness.core.statistics import COVERS
 from stickiness.persson import Persson
 from stickiness.spectrum import SelfAffine
 from stickiness.surface import lattice_spectrum
