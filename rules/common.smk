@@ -8,7 +8,7 @@ import os
 import platform
 import re
 import sys
-from dataclasses import asdict, replace
+from dataclasses import asdict
 import time
 from functools import cache
 from pathlib import Path
@@ -23,7 +23,8 @@ os.environ["PYTHONPATH"] = f"{workflow.basedir}/scripts"
 from pipeline import job_cost as _cost
 from pipeline.run_summary import Progress, graded, jobs_of, missed, quieten, summary
 from snakemake.exceptions import WorkflowError
-from stickiness.accuracy import error_laws as accuracy, plan, sequential as stopping
+from stickiness.accuracy import plan
+from stickiness.accuracy.error_models import read_models
 from snakemake.logging import logger
 from snakemake.settings.enums import Quietness
 from stickiness.adhesion import model_choice
@@ -39,9 +40,7 @@ try:
     MATERIALS, REAL_SURFACES = configuration.checked(
         config, Path(workflow.basedir) / "config/schemas"
     )
-    LAWS = accuracy.read_laws(config["tradeoff"]["table"])
-    config.update(plan.with_cuts(config, LAWS))
-    PLANS = plan.plans_of(config, LAWS)
+    PLANS = plan.plans_of(config, read_models(config["tradeoff"]["table"]))
     DMT_ERRORS = model_choice.read_table(config["dmt_error"])
 except ValueError as error:
     raise WorkflowError(str(error)) from None
@@ -73,8 +72,8 @@ COMPARED = {
 # Of these, what is simulated for every quantity.
 SIMULATED = [name for name in COMPARED if name in COMPLETE or name in COMPARISONS]
 ADHESION, LOOPS = config["adhesion"], config["loops"]
-# Cases whose seeds are drawn in rounds, until the accuracy that they ask for is reached.
-DRAWN = [case for case, planned in PLANS.items() if planned.asked and planned.simulated]
+# Cases that ask for an accuracy, which may be missed.
+ACCURATE = [case for case, asked in CASES.items() if "accuracy" in asked]
 TRADE = config["tradeoff"]
 TRADEOFF = f"{config['results']}/tradeoff"
 TRADE_SETS = {
@@ -89,8 +88,7 @@ PAGE_PARTS = [f"report/{part}" for part in ("macros.html.j2", "page.css", "page.
 
 wildcard_constraints:
     seed=r"\d+",
-    round=r"\d+",
-    part=r"(\+\d+)?",
+    part=r"\d+-\d+",
     case="|".join(map(re.escape, CASES)) or "none",
     grid=r"(@\d+)?",
     comparison="|".join(map(re.escape, COMPARISONS)),
@@ -104,78 +102,21 @@ wildcard_constraints:
 
 
 def seeds_of(case):
-    """Seeds that a case has for certain: those of the first round if they are drawn in rounds."""
+    """Seeds of a case."""
     return range(1, PLANS[case].settings.seeds + 1)
 
 
-def assessed(case, number):
-    """File of a round of a case, and its content, once that is up to date."""
-    from stickiness.core import datasets
-
-    file = checkpoints.assess_seeds.get(case=case, round=number).output[0]
-    return file, datasets.read(file)
-
-
-def in_round(wildcards):
-    """Case and settings of one of its rounds, which the round before has chosen."""
-    settings, number = PLANS[wildcards.case].settings, int(wildcards.round)
-    if number > 1:
-        settings = next_settings(settings, assessed(wildcards.case, number - 1)[1])
-    return wildcards.case, settings
-
-
-def next_settings(settings, found):
-    """Settings that an assessed round asks for next."""
-    return replace(settings, seeds=int(found.next_seeds), coarse_seeds=int(found.next_coarse_seeds))
-
-
-def drawn(case):
-    """Settings of a case, and the file of its last round if its seeds are drawn in rounds."""
-    settings, file = PLANS[case].settings, None
-    if case not in DRAWN:
-        return settings, file
-    for number in itertools.count(1):
-        file, found = assessed(case, number)
-        settings = next_settings(settings, found)
-        if stopping.STATES[int(found.state)] != stopping.MORE:
-            return settings, file
-
-
 def realisations(wildcards):
-    """Files of all realisations of a case."""
-    return realisations_of(wildcards.case, drawn(wildcards.case)[0])
-
-
-def realisations_of(case, settings):
-    """Files of so many realisations of a case, which it may share with an earlier one."""
-    seeds = range(1, settings.seeds + 1)
-    return [f"{RESULTS}/contact/{PLANS[case].owner}/seed{seed}.nc" for seed in seeds]
+    """Files of all realisations of a case, which it may share with an earlier one."""
+    owner = PLANS[wildcards.case].owner
+    return [f"{RESULTS}/contact/{owner}/seed{seed}.nc" for seed in seeds_of(wildcards.case)]
 
 
 def coarse_solutions(wildcards):
-    """Files of the coarse solutions behind a case's means."""
-    return coarse_files(wildcards.case, drawn(wildcards.case)[0])
-
-
-def coarse_files(case, settings):
-    """Files of so many coarse solutions of a case, which it may share; none for plain means."""
-    own, count = PLANS[case], settings.coarse_seeds
-    first = PLANS[own.owner]
-    if not count:
-        return []
-    if case in DRAWN:
-        folder = own.owner if own.owner in DRAWN else case
-        return [f"{RESULTS}/contact/{folder}/coarse+{rung}.nc" for rung in plan.rungs(count)]
-    same = own.owner not in DRAWN and first.settings.coarse_seeds == count
-    return [f"{RESULTS}/contact/{own.owner if same else case}/coarse.nc"]
-
-
-def coarse_range(wildcards):
-    """Coarse seeds, numbered from 0, of one file: all of a case or one step of its rounds."""
-    if not wildcards.part:
-        return range(PLANS[wildcards.case].settings.coarse_seeds)
-    last = int(wildcards.part)
-    return range(([0] + plan.rungs(last - 1))[-1], last)
+    """Files of the coarse solutions behind a case's means, shared likewise; none for plain means."""
+    planned = PLANS[wildcards.case]
+    parts = plan.coarse_parts(planned.settings.coarse_seeds)
+    return [f"{RESULTS}/contact/{planned.owner}/coarse{part}.nc" for part in parts]
 
 
 def gaps_of(wildcards):
@@ -243,8 +184,6 @@ def behind_answer(wildcards):
     if not planned.simulated:
         return {"solved": f"{RESULTS}/persson/lattice/{case}.nc"}
     files = {"solved": f"{RESULTS}/contact/ensembles/{case}.nc"}
-    if case in DRAWN:
-        files["drawn"] = drawn(case)[1]
     if "a_v" in planned.quantities:
         files["a_v"] = f"{RESULTS}/fits/a_v/ensembles/{case}.nc"
     if "kappa" in planned.quantities:
@@ -256,8 +195,6 @@ def summary_of_plan(case):
     """What a case's answer needs to know of its plan."""
     planned, surface = PLANS[case], config["model_surfaces"][CASES[case]["surface"]]
     wider = {"carry_to": CASES[case]["carry_to"]} if "carry_to" in CASES[case] else {}
-    if case in DRAWN:
-        wider["asked"] = asdict(planned.asked)
     return {
         "quantities": list(planned.quantities),
         "pressures": list(planned.pressures),
@@ -381,7 +318,7 @@ def sized(wildcards):
             "coarse_seeds": settings.coarse_seeds,
         }
         if hasattr(wildcards, "part"):
-            chosen["coarse_seeds"] = len(coarse_range(wildcards))
+            chosen["coarse_seeds"] = len(plan.coarse_range(wildcards.part))
     elif hasattr(wildcards, "grid"):
         chosen = {"pixels_per_wavelength": pixels_of(wildcards)}
     return config | {"fidelities": {config["fidelity"]: FIDELITY | chosen}}
@@ -512,7 +449,7 @@ def conclude():
     old = (job for job in workflow.dag.jobs if job.output and job.jobid not in progress.jobs)
     reused = sum(not workflow.dag.needrun(job) for job in old)
     places = {"results": RESULTS, "report": f"{RESULTS}/report/report.html"}
-    lines = [*graded(RESULTS), *missed(f"{RESULTS}/cases/{case}.nc" for case in DRAWN)]
+    lines = [*graded(RESULTS), *missed(f"{RESULTS}/cases/{case}.nc" for case in ACCURATE)]
     print(summary(progress, reused, places, lines), file=sys.stderr)
 
 

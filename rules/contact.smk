@@ -1,6 +1,5 @@
 # Repulsive boundary-element contact: one job per case and seed walks the whole load path, another
 # one walks it for many more seeds on a coarse grid, then all of these give the case's means.
-# A case that asks for an accuracy draws its seeds in rounds, each assessed before the next is known.
 # Surfaces that theory alone is compared with take one job for all of it.
 
 
@@ -26,6 +25,7 @@ rule solve_repulsive:
             PLANS[wildcards.case].settings.pixels_per_wavelength
         ),
         gaps=gaps_of,
+        measured=lambda wildcards: list(PLANS[wildcards.case].measured),
     script:
         "../scripts/contact/solve_repulsive.py"
 
@@ -49,37 +49,12 @@ rule solve_coarse:
         pressures=lambda wildcards: CASES[wildcards.case]["pressures"],
         tolerance=lambda wildcards: PLANS[wildcards.case].settings.tolerance,
         gaps=gaps_of,
-        seeds=lambda wildcards: coarse_range(wildcards).stop,
-        after=lambda wildcards: coarse_range(wildcards).start,
+        measured=lambda wildcards: list(PLANS[wildcards.case].measured),
+        seeds=lambda wildcards: plan.coarse_range(wildcards.part).stop,
+        after=lambda wildcards: plan.coarse_range(wildcards.part).start,
         descriptor_seeds=config["sampling"]["descriptor_seeds"],
     script:
         "../scripts/contact/solve_coarse.py"
-
-
-checkpoint assess_seeds:
-    input:
-        library=library_of("contact/assess_seeds.py"),
-        realisations=lambda wildcards: realisations_of(*in_round(wildcards)),
-        coarse=lambda wildcards: coarse_files(*in_round(wildcards)),
-        laws=config["tradeoff"]["table"],
-    output:
-        f"{RESULTS}/draws/{{case}}/round{{round}}.nc",
-    log:
-        f"{LOGS}/assess_seeds/{{case}}/round{{round}}.log",
-    benchmark:
-        f"{BENCHMARKS}/assess_seeds/{{case}}/round{{round}}.tsv"
-    wildcard_constraints:
-        case="|".join(map(re.escape, DRAWN)) or "none",
-    conda:
-        "../envs/environment.yaml"
-    resources:
-        mem_mb=1000,
-    params:
-        settings=lambda wildcards: asdict(PLANS[wildcards.case].settings),
-        asked=lambda wildcards: asdict(PLANS[wildcards.case].asked),
-        windows=config["a_v"]["windows"][:1],
-    script:
-        "../scripts/contact/assess_seeds.py"
 
 
 rule contact_maps:

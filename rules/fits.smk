@@ -89,6 +89,7 @@ rule answer_case:
         mem_mb=500,
     params:
         plan=lambda wildcards: summary_of_plan(wildcards.case),
+        fit_interval=config["a_v"]["windows"][0],
     script:
         "../scripts/cases/answer_case.py"
 
