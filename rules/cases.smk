@@ -36,5 +36,6 @@ rule answer_case:
         f"{RESULTS}/cases/{{case}}.nc",
     params:
         plan=describe_plan,
+        fit_interval=config["a_v"]["windows"][0],
     script:
         "../scripts/cases/answer_case.py"

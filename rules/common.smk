@@ -17,13 +17,14 @@ for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
     os.environ.setdefault(name, "1")
 
 from pipeline.code import code_of
-from stickiness.accuracy import error_laws, plan
+from stickiness.accuracy import plan
+from stickiness.accuracy.error_models import read_models
 from stickiness.adhesion import model_choice
 from stickiness.config import checks
 
 try:
     MATERIALS, REAL_SURFACES = checks.checked(config, Path(workflow.basedir) / "config/schemas")
-    PLANS = plan.plans_of(config, error_laws.read_laws(config["tradeoff"]["table"]))
+    PLANS = plan.plans_of(config, read_models(config["tradeoff"]["table"]))
     DMT_ERRORS = model_choice.read_table(config["dmt_error"])
 except ValueError as error:
     raise WorkflowError(str(error)) from None

@@ -2,8 +2,6 @@
 # path, others walk it for many more seeds on a coarse grid; together they give the case's means.
 # Surfaces that theory alone is compared with take one job for all of it.
 
-COARSE_BLOCK = 32  # coarse seeds in a file
-
 
 def realisations(wildcards):
     """Fine solutions of a case, which an earlier case on the same surface may hold."""
@@ -12,12 +10,20 @@ def realisations(wildcards):
 
 
 def coarse_solutions(wildcards):
-    """Coarse solutions behind a case's means, in files of a fixed number of seeds, so that more
-    seeds leave those that are solved as they are."""
+    """Coarse solutions behind a case's means, shared likewise; none for plain means."""
     planned = PLANS[wildcards.case]
-    count = planned.settings.coarse_seeds
-    ends = [(first, min(first + COARSE_BLOCK, count)) for first in range(0, count, COARSE_BLOCK)]
-    return [f"{RESULTS}/contact/{planned.owner}/coarse{first}-{end}.nc" for first, end in ends]
+    parts = plan.coarse_parts(planned.settings.coarse_seeds)
+    return [f"{RESULTS}/contact/{planned.owner}/coarse{part}.nc" for part in parts]
+
+
+def measured_of(wildcards):
+    """Quantities of single solutions that a case asks for beyond areas and mean gaps."""
+    return list(PLANS[wildcards.case].measured)
+
+
+def coarse_paths(wildcards):
+    """Solutions in a file of coarse seeds."""
+    return len(plan.coarse_range(wildcards.part)) * len(pressures_of(wildcards.case))
 
 
 def gaps_of(wildcards):
@@ -53,28 +59,27 @@ rule solve_repulsive:
             PLANS[wildcards.case].settings.pixels_per_wavelength
         ),
         gaps=gaps_of,
+        measured=measured_of,
     script:
         "../scripts/contact/solve_repulsive.py"
 
 
 rule solve_coarse:
     output:
-        f"{RESULTS}/contact/{{case}}/coarse{{first}}-{{end}}.nc",
+        f"{RESULTS}/contact/{{case}}/coarse{{part}}.nc",
     wildcard_constraints:
-        first=r"\d+",
-        end=r"\d+",
+        part=r"\d+-\d+",
     resources:
         mem_mb=memory(4 * 14, coarse_size),
-        runtime=minutes(
-            1.1, coarse_size, lambda wildcards: COARSE_BLOCK * len(pressures_of(wildcards.case))
-        ),
+        runtime=minutes(1.1, coarse_size, coarse_paths),
     params:
         surface=lambda wildcards: model_surface_of(wildcards.case),
         pressures=lambda wildcards: pressures_of(wildcards.case),
         tolerance=lambda wildcards: PLANS[wildcards.case].settings.tolerance,
         gaps=gaps_of,
-        after=lambda wildcards: int(wildcards.first),
-        seeds=lambda wildcards: int(wildcards.end),
+        measured=measured_of,
+        after=lambda wildcards: plan.coarse_range(wildcards.part).start,
+        seeds=lambda wildcards: plan.coarse_range(wildcards.part).stop,
         descriptor_seeds=config["sampling"]["descriptor_seeds"],
     script:
         "../scripts/contact/solve_coarse.py"

@@ -11,7 +11,7 @@ from pipeline.dmt_limit import QUANTITIES, DmtLimit, linearity_error
 from pipeline.ensemble_means import coarse, described, with_errors
 from pipeline.error_budgets import SIMULATED, Simulation, along
 from pipeline.job import start
-from stickiness.accuracy import error_laws
+from stickiness.accuracy.error_models import read_models
 from stickiness.core import datasets
 from stickiness.core.budget import ENDINGS, Part, with_budget
 
@@ -39,7 +39,7 @@ def main(job):
         left = grid_limits.inherited(ensemble, quantity, ["area_fraction", "attractive_area"])
         values, more = quantity(ensemble), coarse(ensemble, quantity)
         dataset = with_errors(dataset, name, values, more, plain=True, limit=left)
-    simulation = Simulation.of(error_laws.read_laws(job.input.laws), datasets.parameters(ensemble))
+    simulation = Simulation.of(read_models(job.input.laws), datasets.parameters(ensemble))
     dataset = budgeted(annotated(dataset), simulation, limit.linear)
     for ending in ENDINGS:
         known = ensemble[f"area_fraction_mean{ending}"]

@@ -20,10 +20,10 @@ from pipeline.dmt_limit import DmtLimit, fitted, linearity_error
 from pipeline.ensemble_means import coarse, described, fine, with_errors
 from pipeline.error_budgets import SIMULATED
 from pipeline.job import start
-from stickiness.accuracy import error_laws
 from stickiness.adhesion import edge_zone
 from stickiness.core import datasets
 from stickiness.core.budget import SOURCES, split, with_budget
+from stickiness.core.statistics import students_t
 
 # Averages, with the quantity of the DMT limit that is their control, if any.
 STATES = {
@@ -160,7 +160,7 @@ def errors(dataset, name, model, seeds):
     parts = {
         "discretisation": dataset[f"{name}_discretisation_error"],
         "solver": SOLVER * abs(value),
-        "sampling": error_laws.students_t(seeds) * dataset[f"{name}_standard_error"],
+        "sampling": students_t(seeds) * dataset[f"{name}_standard_error"],
         "bandwidth": 0.0,
         "model": abs(model),
     }

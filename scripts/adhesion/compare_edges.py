@@ -13,10 +13,10 @@ from pipeline.adhesion_sets import LAWS, SOLVER
 from pipeline.conventions import DESCRIBED
 from pipeline.error_budgets import SIMULATED
 from pipeline.job import start
-from stickiness.accuracy import error_laws
 from stickiness.adhesion import dmt, equivalent_sphere
 from stickiness.core import datasets
 from stickiness.core.budget import Part, with_budget
+from stickiness.core.statistics import students_t
 
 MISSING = (
     "not resolved, fewer than 100 points of the grid drawn into contact, a window closes, or the "
@@ -56,7 +56,7 @@ def main(job):
 def parts(coarse, fine):
     """Parts of the budget of a mean over seeds, known on two grids."""
     change = abs((fine - coarse).mean("seed", skipna=False))
-    error = error_laws.students_t(fine.sizes["seed"]) * fine.std("seed", ddof=1)
+    error = students_t(fine.sizes["seed"]) * fine.std("seed", ddof=1)
     return {
         "discretisation": Part(change, "change from half the resolution"),
         "solver": Part(SOLVER * fine.mean("seed"), "by the tolerance, as measured"),

@@ -23,6 +23,7 @@ def main(job):
         np.sort(job.params.pressures),
         logarithmic_grid(job.params.gaps),
         job.params.tolerance,
+        job.params.measured,
     )
     datasets.write(
         annotated(dataset),
@@ -40,4 +41,4 @@ def main(job):
 
 
 if __name__ == "__main__":
-    main(start(globals(), "solve_coarse", case="H0.8_zeta64"))
+    main(start(globals(), "solve_coarse", case="H0.8_zeta64", part="1-64"))

@@ -9,7 +9,7 @@ import logging
 import numpy as np
 import xarray as xr
 
-from contact import solve_coarse, solve_repulsive
+from pipeline import coarse_solutions, contact_curves
 from pipeline.conventions import grid_points, logarithmic_grid, spectrum_of, window_of
 from pipeline.ensembles import annotated, budgeted, renamed, sampled, with_statistics
 from pipeline.job import start
@@ -28,9 +28,9 @@ def main(job):
     others = xr.Dataset()
     if params.coarse_seeds:
         count = range(params.coarse_seeds), params.descriptor_seeds
-        others = solve_coarse.coarse_solutions(asked, *count, *curves)
-        others = renamed(solve_coarse.annotated(others))
-    dataset = with_statistics(solve_repulsive.annotated(fine), others)
+        others = coarse_solutions.coarse_solutions(asked, *count, *curves)
+        others = renamed(coarse_solutions.annotated(others))
+    dataset = with_statistics(contact_curves.annotated(fine), others)
     parameters = {
         **asked,
         "case": job.wildcards.comparison,
@@ -56,8 +56,8 @@ def realisation(asked, seed, pixels_per_wavelength, curves):
     heights = synthesis.synthesise(
         spectrum_of(asked), n, length, seed, asked.get("amplitudes", "gaussian")
     )
-    steps = solve_repulsive.steps_of(pixels_per_wavelength)
-    dataset = solve_repulsive.load_curves(heights, length, steps, *curves)
+    steps = contact_curves.steps_of(pixels_per_wavelength)
+    dataset = contact_curves.load_curves(heights, length, steps, *curves)
     waves = asked["magnification"] * asked.get("window", 1.0)
     dataset["rms_slope"] = synthesis.moments(heights, length).rms_slope
     return dataset.assign_coords(resolution=n / waves / np.array(steps))

@@ -19,7 +19,8 @@ def main(job):
     ranges = logarithmic_grid(job.params.gaps)
     heights, length = surface.height.values, float(surface.window_length)
     steps = steps_of(job.params.pixels_per_wavelength)
-    dataset = load_curves(heights, length, steps, pressures, ranges, job.params.tolerance)
+    path = pressures, ranges, job.params.tolerance
+    dataset = load_curves(heights, length, steps, *path, job.params.measured)
     dataset = dataset.assign_coords(resolution=pixels(surface) / np.array(steps))
     dataset["rms_slope"] = surface.rms_slope.sel(source="heights", drop=True)
     datasets.write(

@@ -16,7 +16,7 @@ from pipeline.error_budgets import (
 )
 from pipeline.fits import fitted
 from pipeline.job import start
-from stickiness.accuracy import error_laws
+from stickiness.accuracy.error_models import read_models
 from stickiness.core import datasets
 from stickiness.core.budget import Part, unknown, with_budget
 from stickiness.criteria import a_v_fit
@@ -29,7 +29,7 @@ def main(job):
     if "edge_gap_mean" in areas:
         resolved = areas["range"] >= areas.edge_gap_mean
         dataset["exponent"] = dataset.exponent.where(resolved)
-    simulated, laws = "seed" in dataset.a_v.dims, error_laws.read_laws(job.input.laws)
+    simulated, laws = "seed" in dataset.a_v.dims, read_models(job.input.laws)
     if simulated:
         dataset = averaged(dataset, areas, job.params.windows)
     dataset = annotated(dataset)

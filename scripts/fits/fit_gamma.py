@@ -13,7 +13,8 @@ from scipy.optimize import minimize_scalar
 from pipeline.conventions import spectrum_of, window_of
 from pipeline.job import start
 from stickiness.core import datasets
-from stickiness.core.budget import COVERS, Part, absent, with_budget
+from stickiness.core.budget import Part, absent, with_budget
+from stickiness.core.statistics import COVERS
 from stickiness.persson.kernels import CORRECTIONS, correction_of
 from stickiness.persson.theory import Persson
 from stickiness.surfaces.synthesis import lattice_spectrum

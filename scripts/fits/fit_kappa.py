@@ -7,7 +7,8 @@ from pipeline.conventions import DESCRIBED, LINEAR_UP_TO
 from pipeline.ensemble_means import coarse, described, with_errors
 from pipeline.error_budgets import BY_THEORY, MODEL, QUADRATURE, Simulation, theory_error
 from pipeline.job import start
-from stickiness.accuracy import error_laws
+from pipeline.quantities import slope_of_area
+from stickiness.accuracy.error_models import read_models
 from stickiness.core import datasets
 from stickiness.core.budget import ENDINGS, Part, with_budget
 
@@ -18,12 +19,12 @@ def main(job):
     dataset = xr.Dataset(
         {
             "area_fraction": ensemble.area_fraction_mean,
-            "kappa_theory": theory.area_fraction * theory.rms_slope / theory.pressure,
+            "kappa_theory": slope_of_area(theory),
         }
     )
-    for name, quantity in {"kappa": slope, "kappa_fit": fitted_slope}.items():
+    for name, quantity in {"kappa": slope_of_area, "kappa_fit": fitted_slope}.items():
         dataset = averaged(dataset, name, quantity, ensemble)
-    laws = error_laws.read_laws(job.input.laws)
+    laws = read_models(job.input.laws)
     dataset = budgeted(annotated(dataset), laws, datasets.parameters(ensemble))
     for ending in ENDINGS:
         dataset[f"area_fraction{ending}"] = ensemble[f"area_fraction_mean{ending}"]
@@ -60,11 +61,6 @@ def budgeted(dataset, laws, made):
         model=Part(theory_error(laws, "kappa", value, made) * value, MODEL),
         **BY_THEORY,
     )
-
-
-def slope(ensemble):
-    """Area h'_rms over pressure, load by load."""
-    return ensemble.area_fraction * ensemble.rms_slope / ensemble.pressure
 
 
 def fitted_slope(ensemble):

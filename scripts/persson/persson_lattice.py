@@ -8,7 +8,7 @@ from pipeline.error_budgets import QUADRATURE, theory_parts
 from pipeline.job import start
 from pipeline.theory import DESCRIBED as DESCRIBED_THEORY
 from pipeline.theory import theories
-from stickiness.accuracy import error_laws
+from stickiness.accuracy.error_models import read_models
 from stickiness.core import datasets
 from stickiness.core.budget import with_budget
 from stickiness.persson.theory import Persson
@@ -29,7 +29,7 @@ def main(job):
         variant=DESCRIBED_THEORY,
         rms_slope=("1", "rms gradient of the lattice spectrum over q0 h_rms"),
     )
-    laws = error_laws.read_laws(job.input.laws)
+    laws = read_models(job.input.laws)
     for name in QUADRATURE:
         parts = theory_parts(laws, name, dataset[name], asked)
         dataset = with_budget(dataset, name, **parts)

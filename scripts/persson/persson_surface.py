@@ -7,7 +7,7 @@ from pipeline.conventions import DESCRIBED, VARIANT, logarithmic_grid
 from pipeline.error_budgets import BY_THEORY, QUADRATURE, theory_error
 from pipeline.job import start
 from stickiness import criteria
-from stickiness.accuracy import error_laws
+from stickiness.accuracy.error_models import read_models
 from stickiness.core import datasets
 from stickiness.core.budget import Part, with_budget
 from stickiness.criteria.surface_a_v import theory_a_v
@@ -37,7 +37,7 @@ def main(job):
         edge_range=("1", "range over h_rms below which the edge law takes over from theory"),
     )
     datasets.write(
-        budgeted(dataset, surface, load, error_laws.read_laws(job.input.laws)),
+        budgeted(dataset, surface, load, read_models(job.input.laws)),
         job.output[0],
         title="a_V by Persson's theory on the spectrum of a real surface",
         parameters={**datasets.parameters(surface), "pressure": load, "gamma": gamma},

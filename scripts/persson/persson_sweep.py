@@ -10,7 +10,7 @@ from pipeline.error_budgets import QUADRATURE, theory_parts
 from pipeline.job import start
 from pipeline.theory import DESCRIBED as DESCRIBED_THEORY
 from pipeline.theory import theories
-from stickiness.accuracy import error_laws
+from stickiness.accuracy.error_models import read_models
 from stickiness.core import datasets
 from stickiness.core.budget import with_budget
 from stickiness.persson.theory import Persson
@@ -30,7 +30,7 @@ def main(job):
         )
         for point in product(*axes.values())
     ]
-    dataset, laws = annotated(xr.combine_by_coords(parts)), error_laws.read_laws(job.input.laws)
+    dataset, laws = annotated(xr.combine_by_coords(parts)), read_models(job.input.laws)
     for name in QUADRATURE:
         value = dataset[name].assign_coords(pressure=dataset.pressure)
         dataset = with_budget(dataset, name, **theory_parts(laws, name, value))

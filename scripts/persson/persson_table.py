@@ -12,7 +12,7 @@ from pipeline.job import start
 from pipeline.theory import DESCRIBED as DESCRIBED_THEORY
 from pipeline.theory import theories
 from stickiness import criteria
-from stickiness.accuracy import error_laws
+from stickiness.accuracy.error_models import read_models
 from stickiness.core import datasets
 from stickiness.core.budget import Part, absent, unknown, with_budget
 from stickiness.criteria.a_v_table import edge_range, local_a_v
@@ -40,7 +40,7 @@ def main(job):
     dataset["quadrature_error"] = quadrature_error(axes, ranges, gamma)
     dataset = annotated(dataset.assign_coords(variant=names, range=ranges))
     datasets.write(
-        budgeted(dataset, error_laws.read_laws(job.input.laws)),
+        budgeted(dataset, read_models(job.input.laws)),
         job.output[0],
         title="a_V by Persson's theory on self-affine spectra",
         parameters={**asked, "gamma": gamma, "quoted": names[0]},

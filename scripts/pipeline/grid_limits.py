@@ -15,6 +15,7 @@ import xarray as xr
 from stickiness.contact import grid_limit
 
 DIRECT = "error left in the limit of fine grids, covers 90 %"
+LEFT = "left in the limit of fine grids"
 INHERITED = "from the errors left in areas in the limit of fine grids"
 EXTRAPOLATION = "extrapolation"  # ending of the name of what a mean in the file holds of it
 _STEP = 1e-4  # share of a shift or an error in finite differences: first order is meant

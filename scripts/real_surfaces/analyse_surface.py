@@ -11,7 +11,8 @@ from pipeline import measured_surface
 from pipeline.job import start
 from pipeline.measured_surface import ENDS, POINTS_PER_DECADE, REFERENCE_HURST
 from stickiness.core import datasets
-from stickiness.core.budget import COVERS, Part, absent, with_budget
+from stickiness.core.budget import Part, absent, with_budget
+from stickiness.core.statistics import COVERS
 from stickiness.core.units import si
 from stickiness.surfaces.spectrum import SelfAffine
 

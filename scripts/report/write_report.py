@@ -7,7 +7,8 @@ from pipeline.pages import benchmarks as _benchmarks
 from pipeline.pages import captions as _captions
 from pipeline.pages import provenance, report
 from pipeline.tradeoff import summary
-from stickiness.accuracy import error_laws
+from stickiness.accuracy.error_models import read_models
+from stickiness.accuracy.quantities import MODELLED
 from stickiness.core import datasets
 
 CLAIMS = ("statement", "quantity", "value", "value_error", "claimed", "verdict", "sources")
@@ -54,7 +55,7 @@ def main(job):
             "source": job.input.trade,
             "tables": report.trade_tables(summary.read(job.input.trade)),
         },
-        presets=report.preset_rows(error_laws.read_laws(job.input.laws), **job.params.presets),
+        presets=report.preset_rows(read_models(job.input.laws), **job.params.presets),
         **read(job.input),
     )
     with datasets.whole_file(job.output[0]) as path:
@@ -116,7 +117,7 @@ def render(
         budgets=report.error_budgets(answers),
         presets=presets,
         trade=trade,
-        asked_quantities=list(error_laws.QUANTITIES),
+        asked_quantities=list(MODELLED),
         comparisons=report.theory_rows(comparisons),
         quantities=list(report.QUANTITIES.values()),
         run_times=_benchmarks.run_times(benchmarks),

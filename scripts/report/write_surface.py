@@ -14,7 +14,7 @@ from pipeline.pages.surface_texts import reference_prefactor, rms_height, rms_sl
 from pipeline.pages.verdict_texts import ends, explain, pair_texts
 from pipeline.verdicts.materials import material, modulus_text
 from stickiness.core import datasets
-from stickiness.core.budget import COVERS
+from stickiness.core.statistics import COVERS
 from stickiness.criteria.moduli import crossings
 
 CAPTION = """Heights, levelled (of the first measurement), and spectrum: rings with their sampling

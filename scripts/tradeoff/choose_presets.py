@@ -2,7 +2,10 @@
 
 from pipeline.job import start
 from pipeline.tables import table
-from stickiness.accuracy import adhesion, error_laws, plan
+from stickiness.accuracy import adhesion, plan, prediction
+from stickiness.accuracy.error_models import Surface, read_models
+from stickiness.accuracy.prediction import Problem
+from stickiness.accuracy.quantities import MODELLED, columns_of
 from stickiness.core import datasets
 
 HEAD = """\
@@ -14,16 +17,16 @@ Fourier transforms of 1024 x 1024 doubles for all these pressures, and for one a
 all seeds.
 
 """
-COLUMNS = [column for columns in error_laws.QUANTITIES.values() for column in columns]
-ADHESIVE = list(adhesion.COLUMNS)
+COLUMNS = columns_of(MODELLED)
+ADHESIVE = adhesion.COLUMNS
 
 
 def main(job):
-    laws, asked = error_laws.read_laws(job.input.laws), job.params.presets
-    where = (
-        error_laws.Surface.of(job.params.surface),
-        asked["pressures"],
-        job.params.descriptor_seeds,
+    laws, asked = read_models(job.input.laws), job.params.presets
+    where = laws, Surface.of(job.params.surface), asked["pressures"]
+    problems = (
+        (prediction, Problem(*where, COLUMNS, job.params.descriptor_seeds)),
+        (adhesion, Problem(*where, ADHESIVE, job.params.descriptor_seeds)),
     )
     given = job.params.surface, job.params.descriptor_seeds
     lines = []
@@ -33,7 +36,7 @@ def main(job):
             "in the configuration": plan.preset(job.params.fidelities[name]),
             "without full adhesion": plan.preset_by_rule(laws, asked, name, *given, free=True),
         }
-        lines += [row(text, laws, settings, *where) for text, settings in chosen.items()]
+        lines += [row(text, problems, settings) for text, settings in chosen.items()]
     head = [
         "preset",
         "pixels",
@@ -48,7 +51,7 @@ def main(job):
     with datasets.whole_file(job.output[0]) as path:
         text = HEAD.format(
             surface=asked["surface"],
-            pressures=", ".join(map(str, where[1])),
+            pressures=", ".join(map(str, asked["pressures"])),
             adhesive=" and ".join(asked["adhesive"]["quantities"]),
             errors=", ".join(
                 f"{error:.3g} ({name})" for name, error in asked["adhesive"]["accuracy"].items()
@@ -57,30 +60,22 @@ def main(job):
         path.write_text(text + table(head, lines), encoding="utf-8")
 
 
-def errors(laws, chosen, surface, pressures, descriptor_seeds):
-    """Largest predicted error of each column over the pressures."""
-    return [
-        max(
-            model.predicted_error(laws, chosen, surface, p, column, descriptor_seeds)
-            for p in pressures
-        )
-        for model, columns in ((error_laws, COLUMNS), (adhesion, ADHESIVE))
-        for column in columns
+def row(text, problems, chosen):
+    """Settings, their costs, and the largest predicted error of each column over the pressures."""
+    costs = [model.predicted_cost(problem, chosen) for model, problem in problems]
+    errors = [
+        max(model.predicted_error(problem, chosen, p, column) for p in problem.pressures)
+        for model, problem in problems
+        for column in problem.columns
     ]
-
-
-def row(text, laws, chosen, surface, pressures, descriptor_seeds):
-    cost = error_laws.predicted_cost(laws, chosen, surface, pressures, descriptor_seeds)
-    found = errors(laws, chosen, surface, pressures, descriptor_seeds)
     return [
         text,
         chosen.pixels_per_wavelength,
         f"{chosen.tolerance:.0e}",
         chosen.seeds,
         chosen.coarse_seeds,
-        f"{cost:.0f}",
-        f"{adhesion.predicted_cost(laws, chosen, surface):.0f}",
-        *(f"{100 * error:.2g} %" for error in found),
+        *(f"{cost:.0f}" for cost in costs),
+        *(f"{100 * error:.2g} %" for error in errors),
     ]
 
 

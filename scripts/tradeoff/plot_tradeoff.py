@@ -7,7 +7,11 @@ import numpy as np
 from pipeline.job import start
 from pipeline.pages.style import COLOURS, GREY, MARKERS, canvas, key, letters, plain_ticks, save
 from pipeline.tradeoff import summary
-from stickiness.accuracy import error_laws, plan
+from stickiness.accuracy import plan
+from stickiness.accuracy.choice import COARSE_SEEDS, PIXELS, SEEDS, TOLERANCES
+from stickiness.accuracy.error_models import Settings, Surface, read_models
+from stickiness.accuracy.prediction import Problem, predicted_cost, worst_error
+from stickiness.accuracy.quantities import MODELLED, columns_of
 
 LOADS = ("0.01", "0.065", "0.3")
 SHOWN = {"area": "contact area", "a_v": r"$a_V$", "mean_gap": "mean gap"}
@@ -31,8 +35,8 @@ def main(job):
     tolerances(panels["B"], found[found.knob == "tolerance"])
     seeds(panels["C"], found[found.knob == "seeds"], found[found.knob == "model"])
     bands(panels["D"], found[found.knob == "band"])
-    laws = error_laws.read_laws(job.input.laws)
-    for name, quantities in {"E": ["a_v"], "F": list(error_laws.QUANTITIES)}.items():
+    laws = read_models(job.input.laws)
+    for name, quantities in {"E": ["a_v"], "F": list(MODELLED)}.items():
         together(panels[name], laws, quantities, job.params)
     panels["E"].set_title(r"all settings, $a_V$", loc="right")
     panels["F"].set_title("all settings, worst", loc="right")
@@ -170,17 +174,23 @@ def adhesive_seeds(ax, found):
 
 def together(ax, laws, quantities, params):
     """All settings as predicted, those that nothing cheaper beats, and the presets."""
-    given = error_laws.Surface.of(params.surface), params.presets["pressures"]
+    problem = Problem(
+        laws,
+        Surface.of(params.surface),
+        params.presets["pressures"],
+        columns_of(quantities),
+        params.descriptor_seeds,
+    )
     chosen = [
-        error_laws.Settings(*each)
+        Settings(*each)
         for each in itertools.product(
-            error_laws.PIXELS,
-            error_laws.TOLERANCES[1:4:2],
-            error_laws.SEEDS[:16:2],
-            error_laws.COARSE_SEEDS,
+            PIXELS,
+            TOLERANCES[1:4:2],
+            SEEDS[:16:2],
+            COARSE_SEEDS,
         )
     ]
-    points = [place(laws, each, given, quantities, params.descriptor_seeds) for each in chosen]
+    points = [place(problem, each) for each in chosen]
     cost, error = np.array(points).T
     ax.plot(cost, error, ".", color="0.8", markersize=2, rasterized=True)
     front = non_dominated(cost, error)
@@ -188,7 +198,7 @@ def together(ax, laws, quantities, params):
     for colour, (name, mark) in zip(COLOURS, PRESET_MARKS.items(), strict=False):
         if name in params.fidelities:
             preset = plan.preset(params.fidelities[name])
-            at = place(laws, preset, given, quantities, params.descriptor_seeds)
+            at = place(problem, preset)
             ax.plot(*at, mark, color=colour, markersize=7, markeredgecolor="white", label=name)
     ax.set(xscale="log", yscale="log", xlabel=COST, ylabel="predicted error, 90 %")
     plain_ticks(ax.yaxis, ERROR_TICKS)
@@ -196,12 +206,9 @@ def together(ax, laws, quantities, params):
     ax.legend(handles=[*handles, key(color="black", marker=".", label="cheapest")])
 
 
-def place(laws, chosen, given, quantities, descriptor_seeds):
+def place(problem, chosen):
     """Predicted cost and error of settings."""
-    return (
-        error_laws.predicted_cost(laws, chosen, *given, descriptor_seeds),
-        error_laws.worst_error(laws, chosen, *given, quantities, descriptor_seeds)[0],
-    )
+    return predicted_cost(problem, chosen), worst_error(problem, chosen)[0]
 
 
 def non_dominated(cost, error):

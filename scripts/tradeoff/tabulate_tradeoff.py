@@ -11,7 +11,7 @@ from pipeline.tradeoff.adhesion_rows import pull_offs, rows_and_laws, states
 from pipeline.tradeoff.fit_laws import Points, add_costs, add_grids, add_offsets, add_sampling
 from pipeline.tradeoff.rows import band_rows, grid_rows, node_rows, seed_rows, theory_rows
 from pipeline.tradeoff.seed_pool import bank_of
-from stickiness.accuracy import error_laws
+from stickiness.accuracy.error_models import Surface, write_models
 from stickiness.core import datasets
 
 COLUMNS = {
@@ -41,12 +41,12 @@ def main(job):
     for name, path in named(job.input.grids).items():
         measured = datasets.read(path)
         rows += grid_rows(name, measured)
-        add_grids(points, error_laws.Surface.of(datasets.parameters(measured)), measured)
+        add_grids(points, Surface.of(datasets.parameters(measured)), measured)
     for name, path in named(job.input.seeds).items():
         measured = datasets.read(path)
         grids = named(job.input.grids)
         bank = bank_of(measured, datasets.read(grids[name]) if name in grids else None)
-        surface = error_laws.Surface.of(datasets.parameters(measured))
+        surface = Surface.of(datasets.parameters(measured))
         add_sampling(points, surface, bank)
         add_offsets(points, surface, bank)
         add_costs(points, surface, measured)
@@ -77,7 +77,7 @@ def main(job):
         if part == "fine_share" and ("coarse_share", column) not in laws
     }
     with datasets.whole_file(job.output.laws) as path:
-        error_laws.write_laws(path, laws, COMMENT)
+        write_models(path, laws, COMMENT)
     medians = middle(found)
     with datasets.whole_file(job.output.summary) as path:
         summary.write(path, medians)

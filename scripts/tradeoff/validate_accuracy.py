@@ -1,13 +1,12 @@
-"""Cases with an accuracy, on surfaces that the laws were not fitted to: error and cost.
+"""Cases with an accuracy, on surfaces that the error models were not fitted to: error and cost.
 
-What a user gets is simulated on banks of solved seeds: settings are chosen by the laws, seeds are
-drawn in rounds until `stickiness.stopping` is content, and the mean is that of all seeds drawn, the
-lucky ones and the others. It is compared with the cheapest settings that would have done, which
-only the bank as a whole can tell.
+What a user gets is simulated on pools of solved seeds: settings are chosen by the error models, and
+seeds are drawn from the pool. Their mean is compared with that of all, and their cost with the
+cheapest settings that would have been enough, which only the pool as a whole can tell.
 """
 
 import itertools
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 import xarray as xr
@@ -16,8 +15,26 @@ from pipeline.job import start
 from pipeline.tables import table
 from pipeline.tradeoff.measuring import COVERED
 from pipeline.tradeoff.seed_pool import Draws, bank_of
-from stickiness.accuracy import error_laws, sequential
+from stickiness.accuracy.choice import (
+    COARSE_SEEDS,
+    PIXELS,
+    SEEDS,
+    TOLERANCES,
+    UnreachableError,
+    cheapest,
+)
+from stickiness.accuracy.error_models import (
+    COARSE,
+    FULL,
+    Settings,
+    Surface,
+    read_models,
+    single_error,
+)
+from stickiness.accuracy.prediction import Problem
+from stickiness.accuracy.quantities import MODELLED, columns_of
 from stickiness.core import datasets
+from stickiness.core.statistics import COVERS
 
 CASES, SEARCHES = 60, 120  # repetitions: of every case, and in the search of what is cheapest
 DESCRIBED = 2048
@@ -27,31 +44,26 @@ WANTED = {
     "mean gap": ("mean_gap",),
     "a_V": ("a_v",),
     "area, attractive area": ("area", "attractive_area"),
-    "everything": tuple(error_laws.QUANTITIES),
+    "everything": MODELLED,
 }
 TEXTS = {
     "pixels": "grid points per shortest wavelength that were chosen",
     "tolerance": "tolerance that was chosen",
-    "seeds": "fine seeds in the end, mean over runs",
-    "coarse_seeds": "coarse seeds in the end, mean over runs",
-    "rounds": "rounds of seeds, mean over runs",
-    "ended": "share of runs that ended with enough seeds, not at the cap or for the grid",
+    "seeds": "fine seeds that were chosen",
+    "coarse_seeds": "coarse seeds that were chosen",
     "within": "share of runs within the accuracy in every quantity at every load",
     "error": "error that covers 90 % of runs, of the worst quantity and load of each",
-    "open_within": "share of runs within it with the settings chosen in advance, and no rounds",
-    "cost": "mean cost of a run, in pairs of transforms of 1024 x 1024 doubles",
+    "cost": "cost of a run, in pairs of transforms of 1024 x 1024 doubles",
     "cost_over_cheapest": "cost over that of the cheapest settings that reach the accuracy",
-    "open_cost_over_cheapest": "the same with the settings chosen in advance, and no rounds",
 }
 HEAD = """\
-Cases that ask for an accuracy, on surfaces that were not used to fit the laws behind the choice:
-each run chooses grid and tolerance by the laws, draws seeds in rounds until it is content, and is
-compared with what all seeds say. Within: share of runs within the accuracy in every quantity at
-every load at once. Error: covers 90 % of runs, of the worst quantity and load of each. Cost: of all
-that is solved, over that of the cheapest settings with which 90 % of runs are within. Open: the
-settings chosen in advance, without rounds.
-Laws, rule and margin were set on the surfaces that the laws are fitted to, each with the laws of
-the others, and fixed before these were looked at.
+Cases that ask for an accuracy, on surfaces that were not used to fit the error models behind the
+choice: each run has the settings that the models choose, and is compared with what all seeds say.
+Within: share of runs within the accuracy in every quantity at every load at once. Error: covers
+90 % of runs, of the worst quantity and load of each. Cost: of all that is solved, over that of the
+cheapest settings with which 90 % of runs are within.
+Error models and margin were set on the surfaces that the models are fitted to, each with the models
+of the others, and fixed before these were looked at.
 Runs draw from the seeds that the reference is the mean of, so that these do not add to the error;
 its grid does: what 32 points change from 16 is known to {known} (90 %, median and
 largest over quantities and loads).
@@ -60,14 +72,14 @@ largest over quantities and loads).
 
 
 def main(job):
-    laws, rows, known = error_laws.read_laws(job.input.laws), [], []
+    laws, rows, known = read_models(job.input.laws), [], []
     for path in job.input.seeds:
         measured = datasets.read(path)
-        bank, surface = bank_of(measured), error_laws.Surface.of(datasets.parameters(measured))
+        bank, surface = bank_of(measured), Surface.of(datasets.parameters(measured))
         name = path.rsplit("/", 1)[1].removesuffix(".nc")
         rows += validated(name, bank, measured, surface, laws, job.params.accuracies)
         _, noise = bank.offsets[max(bank.offsets)]
-        known += bank.by_quantity(error_laws.COVERS * noise).values()
+        known += bank.by_quantity(COVERS * noise).values()
     columns = ["case", "wanted", "accuracy", *TEXTS]
     missing = "out of reach, or nothing measured reaches it"
     dataset = xr.Dataset(
@@ -100,19 +112,13 @@ def validated(name, bank, measured, surface, laws, accuracies):
     draws, rows = Draws(bank, CASES, DESCRIBED), []
     loads = tuple(measured.pressure.values.tolist())
     for (text, quantities), asked in itertools.product(WANTED.items(), accuracies):
-        case = sequential.Asked(asked, surface, loads, quantities, descriptor_seeds=DESCRIBED)
+        problem = Problem(laws, surface, loads, columns_of(quantities), DESCRIBED)
         try:
-            chosen = error_laws.cheapest(
-                laws, asked, surface, loads, quantities, descriptor_seeds=DESCRIBED
-            )
-        except error_laws.UnreachableError:
+            chosen = cheapest(problem, asked)
+        except UnreachableError:
             rows.append((name, text, asked, *[np.nan] * len(TEXTS)))
             continue
-        cheapest = lowest_cost(searches, case.columns, asked)
-        runs = Runs(draws, laws, case)
-        found = [runs.ended(one, chosen) for one in range(CASES)]
-        error = np.array([one.error for one in found])
-        spent = np.array([cost(one.settings) for one in found])
+        error, spent = worst_errors(draws, problem, chosen), cost(chosen)
         rows.append(
             (
                 name,
@@ -120,29 +126,15 @@ def validated(name, bank, measured, surface, laws, accuracies):
                 asked,
                 float(chosen.pixels_per_wavelength),
                 chosen.tolerance,
-                float(np.mean([one.settings.seeds for one in found])),
-                float(np.mean([one.settings.coarse_seeds for one in found])),
-                float(np.mean([one.rounds for one in found])),
-                float(np.mean([one.state == sequential.ENOUGH for one in found])),
+                float(chosen.seeds),
+                float(chosen.coarse_seeds),
                 float(np.mean(error <= asked)),
                 float(np.quantile(error, COVERED)),
-                float(np.mean(runs.worst(chosen) <= asked)),
-                float(spent.mean()),
-                spent.mean() / cheapest,
-                cost(chosen) / cheapest,
+                spent,
+                spent / lowest_cost(searches, problem.columns, asked),
             )
         )
     return rows
-
-
-@dataclass(frozen=True)
-class Ended:
-    """How a run ended: with what settings, after how many rounds, why, and with what error."""
-
-    settings: error_laws.Settings
-    rounds: int
-    state: str
-    error: float
 
 
 class Cost:
@@ -160,9 +152,9 @@ class Cost:
 
     def __call__(self, settings):
         """Cost of a case with some settings."""
-        pixels, tolerance = settings.pixels_per_wavelength, settings.tolerance / error_laws.FULL
+        pixels, tolerance = settings.pixels_per_wavelength, settings.tolerance / FULL
         saved = self.law(self.surface, tolerance=tolerance) if tolerance > 1 else 1.0
-        one = sum(self.seconds[grid] for grid in {pixels, pixels // 2, error_laws.COARSE})
+        one = sum(self.seconds[grid] for grid in {pixels, pixels // 2, COARSE})
         total = saved * settings.seeds * one
         if settings.coarse_seeds:
             total += saved * settings.coarse_seeds * self.coarse + self.describing
@@ -177,10 +169,8 @@ class Search:
 
     def __init__(self, draws, cost):
         self.draws, self.found = draws, {}
-        every = itertools.product(
-            error_laws.PIXELS, error_laws.TOLERANCES[:1], error_laws.SEEDS, error_laws.COARSE_SEEDS
-        )
-        self.costs = {one: cost(one) for one in itertools.starmap(error_laws.Settings, every)}
+        every = itertools.product(PIXELS, TOLERANCES[:1], SEEDS, COARSE_SEEDS)
+        self.costs = {one: cost(one) for one in itertools.starmap(Settings, every)}
         self.every = sorted(self.costs, key=self.costs.get)
 
     def reach(self, settings, columns, asked):
@@ -203,59 +193,24 @@ def lowest_cost(searches, columns, asked):
     return np.nan
 
 
-class Runs:
-    """Runs of one case on a set of draws, one for each repetition."""
+def worst_errors(draws, problem, settings):
+    """Largest error of each repetition over columns and loads, with what the tolerance adds."""
+    errors = draws.bank.by_quantity(draws(replace(settings, tolerance=FULL))[0])
+    return np.max(
+        [
+            np.hypot(errors[column, load], solver_error(problem, settings, load, column))
+            for load, column in problem.points
+        ],
+        axis=0,
+    )
 
-    def __init__(self, draws, laws, case):
-        self.draws, self.laws, self.case, self.found = draws, laws, case, {}
 
-    def ended(self, one, chosen):
-        """Draw seeds for repetition `one` until there is no more to draw."""
-        case, rounds = self.case, 1
-        settings = sequential.first(self.laws, case, chosen)
-        while True:
-            scatter = self.of(settings)[1][..., one]
-            # What a single run says of its grid is not in the bank; the laws stand alone.
-            measured = sequential.Measured(
-                np.ones_like(scatter), scatter, np.full_like(scatter, np.inf)
-            )
-            decision = sequential.assess(self.laws, case, settings, measured)
-            if decision.state != sequential.MORE:
-                return Ended(settings, rounds, decision.state, self.worst(settings)[one])
-            settings, rounds = decision.settings, rounds + 1
-
-    def worst(self, settings):
-        """Largest error of each repetition over columns and loads."""
-        return self.of(settings)[0].max(axis=(0, 1))
-
-    def of(self, settings):
-        """Errors with what the tolerance adds, and standard errors; `(column, load, one)`."""
-        if settings not in self.found:
-            exact = replace(settings, tolerance=error_laws.FULL)
-            case, by_quantity = self.case, self.draws.bank.by_quantity
-            errors, scatter = (by_quantity(part) for part in self.draws(exact))
-            solver = {
-                (column, load): self.solver_error(settings, column, load)
-                for column, load in itertools.product(case.columns, case.pressures)
-            }
-            self.found[settings] = (
-                np.array(
-                    [
-                        [np.hypot(errors[c, p], solver[c, p]) for p in case.pressures]
-                        for c in case.columns
-                    ]
-                ),
-                np.array([[scatter[c, p] for p in case.pressures] for c in case.columns]),
-            )
-        return self.found[settings]
-
-    def solver_error(self, settings, column, load):
-        """What a tolerance above the one of the measurement adds, by its law."""
-        if settings.tolerance <= error_laws.FULL:
-            return 0.0
-        return error_laws.single_error(
-            self.laws, "solver", column, self.case.surface, load, tolerance=settings.tolerance
-        )
+def solver_error(problem, settings, load, column):
+    """What a tolerance above the one of the measurement adds, by its error model."""
+    if settings.tolerance <= FULL:
+        return 0.0
+    at = problem.models, "solver", column, problem.surface, load
+    return single_error(*at, tolerance=settings.tolerance)
 
 
 def markdown(columns, rows):
@@ -265,13 +220,9 @@ def markdown(columns, rows):
 
 def summary(columns, rows):
     """In how many runs and cases the accuracy is reached, and at what cost."""
-    wanted = ("accuracy", "within", "error", "cost_over_cheapest")
-    opened = ("accuracy", "open_within", "error", "open_cost_over_cheapest")
-    lines = []
-    for text, names in (("As it is run", wanted), ("Without rounds", opened)):
-        part = np.array([[row[columns.index(name)] for name in names] for row in rows])
-        lines.append(f"{text}: {told(part.astype(float))}\n")
-    return "\n".join(lines)
+    names = ("accuracy", "within", "error", "cost_over_cheapest")
+    part = np.array([[row[columns.index(name)] for name in names] for row in rows])
+    return f"Together: {told(part.astype(float))}\n"
 
 
 def told(part):

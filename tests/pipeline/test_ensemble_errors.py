@@ -6,8 +6,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from contact import average_ensemble, solve_coarse
-from pipeline import ensemble_means
+from pipeline import coarse_solutions, ensemble_means, ensembles
 from stickiness.accuracy import multilevel
 from stickiness.core import datasets
 
@@ -132,12 +131,12 @@ def test_coarse_solutions_in_parts_are_those_of_one_file(tmp_path):
     parts = {"one": range(48), "first": range(32), "second": range(32, 48)}
     files = {}
     for name, which in parts.items():
-        solved = solve_coarse.coarse_solutions(asked, which, 20, *curves)
+        solved = coarse_solutions.coarse_solutions(asked, which, 20, *curves)
         path = tmp_path / f"{name}.nc"
-        datasets.write(solve_coarse.annotated(solved), path, title=name, parameters=asked)
+        datasets.write(coarse_solutions.annotated(solved), path, title=name, parameters=asked)
         files[name] = datasets.read(path)
     assert files["second"].sizes["other"] == 0
-    whole = average_ensemble.renamed(average_ensemble.joined([files["one"]]))
-    both = average_ensemble.renamed(average_ensemble.joined([files["first"], files["second"]]))
+    whole = ensembles.renamed(ensembles.joined([files["one"]]))
+    both = ensembles.renamed(ensembles.joined([files["first"], files["second"]]))
     xr.testing.assert_equal(both, whole)
     assert both.sizes["other"] == 20

@@ -5,10 +5,11 @@ import pytest
 import xarray as xr
 
 from fits.fit_a_v import averaged, fitted
-from fits.fit_kappa import fitted_slope, slope
+from fits.fit_kappa import fitted_slope
 from pipeline import ensemble_means, grid_limits
 from pipeline.contact_curves import load_curve
 from pipeline.ensembles import AVERAGED, with_statistics
+from pipeline.quantities import slope_of_area
 from stickiness import spectrum, surface
 from stickiness.contact import grid_limit
 
@@ -86,7 +87,7 @@ def test_nothing_is_extrapolated_or_uncertain_where_there_is_no_edge(solved):
 
 
 def test_slopes_inherit_the_relative_error_of_the_area(ensemble):
-    limit = grid_limits.inherited(ensemble, slope, ["area_fraction"])
+    limit = grid_limits.inherited(ensemble, slope_of_area, ["area_fraction"])
     relative = ensemble.area_fraction_discretisation_error / ensemble.area_fraction_mean
     mean = ensemble.area_fraction_mean * ensemble.rms_slope.mean() / ensemble.pressure
     np.testing.assert_allclose(limit.error, mean * relative, rtol=1e-9)

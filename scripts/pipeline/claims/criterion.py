@@ -11,10 +11,10 @@ from pipeline.claims.ledger import Files, Finding, claim, grade
 from pipeline.claims.texts import describe_sample
 from pipeline.conventions import VARIANT, spectrum_of, window_of
 from stickiness import adhesive, criteria
-from stickiness.accuracy import error_laws
 from stickiness.adhesion import equivalent_sphere
 from stickiness.adhesion.area_load import JTB_CONSTANT
 from stickiness.core import datasets
+from stickiness.core.statistics import students_t
 from stickiness.surfaces import synthesis
 from stickiness.surfaces.spectrum import SelfAffine
 
@@ -340,7 +340,7 @@ def spectral_moments(files: Files) -> Finding:
             f"(lattice {expected[1]:.3f}), h''_rms/√(8 m4/3) = {mean[2]:.4f} ± {error[2]:.4f} "
             f"(lattice {expected[2]:.4f})."
         ),
-        errors={"sampling": error_laws.students_t(len(surfaces)) * float(error[0])},
+        errors={"sampling": students_t(len(surfaces)) * float(error[0])},
         comment="sampling: scatter over the surfaces, with Student's t",
     )
 

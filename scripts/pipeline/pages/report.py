@@ -18,7 +18,10 @@ from pipeline.pages.surface_texts import reference_prefactor, rms_height
 from pipeline.pages.verdict_texts import EDGES, STICKINESS, STICKINESS_TONES, pair_texts
 from pipeline.tradeoff import summary as trade_summary
 from pipeline.verdicts.materials import modulus_text
-from stickiness.accuracy import error_laws, plan
+from stickiness.accuracy import plan
+from stickiness.accuracy.error_models import ErrorModels, Surface
+from stickiness.accuracy.prediction import Problem, predicted_cost, worst_error
+from stickiness.accuracy.quantities import COLUMNS, MODELLED, columns_of
 from stickiness.core import budget, datasets
 from stickiness.criteria.errata import ERRATA
 from stickiness.criteria.registry import CRITERIA
@@ -27,20 +30,8 @@ Datasets = Mapping[str, xr.Dataset]
 Context = dict[str, Any]
 
 RANGE = 0.03  # of the error budget: amid the window of the fits
-COLUMNS = {
-    "area": "contact area",
-    "mean_gap": "mean gap",
-    "attractive_area_0.01": "attractive area at range 0.01",
-    "attractive_area_0.1": "attractive area at range 0.1",
-    "gap_distribution": "P(u) at gap 0.1",
-    "a_v": "a_V",
-    "kappa": "κ",
-}
 HEADS = {
-    "attractive_area_0.01": "A_ad(0.01)",
-    "attractive_area_0.1": "A_ad(0.1)",
-    "gap_distribution": "P(u)",
-    "a_v": "a_V",
+    **{name: column.heading for name, column in COLUMNS.items() if column.heading},
     "inverse_kappa_ad_0.0075": "1/κ_ad(0.0075)",
     "inverse_kappa_ad_0.1": "1/κ_ad(0.1)",
     "inverse_kappa_ad_1": "1/κ_ad(1)",
@@ -54,8 +45,8 @@ CLAIM_TONES = {
     "not reproduced": "no",
 }
 QUANTITIES = {
-    "area_fraction": "contact area",
-    "mean_gap": "mean gap",
+    "area_fraction": COLUMNS["area"].label,
+    "mean_gap": COLUMNS["mean_gap"].label,
     "attractive_area": f"attractive area at range {RANGE:g}",
 }
 
@@ -317,7 +308,7 @@ def budget_row(at: xr.Dataset) -> Context:
     value, total = float(at.value), float(at.value_total_error)
     errors = at.value_error / value if value else at.value_error * np.nan
     return {
-        "quantity": COLUMNS.get(str(at.column.item()), str(at.column.item())),
+        "quantity": COLUMNS[str(at.column.item())].label,
         "value": with_error(value, total) if np.isfinite(total) else number(value),
         "errors": {source: percent(float(errors.sel(source=source))) for source in budget.SOURCES},
         "dominates": dominating(at, "value"),
@@ -325,22 +316,22 @@ def budget_row(at: xr.Dataset) -> Context:
 
 
 def preset_rows(
-    laws: error_laws.Laws,
+    laws: ErrorModels,
     fidelities: Mapping[str, Any],
     asked: Mapping[str, Any],
     surface: Mapping[str, Any],
     descriptor_seeds: int,
 ) -> list[Context]:
     """Settings of every preset, what they were measured to cost and to err by."""
-    given = error_laws.Surface.of(surface), asked["pressures"]
+    given = laws, Surface.of(surface), asked["pressures"]
     rows = []
     for name, error in asked["accuracy"].items():
         chosen = plan.preset(fidelities[name])
         errors = (
-            error_laws.worst_error(laws, chosen, *given, [quantity], descriptor_seeds)[0]
-            for quantity in error_laws.QUANTITIES
+            worst_error(Problem(*given, columns_of([quantity]), descriptor_seeds), chosen)[0]
+            for quantity in MODELLED
         )
-        cost = error_laws.predicted_cost(laws, chosen, *given, descriptor_seeds)
+        cost = predicted_cost(Problem(*given, columns_of(MODELLED), descriptor_seeds), chosen)
         rows.append(
             {
                 "name": name,

@@ -22,7 +22,7 @@ import numpy as np
 
 import stickiness
 from stickiness import adhesive, criteria
-from stickiness.accuracy import error_laws, multilevel
+from stickiness.accuracy import choice, error_models, multilevel, prediction
 from stickiness.adhesion import dmt, equivalent_sphere, model_choice
 from stickiness.contact import gaps, grid_limit, solver, subpixel
 from stickiness.criteria import a_v_fit, a_v_table, moduli
@@ -35,7 +35,7 @@ OUTCOMES = ("right", "refused", "not converged", "failed")
 TIME_LIMIT = 30  # seconds of computing for a point; most take less than 0.1
 
 _MODULES = (
-    a_v_fit, a_v_table, error_laws, adhesive, dmt, gaps, grid_limit, criteria, equivalent_sphere, instrument_spectrum, model_choice,
+    a_v_fit, a_v_table, choice, error_models, prediction, adhesive, dmt, gaps, grid_limit, criteria, equivalent_sphere, instrument_spectrum, model_choice,
     theory, psd, solver, multilevel, self_affine_fit, spectrum, stitching, subpixel, synthesis,
     moduli,
 )  # fmt: skip

@@ -11,7 +11,7 @@ from scipy import optimize
 from pipeline.tradeoff.measuring import COVERED, derived, rms
 from pipeline.tradeoff.seed_pool import extrapolated
 from stickiness.accuracy import multilevel
-from stickiness.accuracy.error_laws import COARSE, FULL, Law
+from stickiness.accuracy.error_models import COARSE, FULL, ErrorModel
 
 FEATURES = ("constant", "hurst", "magnification", "window", "pressure", "pixels", "tolerance")
 FLOOR = 1e-10  # errors below are nothing, and say nothing of how they depend on what
@@ -101,7 +101,7 @@ def varying(features):
 
 def law_of(coefficients, ratio):
     """Law of coefficients, with the ratios of what was measured to it."""
-    return Law(
+    return ErrorModel(
         **dict(zip(FEATURES, coefficients.tolist(), strict=True)),
         spread=float(np.quantile(ratio, COVERED)),
         points=len(ratio),

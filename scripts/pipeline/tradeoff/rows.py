@@ -9,9 +9,10 @@ from pipeline.theory import contact_of
 from pipeline.tradeoff.fit_laws import by_knob, estimates
 from pipeline.tradeoff.measuring import COVERED, derived, rms, timed
 from pipeline.tradeoff.seed_pool import FEWEST_FINE, Draws, stacked
-from stickiness.accuracy import error_laws
-from stickiness.accuracy.error_laws import COARSE, FULL, Settings
+from stickiness.accuracy.error_models import COARSE, FULL, Settings, Surface
+from stickiness.accuracy.extrapolation import CARRIED_TIMES
 from stickiness.core import datasets
+from stickiness.core.statistics import COVERS
 from stickiness.persson.theory import Persson
 from stickiness.surfaces.synthesis import lattice_spectrum
 
@@ -119,7 +120,7 @@ def seed_rows(name, measured, bank):
     seconds = float(measured.fixed_seconds.mean()) / loads
     for seeds in (4, 8):
         for (quantity, load), bias in mean.items():
-            error = np.hypot(bias, error_laws.COVERS * scatter[quantity, load] / np.sqrt(seeds))
+            error = np.hypot(bias, COVERS * scatter[quantity, load] / np.sqrt(seeds))
             rows.append(
                 row(
                     "seeds",
@@ -138,7 +139,7 @@ def seed_rows(name, measured, bank):
 def theory_rows(name, measured, bank, points):
     """Rows of theory in place of simulation: its error is that of the model."""
     asked = datasets.parameters(measured)
-    surface, loads = error_laws.Surface.of(asked), measured.pressure.values
+    surface, loads = Surface.of(asked), measured.pressure.values
     lattice = lattice_spectrum(spectrum_of(asked), window_of(asked))
     state, seconds = timed(lambda: contact_of(Persson(lattice), loads, measured["range"].values))
     values, *_ = stacked(derived(state.expand_dims("seed")))
@@ -201,9 +202,9 @@ def add_carrying(hurst, simulated, theory, points):
     beyond the cut, measured by what it takes of the area. The Hurst exponent alone is left to the
     law: laws in cut and load too foretell a Hurst exponent that they were not fitted to worse.
     """
-    area, surface = theory["area"], error_laws.Surface(hurst, 1)
+    area, surface = theory["area"], Surface(hurst, 1)
     for cut, to in itertools.combinations(area.magnification.values.tolist(), 2):
-        if to > error_laws.CARRIED_TIMES * cut:
+        if to > CARRIED_TIMES * cut:
             continue
         at, whole = {"magnification": cut}, {"magnification": to}
         size = abs(area.sel(whole) / area.sel(at) - 1)

@@ -10,7 +10,8 @@ from numpy.typing import ArrayLike
 
 from pipeline.conventions import VARIANT
 from stickiness.core import datasets
-from stickiness.core.budget import COVERS, Part, absent
+from stickiness.core.budget import Part, absent
+from stickiness.core.statistics import COVERS
 from stickiness.criteria.surface_a_v import SurfaceAv
 
 

@@ -4,7 +4,8 @@ import numpy as np
 import xarray as xr
 
 from pipeline.verdicts.a_v import CLOSED, LIMITS, between
-from stickiness.core.budget import COVERS, Part, absent, with_budget
+from stickiness.core.budget import Part, absent, with_budget
+from stickiness.core.statistics import COVERS
 from stickiness.criteria.registry import EDGES
 
 

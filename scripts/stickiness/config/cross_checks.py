@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import Any
 
-from stickiness.accuracy.error_laws import CARRIED_TIMES, CARRIED_TO
+from stickiness.accuracy.extrapolation import CARRIED_TIMES, CARRIED_TO
 from stickiness.config.messages import grid_problems, unit_problem, unknown
 
 # What the figures and the claims ledger read; may be edited but not removed.
@@ -239,5 +239,3 @@ def _model_problems(
         )
     if "at_most" in case and "accuracy" not in case:
         yield f"{key}.at_most = {case['at_most']!r} needs accuracy; give seeds for a fixed number"
-    if "accuracy" in case and "seeds" in case:
-        yield f"{key}.seeds = {case['seeds']!r}: give accuracy or seeds, not both"

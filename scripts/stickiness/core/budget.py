@@ -20,8 +20,6 @@ from dataclasses import dataclass
 import numpy as np
 import xarray as xr
 
-from stickiness.accuracy.error_laws import COVERS as COVERS
-
 SOURCES = ("discretisation", "solver", "sampling", "bandwidth", "model")
 NONE = -1  # flag of what has no error, or no value
 ENDINGS = ("_error", "_total_error", "_dominant")

@@ -6,10 +6,11 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from contact import average_ensemble, solve_ensemble
+from contact import solve_ensemble
 from fits import compare_theory, fit_gamma
+from pipeline.ensembles import AVERAGED
 from stickiness.core import datasets
-from stickiness.core.budget import COVERS
+from stickiness.core.statistics import COVERS
 from stickiness.persson import Persson
 from stickiness.spectrum import SelfAffine
 from stickiness.surface import lattice_spectrum
@@ -145,7 +146,7 @@ def solved(tmp_path_factory):
 
 
 def test_ensemble_of_one_job_has_what_averages_have(solved):
-    for name in average_ensemble.AVERAGED:
+    for name in AVERAGED:
         for kind in ("mean", "standard_error", "discretisation_error"):
             assert f"{name}_{kind}" in solved
     made = datasets.parameters(solved)

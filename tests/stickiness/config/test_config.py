@@ -145,7 +145,6 @@ def model(*keys, value):
         (of_theory(seeds=3), ["mine.seeds", "3", "model: theory"]),
         (of_theory(accuracy=0.1), ["mine.accuracy", "0.1", "model: theory"]),
         (of_theory(at_most=9), ["mine.at_most", "9", "model: theory"]),
-        (with_accuracy(seeds=3), ["mine.seeds", "3", "accuracy or seeds"]),
         (with_accuracy(at_most=1), ["mine.at_most", "1", "at least 2"]),
         (case("at_most", value=9), ["H0.8_zeta64.at_most", "9", "needs accuracy"]),
         (changed(CONFIG, "sampling", "at_most", value=129), ["sampling.at_most", "at most 128"]),
