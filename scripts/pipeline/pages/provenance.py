@@ -46,7 +46,8 @@ def name_estimator(made: Mapping[str, Any]) -> str:
     """Estimator of the means, with the seeds it uses besides those of the ensemble."""
     if made["estimator"] == "plain":
         return "plain"
-    return f"multilevel: {made['coarse_seeds']} coarse, {made['descriptor_seeds']} described"
+    controls = f"{made['coarse_seeds']} coarse seeds, {made['descriptor_seeds']} long-wave controls"
+    return f"multilevel: {controls}"
 
 
 def list_seeds(seeds: Sequence[int]) -> str:
