@@ -520,7 +520,8 @@ def test_mixed_versions_are_pointed_out(claims):
 
 
 @pytest.mark.parametrize(
-    ("seeds", "want"), [((1, 2), "multilevel: 32 coarse seeds, 100 long-wave controls"), ((5,), "plain")]
+    ("seeds", "want"),
+    [((1, 2), "multilevel: 32 coarse seeds, 100 long-wave controls"), ((5,), "plain")],
 )
 def test_estimator_of_an_ensemble_is_named(seeds, want):
     (row,) = describe_provenance([], [ensemble(seeds=seeds)])["ensembles"]
