@@ -242,7 +242,7 @@ def area_against_load(files: Files) -> Finding:
             np.abs(np.concatenate([theory, measured]) - 1).max() < 0.1, both.max() < 0.25
         ),
         remark=(
-            f"The exponent falls to {theory[-1]:.2f} at p = {loads[-1]:g}. Simulation "
+            f"The exponent is {theory[-1]:.2f} at p = {loads[-1]:g}. Simulation "
             f"({describe_sample(bem)}) gives {measured[0]:.2f} to {measured[-1]:.2f}, theory on "
             f"the spectrum of that window {lattice[0]:.2f} to {lattice[-1]:.2f}."
         ),
@@ -280,9 +280,11 @@ def a_v_against_magnification(files: Files) -> Finding:
         claimed=3.0,
         verdict=grade(near and steady and error < 0.5, near),
         remark=(
-            f"a_V is about 3 but has not converged: it grows by {growth} from zeta = {zetas[0]} to "
-            f"{zetas[1]}, and the fit intervals give {float(intervals.min()):.2f} to "
-            f"{float(intervals.max()):.2f}. {describe_simulated_a_v(files, first)}"
+            f"a_V differs from 3 by {'less' if near else 'more'} than {error:.2f}, half the range "
+            f"over the fit intervals ({float(intervals.min()):.2f} to "
+            f"{float(intervals.max()):.2f}). It {'has' if steady else 'has not'} converged: it "
+            f"grows by {growth} from "
+            f"zeta = {zetas[0]} to {zetas[1]}. {describe_simulated_a_v(files, first)}"
         ),
         errors=errors_by_source(fit, "a_v") | {"bandwidth": grown, "model": np.hypot(model, error)},
         comment=(
