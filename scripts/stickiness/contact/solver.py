@@ -25,8 +25,16 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from stickiness.contact import active_set
-from stickiness.contact.grids import check_length, coarsen, interpolate, measure_scale, sample
+from stickiness.contact.grids import (
+    check_length,
+    coarsen,
+    interpolate,
+    measure_scale,
+    measure_slope,
+    sample,
+)
 from stickiness.core.arguments import grid, integer, number
+from stickiness.core.plausibility import warn_of_heights, warn_of_pressure
 
 __all__ = ["Contact", "ConvergenceError", "load_path", "solve"]
 
@@ -142,6 +150,12 @@ def solve(
     ConvergenceError
         If `max_iterations` do not suffice; it carries the best iterate.
 
+    Warns
+    -----
+    PlausibilityWarning
+        If heights and length can hardly share a unit, or the pressure is far above any that this
+        surface could need.
+
     Examples
     --------
     >>> import numpy as np
@@ -163,6 +177,9 @@ def solve(
             "pass a solution on the same grid"
         )
     mean, rms = measure_scale(heights)
+    warn_of_heights(rms, lengths[0])
+    if pressure > 1:
+        warn_of_pressure(pressure, measure_slope(heights, lengths))
     if rms == 0:
         return _flat(heights, lengths, pressure)
     if pressure == 0:

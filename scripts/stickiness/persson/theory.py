@@ -37,6 +37,7 @@ from scipy.optimize import brentq
 from scipy.special import erf
 
 from stickiness.core.arguments import finite, nonnegative, number, positive
+from stickiness.core.plausibility import warn_of_pressure
 from stickiness.persson.gaps import GapProfile, Setting, closure_error, gap_profile
 from stickiness.persson.gaps import cumulative as _cumulative
 from stickiness.persson.gaps import density as _density
@@ -132,6 +133,7 @@ class Persson:
         (p,) = finite(p=p)
         if not np.all(p >= 0):
             raise ValueError(f"p must be finite and not negative, got {p!r}")
+        warn_of_pressure(float(np.max(p, initial=0.0)), self.spectrum.rms_slope)
         m = self._setting.m2
         if magnification is not None:
             if np.ndim(magnification) or not magnification >= 1:
