@@ -80,7 +80,7 @@ def without_adhesion(problem, max_iterations):
     """Gap without adhesion at the control of a problem, and the convolutions it took."""
     surface = problem.surface
     if problem.pressure is not None:
-        contact = solver.solve(surface.heights, surface.sides, problem.pressure, tol=_ROUGH)
+        contact = solver.press(surface.heights, surface.sides, problem.pressure, tol=_ROUGH)
         return contact.gap, contact.fft_pairs
     gap = problem.mean_gap - surface.heights
     if gap.min() >= 0:

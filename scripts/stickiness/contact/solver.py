@@ -176,10 +176,15 @@ def solve(
             f"start has the shape {start.pressure.shape}, the heights {heights.shape}: "
             "pass a solution on the same grid"
         )
-    mean, rms = measure_scale(heights)
-    warn_of_heights(rms, lengths[0])
+    warn_of_heights(measure_scale(heights)[1], lengths[0])
     if pressure > 1:
         warn_of_pressure(pressure, measure_slope(heights, lengths))
+    return press(heights, lengths, pressure, tol, start, max_iterations, logger)
+
+
+def press(heights, lengths, pressure, tol, start=None, max_iterations=1000, logger=None):
+    """Solve as `solve` does, of arguments that were checked, in any unit: nothing is warned of."""
+    mean, rms = measure_scale(heights)
     if rms == 0:
         return _flat(heights, lengths, pressure)
     if pressure == 0:
