@@ -79,6 +79,7 @@ def test_weakly_adhesive_sphere_pulls_off_as_maugis_and_dmt_have_it():
     assert radius == pytest.approx(exact.at_force(0.0).contact_radius, rel=0.02)
 
 
+@pytest.mark.slow
 def test_sphere_between_the_limits_pulls_off_as_maugis_has_it():
     """Tabor 1, against Maugis-Dugdale on two grids and in their limit.
 
@@ -108,6 +109,7 @@ def test_sphere_between_the_limits_pulls_off_as_maugis_has_it():
             assert (loading + unloading) / 2 == pytest.approx(radius, rel=0.02)
 
 
+@pytest.mark.slow
 def test_strongly_adhesive_sphere_pulls_off_as_johnson_kendall_roberts_have_it():
     """Tabor 5, by a law without a jump, which delays the edge of contact far less.
 
@@ -128,6 +130,7 @@ def test_strongly_adhesive_sphere_pulls_off_as_johnson_kendall_roberts_have_it()
     assert radius == pytest.approx(exact.contact_radius(0.0), rel=0.015)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("tabor", [0.5, 1.0])
 def test_laws_with_tails_pull_a_sphere_off_alike(tabor):
     """Same work of adhesion: two smooth laws agree, and their tails exceed Maugis by 5 per cent."""
@@ -146,6 +149,7 @@ def test_laws_with_tails_pull_a_sphere_off_alike(tabor):
     assert forces[0] == pytest.approx(forces[1], rel=5e-3)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("strength", "tolerance"), [(0.5, 0.003), (1.0, 0.01)])
 def test_wave_pulls_off_as_maugis_has_it(strength, tolerance):
     """The wave of Westergaard under the law of Maugis, loaded and pulled off.
@@ -219,6 +223,7 @@ def test_both_controls_do_the_same_work(kind):
     assert 1e-3 * approach < works[0] < 1e-2 * approach
 
 
+@pytest.mark.slow
 def test_jumps_are_bracketed_and_found_again_by_other_steps():
     """A press on bumps with attraction of short range: jump-in, jump-out and pull-off."""
     law = Exponential(adhesion_length=2e-4, range=2e-3)
@@ -255,6 +260,7 @@ def test_jumps_are_bracketed_and_found_again_by_other_steps():
             assert one.dissipated == pytest.approx(other.dissipated, rel=0.02)
 
 
+@pytest.mark.slow
 def test_loop_encloses_the_energy_that_its_jumps_lose():
     """A sphere that jumps in and out again: area of the closed loop, on two grids."""
     law = sphere_law(Exponential, 2.0, 0.12)
@@ -315,6 +321,7 @@ def test_mean_gap_follows_the_curve_beyond_pull_off():
     assert not any(point.event for point in points)
 
 
+@pytest.mark.slow
 def test_path_restarts_from_any_of_its_states():
     law = Exponential(adhesion_length=5e-5, range=0.01)
     heights = bumps(16)

@@ -224,6 +224,7 @@ def test_path_in_small_steps():
         np.testing.assert_allclose(contact.gap, cold.gap, atol=4e-8)
 
 
+@pytest.mark.slow
 def test_work_of_the_load_is_the_elastic_energy():
     """Energy balance: the load working against the mean gap stores the elastic energy."""
     heights = rough(64, seed=6)
