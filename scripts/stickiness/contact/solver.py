@@ -6,16 +6,13 @@ Given heights ``h`` and a mean pressure, find the pressure ``p >= 0`` and the ga
 
 The method is an active-set one:
 
-* For a guess of the contact set, conjugate gradients solve ``g = 0`` there for the pressure. They
-  are preconditioned with the stiffness ``|q| / 2``, the exact inverse of the compliance in full
-  contact, between an extension of the residual beyond the edge of contact and the transpose of
-  that extension. The number of iterations hardly depends on the grid. Up to a contact of 30 %
-  a grid half as fine carries the stiffness of long waves and a constant that of short ones.
-* Points under tension are released, points that penetrate are added, and so on. Early on the
-  inner solution is a rough one, for a wrong set deserves no better.
-* Coarser grids supply a first guess of the gap, which is smooth enough to be interpolated. On
-  top of the exact heights it gives a pressure, and a point is put into contact where
-  ``p > c k g`` with the stiffness ``k`` of a single pixel: this predicts the set to a per cent.
+* For a guess of the contact set, preconditioned conjugate gradients solve ``g = 0`` there for the
+  pressure (`preconditioner`). The number of iterations hardly depends on the grid.
+* Points under tension are released and points that penetrate are added, until neither is left.
+  While the set still changes, the inner solution is a rough one.
+* Coarser grids supply a first guess of the gap, which is smooth enough to be interpolated.
+  Together with the exact heights it gives a pressure. A point is put into contact where
+  ``p > c k g``, k being the stiffness of a single pixel: this predicts the set to a per cent.
 
 Everything is solved in units of one side of the cell, ``h_rms`` and E*.
 """
