@@ -25,6 +25,7 @@ from stickiness import adhesive, criteria
 from stickiness.accuracy import choice, error_models, multilevel, prediction
 from stickiness.adhesion import dmt, equivalent_sphere, model_choice
 from stickiness.contact import gaps, grid_limit, solver, subpixel
+from stickiness.core.plausibility import PlausibilityWarning
 from stickiness.criteria import a_v_fit, a_v_table, moduli
 from stickiness.measured import instrument_spectrum, psd, self_affine_fit, stitching
 from stickiness.persson import theory
@@ -149,6 +150,7 @@ def probed(component: Component, point: Mapping[str, Any]) -> Result:
     try:
         with warnings.catch_warnings(), _time_limit(TIME_LIMIT):
             warnings.simplefilter("error")
+            warnings.simplefilter("ignore", PlausibilityWarning)  # coarse grids are the point
             checks = list(component.probe(**point))
     except solver.ConvergenceError as error:  # that of adhesive contact, too
         return Result(UNCONVERGED, np.nan, str(error))

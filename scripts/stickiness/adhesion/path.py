@@ -22,15 +22,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from stickiness.adhesion.scaling import APPROACH, SEPARATION, Adhesion, Control, Scaled
 from stickiness.adhesion.solver import (
-    APPROACH,
-    SEPARATION,
-    Adhesion,
-    Control,
     ConvergenceError,
     Effort,
     PullOffError,
-    Scaled,
     relax_from,
     solve,
 )

@@ -1,10 +1,9 @@
-"""Where a descent starts when loading begins from afar: contact without adhesion, coarser grids.
+"""Starts of a descent when loading begins from afar: contact without adhesion, coarser grids.
 
-The solution without adhesion has wider gaps than any adhesive state: descents from there end on the
-branch of approach. A better start is the adhesive state on a grid half as fine, found likewise. It
-might lie beyond a jump that the fine grid does not make. A descent that meets no direction of
-negative curvature makes no jump: coarser grids are relied on only as long as no descent meets one,
-on any of the grids.
+The solution without adhesion has wider gaps than any adhesive state, so that a descent from it ends
+on the branch of approach. The adhesive state on a grid half as fine is a better start, unless it
+lies beyond a jump that the fine grid does not make. A descent that meets no negative curvature
+makes no jump: coarser grids are used only while no descent on any grid meets one.
 """
 
 from dataclasses import replace
@@ -80,7 +79,7 @@ def without_adhesion(problem, max_iterations):
     """Gap without adhesion at the control of a problem, and the convolutions it took."""
     surface = problem.surface
     if problem.pressure is not None:
-        contact = solver.solve(surface.heights, surface.sides, problem.pressure, tol=_ROUGH)
+        contact = solver.press(surface.heights, surface.sides, problem.pressure, tol=_ROUGH)
         return contact.gap, contact.fft_pairs
     gap = problem.mean_gap - surface.heights
     if gap.min() >= 0:

@@ -19,13 +19,13 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from stickiness.adhesion.maugis_sphere import (
+from stickiness.closed_forms.contact import Hertz, full_contact_pressure
+from stickiness.closed_forms.maugis_sphere import (
     MaugisSphere,
     SphereState,
     maugis_parameter,
     tabor_parameter,
 )
-from stickiness.closed_forms.contact import Hertz, full_contact_pressure
 from stickiness.closed_forms.wave import AdhesiveWave, MaugisWave, WaveState
 from stickiness.core.arguments import plain, positive
 

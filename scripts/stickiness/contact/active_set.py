@@ -1,12 +1,12 @@
 """Active-set iteration of the repulsive contact problem, in dimensionless variables.
 
-See `stickiness.repulsive` for the problem and the method. Pressures of the contact set are kept as
-short vectors over its points; whole grids are touched once per update of the set.
+`solver` states the problem and the method. Pressures of the contact set are short vectors over its
+points; whole grids are touched once per update of the set.
 
-Corrections of the pressure between two updates are solved for in single precision: they reduce the
-gap by a factor of 10 or 1000, so that the seven digits are plenty, and the next update starts from
-the true gap again (iterative refinement). That gap is computed in double precision as soon as the
-residual is small enough for rounding to matter, and always for what is returned.
+Corrections of the pressure between two updates are computed in single precision. They reduce the
+gap by a factor of 10 to 1000, for which seven digits are plenty, and the next update starts from
+the true gap again (iterative refinement). That gap is in double precision as soon as rounding
+matters, and always in what is returned.
 """
 
 from dataclasses import dataclass

@@ -4,7 +4,14 @@ import numpy as np
 
 from stickiness.core.arguments import positive
 
-__all__ = ["check_length", "coarsen", "interpolate", "measure_scale", "sample"]
+__all__ = [
+    "check_length",
+    "coarsen",
+    "interpolate",
+    "measure_scale",
+    "measure_slope",
+    "sample",
+]
 
 
 def check_length(length, shape):
@@ -32,6 +39,15 @@ def measure_scale(heights):
     if largest <= 8 * np.finfo(float).eps * abs(mean):
         return mean, 0.0
     return mean, largest * float(np.sqrt(np.mean(((heights - mean) / largest) ** 2)))
+
+
+def measure_slope(heights, lengths):
+    """Root mean square gradient of periodic heights, from differences of neighbours."""
+    square = 0.0
+    for axis, side in enumerate(lengths):
+        step = np.diff(heights, axis=axis, append=np.take(heights, [0], axis))
+        square += float(np.mean(step**2)) * (heights.shape[axis] / side) ** 2
+    return float(np.sqrt(square))
 
 
 def coarsen(n):

@@ -3,11 +3,10 @@
 The inverse in full contact is the stiffness ``|q| / 2``. On a contact set it acts between an
 extension of the residual beyond the edge of contact and the transpose of that extension.
 
-For a preconditioner the stiffness need not be exact. On an even grid, with B the interpolation
-from a grid half as fine along both axes (full weighting its transpose), it is replaced by
-``g + B F B^T``: the waves the coarse grid carries get their ``|q| / 2``, the rest the constant g.
-The transforms are then four times smaller, at the price of one or two iterations more. The rest is
-done on the points of contact only.
+A preconditioner need not be exact. On an even grid the stiffness is replaced by
+``constant + B F B^T``, where B interpolates from a grid half as fine along both axes: long waves
+get their ``|q| / 2``, short ones a constant (`CoarseStiffness`). The transforms are then four times
+smaller, at the price of one or two iterations more.
 """
 
 import numpy as np

@@ -6,16 +6,13 @@ Given heights ``h`` and a mean pressure, find the pressure ``p >= 0`` and the ga
 
 The method is an active-set one:
 
-* For a guess of the contact set, conjugate gradients solve ``g = 0`` there for the pressure. They
-  are preconditioned with the stiffness ``|q| / 2``, the exact inverse of the compliance in full
-  contact, between an extension of the residual beyond the edge of contact and the transpose of
-  that extension. The number of iterations hardly depends on the grid. Up to a contact of 30 %
-  a grid half as fine carries the stiffness of long waves and a constant that of short ones.
-* Points under tension are released, points that penetrate are added, and so on. Early on the
-  inner solution is a rough one, for a wrong set deserves no better.
-* Coarser grids supply a first guess of the gap, which is smooth enough to be interpolated. On
-  top of the exact heights it gives a pressure, and a point is put into contact where
-  ``p > c k g`` with the stiffness ``k`` of a single pixel: this predicts the set to a per cent.
+* For a guess of the contact set, preconditioned conjugate gradients solve ``g = 0`` there for the
+  pressure (`preconditioner`). The number of iterations hardly depends on the grid.
+* Points under tension are released and points that penetrate are added, until neither is left.
+  While the set still changes, the inner solution is a rough one.
+* Coarser grids supply a first guess of the gap, which is smooth enough to be interpolated.
+  Together with the exact heights it gives a pressure. A point is put into contact where
+  ``p > c k g``, k being the stiffness of a single pixel: this predicts the set to a per cent.
 
 Everything is solved in units of one side of the cell, ``h_rms`` and E*.
 """
@@ -25,8 +22,16 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from stickiness.contact import active_set
-from stickiness.contact.grids import check_length, coarsen, interpolate, measure_scale, sample
+from stickiness.contact.grids import (
+    check_length,
+    coarsen,
+    interpolate,
+    measure_scale,
+    measure_slope,
+    sample,
+)
 from stickiness.core.arguments import grid, integer, number
+from stickiness.core.plausibility import warn_of_heights, warn_of_pressure
 
 __all__ = ["Contact", "ConvergenceError", "load_path", "solve"]
 
@@ -142,6 +147,12 @@ def solve(
     ConvergenceError
         If `max_iterations` do not suffice; it carries the best iterate.
 
+    Warns
+    -----
+    PlausibilityWarning
+        If heights and length can hardly share a unit, or the pressure is far above any that this
+        surface could need.
+
     Examples
     --------
     >>> import numpy as np
@@ -162,6 +173,14 @@ def solve(
             f"start has the shape {start.pressure.shape}, the heights {heights.shape}: "
             "pass a solution on the same grid"
         )
+    warn_of_heights(measure_scale(heights)[1], lengths[0])
+    if pressure > 1:
+        warn_of_pressure(pressure, measure_slope(heights, lengths))
+    return press(heights, lengths, pressure, tol, start, max_iterations, logger)
+
+
+def press(heights, lengths, pressure, tol, start=None, max_iterations=1000, logger=None):
+    """Solve as `solve` does, of arguments that were checked, in any unit: nothing is warned of."""
     mean, rms = measure_scale(heights)
     if rms == 0:
         return _flat(heights, lengths, pressure)

@@ -20,6 +20,7 @@ from stickiness.surfaces.spectrum import Shells, Spectrum
 
 Amplitudes = Literal["gaussian", "fixed"]
 
+_MOST_WAVES = 2**15  # along a side; beyond, a list of all modes leaves no memory
 _ROUNDING = 1e-9  # relative slack on band limits that coincide with lattice wave numbers
 
 
@@ -214,6 +215,12 @@ def list_modes(spectrum: Spectrum, length: float) -> tuple[NDArray, NDArray, NDA
     reach = int(np.floor(spectrum.q1 / dq * (1 + _ROUNDING)))
     if reach < 1:
         raise ValueError(f"no wave vector of a window of length {length:.6g} lies in the band")
+    if reach > _MOST_WAVES:
+        raise ValueError(
+            f"length = {length:.6g} holds {reach} of the shortest waves, more than {_MOST_WAVES}: "
+            f"q0 = {spectrum.q0:.6g} and q1 = {spectrum.q1:.6g} must be in the inverse of its "
+            "unit; otherwise lower q1 or length"
+        )
     i, j = np.meshgrid(np.arange(reach + 1), np.arange(-reach, reach + 1), indexing="ij")
     half = (i > 0) | (j > 0)
     i, j = i[half], j[half]

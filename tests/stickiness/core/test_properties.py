@@ -48,6 +48,7 @@ def adhered(heights, law, eps, tension, load, length=2 * np.pi):
 # --- scale ---
 
 
+@pytest.mark.filterwarnings("ignore:heights of")  # whose unit is not the length's
 @given(seeds, hursts, loads, factors, factors)
 def test_contact_scales_with_lengths_and_with_heights(seed, hurst, load, unit, flat):
     """Lengths may be in any unit; heights times a factor take pressures with them."""

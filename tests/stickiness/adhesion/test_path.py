@@ -1,10 +1,9 @@
-"""Loading and unloading curves: closed forms of spheres and waves, energy balance, jumps."""
+"""Loading and unloading curves: closed forms of flats, spheres and waves, loops, jumps."""
 
 import itertools
 
 import numpy as np
 import pytest
-from scipy import integrate
 
 from stickiness import adhesive
 from stickiness.adhesive import Exponential, LennardJones, Maugis
@@ -80,6 +79,7 @@ def test_weakly_adhesive_sphere_pulls_off_as_maugis_and_dmt_have_it():
     assert radius == pytest.approx(exact.at_force(0.0).contact_radius, rel=0.02)
 
 
+@pytest.mark.slow
 def test_sphere_between_the_limits_pulls_off_as_maugis_has_it():
     """Tabor 1, against Maugis-Dugdale on two grids and in their limit.
 
@@ -109,6 +109,7 @@ def test_sphere_between_the_limits_pulls_off_as_maugis_has_it():
             assert (loading + unloading) / 2 == pytest.approx(radius, rel=0.02)
 
 
+@pytest.mark.slow
 def test_strongly_adhesive_sphere_pulls_off_as_johnson_kendall_roberts_have_it():
     """Tabor 5, by a law without a jump, which delays the edge of contact far less.
 
@@ -129,6 +130,7 @@ def test_strongly_adhesive_sphere_pulls_off_as_johnson_kendall_roberts_have_it()
     assert radius == pytest.approx(exact.contact_radius(0.0), rel=0.015)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("tabor", [0.5, 1.0])
 def test_laws_with_tails_pull_a_sphere_off_alike(tabor):
     """Same work of adhesion: two smooth laws agree, and their tails exceed Maugis by 5 per cent."""
@@ -147,6 +149,7 @@ def test_laws_with_tails_pull_a_sphere_off_alike(tabor):
     assert forces[0] == pytest.approx(forces[1], rel=5e-3)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("strength", "tolerance"), [(0.5, 0.003), (1.0, 0.01)])
 def test_wave_pulls_off_as_maugis_has_it(strength, tolerance):
     """The wave of Westergaard under the law of Maugis, loaded and pulled off.
@@ -181,45 +184,47 @@ def test_wave_pulls_off_as_maugis_has_it(strength, tolerance):
     assert 2 * areas[1] - areas[0] == pytest.approx(expected, abs=0.01 * expected + 2 / 1024)
 
 
-def energy(gap, heights, law):
-    """Elastic plus interaction energy of a gap on a side of 1, by numpy's transforms."""
-    n = len(heights)
-    q = 2 * np.pi * np.hypot(*np.meshgrid(*2 * [np.fft.fftfreq(n, 1 / n)]))
-    u = gap + heights
-    elastic = np.fft.ifft2(np.fft.fft2(u) * q / 2).real
-    return np.mean(u * elastic / 2 + law.potential(gap))
+@pytest.mark.parametrize(
+    ("kind", "left"), [(Exponential, np.exp(-20)), (LennardJones, (4 / 21**2 - 1 / 21**8) / 3)]
+)
+def test_pulling_flats_apart_takes_the_work_of_adhesion(kind, left):
+    """At a rising mean gap, to twenty ranges; `left` is the share of the work still to be done.
 
-
-@pytest.mark.parametrize("kind", [Exponential, LennardJones])
-def test_work_of_the_load_is_the_energy_gained(kind):
-    """Pressures and gaps against energies of the fields, on a stretch without jumps, to 1e-4.
-
-    The work is Simpson's integral over 33 states at equal steps. (On a grid the curve has a kink
-    where a point touches: 17 states leave 1.0e-4, 33 leave 4.7e-5 with the wall; without one,
-    8.5e-6 and 5e-7.) A path through the same stretch, which integrates over its own steps, must
-    come to the same work and the same end.
+    The law is too soft for the flats to break up on the way.
     """
+    law = kind(adhesion_length=2e-5, range=1e-2)
+    ends, fine = (0.0, 20 * law.range), {"balance": 1e-6, "smallest_jump": 1e-6}
+    points = list(adhesive.path(np.zeros((8, 8)), 1.0, law, ends, "mean_gap", **fine))
+    assert not any(point.event for point in points)
+    work = sum(point.work for point in points)
+    assert work == pytest.approx((1 - left) * law.adhesion_length, rel=1e-4)
+    assert sum(abs(point.dissipated) for point in points) < 1e-4 * work
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("kind", [Exponential, LennardJones])
+def test_both_controls_do_the_same_work(kind):
+    """A stretch without jumps, by its pressure and by its mean gap: two integrals, one state."""
     law = kind(adhesion_length=5e-5, range=0.01)
     heights = bumps(32)
     first, last = (adhesive.solve(heights, 1.0, law, pressure=p) for p in (1e-3, 1e-2))
-    gaps, state, pressures = np.linspace(first.mean_gap, last.mean_gap, 33), first, []
-    for gap in gaps:
-        state = adhesive.solve(heights, 1.0, law, mean_gap=gap, start=state)
-        assert state.gap.mean() == pytest.approx(gap, rel=1e-12)
-        pressures.append(state.pressure.mean())
-    work = -integrate.simpson(pressures, x=gaps)
-    gained = energy(last.gap, heights, law) - energy(first.gap, heights, law)
-    assert work == pytest.approx(gained, rel=1e-4)
-    for control, values in (("pressure", (1e-3, 1e-2)), ("mean_gap", (gaps[0], gaps[-1]))):
+    works = []
+    for control in ("pressure", "mean_gap"):
+        values = (1e-3, 1e-2) if control == "pressure" else (first.mean_gap, last.mean_gap)
         points = list(
             adhesive.path(heights, 1.0, law, values, control=control, start=first, balance=1e-6)
         )
         assert not any(point.event for point in points)
-        assert sum(point.work for point in points) == pytest.approx(work, rel=1e-4)
         np.testing.assert_allclose(points[-1].state.gap, last.gap, atol=1e-6 * np.ptp(heights))
+        works.append(sum(point.work for point in points))
+    assert works[0] == pytest.approx(works[1], rel=1e-4)
+    # pressing harder costs work between the two pressures times the approach
+    approach = first.mean_gap - last.mean_gap
+    assert 1e-3 * approach < works[0] < 1e-2 * approach
 
 
-def test_jumps_are_bracketed_and_lose_enthalpy():
+@pytest.mark.slow
+def test_jumps_are_bracketed_and_found_again_by_other_steps():
     """A press on bumps with attraction of short range: jump-in, jump-out and pull-off."""
     law = Exponential(adhesion_length=2e-4, range=2e-3)
     heights = bumps(32)
@@ -243,10 +248,6 @@ def test_jumps_are_bracketed_and_lose_enthalpy():
                 assert point.dissipated == np.inf
                 continue
             assert point.event == ("jump-in" if point.state.branch == "approach" else "jump-out")
-            # a jump at constant load loses the enthalpy that the two branches differ by
-            lost = before.state.enthalpy - point.state.enthalpy
-            lost += (high - low) * before.state.mean_gap * np.sign(np.diff(point.bracket)[0])
-            assert point.dissipated == pytest.approx(lost, rel=1e-2)
             assert point.dissipated > 0
     assert runs[8][-1].event == "pull-off"
     assert [p.event for p in runs[8]] == [p.event for p in runs[13]]
@@ -259,8 +260,9 @@ def test_jumps_are_bracketed_and_lose_enthalpy():
             assert one.dissipated == pytest.approx(other.dissipated, rel=0.02)
 
 
+@pytest.mark.slow
 def test_loop_encloses_the_energy_that_its_jumps_lose():
-    """A sphere that jumps in and out again: area of the loop, energies of fields, two grids."""
+    """A sphere that jumps in and out again: area of the closed loop, on two grids."""
     law = sphere_law(Exponential, 2.0, 0.12)
     areas = []
     for n in (64, 96):
@@ -282,15 +284,12 @@ def test_loop_encloses_the_energy_that_its_jumps_lose():
         assert {point.event for point in points} == {None, "jump-in", "jump-out"}
         gaps = np.array([point.state.gap.mean() for point in points])
         pressures = np.array([point.state.pressure.mean() for point in points])
-        energies = np.array([energy(point.state.gap, heights, law) for point in points])
         steps = -np.diff(gaps) * (pressures[1:] + pressures[:-1]) / 2
-        lost = steps - np.diff(energies)
-        jumps = np.array([point.event is not None for point in points[1:]])
-        # the integral over a bracket of a jump is uncertain by the jump of the pressure there
-        dissipated = [point.dissipated for point in points if point.event]
-        np.testing.assert_allclose(dissipated, lost[jumps], rtol=0.05, atol=0.02 * lost.max())
         areas.append(steps.sum())
-        assert areas[-1] == pytest.approx(lost[jumps].sum(), rel=0.03)
+        # what a loop encloses is lost, and away from the jumps nothing is; the integral over a
+        # bracket is uncertain by the jump of the pressure there
+        lost = sum(point.dissipated for point in points if point.event)
+        assert areas[-1] == pytest.approx(lost, rel=0.03)
         # it closes: the sphere is back where it was
         np.testing.assert_allclose(points[-1].state.gap, points[0].state.gap, atol=1e-8)
     # range of a fifth and a third of a pixel
@@ -322,6 +321,7 @@ def test_mean_gap_follows_the_curve_beyond_pull_off():
     assert not any(point.event for point in points)
 
 
+@pytest.mark.slow
 def test_path_restarts_from_any_of_its_states():
     law = Exponential(adhesion_length=5e-5, range=0.01)
     heights = bumps(16)

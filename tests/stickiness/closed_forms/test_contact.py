@@ -1,4 +1,4 @@
-"""The limit of vanishing load: one asperity of a rough surface, against Hertz's ellipse."""
+"""Closed forms of contact: balance of loads, limits, one asperity against Hertz's ellipse."""
 
 import numpy as np
 import pytest
@@ -122,3 +122,34 @@ def test_rough_surface_at_vanishing_load_touches_at_its_summit(seed):
 def test_ellipse_refuses(curvatures, load, message):
     with pytest.raises(ValueError, match=message):
         reference.HertzEllipse(curvatures, load)
+
+
+def test_westergaard_closed_form_balances_its_load():
+    wave = reference.Westergaard(0.02, 3.0, 0.007)
+    x = (np.arange(200_000) + 0.5) / 200_000 * 3.0
+    # midpoint rule, with a root at the edge: error of order n**-1.5
+    assert wave.contact_pressure(x).mean() == pytest.approx(0.007, rel=1e-6)
+    assert np.mean(wave.contact_pressure(x) > 0) == pytest.approx(wave.area_fraction, abs=1e-5)
+    light = reference.Westergaard(0.02, 3.0, 1e-9)
+    np.testing.assert_allclose(light.gap(x), 0.02 - 0.02 * np.cos(2 * np.pi * x / 3), atol=1e-6)
+
+
+def test_hertz_closed_form_balances_its_load():
+    hertz = reference.Hertz(2.0, 1e-4)
+    r = np.linspace(0, hertz.contact_radius, 100_001)
+    force = np.trapezoid(2 * np.pi * r * hertz.contact_pressure(r), r)
+    assert force == pytest.approx(1e-4, rel=1e-6)  # trapezoid with a root at the end: n**-1.5
+    far = 1e3 * hertz.contact_radius
+    # from afar the load is a point load: gap = r**2 / 2R - indentation + F / (pi r)
+    expected = far**2 / 4 - hertz.indentation + 1e-4 / (np.pi * far)
+    assert hertz.gap(far) == pytest.approx(expected, rel=1e-12)
+    assert hertz.gap(hertz.contact_radius) == pytest.approx(0.0, abs=1e-18)
+
+
+@pytest.mark.parametrize("arguments", [(0.0, 1.0, 0.1), (1.0, -1.0, 0.1), (1.0, 1.0, np.nan)])
+def test_wrong_arguments_of_the_closed_forms(arguments):
+    with pytest.raises(ValueError, match="must be positive"):
+        reference.Westergaard(*arguments)
+    if not (arguments[0] > 0 and arguments[1] > 0):
+        with pytest.raises(ValueError, match="must be positive"):
+            reference.Hertz(*arguments[:2])

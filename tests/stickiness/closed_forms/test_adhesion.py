@@ -525,6 +525,7 @@ def test_maugis_wave_fields_agree(range_, cohesive):
     )
 
 
+@pytest.mark.slow
 def test_maugis_wave_tends_to_johnson():
     johnson = AdhesiveWave(AMPLITUDE, WAVELENGTH, 5e-5)
     load = 0.2 * johnson.full_contact_amplitude

@@ -1,6 +1,6 @@
 """Maugis' solution for a sphere, at any range of attraction; Tabor's and Maugis' parameters.
 
-Units and signs are those of `adhesive_references`, through which this is imported.
+Units and signs are those of `closed_forms.adhesion`, which exports all of this.
 """
 
 from __future__ import annotations
@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy import optimize
 
+from stickiness.adhesion.equivalent_sphere import opening
 from stickiness.core.arguments import plain, positive
 
 _EDGE = np.pi / 2  # the angle arccos(a/c) of a point contact within a cohesive zone
@@ -274,10 +275,3 @@ class MaugisSphere:
         while excess(lowest) < 0:
             lowest /= 2
         return float(optimize.brentq(excess, lowest, highest, xtol=1e-300, rtol=1e-14))
-
-
-def opening(t: NDArray) -> NDArray:
-    """Evaluate sin t cos t - t cos 2t, by its series where the terms cancel."""
-    x = np.minimum(2 * t, 0.5)
-    series = x**3 / 6 * (1 - x**2 / 10 * (1 - x**2 / 28 * (1 - x**2 / 54 * (1 - x**2 / 88))))
-    return np.where(2 * t < 0.5, series, np.sin(2 * t) / 2 - t * np.cos(2 * t))
