@@ -6,13 +6,13 @@ import xarray as xr
 from pipeline.conventions import DESCRIBED, VARIANT, logarithmic_grid
 from pipeline.error_budgets import BY_THEORY, QUADRATURE, theory_error
 from pipeline.job import start
+from pipeline.real_spectra import real_spectrum
 from stickiness import criteria
 from stickiness.accuracy import error_laws
 from stickiness.core import datasets
 from stickiness.core.budget import Part, with_budget
 from stickiness.criteria.a_v_table import edge_range, local_a_v
 from stickiness.persson.theory import Persson
-from stickiness.surfaces.spectrum import Tabulated
 
 VARIANTS = ("afferrante2018", "almqvist2011")  # P(0) infinite and finite: limits on the truth
 NEEDED = ("psd", "hurst", "q0", "q1", "rms_slope", "rms_curvature")
@@ -74,7 +74,7 @@ def a_v_of(surface, end, ranges, load, gamma):
 
     Below the edge range theory is held constant, with the edge law as the other limit.
     """
-    spectrum = spectrum_of(surface, end)
+    spectrum = real_spectrum(surface, end)
     pressure = load * float(surface.q0) * spectrum.h_rms
     resolved = [
         local_a_v(
@@ -104,13 +104,6 @@ def edge_a_v(surface, end):
     known = surface.isel(end=end)
     moments = (float(known[name]) for name in ("h_rms", "rms_slope", "rms_curvature"))
     return criteria.pastewka_robbins_a_v(float(surface.q0), *moments)
-
-
-def spectrum_of(surface, end=-1):
-    """Spectrum of one end of the surface, up to q1."""
-    inside = surface.wave_number <= float(surface.q1) * (1 + 1e-9)
-    known = surface.isel(end=end, wave_number=np.flatnonzero(inside))
-    return Tabulated(known.wave_number.values, known.psd.values)
 
 
 if __name__ == "__main__":

@@ -313,3 +313,12 @@ def test_keys_beside_the_list_hold_for_every_measurement():
     assert (first, second) == ("measurements[0].", "measurements[1].")
     assert (one["file"], one["detrend"], two["detrend"]) == ("a", "quadratic", "mean")
     assert "measurements" not in one
+
+
+def test_the_measurement_for_bem_must_exist():
+    surfaces = {
+        "asphalt": {"kind": "measured", "file": __file__},
+        "polished_steel": {"kind": "measured", "file": __file__, "bem": {"measurement": 1}},
+    }
+    with pytest.raises(checks.ConfigError, match=r"polished_steel\.bem\.measurement = 1 .*below 1"):
+        checks.check_surfaces(surfaces)

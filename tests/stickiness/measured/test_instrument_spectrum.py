@@ -30,9 +30,9 @@ def patch(hurst=0.8, seed=1, n=512, q1=250.0):
 
 
 def bend(h, dx):
-    plane = psd.power_spectrum(h - h.mean(), dx, window="hann")
+    plane = psd.power_spectrum(h - h.mean(), dx, taper="hann")
     rings = self_affine_fit.narrow_rings(plane)
-    return cutoff.find_bend(rings, self_affine_fit.fit_range(plane)[0], plane.q_nyquist)
+    return cutoff.find_bend(rings, 4 * plane.dqx, plane.q_nyquist)
 
 
 @pytest.mark.parametrize("hurst", [0.5, 0.8, 0.95])

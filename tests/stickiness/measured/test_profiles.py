@@ -99,7 +99,7 @@ def test_a_profile_of_noise_is_refused():
         (((8,), 1.0, "hann"), "at least 16"),
         (((20, 20), 1.0, "hann"), "1D"),
         (((20,), 0.0, "hann"), "dx must be positive"),
-        (((20,), 1.0, "box"), "window must be"),
+        (((20,), 1.0, "box"), "taper must be"),
     ],
 )
 def test_wrong_arguments(arguments, message):
