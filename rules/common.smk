@@ -59,7 +59,7 @@ COMPARISONS = {
 # Whatever theory is compared with: what it is, in the terms of a model surface, and its loads.
 COMPARED = {
     **{
-        case: (config["model_surfaces"][asked["surface"]], asked["pressures"])
+        case: (config["model_surfaces"][asked["surface"]], PLANS[case].pressures)
         for case, asked in CASES.items()
     },
     **{

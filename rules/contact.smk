@@ -20,7 +20,7 @@ rule solve_repulsive:
         mem_mb=memory_of("solve_repulsive"),
         runtime=runtime_of("solve_repulsive"),
     params:
-        pressures=lambda wildcards: CASES[wildcards.case]["pressures"],
+        pressures=lambda wildcards: PLANS[wildcards.case].pressures,
         tolerance=lambda wildcards: PLANS[wildcards.case].settings.tolerance,
         pixels_per_wavelength=lambda wildcards: (
             PLANS[wildcards.case].settings.pixels_per_wavelength
@@ -46,7 +46,7 @@ rule solve_coarse:
         runtime=runtime_of("solve_coarse"),
     params:
         surface=lambda wildcards: config["model_surfaces"][CASES[wildcards.case]["surface"]],
-        pressures=lambda wildcards: CASES[wildcards.case]["pressures"],
+        pressures=lambda wildcards: PLANS[wildcards.case].pressures,
         tolerance=lambda wildcards: PLANS[wildcards.case].settings.tolerance,
         gaps=gaps_of,
         seeds=lambda wildcards: coarse_range(wildcards).stop,

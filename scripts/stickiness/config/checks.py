@@ -47,7 +47,7 @@ _UNITS = {
     "extend_to": "m",
 }
 
-
+# The surfaces that the claims ledger reads; may be edited but not removed.
 _PAPER_SURFACES = ("asphalt", "polished_steel")
 
 
@@ -96,7 +96,7 @@ def load(path: str | Path) -> dict[str, Any]:
 def checked(
     config: Mapping[str, Any], schemas: str | Path, name: str = "config/config.yaml"
 ) -> tuple[dict[str, Any], dict[str, Any]]:
-    """Check the whole configuration and the files it names.
+    """Check the whole configuration and the files it names, without changing any of it.
 
     Parameters
     ----------
@@ -105,7 +105,7 @@ def checked(
     schemas : path
         Folder of the schemas.
     name : str
-        What to call the configuration in errors.
+        Name of the configuration in errors.
 
     Returns
     -------
