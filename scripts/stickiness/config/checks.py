@@ -55,7 +55,7 @@ class ConfigError(ValueError):
     """A key of the configuration is unknown, missing or has a value that cannot be used."""
 
 
-class _UniqueKeys(yaml.SafeLoader):
+class _UniqueKeys(getattr(yaml, "CSafeLoader", yaml.SafeLoader)):  # libyaml where it is built in
     """Loader that refuses a key given twice, of which YAML would keep the second."""
 
     def construct_mapping(self, node: yaml.MappingNode, deep: bool = False) -> dict[Any, Any]:

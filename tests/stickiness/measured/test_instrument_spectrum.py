@@ -125,6 +125,7 @@ def test_uneven_profile_is_trusted_to_its_largest_gap():
     assert np.isnan(torn.anisotropy)
 
 
+@pytest.mark.slow
 def test_profile_and_map_agree_on_moments():
     s, h, dx = patch(n=1024, q1=400.0)
     plane = instrument_spectrum.analyse(Topography(h, dx, dx, "map").detrended())
@@ -162,6 +163,7 @@ def scans():
     return truth, pairs
 
 
+@pytest.mark.slow
 def test_stitched_spectrum_covers_its_truth(scans):
     truth, pairs = scans
     fits = [stitching.stitch(pair).spectrum.fit for pair in pairs]

@@ -64,6 +64,7 @@ def lines():
     return s, found
 
 
+@pytest.mark.slow
 def test_profiles_give_the_spectrum_of_their_surface(lines):
     s, found = lines
     ratios = []

@@ -117,6 +117,7 @@ def test_standard_error_of_a_ring_is_that_between_surfaces(window):
     np.testing.assert_allclose(np.mean(means, axis=0)[wide], TAU**-2, rtol=0.03)
 
 
+@pytest.mark.slow
 def test_window_removes_the_leakage_of_a_surface_that_is_not_periodic():
     found = {}
     for window in WINDOWS:
@@ -211,6 +212,7 @@ def test_fit_with_rolloff_is_exact_where_there_is_no_noise():
     np.testing.assert_allclose(s.psd(q), fit.psd(q), rtol=1e-12)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("hurst", [0.5, 0.8])
 @pytest.mark.parametrize("kind", ["periodic", "cropped"])
 def test_coverage_of_the_confidence_interval(kind, hurst):
@@ -381,6 +383,7 @@ def test_imposed_exponent_out_of_range(hurst):
         fit_self_affine(power_spectrum(heights, 1 / 128)).c0_at_hurst(hurst)
 
 
+@pytest.mark.slow
 def test_terrain_is_self_affine_once_it_is_windowed():
     t = topography.jacksboro().detrended("plane")
     fits = {w: fit_self_affine(power_spectrum(t.heights, t.dx, t.dy, w)) for w in WINDOWS}
