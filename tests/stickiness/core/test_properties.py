@@ -171,15 +171,18 @@ def test_areas_of_a_power_law_have_one_edge_and_their_attraction_scales(log_rang
 # --- order ---
 
 
-@pytest.mark.slow
 @given(st.floats(-6, 6), st.floats(-12, 12), st.floats(1.001, 1e6))
 def test_tougher_edges_draw_in_less_beside_dmt_s(log_t, log_tau, more):
-    """At one attractive area the effect falls with the strength, but never as fast as its inverse,
-    so that the attraction itself grows."""
+    """At one attractive area the effect falls with the strength; the attraction itself grows.
+
+    The latter only where the zone is not much wider than the contact, up to t = 15: beyond, it
+    falls from the DMT value to JKR's, which is the smaller one.
+    """
     t, tau = 10**log_t, 10**log_tau
     soft, tough = equivalent_sphere.effect(t, tau), equivalent_sphere.effect(t, tau * more)
     assert tough <= soft * (1 + 1e-9)
-    assert tough * more >= soft * (1 - 1e-9)
+    if t < 15:
+        assert tough * more >= soft * (1 - 1e-9)
 
 
 @given(st.floats(-8, 8), st.floats(-8, 8), st.floats(0.01, 8), st.floats(0.01, 0.99))
