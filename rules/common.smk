@@ -74,7 +74,7 @@ def model_surface_of(name):
 
 def pressures_of(name):
     """Loads of a case or a comparison."""
-    return (CASES[name] if name in CASES else config["comparisons"])["pressures"]
+    return PLANS[name].pressures if name in CASES else config["comparisons"]["pressures"]
 
 
 def surface_of(case):

@@ -6,12 +6,12 @@ import xarray as xr
 from pipeline.conventions import DESCRIBED, VARIANT, logarithmic_grid
 from pipeline.error_budgets import BY_THEORY, QUADRATURE, theory_error
 from pipeline.job import start
+from pipeline.real_spectra import real_spectrum
 from stickiness import criteria
 from stickiness.accuracy.error_models import read_models
 from stickiness.core import datasets
 from stickiness.core.budget import Part, with_budget
 from stickiness.criteria.surface_a_v import theory_a_v
-from stickiness.surfaces.spectrum import Tabulated
 
 NEEDED = ("psd", "hurst", "q0", "q1", "rms_slope", "rms_curvature")
 
@@ -69,7 +69,7 @@ def budgeted(dataset, surface, load, laws):
 def a_v_of(surface, end, ranges, load, gamma):
     """a_V by every variant and by the edge law on one end of a surface, and the edge range."""
     return theory_a_v(
-        spectrum_of(surface, end),
+        real_spectrum(surface, end),
         ranges,
         load,
         edge_a_v(surface, end),
@@ -89,13 +89,6 @@ def edge_a_v(surface, end):
     known = surface.isel(end=end)
     moments = (float(known[name]) for name in ("h_rms", "rms_slope", "rms_curvature"))
     return criteria.pastewka_robbins_a_v(float(surface.q0), *moments)
-
-
-def spectrum_of(surface, end=-1):
-    """Spectrum of one end of the surface, up to q1."""
-    inside = surface.wave_number <= float(surface.q1) * (1 + 1e-9)
-    known = surface.isel(end=end, wave_number=np.flatnonzero(inside))
-    return Tabulated(known.wave_number.values, known.psd.values)
 
 
 if __name__ == "__main__":

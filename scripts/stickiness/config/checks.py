@@ -49,7 +49,7 @@ _UNITS = {
     "extend_to": "m",
 }
 
-
+# The surfaces that the claims ledger reads; may be edited but not removed.
 _PAPER_SURFACES = ("asphalt", "polished_steel")
 
 
@@ -57,7 +57,7 @@ class ConfigError(ValueError):
     """A key of the configuration is unknown, missing or has a value that cannot be used."""
 
 
-class _UniqueKeys(yaml.SafeLoader):
+class _UniqueKeys(getattr(yaml, "CSafeLoader", yaml.SafeLoader)):  # libyaml where it is built in
     """Loader that refuses a key given twice, of which YAML would keep the second."""
 
     def construct_mapping(self, node: yaml.MappingNode, deep: bool = False) -> dict[Any, Any]:
@@ -98,7 +98,7 @@ def load(path: str | Path) -> dict[str, Any]:
 def checked(
     config: Mapping[str, Any], schemas: str | Path, name: str = "config/config.yaml"
 ) -> tuple[dict[str, Any], dict[str, Any]]:
-    """Check the whole configuration and the files it names.
+    """Check the whole configuration and the files it names, without changing any of it.
 
     Parameters
     ----------
@@ -107,7 +107,7 @@ def checked(
     schemas : path
         Folder of the schemas.
     name : str
-        What to call the configuration in errors.
+        Name of the configuration in errors.
 
     Returns
     -------
