@@ -46,7 +46,6 @@ localrules:
     verdicts,
     surfaces,
     cases,
-    a_v,
     tradeoff,
     dmt_error,
     report,
@@ -137,11 +136,6 @@ rule claims:
 rule cases:
     input:
         expand(f"{RESULTS}/cases/{{case}}.nc", case=CASES),
-
-
-rule a_v:
-    input:
-        f"{RESULTS}/criteria/a_v.csv",
 
 
 rule tradeoff:

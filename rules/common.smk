@@ -329,16 +329,6 @@ def data_of(rule_name):
     return [str(path) for path in getattr(rules, rule_name).input if str(path).endswith(".nc")]
 
 
-def a_v_inputs():
-    """What the a_V of the derived criterion rests on: what was measured once, and theory."""
-    case = config["criteria"]["a_v"]["case"]
-    return {
-        "a_v": config["criteria"]["a_v"]["measured"],
-        "lattice": f"{RESULTS}/fits/a_v/lattice/{case}.nc",
-        "theory": f"{RESULTS}/fits/a_v/sweeps/fig3c.nc",
-    }
-
-
 def ledger_inputs():
     """Files behind the claims, by the names that scripts/_claims.py uses."""
     return {

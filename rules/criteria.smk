@@ -1,6 +1,16 @@
 # Stickiness criteria: the map of the paper and a verdict for every material on every surface.
 
 
+def a_v_inputs():
+    """Files behind a_V: simulation of one case, theory on the same spectrum and on broad ones."""
+    case = config["criteria"]["a_v"]["case"]
+    return {
+        "a_v": f"{RESULTS}/fits/a_v/ensembles/{case}.nc",
+        "lattice": f"{RESULTS}/fits/a_v/lattice/{case}.nc",
+        "theory": f"{RESULTS}/fits/a_v/sweeps/fig3c.nc",
+    }
+
+
 rule map_criterion:
     input:
         **a_v_inputs(),
@@ -75,23 +85,3 @@ rule judge:
         frequencies=config["criteria"]["frequencies"],
     script:
         "../scripts/criteria/judge.py"
-
-
-rule record_a_v:
-    input:
-        library=library_of("criteria/record_a_v.py"),
-        a_v=f"{RESULTS}/fits/a_v/ensembles/{config['criteria']['a_v']['case']}.nc",
-    output:
-        f"{RESULTS}/criteria/a_v.csv",
-    log:
-        f"{LOGS}/record_a_v.log",
-    benchmark:
-        f"{BENCHMARKS}/record_a_v.tsv"
-    conda:
-        "../envs/environment.yaml"
-    resources:
-        mem_mb=500,
-    params:
-        pressure=config["criteria"]["a_v"]["pressure"],
-    script:
-        "../scripts/criteria/record_a_v.py"

@@ -44,6 +44,8 @@ def one_line(error: jsonschema.ValidationError) -> str:
         case "additionalProperties":
             known = error.schema.get("properties", {})
             extra = next(name for name in error.instance if name not in known)
+            if extra in (removed := error.schema.get("removed", {})):
+                return f"{where}remove the key {extra!r}: {removed[extra]}"
             return f"{where}unknown key {extra!r}; {suggest(extra, known)}"
         case "required":
             missing = next(name for name in error.validator_value if name not in error.instance)
