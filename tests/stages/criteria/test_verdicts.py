@@ -16,7 +16,8 @@ from stickiness.core import datasets
 from stickiness.criteria.a_v_table import edge_range, local_a_v
 from stickiness.criteria.registry import FULL_CONTACT
 from stickiness.criteria.surface_a_v import VARIANTS, SurfaceAv
-from stickiness.criteria.verdict import REGIMES, STRONG, TOUGH, WEAK, WORDS, verdict
+from stickiness.criteria.verdict import verdict
+from stickiness.criteria.words import REGIMES, STRONG, TOUGH, WEAK, WORDS
 from stickiness.persson import Persson
 from stickiness.spectrum import SelfAffine
 

@@ -67,12 +67,12 @@ CONSTANT = MeasuredAv(
 
 def made_map():
     roughness = map_criterion.Roughness(ConstantAv(), ASKED_MAP, 0.065)
-    return map_criterion.limits(ASKED_MAP, CONSTANT, roughness)
+    return map_criterion.find_limits(ASKED_MAP, CONSTANT, roughness)
 
 
 @pytest.fixture
 def criterion_map(tmp_path):
-    data = made_map().merge(map_criterion.slopes([1, 0.1], 3.0))
+    data = made_map().merge(map_criterion.find_slopes([1, 0.1], 3.0))
     path = tmp_path / "map.nc"
     datasets.write(map_criterion.describe(data), path, title="map", parameters=ASKED_MAP)
     return path

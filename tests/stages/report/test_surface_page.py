@@ -90,7 +90,7 @@ def stitched(folder):
 
 def page_of(found, folder):
     pairs = judged(found).sel(surface="plate")
-    save(surface_figure.drawn(found, pairs), [folder / "plate.png"])
+    save(surface_figure.draw_surface(found, pairs), [folder / "plate.png"])
     return write_surface.render(
         TEMPLATE,
         folder / "report/surfaces/plate.html",

@@ -14,7 +14,7 @@ from stickiness.adhesion import equivalent_sphere
 from stickiness.criteria.moduli import Constant, Prony, Table, crossings
 from stickiness.criteria.registry import FULL_CONTACT
 from stickiness.criteria.surface_a_v import SurfaceAv
-from stickiness.criteria.verdict import WORDS
+from stickiness.criteria.words import WORDS
 
 SERIES = Prony(1e4, ((3e4, 1.0), (2e5, 1e-3)))
 ENTRY = {"label": "a", "work_of_adhesion": "70 mJ/m^2", "range": "0.3 nm", "source": "b"}

@@ -134,9 +134,11 @@ def test_every_threshold_is_where_the_margin_is_one(judged, road):
     for name in CRITERIA:
         modulus = float(pair.threshold_by_criterion.sel(criterion=name))
         solids = {"gel": material(GEL | {"plane_strain_modulus": f"{modulus!r} Pa"})}
-        at = judge.judge_pairs(
-            solids, {"road": road}, {"road": a_v}, CONSTANT, np.array([1.0])
-        ).sel(criterion=name, end="rough").squeeze()
+        at = (
+            judge.judge_pairs(solids, {"road": road}, {"road": a_v}, CONSTANT, np.array([1.0]))
+            .sel(criterion=name, end="rough")
+            .squeeze()
+        )
         assert float(at.margin) == pytest.approx(1, rel=1e-6), name
 
 

@@ -8,7 +8,8 @@ import pytest
 from stickiness import surface
 from stickiness.criteria import verdict as module
 from stickiness.criteria.registry import CRITERIA, EDGES
-from stickiness.criteria.verdict import decide, verdict
+from stickiness.criteria.verdict import verdict
+from stickiness.criteria.words import WORDS, decide
 from stickiness.spectrum import SelfAffine
 
 ROUGH = SelfAffine(hurst=0.8, q0=6e4, q1=6e8, h_rms=1e-6)
@@ -94,7 +95,7 @@ def test_heights_need_their_length():
     ],
 )
 def test_words(surely, possibly, holds, word):
-    assert module.WORDS[int(decide(surely, possibly, holds))] == word
+    assert WORDS[int(decide(surely, possibly, holds))] == word
 
 
 def test_text_says_word_margin_and_threshold():
