@@ -1,19 +1,16 @@
 # Stickiness criteria: the map of the paper and a verdict for every material on every surface.
 
-
-def a_v_inputs():
-    """Files behind a_V: simulation of one case, theory on the same spectrum and on broad ones."""
-    case = config["criteria"]["a_v"]["case"]
-    return {
-        "a_v": f"{RESULTS}/fits/a_v/ensembles/{case}.nc",
-        "lattice": f"{RESULTS}/fits/a_v/lattice/{case}.nc",
-        "theory": f"{RESULTS}/fits/a_v/sweeps/fig3c.nc",
-    }
+# Files behind a_V: simulation of one case, theory on the same spectrum and on broad ones.
+A_V_FILES = {
+    "a_v": f"{RESULTS}/fits/a_v/ensembles/{config['criteria']['a_v']['case']}.nc",
+    "lattice": f"{RESULTS}/fits/a_v/lattice/{config['criteria']['a_v']['case']}.nc",
+    "theory": f"{RESULTS}/fits/a_v/sweeps/fig3c.nc",
+}
 
 
 rule map_criterion:
     input:
-        **a_v_inputs(),
+        **A_V_FILES,
         library=library_of("criteria/map_criterion.py"),
         a_v_table=f"{RESULTS}/fits/a_v_table.nc",
     output:
@@ -35,7 +32,7 @@ rule map_criterion:
 
 rule compare_criteria:
     input:
-        **a_v_inputs(),
+        **A_V_FILES,
         library=library_of("criteria/compare_criteria.py"),
         a_v_table=f"{RESULTS}/fits/a_v_table.nc",
     output:
@@ -57,7 +54,7 @@ rule compare_criteria:
 
 rule judge:
     input:
-        **a_v_inputs(),
+        **A_V_FILES,
         library=library_of("criteria/judge.py"),
         surfaces=expand(f"{RESULTS}/real_surfaces/{{real_surface}}.nc", real_surface=REAL_SURFACES),
         theories=expand(
