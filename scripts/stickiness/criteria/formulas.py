@@ -2,10 +2,9 @@
 
 Every length is in one unit of the caller's choice, wave numbers in its inverse; the adhesion
 length is l_a = (work of adhesion)/E*. Arguments broadcast as numpy arrays do, so that a map is
-one call. A `Verdict` carries a margin, the ratio of the criterion's threshold to the actual
-value in the form the criterion is usually written in: above 1 means sticky. Margins of different
-criteria are different powers of the same physics and must not be compared but for their side
-of 1.
+one call. A `Verdict` has a margin, the ratio of the criterion's threshold to the actual value in
+the form the criterion is usually written in: above 1 means sticky. Margins of different criteria
+are different powers of the same physics: compare only on which side of 1 they lie.
 """
 
 from __future__ import annotations
