@@ -1,19 +1,16 @@
 # Stickiness criteria: the map of the paper and a verdict for every material on every surface.
 
-
-def a_v_inputs():
-    """What the a_V of the derived criterion rests on: what was measured once, and theory."""
-    case = config["criteria"]["a_v"]["case"]
-    return {
-        "a_v": config["criteria"]["a_v"]["measured"],
-        "lattice": f"{RESULTS}/fits/a_v/lattice/{case}.nc",
-        "theory": f"{RESULTS}/fits/a_v/sweeps/fig3c.nc",
-    }
+# Files behind a_V: simulation of one case, theory on the same spectrum and on broad ones.
+A_V_FILES = {
+    "a_v": a_v_of_simulation(config["criteria"]["a_v"]["case"]),
+    "lattice": f"{RESULTS}/fits/a_v/lattice/{config['criteria']['a_v']['case']}.nc",
+    "theory": f"{RESULTS}/fits/a_v/sweeps/fig3c.nc",
+}
 
 
 rule map_criterion:
     input:
-        **a_v_inputs(),
+        **A_V_FILES,
         a_v_table=f"{RESULTS}/fits/a_v_table.nc",
     output:
         f"{RESULTS}/criteria/map.nc",
@@ -26,7 +23,7 @@ rule map_criterion:
 
 rule compare_criteria:
     input:
-        **a_v_inputs(),
+        **A_V_FILES,
         a_v_table=f"{RESULTS}/fits/a_v_table.nc",
     output:
         f"{RESULTS}/criteria/compared.nc",
@@ -39,7 +36,7 @@ rule compare_criteria:
 
 rule judge:
     input:
-        **a_v_inputs(),
+        **A_V_FILES,
         surfaces=expand(f"{RESULTS}/real_surfaces/{{real_surface}}.nc", real_surface=REAL_SURFACES),
         theories=expand(
             f"{RESULTS}/persson/surfaces/{{real_surface}}.nc", real_surface=REAL_SURFACES
@@ -58,14 +55,3 @@ rule judge:
         frequencies=config["criteria"]["frequencies"],
     script:
         "../scripts/criteria/judge.py"
-
-
-rule record_a_v:
-    input:
-        a_v=f"{RESULTS}/fits/a_v/ensembles/{config['criteria']['a_v']['case']}.nc",
-    output:
-        f"{RESULTS}/criteria/a_v.csv",
-    params:
-        pressure=config["criteria"]["a_v"]["pressure"],
-    script:
-        "../scripts/criteria/record_a_v.py"

@@ -51,12 +51,24 @@ def test_editing_a_material_reruns_verdicts_and_report(copy_of_finished):
     assert planned == {"judge", "plot_fig9", "write_report", "write_surface"}
 
 
+def test_changing_the_loads_of_the_case_of_a_v_reruns_verdicts(copy_of_finished):
+    copy_of_finished.edit(
+        "config/tiny.yaml",
+        "theory:\n",
+        "cases:\n  H0.8_zeta32_wide: {pressures: [0.03, 0.065]}\ntheory:\n",
+    )
+    planned = copy_of_finished.planned("verdicts")
+    assert planned["solve_repulsive"] == SEEDS
+    assert {"fit_a_v", "judge"} <= planned.keys()
+
+
 def test_adding_a_seed_runs_that_seed_and_its_averages(copy_of_finished):
     copy_of_finished.edit("config/tiny.yaml", "seeds: 2", "seeds: 3")
     planned = copy_of_finished.planned()
     assert planned["synthesise_surface"] == SURFACES
     assert planned["solve_repulsive"] == CASES
     assert planned["average_ensemble"] == CASES
+    assert planned["judge"] == 1  # its a_V is simulated
     unaffected = {"persson_sweep", "persson_lattice", "contact_maps", "analyse_surface"}
     unaffected.add("solve_coarse")  # the new seed is solved on the coarse grid by its own job
     assert unaffected.isdisjoint(planned)

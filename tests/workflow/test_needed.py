@@ -4,7 +4,6 @@ import pytest
 
 pytestmark = pytest.mark.workflow
 
-BEM = {"synthesise_surface", "solve_repulsive", "solve_coarse", "solve_adhesive", "follow_loop"}
 SEEDS = 2
 
 
@@ -14,10 +13,15 @@ def cases(workflow, text):
         file.write(f"cases:\n{text}")
 
 
-def test_a_verdict_needs_no_simulation(fresh):
+def test_a_verdict_needs_one_simulated_case(fresh):
+    """That of a_V, criteria.a_v.case, and no other."""
     planned = fresh.planned("verdicts")
     assert planned["judge"] == 1
-    assert BEM.isdisjoint(planned), planned
+    assert planned["average_ensemble"] == 1
+    assert planned["solve_repulsive"] == SEEDS
+    assert {"solve_adhesive", "follow_loop"}.isdisjoint(planned), planned
+    listed = fresh.snakemake("-n", "verdicts").stdout
+    assert "results/tiny/fits/a_v/ensembles/H0.8_zeta32_wide.nc" in listed
 
 
 def test_a_case_of_theory_needs_no_surfaces(fresh):

@@ -7,7 +7,7 @@ from pipeline.tables import table
 from stickiness.adhesion import equivalent_sphere
 from stickiness.core import datasets
 from stickiness.criteria.registry import CRITERIA, EDGES
-from stickiness.criteria.verdict import REGIMES, WORDS
+from stickiness.criteria.words import REGIMES, WORDS
 
 HEAD = """\
 # Do they stick?

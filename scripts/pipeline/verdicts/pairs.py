@@ -7,7 +7,7 @@ import numpy as np
 from stickiness import criteria
 from stickiness.criteria.pair import Pair
 from stickiness.criteria.registry import CRITERIA
-from stickiness.criteria.verdict import classify_edges
+from stickiness.criteria.words import classify_edges
 
 ENDS = ("smooth", "rough")
 DIMS = ("material", "surface", "end")

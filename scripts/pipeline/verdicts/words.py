@@ -2,7 +2,7 @@
 
 from pipeline.verdicts.probabilities import QUANTILES
 from stickiness.criteria.registry import EDGES, FULL_CONTACT
-from stickiness.criteria.verdict import decide
+from stickiness.criteria.words import decide
 
 
 def decide_pairs(dataset):

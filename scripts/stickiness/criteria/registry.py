@@ -174,7 +174,7 @@ CRITERIA = {
         ),
         Criterion(
             "violano",
-            "derived, DMT limit",
+            "derived (DMT limit)",
             margin=_violano,
             power=3 / 5,
             reason="h_rms = {h_rms}, q0 = {q0}/m and a_V = {a_v}. Long waves set the repulsion; "
@@ -183,7 +183,7 @@ CRITERIA = {
         ),
         Criterion(
             "violano_constant",
-            "derived, constant a_V",
+            "derived (constant a_V)",
             margin=_violano_constant,
             power=3 / 5,
             reason="The same with a_V = {constant_a_v} of a broad spectrum instead of {a_v}.",
@@ -191,7 +191,7 @@ CRITERIA = {
         ),
         Criterion(
             "violano_printed",
-            "derived, 9/4 as printed",
+            "derived (9/4 as printed)",
             margin=_violano_printed,
             power=3 / 5,
             reason=f"The same with a_V = {formulas.PRINTED_A_V:g} instead of {{a_v}}.",

@@ -6,52 +6,22 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-from stickiness.adhesion import equivalent_sphere
 from stickiness.core.arguments import positive
 from stickiness.criteria.formulas import pastewka_robbins_a_v
 from stickiness.criteria.pair import Pair
 from stickiness.criteria.registry import CRITERIA, EDGES, FULL_CONTACT
 from stickiness.criteria.surface_a_v import VARIANTS, SurfaceAv, theory_a_v
+from stickiness.criteria.words import REGIMES, WORDS, classify_edges, decide
 from stickiness.measured import instrument_spectrum
 from stickiness.measured.topography import Topography
 from stickiness.surfaces.spectrum import Spectrum, Tabulated
-
-WORDS = ("not sticky", "depends", "sticky", "undecided")
-NOT_STICKY, DEPENDS, STICKY, UNDECIDED = range(4)
-REGIMES = ("weak", "between", "tough", "strong")
-WEAK, BETWEEN, TOUGH, STRONG = range(4)
 
 LOAD = 0.065  # mean pressure over E* q0 h_rms, amid those where area grows with load in proportion
 RANGES = np.geomspace(1e-14, 10, 61)  # over h_rms, where theory's a_V is evaluated
 THEORY_ERROR = 0.1  # relative, of theory's a_V against simulation on one spectrum at this load
 BROAD_A_V = 3.0  # of broad spectra, as Violano et al. (2019) find it
-
-
-def decide(surely: ArrayLike, possibly: ArrayLike, holds: ArrayLike) -> NDArray:
-    """Code of a verdict, its place in `WORDS`.
-
-    Parameters
-    ----------
-    surely, possibly : boolean array_like
-        Whether contact grows by itself for all, or for some, of what is not known.
-    holds : boolean array_like
-        Whether full contact would cost less energy than adhesion gains. Where contact does not
-        grow by itself but would hold once it is full, history decides: undecided.
-    """
-    decided = NOT_STICKY + np.asarray(possibly, dtype="i1") + np.asarray(surely, dtype="i1")
-    return np.where((decided == NOT_STICKY) & holds, UNDECIDED, decided).astype("i1")
-
-
-def classify_edges(attraction: equivalent_sphere.EdgeAttraction) -> NDArray:
-    """Code of the regime of the edges, its place in `REGIMES`."""
-    tau = np.asarray(attraction.strength)
-    return np.select(
-        [tau <= equivalent_sphere.WEAK, tau < equivalent_sphere.TOUGH, attraction.tough],
-        [WEAK, BETWEEN, TOUGH],
-        STRONG,
-    )
 
 
 @dataclass(frozen=True)

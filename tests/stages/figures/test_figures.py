@@ -11,7 +11,6 @@ from matplotlib.text import Text
 from adhesion import compare_edges
 from criteria import compare_criteria, map_criterion
 from figures import plot_fig5, plot_fig6, plot_fig9, plot_fig10
-from pipeline.conventions import logarithmic_grid
 from pipeline.pages import style
 from pipeline.verdicts.a_v import MeasuredAv
 from stickiness import criteria
@@ -68,14 +67,14 @@ CONSTANT = MeasuredAv(
 
 def made_map():
     roughness = map_criterion.Roughness(ConstantAv(), ASKED_MAP, 0.065)
-    return map_criterion.limits(ASKED_MAP, CONSTANT, roughness)
+    return map_criterion.find_limits(ASKED_MAP, CONSTANT, roughness)
 
 
 @pytest.fixture
 def criterion_map(tmp_path):
-    data = made_map().merge(map_criterion.slopes([1, 0.1], 3.0))
+    data = made_map().merge(map_criterion.find_slopes([1, 0.1], 3.0))
     path = tmp_path / "map.nc"
-    datasets.write(map_criterion.annotated(data), path, title="map", parameters=ASKED_MAP)
+    datasets.write(map_criterion.describe(data), path, title="map", parameters=ASKED_MAP)
     return path
 
 
@@ -152,24 +151,9 @@ def compared(tmp_path):
         "magnification": {"minimum": 10, "maximum": 1e5, "per_decade": 2},
         "quoted_magnification": 1e4,
     }
-    grids = [logarithmic_grid(asked[name]) for name in ("h_rms_over_range", "magnification")]
-    found = [
-        compare_criteria.thresholds(0.8, 1e-6, h, zeta, 0.065, ConstantAv(), 3.0)
-        for h, zeta in (
-            (grids[0], np.full_like(grids[0], 1e4)),
-            (np.full_like(grids[1], 1000.0), grids[1]),
-        )
-    ]
-    data = xr.Dataset(
-        {
-            "against_roughness": (("criterion", "h_rms_over_range"), list(found[0].values())),
-            "against_magnification": (("criterion", "magnification"), list(found[1].values())),
-        },
-        coords=dict(zip(("h_rms_over_range", "magnification"), grids, strict=True))
-        | {"criterion": list(found[0])},
-    )
+    data = compare_criteria.compare(asked, 0.065, ConstantAv(), 3.0)
     path = tmp_path / "compared.nc"
-    datasets.write(compare_criteria.annotated(data), path, title="c", parameters=asked)
+    datasets.write(compare_criteria.describe(data), path, title="c", parameters=asked)
     return path
 
 

@@ -94,7 +94,7 @@ def verdicts():
             "material": ["jelly", "iron"],
             "surface": ["glass", "sand"],
             "end": ["smooth", "rough"],
-            "criterion": ["edge_adhesion", "some_other"],
+            "criterion": ["edge_adhesion", "bearing_area"],
         },
     )
     model = np.full((2, 2, 2, 2), 0.5)
@@ -455,7 +455,7 @@ def test_symbols_are_set(text, html):
 
 def test_disagreement_names_pairs_and_direction(verdicts, surfaces):
     (row,) = report.find_disagreements(verdicts, surfaces)
-    assert (row["criterion"], row["count"]) == ("some other", 1)
+    assert (row["criterion"], row["count"]) == ("bearing area (BAM)", 1)
     assert row["sticky"] == [("iron", ["sand < 1 mm"])]
     assert row["not_sticky"] == []
 

@@ -260,6 +260,10 @@ def model(*keys, value):
             changed(CONFIG, "criteria", "a_v", "pressure", value=0.07),
             ["criteria.a_v.pressure", "0.07", "H0.8_zeta32_wide"],
         ),
+        (
+            changed(CONFIG, "criteria", "a_v", "measured", value="config/a_v.csv"),
+            ["criteria.a_v", "measured", "from the run itself"],
+        ),
     ],
 )
 def test_one_line_names_key_value_and_remedy(folder, edit, words):
