@@ -15,10 +15,8 @@ def main(job):
     surfaces = [datasets.read(path, ["psd", "wave_number"]) for path in job.input.surfaces]
     # The lines of constant C0 are surfaces, too, but drawn without ends.
     surfaces = [surface for surface in surfaces if not label(surface).startswith("C0 =")]
-    rows = "A;B"
-    with style.lettered_figure(
-        job.output, rows, 7.2, sharex=True, height_ratios=[1.25, 1]
-    ) as panels:
+    shape = {"sharex": True, "height_ratios": [1.25, 1]}
+    with style.lettered_figure(job.output, "A;B", 7.2, **shape) as panels:
         draw_spectra(panels["A"], surfaces, 0)
         draw_spectra(panels["B"], surfaces, EXPONENT)
         panels["A"].set_ylabel(r"power spectral density $C(q)$ [m$^4$]")

@@ -55,10 +55,8 @@ def main(job):
     cases = order_cases([datasets.read(path, ["distance"]) for path in job.input.comparisons])
     gamma = datasets.read(job.input.gamma, ["gamma", "gamma_low", "gamma_high", "quantities_agree"])
     grid = [[f"{row}{column}" for column in range(len(THEORIES))] for row in ROWS]
-    heights = [1] * len(ROWS) + [1.65]
-    with style.lettered_figure(
-        job.output, [*grid, ["A", "A", "B", "B"]], 10.2, height_ratios=heights
-    ) as panels:
+    rows, heights = [*grid, ["A", "A", "B", "B"]], [1] * len(ROWS) + [1.65]
+    with style.lettered_figure(job.output, rows, 10.2, height_ratios=heights) as panels:
         for column, (theory, title) in enumerate(THEORIES.items()):
             for row in ROWS:
                 ax = panels[f"{row}{column}"]
@@ -204,7 +202,7 @@ def draw_gamma(ax, gamma):
         ax.plot(float(at.own_gamma), count - 0.45, **look, mfc="white", clip_on=False)
     ax.plot([], [], linestyle="none", marker="o", color=BLACK, mfc="white", label="source's own")
     ax.set_yticks(np.arange(count), [SYMBOLS[str(name)] for name in gamma.quantity.values])
-    ax.set(ylim=(count - 0.3, -0.5), xlim=(0.25, 1.0), xlabel=r"best $\gamma$, 95 %, and misfit")
+    ax.set(ylim=(count - 0.3, -0.5), xlim=(0.25, 1.15), xlabel=r"best $\gamma$, 95 %, and misfit")
     ax.legend(loc="lower right")
 
 
