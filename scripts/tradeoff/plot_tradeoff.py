@@ -5,7 +5,8 @@ import itertools
 import numpy as np
 
 from pipeline.job import start
-from pipeline.pages.style import COLOURS, GREY, MARKERS, canvas, key, letters, plain_ticks, save
+from pipeline.pages import style
+from pipeline.pages.style import COLOURS, GREY, MARKERS, plain_ticks
 from pipeline.tradeoff import summary
 from stickiness.accuracy import plan
 from stickiness.accuracy.choice import COARSE_SEEDS, PIXELS, SEEDS, TOLERANCES
@@ -30,31 +31,29 @@ PRESET_MARKS = {"draft": "v", "standard": "o", "fine": "^"}
 
 def main(job):
     found = summary.read(job.input.summary)
-    figure, panels = canvas("ABC;DEF;GHI", 7.8)
-    grids(panels["A"], found[found.knob == "pixels"])
-    tolerances(panels["B"], found[found.knob == "tolerance"])
-    seeds(panels["C"], found[found.knob == "seeds"], found[found.knob == "model"])
-    bands(panels["D"], found[found.knob == "band"])
     laws = read_models(job.input.laws)
-    for name, quantities in {"E": ["a_v"], "F": list(MODELLED)}.items():
-        together(panels[name], laws, quantities, job.params)
-    panels["E"].set_title(r"all settings, $a_V$", loc="right")
-    panels["F"].set_title("all settings, worst", loc="right")
-    adhesive_grids(panels["G"], found)
-    adhesive_tolerances(panels["H"], found)
-    adhesive_seeds(panels["I"], found)
-    letters(panels)
-    save(figure, job.output)
+    with style.lettered_figure(job.output, "ABC;DEF;GHI", 7.8) as panels:
+        draw_grids(panels["A"], found[found.knob == "pixels"])
+        draw_tolerances(panels["B"], found[found.knob == "tolerance"])
+        draw_seeds(panels["C"], found[found.knob == "seeds"], found[found.knob == "model"])
+        draw_cuts(panels["D"], found[found.knob == "band"])
+        for name, quantities in {"E": ["a_v"], "F": list(MODELLED)}.items():
+            draw_settings(panels[name], laws, quantities, job.params)
+        panels["E"].set_title(r"all settings, $a_V$", loc="right")
+        panels["F"].set_title("all settings, worst", loc="right")
+        draw_adhesive_grids(panels["G"], found)
+        draw_adhesive_tolerances(panels["H"], found)
+        draw_adhesive_seeds(panels["I"], found)
 
 
-def middle(found):
+def index_medians(found):
     """Error and cost by setting and quantity."""
     return found.set_index(["setting", "quantity"])[["error", "cost"]].sort_index()
 
 
-def grids(ax, found):
+def draw_grids(ax, found):
     """Error against cost from coarse to fine grids, for three ways to evaluate them."""
-    by = middle(found)
+    by = index_medians(found)
     for colour, way in zip(COLOURS, ("counted", "sub-pixel", "extrapolated"), strict=False):
         for line, quantity in (("-", "area"), ("--", "attractive_area_0.01")):
             at = by.loc[[(f"{pixels} {way}", quantity) for pixels in (2, 4, 8, 16)]]
@@ -68,28 +67,23 @@ def grids(ax, found):
     ax.legend(loc="lower left")
 
 
-def tolerances(ax, found):
+def draw_tolerances(ax, found):
     """Error against the tolerance of the solver."""
-    by = middle(found)
+    by = index_medians(found)
     values = sorted(set(found.setting), key=float)
     for colour, marker, (quantity, label) in zip(COLOURS, MARKERS, SHOWN.items(), strict=False):
         at = by.loc[[(value, quantity) for value in values]]
         shown = at.error.to_numpy() > 0
-        ax.plot(
-            np.array(values, float)[shown],
-            at.error[shown],
-            marker=marker,
-            color=colour,
-            label=label,
-        )
+        x = np.array(values, float)[shown]
+        ax.plot(x, at.error[shown], marker=marker, color=colour, label=label)
     ax.set(xscale="log", yscale="log", xlabel=r"tolerance over $h_\mathrm{rms}$", ylabel=ERROR)
     ax.set_title("solver", loc="right")
     ax.legend()
 
 
-def seeds(ax, found, model):
+def draw_seeds(ax, found, model):
     """Error of means of a_V against cost, by kind of seeds, and of theory instead."""
-    by = middle(found)
+    by = index_medians(found)
     kinds = {
         "plain": [s for s in dict.fromkeys(found.setting) if s.endswith("plain")],
         "multilevel": [s for s in dict.fromkeys(found.setting) if "+" in s],
@@ -98,7 +92,7 @@ def seeds(ax, found, model):
     for colour, marker, (kind, chosen) in zip(COLOURS, MARKERS, kinds.items(), strict=False):
         at = by.loc[[(setting, "a_v") for setting in chosen]].sort_values("cost")
         ax.plot(at.cost, at.error, marker=marker, color=colour, label=kind, linewidth=0.7)
-    theory = middle(model).loc[("theory", "a_v")]
+    theory = index_medians(model).loc[("theory", "a_v")]
     ax.plot(theory.cost, theory.error, "*", color="black", markersize=9, label="theory")
     ax.set(xscale="log", yscale="log", xlabel=COST, ylabel=ERROR)
     plain_ticks(ax.xaxis, [20, 50, 100, 200, 500, 1000, 2000])
@@ -108,9 +102,9 @@ def seeds(ax, found, model):
     ax.legend(loc="lower left")
 
 
-def bands(ax, found):
-    """Error against the cut of the spectrum, alone and carried on by theory."""
-    by = middle(found)
+def draw_cuts(ax, found):
+    """Error against the cut of the spectrum, alone and extrapolated by theory."""
+    by = index_medians(found)
     cuts = sorted({int(setting.split()[0]) for setting in found.setting})
     for colour, marker, (quantity, label) in zip(COLOURS, MARKERS, SHOWN.items(), strict=False):
         for line, way in (("--", "cut"), ("-", "difference")):
@@ -118,14 +112,14 @@ def bands(ax, found):
             look = {"label": label} if way == "difference" else {"markerfacecolor": "white"}
             ax.plot(cuts, at.error, line, marker=marker, color=colour, **look)
     ax.set(xscale="log", yscale="log", xlabel=r"$\zeta$ simulated", ylabel="error of the mean")
-    ax.set_title(f"cut, carried to {2 * cuts[-1]}", loc="right")
+    ax.set_title(f"cut, extrapolated to {2 * cuts[-1]}", loc="right")
     ax.set_xticks(cuts, [str(cut) for cut in cuts])
     ax.minorticks_off()
     ax.set_ylim(top=60)
     ax.legend(loc="upper right")
 
 
-def of_adhesion(found, knob):
+def medians_of_adhesion(found, knob):
     """For every quantity of full adhesion, medians over its cases by the value of a knob."""
     for colour, marker, (quantity, label) in zip(COLOURS, MARKERS, ADHESIVE.items(), strict=False):
         kind = "pull_off" if quantity == "pull_off" else "adhesive"
@@ -136,17 +130,17 @@ def of_adhesion(found, knob):
         yield by, {"marker": marker, "color": colour, "label": label}
 
 
-def adhesive_grids(ax, found):
+def draw_adhesive_grids(ax, found):
     """Error of adhesive quantities against cost, from coarse to fine grids."""
-    for by, look in of_adhesion(found, "pixels"):
+    for by, look in medians_of_adhesion(found, "pixels"):
         ax.plot(by.cost, by.error, **look)
     ax.set(xscale="log", yscale="log", xlabel=COST, ylabel=ERROR)
     ax.set_title("full adhesion: grid", loc="right")
 
 
-def adhesive_tolerances(ax, found):
+def draw_adhesive_tolerances(ax, found):
     """Error of adhesive quantities against the tolerance of their solver."""
-    for by, look in of_adhesion(found, "tolerance"):
+    for by, look in medians_of_adhesion(found, "tolerance"):
         by = by[by.error > SMALLEST]
         ax.plot(by.index.astype(float), by.error, **look)
     ax.set(xscale="log", yscale="log", xlabel="tolerance", ylabel=ERROR)
@@ -155,9 +149,9 @@ def adhesive_tolerances(ax, found):
     ax.legend(loc="upper left", title="in G to I")
 
 
-def adhesive_seeds(ax, found):
+def draw_adhesive_seeds(ax, found):
     """Error of adhesive means against cost, and of the DMT limit in their place."""
-    for by, look in of_adhesion(found[found.quantity != "pull_off"], "seeds"):
+    for by, look in medians_of_adhesion(found[found.quantity != "pull_off"], "seeds"):
         for line, kind in (("--", "plain"), ("-", "controlled")):
             at = by[by.index.str.endswith(kind)].sort_values("cost")
             filled = {} if kind == "controlled" else {"markerfacecolor": "white"}
@@ -168,11 +162,11 @@ def adhesive_seeds(ax, found):
         ax.axhline(error, color=colour, linestyle=":", linewidth=0.8)
     ax.set(xscale="log", yscale="log", xlabel=COST, ylabel=ERROR)
     ax.set_title("full adhesion: seeds", loc="right")
-    handles = [key(color=GREY, linestyle=line) for line in ("--", "-", ":")]
-    ax.legend(handles, ["plain", "controlled", "DMT limit"])
+    kinds = {"plain": "--", "controlled": "-", "DMT limit": ":"}
+    ax.legend(handles=[style.key(text, linestyle=line) for text, line in kinds.items()])
 
 
-def together(ax, laws, quantities, params):
+def draw_settings(ax, laws, quantities, params):
     """All settings as predicted, those that nothing cheaper beats, and the presets."""
     problem = Problem(
         laws,
@@ -190,28 +184,29 @@ def together(ax, laws, quantities, params):
             COARSE_SEEDS,
         )
     ]
-    points = [place(problem, each) for each in chosen]
+    points = [predict(problem, each) for each in chosen]
     cost, error = np.array(points).T
     ax.plot(cost, error, ".", color="0.8", markersize=2, rasterized=True)
-    front = non_dominated(cost, error)
+    front = find_front(cost, error)
     ax.plot(cost[front], error[front], ".-", color="black", markersize=4, linewidth=0.8)
     for colour, (name, mark) in zip(COLOURS, PRESET_MARKS.items(), strict=False):
         if name in params.fidelities:
             preset = plan.preset(params.fidelities[name])
-            at = place(problem, preset)
+            at = predict(problem, preset)
             ax.plot(*at, mark, color=colour, markersize=7, markeredgecolor="white", label=name)
     ax.set(xscale="log", yscale="log", xlabel=COST, ylabel="predicted error, 90 %")
     plain_ticks(ax.yaxis, ERROR_TICKS)
     handles, _ = ax.get_legend_handles_labels()
-    ax.legend(handles=[*handles, key(color="black", marker=".", label="cheapest")])
+    cheapest = style.key("cheapest", color="black", marker=".")
+    ax.legend(handles=[*handles, cheapest], loc="lower left")
 
 
-def place(problem, chosen):
+def predict(problem, chosen):
     """Predicted cost and error of settings."""
     return predicted_cost(problem, chosen), worst_error(problem, chosen)[0]
 
 
-def non_dominated(cost, error):
+def find_front(cost, error):
     """Indices, by rising cost, of points that no cheaper one equals in error."""
     order = np.lexsort((error, cost))
     best = np.minimum.accumulate(error[order])

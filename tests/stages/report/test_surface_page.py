@@ -252,10 +252,3 @@ def test_errors_of_sizes_cover_what_those_of_the_fit_do():
     assert surface_texts.rms_height(measured) == "(1.00 ± 0.16) µm"
     assert surface_texts.rms_slope(measured) == "0.200 ± 0.016"
     assert surface_texts.rms_height(measured.drop_vars("draw")) == "0.9 … 1.1 µm"
-
-
-@pytest.mark.parametrize("number", [1, 2, 3, 4, 7, 8, 10])
-def test_figures_draw_errors_of_one_kind(number):
-    """Budgets cover 90 %; a standard error beside one would be another kind of bar."""
-    text = (Path(write_surface.__file__).parents[1] / f"figures/plot_fig{number}.py").read_text()
-    assert "_standard_error" not in text
