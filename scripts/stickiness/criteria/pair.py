@@ -61,17 +61,20 @@ class Pair:
     def edge_thresholds(self) -> tuple[ArrayLike, ArrayLike, ArrayLike]:
         """Adhesion length [m] above which the pair sticks by the edges: value, low, high limit."""
         return (
-            self._edge_threshold(self.a_v),
-            self._edge_threshold(self.a_v_high, +1),
-            self._edge_threshold(self.a_v_low, -1),
+            self.edge_threshold(self.a_v),
+            self.edge_threshold(self.a_v_high, +1),
+            self.edge_threshold(self.a_v_low, -1),
         )
 
     def _attraction(self, adhesion_length, a_v):
         at = self.h_rms, self.q0, self.rms_slope, adhesion_length, self.range, a_v
         return equivalent_sphere.attraction(*at)
 
-    def _edge_threshold(self, a_v, sign=0):
-        """Threshold at one limit of the model's error: upwards, downwards or without it."""
+    def edge_threshold(self, a_v: ArrayLike, sign: int = 0) -> float | NDArray:
+        """Adhesion length [m] above which the pair sticks by the edges, for an a_V.
+
+        With `sign` +1 or -1 the model's error raises or lowers it.
+        """
         at = self.h_rms, self.q0, self.rms_slope, self.range, a_v
         length = equivalent_sphere.adhesion_length_threshold(*at)
         if not sign:

@@ -166,7 +166,7 @@ CRITERIA = {
             EDGES,
             "edges of contact",
             margin=lambda pair: pair.attraction().ratio,
-            length=lambda pair: pair.edge_thresholds()[0],
+            length=lambda pair: pair.edge_threshold(pair.a_v),
             reason="The attractive area is {attractive_over_contact} of the contact area. The "
             "Tabor parameter of the edges is {edge_strength} ({regime}). The attraction is "
             "{over_dmt} times that of the DMT limit.",
