@@ -37,12 +37,12 @@ def main(job):
         for path, alone in zip(job.input.realisations, job.input.alone, strict=True)
     ]
     coarse, states = (
-        xr.concat([compared(one, alone, q0_h_rms, grid) for one, alone in files], "seed")
+        xr.concat([compare(one, alone, q0_h_rms, grid) for one, alone in files], "seed")
         for grid in (0, -1)
     )
     resolved = states.effect.notnull().all("seed") & averages.dmt_ratio.notnull()
     dataset = states.mean("seed").where(resolved).assign(q0_h_rms=q0_h_rms)
-    dataset = annotated(dataset)
+    dataset = annotate(dataset)
     for name in QUOTED:
         dataset = with_budget(dataset, name, **parts(coarse[name], states[name]))
     datasets.write(
@@ -65,7 +65,7 @@ def parts(coarse, fine):
     }
 
 
-def compared(adhesive, alone, q0_h_rms, grid):
+def compare(adhesive, alone, q0_h_rms, grid):
     """Effect of attraction, measured and modelled, for one realisation on one of its grids."""
     adhesive = adhesive.isel(resolution=grid, drop=True)
     strength = adhesive.adhesion_length_over_range / q0_h_rms
@@ -139,7 +139,7 @@ def attractive_area(areas, ranges, law):
     return xr.concat(parts, ranges)
 
 
-def annotated(dataset):
+def annotate(dataset):
     return datasets.annotate(
         dataset,
         pressure=DESCRIBED["pressure"],

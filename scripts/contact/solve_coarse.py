@@ -7,7 +7,7 @@ seeds are not solved at all but only described by their long waves.
 
 import numpy as np
 
-from pipeline.coarse_solutions import annotated, coarse_solutions
+from pipeline.coarse_solutions import annotate, coarse_solutions
 from pipeline.contact_curves import COARSE
 from pipeline.conventions import grid_points, logarithmic_grid
 from pipeline.job import start
@@ -26,7 +26,7 @@ def main(job):
         job.params.measured,
     )
     datasets.write(
-        annotated(dataset),
+        annotate(dataset),
         job.output[0],
         title="coarse contact solutions and long waves of many realisations",
         parameters={

@@ -40,14 +40,14 @@ def main(job):
         edge_range=("1", "range over h_rms below which the edge law takes over from theory"),
     )
     datasets.write(
-        budgeted(dataset, surface, load, read_models(job.input.laws)),
+        add_budgets(dataset, surface, load, read_models(job.input.laws)),
         job.output[0],
         title="a_V by Persson's theory on the spectrum of a real surface",
         parameters={**datasets.parameters(surface), "pressure": load, "gamma": gamma},
     )
 
 
-def budgeted(dataset, surface, load, laws):
+def add_budgets(dataset, surface, load, laws):
     """The quoted a_V with its errors: as measured, or how far the others are if that is more."""
     a_v = dataset.a_v.assign_coords(
         pressure=load,

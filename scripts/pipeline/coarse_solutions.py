@@ -45,7 +45,7 @@ def coarse_solutions(asked, which, others_count, pressures, ranges, tolerance, n
     return dataset
 
 
-def annotated(dataset):
+def annotate(dataset):
     return datasets.annotate(
         dataset,
         **{name: texts for name, texts in CURVE.items() if name in dataset.variables},

@@ -82,7 +82,7 @@ def measured(contact, ranges):
     return xr.Dataset(found)
 
 
-def annotated(dataset):
+def annotate(dataset):
     texts = {name: text for name, text in CURVE.items() if name in dataset.variables}
     if "range" in dataset.dims:
         texts["pixel_attractive_area"] = (

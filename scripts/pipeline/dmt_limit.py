@@ -90,17 +90,21 @@ class DmtLimit:
         """1/kappa over all loads whose area is linear."""
         held = self.at_loads(solved)
         external = held.pressure - self.attraction(solved)
-        return fitted(external, held.area_fraction * held.rms_slope, self.linear)
+        return fit_slope(external, held.area_fraction * held.rms_slope, self.linear)
 
     def inverse_kappa_ad_fit(self, solved: xr.Dataset) -> xr.DataArray:
         """1/kappa_ad by the fall of that slope."""
         held = self.at_loads(solved)
         attraction = self.attraction(solved)
         area = held.area_fraction * held.rms_slope
-        return fitted(attraction, area, self.linear) / fitted(held.pressure, area, self.linear) / 2
+        return (
+            fit_slope(attraction, area, self.linear)
+            / fit_slope(held.pressure, area, self.linear)
+            / 2
+        )
 
 
-def fitted(external: xr.DataArray, area: xr.DataArray, linear: xr.DataArray) -> xr.DataArray:
+def fit_slope(external: xr.DataArray, area: xr.DataArray, linear: xr.DataArray) -> xr.DataArray:
     """Fitted slope of pressure against area through the origin; NaN for fewer than two loads.
 
     Where a load is missing there is no slope: the others alone would have another.

@@ -117,7 +117,7 @@ def ensemble_mean(values, more=None):
     )
 
 
-def with_errors(dataset, name, values, more=None, plain=False, limit=None):
+def add_errors(dataset, name, values, more=None, plain=False, limit=None):
     """Add mean, standard error and discretisation error of `values` to a dataset.
 
     They are called ``NAME_mean``, ``NAME_standard_error`` and ``NAME_discretisation_error``; with
@@ -138,8 +138,8 @@ def with_errors(dataset, name, values, more=None, plain=False, limit=None):
     )
 
 
-def described(name, text, plain=False, units="1", discretisation=None):
-    """Texts for `datasets.annotate` of what `with_errors` adds.
+def describe_errors(name, text, plain=False, units="1", discretisation=None):
+    """Texts for `datasets.annotate` of what `add_errors` adds.
 
     `discretisation` says what the discretisation error is, if not the change from half the
     resolution.

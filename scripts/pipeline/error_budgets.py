@@ -150,12 +150,12 @@ def along(
         return xr.apply_ufunc(model, column, like.pressure, vectorize=True)
 
     if name != "attractive_area":
-        return by(COLUMN_OF.get(name, name)) * (widened_gaps(like) if widened else 1.0)
+        return by(COLUMN_OF.get(name, name)) * (widen_gaps(like) if widened else 1.0)
     ends = {reach: by(column) for reach, column in COLUMN_AT_RANGE.items()}
-    return between_ranges(ends, like["range"], widened)
+    return interpolate_ranges(ends, like["range"], widened)
 
 
-def between_ranges(
+def interpolate_ranges(
     ends: Mapping[float, xr.DataArray], ranges: xr.DataArray, widened: bool = True
 ) -> xr.DataArray:
     """A power law between the two ranges measured, held and widened outside."""
@@ -166,7 +166,7 @@ def between_ranges(
     return found * xr.where(share == inside, 1, OUTSIDE) if widened else found
 
 
-def widened_gaps(like: xr.DataArray) -> xr.DataArray | float:
+def widen_gaps(like: xr.DataArray) -> xr.DataArray | float:
     """Factor for gaps outside those that the error of P(u) was measured over."""
     if "gap" not in like.dims:
         return 1.0
@@ -204,9 +204,9 @@ def theory_error(
 
     if name == "attractive_area":
         ends = {reach: by(column) for reach, column in COLUMN_AT_RANGE.items()}
-        found = between_ranges(ends, like["range"])
+        found = interpolate_ranges(ends, like["range"])
     else:
-        found = by(COLUMN_OF.get(name, name)) * widened_gaps(like)
+        found = by(COLUMN_OF.get(name, name)) * widen_gaps(like)
     return found.where(like["variant"] == VARIANT) if "variant" in like.coords else found
 
 
