@@ -125,10 +125,10 @@ def average(states, full, ensemble, dmt, made):
     linear = dmt.linear & ~(fine(states.repulsive_area).mean("seed") > LINEAR_UP_TO)
     states = add_slopes(states, ensemble, linear)
     # A mean over the seeds that happen to be solved would leave out the stickiest ones.
-    told = whole & (wide | ~full)
-    resolved = dict.fromkeys(STATES | SLOPES, told)
-    resolved |= {name: (told | ~linear).all("pressure") for name in FITS}
-    resolved |= dict.fromkeys(RATIOS, told & full)
+    reported = whole & (wide | ~full)
+    resolved = dict.fromkeys(STATES | SLOPES, reported)
+    resolved |= {name: (reported | ~linear).all("pressure") for name in FITS}
+    resolved |= dict.fromkeys(RATIOS, reported & full)
     dataset = xr.Dataset()
     for name, (_, control) in (STATES | SLOPES | FITS | RATIOS).items():
         values, more = states[name].where(resolved[name]), None

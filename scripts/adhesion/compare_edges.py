@@ -84,14 +84,14 @@ def compare(adhesive, alone, q0_h_rms, grid):
     made = datasets.parameters(adhesive)
     points = (made["grid_points"] * made["refine"]) ** 2
     drawn_in = (adhesive.repulsive_area - adhesive.area_alone) * points
-    told = drawn_in >= FEWEST_POINTS if grid else drawn_in > 0
+    reported = drawn_in >= FEWEST_POINTS if grid else drawn_in > 0
     return xr.Dataset(
         {
             "attractive_over_contact": t,
             "edge_strength": tau,
-            "effect": effect.where(told),
+            "effect": effect.where(reported),
             "effect_model": model,
-            "over_model": (effect / model).where(told),
+            "over_model": (effect / model).where(reported),
         }
     )
 
@@ -131,10 +131,10 @@ def attractive_area(areas, ranges, law):
     parts = [
         areas.isel(range=0, drop=True).copy(
             data=dmt.attraction_of_areas(
-                areas.values, areas["range"].values, LAWS[law](adhesion_length=reach, range=reach)
+                areas.values, areas["range"].values, LAWS[law](adhesion_length=range_, range=range_)
             )
         )
-        for reach in ranges.values
+        for range_ in ranges.values
     ]
     return xr.concat(parts, ranges)
 

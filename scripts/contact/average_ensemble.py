@@ -1,6 +1,6 @@
 """Average the realisations of a case: means, standard errors and discretisation errors.
 
-The means are those in the limit of fine grids, by `stickiness.continuum`.
+The means are those in the limit of fine grids, by `stickiness.contact.grid_limit`.
 
 The coarse solutions of further seeds, if the case has them, are kept beside the values seed by
 seed, so that whatever is derived from those is averaged in the same way.

@@ -1,8 +1,8 @@
 """Coarse contact solutions of many realisations, which correct the mean of a few fine ones.
 
-The seeds begin where those of the fine solutions can never reach. Their surfaces are solved on 2
-pixels per shortest wavelength, as every fine one is too; those of the last and largest set of
-seeds are not solved at all but only described by their long waves.
+Their seeds are different from those of the fine solutions. Each surface is solved on 2 pixels per
+shortest wavelength, as every fine one is too. Still more surfaces are not solved: only their long
+waves are described.
 """
 
 import numpy as np

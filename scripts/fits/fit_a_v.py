@@ -29,12 +29,12 @@ def main(job):
     if "edge_gap_mean" in areas:
         resolved = areas["range"] >= areas.edge_gap_mean
         dataset["exponent"] = dataset.exponent.where(resolved)
-    simulated, laws = "seed" in dataset.a_v.dims, read_models(job.input.laws)
+    simulated, models = "seed" in dataset.a_v.dims, read_models(job.input.laws)
     if simulated:
         dataset = average(dataset, areas, job.params.windows)
     dataset = annotate(dataset)
     datasets.write(
-        of_simulation(dataset, areas, laws) if simulated else of_theory(dataset, areas, laws),
+        of_simulation(dataset, areas, models) if simulated else of_theory(dataset, areas, models),
         job.output[0],
         title="a_V from attractive areas",
         parameters={**datasets.parameters(areas), "windows": job.params.windows},
@@ -51,9 +51,9 @@ def average(dataset, ensemble, windows):
     return add_errors(dataset, "a_v", dataset.a_v, coarse(ensemble, quantity), limit=limit)
 
 
-def of_simulation(dataset, ensemble, laws):
+def of_simulation(dataset, ensemble, models):
     """Budgets of the means over the seeds; a window is part of what is asked."""
-    simulation = Simulation.of(laws, datasets.parameters(ensemble))
+    simulation = Simulation.of(models, datasets.parameters(ensemble))
     parts = simulation.parts(
         "a_v",
         dataset.a_v_mean,
@@ -77,11 +77,11 @@ def of_simulation(dataset, ensemble, laws):
     )
 
 
-def of_theory(dataset, areas, laws):
+def of_theory(dataset, areas, models):
     """Budgets of the fits to theory, on a lattice spectrum or on continuous ones."""
     made = datasets.parameters(areas)
     like = dataset.a_v.assign_coords(pressure=areas.pressure)
-    model = theory_error(laws, "a_v", like, made if "case" in made else None)
+    model = theory_error(models, "a_v", like, made if "case" in made else None)
     quadrature = QUADRATURE["attractive_area"]
     dataset = with_budget(
         dataset,

@@ -24,8 +24,8 @@ def main(job):
     )
     for name, quantity in {"kappa": slope_of_area, "kappa_fit": fitted_slope}.items():
         dataset = average(dataset, name, quantity, ensemble)
-    laws = read_models(job.input.laws)
-    dataset = add_budgets(annotate(dataset), laws, datasets.parameters(ensemble))
+    models = read_models(job.input.laws)
+    dataset = add_budgets(annotate(dataset), models, datasets.parameters(ensemble))
     for ending in ENDINGS:
         dataset[f"area_fraction{ending}"] = ensemble[f"area_fraction_mean{ending}"]
     datasets.write(
@@ -43,9 +43,9 @@ def average(dataset, name, quantity, ensemble):
     return add_errors(dataset, name, values, more, plain=True, limit=limit)
 
 
-def add_budgets(dataset, laws, made):
+def add_budgets(dataset, models, made):
     """Every kappa with its errors by source, those of the fit as at the largest of its loads."""
-    simulation, inside = Simulation.of(laws, made), dataset.area_fraction <= LINEAR_UP_TO
+    simulation, inside = Simulation.of(models, made), dataset.area_fraction <= LINEAR_UP_TO
     loads = {"kappa": dataset.pressure, "kappa_fit": dataset.pressure.where(inside).max()}
     for name, pressure in loads.items():
         kinds = ("standard_error", "discretisation_error")
@@ -58,7 +58,7 @@ def add_budgets(dataset, laws, made):
         dataset,
         "kappa_theory",
         discretisation=Part(quadrature * value, "of the quadrature, as tested"),
-        model=Part(theory_error(laws, "kappa", value, made) * value, MODEL),
+        model=Part(theory_error(models, "kappa", value, made) * value, MODEL),
         **BY_THEORY,
     )
 

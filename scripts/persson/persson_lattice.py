@@ -29,9 +29,9 @@ def main(job):
         variant=DESCRIBED_THEORY,
         rms_slope=("1", "rms gradient of the lattice spectrum over q0 h_rms"),
     )
-    laws = read_models(job.input.laws)
+    models = read_models(job.input.laws)
     for name in QUADRATURE:
-        parts = theory_parts(laws, name, dataset[name], asked)
+        parts = theory_parts(models, name, dataset[name], asked)
         dataset = with_budget(dataset, name, **parts)
     datasets.write(
         dataset,

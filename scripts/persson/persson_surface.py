@@ -47,7 +47,7 @@ def main(job):
     )
 
 
-def add_budgets(dataset, surface, load, laws):
+def add_budgets(dataset, surface, load, models):
     """The quoted a_V with its errors: as measured, or how far the others are if that is more."""
     a_v = dataset.a_v.assign_coords(
         pressure=load,
@@ -55,7 +55,7 @@ def add_budgets(dataset, surface, load, laws):
         magnification=float(surface.q1 / surface.q0),
     )
     spread = abs(a_v - a_v.sel(variant=VARIANT)).max("variant")
-    model = theory_error(laws, "attractive_area", a_v) * a_v
+    model = theory_error(models, "attractive_area", a_v) * a_v
     return with_budget(
         dataset,
         "a_v",

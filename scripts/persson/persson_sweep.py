@@ -30,10 +30,10 @@ def main(job):
         ).expand_dims(variant=[variant], hurst=[hurst], magnification=[magnification])
         for variant, hurst, magnification in product(*axes)
     ]
-    dataset, laws = annotate(xr.combine_by_coords(parts)), read_models(job.input.laws)
+    dataset, models = annotate(xr.combine_by_coords(parts)), read_models(job.input.laws)
     for name in QUADRATURE:
         value = dataset[name].assign_coords(pressure=dataset.pressure)
-        dataset = with_budget(dataset, name, **theory_parts(laws, name, value))
+        dataset = with_budget(dataset, name, **theory_parts(models, name, value))
     datasets.write(
         dataset,
         job.output[0],

@@ -111,11 +111,11 @@ def quadrature_error(axes, ranges, gamma):
     return max(changes)
 
 
-def add_budgets(dataset, laws):
+def add_budgets(dataset, models):
     """a_V with its errors, as large as those of the attractive area, and the edges' estimate."""
     limit = dataset.a_v_limit.assign_coords(magnification=np.inf)
     for name, value in {"a_v": dataset.a_v, "a_v_limit": limit}.items():
-        model = theory_error(laws, "attractive_area", value) * value
+        model = theory_error(models, "attractive_area", value) * value
         dataset = with_budget(
             dataset,
             name,

@@ -13,8 +13,6 @@ from stickiness.core import datasets
 from stickiness.surfaces import synthesis
 
 SOLVED_FROM, DESCRIBED_FROM = 100_001, 1_000_001  # first seeds; the schema keeps the sets apart
-
-
 KEPT = ("area_fraction", "mean_gap", "residual", "rms_slope")
 
 

@@ -1,7 +1,7 @@
 """Adhesion in the DMT limit from the attractive areas of contact without it.
 
 The quantities take the variables of one ensemble, of its coarse solutions or of its means alike,
-see `_errors.coarse`, so that the same function gives a mean and its control.
+see `ensemble_means.coarse`, so that the same function gives a mean and its control.
 """
 
 from __future__ import annotations
@@ -62,10 +62,10 @@ class DmtLimit:
         count = round(np.log10(known[-1] / known[0]) * PER_DECADE) + 1
         logs = logs.assign_coords(range=np.log(known))
         parts = []
-        for reach in ranges.values:
+        for range_ in ranges.values:
             # In proportion to the adhesion length: once for the smallest of them.
-            law = scaled_law(self.asked, self.asked["law"], float(lengths[0]), reach)
-            nodes = np.union1d(np.geomspace(known[0], known[-1], count), [reach])
+            law = scaled_law(self.asked, self.asked["law"], float(lengths[0]), range_)
+            nodes = np.union1d(np.geomspace(known[0], known[-1], count), [range_])
             area = np.exp(logs.interp(range=np.log(nodes).clip(*np.log(known[[0, -1]]))))
             area = area.transpose(..., "range")
             parts.append(

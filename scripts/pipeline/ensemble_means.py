@@ -2,7 +2,7 @@
 
 A mean stands for the whole ensemble of surfaces that the case's window can hold, Gaussian unless
 the case says otherwise. It is the plain one over the seeds, or if there are coarse solutions of
-many more seeds the multilevel one of `stickiness.sampling`.
+many more seeds the multilevel one of `stickiness.accuracy.multilevel`.
 """
 
 from __future__ import annotations
@@ -122,7 +122,7 @@ def add_errors(dataset, name, values, more=None, plain=False, limit=None):
 
     They are called ``NAME_mean``, ``NAME_standard_error`` and ``NAME_discretisation_error``; with
     `plain` the mean is just ``NAME``. `more` is the same of coarse solutions, see `coarse`.
-    With a `limit`, a `_limits.Limit`, the mean is that in the limit of fine grids and the
+    With a `limit`, a `grid_limits.Limit`, the mean is that in the limit of fine grids and the
     discretisation error the one that is left, instead of the change from half the resolution.
     """
     best, error = ensemble_mean(values, more)

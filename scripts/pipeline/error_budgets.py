@@ -109,7 +109,7 @@ class Simulation:
         Parameters
         ----------
         name : str
-            Of a variable of an ensemble's file without the ``_mean``, or of a column of their table.
+            Of a variable of an ensemble's file without the ``_mean``, or of a column.
         value, standard_error, discretisation : xarray.DataArray
             Along `pressure`, and `range` or `gap`.
         text : str
@@ -151,7 +151,7 @@ def along(
 
     if name != "attractive_area":
         return by(COLUMN_OF.get(name, name)) * (widen_gaps(like) if widened else 1.0)
-    ends = {reach: by(column) for reach, column in COLUMN_AT_RANGE.items()}
+    ends = {range_: by(column) for range_, column in COLUMN_AT_RANGE.items()}
     return interpolate_ranges(ends, like["range"], widened)
 
 
@@ -203,7 +203,7 @@ def theory_error(
         )
 
     if name == "attractive_area":
-        ends = {reach: by(column) for reach, column in COLUMN_AT_RANGE.items()}
+        ends = {range_: by(column) for range_, column in COLUMN_AT_RANGE.items()}
         found = interpolate_ranges(ends, like["range"])
     else:
         found = by(COLUMN_OF.get(name, name)) * widen_gaps(like)

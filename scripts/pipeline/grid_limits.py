@@ -1,6 +1,6 @@
 """What the limit of fine grids changes in the means of ensembles, and the error that is left.
 
-For areas, gaps and P(u) it is `stickiness.continuum` that says so; what derives from these means
+For areas, gaps and P(u) `stickiness.contact.grid_limit` gives both. What derives from these means
 inherits shift and error to first order.
 """
 
@@ -32,7 +32,7 @@ class Limit:
 def estimate_limits(
     realisations: xr.Dataset, quantities: dict[str, Callable[[xr.Dataset], xr.DataArray]]
 ) -> dict[str, Limit]:
-    """Limits of the means over seeds of quantities that `stickiness.continuum` has a rule for.
+    """Limits of means over seeds, for quantities that `grid_limit` has a rule for.
 
     Parameters
     ----------
@@ -102,7 +102,7 @@ def inherit(
     ensemble
         As `average_ensemble` makes it.
     quantity
-        The quantity by the variables of one solution, as for `_errors.coarse`.
+        The quantity by the variables of one solution, as for `ensemble_means.coarse`.
     names
         The means it derives from, without the ``_mean``.
     """

@@ -1,1 +1,1 @@
-"""What results err by and what they cost, and the settings that an accuracy needs."""
+"""Errors and costs of results, and the settings that an accuracy needs."""

@@ -117,6 +117,17 @@ def test_errors_between_the_measured_ranges_follow_a_power_law():
     np.testing.assert_allclose(found, [0.08, 0.04, 0.02, 0.01, 0.02])
 
 
+@pytest.mark.parametrize("kind", [{"rolloff": 3.0}, {"amplitudes": "fixed"}])
+def test_errors_of_theory_are_wider_on_surfaces_that_were_not_measured(kind):
+    like = xr.DataArray([1.0], {"pressure": [0.065]}, ("pressure",))
+    surface = {"hurst": 0.8, "magnification": 32}
+    usual, other = (
+        error_budgets.theory_error(LAWS, "area_fraction", like, asked)
+        for asked in (surface, surface | kind)
+    )
+    np.testing.assert_allclose(other, 2 * usual)
+
+
 def test_theory_errs_as_measured_and_other_variants_by_what_nobody_knows():
     axes = {"variant": ["afferrante2018", "almqvist2011"], "pressure": [0.01, 0.065]}
     like = xr.DataArray(np.ones((2, 2)), axes, tuple(axes))
