@@ -34,7 +34,9 @@ def main(job):
         dataset = average(dataset, areas, job.params.windows)
     dataset = annotate(dataset)
     datasets.write(
-        of_simulation(dataset, areas, models) if simulated else of_theory(dataset, areas, models),
+        add_simulation_budgets(dataset, areas, models)
+        if simulated
+        else add_theory_budgets(dataset, areas, models),
         job.output[0],
         title="a_V from attractive areas",
         parameters={**datasets.parameters(areas), "windows": job.params.windows},
@@ -51,7 +53,7 @@ def average(dataset, ensemble, windows):
     return add_errors(dataset, "a_v", dataset.a_v, coarse(ensemble, quantity), limit=limit)
 
 
-def of_simulation(dataset, ensemble, models):
+def add_simulation_budgets(dataset, ensemble, models):
     """Budgets of the means over the seeds; a window is part of what is asked."""
     simulation = Simulation.of(models, datasets.parameters(ensemble))
     parts = simulation.parts(
@@ -77,7 +79,7 @@ def of_simulation(dataset, ensemble, models):
     )
 
 
-def of_theory(dataset, areas, models):
+def add_theory_budgets(dataset, areas, models):
     """Budgets of the fits to theory, on a lattice spectrum or on continuous ones."""
     made = datasets.parameters(areas)
     like = dataset.a_v.assign_coords(pressure=areas.pressure)
