@@ -2,7 +2,6 @@
 # rule reads. No rule lives here.
 
 import ast
-import itertools
 import json
 import os
 import platform
