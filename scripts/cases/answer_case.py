@@ -84,14 +84,15 @@ def main(job):
         text = f"{parts['solver'].text}; of {', '.join(lacking)} not known: {NOT_MEASURED}"
         parts["solver"] = Part(parts["solver"].error, text)
     dataset = with_budget(annotate(dataset), "value", bandwidth=bandwidth, **parts)
-    if plan["accuracy"] and plan["simulated"] and (text := describe_miss(dataset, problem, plan)):
-        dataset.attrs["missed"] = f"{job.wildcards.case}: {text}"
+    case = job.wildcards.case
+    if plan["accuracy"] and (text := describe_miss(dataset, problem, plan, case)):
+        dataset.attrs["missed"] = f"{case}: {text}"
         logging.warning("%s", text)
     datasets.write(
         dataset,
         job.output[0],
         title="quantities of a case and their errors",
-        parameters={**plan, "case": job.wildcards.case},
+        parameters={**plan, "case": case},
     )
 
 
@@ -143,7 +144,7 @@ def by_theory(problem, column, state):
     return values, {"discretisation": QUADRATURE["gap_density"] * values, "model": values * model}
 
 
-def describe_miss(dataset, problem, plan):
+def describe_miss(dataset, problem, plan, case):
     """What keeps a case from the accuracy that it asks for, in words; None if nothing does."""
     relative = (dataset.value_total_error / abs(dataset.value)).values
     if not np.isfinite(relative).all():
@@ -159,7 +160,7 @@ def describe_miss(dataset, problem, plan):
     fixed = np.sqrt(np.maximum(relative**2 - sampling**2, 0))
     enough = seeds_enough(problem, settings, accuracy, fixed, sampling)
     remedy = (
-        f"set seeds: {enough}, predicted to be enough; what is solved is kept"
+        f"set cases.{case}.seeds to {enough}, which is predicted to be enough"
         if enough
         else "no number of seeds is predicted to be enough; ask for less accuracy, or for more "
         "than is needed, so that a finer grid is chosen"

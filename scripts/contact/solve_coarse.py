@@ -1,13 +1,13 @@
 """Coarse contact solutions of many realisations, which correct the mean of a few fine ones.
 
-The seeds begin where those of the fine solutions can never reach. Their surfaces are solved on 2
-pixels per shortest wavelength, as every fine one is too; those of the last and largest set of
-seeds are not solved at all but only described by their long waves.
+Their seeds are different from those of the fine solutions. Each surface is solved on 2 pixels per
+shortest wavelength, as every fine one is too. Still more surfaces are not solved: only their long
+waves are described.
 """
 
 import numpy as np
 
-from pipeline.coarse_solutions import annotated, coarse_solutions
+from pipeline.coarse_solutions import annotate, coarse_solutions
 from pipeline.contact_curves import COARSE
 from pipeline.conventions import grid_points, logarithmic_grid
 from pipeline.job import start
@@ -26,7 +26,7 @@ def main(job):
         job.params.measured,
     )
     datasets.write(
-        annotated(dataset),
+        annotate(dataset),
         job.output[0],
         title="coarse contact solutions and long waves of many realisations",
         parameters={

@@ -11,7 +11,13 @@ import xarray as xr
 
 from pipeline import coarse_solutions, contact_curves
 from pipeline.conventions import grid_points, logarithmic_grid, spectrum_of, window_of
-from pipeline.ensembles import annotated, budgeted, renamed, sampled, with_statistics
+from pipeline.ensembles import (
+    add_budgets,
+    add_statistics,
+    annotate,
+    describe_sampling,
+    rename_coarse,
+)
 from pipeline.job import start
 from stickiness.core import datasets
 from stickiness.surfaces import synthesis
@@ -29,8 +35,8 @@ def main(job):
     if params.coarse_seeds:
         count = range(params.coarse_seeds), params.descriptor_seeds
         others = coarse_solutions.coarse_solutions(asked, *count, *curves)
-        others = renamed(coarse_solutions.annotated(others))
-    dataset = with_statistics(contact_curves.annotated(fine), others)
+        others = rename_coarse(coarse_solutions.annotate(others))
+    dataset = add_statistics(contact_curves.annotate(fine), others)
     parameters = {
         **asked,
         "case": job.wildcards.comparison,
@@ -40,9 +46,9 @@ def main(job):
         "pixels_per_wavelength": params.pixels_per_wavelength,
         "grid_points": grid_points(asked, params.pixels_per_wavelength),
     }
-    parameters |= sampled(parameters, dataset)
+    parameters |= describe_sampling(parameters, dataset)
     datasets.write(
-        budgeted(annotated(dataset), parameters, job.input.laws),
+        add_budgets(annotate(dataset), parameters, job.input.laws),
         job.output[0],
         title="repulsive contact averaged over realisations",
         parameters=parameters,

@@ -7,7 +7,7 @@ wavelength is the control of `solve_coarse`'s many others.
 
 import numpy as np
 
-from pipeline.contact_curves import annotated, load_curves, steps_of
+from pipeline.contact_curves import annotate, load_curves, steps_of
 from pipeline.conventions import logarithmic_grid, pixels
 from pipeline.job import start
 from stickiness.core import datasets
@@ -24,7 +24,7 @@ def main(job):
     dataset = dataset.assign_coords(resolution=pixels(surface) / np.array(steps))
     dataset["rms_slope"] = surface.rms_slope.sel(source="heights", drop=True)
     datasets.write(
-        annotated(dataset),
+        annotate(dataset),
         job.output[0],
         title="repulsive contact of one realisation along its load path",
         parameters={

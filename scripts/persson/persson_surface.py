@@ -37,14 +37,14 @@ def main(job):
         edge_range=("1", "range over h_rms below which the edge law takes over from theory"),
     )
     datasets.write(
-        budgeted(dataset, surface, load, read_models(job.input.laws)),
+        add_budgets(dataset, surface, load, read_models(job.input.laws)),
         job.output[0],
         title="a_V by Persson's theory on the spectrum of a real surface",
         parameters={**datasets.parameters(surface), "pressure": load, "gamma": gamma},
     )
 
 
-def budgeted(dataset, surface, load, laws):
+def add_budgets(dataset, surface, load, models):
     """The quoted a_V with its errors: as measured, or how far the others are if that is more."""
     a_v = dataset.a_v.assign_coords(
         pressure=load,
@@ -52,7 +52,7 @@ def budgeted(dataset, surface, load, laws):
         magnification=float(surface.q1 / surface.q0),
     )
     spread = abs(a_v - a_v.sel(variant=VARIANT)).max("variant")
-    model = theory_error(laws, "attractive_area", a_v) * a_v
+    model = theory_error(models, "attractive_area", a_v) * a_v
     return with_budget(
         dataset,
         "a_v",

@@ -13,8 +13,6 @@ from stickiness.core import datasets
 from stickiness.surfaces import synthesis
 
 SOLVED_FROM, DESCRIBED_FROM = 100_001, 1_000_001  # first seeds; the schema keeps the sets apart
-
-
 KEPT = ("area_fraction", "mean_gap", "residual", "rms_slope")
 
 
@@ -45,7 +43,7 @@ def coarse_solutions(asked, which, others_count, pressures, ranges, tolerance, n
     return dataset
 
 
-def annotated(dataset):
+def annotate(dataset):
     return datasets.annotate(
         dataset,
         **{name: texts for name, texts in CURVE.items() if name in dataset.variables},

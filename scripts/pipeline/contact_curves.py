@@ -6,28 +6,19 @@ import xarray as xr
 
 from pipeline.conventions import DESCRIBED
 from pipeline.quantities import describe_measured
+from stickiness.accuracy.error_models import COARSE
 from stickiness.accuracy.quantities import MEASURED
 from stickiness.contact import gaps, solver, subpixel
 from stickiness.core import datasets
 
 SOLVED = ("area_fraction", "mean_gap", "residual", "iterations", "fft_pairs")
-
-
-SCALARS = (*SOLVED, "pixel_area_fraction", "edge_gap", "edges")
-
-
 AREAS = ("attractive_area", "pixel_attractive_area")
-
-
 CURVE = {
     **{name: DESCRIBED[name] for name in ("pressure", "range", "area_fraction", "mean_gap")},
     "attractive_area": DESCRIBED["attractive_area"],
     "residual": ("1", "complementarity residual over h_rms"),
     "rms_slope": ("1", "rms gradient of this realisation over q0 h_rms"),
 }
-
-
-COARSE = 2  # grid points per shortest wavelength on the coarsest grid, the fewest that hold it
 
 
 def steps_of(pixels_per_wavelength):
@@ -82,7 +73,7 @@ def measured(contact, ranges):
     return xr.Dataset(found)
 
 
-def annotated(dataset):
+def annotate(dataset):
     texts = {name: text for name, text in CURVE.items() if name in dataset.variables}
     if "range" in dataset.dims:
         texts["pixel_attractive_area"] = (

@@ -6,7 +6,7 @@ import xarray as xr
 
 from pipeline import grid_limits
 from pipeline.conventions import DESCRIBED
-from pipeline.ensemble_means import PREFIX, SUFFIXES, coarse, described, mean, with_errors
+from pipeline.ensemble_means import PREFIX, SUFFIXES, add_errors, coarse, describe_errors, mean
 from pipeline.error_budgets import Simulation
 from pipeline.grid_limits import EXTRAPOLATION
 from pipeline.quantities import gap_density
@@ -32,15 +32,15 @@ def ensemble_of(inputs, loads, averaged):
     others = [read(path, kept, loads) for path in inputs.coarse]
     seeds = [datasets.parameters(file)["seed"] for file in files]
     realisations = xr.concat(files, xr.DataArray(seeds, dims="seed", name="seed"))
-    more = renamed(joined(others), kept) if others else xr.Dataset()
-    dataset = with_statistics(realisations, more, averaged)
+    more = rename_coarse(join(others), kept) if others else xr.Dataset()
+    dataset = add_statistics(realisations, more, averaged)
     parameters = datasets.parameters(files[0])
     parameters["largest_residual"] = float(realisations.residual.max())
     del parameters["seed"]
-    return dataset, {**parameters, "seeds": seeds, **sampled(parameters, dataset)}
+    return dataset, {**parameters, "seeds": seeds, **describe_sampling(parameters, dataset)}
 
 
-def joined(files):
+def join(files):
     """Coarse solutions of all files; the seeds that are not solved are in the first."""
     solved = xr.concat([file.drop_dims("other") for file in files], "seed", data_vars="minimal")
     return solved.merge(files[0][["other_long_waves"]])
@@ -51,7 +51,7 @@ def optional(averaged):
     return [name for name in OPTIONAL if name in averaged]
 
 
-def wanted(quantities):
+def choose_means(quantities):
     """What to average for the quantities wanted of a case; areas and mean gaps come for free."""
     needed = {mean for quantity in quantities for mean in QUANTITIES[quantity].means}
     needed |= {"area_fraction", "mean_gap"}
@@ -64,13 +64,13 @@ def read(path, names, loads):
     return datasets.read(path, names).sel(pressure=loads)
 
 
-def renamed(others, kept=(*COARSE, "attractive_area")):
+def rename_coarse(others, kept=(*COARSE, "attractive_area")):
     """Coarse solutions under names that leave those of the fine ones free."""
     names = {name: f"{PREFIX}{name}" for name in (*kept, "seed")}
     return others[[*kept, *LONG_WAVES]].rename(names)
 
 
-def sampled(made, dataset):
+def describe_sampling(made, dataset):
     """What the means stand for and how they are taken, for the parameters of the file."""
     surfaces, window = SURFACES[made.get("amplitudes", "gaussian")], made.get("window", 1)
     found = {
@@ -90,21 +90,21 @@ AVERAGED = {
 }
 
 
-def with_statistics(realisations, others, averaged=AVERAGED):
+def add_statistics(realisations, others, averaged=AVERAGED):
     """Mean and errors of every quantity, beside the values seed by seed."""
     dataset = realisations[[*KEPT, *optional(averaged)]].merge(others)
     dataset["edge_gap_mean"] = mean(realisations.edge_gap)
     ruled = {name: quantity for name, quantity in averaged.items() if name not in MEASURED}
-    limits = grid_limits.of_ensemble(realisations, ruled)
+    limits = grid_limits.estimate_limits(realisations, ruled)
     for name, quantity in averaged.items():
         more = coarse(dataset, quantity)
-        dataset = with_errors(dataset, name, quantity(realisations), more, limit=limits.get(name))
+        dataset = add_errors(dataset, name, quantity(realisations), more, limit=limits.get(name))
     if "attractive_area" in averaged:  # the one quantity that has any
         dataset[f"attractive_area_{EXTRAPOLATION}"] = limits["attractive_area"].shift
     return dataset
 
 
-def budgeted(dataset, made, laws, averaged=AVERAGED):
+def add_budgets(dataset, made, laws, averaged=AVERAGED):
     """The means with their errors by source."""
     simulation = Simulation.of(read_models(laws), made)
     for name in averaged:
@@ -118,16 +118,16 @@ def budgeted(dataset, made, laws, averaged=AVERAGED):
     return dataset
 
 
-def annotated(dataset, averaged=AVERAGED):
+def annotate(dataset, averaged=AVERAGED):
     texts = {
         "seed": ("1", "seed of the realisation"),
         "edge_gap_mean": ("1", "gap next to the contact over h_rms: smallest range resolved"),
     }
     for name in averaged:
         if name in MEASURED:
-            texts |= described(name, COLUMNS[name].text)
+            texts |= describe_errors(name, COLUMNS[name].text)
         else:
-            texts |= described(name, DESCRIBED[name][1], discretisation=grid_limits.DIRECT)
+            texts |= describe_errors(name, DESCRIBED[name][1], discretisation=grid_limits.DIRECT)
     if "gap_density" in averaged:
         texts["gap"] = DESCRIBED["gap"]
     if "attractive_area" in averaged:

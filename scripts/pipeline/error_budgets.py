@@ -109,7 +109,7 @@ class Simulation:
         Parameters
         ----------
         name : str
-            Of a variable of an ensemble's file without the ``_mean``, or of a column of their table.
+            Of a variable of an ensemble's file without the ``_mean``, or of a column.
         value, standard_error, discretisation : xarray.DataArray
             Along `pressure`, and `range` or `gap`.
         text : str
@@ -150,12 +150,12 @@ def along(
         return xr.apply_ufunc(model, column, like.pressure, vectorize=True)
 
     if name != "attractive_area":
-        return by(COLUMN_OF.get(name, name)) * (widened_gaps(like) if widened else 1.0)
-    ends = {reach: by(column) for reach, column in COLUMN_AT_RANGE.items()}
-    return between_ranges(ends, like["range"], widened)
+        return by(COLUMN_OF.get(name, name)) * (widen_gaps(like) if widened else 1.0)
+    ends = {range_: by(column) for range_, column in COLUMN_AT_RANGE.items()}
+    return interpolate_ranges(ends, like["range"], widened)
 
 
-def between_ranges(
+def interpolate_ranges(
     ends: Mapping[float, xr.DataArray], ranges: xr.DataArray, widened: bool = True
 ) -> xr.DataArray:
     """A power law between the two ranges measured, held and widened outside."""
@@ -166,7 +166,7 @@ def between_ranges(
     return found * xr.where(share == inside, 1, OUTSIDE) if widened else found
 
 
-def widened_gaps(like: xr.DataArray) -> xr.DataArray | float:
+def widen_gaps(like: xr.DataArray) -> xr.DataArray | float:
     """Factor for gaps outside those that the error of P(u) was measured over."""
     if "gap" not in like.dims:
         return 1.0
@@ -203,10 +203,10 @@ def theory_error(
         )
 
     if name == "attractive_area":
-        ends = {reach: by(column) for reach, column in COLUMN_AT_RANGE.items()}
-        found = between_ranges(ends, like["range"])
+        ends = {range_: by(column) for range_, column in COLUMN_AT_RANGE.items()}
+        found = interpolate_ranges(ends, like["range"])
     else:
-        found = by(COLUMN_OF.get(name, name)) * widened_gaps(like)
+        found = by(COLUMN_OF.get(name, name)) * widen_gaps(like)
     return found.where(like["variant"] == VARIANT) if "variant" in like.coords else found
 
 

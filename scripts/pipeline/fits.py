@@ -6,7 +6,7 @@ import xarray as xr
 from stickiness.criteria import a_v_fit
 
 
-def fitted(areas, windows):
+def fit_intervals(areas, windows):
     """a_V and the standard error of its fit along every dimension but the range's."""
     fits = [fit_a_v(areas.attractive_area, areas.pressure, window) for window in windows]
     both = xr.concat(fits, "window")

@@ -36,7 +36,8 @@ OUTCOMES = ("right", "refused", "not converged", "failed")
 TIME_LIMIT = 30  # seconds of computing for a point; most take less than 0.1
 
 _MODULES = (
-    a_v_fit, a_v_table, choice, error_models, prediction, adhesive, dmt, gaps, grid_limit, criteria, equivalent_sphere, instrument_spectrum, model_choice,
+    a_v_fit, a_v_table, choice, error_models, prediction, adhesive, dmt, gaps, grid_limit,
+    criteria, equivalent_sphere, instrument_spectrum, model_choice,
     theory, psd, solver, multilevel, self_affine_fit, spectrum, stitching, subpixel, synthesis,
     moduli,
 )  # fmt: skip

@@ -1,9 +1,11 @@
-"""Errors and costs of simulations, and the settings that an accuracy needs.
+"""Errors and costs of results, and the settings that an accuracy needs.
 
-- `error_laws`: error models, and the cheapest settings for an accuracy
+- `quantities`: the quantities that a case may ask for, in one table
+- `error_models`: errors and costs as measured, as functions of surface, load and settings
+- `prediction`: error and cost of settings, by these models
+- `choice`: the cheapest settings for an accuracy
 - `adhesion`: settings of adhesive contact for an accuracy
-- `plan`: what each case of the configuration is solved with, and what cases share
+- `extrapolation`: the error of a spectrum that theory extrapolates
 - `multilevel`: means over random surfaces, with control variates on two levels
-- `sequential`: when to stop drawing seeds
-- `spectral_cut`: spectra cut where theory can extrapolate the tail
+- `plan`: what each case of the configuration is solved with, and what cases share
 """

@@ -32,7 +32,7 @@ PARTS = (
     "carrying",
 )
 COSTS = ("fine_cost", "coarse_cost", "described_cost", "tolerance_cost")
-COARSE = 2  # pixels per shortest wavelength of the coarse seeds
+COARSE = 2  # pixels per shortest wavelength of the coarse seeds, the fewest that hold it
 FULL = 1e-8  # tolerance at which costs were measured
 # Where the models were fitted or, at the largest Hurst exponent and the smallest pressure, compared
 # with other simulations.

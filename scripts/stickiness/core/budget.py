@@ -1,4 +1,4 @@
-"""Error budgets: beside every quoted number what it errs by, source by source.
+"""Error budgets: beside every quoted number its errors, source by source.
 
 A quoted variable ``q`` of a dataset has three more beside it:
 
@@ -40,7 +40,7 @@ def absent(why: str) -> Part:
 
 
 def unknown(why: str) -> Part:
-    """Part of a source that contributes, nobody knows how much."""
+    """Part of a source that contributes, by an amount that is not known."""
     return Part(np.nan, f"not known, {why}")
 
 

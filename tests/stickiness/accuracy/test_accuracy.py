@@ -19,6 +19,7 @@ from stickiness.accuracy.choice import (
     TOLERANCES,
     UnreachableError,
     cheapest,
+    seeds_enough,
 )
 from stickiness.accuracy.error_models import (
     OUTSIDE,
@@ -94,6 +95,21 @@ def test_least_settings_are_kept():
     assert (chosen.pixels_per_wavelength, chosen.tolerance, chosen.seeds) == (16, 1e-6, 8)
     assert chosen.coarse_seeds >= 64
     assert cheapest(problem("area", pressures=LOADS), 0.3) != least
+
+
+@pytest.mark.parametrize("accuracy", [0.15, 0.1, 0.05])
+def test_seeds_enough_by_hand(accuracy):
+    """Seeds that scatter twice as much as predicted: 0.4, with Student's t of their number."""
+    few = Settings(8, 1e-8, 4, 0)
+
+    def error(n):
+        return SAFETY * math.hypot(0.02, stats.t.ppf(0.95, n - 1) * 0.4 / math.sqrt(n))
+
+    sampling = [[stats.t.ppf(0.95, 3) * 0.4 / 2]]
+    found = seeds_enough(problem("area"), few, accuracy, [[0.02]], sampling)
+    want = next((n for n in SEEDS if error(n) <= accuracy), None)
+    assert found == want
+    assert seeds_enough(problem("area"), few, accuracy, [[accuracy]], sampling) is None
 
 
 def test_out_of_reach_says_what_can_be_reached():

@@ -96,7 +96,7 @@ def test_an_accuracy_of_which_nothing_is_known_is_missed():
     known = xr.DataArray([[0.01, 0.01], [0.01, np.nan]], dims=list(at), coords=at)
     answer = xr.Dataset({"value": xr.ones_like(known), "value_total_error": known})
     problem = Problem(LAWS, Surface(0.8, 32), at["pressure"], at["column"])
-    text = answer_case.describe_miss(answer, problem, {"accuracy": 0.05})
+    text = answer_case.describe_miss(answer, problem, {"accuracy": 0.05}, "mine")
     assert text == "error of a_v at pressure 0.1 not known"
 
 
@@ -111,10 +111,21 @@ def test_a_single_seed_has_no_total():
 
 def test_errors_between_the_measured_ranges_follow_a_power_law():
     ranges = xr.DataArray([0.001, 0.01, np.sqrt(1e-3), 0.1, 1.0], dims="range")
-    found = error_budgets.between_ranges(
+    found = error_budgets.interpolate_ranges(
         {0.01: xr.DataArray(0.04), 0.1: xr.DataArray(0.01)}, ranges
     )
     np.testing.assert_allclose(found, [0.08, 0.04, 0.02, 0.01, 0.02])
+
+
+@pytest.mark.parametrize("kind", [{"rolloff": 3.0}, {"amplitudes": "fixed"}])
+def test_errors_of_theory_are_wider_on_surfaces_that_were_not_measured(kind):
+    like = xr.DataArray([1.0], {"pressure": [0.065]}, ("pressure",))
+    surface = {"hurst": 0.8, "magnification": 32}
+    usual, other = (
+        error_budgets.theory_error(LAWS, "area_fraction", like, asked)
+        for asked in (surface, surface | kind)
+    )
+    np.testing.assert_allclose(other, 2 * usual)
 
 
 def test_theory_errs_as_measured_and_other_variants_by_what_nobody_knows():
