@@ -6,7 +6,8 @@ Pressures, forces and indentations are positive in compression, so a pull-off fo
 
 Which model holds for a sphere of radius R depends on `tabor_parameter`: `JKRSphere` from about 5
 on, `DMTSphere` below about 0.1, `MaugisSphere` anywhere for the Maugis law; `derjaguin_force` is
-the rigid limit for every law. Paraboloids stand for spheres: contact radii are small against R.
+the rigid limit for every law. Paraboloids stand for spheres: contact radii are small against R. All arguments that are lengths
+must be positive and finite, ValueError otherwise.
 For a wave, `AdhesiveWave` is the limit of short range and `MaugisWave` holds for any range of
 the Maugis law.
 """
@@ -88,16 +89,13 @@ class JKRSphere(_Sphere):
 
     Parameters
     ----------
-    radius : float
-        Radius of curvature [length].
-    adhesion_length : float
-        Work of adhesion over E* [length].
+    radius, adhesion_length : float
+        Radius of curvature, work of adhesion over E* [length].
 
     Raises
     ------
     ValueError
-        If an argument is not positive and finite; methods: if a radius is not, or a force lies
-        beyond pull-off.
+        By methods, if a force lies beyond pull-off.
     """
 
     @property
