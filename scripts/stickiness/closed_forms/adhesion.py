@@ -6,10 +6,11 @@ Pressures, forces and indentations are positive in compression, so a pull-off fo
 
 Which model holds for a sphere of radius R depends on `tabor_parameter`: `JKRSphere` from about 5
 on, `DMTSphere` below about 0.1, `MaugisSphere` anywhere for the Maugis law; `derjaguin_force` is
-the rigid limit for every law. Paraboloids stand for spheres: contact radii are small against R. All arguments that are lengths
-must be positive and finite, ValueError otherwise.
+the rigid limit for every law. Paraboloids stand for spheres: contact radii are small against R.
 For a wave, `AdhesiveWave` is the limit of short range and `MaugisWave` holds for any range of
 the Maugis law.
+
+Radii, wavelengths, adhesion lengths and ranges must be positive and finite: ValueError otherwise.
 """
 
 from __future__ import annotations
