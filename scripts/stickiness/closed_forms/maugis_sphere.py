@@ -26,11 +26,6 @@ def tabor_parameter(radius: ArrayLike, adhesion_length: ArrayLike, range: ArrayL
     radius, adhesion_length, range : float or array
         Radius of the sphere, work of adhesion over E* and range of attraction [length].
 
-    Raises
-    ------
-    ValueError
-        If an argument is not positive and finite.
-
     References
     ----------
     Tabor, J. Colloid Interface Sci. 58, 2 (1977), doi:10.1016/0021-9797(77)90366-6.
@@ -52,11 +47,6 @@ def maugis_parameter(radius: ArrayLike, adhesion_length: ArrayLike, range: Array
     ----------
     radius, adhesion_length, range : float or array
         As of `tabor_parameter`.
-
-    Raises
-    ------
-    ValueError
-        If an argument is not positive and finite.
 
     References
     ----------
@@ -99,17 +89,8 @@ class MaugisSphere:
 
     Parameters
     ----------
-    radius : float
-        Radius of curvature R [length].
-    adhesion_length : float
-        Work of adhesion over E*, l_a [length].
-    range : float
-        Range of the traction l_a/range [length].
-
-    Raises
-    ------
-    ValueError
-        If an argument is not positive and finite.
+    radius, adhesion_length, range : float
+        Radius of curvature, work of adhesion over E*, range of the traction [length].
 
     References
     ----------
@@ -178,13 +159,7 @@ class MaugisSphere:
         return self._on_curve(np.geomspace(self._angle(largest_radius), _EDGE, int(points)))
 
     def at_contact_radius(self, contact_radius: float) -> SphereState:
-        """State of a given contact radius [length]: there is one for each.
-
-        Raises
-        ------
-        ValueError
-            If `contact_radius` is not positive and finite.
-        """
+        """State of a given contact radius [length]: there is one for each."""
         return self._on_curve(self._angle(contact_radius))
 
     def at_force(self, force: float) -> SphereState:

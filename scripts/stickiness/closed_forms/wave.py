@@ -83,15 +83,8 @@ class AdhesiveWave(_Wave):
 
     Parameters
     ----------
-    amplitude, wavelength : float
-        Of the wave [length].
-    adhesion_length : float
-        Work of adhesion over E* [length].
-
-    Raises
-    ------
-    ValueError
-        If an argument is not positive and finite.
+    amplitude, wavelength, adhesion_length : float
+        Of the wave, and work of adhesion over E* [length].
 
     References
     ----------
@@ -224,17 +217,8 @@ class MaugisWave(_Wave):
 
     Parameters
     ----------
-    amplitude, wavelength : float
-        Of the wave [length].
-    adhesion_length : float
-        Work of adhesion over E* [length].
-    range : float
-        Range of the traction adhesion_length/range [length].
-
-    Raises
-    ------
-    ValueError
-        If an argument is not positive and finite.
+    amplitude, wavelength, adhesion_length, range : float
+        Of the wave, work of adhesion over E*, range of the traction [length].
 
     References
     ----------

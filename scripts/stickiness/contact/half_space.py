@@ -10,19 +10,10 @@ import threading
 from functools import cached_property, lru_cache
 
 import numpy as np
-import pyfftw
 
 from stickiness.contact import convolution
 
-__all__ = [
-    "HalfSpace",
-    "clear_caches",
-    "half_space",
-    "irfft2",
-    "keep_per_thread",
-    "rfft2",
-    "wavenumbers",
-]
+__all__ = ["HalfSpace", "clear_caches", "half_space", "keep_per_thread", "wavenumbers"]
 
 _CACHES = []  # of all functions that `keep_per_thread` decorates
 
@@ -71,42 +62,6 @@ def wavenumbers(shape, lengths):
     q0 = 2 * np.pi * np.fft.fftfreq(shape[0], lengths[0] / shape[0])
     q1 = 2 * np.pi * np.fft.rfftfreq(shape[1], lengths[1] / shape[1])
     return np.hypot(q0[:, None], q1[None, :])
-
-
-def rfft2(field):
-    """Unnormalised real two-dimensional transform, reproducible and on one thread.
-
-    Parameters
-    ----------
-    field : numpy.ndarray
-        Real array ``(n0, n1)``.
-
-    Returns
-    -------
-    numpy.ndarray
-        Complex array ``(n0, n1 // 2 + 1)``.
-    """
-    return pyfftw.interfaces.numpy_fft.rfft2(field, threads=1, planner_effort="FFTW_ESTIMATE")
-
-
-def irfft2(spectrum, shape):
-    """Inverse of `rfft2`, normalised by the number of points.
-
-    Parameters
-    ----------
-    spectrum : numpy.ndarray
-        Complex array ``(n0, n1 // 2 + 1)``.
-    shape : tuple of int
-        ``(n0, n1)``.
-
-    Returns
-    -------
-    numpy.ndarray
-        Real array of that shape.
-    """
-    return pyfftw.interfaces.numpy_fft.irfft2(
-        spectrum, s=shape, axes=(0, 1), threads=1, planner_effort="FFTW_ESTIMATE"
-    )
 
 
 class HalfSpace:

@@ -248,6 +248,7 @@ def test_resolution_refines_the_same_surface():
     assert gaps[2] == pytest.approx(gaps[1], abs=5e-3)
 
 
+@pytest.mark.filterwarnings("ignore:heights of")  # whose unit is not the length's
 @pytest.mark.parametrize("height_unit", [1e-30, 1.0, 1e30])
 @pytest.mark.parametrize("length_unit", [1e-30, 1.0, 1e30])
 def test_units_do_not_matter(height_unit, length_unit):
