@@ -24,7 +24,7 @@ lint: $(VENV)/.dev  ## format and lint, nothing changed
 	$(BIN)/ruff format --check .
 	$(BIN)/ruff check .
 	$(BIN)/snakefmt --check Snakefile rules
-	$(BIN)/snakemake --lint
+	$(BIN)/python tests/helpers/lint_rules.py
 
 format: $(VENV)/.dev
 	$(BIN)/ruff format .

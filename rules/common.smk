@@ -10,7 +10,7 @@ from snakemake.exceptions import WorkflowError
 # Of this process and, by its environment, of every job.
 SCRIPTS = f"{workflow.basedir}/scripts"
 sys.path.insert(0, SCRIPTS)
-os.environ["PYTHONPATH"] = SCRIPTS
+os.environ.update(PYTHONPATH=SCRIPTS)
 # One thread a job: `-j` runs seeds and cases side by side, which scales better than threaded
 # linear algebra on arrays of this size, and sums do not depend on the number of cores.
 for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
