@@ -120,7 +120,7 @@ def gamma(chosen):
     Each realisation is compared with the theory on its own spectrum, which takes most of the
     scatter between seeds away; what is left is resampled over seeds for a 95 % interval.
     """
-    for path in sorted((chosen.results / "ensembles").glob("*.nc")):
+    for path in sorted((chosen.results / "contact/ensembles").glob("*.nc")):
         case = path.stem
         seeds = realisations(chosen.results, case)
         report(chosen, case, "area_fraction", seeds, area_ratios)
@@ -132,7 +132,7 @@ def gamma(chosen):
 def realisations(results, case):
     """Spectrum of every realisation and what was simulated on it, loads from 0.0065 up."""
     seeds = []
-    with xr.open_dataset(results / "ensembles" / f"{case}.nc") as ensemble:
+    with xr.open_dataset(results / "contact/ensembles" / f"{case}.nc") as ensemble:
         simulated = ensemble.sel(pressure=ensemble.pressure > 0.006).isel(resolution=-1).load()
     for seed in simulated.seed.values:
         with xr.open_dataset(results / "surfaces" / case / f"seed{seed}.nc") as made:

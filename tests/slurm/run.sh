@@ -151,7 +151,7 @@ wait_for 60 "the node is idle" node_is idle
 say "Slurm $(sinfo --version | cut -d' ' -f2) on $(hostname -s), $CORES cores, no accounting"
 
 # --- The run ------------------------------------------------------------------------------------
-"$PYTHON" "$PROJECT/tests/workflow/copy_workflow.py" "$WORK/run"
+"$PYTHON" "$PROJECT/tests/helpers/copy_workflow.py" "$WORK/run"
 cd "$WORK/run"
 CHOSEN=(--config fidelity="$FIDELITY")
 [ "$FIDELITY" != tiny ] || CHOSEN=(--configfile config/config.yaml config/tiny.yaml)
@@ -203,7 +203,7 @@ grep -q "Nothing to be done" <<< "$AGAIN" || fail "not everything is there: $AGA
 # --- The comparison -----------------------------------------------------------------------------
 if [ -z "$REFERENCE" ]; then
   say "the same without Slurm"
-  "$PYTHON" "$PROJECT/tests/workflow/copy_workflow.py" "$WORK/local"
+  "$PYTHON" "$PROJECT/tests/helpers/copy_workflow.py" "$WORK/local"
   (cd "$WORK/local" && "$PYTHON" -m snakemake "${TARGET[@]}" -j"$CORES" "${CHOSEN[@]}") > "$WORK/local.log" 2>&1 ||
     fail "the local run"
   REFERENCE=$WORK/local/results/$FIDELITY
