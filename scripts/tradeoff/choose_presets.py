@@ -14,73 +14,57 @@ Fourier transforms of 1024 x 1024 doubles for all these pressures, and for one a
 all seeds.
 
 """
-COLUMNS = [column for columns in error_laws.QUANTITIES.values() for column in columns]
-ADHESIVE = list(adhesion.COLUMNS)
+MODELS = {  # the columns of contact and of full adhesion, by what predicts their errors
+    error_laws: [name for names in error_laws.QUANTITIES.values() for name in names],
+    adhesion: list(adhesion.COLUMNS),
+}
+SETTINGS = ("preset", "pixels", "tolerance", "seeds", "coarse seeds", "cost", "adhesive cost")
 
 
 def main(job):
-    laws, asked = error_laws.read_laws(job.input.laws), job.params.presets
-    where = (
-        error_laws.Surface.of(job.params.surface),
-        asked["pressures"],
-        job.params.descriptor_seeds,
-    )
+    laws, presets = error_laws.read_laws(job.input.laws), job.params.presets
     given = job.params.surface, job.params.descriptor_seeds
     lines = []
-    for name, error in asked["accuracy"].items():
+    for name, error in presets["accuracy"].items():
         chosen = {
-            f"{name}: below {error:.0%}": plan.preset_by_rule(laws, asked, name, *given),
+            f"{name}: below {error:.0%}": plan.preset_by_rule(laws, presets, name, *given),
             "in the configuration": plan.preset(job.params.fidelities[name]),
-            "without full adhesion": plan.preset_by_rule(laws, asked, name, *given, free=True),
+            "without full adhesion": plan.preset_by_rule(laws, presets, name, *given, free=True),
         }
-        lines += [row(text, laws, settings, *where) for text, settings in chosen.items()]
-    head = [
-        "preset",
-        "pixels",
-        "tolerance",
-        "seeds",
-        "coarse seeds",
-        "cost",
-        "adhesive cost",
-        *COLUMNS,
-        *ADHESIVE,
-    ]
+        for text, settings in chosen.items():
+            lines.append([text, *describe(laws, settings, *given, presets["pressures"])])
+    adhesive = presets["adhesive"]
+    text = HEAD.format(
+        surface=presets["surface"],
+        pressures=", ".join(map(str, presets["pressures"])),
+        adhesive=" and ".join(adhesive["quantities"]),
+        errors=", ".join(f"{error:.3g} ({name})" for name, error in adhesive["accuracy"].items()),
+    )
+    head = [*SETTINGS, *(name for names in MODELS.values() for name in names)]
     with datasets.whole_file(job.output[0]) as path:
-        text = HEAD.format(
-            surface=asked["surface"],
-            pressures=", ".join(map(str, where[1])),
-            adhesive=" and ".join(asked["adhesive"]["quantities"]),
-            errors=", ".join(
-                f"{error:.3g} ({name})" for name, error in asked["adhesive"]["accuracy"].items()
-            ),
-        )
         path.write_text(text + table(head, lines), encoding="utf-8")
 
 
-def errors(laws, chosen, surface, pressures, descriptor_seeds):
-    """Largest predicted error of each column over the pressures."""
-    return [
+def describe(laws, settings, surface, descriptor_seeds, pressures):
+    """Settings, their predicted costs, and the largest error of each column over the pressures."""
+    on = error_laws.Surface.of(surface)
+    cost = error_laws.predicted_cost(laws, settings, on, pressures, descriptor_seeds)
+    errors = [
         max(
-            model.predicted_error(laws, chosen, surface, p, column, descriptor_seeds)
+            model.predicted_error(laws, settings, on, p, column, descriptor_seeds)
             for p in pressures
         )
-        for model, columns in ((error_laws, COLUMNS), (adhesion, ADHESIVE))
+        for model, columns in MODELS.items()
         for column in columns
     ]
-
-
-def row(text, laws, chosen, surface, pressures, descriptor_seeds):
-    cost = error_laws.predicted_cost(laws, chosen, surface, pressures, descriptor_seeds)
-    found = errors(laws, chosen, surface, pressures, descriptor_seeds)
     return [
-        text,
-        chosen.pixels_per_wavelength,
-        f"{chosen.tolerance:.0e}",
-        chosen.seeds,
-        chosen.coarse_seeds,
+        settings.pixels_per_wavelength,
+        f"{settings.tolerance:.0e}",
+        settings.seeds,
+        settings.coarse_seeds,
         f"{cost:.0f}",
-        f"{adhesion.predicted_cost(laws, chosen, surface):.0f}",
-        *(f"{100 * error:.2g} %" for error in found),
+        f"{adhesion.predicted_cost(laws, settings, on):.0f}",
+        *(f"{100 * error:.2g} %" for error in errors),
     ]
 
 

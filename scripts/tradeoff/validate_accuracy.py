@@ -1,13 +1,13 @@
 """Cases with an accuracy, on surfaces that the laws were not fitted to: error and cost.
 
-What a user gets is simulated on banks of solved seeds: settings are chosen by the laws, seeds are
-drawn in rounds until `stickiness.stopping` is content, and the mean is that of all seeds drawn, the
-lucky ones and the others. It is compared with the cheapest settings that would have done, which
-only the bank as a whole can tell.
+What a user gets is simulated on pools of solved seeds: the laws choose settings, seeds are drawn in
+rounds until `sequential.assess` has enough, and the mean is over all seeds drawn. It is compared
+with the cheapest settings that would have sufficed, which only the whole pool can tell.
 """
 
 import itertools
 from dataclasses import dataclass, replace
+from pathlib import Path
 
 import numpy as np
 import xarray as xr
@@ -15,13 +15,13 @@ import xarray as xr
 from pipeline.job import start
 from pipeline.tables import table
 from pipeline.tradeoff.measuring import COVERED
-from pipeline.tradeoff.seed_pool import Draws, bank_of
+from pipeline.tradeoff.seed_pool import Resampling, make_pool
 from stickiness.accuracy import error_laws, sequential
 from stickiness.core import datasets
 
 CASES, SEARCHES = 60, 120  # repetitions: of every case, and in the search of what is cheapest
 DESCRIBED = 2048
-DEAR = 1.5  # times the cheapest settings that reach the accuracy, above which a case is dear
+EXPENSIVE = 1.5  # times the cost of the cheapest settings that reach the accuracy
 WANTED = {
     "area": ("area",),
     "mean gap": ("mean_gap",),
@@ -63,15 +63,17 @@ def main(job):
     laws, rows, known = error_laws.read_laws(job.input.laws), [], []
     for path in job.input.seeds:
         measured = datasets.read(path)
-        bank, surface = bank_of(measured), error_laws.Surface.of(datasets.parameters(measured))
-        name = path.rsplit("/", 1)[1].removesuffix(".nc")
-        rows += validated(name, bank, measured, surface, laws, job.params.accuracies)
-        _, noise = bank.offsets[max(bank.offsets)]
-        known += bank.by_quantity(error_laws.COVERS * noise).values()
+        pool, surface = make_pool(measured), error_laws.Surface.of(datasets.parameters(measured))
+        cost = Cost(measured, surface, laws)
+        loads = tuple(measured.pressure.values.tolist())
+        for row in validate(pool, cost, laws, loads, job.params.accuracies):
+            rows.append({"case": Path(path).stem} | row)
+        _, noise = pool.grid_errors[max(pool.grid_errors)]
+        known += pool.by_quantity(error_laws.COVERS * noise).values()
     columns = ["case", "wanted", "accuracy", *TEXTS]
     missing = "out of reach, or nothing measured reaches it"
     dataset = xr.Dataset(
-        {name: ("row", [row[k] for row in rows]) for k, name in enumerate(columns)},
+        {name: ("row", [row.get(name, np.nan) for row in rows]) for name in columns},
         coords={"row": np.arange(len(rows))},
     )
     datasets.write(
@@ -87,57 +89,55 @@ def main(job):
         title="accuracy asked for and reached",
         parameters={"repetitions": CASES},
     )
+    known = f"{np.median(known):.2%} and {np.max(known):.1%}"
+    lines = [[format_value(row.get(name, np.nan)) for name in columns] for row in rows]
     with datasets.whole_file(job.output.table) as path:
-        known = f"{np.median(known):.2%} and {np.max(known):.1%}"
-        text = HEAD.format(known=known) + markdown(columns, rows)
+        text = HEAD.format(known=known) + table(columns, lines) + "\n" + summarise(dataset)
         path.write_text(text, encoding="utf-8")
 
 
-def validated(name, bank, measured, surface, laws, accuracies):
-    """One row for every accuracy and set of quantities on one surface."""
-    cost = Cost(measured, surface, laws)
-    searches = [Search(Draws(bank, SEARCHES, DESCRIBED, seed), cost) for seed in (2, 3)]
-    draws, rows = Draws(bank, CASES, DESCRIBED), []
-    loads = tuple(measured.pressure.values.tolist())
-    for (text, quantities), asked in itertools.product(WANTED.items(), accuracies):
-        case = sequential.Asked(asked, surface, loads, quantities, descriptor_seeds=DESCRIBED)
+def validate(pool, cost, laws, loads, accuracies):
+    """List a row for every set of quantities and accuracy on one surface."""
+    searches = [Search(Resampling(pool, SEARCHES, DESCRIBED, seed), cost) for seed in (2, 3)]
+    resampling, surface = Resampling(pool, CASES, DESCRIBED), cost.surface
+    for (text, quantities), accuracy in itertools.product(WANTED.items(), accuracies):
+        row = {"wanted": text, "accuracy": accuracy}
+        case = sequential.Asked(accuracy, surface, loads, quantities, descriptor_seeds=DESCRIBED)
         try:
             chosen = error_laws.cheapest(
-                laws, asked, surface, loads, quantities, descriptor_seeds=DESCRIBED
+                laws, accuracy, surface, loads, quantities, descriptor_seeds=DESCRIBED
             )
         except error_laws.UnreachableError:
-            rows.append((name, text, asked, *[np.nan] * len(TEXTS)))
+            yield row
             continue
-        cheapest = lowest_cost(searches, case.columns, asked)
-        runs = Runs(draws, laws, case)
-        found = [runs.ended(one, chosen) for one in range(CASES)]
-        error = np.array([one.error for one in found])
-        spent = np.array([cost(one.settings) for one in found])
-        rows.append(
-            (
-                name,
-                text,
-                asked,
-                float(chosen.pixels_per_wavelength),
-                chosen.tolerance,
-                float(np.mean([one.settings.seeds for one in found])),
-                float(np.mean([one.settings.coarse_seeds for one in found])),
-                float(np.mean([one.rounds for one in found])),
-                float(np.mean([one.state == sequential.ENOUGH for one in found])),
-                float(np.mean(error <= asked)),
-                float(np.quantile(error, COVERED)),
-                float(np.mean(runs.worst(chosen) <= asked)),
-                float(spent.mean()),
-                spent.mean() / cheapest,
-                cost(chosen) / cheapest,
-            )
-        )
-    return rows
+        cheapest = find_lowest_cost(searches, case.columns, accuracy)
+        runs = Runs(resampling, laws, case)
+        ends = [runs.run(k, chosen) for k in range(CASES)]
+        error = np.array([end.error for end in ends])
+        spent = np.mean([cost(end.settings) for end in ends])
+        yield row | {
+            "pixels": float(chosen.pixels_per_wavelength),
+            "tolerance": chosen.tolerance,
+            "seeds": float(np.mean([end.settings.seeds for end in ends])),
+            "coarse_seeds": float(np.mean([end.settings.coarse_seeds for end in ends])),
+            "rounds": float(np.mean([end.rounds for end in ends])),
+            "ended": float(np.mean([end.state == sequential.ENOUGH for end in ends])),
+            "within": float(np.mean(error <= accuracy)),
+            "error": float(np.quantile(error, COVERED)),
+            "open_within": float(np.mean(runs.worst_errors(chosen) <= accuracy)),
+            "cost": float(spent),
+            "cost_over_cheapest": spent / cheapest,
+            "open_cost_over_cheapest": cost(chosen) / cheapest,
+        }
+
+
+def format_value(value):
+    return value if isinstance(value, str) else f"{value:.3g}"
 
 
 @dataclass(frozen=True)
-class Ended:
-    """How a run ended: with what settings, after how many rounds, why, and with what error."""
+class End:
+    """Settings, number of rounds, reason and error with which a run ended."""
 
     settings: error_laws.Settings
     rounds: int
@@ -148,7 +148,7 @@ class Ended:
 class Cost:
     """Cost of settings as measured on a surface, for all its loads.
 
-    What a larger tolerance saves is by its law.
+    The law tells what a larger tolerance saves.
     """
 
     def __init__(self, measured, surface, laws):
@@ -170,87 +170,85 @@ class Cost:
 
 
 class Search:
-    """Errors of all settings on one set of draws, cheapest first.
+    """Errors of all settings on resampled seeds, cheapest first.
 
-    The largest tolerance is taken to add no error: what is cheapest is not made out dearer.
+    The largest tolerance is taken to add no error, so that the cheapest settings are not
+    overestimated.
     """
 
-    def __init__(self, draws, cost):
-        self.draws, self.found = draws, {}
+    def __init__(self, resampling, cost):
+        self.resampling, self.found = resampling, {}
         every = itertools.product(
             error_laws.PIXELS, error_laws.TOLERANCES[:1], error_laws.SEEDS, error_laws.COARSE_SEEDS
         )
-        self.costs = {one: cost(one) for one in itertools.starmap(error_laws.Settings, every)}
-        self.every = sorted(self.costs, key=self.costs.get)
+        self.costs = {s: cost(s) for s in itertools.starmap(error_laws.Settings, every)}
+        self.cheapest_first = sorted(self.costs, key=self.costs.get)
 
-    def reach(self, settings, columns, asked):
+    def reaches(self, settings, columns, accuracy):
         """Whether 90 % of repetitions are within the accuracy in all columns at all loads."""
         if settings not in self.found:
-            errors, _ = self.draws(settings)
-            self.found[settings] = self.draws.bank.by_quantity(errors)
+            errors, _ = self.resampling.draw(settings)
+            self.found[settings] = self.resampling.pool.by_quantity(errors)
         worst = np.max([e for (c, _), e in self.found[settings].items() if c in columns], axis=0)
-        return np.quantile(worst, COVERED) <= asked
+        return np.quantile(worst, COVERED) <= accuracy
 
 
-def lowest_cost(searches, columns, asked):
+def find_lowest_cost(searches, columns, accuracy):
     """Cost of the cheapest settings that reach an accuracy; NaN if none does.
 
-    Of many some get there by luck: they must on every set of draws.
+    Some of many settings reach it by luck: they must reach it in every search.
     """
-    for settings in searches[0].every:
-        if all(search.reach(settings, columns, asked) for search in searches):
+    for settings in searches[0].cheapest_first:
+        if all(search.reaches(settings, columns, accuracy) for search in searches):
             return searches[0].costs[settings]
     return np.nan
 
 
 class Runs:
-    """Runs of one case on a set of draws, one for each repetition."""
+    """Runs of one case on resampled seeds, one for each repetition."""
 
-    def __init__(self, draws, laws, case):
-        self.draws, self.laws, self.case, self.found = draws, laws, case, {}
+    def __init__(self, resampling, laws, case):
+        self.resampling, self.laws, self.case, self.found = resampling, laws, case, {}
 
-    def ended(self, one, chosen):
-        """Draw seeds for repetition `one` until there is no more to draw."""
+    def run(self, k, chosen):
+        """Draw seeds for repetition `k` until the rule stops."""
         case, rounds = self.case, 1
         settings = sequential.first(self.laws, case, chosen)
         while True:
-            scatter = self.of(settings)[1][..., one]
-            # What a single run says of its grid is not in the bank; the laws stand alone.
+            scatter = self.measure(settings)[1][..., k]
+            # What a single run tells of its grid is not in the pool; the laws stand alone.
             measured = sequential.Measured(
                 np.ones_like(scatter), scatter, np.full_like(scatter, np.inf)
             )
             decision = sequential.assess(self.laws, case, settings, measured)
             if decision.state != sequential.MORE:
-                return Ended(settings, rounds, decision.state, self.worst(settings)[one])
+                return End(settings, rounds, decision.state, self.worst_errors(settings)[k])
             settings, rounds = decision.settings, rounds + 1
 
-    def worst(self, settings):
+    def worst_errors(self, settings):
         """Largest error of each repetition over columns and loads."""
-        return self.of(settings)[0].max(axis=(0, 1))
+        return self.measure(settings)[0].max(axis=(0, 1))
 
-    def of(self, settings):
-        """Errors with what the tolerance adds, and standard errors; `(column, load, one)`."""
+    def measure(self, settings):
+        """Errors, tolerance included, and standard errors; `(column, load, repetition)`."""
         if settings not in self.found:
             exact = replace(settings, tolerance=error_laws.FULL)
-            case, by_quantity = self.case, self.draws.bank.by_quantity
-            errors, scatter = (by_quantity(part) for part in self.draws(exact))
-            solver = {
-                (column, load): self.solver_error(settings, column, load)
-                for column, load in itertools.product(case.columns, case.pressures)
-            }
+            by_quantity = self.resampling.pool.by_quantity
+            errors, scatter = (by_quantity(part) for part in self.resampling.draw(exact))
+            places = [[(c, p) for p in self.case.pressures] for c in self.case.columns]
             self.found[settings] = (
                 np.array(
                     [
-                        [np.hypot(errors[c, p], solver[c, p]) for p in case.pressures]
-                        for c in case.columns
+                        [np.hypot(errors[at], self.solver_error(settings, *at)) for at in row]
+                        for row in places
                     ]
                 ),
-                np.array([[scatter[c, p] for p in case.pressures] for c in case.columns]),
+                np.array([[scatter[at] for at in row] for row in places]),
             )
         return self.found[settings]
 
     def solver_error(self, settings, column, load):
-        """What a tolerance above the one of the measurement adds, by its law."""
+        """Error that a tolerance above that of the measurement adds, by its law."""
         if settings.tolerance <= error_laws.FULL:
             return 0.0
         return error_laws.single_error(
@@ -258,32 +256,27 @@ class Runs:
         )
 
 
-def markdown(columns, rows):
-    lines = [[value if isinstance(value, str) else f"{value:.3g}" for value in row] for row in rows]
-    return table(columns, lines) + "\n" + summary(columns, rows)
-
-
-def summary(columns, rows):
-    """In how many runs and cases the accuracy is reached, and at what cost."""
-    wanted = ("accuracy", "within", "error", "cost_over_cheapest")
-    opened = ("accuracy", "open_within", "error", "open_cost_over_cheapest")
+def summarise(dataset):
+    """Say in how many runs and cases the accuracy is reached, and at what cost."""
     lines = []
-    for text, names in (("As it is run", wanted), ("Without rounds", opened)):
-        part = np.array([[row[columns.index(name)] for name in names] for row in rows])
-        lines.append(f"{text}: {told(part.astype(float))}\n")
+    for text, prefix in (("As it is run", ""), ("Without rounds", "open_")):
+        known = dataset.isel(row=np.isfinite(dataset[f"{prefix}within"]))
+        within, ratio = (
+            known[f"{prefix}{name}"].values for name in ("within", "cost_over_cheapest")
+        )
+        lines.append(f"{text}: {describe(within, ratio)}\n")
     return "\n".join(lines)
 
 
-def told(part):
-    """One line on shares within, and costs over those of the cheapest."""
-    asked, within, error, ratio = part[np.isfinite(part[:, 1])].T
+def describe(within, ratio):
+    """One line on shares within the accuracy, and costs over those of the cheapest settings."""
     # Where nothing measured reaches the accuracy, nothing is known of the cost.
-    cheap, known, reached = ratio <= DEAR, np.isfinite(ratio), within >= COVERED
+    cheap, known, reached = ratio <= EXPENSIVE, np.isfinite(ratio), within >= COVERED
     return (
         f"{within.mean():.1%} of runs within the accuracy in every quantity at every load; at "
         f"least 90 % of them in {reached.sum()} of {reached.size} cases, at least 85 % in "
         f"{(within >= 0.85).sum()}, fewest {within.min():.0%}. Cost over the cheapest: median "
-        f"{np.median(ratio[known]):.2f}, at most {DEAR:g} in {cheap.sum()} of {known.sum()}, "
+        f"{np.median(ratio[known]):.2f}, at most {EXPENSIVE:g} in {cheap.sum()} of {known.sum()}, "
         f"largest {ratio[known].max():.2f}; both in {(reached & cheap).sum()}."
     )
 
