@@ -14,15 +14,7 @@ from pipeline.adhesion_sets import DESCRIBED as ADHESION_DESCRIBED
 from pipeline.adhesion_sets import STRONGEST, closed, scaled_law
 from pipeline.conventions import grid_points, spectrum_of, window_of
 from pipeline.job import start
-from pipeline.tradeoff.measuring import (
-    SETTING_TEXTS,
-    SHARED_TEXTS,
-    measure_memory,
-    sample,
-    stack,
-    time_task,
-    time_transforms,
-)
+from pipeline.tradeoff import measuring
 from stickiness.adhesion import dmt
 from stickiness.contact import solver
 from stickiness.core import datasets
@@ -53,18 +45,19 @@ def main(job):
         heights = synthesis.synthesise(spectrum_of(surface), n, length, int(seed))
         chosen = settings if seed <= adhesion["seeds"] else settings[:usual]
         parts = [solve(heights, length, adhesion, finest, **s) for s in chosen]
-        rows.append(stack(parts, "setting", np.arange(len(parts))))
+        rows.append(measuring.stack(parts, "setting", np.arange(len(parts))))
         logging.info("seed %d", seed)
-    dataset = stack(rows, "seed", seeds, join="outer").drop_vars("setting")
+    dataset = measuring.stack(rows, "seed", seeds, join="outer").drop_vars("setting")
     one = adhesion | {"pressures": adhesion["pressures"][-1:], "points": adhesion["points"][-1:]}
     memory = [
-        measure_memory(lambda s=s: solve(heights, length, one, finest, **s)) for s in settings
+        measuring.measure_memory(lambda s=s: solve(heights, length, one, finest, **s))
+        for s in settings
     ]
     dataset["memory"] = "setting", memory
-    for key in (*SETTING_TEXTS, "law"):
+    for key in (*measuring.SETTING_TEXTS, "law"):
         dataset[key] = "setting", [setting[key] for setting in settings]
     datasets.write(
-        annotate(dataset.assign(pair_time=time_transforms())),
+        annotate(dataset.assign(pair_time=measuring.time_transforms())),
         job.output[0],
         title="full adhesion of the same realisations with various settings",
         parameters={**surface, "q0_h_rms": adhesion["q0_h_rms"]},
@@ -87,7 +80,7 @@ def list_settings(adhesion, grids):
 
 def solve(heights, length, adhesion, finest, knob, pixels, tolerance, law):
     """Solve one realisation with one setting at every load and point; NaN if a window closes."""
-    sampled = sample(heights, finest // pixels)
+    sampled = measuring.sample(heights, finest // pixels)
     loads, points = np.array(adhesion["pressures"]), np.array(adhesion["points"])
     shape = len(loads), len(points)
     values = {name: np.full(shape, np.nan) for name in (*STATE_TEXTS, *ALONE_TEXTS, "seconds")}
@@ -99,7 +92,7 @@ def solve(heights, length, adhesion, finest, knob, pixels, tolerance, law):
             values["attraction_dmt"][i, k] = attraction
             if attraction > STRONGEST * contact.mean_pressure:
                 continue
-            state, values["seconds"][i, k] = time_task(
+            state, values["seconds"][i, k] = measuring.time_task(
                 lambda law=traction, alone=contact: closed(sampled, length, law, alone, tolerance)
             )
             for name in STATE_TEXTS:
@@ -120,8 +113,8 @@ def annotate(dataset):
     return datasets.annotate(
         dataset,
         **texts,
-        **SETTING_TEXTS,
-        **SHARED_TEXTS,
+        **measuring.SETTING_TEXTS,
+        **measuring.SHARED_TEXTS,
         pressure=("1", "mean pressure without adhesion at the same mean gap over E* q0 h_rms"),
         range_over_h_rms=ADHESION_DESCRIBED["range_over_h_rms"],
         adhesion_length_over_range=ADHESION_DESCRIBED["adhesion_length_over_range"],

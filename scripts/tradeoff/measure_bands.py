@@ -11,7 +11,7 @@ from pipeline.contact_curves import load_curve
 from pipeline.conventions import DESCRIBED, Q0, logarithmic_grid, spectrum_of
 from pipeline.job import start
 from pipeline.theory import contact_of
-from pipeline.tradeoff.measuring import SHARED_TEXTS, sample, stack, time_task, time_transforms
+from pipeline.tradeoff import measuring
 from stickiness.core import datasets
 from stickiness.persson.theory import Persson
 from stickiness.surfaces import synthesis
@@ -33,22 +33,24 @@ def main(job):
         for cut, n in zip(cuts, points, strict=True):
             left = filter_below(heights, int(cut))
             slope = synthesis.moments(left, LENGTH).rms_slope
-            sampled = sample(left, len(left) // n)
-            curve, seconds = time_task(
+            sampled = measuring.sample(left, len(left) // n)
+            curve, seconds = measuring.time_task(
                 lambda h=sampled: load_curve(h, LENGTH, pressures, ranges, job.params.tolerance)
             )
             curves.append(curve.assign(rms_slope=slope, seconds=seconds))
             logging.info("seed %d, magnification %d, %d points", seed, cut, n)
-        rows.append(stack(curves, "magnification", cuts))
+        rows.append(measuring.stack(curves, "magnification", cuts))
     lattice = synthesis.lattice_spectrum(spectrum, LENGTH)
     parts = [
         contact_of(Persson(lattice.truncated(float(cut) * Q0)), pressures, ranges) for cut in cuts
     ]
-    theory = stack(parts, "magnification", cuts)
-    dataset = stack(rows, "seed", seeds)[[*KEPT, "seconds"]].merge(
+    theory = measuring.stack(parts, "magnification", cuts)
+    dataset = measuring.stack(rows, "seed", seeds)[[*KEPT, "seconds"]].merge(
         theory.rename({name: f"theory_{name}" for name in KEPT})
     )
-    dataset = dataset.assign(pair_time=time_transforms(), points=("magnification", points))
+    dataset = dataset.assign(
+        pair_time=measuring.time_transforms(), points=("magnification", points)
+    )
     datasets.write(
         annotate(dataset),
         job.output[0],
@@ -72,7 +74,7 @@ def annotate(dataset):
     return datasets.annotate(
         dataset,
         **texts,
-        **SHARED_TEXTS,
+        **measuring.SHARED_TEXTS,
         magnification=("1", "magnification at which the spectrum is cut; h_rms is that of all"),
         points=("1", "grid points along a side"),
         seconds=("s", "processor time of all loads"),

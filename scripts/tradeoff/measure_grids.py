@@ -8,15 +8,7 @@ import xarray as xr
 from pipeline.contact_curves import measured
 from pipeline.conventions import DESCRIBED, grid_points, logarithmic_grid, spectrum_of, window_of
 from pipeline.job import start
-from pipeline.tradeoff.measuring import (
-    SETTING_TEXTS,
-    SHARED_TEXTS,
-    measure_memory,
-    sample,
-    stack,
-    time_task,
-    time_transforms,
-)
+from pipeline.tradeoff import measuring
 from stickiness.contact import solver
 from stickiness.core import datasets
 from stickiness.surfaces import synthesis
@@ -38,12 +30,12 @@ def main(job):
         slope = synthesis.moments(heights, length).rms_slope
         parts = [solve(heights, length, pressures, ranges, finest, **s) for s in settings]
         row = xr.concat(parts, "setting")
-        rows.append(row.assign(rms_slope=slope, pair_time=time_transforms()))
-    dataset = stack(rows, "seed", seeds)
+        rows.append(row.assign(rms_slope=slope, pair_time=measuring.time_transforms()))
+    dataset = measuring.stack(rows, "seed", seeds)
     largest = heights, length, pressures[-1:], ranges, finest
-    memory = [measure_memory(lambda s=s: solve(*largest, **s)) for s in settings]
+    memory = [measuring.measure_memory(lambda s=s: solve(*largest, **s)) for s in settings]
     dataset["memory"] = "setting", memory
-    for key in SETTING_TEXTS:
+    for key in measuring.SETTING_TEXTS:
         dataset[key] = "setting", [setting[key] for setting in settings]
     datasets.write(
         annotate(dataset),
@@ -67,16 +59,16 @@ def list_settings(pixels, tolerances, at_pixels, at_tolerance):
 
 def solve(heights, length, pressures, ranges, finest, knob, pixels, tolerance):
     """Solve one realisation with one setting, and time solution and evaluation."""
-    sampled = sample(heights, finest // pixels)
+    sampled = measuring.sample(heights, finest // pixels)
     options = {"tol": tolerance, "precision": "single" if knob == "precision" else "double"}
     rows = []
     for load in pressures:
-        contact, solution_time = time_task(
+        contact, solution_time = measuring.time_task(
             lambda p=load: solver.solve(sampled, length, p, **options)
         )
-        row, evaluation_time = time_task(lambda c=contact: measured(c, ranges))
+        row, evaluation_time = measuring.time_task(lambda c=contact: measured(c, ranges))
         rows.append(row.assign(solution_time=solution_time, evaluation_time=evaluation_time))
-    return stack(rows, "pressure", pressures)
+    return measuring.stack(rows, "pressure", pressures)
 
 
 def annotate(dataset):
@@ -84,8 +76,8 @@ def annotate(dataset):
     return datasets.annotate(
         dataset,
         **{name: DESCRIBED[name] for name in names},
-        **SETTING_TEXTS,
-        **SHARED_TEXTS,
+        **measuring.SETTING_TEXTS,
+        **measuring.SHARED_TEXTS,
         pixel_area_fraction=("1", "repulsive contact area as counted in pixels, over nominal area"),
         pixel_attractive_area=("1", "attractive area as counted in pixels, over nominal area"),
         edges=("1", "pixel sides between contact and gap"),

@@ -13,14 +13,7 @@ from pipeline.adhesion_sets import DESCRIBED as ADHESION_DESCRIBED
 from pipeline.adhesion_sets import LEAST, scaled_law
 from pipeline.conventions import grid_points, spectrum_of, window_of
 from pipeline.job import start
-from pipeline.tradeoff.measuring import (
-    SETTING_TEXTS,
-    SHARED_TEXTS,
-    sample,
-    stack,
-    time_task,
-    time_transforms,
-)
+from pipeline.tradeoff import measuring
 from stickiness import adhesive
 from stickiness.adhesion import dmt
 from stickiness.contact import solver
@@ -43,21 +36,27 @@ def main(job):
     for seed in seeds:
         heights = synthesis.synthesise(spectrum_of(surface), n, length, int(seed))
         parts = [
-            separate(sample(heights, finest // s["pixels"]), length, laws, pull_off["pressure"], s)
+            separate(
+                measuring.sample(heights, finest // s["pixels"]),
+                length,
+                laws,
+                pull_off["pressure"],
+                s,
+            )
             for s in settings
         ]
         step = finest // pull_off["at_pixels"]
         limit = solve_dmt_limit(heights[::step, ::step], length, laws, pull_off)
         rows.append(xr.concat(parts, "setting").assign(pull_off_dmt=("point", limit)))
         logging.info("seed %d", seed)
-    dataset = stack(rows, "seed", seeds)
-    for key in (*SETTING_TEXTS, "balance"):
+    dataset = measuring.stack(rows, "seed", seeds)
+    for key in (*measuring.SETTING_TEXTS, "balance"):
         dataset[key] = "setting", [setting[key] for setting in settings]
     dataset = dataset.assign_coords(
         range_over_h_rms=("point", points[:, 0]), adhesion_length_over_range=("point", points[:, 1])
     )
     datasets.write(
-        annotate(dataset.assign(pair_time=time_transforms())),
+        annotate(dataset.assign(pair_time=measuring.time_transforms())),
         job.output[0],
         title="pull-off of the same realisations with various settings",
         parameters={**surface, "q0_h_rms": pull_off["q0_h_rms"], "pressure": pull_off["pressure"]},
@@ -100,7 +99,7 @@ def separate(heights, length, laws, load, setting):
         )
         return min(point.state.mean_pressure for point in path if point.event != "pull-off")
 
-    found = [time_task(lambda law=law: lowest(law)) for law in laws]
+    found = [measuring.time_task(lambda law=law: lowest(law)) for law in laws]
     values, seconds = zip(*found, strict=True)
     return xr.Dataset({"pull_off": ("point", list(values)), "seconds": ("point", list(seconds))})
 
@@ -116,8 +115,8 @@ def solve_dmt_limit(heights, length, laws, pull_off):
 def annotate(dataset):
     return datasets.annotate(
         dataset,
-        **SETTING_TEXTS,
-        **SHARED_TEXTS,
+        **measuring.SETTING_TEXTS,
+        **measuring.SHARED_TEXTS,
         balance=("1", "error of the energy balance of a step over the energies of the path"),
         pull_off=("1", "lowest mean pressure over E* q0 h_rms"),
         pull_off_dmt=("1", "the same in the DMT limit"),

@@ -12,7 +12,7 @@ from pipeline.coarse_solutions import DESCRIBED_FROM, SOLVED_FROM
 from pipeline.contact_curves import COARSE, load_curve
 from pipeline.conventions import DESCRIBED, grid_points, logarithmic_grid, spectrum_of, window_of
 from pipeline.job import start
-from pipeline.tradeoff.measuring import SHARED_TEXTS, sample, stack, time_task, time_transforms
+from pipeline.tradeoff import measuring
 from stickiness.accuracy import multilevel
 from stickiness.core import datasets
 from stickiness.surfaces import synthesis
@@ -36,7 +36,7 @@ def main(job):
         # Few seeds are solved on the finest grid, which is the reference of the others.
         few = seeds["fine"][: counts["finest"]] if p == finest else seeds["fine"]
         fine.append(solve_seeds(surface, path, few, p))
-    dataset = stack(fine, "pixels", pixels, join="outer")[[*KEPT, *CONTINUUM, "seconds"]]
+    dataset = measuring.stack(fine, "pixels", pixels, join="outer")[[*KEPT, *CONTINUUM, "seconds"]]
     dataset = dataset.assign_coords(seed=seeds["fine"])
     for kind, p, amplitudes in (("fixed", 4, "fixed"), ("coarse", COARSE, "gaussian")):
         more = solve_seeds(surface, path, seeds[kind], p, amplitudes)[[*KEPT, "seconds"]]
@@ -46,13 +46,15 @@ def main(job):
         ("long_waves", "coarse_seed", "coarse"),
         ("other_long_waves", "other", "described"),
     ):
-        rows, taken = time_task(lambda k=kind: multilevel.descriptors(*given, seeds[k]))
+        rows, taken = measuring.time_task(lambda k=kind: multilevel.descriptors(*given, seeds[k]))
         dataset[name] = (dim, "descriptor"), rows
         seconds.append(taken / counts[kind])
     dataset = dataset.assign_coords(
         descriptor=list(multilevel.DESCRIPTORS), other=seeds["described"]
     )
-    dataset = dataset.assign(describing_seconds=np.mean(seconds), pair_time=time_transforms())
+    dataset = dataset.assign(
+        describing_seconds=np.mean(seconds), pair_time=measuring.time_transforms()
+    )
     datasets.write(
         annotate(dataset),
         job.output[0],
@@ -65,12 +67,12 @@ def solve_seeds(surface, path, seeds, pixels, amplitudes="gaussian"):
     """Solve every seed on one grid at the loads of `path`, and time it."""
     found = []
     for seed in seeds:
-        curve, seconds = time_task(
+        curve, seconds = measuring.time_task(
             lambda s=seed: solve_seed(surface, path, int(s), pixels, amplitudes)
         )
         found.append(curve.assign(seconds=seconds))
     logging.info("%d seeds on %d pixels per wavelength", len(seeds), pixels)
-    return stack(found, "seed", seeds)
+    return measuring.stack(found, "seed", seeds)
 
 
 def solve_seed(surface, path, seed, pixels, amplitudes):
@@ -79,7 +81,7 @@ def solve_seed(surface, path, seed, pixels, amplitudes):
     n, length = grid_points(surface, max(pixels, 2 * COARSE)), window_of(surface)
     heights = synthesis.synthesise(spectrum_of(surface), n, length, seed, amplitudes)
     slope = synthesis.moments(heights, length).rms_slope
-    sampled = sample(heights, max(2 * COARSE // pixels, 1))
+    sampled = measuring.sample(heights, max(2 * COARSE // pixels, 1))
     return load_curve(sampled, length, *path).assign(rms_slope=slope)
 
 
@@ -90,7 +92,7 @@ def annotate(dataset):
         texts |= {f"{prefix}{name}": (*DESCRIBED[name], missing) for name in KEPT[:3]}
         texts[f"{prefix}rms_slope"] = ("1", "rms gradient over q0 h_rms", missing)
         texts[f"{prefix}seconds"] = ("s", "processor time of all loads", missing)
-        texts[f"{prefix}seed"] = SHARED_TEXTS["seed"]
+        texts[f"{prefix}seed"] = measuring.SHARED_TEXTS["seed"]
     return datasets.annotate(
         dataset,
         **texts,
@@ -104,7 +106,7 @@ def annotate(dataset):
         long_waves=("1", "descriptors of the long waves of the coarse seeds"),
         other_long_waves=("1", "descriptors of the long waves of seeds that are not solved"),
         describing_seconds=("s", "processor time to describe one seed"),
-        pair_time=SHARED_TEXTS["pair_time"],
+        pair_time=measuring.SHARED_TEXTS["pair_time"],
     )
 
 

@@ -6,13 +6,7 @@ import xarray as xr
 from pipeline.conventions import DESCRIBED, logarithmic_grid, spectrum_of
 from pipeline.job import start
 from pipeline.theory import contact_of
-from pipeline.tradeoff.measuring import (
-    SHARED_TEXTS,
-    measure_memory,
-    stack,
-    time_task,
-    time_transforms,
-)
+from pipeline.tradeoff import measuring
 from stickiness.core import datasets
 from stickiness.persson.theory import Persson
 
@@ -29,11 +23,11 @@ def main(job):
             def solve(spectrum=spectrum, multiple=multiple):
                 return contact_of(Persson(spectrum, nodes=multiple), pressures, ranges)
 
-            states = [time_task(solve) for _ in range(REPETITIONS)]
+            states = [measuring.time_task(solve) for _ in range(REPETITIONS)]
             rows.append(states[0][0].assign(seconds=min(seconds for _, seconds in states)))
-            memory.append(measure_memory(solve))
-        cases.append(stack(rows, "nodes", nodes["multiples"]).expand_dims(case=[name]))
-    dataset = xr.concat(cases, "case").assign(pair_time=time_transforms())
+            memory.append(measuring.measure_memory(solve))
+        cases.append(measuring.stack(rows, "nodes", nodes["multiples"]).expand_dims(case=[name]))
+    dataset = xr.concat(cases, "case").assign(pair_time=measuring.time_transforms())
     shape = dataset.sizes["case"], dataset.sizes["nodes"]
     dataset["memory"] = ("case", "nodes"), np.reshape(memory, shape)
     names = ("pressure", "range", "area_fraction", "mean_gap", "attractive_area")
@@ -45,7 +39,7 @@ def main(job):
             nodes=("1", "multiple of the number of quadrature nodes"),
             rms_slope=("1", "rms gradient over q0 h_rms"),
             seconds=("s", "processor time of all loads"),
-            pair_time=SHARED_TEXTS["pair_time"],
+            pair_time=measuring.SHARED_TEXTS["pair_time"],
             memory=("MB", "largest memory held at once"),
         ),
         job.output[0],
