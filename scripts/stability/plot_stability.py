@@ -32,16 +32,16 @@ def main(job):
         panels[f"{next(iter(every))}/{axis}"].set_title(label)
     for name, data in every.items():
         for axis in LABELS:
-            strip(panels[f"{name}/{axis}"], data, axis)
+            draw_strip(panels[f"{name}/{axis}"], data, axis)
         first = panels[f"{name}/{next(iter(LABELS))}"]
         look = {"rotation": 0, "ha": "right", "va": "center"}
         first.set_ylabel(f"{name}\n{data.sizes['point']} points", **look)
-    figure.legend(handles=keys(every.values()), loc="outside lower center", ncols=len(LOOKS))
+    figure.legend(handles=list_keys(every.values()), loc="outside lower center", ncols=len(LOOKS))
     save(figure, job.output)
 
 
-def strip(ax, data, axis):
-    """Shares of the outcomes at each value of an axis, over all points that have it."""
+def draw_strip(ax, data, axis):
+    """Draw shares of the outcomes at each value of an axis, over all points that have it."""
     ax.set(yticks=[], ylim=(0, 1))
     ax.tick_params(length=0)
     for side in ax.spines.values():
@@ -58,11 +58,11 @@ def strip(ax, data, axis):
         ax.bar(place, share, 0.9, bottom=bottom, **look)
         bottom += share
     ends = [0, len(values) - 1]
-    ax.set_xticks(ends, [short(values[end]) for end in ends])
+    ax.set_xticks(ends, [shorten(values[end]) for end in ends])
     ax.set_xlim(-0.6, len(values) - 0.4)
 
 
-def keys(every):
+def list_keys(every):
     """Legend of all outcomes with how many points have each."""
     every = list(every)
     names = datasets.parameters(every[0])["outcomes"]
@@ -73,8 +73,8 @@ def keys(every):
     ]
 
 
-def short(value):
-    """A number in few characters."""
+def shorten(value):
+    """Write a number in few characters."""
     exponent = round(np.log10(value))
     if abs(exponent) > 2 and np.isclose(value, 10.0**exponent):
         return rf"$10^{{{exponent}}}$"
