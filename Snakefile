@@ -1,9 +1,12 @@
 # Do two rough solids stick? From random surfaces to stickiness verdicts.
 #
-#   model surfaces ──► repulsive BEM ──► ensembles ──► a_V, kappa ──► criteria ──► figures
-#        ├─ adhesive BEM ──► slopes, loops, error of the DMT limit ─────┤
-#        └─ lattice spectrum ─► Persson's theory ──────┘               ▲           claims
-#   real surfaces ──► PSD, H, C0 ──────────────────────────────────────┘           report
+#   model surfaces ──► contact ──► ensembles ──► a_V, kappa ──► criteria ──► figures
+#        ├─ full adhesion ──► slopes, loops, error of the DMT limit ──┤
+#        └─ spectrum of the cell ─► Persson's theory ─────┘           ▲        claims
+#   real surfaces ──► spectrum, H, C0 ────────────────────────────────┘        report
+#
+# A rule of stage S stands in rules/S.smk, its script is scripts/S/<rule>.py and its results lie
+# in results/<fidelity>/S/.
 
 from snakemake.utils import min_version
 
@@ -17,146 +20,50 @@ report: "report/workflow.rst"
 
 
 include: "rules/common.smk"
+include: "rules/resources.smk"
 include: "rules/surfaces.smk"
 include: "rules/contact.smk"
 include: "rules/persson.smk"
 include: "rules/fits.smk"
+include: "rules/cases.smk"
 include: "rules/adhesion.smk"
 include: "rules/real_surfaces.smk"
 include: "rules/criteria.smk"
 include: "rules/figures.smk"
-include: "rules/tradeoff.smk"
+include: "rules/claims.smk"
 include: "rules/report.smk"
+include: "rules/tradeoff.smk"
 include: "rules/stability.smk"
+include: "rules/shared.smk"
 
 
-localrules:
-    all,
-    fig1,
-    fig2,
-    fig3,
-    fig4,
-    fig5,
-    fig6,
-    fig7,
-    fig8,
-    fig9,
-    fig10,
-    claims,
-    verdicts,
-    surfaces,
-    cases,
-    a_v,
-    tradeoff,
-    dmt_error,
-    report,
-    stability,
+TARGETS = {
+    **{figure: f"{RESULTS}/figures/{figure}.png" for figure in FIGURES},
+    "verdicts": f"{RESULTS}/criteria/verdicts.md",
+    "claims": f"{RESULTS}/claims/claims.md",
+    "report": f"{RESULTS}/report/report.html",
+    "surfaces": expand(f"{RESULTS}/report/surfaces/{{surface}}.html", surface=REAL_SURFACES),
+    "cases": expand(f"{RESULTS}/cases/{{case}}.nc", case=CASES),
+    "stability": f"{RESULTS}/figures/stability.png",
+    "dmt_error": f"{RESULTS}/adhesion/dmt_error.csv",
+    "tradeoff": expand(
+        f"{TRADEOFF}/{{file}}",
+        file=["tradeoff.md", "presets.md", "validation.md", "tradeoff.png"],
+    ),
+}
 
 
 rule all:
     default_target: True
     input:
-        expand(f"{RESULTS}/figures/{{figure}}.png", figure=FIGURES),
+        [TARGETS[target] for target in (*FIGURES, "verdicts", "claims", "report", "surfaces")],
         f"{RESULTS}/fits/a_v_table.nc",
-        f"{RESULTS}/criteria/verdicts.md",
-        f"{RESULTS}/claims/claims.md",
-        f"{RESULTS}/report/report.html",
-        expand(f"{RESULTS}/report/surfaces/{{real_surface}}.html", real_surface=REAL_SURFACES),
 
 
-rule fig1:
-    input:
-        f"{RESULTS}/figures/fig1.png",
+for target, files in TARGETS.items():
 
-
-rule fig2:
-    input:
-        f"{RESULTS}/figures/fig2.png",
-
-
-rule fig3:
-    input:
-        f"{RESULTS}/figures/fig3.png",
-
-
-rule fig4:
-    input:
-        f"{RESULTS}/figures/fig4.png",
-
-
-rule fig5:
-    input:
-        f"{RESULTS}/figures/fig5.png",
-
-
-rule fig6:
-    input:
-        f"{RESULTS}/figures/fig6.png",
-
-
-rule fig7:
-    input:
-        f"{RESULTS}/figures/fig7.png",
-
-
-rule fig8:
-    input:
-        f"{RESULTS}/figures/fig8.png",
-
-
-rule fig9:
-    input:
-        f"{RESULTS}/figures/fig9.png",
-
-
-rule fig10:
-    input:
-        f"{RESULTS}/figures/fig10.png",
-
-
-rule verdicts:
-    input:
-        f"{RESULTS}/criteria/verdicts.md",
-
-
-rule surfaces:
-    input:
-        expand(f"{RESULTS}/report/surfaces/{{real_surface}}.html", real_surface=REAL_SURFACES),
-
-
-rule dmt_error:
-    input:
-        f"{RESULTS}/adhesion/dmt_error.csv",
-
-
-rule claims:
-    input:
-        f"{RESULTS}/claims/claims.md",
-
-
-rule cases:
-    input:
-        expand(f"{RESULTS}/cases/{{case}}.nc", case=CASES),
-
-
-rule a_v:
-    input:
-        f"{RESULTS}/criteria/a_v.csv",
-
-
-rule tradeoff:
-    input:
-        f"{TRADEOFF}/tradeoff.md",
-        f"{TRADEOFF}/presets.md",
-        f"{TRADEOFF}/validation.md",
-        f"{TRADEOFF}/tradeoff.png",
-
-
-rule report:
-    input:
-        f"{RESULTS}/report/report.html",
-
-
-rule stability:
-    input:
-        f"{RESULTS}/figures/stability.png",
+    rule:
+        name:
+            target
+        input:
+            files,

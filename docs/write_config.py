@@ -10,9 +10,11 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
-import yaml
-
 ROOT = Path(__file__).parents[1]
+sys.path.insert(0, str(ROOT / "scripts"))
+
+from stickiness.config.checks import read_schema  # noqa: E402
+
 TARGET = ROOT / "docs/config.md"
 HEAD = """# Every key of the configuration
 
@@ -33,7 +35,7 @@ Schema = Mapping[str, Any]
 
 def schema_of(name: str) -> dict[str, Any]:
     """The schema of one of the files."""
-    return yaml.safe_load((ROOT / f"config/schemas/{name}.schema.yaml").read_text(encoding="utf-8"))
+    return read_schema(ROOT / f"config/schemas/{name}.schema.yaml")
 
 
 def resolved(schema: Schema, root: Schema) -> dict[str, Any]:

@@ -1,24 +1,61 @@
-# Adhesion in the DMT limit, summed over the gaps of the repulsive solution, and in full, by boundary
-# elements with a traction law, at the points where the former is not known to be good enough.
+# Adhesion in the DMT limit, summed over the gaps of the contact without adhesion, and in full, by
+# boundary elements with a traction law, where the DMT limit is not known to be good enough.
+
+from functools import cache
+
+
+@cache
+def model_of(adhesion):
+    """Model of every point of a set of adhesive parameters."""
+    asked = ADHESION[adhesion]
+    return model_choice.choose(asked, model_surface_of(asked["case"]), DMT_ERRORS)
+
+
+def points_in_full(wildcards):
+    return model_of(wildcards.adhesion).full.tolist()
+
+
+def parameters_in_full(wildcards):
+    """What a full solution of a set depends on, beside the points that are solved in full."""
+    others = ("model", "accuracy", "seeds", "maps")
+    return {key: value for key, value in ADHESION[wildcards.adhesion].items() if key not in others}
+
+
+def seeds_in_full(adhesion):
+    """Seeds that are solved in full; none if the DMT limit is good enough everywhere."""
+    if not model_of(adhesion).full.any():
+        return []
+    asked = ADHESION[adhesion]
+    return list(seeds_of(asked["case"]))[: asked.get("seeds")]
+
+
+def realisations_in_full(wildcards):
+    folder = f"{RESULTS}/adhesion/full/{wildcards.adhesion}"
+    return [f"{folder}/seed{seed}.nc" for seed in seeds_in_full(wildcards.adhesion)]
+
+
+def same_without_adhesion(wildcards):
+    """Contact without adhesion of the realisations that are solved in full."""
+    adhesion = wildcards.adhesion
+    folder = f"{RESULTS}/contact/{ADHESION[adhesion]['case']}"
+    return [f"{folder}/seed{seed}.nc" for seed in seeds_in_full(adhesion)]
+
+
+def case_of(wildcards):
+    """Contact case behind a set of adhesive parameters."""
+    return ADHESION[wildcards.adhesion]["case"]
+
+
+def ensemble_of(wildcards):
+    return f"{RESULTS}/contact/ensembles/{case_of(wildcards)}.nc"
 
 
 rule adhesion_dmt:
     input:
-        library=library_of("adhesion/adhesion_dmt.py"),
-        laws=config["tradeoff"]["table"],
-        ensemble=lambda wildcards: (
-            f"{RESULTS}/contact/ensembles/{ADHESION[wildcards.adhesion]['case']}.nc"
-        ),
+        laws=ERROR_MODELS,
+        ensemble=ensemble_of,
     output:
         f"{RESULTS}/adhesion/dmt/{{adhesion}}.nc",
-    log:
-        f"{LOGS}/adhesion_dmt/{{adhesion}}.log",
-    benchmark:
-        f"{BENCHMARKS}/adhesion_dmt/{{adhesion}}.tsv"
-    conda:
-        "../envs/environment.yaml"
-    resources:
-        mem_mb=500,
     params:
         adhesion=lambda wildcards: ADHESION[wildcards.adhesion],
         dmt_error=lambda wildcards: model_of(wildcards.adhesion).dmt_error.tolist(),
@@ -29,69 +66,39 @@ rule adhesion_dmt:
 
 rule solve_adhesive:
     input:
-        library=library_of("adhesion/solve_adhesive.py"),
-        surface=lambda wildcards: surface_of(adhesive_case(wildcards)),
+        surface=lambda wildcards: surface_of(case_of(wildcards)),
     output:
         f"{RESULTS}/adhesion/full/{{adhesion}}/seed{{seed}}.nc",
-    log:
-        f"{LOGS}/solve_adhesive/{{adhesion}}/seed{{seed}}.log",
-    benchmark:
-        f"{BENCHMARKS}/solve_adhesive/{{adhesion}}/seed{{seed}}.tsv"
-    conda:
-        "../envs/environment.yaml"
     resources:
-        mem_mb=memory_of("solve_adhesive"),
-        runtime=runtime_of("solve_adhesive"),
+        mem_mb=memory(27, adhesion_size),
+        runtime=minutes(4.1, adhesion_size, adhesive_states),
     params:
-        adhesion=solved_in_full,
-        full=lambda wildcards: model_of(wildcards.adhesion).full.tolist(),
+        adhesion=parameters_in_full,
+        full=points_in_full,
     script:
         "../scripts/adhesion/solve_adhesive.py"
 
 
 rule average_adhesive:
     input:
-        library=library_of("adhesion/average_adhesive.py"),
         limit=f"{RESULTS}/adhesion/dmt/{{adhesion}}.nc",
-        ensemble=lambda wildcards: (
-            f"{RESULTS}/contact/ensembles/{ADHESION[wildcards.adhesion]['case']}.nc"
-        ),
-        realisations=adhesive_realisations,
+        ensemble=ensemble_of,
+        realisations=realisations_in_full,
     output:
         f"{RESULTS}/adhesion/full/{{adhesion}}.nc",
-    log:
-        f"{LOGS}/average_adhesive/{{adhesion}}.log",
-    benchmark:
-        f"{BENCHMARKS}/average_adhesive/{{adhesion}}.tsv"
-    conda:
-        "../envs/environment.yaml"
-    resources:
-        mem_mb=500,
     params:
-        full=lambda wildcards: model_of(wildcards.adhesion).full.tolist(),
+        full=points_in_full,
     script:
         "../scripts/adhesion/average_adhesive.py"
 
 
 rule compare_edges:
     input:
-        library=library_of("adhesion/compare_edges.py"),
         averages=f"{RESULTS}/adhesion/full/{{adhesion}}.nc",
-        realisations=adhesive_realisations,
-        alone=lambda wildcards: [
-            f"{RESULTS}/contact/{ADHESION[wildcards.adhesion]['case']}/{os.path.basename(path)}"
-            for path in adhesive_realisations(wildcards)
-        ],
+        realisations=realisations_in_full,
+        alone=same_without_adhesion,
     output:
         f"{RESULTS}/adhesion/edges/{{adhesion}}.nc",
-    log:
-        f"{LOGS}/compare_edges/{{adhesion}}.log",
-    benchmark:
-        f"{BENCHMARKS}/compare_edges/{{adhesion}}.tsv"
-    conda:
-        "../envs/environment.yaml"
-    resources:
-        mem_mb=500,
     script:
         "../scripts/adhesion/compare_edges.py"
 
@@ -99,37 +106,22 @@ rule compare_edges:
 # The committed table is a copy of this one, so that models can be chosen before anything is solved.
 rule tabulate_dmt_error:
     input:
-        library=library_of("adhesion/tabulate_dmt_error.py"),
-        adhesive=[f"{RESULTS}/adhesion/full/{name}.nc" for name in ("dmt_error", "dmt_error_zeta128")],
+        adhesive=[
+            f"{RESULTS}/adhesion/full/{name}.nc" for name in ("dmt_error", "dmt_error_zeta128")
+        ],
     output:
         f"{RESULTS}/adhesion/dmt_error.csv",
-    log:
-        f"{LOGS}/tabulate_dmt_error.log",
-    benchmark:
-        f"{BENCHMARKS}/tabulate_dmt_error.tsv"
-    conda:
-        "../envs/environment.yaml"
-    resources:
-        mem_mb=500,
     script:
         "../scripts/adhesion/tabulate_dmt_error.py"
 
 
 rule adhesive_maps:
     input:
-        library=library_of("adhesion/adhesive_maps.py"),
-        surface=lambda wildcards: surface_of(adhesive_case(wildcards)).format(seed=1),
+        surface=lambda wildcards: surface_of(case_of(wildcards)).format(seed=1),
     output:
         f"{RESULTS}/adhesion/full/{{adhesion}}/maps.nc",
-    log:
-        f"{LOGS}/adhesive_maps/{{adhesion}}.log",
-    benchmark:
-        f"{BENCHMARKS}/adhesive_maps/{{adhesion}}.tsv"
-    conda:
-        "../envs/environment.yaml"
     resources:
-        mem_mb=memory_of("adhesive_maps"),
-        runtime=runtime_of("adhesive_maps"),
+        mem_mb=memory(27, adhesion_size),
     params:
         adhesion=lambda wildcards: ADHESION[wildcards.adhesion],
     script:
@@ -138,21 +130,14 @@ rule adhesive_maps:
 
 rule follow_loop:
     input:
-        library=library_of("adhesion/follow_loop.py"),
         surface=lambda wildcards: (
             f"{RESULTS}/surfaces/{LOOPS[wildcards.loop]['surface']}/seed1.nc"
         ),
     output:
         f"{RESULTS}/adhesion/loops/{{loop}}.nc",
-    log:
-        f"{LOGS}/follow_loop/{{loop}}.log",
-    benchmark:
-        f"{BENCHMARKS}/follow_loop/{{loop}}.tsv"
-    conda:
-        "../envs/environment.yaml"
     resources:
-        mem_mb=memory_of("follow_loop"),
-        runtime=runtime_of("follow_loop"),
+        mem_mb=memory(36, loop_size),
+        runtime=60,
     params:
         loop=lambda wildcards: LOOPS[wildcards.loop],
         pixels_per_wavelength=FIDELITY["pixels_per_wavelength"],

@@ -1,102 +1,97 @@
-# Repulsive boundary-element contact: one job per case and seed walks the whole load path, another
-# one walks it for many more seeds on a coarse grid, then all of these give the case's means.
-# A case that asks for an accuracy draws its seeds in rounds, each assessed before the next is known.
+# Contact without adhesion, by boundary elements. One job per case and seed walks the whole load
+# path, others walk it for many more seeds on a coarse grid; together they give the case's means.
 # Surfaces that theory alone is compared with take one job for all of it.
+
+
+def realisations(wildcards):
+    """Fine solutions of a case, which an earlier case on the same surface may hold."""
+    folder = f"{RESULTS}/contact/{PLANS[wildcards.case].owner}"
+    return [f"{folder}/seed{seed}.nc" for seed in seeds_of(wildcards.case)]
+
+
+def coarse_solutions(wildcards):
+    """Coarse solutions behind a case's means, shared likewise; none for plain means."""
+    planned = PLANS[wildcards.case]
+    parts = plan.coarse_parts(planned.settings.coarse_seeds)
+    return [f"{RESULTS}/contact/{planned.owner}/coarse{part}.nc" for part in parts]
+
+
+def measured_of(wildcards):
+    """Quantities of single solutions that a case asks for beyond areas and mean gaps."""
+    return list(PLANS[wildcards.case].measured)
+
+
+def coarse_paths(wildcards):
+    """Solutions in a file of coarse seeds."""
+    return len(plan.coarse_range(wildcards.part)) * len(pressures_of(wildcards.case))
+
+
+def gaps_of(wildcards):
+    """Ranges at which a case's attractive areas are taken; none if it does not want any."""
+    return GAPS if PLANS[wildcards.case].gaps else None
+
+
+def comparison_pixels(wildcards):
+    asked = COMPARISONS[wildcards.comparison]
+    preset = FIDELITY["pixels_per_wavelength"]
+    return min(asked.get("pixels_per_wavelength", preset), preset)
+
+
+def comparison_solutions(wildcards):
+    """Fine solutions of a comparison, and its coarse ones by what they cost beside these."""
+    asked = COMPARISONS[wildcards.comparison]
+    coarse = asked.get("coarse_seeds", 0) * (2 / comparison_pixels(wildcards)) ** 2
+    return (asked["seeds"] + coarse) * len(config["comparisons"]["pressures"])
 
 
 rule solve_repulsive:
     input:
-        library=library_of("contact/solve_repulsive.py"),
-        surface=surface_of,
+        surface=lambda wildcards: surface_of(wildcards.case),
     output:
         f"{RESULTS}/contact/{{case}}/seed{{seed}}.nc",
-    log:
-        f"{LOGS}/solve_repulsive/{{case}}/seed{{seed}}.log",
-    benchmark:
-        f"{BENCHMARKS}/solve_repulsive/{{case}}/seed{{seed}}.tsv"
-    conda:
-        "../envs/environment.yaml"
     resources:
-        mem_mb=memory_of("solve_repulsive"),
-        runtime=runtime_of("solve_repulsive"),
+        mem_mb=memory(17, case_size),
+        runtime=minutes(1.1, case_size, lambda wildcards: len(pressures_of(wildcards.case))),
     params:
-        pressures=lambda wildcards: CASES[wildcards.case]["pressures"],
+        pressures=lambda wildcards: pressures_of(wildcards.case),
         tolerance=lambda wildcards: PLANS[wildcards.case].settings.tolerance,
         pixels_per_wavelength=lambda wildcards: (
             PLANS[wildcards.case].settings.pixels_per_wavelength
         ),
         gaps=gaps_of,
+        measured=measured_of,
     script:
         "../scripts/contact/solve_repulsive.py"
 
 
 rule solve_coarse:
-    input:
-        library=library_of("contact/solve_coarse.py"),
     output:
         f"{RESULTS}/contact/{{case}}/coarse{{part}}.nc",
-    log:
-        f"{LOGS}/solve_coarse/{{case}}{{part}}.log",
-    benchmark:
-        f"{BENCHMARKS}/solve_coarse/{{case}}{{part}}.tsv"
-    conda:
-        "../envs/environment.yaml"
+    wildcard_constraints:
+        part=r"\d+-\d+",
     resources:
-        mem_mb=memory_of("solve_coarse"),
-        runtime=runtime_of("solve_coarse"),
+        mem_mb=memory(4 * 14, coarse_size),
+        runtime=minutes(1.1, coarse_size, coarse_paths),
     params:
-        surface=lambda wildcards: config["model_surfaces"][CASES[wildcards.case]["surface"]],
-        pressures=lambda wildcards: CASES[wildcards.case]["pressures"],
+        surface=lambda wildcards: model_surface_of(wildcards.case),
+        pressures=lambda wildcards: pressures_of(wildcards.case),
         tolerance=lambda wildcards: PLANS[wildcards.case].settings.tolerance,
         gaps=gaps_of,
-        seeds=lambda wildcards: coarse_range(wildcards).stop,
-        after=lambda wildcards: coarse_range(wildcards).start,
+        measured=measured_of,
+        after=lambda wildcards: plan.coarse_range(wildcards.part).start,
+        seeds=lambda wildcards: plan.coarse_range(wildcards.part).stop,
         descriptor_seeds=config["sampling"]["descriptor_seeds"],
     script:
         "../scripts/contact/solve_coarse.py"
 
 
-checkpoint assess_seeds:
-    input:
-        library=library_of("contact/assess_seeds.py"),
-        realisations=lambda wildcards: realisations_of(*in_round(wildcards)),
-        coarse=lambda wildcards: coarse_files(*in_round(wildcards)),
-        laws=config["tradeoff"]["table"],
-    output:
-        f"{RESULTS}/draws/{{case}}/round{{round}}.nc",
-    log:
-        f"{LOGS}/assess_seeds/{{case}}/round{{round}}.log",
-    benchmark:
-        f"{BENCHMARKS}/assess_seeds/{{case}}/round{{round}}.tsv"
-    wildcard_constraints:
-        case="|".join(map(re.escape, DRAWN)) or "none",
-    conda:
-        "../envs/environment.yaml"
-    resources:
-        mem_mb=1000,
-    params:
-        settings=lambda wildcards: asdict(PLANS[wildcards.case].settings),
-        asked=lambda wildcards: asdict(PLANS[wildcards.case].asked),
-        windows=config["a_v"]["windows"][:1],
-    script:
-        "../scripts/contact/assess_seeds.py"
-
-
 rule contact_maps:
     input:
-        library=library_of("contact/contact_maps.py"),
-        surface=lambda wildcards: surface_of(wildcards).format(seed=1),
+        surface=lambda wildcards: surface_of(wildcards.case).format(seed=1),
     output:
         f"{RESULTS}/contact/{{case}}/maps.nc",
-    log:
-        f"{LOGS}/contact_maps/{{case}}.log",
-    benchmark:
-        f"{BENCHMARKS}/contact_maps/{{case}}.tsv"
-    conda:
-        "../envs/environment.yaml"
     resources:
-        mem_mb=memory_of("contact_maps"),
-        runtime=runtime_of("contact_maps"),
+        mem_mb=memory(22, case_size),
     params:
         pressures=lambda wildcards: CASES[wildcards.case].get("maps", []),
         tolerance=lambda wildcards: PLANS[wildcards.case].settings.tolerance,
@@ -106,20 +101,11 @@ rule contact_maps:
 
 rule average_ensemble:
     input:
-        library=library_of("contact/average_ensemble.py"),
-        laws=config["tradeoff"]["table"],
+        laws=ERROR_MODELS,
         realisations=realisations,
         coarse=coarse_solutions,
     output:
         f"{RESULTS}/contact/ensembles/{{case}}.nc",
-    log:
-        f"{LOGS}/average_ensemble/{{case}}.log",
-    benchmark:
-        f"{BENCHMARKS}/average_ensemble/{{case}}.tsv"
-    conda:
-        "../envs/environment.yaml"
-    resources:
-        mem_mb=1000,
     params:
         pressures=lambda wildcards: PLANS[wildcards.case].pressures,
         quantities=lambda wildcards: PLANS[wildcards.case].quantities,
@@ -129,30 +115,20 @@ rule average_ensemble:
 
 rule solve_ensemble:
     input:
-        library=library_of("contact/solve_ensemble.py"),
-        laws=config["tradeoff"]["table"],
+        laws=ERROR_MODELS,
     output:
         f"{RESULTS}/contact/ensembles/{{comparison}}.nc",
-    log:
-        f"{LOGS}/solve_ensemble/{{comparison}}.log",
-    benchmark:
-        f"{BENCHMARKS}/solve_ensemble/{{comparison}}.tsv"
-    conda:
-        "../envs/environment.yaml"
     resources:
-        mem_mb=memory_of("solve_ensemble"),
-        runtime=runtime_of("solve_ensemble"),
+        mem_mb=memory(17, comparison_size),
+        runtime=minutes(1.1, comparison_size, comparison_solutions),
     params:
-        surface=lambda wildcards: COMPARED[wildcards.comparison][0],
+        surface=lambda wildcards: model_surface_of(wildcards.comparison),
         pressures=config["comparisons"]["pressures"],
         seeds=lambda wildcards: COMPARISONS[wildcards.comparison]["seeds"],
         coarse_seeds=lambda wildcards: COMPARISONS[wildcards.comparison].get("coarse_seeds", 0),
         descriptor_seeds=config["sampling"]["descriptor_seeds"],
         tolerance=FIDELITY["tolerance"],
-        pixels_per_wavelength=lambda wildcards: min(
-            COMPARISONS[wildcards.comparison].get("pixels_per_wavelength", 10**9),
-            FIDELITY["pixels_per_wavelength"],
-        ),
-        gaps=config["gaps"],
+        pixels_per_wavelength=comparison_pixels,
+        gaps=GAPS,
     script:
         "../scripts/contact/solve_ensemble.py"

@@ -1,21 +1,19 @@
 # Stickiness criteria: the map of the paper and a verdict for every material on every surface.
 
+# Files behind a_V: simulation of one case, theory on the same spectrum and on broad ones.
+A_V_FILES = {
+    "a_v": a_v_of_simulation(config["criteria"]["a_v"]["case"]),
+    "lattice": f"{RESULTS}/fits/a_v/lattice/{config['criteria']['a_v']['case']}.nc",
+    "theory": f"{RESULTS}/fits/a_v/sweeps/fig3c.nc",
+}
+
 
 rule map_criterion:
     input:
-        **a_v_inputs(),
-        library=library_of("criteria/map_criterion.py"),
+        **A_V_FILES,
         a_v_table=f"{RESULTS}/fits/a_v_table.nc",
     output:
         f"{RESULTS}/criteria/map.nc",
-    log:
-        f"{LOGS}/map_criterion.log",
-    benchmark:
-        f"{BENCHMARKS}/map_criterion.tsv"
-    conda:
-        "../envs/environment.yaml"
-    resources:
-        mem_mb=500,
     params:
         map=config["criteria"]["map"],
         pressure=config["criteria"]["a_v"]["pressure"],
@@ -25,19 +23,10 @@ rule map_criterion:
 
 rule compare_criteria:
     input:
-        **a_v_inputs(),
-        library=library_of("criteria/compare_criteria.py"),
+        **A_V_FILES,
         a_v_table=f"{RESULTS}/fits/a_v_table.nc",
     output:
         f"{RESULTS}/criteria/compared.nc",
-    log:
-        f"{LOGS}/compare_criteria.log",
-    benchmark:
-        f"{BENCHMARKS}/compare_criteria.tsv"
-    conda:
-        "../envs/environment.yaml"
-    resources:
-        mem_mb=500,
     params:
         compared=config["criteria"]["compared"],
         pressure=config["criteria"]["a_v"]["pressure"],
@@ -47,8 +36,7 @@ rule compare_criteria:
 
 rule judge:
     input:
-        **a_v_inputs(),
-        library=library_of("criteria/judge.py"),
+        **A_V_FILES,
         surfaces=expand(f"{RESULTS}/real_surfaces/{{real_surface}}.nc", real_surface=REAL_SURFACES),
         theories=expand(
             f"{RESULTS}/persson/surfaces/{{real_surface}}.nc", real_surface=REAL_SURFACES
@@ -60,14 +48,6 @@ rule judge:
             category="Verdicts",
             caption="../report/verdicts.rst",
         ),
-    log:
-        f"{LOGS}/judge.log",
-    benchmark:
-        f"{BENCHMARKS}/judge.tsv"
-    conda:
-        "../envs/environment.yaml"
-    resources:
-        mem_mb=500,
     params:
         materials=MATERIALS,
         surfaces=list(REAL_SURFACES),
@@ -75,23 +55,3 @@ rule judge:
         frequencies=config["criteria"]["frequencies"],
     script:
         "../scripts/criteria/judge.py"
-
-
-rule record_a_v:
-    input:
-        library=library_of("criteria/record_a_v.py"),
-        a_v=f"{RESULTS}/fits/a_v/ensembles/{config['criteria']['a_v']['case']}.nc",
-    output:
-        f"{RESULTS}/criteria/a_v.csv",
-    log:
-        f"{LOGS}/record_a_v.log",
-    benchmark:
-        f"{BENCHMARKS}/record_a_v.tsv"
-    conda:
-        "../envs/environment.yaml"
-    resources:
-        mem_mb=500,
-    params:
-        pressure=config["criteria"]["a_v"]["pressure"],
-    script:
-        "../scripts/criteria/record_a_v.py"

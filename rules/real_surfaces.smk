@@ -1,20 +1,21 @@
-# Real surfaces: parameters from the literature, or topographies analysed for their spectrum.
+# Real surfaces: parameters from the literature, or topographies analysed for their spectrum, and
+# contact of measured heights where that is asked for.
+
+
+def topographies(wildcards):
+    """Files of a real surface's measurements; those that come with the project are left out."""
+    surface = REAL_SURFACES[wildcards.real_surface]
+    if surface["kind"] != "measured":
+        return []
+    files = [measurement["file"] for _, measurement in checks.measurements(surface)]
+    return [file for file in files if not file.startswith("builtin:")]
 
 
 rule analyse_surface:
     input:
-        library=library_of("real_surfaces/analyse_surface.py"),
-        topographies=topography_files,
+        topographies=topographies,
     output:
         f"{RESULTS}/real_surfaces/{{real_surface}}.nc",
-    log:
-        f"{LOGS}/analyse_surface/{{real_surface}}.log",
-    benchmark:
-        f"{BENCHMARKS}/analyse_surface/{{real_surface}}.tsv"
-    conda:
-        "../envs/environment.yaml"
-    resources:
-        mem_mb=1000,
     params:
         surface=lambda wildcards: REAL_SURFACES[wildcards.real_surface],
     script:
@@ -23,17 +24,10 @@ rule analyse_surface:
 
 rule contact_measured:
     input:
-        library=library_of("real_surfaces/contact_measured.py"),
         surface=f"{RESULTS}/real_surfaces/{{real_surface}}.nc",
-        topographies=topography_files,
+        topographies=topographies,
     output:
         f"{RESULTS}/real_surfaces/contact/{{real_surface}}.nc",
-    log:
-        f"{LOGS}/contact_measured/{{real_surface}}.log",
-    benchmark:
-        f"{BENCHMARKS}/contact_measured/{{real_surface}}.tsv"
-    conda:
-        "../envs/environment.yaml"
     resources:
         mem_mb=4000,
         runtime=60,
@@ -41,34 +35,7 @@ rule contact_measured:
         surface=lambda wildcards: REAL_SURFACES[wildcards.real_surface],
         tolerance=FIDELITY["tolerance"],
         pixels_per_wavelength=FIDELITY["pixels_per_wavelength"],
-        gamma=config["theory"]["gamma"],
-        gaps=config["gaps"],
+        gamma=GAMMA,
+        gaps=GAPS,
     script:
         "../scripts/real_surfaces/contact_measured.py"
-
-
-rule write_surface:
-    input:
-        library=library_of("report/write_surface.py"),
-        template="report/surface.html.j2",
-        parts=PAGE_PARTS,
-        surface=f"{RESULTS}/real_surfaces/{{real_surface}}.nc",
-        verdicts=f"{RESULTS}/criteria/verdicts.nc",
-        pressed=pressed_heights,
-    output:
-        figure=f"{RESULTS}/figures/surfaces/{{real_surface}}.png",
-        page=report(
-            f"{RESULTS}/report/surfaces/{{real_surface}}.html",
-            category="Surfaces",
-            caption="../report/surface.rst",
-        ),
-    log:
-        f"{LOGS}/write_surface/{{real_surface}}.log",
-    benchmark:
-        f"{BENCHMARKS}/write_surface/{{real_surface}}.tsv"
-    conda:
-        "../envs/environment.yaml"
-    resources:
-        mem_mb=500,
-    script:
-        "../scripts/report/write_surface.py"

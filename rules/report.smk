@@ -1,32 +1,21 @@
-# Claims ledger and report: both read everything that came before.
+# The report of all results, and a page for every real surface.
+
+PAGE_PARTS = [f"report/{part}" for part in ("macros.html.j2", "page.css", "page.js")]
 
 
-rule check_claims:
-    input:
-        **ledger_inputs(),
-        library=library_of("claims/check_claims.py"),
-    output:
-        dataset=f"{RESULTS}/claims/claims.nc",
-        table=report(
-            f"{RESULTS}/claims/claims.md",
-            category="Claims",
-            caption="../report/claims.rst",
-        ),
-    log:
-        f"{LOGS}/check_claims.log",
-    benchmark:
-        f"{BENCHMARKS}/check_claims.tsv"
-    conda:
-        "../envs/environment.yaml"
-    resources:
-        mem_mb=1000,
-    script:
-        "../scripts/claims/check_claims.py"
+def datasets_of(figure):
+    """Datasets that a figure draws."""
+    return [str(file) for file in getattr(rules, f"plot_{figure}").input]
+
+
+def pressed_heights(wildcards):
+    """Contact of the measured heights of a surface, if it is asked for."""
+    asked = "bem" in REAL_SURFACES[wildcards.real_surface]
+    return [f"{RESULTS}/real_surfaces/contact/{wildcards.real_surface}.nc"] if asked else []
 
 
 rule write_report:
     input:
-        library=library_of("report/write_report.py"),
         template="report/report.html.j2",
         parts=PAGE_PARTS,
         figures=expand(f"{RESULTS}/figures/{{figure}}.png", figure=FIGURES),
@@ -37,8 +26,8 @@ rule write_report:
         comparisons=expand(f"{RESULTS}/fits/theory/{{case}}.nc", case=COMPLETE),
         surfaces=expand(f"{RESULTS}/real_surfaces/{{real_surface}}.nc", real_surface=REAL_SURFACES),
         answers=expand(f"{RESULTS}/cases/{{case}}.nc", case=CASES),
-        laws=config["tradeoff"]["table"],
-        trade=config["tradeoff"]["summary"],
+        laws=ERROR_MODELS,
+        trade=TRADE["summary"],
         trade_figure=f"{RESULTS}/figures/tradeoff.png",
         trade_caption="report/tradeoff.rst",
     output:
@@ -47,23 +36,33 @@ rule write_report:
             category="Report",
             caption="../report/report.rst",
         ),
-    log:
-        f"{LOGS}/write_report.log",
-    benchmark:
-        f"{BENCHMARKS}/write_report.tsv"
-    conda:
-        "../envs/environment.yaml"
-    resources:
-        mem_mb=500,
     params:
-        benchmarks=BENCHMARKS,
+        benchmarks=f"{RESULTS}/benchmarks",
         presets={
             "fidelities": config["fidelities"],
             "asked": TRADE["presets"],
-            "surface": config["model_surfaces"].get(TRADE["presets"]["surface"]),
+            "surface": MODEL_SURFACES.get(TRADE["presets"]["surface"]),
             "descriptor_seeds": config["sampling"]["descriptor_seeds"],
         },
         fidelity=config["fidelity"],
-        figure_sources={figure: data_of(f"plot_{figure}") for figure in FIGURES},
+        figure_sources={figure: datasets_of(figure) for figure in FIGURES},
     script:
         "../scripts/report/write_report.py"
+
+
+rule write_surface:
+    input:
+        template="report/surface.html.j2",
+        parts=PAGE_PARTS,
+        surface=f"{RESULTS}/real_surfaces/{{real_surface}}.nc",
+        verdicts=f"{RESULTS}/criteria/verdicts.nc",
+        pressed=pressed_heights,
+    output:
+        figure=f"{RESULTS}/figures/surfaces/{{real_surface}}.png",
+        page=report(
+            f"{RESULTS}/report/surfaces/{{real_surface}}.html",
+            category="Surfaces",
+            caption="../report/surface.rst",
+        ),
+    script:
+        "../scripts/report/write_surface.py"

@@ -25,20 +25,11 @@ COMPONENTS = [
 
 
 rule probe_stability:
-    input:
-        library=library_of("stability/probe_stability.py"),
     output:
         f"{RESULTS}/stability/{{component}}.nc",
-    log:
-        f"{LOGS}/probe_stability/{{component}}.log",
-    benchmark:
-        f"{BENCHMARKS}/probe_stability/{{component}}.tsv"
     wildcard_constraints:
-        component="|".join(COMPONENTS),
-    conda:
-        "../envs/environment.yaml"
+        component=choices(COMPONENTS),
     resources:
-        mem_mb=500,
         runtime=20,
     script:
         "../scripts/stability/probe_stability.py"
@@ -46,7 +37,6 @@ rule probe_stability:
 
 rule plot_stability:
     input:
-        library=library_of("stability/plot_stability.py"),
         components=expand(f"{RESULTS}/stability/{{component}}.nc", component=COMPONENTS),
     output:
         png=report(
@@ -55,13 +45,5 @@ rule plot_stability:
             caption="../report/stability.rst",
         ),
         pdf=f"{RESULTS}/figures/stability.pdf",
-    log:
-        f"{LOGS}/plot_stability.log",
-    benchmark:
-        f"{BENCHMARKS}/plot_stability.tsv"
-    conda:
-        "../envs/environment.yaml"
-    resources:
-        mem_mb=500,
     script:
         "../scripts/stability/plot_stability.py"

@@ -1,22 +1,18 @@
-# Random surfaces on a periodic window, one file per surface, grid if not the preset's, and seed.
+# Random surfaces on a periodic cell: one file a surface, grid (if not the preset's) and seed.
+
+
+def pixels_of(wildcards):
+    """Grid points per shortest wavelength of a surface's file, the preset's unless it says so."""
+    return int(wildcards.grid.lstrip("@") or FIDELITY["pixels_per_wavelength"])
 
 
 rule synthesise_surface:
-    input:
-        library=library_of("surfaces/synthesise_surface.py"),
     output:
         f"{RESULTS}/surfaces/{{model_surface}}{{grid}}/seed{{seed}}.nc",
-    log:
-        f"{LOGS}/synthesise_surface/{{model_surface}}{{grid}}/seed{{seed}}.log",
-    benchmark:
-        f"{BENCHMARKS}/synthesise_surface/{{model_surface}}{{grid}}/seed{{seed}}.tsv"
-    conda:
-        "../envs/environment.yaml"
     resources:
-        mem_mb=memory_of("synthesise_surface"),
-        runtime=runtime_of("synthesise_surface"),
+        mem_mb=memory(9, surface_size),
     params:
-        surface=lambda wildcards: config["model_surfaces"][wildcards.model_surface],
+        surface=lambda wildcards: MODEL_SURFACES[wildcards.model_surface],
         pixels_per_wavelength=pixels_of,
     script:
         "../scripts/surfaces/synthesise_surface.py"

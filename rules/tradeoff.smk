@@ -1,20 +1,34 @@
 # What accuracy costs: every knob of simulation and theory varied on a few surfaces, its error in
 # each quantity beside its cost. Measured apart from the fidelities, which come from it.
 
+TRADE_SETS = {
+    name: TRADE[part]
+    for part in ("cases", "finer", "validation")
+    for name in TRADE[part]["surfaces"]
+}
+TRADE_SURFACES = {name: part["surfaces"][name] for name, part in TRADE_SETS.items()}
+ADHESIVE_SURFACES = TRADE["adhesion"]["surfaces"]
+PRESETS = {
+    "presets": TRADE["presets"],
+    "surface": MODEL_SURFACES.get(TRADE["presets"]["surface"]),
+    "fidelities": config["fidelities"],
+    "descriptor_seeds": config["sampling"]["descriptor_seeds"],
+}
+
+
+wildcard_constraints:
+    trade_case=choices([*TRADE_SURFACES, *ADHESIVE_SURFACES]),
+    hurst=choices(map(str, TRADE["bands"]["hurst"])),
+
+
+def trade_set(wildcards):
+    """The part of the configuration that a surface belongs to."""
+    return TRADE_SETS[wildcards.trade_case]
+
 
 rule measure_grids:
-    input:
-        library=library_of("tradeoff/measure_grids.py"),
     output:
         f"{TRADEOFF}/grids/{{trade_case}}.nc",
-    log:
-        f"{TRADEOFF}/logs/measure_grids/{{trade_case}}.log",
-    benchmark:
-        f"{TRADEOFF}/benchmarks/measure_grids/{{trade_case}}.tsv"
-    wildcard_constraints:
-        trade_case="|".join(map(re.escape, TRADE_SURFACES)),
-    conda:
-        "../envs/environment.yaml"
     resources:
         mem_mb=3000,
     params:
@@ -22,24 +36,14 @@ rule measure_grids:
         settings={k: v for k, v in TRADE["settings"].items() if k != "surfaces"},
         pressures=TRADE["pressures"],
         seeds=TRADE["seeds"],
-        gaps=config["gaps"],
+        gaps=GAPS,
     script:
         "../scripts/tradeoff/measure_grids.py"
 
 
 rule measure_seeds:
-    input:
-        library=library_of("tradeoff/measure_seeds.py"),
     output:
         f"{TRADEOFF}/seeds/{{trade_case}}.nc",
-    log:
-        f"{TRADEOFF}/logs/measure_seeds/{{trade_case}}.log",
-    benchmark:
-        f"{TRADEOFF}/benchmarks/measure_seeds/{{trade_case}}.tsv"
-    wildcard_constraints:
-        trade_case="|".join(map(re.escape, TRADE_SURFACES)),
-    conda:
-        "../envs/environment.yaml"
     resources:
         mem_mb=2000,
     params:
@@ -49,73 +53,43 @@ rule measure_seeds:
         counts=lambda wildcards: trade_set(wildcards)["counts"],
         tolerance=TRADE["settings"]["at_tolerance"],
         first_seed=lambda wildcards: trade_set(wildcards)["first_seed"],
-        gaps=config["gaps"],
+        gaps=GAPS,
     script:
         "../scripts/tradeoff/measure_seeds.py"
 
 
 rule measure_bands:
-    input:
-        library=library_of("tradeoff/measure_bands.py"),
     output:
         f"{TRADEOFF}/bands/H{{hurst}}.nc",
-    log:
-        f"{TRADEOFF}/logs/measure_bands/H{{hurst}}.log",
-    benchmark:
-        f"{TRADEOFF}/benchmarks/measure_bands/H{{hurst}}.tsv"
-    wildcard_constraints:
-        hurst="|".join(re.escape(str(hurst)) for hurst in TRADE["bands"]["hurst"]),
-    conda:
-        "../envs/environment.yaml"
     resources:
         mem_mb=3000,
     params:
         bands=TRADE["bands"],
         pressures=TRADE["pressures"],
         tolerance=TRADE["settings"]["at_tolerance"],
-        gaps=config["gaps"],
+        gaps=GAPS,
     script:
         "../scripts/tradeoff/measure_bands.py"
 
 
 rule measure_theory:
-    input:
-        library=library_of("tradeoff/measure_theory.py"),
     output:
         f"{TRADEOFF}/theory.nc",
-    log:
-        f"{TRADEOFF}/logs/measure_theory.log",
-    benchmark:
-        f"{TRADEOFF}/benchmarks/measure_theory.tsv"
-    conda:
-        "../envs/environment.yaml"
-    resources:
-        mem_mb=1000,
     params:
         nodes=TRADE["nodes"],
         pressures=TRADE["pressures"],
-        gaps=config["gaps"],
+        gaps=GAPS,
     script:
         "../scripts/tradeoff/measure_theory.py"
 
 
 rule measure_adhesive:
-    input:
-        library=library_of("tradeoff/measure_adhesive.py"),
     output:
         f"{TRADEOFF}/adhesive/{{trade_case}}.nc",
-    log:
-        f"{TRADEOFF}/logs/measure_adhesive/{{trade_case}}.log",
-    benchmark:
-        f"{TRADEOFF}/benchmarks/measure_adhesive/{{trade_case}}.tsv"
-    wildcard_constraints:
-        trade_case="|".join(map(re.escape, TRADE["adhesion"]["surfaces"])),
-    conda:
-        "../envs/environment.yaml"
     resources:
         mem_mb=2000,
     params:
-        case=lambda wildcards: TRADE["adhesion"]["surfaces"][wildcards.trade_case],
+        case=lambda wildcards: ADHESIVE_SURFACES[wildcards.trade_case],
         adhesion={
             key: value
             for key, value in TRADE["adhesion"].items()
@@ -126,22 +100,10 @@ rule measure_adhesive:
 
 
 rule measure_pull_off:
-    input:
-        library=library_of("tradeoff/measure_pull_off.py"),
     output:
         f"{TRADEOFF}/pull_off/{{trade_case}}.nc",
-    log:
-        f"{TRADEOFF}/logs/measure_pull_off/{{trade_case}}.log",
-    benchmark:
-        f"{TRADEOFF}/benchmarks/measure_pull_off/{{trade_case}}.tsv"
-    wildcard_constraints:
-        trade_case="|".join(map(re.escape, TRADE["adhesion"]["surfaces"])),
-    conda:
-        "../envs/environment.yaml"
-    resources:
-        mem_mb=1000,
     params:
-        case=lambda wildcards: TRADE["adhesion"]["surfaces"][wildcards.trade_case],
+        case=lambda wildcards: ADHESIVE_SURFACES[wildcards.trade_case],
         pull_off=TRADE["adhesion"]["pull_off"]
         | {key: TRADE["adhesion"][key] for key in ("q0_h_rms", "law", "at_pixels")},
     script:
@@ -150,7 +112,6 @@ rule measure_pull_off:
 
 rule tabulate_tradeoff:
     input:
-        library=library_of("tradeoff/tabulate_tradeoff.py"),
         grids=expand(f"{TRADEOFF}/grids/{{name}}.nc", name=TRADE["settings"]["surfaces"]),
         seeds=expand(
             f"{TRADEOFF}/seeds/{{name}}.nc",
@@ -158,41 +119,24 @@ rule tabulate_tradeoff:
         ),
         bands=expand(f"{TRADEOFF}/bands/H{{hurst}}.nc", hurst=TRADE["bands"]["hurst"]),
         theory=f"{TRADEOFF}/theory.nc",
-        adhesive=expand(f"{TRADEOFF}/adhesive/{{name}}.nc", name=TRADE["adhesion"]["surfaces"]),
-        pull_off=expand(f"{TRADEOFF}/pull_off/{{name}}.nc", name=TRADE["adhesion"]["surfaces"]),
+        adhesive=expand(f"{TRADEOFF}/adhesive/{{name}}.nc", name=ADHESIVE_SURFACES),
+        pull_off=expand(f"{TRADEOFF}/pull_off/{{name}}.nc", name=ADHESIVE_SURFACES),
     output:
         dataset=f"{TRADEOFF}/tradeoff.nc",
         laws=f"{TRADEOFF}/accuracy.csv",
         summary=f"{TRADEOFF}/tradeoff.csv",
         table=f"{TRADEOFF}/tradeoff.md",
-    log:
-        f"{TRADEOFF}/logs/tabulate_tradeoff.log",
-    benchmark:
-        f"{TRADEOFF}/benchmarks/tabulate_tradeoff.tsv"
-    conda:
-        "../envs/environment.yaml"
-    resources:
-        mem_mb=1000,
     script:
         "../scripts/tradeoff/tabulate_tradeoff.py"
 
 
 rule validate_accuracy:
     input:
-        library=library_of("tradeoff/validate_accuracy.py"),
         laws=f"{TRADEOFF}/accuracy.csv",
         seeds=expand(f"{TRADEOFF}/seeds/{{name}}.nc", name=TRADE["validation"]["surfaces"]),
     output:
         dataset=f"{TRADEOFF}/validation.nc",
         table=f"{TRADEOFF}/validation.md",
-    log:
-        f"{TRADEOFF}/logs/validate_accuracy.log",
-    benchmark:
-        f"{TRADEOFF}/benchmarks/validate_accuracy.tsv"
-    conda:
-        "../envs/environment.yaml"
-    resources:
-        mem_mb=1000,
     params:
         accuracies=TRADE["validation"]["accuracies"],
     script:
@@ -201,30 +145,17 @@ rule validate_accuracy:
 
 rule choose_presets:
     input:
-        library=library_of("tradeoff/choose_presets.py"),
         laws=f"{TRADEOFF}/accuracy.csv",
     output:
         f"{TRADEOFF}/presets.md",
-    log:
-        f"{TRADEOFF}/logs/choose_presets.log",
-    benchmark:
-        f"{TRADEOFF}/benchmarks/choose_presets.tsv"
-    conda:
-        "../envs/environment.yaml"
-    resources:
-        mem_mb=500,
     params:
-        presets=TRADE["presets"],
-        surface=config["model_surfaces"].get(TRADE["presets"]["surface"]),
-        fidelities=config["fidelities"],
-        descriptor_seeds=config["sampling"]["descriptor_seeds"],
+        **PRESETS,
     script:
         "../scripts/tradeoff/choose_presets.py"
 
 
 rule plot_tradeoff:
     input:
-        library=library_of("tradeoff/plot_tradeoff.py"),
         summary=f"{TRADEOFF}/tradeoff.csv",
         laws=f"{TRADEOFF}/accuracy.csv",
     output:
@@ -234,19 +165,8 @@ rule plot_tradeoff:
             caption="../report/tradeoff.rst",
         ),
         pdf=f"{TRADEOFF}/tradeoff.pdf",
-    log:
-        f"{TRADEOFF}/logs/plot_tradeoff.log",
-    benchmark:
-        f"{TRADEOFF}/benchmarks/plot_tradeoff.tsv"
-    conda:
-        "../envs/environment.yaml"
-    resources:
-        mem_mb=500,
     params:
-        presets=TRADE["presets"],
-        surface=config["model_surfaces"].get(TRADE["presets"]["surface"]),
-        fidelities=config["fidelities"],
-        descriptor_seeds=config["sampling"]["descriptor_seeds"],
+        **PRESETS,
     script:
         "../scripts/tradeoff/plot_tradeoff.py"
 
@@ -254,13 +174,8 @@ rule plot_tradeoff:
 # The report shows the measurement that is in use: the committed tables.
 use rule plot_tradeoff as plot_measured_trade with:
     input:
-        library=library_of("tradeoff/plot_tradeoff.py"),
         summary=TRADE["summary"],
         laws=TRADE["table"],
     output:
         png=f"{RESULTS}/figures/tradeoff.png",
         pdf=f"{RESULTS}/figures/tradeoff.pdf",
-    log:
-        f"{LOGS}/plot_measured_trade.log",
-    benchmark:
-        f"{BENCHMARKS}/plot_measured_trade.tsv"

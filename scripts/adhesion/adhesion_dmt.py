@@ -8,10 +8,10 @@ from pipeline.adhesion_sets import AXES, OUTSIDE, axes, roughness
 from pipeline.adhesion_sets import DESCRIBED as ADHESION_DESCRIBED
 from pipeline.conventions import DESCRIBED
 from pipeline.dmt_limit import QUANTITIES, DmtLimit, linearity_error
-from pipeline.ensemble_means import coarse, described, with_errors
+from pipeline.ensemble_means import add_errors, coarse, describe_errors
 from pipeline.error_budgets import SIMULATED, Simulation, along
 from pipeline.job import start
-from stickiness.accuracy import error_laws
+from stickiness.accuracy.error_models import read_models
 from stickiness.core import datasets
 from stickiness.core.budget import ENDINGS, Part, with_budget
 
@@ -36,11 +36,11 @@ def main(job):
     )
     for name in QUANTITIES:
         quantity = getattr(limit, name)
-        left = grid_limits.inherited(ensemble, quantity, ["area_fraction", "attractive_area"])
+        left = grid_limits.inherit(ensemble, quantity, ["area_fraction", "attractive_area"])
         values, more = quantity(ensemble), coarse(ensemble, quantity)
-        dataset = with_errors(dataset, name, values, more, plain=True, limit=left)
-    simulation = Simulation.of(error_laws.read_laws(job.input.laws), datasets.parameters(ensemble))
-    dataset = budgeted(annotated(dataset), simulation, limit.linear)
+        dataset = add_errors(dataset, name, values, more, plain=True, limit=left)
+    simulation = Simulation.of(read_models(job.input.laws), datasets.parameters(ensemble))
+    dataset = add_budgets(annotate(dataset), simulation, limit.linear)
     for ending in ENDINGS:
         known = ensemble[f"area_fraction_mean{ending}"]
         dataset[f"area_fraction{ending}"] = known.sel(pressure=pressures)
@@ -52,7 +52,7 @@ def main(job):
     )
 
 
-def budgeted(dataset, simulation, linear):
+def add_budgets(dataset, simulation, linear):
     """Every quantity with its errors, those of fits as at the least certain of their loads."""
     for name in QUANTITIES:
         fitted = "fit" in name
@@ -90,10 +90,10 @@ def relative(dataset, simulation):
     return np.hypot(area, gaps), factor, dataset.dmt_error
 
 
-def annotated(dataset):
+def annotate(dataset):
     texts = {}
     for name, text in QUANTITIES.items():
-        texts |= described(name, text, plain=True, discretisation=grid_limits.INHERITED)
+        texts |= describe_errors(name, text, plain=True, discretisation=grid_limits.INHERITED)
     few = "fewer than two loads, or a single seed"
     return datasets.annotate(
         dataset,

@@ -16,14 +16,14 @@ import xarray as xr
 from pipeline.adhesion_sets import AXES, MISSING, OUTSIDE, SOLVER
 from pipeline.adhesion_sets import DESCRIBED as ADHESION_DESCRIBED
 from pipeline.conventions import DESCRIBED, LINEAR_UP_TO, window_of
-from pipeline.dmt_limit import DmtLimit, fitted, linearity_error
-from pipeline.ensemble_means import coarse, described, fine, with_errors
+from pipeline.dmt_limit import DmtLimit, fit_slope, linearity_error
+from pipeline.ensemble_means import add_errors, coarse, describe_errors, fine
 from pipeline.error_budgets import SIMULATED
 from pipeline.job import start
-from stickiness.accuracy import error_laws
 from stickiness.adhesion import edge_zone
 from stickiness.core import datasets
 from stickiness.core.budget import SOURCES, split, with_budget
+from stickiness.core.statistics import students_t
 
 # Averages, with the quantity of the DMT limit that is their control, if any.
 STATES = {
@@ -83,14 +83,14 @@ def main(job):
     dataset = in_dmt_limit(limit)
     if files:
         states = xr.concat(files, xr.DataArray(seeds, dims="seed", name="seed"))
-        solved = averaged(states, full, ensemble, dmt, made)
-        dataset = joined(solved, dataset, full)
+        solved = average(states, full, ensemble, dmt, made)
+        dataset = join(solved, dataset, full)
     dataset = dataset.drop_vars(n for n in dataset if n.endswith("_discretisation_error"))
     dataset["model"] = (AXES, np.where(full, "full", "dmt"))
     strength = limit.adhesion_length_over_range / limit.q0_h_rms
     dataset["zone_strength"] = zone_width(ensemble, limit) * strength / limit.range_over_h_rms
     datasets.write(
-        budgeted(annotated(dataset)),
+        add_budgets(annotate(dataset)),
         job.output[0],
         title="adhesive contact averaged over realisations, by the model chosen",
         parameters={**made, **asked, "seeds": seeds},
@@ -117,24 +117,24 @@ def in_dmt_limit(limit):
     return dataset
 
 
-def averaged(states, full, ensemble, dmt, made):
+def average(states, full, ensemble, dmt, made):
     """Means over the realisations solved in full; where they are not, their own DMT limit."""
     whole = fine(states.external_pressure).notnull().all("seed") | ~full
     wide = zone_width(ensemble, states) >= edge_zone.NARROWEST * made["pixel"]
-    states = with_dmt(states, full)
+    states = add_dmt(states, full)
     linear = dmt.linear & ~(fine(states.repulsive_area).mean("seed") > LINEAR_UP_TO)
-    states = with_slopes(states, ensemble, linear)
+    states = add_slopes(states, ensemble, linear)
     # A mean over the seeds that happen to be solved would leave out the stickiest ones.
-    told = whole & (wide | ~full)
-    resolved = dict.fromkeys(STATES | SLOPES, told)
-    resolved |= {name: (told | ~linear).all("pressure") for name in FITS}
-    resolved |= dict.fromkeys(RATIOS, told & full)
+    reported = whole & (wide | ~full)
+    resolved = dict.fromkeys(STATES | SLOPES, reported)
+    resolved |= {name: (reported | ~linear).all("pressure") for name in FITS}
+    resolved |= dict.fromkeys(RATIOS, reported & full)
     dataset = xr.Dataset()
     for name, (_, control) in (STATES | SLOPES | FITS | RATIOS).items():
         values, more = states[name].where(resolved[name]), None
         if control is not None:
             more = controls(ensemble, getattr(dmt, control), states.seed)
-        dataset = with_errors(dataset, name, values, more, plain=True)
+        dataset = add_errors(dataset, name, values, more, plain=True)
         if "net" in name.split("_"):
             dataset[f"{name}_discretisation_error"] *= SLOW
     models = {
@@ -160,7 +160,7 @@ def errors(dataset, name, model, seeds):
     parts = {
         "discretisation": dataset[f"{name}_discretisation_error"],
         "solver": SOLVER * abs(value),
-        "sampling": error_laws.students_t(seeds) * dataset[f"{name}_standard_error"],
+        "sampling": students_t(seeds) * dataset[f"{name}_standard_error"],
         "bandwidth": 0.0,
         "model": abs(model),
     }
@@ -168,7 +168,7 @@ def errors(dataset, name, model, seeds):
     return xr.concat(parts, xr.DataArray(list(SOURCES), dims="source", name="source"))
 
 
-def budgeted(dataset):
+def add_budgets(dataset):
     """All averages with their errors by source."""
     for name in STATES | SLOPES | FITS | RATIOS:
         if name in dataset:
@@ -186,7 +186,7 @@ def controls(ensemble, quantity, seeds):
     return replace(more, twin=twin)
 
 
-def with_dmt(states, full):
+def add_dmt(states, full):
     """States with those of the DMT limit where there is no full one asked for."""
     external = states.pressure - states.attraction_dmt
     limit = {
@@ -199,7 +199,7 @@ def with_dmt(states, full):
     return states.assign({name: states[name].where(full, value) for name, value in limit.items()})
 
 
-def with_slopes(states, ensemble, linear):
+def add_slopes(states, ensemble, linear):
     """Add what compares area and load with and without adhesion."""
     alone = states.pressure / states.area_alone
     external, area = states.external_pressure, states.repulsive_area
@@ -212,8 +212,8 @@ def with_slopes(states, ensemble, linear):
         "inverse_kappa_ad_direct": states.attraction / states.repulsive_pressure / 2,
         "inverse_kappa_ad_equal_area": (1 - external / pressure_at(states, ensemble)) / 2,
     }
-    fit = fitted(external, area, linear)
-    fit_alone = fitted(states.pressure, states.area_alone, linear)
+    fit = fit_slope(external, area, linear)
+    fit_alone = fit_slope(states.pressure, states.area_alone, linear)
     slopes["inverse_kappa_fit"] = fit / states.rms_slope
     slopes["inverse_kappa_ad_fit"] = (1 - fit / fit_alone) / 2
     limit = states.attraction_dmt / states.pressure / 2
@@ -261,7 +261,7 @@ def zone_width(ensemble, at):
     return edge.copy(data=edge_zone.zone_width(pixel, edge.values, range_.values))
 
 
-def joined(solved, limit, full):
+def join(solved, limit, full):
     """Variables of both models, each where it was chosen."""
     dataset = solved.copy()
     for name, values in limit.items():
@@ -273,11 +273,11 @@ def joined(solved, limit, full):
     return dataset
 
 
-def annotated(dataset):
+def annotate(dataset):
     texts = {}
     for name, (text, _) in (STATES | SLOPES | FITS | RATIOS).items():
         slow = {"discretisation": SLOWLY} if "net" in name.split("_") else {}
-        for key, value in described(name, text, plain=True, **slow).items():
+        for key, value in describe_errors(name, text, plain=True, **slow).items():
             if key in dataset:
                 texts[key] = (*value[:2], FEW)
     texts |= {name: ("1", text, FEW) for name, text in OTHERS.items() if name in dataset}

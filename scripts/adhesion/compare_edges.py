@@ -13,10 +13,10 @@ from pipeline.adhesion_sets import LAWS, SOLVER
 from pipeline.conventions import DESCRIBED
 from pipeline.error_budgets import SIMULATED
 from pipeline.job import start
-from stickiness.accuracy import error_laws
 from stickiness.adhesion import dmt, equivalent_sphere
 from stickiness.core import datasets
 from stickiness.core.budget import Part, with_budget
+from stickiness.core.statistics import students_t
 
 MISSING = (
     "not resolved, fewer than 100 points of the grid drawn into contact, a window closes, or the "
@@ -37,12 +37,12 @@ def main(job):
         for path, alone in zip(job.input.realisations, job.input.alone, strict=True)
     ]
     coarse, states = (
-        xr.concat([compared(one, alone, q0_h_rms, grid) for one, alone in files], "seed")
+        xr.concat([compare(one, alone, q0_h_rms, grid) for one, alone in files], "seed")
         for grid in (0, -1)
     )
     resolved = states.effect.notnull().all("seed") & averages.dmt_ratio.notnull()
     dataset = states.mean("seed").where(resolved).assign(q0_h_rms=q0_h_rms)
-    dataset = annotated(dataset)
+    dataset = annotate(dataset)
     for name in QUOTED:
         dataset = with_budget(dataset, name, **parts(coarse[name], states[name]))
     datasets.write(
@@ -56,7 +56,7 @@ def main(job):
 def parts(coarse, fine):
     """Parts of the budget of a mean over seeds, known on two grids."""
     change = abs((fine - coarse).mean("seed", skipna=False))
-    error = error_laws.students_t(fine.sizes["seed"]) * fine.std("seed", ddof=1)
+    error = students_t(fine.sizes["seed"]) * fine.std("seed", ddof=1)
     return {
         "discretisation": Part(change, "change from half the resolution"),
         "solver": Part(SOLVER * fine.mean("seed"), "by the tolerance, as measured"),
@@ -65,7 +65,7 @@ def parts(coarse, fine):
     }
 
 
-def compared(adhesive, alone, q0_h_rms, grid):
+def compare(adhesive, alone, q0_h_rms, grid):
     """Effect of attraction, measured and modelled, for one realisation on one of its grids."""
     adhesive = adhesive.isel(resolution=grid, drop=True)
     strength = adhesive.adhesion_length_over_range / q0_h_rms
@@ -84,14 +84,14 @@ def compared(adhesive, alone, q0_h_rms, grid):
     made = datasets.parameters(adhesive)
     points = (made["grid_points"] * made["refine"]) ** 2
     drawn_in = (adhesive.repulsive_area - adhesive.area_alone) * points
-    told = drawn_in >= FEWEST_POINTS if grid else drawn_in > 0
+    reported = drawn_in >= FEWEST_POINTS if grid else drawn_in > 0
     return xr.Dataset(
         {
             "attractive_over_contact": t,
             "edge_strength": tau,
-            "effect": effect.where(told),
+            "effect": effect.where(reported),
             "effect_model": model,
-            "over_model": (effect / model).where(told),
+            "over_model": (effect / model).where(reported),
         }
     )
 
@@ -131,15 +131,15 @@ def attractive_area(areas, ranges, law):
     parts = [
         areas.isel(range=0, drop=True).copy(
             data=dmt.attraction_of_areas(
-                areas.values, areas["range"].values, LAWS[law](adhesion_length=reach, range=reach)
+                areas.values, areas["range"].values, LAWS[law](adhesion_length=range_, range=range_)
             )
         )
-        for reach in ranges.values
+        for range_ in ranges.values
     ]
     return xr.concat(parts, ranges)
 
 
-def annotated(dataset):
+def annotate(dataset):
     return datasets.annotate(
         dataset,
         pressure=DESCRIBED["pressure"],

@@ -61,7 +61,7 @@ def main(job):
         for control in CONTROLS
         for value in lengths
     }
-    dataset = annotated(gathered(curves, lengths, pixels(surface)))
+    dataset = annotate(gather(curves, lengths, pixels(surface)))
     datasets.write(
         with_quoted(dataset),
         job.output[0],
@@ -111,7 +111,7 @@ def curve(heights, length, asked, adhesion_length_over_range, control):
     return rows
 
 
-def gathered(curves, lengths, finest):
+def gather(curves, lengths, finest):
     """Curves of different lengths as one dataset, filled up with NaN."""
     longest = max(map(len, curves.values()))
     shape = len(STEPS), len(CONTROLS), len(lengths), longest
@@ -159,7 +159,7 @@ def with_quoted(dataset):
     return dataset
 
 
-def annotated(dataset):
+def annotate(dataset):
     name = "adhesion_length_over_range"
     missing = "beyond the end of the curve"
     texts = {key: ("1", text, missing) for key, text in {**STATES, **STEPPED}.items()}

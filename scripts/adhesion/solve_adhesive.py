@@ -57,7 +57,7 @@ def main(job):
     dataset = xr.concat(solved, resolution, coords="minimal")
     dataset["rms_slope"] = surface.rms_slope.sel(source="heights", drop=True)
     datasets.write(
-        annotated(dataset),
+        annotate(dataset),
         job.output[0],
         title="adhesive contact of one realisation at given mean gaps",
         parameters={
@@ -109,7 +109,7 @@ def states(heights, length, asked, chosen, tolerance=TOLERANCE):
     )
 
 
-def annotated(dataset):
+def annotate(dataset):
     return datasets.annotate(
         dataset,
         pressure=("1", "mean pressure without adhesion at the same mean gap over E* q0 h_rms"),

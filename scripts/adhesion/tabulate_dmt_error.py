@@ -4,10 +4,9 @@ import csv
 
 import numpy as np
 
-from pipeline.claims.claim import total_error
 from pipeline.job import start
 from stickiness.adhesion.model_choice import COLUMNS
-from stickiness.core import datasets
+from stickiness.core import budget, datasets
 
 
 def main(job):
@@ -22,7 +21,7 @@ def main(job):
 
 def measured(data):
     """Rows of the table for every point that the grid resolves."""
-    made, error = datasets.parameters(data), total_error(data, "dmt_ratio")
+    made, error = datasets.parameters(data), budget.total_error(data, "dmt_ratio")
     for index in np.ndindex(data.dmt_ratio.shape):
         at = dict(zip(data.dmt_ratio.dims, index, strict=True))
         point, spread = data.isel(at), float(error.isel(at))

@@ -1,212 +1,198 @@
 """What a case asks for: values at its loads, their error by source, and which source dominates."""
 
 import logging
-from typing import ClassVar
 
 import numpy as np
 import xarray as xr
 
 from pipeline.conventions import DESCRIBED, VARIANT, logarithmic_grid, spectrum_of, window_of
-from pipeline.error_budgets import BY_THEORY, QUADRATURE, SIMULATED
-from pipeline.fits import fit_one
+from pipeline.error_budgets import BY_THEORY, NOT_MEASURED, QUADRATURE, SIMULATED
 from pipeline.job import start
-from pipeline.quantities import GAP, TEXTS, statistics
+from pipeline.quantities import derive, quote, statistics
 from pipeline.theory import contact_of
-from stickiness.accuracy import error_laws, sequential
+from stickiness.accuracy.choice import seeds_enough
+from stickiness.accuracy.error_models import (
+    Settings,
+    Surface,
+    extrapolated,
+    grid_error,
+    read_models,
+    single_error,
+)
+from stickiness.accuracy.extrapolation import carrying_error
+from stickiness.accuracy.prediction import Problem, covering_factor, joint_error
+from stickiness.accuracy.quantities import COLUMNS, columns_of, has_error_model
 from stickiness.core import datasets
-from stickiness.core.budget import SOURCES, Part, absent, with_budget
+from stickiness.core.budget import SOURCES, Part, absent, part, with_budget
+from stickiness.core.statistics import students_t
 from stickiness.persson.theory import Persson
 from stickiness.surfaces.synthesis import lattice_spectrum
 
 DIMS = ("column", "pressure")
 RANGES = {"minimum": 1e-4, "maximum": 10.0, "per_decade": 16}
+BY_SIMULATION = {
+    "discretisation": "left in the limit of fine grids, or as measured if that is less",
+    "solver": "by the tolerance, as measured",
+    "sampling": "Student's t of the standard error",
+    "model": SIMULATED["model"].text,
+}
+THEORY_ALONE = {
+    "discretisation": "of the quadrature, as tested",
+    "solver": BY_THEORY["solver"].text,
+    "sampling": BY_THEORY["sampling"].text,
+    "model": "of theory in place of simulation, as measured",
+}
 
 
 def main(job):
-    plan, laws = job.params.plan, error_laws.read_laws(job.input.laws)
-    columns = [c for name in plan["quantities"] for c in error_laws.QUANTITIES[name]]
-    pressures = np.array(plan["pressures"])
-    values = np.full((len(columns), len(pressures)), np.nan)
-    errors = np.zeros((len(SOURCES), *values.shape))
-    at = Simulated(job.input, plan, laws) if plan["simulated"] else Theory(job.input, plan, laws)
-    for row, column in enumerate(columns):
-        values[row], errors[:, row] = at(column)
+    plan, fit_interval = job.params.plan, job.params.fit_interval
+    columns = list(columns_of(plan["quantities"]))
+    problem = Problem(
+        read_models(job.input.laws), Surface.of(plan["surface"]), plan["pressures"], columns
+    )
+    if plan["simulated"]:
+        settings, texts = Settings(**plan["settings"]), BY_SIMULATION
+        files = read_files(job.input)
+        found = [simulate(problem, settings, column, files) for column in columns]
+    else:
+        state = datasets.read(job.input.solved, ["area_fraction", "mean_gap", "attractive_area"])
+        state, texts = derive(state.sel(variant=VARIANT), fit_interval), THEORY_ALONE
+        found = [by_theory(problem, column, state) for column in columns]
+    values = np.array([value for value, _ in found])
+    errors = {
+        source: np.abs([parts.get(source, np.zeros_like(value)) for value, parts in found])
+        for source in SOURCES
+    }
     bandwidth = absent("the case's own spectrum")
     if "carry_to" in plan:
-        change, size = carried(plan, columns, pressures)
-        error = carrying_errors(laws, plan, columns, values, size)
+        change, size = extrapolate(plan, columns, fit_interval)
+        error = extrapolation_errors(problem, plan["carry_to"], values, size)
         bandwidth = Part(xr.DataArray(error, dims=DIMS), "of the difference that theory adds")
-        values += change
+        values = values + change
     dataset = xr.Dataset(
         {
             "value": (DIMS, values),
-            "extrapolated": ("pressure", outside(plan, pressures).astype(np.int8)),
+            "extrapolated": ("pressure", outside(problem.surface, plan).astype(np.int8)),
         },
-        coords={"column": columns, "pressure": pressures},
+        coords={"column": columns, "pressure": plan["pressures"]},
     )
     parts = {
-        source: Part(xr.DataArray(error, dims=DIMS), at.texts[source])
-        for source, error in zip(SOURCES, errors, strict=True)
-        if source != "bandwidth"
+        source: Part(xr.DataArray(errors[source], dims=DIMS), text)
+        for source, text in texts.items()
     }
-    dataset = with_budget(annotated(dataset, columns), "value", bandwidth=bandwidth, **parts)
-    if "asked" in plan and (text := missed(dataset, plan)):
-        dataset.attrs["missed"] = f"{job.wildcards.case}: {text}"
+    if lacking := [column for column in columns if not has_error_model(column)]:
+        text = f"{parts['solver'].text}; of {', '.join(lacking)} not known: {NOT_MEASURED}"
+        parts["solver"] = Part(parts["solver"].error, text)
+    dataset = with_budget(annotate(dataset), "value", bandwidth=bandwidth, **parts)
+    case = job.wildcards.case
+    if plan["accuracy"] and (text := describe_miss(dataset, problem, plan, case)):
+        dataset.attrs["missed"] = f"{case}: {text}"
         logging.warning("%s", text)
     datasets.write(
         dataset,
         job.output[0],
         title="quantities of a case and their errors",
-        parameters={**plan, "case": job.wildcards.case},
+        parameters={**plan, "case": case},
     )
 
 
-class Simulated:
-    """Values and errors that cover 90 %, by source, from the files of an ensemble."""
+def read_files(inputs):
+    """The ensemble of a case and its fits, by the names of `Column.file`."""
+    fits = {
+        name: datasets.read(inputs[name], [f"{name}_standard_error"])
+        for name in ("a_v", "kappa")
+        if inputs.get(name)
+    }
+    ensemble = datasets.read(inputs.solved, ["area_fraction_mean", "mean_gap_mean"])
+    return {"ensemble": ensemble, **fits}
 
-    texts: ClassVar = {
-        "discretisation": "left in the limit of fine grids, or as measured if that is less",
-        "solver": "by the tolerance, as measured",
-        "sampling": "Student's t of the standard error, which rounds of seeds pool with the laws'",
-        "model": SIMULATED["model"].text,
+
+def simulate(problem, settings, column, files):
+    """Values of a column at every load, and its errors by source, each covering 90 %."""
+    mean, standard_error, left = (part.values for part in statistics(column, **files))
+    if not has_error_model(column):
+        return mean, {
+            "discretisation": left,
+            "solver": np.full_like(mean, np.nan),
+            "sampling": students_t(settings.seeds) * standard_error,
+        }
+    models, surface, loads = problem.models, problem.surface, problem.pressures
+    tolerance, pixels = settings.tolerance, settings.pixels_per_wavelength
+    size = np.abs(mean)
+    by_grid = [
+        grid_error(models, column, surface, load, pixels, found)
+        for load, found in zip(loads, np.abs(left) / size, strict=True)
+    ]
+    by_solver = [
+        single_error(models, "solver", column, surface, load, tolerance=tolerance) for load in loads
+    ]
+    factor = [covering_factor(problem, settings, load, column) for load in loads]
+    return mean, {
+        "discretisation": size * by_grid,
+        "solver": size * by_solver,
+        "sampling": factor * standard_error,
     }
 
-    def __init__(self, inputs, plan, laws):
-        self.plan, self.laws = plan, laws
-        self.ensemble = datasets.read(inputs.solved, ["area_fraction_mean", "mean_gap_mean"])
-        self.fits = {
-            name: datasets.read(inputs[name], [f"{name}_standard_error"])
-            for name in ("a_v", "kappa")
-            if inputs.get(name)
-        }
-        self.drawn = None
-        if inputs.get("drawn"):
-            self.drawn = datasets.read(inputs.drawn, ["sampling_error", "state"])
-            for name in ("seeds", "coarse_seeds"):
-                plan["settings"][name] = int(self.drawn[name])
-            plan["stopped"] = sequential.STATES[int(self.drawn.state)]
 
-    def __call__(self, column):
-        """Values of a column at every load, and its errors by source."""
-        mean, sampling, grid = statistics(column, self.ensemble, **self.fits)
-        settings = error_laws.Settings(**self.plan["settings"])
-        surface, pressures = error_laws.Surface.of(self.plan["surface"]), self.plan["pressures"]
-        solver = [
-            error_laws.single_error(
-                self.laws, "solver", column, surface, p, tolerance=settings.tolerance
-            )
-            for p in pressures
-        ]
-        if self.drawn is not None:  # what the seeds were stopped by
-            covers = mean.values * self.drawn.sampling_error.sel(column=column).values
-        else:
-            factor = [
-                error_laws.covering_factor(self.laws, settings, surface, p, column)
-                for p in pressures
-            ]
-            covers = factor * sampling.values
-        size, pixels = np.abs(mean.values), settings.pixels_per_wavelength
-        grid_error = [
-            error_laws.grid_error(self.laws, column, surface, p, pixels, found)
-            for p, found in zip(pressures, np.abs(grid.values) / size, strict=True)
-        ]
-        parts = {
-            "discretisation": size * grid_error,
-            "solver": size * solver,
-            "sampling": covers,
-        }
-        return mean.values, np.abs([parts.get(source, 0 * size) for source in SOURCES])
+def by_theory(problem, column, state):
+    """The same by Persson's theory on the lattice spectrum, from a contact with all quantities."""
+    values = quote(column, state).values
+    model = [
+        single_error(problem.models, "theory", column, problem.surface, load)
+        for load in problem.pressures
+    ]
+    return values, {"discretisation": QUADRATURE["gap_density"] * values, "model": values * model}
 
 
-class Theory:
-    """Values of Persson's theory on the lattice spectrum, and what it errs by."""
-
-    texts: ClassVar = {
-        "discretisation": "of the quadrature, as tested",
-        "solver": BY_THEORY["solver"].text,
-        "sampling": BY_THEORY["sampling"].text,
-        "model": "of theory in place of simulation, as measured",
-    }
-
-    def __init__(self, inputs, plan, laws):
-        self.plan, self.laws = plan, laws
-        state = datasets.read(inputs.solved, ["area_fraction", "mean_gap", "attractive_area"])
-        self.state = state.sel(variant=VARIANT)
-
-    def __call__(self, column):
-        """Values of a column at every load, and its errors by source."""
-        values = quoted(self.state, column)
-        surface = error_laws.Surface.of(self.plan["surface"])
-        error = [
-            error_laws.single_error(self.laws, "theory", column, surface, p)
-            for p in self.plan["pressures"]
-        ]
-        parts = {"discretisation": QUADRATURE["gap_density"] * values, "model": values * error}
-        return values, np.abs([parts.get(source, 0 * values) for source in SOURCES])
-
-
-def missed(dataset, plan):
+def describe_miss(dataset, problem, plan, case):
     """What keeps a case from the accuracy that it asks for, in words; None if nothing does."""
     relative = (dataset.value_total_error / abs(dataset.value)).values
     if not np.isfinite(relative).all():
         row, at = np.argwhere(~np.isfinite(relative))[0]
-        column, load = str(dataset.column.values[row]), float(dataset.pressure[at])
+        column, load = problem.columns[row], problem.pressures[at]
         return f"error of {column} at pressure {load:g} not known"
-    error, column, load = sequential.worst(relative, sequential.Asked(**plan["asked"]))
-    if error <= plan["accuracy"]:
+    error, accuracy = float(joint_error(relative.ravel())), plan["accuracy"]
+    if error <= accuracy:
         return None
-    seeds = "{seeds} seeds and {coarse_seeds} coarse ones".format(**plan["settings"])
-    why = {
-        sequential.CAP: f"at the cap, {seeds}",
-        sequential.GRID: f"its grid errs too much for any number of seeds, {seeds} so far",
-        sequential.ENOUGH: "what theory adds of the spectrum errs too much",
-    }[plan["stopped"]]
+    row, at = np.unravel_index(relative.argmax(), relative.shape)
+    settings = Settings(**plan["settings"])
+    sampling = (part(dataset, "value", "sampling") / abs(dataset.value)).values
+    fixed = np.sqrt(np.maximum(relative**2 - sampling**2, 0))
+    enough = seeds_enough(problem, settings, accuracy, fixed, sampling)
+    remedy = (
+        f"set cases.{case}.seeds to {enough}, which is predicted to be enough"
+        if enough
+        else "no number of seeds is predicted to be enough; ask for less accuracy, or for more "
+        "than is needed, so that a finer grid is chosen"
+    )
     return (
-        f"error {error:.3g} of {plan['accuracy']:g} asked, largest in {column} at pressure "
-        f"{load:g}; {why}"
+        f"error {error:.3g} of {accuracy:g} asked, largest in {problem.columns[row]} at pressure "
+        f"{problem.pressures[at]:g}, with {settings.seeds} seeds and {settings.coarse_seeds} "
+        f"coarse ones; {remedy}"
     )
 
 
-def quoted(state, column):
-    """One column of a contact by theory, along its pressures."""
-    if column == "area":
-        return state.area_fraction.values
-    if column == "mean_gap":
-        return state.mean_gap.values
-    if column == "kappa":
-        return (state.area_fraction * state.rms_slope / state.pressure).values
-    areas, ranges = state.attractive_area, state["range"].values
-    if column == "a_v":
-        pairs = zip(areas.values, state.pressure.values, strict=True)
-        return np.array([fit_one(ranges, area, load, (0.01, 0.1))[0] for area, load in pairs])
-    if column == "gap_distribution":
-        here = np.argmin(np.abs(np.log(ranges[1:] * ranges[:-1]) / 2 - np.log(GAP)))
-        return (areas.diff("range").isel(range=here) / np.diff(ranges)[here]).values
-    return areas.sel(range=float(column.rsplit("_", 1)[1]), method="nearest").values
-
-
-def outside(plan, pressures):
-    """Where surface, load, grid or tolerance is outside what the laws were measured on, by load."""
-    surface, settings = error_laws.Surface.of(plan["surface"]), plan["settings"]
+def outside(surface, plan):
+    """Where surface, load, grid or tolerance is outside what was measured, by load."""
+    settings = plan["settings"]
     knobs = (settings["pixels_per_wavelength"], settings["tolerance"]) if plan["simulated"] else ()
-    return np.array([error_laws.extrapolated(surface, p, *knobs) for p in pressures])
+    return np.array([extrapolated(surface, load, *knobs) for load in plan["pressures"]])
 
 
-def carrying_errors(laws, plan, columns, values, size):
+def extrapolation_errors(problem, carry_to, values, size):
     """Error of theory's difference, covering 90 %, by column and load."""
-    surface = error_laws.Surface.of(plan["surface"])
-    loads = list(zip(plan["pressures"], size, strict=True))
+    loads = list(zip(problem.pressures, size, strict=True))
     share = [
         [
-            error_laws.carrying_error(laws, surface, plan["carry_to"], change, column, p)
-            for p, change in loads
+            carrying_error(problem.models, problem.surface, carry_to, change, column, load)
+            for load, change in loads
         ]
-        for column in columns
+        for column in problem.columns
     ]
     return share * np.abs(values)
 
 
-def carried(plan, columns, pressures):
+def extrapolate(plan, columns, fit_interval):
     """What theory says that a broader spectrum adds to each column, and what it takes of the area.
 
     The difference, not the ratio: from magnification 64 to 512 it leaves half the error of the
@@ -214,20 +200,26 @@ def carried(plan, columns, pressures):
     """
     surface, ranges = plan["surface"], logarithmic_grid(RANGES)
     own, broad = (
-        contact_of(
-            Persson(lattice_spectrum(spectrum_of(asked), window_of(asked))), pressures, ranges
+        derive(
+            contact_of(
+                Persson(lattice_spectrum(spectrum_of(asked), window_of(asked))),
+                plan["pressures"],
+                ranges,
+            ),
+            fit_interval,
         )
         for asked in (surface, surface | {"magnification": plan["carry_to"]})
     )
-    change = np.array([quoted(broad, column) - quoted(own, column) for column in columns])
-    size = np.abs(quoted(broad, "area") / quoted(own, "area") - 1)
-    return change, size
+    change = [quote(column, broad).values - quote(column, own).values for column in columns]
+    size = np.abs(quote("area", broad).values / quote("area", own).values - 1)
+    return np.array(change), size
 
 
-def annotated(dataset, columns):
+def annotate(dataset):
+    columns = dataset.column.values
     return datasets.annotate(
         dataset,
-        column=("1", "; ".join(f"{column}: {TEXTS[column]}" for column in columns)),
+        column=("1", "; ".join(f"{column}: {COLUMNS[column].text}" for column in columns)),
         pressure=DESCRIBED["pressure"],
         value=("1", "value of the column at a load"),
         extrapolated=(

@@ -3,82 +3,85 @@
 import numpy as np
 import xarray as xr
 
-from pipeline.claims.ledger import CLAIMS
+from pipeline.claims import CLAIMS
 from pipeline.job import start
 from pipeline.tables import table
 from stickiness.core import budget, datasets
 from stickiness.criteria.errata import ERRATA
 
+COLUMNS = {
+    "statement": ("what the paper claims",),
+    "quantity": ("what the value is, with its unit",),
+    "value": ("measured value, in the unit that `quantity` names",),
+    "comment": ("what the errors are, or why they are not known or do not apply",),
+    "claimed": ("the paper's value", "the paper gives none"),
+    "verdict": ("verdict",),
+    "remark": ("qualification or reason",),
+    "sources": ("files that the value came from",),
+}
+NUMBERS = ("value", "claimed")  # all other columns are texts
+
 
 def main(job):
-    paths = ledger_files(job.input)
-    files = {name: datasets.read(path) for name, path in paths.items()}
-    claims = [judge(files) for judge in CLAIMS]
-    sources = [source_paths(claim, paths) for claim in claims]
+    paths = input_paths(job.input, CLAIMS)
+    files = {name: read(path) for name, path in paths.items()}
+    findings = [claim(files) for claim in CLAIMS]
+    sources = [source_paths(claim, paths) for claim in CLAIMS]
     datasets.write(
-        to_dataset(claims, sources),
+        to_dataset(CLAIMS, findings, sources),
         job.output.dataset,
         title="claims of the paper, recomputed",
         parameters={"errata": {str(erratum.number): erratum.recompute() for erratum in ERRATA}},
     )
     with datasets.whole_file(job.output.table) as path:
-        path.write_text(markdown(claims, sources), encoding="utf-8")
+        path.write_text(to_markdown(CLAIMS, findings, sources), encoding="utf-8")
 
 
-def ledger_files(inputs):
-    """Files by the names that the claims use."""
-    several = {"surfaces": "surface", "seeds": "seed", "library": None}
-    paths = {name: inputs[name] for name in inputs.keys() if name not in several}  # noqa: SIM118
-    for group, prefix in several.items():
-        if prefix:
-            paths |= {f"{prefix}:{path}": path for path in inputs[group]}
+def input_paths(inputs, claims):
+    """Paths, or lists of paths, by the names that the claims use."""
+    paths = {}
+    for claim in claims:
+        for name in claim.files:
+            if name not in inputs.keys():  # noqa: SIM118  iterating gives paths
+                known = ", ".join(sorted(inputs.keys()))
+                raise ValueError(
+                    f"claim {claim.number} reads {name!r}, which the rule check_claims does not "
+                    f"give; it gives {known}: add the file to ledger_inputs in rules/"
+                )
+            paths[name] = inputs[name]
     return paths
 
 
+def read(path):
+    return datasets.read(path) if isinstance(path, str) else [datasets.read(one) for one in path]
+
+
 def source_paths(claim, paths):
-    """Files behind a claim, each once; one name may stand for a group of files."""
-    groups = {"seeds": "seed:", "surfaces": "surface:"}
-    found = []
-    for name in claim.sources:
-        if name in groups:
-            found += [path for key, path in paths.items() if key.startswith(groups[name])]
-        else:
-            found.append(paths[name])
+    """Files behind a claim, each once; one name may stand for several files."""
+    groups = (paths[name] for name in claim.files)
+    found = [path for group in groups for path in ([group] if isinstance(group, str) else group)]
     return list(dict.fromkeys(found))
 
 
-def to_dataset(claims, sources):
-
-    def column(name, dtype=None):
-        return "claim", np.array([getattr(claim, name) for claim in claims], dtype=dtype)
-
+def to_dataset(claims, findings, sources):
+    columns = {
+        "statement": [claim.statement for claim in claims],
+        "sources": map(" ".join, sources),
+    }
+    for name in COLUMNS.keys() - columns.keys():
+        columns[name] = [getattr(finding, name) for finding in findings]
     dataset = xr.Dataset(
         {
-            "statement": column("statement", object),
-            "quantity": column("quantity", object),
-            "value": column("value", float),
-            "comment": column("comment", object),
-            "claimed": column("claimed", float),
-            "verdict": column("verdict", object),
-            "remark": column("remark", object),
-            "sources": ("claim", np.array([" ".join(files) for files in sources], dtype=object)),
+            name: ("claim", np.array(list(columns[name]), float if name in NUMBERS else object))
+            for name in COLUMNS
         },
         coords={"claim": [claim.number for claim in claims]},
     )
-    dataset = datasets.annotate(
-        dataset,
-        claim=("1", "number of the claim"),
-        statement=("1", "what the paper claims"),
-        quantity=("1", "what the value is, with its unit"),
-        value=("1", "measured value, in the unit that `quantity` names"),
-        comment=("1", "what the errors are, or why they are not known or do not apply"),
-        claimed=("1", "the paper's value", "the paper gives none"),
-        verdict=("1", "verdict"),
-        remark=("1", "qualification or reason"),
-        sources=("1", "files that the value came from"),
-    )
+    texts = {name: ("1", *texts) for name, texts in COLUMNS.items()}
+    dataset = datasets.annotate(dataset, claim=("1", "number of the claim"), **texts)
     errors = {
-        source: [claim.errors.get(source, 0.0) for claim in claims] for source in budget.SOURCES
+        source: [finding.errors.get(source, 0.0) for finding in findings]
+        for source in budget.SOURCES
     }
     parts = {
         source: budget.Part(xr.DataArray(error, dims="claim"), "see the comment of each claim")
@@ -87,23 +90,24 @@ def to_dataset(claims, sources):
     return budget.with_budget(dataset, "value", **parts)
 
 
-def markdown(claims, sources):
+def to_markdown(claims, findings, sources):
     rows = [
         (
             claim.number,
             claim.statement,
-            f"**{claim.verdict}**",
-            f"{claim.quantity}: {number(claim.value, claim.uncertainty)}",
-            dominant(claim),
-            "" if np.isnan(claim.claimed) else f"{claim.claimed:.4g}",
-            claim.remark,
+            f"**{found.verdict}**",
+            f"{found.quantity}: {with_error(found.value, found.uncertainty)}",
+            name_dominant(found),
+            "" if np.isnan(found.claimed) else f"{found.claimed:.4g}",
+            found.remark,
             "; ".join(files) or "closed form",
         )
-        for claim, files in zip(claims, sources, strict=True)
+        for claim, found, files in zip(claims, findings, sources, strict=True)
     ]
     columns = ("#", "claim", "verdict", "measured", "error by", "claimed", "remark", "from")
     errata = [
-        (e.number, e.subject, e.printed, e.correct, e.proof, numbers(e.recompute())) for e in ERRATA
+        (e.number, e.subject, e.printed, e.correct, e.proof, list_numbers(e.recompute()))
+        for e in ERRATA
     ]
     heads = ("#", "subject", "printed", "correct", "proof", "recomputed")
     return (
@@ -114,22 +118,22 @@ def markdown(claims, sources):
     )
 
 
-def dominant(claim):
+def name_dominant(finding):
     """Largest source of the error; of those not known, all."""
-    unknown = [source for source, error in claim.errors.items() if np.isnan(error)]
+    unknown = [source for source, error in finding.errors.items() if np.isnan(error)]
     if unknown:
         return f"{', '.join(unknown)} (not known)"
-    return max(claim.errors, key=claim.errors.get) if claim.uncertainty else ""
+    return max(finding.errors, key=finding.errors.get) if finding.uncertainty else ""
 
 
-def number(value, uncertainty):
+def with_error(value, uncertainty):
     if uncertainty == 0:
         return f"{value:.4g} (exact)"
     error = "" if np.isnan(uncertainty) else f" ± {uncertainty:.2g}"
     return f"{value:.4g}{error}"
 
 
-def numbers(recomputed):
+def list_numbers(recomputed):
     return ", ".join(f"{name} = {value:.4g}" for name, value in recomputed.items())
 
 

@@ -1,22 +1,22 @@
 """Average the realisations of a case: means, standard errors and discretisation errors.
 
-The means are those in the limit of fine grids, by `stickiness.continuum`.
+The means are those in the limit of fine grids, by `stickiness.contact.grid_limit`.
 
 The coarse solutions of further seeds, if the case has them, are kept beside the values seed by
 seed, so that whatever is derived from those is averaged in the same way.
 """
 
-from pipeline.ensembles import annotated, budgeted, ensemble_of, wanted
+from pipeline.ensembles import add_budgets, annotate, choose_means, ensemble_of
 from pipeline.job import start
 from stickiness.core import datasets
 
 
 def main(job):
-    averaged = wanted(job.params.quantities)
+    averaged = choose_means(job.params.quantities)
     dataset, parameters = ensemble_of(job.input, list(job.params.pressures), averaged)
     parameters["case"] = job.wildcards.case
     datasets.write(
-        budgeted(annotated(dataset, averaged), parameters, job.input.laws, averaged),
+        add_budgets(annotate(dataset, averaged), parameters, job.input.laws, averaged),
         job.output[0],
         title="repulsive contact averaged over realisations",
         parameters=parameters,

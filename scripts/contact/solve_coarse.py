@@ -1,13 +1,13 @@
 """Coarse contact solutions of many realisations, which correct the mean of a few fine ones.
 
-The seeds begin where those of the fine solutions can never reach. Their surfaces are solved on 2
-pixels per shortest wavelength, as every fine one is too; those of the last and largest set of
-seeds are not solved at all but only described by their long waves.
+Their seeds are different from those of the fine solutions. Each surface is solved on 2 pixels per
+shortest wavelength, as every fine one is too. Still more surfaces are not solved: only their long
+waves are described.
 """
 
 import numpy as np
 
-from pipeline.coarse_solutions import annotated, coarse_solutions
+from pipeline.coarse_solutions import annotate, coarse_solutions
 from pipeline.contact_curves import COARSE
 from pipeline.conventions import grid_points, logarithmic_grid
 from pipeline.job import start
@@ -23,9 +23,10 @@ def main(job):
         np.sort(job.params.pressures),
         logarithmic_grid(job.params.gaps),
         job.params.tolerance,
+        job.params.measured,
     )
     datasets.write(
-        annotated(dataset),
+        annotate(dataset),
         job.output[0],
         title="coarse contact solutions and long waves of many realisations",
         parameters={
@@ -40,4 +41,4 @@ def main(job):
 
 
 if __name__ == "__main__":
-    main(start(globals(), "solve_coarse", case="H0.8_zeta64"))
+    main(start(globals(), "solve_coarse", case="H0.8_zeta64", part="1-64"))

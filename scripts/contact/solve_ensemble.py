@@ -9,9 +9,15 @@ import logging
 import numpy as np
 import xarray as xr
 
-from contact import solve_coarse, solve_repulsive
+from pipeline import coarse_solutions, contact_curves
 from pipeline.conventions import grid_points, logarithmic_grid, spectrum_of, window_of
-from pipeline.ensembles import annotated, budgeted, renamed, sampled, with_statistics
+from pipeline.ensembles import (
+    add_budgets,
+    add_statistics,
+    annotate,
+    describe_sampling,
+    rename_coarse,
+)
 from pipeline.job import start
 from stickiness.core import datasets
 from stickiness.surfaces import synthesis
@@ -28,9 +34,9 @@ def main(job):
     others = xr.Dataset()
     if params.coarse_seeds:
         count = range(params.coarse_seeds), params.descriptor_seeds
-        others = solve_coarse.coarse_solutions(asked, *count, *curves)
-        others = renamed(solve_coarse.annotated(others))
-    dataset = with_statistics(solve_repulsive.annotated(fine), others)
+        others = coarse_solutions.coarse_solutions(asked, *count, *curves)
+        others = rename_coarse(coarse_solutions.annotate(others))
+    dataset = add_statistics(contact_curves.annotate(fine), others)
     parameters = {
         **asked,
         "case": job.wildcards.comparison,
@@ -40,9 +46,9 @@ def main(job):
         "pixels_per_wavelength": params.pixels_per_wavelength,
         "grid_points": grid_points(asked, params.pixels_per_wavelength),
     }
-    parameters |= sampled(parameters, dataset)
+    parameters |= describe_sampling(parameters, dataset)
     datasets.write(
-        budgeted(annotated(dataset), parameters, job.input.laws),
+        add_budgets(annotate(dataset), parameters, job.input.laws),
         job.output[0],
         title="repulsive contact averaged over realisations",
         parameters=parameters,
@@ -56,8 +62,8 @@ def realisation(asked, seed, pixels_per_wavelength, curves):
     heights = synthesis.synthesise(
         spectrum_of(asked), n, length, seed, asked.get("amplitudes", "gaussian")
     )
-    steps = solve_repulsive.steps_of(pixels_per_wavelength)
-    dataset = solve_repulsive.load_curves(heights, length, steps, *curves)
+    steps = contact_curves.steps_of(pixels_per_wavelength)
+    dataset = contact_curves.load_curves(heights, length, steps, *curves)
     waves = asked["magnification"] * asked.get("window", 1.0)
     dataset["rms_slope"] = synthesis.moments(heights, length).rms_slope
     return dataset.assign_coords(resolution=n / waves / np.array(steps))

@@ -7,7 +7,7 @@ wavelength is the control of `solve_coarse`'s many others.
 
 import numpy as np
 
-from pipeline.contact_curves import annotated, load_curves, steps_of
+from pipeline.contact_curves import annotate, load_curves, steps_of
 from pipeline.conventions import logarithmic_grid, pixels
 from pipeline.job import start
 from stickiness.core import datasets
@@ -19,11 +19,12 @@ def main(job):
     ranges = logarithmic_grid(job.params.gaps)
     heights, length = surface.height.values, float(surface.window_length)
     steps = steps_of(job.params.pixels_per_wavelength)
-    dataset = load_curves(heights, length, steps, pressures, ranges, job.params.tolerance)
+    path = pressures, ranges, job.params.tolerance
+    dataset = load_curves(heights, length, steps, *path, job.params.measured)
     dataset = dataset.assign_coords(resolution=pixels(surface) / np.array(steps))
     dataset["rms_slope"] = surface.rms_slope.sel(source="heights", drop=True)
     datasets.write(
-        annotated(dataset),
+        annotate(dataset),
         job.output[0],
         title="repulsive contact of one realisation along its load path",
         parameters={

@@ -1,8 +1,8 @@
 """Adhesion that each criterion asks for, over roughness and over the shortest wavelength.
 
-Surfaces with one Hurst exponent, the range as unit of length: once over h_rms at fixed cutoffs,
-once over the magnification at fixed h_rms and longest wavelength, which tells what criteria make
-of the finest waves.
+Surfaces with one Hurst exponent, the range as unit of length: once over h_rms at a fixed
+magnification, once over the magnification at fixed h_rms and longest wavelength. The second shows
+the influence of the finest waves on each criterion.
 """
 
 from dataclasses import replace
@@ -12,33 +12,41 @@ import xarray as xr
 
 from pipeline.conventions import logarithmic_grid
 from pipeline.job import start
-from pipeline.verdicts.a_v import CLOSED, between, measured_a_v
-from pipeline.verdicts.thresholds import threshold
-from stickiness import criteria
-from stickiness.adhesion import equivalent_sphere
+from pipeline.verdicts.a_v import CLOSED, between, measure_a_v
 from stickiness.core import datasets
 from stickiness.core.budget import with_budget
 from stickiness.criteria.a_v_table import NEEDED, AvTable
+from stickiness.criteria.pair import Pair
+from stickiness.criteria.registry import CRITERIA, EDGES
 from stickiness.surfaces.spectrum import SelfAffine
 
-EDGES = "edge_adhesion"
 LOW, HIGH = f"{EDGES}_low", f"{EDGES}_high"
 
 
 def main(job):
     asked, load = job.params.compared, job.params.pressure
     table = AvTable(datasets.read(job.input.a_v_table, NEEDED))
-    constant = measured_a_v(job.input, load).value
+    constant = measure_a_v(job.input, load).value
+    dataset = compare(asked, load, table, constant)
+    datasets.write(
+        add_budgets(describe(dataset)),
+        job.output[0],
+        title="adhesion at the threshold of stickiness by every criterion",
+        parameters={**asked, "pressure": load, "constant_a_v": constant},
+    )
+
+
+def compare(asked, load, table, constant):
+    """Thresholds over roughness and over magnification, each with the other held."""
     roughness = logarithmic_grid(asked["h_rms_over_range"])
     zetas = logarithmic_grid(asked["magnification"])
+    one_zeta = np.full_like(roughness, asked["quoted_magnification"])
+    one_height = np.full_like(zetas, asked["quoted_h_rms_over_range"])
     over_h, over_zeta = (
-        thresholds(asked["hurst"], asked["range_times_q0"], *at, load, table, constant)
-        for at in (
-            (roughness, np.full_like(roughness, asked["quoted_magnification"])),
-            (np.full_like(zetas, asked["quoted_h_rms_over_range"]), zetas),
-        )
+        find_thresholds(model_pair(asked, h, zeta, load, table, constant))
+        for h, zeta in ((roughness, one_zeta), (one_height, zetas))
     )
-    dataset = xr.Dataset(
+    return xr.Dataset(
         {
             "against_roughness": (("criterion", "h_rms_over_range"), list(over_h.values())),
             "against_magnification": (("criterion", "magnification"), list(over_zeta.values())),
@@ -49,46 +57,44 @@ def main(job):
             "criterion": list(over_h),
         },
     )
-    datasets.write(
-        budgeted(annotated(dataset)),
-        job.output[0],
-        title="adhesion at the threshold of stickiness by every criterion",
-        parameters={**asked, "pressure": load, "constant_a_v": constant},
-    )
 
 
-def thresholds(hurst, q0, h, zeta, load, table, constant):
-    """Adhesion length over range at which each criterion begins to call surfaces sticky."""
+def model_pair(asked, h_rms, magnification, load, table, constant):
+    """`Pair` of self-affine surfaces with the range and its adhesion length as unit of length."""
+    hurst, q0 = asked["hurst"], asked["range_times_q0"]
     spectra = [
-        SelfAffine(hurst=hurst, q0=q0, q1=q0 * one, h_rms=rms)
-        for rms, one in zip(h, zeta, strict=True)
+        SelfAffine(hurst=hurst, q0=q0, q1=q0 * zeta, h_rms=h)
+        for h, zeta in zip(h_rms, magnification, strict=True)
     ]
-    slope, curvature, energy = np.transpose(
-        [(s.rms_slope, s.rms_curvature, s.elastic_energy()) for s in spectra]
+    a_v = table.a_v_at(hurst, load, 1 / h_rms, magnification)
+    return Pair(
+        h_rms=h_rms,
+        q0=q0,
+        rms_slope=np.array([s.rms_slope for s in spectra]),
+        rms_curvature=np.array([s.rms_curvature for s in spectra]),
+        elastic_energy=np.array([s.elastic_energy() for s in spectra]),
+        modulus=1.0,
+        work_of_adhesion=1.0,
+        range=1.0,
+        a_v=a_v.value,
+        a_v_low=a_v.low,
+        a_v_high=a_v.high,
+        constant_a_v=constant,
     )
-    a_v = table.a_v_at(hurst, load, 1 / h, zeta)
-    verdicts = {
-        "violano": criteria.violano(h, q0, 1.0, 1.0, a_v.value),
-        "violano_constant": criteria.violano(h, q0, 1.0, 1.0, constant),
-        "violano_printed": criteria.violano_printed(h, q0, 1.0, 1.0),
-        "pastewka_robbins": criteria.pastewka_robbins(slope, curvature, 1.0, 1.0),
-        "fuller_tabor": criteria.fuller_tabor(h, curvature, 1.0),
-        "bearing_area": criteria.bearing_area(h, q0, 1.0, 1.0),
-        "persson_tosatti": criteria.persson_tosatti(energy, 1.0),
+
+
+def find_thresholds(pair):
+    """Adhesion length over range at which each criterion begins to call surfaces sticky."""
+    found = {
+        name: criterion.adhesion_length_threshold(pair)
+        for name, criterion in CRITERIA.items()
+        if criterion.has_length and name != EDGES
     }
-    found = {name: threshold(name, verdict.margin, 1.0) for name, verdict in verdicts.items()}
-    by_edges = equivalent_sphere.adhesion_length_threshold
-    for name, limit, sign in ((EDGES, "value", 0), (LOW, "high", 1), (HIGH, "low", -1)):
-        prefactor = getattr(a_v, limit)
-        length = by_edges(h, q0, slope, 1.0, prefactor)
-        # The model's error is that at the threshold it has without.
-        error = equivalent_sphere.attraction(h, q0, slope, length, 1.0, prefactor).error_factor
-        found[name] = by_edges(h, q0, slope, 1.0, prefactor, error**sign)
-    return found
+    return found | dict(zip((EDGES, LOW, HIGH), pair.edge_thresholds(), strict=True))
 
 
-def budgeted(dataset):
-    """Thresholds with their errors; criteria but that of the edges state none."""
+def add_budgets(dataset):
+    """Add error budgets to the thresholds; only that of the edges states an error."""
     for name in ("against_roughness", "against_magnification"):
         value = dataset[name]
         ends = (value.sel(criterion=end, drop=True) for end in (LOW, HIGH))
@@ -98,7 +104,7 @@ def budgeted(dataset):
     return dataset
 
 
-def annotated(dataset):
+def describe(dataset):
     text = "adhesion length over range above which the criterion calls the surface sticky"
     return datasets.annotate(
         dataset,

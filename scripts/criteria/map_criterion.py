@@ -6,7 +6,7 @@ from scipy.optimize import elementwise
 
 from pipeline.conventions import logarithmic_grid
 from pipeline.job import start
-from pipeline.verdicts.a_v import CLOSED, between, measured_a_v
+from pipeline.verdicts.a_v import CLOSED, between, measure_a_v
 from stickiness import criteria
 from stickiness.adhesion import area_load, equivalent_sphere
 from stickiness.core import datasets
@@ -17,12 +17,12 @@ from stickiness.surfaces.spectrum import SelfAffine
 
 def main(job):
     asked = job.params.map
-    constant = measured_a_v(job.input, job.params.pressure)
+    constant = measure_a_v(job.input, job.params.pressure)
     table = AvTable(datasets.read(job.input.a_v_table, NEEDED))
-    dataset = limits(asked, constant, Roughness(table, asked, job.params.pressure))
-    dataset = dataset.merge(slopes(asked["slope_parameter"], asked["slope_a_v"]))
+    dataset = find_limits(asked, constant, Roughness(table, asked, job.params.pressure))
+    dataset = dataset.merge(find_slopes(asked["slope_parameter"], asked["slope_a_v"]))
     datasets.write(
-        budgeted(annotated(dataset), constant),
+        add_budgets(describe(dataset), constant),
         job.output[0],
         title="map of the stickiness criterion",
         parameters={**asked, "pressure": job.params.pressure},
@@ -40,7 +40,7 @@ class Roughness:
         self.largest = 1 / table.bounds["range"][0]  # h_rms/range at which a_V is still known
 
     def magnification(self, q0):
-        """q1/q0, at least what the table of a_V begins with."""
+        """q1/q0, at least the smallest in the table of a_V."""
         return np.maximum(self._q1 / q0, self._narrowest)
 
     def slope(self, h, q0):
@@ -55,9 +55,10 @@ class Roughness:
     def a_v(self, h, q0, which):
         """Value, low or high limit of a_V at the range over h.
 
-        Beyond the table's magnifications the finest waves matter through their height over the
-        range only: a_V is that of the largest magnification tabulated, at a range as large
-        against its finest waves, times what infinite magnification changes between the two.
+        Beyond the magnifications of the table only the height of the finest waves over the range
+        matters. a_V is then that of the largest magnification in the table, at a range as large
+        compared with its finest waves, times the change of a_V at infinite magnification between
+        the two ranges.
         """
         reach, zeta = 1 / h, self.magnification(q0)
         held = np.minimum(zeta, self._broadest)
@@ -69,7 +70,7 @@ class Roughness:
         return self._table.a_v_at(self._hurst, self._pressure, reach, zeta)
 
 
-def limits(asked, constant, roughness):
+def find_limits(asked, constant, roughness):
     """Largest h_rms/range that sticks by every form of the criterion, and where the forms hold.
 
     With the range as unit of length only range q0, l_a/range and the shortest wavelength remain.
@@ -108,7 +109,8 @@ def limits(asked, constant, roughness):
         "weak_limit": strength,
     }
     data = {
-        name: (dims, largest(ratio, *at, roughness.largest)) for name, ratio in implicit.items()
+        name: (dims, find_largest(ratio, *at, roughness.largest))
+        for name, ratio in implicit.items()
     }
     for name, value in (("constant", constant.value), ("printed", criteria.PRINTED_A_V)):
         data[f"h_rms_limit_{name}"] = dims, criteria.h_rms_limit(*at, 1.0, value)
@@ -117,7 +119,7 @@ def limits(asked, constant, roughness):
     return xr.Dataset(data | scalars, coords=dict(zip(dims, (q0, length), strict=True)))
 
 
-def largest(ratio, q0, length, end):
+def find_largest(ratio, q0, length, end):
     """Find the h_rms at which a ratio that falls with it passes 1, from 1 to `end`; NaN if none."""
     ends = np.zeros_like(q0), np.full_like(q0, np.log(end))
     found = elementwise.find_root(
@@ -129,7 +131,7 @@ def largest(ratio, q0, length, end):
     return np.where(found.success, np.exp(found.x), np.nan)
 
 
-def slopes(parameters, a_v):
+def find_slopes(parameters, a_v):
     """Angle of the area-load line against h_rms/range for range q0/(l_a/range) = parameter."""
     roughness = np.geomspace(0.1, 100, 301)
     angles = [
@@ -144,8 +146,8 @@ def slopes(parameters, a_v):
     )
 
 
-def budgeted(dataset, constant):
-    """Limits and the constant a_V with their errors."""
+def add_budgets(dataset, constant):
+    """Add error budgets to the limits and the constant a_V."""
     for name in ("h_rms_limit", "h_rms_limit_edges"):
         ends = (dataset[f"{name}{end}"] for end in ("", "_low", "_high"))
         dataset = with_budget(dataset, name, model=between(*ends), **CLOSED)
@@ -155,7 +157,7 @@ def budgeted(dataset, constant):
     return with_budget(dataset, "h_rms_limit_constant", **parts)
 
 
-def annotated(dataset):
+def describe(dataset):
     limit = "largest h_rms/range that sticks"
     edges = f"{limit}, by the edges of contact"
     missing = "none for which a_V is tabulated, or none above 1"

@@ -1,35 +1,18 @@
 """Figure 1: distribution of gaps by Persson's theory, its convergence, and simulation."""
 
 import numpy as np
-import xarray as xr
 
 from pipeline.conventions import VARIANT
-from pipeline.job import start
-from pipeline.numbers import number
-from pipeline.pages.style import (
-    COLOURS,
-    GREY,
-    VARIANT_LABELS,
-    VARIANT_LINES,
-    apart,
-    canvas,
-    guide,
-    key,
-    letters,
-    plain_ticks,
-    save,
-    shades,
-    total_error,
-    with_model,
-)
+from pipeline.pages import style
 from pipeline.theory import between_corrections
 from stickiness.core import datasets
 
 GAPS = [0.003, 0.01, 0.03, 0.1, 0.3, 1.0]  # over h_rms, of panel B
 LOADS = [0.0065, 0.065, 0.26]  # over E* q0 h_rms, of panel C
-REFERENCE_GAP = 0.03  # where the guide u^(-1/3) of panel B is anchored
-GAP_LABEL = r"gap $u/h_\mathrm{rms}$"
-DENSITY_LABEL = r"probability density $h_\mathrm{rms}P(u)$"
+REFERENCE_GAP = 0.03  # over h_rms, where the power law u^(-1/3) of panel B is anchored
+LARGEST_POWER_LAW_GAP = 0.1  # over h_rms, beyond which that power law does not hold
+LOWEST_DENSITY = 1e-6  # a band down to zero has no lower end on a log axis
+DENSITY = r"probability density $h_\mathrm{rms}P(u)$"
 
 
 def main(job):
@@ -37,123 +20,118 @@ def main(job):
     convergence = datasets.read(job.input.convergence, ["gap_density"])
     ensemble = datasets.read(job.input.ensemble, ["gap_density_mean", "edge_gap_mean"])
     lattice = datasets.read(job.input.lattice, ["gap_density"])
-    figure, panels = canvas("AB;CC", 5.9, height_ratios=[1, 1.05])
-    panel_a(panels["A"], density)
-    panel_b(panels["B"], convergence)
-    panel_c(panels["C"], ensemble, lattice)
-    letters(panels)
-    save(figure, job.output)
+    with style.lettered_figure(job.output, "AB;CC", 5.9, height_ratios=[1, 1.05]) as panels:
+        draw_magnifications(panels["A"], density)
+        draw_convergence(panels["B"], convergence)
+        draw_simulation(panels["C"], ensemble, lattice)
 
 
-def panel_a(ax, theory):
-    """P(u) at a given mean gap for a few magnifications."""
+def draw_magnifications(ax, theory):
+    """P(u) at a given mean gap for a few magnifications, with the power law -1/3."""
     hurst, theory = float(theory.hurst[0]), theory.isel(hurst=0, load=0)
-    for colour, magnification in zip(COLOURS, theory.magnification.values, strict=False):
+    for colour, magnification in zip(style.COLOURS, theory.magnification.values, strict=False):
         density = theory.gap_density.sel(magnification=magnification)
-        banded(ax, density, colour)
-        for variant, line in VARIANT_LINES.items():
-            curve = density.sel(variant=variant)
-            ax.loglog(curve.gap, curve, line, color=colour)
-        ax.plot([], [], color=colour, label=rf"$\zeta$ = {number(magnification)}")
+        style.band(ax, theory.gap, *between_corrections(density), colour)
+        draw_variants(ax, density, color=colour)
+        ax.plot([], [], color=colour, label=style.state(magnification=magnification))
     u = np.array([1e-3, 1e-1])
-    guide(ax, u, 0.9 * (u / u[0]) ** (-1 / 3), r"$u^{-1/3}$", (1.2e-2, 0.43))
-    mean = float(theory.mean_gap.mean())
-    ax.set(xlabel=GAP_LABEL, ylabel=DENSITY_LABEL, xlim=(1e-4, 10), ylim=(2e-2, 3))
-    ax.set_title(rf"$H$ = {hurst:g}, $\bar{{u}}/h_\mathrm{{rms}}$ = {mean:.3g}")
+    style.guide(ax, u, 0.9 * (u / u[0]) ** (-1 / 3), r"$u^{-1/3}$", (1.2e-2, 0.43))
+    ax.set(xscale="log", yscale="log", xlabel=style.GAP, ylabel=DENSITY)
+    ax.set(xlim=(1e-4, 10), ylim=(2e-2, 3))
+    ax.set_title(style.state(hurst=hurst, mean_gap=float(theory.mean_gap.mean())))
     handles, _ = ax.get_legend_handles_labels()
     ax.legend(handles=handles + variant_keys(), loc="lower left")
 
 
-def banded(ax, density, colour):
-    """Band between the corrections of the theory."""
-    low, high = between_corrections(density)
-    ax.fill_between(low.gap, low, high, color=colour, alpha=0.3, linewidth=0)
+def draw_variants(ax, density, **look):
+    for variant, line in style.VARIANT_LINES.items():
+        ax.plot(density.gap, density.sel(variant=variant), line, **look)
 
 
 def variant_keys():
-    return [key(linestyle=VARIANT_LINES[name], label=text) for name, text in VARIANT_LABELS.items()]
+    return [
+        style.key(text, linestyle=style.VARIANT_LINES[name])
+        for name, text in style.VARIANT_LABELS.items()
+    ]
 
 
-def panel_b(ax, theory):
+def draw_convergence(ax, theory):
     """P at fixed gaps against magnification, and where u^(-1/3) would put the limits."""
-    hurst = float(theory.hurst[0])
-    every = theory.isel(hurst=0, load=0)
-    theory = every.sel(variant=VARIANT)
-    limit = float(at_gap(theory, REFERENCE_GAP)[-1])
-    last = float(theory.magnification[-1])
-    curves = [at_gap(theory, gap) for gap in GAPS]
-    labels = apart([curve[-1] for curve in curves], 1.15)
-    for colour, gap, curve, label in zip(shades(len(GAPS)), GAPS, curves, labels, strict=True):
-        ax.loglog(theory.magnification, curve, ".-", color=colour)
-        low, high = (
-            at_gap(xr.Dataset({"gap_density": end}), gap)
-            for end in between_corrections(every.gap_density)
-        )
-        ax.fill_between(theory.magnification, low, high, color=colour, alpha=0.3, linewidth=0)
-        ax.text(1.7 * last, label, f"{gap:g}", color=colour, va="center", fontsize=8)
-        if gap <= 0.1:  # beyond, the power law does not hold
+    hurst, theory = float(theory.hurst[0]), theory.isel(hurst=0, load=0)
+    zeta, density = theory.magnification, theory.gap_density
+    corrections = between_corrections(density)
+    curves = [at_gap(density.sel(variant=VARIANT), gap) for gap in GAPS]
+    limit, last = curves[GAPS.index(REFERENCE_GAP)][-1], float(zeta[-1])
+    heights = style.apart([curve[-1] for curve in curves], 1.15)
+    for (colour, gap), curve, height in zip(style.in_shades(GAPS), curves, heights, strict=True):
+        ax.plot(zeta, curve, ".-", color=colour)
+        style.band(ax, zeta, *(at_gap(end, gap) for end in corrections), colour)
+        ax.text(1.7 * last, height, f"{gap:g}", color=colour, va="center", fontsize=8)
+        if gap <= LARGEST_POWER_LAW_GAP:
             level = limit * (gap / REFERENCE_GAP) ** (-1 / 3)
-            ax.plot([last / 30, last], [level, level], ":", color=GREY, linewidth=1.1)
-    mean = float(theory.mean_gap.mean())
-    ax.set_title(rf"$H$ = {hurst:g}, $\bar{{u}}/h_\mathrm{{rms}}$ = {mean:.3g}")
-    ax.set(xlabel=r"magnification $\zeta$", ylabel=DENSITY_LABEL, xlim=(2, 3e7), ylim=(0.2, 4))
-    plain_ticks(ax.yaxis, [0.2, 0.3, 0.5, 1, 2, 3])
+            ax.plot([last / 30, last], [level, level], ":", color=style.GREY, linewidth=1.1)
+    ax.set_title(style.state(hurst=hurst, mean_gap=float(theory.mean_gap.mean())))
+    ax.set(xscale="log", yscale="log", xlabel=style.MAGNIFICATION, ylabel=DENSITY)
+    ax.set(xlim=(2, 3e7), ylim=(0.2, 4))
+    style.plain_ticks(ax.yaxis, [0.2, 0.3, 0.5, 1, 2, 3])
     ax.text(1.7 * last, 2.95, r"$u/h_\mathrm{rms}$", ha="center", fontsize=8)
     law = rf"$u^{{-1/3}}$ through $u/h_\mathrm{{rms}}$ = {REFERENCE_GAP:g}"
-    ax.legend(handles=[key(linestyle=":", label=law)], loc="upper left")
+    ax.legend(handles=[style.key(law, linestyle=":")], loc="upper left")
 
 
-def at_gap(theory, gap):
+def at_gap(density, gap):
     """Density at a gap between those tabulated, along a power law from point to point."""
-    logs = np.log(theory.gap_density).assign_coords(gap=np.log(theory.gap))
+    logs = np.log(density).assign_coords(gap=np.log(density.gap))
     return np.exp(logs.interp(gap=np.log(gap))).values
 
 
-def panel_c(ax, ensemble, lattice):
+def draw_simulation(ax, ensemble, lattice):
     """Simulated P(u) with its errors against theory on the spectrum of the window."""
-    for colour, load in zip(COLOURS, LOADS, strict=False):
+    for colour, load in zip(style.COLOURS, LOADS, strict=False):
         measured = ensemble.sel(pressure=load, method="nearest")
-        simulated(ax, measured, colour)
-        for variant, line in VARIANT_LINES.items():
-            curve = lattice.gap_density.sel(variant=variant).sel(pressure=load, method="nearest")
-            ax.plot(curve.gap, curve, line, color=colour, linewidth=0.9)
-        ax.plot([], [], color=colour, label=rf"$\hat{{p}}$ = {float(measured.pressure):g}")
+        draw_measured(ax, measured, colour)
+        theory = lattice.gap_density.sel(pressure=load, method="nearest")
+        draw_variants(ax, theory, color=colour, linewidth=0.9)
+        ax.plot([], [], color=colour, label=style.state(pressure=float(measured.pressure)))
     made = datasets.parameters(ensemble)
-    ax.set(xscale="log", yscale="log", xlabel=GAP_LABEL, ylabel=DENSITY_LABEL)
+    ax.set(xscale="log", yscale="log", xlabel=style.GAP, ylabel=DENSITY)
     ax.set(xlim=(1e-4, 10), ylim=(1e-2, 20))
+    surface = style.state(hurst=made["hurst"], magnification=made["magnification"])
+    count = count_realisations(ensemble)
     ax.set_title(
-        rf"simulation against theory on the window's spectrum, $H$ = {made['hurst']:g}, "
-        rf"$\zeta$ = {number(made['magnification'])}, {counted(ensemble)} realisations"
+        f"simulation against theory on the window's spectrum, {surface}, {count} realisations"
     )
     handles, _ = ax.get_legend_handles_labels()
-    dots = key(linestyle="none", marker=".", label="BEM, ensemble mean")
-    hollow = key(linestyle="none", marker="o", mfc="white", markersize=3, label="by the edge law")
-    ax.legend(handles=handles + [dots, hollow, *variant_keys()], loc="upper right", ncols=2)
+    dots = [
+        style.dot("BEM, ensemble mean", marker="."),
+        style.dot("by the edge law", mfc="white", markersize=3),
+    ]
+    ax.legend(handles=[*handles, *dots, *variant_keys()], loc="upper right", ncols=2)
 
 
-def counted(ensemble):
+def count_realisations(ensemble):
     """Number of realisations, coarse ones apart."""
     fine, coarse = ensemble.sizes["seed"], ensemble.sizes.get("coarse_seed")
     return f"{fine} fine and {coarse} coarse" if coarse else f"{fine}"
 
 
-def simulated(ax, measured, colour):
-    """Mean with the sampling error as a dark band and the discretisation error as a light one.
+def draw_measured(ax, measured, colour):
+    """Mean with a dark band for the sampling error and a light one for all errors.
 
-    Hollow below the gap next to the edge of contact, where the law of edges stands in for the grid.
+    Points are hollow below the gap next to the edge of contact, where the law by which gaps leave
+    an edge stands in for the grid.
     """
     mean = measured.gap_density_mean.where(measured.gap_density_mean > 0)
-    sampling, others = with_model(measured, "gap_density_mean")
-    sampling, total = np.nan_to_num(sampling), total_error(sampling, others)
+    sampling, total = style.errors(measured, "gap_density_mean")
     for error, strength in ((total, 0.15), (sampling, 0.3)):
-        low = np.maximum(mean - error, 1e-6)  # a band down to zero has no lower end on a log axis
-        ax.fill_between(mean.gap, low, mean + error, color=colour, alpha=strength, linewidth=0)
+        low = np.maximum(mean - error, LOWEST_DENSITY)
+        style.band(ax, mean.gap, low, mean + error, colour, strength)
     resolved = mean.gap >= measured.edge_gap_mean
-    ax.plot(mean.gap, mean.where(resolved), ".", color=colour, markersize=3.5)
-    ax.plot(
-        mean.gap, mean.where(~resolved), "o", color=colour, markersize=2.2, mfc="white", mew=0.5
-    )
+    small = {"color": colour, "linestyle": "none"}
+    ax.plot(mean.gap, mean.where(resolved), marker=".", markersize=3.5, **small)
+    below = {"marker": "o", "markersize": 2.2, "mfc": "white", "mew": 0.5}
+    ax.plot(mean.gap, mean.where(~resolved), **below, **small)
 
 
 if __name__ == "__main__":
-    main(start(globals(), "plot_fig1"))
+    main(style.start_figure(globals()))

@@ -1,200 +1,164 @@
 """Figure 4: area against external load with adhesion, and the adhesive part of the slope."""
 
-from pipeline.job import start
-from pipeline.numbers import number
-from pipeline.pages.style import (
-    BLACK,
-    BLUE,
-    GREEN,
-    GREY,
-    MARKERS,
-    ORANGE,
-    RED,
-    canvas,
-    key,
-    letters,
-    points,
-    save,
-    shades,
-    total_error,
-    with_model,
-)
+from pipeline.pages import style
 from stickiness import criteria
 from stickiness.core import datasets
 
 PAPER_A_V = 2.8
 THRESHOLD = 0.5  # of 1/kappa_ad, beyond which the contact is sticky
-WEAK = 0.12  # 1/kappa_ad up to which it is in proportion to l_a within the errors
-LENGTH_LABEL = r"adhesion length $l_a/\epsilon$"
+PROPORTIONAL_UP_TO = 0.12  # 1/kappa_ad that is in proportion to l_a within the errors
+LOOP_COLOURS = (style.BLUE, style.RED, style.GREEN, style.ORANGE)
+SMALL = 3  # size of open markers
 
 
 def main(job):
     loop = datasets.read(job.input.loop, ["mean_pressure", "repulsive_area_fraction"])
-    loop = loop.isel(resolution=-1)
-    full = [at_load(path, job.params.pressure) for path in (job.input.rough, job.input.smooth)]
-    a_v = [measured_a_v(path, job.params.pressure) for path in job.input.a_v]
-    figure, panels = canvas("AB;CB", 5.4, width_ratios=[1, 1.15])
-    panel_a(panels["A"], loop)
-    panel_b(panels["B"], full, a_v)
-    panel_c(panels["C"], full, a_v)
-    letters(panels)
-    save(figure, job.output)
+    pressure = job.params.pressure
+    surfaces = [read_at(path, pressure) for path in (job.input.rough, job.input.smooth)]
+    a_v = [read_a_v(path, pressure) for path in job.input.a_v]
+    with style.lettered_figure(job.output, "AB;CB", 5.4, width_ratios=[1, 1.15]) as panels:
+        draw_loops(panels["A"], loop.isel(resolution=-1))
+        draw_lengths(panels["B"], surfaces, a_v)
+        draw_ranges(panels["C"], surfaces, a_v)
 
 
-def at_load(path, pressure):
+def read_at(path, pressure):
     data = datasets.read(path, ["inverse_kappa_ad", "q0_h_rms"])
     return data.sel(pressure=pressure, method="nearest")
 
 
-def measured_a_v(path, pressure):
+def read_a_v(path, pressure):
     """a_V of the surfaces of one set, in the window that is quoted."""
     fit = datasets.read(path, ["a_v_mean"]).sel(pressure=pressure, method="nearest")
     return float(fit.a_v_mean.isel(window=0))
 
 
-def panel_a(ax, loop):
+def draw_loops(ax, loop):
     """Repulsive area on approach and separation, at given mean gap and under a press."""
     lengths = loop.adhesion_length_over_range.values
-    for length, colour in zip(lengths, (BLUE, RED, GREEN, ORANGE), strict=False):
+    for length, colour in zip(lengths, LOOP_COLOURS, strict=False):
         curves = loop.sel(adhesion_length_over_range=length)
         gap, press = curves.sel(control="mean_gap"), curves.sel(control="pressure")
-        ax.plot(gap.mean_pressure, gap.repulsive_area_fraction, color=colour, linewidth=0.6)
         turn = int(press.separating.sum("state") and press.separating.argmax("state"))
-        for leg, line in (
-            (press.isel(state=slice(None, turn)), "-"),
-            (press.isel(state=slice(turn - 1, None)), "--"),
+        for leg, line, width in (
+            (gap, "-", 0.6),
+            (press.isel(state=slice(None, turn)), "-", 1.2),
+            (press.isel(state=slice(turn - 1, None)), "--", 1.2),
         ):
-            ax.plot(leg.mean_pressure, leg.repulsive_area_fraction, line, color=colour)
+            area = leg.repulsive_area_fraction
+            ax.plot(leg.mean_pressure, area, line, color=colour, linewidth=width)
         last = press.dropna("state").isel(state=-1)
-        ax.plot(last.mean_pressure, last.repulsive_area_fraction, "o", color=colour, markersize=4)
+        ax.plot(last.mean_pressure, last.repulsive_area_fraction, "o", color=colour)
         ax.plot([], [], color=colour, label=f"{length:g}")
-    ax.axvline(0, color=GREY, linewidth=0.7)
+    ax.axvline(0, color=style.GREY, linewidth=0.7)
     made = datasets.parameters(loop)
-    ax.set(xlabel=r"mean pressure $p_\mathrm{ext}/(E^*q_0h_\mathrm{rms})$")
-    ax.set(ylabel=r"area $A_\mathrm{rep}/A_\mathrm{nom}$")
-    ax.set_title(
-        rf"$\zeta$ = {number(made['magnification'])}, "
-        rf"$\epsilon/h_\mathrm{{rms}}$ = {number(made['range_over_h_rms'])}"
-    )
-    handles = [
-        key(label="loading"),
-        key(linestyle="--", label="unloading"),
-        key(linewidth=0.6, label="at given gap"),
-        key(marker="o", linestyle="none", label="pull-off"),
+    ax.set_xlabel(r"mean pressure $p_\mathrm{ext}/(E^*q_0h_\mathrm{rms})$")
+    ax.set_ylabel(style.CONTACT_AREA)
+    ax.locator_params(axis="x", nbins=5)
+    ax.set_title(style.state(magnification=made["magnification"], range=made["range_over_h_rms"]))
+    kinds = [
+        style.key("loading"),
+        style.key("unloading", linestyle="--"),
+        style.key("at given gap", linewidth=0.6),
+        style.dot("pull-off"),
     ]
-    kinds = ax.legend(handles=handles, loc="lower right")
-    ax.add_artist(kinds)
-    ax.legend(title=r"$l_a/\epsilon$", title_fontsize=8, loc="upper left")
+    ax.add_artist(ax.legend(handles=kinds, loc="lower right"))
+    ax.legend(title=r"$l_a/\epsilon$", loc="upper left")
 
 
-def panel_b(ax, full, a_v):
+def draw_lengths(ax, surfaces, a_v):
     """1/kappa_ad by slopes and directly, beside the formula with either a_V."""
-    for marker, data, measured in zip(MARKERS, full, a_v, strict=False):
-        ranges = data.range_over_h_rms.values
+    for marker, data, measured in zip(style.MARKERS, surfaces, a_v, strict=False):
         lengths = data.adhesion_length_over_range.values
-        for colour, reach in zip(shades(len(ranges)), ranges, strict=True):
-            here = data.sel(range_over_h_rms=reach)
+        for colour, range_ in style.in_shades(data.range_over_h_rms.values):
+            here = data.sel(range_over_h_rms=range_)
             for value, line in ((PAPER_A_V, "-"), (measured, "--")):
-                formula = by_formula(data, lengths, reach, value)
+                formula = by_formula(data, lengths, range_, value)
                 ax.plot(lengths, formula, line, color=colour, linewidth=0.8)
-            hollow = {"color": colour, "marker": marker, "mfc": "white", "markersize": 3}
-            direct = here.inverse_kappa_ad_direct
-            ax.plot(lengths, direct, linestyle="none", **hollow, zorder=3)
-            by_slopes(ax, here, "inverse_kappa_ad_fit", lengths, 1.0, colour, marker)
+            look = {"color": colour, "marker": marker}
+            style.hollow(ax, lengths, here.inverse_kappa_ad_direct, **look, markersize=SMALL)
+            draw_slopes(ax, lengths, here, "inverse_kappa_ad_fit", **look)
             chosen = here.inverse_kappa_ad.where(here.model == "dmt")
-            ax.plot(lengths, chosen, "x", color=RED, markersize=3.5, zorder=6)
-    shaded(ax)
-    ax.set(xscale="log", yscale="log", xlabel=LENGTH_LABEL, ylabel=r"$1/\kappa_\mathrm{ad}$")
-    ax.set_title(rf"$\hat{{p}}$ = {float(full[0].pressure):g}")
+            ax.plot(lengths, chosen, "x", color=style.RED, markersize=3.5, zorder=6)
+    low, high = 1e-7, 1e3
+    ax.axhspan(THRESHOLD, high, color=style.GREY, alpha=0.15, linewidth=0)
+    ax.text(0.03, 0.965, r"sticky: $1/\kappa_\mathrm{ad}$ > 1/2", transform=ax.transAxes, va="top")
+    ax.set(xscale="log", yscale="log", ylim=(low, high))
+    ax.set(xlabel=style.ADHESION_LENGTH, ylabel=r"$1/\kappa_\mathrm{ad}$")
+    ax.set_title(style.state(pressure=float(surfaces[0].pressure)))
+    ranges = style.in_shades(surfaces[0].range_over_h_rms.values)
     families = ax.legend(
-        handles=range_keys(full[0].range_over_h_rms.values),
+        handles=[style.key(f"{range_:g}", color=colour) for colour, range_ in ranges],
         title=r"$\epsilon/h_\mathrm{rms}$",
-        title_fontsize=8,
         loc="upper left",
         bbox_to_anchor=(0, 0.95),
         ncols=2,
         alignment="left",
     )
     ax.add_artist(families)
-    ax.legend(handles=[*set_keys(full), *kind_keys()], loc="lower right")
+    ax.legend(handles=[*surface_keys(surfaces), *kind_keys()], loc="lower right")
 
 
-def by_formula(data, lengths, reach, a_v):
+def by_formula(data, lengths, range_, a_v):
     """1/kappa_ad of the criterion, with h_rms as the unit of length."""
-    return criteria.inverse_kappa_ad(1.0, float(data.q0_h_rms), lengths * reach, reach, a_v)
+    return criteria.inverse_kappa_ad(1.0, float(data.q0_h_rms), lengths * range_, range_, a_v)
 
 
-def by_slopes(ax, data, name, x, scale, colour, marker):
+def draw_slopes(ax, x, data, name, scale=1.0, **look):
     """1/kappa_ad over `scale` where it is larger than its errors, with these."""
-    errors = with_model(data, name)
-    value = data[name].where(total_error(*errors) < data[name]) / scale
-    points(ax, x, value, *(one / scale for one in errors), color=colour, marker=marker)
+    _, total = style.errors(data, name)
+    data = data[[name, f"{name}_error"]].where(total < data[name])
+    style.points(ax, x, data, name, scale, **look)
 
 
-def shaded(ax):
-    low, high = 1e-7, 1e3
-    ax.set_ylim(low, high)
-    ax.axhspan(THRESHOLD, high, color=GREY, alpha=0.15, linewidth=0)
-    ax.text(0.03, 0.965, r"sticky: $1/\kappa_\mathrm{ad}$ > 1/2", transform=ax.transAxes, va="top")
-
-
-def range_keys(ranges):
-    colours = shades(len(ranges))
-    return [
-        key(color=colour, label=f"{reach:g}") for colour, reach in zip(colours, ranges, strict=True)
-    ]
-
-
-def set_keys(sets):
-    return [
-        key(
-            color=BLACK,
-            marker=marker,
-            linestyle="none",
-            label=rf"$\zeta$ = {number(datasets.parameters(data)['magnification'])}, "
-            rf"$h_\mathrm{{rms}}$ = {datasets.parameters(data)['h_rms'].replace('um', 'µm')}",
+def surface_keys(surfaces):
+    keys = []
+    for marker, data in zip(style.MARKERS, surfaces, strict=False):
+        made = datasets.parameters(data)
+        height = made["h_rms"].replace("um", "µm")
+        label = (
+            rf"{style.state(magnification=made['magnification'])}, $h_\mathrm{{rms}}$ = {height}"
         )
-        for marker, data in zip(MARKERS, sets, strict=False)
-    ]
+        keys.append(style.dot(label, color=style.BLACK, marker=marker))
+    return keys
 
 
 def kind_keys():
-    hollow = {"marker": "o", "linestyle": "none", "markersize": 3, "color": BLACK}
+    small = {"markersize": SMALL, "color": style.BLACK}
     return [
-        key(**hollow, label="by fitted slopes"),
-        key(**hollow, mfc="white", label=r"$p_\mathrm{ad}/2p_\mathrm{rep}$"),
-        key(marker="x", linestyle="none", color=RED, label="DMT limit chosen"),
-        key(label=rf"formula, $a_V$ = {PAPER_A_V:g}"),
-        key(linestyle="--", label=r"formula, $a_V$ measured"),
+        style.dot("by fitted slopes", **small),
+        style.dot(r"$p_\mathrm{ad}/2p_\mathrm{rep}$", **small, mfc="white"),
+        style.dot("DMT limit chosen", marker="x", color=style.RED),
+        style.key(f"formula, {style.state(a_v=PAPER_A_V)}"),
+        style.key("formula, $a_V$ measured", linestyle="--"),
     ]
 
 
-def panel_c(ax, full, a_v):
+def draw_ranges(ax, surfaces, a_v):
     """Slopes, tractions and DMT limit over the formula, against the range."""
-    for index, (marker, data, measured) in enumerate(zip(MARKERS, full, a_v, strict=False)):
-        length = weak(data)
+    for index, (data, measured) in enumerate(zip(surfaces, a_v, strict=True)):
+        length = largest_weak_length(data)
         data = data.sel(adhesion_length_over_range=length)
-        reach = data.range_over_h_rms
-        scale = by_formula(data, length, reach.values, PAPER_A_V)
-        for colour, place in zip(shades(reach.size), range(reach.size), strict=True):
-            one = data.isel(range_over_h_rms=[place])
-            x = one.range_over_h_rms * 1.08 ** (index - 0.5)
-            hollow = {"color": colour, "marker": marker, "mfc": "white", "markersize": 3}
-            direct = one.inverse_kappa_ad_direct / scale[place]
-            ax.plot(x, direct, linestyle="none", **hollow)
-            by_slopes(ax, one, "inverse_kappa_ad", x, scale[place], colour, marker)
-        ax.axhline(measured / PAPER_A_V, color=GREY, linestyle="--", linewidth=0.8)
-    ax.axhline(1, color=GREY, linewidth=0.9)
-    ax.set(xscale="log", xlabel=r"range $\epsilon/h_\mathrm{rms}$")
+        for colour, range_ in style.in_shades(data.range_over_h_rms.values):
+            here = data.sel(range_over_h_rms=[range_])
+            scale = by_formula(data, length, range_, PAPER_A_V)
+            x = style.aside(range_, index - 0.5, 1.08)
+            look = {"color": colour, "marker": style.MARKERS[index]}
+            direct = here.inverse_kappa_ad_direct / scale
+            style.hollow(ax, x, direct, **look, markersize=SMALL)
+            draw_slopes(ax, x, here, "inverse_kappa_ad", scale, **look)
+        ax.axhline(measured / PAPER_A_V, color=style.GREY, linestyle="--", linewidth=0.8)
+    ax.axhline(1, color=style.GREY, linewidth=0.9)
+    ax.set(xscale="log", xlabel=style.RANGE)
     ax.set_ylim(bottom=0)
-    ax.set(ylabel=rf"$1/\kappa_\mathrm{{ad}}$ over formula, $a_V$ = {PAPER_A_V:g}")
+    ax.set_ylabel(rf"$1/\kappa_\mathrm{{ad}}$ over formula, {style.state(a_v=PAPER_A_V)}")
 
 
-def weak(data):
+def largest_weak_length(data):
     """Largest adhesion length whose adhesion is still in proportion to it, at any range."""
     largest = data.inverse_kappa_ad.max("range_over_h_rms")
-    return float(data.adhesion_length_over_range.where(largest < WEAK).max())
+    return float(data.adhesion_length_over_range.where(largest < PROPORTIONAL_UP_TO).max())
 
 
 if __name__ == "__main__":
-    main(start(globals(), "plot_fig4"))
+    main(style.start_figure(globals()))

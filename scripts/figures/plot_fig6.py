@@ -2,8 +2,7 @@
 
 import numpy as np
 
-from pipeline.job import start
-from pipeline.pages.style import BLACK, COLOURS, GREY, canvas, letters, save
+from pipeline.pages import style
 from stickiness.core import datasets
 
 HURST = 0.8  # of the lines
@@ -14,64 +13,60 @@ WAVE_NUMBERS = (1e-4, 1e10)  # 1/m
 
 def main(job):
     surfaces = [datasets.read(path, ["psd", "wave_number"]) for path in job.input.surfaces]
-    surfaces = [surface for surface in surfaces if not is_line(surface)]
-    figure, panels = canvas("A;B", 7.2, sharex=True, height_ratios=[1.25, 1])
-    panel(panels["A"], surfaces, 0)
-    panel(panels["B"], surfaces, EXPONENT)
-    panels["A"].set_ylabel(r"power spectral density $C(q)$ [m$^4$]")
-    panels["A"].legend(loc="lower left")
-    panels["B"].set_ylabel(rf"compensated, $C(q)\,q^{{{EXPONENT:g}}}$ [m$^{{{4 - EXPONENT:g}}}$]")
-    panels["B"].set_xlabel(r"wave number $q$ [1/m]")
-    letters(panels)
-    save(figure, job.output)
-
-
-def panel(ax, surfaces, power):
-    """All spectra times q to a power, so that the lines are steep (0) or level (2 H + 2)."""
-    lines(ax, power)
-    for index, surface in enumerate(surfaces):
-        draw = measured if "psd_fit" in surface else parametric
-        draw(ax, surface, power, COLOURS[index % len(COLOURS)])
-    ax.set(xscale="log", yscale="log", xlim=WAVE_NUMBERS)
-
-
-def is_line(surface):
-    """Whether a surface is one of the lines of constant C0, which are drawn without ends."""
-    return label(surface).startswith("C0 =")
+    # The lines of constant C0 are surfaces, too, but drawn without ends.
+    surfaces = [surface for surface in surfaces if not label(surface).startswith("C0 =")]
+    shape = {"sharex": True, "height_ratios": [1.25, 1]}
+    with style.lettered_figure(job.output, "A;B", 7.2, **shape) as panels:
+        draw_spectra(panels["A"], surfaces, 0)
+        draw_spectra(panels["B"], surfaces, EXPONENT)
+        panels["A"].set_ylabel(r"power spectral density $C(q)$ [m$^4$]")
+        panels["A"].legend(loc="lower left")
+        unit = f"m$^{{{4 - EXPONENT:g}}}$"
+        panels["B"].set_ylabel(rf"compensated, $C(q)\,q^{{{EXPONENT:g}}}$ [{unit}]")
+        panels["B"].set_xlabel(r"wave number $q$ [1/m]")
 
 
 def label(surface):
     return datasets.parameters(surface)["label"]
 
 
-def lines(ax, power):
+def draw_spectra(ax, surfaces, power):
+    """All spectra times q to a power, so that the lines are steep (0) or level (2 H + 2)."""
+    draw_lines(ax, power)
+    for index, surface in enumerate(surfaces):
+        draw = draw_measured if "psd_fit" in surface else draw_parametric
+        draw(ax, surface, power, style.COLOURS[index % len(style.COLOURS)])
+    ax.set(xscale="log", yscale="log", xlim=WAVE_NUMBERS)
+
+
+def draw_lines(ax, power):
+    """Lines of constant C0 with their names."""
     q = np.array(WAVE_NUMBERS)
-    middle = np.sqrt(q.prod())
+    grey = {"color": style.GREY, "fontsize": 8}
     for c0, text in LINES.items():
-        ax.plot(q, c0 * q ** (power - EXPONENT), "--", color=GREY, linewidth=0.9, zorder=1)
+        ax.plot(q, c0 * q ** (power - EXPONENT), "--", color=style.GREY, linewidth=0.9, zorder=1)
         if power:
-            ax.text(middle / 300, 1.2 * c0, text, color=GREY, fontsize=8)
+            ax.text(np.sqrt(q.prod()) / 300, 1.3 * c0, text, **grey)
     if not power:
         upper, lower = LINES
-        look = {"color": GREY, "fontsize": 8}
-        ax.text(30, upper * 8**-EXPONENT, LINES[upper], va="bottom", **look)
-        ax.text(1, lower * 3**-EXPONENT, LINES[lower], va="top", ha="right", **look)
+        ax.text(30, upper * 8**-EXPONENT, LINES[upper], va="bottom", **grey)
+        ax.text(1, lower * 3**-EXPONENT, LINES[lower], va="top", ha="right", **grey)
 
 
-def parametric(ax, surface, power, colour):
+def draw_parametric(ax, surface, power, colour):
     """The range between the smooth and the rough end."""
     q = surface.wave_number
     smooth, rough = (surface.psd.sel(end=end) * q**power for end in ("smooth", "rough"))
-    ax.fill_between(q, smooth, rough, color=colour, alpha=0.3, linewidth=0)
+    style.band(ax, q, smooth, rough, colour)
     for edge in (smooth, rough):
         ax.plot(q, edge, color=colour, linewidth=0.9)
     ax.plot([], [], color=colour, linewidth=4, alpha=0.6, label=label(surface))
 
 
-def measured(ax, surface, power, colour):
+def draw_measured(ax, surface, power, colour):
     """Radial averages with their sampling error, and the fit within its range.
 
-    What the fitted law carries on beyond the instrument is no measurement and not drawn.
+    What the fit extrapolates beyond the instrument's cutoff is no measurement and not drawn.
     """
     if "q_cutoff" in surface and float(surface.q1) > float(surface.q_cutoff):
         inside = surface.wave_number.values <= float(surface.q_cutoff) * (1 + 1e-9)
@@ -82,9 +77,9 @@ def measured(ax, surface, power, colour):
     look = {"color": colour, "marker": "o", "linestyle": "none", "markersize": 2.5}
     ax.errorbar(surface.wave_number, psd, [below, error], elinewidth=0.7, **look)
     fit = (surface.psd_fit * scale).where(surface.fitted == 1)
-    ax.plot(surface.wave_number, fit, color=BLACK, linewidth=0.9, zorder=5)
+    ax.plot(surface.wave_number, fit, color=style.BLACK, linewidth=0.9, zorder=5)
     ax.plot([], [], label=label(surface), **look)
 
 
 if __name__ == "__main__":
-    main(start(globals(), "plot_fig6"))
+    main(style.start_figure(globals()))

@@ -6,28 +6,31 @@ import numpy as np
 import xarray as xr
 
 from pipeline.conventions import LOAD, VARIANT
-from pipeline.job import start
-from pipeline.numbers import number
-from pipeline.pages.style import BLACK, COLOURS, GREY, MARKERS, canvas, key, letters, save
+from pipeline.pages import style
+from pipeline.pages.style import BLACK, GREY
 from stickiness.core import datasets
 
+CORRECTIONS = {"yang2008": "Yang & Persson", "wang2017": "Wang & Müser", "xu2024": "Xu et al."}
 THEORIES = {
     VARIANT: "2018, Yang & Persson",
     f"{VARIANT}, wang2017": "2018, Wang & Müser",
     f"{VARIANT}, xu2024": "2018, Xu et al.",
     "almqvist2011": "2011, Yang & Persson",
 }
-RANGE = 0.1  # over h_rms, of the attractive area
-QUANTITIES = {
+SYMBOLS = {
     "area_fraction": r"$A$",
     "mean_gap": r"$\bar{u}$",
     "attractive_area": r"$A_\mathrm{ad}$",
+    "gap_density": r"$P(u)$",
     "all": "all",
 }
 ROWS = ("area_fraction", "mean_gap", "attractive_area", "gap_density", "distance")
-LARGEST = 0.5  # relative difference shown
-CORRECTIONS = {"yang2008": "Yang & Persson", "wang2017": "Wang & Müser", "xu2024": "Xu et al."}
-PRESSURE_LABEL = r"pressure $p/(E^*q_0h_\mathrm{rms})$"
+RANGE = 0.1  # over h_rms, of the attractive area
+LARGEST_DIFFERENCE = 0.5  # relative, shown
+GOOD_DIFFERENCE = 0.1  # relative, shaded
+KNOWN_TO = 0.2  # relative error of P(u) up to which it is drawn
+LARGEST_GAP = 3  # over h_rms, up to which P(u) is drawn
+SMALL = {"va": "center", "fontsize": 7}
 
 
 @dataclass(frozen=True)
@@ -35,8 +38,7 @@ class Case:
     """Differences of theory from simulation for one surface, with its look."""
 
     differences: xr.Dataset
-    colour: str
-    marker: str
+    look: dict
 
     @property
     def made(self):
@@ -50,26 +52,23 @@ class Case:
 
 
 def main(job):
-    cases = looks([datasets.read(path, ["distance"]) for path in job.input.comparisons])
+    cases = order_cases([datasets.read(path, ["distance"]) for path in job.input.comparisons])
     gamma = datasets.read(job.input.gamma, ["gamma", "gamma_low", "gamma_high", "quantities_agree"])
     grid = [[f"{row}{column}" for column in range(len(THEORIES))] for row in ROWS]
-    figure, panels = canvas(
-        [*grid, ["A", "A", "B", "B"]], 10.2, height_ratios=[1] * len(ROWS) + [1.65]
-    )
-    for column, (theory, title) in enumerate(THEORIES.items()):
-        for row in ROWS:
-            ax = panels[f"{row}{column}"]
-            draw_row(ax, row, theory, cases)
-            dress(ax, row, column)
-        panels[f"{ROWS[0]}{column}"].set_title(title)
-    window_panel(panels["A"], cases)
-    gamma_panel(panels["B"], gamma)
-    letters(panels)
-    figure.legend(handles=keys(cases), loc="outside upper center", ncols=6)
-    save(figure, job.output)
+    rows, heights = [*grid, ["A", "A", "B", "B"]], [1] * len(ROWS) + [1.65]
+    with style.lettered_figure(job.output, rows, 10.2, height_ratios=heights) as panels:
+        for column, (theory, title) in enumerate(THEORIES.items()):
+            for row in ROWS:
+                ax = panels[f"{row}{column}"]
+                draw_quantity(ax, row, theory, cases)
+                dress(ax, row, column)
+            panels[f"{ROWS[0]}{column}"].set_title(title)
+        draw_windows(panels["A"], cases)
+        draw_gamma(panels["B"], gamma)
+        panels["A"].figure.legend(handles=case_keys(cases), loc="outside upper center", ncols=6)
 
 
-def looks(comparisons):
+def order_cases(comparisons):
     """Cases by Hurst exponent (colour), magnification (marker) and window, in order."""
 
     def order(comparison):
@@ -77,74 +76,68 @@ def looks(comparisons):
         return made["hurst"], made["magnification"], made.get("window", 1)
 
     comparisons = sorted(comparisons, key=order)
-    hurst = sorted({order(comparison)[0] for comparison in comparisons})
-    magnification = sorted({order(comparison)[1] for comparison in comparisons})
+    hurst, magnification, _ = (
+        sorted(set(values)) for values in zip(*map(order, comparisons), strict=True)
+    )
+    cases = []
+    for comparison in comparisons:
+        own_hurst, own_magnification, _ = order(comparison)
+        colour = style.look(hurst.index(own_hurst))["color"]
+        marker = style.look(magnification.index(own_magnification))["marker"]
+        cases.append(Case(comparison, {"color": colour, "marker": marker}))
+    return cases
+
+
+def case_keys(cases):
+    colours = {case.made["hurst"]: case.look["color"] for case in cases}
+    markers = {case.made["magnification"]: case.look["marker"] for case in cases}
     return [
-        Case(
-            comparison,
-            COLOURS[hurst.index(order(comparison)[0]) % len(COLOURS)],
-            MARKERS[magnification.index(order(comparison)[1]) % len(MARKERS)],
-        )
-        for comparison in comparisons
+        *(style.key(style.state(hurst=h), color=colour) for h, colour in colours.items()),
+        *(
+            style.dot(style.state(magnification=zeta), marker=marker)
+            for zeta, marker in sorted(markers.items())
+        ),
+        style.dot("window too small for the load", mfc="white"),
     ]
 
 
-def keys(cases):
-    hurst = {case.made["hurst"]: case.colour for case in cases}
-    magnification = {case.made["magnification"]: case.marker for case in cases}
-    lines = [key(color=colour, label=f"$H$ = {value:g}") for value, colour in hurst.items()]
-    dots = [
-        key(linestyle="none", marker=marker, label=rf"$\zeta$ = {number(value)}")
-        for value, marker in sorted(magnification.items())
-    ]
-    few = key(linestyle="none", marker="o", mfc="white", label="window too small for the load")
-    return [*lines, *dots, few]
-
-
-def draw_row(ax, row, theory, cases):
-    """One quantity by one theory, for all cases."""
+def draw_quantity(ax, row, theory, cases):
+    """One quantity by one theory, for all cases, with the mean of what is drawn."""
     deviations = []
     for case in cases:
         at = case.differences.sel(variant=theory)
         if row == "gap_density":
             deviations.append(draw_density(ax, case, at))
-            continue
-        if row == "attractive_area":
-            at = at.interp({"range": RANGE})
-        y, error = value(at, row)
-        deviations.append(y[case.holds])
-        draw_points(ax, case, y, error)
+        else:
+            name = row if row == "distance" else f"{row}_difference"
+            at = at.interp({"range": RANGE}) if row == "attractive_area" else at
+            error = np.nan_to_num(at[f"{name}_total_error"])
+            draw_loads(ax, case, at[name].values, error)
+            deviations.append(at[name].values[case.holds])
     deviations = np.concatenate(deviations)
     rms = np.sqrt(np.nanmean(deviations**2))
     text = f"mean {np.nanmean(deviations):.2f}" if row == "distance" else f"rms {rms:.0%}"
-    ax.text(0.97, 0.93, text, ha="right", va="top", transform=ax.transAxes, fontsize=7.5)
+    height, place = (0.07, "bottom") if row == "gap_density" else (0.93, "top")
+    ax.text(0.97, height, text, ha="right", va=place, transform=ax.transAxes, fontsize=7.5)
 
 
-def value(at, row):
-    """What is drawn of a quantity and its error."""
-    if row == "distance":
-        return at.distance.values, np.nan_to_num(at.distance_total_error)
-    return at[f"{row}_difference"].values, np.nan_to_num(at[f"{row}_difference_total_error"])
-
-
-def draw_points(ax, case, y, error):
+def draw_loads(ax, case, y, error):
+    """Differences against pressure: a line where the window holds, open points elsewhere."""
     x = case.differences.pressure.values
-    look = {"color": case.colour, "elinewidth": 0.6, "linestyle": "none", "capsize": 0}
-    ax.errorbar(x, y, error, **look, alpha=0.5)
-    ax.plot(x, np.where(case.holds, y, np.nan), "-", color=case.colour, linewidth=0.7)
-    for chosen, face in ((case.holds, case.colour), (~case.holds, "white")):
-        ax.plot(
-            x[chosen], y[chosen], linestyle="none", marker=case.marker, markersize=2.6,
-            color=case.colour, mfc=face, mew=0.6,
-        )  # fmt: skip
+    colour = case.look["color"]
+    ax.errorbar(x, y, error, color=colour, elinewidth=0.6, linestyle="none", capsize=0, alpha=0.5)
+    ax.plot(x, np.where(case.holds, y, np.nan), "-", color=colour, linewidth=0.7)
+    look = case.look | {"linestyle": "none", "markersize": 2.6, "mew": 0.6}
+    for chosen, face in ((case.holds, colour), (~case.holds, "white")):
+        ax.plot(x[chosen], y[chosen], **look, mfc=face)
 
 
 def draw_density(ax, case, at):
     """P(u) by theory over simulation against u at one load, where simulation is certain enough."""
     at = at.sel(pressure=LOAD, method="nearest")
     y, error = at.gap_density_difference, at.gap_density_difference_total_error
-    known = (error < 0.2 * (1 + y)) & (at.gap < 3)
-    ax.plot(at.gap.where(known), y.where(known), color=case.colour, linewidth=0.8)
+    known = (error < KNOWN_TO * (1 + y)) & (at.gap < LARGEST_GAP)
+    ax.plot(at.gap.where(known), y.where(known), color=case.look["color"], linewidth=0.8)
     return y.where(known).values
 
 
@@ -152,75 +145,66 @@ def dress(ax, row, column):
     """Axes of one panel of the grid."""
     density = row == "gap_density"
     ax.set(xscale="log", xlim=(2e-3, 4) if density else (7e-4, 0.8))
-    ax.set_xlabel(r"gap $u/h_\mathrm{rms}$" if density else "")
+    ax.set_xlabel(style.GAP if density else "")
     if row == "distance":
-        ax.set(yscale="log", ylim=(4e-3, 2), xlabel=PRESSURE_LABEL)
+        ax.set(yscale="log", ylim=(4e-3, 2), xlabel=style.PRESSURE)
         label = r"$W_1/h_\mathrm{rms}$"
     else:
         ax.axhline(0, color=GREY, linewidth=0.7, zorder=0)
-        ax.axhspan(-0.1, 0.1, color=GREY, alpha=0.13, linewidth=0, zorder=0)
-        ax.set_ylim(-LARGEST, LARGEST)
-        name = r"$P(u)$" if density else QUANTITIES[row]
-        label = f"theory/BEM − 1\n{name}"
+        shade = {"color": GREY, "alpha": 0.13, "linewidth": 0, "zorder": 0}
+        ax.axhspan(-GOOD_DIFFERENCE, GOOD_DIFFERENCE, **shade)
+        ax.set_ylim(-LARGEST_DIFFERENCE, LARGEST_DIFFERENCE)
+        label = f"theory/BEM − 1\n{SYMBOLS[row]}"
     if column == 0:
         ax.set_ylabel(label)
     else:
         ax.tick_params(labelleft=False)
 
 
-def window_panel(ax, cases):
+def draw_windows(ax, cases):
     """Attractive area at small loads against how far below the highest summit the mean gap is."""
     for case in cases:
         at = case.differences.sel(variant=VARIANT).interp({"range": RANGE})
         over = 1 / (1 + at.attractive_area_difference)
         error = over**2 * at.attractive_area_difference_total_error
         below = at.highest_summit - at.theory_mean_gap
-        look = {"color": case.colour, "marker": case.marker, "markersize": 3}
-        ax.errorbar(
-            below, over, np.nan_to_num(error), linestyle="none", elinewidth=0.6, **look,
-            mfc="white" if case.made.get("window", 1) == 1 else case.colour, mew=0.7,
-        )  # fmt: skip
+        look = case.look | {"linestyle": "none", "markersize": 3, "elinewidth": 0.6, "mew": 0.7}
+        face = "white" if case.made.get("window", 1) == 1 else case.look["color"]
+        ax.errorbar(below, over, np.nan_to_num(error), **look, mfc=face)
     ax.axhline(1, color=GREY, linewidth=0.7, zorder=0)
     ax.axvline(float(cases[0].differences.margin), color=GREY, linestyle=":")
     ax.set(yscale="log", xlim=(-0.8, 3.2))
-    ax.set_yticks([0.7, 1, 1.5, 2, 3], ["0.7", "1", "1.5", "2", "3"])
+    style.plain_ticks(ax.yaxis, [0.7, 1, 1.5, 2, 3])
     ax.set_xlabel(r"highest summit less theory's mean gap, over $h_\mathrm{rms}$")
     ax.set_ylabel(rf"BEM/theory, $A_\mathrm{{ad}}({RANGE:g}\,h_\mathrm{{rms}})$")
-    ax.legend(
-        handles=[
-            key(linestyle="none", marker="o", mfc="white", label="window of one wave"),
-            key(linestyle="none", marker="o", label="of several"),
-        ],
-        loc="upper right",
-    )
+    keys = [style.dot("window of one wave", mfc="white"), style.dot("of several")]
+    ax.legend(handles=keys, loc="upper right")
 
 
-def gamma_panel(ax, gamma):
+def draw_gamma(ax, gamma):
     """Gamma with its confidence interval for each correction and quantity.
 
     Of all quantities together only where they agree, for else it is nobody's gamma.
     """
-    small = {"va": "center", "fontsize": 7}
+    count = gamma.sizes["quantity"]
     for index, (correction, label) in enumerate(CORRECTIONS.items()):
         at = gamma.sel(correction=correction)
+        aside = 0.26 * (1 - index)
         if not at.quantities_agree:
             at = at.sel(quantity=at["quantity"] != "all")
-        y = np.arange(at.sizes["quantity"]) + 0.26 * (1 - index)
+            ax.text(0.27, count - 1 + aside, f"{label}: none fits all", **SMALL)
+        y = np.arange(at.sizes["quantity"]) + aside
         bars = np.abs([at.gamma - at.gamma_low, at.gamma_high - at.gamma])
-        look = {"color": COLOURS[index], "marker": MARKERS[index], "linestyle": "none"}
+        look = style.look(index, linestyle="none")
         ax.errorbar(at.gamma, y, xerr=bars, elinewidth=1, capsize=2, **look, label=label)
-        for height, best, misfit in zip(y, at.gamma_high.values, at.misfit.values, strict=True):
-            ax.text(best + 0.015, height, f"{misfit:.0%}", **small)
-        own = float(at.own_gamma)
-        if not at.quantities_agree:
-            ax.text(0.27, 3 + 0.26 * (1 - index), f"{label}: none fits all", **small)
-        ax.plot(own, 3.55, marker=MARKERS[index], color=COLOURS[index], mfc="white", clip_on=False)
+        for height, end, misfit in zip(y, at.gamma_high.values, at.misfit.values, strict=True):
+            ax.text(end + 0.015, height, f"{misfit:.0%}", **SMALL)
+        ax.plot(float(at.own_gamma), count - 0.45, **look, mfc="white", clip_on=False)
     ax.plot([], [], linestyle="none", marker="o", color=BLACK, mfc="white", label="source's own")
-    names = [QUANTITIES[str(name)] for name in gamma.quantity.values]
-    ax.set_yticks(np.arange(len(names)), names)
-    ax.set(ylim=(3.7, -0.5), xlim=(0.25, 1.0), xlabel=r"best $\gamma$, 95 %, and misfit")
-    ax.legend(loc="center right")
+    ax.set_yticks(np.arange(count), [SYMBOLS[str(name)] for name in gamma.quantity.values])
+    ax.set(ylim=(count - 0.3, -0.5), xlim=(0.25, 1.15), xlabel=r"best $\gamma$, 95 %, and misfit")
+    ax.legend(loc="lower right")
 
 
 if __name__ == "__main__":
-    main(start(globals(), "plot_fig8"))
+    main(style.start_figure(globals()))

@@ -4,21 +4,11 @@ import numpy as np
 
 from pipeline.job import start
 from pipeline.numbers import number
-from pipeline.pages.style import BLACK, COLOURS, GREY, MARKERS, RED, canvas, letters, save
+from pipeline.pages import style
+from pipeline.pages.style import GREY, MARKERS, RED, canvas, letters, save
 from stickiness.core import datasets
+from stickiness.criteria.registry import CRITERIA, EDGES
 
-EDGES = "edge_adhesion"
-LOOKS = {
-    EDGES: ("edges of contact", RED, "-", 2.2),
-    "violano": (r"derived (DMT), $a_V$ of the spectrum", BLACK, "-", 1.2),
-    "violano_constant": (r"derived, constant $a_V$", BLACK, "-.", 1.2),
-    "violano_printed": ("derived, 9/4 as printed", BLACK, ":", 1.2),
-    "pastewka_robbins": ("Pastewka–Robbins", COLOURS[0], "--", 1.4),
-    "fuller_tabor": ("Fuller–Tabor", COLOURS[2], "--", 1.4),
-    "bearing_area": ("bearing area (BAM)", COLOURS[3], "-", 1.4),
-    "persson_tosatti": ("Persson–Tosatti", COLOURS[4], "-.", 1.4),
-    "dahlquist": ("Dahlquist", GREY, "-", 1.0),
-}
 LENGTH_LABEL = r"adhesion length at the threshold $l_a/\epsilon$"
 LIMITS = 1e-4, 1e4
 
@@ -29,7 +19,7 @@ def main(job):
     figure, panels = canvas("AB;CC", 6.8, height_ratios=[1, 1.15])
     curves(panels["A"], compared.against_roughness, r"roughness $h_\mathrm{rms}/\epsilon$")
     curves(panels["B"], compared.against_magnification, r"magnification $\zeta = q_1/q_0$")
-    titled(panels, datasets.parameters(compared))
+    add_titles(panels, datasets.parameters(compared))
     handles, texts = panels["A"].get_legend_handles_labels()
     on_surfaces(panels["C"], verdicts)
     panels["C"].legend(handles, texts, loc="upper left", ncols=2)
@@ -43,16 +33,26 @@ def curves(ax, thresholds, label):
     x = thresholds[along].values
     low, high = (thresholds.sel(criterion=f"{EDGES}_{end}") for end in ("low", "high"))
     ax.fill_between(x, low, high, color=RED, alpha=0.2, linewidth=0)
-    for name, (text, colour, style, width) in LOOKS.items():
-        if name in thresholds.criterion:
-            y = thresholds.sel(criterion=name)
-            ax.plot(x, y, color=colour, linestyle=style, linewidth=width, label=text)
+    for criterion in drawn(thresholds):
+        line, label = criterion.line, criterion.label.replace("a_V", "$a_V$")
+        look = {"color": colour_of(criterion), "linestyle": line.style, "linewidth": line.width}
+        ax.plot(x, thresholds.sel(criterion=criterion.name), label=label, **look)
     ax.set(xscale="log", yscale="log", ylim=LIMITS, xlabel=label, ylabel=LENGTH_LABEL)
     ax.text(0.03, 0.93, "sticky above", transform=ax.transAxes, color=GREY)
 
 
-def titled(panels, made):
-    """What is held in either panel."""
+def drawn(thresholds):
+    """Criteria with a line: those that know an adhesion length."""
+    names = set(map(str, thresholds.criterion.values))
+    return [c for c in CRITERIA.values() if c.has_length and c.name in names]
+
+
+def colour_of(criterion):
+    return getattr(style, criterion.line.colour.upper())
+
+
+def add_titles(panels, made):
+    """State what is held fixed in either panel."""
     both = rf"H = {made['hurst']:g}, $\epsilon q_0$ = {number(made['range_times_q0'])}"
     held = {
         "A": rf"$\zeta$ = {number(made['quoted_magnification'])}",
@@ -67,29 +67,21 @@ def on_surfaces(ax, verdicts):
     """Modulus below which a material sticks, over the one by the edges, for every surface."""
     by = verdicts.threshold_by_criterion
     ratio = np.log10(by / by.sel(criterion=EDGES))
-    names = [name for name in LOOKS if name in by.criterion and name not in (EDGES, "dahlquist")]
+    others = [criterion for criterion in drawn(by) if criterion.name != EDGES]
     places = np.arange(by.sizes["surface"])
-    for index, name in enumerate(names):
-        found = ratio.sel(criterion=name)
+    for index, criterion in enumerate(others):
+        found = ratio.sel(criterion=criterion.name)
         middle = 10 ** found.mean(("material", "end"))
-        low, high = (10 ** end(found) for end in (smallest, greatest))
-        x = places + 0.09 * (index - (len(names) - 1) / 2)
-        _, colour, _, _ = LOOKS[name]
+        low, high = (10 ** end(("material", "end")) for end in (found.min, found.max))
+        x = places + 0.09 * (index - (len(others) - 1) / 2)
+        colour = colour_of(criterion)
         ax.vlines(x, low, high, color=colour, linewidth=1.2)
-        full = name not in ("violano_constant", "violano_printed")
-        look = {"markerfacecolor": colour if full else "white", "markersize": 4.5}
+        face = colour if criterion.line.filled else "white"
+        look = {"markerfacecolor": face, "markersize": 4.5}
         ax.plot(x, middle, MARKERS[index % len(MARKERS)], color=colour, **look)
     ax.axhline(1, color=RED, linewidth=2)
     ax.set_xticks(places, [name.replace("_", "\n") for name in by.surface.values])
     ax.set(yscale="log", ylim=(1e-7, 3e7), ylabel="threshold of E* over that by the edges")
-
-
-def smallest(values):
-    return values.min(("material", "end"))
-
-
-def greatest(values):
-    return values.max(("material", "end"))
 
 
 if __name__ == "__main__":

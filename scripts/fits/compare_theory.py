@@ -41,7 +41,7 @@ def main(job):
     dataset["window_holds"] = holds.astype("i1")
     dataset["margin"] = MARGIN
     datasets.write(
-        budgeted(annotated(dataset), simulated, theory),
+        add_budgets(annotate(dataset), simulated, theory),
         job.output[0],
         title="theory on the lattice spectrum against simulation",
         parameters=datasets.parameters(simulated),
@@ -57,7 +57,7 @@ def differences(simulated, theory):
     return dataset
 
 
-def budgeted(dataset, simulated, theory):
+def add_budgets(dataset, simulated, theory):
     """Differences with the errors of the simulation: theory's own is what they are."""
     own = {"model": absent("the difference is that of the model")}
     for name in COMPARED:
@@ -146,7 +146,7 @@ def highest_summit(made):
     )
 
 
-def annotated(dataset):
+def annotate(dataset):
     texts = {name: DESCRIBED[name] for name in ("pressure", "range", "gap")}
     texts["variant"] = theories.DESCRIBED
     texts["highest_summit"] = ("1", "mean height of a window's highest point over h_rms")

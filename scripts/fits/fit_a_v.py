@@ -4,7 +4,7 @@ import numpy as np
 import xarray as xr
 
 from pipeline import grid_limits
-from pipeline.ensemble_means import coarse, described, standard_error, with_errors
+from pipeline.ensemble_means import add_errors, coarse, describe_errors, standard_error
 from pipeline.error_budgets import (
     BY_THEORY,
     MODEL,
@@ -14,9 +14,9 @@ from pipeline.error_budgets import (
     along,
     theory_error,
 )
-from pipeline.fits import fitted
+from pipeline.fits import fit_intervals
 from pipeline.job import start
-from stickiness.accuracy import error_laws
+from stickiness.accuracy.error_models import read_models
 from stickiness.core import datasets
 from stickiness.core.budget import Part, unknown, with_budget
 from stickiness.criteria import a_v_fit
@@ -24,36 +24,38 @@ from stickiness.criteria import a_v_fit
 
 def main(job):
     areas = datasets.read(job.input.areas, ["attractive_area", "pressure"])
-    dataset = fitted(areas, job.params.windows)
+    dataset = fit_intervals(areas, job.params.windows)
     dataset["exponent"] = local_exponent(areas)
     if "edge_gap_mean" in areas:
         resolved = areas["range"] >= areas.edge_gap_mean
         dataset["exponent"] = dataset.exponent.where(resolved)
-    simulated, laws = "seed" in dataset.a_v.dims, error_laws.read_laws(job.input.laws)
+    simulated, models = "seed" in dataset.a_v.dims, read_models(job.input.laws)
     if simulated:
-        dataset = averaged(dataset, areas, job.params.windows)
-    dataset = annotated(dataset)
+        dataset = average(dataset, areas, job.params.windows)
+    dataset = annotate(dataset)
     datasets.write(
-        of_simulation(dataset, areas, laws) if simulated else of_theory(dataset, areas, laws),
+        add_simulation_budgets(dataset, areas, models)
+        if simulated
+        else add_theory_budgets(dataset, areas, models),
         job.output[0],
         title="a_V from attractive areas",
         parameters={**datasets.parameters(areas), "windows": job.params.windows},
     )
 
 
-def averaged(dataset, ensemble, windows):
+def average(dataset, ensemble, windows):
     """Add mean and errors, with what the attractive areas know of the limit of fine grids."""
 
     def quantity(solved):
-        return fitted(solved, windows).a_v
+        return fit_intervals(solved, windows).a_v
 
-    limit = grid_limits.inherited(ensemble, quantity, ["attractive_area"])
-    return with_errors(dataset, "a_v", dataset.a_v, coarse(ensemble, quantity), limit=limit)
+    limit = grid_limits.inherit(ensemble, quantity, ["attractive_area"])
+    return add_errors(dataset, "a_v", dataset.a_v, coarse(ensemble, quantity), limit=limit)
 
 
-def of_simulation(dataset, ensemble, laws):
+def add_simulation_budgets(dataset, ensemble, models):
     """Budgets of the means over the seeds; a window is part of what is asked."""
-    simulation = Simulation.of(laws, datasets.parameters(ensemble))
+    simulation = Simulation.of(models, datasets.parameters(ensemble))
     parts = simulation.parts(
         "a_v",
         dataset.a_v_mean,
@@ -64,7 +66,7 @@ def of_simulation(dataset, ensemble, laws):
     dataset = with_budget(dataset, "a_v_mean", **parts)
     solver = along(simulation.solver, "attractive_area", dataset.exponent)
     factor = simulation.factors("attractive_area", dataset.exponent)
-    limit = grid_limits.inherited(ensemble, local_exponent, ["attractive_area"])
+    limit = grid_limits.inherit(ensemble, local_exponent, ["attractive_area"])
     seeds = local_exponent(ensemble[["attractive_area", "pressure"]])
     steps = np.diff(np.log(ensemble["range"].values)).min()
     return with_budget(
@@ -77,11 +79,11 @@ def of_simulation(dataset, ensemble, laws):
     )
 
 
-def of_theory(dataset, areas, laws):
+def add_theory_budgets(dataset, areas, models):
     """Budgets of the fits to theory, on a lattice spectrum or on continuous ones."""
     made = datasets.parameters(areas)
     like = dataset.a_v.assign_coords(pressure=areas.pressure)
-    model = theory_error(laws, "a_v", like, made if "case" in made else None)
+    model = theory_error(models, "a_v", like, made if "case" in made else None)
     quadrature = QUADRATURE["attractive_area"]
     dataset = with_budget(
         dataset,
@@ -113,7 +115,7 @@ def local_exponent(areas):
     )
 
 
-def annotated(dataset):
+def annotate(dataset):
     texts = {
         "a_v": ("1", "a_V, slope of A_ad against (3/2) p (range/h_rms)^(2/3)"),
         "a_v_fit_error": ("1", "standard error of the fit of a_V within its window"),
@@ -126,7 +128,7 @@ def annotated(dataset):
         ),
     }
     if "a_v_mean" in dataset:
-        texts |= described("a_v", "a_V", discretisation=grid_limits.INHERITED)
+        texts |= describe_errors("a_v", "a_V", discretisation=grid_limits.INHERITED)
     return datasets.annotate(dataset, **texts)
 
 

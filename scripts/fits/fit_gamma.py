@@ -13,7 +13,8 @@ from scipy.optimize import minimize_scalar
 from pipeline.conventions import spectrum_of, window_of
 from pipeline.job import start
 from stickiness.core import datasets
-from stickiness.core.budget import COVERS, Part, absent, with_budget
+from stickiness.core.budget import Part, absent, with_budget
+from stickiness.core.statistics import COVERS
 from stickiness.persson.kernels import CORRECTIONS, correction_of
 from stickiness.persson.theory import Persson
 from stickiness.surfaces.synthesis import lattice_spectrum
@@ -37,7 +38,7 @@ def main(job):
     windows = [deviations.pop("window") for deviations in cases]
     draws = sample(np.random.default_rng(SEED), DRAWS, windows)
     rows = [
-        [fitted(cases, draws, index, quantity) for quantity in (*QUANTITIES, EVERY)]
+        [fit(cases, draws, index, quantity) for quantity in (*QUANTITIES, EVERY)]
         for index in range(len(CORRECTIONS))
     ]
     names = ("gamma", "gamma_low", "gamma_high", "spread", "misfit", "misfit_own")
@@ -51,7 +52,7 @@ def main(job):
     dataset["quantities_agree"] = agreement(dataset).astype("i1")
     dataset["own_gamma"] = "correction", [correction_of(name).gamma for name in CORRECTIONS]
     datasets.write(
-        budgeted(annotated(dataset.drop_vars("spread")), dataset.spread),
+        add_budgets(annotate(dataset.drop_vars("spread")), dataset.spread),
         job.output[0],
         title="gamma of the corrections of Persson's theory by simulation",
         parameters={
@@ -124,7 +125,7 @@ def agreement(dataset):
     return each.gamma_low.max("quantity") <= each.gamma_high.min("quantity")
 
 
-def fitted(cases, draws, correction, quantity):
+def fit(cases, draws, correction, quantity):
     """Gamma, the ends of its confidence interval, misfits at it and at the source's own."""
     names = QUANTITIES if quantity == EVERY else (quantity,)
     every = np.arange(len(cases))[None]
@@ -143,7 +144,7 @@ def fitted(cases, draws, correction, quantity):
     return best, *ends, spread, *misfits
 
 
-def budgeted(dataset, spread):
+def add_budgets(dataset, spread):
     """Gamma with its errors: drawn, and for all quantities together what each asks for."""
     each = dataset.gamma.sel(quantity=list(QUANTITIES))
     apart = abs(each - dataset.gamma.sel(quantity=EVERY)).max("quantity")
@@ -183,7 +184,7 @@ def lowest(curve):
     return float(np.exp(minimize_scalar(curve, bounds=bounds, method="bounded").x))
 
 
-def annotated(dataset):
+def annotate(dataset):
     interval = (
         f"{CONFIDENCE:.0%} confidence interval of gamma, over windows, their cases and errors"
     )

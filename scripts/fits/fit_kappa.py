@@ -4,10 +4,11 @@ import xarray as xr
 
 from pipeline import grid_limits
 from pipeline.conventions import DESCRIBED, LINEAR_UP_TO
-from pipeline.ensemble_means import coarse, described, with_errors
+from pipeline.ensemble_means import add_errors, coarse, describe_errors
 from pipeline.error_budgets import BY_THEORY, MODEL, QUADRATURE, Simulation, theory_error
 from pipeline.job import start
-from stickiness.accuracy import error_laws
+from pipeline.quantities import slope_of_area
+from stickiness.accuracy.error_models import read_models
 from stickiness.core import datasets
 from stickiness.core.budget import ENDINGS, Part, with_budget
 
@@ -18,13 +19,13 @@ def main(job):
     dataset = xr.Dataset(
         {
             "area_fraction": ensemble.area_fraction_mean,
-            "kappa_theory": theory.area_fraction * theory.rms_slope / theory.pressure,
+            "kappa_theory": slope_of_area(theory),
         }
     )
-    for name, quantity in {"kappa": slope, "kappa_fit": fitted_slope}.items():
-        dataset = averaged(dataset, name, quantity, ensemble)
-    laws = error_laws.read_laws(job.input.laws)
-    dataset = budgeted(annotated(dataset), laws, datasets.parameters(ensemble))
+    for name, quantity in {"kappa": slope_of_area, "kappa_fit": fitted_slope}.items():
+        dataset = average(dataset, name, quantity, ensemble)
+    models = read_models(job.input.laws)
+    dataset = add_budgets(annotate(dataset), models, datasets.parameters(ensemble))
     for ending in ENDINGS:
         dataset[f"area_fraction{ending}"] = ensemble[f"area_fraction_mean{ending}"]
     datasets.write(
@@ -35,16 +36,16 @@ def main(job):
     )
 
 
-def averaged(dataset, name, quantity, ensemble):
+def average(dataset, name, quantity, ensemble):
     """Add mean and errors of a slope, with what the areas know of the limit of fine grids."""
-    limit = grid_limits.inherited(ensemble, quantity, ["area_fraction"])
+    limit = grid_limits.inherit(ensemble, quantity, ["area_fraction"])
     values, more = quantity(ensemble), coarse(ensemble, quantity)
-    return with_errors(dataset, name, values, more, plain=True, limit=limit)
+    return add_errors(dataset, name, values, more, plain=True, limit=limit)
 
 
-def budgeted(dataset, laws, made):
+def add_budgets(dataset, models, made):
     """Every kappa with its errors by source, those of the fit as at the largest of its loads."""
-    simulation, inside = Simulation.of(laws, made), dataset.area_fraction <= LINEAR_UP_TO
+    simulation, inside = Simulation.of(models, made), dataset.area_fraction <= LINEAR_UP_TO
     loads = {"kappa": dataset.pressure, "kappa_fit": dataset.pressure.where(inside).max()}
     for name, pressure in loads.items():
         kinds = ("standard_error", "discretisation_error")
@@ -57,14 +58,9 @@ def budgeted(dataset, laws, made):
         dataset,
         "kappa_theory",
         discretisation=Part(quadrature * value, "of the quadrature, as tested"),
-        model=Part(theory_error(laws, "kappa", value, made) * value, MODEL),
+        model=Part(theory_error(models, "kappa", value, made) * value, MODEL),
         **BY_THEORY,
     )
-
-
-def slope(ensemble):
-    """Area h'_rms over pressure, load by load."""
-    return ensemble.area_fraction * ensemble.rms_slope / ensemble.pressure
 
 
 def fitted_slope(ensemble):
@@ -75,7 +71,7 @@ def fitted_slope(ensemble):
     return fitted * ensemble.rms_slope
 
 
-def annotated(dataset):
+def annotate(dataset):
     text = "kappa = A_rep E* h'_rms/(A_nom p)"
     fit = f"{text}, fitted through the origin up to {LINEAR_UP_TO:.0%} area"
     return datasets.annotate(
@@ -83,8 +79,8 @@ def annotated(dataset):
         pressure=DESCRIBED["pressure"],
         area_fraction=DESCRIBED["area_fraction"],
         kappa_theory=("1", f"{text} by Persson's theory on the lattice spectrum"),
-        **described("kappa", text, plain=True, discretisation=grid_limits.INHERITED),
-        **described("kappa_fit", fit, plain=True, discretisation=grid_limits.INHERITED),
+        **describe_errors("kappa", text, plain=True, discretisation=grid_limits.INHERITED),
+        **describe_errors("kappa_fit", fit, plain=True, discretisation=grid_limits.INHERITED),
     )
 
 

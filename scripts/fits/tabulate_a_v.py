@@ -5,7 +5,8 @@ import xarray as xr
 
 from pipeline.job import start
 from stickiness.core import datasets
-from stickiness.core.budget import COVERS, ENDINGS, Part, absent, unknown, with_budget
+from stickiness.core.budget import ENDINGS, Part, absent, unknown, with_budget
+from stickiness.core.statistics import COVERS
 
 SMALLEST_RANGE = 0.01  # over h_rms; below, simulated areas are extrapolated on most grids
 PER_DECADE = 4  # simulated ranges
@@ -27,7 +28,7 @@ def main(job):
     dataset = theory[list(THEORY)].isel(variant=0, drop=True).merge(reach(theory))
     dataset = dataset.merge(simulated(comparisons))
     datasets.write(
-        budgeted(annotated(dataset)),
+        add_budgets(annotate(dataset)),
         job.output[0],
         title="a_V as a function of Hurst exponent, magnification, load and range, with its error",
         parameters={
@@ -58,12 +59,12 @@ def simulated(comparisons):
     a further case. It adds what leaving out one case after the other changes (jackknife), and the
     cases' own errors, not taken to average out, for grids err to one side in all of them.
     """
-    points = collected(comparisons)
+    points = collect(comparisons)
     loads = np.unique(points.pressure)
     between = scatter(points)
     error = np.hypot(points.error, between)
     largest = float(points.magnification.max())
-    mean, trend = fitted(points, error, loads, largest)
+    mean, trend = fit(points, error, loads, largest)
     say = 1 / (error**2 * points.sharing)
     common = (say * points.error**2).sum("point") / say.sum("point")
     spread = np.hypot(between, jackknife(points, error, loads, largest))
@@ -82,7 +83,7 @@ def simulated(comparisons):
     return found.rename({"pressure": "simulated_pressure", "range": "simulated_range"})
 
 
-def collected(comparisons):
+def collect(comparisons):
     """Logarithms of the ratio and their errors at every load of every case that is known."""
     parts = []
     for case, comparison in enumerate(comparisons):
@@ -104,7 +105,7 @@ def collected(comparisons):
     return points
 
 
-def fitted(points, error, loads, largest):
+def fit(points, error, loads, largest):
     """Log ratio at the magnification `largest` and `loads`, and its change per doubling of it."""
     degree = min(2, len(np.unique(points.pressure)) - 1)
     several = len(np.unique(points.magnification)) > 1
@@ -134,7 +135,7 @@ def scatter(points):
     """Standard deviation between cases at each range, what their errors explain taken away."""
     loads = np.unique(points.pressure)
     largest = float(points.magnification.max())
-    mean, trend = fitted(points, xr.ones_like(points.error), loads, largest)
+    mean, trend = fit(points, xr.ones_like(points.error), loads, largest)
     doublings = np.log2(points.magnification / largest)
     left = points.log - mean.sel(pressure=points.pressure).drop_vars("pressure") - trend * doublings
     squares, explained = (
@@ -154,7 +155,7 @@ def jackknife(points, error, loads, largest):
     for case in cases:
         kept = (points.case != case).values
         rest = points.isel(point=kept), error.isel(point=kept)
-        means.append(fitted(*rest, loads, largest)[0])
+        means.append(fit(*rest, loads, largest)[0])
     return np.sqrt((len(cases) - 1) * xr.concat(means, "case").var("case"))
 
 
@@ -168,7 +169,7 @@ def log_ratio(comparison):
     return -np.log(over), quoted.attractive_area_difference_total_error / COVERS / over
 
 
-def budgeted(dataset):
+def add_budgets(dataset):
     """The ratio to simulation with its error, which the errors of all cases are in together."""
     error = COVERS * dataset.simulation_error * dataset.simulation_ratio
     return with_budget(
@@ -182,7 +183,7 @@ def budgeted(dataset):
     )
 
 
-def annotated(dataset):
+def annotate(dataset):
     theory = "a_V by theory"
     texts = {
         "a_v": ("1", f"{theory}; to be held constant below edge_range"),

@@ -3,12 +3,12 @@
 import numpy as np
 import xarray as xr
 
-from pipeline.conventions import DESCRIBED, logarithmic_grid, middles, spectrum_of, window_of
+from pipeline.conventions import DESCRIBED, logarithmic_grid, spectrum_of, window_of
 from pipeline.error_budgets import QUADRATURE, theory_parts
 from pipeline.job import start
 from pipeline.theory import DESCRIBED as DESCRIBED_THEORY
-from pipeline.theory import theories
-from stickiness.accuracy import error_laws
+from pipeline.theory import evaluate, theories
+from stickiness.accuracy.error_models import read_models
 from stickiness.core import datasets
 from stickiness.core.budget import with_budget
 from stickiness.persson.theory import Persson
@@ -20,7 +20,7 @@ def main(job):
     lattice = lattice_spectrum(spectrum_of(asked), window_of(asked))
     pressures, ranges = np.sort(job.params.pressures), logarithmic_grid(job.params.gaps)
     named = theories(job.params.variants, job.params.gamma)
-    parts = [state(Persson(lattice, **options), pressures, ranges) for options in named.values()]
+    parts = [evaluate(Persson(lattice, **options), pressures, ranges) for options in named.values()]
     names = xr.DataArray(list(named), dims="variant", name="variant")
     dataset = xr.concat(parts, names).assign(rms_slope=lattice.rms_slope)
     dataset = datasets.annotate(
@@ -29,34 +29,15 @@ def main(job):
         variant=DESCRIBED_THEORY,
         rms_slope=("1", "rms gradient of the lattice spectrum over q0 h_rms"),
     )
-    laws = error_laws.read_laws(job.input.laws)
+    models = read_models(job.input.laws)
     for name in QUADRATURE:
-        parts = theory_parts(laws, name, dataset[name], asked)
+        parts = theory_parts(models, name, dataset[name], asked)
         dataset = with_budget(dataset, name, **parts)
     datasets.write(
         dataset,
         job.output[0],
         title="Persson's theory on the lattice spectrum of a case",
         parameters={**asked, "case": job.wildcards.compared, "gamma": job.params.gamma},
-    )
-
-
-def state(theory, pressures, ranges):
-    gaps = middles(ranges)
-    return xr.Dataset(
-        {
-            "mean_gap": ("pressure", [float(theory.mean_gap(p)) for p in pressures]),
-            "area_fraction": ("pressure", [float(theory.area_fraction(p)) for p in pressures]),
-            "attractive_area": (
-                ("pressure", "range"),
-                [theory.gap_cumulative(ranges, p) for p in pressures],
-            ),
-            "gap_density": (
-                ("pressure", "gap"),
-                [theory.gap_density(gaps, p) for p in pressures],
-            ),
-        },
-        coords={"pressure": pressures, "range": ranges, "gap": gaps},
     )
 
 

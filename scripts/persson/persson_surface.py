@@ -6,17 +6,14 @@ import xarray as xr
 from pipeline.conventions import DESCRIBED, VARIANT, logarithmic_grid
 from pipeline.error_budgets import BY_THEORY, QUADRATURE, theory_error
 from pipeline.job import start
+from pipeline.real_spectra import real_spectrum
 from stickiness import criteria
-from stickiness.accuracy import error_laws
+from stickiness.accuracy.error_models import read_models
 from stickiness.core import datasets
 from stickiness.core.budget import Part, with_budget
-from stickiness.criteria.a_v_table import edge_range, local_a_v
-from stickiness.persson.theory import Persson
-from stickiness.surfaces.spectrum import Tabulated
+from stickiness.criteria.surface_a_v import theory_a_v
 
-VARIANTS = ("afferrante2018", "almqvist2011")  # P(0) infinite and finite: limits on the truth
 NEEDED = ("psd", "hurst", "q0", "q1", "rms_slope", "rms_curvature")
-EDGE_LAW = "pastewka_robbins"  # independent estimate of what the edges alone give
 
 
 def main(job):
@@ -40,14 +37,14 @@ def main(job):
         edge_range=("1", "range over h_rms below which the edge law takes over from theory"),
     )
     datasets.write(
-        budgeted(dataset, surface, load, error_laws.read_laws(job.input.laws)),
+        add_budgets(dataset, surface, load, read_models(job.input.laws)),
         job.output[0],
         title="a_V by Persson's theory on the spectrum of a real surface",
         parameters={**datasets.parameters(surface), "pressure": load, "gamma": gamma},
     )
 
 
-def budgeted(dataset, surface, load, laws):
+def add_budgets(dataset, surface, load, models):
     """The quoted a_V with its errors: as measured, or how far the others are if that is more."""
     a_v = dataset.a_v.assign_coords(
         pressure=load,
@@ -55,7 +52,7 @@ def budgeted(dataset, surface, load, laws):
         magnification=float(surface.q1 / surface.q0),
     )
     spread = abs(a_v - a_v.sel(variant=VARIANT)).max("variant")
-    model = theory_error(laws, "attractive_area", a_v) * a_v
+    model = theory_error(models, "attractive_area", a_v) * a_v
     return with_budget(
         dataset,
         "a_v",
@@ -70,27 +67,15 @@ def budgeted(dataset, surface, load, laws):
 
 
 def a_v_of(surface, end, ranges, load, gamma):
-    """a_V by every variant and by the edge law on one end of a surface, and the edge range.
-
-    Below the edge range theory is held constant, with the edge law as the other limit.
-    """
-    spectrum = spectrum_of(surface, end)
-    pressure = load * float(surface.q0) * spectrum.h_rms
-    resolved = [
-        local_a_v(
-            Persson(spectrum, variant=variant, gamma=gamma).gap_cumulative(
-                ranges * spectrum.h_rms, pressure
-            ),
-            load,
-            ranges,
-        )
-        for variant in VARIANTS
-    ]
-    edge = edge_range(ranges, *resolved)
-    at_edge = np.exp(np.interp(np.log(edge), np.log(ranges), np.log(resolved[0])))
-    a_v = [np.where(ranges < edge, at_edge, a) for a in resolved]
-    a_v.append(np.where(ranges < edge, edge_a_v(surface, end), a_v[0]))
-    return [*VARIANTS, EDGE_LAW], a_v, edge
+    """a_V by every variant and by the edge law on one end of a surface, and the edge range."""
+    return theory_a_v(
+        real_spectrum(surface, end),
+        ranges,
+        load,
+        edge_a_v(surface, end),
+        q0=float(surface.q0),
+        gamma=gamma,
+    )
 
 
 def same_shape(surface):
@@ -104,13 +89,6 @@ def edge_a_v(surface, end):
     known = surface.isel(end=end)
     moments = (float(known[name]) for name in ("h_rms", "rms_slope", "rms_curvature"))
     return criteria.pastewka_robbins_a_v(float(surface.q0), *moments)
-
-
-def spectrum_of(surface, end=-1):
-    """Spectrum of one end of the surface, up to q1."""
-    inside = surface.wave_number <= float(surface.q1) * (1 + 1e-9)
-    known = surface.isel(end=end, wave_number=np.flatnonzero(inside))
-    return Tabulated(known.wave_number.values, known.psd.values)
 
 
 if __name__ == "__main__":

@@ -5,12 +5,12 @@ from itertools import product
 import numpy as np
 import xarray as xr
 
-from pipeline.conventions import DESCRIBED, logarithmic_grid, middles, spectrum_of
+from pipeline.conventions import DESCRIBED, logarithmic_grid, spectrum_of
 from pipeline.error_budgets import QUADRATURE, theory_parts
 from pipeline.job import start
 from pipeline.theory import DESCRIBED as DESCRIBED_THEORY
-from pipeline.theory import theories
-from stickiness.accuracy import error_laws
+from pipeline.theory import evaluate, theories
+from stickiness.accuracy.error_models import read_models
 from stickiness.core import datasets
 from stickiness.core.budget import with_budget
 from stickiness.persson.theory import Persson
@@ -19,21 +19,21 @@ from stickiness.persson.theory import Persson
 def main(job):
     sweep, ranges = job.params.sweep, logarithmic_grid(job.params.gaps)
     named = theories(job.params.variants, job.params.gamma)
-    axes = {
-        "variant": list(named),
-        "hurst": sweep["hurst"],
-        "magnification": [float(m) for m in sweep["magnification"]],
-    }
+    axes = list(named), sweep["hurst"], [float(m) for m in sweep["magnification"]]
     parts = [
-        state(theory(named[point[0]], *point[1:]), sweep, ranges).expand_dims(
-            {name: [value] for name, value in zip(axes, point, strict=True)}
-        )
-        for point in product(*axes.values())
+        evaluate_sweep(
+            Persson(
+                spectrum_of({"hurst": hurst, "magnification": magnification}), **named[variant]
+            ),
+            sweep,
+            ranges,
+        ).expand_dims(variant=[variant], hurst=[hurst], magnification=[magnification])
+        for variant, hurst, magnification in product(*axes)
     ]
-    dataset, laws = annotated(xr.combine_by_coords(parts)), error_laws.read_laws(job.input.laws)
+    dataset, models = annotate(xr.combine_by_coords(parts)), read_models(job.input.laws)
     for name in QUADRATURE:
         value = dataset[name].assign_coords(pressure=dataset.pressure)
-        dataset = with_budget(dataset, name, **theory_parts(laws, name, value))
+        dataset = with_budget(dataset, name, **theory_parts(models, name, value))
     datasets.write(
         dataset,
         job.output[0],
@@ -42,35 +42,18 @@ def main(job):
     )
 
 
-def theory(options, hurst, magnification):
-    return Persson(spectrum_of({"hurst": hurst, "magnification": magnification}), **options)
-
-
-def state(theory, sweep, ranges):
+def evaluate_sweep(theory, sweep, ranges):
     """Everything at the sweep's loads, which are pressures or mean gaps."""
     if "pressure" in sweep:
         pressures = np.array(sweep["pressure"], dtype=float)
     else:
         pressures = np.array([theory.pressure_at(gap) for gap in sweep["mean_gap"]])
-    gaps = middles(ranges)
-    return xr.Dataset(
-        {
-            "pressure": ("load", pressures),
-            "mean_gap": ("load", [float(theory.mean_gap(p)) for p in pressures]),
-            "area_fraction": ("load", [float(theory.area_fraction(p)) for p in pressures]),
-            "attractive_area": (
-                ("load", "range"),
-                [theory.gap_cumulative(ranges, p) for p in pressures],
-            ),
-            "gap_density": (("load", "gap"), [theory.gap_density(gaps, p) for p in pressures]),
-            "rms_slope": ((), theory.spectrum.rms_slope),
-            "rms_curvature": ((), theory.spectrum.rms_curvature),
-        },
-        coords={"range": ranges, "gap": gaps},
-    )
+    contact = evaluate(theory, pressures, ranges).rename_dims(pressure="load")
+    contact = contact.reset_index("pressure").reset_coords("pressure")
+    return contact.assign(rms_curvature=theory.spectrum.rms_curvature)
 
 
-def annotated(dataset):
+def annotate(dataset):
     return datasets.annotate(
         dataset,
         **DESCRIBED,

@@ -12,7 +12,7 @@ from pipeline.job import start
 from pipeline.theory import DESCRIBED as DESCRIBED_THEORY
 from pipeline.theory import theories
 from stickiness import criteria
-from stickiness.accuracy import error_laws
+from stickiness.accuracy.error_models import read_models
 from stickiness.core import datasets
 from stickiness.core.budget import Part, absent, unknown, with_budget
 from stickiness.criteria.a_v_table import edge_range, local_a_v
@@ -38,9 +38,9 @@ def main(job):
     }
     dataset = finite(axes, ranges, options).merge(infinite(axes, ranges, options))
     dataset["quadrature_error"] = quadrature_error(axes, ranges, gamma)
-    dataset = annotated(dataset.assign_coords(variant=names, range=ranges))
+    dataset = annotate(dataset.assign_coords(variant=names, range=ranges))
     datasets.write(
-        budgeted(dataset, error_laws.read_laws(job.input.laws)),
+        add_budgets(dataset, read_models(job.input.laws)),
         job.output[0],
         title="a_V by Persson's theory on self-affine spectra",
         parameters={**asked, "gamma": gamma, "quoted": names[0]},
@@ -111,11 +111,11 @@ def quadrature_error(axes, ranges, gamma):
     return max(changes)
 
 
-def budgeted(dataset, laws):
+def add_budgets(dataset, models):
     """a_V with its errors, as large as those of the attractive area, and the edges' estimate."""
     limit = dataset.a_v_limit.assign_coords(magnification=np.inf)
     for name, value in {"a_v": dataset.a_v, "a_v_limit": limit}.items():
-        model = theory_error(laws, "attractive_area", value) * value
+        model = theory_error(models, "attractive_area", value) * value
         dataset = with_budget(
             dataset,
             name,
@@ -139,7 +139,7 @@ def self_affine(hurst, magnification):
     return spectrum_of({"hurst": hurst, "magnification": magnification})
 
 
-def annotated(dataset):
+def annotate(dataset):
     return datasets.annotate(
         dataset,
         variant=DESCRIBED_THEORY,

@@ -7,17 +7,16 @@ import xarray as xr
 
 from pipeline.contact_curves import COARSE, CURVE, load_curve
 from pipeline.conventions import grid_points, spectrum_of, window_of
+from pipeline.quantities import describe_measured
 from stickiness.accuracy import multilevel
 from stickiness.core import datasets
 from stickiness.surfaces import synthesis
 
 SOLVED_FROM, DESCRIBED_FROM = 100_001, 1_000_001  # first seeds; the schema keeps the sets apart
-
-
 KEPT = ("area_fraction", "mean_gap", "residual", "rms_slope")
 
 
-def coarse_solutions(asked, which, others_count, pressures, ranges, tolerance):
+def coarse_solutions(asked, which, others_count, pressures, ranges, tolerance, names=()):
     """Solutions of surfaces, numbered from 0, and the long waves of these and of others.
 
     Those that are not solved go with the first of those that are.
@@ -26,15 +25,16 @@ def coarse_solutions(asked, which, others_count, pressures, ranges, tolerance):
     amplitudes = asked.get("amplitudes", "gaussian")
     seeds = SOLVED_FROM + np.array(which)
     others = DESCRIBED_FROM + np.arange(others_count if which[0] == 0 else 0)
+    kept = [*KEPT, *names, *(["attractive_area"] if len(ranges) else [])]
     curves = []
     for seed in seeds:
         logging.info("seed %d", seed)
         n = grid_points(asked, 2 * COARSE)
         heights = synthesis.synthesise(spectrum, n, length, int(seed), amplitudes)
-        curve = load_curve(heights[::2, ::2], length, pressures, ranges, tolerance)
+        curve = load_curve(heights[::2, ::2], length, pressures, ranges, tolerance, names)
         # Of the finer grid: at two pixels the shortest waves are not all there.
         curve["rms_slope"] = synthesis.moments(heights, length).rms_slope
-        curves.append(curve[[*KEPT, *(["attractive_area"] if len(ranges) else [])]])
+        curves.append(curve[kept])
     dataset = xr.concat(curves, xr.DataArray(seeds, dims="seed", name="seed"))
     dataset = dataset.assign_coords(descriptor=list(multilevel.DESCRIPTORS), other=others)
     for name, dim in (("long_waves", "seed"), ("other_long_waves", "other")):
@@ -43,10 +43,11 @@ def coarse_solutions(asked, which, others_count, pressures, ranges, tolerance):
     return dataset
 
 
-def annotated(dataset):
+def annotate(dataset):
     return datasets.annotate(
         dataset,
         **{name: texts for name, texts in CURVE.items() if name in dataset.variables},
+        **describe_measured(dataset.data_vars),
         seed=("1", "seed of the realisation"),
         other=("1", "seed of a realisation that is not solved"),
         descriptor=("1", "what is described, lengths in units of 1/q0 and heights of h_rms"),

@@ -5,18 +5,14 @@ import logging
 import xarray as xr
 
 from pipeline.conventions import DESCRIBED
+from pipeline.quantities import describe_measured
+from stickiness.accuracy.error_models import COARSE
+from stickiness.accuracy.quantities import MEASURED
 from stickiness.contact import gaps, solver, subpixel
 from stickiness.core import datasets
 
 SOLVED = ("area_fraction", "mean_gap", "residual", "iterations", "fft_pairs")
-
-
-SCALARS = (*SOLVED, "pixel_area_fraction", "edge_gap", "edges")
-
-
 AREAS = ("attractive_area", "pixel_attractive_area")
-
-
 CURVE = {
     **{name: DESCRIBED[name] for name in ("pressure", "range", "area_fraction", "mean_gap")},
     "attractive_area": DESCRIBED["attractive_area"],
@@ -25,27 +21,31 @@ CURVE = {
 }
 
 
-COARSE = 2  # grid points per shortest wavelength on the coarsest grid, the fewest that hold it
-
-
 def steps_of(pixels_per_wavelength):
     """Steps between the points that each grid takes from the finest, from coarse to fine."""
     return sorted({pixels_per_wavelength // COARSE, 2, 1}, reverse=True)
 
 
-def load_curves(heights, length, steps, pressures, ranges, tolerance):
+def load_curves(heights, length, steps, pressures, ranges, tolerance, names=()):
     """Contact quantities on every grid, along the dimension `resolution`."""
     curves = [
-        load_curve(heights[::step, ::step], length, pressures, ranges, tolerance) for step in steps
+        load_curve(heights[::step, ::step], length, pressures, ranges, tolerance, names)
+        for step in steps
     ]
     return xr.concat(curves, "resolution")
 
 
-def load_curve(heights, length, pressures, ranges, tolerance):
-    """Contact quantities at every pressure, each load started from the one before."""
+def load_curve(heights, length, pressures, ranges, tolerance, names=()):
+    """Contact quantities at every pressure, each load started from the one before.
+
+    `names` are those of the quantities that are measured because a case asks for them.
+    """
     rows = []
     for contact in solver.load_path(heights, length, pressures, tol=tolerance):
-        rows.append(measured(contact, ranges))
+        row = measured(contact, ranges)
+        rows.append(
+            row.assign({name: MEASURED[name](heights, contact.gap, length) for name in names})
+        )
         logging.info(
             "n = %d: load %d of %d, area %.4f, residual %.1e, %d iterations",
             len(heights),
@@ -73,7 +73,7 @@ def measured(contact, ranges):
     return xr.Dataset(found)
 
 
-def annotated(dataset):
+def annotate(dataset):
     texts = {name: text for name, text in CURVE.items() if name in dataset.variables}
     if "range" in dataset.dims:
         texts["pixel_attractive_area"] = (
@@ -83,6 +83,7 @@ def annotated(dataset):
     return datasets.annotate(
         dataset,
         **texts,
+        **describe_measured(dataset.data_vars),
         resolution=("1", "grid points per shortest wavelength"),
         pixel_area_fraction=("1", "repulsive contact area as counted in pixels, over nominal area"),
         edges=("1", "pixel sides between contact and gap"),

@@ -19,7 +19,8 @@ Q0 = 1.0
 
 VARIANT = "afferrante2018"  # of the theory, where one is quoted
 LOAD = 0.065  # over E* q0 h_rms, the load of the paper's Figures 3A and 3C
-GAPS_MEASURED = (0.01, 1.0)  # over h_rms, between which the trade measures the error of P(u)
+GAPS_MEASURED = (0.01, 1.0)  # over h_rms, where the error model of P(u) was measured
+FIT_MEASURED = (0.01, 0.1)  # over h_rms, fit interval of the a_V that has an error model
 LINEAR_UP_TO = 0.3  # area fraction up to which the paper calls the area linear in load
 
 DESCRIBED = {
@@ -48,6 +49,11 @@ def spectrum_of(surface: Mapping[str, Any]) -> SelfAffine:
 def window_of(surface: Mapping[str, Any]) -> float:
     """Side of a model surface's window, in units of 1/q0."""
     return surface.get("window", 1.0) * 2 * np.pi / Q0
+
+
+def at_load(data: xr.Dataset) -> xr.Dataset:
+    """The point next to `LOAD`."""
+    return data.sel(pressure=LOAD, method="nearest")
 
 
 def logarithmic_grid(grid: Mapping[str, float] | None) -> NDArray:

@@ -1,7 +1,7 @@
 """Adhesion in the DMT limit from the attractive areas of contact without it.
 
 The quantities take the variables of one ensemble, of its coarse solutions or of its means alike,
-see `_errors.coarse`, so that the same function gives a mean and its control.
+see `ensemble_means.coarse`, so that the same function gives a mean and its control.
 """
 
 from __future__ import annotations
@@ -62,10 +62,10 @@ class DmtLimit:
         count = round(np.log10(known[-1] / known[0]) * PER_DECADE) + 1
         logs = logs.assign_coords(range=np.log(known))
         parts = []
-        for reach in ranges.values:
+        for range_ in ranges.values:
             # In proportion to the adhesion length: once for the smallest of them.
-            law = scaled_law(self.asked, self.asked["law"], float(lengths[0]), reach)
-            nodes = np.union1d(np.geomspace(known[0], known[-1], count), [reach])
+            law = scaled_law(self.asked, self.asked["law"], float(lengths[0]), range_)
+            nodes = np.union1d(np.geomspace(known[0], known[-1], count), [range_])
             area = np.exp(logs.interp(range=np.log(nodes).clip(*np.log(known[[0, -1]]))))
             area = area.transpose(..., "range")
             parts.append(
@@ -90,17 +90,21 @@ class DmtLimit:
         """1/kappa over all loads whose area is linear."""
         held = self.at_loads(solved)
         external = held.pressure - self.attraction(solved)
-        return fitted(external, held.area_fraction * held.rms_slope, self.linear)
+        return fit_slope(external, held.area_fraction * held.rms_slope, self.linear)
 
     def inverse_kappa_ad_fit(self, solved: xr.Dataset) -> xr.DataArray:
         """1/kappa_ad by the fall of that slope."""
         held = self.at_loads(solved)
         attraction = self.attraction(solved)
         area = held.area_fraction * held.rms_slope
-        return fitted(attraction, area, self.linear) / fitted(held.pressure, area, self.linear) / 2
+        return (
+            fit_slope(attraction, area, self.linear)
+            / fit_slope(held.pressure, area, self.linear)
+            / 2
+        )
 
 
-def fitted(external: xr.DataArray, area: xr.DataArray, linear: xr.DataArray) -> xr.DataArray:
+def fit_slope(external: xr.DataArray, area: xr.DataArray, linear: xr.DataArray) -> xr.DataArray:
     """Fitted slope of pressure against area through the origin; NaN for fewer than two loads.
 
     Where a load is missing there is no slope: the others alone would have another.

@@ -2,7 +2,7 @@
 
 A mean stands for the whole ensemble of surfaces that the case's window can hold, Gaussian unless
 the case says otherwise. It is the plain one over the seeds, or if there are coarse solutions of
-many more seeds the multilevel one of `stickiness.sampling`.
+many more seeds the multilevel one of `stickiness.accuracy.multilevel`.
 """
 
 from __future__ import annotations
@@ -117,12 +117,12 @@ def ensemble_mean(values, more=None):
     )
 
 
-def with_errors(dataset, name, values, more=None, plain=False, limit=None):
+def add_errors(dataset, name, values, more=None, plain=False, limit=None):
     """Add mean, standard error and discretisation error of `values` to a dataset.
 
     They are called ``NAME_mean``, ``NAME_standard_error`` and ``NAME_discretisation_error``; with
     `plain` the mean is just ``NAME``. `more` is the same of coarse solutions, see `coarse`.
-    With a `limit`, a `_limits.Limit`, the mean is that in the limit of fine grids and the
+    With a `limit`, a `grid_limits.Limit`, the mean is that in the limit of fine grids and the
     discretisation error the one that is left, instead of the change from half the resolution.
     """
     best, error = ensemble_mean(values, more)
@@ -138,8 +138,8 @@ def with_errors(dataset, name, values, more=None, plain=False, limit=None):
     )
 
 
-def described(name, text, plain=False, units="1", discretisation=None):
-    """Texts for `datasets.annotate` of what `with_errors` adds.
+def describe_errors(name, text, plain=False, units="1", discretisation=None):
+    """Texts for `datasets.annotate` of what `add_errors` adds.
 
     `discretisation` says what the discretisation error is, if not the change from half the
     resolution.

@@ -2,65 +2,61 @@
 
 from operator import itemgetter
 
-import numpy as np
 import xarray as xr
 
 from pipeline import grid_limits
-from pipeline.conventions import DESCRIBED, middles
-from pipeline.ensemble_means import PREFIX, coarse, described, mean, with_errors
+from pipeline.conventions import DESCRIBED
+from pipeline.ensemble_means import PREFIX, SUFFIXES, add_errors, coarse, describe_errors, mean
 from pipeline.error_budgets import Simulation
 from pipeline.grid_limits import EXTRAPOLATION
-from stickiness.accuracy import error_laws
+from pipeline.quantities import gap_density
+from stickiness.accuracy.error_models import read_models
+from stickiness.accuracy.quantities import COLUMNS, MEASURED, QUANTITIES
 from stickiness.core import datasets
 from stickiness.core.budget import with_budget
 
+# Of realisations: what an ensemble's file keeps seed by seed, and what is read. The same of coarse
+# solutions. Both have the optional ones besides, if the case wants them.
 KEPT = ("area_fraction", "mean_gap", "residual", "iterations", "rms_slope")
-
-
 NEEDED = (*KEPT, "pixel_area_fraction", "edges", "edge_gap")
-
-
 COARSE = ("area_fraction", "mean_gap", "rms_slope")
-
-
-GAPS = ("attractive_area",)  # what is there besides if ranges were asked for
-
-
+OPTIONAL = ("attractive_area", *MEASURED)
 LONG_WAVES = ("long_waves", "other_long_waves")
-
-
 SURFACES = {"gaussian": "Gaussian surfaces", "fixed": "surfaces of fixed amplitudes"}
 
 
 def ensemble_of(inputs, loads, averaged):
     """Means and errors from the files of realisations and coarse solutions, and what made them."""
-    gaps = [name for name in GAPS if name in averaged]
-    files = [read(path, (*NEEDED, *gaps), loads) for path in inputs.realisations]
-    others = [read(path, (*COARSE, *gaps), loads) for path in inputs.coarse]
+    files = [read(path, (*NEEDED, *optional(averaged)), loads) for path in inputs.realisations]
+    kept = (*COARSE, *optional(averaged))
+    others = [read(path, kept, loads) for path in inputs.coarse]
     seeds = [datasets.parameters(file)["seed"] for file in files]
     realisations = xr.concat(files, xr.DataArray(seeds, dims="seed", name="seed"))
-    more = renamed(joined(others), (*COARSE, *gaps)) if others else xr.Dataset()
-    dataset = with_statistics(realisations, more, averaged)
+    more = rename_coarse(join(others), kept) if others else xr.Dataset()
+    dataset = add_statistics(realisations, more, averaged)
     parameters = datasets.parameters(files[0])
     parameters["largest_residual"] = float(realisations.residual.max())
     del parameters["seed"]
-    return dataset, {**parameters, "seeds": seeds, **sampled(parameters, dataset)}
+    return dataset, {**parameters, "seeds": seeds, **describe_sampling(parameters, dataset)}
 
 
-def joined(files):
+def join(files):
     """Coarse solutions of all files; the seeds that are not solved are in the first."""
     solved = xr.concat([file.drop_dims("other") for file in files], "seed", data_vars="minimal")
     return solved.merge(files[0][["other_long_waves"]])
 
 
-def wanted(quantities):
+def optional(averaged):
+    """Variables of single solutions that only some cases have, of what is averaged."""
+    return [name for name in OPTIONAL if name in averaged]
+
+
+def choose_means(quantities):
     """What to average for the quantities wanted of a case; areas and mean gaps come for free."""
-    names = ["area_fraction", "mean_gap"]
-    if any(quantity in error_laws.OF_GAPS for quantity in quantities):
-        names.append("attractive_area")
-    if "gap_distribution" in quantities:
-        names.append("gap_density")
-    return {name: AVERAGED[name] for name in names}
+    needed = {mean for quantity in quantities for mean in QUANTITIES[quantity].means}
+    needed |= {"area_fraction", "mean_gap"}
+    measured = {name: itemgetter(name) for name in MEASURED}
+    return {name: value for name, value in (AVERAGED | measured).items() if name in needed}
 
 
 def read(path, names, loads):
@@ -68,13 +64,13 @@ def read(path, names, loads):
     return datasets.read(path, names).sel(pressure=loads)
 
 
-def renamed(others, kept=(*COARSE, *GAPS)):
+def rename_coarse(others, kept=(*COARSE, "attractive_area")):
     """Coarse solutions under names that leave those of the fine ones free."""
     names = {name: f"{PREFIX}{name}" for name in (*kept, "seed")}
     return others[[*kept, *LONG_WAVES]].rename(names)
 
 
-def sampled(made, dataset):
+def describe_sampling(made, dataset):
     """What the means stand for and how they are taken, for the parameters of the file."""
     surfaces, window = SURFACES[made.get("amplitudes", "gaussian")], made.get("window", 1)
     found = {
@@ -88,53 +84,50 @@ def sampled(made, dataset):
     return found
 
 
-def gap_density(solutions):
-    """P(u) between neighbouring ranges, as the slope of the attractive area."""
-    edges = solutions["range"].values
-    density = solutions.attractive_area.diff("range") / xr.DataArray(np.diff(edges), dims="range")
-    return density.rename(range="gap").assign_coords(gap=middles(edges))
+AVERAGED = {
+    **{name: itemgetter(name) for name in ("area_fraction", "mean_gap", "attractive_area")},
+    "gap_density": gap_density,
+}
 
 
-AVERAGED = {name: itemgetter(name) for name in ("area_fraction", "mean_gap", "attractive_area")}
-
-
-AVERAGED["gap_density"] = gap_density
-
-
-def with_statistics(realisations, others, averaged=AVERAGED):
+def add_statistics(realisations, others, averaged=AVERAGED):
     """Mean and errors of every quantity, beside the values seed by seed."""
-    gaps = [name for name in GAPS if name in averaged]
-    dataset = realisations[[*KEPT, *gaps]].merge(others)
+    dataset = realisations[[*KEPT, *optional(averaged)]].merge(others)
     dataset["edge_gap_mean"] = mean(realisations.edge_gap)
-    limits = grid_limits.of_ensemble(realisations, averaged)
+    ruled = {name: quantity for name, quantity in averaged.items() if name not in MEASURED}
+    limits = grid_limits.estimate_limits(realisations, ruled)
     for name, quantity in averaged.items():
         more = coarse(dataset, quantity)
-        dataset = with_errors(dataset, name, quantity(realisations), more, limit=limits[name])
+        dataset = add_errors(dataset, name, quantity(realisations), more, limit=limits.get(name))
     if "attractive_area" in averaged:  # the one quantity that has any
         dataset[f"attractive_area_{EXTRAPOLATION}"] = limits["attractive_area"].shift
     return dataset
 
 
-def budgeted(dataset, made, laws, averaged=AVERAGED):
+def add_budgets(dataset, made, laws, averaged=AVERAGED):
     """The means with their errors by source."""
-    simulation = Simulation.of(error_laws.read_laws(laws), made)
+    simulation = Simulation.of(read_models(laws), made)
     for name in averaged:
         parts = simulation.parts(
             name,
             *(dataset[f"{name}_{kind}"] for kind in ("mean", "standard_error")),
             dataset[f"{name}_discretisation_error"],
+            SUFFIXES["discretisation_error"] if name in MEASURED else grid_limits.LEFT,
         )
         dataset = with_budget(dataset, f"{name}_mean", **parts)
     return dataset
 
 
-def annotated(dataset, averaged=AVERAGED):
+def annotate(dataset, averaged=AVERAGED):
     texts = {
         "seed": ("1", "seed of the realisation"),
         "edge_gap_mean": ("1", "gap next to the contact over h_rms: smallest range resolved"),
     }
     for name in averaged:
-        texts |= described(name, DESCRIBED[name][1], discretisation=grid_limits.DIRECT)
+        if name in MEASURED:
+            texts |= describe_errors(name, COLUMNS[name].text)
+        else:
+            texts |= describe_errors(name, DESCRIBED[name][1], discretisation=grid_limits.DIRECT)
     if "gap_density" in averaged:
         texts["gap"] = DESCRIBED["gap"]
     if "attractive_area" in averaged:

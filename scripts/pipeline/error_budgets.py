@@ -1,24 +1,46 @@
-"""Error budgets of what simulation and theory give, by the measured laws of their errors.
+"""Error budgets of what simulation and theory give, by error models.
 
-`stickiness.accuracy` has the laws by the columns of its table; what lies between two of its ranges
-of attraction is interpolated, and what lies outside widened like all that was not measured.
+The models are for the columns of their table. What lies between two of the ranges of attraction is
+interpolated, and what lies outside is widened like all that was not measured.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 import xarray as xr
 
 from pipeline.conventions import GAPS_MEASURED, VARIANT
-from stickiness.accuracy import error_laws
-from stickiness.core.budget import Part, absent
+from pipeline.grid_limits import LEFT
+from stickiness.accuracy.error_models import (
+    OUTSIDE,
+    ErrorModels,
+    Settings,
+    Surface,
+    single_error,
+)
+from stickiness.accuracy.prediction import Problem, covering_factor
+from stickiness.accuracy.quantities import TABLE, has_error_model
+from stickiness.core.budget import Part, absent, unknown
+from stickiness.core.statistics import students_t
 
-COLUMNS = {"area_fraction": "area", "mean_gap": "mean_gap", "gap_density": "gap_distribution"}
-RANGES = {0.01: "attractive_area_0.01", 0.1: "attractive_area_0.1"}  # over h_rms, measured
+# Columns of the error models, by variables of an ensemble's file and, over h_rms, by ranges.
+COLUMN_OF = {
+    column.variable: column.name
+    for quantity in TABLE
+    for column in quantity.columns
+    if "range" not in column.at
+}
+COLUMN_AT_RANGE = {
+    column.at["range"]: column.name
+    for quantity in TABLE
+    for column in quantity.columns
+    if "range" in column.at
+}
+NOT_MEASURED = "how this quantity changes with the tolerance is not measured"
 ENDLESS = np.inf  # window of a continuous spectrum
 
 SIMULATED = {
@@ -37,46 +59,38 @@ QUADRATURE = {"area_fraction": 1e-9, "mean_gap": 1e-9, "attractive_area": 5e-7, 
 
 @dataclass(frozen=True)
 class Simulation:
-    """What a mean over realisations errs by, beside its own standard error.
+    """Errors of a mean over realisations, beside its own standard error.
 
     Attributes
     ----------
-    laws : mapping
-        Of `error_laws.read_laws`.
-    surface : accuracy.Surface
-    settings : accuracy.Settings
-    described : int
-        Seeds of which only the long waves are looked at.
+    problem : Problem
+        Surface and error models.
+    settings : Settings
     """
 
-    laws: error_laws.Laws
-    surface: error_laws.Surface
-    settings: error_laws.Settings
-    described: int
+    problem: Problem
+    settings: Settings
 
     @classmethod
-    def of(cls, laws: error_laws.Laws, made: Mapping[str, Any]) -> Simulation:
+    def of(cls, models: ErrorModels, made: Mapping[str, Any]) -> Simulation:
         """From the parameters of an ensemble's file, or of one that derives from it."""
-        settings = error_laws.Settings(
+        settings = Settings(
             made["pixels_per_wavelength"],
             made["tolerance"],
             len(made["seeds"]),
             made.get("coarse_seeds", 0),
         )
-        return cls(laws, error_laws.Surface.of(made), settings, made.get("descriptor_seeds", 2048))
+        described = made.get("descriptor_seeds", 2048)
+        return cls(Problem(models, Surface.of(made), (), (), described), settings)
 
     def solver(self, column: str, pressure: float) -> float:
         """Relative error of a column by the tolerance of the solver."""
-        tolerance = self.settings.tolerance
-        return error_laws.single_error(
-            self.laws, "solver", column, self.surface, pressure, tolerance=tolerance
-        )
+        at = self.problem.models, "solver", column, self.problem.surface, pressure
+        return single_error(*at, tolerance=self.settings.tolerance)
 
     def factor(self, column: str, pressure: float) -> float:
         """Standard errors that cover 90 % of means of a column."""
-        return error_laws.covering_factor(
-            self.laws, self.settings, self.surface, pressure, column, self.described
-        )
+        return covering_factor(self.problem, self.settings, pressure, column)
 
     def factors(self, name: str, like: xr.DataArray) -> xr.DataArray:
         """`factor` along a variable: it goes with what was measured, wherever that is."""
@@ -88,19 +102,21 @@ class Simulation:
         value: xr.DataArray,
         standard_error: xr.DataArray,
         discretisation: xr.DataArray,
-        text: str = "left in the limit of fine grids",
+        text: str = LEFT,
     ) -> dict[str, Part]:
         """Parts of the budget of a mean.
 
         Parameters
         ----------
         name : str
-            Of a variable of an ensemble's file without the ``_mean``, or of a column of the laws.
+            Of a variable of an ensemble's file without the ``_mean``, or of a column.
         value, standard_error, discretisation : xarray.DataArray
             Along `pressure`, and `range` or `gap`.
         text : str
             What the discretisation error is.
         """
+        if name != "attractive_area" and not has_error_model(COLUMN_OF.get(name, name)):
+            return self.parts_without_model(standard_error, discretisation, text)
         solver, factor = along(self.solver, name, value), self.factors(name, value)
         return {
             "discretisation": Part(discretisation, text),
@@ -109,22 +125,37 @@ class Simulation:
             **SIMULATED,
         }
 
+    def parts_without_model(
+        self,
+        standard_error: xr.DataArray | float,
+        discretisation: xr.DataArray | float,
+        text: str,
+    ) -> dict[str, Part]:
+        """Parts of the budget of a quantity whose errors were not measured."""
+        factor = students_t(self.settings.seeds)
+        return {
+            "discretisation": Part(discretisation, text),
+            "solver": unknown(NOT_MEASURED),
+            "sampling": Part(factor * standard_error, "Student's t by the fine seeds alone"),
+            **SIMULATED,
+        }
+
 
 def along(
-    law: Callable[[str, float], float], name: str, like: xr.DataArray, widened: bool = True
+    model: Callable[[str, float], float], name: str, like: xr.DataArray, widened: bool = True
 ) -> xr.DataArray:
-    """Values of a law by column and pressure, along the pressures and ranges of a variable."""
+    """Values by column and pressure, along the pressures and ranges of a variable."""
 
     def by(column):
-        return xr.apply_ufunc(law, column, like.pressure, vectorize=True)
+        return xr.apply_ufunc(model, column, like.pressure, vectorize=True)
 
     if name != "attractive_area":
-        return by(COLUMNS.get(name, name)) * (widened_gaps(like) if widened else 1.0)
-    ends = {reach: by(column) for reach, column in RANGES.items()}
-    return between_ranges(ends, like["range"], widened)
+        return by(COLUMN_OF.get(name, name)) * (widen_gaps(like) if widened else 1.0)
+    ends = {range_: by(column) for range_, column in COLUMN_AT_RANGE.items()}
+    return interpolate_ranges(ends, like["range"], widened)
 
 
-def between_ranges(
+def interpolate_ranges(
     ends: Mapping[float, xr.DataArray], ranges: xr.DataArray, widened: bool = True
 ) -> xr.DataArray:
     """A power law between the two ranges measured, held and widened outside."""
@@ -132,61 +163,59 @@ def between_ranges(
     share = np.log(ranges / low) / np.log(high / low)
     inside = share.clip(0, 1)
     found = first ** (1 - inside) * last**inside
-    return found * xr.where(share == inside, 1, error_laws.OUTSIDE) if widened else found
+    return found * xr.where(share == inside, 1, OUTSIDE) if widened else found
 
 
-def widened_gaps(like: xr.DataArray) -> xr.DataArray | float:
-    """Factor for gaps outside those that the law of P(u) was measured over."""
+def widen_gaps(like: xr.DataArray) -> xr.DataArray | float:
+    """Factor for gaps outside those that the error of P(u) was measured over."""
     if "gap" not in like.dims:
         return 1.0
     inside = (like.gap >= GAPS_MEASURED[0]) & (like.gap <= GAPS_MEASURED[1])
-    return xr.where(inside, 1.0, error_laws.OUTSIDE)
+    return xr.where(inside, 1.0, OUTSIDE)
 
 
 def theory_error(
-    laws: error_laws.Laws, name: str, like: xr.DataArray, surface: Mapping[str, Any] | None = None
+    models: ErrorModels, name: str, like: xr.DataArray, surface: Mapping[str, Any] | None = None
 ) -> xr.DataArray:
     """Relative error of theory in place of simulation; NaN for variants not measured.
 
     Parameters
     ----------
-    laws : mapping
-        Of `error_laws.read_laws`.
+    models : mapping
+        Table of `error_models.read_models`.
     name : str
-        Of the variable, or of a column of the laws.
+        Of the variable, or of a column of their table.
     like : xarray.DataArray
         The variable with a coordinate `pressure`; without `surface` also along `hurst` and
         `magnification`, of spectra without a window.
     """
+    kind = Surface.of(surface) if surface else Surface(0.8, 1.0, ENDLESS)
 
-    def single(column, hurst, magnification, window, pressure):
-        at = error_laws.Surface(hurst, magnification, window)
-        return error_laws.single_error(laws, "theory", column, at, pressure)
+    def single(column, hurst, magnification, pressure):
+        at = replace(kind, hurst=hurst, magnification=magnification)
+        return single_error(models, "theory", column, at, pressure)
 
-    known = error_laws.Surface.of(surface) if surface else None
-    where = (
-        (known.hurst, known.magnification, known.window)
-        if known
-        else (like.hurst, like.magnification, ENDLESS)
-    )
+    where = kind if surface else like
 
     def by(column):
-        return xr.apply_ufunc(single, column, *where, like.pressure, vectorize=True)
+        return xr.apply_ufunc(
+            single, column, where.hurst, where.magnification, like.pressure, vectorize=True
+        )
 
     if name == "attractive_area":
-        ends = {reach: by(column) for reach, column in RANGES.items()}
-        found = between_ranges(ends, like["range"])
+        ends = {range_: by(column) for range_, column in COLUMN_AT_RANGE.items()}
+        found = interpolate_ranges(ends, like["range"])
     else:
-        found = by(COLUMNS.get(name, name)) * widened_gaps(like)
+        found = by(COLUMN_OF.get(name, name)) * widen_gaps(like)
     return found.where(like["variant"] == VARIANT) if "variant" in like.coords else found
 
 
 def theory_parts(
-    laws: error_laws.Laws, name: str, value: xr.DataArray, surface: Mapping[str, Any] | None = None
+    models: ErrorModels, name: str, value: xr.DataArray, surface: Mapping[str, Any] | None = None
 ) -> dict[str, Part]:
     """Parts of the budget of a variable of theory's; arguments as of `theory_error`."""
     return {
         "discretisation": Part(QUADRATURE[name] * abs(value), "of the quadrature, as tested"),
-        "model": Part(theory_error(laws, name, value, surface) * abs(value), MODEL),
+        "model": Part(theory_error(models, name, value, surface) * abs(value), MODEL),
         **BY_THEORY,
     }

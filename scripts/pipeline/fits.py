@@ -6,20 +6,9 @@ import xarray as xr
 from stickiness.criteria import a_v_fit
 
 
-def fitted(areas, windows):
+def fit_intervals(areas, windows):
     """a_V and the standard error of its fit along every dimension but the range's."""
-    area, pressure = areas.attractive_area, areas.pressure
-    fits = [
-        xr.apply_ufunc(
-            lambda values, load, window=window: fit_one(area["range"].values, values, load, window),
-            area,
-            pressure,
-            input_core_dims=[["range"], []],
-            output_core_dims=[["result"]],
-            vectorize=True,
-        )
-        for window in windows
-    ]
+    fits = [fit_a_v(areas.attractive_area, areas.pressure, window) for window in windows]
     both = xr.concat(fits, "window")
     return xr.Dataset(
         {
@@ -31,6 +20,19 @@ def fitted(areas, windows):
     )
 
 
-def fit_one(ranges, area, pressure, window):
-    fit = a_v_fit.fit_a_v(ranges, area, float(pressure), window=tuple(window))
-    return np.array([fit.value, fit.standard_error])
+def fit_a_v(area, pressure, fit_interval):
+    """a_V and the standard error of its fit, along the dimension `result`."""
+    ranges = area["range"].values
+
+    def fit(values, load):
+        found = a_v_fit.fit_a_v(ranges, values, float(load), window=tuple(fit_interval))
+        return [found.value, found.standard_error]
+
+    return xr.apply_ufunc(
+        lambda *given: np.array(fit(*given)),
+        area,
+        pressure,
+        input_core_dims=[["range"], []],
+        output_core_dims=[["result"]],
+        vectorize=True,
+    )

@@ -1,6 +1,6 @@
 """What the limit of fine grids changes in the means of ensembles, and the error that is left.
 
-For areas, gaps and P(u) it is `stickiness.continuum` that says so; what derives from these means
+For areas, gaps and P(u) `stickiness.contact.grid_limit` gives both. What derives from these means
 inherits shift and error to first order.
 """
 
@@ -15,6 +15,7 @@ import xarray as xr
 from stickiness.contact import grid_limit
 
 DIRECT = "error left in the limit of fine grids, covers 90 %"
+LEFT = "left in the limit of fine grids"
 INHERITED = "from the errors left in areas in the limit of fine grids"
 EXTRAPOLATION = "extrapolation"  # ending of the name of what a mean in the file holds of it
 _STEP = 1e-4  # share of a shift or an error in finite differences: first order is meant
@@ -28,10 +29,10 @@ class Limit:
     error: xr.DataArray
 
 
-def of_ensemble(
+def estimate_limits(
     realisations: xr.Dataset, quantities: dict[str, Callable[[xr.Dataset], xr.DataArray]]
 ) -> dict[str, Limit]:
-    """Limits of the means over seeds of quantities that `stickiness.continuum` has a rule for.
+    """Limits of means over seeds, for quantities that `grid_limit` has a rule for.
 
     Parameters
     ----------
@@ -51,7 +52,7 @@ def of_ensemble(
         values = quantity(realisations)
         found = grid_limit.estimate(
             name,
-            [values.isel(resolution=k, drop=True).mean("seed") for k in halved(realisations)],
+            [values.isel(resolution=k, drop=True).mean("seed") for k in find_halved(realisations)],
             subpixel_part(name, fine, quantity(fine)).mean("seed"),
             fine.edges.sum("seed"),
             climbs,
@@ -60,7 +61,7 @@ def of_ensemble(
     return limits
 
 
-def halved(realisations: xr.Dataset) -> list[int]:
+def find_halved(realisations: xr.Dataset) -> list[int]:
     """Indices, up to three, of the finest grids that are each twice as fine as the one before."""
     resolution = realisations.resolution.values
     chosen = [len(resolution) - 1]
@@ -86,7 +87,7 @@ def subpixel_part(name: str, fine: xr.Dataset, values: xr.DataArray) -> xr.DataA
     return values * share.assign_coords(gap=values.gap)
 
 
-def inherited(
+def inherit(
     ensemble: xr.Dataset,
     quantity: Callable[[xr.Dataset], xr.DataArray],
     names: Sequence[str],
@@ -101,7 +102,7 @@ def inherited(
     ensemble
         As `average_ensemble` makes it.
     quantity
-        The quantity by the variables of one solution, as for `_errors.coarse`.
+        The quantity by the variables of one solution, as for `ensemble_means.coarse`.
     names
         The means it derives from, without the ``_mean``.
     """

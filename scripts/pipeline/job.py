@@ -1,27 +1,28 @@
-"""What every script shares: its log, and a stand-in for Snakemake when it is run by hand."""
+"""What every script shares: its log, and the job that it is when it is run by hand."""
 
 from __future__ import annotations
 
 import logging
 import sys
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 
 def start(names: dict[str, Any], rule: str, **wildcards: Any) -> Any:
-    """Return the job's `snakemake` object, with log and error reporting set up.
+    """Return the job's `snakemake` object; open its log and report errors to it.
 
     Parameters
     ----------
     names : dict
-        ``globals()`` of the script. Run by Snakemake it holds `snakemake`; run by hand
-        (``python scripts/NAME.py case=H0.8_zeta64 fidelity=draft``) the job of `rule` with these
-        wildcards is looked up in the workflow, so that a script can be debugged alone, from the
-        project's top folder.
+        ``globals()`` of the script, which hold `snakemake` if Snakemake runs it. By hand (from the
+        project's top folder, ``PYTHONPATH=scripts python scripts/fits/fit_kappa.py
+        case=H0.8_zeta128 fidelity=draft``) the job of `rule` with these wildcards is looked up in
+        the workflow, so that a script can be debugged alone.
     rule, **wildcards
         Example job for a run by hand.
     """
-    job = names.get("snakemake") or job_of(rule, **wildcards | given())
+    job = names.get("snakemake") or find_job(rule, **wildcards | arguments())
     Path(job.log[0]).parent.mkdir(parents=True, exist_ok=True)
     logging.basicConfig(
         filename=job.log[0],
@@ -30,27 +31,24 @@ def start(names: dict[str, Any], rule: str, **wildcards: Any) -> Any:
         format="%(asctime)s %(levelname)s %(message)s",
         force=True,
     )
-    sys.excepthook = _report
+    sys.excepthook = report_error
     return job
 
 
-def _report(kind: type[BaseException], error: BaseException, trace: Any) -> None:
-    """One line on the terminal, the trace in the log."""
-    # A ValueError says itself what is wrong with the input; anything else needs its trace.
-    shown = None if issubclass(kind, ValueError) else (kind, error, trace)
-    logging.error("%s: %s", kind.__name__, error, exc_info=shown)
-    print(f"{kind.__name__}: {error}", file=sys.stderr)
+def report_error(kind: type[BaseException], error: BaseException, trace: Any) -> None:
+    """Write one line to the terminal, and the same with the traceback to the log."""
+    line = f"{kind.__name__}: {error}"
+    logging.error("%s", line, exc_info=(kind, error, trace))
+    print(line, file=sys.stderr)
 
 
-def given() -> dict[str, str]:
+def arguments() -> dict[str, str]:
     """What the command line says as KEY=VALUE: wildcards, or the fidelity."""
     return dict(argument.split("=", 1) for argument in sys.argv[1:])
 
 
-def job_of(rule: str, **wildcards: Any) -> Any:
-    """The job of `rule` with these wildcards: `input`, `output`, `params`, `log` as in a run."""
-    from types import SimpleNamespace
-
+def find_job(rule: str, **wildcards: Any) -> SimpleNamespace:
+    """Job of a rule with these wildcards: `input`, `output`, `params` and `log` as in a run."""
     from snakemake.api import SnakemakeApi
     from snakemake.iocontainers import Wildcards
     from snakemake.settings.types import ConfigSettings, OutputSettings, ResourceSettings
@@ -62,10 +60,7 @@ def job_of(rule: str, **wildcards: Any) -> Any:
             config_settings=ConfigSettings(config=config),
             snakefile=Path("Snakefile"),
         )
-        workflow = workflow_api._workflow
-        # Rounds of seeds count as assessed if their files are there.
-        workflow.checkpoints.created_output.update(map(str, Path().glob("results/*/draws/*/*.nc")))
-        found = workflow.get_rule(rule)
+        found = workflow_api._workflow.get_rule(rule)
         values = Wildcards(fromdict={key: str(value) for key, value in wildcards.items()})
         inputs, *_ = found.expand_input(values, groupid=None)
         outputs, _ = found.expand_output(values)

@@ -1,4 +1,4 @@
-"""Measured surfaces: files to one spectrum with its law, moments and their errors, as a dataset."""
+"""Measured surfaces: from files to a dataset of spectrum, fit and moments with their errors."""
 
 import logging
 from dataclasses import fields
@@ -18,12 +18,12 @@ from stickiness.measured import (
 )
 
 ENDS = ["smooth", "rough"]
-LEVELS = (0.16, 0.84)  # of the ends: one standard error
+END_QUANTILES = (0.16, 0.84)  # of the draws: one standard error
 DRAWS, SEED = 200, 1
 REFERENCE_HURST = 0.8  # of the paper's lines C0 = 1e-3 and 1e-5 m^0.4
 POINTS_PER_DECADE = 10
-PICTURE = 400  # points a side of the picture of the heights
-READING = (
+PICTURE_POINTS = 400  # along a side of the picture of the heights
+READ_KEYS = (  # of a measurement in the configuration that `topography.read` takes
     "length",
     "pixel_size",
     "height_unit",
@@ -39,26 +39,26 @@ READING = (
 
 
 def analyse(asked):
-    """Dataset of a measured surface as the configuration asks for it."""
-    every = [one for _, one in checks.measurements(asked)]
-    heights = [read(one).detrended(one.get("detrend", "plane")) for one in every]
+    """Dataset of a measured surface, as configured."""
+    measurements = [one for _, one in checks.measurements(asked)]
+    heights = [read_levelled(one) for one in measurements]
     spectra = [
-        instrument_spectrum.analyse(h, one.get("window", "hann"), limits(one))
-        for h, one in zip(heights, every, strict=True)
+        instrument_spectrum.analyse(h, one.get("window", "hann"), limits_of(one))
+        for h, one in zip(heights, measurements, strict=True)
     ]
     stitched = stitching.stitch(spectra) if len(spectra) > 1 else None
     spectrum = stitched.spectrum if stitched else spectra[0]
     extend_to = 2 * np.pi / si(asked["extend_to"], "m") if "extend_to" in asked else None
     drawn = spectrum_draws.draw(spectrum, DRAWS, SEED, stitched=stitched, extend_to=extend_to)
-    dataset = of_spectrum(spectrum, extend_to)
-    dataset = dataset.merge(of_draws(drawn)).merge(of_heights(heights[0]))
+    dataset = describe_spectrum(spectrum, extend_to)
+    dataset = dataset.merge(describe_draws(drawn)).merge(picture_of(heights[0]))
     if stitched:
-        dataset = dataset.merge(of_stitching(stitched))
+        dataset = dataset.merge(describe_stitching(stitched))
     remarks = [
         *self_affine_fit.remarks(spectrum.fit, np.nan_to_num(spectrum.anisotropy)),
-        *of_files(heights),
-        *of_limits(spectrum, extend_to),
-        *of_offsets(stitched),
+        *remarks_on_files(heights),
+        *remarks_on_limits(spectrum, extend_to),
+        *remarks_on_stitching(stitched),
     ]
     for remark in remarks:
         logging.info(remark)
@@ -74,21 +74,26 @@ def analyse(asked):
     )
 
 
-def read(one):
-    if one["file"] == "builtin:jacksboro":
-        return topography.jacksboro()
-    return topography.read(one["file"], **{key: one[key] for key in READING if key in one})
+def read_levelled(measurement):
+    """Levelled heights of a measurement, as configured."""
+    if measurement["file"] == "builtin:jacksboro":
+        heights = topography.jacksboro()
+    else:
+        keys = {key: measurement[key] for key in READ_KEYS if key in measurement}
+        heights = topography.read(measurement["file"], **keys)
+    return heights.detrended(measurement.get("detrend", "plane"))
 
 
-def limits(one):
-    """What the configuration says of an instrument's limits."""
+def limits_of(measurement):
+    """Limits of the instrument, as configured."""
     names = [field.name for field in fields(instrument_spectrum.Limits) if field.name != "detect"]
-    lengths = {name: si(one[name], "m") for name in names if name in one}
-    return instrument_spectrum.Limits(**lengths, detect=one.get("cutoff", "detect") == "detect")
+    lengths = {name: si(measurement[name], "m") for name in names if name in measurement}
+    detect = measurement.get("cutoff", "detect") == "detect"
+    return instrument_spectrum.Limits(**lengths, detect=detect)
 
 
-def of_spectrum(spectrum, extend_to):
-    """Spectrum, law and the line at the paper's exponent; carried on by the law if asked for."""
+def describe_spectrum(spectrum, extend_to):
+    """Spectrum, fit and the line at the paper's exponent; extrapolated by the fit if configured."""
     fit, rings = spectrum.fit, spectrum.rings
     line = fit.c0_at_hurst(REFERENCE_HURST)
     q, psd, error = rings.q, rings.psd, rings.standard_error
@@ -99,7 +104,7 @@ def of_spectrum(spectrum, extend_to):
         count = int(np.ceil(np.log10(extend_to / top) * POINTS_PER_DECADE)) + 1
         more = np.geomspace(top, extend_to, count)[0 if q[inside][-1] < top * 0.99 else 1 :]
         q = np.append(q[inside], more)
-        spread = law_error(fit, more)
+        spread = log_error_of_fit(fit, more)
         psd = [np.append(rings.psd[inside], fit.psd(more) * np.exp(s * spread)) for s in (-1, 1)]
         error = np.append(error[inside], fit.psd(more) * spread)
     fitted = (q >= fit.q_min * (1 - 1e-9)) & (q <= fit.q_max * (1 + 1e-9))
@@ -132,19 +137,15 @@ def of_spectrum(spectrum, extend_to):
     return dataset
 
 
-def law_error(fit, q):
-    """Standard error of ln C under the law at wave numbers beyond the plateau."""
+def log_error_of_fit(fit, q):
+    """Standard error of the fitted ln C at wave numbers beyond the plateau."""
     design = np.array([np.ones_like(q), -2 * np.log(q)])
     return np.sqrt(np.einsum("in,ij,jn->n", design, fit.log_covariance[:2, :2], design))
 
 
-def of_draws(drawn):
+def describe_draws(drawn):
     """Both ends of every moment, and the draws themselves for what depends on several."""
-    ends = {
-        name: ("end", values)
-        for name in drawn.moments
-        for values in [drawn.quantiles(name, LEVELS)]
-    }
+    ends = {name: ("end", drawn.quantiles(name, END_QUANTILES)) for name in drawn.moments}
     draws = {f"{name}_draws": ("draw", values) for name, values in drawn.moments.items()}
     return xr.Dataset(
         ends | draws | {"q0_draws": ("draw", drawn.q0)},
@@ -152,12 +153,12 @@ def of_draws(drawn):
     )
 
 
-def of_heights(heights):
-    """The levelled heights of the first measurement, thinned to what a picture shows."""
+def picture_of(heights):
+    """Levelled heights, thinned to what a picture shows."""
     if heights.heights.ndim == 1:
         x = np.arange(len(heights.heights)) * heights.dx
         return xr.Dataset({"profile": ("x", heights.heights)}, coords={"x": x})
-    thin = max(1, *(n // PICTURE for n in heights.heights.shape))
+    thin = max(1, *(n // PICTURE_POINTS for n in heights.heights.shape))
     picture = heights.heights[::thin, ::thin]
     x, y = (
         np.arange(n) * thin * d
@@ -166,8 +167,8 @@ def of_heights(heights):
     return xr.Dataset({"heights": (("x", "y"), picture.astype("f4"))}, coords={"x": x, "y": y})
 
 
-def of_stitching(stitched):
-    """Spectrum of every measurement by itself, and what separates them."""
+def describe_stitching(stitched):
+    """Spectrum of every measurement by itself, and their offsets."""
     return xr.Dataset(
         {
             "psd_measurement": (("measurement", "wave_number_measured"), stitched.levels),
@@ -181,7 +182,7 @@ def of_stitching(stitched):
     )
 
 
-def of_files(heights):
+def remarks_on_files(heights):
     """Remarks on what was missing."""
     found = []
     for one in heights:
@@ -202,7 +203,7 @@ def of_files(heights):
     return found
 
 
-def of_limits(spectrum, extend_to):
+def remarks_on_limits(spectrum, extend_to):
     """Remarks on the ends of the spectrum."""
     found, fit = [], spectrum.fit
     if fit.q_rolloff is None:
@@ -225,7 +226,7 @@ def wavelength(q):
     return quantity(2 * np.pi / q, 2 * np.pi / q, "m")
 
 
-def of_offsets(stitched):
+def remarks_on_stitching(stitched):
     """Remarks on how well several measurements agree."""
     if stitched is None:
         return []

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from pipeline.conventions import VARIANT
+from pipeline.conventions import VARIANT, middles
 from stickiness.persson.kernels import CORRECTIONS
 
 DESCRIBED = ("1", "variant of the theory, and its correction if not that of Yang & Persson")
@@ -31,6 +31,14 @@ def between_corrections(values: xr.DataArray) -> tuple[xr.DataArray, xr.DataArra
     names = [name for name in values["variant"].values if str(name).startswith(VARIANT)]
     chosen = values.sel(variant=names)
     return chosen.min("variant"), chosen.max("variant")
+
+
+def evaluate(theory, pressures, ranges):
+    """Contact by theory at every pressure, with P(u) between neighbouring ranges."""
+    gaps = middles(ranges)
+    density = [theory.gap_density(gaps, load) for load in pressures]
+    contact = contact_of(theory, pressures, ranges).assign_coords(gap=gaps)
+    return contact.assign(gap_density=(("pressure", "gap"), density))
 
 
 def contact_of(theory, pressures, ranges):

@@ -1,7 +1,7 @@
 """Spectrum and moments of a real surface, given by parameters or by a measured topography.
 
-Both kinds end in the same variables, so that criteria need not know which it was: a smooth and a
-rough end of what is known of the surface, each with its moments.
+Both kinds have the same variables, so that criteria treat them alike: a smooth and a rough end of
+the uncertainty of the surface, each with its moments.
 """
 
 import numpy as np
@@ -10,12 +10,12 @@ import xarray as xr
 from pipeline import measured_surface
 from pipeline.job import start
 from pipeline.measured_surface import ENDS, POINTS_PER_DECADE, REFERENCE_HURST
+from pipeline.real_spectra import configured_spectrum
 from stickiness.core import datasets
-from stickiness.core.budget import COVERS, Part, absent, with_budget
-from stickiness.core.units import si
-from stickiness.surfaces.spectrum import SelfAffine
+from stickiness.core.budget import Part, absent, with_budget
+from stickiness.core.statistics import COVERS
 
-DESCRIBED = {
+VARIABLE_TEXTS = {
     "end": ("1", "smooth or rough end of what is known of the surface"),
     "wave_number": ("1/m", "wave number"),
     "psd": ("m^4", "power spectral density C, h_rms^2 = 2 pi int q C dq"),
@@ -56,9 +56,8 @@ DESCRIBED = {
     "scatter": ("1", "standard deviation of the offsets", "no two measurements overlap"),
 }
 
-
 # Quoted numbers, and the standard errors of those that were fitted.
-ERRORS = {
+STANDARD_ERRORS = {
     "hurst": "hurst_standard_error",
     "C0_reference": "C0_reference_standard_error",
     "q_rolloff": "q_rolloff_standard_error",
@@ -78,7 +77,7 @@ def main(job):
 
 def self_affine(asked):
     """Both ends of the range of a parametric surface."""
-    spectra = [spectrum_of(asked, end) for end in (0, -1)]
+    spectra = [configured_spectrum(asked, end) for end in (0, -1)]
     q = np.geomspace(spectra[0].q0, spectra[0].q1, points(spectra[0].magnification))
     dataset = moments_of(spectra, [s.h_rms for s in spectra])
     dataset["psd"] = (("end", "wave_number"), [s.psd(q) for s in spectra])
@@ -90,30 +89,6 @@ def self_affine(asked):
         q0=spectra[0].q0 if spectra[0].q_rolloff is None else spectra[0].q_rolloff,
         q1=spectra[0].q1,
     ).assign_coords(wave_number=q)
-
-
-def spectrum_of(asked, end):
-    def bound(key, unit):
-        value = asked[key]
-        return si(value[end] if isinstance(value, list) else value, unit)
-
-    hurst = asked["hurst"]
-    size = {"h_rms": bound("h_rms", "m")} if "h_rms" in asked else {}
-    if "C0" in asked:
-        size["C0"] = bound("C0", f"m^{2 - 2 * hurst:g}")
-    return SelfAffine(
-        hurst=hurst,
-        q0=wave_number(asked, "q0", "longest_wavelength"),
-        q1=wave_number(asked, "q1", "shortest_wavelength"),
-        q_rolloff=wave_number(asked, "", "rolloff_wavelength"),
-        **size,
-    )
-
-
-def wave_number(asked, key, wavelength):
-    if key in asked:
-        return si(asked[key], "1/m")
-    return 2 * np.pi / si(asked[wavelength], "m") if wavelength in asked else None
 
 
 def moments_of(spectra, h_rms):
@@ -132,10 +107,10 @@ def points(magnification):
     return int(np.ceil(POINTS_PER_DECADE * np.log10(magnification))) + 2
 
 
-def budgeted(dataset, errors):
-    """Quoted parameters with their errors; what has two ends is known between these."""
+def add_budgets(dataset, errors):
+    """Add the errors of the quoted parameters; both ends of the others are in the dataset."""
     given, band = absent("given in the configuration"), absent("of the band that was fitted")
-    for name, error in ERRORS.items():
+    for name, error in STANDARD_ERRORS.items():
         if name not in dataset:
             continue
         fitted = error in errors
@@ -149,18 +124,18 @@ def budgeted(dataset, errors):
 
 
 def annotated(dataset):
-    errors = {name: dataset[name] for name in ERRORS.values() if name in dataset}
+    errors = {name: dataset[name] for name in STANDARD_ERRORS.values() if name in dataset}
     dataset = dataset.drop_vars(errors)
     exponent = 2 - 2 * float(dataset.hurst)
     reference = f"m^{2 - 2 * REFERENCE_HURST:g}"
     prefactor = f"m^{exponent:.4g}"
-    texts = DESCRIBED | {
+    texts = VARIABLE_TEXTS | {
         "C0": (prefactor, "prefactor of C = C0 q^(-2(H+1))"),
         "C0_reference": (reference, f"prefactor of the line fitted at H = {REFERENCE_HURST}"),
         "C0_reference_upper": (reference, f"largest C q^(2(H+1)) at H = {REFERENCE_HURST}"),
     }
     present = {name: text for name, text in texts.items() if name in dataset.variables}
-    return budgeted(datasets.annotate(dataset, **present), errors)
+    return add_budgets(datasets.annotate(dataset, **present), errors)
 
 
 if __name__ == "__main__":

@@ -1,7 +1,10 @@
 """Contact of measured heights themselves, made periodic in two ways, beside theory on the same."""
 
+from dataclasses import dataclass
+
 import numpy as np
 import xarray as xr
+from numpy.typing import NDArray
 
 from pipeline import measured_surface
 from pipeline.contact_curves import load_curve
@@ -14,46 +17,52 @@ from stickiness.measured import periodic, topography
 from stickiness.persson.theory import Persson
 
 WAYS = ("taper", "mirror")
-LARGEST = 2048  # grid points a side
-KEPT = ("area_fraction", "mean_gap", "edge_gap", "residual", "attractive_area")
+MOST_POINTS = 2048  # of the grid along a side
+SOLVED_VARIABLES = ["area_fraction", "mean_gap", "edge_gap", "residual", "attractive_area"]
+
+
+@dataclass(frozen=True)
+class Setting:
+    """Loads and settings: pressures over E* q0 h_rms, ranges over h_rms."""
+
+    pressures: NDArray
+    ranges: NDArray
+    pixels: int  # per shortest wavelength, at least
+    tolerance: float
+    gamma: float  # of the theory
 
 
 def main(job):
     surface = datasets.read(job.input.surface, ["q0", "q_cutoff"])
     asked = job.params.surface
-    heights = chosen(asked)
-    ranges = logarithmic_grid(job.params.gaps)
-    q_max = highest(asked["bem"], float(surface.q_cutoff))
-    dataset = solved(
-        heights,
-        q0=float(surface.q0),
-        q_max=q_max,
+    heights = read_map(asked)
+    q_max = highest_wave_number(asked["bem"], float(surface.q_cutoff))
+    setting = Setting(
         pressures=np.sort(asked["bem"]["pressures"]),
-        ranges=ranges,
+        ranges=logarithmic_grid(job.params.gaps),
         pixels=job.params.pixels_per_wavelength,
         tolerance=job.params.tolerance,
         gamma=job.params.gamma,
     )
     datasets.write(
-        annotated(dataset),
+        annotate(solve(heights, float(surface.q0), q_max, setting)),
         job.output[0],
         title=f"contact of measured heights: {asked['label']}",
         parameters={"surface": job.wildcards.real_surface, "source": heights.source, **asked},
     )
 
 
-def chosen(asked):
-    """The levelled map that is to be pressed."""
+def read_map(asked):
+    """Levelled heights of the measurement whose contact is asked for."""
     index = asked["bem"].get("measurement", 0)
-    one = checks.measurements(asked)[index][1]
-    heights = measured_surface.read(one)
+    heights = measured_surface.read_levelled(checks.measurements(asked)[index][1])
     if isinstance(heights, topography.Profile):
         raise ValueError(f"{heights.source} is a line profile; bem needs a map of heights")
-    return heights.detrended(one.get("detrend", "plane"))
+    return heights
 
 
-def highest(bem, cutoff):
-    """Highest wave number pressed: the instrument's, or a lower one as configured."""
+def highest_wave_number(bem, cutoff):
+    """Highest wave number of the contact: the instrument's, or a lower one as configured."""
     if "shortest_wavelength" not in bem:
         return cutoff
     asked = 2 * np.pi / si(bem["shortest_wavelength"], "m")
@@ -65,30 +74,9 @@ def highest(bem, cutoff):
     return asked
 
 
-def solved(heights, *, q0, q_max, pressures, ranges, pixels, tolerance, gamma):
-    """Contact and theory for both ways of making the heights periodic.
-
-    Pressures are over E* q0 h_rms, gaps over h_rms, with the h_rms of each periodic surface.
-    """
-    blocks = []
-    for way in WAYS:
-        whole = periodic.periodise(heights.heights, way)
-        sides = whole.shape[0] * heights.dx, whole.shape[1] * heights.dy
-        check_size(sides, q_max, pixels)
-        pressed = periodic.band_limited(whole, sides, q_max, pixels)
-        h_rms = float(np.std(pressed))
-        scaled, lengths = (pressed - pressed.mean()) / h_rms, tuple(q0 * s for s in sides)
-        curves = [
-            load_curve(scaled[::step, ::step], lengths, pressures, ranges, tolerance)[list(KEPT)]
-            for step in (2, 1)
-        ]
-        resolution = xr.DataArray([pixels / 2, float(pixels)], dims="resolution", name="resolution")
-        block = xr.concat(curves, resolution)
-        theory = Persson(periodic.shells(scaled, lengths), variant=VARIANT, gamma=gamma)
-        areas = [theory.gap_cumulative(ranges, p) for p in pressures]
-        block["theory_attractive_area"] = (("pressure", "range"), areas)
-        block["theory_area_fraction"] = "pressure", [theory.area_fraction(p) for p in pressures]
-        blocks.append(block.assign(h_rms=h_rms))
+def solve(heights, q0, q_max, setting):
+    """Contact and theory for both ways of making the heights periodic."""
+    blocks = [solve_periodic(heights, way, q0, q_max, setting) for way in WAYS]
     dataset = xr.concat(
         blocks, xr.DataArray(list(WAYS), dims="periodisation", name="periodisation")
     )
@@ -98,17 +86,43 @@ def solved(heights, *, q0, q_max, pressures, ranges, pixels, tolerance, gamma):
     return dataset.assign(q1=q_max)
 
 
+def solve_periodic(heights, way, q0, q_max, setting):
+    """Contact on two grids, in units of 1/q0 and the h_rms of the periodic heights, and theory."""
+    whole = periodic.periodise(heights.heights, way)
+    sides = whole.shape[0] * heights.dx, whole.shape[1] * heights.dy
+    check_size(sides, q_max, setting.pixels)
+    limited = periodic.band_limited(whole, sides, q_max, setting.pixels)
+    h_rms = float(np.std(limited))
+    scaled, lengths = (limited - limited.mean()) / h_rms, tuple(q0 * s for s in sides)
+    pressures, ranges = setting.pressures, setting.ranges
+    curves = [
+        load_curve(scaled[::step, ::step], lengths, pressures, ranges, setting.tolerance)
+        for step in (2, 1)
+    ]
+    pixels = [setting.pixels / 2, float(setting.pixels)]
+    block = xr.concat(
+        [curve[SOLVED_VARIABLES] for curve in curves],
+        xr.DataArray(pixels, dims="resolution", name="resolution"),
+    )
+    theory = Persson(periodic.shells(scaled, lengths), variant=VARIANT, gamma=setting.gamma)
+    areas = [theory.gap_cumulative(ranges, p) for p in pressures]
+    block["theory_attractive_area"] = (("pressure", "range"), areas)
+    block["theory_area_fraction"] = "pressure", [theory.area_fraction(p) for p in pressures]
+    return block.assign(h_rms=h_rms)
+
+
 def check_size(sides, q_max, pixels):
+    """Refuse a grid that would be too large."""
     points = max(sides) * q_max / (2 * np.pi) * pixels
-    if points > LARGEST:
-        shortest = 2 * np.pi / q_max * points / LARGEST
+    if points > MOST_POINTS:
+        shortest = 2 * np.pi / q_max * points / MOST_POINTS
         raise ValueError(
-            f"bem needs {points:.0f} grid points a side, more than {LARGEST}; give "
+            f"bem needs {points:.0f} grid points a side, more than {MOST_POINTS}; give "
             f"bem.shortest_wavelength of {shortest:.3g} m or more"
         )
 
 
-def annotated(dataset):
+def annotate(dataset):
     return datasets.annotate(
         dataset,
         periodisation=("1", "way in which the heights were made periodic"),

@@ -3,126 +3,105 @@
 from pathlib import Path
 
 from pipeline.job import start
-from pipeline.pages import benchmarks as _benchmarks
-from pipeline.pages import captions as _captions
-from pipeline.pages import provenance, report
+from pipeline.pages import captions, report
+from pipeline.pages.benchmarks import run_times
+from pipeline.pages.provenance import describe_provenance
 from pipeline.tradeoff import summary
-from stickiness.accuracy import error_laws
+from stickiness.accuracy.error_models import read_models
+from stickiness.accuracy.quantities import MODELLED
 from stickiness.core import datasets
 
-CLAIMS = ("statement", "quantity", "value", "value_error", "claimed", "verdict", "sources")
-VERDICTS = (
-    "margin",
-    "margin_total_error",
-    "modulus_threshold",
-    "modulus_threshold_low",
-    "probability",
-    "simulated",
-    "verdict",
-    "disagrees",
-    "a_v",
-    "a_v_low",
-)
-SURFACES = ("h_rms", "hurst", "hurst_total_error", "q0", "q1", "C0_reference_upper")
-COMPARISONS = ("area_fraction_difference", "mean_gap_difference", "attractive_area_difference")
-ANSWERS = ("value", "value_error", "value_total_error", "value_dominant")
-ENSEMBLES = ("area_fraction_mean", "mean_gap_mean", "attractive_area_mean", "residual")
+NEEDED_VARIABLES = {
+    "claims": ("statement", "quantity", "value", "value_error", "claimed", "verdict", "sources"),
+    "verdicts": (
+        "margin",
+        "margin_total_error",
+        "modulus_threshold",
+        "modulus_threshold_low",
+        "probability",
+        "simulated",
+        "verdict",
+        "disagrees",
+        "a_v",
+        "a_v_low",
+    ),
+    "surfaces": ("h_rms", "hurst", "hurst_total_error", "q0", "q1", "C0_reference_upper"),
+    "ensembles": ("area_fraction_mean", "mean_gap_mean", "attractive_area_mean", "residual"),
+    "answers": ("value", "value_error", "value_total_error", "value_dominant"),
+    "comparisons": (
+        "area_fraction_difference",
+        "mean_gap_difference",
+        "attractive_area_difference",
+    ),
+}
 
 
 def main(job):
-    captions = [Path(path).read_text(encoding="utf-8") for path in job.input.captions]
+    inputs, params = job.input, job.params
     page = render(
-        job.input.template,
+        inputs.template,
         job.output[0],
-        files={
-            "claims": job.input.claims,
-            "verdicts": job.input.verdicts,
-            "figures": job.params.figure_sources,
-            **{
-                group: by_name(job.input[group])
-                for group in ("ensembles", "answers", "comparisons", "surfaces")
-            },
+        read_results(inputs, params.figure_sources),
+        figures=list(map(embed, inputs.figures, inputs.captions)),
+        tradeoff={
+            "figure": embed(inputs.trade_figure, inputs.trade_caption),
+            "source": inputs.trade,
+            "tables": report.head_tables(summary.read(inputs.trade)),
+            "presets": report.describe_presets(read_models(inputs.laws), **params.presets),
         },
-        figures=[_captions.figure(*pair) for pair in zip(job.input.figures, captions, strict=True)],
-        benchmarks=job.params.benchmarks,
-        fidelity=job.params.fidelity,
-        trade={
-            "figure": _captions.figure(
-                job.input.trade_figure,
-                Path(job.input.trade_caption).read_text(encoding="utf-8"),
-            ),
-            "source": job.input.trade,
-            "tables": report.trade_tables(summary.read(job.input.trade)),
-        },
-        presets=report.preset_rows(error_laws.read_laws(job.input.laws), **job.params.presets),
-        **read(job.input),
+        benchmarks=params.benchmarks,
+        fidelity=params.fidelity,
     )
     with datasets.whole_file(job.output[0]) as path:
         path.write_text(page, encoding="utf-8")
 
 
-def by_name(paths):
-    """Paths by the names of their files, which are those of cases or surfaces."""
-    return {Path(path).stem: path for path in paths}
+def embed(figure, caption):
+    return captions.figure(figure, Path(caption).read_text(encoding="utf-8"))
 
 
-def read(inputs):
-    """The datasets that the page is made of."""
-    return {
-        "claims": datasets.read(inputs.claims, CLAIMS),
-        "verdicts": datasets.read(inputs.verdicts, VERDICTS),
-        "ensembles": [datasets.read(path, ENSEMBLES) for path in inputs.ensembles],
-        "answers": [datasets.read(path, ANSWERS) for path in inputs.answers],
-        "comparisons": [datasets.read(path, COMPARISONS) for path in inputs.comparisons],
-        "surfaces": {
-            name: datasets.read(path, SURFACES) for name, path in by_name(inputs.surfaces).items()
-        },
-    }
+def read_results(inputs, figure_sources):
+    """The datasets that the page is made of, by their kind; several of one kind by name."""
+    paths = {"claims": inputs.claims, "verdicts": inputs.verdicts}
+    for kind in ("surfaces", "ensembles", "answers", "comparisons"):
+        paths[kind] = {Path(path).stem: path for path in inputs[kind]}
+
+    def read(kind):
+        if isinstance(paths[kind], str):
+            return datasets.read(paths[kind], NEEDED_VARIABLES[kind])
+        read_all = {n: datasets.read(p, NEEDED_VARIABLES[kind]) for n, p in paths[kind].items()}
+        return read_all if kind == "surfaces" else list(read_all.values())
+
+    contents = {kind: read(kind) for kind in NEEDED_VARIABLES}
+    return report.Results(**contents, paths=paths | {"figures": figure_sources})
 
 
-def render(
-    template,
-    page,
-    *,
-    files,
-    claims,
-    verdicts,
-    ensembles,
-    answers,
-    presets,
-    trade,
-    comparisons,
-    surfaces,
-    figures,
-    benchmarks,
-    fidelity,
-):
-    """The page as text, from datasets and figures that have been read.
+def render(template, page, results, *, figures, tradeoff, benchmarks, fidelity):
+    """The page as text.
 
-    `files` says where they were read from: paths of `claims` and `verdicts`, and paths by name of
-    `surfaces`, `ensembles`, `answers`, `comparisons` and, a list for each, of the `figures`.
-    `trade` is what accuracy costs: its figure, a table for each knob, and the `source` of both.
+    `results` are the datasets as `report.Results`, `figures` as `captions.figure` makes them;
+    `tradeoff` is what accuracy costs: its `figure`, a table for each knob (`tables`), the `source`
+    of both, and `presets`; `benchmarks` is the folder of Snakemake's benchmark files.
     """
-    return _captions.template_of(template, page).render(
+    claims, verdicts, surfaces = results.claims, results.verdicts, results.surfaces
+    data = [claims, verdicts, *surfaces.values(), *results.ensembles]
+    return captions.template_of(template, page).render(
         fidelity=fidelity,
-        files_of=files,
-        summary=report.summary(claims, verdicts, ensembles),
+        files_of=results.paths,
+        summary=report.summarise(claims, verdicts, results.ensembles),
         figures=figures,
-        claims=report.claim_rows(claims),
-        errata=report.errata_rows(claims),
-        matrix=report.verdict_matrix(verdicts, surfaces),
-        disagreements=report.disagreements(verdicts, surfaces),
-        surfaces=report.surface_rows(surfaces),
-        budgets=report.error_budgets(answers),
-        presets=presets,
-        trade=trade,
-        asked_quantities=list(error_laws.QUANTITIES),
-        comparisons=report.theory_rows(comparisons),
+        claims=[report.describe_claim(claims.sel(claim=number)) for number in claims.claim.values],
+        errata=report.describe_errata(claims),
+        matrix=report.arrange_verdicts(verdicts, surfaces),
+        disagreements=report.find_disagreements(verdicts, surfaces),
+        surfaces=[report.describe_surface(name, data) for name, data in surfaces.items()],
+        budgets=list(map(report.describe_budgets, results.answers)),
+        tradeoff=tradeoff,
+        asked_quantities=list(MODELLED),
+        comparisons=report.compare_theory(results.comparisons),
         quantities=list(report.QUANTITIES.values()),
-        run_times=_benchmarks.run_times(benchmarks),
-        provenance=provenance.provenance(
-            [claims, verdicts, *surfaces.values(), *ensembles], ensembles
-        ),
+        run_times=run_times(benchmarks),
+        provenance=describe_provenance(data, results.ensembles),
     )
 
 

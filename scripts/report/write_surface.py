@@ -1,4 +1,4 @@
-"""A page of one surface: its picture and spectrum, what is known of it, its verdicts and why."""
+"""Page of one surface: picture, spectrum, parameters, verdicts and their reasons."""
 
 from pathlib import Path
 
@@ -8,20 +8,19 @@ from pipeline.conventions import LOAD
 from pipeline.job import start
 from pipeline.numbers import NOTHING, interval, number, percent, quantity, with_error
 from pipeline.pages import captions, pressed
-from pipeline.pages.reasons import reasons
 from pipeline.pages.style import save
-from pipeline.pages.surface_figure import drawn
+from pipeline.pages.surface_figure import draw_surface
 from pipeline.pages.surface_texts import reference_prefactor, rms_height, rms_slope
-from pipeline.pages.verdict_texts import ends, pair_texts
+from pipeline.pages.verdict_texts import ends, explain, pair_texts
 from pipeline.verdicts.materials import material, modulus_text
 from stickiness.core import datasets
-from stickiness.core.budget import COVERS
+from stickiness.core.statistics import COVERS
 from stickiness.criteria.moduli import crossings
 
-CAPTION = """Heights, levelled (of the first measurement), and spectrum: rings with their sampling
-error, the self-affine law where it was fitted, the instrument's cutoff, the end of the plateau with
-its error if there is one, and the paper's lines. Grey: the law carried on beyond the instrument,
-with its error. If moduli depend on the rate, the margin against the frequency, between its limits.
+CAPTION = """Levelled heights of the first measurement, and the spectrum: rings with their sampling
+error, the fitted self-affine spectrum, the cutoff of the instrument, the end of the plateau with
+its error if there is one, and the lines of the paper. Grey: the fit extrapolated beyond the
+instrument, with its error. If moduli depend on the rate: limits of the margin against frequency.
 """
 
 
@@ -29,7 +28,7 @@ def main(job):
     surface = datasets.read(job.input.surface, ["psd", "hurst", "q0", "q1"])
     verdicts = datasets.read(job.input.verdicts, ["margin", "verdict", "probability"])
     pairs = verdicts.sel(surface=job.wildcards.real_surface)
-    save(drawn(surface, pairs), [job.output.figure])
+    save(draw_surface(surface, pairs), [job.output.figure])
     page = render(
         job.input.template,
         job.output.page,
@@ -61,12 +60,12 @@ def render(template, page, *, files, surface, pairs, materials, figure, bem=None
         known=known(surface),
         remarks=[t for t in (*surface.attrs.get("remarks", "").split("; "), made.get("note")) if t],
         measured=[t for t in surface.attrs.get("files", "").split("; ") if t],
-        loads=pressed.loads(bem) if bem is not None else [],
+        loads=pressed.describe_loads(bem) if bem is not None else [],
         load=number(LOAD),
         pressed=[
             {
                 "material": materials[name]["label"],
-                **pressed.pair(bem, material(materials[name]), surface),
+                **pressed.describe_pair(bem, material(materials[name]), surface),
             }
             for name in map(str, pairs.material.values)
             if bem is not None
@@ -139,10 +138,7 @@ def verdict(pair, surface, entry):
         "rate": rate(solid, pair, ends(pair.modulus_threshold))
         if solid.depends_on_rate
         else NOTHING,
-        "criteria": [
-            row | {"margins": interval(*row["margins"], 2)}
-            for row in reasons(pair, surface, solid.work_of_adhesion)
-        ],
+        "criteria": explain(pair, surface, solid.work_of_adhesion),
     }
 
 

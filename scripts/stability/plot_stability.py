@@ -6,7 +6,7 @@ import numpy as np
 from matplotlib.patches import Patch
 
 from pipeline.job import start
-from pipeline.pages.style import BLACK, BLUE, ORANGE, YELLOW, canvas, save
+from pipeline.pages.style import BLACK, BLUE, ORANGE, YELLOW, lettered_figure
 from stickiness.core import datasets
 
 LABELS = {
@@ -20,28 +20,30 @@ LABELS = {
     "grid": "grid points\na side",
     "frequency": "rate\n$f\\tau$",
 }
-LOOKS = ((BLUE, ""), (YELLOW, ""), (ORANGE, "///"), (BLACK, ""))  # in the order of the outcomes
-ROW = 0.5  # inches
+OUTCOMES = ((BLUE, ""), (YELLOW, ""), (ORANGE, "///"), (BLACK, ""))  # colour and hatch, in order
+ROW_HEIGHT = 0.5  # inches
 
 
 def main(job):
     every = {Path(path).stem: datasets.read(path, ["outcome"]) for path in job.input.components}
     mosaic = [[f"{name}/{axis}" for axis in LABELS] for name in every]
-    figure, panels = canvas(mosaic, ROW * len(every) + 1.2)
-    for axis, label in LABELS.items():
-        panels[f"{next(iter(every))}/{axis}"].set_title(label)
-    for name, data in every.items():
-        for axis in LABELS:
-            draw_strip(panels[f"{name}/{axis}"], data, axis)
-        first = panels[f"{name}/{next(iter(LABELS))}"]
-        look = {"rotation": 0, "ha": "right", "va": "center"}
-        first.set_ylabel(f"{name}\n{data.sizes['point']} points", **look)
-    figure.legend(handles=list_keys(every.values()), loc="outside lower center", ncols=len(LOOKS))
-    save(figure, job.output)
+    first_name, first_axis = next(iter(every)), next(iter(LABELS))
+    height = ROW_HEIGHT * len(every) + 1.2
+    with lettered_figure(job.output, mosaic, height) as panels:
+        for axis, label in LABELS.items():
+            panels[f"{first_name}/{axis}"].set_title(label)
+        for name, data in every.items():
+            for axis in LABELS:
+                draw_strip(panels[f"{name}/{axis}"], data, axis)
+            first = panels[f"{name}/{first_axis}"]
+            look = {"rotation": 0, "ha": "right", "va": "center"}
+            first.set_ylabel(f"{name}\n{data.sizes['point']} points", **look)
+        place = {"loc": "outside lower center", "ncols": len(OUTCOMES)}
+        first.figure.legend(handles=outcome_keys(every.values()), **place)
 
 
 def draw_strip(ax, data, axis):
-    """Draw shares of the outcomes at each value of an axis, over all points that have it."""
+    """Shares of the outcomes at each value of an axis, over all points that have it."""
     ax.set(yticks=[], ylim=(0, 1))
     ax.tick_params(length=0)
     for side in ax.spines.values():
@@ -52,7 +54,7 @@ def draw_strip(ax, data, axis):
     values = np.unique(data[axis].values)
     place, bottom = np.arange(len(values)), np.zeros(len(values))
     here = data[axis].values == values[:, None]
-    for outcome, (colour, hatch) in enumerate(LOOKS):
+    for outcome, (colour, hatch) in enumerate(OUTCOMES):
         share = (here & (data.outcome.values == outcome)).sum(1) / here.sum(1)
         look = {"facecolor": colour, "hatch": hatch, "edgecolor": "white", "linewidth": 0}
         ax.bar(place, share, 0.9, bottom=bottom, **look)
@@ -62,19 +64,19 @@ def draw_strip(ax, data, axis):
     ax.set_xlim(-0.6, len(values) - 0.4)
 
 
-def list_keys(every):
+def outcome_keys(every):
     """Legend of all outcomes with how many points have each."""
     every = list(every)
     names = datasets.parameters(every[0])["outcomes"]
     counts = [sum(int((data.outcome == k).sum()) for data in every) for k in range(len(names))]
     return [
         Patch(facecolor=colour, hatch=hatch, edgecolor="white", label=f"{name}: {count}")
-        for (colour, hatch), name, count in zip(LOOKS, names, counts, strict=True)
+        for (colour, hatch), name, count in zip(OUTCOMES, names, counts, strict=True)
     ]
 
 
 def shorten(value):
-    """Write a number in few characters."""
+    """A number in few characters."""
     exponent = round(np.log10(value))
     if abs(exponent) > 2 and np.isclose(value, 10.0**exponent):
         return rf"$10^{{{exponent}}}$"

@@ -1,8 +1,62 @@
-"""Stickiness of multiscale randomly rough surfaces: surfaces, contact, theory and criteria.
+"""Do two rough solids stick? Random rough surfaces, their contact, theory and criteria.
 
-The library knows nothing of Snakemake or of files (but for `datasets` and `topography`, which
-read and write them). Lengths are in one unit of the caller's choice, pressures in units of the
-plane-strain modulus E*; arrays of heights, gaps and pressures are ``(n, n)`` float64.
+The library knows nothing of Snakemake. Lengths are in one unit of the caller's choice, pressures
+in units of the plane-strain modulus E*; heights, gaps and pressures are ``(n, n)`` float64 arrays.
+
+What a user needs:
+
+- `spectrum`: power spectral densities of rough surfaces, their moments
+- `surface`: heights with a given spectrum on a periodic square
+- `repulsive`: contact without adhesion, by boundary elements
+- `adhesive`: adhesive contact by boundary elements, loading and unloading curves
+- `dmt`: attraction over the gaps of a contact without adhesion
+- `persson`: Persson's theory of contact area, mean gap and distribution of gaps
+- `criteria`: stickiness criteria, closed forms
+- `verdict`: whether a rough surface sticks, with thresholds and error limits, from SI values
+
+The packages behind them:
+
+- `surfaces`, `contact`, `adhesion`: spectra and heights; solvers without and with adhesion
+- `measured`: measured topographies, from the file to a spectrum with its errors
+- `accuracy`: errors and costs of simulations, and the settings that an accuracy needs
+- `closed_forms`: exact solutions to compare the solvers with
+- `config`: checks of the workflow's configuration
+- `core`: arguments, units, datasets and error budgets, which all parts share
+
+Names are loaded when they are first used.
+
+Examples
+--------
+>>> from stickiness import persson, repulsive, spectrum, surface
+>>> rough = spectrum.SelfAffine(hurst=0.8, q0=1.0, q1=16.0, h_rms=1.0)
+>>> heights = surface.synthesise(rough, n=128, length=25.13, seed=7)
+>>> contact = repulsive.solve(heights, length=25.13, pressure=0.1)
+>>> theory = persson.Persson(surface.lattice_spectrum(rough, 25.13))
+>>> print(f"{contact.area_fraction:.2f} simulated, {theory.area_fraction(0.1):.2f} by theory")
+0.09 simulated, 0.08 by theory
 """
 
+from importlib import import_module
+
 __version__ = "0.1.0"
+
+_MODULES = ("spectrum", "surface", "repulsive", "adhesive", "dmt", "persson", "criteria")
+_PACKAGES = (
+    *("surfaces", "contact", "adhesion", "measured"),
+    *("accuracy", "closed_forms", "config", "core"),
+)
+_FUNCTIONS = {"verdict": "stickiness.criteria.verdict"}
+
+__all__ = [*_MODULES, *_FUNCTIONS, *_PACKAGES, "__version__"]  # noqa: PLE0604
+
+
+def __getattr__(name: str):
+    if name in _FUNCTIONS:
+        return getattr(import_module(_FUNCTIONS[name]), name)
+    if name in _MODULES or name in _PACKAGES:
+        return import_module(f"{__name__}.{name}")
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+
+
+def __dir__() -> list[str]:
+    return sorted(__all__)

@@ -2,7 +2,10 @@
 
 from pipeline.job import start
 from pipeline.tables import table
-from stickiness.accuracy import adhesion, error_laws, plan
+from stickiness.accuracy import adhesion, plan, prediction
+from stickiness.accuracy.error_models import Surface, read_models
+from stickiness.accuracy.prediction import Problem
+from stickiness.accuracy.quantities import MODELLED, columns_of
 from stickiness.core import datasets
 
 HEAD = """\
@@ -14,56 +17,64 @@ Fourier transforms of 1024 x 1024 doubles for all these pressures, and for one a
 all seeds.
 
 """
-MODELS = {  # the columns of contact and of full adhesion, by what predicts their errors
-    error_laws: [name for names in error_laws.QUANTITIES.values() for name in names],
-    adhesion: list(adhesion.COLUMNS),
-}
-SETTINGS = ("preset", "pixels", "tolerance", "seeds", "coarse seeds", "cost", "adhesive cost")
+COLUMNS = columns_of(MODELLED)
+ADHESIVE = adhesion.COLUMNS
 
 
 def main(job):
-    laws, presets = error_laws.read_laws(job.input.laws), job.params.presets
+    laws, asked = read_models(job.input.laws), job.params.presets
+    where = laws, Surface.of(job.params.surface), asked["pressures"]
+    problems = (
+        (prediction, Problem(*where, COLUMNS, job.params.descriptor_seeds)),
+        (adhesion, Problem(*where, ADHESIVE, job.params.descriptor_seeds)),
+    )
     given = job.params.surface, job.params.descriptor_seeds
     lines = []
-    for name, error in presets["accuracy"].items():
+    for name, error in asked["accuracy"].items():
         chosen = {
-            f"{name}: below {error:.0%}": plan.preset_by_rule(laws, presets, name, *given),
+            f"{name}: below {error:.0%}": plan.preset_by_rule(laws, asked, name, *given),
             "in the configuration": plan.preset(job.params.fidelities[name]),
-            "without full adhesion": plan.preset_by_rule(laws, presets, name, *given, free=True),
+            "without full adhesion": plan.preset_by_rule(laws, asked, name, *given, free=True),
         }
-        for text, settings in chosen.items():
-            lines.append([text, *describe(laws, settings, *given, presets["pressures"])])
-    adhesive = presets["adhesive"]
-    text = HEAD.format(
-        surface=presets["surface"],
-        pressures=", ".join(map(str, presets["pressures"])),
-        adhesive=" and ".join(adhesive["quantities"]),
-        errors=", ".join(f"{error:.3g} ({name})" for name, error in adhesive["accuracy"].items()),
-    )
-    head = [*SETTINGS, *(name for names in MODELS.values() for name in names)]
+        lines += [row(text, problems, settings) for text, settings in chosen.items()]
+    head = [
+        "preset",
+        "pixels",
+        "tolerance",
+        "seeds",
+        "coarse seeds",
+        "cost",
+        "adhesive cost",
+        *COLUMNS,
+        *ADHESIVE,
+    ]
     with datasets.whole_file(job.output[0]) as path:
+        text = HEAD.format(
+            surface=asked["surface"],
+            pressures=", ".join(map(str, asked["pressures"])),
+            adhesive=" and ".join(asked["adhesive"]["quantities"]),
+            errors=", ".join(
+                f"{error:.3g} ({name})" for name, error in asked["adhesive"]["accuracy"].items()
+            ),
+        )
         path.write_text(text + table(head, lines), encoding="utf-8")
 
 
-def describe(laws, settings, surface, descriptor_seeds, pressures):
-    """Settings, their predicted costs, and the largest error of each column over the pressures."""
-    on = error_laws.Surface.of(surface)
-    cost = error_laws.predicted_cost(laws, settings, on, pressures, descriptor_seeds)
+def row(text, problems, chosen):
+    """Settings, their costs, and the largest predicted error of each column over the pressures."""
+    costs = [model.predicted_cost(problem, chosen) for model, problem in problems]
     errors = [
-        max(
-            model.predicted_error(laws, settings, on, p, column, descriptor_seeds)
-            for p in pressures
-        )
-        for model, columns in MODELS.items()
-        for column in columns
+        max(model.predicted_error(problem, chosen, p, column) for p in problem.pressures)
+        for model, problem in problems
+        for column in problem.columns
     ]
     return [
-        settings.pixels_per_wavelength,
-        f"{settings.tolerance:.0e}",
-        settings.seeds,
-        settings.coarse_seeds,
-        f"{cost:.0f}",
-        f"{adhesion.predicted_cost(laws, settings, on):.0f}",
+        text,
+        chosen.pixels_per_wavelength,
+        f"{chosen.tolerance:.0e}",
+        chosen.seeds,
+        chosen.coarse_seeds,
+        *(f"{cost:.0f}" for cost in costs),
         *(f"{100 * error:.2g} %" for error in errors),
     ]
 

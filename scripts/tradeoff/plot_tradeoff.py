@@ -5,10 +5,16 @@ import itertools
 import numpy as np
 
 from pipeline.job import start
-from pipeline.pages.style import COLOURS, GREY, MARKERS, canvas, key, letters, plain_ticks, save
+from pipeline.pages import style
+from pipeline.pages.style import COLOURS, GREY, MARKERS, plain_ticks
 from pipeline.tradeoff import summary
-from stickiness.accuracy import error_laws, plan
+from stickiness.accuracy import plan
+from stickiness.accuracy.choice import COARSE_SEEDS, PIXELS, SEEDS, TOLERANCES
+from stickiness.accuracy.error_models import Settings, Surface, read_models
+from stickiness.accuracy.prediction import Problem, predicted_cost, worst_error
+from stickiness.accuracy.quantities import MODELLED, columns_of
 
+LOADS = ("0.01", "0.065", "0.3")
 SHOWN = {"area": "contact area", "a_v": r"$a_V$", "mean_gap": "mean gap"}
 COST = r"cost [FFT pairs of $1024^2$]"
 ERROR = "error, 90 %"
@@ -24,170 +30,184 @@ PRESET_MARKS = {"draft": "v", "standard": "o", "fine": "^"}
 
 
 def main(job):
-    table = summary.read(job.input.summary)
-    figure, panels = canvas("ABC;DEF;GHI", 7.8)
-    draw_grids(panels["A"], take_medians(table, "pixels"))
-    draw_tolerances(panels["B"], take_medians(table, "tolerance"))
-    draw_seeds(panels["C"], take_medians(table, "seeds"), take_medians(table, "model"))
-    draw_bands(panels["D"], take_medians(table, "band"))
-    laws = error_laws.read_laws(job.input.laws)
-    draw_settings(panels["E"], r"all settings, $a_V$", laws, ["a_v"], job.params)
-    draw_settings(panels["F"], "all settings, worst", laws, [*error_laws.QUANTITIES], job.params)
-    draw_adhesive_grids(panels["G"], table)
-    draw_adhesive_tolerances(panels["H"], table)
-    draw_adhesive_seeds(panels["I"], table)
-    letters(panels)
-    save(figure, job.output)
+    found = summary.read(job.input.summary)
+    laws = read_models(job.input.laws)
+    with style.lettered_figure(job.output, "ABC;DEF;GHI", 7.8) as panels:
+        draw_grids(panels["A"], found[found.knob == "pixels"])
+        draw_tolerances(panels["B"], found[found.knob == "tolerance"])
+        draw_seeds(panels["C"], found[found.knob == "seeds"], found[found.knob == "model"])
+        draw_cuts(panels["D"], found[found.knob == "band"])
+        for name, quantities in {"E": ["a_v"], "F": list(MODELLED)}.items():
+            draw_settings(panels[name], laws, quantities, job.params)
+        panels["E"].set_title(r"all settings, $a_V$", loc="right")
+        panels["F"].set_title("all settings, worst", loc="right")
+        draw_adhesive_grids(panels["G"], found)
+        draw_adhesive_tolerances(panels["H"], found)
+        draw_adhesive_seeds(panels["I"], found)
 
 
-def take_medians(table, knob):
-    """Error and cost by setting and quantity, in the order of the table."""
-    part = table[table.knob == knob]
-    return part.set_index(["setting", "quantity"])[["error", "cost"]]
+def index_medians(found):
+    """Error and cost by setting and quantity."""
+    return found.set_index(["setting", "quantity"])[["error", "cost"]].sort_index()
 
 
-def settings_of(medians):
-    return list(dict.fromkeys(medians.index.get_level_values("setting")))
-
-
-def label_axes(ax, title, xlabel=COST, ylabel=ERROR):
-    """Logarithmic axes with their labels, and the panel's title."""
-    ax.set(xscale="log", yscale="log", xlabel=xlabel, ylabel=ylabel)
-    ax.set_title(title, loc="right")
-
-
-def draw_grids(ax, medians):
+def draw_grids(ax, found):
     """Error against cost from coarse to fine grids, for three ways to evaluate them."""
+    by = index_medians(found)
     for colour, way in zip(COLOURS, ("counted", "sub-pixel", "extrapolated"), strict=False):
         for line, quantity in (("-", "area"), ("--", "attractive_area_0.01")):
-            at = medians.loc[[(f"{pixels} {way}", quantity) for pixels in (2, 4, 8, 16)]]
+            at = by.loc[[(f"{pixels} {way}", quantity) for pixels in (2, 4, 8, 16)]]
             label = way if quantity == "area" else None
             ax.plot(at.cost, at.error, line, marker="o", color=colour, label=label)
     ax.plot([], [], "--", color=GREY, label=r"$A_\mathrm{ad}(0.01)$")
-    label_axes(ax, "grid: 2, 4, 8, 16 points")
+    ax.set(xscale="log", yscale="log", xlabel=COST, ylabel=ERROR)
     plain_ticks(ax.xaxis, [0.5, 1, 2, 5, 10, 20, 50])
     ax.set_ylim(bottom=2e-5)
+    ax.set_title("grid: 2, 4, 8, 16 points", loc="right")
     ax.legend(loc="lower left")
 
 
-def draw_tolerances(ax, medians):
+def draw_tolerances(ax, found):
     """Error against the tolerance of the solver."""
-    values = sorted(settings_of(medians), key=float)
+    by = index_medians(found)
+    values = sorted(set(found.setting), key=float)
     for colour, marker, (quantity, label) in zip(COLOURS, MARKERS, SHOWN.items(), strict=False):
-        error = medians.loc[[(value, quantity) for value in values]].error.to_numpy()
-        shown = error > 0
-        tolerances = np.array(values, float)[shown]
-        ax.plot(tolerances, error[shown], marker=marker, color=colour, label=label)
-    label_axes(ax, "solver", r"tolerance over $h_\mathrm{rms}$")
+        at = by.loc[[(value, quantity) for value in values]]
+        shown = at.error.to_numpy() > 0
+        x = np.array(values, float)[shown]
+        ax.plot(x, at.error[shown], marker=marker, color=colour, label=label)
+    ax.set(xscale="log", yscale="log", xlabel=r"tolerance over $h_\mathrm{rms}$", ylabel=ERROR)
+    ax.set_title("solver", loc="right")
     ax.legend()
 
 
-def draw_seeds(ax, medians, model):
+def draw_seeds(ax, found, model):
     """Error of means of a_V against cost, by kind of seeds, and of theory instead."""
-    kinds = {"plain": "plain", "multilevel": "+", "fixed amplitudes": "fixed"}
-    for colour, marker, (kind, text) in zip(COLOURS, MARKERS, kinds.items(), strict=False):
-        chosen = [(setting, "a_v") for setting in settings_of(medians) if text in setting]
-        at = medians.loc[chosen].sort_values("cost")
+    by = index_medians(found)
+    kinds = {
+        "plain": [s for s in dict.fromkeys(found.setting) if s.endswith("plain")],
+        "multilevel": [s for s in dict.fromkeys(found.setting) if "+" in s],
+        "fixed amplitudes": [s for s in dict.fromkeys(found.setting) if s.endswith("fixed")],
+    }
+    for colour, marker, (kind, chosen) in zip(COLOURS, MARKERS, kinds.items(), strict=False):
+        at = by.loc[[(setting, "a_v") for setting in chosen]].sort_values("cost")
         ax.plot(at.cost, at.error, marker=marker, color=colour, label=kind, linewidth=0.7)
-    theory = model.loc[("theory", "a_v")]
+    theory = index_medians(model).loc[("theory", "a_v")]
     ax.plot(theory.cost, theory.error, "*", color="black", markersize=9, label="theory")
-    label_axes(ax, r"seeds, $a_V$")
+    ax.set(xscale="log", yscale="log", xlabel=COST, ylabel=ERROR)
     plain_ticks(ax.xaxis, [20, 50, 100, 200, 500, 1000, 2000])
     plain_ticks(ax.yaxis, ERROR_TICKS)
+    ax.set_title(r"seeds, $a_V$", loc="right")
     ax.set_ylim(bottom=0.006)
     ax.legend(loc="lower left")
 
 
-def draw_bands(ax, medians):
+def draw_cuts(ax, found):
     """Error against the cut of the spectrum, alone and extrapolated by theory."""
-    cuts = sorted({int(setting.split()[0]) for setting in settings_of(medians)})
+    by = index_medians(found)
+    cuts = sorted({int(setting.split()[0]) for setting in found.setting})
     for colour, marker, (quantity, label) in zip(COLOURS, MARKERS, SHOWN.items(), strict=False):
         for line, way in (("--", "cut"), ("-", "difference")):
-            at = medians.loc[[(f"{cut} {way}", quantity) for cut in cuts]]
+            at = by.loc[[(f"{cut} {way}", quantity) for cut in cuts]]
             look = {"label": label} if way == "difference" else {"markerfacecolor": "white"}
             ax.plot(cuts, at.error, line, marker=marker, color=colour, **look)
-    label_axes(ax, f"cut, carried to {2 * cuts[-1]}", r"$\zeta$ simulated", "error of the mean")
+    ax.set(xscale="log", yscale="log", xlabel=r"$\zeta$ simulated", ylabel="error of the mean")
+    ax.set_title(f"cut, extrapolated to {2 * cuts[-1]}", loc="right")
     ax.set_xticks(cuts, [str(cut) for cut in cuts])
     ax.minorticks_off()
     ax.set_ylim(top=60)
     ax.legend(loc="upper right")
 
 
-def list_adhesive(table, knob):
+def medians_of_adhesion(found, knob):
     """For every quantity of full adhesion, medians over its cases by the value of a knob."""
     for colour, marker, (quantity, label) in zip(COLOURS, MARKERS, ADHESIVE.items(), strict=False):
         kind = "pull_off" if quantity == "pull_off" else "adhesive"
-        one = table[(table.knob == f"{kind} {knob}") & (table.quantity == quantity)]
+        one = found[(found.knob == f"{kind} {knob}") & (found.quantity == quantity)]
         one = one[~one.setting.str.contains("extrapolated")]
         by = one.groupby("setting")[["error", "cost"]].median()
         by = by.loc[sorted(by.index, key=float)] if knob != "seeds" else by
         yield by, {"marker": marker, "color": colour, "label": label}
 
 
-def draw_adhesive_grids(ax, table):
+def draw_adhesive_grids(ax, found):
     """Error of adhesive quantities against cost, from coarse to fine grids."""
-    for by, look in list_adhesive(table, "pixels"):
+    for by, look in medians_of_adhesion(found, "pixels"):
         ax.plot(by.cost, by.error, **look)
-    label_axes(ax, "full adhesion: grid")
+    ax.set(xscale="log", yscale="log", xlabel=COST, ylabel=ERROR)
+    ax.set_title("full adhesion: grid", loc="right")
 
 
-def draw_adhesive_tolerances(ax, table):
+def draw_adhesive_tolerances(ax, found):
     """Error of adhesive quantities against the tolerance of their solver."""
-    for by, look in list_adhesive(table, "tolerance"):
+    for by, look in medians_of_adhesion(found, "tolerance"):
         by = by[by.error > SMALLEST]
         ax.plot(by.index.astype(float), by.error, **look)
-    label_axes(ax, "full adhesion: solver", "tolerance")
+    ax.set(xscale="log", yscale="log", xlabel="tolerance", ylabel=ERROR)
+    ax.set_title("full adhesion: solver", loc="right")
     ax.set_ylim(top=5)
     ax.legend(loc="upper left", title="in G to I")
 
 
-def draw_adhesive_seeds(ax, table):
+def draw_adhesive_seeds(ax, found):
     """Error of adhesive means against cost, and of the DMT limit in their place."""
-    for by, look in list_adhesive(table[table.quantity != "pull_off"], "seeds"):
+    for by, look in medians_of_adhesion(found[found.quantity != "pull_off"], "seeds"):
         for line, kind in (("--", "plain"), ("-", "controlled")):
             at = by[by.index.str.endswith(kind)].sort_values("cost")
             filled = {} if kind == "controlled" else {"markerfacecolor": "white"}
             ax.plot(at.cost, at.error, line, **(look | filled))
-    model = table[table.knob == "adhesive model"]
+    model = found[found.knob == "adhesive model"]
     for colour, quantity in zip(COLOURS, ADHESIVE, strict=False):
         error = model.error[model.quantity == quantity].median()
         ax.axhline(error, color=colour, linestyle=":", linewidth=0.8)
-    label_axes(ax, "full adhesion: seeds")
-    handles = [key(color=GREY, linestyle=line) for line in ("--", "-", ":")]
-    ax.legend(handles, ["plain", "controlled", "DMT limit"])
+    ax.set(xscale="log", yscale="log", xlabel=COST, ylabel=ERROR)
+    ax.set_title("full adhesion: seeds", loc="right")
+    kinds = {"plain": "--", "controlled": "-", "DMT limit": ":"}
+    ax.legend(handles=[style.key(text, linestyle=line) for text, line in kinds.items()])
 
 
-def draw_settings(ax, title, laws, quantities, params):
+def draw_settings(ax, laws, quantities, params):
     """All settings as predicted, those that nothing cheaper beats, and the presets."""
-    given = error_laws.Surface.of(params.surface), params.presets["pressures"]
-
-    def predict(settings):
-        cost = error_laws.predicted_cost(laws, settings, *given, params.descriptor_seeds)
-        worst = error_laws.worst_error(laws, settings, *given, quantities, params.descriptor_seeds)
-        return cost, worst[0]
-
-    every = itertools.product(
-        error_laws.PIXELS,
-        error_laws.TOLERANCES[1:4:2],
-        error_laws.SEEDS[:16:2],
-        error_laws.COARSE_SEEDS,
+    problem = Problem(
+        laws,
+        Surface.of(params.surface),
+        params.presets["pressures"],
+        columns_of(quantities),
+        params.descriptor_seeds,
     )
-    cost, error = np.array([predict(error_laws.Settings(*each)) for each in every]).T
+    chosen = [
+        Settings(*each)
+        for each in itertools.product(
+            PIXELS,
+            TOLERANCES[1:4:2],
+            SEEDS[:16:2],
+            COARSE_SEEDS,
+        )
+    ]
+    points = [predict(problem, each) for each in chosen]
+    cost, error = np.array(points).T
     ax.plot(cost, error, ".", color="0.8", markersize=2, rasterized=True)
-    front = find_non_dominated(cost, error)
+    front = find_front(cost, error)
     ax.plot(cost[front], error[front], ".-", color="black", markersize=4, linewidth=0.8)
     for colour, (name, mark) in zip(COLOURS, PRESET_MARKS.items(), strict=False):
         if name in params.fidelities:
-            at = predict(plan.preset(params.fidelities[name]))
+            preset = plan.preset(params.fidelities[name])
+            at = predict(problem, preset)
             ax.plot(*at, mark, color=colour, markersize=7, markeredgecolor="white", label=name)
-    label_axes(ax, title, ylabel="predicted error, 90 %")
+    ax.set(xscale="log", yscale="log", xlabel=COST, ylabel="predicted error, 90 %")
     plain_ticks(ax.yaxis, ERROR_TICKS)
     handles, _ = ax.get_legend_handles_labels()
-    ax.legend(handles=[*handles, key(color="black", marker=".", label="cheapest")])
+    cheapest = style.key("cheapest", color="black", marker=".")
+    ax.legend(handles=[*handles, cheapest], loc="lower left")
 
 
-def find_non_dominated(cost, error):
-    """Find indices, by rising cost, of points that no cheaper one equals in error."""
+def predict(problem, chosen):
+    """Predicted cost and error of settings."""
+    return predicted_cost(problem, chosen), worst_error(problem, chosen)[0]
+
+
+def find_front(cost, error):
+    """Indices, by rising cost, of points that no cheaper one equals in error."""
     order = np.lexsort((error, cost))
     best = np.minimum.accumulate(error[order])
     return order[np.concatenate([[True], best[1:] < best[:-1]])]

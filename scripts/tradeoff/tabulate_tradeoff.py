@@ -20,7 +20,7 @@ from pipeline.tradeoff.contact_rows import (
 from pipeline.tradeoff.fit_laws import Points
 from pipeline.tradeoff.law_points import add_costs, add_grid_errors, add_sampling, add_tolerances
 from pipeline.tradeoff.seed_pool import make_pool
-from stickiness.accuracy import error_laws
+from stickiness.accuracy.error_models import Surface, write_models
 from stickiness.core import datasets
 
 TEXTS = {
@@ -84,7 +84,7 @@ def main(job):
         if part == "fine_share" and ("coarse_share", column) not in laws
     }
     with datasets.whole_file(job.output.laws) as path:
-        error_laws.write_laws(path, laws, COMMENT)
+        write_models(path, laws, COMMENT)
     medians = take_medians(table)
     with datasets.whole_file(job.output.summary) as path:
         summary.write(path, medians)
@@ -99,7 +99,7 @@ def name_files(paths):
 
 
 def surface_of(measured):
-    return error_laws.Surface.of(datasets.parameters(measured))
+    return Surface.of(datasets.parameters(measured))
 
 
 def make_dataset(table):

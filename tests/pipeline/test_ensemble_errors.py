@@ -6,8 +6,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from contact import average_ensemble, solve_coarse
-from pipeline import ensemble_means
+from pipeline import coarse_solutions, ensemble_means, ensembles
 from stickiness.accuracy import multilevel
 from stickiness.core import datasets
 
@@ -55,7 +54,7 @@ def product(solved):
 
 
 def test_multilevel_mean_of_a_derived_quantity(ensemble):
-    found = ensemble_means.with_errors(
+    found = ensemble_means.add_errors(
         xr.Dataset(), "k", product(ensemble), ensemble_means.coarse(ensemble, product)
     )
     e = ensemble
@@ -75,7 +74,7 @@ def test_multilevel_mean_of_a_derived_quantity(ensemble):
 def test_discretisation_error_does_not_depend_on_the_estimator(ensemble):
     more = ensemble_means.coarse(ensemble, itemgetter("area"))
     for chosen in (None, more):
-        found = ensemble_means.with_errors(xr.Dataset(), "area", ensemble.area, chosen)
+        found = ensemble_means.add_errors(xr.Dataset(), "area", ensemble.area, chosen)
         change = (ensemble.area[:, 2] - ensemble.area[:, 1]).values
         want = np.hypot(change.mean(0), change.std(0, ddof=1) / np.sqrt(FINE))
         np.testing.assert_allclose(found.area_discretisation_error, want, rtol=1e-12)
@@ -84,7 +83,7 @@ def test_discretisation_error_does_not_depend_on_the_estimator(ensemble):
 def test_plain_without_coarse_solutions(ensemble):
     plain = ensemble.drop_dims("coarse_seed")
     assert ensemble_means.coarse(plain, product) is None
-    found = ensemble_means.with_errors(xr.Dataset(), "area", plain.area, plain=True)
+    found = ensemble_means.add_errors(xr.Dataset(), "area", plain.area, plain=True)
     fine = plain.area.isel(resolution=-1)
     np.testing.assert_allclose(found.area, fine.mean("seed"), rtol=1e-14)
     error = fine.std("seed", ddof=1) / np.sqrt(FINE)
@@ -93,7 +92,7 @@ def test_plain_without_coarse_solutions(ensemble):
 
 def test_a_single_seed_has_no_standard_error(ensemble):
     one = ensemble.isel(seed=[0])
-    found = ensemble_means.with_errors(
+    found = ensemble_means.add_errors(
         xr.Dataset(), "area", one.area, ensemble_means.coarse(one, attrgetter("area"))
     )
     np.testing.assert_array_equal(found.area_mean, one.area[0, -1])
@@ -132,12 +131,12 @@ def test_coarse_solutions_in_parts_are_those_of_one_file(tmp_path):
     parts = {"one": range(48), "first": range(32), "second": range(32, 48)}
     files = {}
     for name, which in parts.items():
-        solved = solve_coarse.coarse_solutions(asked, which, 20, *curves)
+        solved = coarse_solutions.coarse_solutions(asked, which, 20, *curves)
         path = tmp_path / f"{name}.nc"
-        datasets.write(solve_coarse.annotated(solved), path, title=name, parameters=asked)
+        datasets.write(coarse_solutions.annotate(solved), path, title=name, parameters=asked)
         files[name] = datasets.read(path)
     assert files["second"].sizes["other"] == 0
-    whole = average_ensemble.renamed(average_ensemble.joined([files["one"]]))
-    both = average_ensemble.renamed(average_ensemble.joined([files["first"], files["second"]]))
+    whole = ensembles.rename_coarse(ensembles.join([files["one"]]))
+    both = ensembles.rename_coarse(ensembles.join([files["first"], files["second"]]))
     xr.testing.assert_equal(both, whole)
     assert both.sizes["other"] == 20

@@ -4,11 +4,12 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from pipeline.contact_curves import load_curve
-from fits.fit_a_v import averaged, fitted
-from fits.fit_kappa import fitted_slope, slope
+from fits.fit_a_v import average, fit_intervals
+from fits.fit_kappa import fitted_slope
 from pipeline import ensemble_means, grid_limits
-from pipeline.ensembles import AVERAGED, with_statistics
+from pipeline.contact_curves import load_curve
+from pipeline.ensembles import AVERAGED, add_statistics
+from pipeline.quantities import slope_of_area
 from stickiness import spectrum, surface
 from stickiness.contact import grid_limit
 
@@ -38,7 +39,7 @@ def solved():
 
 @pytest.fixture(scope="module")
 def ensemble(solved):
-    return with_statistics(solved, xr.Dataset())
+    return add_statistics(solved, xr.Dataset())
 
 
 @pytest.mark.parametrize(
@@ -46,7 +47,9 @@ def ensemble(solved):
     [([2, 4], [0, 1]), ([2, 4, 8], [0, 1, 2]), ([2, 8, 16], [1, 2]), ([1, 2, 4, 8], [1, 2, 3])],
 )
 def test_grids_are_those_of_doubled_resolution(grids, chosen):
-    assert grid_limits.halved(xr.Dataset(coords={"resolution": np.array(grids, float)})) == chosen
+    assert (
+        grid_limits.find_halved(xr.Dataset(coords={"resolution": np.array(grids, float)})) == chosen
+    )
 
 
 def test_errors_cover_what_finer_grids_change(solved, ensemble):
@@ -79,19 +82,19 @@ def test_nothing_is_extrapolated_or_uncertain_where_there_is_no_edge(solved):
     for name in ("edges", "edge_gap", "attractive_area", "pixel_attractive_area"):
         closed[name] = 0 * closed[name]
     closed["area_fraction"] = closed["pixel_area_fraction"] = 0 * closed.area_fraction + 1
-    for limit in grid_limits.of_ensemble(closed, AVERAGED).values():
+    for limit in grid_limits.estimate_limits(closed, AVERAGED).values():
         np.testing.assert_array_equal(limit.shift, 0)
-    found = grid_limits.of_ensemble(closed, {"area_fraction": AVERAGED["area_fraction"]})
+    found = grid_limits.estimate_limits(closed, {"area_fraction": AVERAGED["area_fraction"]})
     np.testing.assert_array_equal(found["area_fraction"].error, 0)
 
 
 def test_slopes_inherit_the_relative_error_of_the_area(ensemble):
-    limit = grid_limits.inherited(ensemble, slope, ["area_fraction"])
+    limit = grid_limits.inherit(ensemble, slope_of_area, ["area_fraction"])
     relative = ensemble.area_fraction_discretisation_error / ensemble.area_fraction_mean
     mean = ensemble.area_fraction_mean * ensemble.rms_slope.mean() / ensemble.pressure
     np.testing.assert_allclose(limit.error, mean * relative, rtol=1e-9)
     np.testing.assert_array_equal(limit.shift, 0)
-    fit = grid_limits.inherited(ensemble, fitted_slope, ["area_fraction"])
+    fit = grid_limits.inherit(ensemble, fitted_slope, ["area_fraction"])
     assert limit.error.min() < fit.error < limit.error.max()
 
 
@@ -99,7 +102,7 @@ def test_errors_of_two_means_add_in_quadrature(ensemble):
     def product(solved):
         return solved.area_fraction * solved.mean_gap
 
-    found = grid_limits.inherited(ensemble, product, ["area_fraction", "mean_gap"])
+    found = grid_limits.inherit(ensemble, product, ["area_fraction", "mean_gap"])
     relative = [
         ensemble[f"{name}_discretisation_error"] / ensemble[f"{name}_mean"]
         for name in ("area_fraction", "mean_gap")
@@ -110,14 +113,16 @@ def test_errors_of_two_means_add_in_quadrature(ensemble):
 
 def test_a_v_is_that_of_the_extrapolated_areas(ensemble):
     """A fit is linear in the areas: the fit of the mean is the mean of the fits."""
-    dataset = averaged(fitted(ensemble, WINDOWS), ensemble, WINDOWS)
+    dataset = average(fit_intervals(ensemble, WINDOWS), ensemble, WINDOWS)
     for variable, fit in (
         ("attractive_area_mean", "a_v_mean"),
         ("attractive_area_discretisation_error", "a_v_discretisation_error"),
     ):
         area = ensemble[["pressure", variable]].rename({variable: "attractive_area"})
         # Discretisation errors are small differences of fits of order 1, exact to their rounding.
-        np.testing.assert_allclose(dataset[fit], fitted(area, WINDOWS).a_v, rtol=1e-9, atol=1e-11)
+        np.testing.assert_allclose(
+            dataset[fit], fit_intervals(area, WINDOWS).a_v, rtol=1e-9, atol=1e-11
+        )
     np.testing.assert_allclose(
         dataset.a_v_standard_error, ensemble_means.standard_error(dataset.a_v), rtol=1e-12
     )

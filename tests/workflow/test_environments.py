@@ -1,19 +1,58 @@
-"""The pip and conda environments name the same versions."""
+"""Every environment names what the code imports, no more, and in the same versions."""
 
+import ast
+import importlib.metadata
 import re
+import sys
+import tomllib
 from pathlib import Path
 
 import pytest
 import yaml
 
-ENVS = Path(__file__).parents[2] / "envs"
+ROOT = Path(__file__).parents[2]
+ENVS = ROOT / "envs"
 CONDA_NAMES = {"matplotlib": "matplotlib-base", "snakemake": "snakemake-minimal"}
+# Needed without being imported: the engine behind xarray's files, and `snakemake --report`.
+NEVER_IMPORTED = {"netcdf4", "pygments"}
+OUR_OWN = {path.name for folder in ("scripts", "tests") for path in (ROOT / folder).glob("*/")}
+
+
+def normalise(name):
+    return re.sub(r"[-_.]+", "-", name).lower()
 
 
 def pip_pins(name):
     lines = (ENVS / name).read_text(encoding="utf-8").splitlines()
     pins = (line.split("==") for line in lines if "==" in line and not line.startswith("#"))
-    return {package.lower(): version for package, version in pins}
+    return {normalise(package): version for package, version in pins}
+
+
+def pyproject():
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+    extras = project["optional-dependencies"]
+    return {
+        "library": {normalise(name) for name in project["dependencies"]},
+        **{extra: {normalise(name) for name in names} for extra, names in extras.items()},
+    }
+
+
+def imported_by(*folders):
+    """Distributions that the Python and Snakemake files below the folders import."""
+    modules = set()
+    for folder in folders:
+        for path in (ROOT / folder).rglob("*.py"):
+            for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+                if isinstance(node, ast.Import):
+                    modules |= {alias.name for alias in node.names}
+                elif isinstance(node, ast.ImportFrom) and not node.level:
+                    modules.add(node.module)
+        for path in (ROOT / folder).rglob("*.smk"):  # no Python that ast could parse
+            text = path.read_text(encoding="utf-8")
+            modules |= set(re.findall(r"^\s*(?:import|from) ([\w.]+)", text, re.MULTILINE))
+    names = {module.split(".")[0] for module in modules} - sys.stdlib_module_names - OUR_OWN
+    places = importlib.metadata.packages_distributions()
+    return {normalise(places[name][0]) if name in places else normalise(name) for name in names}
 
 
 def test_conda_and_pip_agree():
@@ -26,14 +65,46 @@ def test_conda_and_pip_agree():
         assert release.startswith(pins[CONDA_NAMES.get(package, package)])
 
 
-@pytest.mark.parametrize("name", ["requirements.txt", "dev.txt", "slurm.txt"])
+@pytest.mark.parametrize("name", ["requirements.txt", "dev.txt", "slurm.txt", "progress.txt"])
 def test_constraints_agree(name):
     constraints = pip_pins("constraints.txt")
     for package, version in pip_pins(name).items():
         assert constraints[package] == version
 
 
-def test_instruments_are_optional_and_pinned():
-    optional = pip_pins("instruments.txt")
-    assert "surfacetopography" in optional
+@pytest.mark.parametrize(
+    ("name", "package"),
+    [
+        ("instruments.txt", "surfacetopography"),
+        ("progress.txt", "snakemake-logger-plugin-rich"),
+    ],
+)
+def test_options_are_pinned_and_no_requirement(name, package):
+    optional = pip_pins(name)
+    assert package in optional
     assert optional.keys().isdisjoint(pip_pins("requirements.txt"))
+
+
+def test_requirements_are_what_the_pipeline_imports():
+    imported = imported_by("scripts", "rules") - pip_pins("instruments.txt").keys()
+    assert imported | NEVER_IMPORTED == pip_pins("requirements.txt").keys()
+    assert imported.isdisjoint(NEVER_IMPORTED)
+
+
+def test_pyproject_names_the_requirements():
+    named = pyproject()
+    assert named["library"] | named["workflow"] == pip_pins("requirements.txt").keys()
+    assert named["library"].isdisjoint(named["workflow"])
+    assert named["instruments"] == pip_pins("instruments.txt").keys()
+    assert named["progress"] == pip_pins("progress.txt").keys()
+
+
+def test_the_library_depends_on_what_it_imports_alone():
+    imported = imported_by("scripts/stickiness") - pip_pins("instruments.txt").keys()
+    assert imported | {"netcdf4"} == pyproject()["library"]
+
+
+def test_tests_import_nothing_that_no_environment_names():
+    files = ("requirements.txt", "dev.txt", "peers.txt", "instruments.txt")
+    named = {package for name in files for package in pip_pins(name)}
+    assert imported_by("tests") <= named

@@ -5,8 +5,6 @@ import shutil
 import signal
 import subprocess
 import time
-from contextlib import contextmanager
-from pathlib import Path
 
 import psutil
 import pytest
@@ -94,37 +92,3 @@ def test_truncated_and_foreign_files(solved, finished, reference):
     (solved / SURFACE).unlink()
     completes(solved, reference)
     assert (solved / SURFACE).read_bytes() == good
-
-
-def test_wrong_clock_and_results_that_may_not_be_written(solved, reference):
-    tomorrow = time.time() + 86400
-    module = "scripts/stickiness/repulsive.py"
-    for path in (module, SURFACE):
-        os.utime(solved / path, (tomorrow, tomorrow))
-    said = errors(solved.snakemake(SOLVED))
-    assert f"{module} (and 1 more) was changed in the future" in said
-    command = said.split("run: ")[1].splitlines()[0]
-    assert command == f"touch {module} {SURFACE}"
-    subprocess.run(command.split(), cwd=solved.folder, check=True)
-
-    (solved / SURFACE).unlink()
-    with read_only(solved / Path(SOLVED).parent):
-        said = errors(solved.snakemake(SOLVED))
-    assert f"{Path(SOLVED).parent} may not be written to" in said
-    assert not (solved / SURFACE).exists(), "jobs ran that had no use"
-    completes(solved, reference)
-
-
-@contextmanager
-def read_only(folder):
-    """No writing below, also for root, whom permissions do not stop."""
-    stop, allow = (["chmod", "a-w"], ["chmod", "u+w"])
-    if os.geteuid() == 0:
-        stop, allow = (["chattr", "+i"], ["chattr", "-i"])
-    done = subprocess.run([*stop, folder], capture_output=True, check=False)
-    if done.returncode:
-        pytest.skip("root, on a file system that nothing can be made read-only on")
-    try:
-        yield
-    finally:
-        subprocess.run([*allow, folder], check=True)

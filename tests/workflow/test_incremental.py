@@ -1,5 +1,6 @@
 """What a change re-runs, and that it is no more than that."""
 
+import os
 import re
 import subprocess
 import sys
@@ -22,7 +23,7 @@ ADHESIVE = 5  # sets of adhesive parameters
 
 def test_clean_run_has_no_warnings(finished):
     """A complete run says nothing that a user would have to look into."""
-    assert re.search(r"^\[(\d+)/\1\] ", finished.run.stdout, re.M), "not every job ran"
+    assert re.search(r"(\d+) of \1 steps \(100%\) done", finished.run.stdout), "not every job ran"
     assert "warning" not in finished.run.stdout.lower()
     for log in (finished / "results/tiny/logs").rglob("*.log"):
         text = log.read_text(encoding="utf-8")
@@ -50,12 +51,24 @@ def test_editing_a_material_reruns_verdicts_and_report(copy_of_finished):
     assert planned == {"judge", "plot_fig9", "write_report", "write_surface"}
 
 
+def test_changing_the_loads_of_the_case_of_a_v_reruns_verdicts(copy_of_finished):
+    copy_of_finished.edit(
+        "config/tiny.yaml",
+        "theory:\n",
+        "cases:\n  H0.8_zeta32_wide: {pressures: [0.03, 0.065]}\ntheory:\n",
+    )
+    planned = copy_of_finished.planned("verdicts")
+    assert planned["solve_repulsive"] == SEEDS
+    assert {"fit_a_v", "judge"} <= planned.keys()
+
+
 def test_adding_a_seed_runs_that_seed_and_its_averages(copy_of_finished):
     copy_of_finished.edit("config/tiny.yaml", "seeds: 2", "seeds: 3")
     planned = copy_of_finished.planned()
     assert planned["synthesise_surface"] == SURFACES
     assert planned["solve_repulsive"] == CASES
     assert planned["average_ensemble"] == CASES
+    assert planned["judge"] == 1  # its a_V is simulated
     unaffected = {"persson_sweep", "persson_lattice", "contact_maps", "analyse_surface"}
     unaffected.add("solve_coarse")  # the new seed is solved on the coarse grid by its own job
     assert unaffected.isdisjoint(planned)
@@ -89,44 +102,51 @@ def test_a_case_that_takes_plain_means_is_only_averaged_again(copy_of_finished):
     ("module", "reruns", "leaves"),
     [
         (
-            "persson.py",
+            "persson/theory.py",
             {"persson_sweep": 6, "persson_lattice": CASES + COMPARISONS},
             {"synthesise_surface", "solve_repulsive", "analyse_surface", "average_ensemble"},
         ),
         (
-            "repulsive.py",
+            "contact/solver.py",
             {"solve_repulsive": CASES * SEEDS, "solve_coarse": MULTILEVEL, "contact_maps": 1},
             {"synthesise_surface", "persson_sweep", "persson_lattice", "analyse_surface"},
         ),
         (
-            "sampling.py",
+            "accuracy/multilevel.py",
             {"solve_coarse": MULTILEVEL, "average_ensemble": CASES},
             {"synthesise_surface", "solve_repulsive", "persson_sweep", "analyse_surface"},
         ),
         (
-            "cohesive_zone.py",
+            "adhesion/edge_zone.py",
             {"solve_adhesive": ADHESIVE * SEEDS, "average_adhesive": ADHESIVE},
             {"solve_repulsive", "adhesion_dmt", "follow_loop", "adhesive_maps"},
         ),
         (
-            "topography.py",
+            "measured/topography.py",
             {"analyse_surface": 7},
             {"synthesise_surface", "solve_repulsive", "persson_sweep", "fit_a_v"},
         ),
         (
-            "errata.py",
+            "criteria/errata.py",
             {"check_claims": 1},
             {"judge", "solve_repulsive", "persson_sweep", "fit_a_v", "analyse_surface"},
         ),
     ],
 )
 def test_changing_a_module_reruns_the_stages_that_use_it(copy_of_finished, module, reruns, leaves):
-    time.sleep(1.1)  # file systems with whole-second time stamps
     with (copy_of_finished / "scripts/stickiness" / module).open("a", encoding="utf-8") as file:
-        file.write("\n# A change.\n")
+        file.write("\nA_CHANGE = 1\n")
     planned = copy_of_finished.planned()
     assert reruns.items() <= planned.items(), planned
     assert leaves.isdisjoint(planned), planned
+
+
+def test_comments_docstrings_and_times_of_change_rerun_nothing(copy_of_finished):
+    time.sleep(1.1)  # file systems with whole-second time stamps
+    for file in (copy_of_finished / "scripts").rglob("*.py"):
+        text = file.read_text(encoding="utf-8")
+        file.write_text(text.replace('"""', '"""Other words. ', 1) + "\n# A comment.\n")
+    assert copy_of_finished.planned() == {}
 
 
 @pytest.mark.parametrize(
@@ -185,8 +205,9 @@ def test_a_script_runs_by_hand(copy_of_finished):
     update_config(merged, yaml.safe_load(tiny.read_text(encoding="utf-8")))
     config.write_text(yaml.safe_dump(merged), encoding="utf-8")
     run = subprocess.run(
-        [sys.executable, "scripts/adhesion_dmt.py", "adhesion=fig2"],
+        [sys.executable, "scripts/adhesion/adhesion_dmt.py", "adhesion=fig2"],
         cwd=copy_of_finished.folder,
+        env={**os.environ, "PYTHONPATH": "scripts"},
         capture_output=True,
         text=True,
         check=False,

@@ -1,4 +1,4 @@
-"""A run that was killed outright goes on with the same command, and nothing is corrupt."""
+"""A run that was killed outright goes on where it was, and nothing is corrupt."""
 
 import os
 import signal
@@ -33,11 +33,16 @@ def test_killed_run_resumes(fresh, finished):
     process.wait()
     assert not (fresh / TARGET).exists()
 
+    finished_surfaces = {path: path.stat().st_mtime_ns for path in surfaces.glob("seed*.nc")}
+    unlocked = fresh.snakemake("--unlock", TARGET)  # as Snakemake says
+    assert unlocked.returncode == 0, unlocked.stdout
     done = fresh.snakemake("-j1", TARGET)
     assert done.returncode == 0, done.stdout
     # Of everything on the way, the same bits by one process at a time as by two.
     made = [path.relative_to(fresh.folder) for path in (fresh / "results").rglob("*.nc")]
     assert len(made) >= 6
+    whole = [path for path, time in finished_surfaces.items() if path.stat().st_mtime_ns == time]
+    assert whole, "what had been finished was made again"
     for path in made:
         assert datasets.read(fresh / path).identical(datasets.read(finished / path)), path
     assert not list((fresh / "results").rglob(".*-*.nc")), "a temporary file was left behind"
@@ -53,7 +58,7 @@ def test_lock_of_a_living_run_is_respected(fresh):
     )
     try:
         deadline = time.monotonic() + 120
-        while not (fresh / ".snakemake/run.json").exists():
+        while not list((fresh / ".snakemake/locks").glob("*.lock")):
             assert time.monotonic() < deadline
             time.sleep(0.05)
         second = fresh.snakemake("claims")

@@ -4,7 +4,6 @@ import pytest
 
 pytestmark = pytest.mark.workflow
 
-BEM = {"synthesise_surface", "solve_repulsive", "solve_coarse", "solve_adhesive", "follow_loop"}
 SEEDS = 2
 
 
@@ -14,10 +13,15 @@ def cases(workflow, text):
         file.write(f"cases:\n{text}")
 
 
-def test_a_verdict_needs_no_simulation(fresh):
+def test_a_verdict_needs_one_simulated_case(fresh):
+    """That of a_V, criteria.a_v.case, and no other."""
     planned = fresh.planned("verdicts")
     assert planned["judge"] == 1
-    assert BEM.isdisjoint(planned), planned
+    assert planned["average_ensemble"] == 1
+    assert planned["solve_repulsive"] == SEEDS
+    assert {"solve_adhesive", "follow_loop"}.isdisjoint(planned), planned
+    listed = fresh.snakemake("-n", "verdicts").stdout
+    assert "results/tiny/fits/a_v/ensembles/H0.8_zeta32_wide.nc" in listed
 
 
 def test_a_case_of_theory_needs_no_surfaces(fresh):
@@ -95,18 +99,3 @@ def test_a_case_of_area_alone_runs(fresh):
     assert ((bandwidth > 0.2 * taken) & (bandwidth < taken)).all(), bandwidth / taken
     # Magnification 8 is below what was measured.
     assert (answer.extrapolated == 1).all()
-
-
-def test_a_broad_spectrum_is_cut_for_what_hardly_feels_it(fresh):
-    """Theory adds what magnifications above 32 or 64 change of the mean gap, not of everything."""
-    with (fresh / "config/tiny.yaml").open("a", encoding="utf-8") as file:
-        file.write("model_surfaces:\n  broad: {hurst: 0.8, magnification: 256}\n")
-    case = "{surface: broad, pressures: [0.05], accuracy: 0.2"
-    cases(fresh, f"  gap: {case}, quantities: [mean_gap]}}\n  all: {case}}}\n")
-    listed = {
-        name: fresh.snakemake("-n", f"results/tiny/cases/{name}.nc").stdout
-        for name in ("gap", "all")
-    }
-    assert "surfaces/broad_to" in listed["gap"]
-    assert "surfaces/broad_to" not in listed["all"]
-    assert "surfaces/broad" in listed["all"]

@@ -5,112 +5,98 @@ from __future__ import annotations
 import numpy as np
 import xarray as xr
 
-from pipeline.claims.claim import (
-    Claim,
-    Files,
-    at_load,
-    errors_of,
-    graded,
-    power,
-    quoted,
-    sample,
-    total_error,
-)
-from pipeline.conventions import VARIANT
+from pipeline.claims.ledger import Files, Finding, claim, grade
+from pipeline.claims.texts import describe_sample, errors_by_source, power_of_ten, quote
+from pipeline.conventions import LINEAR_UP_TO, VARIANT, at_load
 from stickiness.core import budget, datasets
 from stickiness.criteria import a_v_fit
 
-NOT_MEASURED = "how theory's error changes along its arguments is not measured"
+NOT_MEASURED = "how the theory's error changes with gap, load and magnification was not measured"
 
 
-def area_slope(files: Files) -> Claim:
-    """Claim 1: kappa_rep is about 2, area linear in load to about 30 %."""
+@claim(
+    1,
+    "kappa_rep = 2, area linear in load up to 30 %",
+    files=("kappa_128", "kappa_64", "kappa_wide"),
+)
+def area_slope(files: Files) -> Finding:
     k = files["kappa_128"]
     at = at_load(k)
     value = float(at.kappa)
     (_, first), (_, last) = kappa_ends(k)
     close = abs(value - 2) < 0.2
     others = "; ".join(
-        f"{sample(other)}: {kappa_at_load(other)}, {kappa_fall(other)}"
+        f"{describe_sample(other)}: {quote(at_load(other), 'kappa')}, {describe_kappa(other)}"
         for other in (files["kappa_64"], files["kappa_wide"])
     )
-    return Claim(
-        1,
-        "kappa_rep = 2, area linear in load up to 30 %",
-        f"kappa_rep at p = {float(at.pressure):g}, {sample(k)}",
-        value,
-        2.0,
-        graded(close and abs(1 - last / first) < 0.1, close),
-        f"kappa goes {kappa_fall(k)} area; fitted with weight p^2 up to 30 %, "
-        f"{quoted(k.kappa_fit, total_error(k, 'kappa_fit'))}. Theory on the window's spectrum "
-        f"{float(at.kappa_theory.sel(variant=VARIANT)):.2f}. {others}.",
-        ("kappa_128", "kappa_64", "kappa_wide"),
-        errors_of(at, "kappa"),
+    return Finding(
+        quantity=f"kappa_rep at p = {float(at.pressure):g}, {describe_sample(k)}",
+        value=value,
+        claimed=2.0,
+        verdict=grade(close and abs(1 - last / first) < 0.1, close),
+        remark=(
+            f"kappa goes {describe_kappa(k)}. The fit with weight p^2 up to an area of 30 % gives "
+            f"{quote(k, 'kappa_fit')}, theory on the spectrum of the simulated window "
+            f"{float(at.kappa_theory.sel(variant=VARIANT)):.2f}. Other simulations: {others}."
+        ),
+        errors=errors_by_source(at, "kappa"),
     )
 
 
-def kappa_at_load(fit: xr.Dataset) -> str:
-    at = at_load(fit)
-    return quoted(at.kappa, total_error(at, "kappa"))
-
-
-def kappa_fall(fit: xr.Dataset) -> str:
+def describe_kappa(fit: xr.Dataset) -> str:
     (small, first), (large, last) = kappa_ends(fit)
-    return f"from {first:.2f} at {small:.2%} to {last:.2f} at {large:.0%}"
+    return f"from {first:.2f} at an area of {small:.2%} to {last:.2f} at {large:.0%}"
 
 
-def kappa_ends(fit: xr.Dataset, largest: float = 0.3) -> list[tuple[float, float]]:
+def kappa_ends(fit: xr.Dataset, largest: float = LINEAR_UP_TO) -> list[tuple[float, float]]:
     """Area and kappa at the smallest load and at the last with an area of at most `largest`."""
     inside = np.flatnonzero(fit.area_fraction <= largest)
     return [(float(fit.area_fraction[i]), float(fit.kappa[i])) for i in inside[[0, -1]]]
 
 
-def density_converges(files: Files) -> Claim:
-    """Claim 2: P(u) converges with magnification."""
+@claim(2, "P(u) at fixed mean gap converges with magnification (Figs. 1A, 1B)", files=("fig1b",))
+def density_converges(files: Files) -> Finding:
     sweep = files["fig1b"].gap_density.sel(variant=VARIANT).isel(hurst=0, load=0)
     last = sweep.isel(magnification=-1)
     before = sweep.sel(magnification=float(last.magnification) / 100, method="nearest")
     change = abs(last / before - 1).where(sweep.gap <= 2)
     settled = change.gap.values[np.flatnonzero(change.values > 0.05)]
     limit = float(settled.max()) if settled.size else float(sweep.gap.min())
-    zetas = power(float(before.magnification)), power(float(last.magnification))
+    zetas = power_of_ten(before.magnification), power_of_ten(last.magnification)
     worst = float(change.sel(gap=0.01, method="nearest"))
     spacing = float(np.diff(np.log(sweep.gap.values)).mean() * limit)
-    return Claim(
-        2,
-        "P(u) at fixed mean gap converges with magnification (Figs. 1A, 1B)",
-        f"u/h_rms above which P changes by < 5 % from zeta = {zetas[0]} to {zetas[1]}",
-        limit,
-        np.nan,
-        graded(limit <= float(sweep.gap.min()), limit < 0.5),
-        f"Converged for larger gaps only; at u/h_rms = 0.01 P still changes by {worst:.0%}.",
-        ("fig1b",),
-        {"discretisation": spacing, "model": np.nan},
-        f"discretisation: spacing of the gaps; model: {NOT_MEASURED}",
+    return Finding(
+        quantity=f"u/h_rms above which P changes by < 5 % from zeta = {zetas[0]} to {zetas[1]}",
+        value=limit,
+        verdict=grade(limit <= float(sweep.gap.min()), limit < 0.5),
+        remark=f"P converges above this gap only; at u/h_rms = 0.01 it changes by {worst:.0%}.",
+        errors={"discretisation": spacing, "model": np.nan},
+        comment=f"discretisation: spacing of the gaps; model: {NOT_MEASURED}",
     )
 
 
-def small_gap_exponent(files: Files) -> Claim:
-    """Claim 3: P(u) falls as u^(-1/3) at small u."""
+@claim(3, "P(u) ~ u^(-1/3) at small gaps", files=("fig3a",))
+def small_gap_exponent(files: Files) -> Finding:
     exponent = density_exponent(files["fig3a"])
     broad = exponent.isel(magnification=-1)
     gaps = np.array([1e-3, 1e-2, 1e-1])
     at = np.interp(np.log(gaps), np.log(broad.gap), broad)
     low, high = close_to_third(broad)
-    zeta = power(float(broad.magnification))
+    zeta = power_of_ten(broad.magnification)
     spread = float(np.ptp(at)) / 2
-    return Claim(
-        3,
-        "P(u) ~ u^(-1/3) at small gaps",
-        f"d ln P/d ln u at u/h_rms = 0.01, theory, zeta = {zeta}",
-        float(at[1]),
-        -1 / 3,
-        graded(np.abs(at + 1 / 3).max() < 0.05, high / low >= 10),
-        f"At zeta = {zeta} it is {at[0]:.2f}, {at[1]:.2f}, {at[2]:.2f} at u/h_rms = 0.001, 0.01, "
-        f"0.1; it keeps within 0.05 of -1/3 longest {spanned(low, high)}. {widest_third(exponent)}",
-        ("fig3a",),
-        {"model": spread},
-        f"model: of a power law, half the range of the exponent; of the theory {NOT_MEASURED}",
+    return Finding(
+        quantity=f"d ln P/d ln u at u/h_rms = 0.01, theory, zeta = {zeta}",
+        value=float(at[1]),
+        claimed=-1 / 3,
+        verdict=grade(np.abs(at + 1 / 3).max() < 0.05, high / low >= 10),
+        remark=(
+            f"At zeta = {zeta} the exponent is {at[0]:.2f}, {at[1]:.2f}, {at[2]:.2f} at "
+            "u/h_rms = 0.001, 0.01, 0.1. The widest range of gaps within 0.05 of -1/3 is "
+            f"{describe_range(low, high)}. {describe_widest(exponent)}"
+        ),
+        errors={"model": spread},
+        comment="model: of a power law, half the range of the exponent at these three gaps; of the "
+        f"theory, not included: {NOT_MEASURED}",
     )
 
 
@@ -126,17 +112,18 @@ def density_exponent(sweep: xr.Dataset) -> xr.DataArray:
     )
 
 
-def widest_third(exponent: xr.DataArray) -> str:
-    """Where, over all magnifications, the exponent is about -1/3 over the widest range."""
+def describe_widest(exponent: xr.DataArray) -> str:
+    """The magnification with the widest range of gaps where the exponent is about -1/3."""
     spans = {
         float(z): close_to_third(exponent.sel(magnification=z)) for z in exponent.magnification
     }
     zeta = max(spans, key=lambda z: spans[z][1] / spans[z][0])
-    return f"The widest such range is at zeta = {power(zeta)}: {spanned(*spans[zeta])}."
+    widest = describe_range(*spans[zeta])
+    return f"Over all magnifications the widest is at zeta = {power_of_ten(zeta)}: {widest}."
 
 
-def spanned(low: float, high: float) -> str:
-    return f"for u/h_rms = {low:.2g} … {high:.2g}" if high > low else "nowhere"
+def describe_range(low: float, high: float) -> str:
+    return f"u/h_rms = {low:.2g} … {high:.2g}" if high > low else "empty"
 
 
 def close_to_third(exponent: xr.DataArray, within: float = 0.05) -> tuple[float, float]:
@@ -150,8 +137,12 @@ def close_to_third(exponent: xr.DataArray, within: float = 0.05) -> tuple[float,
     return float(exponent.gap[starts[longest]]), float(exponent.gap[ends[longest]])
 
 
-def load_separation(files: Files) -> Claim:
-    """Claim 4: p = exp(-2 mean gap/h_rms) and the range of loads that goes with it."""
+@claim(
+    4,
+    "p/(E* q0 h_rms) = exp(-2 u/h_rms); 1 to 3 h_rms of mean gap for loads 0.1 to 0.001",
+    files=("fig3d", "ensemble_wide", "lattice_wide"),
+)
+def load_separation(files: Files) -> Finding:
     sweep = files["fig3d"].sel(variant=VARIANT).isel(hurst=0, magnification=0)
     ratio = over_exponential(sweep.pressure, sweep.mean_gap)
     bem = files["ensemble_wide"]
@@ -161,23 +152,25 @@ def load_separation(files: Files) -> Claim:
     loads = measured.pressure.values[[-1, 0]]
     gaps = [float(np.interp(p, sweep.pressure, sweep.mean_gap)) for p in (0.1, 0.001)]
     holds, simulated = farthest(ratio) < 1.25, farthest(measured) < 1.25
-    return Claim(
-        4,
-        "p/(E* q0 h_rms) = exp(-2 u/h_rms); 1 to 3 h_rms of mean gap for loads 0.1 to 0.001",
-        "p exp(2 u/h_rms)/(E* q0 h_rms), mean for u = 1 to 3 h_rms, theory, "
-        f"zeta = {float(sweep.magnification):g}",
-        float(ratio.mean()),
-        1.0,
-        graded(holds and simulated, holds),
-        f"Theory {float(ratio.min()):.2f} to {float(ratio.max()):.2f}, mean gaps {gaps[0]:.2f} and "
-        f"{gaps[1]:.2f} h_rms at loads 0.1 and 0.001. Simulation ({sample(bem)}) "
-        f"{'agrees' if simulated else 'disagrees'}: "
-        f"{float(measured[-1]):.2f} at p = {loads[0]:g}, {float(measured[0]):.2f} at {loads[1]:g}. "
-        f"Theory on that window's spectrum gives {float(lattice[-1]):.2f} and "
-        f"{float(lattice[0]):.2f}, so that the window explains only part of it.",
-        ("fig3d", "ensemble_wide", "lattice_wide"),
-        {"model": float(ratio.mean() * abs(lattice / measured - 1).max())},
-        f"model: the largest that theory is off from simulation on one spectrum, {sample(bem)}",
+    return Finding(
+        quantity=(
+            "p exp(2 u/h_rms)/(E* q0 h_rms), mean for u = 1 to 3 h_rms, theory, "
+            f"zeta = {float(sweep.magnification):g}"
+        ),
+        value=float(ratio.mean()),
+        claimed=1.0,
+        verdict=grade(holds and simulated, holds),
+        remark=(
+            f"By theory the ratio is {float(ratio.min()):.2f} to {float(ratio.max()):.2f}, and the "
+            f"mean gap {gaps[0]:.2f} and {gaps[1]:.2f} h_rms at loads 0.1 and 0.001. Simulation "
+            f"({describe_sample(bem)}) {'agrees' if simulated else 'disagrees'}: "
+            f"{float(measured[-1]):.2f} at p = {loads[0]:g}, {float(measured[0]):.2f} at "
+            f"{loads[1]:g}. Theory on the spectrum of that window gives {float(lattice[-1]):.2f} "
+            f"and {float(lattice[0]):.2f}, so the window explains only part of the difference."
+        ),
+        errors={"model": float(ratio.mean() * abs(lattice / measured - 1).max())},
+        comment="model: largest difference of theory from simulation on the same spectrum, "
+        + describe_sample(bem),
     )
 
 
@@ -191,37 +184,45 @@ def farthest(ratio: xr.DataArray) -> float:
     return float(np.exp(np.abs(np.log(ratio)).max()))
 
 
-def area_against_range(files: Files) -> Claim:
-    """Claim 6: the attractive area converges with magnification (Fig. 3A)."""
+@claim(
+    6,
+    "A_ad against (range/h_rms)^(2/3) is linear and converges with magnification (Fig. 3A)",
+    files=("fig3a", "fit_fig3a"),
+)
+def area_against_range(files: Files) -> Finding:
     area = files["fig3a"].attractive_area.sel(variant=VARIANT).isel(hurst=0, load=0)
     last, before = area.isel(magnification=-1), area.sel(magnification=1e4, method="nearest")
-    zetas = power(float(before.magnification)), power(float(last.magnification))
+    zetas = power_of_ten(before.magnification), power_of_ten(last.magnification)
     small, large = (float((last / before).interp(range=e)) - 1 for e in (0.01, 0.1))
     fit = files["fit_fig3a"].sel(variant=VARIANT).isel(hurst=0, load=0, magnification=-1)
-    windows = [fit.isel(window=index) for index in range(fit.sizes["window"])]
+    intervals = [fit.isel(window=index) for index in range(fit.sizes["window"])]
     slopes = ", ".join(
         f"{float(one.a_v):.2f} ({float(one.window_low):g} to {float(one.window_high):g})"
-        for one in windows
+        for one in intervals
     )
     ratio = float(fit.a_v.max() / fit.a_v.min())
     settled = max(small, large) < 0.02
-    return Claim(
-        6,
-        "A_ad against (range/h_rms)^(2/3) is linear and converges with magnification (Fig. 3A)",
-        f"largest over smallest slope of A_ad, by window of range/h_rms, theory, zeta = {zetas[1]}",
-        ratio,
-        1.0,
-        graded(settled and ratio < 1.05, large < 0.1 and ratio < 1.25),
-        f"Slope a_V by window: {slopes}. From zeta = {zetas[0]} to {zetas[1]} A_ad still grows by "
-        f"{large:.1%} at range/h_rms = 0.1 and by {small:.1%} at 0.01.",
-        ("fig3a", "fit_fig3a"),
-        {"model": np.nan},
-        f"model: {NOT_MEASURED}",
+    return Finding(
+        quantity="largest over smallest slope of A_ad among the fit intervals of range/h_rms, "
+        f"theory, zeta = {zetas[1]}",
+        value=ratio,
+        claimed=1.0,
+        verdict=grade(settled and ratio < 1.05, large < 0.1 and ratio < 1.25),
+        remark=(
+            f"Slope a_V by fit interval: {slopes}. From zeta = {zetas[0]} to {zetas[1]} A_ad still "
+            f"grows by {large:.1%} at range/h_rms = 0.1 and by {small:.1%} at 0.01."
+        ),
+        errors={"model": np.nan},
+        comment=f"model: {NOT_MEASURED}",
     )
 
 
-def area_against_load(files: Files) -> Claim:
-    """Claim 7: the attractive area is proportional to the load (Fig. 3B)."""
+@claim(
+    7,
+    "A_ad grows in proportion to the load (Fig. 3B)",
+    files=("fig3b", "ensemble_wide", "lattice_wide"),
+)
+def area_against_load(files: Files) -> Finding:
     sweep = files["fig3b"].sel(variant=VARIANT).isel(hurst=0, magnification=0)
     loads = sweep.pressure.values
     theory = load_exponent(loads, sweep.attractive_area)
@@ -230,20 +231,23 @@ def area_against_load(files: Files) -> Claim:
     lattice = files["lattice_wide"].sel(variant=VARIANT, pressure=bem.pressure)
     lattice = load_exponent(bem.pressure.values, lattice.attractive_area)
     both = np.abs(np.array([theory[0], measured[0]]) - 1)
-    return Claim(
-        7,
-        "A_ad grows in proportion to the load (Fig. 3B)",
-        f"d ln A_ad/d ln p at range/h_rms = 0.03, p = {loads[0]:g}, theory, "
-        f"zeta = {float(sweep.magnification):g}",
-        float(theory[0]),
-        1.0,
-        graded(np.abs(np.concatenate([theory, measured]) - 1).max() < 0.1, both.max() < 0.25),
-        f"The exponent falls to {theory[-1]:.2f} at p = {loads[-1]:g}. Simulation ({sample(bem)}): "
-        f"{measured[0]:.2f} to {measured[-1]:.2f}; theory on that window's spectrum "
-        f"{lattice[0]:.2f} to {lattice[-1]:.2f}.",
-        ("fig3b", "ensemble_wide", "lattice_wide"),
-        {"model": np.nan},
-        f"model: {NOT_MEASURED}",
+    return Finding(
+        quantity=(
+            f"d ln A_ad/d ln p at range/h_rms = 0.03, p = {loads[0]:g}, theory, "
+            f"zeta = {float(sweep.magnification):g}"
+        ),
+        value=float(theory[0]),
+        claimed=1.0,
+        verdict=grade(
+            np.abs(np.concatenate([theory, measured]) - 1).max() < 0.1, both.max() < 0.25
+        ),
+        remark=(
+            f"The exponent is {theory[-1]:.2f} at p = {loads[-1]:g}. Simulation "
+            f"({describe_sample(bem)}) gives {measured[0]:.2f} to {measured[-1]:.2f}, theory on "
+            f"the spectrum of that window {lattice[0]:.2f} to {lattice[-1]:.2f}."
+        ),
+        errors={"model": np.nan},
+        comment=f"model: {NOT_MEASURED}",
     )
 
 
@@ -252,38 +256,45 @@ def load_exponent(loads: np.ndarray, area: xr.DataArray, at: float = 0.03) -> np
     return np.gradient(np.log(area.interp(range=at).values), np.log(loads))
 
 
-def a_v_against_magnification(files: Files) -> Claim:
-    """Claim 8: a_V converges to about 3 (Fig. 3C)."""
+@claim(
+    8,
+    "a_V converges to about 3 at high magnification (Fig. 3C)",
+    files=("fit_fig3c", "fit_bem_128", "fit_lattice_128", "fit_bem_wide"),
+)
+def a_v_against_magnification(files: Files) -> Finding:
     fit = files["fit_fig3c"].sel(variant=VARIANT).isel(load=0)
-    windows = fit.a_v.isel(magnification=-1).sel(hurst=0.8, method="nearest")
+    intervals = fit.a_v.isel(magnification=-1).sel(hurst=0.8, method="nearest")
     first = fit.a_v.isel(window=0)
     step = first.isel(magnification=-1) / first.isel(magnification=-2) - 1
-    zetas = [power(float(zeta)) for zeta in fit.magnification[-2:]]
+    zetas = [power_of_ten(zeta) for zeta in fit.magnification[-2:]]
     growth = ", ".join(f"{float(g):.1%} (H = {float(g.hurst):g})" for g in step)
-    value, error = float(windows[0]), float(np.ptp(windows.values)) / 2
+    value, error = float(intervals[0]), float(np.ptp(intervals.values)) / 2
     grown = abs(value * float(step.sel(hurst=0.8, method="nearest")))
     fit = fit.isel(magnification=-1, window=0).sel(hurst=0.8, method="nearest")
     model = float(budget.part(fit, "a_v", "model"))
     steady = float(np.abs(step).max()) < 0.02
     near = abs(value - 3) <= error
-    return Claim(
-        8,
-        "a_V converges to about 3 at high magnification (Fig. 3C)",
-        f"a_V, theory, H = 0.8, zeta = {zetas[1]}",
-        value,
-        3.0,
-        graded(near and steady and error < 0.5, near),
-        f"About 3, not converged: it grows by {growth} from zeta = {zetas[0]} to {zetas[1]}, and "
-        f"the windows give {float(windows.min()):.2f} to {float(windows.max()):.2f}. "
-        f"{simulated_a_v(files, first)}",
-        ("fit_fig3c", "fit_bem_128", "fit_lattice_128", "fit_bem_wide"),
-        errors_of(fit, "a_v") | {"bandwidth": grown, "model": np.hypot(model, error)},
-        "bandwidth: growth over the last step of magnification; model: of the theory as measured, "
-        "and half the range over the windows of the fit",
+    return Finding(
+        quantity=f"a_V, theory, H = 0.8, zeta = {zetas[1]}",
+        value=value,
+        claimed=3.0,
+        verdict=grade(near and steady and error < 0.5, near),
+        remark=(
+            f"a_V differs from 3 by {'less' if near else 'more'} than {error:.2f}, half the range "
+            f"over the fit intervals ({float(intervals.min()):.2f} to "
+            f"{float(intervals.max()):.2f}). It {'has' if steady else 'has not'} converged: it "
+            f"grows by {growth} from "
+            f"zeta = {zetas[0]} to {zetas[1]}. {describe_simulated_a_v(files, first)}"
+        ),
+        errors=errors_by_source(fit, "a_v") | {"bandwidth": grown, "model": np.hypot(model, error)},
+        comment=(
+            "bandwidth: growth over the last step of magnification; model: measured error of the "
+            "theory and half the range over the fit intervals"
+        ),
     )
 
 
-def simulated_a_v(files: Files, continuous: xr.DataArray) -> str:
+def describe_simulated_a_v(files: Files, continuous: xr.DataArray) -> str:
     """What simulation gives, and what of it is due to the window."""
     narrow, wide, lattice = (
         at_load(files[name]).isel(window=0)
@@ -293,19 +304,20 @@ def simulated_a_v(files: Files, continuous: xr.DataArray) -> str:
     theory = continuous.sel(hurst=asked["hurst"], method="nearest")
     theory = np.interp(np.log(asked["magnification"]), np.log(theory.magnification), theory)
     return (
-        f"Simulation: {described(wide)} ({sample(wide)}); {described(narrow)} ({sample(narrow)}), "
-        "set by the few long waves of such a window and not by the magnification: theory gives "
-        f"{float(lattice.a_v.sel(variant=VARIANT)):.2f} on its spectrum, {theory:.2f} on the "
-        "continuous one."
+        f"Simulation gives {quote(wide, 'a_v_mean')} ({describe_sample(wide)}) and "
+        f"{quote(narrow, 'a_v_mean')} ({describe_sample(narrow)}). The latter is set by the few "
+        "long waves of its window, not by the magnification: theory gives "
+        f"{float(lattice.a_v.sel(variant=VARIANT)):.2f} on the spectrum of that window and "
+        f"{theory:.2f} on the continuous one."
     )
 
 
-def described(fit: xr.Dataset) -> str:
-    return quoted(fit.a_v_mean, total_error(fit, "a_v_mean"))
-
-
-def a_v_against_load(files: Files) -> Claim:
-    """Claim 9: a_V depends weakly on the load (Fig. 3D)."""
+@claim(
+    9,
+    "a_V depends weakly on the load (Fig. 3D)",
+    files=("fit_fig3d", "fig3d", "fit_bem_wide", "fit_bem_128"),
+)
+def a_v_against_load(files: Files) -> Finding:
     fit = files["fit_fig3d"].sel(variant=VARIANT).isel(hurst=0, magnification=0, window=0)
     pressure = files["fig3d"].pressure.sel(variant=VARIANT).isel(hurst=0, magnification=0)
     inside = (pressure >= 1e-3) & (pressure <= 0.1)
@@ -314,19 +326,22 @@ def a_v_against_load(files: Files) -> Claim:
     bem = [files[name].isel(window=0) for name in ("fit_bem_wide", "fit_bem_128")]
     bem = [one.where((one.pressure >= 1e-3) & (one.pressure <= 0.1)) for one in bem]
     simulated = " but ".join(
-        f"{float(one.a_v_mean.max() / one.a_v_mean.min()):.2f} ({sample(one)})" for one in bem
+        f"{float(one.a_v_mean.max() / one.a_v_mean.min()):.2f} ({describe_sample(one)})"
+        for one in bem
     )
-    return Claim(
-        9,
-        "a_V depends weakly on the load (Fig. 3D)",
-        "largest over smallest a_V for loads 0.001 to 0.1, theory, "
-        f"zeta = {float(fit.magnification):g}",
-        value,
-        1.0,
-        graded(full < 1.2, value < 1.5),
-        f"Up to p = {float(pressure.max()):g} the ratio is {full:.2f}. Simulation up to 0.1: "
-        f"{simulated}, whose contact at small loads is confined to the summits of few long waves.",
-        ("fit_fig3d", "fig3d", "fit_bem_wide", "fit_bem_128"),
-        {"model": np.nan},
-        f"model: {NOT_MEASURED}",
+    return Finding(
+        quantity=(
+            "largest over smallest a_V for loads 0.001 to 0.1, theory, "
+            f"zeta = {float(fit.magnification):g}"
+        ),
+        value=value,
+        claimed=1.0,
+        verdict=grade(full < 1.2, value < 1.5),
+        remark=(
+            f"Up to p = {float(pressure.max()):g} the ratio is {full:.2f}. Simulation up to 0.1 "
+            f"gives {simulated}. In the smaller window contact at small loads is confined to the "
+            "summits of a few long waves."
+        ),
+        errors={"model": np.nan},
+        comment=f"model: {NOT_MEASURED}",
     )

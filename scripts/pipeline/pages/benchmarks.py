@@ -1,4 +1,4 @@
-"""What jobs took, from Snakemake's benchmark files."""
+"""Time and memory of jobs, from Snakemake's benchmark files."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the contact of the measured heights themselves says, for the page of their surface."""
+"""Contact of the measured heights themselves, as texts for the page of their surface."""
 
 import numpy as np
 
@@ -6,28 +6,28 @@ from pipeline.conventions import LOAD
 from pipeline.numbers import NOTHING, interval, number, with_error
 from stickiness.adhesion import equivalent_sphere
 
-RANGE = 0.03  # over h_rms, amid the window of the fits
+QUOTED_RANGE = 0.03  # over h_rms, as the caption of the table says
 WAYS = {"taper": "tapered", "mirror": "mirrored"}
 
 
-def loads(bem):
+def describe_loads(bem):
     """One row a load: area and a_V both ways, their error, and theory on the same heights."""
     rows = []
     for pressure in bem.pressure.values:
-        at = bem.sel(pressure=pressure).interp({"range": RANGE})
+        at = bem.sel(pressure=pressure).interp({"range": QUOTED_RANGE})
         rows.append(
             {
                 "pressure": number(float(pressure)),
-                "area": compared(at, "area_fraction", "theory_area_fraction"),
-                "a_v": compared(at, "a_v", "theory_a_v"),
+                "area": compare(at, "area_fraction", "theory_area_fraction"),
+                "a_v": compare(at, "a_v", "theory_a_v"),
             }
         )
     return rows
 
 
-def compared(at, name, theory):
-    """Simulation with all its errors, its two ways, and theory, as texts."""
-    value, error = with_all_errors(at[name])
+def compare(at, name, theory):
+    """Simulation with all its errors, by both ways to make heights periodic, and theory."""
+    value, error = combine_ways(at[name])
     return {
         "value": with_error(value, error),
         "ways": ", ".join(
@@ -38,18 +38,18 @@ def compared(at, name, theory):
     }
 
 
-def with_all_errors(values):
-    """Mean of both ways; half their difference and the change from half resolution as its error."""
+def combine_ways(values):
+    """Mean of both ways. Its error: half their difference and the change from half resolution."""
     fine = values.isel(resolution=-1)
     change = values.diff("resolution").isel(resolution=-1).mean("periodisation")
     return float(fine.mean()), float(np.hypot(np.ptp(fine.values) / 2, change))
 
 
-def pair(bem, solid, surface):
-    """a_V of a material's range on the pressed heights, and the margin that follows.
+def describe_pair(bem, solid, surface):
+    """a_V at a material's range on the pressed heights, and the margin that follows.
 
-    Both are a dash where the range lies outside the gaps computed; the margin is also where the
-    range is below the gap of the pixels next to the contact, which the grid does not resolve.
+    Both are a dash where the range lies outside the gaps computed. The margin is a dash, too, where
+    the range is below the gap of the pixels next to the contact, which the grid does not resolve.
     """
     at = bem.sel(pressure=LOAD, method="nearest")
     h = float(np.sqrt(np.prod(surface.h_rms.values)))
@@ -57,7 +57,7 @@ def pair(bem, solid, surface):
     ranges = at["range"].values
     if not ranges[0] <= ratio <= ranges[-1]:
         return {"range": number(ratio, 2), "a_v": NOTHING, "margin": NOTHING, "resolved": False}
-    value, error = with_all_errors(at.a_v.interp({"range": ratio}))
+    value, error = combine_ways(at.a_v.interp({"range": ratio}))
     resolved = ratio >= float(at.edge_gap.isel(resolution=-1).max())
     length = solid.work_of_adhesion / solid.modulus
     limits = [max(value - error, 0.01 * value), value + error]

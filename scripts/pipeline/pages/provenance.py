@@ -13,8 +13,8 @@ from stickiness.core import datasets
 Context = dict[str, Any]
 
 
-def provenance(files: Sequence[xr.Dataset], ensembles: Sequence[xr.Dataset]) -> Context:
-    """Versions that the files name, all of them where they differ, and what was run."""
+def describe_provenance(files: Sequence[xr.Dataset], ensembles: Sequence[xr.Dataset]) -> Context:
+    """Versions that the files record (all, where they differ) and parameters of ensembles."""
     versions: dict[str, set[str]] = {}
     for file in files:
         for name, value in file.attrs.items():
@@ -23,11 +23,11 @@ def provenance(files: Sequence[xr.Dataset], ensembles: Sequence[xr.Dataset]) -> 
     return {
         "versions": [(name, ", ".join(sorted(found))) for name, found in sorted(versions.items())],
         "mixed": sorted(name for name, found in versions.items() if len(found) > 1),
-        "ensembles": [ensemble_row(datasets.parameters(ensemble)) for ensemble in ensembles],
+        "ensembles": [describe_ensemble(datasets.parameters(ensemble)) for ensemble in ensembles],
     }
 
 
-def ensemble_row(made: Mapping[str, Any]) -> Context:
+def describe_ensemble(made: Mapping[str, Any]) -> Context:
     """Parameters of an ensemble."""
     return {
         "case": made["case"],
@@ -37,19 +37,20 @@ def ensemble_row(made: Mapping[str, Any]) -> Context:
         "pixels": number(made["pixels_per_wavelength"]),
         "tolerance": number(made["tolerance"]),
         "residual": number(made["largest_residual"], 2),
-        "seeds": runs_of(made["seeds"]),
-        "means": means(made),
+        "seeds": list_seeds(made["seeds"]),
+        "means": name_estimator(made),
     }
 
 
-def means(made: Mapping[str, Any]) -> str:
+def name_estimator(made: Mapping[str, Any]) -> str:
     """Estimator of the means, with the seeds it uses besides those of the ensemble."""
     if made["estimator"] == "plain":
         return "plain"
-    return f"multilevel: {made['coarse_seeds']} coarse, {made['descriptor_seeds']} described"
+    controls = f"{made['coarse_seeds']} coarse seeds, {made['descriptor_seeds']} long-wave controls"
+    return f"multilevel: {controls}"
 
 
-def runs_of(seeds: Sequence[int]) -> str:
+def list_seeds(seeds: Sequence[int]) -> str:
     """Seeds, with unbroken runs shortened: 1 … 8."""
     seeds = sorted(seeds)
     unbroken = len(seeds) > 2 and seeds == list(range(seeds[0], seeds[-1] + 1))

@@ -1,10 +1,11 @@
-"""What the report says, gathered from datasets as texts; how it looks is the template's part."""
+"""What the report says: texts and numbers from datasets, for the template to lay out."""
 
 from __future__ import annotations
 
 import dataclasses
 from collections import Counter
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -12,34 +13,26 @@ import numpy as np
 import pandas as pd
 import xarray as xr
 
-from pipeline.conventions import LOAD
+from pipeline.conventions import at_load
 from pipeline.numbers import NOTHING, interval, number, percent, superscripted, with_error
 from pipeline.pages.surface_texts import reference_prefactor, rms_height
 from pipeline.pages.verdict_texts import EDGES, STICKINESS, STICKINESS_TONES, pair_texts
-from pipeline.tradeoff import summary as trade_summary
+from pipeline.tradeoff import summary
 from pipeline.verdicts.materials import modulus_text
-from stickiness.accuracy import error_laws, plan
+from stickiness.accuracy import plan
+from stickiness.accuracy.error_models import ErrorModels, Surface
+from stickiness.accuracy.prediction import Problem, predicted_cost, worst_error
+from stickiness.accuracy.quantities import COLUMNS, MODELLED, columns_of
 from stickiness.core import budget, datasets
 from stickiness.criteria.errata import ERRATA
+from stickiness.criteria.registry import CRITERIA
 
 Datasets = Mapping[str, xr.Dataset]
 Context = dict[str, Any]
 
-RANGE = 0.03  # of the error budget: amid the window of the fits
-COLUMNS = {
-    "area": "contact area",
-    "mean_gap": "mean gap",
-    "attractive_area_0.01": "attractive area at range 0.01",
-    "attractive_area_0.1": "attractive area at range 0.1",
-    "gap_distribution": "P(u) at gap 0.1",
-    "a_v": "a_V",
-    "kappa": "κ",
-}
+RANGE = 0.03  # over h_rms, where attractive areas are compared: amid the fit interval
 HEADS = {
-    "attractive_area_0.01": "A_ad(0.01)",
-    "attractive_area_0.1": "A_ad(0.1)",
-    "gap_distribution": "P(u)",
-    "a_v": "a_V",
+    **{name: column.heading for name, column in COLUMNS.items() if column.heading},
     "inverse_kappa_ad_0.0075": "1/κ_ad(0.0075)",
     "inverse_kappa_ad_0.1": "1/κ_ad(0.1)",
     "inverse_kappa_ad_1": "1/κ_ad(1)",
@@ -52,34 +45,48 @@ CLAIM_TONES = {
     "reproduced with a qualification": "partly",
     "not reproduced": "no",
 }
-CRITERIA = {
-    "edge_adhesion": "edges of contact",
-    "violano": "derived criterion, DMT limit",
-    "violano_constant": "derived, constant a_V",
-    "violano_printed": "criterion as printed, 9/4",
-    "pastewka_robbins": "Pastewka–Robbins",
-    "fuller_tabor": "Fuller–Tabor",
-    "bearing_area": "bearing area (BAM)",
-    "persson_tosatti": "Persson–Tosatti",
-    "dahlquist": "Dahlquist",
-}
 QUANTITIES = {
-    "area_fraction": "contact area",
-    "mean_gap": "mean gap",
+    "area_fraction": COLUMNS["area"].label,
+    "mean_gap": COLUMNS["mean_gap"].label,
     "attractive_area": f"attractive area at range {RANGE:g}",
 }
 
 
-def summary(claims: xr.Dataset, verdicts: xr.Dataset, ensembles: Sequence[xr.Dataset]) -> Context:
+@dataclass(frozen=True)
+class Results:
+    """The datasets that the page is made of, and where they were read from.
+
+    Attributes
+    ----------
+    claims, verdicts : xarray.Dataset
+    surfaces : mapping of str to xarray.Dataset
+        Real surfaces by name.
+    ensembles, answers, comparisons : sequence of xarray.Dataset
+        One for every case: means over seeds, values asked for, theory against simulation.
+    paths : mapping
+        Paths of `claims` and `verdicts`; paths by name of the others, and, a list for each, of the
+        data behind the `figures`.
+    """
+
+    claims: xr.Dataset
+    verdicts: xr.Dataset
+    surfaces: Datasets
+    ensembles: Sequence[xr.Dataset]
+    answers: Sequence[xr.Dataset]
+    comparisons: Sequence[xr.Dataset]
+    paths: Mapping[str, Any]
+
+
+def summarise(claims: xr.Dataset, verdicts: xr.Dataset, ensembles: Sequence[xr.Dataset]) -> Context:
     """Numbers of the opening paragraph."""
-    graded = Counter(str(verdict) for verdict in claims.verdict.values)
-    order = [*CLAIM_TONES, *sorted(graded.keys() - CLAIM_TONES.keys())]
+    grades = Counter(str(verdict) for verdict in claims.verdict.values)
+    order = [*CLAIM_TONES, *sorted(grades.keys() - CLAIM_TONES.keys())]
     outside = ~verdicts.simulated.astype(bool).all("end")
     sticky = verdicts.verdict == 2
     seeds = sorted({len(datasets.parameters(ensemble)["seeds"]) for ensemble in ensembles})
     return {
         "claims": claims.sizes["claim"],
-        "graded": [(name, graded[name], claim_tone(name)) for name in order if graded[name]],
+        "graded": [(name, grades[name], claim_tone(name)) for name in order if grades[name]],
         "a_v": number(float(verdicts.a_v)),
         "a_v_range": interval(float(verdicts.a_v_low), float(verdicts.a_v_high)),
         "load": number(datasets.parameters(verdicts)["pressure"]),
@@ -103,13 +110,8 @@ def claim_tone(verdict: str) -> str:
     return CLAIM_TONES.get(verdict, "open")
 
 
-def claim_rows(claims: xr.Dataset) -> list[Context]:
-    """One row for every claim."""
-    return [claim_row(claims.sel(claim=claim)) for claim in claims.claim.values]
-
-
-def claim_row(claim: xr.Dataset) -> Context:
-    """One claim, with the files it came from and the one of its value, the first of them."""
+def describe_claim(claim: xr.Dataset) -> Context:
+    """One claim, with the files behind it; the first is that of its value."""
     verdict = str(claim.verdict.item())
     paths = str(claim.sources.item()).split()
     return {
@@ -121,18 +123,18 @@ def claim_row(claim: xr.Dataset) -> Context:
         "quantity": str(claim.quantity.item()),
         "value": float(claim.value),
         "measured": with_error(float(claim.value), float(claim.value_total_error)),
-        "errors": error_sources(claim),
-        "dominates": dominating(claim, "value"),
+        "errors": list_errors(claim),
+        "dominates": name_dominant(claim, "value"),
         "claimed": number(float(claim.claimed), 4),
         "claimed_value": float(claim.claimed),
         "remark": str(claim.remark.item()),
         "origin": paths[0] if paths else "",
-        "sources": grouped(paths),
+        "sources": group_seeds(paths),
     }
 
 
-def error_sources(claim: xr.Dataset) -> str:
-    """What makes up the error of a claim's value."""
+def list_errors(claim: xr.Dataset) -> str:
+    """Errors of a claim's value by source, the largest first."""
     error = claim.value_error.fillna(np.inf)
     parts = error.where(error > 0, drop=True).sortby(-error)
     return ", ".join(
@@ -141,8 +143,8 @@ def error_sources(claim: xr.Dataset) -> str:
     )
 
 
-def dominating(data: xr.Dataset, name: str) -> str:
-    """Source of the largest error of a number in words, or which is not known."""
+def name_dominant(data: xr.Dataset, name: str) -> str:
+    """Source of the largest error of a number; one that is not known counts as the largest."""
     source = budget.dominant(data, name)
     if source == "none":
         return NOTHING
@@ -150,8 +152,8 @@ def dominating(data: xr.Dataset, name: str) -> str:
     return source if known else f"{source}, not known"
 
 
-def grouped(paths: Sequence[str]) -> list[tuple[str, str]]:
-    """Paths with notes; the realisations of one folder are a single entry, by their first."""
+def group_seeds(paths: Sequence[str]) -> list[tuple[str, str]]:
+    """Paths with notes; of the seeds of one folder only the first, and how many more."""
     seeds: dict[Path, list[str]] = {}
     for path in paths:
         if Path(path).stem.startswith("seed"):
@@ -160,8 +162,8 @@ def grouped(paths: Sequence[str]) -> list[tuple[str, str]]:
     return single + [(found[0], f" and {len(found) - 1} more") for found in seeds.values()]
 
 
-def errata_rows(claims: xr.Dataset) -> list[Context]:
-    """Errata with the numbers that the ledger recomputed."""
+def describe_errata(claims: xr.Dataset) -> list[Context]:
+    """Errata with their recomputed numbers."""
     recomputed = datasets.parameters(claims)["errata"]
     return [
         {
@@ -179,9 +181,9 @@ def errata_rows(claims: xr.Dataset) -> list[Context]:
     ]
 
 
-def verdict_matrix(verdicts: xr.Dataset, surfaces: Datasets) -> Context:
+def arrange_verdicts(verdicts: xr.Dataset, surfaces: Datasets) -> Context:
     """Materials against surfaces, and every pair on its own."""
-    labels = surface_labels(surfaces)
+    labels = labels_of(surfaces)
     materials = datasets.parameters(verdicts)["materials"]
     names = [str(name) for name in verdicts.material.values]
     cells = {
@@ -190,7 +192,7 @@ def verdict_matrix(verdicts: xr.Dataset, surfaces: Datasets) -> Context:
         for surface in map(str, verdicts.surface.values)
     }
     return {
-        "materials": [material_row(name, materials[name]) for name in names],
+        "materials": [describe_material(name, materials[name]) for name in names],
         "rows": [
             {
                 "name": surface,
@@ -211,11 +213,11 @@ def verdict_matrix(verdicts: xr.Dataset, surfaces: Datasets) -> Context:
     }
 
 
-def surface_labels(surfaces: Datasets) -> dict[str, str]:
+def labels_of(surfaces: Datasets) -> dict[str, str]:
     return {name: datasets.parameters(data)["label"] for name, data in surfaces.items()}
 
 
-def material_row(name: str, entry: Mapping[str, Any]) -> Context:
+def describe_material(name: str, entry: Mapping[str, Any]) -> Context:
     """Properties of a material as the configuration states them."""
     return {
         "name": name,
@@ -227,9 +229,9 @@ def material_row(name: str, entry: Mapping[str, Any]) -> Context:
     }
 
 
-def disagreements(verdicts: xr.Dataset, surfaces: Datasets) -> list[Context]:
-    """Criteria against that of the edges: how many pairs differ, which, and in what direction."""
-    labels = surface_labels(surfaces)
+def find_disagreements(verdicts: xr.Dataset, surfaces: Datasets) -> list[Context]:
+    """Pairs on which a criterion differs from that of the contact edges, by direction."""
+    labels = labels_of(surfaces)
     materials = datasets.parameters(verdicts)["materials"]
     sticky = verdicts.margin > 1
     edges = sticky.sel(criterion=EDGES)
@@ -245,7 +247,7 @@ def disagreements(verdicts: xr.Dataset, surfaces: Datasets) -> list[Context]:
 
     return [
         {
-            "criterion": CRITERIA.get(name, name.replace("_", " ")),
+            "criterion": CRITERIA[name].label,
             "count": int(verdicts.disagrees.sel(criterion=name).sum()),
             "sticky": pairs((sticky.sel(criterion=name) & ~edges).any("end")),
             "not_sticky": pairs((~sticky.sel(criterion=name) & edges).any("end")),
@@ -255,19 +257,14 @@ def disagreements(verdicts: xr.Dataset, surfaces: Datasets) -> list[Context]:
     ]
 
 
-def surface_rows(surfaces: Datasets) -> list[Context]:
-    """Parameters of the real surfaces."""
-    return [{"name": name, **surface_row(data)} for name, data in surfaces.items()]
-
-
-def surface_row(surface: xr.Dataset) -> Context:
-    """What is known of one surface; of a measured one with the errors of the fit."""
+def describe_surface(name: str, surface: xr.Dataset) -> Context:
+    """Parameters of a real surface; of a measured one with the errors of the fit."""
     made = datasets.parameters(surface)
-    error = float(surface.hurst_total_error)
     return {
+        "name": name,
         "label": made["label"],
         "kind": made["kind"].replace("_", "-"),
-        "hurst": with_error(float(surface.hurst), error),
+        "hurst": with_error(float(surface.hurst), float(surface.hurst_total_error)),
         "c0": reference_prefactor(surface),
         "h_rms": rms_height(surface),
         "q0": number(float(surface.q0)),
@@ -277,35 +274,28 @@ def surface_row(surface: xr.Dataset) -> Context:
     }
 
 
-def error_budgets(answers: Sequence[xr.Dataset]) -> list[Context]:
-    """Error budget of every case, by source, at the load next to `LOAD`."""
-    budgets = []
-    for answer in answers:
-        at, made = answer.sel(pressure=LOAD, method="nearest"), datasets.parameters(answer)
-        missed = ", not reached" if "missed" in answer.attrs else ""
-        budgets.append(
-            {
-                "case": made["case"],
-                "load": number(float(at.pressure)),
-                "asked": NOTHING
-                if made["accuracy"] is None
-                else percent(made["accuracy"]) + missed,
-                "rows": [budget_row(at.sel(column=name)) for name in at.column.values],
-            }
-        )
-    return budgets
+def describe_budgets(answer: xr.Dataset) -> Context:
+    """Error budgets of a case, by source, at the load of the paper's figures."""
+    at, made = at_load(answer), datasets.parameters(answer)
+    missed = ", not reached" if "missed" in answer.attrs else ""
+    return {
+        "case": made["case"],
+        "load": number(float(at.pressure)),
+        "asked": NOTHING if made["accuracy"] is None else percent(made["accuracy"]) + missed,
+        "rows": [describe_budget(at.sel(column=name)) for name in at.column.values],
+    }
 
 
-def trade_tables(medians: pd.DataFrame) -> list[tuple[list[str], list[list[str]]]]:
-    """Tables of what accuracy costs under heads that fit a page."""
+def head_tables(medians: pd.DataFrame) -> list[tuple[list[str], list[list[str]]]]:
+    """Tables of the accuracy-cost study with short heads."""
     return [
         ([HEADS.get(name, name.replace("_", " ")) for name in head], lines)
-        for head, lines in trade_summary.tables(medians)
+        for head, lines in summary.tables(medians)
     ]
 
 
-def theory_rows(comparisons: Sequence[xr.Dataset]) -> list[Context]:
-    """Difference of theory from simulation for every case, at three of its loads."""
+def compare_theory(comparisons: Sequence[xr.Dataset]) -> list[Context]:
+    """Relative difference of theory from simulation for every case, at three of its loads."""
     rows = []
     for comparison in comparisons:
         at = comparison.isel(variant=0).interp({"range": RANGE})
@@ -322,35 +312,35 @@ def theory_rows(comparisons: Sequence[xr.Dataset]) -> list[Context]:
     return rows
 
 
-def budget_row(at: xr.Dataset) -> Context:
+def describe_budget(at: xr.Dataset) -> Context:
     """Value of a column, its errors relative to it, and the largest of them."""
     value, total = float(at.value), float(at.value_total_error)
     errors = at.value_error / value if value else at.value_error * np.nan
     return {
-        "quantity": COLUMNS.get(str(at.column.item()), str(at.column.item())),
+        "quantity": COLUMNS[str(at.column.item())].label,
         "value": with_error(value, total) if np.isfinite(total) else number(value),
         "errors": {source: percent(float(errors.sel(source=source))) for source in budget.SOURCES},
-        "dominates": dominating(at, "value"),
+        "dominates": name_dominant(at, "value"),
     }
 
 
-def preset_rows(
-    laws: error_laws.Laws,
+def describe_presets(
+    laws: ErrorModels,
     fidelities: Mapping[str, Any],
     asked: Mapping[str, Any],
     surface: Mapping[str, Any],
     descriptor_seeds: int,
 ) -> list[Context]:
-    """Settings of every preset, what they were measured to cost and to err by."""
-    given = error_laws.Surface.of(surface), asked["pressures"]
+    """Settings of every preset, with their predicted cost and errors."""
+    given = laws, Surface.of(surface), asked["pressures"]
     rows = []
     for name, error in asked["accuracy"].items():
         chosen = plan.preset(fidelities[name])
         errors = (
-            error_laws.worst_error(laws, chosen, *given, [quantity], descriptor_seeds)[0]
-            for quantity in error_laws.QUANTITIES
+            worst_error(Problem(*given, columns_of([quantity]), descriptor_seeds), chosen)[0]
+            for quantity in MODELLED
         )
-        cost = error_laws.predicted_cost(laws, chosen, *given, descriptor_seeds)
+        cost = predicted_cost(Problem(*given, columns_of(MODELLED), descriptor_seeds), chosen)
         rows.append(
             {
                 "name": name,

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import logging
 import string
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import contextmanager
+from pathlib import Path
 from typing import Any
 
 import matplotlib as mpl
@@ -21,7 +23,9 @@ from matplotlib.lines import Line2D
 from matplotlib.ticker import FixedLocator, FuncFormatter, NullFormatter
 from numpy.typing import ArrayLike, NDArray
 
-from stickiness.core import budget, datasets
+from pipeline.job import start
+from pipeline.numbers import number
+from stickiness.core import datasets
 
 # Okabe & Ito, Color Universal Design (2008).
 BLACK, ORANGE, SKY, GREEN, YELLOW, BLUE, RED, PURPLE = (
@@ -37,11 +41,31 @@ BLACK, ORANGE, SKY, GREEN, YELLOW, BLUE, RED, PURPLE = (
 COLOURS = (BLUE, RED, GREEN, ORANGE, PURPLE, SKY, BLACK)
 MARKERS = ("o", "s", "^", "D", "v", "P", "X")
 GREY = "0.45"
+BARS, HOLLOW, FILLED = 3, 3.5, 4  # from back to front: error bars, open points, filled points
 WIDTH = 7.1  # inches, two columns of a journal
 VARIANT_LINES = {"afferrante2018": "-", "almqvist2011": "--"}
 VARIANT_LABELS = {
     "afferrante2018": "Afferrante et al. 2018",
     "almqvist2011": "Almqvist et al. 2011",
+}
+
+# Labels of axes that several figures have.
+PRESSURE = r"pressure $p/(E^*q_0h_\mathrm{rms})$"
+GAP = r"gap $u/h_\mathrm{rms}$"
+RANGE = r"range $\epsilon/h_\mathrm{rms}$"
+ADHESION_LENGTH = r"adhesion length $l_a/\epsilon$"
+MAGNIFICATION = r"magnification $\zeta$"
+CONTACT_AREA = r"area $A_\mathrm{rep}/A_\mathrm{nom}$"
+
+SYMBOLS = {
+    "hurst": "$H$",
+    "magnification": r"$\zeta$",
+    "pressure": r"$\hat{p}$",
+    "mean_gap": r"$\bar{u}/h_\mathrm{rms}$",
+    "range": r"$\epsilon/h_\mathrm{rms}$",
+    "adhesion_length": r"$l_a/\epsilon$",
+    "q0_h_rms": r"$q_0h_\mathrm{rms}$",
+    "a_v": "$a_V$",
 }
 
 logging.getLogger("fontTools").setLevel(logging.ERROR)  # else pages about fonts in the log
@@ -66,13 +90,21 @@ _SETTINGS = {
     "legend.labelspacing": 0.3,
     "legend.columnspacing": 1.0,
     "legend.borderaxespad": 0.4,
+    "legend.title_fontsize": 8,
     "figure.constrained_layout.use": True,
     "savefig.dpi": 200,
     "pdf.fonttype": 42,  # text stays text
 }
 
 
-def canvas(rows: str, height: float, **grid: Any) -> tuple[Figure, dict[str, Axes]]:
+def start_figure(names: dict[str, Any]) -> Any:
+    """Job of the figure whose script has these ``globals()``, found by the script's name."""
+    return start(names, Path(names["__file__"]).stem)
+
+
+def canvas(
+    rows: str | Sequence[Sequence[str]], height: float, **grid: Any
+) -> tuple[Figure, dict[str, Axes]]:
     """Figure of `height` inches with lettered panels laid out as in ``subplot_mosaic("AB;CC")``."""
     mpl.rcParams.update(_SETTINGS)
     return plt.subplot_mosaic(rows, figsize=(WIDTH, height), **grid)
@@ -94,43 +126,72 @@ def save(figure: Figure, outputs: Iterable[str]) -> None:
     plt.close(figure)
 
 
+@contextmanager
+def lettered_figure(
+    outputs: Iterable[str], rows: str | Sequence[Sequence[str]], height: float, **grid: Any
+) -> Iterator[dict[str, Axes]]:
+    """Panels of a `canvas` to draw in; at the end they get letters and the files are written."""
+    figure, panels = canvas(rows, height, **grid)
+    yield panels
+    letters(panels)
+    save(figure, outputs)
+
+
+def state(**values: float) -> str:
+    """Equations like "H = 0.8, ζ = 64" for the quantities of `SYMBOLS`."""
+    return ", ".join(f"{SYMBOLS[name]} = {number(value)}" for name, value in values.items())
+
+
+def look(index: int, **more: Any) -> dict[str, Any]:
+    """Colour and marker of one of several sets of points."""
+    return {
+        "color": COLOURS[index % len(COLOURS)],
+        "marker": MARKERS[index % len(MARKERS)],
+    } | more
+
+
 def shades(count: int) -> NDArray:
     """Colours from dark to light for an ordered family of curves."""
     return mpl.colormaps["cividis"](np.linspace(0, 0.9, count))
 
 
-def total_error(sampling: ArrayLike, discretisation: ArrayLike) -> NDArray:
-    """Both errors in quadrature; the sampling error of a single seed is unknown and left out."""
-    return np.sqrt(np.nansum(np.square([sampling, discretisation]), axis=0))
+def in_shades(values: Sequence) -> Iterator[tuple[NDArray, Any]]:
+    """Every value of an ordered family with its colour."""
+    return zip(shades(len(values)), values, strict=True)
 
 
-def with_model(data: xr.Dataset, name: str) -> tuple[NDArray, NDArray]:
-    """Sampling error of a variable, and all its others, for `points`."""
-    error = data[f"{name}_error"]
-    others = error.sel(source=[s for s in budget.SOURCES if s != "sampling"])
-    return error.sel(source="sampling").values, np.sqrt((others**2).sum("source")).values
+def errors(data: xr.Dataset, name: str) -> tuple[xr.DataArray, xr.DataArray]:
+    """Sampling error of a variable, and all errors in quadrature; unknown ones are left out."""
+    by_source = data[f"{name}_error"]
+    return by_source.sel(source="sampling").fillna(0), np.sqrt((by_source**2).sum("source"))
 
 
 def points(
-    ax: Axes,
-    x: ArrayLike,
-    y: ArrayLike,
-    sampling: ArrayLike,
-    discretisation: ArrayLike,
-    **look: Any,
+    ax: Axes, x: ArrayLike, data: xr.Dataset, name: str, scale: float = 1.0, **look: Any
 ) -> None:
-    """Points with a thick bar for the sampling error and a thin one that adds discretisation."""
-    look = {"linestyle": "none", "marker": "o", "color": BLACK, "zorder": 4} | look
-    bare = {key: value for key, value in look.items() if key not in ("marker", "label")}
-    bare |= {"linestyle": "none", "capsize": 0, "marker": "none"}
-    ax.errorbar(x, y, total_error(sampling, discretisation), elinewidth=0.7, **bare)
-    ax.errorbar(x, y, np.nan_to_num(sampling), elinewidth=1.8, **bare)
-    ax.plot(x, y, **look)
+    """A variable over `scale`: a thick bar for its sampling error, a thin one for all errors."""
+    y, (sampling, total) = data[name] / scale, errors(data, name)
+    bars = {"linestyle": "none", "color": look["color"], "zorder": BARS}
+    ax.errorbar(x, y, total / scale, elinewidth=0.7, **bars)
+    ax.errorbar(x, y, sampling / scale, elinewidth=1.8, **bars)
+    ax.plot(x, y, **{"linestyle": "none", "marker": "o", "zorder": FILLED} | look)
 
 
-def aside(x: ArrayLike, steps: float) -> NDArray:
+def hollow(ax: Axes, x: ArrayLike, y: ArrayLike, **look: Any) -> None:
+    """Open points, above the error bars and below the filled points that they are beside."""
+    ax.plot(x, y, **{"linestyle": "none", "mfc": "white", "zorder": HOLLOW} | look)
+
+
+def band(
+    ax: Axes, x: ArrayLike, low: ArrayLike, high: ArrayLike, colour: Any, alpha: float = 0.3
+) -> None:
+    """Shaded area between two curves."""
+    ax.fill_between(x, low, high, color=colour, alpha=alpha, linewidth=0)
+
+
+def aside(x: ArrayLike, steps: float, step: float = 1.05) -> NDArray:
     """Abscissae of a log axis moved by a few per cent, so that equal ones can be told apart."""
-    return np.asarray(x) * 1.05**steps
+    return np.asarray(x) * step**steps
 
 
 def guide(ax: Axes, x: ArrayLike, y: ArrayLike, text: str, at: tuple[float, float]) -> None:
@@ -155,6 +216,11 @@ def plain_ticks(axis: Axis, values: Iterable[float]) -> None:
     axis.set_minor_formatter(NullFormatter())
 
 
-def key(**look: Any) -> Line2D:
-    """Legend handle that belongs to no curve in particular."""
-    return Line2D([], [], **({"color": GREY} | look))
+def key(label: str, **look: Any) -> Line2D:
+    """Legend handle of a line that belongs to no curve in particular."""
+    return Line2D([], [], label=label, **({"color": GREY} | look))
+
+
+def dot(label: str, **look: Any) -> Line2D:
+    """Legend handle of a point."""
+    return key(label, **({"linestyle": "none", "marker": "o"} | look))

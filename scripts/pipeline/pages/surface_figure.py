@@ -9,8 +9,8 @@ LINES = (1e-3, 1e-5)  # m^0.4
 PREFIXES = ((1e3, 1e-3, "km"), (1, 1, "m"), (1e-3, 1e3, "mm"), (1e-6, 1e6, "µm"), (0, 1e9, "nm"))
 
 
-def drawn(surface, pairs):
-    """Figure with the panels that there is something to show in."""
+def draw_surface(surface, pairs):
+    """Figure with a panel for everything that the surface and its pairs have to show."""
     pictured = next((name for name in ("heights", "profile") if name in surface), None)
     depending = pairs.isel(material=np.flatnonzero(pairs.depends_on_rate.values == 1))
     names = iter("ABC")
@@ -51,7 +51,7 @@ def line(_, ax, surface):
 
 
 def unit_of(value):
-    """Factor and name of the unit in which a length is neither large nor small."""
+    """Factor and name of the unit that suits a length."""
     return next((factor, name) for least, factor, name in PREFIXES if value >= least)
 
 

@@ -4,7 +4,7 @@ import numpy as np
 import xarray as xr
 
 from pipeline.numbers import interval, quantity, quantity_with_error, with_error
-from stickiness.core.budget import COVERS
+from stickiness.core.statistics import COVERS
 
 ENDS = ("smooth", "rough")
 

@@ -1,4 +1,4 @@
-"""Verdict on a pair of a material and a surface as texts, and the numbers that sort it."""
+"""Texts of a verdict: numbers of the pair, what sorts it, and the reason of every criterion."""
 
 from __future__ import annotations
 
@@ -7,17 +7,19 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from pipeline.numbers import NOTHING, interval, percent, quantity
+from pipeline.numbers import NOTHING, interval, number, percent, quantity
+from pipeline.pages.surface_texts import rms_height
 from stickiness.core import budget
+from stickiness.criteria.registry import CRITERIA, EDGES
+from stickiness.criteria.words import WORDS as STICKINESS
 
-EDGES = "edge_adhesion"
-STICKINESS = ("not sticky", "depends", "sticky", "undecided")  # by the code in the dataset
 STICKINESS_TONES = ("no", "partly", "yes", "open")
 GRADES = (0, 2, 3, 1)  # of the codes: an undecided pair stands next to one that does not stick
+REGIME_TEXTS = ("weak", "between weak and tough", "tough, near JKR", "strong, but not near JKR")
 
 
 def pair_texts(pair: xr.Dataset) -> dict[str, Any]:
-    """What the pages say of a pair; from the rough to the smooth end of the surface."""
+    """Texts and numbers of a pair on the pages; intervals go from the rough to the smooth end."""
     code = int(pair.verdict)
     margins = ends(pair.margin.sel(criterion=EDGES))
     thresholds = ends(pair.modulus_threshold)
@@ -74,4 +76,59 @@ def drawn_texts(pair: xr.Dataset) -> dict[str, Any]:
         "drawn": interval(*map(float, pair.margin_quantile.values[[0, -1]]), 2),
         "errors": f"spectrum {percent(float(pair.error_of_spectrum))}, a_V and model "
         f"{percent(float(pair.error_of_model))}",
+    }
+
+
+def explain(pair: xr.Dataset, surface: xr.Dataset, work_of_adhesion: float) -> list[dict[str, Any]]:
+    """One row for every criterion: what it says of a pair, its margins and its reason.
+
+    Parameters
+    ----------
+    pair : xarray.Dataset
+        Verdicts of the pair.
+    surface : xarray.Dataset
+        The surface.
+    work_of_adhesion : float
+        [J/m^2].
+    """
+    facts = gather_facts(pair, surface, work_of_adhesion)
+    edges = pair.margin.sel(criterion=EDGES) > 1
+    rows = []
+    for name in map(str, pair.criterion.values):
+        margin = pair.margin.sel(criterion=name)
+        sticky = margin > 1
+        says = "sticks" if sticky.all() else "depends" if sticky.any() else "does not stick"
+        rows.append(
+            {
+                "name": CRITERIA[name].label,
+                "says": says,
+                "margins": interval(*ends(margin), 2),
+                "disagrees": bool((sticky != edges).any()),
+                "reason": CRITERIA[name].reason.format(**facts),
+            }
+        )
+    return rows
+
+
+def gather_facts(pair: xr.Dataset, surface: xr.Dataset, work_of_adhesion: float) -> dict[str, str]:
+    """Texts by the names of `registry.FACTS`; intervals go from the smooth to the rough end."""
+    curvature = float(surface.rms_curvature.sel(end="rough"))
+    modulus = float(pair.modulus_quoted)
+    energy = float(surface.elastic_energy.sel(end="rough")) * modulus
+    of_edges = {
+        name: interval(*sorted(map(float, pair[name].values)), 2)
+        for name in ("attractive_over_contact", "edge_strength", "over_dmt")
+    }
+    return of_edges | {
+        "regime": " to ".join(dict.fromkeys(REGIME_TEXTS[int(code)] for code in pair.regime)),
+        "h_rms": rms_height(surface),
+        "q0": number(float(surface.q0)),
+        "a_v": number(float(pair.pair_a_v.mean()), 2),
+        "constant_a_v": number(float(pair.a_v), 2),
+        "rms_slope": number(float(surface.rms_slope.sel(end="rough")), 2),
+        "rms_curvature": number(curvature, 2),
+        "summit_radius": quantity(2 / curvature, 2 / curvature, "m", 2),
+        "energy": f"{number(energy, 2)} J/m²",
+        "work_of_adhesion": f"{number(work_of_adhesion, 2)} J/m²",
+        "modulus": quantity(modulus, modulus, "Pa", 2),
     }

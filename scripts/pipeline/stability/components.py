@@ -22,9 +22,10 @@ import numpy as np
 
 import stickiness
 from stickiness import adhesive, criteria
-from stickiness.accuracy import error_laws, multilevel
+from stickiness.accuracy import choice, error_models, multilevel, prediction
 from stickiness.adhesion import dmt, equivalent_sphere, model_choice
 from stickiness.contact import gaps, grid_limit, solver, subpixel
+from stickiness.core.plausibility import PlausibilityWarning
 from stickiness.criteria import a_v_fit, a_v_table, moduli
 from stickiness.measured import instrument_spectrum, psd, self_affine_fit, stitching
 from stickiness.persson import theory
@@ -37,9 +38,9 @@ SCALED = 1e-9  # relative error allowed where only the unit or an overall factor
 TIME_LIMIT = 30  # seconds of computing for a point; most take less than 0.1
 
 _MODULES = (
-    a_v_fit, a_v_table, adhesive, criteria, dmt, equivalent_sphere, error_laws, gaps, grid_limit,
-    instrument_spectrum, model_choice, moduli, multilevel, psd, self_affine_fit, solver, spectrum,
-    stitching, subpixel, synthesis, theory,
+    a_v_fit, a_v_table, adhesive, criteria, dmt, choice, equivalent_sphere, error_models, gaps,
+    grid_limit, instrument_spectrum, model_choice, moduli, multilevel, prediction, psd,
+    self_affine_fit, solver, spectrum, stitching, subpixel, synthesis, theory,
 )  # fmt: skip
 _LIBRARY = Path(stickiness.__file__).parent
 
@@ -184,6 +185,7 @@ def probe_point(component: Component, point: Mapping[str, Any]) -> Result:
     try:
         with warnings.catch_warnings(), limit_time(TIME_LIMIT):
             warnings.simplefilter("error")
+            warnings.simplefilter("ignore", PlausibilityWarning)  # coarse grids are the point
             checks = list(component.probe(**point))
     except solver.ConvergenceError as error:  # that of adhesive contact, too
         return Result(UNCONVERGED, np.nan, str(error))

@@ -21,9 +21,20 @@ from pipeline.stability.components import (
     model,
 )
 from pipeline.stability.theory import THEORIES
-from stickiness.accuracy import error_laws
+from stickiness.accuracy.choice import (
+    COARSE_SEEDS,
+    PIXELS,
+    SAME_COST,
+    SEEDS,
+    TOLERANCES,
+    UnreachableError,
+    cheapest,
+)
+from stickiness.accuracy.error_models import ErrorModel, Settings, Surface, nearest_measured
+from stickiness.accuracy.prediction import SAFETY, Problem, predicted_cost, worst_error
 from stickiness.adhesion import dmt
 from stickiness.adhesive import LennardJones
+from stickiness.core.statistics import COVERS
 from stickiness.measured import instrument_spectrum, psd, stitching
 from stickiness.measured.topography import Topography
 from stickiness.persson.theory import Persson
@@ -105,57 +116,56 @@ def analyse_map(hurst, q0_h_rms, unit, grid):
     return found, plane, heights
 
 
-# --- Settings for an accuracy: laws that are plain powers. ---
+# --- Settings for an accuracy: error models that are plain powers. ---
 
-_PLAIN = error_laws.Law(0.0)
-_LAWS = {
+_MODELS = {
     (part, column): law
     for column in ("area", "mean_gap")
     for part, law in {
-        "discretisation": error_laws.Law(0.0, magnification=-0.2, pressure=-0.1, pixels=-2.0),
-        "solver": error_laws.Law(1.0, tolerance=1.0),
-        "scatter": error_laws.Law(-2.0, hurst=1.0, window=-1.0),
-        "fine_share": error_laws.Law(-2.0),
-        "coarse_share": error_laws.Law(-1.0),
+        "discretisation": ErrorModel(0.0, magnification=-0.2, pressure=-0.1, pixels=-2.0),
+        "solver": ErrorModel(1.0, tolerance=1.0),
+        "scatter": ErrorModel(-2.0, hurst=1.0, window=-1.0),
+        "fine_share": ErrorModel(-2.0),
+        "coarse_share": ErrorModel(-1.0),
     }.items()
 } | {
-    ("fine_cost", ""): error_laws.Law(0.0, magnification=2.0, window=2.0, pixels=2.0),
-    ("coarse_cost", ""): error_laws.Law(1.0, magnification=2.0, window=2.0),
-    ("described_cost", ""): error_laws.Law(-7.0),
-    ("tolerance_cost", ""): error_laws.Law(0.0, tolerance=-0.1),
+    ("fine_cost", ""): ErrorModel(0.0, magnification=2.0, window=2.0, pixels=2.0),
+    ("coarse_cost", ""): ErrorModel(1.0, magnification=2.0, window=2.0),
+    ("described_cost", ""): ErrorModel(-7.0),
+    ("tolerance_cost", ""): ErrorModel(0.0, tolerance=-0.1),
 }
 _ASKED = {"30 %": 0.3, "5 %": 0.05, "1 %": 0.01}
 _CANDIDATES = tuple(
-    error_laws.Settings(*settings)
+    Settings(*settings)
     for settings in product(
-        error_laws.PIXELS,
-        error_laws.TOLERANCES[::2],
-        error_laws.SEEDS[::3],
-        error_laws.COARSE_SEEDS[::3],
+        PIXELS,
+        TOLERANCES[::2],
+        SEEDS[::3],
+        COARSE_SEEDS[::3],
     )
 )
 
 
 def probe_accuracy(hurst, magnification, pressure, variant) -> Iterator[Check]:
-    asked, on = _ASKED[variant], error_laws.Surface(hurst, magnification)
-    arguments = _LAWS, on, [pressure], ["area", "mean_gap"]
+    asked, on = _ASKED[variant], Surface(hurst, magnification)
+    problem = Problem(_MODELS, on, [pressure], ["area", "mean_gap"])
 
     def error(settings):
-        return error_laws.worst_error(_LAWS, settings, *arguments[1:])[0]
+        return worst_error(problem, settings)[0]
 
     fits = [s for s in _CANDIDATES if s.pixels_per_wavelength * magnification <= 2048]
     good = [s for s in fits if error(s) <= asked]
     try:
-        found = error_laws.cheapest(_LAWS, asked, *arguments[1:])
-    except error_laws.UnreachableError:
+        found = cheapest(problem, asked)
+    except UnreachableError:
         yield Check("refused, but can be reached", float(len(good)), 0.5)
         raise
     yield Check("accuracy", error(found) / asked, 1)
-    cost = error_laws.predicted_cost(_LAWS, found, on, [pressure])
+    cost = predicted_cost(problem, found)
     for settings in good:
-        other = error_laws.predicted_cost(_LAWS, settings, on, [pressure])
-        yield Check("cheapest", cost / other, error_laws.SAME_COST * (1 + SCALED))
-    near, load, factor = error_laws.measured(on, pressure)
+        other = predicted_cost(problem, settings)
+        yield Check("cheapest", cost / other, SAME_COST * (1 + SCALED))
+    near, load, factor = nearest_measured(on, pressure)
     own = predict_error(found, near, load, factor)
     yield Check("error", abs(error(found) / own - 1), 1e-5)  # of a bisection
 
@@ -169,10 +179,10 @@ def predict_error(settings, on, load, factor):
     if settings.coarse_seeds:
         levels = fine**2 / settings.seeds + coarse**2 / settings.coarse_seeds
         levels += (1 - coarse**2) / 2048
-    sampling = error_laws.COVERS * scatter * np.sqrt(levels)
+    sampling = COVERS * scatter * np.sqrt(levels)
     # Both quantities err alike; the squares of their chances to be beyond make that of both, 10 %.
-    widened = stats.norm.isf(0.1 / np.sqrt(2) / 2) / error_laws.COVERS
-    return error_laws.SAFETY * widened * np.sqrt(grid**2 + solver**2 + sampling**2)
+    widened = stats.norm.isf(0.1 / np.sqrt(2) / 2) / COVERS
+    return SAFETY * widened * np.sqrt(grid**2 + solver**2 + sampling**2)
 
 
 # --- The DMT limit: attraction over areas that are powers of the range. ---

@@ -13,8 +13,9 @@ import xarray as xr
 from pipeline.tradeoff.fit_laws import Conditions, Points
 from pipeline.tradeoff.measuring import COVERED
 from pipeline.tradeoff.rows import Trial, select
-from stickiness.accuracy.error_laws import COARSE, COVERS, Surface
+from stickiness.accuracy.error_models import COARSE, Surface
 from stickiness.core import datasets
+from stickiness.core.statistics import COVERS
 
 MEANS = (4, 8, 16, 32)  # seeds that rows are given for
 WEAK = 1e-4  # l_a/range below which an area changes by less than a few pixels

@@ -20,9 +20,9 @@ from pipeline.tradeoff.seed_pool import (
     extrapolate_area,
     flatten,
 )
-from stickiness.accuracy import error_laws
-from stickiness.accuracy.error_laws import COARSE, FULL, Settings
+from stickiness.accuracy.error_models import COARSE, FULL, Settings, Surface
 from stickiness.core import datasets
+from stickiness.core.statistics import COVERS
 from stickiness.persson.theory import Persson
 from stickiness.surfaces.synthesis import lattice_spectrum
 
@@ -107,7 +107,7 @@ def list_seed_rows(name: str, measured: xr.Dataset, pool: SeedPool) -> list[tupl
     seconds = float(measured.fixed_seconds.mean()) / loads
     for seeds in FIXED_MEANS:
         errors = {
-            key: np.hypot(value, error_laws.COVERS * scatter[key] / np.sqrt(seeds))
+            key: np.hypot(value, COVERS * scatter[key] / np.sqrt(seeds))
             for key, value in bias.items()
         }
         trial = Trial("seeds", f"{seeds} fixed", name, unit)
@@ -120,7 +120,7 @@ def list_theory_rows(
 ) -> list[tuple]:
     """Rows of theory in place of simulation: its error is that of the model."""
     parameters = datasets.parameters(measured)
-    surface, loads = error_laws.Surface.of(parameters), measured.pressure.values
+    surface, loads = Surface.of(parameters), measured.pressure.values
     lattice = lattice_spectrum(spectrum_of(parameters), window_of(parameters))
     state, seconds = time_task(
         lambda: contact_of(Persson(lattice), loads, measured["range"].values)

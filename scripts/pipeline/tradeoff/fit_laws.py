@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from scipy import optimize
 
 from pipeline.tradeoff.measuring import COVERED
-from stickiness.accuracy.error_laws import Law, Surface
+from stickiness.accuracy.error_models import ErrorModel, Surface
 
 FEATURES = ("constant", "hurst", "magnification", "window", "pressure", "pixels", "tolerance")
 FLOOR = 1e-10  # errors below are rounding and do not tell how they depend on anything
@@ -46,7 +46,7 @@ class Points:
         """Add a value and its standard error; zero if it is known well."""
         self.rows[part, quantity].append((at.features(), value, noise))
 
-    def fit(self) -> dict[tuple[str, str], Law]:
+    def fit(self) -> dict[tuple[str, str], ErrorModel]:
         """Fit every part: least squares of logarithms, or maximum likelihood of noisy values."""
         return {
             key: fit_noisy(rows, key[0] == CAUTIOUS)
@@ -56,7 +56,7 @@ class Points:
         }
 
 
-def fit_least_squares(rows: list[tuple]) -> Law:
+def fit_least_squares(rows: list[tuple]) -> ErrorModel:
     """Fit one law to logarithms; features that no two points differ in stay out."""
     rows = [row for row in rows if row[1] > FLOOR] or rows[-1:]
     features = np.array([row for row, *_ in rows])
@@ -67,7 +67,7 @@ def fit_least_squares(rows: list[tuple]) -> Law:
     return make_law(coefficients, values / np.exp(features @ coefficients))
 
 
-def fit_noisy(rows: list[tuple], cautious: bool = False) -> Law:
+def fit_noisy(rows: list[tuple], cautious: bool = False) -> ErrorModel:
     """Fit the standard deviation of values of either sign that are known with some noise.
 
     Values are taken as normal about zero with the variances of the law and of the noise, so that
@@ -115,9 +115,9 @@ def find_varied(features: NDArray) -> NDArray:
     return varied
 
 
-def make_law(coefficients: NDArray, ratio: NDArray) -> Law:
+def make_law(coefficients: NDArray, ratio: NDArray) -> ErrorModel:
     """Law of these coefficients; `ratio` holds the measured values over it."""
-    return Law(
+    return ErrorModel(
         **dict(zip(FEATURES, coefficients.tolist(), strict=True)),
         spread=float(np.quantile(ratio, COVERED)),
         points=len(ratio),

@@ -10,8 +10,9 @@ import xarray as xr
 from pipeline.tradeoff.fit_laws import Conditions, Points
 from pipeline.tradeoff.measuring import derived, rms, select_knob
 from pipeline.tradeoff.seed_pool import SeedPool
-from stickiness.accuracy import error_laws, multilevel
-from stickiness.accuracy.error_laws import COARSE, FULL, Surface
+from stickiness.accuracy import multilevel
+from stickiness.accuracy.error_models import COARSE, FULL, Surface
+from stickiness.accuracy.extrapolation import CARRIED_TIMES
 
 
 def add_sampling(points: Points, surface: Surface, pool: SeedPool) -> None:
@@ -87,7 +88,7 @@ def add_extrapolations(
     """
     area, at = theory["area"], Conditions(Surface(hurst, 1))
     for low, high in itertools.combinations(area.magnification.values.tolist(), 2):
-        if high > error_laws.CARRIED_TIMES * low:
+        if high > CARRIED_TIMES * low:
             continue
         cut, whole = {"magnification": low}, {"magnification": high}
         size = abs(area.sel(whole) / area.sel(cut) - 1)

@@ -11,23 +11,11 @@ import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike, NDArray
 
-from pipeline.conventions import GAPS_MEASURED, middles
-from pipeline.fits import fit_one
+from pipeline.conventions import FIT_MEASURED, GAPS_MEASURED
+from pipeline.quantities import derive, quote
+from stickiness.accuracy.quantities import MODELLED, columns_of
 from stickiness.contact import half_space
 
-# What a user may ask for, and how the columns of the tables are called. The attraction of the DMT
-# limit 1/kappa_ad is in proportion to the attractive area at its range and the threshold of E* to
-# a_V: their relative errors are the same.
-QUANTITIES = {
-    "area": "contact area",
-    "mean_gap": "mean gap",
-    "attractive_area_0.01": "attractive area and 1/kappa_ad at range 0.01 h_rms",
-    "attractive_area_0.1": "attractive area and 1/kappa_ad at range 0.1 h_rms",
-    "gap_distribution": "P(u), rms over gaps from 0.01 to 1 h_rms",
-    "a_v": "a_V and threshold of E*",
-    "kappa": "kappa_rep",
-}
-WINDOW = (0.01, 0.1)  # of the fit of a_V, the one that is quoted
 SETTING_TEXTS = {  # of the knobs that every solver has
     "knob": ("1", "what the settings vary"),
     "pixels": ("1", "grid points per shortest wavelength"),
@@ -41,34 +29,20 @@ UNIT = 1024  # side of the grid whose pair of transforms is the unit of cost
 COVERED = 0.9  # share of cases that a stated error covers
 
 
-def derived(solved: xr.Dataset, area: str = "attractive_area") -> dict[str, xr.DataArray]:
-    """Return the quantities of `QUANTITIES` from those of solutions.
+def derived(solved: xr.Dataset) -> dict[str, xr.DataArray]:
+    """Return the columns of all quantities that have error models, from solutions.
+
+    P(u) is taken at all gaps that its error is measured over, not only where it is quoted.
 
     Parameters
     ----------
     solved
-        With ``area_fraction``, ``mean_gap``, ``rms_slope`` and the attractive areas named `area`
-        along ``pressure`` and ``range``, and any other dimensions.
+        With ``area_fraction``, ``mean_gap``, ``rms_slope`` and ``attractive_area`` along
+        ``pressure`` and ``range``, and any other dimensions.
     """
-    areas, ranges = solved[area], solved["range"].values
-    density = areas.diff("range") / xr.DataArray(np.diff(ranges), dims="range")
-    density = density.rename(range="gap").assign_coords(gap=middles(ranges))
-    fitted = xr.apply_ufunc(
-        lambda values, load: fit_one(ranges, values, load, WINDOW)[0],
-        areas,
-        solved.pressure,
-        input_core_dims=[["range"], []],
-        vectorize=True,
-    )
-    return {
-        "area": solved.area_fraction,
-        "mean_gap": solved.mean_gap,
-        "attractive_area_0.01": areas.sel(range=0.01, method="nearest", drop=True),
-        "attractive_area_0.1": areas.sel(range=0.1, method="nearest", drop=True),
-        "gap_distribution": density.sel(gap=slice(*GAPS_MEASURED)),
-        "a_v": fitted,
-        "kappa": solved.area_fraction * solved.rms_slope / solved.pressure,
-    }
+    contact = derive(solved, FIT_MEASURED)
+    found = {name: quote(name, contact) for name in columns_of(MODELLED)}
+    return found | {"gap_distribution": contact.gap_density.sel(gap=slice(*GAPS_MEASURED))}
 
 
 def rms(values: xr.DataArray, dims: str | list[str] = "gap") -> xr.DataArray:

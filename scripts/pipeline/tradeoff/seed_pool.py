@@ -10,7 +10,8 @@ from numpy.typing import NDArray
 
 from pipeline.tradeoff.measuring import derived
 from stickiness.accuracy import multilevel
-from stickiness.accuracy.error_laws import COARSE, COARSE_SEEDS, SEEDS, Settings
+from stickiness.accuracy.choice import COARSE_SEEDS, SEEDS
+from stickiness.accuracy.error_models import COARSE, Settings
 from stickiness.contact import grid_limit
 
 KEPT = ("area_fraction", "mean_gap", "attractive_area", "rms_slope")

@@ -1,8 +1,6 @@
-"""The a_V that criteria use: measured by simulation, carried by theory to broad spectra."""
+"""a_V of the criteria: simulated for one case, extrapolated to other spectra by theory."""
 
-import csv
 from dataclasses import dataclass
-from pathlib import Path
 
 import numpy as np
 import xarray as xr
@@ -10,7 +8,9 @@ from numpy.typing import ArrayLike
 
 from pipeline.conventions import VARIANT
 from stickiness.core import datasets
-from stickiness.core.budget import COVERS, Part, absent
+from stickiness.core.budget import Part, absent
+from stickiness.core.statistics import COVERS
+from stickiness.criteria.surface_a_v import SurfaceAv
 
 
 @dataclass(frozen=True)
@@ -20,23 +20,23 @@ class MeasuredAv:
     Attributes
     ----------
     value : float
-        a_V of a simulated case in the first window of the fit, times the ratio of theory on the
-        broadest continuous spectrum to theory on the lattice spectrum of the case. Simulation
-        holds neither the bandwidth of real surfaces nor, on a small window, their long waves;
-        theory, which is close to simulation on one and the same spectrum, carries both.
+        a_V of a simulated case in the first interval of the fit, times the ratio of theory on the
+        broadest continuous spectrum to theory on the lattice spectrum of the case. Simulation has
+        neither the bandwidth of real surfaces nor, in a small cell, their long waves. Theory is
+        close to simulation on the same spectrum and extrapolates to both.
     simulated : float
         a_V of the case itself.
     over_lattice : float
         Ratio of simulation to theory on the lattice spectrum of the case.
     magnification : float
-        Magnification that the value is carried to.
+        Magnification of the broadest spectrum.
     sampling : float
-        Of the mean over seeds, covers 90 %; 0 for a single one, of which it is unknown.
+        Of the mean over seeds, covers 90 %; 0 for a single seed, whose error is unknown.
     discretisation : float
-        What the attractive areas keep in the limit of fine grids.
+        Of the limit of fine grids.
     window : float
-        Half the spread between the windows of the fit: the 2/3 law holds only roughly, so that
-        the window is part of the answer.
+        Half the spread between the intervals of the fit: the 2/3 law holds only roughly, so that
+        a_V depends on the interval.
     bandwidth : float
         Change of theory over the last two decades of magnification, in which a_V still grows.
     """
@@ -61,10 +61,10 @@ class MeasuredAv:
         scale = times / self.value
         return {
             "discretisation": Part(self.discretisation * scale, "of the case simulated"),
-            "solver": absent("far below what is recorded of the case"),
+            "solver": absent("far below the errors of the case simulated"),
             "sampling": Part(self.sampling * scale, "of the case simulated"),
             "bandwidth": Part(self.bandwidth * scale, "growth over the last two decades"),
-            "model": Part(self.window * scale, "half the spread between windows of the fit"),
+            "model": Part(self.window * scale, "half the spread between intervals of the fit"),
         }
 
     @property
@@ -80,13 +80,14 @@ class MeasuredAv:
     def describe(self) -> str:
         """Value, error and parts in words."""
         return (
-            f"a_V = {self.value:.2f} ± {self.error:.2f} (simulated {self.simulated:.2f}, carried "
-            f"by theory to zeta = {self.magnification:.0e}; sampling {self.sampling:.2f}, "
-            f"discretisation {self.discretisation:.2f}, fit window {self.window:.2f}, bandwidth "
-            f"{self.bandwidth:.2f})"
+            f"a_V = {self.value:.2f} ± {self.error:.2f} (simulated {self.simulated:.2f}, "
+            f"extrapolated by theory to zeta = {self.magnification:.0e}; sampling "
+            f"{self.sampling:.2f}, discretisation {self.discretisation:.2f}, fit interval "
+            f"{self.window:.2f}, bandwidth {self.bandwidth:.2f})"
         )
 
 
+SIMULATED = ("a_v_mean", "a_v_standard_error", "a_v_discretisation_error")
 IN_A_V = absent("in a_V's error, counted with the model")
 CLOSED = {
     "discretisation": IN_A_V,
@@ -102,94 +103,57 @@ def between(value: xr.DataArray, low: xr.DataArray, high: xr.DataArray) -> Part:
     return Part(np.maximum(abs(high - value), abs(value - low)), LIMITS)
 
 
-RECORDED = (
-    "pressure",
-    "window_low",
-    "window_high",
-    "a_v",
-    "standard_error",
-    "discretisation_error",
-)
-
-
-def recorded(path):
-    """Columns of a table of measured a_V, one row for every window of the fit."""
-    lines = Path(path).read_text(encoding="utf-8").splitlines()
-    rows = list(csv.DictReader(line for line in lines if not line.startswith("#")))
-    try:
-        return {name: np.array([float(row[name]) for row in rows]) for name in RECORDED}
-    except (KeyError, TypeError, ValueError) as error:
-        raise ValueError(f"{path}: not a table of measured a_V ({error!r})") from None
-
-
-def measured_a_v(inputs, pressure):
-    """`MeasuredAv` from the measured a_V of the configuration and two fits to theory.
+def measure_a_v(inputs, pressure):
+    """`MeasuredAv` from the fit to the simulated case and two fits to theory.
 
     Parameters
     ----------
     inputs : object
-        With the files `a_v`, a table as `record_a_v` writes it; `lattice`, the fit to theory on the
-        lattice spectrum of the same case; and `theory`, a sweep over magnification.
+        With files of `fit_a_v`: `a_v`, of the simulated case; `lattice`, of theory on the lattice
+        spectrum of the same case; and `theory`, of a sweep over magnification. The first of their
+        fit intervals is quoted.
     pressure : float
-        Load over E* q0 h_rms.
+        Load over E* q0 h_rms, one of those of the case.
+
+    Raises
+    ------
+    ValueError
+        If the fit to the case does not have this load.
     """
-    fit = recorded(inputs.a_v)
-    if not np.isclose(fit["pressure"][0], pressure):
+    fit = datasets.read(inputs.a_v, SIMULATED)
+    if not np.isclose(fit.pressure, pressure).any():
         raise ValueError(
-            f"{inputs.a_v}: was measured at pressure {fit['pressure'][0]:g}, and "
-            f"criteria.a_v.pressure = {pressure:g}; record it anew (target a_v)"
+            f"{inputs.a_v}: has no a_V at criteria.a_v.pressure = {pressure:g}; its pressures are "
+            f"{', '.join(f'{p:g}' for p in fit.pressure.values)}"
         )
+    fit = fit[list(SIMULATED)].sel(pressure=pressure, method="nearest")
+    simulated, deviation, grid = (fit[name].values for name in SIMULATED)
+    if not np.all(simulated > 0):
+        raise ValueError(f"{inputs.a_v}: a_V at pressure {pressure:g} is {simulated}, not positive")
+    # A single seed or grid has no such error, which is NaN then.
+    deviation, grid = np.nan_to_num(deviation), np.nan_to_num(grid)
     known = datasets.read(inputs.lattice, ["a_v"])
     lattice = known.a_v.sel(variant=VARIANT).sel(pressure=pressure, method="nearest").values
     theory = datasets.read(inputs.theory, ["a_v"]).a_v.sel(variant=VARIANT).isel(load=0)
     theory = theory.sel(hurst=datasets.parameters(known)["hurst"], method="nearest")
     broadest = float(theory.magnification.max())
     ratio = theory.sel(magnification=broadest).values / lattice
-    carried = fit["a_v"] * ratio
+    extrapolated = simulated * ratio
     before = theory.isel(window=0).sel(magnification=broadest / 100, method="nearest")
     growth = float(theory.isel(window=0).sel(magnification=broadest) / before) - 1
     return MeasuredAv(
-        value=float(carried[0]),
-        simulated=float(fit["a_v"][0]),
+        value=float(extrapolated[0]),
+        simulated=float(simulated[0]),
         magnification=broadest,
-        over_lattice=float(fit["a_v"][0] / lattice[0]),
-        sampling=COVERS * float(fit["standard_error"][0]) * float(ratio[0]),
-        discretisation=float(fit["discretisation_error"][0]) * float(ratio[0]),
-        window=float(np.ptp(carried)) / 2,
-        bandwidth=float(carried[0]) * abs(growth),
+        over_lattice=float(simulated[0] / lattice[0]),
+        sampling=COVERS * float(deviation[0]) * float(ratio[0]),
+        discretisation=float(grid[0]) * float(ratio[0]),
+        window=float(np.ptp(extrapolated)) / 2,
+        bandwidth=float(extrapolated[0]) * abs(growth),
     )
 
 
-@dataclass(frozen=True)
-class SurfaceAv:
-    """a_V of a real surface against the range, with the limits of what is known of it.
-
-    Theory on the surface's own spectrum, times the ratio of simulation to theory of the simulated
-    case. The limits are those of both variants of the theory and, below the edge range, of
-    Pastewka and Robbins' estimate, widened by the sampling and discretisation error of the
-    simulation.
-    """
-
-    ranges: np.ndarray
-    theory: np.ndarray
-    quoted: int
-    ratio: float
-    relative_error: float
-
-    def at(self, range_over_h_rms):
-        """Value, low and high limit at a range over h_rms, interpolated in logarithms."""
-        logs = [
-            np.interp(np.log(range_over_h_rms), np.log(self.ranges), np.log(a)) for a in self.theory
-        ]
-        every = self.ratio * np.exp(logs)
-        return (
-            float(every[self.quoted]),
-            float(every.min() * max(1 - self.relative_error, 0.01)),
-            float(every.max() * (1 + self.relative_error)),
-        )
-
-
-def surface_a_v(path, measured):
+def scale_theory(path, measured):
     """`SurfaceAv` from a file of `persson_surface` and the `MeasuredAv` of the simulation."""
     theory = datasets.read(path, ["a_v"]).a_v
     return SurfaceAv(

@@ -3,13 +3,14 @@
 import numpy as np
 import xarray as xr
 
-from pipeline.pages.verdict_texts import EDGES
 from pipeline.verdicts.a_v import CLOSED, LIMITS, between
-from stickiness.core.budget import COVERS, Part, absent, with_budget
+from stickiness.core.budget import Part, absent, with_budget
+from stickiness.core.statistics import COVERS
+from stickiness.criteria.registry import EDGES
 
 
-def budgeted(dataset, constant, draws):
-    """What is quoted of pairs, with its errors: by the spectrum, and by a_V and the model."""
+def add_budgets(dataset, constant, draws):
+    """Add error budgets to what is quoted of pairs: the spectrum, and a_V with the model."""
     dataset = with_budget(dataset, "a_v", **constant.parts(constant.value))
     ends = (dataset[f"pair_a_v{end}"] for end in ("", "_low", "_high"))
     dataset = with_budget(dataset, "pair_a_v", model=between(*ends), **CLOSED)

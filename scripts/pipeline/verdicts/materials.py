@@ -66,7 +66,7 @@ def plane_strain(entry):
 
 
 def modulus_text(entry):
-    """Modulus as the configuration states it, in a few words."""
+    """Modulus as the configuration states it."""
     if "plane_strain_modulus" in entry:
         return f"E* = {entry['plane_strain_modulus']}"
     if "youngs_modulus_table" in entry:

@@ -46,11 +46,11 @@ from stickiness.core.arguments import integer
 from stickiness.surfaces.spectrum import Spectrum
 from stickiness.surfaces.synthesis import (
     Amplitudes,
-    _check_window,
-    _draw,
-    _evaluate,
-    _half_plane_modes,
 )
+from stickiness.surfaces.synthesis import check_window as _check_window
+from stickiness.surfaces.synthesis import draw_modes as _draw
+from stickiness.surfaces.synthesis import list_modes as _half_plane_modes
+from stickiness.surfaces.synthesis import sum_modes as _evaluate
 
 DESCRIPTORS = (
     "full_contact_energy",

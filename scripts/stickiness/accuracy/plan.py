@@ -2,24 +2,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+import itertools
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
 from typing import Any
 
-from stickiness.accuracy import adhesion, sequential, spectral_cut
-from stickiness.accuracy.error_laws import (
-    COARSE_SEEDS,
-    OF_GAPS,
+from stickiness.accuracy import adhesion
+from stickiness.accuracy.choice import SEEDS, UnreachableError, cheapest
+from stickiness.accuracy.error_models import ErrorModels, Settings, Surface
+from stickiness.accuracy.extrapolation import left_to_simulation
+from stickiness.accuracy.prediction import Problem
+from stickiness.accuracy.quantities import (
+    MEASURED,
+    MODELLED,
     QUANTITIES,
-    SEEDS,
-    Laws,
-    Settings,
-    Surface,
-    UnreachableError,
-    cheapest,
+    columns_of,
+    refuse_unknown,
 )
 
 FEWEST_COARSE = 64  # coarse seeds if nothing says how many
+FIRST_FILE = 32  # coarse seeds in the first file of a case
 
 
 @dataclass(frozen=True)
@@ -29,9 +31,9 @@ class Plan:
     Attributes
     ----------
     settings : Settings
-        Grid, tolerance and numbers of seeds; if an accuracy is asked for, those of the first round.
+        Grid, tolerance and numbers of seeds.
     quantities : tuple of str
-        What is wanted, of `accuracy.QUANTITIES`.
+        What is wanted, of `quantities.QUANTITIES`.
     pressures : tuple of float
         Loads, ascending.
     surface : str
@@ -41,8 +43,6 @@ class Plan:
     owner : str
         Case whose solutions of single realisations are used: the case itself or an earlier one on
         the same surface and settings that has all its loads.
-    asked : stopping.Asked or None
-        The accuracy asked for, by which seeds are drawn in rounds; None if their number is given.
     """
 
     settings: Settings
@@ -51,124 +51,84 @@ class Plan:
     surface: str
     simulated: bool
     owner: str
-    asked: sequential.Asked | None = None
 
     @property
     def gaps(self) -> bool:
         """Whether attractive areas at given ranges are needed."""
-        return any(quantity in OF_GAPS for quantity in self.quantities)
+        return any(QUANTITIES[name].needs_gaps for name in self.quantities)
+
+    @property
+    def measured(self) -> tuple[str, ...]:
+        """Quantities that are measured on every solution because the case asks for them."""
+        return tuple(name for name in self.quantities if name in MEASURED)
 
     @property
     def complete(self) -> bool:
-        """Whether the case is simulated and holds every quantity, as figures and report need."""
-        return self.simulated and set(self.quantities) == set(QUANTITIES)
+        """Whether the case is simulated and holds what figures and report need."""
+        return self.simulated and set(self.quantities) >= set(MODELLED)
 
 
-def plans_of(config: Mapping[str, Any], laws: Laws | None = None) -> dict[str, Plan]:
+def plans_of(config: Mapping[str, Any], models: ErrorModels) -> dict[str, Plan]:
     """Return the plan of every case of a checked configuration.
 
     Parameters
     ----------
     config : mapping
         Content of config.yaml with everything that overrides it.
-    laws : mapping, optional
-        Table of `accuracy.read_laws`; needed if a case asks for an accuracy.
+    models : mapping
+        Table of `error_models.read_models`.
 
     Raises
     ------
-    accuracy.UnreachableError
+    UnreachableError
         If a case asks for more than any settings are predicted to reach; names the case.
+    ValueError
+        If theory or error models do not know a quantity that a case asks them for.
     """
     plans: dict[str, Plan] = {}
     for name, case in config["cases"].items():
+        quantities = tuple(case.get("quantities", MODELLED))
+        simulated = case.get("model", "simulation") == "simulation"
+        refuse_unknown(
+            quantities,
+            f"cases.{name}.quantities",
+            by_theory=not simulated or "carry_to" in case,
+            within_accuracy="accuracy" in case,
+        )
         own = Plan(
-            settings=settings_of(name, config, laws),
-            quantities=tuple(case.get("quantities", QUANTITIES)),
+            settings=settings_of(name, config, models),
+            quantities=quantities,
             pressures=tuple(sorted(case["pressures"])),
             surface=case["surface"],
-            simulated=case.get("model", "simulation") == "simulation",
+            simulated=simulated,
             owner=name,
-            asked=asked_of(name, config, laws) if "accuracy" in case and laws is not None else None,
         )
         owner = next((key for key, plan in plans.items() if shares(plan, own)), name)
-        plans[name] = Plan(**{**vars(own), "owner": owner})
+        plans[name] = replace(own, owner=owner)
     return plans
 
 
-def settings_of(name: str, config: Mapping[str, Any], laws: Laws | None) -> Settings:
-    """Return the settings of a case: of the first round for its own accuracy, or of the preset.
+def settings_of(name: str, config: Mapping[str, Any], models: ErrorModels) -> Settings:
+    """Return the settings of a case: the cheapest for its accuracy, or those of the preset.
 
-    `sampling` stands above both; `seeds`, of the case or of the whole configuration, above the
-    preset.
+    `sampling` stands above both, and so do `seeds` of the case. `seeds` of the whole configuration
+    stand above the preset.
     """
     case = config["cases"][name]
-    if "accuracy" in case and laws is not None:
-        return sequential.first(laws, asked_of(name, config, laws), chosen_for(name, config, laws))
+    if "accuracy" in case:
+        chosen = cheapest_for(name, config, models)
+        at_most = case.get("at_most", config["sampling"].get("at_most", SEEDS[-1]))
+        return replace(chosen, seeds=case.get("seeds", min(chosen.seeds, at_most)))
     chosen = preset(config["fidelities"][config["fidelity"]])
     seeds = case.get("seeds", config.get("seeds", chosen.seeds))
-    coarse_seeds = 0 if plain(case, config) else chosen.coarse_seeds
-    return Settings(chosen.pixels_per_wavelength, chosen.tolerance, seeds, coarse_seeds)
+    return replace(
+        chosen, seeds=seeds, coarse_seeds=0 if plain(case, config) else chosen.coarse_seeds
+    )
 
 
 def plain(case: Mapping[str, Any], config: Mapping[str, Any]) -> bool:
     """Whether a case takes plain means."""
     return case.get("sampling", config["sampling"]["method"]) == "plain"
-
-
-def with_cuts(config: Mapping[str, Any], laws: Laws) -> dict[str, Any]:
-    """Return a checked configuration whose cases are on cut spectra where `cut` has that cheaper.
-
-    A cut surface is one more of ``model_surfaces``, and its case has theory ``carry_to`` the
-    magnification of the whole.
-
-    Raises
-    ------
-    ValueError
-        If another surface of the configuration has the name of a cut one.
-    """
-    surfaces, cases = dict(config["model_surfaces"]), dict(config["cases"])
-    for name, case in config["cases"].items():
-        surface = surfaces[case["surface"]]
-        if not spectral_cut.may_be_cut(case, surface):
-            continue
-        magnification = cheapest_for(name, config, laws)[0]
-        if magnification < surface["magnification"]:
-            own = spectral_cut.name_of(case["surface"], magnification)
-            part = {**surface, "magnification": magnification}
-            if surfaces.get(own, part) != part:
-                raise ValueError(
-                    f"model_surfaces.{own}: cases.{name} needs this name for {case['surface']} cut "
-                    f"at magnification {magnification:g}; give yours another"
-                )
-            surfaces[own] = part
-            cases[name] = {**case, "surface": own, "carry_to": surface["magnification"]}
-    return {**config, "model_surfaces": surfaces, "cases": cases}
-
-
-def asked_of(name: str, config: Mapping[str, Any], laws: Laws) -> sequential.Asked:
-    """Return what a case that gives an accuracy asks of its simulation."""
-    case, sampling = config["cases"][name], config["sampling"]
-    surface = Surface.of(config["model_surfaces"][case["surface"]])
-    wanted, pressures = tuple(case.get("quantities", QUANTITIES)), tuple(sorted(case["pressures"]))
-    accuracy = case["accuracy"]
-    if "carry_to" in case:
-        accuracy = spectral_cut.left_to_simulation(
-            laws, accuracy, surface, case["carry_to"], pressures, wanted
-        )
-    return sequential.Asked(
-        accuracy=accuracy,
-        surface=surface,
-        pressures=pressures,
-        quantities=wanted,
-        at_most=case.get("at_most", sampling.get("at_most", SEEDS[-1])),
-        plain=plain(case, config),
-        descriptor_seeds=sampling["descriptor_seeds"],
-    )
-
-
-def rungs(coarse_seeds: int) -> list[int]:
-    """Return where the files of coarse seeds drawn in rounds end, up to so many in all."""
-    return [rung for rung in COARSE_SEEDS[1:] if rung <= coarse_seeds]
 
 
 def preset(fidelity: Mapping[str, Any]) -> Settings:
@@ -181,8 +141,35 @@ def preset(fidelity: Mapping[str, Any]) -> Settings:
     )
 
 
+def cheapest_for(name: str, config: Mapping[str, Any], models: ErrorModels) -> Settings:
+    """Return the settings predicted to be the cheapest for the accuracy that a case asks for."""
+    case = config["cases"][name]
+    problem = Problem(
+        models,
+        Surface.of(config["model_surfaces"][case["surface"]]),
+        sorted(case["pressures"]),
+        columns_of(case.get("quantities", MODELLED)),
+        config["sampling"]["descriptor_seeds"],
+    )
+    refused, accuracy = f"cases.{name}.accuracy = {case['accuracy']!r} is out of reach: ", None
+    if "carry_to" in case:
+        accuracy = left_to_simulation(problem, case["accuracy"], case["carry_to"])
+        if accuracy <= 0:
+            raise UnreachableError(
+                f"{refused}the error of theory's extrapolation to magnification "
+                f"{case['carry_to']:g} is larger; ask for less accuracy, a smaller carry_to, or "
+                "simulate a larger magnification"
+            )
+        refused += f"extrapolated by theory, the simulation has to reach {accuracy:.2g}, and "
+    try:
+        only_plain = True if plain(case, config) else None
+        return cheapest(problem, accuracy or case["accuracy"], plain=only_plain)
+    except UnreachableError as error:
+        raise UnreachableError(f"{refused}{error}; {error.remedy}") from None
+
+
 def preset_by_rule(
-    laws: Laws,
+    models: ErrorModels,
     asked: Mapping[str, Any],
     name: str,
     surface: Mapping[str, Any],
@@ -193,8 +180,8 @@ def preset_by_rule(
 
     Parameters
     ----------
-    laws : mapping
-        Table of `accuracy.read_laws`.
+    models : mapping
+        Table of `error_models.read_models`.
     asked : mapping
         What the configuration says under ``tradeoff.presets``.
     name : str
@@ -206,67 +193,53 @@ def preset_by_rule(
     free : bool
         Whether to leave aside the quantities of full adhesion, on the same realisations.
     """
-    where, least = (Surface.of(surface), asked["pressures"]), None
+    where, least = (models, Surface.of(surface), asked["pressures"]), None
     if not free:
         wanted = asked["adhesive"]
-        least = adhesion.least(
-            laws, wanted["accuracy"][name], *where, wanted["quantities"], descriptor_seeds
+        columns = tuple(itertools.chain(*(adhesion.QUANTITIES[q] for q in wanted["quantities"])))
+        least = adhesion.cheapest(
+            Problem(*where, columns, descriptor_seeds), wanted["accuracy"][name]
         )
-    return cheapest(
-        laws,
-        asked["accuracy"][name],
-        *where,
-        QUANTITIES,
-        descriptor_seeds=descriptor_seeds,
-        plain=False,
-        least=least,
-    )
-
-
-def chosen_for(name: str, config: Mapping[str, Any], laws: Laws) -> Settings:
-    """Return the settings predicted to be the cheapest for the accuracy that a case asks for."""
-    return cheapest_for(name, config, laws, whole=True)[1]
-
-
-def cheapest_for(
-    name: str, config: Mapping[str, Any], laws: Laws, whole: bool = False
-) -> tuple[float, Settings]:
-    """Return the magnification and the settings predicted to be the cheapest for a case.
-
-    Parameters
-    ----------
-    whole : bool
-        Whether to keep the spectrum as it is.
-    """
-    asked, case = asked_of(name, config, laws), config["cases"][name]
-    wanted = laws, asked.accuracy, asked.surface, asked.pressures, asked.quantities
-    options = {
-        "descriptor_seeds": asked.descriptor_seeds,
-        "plain": True if asked.plain else None,
-    }
-    try:
-        if whole:
-            return asked.surface.magnification, cheapest(*wanted, **options)
-        return spectral_cut.cheapest(*wanted, **options)
-    except UnreachableError as error:
-        refused = f"cases.{name}.accuracy = {case['accuracy']!r} is out of reach: "
-        if asked.accuracy <= 0:
-            raise UnreachableError(
-                f"{refused}theory that carries to magnification {case['carry_to']:g} errs by more "
-                "than that; ask for less accuracy, carry less far or simulate more"
-            ) from None
-        if "carry_to" in case:
-            refused += f"carried by theory, the simulation has to reach {asked.accuracy:.2g}, and "
-        raise UnreachableError(f"{refused}{error}; {error.remedy}") from None
+    problem = Problem(*where, columns_of(MODELLED), descriptor_seeds)
+    return cheapest(problem, asked["accuracy"][name], plain=False, least=least)
 
 
 def shares(plan: Plan, own: Plan) -> bool:
     """Whether the realisations that one plan solves hold those of another."""
-    same = (plan.surface, *grid(plan)) == (own.surface, *grid(own))
-    loads: Sequence[float] = [p for p in own.pressures if p not in plan.pressures]
-    return same and plan.simulated and own.simulated and not loads and plan.gaps >= own.gaps
+    return (
+        (plan.surface, *grid(plan)) == (own.surface, *grid(own))
+        and plan.simulated
+        and own.simulated
+        and set(own.pressures) <= set(plan.pressures)
+        and plan.gaps >= own.gaps
+        and set(own.measured) <= set(plan.measured)
+    )
 
 
 def grid(plan: Plan) -> tuple[int, float]:
     """Return the settings that a single solution depends on."""
     return plan.settings.pixels_per_wavelength, plan.settings.tolerance
+
+
+def coarse_parts(count: int) -> list[str]:
+    """Return the names of the files of so many coarse seeds: the first and the last of each.
+
+    Files end at the same seeds whatever the number, but for the last: a case that asks for more
+    keeps what is solved. The first has `FIRST_FILE` seeds, and each doubles their number.
+
+    Examples
+    --------
+    >>> coarse_parts(160)
+    ['1-32', '33-64', '65-128', '129-160']
+    """
+    last, parts = 0, []
+    while last < count:
+        first, last = last + 1, min(max(2 * last, FIRST_FILE), count)
+        parts.append(f"{first}-{last}")
+    return parts
+
+
+def coarse_range(part: str) -> range:
+    """Return the coarse seeds of a file, numbered from 0."""
+    first, last = map(int, part.split("-"))
+    return range(first - 1, last)

@@ -1,1 +1,18 @@
-"""Adhesive contact: traction laws, solver, loading paths, the DMT limit and closed forms."""
+"""Adhesive contact: traction laws, solver, loading paths, the DMT limit and closed forms.
+
+- `laws`: traction laws; the public calls `solve` and `path`
+- `solver`: equilibrium at a prescribed mean pressure or mean gap
+- `path`: loading and unloading curves with their jumps
+- `problem`: one problem in its own units: operators, law, what is prescribed
+- `state`: a gap and what follows from it point by point
+- `starts`: where a descent starts
+- `descent`: projected, preconditioned nonlinear conjugate gradients
+- `softening_descent`: faster descent for laws that only soften
+- `equilibrium`: stable equilibrium from a start
+- `dmt`: attraction over the gaps of a contact without adhesion
+- `area_load`: area against load in the DMT limit
+- `edge_zone`: lengths at the edge of an adhesive contact
+- `equivalent_sphere`: attraction next to the edges, from the DMT to the JKR limit
+- `maugis_sphere`: Maugis' solution for a sphere
+- `model_choice`: DMT limit or full solution, by the error measured
+"""

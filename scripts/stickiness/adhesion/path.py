@@ -22,14 +22,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from stickiness.adhesion.scaling import APPROACH, SEPARATION, Adhesion, Control, Scaled
 from stickiness.adhesion.solver import (
-    APPROACH,
-    SEPARATION,
-    Adhesion,
     ConvergenceError,
+    Effort,
     PullOffError,
-    Scaled,
-    relaxed,
+    relax_from,
     solve,
 )
 from stickiness.core.arguments import grid, number
@@ -156,7 +154,7 @@ def path(
         first=first,
         scaled=Scaled.of(grid("heights", heights), first.length, law),
         control=control,
-        options={"tol": tol, "max_iterations": max_iterations},
+        effort=Effort(tol, max_iterations),
         balance=balance,
         smallest_jump=max(smallest_jump, balance),
         located=located,
@@ -192,7 +190,7 @@ class _Follower:
     first: Adhesion
     scaled: Scaled
     control: str
-    options: dict
+    effort: Effort
     balance: float
     smallest_jump: float
     located: float
@@ -246,10 +244,10 @@ class _Follower:
         if self.left <= 0:
             raise ConvergenceError("max_states do not suffice for this path: raise it", state)
         self.left -= 1
-        prescribed = {name: value if name == self.control else None for name in _CONTROLS}
-        gap = self.scaled.first_gap(state, prescribed["mean_gap"])
+        prescribed = Control(**{self.control: value})
+        gap = self.scaled.first_gap(state, prescribed.mean_gap)
         try:
-            successor = relaxed(self.scaled, gap, branch, **prescribed, **self.options)
+            successor = relax_from(self.scaled, gap, branch, prescribed, self.effort)
         except PullOffError:
             return None
         if self.logger is not None:

@@ -10,9 +10,7 @@ and a state of equilibrium at the mean pressure p has ``r = K u + traction(g) + 
 hard wall at ``g = 0``, ``r >= 0`` where ``g = 0`` and ``r = 0`` elsewhere.
 """
 
-import threading
 from dataclasses import dataclass, replace
-from functools import lru_cache
 
 import numpy as np
 
@@ -51,7 +49,7 @@ class Surface:
     @property
     def smoother(self):
         """Approximate inverse of the stiffness."""
-        return _smoother(self.heights.shape, self.sides, threading.get_ident())
+        return _kept_smoother(self.heights.shape, self.sides)
 
     @property
     def pairs(self):
@@ -154,6 +152,4 @@ class Smoother:
         return out
 
 
-@lru_cache(maxsize=24)
-def _smoother(shape, sides, thread):
-    return Smoother(shape, sides)
+_kept_smoother = half_space.keep_per_thread(24)(Smoother)

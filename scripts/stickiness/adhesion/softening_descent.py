@@ -1,20 +1,20 @@
 """Quick descent for laws that only soften, at a prescribed pressure, mostly in single precision.
 
-The steps are those of `_adhesive_descent`. They go in rounds. In a round increments of gap, force
-and energy are in single precision; between rounds gap, traction, force and energy are those of
-double precision (iterative refinement). Once the force is small its change is linear in that of
-the gap: the law is then not evaluated any more, nor are energies compared, but for those of rounds.
+The steps are those of `descent`, in rounds. Within a round, increments of gap, force and energy are
+in single precision. Between rounds everything is computed again in double precision (iterative
+refinement). Once the force is small it changes linearly with the gap: the law is then evaluated,
+and energies are compared, between rounds only.
 
-The preconditioner knows of the edge of contact: a force next to it is taken by the wall in part, so
-that a share is subtracted from it there before it is smoothed, and the transpose of that after.
+The preconditioner allows for the edge of contact, where the wall takes part of a force: a share of
+the force next to the edge is subtracted before smoothing, and the transpose of that afterwards.
 
-Should a round raise the energy or come to nothing, the general descent takes over.
+If a round raises the energy or changes nothing, the general descent takes over.
 """
 
 import numpy as np
 
 from stickiness.adhesion.state import State, evaluate, spans
-from stickiness.contact.preconditioner import beside, rows_of_eight
+from stickiness.contact.preconditioner import average_neighbours, build_neighbour_matrix
 
 __all__ = ["quick_descent", "suits"]
 
@@ -276,8 +276,8 @@ class _Preconditioner:
     def __init__(self, surface, free):
         self.smooth, self.edge = surface.smoother.apply, None
         if not free.all() and free.any():
-            self.band, columns, weights = beside(free.ravel(), free.shape)
-            self.edge = rows_of_eight(weights * np.float32(-_SHARE), columns, free.size)
+            self.band, columns, weights = average_neighbours(free.ravel(), free.shape)
+            self.edge = build_neighbour_matrix(weights * np.float32(-_SHARE), columns, free.size)
             self.transpose = self.edge.T
 
     def __call__(self, force):

@@ -1,99 +1,34 @@
 """Adhesive contact of a periodic half-space at a prescribed mean pressure or mean gap."""
 
+import warnings
 from dataclasses import dataclass, replace
 
 import numpy as np
 
+from stickiness.adhesion import edge_zone
 from stickiness.adhesion.equilibrium import relax
-from stickiness.adhesion.problem import Problem, Surface
-from stickiness.adhesion.state import lowered
-from stickiness.contact import solver
+from stickiness.adhesion.scaling import (
+    APPROACH,
+    CLOSEST,
+    SEPARATION,
+    Adhesion,
+    Control,
+    Scaled,
+)
+from stickiness.contact.grids import check_length, measure_slope
 from stickiness.contact.solver import ConvergenceError
 from stickiness.core.arguments import grid, integer, number, numbers
+from stickiness.core.plausibility import (
+    PlausibilityWarning,
+    warn_of_heights,
+    warn_of_pressure,
+)
 
 __all__ = ["Adhesion", "ConvergenceError", "PullOffError", "solve"]
 
-APPROACH, SEPARATION = "approach", "separation"
-_CLOSEST = 0.9  # of the range: penetration of a start, or in the mean, without a wall
-
-
-@dataclass(frozen=True, eq=False)
-class Adhesion:
-    """State of equilibrium of an adhesive contact; pressures in units of E*.
-
-    Attributes
-    ----------
-    pressure : numpy.ndarray
-        Net pressure at the interface, repulsion minus attraction, ``(n0, n1)``.
-    gap : numpy.ndarray
-        Gap in the unit of the heights: zero at the hard wall. A law without a wall has its
-        equilibrium separation at gap 0, and negative gaps where it repels.
-    mean_pressure : float
-        Mean pressure that keeps the state, prescribed or that of the prescribed mean gap.
-    repulsive_pressure, adhesive_pressure : float
-        Positive and negative part of `pressure`, each averaged over the nominal area and
-        positive: their difference is `mean_pressure` (to the residual).
-    repulsive_area_fraction : float
-        Share of points at the wall, or with a negative gap if the law has no wall: contact,
-        under whatever pressure.
-    net_repulsive_area_fraction : float
-        Share of those where the net pressure is compressive: next to the edge of contact the
-        attraction outweighs the wall's push.
-    adhesive_area_fraction : float
-        Share of other points with a gap up to the range.
-    mean_gap : float
-        Mean of `gap`.
-    elastic_energy, interaction_energy : float
-        Per nominal area, in units of E* times length; the latter is the mean of the potential.
-    residual : float
-        Largest violation of equilibrium at any point, over the larger of the rms pressure that
-        flattens the surface (half its rms gradient times E*) and the law's strength. The
-        violation is the unbalanced pressure, at the wall only if it pulls.
-    iterations : int
-        Iterations of conjugate gradients.
-    fft_pairs : float
-        Convolutions (a forward and a backward transform each), those of the start included.
-    branch : str
-        "approach" if the state was reached from wider gaps, "separation" if from closer ones.
-    control : str
-        "pressure" or "mean_gap".
-    law : TractionLaw
-        Attraction.
-    length : tuple of float
-        Sides of the periodic cell.
-    rms_height : float
-        Root mean square of the heights about their mean.
-    """
-
-    pressure: np.ndarray
-    gap: np.ndarray
-    mean_pressure: float
-    repulsive_pressure: float
-    adhesive_pressure: float
-    repulsive_area_fraction: float
-    net_repulsive_area_fraction: float
-    adhesive_area_fraction: float
-    mean_gap: float
-    elastic_energy: float
-    interaction_energy: float
-    residual: float
-    iterations: int
-    fft_pairs: float
-    branch: str
-    control: str
-    law: object
-    length: tuple
-    rms_height: float
-
-    @property
-    def energy(self):
-        """Elastic plus interaction energy per nominal area [E* length]."""
-        return self.elastic_energy + self.interaction_energy
-
-    @property
-    def enthalpy(self):
-        """Energy plus that of the load, least among the states at one pressure [E* length]."""
-        return self.energy + self.mean_pressure * self.mean_gap
+# Pixel over epsilon^2/l_a above which edges of contact are a matter of the grid alone. At 2 a
+# sphere of Tabor parameter 5 holds 20 % too much.
+_COARSEST = 4.0
 
 
 class PullOffError(ConvergenceError):
@@ -159,6 +94,12 @@ def solve(
     ConvergenceError
         If `max_iterations` do not suffice; it carries the last iterate.
 
+    Warns
+    -----
+    PlausibilityWarning
+        If the pixels are far too large for the edges of contact, or arguments are probably in
+        different units.
+
     Examples
     --------
     >>> import numpy as np
@@ -168,7 +109,7 @@ def solve(
     1.0
     """
     heights = grid("heights", heights)
-    lengths = solver._check_length(length, heights.shape)
+    lengths = check_length(length, heights.shape)
     tol = number("tol", tol)
     max_iterations = integer("max_iterations", max_iterations, least=1)
     if isinstance(law, type) or not hasattr(law, "evaluate"):
@@ -176,31 +117,58 @@ def solve(
     _check_control(pressure, mean_gap, law)
     scaled = Scaled.of(heights, lengths, law)
     scaled.check_start(start, mean_gap)
-    gap, branch, spent = _first_gap(scaled, start, pressure, mean_gap, tol, max_iterations)
-    return relaxed(
-        scaled,
-        gap,
-        branch,
-        pressure=pressure,
-        mean_gap=mean_gap,
-        tol=tol,
-        max_iterations=max_iterations,
-        logger=logger,
-        spent=spent,
-    )
+    warn_of_heights(scaled.rms_height, lengths[0])
+    if pressure is not None and pressure > 1:
+        warn_of_pressure(pressure, measure_slope(heights, lengths))
+    if scaled.rms_height > 0:
+        _warn_of_edges(lengths[0] / heights.shape[0], law)
+    control, effort = Control(pressure, mean_gap), Effort(tol, max_iterations, logger)
+    gap, branch, spent = _find_start(scaled, start, control, effort)
+    return relax_from(scaled, gap, branch, control, effort, spent)
 
 
-def relaxed(
-    scaled, gap, branch, pressure, mean_gap, tol, max_iterations, logger=None, spent=(0, 0)
-):
-    """`Adhesion` from a gap in scaled units; the arguments and errors are those of `solve`.
+@dataclass(frozen=True)
+class Effort:
+    """When to stop, and who is told the progress: see `solve`."""
 
-    `spent` counts the iterations and convolutions that went into the gap.
+    tol: float
+    max_iterations: int
+    logger: object = None
+
+
+def relax_from(scaled, gap, branch, control, effort, spent=(0, 0)):
+    """Find the state that a descent from a gap ends in.
+
+    Parameters
+    ----------
+    scaled : Scaled
+        Surface and law.
+    gap : numpy.ndarray or None
+        Start in scaled units; None stands for loading from afar.
+    branch : str
+        "approach" or "separation".
+    control : Control
+        Mean pressure or mean gap.
+    effort : Effort
+        Tolerance and largest number of iterations.
+    spent : (int, float)
+        Iterations and convolutions that went into the start.
+
+    Returns
+    -------
+    Adhesion
+        In the caller's units; errors are those of `solve`.
     """
     before = scaled.surface.pairs
-    problem = scaled.problem(pressure, mean_gap)
+    problem = scaled.problem(control)
+    pressure, tol = control.pressure, effort.tol
     state, separated = relax(
-        problem, gap, tol, max_iterations, closing=branch == APPROACH, logger=logger
+        problem,
+        gap,
+        tol,
+        effort.max_iterations,
+        closing=branch == APPROACH,
+        logger=effort.logger,
     )
     state.iterations += spent[0]
     pairs = scaled.surface.pairs - before + state.start_pairs + spent[1]
@@ -223,136 +191,35 @@ def relaxed(
     return result
 
 
-@dataclass(frozen=True, eq=False)
-class Scaled:
-    """Surface and law in the solver's own units, and the way back."""
-
-    surface: Surface
-    law: object
-    original_law: object
-    lengths: tuple
-    height: float  # unit of heights and gaps
-    rms_height: float
-    residual_unit: float
-
-    @classmethod
-    def of(cls, heights, lengths, law):
-        """Scale heights and law."""
-        mean, rms = solver._scale(heights)
-        height = rms if rms > 0 else law.range
-        scaled = (heights - mean) / height if rms > 0 else np.zeros(heights.shape)
-        surface = Surface(scaled, (1.0, lengths[1] / lengths[0]))
-        own_law = replace(
-            law,
-            adhesion_length=law.adhesion_length * lengths[0] / height**2,
-            range=law.range / height,
-        )
-        unit = max(surface.flattening_pressure(), own_law.strength)
-        return cls(surface, own_law, law, lengths, height, rms, unit)
-
-    @property
-    def stress(self):
-        """Unit of pressure over E*."""
-        return self.height / self.lengths[0]
-
-    def problem(self, pressure=None, mean_gap=None):
-        """Problem at one value of the control."""
-        return Problem(
-            self.surface,
-            self.law,
-            self.residual_unit,
-            pressure=None if pressure is None else pressure / self.stress,
-            mean_gap=None if mean_gap is None else mean_gap / self.height,
-        )
-
-    def check_start(self, start, mean_gap):
-        """Raise ValueError unless `start` can be one."""
-        shape = self.surface.heights.shape
-        if isinstance(start, str):
-            if start not in (APPROACH, SEPARATION):
-                raise ValueError(
-                    f"start must be 'approach', 'separation' or a state, got {start!r}"
-                )
-            if start == SEPARATION and mean_gap is not None:
-                raise ValueError(
-                    "start='separation' needs a prescribed pressure, got mean_gap = "
-                    f"{mean_gap!r}: follow the mean gap back with path, or start from a state"
-                )
-        elif start is not None:
-            gap = np.asarray(getattr(start, "gap", start), dtype=float)
-            if gap.shape != shape:
-                raise ValueError(f"start has the shape {gap.shape}, the heights {shape}")
-            if not np.all(np.isfinite(gap)):
-                raise ValueError("start must have finite gaps, got NaN or infinite values")
-
-    def first_gap(self, start, mean_gap=None):
-        """Gap of a state in own units, made to have a prescribed mean.
-
-        It is changed in proportion, so that contact stays contact, or rigidly where there is none.
-        """
-        lowest = 0.0 if self.law.hard_wall else -_CLOSEST * self.law.range
-        gap = np.asarray(getattr(start, "gap", start), dtype=float) / self.height
-        gap = np.maximum(gap, lowest)
-        if mean_gap is None:
-            return gap
-        mean, old = mean_gap / self.height, float(gap.mean())
-        if self.law.hard_wall and old > 0 and gap.min() == 0:
-            return gap * (mean / old)
-        return lowered(gap + max(mean - old, 0.0), mean, lowest)
-
-    def adhesion(self, state, branch, problem, pairs):
-        """`Adhesion` in the caller's units."""
-        law, gap = self.law, state.gap
-        at_wall = gap <= 0
-        if law.hard_wall:
-            reaction = state.elastic + state.traction + state.pressure
-            reaction = np.where(at_wall, np.maximum(reaction, 0), 0)
-        else:
-            reaction = np.zeros(gap.shape)
-        net = (reaction - state.traction) * self.stress
-        touching = at_wall if law.hard_wall else gap < 0
-        near = (gap <= law.range) & ~touching
-        energy = self.height * self.stress
-        elastic = 0.5 * float(np.mean((gap + self.surface.heights) * state.elastic))
-        return Adhesion(
-            pressure=net,
-            gap=gap * self.height,
-            mean_pressure=state.pressure * self.stress,
-            repulsive_pressure=float(np.mean(np.maximum(net, 0))),
-            adhesive_pressure=float(np.mean(np.maximum(-net, 0))),
-            repulsive_area_fraction=float(np.mean(touching)),
-            net_repulsive_area_fraction=float(np.mean(touching & (net > 0))),
-            adhesive_area_fraction=float(np.mean(near)),
-            mean_gap=float(gap.mean()) * self.height,
-            elastic_energy=elastic * energy,
-            interaction_energy=state.potential * energy,
-            residual=state.residual,
-            iterations=state.iterations,
-            fft_pairs=float(pairs),
-            branch=branch,
-            control="pressure" if problem.pressure is not None else "mean_gap",
-            law=self.original_law,
-            length=self.lengths,
-            rms_height=self.rms_height,
-        )
-
-
-def _first_gap(scaled, start, pressure, mean_gap, tol, max_iterations):
-    """Start of the descent, its branch, and iterations and convolutions spent.
-
-    The start is in scaled units, or None for loading from afar.
-    """
-    nothing = (0, 0.0)
+def _find_start(scaled, start, control, effort):
+    """Start of the descent as in `relax_from`, its branch, and what went into it."""
+    nothing, mean_gap = (0, 0.0), control.mean_gap
     if isinstance(start, str) and start == SEPARATION:
         return np.zeros(scaled.surface.heights.shape), SEPARATION, nothing
     if start is not None and not isinstance(start, str):
         return scaled.first_gap(start, mean_gap), getattr(start, "branch", APPROACH), nothing
-    if mean_gap is not None or pressure >= 0:
+    if mean_gap is not None or control.pressure >= 0:
         return None, APPROACH, nothing
     before = scaled.surface.pairs
-    state, _ = relax(scaled.problem(pressure=0.0), None, tol, max_iterations)
+    unloaded = scaled.problem(Control(pressure=0.0))
+    state, _ = relax(unloaded, None, effort.tol, effort.max_iterations)
     pairs = scaled.surface.pairs - before + state.start_pairs
     return state.gap, APPROACH, (state.iterations, pairs)
+
+
+def _warn_of_edges(pixel, law):
+    """Warn if the pixels are far too large for the law to act at the edges of contact."""
+    ratio = edge_zone.resolution(pixel, law.range, law.adhesion_length)
+    if ratio > _COARSEST:
+        warnings.warn(
+            f"a pixel of {pixel:.3g} does not resolve the edges of contact under a range of "
+            f"{law.range:.3g} and an adhesion length of {law.adhesion_length:.3g}: points snap in "
+            "and out one by one, and pull-off is too strong. Take pixels of at most "
+            f"{edge_zone.COARSEST * pixel / ratio:.3g} (range^2/(2 adhesion_length)), "
+            "or a longer range",
+            PlausibilityWarning,
+            stacklevel=3,
+        )
 
 
 def _check_control(pressure, mean_gap, law):
@@ -365,6 +232,6 @@ def _check_control(pressure, mean_gap, law):
     if array.ndim or not np.isfinite(array):
         raise ValueError(f"{name} must be a finite number, got {value!r}")
     if mean_gap is not None:
-        lowest = 0.0 if law.hard_wall else -_CLOSEST * law.range
+        lowest = 0.0 if law.hard_wall else -CLOSEST * law.range
         if mean_gap < lowest:
             raise ValueError(f"mean_gap must be at least {lowest!r}, got {mean_gap!r}")

@@ -1,10 +1,9 @@
-"""Where a descent starts when loading begins from afar: contact without adhesion, coarser grids.
+"""Starts of a descent when loading begins from afar: contact without adhesion, coarser grids.
 
-The solution without adhesion has wider gaps than any adhesive state: descents from there end on the
-branch of approach. A better start is the adhesive state on a grid half as fine, found likewise. It
-might lie beyond a jump that the fine grid does not make. A descent that meets no direction of
-negative curvature makes no jump: coarser grids are relied on only as long as no descent meets one,
-on any of the grids.
+The solution without adhesion has wider gaps than any adhesive state, so that a descent from it ends
+on the branch of approach. The adhesive state on a grid half as fine is a better start, unless it
+lies beyond a jump that the fine grid does not make. A descent that meets no negative curvature
+makes no jump: coarser grids are used only while no descent on any grid meets one.
 """
 
 from dataclasses import replace
@@ -17,6 +16,7 @@ from stickiness.adhesion.softening_descent import quick_descent, suits
 from stickiness.adhesion.state import lowered
 from stickiness.contact import solver
 from stickiness.contact.active_set import PREDICTION
+from stickiness.contact.grids import coarsen, interpolate, sample
 
 __all__ = ["from_coarser_grids", "has_coarser_grids", "without_adhesion"]
 
@@ -53,15 +53,15 @@ def from_coarser_grids(problem, tol, max_iterations, observer, work):
         gap, pairs = without_adhesion(problem, max_iterations)
         work.append(pairs * gap.size)
     else:
-        coarser = tuple(solver._coarser(n) for n in shape)
-        heights = solver._sampled(problem.surface.heights, coarser)
+        coarser = tuple(coarsen(n) for n in shape)
+        heights = sample(problem.surface.heights, coarser)
         coarse = replace(problem, surface=Surface(heights, problem.surface.sides))
         before = coarse.surface.pairs
         state = from_coarser_grids(coarse, _COARSE, max_iterations, None, work)
         work.append((coarse.surface.pairs - before) * heights.size)
         if state is None:
             return None
-        gap = _predicted(problem, solver._interpolated(state.gap, shape))
+        gap = _predicted(problem, interpolate(state.gap, shape))
     state, finished = quick_descent(problem, gap, tol, max_iterations, observer, convex=True)
     return state if finished else None
 
@@ -79,7 +79,7 @@ def without_adhesion(problem, max_iterations):
     """Gap without adhesion at the control of a problem, and the convolutions it took."""
     surface = problem.surface
     if problem.pressure is not None:
-        contact = solver.solve(surface.heights, surface.sides, problem.pressure, tol=_ROUGH)
+        contact = solver.press(surface.heights, surface.sides, problem.pressure, tol=_ROUGH)
         return contact.gap, contact.fft_pairs
     gap = problem.mean_gap - surface.heights
     if gap.min() >= 0:

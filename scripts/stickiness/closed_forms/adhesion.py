@@ -9,6 +9,8 @@ on, `DMTSphere` below about 0.1, `MaugisSphere` anywhere for the Maugis law; `de
 the rigid limit for every law. Paraboloids stand for spheres: contact radii are small against R.
 For a wave, `AdhesiveWave` is the limit of short range and `MaugisWave` holds for any range of
 the Maugis law.
+
+Radii, wavelengths, adhesion lengths and ranges must be positive and finite: ValueError otherwise.
 """
 
 from __future__ import annotations
@@ -19,13 +21,13 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from stickiness.adhesion.maugis_sphere import (
+from stickiness.closed_forms.contact import Hertz, full_contact_pressure
+from stickiness.closed_forms.maugis_sphere import (
     MaugisSphere,
     SphereState,
     maugis_parameter,
     tabor_parameter,
 )
-from stickiness.closed_forms.contact import Hertz, full_contact_pressure
 from stickiness.closed_forms.wave import AdhesiveWave, MaugisWave, WaveState
 from stickiness.core.arguments import plain, positive
 
@@ -88,16 +90,13 @@ class JKRSphere(_Sphere):
 
     Parameters
     ----------
-    radius : float
-        Radius of curvature [length].
-    adhesion_length : float
-        Work of adhesion over E* [length].
+    radius, adhesion_length : float
+        Radius of curvature, work of adhesion over E* [length].
 
     Raises
     ------
     ValueError
-        If an argument is not positive and finite; methods: if a radius is not, or a force lies
-        beyond pull-off.
+        By methods, if a force lies beyond pull-off.
     """
 
     @property

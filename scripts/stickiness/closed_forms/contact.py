@@ -9,6 +9,8 @@ import numpy as np
 from scipy import optimize, special
 
 from stickiness.contact import half_space
+from stickiness.contact.grids import check_length
+from stickiness.core.arguments import positive
 
 __all__ = [
     "Hertz",
@@ -49,9 +51,7 @@ class Westergaard:
     pressure: float
 
     def __post_init__(self):
-        for name in ("amplitude", "wavelength", "pressure"):
-            if not getattr(self, name) > 0:
-                raise ValueError(f"{name} must be positive, got {getattr(self, name)!r}")
+        positive(**vars(self))
 
     @property
     def full_contact_pressure(self):
@@ -65,18 +65,7 @@ class Westergaard:
         return float(2 / np.pi * np.arcsin(np.sqrt(share)))
 
     def contact_pressure(self, x):
-        """Pressure in units of E*.
-
-        Parameters
-        ----------
-        x : array_like
-            Distance from a crest.
-
-        Returns
-        -------
-        numpy.ndarray
-            Zero outside contact.
-        """
+        """Pressure [E*] at distances `x` [length] from a crest; zero outside contact."""
         psi = np.pi * np.asarray(x, dtype=float) / self.wavelength
         full = self.full_contact_pressure
         if self.pressure >= full:
@@ -85,18 +74,7 @@ class Westergaard:
         return 2 * full * np.abs(np.cos(psi)) * np.sqrt(inside)
 
     def gap(self, x):
-        """Gap in the unit of length.
-
-        Parameters
-        ----------
-        x : array_like
-            Distance from a crest.
-
-        Returns
-        -------
-        numpy.ndarray
-            Zero in contact.
-        """
+        """Gap [length] at distances `x` [length] from a crest; zero in contact."""
         edge = np.sqrt(min(self.pressure / self.full_contact_pressure, 1.0))
         ratio = np.abs(np.sin(np.pi * np.asarray(x, dtype=float) / self.wavelength)) / edge
         ratio = np.maximum(ratio, 1.0)
@@ -125,9 +103,7 @@ class Hertz:
     load: float
 
     def __post_init__(self):
-        for name in ("radius", "load"):
-            if not getattr(self, name) > 0:
-                raise ValueError(f"{name} must be positive, got {getattr(self, name)!r}")
+        positive(**vars(self))
 
     @property
     def contact_radius(self):
@@ -145,34 +121,12 @@ class Hertz:
         return self.contact_radius**2 / self.radius
 
     def contact_pressure(self, r):
-        """Pressure in units of E*, zero outside contact.
-
-        Parameters
-        ----------
-        r : array_like
-            Distance from the axis.
-
-        Returns
-        -------
-        numpy.ndarray
-            Pressure at that distance.
-        """
+        """Pressure [E*] at distances `r` [length] from the axis; zero outside contact."""
         ratio = np.asarray(r, dtype=float) / self.contact_radius
         return self.largest_pressure * np.sqrt(np.maximum(1 - ratio**2, 0))
 
     def gap(self, r):
-        """Gap, zero in contact.
-
-        Parameters
-        ----------
-        r : array_like
-            Distance from the axis.
-
-        Returns
-        -------
-        numpy.ndarray
-            Gap at that distance.
-        """
+        """Gap [length] at distances `r` [length] from the axis; zero in contact."""
         ratio = np.maximum(np.asarray(r, dtype=float) / self.contact_radius, 1.0)
         sunk = (2 - ratio**2) * np.arcsin(1 / ratio) + np.sqrt(ratio**2 - 1)
         return self.indentation * (0.5 * ratio**2 - 1 + sunk / np.pi)
@@ -202,11 +156,9 @@ class HertzEllipse:
     load: float
 
     def __post_init__(self):
-        low, high = self.curvatures
-        if not (low > 0 and high > 0):
+        if len(self.curvatures) != 2 or not min(self.curvatures) > 0:
             raise ValueError(f"curvatures must be two positive numbers, got {self.curvatures!r}")
-        if not self.load > 0:
-            raise ValueError(f"load must be positive, got {self.load!r}")
+        positive(load=self.load)
 
     @property
     def axis_ratio(self):
@@ -315,20 +267,10 @@ def highest_summit(heights, length):
 
 
 def wave_full_contact_pressure(amplitude, wavelength):
-    """Mean pressure of full contact with ``amplitude cos(2 pi x / l) cos(2 pi y / l)``.
+    """Mean pressure [E*] of full contact with ``amplitude cos(2 pi x / l) cos(2 pi y / l)``.
 
-    Johnson, Greenwood and Higginson, Int. J. Mech. Sci. 27:383 (1985),
+    Both arguments [length]. Johnson, Greenwood and Higginson, Int. J. Mech. Sci. 27:383 (1985),
     doi 10.1016/0020-7403(85)90029-3.
-
-    Parameters
-    ----------
-    amplitude, wavelength : float
-        Of the wave.
-
-    Returns
-    -------
-    float
-        Pressure in units of E*.
     """
     return np.sqrt(2) * np.pi * amplitude / wavelength
 
@@ -336,15 +278,8 @@ def wave_full_contact_pressure(amplitude, wavelength):
 def wave_small_load_area(ratio):
     """Area fraction of the doubly sinusoidal wave at small loads: Hertz on every crest.
 
-    Parameters
-    ----------
-    ratio : float
-        Mean pressure over that of full contact, well below one.
-
-    Returns
-    -------
-    float
-        Contact area over nominal area (Johnson, Greenwood and Higginson 1985, eq. 25).
+    `ratio` is the mean pressure over that of full contact, well below one (Johnson, Greenwood and
+    Higginson 1985, eq. 25).
     """
     return np.pi * (3 * ratio / (8 * np.pi)) ** (2 / 3)
 
@@ -352,16 +287,9 @@ def wave_small_load_area(ratio):
 def wave_large_load_area(ratio):
     """Area fraction of the doubly sinusoidal wave near full contact.
 
-    Parameters
-    ----------
-    ratio : float
-        Mean pressure over that of full contact, just below one.
-
-    Returns
-    -------
-    float
-        Contact area over nominal area (Johnson, Greenwood and Higginson 1985): the troughs keep
-        circular holes, loaded like pressurised penny-shaped cracks.
+    `ratio` is the mean pressure over that of full contact, just below one: the troughs keep
+    circular holes, loaded like pressurised penny-shaped cracks (Johnson, Greenwood and Higginson
+    1985).
     """
     return 1 - 1.5 / np.pi * (1 - ratio)
 
@@ -384,8 +312,6 @@ def full_contact_pressure(heights, length, pressure):
         ``p_q = |q| h_q / 2`` plus the mean; negative where contact would need tension.
     """
     heights = np.asarray(heights, dtype=float)
-    sides = np.atleast_1d(np.asarray(length, dtype=float))
-    if sides.size == 1:
-        sides = np.array([sides[0], sides[0] * heights.shape[1] / heights.shape[0]])
-    spectrum = np.fft.rfft2(heights) * half_space.wavenumbers(heights.shape, tuple(sides)) / 2
+    sides = check_length(length, heights.shape)
+    spectrum = np.fft.rfft2(heights) * half_space.wavenumbers(heights.shape, sides) / 2
     return np.fft.irfft2(spectrum, s=heights.shape) + pressure

@@ -1,12 +1,12 @@
 """Adhesive contact of a half-space with a one-dimensional wave: limit of short range, Maugis law.
 
-Units and signs are those of `adhesive_references`, through which this is imported. The rigid wave
-is ``amplitude * cos(2 pi x / wavelength)``, x the distance from a crest. Phases are
+Units and signs are those of `closed_forms.adhesion`, which exports all of this. The rigid wave is
+``amplitude * cos(2 pi x / wavelength)``, x the distance from a crest. Phases are
 psi = pi x / wavelength, so that contact of half-width a stands for psi_a = pi a / wavelength and
 for the area fraction ``2 psi_a / pi``.
 
 Fields are real and imaginary parts of one function of the complex phase, as without adhesion
-(`reference_solutions.Westergaard`): the real part on the axis is the pressure, the imaginary part
+(`closed_forms.contact.Westergaard`): the real part on the axis is the pressure, the imaginary part
 half the slope of the gap, the value at infinity the mean pressure.
 """
 
@@ -83,15 +83,8 @@ class AdhesiveWave(_Wave):
 
     Parameters
     ----------
-    amplitude, wavelength : float
-        Of the wave [length].
-    adhesion_length : float
-        Work of adhesion over E* [length].
-
-    Raises
-    ------
-    ValueError
-        If an argument is not positive and finite.
+    amplitude, wavelength, adhesion_length : float
+        Of the wave, and work of adhesion over E* [length].
 
     References
     ----------
@@ -224,17 +217,8 @@ class MaugisWave(_Wave):
 
     Parameters
     ----------
-    amplitude, wavelength : float
-        Of the wave [length].
-    adhesion_length : float
-        Work of adhesion over E* [length].
-    range : float
-        Range of the traction adhesion_length/range [length].
-
-    Raises
-    ------
-    ValueError
-        If an argument is not positive and finite.
+    amplitude, wavelength, adhesion_length, range : float
+        Of the wave, work of adhesion over E*, range of the traction [length].
 
     References
     ----------

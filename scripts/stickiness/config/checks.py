@@ -9,6 +9,7 @@ from typing import Any
 import jsonschema
 import yaml
 
+from stickiness.accuracy.quantities import QUANTITIES
 from stickiness.config.cross_checks import config_problems
 from stickiness.config.messages import one_line
 from stickiness.config.surface_entries import measurements, rate_problems, surface_problems
@@ -24,6 +25,7 @@ __all__ = [
     "checked",
     "load",
     "measurements",
+    "read_schema",
 ]
 
 # Keys whose values are strings with units, and the unit that fixes their dimension.
@@ -47,7 +49,7 @@ _UNITS = {
     "extend_to": "m",
 }
 
-
+# The surfaces that the claims ledger reads; may be edited but not removed.
 _PAPER_SURFACES = ("asphalt", "polished_steel")
 
 
@@ -55,7 +57,7 @@ class ConfigError(ValueError):
     """A key of the configuration is unknown, missing or has a value that cannot be used."""
 
 
-class _UniqueKeys(yaml.SafeLoader):
+class _UniqueKeys(getattr(yaml, "CSafeLoader", yaml.SafeLoader)):  # libyaml where it is built in
     """Loader that refuses a key given twice, of which YAML would keep the second."""
 
     def construct_mapping(self, node: yaml.MappingNode, deep: bool = False) -> dict[Any, Any]:
@@ -96,7 +98,7 @@ def load(path: str | Path) -> dict[str, Any]:
 def checked(
     config: Mapping[str, Any], schemas: str | Path, name: str = "config/config.yaml"
 ) -> tuple[dict[str, Any], dict[str, Any]]:
-    """Check the whole configuration and the files it names.
+    """Check the whole configuration and the files it names, without changing any of it.
 
     Parameters
     ----------
@@ -105,7 +107,7 @@ def checked(
     schemas : path
         Folder of the schemas.
     name : str
-        What to call the configuration in errors.
+        Name of the configuration in errors.
 
     Returns
     -------
@@ -133,12 +135,20 @@ def checked(
 
 def check_schema(content: Mapping[str, Any], schema: str | Path, name: str) -> None:
     """Check `content`, read from the file `name`, against a JSON schema in YAML."""
-    validator = jsonschema.Draft202012Validator(load(schema))
+    validator = jsonschema.Draft202012Validator(read_schema(schema))
     errors = sorted(
         validator.iter_errors(content), key=lambda error: (-len(error.path), str(error.path))
     )
     if errors:
         raise ConfigError(f"{name}: {one_line(errors[0])}")
+
+
+def read_schema(path: str | Path) -> dict[str, Any]:
+    """Read a schema, with the quantities that a case may ask for filled in from their table."""
+    schema = load(path)
+    if "quantities" in schema.get("$defs", {}):
+        schema["$defs"]["quantities"]["items"] = {"enum": list(QUANTITIES)}
+    return schema
 
 
 def check_config(config: Mapping[str, Any], name: str = "config/config.yaml") -> None:

@@ -1,11 +1,11 @@
-"""What the schema of config.yaml cannot say: references, orders, what goes together."""
+"""What the schema of config.yaml cannot say: references, orders, keys that exclude each other."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from typing import Any
 
-from stickiness.accuracy.error_laws import CARRIED_TIMES, CARRIED_TO
+from stickiness.accuracy.extrapolation import CARRIED_TIMES, CARRIED_TO
 from stickiness.config.messages import grid_problems, unit_problem, unknown
 
 # What the figures and the claims ledger read; may be edited but not removed.
@@ -40,7 +40,7 @@ def config_problems(config: Mapping[str, Any]) -> Iterator[str]:
 
 
 def _paper_problems(config: Mapping[str, Any]) -> Iterator[str]:
-    """What figures and claims read must be there."""
+    """Entries that figures and claims read must be present."""
     tables = {"theory.sweeps": config["theory"]["sweeps"]}
     for table, names in _PAPER.items():
         for name in names:
@@ -109,7 +109,7 @@ def _loop_problems(config: Mapping[str, Any]) -> Iterator[str]:
 
 
 def _criteria_problems(config: Mapping[str, Any]) -> Iterator[str]:
-    """What the maps of criteria ask of a_V and the table of it does not hold."""
+    """The maps of criteria must stay within the table of a_V."""
     criteria, table = config["criteria"], config["theory"]["table"]
     for key in ("ranges", "frequencies"):
         yield from grid_problems(f"criteria.{key}", criteria[key])
@@ -148,8 +148,9 @@ def _criteria_problems(config: Mapping[str, Any]) -> Iterator[str]:
 
 
 def _comparison_problems(config: Mapping[str, Any]) -> Iterator[str]:
+    """Comparisons must not take the names of cases, and presets must name comparisons."""
     surfaces = config["comparisons"]["surfaces"]
-    for name in surfaces.keys() & config["cases"].keys():
+    for name in sorted(surfaces.keys() & config["cases"].keys()):
         yield f"comparisons.surfaces.{name} has the name of a case; give it another"
     for key, fidelity in config["fidelities"].items():
         for name in fidelity.get("comparisons", []):
@@ -158,7 +159,7 @@ def _comparison_problems(config: Mapping[str, Any]) -> Iterator[str]:
 
 
 def _adhesion_problems(adhesion: Mapping[str, Any], config: Mapping[str, Any]) -> Iterator[str]:
-    """What of an adhesive set does not fit its case, its model or the gaps."""
+    """A set of adhesive contacts must fit its case, its model and the gaps."""
     if adhesion["case"] not in config["cases"]:
         yield unknown("case", adhesion["case"], config["cases"])
         return
@@ -184,7 +185,7 @@ def _adhesion_problems(adhesion: Mapping[str, Any], config: Mapping[str, Any]) -
 
 
 def _whole_problems(config: Mapping[str, Any]) -> Iterator[str]:
-    """Cases that others rest on must be simulated for every quantity."""
+    """Cases that other parts need must be simulated for every quantity."""
     cases = dict.fromkeys(_PAPER["cases"], "the paper's figures and claims")
     cases |= {adhesion["case"]: f"adhesion.{key}" for key, adhesion in config["adhesion"].items()}
     cases[config["criteria"]["a_v"]["case"]] = "criteria.a_v"
@@ -199,7 +200,7 @@ def _whole_problems(config: Mapping[str, Any]) -> Iterator[str]:
 
 
 def _preset_problems(config: Mapping[str, Any]) -> Iterator[str]:
-    """Rule of the presets and measured settings must name what there is."""
+    """The rule of the presets and the settings measured must name existing entries."""
     rule = config["tradeoff"]["presets"]
     for name in config["tradeoff"]["settings"]["surfaces"]:
         if name not in config["tradeoff"]["cases"]["surfaces"]:
@@ -217,7 +218,7 @@ def _preset_problems(config: Mapping[str, Any]) -> Iterator[str]:
 def _model_problems(
     key: str, case: Mapping[str, Any], surfaces: Mapping[str, Any]
 ) -> Iterator[str]:
-    """What a case may ask for depends on whether it is simulated."""
+    """Keys of a case must suit its model; `carry_to` must be above what is simulated."""
     if case.get("model") == "theory":
         for unused in ("accuracy", "at_most", "seeds", "sampling", "maps"):
             if unused in case:
@@ -239,5 +240,3 @@ def _model_problems(
         )
     if "at_most" in case and "accuracy" not in case:
         yield f"{key}.at_most = {case['at_most']!r} needs accuracy; give seeds for a fixed number"
-    if "accuracy" in case and "seeds" in case:
-        yield f"{key}.seeds = {case['seeds']!r}: give accuracy or seeds, not both"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Mapping
 from itertools import pairwise
 from pathlib import Path
@@ -15,6 +16,7 @@ _BUILTIN = ("builtin:jacksboro",)
 
 
 def rate_problems(material: Mapping[str, Any]) -> Iterator[str]:
+    """Yield what is wrong with a modulus that depends on the rate, a line each."""
     series = material.get("youngs_modulus_prony", {"terms": []})
     yield from unit_problem("youngs_modulus_prony.equilibrium", series.get("equilibrium"), "Pa")
     for index, (modulus, time) in enumerate(series["terms"]):
@@ -26,7 +28,8 @@ def rate_problems(material: Mapping[str, Any]) -> Iterator[str]:
         yield from unit_problem(f"youngs_modulus_table[{index}][1]", modulus, "Pa")
     frequencies = [si(frequency, "Hz") for frequency, _ in pairs]
     if any(b <= a for a, b in pairwise(frequencies)):
-        yield "youngs_modulus_table: frequencies must ascend"
+        listed = ", ".join(frequency for frequency, _ in pairs)
+        yield f"youngs_modulus_table = {listed}: frequencies must ascend"
     if pairs and not frequencies[0] <= 1 <= frequencies[-1]:
         yield (
             f"youngs_modulus_table runs from {pairs[0][0]} to {pairs[-1][0]} and must cover 1 Hz, "
@@ -35,6 +38,7 @@ def rate_problems(material: Mapping[str, Any]) -> Iterator[str]:
 
 
 def surface_problems(surface: Mapping[str, Any]) -> Iterator[str]:
+    """Yield what is wrong with a real surface and its files, a line each."""
     if surface["kind"] == "measured":
         for name, measurement in measurements(surface):
             for problem in _file_problems(measurement):
@@ -63,7 +67,7 @@ def surface_problems(surface: Mapping[str, Any]) -> Iterator[str]:
 def measurements(surface: Mapping[str, Any]) -> list[tuple[str, dict[str, Any]]]:
     """Return every measurement of a measured surface: a prefix for messages, and all of its keys.
 
-    What stands beside the list `measurements` holds for each that does not say otherwise.
+    Keys beside the list `measurements` hold for every entry that does not give its own.
     """
     if "measurements" not in surface:
         return [("", dict(surface))]
@@ -73,7 +77,7 @@ def measurements(surface: Mapping[str, Any]) -> list[tuple[str, dict[str, Any]]]
 
 
 def _file_problems(measurement: Mapping[str, Any]) -> Iterator[str]:
-    """What can be said of a measurement before its file is read."""
+    """Yield what is wrong with a measurement, as far as is known before its file is read."""
     file = measurement["file"]
     for key in ("height_unit", "position_unit"):
         if key in measurement:
@@ -110,7 +114,7 @@ def _file_problems(measurement: Mapping[str, Any]) -> Iterator[str]:
 def _wavelength(surface: Mapping[str, Any], wavelength: str, wave_number: str) -> float:
     if wavelength in surface:
         return si(surface[wavelength], "m")
-    return 2 * 3.141592653589793 / si(surface[wave_number], "1/m")
+    return 2 * math.pi / si(surface[wave_number], "1/m")
 
 
 def _as_list(value: Any) -> list[Any]:

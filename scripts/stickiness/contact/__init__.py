@@ -1,1 +1,11 @@
-"""Contact of a rough solid with a hard wall without adhesion, by boundary elements."""
+"""Contact of a rough solid with a hard wall without adhesion, by boundary elements.
+
+- `solver`: contact at a prescribed mean pressure, and along a load path
+- `active_set`: the iteration behind it
+- `half_space`: compliance of a periodic elastic half-space
+- `preconditioner`: approximate inverse of the compliance
+- `convolution`: convolutions with an even kernel, block by block
+- `gaps`: area within a range of the wall, distribution of gaps
+- `subpixel`: areas finer than the pixels
+- `grid_limit`: limit of fine grids, from two or three of them
+"""

@@ -1,12 +1,12 @@
 """Active-set iteration of the repulsive contact problem, in dimensionless variables.
 
-See `stickiness.repulsive` for the problem and the method. Pressures of the contact set are kept as
-short vectors over its points; whole grids are touched once per update of the set.
+`solver` states the problem and the method. Pressures of the contact set are short vectors over its
+points; whole grids are touched once per update of the set.
 
-Corrections of the pressure between two updates are solved for in single precision: they reduce the
-gap by a factor of 10 or 1000, so that the seven digits are plenty, and the next update starts from
-the true gap again (iterative refinement). That gap is computed in double precision as soon as the
-residual is small enough for rounding to matter, and always for what is returned.
+Corrections of the pressure between two updates are computed in single precision. They reduce the
+gap by a factor of 10 to 1000, for which seven digits are plenty, and the next update starts from
+the true gap again (iterative refinement). That gap is in double precision as soon as rounding
+matters, and always in what is returned.
 """
 
 from dataclasses import dataclass
@@ -15,9 +15,9 @@ import numpy as np
 import pyfftw
 
 from stickiness.contact import half_space
-from stickiness.contact.preconditioner import Preconditioner
+from stickiness.contact.preconditioner import Preconditioner, coarse_stiffness
 
-__all__ = ["PREDICTION", "State", "relax"]
+__all__ = ["PREDICTION", "Problem", "State", "relax"]
 
 PREDICTION = 0.7  # c in "contact where p > c k g": 0.5 to 1 predict about equally well
 _LOOSE = 0.15  # reduction of the gap on a set that is still changing much
@@ -28,6 +28,25 @@ _DOUBTFUL = 1e-4  # of the largest height: residual below which gaps need double
 _RESOLVED = 1e-4  # largest reduction of the gap asked of a correction in single precision
 _PATIENCE = 8  # updates without progress after which the set is solved ten times tighter
 _SURRENDER = 40  # updates without progress after which rounding is what limits the residual
+
+
+@dataclass(frozen=True, eq=False)
+class Problem:
+    """Contact problem on one grid.
+
+    Attributes
+    ----------
+    heights : numpy.ndarray
+        Heights in units of their rms, contiguous.
+    sides : tuple of float
+        Sides of the cell in units of the first.
+    load : float
+        Mean pressure, in units of E* times rms height over side.
+    """
+
+    heights: np.ndarray
+    sides: tuple
+    load: float
 
 
 @dataclass(frozen=True, eq=False)
@@ -75,7 +94,8 @@ class _Field:
 class _Grid:
     """Heights on a grid, and scratch fields in single and, unless `rough`, double precision."""
 
-    def __init__(self, heights, lengths, rough):
+    def __init__(self, problem, rough):
+        heights, lengths = problem.heights, problem.sides
         self.shape = heights.shape
         self.heights = heights
         self.active = np.zeros(heights.size, bool)
@@ -83,7 +103,7 @@ class _Grid:
         self.exact = _Field(half_space.half_space(self.shape, lengths, dtype))
         single = half_space.half_space(self.shape, lengths, np.float32)
         self.quick = self.exact if rough else _Field(single, memory=self.exact)
-        self.coarse = half_space.coarse_stiffness(self.shape, lengths)
+        self.coarse = coarse_stiffness(self.shape, lengths)
         # Below this residual rounding in single precision (some 1e-6 of the heights) is felt.
         self.doubtful = 0.0 if rough else _DOUBTFUL * float(np.abs(heights).max())
         self._before = self._count()
@@ -105,28 +125,13 @@ class _Grid:
         return np.flatnonzero(hit)
 
 
-def relax(
-    heights,
-    lengths,
-    load,
-    *,
-    tol,
-    max_iterations,
-    gap=None,
-    pressure=None,
-    rough=False,
-    logger=None,
-):
+def relax(problem, *, tol, max_iterations, gap=None, pressure=None, rough=False, logger=None):
     """Find pressure and gap on one grid.
 
     Parameters
     ----------
-    heights : numpy.ndarray
-        Heights in units of their rms, contiguous.
-    lengths : tuple of float
-        Sides of the cell.
-    load : float
-        Mean pressure.
+    problem : Problem
+        What is to be solved.
     tol : float
         Largest accepted residual.
     max_iterations : int
@@ -144,7 +149,8 @@ def relax(
     State
         The iterate of the smallest residual.
     """
-    grid = _Grid(heights, lengths, rough)
+    heights, load = problem.heights, problem.load
+    grid = _Grid(problem, rough)
     field = grid.quick if pressure is None else grid.exact
     total = load * heights.size
     if gap is not None:

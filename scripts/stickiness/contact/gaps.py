@@ -2,14 +2,14 @@
 
 Gaps and ranges share one unit of length; areas are fractions of the nominal area.
 
-Counting pixels and what it costs
----------------------------------
-The discrete contact is made of whole pixels, and its edge lies outside the true one by some 0.15
-pixels on average. That strip is missing from the attractive area at *every* range, and ranges
-below the gap's climb in the first pixel, the `edge_gap`, are not seen at all. ``subpixel=True``
-places the edge between the pixels and lets the gap leave it by its 3/2 law, see `subpixel`. On 133
-contacts (magnification 16 to 128, p/(E* q0 h_rms) = 0.001 to 0.5) at 8 pixels per shortest
-wavelength the root mean square error of the attractive area, against up to 4096 points, is at
+The error of counting pixels
+----------------------------
+The discrete contact is made of whole pixels, and its edge lies some 0.15 pixels outside the true
+one. That strip is missing from the attractive area at *every* range. Ranges below the gap that one
+pixel spans at the edge, the `edge_gap`, are not seen at all. ``subpixel=True`` places the edge
+between the pixels, with a gap that grows from it by the 3/2 law (see `subpixel`). On 133 contacts
+(magnification 16 to 128, p/(E* q0 h_rms) = 0.001 to 0.5) at 8 pixels per shortest wavelength the
+root mean square error of the attractive area, against up to 4096 points, is at
 
 =============== ======== ======== ======== ======== ======== =========
 range/edge gap  0.03-0.1 0.1-0.3  0.3-1    1-3      3-10     10-100

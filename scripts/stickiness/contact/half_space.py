@@ -10,14 +10,38 @@ import threading
 from functools import cached_property, lru_cache
 
 import numpy as np
-import pyfftw
 
 from stickiness.contact import convolution
 
-__all__ = ["HalfSpace", "half_space", "irfft2", "rfft2", "wavenumbers"]
+__all__ = ["HalfSpace", "clear_caches", "half_space", "keep_per_thread", "wavenumbers"]
+
+_CACHES = []  # of all functions that `keep_per_thread` decorates
 
 
-_SHORT = 0.9  # stiffness of all short waves over that of the shortest
+def keep_per_thread(most):
+    """Decorate a function of hashable arguments: keep the `most` last results of each thread.
+
+    The operators own their plans and buffers, so that no two threads may share one.
+    """
+
+    def decorate(make):
+        @lru_cache(maxsize=most)
+        def kept(thread, *arguments):
+            return make(*arguments)
+
+        def of_this_thread(*arguments):
+            return kept(threading.get_ident(), *arguments)
+
+        _CACHES.append(kept)
+        return of_this_thread
+
+    return decorate
+
+
+def clear_caches():
+    """Free the plans and buffers that functions decorated with `keep_per_thread` hold."""
+    for kept in _CACHES:
+        kept.cache_clear()
 
 
 def wavenumbers(shape, lengths):
@@ -38,42 +62,6 @@ def wavenumbers(shape, lengths):
     q0 = 2 * np.pi * np.fft.fftfreq(shape[0], lengths[0] / shape[0])
     q1 = 2 * np.pi * np.fft.rfftfreq(shape[1], lengths[1] / shape[1])
     return np.hypot(q0[:, None], q1[None, :])
-
-
-def rfft2(field):
-    """Unnormalised real two-dimensional transform, reproducible and on one thread.
-
-    Parameters
-    ----------
-    field : numpy.ndarray
-        Real array ``(n0, n1)``.
-
-    Returns
-    -------
-    numpy.ndarray
-        Complex array ``(n0, n1 // 2 + 1)``.
-    """
-    return pyfftw.interfaces.numpy_fft.rfft2(field, threads=1, planner_effort="FFTW_ESTIMATE")
-
-
-def irfft2(spectrum, shape):
-    """Inverse of `rfft2`, normalised by the number of points.
-
-    Parameters
-    ----------
-    spectrum : numpy.ndarray
-        Complex array ``(n0, n1 // 2 + 1)``.
-    shape : tuple of int
-        ``(n0, n1)``.
-
-    Returns
-    -------
-    numpy.ndarray
-        Real array of that shape.
-    """
-    return pyfftw.interfaces.numpy_fft.irfft2(
-        spectrum, s=shape, axes=(0, 1), threads=1, planner_effort="FFTW_ESTIMATE"
-    )
 
 
 class HalfSpace:
@@ -179,103 +167,9 @@ class HalfSpace:
         return out
 
 
-class CoarseStiffness:
-    """Part of an approximate stiffness that a grid half as fine along both axes carries.
-
-    With ``B`` the incidence of the points of the fine grid and the four, not always different,
-    coarse points around each, ``constant + B apply B^T`` approximates ``|q| / 2`` in single
-    precision: exactly for long waves (but for aliases), by the constant for short ones.
-
-    Parameters
-    ----------
-    shape : tuple of int
-        Points of the fine grid along both axes, even numbers.
-    lengths : tuple of float
-        Sides of the cell.
-
-    Attributes
-    ----------
-    constant : float
-        Stiffness of the shortest waves.
-    applications : int
-        Convolutions on the coarse grid since construction.
-    """
-
-    def __init__(self, shape, lengths):
-        self.shape = tuple(n // 2 for n in shape)
-        self.applications = 0
-        # Squared transfer of full weighting, summed over the aliases along each axis.
-        weights = [(1 + np.cos(np.pi * np.fft.fftfreq(n)) ** 2) / 2 for n in self.shape]
-        q = wavenumbers(self.shape, lengths)
-        shortest = np.pi * np.hypot(shape[0] / lengths[0], shape[1] / lengths[1])
-        constant = _SHORT * shortest / 2
-        symbol = (q / 2 - constant) / np.outer(weights[0], weights[1][: q.shape[1]])
-        # full weighting is B^T / 16 and interpolation B / 4
-        symbol /= 64 * self.shape[0] * self.shape[1]
-        self.constant = np.float32(constant)
-        kind = convolution.Packed if self.shape[1] % 2 == 0 else convolution.Real
-        self._convolution = kind(self.shape, np.dtype(np.float32))
-        self._symbol = self._convolution.symbol(symbol.T)
-        self._every = np.arange(self.shape[0])
-        self._image = pyfftw.zeros_aligned(self.shape, np.float32)
-
-    def apply(self, field):
-        """Convolve.
-
-        Parameters
-        ----------
-        field : numpy.ndarray
-            Values at all points of the coarse grid, in single precision.
-
-        Returns
-        -------
-        numpy.ndarray
-            As many values; overwritten by the next call.
-        """
-        field = field.reshape(self.shape)
-        self._convolution.apply(self._symbol, field, self._image, self._every, self._every)
-        self.applications += 1
-        return self._image.ravel()
-
-
 def half_space(shape, lengths, dtype=np.float64):
-    """`HalfSpace` of a grid, with plans and buffers kept for the next call.
-
-    Parameters
-    ----------
-    shape : tuple of int
-        Grid points along both axes.
-    lengths : tuple of float
-        Sides of the cell.
-    dtype : data-type, optional
-        Of the real fields.
-
-    Returns
-    -------
-    HalfSpace
-        One object per grid and thread.
-    """
-    return _cached(tuple(shape), tuple(lengths), np.dtype(dtype), threading.get_ident())
+    """`HalfSpace` of a grid (arguments as there), kept for the next call of the same thread."""
+    return _kept_half_space(tuple(shape), tuple(lengths), np.dtype(dtype))
 
 
-@lru_cache(maxsize=24)
-def _cached(shape, lengths, dtype, thread):
-    return HalfSpace(shape, lengths, dtype)
-
-
-def coarse_stiffness(shape, lengths):
-    """`CoarseStiffness` of a grid, kept for the next call; None for a grid it does not suit."""
-    if min(shape) < 4 or shape[0] % 2 or shape[1] % 2:
-        return None
-    return _cached_coarse(tuple(shape), tuple(lengths), threading.get_ident())
-
-
-@lru_cache(maxsize=12)
-def _cached_coarse(shape, lengths, thread):
-    return CoarseStiffness(shape, lengths)
-
-
-def clear_caches():
-    """Free the plans and buffers kept by `half_space` and `coarse_stiffness`."""
-    _cached.cache_clear()
-    _cached_coarse.cache_clear()
+_kept_half_space = keep_per_thread(24)(HalfSpace)

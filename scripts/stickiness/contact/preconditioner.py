@@ -3,21 +3,99 @@
 The inverse in full contact is the stiffness ``|q| / 2``. On a contact set it acts between an
 extension of the residual beyond the edge of contact and the transpose of that extension.
 
-For a preconditioner the stiffness need not be exact. On an even grid, with B the interpolation
-from a grid half as fine along both axes (full weighting its transpose), it is replaced by
-``g + B F B^T``: the waves the coarse grid carries get their ``|q| / 2``, the rest the constant g.
-The transforms are then four times smaller, at the price of one or two iterations more. The rest is
-done on the points of contact only.
+A preconditioner need not be exact. On an even grid the stiffness is replaced by
+``constant + B F B^T``, where B interpolates from a grid half as fine along both axes: long waves
+get their ``|q| / 2``, short ones a constant (`CoarseStiffness`). The transforms are then four times
+smaller, at the price of one or two iterations more.
 """
 
 import numpy as np
+import pyfftw
 from scipy import sparse
 
-__all__ = ["Preconditioner", "beside", "rows_of_eight"]
+from stickiness.contact import convolution, half_space
+
+__all__ = [
+    "CoarseStiffness",
+    "Preconditioner",
+    "average_neighbours",
+    "build_neighbour_matrix",
+    "coarse_stiffness",
+]
 
 _EXTENSION = 0.8  # weight of the residual extended beyond the edge of contact
 _DIAGONAL = 0.6  # weight of a diagonal neighbour beside a direct one
 _DENSE = 0.3  # share of contact above which the exact stiffness is as cheap
+_SHORT = 0.9  # stiffness of all short waves over that of the shortest
+
+
+class CoarseStiffness:
+    """Approximate stiffness ``constant + B apply B^T``, most of it on a grid half as fine.
+
+    B is the incidence of the points of the fine grid and the four coarse points around each (some
+    of them may coincide). In single precision this is ``|q| / 2`` for long waves, but for aliases,
+    and the constant for short ones.
+
+    Parameters
+    ----------
+    shape : tuple of int
+        Points of the fine grid along both axes, even numbers.
+    lengths : tuple of float
+        Sides of the cell.
+
+    Attributes
+    ----------
+    constant : float
+        Stiffness of the shortest waves.
+    applications : int
+        Convolutions on the coarse grid since construction.
+    """
+
+    def __init__(self, shape, lengths):
+        self.shape = tuple(n // 2 for n in shape)
+        self.applications = 0
+        # Squared transfer of full weighting, summed over the aliases along each axis.
+        weights = [(1 + np.cos(np.pi * np.fft.fftfreq(n)) ** 2) / 2 for n in self.shape]
+        q = half_space.wavenumbers(self.shape, lengths)
+        shortest = np.pi * np.hypot(shape[0] / lengths[0], shape[1] / lengths[1])
+        constant = _SHORT * shortest / 2
+        symbol = (q / 2 - constant) / np.outer(weights[0], weights[1][: q.shape[1]])
+        # full weighting is B^T / 16 and interpolation B / 4
+        symbol /= 64 * self.shape[0] * self.shape[1]
+        self.constant = np.float32(constant)
+        kind = convolution.Packed if self.shape[1] % 2 == 0 else convolution.Real
+        self._convolution = kind(self.shape, np.dtype(np.float32))
+        self._symbol = self._convolution.symbol(symbol.T)
+        self._every = np.arange(self.shape[0])
+        self._image = pyfftw.zeros_aligned(self.shape, np.float32)
+
+    def apply(self, field):
+        """Convolve.
+
+        Parameters
+        ----------
+        field : numpy.ndarray
+            Values at all points of the coarse grid, in single precision.
+
+        Returns
+        -------
+        numpy.ndarray
+            As many values; overwritten by the next call.
+        """
+        field = field.reshape(self.shape)
+        self._convolution.apply(self._symbol, field, self._image, self._every, self._every)
+        self.applications += 1
+        return self._image.ravel()
+
+
+def coarse_stiffness(shape, lengths):
+    """`CoarseStiffness` of a grid, kept for the next call; None for a grid it does not suit."""
+    if min(shape) < 4 or shape[0] % 2 or shape[1] % 2:
+        return None
+    return _kept_coarse_stiffness(tuple(shape), tuple(lengths))
+
+
+_kept_coarse_stiffness = half_space.keep_per_thread(12)(CoarseStiffness)
 
 
 class Preconditioner:
@@ -45,11 +123,11 @@ class Preconditioner:
     def _extend(self, grid):
         points = self.points
         grid.active[points] = True
-        band, columns, weights = beside(grid.active, grid.shape)
+        band, columns, weights = average_neighbours(grid.active, grid.shape)
         grid.active[points] = False
         position = grid.quick.image.view(np.int32)  # scratch: not in use here
         position[points] = np.arange(points.size, dtype=np.int32)
-        self.extension = rows_of_eight(
+        self.extension = build_neighbour_matrix(
             weights * np.float32(_EXTENSION), position[columns], points.size
         )
         self.transpose = self.extension.T
@@ -72,7 +150,7 @@ class Preconditioner:
         return image
 
 
-def beside(active, shape):
+def average_neighbours(active, shape):
     """Points beside an active set, with means over their active neighbours.
 
     Parameters
@@ -102,7 +180,7 @@ def beside(active, shape):
     return band, columns, weights
 
 
-def rows_of_eight(weights, columns, width):
+def build_neighbour_matrix(weights, columns, width):
     """Sparse matrix of eight entries a row, those of neighbours that do not count being zero."""
     starts = np.arange(0, weights.size + 1, 8, dtype=np.int32)
     shape = (weights.shape[0], width)

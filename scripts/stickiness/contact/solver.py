@@ -6,26 +6,32 @@ Given heights ``h`` and a mean pressure, find the pressure ``p >= 0`` and the ga
 
 The method is an active-set one:
 
-* For a guess of the contact set, conjugate gradients solve ``g = 0`` there for the pressure. They
-  are preconditioned with the stiffness ``|q| / 2``, the exact inverse of the compliance in full
-  contact, between an extension of the residual beyond the edge of contact and the transpose of
-  that extension. The number of iterations hardly depends on the grid. Up to a contact of 30 %
-  a grid half as fine carries the stiffness of long waves and a constant that of short ones.
-* Points under tension are released, points that penetrate are added, and so on. Early on the
-  inner solution is a rough one, for a wrong set deserves no better.
-* Coarser grids supply a first guess of the gap, which is smooth enough to be interpolated. On
-  top of the exact heights it gives a pressure, and a point is put into contact where
-  ``p > c k g`` with the stiffness ``k`` of a single pixel: this predicts the set to a per cent.
+* For a guess of the contact set, preconditioned conjugate gradients solve ``g = 0`` there for the
+  pressure (`preconditioner`). The number of iterations hardly depends on the grid.
+* Points under tension are released and points that penetrate are added, until neither is left.
+  While the set still changes, the inner solution is a rough one.
+* Coarser grids supply a first guess of the gap, which is smooth enough to be interpolated.
+  Together with the exact heights it gives a pressure. A point is put into contact where
+  ``p > c k g``, k being the stiffness of a single pixel: this predicts the set to a per cent.
 
 Everything is solved in units of one side of the cell, ``h_rms`` and E*.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from stickiness.contact import active_set
-from stickiness.core.arguments import grid, integer, number, positive
+from stickiness.contact.grids import (
+    check_length,
+    coarsen,
+    interpolate,
+    measure_scale,
+    measure_slope,
+    sample,
+)
+from stickiness.core.arguments import grid, integer, number
+from stickiness.core.plausibility import warn_of_heights, warn_of_pressure
 
 __all__ = ["Contact", "ConvergenceError", "load_path", "solve"]
 
@@ -145,6 +151,12 @@ def solve(
     ConvergenceError
         If `max_iterations` do not suffice; it carries the best iterate.
 
+    Warns
+    -----
+    PlausibilityWarning
+        If heights and length can hardly share a unit, or the pressure is far above any that this
+        surface could need.
+
     Examples
     --------
     >>> import numpy as np
@@ -154,7 +166,7 @@ def solve(
     1.0
     """
     heights = grid("heights", heights)
-    lengths = _check_length(length, heights.shape)
+    lengths = check_length(length, heights.shape)
     pressure = number("pressure", pressure, zero=True)
     tol = number("tol", tol, most=_LOOSEST)
     max_iterations = integer("max_iterations", max_iterations, least=1)
@@ -167,28 +179,41 @@ def solve(
         )
     if precision not in ("double", "single"):
         raise ValueError(f"precision must be 'double' or 'single', got {precision!r}")
-    mean, rms = _scale(heights)
+    warn_of_heights(measure_scale(heights)[1], lengths[0])
+    if pressure > 1:
+        warn_of_pressure(pressure, measure_slope(heights, lengths))
+    rough = precision == "single"
+    return press(heights, lengths, pressure, tol, start, max_iterations, rough, logger)
+
+
+def press(
+    heights, lengths, pressure, tol, start=None, max_iterations=1000, rough=False, logger=None
+):
+    """Solve as `solve` does, of arguments that were checked, in any unit: nothing is warned of.
+
+    A `rough` solution is in single precision throughout.
+    """
+    mean, rms = measure_scale(heights)
     if rms == 0:
         return _flat(heights, lengths, pressure)
     if pressure == 0:
         return _touching(heights, lengths, rms)
     scaled = heights - mean
     scaled /= rms
-    load = pressure * (lengths[0] / rms)
-    sides = (1.0, lengths[1] / lengths[0])
+    problem = active_set.Problem(
+        scaled, (1.0, lengths[1] / lengths[0]), pressure * (lengths[0] / rms)
+    )
     work = []
     guess = None
     if start is not None and start.area_fraction > 0:
         guess = start.pressure
     state = active_set.relax(
-        scaled,
-        sides,
-        load,
+        problem,
         tol=tol,
-        rough=precision == "single",
+        rough=rough,
         max_iterations=max_iterations,
         pressure=guess,
-        gap=_coarse_gap(scaled, sides, load, work, logger) if guess is None else None,
+        gap=coarse_gap(problem, work, logger) if guess is None else None,
         logger=logger,
     )
     # The fields are this call's own: scaled in place, for they may be large.
@@ -245,83 +270,33 @@ def load_path(heights, length, pressures, tol=1e-8, **options):
         yield last
 
 
-def _coarse_gap(heights, sides, load, work, logger):
-    """First guess of the gap from coarser grids, in single precision.
+def coarse_gap(problem, work, logger=None):
+    """First guess of the gap from coarser grids, in single precision; None for a small grid.
 
-    Appends to the list `work` the pairs of transforms times points of every grid.
+    Parameters
+    ----------
+    problem : active_set.Problem
+        The problem on the fine grid.
+    work : list of float
+        Gets the convolutions on every coarser grid, times its points.
+    logger : logging.Logger, optional
+        Told the progress.
     """
-    if min(heights.shape) < 2 * _COARSEST:
+    shape = problem.heights.shape
+    if min(shape) < 2 * _COARSEST:
         return None
-    coarse = _sampled(heights, tuple(_coarser(n) for n in heights.shape))
+    heights = sample(problem.heights, tuple(coarsen(n) for n in shape))
+    coarse = replace(problem, heights=heights)
     state = active_set.relax(
         coarse,
-        sides,
-        load,
         tol=_COARSE_TOLERANCE,
         max_iterations=200,
-        gap=_coarse_gap(coarse, sides, load, work, logger),
+        gap=coarse_gap(coarse, work, logger),
         rough=True,
         logger=logger,
     )
-    work.append(state.pairs * coarse.size)
-    return _interpolated(state.gap, heights.shape)
-
-
-def _coarser(n):
-    return n // 2 if n % 2 == 0 else (n + 1) // 2
-
-
-def _sampled(field, shape):
-    """Sample a periodic field on a grid about half as fine."""
-    if all(n == 2 * m for n, m in zip(field.shape, shape, strict=True)):
-        return np.ascontiguousarray(field[::2, ::2])
-    return _interpolated(field, shape)
-
-
-def _interpolated(field, shape):
-    """Interpolate a periodic field by cubics along both axes, onto a grid of any shape."""
-    for axis, n in enumerate(shape):
-        if n == 2 * field.shape[axis]:
-            field = _doubled(field, axis)
-        elif n != field.shape[axis]:
-            field = _resampled(field, n, axis)
-    return field
-
-
-def _doubled(field, axis):
-    """Put a point between any two, on the cubic through its four neighbours."""
-    between = field + np.roll(field, -1, axis)
-    between *= 9
-    between -= np.roll(field, 1, axis)
-    between -= np.roll(field, -2, axis)
-    between /= 16
-    shape = list(field.shape)
-    shape[axis] *= 2
-    fine = np.empty(shape, field.dtype)
-    even, odd = [slice(None)] * 2, [slice(None)] * 2
-    even[axis], odd[axis] = slice(0, None, 2), slice(1, None, 2)
-    fine[tuple(even)] = field
-    fine[tuple(odd)] = between
-    return fine
-
-
-def _resampled(field, n, axis):
-    """Sample at n points the cubics through any four neighbours."""
-    m = field.shape[axis]
-    position = np.arange(n) * (m / n)
-    left = np.floor(position).astype(int)
-    t = position - left
-    weights = {
-        -1: -t * (t - 1) * (t - 2) / 6,
-        0: (t + 1) * (t - 1) * (t - 2) / 2,
-        1: -(t + 1) * t * (t - 2) / 2,
-        2: (t + 1) * t * (t - 1) / 6,
-    }
-    total = 0.0
-    for offset, weight in weights.items():
-        weight = weight[:, None] if axis == 0 else weight
-        total = total + weight * np.take(field, (left + offset) % m, axis=axis)
-    return total.astype(field.dtype)
+    work.append(state.pairs * heights.size)
+    return interpolate(state.gap, shape)
 
 
 def _flat(heights, lengths, pressure):
@@ -356,23 +331,3 @@ def _touching(heights, lengths, rms):
         length=lengths,
         rms_height=rms,
     )
-
-
-def _scale(heights):
-    """Mean and root mean square about it, safe from overflow and underflow of the squares."""
-    mean = float(heights.mean())
-    largest = float(np.abs(heights - mean).max())
-    # Heights that differ by rounding only are flat.
-    if largest <= 8 * np.finfo(float).eps * abs(mean):
-        return mean, 0.0
-    return mean, largest * float(np.sqrt(np.mean(((heights - mean) / largest) ** 2)))
-
-
-def _check_length(length, shape):
-    (sides,) = positive(length=length)
-    if sides.size == 1:
-        side = float(sides.ravel()[0])
-        return side, side * shape[1] / shape[0]
-    if sides.shape != (2,):
-        raise ValueError(f"length must be one or two positive numbers, got {length!r}")
-    return float(sides[0]), float(sides[1])

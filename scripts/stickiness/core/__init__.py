@@ -1,1 +1,7 @@
-"""What every part shares: checks of arguments, units, datasets, error budgets."""
+"""What every part shares.
+
+- `arguments`: checks of arguments of public functions
+- `units`: values with units as strings
+- `datasets`: NetCDF files between the stages
+- `budget`: error budgets, source by source
+"""

@@ -1,4 +1,4 @@
-"""Error budgets: beside every quoted number what it errs by, source by source.
+"""Error budgets: beside every quoted number its errors, source by source.
 
 A quoted variable ``q`` of a dataset has three more beside it:
 
@@ -20,8 +20,6 @@ from dataclasses import dataclass
 import numpy as np
 import xarray as xr
 
-from stickiness.accuracy.error_laws import COVERS as COVERS
-
 SOURCES = ("discretisation", "solver", "sampling", "bandwidth", "model")
 NONE = -1  # flag of what has no error, or no value
 ENDINGS = ("_error", "_total_error", "_dominant")
@@ -42,7 +40,7 @@ def absent(why: str) -> Part:
 
 
 def unknown(why: str) -> Part:
-    """Part of a source that contributes, nobody knows how much."""
+    """Part of a source that contributes, by an amount that is not known."""
     return Part(np.nan, f"not known, {why}")
 
 
@@ -116,6 +114,11 @@ def split(error: xr.DataArray, texts: Mapping[str, str]) -> dict[str, Part]:
 def part(dataset: xr.Dataset, name: str, source: str) -> xr.DataArray:
     """Error of a quoted variable by one source."""
     return dataset[f"{name}_error"].sel(source=source, drop=True)
+
+
+def total_error(dataset: xr.Dataset, name: str) -> xr.DataArray:
+    """Error of a quoted variable by all sources, in quadrature; NaN where one is not known."""
+    return dataset[f"{name}_total_error"]
 
 
 def dominant(dataset: xr.Dataset, name: str) -> str:

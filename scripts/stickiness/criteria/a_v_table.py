@@ -98,13 +98,13 @@ class AvEstimate:
         Theory as quoted times the ratio of simulation to theory, which follows the trend with the
         magnification between simulated ones and is held constant beyond them.
     low, high : array
-        Limits meant to cover about 90 %, as factors: in quadrature `NORMAL_90` times the standard
-        error of the ratio, and the reach of the other theories and the largest error of the
-        quadrature as they are, for these are extremes. Not covered: what all theories and
-        simulations share (Gaussian heights, elastic half-space, no roll-off).
+        Limits meant to cover about 90 %, as factors. They add in quadrature `NORMAL_90` times the
+        standard error of the ratio, the spread of the other theories and the largest error of the
+        quadrature; the latter two are extremes already. Not covered are assumptions that all
+        theories and simulations share (Gaussian heights, elastic half-space, no roll-off).
     theory_below, theory_above : array
-        Natural logarithms of how far the other variants and corrections of the theory reach below
-        and above the quoted one, or below the edge range the estimate of Pastewka and Robbins.
+        Natural logarithms of how far the other variants and corrections of the theory lie below
+        and above the quoted one. Below the edge range it is the estimate of Pastewka and Robbins.
     simulation : array
         Standard relative error of the ratio of simulation to theory, with what its trend may
         change beyond the simulated magnifications and its drift below the simulated ranges.
@@ -127,7 +127,7 @@ class AvEstimate:
 class AvTable:
     """Interpolates the file ``fits/a_v_table.nc``, in logarithms.
 
-    Between its points that errs by less than 3 % (0.5 % root mean square).
+    The error of the interpolation is below 3 % (0.5 % root mean square).
 
     Parameters
     ----------
@@ -236,10 +236,10 @@ class AvTable:
     def _drift(self, eps):
         """Standard error that extrapolation adds below the simulated ranges.
 
-        As of a random walk with one step a decade. Both theory and simulation have to follow the
-        same power laws there (self-affine scaling, then the gap's 3/2 law next to edges, which is
-        why it grows below the edge range too), so that their ratio has no trend of its own; and
-        from one simulated decade to the next its drift changes size and at small loads sign.
+        It grows as a random walk with one step a decade. Theory and simulation follow the same
+        power laws there: self-affine scaling, then the 3/2 law of the gap next to edges. Their
+        ratio therefore has no trend of its own. From one simulated decade to the next its drift
+        changes size, and at small loads sign.
         """
         decades = np.clip(np.log10(self._simulated / eps), 0, None)
         return self._extrapolation * np.sqrt(decades)
@@ -247,8 +247,8 @@ class AvTable:
     def _unseen(self, zeta):
         """Doublings of the magnification over which the trend may go on beyond simulation.
 
-        The ratio has a limit, for simulation and theory both converge, but its trend does not
-        level off where it was simulated: at most half as many doublings as were.
+        The ratio has a limit, because simulation and theory both converge. Its trend does not
+        level off where it was simulated; it is taken to go on for half as many doublings.
         """
         low, high = self._doublings
         return np.clip(np.log2(zeta) - high, 0, (high - low) / 2)

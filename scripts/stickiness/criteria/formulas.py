@@ -2,10 +2,9 @@
 
 Every length is in one unit of the caller's choice, wave numbers in its inverse; the adhesion
 length is l_a = (work of adhesion)/E*. Arguments broadcast as numpy arrays do, so that a map is
-one call. A `Verdict` carries a margin, the ratio of the criterion's threshold to the actual
-value in the form the criterion is usually written in: above 1 means sticky. Margins of different
-criteria are different powers of the same physics and must not be compared but for their side
-of 1.
+one call. A `Verdict` has a margin, the ratio of the criterion's threshold to the actual value in
+the form the criterion is usually written in: above 1 means sticky. Margins of different criteria
+are different powers of the same physics: compare only on which side of 1 they lie.
 """
 
 from __future__ import annotations
@@ -15,8 +14,6 @@ from typing import Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy.optimize import minimize_scalar
-from scipy.special import ndtr
 
 from stickiness.adhesion.area_load import (
     h_rms_limit,
@@ -30,8 +27,13 @@ from stickiness.adhesion.area_load import (
     violano_c0_limit,
 )
 from stickiness.core.arguments import plain, positive
+from stickiness.criteria.bearing import bearing_area_pull_off, log_maximum
 
 __all__ = [
+    "CRYSTAL_RANGE_RATIO",
+    "DAHLQUIST_LIMIT",
+    "PRINTED_A_V",
+    "PR_CONSTANT",
     "DmtValidity",
     "Verdict",
     "bearing_area",
@@ -62,8 +64,6 @@ PRINTED_A_V = 1.5  # the coefficient 9/4 printed in the paper is (3/2) a_V with 
 PR_CONSTANT = np.pi * (3 / 16) ** (2 / 3)  # Pastewka & Robbins (2014), 1.03
 DAHLQUIST_LIMIT = 1e6  # Pa
 CRYSTAL_RANGE_RATIO = float(np.sqrt(24 * 0.05))  # Delta_r/range at l_a = 0.05 range
-
-_GAUSS_NODES, _GAUSS_WEIGHTS = np.polynomial.legendre.leggauss(8)
 
 
 @dataclass(frozen=True)
@@ -333,67 +333,7 @@ def bearing_area(
     scale = np.log(adhesion_length / range / (repulsion * q0 * h))
     # Ranges of hundreds of h_rms stick without bound; the infinite margin says so.
     with np.errstate(over="ignore"):
-        return _verdict("bearing_area", np.exp(scale + _bearing_log_maximum(range / h)))
-
-
-def bearing_area_pull_off(
-    h_rms: float, q0: float, adhesion_length: float, range: float, repulsion: float = 1.0
-) -> tuple[float, float]:
-    """Minimum of the external pressure over the mean gap in the bearing-area model.
-
-    Parameters as in `bearing_area`, scalars.
-
-    Returns
-    -------
-    pressure : float
-        Smallest p_rep - p_ad [E*] over gaps up to 8 h_rms beyond the range, negative if sticky.
-    mean_gap : float
-        Mean gap [length] where it is reached.
-    """
-    h, q0, adhesion_length, range, repulsion = (
-        float(a)
-        for a in positive(
-            h_rms=h_rms, q0=q0, adhesion_length=adhesion_length, range=range, repulsion=repulsion
-        )
-    )
-    relative = range / h
-
-    def pressure(x: float) -> float:
-        attraction = adhesion_length / range * _bearing_fraction(x, relative)
-        return repulsion * q0 * h * np.exp(-2 * x) - attraction
-
-    # Below range/2 the attraction rises and the repulsion falls, so the minimum lies above. A
-    # grid first: towards infinity the pressure vanishes from above and is a second trough.
-    grid = relative / 2 + np.linspace(0, relative / 2 + 8, 400)
-    best = int(np.argmin([pressure(x) for x in grid]))
-    bounds = grid[max(best - 1, 0)], grid[min(best + 1, grid.size - 1)]
-    found = minimize_scalar(pressure, bounds=bounds, method="bounded", options={"xatol": 1e-10})
-    return float(found.fun), float(found.x * h)
-
-
-def _bearing_fraction(x: float, width: float) -> float:
-    """Fraction of standard normal heights in (x - width, x), without cancellation."""
-    if width > 0.5:
-        return float(ndtr(width - x) - ndtr(-x))
-    z = x - width / 2 * (1 - _GAUSS_NODES)
-    density = np.exp(-(z**2) / 2) / np.sqrt(2 * np.pi)
-    return float(width / 2 * np.sum(_GAUSS_WEIGHTS * density))
-
-
-@np.vectorize
-def _bearing_log_maximum(width: float) -> float:
-    """Maximum over x of 2 x + ln(fraction of normal heights in (x - width, x)).
-
-    The fraction is log-concave, and the slope 2 - E[z | x - width < z < x] changes sign between
-    x = 2 and x = 2 + width: one maximum, bracketed.
-    """
-    found = minimize_scalar(
-        lambda x: -2 * x - np.log(_bearing_fraction(x, width)),
-        bounds=(2.0, 2.0 + width),
-        method="bounded",
-        options={"xatol": 1e-9},
-    )
-    return -float(found.fun)
+        return _verdict("bearing_area", np.exp(scale + log_maximum(range / h)))
 
 
 def persson_tosatti(

@@ -1,8 +1,8 @@
 """Moduli that depend on the rate: a Prony series, a table, or a constant.
 
-What a contact feels at a frequency f is the storage modulus E'(f): it holds the elastic energy that
-competes with adhesion, and Dahlquist's limit is one on it, at 1 Hz. What is dissipated adds to the
-work of adhesion, which no criterion here knows. Moduli in Pa, frequencies in Hz, times in s.
+The storage modulus E'(f) sets the elastic energy that competes with adhesion at a frequency f.
+Dahlquist's limit is one on E' at 1 Hz. Dissipation adds to the work of adhesion; no criterion here
+takes it into account. Moduli in Pa, frequencies in Hz, times in s.
 """
 
 from __future__ import annotations
@@ -98,7 +98,7 @@ class Table:
             raise ValueError(f"frequencies must increase, got {self.frequencies!r}")
 
     def storage(self, frequency: ArrayLike) -> float | NDArray:
-        """Storage modulus [Pa] at frequencies [Hz]; NaN beyond the table, which says nothing."""
+        """Storage modulus [Pa] at frequencies [Hz]; NaN beyond the table."""
         (frequency,) = positive(frequency=frequency)
         x, y = np.log(self.frequencies), np.log(self.moduli)
         return plain(np.exp(np.interp(np.log(frequency), x, y, left=np.nan, right=np.nan)))

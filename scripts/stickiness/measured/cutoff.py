@@ -1,4 +1,4 @@
-"""Where an instrument stops seeing the surface: tip radius, blur and noise at high wave numbers."""
+"""Where an instrument stops resolving the surface: tip radius, blur and noise."""
 
 from __future__ import annotations
 
@@ -17,20 +17,20 @@ NOISE_EXPONENT = 1.5  # and slower than any (s = 2 at H = 0)
 
 _RINGS = 20  # per decade
 _WIDTH = np.log(10) / 4  # of the interval for the local exponent
-_SCATTER = 0.05  # of ln C beyond sampling, lest the rings of most modes decide alone
-_ROOM = 10**0.5  # left between the lowest wave number and the bend
+_SCATTER = 0.05  # of ln C beyond sampling, so that rings of many modes do not decide alone
+_ROOM = 10**0.5  # smallest ratio of the bend to the lowest wave number
 
 
 @dataclass(frozen=True)
 class Bend:
-    """Place from which a spectrum is the instrument's rather than the surface's.
+    """Wave number beyond which a spectrum is the instrument's rather than the surface's.
 
     Attributes
     ----------
     q : float
-        Highest wave number to be trusted [1/length].
+        Highest wave number of the surface's spectrum [1/length].
     kind : {"blur", "noise"}
-        Whether the spectrum falls faster or slower beyond than a surface's can.
+        Whether the spectrum beyond falls faster or slower than that of any surface.
     exponent : float
         s in C ~ q^-s just beyond.
     """
@@ -43,9 +43,9 @@ class Bend:
 def tip_cutoff(heights: ArrayLike, steps: tuple[float, ...], radius: float) -> float | None:
     """Wavelength below which a spherical tip has left its own shape in the heights.
 
-    A tip of radius R leaves no peak sharper than itself: heights are not to be believed at
-    distances over which some second difference reaches -1/(2R) (Sanner, Nöhring, Thimons, Jacobs
-    & Pastewka 2022, doi:10.1016/j.apsadv.2021.100190).
+    A tip of radius R leaves no peak sharper than itself: heights are unreliable at distances over
+    which some second difference reaches -1/(2R) (Sanner, Nöhring, Thimons, Jacobs & Pastewka
+    2022, doi:10.1016/j.apsadv.2021.100190).
 
     Parameters
     ----------
@@ -60,7 +60,7 @@ def tip_cutoff(heights: ArrayLike, steps: tuple[float, ...], radius: float) -> f
     -------
     float or None
         Length of the stencil at which the sharpest peak reaches the limit [length], the largest
-        over both axes; None if no peak is so sharp; infinity if the peaks are so at every distance.
+        over both axes; None if no peak is so sharp; infinity if there is one at every distance.
 
     Raises
     ------
@@ -97,20 +97,19 @@ def _tip_cutoff_along(h: NDArray, step: float, limit: float) -> float | None:
 
 
 def find_bend(rings: RadialPSD, q_min: float, q_nyquist: float) -> Bend | None:
-    """Find the wave number from which blur or noise of the instrument takes over, if any does.
+    """Find the wave number beyond which blur or noise of the instrument dominates, if any does.
 
     The local exponent s of C ~ q^-s is fitted in intervals of a quarter of a decade. From the
-    Nyquist wave number downwards, what falls slower than q^-1.5 is noise, and below that, what
-    falls faster than q^-5 is blur: no self-affine surface does either, whatever its roll-off.
-    Blur that leaves less than half a decade above `q_min` is not called so; the surface may be
-    smooth.
+    Nyquist wave number downwards, a spectrum that falls slower than q^-1.5 is noise and, below
+    that, one that falls faster than q^-5 is blur: no self-affine surface has either, whatever its
+    roll-off. A bend less than half a decade above `q_min` is ignored; the surface may be smooth.
 
     Parameters
     ----------
     rings : RadialPSD
         Narrow rings of C in ascending order.
     q_min : float
-        Lowest wave number looked at [1/length].
+        Lowest wave number considered [1/length].
     q_nyquist : float
         Nyquist wave number [1/length].
     """
@@ -156,6 +155,6 @@ def local_exponents(rings: RadialPSD) -> tuple[NDArray, NDArray]:
 
 
 def _run_from_the_top(flags: NDArray) -> int:
-    """How many of the last entries hold without a break."""
+    """Number of the last entries that are all true."""
     others = np.flatnonzero(~flags)
     return len(flags) - (others[-1] + 1 if len(others) else 0)

@@ -8,12 +8,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stickiness.core.arguments import number, numbers
-from stickiness.measured import cutoff as resolution
 from stickiness.measured import profiles
+from stickiness.measured.cutoff import find_bend, tip_cutoff
 from stickiness.measured.psd import (
-    PowerSpectrum,
     RadialPSD,
-    Window,
+    Taper,
     merge_rings,
     power_spectrum,
     radial_average,
@@ -28,12 +27,12 @@ from stickiness.measured.self_affine_fit import (
 from stickiness.measured.topography import Profile, Topography
 
 RINGS = 10  # per decade, of the spectrum that is shown and integrated
-_ROUNDING = 1e-13  # relative range of heights below which they are one number
+_ROUNDING = 1e-13  # relative range of heights below which they are all the same
 
 
 @dataclass(frozen=True)
 class Cutoff:
-    """Highest wave number that is the surface's, and why.
+    """Highest wave number at which the spectrum is the surface's, and why.
 
     Attributes
     ----------
@@ -61,17 +60,17 @@ class MeasuredSpectrum:
     area : (m,) array
         Area of each ring in the plane of q: sum of C times this is the variance [1/length^2].
     narrow : RadialPSD
-        Rings for the fit of the law.
+        Rings for the fit.
     q_min : float
-        Lowest wave number that window and levelling have left alone [1/length].
+        Lowest wave number that taper and levelling do not change [1/length].
     cutoff : Cutoff
-        The highest that the instrument has.
+        Highest wave number that the instrument resolves.
     lowest : float
-        Lowest wave number there is [1/length].
+        Lowest wave number of the scan [1/length].
     anisotropy : float
-        Amplitude of the dependence on direction; NaN of profiles, which do not tell.
+        Amplitude of the dependence on direction; NaN for profiles.
     fit : SelfAffineFit
-        The law.
+        Self-affine spectrum fitted between `q_min` and the cutoff.
     """
 
     rings: RadialPSD
@@ -86,12 +85,12 @@ class MeasuredSpectrum:
 
 @dataclass(frozen=True)
 class Limits:
-    """What is known of an instrument's limits, all optional; lengths in that of the heights.
+    """Limits of an instrument, all optional; lengths in the unit of the heights.
 
     Attributes
     ----------
     fit_from, fit_to : float or None
-        Longest and shortest wavelength to be used; `fit_to` overrides all below.
+        Longest and shortest wavelength of the fit interval; `fit_to` overrides all below.
     resolution : float or None
         Shortest wavelength that the instrument resolves.
     tip_radius : float or None
@@ -113,15 +112,15 @@ class Limits:
 
 
 def analyse(
-    heights: Topography | Profile, window: Window = "hann", limits: Limits | None = None
+    heights: Topography | Profile, taper: Taper = "hann", limits: Limits | None = None
 ) -> MeasuredSpectrum:
-    """Isotropic spectrum of one levelled measurement, with its limits and the law fitted.
+    """Isotropic spectrum of one levelled measurement, with its limits and its self-affine fit.
 
     Parameters
     ----------
     heights : Topography or Profile
         Levelled.
-    window : {"hann", "hann_radial", "none"}
+    taper : {"hann", "hann_radial", "none"}
         As in `psd.power_spectrum`.
     limits : Limits, optional
         Of the instrument.
@@ -129,15 +128,15 @@ def analyse(
     Raises
     ------
     ValueError
-        If the heights are flat, or what the limits leave is too little for a fit.
+        If the heights are flat, or the limits leave too little for a fit.
     """
     limits = Limits() if limits is None else limits
     values = numbers("heights", heights.heights)
     if values.size and np.ptp(values) <= _ROUNDING * np.max(np.abs(values)):
         raise ValueError(f"heights must not be flat, got {values.flat[0]:.6g} throughout")
     if isinstance(heights, Profile):
-        return _analyse_profile(heights, window, limits)
-    plane = power_spectrum(heights.heights, heights.dx, heights.dy, window)
+        return _analyse_profile(heights, taper, limits)
+    plane = power_spectrum(heights.heights, heights.dx, heights.dy, taper)
     narrow = narrow_rings(plane)
     step = max(plane.dqx, plane.dqy)
     q_min = _lowest(limits, step, plane.blur)
@@ -152,19 +151,19 @@ def analyse(
         q_min=fit.q_min,
         cutoff=replace(cutoff, q=fit.q_max),
         lowest=min(plane.dqx, plane.dqy),
-        anisotropy=_anisotropy(plane, fit),
+        anisotropy=plane.anisotropy(fit.q_min, fit.q_max)[0],
         fit=fit,
     )
 
 
-def _analyse_profile(heights: Profile, window: Window, limits: Limits) -> MeasuredSpectrum:
-    line = profiles.profile_spectrum(heights.heights, heights.dx, window)
+def _analyse_profile(heights: Profile, taper: Taper, limits: Limits) -> MeasuredSpectrum:
+    line = profiles.profile_spectrum(heights.heights, heights.dx, taper)
     lowest = float(line.q[0])
     q_min = _lowest(limits, lowest, line.blur)
-    # Between uneven points nothing was measured that is shorter than twice the largest gap.
+    # Unevenly spaced points resolve no wave shorter than twice their largest gap.
     nyquist = min(line.q_nyquist, np.pi / max(heights.largest_gap, heights.dx))
     pilot = line.rings(profiles.FINE)
-    pilot = replace(pilot, psd=pilot.psd / pilot.q)  # C but for a factor
+    pilot = replace(pilot, psd=pilot.psd / pilot.q)  # proportional to C
     cutoff = _cutoff(limits, pilot, q_min, nyquist, heights.heights, (heights.dx,))
     narrow, fit = profiles.isotropic(line, q_min, cutoff.q)
     q, mean, dof = merge_rings(narrow, narrow.psd, RINGS)
@@ -182,17 +181,13 @@ def _analyse_profile(heights: Profile, window: Window, limits: Limits) -> Measur
 
 
 def ring_areas(q: NDArray, lowest: float) -> NDArray:
-    """Areas of adjoining rings about the wave numbers q (m,), which begin half of `lowest` below.
+    """Areas in the plane of q of adjoining rings about the wave numbers q (m,).
 
-    Neighbours meet at their geometric mean.
+    Neighbours meet at their geometric mean; the first ring begins half of `lowest` below q[0].
     """
     middle = np.sqrt(q[1:] * q[:-1])
     edges = np.concatenate([[max(q[0] - lowest / 2, 0.0)], middle, [q[-1] ** 2 / middle[-1]]])
     return np.pi * np.diff(edges**2)
-
-
-def _anisotropy(plane: PowerSpectrum, fit: SelfAffineFit) -> float:
-    return plane.anisotropy(fit.q_min, fit.q_max)[0]
 
 
 def _lowest(limits: Limits, step: float, blur: float) -> float:
@@ -209,17 +204,17 @@ def _cutoff(
     heights: NDArray,
     steps: tuple[float, ...],
 ) -> Cutoff:
-    """Lowest of the limits that are given, detected or general."""
+    """Lowest of the cutoffs that are given, detected or general."""
     if limits.fit_to is not None:
         return Cutoff(2 * np.pi / limits.fit_to, "as given (fit_to)")
     found = [Cutoff(NYQUIST_SHARE * q_nyquist, "half the Nyquist wave number")]
     if limits.resolution is not None:
         found.append(Cutoff(2 * np.pi / limits.resolution, "resolution of the instrument"))
     if limits.tip_radius is not None:
-        blunt = resolution.tip_cutoff(heights, steps, limits.tip_radius)
+        blunt = tip_cutoff(heights, steps, limits.tip_radius)
         if blunt is not None:
             found.append(Cutoff(2 * np.pi / blunt, "shape of the tip", detected=True))
-    bend = resolution.find_bend(rings, q_min, q_nyquist) if limits.detect else None
+    bend = find_bend(rings, q_min, q_nyquist) if limits.detect else None
     if bend is not None:
         reason = f"{bend.kind} of the instrument (C falls as q^-{max(bend.exponent, 0):.1f} beyond)"
         found.append(Cutoff(bend.q, reason, detected=True))

@@ -10,8 +10,8 @@ from scipy import ndimage, sparse
 from scipy.sparse import linalg
 
 MAX_MISSING = 0.1  # default largest share of missing points that are filled
-OUTSTANDING = 5.0  # steps at a rim over those elsewhere, from which it is not believed
-LARGEST_RIM = 5  # points that are dropped unasked
+OUTSTANDING = 5.0  # rms step at a rim over that elsewhere, above which the rim is dropped
+LARGEST_RIM = 5  # widest rim that "detect" drops [points]
 
 Detrend = Literal["mean", "plane", "quadratic"]
 Missing = Literal["fill", "crop", "refuse"]
@@ -75,17 +75,15 @@ def _degree(kind: str) -> int:
 
 
 def without_rims(heights: NDArray, rim: Rim = "detect") -> tuple[NDArray, int]:
-    """Take the points beside missing ones for missing, too.
-
-    Instruments see steep flanks and the edges of holes badly: what they write there may be far off.
+    """Drop the points beside missing ones, where instruments may write values that are far off.
 
     Parameters
     ----------
     heights : (nx, ny) or (n,) array
         Heights, not finite where missing.
     rim : int or "detect"
-        How far the rims reach [points], diagonals counted as one. "detect": as far as they stand
-        out (`outstanding_rim`).
+        Width of the rims [points], diagonals counted as one. "detect": as far as they stand out
+        (`outstanding_rim`).
 
     Returns
     -------
@@ -100,12 +98,12 @@ def without_rims(heights: NDArray, rim: Rim = "detect") -> tuple[NDArray, int]:
 
 
 def outstanding_rim(heights: NDArray) -> int:
-    """How far around missing points steps of height are much larger than elsewhere [points].
+    """Width of the rim around missing points with much larger steps of height than elsewhere.
 
-    A rim stands out if the rms step from it to what lies beyond is more than `OUTSTANDING` times
-    that between neighbours beyond. Around holes cut into three measured surfaces where these are
-    steepest, sharpest, lowest, highest or at random it is 0.75 to 3.4 times, around those of an
-    instrument that wrote outliers 40 times and, one point further out, 0.9 times.
+    A rim stands out if the rms step from it to the points beyond is more than `OUTSTANDING` times
+    that between neighbours beyond. The ratio is 0.75 to 3.4 around holes cut into three measured
+    surfaces where these are steepest, sharpest, lowest, highest or at random. It is 40 around the
+    holes of an instrument that wrote outliers there and, one point further out, 0.9.
     """
     hole = ~np.isfinite(heights)
     for rim in range(LARGEST_RIM if hole.any() else 0, 0, -1):
@@ -136,8 +134,8 @@ def fill_missing(
 ) -> tuple[NDArray, int]:
     """Fill points that are not finite with the harmonic function of their neighbours.
 
-    Each filled point is the mean of its (up to four) neighbours: no new extremes, and a plane
-    goes on as a plane.
+    Each filled point is the mean of its (up to four) neighbours: there are no new extremes, and
+    a plane stays a plane.
 
     Returns
     -------
@@ -170,7 +168,7 @@ def fill_profile(
     x : (n,) array
         Increasing positions.
     heights : (n,) array
-        Heights; beyond the first and the last known one, these go on.
+        Heights; constant beyond the first and the last known one.
     max_missing, source
         As in `fill_missing`, which also says what is returned and raised.
     """
@@ -236,7 +234,7 @@ def _check_missing(hole: NDArray, max_missing: float, source: str) -> int:
 
 
 def _harmonic(heights: NDArray, hole: NDArray) -> NDArray:
-    """Solve Laplace's equation on the holes; the grid's edge carries no condition."""
+    """Solve Laplace's equation on the holes; there is no condition at the edge of the grid."""
     index = np.full(hole.shape, -1)
     index[hole] = np.arange(np.count_nonzero(hole))
     neighbours = ndimage.convolve(
@@ -244,16 +242,13 @@ def _harmonic(heights: NDArray, hole: NDArray) -> NDArray:
     )
     known = np.zeros(np.count_nonzero(hole))
     rows, columns = [], []
-    for axis in (0, 1):
-        here, there = np.moveaxis(index, axis, 0)[:-1], np.moveaxis(index, axis, 0)[1:]
-        value = np.moveaxis(heights, axis, 0)
-        both = (here >= 0) & (there >= 0)
-        rows += [here[both], there[both]]
-        columns += [there[both], here[both]]
-        edge = (here >= 0) & (there < 0)
-        np.add.at(known, here[edge], value[1:][edge])
-        edge = (here < 0) & (there >= 0)
-        np.add.at(known, there[edge], value[:-1][edge])
+    for along, value in ((index, heights), (index.T, heights.T)):
+        for one, other in ((slice(-1), slice(1, None)), (slice(1, None), slice(-1))):
+            here, there = along[one], along[other]
+            both, edge = (here >= 0) & (there >= 0), (here >= 0) & (there < 0)
+            rows.append(here[both])
+            columns.append(there[both])
+            np.add.at(known, here[edge], value[other][edge])
     rows, columns = np.concatenate(rows), np.concatenate(columns)
     coupling = sparse.csr_array((np.ones(len(rows)), (rows, columns)), shape=(len(known),) * 2)
     laplacian = sparse.csc_array(sparse.diags_array(neighbours[hole]) - coupling)

@@ -1,9 +1,9 @@
-"""Measured heights made periodic, for a solver that knows periodic surfaces only.
+"""Measured heights made periodic, for a solver of periodic surfaces.
 
-No way of doing so is right; two wrong ones bracket the truth. A taper keeps the scan's size, but
-pulls its rim to the mean plane: it loses height variance there. A mirror keeps every height and
-joins them without a jump, at four times the cost, but repeats them: its long waves are coherent,
-and slopes change sign across the seams. The difference is the error of having no neighbours.
+There are two ways, and their difference shows the error. A taper keeps the size of the scan, but
+pulls its rim to the mean plane, where height variance is lost. A mirror keeps every height and
+joins them without a jump, at four times the cost; but its long waves are coherent, and slopes
+change sign across the seams.
 """
 
 from __future__ import annotations
@@ -24,15 +24,15 @@ SHELLS = 200  # per decade
 
 
 def periodise(heights: ArrayLike, kind: Periodisation) -> NDArray:
-    """Return heights that go on periodically without a jump.
+    """Return heights that are periodic without a jump.
 
     Parameters
     ----------
     heights : (nx, ny) array
         Levelled heights.
     kind : {"taper", "mirror"}
-        "taper": the heights about their mean, times a window that is 1 but for a cosine rim of an
-        eighth of each side. "mirror": the heights and their mirror images, (2 nx, 2 ny).
+        "taper": the heights about their mean, times a taper that is 1 except in a cosine rim of
+        an eighth of each side. "mirror": the heights and their mirror images, (2 nx, 2 ny).
 
     Raises
     ------
@@ -48,8 +48,8 @@ def periodise(heights: ArrayLike, kind: Periodisation) -> NDArray:
     if kind != "taper":
         raise ValueError(f"kind must be 'taper' or 'mirror', got {kind!r}")
     wx, wy = (_rim(n) for n in heights.shape)
-    window = wx[:, None] * wy
-    return window * (heights - np.sum(window * heights) / window.sum())
+    taper = wx[:, None] * wy
+    return taper * (heights - np.sum(taper * heights) / taper.sum())
 
 
 def _rim(n: int) -> NDArray:
@@ -61,7 +61,7 @@ def _rim(n: int) -> NDArray:
 def band_limited(
     heights: ArrayLike, sides: tuple[float, float], q_max: float, pixels: int
 ) -> NDArray:
-    """Periodic heights without waves beyond `q_max`, on a grid that resolves what is left.
+    """Periodic heights without waves beyond `q_max`, on a grid that resolves the others.
 
     Parameters
     ----------
@@ -101,7 +101,7 @@ def band_limited(
 
 
 def _points(least: float) -> int:
-    """Smallest number of points from `least` up that is 4 times one quick to transform."""
+    """Smallest number of points, at least `least`, that is 4 times one fast to transform."""
     return 4 * fft.next_fast_len(int(np.ceil(least / 4)), real=True)
 
 

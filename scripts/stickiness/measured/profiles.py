@@ -3,9 +3,9 @@
 Convention of the project, one dimension less: h_rms^2 is the integral of C1 dq over all q, both
 signs. A profile across an isotropic surface has C1(q) = integral of C(sqrt(q^2 + k^2)) dk over all
 k, Abel's transform of C (Nayak 1971, doi:10.1115/1.3451608). Its inverse takes a derivative of a
-noisy spectrum; here the ratio C/C1 is that of the self-affine law fitted to the profile itself,
-which is exact where the law is, and elsewhere errs by the change of the exponent only: for
-C ~ q^-s the ratio is Gamma(s/2)/(sqrt(pi) Gamma(s/2 - 1/2))/q.
+noisy spectrum. Here the ratio C/C1 is that of the self-affine spectrum fitted to the profile. It
+is exact for such a spectrum; elsewhere its error is that of the local exponent: for C ~ q^-s the
+ratio is Gamma(s/2)/(sqrt(pi) Gamma(s/2 - 1/2))/q.
 """
 
 from __future__ import annotations
@@ -16,11 +16,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy import fft, special
 
-from stickiness.measured.psd import RadialPSD, Window
+from stickiness.measured.psd import RadialPSD, Taper, average_by_ring, logarithmic_rings
 from stickiness.measured.self_affine_fit import SelfAffineFit, fit_rings
 
 LOWEST_HURST = -0.4  # at -1/2 the transform of q^(-2(H+1)) no longer exists
-
 FINE = 200  # rings per decade for the fit
 _ROUNDS = 20
 
@@ -36,7 +35,7 @@ class ProfileSpectrum:
     psd : (m,) array
         C1(q) [length^3].
     variance : float
-        Mean square of the windowed heights over the mean square of the window [length^2].
+        Mean square of the tapered heights over the mean square of the taper [length^2].
     independence, blur : float
         As in `psd.PowerSpectrum`.
     n : int
@@ -64,17 +63,13 @@ class ProfileSpectrum:
 
     def rings(self, bins_per_decade: float) -> RadialPSD:
         """Means of C1 (not C) over logarithmic intervals of q."""
-        index = np.floor(np.log10(self.q / self.q[0]) * bins_per_decade + 0.5).astype(int)
-        modes = np.bincount(index)
-        keep = modes > 0
-        modes = modes[keep]
-        mean = np.bincount(index, weights=self.psd)[keep] / modes
-        log_q = np.bincount(index, weights=np.log(self.q))[keep] / modes
+        ring = logarithmic_rings(self.q, self.q[0], bins_per_decade)
+        q, mean, modes = average_by_ring(ring, np.ones(len(self.q)), self.q, self.psd)
         dof = modes * self.independence
-        return RadialPSD(np.exp(log_q), mean, mean / np.sqrt(dof), modes, dof)
+        return RadialPSD(q, mean, mean / np.sqrt(dof), modes.astype(int), dof)
 
 
-def profile_spectrum(heights: ArrayLike, dx: float, window: Window = "hann") -> ProfileSpectrum:
+def profile_spectrum(heights: ArrayLike, dx: float, taper: Taper = "hann") -> ProfileSpectrum:
     """One-dimensional power spectral density of heights along a line.
 
     Parameters
@@ -83,13 +78,13 @@ def profile_spectrum(heights: ArrayLike, dx: float, window: Window = "hann") -> 
         Heights [length], levelled beforehand if they are measured.
     dx : float
         Step [length].
-    window : {"hann", "hann_radial", "none"}
-        Along a line both Hann windows are the same.
+    taper : {"hann", "hann_radial", "none"}
+        Along a line both Hann tapers are the same.
 
     Raises
     ------
     ValueError
-        If the heights are not at least 16 finite values, the step is not positive or the window
+        If the heights are not at least 16 finite values, the step is not positive or the taper
         is unknown.
     """
     heights = np.asarray(heights, dtype=float)
@@ -99,20 +94,20 @@ def profile_spectrum(heights: ArrayLike, dx: float, window: Window = "hann") -> 
         )
     if not (np.isfinite(dx) and dx > 0):
         raise ValueError(f"dx must be positive and finite, got {dx!r}")
-    if window not in ("none", "hann", "hann_radial"):
-        raise ValueError(f"window must be 'none', 'hann' or 'hann_radial', got {window!r}")
+    if taper not in ("none", "hann", "hann_radial"):
+        raise ValueError(f"taper must be 'none', 'hann' or 'hann_radial', got {taper!r}")
     n = len(heights)
     w, blur = np.ones(n), 0.0
-    if window != "none":
+    if taper != "none":
         w, blur = np.sin(np.pi * (np.arange(n) + 0.5) / n) ** 2, 2.0
     power = np.mean(w**2)
-    windowed = w * (heights - np.mean(w * heights) / np.mean(w))
+    tapered = w * (heights - np.mean(w * heights) / np.mean(w))
     dq = 2 * np.pi / (n * dx)
-    modes = fft.rfft(windowed)[1:] / n
+    modes = fft.rfft(tapered)[1:] / n
     return ProfileSpectrum(
         q=dq * np.arange(1, len(modes) + 1),
         psd=np.abs(modes) ** 2 / (power * dq),
-        variance=float(np.mean(windowed**2) / power),
+        variance=float(np.mean(tapered**2) / power),
         independence=float(power**2 / np.mean(w**4)),
         blur=blur,
         n=n,
@@ -120,7 +115,7 @@ def profile_spectrum(heights: ArrayLike, dx: float, window: Window = "hann") -> 
 
 
 def abel_ratio(q: ArrayLike, hurst: float, q_rolloff: float | None = None) -> NDArray:
-    """C/C1 [1/length] of a self-affine law without an upper end.
+    """C/C1 [1/length] of a self-affine spectrum without an upper end.
 
     Parameters
     ----------
@@ -154,16 +149,16 @@ def abel_ratio(q: ArrayLike, hurst: float, q_rolloff: float | None = None) -> ND
 def isotropic(
     spectrum: ProfileSpectrum, q_min: float, q_max: float, rolloff: bool | None = None
 ) -> tuple[RadialPSD, SelfAffineFit]:
-    """Two-dimensional isotropic spectrum behind a profile, and the law fitted to it.
+    """Two-dimensional isotropic spectrum behind a profile, and its self-affine fit.
 
     Parameters
     ----------
     spectrum : ProfileSpectrum
         From `profile_spectrum`.
     q_min, q_max : float
-        Range of the fit [1/length].
+        Fit interval [1/length].
     rolloff : bool, optional
-        As in `selfaffine.fit_self_affine`.
+        As in `self_affine_fit.fit_self_affine`.
 
     Returns
     -------
@@ -175,8 +170,8 @@ def isotropic(
     Raises
     ------
     ValueError
-        As `selfaffine.fit_rings`, and if the profile's spectrum falls so slowly that no isotropic
-        surface has it: mere noise.
+        As `self_affine_fit.fit_rings`, and if the profile's spectrum falls more slowly than that
+        of any isotropic surface: noise.
     """
     profile = spectrum.rings(FINE)
     rings = _scaled(profile, 1 / profile.q)
@@ -189,7 +184,7 @@ def isotropic(
                 "surface, rather noise; lower the highest wave number of the fit"
             )
         rings = _scaled(profile, abel_ratio(profile.q, fit.hurst, fit.q_rolloff))
-        # Once chosen the model stays: else a plateau might come and go for ever.
+        # The model stays once it is chosen: else a plateau might come and go for ever.
         fit = fit_rings(rings, q_min, q_max, fit.q_rolloff is not None)
         if abs(fit.hurst - before.hurst) < 1e-3 * fit.hurst_se:
             break

@@ -1,7 +1,7 @@
-"""Power spectral density of a measured or computed topography: window, 2D spectrum, rings.
+"""Power spectral density of a measured or computed topography: taper, 2D spectrum, rings.
 
 The project's convention: h_rms^2 = double integral of C d^2q = 2 pi * integral of q C(q) dq, no
-factor 1/(4 pi^2). A measured topography is not periodic; without a window the jump across its
+factor 1/(4 pi^2). A measured topography is not periodic; without a taper the jump across its
 edges leaks a false q^-2 tail along the axes into the spectrum (Jacobs, Junge & Pastewka 2017,
 doi:10.1088/2051-672X/aa51f8). Lengths are in any one unit; C then has that unit to the fourth.
 """
@@ -17,7 +17,7 @@ from scipy import fft
 
 from stickiness.core.arguments import grid, number
 
-Window = Literal["none", "hann", "hann_radial"]
+Taper = Literal["none", "hann", "hann_radial"]
 Spacing = Literal["log", "linear"]
 
 
@@ -34,18 +34,18 @@ class PowerSpectrum:
     psd : (nx, ny//2 + 1) array
         C(qx, qy) [length^4].
     multiplicity : (ny//2 + 1,) array
-        How many modes of the full plane each column stands for (2; 1 for columns that hold
-        both members of each conjugate pair).
+        Modes of the full plane for which each column stands (2; 1 for columns that hold both
+        members of each conjugate pair).
     variance : float
-        Mean square of the windowed heights over the mean square of the window [length^2].
+        Mean square of the tapered heights over the mean square of the taper [length^2].
     independence : float
-        Independent modes per mode: 1 without a window, (mean w^2)^2/mean w^4 with one, because a
-        window correlates neighbouring modes.
+        Independent modes per mode: 1 without a taper, (mean w^2)^2/mean w^4 with one, because a
+        taper correlates neighbouring modes.
     blur : float
-        Half width of the window's main lobe, in lattice steps: 0 without a window. Modes
-        nearer to q = 0 than this are mixed with the mean and the trend.
-    window : str
-        Name of the window.
+        Half width of the taper's main lobe, in lattice steps: 0 without a taper. Modes nearer to
+        q = 0 than this are mixed with the mean and the trend.
+    taper : str
+        Name of the taper.
     """
 
     qx: NDArray
@@ -55,7 +55,7 @@ class PowerSpectrum:
     variance: float
     independence: float
     blur: float
-    window: str
+    taper: str
 
     @property
     def dqx(self) -> float:
@@ -125,7 +125,7 @@ class RadialPSD:
         Lattice modes of the full plane in the ring.
     dof : (m,) array
         Independent exponentially distributed values among them: half of `modes` (conjugate
-        pairs), times the window's `independence`. The mean has a Gamma law of this shape.
+        pairs), times `independence`. The mean has a Gamma distribution of this shape.
     """
 
     q: NDArray
@@ -144,7 +144,7 @@ class RadialPSD:
 
 
 def power_spectrum(
-    heights: ArrayLike, dx: float, dy: float | None = None, window: Window = "none"
+    heights: ArrayLike, dx: float, dy: float | None = None, taper: Taper = "none"
 ) -> PowerSpectrum:
     """Two-dimensional power spectral density of heights on a rectangular grid.
 
@@ -154,38 +154,38 @@ def power_spectrum(
         Heights [length], the first axis along x; levelled beforehand if they are measured.
     dx, dy : float
         Grid steps along the first and second axis [length]; `dy` defaults to `dx`.
-    window : {"none", "hann", "hann_radial"}
-        "none" for periodic heights. "hann": product of a Hann window along each axis.
-        "hann_radial": Hann window of the distance from the centre, zero beyond the largest
-        inscribed circle; isotropic, but it uses less of the data. Both have the middle of the
-        area as centre, whatever the number of points, so that a mirrored map has the same rings;
-        SurfaceTopography's peaks on pixel n//2, half a pixel aside if n is even.
+    taper : {"none", "hann", "hann_radial"}
+        "none" for periodic heights. "hann": product of a Hann taper along each axis.
+        "hann_radial": Hann taper of the distance from the centre, zero beyond the largest
+        inscribed circle; isotropic, but it uses less of the data. Both are centred on the middle
+        of the area, so that a mirrored map has the same rings; SurfaceTopography's are centred on
+        pixel n//2, half a pixel aside if n is even.
 
     Returns
     -------
     PowerSpectrum
-        Scaled by the window's mean square, so that it estimates C whatever the window. The mean
-        weighted by the window is taken off first: the plain mean, zero after levelling, would
+        Scaled by the taper's mean square, so that it estimates C whatever the taper. The mean
+        weighted by the taper is subtracted first: the plain mean, zero after levelling, would
         leave a constant that leaks into the lowest modes.
 
     Raises
     ------
     ValueError
         If the heights are not a finite 2D array of at least 4 by 4 points, a step is not
-        positive, or the window is unknown.
+        positive, or the taper is unknown.
     """
     heights = grid("heights", heights)
     if min(heights.shape) < 4:
         raise ValueError(f"heights must have at least 4 x 4 points, got {heights.shape}")
     dx, dy = number("dx", dx), number("dy", dx if dy is None else dy)
     nx, ny = heights.shape
-    w, blur = _window(window, (nx, ny), (dx, dy))
+    w, blur = _taper(taper, (nx, ny), (dx, dy))
     power = np.mean(w**2)
-    windowed = w * (heights - np.mean(w * heights) / np.mean(w))
-    modes = fft.rfft2(windowed) / (nx * ny)
+    tapered = w * (heights - np.mean(w * heights) / np.mean(w))
+    modes = fft.rfft2(tapered) / (nx * ny)
     cell = (2 * np.pi) ** 2 / (nx * dx * ny * dy)
     with np.errstate(over="ignore"):
-        variance = float(np.mean(windowed**2) / power)
+        variance = float(np.mean(tapered**2) / power)
     if not np.isfinite(variance / cell):
         raise ValueError("heights leave the range of floats: take a larger unit of length")
     multiplicity = np.full(modes.shape[1], 2.0)
@@ -200,7 +200,7 @@ def power_spectrum(
         variance=variance,
         independence=float(power**2 / np.mean(w**4)),
         blur=blur,
-        window=window,
+        taper=taper,
     )
 
 
@@ -233,14 +233,31 @@ def radial_average(
     q = spectrum.q.ravel()
     weight = np.broadcast_to(spectrum.multiplicity, spectrum.psd.shape).ravel()
     q, weight, psd = q[1:], weight[1:], spectrum.psd.ravel()[1:]  # the first mode is q = 0
-    ring = _rings(q, spectrum, spacing, bins_per_decade)
-    modes = np.bincount(ring, weights=weight)
-    keep = modes > 0
-    modes = modes[keep]
-    mean = np.bincount(ring, weights=weight * psd)[keep] / modes
-    log_q = np.bincount(ring, weights=weight * np.log(q))[keep] / modes
+    if spacing == "linear":
+        ring = np.rint(q / max(spectrum.dqx, spectrum.dqy)).astype(int)
+    else:
+        ring = logarithmic_rings(q, q.min(), bins_per_decade)
+    q, mean, modes = average_by_ring(ring, weight, q, psd)
     dof = modes / 2 * spectrum.independence
-    return RadialPSD(np.exp(log_q), mean, mean / np.sqrt(dof), np.rint(modes).astype(int), dof)
+    return RadialPSD(q, mean, mean / np.sqrt(dof), np.rint(modes).astype(int), dof)
+
+
+def logarithmic_rings(q: NDArray, lowest: float, bins_per_decade: float) -> NDArray:
+    """Index of the logarithmic ring that each mode falls into, 0 about `lowest`."""
+    # Half a ring of offset keeps the lowest modes, all of one |q|, clear of a ring's edge, where
+    # rounding would decide.
+    return np.floor(np.log10(q / lowest) * bins_per_decade + 0.5).astype(int)
+
+
+def average_by_ring(
+    ring: NDArray, weight: NDArray, q: NDArray, values: NDArray
+) -> tuple[NDArray, NDArray, NDArray]:
+    """Average over the rings that hold any weight: geometric mean of q, mean of values, weight."""
+    total = np.bincount(ring, weights=weight)
+    keep = total > 0
+    total = total[keep]
+    log_q = np.bincount(ring, weights=weight * np.log(q))[keep] / total
+    return np.exp(log_q), np.bincount(ring, weights=weight * values)[keep] / total, total
 
 
 def wide_rings(rings: RadialPSD, bins_per_decade: float) -> NDArray:
@@ -257,28 +274,14 @@ def merge_rings(
     Returns
     -------
     q, mean, dof : (k,) arrays
-        Of each wider ring that holds any: geometric mean wave number, mean of `values` weighted
-        by independent modes, and the number of these.
+        Of each wider ring: geometric mean wave number, mean of `values` weighted by independent
+        modes, and the number of these.
     """
-    index = wide_rings(rings, bins_per_decade)
-    dof = np.bincount(index, weights=rings.dof)
-    keep = dof > 0
-    dof = dof[keep]
-    log_q = np.bincount(index, weights=rings.dof * np.log(rings.q))[keep] / dof
-    mean = np.bincount(index, weights=rings.dof * values)[keep] / dof
-    return np.exp(log_q), mean, dof
+    return average_by_ring(wide_rings(rings, bins_per_decade), rings.dof, rings.q, values)
 
 
-def _rings(q: NDArray, spectrum: PowerSpectrum, spacing: str, bins_per_decade: float) -> NDArray:
-    if spacing == "linear":
-        return np.rint(q / max(spectrum.dqx, spectrum.dqy)).astype(int)
-    # Half a ring of offset keeps the lowest modes, all of one |q|, clear of a ring's edge, where
-    # rounding would decide.
-    return np.floor(np.log10(q / q.min()) * bins_per_decade + 0.5).astype(int)
-
-
-def _window(name: str, shape: tuple[int, int], step: tuple[float, float]) -> tuple[NDArray, float]:
-    """Return the window's values at the pixels' centres and its half width in lattice steps."""
+def _taper(name: str, shape: tuple[int, int], step: tuple[float, float]) -> tuple[NDArray, float]:
+    """Return the taper's values at the pixels' centres and its half width in lattice steps."""
     if name == "none":
         return np.ones((1, 1)), 0.0
     x, y = ((np.arange(n) + 0.5) / n - 0.5 for n in shape)  # in units of the sides
@@ -288,4 +291,4 @@ def _window(name: str, shape: tuple[int, int], step: tuple[float, float]) -> tup
         sides = shape[0] * step[0], shape[1] * step[1]
         r = np.hypot(x[:, None] * sides[0], y * sides[1]) / min(sides)
         return np.where(r < 0.5, np.cos(np.pi * r) ** 2, 0.0), 2.0
-    raise ValueError(f"window must be 'none', 'hann' or 'hann_radial', got {name!r}")
+    raise ValueError(f"taper must be 'none', 'hann' or 'hann_radial', got {name!r}")

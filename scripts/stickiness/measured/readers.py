@@ -1,4 +1,4 @@
-"""What a file of measured heights holds, as it stands there: NetCDF, numpy, text, instruments.
+"""Content of a file of measured heights: NetCDF, numpy, text or an instrument's format.
 
 Instruments' own formats (AFM, white light, focus variation, profilometers; some forty of them) are
 read by SurfaceTopography, an optional dependency (envs/instruments.txt).
@@ -79,7 +79,7 @@ def format_of(path: str | Path, fmt: str | None = None) -> str:
 
 
 def can_read_instruments() -> bool:
-    """Tell whether SurfaceTopography is installed."""
+    """Whether SurfaceTopography is installed."""
     return find_spec("SurfaceTopography") is not None
 
 
@@ -236,12 +236,12 @@ def _read_instrument(path: Path, fmt: str | None, channel: str | int | None) -> 
     if not _holds_heights(info):
         heights = ", ".join(repr(c.channel_id) for c in reader.channels if _holds_heights(c))
         raise ValueError(f"{source} holds no heights; channels that do: {heights or 'none'}")
-    # Sizes that the file does not tell are the caller's to give, in metres; until then, pixels.
-    told = info.physical_sizes is not None
-    size = {} if told else {"physical_sizes": tuple(float(n) for n in info.nb_grid_pts)}
+    # If the file does not hold the size, the caller must give it; until then it is in pixels.
+    known = info.physical_sizes is not None
+    size = {} if known else {"physical_sizes": tuple(float(n) for n in info.nb_grid_pts)}
     data = _guarded(path, lambda _: reader.topography(channel_index=info.index, **size))
     unit = data.unit
-    scale = metres(f"1 {unit}", f"{source}: unit of length in the file") if told and unit else None
+    scale = metres(f"1 {unit}", f"{source}: unit of length in the file") if known and unit else None
     # Points that could not be measured come masked.
     heights = _floats(np.ma.filled(np.ma.asarray(data.heights(), dtype=float), np.nan))
     if heights.ndim == 1:

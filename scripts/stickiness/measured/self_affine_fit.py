@@ -1,12 +1,12 @@
 """Hurst exponent and prefactor of a measured spectrum, by Whittle's likelihood.
 
-A mode of the periodogram of a Gaussian surface is exponentially distributed about C(q), the mean
-of nu independent ones has a Gamma law of shape nu. Least squares on its logarithm are biased by
-digamma(nu) - ln(nu) (-0.58 for a single mode); the likelihood
--sum nu (ln C + I/C) (Whittle 1953, doi:10.1007/BF02590998) is not. The modes at high q are so
-many that they alone would settle the exponent of a spectrum that is no power law; so a ring of
-modes counts nu/(1 + nu tau^2), with tau the rms misfit beyond sampling, found from the rings'
-scatter (Paule & Mandel 1982, doi:10.6028/jres.087.022).
+A mode of the periodogram of a Gaussian surface is exponentially distributed about C(q); the mean
+of nu independent modes has a Gamma distribution of shape nu. Least squares on its logarithm are
+biased by digamma(nu) - ln(nu) (-0.58 for a single mode); the likelihood -sum nu (ln C + I/C)
+(Whittle 1953, doi:10.1007/BF02590998) is not. There are so many modes at high q that they alone
+would determine the exponent, even of a spectrum that is no power law. So a ring of modes has the
+weight nu/(1 + nu tau^2), with tau the rms misfit beyond sampling, found from the scatter of the
+rings (Paule & Mandel 1982, doi:10.6028/jres.087.022).
 """
 
 from __future__ import annotations
@@ -22,11 +22,11 @@ from stickiness.measured import whittle
 from stickiness.measured.psd import PowerSpectrum, RadialPSD, merge_rings, radial_average
 from stickiness.surfaces.spectrum import SelfAffine
 
-LOWEST_MODES = 4  # lattice steps left out at low q if the spectrum was windowed
+LOWEST_MODES = 4  # lattice steps left out at low q if the heights were tapered
 NYQUIST_SHARE = 0.5  # default highest q over q_Nyquist
 ROLLOFF_AIC = 10.0  # gain in AIC below which the simpler model is kept
-LARGE_MISFIT = 0.3  # relative; from here a power law is a caricature of the spectrum
-LARGE_ANISOTROPY = 0.5  # C along and across the lay then differ threefold
+LARGE_MISFIT = 0.3  # relative; above, a power law describes the spectrum badly
+LARGE_ANISOTROPY = 0.5  # C along and across the lay then differ by a factor of three
 
 _FINE = 200  # narrow rings per decade: C varies by 4 % across one, its mean by 7e-5
 
@@ -38,7 +38,7 @@ class HurstLine:
     Attributes
     ----------
     hurst : float
-        The exponent that was imposed.
+        The imposed exponent.
     c0, c0_se : float
         Least squares of ln C over logarithmic rings of equal weight, corrected for the bias of
         the logarithm, and its standard error from the scatter about the line
@@ -69,7 +69,7 @@ class HurstLine:
         return float(self.q[np.argmax(self.c0_of_q)])
 
     def below(self, c0: float) -> NDArray:
-        """Tell for each ring whether the spectrum lies under the line of prefactor `c0`."""
+        """Whether the spectrum lies below the line of prefactor `c0`, ring by ring."""
         return self.c0_of_q < c0
 
 
@@ -80,7 +80,7 @@ class SelfAffineFit:
     Attributes
     ----------
     hurst, hurst_se : float
-        Hurst exponent as fitted (it may fall outside 0 < H <= 1) and its standard error.
+        Hurst exponent as fitted (it may be outside 0 < H <= 1) and its standard error.
     c0, c0_se : float
         Prefactor [length^(2 - 2H), so its unit depends on H] and its standard error.
     log_covariance : (2, 2) or (3, 3) array
@@ -89,17 +89,17 @@ class SelfAffineFit:
     q_min, q_max : float
         Lowest and highest wave number used [1/length].
     q_rolloff : float or None
-        End of the plateau [1/length]; None if the data do not ask for one.
+        End of the plateau [1/length]; None if the data show none.
     dof : float
-        Independent modes in the range.
+        Independent modes in the fit interval.
     dispersion : float
         Mean square misfit of rings (ten a decade) over that of sampling alone: about 1 for an
-        isotropic Gaussian power law, below 1 with a window (it correlates the modes of a ring
+        isotropic Gaussian power law, below 1 with a taper (it correlates the modes of a ring
         less than `dof` assumes).
     misfit : float
-        Relative rms departure of the spectrum from the fitted law beyond sampling noise; 0 if
-        sampling explains it all. Every ring's weight is limited to 1/misfit^2, and the standard
-        errors grow with it: where the law fails, no number of modes pins its exponent down.
+        Relative rms departure of the spectrum from the fit beyond sampling noise; 0 if sampling
+        explains it all. Every ring's weight is limited to 1/misfit^2, and the standard errors
+        grow with it: more modes do not determine the exponent of a spectrum that is no power law.
     aic_gain : float
         Akaike's criterion without plateau minus with one; positive speaks for a plateau.
         NaN if not compared.
@@ -140,7 +140,7 @@ class SelfAffineFit:
         return self.c0 * q ** (-2 * (self.hurst + 1))
 
     def spectrum(self, q0: float | None = None, q1: float | None = None) -> SelfAffine:
-        """Return the fit as a `SelfAffine` spectrum, from q_min to q_max unless told otherwise."""
+        """Return the fit as a `SelfAffine` spectrum, by default from `q_min` to `q_max`."""
         if not self.is_self_affine:
             raise ValueError(f"hurst must be in 0 < H <= 1 for a spectrum, fitted {self.hurst:.3f}")
         return SelfAffine(
@@ -154,7 +154,7 @@ class SelfAffineFit:
     def c0_at_hurst(self, hurst: float = 0.8, bins_per_decade: float = 10) -> HurstLine:
         """Prefactors at an imposed exponent, in a unit that can be compared between surfaces.
 
-        The line's level is taken above `q_rolloff`, the values ring by ring over the whole range.
+        The line is fitted above `q_rolloff`; the values of the rings cover the whole fit interval.
 
         Raises
         ------
@@ -167,8 +167,7 @@ class SelfAffineFit:
         level = rings.psd * rings.q ** (2 * (hurst + 1))
         q, mean, dof = merge_rings(rings, level, bins_per_decade)
         sloped = q >= (0.0 if self.q_rolloff is None else self.q_rolloff)
-        logs = np.log(mean) - special.digamma(dof) + np.log(dof)
-        logs = logs[sloped]
+        logs = (np.log(mean) - special.digamma(dof) + np.log(dof))[sloped]
         scatter = np.std(logs, ddof=1) if len(logs) > 1 else np.nan
         c0 = float(np.exp(logs.mean()))
         se = c0 * float(scatter / np.sqrt(len(logs)))
@@ -188,8 +187,8 @@ def fit_self_affine(
     spectrum : PowerSpectrum
         From `psd.power_spectrum`.
     q_min : float, optional
-        Lowest wave number used [1/length]. Default: the lowest of the lattice without a window;
-        with one four lattice steps, below which the window and levelling change the spectrum.
+        Lowest wave number used [1/length]. Default: the lowest of the lattice without a taper;
+        with one four lattice steps, below which the taper and levelling change the spectrum.
     q_max : float, optional
         Highest wave number used [1/length]. Default: half of `q_nyquist`, above which aliasing
         and the instrument's finite resolution bend the spectrum. Give less for a blunt tip.
@@ -199,29 +198,33 @@ def fit_self_affine(
     Raises
     ------
     ValueError
-        If fewer than five rings (ten a decade) or 20 independent modes lie in the range, or the
-        spectrum vanishes there.
+        If fewer than five rings (ten a decade) or 20 independent modes lie in the fit interval,
+        or the spectrum vanishes there.
     """
-    return fit_rings(narrow_rings(spectrum), *fit_range(spectrum, q_min, q_max), rolloff)
+    step = max(spectrum.dqx, spectrum.dqy)
+    if q_min is None:
+        q_min = (LOWEST_MODES if spectrum.blur else 1) * step
+    if q_max is None:
+        q_max = NYQUIST_SHARE * spectrum.q_nyquist
+    return fit_rings(narrow_rings(spectrum), q_min, q_max, rolloff)
 
 
 def fit_rings(
     rings: RadialPSD, q_min: float, q_max: float, rolloff: bool | None = None
 ) -> SelfAffineFit:
-    """Fit a self-affine spectrum to rings, of whatever measurement they come.
+    """Fit a self-affine spectrum to the rings of any measurement.
 
     Parameters
     ----------
     rings : RadialPSD
-        Rings that are narrow against the changes of C, in ascending order: C is taken to be the
-        law at `rings.q`.
+        Rings so narrow that their mean C is C at `rings.q`, in ascending order.
     q_min, q_max : float
-        Lowest and highest wave number used [1/length].
+        Fit interval [1/length].
     rolloff : bool, optional
         As in `fit_self_affine`, which also says what is raised.
     """
     rings = _within(rings, q_min, q_max)
-    # ln q from the middle of the data, where the exponent and the level are least correlated.
+    # ln q about the middle of the data, where exponent and level are least correlated.
     scale = float(np.exp(np.average(np.log(rings.q), weights=rings.dof)))
     x = np.log(rings.q / scale)
     plain, plain_misfit = whittle.weighted_fit(whittle.fit_power_law, x, rings)
@@ -233,15 +236,15 @@ def fit_rings(
             raise ValueError("rolloff=True needs a wider range of q: lower q_min or raise q_max")
         return _result(rings, scale, plain, plain_misfit, np.nan)
     bent, bent_misfit = whittle.weighted_fit(partial(whittle.fit_rolloff, room), x, rings)
-    judged = whittle.limit_weight(rings, bent_misfit)
-    gain = 2 * (whittle.deviance(x, judged, *plain) - whittle.deviance(x, judged, *bent)) - 2
+    limited = whittle.limit_weight(rings, bent_misfit)
+    gain = 2 * (whittle.deviance(x, limited, *plain) - whittle.deviance(x, limited, *bent)) - 2
     if rolloff or gain > ROLLOFF_AIC:
         return _result(rings, scale, bent, bent_misfit, gain)
     return _result(rings, scale, plain, plain_misfit, gain)
 
 
 def remarks(fit: SelfAffineFit, anisotropy: float = 0.0) -> list[str]:
-    """Say, in one line each, what keeps a surface from being isotropic and self-affine.
+    """One line for each reason why a surface is not isotropic and self-affine.
 
     Parameters
     ----------
@@ -271,27 +274,17 @@ def narrow_rings(spectrum: PowerSpectrum) -> RadialPSD:
     return radial_average(spectrum, bins_per_decade=_FINE)
 
 
-def fit_range(
-    spectrum: PowerSpectrum, q_min: float | None = None, q_max: float | None = None
-) -> tuple[float, float]:
-    """Return the range of wave numbers that `fit_self_affine` uses."""
-    step = max(spectrum.dqx, spectrum.dqy)
-    low = (LOWEST_MODES if spectrum.blur else 1) * step if q_min is None else q_min
-    high = NYQUIST_SHARE * spectrum.q_nyquist if q_max is None else q_max
-    return low, high
-
-
 def _within(rings: RadialPSD, low: float, high: float) -> RadialPSD:
     if not 0 < low < high:
         raise ValueError(f"need 0 < q_min < q_max, got q_min = {low:.6g}, q_max = {high:.6g}")
     # The slack keeps modes exactly on a limit, whatever the rounding of |q|.
     low, high = low * (1 - 1e-9), high * (1 + 1e-9)
     rings = rings.between(low, high)
-    decades = len(merge_rings(rings, rings.psd, whittle.COARSE)[0]) if len(rings) else 0
-    if decades < 5 or rings.dof.sum() < 20:
+    wide = len(merge_rings(rings, rings.psd, whittle.COARSE)[0]) if len(rings) else 0
+    if wide < 5 or rings.dof.sum() < 20:
         raise ValueError(
             f"too few modes between q_min = {low:.6g} and q_max = {high:.6g} for a fit: "
-            f"{rings.dof.sum():.0f} independent ones in {decades} rings, need 20 in 5"
+            f"{rings.dof.sum():.0f} independent ones in {wide} rings, need 20 in 5"
         )
     if not np.all(rings.psd > 0):
         raise ValueError(f"the spectrum vanishes at q = {rings.q[np.argmin(rings.psd)]:.6g}")

@@ -1,9 +1,8 @@
 """Moments of a measured spectrum and their uncertainty, by drawing spectra that agree with it.
 
-A draw is one spectrum that might be the surface's: each ring by its sampling law, the whole of each
-measurement by what separates measurements, the law beyond the instrument's band by the covariance
-of its fit, the end of the plateau likewise. Whatever follows from the spectrum follows from each
-draw, so that errors that belong together stay together.
+In each draw, every ring varies by its sampling error, every measurement by the scatter between
+measurements, the extrapolated part and the end of the plateau by the covariance of the fit.
+All that follows from the spectrum is computed for each draw, so that correlated errors stay so.
 """
 
 from __future__ import annotations
@@ -31,7 +30,7 @@ class Draws:
         the last of full contact per area over E*.
     q0 : (n,) array
         Lowest wave number of the self-affine range [1/length]: the end of the plateau if one was
-        found, else the lowest that was measured, which is the scan's and carries no error.
+        found, else the lowest of the scan, without error.
     """
 
     moments: dict[str, NDArray]
@@ -63,12 +62,12 @@ def draw(
     stitched : Stitched, optional
         Where the spectrum comes from several measurements.
     extend_to : float, optional
-        Highest wave number to which the fitted law carries on beyond the cutoff [1/length].
+        Highest wave number to which the fit extrapolates the spectrum [1/length].
 
     Raises
     ------
     ValueError
-        If the law is to be carried on, but is not self-affine or does not begin below.
+        If the fit is to extrapolate, but is not self-affine or `extend_to` is below the cutoff.
     """
     if extend_to is not None:
         check_extension(spectrum, extend_to)
@@ -78,7 +77,7 @@ def draw(
     law = _laws(spectrum, count, rng)
     moments = {}
     for name, order in ORDERS.items():
-        # Slope, curvature and energy are of waves up to the cutoff: beyond, the instrument decides.
+        # Beyond the cutoff slope, curvature and energy would be the instrument's.
         inside = rings.q <= (np.inf if order == 0 and extend_to is None else top)
         variance = (levels * np.where(inside, spectrum.area * rings.q**order, 0.0)).sum(1)
         if extend_to is not None:
@@ -91,11 +90,11 @@ def draw(
 
 
 def check_extension(spectrum: MeasuredSpectrum, extend_to: float) -> None:
-    """Raise ValueError if the fitted law cannot be carried on to the wave number `extend_to`."""
+    """Raise ValueError if the fit cannot extrapolate the spectrum to `extend_to` [1/length]."""
     if not spectrum.fit.is_self_affine:
         raise ValueError(
-            f"extend_to: the fitted H = {spectrum.fit.hurst:.2f} is no self-affine surface's, the "
-            "law cannot be carried on; leave extend_to out or narrow fit_from … fit_to"
+            f"extend_to: the fitted H = {spectrum.fit.hurst:.2f} is no self-affine surface's and "
+            "cannot extrapolate the spectrum; leave extend_to out or narrow fit_from … fit_to"
         )
     if not extend_to > spectrum.cutoff.q:
         raise ValueError(
@@ -108,15 +107,15 @@ def _relative(
     spectrum: MeasuredSpectrum, count: int, rng: np.random.Generator, stitched: Stitched | None
 ) -> NDArray:
     """Drawn over measured C in every ring (count, m)."""
-    # The mean of dof exponential values has the relative variance 1/dof. A log-normal law of that
-    # mean and variance stays positive without the far tail that the posterior of a single mode
-    # has: the scan does know the variance of its own heights.
+    # The mean of dof exponential values has the relative variance 1/dof. A log-normal distribution
+    # of that mean and variance is positive and lacks the far tail of the posterior of a single
+    # mode: the variance of the scan's own heights is known.
     variance = np.log1p(1 / spectrum.rings.dof)
     own, logs = variance, 0.0
     if stitched is not None:
         tau = np.nan_to_num(stitched.scatter)
         logs = rng.normal(size=(count, len(stitched.shares))) * tau @ stitched.shares
-        # The rings' errors hold the offsets already, as if they were independent.
+        # The errors of the rings already hold the offsets, as if these were independent.
         own = np.maximum(variance - tau**2 * np.sum(stitched.shares**2, axis=0), 0.0)
     normal = rng.normal(size=(count, len(variance)))
     return np.exp(logs + normal * np.sqrt(own) - variance / 2)

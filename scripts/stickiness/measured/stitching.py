@@ -1,8 +1,8 @@
 """Several measurements of one surface as one spectrum.
 
-Measurements at different magnifications see different wave numbers of one surface, at different
-places. Where they overlap, ln C is averaged with weights 1/(sampling variance + tau^2); tau is what
-separates them as a whole: place, calibration, instrument (Jacobs, Junge & Pastewka 2017,
+Measurements at different magnifications cover different wave numbers at different places. Where
+they overlap, ln C is averaged with weights 1/(sampling variance + tau^2), in which tau is the
+scatter between measurements: place, calibration, instrument (Jacobs, Junge & Pastewka 2017,
 doi:10.1088/2051-672X/aa51f8, recommend geometric averages of spectra).
 """
 
@@ -31,13 +31,13 @@ class Stitched:
     Attributes
     ----------
     spectrum : MeasuredSpectrum
-        The whole; `fit`'s errors include what separates the measurements.
+        The whole; the errors of `fit` include the scatter between measurements.
     levels : (k, m) array
         C of each measurement in the rings of `spectrum`, NaN outside its band [length^4].
     offsets : (k,) array
-        Mean of ln C less the stitched one, where others were measured too; NaN if nowhere.
+        Mean of ln C minus the stitched one, where measurements overlap; NaN if they do not.
     shares : (k, m) array
-        Weight of each measurement in each ring, 1 in all.
+        Weight of each measurement in each ring; the sum over measurements is 1.
     scatter : float
         tau, standard deviation of the offsets in ln C between measurements; NaN if no two overlap.
     """
@@ -52,8 +52,8 @@ class Stitched:
 def stitch(measurements: Sequence[MeasuredSpectrum]) -> Stitched:
     """Log-average several measurements of one surface into one spectrum.
 
-    Each counts between its `q_min` and its cutoff only; below, the one that reaches lowest goes on
-    to its lowest wave number, where the heights' variance is.
+    Each counts between its `q_min` and its cutoff. The one of the lowest wave numbers also counts
+    below its `q_min`, where most of the variance of the heights is.
 
     Raises
     ------
@@ -63,7 +63,7 @@ def stitch(measurements: Sequence[MeasuredSpectrum]) -> Stitched:
     Notes
     -----
     The errors of the fit are those of the rings plus, for each measurement, the change of the fit
-    when it alone is raised by tau: offsets tilt the spectrum, and no number of modes tells.
+    when it alone is raised by tau: offsets tilt the spectrum.
     """
     if len(measurements) < 2:
         raise ValueError(f"stitching needs two measurements at least, got {len(measurements)}")
@@ -93,22 +93,17 @@ def stitch(measurements: Sequence[MeasuredSpectrum]) -> Stitched:
         q_min=fit.q_min,
         cutoff=replace(top.cutoff, q=fit.q_max),
         lowest=q_low,
-        anisotropy=float(_largest([m.anisotropy for m in measurements])),
+        anisotropy=float(np.fmax.reduce([m.anisotropy for m in measurements])),
         fit=fit,
     )
     levels = np.exp(logs + special.digamma(rings.dof) - np.log(rings.dof))
     return Stitched(whole, levels, offsets, _shares(variances, tau2), tau)
 
 
-def _largest(values: list[float]) -> float:
-    known = [value for value in values if np.isfinite(value)]
-    return max(known, default=np.nan)
-
-
 def _on_common_rings(
     measurements: Sequence[MeasuredSpectrum], broadest: MeasuredSpectrum, q_low: float
 ) -> tuple[NDArray, NDArray, NDArray, NDArray]:
-    """Logarithm of C, its sampling variance (k, m), the rings (m,), and where there is any."""
+    """Logarithm of C and its variance (k, m), wave numbers (m,), where there are data (k, m)."""
     top = max(m.cutoff.q for m in measurements)
     count = int(np.ceil(np.log10(top / q_low) * RINGS)) + 1
     centres = q_low * 10 ** (np.arange(count) / RINGS)
@@ -120,7 +115,7 @@ def _on_common_rings(
         rings = measurement.narrow.between(low / slack, measurement.cutoff.q * slack)
         index = np.rint(np.log10(rings.q / q_low) * RINGS).astype(int)
         dof = np.bincount(index, weights=rings.dof, minlength=count)
-        # The mean of C over a ring is not C at its middle: without the slope it nearly is.
+        # The mean of C over a ring differs from C at its middle unless the slope is taken out.
         level = rings.dof * rings.psd * (rings.q / centres[index]) ** REFERENCE_EXPONENT
         sums = np.bincount(index, weights=level, minlength=count)
         here = (dof > 0) & (sums > 0)
@@ -150,7 +145,7 @@ def _shares(variances: NDArray, tau2: float) -> NDArray:
 def _between(logs: NDArray, variances: NDArray) -> float:
     """Variance between measurements, from the mean offsets of all pairs that overlap.
 
-    An offset smaller than its own sampling error cannot be told from none, and counts as that.
+    An offset smaller than its sampling error counts as that error.
     """
     squares = []
     for j, k in combinations(range(len(logs)), 2):
@@ -163,10 +158,7 @@ def _between(logs: NDArray, variances: NDArray) -> float:
 
 
 def _as_rings(q: NDArray, mean: NDArray, error2: NDArray) -> RadialPSD:
-    """Rings of Gamma laws whose logarithm has this mean and variance.
-
-    Where there is one measurement only, these are its own rings again.
-    """
+    """Rings whose ln C has this mean and variance; those of a single measurement are its own."""
     dof = _inverse_trigamma(error2)
     level = np.exp(mean + special.digamma(dof) - np.log(dof))
     modes = np.maximum(np.rint(dof), 1).astype(int)

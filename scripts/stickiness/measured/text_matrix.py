@@ -39,7 +39,7 @@ def parse(path: Path) -> TextMatrix:
 
     Lines that begin with #, % or // are comments, and so are lines before the first row that do
     not begin with a number. Among them "Width: 10 µm", "Height: 10 µm" and "Value units: m", as
-    Gwyddion exports them, are understood. Decimal commas are, if the separator is another.
+    Gwyddion exports them, are read. Decimal commas are allowed if the separator is another.
     Missing points may be written as NaN, ---, *** or left empty between tabs, semicolons or commas.
 
     Raises

@@ -32,8 +32,25 @@ from stickiness.measured.readers import Length, Raw, metres, sides
 _WGS84_A, _WGS84_E2 = 6378137.0, 6.69437999014e-3  # semi-major axis [m], eccentricity squared
 
 
+class _Heights:
+    """What maps and profiles have in common."""
+
+    heights: NDArray
+    missing: int
+
+    @property
+    def h_rms(self) -> float:
+        """Root mean square height about the mean [m]."""
+        return float(np.std(self.heights))
+
+    @property
+    def missing_fraction(self) -> float:
+        """Share of the points that were missing."""
+        return self.missing / self.heights.size
+
+
 @dataclass(frozen=True)
-class Topography:
+class Topography(_Heights):
     """Heights of a surface on a rectangular grid.
 
     Attributes
@@ -43,7 +60,7 @@ class Topography:
     dx, dy : float
         Grid steps along x and y [m].
     source : str
-        File (and variable) the heights came from.
+        File (and variable) of the heights.
     missing : int
         Number of points that were missing and have been interpolated.
     cropped : float
@@ -65,23 +82,13 @@ class Topography:
         """Sides along x and y [m]."""
         return self.heights.shape[0] * self.dx, self.heights.shape[1] * self.dy
 
-    @property
-    def h_rms(self) -> float:
-        """Root mean square height about the mean [m]."""
-        return float(np.std(self.heights))
-
-    @property
-    def missing_fraction(self) -> float:
-        """Share of the points that were missing."""
-        return self.missing / self.heights.size
-
     def detrended(self, kind: Detrend = "plane") -> Topography:
         """Return the topography levelled by `detrend`."""
         return replace(self, heights=detrend(self.heights, kind))
 
 
 @dataclass(frozen=True)
-class Profile:
+class Profile(_Heights):
     """Heights along a line, evenly spaced.
 
     Attributes
@@ -91,14 +98,12 @@ class Profile:
     dx : float
         Step [m].
     source : str
-        File (and variable or channel) the heights came from.
-    missing : int
-        Number of points that were missing and have been interpolated.
+        File (and variable or channel) of the heights.
+    missing, dropped : int
+        As in `Topography`.
     largest_gap : float
         Largest distance between neighbouring points as measured [m]; above `dx` if they were
         unevenly spaced and have been interpolated.
-    dropped : int
-        Number of points that were measured beside missing ones and not used.
     """
 
     heights: NDArray
@@ -112,16 +117,6 @@ class Profile:
     def length(self) -> float:
         """Length of the line [m]."""
         return len(self.heights) * self.dx
-
-    @property
-    def h_rms(self) -> float:
-        """Root mean square height about the mean [m]."""
-        return float(np.std(self.heights))
-
-    @property
-    def missing_fraction(self) -> float:
-        """Share of the points that were missing."""
-        return self.missing / len(self.heights)
 
     def detrended(self, kind: Detrend = "plane") -> Profile:
         """Return the profile levelled by `detrend_profile`."""
@@ -168,14 +163,14 @@ def read(
     missing_value : float, optional
         Number that marks missing points, besides NaN and masked values.
     missing : {"fill", "crop", "refuse"}
-        What to do about missing points. "fill": interpolate harmonically from the neighbours,
-        which is smooth and takes out roughness there. "crop": keep the largest rectangle (or
-        stretch of a profile) without any. "refuse": raise.
+        "fill": interpolate missing points harmonically from their neighbours, which smooths the
+        surface there. "crop": keep the largest rectangle (or stretch of a profile) without any.
+        "refuse": raise.
     max_missing : float
         Largest share of missing points, those dropped included, that may be filled.
     missing_rim : int or "detect"
-        How far around missing points those that were measured are dropped [points]; as far as
-        they stand out.
+        Width of the rim around missing points in which measured points are dropped [points];
+        "detect" as in `levelling.without_rims`.
 
     Returns
     -------
@@ -213,15 +208,13 @@ def read(
     heights = raw.heights
     if missing_value is not None:
         heights = np.where(heights == missing_value, np.nan, heights)
-    limit = 0.0 if missing == "refuse" else max_missing
+    rule = missing, missing_rim, 0.0 if missing == "refuse" else max_missing, raw.source
     if heights.ndim == 1:
-        x = _positions(raw, length, pixel_size, position_unit)
-        found = _profile(x, heights, missing, missing_rim, limit, raw.source)
+        found = _profile(_positions(raw, length, pixel_size, position_unit), heights, *rule)
     else:
-        found = _map(
-            heights, _steps(raw, length, pixel_size), missing, missing_rim, limit, raw.source
-        )
-    found = replace(found, heights=found.heights * _height_scale(raw, height_unit))
+        found = _map(heights, _steps(raw, length, pixel_size), *rule)
+    scale = _scale(raw.source, "height_unit", height_unit, raw.unit)
+    found = replace(found, heights=found.heights * scale)
     if np.ptp(found.heights) == 0:
         flat = found.heights.flat[0]
         raise ValueError(f"{raw.source}: all heights are {flat:g} m; nothing to analyse")
@@ -273,7 +266,7 @@ def _positions(
     pixel_size: Length | Sequence[Length] | None,
     position_unit: str | None,
 ) -> NDArray:
-    """Positions of a profile's points [m], as the caller says, else as the file does."""
+    """Positions of a profile's points [m], from the caller or else from the file."""
     n = len(raw.heights)
     if length is not None:
         return np.arange(n) * sides(length, (n,), f"{raw.source}: length")[0] / n
@@ -288,20 +281,16 @@ def _positions(
     return raw.positions * _scale(raw.source, "position_unit", position_unit, raw.position_unit)
 
 
-def _height_scale(raw: Raw, height_unit: str | None) -> float:
-    return _scale(raw.source, "height_unit", height_unit, raw.unit)
-
-
-def _scale(source: str, key: str, given: str | None, told: str | None) -> float:
-    """Metres per unit, given by the caller or told by the file, which must not disagree."""
-    units = [unit for unit in (given, told) if unit is not None]
+def _scale(source: str, key: str, given: str | None, in_file: str | None) -> float:
+    """Metres per unit, from the caller or the file, which must agree."""
+    units = [unit for unit in (given, in_file) if unit is not None]
     if not units:
         what = key.replace("_unit", "")
         raise ValueError(f"{source}: the file does not tell the unit of {what}; give {key}")
     scales = [metres(f"1 {unit}", f"{source}: {key}") for unit in units]
     if not np.isclose(scales[0], scales[-1], rtol=1e-12, atol=0):
         raise ValueError(
-            f"{source}: {key} = {given!r}, but the file says {told!r}; "
+            f"{source}: {key} = {given!r}, but the file says {in_file!r}; "
             f"leave {key} out, or correct the file"
         )
     return scales[0]
@@ -313,8 +302,7 @@ def jacksboro() -> Topography:
     344 x 403 points (SRTM, 3 arc seconds); the steps in degrees are converted on the WGS 84
     ellipsoid at the mean latitude, so that they differ along x (west to east) and y.
     """
-    # Only this reader needs matplotlib.
-    from matplotlib import cbook
+    from matplotlib import cbook  # nothing else here needs it
 
     with cbook.get_sample_data("jacksboro_fault_dem.npz") as data:
         latitude = np.deg2rad((float(data["ymin"]) + float(data["ymax"])) / 2)
@@ -338,7 +326,7 @@ def _steps(
     length: Length | Sequence[Length] | None,
     pixel_size: Length | Sequence[Length] | None,
 ) -> tuple[float, ...]:
-    """Grid steps [m] as the caller says, else as the file does."""
+    """Grid steps [m], from the caller or else from the file."""
     shape = raw.heights.shape
     if length is not None:
         size = sides(length, shape, f"{raw.source}: length")

@@ -1,6 +1,6 @@
-"""Whittle's likelihood for power laws: rings with Gamma laws, limited in weight by their misfit.
+"""Whittle's likelihood of power laws, with weights limited by the misfit.
 
-The parts of `selfaffine`, which says why.
+`self_affine_fit` says why, and puts the parts together.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from scipy import optimize
 
 from stickiness.measured.psd import RadialPSD, merge_rings, wide_rings
 
-COARSE = 10  # rings per decade in which misfit is judged
+COARSE = 10  # rings per decade for the misfit
 
 _ALTERNATIONS = 20
 _SLOPES = (-1e3, 1e3)  # bracket of the exponent s in C ~ q^-s; wide, plateaus are tried anywhere
@@ -37,7 +37,7 @@ def fit_power_law(x: NDArray, rings: RadialPSD) -> tuple[float, float]:
 
 
 def rolloff_room(x: NDArray, rings: RadialPSD) -> tuple[float, float] | None:
-    """Where a plateau may end: with some modes to stand on, a tenth of a decade before the end."""
+    """Interval in which a plateau may end: above four modes, a tenth of a decade below the top."""
     inside = x[(np.cumsum(rings.dof) > 4) & (x < x[-1] - np.log(10) / 10)]
     return (float(inside[0]), float(inside[-1])) if len(inside) > 1 else None
 
@@ -64,10 +64,9 @@ def weighted_fit(fit: Callable, x: NDArray, rings: RadialPSD) -> tuple[tuple[flo
     parameters = fit(x, rings)
     for _ in range(_ALTERNATIONS):
         new = rms_misfit(rings, power_law(x, *parameters), len(parameters))
-        done = abs(new - misfit) <= 0.01 * new  # far below what the scatter tells of it
+        if abs(new - misfit) <= 0.01 * new:  # far below the error of the misfit
+            return parameters, new
         misfit = new
-        if done:
-            break
         parameters = fit(x, limit_weight(rings, misfit))
     return parameters, misfit
 

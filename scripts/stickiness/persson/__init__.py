@@ -1,4 +1,10 @@
-"""Persson's theory of contact: area, mean gap and distribution of gaps of a spectrum."""
+"""Persson's theory of contact: area, mean gap and distribution of gaps of a spectrum.
+
+- `theory`: the class `Persson`
+- `gaps`: gaps, from where contact is lost scale by scale
+- `kernels`: universal functions, tabulated once
+- `scale_quadrature`: quadrature over the scales
+"""
 
 from stickiness.persson.theory import Persson
 

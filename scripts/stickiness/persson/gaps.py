@@ -1,6 +1,6 @@
-"""Where contact is lost, scale by scale, in Persson's setting, and the gaps that opens.
+"""Where Persson's theory loses contact, scale by scale, and the gaps that opens.
 
-The sums and integrals behind `persson.Persson`; see there for the relations.
+These are the sums and integrals behind `persson.Persson`; `theory` has the relations.
 """
 
 from __future__ import annotations

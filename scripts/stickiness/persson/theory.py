@@ -16,7 +16,7 @@ shells do not have, drops out):
     u1   = (2/sqrt(pi)) int d(-1/q) F(p(m)/s) (s + a/(2 s)),   s^2 = m(q) - m,  a = -A/(dA/dm),
 
 the integral running from q(m) up and ending with a jump of -1/q to zero at q1. T and K belong to
-the correction of the theory, see `persson_kernels`.
+the correction of the theory, see `kernels`.
 
 Between the finest scale and the rms height, h(zeta) << u << h_rms, contact is lost at the
 magnification z at gaps u1 ~ z^(-H) while A ~ z^(H-1), so that P ~ u^((1-2H)/H) and the area within
@@ -37,6 +37,7 @@ from scipy.optimize import brentq
 from scipy.special import erf
 
 from stickiness.core.arguments import finite, nonnegative, number, positive
+from stickiness.core.plausibility import warn_of_pressure
 from stickiness.persson.gaps import GapProfile, Setting, closure_error, gap_profile
 from stickiness.persson.gaps import cumulative as _cumulative
 from stickiness.persson.gaps import density as _density
@@ -72,7 +73,7 @@ class Persson:
         spectra broader than about 1e5, P(u) errs by 5e-6, its integral by 2e-7 of the open area.
     correction : {"yang2008", "wang2017", "xu2024"}
         How lost contact slows the diffusion of pressure and lowers the elastic energy:
-        `persson_kernels.Yang2008` (doi:10.1088/0953-8984/20/21/215214), `Wang2017` or `Xu2024`.
+        `kernels.Yang2008` (doi:10.1088/0953-8984/20/21/215214), `Wang2017` or `Xu2024`.
 
     Raises
     ------
@@ -132,6 +133,7 @@ class Persson:
         (p,) = finite(p=p)
         if not np.all(p >= 0):
             raise ValueError(f"p must be finite and not negative, got {p!r}")
+        warn_of_pressure(float(np.max(p, initial=0.0)), self.spectrum.rms_slope)
         m = self._setting.m2
         if magnification is not None:
             if np.ndim(magnification) or not magnification >= 1:

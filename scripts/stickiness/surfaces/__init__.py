@@ -1,1 +1,5 @@
-"""Random rough surfaces: spectra, their moments, and heights with a given spectrum."""
+"""Random rough surfaces: spectra, their moments, and heights with a given spectrum.
+
+- `spectrum`: isotropic power spectral densities and their moments
+- `synthesis`: heights on a periodic square, and the spectrum that they hold
+"""

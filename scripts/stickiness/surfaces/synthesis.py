@@ -20,6 +20,7 @@ from stickiness.surfaces.spectrum import Shells, Spectrum
 
 Amplitudes = Literal["gaussian", "fixed"]
 
+_MOST_WAVES = 2**15  # along a side; beyond, a list of all modes leaves no memory
 _ROUNDING = 1e-9  # relative slack on band limits that coincide with lattice wave numbers
 
 
@@ -99,14 +100,14 @@ def synthesise(
     ValueError
         If the window or the grid cannot hold the band, or an argument is out of range.
     """
-    _check_window(spectrum, length)
+    check_window(spectrum, length)
     n, seed = integer("n", n, least=2), integer("seed", seed, least=0)
     _check_grid(spectrum, n, length)
     if amplitudes not in ("gaussian", "fixed"):
         raise ValueError(f"amplitudes must be 'gaussian' or 'fixed', got {amplitudes!r}")
-    i, j, variance = _half_plane_modes(spectrum, length)
-    modes = _draw(variance, seed, amplitudes)
-    heights = _evaluate(i, j, modes, n)
+    i, j, variance = list_modes(spectrum, length)
+    modes = draw_modes(variance, seed, amplitudes)
+    heights = sum_modes(i, j, modes, n)
     if spectrum.prescribed == "h_rms":
         heights *= spectrum.h_rms / np.sqrt(2 * np.sum(np.abs(modes) ** 2))
     return heights
@@ -118,8 +119,8 @@ def lattice_spectrum(spectrum: Spectrum, length: float) -> Shells:
     Each wave vector carries C(q) (2 pi/length)^2. If `spectrum` was prescribed by its h_rms, the
     shells are scaled to that height, as `synthesise` scales its surfaces.
     """
-    _check_window(spectrum, length)
-    i, j, variance = _half_plane_modes(spectrum, length)
+    check_window(spectrum, length)
+    i, j, variance = list_modes(spectrum, length)
     square, shell = np.unique(i**2 + j**2, return_inverse=True)
     total = 2 * np.bincount(shell, weights=variance)  # each mode and its mirror image
     if spectrum.prescribed == "h_rms":
@@ -182,7 +183,7 @@ def resample(heights: NDArray, n: int) -> NDArray:
     return fft.ifft2(fine).real * n**2
 
 
-def _check_window(spectrum: Spectrum, length: float) -> None:
+def check_window(spectrum: Spectrum, length: float) -> None:
     if not isinstance(spectrum, Spectrum):
         raise ValueError(f"spectrum must be a Spectrum, got {type(spectrum).__name__}")
     length = number("length", length)
@@ -204,7 +205,7 @@ def _check_grid(spectrum: Spectrum, n: int, length: float) -> None:
         )
 
 
-def _half_plane_modes(spectrum: Spectrum, length: float) -> tuple[NDArray, NDArray, NDArray]:
+def list_modes(spectrum: Spectrum, length: float) -> tuple[NDArray, NDArray, NDArray]:
     """Lattice indices (i, j) of the band, one of each pair +-k, by rising |k|, with variances.
 
     The order depends on |k| first, so that random numbers drawn in it stay with their modes when
@@ -214,6 +215,12 @@ def _half_plane_modes(spectrum: Spectrum, length: float) -> tuple[NDArray, NDArr
     reach = int(np.floor(spectrum.q1 / dq * (1 + _ROUNDING)))
     if reach < 1:
         raise ValueError(f"no wave vector of a window of length {length:.6g} lies in the band")
+    if reach > _MOST_WAVES:
+        raise ValueError(
+            f"length = {length:.6g} holds {reach} of the shortest waves, more than {_MOST_WAVES}: "
+            f"q0 = {spectrum.q0:.6g} and q1 = {spectrum.q1:.6g} must be in the inverse of its "
+            "unit; otherwise lower q1 or length"
+        )
     i, j = np.meshgrid(np.arange(reach + 1), np.arange(-reach, reach + 1), indexing="ij")
     half = (i > 0) | (j > 0)
     i, j = i[half], j[half]
@@ -242,7 +249,7 @@ def _mode_variance(spectrum: Spectrum, q: NDArray, dq: float) -> NDArray:
     return np.where(on_shell, (spectrum.variance / count)[shell], 0.0)
 
 
-def _draw(variance: NDArray, seed: int, amplitudes: Amplitudes) -> NDArray:
+def draw_modes(variance: NDArray, seed: int, amplitudes: Amplitudes) -> NDArray:
     """Complex amplitudes of modes of given variances; more modes leave the first ones as are."""
     draws = np.random.Generator(np.random.PCG64(seed)).standard_normal((len(variance), 2))
     modes = draws[:, 0] + 1j * draws[:, 1]  # E|modes|^2 = 2
@@ -252,7 +259,7 @@ def _draw(variance: NDArray, seed: int, amplitudes: Amplitudes) -> NDArray:
     return modes
 
 
-def _evaluate(i: NDArray, j: NDArray, modes: NDArray, n: int) -> NDArray:
+def sum_modes(i: NDArray, j: NDArray, modes: NDArray, n: int) -> NDArray:
     """Sum of modes exp(i k x) + complex conjugate on the n x n grid."""
     coefficients = np.zeros((n, n), dtype=complex)
     np.add.at(coefficients, (i % n, j % n), modes)

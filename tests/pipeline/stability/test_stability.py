@@ -21,7 +21,7 @@ from pipeline.stability.components import (
 from stability import plot_stability, probe_stability
 from stability.probe_stability import COMPONENTS
 from stickiness import spectrum
-from stickiness.accuracy import error_laws
+from stickiness.accuracy import prediction
 from stickiness.adhesion import dmt, equivalent_sphere, model_choice
 from stickiness.contact import solver
 from stickiness.core import datasets
@@ -126,7 +126,7 @@ def test_a_wrong_solver_is_detected(monkeypatch, field, factor):
     [
         ("edge-adhesion", equivalent_sphere, "effect"),
         ("dmt-limit", dmt, "attraction_of_areas"),
-        ("accuracy", error_laws, "mean_variance"),
+        ("accuracy", prediction, "mean_variance"),
         ("moduli", moduli.Prony, "storage"),
         ("a_v-table", a_v_table.AvTable, "_drift"),
         ("model-choice", model_choice.ErrorTable, "relative_error"),

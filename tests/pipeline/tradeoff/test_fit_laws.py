@@ -5,7 +5,7 @@ import pytest
 
 from pipeline.tradeoff import fit_laws
 from pipeline.tradeoff.fit_laws import Conditions, Points
-from stickiness.accuracy.error_laws import Surface
+from stickiness.accuracy.error_models import Surface
 
 
 def points_of(noise, seed=1, surfaces=24):

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from pipeline.tradeoff import seed_pool
-from stickiness.accuracy import error_laws
-from stickiness.accuracy.error_laws import Settings
+from stickiness.accuracy.error_models import Settings
+from stickiness.accuracy.quantities import MODELLED, columns_of
 
 LOADS = np.array([0.01, 0.1])
 
@@ -62,7 +62,7 @@ def test_more_seeds_of_a_repetition_hold_those_of_fewer():
 
 
 def test_quantities_are_those_of_the_table():
-    names = {column for columns in error_laws.QUANTITIES.values() for column in columns}
+    names = set(columns_of(MODELLED))
     found = make_pool().by_quantity(np.ones(4))
     assert {name for name, _ in found} <= names
     assert set(found.values()) == {1.0}

@@ -7,7 +7,7 @@ from scipy import optimize
 
 from adhesion import average_adhesive, solve_adhesive
 from pipeline.adhesion_sets import scaled_law
-from pipeline.dmt_limit import DmtLimit, fitted, linearity_error
+from pipeline.dmt_limit import DmtLimit, fit_slope, linearity_error
 from stickiness import adhesive, dmt, repulsive, spectrum, surface
 from stickiness.accuracy import multilevel
 from stickiness.adhesion import edge_zone
@@ -38,7 +38,7 @@ def solved(heights, curve=None, **changes):
     states = states.assign(rms_slope=2.0).expand_dims(seed=[3], resolution=[8.0])
     linear = states.area_alone.squeeze() < 1
     curve = load_curve(heights) if curve is None else curve
-    return average_adhesive.with_slopes(states, curve, linear.expand_dims("pressure"))
+    return average_adhesive.add_slopes(states, curve, linear.expand_dims("pressure"))
 
 
 def load_curve(heights, loads=(0.02, 0.05, 0.1, 0.2)):
@@ -134,10 +134,10 @@ def test_fits_go_through_the_origin_and_over_the_linear_loads_only():
     area, linear = 0.5 * pressure, xr.DataArray([True, True, False], dims="pressure")
     external = pressure - xr.DataArray([0.2, 0.1, 9.0], dims="pressure")
     expected = (0.5 * 0.8 + 1.0 * 1.9) / (0.5**2 + 1.0**2)
-    assert float(fitted(external, area, linear)) == pytest.approx(expected)
+    assert float(fit_slope(external, area, linear)) == pytest.approx(expected)
     gap = external.where(external != external[0])
-    assert np.isnan(fitted(gap, area, linear))  # one load is not solved
-    assert np.isnan(fitted(external, area, linear & (pressure < 2)))  # a single load
+    assert np.isnan(fit_slope(gap, area, linear))  # one load is not solved
+    assert np.isnan(fit_slope(external, area, linear & (pressure < 2)))  # a single load
     assert float(linearity_error(external / area, linear)) == pytest.approx((1.9 - 1.6) / 2)
 
 

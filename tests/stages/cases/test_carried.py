@@ -7,7 +7,9 @@ import pytest
 
 from cases import answer_case
 from stickiness import dmt, repulsive, spectrum, surface
-from stickiness.accuracy import error_laws
+from stickiness.accuracy.error_models import Surface, read_models
+from stickiness.accuracy.prediction import Problem
+from stickiness.core.statistics import COVERS
 
 ROOT = Path(__file__).parents[3]
 COLUMNS, SEEDS = ["area", "mean_gap"], range(8101, 8107)
@@ -42,12 +44,13 @@ def test_carried_values_are_within_their_errors(hurst):
     # Six surfaces do not know the mean change any better than this.
     noise = (broad - narrow).std(0, ddof=1) / np.sqrt(len(SEEDS))
     narrow, broad = narrow.mean(0), broad.mean(0)
-    change, size = answer_case.carried(plan, COLUMNS, pressures)
-    laws = error_laws.read_laws(ROOT / "config/accuracy.csv")
-    claimed = answer_case.carrying_errors(laws, plan, COLUMNS, narrow, size)
+    change, size = answer_case.extrapolate(plan, COLUMNS, (0.01, 0.1))
+    models = read_models(ROOT / "config/accuracy.csv")
+    problem = Problem(models, Surface.of(plan["surface"]), plan["pressures"], COLUMNS)
+    claimed = answer_case.extrapolation_errors(problem, plan["carry_to"], narrow, size)
     off = np.abs(narrow + change - broad)
     # Errors that cover 90 %: of four one may be beyond, but not by far.
-    ratio = off / np.hypot(claimed, error_laws.COVERS * noise)
+    ratio = off / np.hypot(claimed, COVERS * noise)
     assert np.sum(ratio <= 1) >= 3, ratio
     assert ratio.max() <= 1.5, ratio
     # Left as it is, a value is wrong by much more than that in area.

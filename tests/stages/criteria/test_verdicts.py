@@ -1,16 +1,23 @@
 """The a_V of a pair and the verdict that follows."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 import xarray as xr
 
 from criteria import judge
-from persson import persson_surface
-from pipeline.verdicts.a_v import MeasuredAv, SurfaceAv
+from pipeline.verdicts.a_v import MeasuredAv, measure_a_v
 from pipeline.verdicts.materials import material
+from pipeline.verdicts.words import decide_pairs
 from stickiness import criteria
 from stickiness.adhesion import equivalent_sphere
+from stickiness.core import datasets
 from stickiness.criteria.a_v_table import edge_range, local_a_v
+from stickiness.criteria.registry import FULL_CONTACT
+from stickiness.criteria.surface_a_v import VARIANTS, SurfaceAv
+from stickiness.criteria.verdict import verdict
+from stickiness.criteria.words import REGIMES, STRONG, TOUGH, WEAK, WORDS
 from stickiness.persson import Persson
 from stickiness.spectrum import SelfAffine
 
@@ -23,7 +30,7 @@ def edge_ratio(hurst, magnification):
     ranges = np.geomspace(1e-12, 10, 105)
     a_v = [
         local_a_v(Persson(spectrum, variant=variant).gap_cumulative(ranges, LOAD), LOAD, ranges)
-        for variant in persson_surface.VARIANTS
+        for variant in VARIANTS
     ]
     edge = edge_range(ranges, *a_v)
     at_edge = np.exp(np.interp(np.log(edge), np.log(ranges), np.log(a_v[0])))
@@ -73,8 +80,8 @@ def test_verdict(low, high, full, expected):
     ends = {"end": ["smooth", "rough"]}
     data = {"margin_low": ("end", list(low)), "margin_high": ("end", list(high))}
     data["margin"] = ("end", "criterion"), [[x] for x in full]
-    coords = ends | {"criterion": [judge.FULL_CONTACT]}
-    assert judge.VERDICTS[int(judge.verdict(xr.Dataset(data, coords=coords)))] == expected
+    coords = ends | {"criterion": [FULL_CONTACT]}
+    assert WORDS[int(decide_pairs(xr.Dataset(data, coords=coords)))] == expected
 
 
 def pairs_of(modulus, ranges, h_rms=1e-6, a_v=(4.0, 4.0, 4.0)):
@@ -103,13 +110,13 @@ def pairs_of(modulus, ranges, h_rms=1e-6, a_v=(4.0, 4.0, 4.0)):
     a_v = SurfaceAv(np.array([1e-9, 1.0]), np.transpose([a_v, a_v]), 0, 1.0, 0.0)
     parts = dict.fromkeys(("sampling", "discretisation", "window", "bandwidth"), 0.1)
     constant = MeasuredAv(3.0, simulated=2.0, over_lattice=1.0, magnification=1e6, **parts)
-    return judge.judged(solids, {"one": surface}, {"one": a_v}, constant, np.array([1.0, 1e3]))
+    return judge.judge_pairs(solids, {"one": surface}, {"one": a_v}, constant, np.array([1.0, 1e3]))
 
 
 def test_tough_edges_do_not_know_the_range():
     # a_V constant, as next to smooth edges: the DMT limit goes as range^(-1/3), JKR not at all
     found = pairs_of(1e5, [1e-10, 1e-9]).isel(end=0, surface=0)
-    assert list(found.regime.values) == [judge.TOUGH] * 2
+    assert list(found.regime.values) == [TOUGH] * 2
     edges = found.margin.sel(criterion="edge_adhesion").values
     dmt = found.margin.sel(criterion="violano").values ** (5 / 3)
     assert edges[0] == pytest.approx(edges[1], rel=0.05)
@@ -119,7 +126,7 @@ def test_tough_edges_do_not_know_the_range():
 
 def test_weak_edges_attract_more_than_the_sum():
     found = pairs_of(1e11, [1e-9]).isel(end=0, surface=0, material=0)
-    assert int(found.regime) == judge.WEAK
+    assert int(found.regime) == WEAK
     t = float(found.attractive_over_contact)
     dmt = float(found.margin.sel(criterion="violano")) ** (5 / 3)
     assert float(found.margin.sel(criterion="edge_adhesion")) == pytest.approx(
@@ -153,7 +160,7 @@ def test_wide_zones_of_strong_edges_are_not_called_tough():
     found = pairs_of(1e3, [1e-6]).isel(end=0, surface=0, material=0)
     assert float(found.attractive_over_contact) > 10
     assert float(found.edge_strength) > equivalent_sphere.TOUGH
-    assert int(found.regime) == judge.STRONG
+    assert int(found.regime) == STRONG
 
 
 def test_threshold_is_where_attraction_balances_repulsion():
@@ -172,3 +179,66 @@ def test_margin_at_another_rate_is_that_of_its_modulus():
         np.testing.assert_allclose(
             found[f"margin_{limit}_at_rate"], float(found[f"margin_{limit}"][0]), rtol=1e-12
         )
+
+
+@pytest.mark.parametrize(("modulus", "reach"), [(1e5, 1e-9), (1e8, 1e-9), (1e11, 1e-7)])
+def test_library_and_rule_give_the_same_numbers(modulus, reach):
+    a_v = (4.0, 3.0, 5.0)
+    by_rule = pairs_of(modulus, [reach], a_v=a_v).isel(end=0, surface=0, material=0)
+    s = SelfAffine(hurst=0.8, q0=1e5, q1=1e8, h_rms=1e-6)
+    found = verdict(s, modulus=modulus, work_of_adhesion=0.05, range=reach, a_v=a_v)
+    for name, margin in found.margins.items():
+        assert float(by_rule.margin.sel(criterion=name)) == pytest.approx(margin, rel=1e-12)
+    limits = (float(by_rule.margin_low), float(by_rule.margin_high))
+    assert found.margin_limits == pytest.approx(limits, rel=1e-12)
+    thresholds = [float(by_rule[f"modulus_threshold{end}"]) for end in ("", "_low", "_high")]
+    assert thresholds == pytest.approx(
+        [found.modulus_threshold, *found.modulus_threshold_limits], rel=1e-9
+    )
+    assert found.word == WORDS[int(by_rule.verdict)]
+    assert found.regime == REGIMES[int(by_rule.regime)]
+
+
+def fit_file(path, name, coords, **parameters):
+    """Fits of a_V over three intervals, as `fit_a_v` writes them."""
+    dims = ("window", *coords)
+    shape = (3, *(len(values) for values in coords.values()))
+    data = xr.Dataset({name: (dims, np.full(shape, 2.0))}, coords=coords)
+    data["a_v_standard_error"] = 0.1 * data[name]
+    data["a_v_discretisation_error"] = 0.05 * data[name]
+    described = {key: ("1", key) for key in data.variables}
+    datasets.write(datasets.annotate(data, **described), path, title="t", parameters=parameters)
+    return path
+
+
+@pytest.fixture
+def inputs(tmp_path):
+    """Simulation with a_V = 2, theory 2 on the same spectrum and on all others."""
+    loads = [0.03, 0.065]
+    lattice = {"variant": ["afferrante2018"], "pressure": loads}
+    sweep = {
+        "variant": ["afferrante2018"],
+        "hurst": [0.8],
+        "magnification": [1e2, 1e4, 1e6],
+        "load": [0],
+    }
+    return SimpleNamespace(
+        a_v=fit_file(tmp_path / "case.nc", "a_v_mean", {"pressure": loads}),
+        lattice=fit_file(tmp_path / "lattice.nc", "a_v", lattice, hurst=0.8),
+        theory=fit_file(tmp_path / "theory.nc", "a_v", sweep),
+    )
+
+
+def test_a_v_is_that_of_the_simulation_in_the_file(inputs):
+    found = measure_a_v(inputs, 0.065)
+    assert (found.value, found.simulated, found.over_lattice) == (2.0, 2.0, 1.0)
+    assert found.sampling == pytest.approx(1.645 * 0.2, rel=1e-3)  # standard errors to 90 %
+    assert found.discretisation == pytest.approx(0.1)
+    assert (found.window, found.bandwidth) == (0, 0)
+
+
+def test_a_v_at_another_load_is_refused(inputs):
+    with pytest.raises(
+        ValueError, match=r"case.nc: has no a_V at criteria.a_v.pressure = 0.1;.*0.03"
+    ):
+        measure_a_v(inputs, 0.1)

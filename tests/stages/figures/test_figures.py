@@ -10,13 +10,12 @@ from matplotlib.text import Text
 
 from adhesion import compare_edges
 from criteria import compare_criteria, map_criterion
-from figures import plot_fig5, plot_fig6, plot_fig9, plot_fig10
-from pipeline.conventions import logarithmic_grid
+from figures import plot_fig9
 from pipeline.pages import style
 from pipeline.verdicts.a_v import MeasuredAv
 from stickiness import criteria
 from stickiness.adhesion import equivalent_sphere
-from stickiness.core import budget, datasets
+from stickiness.core import datasets
 from stickiness.spectrum import SelfAffine
 
 SMALLEST_FONT = 8  # points
@@ -68,15 +67,7 @@ CONSTANT = MeasuredAv(
 
 def made_map():
     roughness = map_criterion.Roughness(ConstantAv(), ASKED_MAP, 0.065)
-    return map_criterion.limits(ASKED_MAP, CONSTANT, roughness)
-
-
-@pytest.fixture
-def criterion_map(tmp_path):
-    data = made_map().merge(map_criterion.slopes([1, 0.1], 3.0))
-    path = tmp_path / "map.nc"
-    datasets.write(map_criterion.annotated(data), path, title="map", parameters=ASKED_MAP)
-    return path
+    return map_criterion.find_limits(ASKED_MAP, CONSTANT, roughness)
 
 
 def test_map_with_constant_a_v_has_the_closed_form():
@@ -106,23 +97,6 @@ def test_edges_of_the_map_are_weak_above_its_line_and_balance_on_the_threshold()
     assert one.h_rms_limit_edges_low < one.h_rms_limit_edges < one.h_rms_limit_edges_high
 
 
-def surface(tmp_path, label, measured):
-    q = np.geomspace(1e3, 1e6, 12)
-    data = xr.Dataset(
-        {"psd": (("end", "wave_number"), [1e-5 * q**-3.6, 1e-3 * q**-3.6])},
-        coords={"end": ["smooth", "rough"], "wave_number": q},
-    )
-    if measured:
-        data["psd_fit"] = ("wave_number", 1e-5 * q**-3.6)
-        data["psd_standard_error"] = ("wave_number", 2e-5 * q**-3.6)
-        data["fitted"] = ("wave_number", np.ones(q.size, dtype="i1"))
-    described = {name: ("1", name) for name in data.variables}
-    path = tmp_path / f"{label}.nc"
-    parameters = {"label": label}
-    datasets.write(datasets.annotate(data, **described), path, title="t", parameters=parameters)
-    return path
-
-
 def assert_drawn(files):
     """Both files are there and the picture is of a journal's width and not blank."""
     picture = matplotlib.image.imread(files[0])
@@ -136,13 +110,6 @@ def font_sizes(figure):
     return [text.get_fontsize() for text in figure.findobj(Text) if text.get_text().strip()]
 
 
-def test_figure_5(tmp_path, criterion_map, kept):
-    made = job(tmp_path, "fig5", map=criterion_map)
-    plot_fig5.main(made)
-    assert_drawn(made.output)
-    assert min(font_sizes(kept())) >= SMALLEST_FONT
-
-
 def compared(tmp_path):
     asked = {
         "hurst": 0.8,
@@ -152,24 +119,9 @@ def compared(tmp_path):
         "magnification": {"minimum": 10, "maximum": 1e5, "per_decade": 2},
         "quoted_magnification": 1e4,
     }
-    grids = [logarithmic_grid(asked[name]) for name in ("h_rms_over_range", "magnification")]
-    found = [
-        compare_criteria.thresholds(0.8, 1e-6, h, zeta, 0.065, ConstantAv(), 3.0)
-        for h, zeta in (
-            (grids[0], np.full_like(grids[0], 1e4)),
-            (np.full_like(grids[1], 1000.0), grids[1]),
-        )
-    ]
-    data = xr.Dataset(
-        {
-            "against_roughness": (("criterion", "h_rms_over_range"), list(found[0].values())),
-            "against_magnification": (("criterion", "magnification"), list(found[1].values())),
-        },
-        coords=dict(zip(("h_rms_over_range", "magnification"), grids, strict=True))
-        | {"criterion": list(found[0])},
-    )
+    data = compare_criteria.compare(asked, 0.065, ConstantAv(), 3.0)
     path = tmp_path / "compared.nc"
-    datasets.write(compare_criteria.annotated(data), path, title="c", parameters=asked)
+    datasets.write(compare_criteria.describe(data), path, title="c", parameters=asked)
     return path
 
 
@@ -244,84 +196,3 @@ def test_simulation_of_spheres_is_the_model_of_the_edges():
     few = adhesive.assign_attrs(parameters='{"law": "maugis", "grid_points": 64, "refine": 1}')
     assert compare_edges.compared(few, alone, q0_h_rms, -1).effect.isnull().all()
     np.testing.assert_allclose(found.edge_strength.transpose(*dims)[0], tau, rtol=1e-3)
-
-
-def test_figure_10(tmp_path, kept):
-    dims = ("pressure", "adhesion_length_over_range", "range_over_h_rms")
-    t = np.geomspace(0.2, 10, 8).reshape(1, 2, 4)
-    tau = np.geomspace(1e-3, 2, 8).reshape(1, 2, 4)
-    effect = equivalent_sphere.effect(t, tau)
-    values = {
-        "attractive_over_contact": t,
-        "edge_strength": tau,
-        "effect": effect,
-        "effect_model": effect,
-        "over_model": np.ones_like(t),
-    }
-    coords = dict(zip(dims, ([0.065], [0.01, 0.1], [0.01, 0.03, 0.1, 1]), strict=True))
-    data = xr.Dataset({n: (dims, v) for n, v in values.items()} | {"q0_h_rms": 0.1}, coords=coords)
-    path = tmp_path / "edges.nc"
-    parameters = {"magnification": 32, "q0_h_rms": 0.1}
-    data, none = compare_edges.annotated(data), budget.absent("made up")
-    parts = dict.fromkeys(budget.SOURCES, none) | {"sampling": budget.Part(0.05, "made up")}
-    data = budget.with_budget(data, "over_model", **parts)
-    datasets.write(data, path, title="e", parameters=parameters)
-    made = job(tmp_path, "fig10", edges=[path])
-    plot_fig10.main(made)
-    assert_drawn(made.output)
-    assert min(font_sizes(kept())) >= SMALLEST_FONT
-
-
-def test_figure_6_draws_bands_points_and_no_line_twice(tmp_path, kept):
-    labels = [("C0 = 10⁻³ m^0.4", False), ("road", False), ("wafer", True)]
-    files = [surface(tmp_path, label, measured) for label, measured in labels]
-    made = job(tmp_path, "fig6", surfaces=files)
-    plot_fig6.main(made)
-    assert_drawn(made.output)
-    figure = kept()
-    assert min(font_sizes(figure)) >= SMALLEST_FONT
-    legend = figure.axes[0].get_legend()
-    assert [text.get_text() for text in legend.get_texts()] == ["road", "wafer"]
-
-
-def test_figure_6_draws_no_more_than_was_measured(tmp_path):
-    data = datasets.read(surface(tmp_path, "wafer", True)).assign(q1=1e6, q_cutoff=1e5)
-    figure, panels = style.canvas("A", 3)
-    plot_fig6.measured(panels["A"], data, 0, "k")
-    furthest = max(line.get_xdata().max() for line in panels["A"].lines if len(line.get_xdata()))
-    assert furthest <= 1e5
-    plt.close(figure)
-
-
-def test_labels_move_apart_and_keep_their_order():
-    assert style.apart([1.0, 5.0, 1.05, 1.02], 1.1) == pytest.approx([1.0, 5.0, 1.21, 1.1])
-
-
-def test_errors_add_in_quadrature_and_a_single_seed_has_none():
-    assert style.total_error([3.0, np.nan], [4.0, 0.5]) == pytest.approx([5.0, 0.5])
-
-
-def test_a_figure_that_fails_leaves_the_old_one(tmp_path, monkeypatch):
-    path = tmp_path / "fig.png"
-    path.write_bytes(b"old")
-    figure, _ = style.canvas("A", 2)
-
-    def break_off(temporary, **_):
-        temporary.write_bytes(b"half")
-        raise OSError("no space left on device")
-
-    monkeypatch.setattr(figure, "savefig", break_off)
-    with pytest.raises(OSError, match="no space"):
-        style.save(figure, [str(path)])
-    assert path.read_bytes() == b"old"
-    assert list(tmp_path.iterdir()) == [path]
-    plt.close(figure)
-
-
-def test_the_same_data_give_the_same_files(tmp_path, criterion_map):
-    contents = []
-    for name in ("a", "b"):
-        made = job(tmp_path, name, map=criterion_map)
-        plot_fig5.main(made)
-        contents.append([Path(path).read_bytes() for path in made.output])
-    assert contents[0] == contents[1]

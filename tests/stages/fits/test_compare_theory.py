@@ -6,10 +6,11 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from contact import average_ensemble, solve_ensemble
+from contact import solve_ensemble
 from fits import compare_theory, fit_gamma
+from pipeline.ensembles import AVERAGED
 from stickiness.core import datasets
-from stickiness.core.budget import COVERS
+from stickiness.core.statistics import COVERS
 from stickiness.persson import Persson
 from stickiness.spectrum import SelfAffine
 from stickiness.surface import lattice_spectrum
@@ -145,7 +146,7 @@ def solved(tmp_path_factory):
 
 
 def test_ensemble_of_one_job_has_what_averages_have(solved):
-    for name in average_ensemble.AVERAGED:
+    for name in AVERAGED:
         for kind in ("mean", "standard_error", "discretisation_error"):
             assert f"{name}_{kind}" in solved
     made = datasets.parameters(solved)
@@ -186,7 +187,7 @@ def made_by_theory():
 @pytest.mark.parametrize("quantity", ["area_fraction", "mean_gap", "attractive_area", "all"])
 def test_gamma_of_the_theory_itself_is_found(made_by_theory, quantity):
     draws = fit_gamma.sample(np.random.default_rng(1), 200, [1])
-    best, low, high, spread, misfit, own = fit_gamma.fitted([made_by_theory], draws, 0, quantity)
+    best, low, high, spread, misfit, own = fit_gamma.fit([made_by_theory], draws, 0, quantity)
     assert best == pytest.approx(GAMMA, rel=0.01)
     assert low < GAMMA < high
     assert 0 < spread < high - low
@@ -198,10 +199,10 @@ def test_cases_of_one_window_do_not_average_their_errors_out(made_by_theory):
     width = {}
     for windows in ([1] * 8, list(range(8))):
         draws = fit_gamma.sample(rng(1), 400, windows)
-        _, low, high, *_ = fit_gamma.fitted([made_by_theory] * 8, draws, 0, "area_fraction")
+        _, low, high, *_ = fit_gamma.fit([made_by_theory] * 8, draws, 0, "area_fraction")
         width[len(set(windows))] = np.log(high / low)
     draws = fit_gamma.sample(rng(1), 400, [1])
-    _, low, high, *_ = fit_gamma.fitted([made_by_theory], draws, 0, "area_fraction")
+    _, low, high, *_ = fit_gamma.fit([made_by_theory], draws, 0, "area_fraction")
     assert width[1] == pytest.approx(np.log(high / low), rel=0.15)  # eight copies know no more
     # Of 8 windows, some are drawn more than once: errors average out by less than sqrt(8).
     assert 0.35 * width[1] < width[8] < 0.75 * width[1]

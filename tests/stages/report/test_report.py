@@ -11,8 +11,9 @@ import pytest
 import xarray as xr
 
 from pipeline import numbers
-from pipeline.pages import benchmarks as _benchmarks
-from pipeline.pages import captions, provenance, report, surface_texts
+from pipeline.pages import captions, report, surface_texts
+from pipeline.pages.benchmarks import run_times
+from pipeline.pages.provenance import describe_provenance
 from report import write_report
 from stickiness.core import budget
 from stickiness.criteria.errata import ERRATA
@@ -93,7 +94,7 @@ def verdicts():
             "material": ["jelly", "iron"],
             "surface": ["glass", "sand"],
             "end": ["smooth", "rough"],
-            "criterion": ["edge_adhesion", "some_other"],
+            "criterion": ["edge_adhesion", "bearing_area"],
         },
     )
     model = np.full((2, 2, 2, 2), 0.5)
@@ -230,7 +231,7 @@ def answer(sampling=0.01):
     return made_by(dataset, case="case_of_two", accuracy=0.03)
 
 
-TRADE = {
+TRADEOFF = {
     "figure": {
         "name": "tradeoff",
         "data": "",
@@ -241,27 +242,33 @@ TRADE = {
     },
     "source": "config/trade.csv",
     "tables": [(["seeds", "area", "cost"], [["4 plain", "13 %", "40"]])],
-}
-PRESET = {
-    "name": "quick",
-    "asked": "30 %",
-    "settings": {
-        "pixels_per_wavelength": 4,
-        "tolerance": 1e-4,
-        "seeds": 3,
-        "coarse_seeds": 32,
-    },
-    "cost": "120",
-    "errors": ["1 %"] * 6,
+    "presets": [
+        {
+            "name": "quick",
+            "asked": "30 %",
+            "settings": {
+                "pixels_per_wavelength": 4,
+                "tolerance": 1e-4,
+                "seeds": 3,
+                "coarse_seeds": 32,
+            },
+            "cost": "120",
+            "errors": ["1 %"] * 6,
+        }
+    ],
 }
 
 
 @pytest.fixture
 def page(claims, verdicts, surfaces, figures, benchmarks):
-    return write_report.render(
-        TEMPLATE,
-        "out/report/report.html",
-        files={
+    results = report.Results(
+        claims=claims,
+        verdicts=verdicts,
+        surfaces=surfaces,
+        ensembles=[ensemble()],
+        answers=[answer()],
+        comparisons=[comparison()],
+        paths={
             "claims": "out/claims.nc",
             "verdicts": "out/verdicts.nc",
             "surfaces": {name: f"out/surfaces/{name}.nc" for name in surfaces},
@@ -270,15 +277,13 @@ def page(claims, verdicts, surfaces, figures, benchmarks):
             "comparisons": {"case_of_two": "out/fits/case_of_two.nc"},
             "figures": {figure["name"]: [f"out/a/{figure['name']}.nc"] for figure in figures},
         },
-        claims=claims,
-        verdicts=verdicts,
-        surfaces=surfaces,
+    )
+    return write_report.render(
+        TEMPLATE,
+        "out/report/report.html",
+        results,
         figures=figures,
-        ensembles=[ensemble()],
-        answers=[answer()],
-        trade=TRADE,
-        presets=[PRESET],
-        comparisons=[comparison()],
+        tradeoff=TRADEOFF,
         benchmarks=benchmarks,
         fidelity="draft",
     )
@@ -381,7 +386,7 @@ def test_texts_are_escaped(page):
 
 
 def test_summary_counts(claims, verdicts):
-    found = report.summary(claims, verdicts, [ensemble(), ensemble(seeds=range(1, 5))])
+    found = report.summarise(claims, verdicts, [ensemble(), ensemble(seeds=range(1, 5))])
     assert [(name, count) for name, count, _ in found["graded"]] == [(g, 1) for g in GRADES]
     assert (found["pairs"], found["sticky"]) == (4, 1)
     assert [pair[:2] for pair in found["judged"]] == [
@@ -395,7 +400,7 @@ def test_summary_counts(claims, verdicts):
 
 
 def test_every_verdict_stands_in_its_place(verdicts, surfaces):
-    matrix = report.verdict_matrix(verdicts, surfaces)
+    matrix = report.arrange_verdicts(verdicts, surfaces)
     assert [material["label"] for material in matrix["materials"]] == ["jelly & cream", "iron"]
     found = [[(c["verdict"], c["outside"]) for c in row["cells"]] for row in matrix["rows"]]
     assert found == [
@@ -419,7 +424,7 @@ def test_verdicts_are_worded_on_the_page(page):
 
 
 def test_errors_of_a_pair_are_told_where_it_was_drawn(verdicts, surfaces):
-    pairs = report.verdict_matrix(verdicts, surfaces)["pairs"]
+    pairs = report.arrange_verdicts(verdicts, surfaces)["pairs"]
     assert [(pair["material"], pair["name"]) for pair in pairs][:2] == [
         ("jelly & cream", "glass"),
         ("jelly & cream", "sand"),
@@ -449,14 +454,14 @@ def test_symbols_are_set(text, html):
 
 
 def test_disagreement_names_pairs_and_direction(verdicts, surfaces):
-    (row,) = report.disagreements(verdicts, surfaces)
-    assert (row["criterion"], row["count"]) == ("some other", 1)
+    (row,) = report.find_disagreements(verdicts, surfaces)
+    assert (row["criterion"], row["count"]) == ("bearing area (BAM)", 1)
     assert row["sticky"] == [("iron", ["sand < 1 mm"])]
     assert row["not_sticky"] == []
 
 
 def test_surfaces_with_and_without_errors(surfaces):
-    glass, sand = report.surface_rows(surfaces)
+    glass, sand = (report.describe_surface(*item) for item in surfaces.items())
     assert (glass["hurst"], sand["hurst"]) == ("0.8", "0.700 ± 0.020")
     assert (glass["c0"], sand["c0"]) == ("(1 … 100) × 10⁻⁵", "0.00530 ± 0.00040")
     assert glass["h_rms"] == "0.2 … 2 µm"
@@ -469,7 +474,7 @@ def test_bound_of_prefactor_for_another_hurst_exponent(surfaces):
 
 
 def test_error_budget():
-    (budget,) = report.error_budgets([answer()])
+    budget = report.describe_budgets(answer())
     area, gap = budget["rows"]
     assert (budget["load"], budget["asked"]) == ("0.06", "3 %")
     assert area["errors"]["sampling"] == "20 %"
@@ -481,19 +486,19 @@ def test_error_budget():
 
 
 def test_error_budget_of_a_single_seed_leaves_sampling_open():
-    area = report.error_budgets([answer(sampling=np.nan)])[0]["rows"][0]
+    area = report.describe_budgets(answer(sampling=np.nan))["rows"][0]
     assert area["errors"]["sampling"] == "–"
     assert area["dominates"] == "sampling, not known"
 
 
 def test_theory_is_compared_at_three_loads():
-    rows = report.theory_rows([comparison()])
+    rows = report.compare_theory([comparison()])
     assert [row["load"] for row in rows] == ["0.03", "0.1", "0.3"]
     assert all(cell == "+10.0% ± 3.0%" for row in rows for cell in row["cells"].values())
 
 
 def test_run_times_add_up(benchmarks):
-    times = _benchmarks.run_times(benchmarks)
+    times = run_times(benchmarks)
     slow, quick = times["rows"]
     assert slow == {
         "rule": "slow_rule",
@@ -508,17 +513,18 @@ def test_run_times_add_up(benchmarks):
 
 def test_mixed_versions_are_pointed_out(claims):
     other = claims.assign_attrs(version_numpy="1.0")
-    found = provenance.provenance([claims, other], [])
+    found = describe_provenance([claims, other], [])
     assert found["versions"] == [("numpy", "1.0, 9.8.7")]
     assert found["mixed"] == ["numpy"]
-    assert provenance.provenance([claims, claims], [])["mixed"] == []
+    assert describe_provenance([claims, claims], [])["mixed"] == []
 
 
 @pytest.mark.parametrize(
-    ("seeds", "want"), [((1, 2), "multilevel: 32 coarse, 100 described"), ((5,), "plain")]
+    ("seeds", "want"),
+    [((1, 2), "multilevel: 32 coarse seeds, 100 long-wave controls"), ((5,), "plain")],
 )
 def test_estimator_of_an_ensemble_is_named(seeds, want):
-    (row,) = provenance.provenance([], [ensemble(seeds=seeds)])["ensembles"]
+    (row,) = describe_provenance([], [ensemble(seeds=seeds)])["ensembles"]
     assert row["means"] == want
 
 
@@ -577,5 +583,5 @@ def test_quantity_with_error_is_rounded_to_it():
 
 
 def test_accuracy_that_was_not_reached_is_named():
-    (budget,) = report.error_budgets([answer().assign_attrs(missed="mine: error 0.2 of 0.03")])
+    budget = report.describe_budgets(answer().assign_attrs(missed="mine: error 0.2 of 0.03"))
     assert budget["asked"] == "3 %, not reached"

@@ -14,13 +14,20 @@ from adhesion import solve_adhesive
 from pipeline import ensemble_means
 from pipeline.tradeoff.adhesion_rows import scattered, threshold, varied
 from stickiness import adhesive, repulsive, spectrum, surface
-from stickiness.accuracy import adhesion, error_laws, plan
-from stickiness.accuracy.error_laws import Law, Settings, Surface
+from stickiness.accuracy import adhesion, plan
+from stickiness.accuracy.choice import COARSE_SEEDS, PIXELS, SEEDS, TOLERANCES, UnreachableError
+from stickiness.accuracy.error_models import (
+    ErrorModel,
+    Settings,
+    Surface,
+    read_models,
+    single_error,
+)
+from stickiness.accuracy.prediction import Problem
 
 ROOT = Path(__file__).parents[3]
 TABLE = ROOT / "config/accuracy.csv"
 SMOOTH, LOADS = Surface(hurst=0.8, magnification=32.0), [0.02, 0.2]
-EVERY = list(adhesion.QUANTITIES)
 
 
 def made_up():
@@ -28,15 +35,19 @@ def made_up():
     laws = {}
     for column in adhesion.COLUMNS:
         laws |= {
-            ("discretisation", column): Law(0.0, pixels=-2.0),
-            ("solver", column): Law(0.0, tolerance=1.0),
-            ("scatter", column): Law(math.log(0.3)),
-            ("fine_share", column): Law(math.log(0.3)),
-            ("coarse_share", column): Law(math.log(0.5)),
+            ("discretisation", column): ErrorModel(0.0, pixels=-2.0),
+            ("solver", column): ErrorModel(0.0, tolerance=1.0),
+            ("scatter", column): ErrorModel(math.log(0.3)),
+            ("fine_share", column): ErrorModel(math.log(0.3)),
+            ("coarse_share", column): ErrorModel(math.log(0.5)),
         }
-    laws["adhesive_cost", ""] = Law(0.0, pixels=2.0)
-    laws["coarse_cost", ""] = Law(math.log(4.0))
+    laws["adhesive_cost", ""] = ErrorModel(0.0, pixels=2.0)
+    laws["coarse_cost", ""] = ErrorModel(math.log(4.0))
     return laws
+
+
+def problem(models=None):
+    return Problem(models or made_up(), SMOOTH, LOADS, adhesion.COLUMNS)
 
 
 def test_constants_are_those_of_the_stages():
@@ -47,7 +58,7 @@ def test_constants_are_those_of_the_stages():
 def test_few_seeds_have_no_control():
     def found(seeds, coarse):
         settings = Settings(16, 1e-8, seeds, coarse)
-        return adhesion.predicted_error(made_up(), settings, SMOOTH, 0.1, "threshold")
+        return adhesion.predicted_error(problem(), settings, 0.1, "threshold")
 
     assert found(4, 64) == pytest.approx(found(4, 0))
     assert found(8, 64) < 0.6 * found(8, 0)
@@ -55,31 +66,29 @@ def test_few_seeds_have_no_control():
 
 def test_pull_off_is_of_one_surface():
     settings = Settings(4, 1e-3, 2, 0)
-    found = adhesion.predicted_error(made_up(), settings, SMOOTH, 0.1, "pull_off")
+    found = adhesion.predicted_error(problem(), settings, 0.1, "pull_off")
     assert found == pytest.approx(1 / 16)
 
 
 @pytest.mark.parametrize("asked", [0.3, 0.12, 0.06])
-def test_least_is_the_cheapest_of_all(asked):
-    laws = made_up()
-    chosen = adhesion.least(laws, asked, SMOOTH, LOADS, EVERY)
-    assert adhesion.worst_error(laws, chosen, SMOOTH, LOADS, EVERY)[0] <= asked
-    every = itertools.product(
-        error_laws.PIXELS, error_laws.TOLERANCES[:1], error_laws.SEEDS, error_laws.COARSE_SEEDS
-    )
+def test_chosen_is_the_cheapest_of_all(asked):
+    wanted = problem()
+    chosen = adhesion.cheapest(wanted, asked)
+    assert adhesion.worst_error(wanted, chosen)[0] <= asked
+    every = itertools.product(PIXELS, TOLERANCES[:1], SEEDS, COARSE_SEEDS)
     costs = [
-        adhesion.predicted_cost(laws, settings, SMOOTH)
+        adhesion.predicted_cost(wanted, settings)
         for settings in itertools.starmap(Settings, every)
-        if adhesion.worst_error(laws, settings, SMOOTH, LOADS[:1], EVERY)[0] <= asked
+        if adhesion.worst_error(wanted, settings)[0] <= asked
     ]
-    assert adhesion.predicted_cost(laws, chosen, SMOOTH) == pytest.approx(min(costs))
+    assert adhesion.predicted_cost(wanted, chosen) == pytest.approx(min(costs))
 
 
 def test_out_of_reach_names_the_quantity():
     laws = made_up()
-    laws["discretisation", "threshold"] = Law(0.0)
-    with pytest.raises(error_laws.UnreachableError, match="for threshold at pressure"):
-        adhesion.least(laws, 0.1, SMOOTH, LOADS, EVERY)
+    laws["discretisation", "threshold"] = ErrorModel(0.0)
+    with pytest.raises(UnreachableError, match="for threshold at pressure"):
+        adhesion.cheapest(problem(laws), 0.1)
 
 
 # --- how the laws are measured ----------------------------------------------------------------
@@ -137,19 +146,20 @@ def test_what_a_control_leaves():
 
 def test_presets_reach_their_error_with_full_adhesion():
     config = yaml.safe_load((ROOT / "config/config.yaml").read_text(encoding="utf-8"))
-    laws, asked = error_laws.read_laws(TABLE), config["tradeoff"]["presets"]
+    laws, asked = read_models(TABLE), config["tradeoff"]["presets"]
     wanted, surface_asked = asked["adhesive"], config["model_surfaces"][asked["surface"]]
-    where = error_laws.Surface.of(surface_asked), asked["pressures"], wanted["quantities"]
+    columns = list(itertools.chain(*(adhesion.QUANTITIES[q] for q in wanted["quantities"])))
+    given = Problem(laws, Surface.of(surface_asked), asked["pressures"], columns)
     for name, error in wanted["accuracy"].items():
         settings = plan.preset(config["fidelities"][name])
-        assert adhesion.worst_error(laws, settings, *where)[0] <= error, name
+        assert adhesion.worst_error(given, settings)[0] <= error, name
         few = replace(settings, seeds=2, coarse_seeds=0)
-        assert adhesion.worst_error(laws, few, *where)[0] > error, name
+        assert adhesion.worst_error(given, few)[0] > error, name
 
 
 def test_grid_errors_of_fresh_surfaces_are_within_their_law():
     """Mean change of 1/kappa_ad from 4 to 16 points, of surfaces that no law was fitted to."""
-    laws, rough = error_laws.read_laws(TABLE), Surface(hurst=0.7, magnification=16.0)
+    laws, rough = read_models(TABLE), Surface(hurst=0.7, magnification=16.0)
     band, load, reach = spectrum.SelfAffine(hurst=0.7, q0=1.0, q1=16.0, h_rms=1.0), 0.065, 0.1
     law = adhesive.Exponential(adhesion_length=1.0 * reach, range=reach)  # l_a = 0.1 range
 
@@ -165,9 +175,7 @@ def test_grid_errors_of_fresh_surfaces_are_within_their_law():
     exact = np.array([attraction(heights) for heights in fine])
     coarse = np.array([attraction(heights[::4, ::4]) for heights in fine])
     change = (coarse - exact) / exact.mean()
-    known = error_laws.single_error(
-        laws, "discretisation", "inverse_kappa_ad_0.1", rough, load, pixels=4.0
-    )
+    known = single_error(laws, "discretisation", "inverse_kappa_ad_0.1", rough, load, pixels=4.0)
     noise = change.std(ddof=1) / math.sqrt(len(fine))
     assert abs(change.mean()) <= known + noise, (change.mean(), known, noise)
     assert known < 0.15

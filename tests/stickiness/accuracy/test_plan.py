@@ -1,9 +1,12 @@
 """What cases are solved with, and which of them share solutions."""
 
 import pytest
-from helpers.laws import made_up
+from helpers.laws import made_up, problem
 
-from stickiness.accuracy import error_laws, plan, sequential
+from stickiness.accuracy import plan
+from stickiness.accuracy.choice import UnreachableError, cheapest
+from stickiness.accuracy.error_models import Settings
+from stickiness.accuracy.prediction import worst_error
 
 PRESET = {"pixels_per_wavelength": 8, "tolerance": 1e-8, "seeds": 5, "coarse_seeds": 40}
 
@@ -24,45 +27,80 @@ def config(**cases):
 
 def test_preset_unless_the_case_says_otherwise():
     plans = plan.plans_of(config(a={}, b={"seeds": 3, "sampling": "plain"}), made_up())
-    assert plans["a"].settings == error_laws.Settings(8, 1e-8, 5, 40)
-    assert plans["b"].settings == error_laws.Settings(8, 1e-8, 3, 0)
+    assert plans["a"].settings == Settings(8, 1e-8, 5, 40)
+    assert plans["b"].settings == Settings(8, 1e-8, 3, 0)
     assert plans["a"].pressures == (0.01, 0.1)
     assert plans["a"].complete
     given = config(a={}) | {"seeds": 7}
     assert plan.plans_of(given, made_up())["a"].settings.seeds == 7
 
 
-def test_accuracy_begins_from_the_cheapest():
+def test_accuracy_has_the_cheapest_settings():
     asked = {"accuracy": 0.05, "quantities": ["area", "mean_gap"]}
     plans = plan.plans_of(config(a=asked), made_up())
-    where = error_laws.Surface(0.8, 32.0)
-    asked = sequential.Asked(0.05, where, (0.01, 0.1), ("area", "mean_gap"))
-    chosen = error_laws.cheapest(made_up(), 0.05, where, asked.pressures, asked.quantities)
-    assert plans["a"].asked == asked
-    assert plans["a"].settings == sequential.first(made_up(), asked, chosen)
+    chosen = cheapest(problem("area", "mean_gap", pressures=(0.01, 0.1)), 0.05)
+    assert plans["a"].settings == chosen
     assert not plans["a"].gaps
     assert not plans["a"].complete
 
 
-def test_cap_of_a_case_is_above_that_of_all():
-    asked = {"accuracy": 0.05}
-    given = config(a=asked, b=asked | {"at_most": 5}, c={})
+def test_seeds_of_a_case_stand_above_its_accuracy_and_a_cap_holds_for_what_is_chosen():
+    asked = {"accuracy": 0.05, "sampling": "plain"}
+    cases = {"a": asked, "b": asked | {"at_most": 5}, "c": asked | {"seeds": 100}}
+    given = config(**cases)
     given["sampling"]["at_most"] = 3
     plans = plan.plans_of(given, made_up())
-    assert (plans["a"].asked.at_most, plans["b"].asked.at_most) == (3, 5)
-    assert plans["a"].settings.seeds <= 3
-    assert plans["c"].asked is None
+    assert [plans[name].settings.seeds for name in cases] == [3, 5, 100]
+    grids = {plan.grid(one) for one in plans.values()}
+    assert len(grids) == 1  # more seeds keep what is solved
 
 
-def test_files_of_coarse_seeds_end_at_the_same_numbers_whatever_the_rounds():
-    assert plan.rungs(0) == []
-    assert plan.rungs(32) == [32]
-    assert plan.rungs(96) == [n for n in error_laws.COARSE_SEEDS if 0 < n <= 96]
+@pytest.mark.parametrize("count", [0, 1, 32, 64, 65, 320, 2048])
+def test_files_of_coarse_seeds_hold_each_once(count):
+    parts = plan.coarse_parts(count)
+    seeds = [seed for part in parts for seed in plan.coarse_range(part)]
+    assert seeds == list(range(count))
+
+
+@pytest.mark.parametrize(("count", "more"), [(64, 65), (96, 128), (320, 1024)])
+def test_more_coarse_seeds_keep_all_files_but_the_last(count, more):
+    few, many = plan.coarse_parts(count), plan.coarse_parts(more)
+    assert few[:-1] == many[: len(few) - 1]
+
+
+def test_extrapolation_leaves_less_to_the_simulation():
+    asked = {"accuracy": 0.2, "quantities": ["area"]}
+    plans = plan.plans_of(config(a=asked, b=asked | {"carry_to": 64}), made_up())
+    errors = [worst_error(problem("area"), plans[name].settings)[0] for name in "ab"]
+    assert errors[1] < errors[0]
+    asked = {"accuracy": 0.01, "quantities": ["area"], "carry_to": 256}
+    with pytest.raises(UnreachableError, match=r"theory's extrapolation to magnification 256"):
+        plan.plans_of(config(a=asked), made_up())
+
+
+@pytest.mark.parametrize(
+    ("case", "message"),
+    [
+        ({"accuracy": 0.1}, r"cases\.a\.quantities: the errors of contact_slope were not measured"),
+        ({"model": "theory"}, r"cases\.a\.quantities: theory does not give contact_slope"),
+        ({"carry_to": 64}, r"cases\.a\.quantities: theory does not give contact_slope"),
+    ],
+)
+def test_quantities_that_nothing_knows_are_refused_at_start(case, message):
+    with pytest.raises(ValueError, match=message):
+        plan.plans_of(config(a={"quantities": ["contact_slope"], **case}), made_up())
+
+
+def test_solutions_without_a_measured_quantity_are_not_shared_with_what_needs_it():
+    slope = {"quantities": ["area", "contact_slope"]}
+    plans = plan.plans_of(config(first={}, later=slope, last=slope), made_up())
+    assert [plans[name].owner for name in ("first", "later", "last")] == ["first", "later", "later"]
+    assert plans["later"].measured == ("contact_slope",)
 
 
 def test_accuracy_out_of_reach_names_the_case():
     with pytest.raises(
-        error_laws.UnreachableError, match=r"cases\.a\.accuracy = 0\.0001 is out of reach: the best"
+        UnreachableError, match=r"cases\.a\.accuracy = 0\.0001 is out of reach: the best"
     ):
         plan.plans_of(config(a={"accuracy": 1e-4}), made_up())
 

@@ -225,6 +225,7 @@ def rough_over_model(seed):
     return (1 - held.mean_pressure / load) / model.ratio, model
 
 
+@pytest.mark.slow
 def test_strong_edges_of_rough_contacts_at_equal_area():
     found, models = zip(*(rough_over_model(seed) for seed in (1, 2, 3, 4)), strict=True)
     # Single contacts scatter within the stated error, their mean is nearer to the model.

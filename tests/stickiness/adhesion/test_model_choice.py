@@ -141,6 +141,7 @@ def committed():
     return model_choice.read_table(ROOT / config["dmt_error"])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("pressure", "reach", "strength"), [(0.065, 1.0, 0.1), (0.065, 0.3, 0.3), (0.03, 2.0, 0.02)]
 )

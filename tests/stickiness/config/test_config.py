@@ -1,5 +1,6 @@
 """Bad configuration: one line that names key, value and remedy."""
 
+import copy
 import shutil
 from pathlib import Path
 
@@ -145,7 +146,6 @@ def model(*keys, value):
         (of_theory(seeds=3), ["mine.seeds", "3", "model: theory"]),
         (of_theory(accuracy=0.1), ["mine.accuracy", "0.1", "model: theory"]),
         (of_theory(at_most=9), ["mine.at_most", "9", "model: theory"]),
-        (with_accuracy(seeds=3), ["mine.seeds", "3", "accuracy or seeds"]),
         (with_accuracy(at_most=1), ["mine.at_most", "1", "at least 2"]),
         (case("at_most", value=9), ["H0.8_zeta64.at_most", "9", "needs accuracy"]),
         (changed(CONFIG, "sampling", "at_most", value=129), ["sampling.at_most", "at most 128"]),
@@ -260,6 +260,10 @@ def model(*keys, value):
             changed(CONFIG, "criteria", "a_v", "pressure", value=0.07),
             ["criteria.a_v.pressure", "0.07", "H0.8_zeta32_wide"],
         ),
+        (
+            changed(CONFIG, "criteria", "a_v", "measured", value="config/a_v.csv"),
+            ["criteria.a_v", "measured", "from the run itself"],
+        ),
     ],
 )
 def test_one_line_names_key_value_and_remedy(folder, edit, words):
@@ -303,6 +307,59 @@ def test_instruments_need_their_optional_dependency(folder, monkeypatch):
         check()
 
 
+@pytest.mark.parametrize(
+    ("key", "message"),
+    [
+        ("carry_to", "mine.yaml: case: the key 'carry_to' is now called 'extrapolate_to'"),
+        ("seed", "mine.yaml: case: remove the key 'seed': seeds are numbered from 1"),
+    ],
+)
+def test_a_key_of_an_earlier_version_gets_one_line_with_what_to_do(tmp_path, key, message):
+    case = {
+        "type": "object",
+        "additionalProperties": False,
+        "renamed": {"carry_to": "extrapolate_to"},
+        "removed": {"seed": "seeds are numbered from 1"},
+        "properties": {"extrapolate_to": {"type": "number"}},
+    }
+    schema = tmp_path / "case.schema.yaml"
+    schema.write_text(yaml.safe_dump({"type": "object", "properties": {"case": case}}))
+    with pytest.raises(checks.ConfigError) as caught:
+        checks.check_schema({"case": {key: 1}}, schema, "mine.yaml")
+    assert str(caught.value) == message
+    checks.check_schema({"case": {"extrapolate_to": 1}}, schema, "mine.yaml")
+
+
+def test_the_check_changes_nothing(folder):
+    given = checks.load(CONFIG)
+    before = copy.deepcopy(given)
+    checks.checked(given, "config/schemas")
+    assert given == before
+
+
+def schema_keys(node):
+    """Every pair of renamed or removed keys and the keys that there are beside them."""
+    if isinstance(node, dict):
+        old = {**node.get("renamed", {}), **node.get("removed", {})}
+        if old:
+            yield set(old), set(node.get("renamed", {}).values()), set(node["properties"])
+        for value in node.values():
+            yield from schema_keys(value)
+
+
+def test_renamed_keys_lead_to_keys_that_exist():
+    for path in (ROOT / "config/schemas").glob("*.yaml"):
+        for old, new, present in schema_keys(checks.load(path)):
+            assert old.isdisjoint(present)
+            assert new <= present
+
+
+def test_frequencies_out_of_order_are_shown(folder):
+    table([["1 Hz", "1 MPa"], ["0.1 Hz", "1 MPa"]])()
+    with pytest.raises(checks.ConfigError, match=r"table = 1 Hz, 0\.1 Hz: .*ascend"):
+        check()
+
+
 def test_keys_beside_the_list_hold_for_every_measurement():
     surface = {
         "kind": "measured",
@@ -313,3 +370,12 @@ def test_keys_beside_the_list_hold_for_every_measurement():
     assert (first, second) == ("measurements[0].", "measurements[1].")
     assert (one["file"], one["detrend"], two["detrend"]) == ("a", "quadratic", "mean")
     assert "measurements" not in one
+
+
+def test_the_measurement_for_bem_must_exist():
+    surfaces = {
+        "asphalt": {"kind": "measured", "file": __file__},
+        "polished_steel": {"kind": "measured", "file": __file__, "bem": {"measurement": 1}},
+    }
+    with pytest.raises(checks.ConfigError, match=r"polished_steel\.bem\.measurement = 1 .*below 1"):
+        checks.check_surfaces(surfaces)

@@ -156,6 +156,7 @@ def estimates(row, grids):
         yield grid_limit.Estimate(found.value[i], found.error[i]), densities[-1][i]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("grids", [(0, 1), (1, 2), (0, 1, 2)])
 def test_error_covers_the_truth_in_nine_of_ten_cases(nested, grids):
     """80 pairs of estimate and truth; 64 points per wavelength are the truth."""

@@ -8,10 +8,11 @@ import xarray as xr
 
 from cases import answer_case
 from pipeline import error_budgets
-from stickiness.accuracy import error_laws
+from stickiness.accuracy.error_models import Surface, read_models, single_error
+from stickiness.accuracy.prediction import Problem
 from stickiness.core import budget, datasets
 
-LAWS = error_laws.read_laws(Path(__file__).parents[3] / "config/accuracy.csv")
+LAWS = read_models(Path(__file__).parents[3] / "config/accuracy.csv")
 NONE = budget.absent("made up")
 
 
@@ -69,8 +70,8 @@ def test_sampling_covers_90_per_cent_by_students_t(seeds, factor):
     value = xr.DataArray([0.05], dims="pressure", coords={"pressure": [0.065]})
     parts = ensemble_of(seeds).parts("area_fraction", value, 0.01 * value, 0.002 * value)
     assert float(parts["sampling"].error[0]) == pytest.approx(factor * 5e-4, rel=1e-3)
-    surface = error_laws.Surface(0.8, 32)
-    solver = error_laws.single_error(LAWS, "solver", "area", surface, 0.065, tolerance=1e-6)
+    surface = Surface(0.8, 32)
+    solver = single_error(LAWS, "solver", "area", surface, 0.065, tolerance=1e-6)
     assert float(parts["solver"].error[0]) == pytest.approx(solver * 0.05)
 
 
@@ -84,9 +85,9 @@ def test_what_was_measured_is_not_widened_outside_the_laws(name, along):
     parts = ensemble_of(8).parts(name, value, 0.01 * value, 0.002 * value)
     np.testing.assert_allclose(parts["sampling"].error, 0.01895, rtol=1e-3)
     solver = parts["solver"].error.values.ravel()
-    assert solver[0] >= 1.9 * error_laws.single_error(
+    assert solver[0] >= 1.9 * single_error(
         LAWS, "solver", "gap_distribution" if name == "gap_density" else "attractive_area_0.01",
-        error_laws.Surface(0.8, 32), 0.065, tolerance=1e-6,
+        Surface(0.8, 32), 0.065, tolerance=1e-6,
     )  # fmt: skip
 
 
@@ -94,7 +95,8 @@ def test_an_accuracy_of_which_nothing_is_known_is_missed():
     at = {"column": ["area", "a_v"], "pressure": [0.01, 0.1]}
     known = xr.DataArray([[0.01, 0.01], [0.01, np.nan]], dims=list(at), coords=at)
     answer = xr.Dataset({"value": xr.ones_like(known), "value_total_error": known})
-    text = answer_case.missed(answer, {"accuracy": 0.05, "asked": {}})
+    problem = Problem(LAWS, Surface(0.8, 32), at["pressure"], at["column"])
+    text = answer_case.describe_miss(answer, problem, {"accuracy": 0.05}, "mine")
     assert text == "error of a_v at pressure 0.1 not known"
 
 
@@ -109,19 +111,28 @@ def test_a_single_seed_has_no_total():
 
 def test_errors_between_the_measured_ranges_follow_a_power_law():
     ranges = xr.DataArray([0.001, 0.01, np.sqrt(1e-3), 0.1, 1.0], dims="range")
-    found = error_budgets.between_ranges(
+    found = error_budgets.interpolate_ranges(
         {0.01: xr.DataArray(0.04), 0.1: xr.DataArray(0.01)}, ranges
     )
     np.testing.assert_allclose(found, [0.08, 0.04, 0.02, 0.01, 0.02])
+
+
+@pytest.mark.parametrize("kind", [{"rolloff": 3.0}, {"amplitudes": "fixed"}])
+def test_errors_of_theory_are_wider_on_surfaces_that_were_not_measured(kind):
+    like = xr.DataArray([1.0], {"pressure": [0.065]}, ("pressure",))
+    surface = {"hurst": 0.8, "magnification": 32}
+    usual, other = (
+        error_budgets.theory_error(LAWS, "area_fraction", like, asked)
+        for asked in (surface, surface | kind)
+    )
+    np.testing.assert_allclose(other, 2 * usual)
 
 
 def test_theory_errs_as_measured_and_other_variants_by_what_nobody_knows():
     axes = {"variant": ["afferrante2018", "almqvist2011"], "pressure": [0.01, 0.065]}
     like = xr.DataArray(np.ones((2, 2)), axes, tuple(axes))
     found = error_budgets.theory_error(LAWS, "mean_gap", like, {"hurst": 0.8, "magnification": 32})
-    surface = error_laws.Surface(0.8, 32)
-    wanted = [
-        error_laws.single_error(LAWS, "theory", "mean_gap", surface, p) for p in (0.01, 0.065)
-    ]
+    surface = Surface(0.8, 32)
+    wanted = [single_error(LAWS, "theory", "mean_gap", surface, p) for p in (0.01, 0.065)]
     np.testing.assert_allclose(found.sel(variant="afferrante2018"), wanted)
     assert np.isnan(found.sel(variant="almqvist2011")).all()

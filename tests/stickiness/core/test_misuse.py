@@ -8,6 +8,7 @@ from stickiness.accuracy import multilevel
 from stickiness.adhesion import equivalent_sphere, model_choice
 from stickiness.contact import grid_limit, subpixel
 from stickiness.core import units
+from stickiness.core.plausibility import PlausibilityWarning
 from stickiness.criteria import a_v_table, moduli
 from stickiness.measured import instrument_spectrum, psd, topography
 from stickiness.persson import Persson
@@ -61,6 +62,10 @@ MISUSES = {
     "infinite grid": (lambda: surface.synthesise(BAND, np.inf, SIDE, 1), "n must be an integer"),
     "a name for a spectrum": (lambda: surface.synthesise("steel", 16, SIDE, 1), "spectrum must be"),
     "window too small": (lambda: surface.lattice_spectrum(BAND, SIDE / 3), "window does not hold"),
+    "window in micrometres, waves per metre": (
+        lambda: surface.lattice_spectrum(BAND, 1e6 * SIDE),
+        "must be in the inverse of its unit",
+    ),
     "window not a number": (lambda: surface.lattice_spectrum(BAND, np.nan), "length must be"),
     "moments of holes": (lambda: surface.moments(HOLED, SIDE), "heights must be finite"),
     "moments, negative side": (lambda: surface.moments(HEIGHTS, -1.0), "length must be positive"),
@@ -211,3 +216,40 @@ def test_heights_of_any_kind_of_number_are_taken_as_they_are(kind):
 def test_whole_numbers_may_be_floats():
     one, other = (surface.synthesise(BAND, n, SIDE, seed=1) for n in (16, 16.0))
     assert np.array_equal(one, other)
+
+
+TOO_COARSE = adhesive.Maugis(0.01, 0.002)
+DOUBTS = {
+    "pressure in pascals": (lambda: press(pressure=1e5), "divide pascals by E"),
+    "pressure in pascals, adhesive": (
+        lambda: adhesive.solve(HEIGHTS, SIDE, LAW, pressure=1e5),
+        "divide pascals by E",
+    ),
+    "pressure in pascals, theory": (lambda: Persson(BAND).area_fraction(1e5), "divide pascals by"),
+    "heights in um, length in m": (lambda: press(length=1e-6 * SIDE), "must be in one unit"),
+    "heights in m, length in nm": (lambda: press(length=1e9 * SIDE), "must be in one unit"),
+    "heights in um, length in m, adhesive": (
+        lambda: adhesive.solve(HEIGHTS, 1e-6 * SIDE, adhesive.Exponential(1e-3, 1.0), pressure=0),
+        "must be in one unit",
+    ),
+    "range far below what the pixels show": (
+        lambda: adhesive.solve(HEIGHTS, SIDE, TOO_COARSE, pressure=0.1),
+        "Take pixels of at most 0.0002 ",
+    ),
+}
+
+
+@pytest.mark.parametrize("name", DOUBTS)
+def test_what_is_probably_a_mistake_is_said(name):
+    call, message = DOUBTS[name]
+    with pytest.warns(PlausibilityWarning, match=message):
+        call()
+
+
+@pytest.mark.parametrize("magnification", [4.0, 1e4])
+def test_surfaces_of_unit_height_and_steep_slopes_are_no_mistake(magnification):
+    """Nothing is warned of: slopes of 30 and pressures above 1 are normal in units of h_rms."""
+    theory = Persson(spectrum.SelfAffine(hurst=0.6, q0=1.0, q1=magnification, h_rms=1.0))
+    assert theory.area_fraction(20.0) > 0.4
+    contact = press(10 * HEIGHTS, pressure=20.0)
+    assert 0 < contact.area_fraction < 1

@@ -48,6 +48,7 @@ def adhered(heights, law, eps, tension, load, length=2 * np.pi):
 # --- scale ---
 
 
+@pytest.mark.filterwarnings("ignore:heights of")  # whose unit is not the length's
 @given(seeds, hursts, loads, factors, factors)
 def test_contact_scales_with_lengths_and_with_heights(seed, hurst, load, unit, flat):
     """Lengths may be in any unit; heights times a factor take pressures with them."""
@@ -58,6 +59,7 @@ def test_contact_scales_with_lengths_and_with_heights(seed, hurst, load, unit, f
     assert other.mean_gap / (unit * flat) == pytest.approx(one.mean_gap, rel=1e-6, abs=10 * TOL)
 
 
+@pytest.mark.slow
 @given(hursts, st.floats(0.05, 8), loads, factors, factors, st.floats(-3, 1))
 def test_theory_scales(hurst, decades, load, unit, flat, log_gap):
     zeta = 10**decades
@@ -137,6 +139,7 @@ def test_edge_adhesion_does_not_know_the_unit(log_range, log_adhesion, h, log_sl
     assert 0 < one.effect <= equivalent_sphere.weak_effect(one.attractive_over_contact) * (1 + 1e-9)
 
 
+@pytest.mark.slow
 @settings(max_examples=5)
 @given(seeds, hursts, st.floats(-9, 9), st.floats(-6, 0))
 def test_a_measured_law_does_not_know_the_unit(seed, hurst, log_unit, log_flat):
@@ -214,6 +217,7 @@ def test_area_grows_and_gap_falls_with_load(seed, hurst, load, more):
     assert heavy.mean_gap <= light.mean_gap + 10 * TOL
 
 
+@pytest.mark.slow
 @given(hursts, st.floats(0.05, 6), loads, st.floats(1.001, 100))
 def test_order_in_theory(hurst, decades, load, more):
     theory = Persson(SelfAffine(hurst=hurst, q0=1.0, q1=10**decades, h_rms=1.0))
@@ -325,6 +329,7 @@ def test_the_same_input_gives_the_same_bits(seed, n, hurst, load):
     assert fields[0] == fields[1]
 
 
+@pytest.mark.slow
 @settings(max_examples=3)
 @given(seeds, hursts)
 def test_spectra_and_their_stitching_do_not_depend_on_order(seed, hurst):
@@ -359,6 +364,7 @@ def test_the_same_adhesion_gives_the_same_bits(seed, law):
 texts = st.text(st.characters(codec="utf-8", exclude_characters="\0", exclude_categories=["Cs"]))
 
 
+@pytest.mark.slow
 @settings(max_examples=6)
 @given(
     arrays.arrays(float, st.tuples(st.just(2), st.integers(1, 3)), elements=st.floats(width=64)),

@@ -7,11 +7,14 @@ import pytest
 import xarray as xr
 from scipy import integrate
 
-from criteria import judge
-from pipeline.verdicts import materials, uncertainty
-from pipeline.verdicts.a_v import SurfaceAv
+from pipeline.verdicts import materials
+from pipeline.verdicts.probabilities import draw_margins
+from pipeline.verdicts.words import decide_pairs
 from stickiness.adhesion import equivalent_sphere
 from stickiness.criteria.moduli import Constant, Prony, Table, crossings
+from stickiness.criteria.registry import FULL_CONTACT
+from stickiness.criteria.surface_a_v import SurfaceAv
+from stickiness.criteria.words import WORDS
 
 SERIES = Prony(1e4, ((3e4, 1.0), (2e5, 1e-3)))
 ENTRY = {"label": "a", "work_of_adhesion": "70 mJ/m^2", "range": "0.3 nm", "source": "b"}
@@ -129,7 +132,7 @@ def test_errors_of_the_spectrum_pass_to_the_margin():
     rng = np.random.default_rng(0)
     h = 1e-6 * np.exp(0.1 * rng.normal(size=4000))
     q0 = 1e5 * np.exp(0.2 * rng.normal(size=4000))
-    found = uncertainty.uncertain(MATERIAL, drawn(h, q0), constant_a_v(2.0, 2.0))
+    found = draw_margins(MATERIAL, drawn(h, q0), constant_a_v(2.0, 2.0))
     assert found.from_spectrum == pytest.approx(np.hypot(1.25 * 0.1, 0.75 * 0.2), rel=0.05)
     # beyond what was simulated the model errs by up to a factor of two, evenly in logarithms
     assert found.from_model == pytest.approx(2 * np.log(2) / np.sqrt(12), rel=0.05)
@@ -137,7 +140,7 @@ def test_errors_of_the_spectrum_pass_to_the_margin():
 
 def test_errors_of_a_v_pass_to_the_margin():
     h, q0 = np.full(4000, 1e-6), np.full(4000, 1e5)
-    found = uncertainty.uncertain(MATERIAL, drawn(h, q0), constant_a_v(1.0, np.e))
+    found = draw_margins(MATERIAL, drawn(h, q0), constant_a_v(1.0, np.e))
     # ln a_V is uniform over 1, tough edges have margin ~ a_V^(3/4); the model's error adds
     model = 2 * np.log(2) / np.sqrt(12)
     assert found.from_model == pytest.approx(np.hypot(0.75 / np.sqrt(12), model), rel=0.05)
@@ -159,7 +162,7 @@ def test_draws_spread_over_the_error_of_the_model(modulus, reach, error):
         ENTRY | {"plane_strain_modulus": f"{modulus} Pa", "range": f"{reach} m"}
     )
     many = drawn(np.full(4000, h), np.full(4000, q0), slope)
-    found = uncertainty.uncertain(solid, many, constant_a_v(a_v, a_v))
+    found = draw_margins(solid, many, constant_a_v(a_v, a_v))
     length = solid.work_of_adhesion / modulus
     ratio = equivalent_sphere.attraction(h, q0, slope, length, reach, a_v).ratio
     exponents = np.log(found.quantiles / ratio) / np.log(error)
@@ -179,7 +182,7 @@ def test_probability_is_the_share_of_the_margin_above_one():
         solid = dataclasses.replace(
             MATERIAL, work_of_adhesion=factor * threshold * MATERIAL.modulus
         )
-        found = uncertainty.uncertain(solid, many, constant_a_v(a_v, a_v))
+        found = draw_margins(solid, many, constant_a_v(a_v, a_v))
         # Binomial error of 4000 draws: below 0.008. The model's error is up to a factor of two.
         assert found.probability == pytest.approx(expected, abs=0.025)
 
@@ -203,5 +206,5 @@ def test_verdict_on_a_measured_surface_is_that_of_its_draws(probability, full, e
         "margin": (("end", "criterion"), [[full], [full]]),
         "probability": probability,
     }
-    dataset = xr.Dataset(data, coords={"criterion": [judge.FULL_CONTACT]})
-    assert judge.VERDICTS[int(judge.verdict(dataset))] == expected
+    dataset = xr.Dataset(data, coords={"criterion": [FULL_CONTACT]})
+    assert WORDS[int(decide_pairs(dataset))] == expected

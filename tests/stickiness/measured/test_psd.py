@@ -93,7 +93,7 @@ def test_mean_over_surfaces_is_the_spectrum_in_each_ring():
 
 
 def test_hann_window_has_its_known_moments():
-    spectrum = power_spectrum(np.eye(32), 1.0, window="hann")
+    spectrum = power_spectrum(np.eye(32), 1.0, taper="hann")
     # mean w^2 = 3/8 and mean w^4 = 35/128 on each axis.
     assert spectrum.independence == pytest.approx(((3 / 8) ** 2 / (35 / 128)) ** 2, rel=1e-12)
 
@@ -103,7 +103,7 @@ def test_standard_error_of_a_ring_is_that_between_surfaces(window):
     rng = np.random.default_rng(2)
     means = []
     for _ in range(200):
-        rings = radial_average(power_spectrum(rng.normal(size=(64, 64)), 1.0, window=window))
+        rings = radial_average(power_spectrum(rng.normal(size=(64, 64)), 1.0, taper=window))
         means.append(rings.psd)
     wide = (rings.dof > 15) & (rings.q < np.pi)
     relative = np.std(means, axis=0) / np.mean(means, axis=0) * np.sqrt(rings.dof)
@@ -117,13 +117,14 @@ def test_standard_error_of_a_ring_is_that_between_surfaces(window):
     np.testing.assert_allclose(np.mean(means, axis=0)[wide], TAU**-2, rtol=0.03)
 
 
+@pytest.mark.slow
 def test_window_removes_the_leakage_of_a_surface_that_is_not_periodic():
     found = {}
     for window in WINDOWS:
         ratios = []
         for seed in range(6):
             s, heights, dx = cropped(seed, hurst=1.0)
-            spectrum = power_spectrum(heights, dx, window=window)
+            spectrum = power_spectrum(heights, dx, taper=window)
             axis = spectrum.psd[20:30, 0] / s.psd(spectrum.qx[20:30])  # along q_x
             ratios.append(axis.mean())
         found[window] = np.mean(ratios)
@@ -157,7 +158,7 @@ def test_anisotropy_tells_amplitude_and_direction():
         ({"heights": np.full((8, 8), np.nan)}, "finite, got 64"),
         ({"dx": 0.0}, "dx must be positive.*0.0"),
         ({"dy": np.inf}, "dy must be positive.*inf"),
-        ({"window": "hamming"}, "window must be.*'hamming'"),
+        ({"taper": "hamming"}, "taper must be.*'hamming'"),
     ],
 )
 def test_wrong_arguments_of_the_spectrum(arguments, message):
@@ -211,6 +212,7 @@ def test_fit_with_rolloff_is_exact_where_there_is_no_noise():
     np.testing.assert_allclose(s.psd(q), fit.psd(q), rtol=1e-12)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("hurst", [0.5, 0.8])
 @pytest.mark.parametrize("kind", ["periodic", "cropped"])
 def test_coverage_of_the_confidence_interval(kind, hurst):
@@ -221,7 +223,7 @@ def test_coverage_of_the_confidence_interval(kind, hurst):
             spectrum = power_spectrum(heights, 1 / 128)
         else:
             _, heights, dx = cropped(seed, hurst=hurst)
-            spectrum = power_spectrum(heights, dx, window="hann")
+            spectrum = power_spectrum(heights, dx, taper="hann")
         fit = fit_self_affine(spectrum)
         error.append(fit.hurst - hurst)
         claimed.append(fit.hurst_se)
@@ -270,7 +272,7 @@ def test_rolloff_is_found_with_its_error():
     assert np.count_nonzero(np.abs(found) < 2) >= 8
     # The same plateau, seen through a window.
     _, heights, dx = cropped(1, rolloff=TAU * 40)
-    fit = fit_self_affine(power_spectrum(heights, dx, window="hann"))
+    fit = fit_self_affine(power_spectrum(heights, dx, taper="hann"))
     assert fit.q_rolloff == pytest.approx(TAU * 40, abs=4 * fit.q_rolloff_se)
 
 
@@ -290,8 +292,8 @@ def test_rolloff_may_be_asked_for_or_forbidden():
 
 def test_scales_as_the_units_do():
     _, heights, dx = cropped(2)
-    reference = fit_self_affine(power_spectrum(heights, dx, window="hann"))
-    scaled = fit_self_affine(power_spectrum(1e-6 * heights, 1e-6 * dx, window="hann"))
+    reference = fit_self_affine(power_spectrum(heights, dx, taper="hann"))
+    scaled = fit_self_affine(power_spectrum(1e-6 * heights, 1e-6 * dx, taper="hann"))
     assert scaled.hurst == pytest.approx(reference.hurst, abs=1e-9)
     assert scaled.hurst_se == pytest.approx(reference.hurst_se, rel=1e-6)
     # C0 [length^(2 - 2H)]
@@ -381,6 +383,7 @@ def test_imposed_exponent_out_of_range(hurst):
         fit_self_affine(power_spectrum(heights, 1 / 128)).c0_at_hurst(hurst)
 
 
+@pytest.mark.slow
 def test_terrain_is_self_affine_once_it_is_windowed():
     t = topography.jacksboro().detrended("plane")
     fits = {w: fit_self_affine(power_spectrum(t.heights, t.dx, t.dy, w)) for w in WINDOWS}

@@ -35,6 +35,7 @@ def instrument():
 # Instruments' formats
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("instrument")
 def test_file_of_an_instrument_tells_size_and_unit(tmp_path, counts):
     t = topography.read(bcr(tmp_path / "a.bcr", counts))

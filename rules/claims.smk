@@ -1,0 +1,49 @@
+# The claims of the paper, each recomputed and judged.
+
+
+def ledger_inputs():
+    """Files behind the claims, by the names that the claims in scripts/pipeline/claims use."""
+    return {
+        "kappa_64": f"{RESULTS}/fits/kappa/H0.8_zeta64.nc",
+        "kappa_128": f"{RESULTS}/fits/kappa/H0.8_zeta128.nc",
+        "kappa_wide": f"{RESULTS}/fits/kappa/H0.8_zeta32_wide.nc",
+        "lattice_wide": f"{RESULTS}/persson/lattice/H0.8_zeta32_wide.nc",
+        "fit_lattice_128": f"{RESULTS}/fits/a_v/lattice/H0.8_zeta128.nc",
+        "ensemble_wide": f"{RESULTS}/contact/ensembles/H0.8_zeta32_wide.nc",
+        "fit_bem_wide": a_v_of_simulation("H0.8_zeta32_wide"),
+        "fit_bem_64": a_v_of_simulation("H0.8_zeta64"),
+        "fit_bem_128": a_v_of_simulation("H0.8_zeta128"),
+        **{f"fig{n}": f"{RESULTS}/persson/sweeps/fig{n}.nc" for n in ("1b", "3a", "3b", "3d")},
+        **{f"fit_fig{n}": f"{RESULTS}/fits/a_v/sweeps/fig{n}.nc" for n in ("3a", "3c", "3d")},
+        "loop": f"{RESULTS}/adhesion/loops/fig4a.nc",
+        "adhesive_fig2": f"{RESULTS}/adhesion/full/fig2.nc",
+        "adhesive_rough": f"{RESULTS}/adhesion/full/fig4b_rough.nc",
+        "adhesive_smooth": f"{RESULTS}/adhesion/full/fig4b_smooth.nc",
+        "adhesion_fig2": f"{RESULTS}/adhesion/dmt/fig2.nc",
+        "adhesion_rough": f"{RESULTS}/adhesion/dmt/fig4b_rough.nc",
+        "adhesion_smooth": f"{RESULTS}/adhesion/dmt/fig4b_smooth.nc",
+        "map": f"{RESULTS}/criteria/map.nc",
+        "asphalt": f"{RESULTS}/real_surfaces/asphalt.nc",
+        "asphalt_theory": f"{RESULTS}/persson/surfaces/asphalt.nc",
+        "polished_steel": f"{RESULTS}/real_surfaces/polished_steel.nc",
+        "measured_surfaces": [
+            f"{RESULTS}/real_surfaces/{name}.nc"
+            for name, surface in REAL_SURFACES.items()
+            if surface["kind"] == "measured"
+        ],
+        "seeds": [surface_of("H0.8_zeta64").format(seed=seed) for seed in seeds_of("H0.8_zeta64")],
+    }
+
+
+rule check_claims:
+    input:
+        **ledger_inputs(),
+    output:
+        dataset=f"{RESULTS}/claims/claims.nc",
+        table=report(
+            f"{RESULTS}/claims/claims.md",
+            category="Claims",
+            caption="../report/claims.rst",
+        ),
+    script:
+        "../scripts/claims/check_claims.py"

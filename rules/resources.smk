@@ -1,0 +1,58 @@
+# Memory and time that a cluster is asked for. Rules that are not sized here take what the profile
+# gives by default. Both grow with each attempt, so that a job that was too large runs again.
+
+import math
+
+
+def megapixels(surface, pixels_per_wavelength):
+    """Points of a model surface's grid, in millions."""
+    waves = math.ceil(surface["magnification"] * surface.get("window", 1.0))
+    return (pixels_per_wavelength * waves) ** 2 / 1e6
+
+
+def memory(arrays, size):
+    """Memory [MB] for so many arrays of the grid, whose size [megapixels] depends on wildcards."""
+    return lambda wildcards, attempt: attempt * math.ceil(550 + 10 * arrays * size(wildcards))
+
+
+def minutes(seconds_per_megapixel, size, solutions):
+    """Time [min] for a number of solutions, four times what a quiet processor takes."""
+    return lambda wildcards, attempt: attempt * math.ceil(
+        3 + solutions(wildcards) * (0.02 + seconds_per_megapixel * size(wildcards)) * 4 / 60
+    )
+
+
+def surface_size(wildcards):
+    return megapixels(MODEL_SURFACES[wildcards.model_surface], pixels_of(wildcards))
+
+
+def case_size(wildcards):
+    return megapixels(
+        model_surface_of(wildcards.case), PLANS[wildcards.case].settings.pixels_per_wavelength
+    )
+
+
+def coarse_size(wildcards):
+    return megapixels(model_surface_of(wildcards.case), 2)
+
+
+def comparison_size(wildcards):
+    return megapixels(model_surface_of(wildcards.comparison), comparison_pixels(wildcards))
+
+
+def adhesion_size(wildcards):
+    asked = ADHESION[wildcards.adhesion]
+    pixels = PLANS[asked["case"]].settings.pixels_per_wavelength * asked.get("refine", 1)
+    return megapixels(model_surface_of(asked["case"]), pixels)
+
+
+def loop_size(wildcards):
+    surface = MODEL_SURFACES[LOOPS[wildcards.loop]["surface"]]
+    return megapixels(surface, FIDELITY["pixels_per_wavelength"])
+
+
+def adhesive_states(wildcards):
+    """Solutions of a realisation in full, and those without adhesion that they start from."""
+    asked = ADHESION[wildcards.adhesion]
+    laws = len(asked["range_over_h_rms"]) * len(asked["adhesion_length_over_range"])
+    return len(asked["pressures"]) * (1 + laws)

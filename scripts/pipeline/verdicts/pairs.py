@@ -1,0 +1,97 @@
+"""Every material on both ends of every surface: margins, thresholds and the state of the edges."""
+
+from dataclasses import replace
+
+import numpy as np
+
+from stickiness import criteria
+from stickiness.criteria.pair import Pair
+from stickiness.criteria.registry import CRITERIA
+from stickiness.criteria.words import classify_edges
+
+ENDS = ("smooth", "rough")
+DIMS = ("material", "surface", "end")
+BY_END = ("h_rms", "rms_slope", "rms_curvature", "elastic_energy")
+
+
+def gather_pairs(materials, surfaces, a_v, constant) -> Pair:
+    """`Pair` of arrays on the dimensions `DIMS`."""
+    shape = len(materials), len(surfaces), len(ENDS)
+    solids = materials.values()
+    of_solids = {
+        name: np.reshape([getattr(solid, name) for solid in solids], (-1, 1, 1))
+        for name in ("modulus", "work_of_adhesion", "range")
+    }
+    of_surfaces = {
+        name: np.array([surface[name].sel(end=list(ENDS)).values for surface in surfaces.values()])
+        for name in BY_END
+    }
+    of_surfaces["q0"] = np.reshape([float(surface.q0) for surface in surfaces.values()], (-1, 1))
+    found = [
+        [[a_v[name].at(solid.range / h) for h in heights]
+         for name, heights in zip(surfaces, of_surfaces["h_rms"], strict=True)]
+        for solid in solids
+    ]  # fmt: skip
+    of_pairs = dict(zip(("a_v", "a_v_low", "a_v_high"), np.moveaxis(found, -1, 0), strict=True))
+    every = of_solids | of_surfaces | of_pairs
+    return Pair(
+        **{name: np.broadcast_to(value, shape) for name, value in every.items()},
+        constant_a_v=constant.value,
+    )
+
+
+def find_margins(pair):
+    """Margin and threshold of E* by every criterion, with the criteria along the last axis."""
+    dims = (*DIMS, "criterion")
+    every = CRITERIA.values()
+    margins = [criterion.margin(pair) for criterion in every]
+    moduli = [criterion.modulus_threshold(pair) for criterion in every]
+    return {
+        "margin": (dims, np.stack(margins, axis=-1)),
+        "threshold_by_criterion": (dims, np.stack(moduli, axis=-1)),
+    }
+
+
+def describe_edges(pair):
+    """State of the edges of every pair, limits of the margin, and thresholds of E* with limits."""
+    found = pair.attraction()
+    low, high = pair.margin_limits()
+    value, least, most = (pair.work_of_adhesion / length for length in pair.edge_thresholds())
+    validity = criteria.dmt_validity(pair.h_rms, pair.q0, pair.adhesion_length, pair.range)
+    values = {
+        "pair_a_v": pair.a_v,
+        "pair_a_v_low": pair.a_v_low,
+        "pair_a_v_high": pair.a_v_high,
+        "range_over_h_rms": pair.range / pair.h_rms,
+        "margin_low": low,
+        "margin_high": high,
+        "modulus_threshold": value,
+        "modulus_threshold_low": most,
+        "modulus_threshold_high": least,
+        "edge_strength": found.strength,
+        "attractive_over_contact": found.attractive_over_contact,
+        "over_dmt": found.effect,
+        "regime": classify_edges(found).astype("i1"),
+        "simulated": found.simulated.astype("i1"),
+        "jtb_margin": validity.margin,
+    }
+    return {name: (DIMS, value) for name, value in values.items()}
+
+
+def follow_rates(pair, materials, frequencies):
+    """Modulus and limits of the margin at every frequency."""
+    solids = materials.values()
+    moduli = np.array([np.atleast_1d(m.plane_strain.storage(frequencies)) for m in solids])
+    known = ~np.isnan(moduli)  # beyond a material's table there is no modulus
+    at_rate = np.where(known, moduli, 1.0).T[..., None, None]
+    low, high = replace(pair, modulus=at_rate).margin_limits()
+    dims = ("frequency", "material", "surface")
+    known = known.T[..., None]
+    return {
+        "frequency": ("frequency", frequencies),
+        "modulus": (("material", "frequency"), moduli),
+        "modulus_quoted": ("material", [m.modulus for m in solids]),
+        "margin_low_at_rate": (dims, np.where(known, low.min(axis=-1), np.nan)),
+        "margin_high_at_rate": (dims, np.where(known, high.max(axis=-1), np.nan)),
+        "depends_on_rate": ("material", [int(m.depends_on_rate) for m in solids]),
+    }

@@ -1,0 +1,207 @@
+"""Error models: how errors and costs of a simulation depend on surface, load and settings.
+
+Errors of means over random surfaces, and their costs, were measured on a few surfaces with many
+settings (target `tradeoff`). Each part of them is an `ErrorModel`: a power law in magnification,
+window, pressure, pixels and tolerance, times an exponential of the Hurst exponent. Outside what was
+measured (`MEASURED`) errors are doubled, with the models taken at the edge of it. Beside the errors
+of a simulation the table has those of theory in place of a simulation, and of a value that theory
+extrapolates to a broader spectrum (part ``carrying``).
+"""
+
+from __future__ import annotations
+
+import csv
+import itertools
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, fields, replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from stickiness.accuracy.quantities import MODELLED, columns_of
+
+PARTS = (
+    "discretisation",
+    "solver",
+    "scatter",
+    "fine_share",
+    "coarse_share",
+    "theory",
+    "carrying",
+)
+COSTS = ("fine_cost", "coarse_cost", "described_cost", "tolerance_cost")
+COARSE = 2  # pixels per shortest wavelength of the coarse seeds, the fewest that hold it
+FULL = 1e-8  # tolerance at which costs were measured
+# Where the models were fitted or, at the largest Hurst exponent and the smallest pressure, compared
+# with other simulations.
+MEASURED = {
+    "hurst": (0.5, 0.9),
+    "magnification": (16.0, 64.0),
+    "window": (1.0, 4.0),
+    "pressure": (0.0065, 0.3),
+}
+# Finer settings have at most the error at the edge; coarser ones are outside what was measured.
+KNOBS = {"pixels": (4.0, 16.0), "tolerance": (1e-8, 1e-3)}
+OUTSIDE = 2.0  # factor by which errors outside are widened; P(u) at magnification 128 needs 1.1
+
+
+@dataclass(frozen=True)
+class Surface:
+    """What settings depend on: Hurst exponent, q1/q0, side of the cell over longest wavelength.
+
+    Only surfaces of Gaussian amplitudes without a roll-off were measured: ``kind_measured`` is
+    false for others.
+    """
+
+    hurst: float
+    magnification: float
+    window: float = 1.0
+    kind_measured: bool = True
+
+    @classmethod
+    def of(cls, made: Mapping[str, Any]) -> Surface:
+        """From a model surface of the configuration, or the parameters of a file."""
+        usual = made.get("rolloff") is None and made.get("amplitudes", "gaussian") == "gaussian"
+        return cls(made["hurst"], made["magnification"], made.get("window", 1.0), usual)
+
+
+@dataclass(frozen=True, order=True)
+class Settings:
+    """Settings of a case; without coarse seeds means are plain."""
+
+    pixels_per_wavelength: int
+    tolerance: float
+    seeds: int
+    coarse_seeds: int
+
+
+@dataclass(frozen=True)
+class ErrorModel:
+    """One measured part of an error or cost over everything that it depends on.
+
+    ``spread`` is the factor above the fit below which 90 % of the measured points lie, ``points``
+    their number.
+    """
+
+    constant: float
+    hurst: float = 0.0
+    magnification: float = 0.0
+    window: float = 0.0
+    pressure: float = 0.0
+    pixels: float = 0.0
+    tolerance: float = 0.0
+    spread: float = 1.0
+    points: int = 0
+
+    def __call__(
+        self, surface: Surface, pressure: float = 1.0, pixels: float = 1.0, tolerance: float = 1.0
+    ) -> float:
+        """Return the value by the fit, without the spread."""
+        return math.exp(
+            self.constant
+            + self.hurst * surface.hurst
+            + self.magnification * math.log(surface.magnification)
+            + self.window * math.log(surface.window)
+            + self.pressure * math.log(pressure)
+            + self.pixels * math.log(pixels)
+            + self.tolerance * math.log(tolerance)
+        )
+
+
+ErrorModels = Mapping[tuple[str, str], ErrorModel]
+
+
+def nearest_measured(surface: Surface, pressure: float) -> tuple[Surface, float, float]:
+    """Return the nearest surface and pressure measured, and what to widen errors there by.
+
+    The factor is 1 for what lies within `MEASURED` itself, otherwise `OUTSIDE`.
+    """
+    asked = {name: getattr(surface, name, pressure) for name in MEASURED}
+    near = {name: min(max(asked[name], low), high) for name, (low, high) in MEASURED.items()}
+    factor = 1.0 if near == asked and surface.kind_measured else OUTSIDE
+    load = near.pop("pressure")
+    return replace(surface, **near), load, factor
+
+
+def single_error(
+    models: ErrorModels, part: str, column: str, surface: Surface, pressure: float, **knob: float
+) -> float:
+    """Return one part of an error, covering 90 %; widened outside what was measured."""
+    model, (surface, pressure, factor) = models[part, column], nearest_measured(surface, pressure)
+    if is_coarse(**knob):
+        factor *= OUTSIDE
+    return factor * model.spread * model(surface, pressure, **at_most_finest(**knob))
+
+
+def grid_error(
+    models: ErrorModels, column: str, surface: Surface, pressure: float, pixels: float, found: float
+) -> float:
+    """Return the relative error by the grid, covering 90 %, of a case whose own grids say `found`.
+
+    The smaller of that and the error model's. What one case's grids say has to cover any surface,
+    and is two to five times the error; outside what was measured it stands alone.
+    """
+    if extrapolated(surface, pressure, pixels):
+        return found
+    by_model = single_error(models, "discretisation", column, surface, pressure, pixels=pixels)
+    return float(np.fmin(found, by_model))
+
+
+def is_coarse(pixels: float = 8.0, tolerance: float = 1e-8) -> bool:
+    """Whether a grid or a tolerance is coarser than what was measured."""
+    return pixels < KNOBS["pixels"][0] or tolerance > KNOBS["tolerance"][1]
+
+
+def at_most_finest(**knob: float) -> dict[str, float]:
+    """Return pixels or tolerance as given, or if they are finer the finest measured."""
+    finest = {"pixels": KNOBS["pixels"][1], "tolerance": KNOBS["tolerance"][0]}
+    finer = {"pixels": min, "tolerance": max}
+    return {name: finer[name](value, finest[name]) for name, value in knob.items()}
+
+
+def extrapolated(
+    surface: Surface, pressure: float, pixels: float = 8.0, tolerance: float = 1e-8
+) -> bool:
+    """Whether anything that errors are taken from is outside what was measured."""
+    return nearest_measured(surface, pressure)[-1] > 1 or is_coarse(pixels, tolerance)
+
+
+def read_models(path: str | Path) -> dict[tuple[str, str], ErrorModel]:
+    """Read the table of error models, by part and column of a quantity (costs have no column).
+
+    Raises
+    ------
+    ValueError
+        Naming the file, if it is missing or a part or column is.
+    """
+    try:
+        with Path(path).open(encoding="utf-8", newline="") as file:
+            rows = list(csv.DictReader(line for line in file if not line.startswith("#")))
+        models = {
+            (row.pop("part"), row.pop("quantity")): ErrorModel(
+                **{name: float(value) for name, value in row.items()}
+            )
+            for row in rows
+        }
+    except FileNotFoundError:
+        raise ValueError(f"{path}: no such file; the target tradeoff makes it") from None
+    except (KeyError, TypeError, ValueError) as error:
+        raise ValueError(f"{path}: not a table of error models ({error})") from None
+    wanted = itertools.product(PARTS, columns_of(MODELLED))
+    for part, column in (*wanted, *((cost, "") for cost in COSTS)):
+        if (part, column) not in models:
+            raise ValueError(f"{path}: lacks {part} of {column or 'a solution'}")
+    return models
+
+
+def write_models(path: str | Path, models: ErrorModels, comment: str) -> None:
+    """Write a table of error models, with lines of comment before it."""
+    names = [field.name for field in fields(ErrorModel)]
+    with Path(path).open("w", encoding="utf-8", newline="") as file:
+        file.writelines(f"# {line}\n" for line in comment.splitlines())
+        table = csv.writer(file, lineterminator="\n")
+        table.writerow(["part", "quantity", *names])
+        for (part, column), model in models.items():
+            table.writerow([part, column, *(f"{getattr(model, name):.5g}" for name in names)])

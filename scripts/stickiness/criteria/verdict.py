@@ -1,0 +1,219 @@
+"""From a rough surface and a material to a verdict on whether they stick."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from stickiness.core.arguments import positive
+from stickiness.criteria.formulas import pastewka_robbins_a_v
+from stickiness.criteria.pair import Pair
+from stickiness.criteria.registry import CRITERIA, EDGES, FULL_CONTACT
+from stickiness.criteria.surface_a_v import VARIANTS, SurfaceAv, theory_a_v
+from stickiness.criteria.words import REGIMES, WORDS, classify_edges, decide
+from stickiness.measured import instrument_spectrum
+from stickiness.measured.topography import Topography
+from stickiness.surfaces.spectrum import Spectrum, Tabulated
+
+LOAD = 0.065  # mean pressure over E* q0 h_rms, amid those where area grows with load in proportion
+RANGES = np.geomspace(1e-14, 10, 61)  # over h_rms, where theory's a_V is evaluated
+THEORY_ERROR = 0.1  # relative, of theory's a_V against simulation on one spectrum at this load
+BROAD_A_V = 3.0  # of broad spectra, as Violano et al. (2019) find it
+
+
+@dataclass(frozen=True)
+class StickinessVerdict:
+    """Answer for one material on one surface.
+
+    Attributes
+    ----------
+    word : str
+        One of `WORDS`: "depends" if 1 lies within the limits of the margin, "undecided" if contact
+        does not grow by itself but would hold once it is full.
+    margin : float
+        Attraction over repulsion at equal area of contact, by the edges; sticky above 1.
+    margin_limits : (float, float)
+        Lowest and highest margin for the limits of a_V and of the model.
+    modulus_threshold : float
+        Plane-strain modulus [Pa] below which the pair sticks.
+    modulus_threshold_limits : (float, float)
+        Its limits [Pa].
+    regime : str
+        One of `REGIMES`, by the Tabor parameter of the edges.
+    simulated : bool
+        Whether full simulation covers the state of the edges.
+    a_v : float
+        a_V of the pair.
+    a_v_limits : (float, float)
+        Its limits.
+    margins : dict of float
+        Margin by every criterion of `registry.CRITERIA`; sticky above 1.
+    """
+
+    word: str
+    margin: float
+    margin_limits: tuple[float, float]
+    modulus_threshold: float
+    modulus_threshold_limits: tuple[float, float]
+    regime: str
+    simulated: bool
+    a_v: float
+    a_v_limits: tuple[float, float]
+    margins: dict[str, float]
+
+    def __str__(self) -> str:
+        low, high = self.margin_limits
+        modulus = [x / 1e6 for x in (self.modulus_threshold, *self.modulus_threshold_limits)]
+        beyond = "" if self.simulated else " (beyond what was simulated)"
+        others = "; ".join(
+            f"{CRITERIA[name].label} {margin:.3g}"
+            for name, margin in self.margins.items()
+            if name != EDGES
+        )
+        return (
+            f"{self.word}: margin {self.margin:.3g} ({low:.3g} to {high:.3g}), sticky above 1\n"
+            f"sticks below E* = {modulus[0]:.3g} MPa ({modulus[1]:.3g} to {modulus[2]:.3g} MPa)\n"
+            f"edges: {self.regime}{beyond}\n"
+            f"a_V = {self.a_v:.3g} ({self.a_v_limits[0]:.3g} to {self.a_v_limits[1]:.3g})\n"
+            f"margins by other criteria: {others}"
+        )
+
+
+def verdict(
+    surface: Spectrum | ArrayLike,
+    *,
+    modulus: float,
+    work_of_adhesion: float,
+    range: float,
+    poisson: float | None = None,
+    length: float | tuple[float, float] | None = None,
+    a_v: tuple[float, float, float] | None = None,
+    constant_a_v: float = BROAD_A_V,
+) -> StickinessVerdict:
+    """Say whether a material sticks to a rough surface.
+
+    Parameters
+    ----------
+    surface : Spectrum or (nx, ny) array
+        Spectrum, or measured heights [m]; lengths in m. Heights are levelled, and waves beyond
+        the resolution are left out, as `stickiness.measured` does.
+    modulus : float
+        Young's modulus [Pa], or the plane-strain modulus E* if `poisson` is not given.
+    work_of_adhesion : float
+        [J/m^2].
+    range : float
+        Range of the attraction [m].
+    poisson : float, optional
+        Poisson's ratio; then E* = modulus/(1 - poisson^2).
+    length : float or pair of floats
+        Sides [m] of measured heights; only with these.
+    a_v : (value, low, high), optional
+        a_V of the pair with its limits. By default that of Persson's theory on the spectrum. Its
+        limits are those of two variants of the theory and of Pastewka and Robbins' estimate,
+        widened by `THEORY_ERROR`.
+    constant_a_v : float
+        a_V of a broad spectrum, for the criterion that takes one.
+
+    Returns
+    -------
+    StickinessVerdict
+
+    Raises
+    ------
+    ValueError
+        If a number is not positive and finite, if `poisson` is not between -1 and 0.5, or if
+        `length` is missing for heights or given for a spectrum.
+
+    Examples
+    --------
+    >>> from stickiness.spectrum import SelfAffine
+    >>> rough = SelfAffine(hurst=0.8, q0=6e4, q1=6e8, h_rms=1e-6)
+    >>> verdict(rough, modulus=210e9, poisson=0.3, work_of_adhesion=0.1, range=3e-10).word
+    'not sticky'
+    """
+    positive(modulus=modulus, work_of_adhesion=work_of_adhesion, range=range)
+    if poisson is not None and not -1 < poisson <= 0.5:
+        raise ValueError(f"poisson must be above -1 and at most 0.5, got {poisson!r}")
+    known = describe_surface(surface, length)
+    spectrum = known.pop("spectrum")
+    if a_v is None:
+        a_v = estimate_a_v(spectrum, known, range / known["h_rms"])
+    value, low, high = map(float, positive(a_v=a_v)[0])
+    if not low <= value <= high:
+        raise ValueError(f"a_v must be (value, low, high) with low <= value <= high, got {a_v!r}")
+    pair = Pair(
+        **known,
+        modulus=modulus if poisson is None else modulus / (1 - poisson**2),
+        work_of_adhesion=work_of_adhesion,
+        range=range,
+        a_v=value,
+        a_v_low=low,
+        a_v_high=high,
+        constant_a_v=constant_a_v,
+    )
+    return judge_pair(pair)
+
+
+def judge_pair(pair: Pair) -> StickinessVerdict:
+    """Verdict on a pair of numbers."""
+    edges = pair.attraction()
+    margins = {name: float(criterion.margin(pair)) for name, criterion in CRITERIA.items()}
+    low, high = map(float, pair.margin_limits())
+    value, least, most = (float(pair.work_of_adhesion / x) for x in pair.edge_thresholds())
+    return StickinessVerdict(
+        word=WORDS[int(decide(low > 1, high > 1, margins[FULL_CONTACT] > 1))],
+        margin=margins[EDGES],
+        margin_limits=(low, high),
+        modulus_threshold=value,
+        modulus_threshold_limits=(most, least),
+        regime=REGIMES[int(classify_edges(edges))],
+        simulated=bool(edges.simulated),
+        a_v=float(pair.a_v),
+        a_v_limits=(float(pair.a_v_low), float(pair.a_v_high)),
+        margins=margins,
+    )
+
+
+def describe_surface(surface: Spectrum | ArrayLike, length: Any = None) -> dict[str, Any]:
+    """Spectrum of a surface and its moments by the names of `Pair`; see `verdict`."""
+    if isinstance(surface, Spectrum):
+        if length is not None:
+            raise ValueError(f"length is of measured heights; a spectrum has none, got {length!r}")
+        spectrum, q0 = surface, surface.q0
+    else:
+        if length is None:
+            raise ValueError("length is missing: the side of the measured heights in m")
+        heights = np.asarray(surface, dtype=float)
+        if heights.ndim != 2:
+            raise ValueError(f"heights must be an (nx, ny) array, got the shape {heights.shape}")
+        sides = np.broadcast_to(positive(length=length)[0], 2)
+        dx, dy = (float(side) / n for side, n in zip(sides, heights.shape, strict=True))
+        measured = instrument_spectrum.analyse(
+            Topography(heights, dx, dy, "heights").detrended("plane")
+        )
+        rings = measured.rings
+        inside = rings.q <= measured.cutoff.q * (1 + 1e-9)
+        spectrum = Tabulated(rings.q[inside], rings.psd[inside])
+        q0 = measured.fit.q_rolloff or measured.lowest
+    return {
+        "spectrum": spectrum,
+        "q0": float(q0),
+        "h_rms": spectrum.h_rms,
+        "rms_slope": spectrum.rms_slope,
+        "rms_curvature": spectrum.rms_curvature,
+        "elastic_energy": spectrum.elastic_energy(),
+    }
+
+
+def estimate_a_v(
+    spectrum: Spectrum, known: dict[str, float], range_over_h_rms: float
+) -> tuple[float, float, float]:
+    """a_V by theory on a spectrum with its limits; `known` has q0 and the moments."""
+    moments = (known[name] for name in ("q0", "h_rms", "rms_slope", "rms_curvature"))
+    edge_a_v = float(pastewka_robbins_a_v(*moments))
+    names, a_v, _ = theory_a_v(spectrum, RANGES, LOAD, edge_a_v, q0=known["q0"])
+    quoted = names.index(VARIANTS[0])
+    return SurfaceAv(RANGES, np.array(a_v), quoted, 1.0, THEORY_ERROR).at(range_over_h_rms)

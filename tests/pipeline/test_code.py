@@ -1,0 +1,62 @@
+"""The hash of a job's code follows what it runs, and nothing else."""
+
+import pytest
+
+from pipeline import code
+
+
+@pytest.fixture
+def hashed(tmp_path):
+    """A script that uses one module of a package, and a function that hashes it."""
+    files = {
+        "scripts/stage/rule.py": "from part import used\n\n\ndef main():\n    return used.one()\n",
+        "scripts/part/__init__.py": '"""A part."""\n',
+        "scripts/part/used.py": "def one():\n    return 1\n",
+        "scripts/part/unused.py": "def two():\n    return 2\n",
+    }
+    (tmp_path / "rules").mkdir()
+    for name, text in files.items():
+        (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
+        (tmp_path / name).write_text(text, encoding="utf-8")
+
+    def hash_now():
+        code.parsed.cache_clear()
+        code.instructions.cache_clear()
+        code.imports.cache_clear()
+        return code.code_of(str(tmp_path / "scripts"), "../scripts/stage/rule.py")
+
+    return tmp_path / "scripts", hash_now
+
+
+@pytest.mark.parametrize("name", ["stage/rule.py", "part/used.py", "part/__init__.py"])
+def test_a_change_of_what_runs_changes_it(hashed, name):
+    folder, hash_now = hashed
+    before = hash_now()
+    with (folder / name).open("a", encoding="utf-8") as file:
+        file.write("\nMORE = 1\n")
+    assert hash_now() != before
+
+
+@pytest.mark.parametrize(
+    ("name", "text"),
+    [
+        ("part/used.py", '# A comment.\ndef one():\n    """A docstring."""\n\n    return  1\n'),
+        ("part/unused.py", "def two():\n    return 3\n"),
+        ("part/__init__.py", '"""Other words."""\n'),
+    ],
+)
+def test_words_and_what_does_not_run_leave_it(hashed, name, text):
+    folder, hash_now = hashed
+    before = hash_now()
+    (folder / name).write_text(text, encoding="utf-8")
+    assert hash_now() == before
+
+
+def test_a_module_that_is_imported_within_a_function_counts(hashed):
+    folder, hash_now = hashed
+    (folder / "part/used.py").write_text(
+        "def one():\n    from part import unused\n\n    return unused.two()\n", encoding="utf-8"
+    )
+    before = hash_now()
+    (folder / "part/unused.py").write_text("def two():\n    return 3\n", encoding="utf-8")
+    assert hash_now() != before

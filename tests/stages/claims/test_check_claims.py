@@ -1,0 +1,78 @@
+"""The rule that examines every claim."""
+
+from pathlib import Path
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+from helpers.claim_files import files_by_name
+
+from claims import check_claims
+from pipeline.claims import CLAIMS
+from pipeline.claims.ledger import NOT, QUALIFIED, REPRODUCED, claim
+
+RULES = Path(__file__).parents[3] / "rules"
+
+
+def ledger_inputs():
+    """The inputs of the rule, with one assumed and one measured surface, and two seeds."""
+    (text,) = (
+        text
+        for path in RULES.glob("*.smk")
+        if "def ledger_inputs" in (text := path.read_text(encoding="utf-8"))
+    )
+    start = text.index("def ledger_inputs")
+    names = {
+        "RESULTS": "out",
+        "REAL_SURFACES": {"steel": {"kind": "self_affine"}, "terrain": {"kind": "measured"}},
+        "seeds_of": lambda case: [1, 2],
+    }
+    exec(text[start : text.index("\n\n\n", start)], names)
+    return names["ledger_inputs"]()
+
+
+def test_every_claim_runs_on_the_files_it_names():
+    """A claim is given these files alone, so that it cannot read another."""
+    files = files_by_name()
+    findings = {claim.number: claim(files) for claim in CLAIMS}
+    assert list(findings) == list(range(1, 19))
+    for found in findings.values():
+        assert found.verdict in (REPRODUCED, QUALIFIED, NOT)
+        assert np.isfinite(found.value)
+        assert "nan" not in found.remark + found.quantity
+    for number in (1, 2, 3, 4, 6, 7, 8, 9):  # what the made-up world obeys to the letter
+        assert findings[number].verdict == REPRODUCED, findings[number]
+
+
+def test_the_rule_gives_the_files_that_claims_read_and_no_others():
+    assert ledger_inputs().keys() == {name for claim in CLAIMS for name in claim.files}
+    assert ledger_inputs().keys() == files_by_name().keys()
+
+
+def test_only_measured_surfaces_are_given_to_test_the_line():
+    assert ledger_inputs()["measured_surfaces"] == ["out/real_surfaces/terrain.nc"]
+
+
+def test_sources_are_listed_once_in_the_order_of_the_claim():
+    paths = {"map": "a.nc", "asphalt": "b.nc", "surfaces": ["b.nc", "c.nc"], "unused": "d.nc"}
+    several = claim(1, "several", files=("asphalt", "surfaces", "map"))(lambda files: None)
+    assert check_claims.source_paths(several, paths) == ["b.nc", "c.nc", "a.nc"]
+
+
+def test_a_file_that_the_rule_does_not_give_is_named():
+    misspelt = claim(7, "misspelt", files=("maps",))(lambda files: None)
+    with pytest.raises(ValueError, match=r"claim 7 reads 'maps'.* it gives asphalt, map:"):
+        check_claims.input_paths({"map": "a.nc", "asphalt": "b.nc"}, [misspelt])
+
+
+def test_value_is_written_with_its_error_if_that_is_known():
+    assert check_claims.with_error(2.0789, 0.0284) == "2.079 ± 0.028"
+    assert check_claims.with_error(1.1312, np.nan) == "1.131"
+    assert check_claims.with_error(1.1312, 0.0) == "1.131 (exact)"
+
+
+def test_a_source_that_is_not_known_dominates():
+    finding = SimpleNamespace(errors={"sampling": 0.3, "model": np.nan}, uncertainty=np.nan)
+    assert check_claims.name_dominant(finding) == "model (not known)"
+    finding = SimpleNamespace(errors={"sampling": 0.3, "model": 0.4}, uncertainty=0.5)
+    assert check_claims.name_dominant(finding) == "model"

@@ -1,0 +1,412 @@
+"""Repulsive contact: conditions of contact, closed forms, invariances, extremes."""
+
+import logging
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from stickiness import repulsive
+from stickiness.closed_forms import contact as reference
+
+
+def rough(n, hurst=0.8, magnification=None, seed=0, modes=64):
+    """Band-limited self-affine heights of unit rms; the same surface on every even grid."""
+    magnification = magnification or n // 8
+    rng = np.random.default_rng(seed)
+    k = np.fft.fftfreq(modes, 1 / modes)
+    radius = np.hypot(k[:, None], k[None, :])
+    inside = (radius >= 1) & (radius <= min(magnification, modes // 2 - 1))
+    amplitude = np.where(inside, np.maximum(radius, 1) ** -(1 + hurst), 0)
+    coarse = np.fft.fft2(rng.standard_normal((modes, modes))) * amplitude
+    fine = np.zeros((n, n), complex)
+    kept = np.abs(k) < min(n, modes) // 2
+    index = k[kept].astype(int)
+    fine[np.ix_(index % n, index % n)] = coarse[np.ix_(kept, kept)]
+    heights = np.fft.ifft2(fine).real
+    return heights / heights.std()
+
+
+def displacement(pressure, sides):
+    """Displacement under a pressure by numpy's transforms alone."""
+    shape = pressure.shape
+    q0 = 2 * np.pi * np.fft.fftfreq(shape[0], sides[0] / shape[0])
+    q1 = 2 * np.pi * np.fft.fftfreq(shape[1], sides[1] / shape[1])
+    q = np.hypot(q0[:, None], q1[None, :])
+    q[0, 0] = np.inf
+    return np.fft.ifft2(2 * np.fft.fft2(pressure) / q).real
+
+
+def assert_solves(contact, heights, sides, tol=1e-8):
+    """Check the conditions of contact, from scratch."""
+    assert np.all(contact.pressure >= 0)
+    assert np.all(contact.gap >= 0)
+    assert not np.any(contact.pressure * contact.gap)
+    # the load is balanced to the rounding of a sum of n**2 terms
+    assert contact.pressure.mean() == pytest.approx(contact.mean_pressure, rel=1e-12)
+    gap = displacement(contact.pressure, sides) + contact.shift - heights
+    # 1.01: the residual is measured with another transform, with other rounding
+    assert np.abs(gap - contact.gap).max() <= 1.01 * tol * heights.std()
+    touching = contact.pressure > 0
+    violation = max(np.abs(gap[touching]).max(), -gap.min())
+    assert violation <= contact.residual * heights.std() * 1.01 + 1e-13 * heights.std()
+    assert contact.area_fraction == np.mean(touching)
+    assert contact.mean_gap == pytest.approx(contact.gap.mean())
+
+
+@pytest.mark.parametrize("hurst", [0.5, 0.8])
+@pytest.mark.parametrize("scaled_pressure", [1e-3, 0.01, 0.065, 0.3, 1.0, 2.0])
+def test_rough_surface_meets_the_contact_conditions(hurst, scaled_pressure):
+    heights = rough(128, hurst, seed=1)
+    contact = repulsive.solve(heights, 1.0, scaled_pressure * 2 * np.pi)
+    assert contact.residual <= 1e-8
+    assert_solves(contact, heights, (1.0, 1.0))
+
+
+@pytest.mark.parametrize("shape", [(65, 63), (101, 101), (127, 64), (2, 2), (1, 64), (3, 128)])
+def test_any_grid(shape):
+    heights = np.random.default_rng(0).standard_normal(shape)
+    sides = (1.0, shape[1] / shape[0])
+    for pressure in (0.01, 1.0):
+        contact = repulsive.solve(heights, 1.0, pressure)
+        assert_solves(contact, heights, sides)
+        assert contact.length == pytest.approx(sides)
+
+
+def test_unequal_sides_and_transposition():
+    heights = rough(64, seed=2)[:, :48]
+    contact = repulsive.solve(heights, (1.0, 2.0), 0.5)
+    assert_solves(contact, heights, (1.0, 2.0))
+    turned = repulsive.solve(heights.T, (2.0, 1.0), 0.5)
+    # both are within the tolerance of the one solution; pressures scale as |q|max / 2 * 1e-8
+    np.testing.assert_allclose(turned.gap.T, contact.gap, atol=5e-8)
+    assert turned.area_fraction == contact.area_fraction
+
+
+def test_solution_is_that_of_a_direct_method():
+    """Against the stationary point found by exhaustion of active sets, with dense algebra."""
+    heights = rough(16, magnification=4, seed=3)
+    n = heights.size
+    columns = [displacement(row.reshape(16, 16), (1.0, 1.0)).ravel() for row in np.eye(n)]
+    compliance = np.array(columns).T
+    load, active = 1.0, np.ones(n, bool)
+    for _ in range(100):
+        size = active.sum()
+        system = np.ones((size + 1, size + 1))
+        system[:size, :size] = compliance[np.ix_(active, active)]
+        system[size, size] = 0
+        solution = np.linalg.solve(system, np.append(heights.ravel()[active], load * n))
+        pressure = np.zeros(n)
+        pressure[active] = solution[:size]
+        gap = compliance @ pressure + solution[size] - heights.ravel()
+        wrong = (pressure < 0) | ((gap < -1e-12) & ~active)
+        if not wrong.any():
+            break
+        active = np.where(pressure < 0, False, active | (gap < -1e-12))
+    else:
+        pytest.fail("the direct method did not settle")
+    contact = repulsive.solve(heights, 1.0, load, tol=1e-11)
+    np.testing.assert_array_equal(contact.pressure.ravel() > 0, active)
+    # the largest stiffness, pi n, times the tolerance bounds the error of the pressure
+    np.testing.assert_allclose(contact.pressure.ravel(), pressure, atol=1e-9)
+    assert contact.shift == pytest.approx(solution[size], abs=1e-10)
+
+
+@pytest.mark.parametrize("axis", [0, 1])
+def test_westergaard_converges(axis):
+    """Errors of the profile are of the order of one pixel at the edge, where p has a root."""
+    wave = reference.Westergaard(amplitude=0.01, wavelength=1.0, pressure=0.012)
+    errors = []
+    for n in (64, 1024):
+        x = (np.arange(n) + 0.5) / n
+        profile = 0.01 * np.cos(2 * np.pi * x)
+        heights = np.repeat(profile[:, None], 4, axis=1)
+        sides = (1.0, 4 / n)
+        heights, sides = (heights.T, sides[::-1]) if axis else (heights, sides)
+        contact = repulsive.solve(heights, sides, 0.012)
+        distance = np.minimum(x, 1 - x)
+        pressure = contact.pressure[0] if axis else contact.pressure[:, 0]
+        gap = contact.gap[0] if axis else contact.gap[:, 0]
+        assert abs(contact.area_fraction - wave.area_fraction) < 2 / n
+        assert contact.mean_gap == pytest.approx(wave.gap(x).mean(), rel=0.05 * 64 / n)
+        np.testing.assert_allclose(gap, wave.gap(distance), atol=0.01 * 0.05 * 64 / n)
+        expected = wave.contact_pressure(distance)
+        errors.append(np.sqrt(np.mean((pressure - expected) ** 2)) / expected.max())
+    # 16 times the points: the error falls at least like 1/sqrt(n), the root at the edge
+    assert errors[1] < errors[0] / 4
+    assert errors[1] < 1e-3
+
+
+def test_westergaard_in_full_contact_is_exact():
+    n = 32
+    x = np.arange(n) / n
+    heights = np.repeat(0.01 * np.cos(2 * np.pi * x)[:, None], n, axis=1)
+    wave = reference.Westergaard(0.01, 1.0, 0.04)
+    contact = repulsive.solve(heights, 1.0, 0.04)
+    assert contact.area_fraction == wave.area_fraction == 1.0
+    # one Fourier mode is resolved exactly: rounding only
+    np.testing.assert_allclose(contact.pressure[:, 0], wave.contact_pressure(x), rtol=1e-12)
+    assert not contact.gap.any()
+
+
+def test_hertz_in_a_large_box():
+    n, radius = 256, 1.0
+    hertz = reference.Hertz(radius, 4 / 3 * 0.05**3 / radius)
+    assert hertz.contact_radius == pytest.approx(0.05)
+    x = (np.arange(n) - n // 2) / n
+    r = np.hypot(x[:, None], x[None, :])
+    contact = repulsive.solve(-(r**2) / (2 * radius), 1.0, hertz.load)
+    # neighbours at distance 1 change the local field by (a/L)**3 ~ 1e-4; pixels weigh 2 %
+    assert contact.pressure.max() == pytest.approx(hertz.largest_pressure, rel=2e-3)
+    assert contact.area_fraction == pytest.approx(np.pi * 0.05**2, rel=0.02)
+    inside = r < 0.8 * hertz.contact_radius
+    np.testing.assert_allclose(
+        contact.pressure[inside], hertz.contact_pressure(r)[inside], rtol=0.01
+    )
+    near = (r > 0.07) & (r < 0.12)
+    np.testing.assert_allclose(contact.gap[near], hertz.gap(r)[near], rtol=0.02)
+
+
+def test_wave_in_two_directions_against_both_limits():
+    n = 256
+    x = np.arange(n) / n
+    heights = 0.01 * np.cos(2 * np.pi * x)[:, None] * np.cos(2 * np.pi * x)[None, :]
+    full = reference.wave_full_contact_pressure(0.01, 1.0)
+    small = repulsive.solve(heights, 1.0, 0.005 * full).area_fraction
+    # 750 pixels in each spot: 2 %; interaction of the spots: the first correction is of order
+    # (a / wavelength)**3, here below 1 %
+    assert small == pytest.approx(reference.wave_small_load_area(0.005), rel=0.04)
+    holes = 1 - repulsive.solve(heights, 1.0, 0.98 * full).area_fraction
+    # the holes are 610 pixels, their rim a tenth of it
+    assert holes == pytest.approx(1 - reference.wave_large_load_area(0.98), rel=0.05)
+    assert repulsive.solve(heights, 1.0, 0.999 * full).area_fraction < 1
+    assert repulsive.solve(heights, 1.0, 1.001 * full).area_fraction == 1
+
+
+def test_full_contact_of_a_rough_surface():
+    heights = rough(96, seed=4)
+    exact = reference.full_contact_pressure(heights, 1.0, 0.0)
+    threshold = -exact.min()
+    contact = repulsive.solve(heights, 1.0, 1.001 * threshold)
+    np.testing.assert_allclose(contact.pressure, exact + 1.001 * threshold, atol=1e-11)
+    assert contact.area_fraction == 1
+    assert contact.mean_gap == 0
+    assert contact.shift == pytest.approx(heights.mean(), abs=1e-12)
+    almost = repulsive.solve(heights, 1.0, 0.98 * threshold)
+    assert 0.95 < almost.area_fraction < 1
+    assert_solves(almost, heights, (1.0, 1.0))
+
+
+def test_area_and_gap_are_monotonic_in_the_load():
+    heights = rough(128, seed=5)
+    pressures = 2 * np.pi * np.geomspace(0.003, 0.3, 6)
+    path = list(repulsive.load_path(heights, 1.0, pressures))
+    areas = np.array([c.area_fraction for c in path])
+    gaps = np.array([c.mean_gap for c in path])
+    assert np.all(np.diff(areas) > 0)
+    assert np.all(np.diff(gaps) < 0)
+    for c, pressure in zip(path, pressures, strict=True):
+        assert_solves(c, heights, (1.0, 1.0))
+        cold = repulsive.solve(heights, 1.0, pressure)
+        # two solutions to 1e-8 h_rms; single pixels with a pressure near zero may differ
+        assert c.area_fraction == pytest.approx(cold.area_fraction, abs=2 / heights.size)
+        assert c.mean_gap == pytest.approx(cold.mean_gap, abs=2e-8)
+
+
+def test_path_in_small_steps():
+    heights = rough(64, seed=19)
+    pressures = 0.4 * np.array([1, 1.001, 1.002, 1.001, 0.0, 1.0])
+    path = list(repulsive.load_path(heights, 1.0, pressures))
+    for contact, pressure in zip(path, pressures, strict=True):
+        assert contact.mean_pressure == pressure
+        cold = repulsive.solve(heights, 1.0, pressure)
+        np.testing.assert_allclose(contact.gap, cold.gap, atol=4e-8)
+
+
+@pytest.mark.slow
+def test_work_of_the_load_is_the_elastic_energy():
+    """Energy balance: the load working against the mean gap stores the elastic energy."""
+    heights = rough(64, seed=6)
+    pressures = 2 * np.pi * np.geomspace(1e-6, 0.3, 400)
+    path = list(repulsive.load_path(heights, 1.0, pressures, tol=1e-7))
+    gap = np.array([c.mean_gap for c in path])
+    work = -np.trapezoid(pressures, gap)
+    energy = 0.5 * np.mean(path[-1].pressure * displacement(path[-1].pressure, (1.0, 1.0)))
+    # the trapezoid rule over steps of 3 % in load: relative error of some 1e-4
+    assert work == pytest.approx(energy, rel=1e-3)
+
+
+def test_resolution_refines_the_same_surface():
+    """The same band-limited surface: the mean gap settles as the pixels shrink."""
+    gaps = [
+        repulsive.solve(rough(n, magnification=8, seed=7), 1.0, 0.4).mean_gap
+        for n in (64, 128, 256)
+    ]
+    # the error falls as a power of the pixel, at least as fast as linearly
+    assert abs(gaps[2] - gaps[1]) < 0.6 * abs(gaps[1] - gaps[0])
+    assert gaps[2] == pytest.approx(gaps[1], abs=5e-3)
+
+
+@pytest.mark.filterwarnings("ignore:heights of")  # whose unit is not the length's
+@pytest.mark.parametrize("height_unit", [1e-30, 1.0, 1e30])
+@pytest.mark.parametrize("length_unit", [1e-30, 1.0, 1e30])
+def test_units_do_not_matter(height_unit, length_unit):
+    heights = rough(64, seed=8)
+    base = repulsive.solve(heights, 1.0, 0.4)
+    slope = height_unit / length_unit
+    other = repulsive.solve(heights * height_unit, length_unit, 0.4 * slope)
+    scale = base.pressure.max()
+    np.testing.assert_allclose(other.pressure / slope, base.pressure, atol=1e-12 * scale)
+    np.testing.assert_allclose(other.gap / height_unit, base.gap, atol=1e-12)
+    assert other.residual <= 1e-8
+
+
+def test_an_offset_of_the_heights_shifts_only():
+    heights = rough(64, seed=9)
+    base = repulsive.solve(heights, 1.0, 0.4)
+    lifted = repulsive.solve(heights + 1e3, 1.0, 0.4)
+    # adding 1e3 costs the heights three digits
+    np.testing.assert_allclose(lifted.gap, base.gap, atol=1e-7)
+    assert lifted.shift - 1e3 == pytest.approx(base.shift, abs=1e-7)
+
+
+@pytest.mark.filterwarnings("ignore:(heights of|pressure =)")
+@settings(max_examples=15, deadline=None, derandomize=True)
+@given(
+    seed=st.integers(0, 10_000),
+    n0=st.integers(1, 24),
+    n1=st.integers(1, 24),
+    exponent=st.floats(-12, 6),
+    levels=st.integers(1, 4),
+)
+def test_random_terraces(seed, n0, n1, exponent, levels):
+    """Plateaus (ties of height) on any small grid, at any load."""
+    heights = np.random.default_rng(seed).integers(0, levels + 1, (n0, n1)) * 0.5
+    contact = repulsive.solve(heights, 1.0, 10**exponent)
+    if heights.std() > 0:
+        touching = contact.pressure > 0
+        assert contact.residual <= 1e-8
+        assert np.all(contact.pressure >= 0)
+        assert np.all(contact.gap >= 0)
+        assert not contact.gap[touching].any()
+        assert contact.pressure.mean() == pytest.approx(10**exponent, rel=1e-12)
+    else:
+        assert contact.area_fraction == 1
+
+
+def test_one_pixel_in_contact():
+    heights = np.zeros((64, 64))
+    heights[3, 5] = 1.0
+    contact = repulsive.solve(heights, 1.0, 1e-3)
+    assert contact.area_fraction == 1 / 4096
+    assert contact.pressure[3, 5] == pytest.approx(4.096)
+    assert_solves(contact, heights, (1.0, 1.0))
+
+
+def test_touching_at_no_load():
+    heights = rough(32, seed=10)
+    contact = repulsive.solve(heights, 1.0, 0.0)
+    assert not contact.pressure.any()
+    assert contact.area_fraction == 0
+    assert contact.gap.min() == 0
+    assert contact.mean_gap == pytest.approx(heights.max() - heights.mean())
+    light = repulsive.solve(heights, 1.0, 1e-12)
+    assert light.mean_gap == pytest.approx(contact.mean_gap, abs=1e-10)
+
+
+@pytest.mark.parametrize("level", [0.0, -3.5, 1e30])
+def test_flat_surface(level):
+    contact = repulsive.solve(np.full((12, 7), level), 1.0, 0.2)
+    assert np.all(contact.pressure == 0.2)
+    assert not contact.gap.any()
+    assert contact.area_fraction == 1
+    assert contact.residual == 0
+
+
+def test_input_is_neither_changed_nor_restricted_in_layout():
+    heights = rough(64, seed=11)
+    copy = heights.copy()
+    base = repulsive.solve(heights, 1.0, 0.3)
+    np.testing.assert_array_equal(heights, copy)
+    wide = np.zeros((64, 128))
+    wide[:, ::2] = heights
+    np.testing.assert_array_equal(repulsive.solve(wide[:, ::2], 1.0, 0.3).gap, base.gap)
+    single = heights.astype(np.float32)
+    same = repulsive.solve(single.astype(float), 1.0, 0.3)
+    np.testing.assert_array_equal(repulsive.solve(single, 1.0, 0.3).pressure, same.pressure)
+
+
+def test_same_result_every_time_and_independent_of_what_was_solved_before():
+    heights = rough(128, seed=12)
+    first = repulsive.solve(heights, 1.0, 0.3)
+    repulsive.solve(rough(128, seed=13), 1.0, 2.0)
+    second = repulsive.solve(heights, 1.0, 0.3)
+    np.testing.assert_array_equal(first.pressure, second.pressure)
+    np.testing.assert_array_equal(first.gap, second.gap)
+
+
+def test_warm_start_saves_work():
+    heights = rough(256, seed=14)
+    near = repulsive.solve(heights, 1.0, 0.4)
+    cold = repulsive.solve(heights, 1.0, 0.4002)
+    warm = repulsive.solve(heights, 1.0, 0.4002, start=near)
+    # coarser grids start at 1e-2 of h_rms, a neighbouring solution at the change of load, 5e-4
+    assert warm.fft_pairs < 0.9 * cold.fft_pairs
+    np.testing.assert_allclose(warm.gap, cold.gap, atol=4e-8)
+
+
+def test_work_hardly_grows_with_the_grid():
+    work = [repulsive.solve(rough(n, seed=15, modes=256), 1.0, 0.4).fft_pairs for n in (128, 512)]
+    assert work[1] < 1.3**2 * work[0]
+
+
+def test_failure_carries_the_best_iterate():
+    heights = rough(128, seed=16)
+    with pytest.raises(repulsive.ConvergenceError, match="max_iterations") as failure:
+        repulsive.solve(heights, 1.0, 0.4, max_iterations=2)
+    best = failure.value.contact
+    assert failure.value.residual == best.residual > 1e-8
+    assert best.pressure.mean() == pytest.approx(0.4)
+    assert best.residual < 1
+
+
+def test_tolerance_beyond_rounding_fails_in_finite_time():
+    with pytest.raises(repulsive.ConvergenceError) as failure:
+        repulsive.solve(rough(32, seed=17), 1.0, 0.4, tol=1e-18)
+    assert failure.value.residual < 1e-13
+
+
+def test_logger_is_told_the_progress(caplog):
+    logger = logging.getLogger("contact")
+    with caplog.at_level(logging.INFO, logger="contact"):
+        repulsive.solve(rough(64, seed=18), 1.0, 0.4, logger=logger)
+    assert "64 x 64: residual" in caplog.text
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        ({"heights": np.full((4, 4), np.nan)}, "heights must be finite, got 16"),
+        ({"heights": np.array([[0.0, np.inf]])}, "heights must be finite, got 1"),
+        ({"heights": np.zeros(4)}, "heights must be a grid"),
+        ({"heights": np.zeros((0, 4))}, "heights must be a grid"),
+        ({"length": 0.0}, "length must be"),
+        ({"length": (1.0, np.nan)}, "length must be"),
+        ({"length": (1.0, 2.0, 3.0)}, "length must be"),
+        ({"pressure": -1.0}, "pressure must be"),
+        ({"pressure": np.nan}, "pressure must be"),
+        ({"tol": 0.0}, "tol must be"),
+        ({"max_iterations": 0}, "max_iterations must be"),
+    ],
+)
+def test_wrong_arguments(change, message):
+    arguments = {"heights": rough(8, magnification=2), "length": 1.0, "pressure": 0.1} | change
+    with pytest.raises(ValueError, match=message):
+        repulsive.solve(**arguments)
+
+
+def test_start_on_another_grid():
+    start = repulsive.solve(rough(16, magnification=4), 1.0, 0.1)
+    with pytest.raises(ValueError, match="same grid"):
+        repulsive.solve(rough(32), 1.0, 0.1, start=start)

@@ -1,0 +1,147 @@
+"""One table of criteria: an entry is all that a new criterion needs."""
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from criteria import compare_criteria, judge
+from figures import plot_fig9
+from pipeline.pages import report, verdict_texts
+from pipeline.pages.style import canvas
+from pipeline.verdicts.a_v import MeasuredAv
+from pipeline.verdicts.markdown import write_markdown
+from pipeline.verdicts.materials import material
+from stickiness.core import datasets
+from stickiness.criteria.registry import CRITERIA, EDGES, Criterion
+from stickiness.criteria.surface_a_v import SurfaceAv
+from stickiness.spectrum import SelfAffine
+
+COMPARED = {
+    "hurst": 0.8,
+    "range_times_q0": 1e-6,
+    "h_rms_over_range": {"minimum": 10, "maximum": 1e4, "per_decade": 1},
+    "quoted_h_rms_over_range": 1000,
+    "magnification": {"minimum": 10, "maximum": 1e5, "per_decade": 1},
+    "quoted_magnification": 1e4,
+}
+GEL = {
+    "label": "gel",
+    "plane_strain_modulus": "0.1 MPa",
+    "work_of_adhesion": "50 mJ/m^2",
+    "range": "0.3 nm",
+}
+CONSTANT = MeasuredAv(3.0, 2.0, 1.0, 1e6, 0.1, 0.1, 0.1, 0.1)
+
+
+@pytest.fixture
+def road(tmp_path):
+    """Surface with two ends, as it is read from a file."""
+    known = {"h_rms": [], "rms_slope": [], "rms_curvature": [], "elastic_energy": []}
+    for h_rms in (1e-6, 2e-6):
+        s = SelfAffine(hurst=0.8, q0=1e5, q1=1e9, h_rms=h_rms)
+        for name in ("h_rms", "rms_slope", "rms_curvature"):
+            known[name].append(getattr(s, name))
+        known["elastic_energy"].append(s.elastic_energy())
+    data = xr.Dataset(
+        {name: ("end", values) for name, values in known.items()} | {"q0": 1e5, "hurst": 0.8},
+        coords={"end": ["smooth", "rough"]},
+    )
+    described = {name: ("1", name) for name in data.variables}
+    path = tmp_path / "road.nc"
+    parameters = {"label": "road"}
+    datasets.write(datasets.annotate(data, **described), path, title="t", parameters=parameters)
+    return datasets.read(path)
+
+
+@pytest.fixture
+def judged(road):
+    a_v = SurfaceAv(np.array([1e-9, 1.0]), np.array([[4.0, 4.0]]), 0, 1.0, 0.1)
+    solids = {"gel": material(GEL)}
+    rates = np.array([1.0])
+    return judge.judge_pairs(solids, {"road": road}, {"road": a_v}, CONSTANT, rates)
+
+
+@pytest.fixture
+def made_up(monkeypatch):
+    """A criterion of the least adhesion length over the rms height."""
+    entry = Criterion(
+        "made_up",
+        "Made & Up",
+        margin=lambda pair: (pair.adhesion_length / pair.h_rms) ** 2,
+        power=2.0,
+        reason="Heights of {h_rms} against nothing else.",
+    )
+    monkeypatch.setitem(CRITERIA, "made_up", entry)
+    return entry
+
+
+def test_an_entry_is_all_that_a_new_criterion_needs(made_up, road, judged):
+    pair = judged.sel(material="gel", surface="road")
+    margins = pair.margin.sel(criterion="made_up").values
+    # l_a = 0.5 um: work of adhesion over modulus, over heights of 1 and 2 um.
+    np.testing.assert_allclose(margins, [0.25, 0.0625], rtol=1e-6)
+    moduli = pair.threshold_by_criterion.sel(criterion="made_up").values
+    np.testing.assert_allclose(moduli, [50e3, 25e3], rtol=1e-6)
+
+    assert "Made & Up" in write_markdown(judged, CONSTANT, {"gel": GEL}, {"road": road})
+    rows = {row["name"]: row for row in verdict_texts.explain(pair, road, 0.05)}
+    assert rows["Made & Up"]["reason"] == "Heights of 1 … 2 µm against nothing else."
+    assert rows["Made & Up"]["says"] == "does not stick"
+    verdicts = judged.assign_attrs(parameters='{"materials": {"gel": {"label": "gel"}}}')
+    listed = report.disagreements(verdicts, {"road": road})
+    assert "Made & Up" in [row["criterion"] for row in listed]
+
+
+def test_a_new_criterion_is_on_figure_9(made_up, judged):
+    table = SimpleNamespace(
+        a_v_at=lambda hurst, load, reach, zeta: SimpleNamespace(
+            value=3.0 + 0 * reach, low=2.0 + 0 * reach, high=4.0 + 0 * reach
+        )
+    )
+    compared = compare_criteria.compare(COMPARED, 0.065, table, 3.0)
+    found = compared.against_roughness.sel(criterion="made_up")
+    np.testing.assert_allclose(found, compared.h_rms_over_range)  # in units of the range
+    _, panels = canvas("AC", 3)
+    plot_fig9.curves(panels["A"], compared.against_roughness, "roughness")
+    assert "Made & Up" in panels["A"].get_legend_handles_labels()[1]
+    before = len(plot_fig9.drawn(judged.threshold_by_criterion))
+    assert before == len(CRITERIA) - 1  # Dahlquist's knows no adhesion length
+    plot_fig9.on_surfaces(panels["C"], judged)
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        ({"reason": ""}, "has no reason"),
+        ({"label": ""}, "has no label"),
+        ({"reason": "by {height}"}, "quotes 'height'"),
+        ({"power": None}, "exactly one of power, length and modulus for its threshold, got none"),
+        ({"modulus": 1e6}, "got power, modulus"),
+    ],
+)
+def test_an_entry_that_lacks_something_is_refused(change, message):
+    entry = {"name": "x", "label": "X", "margin": abs, "reason": "none", "power": 1.0}
+    with pytest.raises(ValueError, match=message):
+        Criterion(**(entry | change))
+
+
+def test_every_threshold_is_where_the_margin_is_one(judged, road):
+    """Also for margins that are no power of the adhesion length."""
+    a_v = SurfaceAv(np.array([1e-9, 1.0]), np.array([[4.0, 4.0]]), 0, 1.0, 0.1)
+    pair = judged.sel(material="gel", surface="road", end="rough")
+    for name in CRITERIA:
+        modulus = float(pair.threshold_by_criterion.sel(criterion=name))
+        solids = {"gel": material(GEL | {"plane_strain_modulus": f"{modulus!r} Pa"})}
+        at = (
+            judge.judge_pairs(solids, {"road": road}, {"road": a_v}, CONSTANT, np.array([1.0]))
+            .sel(criterion=name, end="rough")
+            .squeeze()
+        )
+        assert float(at.margin) == pytest.approx(1, rel=1e-6), name
+
+
+def test_names_and_labels_differ():
+    assert len({c.label for c in CRITERIA.values()}) == len(CRITERIA)
+    assert next(iter(CRITERIA)) == EDGES

@@ -1,0 +1,109 @@
+"""From a surface and a material to a verdict by one call."""
+
+import doctest
+
+import numpy as np
+import pytest
+
+from stickiness import surface
+from stickiness.criteria import verdict as module
+from stickiness.criteria.registry import CRITERIA, EDGES
+from stickiness.criteria.verdict import verdict
+from stickiness.criteria.words import WORDS, decide
+from stickiness.spectrum import SelfAffine
+
+ROUGH = SelfAffine(hurst=0.8, q0=6e4, q1=6e8, h_rms=1e-6)
+GEL = {"modulus": 0.1e6, "work_of_adhesion": 0.05, "range": 3e-10}
+
+
+def test_soft_sticks_and_stiff_does_not():
+    soft = verdict(ROUGH, **GEL | {"modulus": 10e3})
+    stiff = verdict(ROUGH, **GEL | {"modulus": 1e11})
+    assert (soft.word, stiff.word) == ("sticky", "not sticky")
+    for found in (soft, stiff):
+        assert found.margin_limits[0] < found.margin < found.margin_limits[1]
+        assert found.margins.keys() == CRITERIA.keys()
+        assert found.margins[EDGES] == found.margin
+        low, high = found.modulus_threshold_limits
+        assert low < found.modulus_threshold < high
+
+
+def test_verdict_depends_within_the_limits_of_the_threshold():
+    found = verdict(ROUGH, **GEL)
+    at_threshold = verdict(ROUGH, **GEL | {"modulus": found.modulus_threshold})
+    assert at_threshold.word == "depends"
+    assert at_threshold.margin == pytest.approx(1, rel=1e-6)
+    low, high = found.modulus_threshold_limits
+    assert verdict(ROUGH, **GEL | {"modulus": 0.99 * low}).word == "sticky"
+    assert verdict(ROUGH, **GEL | {"modulus": 1.5 * high}).word in ("not sticky", "undecided")
+
+
+def test_lengths_scale():
+    """Without a length of its own the verdict is that of a surface and range twice as large."""
+    larger = SelfAffine(hurst=0.8, q0=3e4, q1=3e8, h_rms=2e-6)
+    one = verdict(ROUGH, **GEL)
+    two = verdict(larger, modulus=0.1e6, work_of_adhesion=0.1, range=6e-10)
+    for name in CRITERIA:
+        assert two.margins[name] == pytest.approx(one.margins[name], rel=1e-6)
+    assert two.margin_limits == pytest.approx(one.margin_limits, rel=1e-6)
+
+
+def test_plane_strain():
+    young = verdict(ROUGH, **GEL, poisson=0.5)
+    plane = verdict(ROUGH, **GEL | {"modulus": 0.1e6 / 0.75})
+    assert young.margin == pytest.approx(plane.margin, rel=1e-12)
+
+
+def test_measured_heights_give_the_verdict_of_their_spectrum():
+    """A patch of a surface known; a roll-off, so that the patch holds all of it."""
+    side, n = 110e-6, 256
+    s = SelfAffine(hurst=0.8, q0=6e4, q1=6e6, h_rms=0.3e-6, q_rolloff=6e5)
+    heights = surface.synthesise(s, n=n, length=side, seed=3)
+    of_heights = verdict(heights, length=side, **GEL)
+    of_spectrum = verdict(s, **GEL)
+    # One realisation, and a cutoff below the Nyquist wave number, are worth some ten per cent.
+    ratio = of_heights.margins["persson_tosatti"] / of_spectrum.margins["persson_tosatti"]
+    assert ratio == pytest.approx(1, rel=0.4)
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        ({"modulus": -1.0}, "modulus"),
+        ({"poisson": 0.7}, "poisson must be above -1 and at most 0.5, got 0.7"),
+        ({"length": 1e-4}, "length is of measured heights"),
+        ({"a_v": (3.0, 4.0, 5.0)}, "low <= value <= high"),
+    ],
+)
+def test_bad_arguments_name_what_is_wrong(change, message):
+    with pytest.raises(ValueError, match=message):
+        verdict(ROUGH, **GEL | change)
+
+
+def test_heights_need_their_length():
+    with pytest.raises(ValueError, match="length is missing"):
+        verdict(np.zeros((8, 8)), **GEL)
+
+
+@pytest.mark.parametrize(
+    ("surely", "possibly", "holds", "word"),
+    [
+        (True, True, True, "sticky"),
+        (False, True, True, "depends"),
+        (False, False, True, "undecided"),
+        (False, False, False, "not sticky"),
+    ],
+)
+def test_words(surely, possibly, holds, word):
+    assert WORDS[int(decide(surely, possibly, holds))] == word
+
+
+def test_text_says_word_margin_and_threshold():
+    text = str(verdict(ROUGH, **GEL | {"modulus": 1e11}))
+    assert text.startswith("not sticky: margin ")
+    assert "sticks below E* = " in text
+    assert "Dahlquist" in text
+
+
+def test_example_in_the_documentation():
+    assert doctest.testmod(module).failed == 0

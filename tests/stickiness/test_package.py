@@ -1,0 +1,52 @@
+"""What `import stickiness` shows, and what it loads."""
+
+import doctest
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+import stickiness
+
+PACKAGES = sorted(path.parent for path in Path(stickiness.__file__).parent.glob("*/__init__.py"))
+
+
+@pytest.mark.parametrize("name", dir(stickiness))
+def test_every_name_is_there_and_explained(name):
+    if name == "verdict":
+        pytest.importorskip("stickiness.criteria.verdict")
+    assert getattr(stickiness, name)
+    assert name == "__version__" or f"`{name}`" in stickiness.__doc__
+
+
+def test_packages_and_facades_are_listed():
+    folder = Path(stickiness.__file__).parent
+    modules = {path.stem for path in folder.glob("*.py")} - {"__init__"}
+    assert modules | {path.name for path in PACKAGES} <= set(dir(stickiness))
+
+
+def test_an_unknown_name_is_an_attribute_error():
+    with pytest.raises(AttributeError, match="'stickiness' has no attribute 'spectra'"):
+        _ = stickiness.spectra
+
+
+def test_importing_loads_neither_scipy_nor_matplotlib():
+    code = (
+        "import stickiness, sys; dir(stickiness); "
+        "sys.exit(' '.join({'scipy', 'matplotlib', 'xarray'} & sys.modules.keys()) or 0)"
+    )
+    folder = Path(stickiness.__file__).parents[1]
+    run = subprocess.run([sys.executable, "-c", code], cwd=folder, capture_output=True, text=True)
+    assert run.returncode == 0, run.stderr
+
+
+def test_the_example_is_right():
+    assert doctest.testmod(stickiness).failed == 0
+
+
+@pytest.mark.parametrize("folder", PACKAGES, ids=lambda folder: folder.name)
+def test_a_package_says_what_each_module_is_for(folder):
+    text = (folder / "__init__.py").read_text(encoding="utf-8")
+    for module in folder.glob("*.py"):
+        assert module.stem == "__init__" or f"- `{module.stem}`: " in text, module

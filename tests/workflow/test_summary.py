@@ -1,0 +1,48 @@
+"""What a run says at its end and of a job that fails; Snakemake's own report."""
+
+import re
+
+import pytest
+
+pytestmark = pytest.mark.workflow
+
+
+def test_a_run_ends_with_a_summary(finished):
+    text = finished.run.stdout
+    assert re.search(r"^  report +results/tiny/report/report.html$", text, re.M)
+    counts = re.search(r"^  claims +(.*)", text, re.M)[1]
+    assert sum(map(int, re.findall(r"\d+", counts))) == 18
+    pairs = re.search(r"^  pairs +(.*)", text, re.M)[1]
+    assert sum(map(int, re.findall(r"\d+", pairs))) == 49
+
+
+def test_a_failed_job_says_why_in_a_line_and_its_log_has_the_trace(copy_of_finished):
+    copy_of_finished.edit(
+        "scripts/criteria/map_criterion.py",
+        "def main(job):",
+        'def main(job):\n    raise ValueError("spoilt")',
+    )
+    done = copy_of_finished.snakemake("results/tiny/criteria/map.nc")
+    assert done.returncode != 0
+    assert "Error in rule map_criterion" in done.stdout
+    assert re.search(r"^ValueError: spoilt$", done.stdout, re.M)
+    log = copy_of_finished / "results/tiny/logs/map_criterion/criteria/map.log"
+    text = log.read_text(encoding="utf-8")
+    assert "Traceback" in text
+    assert 'raise ValueError("spoilt")' in text
+
+
+def test_snakemakes_own_report(finished, tmp_path):
+    page = tmp_path / "report.html"
+    done = finished.snakemake("--report", str(page))
+    assert done.returncode == 0, done.stdout
+    text = page.read_text(encoding="utf-8")
+    for words in (
+        "Do two rough solids stick?",
+        "Figures",
+        "Claims",
+        "Verdicts",
+        "Surfaces",
+        "fig7.png",
+    ):
+        assert words in text
