@@ -1,7 +1,7 @@
 """Validate the continuum limit: sub-pixel edges, extrapolation and its error, against 4096 points.
 
 Solves surfaces on nested grids from 2 points per shortest wavelength up to 64 (32 at magnification
-128), keeps areas, gaps and edges, and prints what `stickiness.continuum` and `stickiness.subpixel`
+128), keeps areas, gaps and edges, and prints what `contact.grid_limit` and `contact.subpixel`
 are built on: orders of convergence, gain over counting pixels, coverage of the error estimate.
 Coefficients were fitted on the cases called *calibration*; coverage is that of the *validation*.
 Example, half an hour on one core and 2 GB; cases already in the file are not solved again::
@@ -21,7 +21,7 @@ import numpy as np  # noqa: E402 - the number of threads must be set before nump
 import xarray as xr  # noqa: E402
 
 from stickiness import dmt, repulsive, spectrum, surface  # noqa: E402
-from stickiness.contact import grid_limit, subpixel
+from stickiness.contact import grid_limit, subpixel  # noqa: E402
 
 RANGES = 10.0 ** (np.arange(-64, 17) / 16)  # over h_rms, as in config.yaml
 YASTREBOV = (np.pi - 1 + np.log(2)) / 24

@@ -16,7 +16,7 @@ for variable in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
 import numpy as np  # noqa: E402 - the number of threads must be set before numpy is loaded
 
 from stickiness import repulsive, spectrum, surface  # noqa: E402
-from stickiness.contact import half_space
+from stickiness.contact import half_space  # noqa: E402
 
 Q0 = 2 * np.pi
 LOADS = (0.003, 0.01, 0.065, 0.3, 1.0, 3.0)

@@ -23,7 +23,7 @@ import contact_codes  # noqa: E402 - the number of threads must be set before nu
 import numpy as np  # noqa: E402
 
 from stickiness import spectrum, surface  # noqa: E402
-from stickiness.contact import half_space
+from stickiness.contact import half_space  # noqa: E402
 
 OURS = "stickiness"
 CODES = {

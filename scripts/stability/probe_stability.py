@@ -7,21 +7,22 @@ import numpy as np
 import xarray as xr
 
 from pipeline.job import start
-from pipeline.stability.components import AXES, OUTCOMES, probed
+from pipeline.stability.adhesion import ADHESION
+from pipeline.stability.components import AXES, OUTCOMES, probe_point
 from pipeline.stability.contact import CONTACT
 from pipeline.stability.inputs import INPUTS
 from pipeline.stability.theory import THEORY
 from pipeline.stability.verdicts import VERDICTS
 from stickiness.core import datasets
 
-COMPONENTS = THEORY | INPUTS | CONTACT | VERDICTS
-_LONGEST = 160  # characters of a message that are kept
+COMPONENTS = THEORY | INPUTS | CONTACT | ADHESION | VERDICTS
+LONGEST = 160  # characters of a message that are kept
 
 
 def main(job):
     name = job.wildcards.component
     component = COMPONENTS[name]
-    dataset = validity(component)
+    dataset = map_validity(component)
     counts = Counter(OUTCOMES[k] for k in dataset.outcome.values)
     logging.info("%s: %d points, %s", name, dataset.sizes["point"], dict(counts))
     datasets.write(
@@ -37,19 +38,19 @@ def main(job):
     )
 
 
-def validity(component):
+def map_validity(component):
     """Every point of a component with its outcome."""
     points = component.points()
     results = []
     for point in points:
-        results.append(probed(component, point))
+        results.append(probe_point(component, point))
         if results[-1].outcome:
             logging.info("%s: %s: %s", point, OUTCOMES[results[-1].outcome], results[-1].text)
     data = {name: ("point", [float(p[name]) for p in points]) for name in component.axes}
     data["variant"] = ("point", [p.get("variant", "") for p in points])
     data["outcome"] = ("point", np.array([r.outcome for r in results], dtype="i1"))
     data["excess"] = ("point", [r.excess if np.isfinite(r.excess) else np.nan for r in results])
-    data["text"] = ("point", [" ".join(r.text.split())[:_LONGEST] for r in results])
+    data["text"] = ("point", [" ".join(r.text.split())[:LONGEST] for r in results])
     return datasets.annotate(
         xr.Dataset(data),
         **{name: ("1", AXES[name].label) for name in component.axes},

@@ -6,81 +6,78 @@ What the waves beyond a cut change, theory may know better than it knows the val
 import logging
 
 import numpy as np
-import xarray as xr
 
 from pipeline.contact_curves import load_curve
 from pipeline.conventions import DESCRIBED, Q0, logarithmic_grid, spectrum_of
 from pipeline.job import start
 from pipeline.theory import contact_of
-from pipeline.tradeoff.measuring import pair_seconds, timed
+from pipeline.tradeoff import measuring
 from stickiness.core import datasets
 from stickiness.persson.theory import Persson
 from stickiness.surfaces import synthesis
 
 LENGTH = 2 * np.pi / Q0  # a window of one longest wavelength, on which wave numbers are integers
+KEPT = ["area_fraction", "mean_gap", "attractive_area", "rms_slope"]
 
 
 def main(job):
-    chosen, pressures = job.params.bands, np.array(job.params.pressures)
-    cuts, ranges = np.array(chosen["magnification"]), logarithmic_grid(job.params.gaps)
-    asked = {"hurst": float(job.wildcards.hurst), "magnification": int(cuts[-1])}
-    spectrum, seeds = spectrum_of(asked), np.arange(1, chosen["seeds"] + 1)
-    points = np.minimum(chosen["finest"] * cuts, chosen["most_points"])
+    bands, pressures = job.params.bands, np.array(job.params.pressures)
+    cuts, ranges = np.array(bands["magnification"]), logarithmic_grid(job.params.gaps)
+    surface = {"hurst": float(job.wildcards.hurst), "magnification": int(cuts[-1])}
+    spectrum, seeds = spectrum_of(surface), np.arange(1, bands["seeds"] + 1)
+    points = np.minimum(bands["finest"] * cuts, bands["most_points"])
     rows = []
     for seed in seeds:
         heights = synthesis.synthesise(spectrum, int(points[-1]), LENGTH, int(seed))
         curves = []
         for cut, n in zip(cuts, points, strict=True):
-            left = below(heights, int(cut))
+            left = filter_below(heights, int(cut))
             slope = synthesis.moments(left, LENGTH).rms_slope
-            sampled = np.ascontiguousarray(left[:: len(left) // n, :: len(left) // n])
-            curve, seconds = timed(
+            sampled = measuring.sample(left, len(left) // n)
+            curve, seconds = measuring.time_task(
                 lambda h=sampled: load_curve(h, LENGTH, pressures, ranges, job.params.tolerance)
             )
             curves.append(curve.assign(rms_slope=slope, seconds=seconds))
             logging.info("seed %d, magnification %d, %d points", seed, cut, n)
-        rows.append(xr.concat(curves, xr.DataArray(cuts, dims="magnification")))
-    solved = xr.concat(rows, xr.DataArray(seeds, dims="seed", name="seed"))
+        rows.append(measuring.stack(curves, "magnification", cuts))
     lattice = synthesis.lattice_spectrum(spectrum, LENGTH)
     parts = [
         contact_of(Persson(lattice.truncated(float(cut) * Q0)), pressures, ranges) for cut in cuts
     ]
-    theory = xr.concat(parts, xr.DataArray(cuts, dims="magnification"))
-    kept = ["area_fraction", "mean_gap", "attractive_area", "rms_slope"]
-    dataset = solved[[*kept, "seconds"]].merge(
-        theory.rename({name: f"theory_{name}" for name in kept})
+    theory = measuring.stack(parts, "magnification", cuts)
+    dataset = measuring.stack(rows, "seed", seeds)[[*KEPT, "seconds"]].merge(
+        theory.rename({name: f"theory_{name}" for name in KEPT})
     )
-    dataset = dataset.assign_coords(magnification=cuts)
-    dataset = dataset.assign(pair_time=pair_seconds(), points=("magnification", points))
+    dataset = dataset.assign(
+        pair_time=measuring.time_transforms(), points=("magnification", points)
+    )
     datasets.write(
-        annotated(dataset, kept),
+        annotate(dataset),
         job.output[0],
         title="the same realisations cut at lower magnifications",
-        parameters={**asked, "finest": chosen["finest"]},
+        parameters={**surface, "finest": bands["finest"]},
     )
 
 
-def below(heights, cut):
-    """The waves of a periodic surface up to a wave number, in units of 2 pi over the window."""
-    waves = np.fft.rfft2(heights)
-    n = len(heights)
+def filter_below(heights, cut):
+    """Keep the waves of a periodic surface up to a wave number, in units of 2 pi over the side."""
+    n, waves = len(heights), np.fft.rfft2(heights)
     q = np.hypot(np.fft.fftfreq(n, 1 / n)[:, None], np.arange(n // 2 + 1))
     return np.fft.irfft2(np.where(q <= cut * (1 + 1e-9), waves, 0), s=heights.shape)
 
 
-def annotated(dataset, kept):
-    texts = {name: DESCRIBED[name] for name in (*kept[:3], "pressure", "range")}
+def annotate(dataset):
+    texts = {name: DESCRIBED[name] for name in (*KEPT[:3], "pressure", "range")}
     texts["rms_slope"] = ("1", "rms gradient over q0 h_rms")
-    for name in kept:
+    for name in KEPT:
         texts[f"theory_{name}"] = ("1", f"{texts[name][1]}, by theory on the lattice spectrum")
     return datasets.annotate(
         dataset,
         **texts,
-        seed=("1", "seed of the realisation"),
+        **measuring.SHARED_TEXTS,
         magnification=("1", "magnification at which the spectrum is cut; h_rms is that of all"),
         points=("1", "grid points along a side"),
         seconds=("s", "processor time of all loads"),
-        pair_time=("s", "processor time of a pair of transforms of 1024 x 1024 doubles"),
     )
 
 

@@ -1,7 +1,6 @@
 """Solve the same realisations with every grid, tolerance and precision, and time each solution."""
 
 import logging
-from types import SimpleNamespace
 
 import numpy as np
 import xarray as xr
@@ -9,48 +8,45 @@ import xarray as xr
 from pipeline.contact_curves import measured
 from pipeline.conventions import DESCRIBED, grid_points, logarithmic_grid, spectrum_of, window_of
 from pipeline.job import start
-from pipeline.tradeoff.measuring import KEYS, pair_seconds, peak_megabytes, timed
-from stickiness.contact import active_set, solver
+from pipeline.tradeoff import measuring
+from stickiness.contact import solver
 from stickiness.core import datasets
 from stickiness.surfaces import synthesis
 
-FINEST_TOLERANCE = 1e-12  # of what other tolerances are held against
+FINEST_TOLERANCE = 1e-12  # the reference of the other tolerances
 SINGLE = 1e-4  # tolerance that single precision can meet
 
 
 def main(job):
-    asked, pressures = job.params.case, np.array(job.params.pressures)
-    chosen = settings(**job.params.settings)
-    ranges, length = logarithmic_grid(job.params.gaps), window_of(asked)
-    finest = max(setting["pixels"] for setting in chosen)
+    surface, pressures = job.params.case, np.array(job.params.pressures)
+    settings = list_settings(**job.params.settings)
+    ranges, length = logarithmic_grid(job.params.gaps), window_of(surface)
+    finest = max(setting["pixels"] for setting in settings)
+    n = grid_points(surface, finest)
     seeds, rows = np.arange(1, job.params.seeds + 1), []
     for seed in seeds:
         logging.info("seed %d", seed)
-        n = grid_points(asked, finest)
-        heights = synthesis.synthesise(spectrum_of(asked), n, length, int(seed))
+        heights = synthesis.synthesise(spectrum_of(surface), n, length, int(seed))
         slope = synthesis.moments(heights, length).rms_slope
-        parts = [solved(heights, length, pressures, ranges, finest, **s) for s in chosen]
-        rows.append(xr.concat(parts, "setting").assign(rms_slope=slope, pair_time=pair_seconds()))
-    dataset = xr.concat(rows, xr.DataArray(seeds, dims="seed", name="seed"))
-    dataset["memory"] = (
-        "setting",
-        [
-            peak_megabytes(lambda s=s: solved(heights, length, pressures[-1:], ranges, finest, **s))
-            for s in chosen
-        ],
-    )
-    for key in KEYS:
-        dataset[key] = "setting", [setting[key] for setting in chosen]
+        parts = [solve(heights, length, pressures, ranges, finest, **s) for s in settings]
+        row = xr.concat(parts, "setting")
+        rows.append(row.assign(rms_slope=slope, pair_time=measuring.time_transforms()))
+    dataset = measuring.stack(rows, "seed", seeds)
+    largest = heights, length, pressures[-1:], ranges, finest
+    memory = [measuring.measure_memory(lambda s=s: solve(*largest, **s)) for s in settings]
+    dataset["memory"] = "setting", memory
+    for key in measuring.SETTING_TEXTS:
+        dataset[key] = "setting", [setting[key] for setting in settings]
     datasets.write(
-        annotated(dataset),
+        annotate(dataset),
         job.output[0],
         title="the same realisations solved with various settings",
-        parameters={**asked, "grid_points": n},
+        parameters={**surface, "grid_points": n},
     )
 
 
-def settings(pixels, tolerances, at_pixels, at_tolerance):
-    """Every setting to solve with: one knob varied, the others at a fixed value."""
+def list_settings(pixels, tolerances, at_pixels, at_tolerance):
+    """List every setting to solve with: one knob varied, the others at a fixed value."""
     return [
         *({"knob": "pixels", "pixels": p, "tolerance": at_tolerance} for p in pixels),
         *(
@@ -61,47 +57,27 @@ def settings(pixels, tolerances, at_pixels, at_tolerance):
     ]
 
 
-def solved(heights, length, pressures, ranges, finest, knob, pixels, tolerance):
-    """One realisation with one setting: quantities, and the times of solution and evaluation."""
-    step = finest // pixels
-    sampled = np.ascontiguousarray(heights[::step, ::step])
-    solve = in_single_precision if knob == "precision" else solver.solve
+def solve(heights, length, pressures, ranges, finest, knob, pixels, tolerance):
+    """Solve one realisation with one setting, and time solution and evaluation."""
+    sampled = measuring.sample(heights, finest // pixels)
+    options = {"tol": tolerance, "precision": "single" if knob == "precision" else "double"}
     rows = []
     for load in pressures:
-        contact, solution_time = timed(lambda p=load: solve(sampled, length, p, tolerance))
-        row, evaluation_time = timed(lambda c=contact: measured(c, ranges))
+        contact, solution_time = measuring.time_task(
+            lambda p=load: solver.solve(sampled, length, p, **options)
+        )
+        row, evaluation_time = measuring.time_task(lambda c=contact: measured(c, ranges))
         rows.append(row.assign(solution_time=solution_time, evaluation_time=evaluation_time))
-    return xr.concat(rows, xr.DataArray(pressures, dims="pressure", name="pressure"))
+    return measuring.stack(rows, "pressure", pressures)
 
 
-def in_single_precision(heights, length, pressure, tolerance):
-    """The solver as it treats coarser grids; `solver.solve` ends in double precision.
-
-    It offers no such choice, for it gains next to nothing: the inner iterations are in single
-    precision anyway.
-    """
-    h_rms, sides = heights.std(), (1.0, 1.0)
-    scaled, load = (heights - heights.mean()) / h_rms, pressure * length / h_rms
-    problem, work = active_set.Problem(scaled, sides, load), []
-    gap = solver.coarse_gap(problem, work)
-    state = active_set.relax(problem, tol=tolerance, max_iterations=1000, gap=gap, rough=True)
-    return SimpleNamespace(
-        gap=state.gap.astype(float) * h_rms,
-        area_fraction=state.area_fraction,
-        mean_gap=float(state.gap.mean(dtype=float)) * h_rms,
-        residual=state.residual,
-        iterations=state.iterations,
-        fft_pairs=state.pairs + sum(work) / scaled.size,
-    )
-
-
-def annotated(dataset):
+def annotate(dataset):
     names = ("pressure", "range", "area_fraction", "mean_gap", "attractive_area")
     return datasets.annotate(
         dataset,
         **{name: DESCRIBED[name] for name in names},
-        **{key: ("1", text) for key, text in KEYS.items()},
-        seed=("1", "seed of the realisation"),
+        **measuring.SETTING_TEXTS,
+        **measuring.SHARED_TEXTS,
         pixel_area_fraction=("1", "repulsive contact area as counted in pixels, over nominal area"),
         pixel_attractive_area=("1", "attractive area as counted in pixels, over nominal area"),
         edges=("1", "pixel sides between contact and gap"),
@@ -112,7 +88,6 @@ def annotated(dataset):
         rms_slope=("1", "rms gradient of this realisation over q0 h_rms"),
         solution_time=("s", "processor time of the solution"),
         evaluation_time=("s", "processor time of areas and gaps"),
-        pair_time=("s", "processor time of a pair of transforms of 1024 x 1024 doubles"),
         memory=("MB", "largest memory held at once at the largest load"),
     )
 

@@ -1,19 +1,18 @@
 """Solve many realisations on several grids, more on 2 pixels, and describe still more.
 
-From them any number and kind of seeds can be drawn: what their means scatter by, and how far they
-are from the best mean of all.
+Any number and kind of seeds can be drawn from them, to see how their means scatter and how far
+these are from the best mean of all.
 """
 
 import logging
 
 import numpy as np
-import xarray as xr
 
 from pipeline.coarse_solutions import DESCRIBED_FROM, SOLVED_FROM
 from pipeline.contact_curves import COARSE, load_curve
 from pipeline.conventions import DESCRIBED, grid_points, logarithmic_grid, spectrum_of, window_of
 from pipeline.job import start
-from pipeline.tradeoff.measuring import pair_seconds, timed
+from pipeline.tradeoff import measuring
 from stickiness.accuracy import multilevel
 from stickiness.core import datasets
 from stickiness.surfaces import synthesis
@@ -23,87 +22,77 @@ CONTINUUM = ("pixel_area_fraction", "pixel_attractive_area", "edges", "edge_gap"
 
 
 def main(job):
-    asked, first = job.params.case, job.params.first_seed
-    counts, finest = job.params.counts, max(job.params.pixels)
-    pixels = [COARSE, *job.params.pixels]
-    few, fixed, coarse, described = (
-        first + offset + np.arange(counts[name])
-        for name, offset in (
-            ("fine", 0),
-            ("fixed", 0),
-            ("coarse", SOLVED_FROM),
-            ("described", DESCRIBED_FROM),
-        )
-    )
-    # Few are solved on the finest grid, which is the reference of the others.
-    most = [counts["finest"] if p == finest else len(few) for p in pixels]
-    walk = Walk(
-        asked, job.params.pressures, logarithmic_grid(job.params.gaps), job.params.tolerance
-    )
-    fine = xr.concat(
-        [walk.seeds(few[:count], p) for p, count in zip(pixels, most, strict=True)],
-        xr.DataArray(pixels, dims="pixels", name="pixels"),
-        join="outer",
-    )
-    dataset = fine[[*KEPT, *CONTINUUM, "seconds"]].assign_coords(seed=few)
-    others = {"fixed": (fixed, 4, "fixed"), "coarse": (coarse, COARSE, "gaussian")}
-    for kind, (seeds, points, amplitudes) in others.items():
-        more = walk.seeds(seeds, points, amplitudes)[[*KEPT, "seconds"]]
+    surface, counts = job.params.case, job.params.counts
+    pixels, finest = [COARSE, *job.params.pixels], max(job.params.pixels)
+    firsts = {"fine": 0, "fixed": 0, "coarse": SOLVED_FROM, "described": DESCRIBED_FROM}
+    seeds = {
+        kind: job.params.first_seed + offset + np.arange(counts[kind])
+        for kind, offset in firsts.items()
+    }
+    ranges = logarithmic_grid(job.params.gaps)
+    path = np.array(job.params.pressures), ranges, job.params.tolerance
+    fine = []
+    for p in pixels:
+        # Few seeds are solved on the finest grid, which is the reference of the others.
+        few = seeds["fine"][: counts["finest"]] if p == finest else seeds["fine"]
+        fine.append(solve_seeds(surface, path, few, p))
+    dataset = measuring.stack(fine, "pixels", pixels, join="outer")[[*KEPT, *CONTINUUM, "seconds"]]
+    dataset = dataset.assign_coords(seed=seeds["fine"])
+    for kind, p, amplitudes in (("fixed", 4, "fixed"), ("coarse", COARSE, "gaussian")):
+        more = solve_seeds(surface, path, seeds[kind], p, amplitudes)[[*KEPT, "seconds"]]
         dataset = dataset.merge(more.rename({name: f"{kind}_{name}" for name in (*more, "seed")}))
-    spectrum, length = spectrum_of(asked), window_of(asked)
-    seconds = []
-    for name, seeds in (("long_waves", coarse), ("other_long_waves", described)):
-        rows, taken = timed(lambda s=seeds: multilevel.descriptors(spectrum, length, s))
-        dataset[name] = ("coarse_seed" if name == "long_waves" else "other", "descriptor"), rows
-        seconds.append(taken / len(seeds))
-    dataset = dataset.assign_coords(descriptor=list(multilevel.DESCRIPTORS), other=described)
-    dataset = dataset.assign(describing_seconds=np.mean(seconds), pair_time=pair_seconds())
+    given, seconds = (spectrum_of(surface), window_of(surface)), []
+    for name, dim, kind in (
+        ("long_waves", "coarse_seed", "coarse"),
+        ("other_long_waves", "other", "described"),
+    ):
+        rows, taken = measuring.time_task(lambda k=kind: multilevel.descriptors(*given, seeds[k]))
+        dataset[name] = (dim, "descriptor"), rows
+        seconds.append(taken / counts[kind])
+    dataset = dataset.assign_coords(
+        descriptor=list(multilevel.DESCRIPTORS), other=seeds["described"]
+    )
+    dataset = dataset.assign(
+        describing_seconds=np.mean(seconds), pair_time=measuring.time_transforms()
+    )
     datasets.write(
-        annotated(dataset),
+        annotate(dataset),
         job.output[0],
         title="many realisations on several grids",
-        parameters={**asked, "tolerance": job.params.tolerance},
+        parameters={**surface, "tolerance": job.params.tolerance},
     )
 
 
-class Walk:
-    """Solves seeds of one surface at given loads."""
-
-    def __init__(self, asked, pressures, ranges, tolerance):
-        self.asked, self.length = asked, window_of(asked)
-        self.spectrum = spectrum_of(asked)
-        self.path = np.array(pressures), ranges, tolerance
-
-    def seeds(self, seeds, pixels, amplitudes="gaussian"):
-        """Contact of every seed on one grid, and the processor time it took."""
-        found = []
-        for seed in seeds:
-            curve, seconds = timed(lambda s=seed: self.one(int(s), pixels, amplitudes))
-            found.append(curve.assign(seconds=seconds))
-        logging.info("%d seeds on %d pixels per wavelength", len(seeds), pixels)
-        return xr.concat(found, xr.DataArray(seeds, dims="seed", name="seed"))
-
-    def one(self, seed, pixels, amplitudes):
-        """Contact of one seed at every load."""
-        # Two pixels do not hold the shortest waves' slope: those surfaces are sampled from four.
-        n = grid_points(self.asked, max(pixels, 2 * COARSE))
-        heights = synthesis.synthesise(self.spectrum, n, self.length, seed, amplitudes)
-        slope = synthesis.moments(heights, self.length).rms_slope
-        step = max(2 * COARSE // pixels, 1)
-        sampled = np.ascontiguousarray(heights[::step, ::step])
-        return load_curve(sampled, self.length, *self.path).assign(rms_slope=slope)
+def solve_seeds(surface, path, seeds, pixels, amplitudes="gaussian"):
+    """Solve every seed on one grid at the loads of `path`, and time it."""
+    found = []
+    for seed in seeds:
+        curve, seconds = measuring.time_task(
+            lambda s=seed: solve_seed(surface, path, int(s), pixels, amplitudes)
+        )
+        found.append(curve.assign(seconds=seconds))
+    logging.info("%d seeds on %d pixels per wavelength", len(seeds), pixels)
+    return measuring.stack(found, "seed", seeds)
 
 
-def annotated(dataset):
+def solve_seed(surface, path, seed, pixels, amplitudes):
+    """Solve one seed at every load."""
+    # Two pixels do not hold the shortest waves' slope: those surfaces are sampled from four.
+    n, length = grid_points(surface, max(pixels, 2 * COARSE)), window_of(surface)
+    heights = synthesis.synthesise(spectrum_of(surface), n, length, seed, amplitudes)
+    slope = synthesis.moments(heights, length).rms_slope
+    sampled = measuring.sample(heights, max(2 * COARSE // pixels, 1))
+    return load_curve(sampled, length, *path).assign(rms_slope=slope)
+
+
+def annotate(dataset):
+    missing = "not solved on this grid"
     texts = {name: DESCRIBED[name] for name in ("pressure", "range")}
     for prefix in ("", "fixed_", "coarse_"):
-        texts |= {
-            f"{prefix}{name}": (*DESCRIBED[name], "not solved on this grid") for name in KEPT[:3]
-        }
-        texts[f"{prefix}rms_slope"] = ("1", "rms gradient over q0 h_rms", "not solved on this grid")
-        texts[f"{prefix}seconds"] = ("s", "processor time of all loads", "not solved on this grid")
-        texts[f"{prefix}seed"] = ("1", "seed of the realisation")
-    missing = "not solved on this grid"
+        texts |= {f"{prefix}{name}": (*DESCRIBED[name], missing) for name in KEPT[:3]}
+        texts[f"{prefix}rms_slope"] = ("1", "rms gradient over q0 h_rms", missing)
+        texts[f"{prefix}seconds"] = ("s", "processor time of all loads", missing)
+        texts[f"{prefix}seed"] = measuring.SHARED_TEXTS["seed"]
     return datasets.annotate(
         dataset,
         **texts,
@@ -117,7 +106,7 @@ def annotated(dataset):
         long_waves=("1", "descriptors of the long waves of the coarse seeds"),
         other_long_waves=("1", "descriptors of the long waves of seeds that are not solved"),
         describing_seconds=("s", "processor time to describe one seed"),
-        pair_time=("s", "processor time of a pair of transforms of 1024 x 1024 doubles"),
+        pair_time=measuring.SHARED_TEXTS["pair_time"],
     )
 
 

@@ -1,14 +1,12 @@
 """Persson's theory with more and fewer quadrature nodes on continuous spectra, timed."""
 
-from functools import partial
-
 import numpy as np
 import xarray as xr
 
 from pipeline.conventions import DESCRIBED, logarithmic_grid, spectrum_of
 from pipeline.job import start
 from pipeline.theory import contact_of
-from pipeline.tradeoff.measuring import pair_seconds, peak_megabytes, timed
+from pipeline.tradeoff import measuring
 from stickiness.core import datasets
 from stickiness.persson.theory import Persson
 
@@ -16,18 +14,20 @@ REPETITIONS = 3  # of a state, whose least time counts
 
 
 def main(job):
-    asked, pressures = job.params.nodes, np.array(job.params.pressures)
+    nodes, pressures = job.params.nodes, np.array(job.params.pressures)
     ranges, cases, memory = logarithmic_grid(job.params.gaps), [], []
-    for name, surface in asked["surfaces"].items():
-        rows = []
-        for nodes in asked["multiples"]:
-            given = spectrum_of(surface), nodes, pressures, ranges
-            states = [timed(partial(state, *given)) for _ in range(REPETITIONS)]
+    for name, surface in nodes["surfaces"].items():
+        spectrum, rows = spectrum_of(surface), []
+        for multiple in nodes["multiples"]:
+
+            def solve(spectrum=spectrum, multiple=multiple):
+                return contact_of(Persson(spectrum, nodes=multiple), pressures, ranges)
+
+            states = [measuring.time_task(solve) for _ in range(REPETITIONS)]
             rows.append(states[0][0].assign(seconds=min(seconds for _, seconds in states)))
-            memory.append(peak_megabytes(partial(state, *given)))
-        part = xr.concat(rows, xr.DataArray(asked["multiples"], dims="nodes", name="nodes"))
-        cases.append(part.expand_dims(case=[name]))
-    dataset = xr.concat(cases, "case").assign(pair_time=pair_seconds())
+            memory.append(measuring.measure_memory(solve))
+        cases.append(measuring.stack(rows, "nodes", nodes["multiples"]).expand_dims(case=[name]))
+    dataset = xr.concat(cases, "case").assign(pair_time=measuring.time_transforms())
     shape = dataset.sizes["case"], dataset.sizes["nodes"]
     dataset["memory"] = ("case", "nodes"), np.reshape(memory, shape)
     names = ("pressure", "range", "area_fraction", "mean_gap", "attractive_area")
@@ -39,17 +39,13 @@ def main(job):
             nodes=("1", "multiple of the number of quadrature nodes"),
             rms_slope=("1", "rms gradient over q0 h_rms"),
             seconds=("s", "processor time of all loads"),
-            pair_time=("s", "processor time of a pair of transforms of 1024 x 1024 doubles"),
+            pair_time=measuring.SHARED_TEXTS["pair_time"],
             memory=("MB", "largest memory held at once"),
         ),
         job.output[0],
         title="theory with more and fewer quadrature nodes",
-        parameters=asked,
+        parameters=nodes,
     )
-
-
-def state(spectrum, nodes, pressures, ranges):
-    return contact_of(Persson(spectrum, nodes=nodes), pressures, ranges)
 
 
 if __name__ == "__main__":

@@ -1,20 +1,29 @@
-"""Put every measurement of the trade into one table, and the laws that settings are chosen by."""
+"""Tabulate every measurement of error and cost, and fit the laws that settings are chosen by."""
+
+from pathlib import Path
 
 import numpy as np
 import pandas as pd
 import xarray as xr
 
 from pipeline.job import start
-from pipeline.tables import table
+from pipeline.tables import table as markdown_table
 from pipeline.tradeoff import summary
-from pipeline.tradeoff.adhesion_rows import pull_offs, rows_and_laws, states
-from pipeline.tradeoff.fit_laws import Points, add_costs, add_grids, add_offsets, add_sampling
-from pipeline.tradeoff.rows import band_rows, grid_rows, node_rows, seed_rows, theory_rows
-from pipeline.tradeoff.seed_pool import bank_of
+from pipeline.tradeoff.adhesion_rows import list_adhesion_rows, list_pull_offs, list_states
+from pipeline.tradeoff.contact_rows import (
+    list_band_rows,
+    list_grid_rows,
+    list_node_rows,
+    list_seed_rows,
+    list_theory_rows,
+)
+from pipeline.tradeoff.fit_laws import Points
+from pipeline.tradeoff.law_points import add_costs, add_grid_errors, add_sampling, add_tolerances
+from pipeline.tradeoff.seed_pool import make_pool
 from stickiness.accuracy.error_models import Surface, write_models
 from stickiness.core import datasets
 
-COLUMNS = {
+TEXTS = {
     "knob": "what is varied",
     "setting": "its value",
     "case": "surface and load",
@@ -25,7 +34,7 @@ COLUMNS = {
     "seconds": "processor time",
     "memory": "largest memory held at once",
 }
-UNITS = {"seconds": "s", "memory": "MB"}
+NUMBERS = {"error": "1", "bias": "1", "cost": "1", "seconds": "s", "memory": "MB"}
 COMMENT = """\
 Laws of error and cost, fitted by the target tradeoff; scripts/stickiness/accuracy.py says how they
 are read. To take a new measurement over, copy it here and set the presets that it gives."""
@@ -38,38 +47,36 @@ Cost: pairs of Fourier transforms of 1024 x 1024 doubles per solution (seeds: pe
 
 def main(job):
     rows, points = [], Points()
-    for name, path in named(job.input.grids).items():
+    grids = {name: datasets.read(path) for name, path in name_files(job.input.grids).items()}
+    for name, measured in grids.items():
+        rows += list_grid_rows(name, measured)
+        add_tolerances(points, surface_of(measured), measured)
+    for name, path in name_files(job.input.seeds).items():
         measured = datasets.read(path)
-        rows += grid_rows(name, measured)
-        add_grids(points, Surface.of(datasets.parameters(measured)), measured)
-    for name, path in named(job.input.seeds).items():
-        measured = datasets.read(path)
-        grids = named(job.input.grids)
-        bank = bank_of(measured, datasets.read(grids[name]) if name in grids else None)
-        surface = Surface.of(datasets.parameters(measured))
-        add_sampling(points, surface, bank)
-        add_offsets(points, surface, bank)
+        pool, surface = make_pool(measured, grids.get(name)), surface_of(measured)
+        add_sampling(points, surface, pool)
+        add_grid_errors(points, surface, pool)
         add_costs(points, surface, measured)
-        rows += seed_rows(name, measured, bank)
-        rows += theory_rows(name, measured, bank, points)
+        rows += list_seed_rows(name, measured, pool)
+        rows += list_theory_rows(name, measured, pool, points)
     for path in job.input.bands:
-        rows += band_rows(datasets.read(path), points)
-    rows += node_rows(datasets.read(job.input.theory))
-    for what, files, quantities in (
-        ("adhesive", job.input.adhesive, states),
-        ("pull_off", job.input.pull_off, pull_offs),
+        rows += list_band_rows(datasets.read(path), points)
+    rows += list_node_rows(datasets.read(job.input.theory))
+    for what, files, list_quantities in (
+        ("adhesive", job.input.adhesive, list_states),
+        ("pull_off", job.input.pull_off, list_pull_offs),
     ):
-        for name, path in named(files).items():
+        for name, path in name_files(files).items():
             measured = datasets.read(path)
-            rows += rows_and_laws(name, measured, quantities(measured), points, what)
-    found = pd.DataFrame(rows, columns=list(COLUMNS))
+            rows += list_adhesion_rows(name, measured, list_quantities(measured), points, what)
+    table = pd.DataFrame(rows, columns=list(TEXTS))
     datasets.write(
-        dataset_of(found),
+        make_dataset(table),
         job.output.dataset,
         title="error and cost of every setting",
-        parameters={"cases": list(named(job.input.grids))},
+        parameters={"cases": list(grids)},
     )
-    laws = points.laws()
+    laws = points.fit()
     laws |= {
         # The control of full adhesion is its DMT limit, in proportion to an attractive area.
         ("coarse_share", column): laws["coarse_share", "attractive_area_0.1"]
@@ -78,41 +85,40 @@ def main(job):
     }
     with datasets.whole_file(job.output.laws) as path:
         write_models(path, laws, COMMENT)
-    medians = middle(found)
+    medians = take_medians(table)
     with datasets.whole_file(job.output.summary) as path:
         summary.write(path, medians)
     with datasets.whole_file(job.output.table) as path:
-        tables = summary.tables(medians)
-        path.write_text(HEAD + "\n".join(table(*each) for each in tables), encoding="utf-8")
+        tables = [markdown_table(*each) for each in summary.tables(medians)]
+        path.write_text(HEAD + "\n".join(tables), encoding="utf-8")
 
 
-def named(paths):
+def name_files(paths):
     """Files by the name of their surface."""
-    return {path.rsplit("/", 1)[1].removesuffix(".nc"): path for path in paths}
+    return {Path(path).stem: path for path in paths}
 
 
-def dataset_of(found):
-    """The table as a dataset with one row for every setting, case and quantity."""
-    dataset = xr.Dataset(
-        {
-            name: ("row", found[name].astype(float if name in list(COLUMNS)[4:] else str).values)
-            for name in COLUMNS
-        },
-        coords={"row": np.arange(len(found))},
-    )
-    missing = {"bias": "not measured", "memory": "not measured", "seconds": "not measured"}
-    missing["cost"] = "not measured"
-    texts = {
-        name: (UNITS.get(name, "1"), text, *([missing[name]] if name in missing else []))
-        for name, text in COLUMNS.items()
+def surface_of(measured):
+    return Surface.of(datasets.parameters(measured))
+
+
+def make_dataset(table):
+    """Make a dataset with one row for every setting, case and quantity."""
+    variables = {
+        name: ("row", table[name].astype(float if name in NUMBERS else str).values)
+        for name in TEXTS
     }
+    texts = {name: (NUMBERS.get(name, "1"), text) for name, text in TEXTS.items()}
+    for name in ("bias", "cost", "seconds", "memory"):
+        texts[name] = (*texts[name], "not measured")
+    dataset = xr.Dataset(variables, coords={"row": np.arange(len(table))})
     return datasets.annotate(dataset, row=("1", "number of the row"), **texts)
 
 
-def middle(found):
-    """Medians over cases, with one row for every setting of every knob and every quantity."""
+def take_medians(table):
+    """Take medians over cases: one row for every setting of every knob and every quantity."""
     keys, values = ["knob", "setting", "quantity"], ["error", "cost", "memory"]
-    return found.groupby(keys, sort=False)[values].median().reset_index()
+    return table.groupby(keys, sort=False)[values].median().reset_index()
 
 
 if __name__ == "__main__":

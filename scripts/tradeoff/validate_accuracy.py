@@ -14,7 +14,7 @@ import xarray as xr
 from pipeline.job import start
 from pipeline.tables import table
 from pipeline.tradeoff.measuring import COVERED
-from pipeline.tradeoff.seed_pool import Draws, bank_of
+from pipeline.tradeoff.seed_pool import Resampling, make_pool
 from stickiness.accuracy.choice import (
     COARSE_SEEDS,
     PIXELS,
@@ -38,7 +38,7 @@ from stickiness.core.statistics import COVERS
 
 CASES, SEARCHES = 60, 120  # repetitions: of every case, and in the search of what is cheapest
 DESCRIBED = 2048
-DEAR = 1.5  # times the cheapest settings that reach the accuracy, above which a case is dear
+EXPENSIVE = 1.5  # times the cost of the cheapest settings that reach the accuracy
 WANTED = {
     "area": ("area",),
     "mean gap": ("mean_gap",),
@@ -75,11 +75,11 @@ def main(job):
     laws, rows, known = read_models(job.input.laws), [], []
     for path in job.input.seeds:
         measured = datasets.read(path)
-        bank, surface = bank_of(measured), Surface.of(datasets.parameters(measured))
+        pool, surface = make_pool(measured), Surface.of(datasets.parameters(measured))
         name = path.rsplit("/", 1)[1].removesuffix(".nc")
-        rows += validated(name, bank, measured, surface, laws, job.params.accuracies)
-        _, noise = bank.offsets[max(bank.offsets)]
-        known += bank.by_quantity(COVERS * noise).values()
+        rows += validate(name, pool, measured, surface, laws, job.params.accuracies)
+        _, noise = pool.grid_errors[max(pool.grid_errors)]
+        known += pool.by_quantity(COVERS * noise).values()
     columns = ["case", "wanted", "accuracy", *TEXTS]
     missing = "out of reach, or nothing measured reaches it"
     dataset = xr.Dataset(
@@ -105,11 +105,11 @@ def main(job):
         path.write_text(text, encoding="utf-8")
 
 
-def validated(name, bank, measured, surface, laws, accuracies):
+def validate(name, pool, measured, surface, laws, accuracies):
     """One row for every accuracy and set of quantities on one surface."""
     cost = Cost(measured, surface, laws)
-    searches = [Search(Draws(bank, SEARCHES, DESCRIBED, seed), cost) for seed in (2, 3)]
-    draws, rows = Draws(bank, CASES, DESCRIBED), []
+    searches = [Search(Resampling(pool, SEARCHES, DESCRIBED, seed), cost) for seed in (2, 3)]
+    resampling, rows = Resampling(pool, CASES, DESCRIBED), []
     loads = tuple(measured.pressure.values.tolist())
     for (text, quantities), asked in itertools.product(WANTED.items(), accuracies):
         problem = Problem(laws, surface, loads, columns_of(quantities), DESCRIBED)
@@ -118,7 +118,7 @@ def validated(name, bank, measured, surface, laws, accuracies):
         except UnreachableError:
             rows.append((name, text, asked, *[np.nan] * len(TEXTS)))
             continue
-        error, spent = worst_errors(draws, problem, chosen), cost(chosen)
+        error, spent = worst_errors(resampling, problem, chosen), cost(chosen)
         rows.append(
             (
                 name,
@@ -131,7 +131,7 @@ def validated(name, bank, measured, surface, laws, accuracies):
                 float(np.mean(error <= asked)),
                 float(np.quantile(error, COVERED)),
                 spent,
-                spent / lowest_cost(searches, problem.columns, asked),
+                spent / find_lowest_cost(searches, problem.columns, asked),
             )
         )
     return rows
@@ -140,7 +140,7 @@ def validated(name, bank, measured, surface, laws, accuracies):
 class Cost:
     """Cost of settings as measured on a surface, for all its loads.
 
-    What a larger tolerance saves is by its law.
+    The error model tells what a larger tolerance saves.
     """
 
     def __init__(self, measured, surface, laws):
@@ -162,40 +162,42 @@ class Cost:
 
 
 class Search:
-    """Errors of all settings on one set of draws, cheapest first.
+    """Errors of all settings on one set of resampled seeds, cheapest first.
 
-    The largest tolerance is taken to add no error: what is cheapest is not made out dearer.
+    The largest tolerance is taken to add no error, so that the cheapest settings are not
+    overestimated.
     """
 
-    def __init__(self, draws, cost):
-        self.draws, self.found = draws, {}
+    def __init__(self, resampling, cost):
+        self.resampling, self.found = resampling, {}
         every = itertools.product(PIXELS, TOLERANCES[:1], SEEDS, COARSE_SEEDS)
         self.costs = {one: cost(one) for one in itertools.starmap(Settings, every)}
-        self.every = sorted(self.costs, key=self.costs.get)
+        self.cheapest_first = sorted(self.costs, key=self.costs.get)
 
-    def reach(self, settings, columns, asked):
+    def reaches(self, settings, columns, asked):
         """Whether 90 % of repetitions are within the accuracy in all columns at all loads."""
         if settings not in self.found:
-            errors, _ = self.draws(settings)
-            self.found[settings] = self.draws.bank.by_quantity(errors)
+            errors, _ = self.resampling.draw(settings)
+            self.found[settings] = self.resampling.pool.by_quantity(errors)
         worst = np.max([e for (c, _), e in self.found[settings].items() if c in columns], axis=0)
         return np.quantile(worst, COVERED) <= asked
 
 
-def lowest_cost(searches, columns, asked):
+def find_lowest_cost(searches, columns, asked):
     """Cost of the cheapest settings that reach an accuracy; NaN if none does.
 
-    Of many some get there by luck: they must on every set of draws.
+    Some of many settings reach it by luck: they must reach it in every search.
     """
-    for settings in searches[0].every:
-        if all(search.reach(settings, columns, asked) for search in searches):
+    for settings in searches[0].cheapest_first:
+        if all(search.reaches(settings, columns, asked) for search in searches):
             return searches[0].costs[settings]
     return np.nan
 
 
-def worst_errors(draws, problem, settings):
+def worst_errors(resampling, problem, settings):
     """Largest error of each repetition over columns and loads, with what the tolerance adds."""
-    errors = draws.bank.by_quantity(draws(replace(settings, tolerance=FULL))[0])
+    draws, _ = resampling.draw(replace(settings, tolerance=FULL))
+    errors = resampling.pool.by_quantity(draws)
     return np.max(
         [
             np.hypot(errors[column, load], solver_error(problem, settings, load, column))
@@ -215,26 +217,26 @@ def solver_error(problem, settings, load, column):
 
 def markdown(columns, rows):
     lines = [[value if isinstance(value, str) else f"{value:.3g}" for value in row] for row in rows]
-    return table(columns, lines) + "\n" + summary(columns, rows)
+    return table(columns, lines) + "\n" + summarise(columns, rows)
 
 
-def summary(columns, rows):
-    """In how many runs and cases the accuracy is reached, and at what cost."""
+def summarise(columns, rows):
+    """Say in how many runs and cases the accuracy is reached, and at what cost."""
     names = ("accuracy", "within", "error", "cost_over_cheapest")
     part = np.array([[row[columns.index(name)] for name in names] for row in rows])
-    return f"Together: {told(part.astype(float))}\n"
+    return f"Together: {describe(part.astype(float))}\n"
 
 
-def told(part):
-    """One line on shares within, and costs over those of the cheapest."""
+def describe(part):
+    """One line on shares within the accuracy, and costs over those of the cheapest settings."""
     asked, within, error, ratio = part[np.isfinite(part[:, 1])].T
     # Where nothing measured reaches the accuracy, nothing is known of the cost.
-    cheap, known, reached = ratio <= DEAR, np.isfinite(ratio), within >= COVERED
+    cheap, known, reached = ratio <= EXPENSIVE, np.isfinite(ratio), within >= COVERED
     return (
         f"{within.mean():.1%} of runs within the accuracy in every quantity at every load; at "
         f"least 90 % of them in {reached.sum()} of {reached.size} cases, at least 85 % in "
         f"{(within >= 0.85).sum()}, fewest {within.min():.0%}. Cost over the cheapest: median "
-        f"{np.median(ratio[known]):.2f}, at most {DEAR:g} in {cheap.sum()} of {known.sum()}, "
+        f"{np.median(ratio[known]):.2f}, at most {EXPENSIVE:g} in {cheap.sum()} of {known.sum()}, "
         f"largest {ratio[known].max():.2f}; both in {(reached & cheap).sum()}."
     )
 

@@ -30,16 +30,17 @@ from stickiness.criteria import a_v_fit, a_v_table, moduli
 from stickiness.measured import instrument_spectrum, psd, self_affine_fit, stitching
 from stickiness.persson import theory
 from stickiness.surfaces import spectrum, synthesis
+from stickiness.surfaces.spectrum import SelfAffine
 
 RIGHT, REFUSED, UNCONVERGED, FAILED = range(4)
 OUTCOMES = ("right", "refused", "not converged", "failed")
+SCALED = 1e-9  # relative error allowed where only the unit or an overall factor differs
 TIME_LIMIT = 30  # seconds of computing for a point; most take less than 0.1
 
 _MODULES = (
-    a_v_fit, a_v_table, choice, error_models, prediction, adhesive, dmt, gaps, grid_limit,
-    criteria, equivalent_sphere, instrument_spectrum, model_choice,
-    theory, psd, solver, multilevel, self_affine_fit, spectrum, stitching, subpixel, synthesis,
-    moduli,
+    a_v_fit, a_v_table, adhesive, criteria, dmt, choice, equivalent_sphere, error_models, gaps,
+    grid_limit, instrument_spectrum, model_choice, moduli, multilevel, prediction, psd,
+    self_affine_fit, solver, spectrum, stitching, subpixel, synthesis, theory,
 )  # fmt: skip
 _LIBRARY = Path(stickiness.__file__).parent
 
@@ -74,12 +75,45 @@ AXES = {
 }
 
 
+WIDE = {  # of closed forms, which no grid limits
+    "range_over_h_rms": (1e-12, 1e-9, *AXES["range_over_h_rms"].values),
+    "adhesion_length_over_range": (*AXES["adhesion_length_over_range"].values, 1e4, 1e7),
+    "magnification": (1.001, *AXES["magnification"].values[1:]),
+}
+
+
 class Check(NamedTuple):
     """What was compared, its relative error and the largest that passes for right."""
 
     name: str
     error: float
     tolerance: float
+
+
+def require(name: str, met: bool) -> Check:
+    """Check of a condition."""
+    return Check(name, float(not met), 0.5)
+
+
+def compare(name: str, value, expected, tolerance: float = SCALED) -> Check:
+    """Largest deviation of an array, relative to the largest of what is expected."""
+    expected = np.asarray(expected, dtype=float)
+    scale = float(np.max(np.abs(expected)))
+    error = np.max(np.abs(np.asarray(value, dtype=float) - expected))
+    return Check(name, float(error / scale) if scale > 0 else float(error), tolerance)
+
+
+def compare_each(name: str, value, expected, tolerance: float = SCALED) -> Check:
+    """Largest relative deviation of any element."""
+    value, expected = np.asarray(value, dtype=float), np.asarray(expected, dtype=float)
+    return Check(name, float(np.max(np.abs(value / expected - 1))), tolerance)
+
+
+def model(
+    hurst: float, magnification: float, q0_h_rms: float = 1.0, unit: float = 1.0
+) -> SelfAffine:
+    """Self-affine spectrum with 1/q0 = unit."""
+    return SelfAffine(hurst=hurst, q0=1 / unit, q1=magnification / unit, h_rms=q0_h_rms * unit)
 
 
 @dataclass(frozen=True)
@@ -146,10 +180,10 @@ class Result(NamedTuple):
     text: str
 
 
-def probed(component: Component, point: Mapping[str, Any]) -> Result:
+def probe_point(component: Component, point: Mapping[str, Any]) -> Result:
     """Outcome of one point."""
     try:
-        with warnings.catch_warnings(), _time_limit(TIME_LIMIT):
+        with warnings.catch_warnings(), limit_time(TIME_LIMIT):
             warnings.simplefilter("error")
             warnings.simplefilter("ignore", PlausibilityWarning)  # coarse grids are the point
             checks = list(component.probe(**point))
@@ -174,7 +208,7 @@ def is_refusal(error: Exception) -> bool:
     return Path(last.filename).is_relative_to(_LIBRARY) and not words.isdisjoint(_ARGUMENTS)
 
 
-def _arguments() -> Iterator[str]:
+def _list_arguments() -> Iterator[str]:
     """Names of all arguments of the library's public functions and classes."""
     for module in _MODULES:
         for name, value in vars(module).items():
@@ -185,11 +219,11 @@ def _arguments() -> Iterator[str]:
 
 
 # Less the words that any message may hold.
-_ARGUMENTS = frozenset(_arguments()) - {"args", "error", "kwargs", "mean", "message", "value"}
+_ARGUMENTS = frozenset(_list_arguments()) - {"args", "error", "kwargs", "mean", "message", "value"}
 
 
 @contextmanager
-def _time_limit(seconds: float) -> Iterator[None]:
+def limit_time(seconds: float) -> Iterator[None]:
     def expired(*_: Any) -> None:
         raise TimeoutError(f"took more than {seconds:g} s")
 

@@ -12,8 +12,15 @@ from scipy import stats
 from scipy.special import beta, erf, gamma
 
 from pipeline.dmt_limit import DmtLimit
-from pipeline.stability.components import Check, Component
-from pipeline.stability.theory import SCALED, THEORIES, WIDE, each_against, model
+from pipeline.stability.components import (
+    SCALED,
+    WIDE,
+    Check,
+    Component,
+    compare_each,
+    model,
+)
+from pipeline.stability.theory import THEORIES
 from stickiness.accuracy.choice import (
     COARSE_SEEDS,
     PIXELS,
@@ -39,7 +46,9 @@ from stickiness.surfaces.spectrum import Shells, Tabulated
 
 def probe_odd_spectra(magnification, pressure, q0_h_rms, unit, variant) -> Iterator[Check]:
     kind, *theory = variant.split()
-    s, plain = (_odd(kind, magnification, *size) for size in ((q0_h_rms, unit), (1.0, 1.0)))
+    s, plain = (
+        make_odd_spectrum(kind, magnification, *size) for size in ((q0_h_rms, unit), (1.0, 1.0))
+    )
     width, correction = theory
     t, same = (Persson(each, variant=width, correction=correction) for each in (s, plain))
     p, h = pressure * q0_h_rms, q0_h_rms * unit
@@ -56,7 +65,7 @@ def probe_odd_spectra(magnification, pressure, q0_h_rms, unit, variant) -> Itera
     yield Check("more gaps within twice the distance", below[0] - below[1], 1e-9)
 
 
-def _odd(kind, magnification, q0_h_rms, unit):
+def make_odd_spectrum(kind, magnification, q0_h_rms, unit):
     h, q = q0_h_rms * unit, np.array([1.0, magnification]) / unit
     if kind == "shell":
         return Shells(q[:1], [h**2])
@@ -72,31 +81,31 @@ def _odd(kind, magnification, q0_h_rms, unit):
 
 
 def probe_measured(hurst, q0_h_rms, unit, grid) -> Iterator[Check]:
-    found, plane, heights = _analysed(hurst, q0_h_rms, unit, grid)
-    same, *_ = _analysed(hurst, 1.0, 1.0, grid)
-    yield each_against("Parseval", plane.total(), plane.variance)
+    found, plane, heights = analyse_map(hurst, q0_h_rms, unit, grid)
+    same, *_ = analyse_map(hurst, 1.0, 1.0, grid)
+    yield compare_each("Parseval", plane.total(), plane.variance)
     rings = psd.radial_average(plane)
     total = np.sum(rings.psd * rings.modes) * plane.dqx * plane.dqy
-    yield each_against("rings", total, plane.variance)
-    yield each_against("variance", plane.variance, float(np.var(heights)))
+    yield compare_each("rings", total, plane.variance)
+    yield compare_each("variance", plane.variance, float(np.var(heights)))
     fit = found.fit
     yield Check("Hurst exponent", abs(fit.hurst - hurst) / max(fit.hurst_se, 0.02), 5)
     yield Check("Hurst exponent, other unit", abs(fit.hurst - same.fit.hurst), 1e-6)
     yield Check("its error, other unit", abs(fit.hurst_se / same.fit.hurst_se - 1), 1e-4)
     scale = unit**2 * (q0_h_rms * unit) ** 2
     level = fit.psd(3 / unit) / same.fit.psd(3.0)
-    yield each_against("level, other unit", level, scale, 1e-6)
+    yield compare_each("level, other unit", level, scale, 1e-6)
     both = stitching.stitch([found, found])
     yield Check("offsets of one map from itself", float(np.max(np.abs(both.offsets))), 1e-9)
     # An offset within its sampling error counts as that, which moves weight to lower q.
     twice = both.spectrum.fit
     yield Check("stitched", abs(twice.hurst - fit.hurst) / max(twice.hurst_se, 0.02), 1)
     lifted = psd.power_spectrum(heights + 3 * np.abs(heights).max(), plane.qx[1] ** -1)
-    yield each_against("lifted", lifted.variance, plane.variance, 1e-12)
+    yield compare_each("lifted", lifted.variance, plane.variance, 1e-12)
 
 
 @lru_cache(maxsize=64)
-def _analysed(hurst, q0_h_rms, unit, grid):
+def analyse_map(hurst, q0_h_rms, unit, grid):
     s = model(hurst, max(0.45 * grid, 1.01), q0_h_rms, unit)
     length = 2 * np.pi * unit
     heights = synthesis.synthesise(s, n=grid, length=length, seed=3)
@@ -157,11 +166,11 @@ def probe_accuracy(hurst, magnification, pressure, variant) -> Iterator[Check]:
         other = predicted_cost(problem, settings)
         yield Check("cheapest", cost / other, SAME_COST * (1 + SCALED))
     near, load, factor = nearest_measured(on, pressure)
-    own = _own_error(found, near, load, factor)
+    own = predict_error(found, near, load, factor)
     yield Check("error", abs(error(found) / own - 1), 1e-5)  # of a bisection
 
 
-def _own_error(settings, on, load, factor):
+def predict_error(settings, on, load, factor):
     grid = factor * on.magnification**-0.2 * load**-0.1 * settings.pixels_per_wavelength**-2.0
     solver = factor * np.e * settings.tolerance
     scatter = factor * np.exp(on.hurst - 2) / on.window
@@ -203,20 +212,20 @@ def probe_dmt_limit(
     sigma = adhesion_length_over_range / q0_h_rms
     expected = sigma * range_over_h_rms ** (2 / 3) * factor
     got = limit.attraction(solved).squeeze()
-    yield each_against("attraction", got, expected * loads.values, 1e-3)
+    yield compare_each("attraction", got, expected * loads.values, 1e-3)
     total = (1 - got.values / loads.values) / 2
     kappa = limit.inverse_kappa(solved).squeeze()
     scale = float(np.max(np.abs(total)) + 1)
     yield Check("1/kappa", float(np.max(np.abs(kappa - total))) / scale, SCALED)
     fitted = float(limit.inverse_kappa_ad_fit(solved).squeeze())
-    yield each_against("1/kappa_ad, fitted", fitted, got.values[0] / pressure / 2, 1e-8)
+    yield compare_each("1/kappa_ad, fitted", fitted, got.values[0] / pressure / 2, 1e-8)
     law = LennardJones(sigma * range_over_h_rms, range_over_h_rms)
     nodes = np.geomspace(1e-8, 1e6, 14 * 64 + 1) * range_over_h_rms
     value = float(dmt.attraction_of_areas(pressure * nodes ** (2 / 3), nodes, law))
     # Integral of x^(-1/3) ((1 + x)^-3 - (1 + x)^-9) is a difference of Beta functions.
     exact = 16 / 9 * (beta(2 / 3, 7 / 3) - beta(2 / 3, 25 / 3))
     expected = sigma * pressure * range_over_h_rms ** (2 / 3) * exact
-    yield each_against("Lennard-Jones", value, expected, 1e-3)
+    yield compare_each("Lennard-Jones", value, expected, 1e-3)
 
 
 INPUTS = {

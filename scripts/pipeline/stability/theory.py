@@ -9,37 +9,23 @@ import numpy as np
 from scipy.integrate import quad
 from scipy.special import erf, erfinv
 
-from pipeline.stability.components import AXES, Check, Component
+from pipeline.stability.components import (
+    SCALED,
+    WIDE,
+    Check,
+    Component,
+    compare,
+    compare_each,
+    model,
+    require,
+)
 from stickiness import criteria
 from stickiness.accuracy import multilevel
 from stickiness.persson.theory import Persson
 from stickiness.surfaces import synthesis
 from stickiness.surfaces.spectrum import SelfAffine, Tabulated
 
-SCALED = 1e-9  # relative error allowed where only the unit or an overall factor differs
 _SEEDS = 24
-
-
-def model(
-    hurst: float, magnification: float, q0_h_rms: float = 1.0, unit: float = 1.0
-) -> SelfAffine:
-    """Self-affine spectrum with 1/q0 = unit."""
-    return SelfAffine(hurst=hurst, q0=1 / unit, q1=magnification / unit, h_rms=q0_h_rms * unit)
-
-
-def against(name: str, value, expected, tolerance: float = SCALED) -> Check:
-    """Largest deviation of an array, relative to the largest of what is expected."""
-    expected = np.asarray(expected, dtype=float)
-    scale = float(np.max(np.abs(expected)))
-    error = np.max(np.abs(np.asarray(value, dtype=float) - expected))
-    return Check(name, float(error / scale) if scale > 0 else float(error), tolerance)
-
-
-def each_against(name: str, value, expected, tolerance: float = SCALED) -> Check:
-    """Largest relative deviation of any element."""
-    value, expected = np.asarray(value, dtype=float), np.asarray(expected, dtype=float)
-    return Check(name, float(np.max(np.abs(value / expected - 1))), tolerance)
-
 
 # --- Spectrum: closed forms against adaptive quadrature in ln q, in units of q0 and h_rms. ---
 
@@ -66,23 +52,23 @@ def probe_spectrum(hurst, magnification, q0_h_rms, unit) -> Iterator[Check]:
         ("rms curvature", s.rms_curvature * unit / q0_h_rms, 4),
     ):
         expected = np.sqrt(quadrature(hurst, magnification, power) / variance)
-        yield each_against(name, value, expected)
+        yield compare_each(name, value, expected)
     energy = quadrature(hurst, magnification, 1) / variance / 4
-    yield each_against("elastic energy", s.elastic_energy() / (unit * q0_h_rms**2), energy)
-    yield each_against("rms height", s.h_rms, q0_h_rms * unit)
+    yield compare_each("elastic energy", s.elastic_energy() / (unit * q0_h_rms**2), energy)
+    yield compare_each("rms height", s.h_rms, q0_h_rms * unit)
     expected = s.moment(0) * s.moment(4) / s.moment(2) ** 2
-    yield each_against("Nayak", s.nayak, expected)
+    yield compare_each("Nayak", s.nayak, expected)
     middle = np.sqrt(s.q0 * s.q1)
     halves = s.variance_below(middle) + s.variance_above(middle)
-    yield each_against("both halves", halves, s.h_rms**2)
+    yield compare_each("both halves", halves, s.h_rms**2)
     inner = s.truncated(middle)
-    yield each_against("truncation", inner.h_rms**2, s.variance_below(middle))
+    yield compare_each("truncation", inner.h_rms**2, s.variance_below(middle))
     q, above = s.at_gradient_variance(s.variance_below(middle, 2))
-    yield each_against("inverse", q, middle, 1e-7)
+    yield compare_each("inverse", q, middle, 1e-7)
     yield Check("variance beyond", abs(above - s.variance_above(middle)) / s.h_rms**2, 1e-7)
     q = np.geomspace(s.q0, s.q1, 9)
     table = Tabulated(q, s.psd(q))
-    yield each_against("table", table.rms_slope, s.rms_slope)
+    yield compare_each("table", table.rms_slope, s.rms_slope)
 
 
 # --- Synthesis: prescribed height, other grids, band, and the same surface in another unit. ---
@@ -93,23 +79,23 @@ def probe_synthesis(hurst, magnification, q0_h_rms, unit, grid) -> Iterator[Chec
     heights = synthesis.synthesise(s, n=grid, length=length, seed=3)
     h_rms = q0_h_rms * unit
     if grid > 2 * magnification:  # beyond Nyquist, where the grid shows half of some modes
-        yield each_against("rms height", np.sqrt(np.mean(heights**2)), h_rms)
+        yield compare_each("rms height", np.sqrt(np.mean(heights**2)), h_rms)
     yield Check("mean", abs(float(heights.mean())) / h_rms, SCALED)
     finer = synthesis.synthesise(s, n=2 * grid, length=length, seed=3)
-    yield against("finer grid", finer[::2, ::2], heights)
+    yield compare("finer grid", finer[::2, ::2], heights)
     power = np.abs(np.fft.fft2(heights)) ** 2
     index = np.fft.fftfreq(grid, 1 / grid)
     radius = np.hypot(index[:, None], index[None, :])
     outside = (radius > magnification * (1 + 1e-9)) | (radius < 1 - 1e-9)
     yield Check("power outside the band", power[outside].sum() / power.sum(), 1e-20)
     plain = synthesis.synthesise(model(hurst, magnification), n=grid, length=2 * np.pi, seed=3)
-    yield against("other unit", heights / h_rms, plain)
+    yield compare("other unit", heights / h_rms, plain)
     moments = synthesis.moments(finer, length)
     gy, gx = (np.fft.ifft2(1j * k * np.fft.fft2(finer)).real for k in _wave_vectors(2 * grid, unit))
     slope = np.sqrt(np.mean(gx**2 + gy**2))
-    yield each_against("rms slope", moments.rms_slope, slope, 1e-7)
+    yield compare_each("rms slope", moments.rms_slope, slope, 1e-7)
     shells = synthesis.lattice_spectrum(s, length)
-    yield each_against("lattice spectrum", shells.h_rms, h_rms)
+    yield compare_each("lattice spectrum", shells.h_rms, h_rms)
 
 
 def _wave_vectors(n, unit):
@@ -148,7 +134,7 @@ def probe_persson(
     below, everything = (float(t.gap_cumulative(x, p)) for x in (u, np.inf))
     density = float(t.gap_density(u, p))
     yield Check("area + gaps = 1", abs(area + everything - 1), 1e-8)
-    yield Check("sign", 0.0 if min(area, gap, below, density) >= 0 else 1.0, 0.5)
+    yield require("sign", min(area, gap, below, density) >= 0)
     yield Check("order", max(below - everything, 0.0), 1e-12)
     yield Check("area", _area_error(t, variant.split()[1], p, area), 1e-7)
     same = theory(variant, hurst, magnification)
@@ -158,7 +144,7 @@ def probe_persson(
     other = float(same.gap_cumulative(range_over_h_rms, pressure))
     yield Check("gaps, other unit", abs(below - other), 1e-8)
     if 1 - area > 1e-6 and gap > 1e-6 * h_rms and pressure > 1e-6:
-        yield each_against("load at the gap", t.pressure_at(gap), p, 1e-6)
+        yield compare_each("load at the gap", t.pressure_at(gap), p, 1e-6)
 
 
 def _area_error(t: Persson, correction: str, p: float, area: float) -> float:
@@ -192,52 +178,50 @@ def probe_criteria(
     eps = range_over_h_rms * h_rms
     la = adhesion_length_over_range * eps
     limit = criteria.h_rms_limit(q0, la, eps, 3.0)
-    yield each_against("threshold", criteria.violano(limit, q0, la, eps, 3.0).margin, 1)
+    yield compare_each("threshold", criteria.violano(limit, q0, la, eps, 3.0).margin, 1)
     ratio = criteria.traction_ratio(h_rms, q0, la, eps, 3.0)
     margin = criteria.violano(h_rms, q0, la, eps, 3.0).margin
-    yield each_against("margin and ratio", margin ** (5 / 3), ratio)
-    yield each_against("modulus", criteria.modulus_threshold(h_rms, q0, la, eps, 3.0), ratio)
+    yield compare_each("margin and ratio", margin ** (5 / 3), ratio)
+    yield compare_each("modulus", criteria.modulus_threshold(h_rms, q0, la, eps, 3.0), ratio)
     expected = 1 / (75 / 4 * q0_h_rms / adhesion_length_over_range)
-    yield each_against("DMT range", 1 / criteria.dmt_validity(h_rms, q0, la, eps).margin, expected)
+    yield compare_each("DMT range", 1 / criteria.dmt_validity(h_rms, q0, la, eps).margin, expected)
     scaled = model(hurst, magnification)
-    pairs = zip(_margins(s, la, eps, q0), _scaled_margins(scaled, la, eps, q0, h_rms), strict=True)
-    for (name, value), (_, expected) in pairs:
+    expected_margins = list_scaled_margins(scaled, la, eps, q0, h_rms)
+    for (name, value), expected in zip(list_margins(s, la, eps, q0), expected_margins, strict=True):
         if np.isinf(expected):
-            yield Check(name, 0.0 if value == expected else 1.0, 0.5)
+            yield require(name, value == expected)
         else:
-            yield each_against(name, value, expected, 1e-7)
+            yield compare_each(name, value, expected, 1e-7)
     if range_over_h_rms < 1e-3:
         expected = np.exp(2) / np.sqrt(2 * np.pi) * la / (q0 * h_rms**2)
         value = criteria.bearing_area(h_rms, q0, la, eps).margin
-        yield each_against("bearing area, small ranges", value, expected, 1e-2)
+        yield compare_each("bearing area, small ranges", value, expected, 1e-2)
     pressure, gap = criteria.bearing_area_pull_off(h_rms, q0, la, eps)
     sticky = criteria.bearing_area(h_rms, q0, la, eps).sticky
     agree = np.isfinite(gap) and np.isfinite(pressure) and (pressure < 0) == sticky
-    yield Check("bearing area, pull-off", 0.0 if agree else 1.0, 0.5)
+    yield require("bearing area, pull-off", agree)
     c0 = criteria.violano_c0_limit(hurst, q0, la, eps, 3.0, magnification)
     made = SelfAffine(hurst=hurst, q0=q0, q1=magnification * q0, C0=c0)
-    yield each_against("C0 and h_rms", made.h_rms, limit)
+    yield compare_each("C0 and h_rms", made.h_rms, limit)
 
 
-def _margins(s, la, eps, q0):
-    yield (
-        "Pastewka-Robbins",
-        criteria.pastewka_robbins(s.rms_slope, s.rms_curvature, la, eps).margin,
-    )
+def list_margins(s, la, eps, q0):
+    pull = criteria.pastewka_robbins(s.rms_slope, s.rms_curvature, la, eps)
+    yield "Pastewka-Robbins", pull.margin
     yield "Fuller-Tabor", criteria.fuller_tabor(s.h_rms, s.rms_curvature, la).margin
     yield "bearing area", criteria.bearing_area(s.h_rms, q0, la, eps).margin
     yield "Persson-Tosatti", criteria.persson_tosatti(s, la).margin
 
 
-def _scaled_margins(s, la, eps, q0, h):
+def list_scaled_margins(s, la, eps, q0, h):
     """The same from a surface with q0 = h_rms = 1, moved by the powers that the formulas have."""
     slope, curvature = s.rms_slope * q0 * h, s.rms_curvature * q0**2 * h
     delta = np.sqrt(24 * la * eps)
     left = slope * delta / (2 * la) * (slope**2 / (curvature * delta)) ** (2 / 3)
-    yield "Pastewka-Robbins", np.pi * (3 / 16) ** (2 / 3) / left
-    yield "Fuller-Tabor", 10 * np.sqrt(2 / s.rms_curvature) * (la / h) / (q0 * h)
-    yield "bearing area", criteria.bearing_area(1, 1, la / (q0 * h**2), eps / h).margin
-    yield "Persson-Tosatti", la / (q0 * h**2) / s.elastic_energy()
+    yield np.pi * (3 / 16) ** (2 / 3) / left
+    yield 10 * np.sqrt(2 / s.rms_curvature) * (la / h) / (q0 * h)
+    yield criteria.bearing_area(1, 1, la / (q0 * h**2), eps / h).margin
+    yield la / (q0 * h**2) / s.elastic_energy()
 
 
 # --- Means: shift and scale, known answers, the descriptors in other units. ---
@@ -249,21 +233,15 @@ def probe_sampling(hurst, magnification, q0_h_rms, unit) -> Iterator[Check]:
     plain = multilevel.descriptors(model(hurst, magnification), 2 * np.pi, range(_SEEDS))
     heights = q0_h_rms * unit
     factors = [heights * q0_h_rms, q0_h_rms, q0_h_rms**2, *[heights] * 4]
-    yield each_against("descriptors", found / factors, plain)
+    yield compare_each("descriptors", found / factors, plain)
     fine, many = found[:4], found[4:]
     mean = multilevel.multilevel_mean(fine, fine, many)
-    yield each_against("fine = coarse", mean.mean, many.mean(0))
+    yield compare_each("fine = coarse", mean.mean, many.mean(0))
     constant = multilevel.controlled_mean(np.full(_SEEDS, heights), found[:, :1], many[:, :1])
-    yield each_against("constant", constant.mean, heights)
+    yield compare_each("constant", constant.mean, heights)
     linear = multilevel.controlled_mean(3 * found[:, 0], found[:, :1], many[:, :1])
-    yield each_against("linear", linear.mean, 3 * many[:, 0].mean())
+    yield compare_each("linear", linear.mean, 3 * many[:, 0].mean())
 
-
-WIDE = {  # of closed forms, which no grid limits
-    "range_over_h_rms": (1e-12, 1e-9, *AXES["range_over_h_rms"].values),
-    "adhesion_length_over_range": (*AXES["adhesion_length_over_range"].values, 1e4, 1e7),
-    "magnification": (1.001, *AXES["magnification"].values[1:]),
-}
 
 THEORY = {
     "spectrum": Component(

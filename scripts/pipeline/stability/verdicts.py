@@ -9,8 +9,7 @@ import numpy as np
 import xarray as xr
 from scipy.optimize import brentq
 
-from pipeline.stability.components import Check, Component
-from pipeline.stability.theory import WIDE, each_against, model
+from pipeline.stability.components import WIDE, Check, Component, compare_each, model, require
 from stickiness.adhesion import equivalent_sphere, model_choice
 from stickiness.criteria import moduli
 from stickiness.criteria.a_v_table import NORMAL_90, AvTable
@@ -27,29 +26,29 @@ def probe_edges_of_contact(
     found = equivalent_sphere.attraction(h, q0, slope, adhesion_length_over_range * eps, eps, a_v)
     strength = adhesion_length_over_range * 2 / slope
     t = 0.75 * a_v * range_over_h_rms ** (2 / 3) * slope / q0_h_rms
-    yield each_against("attractive over contact", found.attractive_over_contact, t)
-    yield each_against("strength", found.strength, 0.75 * strength / np.sqrt(t))
-    sphere = _sphere_effect(t, found.strength)
-    yield each_against("Maugis' sphere", found.effect, sphere, 1e-6)
-    yield each_against("ratio", found.ratio, strength * t * sphere, 1e-6)
-    weak, tough = _weak(t), equivalent_sphere.tough_effect(t, found.strength)
+    yield compare_each("attractive over contact", found.attractive_over_contact, t)
+    yield compare_each("strength", found.strength, 0.75 * strength / np.sqrt(t))
+    sphere = find_sphere_effect(t, found.strength)
+    yield compare_each("Maugis' sphere", found.effect, sphere, 1e-6)
+    yield compare_each("ratio", found.ratio, strength * t * sphere, 1e-6)
+    weak, tough = weak_effect(t), equivalent_sphere.tough_effect(t, found.strength)
     yield Check("below the weak limit", found.effect / weak - 1, 1e-9)
     if found.strength * np.sqrt(1 + t) < 1e-6:
-        yield each_against("weak", found.effect, weak, 1e-4)
+        yield compare_each("weak", found.effect, weak, 1e-4)
     if found.strength > 1e3 * (1 + t) ** 2:
-        yield each_against("tough", found.effect, tough, 0.02)
+        yield compare_each("tough", found.effect, tough, 0.02)
     length = equivalent_sphere.adhesion_length_threshold(h, q0, slope, eps, a_v)
     at = equivalent_sphere.attraction(h, q0, slope, length, eps, a_v)
-    yield each_against("threshold", at.ratio, 1, 1e-6)
+    yield compare_each("threshold", at.ratio, 1, 1e-6)
 
 
-def _weak(t: float) -> float:
+def weak_effect(t: float) -> float:
     """Work of Hertz' pressure on an unit traction, 1 + 1/t as angles, without cancellation."""
     root = np.sqrt(t)
     return float(2 / np.pi * ((1 + 1 / t) * np.arctan(root) + 1 / root))
 
 
-def _sphere_effect(t: float, tau: float) -> float:
+def find_sphere_effect(t: float, tau: float) -> float:
     """Attraction of Maugis' sphere over DMT's, from the excess s = (c/a)^2 - 1 of its zone."""
 
     def gap(s: float) -> float:  # of Hertz, at c/a, over a^2/(pi R)
@@ -65,8 +64,11 @@ def _sphere_effect(t: float, tau: float) -> float:
         return 4 * (root * np.arctan(root) - s / (np.sqrt(1 + s) + 1))
 
     traction = tau * 8 / (3 * np.pi) * np.sqrt(t)
-    reach = gap(t)
-    excess = lambda x: gap(np.exp(x)) + traction * closing(np.exp(x)) - reach  # noqa: E731
+    widest = gap(t)
+
+    def excess(x: float) -> float:
+        return gap(np.exp(x)) + traction * closing(np.exp(x)) - widest
+
     low = np.log(t) - 2
     while excess(low) > 0:
         low -= 2
@@ -80,16 +82,16 @@ def _sphere_effect(t: float, tau: float) -> float:
 _RATIO, _ERROR, _TREND, _DRIFT, _QUADRATURE = 1.1, 0.05, 0.02, 0.04, 0.01
 
 
-def _law(hurst, pressure, ranges):
+def a_v_law(hurst, pressure, ranges):
     return np.exp(0.3 * hurst) * pressure**0.1 * ranges**-0.2
 
 
-def _edge(hurst, magnification, pressure):
+def edge_range(hurst, magnification, pressure):
     return magnification**-1.5 * pressure**0.2 * np.exp(hurst)
 
 
 @lru_cache(maxsize=1)
-def _table() -> AvTable:
+def make_table() -> AvTable:
     axes = {
         "hurst": np.linspace(0.5, 1, 6),
         "magnification": np.geomspace(1e2, 1e8, 7),
@@ -98,9 +100,9 @@ def _table() -> AvTable:
     }
     data = xr.Dataset(coords=axes)
     h, zeta, p, eps = (data[name] for name in axes)
-    data["a_v"] = _law(h, p, eps) * zeta**0.05
-    data["a_v_limit"] = 1.5 * _law(h, p, eps)
-    data["edge_range"] = _edge(h, zeta, p)
+    data["a_v"] = a_v_law(h, p, eps) * zeta**0.05
+    data["a_v_limit"] = 1.5 * a_v_law(h, p, eps)
+    data["edge_range"] = edge_range(h, zeta, p)
     data["edge_a_v"] = 0 * h * zeta + 2.0
     for name, value in (("below", 0.1), ("above", 0.2)):
         data[f"theory_{name}"] = 0 * data.a_v + value
@@ -117,28 +119,28 @@ def _table() -> AvTable:
 def probe_a_v(hurst, magnification, pressure, range_over_h_rms, variant) -> Iterator[Check]:
     infinite = variant == "infinite"
     zeta = np.inf if infinite else magnification
-    found = _table().a_v_at(hurst, pressure, range_over_h_rms, zeta)
-    edge = 0.0 if infinite else _edge(hurst, zeta, pressure)
+    found = make_table().a_v_at(hurst, pressure, range_over_h_rms, zeta)
+    edge = 0.0 if infinite else edge_range(hurst, zeta, pressure)
     if infinite:
-        theory = 1.5 * _law(hurst, pressure, range_over_h_rms)
+        theory = 1.5 * a_v_law(hurst, pressure, range_over_h_rms)
     else:
         held = min(max(range_over_h_rms, edge), 1.0)
-        theory = _law(hurst, pressure, held) * zeta**0.05
+        theory = a_v_law(hurst, pressure, held) * zeta**0.05
     ratio = _RATIO * np.exp(_TREND * (np.clip(np.log2(zeta), 5, 7) - 7))
-    yield each_against("value", found.value, ratio * theory, 1e-4)  # splines are solved to 1e-5
+    yield compare_each("value", found.value, ratio * theory, 1e-4)  # splines are solved to 1e-5
     below = range_over_h_rms < edge
-    yield Check("edge", float(bool(found.edge) != below), 0.5)
+    yield require("edge", bool(found.edge) == below)
     doublings = float(np.clip(np.log2(zeta) - 7, 0, 1))  # simulated from 2^5 to 2^7
     decades = max(np.log10(1e-3 / range_over_h_rms), 0.0)
     error = np.sqrt(_ERROR**2 + (_TREND * doublings) ** 2 + _DRIFT**2 * decades)
-    yield each_against("error of simulation", found.simulation, error, 1e-8)
+    yield compare_each("error of simulation", found.simulation, error, 1e-8)
     reach = np.log(2.0 / theory) if below else None
     for name, limit, sign, of_theory in (
         ("low", found.low, -1, 0.1 if reach is None else max(-reach, 0)),
         ("high", found.high, 1, 0.2 if reach is None else max(reach, 0)),
     ):
         width = np.sqrt(of_theory**2 + (NORMAL_90 * error) ** 2 + _QUADRATURE**2)
-        yield each_against(name, limit / found.value, np.exp(sign * width), 1e-4)
+        yield compare_each(name, limit / found.value, np.exp(sign * width), 1e-4)
 
 
 # --- Choice of the model: a table of power laws, and nothing beyond it. ---
@@ -153,7 +155,7 @@ _POWERS = np.array([0.1, -0.05, -0.2, 0.3])
 
 
 @lru_cache(maxsize=1)
-def _error_table() -> model_choice.ErrorTable:
+def make_error_table() -> model_choice.ErrorTable:
     logs = tuple(np.log(axis) for axis in _POINTS)
     ratio = sum(k * x for k, x in zip(_POWERS, np.meshgrid(*logs, indexing="ij"), strict=True))
     return model_choice.ErrorTable({("exponential", 0.8): (logs, ratio, np.full_like(ratio, 0.1))})
@@ -169,11 +171,11 @@ def probe_model_choice(
     )
     ratio = float(_POWERS @ np.log(at))
     expected = max(abs(np.exp(-ratio + s) - 1) for s in (-0.1, 0.1))
-    error = _error_table().relative_error("exponential", hurst, *at)
+    error = make_error_table().relative_error("exponential", hurst, *at)
     if inside:
-        yield each_against("error", error, expected, 1e-8)
+        yield compare_each("error", error, expected, 1e-8)
     else:
-        yield Check("nothing is known outside", float(not np.isnan(error)), 0.5)
+        yield require("nothing is known outside", np.isnan(error))
     asked = {
         "law": "exponential",
         "model": "auto",
@@ -184,11 +186,11 @@ def probe_model_choice(
         "range_over_h_rms": [range_over_h_rms],
     }
     choice = model_choice.choose(
-        asked, {"hurst": hurst, "magnification": magnification}, _error_table()
+        asked, {"hurst": hurst, "magnification": magnification}, make_error_table()
     )
     # h_rms/range > (4/75) (l_a/range)/(range q0), all over q0 h_rms
     held = q0_h_rms * 75 / 4 > adhesion_length_over_range
-    yield Check("choice", float(choice.full.item() == (inside and held and expected <= 0.3)), 0.5)
+    yield require("choice", choice.full.item() != (inside and held and expected <= 0.3))
 
 
 # --- Moduli that depend on the rate, with the unit of time in place of one of length. ---
@@ -201,16 +203,16 @@ def probe_viscoelastic(frequency, unit) -> Iterator[Check]:
     # |i x/(1 + i x)|^2 is the same share, of complex moduli
     expected = rest + sum(e * abs(1 / (1 - 1j / (2 * np.pi * f * tau))) ** 2 for e, tau in terms)
     value = solid.storage(f)
-    yield each_against("storage modulus", value, expected, 1e-12)
+    yield compare_each("storage modulus", value, expected, 1e-12)
     yield Check("grows with the rate", solid.storage(0.5 * f) / value - 1, 1e-15)
     yield Check("between its limits", max(rest / value, value / (rest + 2.3e5)) - 1, 1e-12)
     around = f * np.geomspace(0.1, 10, 9)
     table = moduli.Table(tuple(around), tuple(solid.storage(around)))
-    yield each_against("table", table.storage(f), value, 1e-12)
+    yield compare_each("table", table.storage(f), value, 1e-12)
     if value > 1.0001 * rest and value < 0.9999 * (rest + 2.3e5):
         ((found, upwards),) = moduli.crossings(solid, value, f * np.geomspace(0.5, 3, 99))
-        yield each_against("crossing", found, f, 1e-2)
-        yield Check("upwards", float(not upwards), 0.5)
+        yield compare_each("crossing", found, f, 1e-2)
+        yield require("upwards", upwards)
 
 
 VERDICTS = {

@@ -1,4 +1,4 @@
-"""Rows and laws of the table of the trade for full adhesion and the pull-off."""
+"""Rows of the table, and points of the laws, for full adhesion and the pull-off."""
 
 from __future__ import annotations
 
@@ -10,9 +10,9 @@ import numpy as np
 import pandas as pd
 import xarray as xr
 
-from pipeline.tradeoff.fit_laws import Points
+from pipeline.tradeoff.fit_laws import Conditions, Points
 from pipeline.tradeoff.measuring import COVERED
-from pipeline.tradeoff.rows import compared, row
+from pipeline.tradeoff.rows import Trial, select
 from stickiness.accuracy.error_models import COARSE, Surface
 from stickiness.core import datasets
 from stickiness.core.statistics import COVERS
@@ -45,7 +45,7 @@ class Measured:
     seconds: xr.DataArray
     law: bool = True
 
-    def solved(self) -> Measured:
+    def drop_closed(self) -> Measured:
         """Leave out loads at which a window closes with some setting."""
         value = next(iter(self.full.values()))
         loads = {"pressure": value.notnull().any("seed").all("setting").values}
@@ -56,15 +56,15 @@ class Measured:
         return replace(self, full=full, limit=limit, seconds=self.seconds.sel(loads))
 
 
-def states(measured: xr.Dataset) -> Iterator[Measured]:
-    """1/kappa_ad and the area at every point, and the threshold of all points together."""
+def list_states(measured: xr.Dataset) -> Iterator[Measured]:
+    """List 1/kappa_ad and the area at every point, and the threshold of all points together."""
     measured = measured.where(measured.external_pressure.notnull())
     strengths = measured.adhesion_length_over_range
-    for label, one in by_point(measured):
-        reach, strength = one.range_over_h_rms, one.adhesion_length_over_range
-        others = strengths.where((strengths >= WEAK) & (measured.range_over_h_rms == reach))
+    for label, one in split_points(measured):
+        range_, strength = one.range_over_h_rms, one.adhesion_length_over_range
+        others = strengths.where((strengths >= WEAK) & (measured.range_over_h_rms == range_))
         column = (
-            f"inverse_kappa_ad_{float(reach):g}" if strength >= WEAK else "inverse_kappa_ad_weak"
+            f"inverse_kappa_ad_{float(range_):g}" if strength >= WEAK else "inverse_kappa_ad_weak"
         )
         fall = one.external_pressure / one.repulsive_area * one.area_alone / one.pressure
         dmt = one.attraction_dmt / one.pressure / 2
@@ -84,20 +84,20 @@ def states(measured: xr.Dataset) -> Iterator[Measured]:
     )
 
 
-def pull_offs(measured: xr.Dataset) -> Iterator[Measured]:
-    """The pull-off at every point, from the load at which separation starts."""
+def list_pull_offs(measured: xr.Dataset) -> Iterator[Measured]:
+    """List the pull-off at every point, from the load at which separation starts."""
     load = datasets.parameters(measured)["pressure"]
-    for label, one in by_point(measured.expand_dims(pressure=[load])):
+    for label, one in split_points(measured.expand_dims(pressure=[load])):
         limit = one.pull_off_dmt.expand_dims(setting=measured.sizes["setting"])
         yield Measured(label, {"pull_off": one.pull_off}, {"pull_off": limit}, one.seconds)
 
 
-def by_point(measured):
-    """Every pair of range and adhesion length: what it is called, and its values."""
+def split_points(measured):
+    """Split pairs of range and adhesion length: the label and the values of each."""
     for k in range(measured.sizes["point"]):
         one = measured.isel(point=k)
-        reach, strength = float(one.range_over_h_rms), float(one.adhesion_length_over_range)
-        yield f"range {reach:g}, l_a {strength:g} range", one
+        range_, strength = float(one.range_over_h_rms), float(one.adhesion_length_over_range)
+        yield f"range {range_:g}, l_a {strength:g} range", one
 
 
 def threshold(external: xr.DataArray) -> xr.DataArray:
@@ -123,8 +123,8 @@ def threshold(external: xr.DataArray) -> xr.DataArray:
     return xr.apply_ufunc(crossing, chosen, input_core_dims=[["point"]], vectorize=True)
 
 
-def usual_of(measured: xr.Dataset) -> tuple[pd.DataFrame, int]:
-    """All settings, and the one that is varied: grids share all else, tolerances its grid."""
+def find_usual(measured: xr.Dataset) -> tuple[pd.DataFrame, int]:
+    """Find all settings, and the one that is varied: grids share all else, tolerances its grid."""
     keys = [key for key in ("pixels", "tolerance", "law", "balance") if key in measured]
     frame, knob = pd.DataFrame({key: measured[key].values for key in keys}), measured.knob.values
     pixels = frame.pixels[knob == "tolerance"].iloc[0]
@@ -136,7 +136,7 @@ def varied(measured: xr.Dataset) -> Iterator[tuple[str, str, int, int]]:
 
     The reference is the finest of all, for the law the usual one.
     """
-    frame, usual = usual_of(measured)
+    frame, usual = find_usual(measured)
     for knob in frame:
         # Steps of a path are varied on two grids, each of which has a reference of its own.
         free = [knob, "pixels"] if knob == "balance" else [knob]
@@ -152,53 +152,62 @@ def varied(measured: xr.Dataset) -> Iterator[tuple[str, str, int, int]]:
                 yield knob, f"{text} on {pixels}" if pixels else text, k, reference
 
 
-def rows_and_laws(
+def list_adhesion_rows(
     name: str, measured: xr.Dataset, quantities: Iterator[Measured], points: Points, what: str
 ) -> list[tuple]:
-    """Rows of every setting, of the DMT limit and of numbers of seeds; adds points of the laws."""
+    """List rows of every setting, the DMT limit and numbers of seeds; add points of the laws."""
     rows, unit = [], float(measured.pair_time)
-    surface, usual = Surface.of(datasets.parameters(measured)), usual_of(measured)[1]
-    for one in (each.solved() for each in quantities):
+    surface, usual = Surface.of(datasets.parameters(measured)), find_usual(measured)[1]
+    for one in (each.drop_closed() for each in quantities):
         if not one.seconds.size:
             continue
         place, seconds = f"{name}, {one.label}", one.seconds.mean("seed")
-        ways = {"": (one.full, seconds), " extrapolated": extrapolated(one.full, seconds)}
+        ways = {"": (one.full, seconds), " extrapolated": extrapolate(one.full, seconds)}
         for (way, (values, cost)), each in itertools.product(ways.items(), varied(measured)):
             knob, text, k, reference = each
             if way and (knob != "pixels" or k == 0):
                 continue
-            knob, text = f"{what} {knob}", text + way
-            exact = {q: v.isel(setting=reference) for q, v in one.full.items()}
-            rows += compared(knob, text, place, measured, values, exact, k, cost, unit)
-        exact = {q: v.isel(setting=usual) for q, v in one.full.items()}
-        free = f"{what} model", "DMT", place, measured
-        rows += compared(*free, one.limit, exact, usual, seconds * 0, unit)
-        column, value = next(iter(one.full.items()))
-        for knob, _, k, reference in varied(measured):
-            error = value.isel(setting=k) / value.isel(setting=reference) - 1
-            if one.law and knob == "pixels" and measured.pixels[k] != COARSE:
-                add_grid(points, column, surface, error, float(measured.pixels[k]))
-            elif one.law and knob == "tolerance":
-                # Next to nothing changes but where a pixel turns: all loads and seeds together.
-                size, tolerance = abs(error).quantile(COVERED), float(measured.tolerance[k])
-                points.add("solver", column, surface, float(size), tolerance=tolerance)
+            trial = Trial(f"{what} {knob}", text + way, place, unit, memory_of(measured, k))
+            exact = select(one.full, setting=reference)
+            rows += trial.compare(select(values, setting=k), exact, cost.isel(setting=k))
+        trial = Trial(f"{what} model", "DMT", place, unit, memory_of(measured, usual))
+        limit, exact = (select(each, setting=usual) for each in (one.limit, one.full))
+        rows += trial.compare(limit, exact, seconds.isel(setting=usual) * 0)
+        if one.law:
+            add_setting_points(points, surface, measured, *next(iter(one.full.items())))
         if what == "adhesive":
-            rows += seed_rows(points, surface, place, one, usual, unit)
-    for k in np.flatnonzero(measured.knob == "pixels"):
-        if what == "adhesive" and measured.pixels[k] != COARSE:
-            cost = float(measured.seconds.isel(setting=k).mean()) / unit
-            points.add("adhesive_cost", "", surface, cost, pixels=float(measured.pixels[k]))
-    return [each for each in rows if np.isfinite(each[4])]
+            rows += list_seed_rows(points, surface, one, usual, Trial(what, "", place, unit))
+    if what == "adhesive":
+        add_costs(points, surface, measured)
+    return [row for row in rows if np.isfinite(row[4])]
 
 
-def extrapolated(full, seconds):
-    """To no pixels at all, from each grid and the one before it, and the time of both."""
-    to_nothing = {quantity: 2 * value - value.shift(setting=1) for quantity, value in full.items()}
-    return to_nothing, seconds + seconds.shift(setting=1)
+def memory_of(measured: xr.Dataset, k: int) -> float:
+    """Largest memory [MB] of a setting; NaN where it was not measured."""
+    return float(measured.memory[k]) if "memory" in measured else np.nan
 
 
-def add_grid(points, column, surface, error, pixels):
-    """Points of the law of the grid, at loads at which windows stay open."""
+def extrapolate(full, seconds):
+    """Extrapolate to no pixels at all from each grid and the one before it; the time of both."""
+    limit = {quantity: 2 * value - value.shift(setting=1) for quantity, value in full.items()}
+    return limit, seconds + seconds.shift(setting=1)
+
+
+def add_setting_points(points, surface, measured, column, value):
+    """Add points of the laws of the grid and of the tolerance."""
+    for knob, _, k, reference in varied(measured):
+        error = value.isel(setting=k) / value.isel(setting=reference) - 1
+        if knob == "pixels" and measured.pixels[k] != COARSE:
+            add_grid_points(points, surface, float(measured.pixels[k]), column, error)
+        elif knob == "tolerance":
+            # Next to nothing changes but where a pixel turns: all loads and seeds together.
+            size = float(abs(error).quantile(COVERED))
+            at = Conditions(surface, tolerance=float(measured.tolerance[k]))
+            points.add("solver", column, at, size)
+
+
+def add_grid_points(points, surface, pixels, column, error):
+    """Add points of the law of the grid, at loads at which windows stay open."""
     for load in error.pressure.values:
         off = error.sel(pressure=load).dropna("seed").values
         if not off.size:
@@ -207,31 +216,35 @@ def add_grid(points, column, surface, error, pixels):
             size, noise = np.sqrt(np.mean(off**2)), 0.0
         else:
             size, noise = off.mean(), off.std(ddof=1) / np.sqrt(off.size)
-        points.add("discretisation", column, surface, size, load, pixels, noise=noise)
+        points.add("discretisation", column, Conditions(surface, load, pixels), size, noise)
 
 
-def seed_rows(points, surface, place, one, usual, unit):
-    """Rows of means, plain and with the DMT limit of the coarsest grid as control variate."""
+def add_costs(points, surface, measured):
+    """Add the cost of an adhesive state on every grid but the coarsest."""
+    for k in np.flatnonzero(measured.knob == "pixels"):
+        if measured.pixels[k] != COARSE:
+            cost = float(measured.seconds.isel(setting=k).mean()) / float(measured.pair_time)
+            at = Conditions(surface, pixels=float(measured.pixels[k]))
+            points.add("adhesive_cost", "", at, cost)
+
+
+def list_seed_rows(points, surface, one, usual, trial):
+    """List rows of means, plain and with the DMT limit of the coarsest grid as control variate."""
     rows, (column, value) = [], next(iter(one.full.items()))
     scatter, share = scattered(value.isel(setting=usual), one.limit[column].isel(setting=0))
     seconds = one.seconds.isel(setting=usual).mean("seed")
     for load in value.pressure.values:
-        at = {"pressure": load}
-        spread, left = float(scatter.sel(at)), float(share.sel(at))
+        spread, left, cost = (float(x.sel(pressure=load)) for x in (scatter, share, seconds))
         if not np.isfinite(spread * left):
             continue
         if one.law:
-            points.add("scatter", column, surface, spread, load)
-            points.add("fine_share", column, surface, left, load)
-        cost = float(seconds.sel(at))
-        for seeds, (kind, rest) in itertools.product(
-            MEANS, {"plain": 1.0, "controlled": left}.items()
-        ):
-            error, case = COVERS * spread * rest / np.sqrt(seeds), f"{place}, p = {load:g}"
-            setting, cost_of_all = f"{seeds} {kind}", seeds * cost
-            rows.append(
-                row("adhesive seeds", setting, case, column, error, np.nan, cost_of_all, unit)
-            )
+            points.add("scatter", column, Conditions(surface, load), spread)
+            points.add("fine_share", column, Conditions(surface, load), left)
+        kinds = {"plain": 1.0, "controlled": left}
+        for seeds, (kind, rest) in itertools.product(MEANS, kinds.items()):
+            error = COVERS * spread * rest / np.sqrt(seeds)
+            chosen = replace(trial, knob="adhesive seeds", setting=f"{seeds} {kind}")
+            rows += chosen.list_rows({(column, load): error}, {}, seeds * cost)
     return rows
 
 

@@ -1,20 +1,30 @@
-"""What the measurements of the trade between cost and error share: quantities, clock, memory."""
+"""What all measurements of accuracy and cost share: quantities, settings, clock, memory."""
 
 from __future__ import annotations
 
 import statistics
 import time
 import tracemalloc
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 import numpy as np
 import xarray as xr
+from numpy.typing import ArrayLike, NDArray
 
 from pipeline.conventions import FIT_MEASURED, GAPS_MEASURED
 from pipeline.quantities import derive, quote
 from stickiness.accuracy.quantities import MODELLED, columns_of
 from stickiness.contact import half_space
 
+SETTING_TEXTS = {  # of the knobs that every solver has
+    "knob": ("1", "what the settings vary"),
+    "pixels": ("1", "grid points per shortest wavelength"),
+    "tolerance": ("1", "tolerance of the solver over h_rms"),
+}
+SHARED_TEXTS = {
+    "seed": ("1", "seed of the realisation"),
+    "pair_time": ("s", "processor time of a pair of transforms of 1024 x 1024 doubles"),
+}
 UNIT = 1024  # side of the grid whose pair of transforms is the unit of cost
 COVERED = 0.9  # share of cases that a stated error covers
 
@@ -41,23 +51,25 @@ def rms(values: xr.DataArray, dims: str | list[str] = "gap") -> xr.DataArray:
     return np.sqrt((values**2).mean(dims)) if dims else abs(values)
 
 
-def timed(task: Callable[[], object]) -> tuple[object, float]:
-    """What a task returns, and the processor time [s] it took."""
+def time_task(task: Callable[[], object]) -> tuple[object, float]:
+    """Return what a task returns, and the processor time [s] it took."""
     begin = time.process_time()
     found = task()
     return found, time.process_time() - begin
 
 
-def pair_seconds(repetitions: int = 9) -> float:
-    """Processor time [s] of a forward and a backward transform of 1024 x 1024 doubles, median."""
+def time_transforms(repetitions: int = 9) -> float:
+    """Measure the unit of cost: median processor time [s] of a pair of transforms."""
     space = half_space.half_space((UNIT, UNIT), (1.0, 1.0), np.float64)
     field = np.random.default_rng(1).standard_normal((UNIT, UNIT))
     space.compliance(field)
-    return statistics.median(timed(lambda: space.compliance(field))[1] for _ in range(repetitions))
+    return statistics.median(
+        time_task(lambda: space.compliance(field))[1] for _ in range(repetitions)
+    )
 
 
-def peak_megabytes(task: Callable[[], object]) -> float:
-    """Largest memory [MB] that a task holds at once, its operators included."""
+def measure_memory(task: Callable[[], object]) -> float:
+    """Measure the largest memory [MB] that a task holds at once, its operators included."""
     half_space.clear_caches()
     tracemalloc.start()
     task()
@@ -66,8 +78,17 @@ def peak_megabytes(task: Callable[[], object]) -> float:
     return peak / 1e6
 
 
-KEYS = {
-    "knob": "what the settings vary",
-    "pixels": "grid points per shortest wavelength",
-    "tolerance": "tolerance of the solver over h_rms",
-}
+def sample(heights: NDArray, step: int) -> NDArray:
+    """Take every `step`-th point along both axes."""
+    return np.ascontiguousarray(heights[::step, ::step])
+
+
+def select_knob(measured: xr.Dataset, knob: str) -> xr.Dataset:
+    """Select the settings that vary one knob."""
+    chosen = measured.isel(setting=np.flatnonzero(measured.knob == knob))
+    return chosen.assign_coords(setting=np.arange(chosen.sizes["setting"]))
+
+
+def stack(parts: Sequence[xr.Dataset], name: str, values: ArrayLike, **options) -> xr.Dataset:
+    """Concatenate datasets along a new dimension with these coordinates."""
+    return xr.concat(parts, xr.DataArray(values, dims=name, name=name), **options)

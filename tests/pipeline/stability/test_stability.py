@@ -1,4 +1,4 @@
-"""The map of validity: what it calls right, refused and failed, and that it can tell."""
+"""The map of validity: what counts as right, refused or failed, and that errors are detected."""
 
 import warnings
 from types import SimpleNamespace
@@ -16,7 +16,7 @@ from pipeline.stability.components import (
     UNCONVERGED,
     Check,
     Component,
-    probed,
+    probe_point,
 )
 from stability import plot_stability, probe_stability
 from stability.probe_stability import COMPONENTS
@@ -29,7 +29,7 @@ from stickiness.criteria import a_v_table, moduli
 
 
 def outcome(probe, **point):
-    return probed(Component(probe, ()), point).outcome
+    return probe_point(Component(probe, ()), point).outcome
 
 
 def returning(*errors):
@@ -61,7 +61,7 @@ def test_a_warning_is_a_failure():
     assert outcome(lambda: warnings.warn("overflow", RuntimeWarning, stacklevel=1)) == FAILED
 
 
-def test_giving_up_is_told_from_failing():
+def test_giving_up_is_not_failing():
     def gives_up():
         heights = np.random.default_rng(1).normal(size=(32, 32))
         solver.solve(heights, 1.0, 0.1, max_iterations=1)
@@ -96,14 +96,14 @@ def test_points_move_pairs_of_axes_and_each_comes_once():
 @pytest.mark.parametrize("name", COMPONENTS)
 def test_the_middle_of_every_map_is_right(name):
     component = COMPONENTS[name]
-    found = probed(component, component.middle())
+    found = probe_point(component, component.middle())
     assert found.outcome == RIGHT, found
 
 
 @pytest.mark.parametrize(
     ("field", "factor"), [("pressure", 1.001), ("gap", 1.001), ("area_fraction", 1.01)]
 )
-def test_a_solver_that_errs_is_found_out(monkeypatch, field, factor):
+def test_a_wrong_solver_is_detected(monkeypatch, field, factor):
     right = solver.solve
 
     def wrong(*arguments, **options):
@@ -112,13 +112,13 @@ def test_a_solver_that_errs_is_found_out(monkeypatch, field, factor):
         return contact
 
     monkeypatch.setattr(solver, "solve", wrong)
-    probes_contact.pressed.cache_clear()
+    probes_contact.solve_contact.cache_clear()
     try:
         component = COMPONENTS["repulsive"]
-        found = probed(component, component.middle())
+        found = probe_point(component, component.middle())
         assert found.outcome == FAILED
     finally:
-        probes_contact.pressed.cache_clear()
+        probes_contact.solve_contact.cache_clear()
 
 
 @pytest.mark.parametrize(
@@ -132,11 +132,11 @@ def test_a_solver_that_errs_is_found_out(monkeypatch, field, factor):
         ("model-choice", model_choice.ErrorTable, "relative_error"),
     ],
 )
-def test_a_model_that_errs_is_found_out(monkeypatch, component, place, name):
+def test_a_wrong_model_is_detected(monkeypatch, component, place, name):
     right = getattr(place, name)
     monkeypatch.setattr(place, name, lambda *a, **options: 1.01 * right(*a, **options) + 1e-3)
     component = COMPONENTS[component]
-    found = [probed(component, point).outcome for point in component.points()[:12]]
+    found = [probe_point(component, point).outcome for point in component.points()[:12]]
     assert FAILED in found
 
 
@@ -144,7 +144,7 @@ def test_map_is_stored_and_drawn(tmp_path):
     files = []
     for name, axes in (("spectrum", ("hurst", "unit")), ("sampling", ("hurst",))):
         component = Component(lambda hurst, **_: returning(hurst)(), axes)
-        data = probe_stability.validity(component)
+        data = probe_stability.map_validity(component)
         assert np.all((data.outcome == RIGHT) == (data.hurst <= 1))
         files.append(tmp_path / f"{name}.nc")
         parameters = {"outcomes": list(components.OUTCOMES)}
