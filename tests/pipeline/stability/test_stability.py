@@ -156,4 +156,4 @@ def test_map_is_stored_and_drawn(tmp_path):
 
 def test_axes_have_labels():
     assert plot_stability.LABELS.keys() == components.AXES.keys()
-    assert len(plot_stability.LOOKS) == len(components.OUTCOMES)
+    assert len(plot_stability.OUTCOMES) == len(components.OUTCOMES)
