@@ -25,14 +25,8 @@ SAME_COST = 1.05  # ratio of costs that were not measured well enough to tell th
 # From what settings are put together; the pixels are those for which errors were measured.
 PIXELS = (4, 8, 16)
 TOLERANCES = (1e-3, 1e-4, 1e-5, 1e-6, 1e-8)
-SEEDS = (
-    *(2, 3, 4, 5, 6, 8, 10, 12, 14, 16, 20, 24, 28, 32),
-    *(40, 48, 56, 64, 80, 96, 112, 128),
-)
-COARSE_SEEDS = (
-    *(0, 32, 64, 96, 128, 160, 192, 256, 320, 384),
-    *(512, 640, 768, 1024, 1536, 2048),
-)
+SEEDS = (*(2, 3, 4, 5, 6, 8, 10, 12, 14, 16, 20, 24, 28, 32), *(40, 48, 56, 64, 80, 96, 112, 128))
+COARSE_SEEDS = (*(0, 32, 64, 96, 128, 160, 192, 256, 320, 384), *(512, 640, 768, 1024, 1536, 2048))
 
 
 class UnreachableError(ValueError):

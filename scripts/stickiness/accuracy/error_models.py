@@ -22,15 +22,7 @@ import numpy as np
 
 from stickiness.accuracy.quantities import MODELLED, columns_of
 
-PARTS = (
-    "discretisation",
-    "solver",
-    "scatter",
-    "fine_share",
-    "coarse_share",
-    "theory",
-    "carrying",
-)
+PARTS = ("discretisation", "solver", "scatter", "fine_share", "coarse_share", "theory", "carrying")
 COSTS = ("fine_cost", "coarse_cost", "described_cost", "tolerance_cost")
 COARSE = 2  # pixels per shortest wavelength of the coarse seeds, the fewest that hold it
 FULL = 1e-8  # tolerance at which costs were measured

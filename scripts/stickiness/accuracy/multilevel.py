@@ -44,9 +44,7 @@ from scipy import fft
 
 from stickiness.core.arguments import integer
 from stickiness.surfaces.spectrum import Spectrum
-from stickiness.surfaces.synthesis import (
-    Amplitudes,
-)
+from stickiness.surfaces.synthesis import Amplitudes
 from stickiness.surfaces.synthesis import check_window as _check_window
 from stickiness.surfaces.synthesis import draw_modes as _draw
 from stickiness.surfaces.synthesis import list_modes as _half_plane_modes

@@ -78,11 +78,7 @@ def error_parts(
     pixels, seeds = settings.pixels_per_wavelength, (settings.seeds, settings.coarse_seeds)
     variance = mean_variance(problem, pressure, column, pixels, *seeds)
     grid, solver = fixed_errors(problem, pressure, column, pixels, settings.tolerance)
-    return {
-        "discretisation": grid,
-        "solver": solver,
-        "sampling": COVERS * float(np.sqrt(variance)),
-    }
+    return {"discretisation": grid, "solver": solver, "sampling": COVERS * float(np.sqrt(variance))}
 
 
 def predicted_error(problem: Problem, settings: Settings, pressure: float, column: str) -> float:

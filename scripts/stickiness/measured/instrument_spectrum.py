@@ -10,13 +10,7 @@ from numpy.typing import NDArray
 from stickiness.core.arguments import number, numbers
 from stickiness.measured import profiles
 from stickiness.measured.cutoff import find_bend, tip_cutoff
-from stickiness.measured.psd import (
-    RadialPSD,
-    Taper,
-    merge_rings,
-    power_spectrum,
-    radial_average,
-)
+from stickiness.measured.psd import RadialPSD, Taper, merge_rings, power_spectrum, radial_average
 from stickiness.measured.self_affine_fit import (
     LOWEST_MODES,
     NYQUIST_SHARE,

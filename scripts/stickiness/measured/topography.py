@@ -322,9 +322,7 @@ def metres_per_degree(latitude: float) -> tuple[float, float]:
 
 
 def _steps(
-    raw: Raw,
-    length: Length | Sequence[Length] | None,
-    pixel_size: Length | Sequence[Length] | None,
+    raw: Raw, length: Length | Sequence[Length] | None, pixel_size: Length | Sequence[Length] | None
 ) -> tuple[float, ...]:
     """Grid steps [m], from the caller or else from the file."""
     shape = raw.heights.shape
