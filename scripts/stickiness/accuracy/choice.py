@@ -116,31 +116,21 @@ def seeds_enough(
 ) -> int | None:
     """Return the fewest fine seeds that are predicted to be enough; None if none of `SEEDS` are.
 
-    Parameters
-    ----------
-    problem : Problem
-    settings : Settings
-        With which errors were measured.
-    accuracy : float
-        Relative error that is to cover 90 % of all columns at all loads.
-    fixed, sampling : (column, pressure) array
-        Relative errors measured, covering 90 %: those that more seeds leave as they are, and that
-        of the mean. The latter changes with the number of seeds as the error models say.
+    `fixed` and `sampling` (column, pressure) are relative errors as measured with the settings,
+    covering 90 %: those that more seeds leave as they are, and that of the mean. The latter changes
+    with the number of seeds as the error models say.
     """
 
     def covered(n: int) -> NDArray:
         pixels, coarse = settings.pixels_per_wavelength, settings.coarse_seeds
         of_seeds = Settings(pixels, settings.tolerance, n, coarse)
-        return np.array(
-            [
-                [
-                    covering_factor(problem, of_seeds, p, column)
-                    * math.sqrt(mean_variance(problem, p, column, pixels, n, coarse))
-                    for p in problem.pressures
-                ]
-                for column in problem.columns
-            ]
-        )
+        factors = [
+            covering_factor(problem, of_seeds, pressure, column)
+            * math.sqrt(mean_variance(problem, pressure, column, pixels, n, coarse))
+            for column in problem.columns
+            for pressure in problem.pressures
+        ]
+        return np.reshape(factors, (len(problem.columns), len(problem.pressures)))
 
     if settings.seeds < 2:
         return None

@@ -31,13 +31,10 @@ class WriteError(DatasetError, OSError):
 def provenance() -> dict[str, str]:
     """Versions of this package and of the codes that its numbers depend on."""
     codes = {f"version_{name.lower()}": version(name) for name in _CODES}
-    return {"version_stickiness": __version__, **codes, "version_fftw": _fftw_version()}
-
-
-def _fftw_version() -> str:
     import pyfftw  # here, not above: figures and reports need no FFTW
 
-    return str(pyfftw.fftw_version)
+    fftw = str(pyfftw.fftw_version)
+    return {"version_stickiness": __version__, **codes, "version_fftw": fftw}
 
 
 def annotate(dataset: xr.Dataset, **described: tuple[str, ...]) -> xr.Dataset:
@@ -50,24 +47,13 @@ def annotate(dataset: xr.Dataset, **described: tuple[str, ...]) -> xr.Dataset:
 def write(
     dataset: xr.Dataset, path: str | Path, *, title: str, parameters: Mapping[str, Any]
 ) -> None:
-    """Write a dataset with its parameters and provenance, whole or not at all.
-
-    Parameters
-    ----------
-    dataset : xarray.Dataset
-        Every variable and coordinate carries `units` and `long_name`, and `nan_means` if it holds
-        values that are not finite.
-    path : path
-        Target. The data go to a temporary file beside it that takes its name once complete.
-    title : str
-        What the file holds.
-    parameters : mapping
-        What made it; stored as JSON in the attribute `parameters`.
+    """Write a dataset with its parameters (as JSON) and provenance, whole or not at all.
 
     Raises
     ------
     DatasetError
-        If a variable lacks one of these texts.
+        If a variable lacks `units` or `long_name`, or `nan_means` though it holds values that are
+        not finite.
     WriteError
         If the disk is full, may not be written to, or fails; an old file is left as it was.
     """
@@ -167,7 +153,8 @@ class whole_file:  # noqa: N801 (a context manager, used as a verb)
     def __exit__(self, kind: type | None, error: BaseException | None, _: object) -> None:
         if kind is None:
             try:
-                self._temporary.chmod(0o666 & ~_umask())
+                os.umask(mask := os.umask(0))
+                self._temporary.chmod(0o666 & ~mask)
                 self._temporary.replace(self._path)
             except OSError as failed:
                 raise self._failure(failed) from None
@@ -189,9 +176,3 @@ class whole_file:  # noqa: N801 (a context manager, used as a verb)
         return WriteError(
             f"{self._path}: could not be written ({error}): {remedy} and run the same command again"
         )
-
-
-def _umask() -> int:
-    mask = os.umask(0)
-    os.umask(mask)
-    return mask

@@ -14,8 +14,8 @@ from pipeline.verdicts.a_v import MeasuredAv
 from pipeline.verdicts.markdown import write_markdown
 from pipeline.verdicts.materials import material
 from stickiness.core import datasets
+from stickiness.criteria.a_v_table import SurfaceAv
 from stickiness.criteria.registry import CRITERIA, EDGES, Criterion
-from stickiness.criteria.surface_a_v import SurfaceAv
 from stickiness.spectrum import SelfAffine
 
 COMPARED = {
