@@ -87,9 +87,8 @@ def with_budget(
         "flag_values": np.arange(NONE, len(SOURCES), dtype="i1"),
         "flag_meanings": " ".join(("none", *SOURCES)),
     }
-    added = (f"{name}{ending}" for ending in ENDINGS)
-    dataset = dataset.assign(zip(added, (error, total, largest), strict=True))
-    dataset = dataset.assign_coords(source=list(SOURCES))
+    added = zip((f"{name}{ending}" for ending in ENDINGS), (error, total, largest), strict=True)
+    dataset = dataset.assign(dict(added)).assign_coords(source=list(SOURCES))
     dataset.source.attrs = dict(zip(("units", "long_name"), SOURCE_TEXTS, strict=True))
     return dataset
 

@@ -51,31 +51,15 @@ class _Heights:
 
 @dataclass(frozen=True)
 class Topography(_Heights):
-    """Heights of a surface on a rectangular grid.
+    """Heights of a surface on a rectangular grid."""
 
-    Attributes
-    ----------
-    heights : (nx, ny) array
-        Heights [m], the first axis along x.
-    dx, dy : float
-        Grid steps along x and y [m].
-    source : str
-        File (and variable) of the heights.
-    missing : int
-        Number of points that were missing and have been interpolated.
-    cropped : float
-        Share of the measured points that was cut off to leave no missing ones.
-    dropped : int
-        Number of points that were measured beside missing ones and not used.
-    """
-
-    heights: NDArray
-    dx: float
-    dy: float
-    source: str
-    missing: int = 0
-    cropped: float = 0.0
-    dropped: int = 0
+    heights: NDArray  # (nx, ny), the first axis along x [m]
+    dx: float  # grid step along x [m]
+    dy: float  # along y [m]
+    source: str  # file (and variable) of the heights
+    missing: int = 0  # number of points that were missing and have been interpolated
+    cropped: float = 0.0  # share of the measured points that was cut off to leave no missing ones
+    dropped: int = 0  # number of points that were measured beside missing ones and not used
 
     @property
     def size(self) -> tuple[float, float]:
@@ -89,27 +73,14 @@ class Topography(_Heights):
 
 @dataclass(frozen=True)
 class Profile(_Heights):
-    """Heights along a line, evenly spaced.
+    """Heights along a line, evenly spaced."""
 
-    Attributes
-    ----------
-    heights : (n,) array
-        Heights [m].
-    dx : float
-        Step [m].
-    source : str
-        File (and variable or channel) of the heights.
-    missing, dropped : int
-        As in `Topography`.
-    largest_gap : float
-        Largest distance between neighbouring points as measured [m]; above `dx` if they were
-        unevenly spaced and have been interpolated.
-    """
-
-    heights: NDArray
-    dx: float
-    source: str
-    missing: int = 0
+    heights: NDArray  # (n,) [m]
+    dx: float  # step [m]
+    source: str  # file (and variable or channel)
+    missing: int = 0  # this and `dropped` as in `Topography`
+    # Largest distance between neighbouring points as measured [m]; above `dx` if they were
+    # unevenly spaced and have been interpolated.
     largest_gap: float = 0.0
     dropped: int = 0
 
