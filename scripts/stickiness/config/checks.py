@@ -12,21 +12,12 @@ import yaml
 from stickiness.accuracy.quantities import QUANTITIES
 from stickiness.config.cross_checks import config_problems
 from stickiness.config.messages import one_line
-from stickiness.config.surface_entries import measurements, rate_problems, surface_problems
+from stickiness.config.surface_entries import (
+    measurements,  # noqa: F401 (public here, too)
+    rate_problems,
+    surface_problems,
+)
 from stickiness.core.units import si
-
-__all__ = [
-    "ConfigError",
-    "check_config",
-    "check_materials",
-    "check_schema",
-    "check_surfaces",
-    "check_units",
-    "checked",
-    "load",
-    "measurements",
-    "read_schema",
-]
 
 # Keys whose values are strings with units, and the unit that fixes their dimension.
 _LENGTHS = (

@@ -16,7 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import minimize_scalar
 from scipy.special import ndtr
 
-from stickiness.adhesion.area_load import (
+from stickiness.adhesion.area_load import (  # noqa: F401
     h_rms_limit,
     inverse_kappa,
     inverse_kappa_ad,
@@ -30,35 +30,13 @@ from stickiness.adhesion.area_load import (
 from stickiness.core.arguments import plain, positive
 from stickiness.surfaces.spectrum import Spectrum
 
-__all__ = [
-    "CRYSTAL_RANGE_RATIO",
-    "DAHLQUIST_LIMIT",
-    "PRINTED_A_V",
-    "PR_CONSTANT",
-    "DmtValidity",
-    "Verdict",
-    "bearing_area",
-    "bearing_area_pull_off",
-    "dahlquist",
-    "dmt_validity",
-    "fuller_tabor",
-    "h_rms_limit",
-    "inverse_kappa",
-    "inverse_kappa_ad",
-    "jtb_limit",
-    "kappa",
-    "modulus_threshold",
-    "nayak_summit_radius",
-    "pastewka_robbins",
-    "pastewka_robbins_a_v",
-    "pastewka_robbins_a_v_power_law",
-    "pastewka_robbins_range",
-    "persson_tosatti",
-    "slope_angle",
-    "traction_ratio",
-    "violano",
-    "violano_c0_limit",
-    "violano_printed",
+__all__ = [  # noqa: PLE0604
+    *("CRYSTAL_RANGE_RATIO", "DAHLQUIST_LIMIT", "PRINTED_A_V", "PR_CONSTANT", "DmtValidity"),
+    *("Verdict", "bearing_area", "bearing_area_pull_off", "dahlquist", "dmt_validity"),
+    *("fuller_tabor", "h_rms_limit", "inverse_kappa", "inverse_kappa_ad", "jtb_limit", "kappa"),
+    *("modulus_threshold", "nayak_summit_radius", "pastewka_robbins", "pastewka_robbins_a_v"),
+    *("pastewka_robbins_a_v_power_law", "pastewka_robbins_range", "persson_tosatti", "slope_angle"),
+    *("traction_ratio", "violano", "violano_c0_limit", "violano_printed"),
 ]
 
 PRINTED_A_V = 1.5  # the coefficient 9/4 printed in the paper is (3/2) a_V with this a_V

@@ -102,11 +102,9 @@ def crossings(
         inside = np.clip(modulus.frequencies, frequencies[0], frequencies[-1])
         frequencies = np.union1d(frequencies, inside)
     excess = np.log(np.asarray(modulus.storage(frequencies)) / limit)
-    found = []
-    for i in np.flatnonzero(np.diff(np.sign(excess)) != 0):
-        a, b = excess[i], excess[i + 1]
-        if np.isfinite(a) and np.isfinite(b) and a != 0:
-            share = a / (a - b)
-            x = frequencies[i] * (frequencies[i + 1] / frequencies[i]) ** share
-            found.append((float(x), bool(b > a)))
-    return found
+    a, b = excess[:-1], excess[1:]
+    known = np.isfinite(a) & np.isfinite(b) & (a != 0)
+    here = np.flatnonzero((np.sign(a) != np.sign(b)) & known)
+    a, b, low, high = a[here], b[here], frequencies[here], frequencies[here + 1]
+    passed = low * (high / low) ** (a / (a - b))
+    return list(zip(passed.tolist(), (b > a).tolist(), strict=True))

@@ -94,8 +94,7 @@ def profile_spectrum(heights: ArrayLike, dx: float, taper: Taper = "hann") -> Pr
 
 
 def abel_ratio(q: ArrayLike, hurst: float, q_rolloff: float | None = None) -> NDArray:
-    """C/C1 [1/length] of a self-affine spectrum, with a plateau below `q_rolloff`, without an upper
-    end.
+    """C/C1 [1/length] of a self-affine spectrum with no upper end, and a plateau below `q_rolloff`.
 
     C1 exists for H > -1/2 in C ~ q^(-2(H+1)); else a ValueError is raised.
     """
