@@ -245,10 +245,8 @@ def descriptors(
 
     Parameters
     ----------
-    spectrum, length, amplitudes
+    spectrum, length, seeds, amplitudes
         As for `surface.synthesise`, whose surfaces are described.
-    seeds : iterable of int
-        Seeds of the surfaces.
     cutoff : float
         Waves up to `cutoff` times q0 are looked at; those beyond count with the power expected of
         them, so that the time does not depend on the magnification.
@@ -259,11 +257,6 @@ def descriptors(
         In the order of `DESCRIPTORS`: mean of |q| times the height variance [length], which is 4/E*
         times the elastic energy of full contact per area; rms slope and its square; mean height
         [length] of the highest 1, 3, 10 and 30 % of the area.
-
-    Raises
-    ------
-    ValueError
-        If the window does not hold the band, or an argument is out of range.
     """
     check_window(spectrum, length)
     if amplitudes not in ("gaussian", "fixed"):

@@ -104,28 +104,11 @@ def theory_a_v(
 ) -> tuple[list[str], list[NDArray], float]:
     """a_V by both variants of Persson's theory and by the edge law.
 
-    Parameters
-    ----------
-    spectrum : Spectrum
-    ranges : (n,) array
-        Ranges over h_rms, increasing.
-    pressure : float
-        Mean pressure over E* q0 h_rms.
-    edge_a_v : float
-        a_V of the edges by the edge law, see `formulas.pastewka_robbins_a_v`.
-    q0 : float, optional
-        Lowest wave number [1/length] in the load; that of the spectrum by default.
-    gamma : float
-        Correction of the theory's elastic energy.
-
-    Returns
-    -------
-    names : list of str
-        `VARIANTS` and `EDGE_LAW`.
-    a_v : list of (n,) arrays
-        Below the edge range the variants are held constant, and the edge law takes its own value.
-    edge_range : float
-        Over h_rms.
+    Ranges are over h_rms and increase; the pressure is the mean one over E* q0 h_rms, with the q0
+    of the spectrum unless one is given; `edge_a_v` is that of `formulas.pastewka_robbins_a_v`,
+    `gamma` the correction of the theory's elastic energy. Returns the names (`VARIANTS` and
+    `EDGE_LAW`), their a_V and the edge range over h_rms. Below that the variants are held constant,
+    and the edge law takes its own value.
     """
     ranges = np.asarray(ranges, dtype=float)
     h_rms, q0 = spectrum.h_rms, float(spectrum.q0 if q0 is None else q0)
@@ -228,13 +211,11 @@ class AvTable:
             self._check(name, values)
         shape = given[0].shape
         h, zeta, p, eps = (x.ravel() for x in given)
-        logs, below, above = (np.empty(h.size) for _ in range(3))
-        edge = np.zeros(h.size, dtype=bool)
-        broad = np.isinf(zeta)
+        logs, below, above = np.empty((3, h.size))
+        edge, broad = np.zeros(h.size, dtype=bool), np.isinf(zeta)
         at = np.stack([h, np.log(p), np.log(eps)], axis=-1)[broad]
-        logs[broad], below[broad], above[broad] = (
-            self._limit[name](at) for name in ("a_v", "below", "above")
-        )
+        for found, name in ((logs, "a_v"), (below, "below"), (above, "above")):
+            found[broad] = self._limit[name](at)
         rest = ~broad
         if rest.any():
             found = self._at_finite(*(np.log(x[rest]) for x in (zeta, p, eps)), h[rest])

@@ -119,13 +119,8 @@ def isotropic(
     """Two-dimensional isotropic spectrum behind a profile, and its self-affine fit between two q.
 
     Returns narrow rings of C [length^4] with the degrees of freedom of the profile, and the fit in
-    the convention of two dimensions.
-
-    Raises
-    ------
-    ValueError
-        As `self_affine_fit.fit_rings`, and if the profile's spectrum falls more slowly than that
-        of any isotropic surface: noise.
+    the convention of two dimensions. Besides what `self_affine_fit.fit_rings` raises, a ValueError
+    says that the spectrum falls more slowly than that of any isotropic surface: noise.
     """
     profile = spectrum.rings(FINE)
     rings = _scaled(profile, 1 / profile.q)

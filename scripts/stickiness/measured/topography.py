@@ -29,6 +29,8 @@ from stickiness.measured.levelling import (
 )
 from stickiness.measured.readers import Length, Raw, metres, sides
 
+Size = Length | Sequence[Length] | None
+
 _WGS84_A, _WGS84_E2 = 6378137.0, 6.69437999014e-3  # semi-major axis [m], eccentricity squared
 
 
@@ -97,8 +99,8 @@ class Profile(_Heights):
 def read(
     path: str | Path,
     *,
-    length: Length | Sequence[Length] | None = None,
-    pixel_size: Length | Sequence[Length] | None = None,
+    length: Size = None,
+    pixel_size: Size = None,
     height_unit: str | None = None,
     position_unit: str | None = None,
     variable: str | None = None,
@@ -120,10 +122,9 @@ def read(
         value is the side along x, the pixels are square. Overrides what the file says.
     pixel_size : length or pair of lengths, optional
         Grid step, instead of `length`.
-    height_unit : str, optional
-        Unit of the numbers: "nm", if the file does not say so itself.
-    position_unit : str, optional
-        Unit of the positions of a line profile, likewise.
+    height_unit, position_unit : str, optional
+        Unit of the heights, and of the positions of a line profile: "nm", if the file does not say
+        so.
     variable : str, optional
         NetCDF variable or npz key. Default: the only two-dimensional one, else the only profile.
     channel : str or int, optional
@@ -155,8 +156,6 @@ def read(
     ValueError
         If the file does not hold one usable array, its size or unit is unknown or of a wrong
         dimension, or too much is missing. The message names file, variable and remedy.
-    FileNotFoundError
-        If there is no such file.
 
     Notes
     -----
@@ -193,12 +192,7 @@ def read(
 
 
 def _map(
-    heights: NDArray,
-    steps: tuple[float, ...],
-    missing: Missing,
-    rim: Rim,
-    limit: float,
-    source: str,
+    heights: NDArray, steps: Sequence[float], missing: Missing, rim: Rim, limit: float, source: str
 ) -> Topography:
     measured = heights.size
     heights, dropped = without_rims(heights, rim)
@@ -231,12 +225,7 @@ def _with_dropped(source: str, dropped: int) -> str:
     return f"{source}, {dropped} points beside missing ones dropped" if dropped else source
 
 
-def _positions(
-    raw: Raw,
-    length: Length | Sequence[Length] | None,
-    pixel_size: Length | Sequence[Length] | None,
-    position_unit: str | None,
-) -> NDArray:
+def _positions(raw: Raw, length: Size, pixel_size: Size, position_unit: str | None) -> NDArray:
     """Positions of a profile's points [m], from the caller or else from the file."""
     n = len(raw.heights)
     if length is not None:
