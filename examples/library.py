@@ -3,8 +3,8 @@
 In the project's environment: ``PYTHONPATH=scripts python examples/library.py``.
 """
 
+import stickiness
 from stickiness import repulsive, spectrum, surface
-from stickiness.criteria.verdict import verdict
 from stickiness.persson import Persson
 
 # A self-affine surface with waves of 0.1 mm to 10 nm and an rms height of 1 um, and silicone. The
@@ -12,7 +12,7 @@ from stickiness.persson import Persson
 Q0 = 6.283 / 1e-4
 rough = spectrum.SelfAffine(hurst=0.8, q0=Q0, q1=1e4 * Q0, h_rms=1e-6)
 silicone = {"modulus": 0.7e6, "poisson": 0.5, "work_of_adhesion": 0.04, "range": 0.3e-9}
-print(verdict(rough, **silicone))
+print(stickiness.verdict(rough, **silicone))
 
 # Below it lies the contact without adhesion, here of a narrower spectrum, with lengths over 1/q0
 # and heights over h_rms: simulation beside theory at a mean pressure of 0.065 E* q0 h_rms.

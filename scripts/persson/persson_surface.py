@@ -11,7 +11,7 @@ from stickiness import criteria
 from stickiness.accuracy.error_models import read_models
 from stickiness.core import datasets
 from stickiness.core.budget import Part, with_budget
-from stickiness.criteria.surface_a_v import theory_a_v
+from stickiness.criteria.a_v_table import theory_a_v
 
 NEEDED = ("psd", "hurst", "q0", "q1", "rms_slope", "rms_curvature")
 

@@ -14,8 +14,6 @@ PACKAGES = sorted(path.parent for path in Path(stickiness.__file__).parent.glob(
 
 @pytest.mark.parametrize("name", dir(stickiness))
 def test_every_name_is_there_and_explained(name):
-    if name == "verdict":
-        pytest.importorskip("stickiness.criteria.verdict")
     assert getattr(stickiness, name)
     assert name == "__version__" or f"`{name}`" in stickiness.__doc__
 
@@ -24,6 +22,13 @@ def test_packages_and_facades_are_listed():
     folder = Path(stickiness.__file__).parent
     modules = {path.stem for path in folder.glob("*.py")} - {"__init__"}
     assert modules | {path.name for path in PACKAGES} <= set(dir(stickiness))
+
+
+def test_verdict_is_the_function_whatever_was_imported_before():
+    from stickiness import verdict
+    from stickiness.criteria.verdict import verdict as defined
+
+    assert verdict is defined is stickiness.verdict
 
 
 def test_an_unknown_name_is_an_attribute_error():

@@ -10,8 +10,8 @@ import xarray as xr
 from pipeline.numbers import NOTHING, interval, number, percent, quantity
 from pipeline.pages.surface_texts import rms_height
 from stickiness.core import budget
+from stickiness.criteria.pair import WORDS as STICKINESS
 from stickiness.criteria.registry import CRITERIA, EDGES
-from stickiness.criteria.words import WORDS as STICKINESS
 
 STICKINESS_TONES = ("no", "partly", "yes", "open")
 GRADES = (0, 2, 3, 1)  # of the codes: an undecided pair stands next to one that does not stick

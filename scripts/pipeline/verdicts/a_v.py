@@ -10,7 +10,7 @@ from pipeline.conventions import VARIANT
 from stickiness.core import datasets
 from stickiness.core.budget import Part, absent
 from stickiness.core.statistics import COVERS
-from stickiness.criteria.surface_a_v import SurfaceAv
+from stickiness.criteria.a_v_table import SurfaceAv
 
 
 @dataclass(frozen=True)

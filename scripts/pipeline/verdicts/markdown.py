@@ -6,8 +6,8 @@ from pipeline.numbers import interval
 from pipeline.tables import table
 from stickiness.adhesion import equivalent_sphere
 from stickiness.core import datasets
+from stickiness.criteria.pair import REGIMES, WORDS
 from stickiness.criteria.registry import CRITERIA, EDGES
-from stickiness.criteria.words import REGIMES, WORDS
 
 HEAD = """\
 # Do they stick?

@@ -5,9 +5,8 @@ from dataclasses import replace
 import numpy as np
 
 from stickiness import criteria
-from stickiness.criteria.pair import Pair
+from stickiness.criteria.pair import Pair, classify_edges
 from stickiness.criteria.registry import CRITERIA
-from stickiness.criteria.words import classify_edges
 
 ENDS = ("smooth", "rough")
 DIMS = ("material", "surface", "end")

@@ -1,8 +1,8 @@
 """The verdict on every pair, and which criteria disagree with it."""
 
 from pipeline.verdicts.probabilities import QUANTILES
+from stickiness.criteria.pair import decide
 from stickiness.criteria.registry import EDGES, FULL_CONTACT
-from stickiness.criteria.words import decide
 
 
 def decide_pairs(dataset):

@@ -63,10 +63,7 @@ def predicted_cost(problem: Problem, settings: Settings) -> float:
 def cheapest(problem: Problem, accuracy: float) -> Settings:
     """Return the cheapest settings whose predicted error is within the accuracy in all columns.
 
-    Raises
-    ------
-    UnreachableError
-        Saying what could be reached, for which quantity and at which pressure.
+    An UnreachableError says what could be reached, for which quantity and at which pressure.
     """
 
     def reached(settings: Settings) -> bool:

@@ -25,14 +25,8 @@ SAME_COST = 1.05  # ratio of costs that were not measured well enough to tell th
 # From what settings are put together; the pixels are those for which errors were measured.
 PIXELS = (4, 8, 16)
 TOLERANCES = (1e-3, 1e-4, 1e-5, 1e-6, 1e-8)
-SEEDS = (
-    *(2, 3, 4, 5, 6, 8, 10, 12, 14, 16, 20, 24, 28, 32),
-    *(40, 48, 56, 64, 80, 96, 112, 128),
-)
-COARSE_SEEDS = (
-    *(0, 32, 64, 96, 128, 160, 192, 256, 320, 384),
-    *(512, 640, 768, 1024, 1536, 2048),
-)
+SEEDS = (*(2, 3, 4, 5, 6, 8, 10, 12, 14, 16, 20, 24, 28, 32), *(40, 48, 56, 64, 80, 96, 112, 128))
+COARSE_SEEDS = (*(0, 32, 64, 96, 128, 160, 192, 256, 320, 384), *(512, 640, 768, 1024, 1536, 2048))
 
 
 class UnreachableError(ValueError):
@@ -122,31 +116,21 @@ def seeds_enough(
 ) -> int | None:
     """Return the fewest fine seeds that are predicted to be enough; None if none of `SEEDS` are.
 
-    Parameters
-    ----------
-    problem : Problem
-    settings : Settings
-        With which errors were measured.
-    accuracy : float
-        Relative error that is to cover 90 % of all columns at all loads.
-    fixed, sampling : (column, pressure) array
-        Relative errors measured, covering 90 %: those that more seeds leave as they are, and that
-        of the mean. The latter changes with the number of seeds as the error models say.
+    `fixed` and `sampling` (column, pressure) are relative errors as measured with the settings,
+    covering 90 %: those that more seeds leave as they are, and that of the mean. The latter changes
+    with the number of seeds as the error models say.
     """
 
     def covered(n: int) -> NDArray:
         pixels, coarse = settings.pixels_per_wavelength, settings.coarse_seeds
         of_seeds = Settings(pixels, settings.tolerance, n, coarse)
-        return np.array(
-            [
-                [
-                    covering_factor(problem, of_seeds, p, column)
-                    * math.sqrt(mean_variance(problem, p, column, pixels, n, coarse))
-                    for p in problem.pressures
-                ]
-                for column in problem.columns
-            ]
-        )
+        factors = [
+            covering_factor(problem, of_seeds, pressure, column)
+            * math.sqrt(mean_variance(problem, pressure, column, pixels, n, coarse))
+            for column in problem.columns
+            for pressure in problem.pressures
+        ]
+        return np.reshape(factors, (len(problem.columns), len(problem.pressures)))
 
     if settings.seeds < 2:
         return None

@@ -3,9 +3,9 @@
 Errors of means over random surfaces, and their costs, were measured on a few surfaces with many
 settings (target `tradeoff`). Each part of them is an `ErrorModel`: a power law in magnification,
 window, pressure, pixels and tolerance, times an exponential of the Hurst exponent. Outside what was
-measured (`MEASURED`) errors are doubled, with the models taken at the edge of it. Beside the errors
-of a simulation the table has those of theory in place of a simulation, and of a value that theory
-extrapolates to a broader spectrum (part ``carrying``).
+measured (`MEASURED`) errors are doubled, with the models taken at the edge of it. The table also
+has the errors of theory in place of a simulation, and of a value that theory extrapolates to a
+broader spectrum (part ``carrying``).
 """
 
 from __future__ import annotations
@@ -22,15 +22,7 @@ import numpy as np
 
 from stickiness.accuracy.quantities import MODELLED, columns_of
 
-PARTS = (
-    "discretisation",
-    "solver",
-    "scatter",
-    "fine_share",
-    "coarse_share",
-    "theory",
-    "carrying",
-)
+PARTS = ("discretisation", "solver", "scatter", "fine_share", "coarse_share", "theory", "carrying")
 COSTS = ("fine_cost", "coarse_cost", "described_cost", "tolerance_cost")
 COARSE = 2  # pixels per shortest wavelength of the coarse seeds, the fewest that hold it
 FULL = 1e-8  # tolerance at which costs were measured
@@ -81,8 +73,7 @@ class Settings:
 class ErrorModel:
     """One measured part of an error or cost over everything that it depends on.
 
-    ``spread`` is the factor above the fit below which 90 % of the measured points lie, ``points``
-    their number.
+    `spread` is the factor above the fit below which 90 % of the measured `points` lie.
     """
 
     constant: float
@@ -114,9 +105,9 @@ ErrorModels = Mapping[tuple[str, str], ErrorModel]
 
 
 def nearest_measured(surface: Surface, pressure: float) -> tuple[Surface, float, float]:
-    """Return the nearest surface and pressure measured, and what to widen errors there by.
+    """Return the nearest surface and pressure measured, and the factor that widens errors there.
 
-    The factor is 1 for what lies within `MEASURED` itself, otherwise `OUTSIDE`.
+    The factor is 1 within `MEASURED`, otherwise `OUTSIDE`.
     """
     asked = {name: getattr(surface, name, pressure) for name in MEASURED}
     near = {name: min(max(asked[name], low), high) for name, (low, high) in MEASURED.items()}
@@ -169,13 +160,7 @@ def extrapolated(
 
 
 def read_models(path: str | Path) -> dict[tuple[str, str], ErrorModel]:
-    """Read the table of error models, by part and column of a quantity (costs have no column).
-
-    Raises
-    ------
-    ValueError
-        Naming the file, if it is missing or a part or column is.
-    """
+    """Read the table of error models, by part and column of a quantity (costs have no column)."""
     try:
         with Path(path).open(encoding="utf-8", newline="") as file:
             rows = list(csv.DictReader(line for line in file if not line.startswith("#")))

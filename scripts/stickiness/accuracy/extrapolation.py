@@ -34,20 +34,9 @@ def carrying_error(
 ) -> float:
     """Error of theory's difference, covering 90 %, as a share of the value simulated.
 
-    Parameters
-    ----------
-    surface : Surface
-        As it is simulated.
-    carry_to : float
-        Magnification that theory extrapolates to; at most `CARRIED_TIMES` that of the surface and
-        `CARRIED_TO` in all, up to which this was measured.
-    size : float
-        By how much of itself theory changes the area: errors are in proportion to it.
-
-    Raises
-    ------
-    ValueError
-        If the magnification is beyond what was measured.
+    `surface` is the one simulated; `carry_to` the magnification that theory extrapolates to, within
+    what was measured (else a ValueError); `size` by how much of itself theory changes the area:
+    errors are in proportion to it.
     """
     if not carry_to <= min(CARRIED_TIMES * surface.magnification, CARRIED_TO):
         raise ValueError(
@@ -63,19 +52,8 @@ def carrying_error(
 def left_to_simulation(problem: Problem, accuracy: float, carry_to: float) -> float:
     """Return the accuracy that a simulation needs whose values theory extrapolates.
 
-    Parameters
-    ----------
-    problem : Problem
-        As it is simulated.
-    accuracy : float
-        Relative error of the extrapolated values that is to cover 90 %.
-    carry_to : float
-        Magnification to which theory extrapolates.
-
-    Returns
-    -------
-    float
-        Of all columns at all loads together; 0 if theory alone has a larger error.
+    `accuracy` is the relative error of the extrapolated values that is to cover 90 %; both are of
+    all columns at all loads together. 0 if theory alone has a larger error.
     """
     surface, weights, errors = problem.surface, [], []
     for pressure in problem.pressures:

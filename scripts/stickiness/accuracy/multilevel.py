@@ -20,13 +20,8 @@ Measured for H = 0.8, magnification 64, p/(E* q0 h_rms) = 0.065 on 8 pixels per 
 solution on 2 pixels takes 0.18 of the time and leaves 0.4 % of the variance of a_V and of the
 contact area; the descriptors take 0.002 and leave 13 and 4 %. Beside eight fine seeds alone,
 eight with 64 coarse and 2048 described ones have a standard error of a_V smaller by 6.2 at 3.1
-times the cost for one load, 2.7 times for many loads, which share the descriptors; four with 32
-and 2048 one smaller by 3.9 at 1.8 and 1.4 times the cost. Areas at ranges that the coarse grid does
-not resolve gain less.
-
-What is estimated is the mean over the ensemble the seeds are drawn from: Gaussian surfaces if
-they are, fixed amplitudes (another ensemble) if they are fixed. Neither the window nor the
-normalisation to h_rms is touched.
+times the cost for one load, 2.7 times for many loads, which share the descriptors. Areas at ranges
+that the coarse grid does not resolve gain less.
 
 On control variates of unknown mean see Gorodetsky et al., J. Comput. Phys. 408, 109257 (2020),
 doi:10.1016/j.jcp.2020.109257; on several levels Giles, Acta Numer. 24, 259 (2015),
@@ -46,23 +41,17 @@ from stickiness.core.arguments import integer
 from stickiness.surfaces.spectrum import Spectrum
 from stickiness.surfaces.synthesis import (
     Amplitudes,
-)
-from stickiness.surfaces.synthesis import check_window as _check_window
-from stickiness.surfaces.synthesis import draw_modes as _draw
-from stickiness.surfaces.synthesis import list_modes as _half_plane_modes
-from stickiness.surfaces.synthesis import sum_modes as _evaluate
-
-DESCRIPTORS = (
-    "full_contact_energy",
-    "rms_slope",
-    "mean_square_slope",
-    "summit_0.01",
-    "summit_0.03",
-    "summit_0.1",
-    "summit_0.3",
+    check_window,
+    draw_modes,
+    list_modes,
+    sum_modes,
 )
 
 _SUMMITS = (0.01, 0.03, 0.1, 0.3)  # share of the area whose mean height is taken
+DESCRIPTORS = (
+    *("full_contact_energy", "rms_slope", "mean_square_slope"),
+    *(f"summit_{share:g}" for share in _SUMMITS),
+)
 _FEWEST = 16  # seeds that a slope can be fitted to with profit
 _SINGULAR = 1e-10  # of the largest singular value or sum of squares: no scatter but rounding
 
@@ -73,10 +62,9 @@ class Estimate:
 
     Attributes
     ----------
-    mean : numpy.ndarray
-        Estimate of the ensemble mean, of the shape of one sample.
-    standard_error : numpy.ndarray
-        Its standard error, all levels included; the same shape.
+    mean, standard_error : numpy.ndarray
+        Estimate of the ensemble mean and its standard error, all levels included; of the shape of
+        one sample.
     coefficient : numpy.ndarray
         Coefficient of the control, averaged over the samples: of the shape of one sample, with a
         leading axis over the controls if there are several.
@@ -88,13 +76,7 @@ class Estimate:
 
 
 def plain_mean(values: ArrayLike) -> Estimate:
-    """Mean over axis 0 and its standard error, without any control.
-
-    Raises
-    ------
-    ValueError
-        If there are fewer than two samples, or one is not finite.
-    """
+    """Mean over axis 0 of at least two finite samples and its standard error, without controls."""
     values = _samples("values", values, 2)
     return Estimate(values.mean(0), _error(values), np.zeros(values.shape[1:]))
 
@@ -108,25 +90,22 @@ def controlled_mean(values: ArrayLike, controls: ArrayLike, elsewhere: ArrayLike
         One sample per seed, for instance A_rep or A_ad at several loads and ranges.
     controls : (N, k) array
         Controls of the same seeds, in the same order; they serve every trailing entry of `values`.
+        One without scatter is left out.
     elsewhere : (M, k) array
         The same controls of other seeds, none of them among the first N.
 
     Returns
     -------
     Estimate
-        ``coefficient`` has the shape ``(k, ...)``. The standard error is that of the residuals,
-        each against coefficients fitted without it, and that of the controls' mean.
+        Linear in `values`. ``coefficient`` has the shape ``(k, ...)``. The standard error is that
+        of the residuals, each against coefficients fitted without it, and that of the controls'
+        mean.
 
     Raises
     ------
     ValueError
         If shapes do not match, values are not finite, or N is below 4 (k + 1): with fewer
         the coefficients scatter so much that the standard error comes out too small.
-
-    Notes
-    -----
-    Linear in `values`, so that it commutes with linear functions such as the fit of a_V. A
-    control without scatter is left out.
 
     Examples
     --------
@@ -180,8 +159,7 @@ def multilevel_mean(
     fine : (n, ...) array
         Fine solutions, one per seed.
     coarse : (n, ...) array
-        The same quantities of the same seeds on the coarse grid; each is the control of its own
-        fine one.
+        The same quantities of the same seeds on the coarse grid.
     many : (N, ...) array
         The same quantities on the coarse grid for other seeds, none of them among the first n.
     controls : (N, k) array, optional
@@ -195,11 +173,6 @@ def multilevel_mean(
     fewest : int
         Sixteen for solutions that differ by their grid. Fewer will do where the two are close to a
         straight line that is not one through the origin.
-
-    Returns
-    -------
-    Estimate
-        All of the shape of one sample.
 
     Raises
     ------
@@ -244,12 +217,8 @@ def corrected_mean(
 ) -> Estimate:
     """Mean of a few fine solutions, corrected by a mean of coarse ones: see `multilevel_mean`.
 
-    Parameters
-    ----------
-    level : Estimate
-        Mean of the coarse solutions of other seeds, of the shape of one sample.
-    one_sign : bool or array
-        Whether coarse solutions are all of one sign, so that a ratio to them means something.
+    `level` is the mean of the coarse solutions of other seeds; `one_sign` says whether these are
+    all of one sign, so that a ratio to them means something.
     """
     fine, coarse = np.asarray(fine), np.asarray(coarse)
     if coefficient is not None:
@@ -276,10 +245,8 @@ def descriptors(
 
     Parameters
     ----------
-    spectrum, length, amplitudes
+    spectrum, length, seeds, amplitudes
         As for `surface.synthesise`, whose surfaces are described.
-    seeds : iterable of int
-        Seeds of the surfaces.
     cutoff : float
         Waves up to `cutoff` times q0 are looked at; those beyond count with the power expected of
         them, so that the time does not depend on the magnification.
@@ -290,19 +257,14 @@ def descriptors(
         In the order of `DESCRIPTORS`: mean of |q| times the height variance [length], which is 4/E*
         times the elastic energy of full contact per area; rms slope and its square; mean height
         [length] of the highest 1, 3, 10 and 30 % of the area.
-
-    Raises
-    ------
-    ValueError
-        If the window does not hold the band, or an argument is out of range.
     """
-    _check_window(spectrum, length)
+    check_window(spectrum, length)
     if amplitudes not in ("gaussian", "fixed"):
         raise ValueError(f"amplitudes must be 'gaussian' or 'fixed', got {amplitudes!r}")
     if not cutoff >= 1:
         raise ValueError(f"cutoff must be at least 1, got {cutoff!r}")
     dq = 2 * np.pi / length
-    i, j, variance = _half_plane_modes(spectrum, length)
+    i, j, variance = list_modes(spectrum, length)
     q = dq * np.hypot(i, j)
     low = q <= cutoff * spectrum.q0 * (1 + _SINGULAR)
     beyond = [float(np.sum(2 * (variance * q**k)[~low])) for k in range(3)]
@@ -313,10 +275,10 @@ def descriptors(
     if not isinstance(seeds, Iterable):
         raise ValueError(f"seeds must be a sequence of integers, got {seeds!r}")
     for seed in seeds:
-        modes = _draw(variance, integer("seeds", seed, least=0), amplitudes)
+        modes = draw_modes(variance, integer("seeds", seed, least=0), amplitudes)
         power = 2 * np.abs(modes) ** 2
         square, energy, slope = (beyond[k] + float(np.sum(power * q**k)) for k in range(3))
-        heights = np.sort(_evaluate(i, j, modes, n), axis=None)
+        heights = np.sort(sum_modes(i, j, modes, n), axis=None)
         scale = spectrum.h_rms / np.sqrt(square) if spectrum.prescribed == "h_rms" else 1.0
         slope *= scale**2
         summits = [scale * heights[-count:].mean() for count in counts]

@@ -26,30 +26,15 @@ FIRST_FILE = 32  # coarse seeds in the first file of a case
 
 @dataclass(frozen=True)
 class Plan:
-    """How one case is solved.
-
-    Attributes
-    ----------
-    settings : Settings
-        Grid, tolerance and numbers of seeds.
-    quantities : tuple of str
-        What is wanted, of `quantities.QUANTITIES`.
-    pressures : tuple of float
-        Loads, ascending.
-    surface : str
-        Name of the model surface.
-    simulated : bool
-        False if theory alone is asked for.
-    owner : str
-        Case whose solutions of single realisations are used: the case itself or an earlier one on
-        the same surface and settings that has all its loads.
-    """
+    """How one case is solved."""
 
     settings: Settings
-    quantities: tuple[str, ...]
-    pressures: tuple[float, ...]
-    surface: str
-    simulated: bool
+    quantities: tuple[str, ...]  # what is wanted, of `quantities.QUANTITIES`
+    pressures: tuple[float, ...]  # ascending
+    surface: str  # name of the model surface
+    simulated: bool  # false if theory alone is asked for
+    # Case whose solutions of single realisations are used: the case itself or an earlier one on
+    # the same surface and settings that has all its loads.
     owner: str
 
     @property
@@ -70,13 +55,6 @@ class Plan:
 
 def plans_of(config: Mapping[str, Any], models: ErrorModels) -> dict[str, Plan]:
     """Return the plan of every case of a checked configuration.
-
-    Parameters
-    ----------
-    config : mapping
-        Content of config.yaml with everything that overrides it.
-    models : mapping
-        Table of `error_models.read_models`.
 
     Raises
     ------
@@ -178,20 +156,8 @@ def preset_by_rule(
 ) -> Settings:
     """Return the cheapest settings for the error of a preset in every quantity, adhesive ones too.
 
-    Parameters
-    ----------
-    models : mapping
-        Table of `error_models.read_models`.
-    asked : mapping
-        What the configuration says under ``tradeoff.presets``.
-    name : str
-        Name of the preset.
-    surface : mapping
-        The model surface that ``asked`` names.
-    descriptor_seeds : int
-        See ``sampling`` of the configuration.
-    free : bool
-        Whether to leave aside the quantities of full adhesion, on the same realisations.
+    `asked` is what the configuration says under ``tradeoff.presets``, `surface` the model surface
+    that it names. `free` leaves aside the quantities of full adhesion, on the same realisations.
     """
     where, least = (models, Surface.of(surface), asked["pressures"]), None
     if not free:

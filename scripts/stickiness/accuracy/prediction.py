@@ -44,26 +44,13 @@ _BISECTIONS = 16
 
 @dataclass(frozen=True)
 class Problem:
-    """What is to be known, and how errors are predicted.
+    """What is to be known, and how errors are predicted."""
 
-    Attributes
-    ----------
-    models : mapping
-        Table of `error_models.read_models`.
-    surface : Surface
-    pressures : sequence of float
-        Mean pressures over E* q0 h_rms.
-    columns : sequence of str
-        Columns of the quantities wanted, see `quantities.columns_of`.
-    descriptor_seeds : int
-        Seeds of which only the long waves are looked at.
-    """
-
-    models: ErrorModels
+    models: ErrorModels  # of `error_models.read_models`
     surface: Surface
-    pressures: Sequence[float]
-    columns: Sequence[str]
-    descriptor_seeds: int = 2048
+    pressures: Sequence[float]  # mean, over E* q0 h_rms
+    columns: Sequence[str]  # of the quantities wanted, see `quantities.columns_of`
+    descriptor_seeds: int = 2048  # of which only the long waves are looked at
 
     @property
     def points(self) -> list[tuple[float, str]]:
@@ -78,11 +65,7 @@ def error_parts(
     pixels, seeds = settings.pixels_per_wavelength, (settings.seeds, settings.coarse_seeds)
     variance = mean_variance(problem, pressure, column, pixels, *seeds)
     grid, solver = fixed_errors(problem, pressure, column, pixels, settings.tolerance)
-    return {
-        "discretisation": grid,
-        "solver": solver,
-        "sampling": COVERS * float(np.sqrt(variance)),
-    }
+    return {"discretisation": grid, "solver": solver, "sampling": COVERS * float(np.sqrt(variance))}
 
 
 def predicted_error(problem: Problem, settings: Settings, pressure: float, column: str) -> float:
@@ -100,9 +83,9 @@ def worst_error(problem: Problem, settings: Settings) -> tuple[float, str, float
 def joint_error(errors: ArrayLike) -> NDArray:
     """Relative error that covers 90 % of the worst of several, which are along the first axis.
 
-    Each of these is taken to be normal, and covers 90 % by itself. Their chances to be beyond the
-    result add up with the power `TOGETHER`: a plain sum would hold if they excluded each other,
-    their largest if all came together.
+    Each is taken to be normal, and covers 90 % by itself. Their chances to be beyond the result add
+    up with the power `TOGETHER`: a plain sum would hold if they excluded each other, their largest
+    if all came together.
     """
     single = np.asarray(errors, float)
     low, high = np.ones((2, *single.shape[1:]))

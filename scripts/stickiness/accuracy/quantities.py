@@ -23,34 +23,18 @@ Measure = Callable[[NDArray, NDArray, float], float]
 
 @dataclass(frozen=True)
 class Column:
-    """One number of a quantity at each load.
+    """One number of a quantity at each load."""
 
-    Attributes
-    ----------
-    name : str
-        In the tables of errors and in the answer to a case.
-    text : str
-        Description in files of results.
-    label, heading : str
-        In the report, and at the head of a narrow table.
-    variable : str
-        Name in the file of results, without an ending such as ``_mean``.
-    at : mapping
-        Where along `range` or `gap`, over h_rms.
-    file : str
-        ``ensemble``, or the fit ``a_v`` or ``kappa``.
-    of_theory : callable, optional
-        Value by a `Persson` at a pressure, up to a factor that no magnification changes. Without
-        it theory alone cannot answer a case, nor extrapolate it to a broader spectrum.
-    """
-
-    name: str
-    text: str
-    label: str
-    variable: str
-    heading: str = ""
+    name: str  # in the tables of errors and in the answer to a case
+    text: str  # in files of results
+    label: str  # in the report
+    variable: str  # in the file of results, without an ending such as ``_mean``
+    heading: str = ""  # of a narrow table
+    # where along `range` or `gap`, over h_rms
     at: Mapping[str, float] = field(default_factory=dict)
-    file: str = "ensemble"
+    file: str = "ensemble"  # or the fit ``a_v`` or ``kappa``
+    # Value by a `Persson` at a pressure, up to a factor that no magnification changes. Without
+    # it theory alone cannot answer a case, nor extrapolate it to a broader spectrum.
     of_theory: OfTheory | None = None
 
     def __post_init__(self) -> None:
@@ -60,25 +44,15 @@ class Column:
 
 @dataclass(frozen=True)
 class Quantity:
-    """What a case may ask for.
-
-    Attributes
-    ----------
-    name : str
-    columns : tuple of Column
-    means : tuple of str
-        Means of the ensemble that it needs.
-    measure : callable, optional
-        Measures the quantity on one solution, from heights `(n, n)` over h_rms, gaps `(n, n)` over
-        h_rms and the side of the cell over 1/q0. Solvers call it if a case asks for the quantity.
-    has_error_model : bool
-        Whether its errors were measured. Cases have all such quantities by default.
-    """
+    """What a case may ask for."""
 
     name: str
     columns: tuple[Column, ...]
-    means: tuple[str, ...]
+    means: tuple[str, ...]  # of the ensemble, that it needs
+    # Measures it on one solution, from heights (n, n) over h_rms, gaps (n, n) over h_rms and
+    # the side of the cell over 1/q0. Solvers call it if a case asks for the quantity.
     measure: Measure | None = None
+    # Whether its errors were measured. Cases have all such quantities by default.
     has_error_model: bool = True
 
     def __post_init__(self) -> None:
@@ -94,17 +68,11 @@ class Quantity:
 
 
 def slope_within_contact(heights: NDArray, gap: NDArray, length: float) -> float:
-    """Return the rms gradient of the heights over the points in contact; NaN without contact.
+    """Return the rms gradient of heights (n, n) over the points in contact; NaN without contact.
 
-    Derivatives are taken in Fourier space, as in `surface.moments`, so that full contact has the
-    rms slope of the surface.
-
-    Parameters
-    ----------
-    heights, gap : (n, n) array
-        Periodic heights, and gaps that are 0 in contact.
-    length : float
-        Side of the cell, in the unit of the heights.
+    Gaps are 0 in contact; `length` is the side of the cell in the unit of the heights. Derivatives
+    are taken in Fourier space, as in `surface.moments`, so that full contact has the rms slope of
+    the surface.
     """
     touching = gap == 0
     if not touching.any():
@@ -117,32 +85,25 @@ def slope_within_contact(heights: NDArray, gap: NDArray, length: float) -> float
     return float(np.sqrt(square[touching].mean()))
 
 
+def _single(name: str, text: str, label: str, variable: str, means: Iterable[str], **more: Any):
+    """Return a quantity of one column, both of one name."""
+    of_quantity = {key: more.pop(key) for key in ("measure", "has_error_model") if key in more}
+    column = Column(name, text, label, variable, **more)
+    return Quantity(name, (column,), tuple(means), **of_quantity)
+
+
 TABLE = (
-    Quantity(
+    _single(
         "area",
-        (
-            Column(
-                "area",
-                "repulsive contact area over nominal area",
-                "contact area",
-                "area_fraction",
-                of_theory=lambda theory, pressure: theory.area_fraction(pressure),
-            ),
-        ),
-        means=("area_fraction",),
+        "repulsive contact area over nominal area",
+        "contact area",
+        "area_fraction",
+        ["area_fraction"],
+        of_theory=lambda theory, pressure: theory.area_fraction(pressure),
     ),
-    Quantity(
-        "mean_gap",
-        (
-            Column(
-                "mean_gap",
-                "mean gap over h_rms",
-                "mean gap",
-                "mean_gap",
-                of_theory=lambda theory, pressure: theory.mean_gap(pressure),
-            ),
-        ),
-        means=("mean_gap",),
+    _single(
+        *("mean_gap", "mean gap over h_rms", "mean gap", "mean_gap", ["mean_gap"]),
+        of_theory=lambda theory, pressure: theory.mean_gap(pressure),
     ),
     Quantity(
         "attractive_area",
@@ -160,67 +121,39 @@ TABLE = (
         ),
         means=("attractive_area",),
     ),
-    Quantity(
+    _single(
         "gap_distribution",
-        (
-            Column(
-                "gap_distribution",
-                "P(u) times h_rms at gap 0.1 h_rms",
-                "P(u) at gap 0.1",
-                "gap_density",
-                heading="P(u)",
-                at={"gap": 0.1},
-                of_theory=lambda theory, pressure: theory.gap_density(0.1, pressure),
-            ),
-        ),
-        means=("attractive_area", "gap_density"),
+        "P(u) times h_rms at gap 0.1 h_rms",
+        "P(u) at gap 0.1",
+        "gap_density",
+        ["attractive_area", "gap_density"],
+        heading="P(u)",
+        at={"gap": 0.1},
+        of_theory=lambda theory, pressure: theory.gap_density(0.1, pressure),
     ),
-    Quantity(
-        "a_v",
-        (
-            Column(
-                "a_v",
-                "a_V",
-                "a_V",
-                "a_v",
-                heading="a_V",
-                file="a_v",
-                # Fitted between the two ranges.
-                of_theory=lambda theory, pressure: np.sqrt(
-                    np.prod(theory.gap_cumulative(np.array([0.01, 0.1]), pressure))
-                ),
-            ),
+    _single(
+        *("a_v", "a_V", "a_V", "a_v", ["attractive_area"]),
+        heading="a_V",
+        file="a_v",
+        # Fitted between the two ranges.
+        of_theory=lambda theory, pressure: np.sqrt(
+            np.prod(theory.gap_cumulative(np.array([0.01, 0.1]), pressure))
         ),
-        means=("attractive_area",),
     ),
-    Quantity(
-        "kappa",
-        (
-            Column(
-                "kappa",
-                "kappa_rep",
-                "κ",
-                "kappa",
-                file="kappa",
-                of_theory=lambda theory, pressure: (
-                    theory.area_fraction(pressure) * theory.spectrum.rms_slope
-                ),
-            ),
+    _single(
+        *("kappa", "kappa_rep", "κ", "kappa", ["area_fraction"]),
+        file="kappa",
+        of_theory=lambda theory, pressure: (
+            theory.area_fraction(pressure) * theory.spectrum.rms_slope
         ),
-        means=("area_fraction",),
     ),
-    Quantity(
+    _single(
         "contact_slope",
-        (
-            Column(
-                "contact_slope",
-                "rms gradient of the heights within the contact over q0 h_rms",
-                "rms slope within the contact",
-                "contact_slope",
-                heading="slope in contact",
-            ),
-        ),
-        means=("contact_slope",),
+        "rms gradient of the heights within the contact over q0 h_rms",
+        "rms slope within the contact",
+        "contact_slope",
+        ["contact_slope"],
+        heading="slope in contact",
         measure=slope_within_contact,
         has_error_model=False,
     ),
@@ -248,13 +181,8 @@ def refuse_unknown(
 ) -> None:
     """Raise ValueError, naming the key, if a quantity is unknown or cannot be had as asked.
 
-    Parameters
-    ----------
-    names : iterable of str
-    key : str
-        Of the configuration.
-    by_theory, within_accuracy : bool
-        Whether theory has to give them, and whether an accuracy is asked for.
+    `by_theory` and `within_accuracy` say whether theory has to give it, and whether an accuracy is
+    asked for.
     """
     for name in names:
         if name not in QUANTITIES:

@@ -12,41 +12,23 @@ import yaml
 from stickiness.accuracy.quantities import QUANTITIES
 from stickiness.config.cross_checks import config_problems
 from stickiness.config.messages import one_line
-from stickiness.config.surface_entries import measurements, rate_problems, surface_problems
+from stickiness.config.surface_entries import (
+    measurements,  # noqa: F401 (public here, too)
+    rate_problems,
+    surface_problems,
+)
 from stickiness.core.units import si
 
-__all__ = [
-    "ConfigError",
-    "check_config",
-    "check_materials",
-    "check_schema",
-    "check_surfaces",
-    "check_units",
-    "checked",
-    "load",
-    "measurements",
-    "read_schema",
-]
-
 # Keys whose values are strings with units, and the unit that fixes their dimension.
+_LENGTHS = (
+    *("range", "longest_wavelength", "shortest_wavelength", "rolloff_wavelength", "h_rms"),
+    *("length", "pixel_size", "fit_from", "fit_to", "resolution", "tip_radius", "extend_to"),
+)
 _UNITS = {
-    "plane_strain_modulus": "Pa",
-    "youngs_modulus": "Pa",
+    **dict.fromkeys(_LENGTHS, "m"),
+    **dict.fromkeys(("q0", "q1"), "1/m"),
+    **dict.fromkeys(("plane_strain_modulus", "youngs_modulus"), "Pa"),
     "work_of_adhesion": "J/m^2",
-    "range": "m",
-    "longest_wavelength": "m",
-    "shortest_wavelength": "m",
-    "rolloff_wavelength": "m",
-    "q0": "1/m",
-    "q1": "1/m",
-    "h_rms": "m",
-    "length": "m",
-    "pixel_size": "m",
-    "fit_from": "m",
-    "fit_to": "m",
-    "resolution": "m",
-    "tip_radius": "m",
-    "extend_to": "m",
 }
 
 # The surfaces that the claims ledger reads; may be edited but not removed.
@@ -73,13 +55,7 @@ class _UniqueKeys(getattr(yaml, "CSafeLoader", yaml.SafeLoader)):  # libyaml whe
 
 
 def load(path: str | Path) -> dict[str, Any]:
-    """Read a YAML file of the configuration.
-
-    Raises
-    ------
-    ConfigError
-        If the file is missing or is not valid YAML.
-    """
+    """Read a YAML file of the configuration; a ConfigError says if it is missing or not valid."""
     try:
         content = yaml.load(Path(path).read_text(encoding="utf-8"), _UniqueKeys)
     except FileNotFoundError:
@@ -100,24 +76,9 @@ def checked(
 ) -> tuple[dict[str, Any], dict[str, Any]]:
     """Check the whole configuration and the files it names, without changing any of it.
 
-    Parameters
-    ----------
-    config : mapping
-        Content of config.yaml with everything that overrides it.
-    schemas : path
-        Folder of the schemas.
-    name : str
-        Name of the configuration in errors.
-
-    Returns
-    -------
-    materials, surfaces : dict
-        The tables of materials.yaml and surfaces.yaml.
-
-    Raises
-    ------
-    ConfigError
-        On the first thing wrong, in one line.
+    `config` is the content of config.yaml with everything that overrides it, `schemas` the folder
+    of the schemas, `name` that of the configuration in errors. Returns the tables of materials.yaml
+    and surfaces.yaml. A ConfigError says in one line what is wrong first.
     """
     schemas = Path(schemas)
     check_schema(config, schemas / "config.schema.yaml", name)

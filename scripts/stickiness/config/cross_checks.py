@@ -118,15 +118,16 @@ def _criteria_problems(config: Mapping[str, Any]) -> Iterator[str]:
             yield from grid_problems(f"criteria.{part}.{key}", criteria[part][key])
     compared = criteria["compared"]
     roughness = compared["h_rms_over_range"]
-    asked = [
+    asked = (
         ("a_v.pressure", "pressure", criteria["a_v"]["pressure"]),
         ("map.hurst", "hurst", criteria["map"]["hurst"]),
         ("compared.hurst", "hurst", compared["hurst"]),
         ("compared.quoted_magnification", "magnification", compared["quoted_magnification"]),
-    ]
-    for end in ("minimum", "maximum"):
-        key = f"magnification.{end}"
-        asked.append((f"compared.{key}", "magnification", compared["magnification"][end]))
+        *(
+            (f"compared.magnification.{end}", "magnification", compared["magnification"][end])
+            for end in ("minimum", "maximum")
+        ),
+    )
     for key, axis, value in asked:
         if not min(table[axis]) <= value <= max(table[axis]):
             yield (
@@ -202,11 +203,10 @@ def _whole_problems(config: Mapping[str, Any]) -> Iterator[str]:
 def _preset_problems(config: Mapping[str, Any]) -> Iterator[str]:
     """The rule of the presets and the settings measured must name existing entries."""
     rule = config["tradeoff"]["presets"]
+    measured = config["tradeoff"]["cases"]["surfaces"]
     for name in config["tradeoff"]["settings"]["surfaces"]:
-        if name not in config["tradeoff"]["cases"]["surfaces"]:
-            yield unknown(
-                "tradeoff.settings.surfaces", name, config["tradeoff"]["cases"]["surfaces"]
-            )
+        if name not in measured:
+            yield unknown("tradeoff.settings.surfaces", name, measured)
     if rule["surface"] not in config["model_surfaces"]:
         yield unknown("tradeoff.presets.surface", rule["surface"], config["model_surfaces"])
     for name in rule["accuracy"]:

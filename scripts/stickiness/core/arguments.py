@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
@@ -16,45 +18,30 @@ def numbers(name: str, value: ArrayLike) -> NDArray:
 
 def positive(**values: ArrayLike) -> tuple[NDArray, ...]:
     """Return the named values as float arrays; ValueError unless all are positive and finite."""
-    arrays = []
-    for name, value in values.items():
-        array = numbers(name, value)
-        if not (np.all(np.isfinite(array)) and np.all(array > 0)):
-            raise ValueError(f"{name} must be positive and finite, got {value!r}")
-        arrays.append(array)
-    return tuple(arrays)
+    return _check(values, lambda x: np.isfinite(x) & (x > 0), "must be positive and finite")
 
 
 def finite(**values: ArrayLike) -> tuple[NDArray, ...]:
     """Return the named values as float arrays; ValueError unless all are finite."""
-    arrays = []
-    for name, value in values.items():
-        array = numbers(name, value)
-        if not np.all(np.isfinite(array)):
-            raise ValueError(f"{name} must be finite, got {value!r}")
-        arrays.append(array)
-    return tuple(arrays)
+    return _check(values, np.isfinite, "must be finite")
 
 
 def nonnegative(**values: ArrayLike) -> tuple[NDArray, ...]:
     """Return the named values as float arrays; ValueError if any is negative or NaN."""
+    return _check(values, lambda x: x >= 0, "must not be negative or NaN")
+
+
+def _check(values: dict[str, ArrayLike], allowed: Callable, demand: str) -> tuple[NDArray, ...]:
     arrays = []
     for name, value in values.items():
-        array = numbers(name, value)
-        if not np.all(array >= 0):
-            raise ValueError(f"{name} must not be negative or NaN, got {value!r}")
-        arrays.append(array)
+        arrays.append(numbers(name, value))
+        if not np.all(allowed(arrays[-1])):
+            raise ValueError(f"{name} {demand}, got {value!r}")
     return tuple(arrays)
 
 
 def number(name: str, value: float, *, zero: bool = False, most: float = np.inf) -> float:
-    """Return one positive (or, if `zero` is allowed, non-negative) finite number of at most `most`.
-
-    Raises
-    ------
-    ValueError
-        Naming the argument and its value otherwise.
-    """
+    """Return one finite number: positive (or, with `zero`, not negative) and at most `most`."""
     array = numbers(name, value)
     allowed = array.ndim == 0 and np.isfinite(array) and (array > 0 or (zero and array == 0))
     if not (allowed and array <= most):
@@ -75,14 +62,7 @@ def integer(name: str, value: int, least: int) -> int:
 
 
 def grid(name: str, values: ArrayLike, square: bool = False) -> NDArray:
-    """Return values on a grid ``(n0, n1)`` as floats in C order.
-
-    Raises
-    ------
-    ValueError
-        If they are masked, no real numbers, not finite, not on a grid, or, where it has to be, not
-        on a square one.
-    """
+    """Return finite, unmasked real values on a (square) grid ``(n0, n1)`` as floats in C order."""
     masked = int(np.count_nonzero(np.ma.getmask(values)))
     if masked:
         raise ValueError(

@@ -54,20 +54,9 @@ def with_budget(
     bandwidth: Part,
     model: Part,
 ) -> xr.Dataset:
-    """Add the budget of a variable, which is annotated already.
+    """Add the budget of a variable that has `units` and `long_name`.
 
-    Parameters
-    ----------
-    dataset : xarray.Dataset
-    name : str
-        Of a variable with `units` and `long_name`.
-    discretisation, solver, sampling, bandwidth, model : Part
-        Of the shape of the variable, or of one that broadcasts to it.
-
-    Returns
-    -------
-    xarray.Dataset
-        With the three variables of the module's text more.
+    Parts are of the shape of the variable, or of one that broadcasts to it.
     """
     value = dataset[name]
     parts = (discretisation, solver, sampling, bandwidth, model)
@@ -89,19 +78,17 @@ def with_budget(
     ]
     missing = ", or ".join(dict.fromkeys(filter(None, missing)))
     gaps = {"nan_means": missing} if missing else {}
-    attributes = (
-        {"units": units, "long_name": f"error by source, covers 90 %: {text}", **gaps},
-        {"units": units, "long_name": f"error by all sources: {text}", **gaps},
-        {"units": "1", "long_name": f"source of the largest error: {text}"},
-    )
-    attributes[0]["comment"] = comment
-    attributes[2]["flag_values"] = np.arange(NONE, len(SOURCES), dtype="i1")
-    attributes[2]["flag_meanings"] = " ".join(("none", *SOURCES))
-    added = {}
-    for ending, found, texts in zip(ENDINGS, (error, total, largest), attributes, strict=True):
-        added[f"{name}{ending}"] = found
-        found.attrs = texts
-    dataset = dataset.assign(added).assign_coords(source=list(SOURCES))
+    long_name = f"error by source, covers 90 %: {text}"
+    error.attrs = {"units": units, "long_name": long_name, **gaps, "comment": comment}
+    total.attrs = {"units": units, "long_name": f"error by all sources: {text}", **gaps}
+    largest.attrs = {
+        "units": "1",
+        "long_name": f"source of the largest error: {text}",
+        "flag_values": np.arange(NONE, len(SOURCES), dtype="i1"),
+        "flag_meanings": " ".join(("none", *SOURCES)),
+    }
+    added = zip((f"{name}{ending}" for ending in ENDINGS), (error, total, largest), strict=True)
+    dataset = dataset.assign(dict(added)).assign_coords(source=list(SOURCES))
     dataset.source.attrs = dict(zip(("units", "long_name"), SOURCE_TEXTS, strict=True))
     return dataset
 
@@ -124,6 +111,4 @@ def total_error(dataset: xr.Dataset, name: str) -> xr.DataArray:
 def dominant(dataset: xr.Dataset, name: str) -> str:
     """Word for the source of the largest error of a single number."""
     flag = dataset[f"{name}_dominant"]
-    return dict(zip(flag.attrs["flag_values"], flag.attrs["flag_meanings"].split(), strict=True))[
-        int(flag)
-    ]
+    return flag.attrs["flag_meanings"].split()[int(flag) - NONE]

@@ -6,7 +6,8 @@ import json
 import os
 import shutil
 import tempfile
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
+from contextlib import contextmanager
 from importlib.metadata import version
 from pathlib import Path
 from typing import Any
@@ -31,13 +32,10 @@ class WriteError(DatasetError, OSError):
 def provenance() -> dict[str, str]:
     """Versions of this package and of the codes that its numbers depend on."""
     codes = {f"version_{name.lower()}": version(name) for name in _CODES}
-    return {"version_stickiness": __version__, **codes, "version_fftw": _fftw_version()}
-
-
-def _fftw_version() -> str:
     import pyfftw  # here, not above: figures and reports need no FFTW
 
-    return str(pyfftw.fftw_version)
+    fftw = str(pyfftw.fftw_version)
+    return {"version_stickiness": __version__, **codes, "version_fftw": fftw}
 
 
 def annotate(dataset: xr.Dataset, **described: tuple[str, ...]) -> xr.Dataset:
@@ -50,24 +48,13 @@ def annotate(dataset: xr.Dataset, **described: tuple[str, ...]) -> xr.Dataset:
 def write(
     dataset: xr.Dataset, path: str | Path, *, title: str, parameters: Mapping[str, Any]
 ) -> None:
-    """Write a dataset with its parameters and provenance, whole or not at all.
-
-    Parameters
-    ----------
-    dataset : xarray.Dataset
-        Every variable and coordinate carries `units` and `long_name`, and `nan_means` if it holds
-        values that are not finite.
-    path : path
-        Target. The data go to a temporary file beside it that takes its name once complete.
-    title : str
-        What the file holds.
-    parameters : mapping
-        What made it; stored as JSON in the attribute `parameters`.
+    """Write a dataset with its parameters (as JSON) and provenance, whole or not at all.
 
     Raises
     ------
     DatasetError
-        If a variable lacks one of these texts.
+        If a variable lacks `units` or `long_name`, or `nan_means` though it holds values that are
+        not finite.
     WriteError
         If the disk is full, may not be written to, or fails; an old file is left as it was.
     """
@@ -138,60 +125,43 @@ def _place(path: Path) -> tuple[str, ...]:
     return path.parts[1:] if not path.is_absolute() and len(path.parts) > 1 else path.parts[-2:]
 
 
-class whole_file:  # noqa: N801 (a context manager, used as a verb)
-    """Context manager: a temporary path that replaces `path` on success and vanishes on failure.
+@contextmanager
+def whole_file(path: str | Path) -> Iterator[Path]:
+    """Give a temporary path that replaces `path` on success and vanishes on failure.
 
     What the operating system refuses is raised as a `WriteError` that names `path`.
     """
-
-    def __init__(self, path: str | Path):
-        self._path = Path(path)
-
-    def __enter__(self) -> Path:
-        try:
-            return self._made()
-        except OSError as error:
-            raise self._failure(error) from None
-
-    def _made(self) -> Path:
-        folder, name, suffix = self._path.parent, self._path.name, self._path.suffix
-        folder.mkdir(parents=True, exist_ok=True)
+    path = Path(path)
+    temporary = None
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
         # What a killed job left. Should an orphan still write to it, only its own end fails.
-        for leftover in folder.glob(f".{name}.????????{suffix}"):
+        for leftover in path.parent.glob(f".{path.name}.????????{path.suffix}"):
             leftover.unlink(missing_ok=True)
-        handle, name = tempfile.mkstemp(dir=folder, prefix=f".{name}.", suffix=suffix)
-        os.close(handle)
-        self._temporary = Path(name)
-        return self._temporary
-
-    def __exit__(self, kind: type | None, error: BaseException | None, _: object) -> None:
-        if kind is None:
-            try:
-                self._temporary.chmod(0o666 & ~_umask())
-                self._temporary.replace(self._path)
-            except OSError as failed:
-                raise self._failure(failed) from None
-        else:
-            self._temporary.unlink(missing_ok=True)
-            if isinstance(error, OSError):
-                raise self._failure(error) from None
-
-    def _failure(self, error: OSError) -> WriteError:
-        """The error with what may have caused it: who may write here, and the room left."""
-        folder = self._path.parent
-        while not os.path.exists(folder):  # which is False, too, where one may not look
-            folder = folder.parent
-        if isinstance(error, PermissionError) or not os.access(folder, os.W_OK):
-            remedy = f"allow writing in {folder}"
-        else:
-            free = shutil.disk_usage(folder).free / 1e6
-            remedy = f"{free:.0f} MB are free in {folder}; make room"
-        return WriteError(
-            f"{self._path}: could not be written ({error}): {remedy} and run the same command again"
+        handle, name = tempfile.mkstemp(
+            dir=path.parent, prefix=f".{path.name}.", suffix=path.suffix
         )
+        os.close(handle)
+        temporary = Path(name)
+        yield temporary
+        os.umask(mask := os.umask(0))
+        temporary.chmod(0o666 & ~mask)
+        temporary.replace(path)
+    except OSError as error:
+        raise WriteError(_explain(path, error)) from None
+    finally:
+        if temporary is not None:
+            temporary.unlink(missing_ok=True)
 
 
-def _umask() -> int:
-    mask = os.umask(0)
-    os.umask(mask)
-    return mask
+def _explain(path: Path, error: OSError) -> str:
+    """Say what may have caused an error: who may write here, and the room left."""
+    folder = path.parent
+    while not os.path.exists(folder):  # which is False, too, where one may not look
+        folder = folder.parent
+    if isinstance(error, PermissionError) or not os.access(folder, os.W_OK):
+        remedy = f"allow writing in {folder}"
+    else:
+        free = shutil.disk_usage(folder).free / 1e6
+        remedy = f"{free:.0f} MB are free in {folder}; make room"
+    return f"{path}: could not be written ({error}): {remedy} and run the same command again"

@@ -22,8 +22,8 @@ class PlausibilityWarning(UserWarning):
 def warn_of_pressure(pressure: float, rms_slope: float, stacklevel: int = 3) -> None:
     """Warn if a mean pressure [E*] exceeds all that contact of a rms slope could need.
 
-    Linear elasticity ends far below E*. In units in which heights stand for lengths larger than
-    they are, pressures may be above 1; beyond 1000 times the slope contact is full anyway.
+    Beyond 1000 times the slope contact is full anyway. In units in which heights stand for lengths
+    larger than they are, pressures may be above 1.
     """
     if pressure > max(1.0, _MOST_PRESSURE * rms_slope):
         warnings.warn(

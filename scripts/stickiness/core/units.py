@@ -14,14 +14,7 @@ def _registry() -> pint.UnitRegistry:
 
 
 def si(value: str, unit: str) -> float:
-    """Magnitude of a string such as "0.1 um" in the SI unit `unit`.
-
-    Parameters
-    ----------
-    value : str
-        Number and unit, e.g. ``"50 mJ/m^2"``.
-    unit : str
-        Unit of the result, e.g. ``"J/m^2"``; fixes the dimension that `value` must have.
+    """Magnitude of a string such as "0.1 um" in the SI unit `unit`, which fixes its dimension.
 
     Raises
     ------

@@ -19,12 +19,8 @@ def local_exponent(eps: ArrayLike, area: ArrayLike) -> NDArray:
     Parameters
     ----------
     eps, area : (m,) arrays
-        Increasing ranges [length] and attractive area fractions, m >= 3.
-
-    Raises
-    ------
-    ValueError
-        If the arrays do not match, are too short or not positive.
+        Increasing ranges [length] and attractive area fractions, m >= 3; else a ValueError is
+        raised.
     """
     eps, area = positive(eps=eps, area=area)
     if eps.ndim != 1 or eps.shape != area.shape or eps.size < 3 or not np.all(np.diff(eps) > 0):
@@ -41,16 +37,14 @@ class AvFit:
 
     Attributes
     ----------
-    value : float
-        Fitted a_V, dimensionless.
-    standard_error : float
-        Of the fit. Areas at several ranges of one surface are strongly correlated: without
-        `sigma` this measures how well the 2/3 law holds inside the window, not the scatter
-        between surfaces, which only several surfaces give.
+    value, standard_error : float
+        Fitted a_V and its error by the fit. Areas at several ranges of one surface are strongly
+        correlated: without `sigma` the error says how well the 2/3 law holds in the fit interval,
+        not how surfaces scatter, which only several surfaces show.
     window : (float, float)
-        Limits of range/h_rms.
+        Fit interval: limits of range/h_rms.
     n_points : int
-        Number of points inside the window.
+        Number of points in it.
     relative_residual : float
         Root mean square residual over the root mean square area.
     """
@@ -71,7 +65,7 @@ def fit_a_v(
     window: tuple[float, float] = (0.01, 0.1),
     sigma: ArrayLike | None = None,
 ) -> AvFit:
-    """Fit a_V by least squares through the origin inside a window of ranges.
+    """Fit a_V by least squares through the origin within an interval of ranges.
 
     Parameters
     ----------
@@ -92,7 +86,7 @@ def fit_a_v(
     ------
     ValueError
         On mismatched shapes, values that are not positive, or fewer than two points in the
-        window.
+        interval.
 
     References
     ----------
@@ -109,7 +103,9 @@ def fit_a_v(
     for name, values in (("pressure", pressure), ("sigma", sigma)):
         if values is not None and values.ndim and values.shape != eps.shape:
             raise ValueError(f"{name} must have the shape {eps.shape} of eps, got {values.shape}")
-    low, high = _window(window)
+    low, high = map(float, window)
+    if not 0 <= low < high:
+        raise ValueError(f"window must be two increasing limits of eps/h_rms, got {window!r}")
 
     ratio = eps / h_rms
     # A limit that went through unit conversion must still include itself.
@@ -143,12 +139,5 @@ def window_sensitivity(
     q0: float = 1.0,
     sigma: ArrayLike | None = None,
 ) -> tuple[AvFit, ...]:
-    """Fit a_V in each of several windows; see `fit_a_v` for the parameters."""
+    """Fit a_V in each of several intervals; see `fit_a_v` for the parameters."""
     return tuple(fit_a_v(eps, area, pressure, h_rms, q0, window, sigma) for window in windows)
-
-
-def _window(window: tuple[float, float]) -> tuple[float, float]:
-    low, high = (float(limit) for limit in window)
-    if not 0 <= low < high:
-        raise ValueError(f"window must be two increasing limits of eps/h_rms, got {window!r}")
-    return low, high

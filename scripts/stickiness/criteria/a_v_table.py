@@ -1,4 +1,4 @@
-"""a_V as a function of Hurst exponent, load, range and magnification, with its error.
+"""a_V by Persson's theory: of a spectrum, and tabulated for self-affine surfaces, with its error.
 
 A_ad/A_nom = (3/2) a_V p/(E* q0 h_rms) (range/h_rms)^(2/3) defines a local a_V at every range, for
 theory does not have it constant. Between the finest scale and the rms height it goes as
@@ -8,6 +8,7 @@ does not depend on the range. There the variants of the theory part, see `edge_r
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -17,25 +18,18 @@ from scipy.interpolate import RegularGridInterpolator
 from scipy.special import ndtri
 
 from stickiness.core.arguments import positive
+from stickiness.persson.theory import Persson
+from stickiness.surfaces.spectrum import Spectrum
 
 PARTED = 1.5  # ratio of the theory's variants from which on neither resolves the edges of contact
+VARIANTS = ("afferrante2018", "almqvist2011")  # P(0) infinite and finite: limits on the truth
+EDGE_LAW = "pastewka_robbins"  # independent estimate of what the edges alone give
 NORMAL_90 = float(ndtri(0.95))  # standard errors either side that cover 90 %
 NEEDED = (
-    "a_v",
-    "a_v_limit",
-    "edge_range",
-    "theory_below",
-    "theory_above",
-    "theory_below_limit",
-    "theory_above_limit",
-    "edge_a_v",
-    "quadrature_error",
-    "simulation_ratio",
-    "simulation_error",
-    "simulation_trend",
-    "smallest_magnification",
-    "largest_magnification",
-    "extrapolation_error",
+    *("a_v", "a_v_limit", "edge_range", "edge_a_v", "quadrature_error", "extrapolation_error"),
+    *("theory_below", "theory_above", "theory_below_limit", "theory_above_limit"),
+    *("simulation_ratio", "simulation_error", "simulation_trend"),
+    *("smallest_magnification", "largest_magnification"),
 )
 _AXES = ("hurst", "magnification", "pressure", "range")
 _LIMIT_AXES = ("hurst", "pressure", "range")
@@ -51,29 +45,16 @@ def edge_range(ranges: ArrayLike, infinite: ArrayLike, finite: ArrayLike) -> flo
     """Range below which Persson's theory no longer resolves the edges of the contact.
 
     Below it one variant of the theory lets P(u) grow without bound, the other tends to a constant,
-    while gaps next to an edge have P ~ u^(-1/3). The range is the largest at which the
-    attractive area of the one is `PARTED` times that of the other. What theory has there, held
-    constant below, is 1.0 to 1.2 times what simulation finds next to edges (H = 0.7 to 0.9,
-    magnification 32 to 128, loads from 0.0065 to 0.46), and agrees with the estimate of Pastewka
-    and Robbins, which knows nothing of this theory: for magnifications of 10^3 and 10^6 it is 1.4
-    times theirs at H = 0.6, 1.2 and 1.1 at 0.7, 1.1 and 0.95 at 0.8, 0.95 and 0.8 at 0.9.
+    while gaps next to an edge have P ~ u^(-1/3). The range is the largest at which the attractive
+    area of the one is `PARTED` times that of the other. What theory has there, held constant below,
+    is 1.0 to 1.2 times what simulation finds next to edges (H = 0.7 to 0.9, magnification 32 to
+    128, loads from 0.0065 to 0.46), and agrees with the estimate of Pastewka and Robbins, which
+    knows nothing of this theory: for magnifications of 10^3 and 10^6 it is 1.4 times theirs at H =
+    0.6, 1.2 and 1.1 at 0.7, 1.1 and 0.95 at 0.8, 0.95 and 0.8 at 0.9.
 
-    Parameters
-    ----------
-    ranges : (n,) array
-        Increasing.
-    infinite, finite : (n,) arrays
-        Attractive areas (or a_V) by the variants with infinite and finite P(0).
-
-    Returns
-    -------
-    float
-        Between the ranges, along a power law; the smallest of them if the variants never part.
-
-    Raises
-    ------
-    ValueError
-        If an argument is not positive and finite.
+    `infinite` and `finite` are the attractive areas (or a_V) (n,) at increasing `ranges` by the
+    variants with infinite and finite P(0). The result is between the ranges, along a power law; the
+    smallest of them if the variants never part.
     """
     ranges, infinite, finite = positive(ranges=ranges, infinite=infinite, finite=finite)
     logs = np.log(infinite / finite) - np.log(PARTED)
@@ -89,55 +70,95 @@ def edge_range(ranges: ArrayLike, infinite: ArrayLike, finite: ArrayLike) -> flo
 
 
 @dataclass(frozen=True)
+class SurfaceAv:
+    """a_V of a surface against the range, with limits."""
+
+    ranges: NDArray  # (n,), over h_rms, increasing
+    # (m, n), a_V by every variant of the theory and by the edge law below the edge range
+    theory: NDArray
+    quoted: int  # which of them is quoted; the others are limits
+    ratio: float  # of simulation to theory, by which all are multiplied
+    relative_error: float  # of that ratio; widens the limits
+
+    def at(self, range_over_h_rms: float) -> tuple[float, float, float]:
+        """Value, low and high limit at a range over h_rms, interpolated in logarithms."""
+        logs = [
+            np.interp(np.log(range_over_h_rms), np.log(self.ranges), np.log(a)) for a in self.theory
+        ]
+        every = self.ratio * np.exp(logs)
+        return (
+            float(every[self.quoted]),
+            float(every.min() * max(1 - self.relative_error, 0.01)),
+            float(every.max() * (1 + self.relative_error)),
+        )
+
+
+def theory_a_v(
+    spectrum: Spectrum,
+    ranges: ArrayLike,
+    pressure: float,
+    edge_a_v: float,
+    *,
+    q0: float | None = None,
+    gamma: float = 0.45,
+) -> tuple[list[str], list[NDArray], float]:
+    """a_V by both variants of Persson's theory and by the edge law.
+
+    Ranges are over h_rms and increase; the pressure is the mean one over E* q0 h_rms, with the q0
+    of the spectrum unless one is given; `edge_a_v` is that of `formulas.pastewka_robbins_a_v`,
+    `gamma` the correction of the theory's elastic energy. Returns the names (`VARIANTS` and
+    `EDGE_LAW`), their a_V and the edge range over h_rms. Below that the variants are held constant,
+    and the edge law takes its own value.
+    """
+    ranges = np.asarray(ranges, dtype=float)
+    h_rms, q0 = spectrum.h_rms, float(spectrum.q0 if q0 is None else q0)
+    resolved = [
+        local_a_v(
+            Persson(spectrum, variant=variant, gamma=gamma).gap_cumulative(
+                ranges * h_rms, pressure * q0 * h_rms
+            ),
+            pressure,
+            ranges,
+        )
+        for variant in VARIANTS
+    ]
+    edge = edge_range(ranges, *resolved)
+    at_edge = np.exp(np.interp(np.log(edge), np.log(ranges), np.log(resolved[0])))
+    a_v = [np.where(ranges < edge, at_edge, a) for a in resolved]
+    a_v.append(np.where(ranges < edge, edge_a_v, a_v[0]))
+    return [*VARIANTS, EDGE_LAW], a_v, edge
+
+
+@dataclass(frozen=True)
 class AvEstimate:
     """a_V with its error; arrays of the common shape of the arguments.
 
-    Attributes
-    ----------
-    value : array
-        Theory as quoted times the ratio of simulation to theory, which follows the trend with the
-        magnification between simulated ones and is held constant beyond them.
-    low, high : array
-        Limits meant to cover about 90 %, as factors. They add in quadrature `NORMAL_90` times the
-        standard error of the ratio, the spread of the other theories and the largest error of the
-        quadrature; the latter two are extremes already. Not covered are assumptions that all
-        theories and simulations share (Gaussian heights, elastic half-space, no roll-off).
-    theory_below, theory_above : array
-        Natural logarithms of how far the other variants and corrections of the theory lie below
-        and above the quoted one. Below the edge range it is the estimate of Pastewka and Robbins.
-    simulation : array
-        Standard relative error of the ratio of simulation to theory, with what its trend may
-        change beyond the simulated magnifications and its drift below the simulated ranges.
-    quadrature : array
-        Largest relative error of the theory's quadrature.
-    edge : boolean array
-        Where the range is below the edge range, so that a_V no longer depends on it.
+    `value` is theory as quoted times the ratio of simulation to theory, which follows the trend
+    with the magnification between simulated ones and is held constant beyond them. `low` and `high`
+    are meant to cover about 90 %, as factors. They add in quadrature `NORMAL_90` times the standard
+    error of the ratio, the spread of the other theories and the largest error of the quadrature;
+    the latter two are extremes already. Not covered are assumptions that all theories and
+    simulations share (Gaussian heights, elastic half-space, no roll-off).
     """
 
     value: NDArray
     low: NDArray
     high: NDArray
+    # ln of how far other variants and corrections of the theory lie below and above the quoted
+    # one; below the edge range, the estimate of Pastewka and Robbins
     theory_below: NDArray
     theory_above: NDArray
+    # standard relative error of the ratio of simulation to theory, with what its trend may
+    # change beyond the simulated magnifications and its drift below the simulated ranges
     simulation: NDArray
-    quadrature: NDArray
-    edge: NDArray
+    quadrature: NDArray  # largest relative error of the theory's quadrature
+    edge: NDArray  # where the range is below the edge range, so that a_V no longer depends on it
 
 
 class AvTable:
-    """Interpolates the file ``fits/a_v_table.nc``, in logarithms.
+    """Interpolates the file ``fits/a_v_table.nc``, with the variables `NEEDED`, in logarithms.
 
     The error of the interpolation is below 3 % (0.5 % root mean square).
-
-    Parameters
-    ----------
-    table : xarray.Dataset
-        With the variables `NEEDED`.
-
-    Raises
-    ------
-    ValueError
-        If a variable is missing.
     """
 
     def __init__(self, table: xr.Dataset):
@@ -148,16 +169,16 @@ class AvTable:
             name: (float(table[name].min()), float(table[name].max())) for name in _AXES
         }
         self._finite = {
-            "a_v": _smooth(np.log(table.a_v), _AXES),
-            "edge": _smooth(np.log(table.edge_range), _AXES[:3]),
-            "below": _linear(table.theory_below, _AXES),
-            "above": _linear(table.theory_above, _AXES),
-            "edge_a_v": _smooth(np.log(table.edge_a_v), _AXES[:2]),
+            "a_v": _interpolate(np.log(table.a_v), _AXES, "cubic"),
+            "edge": _interpolate(np.log(table.edge_range), _AXES[:3], "cubic"),
+            "below": _interpolate(table.theory_below, _AXES),
+            "above": _interpolate(table.theory_above, _AXES),
+            "edge_a_v": _interpolate(np.log(table.edge_a_v), _AXES[:2], "cubic"),
         }
         self._limit = {
-            "a_v": _smooth(np.log(table.a_v_limit), _LIMIT_AXES),
-            "below": _linear(table.theory_below_limit, _LIMIT_AXES),
-            "above": _linear(table.theory_above_limit, _LIMIT_AXES),
+            "a_v": _interpolate(np.log(table.a_v_limit), _LIMIT_AXES, "cubic"),
+            "below": _interpolate(table.theory_below_limit, _LIMIT_AXES),
+            "above": _interpolate(table.theory_above_limit, _LIMIT_AXES),
         }
         self._quadrature = float(table.quadrature_error)
         self._ratio = _held(np.log(table.simulation_ratio))
@@ -180,22 +201,9 @@ class AvTable:
         range_over_h_rms: ArrayLike,
         magnification: ArrayLike = np.inf,
     ) -> AvEstimate:
-        """a_V of a self-affine surface without roll-off.
+        """a_V of a self-affine surface without roll-off; ValueError outside the table.
 
-        Parameters
-        ----------
-        hurst : array_like
-        pressure : array_like
-            Mean pressure over E* q0 h_rms.
-        range_over_h_rms : array_like
-            Range of attraction over rms height.
-        magnification : array_like
-            q1/q0; infinite by default.
-
-        Raises
-        ------
-        ValueError
-            If an argument lies outside the table.
+        The pressure is the mean one over E* q0 h_rms, the magnification q1/q0.
         """
         given = (hurst, magnification, pressure, range_over_h_rms)
         given = np.broadcast_arrays(*(np.asarray(x, dtype=float) for x in given))
@@ -203,13 +211,11 @@ class AvTable:
             self._check(name, values)
         shape = given[0].shape
         h, zeta, p, eps = (x.ravel() for x in given)
-        logs, below, above = (np.empty(h.size) for _ in range(3))
-        edge = np.zeros(h.size, dtype=bool)
-        broad = np.isinf(zeta)
+        logs, below, above = np.empty((3, h.size))
+        edge, broad = np.zeros(h.size, dtype=bool), np.isinf(zeta)
         at = np.stack([h, np.log(p), np.log(eps)], axis=-1)[broad]
-        logs[broad], below[broad], above[broad] = (
-            self._limit[name](at) for name in ("a_v", "below", "above")
-        )
+        for found, name in ((logs, "a_v"), (below, "below"), (above, "above")):
+            found[broad] = self._limit[name](at)
         rest = ~broad
         if rest.any():
             found = self._at_finite(*(np.log(x[rest]) for x in (zeta, p, eps)), h[rest])
@@ -234,12 +240,11 @@ class AvTable:
         return AvEstimate(**{name: part.reshape(shape)[()] for name, part in parts.items()})
 
     def _drift(self, eps):
-        """Standard error that extrapolation adds below the simulated ranges.
+        """Standard error that extrapolation adds below the simulated ranges, a step a decade.
 
-        It grows as a random walk with one step a decade. Theory and simulation follow the same
-        power laws there: self-affine scaling, then the 3/2 law of the gap next to edges. Their
-        ratio therefore has no trend of its own. From one simulated decade to the next its drift
-        changes size, and at small loads sign.
+        Theory and simulation follow the same power laws there: self-affine scaling, then the 3/2
+        law of the gap next to edges. Their ratio therefore has no trend of its own. From one
+        simulated decade to the next its drift changes size, and at small loads sign.
         """
         decades = np.clip(np.log10(self._simulated / eps), 0, None)
         return self._extrapolation * np.sqrt(decades)
@@ -282,30 +287,18 @@ class AvTable:
             )
 
 
-def _axis(table: xr.DataArray, name: str) -> NDArray:
-    values = table[name].values.astype(float)
-    return values if name == "hurst" else np.log(values)
-
-
-def _interpolator(table, axes, method):
-    grid = tuple(_axis(table, name) for name in axes)
+def _interpolate(table: xr.DataArray, axes: Sequence[str], method: str = "linear"):
+    grid = [table[name].values.astype(float) for name in axes]
+    grid = [x if name == "hurst" else np.log(x) for name, x in zip(axes, grid, strict=True)]
     # Points within rounding of an end count as inside; a_v_at has checked the rest.
     return RegularGridInterpolator(
         grid, table.transpose(*axes).values, method, bounds_error=False, fill_value=None
     )
 
 
-def _smooth(table: xr.DataArray, axes: tuple[str, ...]) -> RegularGridInterpolator:
-    return _interpolator(table, axes, "cubic")
-
-
-def _linear(table: xr.DataArray, axes: tuple[str, ...]) -> RegularGridInterpolator:
-    return _interpolator(table, axes, "linear")
-
-
 def _held(table: xr.DataArray):
     """Linear between simulated loads and ranges, or ranges alone, held constant beyond them."""
     axes = [name for name in ("simulated_pressure", "simulated_range") if name in table.dims]
-    interpolator = _interpolator(table, axes, "linear")
+    interpolator = _interpolate(table, axes)
     low, high = (np.array([end(x) for x in interpolator.grid]) for end in (np.min, np.max))
     return lambda at: interpolator(np.clip(at, low, high))

@@ -1,8 +1,7 @@
 """Errata of the manuscript, as data that recomputes itself.
 
-Each `Erratum` says what is printed, what is right and how that is known, and returns the numbers
-behind the statement, from the library's own functions wherever they exist. "Printed" quotes
-formulas of Violano, Afferrante, Papangelo & Ciavarella, J. Adhesion (2019),
+Each `Erratum` returns the numbers behind it, from the library's own functions wherever they exist.
+"Printed" quotes formulas of Violano, Afferrante, Papangelo & Ciavarella, J. Adhesion (2019),
 doi:10.1080/00218464.2019.1685384.
 """
 
@@ -21,27 +20,14 @@ _MEASURED_A_V = 3.0  # the value the paper finds, 3/2 of which is the right coef
 
 @dataclass(frozen=True)
 class Erratum:
-    """One inconsistency of the printed paper.
+    """One inconsistency of the printed paper: what is printed, what is right, and the proof."""
 
-    Attributes
-    ----------
-    number : int
-        Position in the list of errata.
-    subject : str
-        What it is about.
-    printed, correct : str
-        The statement as printed and as it should read.
-    proof : str
-        How the correction is established.
-    recompute : callable
-        Returns the numbers, by name, that the statements quote or compare.
-    """
-
-    number: int
+    number: int  # position in the list
     subject: str
     printed: str
     correct: str
     proof: str
+    # numbers, by name, that the statements quote or compare
     recompute: Callable[[], dict[str, float]]
 
 
@@ -64,8 +50,8 @@ def _coefficient() -> dict[str, float]:
         for exponent in (6, 9, 12):
             limit = formulas.h_rms_limit(10.0**-exponent, 0.05, 1.0, a_v)
             numbers[f"h_over_range_limit_{name}_1e-{exponent}"] = limit
-        modulus = formulas.modulus_threshold(asphalt, q0, 0.05, 0.2e-9, a_v)
-        numbers[f"asphalt_modulus_Pa_{name}"] = modulus
+        threshold = formulas.modulus_threshold(asphalt, q0, 0.05, 0.2e-9, a_v)
+        numbers[f"asphalt_modulus_Pa_{name}"] = threshold
     return numbers
 
 
@@ -100,15 +86,11 @@ def _kilometres() -> dict[str, float]:
 
 def _pastewka_robbins_numbers() -> dict[str, float]:
     numbers = {}
-    for name, ratio in (
-        ("ratio_exact", formulas.CRYSTAL_RANGE_RATIO),
-        ("ratio_1.1", 1.1),
-        ("ratio_1", 1.0),
-    ):
+    ratios = {"ratio_exact": formulas.CRYSTAL_RANGE_RATIO, "ratio_1.1": 1.1, "ratio_1": 1.0}
+    for name, ratio in ratios.items():
         numbers[f"prefactor_{name}"] = formulas.pastewka_robbins_a_v(1.0, 1.0, 1.0, 1.0, ratio)
         # At zeta = 1 the power zeta^((5H - 3)/3) is 1 and the broad-band form is its prefactor.
-        power_law = formulas.pastewka_robbins_a_v_power_law(0.8, 1.0, ratio)
-        numbers[f"power_law_{name}"] = power_law
+        numbers[f"power_law_{name}"] = formulas.pastewka_robbins_a_v_power_law(0.8, 1.0, ratio)
     return numbers
 
 

@@ -1,21 +1,22 @@
 """Stickiness criteria, which say whether a rough contact sustains tension.
 
 Every length is in one unit of the caller's choice, wave numbers in its inverse; the adhesion
-length is l_a = (work of adhesion)/E*. Arguments broadcast as numpy arrays do, so that a map is
-one call. A `Verdict` has a margin, the ratio of the criterion's threshold to the actual value in
-the form the criterion is usually written in: above 1 means sticky. Margins of different criteria
-are different powers of the same physics: compare only on which side of 1 they lie.
+length is l_a = (work of adhesion)/E*. Arguments broadcast as numpy arrays do. A `Verdict` has a
+margin, the ratio of the criterion's threshold to the actual value in the form the criterion is
+usually written in: above 1 means sticky. Margins of different criteria are different powers of the
+same physics: compare only on which side of 1 they lie.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+from scipy.optimize import minimize_scalar
+from scipy.special import ndtr
 
-from stickiness.adhesion.area_load import (
+from stickiness.adhesion.area_load import (  # noqa: F401
     h_rms_limit,
     inverse_kappa,
     inverse_kappa_ad,
@@ -27,42 +28,21 @@ from stickiness.adhesion.area_load import (
     violano_c0_limit,
 )
 from stickiness.core.arguments import plain, positive
-from stickiness.criteria.bearing import bearing_area_pull_off, log_maximum
+from stickiness.surfaces.spectrum import Spectrum
 
-__all__ = [
-    "CRYSTAL_RANGE_RATIO",
-    "DAHLQUIST_LIMIT",
-    "PRINTED_A_V",
-    "PR_CONSTANT",
-    "DmtValidity",
-    "Verdict",
-    "bearing_area",
-    "bearing_area_pull_off",
-    "dahlquist",
-    "dmt_validity",
-    "fuller_tabor",
-    "h_rms_limit",
-    "inverse_kappa",
-    "inverse_kappa_ad",
-    "jtb_limit",
-    "kappa",
-    "modulus_threshold",
-    "nayak_summit_radius",
-    "pastewka_robbins",
-    "pastewka_robbins_a_v",
-    "pastewka_robbins_a_v_power_law",
-    "pastewka_robbins_range",
-    "persson_tosatti",
-    "slope_angle",
-    "traction_ratio",
-    "violano",
-    "violano_c0_limit",
-    "violano_printed",
+__all__ = [  # noqa: PLE0604
+    *("CRYSTAL_RANGE_RATIO", "DAHLQUIST_LIMIT", "PRINTED_A_V", "PR_CONSTANT", "DmtValidity"),
+    *("Verdict", "bearing_area", "bearing_area_pull_off", "dahlquist", "dmt_validity"),
+    *("fuller_tabor", "h_rms_limit", "inverse_kappa", "inverse_kappa_ad", "jtb_limit", "kappa"),
+    *("modulus_threshold", "nayak_summit_radius", "pastewka_robbins", "pastewka_robbins_a_v"),
+    *("pastewka_robbins_a_v_power_law", "pastewka_robbins_range", "persson_tosatti", "slope_angle"),
+    *("traction_ratio", "violano", "violano_c0_limit", "violano_printed"),
 ]
 
 PRINTED_A_V = 1.5  # the coefficient 9/4 printed in the paper is (3/2) a_V with this a_V
 PR_CONSTANT = np.pi * (3 / 16) ** (2 / 3)  # Pastewka & Robbins (2014), 1.03
 DAHLQUIST_LIMIT = 1e6  # Pa
+_GAUSS_NODES, _GAUSS_WEIGHTS = np.polynomial.legendre.leggauss(8)
 CRYSTAL_RANGE_RATIO = float(np.sqrt(24 * 0.05))  # Delta_r/range at l_a = 0.05 range
 
 
@@ -101,13 +81,6 @@ class DmtValidity:
     margin: float | NDArray
 
 
-class HasElasticEnergy(Protocol):
-    """Anything that knows its energy of full contact, see `spectrum.Spectrum`."""
-
-    def elastic_energy(self) -> float:
-        """Elastic energy of full contact per nominal area over E* [length]."""
-
-
 def _verdict(name: str, margin: ArrayLike) -> Verdict:
     margin = np.asarray(margin, dtype=float)
     return Verdict(name, plain(margin > 1), plain(margin))
@@ -133,10 +106,7 @@ def violano(
 def violano_printed(
     h_rms: ArrayLike, q0: ArrayLike, adhesion_length: ArrayLike, range: ArrayLike
 ) -> Verdict:
-    """`violano` with the coefficient 9/4 as printed, that is with a_V = 3/2.
-
-    With the a_V near 3 that the paper finds the coefficient would be 9/2.
-    """
+    """`violano` with the coefficient 9/4 as printed, that is with a_V = 3/2."""
     (h,) = positive(h_rms=h_rms)
     return _verdict("violano_printed", h_rms_limit(q0, adhesion_length, range, PRINTED_A_V) / h)
 
@@ -153,9 +123,8 @@ def dmt_validity(
 def pastewka_robbins_range(adhesion_length: ArrayLike, range: ArrayLike) -> float | NDArray:
     """Width Delta_r = sqrt(24 l_a range) [length] of the attraction in the Pastewka-Robbins form.
 
-    As Violano et al. (2019) state it; 1.095 range for a crystal on itself (l_a = 0.05 range).
-    For soft solids it grows far beyond the range, where passing the range itself is the
-    alternative.
+    As Violano et al. (2019) state it; 1.095 range for a crystal on itself (l_a = 0.05 range). For
+    soft solids it grows far beyond the range, which may then be passed in its place.
     """
     adhesion_length, range = positive(adhesion_length=adhesion_length, range=range)
     return plain(np.sqrt(24 * adhesion_length * range))
@@ -170,8 +139,8 @@ def pastewka_robbins(
 ) -> Verdict:
     """Pastewka & Robbins (2014), on the small-scale roughness alone.
 
-    Sticky when (h' Delta_r/2 l_a) (h' d_rep/4 Delta_r)^(2/3) < pi (3/16)^(2/3), with
-    d_rep = 4 h'/h''. The margin is the right over the left side.
+    Sticky when (h' Delta_r/2 l_a) (h' d_rep/4 Delta_r)^(2/3) < pi (3/16)^(2/3), with d_rep = 4
+    h'/h''. The margin is the right over the left side.
 
     Parameters
     ----------
@@ -209,20 +178,11 @@ def pastewka_robbins_a_v(
 ) -> float | NDArray:
     """Return a_V of the attractive area that Pastewka & Robbins assume.
 
-    (4 pi/3) (3/16)^(2/3) (Delta_r/range)^(2/3) q0 h_rms^(5/3) (h''^2/h'^7)^(1/3). The default
-    ratio is Delta_r/range at l_a = 0.05 range and gives the prefactor 1.458; a ratio of 1 gives
-    1.372 and is the value with which `violano` reproduces the verdict of `pastewka_robbins` for
-    Delta_r = range. (For another Delta_r the verdicts agree with 1.372 (Delta_r/range)^(-1/3),
-    because the stress falls as the width grows.)
-
-    Parameters
-    ----------
-    q0, h_rms : array_like
-        Lowest wave number [1/length] and root mean square height [length].
-    rms_slope, rms_curvature : array_like
-        Root mean square gradient [1] and Laplacian [1/length].
-    range_ratio : array_like
-        Delta_r/range.
+    (4 pi/3) (3/16)^(2/3) (Delta_r/range)^(2/3) q0 h_rms^(5/3) (h''^2/h'^7)^(1/3), with the
+    arguments of `pastewka_robbins` and `range_ratio` = Delta_r/range. The default ratio is that at
+    l_a = 0.05 range and gives the prefactor 1.458; a ratio of 1 gives 1.372, with which `violano`
+    reproduces the verdict of `pastewka_robbins` for Delta_r = range. (For another Delta_r the
+    verdicts agree with 1.372 (Delta_r/range)^(-1/3), because the stress falls as the width grows.)
     """
     q0, h, slope, curvature, ratio = positive(
         q0=q0,
@@ -262,20 +222,18 @@ def fuller_tabor(
 ) -> Verdict:
     """Fuller & Tabor (1975): sticky when theta = h_rms^(3/2)/(R^(1/2) l_a) is below 10.
 
-    The margin is threshold over theta. The original R is the radius of equal spheres on the
-    surface. For random surfaces the default is R = 2/h'', the radius of the paraboloid whose
-    Laplacian is the root mean square one; Nayak's mean summit curvature gives R = 1.085/h''
-    (`nayak_summit_radius`), a theta larger by 1.36. The threshold is where the pull-off force
-    has practically gone.
+    The margin is threshold over theta. The threshold is where the pull-off force has practically
+    gone.
 
     Parameters
     ----------
-    h_rms, rms_curvature : array_like
-        Root mean square height [length] and Laplacian [1/length].
-    adhesion_length : array_like
-        Work of adhesion over E* [length].
+    h_rms, rms_curvature, adhesion_length : array_like
+        Root mean square height [length] and Laplacian h'' [1/length]; work of adhesion over E*
+        [length].
     radius : array_like, optional
-        Summit radius R [length] in place of 2/h''.
+        Summit radius R [length], originally that of equal spheres. Default: 2/h'', the radius of
+        the paraboloid whose Laplacian is the root mean square one. Nayak's mean summit curvature
+        gives 1.085/h'' (`nayak_summit_radius`), a theta larger by 1.36.
     threshold : float
         Largest sticky theta.
 
@@ -311,8 +269,8 @@ def bearing_area(
 
     Repulsion p_rep = repulsion E* q0 h_rms exp(-2 u/h_rms) at the mean gap u, attraction
     (l_a/range) times the fraction of Gaussian heights between u - range and u. Sticky when the
-    total is tensile at some u. The margin is the largest p_ad/p_rep over u; for range << h_rms
-    it is e^2/sqrt(2 pi) l_a/(repulsion q0 h_rms^2).
+    total is tensile at some u. The margin is the largest p_ad/p_rep over u; for range << h_rms it
+    is e^2/sqrt(2 pi) l_a/(repulsion q0 h_rms^2).
 
     Parameters
     ----------
@@ -333,22 +291,72 @@ def bearing_area(
     scale = np.log(adhesion_length / range / (repulsion * q0 * h))
     # Ranges of hundreds of h_rms stick without bound; the infinite margin says so.
     with np.errstate(over="ignore"):
-        return _verdict("bearing_area", np.exp(scale + log_maximum(range / h)))
+        return _verdict("bearing_area", np.exp(scale + _log_maximum(range / h)))
 
 
-def persson_tosatti(
-    elastic_energy: ArrayLike | HasElasticEnergy, adhesion_length: ArrayLike
-) -> Verdict:
+def bearing_area_pull_off(
+    h_rms: float, q0: float, adhesion_length: float, range: float, repulsion: float = 1.0
+) -> tuple[float, float]:
+    """Minimum of the external pressure over the mean gap in the bearing-area model.
+
+    Parameters are those of `bearing_area`, as scalars.
+
+    Returns
+    -------
+    pressure : float
+        Smallest p_rep - p_ad [E*] over gaps up to 8 h_rms beyond the range, negative if sticky.
+    mean_gap : float
+        Mean gap [length] where it is reached.
+    """
+    given = positive(
+        h_rms=h_rms, q0=q0, adhesion_length=adhesion_length, range=range, repulsion=repulsion
+    )
+    h, q0, adhesion_length, range, repulsion = map(float, given)
+    relative = range / h
+
+    def pressure(x: float) -> float:
+        attraction = adhesion_length / range * _bearing_fraction(x, relative)
+        return repulsion * q0 * h * np.exp(-2 * x) - attraction
+
+    # Below range/2 the attraction rises and the repulsion falls, so the minimum lies above. A
+    # grid first: towards infinity the pressure vanishes from above and is a second trough.
+    grid = relative / 2 + np.linspace(0, relative / 2 + 8, 400)
+    best = int(np.argmin([pressure(x) for x in grid]))
+    bounds = grid[max(best - 1, 0)], grid[min(best + 1, grid.size - 1)]
+    found = minimize_scalar(pressure, bounds=bounds, method="bounded", options={"xatol": 1e-10})
+    return float(found.fun), float(found.x * h)
+
+
+def _bearing_fraction(x: float, width: float) -> float:
+    """Fraction of standard normal heights in (x - width, x), without cancellation."""
+    if width > 0.5:
+        return float(ndtr(width - x) - ndtr(-x))
+    z = x - width / 2 * (1 - _GAUSS_NODES)
+    density = np.exp(-(z**2) / 2) / np.sqrt(2 * np.pi)
+    return float(width / 2 * np.sum(_GAUSS_WEIGHTS * density))
+
+
+@np.vectorize
+def _log_maximum(width: float) -> float:
+    """Maximum over x of 2 x + ln(fraction of normal heights in (x - width, x)).
+
+    The fraction is log-concave, and the slope 2 - E[z | x - width < z < x] changes sign between
+    x = 2 and x = 2 + width: one maximum, bracketed.
+    """
+    found = minimize_scalar(
+        lambda x: -2 * x - np.log(_bearing_fraction(x, width)),
+        bounds=(2.0, 2.0 + width),
+        method="bounded",
+        options={"xatol": 1e-9},
+    )
+    return -float(found.fun)
+
+
+def persson_tosatti(elastic_energy: ArrayLike | Spectrum, adhesion_length: ArrayLike) -> Verdict:
     """Persson & Tosatti (2001): sticky when adhesion pays for full contact.
 
-    The margin is l_a over the elastic energy length (pi/2) int q^2 C dq.
-
-    Parameters
-    ----------
-    elastic_energy : array_like or object with ``elastic_energy()``
-        Elastic energy of full contact per nominal area over E* [length], or a spectrum.
-    adhesion_length : array_like
-        Work of adhesion over E* [length].
+    The margin is l_a over the elastic energy of full contact per nominal area over E* [length],
+    (pi/2) int q^2 C dq, which may be given by its spectrum.
 
     References
     ----------

@@ -21,13 +21,7 @@ _GLASSY = 1e100  # x from which on a term is E_i to rounding; its square does no
 
 @dataclass(frozen=True)
 class Constant:
-    """Modulus of an elastic solid.
-
-    Attributes
-    ----------
-    modulus : float
-        At every frequency [Pa].
-    """
+    """Modulus of an elastic solid [Pa], the same at every frequency."""
 
     modulus: float
 
@@ -42,18 +36,10 @@ class Constant:
 
 @dataclass(frozen=True)
 class Prony:
-    """Relaxation modulus E(t) = equilibrium + sum of E_i exp(-t/tau_i).
+    """Relaxation modulus E(t) = equilibrium + sum of E_i exp(-t/tau_i)."""
 
-    Attributes
-    ----------
-    equilibrium : float
-        Modulus at rest [Pa].
-    terms : tuple of (modulus [Pa], time [s])
-        E_i and tau_i.
-    """
-
-    equilibrium: float
-    terms: tuple[tuple[float, float], ...]
+    equilibrium: float  # modulus at rest [Pa]
+    terms: tuple[tuple[float, float], ...]  # E_i [Pa] and tau_i [s]
 
     def __post_init__(self):
         positive(equilibrium=self.equilibrium)
@@ -77,18 +63,10 @@ class Prony:
 
 @dataclass(frozen=True)
 class Table:
-    """Storage modulus as measured, interpolated in logarithms.
+    """Storage modulus as measured, interpolated in logarithms."""
 
-    Attributes
-    ----------
-    frequencies : tuple of float
-        Increasing [Hz].
-    moduli : tuple of float
-        Storage moduli [Pa].
-    """
-
-    frequencies: tuple[float, ...]
-    moduli: tuple[float, ...]
+    frequencies: tuple[float, ...]  # increasing [Hz]
+    moduli: tuple[float, ...]  # [Pa]
 
     def __post_init__(self):
         frequencies, _ = positive(frequencies=self.frequencies, moduli=self.moduli)
@@ -110,22 +88,11 @@ Modulus = Constant | Prony | Table
 def crossings(
     modulus: Modulus, threshold: float, frequencies: ArrayLike
 ) -> Sequence[tuple[float, bool]]:
-    """Frequencies at which the storage modulus passes a threshold.
+    """Frequencies at which the storage modulus passes a threshold [Pa], in ascending order.
 
-    Parameters
-    ----------
-    modulus : Modulus
-        Any of the above.
-    threshold : float
-        Modulus [Pa].
-    frequencies : (n,) array
-        Increasing; crossings are looked for between neighbours, those of a table too, and
-        interpolated in logarithms.
-
-    Returns
-    -------
-    list of (frequency, upwards)
-        In ascending order; `upwards` where the modulus exceeds the threshold beyond.
+    Crossings are looked for between neighbours of the increasing `frequencies`, those of a table
+    too, and interpolated in logarithms. With each comes whether the modulus exceeds the threshold
+    beyond.
     """
     (frequencies,) = positive(frequencies=frequencies)
     (limit,) = positive(threshold=threshold)
@@ -135,11 +102,9 @@ def crossings(
         inside = np.clip(modulus.frequencies, frequencies[0], frequencies[-1])
         frequencies = np.union1d(frequencies, inside)
     excess = np.log(np.asarray(modulus.storage(frequencies)) / limit)
-    found = []
-    for i in np.flatnonzero(np.diff(np.sign(excess)) != 0):
-        a, b = excess[i], excess[i + 1]
-        if np.isfinite(a) and np.isfinite(b) and a != 0:
-            share = a / (a - b)
-            x = frequencies[i] * (frequencies[i + 1] / frequencies[i]) ** share
-            found.append((float(x), bool(b > a)))
-    return found
+    a, b = excess[:-1], excess[1:]
+    known = np.isfinite(a) & np.isfinite(b) & (a != 0)
+    here = np.flatnonzero((np.sign(a) != np.sign(b)) & known)
+    a, b, low, high = a[here], b[here], frequencies[here], frequencies[here + 1]
+    passed = low * (high / low) ** (a / (a - b))
+    return list(zip(passed.tolist(), (b > a).tolist(), strict=True))

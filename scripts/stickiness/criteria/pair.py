@@ -1,48 +1,36 @@
-"""A material on a rough surface: what the stickiness criteria need to know of the two."""
+"""A material on a rough surface: what criteria need to know of the two, and words for verdicts."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 
+import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from stickiness.adhesion import equivalent_sphere
 
+WORDS = ("not sticky", "depends", "sticky", "undecided")
+NOT_STICKY, DEPENDS, STICKY, UNDECIDED = range(4)
+REGIMES = ("weak", "between", "tough", "strong")
+WEAK, BETWEEN, TOUGH, STRONG = range(4)
+
 
 @dataclass(frozen=True)
 class Pair:
-    """A material on a surface; numbers, or arrays that broadcast against each other.
+    """A material on a surface; numbers, or arrays that broadcast against each other."""
 
-    Attributes
-    ----------
-    h_rms, q0 : array_like
-        Root mean square height [m] and lowest wave number [1/m].
-    rms_slope, rms_curvature : array_like
-        Root mean square gradient [1] and Laplacian [1/m].
-    elastic_energy : array_like
-        Elastic energy of full contact per nominal area over E* [m].
-    modulus : array_like
-        Plane-strain modulus E* [Pa].
-    work_of_adhesion, range : array_like
-        Of the attraction [J/m^2] and [m].
-    a_v, a_v_low, a_v_high : array_like
-        a_V at this range on this surface, with its limits.
-    constant_a_v : array_like
-        a_V of a broad spectrum in the interval of the fit, the same for every pair.
-    """
-
-    h_rms: ArrayLike
-    q0: ArrayLike
-    rms_slope: ArrayLike
-    rms_curvature: ArrayLike
-    elastic_energy: ArrayLike
-    modulus: ArrayLike
-    work_of_adhesion: ArrayLike
-    range: ArrayLike
-    a_v: ArrayLike
-    a_v_low: ArrayLike
+    h_rms: ArrayLike  # [m]
+    q0: ArrayLike  # lowest wave number [1/m]
+    rms_slope: ArrayLike  # rms gradient [1]
+    rms_curvature: ArrayLike  # rms Laplacian [1/m]
+    elastic_energy: ArrayLike  # of full contact per nominal area over E* [m]
+    modulus: ArrayLike  # plane-strain modulus E* [Pa]
+    work_of_adhesion: ArrayLike  # [J/m^2]
+    range: ArrayLike  # of the attraction [m]
+    a_v: ArrayLike  # at this range on this surface
+    a_v_low: ArrayLike  # its limits
     a_v_high: ArrayLike
-    constant_a_v: ArrayLike
+    constant_a_v: ArrayLike  # a_V of a broad spectrum, the same for every pair
 
     @property
     def adhesion_length(self) -> float | NDArray:
@@ -82,3 +70,23 @@ class Pair:
         # The model's error is that at the threshold without it.
         error = self._attraction(length, a_v).error_factor
         return equivalent_sphere.adhesion_length_threshold(*at, error**sign)
+
+
+def decide(surely: ArrayLike, possibly: ArrayLike, holds: ArrayLike) -> NDArray:
+    """Code of a verdict, its place in `WORDS`.
+
+    Contact grows by itself for all (`surely`) or some (`possibly`) of what is not known. Where it
+    does not, but full contact would hold (`holds`), history decides: undecided.
+    """
+    decided = NOT_STICKY + np.asarray(possibly, dtype="i1") + np.asarray(surely, dtype="i1")
+    return np.where((decided == NOT_STICKY) & holds, UNDECIDED, decided).astype("i1")
+
+
+def classify_edges(attraction: equivalent_sphere.EdgeAttraction) -> NDArray:
+    """Code of the regime of the edges, its place in `REGIMES`."""
+    tau = np.asarray(attraction.strength)
+    return np.select(
+        [tau <= equivalent_sphere.WEAK, tau < equivalent_sphere.TOUGH, attraction.tough],
+        [WEAK, BETWEEN, TOUGH],
+        STRONG,
+    )

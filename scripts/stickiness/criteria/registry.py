@@ -20,82 +20,42 @@ EDGES = "edge_adhesion"
 FULL_CONTACT = "persson_tosatti"
 FACTS = frozenset(  # what a reason can quote of a pair, as texts with units
     (
-        "attractive_over_contact",
-        "edge_strength",
-        "regime",
-        "over_dmt",
-        "h_rms",
-        "q0",
-        "rms_slope",
-        "rms_curvature",
-        "summit_radius",
-        "energy",
-        "work_of_adhesion",
-        "modulus",
-        "a_v",
-        "constant_a_v",
+        *("attractive_over_contact", "edge_strength", "regime", "over_dmt", "h_rms", "q0"),
+        *("rms_slope", "rms_curvature", "summit_radius", "energy"),
+        *("work_of_adhesion", "modulus", "a_v", "constant_a_v"),
     )
 )
 
 
 @dataclass(frozen=True)
 class Line:
-    """Line of a criterion in figure 9.
+    """Line of a criterion in figure 9."""
 
-    Attributes
-    ----------
-    colour : str
-        Name of a colour of the palette.
-    style : str
-        As matplotlib has it.
-    width : float
-        [pt].
-    filled : bool
-        Whether its symbols are filled.
-    """
-
-    colour: str = "grey"
-    style: str = "-"
-    width: float = 1.4
-    filled: bool = True
+    colour: str = "grey"  # name in the palette
+    style: str = "-"  # as matplotlib has it
+    width: float = 1.4  # [pt]
+    filled: bool = True  # whether its symbols are
 
 
 @dataclass(frozen=True)
 class Criterion:
-    """One criterion. It has exactly one of `power`, `length` and `modulus`.
+    """One criterion; it has exactly one of `power`, `length` and `modulus`.
 
-    Attributes
-    ----------
-    name, label : str
-        In datasets, and for people.
-    margin : function of a `Pair`
-        Threshold over actual value in the criterion's own form; sticky above 1.
-    reason : str
-        What the criterion looks at, a template for `str.format` with the names in `FACTS`.
-    power : float, optional
-        Power of the adhesion length that the margin is proportional to.
-    length : function of a `Pair`, optional
-        Adhesion length [m] above which the pair sticks, of a margin that is no power of it.
-    modulus : float, optional
-        Modulus [Pa] below which everything sticks, of a criterion without adhesion length.
-    line : Line
-        Look in figure 9.
-
-    Raises
-    ------
-    ValueError
-        If a name, label or reason is empty, if the reason quotes a fact that is not in `FACTS`, or
-        if there is not exactly one threshold.
+    A ValueError says that a name, label or reason is empty, that the reason quotes a fact not in
+    `FACTS`, or that there is not exactly one threshold.
     """
 
-    name: str
-    label: str
+    name: str  # in datasets
+    label: str  # for people
+    # threshold over actual value in the criterion's own form; sticky above 1
     margin: Callable[[Pair], NDArray]
-    reason: str
-    power: float | None = None
+    reason: str  # what it looks at, for `str.format` with `FACTS`
+    power: float | None = None  # of the adhesion length, that the margin is proportional to
+    # adhesion length [m] above which the pair sticks, of a margin that is no power of it
     length: Callable[[Pair], NDArray] | None = None
+    # [Pa] below which everything sticks, of a criterion without adhesion length
     modulus: float | None = None
-    line: Line = Line()
+    line: Line = Line()  # in figure 9
 
     def __post_init__(self):
         for entry in ("name", "label", "reason"):
@@ -134,29 +94,13 @@ class Criterion:
         return pair.work_of_adhesion / self.adhesion_length_threshold(pair)
 
 
-def _violano(pair):
-    at = pair.h_rms, pair.q0, pair.adhesion_length, pair.range
-    return formulas.violano(*at, pair.a_v).margin
+def _margin_of(formula: Callable, *names: str) -> Callable[[Pair], NDArray]:
+    """Margin of a pair by a formula of these of its numbers."""
+    return lambda pair: formula(*(getattr(pair, name) for name in names)).margin
 
 
-def _violano_constant(pair):
-    at = pair.h_rms, pair.q0, pair.adhesion_length, pair.range
-    return formulas.violano(*at, pair.constant_a_v).margin
-
-
-def _violano_printed(pair):
-    at = pair.h_rms, pair.q0, pair.adhesion_length, pair.range
-    return formulas.violano_printed(*at).margin
-
-
-def _pastewka_robbins(pair):
-    at = pair.rms_slope, pair.rms_curvature, pair.adhesion_length, pair.range
-    return formulas.pastewka_robbins(*at).margin
-
-
-def _bearing_area(pair):
-    at = pair.h_rms, pair.q0, pair.adhesion_length, pair.range
-    return formulas.bearing_area(*at).margin
+_HEIGHTS = ("h_rms", "q0", "adhesion_length", "range")
+_SLOPES = ("rms_slope", "rms_curvature", "adhesion_length", "range")
 
 
 CRITERIA = {
@@ -175,7 +119,7 @@ CRITERIA = {
         Criterion(
             "violano",
             "derived (DMT limit)",
-            margin=_violano,
+            margin=_margin_of(formulas.violano, *_HEIGHTS, "a_v"),
             power=3 / 5,
             reason="h_rms = {h_rms}, q0 = {q0}/m and a_V = {a_v}. Long waves set the repulsion; "
             "the attraction acts over the gaps of contact without adhesion.",
@@ -184,7 +128,7 @@ CRITERIA = {
         Criterion(
             "violano_constant",
             "derived (constant a_V)",
-            margin=_violano_constant,
+            margin=_margin_of(formulas.violano, *_HEIGHTS, "constant_a_v"),
             power=3 / 5,
             reason="The same with a_V = {constant_a_v} of a broad spectrum instead of {a_v}.",
             line=Line("black", "-.", 1.2, filled=False),
@@ -192,7 +136,7 @@ CRITERIA = {
         Criterion(
             "violano_printed",
             "derived (9/4 as printed)",
-            margin=_violano_printed,
+            margin=_margin_of(formulas.violano_printed, *_HEIGHTS),
             power=3 / 5,
             reason=f"The same with a_V = {formulas.PRINTED_A_V:g} instead of {{a_v}}.",
             line=Line("black", ":", 1.2, filled=False),
@@ -200,7 +144,7 @@ CRITERIA = {
         Criterion(
             "pastewka_robbins",
             "Pastewka–Robbins",
-            margin=_pastewka_robbins,
+            margin=_margin_of(formulas.pastewka_robbins, *_SLOPES),
             power=5 / 6,  # the width of the attraction grows with the root of l_a
             reason="Slope {rms_slope} and curvature {rms_curvature}/m, which the shortest waves "
             "set. Neither h_rms nor q0 matters.",
@@ -209,9 +153,7 @@ CRITERIA = {
         Criterion(
             "fuller_tabor",
             "Fuller–Tabor",
-            margin=lambda pair: (
-                formulas.fuller_tabor(pair.h_rms, pair.rms_curvature, pair.adhesion_length).margin
-            ),
+            margin=_margin_of(formulas.fuller_tabor, "h_rms", "rms_curvature", "adhesion_length"),
             power=1.0,
             reason="h_rms = {h_rms} against asperities of radius {summit_radius}, which the "
             "shortest waves set.",
@@ -220,7 +162,7 @@ CRITERIA = {
         Criterion(
             "bearing_area",
             "bearing area (BAM)",
-            margin=_bearing_area,
+            margin=_margin_of(formulas.bearing_area, *_HEIGHTS),
             power=1.0,
             reason="Heights within the range of the mean plane attract: h_rms = {h_rms} and q0 = "
             "{q0}/m. Finer waves do not matter.",
@@ -229,9 +171,7 @@ CRITERIA = {
         Criterion(
             FULL_CONTACT,
             "Persson–Tosatti",
-            margin=lambda pair: (
-                formulas.persson_tosatti(pair.elastic_energy, pair.adhesion_length).margin
-            ),
+            margin=_margin_of(formulas.persson_tosatti, "elastic_energy", "adhesion_length"),
             power=1.0,
             reason="Full contact costs the energy {energy} and gains the work of adhesion "
             "{work_of_adhesion}. Contact need not be full to stick.",
@@ -240,7 +180,7 @@ CRITERIA = {
         Criterion(
             "dahlquist",
             "Dahlquist",
-            margin=lambda pair: formulas.dahlquist(pair.modulus).margin,
+            margin=_margin_of(formulas.dahlquist, "modulus"),
             modulus=formulas.DAHLQUIST_LIMIT,
             reason="E* = {modulus} at 1 Hz against 1 MPa. The criterion considers no roughness at "
             "all.",

@@ -9,11 +9,10 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from stickiness.core.arguments import positive
+from stickiness.criteria.a_v_table import VARIANTS, SurfaceAv, theory_a_v
 from stickiness.criteria.formulas import pastewka_robbins_a_v
-from stickiness.criteria.pair import Pair
+from stickiness.criteria.pair import REGIMES, WORDS, Pair, classify_edges, decide
 from stickiness.criteria.registry import CRITERIA, EDGES, FULL_CONTACT
-from stickiness.criteria.surface_a_v import VARIANTS, SurfaceAv, theory_a_v
-from stickiness.criteria.words import REGIMES, WORDS, classify_edges, decide
 from stickiness.measured import instrument_spectrum
 from stickiness.measured.topography import Topography
 from stickiness.surfaces.spectrum import Spectrum, Tabulated
@@ -33,22 +32,17 @@ class StickinessVerdict:
     word : str
         One of `WORDS`: "depends" if 1 lies within the limits of the margin, "undecided" if contact
         does not grow by itself but would hold once it is full.
-    margin : float
-        Attraction over repulsion at equal area of contact, by the edges; sticky above 1.
-    margin_limits : (float, float)
-        Lowest and highest margin for the limits of a_V and of the model.
-    modulus_threshold : float
-        Plane-strain modulus [Pa] below which the pair sticks.
-    modulus_threshold_limits : (float, float)
-        Its limits [Pa].
+    margin, margin_limits : float, (float, float)
+        Attraction over repulsion at equal area of contact, by the edges, sticky above 1; lowest and
+        highest for the limits of a_V and of the model.
+    modulus_threshold, modulus_threshold_limits : float, (float, float)
+        Plane-strain modulus below which the pair sticks, and its limits [Pa].
     regime : str
         One of `REGIMES`, by the Tabor parameter of the edges.
     simulated : bool
         Whether full simulation covers the state of the edges.
-    a_v : float
-        a_V of the pair.
-    a_v_limits : (float, float)
-        Its limits.
+    a_v, a_v_limits : float, (float, float)
+        a_V of the pair, and its limits.
     margins : dict of float
         Margin by every criterion of `registry.CRITERIA`; sticky above 1.
     """

@@ -23,21 +23,12 @@ _ROOM = 10**0.5  # smallest ratio of the bend to the lowest wave number
 
 @dataclass(frozen=True)
 class Bend:
-    """Wave number beyond which a spectrum is the instrument's rather than the surface's.
+    """Wave number beyond which a spectrum is the instrument's rather than the surface's."""
 
-    Attributes
-    ----------
-    q : float
-        Highest wave number of the surface's spectrum [1/length].
-    kind : {"blur", "noise"}
-        Whether the spectrum beyond falls faster or slower than that of any surface.
-    exponent : float
-        s in C ~ q^-s just beyond.
-    """
-
-    q: float
+    q: float  # highest wave number of the surface's spectrum [1/length]
+    # the spectrum beyond falls faster or slower than that of any surface
     kind: Literal["blur", "noise"]
-    exponent: float
+    exponent: float  # s in C ~ q^-s just beyond
 
 
 def tip_cutoff(heights: ArrayLike, steps: tuple[float, ...], radius: float) -> float | None:
@@ -47,25 +38,11 @@ def tip_cutoff(heights: ArrayLike, steps: tuple[float, ...], radius: float) -> f
     which some second difference reaches -1/(2R) (Sanner, Nöhring, Thimons, Jacobs & Pastewka
     2022, doi:10.1016/j.apsadv.2021.100190).
 
-    Parameters
-    ----------
-    heights : (nx, ny) or (n,) array
-        Heights [length].
-    steps : tuple of float
-        Grid steps along the axes [length].
-    radius : float
-        Radius of the tip [length].
-
     Returns
     -------
     float or None
-        Length of the stencil at which the sharpest peak reaches the limit [length], the largest
-        over both axes; None if no peak is so sharp; infinity if there is one at every distance.
-
-    Raises
-    ------
-    ValueError
-        If `radius` is not positive.
+        Length of the stencil at which the sharpest peak reaches the limit, the largest over all
+        axes; None if no peak is so sharp; infinity if there is one at every distance.
     """
     if not radius > 0:
         raise ValueError(f"radius must be positive, got {radius!r}")
@@ -103,15 +80,6 @@ def find_bend(rings: RadialPSD, q_min: float, q_nyquist: float) -> Bend | None:
     Nyquist wave number downwards, a spectrum that falls slower than q^-1.5 is noise and, below
     that, one that falls faster than q^-5 is blur: no self-affine surface has either, whatever its
     roll-off. A bend less than half a decade above `q_min` is ignored; the surface may be smooth.
-
-    Parameters
-    ----------
-    rings : RadialPSD
-        Narrow rings of C in ascending order.
-    q_min : float
-        Lowest wave number considered [1/length].
-    q_nyquist : float
-        Nyquist wave number [1/length].
     """
     q, slope = local_exponents(rings.between(q_min, q_nyquist))
     if not len(q):
@@ -119,23 +87,14 @@ def find_bend(rings: RadialPSD, q_min: float, q_nyquist: float) -> Bend | None:
     end = len(q)
     noise = _run_from_the_top(slope < NOISE_EXPONENT)
     blur = _run_from_the_top((slope > BLUR_EXPONENT)[: end - noise])
-    start = end - noise - blur
-    if blur and start and q[start - 1] > q_min * _ROOM:
-        return Bend(float(q[start - 1]), "blur", float(slope[start]))
-    start = end - noise
-    if noise and start and q[start - 1] > q_min * _ROOM:
-        return Bend(float(q[start - 1]), "noise", float(slope[start]))
+    for kind, length, start in (("blur", blur, end - noise - blur), ("noise", noise, end - noise)):
+        if length and start and q[start - 1] > q_min * _ROOM:
+            return Bend(float(q[start - 1]), kind, float(slope[start]))
     return None
 
 
 def local_exponents(rings: RadialPSD) -> tuple[NDArray, NDArray]:
-    """Exponent s of C ~ q^-s about each ring of twenty a decade.
-
-    Returns
-    -------
-    q, exponent : (m,) arrays
-        For the rings with others on both sides.
-    """
+    """Wave numbers and exponents s of C ~ q^-s about rings with others on both sides."""
     if not len(rings):
         return np.empty(0), np.empty(0)
     q, mean, dof = merge_rings(rings, rings.psd, _RINGS)

@@ -10,13 +10,7 @@ from numpy.typing import NDArray
 from stickiness.core.arguments import number, numbers
 from stickiness.measured import profiles
 from stickiness.measured.cutoff import find_bend, tip_cutoff
-from stickiness.measured.psd import (
-    RadialPSD,
-    Taper,
-    merge_rings,
-    power_spectrum,
-    radial_average,
-)
+from stickiness.measured.psd import RadialPSD, Taper, merge_rings, power_spectrum, radial_average
 from stickiness.measured.self_affine_fit import (
     LOWEST_MODES,
     NYQUIST_SHARE,
@@ -32,78 +26,40 @@ _ROUNDING = 1e-13  # relative range of heights below which they are all the same
 
 @dataclass(frozen=True)
 class Cutoff:
-    """Highest wave number at which the spectrum is the surface's, and why.
+    """Highest wave number at which the spectrum is the surface's, and why."""
 
-    Attributes
-    ----------
-    q : float
-        Wave number [1/length].
-    reason : str
-        In a few words.
-    detected : bool
-        Whether it was found in the spectrum or the heights rather than given or by default.
-    """
-
-    q: float
+    q: float  # [1/length]
     reason: str
-    detected: bool = False
+    detected: bool = False  # in the spectrum or the heights, not given or by default
 
 
 @dataclass(frozen=True)
 class MeasuredSpectrum:
-    """Isotropic spectrum of a surface as measured.
+    """Isotropic spectrum of a surface as measured."""
 
-    Attributes
-    ----------
-    rings : RadialPSD
-        C in rings, to show and to integrate [length^4].
-    area : (m,) array
-        Area of each ring in the plane of q: sum of C times this is the variance [1/length^2].
-    narrow : RadialPSD
-        Rings for the fit.
-    q_min : float
-        Lowest wave number that taper and levelling do not change [1/length].
-    cutoff : Cutoff
-        Highest wave number that the instrument resolves.
-    lowest : float
-        Lowest wave number of the scan [1/length].
-    anisotropy : float
-        Amplitude of the dependence on direction; NaN for profiles.
-    fit : SelfAffineFit
-        Self-affine spectrum fitted between `q_min` and the cutoff.
-    """
-
-    rings: RadialPSD
+    rings: RadialPSD  # C in rings, to show and to integrate [length^4]
+    # (m,), of each ring in the plane of q [1/length^2]; the sum of C times it is the variance
     area: NDArray
-    narrow: RadialPSD
-    q_min: float
-    cutoff: Cutoff
-    lowest: float
-    anisotropy: float
-    fit: SelfAffineFit
+    narrow: RadialPSD  # rings for the fit
+    q_min: float  # lowest wave number that taper and levelling do not change [1/length]
+    cutoff: Cutoff  # highest wave number that the instrument resolves
+    lowest: float  # wave number of the scan [1/length]
+    anisotropy: float  # amplitude of the dependence on direction; NaN for profiles
+    fit: SelfAffineFit  # between `q_min` and the cutoff
 
 
 @dataclass(frozen=True)
 class Limits:
     """Limits of an instrument, all optional; lengths in the unit of the heights.
 
-    Attributes
-    ----------
-    fit_from, fit_to : float or None
-        Longest and shortest wavelength of the fit interval; `fit_to` overrides all below.
-    resolution : float or None
-        Shortest wavelength that the instrument resolves.
-    tip_radius : float or None
-        Radius of a scanning tip.
-    detect : bool
-        Whether to look for blur and noise in the spectrum.
+    `fit_to` overrides all below it.
     """
 
-    fit_from: float | None = None
-    fit_to: float | None = None
-    resolution: float | None = None
-    tip_radius: float | None = None
-    detect: bool = True
+    fit_from: float | None = None  # longest wavelength of the fit interval
+    fit_to: float | None = None  # shortest one
+    resolution: float | None = None  # shortest wavelength that the instrument resolves
+    tip_radius: float | None = None  # of a scanning tip
+    detect: bool = True  # look for blur and noise in the spectrum
 
     def __post_init__(self):
         for name in ("fit_from", "fit_to", "resolution", "tip_radius"):
@@ -116,14 +72,7 @@ def analyse(
 ) -> MeasuredSpectrum:
     """Isotropic spectrum of one levelled measurement, with its limits and its self-affine fit.
 
-    Parameters
-    ----------
-    heights : Topography or Profile
-        Levelled.
-    taper : {"hann", "hann_radial", "none"}
-        As in `psd.power_spectrum`.
-    limits : Limits, optional
-        Of the instrument.
+    The taper is that of `psd.power_spectrum`.
 
     Raises
     ------

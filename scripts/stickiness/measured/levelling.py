@@ -21,24 +21,11 @@ _DEGREES = {"mean": 0, "plane": 1, "quadratic": 2}
 
 
 def detrend(heights: NDArray, kind: Detrend = "plane") -> NDArray:
-    """Subtract the mean, plane or quadratic surface that fits the heights best.
+    """Subtract the mean, plane or quadratic surface that fits heights (nx, ny) best.
 
-    Parameters
-    ----------
-    heights : (nx, ny) array
-        Heights, any unit.
-    kind : {"mean", "plane", "quadratic"}
-        Polynomial of total degree 0, 1 or 2 in x and y, fitted by least squares.
-
-    Raises
-    ------
-    ValueError
-        If `kind` is unknown or the heights are not finite and 2D.
+    `kind` is a polynomial of total degree 0, 1 or 2 in x and y, fitted by least squares.
     """
-    degree = _degree(kind)
-    heights = np.asarray(heights, dtype=float)
-    if heights.ndim != 2 or not np.all(np.isfinite(heights)):
-        raise ValueError(f"heights must be 2D and finite, got shape {heights.shape}")
+    heights, degree = _check(heights, kind, 2)
     x, y = (np.linspace(-1, 1, n) if n > 1 else np.zeros(1) for n in heights.shape)
     # Legendre polynomials of each axis: nearly orthogonal on the grid, so the normal equations
     # (small, whatever the grid) lose no digits.
@@ -53,44 +40,28 @@ def detrend(heights: NDArray, kind: Detrend = "plane") -> NDArray:
 
 
 def detrend_profile(heights: NDArray, kind: Detrend = "plane") -> NDArray:
-    """Subtract the mean, line ("plane") or parabola that fits a profile (n,) best.
-
-    Raises
-    ------
-    ValueError
-        If `kind` is unknown or the heights are not finite and 1D.
-    """
-    degree = _degree(kind)
-    heights = np.asarray(heights, dtype=float)
-    if heights.ndim != 1 or not np.all(np.isfinite(heights)):
-        raise ValueError(f"heights must be 1D and finite, got shape {heights.shape}")
+    """Subtract the mean, line ("plane") or parabola that fits a profile (n,) best."""
+    heights, degree = _check(heights, kind, 1)
     basis = np.polynomial.legendre.legvander(np.linspace(-1, 1, len(heights)), degree)
     return heights - basis @ np.linalg.lstsq(basis, heights, rcond=None)[0]
 
 
-def _degree(kind: str) -> int:
+def _check(heights: NDArray, kind: str, dimensions: int) -> tuple[NDArray, int]:
+    """Heights as floats and the degree of the polynomial."""
     if kind not in _DEGREES:
         raise ValueError(f"detrend must be one of {sorted(_DEGREES)}, got {kind!r}")
-    return _DEGREES[kind]
+    heights = np.asarray(heights, dtype=float)
+    if heights.ndim != dimensions or not np.all(np.isfinite(heights)):
+        raise ValueError(f"heights must be {dimensions}D and finite, got shape {heights.shape}")
+    return heights, _DEGREES[kind]
 
 
 def without_rims(heights: NDArray, rim: Rim = "detect") -> tuple[NDArray, int]:
     """Drop the points beside missing ones, where instruments may write values that are far off.
 
-    Parameters
-    ----------
-    heights : (nx, ny) or (n,) array
-        Heights, not finite where missing.
-    rim : int or "detect"
-        Width of the rims [points], diagonals counted as one. "detect": as far as they stand out
-        (`outstanding_rim`).
-
-    Returns
-    -------
-    kept : array
-        Copy of the heights, NaN where missing or dropped.
-    dropped : int
-        How many points were measured and are dropped.
+    `rim` is their width [points], diagonals counted as one; "detect": as far as they stand out
+    (`outstanding_rim`). Returns a copy, NaN where missing or dropped, and how many points were
+    measured and are dropped.
     """
     hole = ~np.isfinite(heights)
     wide = _widened(hole, outstanding_rim(heights) if rim == "detect" else rim)
@@ -134,20 +105,9 @@ def fill_missing(
 ) -> tuple[NDArray, int]:
     """Fill points that are not finite with the harmonic function of their neighbours.
 
-    Each filled point is the mean of its (up to four) neighbours: there are no new extremes, and
-    a plane stays a plane.
-
-    Returns
-    -------
-    filled : (nx, ny) array
-        Copy without missing points.
-    missing : int
-        How many there were.
-
-    Raises
-    ------
-    ValueError
-        If more than the share `max_missing` of the points are missing; `source` is named.
+    Each filled point is the mean of its (up to four) neighbours: there are no new extremes, and a
+    plane stays a plane. Returns a copy, and how many points were missing. A ValueError names
+    `source` if that is more than the share `max_missing`.
     """
     hole = ~np.isfinite(heights)
     missing = _check_missing(hole, max_missing, source)
@@ -161,16 +121,9 @@ def fill_missing(
 def fill_profile(
     x: NDArray, heights: NDArray, max_missing: float = MAX_MISSING, source: str = "heights"
 ) -> tuple[NDArray, int]:
-    """Fill the points of a profile that are not finite by linear interpolation.
+    """Fill the points of a profile that are not finite by linear interpolation; see `fill_missing`.
 
-    Parameters
-    ----------
-    x : (n,) array
-        Increasing positions.
-    heights : (n,) array
-        Heights; constant beyond the first and the last known one.
-    max_missing, source
-        As in `fill_missing`, which also says what is returned and raised.
+    Heights are constant beyond the first and the last known one; `x` increases.
     """
     hole = ~np.isfinite(heights)
     missing = _check_missing(hole, max_missing, source)
@@ -178,20 +131,7 @@ def fill_profile(
 
 
 def complete_rectangle(known: NDArray, source: str = "heights") -> tuple[slice, slice]:
-    """Return the rectangle with most points among those in which every point is known.
-
-    Parameters
-    ----------
-    known : (nx, ny) bool array
-        Whether a point was measured.
-    source : str
-        Named in the error.
-
-    Raises
-    ------
-    ValueError
-        If no point is known.
-    """
+    """Return the rectangle with most points of those in which every one is known (nx, ny)."""
     # For every row the largest rectangle under the histogram of known points that end in it.
     best, height = (0, slice(0), slice(0)), np.zeros(known.shape[1], dtype=int)
     for row, line in enumerate(known):
@@ -211,13 +151,7 @@ def complete_rectangle(known: NDArray, source: str = "heights") -> tuple[slice, 
 
 
 def complete_run(known: NDArray, source: str = "heights") -> slice:
-    """Return the longest stretch of a profile (n,) in which every point is known.
-
-    Raises
-    ------
-    ValueError
-        If no point is known.
-    """
+    """Return the longest stretch of a profile (n,) in which every point is known."""
     return complete_rectangle(np.asarray(known)[None, :], source)[1]
 
 

@@ -24,20 +24,10 @@ SHELLS = 200  # per decade
 
 
 def periodise(heights: ArrayLike, kind: Periodisation) -> NDArray:
-    """Return heights that are periodic without a jump.
+    """Return levelled heights (nx, ny) that are periodic without a jump.
 
-    Parameters
-    ----------
-    heights : (nx, ny) array
-        Levelled heights.
-    kind : {"taper", "mirror"}
-        "taper": the heights about their mean, times a taper that is 1 except in a cosine rim of
-        an eighth of each side. "mirror": the heights and their mirror images, (2 nx, 2 ny).
-
-    Raises
-    ------
-    ValueError
-        If the heights are not 2D or `kind` is unknown.
+    "taper": the heights about their mean, times a taper that is 1 except in a cosine rim of an
+    eighth of each side. "mirror": the heights and their mirror images, (2 nx, 2 ny).
     """
     heights = np.asarray(heights, dtype=float)
     if heights.ndim != 2:
@@ -63,26 +53,9 @@ def band_limited(
 ) -> NDArray:
     """Periodic heights without waves beyond `q_max`, on a grid that resolves the others.
 
-    Parameters
-    ----------
-    heights : (nx, ny) array
-        Periodic heights [length].
-    sides : pair of float
-        Of the period along x and y [length].
-    q_max : float
-        Highest wave number kept [1/length], below the Nyquist one.
-    pixels : int
-        Grid points per shortest wavelength, at least.
-
-    Returns
-    -------
-    (mx, my) array
-        Numbers of points are multiples of four, so that every second point is a grid, too.
-
-    Raises
-    ------
-    ValueError
-        If the given grid does not hold waves up to `q_max`.
+    There are at least `pixels` grid points per shortest wavelength; their numbers are multiples of
+    four, so that every second point is a grid, too. A ValueError says if the given grid does not
+    hold waves up to `q_max`.
     """
     heights = np.asarray(heights, dtype=float)
     nyquist = np.pi * min(n / side for n, side in zip(heights.shape, sides, strict=True))

@@ -26,28 +26,14 @@ _ROUNDS = 20
 
 @dataclass(frozen=True)
 class ProfileSpectrum:
-    """One-dimensional power spectral density of a line profile, q > 0.
+    """One-dimensional power spectral density of a line profile, q > 0."""
 
-    Attributes
-    ----------
-    q : (m,) array
-        Wave numbers, multiples of 2 pi over the length [1/length].
-    psd : (m,) array
-        C1(q) [length^3].
-    variance : float
-        Mean square of the tapered heights over the mean square of the taper [length^2].
-    independence, blur : float
-        As in `psd.PowerSpectrum`.
-    n : int
-        Points of the profile.
-    """
-
-    q: NDArray
-    psd: NDArray
-    variance: float
-    independence: float
+    q: NDArray  # (m,), multiples of 2 pi over the length [1/length]
+    psd: NDArray  # (m,), C1(q) [length^3]
+    variance: float  # mean square of the tapered heights over that of the taper [length^2]
+    independence: float  # this and `blur` as in `psd.PowerSpectrum`
     blur: float
-    n: int
+    n: int  # points of the profile
 
     @property
     def q_nyquist(self) -> float:
@@ -70,16 +56,9 @@ class ProfileSpectrum:
 
 
 def profile_spectrum(heights: ArrayLike, dx: float, taper: Taper = "hann") -> ProfileSpectrum:
-    """One-dimensional power spectral density of heights along a line.
+    """One-dimensional power spectral density of heights (n,) along a line, levelled beforehand.
 
-    Parameters
-    ----------
-    heights : (n,) array
-        Heights [length], levelled beforehand if they are measured.
-    dx : float
-        Step [length].
-    taper : {"hann", "hann_radial", "none"}
-        Along a line both Hann tapers are the same.
+    Along a line both Hann tapers are the same.
 
     Raises
     ------
@@ -115,21 +94,9 @@ def profile_spectrum(heights: ArrayLike, dx: float, taper: Taper = "hann") -> Pr
 
 
 def abel_ratio(q: ArrayLike, hurst: float, q_rolloff: float | None = None) -> NDArray:
-    """C/C1 [1/length] of a self-affine spectrum without an upper end.
+    """C/C1 [1/length] of a self-affine spectrum with no upper end, and a plateau below `q_rolloff`.
 
-    Parameters
-    ----------
-    q : array_like
-        Wave numbers [1/length].
-    hurst : float
-        H in C ~ q^(-2(H+1)), above -1/2.
-    q_rolloff : float, optional
-        End of the plateau of C [1/length].
-
-    Raises
-    ------
-    ValueError
-        If C1 does not exist: `hurst` is not above -1/2.
+    C1 exists for H > -1/2 in C ~ q^(-2(H+1)); else a ValueError is raised.
     """
     if not hurst > -0.5:
         raise ValueError(f"hurst must be above -1/2 for a profile's spectrum, got {hurst!r}")
@@ -149,29 +116,11 @@ def abel_ratio(q: ArrayLike, hurst: float, q_rolloff: float | None = None) -> ND
 def isotropic(
     spectrum: ProfileSpectrum, q_min: float, q_max: float, rolloff: bool | None = None
 ) -> tuple[RadialPSD, SelfAffineFit]:
-    """Two-dimensional isotropic spectrum behind a profile, and its self-affine fit.
+    """Two-dimensional isotropic spectrum behind a profile, and its self-affine fit between two q.
 
-    Parameters
-    ----------
-    spectrum : ProfileSpectrum
-        From `profile_spectrum`.
-    q_min, q_max : float
-        Fit interval [1/length].
-    rolloff : bool, optional
-        As in `self_affine_fit.fit_self_affine`.
-
-    Returns
-    -------
-    rings : RadialPSD
-        Narrow rings of C [length^4], with the degrees of freedom of the profile.
-    fit : SelfAffineFit
-        In the convention of two dimensions.
-
-    Raises
-    ------
-    ValueError
-        As `self_affine_fit.fit_rings`, and if the profile's spectrum falls more slowly than that
-        of any isotropic surface: noise.
+    Returns narrow rings of C [length^4] with the degrees of freedom of the profile, and the fit in
+    the convention of two dimensions. Besides what `self_affine_fit.fit_rings` raises, a ValueError
+    says that the spectrum falls more slowly than that of any isotropic surface: noise.
     """
     profile = spectrum.rings(FINE)
     rings = _scaled(profile, 1 / profile.q)

@@ -23,39 +23,22 @@ Spacing = Literal["log", "linear"]
 
 @dataclass(frozen=True)
 class PowerSpectrum:
-    """Two-dimensional power spectral density on the half plane q_y >= 0.
+    """Two-dimensional power spectral density on the half plane q_y >= 0."""
 
-    Attributes
-    ----------
-    qx : (nx,) array
-        Wave numbers along the first axis [1/length], in the order of the FFT.
-    qy : (ny//2 + 1,) array
-        Wave numbers along the second axis [1/length], not negative.
-    psd : (nx, ny//2 + 1) array
-        C(qx, qy) [length^4].
-    multiplicity : (ny//2 + 1,) array
-        Modes of the full plane for which each column stands (2; 1 for columns that hold both
-        members of each conjugate pair).
-    variance : float
-        Mean square of the tapered heights over the mean square of the taper [length^2].
-    independence : float
-        Independent modes per mode: 1 without a taper, (mean w^2)^2/mean w^4 with one, because a
-        taper correlates neighbouring modes.
-    blur : float
-        Half width of the taper's main lobe, in lattice steps: 0 without a taper. Modes nearer to
-        q = 0 than this are mixed with the mean and the trend.
-    taper : str
-        Name of the taper.
-    """
-
-    qx: NDArray
-    qy: NDArray
-    psd: NDArray
+    qx: NDArray  # (nx,), along the first axis [1/length], in the order of the FFT
+    qy: NDArray  # (ny//2 + 1,), along the second axis, not negative
+    psd: NDArray  # (nx, ny//2 + 1), C(qx, qy) [length^4]
+    # (ny//2 + 1,): modes of the full plane for which each column stands (2; 1 for columns that
+    # hold both members of each conjugate pair)
     multiplicity: NDArray
-    variance: float
+    variance: float  # mean square of the tapered heights over that of the taper [length^2]
+    # Independent modes per mode: 1 without a taper, (mean w^2)^2/mean w^4 with one, because a
+    # taper correlates neighbouring modes.
     independence: float
+    # Half width of the taper's main lobe, in lattice steps: 0 without a taper. Modes nearer to
+    # q = 0 than this are mixed with the mean and the trend.
     blur: float
-    taper: str
+    taper: str  # its name
 
     @property
     def dqx(self) -> float:
@@ -111,27 +94,14 @@ class PowerSpectrum:
 
 @dataclass(frozen=True)
 class RadialPSD:
-    """Radially averaged power spectral density, one entry for each ring that holds modes.
+    """Radially averaged power spectral density, one entry for each ring that holds modes."""
 
-    Attributes
-    ----------
-    q : (m,) array
-        Wave number of the ring, geometric mean over its modes [1/length].
-    psd : (m,) array
-        Mean of C over the modes of the ring [length^4].
-    standard_error : (m,) array
-        Sampling error of `psd` for a Gaussian isotropic surface, psd/sqrt(dof) [length^4].
-    modes : (m,) int array
-        Lattice modes of the full plane in the ring.
-    dof : (m,) array
-        Independent exponentially distributed values among them: half of `modes` (conjugate
-        pairs), times `independence`. The mean has a Gamma distribution of this shape.
-    """
-
-    q: NDArray
-    psd: NDArray
-    standard_error: NDArray
-    modes: NDArray
+    q: NDArray  # (m,), of the ring, geometric mean over its modes [1/length]
+    psd: NDArray  # (m,), mean of C over the modes of the ring [length^4]
+    standard_error: NDArray  # of `psd` by sampling a Gaussian isotropic surface, psd/sqrt(dof)
+    modes: NDArray  # of the full plane in the ring
+    # Independent exponentially distributed values among them: half of `modes` (conjugate
+    # pairs), times `independence`. The mean has a Gamma distribution of this shape.
     dof: NDArray
 
     def __len__(self) -> int:
@@ -215,17 +185,11 @@ def radial_average(
     Parameters
     ----------
     spectrum : PowerSpectrum
-        From `power_spectrum`.
     spacing : {"log", "linear"}
         Rings of equal ratio, or of the width of one lattice step.
     bins_per_decade : float
         Logarithmic rings per decade. The average over a ring exceeds C at its mean q by about
         s^2 (ln 10/bins_per_decade)^2/24 for C ~ q^-s: 3 % at 10 a decade and s = 3.6.
-
-    Raises
-    ------
-    ValueError
-        If `spacing` is unknown or `bins_per_decade` is not positive.
     """
     if spacing not in ("log", "linear"):
         raise ValueError(f"spacing must be 'log' or 'linear', got {spacing!r}")
@@ -269,13 +233,9 @@ def wide_rings(rings: RadialPSD, bins_per_decade: float) -> NDArray:
 def merge_rings(
     rings: RadialPSD, values: NDArray, bins_per_decade: float
 ) -> tuple[NDArray, NDArray, NDArray]:
-    """Gather narrow rings into wider ones.
+    """Gather narrow rings into wider ones: geometric mean q, mean of `values`, independent modes.
 
-    Returns
-    -------
-    q, mean, dof : (k,) arrays
-        Of each wider ring: geometric mean wave number, mean of `values` weighted by independent
-        modes, and the number of these.
+    The means are weighted by independent modes.
     """
     return average_by_ring(wide_rings(rings, bins_per_decade), rings.dof, rings.q, values)
 

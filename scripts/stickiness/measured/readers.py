@@ -33,29 +33,14 @@ _Y_NAMES = ("y", "lat", "latitude", "northing")
 
 @dataclass(frozen=True)
 class Raw:
-    """Content of a file, heights in the file's own unit.
+    """Content of a file, heights in the file's own unit."""
 
-    Attributes
-    ----------
-    heights : (nx, ny) or (n,) array
-        Heights of a map, the first axis along x, or of a line profile; NaN where missing.
-    steps : tuple of float or None
-        Grid steps [m], one for each axis; None if the file does not tell.
-    unit : str or None
-        Unit of the heights; None if the file does not tell.
-    source : str
-        File, and variable or channel.
-    positions : (n,) array or None
-        Where a line profile was taken if not evenly, in `position_unit`.
-    position_unit : str or None
-        Unit of `positions`; None if the file does not tell.
-    """
-
-    heights: NDArray
+    heights: NDArray  # (nx, ny), the first axis along x, or a line profile (n,); NaN where missing
+    # grid steps [m]; None: the file does not tell (all below likewise)
     steps: tuple[float, ...] | None
-    unit: str | None
-    source: str
-    positions: NDArray | None = None
+    unit: str | None  # of the heights
+    source: str  # file, and variable or channel
+    positions: NDArray | None = None  # (n,), where a line profile was taken if not evenly
     position_unit: str | None = None
 
 

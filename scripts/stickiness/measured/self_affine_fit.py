@@ -33,30 +33,16 @@ _FINE = 200  # narrow rings per decade: C varies by 4 % across one, its mean by 
 
 @dataclass(frozen=True)
 class HurstLine:
-    """Prefactors of C = C0 q^(-2(H+1)) at a given Hurst exponent.
+    """Prefactors of C = C0 q^(-2(H+1)) at a given Hurst exponent [length^(2 - 2H)]."""
 
-    Attributes
-    ----------
-    hurst : float
-        The imposed exponent.
-    c0, c0_se : float
-        Least squares of ln C over logarithmic rings of equal weight, corrected for the bias of
-        the logarithm, and its standard error from the scatter about the line
-        [length^(2 - 2H)].
-    q : (m,) array
-        Wave numbers of the rings [1/length].
-    c0_of_q : (m,) array
-        C q^(2(H+1)) in each ring [length^(2 - 2H)].
-    c0_of_q_se : (m,) array
-        Sampling error of `c0_of_q`.
-    """
-
-    hurst: float
+    hurst: float  # imposed
+    # Least squares of ln C over logarithmic rings of equal weight, corrected for the bias of
+    # the logarithm.
     c0: float
-    c0_se: float
-    q: NDArray
-    c0_of_q: NDArray
-    c0_of_q_se: NDArray
+    c0_se: float  # from the scatter about the line
+    q: NDArray  # (m,), of the rings [1/length]
+    c0_of_q: NDArray  # C q^(2(H+1)) in each ring
+    c0_of_q_se: NDArray  # by sampling
 
     @property
     def upper(self) -> float:
@@ -75,51 +61,31 @@ class HurstLine:
 
 @dataclass(frozen=True)
 class SelfAffineFit:
-    """Power law C = C0 q^(-2(H+1)) fitted to a spectrum, with a plateau below `q_rolloff` if any.
+    """Power law C = C0 q^(-2(H+1)) fitted to a spectrum, with a plateau below `q_rolloff`."""
 
-    Attributes
-    ----------
-    hurst, hurst_se : float
-        Hurst exponent as fitted (it may be outside 0 < H <= 1) and its standard error.
-    c0, c0_se : float
-        Prefactor [length^(2 - 2H), so its unit depends on H] and its standard error.
-    log_covariance : (2, 2) or (3, 3) array
-        Covariance of (ln c0, hurst) or of (ln c0, hurst, ln q_rolloff). ln c0 and hurst are
-        strongly correlated: q = 1 lies far from the data.
-    q_min, q_max : float
-        Lowest and highest wave number used [1/length].
-    q_rolloff : float or None
-        End of the plateau [1/length]; None if the data show none.
-    dof : float
-        Independent modes in the fit interval.
-    dispersion : float
-        Mean square misfit of rings (ten a decade) over that of sampling alone: about 1 for an
-        isotropic Gaussian power law, below 1 with a taper (it correlates the modes of a ring
-        less than `dof` assumes).
-    misfit : float
-        Relative rms departure of the spectrum from the fit beyond sampling noise; 0 if sampling
-        explains it all. Every ring's weight is limited to 1/misfit^2, and the standard errors
-        grow with it: more modes do not determine the exponent of a spectrum that is no power law.
-    aic_gain : float
-        Akaike's criterion without plateau minus with one; positive speaks for a plateau.
-        NaN if not compared.
-    rings : RadialPSD
-        The narrow rings the fit used.
-    """
-
-    hurst: float
-    hurst_se: float
-    c0: float
+    hurst: float  # as fitted; it may be outside 0 < H <= 1
+    hurst_se: float  # standard error
+    c0: float  # [length^(2 - 2H)], so that its unit depends on H
     c0_se: float
+    # Of (ln c0, hurst) or (ln c0, hurst, ln q_rolloff). ln c0 and hurst are strongly
+    # correlated: q = 1 lies far from the data.
     log_covariance: NDArray
-    q_min: float
+    q_min: float  # lowest and highest wave number used [1/length]
     q_max: float
-    q_rolloff: float | None
-    dof: float
+    q_rolloff: float | None  # end of the plateau [1/length]; None if the data show none
+    dof: float  # independent modes in the fit interval
+    # Mean square misfit of rings (ten a decade) over that of sampling alone: about 1 for an
+    # isotropic Gaussian power law, below 1 with a taper (it correlates the modes of a ring less
+    # than `dof` assumes).
     dispersion: float
+    # Relative rms departure of the spectrum from the fit beyond sampling noise; 0 if sampling
+    # explains it all. Every ring's weight is limited to 1/misfit^2, and the standard errors
+    # grow with it: more modes do not determine the exponent of a spectrum that is no power law.
     misfit: float
+    # Akaike's criterion without plateau minus with one; positive speaks for a plateau. NaN if
+    # not compared.
     aic_gain: float
-    rings: RadialPSD
+    rings: RadialPSD  # narrow ones, that the fit used
 
     @property
     def q_rolloff_se(self) -> float | None:
@@ -155,11 +121,6 @@ class SelfAffineFit:
         """Prefactors at an imposed exponent, in a unit that can be compared between surfaces.
 
         The line is fitted above `q_rolloff`; the values of the rings cover the whole fit interval.
-
-        Raises
-        ------
-        ValueError
-            If `hurst` is not in 0 < H <= 1.
         """
         if not 0 < hurst <= 1:
             raise ValueError(f"hurst must be in 0 < H <= 1, got {hurst!r}")
@@ -212,16 +173,9 @@ def fit_self_affine(
 def fit_rings(
     rings: RadialPSD, q_min: float, q_max: float, rolloff: bool | None = None
 ) -> SelfAffineFit:
-    """Fit a self-affine spectrum to the rings of any measurement.
+    """Fit a self-affine spectrum to the rings of any measurement; see `fit_self_affine`.
 
-    Parameters
-    ----------
-    rings : RadialPSD
-        Rings so narrow that their mean C is C at `rings.q`, in ascending order.
-    q_min, q_max : float
-        Fit interval [1/length].
-    rolloff : bool, optional
-        As in `fit_self_affine`, which also says what is raised.
+    Rings are so narrow that their mean C is C at `rings.q`, in ascending order.
     """
     rings = _within(rings, q_min, q_max)
     # ln q about the middle of the data, where exponent and level are least correlated.
@@ -244,15 +198,7 @@ def fit_rings(
 
 
 def remarks(fit: SelfAffineFit, anisotropy: float = 0.0) -> list[str]:
-    """One line for each reason why a surface is not isotropic and self-affine.
-
-    Parameters
-    ----------
-    fit : SelfAffineFit
-        Of the surface's spectrum.
-    anisotropy : float
-        Amplitude from `PowerSpectrum.anisotropy`.
-    """
+    """One line for each reason why a surface is not isotropic and self-affine."""
     found = []
     if not fit.is_self_affine:
         found.append(

@@ -21,19 +21,13 @@ ORDERS = {"h_rms": 0, "rms_slope": 2, "rms_curvature": 4, "elastic_energy": 1}
 
 @dataclass(frozen=True)
 class Draws:
-    """Moments of spectra that agree with a measured one.
+    """Moments of spectra that agree with a measured one."""
 
-    Attributes
-    ----------
-    moments : dict of (n,) arrays
-        `h_rms` [length], `rms_slope`, `rms_curvature` [1/length] and `elastic_energy` [length],
-        the last of full contact per area over E*.
-    q0 : (n,) array
-        Lowest wave number of the self-affine range [1/length]: the end of the plateau if one was
-        found, else the lowest of the scan, without error.
-    """
-
+    # (n,) each: `h_rms` [length], `rms_slope`, `rms_curvature` [1/length] and `elastic_energy`
+    # [length], the last of full contact per area over E*
     moments: dict[str, NDArray]
+    # (n,), lowest wave number of the self-affine range [1/length]: the end of the plateau if
+    # one was found, else the lowest of the scan, without error
     q0: NDArray
 
     def quantiles(self, name: str, levels: tuple[float, ...]) -> NDArray:
@@ -49,20 +43,9 @@ def draw(
     stitched: Stitched | None = None,
     extend_to: float | None = None,
 ) -> Draws:
-    """Draw moments of a measured spectrum.
+    """Draw moments of a measured spectrum; of that of `stitched` if several measurements are.
 
-    Parameters
-    ----------
-    spectrum : MeasuredSpectrum
-        Of one measurement, or `stitched.spectrum`.
-    count : int
-        Number of draws.
-    seed : int
-        Of the random numbers.
-    stitched : Stitched, optional
-        Where the spectrum comes from several measurements.
-    extend_to : float, optional
-        Highest wave number to which the fit extrapolates the spectrum [1/length].
+    With `extend_to` the fit extrapolates the spectrum up to this wave number [1/length].
 
     Raises
     ------

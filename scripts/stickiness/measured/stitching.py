@@ -26,44 +26,26 @@ REFERENCE_EXPONENT = 3.6  # of C ~ q^-s, taken out before a mean over a ring: H 
 
 @dataclass(frozen=True)
 class Stitched:
-    """Several measurements of one surface as one spectrum.
+    """Several measurements of one surface as one spectrum."""
 
-    Attributes
-    ----------
-    spectrum : MeasuredSpectrum
-        The whole; the errors of `fit` include the scatter between measurements.
-    levels : (k, m) array
-        C of each measurement in the rings of `spectrum`, NaN outside its band [length^4].
-    offsets : (k,) array
-        Mean of ln C minus the stitched one, where measurements overlap; NaN if they do not.
-    shares : (k, m) array
-        Weight of each measurement in each ring; the sum over measurements is 1.
-    scatter : float
-        tau, standard deviation of the offsets in ln C between measurements; NaN if no two overlap.
-    """
-
+    # the whole; the errors of `fit` include the scatter between measurements
     spectrum: MeasuredSpectrum
+    # (k, m), C of each measurement in the rings of `spectrum`, NaN outside its band
     levels: NDArray
+    # (k,), mean of ln C minus the stitched one where measurements overlap, else NaN
     offsets: NDArray
+    # (k, m), weight of each measurement in each ring; the sum over measurements is 1
     shares: NDArray
-    scatter: float
+    scatter: float  # tau, standard deviation of the offsets in ln C; NaN if no two overlap
 
 
 def stitch(measurements: Sequence[MeasuredSpectrum]) -> Stitched:
-    """Log-average several measurements of one surface into one spectrum.
+    """Log-average two or more measurements of one surface into one spectrum.
 
     Each counts between its `q_min` and its cutoff. The one of the lowest wave numbers also counts
-    below its `q_min`, where most of the variance of the heights is.
-
-    Raises
-    ------
-    ValueError
-        If there are fewer than two.
-
-    Notes
-    -----
-    The errors of the fit are those of the rings plus, for each measurement, the change of the fit
-    when it alone is raised by tau: offsets tilt the spectrum.
+    below its `q_min`, where most of the variance of the heights is. The errors of the fit are those
+    of the rings plus, for each measurement, the change of the fit when it alone is raised by tau:
+    offsets tilt the spectrum.
     """
     if len(measurements) < 2:
         raise ValueError(f"stitching needs two measurements at least, got {len(measurements)}")

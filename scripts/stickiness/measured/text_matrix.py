@@ -16,22 +16,12 @@ _HEADER = re.compile(r"^\W*(width|height|value units?)\s*[:=]\s*(.+?)\s*$", re.I
 
 @dataclass(frozen=True)
 class TextMatrix:
-    """Content of a text matrix.
+    """Content of a text matrix."""
 
-    Attributes
-    ----------
-    values : (rows, columns) array
-        Numbers as written, NaN where a point is marked as missing.
-    width, height : str or None
-        Sides of the area along the rows and down the columns, with unit, from the header.
-    value_unit : str or None
-        Unit of the numbers, from the header.
-    """
-
-    values: NDArray
-    width: str | None = None
-    height: str | None = None
-    value_unit: str | None = None
+    values: NDArray  # (rows, columns), as written, NaN where a point is marked as missing
+    width: str | None = None  # along the rows, with unit, from the header
+    height: str | None = None  # down the columns
+    value_unit: str | None = None  # of the numbers
 
 
 def parse(path: Path) -> TextMatrix:
@@ -42,11 +32,8 @@ def parse(path: Path) -> TextMatrix:
     Gwyddion exports them, are read. Decimal commas are allowed if the separator is another.
     Missing points may be written as NaN, ---, *** or left empty between tabs, semicolons or commas.
 
-    Raises
-    ------
-    ValueError
-        If there are no numbers, rows differ in length or a field is no number; the message names
-        file, line and field.
+    A ValueError names file, line and field if there are no numbers, rows differ in length or a
+    field is no number.
     """
     header: dict[str, str] = {}
     rows: list[tuple[int, str]] = []

@@ -29,6 +29,8 @@ from stickiness.measured.levelling import (
 )
 from stickiness.measured.readers import Length, Raw, metres, sides
 
+Size = Length | Sequence[Length] | None
+
 _WGS84_A, _WGS84_E2 = 6378137.0, 6.69437999014e-3  # semi-major axis [m], eccentricity squared
 
 
@@ -51,31 +53,15 @@ class _Heights:
 
 @dataclass(frozen=True)
 class Topography(_Heights):
-    """Heights of a surface on a rectangular grid.
+    """Heights of a surface on a rectangular grid."""
 
-    Attributes
-    ----------
-    heights : (nx, ny) array
-        Heights [m], the first axis along x.
-    dx, dy : float
-        Grid steps along x and y [m].
-    source : str
-        File (and variable) of the heights.
-    missing : int
-        Number of points that were missing and have been interpolated.
-    cropped : float
-        Share of the measured points that was cut off to leave no missing ones.
-    dropped : int
-        Number of points that were measured beside missing ones and not used.
-    """
-
-    heights: NDArray
-    dx: float
-    dy: float
-    source: str
-    missing: int = 0
-    cropped: float = 0.0
-    dropped: int = 0
+    heights: NDArray  # (nx, ny), the first axis along x [m]
+    dx: float  # grid step along x [m]
+    dy: float  # along y [m]
+    source: str  # file (and variable) of the heights
+    missing: int = 0  # number of points that were missing and have been interpolated
+    cropped: float = 0.0  # share of the measured points that was cut off to leave no missing ones
+    dropped: int = 0  # number of points that were measured beside missing ones and not used
 
     @property
     def size(self) -> tuple[float, float]:
@@ -89,27 +75,14 @@ class Topography(_Heights):
 
 @dataclass(frozen=True)
 class Profile(_Heights):
-    """Heights along a line, evenly spaced.
+    """Heights along a line, evenly spaced."""
 
-    Attributes
-    ----------
-    heights : (n,) array
-        Heights [m].
-    dx : float
-        Step [m].
-    source : str
-        File (and variable or channel) of the heights.
-    missing, dropped : int
-        As in `Topography`.
-    largest_gap : float
-        Largest distance between neighbouring points as measured [m]; above `dx` if they were
-        unevenly spaced and have been interpolated.
-    """
-
-    heights: NDArray
-    dx: float
-    source: str
-    missing: int = 0
+    heights: NDArray  # (n,) [m]
+    dx: float  # step [m]
+    source: str  # file (and variable or channel)
+    missing: int = 0  # this and `dropped` as in `Topography`
+    # Largest distance between neighbouring points as measured [m]; above `dx` if they were
+    # unevenly spaced and have been interpolated.
     largest_gap: float = 0.0
     dropped: int = 0
 
@@ -126,8 +99,8 @@ class Profile(_Heights):
 def read(
     path: str | Path,
     *,
-    length: Length | Sequence[Length] | None = None,
-    pixel_size: Length | Sequence[Length] | None = None,
+    length: Size = None,
+    pixel_size: Size = None,
     height_unit: str | None = None,
     position_unit: str | None = None,
     variable: str | None = None,
@@ -149,10 +122,9 @@ def read(
         value is the side along x, the pixels are square. Overrides what the file says.
     pixel_size : length or pair of lengths, optional
         Grid step, instead of `length`.
-    height_unit : str, optional
-        Unit of the numbers: "nm", if the file does not say so itself.
-    position_unit : str, optional
-        Unit of the positions of a line profile, likewise.
+    height_unit, position_unit : str, optional
+        Unit of the heights, and of the positions of a line profile: "nm", if the file does not say
+        so.
     variable : str, optional
         NetCDF variable or npz key. Default: the only two-dimensional one, else the only profile.
     channel : str or int, optional
@@ -184,8 +156,6 @@ def read(
     ValueError
         If the file does not hold one usable array, its size or unit is unknown or of a wrong
         dimension, or too much is missing. The message names file, variable and remedy.
-    FileNotFoundError
-        If there is no such file.
 
     Notes
     -----
@@ -222,12 +192,7 @@ def read(
 
 
 def _map(
-    heights: NDArray,
-    steps: tuple[float, ...],
-    missing: Missing,
-    rim: Rim,
-    limit: float,
-    source: str,
+    heights: NDArray, steps: Sequence[float], missing: Missing, rim: Rim, limit: float, source: str
 ) -> Topography:
     measured = heights.size
     heights, dropped = without_rims(heights, rim)
@@ -260,12 +225,7 @@ def _with_dropped(source: str, dropped: int) -> str:
     return f"{source}, {dropped} points beside missing ones dropped" if dropped else source
 
 
-def _positions(
-    raw: Raw,
-    length: Length | Sequence[Length] | None,
-    pixel_size: Length | Sequence[Length] | None,
-    position_unit: str | None,
-) -> NDArray:
+def _positions(raw: Raw, length: Size, pixel_size: Size, position_unit: str | None) -> NDArray:
     """Positions of a profile's points [m], from the caller or else from the file."""
     n = len(raw.heights)
     if length is not None:
@@ -322,9 +282,7 @@ def metres_per_degree(latitude: float) -> tuple[float, float]:
 
 
 def _steps(
-    raw: Raw,
-    length: Length | Sequence[Length] | None,
-    pixel_size: Length | Sequence[Length] | None,
+    raw: Raw, length: Length | Sequence[Length] | None, pixel_size: Length | Sequence[Length] | None
 ) -> tuple[float, ...]:
     """Grid steps [m], from the caller or else from the file."""
     shape = raw.heights.shape

@@ -13,11 +13,10 @@ from pipeline.verdicts.words import decide_pairs
 from stickiness import criteria
 from stickiness.adhesion import equivalent_sphere
 from stickiness.core import datasets
-from stickiness.criteria.a_v_table import edge_range, local_a_v
+from stickiness.criteria.a_v_table import VARIANTS, SurfaceAv, edge_range, local_a_v
+from stickiness.criteria.pair import REGIMES, STRONG, TOUGH, WEAK, WORDS
 from stickiness.criteria.registry import FULL_CONTACT
-from stickiness.criteria.surface_a_v import VARIANTS, SurfaceAv
 from stickiness.criteria.verdict import verdict
-from stickiness.criteria.words import REGIMES, STRONG, TOUGH, WEAK, WORDS
 from stickiness.persson import Persson
 from stickiness.spectrum import SelfAffine
 

@@ -18,7 +18,7 @@ from real_surfaces import analyse_surface
 from report import write_surface
 from stickiness import surface
 from stickiness.core import datasets
-from stickiness.criteria.surface_a_v import SurfaceAv
+from stickiness.criteria.a_v_table import SurfaceAv
 from stickiness.spectrum import SelfAffine
 
 TEMPLATE = Path(__file__).parents[3] / "report" / "surface.html.j2"

@@ -11,10 +11,10 @@ from pipeline.verdicts import materials
 from pipeline.verdicts.probabilities import draw_margins
 from pipeline.verdicts.words import decide_pairs
 from stickiness.adhesion import equivalent_sphere
+from stickiness.criteria.a_v_table import SurfaceAv
 from stickiness.criteria.moduli import Constant, Prony, Table, crossings
+from stickiness.criteria.pair import WORDS
 from stickiness.criteria.registry import FULL_CONTACT
-from stickiness.criteria.surface_a_v import SurfaceAv
-from stickiness.criteria.words import WORDS
 
 SERIES = Prony(1e4, ((3e4, 1.0), (2e5, 1e-3)))
 ENTRY = {"label": "a", "work_of_adhesion": "70 mJ/m^2", "range": "0.3 nm", "source": "b"}

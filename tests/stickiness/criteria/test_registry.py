@@ -14,8 +14,8 @@ from pipeline.verdicts.a_v import MeasuredAv
 from pipeline.verdicts.markdown import write_markdown
 from pipeline.verdicts.materials import material
 from stickiness.core import datasets
+from stickiness.criteria.a_v_table import SurfaceAv
 from stickiness.criteria.registry import CRITERIA, EDGES, Criterion
-from stickiness.criteria.surface_a_v import SurfaceAv
 from stickiness.spectrum import SelfAffine
 
 COMPARED = {
@@ -90,7 +90,7 @@ def test_an_entry_is_all_that_a_new_criterion_needs(made_up, road, judged):
     assert rows["Made & Up"]["reason"] == "Heights of 1 … 2 µm against nothing else."
     assert rows["Made & Up"]["says"] == "does not stick"
     verdicts = judged.assign_attrs(parameters='{"materials": {"gel": {"label": "gel"}}}')
-    listed = report.disagreements(verdicts, {"road": road})
+    listed = report.find_disagreements(verdicts, {"road": road})
     assert "Made & Up" in [row["criterion"] for row in listed]
 
 

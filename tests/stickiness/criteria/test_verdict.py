@@ -7,9 +7,9 @@ import pytest
 
 from stickiness import surface
 from stickiness.criteria import verdict as module
+from stickiness.criteria.pair import WORDS, decide
 from stickiness.criteria.registry import CRITERIA, EDGES
 from stickiness.criteria.verdict import verdict
-from stickiness.criteria.words import WORDS, decide
 from stickiness.spectrum import SelfAffine
 
 ROUGH = SelfAffine(hurst=0.8, q0=6e4, q1=6e8, h_rms=1e-6)
