@@ -5,7 +5,7 @@ import xarray as xr
 
 from pipeline.claims import CLAIMS
 from pipeline.job import start
-from pipeline.tables import table
+from pipeline.numbers import table
 from stickiness.core import budget, datasets
 from stickiness.criteria.errata import ERRATA
 

@@ -57,7 +57,7 @@ def main(job):
 
 
 def embed(figure, caption):
-    return captions.figure(figure, Path(caption).read_text(encoding="utf-8"))
+    return captions.embed_figure(figure, Path(caption).read_text(encoding="utf-8"))
 
 
 def read_results(inputs, figure_sources):
@@ -79,7 +79,7 @@ def read_results(inputs, figure_sources):
 def render(template, page, results, *, figures, tradeoff, benchmarks, fidelity):
     """The page as text.
 
-    `results` are the datasets as `report.Results`, `figures` as `captions.figure` makes them;
+    `results` are the datasets as `report.Results`, `figures` as `captions.embed_figure` makes them;
     `tradeoff` is what accuracy costs: its `figure`, a table for each knob (`tables`), the `source`
     of both, and `presets`; `benchmarks` is the folder of Snakemake's benchmark files.
     """

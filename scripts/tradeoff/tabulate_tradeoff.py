@@ -5,7 +5,7 @@ import pandas as pd
 import xarray as xr
 
 from pipeline.job import start
-from pipeline.tables import table
+from pipeline.numbers import table
 from pipeline.tradeoff import summary
 from pipeline.tradeoff.adhesion_rows import pull_offs, rows_and_laws, states
 from pipeline.tradeoff.fit_laws import Points, add_costs, add_grids, add_offsets, add_sampling

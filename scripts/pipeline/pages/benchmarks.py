@@ -20,7 +20,7 @@ def run_times(folder: str | Path) -> dict[str, Any]:
     for path in sorted(Path(folder).rglob("*.tsv")):
         rule = path.relative_to(folder).parts[0].removesuffix(".tsv")
         if rule != "write_report":
-            jobs.setdefault(rule, []).extend(benchmark_lines(path))
+            jobs.setdefault(rule, []).extend(read_benchmark(path))
     rows = [(rule, len(runs), *np.transpose(runs)) for rule, runs in jobs.items() if runs]
     rows.sort(key=lambda row: -np.nansum(row[2]))
     return {
@@ -39,7 +39,7 @@ def run_times(folder: str | Path) -> dict[str, Any]:
     }
 
 
-def benchmark_lines(path: Path) -> list[tuple[float, float]]:
+def read_benchmark(path: Path) -> list[tuple[float, float]]:
     """Seconds and largest memory [MB] of each run; NaN where a run was too short to tell."""
     head, *lines = (line.split("\t") for line in path.read_text(encoding="utf-8").splitlines())
 

@@ -83,7 +83,7 @@ def _symbols(text: str) -> str:
     return _RAISED.sub(lambda found: f"<sup>{found[1] or found[2]}</sup>".replace("-", "−"), text)
 
 
-def figure(path: str | Path, caption: str) -> dict[str, Any]:
+def embed_figure(path: str | Path, caption: str) -> dict[str, Any]:
     """A PNG as a data URI, with its caption as HTML and an alternative text.
 
     Raises

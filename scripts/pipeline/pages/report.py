@@ -15,10 +15,10 @@ import xarray as xr
 
 from pipeline.conventions import at_load
 from pipeline.numbers import NOTHING, interval, number, percent, superscripted, with_error
-from pipeline.pages.surface_texts import reference_prefactor, rms_height
-from pipeline.pages.verdict_texts import EDGES, STICKINESS, STICKINESS_TONES, pair_texts
+from pipeline.pages.surface_texts import describe_height, describe_line
+from pipeline.pages.verdict_texts import EDGES, WORD_TONES, WORDS, describe_pair
 from pipeline.tradeoff import summary
-from pipeline.verdicts.materials import modulus_text
+from pipeline.verdicts.materials import describe_modulus
 from stickiness.accuracy import plan
 from stickiness.accuracy.error_models import ErrorModels, Surface
 from stickiness.accuracy.prediction import Problem, predicted_cost, worst_error
@@ -95,7 +95,7 @@ def summarise(claims: xr.Dataset, verdicts: xr.Dataset, ensembles: Sequence[xr.D
         "surfaces": verdicts.sizes["surface"],
         "sticky": int(sticky.sum()),
         "judged": [
-            (STICKINESS[code], count, STICKINESS_TONES[code])
+            (WORDS[code], count, WORD_TONES[code])
             for code in (2, 1, 0, 3)
             if (count := int((verdicts.verdict == code).sum()))
         ],
@@ -187,7 +187,7 @@ def arrange_verdicts(verdicts: xr.Dataset, surfaces: Datasets) -> Context:
     materials = datasets.parameters(verdicts)["materials"]
     names = [str(name) for name in verdicts.material.values]
     cells = {
-        (material, surface): pair_texts(verdicts.sel(material=material, surface=surface))
+        (material, surface): describe_pair(verdicts.sel(material=material, surface=surface))
         for material in names
         for surface in map(str, verdicts.surface.values)
     }
@@ -222,7 +222,7 @@ def describe_material(name: str, entry: Mapping[str, Any]) -> Context:
     return {
         "name": name,
         "label": entry["label"],
-        "modulus": modulus_text(entry),
+        "modulus": describe_modulus(entry),
         "work_of_adhesion": superscripted(entry["work_of_adhesion"]),
         "range": entry["range"],
         "source": entry.get("source", ""),
@@ -265,8 +265,8 @@ def describe_surface(name: str, surface: xr.Dataset) -> Context:
         "label": made["label"],
         "kind": made["kind"].replace("_", "-"),
         "hurst": with_error(float(surface.hurst), float(surface.hurst_total_error)),
-        "c0": reference_prefactor(surface),
-        "h_rms": rms_height(surface),
+        "c0": describe_line(surface),
+        "h_rms": describe_height(surface),
         "q0": number(float(surface.q0)),
         "q1": number(float(surface.q1)),
         "remarks": [text for text in (surface.attrs.get("remarks"), made.get("note")) if text],

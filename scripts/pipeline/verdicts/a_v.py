@@ -34,7 +34,7 @@ class MeasuredAv:
         Of the mean over seeds, covers 90 %; 0 for a single seed, whose error is unknown.
     discretisation : float
         Of the limit of fine grids.
-    window : float
+    fit_interval : float
         Half the spread between the intervals of the fit: the 2/3 law holds only roughly, so that
         a_V depends on the interval.
     bandwidth : float
@@ -47,13 +47,13 @@ class MeasuredAv:
     magnification: float
     sampling: float
     discretisation: float
-    window: float
+    fit_interval: float
     bandwidth: float
 
     @property
     def error(self) -> float:
         """All parts in quadrature."""
-        parts = (self.sampling, self.discretisation, self.window, self.bandwidth)
+        parts = (self.sampling, self.discretisation, self.fit_interval, self.bandwidth)
         return float(np.linalg.norm(parts))
 
     def parts(self, times: ArrayLike) -> dict[str, Part]:
@@ -64,7 +64,9 @@ class MeasuredAv:
             "solver": absent("far below the errors of the case simulated"),
             "sampling": Part(self.sampling * scale, "of the case simulated"),
             "bandwidth": Part(self.bandwidth * scale, "growth over the last two decades"),
-            "model": Part(self.window * scale, "half the spread between intervals of the fit"),
+            "model": Part(
+                self.fit_interval * scale, "half the spread between intervals of the fit"
+            ),
         }
 
     @property
@@ -83,7 +85,7 @@ class MeasuredAv:
             f"a_V = {self.value:.2f} ± {self.error:.2f} (simulated {self.simulated:.2f}, "
             f"extrapolated by theory to zeta = {self.magnification:.0e}; sampling "
             f"{self.sampling:.2f}, discretisation {self.discretisation:.2f}, fit interval "
-            f"{self.window:.2f}, bandwidth {self.bandwidth:.2f})"
+            f"{self.fit_interval:.2f}, bandwidth {self.bandwidth:.2f})"
         )
 
 
@@ -148,7 +150,7 @@ def measure_a_v(inputs, pressure):
         over_lattice=float(simulated[0] / lattice[0]),
         sampling=COVERS * float(deviation[0]) * float(ratio[0]),
         discretisation=float(grid[0]) * float(ratio[0]),
-        window=float(np.ptp(extrapolated)) / 2,
+        fit_interval=float(np.ptp(extrapolated)) / 2,
         bandwidth=float(extrapolated[0]) * abs(growth),
     )
 

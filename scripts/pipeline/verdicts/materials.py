@@ -65,7 +65,7 @@ def plane_strain(entry):
     return Constant(factor * si(entry["youngs_modulus"], "Pa"))
 
 
-def modulus_text(entry):
+def describe_modulus(entry):
     """Modulus as the configuration states it."""
     if "plane_strain_modulus" in entry:
         return f"E* = {entry['plane_strain_modulus']}"

@@ -108,7 +108,7 @@ def pairs_of(modulus, ranges, h_rms=1e-6, a_v=(4.0, 4.0, 4.0)):
         coords={"end": ["smooth", "rough"]},
     )
     a_v = SurfaceAv(np.array([1e-9, 1.0]), np.transpose([a_v, a_v]), 0, 1.0, 0.0)
-    parts = dict.fromkeys(("sampling", "discretisation", "window", "bandwidth"), 0.1)
+    parts = dict.fromkeys(("sampling", "discretisation", "fit_interval", "bandwidth"), 0.1)
     constant = MeasuredAv(3.0, simulated=2.0, over_lattice=1.0, magnification=1e6, **parts)
     return judge.judge_pairs(solids, {"one": surface}, {"one": a_v}, constant, np.array([1.0, 1e3]))
 
@@ -234,7 +234,7 @@ def test_a_v_is_that_of_the_simulation_in_the_file(inputs):
     assert (found.value, found.simulated, found.over_lattice) == (2.0, 2.0, 1.0)
     assert found.sampling == pytest.approx(1.645 * 0.2, rel=1e-3)  # standard errors to 90 %
     assert found.discretisation == pytest.approx(0.1)
-    assert (found.window, found.bandwidth) == (0, 0)
+    assert (found.fit_interval, found.bandwidth) == (0, 0)
 
 
 def test_a_v_at_another_load_is_refused(inputs):

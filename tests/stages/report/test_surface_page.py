@@ -11,7 +11,6 @@ from criteria import judge
 from persson import persson_surface
 from pipeline import measured_surface
 from pipeline.pages import captions, surface_figure, surface_texts
-from pipeline.pages.style import save
 from pipeline.verdicts.a_v import MeasuredAv
 from pipeline.verdicts.materials import material
 from real_surfaces import analyse_surface
@@ -62,7 +61,7 @@ def analysed(path, **asked):
 def judged(found):
     ranges = np.geomspace(1e-8, 10, 10)
     a_v = SurfaceAv(ranges, np.array([[2.0] * 10, [3.0] * 10]), 0, 1.0, 0.05)
-    parts = dict.fromkeys(("sampling", "discretisation", "window", "bandwidth"), 0.1)
+    parts = dict.fromkeys(("sampling", "discretisation", "fit_interval", "bandwidth"), 0.1)
     constant = MeasuredAv(3.0, simulated=2.0, over_lattice=1.0, magnification=1e6, **parts)
     solids = {name: material(entry) for name, entry in MATERIALS.items()}
     frequencies = np.geomspace(1e-4, 1e6, 21)
@@ -90,7 +89,7 @@ def stitched(folder):
 
 def page_of(found, folder):
     pairs = judged(found).sel(surface="plate")
-    save(surface_figure.draw_surface(found, pairs), [folder / "plate.png"])
+    surface_figure.draw_surface(found, pairs, folder / "plate.png")
     return write_surface.render(
         TEMPLATE,
         folder / "report/surfaces/plate.html",
@@ -98,7 +97,7 @@ def page_of(found, folder):
         surface=found,
         pairs=pairs,
         materials=MATERIALS,
-        figure=captions.figure(folder / "plate.png", write_surface.CAPTION),
+        figure=captions.embed_figure(folder / "plate.png", write_surface.CAPTION),
     )
 
 
@@ -249,6 +248,6 @@ def test_errors_of_sizes_cover_what_those_of_the_fit_do():
     ends = {"end": ["smooth", "rough"], "draw": [0, 1]}
     sizes = {"h_rms": ("end", [0.9e-6, 1.1e-6]), "rms_slope": ("end", [0.19, 0.21])}
     measured = xr.Dataset(sizes, coords=ends)
-    assert surface_texts.rms_height(measured) == "(1.00 ± 0.16) µm"
-    assert surface_texts.rms_slope(measured) == "0.200 ± 0.016"
-    assert surface_texts.rms_height(measured.drop_vars("draw")) == "0.9 … 1.1 µm"
+    assert surface_texts.describe_height(measured) == "(1.00 ± 0.16) µm"
+    assert surface_texts.describe_slope(measured) == "0.200 ± 0.016"
+    assert surface_texts.describe_height(measured.drop_vars("draw")) == "0.9 … 1.1 µm"

@@ -9,7 +9,7 @@ import xarray as xr
 from criteria import compare_criteria, judge
 from figures import plot_fig9
 from pipeline.pages import report, verdict_texts
-from pipeline.pages.style import canvas
+from pipeline.plotting import make_panels
 from pipeline.verdicts.a_v import MeasuredAv
 from pipeline.verdicts.markdown import write_markdown
 from pipeline.verdicts.materials import material
@@ -103,7 +103,7 @@ def test_a_new_criterion_is_on_figure_9(made_up, judged):
     compared = compare_criteria.compare(COMPARED, 0.065, table, 3.0)
     found = compared.against_roughness.sel(criterion="made_up")
     np.testing.assert_allclose(found, compared.h_rms_over_range)  # in units of the range
-    _, panels = canvas("AC", 3)
+    _, panels = make_panels("AC", 3)
     plot_fig9.curves(panels["A"], compared.against_roughness, "roughness")
     assert "Made & Up" in panels["A"].get_legend_handles_labels()[1]
     before = len(plot_fig9.drawn(judged.threshold_by_criterion))
