@@ -64,29 +64,24 @@ def source_paths(claim, paths):
 
 
 def to_dataset(claims, findings, sources):
-    columns = {
+    columns = {name: [getattr(finding, name, None) for finding in findings] for name in COLUMNS} | {
         "statement": [claim.statement for claim in claims],
         "sources": map(" ".join, sources),
     }
-    for name in COLUMNS.keys() - columns.keys():
-        columns[name] = [getattr(finding, name) for finding in findings]
     dataset = xr.Dataset(
         {
-            name: ("claim", np.array(list(columns[name]), float if name in NUMBERS else object))
-            for name in COLUMNS
+            name: ("claim", np.array(list(column), float if name in NUMBERS else object))
+            for name, column in columns.items()
         },
         coords={"claim": [claim.number for claim in claims]},
     )
     texts = {name: ("1", *texts) for name, texts in COLUMNS.items()}
     dataset = datasets.annotate(dataset, claim=("1", "number of the claim"), **texts)
-    errors = {
-        source: [finding.errors.get(source, 0.0) for finding in findings]
-        for source in budget.SOURCES
-    }
-    parts = {
-        source: budget.Part(xr.DataArray(error, dims="claim"), "see the comment of each claim")
-        for source, error in errors.items()
-    }
+    parts = {}
+    for source in budget.SOURCES:
+        error = [finding.errors.get(source, 0.0) for finding in findings]
+        error = xr.DataArray(error, dims="claim")
+        parts[source] = budget.Part(error, "see the comment of each claim")
     return budget.with_budget(dataset, "value", **parts)
 
 
@@ -110,11 +105,10 @@ def to_markdown(claims, findings, sources):
         for e in ERRATA
     ]
     heads = ("#", "subject", "printed", "correct", "proof", "recomputed")
+    of_claims, of_errata = table(columns, rows), table(heads, errata)
     return (
-        "# Claims of the paper, recomputed\n\n"
-        + table(columns, rows)
-        + "\n# Errata of the manuscript\n\n"
-        + table(heads, errata)
+        f"# Claims of the paper, recomputed\n\n{of_claims}\n"
+        f"# Errata of the manuscript\n\n{of_errata}"
     )
 
 

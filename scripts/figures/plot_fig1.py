@@ -4,6 +4,7 @@ import numpy as np
 
 from pipeline import plotting
 from pipeline.conventions import VARIANT
+from pipeline.plotting import COLOURS, GREY, make_dot, make_key, state
 from pipeline.theory import between_corrections
 from stickiness.core import datasets
 
@@ -29,18 +30,18 @@ def main(job):
 def draw_magnifications(ax, theory):
     """P(u) at a given mean gap for a few magnifications, with the power law -1/3."""
     hurst, theory = float(theory.hurst[0]), theory.isel(hurst=0, load=0)
-    for colour, magnification in zip(plotting.COLOURS, theory.magnification.values, strict=False):
+    for colour, magnification in zip(COLOURS, theory.magnification.values, strict=False):
         density = theory.gap_density.sel(magnification=magnification)
         plotting.draw_band(ax, theory.gap, *between_corrections(density), colour)
         draw_variants(ax, density, color=colour)
-        ax.plot([], [], color=colour, label=plotting.state(magnification=magnification))
+        ax.plot([], [], color=colour, label=state(magnification=magnification))
     u = np.array([1e-3, 1e-1])
     plotting.draw_guide(ax, u, 0.9 * (u / u[0]) ** (-1 / 3), r"$u^{-1/3}$", (1.2e-2, 0.43))
     ax.set(xscale="log", yscale="log", xlabel=plotting.GAP, ylabel=DENSITY)
     ax.set(xlim=(1e-4, 10), ylim=(2e-2, 3))
-    ax.set_title(plotting.state(hurst=hurst, mean_gap=float(theory.mean_gap.mean())))
+    ax.set_title(state(hurst=hurst, mean_gap=float(theory.mean_gap.mean())))
     handles, _ = ax.get_legend_handles_labels()
-    ax.legend(handles=handles + variant_keys(), loc="lower left")
+    ax.legend(handles=handles + make_variant_keys(), loc="lower left")
 
 
 def draw_variants(ax, density, **look):
@@ -48,9 +49,9 @@ def draw_variants(ax, density, **look):
         ax.plot(density.gap, density.sel(variant=variant), line, **look)
 
 
-def variant_keys():
+def make_variant_keys():
     return [
-        plotting.make_key(text, linestyle=plotting.VARIANT_LINES[name])
+        make_key(text, linestyle=plotting.VARIANT_LINES[name])
         for name, text in plotting.VARIANT_LABELS.items()
     ]
 
@@ -69,14 +70,14 @@ def draw_convergence(ax, theory):
         ax.text(1.7 * last, height, f"{gap:g}", color=colour, va="center", fontsize=8)
         if gap <= LARGEST_POWER_LAW_GAP:
             level = limit * (gap / REFERENCE_GAP) ** (-1 / 3)
-            ax.plot([last / 30, last], [level, level], ":", color=plotting.GREY, linewidth=1.1)
-    ax.set_title(plotting.state(hurst=hurst, mean_gap=float(theory.mean_gap.mean())))
+            ax.plot([last / 30, last], [level, level], ":", color=GREY, linewidth=1.1)
+    ax.set_title(state(hurst=hurst, mean_gap=float(theory.mean_gap.mean())))
     ax.set(xscale="log", yscale="log", xlabel=plotting.MAGNIFICATION, ylabel=DENSITY)
     ax.set(xlim=(2, 3e7), ylim=(0.2, 4))
     plotting.write_ticks(ax.yaxis, [0.2, 0.3, 0.5, 1, 2, 3])
     ax.text(1.7 * last, 2.95, r"$u/h_\mathrm{rms}$", ha="center", fontsize=8)
     law = rf"$u^{{-1/3}}$ through $u/h_\mathrm{{rms}}$ = {REFERENCE_GAP:g}"
-    ax.legend(handles=[plotting.make_key(law, linestyle=":")], loc="upper left")
+    ax.legend(handles=[make_key(law, linestyle=":")], loc="upper left")
 
 
 def at_gap(density, gap):
@@ -87,26 +88,26 @@ def at_gap(density, gap):
 
 def draw_simulation(ax, ensemble, lattice):
     """Simulated P(u) with its errors against theory on the spectrum of the window."""
-    for colour, load in zip(plotting.COLOURS, LOADS, strict=False):
+    for colour, load in zip(COLOURS, LOADS, strict=False):
         measured = ensemble.sel(pressure=load, method="nearest")
         draw_measured(ax, measured, colour)
         theory = lattice.gap_density.sel(pressure=load, method="nearest")
         draw_variants(ax, theory, color=colour, linewidth=0.9)
-        ax.plot([], [], color=colour, label=plotting.state(pressure=float(measured.pressure)))
+        ax.plot([], [], color=colour, label=state(pressure=float(measured.pressure)))
     made = datasets.parameters(ensemble)
     ax.set(xscale="log", yscale="log", xlabel=plotting.GAP, ylabel=DENSITY)
     ax.set(xlim=(1e-4, 10), ylim=(1e-2, 20))
-    surface = plotting.state(hurst=made["hurst"], magnification=made["magnification"])
+    surface = state(hurst=made["hurst"], magnification=made["magnification"])
     count = count_realisations(ensemble)
     ax.set_title(
         f"simulation against theory on the window's spectrum, {surface}, {count} realisations"
     )
     handles, _ = ax.get_legend_handles_labels()
     dots = [
-        plotting.make_dot("BEM, ensemble mean", marker="."),
-        plotting.make_dot("by the edge law", mfc="white", markersize=3),
+        make_dot("BEM, ensemble mean", marker="."),
+        make_dot("by the edge law", mfc="white", markersize=3),
     ]
-    ax.legend(handles=[*handles, *dots, *variant_keys()], loc="upper right", ncols=2)
+    ax.legend(handles=[*handles, *dots, *make_variant_keys()], loc="upper right", ncols=2)
 
 
 def count_realisations(ensemble):

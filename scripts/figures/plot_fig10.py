@@ -4,17 +4,16 @@ import numpy as np
 
 from pipeline import plotting
 from pipeline.numbers import number
+from pipeline.plotting import BLACK, GREY, pick_look, state
 from stickiness.adhesion import equivalent_sphere
 from stickiness.core import datasets
 
 COLUMNS = (
-    "attractive_over_contact",
-    "edge_strength",
-    "effect",
-    "over_model",
-    "over_model_total_error",
+    *("attractive_over_contact", "edge_strength"),
+    *("effect", "over_model", "over_model_total_error"),
 )
 LARGEST_ERROR = 0.25  # of a point that is drawn; covers 90 %
+LOOK = {"markersize": 3.5, "linestyle": "none", "elinewidth": 0.7}
 WEAKEST_EDGE = 1e-4  # left end of panel B
 
 
@@ -35,17 +34,19 @@ def select_certain(data):
 def draw_weak(ax, files):
     """Weak edges: effect against the attractive area, with the closed form."""
     t = np.geomspace(0.05, 200, 200)
-    ax.plot(t, equivalent_sphere.weak_effect(t), color=plotting.BLACK, label="equivalent sphere")
+    ax.plot(t, equivalent_sphere.weak_effect(t), color=BLACK, label="equivalent sphere")
     small = t[t < 1.5]
     formula = r"$(4/\pi)\,t^{-1/2}$"
     plotting.draw_guide(ax, small, 4 / np.pi * small**-0.5, formula, (0.05, 1.95))
-    ax.axhline(1, color=plotting.GREY, linewidth=0.9, linestyle="--")
-    ax.text(0.06, 1.04, "DMT limit", color=plotting.GREY, fontsize=8)
+    ax.axhline(1, color=GREY, linewidth=0.9, linestyle="--")
+    ax.text(0.06, 1.04, "DMT limit", color=GREY, fontsize=8)
     for index, data in enumerate(files):
         area, strength, effect, ratio, error = select_certain(data)
         weak = strength < equivalent_sphere.WEAK
         bars = (effect * error / ratio)[weak]
-        ax.errorbar(area[weak], effect[weak], bars, label=name(data), **look(index))
+        ax.errorbar(
+            area[weak], effect[weak], bars, label=name_surface(data), **LOOK, **pick_look(index)
+        )
     ax.set(xscale="log", yscale="log")
     ax.set_xlabel(r"attractive over contact area $A_\mathrm{ad}/A_\mathrm{rep}$")
     ax.set_ylabel("attraction at equal area over DMT's")
@@ -59,25 +60,21 @@ def draw_ratios(ax, files):
     ends = WEAKEST_EDGE, equivalent_sphere.WEAK, equivalent_sphere.STRONGEST_SIMULATED
     factors = equivalent_sphere.ERROR_WEAK, equivalent_sphere.ERROR_STRONG
     for low, high, factor in zip(ends, ends[1:], factors, strict=False):
-        plotting.draw_band(ax, [low, high], 1 / factor, factor, plotting.GREY, alpha=0.2)
+        plotting.draw_band(ax, [low, high], 1 / factor, factor, GREY, alpha=0.2)
     for index, data in enumerate(files):
         _, strength, _, ratio, error = select_certain(data)
-        ax.errorbar(strength, ratio, error, **look(index))
-    ax.axhline(1, color=plotting.BLACK)
+        ax.errorbar(strength, ratio, error, **LOOK, **pick_look(index))
+    ax.axhline(1, color=BLACK)
     ax.set(xscale="log", yscale="log", xlim=(ends[0], ends[-1]))
     plotting.write_ticks(ax.yaxis, [0.6, 0.7, 0.8, 0.9, 1, 1.2, 1.4, 1.6])
     ax.set(xlabel=r"Tabor parameter of the edges $\tau = l_ad/\epsilon^2$")
     ax.set_ylabel("simulation over equivalent sphere")
 
 
-def look(index):
-    return plotting.pick_look(index, markersize=3.5, linestyle="none", elinewidth=0.7)
-
-
-def name(data):
+def name_surface(data):
     made = datasets.parameters(data)
     roughness = float(number(made["q0_h_rms"], 2))
-    return plotting.state(magnification=made["magnification"], q0_h_rms=roughness)
+    return state(magnification=made["magnification"], q0_h_rms=roughness)
 
 
 if __name__ == "__main__":

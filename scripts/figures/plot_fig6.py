@@ -3,6 +3,7 @@
 import numpy as np
 
 from pipeline import plotting
+from pipeline.plotting import BLACK, COLOURS, GREY
 from stickiness.core import datasets
 
 HURST = 0.8  # of the lines
@@ -35,16 +36,16 @@ def draw_spectra(ax, surfaces, power):
     draw_lines(ax, power)
     for index, surface in enumerate(surfaces):
         draw = draw_measured if "psd_fit" in surface else draw_parametric
-        draw(ax, surface, power, plotting.COLOURS[index % len(plotting.COLOURS)])
+        draw(ax, surface, power, COLOURS[index % len(COLOURS)])
     ax.set(xscale="log", yscale="log", xlim=WAVE_NUMBERS)
 
 
 def draw_lines(ax, power):
     """Lines of constant C0 with their names."""
     q = np.array(WAVE_NUMBERS)
-    grey = {"color": plotting.GREY, "fontsize": 8}
+    grey = {"color": GREY, "fontsize": 8}
     for c0, text in LINES.items():
-        ax.plot(q, c0 * q ** (power - EXPONENT), "--", color=plotting.GREY, linewidth=0.9, zorder=1)
+        ax.plot(q, c0 * q ** (power - EXPONENT), "--", color=GREY, linewidth=0.9, zorder=1)
         if power:
             ax.text(np.sqrt(q.prod()) / 300, 1.3 * c0, text, **grey)
     if not power:
@@ -75,7 +76,7 @@ def draw_measured(ax, surface, power, colour):
     psd, error = surface.psd.isel(end=0) * scale, surface.psd_standard_error * scale
     plotting.draw_spectrum(ax, surface.wave_number, psd, error, color=colour)
     fit = (surface.psd_fit * scale).where(surface.fitted == 1)
-    ax.plot(surface.wave_number, fit, color=plotting.BLACK, linewidth=0.9, zorder=5)
+    ax.plot(surface.wave_number, fit, color=BLACK, linewidth=0.9, zorder=5)
     look = {"color": colour, "marker": "o", "linestyle": "none", "markersize": 2.5}
     ax.plot([], [], label=name_surface(surface), **look)
 

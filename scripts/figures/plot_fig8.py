@@ -7,7 +7,7 @@ import xarray as xr
 
 from pipeline import plotting
 from pipeline.conventions import LOAD, VARIANT
-from pipeline.plotting import BLACK, GREY
+from pipeline.plotting import BLACK, GREY, make_dot, make_key, pick_look, state
 from stickiness.core import datasets
 
 CORRECTIONS = {"yang2008": "Yang & Persson", "wang2017": "Wang & Müser", "xu2024": "Xu et al."}
@@ -65,7 +65,9 @@ def main(job):
             panels[f"{ROWS[0]}{column}"].set_title(title)
         draw_windows(panels["A"], cases)
         draw_gamma(panels["B"], gamma)
-        panels["A"].figure.legend(handles=case_keys(cases), loc="outside upper center", ncols=6)
+        panels["A"].figure.legend(
+            handles=make_case_keys(cases), loc="outside upper center", ncols=6
+        )
 
 
 def order_cases(comparisons):
@@ -82,25 +84,22 @@ def order_cases(comparisons):
     cases = []
     for comparison in comparisons:
         own_hurst, own_magnification, _ = order(comparison)
-        colour = plotting.pick_look(hurst.index(own_hurst))["color"]
-        marker = plotting.pick_look(magnification.index(own_magnification))["marker"]
+        colour = pick_look(hurst.index(own_hurst))["color"]
+        marker = pick_look(magnification.index(own_magnification))["marker"]
         cases.append(Case(comparison, {"color": colour, "marker": marker}))
     return cases
 
 
-def case_keys(cases):
+def make_case_keys(cases):
     colours = {case.made["hurst"]: case.look["color"] for case in cases}
     markers = {case.made["magnification"]: case.look["marker"] for case in cases}
     return [
+        *(make_key(state(hurst=h), color=colour) for h, colour in colours.items()),
         *(
-            plotting.make_key(plotting.state(hurst=h), color=colour)
-            for h, colour in colours.items()
-        ),
-        *(
-            plotting.make_dot(plotting.state(magnification=zeta), marker=marker)
+            make_dot(state(magnification=zeta), marker=marker)
             for zeta, marker in sorted(markers.items())
         ),
-        plotting.make_dot("window too small for the load", mfc="white"),
+        make_dot("window too small for the load", mfc="white"),
     ]
 
 
@@ -180,7 +179,7 @@ def draw_windows(ax, cases):
     plotting.write_ticks(ax.yaxis, [0.7, 1, 1.5, 2, 3])
     ax.set_xlabel(r"highest summit less theory's mean gap, over $h_\mathrm{rms}$")
     ax.set_ylabel(rf"BEM/theory, $A_\mathrm{{ad}}({RANGE:g}\,h_\mathrm{{rms}})$")
-    keys = [plotting.make_dot("window of one wave", mfc="white"), plotting.make_dot("of several")]
+    keys = [make_dot("window of one wave", mfc="white"), make_dot("of several")]
     ax.legend(handles=keys, loc="upper right")
 
 
@@ -198,7 +197,7 @@ def draw_gamma(ax, gamma):
             ax.text(0.27, count - 1 + aside, f"{label}: none fits all", **SMALL)
         y = np.arange(at.sizes["quantity"]) + aside
         bars = np.abs([at.gamma - at.gamma_low, at.gamma_high - at.gamma])
-        look = plotting.pick_look(index, linestyle="none")
+        look = pick_look(index, linestyle="none")
         ax.errorbar(at.gamma, y, xerr=bars, elinewidth=1, capsize=2, **look, label=label)
         for height, end, misfit in zip(y, at.gamma_high.values, at.misfit.values, strict=True):
             ax.text(end + 0.015, height, f"{misfit:.0%}", **SMALL)

@@ -11,7 +11,7 @@ from pipeline.pages import captions, measured_contact
 from pipeline.pages.surface_figure import draw_surface
 from pipeline.pages.surface_texts import describe_height, describe_line, describe_slope
 from pipeline.pages.verdict_texts import describe_pair, ends, explain
-from pipeline.verdicts.materials import describe_modulus, material
+from pipeline.verdicts.materials import describe_modulus, read_material
 from stickiness.core import datasets
 from stickiness.core.statistics import COVERS
 from stickiness.criteria.moduli import crossings
@@ -35,13 +35,15 @@ def main(job):
         files={
             "surface": job.input.surface,
             "verdicts": job.input.verdicts,
-            "pressed": job.input.pressed[0] if job.input.pressed else "",
+            "measured_contact": job.input.measured_contact[0] if job.input.measured_contact else "",
         },
         surface=surface,
         pairs=pairs,
         materials=datasets.parameters(verdicts)["materials"],
         figure=captions.embed_figure(job.output.figure, CAPTION),
-        bem=datasets.read(job.input.pressed[0], ["a_v"]) if job.input.pressed else None,
+        bem=datasets.read(job.input.measured_contact[0], ["a_v"])
+        if job.input.measured_contact
+        else None,
     )
     with datasets.whole_file(job.output.page) as path:
         path.write_text(page, encoding="utf-8")
@@ -63,9 +65,9 @@ def render(template, page, *, files, surface, pairs, materials, figure, bem=None
         measured=[t for t in surface.attrs.get("files", "").split("; ") if t],
         loads=measured_contact.describe_loads(bem) if bem is not None else [],
         load=number(LOAD),
-        pressed=[
+        margins=[
             {"material": materials[name]["label"]}
-            | measured_contact.describe_pair(bem, material(materials[name]), surface)
+            | measured_contact.describe_pair(bem, read_material(materials[name]), surface)
             for name in names
             if bem is not None
         ],
@@ -126,20 +128,22 @@ def describe_roll_off(surface):
 
 def describe_verdict(pair, surface, entry):
     """Verdict of one material, with its errors and every criterion's reason."""
-    solid = material(entry)
+    solid = read_material(entry)
     return {
         "material": entry["label"],
         "modulus": describe_modulus(entry),
         **describe_pair(pair),
-        "rate": describe_rate(solid, pair) if solid.depends_on_rate else NOTHING,
+        "rate": describe_rate(solid, pair, ends(pair.modulus_threshold))
+        if solid.depends_on_rate
+        else NOTHING,
         "criteria": explain(pair, surface, solid.work_of_adhesion),
     }
 
 
-def describe_rate(solid, pair):
+def describe_rate(solid, pair, thresholds):
     """Frequencies at which the modulus passes the threshold, at both ends of the surface."""
     texts = []
-    for threshold in dict.fromkeys(ends(pair.modulus_threshold)):
+    for threshold in dict.fromkeys(thresholds):
         found = crossings(solid.plane_strain, threshold, pair.frequency.values)
         words = [f"{'below' if up else 'above'} {number(f, 2)} Hz" for f, up in found]
         if not words:

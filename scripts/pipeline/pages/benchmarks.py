@@ -29,8 +29,8 @@ def run_times(folder: str | Path) -> dict[str, Any]:
                 "rule": rule,
                 "jobs": count,
                 "total": number(np.nansum(seconds)),
-                "longest": number(largest(seconds)),
-                "memory": number(largest(memory)),
+                "longest": number(np.fmax.reduce(seconds)),
+                "memory": number(np.fmax.reduce(memory)),
             }
             for rule, count, seconds, memory in rows
         ],
@@ -48,7 +48,3 @@ def read_benchmark(path: Path) -> list[tuple[float, float]]:
         return float(text) if re.fullmatch(r"\d+(\.\d+)?", text) else np.nan
 
     return [(value(line, "s"), value(line, "max_rss")) for line in lines if line]
-
-
-def largest(values: np.ndarray) -> float:
-    return np.nan if np.isnan(values).all() else float(np.nanmax(values))

@@ -17,38 +17,20 @@ from stickiness.criteria.surface_a_v import SurfaceAv
 class MeasuredAv:
     """a_V of a broad spectrum and the parts of its error, all absolute.
 
-    Attributes
-    ----------
-    value : float
-        a_V of a simulated case in the first interval of the fit, times the ratio of theory on the
-        broadest continuous spectrum to theory on the lattice spectrum of the case. Simulation has
-        neither the bandwidth of real surfaces nor, in a small cell, their long waves. Theory is
-        close to simulation on the same spectrum and extrapolates to both.
-    simulated : float
-        a_V of the case itself.
-    over_lattice : float
-        Ratio of simulation to theory on the lattice spectrum of the case.
-    magnification : float
-        Magnification of the broadest spectrum.
-    sampling : float
-        Of the mean over seeds, covers 90 %; 0 for a single seed, whose error is unknown.
-    discretisation : float
-        Of the limit of fine grids.
-    fit_interval : float
-        Half the spread between the intervals of the fit: the 2/3 law holds only roughly, so that
-        a_V depends on the interval.
-    bandwidth : float
-        Change of theory over the last two decades of magnification, in which a_V still grows.
+    The value is that of a simulated case in the first interval of the fit, times the ratio of
+    theory on the broadest continuous spectrum to theory on the lattice spectrum of the case.
+    Simulation has neither the bandwidth of real surfaces nor, in a small cell, their long waves.
+    Theory is close to simulation on the same spectrum and extrapolates to both.
     """
 
     value: float
-    simulated: float
-    over_lattice: float
-    magnification: float
-    sampling: float
-    discretisation: float
-    fit_interval: float
-    bandwidth: float
+    simulated: float  # a_V of the case itself
+    over_lattice: float  # ratio of simulation to theory on the lattice spectrum of the case
+    magnification: float  # of the broadest spectrum
+    sampling: float  # of the mean over seeds, covers 90 %; 0 for one seed, whose error is unknown
+    discretisation: float  # of the limit of fine grids
+    fit_interval: float  # half the spread between intervals, as the 2/3 law holds only roughly
+    bandwidth: float  # change over the last two decades of magnification, in which a_V still grows
 
     @property
     def error(self) -> float:
@@ -106,21 +88,10 @@ def between(value: xr.DataArray, low: xr.DataArray, high: xr.DataArray) -> Part:
 
 
 def measure_a_v(inputs, pressure):
-    """`MeasuredAv` from the fit to the simulated case and two fits to theory.
+    """`MeasuredAv` at a load over E* q0 h_rms, from three files of `fit_a_v`.
 
-    Parameters
-    ----------
-    inputs : object
-        With files of `fit_a_v`: `a_v`, of the simulated case; `lattice`, of theory on the lattice
-        spectrum of the same case; and `theory`, of a sweep over magnification. The first of their
-        fit intervals is quoted.
-    pressure : float
-        Load over E* q0 h_rms, one of those of the case.
-
-    Raises
-    ------
-    ValueError
-        If the fit to the case does not have this load.
+    `inputs.a_v` is of the simulated case, `inputs.lattice` of theory on the lattice spectrum of the
+    same case, and `inputs.theory` of a sweep over magnification. Their first interval is quoted.
     """
     fit = datasets.read(inputs.a_v, SIMULATED)
     if not np.isclose(fit.pressure, pressure).any():

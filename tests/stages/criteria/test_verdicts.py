@@ -8,7 +8,7 @@ import xarray as xr
 
 from criteria import judge
 from pipeline.verdicts.a_v import MeasuredAv, measure_a_v
-from pipeline.verdicts.materials import material
+from pipeline.verdicts.materials import read_material
 from pipeline.verdicts.words import decide_pairs
 from stickiness import criteria
 from stickiness.adhesion import equivalent_sphere
@@ -87,7 +87,7 @@ def test_verdict(low, high, full, expected):
 def pairs_of(modulus, ranges, h_rms=1e-6, a_v=(4.0, 4.0, 4.0)):
     """Verdicts on one surface for materials of one modulus and several ranges."""
     solids = {
-        f"range {reach:g}": material(
+        f"range {reach:g}": read_material(
             {
                 "plane_strain_modulus": f"{modulus} Pa",
                 "work_of_adhesion": "0.05 J/m^2",
@@ -110,7 +110,9 @@ def pairs_of(modulus, ranges, h_rms=1e-6, a_v=(4.0, 4.0, 4.0)):
     a_v = SurfaceAv(np.array([1e-9, 1.0]), np.transpose([a_v, a_v]), 0, 1.0, 0.0)
     parts = dict.fromkeys(("sampling", "discretisation", "fit_interval", "bandwidth"), 0.1)
     constant = MeasuredAv(3.0, simulated=2.0, over_lattice=1.0, magnification=1e6, **parts)
-    return judge.judge_pairs(solids, {"one": surface}, {"one": a_v}, constant, np.array([1.0, 1e3]))
+    return judge.find_verdicts(
+        solids, {"one": surface}, {"one": a_v}, constant, np.array([1.0, 1e3])
+    )
 
 
 def test_tough_edges_do_not_know_the_range():

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from pipeline.pages import measured_contact
-from pipeline.verdicts.materials import material
+from pipeline.verdicts.materials import read_material
 from real_surfaces import contact_measured
 from stickiness import surface
 from stickiness.measured.topography import Topography
@@ -103,6 +103,6 @@ def test_margin_is_shown_where_the_grid_resolves_the_range(whole, range_, shown)
     entry = {"plane_strain_modulus": "1 Pa", "work_of_adhesion": "0.1 J/m^2", "range": range_}
     ends = {"h_rms": ("end", [1.0, 1.0]), "rms_slope": ("end", [3.0, 3.0])}
     known = found.isel(resolution=-1, periodisation=0)[[]].assign(ends | {"q0": 1.0})
-    row = measured_contact.describe_pair(found, material(entry), known)
+    row = measured_contact.describe_pair(found, read_material(entry), known)
     assert row["resolved"] == shown
     assert (row["margin"] != "–") == shown

@@ -391,7 +391,7 @@ def test_summary_counts(claims, verdicts):
     found = report.summarise(claims, verdicts, [ensemble(), ensemble(seeds=range(1, 5))])
     assert [(name, count) for name, count, _ in found["graded"]] == [(g, 1) for g in GRADES]
     assert (found["pairs"], found["sticky"]) == (4, 1)
-    assert [pair[:2] for pair in found["judged"]] == [
+    assert [pair[:2] for pair in found["by_verdict"]] == [
         ("sticky", 1),
         ("depends", 1),
         ("not sticky", 2),

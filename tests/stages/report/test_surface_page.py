@@ -12,7 +12,7 @@ from persson import persson_surface
 from pipeline import measured_surface
 from pipeline.pages import captions, surface_figure, surface_texts
 from pipeline.verdicts.a_v import MeasuredAv
-from pipeline.verdicts.materials import material
+from pipeline.verdicts.materials import read_material
 from real_surfaces import analyse_surface
 from report import write_surface
 from stickiness import surface
@@ -63,9 +63,9 @@ def judged(found):
     a_v = SurfaceAv(ranges, np.array([[2.0] * 10, [3.0] * 10]), 0, 1.0, 0.05)
     parts = dict.fromkeys(("sampling", "discretisation", "fit_interval", "bandwidth"), 0.1)
     constant = MeasuredAv(3.0, simulated=2.0, over_lattice=1.0, magnification=1e6, **parts)
-    solids = {name: material(entry) for name, entry in MATERIALS.items()}
+    solids = {name: read_material(entry) for name, entry in MATERIALS.items()}
     frequencies = np.geomspace(1e-4, 1e6, 21)
-    return judge.judge_pairs(solids, {"plate": found}, {"plate": a_v}, constant, frequencies)
+    return judge.find_verdicts(solids, {"plate": found}, {"plate": a_v}, constant, frequencies)
 
 
 @pytest.fixture(scope="module")
@@ -93,7 +93,11 @@ def page_of(found, folder):
     return write_surface.render(
         TEMPLATE,
         folder / "report/surfaces/plate.html",
-        files={"surface": folder / "plate.nc", "verdicts": folder / "verdicts.nc", "pressed": ""},
+        files={
+            "surface": folder / "plate.nc",
+            "verdicts": folder / "verdicts.nc",
+            "measured_contact": "",
+        },
         surface=found,
         pairs=pairs,
         materials=MATERIALS,
@@ -132,7 +136,9 @@ def test_points_dropped_beside_missing_ones_are_told(folder, single):
     found = analysed(folder / "rim.nc", file=str(path))
     assert int(found.dropped_points) == 12**2 - 10**2
     assert "44 points" in found.attrs["remarks"]
-    assert dict(write_surface.known(found))["dropped beside missing points"] == "44 points"
+    assert (
+        dict(write_surface.list_parameters(found))["dropped beside missing points"] == "44 points"
+    )
     assert float(found.h_rms_measured) == pytest.approx(float(single.h_rms_measured), rel=0.05)
 
 
@@ -226,7 +232,7 @@ def test_page_of_a_parametric_surface(folder):
 
 def test_rates_of_the_page_follow_the_modulus(single):
     pair = judged(single).sel(surface="plate", material="gel")
-    solid = material(MATERIALS["gel"])
+    solid = read_material(MATERIALS["gel"])
     at = pair.modulus.values
     np.testing.assert_allclose(at, solid.plane_strain.storage(pair.frequency.values))
     # Stiffer is less sticky: by the root of the modulus where edges are tough, in proportion where
@@ -240,8 +246,8 @@ def test_rates_of_the_page_follow_the_modulus(single):
     # At 1 Hz it is the margin quoted.
     quoted = np.interp(0, np.log(pair.frequency), np.log(high))
     assert np.exp(quoted) == pytest.approx(float(pair.margin_high.max()), rel=0.01)
-    assert write_surface.rate(solid, pair, [1e30]) == "sticks at every frequency"
-    assert write_surface.rate(solid, pair, [1.0]) == "sticks at none"
+    assert write_surface.describe_rate(solid, pair, [1e30]) == "sticks at every frequency"
+    assert write_surface.describe_rate(solid, pair, [1.0]) == "sticks at none"
 
 
 def test_errors_of_sizes_cover_what_those_of_the_fit_do():

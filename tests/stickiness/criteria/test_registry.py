@@ -12,7 +12,7 @@ from pipeline.pages import report, verdict_texts
 from pipeline.plotting import make_panels
 from pipeline.verdicts.a_v import MeasuredAv
 from pipeline.verdicts.markdown import write_markdown
-from pipeline.verdicts.materials import material
+from pipeline.verdicts.materials import read_material
 from stickiness.core import datasets
 from stickiness.criteria.registry import CRITERIA, EDGES, Criterion
 from stickiness.criteria.surface_a_v import SurfaceAv
@@ -58,9 +58,9 @@ def road(tmp_path):
 @pytest.fixture
 def judged(road):
     a_v = SurfaceAv(np.array([1e-9, 1.0]), np.array([[4.0, 4.0]]), 0, 1.0, 0.1)
-    solids = {"gel": material(GEL)}
+    solids = {"gel": read_material(GEL)}
     rates = np.array([1.0])
-    return judge.judge_pairs(solids, {"road": road}, {"road": a_v}, CONSTANT, rates)
+    return judge.find_verdicts(solids, {"road": road}, {"road": a_v}, CONSTANT, rates)
 
 
 @pytest.fixture
@@ -90,7 +90,7 @@ def test_an_entry_is_all_that_a_new_criterion_needs(made_up, road, judged):
     assert rows["Made & Up"]["reason"] == "Heights of 1 … 2 µm against nothing else."
     assert rows["Made & Up"]["says"] == "does not stick"
     verdicts = judged.assign_attrs(parameters='{"materials": {"gel": {"label": "gel"}}}')
-    listed = report.disagreements(verdicts, {"road": road})
+    listed = report.find_disagreements(verdicts, {"road": road})
     assert "Made & Up" in [row["criterion"] for row in listed]
 
 
@@ -104,11 +104,11 @@ def test_a_new_criterion_is_on_figure_9(made_up, judged):
     found = compared.against_roughness.sel(criterion="made_up")
     np.testing.assert_allclose(found, compared.h_rms_over_range)  # in units of the range
     _, panels = make_panels("AC", 3)
-    plot_fig9.curves(panels["A"], compared.against_roughness, "roughness")
+    plot_fig9.draw_thresholds(panels["A"], compared.against_roughness, COMPARED, "")
     assert "Made & Up" in panels["A"].get_legend_handles_labels()[1]
-    before = len(plot_fig9.drawn(judged.threshold_by_criterion))
+    before = len(plot_fig9.select_criteria(judged.threshold_by_criterion))
     assert before == len(CRITERIA) - 1  # Dahlquist's knows no adhesion length
-    plot_fig9.on_surfaces(panels["C"], judged)
+    plot_fig9.draw_surfaces(panels["C"], judged)
 
 
 @pytest.mark.parametrize(
@@ -133,9 +133,9 @@ def test_every_threshold_is_where_the_margin_is_one(judged, road):
     pair = judged.sel(material="gel", surface="road", end="rough")
     for name in CRITERIA:
         modulus = float(pair.threshold_by_criterion.sel(criterion=name))
-        solids = {"gel": material(GEL | {"plane_strain_modulus": f"{modulus!r} Pa"})}
+        solids = {"gel": read_material(GEL | {"plane_strain_modulus": f"{modulus!r} Pa"})}
         at = (
-            judge.judge_pairs(solids, {"road": road}, {"road": a_v}, CONSTANT, np.array([1.0]))
+            judge.find_verdicts(solids, {"road": road}, {"road": a_v}, CONSTANT, np.array([1.0]))
             .sel(criterion=name, end="rough")
             .squeeze()
         )
