@@ -101,7 +101,8 @@ def to_markdown(claims, findings, sources):
     ]
     columns = ("#", "claim", "verdict", "measured", "error by", "claimed", "remark", "from")
     errata = [
-        (e.number, e.subject, e.printed, e.correct, e.proof, list_numbers(e.recompute()))
+        (e.number, e.subject, e.printed, e.correct, e.proof)
+        + (", ".join(f"{name} = {value:.4g}" for name, value in e.recompute().items()),)
         for e in ERRATA
     ]
     heads = ("#", "subject", "printed", "correct", "proof", "recomputed")
@@ -125,10 +126,6 @@ def with_error(value, uncertainty):
         return f"{value:.4g} (exact)"
     error = "" if np.isnan(uncertainty) else f" ± {uncertainty:.2g}"
     return f"{value:.4g}{error}"
-
-
-def list_numbers(recomputed):
-    return ", ".join(f"{name} = {value:.4g}" for name, value in recomputed.items())
 
 
 if __name__ == "__main__":

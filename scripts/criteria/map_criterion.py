@@ -8,7 +8,7 @@ from scipy.optimize import elementwise
 
 from pipeline.conventions import logarithmic_grid
 from pipeline.job import start
-from pipeline.verdicts.a_v import CLOSED, between, measure_a_v
+from pipeline.verdicts.a_v import CLOSED, between_limits, measure_a_v
 from stickiness import criteria
 from stickiness.adhesion import area_load, equivalent_sphere
 from stickiness.core import datasets
@@ -143,8 +143,7 @@ def find_slopes(parameters, a_v):
 def add_budgets(dataset, constant):
     """Add error budgets to the limits and the constant a_V."""
     for name in ("h_rms_limit", "h_rms_limit_edges"):
-        ends = (dataset[f"{name}{end}"] for end in ("", "_low", "_high"))
-        dataset = with_budget(dataset, name, model=between(*ends), **CLOSED)
+        dataset = with_budget(dataset, name, model=between_limits(dataset, name), **CLOSED)
     dataset = with_budget(dataset, "a_v", **constant.parts(constant.value))
     # In proportion to a_V^(3/5).
     parts = constant.parts(3 / 5 * dataset.h_rms_limit_constant)

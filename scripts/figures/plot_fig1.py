@@ -98,7 +98,8 @@ def draw_simulation(ax, ensemble, lattice):
     ax.set(xscale="log", yscale="log", xlabel=plotting.GAP, ylabel=DENSITY)
     ax.set(xlim=(1e-4, 10), ylim=(1e-2, 20))
     surface = state(hurst=made["hurst"], magnification=made["magnification"])
-    count = count_realisations(ensemble)
+    fine, coarse = ensemble.sizes["seed"], ensemble.sizes.get("coarse_seed")
+    count = f"{fine} fine and {coarse} coarse" if coarse else f"{fine}"
     ax.set_title(
         f"simulation against theory on the window's spectrum, {surface}, {count} realisations"
     )
@@ -108,12 +109,6 @@ def draw_simulation(ax, ensemble, lattice):
         make_dot("by the edge law", mfc="white", markersize=3),
     ]
     ax.legend(handles=[*handles, *dots, *make_variant_keys()], loc="upper right", ncols=2)
-
-
-def count_realisations(ensemble):
-    """Number of realisations, coarse ones apart."""
-    fine, coarse = ensemble.sizes["seed"], ensemble.sizes.get("coarse_seed")
-    return f"{fine} fine and {coarse} coarse" if coarse else f"{fine}"
 
 
 def draw_measured(ax, measured, colour):

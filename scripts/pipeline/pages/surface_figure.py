@@ -88,13 +88,10 @@ def draw_measured(ax, surface, q, low, high):
     error = surface.psd_standard_error.values[measured]
     plotting.draw_spectrum(ax, q[measured], low[measured], error, **look)
     fit = surface.psd_fit.where((surface.fitted == 1) | ~measured)
-    ax.plot(q, fit, color=BLACK, linewidth=0.9, zorder=5, label=describe_fit(surface))
-    draw_limits(ax, surface)
-
-
-def describe_fit(surface):
     text = f"fit: $H$ = {float(surface.hurst):.2f} ± {float(surface.hurst_total_error):.2f}"
-    return text + (", roll-off" if "q_rolloff" in surface else "")
+    text += ", roll-off" if "q_rolloff" in surface else ""
+    ax.plot(q, fit, color=BLACK, linewidth=0.9, zorder=5, label=text)
+    draw_limits(ax, surface)
 
 
 def draw_limits(ax, surface):

@@ -82,6 +82,11 @@ CLOSED = {
 LIMITS = "of a_V, its sources together, and of the model of the edges; the farther of both limits"
 
 
+def between_limits(dataset: xr.Dataset, name: str) -> Part:
+    """Part of the budget of a variable that has a low and a high limit beside it."""
+    return between(*(dataset[f"{name}{end}"] for end in ("", "_low", "_high")))
+
+
 def between(value: xr.DataArray, low: xr.DataArray, high: xr.DataArray) -> Part:
     """Part of the budget of a value that is known between two limits."""
     return Part(np.maximum(abs(high - value), abs(value - low)), LIMITS)
