@@ -8,7 +8,7 @@ def datasets_of(figure):
     return [str(file) for file in getattr(rules, f"plot_{figure}").input]
 
 
-def pressed_heights(wildcards):
+def find_measured_contact(wildcards):
     """Contact of the measured heights of a surface, if it is asked for."""
     asked = "bem" in REAL_SURFACES[wildcards.real_surface]
     return [f"{RESULTS}/real_surfaces/contact/{wildcards.real_surface}.nc"] if asked else []
@@ -56,7 +56,7 @@ rule write_surface:
         parts=PAGE_PARTS,
         surface=f"{RESULTS}/real_surfaces/{{real_surface}}.nc",
         verdicts=f"{RESULTS}/criteria/verdicts.nc",
-        pressed=pressed_heights,
+        measured_contact=find_measured_contact,
     output:
         figure=f"{RESULTS}/figures/surfaces/{{real_surface}}.png",
         page=report(

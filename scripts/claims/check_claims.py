@@ -5,7 +5,7 @@ import xarray as xr
 
 from pipeline.claims import CLAIMS
 from pipeline.job import start
-from pipeline.tables import table
+from pipeline.numbers import table
 from stickiness.core import budget, datasets
 from stickiness.criteria.errata import ERRATA
 
@@ -64,29 +64,24 @@ def source_paths(claim, paths):
 
 
 def to_dataset(claims, findings, sources):
-    columns = {
+    columns = {name: [getattr(finding, name, None) for finding in findings] for name in COLUMNS} | {
         "statement": [claim.statement for claim in claims],
         "sources": map(" ".join, sources),
     }
-    for name in COLUMNS.keys() - columns.keys():
-        columns[name] = [getattr(finding, name) for finding in findings]
     dataset = xr.Dataset(
         {
-            name: ("claim", np.array(list(columns[name]), float if name in NUMBERS else object))
-            for name in COLUMNS
+            name: ("claim", np.array(list(column), float if name in NUMBERS else object))
+            for name, column in columns.items()
         },
         coords={"claim": [claim.number for claim in claims]},
     )
     texts = {name: ("1", *texts) for name, texts in COLUMNS.items()}
     dataset = datasets.annotate(dataset, claim=("1", "number of the claim"), **texts)
-    errors = {
-        source: [finding.errors.get(source, 0.0) for finding in findings]
-        for source in budget.SOURCES
-    }
-    parts = {
-        source: budget.Part(xr.DataArray(error, dims="claim"), "see the comment of each claim")
-        for source, error in errors.items()
-    }
+    parts = {}
+    for source in budget.SOURCES:
+        error = [finding.errors.get(source, 0.0) for finding in findings]
+        error = xr.DataArray(error, dims="claim")
+        parts[source] = budget.Part(error, "see the comment of each claim")
     return budget.with_budget(dataset, "value", **parts)
 
 
@@ -106,15 +101,15 @@ def to_markdown(claims, findings, sources):
     ]
     columns = ("#", "claim", "verdict", "measured", "error by", "claimed", "remark", "from")
     errata = [
-        (e.number, e.subject, e.printed, e.correct, e.proof, list_numbers(e.recompute()))
+        (e.number, e.subject, e.printed, e.correct, e.proof)
+        + (", ".join(f"{name} = {value:.4g}" for name, value in e.recompute().items()),)
         for e in ERRATA
     ]
     heads = ("#", "subject", "printed", "correct", "proof", "recomputed")
+    of_claims, of_errata = table(columns, rows), table(heads, errata)
     return (
-        "# Claims of the paper, recomputed\n\n"
-        + table(columns, rows)
-        + "\n# Errata of the manuscript\n\n"
-        + table(heads, errata)
+        f"# Claims of the paper, recomputed\n\n{of_claims}\n"
+        f"# Errata of the manuscript\n\n{of_errata}"
     )
 
 
@@ -131,10 +126,6 @@ def with_error(value, uncertainty):
         return f"{value:.4g} (exact)"
     error = "" if np.isnan(uncertainty) else f" ± {uncertainty:.2g}"
     return f"{value:.4g}{error}"
-
-
-def list_numbers(recomputed):
-    return ", ".join(f"{name} = {value:.4g}" for name, value in recomputed.items())
 
 
 if __name__ == "__main__":

@@ -51,11 +51,7 @@ def compare(asked, load, table, constant):
             "against_roughness": (("criterion", "h_rms_over_range"), list(over_h.values())),
             "against_magnification": (("criterion", "magnification"), list(over_zeta.values())),
         },
-        coords={
-            "h_rms_over_range": roughness,
-            "magnification": zetas,
-            "criterion": list(over_h),
-        },
+        coords={"h_rms_over_range": roughness, "magnification": zetas, "criterion": list(over_h)},
     )
 
 

@@ -7,7 +7,7 @@ from pipeline.job import start
 from pipeline.verdicts.a_v import measure_a_v, scale_theory
 from pipeline.verdicts.budgets import add_budgets
 from pipeline.verdicts.markdown import write_markdown
-from pipeline.verdicts.materials import material
+from pipeline.verdicts.materials import read_material
 from pipeline.verdicts.pairs import (
     BY_END,
     ENDS,
@@ -32,9 +32,9 @@ def main(job):
     for name, surface, theory in files:
         surfaces[name] = datasets.read(surface, OF_SURFACES)
         a_v[name] = scale_theory(theory, constant)
-    materials = {name: material(entry) for name, entry in job.params.materials.items()}
+    materials = {name: read_material(entry) for name, entry in job.params.materials.items()}
     frequencies = logarithmic_grid(job.params.frequencies)
-    dataset = judge_pairs(materials, surfaces, a_v, constant, frequencies)
+    dataset = find_verdicts(materials, surfaces, a_v, constant, frequencies)
     datasets.write(
         dataset,
         job.output.dataset,
@@ -46,7 +46,7 @@ def main(job):
         path.write_text(text, encoding="utf-8")
 
 
-def judge_pairs(materials, surfaces, a_v, constant, frequencies):
+def find_verdicts(materials, surfaces, a_v, constant, frequencies):
     """Every criterion for every material on both ends of every surface."""
     pair = gather_pairs(materials, surfaces, a_v, constant)
     dataset = xr.Dataset(
@@ -100,7 +100,7 @@ def describe(dataset):
         modulus_threshold_high=("Pa", f"{threshold}, at the high limits of a_V and of the model"),
         work_of_adhesion=("J/m^2", "work of adhesion"),
         threshold_by_criterion=("Pa", "plane-strain modulus below which a criterion says sticky"),
-        a_v=("1", "constant a_V of a broad spectrum, in the window of the fit"),
+        a_v=("1", "constant a_V of a broad spectrum, in the interval of the fit"),
         a_v_low=("1", "a_V less its error"),
         a_v_high=("1", "a_V plus its error"),
         verdict=("1", "0 not sticky, 1 depends on what is not known, 2 sticky, 3 undecided"),

@@ -1,12 +1,14 @@
 """Figure 5: roughness at the threshold of stickiness over range and adhesion length, and slopes."""
 
+from functools import partial
+
 import numpy as np
 import xarray as xr
 from scipy.optimize import elementwise
 
 from pipeline.conventions import logarithmic_grid
 from pipeline.job import start
-from pipeline.verdicts.a_v import CLOSED, between, measure_a_v
+from pipeline.verdicts.a_v import CLOSED, between_limits, measure_a_v
 from stickiness import criteria
 from stickiness.adhesion import area_load, equivalent_sphere
 from stickiness.core import datasets
@@ -60,14 +62,14 @@ class Roughness:
         compared with its finest waves, times the change of a_V at infinite magnification between
         the two ranges.
         """
-        reach, zeta = 1 / h, self.magnification(q0)
+        range_, zeta = 1 / h, self.magnification(q0)
         held = np.minimum(zeta, self._broadest)
-        moved = np.minimum(reach * (zeta / held) ** self._hurst, 1)
-        between = self._at(reach, np.inf).value / self._at(moved, np.inf).value
+        moved = np.minimum(range_ * (zeta / held) ** self._hurst, 1)
+        between = self._at(range_, np.inf).value / self._at(moved, np.inf).value
         return getattr(self._at(moved, held), which) * between
 
-    def _at(self, reach, zeta):
-        return self._table.a_v_at(self._hurst, self._pressure, reach, zeta)
+    def _at(self, range_, zeta):
+        return self._table.a_v_at(self._hurst, self._pressure, range_, zeta)
 
 
 def find_limits(asked, constant, roughness):
@@ -80,34 +82,26 @@ def find_limits(asked, constant, roughness):
     dims = ("range_times_q0", "adhesion_length_over_range")
     at = np.meshgrid(q0, length, indexing="ij")
 
-    def dmt(which):
-        def ratio(h, q0, length):
-            return area_load.traction_ratio(h, q0, length, 1.0, roughness.a_v(h, q0, which))
+    def by_dmt(h, q0, length, which):
+        return area_load.traction_ratio(h, q0, length, 1.0, roughness.a_v(h, q0, which))
 
-        return ratio
+    def attraction(h, q0, length, which):
+        slope, a_v = roughness.slope(h, q0), roughness.a_v(h, q0, which)
+        return equivalent_sphere.attraction(h, q0, slope, length, 1.0, a_v)
 
-    def edges(which, sign):
-        def ratio(h, q0, length):
-            a_v = roughness.a_v(h, q0, which)
-            found = equivalent_sphere.attraction(h, q0, roughness.slope(h, q0), length, 1.0, a_v)
-            return found.ratio * found.error_factor**sign
+    def by_edges(h, q0, length, which):
+        found = attraction(h, q0, length, which)
+        return found.ratio * found.error_factor ** {"low": -1, "value": 0, "high": 1}[which]
 
-        return ratio
+    def over_weak(h, q0, length):
+        return attraction(h, q0, length, "value").strength / equivalent_sphere.WEAK
 
-    def strength(h, q0, length):
-        a_v = roughness.a_v(h, q0, "value")
-        found = equivalent_sphere.attraction(h, q0, roughness.slope(h, q0), length, 1.0, a_v)
-        return found.strength / equivalent_sphere.WEAK
-
+    ends = {"": "value", "_low": "low", "_high": "high"}
     implicit = {
-        "h_rms_limit": dmt("value"),
-        "h_rms_limit_low": dmt("low"),
-        "h_rms_limit_high": dmt("high"),
-        "h_rms_limit_edges": edges("value", 0),
-        "h_rms_limit_edges_low": edges("low", -1),
-        "h_rms_limit_edges_high": edges("high", 1),
-        "weak_limit": strength,
-    }
+        f"{name}{end}": partial(ratio, which=which)
+        for name, ratio in (("h_rms_limit", by_dmt), ("h_rms_limit_edges", by_edges))
+        for end, which in ends.items()
+    } | {"weak_limit": over_weak}
     data = {
         name: (dims, find_largest(ratio, *at, roughness.largest))
         for name, ratio in implicit.items()
@@ -149,8 +143,7 @@ def find_slopes(parameters, a_v):
 def add_budgets(dataset, constant):
     """Add error budgets to the limits and the constant a_V."""
     for name in ("h_rms_limit", "h_rms_limit_edges"):
-        ends = (dataset[f"{name}{end}"] for end in ("", "_low", "_high"))
-        dataset = with_budget(dataset, name, model=between(*ends), **CLOSED)
+        dataset = with_budget(dataset, name, model=between_limits(dataset, name), **CLOSED)
     dataset = with_budget(dataset, "a_v", **constant.parts(constant.value))
     # In proportion to a_V^(3/5).
     parts = constant.parts(3 / 5 * dataset.h_rms_limit_constant)

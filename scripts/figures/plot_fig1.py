@@ -2,8 +2,9 @@
 
 import numpy as np
 
+from pipeline import plotting
 from pipeline.conventions import VARIANT
-from pipeline.pages import style
+from pipeline.plotting import COLOURS, GREY, make_dot, make_key, state
 from pipeline.theory import between_corrections
 from stickiness.core import datasets
 
@@ -20,7 +21,7 @@ def main(job):
     convergence = datasets.read(job.input.convergence, ["gap_density"])
     ensemble = datasets.read(job.input.ensemble, ["gap_density_mean", "edge_gap_mean"])
     lattice = datasets.read(job.input.lattice, ["gap_density"])
-    with style.lettered_figure(job.output, "AB;CC", 5.9, height_ratios=[1, 1.05]) as panels:
+    with plotting.open_figure(job.output, "AB;CC", 5.9, height_ratios=[1, 1.05]) as panels:
         draw_magnifications(panels["A"], density)
         draw_convergence(panels["B"], convergence)
         draw_simulation(panels["C"], ensemble, lattice)
@@ -29,29 +30,29 @@ def main(job):
 def draw_magnifications(ax, theory):
     """P(u) at a given mean gap for a few magnifications, with the power law -1/3."""
     hurst, theory = float(theory.hurst[0]), theory.isel(hurst=0, load=0)
-    for colour, magnification in zip(style.COLOURS, theory.magnification.values, strict=False):
+    for colour, magnification in zip(COLOURS, theory.magnification.values, strict=False):
         density = theory.gap_density.sel(magnification=magnification)
-        style.band(ax, theory.gap, *between_corrections(density), colour)
+        plotting.draw_band(ax, theory.gap, *between_corrections(density), colour)
         draw_variants(ax, density, color=colour)
-        ax.plot([], [], color=colour, label=style.state(magnification=magnification))
+        ax.plot([], [], color=colour, label=state(magnification=magnification))
     u = np.array([1e-3, 1e-1])
-    style.guide(ax, u, 0.9 * (u / u[0]) ** (-1 / 3), r"$u^{-1/3}$", (1.2e-2, 0.43))
-    ax.set(xscale="log", yscale="log", xlabel=style.GAP, ylabel=DENSITY)
+    plotting.draw_guide(ax, u, 0.9 * (u / u[0]) ** (-1 / 3), r"$u^{-1/3}$", (1.2e-2, 0.43))
+    ax.set(xscale="log", yscale="log", xlabel=plotting.GAP, ylabel=DENSITY)
     ax.set(xlim=(1e-4, 10), ylim=(2e-2, 3))
-    ax.set_title(style.state(hurst=hurst, mean_gap=float(theory.mean_gap.mean())))
+    ax.set_title(state(hurst=hurst, mean_gap=float(theory.mean_gap.mean())))
     handles, _ = ax.get_legend_handles_labels()
-    ax.legend(handles=handles + variant_keys(), loc="lower left")
+    ax.legend(handles=handles + make_variant_keys(), loc="lower left")
 
 
 def draw_variants(ax, density, **look):
-    for variant, line in style.VARIANT_LINES.items():
+    for variant, line in plotting.VARIANT_LINES.items():
         ax.plot(density.gap, density.sel(variant=variant), line, **look)
 
 
-def variant_keys():
+def make_variant_keys():
     return [
-        style.key(text, linestyle=style.VARIANT_LINES[name])
-        for name, text in style.VARIANT_LABELS.items()
+        make_key(text, linestyle=plotting.VARIANT_LINES[name])
+        for name, text in plotting.VARIANT_LABELS.items()
     ]
 
 
@@ -62,21 +63,21 @@ def draw_convergence(ax, theory):
     corrections = between_corrections(density)
     curves = [at_gap(density.sel(variant=VARIANT), gap) for gap in GAPS]
     limit, last = curves[GAPS.index(REFERENCE_GAP)][-1], float(zeta[-1])
-    heights = style.apart([curve[-1] for curve in curves], 1.15)
-    for (colour, gap), curve, height in zip(style.in_shades(GAPS), curves, heights, strict=True):
+    heights = plotting.push_apart([curve[-1] for curve in curves], 1.15)
+    for (colour, gap), curve, height in zip(plotting.shade(GAPS), curves, heights, strict=True):
         ax.plot(zeta, curve, ".-", color=colour)
-        style.band(ax, zeta, *(at_gap(end, gap) for end in corrections), colour)
+        plotting.draw_band(ax, zeta, *(at_gap(end, gap) for end in corrections), colour)
         ax.text(1.7 * last, height, f"{gap:g}", color=colour, va="center", fontsize=8)
         if gap <= LARGEST_POWER_LAW_GAP:
             level = limit * (gap / REFERENCE_GAP) ** (-1 / 3)
-            ax.plot([last / 30, last], [level, level], ":", color=style.GREY, linewidth=1.1)
-    ax.set_title(style.state(hurst=hurst, mean_gap=float(theory.mean_gap.mean())))
-    ax.set(xscale="log", yscale="log", xlabel=style.MAGNIFICATION, ylabel=DENSITY)
+            ax.plot([last / 30, last], [level, level], ":", color=GREY, linewidth=1.1)
+    ax.set_title(state(hurst=hurst, mean_gap=float(theory.mean_gap.mean())))
+    ax.set(xscale="log", yscale="log", xlabel=plotting.MAGNIFICATION, ylabel=DENSITY)
     ax.set(xlim=(2, 3e7), ylim=(0.2, 4))
-    style.plain_ticks(ax.yaxis, [0.2, 0.3, 0.5, 1, 2, 3])
+    plotting.write_ticks(ax.yaxis, [0.2, 0.3, 0.5, 1, 2, 3])
     ax.text(1.7 * last, 2.95, r"$u/h_\mathrm{rms}$", ha="center", fontsize=8)
     law = rf"$u^{{-1/3}}$ through $u/h_\mathrm{{rms}}$ = {REFERENCE_GAP:g}"
-    ax.legend(handles=[style.key(law, linestyle=":")], loc="upper left")
+    ax.legend(handles=[make_key(law, linestyle=":")], loc="upper left")
 
 
 def at_gap(density, gap):
@@ -87,32 +88,27 @@ def at_gap(density, gap):
 
 def draw_simulation(ax, ensemble, lattice):
     """Simulated P(u) with its errors against theory on the spectrum of the window."""
-    for colour, load in zip(style.COLOURS, LOADS, strict=False):
+    for colour, load in zip(COLOURS, LOADS, strict=False):
         measured = ensemble.sel(pressure=load, method="nearest")
         draw_measured(ax, measured, colour)
         theory = lattice.gap_density.sel(pressure=load, method="nearest")
         draw_variants(ax, theory, color=colour, linewidth=0.9)
-        ax.plot([], [], color=colour, label=style.state(pressure=float(measured.pressure)))
+        ax.plot([], [], color=colour, label=state(pressure=float(measured.pressure)))
     made = datasets.parameters(ensemble)
-    ax.set(xscale="log", yscale="log", xlabel=style.GAP, ylabel=DENSITY)
+    ax.set(xscale="log", yscale="log", xlabel=plotting.GAP, ylabel=DENSITY)
     ax.set(xlim=(1e-4, 10), ylim=(1e-2, 20))
-    surface = style.state(hurst=made["hurst"], magnification=made["magnification"])
-    count = count_realisations(ensemble)
+    surface = state(hurst=made["hurst"], magnification=made["magnification"])
+    fine, coarse = ensemble.sizes["seed"], ensemble.sizes.get("coarse_seed")
+    count = f"{fine} fine and {coarse} coarse" if coarse else f"{fine}"
     ax.set_title(
         f"simulation against theory on the window's spectrum, {surface}, {count} realisations"
     )
     handles, _ = ax.get_legend_handles_labels()
     dots = [
-        style.dot("BEM, ensemble mean", marker="."),
-        style.dot("by the edge law", mfc="white", markersize=3),
+        make_dot("BEM, ensemble mean", marker="."),
+        make_dot("by the edge law", mfc="white", markersize=3),
     ]
-    ax.legend(handles=[*handles, *dots, *variant_keys()], loc="upper right", ncols=2)
-
-
-def count_realisations(ensemble):
-    """Number of realisations, coarse ones apart."""
-    fine, coarse = ensemble.sizes["seed"], ensemble.sizes.get("coarse_seed")
-    return f"{fine} fine and {coarse} coarse" if coarse else f"{fine}"
+    ax.legend(handles=[*handles, *dots, *make_variant_keys()], loc="upper right", ncols=2)
 
 
 def draw_measured(ax, measured, colour):
@@ -122,10 +118,10 @@ def draw_measured(ax, measured, colour):
     an edge stands in for the grid.
     """
     mean = measured.gap_density_mean.where(measured.gap_density_mean > 0)
-    sampling, total = style.errors(measured, "gap_density_mean")
+    sampling, total = plotting.read_errors(measured, "gap_density_mean")
     for error, strength in ((total, 0.15), (sampling, 0.3)):
         low = np.maximum(mean - error, LOWEST_DENSITY)
-        style.band(ax, mean.gap, low, mean + error, colour, strength)
+        plotting.draw_band(ax, mean.gap, low, mean + error, colour, strength)
     resolved = mean.gap >= measured.edge_gap_mean
     small = {"color": colour, "linestyle": "none"}
     ax.plot(mean.gap, mean.where(resolved), marker=".", markersize=3.5, **small)
@@ -134,4 +130,4 @@ def draw_measured(ax, measured, colour):
 
 
 if __name__ == "__main__":
-    main(style.start_figure(globals()))
+    main(plotting.start_figure(globals()))

@@ -2,25 +2,24 @@
 
 import numpy as np
 
+from pipeline import plotting
 from pipeline.numbers import number
-from pipeline.pages import style
+from pipeline.plotting import BLACK, GREY, pick_look, state
 from stickiness.adhesion import equivalent_sphere
 from stickiness.core import datasets
 
 COLUMNS = (
-    "attractive_over_contact",
-    "edge_strength",
-    "effect",
-    "over_model",
-    "over_model_total_error",
+    *("attractive_over_contact", "edge_strength"),
+    *("effect", "over_model", "over_model_total_error"),
 )
 LARGEST_ERROR = 0.25  # of a point that is drawn; covers 90 %
+LOOK = {"markersize": 3.5, "linestyle": "none", "elinewidth": 0.7}
 WEAKEST_EDGE = 1e-4  # left end of panel B
 
 
 def main(job):
     files = [datasets.read(path, COLUMNS) for path in job.input.edges]
-    with style.lettered_figure(job.output, "AB", 3.4) as panels:
+    with plotting.open_figure(job.output, "AB", 3.4) as panels:
         draw_weak(panels["A"], files)
         draw_ratios(panels["B"], files)
 
@@ -35,21 +34,23 @@ def select_certain(data):
 def draw_weak(ax, files):
     """Weak edges: effect against the attractive area, with the closed form."""
     t = np.geomspace(0.05, 200, 200)
-    ax.plot(t, equivalent_sphere.weak_effect(t), color=style.BLACK, label="equivalent sphere")
+    ax.plot(t, equivalent_sphere.weak_effect(t), color=BLACK, label="equivalent sphere")
     small = t[t < 1.5]
     formula = r"$(4/\pi)\,t^{-1/2}$"
-    style.guide(ax, small, 4 / np.pi * small**-0.5, formula, (0.05, 1.95))
-    ax.axhline(1, color=style.GREY, linewidth=0.9, linestyle="--")
-    ax.text(0.06, 1.04, "DMT limit", color=style.GREY, fontsize=8)
+    plotting.draw_guide(ax, small, 4 / np.pi * small**-0.5, formula, (0.05, 1.95))
+    ax.axhline(1, color=GREY, linewidth=0.9, linestyle="--")
+    ax.text(0.06, 1.04, "DMT limit", color=GREY, fontsize=8)
     for index, data in enumerate(files):
         area, strength, effect, ratio, error = select_certain(data)
         weak = strength < equivalent_sphere.WEAK
         bars = (effect * error / ratio)[weak]
-        ax.errorbar(area[weak], effect[weak], bars, label=name(data), **look(index))
+        ax.errorbar(
+            area[weak], effect[weak], bars, label=name_surface(data), **LOOK, **pick_look(index)
+        )
     ax.set(xscale="log", yscale="log")
     ax.set_xlabel(r"attractive over contact area $A_\mathrm{ad}/A_\mathrm{rep}$")
     ax.set_ylabel("attraction at equal area over DMT's")
-    style.plain_ticks(ax.yaxis, [1, 1.5, 2, 3, 4, 5])
+    plotting.write_ticks(ax.yaxis, [1, 1.5, 2, 3, 4, 5])
     ax.set_title(rf"weak edges, $\tau$ < {equivalent_sphere.WEAK:g}")
     ax.legend()
 
@@ -59,26 +60,22 @@ def draw_ratios(ax, files):
     ends = WEAKEST_EDGE, equivalent_sphere.WEAK, equivalent_sphere.STRONGEST_SIMULATED
     factors = equivalent_sphere.ERROR_WEAK, equivalent_sphere.ERROR_STRONG
     for low, high, factor in zip(ends, ends[1:], factors, strict=False):
-        style.band(ax, [low, high], 1 / factor, factor, style.GREY, alpha=0.2)
+        plotting.draw_band(ax, [low, high], 1 / factor, factor, GREY, alpha=0.2)
     for index, data in enumerate(files):
         _, strength, _, ratio, error = select_certain(data)
-        ax.errorbar(strength, ratio, error, **look(index))
-    ax.axhline(1, color=style.BLACK)
+        ax.errorbar(strength, ratio, error, **LOOK, **pick_look(index))
+    ax.axhline(1, color=BLACK)
     ax.set(xscale="log", yscale="log", xlim=(ends[0], ends[-1]))
-    style.plain_ticks(ax.yaxis, [0.6, 0.7, 0.8, 0.9, 1, 1.2, 1.4, 1.6])
-    ax.set(xlabel=r"strength of the edges $\tau = l_ad/\epsilon^2$")
+    plotting.write_ticks(ax.yaxis, [0.6, 0.7, 0.8, 0.9, 1, 1.2, 1.4, 1.6])
+    ax.set(xlabel=r"Tabor parameter of the edges $\tau = l_ad/\epsilon^2$")
     ax.set_ylabel("simulation over equivalent sphere")
 
 
-def look(index):
-    return style.look(index, markersize=3.5, linestyle="none", elinewidth=0.7)
-
-
-def name(data):
+def name_surface(data):
     made = datasets.parameters(data)
     roughness = float(number(made["q0_h_rms"], 2))
-    return style.state(magnification=made["magnification"], q0_h_rms=roughness)
+    return state(magnification=made["magnification"], q0_h_rms=roughness)
 
 
 if __name__ == "__main__":
-    main(style.start_figure(globals()))
+    main(plotting.start_figure(globals()))

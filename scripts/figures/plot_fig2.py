@@ -5,12 +5,13 @@ from matplotlib.colors import to_rgb
 from matplotlib.patches import Rectangle
 from scipy.ndimage import gaussian_filter
 
+from pipeline import plotting
 from pipeline.conventions import LINEAR_UP_TO, VARIANT
-from pipeline.pages import style
+from pipeline.plotting import BLACK, BLUE, GREY, make_dot, make_key, pick_look, state
 from stickiness.core import datasets
 
 DETAIL = 0.3  # side of the detail in panels G to I, in window sides
-GAP_COLOUR, CONTACT_COLOUR, ATTRACTION_COLOUR = "white", style.BLACK, "#FF2A00"
+GAP_COLOUR, CONTACT_COLOUR, ATTRACTION_COLOUR = "white", BLACK, "#FF2A00"
 SIZE = 3.5  # of markers
 
 
@@ -23,7 +24,7 @@ def main(job):
     adhesive = datasets.read(job.input.adhesive, ["inverse_kappa", "q0_h_rms"])
     adhesive_maps = datasets.read(job.input.adhesive_maps, ["gap"])
     rows = "ABC;DEF;GHI"
-    with style.lettered_figure(job.output, rows, 7.9, height_ratios=[1.15, 1, 1]) as panels:
+    with plotting.open_figure(job.output, rows, 7.9, height_ratios=[1.15, 1, 1]) as panels:
         draw_slopes(panels["A"], kappas)
         draw_threshold(panels["B"], limit, adhesive)
         draw_areas(panels["C"], ensembles, lattices)
@@ -43,20 +44,22 @@ def draw_slopes(ax, kappas):
     """kappa_rep load by load; open symbols beyond the area that is called linear."""
     handles = []
     for index, kappa in enumerate(kappas):
-        look = style.look(index)
+        look = pick_look(index)
         # Both variants of the theory have the same area.
         theory = kappa.kappa_theory.sel(variant=VARIANT)
         ax.plot(kappa.pressure, theory, color=look["color"], linewidth=0.9)
-        pressure = style.aside(kappa.pressure, index - 1)
-        style.points(ax, pressure, kappa, "kappa", **look, markersize=SIZE)
+        pressure = plotting.move_aside(kappa.pressure, index - 1)
+        plotting.draw_points(ax, pressure, kappa, "kappa", **look, markersize=SIZE)
         beyond = kappa.kappa.where(kappa.area_fraction > LINEAR_UP_TO)
-        style.hollow(ax, pressure, beyond, **look, markersize=SIZE, zorder=style.FILLED + 1)
-        handles.append(style.dot(style.state(magnification=magnification(kappa)), **look))
-    ax.axhline(2, color=style.GREY, linestyle="--", linewidth=0.9)
-    ax.set(xscale="log", ylim=(1.4, 3.7), xlabel=style.PRESSURE)
+        plotting.draw_hollow(
+            ax, pressure, beyond, **look, markersize=SIZE, zorder=plotting.FILLED + 1
+        )
+        handles.append(make_dot(state(magnification=magnification(kappa)), **look))
+    ax.axhline(2, color=GREY, linestyle="--", linewidth=0.9)
+    ax.set(xscale="log", ylim=(1.4, 3.7), xlabel=plotting.PRESSURE)
     ax.set(ylabel=r"$\kappa_\mathrm{rep}=A_\mathrm{rep}h'_\mathrm{rms}E^*/(A_\mathrm{nom}p)$")
     ax.set_title(f"open: area above {LINEAR_UP_TO:.0%}")
-    lines = [style.key("theory"), style.key(r"$\kappa$ = 2", linestyle="--", linewidth=0.9)]
+    lines = [make_key("theory"), make_key(r"$\kappa$ = 2", linestyle="--", linewidth=0.9)]
     ax.legend(handles=[*handles, *lines], loc="upper right")
 
 
@@ -66,40 +69,40 @@ def draw_threshold(ax, limit, adhesive):
     for index, range_ in enumerate(adhesive.range_over_h_rms.values):
         full = adhesive.sel(pressure=load, range_over_h_rms=range_)
         dmt = limit.sel(pressure=load, range_over_h_rms=range_, method="nearest")
-        look = style.look(index, markersize=SIZE)
+        look = pick_look(index, markersize=SIZE)
         colour, lengths = look["color"], full.adhesion_length_over_range
         ax.plot(dmt.adhesion_length_over_range, dmt.inverse_kappa, ":", color=colour)
         ax.plot(lengths, full.inverse_kappa_fit, "-", color=colour, linewidth=0.9)
-        style.hollow(ax, lengths, full.inverse_kappa_net, **look)
-        label = style.state(range=range_)
-        style.points(ax, lengths, full, "inverse_kappa", **look, label=label)
+        plotting.draw_hollow(ax, lengths, full.inverse_kappa_net, **look)
+        label = state(range=range_)
+        plotting.draw_points(ax, lengths, full, "inverse_kappa", **look, label=label)
     kinds = [
-        style.key("fit over loads", linewidth=0.9),
-        style.dot("compressed", markersize=SIZE, mfc="white"),
-        style.key("DMT limit", linestyle=":"),
+        make_key("fit over loads", linewidth=0.9),
+        make_dot("compressed", markersize=SIZE, mfc="white"),
+        make_key("DMT limit", linestyle=":"),
     ]
     ax.add_artist(ax.legend(loc="upper right", borderaxespad=0.2))
     low, high = -0.35, 0.68
-    ax.axhspan(low, 0, color=style.GREY, alpha=0.15, linewidth=0)
+    ax.axhspan(low, 0, color=GREY, alpha=0.15, linewidth=0)
     ax.text(0.03, 0.03, "sticky", transform=ax.transAxes, fontsize=8)
-    ax.set(xlabel=style.ADHESION_LENGTH, ylabel=r"$1/\kappa$ with adhesion")
+    ax.set(xlabel=plotting.ADHESION_LENGTH, ylabel=r"$1/\kappa$ with adhesion")
     ax.set(ylim=(low, high), xscale="log")
-    ax.set_title(style.state(q0_h_rms=float(adhesive.q0_h_rms), pressure=load))
+    ax.set_title(state(q0_h_rms=float(adhesive.q0_h_rms), pressure=load))
     ax.legend(handles=kinds, loc="lower left", bbox_to_anchor=(0, 0.08))
 
 
 def draw_areas(ax, ensembles, lattices):
     """Area against load, with the straight line of kappa = 2 and theory."""
     for index, (ensemble, lattice) in enumerate(zip(ensembles, lattices, strict=True)):
-        look = style.look(index, markersize=SIZE)
-        style.points(ax, ensemble.pressure, ensemble, "area_fraction_mean", **look)
+        look = pick_look(index, markersize=SIZE)
+        plotting.draw_points(ax, ensemble.pressure, ensemble, "area_fraction_mean", **look)
         theory = lattice.area_fraction.sel(variant=VARIANT)
         ax.plot(theory.pressure, theory, color=look["color"], linewidth=0.9)
         line = 2 * ensemble.pressure * float((1 / ensemble.rms_slope).mean())
         ax.plot(ensemble.pressure, line, ":", color=look["color"], linewidth=0.9)
-    ax.set(xlabel=style.PRESSURE, ylabel=style.CONTACT_AREA, xlim=(0, 0.55), ylim=(0, 0.48))
-    straight = style.key(r"$\kappa$ = 2, $\langle 1/h'_\mathrm{rms}\rangle$", linestyle=":")
-    ax.legend(handles=[straight, style.key("theory")], loc="upper left")
+    ax.set(xlabel=plotting.PRESSURE, ylabel=plotting.CONTACT_AREA, xlim=(0, 0.55), ylim=(0, 0.48))
+    straight = make_key(r"$\kappa$ = 2, $\langle 1/h'_\mathrm{rms}\rangle$", linestyle=":")
+    ax.legend(handles=[straight, make_key("theory")], loc="upper left")
 
 
 def draw_maps(panels, maps, adhesive):
@@ -110,7 +113,7 @@ def draw_maps(panels, maps, adhesive):
     x, y = find_densest(middle == 0)
     for name, load in zip("DEF", loads, strict=False):
         draw_contact(panels[name], maps.sel(pressure=load), None)
-        panels[name].add_patch(Rectangle((x, y), DETAIL, DETAIL, fill=False, color=style.BLUE))
+        panels[name].add_patch(Rectangle((x, y), DETAIL, DETAIL, fill=False, color=BLUE))
         panels[name].set(xticks=[0, 0.5, 1], yticks=[0, 0.5, 1])
     for name, load in zip("GHI", loads, strict=False):
         draw_contact(panels[name], adhesive.sel(pressure=load, method="nearest"), range_)
@@ -138,8 +141,8 @@ def draw_contact(ax, solution, range_):
     extent = (0, 1, 0, 1)  # the window, as unit of length
     ax.imshow(picture, origin="lower", extent=extent, aspect="equal", interpolation="none")
     ax.set_xlabel("$x/L$")
-    ax.set_title(style.state(pressure=float(solution.pressure)))
+    ax.set_title(state(pressure=float(solution.pressure)))
 
 
 if __name__ == "__main__":
-    main(style.start_figure(globals()))
+    main(plotting.start_figure(globals()))

@@ -5,9 +5,10 @@ from dataclasses import dataclass
 import numpy as np
 import xarray as xr
 
+from pipeline import plotting
 from pipeline.conventions import LOAD, VARIANT
 from pipeline.numbers import number
-from pipeline.pages import style
+from pipeline.plotting import BLACK, GREY, MARKERS, make_dot, make_key, pick_look, state
 from pipeline.theory import between_corrections
 from stickiness import criteria
 from stickiness.core import datasets
@@ -16,8 +17,8 @@ EXPONENT = 2 / 3
 SIMULATED_RANGES = slice(3e-3, 0.3)  # over h_rms, of the points of panel A
 LARGEST_RANGE = SIMULATED_RANGES.stop  # in panels A and B
 CONVERGED_A_V = 3.0  # of the paper, for the guides
-WIDE_MARKER = style.MARKERS[3]  # of windows of several wavelengths, in panel C
-THEORY_ON_WINDOW = style.dot("theory, window's spectrum", mfc="white")
+WIDE_MARKER = MARKERS[3]  # of windows of several wavelengths, in panel C
+THEORY_ON_WINDOW = make_dot("theory, window's spectrum", mfc="white")
 
 
 @dataclass(frozen=True)
@@ -39,7 +40,7 @@ class Case:
         """Magnification and, if it holds several wavelengths, the window."""
         _, window, magnification = self.order
         side = f", {number(window)}×{number(window)} waves" if window > 1 else ""
-        return style.state(magnification=magnification) + side
+        return state(magnification=magnification) + side
 
 
 def main(job):
@@ -48,7 +49,7 @@ def main(job):
     cases = read_cases(job.input)
     alike = [case for case in cases if case.order[0] == float(sweeps[0].hurst[0])]
     rows = "AB;CD;EE"
-    with style.lettered_figure(job.output, rows, 8.6, height_ratios=[1, 1, 0.85]) as panels:
+    with plotting.open_figure(job.output, rows, 8.6, height_ratios=[1, 1, 0.85]) as panels:
         draw_magnifications(panels["A"], sweeps[0], alike)
         draw_pressures(panels["B"], sweeps[1])
         draw_a_v(panels["C"], sweeps[2], fits[2], cases)
@@ -72,34 +73,32 @@ def draw_magnifications(ax, theory, cases):
     """Areas at one pressure for a few magnifications, by theory and simulation."""
     hurst, theory = float(theory.hurst[0]), theory.isel(hurst=0, load=0)
     pressure = float(theory.pressure.sel(variant=VARIANT)[0])
-    for colour, magnification in style.in_shades(theory.magnification.values):
+    for colour, magnification in plotting.shade(theory.magnification.values):
         area = theory.attractive_area.sel(magnification=magnification)
         draw_theory(ax, area["range"] ** EXPONENT, area, colour, label=number(magnification))
     for index, case in enumerate(cases):
         area = case.areas.sel(pressure=pressure, method="nearest").sel(range=SIMULATED_RANGES)
         area = area.isel(range=slice(None, None, 4))
-        sideways = 0.004 * (index - 1)
-        x = area["range"] ** EXPONENT + sideways
-        style.points(ax, x, area, "attractive_area_mean", **style.look(index))
+        x = area["range"] ** EXPONENT + 0.004 * (index - 1)  # sideways
+        plotting.draw_points(ax, x, area, "attractive_area_mean", **pick_look(index))
     x = np.array([0, LARGEST_RANGE**EXPONENT])
-    ax.plot(x, 1.5 * CONVERGED_A_V * pressure * x, ":", color=style.BLACK, zorder=5)
+    ax.plot(x, 1.5 * CONVERGED_A_V * pressure * x, ":", color=BLACK, zorder=5)
     dress_areas(ax, 0.22)
-    ax.set_title(style.state(hurst=hurst, pressure=pressure))
-    ax.add_artist(
-        ax.legend(title=r"theory, $\zeta$ =", loc="upper left", ncols=2, alignment="left")
-    )
-    law = style.key(style.state(a_v=CONVERGED_A_V), linestyle=":", color=style.BLACK)
-    ax.legend(handles=[*case_keys(cases), law], loc="upper right", title="BEM")
+    ax.set_title(state(hurst=hurst, pressure=pressure))
+    place = {"loc": "upper left", "ncols": 2, "alignment": "left"}
+    ax.add_artist(ax.legend(title=r"theory, $\zeta$ =", **place))
+    law = make_key(state(a_v=CONVERGED_A_V), linestyle=":", color=BLACK)
+    ax.legend(handles=[*make_case_keys(cases), law], loc="upper right", title="BEM")
 
 
 def draw_theory(ax, x, values, colour, **look):
     """Quoted variant of the theory, and a band between its corrections."""
-    style.band(ax, x, *between_corrections(values), colour)
+    plotting.draw_band(ax, x, *between_corrections(values), colour)
     ax.plot(x, values.sel(variant=VARIANT), color=colour, **look)
 
 
-def case_keys(cases):
-    return [style.dot(case.label, **style.look(index)) for index, case in enumerate(cases)]
+def make_case_keys(cases):
+    return [make_dot(case.label, **pick_look(index)) for index, case in enumerate(cases)]
 
 
 def dress_areas(ax, top):
@@ -111,13 +110,13 @@ def dress_areas(ax, top):
 def draw_pressures(ax, theory):
     """Areas at one magnification for a few pressures."""
     hurst, theory = float(theory.hurst[0]), theory.isel(hurst=0, magnification=0)
-    for colour, load in style.in_shades(range(theory.sizes["load"])):
+    for colour, load in plotting.shade(range(theory.sizes["load"])):
         at = theory.isel(load=load)
         pressure = float(at.pressure.sel(variant=VARIANT))
         x = at["range"] ** EXPONENT
         draw_theory(ax, x, at.attractive_area, colour, label=f"{pressure:g}")
     dress_areas(ax, 0.75)
-    ax.set_title(f"{style.state(hurst=hurst, magnification=float(theory.magnification))}, theory")
+    ax.set_title(f"{state(hurst=hurst, magnification=float(theory.magnification))}, theory")
     ax.legend(title=r"$\hat{p}$ =", loc="upper left", ncols=2, alignment="left")
 
 
@@ -125,38 +124,38 @@ def draw_a_v(ax, sweep, fit, cases):
     """a_V against magnification with Pastewka and Robbins' and simulation."""
     a_v, sweep = fit.a_v.isel(load=0), sweep.sel(variant=VARIANT).isel(load=0)
     for index, hurst in enumerate(fit.hurst.values):
-        look = style.look(index)
+        look = pick_look(index)
         colour = look["color"]
         moments = sweep.sel(hurst=hurst)
-        draw_fit_windows(ax, fit.magnification, a_v.sel(hurst=hurst), colour)
+        draw_intervals(ax, fit.magnification, a_v.sel(hurst=hurst), colour)
         slope, curvature = moments.rms_slope.values, moments.rms_curvature.values
         robbins = criteria.pastewka_robbins_a_v(1.0, 1.0, slope, curvature)
         ax.plot(fit.magnification, robbins, "--", color=colour, linewidth=0.9)
         for case in cases:
             own, window, magnification = case.order
             if own == hurst:
-                x = style.aside(magnification, 2 * (index - 1))
+                x = plotting.move_aside(magnification, 2 * (index - 1))
                 marker = WIDE_MARKER if window > 1 else look["marker"]
                 draw_case(ax, case, x, [LOAD], color=colour, marker=marker)
-        ax.plot([], [], label=style.state(hurst=hurst), **look)
+        ax.plot([], [], label=state(hurst=hurst), **look)
     ax.set(xscale="log", yscale="log", ylim=(0.6, 400))
-    ax.set(xlabel=style.MAGNIFICATION, ylabel=r"$a_V$")
-    ax.set_title(style.state(pressure=float(sweep.pressure[0, 0])))
+    ax.set(xlabel=plotting.MAGNIFICATION, ylabel=r"$a_V$")
+    ax.set_title(state(pressure=float(sweep.pressure[0, 0])))
     handles, _ = ax.get_legend_handles_labels()
     kinds = [
-        style.key("theory"),
-        style.dot("BEM"),
-        style.dot("BEM, wide window", marker=WIDE_MARKER),
+        make_key("theory"),
+        make_dot("BEM"),
+        make_dot("BEM, wide window", marker=WIDE_MARKER),
         THEORY_ON_WINDOW,
-        style.key("Pastewka & Robbins", linestyle="--"),
+        make_key("Pastewka & Robbins", linestyle="--"),
     ]
     ax.legend(handles=[*handles, *kinds], loc="upper left")
 
 
-def draw_fit_windows(ax, x, a_v, colour):
-    """a_V in the window quoted, with light bands over all windows of the fit and corrections."""
+def draw_intervals(ax, x, a_v, colour):
+    """a_V in the interval quoted, with light bands over all fit intervals and corrections."""
     quoted = a_v.sel(variant=VARIANT)
-    style.band(ax, x, quoted.min("window"), quoted.max("window"), colour, alpha=0.2)
+    plotting.draw_band(ax, x, quoted.min("window"), quoted.max("window"), colour, alpha=0.2)
     draw_theory(ax, x, a_v.isel(window=0), colour)
 
 
@@ -167,47 +166,48 @@ def draw_case(ax, case, x, pressures, **look):
         for data in (case.fit, case.lattice)
     )
     x = np.broadcast_to(x, fit.pressure.shape)
-    style.hollow(ax, x, lattice.a_v.sel(variant=VARIANT), **look)
-    style.points(ax, x, fit, "a_v_mean", **look)
+    plotting.draw_hollow(ax, x, lattice.a_v.sel(variant=VARIANT), **look)
+    plotting.draw_points(ax, x, fit, "a_v_mean", **look)
 
 
 def draw_a_v_of_pressure(ax, sweep, fit, cases):
     """a_V against pressure."""
     hurst = float(sweep.hurst[0])
     sweep = sweep.sel(variant=VARIANT).isel(hurst=0, magnification=0)
-    draw_fit_windows(ax, sweep.pressure, fit.a_v.isel(hurst=0, magnification=0), style.GREY)
+    draw_intervals(ax, sweep.pressure, fit.a_v.isel(hurst=0, magnification=0), GREY)
     for index, case in enumerate(cases):
         pressures = case.fit.pressure.values
-        draw_case(ax, case, style.aside(pressures, index - 1), pressures, **style.look(index))
-    ax.set(xscale="log", yscale="log", ylim=(0.8, 25), xlabel=style.PRESSURE, ylabel=r"$a_V$")
-    style.plain_ticks(ax.yaxis, [1, 2, 3, 5, 10, 20])
-    ax.set_title(style.state(hurst=hurst))
-    theory = style.key(f"theory, {style.state(magnification=float(sweep.magnification))}")
-    ax.legend(handles=[theory, *case_keys(cases), THEORY_ON_WINDOW], loc="upper right")
+        x = plotting.move_aside(pressures, index - 1)
+        draw_case(ax, case, x, pressures, **pick_look(index))
+    ax.set(xscale="log", yscale="log", ylim=(0.8, 25), xlabel=plotting.PRESSURE, ylabel=r"$a_V$")
+    plotting.write_ticks(ax.yaxis, [1, 2, 3, 5, 10, 20])
+    ax.set_title(state(hurst=hurst))
+    theory = make_key(f"theory, {state(magnification=float(sweep.magnification))}")
+    ax.legend(handles=[theory, *make_case_keys(cases), THEORY_ON_WINDOW], loc="upper right")
 
 
 def draw_exponents(ax, fit, cases):
     """Local exponent of the attractive area against the range."""
     hurst, exponents = float(fit.hurst[0]), fit.exponent.isel(hurst=0, load=0)
-    for colour, magnification in style.in_shades(fit.magnification.values):
+    for colour, magnification in plotting.shade(fit.magnification.values):
         curve = exponents.sel(magnification=magnification)
         draw_theory(ax, curve["range"], curve, colour)
     for index, case in enumerate(cases):
         exponent = case.fit.exponent.sel(pressure=LOAD, method="nearest")
         exponent = exponent.isel(range=slice(None, None, 2))
-        look = style.look(index, linestyle="none", markersize=3)
+        look = pick_look(index, linestyle="none", markersize=3)
         ax.plot(exponent["range"], exponent, **look)
     for x, level, text, side in (
         (9, EXPONENT, "2/3: edges", "right"),
         (0.05, (1 - hurst) / hurst, r"$(1-H)/H$: fractal", "center"),
     ):
-        ax.axhline(level, color=style.BLACK, linestyle=":", linewidth=0.9)
+        ax.axhline(level, color=BLACK, linestyle=":", linewidth=0.9)
         ax.text(x, level + 0.015, text, ha=side, fontsize=8)
-    ax.set(xscale="log", xlim=(1e-4, 10), ylim=(0, 1.3), xlabel=style.RANGE)
+    ax.set(xscale="log", xlim=(1e-4, 10), ylim=(0, 1.3), xlabel=plotting.RANGE)
     ax.set_ylabel(r"$\mathrm{d}\ln A_\mathrm{ad}/\mathrm{d}\ln\epsilon$")
-    ax.legend(handles=case_keys(cases), loc="upper left", title="BEM")
-    ax.set_title(f"{style.state(hurst=hurst, pressure=LOAD)}, theory as in A")
+    ax.legend(handles=make_case_keys(cases), loc="upper left", title="BEM")
+    ax.set_title(f"{state(hurst=hurst, pressure=LOAD)}, theory as in A")
 
 
 if __name__ == "__main__":
-    main(style.start_figure(globals()))
+    main(plotting.start_figure(globals()))

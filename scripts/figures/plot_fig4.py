@@ -1,13 +1,14 @@
 """Figure 4: area against external load with adhesion, and the adhesive part of the slope."""
 
-from pipeline.pages import style
+from pipeline import plotting
+from pipeline.plotting import BLACK, GREY, MARKERS, RED, make_dot, make_key, state
 from stickiness import criteria
 from stickiness.core import datasets
 
 PAPER_A_V = 2.8
 THRESHOLD = 0.5  # of 1/kappa_ad, beyond which the contact is sticky
 PROPORTIONAL_UP_TO = 0.12  # 1/kappa_ad that is in proportion to l_a within the errors
-LOOP_COLOURS = (style.BLUE, style.RED, style.GREEN, style.ORANGE)
+LOOP_COLOURS = (plotting.BLUE, RED, plotting.GREEN, plotting.ORANGE)
 SMALL = 3  # size of open markers
 
 
@@ -16,7 +17,7 @@ def main(job):
     pressure = job.params.pressure
     surfaces = [read_at(path, pressure) for path in (job.input.rough, job.input.smooth)]
     a_v = [read_a_v(path, pressure) for path in job.input.a_v]
-    with style.lettered_figure(job.output, "AB;CB", 5.4, width_ratios=[1, 1.15]) as panels:
+    with plotting.open_figure(job.output, "AB;CB", 5.4, width_ratios=[1, 1.15]) as panels:
         draw_loops(panels["A"], loop.isel(resolution=-1))
         draw_lengths(panels["B"], surfaces, a_v)
         draw_ranges(panels["C"], surfaces, a_v)
@@ -28,7 +29,7 @@ def read_at(path, pressure):
 
 
 def read_a_v(path, pressure):
-    """a_V of the surfaces of one set, in the window that is quoted."""
+    """a_V of the surfaces of one set, in the fit interval that is quoted."""
     fit = datasets.read(path, ["a_v_mean"]).sel(pressure=pressure, method="nearest")
     return float(fit.a_v_mean.isel(window=0))
 
@@ -50,17 +51,17 @@ def draw_loops(ax, loop):
         last = press.dropna("state").isel(state=-1)
         ax.plot(last.mean_pressure, last.repulsive_area_fraction, "o", color=colour)
         ax.plot([], [], color=colour, label=f"{length:g}")
-    ax.axvline(0, color=style.GREY, linewidth=0.7)
+    ax.axvline(0, color=GREY, linewidth=0.7)
     made = datasets.parameters(loop)
     ax.set_xlabel(r"mean pressure $p_\mathrm{ext}/(E^*q_0h_\mathrm{rms})$")
-    ax.set_ylabel(style.CONTACT_AREA)
+    ax.set_ylabel(plotting.CONTACT_AREA)
     ax.locator_params(axis="x", nbins=5)
-    ax.set_title(style.state(magnification=made["magnification"], range=made["range_over_h_rms"]))
+    ax.set_title(state(magnification=made["magnification"], range=made["range_over_h_rms"]))
     kinds = [
-        style.key("loading"),
-        style.key("unloading", linestyle="--"),
-        style.key("at given gap", linewidth=0.6),
-        style.dot("pull-off"),
+        make_key("loading"),
+        make_key("unloading", linestyle="--"),
+        make_key("at given gap", linewidth=0.6),
+        make_dot("pull-off"),
     ]
     ax.add_artist(ax.legend(handles=kinds, loc="lower right"))
     ax.legend(title=r"$l_a/\epsilon$", loc="upper left")
@@ -68,35 +69,30 @@ def draw_loops(ax, loop):
 
 def draw_lengths(ax, surfaces, a_v):
     """1/kappa_ad by slopes and directly, beside the formula with either a_V."""
-    for marker, data, measured in zip(style.MARKERS, surfaces, a_v, strict=False):
+    for marker, data, measured in zip(MARKERS, surfaces, a_v, strict=False):
         lengths = data.adhesion_length_over_range.values
-        for colour, range_ in style.in_shades(data.range_over_h_rms.values):
+        for colour, range_ in plotting.shade(data.range_over_h_rms.values):
             here = data.sel(range_over_h_rms=range_)
             for value, line in ((PAPER_A_V, "-"), (measured, "--")):
                 formula = by_formula(data, lengths, range_, value)
                 ax.plot(lengths, formula, line, color=colour, linewidth=0.8)
             look = {"color": colour, "marker": marker}
-            style.hollow(ax, lengths, here.inverse_kappa_ad_direct, **look, markersize=SMALL)
+            direct = here.inverse_kappa_ad_direct
+            plotting.draw_hollow(ax, lengths, direct, **look, markersize=SMALL)
             draw_slopes(ax, lengths, here, "inverse_kappa_ad_fit", **look)
             chosen = here.inverse_kappa_ad.where(here.model == "dmt")
-            ax.plot(lengths, chosen, "x", color=style.RED, markersize=3.5, zorder=6)
+            ax.plot(lengths, chosen, "x", color=RED, markersize=3.5, zorder=6)
     low, high = 1e-7, 1e3
-    ax.axhspan(THRESHOLD, high, color=style.GREY, alpha=0.15, linewidth=0)
+    ax.axhspan(THRESHOLD, high, color=GREY, alpha=0.15, linewidth=0)
     ax.text(0.03, 0.965, r"sticky: $1/\kappa_\mathrm{ad}$ > 1/2", transform=ax.transAxes, va="top")
     ax.set(xscale="log", yscale="log", ylim=(low, high))
-    ax.set(xlabel=style.ADHESION_LENGTH, ylabel=r"$1/\kappa_\mathrm{ad}$")
-    ax.set_title(style.state(pressure=float(surfaces[0].pressure)))
-    ranges = style.in_shades(surfaces[0].range_over_h_rms.values)
-    families = ax.legend(
-        handles=[style.key(f"{range_:g}", color=colour) for colour, range_ in ranges],
-        title=r"$\epsilon/h_\mathrm{rms}$",
-        loc="upper left",
-        bbox_to_anchor=(0, 0.95),
-        ncols=2,
-        alignment="left",
-    )
-    ax.add_artist(families)
-    ax.legend(handles=[*surface_keys(surfaces), *kind_keys()], loc="lower right")
+    ax.set(xlabel=plotting.ADHESION_LENGTH, ylabel=r"$1/\kappa_\mathrm{ad}$")
+    ax.set_title(state(pressure=float(surfaces[0].pressure)))
+    ranges = plotting.shade(surfaces[0].range_over_h_rms.values)
+    families = [make_key(f"{range_:g}", color=colour) for colour, range_ in ranges]
+    place = {"loc": "upper left", "bbox_to_anchor": (0, 0.95), "ncols": 2, "alignment": "left"}
+    ax.add_artist(ax.legend(handles=families, title=r"$\epsilon/h_\mathrm{rms}$", **place))
+    ax.legend(handles=[*make_surface_keys(surfaces), *make_kind_keys()], loc="lower right")
 
 
 def by_formula(data, lengths, range_, a_v):
@@ -106,31 +102,29 @@ def by_formula(data, lengths, range_, a_v):
 
 def draw_slopes(ax, x, data, name, scale=1.0, **look):
     """1/kappa_ad over `scale` where it is larger than its errors, with these."""
-    _, total = style.errors(data, name)
+    _, total = plotting.read_errors(data, name)
     data = data[[name, f"{name}_error"]].where(total < data[name])
-    style.points(ax, x, data, name, scale, **look)
+    plotting.draw_points(ax, x, data, name, scale, **look)
 
 
-def surface_keys(surfaces):
+def make_surface_keys(surfaces):
     keys = []
-    for marker, data in zip(style.MARKERS, surfaces, strict=False):
+    for marker, data in zip(MARKERS, surfaces, strict=False):
         made = datasets.parameters(data)
         height = made["h_rms"].replace("um", "µm")
-        label = (
-            rf"{style.state(magnification=made['magnification'])}, $h_\mathrm{{rms}}$ = {height}"
-        )
-        keys.append(style.dot(label, color=style.BLACK, marker=marker))
+        label = rf"{state(magnification=made['magnification'])}, $h_\mathrm{{rms}}$ = {height}"
+        keys.append(make_dot(label, color=BLACK, marker=marker))
     return keys
 
 
-def kind_keys():
-    small = {"markersize": SMALL, "color": style.BLACK}
+def make_kind_keys():
+    small = {"markersize": SMALL, "color": BLACK}
     return [
-        style.dot("by fitted slopes", **small),
-        style.dot(r"$p_\mathrm{ad}/2p_\mathrm{rep}$", **small, mfc="white"),
-        style.dot("DMT limit chosen", marker="x", color=style.RED),
-        style.key(f"formula, {style.state(a_v=PAPER_A_V)}"),
-        style.key("formula, $a_V$ measured", linestyle="--"),
+        make_dot("by fitted slopes", **small),
+        make_dot(r"$p_\mathrm{ad}/2p_\mathrm{rep}$", **small, mfc="white"),
+        make_dot("DMT limit chosen", marker="x", color=RED),
+        make_key(f"formula, {state(a_v=PAPER_A_V)}"),
+        make_key("formula, $a_V$ measured", linestyle="--"),
     ]
 
 
@@ -139,19 +133,19 @@ def draw_ranges(ax, surfaces, a_v):
     for index, (data, measured) in enumerate(zip(surfaces, a_v, strict=True)):
         length = largest_weak_length(data)
         data = data.sel(adhesion_length_over_range=length)
-        for colour, range_ in style.in_shades(data.range_over_h_rms.values):
+        for colour, range_ in plotting.shade(data.range_over_h_rms.values):
             here = data.sel(range_over_h_rms=[range_])
             scale = by_formula(data, length, range_, PAPER_A_V)
-            x = style.aside(range_, index - 0.5, 1.08)
-            look = {"color": colour, "marker": style.MARKERS[index]}
+            x = plotting.move_aside(range_, index - 0.5, 1.08)
+            look = {"color": colour, "marker": MARKERS[index]}
             direct = here.inverse_kappa_ad_direct / scale
-            style.hollow(ax, x, direct, **look, markersize=SMALL)
+            plotting.draw_hollow(ax, x, direct, **look, markersize=SMALL)
             draw_slopes(ax, x, here, "inverse_kappa_ad", scale, **look)
-        ax.axhline(measured / PAPER_A_V, color=style.GREY, linestyle="--", linewidth=0.8)
-    ax.axhline(1, color=style.GREY, linewidth=0.9)
-    ax.set(xscale="log", xlabel=style.RANGE)
+        ax.axhline(measured / PAPER_A_V, color=GREY, linestyle="--", linewidth=0.8)
+    ax.axhline(1, color=GREY, linewidth=0.9)
+    ax.set(xscale="log", xlabel=plotting.RANGE)
     ax.set_ylim(bottom=0)
-    ax.set_ylabel(rf"$1/\kappa_\mathrm{{ad}}$ over formula, {style.state(a_v=PAPER_A_V)}")
+    ax.set_ylabel(rf"$1/\kappa_\mathrm{{ad}}$ over formula, {state(a_v=PAPER_A_V)}")
 
 
 def largest_weak_length(data):
@@ -161,4 +155,4 @@ def largest_weak_length(data):
 
 
 if __name__ == "__main__":
-    main(style.start_figure(globals()))
+    main(plotting.start_figure(globals()))

@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from pipeline.pages import style
-from pipeline.pages.style import BLACK, RED
+from pipeline import plotting
+from pipeline.plotting import BLACK, COLOURS, GREY, RED, make_dot, make_key, state
 from stickiness.core import datasets
 
 LENGTHS = [0.001, 0.01, 0.1, 1.0, 10.0]  # l_a/range
@@ -23,7 +23,7 @@ ROUGHNESS = r"roughness $h_\mathrm{rms}/\epsilon$"
 
 def main(job):
     data = datasets.read(job.input.map, [*LOOKS, "slope_angle", "a_v"])
-    with style.lettered_figure(job.output, "AB", 4.2, width_ratios=[1.35, 1]) as panels:
+    with plotting.open_figure(job.output, "AB", 4.2, width_ratios=[1.35, 1]) as panels:
         draw_limits(panels["A"], data)
         draw_angles(panels["B"], data)
 
@@ -31,52 +31,52 @@ def main(job):
 def draw_limits(ax, data):
     """Limit of stickiness for a few adhesion lengths, by the edges, and where its forms hold."""
     x = data.range_times_q0
-    for colour, length in style.in_shades(LENGTHS):
-        ax.plot(x, at_length(data[EDGES], length), color=colour, label=f"{length:g}")
-    low, high = (at_length(data[f"{EDGES}_{end}"], EMPHASISED) for end in ("low", "high"))
-    style.band(ax, x, low, high, RED, alpha=0.25)
+    for colour, length in plotting.shade(LENGTHS):
+        ax.plot(x, interpolate(data[EDGES], length), color=colour, label=f"{length:g}")
+    low, high = (interpolate(data[f"{EDGES}_{end}"], EMPHASISED) for end in ("low", "high"))
+    plotting.draw_band(ax, x, low, high, RED, alpha=0.25)
     for name, look in LOOKS.items():
-        ax.plot(x, at_length(data[name], EMPHASISED), **look)
+        ax.plot(x, interpolate(data[name], EMPHASISED), **look)
     ax.plot(CLAIMED.keys(), CLAIMED.values(), "o", color=RED, mfc="white", zorder=5)
     ax.set(xscale="log", yscale="log", xlim=(4e-13, 1e-2), ylim=(1, 1e14))
     ax.set(xlabel=r"lowest wave number $\epsilon q_0$", ylabel=f"largest sticky {ROUGHNESS}")
-    ax.add_artist(ax.legend(title=style.SYMBOLS["adhesion_length"], loc="lower left", ncols=2))
-    ax.legend(handles=limit_keys(data), loc="upper right")
+    ax.add_artist(ax.legend(title=plotting.SYMBOLS["adhesion_length"], loc="lower left", ncols=2))
+    ax.legend(handles=make_limit_keys(data), loc="upper right")
 
 
-def at_length(limit, length):
+def interpolate(limit, length):
     """A limit between the adhesion lengths tabulated, nearly a power law of them."""
     name = "adhesion_length_over_range"
     logs = np.log(limit).assign_coords({name: np.log(limit[name])})
     return np.exp(logs.interp({name: np.log(length)}))
 
 
-def limit_keys(data):
+def make_limit_keys(data):
     texts = {
-        EDGES: f"edges, {style.state(adhesion_length=EMPHASISED)}, with error",
+        EDGES: f"edges, {state(adhesion_length=EMPHASISED)}, with error",
         "h_rms_limit": "DMT limit, $a_V$ as tabulated",
         "h_rms_limit_constant": f"DMT limit, constant $a_V$ = {float(data.a_v):.1f}",
         "h_rms_limit_printed": "DMT limit, 9/4 as printed",
         "jtb_limit": "JTB: DMT valid above",
         "weak_limit": "edges weak above, stronger below",
     }
-    keys = [style.key(text, **LOOKS[name]) for name, text in texts.items()]
-    return [*keys[:4], style.dot("the paper's numbers", color=RED, mfc="white"), *keys[4:]]
+    keys = [make_key(text, **LOOKS[name]) for name, text in texts.items()]
+    return [*keys[:4], make_dot("the paper's numbers", color=RED, mfc="white"), *keys[4:]]
 
 
 def draw_angles(ax, data):
     """Angle of the area-load line; beyond the vertical it leans to tension."""
-    for colour, parameter in zip(style.COLOURS, data.slope_parameter.values, strict=False):
+    for colour, parameter in zip(COLOURS, data.slope_parameter.values, strict=False):
         curve = data.slope_angle.sel(slope_parameter=parameter)
         ax.plot(data.h_rms_over_range, curve, color=colour, label=f"{parameter:g}")
-    ax.axhline(90, color=style.GREY, linewidth=0.9, linestyle="--")
-    ax.axhspan(90, 180, color=style.GREY, alpha=0.15, linewidth=0)
+    ax.axhline(90, color=GREY, linewidth=0.9, linestyle="--")
+    ax.axhspan(90, 180, color=GREY, alpha=0.15, linewidth=0)
     ax.text(0.97, 0.93, "sticky: above 90°", transform=ax.transAxes, ha="right")
     ax.set(xscale="log", ylim=(60, 180), yticks=range(60, 181, 30))
     ax.set(xlabel=ROUGHNESS, ylabel=r"angle arctan $\kappa$ of the area–load line [°]")
-    ax.set_title(style.state(a_v=datasets.parameters(data)["slope_a_v"]))
+    ax.set_title(state(a_v=datasets.parameters(data)["slope_a_v"]))
     ax.legend(title=r"$\epsilon q_0/(l_a/\epsilon)$", loc="center right")
 
 
 if __name__ == "__main__":
-    main(style.start_figure(globals()))
+    main(plotting.start_figure(globals()))

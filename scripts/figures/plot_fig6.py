@@ -2,7 +2,8 @@
 
 import numpy as np
 
-from pipeline.pages import style
+from pipeline import plotting
+from pipeline.plotting import BLACK, COLOURS, GREY
 from stickiness.core import datasets
 
 HURST = 0.8  # of the lines
@@ -14,9 +15,9 @@ WAVE_NUMBERS = (1e-4, 1e10)  # 1/m
 def main(job):
     surfaces = [datasets.read(path, ["psd", "wave_number"]) for path in job.input.surfaces]
     # The lines of constant C0 are surfaces, too, but drawn without ends.
-    surfaces = [surface for surface in surfaces if not label(surface).startswith("C0 =")]
+    surfaces = [surface for surface in surfaces if not name_surface(surface).startswith("C0 =")]
     shape = {"sharex": True, "height_ratios": [1.25, 1]}
-    with style.lettered_figure(job.output, "A;B", 7.2, **shape) as panels:
+    with plotting.open_figure(job.output, "A;B", 7.2, **shape) as panels:
         draw_spectra(panels["A"], surfaces, 0)
         draw_spectra(panels["B"], surfaces, EXPONENT)
         panels["A"].set_ylabel(r"power spectral density $C(q)$ [m$^4$]")
@@ -26,7 +27,7 @@ def main(job):
         panels["B"].set_xlabel(r"wave number $q$ [1/m]")
 
 
-def label(surface):
+def name_surface(surface):
     return datasets.parameters(surface)["label"]
 
 
@@ -35,16 +36,16 @@ def draw_spectra(ax, surfaces, power):
     draw_lines(ax, power)
     for index, surface in enumerate(surfaces):
         draw = draw_measured if "psd_fit" in surface else draw_parametric
-        draw(ax, surface, power, style.COLOURS[index % len(style.COLOURS)])
+        draw(ax, surface, power, COLOURS[index % len(COLOURS)])
     ax.set(xscale="log", yscale="log", xlim=WAVE_NUMBERS)
 
 
 def draw_lines(ax, power):
     """Lines of constant C0 with their names."""
     q = np.array(WAVE_NUMBERS)
-    grey = {"color": style.GREY, "fontsize": 8}
+    grey = {"color": GREY, "fontsize": 8}
     for c0, text in LINES.items():
-        ax.plot(q, c0 * q ** (power - EXPONENT), "--", color=style.GREY, linewidth=0.9, zorder=1)
+        ax.plot(q, c0 * q ** (power - EXPONENT), "--", color=GREY, linewidth=0.9, zorder=1)
         if power:
             ax.text(np.sqrt(q.prod()) / 300, 1.3 * c0, text, **grey)
     if not power:
@@ -57,14 +58,14 @@ def draw_parametric(ax, surface, power, colour):
     """The range between the smooth and the rough end."""
     q = surface.wave_number
     smooth, rough = (surface.psd.sel(end=end) * q**power for end in ("smooth", "rough"))
-    style.band(ax, q, smooth, rough, colour)
+    plotting.draw_band(ax, q, smooth, rough, colour)
     for edge in (smooth, rough):
         ax.plot(q, edge, color=colour, linewidth=0.9)
-    ax.plot([], [], color=colour, linewidth=4, alpha=0.6, label=label(surface))
+    ax.plot([], [], color=colour, linewidth=4, alpha=0.6, label=name_surface(surface))
 
 
 def draw_measured(ax, surface, power, colour):
-    """Radial averages with their sampling error, and the fit within its range.
+    """Radial averages with their sampling errors, and the fit within its range.
 
     What the fit extrapolates beyond the instrument's cutoff is no measurement and not drawn.
     """
@@ -73,13 +74,12 @@ def draw_measured(ax, surface, power, colour):
         surface = surface.isel(wave_number=np.flatnonzero(inside))
     scale = surface.wave_number**power
     psd, error = surface.psd.isel(end=0) * scale, surface.psd_standard_error * scale
-    below = np.minimum(error, 0.9 * psd)  # a bar down to zero has no end on a log axis
-    look = {"color": colour, "marker": "o", "linestyle": "none", "markersize": 2.5}
-    ax.errorbar(surface.wave_number, psd, [below, error], elinewidth=0.7, **look)
+    plotting.draw_spectrum(ax, surface.wave_number, psd, error, color=colour)
     fit = (surface.psd_fit * scale).where(surface.fitted == 1)
-    ax.plot(surface.wave_number, fit, color=style.BLACK, linewidth=0.9, zorder=5)
-    ax.plot([], [], label=label(surface), **look)
+    ax.plot(surface.wave_number, fit, color=BLACK, linewidth=0.9, zorder=5)
+    look = {"color": colour, "marker": "o", "linestyle": "none", "markersize": 2.5}
+    ax.plot([], [], label=name_surface(surface), **look)
 
 
 if __name__ == "__main__":
-    main(style.start_figure(globals()))
+    main(plotting.start_figure(globals()))

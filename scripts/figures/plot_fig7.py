@@ -3,8 +3,9 @@
 import matplotlib as mpl
 import numpy as np
 
+from pipeline import plotting
 from pipeline.conventions import middles
-from pipeline.pages import style
+from pipeline.plotting import BLACK, GREY, make_key, pick_look, state
 from stickiness import criteria
 from stickiness.core import budget, datasets
 
@@ -17,7 +18,7 @@ PLANE = "adhesion_length_over_range", "range_over_h_rms"
 
 def main(job):
     data = datasets.read(job.input.adhesive, ["dmt_ratio", "zone_strength", "q0_h_rms"])
-    with style.lettered_figure(job.output, "AB", 3.3, width_ratios=[1.1, 1]) as panels:
+    with plotting.open_figure(job.output, "AB", 3.3, width_ratios=[1.1, 1]) as panels:
         draw_plane(panels["A"], data.sel(pressure=job.params.pressure, method="nearest"))
         draw_weak(panels["B"], data)
 
@@ -28,26 +29,26 @@ def draw_plane(ax, data):
     ratio = data.dmt_ratio.transpose(*PLANE).values
     good = (error_of_dmt(data) <= ACCURACY).transpose(*PLANE).values
     norm = mpl.colors.LogNorm(1 / LARGEST_RATIO, LARGEST_RATIO)
-    mesh = ax.pcolormesh(cells(ranges), cells(lengths), ratio, norm=norm, cmap="RdYlBu_r")
+    mesh = ax.pcolormesh(find_cells(ranges), find_cells(lengths), ratio, norm=norm, cmap="RdYlBu_r")
     for row, length in enumerate(lengths):
         for column, range_ in enumerate(ranges):
             write_ratio(ax, (range_, length), ratio[row, column], good[row, column], mesh)
-    ax.set(xscale="log", yscale="log", xlabel=style.RANGE, ylabel=style.ADHESION_LENGTH)
+    ax.set(xscale="log", yscale="log", xlabel=plotting.RANGE, ylabel=plotting.ADHESION_LENGTH)
     limits = {"xlim": ax.get_xlim(), "ylim": ax.get_ylim()}
     strength = data.zone_strength.transpose(*PLANE).values
-    ax.contour(ranges, lengths, strength, levels=[1], colors=style.BLACK)
-    contour = style.key(r"$l_ad/\epsilon^2$ = 1", color=style.BLACK)
+    ax.contour(ranges, lengths, strength, levels=[1], colors=BLACK)
+    contour = make_key(r"$l_ad/\epsilon^2$ = 1", color=BLACK)
     ax.legend(handles=[contour], loc="upper left")
     jtb = 1 / criteria.jtb_limit(float(data.q0_h_rms), 1.0, 1.0)
     if limits["ylim"][0] < jtb < limits["ylim"][1]:
-        ax.axhline(jtb, color=style.BLACK, linestyle="--", linewidth=0.9)
+        ax.axhline(jtb, color=BLACK, linestyle="--", linewidth=0.9)
     ax.set(**limits)
     bar = ax.figure.colorbar(mesh, ax=ax, label=RATIO)
-    style.plain_ticks(bar.ax.yaxis, [0.25, 0.5, 1, 2, 4])
+    plotting.write_ticks(bar.ax.yaxis, [0.25, 0.5, 1, 2, 4])
     bar.ax.minorticks_off()
     made, pressure = datasets.parameters(data), float(data.pressure)
     surface = {"magnification": made["magnification"], "q0_h_rms": float(data.q0_h_rms)}
-    ax.set_title(style.state(**surface, pressure=pressure))
+    ax.set_title(state(**surface, pressure=pressure))
 
 
 def write_ratio(ax, place, value, good, mesh):
@@ -70,7 +71,7 @@ def error_of_dmt(data):
     return abs(np.expm1(abs(np.log(data.dmt_ratio)) + log_error))
 
 
-def cells(values):
+def find_cells(values):
     """Edges of the cells around values on a log axis."""
     inner = middles(values)
     return np.concatenate([[values[0] ** 2 / inner[0]], inner, [values[-1] ** 2 / inner[-1]]])
@@ -81,20 +82,22 @@ def draw_weak(ax, data):
     weak = data.isel(adhesion_length_over_range=0)
     for index, load in enumerate(weak.pressure.values):
         at = weak.sel(pressure=load)
-        look = style.look(index, markersize=3.5)
-        x = style.aside(at.range_over_h_rms, index - 1, 1.06)
-        style.hollow(ax, x, at.dmt_ratio_net, **look)
-        style.points(ax, x, at, "dmt_ratio", **look, label=style.state(pressure=load))
+        look = pick_look(index, markersize=3.5)
+        x = plotting.move_aside(at.range_over_h_rms, index - 1, 1.06)
+        plotting.draw_hollow(ax, x, at.dmt_ratio_net, **look)
+        plotting.draw_points(ax, x, at, "dmt_ratio", **look, label=state(pressure=load))
     x = np.array([0.01, 0.2])
-    style.guide(ax, x, 3.2 * (x / 0.01) ** (-1 / 3), r"$\epsilon^{-1/3}$", (0.04, 2.3))
-    ax.axhline(1, color=style.GREY, linewidth=0.9)
-    ax.set(xscale="log", yscale="log", xlabel=style.RANGE, ylabel=RATIO)
-    style.plain_ticks(ax.yaxis, [0.5, 1, 2, 4, 8])
-    style.hollow(ax, [], [], color=style.GREY, marker="o", markersize=3.5, label="compressed area")
+    plotting.draw_guide(ax, x, 3.2 * (x / 0.01) ** (-1 / 3), r"$\epsilon^{-1/3}$", (0.04, 2.3))
+    ax.axhline(1, color=GREY, linewidth=0.9)
+    ax.set(xscale="log", yscale="log", xlabel=plotting.RANGE, ylabel=RATIO)
+    plotting.write_ticks(ax.yaxis, [0.5, 1, 2, 4, 8])
+    plotting.draw_hollow(
+        ax, [], [], color=GREY, marker="o", markersize=3.5, label="compressed area"
+    )
     length = float(weak.adhesion_length_over_range)
-    ax.set_title(f"weak adhesion, {style.state(adhesion_length=length)}")
+    ax.set_title(f"weak adhesion, {state(adhesion_length=length)}")
     ax.legend(loc="upper right")
 
 
 if __name__ == "__main__":
-    main(style.start_figure(globals()))
+    main(plotting.start_figure(globals()))

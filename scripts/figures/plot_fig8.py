@@ -5,9 +5,9 @@ from dataclasses import dataclass
 import numpy as np
 import xarray as xr
 
+from pipeline import plotting
 from pipeline.conventions import LOAD, VARIANT
-from pipeline.pages import style
-from pipeline.pages.style import BLACK, GREY
+from pipeline.plotting import BLACK, GREY, make_dot, make_key, pick_look, state
 from stickiness.core import datasets
 
 CORRECTIONS = {"yang2008": "Yang & Persson", "wang2017": "Wang & Müser", "xu2024": "Xu et al."}
@@ -56,7 +56,7 @@ def main(job):
     gamma = datasets.read(job.input.gamma, ["gamma", "gamma_low", "gamma_high", "quantities_agree"])
     grid = [[f"{row}{column}" for column in range(len(THEORIES))] for row in ROWS]
     rows, heights = [*grid, ["A", "A", "B", "B"]], [1] * len(ROWS) + [1.65]
-    with style.lettered_figure(job.output, rows, 10.2, height_ratios=heights) as panels:
+    with plotting.open_figure(job.output, rows, 10.2, height_ratios=heights) as panels:
         for column, (theory, title) in enumerate(THEORIES.items()):
             for row in ROWS:
                 ax = panels[f"{row}{column}"]
@@ -65,7 +65,9 @@ def main(job):
             panels[f"{ROWS[0]}{column}"].set_title(title)
         draw_windows(panels["A"], cases)
         draw_gamma(panels["B"], gamma)
-        panels["A"].figure.legend(handles=case_keys(cases), loc="outside upper center", ncols=6)
+        panels["A"].figure.legend(
+            handles=make_case_keys(cases), loc="outside upper center", ncols=6
+        )
 
 
 def order_cases(comparisons):
@@ -82,22 +84,22 @@ def order_cases(comparisons):
     cases = []
     for comparison in comparisons:
         own_hurst, own_magnification, _ = order(comparison)
-        colour = style.look(hurst.index(own_hurst))["color"]
-        marker = style.look(magnification.index(own_magnification))["marker"]
+        colour = pick_look(hurst.index(own_hurst))["color"]
+        marker = pick_look(magnification.index(own_magnification))["marker"]
         cases.append(Case(comparison, {"color": colour, "marker": marker}))
     return cases
 
 
-def case_keys(cases):
+def make_case_keys(cases):
     colours = {case.made["hurst"]: case.look["color"] for case in cases}
     markers = {case.made["magnification"]: case.look["marker"] for case in cases}
     return [
-        *(style.key(style.state(hurst=h), color=colour) for h, colour in colours.items()),
+        *(make_key(state(hurst=h), color=colour) for h, colour in colours.items()),
         *(
-            style.dot(style.state(magnification=zeta), marker=marker)
+            make_dot(state(magnification=zeta), marker=marker)
             for zeta, marker in sorted(markers.items())
         ),
-        style.dot("window too small for the load", mfc="white"),
+        make_dot("window too small for the load", mfc="white"),
     ]
 
 
@@ -145,9 +147,9 @@ def dress(ax, row, column):
     """Axes of one panel of the grid."""
     density = row == "gap_density"
     ax.set(xscale="log", xlim=(2e-3, 4) if density else (7e-4, 0.8))
-    ax.set_xlabel(style.GAP if density else "")
+    ax.set_xlabel(plotting.GAP if density else "")
     if row == "distance":
-        ax.set(yscale="log", ylim=(4e-3, 2), xlabel=style.PRESSURE)
+        ax.set(yscale="log", ylim=(4e-3, 2), xlabel=plotting.PRESSURE)
         label = r"$W_1/h_\mathrm{rms}$"
     else:
         ax.axhline(0, color=GREY, linewidth=0.7, zorder=0)
@@ -174,10 +176,10 @@ def draw_windows(ax, cases):
     ax.axhline(1, color=GREY, linewidth=0.7, zorder=0)
     ax.axvline(float(cases[0].differences.margin), color=GREY, linestyle=":")
     ax.set(yscale="log", xlim=(-0.8, 3.2))
-    style.plain_ticks(ax.yaxis, [0.7, 1, 1.5, 2, 3])
+    plotting.write_ticks(ax.yaxis, [0.7, 1, 1.5, 2, 3])
     ax.set_xlabel(r"highest summit less theory's mean gap, over $h_\mathrm{rms}$")
     ax.set_ylabel(rf"BEM/theory, $A_\mathrm{{ad}}({RANGE:g}\,h_\mathrm{{rms}})$")
-    keys = [style.dot("window of one wave", mfc="white"), style.dot("of several")]
+    keys = [make_dot("window of one wave", mfc="white"), make_dot("of several")]
     ax.legend(handles=keys, loc="upper right")
 
 
@@ -195,7 +197,7 @@ def draw_gamma(ax, gamma):
             ax.text(0.27, count - 1 + aside, f"{label}: none fits all", **SMALL)
         y = np.arange(at.sizes["quantity"]) + aside
         bars = np.abs([at.gamma - at.gamma_low, at.gamma_high - at.gamma])
-        look = style.look(index, linestyle="none")
+        look = pick_look(index, linestyle="none")
         ax.errorbar(at.gamma, y, xerr=bars, elinewidth=1, capsize=2, **look, label=label)
         for height, end, misfit in zip(y, at.gamma_high.values, at.misfit.values, strict=True):
             ax.text(end + 0.015, height, f"{misfit:.0%}", **SMALL)
@@ -207,4 +209,4 @@ def draw_gamma(ax, gamma):
 
 
 if __name__ == "__main__":
-    main(style.start_figure(globals()))
+    main(plotting.start_figure(globals()))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import re
+from collections.abc import Iterable
 
 _SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 _PREFIXES = {9: "G", 6: "M", 3: "k", 0: "", -3: "m", -6: "µ", -9: "n"}
@@ -94,3 +95,14 @@ def _times_ten_to(power: int) -> str:
 
 def _signed(value: float, text: str) -> str:
     return f"−{text}" if value < 0 else text
+
+
+def table(columns: Iterable[object], rows: Iterable[Iterable[object]]) -> str:
+    """Markdown table with these column heads and rows of texts."""
+    columns = list(columns)
+    lines = [columns, ["---"] * len(columns), *rows]
+    return "\n".join("| " + " | ".join(map(_escaped, line)) + " |" for line in lines) + "\n"
+
+
+def _escaped(text: object) -> str:
+    return str(text).replace("|", "\\|").replace("\n", " ")

@@ -6,7 +6,7 @@ from collections import Counter
 from collections.abc import Iterable
 from pathlib import Path
 
-from pipeline.pages.verdict_texts import STICKINESS
+from pipeline.pages.verdict_texts import WORDS
 from stickiness.core import datasets
 
 
@@ -35,7 +35,7 @@ def grades(results: Path) -> list[tuple[str, str]]:
         lines.append(("claims", count(datasets.read(claims, ["verdict"]).verdict.values)))
     if verdicts.exists():
         codes = datasets.read(verdicts, ["verdict"]).verdict.values.ravel()
-        lines.append(("pairs", count(STICKINESS[code] for code in codes)))
+        lines.append(("pairs", count(WORDS[code] for code in codes)))
     return lines
 
 

@@ -14,25 +14,13 @@ from stickiness.core import datasets
 NEEDED_VARIABLES = {
     "claims": ("statement", "quantity", "value", "value_error", "claimed", "verdict", "sources"),
     "verdicts": (
-        "margin",
-        "margin_total_error",
-        "modulus_threshold",
-        "modulus_threshold_low",
-        "probability",
-        "simulated",
-        "verdict",
-        "disagrees",
-        "a_v",
-        "a_v_low",
+        *("margin", "margin_total_error", "modulus_threshold", "modulus_threshold_low"),
+        *("probability", "simulated", "verdict", "disagrees", "a_v", "a_v_low"),
     ),
     "surfaces": ("h_rms", "hurst", "hurst_total_error", "q0", "q1", "C0_reference_upper"),
     "ensembles": ("area_fraction_mean", "mean_gap_mean", "attractive_area_mean", "residual"),
     "answers": ("value", "value_error", "value_total_error", "value_dominant"),
-    "comparisons": (
-        "area_fraction_difference",
-        "mean_gap_difference",
-        "attractive_area_difference",
-    ),
+    "comparisons": tuple(f"{name}_difference" for name in report.QUANTITIES),
 }
 
 
@@ -57,29 +45,27 @@ def main(job):
 
 
 def embed(figure, caption):
-    return captions.figure(figure, Path(caption).read_text(encoding="utf-8"))
+    return captions.embed_figure(figure, Path(caption).read_text(encoding="utf-8"))
 
 
 def read_results(inputs, figure_sources):
-    """The datasets that the page is made of, by their kind; several of one kind by name."""
-    paths = {"claims": inputs.claims, "verdicts": inputs.verdicts}
-    for kind in ("surfaces", "ensembles", "answers", "comparisons"):
-        paths[kind] = {Path(path).stem: path for path in inputs[kind]}
-
-    def read(kind):
-        if isinstance(paths[kind], str):
-            return datasets.read(paths[kind], NEEDED_VARIABLES[kind])
-        read_all = {n: datasets.read(p, NEEDED_VARIABLES[kind]) for n, p in paths[kind].items()}
-        return read_all if kind == "surfaces" else list(read_all.values())
-
-    contents = {kind: read(kind) for kind in NEEDED_VARIABLES}
-    return report.Results(**contents, paths=paths | {"figures": figure_sources})
+    """The datasets that the page is made of, with their paths."""
+    paths, contents = {"figures": figure_sources}, {}
+    for kind, variables in NEEDED_VARIABLES.items():
+        if isinstance(inputs[kind], str):
+            paths[kind], contents[kind] = inputs[kind], datasets.read(inputs[kind], variables)
+        else:
+            paths[kind] = {Path(path).stem: path for path in inputs[kind]}
+            contents[kind] = {n: datasets.read(p, variables) for n, p in paths[kind].items()}
+    for kind in ("ensembles", "answers", "comparisons"):
+        contents[kind] = list(contents[kind].values())
+    return report.Results(**contents, paths=paths)
 
 
 def render(template, page, results, *, figures, tradeoff, benchmarks, fidelity):
     """The page as text.
 
-    `results` are the datasets as `report.Results`, `figures` as `captions.figure` makes them;
+    `results` are the datasets as `report.Results`, `figures` as `captions.embed_figure` makes them;
     `tradeoff` is what accuracy costs: its `figure`, a table for each knob (`tables`), the `source`
     of both, and `presets`; `benchmarks` is the folder of Snakemake's benchmark files.
     """

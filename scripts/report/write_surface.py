@@ -7,20 +7,20 @@ import numpy as np
 from pipeline.conventions import LOAD
 from pipeline.job import start
 from pipeline.numbers import NOTHING, interval, number, percent, quantity, with_error
-from pipeline.pages import captions, pressed
-from pipeline.pages.style import save
+from pipeline.pages import captions, measured_contact
 from pipeline.pages.surface_figure import draw_surface
-from pipeline.pages.surface_texts import reference_prefactor, rms_height, rms_slope
-from pipeline.pages.verdict_texts import ends, explain, pair_texts
-from pipeline.verdicts.materials import material, modulus_text
+from pipeline.pages.surface_texts import describe_height, describe_line, describe_slope
+from pipeline.pages.verdict_texts import describe_pair, ends, explain
+from pipeline.verdicts.materials import describe_modulus, read_material
 from stickiness.core import datasets
 from stickiness.core.statistics import COVERS
 from stickiness.criteria.moduli import crossings
 
-CAPTION = """Levelled heights of the first measurement, and the spectrum: rings with their sampling
-error, the fitted self-affine spectrum, the cutoff of the instrument, the end of the plateau with
-its error if there is one, and the lines of the paper. Grey: the fit extrapolated beyond the
-instrument, with its error. If moduli depend on the rate: limits of the margin against frequency.
+CAPTION = """Levelled heights of the first measurement, and the spectrum: radial averages with their
+sampling errors, the fitted self-affine spectrum, the cutoff of the instrument, the end of the
+plateau with its error if there is one, and the lines of the paper. Grey: the fit extrapolated
+beyond the instrument, with its error. Errors cover 90 %. If moduli depend on the rate: limits of
+the margin against frequency.
 """
 
 
@@ -28,20 +28,22 @@ def main(job):
     surface = datasets.read(job.input.surface, ["psd", "hurst", "q0", "q1"])
     verdicts = datasets.read(job.input.verdicts, ["margin", "verdict", "probability"])
     pairs = verdicts.sel(surface=job.wildcards.real_surface)
-    save(draw_surface(surface, pairs), [job.output.figure])
+    draw_surface(surface, pairs, job.output.figure)
     page = render(
         job.input.template,
         job.output.page,
         files={
             "surface": job.input.surface,
             "verdicts": job.input.verdicts,
-            "pressed": job.input.pressed[0] if job.input.pressed else "",
+            "measured_contact": job.input.measured_contact[0] if job.input.measured_contact else "",
         },
         surface=surface,
         pairs=pairs,
         materials=datasets.parameters(verdicts)["materials"],
-        figure=captions.figure(job.output.figure, CAPTION),
-        bem=datasets.read(job.input.pressed[0], ["a_v"]) if job.input.pressed else None,
+        figure=captions.embed_figure(job.output.figure, CAPTION),
+        bem=datasets.read(job.input.measured_contact[0], ["a_v"])
+        if job.input.measured_contact
+        else None,
     )
     with datasets.whole_file(job.output.page) as path:
         path.write_text(page, encoding="utf-8")
@@ -50,6 +52,7 @@ def main(job):
 def render(template, page, *, files, surface, pairs, materials, figure, bem=None):
     """The page as text, with links to the files behind it from where it will lie."""
     made = datasets.parameters(surface)
+    names = list(map(str, pairs.material.values))
     return captions.template_of(template, page).render(
         files_of=files,
         report=Path(page).parents[1] / "report.html",
@@ -57,39 +60,34 @@ def render(template, page, *, files, surface, pairs, materials, figure, bem=None
         kind=made["kind"].replace("_", "-"),
         source=made.get("source", ""),
         figure=figure,
-        known=known(surface),
+        known=list_parameters(surface),
         remarks=[t for t in (*surface.attrs.get("remarks", "").split("; "), made.get("note")) if t],
         measured=[t for t in surface.attrs.get("files", "").split("; ") if t],
-        loads=pressed.describe_loads(bem) if bem is not None else [],
+        loads=measured_contact.describe_loads(bem) if bem is not None else [],
         load=number(LOAD),
-        pressed=[
-            {
-                "material": materials[name]["label"],
-                **pressed.describe_pair(bem, material(materials[name]), surface),
-            }
-            for name in map(str, pairs.material.values)
+        margins=[
+            {"material": materials[name]["label"]}
+            | measured_contact.describe_pair(bem, read_material(materials[name]), surface)
+            for name in names
             if bem is not None
         ],
         verdicts=[
-            verdict(pairs.sel(material=name), surface, materials[name])
-            for name in map(str, pairs.material.values)
+            describe_verdict(pairs.sel(material=name), surface, materials[name]) for name in names
         ],
     )
 
 
-def known(surface):
+def list_parameters(surface):
     """Parameters of the surface with their errors, as pairs of name and text."""
+    unit = surface.C0_reference_upper.attrs["units"]
     rows = [
         ("Hurst exponent H", with_error(float(surface.hurst), float(surface.hurst_total_error))),
-        (f"C0 [{surface.C0.attrs['units']}]", prefactor(surface)),
-        (
-            f"C0 at H = 0.8 [{surface.C0_reference_upper.attrs['units']}]",
-            reference_prefactor(surface),
-        ),
-        ("rms height", rms_height(surface)),
-        ("rms slope", rms_slope(surface)),
-        ("q0 [1/m]", lowest(surface)),
-        ("roll-off", roll_off(surface)),
+        (f"C0 [{surface.C0.attrs['units']}]", describe_prefactor(surface)),
+        (f"C0 at H = 0.8 [{unit}]", describe_line(surface)),
+        ("rms height", describe_height(surface)),
+        ("rms slope", describe_slope(surface)),
+        ("q0 [1/m]", describe_lowest(surface)),
+        ("roll-off", describe_roll_off(surface)),
         ("q1 [1/m]", number(float(surface.q1))),
     ]
     if "q_cutoff" in surface:
@@ -106,14 +104,14 @@ def known(surface):
     return rows
 
 
-def lowest(surface):
+def describe_lowest(surface):
     """Wave number q0, of a roll-off with its error."""
     if "q_rolloff" in surface:
         return with_error(float(surface.q0), float(surface.q_rolloff_total_error))
     return number(float(surface.q0))
 
 
-def prefactor(surface):
+def describe_prefactor(surface):
     """C0, with a factor for its error: it is known at q = 1, far from the data."""
     c0 = surface.C0.values
     if "C0_relative_error" not in surface:
@@ -122,27 +120,27 @@ def prefactor(surface):
     return f"{number(float(c0[0]), 2)} ×÷ {number(factor, 2)}"
 
 
-def roll_off(surface):
+def describe_roll_off(surface):
     if "q_rolloff" not in surface:
         return "none found" if "fitted" in surface else NOTHING
     return f"{with_error(float(surface.q_rolloff), float(surface.q_rolloff_total_error))} 1/m"
 
 
-def verdict(pair, surface, entry):
+def describe_verdict(pair, surface, entry):
     """Verdict of one material, with its errors and every criterion's reason."""
-    solid = material(entry)
+    solid = read_material(entry)
     return {
         "material": entry["label"],
-        "modulus": modulus_text(entry),
-        **pair_texts(pair),
-        "rate": rate(solid, pair, ends(pair.modulus_threshold))
+        "modulus": describe_modulus(entry),
+        **describe_pair(pair),
+        "rate": describe_rate(solid, pair, ends(pair.modulus_threshold))
         if solid.depends_on_rate
         else NOTHING,
         "criteria": explain(pair, surface, solid.work_of_adhesion),
     }
 
 
-def rate(solid, pair, thresholds):
+def describe_rate(solid, pair, thresholds):
     """Frequencies at which the modulus passes the threshold, at both ends of the surface."""
     texts = []
     for threshold in dict.fromkeys(thresholds):

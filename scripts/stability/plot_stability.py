@@ -6,7 +6,7 @@ import numpy as np
 from matplotlib.patches import Patch
 
 from pipeline.job import start
-from pipeline.pages.style import BLACK, BLUE, ORANGE, YELLOW, lettered_figure
+from pipeline.plotting import BLACK, BLUE, ORANGE, YELLOW, open_figure
 from stickiness.core import datasets
 
 LABELS = {
@@ -29,7 +29,7 @@ def main(job):
     mosaic = [[f"{name}/{axis}" for axis in LABELS] for name in every]
     first_name, first_axis = next(iter(every)), next(iter(LABELS))
     height = ROW_HEIGHT * len(every) + 1.2
-    with lettered_figure(job.output, mosaic, height) as panels:
+    with open_figure(job.output, mosaic, height) as panels:
         for axis, label in LABELS.items():
             panels[f"{first_name}/{axis}"].set_title(label)
         for name, data in every.items():

@@ -1,7 +1,7 @@
 """Presets of accuracy from the measured laws, beside those of the configuration."""
 
 from pipeline.job import start
-from pipeline.tables import table
+from pipeline.numbers import table
 from stickiness.accuracy import adhesion, plan, prediction
 from stickiness.accuracy.error_models import Surface, read_models
 from stickiness.accuracy.prediction import Problem

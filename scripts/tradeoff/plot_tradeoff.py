@@ -4,9 +4,9 @@ import itertools
 
 import numpy as np
 
+from pipeline import plotting
 from pipeline.job import start
-from pipeline.pages import style
-from pipeline.pages.style import COLOURS, GREY, MARKERS, plain_ticks
+from pipeline.plotting import COLOURS, GREY, MARKERS, write_ticks
 from pipeline.tradeoff import summary
 from stickiness.accuracy import plan
 from stickiness.accuracy.choice import COARSE_SEEDS, PIXELS, SEEDS, TOLERANCES
@@ -32,7 +32,7 @@ PRESET_MARKS = {"draft": "v", "standard": "o", "fine": "^"}
 def main(job):
     found = summary.read(job.input.summary)
     laws = read_models(job.input.laws)
-    with style.lettered_figure(job.output, "ABC;DEF;GHI", 7.8) as panels:
+    with plotting.open_figure(job.output, "ABC;DEF;GHI", 7.8) as panels:
         draw_grids(panels["A"], found[found.knob == "pixels"])
         draw_tolerances(panels["B"], found[found.knob == "tolerance"])
         draw_seeds(panels["C"], found[found.knob == "seeds"], found[found.knob == "model"])
@@ -61,7 +61,7 @@ def draw_grids(ax, found):
             ax.plot(at.cost, at.error, line, marker="o", color=colour, label=label)
     ax.plot([], [], "--", color=GREY, label=r"$A_\mathrm{ad}(0.01)$")
     ax.set(xscale="log", yscale="log", xlabel=COST, ylabel=ERROR)
-    plain_ticks(ax.xaxis, [0.5, 1, 2, 5, 10, 20, 50])
+    write_ticks(ax.xaxis, [0.5, 1, 2, 5, 10, 20, 50])
     ax.set_ylim(bottom=2e-5)
     ax.set_title("grid: 2, 4, 8, 16 points", loc="right")
     ax.legend(loc="lower left")
@@ -95,8 +95,8 @@ def draw_seeds(ax, found, model):
     theory = index_medians(model).loc[("theory", "a_v")]
     ax.plot(theory.cost, theory.error, "*", color="black", markersize=9, label="theory")
     ax.set(xscale="log", yscale="log", xlabel=COST, ylabel=ERROR)
-    plain_ticks(ax.xaxis, [20, 50, 100, 200, 500, 1000, 2000])
-    plain_ticks(ax.yaxis, ERROR_TICKS)
+    write_ticks(ax.xaxis, [20, 50, 100, 200, 500, 1000, 2000])
+    write_ticks(ax.yaxis, ERROR_TICKS)
     ax.set_title(r"seeds, $a_V$", loc="right")
     ax.set_ylim(bottom=0.006)
     ax.legend(loc="lower left")
@@ -163,7 +163,7 @@ def draw_adhesive_seeds(ax, found):
     ax.set(xscale="log", yscale="log", xlabel=COST, ylabel=ERROR)
     ax.set_title("full adhesion: seeds", loc="right")
     kinds = {"plain": "--", "controlled": "-", "DMT limit": ":"}
-    ax.legend(handles=[style.key(text, linestyle=line) for text, line in kinds.items()])
+    ax.legend(handles=[plotting.make_key(text, linestyle=line) for text, line in kinds.items()])
 
 
 def draw_settings(ax, laws, quantities, params):
@@ -195,9 +195,9 @@ def draw_settings(ax, laws, quantities, params):
             at = predict(problem, preset)
             ax.plot(*at, mark, color=colour, markersize=7, markeredgecolor="white", label=name)
     ax.set(xscale="log", yscale="log", xlabel=COST, ylabel="predicted error, 90 %")
-    plain_ticks(ax.yaxis, ERROR_TICKS)
+    write_ticks(ax.yaxis, ERROR_TICKS)
     handles, _ = ax.get_legend_handles_labels()
-    cheapest = style.key("cheapest", color="black", marker=".")
+    cheapest = plotting.make_key("cheapest", color="black", marker=".")
     ax.legend(handles=[*handles, cheapest], loc="lower left")
 
 

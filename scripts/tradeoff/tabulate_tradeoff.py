@@ -7,7 +7,7 @@ import pandas as pd
 import xarray as xr
 
 from pipeline.job import start
-from pipeline.tables import table as markdown_table
+from pipeline.numbers import table as markdown_table
 from pipeline.tradeoff import summary
 from pipeline.tradeoff.adhesion_rows import list_adhesion_rows, list_pull_offs, list_states
 from pipeline.tradeoff.contact_rows import (

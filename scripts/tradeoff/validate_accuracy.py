@@ -12,7 +12,7 @@ import numpy as np
 import xarray as xr
 
 from pipeline.job import start
-from pipeline.tables import table
+from pipeline.numbers import table
 from pipeline.tradeoff.measuring import COVERED
 from pipeline.tradeoff.seed_pool import Resampling, make_pool
 from stickiness.accuracy.choice import (

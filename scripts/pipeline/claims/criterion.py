@@ -260,10 +260,7 @@ def crystal_strength(files: Files) -> Finding:
     )
 
 
-@claim(
-    17,
-    "Pastewka-Robbins: a_V,PR ~ zeta^((5H-3)/3), sticky for D < 2.4; constant close to 1",
-)
+@claim(17, "Pastewka-Robbins: a_V,PR ~ zeta^((5H-3)/3), sticky for D < 2.4; constant close to 1")
 def pastewka_robbins(files: Files) -> Finding:
     hursts = np.array([0.5, 0.6, 0.7, 0.8])
     errors = [fractal_exponent(h, pastewka_robbins_a_v) - (5 * h - 3) / 3 for h in hursts]

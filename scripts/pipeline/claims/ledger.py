@@ -25,30 +25,17 @@ Files = Mapping[str, xr.Dataset]  # a name that stands for several files has a l
 class Finding:
     """What the files say about a claim.
 
-    Attributes
-    ----------
-    quantity : str
-        What `value` is, with its unit.
-    value, claimed : float
-        Value measured here, and the paper's (NaN where it gives none).
-    verdict : str
-        One of the verdicts above.
-    remark : str
-        The qualification or the reason, with its numbers.
-    errors : mapping of str to float
-        Errors of the value by their source, covering 90 %. NaN: not known; a source that is left
-        out does not apply.
-    comment : str
-        What the errors are, or why they are not known or do not apply.
+    `errors` of the value, by their source, cover 90 %; NaN: not known; a source that is left out
+    does not apply.
     """
 
-    quantity: str
+    quantity: str  # what `value` is, with its unit
     value: float
-    claimed: float = np.nan
-    verdict: str
-    remark: str
+    claimed: float = np.nan  # the paper's value, if it gives one
+    verdict: str  # one of those above
+    remark: str  # the qualification or the reason, with its numbers
     errors: Mapping[str, float] = field(default_factory=dict)
-    comment: str = "as in the file of the value"
+    comment: str = "as in the file of the value"  # what the errors are, or why there are none
 
     @property
     def uncertainty(self) -> float:
@@ -58,23 +45,11 @@ class Finding:
 
 @dataclass(frozen=True)
 class Claim:
-    """A statement of the paper, the files that it is tested by, and the test.
-
-    Attributes
-    ----------
-    number : int
-        Position in the ledger.
-    statement : str
-        What the paper claims.
-    files : tuple of str
-        Names of the files it reads, as the rule gives them; that of the value comes first.
-    examine : callable
-        Finds in these files, and no others, whether the claim holds.
-    """
+    """A statement of the paper, the files that it is tested by, and the test."""
 
     number: int
     statement: str
-    files: tuple[str, ...]
+    files: tuple[str, ...]  # as the rule names them; that of the value comes first
     examine: Callable[[Files], Finding]
 
     def __call__(self, files: Files) -> Finding:
@@ -90,13 +65,7 @@ def claim(
 
 
 def collect(*topics: ModuleType) -> tuple[Claim, ...]:
-    """Claims of some modules in the order of their numbers.
-
-    Raises
-    ------
-    ValueError
-        If the numbers are not 1, 2, 3 … with each there once.
-    """
+    """Claims of some modules in the order of their numbers, which must be 1, 2, 3 …, each once."""
     claims = [found for topic in topics for found in vars(topic).values() if type(found) is Claim]
     claims.sort(key=lambda found: found.number)
     for position, found in enumerate(claims, 1):

@@ -20,7 +20,7 @@ def run_times(folder: str | Path) -> dict[str, Any]:
     for path in sorted(Path(folder).rglob("*.tsv")):
         rule = path.relative_to(folder).parts[0].removesuffix(".tsv")
         if rule != "write_report":
-            jobs.setdefault(rule, []).extend(benchmark_lines(path))
+            jobs.setdefault(rule, []).extend(read_benchmark(path))
     rows = [(rule, len(runs), *np.transpose(runs)) for rule, runs in jobs.items() if runs]
     rows.sort(key=lambda row: -np.nansum(row[2]))
     return {
@@ -29,8 +29,8 @@ def run_times(folder: str | Path) -> dict[str, Any]:
                 "rule": rule,
                 "jobs": count,
                 "total": number(np.nansum(seconds)),
-                "longest": number(largest(seconds)),
-                "memory": number(largest(memory)),
+                "longest": number(np.fmax.reduce(seconds)),
+                "memory": number(np.fmax.reduce(memory)),
             }
             for rule, count, seconds, memory in rows
         ],
@@ -39,7 +39,7 @@ def run_times(folder: str | Path) -> dict[str, Any]:
     }
 
 
-def benchmark_lines(path: Path) -> list[tuple[float, float]]:
+def read_benchmark(path: Path) -> list[tuple[float, float]]:
     """Seconds and largest memory [MB] of each run; NaN where a run was too short to tell."""
     head, *lines = (line.split("\t") for line in path.read_text(encoding="utf-8").splitlines())
 
@@ -48,7 +48,3 @@ def benchmark_lines(path: Path) -> list[tuple[float, float]]:
         return float(text) if re.fullmatch(r"\d+(\.\d+)?", text) else np.nan
 
     return [(value(line, "s"), value(line, "max_rss")) for line in lines if line]
-
-
-def largest(values: np.ndarray) -> float:
-    return np.nan if np.isnan(values).all() else float(np.nanmax(values))

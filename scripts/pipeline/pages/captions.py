@@ -36,13 +36,8 @@ _RAISED = re.compile(r"(?<=[\w)*>])\^(?:\(((?:[^()]|\([^()]*\))+)\)|(-?\d+(?:\.\
 def template_of(path: str | Path, page: str | Path) -> Template:
     """Template of a page: values are escaped, and an unknown one is an error.
 
-    Parameters
-    ----------
-    path
-        The template.
-    page
-        Where the page will lie; links to other files are relative to its folder, whatever that is
-        called: ``{{ path | href }}``, or for the reader ``{{ path | place }}``.
+    Links to other files are relative to the folder in which `page` will lie, whatever that is
+    called: ``{{ path | href }}``, or for the reader ``{{ path | place }}``.
     """
     path = Path(path)
     environment = Environment(
@@ -56,12 +51,12 @@ def template_of(path: str | Path, page: str | Path) -> Template:
     def href(target: str | Path) -> str:
         return Path(os.path.relpath(target, Path(page).parent)).as_posix()
 
-    environment.filters["typeset"] = typeset
-    environment.filters["href"] = href
-    environment.filters["place"] = lambda target: re.sub(r"^(\.\./)+", "", href(target))
-    environment.filters["breakable"] = lambda text: Markup(
-        re.sub("([/_])", r"\1<wbr>", str(escape(text)))
-    )
+    environment.filters |= {
+        "typeset": typeset,
+        "href": href,
+        "place": lambda target: re.sub(r"^(\.\./)+", "", href(target)),
+        "breakable": lambda text: Markup(re.sub("([/_])", r"\1<wbr>", str(escape(text)))),
+    }
     return environment.get_template(path.name)
 
 
@@ -83,14 +78,8 @@ def _symbols(text: str) -> str:
     return _RAISED.sub(lambda found: f"<sup>{found[1] or found[2]}</sup>".replace("-", "−"), text)
 
 
-def figure(path: str | Path, caption: str) -> dict[str, Any]:
-    """A PNG as a data URI, with its caption as HTML and an alternative text.
-
-    Raises
-    ------
-    ValueError
-        If the file is not a PNG.
-    """
+def embed_figure(path: str | Path, caption: str) -> dict[str, Any]:
+    """A PNG as a data URI, with its caption as HTML and an alternative text."""
     content = Path(path).read_bytes()
     if not content.startswith(b"\x89PNG\r\n\x1a\n"):
         raise ValueError(f"{path}: not a PNG file; delete it and re-run")

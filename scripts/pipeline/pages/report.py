@@ -15,10 +15,10 @@ import xarray as xr
 
 from pipeline.conventions import at_load
 from pipeline.numbers import NOTHING, interval, number, percent, superscripted, with_error
-from pipeline.pages.surface_texts import reference_prefactor, rms_height
-from pipeline.pages.verdict_texts import EDGES, STICKINESS, STICKINESS_TONES, pair_texts
+from pipeline.pages.surface_texts import describe_height, describe_line
+from pipeline.pages.verdict_texts import EDGES, WORD_TONES, WORDS, describe_pair
 from pipeline.tradeoff import summary
-from pipeline.verdicts.materials import modulus_text
+from pipeline.verdicts.materials import describe_modulus
 from stickiness.accuracy import plan
 from stickiness.accuracy.error_models import ErrorModels, Surface
 from stickiness.accuracy.prediction import Problem, predicted_cost, worst_error
@@ -56,24 +56,16 @@ QUANTITIES = {
 class Results:
     """The datasets that the page is made of, and where they were read from.
 
-    Attributes
-    ----------
-    claims, verdicts : xarray.Dataset
-    surfaces : mapping of str to xarray.Dataset
-        Real surfaces by name.
-    ensembles, answers, comparisons : sequence of xarray.Dataset
-        One for every case: means over seeds, values asked for, theory against simulation.
-    paths : mapping
-        Paths of `claims` and `verdicts`; paths by name of the others, and, a list for each, of the
-        data behind the `figures`.
+    `paths` has those of `claims` and `verdicts`, those of the others by name, and, a list for each,
+    those of the data behind the `figures`.
     """
 
     claims: xr.Dataset
     verdicts: xr.Dataset
-    surfaces: Datasets
-    ensembles: Sequence[xr.Dataset]
-    answers: Sequence[xr.Dataset]
-    comparisons: Sequence[xr.Dataset]
+    surfaces: Datasets  # real surfaces by name
+    ensembles: Sequence[xr.Dataset]  # one for every case: means over seeds
+    answers: Sequence[xr.Dataset]  # values asked for
+    comparisons: Sequence[xr.Dataset]  # theory against simulation
     paths: Mapping[str, Any]
 
 
@@ -94,8 +86,8 @@ def summarise(claims: xr.Dataset, verdicts: xr.Dataset, ensembles: Sequence[xr.D
         "materials": verdicts.sizes["material"],
         "surfaces": verdicts.sizes["surface"],
         "sticky": int(sticky.sum()),
-        "judged": [
-            (STICKINESS[code], count, STICKINESS_TONES[code])
+        "by_verdict": [
+            (WORDS[code], count, WORD_TONES[code])
             for code in (2, 1, 0, 3)
             if (count := int((verdicts.verdict == code).sum()))
         ],
@@ -165,31 +157,24 @@ def group_seeds(paths: Sequence[str]) -> list[tuple[str, str]]:
 def describe_errata(claims: xr.Dataset) -> list[Context]:
     """Errata with their recomputed numbers."""
     recomputed = datasets.parameters(claims)["errata"]
-    return [
-        {
-            "number": erratum.number,
-            "subject": erratum.subject,
-            "printed": erratum.printed,
-            "correct": erratum.correct,
-            "proof": erratum.proof,
-            "numbers": [
-                (name.replace("_", " "), number(value, 4))
-                for name, value in recomputed.get(str(erratum.number), {}).items()
-            ],
-        }
-        for erratum in ERRATA
-    ]
+
+    def list_numbers(erratum):
+        values = recomputed.get(str(erratum.number), {})
+        return [(name.replace("_", " "), number(value, 4)) for name, value in values.items()]
+
+    return [vars(erratum) | {"numbers": list_numbers(erratum)} for erratum in ERRATA]
 
 
 def arrange_verdicts(verdicts: xr.Dataset, surfaces: Datasets) -> Context:
     """Materials against surfaces, and every pair on its own."""
     labels = labels_of(surfaces)
     materials = datasets.parameters(verdicts)["materials"]
-    names = [str(name) for name in verdicts.material.values]
+    names, on = (list(map(str, verdicts[dim].values)) for dim in ("material", "surface"))
     cells = {
-        (material, surface): pair_texts(verdicts.sel(material=material, surface=surface))
+        (material, surface): describe_pair(verdicts.sel(material=material, surface=surface))
+        | {"material": materials[material]["label"], "name": surface, "surface": labels[surface]}
         for material in names
-        for surface in map(str, verdicts.surface.values)
+        for surface in on
     }
     return {
         "materials": [describe_material(name, materials[name]) for name in names],
@@ -199,17 +184,9 @@ def arrange_verdicts(verdicts: xr.Dataset, surfaces: Datasets) -> Context:
                 "surface": labels[surface],
                 "cells": [cells[material, surface] for material in names],
             }
-            for surface in map(str, verdicts.surface.values)
+            for surface in on
         ],
-        "pairs": [
-            {
-                "material": materials[material]["label"],
-                "name": surface,
-                "surface": labels[surface],
-                **cell,
-            }
-            for (material, surface), cell in cells.items()
-        ],
+        "pairs": list(cells.values()),
     }
 
 
@@ -222,7 +199,7 @@ def describe_material(name: str, entry: Mapping[str, Any]) -> Context:
     return {
         "name": name,
         "label": entry["label"],
-        "modulus": modulus_text(entry),
+        "modulus": describe_modulus(entry),
         "work_of_adhesion": superscripted(entry["work_of_adhesion"]),
         "range": entry["range"],
         "source": entry.get("source", ""),
@@ -265,8 +242,8 @@ def describe_surface(name: str, surface: xr.Dataset) -> Context:
         "label": made["label"],
         "kind": made["kind"].replace("_", "-"),
         "hurst": with_error(float(surface.hurst), float(surface.hurst_total_error)),
-        "c0": reference_prefactor(surface),
-        "h_rms": rms_height(surface),
+        "c0": describe_line(surface),
+        "h_rms": describe_height(surface),
         "q0": number(float(surface.q0)),
         "q1": number(float(surface.q1)),
         "remarks": [text for text in (surface.attrs.get("remarks"), made.get("note")) if text],

@@ -2,33 +2,32 @@
 
 import numpy as np
 
-from pipeline.pages.style import BLACK, COLOURS, GREY, canvas, letters
+from pipeline import plotting
+from pipeline.plotting import BLACK, COLOURS, GREY
+from stickiness.core.statistics import COVERS
 
 HURST = 0.8  # of the lines
 LINES = (1e-3, 1e-5)  # m^0.4
 PREFIXES = ((1e3, 1e-3, "km"), (1, 1, "m"), (1e-3, 1e3, "mm"), (1e-6, 1e6, "µm"), (0, 1e9, "nm"))
 
 
-def draw_surface(surface, pairs):
-    """Figure with a panel for everything that the surface and its pairs have to show."""
-    pictured = next((name for name in ("heights", "profile") if name in surface), None)
+def draw_surface(surface, pairs, output):
+    """Write a figure with a panel for everything that the surface and its pairs have to show."""
+    pictures = {"heights": draw_heights, "profile": draw_profile}
+    pictured = next((name for name in pictures if name in surface), None)
     depending = pairs.isel(material=np.flatnonzero(pairs.depends_on_rate.values == 1))
-    names = iter("ABC")
-    first, spectrum = (next(names), next(names)) if pictured else 2 * (next(names),)
-    rows = [first + spectrum]
+    rows = ["AB" if pictured else "AA"]
     if depending.sizes["material"]:
-        rows.append(2 * next(names))
-    figure, panels = canvas(";".join(rows), (3.3, 5.6)[len(rows) - 1])
-    if pictured:
-        (picture if pictured == "heights" else line)(figure, panels[first], surface)
-    psd(panels[spectrum], surface)
-    if len(rows) > 1:
-        rates(panels[rows[1][0]], depending)
-    letters(panels)
-    return figure
+        rows.append("CC" if pictured else "BB")
+    with plotting.open_figure([output], ";".join(rows), (3.3, 5.6)[len(rows) - 1]) as panels:
+        if pictured:
+            pictures[pictured](panels["A"], surface)
+        draw_spectrum(panels[rows[0][1]], surface)
+        if len(rows) > 1:
+            draw_rates(panels[rows[1][0]], depending)
 
 
-def picture(figure, ax, surface):
+def draw_heights(ax, surface):
     """Levelled heights as colours, in units that suit them."""
     per_x, unit_x = unit_of(float(max(surface.x.max(), surface.y.max())))
     heights = surface.heights.values
@@ -38,11 +37,11 @@ def picture(figure, ax, surface):
     extent = [0, float(surface.x[-1]) * per_x, 0, float(surface.y[-1]) * per_x]
     look = {"origin": "lower", "extent": extent, "cmap": "cividis", "interpolation": "nearest"}
     image = ax.imshow(heights.T * per_h, vmin=low * per_h, vmax=high * per_h, **look)
-    figure.colorbar(image, ax=ax, label=f"height [{unit_h}]", shrink=0.8)
+    ax.figure.colorbar(image, ax=ax, label=f"height [{unit_h}]", shrink=0.8)
     ax.set(xlabel=f"x [{unit_x}]", ylabel=f"y [{unit_x}]")
 
 
-def line(_, ax, surface):
+def draw_profile(ax, surface):
     """Levelled heights of a profile."""
     per_x, unit_x = unit_of(float(surface.x.max()))
     per_h, unit_h = unit_of(float(np.abs(surface.profile).max()))
@@ -55,26 +54,14 @@ def unit_of(value):
     return next((factor, name) for least, factor, name in PREFIXES if value >= least)
 
 
-def psd(ax, surface):
-    """Spectrum with errors, law, the paper's lines and the ends of the instrument's band."""
+def draw_spectrum(ax, surface):
+    """Spectrum with errors, fit, the paper's lines and the ends of the instrument's band."""
     q = surface.wave_number.values
     low, high = surface.psd.values
     if "psd_standard_error" in surface:
-        error = surface.psd_standard_error.values
-        measured = np.ones_like(q, dtype=bool)
-        if float(surface.q1) > float(surface.q_cutoff) * (1 + 1e-9):
-            measured = q <= float(surface.q_cutoff) * (1 + 1e-9)
-            ax.fill_between(q, low, high, where=~measured, color=GREY, alpha=0.3, linewidth=0)
-        below = np.minimum(error, 0.9 * low)
-        bars = [below[measured], error[measured]]
-        look = {"color": COLOURS[0], "marker": "o", "linestyle": "none", "markersize": 2.5}
-        each(ax, surface)
-        ax.errorbar(q[measured], low[measured], bars, elinewidth=0.7, label="measured", **look)
-        law = surface.psd_fit.where((surface.fitted == 1) | ~measured)
-        ax.plot(q, law, color=BLACK, linewidth=0.9, zorder=5, label=law_text(surface))
-        limits(ax, surface)
+        draw_measured(ax, surface, q, low, high)
     else:
-        ax.fill_between(q, low, high, color=COLOURS[0], alpha=0.3, linewidth=0)
+        plotting.draw_band(ax, q, low, high, COLOURS[0])
         ax.plot(q, low, q, high, color=COLOURS[0], linewidth=0.9)
     for c0 in LINES:
         ax.plot(q, c0 * q ** (-2 * (HURST + 1)), "--", color=GREY, linewidth=0.8)
@@ -85,39 +72,44 @@ def psd(ax, surface):
     ax.legend(loc="lower left")
 
 
-def each(ax, surface):
-    """Spectra of the single measurements behind a stitched one."""
-    if "psd_measurement" in surface:
+def draw_measured(ax, surface, q, low, high):
+    """Rings within the band of the instrument; `low` and `high` are one standard error off."""
+    measured = np.ones_like(q, dtype=bool)
+    if float(surface.q1) > float(surface.q_cutoff) * (1 + 1e-9):
+        measured = q <= float(surface.q_cutoff) * (1 + 1e-9)
+        fit, factor = np.sqrt(low * high), np.sqrt(high / low) ** COVERS
+        look = {"where": ~measured, "color": GREY, "alpha": 0.3, "linewidth": 0}
+        ax.fill_between(q, fit / factor, fit * factor, **look)
+    if "psd_measurement" in surface:  # those behind a stitched spectrum
         for index, levels in enumerate(surface.psd_measurement.values):
-            colour = COLOURS[1 + index % (len(COLOURS) - 1)]
-            q = surface.wave_number_measured
-            ax.plot(q, levels, color=colour, linewidth=0.8, label=f"measurement {index + 1}")
-
-
-def law_text(surface):
+            look = {"color": COLOURS[1 + index % (len(COLOURS) - 1)], "linewidth": 0.8}
+            ax.plot(surface.wave_number_measured, levels, **look, label=f"measurement {index + 1}")
+    look = {"color": COLOURS[0], "label": "measured"}
+    error = surface.psd_standard_error.values[measured]
+    plotting.draw_spectrum(ax, q[measured], low[measured], error, **look)
+    fit = surface.psd_fit.where((surface.fitted == 1) | ~measured)
     text = f"fit: $H$ = {float(surface.hurst):.2f} ± {float(surface.hurst_total_error):.2f}"
-    if "q_rolloff" in surface:
-        text += ", roll-off"
-    return text
+    text += ", roll-off" if "q_rolloff" in surface else ""
+    ax.plot(q, fit, color=BLACK, linewidth=0.9, zorder=5, label=text)
+    draw_limits(ax, surface)
 
 
-def limits(ax, surface):
+def draw_limits(ax, surface):
     """The instrument's cutoff and, if found, the end of the plateau."""
-    cutoff = float(surface.q_cutoff)
-    ax.axvline(cutoff, color=COLOURS[1], linewidth=0.9, linestyle=":")
-    text = "cutoff (found)" if int(surface.cutoff_detected) else "cutoff"
-    ax.plot([], [], color=COLOURS[1], linewidth=0.9, linestyle=":", label=text)
+    look = {"color": COLOURS[1], "linewidth": 0.9, "linestyle": ":"}
+    ax.axvline(float(surface.q_cutoff), **look)
+    ax.plot([], [], **look, label="cutoff (found)" if int(surface.cutoff_detected) else "cutoff")
     if "q_rolloff" in surface:
         q, error = float(surface.q_rolloff), float(surface.q_rolloff_total_error)
         ax.axvspan(max(q - error, q / 3), q + error, color=COLOURS[2], alpha=0.25, linewidth=0)
 
 
-def rates(ax, pairs):
+def draw_rates(ax, pairs):
     """Margins of materials whose modulus depends on the rate, between their limits."""
     for index, name in enumerate(pairs.material.values):
         pair, colour = pairs.sel(material=name), COLOURS[index % len(COLOURS)]
         low, high = pair.margin_low_at_rate, pair.margin_high_at_rate
-        ax.fill_between(pair.frequency, low, high, color=colour, alpha=0.3, linewidth=0)
+        plotting.draw_band(ax, pair.frequency, low, high, colour)
         ax.plot(pair.frequency, np.sqrt(low * high), color=colour, label=str(name))
     ax.axhline(1, color=GREY, linewidth=0.9, linestyle="--")
     ax.axvline(1, color=GREY, linewidth=0.9, linestyle=":")

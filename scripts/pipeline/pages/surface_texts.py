@@ -6,26 +6,24 @@ import xarray as xr
 from pipeline.numbers import interval, quantity, quantity_with_error, with_error
 from stickiness.core.statistics import COVERS
 
-ENDS = ("smooth", "rough")
 
-
-def rms_height(surface: xr.Dataset) -> str:
+def describe_height(surface: xr.Dataset) -> str:
     """The height with its error, or its range for a surface that is given by one."""
     low, high = ends(surface.h_rms)
-    if measured(surface):
+    if is_measured(surface):
         return quantity_with_error((low + high) / 2, COVERS * (high - low) / 2, "m")
     return quantity(low, high, "m")
 
 
-def rms_slope(surface: xr.Dataset) -> str:
+def describe_slope(surface: xr.Dataset) -> str:
     """The slope, likewise."""
     low, high = ends(surface.rms_slope)
-    if measured(surface):
+    if is_measured(surface):
         return with_error((low + high) / 2, COVERS * (high - low) / 2)
     return interval(low, high)
 
 
-def reference_prefactor(surface: xr.Dataset) -> str:
+def describe_line(surface: xr.Dataset) -> str:
     """C0 of the line with H = 0.8: fitted, or the highest such line that the spectrum touches."""
     if "C0_reference" in surface:
         return with_error(float(surface.C0_reference), float(surface.C0_reference_total_error))
@@ -33,7 +31,7 @@ def reference_prefactor(surface: xr.Dataset) -> str:
     return bound + interval(*ends(surface.C0_reference_upper), digits=2)
 
 
-def measured(surface: xr.Dataset) -> bool:
+def is_measured(surface: xr.Dataset) -> bool:
     """Whether both ends are one standard error off, as those of a measured surface are."""
     return "draw" in surface.dims
 

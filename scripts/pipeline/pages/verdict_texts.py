@@ -8,48 +8,45 @@ import numpy as np
 import xarray as xr
 
 from pipeline.numbers import NOTHING, interval, number, percent, quantity
-from pipeline.pages.surface_texts import rms_height
+from pipeline.pages.surface_texts import describe_height
 from stickiness.core import budget
-from stickiness.criteria.pair import WORDS as STICKINESS
+from stickiness.criteria.pair import WORDS
 from stickiness.criteria.registry import CRITERIA, EDGES
 
-STICKINESS_TONES = ("no", "partly", "yes", "open")
+WORD_TONES = ("no", "partly", "yes", "open")
 GRADES = (0, 2, 3, 1)  # of the codes: an undecided pair stands next to one that does not stick
 REGIME_TEXTS = ("weak", "between weak and tough", "tough, near JKR", "strong, but not near JKR")
 
 
-def pair_texts(pair: xr.Dataset) -> dict[str, Any]:
+def describe_pair(pair: xr.Dataset) -> dict[str, Any]:
     """Texts and numbers of a pair on the pages; intervals go from the rough to the smooth end."""
     code = int(pair.verdict)
     margins = ends(pair.margin.sel(criterion=EDGES))
     thresholds = ends(pair.modulus_threshold)
-    limits = float(pair.margin_low.min()), float(pair.margin_high.max())
-    a_v = float(pair.pair_a_v_low.min()), float(pair.pair_a_v_high.max())
+    limits, threshold_limits, a_v = (
+        (float(pair[f"{name}_low"].min()), float(pair[f"{name}_high"].max()))
+        for name in ("margin", "modulus_threshold", "pair_a_v")
+    )
     return {
-        "verdict": STICKINESS[code],
-        "tone": STICKINESS_TONES[code],
+        "verdict": WORDS[code],
+        "tone": WORD_TONES[code],
         "grade": GRADES[code],
         "outside": not bool(pair.simulated.all()),
         "margin": interval(*margins, digits=2),
         "order": float(np.sqrt(np.prod(margins))),
         "limits": interval(*limits, digits=2),
         "lowest": limits[0],
-        "by": dominating(pair),
+        "by": find_dominant(pair),
         "threshold": quantity(*thresholds, "Pa", digits=2),
-        "threshold_limits": quantity(
-            float(pair.modulus_threshold_low.min()),
-            float(pair.modulus_threshold_high.max()),
-            "Pa",
-            digits=2,
-        ),
+        "threshold_limits": quantity(*threshold_limits, "Pa", digits=2),
         "threshold_value": thresholds[0],
         "a_v": interval(*a_v, digits=2),
         "a_v_value": float(pair.pair_a_v.mean()),
-        **drawn_texts(pair),
+        **describe_draws(pair),
     }
 
 
-def dominating(pair: xr.Dataset) -> str:
+def find_dominant(pair: xr.Dataset) -> str:
     """Source of the largest error of the margin, at the end of the surface with the larger."""
     margin = pair.sel(criterion=EDGES)
     worst = (margin.margin_total_error / margin.margin).argmax("end")
@@ -61,7 +58,7 @@ def ends(values: xr.DataArray) -> tuple[float, float]:
     return float(values.sel(end="rough")), float(values.sel(end="smooth"))
 
 
-def drawn_texts(pair: xr.Dataset) -> dict[str, Any]:
+def describe_draws(pair: xr.Dataset) -> dict[str, Any]:
     """Shares and errors from spectra drawn within the errors of a measurement, if there are any."""
     share = float(pair.probability)
     numbers = {
@@ -80,17 +77,7 @@ def drawn_texts(pair: xr.Dataset) -> dict[str, Any]:
 
 
 def explain(pair: xr.Dataset, surface: xr.Dataset, work_of_adhesion: float) -> list[dict[str, Any]]:
-    """One row for every criterion: what it says of a pair, its margins and its reason.
-
-    Parameters
-    ----------
-    pair : xarray.Dataset
-        Verdicts of the pair.
-    surface : xarray.Dataset
-        The surface.
-    work_of_adhesion : float
-        [J/m^2].
-    """
+    """One row for every criterion: what it says of a pair, its margins and its reason."""
     facts = gather_facts(pair, surface, work_of_adhesion)
     edges = pair.margin.sel(criterion=EDGES) > 1
     rows = []
@@ -121,7 +108,7 @@ def gather_facts(pair: xr.Dataset, surface: xr.Dataset, work_of_adhesion: float)
     }
     return of_edges | {
         "regime": " to ".join(dict.fromkeys(REGIME_TEXTS[int(code)] for code in pair.regime)),
-        "h_rms": rms_height(surface),
+        "h_rms": describe_height(surface),
         "q0": number(float(surface.q0)),
         "a_v": number(float(pair.pair_a_v.mean()), 2),
         "constant_a_v": number(float(pair.a_v), 2),

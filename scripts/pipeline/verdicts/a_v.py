@@ -17,43 +17,25 @@ from stickiness.criteria.a_v_table import SurfaceAv
 class MeasuredAv:
     """a_V of a broad spectrum and the parts of its error, all absolute.
 
-    Attributes
-    ----------
-    value : float
-        a_V of a simulated case in the first interval of the fit, times the ratio of theory on the
-        broadest continuous spectrum to theory on the lattice spectrum of the case. Simulation has
-        neither the bandwidth of real surfaces nor, in a small cell, their long waves. Theory is
-        close to simulation on the same spectrum and extrapolates to both.
-    simulated : float
-        a_V of the case itself.
-    over_lattice : float
-        Ratio of simulation to theory on the lattice spectrum of the case.
-    magnification : float
-        Magnification of the broadest spectrum.
-    sampling : float
-        Of the mean over seeds, covers 90 %; 0 for a single seed, whose error is unknown.
-    discretisation : float
-        Of the limit of fine grids.
-    window : float
-        Half the spread between the intervals of the fit: the 2/3 law holds only roughly, so that
-        a_V depends on the interval.
-    bandwidth : float
-        Change of theory over the last two decades of magnification, in which a_V still grows.
+    The value is that of a simulated case in the first interval of the fit, times the ratio of
+    theory on the broadest continuous spectrum to theory on the lattice spectrum of the case.
+    Simulation has neither the bandwidth of real surfaces nor, in a small cell, their long waves.
+    Theory is close to simulation on the same spectrum and extrapolates to both.
     """
 
     value: float
-    simulated: float
-    over_lattice: float
-    magnification: float
-    sampling: float
-    discretisation: float
-    window: float
-    bandwidth: float
+    simulated: float  # a_V of the case itself
+    over_lattice: float  # ratio of simulation to theory on the lattice spectrum of the case
+    magnification: float  # of the broadest spectrum
+    sampling: float  # of the mean over seeds, covers 90 %; 0 for one seed, whose error is unknown
+    discretisation: float  # of the limit of fine grids
+    fit_interval: float  # half the spread between intervals, as the 2/3 law holds only roughly
+    bandwidth: float  # change over the last two decades of magnification, in which a_V still grows
 
     @property
     def error(self) -> float:
         """All parts in quadrature."""
-        parts = (self.sampling, self.discretisation, self.window, self.bandwidth)
+        parts = (self.sampling, self.discretisation, self.fit_interval, self.bandwidth)
         return float(np.linalg.norm(parts))
 
     def parts(self, times: ArrayLike) -> dict[str, Part]:
@@ -64,7 +46,9 @@ class MeasuredAv:
             "solver": absent("far below the errors of the case simulated"),
             "sampling": Part(self.sampling * scale, "of the case simulated"),
             "bandwidth": Part(self.bandwidth * scale, "growth over the last two decades"),
-            "model": Part(self.window * scale, "half the spread between intervals of the fit"),
+            "model": Part(
+                self.fit_interval * scale, "half the spread between intervals of the fit"
+            ),
         }
 
     @property
@@ -83,7 +67,7 @@ class MeasuredAv:
             f"a_V = {self.value:.2f} ± {self.error:.2f} (simulated {self.simulated:.2f}, "
             f"extrapolated by theory to zeta = {self.magnification:.0e}; sampling "
             f"{self.sampling:.2f}, discretisation {self.discretisation:.2f}, fit interval "
-            f"{self.window:.2f}, bandwidth {self.bandwidth:.2f})"
+            f"{self.fit_interval:.2f}, bandwidth {self.bandwidth:.2f})"
         )
 
 
@@ -98,27 +82,21 @@ CLOSED = {
 LIMITS = "of a_V, its sources together, and of the model of the edges; the farther of both limits"
 
 
+def between_limits(dataset: xr.Dataset, name: str) -> Part:
+    """Part of the budget of a variable that has a low and a high limit beside it."""
+    return between(*(dataset[f"{name}{end}"] for end in ("", "_low", "_high")))
+
+
 def between(value: xr.DataArray, low: xr.DataArray, high: xr.DataArray) -> Part:
     """Part of the budget of a value that is known between two limits."""
     return Part(np.maximum(abs(high - value), abs(value - low)), LIMITS)
 
 
 def measure_a_v(inputs, pressure):
-    """`MeasuredAv` from the fit to the simulated case and two fits to theory.
+    """`MeasuredAv` at a load over E* q0 h_rms, from three files of `fit_a_v`.
 
-    Parameters
-    ----------
-    inputs : object
-        With files of `fit_a_v`: `a_v`, of the simulated case; `lattice`, of theory on the lattice
-        spectrum of the same case; and `theory`, of a sweep over magnification. The first of their
-        fit intervals is quoted.
-    pressure : float
-        Load over E* q0 h_rms, one of those of the case.
-
-    Raises
-    ------
-    ValueError
-        If the fit to the case does not have this load.
+    `inputs.a_v` is of the simulated case, `inputs.lattice` of theory on the lattice spectrum of the
+    same case, and `inputs.theory` of a sweep over magnification. Their first interval is quoted.
     """
     fit = datasets.read(inputs.a_v, SIMULATED)
     if not np.isclose(fit.pressure, pressure).any():
@@ -148,7 +126,7 @@ def measure_a_v(inputs, pressure):
         over_lattice=float(simulated[0] / lattice[0]),
         sampling=COVERS * float(deviation[0]) * float(ratio[0]),
         discretisation=float(grid[0]) * float(ratio[0]),
-        window=float(np.ptp(extrapolated)) / 2,
+        fit_interval=float(np.ptp(extrapolated)) / 2,
         bandwidth=float(extrapolated[0]) * abs(growth),
     )
 

@@ -2,8 +2,7 @@
 
 import numpy as np
 
-from pipeline.numbers import interval
-from pipeline.tables import table
+from pipeline.numbers import interval, table
 from stickiness.adhesion import equivalent_sphere
 from stickiness.core import datasets
 from stickiness.criteria.pair import REGIMES, WORDS

@@ -10,24 +10,12 @@ RATE_KEYS = ("youngs_modulus_table", "youngs_modulus_prony")
 
 @dataclass(frozen=True)
 class Material:
-    """Pair of a solid and a rigid rough counterface.
+    """Pair of a solid and a rigid rough counterface."""
 
-    Attributes
-    ----------
-    plane_strain : Modulus
-        E* [Pa] against the frequency.
-    work_of_adhesion : float
-        [J/m^2].
-    range : float
-        Of the attraction [m].
-    depends_on_rate : bool
-        Whether the modulus is more than a constant.
-    """
-
-    plane_strain: Modulus
-    work_of_adhesion: float
-    range: float
-    depends_on_rate: bool
+    plane_strain: Modulus  # E* [Pa] against the frequency
+    work_of_adhesion: float  # J/m^2
+    range: float  # of the attraction, m
+    depends_on_rate: bool  # whether the modulus is more than a constant
 
     @property
     def modulus(self):
@@ -35,17 +23,17 @@ class Material:
         return float(self.plane_strain.storage(REFERENCE_FREQUENCY))
 
 
-def material(entry):
+def read_material(entry):
     """`Material` from its entry in the configuration."""
     return Material(
-        plane_strain=plane_strain(entry),
+        plane_strain=read_modulus(entry),
         work_of_adhesion=si(entry["work_of_adhesion"], "J/m^2"),
         range=si(entry["range"], "m"),
         depends_on_rate=any(key in entry for key in RATE_KEYS),
     )
 
 
-def plane_strain(entry):
+def read_modulus(entry):
     """Modulus E* = E/(1 - nu^2) as a function of the frequency."""
     if "plane_strain_modulus" in entry:
         return Constant(si(entry["plane_strain_modulus"], "Pa"))
@@ -65,7 +53,7 @@ def plane_strain(entry):
     return Constant(factor * si(entry["youngs_modulus"], "Pa"))
 
 
-def modulus_text(entry):
+def describe_modulus(entry):
     """Modulus as the configuration states it."""
     if "plane_strain_modulus" in entry:
         return f"E* = {entry['plane_strain_modulus']}"

@@ -19,20 +19,14 @@ DRAWN = ("h_rms_draws", "q0_draws", "rms_slope_draws")
 
 @dataclass(frozen=True)
 class DrawnMargin:
-    """Margin, attraction over repulsion, as a distribution.
+    """Margin at the reference frequency, attraction over repulsion, as a distribution.
 
-    Attributes
-    ----------
-    margins : (n,) array
-        At the reference frequency, one for each draw.
-    probability : float
-        Share of the draws that stick.
-    from_spectrum, from_model : float
-        Standard deviations of ln(margin) that the spectrum, or a_V and model, alone would leave.
+    `from_spectrum` and `from_model` are the standard deviations of ln(margin) that the spectrum
+    alone, or a_V and the model alone, would leave.
     """
 
-    margins: np.ndarray
-    probability: float
+    margins: np.ndarray  # (n,), one for each draw
+    probability: float  # share of the draws that stick
     from_spectrum: float
     from_model: float
 

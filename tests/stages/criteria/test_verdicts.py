@@ -8,7 +8,7 @@ import xarray as xr
 
 from criteria import judge
 from pipeline.verdicts.a_v import MeasuredAv, measure_a_v
-from pipeline.verdicts.materials import material
+from pipeline.verdicts.materials import read_material
 from pipeline.verdicts.words import decide_pairs
 from stickiness import criteria
 from stickiness.adhesion import equivalent_sphere
@@ -86,7 +86,7 @@ def test_verdict(low, high, full, expected):
 def pairs_of(modulus, ranges, h_rms=1e-6, a_v=(4.0, 4.0, 4.0)):
     """Verdicts on one surface for materials of one modulus and several ranges."""
     solids = {
-        f"range {reach:g}": material(
+        f"range {reach:g}": read_material(
             {
                 "plane_strain_modulus": f"{modulus} Pa",
                 "work_of_adhesion": "0.05 J/m^2",
@@ -107,9 +107,11 @@ def pairs_of(modulus, ranges, h_rms=1e-6, a_v=(4.0, 4.0, 4.0)):
         coords={"end": ["smooth", "rough"]},
     )
     a_v = SurfaceAv(np.array([1e-9, 1.0]), np.transpose([a_v, a_v]), 0, 1.0, 0.0)
-    parts = dict.fromkeys(("sampling", "discretisation", "window", "bandwidth"), 0.1)
+    parts = dict.fromkeys(("sampling", "discretisation", "fit_interval", "bandwidth"), 0.1)
     constant = MeasuredAv(3.0, simulated=2.0, over_lattice=1.0, magnification=1e6, **parts)
-    return judge.judge_pairs(solids, {"one": surface}, {"one": a_v}, constant, np.array([1.0, 1e3]))
+    return judge.find_verdicts(
+        solids, {"one": surface}, {"one": a_v}, constant, np.array([1.0, 1e3])
+    )
 
 
 def test_tough_edges_do_not_know_the_range():
@@ -233,7 +235,7 @@ def test_a_v_is_that_of_the_simulation_in_the_file(inputs):
     assert (found.value, found.simulated, found.over_lattice) == (2.0, 2.0, 1.0)
     assert found.sampling == pytest.approx(1.645 * 0.2, rel=1e-3)  # standard errors to 90 %
     assert found.discretisation == pytest.approx(0.1)
-    assert (found.window, found.bandwidth) == (0, 0)
+    assert (found.fit_interval, found.bandwidth) == (0, 0)
 
 
 def test_a_v_at_another_load_is_refused(inputs):

@@ -8,7 +8,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 import xarray as xr
-from matplotlib.collections import PolyCollection, QuadMesh
+from matplotlib.collections import LineCollection, PolyCollection, QuadMesh
 from matplotlib.colors import same_color
 
 from figures import (
@@ -20,9 +20,10 @@ from figures import (
     plot_fig6,
     plot_fig7,
     plot_fig8,
+    plot_fig9,
     plot_fig10,
 )
-from pipeline.pages import style
+from pipeline import plotting
 from stability import plot_stability
 from stickiness.adhesion import equivalent_sphere
 from stickiness.core import budget, datasets
@@ -37,7 +38,7 @@ FACTORS = [1.0, 1.2, 0.5]  # of the variants, so that the band is from 1 to 1.2
 
 @pytest.fixture
 def ax():
-    figure, panels = style.canvas("A", 3)
+    figure, panels = plotting.make_panels("A", 3)
     yield panels["A"]
     plt.close(figure)
 
@@ -116,8 +117,8 @@ LOG = ("log", "log")
 def test_bars_are_the_errors_and_unknown_ones_are_left_out(ax):
     data = dataset({"mean*": ("x", [1.0, 2.0])}, {"x": [1.0, 2.0]})
     data.mean_error.loc[{"source": "sampling"}] = [np.nan, 0.08]
-    style.points(ax, [1, 2], data, "mean", 2.0, color=style.RED)
-    drawn(ax, [1, 2], [0.5, 1.0], marker="o", color=style.RED)
+    plotting.draw_points(ax, [1, 2], data, "mean", 2.0, color=plotting.RED)
+    drawn(ax, [1, 2], [0.5, 1.0], marker="o", color=plotting.RED)
     (_, total), (_, sampling) = bar_lengths(ax)
     np.testing.assert_allclose(sampling, [0, 0.04])
     np.testing.assert_allclose(total, [np.hypot(0.03, 0.12) / 2, 0.13])
@@ -125,8 +126,8 @@ def test_bars_are_the_errors_and_unknown_ones_are_left_out(ax):
 
 def test_open_points_lie_above_bars_and_below_filled_points(ax):
     data = dataset({"mean*": ("x", [1.0])}, {"x": [1.0]})
-    style.hollow(ax, [1], [3.0], marker="o", color=style.RED)
-    style.points(ax, [1], data, "mean", color=style.RED)
+    plotting.draw_hollow(ax, [1], [3.0], marker="o", color=plotting.RED)
+    plotting.draw_points(ax, [1], data, "mean", color=plotting.RED)
     bars = ax.containers[0].lines[2][0].get_zorder()
     hollow, filled = drawn(ax, [1], [3.0]), drawn(ax, [1], [1.0], marker="o")
     assert same_color(hollow.get_markerfacecolor(), "white")
@@ -134,17 +135,17 @@ def test_open_points_lie_above_bars_and_below_filled_points(ax):
 
 
 def test_labels_move_apart_and_keep_their_order():
-    assert style.apart([1.0, 5.0, 1.05, 1.02], 1.1) == pytest.approx([1.0, 5.0, 1.21, 1.1])
+    assert plotting.push_apart([1.0, 5.0, 1.05, 1.02], 1.1) == pytest.approx([1.0, 5.0, 1.21, 1.1])
 
 
 def test_quantities_are_written_as_equations():
-    assert style.state(hurst=0.8, magnification=1e6) == r"$H$ = 0.8, $\zeta$ = 1 × 10⁶"
+    assert plotting.state(hurst=0.8, magnification=1e6) == r"$H$ = 0.8, $\zeta$ = 1 × 10⁶"
 
 
 def test_a_figure_that_fails_leaves_the_old_one(tmp_path, monkeypatch):
     path = tmp_path / "fig.png"
     path.write_bytes(b"old")
-    figure, _ = style.canvas("A", 2)
+    figure, _ = plotting.make_panels("A", 2)
 
     def break_off(temporary, **_):
         temporary.write_bytes(b"half")
@@ -152,7 +153,7 @@ def test_a_figure_that_fails_leaves_the_old_one(tmp_path, monkeypatch):
 
     monkeypatch.setattr(figure, "savefig", break_off)
     with pytest.raises(OSError, match="no space"):
-        style.save(figure, [str(path)])
+        plotting.save(figure, [str(path)])
     assert path.read_bytes() == b"old"
     assert list(tmp_path.iterdir()) == [path]
     plt.close(figure)
@@ -173,7 +174,7 @@ def test_figure_1a_has_both_variants_of_the_theory_and_the_band_of_corrections(a
     zeta = xr.DataArray([10.0, 100.0], dims="magnification", coords={"magnification": [10, 100]})
     density = zeta**0.2 * gap**-0.1
     plot_fig1.draw_magnifications(ax, densities((), {}, density))
-    for colour, value in zip(style.COLOURS, (10, 100), strict=False):
+    for colour, value in zip(plotting.COLOURS, (10, 100), strict=False):
         expected = value**0.2 * gap.values**-0.1
         drawn(ax, gap, expected, color=colour, linestyle="-")
         drawn(ax, gap, 0.5 * expected, color=colour, linestyle="--")
@@ -213,13 +214,13 @@ def test_figure_1c_shades_errors_and_opens_points_below_the_edge_gap(ax):
     lattice = xr.Dataset({"gap_density": theory * xr.DataArray(values, dims=dims, coords=coords)})
     plot_fig1.draw_simulation(ax, ensemble, lattice)
     first = values[0]
-    drawn(ax, gap, np.where(gap > 0.02, first, np.nan), marker=".", color=style.BLUE)
+    drawn(ax, gap, np.where(gap > 0.02, first, np.nan), marker=".", color=plotting.BLUE)
     drawn(ax, gap, np.where(gap < 0.02, first, np.nan), marker="o", markerfacecolor="white")
     for index, share in enumerate((TOTAL, SAMPLING)):
         _, low, high = band_ends(ax, index)
         np.testing.assert_allclose(low, (1 - share) * first)
         np.testing.assert_allclose(high, (1 + share) * first)
-    drawn(ax, gap, 0.5 * values[2], linestyle="--", color=style.GREEN)
+    drawn(ax, gap, 0.5 * values[2], linestyle="--", color=plotting.GREEN)
     assert "2 realisations" in ax.get_title()
 
 
@@ -238,7 +239,7 @@ def test_figure_2a_opens_points_above_the_linear_area(ax):
     plot_fig2.draw_slopes(ax, [data])
     drawn(ax, pressure, kappa, marker="None", linestyle="-")
     x = pressure / 1.05
-    drawn(ax, x, kappa, markerfacecolor=style.BLUE, marker="o")
+    drawn(ax, x, kappa, markerfacecolor=plotting.BLUE, marker="o")
     drawn(ax, x, [np.nan, np.nan, 1.9], markerfacecolor="white")
     assert_bars(ax, kappa)
     assert legend_texts(ax) == [r"$\zeta$ = 32", "theory", r"$\kappa$ = 2"]
@@ -271,7 +272,7 @@ def test_figure_2_maps_show_contact_and_the_zone_of_attraction(ax):
     plot_fig2.draw_contact(ax, xr.Dataset({"gap": gap, "pressure": 0.2}), 0.1)
     (image,) = ax.images
     picture = image.get_array()
-    assert same_color(picture[0, 0], style.BLACK)
+    assert same_color(picture[0, 0], plotting.BLACK)
     assert same_color(picture[1, 0], plot_fig2.ATTRACTION_COLOUR)  # row is y
     assert same_color(picture[0, 1], "white")
     assert ax.get_title() == r"$\hat{p}$ = 0.2"
@@ -312,7 +313,7 @@ def test_figure_3a_has_every_fourth_area_against_the_range_to_two_thirds(ax, cas
     plot_fig3.draw_magnifications(ax, dataset(variables, coords), [case])
     shown = ranges[::4]
     drawn(ax, shown ** (2 / 3) - 0.004, 0.2 * shown ** (2 / 3), marker="o")
-    drawn(ax, ranges ** (2 / 3), ranges, color=style.shades(2)[1])
+    drawn(ax, ranges ** (2 / 3), ranges, color=[*plotting.shade(range(2))][1][0])
     guide = drawn(ax, [0, 0.3 ** (2 / 3)], [0, 1.5 * 3 * 0.065 * 0.3 ** (2 / 3)])
     assert guide.get_linestyle() == ":"
     assert_bars(ax, 0.2 * shown ** (2 / 3))
@@ -321,8 +322,8 @@ def test_figure_3a_has_every_fourth_area_against_the_range_to_two_thirds(ax, cas
 
 
 def test_figure_3_takes_a_v_of_the_first_window_at_its_load(ax, case):
-    plot_fig3.draw_case(ax, case, 64, [0.065], color=style.RED, marker="D")
-    drawn(ax, [64], [2.0], markerfacecolor=style.RED, marker="D")
+    plot_fig3.draw_case(ax, case, 64, [0.065], color=plotting.RED, marker="D")
+    drawn(ax, [64], [2.0], markerfacecolor=plotting.RED, marker="D")
     drawn(ax, [64], [1.5], markerfacecolor="white", marker="D")
     assert_bars(ax, [2.0])
 
@@ -385,7 +386,7 @@ def criterion_map():
 def test_figure_5a_interpolates_limits_between_adhesion_lengths(ax, criterion_map):
     plot_fig5.draw_limits(ax, criterion_map)
     x = criterion_map.range_times_q0.values
-    for length, colour in zip(plot_fig5.LENGTHS, style.shades(5), strict=True):
+    for colour, length in plotting.shade(plot_fig5.LENGTHS):
         drawn(ax, x, x**-0.6 * length**0.5, color=colour, linewidth=1.2)
     for k, look in enumerate(plot_fig5.LOOKS.values()):
         drawn(ax, x, (1 + k) * x**-0.6 * 0.05**0.5, **look)
@@ -399,8 +400,8 @@ def test_figure_5a_interpolates_limits_between_adhesion_lengths(ax, criterion_ma
 
 def test_figure_5b_has_the_angles_in_degrees(ax, criterion_map):
     plot_fig5.draw_angles(ax, criterion_map)
-    drawn(ax, [1, 10], [150, 70], color=style.BLUE)
-    drawn(ax, [1, 10], [160, 90], color=style.RED)
+    drawn(ax, [1, 10], [150, 70], color=plotting.BLUE)
+    drawn(ax, [1, 10], [160, 90], color=plotting.RED)
     drawn(ax, [0, 1], [90, 90], linestyle="--")
     assert_axes(ax, "roughness", "[°]", ("log", "linear"))
     assert ax.get_title() == "$a_V$ = 3"
@@ -448,11 +449,11 @@ def test_figure_6_draws_no_more_than_was_measured(ax):
         "q1": ((), 1e6),
         "q_cutoff": ((), 1e5),
     }
-    plot_fig6.draw_measured(ax, spectrum("wafer", **more), plot_fig6.EXPONENT, style.BLUE)
+    plot_fig6.draw_measured(ax, spectrum("wafer", **more), plot_fig6.EXPONENT, plotting.BLUE)
     drawn(ax, q[:3], [1e-5] * 3, marker="o")
-    drawn(ax, q[:3], [np.nan, 2e-5, 2e-5], color=style.BLACK)
+    drawn(ax, q[:3], [np.nan, 2e-5, 2e-5], color=plotting.BLACK)
     ((_, halves),) = bar_lengths(ax)
-    np.testing.assert_allclose(halves, 2e-6)
+    np.testing.assert_allclose(halves, 1.645 * 2e-6, rtol=1e-3)  # 90 %, not one standard error
 
 
 # ---- figure 7
@@ -494,7 +495,7 @@ def test_figure_7a_takes_the_error_into_account(ratios):
 def test_figure_7b_has_the_weakest_adhesion_with_its_compressed_area(ax, ratios):
     plot_fig7.draw_weak(ax, ratios)
     x = np.array([0.1, 1.0]) / 1.06
-    drawn(ax, x, [1.0, 1.5], marker="o", color=style.BLUE, markerfacecolor=style.BLUE)
+    drawn(ax, x, [1.0, 1.5], marker="o", color=plotting.BLUE, markerfacecolor=plotting.BLUE)
     drawn(ax, x, [0.8, 1.3], markerfacecolor="white")
     assert_bars(ax, [1.0, 1.5])
     assert legend_texts(ax) == [r"$\hat{p}$ = 0.065", "compressed area"]
@@ -520,7 +521,7 @@ def test_figure_8_opens_points_where_the_window_is_too_small(ax, compared):
     cases = plot_fig8.order_cases([compared])
     plot_fig8.draw_quantity(ax, "area_fraction", "afferrante2018", cases)
     drawn(ax, [0.001], [0.2], markerfacecolor="white", marker="o")
-    drawn(ax, [0.065], [-0.1], markerfacecolor=style.BLUE, marker="o")
+    drawn(ax, [0.065], [-0.1], markerfacecolor=plotting.BLUE, marker="o")
     ((_, halves),) = bar_lengths(ax)
     np.testing.assert_allclose(halves, [0.2 * TOTAL, 0.1 * TOTAL])
     (text,) = ax.texts
@@ -550,6 +551,46 @@ def test_figure_8b_has_gamma_with_its_interval_and_misfit(ax):
     assert "Yang & Persson: none fits all" in texts
     assert [label.get_text() for label in ax.get_yticklabels()][-1] == "all"
     assert "95 %" in ax.get_xlabel()
+
+
+# ---- figure 9
+
+
+CRITERIA_DRAWN = ["edge_adhesion", "violano", "pastewka_robbins", "fuller_tabor", "dahlquist"]
+
+
+def test_figure_9a_has_every_criterion_that_knows_a_length_and_the_error_of_the_edges(ax):
+    names = [*CRITERIA_DRAWN[:4], "edge_adhesion_low", "edge_adhesion_high"]
+    height = np.array([10.0, 100.0])
+    values = np.outer([1.0, 2.0, 3.0, 4.0, 0.5, 2.0], height**-0.5)
+    coords = {"criterion": names, "h_rms_over_range": height}
+    thresholds = xr.DataArray(values, coords, ("criterion", "h_rms_over_range"))
+    made = {"hurst": 0.8, "range_times_q0": 1e-6}
+    plot_fig9.draw_thresholds(ax, thresholds, made, "held")
+    for factor in (1, 2, 3, 4):
+        drawn(ax, height, factor * height**-0.5)
+    x, low, high = band_ends(ax)
+    np.testing.assert_allclose([low, high], np.outer([0.5, 2.0], x**-0.5))
+    assert len(ax.get_legend_handles_labels()[1]) == 4
+    assert [text.get_text() for text in ax.texts][-1].endswith("\nheld")
+
+
+def test_figure_9c_has_geometric_means_and_the_range_over_materials_and_ends(ax):
+    factors = np.array([1.0, 10.0, 0.01, 100.0, 7.0])  # over the edges, by criterion
+    spread = np.array([[0.5, 2.0], [0.25, 4.0]])[:, None, :, None] ** (np.arange(5) > 0)
+    base = np.array([1e3, 1e6])[None, :, None, None]
+    moduli = factors * spread * base * np.ones((2, 2, 2, 5))
+    dims = ("material", "surface", "end", "criterion")
+    coords = {"surface": ["a_line", "wafer"], "criterion": CRITERIA_DRAWN}
+    data = xr.Dataset({"threshold_by_criterion": (dims, moduli)}, coords)
+    plot_fig9.draw_surfaces(ax, data)
+    for index, factor in enumerate(factors[1:4]):
+        drawn(ax, np.arange(2) + 0.09 * (index - 1), [factor] * 2)
+    bars = [c for c in ax.collections if isinstance(c, LineCollection)]
+    assert len(bars) == 3  # Dahlquist's modulus does not depend on the surface
+    ends = np.array(bars[0].get_segments())[:, :, 1]
+    np.testing.assert_allclose(ends, [[2.5, 40.0]] * 2)
+    assert [text.get_text() for text in ax.get_xticklabels()] == ["a\nline", "wafer"]
 
 
 # ---- figure 10

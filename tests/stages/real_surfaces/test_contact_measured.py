@@ -5,8 +5,8 @@ import re
 import numpy as np
 import pytest
 
-from pipeline.pages import pressed
-from pipeline.verdicts.materials import material
+from pipeline.pages import measured_contact
+from pipeline.verdicts.materials import read_material
 from real_surfaces import contact_measured
 from stickiness import surface
 from stickiness.measured.topography import Topography
@@ -87,11 +87,11 @@ def test_a_profile_is_refused(tmp_path):
 
 def test_rows_of_the_page_hold_value_error_and_theory(whole):
     _, found = whole
-    rows = pressed.describe_loads(found)
+    rows = measured_contact.describe_loads(found)
     assert [row["pressure"] for row in rows] == ["0.03", "0.3"]
     assert re.fullmatch(r"[\d.]+ ± [\d.]+", rows[1]["area"]["value"])
     assert rows[1]["area"]["ways"].startswith("tapered 0.")
-    value, error = pressed.combine_ways(found.area_fraction.isel(pressure=1))
+    value, error = measured_contact.combine_ways(found.area_fraction.isel(pressure=1))
     fine = found.area_fraction.isel(pressure=1, resolution=-1).values
     assert value == pytest.approx(fine.mean())
     assert error >= abs(fine[1] - fine[0]) / 2
@@ -103,6 +103,6 @@ def test_margin_is_shown_where_the_grid_resolves_the_range(whole, range_, shown)
     entry = {"plane_strain_modulus": "1 Pa", "work_of_adhesion": "0.1 J/m^2", "range": range_}
     ends = {"h_rms": ("end", [1.0, 1.0]), "rms_slope": ("end", [3.0, 3.0])}
     known = found.isel(resolution=-1, periodisation=0)[[]].assign(ends | {"q0": 1.0})
-    row = pressed.describe_pair(found, material(entry), known)
+    row = measured_contact.describe_pair(found, read_material(entry), known)
     assert row["resolved"] == shown
     assert (row["margin"] != "–") == shown

@@ -183,7 +183,9 @@ def figures(tmp_path):
     for number in range(1, 7):
         path = tmp_path / f"fig{number}.png"
         Figure(figsize=(2, 1)).savefig(path, dpi=50)
-        made.append(captions.figure(path, f"Caption {number} of *a* & b < gamma. More {{words}}."))
+        made.append(
+            captions.embed_figure(path, f"Caption {number} of *a* & b < gamma. More {{words}}.")
+        )
     return made
 
 
@@ -389,7 +391,7 @@ def test_summary_counts(claims, verdicts):
     found = report.summarise(claims, verdicts, [ensemble(), ensemble(seeds=range(1, 5))])
     assert [(name, count) for name, count, _ in found["graded"]] == [(g, 1) for g in GRADES]
     assert (found["pairs"], found["sticky"]) == (4, 1)
-    assert [pair[:2] for pair in found["judged"]] == [
+    assert [pair[:2] for pair in found["by_verdict"]] == [
         ("sticky", 1),
         ("depends", 1),
         ("not sticky", 2),
@@ -470,7 +472,7 @@ def test_surfaces_with_and_without_errors(surfaces):
 
 def test_bound_of_prefactor_for_another_hurst_exponent(surfaces):
     steeper = surfaces["glass"].assign(hurst=0.9)
-    assert surface_texts.reference_prefactor(steeper).startswith("≤ ")
+    assert surface_texts.describe_line(steeper).startswith("≤ ")
 
 
 def test_error_budget():
@@ -532,7 +534,7 @@ def test_not_a_png_is_refused(tmp_path):
     path = tmp_path / "fig1.png"
     path.write_text("no picture")
     with pytest.raises(ValueError, match="fig1.png: not a PNG"):
-        captions.figure(path, "")
+        captions.embed_figure(path, "")
 
 
 def test_caption_cannot_smuggle_html():

@@ -11,9 +11,8 @@ from criteria import judge
 from persson import persson_surface
 from pipeline import measured_surface
 from pipeline.pages import captions, surface_figure, surface_texts
-from pipeline.pages.style import save
 from pipeline.verdicts.a_v import MeasuredAv
-from pipeline.verdicts.materials import material
+from pipeline.verdicts.materials import read_material
 from real_surfaces import analyse_surface
 from report import write_surface
 from stickiness import surface
@@ -62,11 +61,11 @@ def analysed(path, **asked):
 def judged(found):
     ranges = np.geomspace(1e-8, 10, 10)
     a_v = SurfaceAv(ranges, np.array([[2.0] * 10, [3.0] * 10]), 0, 1.0, 0.05)
-    parts = dict.fromkeys(("sampling", "discretisation", "window", "bandwidth"), 0.1)
+    parts = dict.fromkeys(("sampling", "discretisation", "fit_interval", "bandwidth"), 0.1)
     constant = MeasuredAv(3.0, simulated=2.0, over_lattice=1.0, magnification=1e6, **parts)
-    solids = {name: material(entry) for name, entry in MATERIALS.items()}
+    solids = {name: read_material(entry) for name, entry in MATERIALS.items()}
     frequencies = np.geomspace(1e-4, 1e6, 21)
-    return judge.judge_pairs(solids, {"plate": found}, {"plate": a_v}, constant, frequencies)
+    return judge.find_verdicts(solids, {"plate": found}, {"plate": a_v}, constant, frequencies)
 
 
 @pytest.fixture(scope="module")
@@ -90,15 +89,19 @@ def stitched(folder):
 
 def page_of(found, folder):
     pairs = judged(found).sel(surface="plate")
-    save(surface_figure.draw_surface(found, pairs), [folder / "plate.png"])
+    surface_figure.draw_surface(found, pairs, folder / "plate.png")
     return write_surface.render(
         TEMPLATE,
         folder / "report/surfaces/plate.html",
-        files={"surface": folder / "plate.nc", "verdicts": folder / "verdicts.nc", "pressed": ""},
+        files={
+            "surface": folder / "plate.nc",
+            "verdicts": folder / "verdicts.nc",
+            "measured_contact": "",
+        },
         surface=found,
         pairs=pairs,
         materials=MATERIALS,
-        figure=captions.figure(folder / "plate.png", write_surface.CAPTION),
+        figure=captions.embed_figure(folder / "plate.png", write_surface.CAPTION),
     )
 
 
@@ -133,7 +136,9 @@ def test_points_dropped_beside_missing_ones_are_told(folder, single):
     found = analysed(folder / "rim.nc", file=str(path))
     assert int(found.dropped_points) == 12**2 - 10**2
     assert "44 points" in found.attrs["remarks"]
-    assert dict(write_surface.known(found))["dropped beside missing points"] == "44 points"
+    assert (
+        dict(write_surface.list_parameters(found))["dropped beside missing points"] == "44 points"
+    )
     assert float(found.h_rms_measured) == pytest.approx(float(single.h_rms_measured), rel=0.05)
 
 
@@ -227,7 +232,7 @@ def test_page_of_a_parametric_surface(folder):
 
 def test_rates_of_the_page_follow_the_modulus(single):
     pair = judged(single).sel(surface="plate", material="gel")
-    solid = material(MATERIALS["gel"])
+    solid = read_material(MATERIALS["gel"])
     at = pair.modulus.values
     np.testing.assert_allclose(at, solid.plane_strain.storage(pair.frequency.values))
     # Stiffer is less sticky: by the root of the modulus where edges are tough, in proportion where
@@ -241,14 +246,14 @@ def test_rates_of_the_page_follow_the_modulus(single):
     # At 1 Hz it is the margin quoted.
     quoted = np.interp(0, np.log(pair.frequency), np.log(high))
     assert np.exp(quoted) == pytest.approx(float(pair.margin_high.max()), rel=0.01)
-    assert write_surface.rate(solid, pair, [1e30]) == "sticks at every frequency"
-    assert write_surface.rate(solid, pair, [1.0]) == "sticks at none"
+    assert write_surface.describe_rate(solid, pair, [1e30]) == "sticks at every frequency"
+    assert write_surface.describe_rate(solid, pair, [1.0]) == "sticks at none"
 
 
 def test_errors_of_sizes_cover_what_those_of_the_fit_do():
     ends = {"end": ["smooth", "rough"], "draw": [0, 1]}
     sizes = {"h_rms": ("end", [0.9e-6, 1.1e-6]), "rms_slope": ("end", [0.19, 0.21])}
     measured = xr.Dataset(sizes, coords=ends)
-    assert surface_texts.rms_height(measured) == "(1.00 ± 0.16) µm"
-    assert surface_texts.rms_slope(measured) == "0.200 ± 0.016"
-    assert surface_texts.rms_height(measured.drop_vars("draw")) == "0.9 … 1.1 µm"
+    assert surface_texts.describe_height(measured) == "(1.00 ± 0.16) µm"
+    assert surface_texts.describe_slope(measured) == "0.200 ± 0.016"
+    assert surface_texts.describe_height(measured.drop_vars("draw")) == "0.9 … 1.1 µm"

@@ -87,25 +87,25 @@ def test_wrong_moduli(make, message):
 
 
 def test_materials_in_every_form():
-    plain = materials.material(ENTRY | {"plane_strain_modulus": "2 MPa"})
+    plain = materials.read_material(ENTRY | {"plane_strain_modulus": "2 MPa"})
     assert (plain.modulus, plain.depends_on_rate) == (2e6, False)
-    rubber = materials.material(ENTRY | {"youngs_modulus": "3 MPa", "poisson_ratio": 0.5})
+    rubber = materials.read_material(ENTRY | {"youngs_modulus": "3 MPa", "poisson_ratio": 0.5})
     assert rubber.modulus == pytest.approx(4e6)
     series = {"equilibrium": "10 kPa", "terms": [["30 kPa", "1 s"], ["0.2 MPa", "1 ms"]]}
-    prony = materials.material(ENTRY | {"youngs_modulus_prony": series, "poisson_ratio": 0.5})
+    prony = materials.read_material(ENTRY | {"youngs_modulus_prony": series, "poisson_ratio": 0.5})
     assert prony.depends_on_rate
     assert prony.modulus == pytest.approx(SERIES.storage(1.0) / 0.75)
     pairs = [["10 mHz", "50 kPa"], ["0.1 kHz", "0.5 MPa"]]
-    table = materials.material(ENTRY | {"youngs_modulus_table": pairs, "poisson_ratio": 0})
+    table = materials.read_material(ENTRY | {"youngs_modulus_table": pairs, "poisson_ratio": 0})
     assert table.modulus == pytest.approx(np.sqrt(50e3 * 0.5e6))
-    assert "10 mHz" in materials.modulus_text(
+    assert "10 mHz" in materials.describe_modulus(
         ENTRY | {"youngs_modulus_table": pairs, "poisson_ratio": 0}
     )
 
 
 # Verdicts
 
-MATERIAL = materials.material(
+MATERIAL = materials.read_material(
     ENTRY
     | {
         "youngs_modulus_prony": {"equilibrium": "1 MPa", "terms": [["1 GPa", "1 ms"]]},
@@ -158,7 +158,7 @@ def test_errors_of_a_v_pass_to_the_margin():
 def test_draws_spread_over_the_error_of_the_model(modulus, reach, error):
     """One spectrum and one a_V: what is left is even in logarithms from 1/error to error."""
     h, q0, slope, a_v = 1e-6, 1e5, 0.8, 4.0
-    solid = materials.material(
+    solid = materials.read_material(
         ENTRY | {"plane_strain_modulus": f"{modulus} Pa", "range": f"{reach} m"}
     )
     many = drawn(np.full(4000, h), np.full(4000, q0), slope)

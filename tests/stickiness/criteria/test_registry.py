@@ -9,10 +9,10 @@ import xarray as xr
 from criteria import compare_criteria, judge
 from figures import plot_fig9
 from pipeline.pages import report, verdict_texts
-from pipeline.pages.style import canvas
+from pipeline.plotting import make_panels
 from pipeline.verdicts.a_v import MeasuredAv
 from pipeline.verdicts.markdown import write_markdown
-from pipeline.verdicts.materials import material
+from pipeline.verdicts.materials import read_material
 from stickiness.core import datasets
 from stickiness.criteria.a_v_table import SurfaceAv
 from stickiness.criteria.registry import CRITERIA, EDGES, Criterion
@@ -58,9 +58,9 @@ def road(tmp_path):
 @pytest.fixture
 def judged(road):
     a_v = SurfaceAv(np.array([1e-9, 1.0]), np.array([[4.0, 4.0]]), 0, 1.0, 0.1)
-    solids = {"gel": material(GEL)}
+    solids = {"gel": read_material(GEL)}
     rates = np.array([1.0])
-    return judge.judge_pairs(solids, {"road": road}, {"road": a_v}, CONSTANT, rates)
+    return judge.find_verdicts(solids, {"road": road}, {"road": a_v}, CONSTANT, rates)
 
 
 @pytest.fixture
@@ -103,12 +103,12 @@ def test_a_new_criterion_is_on_figure_9(made_up, judged):
     compared = compare_criteria.compare(COMPARED, 0.065, table, 3.0)
     found = compared.against_roughness.sel(criterion="made_up")
     np.testing.assert_allclose(found, compared.h_rms_over_range)  # in units of the range
-    _, panels = canvas("AC", 3)
-    plot_fig9.curves(panels["A"], compared.against_roughness, "roughness")
+    _, panels = make_panels("AC", 3)
+    plot_fig9.draw_thresholds(panels["A"], compared.against_roughness, COMPARED, "")
     assert "Made & Up" in panels["A"].get_legend_handles_labels()[1]
-    before = len(plot_fig9.drawn(judged.threshold_by_criterion))
+    before = len(plot_fig9.select_criteria(judged.threshold_by_criterion))
     assert before == len(CRITERIA) - 1  # Dahlquist's knows no adhesion length
-    plot_fig9.on_surfaces(panels["C"], judged)
+    plot_fig9.draw_surfaces(panels["C"], judged)
 
 
 @pytest.mark.parametrize(
@@ -133,9 +133,9 @@ def test_every_threshold_is_where_the_margin_is_one(judged, road):
     pair = judged.sel(material="gel", surface="road", end="rough")
     for name in CRITERIA:
         modulus = float(pair.threshold_by_criterion.sel(criterion=name))
-        solids = {"gel": material(GEL | {"plane_strain_modulus": f"{modulus!r} Pa"})}
+        solids = {"gel": read_material(GEL | {"plane_strain_modulus": f"{modulus!r} Pa"})}
         at = (
-            judge.judge_pairs(solids, {"road": road}, {"road": a_v}, CONSTANT, np.array([1.0]))
+            judge.find_verdicts(solids, {"road": road}, {"road": a_v}, CONSTANT, np.array([1.0]))
             .sel(criterion=name, end="rough")
             .squeeze()
         )

@@ -1,4 +1,4 @@
-"""Look of the figures: colours that the colour-blind can tell apart, letters, error bars, files."""
+"""Look of the figures: colours that the colour-blind can tell apart, error bars, files."""
 
 from __future__ import annotations
 
@@ -26,18 +26,11 @@ from numpy.typing import ArrayLike, NDArray
 from pipeline.job import start
 from pipeline.numbers import number
 from stickiness.core import datasets
+from stickiness.core.statistics import COVERS
 
 # Okabe & Ito, Color Universal Design (2008).
-BLACK, ORANGE, SKY, GREEN, YELLOW, BLUE, RED, PURPLE = (
-    "#000000",
-    "#E69F00",
-    "#56B4E9",
-    "#009E73",
-    "#F0E442",
-    "#0072B2",
-    "#D55E00",
-    "#CC79A7",
-)
+BLACK, ORANGE, SKY, GREEN = "#000000", "#E69F00", "#56B4E9", "#009E73"
+YELLOW, BLUE, RED, PURPLE = "#F0E442", "#0072B2", "#D55E00", "#CC79A7"
 COLOURS = (BLUE, RED, GREEN, ORANGE, PURPLE, SKY, BLACK)
 MARKERS = ("o", "s", "^", "D", "v", "P", "X")
 GREY = "0.45"
@@ -102,19 +95,12 @@ def start_figure(names: dict[str, Any]) -> Any:
     return start(names, Path(names["__file__"]).stem)
 
 
-def canvas(
+def make_panels(
     rows: str | Sequence[Sequence[str]], height: float, **grid: Any
 ) -> tuple[Figure, dict[str, Axes]]:
     """Figure of `height` inches with lettered panels laid out as in ``subplot_mosaic("AB;CC")``."""
     mpl.rcParams.update(_SETTINGS)
     return plt.subplot_mosaic(rows, figsize=(WIDTH, height), **grid)
-
-
-def letters(panels: dict[str, Axes]) -> None:
-    """Bold letter above the upper left corner of every panel named by a letter."""
-    for name, ax in panels.items():
-        if name in string.ascii_uppercase:
-            ax.set_title(name, loc="left", fontweight="bold", fontsize=10)
 
 
 def save(figure: Figure, outputs: Iterable[str]) -> None:
@@ -127,13 +113,15 @@ def save(figure: Figure, outputs: Iterable[str]) -> None:
 
 
 @contextmanager
-def lettered_figure(
+def open_figure(
     outputs: Iterable[str], rows: str | Sequence[Sequence[str]], height: float, **grid: Any
 ) -> Iterator[dict[str, Axes]]:
-    """Panels of a `canvas` to draw in; at the end they get letters and the files are written."""
-    figure, panels = canvas(rows, height, **grid)
+    """Panels to draw in; at the end those named by a letter show it and the files are written."""
+    figure, panels = make_panels(rows, height, **grid)
     yield panels
-    letters(panels)
+    for name, ax in panels.items():
+        if name in string.ascii_uppercase:
+            ax.set_title(name, loc="left", fontweight="bold", fontsize=10)
     save(figure, outputs)
 
 
@@ -142,65 +130,69 @@ def state(**values: float) -> str:
     return ", ".join(f"{SYMBOLS[name]} = {number(value)}" for name, value in values.items())
 
 
-def look(index: int, **more: Any) -> dict[str, Any]:
+def pick_look(index: int, **more: Any) -> dict[str, Any]:
     """Colour and marker of one of several sets of points."""
-    return {
-        "color": COLOURS[index % len(COLOURS)],
-        "marker": MARKERS[index % len(MARKERS)],
-    } | more
+    colour, marker = COLOURS[index % len(COLOURS)], MARKERS[index % len(MARKERS)]
+    return {"color": colour, "marker": marker} | more
 
 
-def shades(count: int) -> NDArray:
-    """Colours from dark to light for an ordered family of curves."""
-    return mpl.colormaps["cividis"](np.linspace(0, 0.9, count))
+def shade(values: Sequence) -> Iterator[tuple[NDArray, Any]]:
+    """Every value of an ordered family with its colour, from dark to light."""
+    colours = mpl.colormaps["cividis"](np.linspace(0, 0.9, len(values)))
+    return zip(colours, values, strict=True)
 
 
-def in_shades(values: Sequence) -> Iterator[tuple[NDArray, Any]]:
-    """Every value of an ordered family with its colour."""
-    return zip(shades(len(values)), values, strict=True)
-
-
-def errors(data: xr.Dataset, name: str) -> tuple[xr.DataArray, xr.DataArray]:
+def read_errors(data: xr.Dataset, name: str) -> tuple[xr.DataArray, xr.DataArray]:
     """Sampling error of a variable, and all errors in quadrature; unknown ones are left out."""
     by_source = data[f"{name}_error"]
     return by_source.sel(source="sampling").fillna(0), np.sqrt((by_source**2).sum("source"))
 
 
-def points(
+def draw_points(
     ax: Axes, x: ArrayLike, data: xr.Dataset, name: str, scale: float = 1.0, **look: Any
 ) -> None:
     """A variable over `scale`: a thick bar for its sampling error, a thin one for all errors."""
-    y, (sampling, total) = data[name] / scale, errors(data, name)
+    y, (sampling, total) = data[name] / scale, read_errors(data, name)
     bars = {"linestyle": "none", "color": look["color"], "zorder": BARS}
     ax.errorbar(x, y, total / scale, elinewidth=0.7, **bars)
     ax.errorbar(x, y, sampling / scale, elinewidth=1.8, **bars)
     ax.plot(x, y, **{"linestyle": "none", "marker": "o", "zorder": FILLED} | look)
 
 
-def hollow(ax: Axes, x: ArrayLike, y: ArrayLike, **look: Any) -> None:
+def draw_spectrum(
+    ax: Axes, q: ArrayLike, psd: NDArray, standard_error: NDArray, **look: Any
+) -> None:
+    """Rings of a measured spectrum with bars that cover 90 %, on log axes."""
+    error = COVERS * standard_error
+    below = np.minimum(error, 0.9 * psd)  # a bar down to zero has no end on a log axis
+    look = {"marker": "o", "linestyle": "none", "markersize": 2.5, "elinewidth": 0.7} | look
+    ax.errorbar(q, psd, [below, error], **look)
+
+
+def draw_hollow(ax: Axes, x: ArrayLike, y: ArrayLike, **look: Any) -> None:
     """Open points, above the error bars and below the filled points that they are beside."""
     ax.plot(x, y, **{"linestyle": "none", "mfc": "white", "zorder": HOLLOW} | look)
 
 
-def band(
+def draw_band(
     ax: Axes, x: ArrayLike, low: ArrayLike, high: ArrayLike, colour: Any, alpha: float = 0.3
 ) -> None:
     """Shaded area between two curves."""
     ax.fill_between(x, low, high, color=colour, alpha=alpha, linewidth=0)
 
 
-def aside(x: ArrayLike, steps: float, step: float = 1.05) -> NDArray:
+def move_aside(x: ArrayLike, steps: float, step: float = 1.05) -> NDArray:
     """Abscissae of a log axis moved by a few per cent, so that equal ones can be told apart."""
     return np.asarray(x) * step**steps
 
 
-def guide(ax: Axes, x: ArrayLike, y: ArrayLike, text: str, at: tuple[float, float]) -> None:
+def draw_guide(ax: Axes, x: ArrayLike, y: ArrayLike, text: str, at: tuple[float, float]) -> None:
     """Thin line that shows a power law or a formula, with its name."""
     ax.plot(x, y, color=GREY, linewidth=0.9, linestyle=":")
     ax.text(*at, text, color=GREY, fontsize=8)
 
 
-def apart(positions: Iterable[float], factor: float) -> list[float]:
+def push_apart(positions: Iterable[float], factor: float) -> list[float]:
     """Heights of labels on a log axis, pushed up until neighbours differ by `factor`."""
     positions = list(positions)
     below = 0.0
@@ -209,18 +201,18 @@ def apart(positions: Iterable[float], factor: float) -> list[float]:
     return positions
 
 
-def plain_ticks(axis: Axis, values: Iterable[float]) -> None:
+def write_ticks(axis: Axis, values: Iterable[float]) -> None:
     """Ticks of a log axis of few decades at these values, written out."""
     axis.set_major_locator(FixedLocator(list(values)))
     axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
     axis.set_minor_formatter(NullFormatter())
 
 
-def key(label: str, **look: Any) -> Line2D:
+def make_key(label: str, **look: Any) -> Line2D:
     """Legend handle of a line that belongs to no curve in particular."""
     return Line2D([], [], label=label, **({"color": GREY} | look))
 
 
-def dot(label: str, **look: Any) -> Line2D:
+def make_dot(label: str, **look: Any) -> Line2D:
     """Legend handle of a point."""
-    return key(label, **({"linestyle": "none", "marker": "o"} | look))
+    return make_key(label, **({"linestyle": "none", "marker": "o"} | look))
