@@ -9,10 +9,17 @@ from __future__ import annotations
 
 import warnings
 
-__all__ = ["PlausibilityWarning", "warn_of_heights", "warn_of_pressure"]
+__all__ = ["PlausibilityWarning", "warn_of_heights", "warn_of_pressure", "warn_of_si"]
 
 _MOST_PRESSURE = 1000.0  # over the rms slope; half of that slope is what flattens a surface
 _MOST_HEIGHT, _LEAST_HEIGHT = 100.0, 1e-9  # rms height over the side of the cell
+# Lowest and highest values of real solids and surfaces in SI units, with room to spare.
+_SI_LIMITS = {
+    "modulus": (10.0, 1e13, "give it in Pa"),
+    "work_of_adhesion": (1e-6, 100.0, "give it in J/m^2"),
+    "range": (1e-11, 1e-5, "give it in m"),
+    "rms_slope": (1e-7, 20.0, "give heights and lengths both in m"),
+}
 
 
 class PlausibilityWarning(UserWarning):
@@ -43,3 +50,15 @@ def warn_of_heights(rms_height: float, length: float, stacklevel: int = 3) -> No
             PlausibilityWarning,
             stacklevel=stacklevel,
         )
+
+
+def warn_of_si(stacklevel: int = 3, **values: float) -> None:
+    """Warn of a modulus, work of adhesion, range or rms slope that no real pair has in SI units.
+
+    A slope far from 1 means that heights and lengths are in different units.
+    """
+    for name, value in values.items():
+        low, high, remedy = _SI_LIMITS[name]
+        if not low <= value <= high:
+            text = f"{name} = {value:.3g} is outside {low:g} to {high:g} of real pairs: {remedy}"
+            warnings.warn(text, PlausibilityWarning, stacklevel=stacklevel)

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from stickiness.core.arguments import positive
+from stickiness.core.plausibility import warn_of_si
 from stickiness.criteria.a_v_table import VARIANTS, SurfaceAv, theory_a_v
 from stickiness.criteria.formulas import pastewka_robbins_a_v
 from stickiness.criteria.pair import REGIMES, WORDS, Pair, classify_edges, decide
@@ -121,6 +122,11 @@ def verdict(
         If a number is not positive and finite, if `poisson` is not between -1 and 0.5, or if
         `length` is missing for heights or given for a spectrum.
 
+    Warns
+    -----
+    PlausibilityWarning
+        If a value is none that real pairs have in SI units, such as a modulus given in MPa.
+
     Examples
     --------
     >>> from stickiness.spectrum import SelfAffine
@@ -132,6 +138,12 @@ def verdict(
     if poisson is not None and not -1 < poisson <= 0.5:
         raise ValueError(f"poisson must be above -1 and at most 0.5, got {poisson!r}")
     known = describe_surface(surface, length)
+    warn_of_si(
+        modulus=modulus,
+        work_of_adhesion=work_of_adhesion,
+        range=range,
+        rms_slope=known["rms_slope"],
+    )
     spectrum = known.pop("spectrum")
     if a_v is None:
         a_v = estimate_a_v(spectrum, known, range / known["h_rms"])

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from stickiness import surface
+from stickiness.core.plausibility import PlausibilityWarning
 from stickiness.criteria import verdict as module
 from stickiness.criteria.pair import WORDS, decide
 from stickiness.criteria.registry import CRITERIA, EDGES
@@ -36,6 +37,25 @@ def test_verdict_depends_within_the_limits_of_the_threshold():
     low, high = found.modulus_threshold_limits
     assert verdict(ROUGH, **GEL | {"modulus": 0.99 * low}).word == "sticky"
     assert verdict(ROUGH, **GEL | {"modulus": 1.5 * high}).word in ("not sticky", "undecided")
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        ({"modulus": 0.7}, r"modulus = 0\.7 .* give it in Pa"),  # MPa
+        ({"work_of_adhesion": 1e3}, r"work_of_adhesion = 1e\+03 .* J/m\^2"),
+        ({"range": 0.3}, r"range = 0\.3 .* give it in m"),  # nm
+    ],
+)
+def test_values_in_other_units_are_warned_of(change, message):
+    with pytest.warns(PlausibilityWarning, match=message):
+        verdict(ROUGH, **GEL | change)
+
+
+def test_heights_in_another_unit_than_the_length_are_warned_of():
+    heights = surface.synthesise(SelfAffine(hurst=0.8, q0=1, q1=8, h_rms=0.1), 64, 2 * np.pi, 1)
+    with pytest.warns(PlausibilityWarning, match="heights and lengths both in m"):
+        verdict(1e6 * heights, length=2 * np.pi, **GEL)
 
 
 def test_lengths_scale():
