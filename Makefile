@@ -37,7 +37,7 @@ dag: $(VENV)/.run  ## what would run
 docs: $(VENV)/.run  ## the reference of the configuration, from the schemas
 	$(BIN)/python docs/write_config.py
 
-pictures: $(VENV)/.run  ## the pictures of README.md, from results/standard and with Chromium
+pictures: $(VENV)/.run  ## the pictures of README.md and docs, from results/standard and with Chromium
 	$(BIN)/python docs/take_pictures.py
 
 benchmark: $(VENV)/.dev $(VENV)/.peers  ## the contact solver beside its peers

@@ -1,4 +1,4 @@
-"""Pictures of README.md from results/standard: pages as Chromium shows them, and figures."""
+"""Take the pictures of README.md and docs from results/standard, pages as Chromium shows them."""
 
 from __future__ import annotations
 

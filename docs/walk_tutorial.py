@@ -1,8 +1,8 @@
-"""Walk docs/tutorial.md as a newcomer: run its commands as they stand there, and time them.
+"""Run the commands of docs/tutorial.md as they stand there, in a fresh clone, and time them.
 
     python docs/walk_tutorial.py FOLDER
 
-FOLDER must not exist: the project is cloned there, as it was committed last.
+FOLDER must not exist. The project is cloned there from its last commit.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ def steps(text: str) -> list[tuple[str, str]]:
 
 
 def main() -> None:
-    """Clone, run step after step, and print what each took."""
+    """Clone the project, run every step, and print how long it took."""
     folder = Path(sys.argv[1]).resolve()
     if folder.exists():
         sys.exit(f"{folder} is there already: name a new folder")
@@ -43,7 +43,7 @@ def main() -> None:
 
 
 def timed(heading: str, commands: str, folder: Path) -> None:
-    """Run commands in bash, stop at the first that fails, print what they took."""
+    """Run commands in bash and print how long they took; stop if one fails."""
     begin, before = time.monotonic(), processor_seconds()
     done = subprocess.run(
         ["bash", "-ec", commands],

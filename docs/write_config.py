@@ -20,9 +20,9 @@ HEAD = """# Every key of the configuration
 
 <!-- Written by docs/write_config.py from config/schemas; edit the schemas. -->
 
-Values with a unit are texts, `"0.1 um"`. `*` stands for a name of your choice (letters, digits,
-dot, dash, underscore), `[]` for an entry of a list. Bold keys are required. The schemas in
-`config/schemas` hold the same and stop a wrong configuration before any job runs.
+A value with a unit is a text, e.g. `"0.1 um"`. `*` stands for a name of your choice (letters,
+digits, dot, dash, underscore), `[]` for an entry of a list. Bold keys are required. The schemas in
+`config/schemas` say the same; a configuration that breaks them stops before any job runs.
 """
 TITLES = {
     "config": "config/config.yaml",
@@ -38,7 +38,7 @@ def schema_of(name: str) -> dict[str, Any]:
     return read_schema(ROOT / f"config/schemas/{name}.schema.yaml")
 
 
-def resolved(schema: Schema, root: Schema) -> dict[str, Any]:
+def resolve(schema: Schema, root: Schema) -> dict[str, Any]:
     """The schema with its reference filled in; its own keywords, such as the text, come first."""
     found = dict(schema)
     while "$ref" in found:
@@ -51,9 +51,9 @@ def keys(
     schema: Schema, root: Schema, path: str = ""
 ) -> Iterator[tuple[str, bool, dict[str, Any]]]:
     """Dotted name, whether it is required, and schema of every key, depth first."""
-    schema = resolved(schema, root)
+    schema = resolve(schema, root)
     for name, value in schema.get("properties", {}).items():
-        inner = resolved(value, root)
+        inner = resolve(value, root)
         key = f"{path}.{name}" if path else name
         yield key, name in schema.get("required", []), inner
         yield from below(inner, root, key)
@@ -63,7 +63,7 @@ def keys(
 
 
 def below(schema: Schema, root: Schema, path: str) -> Iterator[tuple[str, bool, dict[str, Any]]]:
-    """Keys below one that is itself an object, a mapping of names, or a list of objects."""
+    """Keys below a key that is an object, a mapping of names, or a list of objects."""
     if is_grid(schema, root):
         return
     yield from keys(schema, root, path)
@@ -74,13 +74,13 @@ def below(schema: Schema, root: Schema, path: str) -> Iterator[tuple[str, bool, 
 
 
 def is_grid(schema: Schema, root: Schema) -> bool:
-    """Whether a key holds logarithmically spaced values, which are told in one line."""
+    """Whether a key holds logarithmically spaced values, which take one line of the table."""
     return schema.get("properties") == root.get("$defs", {}).get("grid", {}).get("properties", 0)
 
 
 def kind(schema: Schema, root: Schema) -> str:
     """What a value may be, in words."""
-    schema = resolved(schema, root)
+    schema = resolve(schema, root)
     if is_grid(schema, root):
         return "`{minimum, maximum, per_decade}`"
     if "const" in schema:
@@ -102,7 +102,7 @@ def kind(schema: Schema, root: Schema) -> str:
 
 
 def limits(schema: Schema) -> list[str]:
-    """Range of a number in one text, none if there is none."""
+    """Range of a number as one text; empty if there is none."""
     signs = {"minimum": "≥", "exclusiveMinimum": ">", "maximum": "≤", "exclusiveMaximum": "<"}
     found = [f"{sign} {schema[word]:g}" for word, sign in signs.items() if word in schema]
     if "multipleOf" in schema:
@@ -111,8 +111,8 @@ def limits(schema: Schema) -> list[str]:
 
 
 def alternatives(schema: Schema, root: Schema, path: str = "") -> Iterator[tuple[str, list[str]]]:
-    """Where exactly one of several groups of keys is to be given."""
-    schema = resolved(schema, root)
+    """Places where exactly one of several groups of keys is required."""
+    schema = resolve(schema, root)
     for part in (schema, *schema.get("allOf", [])):
         groups = [choice.get("required") for choice in part.get("oneOf", [])]
         if groups and all(groups):

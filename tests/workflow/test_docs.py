@@ -1,4 +1,4 @@
-"""Documentation that can go stale: reference of the configuration, links, the example."""
+"""Documentation that can go stale: configuration, links, files that pages name, the example."""
 
 import importlib.util
 import re
@@ -10,6 +10,7 @@ import pytest
 import yaml
 
 ROOT = Path(__file__).parents[2]
+PAGES = ["README.md", *(f"docs/{p.name}" for p in sorted(ROOT.glob("docs/*.md")))]
 
 
 def script_of_docs(name):
@@ -51,7 +52,7 @@ def test_reference_knows_every_key_in_use(write_config):
         assert any(p.fullmatch(path) or p.fullmatch(grid.sub("", path)) for p in patterns), path
 
 
-@pytest.mark.parametrize("page", ["README.md", *(f"docs/{p.name}" for p in ROOT.glob("docs/*.md"))])
+@pytest.mark.parametrize("page", PAGES)
 def test_links_between_pages_lead_somewhere(page):
     text = (ROOT / page).read_text(encoding="utf-8")
     for target in re.findall(r"\]\(([^)#\s]+)(?:#[^)]*)?\)", text):
@@ -112,3 +113,49 @@ def test_metadata_of_the_catalog():
     catalog = yaml.safe_load((ROOT / ".snakemake-workflow-catalog.yml").read_text(encoding="utf-8"))
     assert catalog["usage"]["software-stack-deployment"]["conda"] is True
     assert catalog["usage"]["report"] is True
+
+
+# Folders that pages name files by; the packages below `scripts` stand without it in tables.
+FOLDERS = ("scripts", "rules", "config", "benchmarks", "examples", "envs", "profiles", "tests")
+PACKAGES = ("stickiness", "pipeline")
+
+
+def paths_of(page):
+    """Files and folders of the project that a page names; those with a placeholder are left out."""
+    text = (ROOT / page).read_text(encoding="utf-8")
+    named = re.findall(rf"(?<![\w/.-])((?:{'|'.join(FOLDERS + PACKAGES)})/[\w/.<>*-]*)", text)
+    return [path.rstrip(".") for path in named if not re.search(r"[<>*]", path)]
+
+
+@pytest.mark.parametrize("page", PAGES)
+def test_files_that_pages_name_exist(page):
+    for path in paths_of(page):
+        folder = "scripts/" if path.startswith(PACKAGES) else ""
+        assert (ROOT / folder / path).exists(), f"{page}: {path}"
+
+
+def test_map_leads_to_solver_fit_verdict_and_errors():
+    named = set(paths_of("README.md"))
+    assert {
+        "scripts/stickiness/contact/solver.py",
+        "scripts/stickiness/criteria/a_v_fit.py",
+        "scripts/stickiness/criteria/registry.py",
+        "scripts/stickiness/core/budget.py",
+    } <= named
+
+
+def test_pages_are_few_and_readme_is_short():
+    assert len(PAGES) <= 1 + 6
+    assert len((ROOT / "README.md").read_text(encoding="utf-8").splitlines()) <= 120
+
+
+def test_anchors_between_pages_exist():
+    def anchors(page):
+        headings = re.findall(r"^#+ (.*)$", page.read_text(encoding="utf-8"), re.M)
+        return {re.sub(r"[^\w -]", "", heading.lower()).replace(" ", "-") for heading in headings}
+
+    for page in PAGES:
+        text = (ROOT / page).read_text(encoding="utf-8")
+        for target, anchor in re.findall(r"\]\(([^)#\s]*)#([^)]+)\)", text):
+            file = (ROOT / page).parent / target if target else ROOT / page
+            assert anchor in anchors(file), f"{page}: {target}#{anchor}"
