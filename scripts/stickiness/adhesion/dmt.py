@@ -30,11 +30,7 @@ class HasTraction(Protocol):
 
 
 def adhesive_pressure(
-    gap: ArrayLike,
-    law: HasTraction,
-    contact: ArrayLike | None = None,
-    *,
-    subpixel: bool = False,
+    gap: ArrayLike, law: HasTraction, contact: ArrayLike | None = None, *, subpixel: bool = False
 ) -> float:
     """Mean attraction p_ad [E*], the integral of sigma(u) P(u) over the open gaps.
 

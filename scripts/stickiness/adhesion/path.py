@@ -23,13 +23,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from stickiness.adhesion.scaling import APPROACH, SEPARATION, Adhesion, Control, Scaled
-from stickiness.adhesion.solver import (
-    ConvergenceError,
-    Effort,
-    PullOffError,
-    relax_from,
-    solve,
-)
+from stickiness.adhesion.solver import ConvergenceError, Effort, PullOffError, relax_from, solve
 from stickiness.core.arguments import grid, number
 
 __all__ = ["PathPoint", "path"]

@@ -7,22 +7,11 @@ import numpy as np
 
 from stickiness.adhesion import edge_zone
 from stickiness.adhesion.equilibrium import relax
-from stickiness.adhesion.scaling import (
-    APPROACH,
-    CLOSEST,
-    SEPARATION,
-    Adhesion,
-    Control,
-    Scaled,
-)
+from stickiness.adhesion.scaling import APPROACH, CLOSEST, SEPARATION, Adhesion, Control, Scaled
 from stickiness.contact.grids import check_length, measure_slope
 from stickiness.contact.solver import ConvergenceError
 from stickiness.core.arguments import grid, integer, number, numbers
-from stickiness.core.plausibility import (
-    PlausibilityWarning,
-    warn_of_heights,
-    warn_of_pressure,
-)
+from stickiness.core.plausibility import PlausibilityWarning, warn_of_heights, warn_of_pressure
 
 __all__ = ["Adhesion", "ConvergenceError", "PullOffError", "solve"]
 
@@ -163,12 +152,7 @@ def relax_from(scaled, gap, branch, control, effort, spent=(0, 0)):
     problem = scaled.problem(control)
     pressure, tol = control.pressure, effort.tol
     state, separated = relax(
-        problem,
-        gap,
-        tol,
-        effort.max_iterations,
-        closing=branch == APPROACH,
-        logger=effort.logger,
+        problem, gap, tol, effort.max_iterations, closing=branch == APPROACH, logger=effort.logger
     )
     state.iterations += spent[0]
     pairs = scaled.surface.pairs - before + state.start_pairs + spent[1]

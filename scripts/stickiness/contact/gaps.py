@@ -35,11 +35,7 @@ __all__ = ["attractive_area", "gap_density"]
 
 
 def attractive_area(
-    gap: ArrayLike,
-    eps: ArrayLike,
-    contact: ArrayLike | None = None,
-    *,
-    subpixel: bool = False,
+    gap: ArrayLike, eps: ArrayLike, contact: ArrayLike | None = None, *, subpixel: bool = False
 ) -> float | NDArray:
     """Fraction of the nominal area that is out of contact but within the range of attraction.
 
@@ -82,11 +78,7 @@ def attractive_area(
 
 
 def gap_density(
-    gap: ArrayLike,
-    edges: ArrayLike,
-    contact: ArrayLike | None = None,
-    *,
-    subpixel: bool = False,
+    gap: ArrayLike, edges: ArrayLike, contact: ArrayLike | None = None, *, subpixel: bool = False
 ) -> NDArray:
     """Probability density P(u) of the open gaps.
 

@@ -86,11 +86,7 @@ RULES = {
 
 
 def estimate(
-    quantity: str,
-    values: Sequence[Values],
-    part: Values,
-    edges: Values,
-    climbs: Values = np.inf,
+    quantity: str, values: Sequence[Values], part: Values, edges: Values, climbs: Values = np.inf
 ) -> Estimate:
     """Continuum limit of a quantity measured with sub-pixel edges, and its error.
 

@@ -4,14 +4,7 @@ import numpy as np
 
 from stickiness.core.arguments import positive
 
-__all__ = [
-    "check_length",
-    "coarsen",
-    "interpolate",
-    "measure_scale",
-    "measure_slope",
-    "sample",
-]
+__all__ = ["check_length", "coarsen", "interpolate", "measure_scale", "measure_slope", "sample"]
 
 
 def check_length(length, shape):

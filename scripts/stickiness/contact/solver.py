@@ -105,15 +105,7 @@ class ConvergenceError(RuntimeError):
         self.residual = contact.residual
 
 
-def solve(
-    heights,
-    length,
-    pressure,
-    tol=1e-8,
-    start=None,
-    max_iterations=1000,
-    logger=None,
-):
+def solve(heights, length, pressure, tol=1e-8, start=None, max_iterations=1000, logger=None):
     """Solve the contact of a half-space with a rigid periodic surface at a mean pressure.
 
     Parameters

@@ -63,11 +63,7 @@ class Moments:
 
 
 def synthesise(
-    spectrum: Spectrum,
-    n: int,
-    length: float,
-    seed: int,
-    amplitudes: Amplitudes = "gaussian",
+    spectrum: Spectrum, n: int, length: float, seed: int, amplitudes: Amplitudes = "gaussian"
 ) -> NDArray:
     """Random periodic surface with a given spectrum, band limits exact.
 
