@@ -16,8 +16,6 @@ from stickiness.contact import subpixel as edges_of_contact
 from stickiness.contact.subpixel import gap_and_contact
 from stickiness.core.arguments import numbers, positive
 
-__all__ = ["HasTraction", "adhesive_pressure", "attraction_of_areas"]
-
 _PER_DECADE = 64  # ranges at which a traction law is integrated over sub-pixel areas
 _SMALLEST = 1e-6  # of them, over the largest gap
 
@@ -34,6 +32,9 @@ def adhesive_pressure(
 ) -> float:
     """Mean attraction p_ad [E*], the integral of sigma(u) P(u) over the open gaps.
 
+    For the Maugis law (adhesion_length/range) times `attractive_area`. Contact points carry no
+    attraction in this bookkeeping: theirs is part of the repulsive solution.
+
     Parameters
     ----------
     gap : (..., n, n) array
@@ -41,15 +42,9 @@ def adhesive_pressure(
     law : object with ``traction(gap)``
         Traction law, tension positive [E*].
     contact : bool array of the gap's shape, optional
-        True where the surfaces touch; by default where the gap is exactly zero. Contact points
-        carry no attraction in this bookkeeping: theirs is part of the repulsive solution.
+        True where the surfaces touch; by default where the gap is exactly zero.
     subpixel : bool
         Integrate the law over the sub-pixel `attractive_area`, at 64 ranges per decade.
-
-    Returns
-    -------
-    float
-        For the Maugis law (adhesion_length/range) times `attractive_area`.
 
     Raises
     ------
@@ -76,6 +71,9 @@ def adhesive_pressure(
 def attraction_of_areas(area: ArrayLike, ranges: ArrayLike, law: HasTraction) -> NDArray:
     """Mean attraction p_ad [E*] from attractive areas, the integral of sigma over them.
 
+    Gaps up to the smallest range count with the traction at half of it, those beyond the largest
+    not at all. NaN where an area is.
+
     Parameters
     ----------
     area : (..., k) array
@@ -85,12 +83,6 @@ def attraction_of_areas(area: ArrayLike, ranges: ArrayLike, law: HasTraction) ->
         discontinuous one of them.
     law : object with ``traction(gap)``
         Traction law, tension positive [E*].
-
-    Returns
-    -------
-    (...) array
-        Gaps up to the smallest range count with the traction at half of it, those beyond the
-        largest not at all. NaN where an area is.
 
     Raises
     ------

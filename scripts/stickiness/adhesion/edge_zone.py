@@ -25,22 +25,7 @@ NARROWEST = 1.5
 def resolution(pixel: ArrayLike, range: ArrayLike, adhesion_length: ArrayLike) -> float | NDArray:
     """Pixel over the length epsilon^2/l_a at which attraction bends the surfaces together.
 
-    Parameters
-    ----------
-    pixel : array_like
-        Side of a pixel [length].
-    range, adhesion_length : array_like
-        Of the attraction [length].
-
-    Returns
-    -------
-    float or array
-        The grid resolves the edge up to about `COARSEST`.
-
-    Raises
-    ------
-    ValueError
-        If an argument is not positive.
+    All arguments [length], positive. The grid resolves the edge up to about `COARSEST`.
     """
     pixel, range, adhesion_length = positive(
         pixel=pixel, range=range, adhesion_length=adhesion_length
@@ -51,14 +36,7 @@ def resolution(pixel: ArrayLike, range: ArrayLike, adhesion_length: ArrayLike) -
 def zone_width(pixel: ArrayLike, edge_gap: ArrayLike, range: ArrayLike) -> float | NDArray:
     """Width of the zone of attraction at the edge of a contact without adhesion [length].
 
-    Parameters
-    ----------
-    pixel : array_like
-        Side of a pixel [length].
-    edge_gap : array_like
-        Gap one pixel from the edge, see `dmt.edge_gap` [length].
-    range : array_like
-        Of the attraction [length].
+    `edge_gap` is the gap one pixel from the edge, see `dmt.edge_gap`. All arguments [length].
     """
     pixel, edge_gap, range = positive(pixel=pixel, edge_gap=edge_gap, range=range)
     return plain(pixel * np.cbrt(range / edge_gap) ** 2)

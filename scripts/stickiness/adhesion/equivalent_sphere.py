@@ -144,14 +144,8 @@ def edge_strength(attractive_over_contact: ArrayLike, traction: ArrayLike) -> fl
     """Tabor's parameter tau = l_a d/range^2 of the edges of a rough contact.
 
     From ``delta/d = (16/3pi) tau`` at weak adhesion and the effect ``(4/pi) t^(-1/2)`` of small
-    zones, in a contact whose area is proportional to its load.
-
-    Parameters
-    ----------
-    attractive_over_contact : array_like
-        t, attractive over contact area without adhesion.
-    traction : array_like
-        Attractive traction over the mean pressure in the contact, sigma_0 A_rep/F.
+    zones, in a contact whose area is proportional to its load. `traction` is the attractive one
+    over the mean pressure in the contact, sigma_0 A_rep/F.
     """
     t, traction = positive(attractive_over_contact=attractive_over_contact, traction=traction)
     return plain(0.75 * traction / np.sqrt(t))
@@ -168,17 +162,7 @@ def error_factor(attractive_over_contact: ArrayLike, strength: ArrayLike) -> flo
 def effect(attractive_over_contact: ArrayLike, strength: ArrayLike) -> float | NDArray:
     """Attraction at equal area of contact over its DMT limit, of the equivalent sphere.
 
-    Parameters
-    ----------
-    attractive_over_contact : array_like
-        t, attractive over contact area without adhesion.
-    strength : array_like
-        tau, Tabor's parameter of the edge.
-
-    Returns
-    -------
-    float or array
-        `weak_effect` for small strengths, `tough_effect` for large ones.
+    `weak_effect` for small strengths tau, `tough_effect` for large ones.
     """
     t, tau = np.broadcast_arrays(
         *positive(attractive_over_contact=attractive_over_contact, strength=strength)
@@ -252,12 +236,7 @@ def edge_advance(
 ) -> float | NDArray:
     """Distance [length] by which attraction moves an edge of contact at given load.
 
-    Parameters
-    ----------
-    edge_pressure : array_like
-        B/E* of the pressure ``B x^(1/2)`` without adhesion [length^(-1/2)].
-    adhesion_length, range : array_like
-        Of Maugis' traction [length].
+    `edge_pressure` is B/E* of the pressure ``B x^(1/2)`` without adhesion [length^(-1/2)].
     """
     b, length, reach = positive(
         edge_pressure=edge_pressure, adhesion_length=adhesion_length, range=range

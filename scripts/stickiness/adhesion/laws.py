@@ -20,8 +20,6 @@ from numpy.typing import ArrayLike, NDArray
 
 from stickiness.core.arguments import number
 
-__all__ = ["Exponential", "LennardJones", "Maugis", "TractionLaw"]
-
 # Separation over range at which the traction of the 9-3 law peaks: (range/g)^6 = 1/3.
 _LJ_PEAK = 3.0 ** (1 / 6)
 
@@ -47,19 +45,14 @@ class TractionLaw(ABC):
     ------
     ValueError
         If either is not positive and finite.
-
-    Attributes
-    ----------
-    hard_wall : bool
-        Whether a wall at gap 0 repels; if not, the law itself does, and gaps must exceed -range.
-    smooth : bool
-        Whether the traction is continuous beyond the wall; where it is not it must jump at
-        `range` between constants, as that of Maugis does.
     """
 
     adhesion_length: float
     range: float
+    # Whether a wall at gap 0 repels; if not, the law itself does, and gaps must exceed -range.
     hard_wall: ClassVar[bool] = True
+    # Whether the traction is continuous beyond the wall; where it is not it must jump at `range`
+    # between constants, as that of Maugis does.
     smooth: ClassVar[bool] = True
 
     def __post_init__(self):

@@ -26,13 +26,9 @@ from stickiness.adhesion.scaling import APPROACH, SEPARATION, Adhesion, Control,
 from stickiness.adhesion.solver import ConvergenceError, Effort, PullOffError, relax_from, solve
 from stickiness.core.arguments import grid, number
 
-__all__ = ["PathPoint", "path"]
-
 _CONTROLS = ("pressure", "mean_gap")
-_SUBSTEPS = {
-    True: 16,
-    False: 4,
-}  # smooth law or not: by which a step may be refined for the sake of the balance alone
+# Smooth law or not: by which a step may be refined for the sake of the balance alone.
+_SUBSTEPS = {True: 16, False: 4}
 _LEAST_SCALE = 1e-3  # of energies, over the work of adhesion
 _NEAR_ZERO = 0.01  # share of the path's span below which a place is not located relative to itself
 
@@ -126,23 +122,11 @@ def path(
     values = _check_values(values)
     if control not in _CONTROLS:
         raise ValueError(f"control must be 'pressure' or 'mean_gap', got {control!r}")
-    for name, value in (
-        ("balance", balance),
-        ("smallest_jump", smallest_jump),
-        ("located", located),
-        ("steps", steps),
-    ):
+    sizes = {"balance": balance, "smallest_jump": smallest_jump, "located": located, "steps": steps}
+    for name, value in sizes.items():
         number(name, value)
-    first = solve(
-        heights,
-        length,
-        law,
-        **{control: values[0]},
-        start=start,
-        tol=tol,
-        max_iterations=max_iterations,
-        logger=logger,
-    )
+    options = {"start": start, "tol": tol, "max_iterations": max_iterations, "logger": logger}
+    first = solve(heights, length, law, **{control: values[0]}, **options)
     yield PathPoint(first)
     follower = _Follower(
         first=first,
@@ -167,19 +151,7 @@ def path(
 
 @dataclass(eq=False)
 class _Follower:
-    """Follows a path leg by leg.
-
-    Attributes
-    ----------
-    first : Adhesion
-        First state of the path.
-    span : float
-        Between the largest and the smallest value of the control.
-    left : int
-        States that may still be computed.
-    scale : float
-        Largest change of elastic plus interaction energy so far [E* length].
-    """
+    """Follows a path leg by leg."""
 
     first: Adhesion
     scaled: Scaled
@@ -188,10 +160,10 @@ class _Follower:
     balance: float
     smallest_jump: float
     located: float
-    span: float
-    left: int
+    span: float  # between the largest and the smallest value of the control
+    left: int  # states that may still be computed
     logger: object
-    scale: float = 0.0
+    scale: float = 0.0  # largest change of elastic plus interaction energy so far [E* length]
 
     def __post_init__(self):
         self.scale = _LEAST_SCALE * self.first.law.adhesion_length

@@ -8,8 +8,6 @@ from stickiness.adhesion.problem import Problem, Surface
 from stickiness.adhesion.state import lowered
 from stickiness.contact.grids import measure_scale
 
-__all__ = ["APPROACH", "CLOSEST", "SEPARATION", "Adhesion", "Control", "Scaled"]
-
 APPROACH, SEPARATION = "approach", "separation"
 CLOSEST = 0.9  # of the range: penetration of a start, or in the mean, without a wall
 

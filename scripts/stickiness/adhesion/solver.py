@@ -7,13 +7,11 @@ import numpy as np
 
 from stickiness.adhesion import edge_zone
 from stickiness.adhesion.equilibrium import relax
-from stickiness.adhesion.scaling import APPROACH, CLOSEST, SEPARATION, Adhesion, Control, Scaled
+from stickiness.adhesion.scaling import APPROACH, CLOSEST, SEPARATION, Control, Scaled
 from stickiness.contact.grids import check_length, measure_slope
 from stickiness.contact.solver import ConvergenceError
 from stickiness.core.arguments import grid, integer, number, numbers
 from stickiness.core.plausibility import PlausibilityWarning, warn_of_heights, warn_of_pressure
-
-__all__ = ["Adhesion", "ConvergenceError", "PullOffError", "solve"]
 
 # Pixel over epsilon^2/l_a above which edges of contact are a matter of the grid alone. At 2 a
 # sphere of Tabor parameter 5 holds 20 % too much.
@@ -126,27 +124,10 @@ class Effort:
 
 
 def relax_from(scaled, gap, branch, control, effort, spent=(0, 0)):
-    """Find the state that a descent from a gap ends in.
+    """Find the state that a descent from a gap in scaled units ends in; errors as of `solve`.
 
-    Parameters
-    ----------
-    scaled : Scaled
-        Surface and law.
-    gap : numpy.ndarray or None
-        Start in scaled units; None stands for loading from afar.
-    branch : str
-        "approach" or "separation".
-    control : Control
-        Mean pressure or mean gap.
-    effort : Effort
-        Tolerance and largest number of iterations.
-    spent : (int, float)
-        Iterations and convolutions that went into the start.
-
-    Returns
-    -------
-    Adhesion
-        In the caller's units; errors are those of `solve`.
+    None stands for loading from afar. `spent`: iterations and convolutions that went into the
+    start.
     """
     before = scaled.surface.pairs
     problem = scaled.problem(control)

@@ -21,10 +21,11 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from stickiness.closed_forms.contact import Hertz, full_contact_pressure
+from stickiness.closed_forms.contact import Hertz, PositiveFields, full_contact_pressure
 from stickiness.closed_forms.maugis_sphere import (
     MaugisSphere,
     SphereState,
+    check_force,
     maugis_parameter,
     tabor_parameter,
 )
@@ -61,42 +62,25 @@ class HasLaw(Protocol):
 
 
 @dataclass(frozen=True)
-class _Sphere:
+class _Sphere(PositiveFields):
     """Radius and adhesion length, checked."""
 
     radius: float
     adhesion_length: float
-
-    def __post_init__(self):
-        positive(**vars(self))
-
-    def _check_force(self, force: float) -> float:
-        if not np.isfinite(force):
-            raise ValueError(f"force must be finite, got {force!r}")
-        if force < self.pull_off_force:
-            raise ValueError(
-                f"force must be at least the pull-off force {self.pull_off_force:.6g}, "
-                f"got {force!r}"
-            )
-        return float(force)
 
 
 @dataclass(frozen=True)
 class JKRSphere(_Sphere):
     """Adhesive contact of a half-space with a paraboloid, attraction of vanishing range.
 
-    Valid for `tabor_parameter` above about 5. Johnson, Kendall & Roberts, Proc. R. Soc. A 324,
-    301 (1971), doi:10.1098/rspa.1971.0141.
+    Valid for `tabor_parameter` above about 5. ValueError by methods, if a force lies beyond
+    pull-off. Johnson, Kendall & Roberts, Proc. R. Soc. A 324, 301 (1971),
+    doi:10.1098/rspa.1971.0141.
 
     Parameters
     ----------
     radius, adhesion_length : float
         Radius of curvature, work of adhesion over E* [length].
-
-    Raises
-    ------
-    ValueError
-        By methods, if a force lies beyond pull-off.
     """
 
     @property
@@ -137,7 +121,7 @@ class JKRSphere(_Sphere):
 
     def contact_radius(self, force: float) -> float:
         """Contact radius [length] at a force, on the branch that is stable under load control."""
-        force = self._check_force(force)
+        force = check_force(force, self.pull_off_force)
         unit = -self.pull_off_force
         # F + 3 pi R w + sqrt(...) is the perfect square (sqrt(unit) + sqrt(F + unit))^2.
         root = np.sqrt(unit) + np.sqrt(force + unit)
@@ -190,7 +174,7 @@ class DMTSphere(_Sphere):
 
     def contact_radius(self, force: float) -> float:
         """Contact radius [length] at a force [E* length^2]."""
-        force = self._check_force(force)
+        force = check_force(force, self.pull_off_force)
         return float(np.cbrt(0.75 * self.radius * (force - self.pull_off_force)))
 
     def indentation(self, force: float) -> float:
@@ -201,8 +185,10 @@ class DMTSphere(_Sphere):
 def derjaguin_force(radius: float, law: HasLaw, separation: ArrayLike):
     """Force [E* length^2] between a rigid paraboloid and a rigid flat, negative in attraction.
 
-    The rigid limit, `tabor_parameter` to zero, of any law: -2 pi R times the work still to be
-    done. At contact, for laws that only attract, the pull-off force is -2 pi R l_a.
+    The rigid limit, `tabor_parameter` to zero, of any law: -2 pi R times the work still to be done.
+    At contact, for laws that only attract, the pull-off force is -2 pi R l_a. Bradley, Philos. Mag.
+    13, 853 (1932), doi:10.1080/14786449209461990; Derjaguin, Kolloid-Z. 69, 155 (1934),
+    doi:10.1007/BF01433225.
 
     Parameters
     ----------
@@ -212,16 +198,6 @@ def derjaguin_force(radius: float, law: HasLaw, separation: ArrayLike):
         Traction law.
     separation : float or array
         Least gap [length].
-
-    Raises
-    ------
-    ValueError
-        If `radius` is not positive and finite.
-
-    References
-    ----------
-    Bradley, Philos. Mag. 13, 853 (1932), doi:10.1080/14786449209461990; Derjaguin, Kolloid-Z.
-    69, 155 (1934), doi:10.1007/BF01433225.
     """
     (radius,) = positive(radius=radius)
     return plain(2 * np.pi * radius * np.asarray(law.potential(separation)))
@@ -257,19 +233,10 @@ def full_contact_pull_off(heights: ArrayLike, length: float | tuple, law: HasLaw
 def critical_wavelength(slope: ArrayLike):
     """Wavelength [length] above which parallel flats at a uniform gap are unstable.
 
-    A wave of the gap is resisted by the stiffness |q|/2 of the half-space and driven by the slope
-    of the traction: the gap is stable at a fixed mean while ``pi/wavelength`` exceeds minus that
-    slope. In a periodic cell the longest wavelength is the side, whatever its amplitude.
-
-    Parameters
-    ----------
-    slope : float or array
-        Derivative of the traction with respect to the gap [E*/length], negative.
-
-    Raises
-    ------
-    ValueError
-        If `slope` is not negative and finite.
+    A wave of the gap is resisted by the stiffness |q|/2 of the half-space and driven by `slope`,
+    the derivative of the traction with respect to the gap [E*/length], negative and finite (else
+    ValueError): the gap is stable at a fixed mean while ``pi/wavelength`` exceeds minus that slope.
+    In a periodic cell the longest wavelength is the side, whatever its amplitude.
     """
     (steepness,) = positive(**{"-slope": -np.asarray(slope, dtype=float)})
     return plain(np.pi / steepness)

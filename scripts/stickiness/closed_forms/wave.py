@@ -19,8 +19,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy import optimize
 
-from stickiness.closed_forms.contact import Westergaard
-from stickiness.core.arguments import plain, positive
+from stickiness.closed_forms.contact import PositiveFields, Westergaard
+from stickiness.core.arguments import plain
 
 # Gauss-Legendre on [0, 1] after a substitution that is flat of third order at either end: it
 # removes a square root at one and a logarithm at the other to some 1e-11.
@@ -32,13 +32,10 @@ _SAMPLES = 400  # points on which the curve of equilibria is searched for turnin
 
 
 @dataclass(frozen=True)
-class _Wave:
+class _Wave(PositiveFields):
     amplitude: float
     wavelength: float
     adhesion_length: float
-
-    def __post_init__(self):
-        positive(**vars(self))
 
     @property
     def full_contact_amplitude(self) -> float:
@@ -111,12 +108,8 @@ class AdhesiveWave(_Wave):
     def turning_points(self) -> tuple[tuple[float, float], tuple[float, float]]:
         """Pull-off and jump into full contact, as pairs of area fraction and pressure [E*].
 
-        Partial contact is stable under load control between them.
-
-        Raises
-        ------
-        ValueError
-            If alpha exceeds `LARGEST_ALPHA`: the wave then jumps from apart to full contact.
+        Partial contact is stable under load control between them. ValueError if alpha exceeds
+        `LARGEST_ALPHA`: the wave then jumps from apart to full contact.
         """
         if self.alpha >= self.LARGEST_ALPHA:
             raise ValueError(
@@ -139,10 +132,7 @@ class AdhesiveWave(_Wave):
     def area_fraction(self, pressure: float) -> float:
         """Area fraction of the stable partial contact at a mean pressure [E*].
 
-        Raises
-        ------
-        ValueError
-            If there is none, for pressures below pull-off or above the jump into full contact.
+        ValueError if there is none, below pull-off or above the jump into full contact.
         """
         (first, least), (last, most) = self.turning_points
         if not least <= pressure <= most:
@@ -185,21 +175,12 @@ class AdhesiveWave(_Wave):
 
 @dataclass(frozen=True)
 class WaveState:
-    """One equilibrium of the wave under the Maugis law, or arrays of them along a curve.
+    """One equilibrium of the wave under the Maugis law, or arrays of them along a curve."""
 
-    Attributes
-    ----------
-    pressure : float or array
-        Mean pressure [E*].
-    area_fraction : float or array
-        Share of the wave in contact.
-    cohesive_fraction : float or array
-        Share of the wave within the range of attraction, that in contact included; one if the
-        cohesive zones of neighbouring crests have met.
-    """
-
-    pressure: float | NDArray
-    area_fraction: float | NDArray
+    pressure: float | NDArray  # mean [E*]
+    area_fraction: float | NDArray  # share of the wave in contact
+    # Share of the wave within the range of attraction, that in contact included; one if the
+    # cohesive zones of neighbouring crests have met.
     cohesive_fraction: float | NDArray
 
 
@@ -241,11 +222,8 @@ class MaugisWave(_Wave):
     def at_cohesive_fraction(self, cohesive_fraction: float) -> WaveState:
         """Return the equilibrium whose attraction covers a given share of the wave, below one.
 
-        Raises
-        ------
-        ValueError
-            If the share is not between 0 and 1, or the gap could not be so small there even with
-            a point contact.
+        ValueError if the share is not between 0 and 1, or the gap could not be so small there even
+        with a point contact.
         """
         c = float(self._phase(cohesive_fraction, "cohesive_fraction"))
         a = self._contact_phase(c)

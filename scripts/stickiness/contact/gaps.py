@@ -31,8 +31,6 @@ from stickiness.contact import subpixel as edges_of_contact
 from stickiness.contact.subpixel import gap_and_contact
 from stickiness.core.arguments import positive
 
-__all__ = ["attractive_area", "gap_density"]
-
 
 def attractive_area(
     gap: ArrayLike, eps: ArrayLike, contact: ArrayLike | None = None, *, subpixel: bool = False
@@ -46,8 +44,7 @@ def attractive_area(
     eps : float or array
         Range(s) of attraction [length].
     contact : bool array of the gap's shape, optional
-        True where the surfaces touch; by default where the gap is exactly zero. Contact points
-        do not count.
+        True where the surfaces touch; by default where the gap is exactly zero.
     subpixel : bool
         Place the edge of contact between the pixels, and the gap beside it by the edge law (see
         the module's notes). Needs the gap's two axes, periodic.
@@ -55,7 +52,7 @@ def attractive_area(
     Returns
     -------
     float or array of the shape of `eps`
-        A_ad/A_nom, the fraction with 0 < gap <= eps.
+        A_ad/A_nom, the fraction with 0 < gap <= eps, contact points excluded.
 
     Raises
     ------

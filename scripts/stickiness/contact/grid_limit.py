@@ -45,34 +45,17 @@ class Estimate:
 
 @dataclass(frozen=True)
 class Rule:
-    """How far a quantity is extrapolated and what its error is made of.
+    """How far a quantity is extrapolated and what its error is made of."""
 
-    Attributes
-    ----------
-    change : float
-        Share of the last change between grids.
-    part : float
-        Share of the sub-pixel part of the value.
-    noise : float
-        The same over the square root of the number of edge pixels.
-    unresolved_part : float
-        Takes the place of `part` at ranges far below the edge gap.
-    weight : float
-        Share of the last change that is added to the value far below the edge gap; it falls
-        to zero as the range rises to `resolved` edge gaps.
-    resolved : float
-        See `weight`.
-    order : float
-        Power of the pixel size with which changes fall.
-    """
-
-    change: float
-    part: float
-    noise: float
-    unresolved_part: float = 0.0
+    change: float  # share of the last change between grids
+    part: float  # share of the sub-pixel part of the value
+    noise: float  # the same over the square root of the number of edge pixels
+    unresolved_part: float = 0.0  # in place of `part` at ranges far below the edge gap
+    # Share of the last change that is added to the value far below the edge gap; it falls to zero
+    # as the range rises to `resolved` edge gaps.
     weight: float = 0.0
     resolved: float = 0.6
-    order: float = 1.7
+    order: float = 1.7  # power of the pixel size with which changes fall
 
 
 RULES = {
@@ -95,9 +78,8 @@ def estimate(
     quantity : {"area_fraction", "mean_gap", "attractive_area", "gap_density"}
         Names a `Rule` of `RULES`.
     values : sequence of two or three
-        The quantity on grids from coarse to fine, each twice as fine as the one before. Numbers,
-        numpy arrays or DataArrays that broadcast. With three grids the error is steadier: a
-        change that is small by chance is seldom so twice.
+        The quantity on grids from coarse to fine, each twice as fine as the one before, as arrays
+        that broadcast. The error is steadier with three.
     part : like the values
         What sub-pixel edges contribute on the finest grid, of either sign: the value less the
         one counted in pixels for areas; for the mean gap that of the contact area times the
@@ -152,23 +134,10 @@ def estimate(
 
 
 def richardson(coarse: Values, fine: Values, order: float = 1.0) -> Values:
-    """Extrapolate from two grids, one twice as fine, an error that falls with a known power.
+    """Extrapolate from two grids, one twice as fine, an error that falls with the power `order`.
 
-    Parameters
-    ----------
-    coarse, fine : float or array
-        Values on the two grids.
-    order : float
-        Power of the pixel size; 1 for areas counted in pixels.
-
-    Raises
-    ------
-    ValueError
-        If the order is not positive.
-
-    References
-    ----------
-    Richardson, Phil. Trans. R. Soc. A 210, 307 (1911), doi:10.1098/rsta.1911.0009.
+    The order is 1 for areas counted in pixels; ValueError unless it is positive. Richardson, Phil.
+    Trans. R. Soc. A 210, 307 (1911), doi:10.1098/rsta.1911.0009.
     """
     if not order > 0:
         raise ValueError(f"order must be positive, got {order!r}")
@@ -178,8 +147,8 @@ def richardson(coarse: Values, fine: Values, order: float = 1.0) -> Values:
 def observed_order(coarse: Values, middle: Values, fine: Values) -> Values:
     """Power of the pixel size with which three grids converge: log2 of the ratio of changes.
 
-    Arrays of several cases are pooled by the root mean square of their changes along the first
-    axis, for the ratio of two changes of random sign means nothing alone.
+    Arrays of cases are pooled by the rms of their changes along the first axis: the ratio of two
+    changes of random sign means nothing alone.
     """
     first, second = (
         np.sqrt(np.mean(np.atleast_1d(change) ** 2, axis=0))

@@ -4,17 +4,9 @@ import numpy as np
 
 from stickiness.core.arguments import positive
 
-__all__ = ["check_length", "coarsen", "interpolate", "measure_scale", "measure_slope", "sample"]
-
 
 def check_length(length, shape):
-    """Sides of a cell of `shape` points from one (pixels are then square) or both.
-
-    Raises
-    ------
-    ValueError
-        If these are not one or two positive numbers.
-    """
+    """Sides of a cell of `shape` points from one (pixels are then square) or both, checked."""
     (sides,) = positive(length=length)
     if sides.size == 1:
         side = float(sides.ravel()[0])

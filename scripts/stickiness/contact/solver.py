@@ -33,8 +33,6 @@ from stickiness.contact.grids import (
 from stickiness.core.arguments import grid, integer, number
 from stickiness.core.plausibility import warn_of_heights, warn_of_pressure
 
-__all__ = ["Contact", "ConvergenceError", "load_path", "solve"]
-
 _COARSEST = 64  # points along the shorter side of the coarsest grid
 _NEAR = 0.005  # relative change of load up to which the last solution is the better start
 _LOOSEST = 0.1  # of h_rms: beyond this no solution is worth the name
@@ -91,12 +89,7 @@ class Contact:
 class ConvergenceError(RuntimeError):
     """The contact conditions were not met to the tolerance.
 
-    Attributes
-    ----------
-    contact : Contact
-        Best iterate.
-    residual : float
-        Its residual, in units of h_rms.
+    `contact` is the best iterate, `residual` its residual in units of h_rms.
     """
 
     def __init__(self, message, contact):
@@ -174,19 +167,15 @@ def solve(heights, length, pressure, tol=1e-8, start=None, max_iterations=1000, 
 def press(heights, lengths, pressure, tol, start=None, max_iterations=1000, logger=None):
     """Solve as `solve` does, of arguments that were checked, in any unit: nothing is warned of."""
     mean, rms = measure_scale(heights)
-    if rms == 0:
-        return _flat(heights, lengths, pressure)
-    if pressure == 0:
-        return _touching(heights, lengths, rms)
+    if rms == 0 or pressure == 0:
+        return _without_iterations(heights, lengths, pressure, rms)
     scaled = heights - mean
     scaled /= rms
     problem = active_set.Problem(
         scaled, (1.0, lengths[1] / lengths[0]), pressure * (lengths[0] / rms)
     )
     work = []
-    guess = None
-    if start is not None and start.area_fraction > 0:
-        guess = start.pressure
+    guess = start.pressure if start is not None and start.area_fraction > 0 else None
     state = active_set.relax(
         problem,
         tol=tol,
@@ -221,24 +210,17 @@ def press(heights, lengths, pressure, tol, start=None, max_iterations=1000, logg
 
 
 def load_path(heights, length, pressures, tol=1e-8, **options):
-    """Solve one surface at several mean pressures.
+    """Solve one surface at several mean pressures; yields one `Contact` for each, in order.
 
-    A solution at nearly the same pressure is the start of the next; beyond `_NEAR` of relative
-    change the coarser grids predict the contact set better, and every solution starts from those.
+    A solution at nearly the same pressure is the start of the next; beyond a relative change of 0.5
+    % the coarser grids predict the contact set better, and every solution starts from those.
 
     Parameters
     ----------
-    heights, length, tol
-        As for `solve`.
     pressures : iterable of float
         Mean pressures in units of E*.
-    **options
-        Further arguments of `solve` but `start`.
-
-    Yields
-    ------
-    Contact
-        One solution per pressure, in the order given.
+    heights, length, tol, **options
+        As for `solve`, which also takes `start`.
     """
     last = None
     for pressure in pressures:
@@ -251,14 +233,7 @@ def load_path(heights, length, pressures, tol=1e-8, **options):
 def coarse_gap(problem, work, logger=None):
     """First guess of the gap from coarser grids, in single precision; None for a small grid.
 
-    Parameters
-    ----------
-    problem : active_set.Problem
-        The problem on the fine grid.
-    work : list of float
-        Gets the convolutions on every coarser grid, times its points.
-    logger : logging.Logger, optional
-        Told the progress.
+    `work` gets the convolutions on every coarser grid, times its points.
     """
     shape = problem.heights.shape
     if min(shape) < 2 * _COARSEST:
@@ -277,30 +252,15 @@ def coarse_gap(problem, work, logger=None):
     return interpolate(state.gap, shape)
 
 
-def _flat(heights, lengths, pressure):
+def _without_iterations(heights, lengths, pressure, rms):
+    """Contact of a flat, which is in full contact, or of any surface that carries no load."""
+    top = float(heights.max() if rms > 0 else heights.flat[0])
+    gap = top - heights if rms > 0 else np.zeros(heights.shape)
     return Contact(
         pressure=np.full(heights.shape, pressure),
-        gap=np.zeros(heights.shape),
+        gap=gap,
         mean_pressure=pressure,
         area_fraction=1.0 if pressure > 0 else 0.0,
-        mean_gap=0.0,
-        shift=float(heights.flat[0]),
-        residual=0.0,
-        iterations=0,
-        fft_pairs=0.0,
-        length=lengths,
-        rms_height=0.0,
-    )
-
-
-def _touching(heights, lengths, rms):
-    top = float(heights.max())
-    gap = top - heights
-    return Contact(
-        pressure=np.zeros(heights.shape),
-        gap=gap,
-        mean_pressure=0.0,
-        area_fraction=0.0,
         mean_gap=float(gap.mean()),
         shift=top,
         residual=0.0,

@@ -49,17 +49,14 @@ _LEVEL = 1e-6  # relative difference of s below which neighbours count as equal
 def boundary_strip(contact: ArrayLike) -> float:
     """Area fraction by which a contact made of whole pixels exceeds the true one.
 
+    `STRIP_WIDTH` times the number of pixel sides between contact and gap, per pixel, for edges
+    without preferred direction. Subtract it from the contact's area fraction, add it to the
+    attractive one.
+
     Parameters
     ----------
     contact : (..., n, n) bool array
         True where the surfaces touch; periodic in the last two axes.
-
-    Returns
-    -------
-    float
-        `STRIP_WIDTH` times the number of pixel sides between contact and gap, per pixel, for edges
-        without preferred direction. Subtract it from the contact's area fraction, add it to the
-        attractive one.
 
     Raises
     ------
@@ -86,38 +83,21 @@ def edge_count(contact: ArrayLike) -> int:
 
 
 def perimeter(contact: ArrayLike) -> float:
-    """Length of the edge of contact per nominal area [1/pixel].
+    """Length of the edge of a contact ``(..., n, n)`` per nominal area [1/pixel].
 
     The number of crossings of the edge with the grid's lines, by the Cauchy-Crofton formula: exact
     on average over directions. Divide by the pixel size for the perimeter per area.
-
-    Parameters
-    ----------
-    contact : (..., n, n) bool array
-        True where the surfaces touch; periodic in the last two axes.
     """
     contact = _mask(contact)
     return float(np.pi / 4 * edge_count(contact) / contact.size)
 
 
 def edge_gap(gap: ArrayLike, contact: ArrayLike | None = None) -> float:
-    """Median gap of the open pixels that share a side with the contact [length].
+    """Median gap [length] of the open pixels that share a side with the contact.
 
     The gap's climb in the first pixel. At smaller ranges the attractive zone is narrower than a
     pixel: a count of pixels is then a statement about the grid, `attractive_area` one about the
-    edge law.
-
-    Parameters
-    ----------
-    gap : (..., n, n) array
-        Gap [length], periodic in the last two axes.
-    contact : bool array of the same shape, optional
-        True where the surfaces touch; by default where the gap is exactly zero.
-
-    Raises
-    ------
-    ValueError
-        On malformed arrays, or if nothing or everything touches.
+    edge law. Arguments as of `attractive_area`; ValueError, too, if nothing or everything touches.
     """
     gap, contact = gap_and_contact(gap, contact)
     _require_grid("gap", gap)
@@ -135,25 +115,8 @@ def attractive_area(
 ) -> float | NDArray:
     """Fraction of the nominal area with 0 < gap <= eps, down to ranges far below the `edge_gap`.
 
-    Parameters
-    ----------
-    gap : (..., n, n) array
-        Gap [length] of the repulsive solution, periodic in the last two axes.
-    eps : float or array
-        Range(s) of attraction [length], in any order.
-    contact : bool array of the gap's shape, optional
-        True where the surfaces touch; by default where the gap is exactly zero.
-
-    Returns
-    -------
-    float or array of the shape of `eps`
-        A_ad/A_nom. With the contact's area less its `boundary_strip` the fractions for all ranges
-        add up to one.
-
-    Raises
-    ------
-    ValueError
-        On malformed or negative gaps, or ranges that are not positive.
+    Arguments and errors are those of `gaps.attractive_area`. With the contact's area less its
+    `boundary_strip` the fractions for all ranges add up to one.
     """
     gap, contact = gap_and_contact(gap, contact)
     _require_grid("gap", gap)
@@ -261,17 +224,12 @@ def _between_open_points(s: NDArray, contact: NDArray, levels: NDArray) -> NDArr
 
 @dataclass(frozen=True)
 class _Edges:
-    """Edges of contact on the grid lines along one axis, all arrays of one length.
+    """Edges of contact on the grid lines along one axis, all arrays of one length."""
 
-    `index` is that of the first open point, `distance` its distance from the edge in pixels and
-    `second` the s of the point beyond, NaN where the gap closes again. `lifted` is the s of the
-    first point by the edge law, zero where that of the solution is as good.
-    """
-
-    index: tuple[NDArray, NDArray]
-    distance: NDArray
-    second: NDArray
-    lifted: NDArray
+    index: tuple[NDArray, NDArray]  # of the first open point
+    distance: NDArray  # of that point from the edge, in pixels
+    second: NDArray  # s of the point beyond, NaN where the gap closes again
+    lifted: NDArray  # s of the first point by the edge law, zero where the solution's is as good
 
     def table(self, s: NDArray, weight: float) -> NDArray:
         """Rows of distance, first s, second s and the weight of the lines."""
@@ -303,8 +261,7 @@ def _edges(s: NDArray, contact: NDArray, axis: int) -> _Edges:
 def _lift(s: NDArray, edges: list[_Edges]) -> None:
     """Give points that have hardly opened, in place, the gap that the edge law has there.
 
-    A point opens on the grid when the edge is still 0.2 pixels short of it: its gap is next to
-    nothing where it should be a tenth of the next one's.
+    A point opens on the grid when the edge is still 0.2 pixels short of it, with next to no gap.
     """
     for each in edges:
         np.maximum.at(s, each.index, each.lifted)

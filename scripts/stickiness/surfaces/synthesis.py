@@ -144,24 +144,14 @@ def moments(heights: NDArray, length: float) -> Moments:
     power = np.where((i == 0) & (j == 0), 0.0, power)
     dq = 2 * np.pi / length
     kx, ky = i * dq, j * dq
-    orders = {
-        "m00": (0, 0),
-        "m20": (2, 0),
-        "m02": (0, 2),
-        "m40": (4, 0),
-        "m22": (2, 2),
-        "m04": (0, 4),
-    }
-    return Moments(**{k: float(np.sum(kx**a * ky**b * power)) for k, (a, b) in orders.items()})
+    orders = (0, 0), (2, 0), (0, 2), (4, 0), (2, 2), (0, 4)
+    return Moments(**{f"m{a}{b}": float(np.sum(kx**a * ky**b * power)) for a, b in orders})
 
 
 def resample(heights: NDArray, n: int) -> NDArray:
     """Same band-limited surface on a grid of `n` x `n`, by Fourier interpolation.
 
-    Raises
-    ------
-    ValueError
-        If the coarser grid cannot hold what the heights contain.
+    ValueError if the coarser grid cannot hold what the heights contain.
     """
     heights, n = grid("heights", heights, square=True), integer("n", n, least=1)
     old = heights.shape[0]
@@ -204,8 +194,7 @@ def _check_grid(spectrum: Spectrum, n: int, length: float) -> None:
 def list_modes(spectrum: Spectrum, length: float) -> tuple[NDArray, NDArray, NDArray]:
     """Lattice indices (i, j) of the band, one of each pair +-k, by rising |k|, with variances.
 
-    The order depends on |k| first, so that random numbers drawn in it stay with their modes when
-    the band grows at its upper end.
+    In this order random numbers stay with their modes when the band grows at its upper end.
     """
     dq = 2 * np.pi / length
     reach = int(np.floor(spectrum.q1 / dq * (1 + _ROUNDING)))
