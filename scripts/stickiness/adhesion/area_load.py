@@ -3,7 +3,7 @@
 The attraction is proportional to the repulsion, p_ad/p_rep = (3 a_V/2) (l_a/range)
 (range/h_rms)^(2/3)/(q0 h_rms), whatever the load; all that follows rearranges this ratio. Lengths
 are in one unit of the caller's choice, wave numbers in its inverse, and l_a = (work of
-adhesion)/E*. Arguments broadcast and must be positive and finite: ValueError otherwise.
+adhesion)/E*. Arguments broadcast; ValueError if a length, a wave number or a_V is not positive.
 
 References
 ----------

@@ -7,11 +7,10 @@ pressures are in units of E*; areas are fractions of the nominal area.
 
 from __future__ import annotations
 
-from typing import Protocol
-
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from stickiness.adhesion.laws import TractionLaw
 from stickiness.contact import subpixel as edges_of_contact
 from stickiness.contact.subpixel import gap_and_contact
 from stickiness.core.arguments import numbers, positive
@@ -20,15 +19,8 @@ _PER_DECADE = 64  # ranges at which a traction law is integrated over sub-pixel 
 _SMALLEST = 1e-6  # of them, over the largest gap
 
 
-class HasTraction(Protocol):
-    """Anything that turns a gap into a traction, see `adhesive.TractionLaw`."""
-
-    def traction(self, gap: ArrayLike) -> NDArray:
-        """Traction [E*] at `gap` [length]."""
-
-
 def adhesive_pressure(
-    gap: ArrayLike, law: HasTraction, contact: ArrayLike | None = None, *, subpixel: bool = False
+    gap: ArrayLike, law: TractionLaw, contact: ArrayLike | None = None, *, subpixel: bool = False
 ) -> float:
     """Mean attraction p_ad [E*], the integral of sigma(u) P(u) over the open gaps.
 
@@ -68,7 +60,7 @@ def adhesive_pressure(
     return float(attraction_of_areas(area, ranges, law))
 
 
-def attraction_of_areas(area: ArrayLike, ranges: ArrayLike, law: HasTraction) -> NDArray:
+def attraction_of_areas(area: ArrayLike, ranges: ArrayLike, law: TractionLaw) -> NDArray:
     """Mean attraction p_ad [E*] from attractive areas, the integral of sigma over them.
 
     Gaps up to the smallest range count with the traction at half of it, those beyond the largest

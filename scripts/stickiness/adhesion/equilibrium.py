@@ -1,11 +1,11 @@
 """Stable equilibrium from a start: smooth laws, the law of Maugis, and what has no equilibrium.
 
 A law whose traction jumps (Maugis) is relaxed with its traction frozen at the points within its
-range, a convex problem, and frozen anew. As its potential is concave, it lies below its tangent:
-every such round lowers the energy until the set of points no longer changes, so it cannot
-cycle. At a prescribed load the rounds are monotone too: added attraction lowers the gap
-everywhere, so that from the solution without adhesion the set only grows to the least possible
-(branch of approach), and from full contact it only shrinks to the largest (branch of separation).
+range, a convex problem, and frozen anew. As its potential is concave, every such round lowers the
+energy until the set of points no longer changes: it cannot cycle. At a prescribed load the rounds
+are monotone too, as added attraction lowers the gap everywhere: from the solution without adhesion
+the set only grows to the least possible (approach), from full contact it only shrinks to the
+largest (separation).
 
 A smooth law is relaxed as it is. A state found within a few iterations may be an unstable one
 (two flats at a distance): it is probed for directions of negative curvature, and left along one.
@@ -109,7 +109,9 @@ def _relax_frozen(problem, gap, tol, max_iterations, watch):
             break
         changed = (state.gap <= law.range) != inside
         if not final and changed.any():
-            changed &= np.abs(state.gap - law.range) > _uncertainty(frozen, state)
+            # Only where the gap is farther from the range than it may be from equilibrium.
+            away = float(np.abs(frozen.surface.smoother.apply(state.force)).max())
+            changed &= np.abs(state.gap - law.range) > 2 * frozen.unit * away
         if changed.any():
             inside ^= changed
             aim = None
@@ -120,11 +122,6 @@ def _relax_frozen(problem, gap, tol, max_iterations, watch):
     evaluate(problem, state)
     state.iterations, state.last_run = spent, spent
     return state
-
-
-def _uncertainty(problem, state):
-    """Estimate how far the gaps are from equilibrium."""
-    return 2 * problem.unit * float(np.abs(problem.surface.smoother.apply(state.force)).max())
 
 
 def _unstable_mode(problem, state):

@@ -1,11 +1,10 @@
 """Which adhesive model a set of parameters gets: the DMT limit where it is good enough, or full.
 
-The DMT limit takes the gaps from the contact without adhesion, which costs nothing once that is
-solved. Where it holds within the accuracy asked is read off a table of its measured error, over
-all that a contact depends on: law, Hurst exponent and magnification of the surface (Gaussian, a
-window of one longest wavelength), pressure p/(E* q0 h_rms), range/h_rms and strength
-(l_a/range)/(q0 h_rms) of the attraction. Beyond the table nothing is known, and the full model is
-chosen.
+The DMT limit costs nothing once the contact without adhesion is solved. Where it holds within the
+accuracy asked is read off a table of its measured error, over all that a contact depends on: law,
+Hurst exponent and magnification of the surface (Gaussian, a window of one longest wavelength),
+pressure p/(E* q0 h_rms), range/h_rms and strength (l_a/range)/(q0 h_rms) of the attraction. Beyond
+the table nothing is known, and the full model is chosen.
 """
 
 from __future__ import annotations
@@ -136,16 +135,10 @@ def choose(asked: Mapping[str, Any], surface: Mapping[str, Any], table: ErrorTab
     jtb = np.broadcast_to(q0_h_rms > limit, shape)
     error = np.full(shape, np.nan)
     if is_tabulated(surface):
-        for index in np.ndindex(shape):
-            i, j, k = index
-            error[index] = table.relative_error(
-                asked["law"],
-                surface["hurst"],
-                surface["magnification"],
-                pressures[i],
-                ranges[k],
-                lengths[j] / q0_h_rms,
-            )
+        kind = asked["law"], surface["hurst"], surface["magnification"]
+        for i, j, k in np.ndindex(shape):
+            point = pressures[i], ranges[k], lengths[j] / q0_h_rms
+            error[i, j, k] = table.relative_error(*kind, *point)
     good = jtb & (error <= asked.get("accuracy", 0.0))
     full = {"dmt": np.zeros(shape, bool), "full": np.ones(shape, bool), "auto": ~good}
     return Choice(full[asked["model"]], error, jtb)

@@ -2,12 +2,10 @@
 
 Lengths along the surface are in units of one side of the cell, heights and gaps in units of
 h_rms (of the range of attraction if the surface is flat), pressures in E* times their quotient.
-The energy per area is then
-
-    E(g) = <u K u> / 2 + <phi(g)>,   u = g + h,   K = |q| / 2,   phi' = traction,
-
-and a state of equilibrium at the mean pressure p has ``r = K u + traction(g) + p = 0``, or, with a
-hard wall at ``g = 0``, ``r >= 0`` where ``g = 0`` and ``r = 0`` elsewhere.
+The energy per area is ``E(g) = <u K u> / 2 + <phi(g)>``, ``u = g + h``, ``K = |q| / 2``,
+``phi' = traction``. A state of equilibrium at the mean pressure p has
+``r = K u + traction(g) + p = 0``, or, with a hard wall at ``g = 0``, ``r >= 0`` where ``g = 0`` and
+``r = 0`` elsewhere.
 """
 
 from dataclasses import dataclass

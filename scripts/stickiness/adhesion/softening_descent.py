@@ -1,14 +1,11 @@
 """Quick descent for laws that only soften, at a prescribed pressure, mostly in single precision.
 
-The steps are those of `descent`, in rounds. Within a round, increments of gap, force and energy are
-in single precision. Between rounds everything is computed again in double precision (iterative
+The steps are those of `descent`, in rounds: increments of gap, force and energy are in single
+precision within a round, and computed again in double precision between rounds (iterative
 refinement). Once the force is small it changes linearly with the gap: the law is then evaluated,
-and energies are compared, between rounds only.
-
-The preconditioner allows for the edge of contact, where the wall takes part of a force: a share of
-the force next to the edge is subtracted before smoothing, and the transpose of that afterwards.
-
-If a round raises the energy or changes nothing, the general descent takes over.
+and energies are compared, between rounds only. The preconditioner allows for the edge of contact,
+where the wall takes a share of a force. If a round raises the energy or changes nothing, the
+general descent takes over.
 """
 
 import numpy as np

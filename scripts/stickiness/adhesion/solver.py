@@ -35,11 +35,11 @@ def solve(
 ):
     """Solve the adhesive contact of a half-space with a rigid periodic surface.
 
-    The problem has several solutions in general. The one found is the stable state that a
-    descent in energy reaches from `start`. At a prescribed pressure the states are ordered:
-    that with the widest gaps is where loading from afar ends, that with the closest
-    where unloading from full contact does. `Adhesion.enthalpy` tells which of two states at one
-    pressure is the deeper minimum, `Adhesion.energy` at one mean gap.
+    The problem has several solutions in general. The one found is the stable state, an `Adhesion`,
+    that a descent in energy reaches from `start`. At a prescribed pressure the states are ordered:
+    that with the widest gaps is where loading from afar ends, that with the closest where
+    unloading from full contact does. `Adhesion.enthalpy` tells which of two states at one pressure
+    is the deeper minimum, `Adhesion.energy` at one mean gap.
 
     Parameters
     ----------
@@ -49,10 +49,8 @@ def solve(
         Side of the cell along axis 0 (pixels are then square), or both sides; same unit.
     law : TractionLaw
         Attraction, its adhesion length and range in the same unit.
-    pressure : float
-        Mean pressure in units of E*, negative for tension. Give this or `mean_gap`.
-    mean_gap : float
-        Mean gap, same unit as the heights.
+    pressure, mean_gap : float
+        Give one: mean pressure in units of E*, negative for tension, or mean gap.
     start : str, Adhesion, repulsive.Contact or array_like, optional
         "approach" (default): as from the solution without adhesion at the same control; under
         tension, from the adhesive solution at zero pressure. At a prescribed pressure coarser
@@ -66,11 +64,6 @@ def solve(
         Largest number of iterations.
     logger : logging.Logger, optional
         Told the progress at level DEBUG.
-
-    Returns
-    -------
-    Adhesion
-        Fields, areas, energies, and how well they are in equilibrium.
 
     Raises
     ------

@@ -16,11 +16,11 @@ Radii, wavelengths, adhesion lengths and ranges must be positive and finite: Val
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from stickiness.adhesion.laws import TractionLaw
 from stickiness.closed_forms.contact import Hertz, PositiveFields, full_contact_pressure
 from stickiness.closed_forms.maugis_sphere import (
     MaugisSphere,
@@ -47,18 +47,6 @@ __all__ = [
     "maugis_parameter",
     "tabor_parameter",
 ]
-
-
-class HasLaw(Protocol):
-    """What the closed forms need of a traction law, see `adhesive.TractionLaw`."""
-
-    strength: float
-
-    def traction(self, gap: ArrayLike) -> NDArray:
-        """Traction [E*] at `gap` [length]."""
-
-    def potential(self, gap: ArrayLike) -> NDArray:
-        """Energy per area over E* [length], zero at infinite gap."""
 
 
 @dataclass(frozen=True)
@@ -182,7 +170,7 @@ class DMTSphere(_Sphere):
         return self.contact_radius(force) ** 2 / self.radius
 
 
-def derjaguin_force(radius: float, law: HasLaw, separation: ArrayLike):
+def derjaguin_force(radius: float, law: TractionLaw, separation: ArrayLike):
     """Force [E* length^2] between a rigid paraboloid and a rigid flat, negative in attraction.
 
     The rigid limit, `tabor_parameter` to zero, of any law: -2 pi R times the work still to be done.
@@ -194,8 +182,8 @@ def derjaguin_force(radius: float, law: HasLaw, separation: ArrayLike):
     ----------
     radius : float
         Radius of curvature [length].
-    law : object with ``potential(gap)``
-        Traction law.
+    law : TractionLaw
+        Only its potential is used.
     separation : float or array
         Least gap [length].
     """
@@ -203,28 +191,19 @@ def derjaguin_force(radius: float, law: HasLaw, separation: ArrayLike):
     return plain(2 * np.pi * radius * np.asarray(law.potential(separation)))
 
 
-def flat_pull_off(law: HasLaw) -> float:
+def flat_pull_off(law: TractionLaw) -> float:
     """Mean pressure [E*] at which parallel flats come apart: minus the strength of the law."""
     return -float(law.strength)
 
 
-def full_contact_pull_off(heights: ArrayLike, length: float | tuple, law: HasLaw) -> float:
+def full_contact_pull_off(heights: ArrayLike, length: float | tuple, law: TractionLaw) -> float:
     """Mean pressure [E*] below which full contact with a hard wall is no longer in equilibrium.
 
     Contact is held as long as the tension is nowhere above the traction at zero gap, and that
     tension is the full-contact one. Down to there it is also stable: every point has a positive
     repulsive pressure, so that any small opening costs energy to first order. For the wave
     ``d cos(2 pi x/l)`` it is ``pi d/l`` minus the strength, for the product of two such waves
-    ``sqrt(2) pi d/l`` minus it.
-
-    Parameters
-    ----------
-    heights : array
-        Heights ``(n0, n1)`` [length].
-    length : float or tuple of float
-        Side of the cell along axis 0, or both sides [length].
-    law : object with ``traction(gap)``
-        Traction law whose hard wall is at gap zero.
+    ``sqrt(2) pi d/l`` minus it. Heights and length [length] as for `full_contact_pressure`.
     """
     fluctuation = full_contact_pressure(heights, length, 0.0)
     return float(-fluctuation.min() - law.traction(0.0))

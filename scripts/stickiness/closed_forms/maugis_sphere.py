@@ -68,18 +68,14 @@ class MaugisSphere(PositiveFields):
     The equilibria form one curve, on which the angle t = arccos(a/c) between contact radius a
     and cohesive radius c runs from 0 (large contact) to pi/2 (point contact). The condition that
     the gap be the range at c is quadratic in c at fixed t, so that nothing needs to be iterated
-    along the curve. `separated` continues it beyond the point contact.
+    along the curve. `separated` continues it beyond the point contact. Maugis, J. Colloid Interface
+    Sci. 150, 243 (1992), doi:10.1016/0021-9797(92)90285-T; separated branch: Johnson & Greenwood,
+    J. Colloid Interface Sci. 192, 326 (1997), doi:10.1006/jcis.1997.4984.
 
     Parameters
     ----------
     radius, adhesion_length, range : float
         Radius of curvature, work of adhesion over E*, range of the traction [length].
-
-    References
-    ----------
-    Maugis, J. Colloid Interface Sci. 150, 243 (1992), doi:10.1016/0021-9797(92)90285-T;
-    separated branch: Johnson & Greenwood, J. Colloid Interface Sci. 192, 326
-    (1997), doi:10.1006/jcis.1997.4984.
     """
 
     radius: float

@@ -2,12 +2,9 @@
 
 Units and signs are those of `closed_forms.adhesion`, which exports all of this. The rigid wave is
 ``amplitude * cos(2 pi x / wavelength)``, x the distance from a crest. Phases are
-psi = pi x / wavelength, so that contact of half-width a stands for psi_a = pi a / wavelength and
-for the area fraction ``2 psi_a / pi``.
-
-Fields are real and imaginary parts of one function of the complex phase, as without adhesion
-(`closed_forms.contact.Westergaard`): the real part on the axis is the pressure, the imaginary part
-half the slope of the gap, the value at infinity the mean pressure.
+psi = pi x / wavelength: contact of half-width a stands for psi_a = pi a / wavelength and the area
+fraction ``2 psi_a / pi``. Fields are real and imaginary parts of one function of the complex phase,
+as without adhesion (`closed_forms.contact.Westergaard`).
 """
 
 from __future__ import annotations
@@ -74,20 +71,16 @@ class _Wave(PositiveFields):
 class AdhesiveWave(_Wave):
     """Wave in adhesive contact when the range of attraction is short (JKR's limit).
 
-    Valid while the cohesive zone is short against the contact and its complement; `MaugisWave`
-    has no such limit. With psi half the contact in phase the mean pressure is
-    ``p* (sin^2 psi - alpha sqrt(tan psi))``.
+    Valid while the cohesive zone is short against the contact and its complement; `MaugisWave` has
+    no such limit. With psi half the contact in phase the mean pressure is ``p* (sin^2 psi - alpha
+    sqrt(tan psi))``. Johnson, Int. J. Solids Struct. 32, 423 (1995),
+    doi:10.1016/0020-7683(94)00111-9; mean gap: Carbone & Mangialardi, J. Mech. Phys. Solids 52,
+    1267 (2004), doi:10.1016/j.jmps.2003.12.001.
 
     Parameters
     ----------
     amplitude, wavelength, adhesion_length : float
         Of the wave, and work of adhesion over E* [length].
-
-    References
-    ----------
-    Johnson, Int. J. Solids Struct. 32, 423 (1995), doi:10.1016/0020-7683(94)00111-9;
-    mean gap: Carbone & Mangialardi, J. Mech. Phys. Solids 52, 1267 (2004),
-    doi:10.1016/j.jmps.2003.12.001.
     """
 
     # Largest alpha at which contact is partial without load, (27/256)^(1/4) = 0.570: the largest
@@ -194,17 +187,13 @@ class MaugisWave(_Wave):
     zero beyond, and leaves the gap flat in contact. Hence the mean pressure
     ``p* sin^2 a - (2 s/pi) arccos(cos c/cos a)``. The gap at c is the range, which for a given c
     has one root a; the curve of equilibria is therefore followed along c, and, once c has reached
-    the trough, along a with ``p* sin^2 a - s``.
+    the trough, along a with ``p* sin^2 a - s``. The same problem by other means: Hui, Lin, Baney &
+    Kramer, J. Polym. Sci. B 39, 1195 (2001).
 
     Parameters
     ----------
     amplitude, wavelength, adhesion_length, range : float
         Of the wave, work of adhesion over E*, range of the traction [length].
-
-    References
-    ----------
-    The same problem by other means: Hui, Lin, Baney & Kramer, The mechanics of contact and
-    adhesion of periodically rough surfaces, J. Polym. Sci. B 39, 1195 (2001).
     """
 
     range: float

@@ -143,7 +143,10 @@ def relax(problem, *, tol, max_iterations, gap=None, pressure=None, rough=False,
         if best is None or residual < best[-1]:
             best, stale = (points, pressure, shift, residual), 0
         if logger is not None:
-            _report(logger, grid, residual, points.size, iterations)
+            logger.info(
+                "%d x %d: residual %.1e h_rms, area %.5f, %d iterations",
+                *(*grid.shape, residual, points.size / heights.size, iterations),
+            )
         if residual <= tol or iterations >= max_iterations or stale > _SURRENDER:
             break
         if below.size + points.size == 1:
@@ -192,16 +195,6 @@ def _full_contact(grid, load):
     pressure += load
     misfit[...] = 0
     return State(pressure, misfit, 0.0, 1.0, residual, 0, grid.pairs)
-
-
-def _report(logger, grid, residual, size, iterations):
-    logger.info(
-        "%d x %d: residual %.1e h_rms, area %.5f, %d iterations",
-        *grid.shape,
-        residual,
-        size / grid.heights.size,
-        iterations,
-    )
 
 
 def _gap(grid, field, points, pressure):

@@ -221,14 +221,8 @@ def _stride(n):
 
 
 def _blocks(rows, size):
-    """Blocks of at most `size` rows, with an index of each."""
+    """Blocks of rows, each with its index: a slice (no copy) where they follow one another."""
     for start in range(0, rows.size, size):
         block = rows[start : start + size]
-        yield block, _span(block)
-
-
-def _span(rows):
-    """Index of some rows: a slice (quick, no copy) where they follow one another."""
-    if rows[-1] - rows[0] + 1 == rows.size:
-        return slice(int(rows[0]), int(rows[-1]) + 1)
-    return rows
+        first, last = int(block[0]), int(block[-1])
+        yield block, slice(first, last + 1) if last - first + 1 == block.size else block

@@ -1,27 +1,24 @@
 """Continuum limit of contact results from grids of two or three resolutions, with an error.
 
-Every grid samples the same band-limited surface, each half as fine as the next. What is left to
-extrapolate depends on what has been done on one grid already:
+Every grid samples the same band-limited surface, each half as fine as the next.
 
 * *Counted in pixels*, areas are of first order in the pixel. `richardson` takes about two thirds of
   the error of the contact area away at 4 + 8 points per shortest wavelength.
-* *With sub-pixel edges* (`subpixel`) that order is gone, and with it more than nine tenths of the
-  error. From grid to grid the contact area still changes with the power 1.7, attractive areas at
-  ranges above the edge gap with 1.6, their slope P(u) with 1.5, the mean gap with 2.6; but the sign
-  of a change is a matter of how the pixels happen to lie on the spots. It does not predict that
-  of the next change, and extrapolation with these orders makes the error larger. The change does
-  say how large the error may be.
+* *With sub-pixel edges* (`subpixel`) more than nine tenths of the error are gone. From grid to grid
+  the contact area still changes with the power 1.7, attractive areas at ranges above the edge gap
+  with 1.6, their slope P(u) with 1.5, the mean gap with 2.6; but the sign of a change depends on
+  how the pixels lie on the spots, so that extrapolation makes the error larger. The change does say
+  how large the error may be.
 * Attractive areas at ranges *below the edge gap* rest on the edge law. Its error, from curved
   edges and narrow clefts, is of first order and mostly of one sign: it is extrapolated in part.
 
-`estimate` applies this. Its error is no standard deviation: it covers the true error of a single
-surface in at least 90 % of cases. It adds in quadrature a share of the last change, a share of
-what the sub-pixel edges contributed to the value (the systematic part), and the same over the
-square root of the number of edge pixels (the random part). The coefficients were fitted on 84
-contacts of magnification 16, 32 and 64, solved with up to 2048 points per side. On 49 others, of
-magnification 64 and 128 with up to 4096 points and Hurst exponents 0.5 to 0.9, coverage is 90 to
-100 %, quantity by quantity; the error is two to five times the root mean square of the true one,
-for the fit includes surfaces of few spots (``benchmarks/continuum.py``).
+The error of `estimate` covers the true one of a single surface in at least 90 % of cases. It adds
+in quadrature a share of the last change, a share of what the sub-pixel edges contributed (the
+systematic part), and the same over the square root of the number of edge pixels (the random part).
+The coefficients were fitted on 84 contacts of magnification 16 to 64, with up to 2048 points per
+side. On 49 others, of magnification 64 and 128, up to 4096 points and Hurst exponents 0.5 to 0.9,
+coverage is 90 to 100 %, quantity by quantity; the error is two to five times the rms of the true
+one, for the fit includes surfaces of few spots (``benchmarks/continuum.py``).
 """
 
 from __future__ import annotations
@@ -73,6 +70,9 @@ def estimate(
 ) -> Estimate:
     """Continuum limit of a quantity measured with sub-pixel edges, and its error.
 
+    For the mean of several surfaces pass means of `values` and `part` and the *sum* of `edges`: the
+    error's random part falls with their number.
+
     Parameters
     ----------
     quantity : {"area_fraction", "mean_gap", "attractive_area", "gap_density"}
@@ -89,12 +89,6 @@ def estimate(
         Number of pixel sides between contact and gap on the finest grid.
     climbs : like the values
         Range over the edge gap of the finest grid; needed for attractive areas.
-
-    Returns
-    -------
-    Estimate
-        For the mean of several surfaces pass means of `values` and `part` and the *sum* of
-        `edges`: the error's random part falls with their number.
 
     Raises
     ------

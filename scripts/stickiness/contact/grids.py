@@ -37,7 +37,7 @@ def measure_slope(heights, lengths):
 
 def coarsen(n):
     """Points along an axis of the next coarser grid."""
-    return n // 2 if n % 2 == 0 else (n + 1) // 2
+    return (n + 1) // 2
 
 
 def sample(field, shape):

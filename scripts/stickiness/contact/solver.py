@@ -4,17 +4,13 @@ Given heights ``h`` and a mean pressure, find the pressure ``p >= 0`` and the ga
 ``p g = 0`` where ``g = u + shift - h`` and ``u_q = 2 p_q / |q|`` (Polonsky and Keer, Wear 231:206,
 1999, doi 10.1016/S0043-1648(99)00113-1; Stanley and Kato, doi 10.1115/1.2833523).
 
-The method is an active-set one:
-
 * For a guess of the contact set, preconditioned conjugate gradients solve ``g = 0`` there for the
   pressure (`preconditioner`). The number of iterations hardly depends on the grid.
 * Points under tension are released and points that penetrate are added, until neither is left.
   While the set still changes, the inner solution is a rough one.
-* Coarser grids supply a first guess of the gap, which is smooth enough to be interpolated.
-  Together with the exact heights it gives a pressure. A point is put into contact where
-  ``p > c k g``, k being the stiffness of a single pixel: this predicts the set to a per cent.
-
-Everything is solved in units of one side of the cell, ``h_rms`` and E*.
+* Coarser grids supply a first guess of the gap, which is smooth enough to be interpolated. With the
+  exact heights it gives a pressure. A point is put into contact where ``p > c k g``, k being the
+  stiffness of a single pixel: this predicts the set to a per cent.
 """
 
 from dataclasses import dataclass, replace
@@ -45,16 +41,13 @@ class Contact:
 
     Attributes
     ----------
-    pressure : numpy.ndarray
-        Contact pressure in units of E*, zero outside contact, ``(n0, n1)``.
-    gap : numpy.ndarray
-        Gap in the unit of the heights; zero in contact, positive outside.
-    mean_pressure : float
-        Prescribed mean pressure in units of E*.
+    pressure, gap : numpy.ndarray
+        Contact pressure in units of E*, zero outside contact; gap in the unit of the heights, zero
+        in contact and positive outside; ``(n0, n1)``.
+    mean_pressure, mean_gap : float
+        Prescribed mean pressure in units of E*, mean of `gap`.
     area_fraction : float
         Share of points with positive pressure.
-    mean_gap : float
-        Mean of `gap`, unit of the heights.
     shift : float
         Rigid displacement in ``gap = u + shift - h``, with u of zero mean; unit of the heights.
     residual : float
@@ -98,7 +91,9 @@ class ConvergenceError(RuntimeError):
         self.residual = contact.residual
 
 
-def solve(heights, length, pressure, tol=1e-8, start=None, max_iterations=1000, logger=None):
+def solve(
+    heights, length, pressure, tol=1e-8, start=None, max_iterations=1000, logger=None
+) -> Contact:
     """Solve the contact of a half-space with a rigid periodic surface at a mean pressure.
 
     Parameters
@@ -106,8 +101,7 @@ def solve(heights, length, pressure, tol=1e-8, start=None, max_iterations=1000, 
     heights : array_like
         Heights ``(n0, n1)`` of the rigid surface (positive towards the half-space), any unit.
     length : float or tuple of float
-        Side of the cell along axis 0 (pixels are then square), or both sides; same unit as the
-        heights.
+        Side of the cell along axis 0 (pixels are then square), or both sides; same unit.
     pressure : float
         Mean pressure in units of E*. Zero stands for touching at the summit, without contact.
     tol : float
@@ -119,11 +113,6 @@ def solve(heights, length, pressure, tol=1e-8, start=None, max_iterations=1000, 
         Largest number of iterations on the given grid.
     logger : logging.Logger, optional
         Told the progress at level INFO.
-
-    Returns
-    -------
-    Contact
-        Pressure, gap and how well they meet the contact conditions.
 
     Raises
     ------

@@ -1,23 +1,20 @@
 """Areas of a discrete contact finer than its pixels: the edge of contact and the gap beside it.
 
-The solution on a grid touches at whole pixels, while the gap next to an edge of contact grows as
-``u = C x^(3/2)`` with the distance x. At 8 pixels per shortest wavelength it climbs to about 0.01
-h_rms across the first pixel, so that a count of pixels says nothing about smaller ranges of
-attraction. Two facts say more:
+The solution on a grid touches at whole pixels, while the gap grows from an edge of contact as
+``u = C x^(3/2)``. At 8 pixels per shortest wavelength it climbs to about 0.01 h_rms across the
+first pixel: a count of pixels says nothing about smaller ranges of attraction. Two facts say more:
 
 * *Where the edge is.* The discrete contact is too large by a strip along its edge, `STRIP_WIDTH`
-  pixels per pixel side of boundary. Yastrebov, Anciaux & Molinari (Tribol. Int. 114, 161, 2017,
-  arXiv:1701.02727) introduced the correction, with the width (pi - 1 + ln 2)/24 = 0.118 from
-  geometry. Here the width is measured: 0.096 +- 0.006 on straight edges of known position
-  (Westergaard's waves in all directions), 0.095 at 64 points per wavelength on rough surfaces and
-  0.103 at 8, against counts of 32 and 64 points extrapolated with their order, one.
+  pixels per pixel side of boundary (Yastrebov, Anciaux & Molinari, Tribol. Int. 114, 161, 2017,
+  arXiv:1701.02727, with 0.118 from geometry). Measured, the width is 0.096 +- 0.006 on straight
+  edges of known position (Westergaard's waves in all directions), 0.095 at 64 points per wavelength
+  on rough surfaces and 0.103 at 8, against counts of 32 and 64 points extrapolated linearly.
 * *How the gap leaves it.* In ``s = u^(2/3)`` the edge law is a straight line, whose slope the
-  second open pixel gives: the first one, beside the edge, is where the discrete solution differs
-  from the law. The ratio of the two says how far the edge is.
+  second open pixel gives: the first one is where the discrete solution differs from the law. The
+  ratio of the two says how far the edge is.
 
-Both are used on grid lines: an area is the mean length of its intersections with the lines of
-the grid, along both axes (Cavalieri), and on a line everything is a matter of intervals between
-neighbouring points, in which s is interpolated linearly.
+An area is the mean length of its intersections with the grid lines along both axes (Cavalieri); on
+a line, s is interpolated linearly between neighbouring points.
 """
 
 from __future__ import annotations
@@ -47,25 +44,11 @@ _LEVEL = 1e-6  # relative difference of s below which neighbours count as equal
 
 
 def boundary_strip(contact: ArrayLike) -> float:
-    """Area fraction by which a contact made of whole pixels exceeds the true one.
+    """Area fraction by which a contact ``(..., n, n)`` of whole pixels exceeds the true one.
 
     `STRIP_WIDTH` times the number of pixel sides between contact and gap, per pixel, for edges
     without preferred direction. Subtract it from the contact's area fraction, add it to the
-    attractive one.
-
-    Parameters
-    ----------
-    contact : (..., n, n) bool array
-        True where the surfaces touch; periodic in the last two axes.
-
-    Raises
-    ------
-    ValueError
-        If `contact` is not boolean, empty, or has fewer than two dimensions.
-
-    References
-    ----------
-    Yastrebov, Anciaux & Molinari, Tribol. Int. 114, 161 (2017), arXiv:1701.02727.
+    attractive one. ValueError if `contact` is not boolean, empty, or has fewer than two dimensions.
     """
     contact = _mask(contact)
     sides = _sides(contact)
@@ -131,7 +114,10 @@ def attractive_area(
     for field, touching in zip(_grids(gap), _grids(contact), strict=True):
         s = np.cbrt(np.maximum(field, 0.0)) ** 2
         found = [_edges(s, touching, axis) for axis in (0, 1)]
-        _lift(s, found)
+        # A point opens on the grid when the edge is still 0.2 pixels short of it, with next to no
+        # gap: it gets the one that the edge law has there.
+        for each in found:
+            np.maximum.at(s, each.index, each.lifted)
         for axis, weight in enumerate(weights):
             rows, mask = (s, touching) if axis == 1 else (s.T, touching.T)
             for part in _blocks(rows.shape):
@@ -256,15 +242,6 @@ def _edges(s: NDArray, contact: NDArray, axis: int) -> _Edges:
     lifted = np.where(low, second * distance / (1 + distance), 0.0)
     # Where the gap closes again there is no second point to tell the slope.
     return _Edges((row, column), distance, np.where(rises, second, np.nan), lifted)
-
-
-def _lift(s: NDArray, edges: list[_Edges]) -> None:
-    """Give points that have hardly opened, in place, the gap that the edge law has there.
-
-    A point opens on the grid when the edge is still 0.2 pixels short of it, with next to no gap.
-    """
-    for each in edges:
-        np.maximum.at(s, each.index, each.lifted)
 
 
 def _beside_edges(edges: NDArray, levels: NDArray) -> NDArray:

@@ -67,8 +67,8 @@ class ScaleNodes:
 def scale_nodes(spectrum: Spectrum, nodes: float = 1.0) -> ScaleNodes:
     """Quadratures over the scales of a spectrum; `nodes` multiplies their numbers of nodes.
 
-    Composite Gauss quadrature for continuous spectra; every shell is a node of its own. Where there
-    are very many shells or points of a table, neighbours are put together.
+    Gauss quadrature for continuous spectra; every shell is a node of its own. Where there are very
+    many shells or points of a table, neighbours are put together.
     """
     if isinstance(spectrum, Shells):
         return _grouped_nodes(_shell_nodes(spectrum), nodes)

@@ -190,8 +190,7 @@ class Persson:
     def first_moment(self, p: ArrayLike) -> NDArray:
         """Mean gap [length] that P(u) implies, int u P du.
 
-        The theory does not make it equal to `mean_gap`; the difference measures how well P(u)
-        closes.
+        The difference from `mean_gap` measures how well P(u) closes.
         """
         (p,) = positive(p=p)
         errors = [closure_error(self._profile(float(x), _REACH)) for x in p.ravel()]

@@ -106,10 +106,8 @@ class PowerLawSegments(Spectrum):
     ----------
     knots : (m + 1,) array
         Increasing wave numbers that separate the m segments.
-    level : (m,) array
-        C at the left end of each segment.
-    exponent : (m,) array
-        Exponent a of each segment.
+    level, exponent : (m,) array
+        C at the left end of each segment, and its exponent a.
     """
 
     prescribed = "C"

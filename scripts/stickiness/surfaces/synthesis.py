@@ -1,9 +1,9 @@
 """Random surfaces on a periodic square window: synthesis, spectrum and moments.
 
-A window of side L holds the wave vectors 2 pi (i, j)/L and no others. What a surface made on it
-really has is its lattice spectrum, not the continuous one that was asked for (at H = 0.8 the
-four modes of the longest wavelength carry more than half the height variance), so that is what
-simulation and theory are compared on.
+A window of side L holds the wave vectors 2 pi (i, j)/L and no others. A surface made on it has its
+lattice spectrum, not the continuous one that was asked for (at H = 0.8 the four modes of the
+longest wavelength carry more than half the height variance): simulation and theory are compared on
+that.
 """
 
 from __future__ import annotations
@@ -26,10 +26,9 @@ _ROUNDING = 1e-9  # relative slack on band limits that coincide with lattice wav
 
 @dataclass(frozen=True)
 class Moments:
-    """Spectral moments of a periodic surface, from its heights.
+    """Spectral moments of a periodic surface: ``m20`` is the mean of (dh/dx)^2 and so on.
 
-    ``m20`` stands for the mean of (dh/dx)^2, ``m22`` of (d2h/dx dy)^2 and so on; lengths as the
-    heights' and the window's.
+    ``m22`` is that of (d2h/dx dy)^2; lengths as the heights' and the window's.
     """
 
     m00: float
