@@ -1,9 +1,9 @@
 """Starts of a descent when loading begins from afar: contact without adhesion, coarser grids.
 
-The solution without adhesion has wider gaps than any adhesive state, so that a descent from it ends
-on the branch of approach. The adhesive state on a grid half as fine is a better start, unless it
-lies beyond a jump that the fine grid does not make. A descent that meets no negative curvature
-makes no jump: coarser grids are used only while no descent on any grid meets one.
+The solution without adhesion has wider gaps than any adhesive state: a descent from it ends on the
+branch of approach. The adhesive state on a grid half as fine is a better start, unless it lies
+beyond a jump that the fine grid does not make. So coarser grids are used only while no descent on
+any grid meets negative curvature, without which there is no jump.
 """
 
 from dataclasses import replace

@@ -3,14 +3,12 @@
 Lengths are in one unit of the caller's choice, pressures in units of the plane-strain modulus E*,
 forces in units of E* times length squared. The adhesion length is l_a = (work of adhesion)/E*.
 Pressures, forces and indentations are positive in compression, so a pull-off force is negative.
+Radii, wavelengths, adhesion lengths and ranges must be positive and finite: ValueError otherwise.
 
 Which model holds for a sphere of radius R depends on `tabor_parameter`: `JKRSphere` from about 5
 on, `DMTSphere` below about 0.1, `MaugisSphere` anywhere for the Maugis law; `derjaguin_force` is
 the rigid limit for every law. Paraboloids stand for spheres: contact radii are small against R.
-For a wave, `AdhesiveWave` is the limit of short range and `MaugisWave` holds for any range of
-the Maugis law.
-
-Radii, wavelengths, adhesion lengths and ranges must be positive and finite: ValueError otherwise.
+For a wave, `AdhesiveWave` is the limit of short range, `MaugisWave` holds for any range.
 """
 
 from __future__ import annotations

@@ -115,11 +115,9 @@ class AdhesiveWave(_Wave):
             return 4 * np.sin(psi) ** 1.5 * np.cos(psi) ** 2.5 - self.alpha
 
         middle = np.arctan(np.sqrt(0.6))
-        ends = (
-            optimize.brentq(slope, 0, middle, xtol=1e-15),
-            optimize.brentq(slope, middle, np.pi / 2, xtol=1e-15),
-        )
-        first, last = (float(2 / np.pi * psi) for psi in ends)
+        ends = (0, middle), (middle, np.pi / 2)
+        roots = (optimize.brentq(slope, *end, xtol=1e-15) for end in ends)
+        first, last = (float(2 / np.pi * psi) for psi in roots)
         return (first, self.pressure(first)), (last, self.pressure(last))
 
     def area_fraction(self, pressure: float) -> float:
@@ -277,12 +275,11 @@ class MaugisWave(_Wave):
         if low[1] == np.pi / 2:
             sine = np.sqrt((pressure + self.strength) / self.full_contact_amplitude)
             return self._state(float(np.arcsin(sine)), np.pi / 2)
-        c = optimize.brentq(
-            lambda c: self._state(self._contact_phase(c), c).pressure - pressure,
-            low[1],
-            high[1],
-            xtol=1e-14,
-        )
+
+        def excess(c):
+            return self._state(self._contact_phase(c), c).pressure - pressure
+
+        c = optimize.brentq(excess, low[1], high[1], xtol=1e-14)
         return self._state(self._contact_phase(c), c)
 
     def _state(self, a, c) -> WaveState:

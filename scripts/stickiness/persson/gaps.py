@@ -1,7 +1,4 @@
-"""Where Persson's theory loses contact, scale by scale, and the gaps that opens.
-
-These are the sums and integrals behind `persson.Persson`; `theory` has the relations.
-"""
+"""Where Persson's theory loses contact, scale by scale, and the gaps that opens: see `theory`."""
 
 from __future__ import annotations
 
@@ -263,10 +260,9 @@ def cumulative(u: NDArray, profile: GapProfile) -> NDArray:
 
 
 def closure_error(profile: GapProfile) -> float:
-    """Integral of u P over all u less the mean gap [length].
+    """Integral of u P over all u less the mean gap [length], the integral of u1 over the area.
 
-    The integral of u1 over the area is the mean gap. The pair of Gaussians about u1 and -u1,
-    taken at positive gaps, has a larger mean; this adds up the difference.
+    The pair of Gaussians about u1 and -u1, taken at positive gaps, has a larger mean.
     """
     width = _bounded(profile.width)
     ratio = profile.gap / width

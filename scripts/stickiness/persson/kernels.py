@@ -1,8 +1,8 @@
 """Universal functions of Persson's contact theory, tabulated once per correction of the theory.
 
-Nothing here depends on a surface or a load. A correction slows the diffusion of pressure by a
-factor S(A) of the relative contact area A, and makes the elastic energy of a scale A S(A) times
-that of full contact. Then the theory needs three functions:
+They depend on no surface or load. A correction slows the diffusion of pressure by a factor S(A) of
+the relative contact area A, and makes the elastic energy of a scale A S(A) times that of full
+contact. Then the theory needs three functions:
 
 - T(y), twice the full-contact pressure variance over the mean pressure squared, at which the
   relative contact area has shrunk to erf(y);

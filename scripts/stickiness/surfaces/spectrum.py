@@ -339,9 +339,7 @@ class Shells(Spectrum):
         return Shells(self.q[keep], self.variance[keep])
 
 
-def _check_points(
-    q: ArrayLike, values: ArrayLike, name: str, least: int
-) -> tuple[NDArray, NDArray]:
+def _check_points(q: ArrayLike, values: ArrayLike, name: str, least: int) -> tuple[NDArray, ...]:
     q, values = np.asarray(q, dtype=float), np.asarray(values, dtype=float)
     if q.ndim != 1 or q.shape != values.shape or len(q) < least:
         shapes = f"{q.shape} and {values.shape}"
