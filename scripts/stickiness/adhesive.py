@@ -2,7 +2,8 @@
 
 from stickiness.adhesion.laws import Exponential, LennardJones, Maugis, TractionLaw
 from stickiness.adhesion.path import PathPoint, path
-from stickiness.adhesion.solver import Adhesion, ConvergenceError, PullOffError, solve
+from stickiness.adhesion.scaling import Adhesion
+from stickiness.adhesion.solver import ConvergenceError, PullOffError, solve
 
 __all__ = [
     "Adhesion",

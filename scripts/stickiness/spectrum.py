@@ -1,11 +1,5 @@
 """Spectra of random rough surfaces and their moments."""
 
-from stickiness.surfaces.spectrum import (
-    PowerLawSegments,
-    SelfAffine,
-    Shells,
-    Spectrum,
-    Tabulated,
-)
+from stickiness.surfaces.spectrum import PowerLawSegments, SelfAffine, Shells, Spectrum, Tabulated
 
 __all__ = ["PowerLawSegments", "SelfAffine", "Shells", "Spectrum", "Tabulated"]

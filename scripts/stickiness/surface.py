@@ -9,11 +9,4 @@ from stickiness.surfaces.synthesis import (
     synthesise,
 )
 
-__all__ = [
-    "Moments",
-    "lattice_spectrum",
-    "moments",
-    "realised_spectrum",
-    "resample",
-    "synthesise",
-]
+__all__ = ["Moments", "lattice_spectrum", "moments", "realised_spectrum", "resample", "synthesise"]

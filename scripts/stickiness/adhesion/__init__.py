@@ -1,8 +1,9 @@
-"""Adhesive contact: traction laws, solver, loading paths, the DMT limit and closed forms.
+"""Adhesive contact: traction laws, solver, loading paths, the DMT limit and the edges of contact.
 
-- `laws`: traction laws; the public calls `solve` and `path`
+- `laws`: traction laws
 - `solver`: equilibrium at a prescribed mean pressure or mean gap
 - `path`: loading and unloading curves with their jumps
+- `scaling`: states in the caller's units, and the way to the solver's own and back
 - `problem`: one problem in its own units: operators, law, what is prescribed
 - `state`: a gap and what follows from it point by point
 - `starts`: where a descent starts
@@ -13,6 +14,5 @@
 - `area_load`: area against load in the DMT limit
 - `edge_zone`: lengths at the edge of an adhesive contact
 - `equivalent_sphere`: attraction next to the edges, from the DMT to the JKR limit
-- `maugis_sphere`: Maugis' solution for a sphere
 - `model_choice`: DMT limit or full solution, by the error measured
 """

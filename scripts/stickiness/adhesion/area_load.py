@@ -1,9 +1,9 @@
 """Area-load relation of an adhesive contact in the DMT limit (Violano et al. 2019).
 
 The attraction is proportional to the repulsion, p_ad/p_rep = (3 a_V/2) (l_a/range)
-(range/h_rms)^(2/3)/(q0 h_rms), whatever the load: all that follows are rearrangements of this
-ratio. Lengths are in one unit of the caller's choice, wave numbers in its inverse, and
-l_a = (work of adhesion)/E*. Arguments broadcast.
+(range/h_rms)^(2/3)/(q0 h_rms), whatever the load; all that follows rearranges this ratio. Lengths
+are in one unit of the caller's choice, wave numbers in its inverse, and l_a = (work of
+adhesion)/E*. Arguments broadcast; ValueError if a length, a wave number or a_V is not positive.
 
 References
 ----------
@@ -26,18 +26,15 @@ def traction_ratio(
 ) -> float | NDArray:
     """Ratio p_ad/p_rep of attraction to repulsion in the DMT limit, independent of the load.
 
-    (3 a_V/2) (l_a/range) (range/h_rms)^(2/3)/(q0 h_rms); the contact is sticky above 1.
+    (3 a_V/2) (l_a/range) (range/h_rms)^(2/3)/(q0 h_rms); the contact is sticky above 1 (Violano et
+    al., doi:10.1080/00218464.2019.1685384).
 
     Parameters
     ----------
-    h_rms : array_like
-        Root mean square height [length].
-    q0 : array_like
-        Lowest wave number of the roughness [1/length].
-    adhesion_length : array_like
-        Work of adhesion over E* [length].
-    range : array_like
-        Range of attraction [length].
+    h_rms, q0 : array_like
+        Root mean square height [length] and lowest wave number of the roughness [1/length].
+    adhesion_length, range : array_like
+        Work of adhesion over E* and range of attraction [length].
     a_v : array_like
         Prefactor of the attractive area, see `dmt.fit_a_v`.
 
@@ -45,10 +42,6 @@ def traction_ratio(
     ------
     ValueError
         If an argument is not positive and finite.
-
-    References
-    ----------
-    Violano et al., J. Adhesion (2019), doi:10.1080/00218464.2019.1685384.
     """
     h_rms, q0, adhesion_length, range, a_v = positive(
         h_rms=h_rms, q0=q0, adhesion_length=adhesion_length, range=range, a_v=a_v
@@ -126,16 +119,8 @@ def violano_c0_limit(
     """Largest C0 [length^(2 - 2 hurst)] that sticks, for a spectrum C = C0 q^(-2(1 + hurst)).
 
     `h_rms_limit` inserted in h_rms^2 = (pi C0/H) q0^(-2H) (1 - zeta^(-2H)); for H = 0.8 and a
-    broad band (0.8/pi) range^(4/5) q0^(2/5) [(3 a_V/2) l_a/range]^(6/5).
-
-    Parameters
-    ----------
-    hurst : array_like
-        Hurst exponent H.
-    q0, adhesion_length, range, a_v : array_like
-        As in `traction_ratio`.
-    magnification : array_like
-        zeta = q1/q0 > 1; infinite for a broad band.
+    broad band (0.8/pi) range^(4/5) q0^(2/5) [(3 a_V/2) l_a/range]^(6/5). `hurst` is in (0, 1],
+    `magnification` zeta = q1/q0 > 1, infinite for a broad band; the others as in `traction_ratio`.
     """
     hurst, q0 = positive(hurst=hurst, q0=q0)
     if not np.all(hurst <= 1):

@@ -1,20 +1,17 @@
 """Descent to a state of equilibrium: projected, preconditioned nonlinear conjugate gradients.
 
-The unknown is the gap. Points are free where the gap is open or where the wall would have to
-pull; the others rest at the wall. Directions are Polak-Ribiere's, preconditioned with
+The unknown is the gap. Points are free where the gap is open or where the wall would have to pull;
+the others rest at the wall. Directions are Polak-Ribiere's, preconditioned with
 ``1 / (|q| / 2 + |q|_min / 2)`` between masks of the free points, so that the number of iterations
 hardly depends on the grid. Where a law hardens steeply, its own stiffness preconditions.
 
-The step is the exact one for the curvature along the direction, clipped at the wall. Where that
-curvature is negative, the step is the one of the elastic energy alone: as the potential of the
-attraction is concave, its tangent lies above it and the energy must fall. Any step that raises the
-energy is shortened until it does not.
-
-Steps of finite length could pass a barrier that a slow motion would not. Where the curvature is
-negative they are therefore bounded by the range of attraction. Where it is positive, on the way
-from wider gaps, the attraction only steepens ahead (a convex traction), so that the exact step for
-the present curvature stops short of equilibrium. The states found from the solution without
-adhesion are indeed those of monotone rounds that cannot pass one (see the tests).
+The step is the exact one for the curvature along the direction, clipped at the wall, shortened
+until the energy falls. Where that curvature is negative, the step is the one of the elastic energy
+alone (the potential of the attraction is concave, so its tangent lies above it), bounded by the
+range of attraction: longer ones could pass a barrier that a slow motion would not. Where it is
+positive, on the way from wider gaps, the attraction only steepens ahead, so that the exact step
+stops short of equilibrium. The states found from the solution without adhesion are those of
+monotone rounds that cannot pass a barrier (see the tests).
 
 Increments of gap and elastic pressure are in single precision; every four decades of the residual,
 and before it is believed, the pressure is recomputed in double precision.
@@ -25,8 +22,6 @@ import numpy as np
 from stickiness.adhesion.problem import LONGEST
 from stickiness.adhesion.state import State, balanced, evaluate, lowered, spans
 
-__all__ = ["descend"]
-
 _REFRESH = 1e-4  # fall of the residual after which the elastic pressure is recomputed
 _SHORTENINGS = 30
 _STIFF = 3.0  # stiffness of a law from which on it preconditions, over a mean of the half-space's
@@ -34,29 +29,11 @@ _CLOSEST = 0.5  # share of its way to the singularity of a law that a point may 
 
 
 def descend(problem, gap, tol, max_iterations, observer=None, elastic=None, rough=False):
-    """Go down in energy from a gap to a state of equilibrium.
+    """Go down in energy from a gap to a state of equilibrium; returns the last `State`.
 
-    Parameters
-    ----------
-    problem : Problem
-        What is to be solved; at a prescribed mean gap `gap` must have it.
-    gap : numpy.ndarray
-        Start.
-    tol : float
-        Residual at which to stop.
-    max_iterations : int
-        Iterations after which to stop anyway.
-    observer : callable, optional
-        Called with every `State`; descent stops when it returns true.
-    elastic : numpy.ndarray, optional
-        Elastic pressure of the start, if it is known.
-    rough : bool
-        Whether increments in single precision are good enough for the result.
-
-    Returns
-    -------
-    State
-        The last one.
+    At a prescribed mean gap the start must have it. `observer` is called with every state; descent
+    stops when it returns true. `elastic` is the elastic pressure of the start, if known. `rough`:
+    increments in single precision are good enough for the result.
     """
     state, spare = State.empty(gap.shape), State.empty(gap.shape)
     state.gap[...] = gap
@@ -196,10 +173,7 @@ class _Conjugate:
 
 
 def _step(problem, state, direction, image, lower):
-    """Step along a direction into the arrays of another state.
-
-    Returns whether the energy fell, and whether the curvature was negative.
-    """
+    """Step along a direction into `lower`; whether energy fell and curvature was negative."""
     line = _Line(problem, state, direction, image)
     if not line.slope < 0:
         return False, False
@@ -225,18 +199,9 @@ def _step(problem, state, direction, image, lower):
 class _Line:
     """A direction with the means over the grid that tell the energy along it.
 
-    Attributes
-    ----------
-    slope : float
-        Of the energy.
-    stiffness : float
-        Elastic part of the curvature.
-    softening, hardening : float
-        Negative and positive part of that of the law.
-    work : float
-        Mean of traction times direction.
-    largest : float
-        Largest component of the direction.
+    `slope` of the energy, elastic `stiffness`, negative and positive part (`softening`,
+    `hardening`) of the law's curvature, `work`, the mean of traction times direction, `largest`
+    component.
     """
 
     def __init__(self, problem, state, direction, image):

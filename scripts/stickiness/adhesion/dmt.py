@@ -7,36 +7,25 @@ pressures are in units of E*; areas are fractions of the nominal area.
 
 from __future__ import annotations
 
-from typing import Protocol
-
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from stickiness.adhesion.laws import TractionLaw
 from stickiness.contact import subpixel as edges_of_contact
 from stickiness.contact.subpixel import gap_and_contact
 from stickiness.core.arguments import numbers, positive
-
-__all__ = ["HasTraction", "adhesive_pressure", "attraction_of_areas"]
 
 _PER_DECADE = 64  # ranges at which a traction law is integrated over sub-pixel areas
 _SMALLEST = 1e-6  # of them, over the largest gap
 
 
-class HasTraction(Protocol):
-    """Anything that turns a gap into a traction, see `adhesive.TractionLaw`."""
-
-    def traction(self, gap: ArrayLike) -> NDArray:
-        """Traction [E*] at `gap` [length]."""
-
-
 def adhesive_pressure(
-    gap: ArrayLike,
-    law: HasTraction,
-    contact: ArrayLike | None = None,
-    *,
-    subpixel: bool = False,
+    gap: ArrayLike, law: TractionLaw, contact: ArrayLike | None = None, *, subpixel: bool = False
 ) -> float:
     """Mean attraction p_ad [E*], the integral of sigma(u) P(u) over the open gaps.
+
+    For the Maugis law (adhesion_length/range) times `attractive_area`. Contact points carry no
+    attraction in this bookkeeping: theirs is part of the repulsive solution.
 
     Parameters
     ----------
@@ -45,15 +34,9 @@ def adhesive_pressure(
     law : object with ``traction(gap)``
         Traction law, tension positive [E*].
     contact : bool array of the gap's shape, optional
-        True where the surfaces touch; by default where the gap is exactly zero. Contact points
-        carry no attraction in this bookkeeping: theirs is part of the repulsive solution.
+        True where the surfaces touch; by default where the gap is exactly zero.
     subpixel : bool
         Integrate the law over the sub-pixel `attractive_area`, at 64 ranges per decade.
-
-    Returns
-    -------
-    float
-        For the Maugis law (adhesion_length/range) times `attractive_area`.
 
     Raises
     ------
@@ -77,8 +60,11 @@ def adhesive_pressure(
     return float(attraction_of_areas(area, ranges, law))
 
 
-def attraction_of_areas(area: ArrayLike, ranges: ArrayLike, law: HasTraction) -> NDArray:
+def attraction_of_areas(area: ArrayLike, ranges: ArrayLike, law: TractionLaw) -> NDArray:
     """Mean attraction p_ad [E*] from attractive areas, the integral of sigma over them.
+
+    Gaps up to the smallest range count with the traction at half of it, those beyond the largest
+    not at all. NaN where an area is.
 
     Parameters
     ----------
@@ -89,12 +75,6 @@ def attraction_of_areas(area: ArrayLike, ranges: ArrayLike, law: HasTraction) ->
         discontinuous one of them.
     law : object with ``traction(gap)``
         Traction law, tension positive [E*].
-
-    Returns
-    -------
-    (...) array
-        Gaps up to the smallest range count with the traction at half of it, those beyond the
-        largest not at all. NaN where an area is.
 
     Raises
     ------

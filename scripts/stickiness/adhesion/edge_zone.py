@@ -2,9 +2,8 @@
 
 Next to the edge of a contact the gap opens as ``u = C x^(3/2)``. Attraction of range epsilon and
 adhesion length l_a acts over a zone of width ``d = (epsilon/C)^(2/3)``; it deforms the half-space
-there by about ``l_a d/epsilon``, as much as its own range if d is as long as ``epsilon^2/l_a``.
-Their quotient plays the part of Tabor's parameter. A grid coarser than ``epsilon^2/l_a`` lets
-single points snap in and out of contact, and no longer shows the edge at all.
+there by about ``l_a d/epsilon``, as much as its own range if d is ``epsilon^2/l_a``. On coarser
+grids single points snap in and out of contact, and the edge does not show at all.
 """
 
 from __future__ import annotations
@@ -25,22 +24,7 @@ NARROWEST = 1.5
 def resolution(pixel: ArrayLike, range: ArrayLike, adhesion_length: ArrayLike) -> float | NDArray:
     """Pixel over the length epsilon^2/l_a at which attraction bends the surfaces together.
 
-    Parameters
-    ----------
-    pixel : array_like
-        Side of a pixel [length].
-    range, adhesion_length : array_like
-        Of the attraction [length].
-
-    Returns
-    -------
-    float or array
-        The grid resolves the edge up to about `COARSEST`.
-
-    Raises
-    ------
-    ValueError
-        If an argument is not positive.
+    All arguments [length], positive. The grid resolves the edge up to about `COARSEST`.
     """
     pixel, range, adhesion_length = positive(
         pixel=pixel, range=range, adhesion_length=adhesion_length
@@ -51,14 +35,7 @@ def resolution(pixel: ArrayLike, range: ArrayLike, adhesion_length: ArrayLike) -
 def zone_width(pixel: ArrayLike, edge_gap: ArrayLike, range: ArrayLike) -> float | NDArray:
     """Width of the zone of attraction at the edge of a contact without adhesion [length].
 
-    Parameters
-    ----------
-    pixel : array_like
-        Side of a pixel [length].
-    edge_gap : array_like
-        Gap one pixel from the edge, see `dmt.edge_gap` [length].
-    range : array_like
-        Of the attraction [length].
+    `edge_gap` is the gap one pixel from the edge, see `dmt.edge_gap`. All arguments [length].
     """
     pixel, edge_gap, range = positive(pixel=pixel, edge_gap=edge_gap, range=range)
     return plain(pixel * np.cbrt(range / edge_gap) ** 2)

@@ -1,25 +1,25 @@
 """Stable equilibrium from a start: smooth laws, the law of Maugis, and what has no equilibrium.
 
 A law whose traction jumps (Maugis) is relaxed with its traction frozen at the points within its
-range, a convex problem, and frozen anew. As its potential is concave, it lies below its tangent:
-every such round lowers the energy until the set of points no longer changes, so it cannot
-cycle. At a prescribed load the rounds are monotone too: added attraction lowers the gap
-everywhere, so that from the solution without adhesion the set only grows to the least possible
-(branch of approach), and from full contact it only shrinks to the largest (branch of separation).
+range, a convex problem, and frozen anew. As its potential is concave, every such round lowers the
+energy until the set of points no longer changes: it cannot cycle. At a prescribed load the rounds
+are monotone too, as added attraction lowers the gap everywhere: from the solution without adhesion
+the set only grows to the least possible (approach), from full contact it only shrinks to the
+largest (separation).
 
 A smooth law is relaxed as it is. A state found within a few iterations may be an unstable one
 (two flats at a distance): it is probed for directions of negative curvature, and left along one.
 """
 
+from dataclasses import replace
+
 import numpy as np
 
 from stickiness.adhesion.descent import descend
-from stickiness.adhesion.problem import FrozenTraction, with_law
+from stickiness.adhesion.problem import FrozenTraction
 from stickiness.adhesion.softening_descent import quick_descent, suits
 from stickiness.adhesion.starts import from_coarser_grids, has_coarser_grids, without_adhesion
 from stickiness.adhesion.state import State, balanced, evaluate, lowered
-
-__all__ = ["relax"]
 
 _QUICK = 8  # iterations below which convergence says little about stability
 _PROBES = 30
@@ -28,29 +28,12 @@ _ESCAPES = 5
 
 
 def relax(problem, gap, tol, max_iterations, closing=True, logger=None):
-    """Relax a gap to a stable equilibrium.
+    """Relax a gap to a stable equilibrium; returns the last `State`, converged or not, and a flag.
 
-    Parameters
-    ----------
-    problem : Problem
-        What is to be solved.
-    gap : numpy.ndarray or None
-        Start; has the mean gap if that is prescribed. None stands for loading from afar.
-    tol : float
-        Residual to reach.
-    max_iterations : int
-        Of all descents together.
-    closing : bool
-        Whether to leave an unstable state towards contact or away from it.
-    logger : logging.Logger, optional
-        Told the progress at level DEBUG.
-
-    Returns
-    -------
-    state : State
-        The last one, converged or not.
-    separated : bool
-        Whether the surfaces part under tension: no attraction left can balance the pull.
+    The flag tells whether the surfaces part under tension: no attraction left can balance the pull.
+    A `gap` of None stands for loading from afar; a given one has the mean gap if that is
+    prescribed. `max_iterations` bounds all descents together. An unstable state is left towards
+    contact if `closing`, else away from it.
     """
     watch = _Watch(problem, logger)
     run = _relax_smooth if problem.law.smooth else _relax_frozen
@@ -68,9 +51,7 @@ def relax(problem, gap, tol, max_iterations, closing=True, logger=None):
         state.iterations = spent
         if watch.separated or not state.residual <= tol or spent >= max_iterations:
             break
-        mode = None
-        if state.last_run < _QUICK:
-            mode = _unstable_mode(problem, state)
+        mode = _unstable_mode(problem, state) if state.last_run < _QUICK else None
         if mode is None:
             break
         gap = _left(problem, state, mode, closing)
@@ -116,7 +97,8 @@ def _relax_frozen(problem, gap, tol, max_iterations, watch):
     inside = gap <= law.range
     aim, spent = None, 0
     while True:
-        frozen = with_law(problem, FrozenTraction(law.maugis_stress * inside, law.range))
+        traction = FrozenTraction(law.maugis_stress * inside, law.range)
+        frozen = replace(problem, law=traction)
         if aim is None:
             aim = max(tol, _FALL * evaluate(frozen, state).residual)
         final = aim <= tol
@@ -127,7 +109,9 @@ def _relax_frozen(problem, gap, tol, max_iterations, watch):
             break
         changed = (state.gap <= law.range) != inside
         if not final and changed.any():
-            changed &= np.abs(state.gap - law.range) > _uncertainty(frozen, state)
+            # Only where the gap is farther from the range than it may be from equilibrium.
+            away = float(np.abs(frozen.surface.smoother.apply(state.force)).max())
+            changed &= np.abs(state.gap - law.range) > 2 * frozen.unit * away
         if changed.any():
             inside ^= changed
             aim = None
@@ -138,11 +122,6 @@ def _relax_frozen(problem, gap, tol, max_iterations, watch):
     evaluate(problem, state)
     state.iterations, state.last_run = spent, spent
     return state
-
-
-def _uncertainty(problem, state):
-    """Estimate how far the gaps are from equilibrium."""
-    return 2 * problem.unit * float(np.abs(problem.surface.smoother.apply(state.force)).max())
 
 
 def _unstable_mode(problem, state):

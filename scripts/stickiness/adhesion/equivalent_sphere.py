@@ -67,27 +67,14 @@ ERROR_WEAK, ERROR_STRONG, ERROR_BEYOND = 1.3, 1.4, 2.0
 
 @dataclass(frozen=True)
 class EdgeAttraction:
-    """Attraction on a rough contact at a given area of contact.
+    """Attraction on a rough contact at a given area of contact."""
 
-    Attributes
-    ----------
-    ratio : float or array
-        What adhesion takes off the external load, over the load without it; sticky above 1.
-    error_factor : float or array
-        Factor, up or down, by which `ratio` may be wrong for the model's sake.
-    effect : float or array
-        `ratio` over its DMT limit.
-    attractive_over_contact : float or array
-        Area within the range over area of contact, without adhesion.
-    strength : float or array
-        Tabor's parameter tau of the edges: weak below `WEAK`; for `tough` ones see there.
-    """
-
+    # What adhesion takes off the external load, over the load without it; sticky above 1.
     ratio: float | NDArray
-    error_factor: float | NDArray
-    effect: float | NDArray
-    attractive_over_contact: float | NDArray
-    strength: float | NDArray
+    error_factor: float | NDArray  # up or down, by which `ratio` may be wrong for the model's sake
+    effect: float | NDArray  # `ratio` over its DMT limit
+    attractive_over_contact: float | NDArray  # area within the range, without adhesion
+    strength: float | NDArray  # Tabor's tau of the edges: weak below `WEAK`, see `tough`
 
     @property
     def simulated(self) -> bool | NDArray:
@@ -111,18 +98,8 @@ def attraction(
 ) -> EdgeAttraction:
     """Attraction over repulsion at equal area of contact, by the equivalent sphere.
 
-    Parameters
-    ----------
-    h_rms, q0 : array_like
-        Root mean square height [length] and lowest wave number [1/length].
-    rms_slope : array_like
-        Root mean square gradient, of all waves.
-    adhesion_length, range : array_like
-        Of the attraction [length].
-    a_v : array_like
-        a_V at this range, see `area_load.traction_ratio`.
-    kappa_rep : float
-        Slope of area against load without adhesion.
+    `rms_slope` is the root mean square gradient of all waves, `kappa_rep` the slope of area against
+    load without adhesion; the other arguments are those of `area_load.traction_ratio`.
     """
     slope, kappa_rep = positive(rms_slope=rms_slope, kappa_rep=kappa_rep)
     dmt = traction_ratio(h_rms, q0, adhesion_length, range, a_v)
@@ -144,14 +121,8 @@ def edge_strength(attractive_over_contact: ArrayLike, traction: ArrayLike) -> fl
     """Tabor's parameter tau = l_a d/range^2 of the edges of a rough contact.
 
     From ``delta/d = (16/3pi) tau`` at weak adhesion and the effect ``(4/pi) t^(-1/2)`` of small
-    zones, in a contact whose area is proportional to its load.
-
-    Parameters
-    ----------
-    attractive_over_contact : array_like
-        t, attractive over contact area without adhesion.
-    traction : array_like
-        Attractive traction over the mean pressure in the contact, sigma_0 A_rep/F.
+    zones, in a contact whose area is proportional to its load. `traction` is the attractive one
+    over the mean pressure in the contact, sigma_0 A_rep/F.
     """
     t, traction = positive(attractive_over_contact=attractive_over_contact, traction=traction)
     return plain(0.75 * traction / np.sqrt(t))
@@ -168,17 +139,7 @@ def error_factor(attractive_over_contact: ArrayLike, strength: ArrayLike) -> flo
 def effect(attractive_over_contact: ArrayLike, strength: ArrayLike) -> float | NDArray:
     """Attraction at equal area of contact over its DMT limit, of the equivalent sphere.
 
-    Parameters
-    ----------
-    attractive_over_contact : array_like
-        t, attractive over contact area without adhesion.
-    strength : array_like
-        tau, Tabor's parameter of the edge.
-
-    Returns
-    -------
-    float or array
-        `weak_effect` for small strengths, `tough_effect` for large ones.
+    `weak_effect` for small strengths tau, `tough_effect` for large ones.
     """
     t, tau = np.broadcast_arrays(
         *positive(attractive_over_contact=attractive_over_contact, strength=strength)
@@ -252,12 +213,7 @@ def edge_advance(
 ) -> float | NDArray:
     """Distance [length] by which attraction moves an edge of contact at given load.
 
-    Parameters
-    ----------
-    edge_pressure : array_like
-        B/E* of the pressure ``B x^(1/2)`` without adhesion [length^(-1/2)].
-    adhesion_length, range : array_like
-        Of Maugis' traction [length].
+    `edge_pressure` is B/E* of the pressure ``B x^(1/2)`` without adhesion [length^(-1/2)].
     """
     b, length, reach = positive(
         edge_pressure=edge_pressure, adhesion_length=adhesion_length, range=range

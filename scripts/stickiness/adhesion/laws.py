@@ -1,12 +1,10 @@
-"""Adhesive contact: traction laws, states of equilibrium, loading and unloading curves.
+"""Traction laws of adhesion.
 
 Pressures are in units of the plane-strain modulus E*, tension positive for tractions; gaps, ranges
 and the adhesion length l_a = (work of adhesion)/E* share one unit of length. A gap of zero is where
-the hard wall of the repulsive solution begins.
-
-A law is a small class: traction, derivative and potential as functions of the gap, strength, and
-three properties that say how it is to be solved (`hard_wall`, `smooth`, `hardens`). `solve` finds a
-state at a prescribed pressure or mean gap, `path` follows states through loading and unloading.
+the hard wall of the repulsive solution begins. A law is a small class: traction, derivative and
+potential as functions of the gap, strength, and three properties that say how it is to be solved
+(`hard_wall`, `smooth`, `hardens`).
 """
 
 from __future__ import annotations
@@ -19,8 +17,6 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from stickiness.core.arguments import number
-
-__all__ = ["Exponential", "LennardJones", "Maugis", "TractionLaw"]
 
 # Separation over range at which the traction of the 9-3 law peaks: (range/g)^6 = 1/3.
 _LJ_PEAK = 3.0 ** (1 / 6)
@@ -47,19 +43,14 @@ class TractionLaw(ABC):
     ------
     ValueError
         If either is not positive and finite.
-
-    Attributes
-    ----------
-    hard_wall : bool
-        Whether a wall at gap 0 repels; if not, the law itself does, and gaps must exceed -range.
-    smooth : bool
-        Whether the traction is continuous beyond the wall; where it is not it must jump at
-        `range` between constants, as that of Maugis does.
     """
 
     adhesion_length: float
     range: float
+    # Whether a wall at gap 0 repels; if not, the law itself does, and gaps must exceed -range.
     hard_wall: ClassVar[bool] = True
+    # Whether the traction is continuous beyond the wall; where it is not it must jump at `range`
+    # between constants, as that of Maugis does.
     smooth: ClassVar[bool] = True
 
     def __post_init__(self):
@@ -109,14 +100,11 @@ class TractionLaw(ABC):
 
 @dataclass(frozen=True)
 class Maugis(TractionLaw):
-    """Constant traction up to the range, none beyond (Maugis 1992).
+    """Constant traction up to the range, none beyond.
 
-    sigma = adhesion_length/range for gap <= range, else 0. The point gap = range is inside, so
-    that the traction and `dmt.attractive_area` count the same points.
-
-    References
-    ----------
-    Maugis, J. Colloid Interface Sci. 150, 243 (1992), doi:10.1016/0021-9797(92)90285-T.
+    sigma = adhesion_length/range for gap <= range, else 0. The point gap = range is inside, so that
+    the traction and `dmt.attractive_area` count the same points. Maugis, J. Colloid Interface Sci.
+    150, 243 (1992), doi:10.1016/0021-9797(92)90285-T.
     """
 
     smooth: ClassVar[bool] = False
@@ -171,15 +159,9 @@ class Exponential(TractionLaw):
 class LennardJones(TractionLaw):
     """Lennard-Jones 9-3 law between half-spaces, which also repels below gap 0.
 
-    sigma = (8 adhesion_length/(3 range)) [(range/g)^3 - (range/g)^9] with g = gap + range, so
-    that gap 0 is the equilibrium separation. All methods need gap > -range.
-
-    Parameters
-    ----------
-    adhesion_length, range : float
-        As for every `TractionLaw`.
-    hard_wall : bool
-        Whether a wall at gap 0 takes the place of the law's own repulsion.
+    sigma = (8 adhesion_length/(3 range)) [(range/g)^3 - (range/g)^9] with g = gap + range, so that
+    gap 0 is the equilibrium separation. All methods need gap > -range. With `hard_wall` a wall at
+    gap 0 takes the place of the law's own repulsion.
     """
 
     hard_wall: bool = False

@@ -1,11 +1,10 @@
 """Which adhesive model a set of parameters gets: the DMT limit where it is good enough, or full.
 
-The DMT limit takes the gaps from the contact without adhesion, which costs nothing once that is
-solved. Where it holds within the accuracy asked is read off a table of its measured error, over
-all that a contact depends on: law, Hurst exponent and magnification of the surface (Gaussian, a
-window of one longest wavelength), pressure p/(E* q0 h_rms), range/h_rms and strength
-(l_a/range)/(q0 h_rms) of the attraction. Beyond the table nothing is known, and the full model is
-chosen.
+The DMT limit costs nothing once the contact without adhesion is solved. Where it holds within the
+accuracy asked is read off a table of its measured error, over all that a contact depends on: law,
+Hurst exponent and magnification of the surface (Gaussian, a window of one longest wavelength),
+pressure p/(E* q0 h_rms), range/h_rms and strength (l_a/range)/(q0 h_rms) of the attraction. Beyond
+the table nothing is known, and the full model is chosen.
 """
 
 from __future__ import annotations
@@ -34,11 +33,8 @@ _ROUNDING = 1e-9  # relative, of the ends of an axis
 class ErrorTable:
     """Measured 1/kappa_ad, full over DMT, on a lattice of parameters for each law and H.
 
-    Attributes
-    ----------
-    lattices : dict
-        By law and Hurst exponent: the logarithms of the values along `AXES`, and the logarithm of
-        the ratio and its error on their product, NaN where nothing was measured.
+    `lattices` holds, by law and Hurst exponent, the logarithms of the values along `AXES`, and the
+    logarithm of the ratio and its error on their product, NaN where nothing was measured.
     """
 
     lattices: Mapping[tuple[str, float], tuple[tuple[NDArray, ...], NDArray, NDArray]]
@@ -46,22 +42,9 @@ class ErrorTable:
     def relative_error(self, law: str, hurst: float, *values: float) -> float:
         """Largest relative error of the DMT limit in 1/kappa_ad, NaN outside the table.
 
-        Parameters
-        ----------
-        law, hurst
-            As in the table; anything else is outside.
-        *values : float
-            In the order of `AXES`. Between the lattice's points, logarithms are linear.
-
-        Returns
-        -------
-        float
-            |DMT/full - 1| with the ratio as far from 1 as its error allows.
-
-        Raises
-        ------
-        ValueError
-            If a value is not positive and finite.
+        It is |DMT/full - 1| with the ratio as far from 1 as its error allows. The values are in the
+        order of `AXES`, positive and finite (else ValueError); between the lattice's points,
+        logarithms are linear.
         """
         if (law, hurst) not in self.lattices:
             return np.nan
@@ -93,10 +76,7 @@ def _weights(axis: NDArray, value: float) -> list[tuple[int, float]] | None:
 def read_table(path: str | Path) -> ErrorTable:
     """Read a table of `COLUMNS` from a CSV file.
 
-    Raises
-    ------
-    ValueError
-        If the file is missing or has other columns, or a value cannot be used; names the line.
+    ValueError if the file is missing or has other columns, or a value is unusable; names the line.
     """
     try:
         lines = Path(path).read_text(encoding="utf-8").splitlines()
@@ -132,34 +112,17 @@ def _lattice(points):
 
 @dataclass(frozen=True, eq=False)
 class Choice:
-    """Model of every point of a set of adhesive parameters.
+    """Model of every point, arrays (pressures, adhesion lengths, ranges), each in rising order."""
 
-    Arrays have the shape (pressures, adhesion lengths, ranges), each in increasing order.
-
-    Attributes
-    ----------
-    full : bool array
-        Whether the full model is to be solved; the DMT limit elsewhere.
-    dmt_error : array
-        Relative error of the DMT limit by the table, NaN outside it.
-    jtb : bool array
-        Whether the condition of Joe, Thouless and Barber for the DMT limit holds.
-    """
-
-    full: NDArray
-    dmt_error: NDArray
-    jtb: NDArray
+    full: NDArray  # bool: whether the full model is to be solved, else the DMT limit
+    dmt_error: NDArray  # relative error of the DMT limit by the table, NaN outside it
+    jtb: NDArray  # bool: whether the condition of Joe, Thouless and Barber for that limit holds
 
 
 def choose(asked: Mapping[str, Any], surface: Mapping[str, Any], table: ErrorTable) -> Choice:
     """Choose the model for every point of an entry `adhesion` of the configuration.
 
-    Parameters
-    ----------
-    asked, surface : mapping
-        The entry, and that of its model surface.
-    table : ErrorTable
-        Measured errors of the DMT limit.
+    `asked` is the entry, `surface` that of its model surface.
     """
     pressures, lengths, ranges = (
         np.sort(np.array(asked[name], dtype=float))
@@ -172,16 +135,10 @@ def choose(asked: Mapping[str, Any], surface: Mapping[str, Any], table: ErrorTab
     jtb = np.broadcast_to(q0_h_rms > limit, shape)
     error = np.full(shape, np.nan)
     if is_tabulated(surface):
-        for index in np.ndindex(shape):
-            i, j, k = index
-            error[index] = table.relative_error(
-                asked["law"],
-                surface["hurst"],
-                surface["magnification"],
-                pressures[i],
-                ranges[k],
-                lengths[j] / q0_h_rms,
-            )
+        kind = asked["law"], surface["hurst"], surface["magnification"]
+        for i, j, k in np.ndindex(shape):
+            point = pressures[i], ranges[k], lengths[j] / q0_h_rms
+            error[i, j, k] = table.relative_error(*kind, *point)
     good = jtb & (error <= asked.get("accuracy", 0.0))
     full = {"dmt": np.zeros(shape, bool), "full": np.ones(shape, bool), "auto": ~good}
     return Choice(full[asked["model"]], error, jtb)

@@ -4,16 +4,14 @@ Every state is the end of a descent in energy from the one before, as in a slow 
 on its branch until that ends, and then falls to the next. Whether a step was reversible shows in
 its energy balance,
 
-    -(change of energy) - (integral of the mean pressure over the mean gap) = dissipated energy.
+    -(change of energy) - (integral of the mean pressure over the mean gap) = dissipated energy,
 
-The integral is taken along a parabola of the controlled quantity through both ends and the state
-before, so that the error is of fourth order in the step on a branch, while at a jump it does not
-vanish with the step. So the balance sets the steps, and tells a jump: it is a step that stays out
-of balance when it is as short as the tolerance for its place.
-
-On a grid, attraction of short range passes over points one by one, each with a jump of its own
-(a Maugis zone always does). Below a given size such jumps are not sought out: they are left in the
-dissipated energy of the step they fall into.
+integrated along a parabola of the controlled quantity through both ends and the state before. The
+error is of fourth order in the step on a branch; at a jump it does not vanish with the step. So the
+balance sets the steps, and a jump is a step that stays out of balance when it is as short as the
+tolerance for its place. On a grid, attraction of short range passes over points one by one, each
+with a jump of its own (a Maugis zone always does). Below a given size such jumps are not sought
+out: they are left in the dissipated energy of the step they fall into.
 """
 
 import math
@@ -23,22 +21,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from stickiness.adhesion.scaling import APPROACH, SEPARATION, Adhesion, Control, Scaled
-from stickiness.adhesion.solver import (
-    ConvergenceError,
-    Effort,
-    PullOffError,
-    relax_from,
-    solve,
-)
+from stickiness.adhesion.solver import ConvergenceError, Effort, PullOffError, relax_from, solve
 from stickiness.core.arguments import grid, number
 
-__all__ = ["PathPoint", "path"]
-
 _CONTROLS = ("pressure", "mean_gap")
-_SUBSTEPS = {
-    True: 16,
-    False: 4,
-}  # smooth law or not: by which a step may be refined for the sake of the balance alone
+# Smooth law or not: by which a step may be refined for the sake of the balance alone.
+_SUBSTEPS = {True: 16, False: 4}
 _LEAST_SCALE = 1e-3  # of energies, over the work of adhesion
 _NEAR_ZERO = 0.01  # share of the path's span below which a place is not located relative to itself
 
@@ -56,11 +44,10 @@ class PathPoint:
         greater tension tears the surfaces apart.
     bracket : tuple of float or None
         Values of the control between which the event lies, the last one before it first.
-    work : float
-        Work of the control in this step per nominal area [E* length].
-    dissipated : float
-        Work less the gain in energy: lost at a jump, the error of integration elsewhere. Infinite
-        at a pull-off, where a dead load falls forever.
+    work, dissipated : float
+        Work of the control in this step per nominal area [E* length]; that work less the gain in
+        energy, which is lost at a jump and the error of integration elsewhere. It is infinite at
+        a pull-off, where a dead load falls forever.
     """
 
     state: Adhesion
@@ -132,23 +119,11 @@ def path(
     values = _check_values(values)
     if control not in _CONTROLS:
         raise ValueError(f"control must be 'pressure' or 'mean_gap', got {control!r}")
-    for name, value in (
-        ("balance", balance),
-        ("smallest_jump", smallest_jump),
-        ("located", located),
-        ("steps", steps),
-    ):
+    sizes = {"balance": balance, "smallest_jump": smallest_jump, "located": located, "steps": steps}
+    for name, value in sizes.items():
         number(name, value)
-    first = solve(
-        heights,
-        length,
-        law,
-        **{control: values[0]},
-        start=start,
-        tol=tol,
-        max_iterations=max_iterations,
-        logger=logger,
-    )
+    options = {"start": start, "tol": tol, "max_iterations": max_iterations, "logger": logger}
+    first = solve(heights, length, law, **{control: values[0]}, **options)
     yield PathPoint(first)
     follower = _Follower(
         first=first,
@@ -173,19 +148,7 @@ def path(
 
 @dataclass(eq=False)
 class _Follower:
-    """Follows a path leg by leg.
-
-    Attributes
-    ----------
-    first : Adhesion
-        First state of the path.
-    span : float
-        Between the largest and the smallest value of the control.
-    left : int
-        States that may still be computed.
-    scale : float
-        Largest change of elastic plus interaction energy so far [E* length].
-    """
+    """Follows a path leg by leg."""
 
     first: Adhesion
     scaled: Scaled
@@ -194,17 +157,17 @@ class _Follower:
     balance: float
     smallest_jump: float
     located: float
-    span: float
-    left: int
+    span: float  # between the largest and the smallest value of the control
+    left: int  # states that may still be computed
     logger: object
-    scale: float = 0.0
+    scale: float = 0.0  # largest change of elastic plus interaction energy so far [E* length]
 
     def __post_init__(self):
         self.scale = _LEAST_SCALE * self.first.law.adhesion_length
 
     def leg(self, state, target, steps):
         """Points from a state (left out) to a value of the control."""
-        value = self._value(state)
+        value = state.mean_pressure if self.control == "pressure" else state.mean_gap
         closing = (target > value) == (self.control == "pressure")
         branch = APPROACH if closing else SEPARATION
         longest = abs(target - value) / steps
@@ -279,9 +242,6 @@ class _Follower:
         # By parts, for the mean gap is a function of the pressure and not the other way round.
         ends = state.mean_pressure * state.mean_gap - successor.mean_pressure * successor.mean_gap
         return ends + _integral([(s.mean_pressure, s.mean_gap) for s in points])
-
-    def _value(self, state):
-        return state.mean_pressure if self.control == "pressure" else state.mean_gap
 
 
 @dataclass(eq=False)

@@ -2,39 +2,27 @@
 
 Lengths along the surface are in units of one side of the cell, heights and gaps in units of
 h_rms (of the range of attraction if the surface is flat), pressures in E* times their quotient.
-The energy per area is then
-
-    E(g) = <u K u> / 2 + <phi(g)>,   u = g + h,   K = |q| / 2,   phi' = traction,
-
-and a state of equilibrium at the mean pressure p has ``r = K u + traction(g) + p = 0``, or, with a
-hard wall at ``g = 0``, ``r >= 0`` where ``g = 0`` and ``r = 0`` elsewhere.
+The energy per area is ``E(g) = <u K u> / 2 + <phi(g)>``, ``u = g + h``, ``K = |q| / 2``,
+``phi' = traction``. A state of equilibrium at the mean pressure p has
+``r = K u + traction(g) + p = 0``, or, with a hard wall at ``g = 0``, ``r >= 0`` where ``g = 0`` and
+``r = 0`` elsewhere.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
 from stickiness.contact import convolution, half_space
-
-__all__ = ["LONGEST", "FrozenTraction", "Problem", "Surface", "with_law"]
 
 LONGEST = np.pi  # |q| / 2 of the longest wave across a side of 1
 
 
 @dataclass(frozen=True, eq=False)
 class Surface:
-    """Heights with the elasticity of the half-space on their grid.
-
-    Parameters
-    ----------
-    heights : numpy.ndarray
-        Heights about their mean, in units of h_rms.
-    sides : tuple of float
-        Sides of the cell in units of the first.
-    """
+    """Heights (about their mean, in h_rms) with the elasticity of the half-space on their grid."""
 
     heights: np.ndarray
-    sides: tuple
+    sides: tuple  # of the cell, in units of the first
 
     @property
     def exact(self):
@@ -67,23 +55,11 @@ class Surface:
 
 @dataclass(frozen=True, eq=False)
 class Problem:
-    """Surface, law and control; exactly one of `pressure` and `mean_gap` is prescribed.
-
-    Parameters
-    ----------
-    surface : Surface
-        Heights and operators.
-    law : TractionLaw or FrozenTraction
-        In the units of the surface.
-    unit : float
-        Pressure that residuals are measured in.
-    pressure, mean_gap : float or None
-        Control.
-    """
+    """Surface, law (in the units of the surface) and control: a pressure or a mean gap."""
 
     surface: Surface
-    law: object
-    unit: float
+    law: object  # TractionLaw or FrozenTraction
+    unit: float  # pressure that residuals are measured in
     pressure: float | None = None
     mean_gap: float | None = None
 
@@ -93,25 +69,12 @@ class Problem:
         return self.law.hard_wall
 
 
-def with_law(problem, law):
-    """Same problem with another law; residuals keep their unit."""
-    return replace(problem, law=law)
-
-
 @dataclass(frozen=True, eq=False)
 class FrozenTraction:
-    """Traction that does not depend on the gap: with the hard wall the problem is convex.
+    """Traction that does not depend on the gap: with the hard wall the problem is convex."""
 
-    Parameters
-    ----------
-    field : numpy.ndarray or float
-        Traction at every point.
-    range : float
-        Of the law it is frozen from.
-    """
-
-    field: np.ndarray
-    range: float
+    field: np.ndarray  # or one number
+    range: float  # of the law it is frozen from
     hard_wall = True
     hardens = False
 
@@ -125,20 +88,14 @@ class FrozenTraction:
 
 
 class Smoother:
-    """Convolution with ``1 / (|q| / 2 + shift)`` in single precision.
+    """Convolution with ``1 / (|q| / 2 + shift)`` in single precision; counts its `pairs`.
 
     The shift is the stiffness of the longest wave: it stands for the grip of what touches on the
     mean gap, which no elasticity holds.
-
-    Attributes
-    ----------
-    pairs : int
-        Convolutions since construction.
     """
 
     def __init__(self, shape, sides):
-        kind = convolution.Packed if shape[1] % 2 == 0 else convolution.Real
-        self._convolution = kind(shape, np.dtype(np.float32))
+        self._convolution = convolution.choose(shape, np.float32)
         self._every = np.arange(shape[0])
         symbol = 1 / (half_space.wavenumbers(shape, sides).T / 2 + LONGEST)
         self._symbol = self._convolution.symbol(symbol / (shape[0] * shape[1]))

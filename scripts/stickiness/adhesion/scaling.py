@@ -8,8 +8,6 @@ from stickiness.adhesion.problem import Problem, Surface
 from stickiness.adhesion.state import lowered
 from stickiness.contact.grids import measure_scale
 
-__all__ = ["APPROACH", "CLOSEST", "SEPARATION", "Adhesion", "Control", "Scaled"]
-
 APPROACH, SEPARATION = "approach", "separation"
 CLOSEST = 0.9  # of the range: penetration of a start, or in the mean, without a wall
 
@@ -25,8 +23,8 @@ class Adhesion:
     gap : numpy.ndarray
         Gap in the unit of the heights: zero at the hard wall. A law without a wall has its
         equilibrium separation at gap 0, and negative gaps where it repels.
-    mean_pressure : float
-        Mean pressure that keeps the state, prescribed or that of the prescribed mean gap.
+    mean_pressure, mean_gap : float
+        Means of pressure and gap that keep the state: one is prescribed, the other follows.
     repulsive_pressure, adhesive_pressure : float
         Positive and negative part of `pressure`, each averaged over the nominal area and
         positive: their difference is `mean_pressure` (to the residual).
@@ -38,8 +36,6 @@ class Adhesion:
         attraction outweighs the wall's push.
     adhesive_area_fraction : float
         Share of other points with a gap up to the range.
-    mean_gap : float
-        Mean of `gap`.
     elastic_energy, interaction_energy : float
         Per nominal area, in units of E* times length; the latter is the mean of the potential.
     residual : float
@@ -50,14 +46,11 @@ class Adhesion:
         Iterations of conjugate gradients.
     fft_pairs : float
         Convolutions (a forward and a backward transform each), those of the start included.
-    branch : str
-        "approach" if the state was reached from wider gaps, "separation" if from closer ones.
-    control : str
+    branch, control : str
+        "approach" if the state was reached from wider gaps, "separation" if from closer ones;
         "pressure" or "mean_gap".
-    law : TractionLaw
-        Attraction.
-    length : tuple of float
-        Sides of the periodic cell.
+    law, length : TractionLaw, tuple of float
+        Attraction, sides of the periodic cell.
     rms_height : float
         Root mean square of the heights about their mean.
     """

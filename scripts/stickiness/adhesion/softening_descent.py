@@ -1,22 +1,17 @@
 """Quick descent for laws that only soften, at a prescribed pressure, mostly in single precision.
 
-The steps are those of `descent`, in rounds. Within a round, increments of gap, force and energy are
-in single precision. Between rounds everything is computed again in double precision (iterative
+The steps are those of `descent`, in rounds: increments of gap, force and energy are in single
+precision within a round, and computed again in double precision between rounds (iterative
 refinement). Once the force is small it changes linearly with the gap: the law is then evaluated,
-and energies are compared, between rounds only.
-
-The preconditioner allows for the edge of contact, where the wall takes part of a force: a share of
-the force next to the edge is subtracted before smoothing, and the transpose of that afterwards.
-
-If a round raises the energy or changes nothing, the general descent takes over.
+and energies are compared, between rounds only. The preconditioner allows for the edge of contact,
+where the wall takes a share of a force. If a round raises the energy or changes nothing, the
+general descent takes over.
 """
 
 import numpy as np
 
 from stickiness.adhesion.state import State, evaluate, spans
 from stickiness.contact.preconditioner import average_neighbours, build_neighbour_matrix
-
-__all__ = ["quick_descent", "suits"]
 
 _SHARE = 0.5  # of a force beside the wall that the wall takes
 _FALL = 1e-3  # reduction of the force by a round
@@ -34,29 +29,11 @@ def suits(problem):
 
 
 def quick_descent(problem, gap, tol, max_iterations, observer=None, convex=False):
-    """Go down in energy from a gap to a state of equilibrium.
+    """Go down in energy from a gap; returns the last `State` and whether the descent finished.
 
-    Parameters
-    ----------
-    problem : Problem
-        What is to be solved, one that `suits`.
-    gap : numpy.ndarray
-        Start.
-    tol : float
-        Residual at which to stop.
-    max_iterations : int
-        Iterations after which to stop anyway.
-    observer : callable, optional
-        Called with the `State` at every round; descent stops when it returns true.
-    convex : bool
-        Whether to give up at the first direction of negative curvature.
-
-    Returns
-    -------
-    state : State
-        The last one.
-    finished : bool
-        False if a round raised the energy or came to nothing, or the descent was given up.
+    It does not if a round raises the energy or comes to nothing, or, if `convex`, at the first
+    direction of negative curvature. `observer` is called with the state at every round; descent
+    stops when it returns true.
     """
     state, other = State.empty(gap.shape), State.empty(gap.shape)
     state.gap[...] = gap
@@ -98,29 +75,20 @@ def _moved(problem, state, steps, other):
 
 
 class _Steps:
-    """Conjugate directions and steps along them, in single precision and the problem's pressure.
-
-    Attributes
-    ----------
-    change : numpy.ndarray
-        Change of the gap in a round, over the unit of pressure.
-    lowest : numpy.ndarray
-        The change that closes the gap.
-    count, last_soft : int
-        Steps so far, and up to the last direction of negative curvature.
-    soft : bool
-        Whether the round ended at such a direction, which its tangent is no guide along.
-    """
+    """Conjugate directions and steps along them, in single precision and the problem's pressure."""
 
     def __init__(self, problem, shape):
         self.problem, self.surface, self.spans = problem, problem.surface, spans(shape)
         self.law, self.unit = problem.law, problem.unit
         fields = [np.zeros(shape, np.float32) for _ in range(14)]
+        # `change` of the gap in a round, over the unit of pressure; `lowest` closes the gap.
         self.change, self.lowest, self.traction, self.slope, self.potential, *fields = fields
         self.new_traction, self.new_slope, self.new_potential, *fields = fields
         # `force` is the reaction on free points, `fall` its last change.
         self.reaction, self.force, self.fall, self.direction, self.image, self.cut = fields
         self.free = np.empty(shape, bool)
+        # Steps so far, and up to the last direction of negative curvature; `soft` tells whether
+        # the round ended at one, along which the tangent of the law is no guide.
         self.count = self.last_soft = 0
         self.product, self.soft = 0.0, False
 

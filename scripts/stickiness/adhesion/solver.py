@@ -7,24 +7,11 @@ import numpy as np
 
 from stickiness.adhesion import edge_zone
 from stickiness.adhesion.equilibrium import relax
-from stickiness.adhesion.scaling import (
-    APPROACH,
-    CLOSEST,
-    SEPARATION,
-    Adhesion,
-    Control,
-    Scaled,
-)
+from stickiness.adhesion.scaling import APPROACH, CLOSEST, SEPARATION, Control, Scaled
 from stickiness.contact.grids import check_length, measure_slope
 from stickiness.contact.solver import ConvergenceError
 from stickiness.core.arguments import grid, integer, number, numbers
-from stickiness.core.plausibility import (
-    PlausibilityWarning,
-    warn_of_heights,
-    warn_of_pressure,
-)
-
-__all__ = ["Adhesion", "ConvergenceError", "PullOffError", "solve"]
+from stickiness.core.plausibility import PlausibilityWarning, warn_of_heights, warn_of_pressure
 
 # Pixel over epsilon^2/l_a above which edges of contact are a matter of the grid alone. At 2 a
 # sphere of Tabor parameter 5 holds 20 % too much.
@@ -48,11 +35,11 @@ def solve(
 ):
     """Solve the adhesive contact of a half-space with a rigid periodic surface.
 
-    The problem has several solutions in general. The one found is the stable state that a
-    descent in energy reaches from `start`. At a prescribed pressure the states are ordered:
-    that with the widest gaps is where loading from afar ends, that with the closest
-    where unloading from full contact does. `Adhesion.enthalpy` tells which of two states at one
-    pressure is the deeper minimum, `Adhesion.energy` at one mean gap.
+    The problem has several solutions in general. The one found is the stable state, an `Adhesion`,
+    that a descent in energy reaches from `start`. At a prescribed pressure the states are ordered:
+    that with the widest gaps is where loading from afar ends, that with the closest where
+    unloading from full contact does. `Adhesion.enthalpy` tells which of two states at one pressure
+    is the deeper minimum, `Adhesion.energy` at one mean gap.
 
     Parameters
     ----------
@@ -62,10 +49,8 @@ def solve(
         Side of the cell along axis 0 (pixels are then square), or both sides; same unit.
     law : TractionLaw
         Attraction, its adhesion length and range in the same unit.
-    pressure : float
-        Mean pressure in units of E*, negative for tension. Give this or `mean_gap`.
-    mean_gap : float
-        Mean gap, same unit as the heights.
+    pressure, mean_gap : float
+        Give one: mean pressure in units of E*, negative for tension, or mean gap.
     start : str, Adhesion, repulsive.Contact or array_like, optional
         "approach" (default): as from the solution without adhesion at the same control; under
         tension, from the adhesive solution at zero pressure. At a prescribed pressure coarser
@@ -79,11 +64,6 @@ def solve(
         Largest number of iterations.
     logger : logging.Logger, optional
         Told the progress at level DEBUG.
-
-    Returns
-    -------
-    Adhesion
-        Fields, areas, energies, and how well they are in equilibrium.
 
     Raises
     ------
@@ -137,38 +117,16 @@ class Effort:
 
 
 def relax_from(scaled, gap, branch, control, effort, spent=(0, 0)):
-    """Find the state that a descent from a gap ends in.
+    """Find the state that a descent from a gap in scaled units ends in; errors as of `solve`.
 
-    Parameters
-    ----------
-    scaled : Scaled
-        Surface and law.
-    gap : numpy.ndarray or None
-        Start in scaled units; None stands for loading from afar.
-    branch : str
-        "approach" or "separation".
-    control : Control
-        Mean pressure or mean gap.
-    effort : Effort
-        Tolerance and largest number of iterations.
-    spent : (int, float)
-        Iterations and convolutions that went into the start.
-
-    Returns
-    -------
-    Adhesion
-        In the caller's units; errors are those of `solve`.
+    None stands for loading from afar. `spent`: iterations and convolutions that went into the
+    start.
     """
     before = scaled.surface.pairs
     problem = scaled.problem(control)
     pressure, tol = control.pressure, effort.tol
     state, separated = relax(
-        problem,
-        gap,
-        tol,
-        effort.max_iterations,
-        closing=branch == APPROACH,
-        logger=effort.logger,
+        problem, gap, tol, effort.max_iterations, closing=branch == APPROACH, logger=effort.logger
     )
     state.iterations += spent[0]
     pairs = scaled.surface.pairs - before + state.start_pairs + spent[1]

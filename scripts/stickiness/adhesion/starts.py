@@ -1,9 +1,9 @@
 """Starts of a descent when loading begins from afar: contact without adhesion, coarser grids.
 
-The solution without adhesion has wider gaps than any adhesive state, so that a descent from it ends
-on the branch of approach. The adhesive state on a grid half as fine is a better start, unless it
-lies beyond a jump that the fine grid does not make. A descent that meets no negative curvature
-makes no jump: coarser grids are used only while no descent on any grid meets one.
+The solution without adhesion has wider gaps than any adhesive state: a descent from it ends on the
+branch of approach. The adhesive state on a grid half as fine is a better start, unless it lies
+beyond a jump that the fine grid does not make. So coarser grids are used only while no descent on
+any grid meets negative curvature, without which there is no jump.
 """
 
 from dataclasses import replace
@@ -11,14 +11,12 @@ from dataclasses import replace
 import numpy as np
 
 from stickiness.adhesion.descent import descend
-from stickiness.adhesion.problem import FrozenTraction, Surface, with_law
+from stickiness.adhesion.problem import FrozenTraction, Surface
 from stickiness.adhesion.softening_descent import quick_descent, suits
 from stickiness.adhesion.state import lowered
 from stickiness.contact import solver
 from stickiness.contact.active_set import PREDICTION
 from stickiness.contact.grids import coarsen, interpolate, sample
-
-__all__ = ["from_coarser_grids", "has_coarser_grids", "without_adhesion"]
 
 _ROUGH = 1e-3  # tolerance of a solution without adhesion that is only a start
 _COARSE = 1e-2  # of one on a coarser grid
@@ -34,19 +32,8 @@ def has_coarser_grids(problem):
 def from_coarser_grids(problem, tol, max_iterations, observer, work):
     """State at a prescribed pressure by way of coarser grids.
 
-    Parameters
-    ----------
-    problem : Problem
-        What is to be solved, one that suits `quick_descent`.
-    tol, max_iterations, observer
-        As for `quick_descent`.
-    work : list of float
-        Gets the convolutions of the starts, times their points.
-
-    Returns
-    -------
-    State or None
-        None if any descent meets a direction of negative curvature.
+    The problem must suit `quick_descent`; None if any descent meets a direction of negative
+    curvature. `work` gets the convolutions of the starts, times their points.
     """
     shape = problem.surface.heights.shape
     if min(shape) < _COARSEST:
@@ -87,6 +74,6 @@ def without_adhesion(problem, max_iterations):
     if problem.mean_gap <= 0:
         return np.full(gap.shape, problem.mean_gap), 0.0
     before = surface.pairs
-    alone = with_law(problem, FrozenTraction(0.0, problem.law.range))
+    alone = replace(problem, law=FrozenTraction(0.0, problem.law.range))
     gap = descend(alone, lowered(gap, problem.mean_gap), _ROUGH, max_iterations).gap
     return gap, surface.pairs - before

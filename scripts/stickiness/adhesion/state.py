@@ -9,54 +9,27 @@ from dataclasses import dataclass
 
 import numpy as np
 
-__all__ = ["State", "balanced", "evaluate", "lowered", "spans"]
-
 _POINTS = 2**14  # in a block: 128 kB in double precision
 
 
 @dataclass(eq=False)
 class State:
-    """A gap with what follows from it.
-
-    Attributes
-    ----------
-    gap : numpy.ndarray
-        Gap.
-    elastic : numpy.ndarray
-        Pressure of zero mean that belongs to it.
-    traction, slope : numpy.ndarray
-        Of the law at this gap.
-    potential : float
-        Mean potential of the law.
-    pressure : float
-        Mean pressure, prescribed or that of the prescribed mean gap.
-    free : numpy.ndarray of bool
-        Points that are open or would be pulled by the wall.
-    force : numpy.ndarray
-        Sum of elastic pressure, traction and mean pressure on free points, in the problem's unit
-        and in single precision: zero in equilibrium.
-    residual : float
-        Its largest magnitude.
-    iterations : int
-        Iterations so far.
-    last_run : int
-        Iterations since a direction of negative curvature was met.
-    start_pairs : float
-        Convolutions that the start took, those on coarser grids by their share of the points.
-    """
+    """A gap with what follows from it."""
 
     gap: np.ndarray
-    elastic: np.ndarray
-    traction: np.ndarray
+    elastic: np.ndarray  # pressure of zero mean that belongs to the gap
+    traction: np.ndarray  # of the law at this gap, with its slope
     slope: np.ndarray
-    free: np.ndarray
+    free: np.ndarray  # points that are open or would be pulled by the wall
+    # Sum of elastic pressure, traction and mean pressure on free points, in the problem's unit and
+    # in single precision: zero in equilibrium.
     force: np.ndarray
-    potential: float = 0.0
-    pressure: float = 0.0
-    residual: float = np.inf
+    potential: float = 0.0  # mean of the law's
+    pressure: float = 0.0  # mean, prescribed or that of the prescribed mean gap
+    residual: float = np.inf  # largest magnitude of the force
     iterations: int = 0
-    last_run: int = 0
-    start_pairs: float = 0.0
+    last_run: int = 0  # iterations since a direction of negative curvature was met
+    start_pairs: float = 0.0  # convolutions of the start, on coarser grids by share of the points
 
     @classmethod
     def empty(cls, shape):
@@ -72,20 +45,9 @@ def spans(shape):
 
 
 def evaluate(problem, state):
-    """Fill in what follows from the gap and the elastic pressure of a state.
+    """Fill in what follows from the gap (not negative at a wall) and elastic pressure of a state.
 
-    Parameters
-    ----------
-    problem : Problem
-        What is to be solved.
-    state : State
-        Its `gap` (non-negative where there is a wall) and `elastic` are given.
-
-    Returns
-    -------
-    State
-        The same object. The mean pressure, if not prescribed, is the one that balances the
-        open points in the mean.
+    The mean pressure, if not prescribed, is the one that balances the open points in the mean.
     """
     law, wall, unit = problem.law, problem.wall, problem.unit
     potential, total, count, least = 0.0, 0.0, 0, np.inf

@@ -3,28 +3,27 @@
 Lengths are in one unit of the caller's choice, pressures in units of the plane-strain modulus E*,
 forces in units of E* times length squared. The adhesion length is l_a = (work of adhesion)/E*.
 Pressures, forces and indentations are positive in compression, so a pull-off force is negative.
+Radii, wavelengths, adhesion lengths and ranges must be positive and finite: ValueError otherwise.
 
 Which model holds for a sphere of radius R depends on `tabor_parameter`: `JKRSphere` from about 5
 on, `DMTSphere` below about 0.1, `MaugisSphere` anywhere for the Maugis law; `derjaguin_force` is
 the rigid limit for every law. Paraboloids stand for spheres: contact radii are small against R.
-For a wave, `AdhesiveWave` is the limit of short range and `MaugisWave` holds for any range of
-the Maugis law.
-
-Radii, wavelengths, adhesion lengths and ranges must be positive and finite: ValueError otherwise.
+For a wave, `AdhesiveWave` is the limit of short range, `MaugisWave` holds for any range.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from stickiness.closed_forms.contact import Hertz, full_contact_pressure
+from stickiness.adhesion.laws import TractionLaw
+from stickiness.closed_forms.contact import Hertz, PositiveFields, full_contact_pressure
 from stickiness.closed_forms.maugis_sphere import (
     MaugisSphere,
     SphereState,
+    check_force,
     maugis_parameter,
     tabor_parameter,
 )
@@ -48,55 +47,26 @@ __all__ = [
 ]
 
 
-class HasLaw(Protocol):
-    """What the closed forms need of a traction law, see `adhesive.TractionLaw`."""
-
-    strength: float
-
-    def traction(self, gap: ArrayLike) -> NDArray:
-        """Traction [E*] at `gap` [length]."""
-
-    def potential(self, gap: ArrayLike) -> NDArray:
-        """Energy per area over E* [length], zero at infinite gap."""
-
-
 @dataclass(frozen=True)
-class _Sphere:
+class _Sphere(PositiveFields):
     """Radius and adhesion length, checked."""
 
     radius: float
     adhesion_length: float
-
-    def __post_init__(self):
-        positive(**vars(self))
-
-    def _check_force(self, force: float) -> float:
-        if not np.isfinite(force):
-            raise ValueError(f"force must be finite, got {force!r}")
-        if force < self.pull_off_force:
-            raise ValueError(
-                f"force must be at least the pull-off force {self.pull_off_force:.6g}, "
-                f"got {force!r}"
-            )
-        return float(force)
 
 
 @dataclass(frozen=True)
 class JKRSphere(_Sphere):
     """Adhesive contact of a half-space with a paraboloid, attraction of vanishing range.
 
-    Valid for `tabor_parameter` above about 5. Johnson, Kendall & Roberts, Proc. R. Soc. A 324,
-    301 (1971), doi:10.1098/rspa.1971.0141.
+    Valid for `tabor_parameter` above about 5. ValueError by methods, if a force lies beyond
+    pull-off. Johnson, Kendall & Roberts, Proc. R. Soc. A 324, 301 (1971),
+    doi:10.1098/rspa.1971.0141.
 
     Parameters
     ----------
     radius, adhesion_length : float
         Radius of curvature, work of adhesion over E* [length].
-
-    Raises
-    ------
-    ValueError
-        By methods, if a force lies beyond pull-off.
     """
 
     @property
@@ -137,7 +107,7 @@ class JKRSphere(_Sphere):
 
     def contact_radius(self, force: float) -> float:
         """Contact radius [length] at a force, on the branch that is stable under load control."""
-        force = self._check_force(force)
+        force = check_force(force, self.pull_off_force)
         unit = -self.pull_off_force
         # F + 3 pi R w + sqrt(...) is the perfect square (sqrt(unit) + sqrt(F + unit))^2.
         root = np.sqrt(unit) + np.sqrt(force + unit)
@@ -190,7 +160,7 @@ class DMTSphere(_Sphere):
 
     def contact_radius(self, force: float) -> float:
         """Contact radius [length] at a force [E* length^2]."""
-        force = self._check_force(force)
+        force = check_force(force, self.pull_off_force)
         return float(np.cbrt(0.75 * self.radius * (force - self.pull_off_force)))
 
     def indentation(self, force: float) -> float:
@@ -198,57 +168,40 @@ class DMTSphere(_Sphere):
         return self.contact_radius(force) ** 2 / self.radius
 
 
-def derjaguin_force(radius: float, law: HasLaw, separation: ArrayLike):
+def derjaguin_force(radius: float, law: TractionLaw, separation: ArrayLike):
     """Force [E* length^2] between a rigid paraboloid and a rigid flat, negative in attraction.
 
-    The rigid limit, `tabor_parameter` to zero, of any law: -2 pi R times the work still to be
-    done. At contact, for laws that only attract, the pull-off force is -2 pi R l_a.
+    The rigid limit, `tabor_parameter` to zero, of any law: -2 pi R times the work still to be done.
+    At contact, for laws that only attract, the pull-off force is -2 pi R l_a. Bradley, Philos. Mag.
+    13, 853 (1932), doi:10.1080/14786449209461990; Derjaguin, Kolloid-Z. 69, 155 (1934),
+    doi:10.1007/BF01433225.
 
     Parameters
     ----------
     radius : float
         Radius of curvature [length].
-    law : object with ``potential(gap)``
-        Traction law.
+    law : TractionLaw
+        Only its potential is used.
     separation : float or array
         Least gap [length].
-
-    Raises
-    ------
-    ValueError
-        If `radius` is not positive and finite.
-
-    References
-    ----------
-    Bradley, Philos. Mag. 13, 853 (1932), doi:10.1080/14786449209461990; Derjaguin, Kolloid-Z.
-    69, 155 (1934), doi:10.1007/BF01433225.
     """
     (radius,) = positive(radius=radius)
     return plain(2 * np.pi * radius * np.asarray(law.potential(separation)))
 
 
-def flat_pull_off(law: HasLaw) -> float:
+def flat_pull_off(law: TractionLaw) -> float:
     """Mean pressure [E*] at which parallel flats come apart: minus the strength of the law."""
     return -float(law.strength)
 
 
-def full_contact_pull_off(heights: ArrayLike, length: float | tuple, law: HasLaw) -> float:
+def full_contact_pull_off(heights: ArrayLike, length: float | tuple, law: TractionLaw) -> float:
     """Mean pressure [E*] below which full contact with a hard wall is no longer in equilibrium.
 
     Contact is held as long as the tension is nowhere above the traction at zero gap, and that
     tension is the full-contact one. Down to there it is also stable: every point has a positive
     repulsive pressure, so that any small opening costs energy to first order. For the wave
     ``d cos(2 pi x/l)`` it is ``pi d/l`` minus the strength, for the product of two such waves
-    ``sqrt(2) pi d/l`` minus it.
-
-    Parameters
-    ----------
-    heights : array
-        Heights ``(n0, n1)`` [length].
-    length : float or tuple of float
-        Side of the cell along axis 0, or both sides [length].
-    law : object with ``traction(gap)``
-        Traction law whose hard wall is at gap zero.
+    ``sqrt(2) pi d/l`` minus it. Heights and length [length] as for `full_contact_pressure`.
     """
     fluctuation = full_contact_pressure(heights, length, 0.0)
     return float(-fluctuation.min() - law.traction(0.0))
@@ -257,19 +210,10 @@ def full_contact_pull_off(heights: ArrayLike, length: float | tuple, law: HasLaw
 def critical_wavelength(slope: ArrayLike):
     """Wavelength [length] above which parallel flats at a uniform gap are unstable.
 
-    A wave of the gap is resisted by the stiffness |q|/2 of the half-space and driven by the slope
-    of the traction: the gap is stable at a fixed mean while ``pi/wavelength`` exceeds minus that
-    slope. In a periodic cell the longest wavelength is the side, whatever its amplitude.
-
-    Parameters
-    ----------
-    slope : float or array
-        Derivative of the traction with respect to the gap [E*/length], negative.
-
-    Raises
-    ------
-    ValueError
-        If `slope` is not negative and finite.
+    A wave of the gap is resisted by the stiffness |q|/2 of the half-space and driven by `slope`,
+    the derivative of the traction with respect to the gap [E*/length], negative and finite (else
+    ValueError): the gap is stable at a fixed mean while ``pi/wavelength`` exceeds minus that slope.
+    In a periodic cell the longest wavelength is the side, whatever its amplitude.
     """
     (steepness,) = positive(**{"-slope": -np.asarray(slope, dtype=float)})
     return plain(np.pi / steepness)

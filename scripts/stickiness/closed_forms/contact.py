@@ -1,6 +1,8 @@
 """Closed forms of elastic contact without adhesion, to check the numerical solutions against.
 
-Lengths are in one unit of the caller's choice, pressures in units of the plane-strain modulus E*.
+Lengths are in one unit of the caller's choice, pressures in units of the plane-strain modulus E*,
+loads are forces over E* in squared units of length. Parameters must be positive: ValueError
+otherwise. Johnson (1985) is his *Contact Mechanics*.
 """
 
 from dataclasses import dataclass
@@ -12,46 +14,26 @@ from stickiness.contact import half_space
 from stickiness.contact.grids import check_length
 from stickiness.core.arguments import positive
 
-__all__ = [
-    "Hertz",
-    "HertzEllipse",
-    "Summit",
-    "Westergaard",
-    "full_contact_pressure",
-    "highest_summit",
-    "wave_full_contact_pressure",
-    "wave_small_load_area",
-    "wave_large_load_area",
-]
+
+class PositiveFields:
+    """Base of dataclasses whose fields must be positive and finite: ValueError otherwise."""
+
+    def __post_init__(self):
+        positive(**vars(self))
 
 
 @dataclass(frozen=True)
-class Westergaard:
+class Westergaard(PositiveFields):
     """Contact of a half-space with the wave ``amplitude * cos(2 pi x / wavelength)``.
 
-    Westergaard, J. Appl. Mech. 6:49 (1939); Johnson, *Contact Mechanics* (1985), section 13.2.
-    The gap follows from the same complex function as the pressure: its real part is the pressure
-    in contact, its imaginary part half the slope of the gap outside.
-
-    Parameters
-    ----------
-    amplitude, wavelength : float
-        Of the wave, in one unit of length.
-    pressure : float
-        Mean pressure in units of E*.
-
-    Raises
-    ------
-    ValueError
-        If an argument is not positive.
+    Westergaard, J. Appl. Mech. 6:49 (1939); Johnson (1985), section 13.2. The gap follows from the
+    same complex function as the pressure: its real part is the pressure in contact, its imaginary
+    part half the slope of the gap outside. `pressure` is the mean one.
     """
 
     amplitude: float
     wavelength: float
     pressure: float
-
-    def __post_init__(self):
-        positive(**vars(self))
 
     @property
     def full_contact_pressure(self):
@@ -83,27 +65,11 @@ class Westergaard:
 
 
 @dataclass(frozen=True)
-class Hertz:
-    """Contact of a half-space with a paraboloid (Johnson 1985, section 4.2).
-
-    Parameters
-    ----------
-    radius : float
-        Radius of curvature of the summit.
-    load : float
-        Force over E*, in squared unit of length.
-
-    Raises
-    ------
-    ValueError
-        If an argument is not positive.
-    """
+class Hertz(PositiveFields):
+    """Contact with a paraboloid of a `radius` under a `load` (Johnson 1985, section 4.2)."""
 
     radius: float
     load: float
-
-    def __post_init__(self):
-        positive(**vars(self))
 
     @property
     def contact_radius(self):
@@ -137,19 +103,7 @@ class HertzEllipse:
     """Contact of a half-space with an elliptic paraboloid (Johnson 1985, eqs. 4.24 to 4.28).
 
     The limit of every rough surface at vanishing load: one asperity, with the principal curvatures
-    of the `highest_summit`.
-
-    Parameters
-    ----------
-    curvatures : (float, float)
-        Principal curvatures of the summit, both positive, in any order.
-    load : float
-        Force over E*, in squared unit of length.
-
-    Raises
-    ------
-    ValueError
-        If an argument is not positive.
+    of the `highest_summit`, in any order.
     """
 
     curvatures: tuple[float, float]
@@ -203,25 +157,17 @@ class HertzEllipse:
 
 @dataclass(frozen=True)
 class Summit:
-    """Highest point of a surface.
+    """Highest point of a surface."""
 
-    Attributes
-    ----------
-    position : (float, float)
-        Along axes 0 and 1, unit of length.
-    height : float
-        Height there.
-    curvatures : (float, float)
-        Principal curvatures, positive at a summit, the smaller first [1/length].
-    """
-
-    position: tuple[float, float]
-    height: float
-    curvatures: tuple[float, float]
+    position: tuple[float, float]  # along axes 0 and 1 [length]
+    height: float  # there
+    curvatures: tuple[float, float]  # principal ones [1/length], positive, the smaller first
 
 
 def highest_summit(heights, length):
     """Highest summit of a periodic band-limited surface, between its points.
+
+    Found by Newton's method on the Fourier series, from the highest grid point.
 
     Parameters
     ----------
@@ -229,11 +175,6 @@ def highest_summit(heights, length):
         Heights, of wavelengths longer than two pixels.
     length : float
         Side of the cell.
-
-    Returns
-    -------
-    Summit
-        Found by Newton's method on the Fourier series, from the highest grid point.
 
     Raises
     ------
@@ -295,21 +236,10 @@ def wave_large_load_area(ratio):
 
 
 def full_contact_pressure(heights, length, pressure):
-    """Pressure under any periodic surface pressed into full contact.
+    """Pressure [E*] ``(n0, n1)`` under periodic heights ``(n0, n1)`` pressed into full contact.
 
-    Parameters
-    ----------
-    heights : numpy.ndarray
-        Heights ``(n0, n1)``.
-    length : float or tuple of float
-        Side along axis 0 (pixels are then square), or both sides.
-    pressure : float
-        Mean pressure in units of E*.
-
-    Returns
-    -------
-    numpy.ndarray
-        ``p_q = |q| h_q / 2`` plus the mean; negative where contact would need tension.
+    ``p_q = |q| h_q / 2`` plus the mean `pressure`; negative where contact would need tension.
+    `length` is the side along axis 0 (pixels are then square), or both sides.
     """
     heights = np.asarray(heights, dtype=float)
     sides = check_length(length, heights.shape)

@@ -13,21 +13,15 @@ from numpy.typing import ArrayLike, NDArray
 from scipy import optimize
 
 from stickiness.adhesion.equivalent_sphere import opening
+from stickiness.closed_forms.contact import PositiveFields
 from stickiness.core.arguments import plain, positive
 
 _EDGE = np.pi / 2  # the angle arccos(a/c) of a point contact within a cohesive zone
 
 
 def tabor_parameter(radius: ArrayLike, adhesion_length: ArrayLike, range: ArrayLike):
-    """Tabor's parameter mu = (R l_a^2/range^3)^(1/3), dimensionless.
+    """Tabor's parameter mu = (R l_a^2/range^3)^(1/3), dimensionless; arguments [length].
 
-    Parameters
-    ----------
-    radius, adhesion_length, range : float or array
-        Radius of the sphere, work of adhesion over E* and range of attraction [length].
-
-    References
-    ----------
     Tabor, J. Colloid Interface Sci. 58, 2 (1977), doi:10.1016/0021-9797(77)90366-6.
     """
     radius, adhesion_length, range = positive(
@@ -41,70 +35,52 @@ def maugis_parameter(radius: ArrayLike, adhesion_length: ArrayLike, range: Array
 
     It is 2 (9/(16 pi))^(1/3) = 1.127 times `tabor_parameter` when the range is that of the
     Maugis law, sigma_0 = w/range. (The 1.157 often quoted compares with the separation of a
-    Lennard-Jones law of the same strength.)
-
-    Parameters
-    ----------
-    radius, adhesion_length, range : float or array
-        As of `tabor_parameter`.
-
-    References
-    ----------
-    Maugis, J. Colloid Interface Sci. 150, 243 (1992), doi:10.1016/0021-9797(92)90285-T.
+    Lennard-Jones law of the same strength.) Maugis, J. Colloid Interface Sci. 150, 243 (1992),
+    doi:10.1016/0021-9797(92)90285-T.
     """
     tabor = tabor_parameter(radius, adhesion_length, range)
     return plain(2 * np.cbrt(9 / (16 * np.pi)) * tabor)
 
 
+def check_force(force: float, pull_off: float) -> float:
+    """Return a force; ValueError if it is not finite or lies beyond pull-off."""
+    if not np.isfinite(force):
+        raise ValueError(f"force must be finite, got {force!r}")
+    if force < pull_off:
+        raise ValueError(f"force must be at least the pull-off force {pull_off:.6g}, got {force!r}")
+    return float(force)
+
+
 @dataclass(frozen=True)
 class SphereState:
-    """One equilibrium of a sphere, or arrays of them along a curve.
+    """One equilibrium of a sphere, or arrays of them along a curve."""
 
-    Attributes
-    ----------
-    contact_radius : float or array
-        Radius of the circle of zero gap [length].
-    cohesive_radius : float or array
-        Radius within which the attraction acts [length].
-    force : float or array
-        Force [E* length^2].
-    indentation : float or array
-        Approach of distant points [length].
-    """
-
-    contact_radius: float | NDArray
-    cohesive_radius: float | NDArray
-    force: float | NDArray
-    indentation: float | NDArray
+    contact_radius: float | NDArray  # of the circle of zero gap [length]
+    cohesive_radius: float | NDArray  # within which the attraction acts [length]
+    force: float | NDArray  # [E* length^2]
+    indentation: float | NDArray  # approach of distant points [length]
 
 
 @dataclass(frozen=True)
-class MaugisSphere:
+class MaugisSphere(PositiveFields):
     """Adhesive contact of a half-space with a paraboloid, Maugis law, any range.
 
     The equilibria form one curve, on which the angle t = arccos(a/c) between contact radius a
     and cohesive radius c runs from 0 (large contact) to pi/2 (point contact). The condition that
     the gap be the range at c is quadratic in c at fixed t, so that nothing needs to be iterated
-    along the curve. `separated` continues it beyond the point contact.
+    along the curve. `separated` continues it beyond the point contact. Maugis, J. Colloid Interface
+    Sci. 150, 243 (1992), doi:10.1016/0021-9797(92)90285-T; separated branch: Johnson & Greenwood,
+    J. Colloid Interface Sci. 192, 326 (1997), doi:10.1006/jcis.1997.4984.
 
     Parameters
     ----------
     radius, adhesion_length, range : float
         Radius of curvature, work of adhesion over E*, range of the traction [length].
-
-    References
-    ----------
-    Maugis, J. Colloid Interface Sci. 150, 243 (1992), doi:10.1016/0021-9797(92)90285-T;
-    separated branch: Johnson & Greenwood, J. Colloid Interface Sci. 192, 326
-    (1997), doi:10.1006/jcis.1997.4984.
     """
 
     radius: float
     adhesion_length: float
     range: float
-
-    def __post_init__(self):
-        positive(**vars(self))
 
     @property
     def strength(self) -> float:
@@ -135,24 +111,10 @@ class MaugisSphere:
         return best
 
     def curve(self, largest_radius: float, points: int = 200) -> SphereState:
-        """States from a contact radius [length] down to the point contact.
+        """States from a contact radius [length] down to the point contact, arrays ``(points,)``.
 
-        Parameters
-        ----------
-        largest_radius : float
-            Contact radius of the first state [length].
-        points : int
-            Number of states, denser towards large contacts.
-
-        Returns
-        -------
-        SphereState
-            Arrays of shape ``(points,)``.
-
-        Raises
-        ------
-        ValueError
-            If `largest_radius` is not positive and finite, or there are fewer than two points.
+        They are denser towards large contacts. ValueError if `largest_radius` is not positive and
+        finite, or there are fewer than two points.
         """
         if int(points) != points or points < 2:
             raise ValueError(f"points must be an integer of at least 2, got {points!r}")
@@ -165,28 +127,16 @@ class MaugisSphere:
     def at_force(self, force: float) -> SphereState:
         """State at a force [E* length^2] on the branch that is stable under load control.
 
-        Raises
-        ------
-        ValueError
-            If `force` is not finite or lies beyond pull-off.
+        ValueError if the force is not finite or lies beyond pull-off.
         """
-        if not np.isfinite(force):
-            raise ValueError(f"force must be finite, got {force!r}")
         least = self._lowest(lambda state: state.force)
-        if force < self._on_curve(least).force:
-            raise ValueError(
-                f"force must be at least the pull-off force "
-                f"{self._on_curve(least).force:.6g}, got {force!r}"
-            )
+        check_force(force, self._on_curve(least).force)
         return self._on_curve(self._solve(lambda t: self._on_curve(t).force - force, least))
 
     def separated(self, cohesive_radius: float) -> SphereState:
         """State without contact, attraction acting within `cohesive_radius` [length].
 
-        Raises
-        ------
-        ValueError
-            If the radius is not positive, or so large that the surfaces would touch.
+        ValueError if the radius is not positive, or so large that the surfaces would touch.
         """
         (c,) = positive(cohesive_radius=cohesive_radius)
         indentation = c**2 / (2 * self.radius) - 4 * self.strength * c / np.pi - self.range

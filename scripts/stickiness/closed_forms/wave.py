@@ -2,12 +2,9 @@
 
 Units and signs are those of `closed_forms.adhesion`, which exports all of this. The rigid wave is
 ``amplitude * cos(2 pi x / wavelength)``, x the distance from a crest. Phases are
-psi = pi x / wavelength, so that contact of half-width a stands for psi_a = pi a / wavelength and
-for the area fraction ``2 psi_a / pi``.
-
-Fields are real and imaginary parts of one function of the complex phase, as without adhesion
-(`closed_forms.contact.Westergaard`): the real part on the axis is the pressure, the imaginary part
-half the slope of the gap, the value at infinity the mean pressure.
+psi = pi x / wavelength: contact of half-width a stands for psi_a = pi a / wavelength and the area
+fraction ``2 psi_a / pi``. Fields are real and imaginary parts of one function of the complex phase,
+as without adhesion (`closed_forms.contact.Westergaard`).
 """
 
 from __future__ import annotations
@@ -19,8 +16,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy import optimize
 
-from stickiness.closed_forms.contact import Westergaard
-from stickiness.core.arguments import plain, positive
+from stickiness.closed_forms.contact import PositiveFields, Westergaard
+from stickiness.core.arguments import plain
 
 # Gauss-Legendre on [0, 1] after a substitution that is flat of third order at either end: it
 # removes a square root at one and a logarithm at the other to some 1e-11.
@@ -32,13 +29,10 @@ _SAMPLES = 400  # points on which the curve of equilibria is searched for turnin
 
 
 @dataclass(frozen=True)
-class _Wave:
+class _Wave(PositiveFields):
     amplitude: float
     wavelength: float
     adhesion_length: float
-
-    def __post_init__(self):
-        positive(**vars(self))
 
     @property
     def full_contact_amplitude(self) -> float:
@@ -77,20 +71,16 @@ class _Wave:
 class AdhesiveWave(_Wave):
     """Wave in adhesive contact when the range of attraction is short (JKR's limit).
 
-    Valid while the cohesive zone is short against the contact and its complement; `MaugisWave`
-    has no such limit. With psi half the contact in phase the mean pressure is
-    ``p* (sin^2 psi - alpha sqrt(tan psi))``.
+    Valid while the cohesive zone is short against the contact and its complement; `MaugisWave` has
+    no such limit. With psi half the contact in phase the mean pressure is ``p* (sin^2 psi - alpha
+    sqrt(tan psi))``. Johnson, Int. J. Solids Struct. 32, 423 (1995),
+    doi:10.1016/0020-7683(94)00111-9; mean gap: Carbone & Mangialardi, J. Mech. Phys. Solids 52,
+    1267 (2004), doi:10.1016/j.jmps.2003.12.001.
 
     Parameters
     ----------
     amplitude, wavelength, adhesion_length : float
         Of the wave, and work of adhesion over E* [length].
-
-    References
-    ----------
-    Johnson, Int. J. Solids Struct. 32, 423 (1995), doi:10.1016/0020-7683(94)00111-9;
-    mean gap: Carbone & Mangialardi, J. Mech. Phys. Solids 52, 1267 (2004),
-    doi:10.1016/j.jmps.2003.12.001.
     """
 
     # Largest alpha at which contact is partial without load, (27/256)^(1/4) = 0.570: the largest
@@ -111,12 +101,8 @@ class AdhesiveWave(_Wave):
     def turning_points(self) -> tuple[tuple[float, float], tuple[float, float]]:
         """Pull-off and jump into full contact, as pairs of area fraction and pressure [E*].
 
-        Partial contact is stable under load control between them.
-
-        Raises
-        ------
-        ValueError
-            If alpha exceeds `LARGEST_ALPHA`: the wave then jumps from apart to full contact.
+        Partial contact is stable under load control between them. ValueError if alpha exceeds
+        `LARGEST_ALPHA`: the wave then jumps from apart to full contact.
         """
         if self.alpha >= self.LARGEST_ALPHA:
             raise ValueError(
@@ -129,20 +115,15 @@ class AdhesiveWave(_Wave):
             return 4 * np.sin(psi) ** 1.5 * np.cos(psi) ** 2.5 - self.alpha
 
         middle = np.arctan(np.sqrt(0.6))
-        ends = (
-            optimize.brentq(slope, 0, middle, xtol=1e-15),
-            optimize.brentq(slope, middle, np.pi / 2, xtol=1e-15),
-        )
-        first, last = (float(2 / np.pi * psi) for psi in ends)
+        ends = (0, middle), (middle, np.pi / 2)
+        roots = (optimize.brentq(slope, *end, xtol=1e-15) for end in ends)
+        first, last = (float(2 / np.pi * psi) for psi in roots)
         return (first, self.pressure(first)), (last, self.pressure(last))
 
     def area_fraction(self, pressure: float) -> float:
         """Area fraction of the stable partial contact at a mean pressure [E*].
 
-        Raises
-        ------
-        ValueError
-            If there is none, for pressures below pull-off or above the jump into full contact.
+        ValueError if there is none, below pull-off or above the jump into full contact.
         """
         (first, least), (last, most) = self.turning_points
         if not least <= pressure <= most:
@@ -185,21 +166,12 @@ class AdhesiveWave(_Wave):
 
 @dataclass(frozen=True)
 class WaveState:
-    """One equilibrium of the wave under the Maugis law, or arrays of them along a curve.
+    """One equilibrium of the wave under the Maugis law, or arrays of them along a curve."""
 
-    Attributes
-    ----------
-    pressure : float or array
-        Mean pressure [E*].
-    area_fraction : float or array
-        Share of the wave in contact.
-    cohesive_fraction : float or array
-        Share of the wave within the range of attraction, that in contact included; one if the
-        cohesive zones of neighbouring crests have met.
-    """
-
-    pressure: float | NDArray
-    area_fraction: float | NDArray
+    pressure: float | NDArray  # mean [E*]
+    area_fraction: float | NDArray  # share of the wave in contact
+    # Share of the wave within the range of attraction, that in contact included; one if the
+    # cohesive zones of neighbouring crests have met.
     cohesive_fraction: float | NDArray
 
 
@@ -213,17 +185,13 @@ class MaugisWave(_Wave):
     zero beyond, and leaves the gap flat in contact. Hence the mean pressure
     ``p* sin^2 a - (2 s/pi) arccos(cos c/cos a)``. The gap at c is the range, which for a given c
     has one root a; the curve of equilibria is therefore followed along c, and, once c has reached
-    the trough, along a with ``p* sin^2 a - s``.
+    the trough, along a with ``p* sin^2 a - s``. The same problem by other means: Hui, Lin, Baney &
+    Kramer, J. Polym. Sci. B 39, 1195 (2001).
 
     Parameters
     ----------
     amplitude, wavelength, adhesion_length, range : float
         Of the wave, work of adhesion over E*, range of the traction [length].
-
-    References
-    ----------
-    The same problem by other means: Hui, Lin, Baney & Kramer, The mechanics of contact and
-    adhesion of periodically rough surfaces, J. Polym. Sci. B 39, 1195 (2001).
     """
 
     range: float
@@ -241,11 +209,8 @@ class MaugisWave(_Wave):
     def at_cohesive_fraction(self, cohesive_fraction: float) -> WaveState:
         """Return the equilibrium whose attraction covers a given share of the wave, below one.
 
-        Raises
-        ------
-        ValueError
-            If the share is not between 0 and 1, or the gap could not be so small there even with
-            a point contact.
+        ValueError if the share is not between 0 and 1, or the gap could not be so small there even
+        with a point contact.
         """
         c = float(self._phase(cohesive_fraction, "cohesive_fraction"))
         a = self._contact_phase(c)
@@ -310,12 +275,11 @@ class MaugisWave(_Wave):
         if low[1] == np.pi / 2:
             sine = np.sqrt((pressure + self.strength) / self.full_contact_amplitude)
             return self._state(float(np.arcsin(sine)), np.pi / 2)
-        c = optimize.brentq(
-            lambda c: self._state(self._contact_phase(c), c).pressure - pressure,
-            low[1],
-            high[1],
-            xtol=1e-14,
-        )
+
+        def excess(c):
+            return self._state(self._contact_phase(c), c).pressure - pressure
+
+        c = optimize.brentq(excess, low[1], high[1], xtol=1e-14)
         return self._state(self._contact_phase(c), c)
 
     def _state(self, a, c) -> WaveState:

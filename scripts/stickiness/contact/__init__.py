@@ -5,6 +5,7 @@
 - `half_space`: compliance of a periodic elastic half-space
 - `preconditioner`: approximate inverse of the compliance
 - `convolution`: convolutions with an even kernel, block by block
+- `grids`: cell, scale of the heights, fields on coarser and finer grids
 - `gaps`: area within a range of the wall, distribution of gaps
 - `subpixel`: areas finer than the pixels
 - `grid_limit`: limit of fine grids, from two or three of them

@@ -1,12 +1,10 @@
 """Active-set iteration of the repulsive contact problem, in dimensionless variables.
 
-`solver` states the problem and the method. Pressures of the contact set are short vectors over its
-points; whole grids are touched once per update of the set.
-
-Corrections of the pressure between two updates are computed in single precision. They reduce the
-gap by a factor of 10 to 1000, for which seven digits are plenty, and the next update starts from
-the true gap again (iterative refinement). That gap is in double precision as soon as rounding
-matters, and always in what is returned.
+`solver` states the problem and the method. Pressures of the contact set are short vectors; whole
+grids are touched once per update of the set. Between updates the pressure is corrected in single
+precision: a correction reduces the gap by a factor of 10 to 1000, for which seven digits are
+enough, and the next update starts from the true gap (iterative refinement). That gap is in double
+precision as soon as rounding matters, and always in what is returned.
 """
 
 from dataclasses import dataclass
@@ -16,8 +14,6 @@ import pyfftw
 
 from stickiness.contact import half_space
 from stickiness.contact.preconditioner import Preconditioner, coarse_stiffness
-
-__all__ = ["PREDICTION", "Problem", "State", "relax"]
 
 PREDICTION = 0.7  # c in "contact where p > c k g": 0.5 to 1 predict about equally well
 _LOOSE = 0.15  # reduction of the gap on a set that is still changing much
@@ -32,21 +28,11 @@ _SURRENDER = 40  # updates without progress after which rounding is what limits 
 
 @dataclass(frozen=True, eq=False)
 class Problem:
-    """Contact problem on one grid.
+    """Contact problem on one grid."""
 
-    Attributes
-    ----------
-    heights : numpy.ndarray
-        Heights in units of their rms, contiguous.
-    sides : tuple of float
-        Sides of the cell in units of the first.
-    load : float
-        Mean pressure, in units of E* times rms height over side.
-    """
-
-    heights: np.ndarray
-    sides: tuple
-    load: float
+    heights: np.ndarray  # in units of their rms, contiguous
+    sides: tuple  # of the cell, in units of the first
+    load: float  # mean pressure, in units of E* times rms height over side
 
 
 @dataclass(frozen=True, eq=False)
@@ -126,28 +112,10 @@ class _Grid:
 
 
 def relax(problem, *, tol, max_iterations, gap=None, pressure=None, rough=False, logger=None):
-    """Find pressure and gap on one grid.
+    """Find pressure and gap on one grid; returns the iterate of the smallest residual.
 
-    Parameters
-    ----------
-    problem : Problem
-        What is to be solved.
-    tol : float
-        Largest accepted residual.
-    max_iterations : int
-        Largest number of inner iterations; whatever is reached by then is returned.
-    gap, pressure : numpy.ndarray, optional
-        A guess of the gap in single precision, or one of the pressure of any positive mean;
-        without either the start is a uniform pressure.
-    rough : bool
-        Single precision suffices: `tol` is well above 1e-5.
-    logger : logging.Logger, optional
-        Told the progress.
-
-    Returns
-    -------
-    State
-        The iterate of the smallest residual.
+    Starts from a guess of the `gap` (single precision), from one of the `pressure` (any positive
+    mean), or from a uniform pressure. `rough`: single precision suffices, `tol` is well above 1e-5.
     """
     heights, load = problem.heights, problem.load
     grid = _Grid(problem, rough)
@@ -175,7 +143,10 @@ def relax(problem, *, tol, max_iterations, gap=None, pressure=None, rough=False,
         if best is None or residual < best[-1]:
             best, stale = (points, pressure, shift, residual), 0
         if logger is not None:
-            _report(logger, grid, residual, points.size, iterations)
+            logger.info(
+                "%d x %d: residual %.1e h_rms, area %.5f, %d iterations",
+                *(*grid.shape, residual, points.size / heights.size, iterations),
+            )
         if residual <= tol or iterations >= max_iterations or stale > _SURRENDER:
             break
         if below.size + points.size == 1:
@@ -226,22 +197,10 @@ def _full_contact(grid, load):
     return State(pressure, misfit, 0.0, 1.0, residual, 0, grid.pairs)
 
 
-def _report(logger, grid, residual, size, iterations):
-    logger.info(
-        "%d x %d: residual %.1e h_rms, area %.5f, %d iterations",
-        *grid.shape,
-        residual,
-        size / grid.heights.size,
-        iterations,
-    )
-
-
 def _gap(grid, field, points, pressure):
-    """Gap of an iterate, in the precision of a field of the grid.
+    """Shift, gaps in contact, points that penetrate outside it, and residual of an iterate.
 
-    Returns the shift that makes its mean in contact vanish, the gap in contact, points outside
-    that penetrate and the largest violation of the conditions of contact. The image of `field`
-    keeps the gap without the shift.
+    The shift makes the mean gap in contact vanish; the image of `field` keeps the gap without it.
     """
     image = field.apply(field.operator.compliance, points, pressure, grid.rows(points))
     np.subtract(image, grid.heights.ravel(), out=image, casting="same_kind")
@@ -257,10 +216,7 @@ def _gap(grid, field, points, pressure):
 
 
 def _predicted_from_gap(grid, gap, load):
-    """Contact set and pressure from a guess of the gap, in single precision.
-
-    The heights being exact, so is the pressure the guess implies well inside contact.
-    """
+    """Contact set and pressure that a guess of the gap implies: inside contact both are good."""
     operator, shape = grid.quick.operator, grid.shape
     surface = grid.quick.image.reshape(shape)  # scratch: not in use here
     np.add(gap, grid.heights, out=surface, casting="same_kind")
@@ -324,8 +280,8 @@ def _changed(pressure, change, scale):
 def _inner(precondition, residual, goal, largest, limit):
     """Change of pressure, of zero sum, that closes the gap on a set of points.
 
-    Preconditioned conjugate gradients in the space of vectors of zero sum, until the rms
-    residual (or the `largest`) is down to `goal`. In single precision; overwrites `residual`.
+    Preconditioned conjugate gradients in single precision until the rms residual (or the `largest`)
+    is down to `goal`. Overwrites `residual`.
     """
     quick, points, rows = precondition.quick, precondition.points, precondition.inner_rows
     change, count = np.zeros(points.size, np.float32), 1

@@ -1,13 +1,9 @@
 """Blocked convolutions of a real periodic field with an even kernel, on one thread.
 
-A two-dimensional transform of a large grid is bound by memory, not by arithmetic. Rows are
-therefore transformed a block at a time; then a few wavenumbers at a time are transformed along the
-other axis, multiplied by the symbol of the kernel and transformed back while they are in cache.
-Rows that hold nothing, or of which nothing is wanted, are left out.
-
-`Real` takes any grid. `Packed` needs an even number of columns and takes neighbours along a row
-for the real and the imaginary part of a complex field of half the width (Cooley, Lewis and Welch,
-J. Sound Vib. 12:315, 1970): transforms of complex numbers make better use of vector instructions.
+The transform of a large grid is bound by memory, not by arithmetic. Rows are therefore transformed
+a block at a time, then a few wavenumbers at a time along the other axis, multiplied by the symbol
+of the kernel and transformed back while they are in cache. Rows that hold nothing, or of which
+nothing is wanted, are left out.
 
 All plans are made with ``FFTW_ESTIMATE``: FFTW then never chooses an algorithm by timing, so that
 the last bits of a result do not depend on how busy the machine was.
@@ -15,8 +11,6 @@ the last bits of a result do not depend on how busy the machine was.
 
 import numpy as np
 import pyfftw
-
-__all__ = ["Packed", "Real"]
 
 _FLAGS = ("FFTW_ESTIMATE", "FFTW_DESTROY_INPUT")
 _ROWS = 64  # rows transformed at a time along axis 1
@@ -26,15 +20,7 @@ _ALIGNED = 64  # bytes
 
 
 class Real:
-    """Convolution by transforms of real rows, for any grid; the spectrum is stored transposed.
-
-    Parameters
-    ----------
-    shape : tuple of int
-        Grid points ``(n0, n1)``.
-    dtype : data-type
-        Of the real fields.
-    """
+    """Convolution of fields of a `dtype` on any grid `shape`; the spectrum is stored transposed."""
 
     def __init__(self, shape, dtype):
         n0, n1 = shape
@@ -56,33 +42,16 @@ class Real:
         self._columns_backward = _plan(self._work, first, "FFTW_BACKWARD")
 
     def symbol(self, values):
-        """Prepare a symbol.
-
-        Parameters
-        ----------
-        values : numpy.ndarray
-            Of shape ``(n1 // 2 + 1, n0)``, the normalisation included.
-
-        Returns
-        -------
-        numpy.ndarray
-            What `apply` takes.
-        """
+        """Prepare a symbol, normalised values of shape ``(n1 // 2 + 1, n0)``, for `apply`."""
         padded = np.zeros(self._spectrum.shape, self._dtype)
         padded[: values.shape[0]] = values
         return padded
 
     def apply(self, symbol, field, out, rows_in, rows_out):
-        """Convolve.
+        """Convolve `field` into `out` with what `symbol` returned.
 
-        Parameters
-        ----------
-        symbol : numpy.ndarray
-            What `symbol` returned.
-        field, out : numpy.ndarray
-            Arrays of the shape of the grid.
-        rows_in, rows_out : numpy.ndarray of int
-            Increasing indices of the rows that are not zero, and of those that are wanted.
+        `rows_in`, `rows_out`: increasing indices of the rows that are not zero, and of those
+        wanted.
         """
         modes = self._half.shape[1]
         if rows_in.size < self.shape[0]:
@@ -105,19 +74,13 @@ class Real:
 
 
 class Packed:
-    """Convolution by transforms of complex rows, for an even number of columns.
+    """Convolution for an even number of columns, by transforms of complex rows of half the width.
 
-    With ``z = p[:, ::2] + i p[:, 1::2]`` the convolution of p with the symbol S is
-    ``z'_k = a z_k + i b conj(z_-k)`` where ``a = s - d sin t``, ``b = d cos t``,
-    s and d are half the sum and half the difference of S at k and at k + n1/2, and
-    ``t = 2 pi k1 / n1``.
-
-    Parameters
-    ----------
-    shape : tuple of int
-        Grid points ``(n0, n1)``, n1 even.
-    dtype : data-type
-        Of the real fields.
+    Neighbours along a row are the real and the imaginary part (Cooley, Lewis and Welch, J. Sound
+    Vib. 12:315, 1970): transforms of complex numbers make better use of vector instructions. With
+    ``z = p[:, ::2] + i p[:, 1::2]`` the convolution of p with the symbol S is ``z'_k = a z_k + i b
+    conj(z_-k)`` where ``a = s - d sin t``, ``b = d cos t``, s and d are half the sum and half the
+    difference of S at k and at k + n1/2, and ``t = 2 pi k1 / n1``.
     """
 
     def __init__(self, shape, dtype):
@@ -230,6 +193,12 @@ class Packed:
         z += mirror
 
 
+def choose(shape, dtype):
+    """Convolution for a grid: `Packed` in single precision and an even number of columns."""
+    kind = Packed if dtype == np.float32 and shape[1] % 2 == 0 else Real
+    return kind(shape, np.dtype(dtype))
+
+
 def _mirrored(modes, width):
     """Groups of wavenumbers, each closed under k -> -k modulo `modes`, as tuples of slices."""
     yield (slice(0, 1),)
@@ -252,14 +221,8 @@ def _stride(n):
 
 
 def _blocks(rows, size):
-    """Blocks of at most `size` rows, with an index of each."""
+    """Blocks of rows, each with its index: a slice (no copy) where they follow one another."""
     for start in range(0, rows.size, size):
         block = rows[start : start + size]
-        yield block, _span(block)
-
-
-def _span(rows):
-    """Index of some rows: a slice (quick, no copy) where they follow one another."""
-    if rows[-1] - rows[0] + 1 == rows.size:
-        return slice(int(rows[0]), int(rows[-1]) + 1)
-    return rows
+        first, last = int(block[0]), int(block[-1])
+        yield block, slice(first, last + 1) if last - first + 1 == block.size else block

@@ -2,18 +2,15 @@
 
 Gaps and ranges share one unit of length; areas are fractions of the nominal area.
 
-The error of counting pixels
-----------------------------
 The discrete contact is made of whole pixels, and its edge lies some 0.15 pixels outside the true
-one. That strip is missing from the attractive area at *every* range. Ranges below the gap that one
-pixel spans at the edge, the `edge_gap`, are not seen at all. ``subpixel=True`` places the edge
-between the pixels, with a gap that grows from it by the 3/2 law (see `subpixel`). On 133 contacts
-(magnification 16 to 128, p/(E* q0 h_rms) = 0.001 to 0.5) at 8 pixels per shortest wavelength the
-root mean square error of the attractive area, against up to 4096 points, is at
+one. Counting pixels misses that strip of the attractive area at *every* range. Ranges below the gap
+that one pixel spans at the edge, the `edge_gap`, are not seen at all. ``subpixel=True`` places the
+edge between the pixels, with a gap that grows from it by the 3/2 law (see `subpixel`). On 133
+contacts (magnification 16 to 128, p/(E* q0 h_rms) = 0.001 to 0.5) at 8 pixels per shortest
+wavelength the rms error of the attractive area, against up to 4096 points, is at
 
 =============== ======== ======== ======== ======== ======== =========
 range/edge gap  0.03-0.1 0.1-0.3  0.3-1    1-3      3-10     10-100
-=============== ======== ======== ======== ======== ======== =========
 counted         65 %     51 %     33 %     15 %     6.4 %    1.9 %
 sub-pixel       10 %     7 %      4 %      1.8 %    0.7 %    0.16 %
 =============== ======== ======== ======== ======== ======== =========
@@ -31,15 +28,9 @@ from stickiness.contact import subpixel as edges_of_contact
 from stickiness.contact.subpixel import gap_and_contact
 from stickiness.core.arguments import positive
 
-__all__ = ["attractive_area", "gap_density"]
-
 
 def attractive_area(
-    gap: ArrayLike,
-    eps: ArrayLike,
-    contact: ArrayLike | None = None,
-    *,
-    subpixel: bool = False,
+    gap: ArrayLike, eps: ArrayLike, contact: ArrayLike | None = None, *, subpixel: bool = False
 ) -> float | NDArray:
     """Fraction of the nominal area that is out of contact but within the range of attraction.
 
@@ -50,8 +41,7 @@ def attractive_area(
     eps : float or array
         Range(s) of attraction [length].
     contact : bool array of the gap's shape, optional
-        True where the surfaces touch; by default where the gap is exactly zero. Contact points
-        do not count.
+        True where the surfaces touch; by default where the gap is exactly zero.
     subpixel : bool
         Place the edge of contact between the pixels, and the gap beside it by the edge law (see
         the module's notes). Needs the gap's two axes, periodic.
@@ -59,7 +49,7 @@ def attractive_area(
     Returns
     -------
     float or array of the shape of `eps`
-        A_ad/A_nom, the fraction with 0 < gap <= eps.
+        A_ad/A_nom, the fraction with 0 < gap <= eps, contact points excluded.
 
     Raises
     ------
@@ -82,30 +72,21 @@ def attractive_area(
 
 
 def gap_density(
-    gap: ArrayLike,
-    edges: ArrayLike,
-    contact: ArrayLike | None = None,
-    *,
-    subpixel: bool = False,
+    gap: ArrayLike, edges: ArrayLike, contact: ArrayLike | None = None, *, subpixel: bool = False
 ) -> NDArray:
-    """Probability density P(u) of the open gaps.
+    """Probability density P(u) [1/length] of the open gaps, averaged over each bin, ``(m,)``.
+
+    Its integral is the area fraction of the gaps within the edges: 1 - A_rep/A_nom once they span
+    all of them.
 
     Parameters
     ----------
-    gap : array
-        Gap [length] of the repulsive solution, any shape.
+    gap, contact
+        As for `attractive_area`.
     edges : (m + 1,) array
         Increasing bin edges [length].
-    contact : bool array of the gap's shape, optional
-        True where the surfaces touch; by default where the gap is exactly zero.
     subpixel : bool
         Take the slope of the sub-pixel `attractive_area` instead of counting pixels.
-
-    Returns
-    -------
-    (m,) array
-        P [1/length] averaged over each bin. Its integral is the area fraction of the gaps
-        within the edges: 1 - A_rep/A_nom once they span all of them.
 
     Raises
     ------

@@ -1,27 +1,24 @@
 """Continuum limit of contact results from grids of two or three resolutions, with an error.
 
-Every grid samples the same band-limited surface, each half as fine as the next. What is left to
-extrapolate depends on what has been done on one grid already:
+Every grid samples the same band-limited surface, each half as fine as the next.
 
 * *Counted in pixels*, areas are of first order in the pixel. `richardson` takes about two thirds of
   the error of the contact area away at 4 + 8 points per shortest wavelength.
-* *With sub-pixel edges* (`subpixel`) that order is gone, and with it more than nine tenths of the
-  error. From grid to grid the contact area still changes with the power 1.7, attractive areas at
-  ranges above the edge gap with 1.6, their slope P(u) with 1.5, the mean gap with 2.6; but the sign
-  of a change is a matter of how the pixels happen to lie on the spots. It does not predict that
-  of the next change, and extrapolation with these orders makes the error larger. The change does
-  say how large the error may be.
+* *With sub-pixel edges* (`subpixel`) more than nine tenths of the error are gone. From grid to grid
+  the contact area still changes with the power 1.7, attractive areas at ranges above the edge gap
+  with 1.6, their slope P(u) with 1.5, the mean gap with 2.6; but the sign of a change depends on
+  how the pixels lie on the spots, so that extrapolation makes the error larger. The change does say
+  how large the error may be.
 * Attractive areas at ranges *below the edge gap* rest on the edge law. Its error, from curved
   edges and narrow clefts, is of first order and mostly of one sign: it is extrapolated in part.
 
-`estimate` applies this. Its error is no standard deviation: it covers the true error of a single
-surface in at least 90 % of cases. It adds in quadrature a share of the last change, a share of
-what the sub-pixel edges contributed to the value (the systematic part), and the same over the
-square root of the number of edge pixels (the random part). The coefficients were fitted on 84
-contacts of magnification 16, 32 and 64, solved with up to 2048 points per side. On 49 others, of
-magnification 64 and 128 with up to 4096 points and Hurst exponents 0.5 to 0.9, coverage is 90 to
-100 %, quantity by quantity; the error is two to five times the root mean square of the true one,
-for the fit includes surfaces of few spots (``benchmarks/continuum.py``).
+The error of `estimate` covers the true one of a single surface in at least 90 % of cases. It adds
+in quadrature a share of the last change, a share of what the sub-pixel edges contributed (the
+systematic part), and the same over the square root of the number of edge pixels (the random part).
+The coefficients were fitted on 84 contacts of magnification 16 to 64, with up to 2048 points per
+side. On 49 others, of magnification 64 and 128, up to 4096 points and Hurst exponents 0.5 to 0.9,
+coverage is 90 to 100 %, quantity by quantity; the error is two to five times the rms of the true
+one, for the fit includes surfaces of few spots (``benchmarks/continuum.py``).
 """
 
 from __future__ import annotations
@@ -45,34 +42,17 @@ class Estimate:
 
 @dataclass(frozen=True)
 class Rule:
-    """How far a quantity is extrapolated and what its error is made of.
+    """How far a quantity is extrapolated and what its error is made of."""
 
-    Attributes
-    ----------
-    change : float
-        Share of the last change between grids.
-    part : float
-        Share of the sub-pixel part of the value.
-    noise : float
-        The same over the square root of the number of edge pixels.
-    unresolved_part : float
-        Takes the place of `part` at ranges far below the edge gap.
-    weight : float
-        Share of the last change that is added to the value far below the edge gap; it falls
-        to zero as the range rises to `resolved` edge gaps.
-    resolved : float
-        See `weight`.
-    order : float
-        Power of the pixel size with which changes fall.
-    """
-
-    change: float
-    part: float
-    noise: float
-    unresolved_part: float = 0.0
+    change: float  # share of the last change between grids
+    part: float  # share of the sub-pixel part of the value
+    noise: float  # the same over the square root of the number of edge pixels
+    unresolved_part: float = 0.0  # in place of `part` at ranges far below the edge gap
+    # Share of the last change that is added to the value far below the edge gap; it falls to zero
+    # as the range rises to `resolved` edge gaps.
     weight: float = 0.0
     resolved: float = 0.6
-    order: float = 1.7
+    order: float = 1.7  # power of the pixel size with which changes fall
 
 
 RULES = {
@@ -86,22 +66,20 @@ RULES = {
 
 
 def estimate(
-    quantity: str,
-    values: Sequence[Values],
-    part: Values,
-    edges: Values,
-    climbs: Values = np.inf,
+    quantity: str, values: Sequence[Values], part: Values, edges: Values, climbs: Values = np.inf
 ) -> Estimate:
     """Continuum limit of a quantity measured with sub-pixel edges, and its error.
+
+    For the mean of several surfaces pass means of `values` and `part` and the *sum* of `edges`: the
+    error's random part falls with their number.
 
     Parameters
     ----------
     quantity : {"area_fraction", "mean_gap", "attractive_area", "gap_density"}
         Names a `Rule` of `RULES`.
     values : sequence of two or three
-        The quantity on grids from coarse to fine, each twice as fine as the one before. Numbers,
-        numpy arrays or DataArrays that broadcast. With three grids the error is steadier: a
-        change that is small by chance is seldom so twice.
+        The quantity on grids from coarse to fine, each twice as fine as the one before, as arrays
+        that broadcast. The error is steadier with three.
     part : like the values
         What sub-pixel edges contribute on the finest grid, of either sign: the value less the
         one counted in pixels for areas; for the mean gap that of the contact area times the
@@ -111,12 +89,6 @@ def estimate(
         Number of pixel sides between contact and gap on the finest grid.
     climbs : like the values
         Range over the edge gap of the finest grid; needed for attractive areas.
-
-    Returns
-    -------
-    Estimate
-        For the mean of several surfaces pass means of `values` and `part` and the *sum* of
-        `edges`: the error's random part falls with their number.
 
     Raises
     ------
@@ -156,23 +128,10 @@ def estimate(
 
 
 def richardson(coarse: Values, fine: Values, order: float = 1.0) -> Values:
-    """Extrapolate from two grids, one twice as fine, an error that falls with a known power.
+    """Extrapolate from two grids, one twice as fine, an error that falls with the power `order`.
 
-    Parameters
-    ----------
-    coarse, fine : float or array
-        Values on the two grids.
-    order : float
-        Power of the pixel size; 1 for areas counted in pixels.
-
-    Raises
-    ------
-    ValueError
-        If the order is not positive.
-
-    References
-    ----------
-    Richardson, Phil. Trans. R. Soc. A 210, 307 (1911), doi:10.1098/rsta.1911.0009.
+    The order is 1 for areas counted in pixels; ValueError unless it is positive. Richardson, Phil.
+    Trans. R. Soc. A 210, 307 (1911), doi:10.1098/rsta.1911.0009.
     """
     if not order > 0:
         raise ValueError(f"order must be positive, got {order!r}")
@@ -182,8 +141,8 @@ def richardson(coarse: Values, fine: Values, order: float = 1.0) -> Values:
 def observed_order(coarse: Values, middle: Values, fine: Values) -> Values:
     """Power of the pixel size with which three grids converge: log2 of the ratio of changes.
 
-    Arrays of several cases are pooled by the root mean square of their changes along the first
-    axis, for the ratio of two changes of random sign means nothing alone.
+    Arrays of cases are pooled by the rms of their changes along the first axis: the ratio of two
+    changes of random sign means nothing alone.
     """
     first, second = (
         np.sqrt(np.mean(np.atleast_1d(change) ** 2, axis=0))

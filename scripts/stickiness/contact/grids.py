@@ -4,24 +4,9 @@ import numpy as np
 
 from stickiness.core.arguments import positive
 
-__all__ = [
-    "check_length",
-    "coarsen",
-    "interpolate",
-    "measure_scale",
-    "measure_slope",
-    "sample",
-]
-
 
 def check_length(length, shape):
-    """Sides of a cell of `shape` points from one (pixels are then square) or both.
-
-    Raises
-    ------
-    ValueError
-        If these are not one or two positive numbers.
-    """
+    """Sides of a cell of `shape` points from one (pixels are then square) or both, checked."""
     (sides,) = positive(length=length)
     if sides.size == 1:
         side = float(sides.ravel()[0])
@@ -52,7 +37,7 @@ def measure_slope(heights, lengths):
 
 def coarsen(n):
     """Points along an axis of the next coarser grid."""
-    return n // 2 if n % 2 == 0 else (n + 1) // 2
+    return (n + 1) // 2
 
 
 def sample(field, shape):

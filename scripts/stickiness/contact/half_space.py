@@ -1,9 +1,8 @@
 """Fourier operators of a periodic elastic half-space, on one thread and reproducible.
 
-The half-space responds to a pressure wave ``p_q`` (in units of E*) with the displacement
-``u_q = 2 p_q / |q|`` for q != 0 (Johnson, *Contact Mechanics*, 1985, section 13.2; Stanley and
-Kato, J. Tribol. 119:481, 1997, doi 10.1115/1.2833523). `HalfSpace` applies this compliance and its
-inverse, the stiffness ``|q| / 2``, as convolutions. Both leave out the mean (q = 0).
+A pressure wave ``p_q`` (in units of E*) displaces the half-space by ``u_q = 2 p_q / |q|``, q != 0
+(Johnson, *Contact Mechanics*, 1985, section 13.2; Stanley and Kato, J. Tribol. 119:481, 1997,
+doi 10.1115/1.2833523).
 """
 
 import threading
@@ -12,8 +11,6 @@ from functools import cached_property, lru_cache
 import numpy as np
 
 from stickiness.contact import convolution
-
-__all__ = ["HalfSpace", "clear_caches", "half_space", "keep_per_thread", "wavenumbers"]
 
 _CACHES = []  # of all functions that `keep_per_thread` decorates
 
@@ -45,30 +42,18 @@ def clear_caches():
 
 
 def wavenumbers(shape, lengths):
-    """Magnitudes of the wavevectors of a real transform.
-
-    Parameters
-    ----------
-    shape : tuple of int
-        Grid points along both axes.
-    lengths : tuple of float
-        Sides of the periodic cell, any unit.
-
-    Returns
-    -------
-    numpy.ndarray
-        ``|q|`` of shape ``(shape[0], shape[1] // 2 + 1)``, in 1/unit of length.
-    """
+    """Magnitudes |q| of a real transform's wavevectors, ``(shape[0], shape[1] // 2 + 1)``."""
     q0 = 2 * np.pi * np.fft.fftfreq(shape[0], lengths[0] / shape[0])
     q1 = 2 * np.pi * np.fft.rfftfreq(shape[1], lengths[1] / shape[1])
     return np.hypot(q0[:, None], q1[None, :])
 
 
 class HalfSpace:
-    """Compliance and stiffness of a periodic half-space on a regular grid.
+    """Compliance ``2/|q|`` of a periodic half-space and its inverse, the stiffness, but for q = 0.
 
-    The object owns its buffers: it must not be used by two threads at once (`half_space` hands
-    every thread its own).
+    It counts its convolutions in `pairs`. `mean_stiffness` is the diagonal of the stiffness matrix:
+    pressure under a pixel lifted alone, per unit of lift. The object owns its buffers: no two
+    threads may use it at once (`half_space` hands every thread its own).
 
     Parameters
     ----------
@@ -78,13 +63,6 @@ class HalfSpace:
         Sides of the cell; displacements come out in this unit.
     dtype : data-type, optional
         Of the real fields: double precision, or single at about half the cost for large grids.
-
-    Attributes
-    ----------
-    pairs : int
-        Convolutions (a forward and a backward transform each) since construction.
-    mean_stiffness : float
-        Diagonal of the stiffness matrix: pressure under a pixel lifted alone, per unit of lift.
     """
 
     def __init__(self, shape, lengths, dtype=np.float64):
@@ -93,10 +71,7 @@ class HalfSpace:
         self.lengths = tuple(float(a) for a in lengths)
         self.pairs = 0
         n0, n1 = self.shape
-        packed = self.dtype == np.float32 and n1 % 2 == 0
-        self._convolution = (convolution.Packed if packed else convolution.Real)(
-            self.shape, self.dtype
-        )
+        self._convolution = convolution.choose(self.shape, self.dtype)
         # FFTW does not normalise; the symbols carry the 1 / (n0 n1) of the inverse transform.
         q = wavenumbers(self.shape, self.lengths).T
         weight = np.full(q.shape[0], 2.0)
@@ -116,41 +91,15 @@ class HalfSpace:
         return self._convolution.symbol(q)
 
     def compliance(self, pressure, out=None, rows_in=None, rows_out=None):
-        """Displacement of the surface under a pressure field.
+        """Displacement, of zero mean and in the unit of `lengths`, under a pressure [E*].
 
-        Parameters
-        ----------
-        pressure : numpy.ndarray
-            Pressure in units of E*, shape of the grid.
-        out : numpy.ndarray, optional
-            Where to write the displacement.
-        rows_in : numpy.ndarray of int, optional
-            Increasing indices of the only rows with non-zero pressure (default: all).
-        rows_out : numpy.ndarray of int, optional
-            Rows of the displacement that are wanted; others are left as they are in `out`.
-
-        Returns
-        -------
-        numpy.ndarray
-            Displacement of zero mean, in the unit of `lengths`.
+        `rows_in`: increasing indices of the only rows with pressure; `rows_out`: those wanted of
+        the displacement, the others stay as they are in `out` (default: all).
         """
         return self._convolve(pressure, self._compliance, out, rows_in, rows_out)
 
     def stiffness(self, displacement, out=None, rows_in=None, rows_out=None):
-        """Pressure that causes a displacement field, the inverse of `compliance`.
-
-        Parameters
-        ----------
-        displacement : numpy.ndarray
-            Displacement in the unit of `lengths`, shape of the grid.
-        out, rows_in, rows_out
-            As in `compliance`.
-
-        Returns
-        -------
-        numpy.ndarray
-            Pressure of zero mean, in units of E*.
-        """
+        """Pressure [E*], of zero mean, that causes a displacement; arguments as in `compliance`."""
         return self._convolve(displacement, self._stiffness, out, rows_in, rows_out)
 
     def _convolve(self, field, symbol, out, rows_in, rows_out):

@@ -1,12 +1,9 @@
 """Preconditioner of the repulsive contact problem: an approximate inverse of the compliance.
 
 The inverse in full contact is the stiffness ``|q| / 2``. On a contact set it acts between an
-extension of the residual beyond the edge of contact and the transpose of that extension.
-
-A preconditioner need not be exact. On an even grid the stiffness is replaced by
-``constant + B F B^T``, where B interpolates from a grid half as fine along both axes: long waves
-get their ``|q| / 2``, short ones a constant (`CoarseStiffness`). The transforms are then four times
-smaller, at the price of one or two iterations more.
+extension of the residual beyond the edge of contact and the transpose of that extension. On an
+even grid `CoarseStiffness` stands for it: transforms are four times smaller, at the price of one
+or two iterations more.
 """
 
 import numpy as np
@@ -14,14 +11,6 @@ import pyfftw
 from scipy import sparse
 
 from stickiness.contact import convolution, half_space
-
-__all__ = [
-    "CoarseStiffness",
-    "Preconditioner",
-    "average_neighbours",
-    "build_neighbour_matrix",
-    "coarse_stiffness",
-]
 
 _EXTENSION = 0.8  # weight of the residual extended beyond the edge of contact
 _DIAGONAL = 0.6  # weight of a diagonal neighbour beside a direct one
@@ -32,23 +21,9 @@ _SHORT = 0.9  # stiffness of all short waves over that of the shortest
 class CoarseStiffness:
     """Approximate stiffness ``constant + B apply B^T``, most of it on a grid half as fine.
 
-    B is the incidence of the points of the fine grid and the four coarse points around each (some
-    of them may coincide). In single precision this is ``|q| / 2`` for long waves, but for aliases,
-    and the constant for short ones.
-
-    Parameters
-    ----------
-    shape : tuple of int
-        Points of the fine grid along both axes, even numbers.
-    lengths : tuple of float
-        Sides of the cell.
-
-    Attributes
-    ----------
-    constant : float
-        Stiffness of the shortest waves.
-    applications : int
-        Convolutions on the coarse grid since construction.
+    B is the incidence of the points of the fine grid (of even sides) and the four coarse points
+    around each (some may coincide). In single precision this is ``|q| / 2`` for long waves, but for
+    aliases, and the constant, 0.9 of the stiffness of the shortest wave, for short ones.
     """
 
     def __init__(self, shape, lengths):
@@ -63,25 +38,13 @@ class CoarseStiffness:
         # full weighting is B^T / 16 and interpolation B / 4
         symbol /= 64 * self.shape[0] * self.shape[1]
         self.constant = np.float32(constant)
-        kind = convolution.Packed if self.shape[1] % 2 == 0 else convolution.Real
-        self._convolution = kind(self.shape, np.dtype(np.float32))
+        self._convolution = convolution.choose(self.shape, np.float32)
         self._symbol = self._convolution.symbol(symbol.T)
         self._every = np.arange(self.shape[0])
         self._image = pyfftw.zeros_aligned(self.shape, np.float32)
 
     def apply(self, field):
-        """Convolve.
-
-        Parameters
-        ----------
-        field : numpy.ndarray
-            Values at all points of the coarse grid, in single precision.
-
-        Returns
-        -------
-        numpy.ndarray
-            As many values; overwritten by the next call.
-        """
+        """Convolve values at all points of the coarse grid; the next call overwrites the result."""
         field = field.reshape(self.shape)
         self._convolution.apply(self._symbol, field, self._image, self._every, self._every)
         self.applications += 1
@@ -151,22 +114,10 @@ class Preconditioner:
 
 
 def average_neighbours(active, shape):
-    """Points beside an active set, with means over their active neighbours.
+    """Points beside an active set (flat, periodic, not empty), and means over active neighbours.
 
-    Parameters
-    ----------
-    active : numpy.ndarray of bool
-        Flat, periodic, not empty.
-    shape : tuple of int
-        Of the grid.
-
-    Returns
-    -------
-    band : numpy.ndarray of int
-        Flat indices of the points that are not active but next to one that is.
-    columns, weights : numpy.ndarray
-        Flat indices ``(band.size, 8)`` of active points, and their weights: zero for an entry that
-        stands for a neighbour that is not active, their sum below one.
+    Returns their flat indices and, of shape ``(band.size, 8)``, flat indices of active points and
+    their weights: zero for a neighbour that is not active, their sum below one.
     """
     band = np.flatnonzero(_surroundings(active.reshape(shape)))
     first = int(np.argmax(active))

@@ -4,17 +4,13 @@ Given heights ``h`` and a mean pressure, find the pressure ``p >= 0`` and the ga
 ``p g = 0`` where ``g = u + shift - h`` and ``u_q = 2 p_q / |q|`` (Polonsky and Keer, Wear 231:206,
 1999, doi 10.1016/S0043-1648(99)00113-1; Stanley and Kato, doi 10.1115/1.2833523).
 
-The method is an active-set one:
-
 * For a guess of the contact set, preconditioned conjugate gradients solve ``g = 0`` there for the
   pressure (`preconditioner`). The number of iterations hardly depends on the grid.
 * Points under tension are released and points that penetrate are added, until neither is left.
   While the set still changes, the inner solution is a rough one.
-* Coarser grids supply a first guess of the gap, which is smooth enough to be interpolated.
-  Together with the exact heights it gives a pressure. A point is put into contact where
-  ``p > c k g``, k being the stiffness of a single pixel: this predicts the set to a per cent.
-
-Everything is solved in units of one side of the cell, ``h_rms`` and E*.
+* Coarser grids supply a first guess of the gap, which is smooth enough to be interpolated. With the
+  exact heights it gives a pressure. A point is put into contact where ``p > c k g``, k being the
+  stiffness of a single pixel: this predicts the set to a per cent.
 """
 
 from dataclasses import dataclass, replace
@@ -33,8 +29,6 @@ from stickiness.contact.grids import (
 from stickiness.core.arguments import grid, integer, number
 from stickiness.core.plausibility import warn_of_heights, warn_of_pressure
 
-__all__ = ["Contact", "ConvergenceError", "load_path", "solve"]
-
 _COARSEST = 64  # points along the shorter side of the coarsest grid
 _NEAR = 0.005  # relative change of load up to which the last solution is the better start
 _LOOSEST = 0.1  # of h_rms: beyond this no solution is worth the name
@@ -47,16 +41,13 @@ class Contact:
 
     Attributes
     ----------
-    pressure : numpy.ndarray
-        Contact pressure in units of E*, zero outside contact, ``(n0, n1)``.
-    gap : numpy.ndarray
-        Gap in the unit of the heights; zero in contact, positive outside.
-    mean_pressure : float
-        Prescribed mean pressure in units of E*.
+    pressure, gap : numpy.ndarray
+        Contact pressure in units of E*, zero outside contact; gap in the unit of the heights, zero
+        in contact and positive outside; ``(n0, n1)``.
+    mean_pressure, mean_gap : float
+        Prescribed mean pressure in units of E*, mean of `gap`.
     area_fraction : float
         Share of points with positive pressure.
-    mean_gap : float
-        Mean of `gap`, unit of the heights.
     shift : float
         Rigid displacement in ``gap = u + shift - h``, with u of zero mean; unit of the heights.
     residual : float
@@ -91,12 +82,7 @@ class Contact:
 class ConvergenceError(RuntimeError):
     """The contact conditions were not met to the tolerance.
 
-    Attributes
-    ----------
-    contact : Contact
-        Best iterate.
-    residual : float
-        Its residual, in units of h_rms.
+    `contact` is the best iterate, `residual` its residual in units of h_rms.
     """
 
     def __init__(self, message, contact):
@@ -114,7 +100,7 @@ def solve(
     max_iterations=1000,
     precision="double",
     logger=None,
-):
+) -> Contact:
     """Solve the contact of a half-space with a rigid periodic surface at a mean pressure.
 
     Parameters
@@ -122,8 +108,7 @@ def solve(
     heights : array_like
         Heights ``(n0, n1)`` of the rigid surface (positive towards the half-space), any unit.
     length : float or tuple of float
-        Side of the cell along axis 0 (pixels are then square), or both sides; same unit as the
-        heights.
+        Side of the cell along axis 0 (pixels are then square), or both sides; same unit.
     pressure : float
         Mean pressure in units of E*. Zero stands for touching at the summit, without contact.
     tol : float
@@ -138,11 +123,6 @@ def solve(
         nothing: all iterations but the last ones are in single precision anyway.
     logger : logging.Logger, optional
         Told the progress at level INFO.
-
-    Returns
-    -------
-    Contact
-        Pressure, gap and how well they meet the contact conditions.
 
     Raises
     ------
@@ -194,19 +174,15 @@ def press(
     A `rough` solution is in single precision throughout.
     """
     mean, rms = measure_scale(heights)
-    if rms == 0:
-        return _flat(heights, lengths, pressure)
-    if pressure == 0:
-        return _touching(heights, lengths, rms)
+    if rms == 0 or pressure == 0:
+        return _without_iterations(heights, lengths, pressure, rms)
     scaled = heights - mean
     scaled /= rms
     problem = active_set.Problem(
         scaled, (1.0, lengths[1] / lengths[0]), pressure * (lengths[0] / rms)
     )
     work = []
-    guess = None
-    if start is not None and start.area_fraction > 0:
-        guess = start.pressure
+    guess = start.pressure if start is not None and start.area_fraction > 0 else None
     state = active_set.relax(
         problem,
         tol=tol,
@@ -243,24 +219,17 @@ def press(
 
 
 def load_path(heights, length, pressures, tol=1e-8, **options):
-    """Solve one surface at several mean pressures.
+    """Solve one surface at several mean pressures; yields one `Contact` for each, in order.
 
-    A solution at nearly the same pressure is the start of the next; beyond `_NEAR` of relative
-    change the coarser grids predict the contact set better, and every solution starts from those.
+    A solution at nearly the same pressure is the start of the next; beyond a relative change of 0.5
+    % the coarser grids predict the contact set better, and every solution starts from those.
 
     Parameters
     ----------
-    heights, length, tol
-        As for `solve`.
     pressures : iterable of float
         Mean pressures in units of E*.
-    **options
-        Further arguments of `solve` but `start`.
-
-    Yields
-    ------
-    Contact
-        One solution per pressure, in the order given.
+    heights, length, tol, **options
+        As for `solve`, which also takes `start`.
     """
     last = None
     for pressure in pressures:
@@ -273,14 +242,7 @@ def load_path(heights, length, pressures, tol=1e-8, **options):
 def coarse_gap(problem, work, logger=None):
     """First guess of the gap from coarser grids, in single precision; None for a small grid.
 
-    Parameters
-    ----------
-    problem : active_set.Problem
-        The problem on the fine grid.
-    work : list of float
-        Gets the convolutions on every coarser grid, times its points.
-    logger : logging.Logger, optional
-        Told the progress.
+    `work` gets the convolutions on every coarser grid, times its points.
     """
     shape = problem.heights.shape
     if min(shape) < 2 * _COARSEST:
@@ -299,30 +261,15 @@ def coarse_gap(problem, work, logger=None):
     return interpolate(state.gap, shape)
 
 
-def _flat(heights, lengths, pressure):
+def _without_iterations(heights, lengths, pressure, rms):
+    """Contact of a flat, which is in full contact, or of any surface that carries no load."""
+    top = float(heights.max() if rms > 0 else heights.flat[0])
+    gap = top - heights if rms > 0 else np.zeros(heights.shape)
     return Contact(
         pressure=np.full(heights.shape, pressure),
-        gap=np.zeros(heights.shape),
+        gap=gap,
         mean_pressure=pressure,
         area_fraction=1.0 if pressure > 0 else 0.0,
-        mean_gap=0.0,
-        shift=float(heights.flat[0]),
-        residual=0.0,
-        iterations=0,
-        fft_pairs=0.0,
-        length=lengths,
-        rms_height=0.0,
-    )
-
-
-def _touching(heights, lengths, rms):
-    top = float(heights.max())
-    gap = top - heights
-    return Contact(
-        pressure=np.zeros(heights.shape),
-        gap=gap,
-        mean_pressure=0.0,
-        area_fraction=0.0,
         mean_gap=float(gap.mean()),
         shift=top,
         residual=0.0,

@@ -1,23 +1,20 @@
 """Areas of a discrete contact finer than its pixels: the edge of contact and the gap beside it.
 
-The solution on a grid touches at whole pixels, while the gap next to an edge of contact grows as
-``u = C x^(3/2)`` with the distance x. At 8 pixels per shortest wavelength it climbs to about 0.01
-h_rms across the first pixel, so that a count of pixels says nothing about smaller ranges of
-attraction. Two facts say more:
+The solution on a grid touches at whole pixels, while the gap grows from an edge of contact as
+``u = C x^(3/2)``. At 8 pixels per shortest wavelength it climbs to about 0.01 h_rms across the
+first pixel: a count of pixels says nothing about smaller ranges of attraction. Two facts say more:
 
 * *Where the edge is.* The discrete contact is too large by a strip along its edge, `STRIP_WIDTH`
-  pixels per pixel side of boundary. Yastrebov, Anciaux & Molinari (Tribol. Int. 114, 161, 2017,
-  arXiv:1701.02727) introduced the correction, with the width (pi - 1 + ln 2)/24 = 0.118 from
-  geometry. Here the width is measured: 0.096 +- 0.006 on straight edges of known position
-  (Westergaard's waves in all directions), 0.095 at 64 points per wavelength on rough surfaces and
-  0.103 at 8, against counts of 32 and 64 points extrapolated with their order, one.
+  pixels per pixel side of boundary (Yastrebov, Anciaux & Molinari, Tribol. Int. 114, 161, 2017,
+  arXiv:1701.02727, with 0.118 from geometry). Measured, the width is 0.096 +- 0.006 on straight
+  edges of known position (Westergaard's waves in all directions), 0.095 at 64 points per wavelength
+  on rough surfaces and 0.103 at 8, against counts of 32 and 64 points extrapolated linearly.
 * *How the gap leaves it.* In ``s = u^(2/3)`` the edge law is a straight line, whose slope the
-  second open pixel gives: the first one, beside the edge, is where the discrete solution differs
-  from the law. The ratio of the two says how far the edge is.
+  second open pixel gives: the first one is where the discrete solution differs from the law. The
+  ratio of the two says how far the edge is.
 
-Both are used on grid lines: an area is the mean length of its intersections with the lines of
-the grid, along both axes (Cavalieri), and on a line everything is a matter of intervals between
-neighbouring points, in which s is interpolated linearly.
+An area is the mean length of its intersections with the grid lines along both axes (Cavalieri); on
+a line, s is interpolated linearly between neighbouring points.
 """
 
 from __future__ import annotations
@@ -47,28 +44,11 @@ _LEVEL = 1e-6  # relative difference of s below which neighbours count as equal
 
 
 def boundary_strip(contact: ArrayLike) -> float:
-    """Area fraction by which a contact made of whole pixels exceeds the true one.
+    """Area fraction by which a contact ``(..., n, n)`` of whole pixels exceeds the true one.
 
-    Parameters
-    ----------
-    contact : (..., n, n) bool array
-        True where the surfaces touch; periodic in the last two axes.
-
-    Returns
-    -------
-    float
-        `STRIP_WIDTH` times the number of pixel sides between contact and gap, per pixel, for edges
-        without preferred direction. Subtract it from the contact's area fraction, add it to the
-        attractive one.
-
-    Raises
-    ------
-    ValueError
-        If `contact` is not boolean, empty, or has fewer than two dimensions.
-
-    References
-    ----------
-    Yastrebov, Anciaux & Molinari, Tribol. Int. 114, 161 (2017), arXiv:1701.02727.
+    `STRIP_WIDTH` times the number of pixel sides between contact and gap, per pixel, for edges
+    without preferred direction. Subtract it from the contact's area fraction, add it to the
+    attractive one. ValueError if `contact` is not boolean, empty, or has fewer than two dimensions.
     """
     contact = _mask(contact)
     sides = _sides(contact)
@@ -86,38 +66,21 @@ def edge_count(contact: ArrayLike) -> int:
 
 
 def perimeter(contact: ArrayLike) -> float:
-    """Length of the edge of contact per nominal area [1/pixel].
+    """Length of the edge of a contact ``(..., n, n)`` per nominal area [1/pixel].
 
     The number of crossings of the edge with the grid's lines, by the Cauchy-Crofton formula: exact
     on average over directions. Divide by the pixel size for the perimeter per area.
-
-    Parameters
-    ----------
-    contact : (..., n, n) bool array
-        True where the surfaces touch; periodic in the last two axes.
     """
     contact = _mask(contact)
     return float(np.pi / 4 * edge_count(contact) / contact.size)
 
 
 def edge_gap(gap: ArrayLike, contact: ArrayLike | None = None) -> float:
-    """Median gap of the open pixels that share a side with the contact [length].
+    """Median gap [length] of the open pixels that share a side with the contact.
 
     The gap's climb in the first pixel. At smaller ranges the attractive zone is narrower than a
     pixel: a count of pixels is then a statement about the grid, `attractive_area` one about the
-    edge law.
-
-    Parameters
-    ----------
-    gap : (..., n, n) array
-        Gap [length], periodic in the last two axes.
-    contact : bool array of the same shape, optional
-        True where the surfaces touch; by default where the gap is exactly zero.
-
-    Raises
-    ------
-    ValueError
-        On malformed arrays, or if nothing or everything touches.
+    edge law. Arguments as of `attractive_area`; ValueError, too, if nothing or everything touches.
     """
     gap, contact = gap_and_contact(gap, contact)
     _require_grid("gap", gap)
@@ -135,25 +98,8 @@ def attractive_area(
 ) -> float | NDArray:
     """Fraction of the nominal area with 0 < gap <= eps, down to ranges far below the `edge_gap`.
 
-    Parameters
-    ----------
-    gap : (..., n, n) array
-        Gap [length] of the repulsive solution, periodic in the last two axes.
-    eps : float or array
-        Range(s) of attraction [length], in any order.
-    contact : bool array of the gap's shape, optional
-        True where the surfaces touch; by default where the gap is exactly zero.
-
-    Returns
-    -------
-    float or array of the shape of `eps`
-        A_ad/A_nom. With the contact's area less its `boundary_strip` the fractions for all ranges
-        add up to one.
-
-    Raises
-    ------
-    ValueError
-        On malformed or negative gaps, or ranges that are not positive.
+    Arguments and errors are those of `gaps.attractive_area`. With the contact's area less its
+    `boundary_strip` the fractions for all ranges add up to one.
     """
     gap, contact = gap_and_contact(gap, contact)
     _require_grid("gap", gap)
@@ -168,7 +114,10 @@ def attractive_area(
     for field, touching in zip(_grids(gap), _grids(contact), strict=True):
         s = np.cbrt(np.maximum(field, 0.0)) ** 2
         found = [_edges(s, touching, axis) for axis in (0, 1)]
-        _lift(s, found)
+        # A point opens on the grid when the edge is still 0.2 pixels short of it, with next to no
+        # gap: it gets the one that the edge law has there.
+        for each in found:
+            np.maximum.at(s, each.index, each.lifted)
         for axis, weight in enumerate(weights):
             rows, mask = (s, touching) if axis == 1 else (s.T, touching.T)
             for part in _blocks(rows.shape):
@@ -261,17 +210,12 @@ def _between_open_points(s: NDArray, contact: NDArray, levels: NDArray) -> NDArr
 
 @dataclass(frozen=True)
 class _Edges:
-    """Edges of contact on the grid lines along one axis, all arrays of one length.
+    """Edges of contact on the grid lines along one axis, all arrays of one length."""
 
-    `index` is that of the first open point, `distance` its distance from the edge in pixels and
-    `second` the s of the point beyond, NaN where the gap closes again. `lifted` is the s of the
-    first point by the edge law, zero where that of the solution is as good.
-    """
-
-    index: tuple[NDArray, NDArray]
-    distance: NDArray
-    second: NDArray
-    lifted: NDArray
+    index: tuple[NDArray, NDArray]  # of the first open point
+    distance: NDArray  # of that point from the edge, in pixels
+    second: NDArray  # s of the point beyond, NaN where the gap closes again
+    lifted: NDArray  # s of the first point by the edge law, zero where the solution's is as good
 
     def table(self, s: NDArray, weight: float) -> NDArray:
         """Rows of distance, first s, second s and the weight of the lines."""
@@ -298,16 +242,6 @@ def _edges(s: NDArray, contact: NDArray, axis: int) -> _Edges:
     lifted = np.where(low, second * distance / (1 + distance), 0.0)
     # Where the gap closes again there is no second point to tell the slope.
     return _Edges((row, column), distance, np.where(rises, second, np.nan), lifted)
-
-
-def _lift(s: NDArray, edges: list[_Edges]) -> None:
-    """Give points that have hardly opened, in place, the gap that the edge law has there.
-
-    A point opens on the grid when the edge is still 0.2 pixels short of it: its gap is next to
-    nothing where it should be a tenth of the next one's.
-    """
-    for each in edges:
-        np.maximum.at(s, each.index, each.lifted)
 
 
 def _beside_edges(edges: NDArray, levels: NDArray) -> NDArray:

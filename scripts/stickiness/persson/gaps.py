@@ -1,7 +1,4 @@
-"""Where Persson's theory loses contact, scale by scale, and the gaps that opens.
-
-These are the sums and integrals behind `persson.Persson`; `theory` has the relations.
-"""
+"""Where Persson's theory loses contact, scale by scale, and the gaps that opens: see `theory`."""
 
 from __future__ import annotations
 
@@ -32,49 +29,24 @@ _NARROWEST = 1e-150  # Gaussians that much narrower than the widest are points
 
 @dataclass(frozen=True)
 class GapProfile:
-    """Where contact is lost on the way from the coarsest to the finest resolution, at one load.
+    """Where contact is lost on the way from the coarsest to the finest resolution, at one load."""
 
-    Attributes
-    ----------
-    weight : (n,) array
-        Shares of the nominal area.
-    gap : (n,) array
-        u1 of each share [length].
-    width : (n,) array
-        Standard deviation of the Gaussian about it [length].
-    closed : float
-        Share whose gap and width are below exp(-45) of the others', not in `weight`.
-    """
-
-    weight: NDArray
-    gap: NDArray
-    width: NDArray
-    closed: float
+    weight: NDArray  # shares of the nominal area
+    gap: NDArray  # u1 of each share [length]
+    width: NDArray  # standard deviation of the Gaussian about it [length]
+    closed: float  # share whose gap and width are below exp(-45) of the others', not in `weight`
 
 
 @dataclass(frozen=True)
 class Setting:
-    """A surface as the theory sees it, at no particular load.
-
-    Attributes
-    ----------
-    spectrum : Spectrum
-    kernels : Kernels
-    scales : ScaleNodes
-    m2 : float
-        Profile variance of the gradient of the whole surface.
-    variant : str
-        See `persson.Persson`.
-    nodes : float
-        Multiplies the number of quadrature nodes.
-    """
+    """A surface as the theory sees it, at no particular load."""
 
     spectrum: Spectrum
     kernels: Kernels
     scales: ScaleNodes
-    m2: float
-    variant: str
-    nodes: float
+    m2: float  # profile variance of the gradient of the whole surface
+    variant: str  # see `persson.Persson`
+    nodes: float  # multiplies the number of quadrature nodes
 
 
 @dataclass(frozen=True)
@@ -98,18 +70,11 @@ class _LostContact:
 
 
 def gap_profile(setting: Setting, p: float, reach: float) -> GapProfile:
-    """Quadrature of P(u) over the scales where contact is lost.
+    """Quadrature of P(u) over the scales where contact is lost, for gaps up to `reach` h_rms.
 
     The variable is ln(y - y_end): logarithmic in M - m at the fine end, where u1 vanishes as
     exp(-p(m)^2/(M - m)), and in y at the coarse one, where it grows as exp(y^2). Panels are
     laid so that no Gaussian is much narrower than one of them.
-
-    Parameters
-    ----------
-    setting : Setting
-    p : float
-    reach : float
-        Gaps up to this many h_rms are resolved.
     """
     y_end = float(setting.kernels.invert_area_scale(setting.m2 / p**2))
     edges, change, thinned = _panel_edges(setting, p, y_end, reach)
@@ -128,10 +93,7 @@ def gap_profile(setting: Setting, p: float, reach: float) -> GapProfile:
 
 
 def _panel_nodes(edges: NDArray, change: NDArray) -> tuple[float, NDArray, NDArray]:
-    """Gauss-Legendre nodes, in order, and weights.
-
-    Where there are very many panels, those that see little change get fewer.
-    """
+    """Gauss-Legendre nodes, in order, and weights; fewer where many panels see little change."""
     full = (change > 0.3) | (len(edges) < _MANY_PANELS)
     at, weights = [], []
     for chosen, order in ((full, _ORDER), (~full, _ORDER // 2)):
@@ -195,20 +157,12 @@ def _width(setting: Setting, lost: _LostContact, gap: NDArray) -> NDArray:
 def _panel_edges(
     setting: Setting, p: float, y_end: float, reach: float
 ) -> tuple[NDArray, NDArray, bool]:
-    """Edges of panels in ln(y - y_end).
+    """Edges of panels in ln(y - y_end), the change over each, and whether they are too few.
 
     Over each the Gaussians move by some four of their widths at most, their widths and the area
     that is left change by factors that ten nodes follow, and nothing has a strong kink. Next to
-    full contact of a broad spectrum, where they are thousands of times narrower than far from
-    zero, their moves are larger.
-
-    Returns
-    -------
-    edges : (k + 1,) array
-    change : (k,) array
-        Over each panel; 1 where ten nodes are needed.
-    thinned : bool
-        Whether the Gaussians move by more than four of their widths.
+    full contact of a broad spectrum the Gaussians are thousands of times narrower than far from
+    zero and move by more of their widths. A change of 1 needs ten nodes.
     """
     low, high = _step_range(setting, y_end)
     probe = np.linspace(low, high, 300)
@@ -306,10 +260,9 @@ def cumulative(u: NDArray, profile: GapProfile) -> NDArray:
 
 
 def closure_error(profile: GapProfile) -> float:
-    """Integral of u P over all u less the mean gap [length].
+    """Integral of u P over all u less the mean gap [length], the integral of u1 over the area.
 
-    The integral of u1 over the area is the mean gap. The pair of Gaussians about u1 and -u1,
-    taken at positive gaps, has a larger mean by what this adds up.
+    The pair of Gaussians about u1 and -u1, taken at positive gaps, has a larger mean.
     """
     width = _bounded(profile.width)
     ratio = profile.gap / width

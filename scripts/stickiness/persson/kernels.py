@@ -1,8 +1,8 @@
 """Universal functions of Persson's contact theory, tabulated once per correction of the theory.
 
-Nothing here depends on a surface or a load. A correction slows the diffusion of pressure by a
-factor S(A) of the relative contact area A, and makes the elastic energy of a scale A S(A) times
-that of full contact. Then the theory needs three functions:
+They depend on no surface or load. A correction slows the diffusion of pressure by a factor S(A) of
+the relative contact area A, and makes the elastic energy of a scale A S(A) times that of full
+contact. Then the theory needs three functions:
 
 - T(y), twice the full-contact pressure variance over the mean pressure squared, at which the
   relative contact area has shrunk to erf(y);
@@ -37,14 +37,9 @@ class Correction(ABC):
 
     A function of y, where A = erf(y) is the relative contact area; S(A) goes from gamma at
     A = 0 to 1 at full contact.
-
-    Attributes
-    ----------
-    gamma : float
-        S as the contact vanishes.
     """
 
-    gamma: float
+    gamma: float  # S as the contact vanishes
 
     own_gamma: ClassVar[float]  # the source's
     lowest_gamma: ClassVar[float] = 0.0  # not itself allowed
@@ -143,18 +138,9 @@ CORRECTIONS = tuple(_CORRECTIONS)
 
 
 def correction_of(name: CorrectionName, gamma: float | None = None) -> Correction:
-    """Return the correction of that name.
+    """Correction of that name with `gamma` in (0, 1], above 0.0185 for "wang2017".
 
-    Parameters
-    ----------
-    name : {"yang2008", "wang2017", "xu2024"}
-    gamma : float, optional
-        In (0, 1], above 0.0185 for "wang2017"; the source's value by default.
-
-    Raises
-    ------
-    ValueError
-        If the name is unknown or gamma out of range.
+    The source's gamma by default. ValueError if the name is unknown or gamma out of range.
     """
     if name not in _CORRECTIONS:
         raise ValueError(f"correction must be one of {CORRECTIONS}, got {name!r}")
@@ -168,12 +154,7 @@ def correction_of(name: CorrectionName, gamma: float | None = None) -> Correctio
 
 @dataclass(frozen=True)
 class Kernels:
-    """The functions T, F and kappa for one correction. Made by `kernels`.
-
-    Attributes
-    ----------
-    correction : Correction
-    """
+    """The functions T, F and kappa for one correction. Made by `kernels`."""
 
     correction: Correction
     _log_t: CubicHermiteSpline
@@ -216,10 +197,7 @@ class Kernels:
         return np.exp(log_y)
 
     def gap_kernel(self, x2: ArrayLike) -> NDArray:
-        """Return exp(x^2) F(x) for x^2.
-
-        F(x) = int_x^inf (dt/t) K(t) exp(-t^2).
-        """
+        """Return exp(x^2) F(x) for x^2, with F(x) = int_x^inf (dt/t) K(t) exp(-t^2)."""
         return self._evaluate(self._gap, x2)
 
     def mean_kernel(self, x2: ArrayLike) -> NDArray:
@@ -234,18 +212,7 @@ class Kernels:
 
 @lru_cache(maxsize=128)
 def kernels(gamma: float | None = None, correction: CorrectionName = "yang2008") -> Kernels:
-    """Tabulate the universal functions for one correction.
-
-    Parameters
-    ----------
-    gamma, correction
-        See `correction_of`.
-
-    Raises
-    ------
-    ValueError
-        If one of them is out of range.
-    """
+    """Tabulate the universal functions; arguments and errors are those of `correction_of`."""
     chosen = correction_of(correction, gamma)
     gap = _gap_table(chosen)
     return Kernels(chosen, _area_table(chosen), gap, _mean_table(gap))

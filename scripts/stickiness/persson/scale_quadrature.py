@@ -28,19 +28,11 @@ _PANEL_MARGIN, _GROUP_MARGIN = 0.35, 8.0
 
 @dataclass(frozen=True)
 class Nodes:
-    """Nodes of a quadrature: the integral of f d(-1/q) is sum(weight f).
+    """Nodes of a quadrature: the integral of f d(-1/q) is sum(weight f)."""
 
-    Attributes
-    ----------
-    below, above : (k,) arrays
-        m at the nodes and M - m, each free of cancellation, M being m of the whole surface.
-    weight : (k,) array
-        [length]
-    """
-
-    below: NDArray
-    above: NDArray
-    weight: NDArray
+    below: NDArray  # m at the nodes
+    above: NDArray  # M - m, M being m of the whole surface; both are free of cancellation
+    weight: NDArray  # [length]
 
     def __getitem__(self, part: slice) -> Nodes:
         return Nodes(self.below[part], self.above[part], self.weight[part])
@@ -53,26 +45,14 @@ class Nodes:
 
 @dataclass(frozen=True)
 class ScaleNodes:
-    """Two quadratures over the same panels of scales.
-
-    Attributes
-    ----------
-    fine, coarse : Nodes
-        In order of m.
-    edge : (k + 1,) array
-        m at the edges of the panels.
-    fine_start, coarse_start : (k + 1,) int arrays
-        First node of each panel, and the first beyond the last panel: the jump of -1/q at q1.
-    margin : float
-        The coarse nodes of a panel will do at so many times its width from it.
-    """
+    """Two quadratures, fine and coarse, over the same panels of scales, in order of m."""
 
     fine: Nodes
     coarse: Nodes
-    edge: NDArray
-    fine_start: NDArray
-    coarse_start: NDArray
-    margin: float
+    edge: NDArray  # (k + 1,): m at the edges of the panels
+    fine_start: NDArray  # (k + 1,): first node of each panel, then that beyond the last panel,
+    coarse_start: NDArray  # which is the jump of -1/q at q1
+    margin: float  # the coarse nodes of a panel will do at so many times its width from it
 
     def beyond(self, lowest: float, highest: float) -> Nodes:
         """Nodes for functions that set in at some m from `lowest` to `highest`."""
@@ -85,16 +65,10 @@ class ScaleNodes:
 
 
 def scale_nodes(spectrum: Spectrum, nodes: float = 1.0) -> ScaleNodes:
-    """Quadratures over the scales of a spectrum.
+    """Quadratures over the scales of a spectrum; `nodes` multiplies their numbers of nodes.
 
-    Composite Gauss quadrature for continuous spectra; every shell is a node of its own. Where there
-    are very many shells or points of a table, neighbours are put together.
-
-    Parameters
-    ----------
-    spectrum : Spectrum
-    nodes : float
-        Multiplies the number of nodes.
+    Gauss quadrature for continuous spectra; every shell is a node of its own. Where there are very
+    many shells or points of a table, neighbours are put together.
     """
     if isinstance(spectrum, Shells):
         return _grouped_nodes(_shell_nodes(spectrum), nodes)
@@ -173,24 +147,10 @@ def _grouped_nodes(discrete: Nodes, nodes: float) -> ScaleNodes:
 
 
 def _grouped(nodes: Nodes, label: NDArray, first: NDArray) -> tuple[Nodes, NDArray]:
-    """Two nodes in place of all that share a label.
+    """Two nodes in place of all that share a label, and where those of `first` have gone.
 
     They are the Gauss quadrature of the group's own distribution over m, which keeps four moments
     and so errs by the fourth power of the group's width.
-
-    Parameters
-    ----------
-    nodes : Nodes
-    label : (k,) array
-        In order.
-    first : (j,) int array
-        Nodes that begin a label.
-
-    Returns
-    -------
-    nodes : Nodes
-    start : (j + 1,) int array
-        Where the nodes of `first` have gone, and the end.
     """
     begin = np.flatnonzero(np.diff(label, prepend=-np.inf))
     size = np.diff(begin, append=len(label))

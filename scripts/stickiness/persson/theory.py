@@ -116,7 +116,7 @@ class Persson:
         self._profiles: dict[tuple[float, float], GapProfile] = {}
 
     def area_fraction(self, p: ArrayLike, magnification: float | None = None) -> NDArray:
-        """Relative contact area A/A_nom.
+        """Relative contact area A/A_nom, array of the shape of `p`.
 
         Parameters
         ----------
@@ -125,10 +125,6 @@ class Persson:
         magnification : float, optional
             Resolution zeta' >= 1 (q up to zeta' q0) at which the area is seen; the finest by
             default.
-
-        Returns
-        -------
-        array of the shape of `p`
         """
         (p,) = finite(p=p)
         if not np.all(p >= 0):
@@ -162,16 +158,13 @@ class Persson:
     def pressure_at(self, mean_gap: ArrayLike) -> NDArray:
         """Mean pressure over E* at which the mean gap is `mean_gap` > 0 [length].
 
-        Raises
-        ------
-        ValueError
-            If the gap is so large or so small that the pressure is out of floating-point range.
+        ValueError if the gap is so large or so small that the pressure leaves the range of floats.
         """
         (target,) = positive(mean_gap=mean_gap)
         return np.vectorize(self._pressure_at, otypes=[float])(target)[()]
 
     def gap_density(self, u: ArrayLike, p: ArrayLike) -> NDArray:
-        """Density P(u) [1/length] of gaps u > 0 over the nominal area.
+        """Density P(u) [1/length] of gaps over the nominal area; its integral is 1 - A/A_nom.
 
         Parameters
         ----------
@@ -180,11 +173,6 @@ class Persson:
             1/(u ln^2 u) towards zero.
         p : array_like
             Mean pressure over E*.
-
-        Returns
-        -------
-        array of shape ``p.shape + u.shape``
-            Integrates over u to 1 - A/A_nom.
         """
         density = self._over_gaps(u, p, _density)
         if self.variant == "afferrante2018":
@@ -195,26 +183,14 @@ class Persson:
         """Share of the nominal area with gaps between 0 and `u`, the contact not included.
 
         The integral of P from 0 to `u`, in closed form under the integral over scales. Also the
-        relative attractive area of a traction that acts up to the gap `u`.
-
-        Parameters
-        ----------
-        u : array_like
-            Gaps [length], u >= 0.
-        p : array_like
-            Mean pressure over E*.
-
-        Returns
-        -------
-        array of shape ``p.shape + u.shape``
+        relative attractive area of a traction that acts up to `u`. Arguments as of `gap_density`.
         """
         return self._over_gaps(u, p, _cumulative)
 
     def first_moment(self, p: ArrayLike) -> NDArray:
         """Mean gap [length] that P(u) implies, int u P du.
 
-        The theory does not make it equal to `mean_gap`; the difference measures how well P(u)
-        closes.
+        The difference from `mean_gap` measures how well P(u) closes.
         """
         (p,) = positive(p=p)
         errors = [closure_error(self._profile(float(x), _REACH)) for x in p.ravel()]

@@ -45,15 +45,10 @@ class Spectrum(ABC):
 
     @abstractmethod
     def at_gradient_variance(self, variance: ArrayLike) -> tuple[NDArray, NDArray]:
-        """Invert `variance_below(q, 2)`.
+        """Invert `variance_below(q, 2)`: q, and the height variance of all wave numbers beyond.
 
-        Returns
-        -------
-        q : array
-            Wave number up to which the gradient has this variance.
-        height_variance_above : array
-            Height variance carried by all wave numbers beyond. Within a shell of a discrete
-            spectrum, where q stands still, both variances grow in proportion.
+        Within a shell of a discrete spectrum, where q stands still, both variances grow in
+        proportion.
         """
 
     @abstractmethod
@@ -111,10 +106,8 @@ class PowerLawSegments(Spectrum):
     ----------
     knots : (m + 1,) array
         Increasing wave numbers that separate the m segments.
-    level : (m,) array
-        C at the left end of each segment.
-    exponent : (m,) array
-        Exponent a of each segment.
+    level, exponent : (m,) array
+        C at the left end of each segment, and its exponent a.
     """
 
     prescribed = "C"
@@ -252,10 +245,9 @@ class SelfAffine(PowerLawSegments):
     def truncated(self, q1: float) -> SelfAffine:
         """Return the same spectrum (same C0) cut at `q1`."""
         _check_cut(self, q1)
-        rolloff = self.q_rolloff if self.q_rolloff is not None and self.q_rolloff < q1 else None
-        if self.q_rolloff is not None and rolloff is None:
+        if self.q_rolloff is not None and self.q_rolloff >= q1:
             return super().truncated(q1)
-        return SelfAffine(hurst=self.hurst, q0=self.q0, q1=q1, C0=self.C0, q_rolloff=rolloff)
+        return SelfAffine(hurst=self.hurst, q0=self.q0, q1=q1, C0=self.C0, q_rolloff=self.q_rolloff)
 
     def __repr__(self) -> str:
         rolloff = "" if self.q_rolloff is None else f", q_rolloff={self.q_rolloff:.6g}"
@@ -277,11 +269,7 @@ class Tabulated(PowerLawSegments):
     """
 
     def __init__(self, q: ArrayLike, C: ArrayLike):
-        q, C = np.asarray(q, dtype=float), np.asarray(C, dtype=float)
-        if q.ndim != 1 or q.shape != C.shape or len(q) < 2:
-            raise ValueError(f"q and C must be 1D, of one length >= 2; got {q.shape} and {C.shape}")
-        if not (np.all(np.isfinite(q)) and q[0] > 0 and np.all(np.diff(q) > 0)):
-            raise ValueError("q must be positive, finite and strictly increasing")
+        q, C = _check_points(q, C, "C", least=2)
         if not (np.all(np.isfinite(C)) and np.all(C > 0)):
             bad = int(np.argmin(np.where(np.isfinite(C), C, -np.inf)))
             raise ValueError(f"C must be positive and finite, got C[{bad}] = {C[bad]!r}")
@@ -302,11 +290,7 @@ class Shells(Spectrum):
     prescribed = "variance"
 
     def __init__(self, q: ArrayLike, variance: ArrayLike):
-        q, variance = np.asarray(q, dtype=float), np.asarray(variance, dtype=float)
-        if q.ndim != 1 or q.shape != variance.shape or len(q) < 1:
-            raise ValueError(f"q and variance must be 1D alike, got {q.shape}, {variance.shape}")
-        if not (np.all(np.isfinite(q)) and q[0] > 0 and np.all(np.diff(q) > 0)):
-            raise ValueError("q must be positive, finite and strictly increasing")
+        q, variance = _check_points(q, variance, "variance", least=1)
         if not (np.all(np.isfinite(variance)) and np.all(variance >= 0) and variance.any()):
             raise ValueError("variance must be finite, non-negative and not all zero")
         keep = variance > 0
@@ -353,6 +337,16 @@ class Shells(Spectrum):
         _check_cut(self, q1)
         keep = self.q <= q1 * (1 + _ROUNDING)
         return Shells(self.q[keep], self.variance[keep])
+
+
+def _check_points(q: ArrayLike, values: ArrayLike, name: str, least: int) -> tuple[NDArray, ...]:
+    q, values = np.asarray(q, dtype=float), np.asarray(values, dtype=float)
+    if q.ndim != 1 or q.shape != values.shape or len(q) < least:
+        shapes = f"{q.shape} and {values.shape}"
+        raise ValueError(f"q and {name} must be 1D, of one length >= {least}; got {shapes}")
+    if not (np.all(np.isfinite(q)) and q[0] > 0 and np.all(np.diff(q) > 0)):
+        raise ValueError("q must be positive, finite and strictly increasing")
+    return q, values
 
 
 def _check_band(hurst: float, q0: float, q1: float, q_rolloff: float | None) -> None:

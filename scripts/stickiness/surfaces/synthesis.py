@@ -1,9 +1,9 @@
 """Random surfaces on a periodic square window: synthesis, spectrum and moments.
 
-A window of side L holds the wave vectors 2 pi (i, j)/L and no others. What a surface made on it
-really has is its lattice spectrum, not the continuous one that was asked for (at H = 0.8 the
-four modes of the longest wavelength carry more than half the height variance), so that is what
-simulation and theory are compared on.
+A window of side L holds the wave vectors 2 pi (i, j)/L and no others. A surface made on it has its
+lattice spectrum, not the continuous one that was asked for (at H = 0.8 the four modes of the
+longest wavelength carry more than half the height variance): simulation and theory are compared on
+that.
 """
 
 from __future__ import annotations
@@ -26,10 +26,9 @@ _ROUNDING = 1e-9  # relative slack on band limits that coincide with lattice wav
 
 @dataclass(frozen=True)
 class Moments:
-    """Spectral moments of a periodic surface, from its heights.
+    """Spectral moments of a periodic surface: ``m20`` is the mean of (dh/dx)^2 and so on.
 
-    ``m20`` stands for the mean of (dh/dx)^2, ``m22`` of (d2h/dx dy)^2 and so on; lengths as the
-    heights' and the window's.
+    ``m22`` is that of (d2h/dx dy)^2; lengths as the heights' and the window's.
     """
 
     m00: float
@@ -63,11 +62,7 @@ class Moments:
 
 
 def synthesise(
-    spectrum: Spectrum,
-    n: int,
-    length: float,
-    seed: int,
-    amplitudes: Amplitudes = "gaussian",
+    spectrum: Spectrum, n: int, length: float, seed: int, amplitudes: Amplitudes = "gaussian"
 ) -> NDArray:
     """Random periodic surface with a given spectrum, band limits exact.
 
@@ -148,24 +143,14 @@ def moments(heights: NDArray, length: float) -> Moments:
     power = np.where((i == 0) & (j == 0), 0.0, power)
     dq = 2 * np.pi / length
     kx, ky = i * dq, j * dq
-    orders = {
-        "m00": (0, 0),
-        "m20": (2, 0),
-        "m02": (0, 2),
-        "m40": (4, 0),
-        "m22": (2, 2),
-        "m04": (0, 4),
-    }
-    return Moments(**{k: float(np.sum(kx**a * ky**b * power)) for k, (a, b) in orders.items()})
+    orders = (0, 0), (2, 0), (0, 2), (4, 0), (2, 2), (0, 4)
+    return Moments(**{f"m{a}{b}": float(np.sum(kx**a * ky**b * power)) for a, b in orders})
 
 
 def resample(heights: NDArray, n: int) -> NDArray:
     """Same band-limited surface on a grid of `n` x `n`, by Fourier interpolation.
 
-    Raises
-    ------
-    ValueError
-        If the coarser grid cannot hold what the heights contain.
+    ValueError if the coarser grid cannot hold what the heights contain.
     """
     heights, n = grid("heights", heights, square=True), integer("n", n, least=1)
     old = heights.shape[0]
@@ -208,8 +193,7 @@ def _check_grid(spectrum: Spectrum, n: int, length: float) -> None:
 def list_modes(spectrum: Spectrum, length: float) -> tuple[NDArray, NDArray, NDArray]:
     """Lattice indices (i, j) of the band, one of each pair +-k, by rising |k|, with variances.
 
-    The order depends on |k| first, so that random numbers drawn in it stay with their modes when
-    the band grows at its upper end.
+    In this order random numbers stay with their modes when the band grows at its upper end.
     """
     dq = 2 * np.pi / length
     reach = int(np.floor(spectrum.q1 / dq * (1 + _ROUNDING)))
