@@ -58,10 +58,9 @@ def inverse_kappa_ad(
     a_v: ArrayLike,
     kappa_rep: ArrayLike = 2.0,
 ) -> float | NDArray:
-    """Adhesive part 1/kappa_ad of the inverse area-load slope.
+    """Adhesive part 1/kappa_ad of the inverse area-load slope, `traction_ratio` over `kappa_rep`.
 
-    `traction_ratio` over `kappa_rep`; with the paper's kappa_rep = 2 this is
-    (3 a_V/4) (l_a/range) (range/h_rms)^(2/3)/(q0 h_rms). Parameters as in `traction_ratio`.
+    With the paper's kappa_rep = 2 it is (3 a_V/4) (l_a/range) (range/h_rms)^(2/3)/(q0 h_rms).
     """
     (kappa_rep,) = positive(kappa_rep=kappa_rep)
     return plain(traction_ratio(h_rms, q0, adhesion_length, range, a_v) / kappa_rep)

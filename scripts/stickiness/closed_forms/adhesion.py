@@ -171,19 +171,10 @@ class DMTSphere(_Sphere):
 def derjaguin_force(radius: float, law: TractionLaw, separation: ArrayLike):
     """Force [E* length^2] between a rigid paraboloid and a rigid flat, negative in attraction.
 
-    The rigid limit, `tabor_parameter` to zero, of any law: -2 pi R times the work still to be done.
-    At contact, for laws that only attract, the pull-off force is -2 pi R l_a. Bradley, Philos. Mag.
-    13, 853 (1932), doi:10.1080/14786449209461990; Derjaguin, Kolloid-Z. 69, 155 (1934),
-    doi:10.1007/BF01433225.
-
-    Parameters
-    ----------
-    radius : float
-        Radius of curvature [length].
-    law : TractionLaw
-        Only its potential is used.
-    separation : float or array
-        Least gap [length].
+    The rigid limit, `tabor_parameter` to zero, of any law: -2 pi R times the work still to be done
+    at a least gap `separation` [length]. At contact, for laws that only attract, the pull-off force
+    is -2 pi R l_a. Bradley, Philos. Mag. 13, 853 (1932), doi:10.1080/14786449209461990; Derjaguin,
+    Kolloid-Z. 69, 155 (1934), doi:10.1007/BF01433225.
     """
     (radius,) = positive(radius=radius)
     return plain(2 * np.pi * radius * np.asarray(law.potential(separation)))

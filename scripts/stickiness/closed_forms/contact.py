@@ -226,11 +226,10 @@ def wave_small_load_area(ratio):
 
 
 def wave_large_load_area(ratio):
-    """Area fraction of the doubly sinusoidal wave near full contact.
+    """Area fraction of the doubly sinusoidal wave near full contact, `ratio` just below one.
 
-    `ratio` is the mean pressure over that of full contact, just below one: the troughs keep
-    circular holes, loaded like pressurised penny-shaped cracks (Johnson, Greenwood and Higginson
-    1985).
+    The troughs keep circular holes, loaded like pressurised penny-shaped cracks (Johnson, Greenwood
+    and Higginson 1985).
     """
     return 1 - 1.5 / np.pi * (1 - ratio)
 

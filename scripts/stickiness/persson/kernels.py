@@ -35,8 +35,7 @@ _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(8)
 class Correction(ABC):
     """How lost contact slows the diffusion of pressure and takes elastic energy from each scale.
 
-    A function of y, where A = erf(y) is the relative contact area; S(A) goes from gamma at
-    A = 0 to 1 at full contact.
+    A function of y, A = erf(y) being the relative contact area; S goes from gamma at A = 0 to 1.
     """
 
     gamma: float  # S as the contact vanishes

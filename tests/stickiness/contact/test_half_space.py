@@ -4,18 +4,9 @@ from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 import pytest
+from helpers.half_space import displacement
 
 from stickiness.contact import half_space
-
-
-def displacement(pressure, sides):
-    """Displacement under a pressure by numpy's transforms alone."""
-    shape = pressure.shape
-    q0 = 2 * np.pi * np.fft.fftfreq(shape[0], sides[0] / shape[0])
-    q1 = 2 * np.pi * np.fft.fftfreq(shape[1], sides[1] / shape[1])
-    q = np.hypot(q0[:, None], q1[None, :])
-    q[0, 0] = np.inf
-    return np.fft.ifft2(2 * np.fft.fft2(pressure) / q).real
 
 
 @pytest.mark.parametrize("shape", [(16, 16), (17, 13), (1, 8), (5, 1), (64, 48), (31, 128)])

@@ -4,6 +4,7 @@ import logging
 
 import numpy as np
 import pytest
+from helpers.half_space import displacement
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -26,16 +27,6 @@ def rough(n, hurst=0.8, magnification=None, seed=0, modes=64):
     fine[np.ix_(index % n, index % n)] = coarse[np.ix_(kept, kept)]
     heights = np.fft.ifft2(fine).real
     return heights / heights.std()
-
-
-def displacement(pressure, sides):
-    """Displacement under a pressure by numpy's transforms alone."""
-    shape = pressure.shape
-    q0 = 2 * np.pi * np.fft.fftfreq(shape[0], sides[0] / shape[0])
-    q1 = 2 * np.pi * np.fft.fftfreq(shape[1], sides[1] / shape[1])
-    q = np.hypot(q0[:, None], q1[None, :])
-    q[0, 0] = np.inf
-    return np.fft.ifft2(2 * np.fft.fft2(pressure) / q).real
 
 
 def assert_solves(contact, heights, sides, tol=1e-8):
