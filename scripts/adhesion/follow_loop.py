@@ -10,9 +10,8 @@ import logging
 import numpy as np
 import xarray as xr
 
-from pipeline.adhesion_sets import DESCRIBED as ADHESION_DESCRIBED
 from pipeline.adhesion_sets import LEAST, scaled_law
-from pipeline.conventions import pixels
+from pipeline.conventions import annotate, pixels
 from pipeline.error_budgets import SIMULATED
 from pipeline.job import start
 from stickiness import adhesive
@@ -61,9 +60,9 @@ def main(job):
         for control in CONTROLS
         for value in lengths
     }
-    dataset = annotate(gather(curves, lengths, pixels(surface)))
+    dataset = describe(gather(curves, lengths, pixels(surface)))
     datasets.write(
-        with_quoted(dataset),
+        add_quoted(dataset),
         job.output[0],
         title="approach and separation of one realisation with adhesion",
         parameters={**datasets.parameters(surface), **asked},
@@ -79,17 +78,8 @@ def curve(heights, length, asked, adhesion_length_over_range, control):
         "mean_gap": (far, nearest, far),
         "pressure": (0.0, asked["pressure"], -2 * law.strength),
     }
-    points = adhesive.path(
-        heights,
-        length,
-        law,
-        turns[control],
-        control=control,
-        tol=TOLERANCE,
-        balance=BALANCE,
-        smallest_jump=BALANCE,
-        steps=LEAST,
-    )
+    settings = {"tol": TOLERANCE, "balance": BALANCE, "smallest_jump": BALANCE, "steps": LEAST}
+    points = adhesive.path(heights, length, law, turns[control], control=control, **settings)
     rows = []
     for point in points:
         state = point.state
@@ -100,13 +90,9 @@ def curve(heights, length, asked, adhesion_length_over_range, control):
         if point.event != "pull-off":  # the last state that held is in the list already
             rows.append(row)
         logging.info(
-            "l_a/range %g, %s: p = %.4g, gap %.4g, area %.4f %s",
-            adhesion_length_over_range,
-            state.branch,
-            state.mean_pressure,
-            state.mean_gap,
-            state.repulsive_area_fraction,
-            point.event or "",
+            f"l_a/range {adhesion_length_over_range:g}, {state.branch}: "
+            f"p = {state.mean_pressure:.4g}, gap {state.mean_gap:.4g}, "
+            f"area {state.repulsive_area_fraction:.4f} {point.event or ''}"
         )
     return rows
 
@@ -133,7 +119,7 @@ def gather(curves, lengths, finest):
     )
 
 
-def with_quoted(dataset):
+def add_quoted(dataset):
     """What is quoted of the curves, on the fine grid, with its errors."""
     press, gap = dataset.sel(control="pressure"), dataset.sel(control="mean_gap")
     last = press.mean_pressure.notnull().sum("state") - 1
@@ -143,10 +129,8 @@ def with_quoted(dataset):
         "lost_share": gap.dissipated.sum("state") / gap.work.where(gap.work > 0).sum("state"),
     }
     for name, values in found.items():
-        coarse, fine = (
-            values.isel(resolution=grid).reset_coords(drop=True).drop_vars("state", errors="ignore")
-            for grid in (0, -1)
-        )
+        values = values.reset_coords(drop=True).drop_vars("state", errors="ignore")
+        coarse, fine = (values.isel(resolution=grid, drop=True) for grid in (0, -1))
         dataset[name] = fine.assign_attrs(units="1", long_name=QUOTED[name])
         dataset = with_budget(
             dataset,
@@ -159,16 +143,13 @@ def with_quoted(dataset):
     return dataset
 
 
-def annotate(dataset):
-    name = "adhesion_length_over_range"
+def describe(dataset):
     missing = "beyond the end of the curve"
     texts = {key: ("1", text, missing) for key, text in {**STATES, **STEPPED}.items()}
-    return datasets.annotate(
+    return annotate(
         dataset,
-        resolution=("1", "grid points per shortest wavelength"),
         control=("1", "what is prescribed"),
         state=("1", "number of the state along the curve"),
-        **{name: ADHESION_DESCRIBED[name]},
         **texts,
     )
 

@@ -13,8 +13,17 @@ import logging
 import numpy as np
 import xarray as xr
 
-from pipeline.adhesion_sets import AXES, MISSING, STRONGEST, axes, closed, roughness, scaled_law
-from pipeline.adhesion_sets import DESCRIBED as ADHESION_DESCRIBED
+from pipeline import conventions
+from pipeline.adhesion_sets import (
+    AXES,
+    MISSING,
+    STRONGEST,
+    axes,
+    roughness,
+    scaled_law,
+    solve_at_gap,
+)
+from pipeline.contact_curves import RMS_SLOPE
 from pipeline.conventions import pixels
 from pipeline.job import start
 from stickiness.adhesion import dmt, edge_zone
@@ -100,7 +109,7 @@ def states(heights, length, asked, chosen, tolerance=TOLERANCE):
             attraction = dmt.adhesive_pressure(contact.gap, law)
             values["attraction_dmt"][i, j, k] = attraction
             if chosen[i, j, k] and attraction <= STRONGEST * contact.mean_pressure:
-                for name, value in closed(heights, length, law, contact, tolerance).items():
+                for name, value in solve_at_gap(heights, length, law, contact, tolerance).items():
                     values[name][i, j, k] = value
     return xr.Dataset(
         {name: (AXES, value) for name, value in values.items()}
@@ -110,16 +119,11 @@ def states(heights, length, asked, chosen, tolerance=TOLERANCE):
 
 
 def annotate(dataset):
-    return datasets.annotate(
+    return conventions.annotate(
         dataset,
         pressure=("1", "mean pressure without adhesion at the same mean gap over E* q0 h_rms"),
-        resolution=("1", "grid points per shortest wavelength"),
-        rms_slope=("1", "rms gradient of this realisation over q0 h_rms"),
-        attraction_dmt=(
-            "1",
-            "attraction over the gaps without adhesion, p_ad/(E* q0 h_rms)",
-        ),
-        **{name: ADHESION_DESCRIBED[name] for name in dataset.dims if name in ADHESION_DESCRIBED},
+        rms_slope=RMS_SLOPE,
+        attraction_dmt=("1", "attraction over the gaps without adhesion, p_ad/(E* q0 h_rms)"),
         **{name: ("1", text) for name, text in ALONE.items()},
         **{name: ("1", text, f"DMT limit, or {MISSING}") for name, text in STATE.items()},
     )

@@ -5,8 +5,6 @@ shortest wavelength, as every fine one is too. Still more surfaces are not solve
 waves are described.
 """
 
-import numpy as np
-
 from pipeline.coarse_solutions import annotate, coarse_solutions
 from pipeline.contact_curves import COARSE
 from pipeline.conventions import grid_points, logarithmic_grid
@@ -20,7 +18,7 @@ def main(job):
         asked,
         range(job.params.after, job.params.seeds),
         job.params.descriptor_seeds,
-        np.sort(job.params.pressures),
+        job.params.pressures,
         logarithmic_grid(job.params.gaps),
         job.params.tolerance,
         job.params.measured,

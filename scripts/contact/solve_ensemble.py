@@ -10,7 +10,7 @@ import numpy as np
 import xarray as xr
 
 from pipeline import coarse_solutions, contact_curves
-from pipeline.conventions import grid_points, logarithmic_grid, spectrum_of, window_of
+from pipeline.conventions import cell_size, grid_points, logarithmic_grid, model_spectrum
 from pipeline.ensembles import (
     add_budgets,
     add_statistics,
@@ -58,10 +58,9 @@ def main(job):
 def realisation(asked, seed, pixels_per_wavelength, curves):
     """Contact of one random surface on all its grids."""
     logging.info("seed %d", seed)
-    length, n = window_of(asked), grid_points(asked, pixels_per_wavelength)
-    heights = synthesis.synthesise(
-        spectrum_of(asked), n, length, seed, asked.get("amplitudes", "gaussian")
-    )
+    length, n = cell_size(asked), grid_points(asked, pixels_per_wavelength)
+    amplitudes = asked.get("amplitudes", "gaussian")
+    heights = synthesis.synthesise(model_spectrum(asked), n, length, seed, amplitudes)
     steps = contact_curves.steps_of(pixels_per_wavelength)
     dataset = contact_curves.load_curves(heights, length, steps, *curves)
     waves = asked["magnification"] * asked.get("window", 1.0)

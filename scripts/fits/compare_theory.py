@@ -15,8 +15,8 @@ puts the mean gap near or above it, the window holds too few summits to be compa
 import numpy as np
 import xarray as xr
 
-from pipeline import theory as theories
-from pipeline.conventions import DESCRIBED, grid_points, spectrum_of, window_of
+from pipeline import conventions
+from pipeline.conventions import VARIABLES, cell_size, grid_points, model_spectrum
 from pipeline.ensemble_means import coarse, discretisation_error, ensemble_mean
 from pipeline.grid_limits import EXTRAPOLATION
 from pipeline.job import start
@@ -134,40 +134,29 @@ def integral(values):
 def highest_summit(made):
     """Mean height over h_rms of the highest point of a window."""
     asked = {**made, "magnification": min(made["magnification"], LONG_WAVES)}
-    spectrum, length, n = spectrum_of(asked), window_of(asked), grid_points(asked, 4)
+    spectrum, length, n = model_spectrum(asked), cell_size(asked), grid_points(asked, 4)
     amplitudes = made.get("amplitudes", "gaussian")
-    return float(
-        np.mean(
-            [
-                synthesis.synthesise(spectrum, n, length, seed, amplitudes).max()
-                for seed in range(WINDOWS)
-            ]
-        )
-    )
+    draws = (synthesis.synthesise(spectrum, n, length, k, amplitudes) for k in range(WINDOWS))
+    return float(np.mean([heights.max() for heights in draws]))
 
 
 def annotate(dataset):
-    texts = {name: DESCRIBED[name] for name in ("pressure", "range", "gap")}
-    texts["variant"] = theories.DESCRIBED
-    texts["highest_summit"] = ("1", "mean height of a window's highest point over h_rms")
-    texts["theory_mean_gap"] = ("1", "mean gap over h_rms by theory")
-    texts["margin"] = ("1", "least distance of theory's mean gap from the highest summit")
-    texts["window_holds"] = (
-        "1",
-        "1 where theory's mean gap is so far below the highest summit",
-    )
-    for name in COMPARED:
-        text = f"theory over simulation less 1: {DESCRIBED[name][1]}"
-        texts[f"{name}_difference"] = ("1", text, "nothing simulated within the range")
     text = "area between the cumulative distributions of the gap (Wasserstein distance) over h_rms"
     unknown = "a single seed"
-    texts |= {
+    texts = {
+        "highest_summit": ("1", "mean height of a window's highest point over h_rms"),
+        "theory_mean_gap": ("1", "mean gap over h_rms by theory"),
+        "margin": ("1", "least distance of theory's mean gap from the highest summit"),
+        "window_holds": ("1", "1 where theory's mean gap is so far below the highest summit"),
         "distance": ("1", text),
         "distance_standard_error": ("1", f"{text}: standard error", unknown),
         "distance_discretisation_error": ("1", f"{text}: error in the limit of fine grids"),
         "distance_floor": ("1", f"{text}: mean that sampling errors alone give", unknown),
     }
-    return datasets.annotate(dataset, **texts)
+    for name in COMPARED:
+        text = f"theory over simulation less 1: {VARIABLES[name][1]}"
+        texts[f"{name}_difference"] = ("1", text, "nothing simulated within the range")
+    return conventions.annotate(dataset, **texts)
 
 
 if __name__ == "__main__":

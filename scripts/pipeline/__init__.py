@@ -1,1 +1,1 @@
-"""What the scripts of the stages share. It knows results and figures; the physics is in `stickiness`."""
+"""What the scripts of the stages share: results and figures; the physics is in `stickiness`."""

@@ -16,13 +16,8 @@ import xarray as xr
 from stickiness import adhesive
 from stickiness.adhesion.model_choice import roughness
 
-LAWS = {
-    "maugis": adhesive.Maugis,
-    "exponential": adhesive.Exponential,
-}
-
+LAWS = {"maugis": adhesive.Maugis, "exponential": adhesive.Exponential}
 MISSING = "the grid does not resolve the edge, or a window closes"
-
 OUTSIDE = "outside the table of measured errors"
 
 # Relative. Of 24 states solved to 1e-7 and to 1e-9 (loads 0.03 and 0.065, range 0.1 h_rms,
@@ -32,12 +27,16 @@ SOLVER = 1e-6
 STRONGEST = 8.0  # attraction over repulsion, in the DMT limit, that is still looked at
 LEAST = 20  # states of a loop at least, loading or unloading
 
-AXES = ("pressure", "adhesion_length_over_range", "range_over_h_rms")
-DESCRIBED = {
-    "q0_h_rms": ("1", "lowest wave number times rms height"),
-    "adhesion_length_over_range": ("1", "adhesion length over range, sigma0/E*"),
-    "range_over_h_rms": ("1", "range of attraction over h_rms"),
+ATTRIBUTES = {  # quantities of an adhesive state by their names in files
+    "external_pressure": "mean_pressure",
+    "repulsive_pressure": "repulsive_pressure",
+    "attraction": "adhesive_pressure",
+    "repulsive_area": "repulsive_area_fraction",
+    "net_repulsive_area": "net_repulsive_area_fraction",
+    "attractive_area": "adhesive_area_fraction",
+    **{name: name for name in ("elastic_energy", "interaction_energy", "residual", "iterations")},
 }
+AXES = ("pressure", "adhesion_length_over_range", "range_over_h_rms")
 
 
 def axis(name: str, asked: Mapping[str, Any], key: str | None = None) -> xr.DataArray:
@@ -59,30 +58,13 @@ def scaled_law(
     return LAWS[kind](adhesion_length=strength * range_over_h_rms, range=range_over_h_rms)
 
 
-def closed(heights, length, law, contact, tolerance):
+def solve_at_gap(heights, length, law, contact, tolerance):
     """State at the mean gap of a contact without adhesion, reached from that contact."""
-    state = adhesive.solve(
-        heights, length, law, mean_gap=contact.mean_gap, start=contact, tol=tolerance
-    )
+    gap = contact.mean_gap
+    state = adhesive.solve(heights, length, law, mean_gap=gap, start=contact, tol=tolerance)
     logging.info(
-        "n = %d, p = %.3g, l_a %.3g, range %g: area %.4f, residual %.1e, %d iterations",
-        len(heights),
-        contact.mean_pressure,
-        law.adhesion_length,
-        law.range,
-        state.repulsive_area_fraction,
-        state.residual,
-        state.iterations,
+        f"n = {len(heights)}, p = {contact.mean_pressure:.3g}, l_a {law.adhesion_length:.3g}, "
+        f"range {law.range:g}: area {state.repulsive_area_fraction:.4f}, "
+        f"residual {state.residual:.1e}, {state.iterations} iterations"
     )
-    return {
-        "external_pressure": state.mean_pressure,
-        "repulsive_pressure": state.repulsive_pressure,
-        "attraction": state.adhesive_pressure,
-        "repulsive_area": state.repulsive_area_fraction,
-        "net_repulsive_area": state.net_repulsive_area_fraction,
-        "attractive_area": state.adhesive_area_fraction,
-        "elastic_energy": state.elastic_energy,
-        "interaction_energy": state.interaction_energy,
-        "residual": state.residual,
-        "iterations": state.iterations,
-    }
+    return {name: getattr(state, attribute) for name, attribute in ATTRIBUTES.items()}

@@ -13,12 +13,7 @@ from stickiness.core import datasets
 def summary(results: str, answers: Iterable[str] = ()) -> str:
     """Where the report is, how claims and pairs came out, and which cases missed their accuracy.
 
-    Parameters
-    ----------
-    results : str
-        Folder of the results.
-    answers : iterable of str
-        Answers of the cases that ask for an accuracy.
+    `results` is the folder, `answers` those files of cases that ask for an accuracy.
     """
     lines = [("results", results), *grades(Path(results)), *misses(answers)]
     report = Path(results, "report/report.html")

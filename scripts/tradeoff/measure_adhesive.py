@@ -10,9 +10,8 @@ import logging
 import numpy as np
 import xarray as xr
 
-from pipeline.adhesion_sets import DESCRIBED as ADHESION_DESCRIBED
-from pipeline.adhesion_sets import STRONGEST, closed, scaled_law
-from pipeline.conventions import grid_points, spectrum_of, window_of
+from pipeline.adhesion_sets import STRONGEST, scaled_law, solve_at_gap
+from pipeline.conventions import VARIABLES, cell_size, grid_points, model_spectrum
 from pipeline.job import start
 from pipeline.tradeoff.measuring import KEYS, pair_seconds, peak_megabytes, timed
 from stickiness.adhesion import dmt
@@ -37,11 +36,11 @@ def main(job):
     grids = [p for p in sorted(wanted["pixels"]) if grid_points(asked, p) <= wanted["most_points"]]
     chosen = settings(wanted, grids)
     finest = max(setting["pixels"] for setting in chosen)
-    length, n = window_of(asked), grid_points(asked, finest)
+    length, n = cell_size(asked), grid_points(asked, finest)
     seeds, rows, few = np.arange(1, wanted["more_seeds"] + 1), [], wanted["seeds"]
     usual = 1 + grids.index(wanted["at_pixels"])
     for seed in seeds:
-        heights = synthesis.synthesise(spectrum_of(asked), n, length, int(seed))
+        heights = synthesis.synthesise(model_spectrum(asked), n, length, int(seed))
         most = len(chosen) if seed <= few else usual
         parts = [solved(heights, length, wanted, finest, **s) for s in chosen[:most]]
         rows.append(xr.concat(parts, xr.DataArray(np.arange(most), dims="setting", name="setting")))
@@ -94,7 +93,7 @@ def solved(heights, length, wanted, finest, knob, pixels, tolerance, law):
             values["attraction_dmt"][i, k] = attraction
             if attraction <= STRONGEST * contact.mean_pressure:
                 state, values["seconds"][i, k] = timed(
-                    lambda law=attracts, alone=contact: closed(
+                    lambda law=attracts, alone=contact: solve_at_gap(
                         sampled, length, law, alone, tolerance
                     )
                 )
@@ -119,8 +118,8 @@ def annotated(dataset):
         **texts,
         **{key: ("1", text) for key, text in KEYS.items()},
         pressure=("1", "mean pressure without adhesion at the same mean gap over E* q0 h_rms"),
-        range_over_h_rms=ADHESION_DESCRIBED["range_over_h_rms"],
-        adhesion_length_over_range=ADHESION_DESCRIBED["adhesion_length_over_range"],
+        range_over_h_rms=VARIABLES["range_over_h_rms"],
+        adhesion_length_over_range=VARIABLES["adhesion_length_over_range"],
         law=("1", "law of traction"),
         seed=("1", "seed of the realisation"),
         seconds=("s", "processor time of an adhesive state", missing),

@@ -9,7 +9,7 @@ import numpy as np
 import xarray as xr
 
 from pipeline.contact_curves import load_curve
-from pipeline.conventions import DESCRIBED, Q0, logarithmic_grid, spectrum_of
+from pipeline.conventions import Q0, VARIABLES, logarithmic_grid, model_spectrum
 from pipeline.job import start
 from pipeline.theory import contact_of
 from pipeline.tradeoff.measuring import pair_seconds, timed
@@ -24,7 +24,7 @@ def main(job):
     chosen, pressures = job.params.bands, np.array(job.params.pressures)
     cuts, ranges = np.array(chosen["magnification"]), logarithmic_grid(job.params.gaps)
     asked = {"hurst": float(job.wildcards.hurst), "magnification": int(cuts[-1])}
-    spectrum, seeds = spectrum_of(asked), np.arange(1, chosen["seeds"] + 1)
+    spectrum, seeds = model_spectrum(asked), np.arange(1, chosen["seeds"] + 1)
     points = np.minimum(chosen["finest"] * cuts, chosen["most_points"])
     rows = []
     for seed in seeds:
@@ -69,7 +69,7 @@ def below(heights, cut):
 
 
 def annotated(dataset, kept):
-    texts = {name: DESCRIBED[name] for name in (*kept[:3], "pressure", "range")}
+    texts = {name: VARIABLES[name] for name in (*kept[:3], "pressure", "range")}
     texts["rms_slope"] = ("1", "rms gradient over q0 h_rms")
     for name in kept:
         texts[f"theory_{name}"] = ("1", f"{texts[name][1]}, by theory on the lattice spectrum")

@@ -6,8 +6,8 @@ from types import SimpleNamespace
 import numpy as np
 import xarray as xr
 
-from pipeline.contact_curves import measured
-from pipeline.conventions import DESCRIBED, grid_points, logarithmic_grid, spectrum_of, window_of
+from pipeline.contact_curves import measure
+from pipeline.conventions import VARIABLES, cell_size, grid_points, logarithmic_grid, model_spectrum
 from pipeline.job import start
 from pipeline.tradeoff.measuring import KEYS, pair_seconds, peak_megabytes, timed
 from stickiness.contact import active_set, solver
@@ -21,13 +21,13 @@ SINGLE = 1e-4  # tolerance that single precision can meet
 def main(job):
     asked, pressures = job.params.case, np.array(job.params.pressures)
     chosen = settings(**job.params.settings)
-    ranges, length = logarithmic_grid(job.params.gaps), window_of(asked)
+    ranges, length = logarithmic_grid(job.params.gaps), cell_size(asked)
     finest = max(setting["pixels"] for setting in chosen)
     seeds, rows = np.arange(1, job.params.seeds + 1), []
     for seed in seeds:
         logging.info("seed %d", seed)
         n = grid_points(asked, finest)
-        heights = synthesis.synthesise(spectrum_of(asked), n, length, int(seed))
+        heights = synthesis.synthesise(model_spectrum(asked), n, length, int(seed))
         slope = synthesis.moments(heights, length).rms_slope
         parts = [solved(heights, length, pressures, ranges, finest, **s) for s in chosen]
         rows.append(xr.concat(parts, "setting").assign(rms_slope=slope, pair_time=pair_seconds()))
@@ -69,7 +69,7 @@ def solved(heights, length, pressures, ranges, finest, knob, pixels, tolerance):
     rows = []
     for load in pressures:
         contact, solution_time = timed(lambda p=load: solve(sampled, length, p, tolerance))
-        row, evaluation_time = timed(lambda c=contact: measured(c, ranges))
+        row, evaluation_time = timed(lambda c=contact: measure(c, ranges))
         rows.append(row.assign(solution_time=solution_time, evaluation_time=evaluation_time))
     return xr.concat(rows, xr.DataArray(pressures, dims="pressure", name="pressure"))
 
@@ -99,7 +99,7 @@ def annotated(dataset):
     names = ("pressure", "range", "area_fraction", "mean_gap", "attractive_area")
     return datasets.annotate(
         dataset,
-        **{name: DESCRIBED[name] for name in names},
+        **{name: VARIABLES[name] for name in names},
         **{key: ("1", text) for key, text in KEYS.items()},
         seed=("1", "seed of the realisation"),
         pixel_area_fraction=("1", "repulsive contact area as counted in pixels, over nominal area"),

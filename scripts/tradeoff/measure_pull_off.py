@@ -9,9 +9,8 @@ import logging
 import numpy as np
 import xarray as xr
 
-from pipeline.adhesion_sets import DESCRIBED as ADHESION_DESCRIBED
 from pipeline.adhesion_sets import LEAST, scaled_law
-from pipeline.conventions import grid_points, spectrum_of, window_of
+from pipeline.conventions import VARIABLES, cell_size, grid_points, model_spectrum
 from pipeline.job import start
 from pipeline.tradeoff.measuring import KEYS, pair_seconds, timed
 from stickiness import adhesive
@@ -26,11 +25,11 @@ DECADES, PER_DECADE = 4, 10  # of the loads below the largest, for the DMT limit
 def main(job):
     asked, wanted = job.params.case, job.params.pull_off
     chosen, finest = settings(wanted), max(wanted["pixels"])
-    length, points = window_of(asked), np.array(wanted["points"])
+    length, points = cell_size(asked), np.array(wanted["points"])
     seeds, rows = np.arange(1, wanted["seeds"] + 1), []
     for seed in seeds:
         heights = synthesis.synthesise(
-            spectrum_of(asked), grid_points(asked, finest), length, int(seed)
+            model_spectrum(asked), grid_points(asked, finest), length, int(seed)
         )
         parts = [torn(heights, length, wanted, finest, **s) for s in chosen]
         step = finest // wanted["at_pixels"]
@@ -120,8 +119,8 @@ def annotated(dataset):
         balance=("1", "error of the energy balance of a step over the energies of the path"),
         pull_off=("1", "lowest mean pressure over E* q0 h_rms"),
         pull_off_dmt=("1", "the same in the DMT limit"),
-        range_over_h_rms=ADHESION_DESCRIBED["range_over_h_rms"],
-        adhesion_length_over_range=ADHESION_DESCRIBED["adhesion_length_over_range"],
+        range_over_h_rms=VARIABLES["range_over_h_rms"],
+        adhesion_length_over_range=VARIABLES["adhesion_length_over_range"],
         seed=("1", "seed of the realisation"),
         seconds=("s", "processor time of the separation"),
         pair_time=("s", "processor time of a pair of transforms of 1024 x 1024 doubles"),

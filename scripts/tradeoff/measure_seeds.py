@@ -11,7 +11,7 @@ import xarray as xr
 
 from pipeline.coarse_solutions import DESCRIBED_FROM, SOLVED_FROM
 from pipeline.contact_curves import COARSE, load_curve
-from pipeline.conventions import DESCRIBED, grid_points, logarithmic_grid, spectrum_of, window_of
+from pipeline.conventions import VARIABLES, cell_size, grid_points, logarithmic_grid, model_spectrum
 from pipeline.job import start
 from pipeline.tradeoff.measuring import pair_seconds, timed
 from stickiness.accuracy import multilevel
@@ -50,7 +50,7 @@ def main(job):
     for kind, (seeds, points, amplitudes) in others.items():
         more = walk.seeds(seeds, points, amplitudes)[[*KEPT, "seconds"]]
         dataset = dataset.merge(more.rename({name: f"{kind}_{name}" for name in (*more, "seed")}))
-    spectrum, length = spectrum_of(asked), window_of(asked)
+    spectrum, length = model_spectrum(asked), cell_size(asked)
     seconds = []
     for name, seeds in (("long_waves", coarse), ("other_long_waves", described)):
         rows, taken = timed(lambda s=seeds: multilevel.descriptors(spectrum, length, s))
@@ -70,8 +70,8 @@ class Walk:
     """Solves seeds of one surface at given loads."""
 
     def __init__(self, asked, pressures, ranges, tolerance):
-        self.asked, self.length = asked, window_of(asked)
-        self.spectrum = spectrum_of(asked)
+        self.asked, self.length = asked, cell_size(asked)
+        self.spectrum = model_spectrum(asked)
         self.path = np.array(pressures), ranges, tolerance
 
     def seeds(self, seeds, pixels, amplitudes="gaussian"):
@@ -95,10 +95,10 @@ class Walk:
 
 
 def annotated(dataset):
-    texts = {name: DESCRIBED[name] for name in ("pressure", "range")}
+    texts = {name: VARIABLES[name] for name in ("pressure", "range")}
     for prefix in ("", "fixed_", "coarse_"):
         texts |= {
-            f"{prefix}{name}": (*DESCRIBED[name], "not solved on this grid") for name in KEPT[:3]
+            f"{prefix}{name}": (*VARIABLES[name], "not solved on this grid") for name in KEPT[:3]
         }
         texts[f"{prefix}rms_slope"] = ("1", "rms gradient over q0 h_rms", "not solved on this grid")
         texts[f"{prefix}seconds"] = ("s", "processor time of all loads", "not solved on this grid")

@@ -5,7 +5,7 @@ from functools import partial
 import numpy as np
 import xarray as xr
 
-from pipeline.conventions import DESCRIBED, logarithmic_grid, spectrum_of
+from pipeline.conventions import VARIABLES, logarithmic_grid, model_spectrum
 from pipeline.job import start
 from pipeline.theory import contact_of
 from pipeline.tradeoff.measuring import pair_seconds, peak_megabytes, timed
@@ -21,7 +21,7 @@ def main(job):
     for name, surface in asked["surfaces"].items():
         rows = []
         for nodes in asked["multiples"]:
-            given = spectrum_of(surface), nodes, pressures, ranges
+            given = model_spectrum(surface), nodes, pressures, ranges
             states = [timed(partial(state, *given)) for _ in range(REPETITIONS)]
             rows.append(states[0][0].assign(seconds=min(seconds for _, seconds in states)))
             memory.append(peak_megabytes(partial(state, *given)))
@@ -34,7 +34,7 @@ def main(job):
     datasets.write(
         datasets.annotate(
             dataset,
-            **{name: DESCRIBED[name] for name in names},
+            **{name: VARIABLES[name] for name in names},
             case=("1", "surface"),
             nodes=("1", "multiple of the number of quadrature nodes"),
             rms_slope=("1", "rms gradient over q0 h_rms"),

@@ -4,7 +4,7 @@ import itertools
 
 import numpy as np
 
-from pipeline.conventions import spectrum_of, window_of
+from pipeline.conventions import cell_size, model_spectrum
 from pipeline.theory import contact_of
 from pipeline.tradeoff.fit_laws import by_knob, estimates
 from pipeline.tradeoff.measuring import COVERED, derived, rms, timed
@@ -140,7 +140,7 @@ def theory_rows(name, measured, bank, points):
     """Rows of theory in place of simulation: its error is that of the model."""
     asked = datasets.parameters(measured)
     surface, loads = Surface.of(asked), measured.pressure.values
-    lattice = lattice_spectrum(spectrum_of(asked), window_of(asked))
+    lattice = lattice_spectrum(model_spectrum(asked), cell_size(asked))
     state, seconds = timed(lambda: contact_of(Persson(lattice), loads, measured["range"].values))
     values, *_ = stacked(derived(state.expand_dims("seed")))
     rows, known = [], bank.by_quantity(bank.truth_error / bank.truth)
