@@ -7,7 +7,7 @@ from pipeline import conventions, grid_limits
 from pipeline.adhesion_sets import AXES, OUTSIDE, axes, roughness
 from pipeline.dmt_limit import QUANTITIES, DmtLimit, linearity_error
 from pipeline.ensemble_means import add_errors, coarse, describe_errors
-from pipeline.error_budgets import SIMULATED, Simulation, along
+from pipeline.error_budgets import SIMULATED, Simulation
 from pipeline.job import start
 from stickiness.accuracy.error_models import read_models
 from stickiness.core import datasets
@@ -81,8 +81,8 @@ def add_budgets(dataset, simulation, linear):
 def relative(dataset, simulation):
     """Relative error by the solver, factor of standard errors, relative error of the DMT limit."""
     like = dataset.attraction.rename(range_over_h_rms="range")
-    area = along(simulation.solver, "area_fraction", dataset.area_fraction)
-    gaps = along(simulation.solver, "attractive_area", like).rename(range="range_over_h_rms")
+    area = simulation.solver("area_fraction", dataset.area_fraction)
+    gaps = simulation.solver("attractive_area", like).rename(range="range_over_h_rms")
     factor = simulation.factors("attractive_area", like).rename(range="range_over_h_rms")
     return np.hypot(area, gaps), factor, dataset.dmt_error
 

@@ -1,11 +1,10 @@
 """Adhesion of a set of parameters: at every point by the model chosen, with all its errors.
 
-Where that is the full one, its realisations are averaged: slopes of the area-load relation, and how
-far the DMT limit is. With kappa = 2 without adhesion, 1/kappa = 1/2 - 1/kappa_ad. Full simulation
-gives the latter by how much less pressure than without adhesion goes with the area, relative to
-that pressure; the sum of its tractions gives it directly, as in the DMT limit, but misses the area
-that they draw in. The area is that at a gap of zero; with ``_net`` it is what of it is compressed,
-which converges far more slowly with the grid.
+Of full simulation the realisations are averaged: slopes of the area-load relation, and how far the
+DMT limit is. With kappa = 2 without adhesion, 1/kappa = 1/2 - 1/kappa_ad. The latter is how much
+less pressure goes with the area than without adhesion, relative to that pressure; the sum of the
+tractions gives it directly, as in the DMT limit, but misses the area that they draw in. The area is
+that at a gap of zero, with ``_net`` its compressed part, which converges far more slowly.
 """
 
 from dataclasses import replace
@@ -60,7 +59,7 @@ OTHERS = {
 # pixels make it first order: what is left of the difference falls as the root of the pixel only.
 SLOW = 1 / (np.sqrt(2) - 1)  # over the change from half the resolution
 SLOWLY = "2.4 times the change from half the resolution, as it falls with the root of the pixel"
-AREA_OF_DMT = {"repulsive_area", "net_repulsive_area"}  # without what attraction draws in
+AREA_OF_DMT = ("repulsive_area", "net_repulsive_area")  # without what attraction draws in
 LEFT = {
     "discretisation": "change from half the resolution, or in the DMT limit what is left of it",
     "solver": "by the tolerance, as measured",
@@ -100,21 +99,17 @@ def main(job):
 
 def in_dmt_limit(limit):
     """The averages as the DMT limit has them, which knows one area only."""
-    area, none = limit.area_fraction, xr.zeros_like(limit.inverse_kappa)
-    states = {
-        "external_pressure": limit.pressure - limit.attraction,
-        "repulsive_area": area + none,
-        "net_repulsive_area": area + none,
-    }
-    dataset = limit[["q0_h_rms", "dmt_valid", "dmt_error"]].assign(states)
+    none = xr.zeros_like(limit.inverse_kappa)
+    dataset = limit[["q0_h_rms", "dmt_valid", "dmt_error"]]
+    dataset = dataset.assign(external_pressure=limit.pressure - limit.attraction)
     for name in (*SLOPES, *FITS):
         source = name.removesuffix("_net").removesuffix("_direct")
         dataset[name] = limit[source]
         dataset[f"{name}_error"] = limit[f"{source}_error"]
     dataset["external_pressure_error"] = limit.attraction_error
     for name in AREA_OF_DMT:
-        known = limit.area_fraction_error.where(limit.source != "model")
-        dataset[f"{name}_error"] = known + none
+        dataset[name] = limit.area_fraction + none
+        dataset[f"{name}_error"] = limit.area_fraction_error.where(limit.source != "model") + none
     return dataset
 
 
@@ -187,9 +182,8 @@ def controls(ensemble, quantity, seeds):
 
 def add_dmt(states, full):
     """States with those of the DMT limit where there is no full one asked for."""
-    external = states.pressure - states.attraction_dmt
     limit = {
-        "external_pressure": external,
+        "external_pressure": states.pressure - states.attraction_dmt,
         "repulsive_area": states.area_alone,
         "net_repulsive_area": states.area_alone,
         "attraction": states.attraction_dmt,

@@ -6,6 +6,7 @@ and on every second point of it, which shows what of it is the grid's.
 """
 
 import logging
+from itertools import product
 
 import numpy as np
 import xarray as xr
@@ -54,13 +55,13 @@ def main(job):
     asked = job.params.loop
     heights, length = surface.height.values, float(surface.window_length)
     lengths = np.sort(np.array(asked["adhesion_length_over_range"], dtype=float))
-    curves = {
-        (step, control, value): curve(heights[::step, ::step], length, asked, value, control)
-        for step in STEPS
-        for control in CONTROLS
-        for value in lengths
-    }
-    dataset = describe(gather(curves, lengths, pixels(surface)))
+    finest, curves = pixels(surface), []
+    for step, control, value in product(STEPS, CONTROLS, lengths):
+        found = follow(heights[::step, ::step], length, asked, value, control)
+        at = {"resolution": finest / step, "control": control, "adhesion_length_over_range": value}
+        curves.append(found.expand_dims({name: [where] for name, where in at.items()}))
+    longest = max((one.state for one in curves), key=len)
+    dataset = describe(xr.combine_by_coords([one.reindex(state=longest) for one in curves]))
     datasets.write(
         add_quoted(dataset),
         job.output[0],
@@ -69,8 +70,8 @@ def main(job):
     )
 
 
-def curve(heights, length, asked, adhesion_length_over_range, control):
-    """States from afar to the largest pressure and back, as a list of dictionaries."""
+def follow(heights, length, asked, adhesion_length_over_range, control):
+    """States from afar to the largest pressure and back, along `state`."""
     law = scaled_law(asked, asked["law"], adhesion_length_over_range, asked["range_over_h_rms"])
     far = float(heights.max() - heights.mean()) + MARGIN * law.range
     nearest = solver.solve(heights, length, asked["pressure"], tol=TOLERANCE).mean_gap
@@ -94,29 +95,8 @@ def curve(heights, length, asked, adhesion_length_over_range, control):
             f"p = {state.mean_pressure:.4g}, gap {state.mean_gap:.4g}, "
             f"area {state.repulsive_area_fraction:.4f} {point.event or ''}"
         )
-    return rows
-
-
-def gather(curves, lengths, finest):
-    """Curves of different lengths as one dataset, filled up with NaN."""
-    longest = max(map(len, curves.values()))
-    shape = len(STEPS), len(CONTROLS), len(lengths), longest
-    values = {name: np.full(shape, np.nan) for name in (*STATES, *STEPPED)}
-    for (step, control, value), rows in curves.items():
-        i, j = CONTROLS.index(control), int(np.flatnonzero(lengths == value)[0])
-        for k, row in enumerate(rows):
-            for name, number in row.items():
-                values[name][STEPS.index(step), i, j, k] = number
-    dims = "resolution", "control", "adhesion_length_over_range", "state"
-    return xr.Dataset(
-        {name: (dims, value) for name, value in values.items()},
-        coords={
-            "resolution": finest / np.array(STEPS),
-            "control": list(CONTROLS),
-            "adhesion_length_over_range": lengths,
-            "state": np.arange(longest),
-        },
-    )
+    data = {name: ("state", [row[name] for row in rows]) for name in rows[0]}
+    return xr.Dataset(data, {"state": np.arange(len(rows))})
 
 
 def add_quoted(dataset):

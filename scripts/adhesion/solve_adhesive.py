@@ -1,10 +1,9 @@
 """Bring one realisation into adhesive contact at the mean gaps it has without adhesion.
 
-At a prescribed mean gap the attraction shows whole: in the mean pressure that is left, and in the
-area. A press would jump where the pressure falls on closing. Every state is solved on the grid of
-the realisation and on every second point of it. What the grid does not resolve is left out, and so
-is attraction so strong that the window closes altogether, and where the DMT limit is good enough
-nothing is solved.
+At a prescribed mean gap the whole attraction shows; a press would jump where the pressure falls on
+closing. Every state is solved on the grid of the realisation and on every second point of it, but
+for what the grid does not resolve, attraction so strong that the window closes altogether, and
+where the DMT limit is good enough.
 """
 
 import itertools

@@ -166,8 +166,8 @@ def describe_miss(dataset, problem, plan, case):
 
 def outside(surface, plan):
     """Where surface, load, grid or tolerance is outside what was measured, by load."""
-    settings = plan["settings"]
-    knobs = (settings["pixels_per_wavelength"], settings["tolerance"]) if plan["simulated"] else ()
+    names = ("pixels_per_wavelength", "tolerance") if plan["simulated"] else ()
+    knobs = [plan["settings"][name] for name in names]
     return np.array([extrapolated(surface, load, *knobs) for load in plan["pressures"]])
 
 

@@ -1,8 +1,7 @@
 """Coarse contact solutions of many realisations, which correct the mean of a few fine ones.
 
-Their seeds are different from those of the fine solutions. Each surface is solved on 2 pixels per
-shortest wavelength, as every fine one is too. Still more surfaces are not solved: only their long
-waves are described.
+Their seeds are others. Each surface is solved on 2 pixels per shortest wavelength, as every fine
+one is too. Of still more surfaces only the long waves are described.
 """
 
 from pipeline.coarse_solutions import annotate, coarse_solutions

@@ -5,7 +5,7 @@ import xarray as xr
 
 from pipeline import conventions, grid_limits
 from pipeline.ensemble_means import SUFFIXES, add_errors, coarse, describe_errors, standard_error
-from pipeline.error_budgets import BY_THEORY, QUADRATURE, SIMULATED, Simulation, along, theory_parts
+from pipeline.error_budgets import BY_THEORY, QUADRATURE, SIMULATED, Simulation, theory_parts
 from pipeline.job import start
 from pipeline.quantities import fit_intervals
 from stickiness.accuracy.error_models import read_models
@@ -48,7 +48,7 @@ def add_simulation_budgets(dataset, ensemble, models):
     mean = (dataset[f"a_v_{kind}"] for kind in SUFFIXES)
     parts = simulation.parts("a_v", *mean, grid_limits.INHERITED)
     dataset = with_budget(dataset, "a_v_mean", **parts)
-    solver = along(simulation.solver, "attractive_area", dataset.exponent)
+    solver = simulation.solver("attractive_area", dataset.exponent)
     factor = simulation.factors("attractive_area", dataset.exponent)
     limit = grid_limits.inherit(ensemble, local_exponent, ["attractive_area"])
     seeds = local_exponent(ensemble[["attractive_area", "pressure"]])
@@ -70,13 +70,11 @@ def add_theory_budgets(dataset, areas, models):
     surface, quadrature = made if "case" in made else None, "attractive_area"
     parts = theory_parts(models, "a_v", like, surface, quadrature)
     dataset = with_budget(dataset, "a_v", **parts)
-    steps = np.diff(np.log(areas["range"].values)).min()
+    error = 2 * QUADRATURE[quadrature] / np.diff(np.log(areas["range"].values)).min()
     return with_budget(
         dataset,
         "exponent",
-        discretisation=Part(
-            2 * QUADRATURE[quadrature] / steps, "of the quadrature in neighbouring areas"
-        ),
+        discretisation=Part(error, "of the quadrature in neighbouring areas"),
         model=unknown("how theory's error changes with the range is not measured"),
         **BY_THEORY,
     )

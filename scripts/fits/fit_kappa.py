@@ -4,7 +4,7 @@ import xarray as xr
 
 from pipeline import conventions, grid_limits
 from pipeline.conventions import LINEAR_UP_TO
-from pipeline.ensemble_means import add_errors, coarse, describe_errors
+from pipeline.ensemble_means import SUFFIXES, add_errors, coarse, describe_errors
 from pipeline.error_budgets import Simulation, theory_parts
 from pipeline.job import start
 from pipeline.quantities import slope_of_area
@@ -44,8 +44,7 @@ def add_budgets(dataset, models, made):
     simulation, inside = Simulation.of(models, made), dataset.area_fraction <= LINEAR_UP_TO
     loads = {"kappa": dataset.pressure, "kappa_fit": dataset.pressure.where(inside).max()}
     for name, pressure in loads.items():
-        kinds = ("standard_error", "discretisation_error")
-        errors = (dataset[f"{name}_{kind}"] for kind in kinds)
+        errors = (dataset[f"{name}_{kind}"] for kind in list(SUFFIXES)[1:])
         value = dataset[name].assign_coords(pressure=pressure)
         parts = simulation.parts("kappa", value, *errors, grid_limits.INHERITED)
         dataset = with_budget(dataset, name, **parts)

@@ -4,8 +4,6 @@ Those are h_rms for gaps and ranges and E* q0 h_rms for pressures, so that the s
 sigma0/E* = l_a/range becomes (l_a/range)/(q0 h_rms).
 """
 
-from __future__ import annotations
-
 import logging
 from collections.abc import Mapping
 from typing import Any
@@ -39,15 +37,13 @@ ATTRIBUTES = {  # quantities of an adhesive state by their names in files
 AXES = ("pressure", "adhesion_length_over_range", "range_over_h_rms")
 
 
-def axis(name: str, asked: Mapping[str, Any], key: str | None = None) -> xr.DataArray:
-    """One list of the configuration (under `key`, by default its name), in increasing order."""
-    values = np.sort(np.array(asked[key or name], dtype=float))
-    return xr.DataArray(values, dims=name, coords={name: values}, name=name)
-
-
 def axes(asked: Mapping[str, Any]) -> tuple[xr.DataArray, xr.DataArray, xr.DataArray]:
-    """Pressures, adhesion lengths and ranges of a set, in the order of `AXES`."""
-    return tuple(axis(name, asked, "pressures" if name == "pressure" else None) for name in AXES)
+    """Pressures, adhesion lengths and ranges of a set, each in increasing order."""
+    lists = (asked["pressures"], *(asked[name] for name in AXES[1:]))
+    values = {
+        name: np.sort(np.array(given, float)) for name, given in zip(AXES, lists, strict=True)
+    }
+    return tuple(xr.DataArray(v, {name: v}, [name], name) for name, v in values.items())
 
 
 def scaled_law(

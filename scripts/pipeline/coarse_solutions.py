@@ -7,7 +7,7 @@ import xarray as xr
 
 from pipeline import contact_curves
 from pipeline.contact_curves import COARSE, load_curve
-from pipeline.conventions import cell_size, grid_points, model_spectrum
+from pipeline.conventions import cell_size, grid_points, make_heights, model_spectrum
 from stickiness.accuracy import multilevel
 from stickiness.core import datasets
 from stickiness.surfaces import synthesis
@@ -29,8 +29,7 @@ def coarse_solutions(asked, which, others_count, pressures, ranges, tolerance, n
     curves = []
     for seed in seeds:
         logging.info("seed %d", seed)
-        n = grid_points(asked, 2 * COARSE)
-        heights = synthesis.synthesise(spectrum, n, length, int(seed), amplitudes)
+        heights = make_heights(asked, grid_points(asked, 2 * COARSE), seed)
         curve = load_curve(heights[::2, ::2], length, pressures, ranges, tolerance, names)
         # Of the finer grid: at two pixels the shortest waves are not all there.
         curve["rms_slope"] = synthesis.moments(heights, length).rms_slope

@@ -1,7 +1,5 @@
 """What code a script runs, as a hash that comments, docstrings and layout do not change."""
 
-from __future__ import annotations
-
 import ast
 import hashlib
 from collections.abc import Iterator

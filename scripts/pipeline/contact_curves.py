@@ -39,7 +39,7 @@ def load_curve(heights, length, pressures, ranges, tolerance, names=()):
             f"{contact.area_fraction:.4f}, residual {contact.residual:.1e}, "
             f"{contact.iterations} iterations"
         )
-    return xr.concat(rows, xr.DataArray(pressures, dims="pressure", name="pressure"))
+    return xr.concat(rows, xr.DataArray(list(pressures), dims="pressure", name="pressure"))
 
 
 def measure(contact, ranges):

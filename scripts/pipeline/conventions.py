@@ -3,8 +3,6 @@
 Model surfaces have q0 = 1, h_rms = 1 and E* = 1: pressures come out in units of E* q0 h_rms.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Any
 
@@ -16,6 +14,7 @@ from scipy.fft import next_fast_len
 from stickiness.accuracy.quantities import COLUMNS, MEASURED
 from stickiness.core import datasets
 from stickiness.surfaces.spectrum import SelfAffine
+from stickiness.surfaces.synthesis import synthesise
 
 Q0 = 1.0
 VARIANT = "afferrante2018"  # of the theory, where one is quoted
@@ -82,6 +81,17 @@ def cell_size(surface: Mapping[str, Any]) -> float:
     return surface.get("window", 1.0) * 2 * np.pi / Q0
 
 
+def waves_across(surface: Mapping[str, Any]) -> float:
+    """Shortest wavelengths along the side of a model surface's cell."""
+    return surface["magnification"] * surface.get("window", 1.0)
+
+
+def make_heights(surface: Mapping[str, Any], points: int, seed: int) -> NDArray:
+    """Heights over h_rms of one realisation of a model surface on a grid of `points` a side."""
+    amplitudes = surface.get("amplitudes", "gaussian")
+    return synthesise(model_spectrum(surface), points, cell_size(surface), int(seed), amplitudes)
+
+
 def at_load(data: xr.Dataset) -> xr.Dataset:
     """The point next to `LOAD`."""
     return data.sel(pressure=LOAD, method="nearest")
@@ -98,7 +108,7 @@ def logarithmic_grid(grid: Mapping[str, float] | None) -> NDArray:
 def pixels(surface: xr.Dataset) -> float:
     """Grid points per shortest wavelength of a surface's file, as realised by the grid."""
     made = datasets.parameters(surface)
-    return made["grid_points"] / (made["magnification"] * made.get("window", 1.0))
+    return made["grid_points"] / waves_across(made)
 
 
 def middles(edges: NDArray) -> NDArray:
@@ -112,5 +122,5 @@ def grid_points(asked, pixels_per_wavelength):
     A multiple of the even number that does so for 2 pixels, so that the coarser grids of the
     solutions are part of it.
     """
-    waves = asked["magnification"] * asked.get("window", 1.0)
-    return pixels_per_wavelength * next_fast_len(int(np.ceil(waves - 1e-9)), real=True)
+    waves = int(np.ceil(waves_across(asked) - 1e-9))
+    return pixels_per_wavelength * next_fast_len(waves, real=True)

@@ -5,8 +5,6 @@ the case says otherwise. It is the plain one over the seeds, or if there are coa
 many more seeds the multilevel one of `stickiness.accuracy.multilevel`.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 
@@ -64,11 +62,10 @@ def standard_error(values):
 
 
 def discretisation_error(values):
-    """Discretisation error of the mean, from the change between the coarse and the fine grid.
+    """Discretisation error of the mean, from the change between the two finest grids.
 
-    The mean change and its own standard error in quadrature, so that changes of either sign do
-    not cancel to nothing. With an error that falls at least in proportion to the pixel size, the
-    change bounds what is left.
+    The mean change and its own standard error in quadrature, so that changes of either sign do not
+    cancel. It bounds an error that falls at least in proportion to the pixel size.
     """
     change = fine(values.diff("resolution"))
     return np.hypot(change.mean("seed"), scatter(change).fillna(0))

@@ -56,18 +56,23 @@ class Simulation:
         settings = Settings(*knobs, made.get("coarse_seeds", 0))
         return cls(Problem(models, Surface.of(made), (), (), described), settings)
 
-    def solver(self, column: str, pressure: float) -> float:
-        """Relative error of a column by the tolerance of the solver."""
-        at = self.problem.models, "solver", column, self.problem.surface, pressure
-        return single_error(*at, tolerance=self.settings.tolerance)
+    def solver(self, name: str, like: xr.DataArray) -> xr.DataArray:
+        """Relative error by the tolerance of the solver, along a variable."""
+        models, surface = self.problem.models, self.problem.surface
+        knob = {"tolerance": self.settings.tolerance}
 
-    def factor(self, column: str, pressure: float) -> float:
-        """Standard errors that cover 90 % of means of a column."""
-        return covering_factor(self.problem, self.settings, pressure, column)
+        def single(column, load):
+            return single_error(models, "solver", column, surface, load, **knob)
+
+        return along(single, name, like)
 
     def factors(self, name: str, like: xr.DataArray) -> xr.DataArray:
-        """`factor` along a variable: it goes with what was measured, wherever that is."""
-        return along(self.factor, name, like, widened=False)
+        """Standard errors that cover 90 % of means, along a variable, wherever that is."""
+
+        def single(column, load):
+            return covering_factor(self.problem, self.settings, load, column)
+
+        return along(single, name, like, widened=False)
 
     def parts(
         self,
@@ -83,7 +88,7 @@ class Simulation:
         `text` says what the discretisation error is.
         """
         if name == "attractive_area" or has_error_model(COLUMN_OF.get(name, name)):
-            error, factor = along(self.solver, name, value), self.factors(name, value)
+            error, factor = self.solver(name, value), self.factors(name, value)
             solver = Part(error * abs(value), "by the tolerance, as measured")
             sampling = Part(factor * standard_error, "Student's t of the standard error")
         else:
@@ -95,12 +100,12 @@ class Simulation:
 
 
 def along(
-    model: Callable[[str, float], float], name: str, like: xr.DataArray, widened: bool = True
+    model: Callable[..., float], name: str, like: xr.DataArray, at: Any = (), widened: bool = True
 ) -> xr.DataArray:
-    """Values by column and pressure, along the pressures and ranges of a variable."""
+    """Values of a model by column, further coordinates `at` and pressure, along a variable."""
 
     def by(column):
-        return xr.apply_ufunc(model, column, like.pressure, vectorize=True)
+        return xr.apply_ufunc(model, column, *at, like.pressure, vectorize=True)
 
     if name != "attractive_area":
         return by(COLUMN_OF.get(name, name)) * (widen_gaps(like) if widened else 1.0)
@@ -142,16 +147,7 @@ def theory_error(
         return single_error(models, "theory", column, at, pressure)
 
     where = kind if surface else like
-
-    def by(column):
-        at = column, where.hurst, where.magnification, like.pressure
-        return xr.apply_ufunc(single, *at, vectorize=True)
-
-    if name == "attractive_area":
-        ends = {range_: by(column) for range_, column in COLUMN_AT_RANGE.items()}
-        found = interpolate_ranges(ends, like["range"])
-    else:
-        found = by(COLUMN_OF.get(name, name)) * widen_gaps(like)
+    found = along(single, name, like, (where.hurst, where.magnification))
     return found.where(like["variant"] == VARIANT) if "variant" in like.coords else found
 
 

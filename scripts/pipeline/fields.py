@@ -1,7 +1,5 @@
 """Fields of one realisation at a few loads, for pictures."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import Any
 

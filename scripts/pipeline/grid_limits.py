@@ -4,8 +4,6 @@ For areas, gaps and P(u) `stickiness.contact.grid_limit` gives both. What derive
 inherits shift and error to first order.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 

@@ -132,12 +132,10 @@ def log_error_of_fit(fit, q):
 
 def describe_draws(drawn):
     """Both ends of every moment, and the draws themselves for what depends on several."""
-    ends = {name: ("end", drawn.quantiles(name, END_QUANTILES)) for name in drawn.moments}
-    draws = {f"{name}_draws": ("draw", values) for name, values in drawn.moments.items()}
-    return xr.Dataset(
-        ends | draws | {"q0_draws": ("draw", drawn.q0)},
-        coords={"end": ENDS, "draw": np.arange(len(drawn.q0))},
-    )
+    data = {name: ("end", drawn.quantiles(name, END_QUANTILES)) for name in drawn.moments}
+    data |= {f"{name}_draws": ("draw", values) for name, values in drawn.moments.items()}
+    data["q0_draws"] = "draw", drawn.q0
+    return xr.Dataset(data, coords={"end": ENDS, "draw": np.arange(len(drawn.q0))})
 
 
 def picture_of(heights):
@@ -192,15 +190,11 @@ def remarks_on_limits(spectrum, extend_to):
             f"no roll-off was found below wavelengths of {wavelength(fit.q_min)}, and longer "
             "ones cannot show one: q0 is that of the scan, not of the surface"
         )
-    shortest = f"{wavelength(spectrum.cutoff.q)} ({spectrum.cutoff.reason})"
+    shorter = f"waves shorter than {wavelength(spectrum.cutoff.q)} ({spectrum.cutoff.reason})"
     if extend_to is None:
-        found.append(f"waves shorter than {shortest} are not part of slope, curvature and a_V")
-    else:
-        found.append(
-            f"waves shorter than {shortest} follow the fitted law down to "
-            f"{wavelength(extend_to)}: carried on, not measured"
-        )
-    return found
+        return [*found, f"{shorter} are not part of slope, curvature and a_V"]
+    end = wavelength(extend_to)
+    return [*found, f"{shorter} follow the fitted law down to {end}: carried on, not measured"]
 
 
 def wavelength(q):

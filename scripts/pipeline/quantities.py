@@ -3,8 +3,6 @@
 The registry of quantities is `stickiness.accuracy.quantities`.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np

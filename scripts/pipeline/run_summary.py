@@ -1,7 +1,5 @@
 """What a finished run holds, in a few lines for the terminal."""
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Iterable
 from pathlib import Path

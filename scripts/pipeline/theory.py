@@ -1,7 +1,5 @@
 """Variants and corrections of Persson's theory that stages compute beside each other."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from typing import Any
 

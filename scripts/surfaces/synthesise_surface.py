@@ -5,7 +5,7 @@ import logging
 import numpy as np
 import xarray as xr
 
-from pipeline.conventions import annotate, cell_size, grid_points, model_spectrum
+from pipeline.conventions import annotate, cell_size, grid_points, make_heights, model_spectrum
 from pipeline.job import start
 from stickiness.core import datasets
 from stickiness.surfaces import synthesis
@@ -17,8 +17,8 @@ def main(job):
     asked = job.params.surface
     spectrum, length = model_spectrum(asked), cell_size(asked)
     n = grid_points(asked, job.params.pixels_per_wavelength)
-    seed, amplitudes = int(job.wildcards.seed), asked.get("amplitudes", "gaussian")
-    heights = synthesis.synthesise(spectrum, n, length, seed, amplitudes)
+    seed = int(job.wildcards.seed)
+    heights = make_heights(asked, n, seed)
     lattice = synthesis.lattice_spectrum(spectrum, length)
     realised = synthesis.realised_spectrum(heights, length)
     logging.info("n = %d, %d shells, rms slope %.6g", n, len(lattice.q), realised.rms_slope)
