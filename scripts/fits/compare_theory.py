@@ -37,7 +37,7 @@ def main(job):
     summit = highest_summit(datasets.parameters(simulated))
     holds = theory.mean_gap.isel(variant=0, drop=True) < summit - MARGIN
     found = {"highest_summit": summit, "theory_mean_gap": theory.mean_gap, "margin": MARGIN}
-    dataset = dataset.assign(found, window_holds=holds.astype("i1"))
+    dataset = dataset.assign(found | {"window_holds": holds.astype("i1")})
     datasets.write(
         add_budgets(annotate(dataset), simulated, theory),
         job.output[0],
