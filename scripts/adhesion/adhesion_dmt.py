@@ -3,13 +3,11 @@
 import numpy as np
 import xarray as xr
 
-from pipeline import grid_limits
+from pipeline import conventions, grid_limits
 from pipeline.adhesion_sets import AXES, OUTSIDE, axes, roughness
-from pipeline.adhesion_sets import DESCRIBED as ADHESION_DESCRIBED
-from pipeline.conventions import DESCRIBED
 from pipeline.dmt_limit import QUANTITIES, DmtLimit, linearity_error
 from pipeline.ensemble_means import add_errors, coarse, describe_errors
-from pipeline.error_budgets import SIMULATED, Simulation, along
+from pipeline.error_budgets import SIMULATED, Simulation
 from pipeline.job import start
 from stickiness.accuracy.error_models import read_models
 from stickiness.core import datasets
@@ -24,7 +22,6 @@ def main(job):
     ensemble = datasets.read(job.input.ensemble, ["attractive_area", "area_fraction", "rms_slope"])
     limit = DmtLimit.of(asked, ensemble)
     pressures, lengths, ranges = axes(asked)
-    coordinates = {one.name: one for one in (pressures, lengths, ranges)}
     dataset = xr.Dataset(
         {
             "area_fraction": ensemble.area_fraction_mean.sel(pressure=pressures),
@@ -32,7 +29,7 @@ def main(job):
             "dmt_error": (AXES, np.asarray(job.params.dmt_error, dtype=float)),
             "q0_h_rms": roughness(asked),
         },
-        coords=coordinates,
+        coords={one.name: one for one in (pressures, lengths, ranges)},
     )
     for name in QUANTITIES:
         quantity = getattr(limit, name)
@@ -84,8 +81,8 @@ def add_budgets(dataset, simulation, linear):
 def relative(dataset, simulation):
     """Relative error by the solver, factor of standard errors, relative error of the DMT limit."""
     like = dataset.attraction.rename(range_over_h_rms="range")
-    area = along(simulation.solver, "area_fraction", dataset.area_fraction)
-    gaps = along(simulation.solver, "attractive_area", like).rename(range="range_over_h_rms")
+    area = simulation.solver("area_fraction", dataset.area_fraction)
+    gaps = simulation.solver("attractive_area", like).rename(range="range_over_h_rms")
     factor = simulation.factors("attractive_area", like).rename(range="range_over_h_rms")
     return np.hypot(area, gaps), factor, dataset.dmt_error
 
@@ -95,12 +92,8 @@ def annotate(dataset):
     for name, text in QUANTITIES.items():
         texts |= describe_errors(name, text, plain=True, discretisation=grid_limits.INHERITED)
     few = "fewer than two loads, or a single seed"
-    return datasets.annotate(
+    return conventions.annotate(
         dataset,
-        pressure=DESCRIBED["pressure"],
-        area_fraction=DESCRIBED["area_fraction"],
-        **ADHESION_DESCRIBED,
-        dmt_valid=("1", "1 where the JTB condition for the DMT limit holds"),
         dmt_error=("1", "measured relative error of this 1/kappa_ad", OUTSIDE),
         **{name: (*text[:2], few) if "fit" in name else text for name, text in texts.items()},
     )

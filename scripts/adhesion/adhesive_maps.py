@@ -3,7 +3,7 @@
 import numpy as np
 
 from pipeline.adhesion_sets import roughness, scaled_law
-from pipeline.fields import fields
+from pipeline.fields import gather_fields
 from pipeline.job import start
 from stickiness import adhesive
 from stickiness.core import datasets
@@ -15,19 +15,16 @@ def main(job):
     surface = datasets.read(job.input.surface, ["height", "window_length"])
     asked, shown = job.params.adhesion, job.params.adhesion["maps"]
     heights, length = surface.height.values, float(surface.window_length)
-    law = scaled_law(
-        asked, asked["law"], shown["adhesion_length_over_range"], shown["range_over_h_rms"]
-    )
+    given = {name: shown[name] for name in ("adhesion_length_over_range", "range_over_h_rms")}
+    law = scaled_law(asked, asked["law"], **given)
     pressures = np.sort(np.array(shown["pressures"], dtype=float))
     # Loads grow: each state is where a press would find it on loading.
     states = []
     for pressure in pressures:
-        begin = states[-1] if states else None
-        states.append(
-            adhesive.solve(heights, length, law, pressure=pressure, start=begin, tol=TOLERANCE)
-        )
+        given_load = {"pressure": pressure, "start": states[-1] if states else None}
+        states.append(adhesive.solve(heights, length, law, **given_load, tol=TOLERANCE))
     datasets.write(
-        fields(
+        gather_fields(
             states,
             pressures,
             surface,
@@ -40,8 +37,7 @@ def main(job):
             **datasets.parameters(surface),
             "law": asked["law"],
             "q0_h_rms": roughness(asked),
-            "range_over_h_rms": shown["range_over_h_rms"],
-            "adhesion_length_over_range": shown["adhesion_length_over_range"],
+            **given,
         },
     )
 

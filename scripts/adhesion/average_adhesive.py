@@ -1,11 +1,10 @@
 """Adhesion of a set of parameters: at every point by the model chosen, with all its errors.
 
-Where that is the full one, its realisations are averaged: slopes of the area-load relation, and how
-far the DMT limit is. With kappa = 2 without adhesion, 1/kappa = 1/2 - 1/kappa_ad. Full simulation
-gives the latter by how much less pressure than without adhesion goes with the area, relative to
-that pressure; the sum of its tractions gives it directly, as in the DMT limit, but misses the area
-that they draw in. The area is that at a gap of zero; with ``_net`` it is what of it is compressed,
-which converges far more slowly with the grid.
+Of full simulation the realisations are averaged: slopes of the area-load relation, and how far the
+DMT limit is. With kappa = 2 without adhesion, 1/kappa = 1/2 - 1/kappa_ad. The latter is how much
+less pressure goes with the area than without adhesion, relative to that pressure; the sum of the
+tractions gives it directly, as in the DMT limit, but misses the area that they draw in. The area is
+that at a gap of zero, with ``_net`` its compressed part, which converges far more slowly.
 """
 
 from dataclasses import replace
@@ -13,9 +12,9 @@ from dataclasses import replace
 import numpy as np
 import xarray as xr
 
+from pipeline import conventions
 from pipeline.adhesion_sets import AXES, MISSING, OUTSIDE, SOLVER
-from pipeline.adhesion_sets import DESCRIBED as ADHESION_DESCRIBED
-from pipeline.conventions import DESCRIBED, LINEAR_UP_TO, window_of
+from pipeline.conventions import LINEAR_UP_TO, cell_size
 from pipeline.dmt_limit import DmtLimit, fit_slope, linearity_error
 from pipeline.ensemble_means import add_errors, coarse, describe_errors, fine
 from pipeline.error_budgets import SIMULATED
@@ -48,6 +47,7 @@ RATIOS = {
     "dmt_ratio": ("1/kappa_ad of the full simulation over that of the DMT limit", None),
     "dmt_ratio_net": ("the same with the net repulsive area", None),
 }
+ALL = STATES | SLOPES | FITS | RATIOS
 OTHERS = {
     "model": "dmt: attraction over the gaps without adhesion; full: boundary elements with it",
     "residual": "largest residual of all realisations",
@@ -59,7 +59,7 @@ OTHERS = {
 # pixels make it first order: what is left of the difference falls as the root of the pixel only.
 SLOW = 1 / (np.sqrt(2) - 1)  # over the change from half the resolution
 SLOWLY = "2.4 times the change from half the resolution, as it falls with the root of the pixel"
-AREA_OF_DMT = {"repulsive_area", "net_repulsive_area"}  # without what attraction draws in
+AREA_OF_DMT = ("repulsive_area", "net_repulsive_area")  # without what attraction draws in
 LEFT = {
     "discretisation": "change from half the resolution, or in the DMT limit what is left of it",
     "solver": "by the tolerance, as measured",
@@ -99,21 +99,17 @@ def main(job):
 
 def in_dmt_limit(limit):
     """The averages as the DMT limit has them, which knows one area only."""
-    area, none = limit.area_fraction, xr.zeros_like(limit.inverse_kappa)
-    states = {
-        "external_pressure": limit.pressure - limit.attraction,
-        "repulsive_area": area + none,
-        "net_repulsive_area": area + none,
-    }
-    dataset = limit[["q0_h_rms", "dmt_valid", "dmt_error"]].assign(states)
+    none = xr.zeros_like(limit.inverse_kappa)
+    dataset = limit[["q0_h_rms", "dmt_valid", "dmt_error"]]
+    dataset = dataset.assign(external_pressure=limit.pressure - limit.attraction)
     for name in (*SLOPES, *FITS):
         source = name.removesuffix("_net").removesuffix("_direct")
         dataset[name] = limit[source]
         dataset[f"{name}_error"] = limit[f"{source}_error"]
     dataset["external_pressure_error"] = limit.attraction_error
     for name in AREA_OF_DMT:
-        known = limit.area_fraction_error.where(limit.source != "model")
-        dataset[f"{name}_error"] = known + none
+        dataset[name] = limit.area_fraction + none
+        dataset[f"{name}_error"] = limit.area_fraction_error.where(limit.source != "model") + none
     return dataset
 
 
@@ -130,7 +126,7 @@ def average(states, full, ensemble, dmt, made):
     resolved |= {name: (reported | ~linear).all("pressure") for name in FITS}
     resolved |= dict.fromkeys(RATIOS, reported & full)
     dataset = xr.Dataset()
-    for name, (_, control) in (STATES | SLOPES | FITS | RATIOS).items():
+    for name, (_, control) in ALL.items():
         values, more = states[name].where(resolved[name]), None
         if control is not None:
             more = controls(ensemble, getattr(dmt, control), states.seed)
@@ -142,10 +138,9 @@ def average(states, full, ensemble, dmt, made):
         for name in ("inverse_kappa_ad", "dmt_ratio")
     }
     models |= {name: linearity_error(dataset[of], linear) for name, of in LOADWISE.items()}
-    for name in STATES | SLOPES | FITS | RATIOS:
-        dataset[f"{name}_error"] = errors(
-            dataset, name, models.get(name, 0.0), states.sizes["seed"]
-        )
+    for name in ALL:
+        model, seeds = models.get(name, 0.0), states.sizes["seed"]
+        dataset[f"{name}_error"] = errors(dataset, name, model, seeds)
     dataset["residual"] = states.residual.max(["seed", "resolution"])
     dataset["iterations"] = fine(states.iterations).mean("seed")
     return dataset
@@ -170,10 +165,9 @@ def errors(dataset, name, model, seeds):
 
 def add_budgets(dataset):
     """All averages with their errors by source."""
-    for name in STATES | SLOPES | FITS | RATIOS:
+    for name in ALL:
         if name in dataset:
-            parts = split(dataset[f"{name}_error"], LEFT)
-            dataset = with_budget(dataset, name, **parts)
+            dataset = with_budget(dataset, name, **split(dataset[f"{name}_error"], LEFT))
     return dataset
 
 
@@ -188,9 +182,8 @@ def controls(ensemble, quantity, seeds):
 
 def add_dmt(states, full):
     """States with those of the DMT limit where there is no full one asked for."""
-    external = states.pressure - states.attraction_dmt
     limit = {
-        "external_pressure": external,
+        "external_pressure": states.pressure - states.attraction_dmt,
         "repulsive_area": states.area_alone,
         "net_repulsive_area": states.area_alone,
         "attraction": states.attraction_dmt,
@@ -232,17 +225,12 @@ def pressure_at(states, ensemble):
     area = states.repulsive_area / states.area_alone * curve.sel(pressure=states.pressure)
     loads = np.log(curve.pressure.values)
 
-    def inverted(wanted, known):
+    def invert(wanted, known):
         logs = np.interp(np.log(wanted), np.log(known), loads, left=np.nan, right=np.nan)
         return np.exp(logs)
 
-    return xr.apply_ufunc(
-        inverted,
-        area,
-        curve.rename(pressure="load"),
-        input_core_dims=[[], ["load"]],
-        vectorize=True,
-    )
+    curve, dims = curve.rename(pressure="load"), [[], ["load"]]
+    return xr.apply_ufunc(invert, area, curve, input_core_dims=dims, vectorize=True)
 
 
 def ratio(values, others):
@@ -257,7 +245,7 @@ def zone_width(ensemble, at):
     made = datasets.parameters(ensemble)
     edge = ensemble.edge_gap_mean.sel(pressure=at.pressure)
     edge, range_ = xr.broadcast(edge, at.range_over_h_rms)
-    pixel = window_of(made) / made["grid_points"]
+    pixel = cell_size(made) / made["grid_points"]
     return edge.copy(data=edge_zone.zone_width(pixel, edge.values, range_.values))
 
 
@@ -275,18 +263,14 @@ def join(solved, limit, full):
 
 def annotate(dataset):
     texts = {}
-    for name, (text, _) in (STATES | SLOPES | FITS | RATIOS).items():
+    for name, (text, _) in ALL.items():
         slow = {"discretisation": SLOWLY} if "net" in name.split("_") else {}
-        for key, value in describe_errors(name, text, plain=True, **slow).items():
-            if key in dataset:
-                texts[key] = (*value[:2], FEW)
-    texts |= {name: ("1", text, FEW) for name, text in OTHERS.items() if name in dataset}
-    return datasets.annotate(
+        texts |= describe_errors(name, text, plain=True, **slow)
+    texts |= {name: ("1", text) for name, text in OTHERS.items()}
+    texts = {name: (*text[:2], FEW) for name, text in texts.items()}
+    return conventions.annotate(
         dataset,
-        pressure=DESCRIBED["pressure"],
-        dmt_valid=("1", "1 where the JTB condition for the DMT limit holds"),
         dmt_error=("1", "measured relative error of the DMT limit in 1/kappa_ad", OUTSIDE),
-        **ADHESION_DESCRIBED,
         **texts,
     )
 

@@ -8,9 +8,8 @@ what adhesion takes off the load, over the attraction in the DMT limit, is the e
 import numpy as np
 import xarray as xr
 
-from pipeline.adhesion_sets import DESCRIBED as ADHESION_DESCRIBED
+from pipeline import conventions
 from pipeline.adhesion_sets import LAWS, SOLVER
-from pipeline.conventions import DESCRIBED
 from pipeline.error_budgets import SIMULATED
 from pipeline.job import start
 from stickiness.adhesion import dmt, equivalent_sphere
@@ -41,8 +40,7 @@ def main(job):
         for grid in (0, -1)
     )
     resolved = states.effect.notnull().all("seed") & averages.dmt_ratio.notnull()
-    dataset = states.mean("seed").where(resolved).assign(q0_h_rms=q0_h_rms)
-    dataset = annotate(dataset)
+    dataset = annotate(states.mean("seed").where(resolved).assign(q0_h_rms=q0_h_rms))
     for name in QUOTED:
         dataset = with_budget(dataset, name, **parts(coarse[name], states[name]))
     datasets.write(
@@ -114,9 +112,8 @@ def at_equal_area(adhesive, alone):
     load = load / xr.apply_ufunc(moved, pressure, 1.0) * pressure
     law = datasets.parameters(adhesive)["law"]
     areas = np.log(attractive_area(alone.attractive_area, adhesive.range_over_h_rms, law))
-    of_loads = areas.assign_coords(pressure=np.log(areas.pressure)).drop_vars(
-        "range", errors="ignore"
-    )
+    areas = areas.drop_vars("range", errors="ignore")
+    of_loads = areas.assign_coords(pressure=np.log(areas.pressure))
     # Where the load is unknown, any will do: xarray warns of coordinates that are all missing.
     reached = of_loads.interp(pressure=np.log(load.fillna(pressure))).where(load.notnull())
     growth = reached - of_loads.interp(pressure=np.log(pressure))
@@ -127,28 +124,21 @@ def attractive_area(areas, ranges, law):
     """Attraction over its strength, for a law: an area weighted by the traction."""
     if law == "maugis":
         return areas.interp(range=ranges)
-    areas = areas.transpose(..., "range")
-    parts = [
-        areas.isel(range=0, drop=True).copy(
-            data=dmt.attraction_of_areas(
-                areas.values, areas["range"].values, LAWS[law](adhesion_length=range_, range=range_)
-            )
-        )
-        for range_ in ranges.values
-    ]
-    return xr.concat(parts, ranges)
+    areas, known = areas.transpose(..., "range"), areas["range"].values
+    like = areas.isel(range=0, drop=True)
+    laws = [LAWS[law](adhesion_length=range_, range=range_) for range_ in ranges.values]
+    pulls = [dmt.attraction_of_areas(areas.values, known, law) for law in laws]
+    return xr.concat([like.copy(data=pull) for pull in pulls], ranges)
 
 
 def annotate(dataset):
-    return datasets.annotate(
+    return conventions.annotate(
         dataset,
-        pressure=DESCRIBED["pressure"],
         attractive_over_contact=("1", "attractive over contact area without adhesion", MISSING),
         edge_strength=("1", "Tabor's parameter of the edges", MISSING),
         effect=("1", "attraction at equal area of contact over the DMT limit", MISSING),
         effect_model=("1", "the same by the equivalent sphere", MISSING),
         over_model=("1", "simulation over model, mean over realisations", MISSING),
-        **ADHESION_DESCRIBED,
     )
 
 

@@ -6,13 +6,13 @@ and on every second point of it, which shows what of it is the grid's.
 """
 
 import logging
+from itertools import product
 
 import numpy as np
 import xarray as xr
 
-from pipeline.adhesion_sets import DESCRIBED as ADHESION_DESCRIBED
 from pipeline.adhesion_sets import LEAST, scaled_law
-from pipeline.conventions import pixels
+from pipeline.conventions import annotate, pixels
 from pipeline.error_budgets import SIMULATED
 from pipeline.job import start
 from stickiness import adhesive
@@ -55,23 +55,23 @@ def main(job):
     asked = job.params.loop
     heights, length = surface.height.values, float(surface.window_length)
     lengths = np.sort(np.array(asked["adhesion_length_over_range"], dtype=float))
-    curves = {
-        (step, control, value): curve(heights[::step, ::step], length, asked, value, control)
-        for step in STEPS
-        for control in CONTROLS
-        for value in lengths
-    }
-    dataset = annotate(gather(curves, lengths, pixels(surface)))
+    finest, curves = pixels(surface), []
+    for step, control, value in product(STEPS, CONTROLS, lengths):
+        found = follow(heights[::step, ::step], length, asked, value, control)
+        at = {"resolution": finest / step, "control": control, "adhesion_length_over_range": value}
+        curves.append(found.expand_dims({name: [where] for name, where in at.items()}))
+    longest = max((one.state for one in curves), key=len)
+    dataset = describe(xr.combine_by_coords([one.reindex(state=longest) for one in curves]))
     datasets.write(
-        with_quoted(dataset),
+        add_quoted(dataset),
         job.output[0],
         title="approach and separation of one realisation with adhesion",
         parameters={**datasets.parameters(surface), **asked},
     )
 
 
-def curve(heights, length, asked, adhesion_length_over_range, control):
-    """States from afar to the largest pressure and back, as a list of dictionaries."""
+def follow(heights, length, asked, adhesion_length_over_range, control):
+    """States from afar to the largest pressure and back, along `state`."""
     law = scaled_law(asked, asked["law"], adhesion_length_over_range, asked["range_over_h_rms"])
     far = float(heights.max() - heights.mean()) + MARGIN * law.range
     nearest = solver.solve(heights, length, asked["pressure"], tol=TOLERANCE).mean_gap
@@ -79,17 +79,8 @@ def curve(heights, length, asked, adhesion_length_over_range, control):
         "mean_gap": (far, nearest, far),
         "pressure": (0.0, asked["pressure"], -2 * law.strength),
     }
-    points = adhesive.path(
-        heights,
-        length,
-        law,
-        turns[control],
-        control=control,
-        tol=TOLERANCE,
-        balance=BALANCE,
-        smallest_jump=BALANCE,
-        steps=LEAST,
-    )
+    settings = {"tol": TOLERANCE, "balance": BALANCE, "smallest_jump": BALANCE, "steps": LEAST}
+    points = adhesive.path(heights, length, law, turns[control], control=control, **settings)
     rows = []
     for point in points:
         state = point.state
@@ -100,40 +91,15 @@ def curve(heights, length, asked, adhesion_length_over_range, control):
         if point.event != "pull-off":  # the last state that held is in the list already
             rows.append(row)
         logging.info(
-            "l_a/range %g, %s: p = %.4g, gap %.4g, area %.4f %s",
-            adhesion_length_over_range,
-            state.branch,
-            state.mean_pressure,
-            state.mean_gap,
-            state.repulsive_area_fraction,
-            point.event or "",
+            f"l_a/range {adhesion_length_over_range:g}, {state.branch}: "
+            f"p = {state.mean_pressure:.4g}, gap {state.mean_gap:.4g}, "
+            f"area {state.repulsive_area_fraction:.4f} {point.event or ''}"
         )
-    return rows
+    data = {name: ("state", [row[name] for row in rows]) for name in rows[0]}
+    return xr.Dataset(data, {"state": np.arange(len(rows))})
 
 
-def gather(curves, lengths, finest):
-    """Curves of different lengths as one dataset, filled up with NaN."""
-    longest = max(map(len, curves.values()))
-    shape = len(STEPS), len(CONTROLS), len(lengths), longest
-    values = {name: np.full(shape, np.nan) for name in (*STATES, *STEPPED)}
-    for (step, control, value), rows in curves.items():
-        i, j = CONTROLS.index(control), int(np.flatnonzero(lengths == value)[0])
-        for k, row in enumerate(rows):
-            for name, number in row.items():
-                values[name][STEPS.index(step), i, j, k] = number
-    dims = "resolution", "control", "adhesion_length_over_range", "state"
-    return xr.Dataset(
-        {name: (dims, value) for name, value in values.items()},
-        coords={
-            "resolution": finest / np.array(STEPS),
-            "control": list(CONTROLS),
-            "adhesion_length_over_range": lengths,
-            "state": np.arange(longest),
-        },
-    )
-
-
-def with_quoted(dataset):
+def add_quoted(dataset):
     """What is quoted of the curves, on the fine grid, with its errors."""
     press, gap = dataset.sel(control="pressure"), dataset.sel(control="mean_gap")
     last = press.mean_pressure.notnull().sum("state") - 1
@@ -143,10 +109,8 @@ def with_quoted(dataset):
         "lost_share": gap.dissipated.sum("state") / gap.work.where(gap.work > 0).sum("state"),
     }
     for name, values in found.items():
-        coarse, fine = (
-            values.isel(resolution=grid).reset_coords(drop=True).drop_vars("state", errors="ignore")
-            for grid in (0, -1)
-        )
+        values = values.reset_coords(drop=True).drop_vars("state", errors="ignore")
+        coarse, fine = (values.isel(resolution=grid, drop=True) for grid in (0, -1))
         dataset[name] = fine.assign_attrs(units="1", long_name=QUOTED[name])
         dataset = with_budget(
             dataset,
@@ -159,16 +123,13 @@ def with_quoted(dataset):
     return dataset
 
 
-def annotate(dataset):
-    name = "adhesion_length_over_range"
+def describe(dataset):
     missing = "beyond the end of the curve"
     texts = {key: ("1", text, missing) for key, text in {**STATES, **STEPPED}.items()}
-    return datasets.annotate(
+    return annotate(
         dataset,
-        resolution=("1", "grid points per shortest wavelength"),
         control=("1", "what is prescribed"),
         state=("1", "number of the state along the curve"),
-        **{name: ADHESION_DESCRIBED[name]},
         **texts,
     )
 

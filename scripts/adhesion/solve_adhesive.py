@@ -1,10 +1,9 @@
 """Bring one realisation into adhesive contact at the mean gaps it has without adhesion.
 
-At a prescribed mean gap the attraction shows whole: in the mean pressure that is left, and in the
-area. A press would jump where the pressure falls on closing. Every state is solved on the grid of
-the realisation and on every second point of it. What the grid does not resolve is left out, and so
-is attraction so strong that the window closes altogether, and where the DMT limit is good enough
-nothing is solved.
+At a prescribed mean gap the whole attraction shows; a press would jump where the pressure falls on
+closing. Every state is solved on the grid of the realisation and on every second point of it, but
+for what the grid does not resolve, attraction so strong that the window closes altogether, and
+where the DMT limit is good enough.
 """
 
 import itertools
@@ -13,8 +12,17 @@ import logging
 import numpy as np
 import xarray as xr
 
-from pipeline.adhesion_sets import AXES, MISSING, STRONGEST, axes, closed, roughness, scaled_law
-from pipeline.adhesion_sets import DESCRIBED as ADHESION_DESCRIBED
+from pipeline import conventions
+from pipeline.adhesion_sets import (
+    AXES,
+    MISSING,
+    STRONGEST,
+    axes,
+    roughness,
+    scaled_law,
+    solve_at_gap,
+)
+from pipeline.contact_curves import RMS_SLOPE
 from pipeline.conventions import pixels
 from pipeline.job import start
 from stickiness.adhesion import dmt, edge_zone
@@ -100,7 +108,7 @@ def states(heights, length, asked, chosen, tolerance=TOLERANCE):
             attraction = dmt.adhesive_pressure(contact.gap, law)
             values["attraction_dmt"][i, j, k] = attraction
             if chosen[i, j, k] and attraction <= STRONGEST * contact.mean_pressure:
-                for name, value in closed(heights, length, law, contact, tolerance).items():
+                for name, value in solve_at_gap(heights, length, law, contact, tolerance).items():
                     values[name][i, j, k] = value
     return xr.Dataset(
         {name: (AXES, value) for name, value in values.items()}
@@ -110,16 +118,11 @@ def states(heights, length, asked, chosen, tolerance=TOLERANCE):
 
 
 def annotate(dataset):
-    return datasets.annotate(
+    return conventions.annotate(
         dataset,
         pressure=("1", "mean pressure without adhesion at the same mean gap over E* q0 h_rms"),
-        resolution=("1", "grid points per shortest wavelength"),
-        rms_slope=("1", "rms gradient of this realisation over q0 h_rms"),
-        attraction_dmt=(
-            "1",
-            "attraction over the gaps without adhesion, p_ad/(E* q0 h_rms)",
-        ),
-        **{name: ADHESION_DESCRIBED[name] for name in dataset.dims if name in ADHESION_DESCRIBED},
+        rms_slope=RMS_SLOPE,
+        attraction_dmt=("1", "attraction over the gaps without adhesion, p_ad/(E* q0 h_rms)"),
         **{name: ("1", text) for name, text in ALONE.items()},
         **{name: ("1", text, f"DMT limit, or {MISSING}") for name, text in STATE.items()},
     )

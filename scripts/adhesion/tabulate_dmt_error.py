@@ -12,14 +12,14 @@ from stickiness.core import budget, datasets
 def main(job):
     rows = []
     for path in job.input.adhesive:
-        rows += measured(datasets.read(path, ["dmt_ratio", "dmt_ratio_total_error", "q0_h_rms"]))
+        rows += list_rows(datasets.read(path, ["dmt_ratio", "dmt_ratio_total_error", "q0_h_rms"]))
     with datasets.whole_file(job.output[0]) as temporary, temporary.open("w", newline="") as file:
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(COLUMNS)
         writer.writerows(rows)
 
 
-def measured(data):
+def list_rows(data):
     """Rows of the table for every point that the grid resolves."""
     made, error = datasets.parameters(data), budget.total_error(data, "dmt_ratio")
     for index in np.ndindex(data.dmt_ratio.shape):
@@ -27,9 +27,7 @@ def measured(data):
         point, spread = data.isel(at), float(error.isel(at))
         if np.isfinite(spread):
             yield (
-                made["law"],
-                made["hurst"],
-                made["magnification"],
+                *(made[name] for name in ("law", "hurst", "magnification")),
                 *(f"{float(point[name]):g}" for name in ("pressure", "range_over_h_rms")),
                 f"{float(point.adhesion_length_over_range / point.q0_h_rms):g}",
                 f"{float(point.dmt_ratio):.4g}",

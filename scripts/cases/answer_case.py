@@ -5,7 +5,8 @@ import logging
 import numpy as np
 import xarray as xr
 
-from pipeline.conventions import DESCRIBED, VARIANT, logarithmic_grid, spectrum_of, window_of
+from pipeline import conventions
+from pipeline.conventions import VARIANT, cell_size, logarithmic_grid, model_spectrum
 from pipeline.error_budgets import BY_THEORY, NOT_MEASURED, QUADRATURE, SIMULATED
 from pipeline.job import start
 from pipeline.quantities import derive, quote, statistics
@@ -47,9 +48,8 @@ THEORY_ALONE = {
 def main(job):
     plan, fit_interval = job.params.plan, job.params.fit_interval
     columns = list(columns_of(plan["quantities"]))
-    problem = Problem(
-        read_models(job.input.laws), Surface.of(plan["surface"]), plan["pressures"], columns
-    )
+    models, surface = read_models(job.input.laws), Surface.of(plan["surface"])
+    problem = Problem(models, surface, plan["pressures"], columns)
     if plan["simulated"]:
         settings, texts = Settings(**plan["settings"]), BY_SIMULATION
         files = read_files(job.input)
@@ -69,17 +69,12 @@ def main(job):
         error = extrapolation_errors(problem, plan["carry_to"], values, size)
         bandwidth = Part(xr.DataArray(error, dims=DIMS), "of the difference that theory adds")
         values = values + change
+    unmeasured = outside(surface, plan).astype(np.int8)
     dataset = xr.Dataset(
-        {
-            "value": (DIMS, values),
-            "extrapolated": ("pressure", outside(problem.surface, plan).astype(np.int8)),
-        },
+        {"value": (DIMS, values), "extrapolated": ("pressure", unmeasured)},
         coords={"column": columns, "pressure": plan["pressures"]},
     )
-    parts = {
-        source: Part(xr.DataArray(errors[source], dims=DIMS), text)
-        for source, text in texts.items()
-    }
+    parts = {s: Part(xr.DataArray(errors[s], dims=DIMS), text) for s, text in texts.items()}
     if lacking := [column for column in columns if not has_error_model(column)]:
         text = f"{parts['solver'].text}; of {', '.join(lacking)} not known: {NOT_MEASURED}"
         parts["solver"] = Part(parts["solver"].error, text)
@@ -123,9 +118,8 @@ def simulate(problem, settings, column, files):
         grid_error(models, column, surface, load, pixels, found)
         for load, found in zip(loads, np.abs(left) / size, strict=True)
     ]
-    by_solver = [
-        single_error(models, "solver", column, surface, load, tolerance=tolerance) for load in loads
-    ]
+    at = models, "solver", column, surface
+    by_solver = [single_error(*at, load, tolerance=tolerance) for load in loads]
     factor = [covering_factor(problem, settings, load, column) for load in loads]
     return mean, {
         "discretisation": size * by_grid,
@@ -137,10 +131,8 @@ def simulate(problem, settings, column, files):
 def by_theory(problem, column, state):
     """The same by Persson's theory on the lattice spectrum, from a contact with all quantities."""
     values = quote(column, state).values
-    model = [
-        single_error(problem.models, "theory", column, problem.surface, load)
-        for load in problem.pressures
-    ]
+    at = problem.models, "theory", column, problem.surface
+    model = [single_error(*at, load) for load in problem.pressures]
     return values, {"discretisation": QUADRATURE["gap_density"] * values, "model": values * model}
 
 
@@ -174,22 +166,20 @@ def describe_miss(dataset, problem, plan, case):
 
 def outside(surface, plan):
     """Where surface, load, grid or tolerance is outside what was measured, by load."""
-    settings = plan["settings"]
-    knobs = (settings["pixels_per_wavelength"], settings["tolerance"]) if plan["simulated"] else ()
+    names = ("pixels_per_wavelength", "tolerance") if plan["simulated"] else ()
+    knobs = [plan["settings"][name] for name in names]
     return np.array([extrapolated(surface, load, *knobs) for load in plan["pressures"]])
 
 
 def extrapolation_errors(problem, carry_to, values, size):
     """Error of theory's difference, covering 90 %, by column and load."""
-    loads = list(zip(problem.pressures, size, strict=True))
-    share = [
-        [
-            carrying_error(problem.models, problem.surface, carry_to, change, column, load)
-            for load, change in loads
-        ]
-        for column in problem.columns
-    ]
-    return share * np.abs(values)
+    models, surface, loads = problem.models, problem.surface, problem.pressures
+
+    def share(column, load, change):
+        return carrying_error(models, surface, carry_to, change, column, load)
+
+    rows = [list(map(share, [column] * len(loads), loads, size)) for column in problem.columns]
+    return rows * np.abs(values)
 
 
 def extrapolate(plan, columns, fit_interval):
@@ -199,17 +189,12 @@ def extrapolate(plan, columns, fit_interval):
     ratio in attractive areas at H = 0.8, and about the same at H = 0.5.
     """
     surface, ranges = plan["surface"], logarithmic_grid(RANGES)
-    own, broad = (
-        derive(
-            contact_of(
-                Persson(lattice_spectrum(spectrum_of(asked), window_of(asked))),
-                plan["pressures"],
-                ranges,
-            ),
-            fit_interval,
-        )
-        for asked in (surface, surface | {"magnification": plan["carry_to"]})
-    )
+
+    def contact(asked):
+        theory = Persson(lattice_spectrum(model_spectrum(asked), cell_size(asked)))
+        return derive(contact_of(theory, plan["pressures"], ranges), fit_interval)
+
+    own, broad = contact(surface), contact(surface | {"magnification": plan["carry_to"]})
     change = [quote(column, broad).values - quote(column, own).values for column in columns]
     size = np.abs(quote("area", broad).values / quote("area", own).values - 1)
     return np.array(change), size
@@ -217,15 +202,12 @@ def extrapolate(plan, columns, fit_interval):
 
 def annotate(dataset):
     columns = dataset.column.values
-    return datasets.annotate(
+    text = "1 where surface, load, grid or tolerance is outside what the laws were measured on"
+    return conventions.annotate(
         dataset,
         column=("1", "; ".join(f"{column}: {COLUMNS[column].text}" for column in columns)),
-        pressure=DESCRIBED["pressure"],
         value=("1", "value of the column at a load"),
-        extrapolated=(
-            "1",
-            "1 where surface, load, grid or tolerance is outside what the laws were measured on",
-        ),
+        extrapolated=("1", text),
     )
 
 

@@ -1,9 +1,7 @@
-"""Average the realisations of a case: means, standard errors and discretisation errors.
+"""Average the realisations of a case: means in the limit of fine grids, with their errors.
 
-The means are those in the limit of fine grids, by `stickiness.contact.grid_limit`.
-
-The coarse solutions of further seeds, if the case has them, are kept beside the values seed by
-seed, so that whatever is derived from those is averaged in the same way.
+Coarse solutions of further seeds, if the case has them, are kept beside the values seed by seed:
+whatever is derived from those is averaged in the same way.
 """
 
 from pipeline.ensembles import add_budgets, annotate, choose_means, ensemble_of

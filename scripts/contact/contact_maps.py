@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from pipeline.fields import fields
+from pipeline.fields import gather_fields
 from pipeline.job import start
 from stickiness.contact import solver
 from stickiness.core import datasets
@@ -11,17 +11,11 @@ from stickiness.core import datasets
 def main(job):
     surface = datasets.read(job.input.surface, ["height", "window_length"])
     pressures = np.sort(job.params.pressures)
-    contacts = list(
-        solver.load_path(
-            surface.height.values,
-            float(surface.window_length),
-            pressures,
-            tol=job.params.tolerance,
-        )
-    )
+    heights, length = surface.height.values, float(surface.window_length)
+    contacts = solver.load_path(heights, length, pressures, tol=job.params.tolerance)
     datasets.write(
-        fields(
-            contacts,
+        gather_fields(
+            list(contacts),
             pressures,
             surface,
             contact_pressure="contact pressure over E* q0 h_rms",

@@ -1,11 +1,8 @@
 """Coarse contact solutions of many realisations, which correct the mean of a few fine ones.
 
-Their seeds are different from those of the fine solutions. Each surface is solved on 2 pixels per
-shortest wavelength, as every fine one is too. Still more surfaces are not solved: only their long
-waves are described.
+Their seeds are others. Each surface is solved on 2 pixels per shortest wavelength, as every fine
+one is too. Of still more surfaces only the long waves are described.
 """
-
-import numpy as np
 
 from pipeline.coarse_solutions import annotate, coarse_solutions
 from pipeline.contact_curves import COARSE
@@ -20,7 +17,7 @@ def main(job):
         asked,
         range(job.params.after, job.params.seeds),
         job.params.descriptor_seeds,
-        np.sort(job.params.pressures),
+        job.params.pressures,
         logarithmic_grid(job.params.gaps),
         job.params.tolerance,
         job.params.measured,

@@ -1,8 +1,4 @@
-"""All realisations of a comparison case in one job: synthesised, pressed and averaged.
-
-For surfaces that only theory is compared with: nothing is kept of the single realisation but its
-areas and gaps.
-"""
+"""All realisations of a case that only theory is compared with: made, pressed and averaged."""
 
 import logging
 
@@ -10,7 +6,13 @@ import numpy as np
 import xarray as xr
 
 from pipeline import coarse_solutions, contact_curves
-from pipeline.conventions import grid_points, logarithmic_grid, spectrum_of, window_of
+from pipeline.conventions import (
+    cell_size,
+    grid_points,
+    logarithmic_grid,
+    make_heights,
+    waves_across,
+)
 from pipeline.ensembles import (
     add_budgets,
     add_statistics,
@@ -58,15 +60,12 @@ def main(job):
 def realisation(asked, seed, pixels_per_wavelength, curves):
     """Contact of one random surface on all its grids."""
     logging.info("seed %d", seed)
-    length, n = window_of(asked), grid_points(asked, pixels_per_wavelength)
-    heights = synthesis.synthesise(
-        spectrum_of(asked), n, length, seed, asked.get("amplitudes", "gaussian")
-    )
+    length, n = cell_size(asked), grid_points(asked, pixels_per_wavelength)
+    heights = make_heights(asked, n, seed)
     steps = contact_curves.steps_of(pixels_per_wavelength)
     dataset = contact_curves.load_curves(heights, length, steps, *curves)
-    waves = asked["magnification"] * asked.get("window", 1.0)
     dataset["rms_slope"] = synthesis.moments(heights, length).rms_slope
-    return dataset.assign_coords(resolution=n / waves / np.array(steps))
+    return dataset.assign_coords(resolution=n / waves_across(asked) / np.array(steps))
 
 
 if __name__ == "__main__":

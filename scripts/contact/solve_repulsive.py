@@ -15,11 +15,9 @@ from stickiness.core import datasets
 
 def main(job):
     surface = datasets.read(job.input.surface, ["height", "window_length", "rms_slope"])
-    pressures = np.sort(job.params.pressures)
-    ranges = logarithmic_grid(job.params.gaps)
     heights, length = surface.height.values, float(surface.window_length)
     steps = steps_of(job.params.pixels_per_wavelength)
-    path = pressures, ranges, job.params.tolerance
+    path = job.params.pressures, logarithmic_grid(job.params.gaps), job.params.tolerance
     dataset = load_curves(heights, length, steps, *path, job.params.measured)
     dataset = dataset.assign_coords(resolution=pixels(surface) / np.array(steps))
     dataset["rms_slope"] = surface.rms_slope.sel(source="heights", drop=True)

@@ -15,14 +15,13 @@ puts the mean gap near or above it, the window holds too few summits to be compa
 import numpy as np
 import xarray as xr
 
-from pipeline import theory as theories
-from pipeline.conventions import DESCRIBED, grid_points, spectrum_of, window_of
+from pipeline import conventions
+from pipeline.conventions import VARIABLES, grid_points, make_heights
 from pipeline.ensemble_means import coarse, discretisation_error, ensemble_mean
 from pipeline.grid_limits import EXTRAPOLATION
 from pipeline.job import start
 from stickiness.core import datasets
 from stickiness.core.budget import SOURCES, Part, absent, part, with_budget
-from stickiness.surfaces import synthesis
 
 WINDOWS = 64  # random ones, whose highest summits are averaged
 LONG_WAVES = 64.0  # wave number over q0 beyond which waves add nothing to the highest summit
@@ -35,11 +34,10 @@ def main(job):
     simulated = datasets.read(job.input.ensemble, [f"{name}_mean" for name in COMPARED])
     theory = datasets.read(job.input.theory, COMPARED)
     dataset = differences(simulated, theory).merge(distance(simulated, theory))
-    dataset["highest_summit"] = highest_summit(datasets.parameters(simulated))
-    dataset["theory_mean_gap"] = theory.mean_gap
-    holds = theory.mean_gap.isel(variant=0, drop=True) < dataset.highest_summit - MARGIN
-    dataset["window_holds"] = holds.astype("i1")
-    dataset["margin"] = MARGIN
+    summit = highest_summit(datasets.parameters(simulated))
+    holds = theory.mean_gap.isel(variant=0, drop=True) < summit - MARGIN
+    found = {"highest_summit": summit, "theory_mean_gap": theory.mean_gap, "margin": MARGIN}
+    dataset = dataset.assign(found | {"window_holds": holds.astype("i1")})
     datasets.write(
         add_budgets(annotate(dataset), simulated, theory),
         job.output[0],
@@ -50,11 +48,9 @@ def main(job):
 
 def differences(simulated, theory):
     """Relative difference of theory from simulation in every quantity."""
-    dataset = xr.Dataset()
-    for name in COMPARED:
-        mean = simulated[f"{name}_mean"].where(simulated[f"{name}_mean"] > 0)
-        dataset[f"{name}_difference"] = theory[name] / mean - 1
-    return dataset
+    means = {name: simulated[f"{name}_mean"] for name in COMPARED}
+    ratios = {name: theory[name] / mean.where(mean > 0) for name, mean in means.items()}
+    return xr.Dataset({f"{name}_difference": ratio - 1 for name, ratio in ratios.items()})
 
 
 def add_budgets(dataset, simulated, theory):
@@ -134,40 +130,27 @@ def integral(values):
 def highest_summit(made):
     """Mean height over h_rms of the highest point of a window."""
     asked = {**made, "magnification": min(made["magnification"], LONG_WAVES)}
-    spectrum, length, n = spectrum_of(asked), window_of(asked), grid_points(asked, 4)
-    amplitudes = made.get("amplitudes", "gaussian")
-    return float(
-        np.mean(
-            [
-                synthesis.synthesise(spectrum, n, length, seed, amplitudes).max()
-                for seed in range(WINDOWS)
-            ]
-        )
-    )
+    points = grid_points(asked, 4)
+    return float(np.mean([make_heights(asked, points, seed).max() for seed in range(WINDOWS)]))
 
 
 def annotate(dataset):
-    texts = {name: DESCRIBED[name] for name in ("pressure", "range", "gap")}
-    texts["variant"] = theories.DESCRIBED
-    texts["highest_summit"] = ("1", "mean height of a window's highest point over h_rms")
-    texts["theory_mean_gap"] = ("1", "mean gap over h_rms by theory")
-    texts["margin"] = ("1", "least distance of theory's mean gap from the highest summit")
-    texts["window_holds"] = (
-        "1",
-        "1 where theory's mean gap is so far below the highest summit",
-    )
-    for name in COMPARED:
-        text = f"theory over simulation less 1: {DESCRIBED[name][1]}"
-        texts[f"{name}_difference"] = ("1", text, "nothing simulated within the range")
     text = "area between the cumulative distributions of the gap (Wasserstein distance) over h_rms"
     unknown = "a single seed"
-    texts |= {
+    texts = {
+        "highest_summit": ("1", "mean height of a window's highest point over h_rms"),
+        "theory_mean_gap": ("1", "mean gap over h_rms by theory"),
+        "margin": ("1", "least distance of theory's mean gap from the highest summit"),
+        "window_holds": ("1", "1 where theory's mean gap is so far below the highest summit"),
         "distance": ("1", text),
         "distance_standard_error": ("1", f"{text}: standard error", unknown),
         "distance_discretisation_error": ("1", f"{text}: error in the limit of fine grids"),
         "distance_floor": ("1", f"{text}: mean that sampling errors alone give", unknown),
     }
-    return datasets.annotate(dataset, **texts)
+    for name in COMPARED:
+        text = f"theory over simulation less 1: {VARIABLES[name][1]}"
+        texts[f"{name}_difference"] = ("1", text, "nothing simulated within the range")
+    return conventions.annotate(dataset, **texts)
 
 
 if __name__ == "__main__":

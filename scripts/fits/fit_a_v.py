@@ -3,19 +3,11 @@
 import numpy as np
 import xarray as xr
 
-from pipeline import grid_limits
-from pipeline.ensemble_means import add_errors, coarse, describe_errors, standard_error
-from pipeline.error_budgets import (
-    BY_THEORY,
-    MODEL,
-    QUADRATURE,
-    SIMULATED,
-    Simulation,
-    along,
-    theory_error,
-)
-from pipeline.fits import fit_intervals
+from pipeline import conventions, grid_limits
+from pipeline.ensemble_means import SUFFIXES, add_errors, coarse, describe_errors, standard_error
+from pipeline.error_budgets import BY_THEORY, QUADRATURE, SIMULATED, Simulation, theory_parts
 from pipeline.job import start
+from pipeline.quantities import fit_intervals
 from stickiness.accuracy.error_models import read_models
 from stickiness.core import datasets
 from stickiness.core.budget import Part, unknown, with_budget
@@ -29,14 +21,11 @@ def main(job):
     if "edge_gap_mean" in areas:
         resolved = areas["range"] >= areas.edge_gap_mean
         dataset["exponent"] = dataset.exponent.where(resolved)
-    simulated, models = "seed" in dataset.a_v.dims, read_models(job.input.laws)
-    if simulated:
-        dataset = average(dataset, areas, job.params.windows)
-    dataset = annotate(dataset)
+    add_budgets = add_theory_budgets
+    if "seed" in dataset.a_v.dims:
+        dataset, add_budgets = average(dataset, areas, job.params.windows), add_simulation_budgets
     datasets.write(
-        add_simulation_budgets(dataset, areas, models)
-        if simulated
-        else add_theory_budgets(dataset, areas, models),
+        add_budgets(annotate(dataset), areas, read_models(job.input.laws)),
         job.output[0],
         title="a_V from attractive areas",
         parameters={**datasets.parameters(areas), "windows": job.params.windows},
@@ -56,15 +45,10 @@ def average(dataset, ensemble, windows):
 def add_simulation_budgets(dataset, ensemble, models):
     """Budgets of the means over the seeds; a window is part of what is asked."""
     simulation = Simulation.of(models, datasets.parameters(ensemble))
-    parts = simulation.parts(
-        "a_v",
-        dataset.a_v_mean,
-        dataset.a_v_standard_error,
-        dataset.a_v_discretisation_error,
-        grid_limits.INHERITED,
-    )
+    mean = (dataset[f"a_v_{kind}"] for kind in SUFFIXES)
+    parts = simulation.parts("a_v", *mean, grid_limits.INHERITED)
     dataset = with_budget(dataset, "a_v_mean", **parts)
-    solver = along(simulation.solver, "attractive_area", dataset.exponent)
+    solver = simulation.solver("attractive_area", dataset.exponent)
     factor = simulation.factors("attractive_area", dataset.exponent)
     limit = grid_limits.inherit(ensemble, local_exponent, ["attractive_area"])
     seeds = local_exponent(ensemble[["attractive_area", "pressure"]])
@@ -83,20 +67,14 @@ def add_theory_budgets(dataset, areas, models):
     """Budgets of the fits to theory, on a lattice spectrum or on continuous ones."""
     made = datasets.parameters(areas)
     like = dataset.a_v.assign_coords(pressure=areas.pressure)
-    model = theory_error(models, "a_v", like, made if "case" in made else None)
-    quadrature = QUADRATURE["attractive_area"]
-    dataset = with_budget(
-        dataset,
-        "a_v",
-        discretisation=Part(quadrature * dataset.a_v, "of the quadrature, as tested"),
-        model=Part(model * dataset.a_v, MODEL),
-        **BY_THEORY,
-    )
-    steps = np.diff(np.log(areas["range"].values)).min()
+    surface, quadrature = made if "case" in made else None, "attractive_area"
+    parts = theory_parts(models, "a_v", like, surface, quadrature)
+    dataset = with_budget(dataset, "a_v", **parts)
+    error = 2 * QUADRATURE[quadrature] / np.diff(np.log(areas["range"].values)).min()
     return with_budget(
         dataset,
         "exponent",
-        discretisation=Part(2 * quadrature / steps, "of the quadrature in neighbouring areas"),
+        discretisation=Part(error, "of the quadrature in neighbouring areas"),
         model=unknown("how theory's error changes with the range is not measured"),
         **BY_THEORY,
     )
@@ -116,20 +94,16 @@ def local_exponent(areas):
 
 
 def annotate(dataset):
+    missing = "a range that the grid does not resolve, or no area within one of them"
     texts = {
         "a_v": ("1", "a_V, slope of A_ad against (3/2) p (range/h_rms)^(2/3)"),
         "a_v_fit_error": ("1", "standard error of the fit of a_V within its window"),
         "window_low": ("1", "low end of the fit window of range/h_rms"),
         "window_high": ("1", "high end of the fit window of range/h_rms"),
-        "exponent": (
-            "1",
-            "local exponent d ln A_ad/d ln range",
-            "a range that the grid does not resolve, or no area within one of them",
-        ),
+        "exponent": ("1", "local exponent d ln A_ad/d ln range", missing),
+        **describe_errors("a_v", "a_V", discretisation=grid_limits.INHERITED),
     }
-    if "a_v_mean" in dataset:
-        texts |= describe_errors("a_v", "a_V", discretisation=grid_limits.INHERITED)
-    return datasets.annotate(dataset, **texts)
+    return conventions.annotate(dataset, **texts)
 
 
 if __name__ == "__main__":

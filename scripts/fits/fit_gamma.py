@@ -10,7 +10,7 @@ import xarray as xr
 from scipy.interpolate import CubicSpline
 from scipy.optimize import minimize_scalar
 
-from pipeline.conventions import spectrum_of, window_of
+from pipeline.conventions import cell_size, model_spectrum
 from pipeline.job import start
 from stickiness.core import datasets
 from stickiness.core.budget import Part, absent, with_budget
@@ -26,27 +26,26 @@ RANGES = (0.03, 0.1, 0.3)  # over h_rms, of attractive areas
 QUANTITIES = ("area_fraction", "mean_gap", "attractive_area")
 EVERY = "all"  # the three quantities with equal weights
 CONFIDENCE = 0.95
-DRAWS, SEED = 1000, 1
+RANDOM = {"draws": 1000, "seed": 1}
 
 
 def main(job):
+    files = zip(job.input.ensembles, job.input.comparisons, strict=True)
     cases = [
         case(datasets.read(ensemble), datasets.read(comparison, ["window_holds"]))
-        for ensemble, comparison in zip(job.input.ensembles, job.input.comparisons, strict=True)
+        for ensemble, comparison in files
     ]
-    cases = [deviations for deviations in cases if deviations is not None]
+    cases = list(filter(None, cases))
     windows = [deviations.pop("window") for deviations in cases]
-    draws = sample(np.random.default_rng(SEED), DRAWS, windows)
+    draws = sample(np.random.default_rng(RANDOM["seed"]), RANDOM["draws"], windows)
     rows = [
         [fit(cases, draws, index, quantity) for quantity in (*QUANTITIES, EVERY)]
         for index in range(len(CORRECTIONS))
     ]
     names = ("gamma", "gamma_low", "gamma_high", "spread", "misfit", "misfit_own")
+    dims, values = ("correction", "quantity"), np.moveaxis(rows, -1, 0)
     dataset = xr.Dataset(
-        {
-            name: (("correction", "quantity"), [[r[i] for r in row] for row in rows])
-            for i, name in enumerate(names)
-        },
+        {name: (dims, value) for name, value in zip(names, values, strict=True)},
         coords={"correction": list(CORRECTIONS), "quantity": [*QUANTITIES, EVERY]},
     )
     dataset["quantities_agree"] = agreement(dataset).astype("i1")
@@ -55,13 +54,7 @@ def main(job):
         add_budgets(annotate(dataset.drop_vars("spread")), dataset.spread),
         job.output[0],
         title="gamma of the corrections of Persson's theory by simulation",
-        parameters={
-            "cases": len(cases),
-            "ranges": RANGES,
-            "loads": LOADS,
-            "draws": DRAWS,
-            "seed": SEED,
-        },
+        parameters={"cases": len(cases), "ranges": RANGES, "loads": LOADS} | RANDOM,
     )
 
 
@@ -71,7 +64,7 @@ def case(ensemble, comparison):
     Loads for which the window holds summits enough.
     """
     made = datasets.parameters(ensemble)
-    lattice = lattice_spectrum(spectrum_of(made), window_of(made))
+    lattice = lattice_spectrum(model_spectrum(made), cell_size(made))
     ensemble = ensemble.isel(pressure=comparison.window_holds.values == 1)
     if not ensemble.sizes["pressure"]:
         return None
@@ -148,18 +141,14 @@ def add_budgets(dataset, spread):
     """Gamma with its errors: drawn, and for all quantities together what each asks for."""
     each = dataset.gamma.sel(quantity=list(QUANTITIES))
     apart = abs(each - dataset.gamma.sel(quantity=EVERY)).max("quantity")
-    drawn = absent("drawn with the sampling")
+    text = f"how far the gammas of single quantities are from that of {EVERY}"
     return with_budget(
         dataset,
         "gamma",
-        discretisation=drawn,
-        solver=drawn,
+        **dict.fromkeys(("discretisation", "solver"), absent("drawn with the sampling")),
         sampling=Part(spread, "windows, cases and their errors drawn"),
         bandwidth=absent("of the spectra simulated"),
-        model=Part(
-            apart.where(dataset.quantity == EVERY, 0.0),
-            f"how far the gammas of single quantities are from that of {EVERY}",
-        ),
+        model=Part(apart.where(dataset.quantity == EVERY, 0.0), text),
     )
 
 
@@ -185,9 +174,10 @@ def lowest(curve):
 
 
 def annotate(dataset):
-    interval = (
-        f"{CONFIDENCE:.0%} confidence interval of gamma, over windows, their cases and errors"
-    )
+    interval = f"{CONFIDENCE:.0%} confidence interval of gamma, over windows, their cases and "
+    interval += "errors"
+    agree = "1 where one gamma lies within the intervals of the three quantities; where 0, that of "
+    agree += f"{EVERY} is a compromise that none of them may hold"
     return datasets.annotate(
         dataset,
         correction=("1", "correction of the theory"),
@@ -197,11 +187,7 @@ def annotate(dataset):
         gamma_high=("1", f"high end of the {interval}"),
         misfit=("1", "root mean square of ln(theory/simulation) at the best gamma"),
         misfit_own=("1", "the same at the gamma of the correction's source"),
-        quantities_agree=(
-            "1",
-            "1 where one gamma lies within the intervals of the three quantities; where 0, that of "
-            f"{EVERY} is a compromise that none of them may hold",
-        ),
+        quantities_agree=("1", agree),
         own_gamma=("1", "gamma of the correction's source"),
     )
 

@@ -2,27 +2,23 @@
 
 import xarray as xr
 
-from pipeline import grid_limits
-from pipeline.conventions import DESCRIBED, LINEAR_UP_TO
-from pipeline.ensemble_means import add_errors, coarse, describe_errors
-from pipeline.error_budgets import BY_THEORY, MODEL, QUADRATURE, Simulation, theory_error
+from pipeline import conventions, grid_limits
+from pipeline.conventions import LINEAR_UP_TO
+from pipeline.ensemble_means import SUFFIXES, add_errors, coarse, describe_errors
+from pipeline.error_budgets import Simulation, theory_parts
 from pipeline.job import start
 from pipeline.quantities import slope_of_area
 from stickiness.accuracy.error_models import read_models
 from stickiness.core import datasets
-from stickiness.core.budget import ENDINGS, Part, with_budget
+from stickiness.core.budget import ENDINGS, with_budget
 
 
 def main(job):
     ensemble = datasets.read(job.input.ensemble, ["area_fraction", "rms_slope"])
     theory = datasets.read(job.input.theory, ["area_fraction", "rms_slope"])
-    dataset = xr.Dataset(
-        {
-            "area_fraction": ensemble.area_fraction_mean,
-            "kappa_theory": slope_of_area(theory),
-        }
-    )
-    for name, quantity in {"kappa": slope_of_area, "kappa_fit": fitted_slope}.items():
+    known = {"area_fraction": ensemble.area_fraction_mean, "kappa_theory": slope_of_area(theory)}
+    dataset = xr.Dataset(known)
+    for name, quantity in {"kappa": slope_of_area, "kappa_fit": fit_slope}.items():
         dataset = average(dataset, name, quantity, ensemble)
     models = read_models(job.input.laws)
     dataset = add_budgets(annotate(dataset), models, datasets.parameters(ensemble))
@@ -48,22 +44,15 @@ def add_budgets(dataset, models, made):
     simulation, inside = Simulation.of(models, made), dataset.area_fraction <= LINEAR_UP_TO
     loads = {"kappa": dataset.pressure, "kappa_fit": dataset.pressure.where(inside).max()}
     for name, pressure in loads.items():
-        kinds = ("standard_error", "discretisation_error")
-        errors = (dataset[f"{name}_{kind}"] for kind in kinds)
+        errors = (dataset[f"{name}_{kind}"] for kind in list(SUFFIXES)[1:])
         value = dataset[name].assign_coords(pressure=pressure)
         parts = simulation.parts("kappa", value, *errors, grid_limits.INHERITED)
         dataset = with_budget(dataset, name, **parts)
-    value, quadrature = dataset.kappa_theory, QUADRATURE["area_fraction"]
-    return with_budget(
-        dataset,
-        "kappa_theory",
-        discretisation=Part(quadrature * value, "of the quadrature, as tested"),
-        model=Part(theory_error(models, "kappa", value, made) * value, MODEL),
-        **BY_THEORY,
-    )
+    parts = theory_parts(models, "kappa", dataset.kappa_theory, made, "area_fraction")
+    return with_budget(dataset, "kappa_theory", **parts)
 
 
-def fitted_slope(ensemble):
+def fit_slope(ensemble):
     """Least-squares slope of area h'_rms against pressure through the origin, A <= 30 %."""
     area = ensemble.area_fraction.where(ensemble.area_fraction <= LINEAR_UP_TO)
     pressure = ensemble.pressure.where(area.notnull())
@@ -74,10 +63,8 @@ def fitted_slope(ensemble):
 def annotate(dataset):
     text = "kappa = A_rep E* h'_rms/(A_nom p)"
     fit = f"{text}, fitted through the origin up to {LINEAR_UP_TO:.0%} area"
-    return datasets.annotate(
+    return conventions.annotate(
         dataset,
-        pressure=DESCRIBED["pressure"],
-        area_fraction=DESCRIBED["area_fraction"],
         kappa_theory=("1", f"{text} by Persson's theory on the lattice spectrum"),
         **describe_errors("kappa", text, plain=True, discretisation=grid_limits.INHERITED),
         **describe_errors("kappa_fit", fit, plain=True, discretisation=grid_limits.INHERITED),

@@ -11,12 +11,8 @@ from stickiness.core.statistics import COVERS
 SMALLEST_RANGE = 0.01  # over h_rms; below, simulated areas are extrapolated on most grids
 PER_DECADE = 4  # simulated ranges
 QUOTED = ("a_v", "a_v_limit", "edge_a_v")
-THEORY = (
-    *QUOTED,
-    *(f"{name}{ending}" for name in QUOTED for ending in ENDINGS),
-    "edge_range",
-    "quadrature_error",
-)
+BUDGETS = tuple(f"{name}{ending}" for name in QUOTED for ending in ENDINGS)
+THEORY = (*QUOTED, *BUDGETS, "edge_range", "quadrature_error")
 
 
 def main(job):
@@ -116,12 +112,9 @@ def fit(points, error, loads, largest):
 
     matrix = terms(points.pressure.values, points.magnification.values)
     root = 1 / np.maximum(error * np.sqrt(points.sharing), 1e-9).values
-    found = np.transpose(
-        [
-            np.linalg.lstsq(matrix * w[:, None], y * w, rcond=None)[0]
-            for w, y in zip(root.T, points.log.values.T, strict=True)
-        ]
-    )
+    weighed = zip(root.T, points.log.values.T, strict=True)
+    found = [np.linalg.lstsq(matrix * w[:, None], y * w, rcond=None)[0] for w, y in weighed]
+    found = np.transpose(found)
     coords = {"pressure": loads, "range": points["range"].values}
     mean = terms(loads, np.full(len(loads), largest)) @ found
     trend = found[-1] if several else np.zeros(found.shape[1])
@@ -175,8 +168,7 @@ def add_budgets(dataset):
     return with_budget(
         dataset,
         "simulation_ratio",
-        discretisation=absent("counted with the sampling"),
-        solver=absent("counted with the sampling"),
+        **dict.fromkeys(("discretisation", "solver"), absent("counted with the sampling")),
         sampling=Part(error, "of a further surface, the errors of the cases included"),
         bandwidth=unknown("the trend beyond the largest magnification is not simulated"),
         model=absent("simulation over theory is what is quoted"),
@@ -184,7 +176,7 @@ def add_budgets(dataset):
 
 
 def annotate(dataset):
-    theory = "a_V by theory"
+    theory, decade = "a_V by theory", "a decade below the simulated ranges"
     texts = {
         "a_v": ("1", f"{theory}; to be held constant below edge_range"),
         "a_v_limit": ("1", f"{theory} in the limit of infinite magnification"),
@@ -195,10 +187,7 @@ def annotate(dataset):
         "simulation_trend": ("1", "change of ln of this ratio per doubling of the magnification"),
         "smallest_magnification": ("1", "smallest magnification simulated"),
         "largest_magnification": ("1", "largest magnification simulated"),
-        "extrapolation_error": (
-            "1",
-            "standard relative error that a decade below the simulated ranges adds",
-        ),
+        "extrapolation_error": ("1", f"standard relative error that {decade} adds"),
     }
     for name in ("theory_below", "theory_above"):
         side = name.removeprefix("theory_")

@@ -3,10 +3,9 @@
 import numpy as np
 import xarray as xr
 
-from pipeline.conventions import DESCRIBED, logarithmic_grid, spectrum_of, window_of
+from pipeline.conventions import annotate, cell_size, logarithmic_grid, model_spectrum
 from pipeline.error_budgets import QUADRATURE, theory_parts
 from pipeline.job import start
-from pipeline.theory import DESCRIBED as DESCRIBED_THEORY
 from pipeline.theory import evaluate, theories
 from stickiness.accuracy.error_models import read_models
 from stickiness.core import datasets
@@ -17,22 +16,17 @@ from stickiness.surfaces.synthesis import lattice_spectrum
 
 def main(job):
     asked = job.params.surface
-    lattice = lattice_spectrum(spectrum_of(asked), window_of(asked))
+    lattice = lattice_spectrum(model_spectrum(asked), cell_size(asked))
     pressures, ranges = np.sort(job.params.pressures), logarithmic_grid(job.params.gaps)
     named = theories(job.params.variants, job.params.gamma)
     parts = [evaluate(Persson(lattice, **options), pressures, ranges) for options in named.values()]
     names = xr.DataArray(list(named), dims="variant", name="variant")
     dataset = xr.concat(parts, names).assign(rms_slope=lattice.rms_slope)
-    dataset = datasets.annotate(
-        dataset,
-        **DESCRIBED,
-        variant=DESCRIBED_THEORY,
-        rms_slope=("1", "rms gradient of the lattice spectrum over q0 h_rms"),
-    )
+    text = "rms gradient of the lattice spectrum over q0 h_rms"
+    dataset = annotate(dataset, rms_slope=("1", text))
     models = read_models(job.input.laws)
     for name in QUADRATURE:
-        parts = theory_parts(models, name, dataset[name], asked)
-        dataset = with_budget(dataset, name, **parts)
+        dataset = with_budget(dataset, name, **theory_parts(models, name, dataset[name], asked))
     datasets.write(
         dataset,
         job.output[0],

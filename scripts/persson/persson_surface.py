@@ -3,8 +3,8 @@
 import numpy as np
 import xarray as xr
 
-from pipeline.conventions import DESCRIBED, VARIANT, logarithmic_grid
-from pipeline.error_budgets import BY_THEORY, QUADRATURE, theory_error
+from pipeline.conventions import VARIANT, annotate, logarithmic_grid
+from pipeline.error_budgets import theory_parts
 from pipeline.job import start
 from pipeline.real_spectra import real_spectrum
 from stickiness import criteria
@@ -29,10 +29,9 @@ def main(job):
         {"a_v": (("variant", "range"), a_v), "edge_range": edge},
         coords={"variant": names, "range": ranges},
     )
-    dataset = datasets.annotate(
+    dataset = annotate(
         dataset,
         variant=("1", "variant of the theory, or the edge law below the edge range"),
-        range=DESCRIBED["range"],
         a_v=("1", "a_V = A_ad/((3/2) p (range/h_rms)^(2/3)), constant below the edge range"),
         edge_range=("1", "range over h_rms below which the edge law takes over from theory"),
     )
@@ -46,36 +45,19 @@ def main(job):
 
 def add_budgets(dataset, surface, load, models):
     """The quoted a_V with its errors: as measured, or how far the others are if that is more."""
-    a_v = dataset.a_v.assign_coords(
-        pressure=load,
-        hurst=float(surface.hurst),
-        magnification=float(surface.q1 / surface.q0),
-    )
+    at = {"hurst": float(surface.hurst), "magnification": float(surface.q1 / surface.q0)}
+    a_v = dataset.a_v.assign_coords(pressure=load, **at)
     spread = abs(a_v - a_v.sel(variant=VARIANT)).max("variant")
-    model = theory_error(models, "attractive_area", a_v) * a_v
-    return with_budget(
-        dataset,
-        "a_v",
-        discretisation=Part(QUADRATURE["attractive_area"] * a_v, "of the quadrature, as tested"),
-        model=Part(
-            np.maximum(model, spread),
-            f"of {VARIANT} as measured, or how far the others are if that is more; of others not "
-            "measured",
-        ),
-        **BY_THEORY,
-    )
+    parts = theory_parts(models, "attractive_area", a_v)
+    text = f"of {VARIANT} as measured, or how far the others are if that is more; of others not "
+    model = Part(np.maximum(parts["model"].error, spread), f"{text}measured")
+    return with_budget(dataset, "a_v", **parts | {"model": model})
 
 
 def a_v_of(surface, end, ranges, load, gamma):
     """a_V by every variant and by the edge law on one end of a surface, and the edge range."""
-    return theory_a_v(
-        real_spectrum(surface, end),
-        ranges,
-        load,
-        edge_a_v(surface, end),
-        q0=float(surface.q0),
-        gamma=gamma,
-    )
+    edge, q0 = edge_a_v(surface, end), float(surface.q0)
+    return theory_a_v(real_spectrum(surface, end), ranges, load, edge, q0=q0, gamma=gamma)
 
 
 def same_shape(surface):

@@ -5,10 +5,9 @@ from itertools import product
 import numpy as np
 import xarray as xr
 
-from pipeline.conventions import DESCRIBED, logarithmic_grid, spectrum_of
+from pipeline.conventions import annotate, logarithmic_grid, model_spectrum
 from pipeline.error_budgets import QUADRATURE, theory_parts
 from pipeline.job import start
-from pipeline.theory import DESCRIBED as DESCRIBED_THEORY
 from pipeline.theory import evaluate, theories
 from stickiness.accuracy.error_models import read_models
 from stickiness.core import datasets
@@ -20,16 +19,12 @@ def main(job):
     sweep, ranges = job.params.sweep, logarithmic_grid(job.params.gaps)
     named = theories(job.params.variants, job.params.gamma)
     axes = list(named), sweep["hurst"], [float(m) for m in sweep["magnification"]]
-    parts = [
-        evaluate_sweep(
-            Persson(
-                spectrum_of({"hurst": hurst, "magnification": magnification}), **named[variant]
-            ),
-            sweep,
-            ranges,
-        ).expand_dims(variant=[variant], hurst=[hurst], magnification=[magnification])
-        for variant, hurst, magnification in product(*axes)
-    ]
+    parts = []
+    for variant, *at in product(*axes):
+        at = dict(zip(("hurst", "magnification"), at, strict=True))
+        contact = evaluate_sweep(Persson(model_spectrum(at), **named[variant]), sweep, ranges)
+        axis = {name: [value] for name, value in at.items()}
+        parts.append(contact.expand_dims(variant=[variant], **axis))
     dataset, models = annotate(xr.combine_by_coords(parts)), read_models(job.input.laws)
     for name in QUADRATURE:
         value = dataset[name].assign_coords(pressure=dataset.pressure)
@@ -51,18 +46,6 @@ def evaluate_sweep(theory, sweep, ranges):
     contact = evaluate(theory, pressures, ranges).rename_dims(pressure="load")
     contact = contact.reset_index("pressure").reset_coords("pressure")
     return contact.assign(rms_curvature=theory.spectrum.rms_curvature)
-
-
-def annotate(dataset):
-    return datasets.annotate(
-        dataset,
-        **DESCRIBED,
-        variant=DESCRIBED_THEORY,
-        hurst=("1", "Hurst exponent"),
-        magnification=("1", "magnification q1/q0"),
-        rms_slope=("1", "rms gradient over q0 h_rms"),
-        rms_curvature=("1", "rms Laplacian over q0^2 h_rms"),
-    )
 
 
 if __name__ == "__main__":

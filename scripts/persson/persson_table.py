@@ -6,10 +6,10 @@ from itertools import product
 import numpy as np
 import xarray as xr
 
-from pipeline.conventions import DESCRIBED, VARIANT, logarithmic_grid, spectrum_of
-from pipeline.error_budgets import BY_THEORY, MODEL, theory_error
+from pipeline import conventions
+from pipeline.conventions import VARIANT, logarithmic_grid, model_spectrum
+from pipeline.error_budgets import BY_THEORY, theory_parts
 from pipeline.job import start
-from pipeline.theory import DESCRIBED as DESCRIBED_THEORY
 from pipeline.theory import theories
 from stickiness import criteria
 from stickiness.accuracy.error_models import read_models
@@ -18,6 +18,7 @@ from stickiness.core.budget import Part, absent, unknown, with_budget
 from stickiness.criteria.a_v_table import edge_range, local_a_v
 from stickiness.persson.theory import Persson
 
+AXES = ("hurst", "magnification", "pressure")
 OTHER_VARIANT = "almqvist2011"
 # There the area within the smallest range of contact, the contact included, has converged to 1e-5
 # for H from 0.3 to 1; contact itself vanishes, be it as slowly as 1/sqrt(ln zeta) for H = 1.
@@ -31,11 +32,7 @@ def main(job):
     ranges = logarithmic_grid(asked["range"])
     named = theories((VARIANT, OTHER_VARIANT), gamma)
     names, options = list(named), list(named.values())
-    axes = {
-        "hurst": np.array(asked["hurst"], dtype=float),
-        "magnification": np.array(asked["magnification"], dtype=float),
-        "pressure": np.array(asked["pressure"], dtype=float),
-    }
+    axes = {name: np.array(asked[name], dtype=float) for name in AXES}
     dataset = finite(axes, ranges, options).merge(infinite(axes, ranges, options))
     dataset["quadrature_error"] = quadrature_error(axes, ranges, gamma)
     dataset = annotate(dataset.assign_coords(variant=names, range=ranges))
@@ -58,9 +55,8 @@ def finite(axes, ranges, options):
         spectrum = self_affine(hurst, magnification)
         a_v[:, i, j] = a_v_of(spectrum, axes["pressure"], ranges, options)
         edge[i, j] = [edge_range(ranges, *pair) for pair in zip(*a_v[:2, i, j], strict=True)]
-        robbins[i, j] = criteria.pastewka_robbins_a_v(
-            1.0, 1.0, spectrum.rms_slope, spectrum.rms_curvature
-        )
+        moments = spectrum.rms_slope, spectrum.rms_curvature
+        robbins[i, j] = criteria.pastewka_robbins_a_v(1.0, 1.0, *moments)
         logging.info("H = %g, zeta = %g", hurst, magnification)
     data = {
         "a_v": (("variant", *axes, "range"), a_v),
@@ -103,10 +99,8 @@ def quadrature_error(axes, ranges, gamma):
     pressures, changes = axes["pressure"][[0, -1]], []
     for hurst, magnification in product(*ends):
         spectrum = self_affine(hurst, magnification)
-        few, many = (
-            a_v_of(spectrum, pressures, ranges, quoted, nodes=nodes)
-            for nodes in (NODES, REFERENCE_NODES)
-        )
+        given = spectrum, pressures, ranges, quoted
+        few, many = (a_v_of(*given, nodes=nodes) for nodes in (NODES, REFERENCE_NODES))
         changes.append(np.abs(few / many - 1).max())
     return max(changes)
 
@@ -115,38 +109,22 @@ def add_budgets(dataset, models):
     """a_V with its errors, as large as those of the attractive area, and the edges' estimate."""
     limit = dataset.a_v_limit.assign_coords(magnification=np.inf)
     for name, value in {"a_v": dataset.a_v, "a_v_limit": limit}.items():
-        model = theory_error(models, "attractive_area", value) * value
-        dataset = with_budget(
-            dataset,
-            name,
-            discretisation=Part(dataset.quadrature_error * value, "of the quadrature, the largest"),
-            model=Part(model, MODEL),
-            **BY_THEORY,
-        )
-    closed = absent("a closed form")
-    return with_budget(
-        dataset,
-        "edge_a_v",
-        discretisation=closed,
-        solver=closed,
-        sampling=closed,
-        bandwidth=BY_THEORY["bandwidth"],
-        model=unknown("another estimate of what edges give"),
-    )
+        quadrature = Part(dataset.quadrature_error * value, "of the quadrature, the largest")
+        parts = theory_parts(models, "attractive_area", value) | {"discretisation": quadrature}
+        dataset = with_budget(dataset, name, **parts)
+    parts = dict.fromkeys(("discretisation", "solver", "sampling"), absent("a closed form"))
+    parts |= {"bandwidth": BY_THEORY["bandwidth"]}
+    unmeasured = unknown("another estimate of what edges give")
+    return with_budget(dataset, "edge_a_v", **parts, model=unmeasured)
 
 
 def self_affine(hurst, magnification):
-    return spectrum_of({"hurst": hurst, "magnification": magnification})
+    return model_spectrum({"hurst": hurst, "magnification": magnification})
 
 
 def annotate(dataset):
-    return datasets.annotate(
+    return conventions.annotate(
         dataset,
-        variant=DESCRIBED_THEORY,
-        hurst=("1", "Hurst exponent"),
-        magnification=("1", "magnification q1/q0"),
-        pressure=DESCRIBED["pressure"],
-        range=DESCRIBED["range"],
         a_v=("1", "a_V = A_ad/((3/2) p (range/h_rms)^(2/3)); of no meaning below edge_range"),
         a_v_limit=("1", "a_V in the limit of infinite magnification"),
         edge_range=("1", "range over h_rms below which theory does not resolve edges of contact"),

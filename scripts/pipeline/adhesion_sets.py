@@ -4,8 +4,6 @@ Those are h_rms for gaps and ranges and E* q0 h_rms for pressures, so that the s
 sigma0/E* = l_a/range becomes (l_a/range)/(q0 h_rms).
 """
 
-from __future__ import annotations
-
 import logging
 from collections.abc import Mapping
 from typing import Any
@@ -16,13 +14,8 @@ import xarray as xr
 from stickiness import adhesive
 from stickiness.adhesion.model_choice import roughness
 
-LAWS = {
-    "maugis": adhesive.Maugis,
-    "exponential": adhesive.Exponential,
-}
-
+LAWS = {"maugis": adhesive.Maugis, "exponential": adhesive.Exponential}
 MISSING = "the grid does not resolve the edge, or a window closes"
-
 OUTSIDE = "outside the table of measured errors"
 
 # Relative. Of 24 states solved to 1e-7 and to 1e-9 (loads 0.03 and 0.065, range 0.1 h_rms,
@@ -32,23 +25,25 @@ SOLVER = 1e-6
 STRONGEST = 8.0  # attraction over repulsion, in the DMT limit, that is still looked at
 LEAST = 20  # states of a loop at least, loading or unloading
 
-AXES = ("pressure", "adhesion_length_over_range", "range_over_h_rms")
-DESCRIBED = {
-    "q0_h_rms": ("1", "lowest wave number times rms height"),
-    "adhesion_length_over_range": ("1", "adhesion length over range, sigma0/E*"),
-    "range_over_h_rms": ("1", "range of attraction over h_rms"),
+ATTRIBUTES = {  # quantities of an adhesive state by their names in files
+    "external_pressure": "mean_pressure",
+    "repulsive_pressure": "repulsive_pressure",
+    "attraction": "adhesive_pressure",
+    "repulsive_area": "repulsive_area_fraction",
+    "net_repulsive_area": "net_repulsive_area_fraction",
+    "attractive_area": "adhesive_area_fraction",
+    **{name: name for name in ("elastic_energy", "interaction_energy", "residual", "iterations")},
 }
-
-
-def axis(name: str, asked: Mapping[str, Any], key: str | None = None) -> xr.DataArray:
-    """One list of the configuration (under `key`, by default its name), in increasing order."""
-    values = np.sort(np.array(asked[key or name], dtype=float))
-    return xr.DataArray(values, dims=name, coords={name: values}, name=name)
+AXES = ("pressure", "adhesion_length_over_range", "range_over_h_rms")
 
 
 def axes(asked: Mapping[str, Any]) -> tuple[xr.DataArray, xr.DataArray, xr.DataArray]:
-    """Pressures, adhesion lengths and ranges of a set, in the order of `AXES`."""
-    return tuple(axis(name, asked, "pressures" if name == "pressure" else None) for name in AXES)
+    """Pressures, adhesion lengths and ranges of a set, each in increasing order."""
+    lists = (asked["pressures"], *(asked[name] for name in AXES[1:]))
+    values = {
+        name: np.sort(np.array(given, float)) for name, given in zip(AXES, lists, strict=True)
+    }
+    return tuple(xr.DataArray(v, {name: v}, [name], name) for name, v in values.items())
 
 
 def scaled_law(
@@ -59,30 +54,13 @@ def scaled_law(
     return LAWS[kind](adhesion_length=strength * range_over_h_rms, range=range_over_h_rms)
 
 
-def closed(heights, length, law, contact, tolerance):
+def solve_at_gap(heights, length, law, contact, tolerance):
     """State at the mean gap of a contact without adhesion, reached from that contact."""
-    state = adhesive.solve(
-        heights, length, law, mean_gap=contact.mean_gap, start=contact, tol=tolerance
-    )
+    gap = contact.mean_gap
+    state = adhesive.solve(heights, length, law, mean_gap=gap, start=contact, tol=tolerance)
     logging.info(
-        "n = %d, p = %.3g, l_a %.3g, range %g: area %.4f, residual %.1e, %d iterations",
-        len(heights),
-        contact.mean_pressure,
-        law.adhesion_length,
-        law.range,
-        state.repulsive_area_fraction,
-        state.residual,
-        state.iterations,
+        f"n = {len(heights)}, p = {contact.mean_pressure:.3g}, l_a {law.adhesion_length:.3g}, "
+        f"range {law.range:g}: area {state.repulsive_area_fraction:.4f}, "
+        f"residual {state.residual:.1e}, {state.iterations} iterations"
     )
-    return {
-        "external_pressure": state.mean_pressure,
-        "repulsive_pressure": state.repulsive_pressure,
-        "attraction": state.adhesive_pressure,
-        "repulsive_area": state.repulsive_area_fraction,
-        "net_repulsive_area": state.net_repulsive_area_fraction,
-        "attractive_area": state.adhesive_area_fraction,
-        "elastic_energy": state.elastic_energy,
-        "interaction_energy": state.interaction_energy,
-        "residual": state.residual,
-        "iterations": state.iterations,
-    }
+    return {name: getattr(state, attribute) for name, attribute in ATTRIBUTES.items()}

@@ -5,9 +5,9 @@ import logging
 import numpy as np
 import xarray as xr
 
-from pipeline.contact_curves import COARSE, CURVE, load_curve
-from pipeline.conventions import grid_points, spectrum_of, window_of
-from pipeline.quantities import describe_measured
+from pipeline import contact_curves
+from pipeline.contact_curves import COARSE, load_curve
+from pipeline.conventions import cell_size, grid_points, make_heights, model_spectrum
 from stickiness.accuracy import multilevel
 from stickiness.core import datasets
 from stickiness.surfaces import synthesis
@@ -21,7 +21,7 @@ def coarse_solutions(asked, which, others_count, pressures, ranges, tolerance, n
 
     Those that are not solved go with the first of those that are.
     """
-    spectrum, length = spectrum_of(asked), window_of(asked)
+    spectrum, length = model_spectrum(asked), cell_size(asked)
     amplitudes = asked.get("amplitudes", "gaussian")
     seeds = SOLVED_FROM + np.array(which)
     others = DESCRIBED_FROM + np.arange(others_count if which[0] == 0 else 0)
@@ -29,8 +29,7 @@ def coarse_solutions(asked, which, others_count, pressures, ranges, tolerance, n
     curves = []
     for seed in seeds:
         logging.info("seed %d", seed)
-        n = grid_points(asked, 2 * COARSE)
-        heights = synthesis.synthesise(spectrum, n, length, int(seed), amplitudes)
+        heights = make_heights(asked, grid_points(asked, 2 * COARSE), seed)
         curve = load_curve(heights[::2, ::2], length, pressures, ranges, tolerance, names)
         # Of the finer grid: at two pixels the shortest waves are not all there.
         curve["rms_slope"] = synthesis.moments(heights, length).rms_slope
@@ -45,10 +44,7 @@ def coarse_solutions(asked, which, others_count, pressures, ranges, tolerance, n
 
 def annotate(dataset):
     return datasets.annotate(
-        dataset,
-        **{name: texts for name, texts in CURVE.items() if name in dataset.variables},
-        **describe_measured(dataset.data_vars),
-        seed=("1", "seed of the realisation"),
+        contact_curves.annotate(dataset),
         other=("1", "seed of a realisation that is not solved"),
         descriptor=("1", "what is described, lengths in units of 1/q0 and heights of h_rms"),
         long_waves=("1", "descriptors of the long waves"),

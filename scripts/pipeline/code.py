@@ -1,7 +1,5 @@
 """What code a script runs, as a hash that comments, docstrings and layout do not change."""
 
-from __future__ import annotations
-
 import ast
 import hashlib
 from collections.abc import Iterator
@@ -14,14 +12,9 @@ DOCUMENTED = (ast.Module, ast.ClassDef, ast.FunctionDef, ast.AsyncFunctionDef)
 
 
 def code_of(scripts: str, script: str) -> str:
-    """Hash of a rule's script and of all that it imports from below `scripts`.
+    """Hash of a rule's script and of all that it imports from below the folder `scripts`.
 
-    Parameters
-    ----------
-    scripts : str
-        Folder of all scripts and packages.
-    script : str
-        As the rule names it, relative to the folder of rules.
+    `script` is as the rule names it, relative to the folder of rules.
     """
     folder = Path(scripts)
     first = Path(scripts, "..", "rules", script).resolve()

@@ -4,21 +4,14 @@ import logging
 
 import xarray as xr
 
-from pipeline.conventions import DESCRIBED
-from pipeline.quantities import describe_measured
+from pipeline import conventions
 from stickiness.accuracy.error_models import COARSE
 from stickiness.accuracy.quantities import MEASURED
 from stickiness.contact import gaps, solver, subpixel
-from stickiness.core import datasets
 
 SOLVED = ("area_fraction", "mean_gap", "residual", "iterations", "fft_pairs")
 AREAS = ("attractive_area", "pixel_attractive_area")
-CURVE = {
-    **{name: DESCRIBED[name] for name in ("pressure", "range", "area_fraction", "mean_gap")},
-    "attractive_area": DESCRIBED["attractive_area"],
-    "residual": ("1", "complementarity residual over h_rms"),
-    "rms_slope": ("1", "rms gradient of this realisation over q0 h_rms"),
-}
+RMS_SLOPE = ("1", "rms gradient of this realisation over q0 h_rms")
 
 
 def steps_of(pixels_per_wavelength):
@@ -26,12 +19,9 @@ def steps_of(pixels_per_wavelength):
     return sorted({pixels_per_wavelength // COARSE, 2, 1}, reverse=True)
 
 
-def load_curves(heights, length, steps, pressures, ranges, tolerance, names=()):
-    """Contact quantities on every grid, along the dimension `resolution`."""
-    curves = [
-        load_curve(heights[::step, ::step], length, pressures, ranges, tolerance, names)
-        for step in steps
-    ]
+def load_curves(heights, length, steps, *path):
+    """Contact quantities on every grid, along `resolution`; `path` as of `load_curve`."""
+    curves = [load_curve(heights[::step, ::step], length, *path) for step in steps]
     return xr.concat(curves, "resolution")
 
 
@@ -42,23 +32,17 @@ def load_curve(heights, length, pressures, ranges, tolerance, names=()):
     """
     rows = []
     for contact in solver.load_path(heights, length, pressures, tol=tolerance):
-        row = measured(contact, ranges)
-        rows.append(
-            row.assign({name: MEASURED[name](heights, contact.gap, length) for name in names})
-        )
+        asked = {name: MEASURED[name](heights, contact.gap, length) for name in names}
+        rows.append(measure(contact, ranges).assign(asked))
         logging.info(
-            "n = %d: load %d of %d, area %.4f, residual %.1e, %d iterations",
-            len(heights),
-            len(rows),
-            len(pressures),
-            contact.area_fraction,
-            contact.residual,
-            contact.iterations,
+            f"n = {len(heights)}: load {len(rows)} of {len(pressures)}, area "
+            f"{contact.area_fraction:.4f}, residual {contact.residual:.1e}, "
+            f"{contact.iterations} iterations"
         )
-    return xr.concat(rows, xr.DataArray(pressures, dims="pressure", name="pressure"))
+    return xr.concat(rows, xr.DataArray(list(pressures), dims="pressure", name="pressure"))
 
 
-def measured(contact, ranges):
+def measure(contact, ranges):
     """Quantities of one solution; attractive areas only if there are `ranges` to take them at."""
     touching = contact.gap == 0
     found = {name: float(getattr(contact, name)) for name in SOLVED}
@@ -74,20 +58,4 @@ def measured(contact, ranges):
 
 
 def annotate(dataset):
-    texts = {name: text for name, text in CURVE.items() if name in dataset.variables}
-    if "range" in dataset.dims:
-        texts["pixel_attractive_area"] = (
-            "1",
-            "attractive area as counted in pixels, over nominal area",
-        )
-    return datasets.annotate(
-        dataset,
-        **texts,
-        **describe_measured(dataset.data_vars),
-        resolution=("1", "grid points per shortest wavelength"),
-        pixel_area_fraction=("1", "repulsive contact area as counted in pixels, over nominal area"),
-        edges=("1", "pixel sides between contact and gap"),
-        edge_gap=("1", "gap of the pixels next to the contact over h_rms: smallest range resolved"),
-        iterations=("1", "conjugate gradient iterations"),
-        fft_pairs=("1", "pairs of Fourier transforms in units of this grid"),
-    )
+    return conventions.annotate(dataset, rms_slope=RMS_SLOPE)

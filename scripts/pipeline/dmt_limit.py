@@ -31,18 +31,10 @@ QUANTITIES = {
 
 @dataclass(frozen=True)
 class DmtLimit:
-    """Quantities of a set of adhesive parameters.
+    """Quantities of a set of adhesive parameters."""
 
-    Attributes
-    ----------
-    asked : mapping
-        The set, as in the configuration.
-    linear : xarray.DataArray
-        By pressure, whether the area is one that a slope is fitted to.
-    """
-
-    asked: Mapping[str, Any]
-    linear: xr.DataArray
+    asked: Mapping[str, Any]  # the set, as in the configuration
+    linear: xr.DataArray  # by pressure, whether the area is one that a slope is fitted to
 
     @classmethod
     def of(cls, asked: Mapping[str, Any], ensemble: xr.Dataset) -> DmtLimit:
@@ -68,11 +60,8 @@ class DmtLimit:
             nodes = np.union1d(np.geomspace(known[0], known[-1], count), [range_])
             area = np.exp(logs.interp(range=np.log(nodes).clip(*np.log(known[[0, -1]]))))
             area = area.transpose(..., "range")
-            parts.append(
-                area.isel(range=0, drop=True).copy(
-                    data=dmt.attraction_of_areas(area.values, nodes, law)
-                )
-            )
+            pull = dmt.attraction_of_areas(area.values, nodes, law)
+            parts.append(area.isel(range=0, drop=True).copy(data=pull))
         return xr.concat(parts, ranges) * (lengths / lengths[0])
 
     def inverse_kappa(self, solved: xr.Dataset) -> xr.DataArray:
@@ -95,13 +84,9 @@ class DmtLimit:
     def inverse_kappa_ad_fit(self, solved: xr.Dataset) -> xr.DataArray:
         """1/kappa_ad by the fall of that slope."""
         held = self.at_loads(solved)
-        attraction = self.attraction(solved)
         area = held.area_fraction * held.rms_slope
-        return (
-            fit_slope(attraction, area, self.linear)
-            / fit_slope(held.pressure, area, self.linear)
-            / 2
-        )
+        fall = fit_slope(self.attraction(solved), area, self.linear)
+        return fall / fit_slope(held.pressure, area, self.linear) / 2
 
 
 def fit_slope(external: xr.DataArray, area: xr.DataArray, linear: xr.DataArray) -> xr.DataArray:

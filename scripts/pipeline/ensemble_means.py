@@ -5,8 +5,6 @@ the case says otherwise. It is the plain one over the seeds, or if there are coa
 many more seeds the multilevel one of `stickiness.accuracy.multilevel`.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 
@@ -28,34 +26,22 @@ PREFIX = "coarse_"  # of what an ensemble's file keeps of coarse solutions, and 
 class Coarse:
     """A quantity of seeds that are solved on the coarsest grid alone, and their long waves.
 
-    Attributes
-    ----------
-    values : xarray.DataArray
-        With the dimension `seed` and no `resolution`.
-    controls, elsewhere : xarray.DataArray
-        Descriptors of these seeds and of many more.
-    twin : xarray.DataArray, optional
-        The same of the seeds of the mean; by default those values themselves, on the coarsest
-        grid. One of its own may be another model, not in proportion to the values: its
-        coefficient is then a slope, and it needs `FEWEST` seeds.
+    `twin` is the same quantity of the seeds of the mean, by default their own values on the
+    coarsest grid. One of its own may be another model, not in proportion to the values: its
+    coefficient is then a slope, and it needs `FEWEST` seeds.
     """
 
-    values: xr.DataArray
-    controls: xr.DataArray
-    elsewhere: xr.DataArray
+    values: xr.DataArray  # along `seed`, without `resolution`
+    controls: xr.DataArray  # long waves of these seeds
+    elsewhere: xr.DataArray  # and of many more
     twin: xr.DataArray | None = None
 
 
 def coarse(ensemble: xr.Dataset, quantity: Callable[[xr.Dataset], xr.DataArray]) -> Coarse | None:
     """A quantity of the coarse solutions of an ensemble; None if it has none.
 
-    Parameters
-    ----------
-    ensemble
-        As `average_ensemble` makes it, or anything with variables of the same names.
-    quantity
-        The quantity by the variables of the fine solutions, say ``area_fraction``; here it gets
-        those of the coarse ones under the same names.
+    `quantity` reads the variables of fine solutions, say ``area_fraction``; here it gets those of
+    the coarse ones under the same names.
     """
     if f"{PREFIX}seed" not in ensemble.dims:
         return None
@@ -76,15 +62,13 @@ def standard_error(values):
 
 
 def discretisation_error(values):
-    """Discretisation error of the mean, from the change between the coarse and the fine grid.
+    """Discretisation error of the mean, from the change between the two finest grids.
 
-    The mean change and its own standard error in quadrature, so that changes of either sign do
-    not cancel to nothing. With an error that falls at least in proportion to the pixel size, the
-    change bounds what is left.
+    The mean change and its own standard error in quadrature, so that changes of either sign do not
+    cancel. It bounds an error that falls at least in proportion to the pixel size.
     """
-    change = values.diff("resolution").isel(resolution=-1, drop=True)
-    bias = change.mean("seed")
-    return np.hypot(bias, scatter(change).fillna(0))
+    change = fine(values.diff("resolution"))
+    return np.hypot(change.mean("seed"), scatter(change).fillna(0))
 
 
 def ensemble_mean(values, more=None):
@@ -92,8 +76,7 @@ def ensemble_mean(values, more=None):
 
     Plain without them, for a single seed, and in entries that are not finite in every seed.
     """
-    plain = mean(values), standard_error(values)
-    count = values.sizes["seed"]
+    plain, count = (mean(values), standard_error(values)), values.sizes["seed"]
     if more is None or count == 1 or (more.twin is not None and count < FEWEST):
         return plain
     few = fine(values).transpose("seed", ...)
@@ -103,17 +86,12 @@ def ensemble_mean(values, more=None):
     many = more.values.transpose(*few.dims)
     finite = np.all([np.isfinite(part).all("seed").values for part in (few, twin, many)], axis=0)
     solved = (np.where(finite, part.values, 0.0) for part in (few, twin, many))
-    slopes = {} if own else {"fewest": FEWEST}
-    estimate = multilevel.multilevel_mean(
-        *solved, more.controls.values, more.elsewhere.values, **slopes
-    )
-    return tuple(
-        of_seeds.copy(data=np.where(finite, better, of_seeds.values))
-        for better, of_seeds in zip(
-            (estimate.mean, estimate.standard_error),
-            (part.transpose(*few.dims[1:]) for part in plain),
-            strict=True,
-        )
+    waves, slopes = (more.controls.values, more.elsewhere.values), {} if own else {"fewest": FEWEST}
+    found = multilevel.multilevel_mean(*solved, *waves, **slopes)
+    best, error = (part.transpose(*few.dims[1:]) for part in plain)
+    return (
+        best.copy(data=np.where(finite, found.mean, best.values)),
+        error.copy(data=np.where(finite, found.standard_error, error.values)),
     )
 
 
@@ -121,13 +99,12 @@ def add_errors(dataset, name, values, more=None, plain=False, limit=None):
     """Add mean, standard error and discretisation error of `values` to a dataset.
 
     They are called ``NAME_mean``, ``NAME_standard_error`` and ``NAME_discretisation_error``; with
-    `plain` the mean is just ``NAME``. `more` is the same of coarse solutions, see `coarse`.
-    With a `limit`, a `grid_limits.Limit`, the mean is that in the limit of fine grids and the
-    discretisation error the one that is left, instead of the change from half the resolution.
+    `plain` the mean is just ``NAME``. `more` is the same of coarse solutions, see `coarse`. A
+    `grid_limits.Limit` takes mean and discretisation error to the limit of fine grids; without
+    it, the error is the change from half the resolution.
     """
     best, error = ensemble_mean(values, more)
-    if limit is not None:
-        best = best + limit.shift
+    best = best if limit is None else best + limit.shift
     left = discretisation_error(values) if limit is None else limit.error
     return dataset.assign(
         {
@@ -139,16 +116,11 @@ def add_errors(dataset, name, values, more=None, plain=False, limit=None):
 
 
 def describe_errors(name, text, plain=False, units="1", discretisation=None):
-    """Texts for `datasets.annotate` of what `add_errors` adds.
-
-    `discretisation` says what the discretisation error is, if not the change from half the
-    resolution.
-    """
-    suffixes = SUFFIXES | ({"discretisation_error": discretisation} if discretisation else {})
-    texts = {
-        f"{name}_{suffix}": (units, f"{text}: {meaning}") for suffix, meaning in suffixes.items()
-    }
+    """Texts of what `add_errors` adds; `discretisation` if not the change of grids."""
+    texts = {f"{name}_{ending}": (units, f"{text}: {what}") for ending, what in SUFFIXES.items()}
     texts[f"{name}_standard_error"] += ("a single seed",)
+    if discretisation:
+        texts[f"{name}_discretisation_error"] = (units, f"{text}: {discretisation}")
     if plain:
         texts[name] = (units, text)
         del texts[f"{name}_mean"]

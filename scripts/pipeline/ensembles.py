@@ -1,22 +1,23 @@
-"""Means over the realisations of a case, with their errors."""
+"""The file of an ensemble: means over the realisations of a case, with their errors."""
 
 from operator import itemgetter
 
 import xarray as xr
 
-from pipeline import grid_limits
-from pipeline.conventions import DESCRIBED
+from pipeline import conventions, grid_limits
+from pipeline.contact_curves import RMS_SLOPE
+from pipeline.conventions import VARIABLES
 from pipeline.ensemble_means import PREFIX, SUFFIXES, add_errors, coarse, describe_errors, mean
 from pipeline.error_budgets import Simulation
 from pipeline.grid_limits import EXTRAPOLATION
 from pipeline.quantities import gap_density
 from stickiness.accuracy.error_models import read_models
-from stickiness.accuracy.quantities import COLUMNS, MEASURED, QUANTITIES
+from stickiness.accuracy.quantities import MEASURED, QUANTITIES
 from stickiness.core import datasets
 from stickiness.core.budget import with_budget
 
-# Of realisations: what an ensemble's file keeps seed by seed, and what is read. The same of coarse
-# solutions. Both have the optional ones besides, if the case wants them.
+# Of realisations: what an ensemble's file keeps seed by seed, and what is read. COARSE: of coarse
+# solutions. All have the optional ones besides, if the case wants them.
 KEPT = ("area_fraction", "mean_gap", "residual", "iterations", "rms_slope")
 NEEDED = (*KEPT, "pixel_area_fraction", "edges", "edge_gap")
 COARSE = ("area_fraction", "mean_gap", "rms_slope")
@@ -73,15 +74,11 @@ def rename_coarse(others, kept=(*COARSE, "attractive_area")):
 def describe_sampling(made, dataset):
     """What the means stand for and how they are taken, for the parameters of the file."""
     surfaces, window = SURFACES[made.get("amplitudes", "gaussian")], made.get("window", 1)
-    found = {
-        "estimates": f"mean over {surfaces} on a window of {window:g} longest wavelengths",
-        "estimator": "plain",
-    }
-    if f"{PREFIX}seed" in dataset.dims and dataset.sizes["seed"] > 1:
-        found["estimator"] = "multilevel"
-        found["coarse_seeds"] = dataset.sizes[f"{PREFIX}seed"]
-        found["descriptor_seeds"] = dataset.sizes["other"]
-    return found
+    meant = {"estimates": f"mean over {surfaces} on a window of {window:g} longest wavelengths"}
+    if f"{PREFIX}seed" not in dataset.dims or dataset.sizes["seed"] == 1:
+        return meant | {"estimator": "plain"}
+    counts = {"coarse_seeds": dataset.sizes[f"{PREFIX}seed"]}
+    return meant | counts | {"descriptor_seeds": dataset.sizes["other"], "estimator": "multilevel"}
 
 
 AVERAGED = {
@@ -108,31 +105,20 @@ def add_budgets(dataset, made, laws, averaged=AVERAGED):
     """The means with their errors by source."""
     simulation = Simulation.of(read_models(laws), made)
     for name in averaged:
-        parts = simulation.parts(
-            name,
-            *(dataset[f"{name}_{kind}"] for kind in ("mean", "standard_error")),
-            dataset[f"{name}_discretisation_error"],
-            SUFFIXES["discretisation_error"] if name in MEASURED else grid_limits.LEFT,
-        )
+        left = SUFFIXES["discretisation_error"] if name in MEASURED else grid_limits.LEFT
+        parts = simulation.parts(name, *(dataset[f"{name}_{kind}"] for kind in SUFFIXES), left)
         dataset = with_budget(dataset, f"{name}_mean", **parts)
     return dataset
 
 
 def annotate(dataset, averaged=AVERAGED):
     texts = {
-        "seed": ("1", "seed of the realisation"),
+        "rms_slope": RMS_SLOPE,
         "edge_gap_mean": ("1", "gap next to the contact over h_rms: smallest range resolved"),
     }
     for name in averaged:
-        if name in MEASURED:
-            texts |= describe_errors(name, COLUMNS[name].text)
-        else:
-            texts |= describe_errors(name, DESCRIBED[name][1], discretisation=grid_limits.DIRECT)
-    if "gap_density" in averaged:
-        texts["gap"] = DESCRIBED["gap"]
-    if "attractive_area" in averaged:
-        texts[f"attractive_area_{EXTRAPOLATION}"] = (
-            "1",
-            f"{DESCRIBED['attractive_area'][1]}: of the mean, extrapolated from below the edge gap",
-        )
-    return datasets.annotate(dataset, **texts)
+        kind = {} if name in MEASURED else {"discretisation": grid_limits.DIRECT}
+        texts |= describe_errors(name, VARIABLES[name][1], **kind)
+    extrapolated = f"{VARIABLES['attractive_area'][1]}: of the mean, extrapolated from below the"
+    texts[f"attractive_area_{EXTRAPOLATION}"] = ("1", f"{extrapolated} edge gap")
+    return conventions.annotate(dataset, **texts)

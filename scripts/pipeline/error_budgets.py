@@ -15,31 +15,15 @@ import xarray as xr
 
 from pipeline.conventions import GAPS_MEASURED, VARIANT
 from pipeline.grid_limits import LEFT
-from stickiness.accuracy.error_models import (
-    OUTSIDE,
-    ErrorModels,
-    Settings,
-    Surface,
-    single_error,
-)
+from stickiness.accuracy.error_models import OUTSIDE, ErrorModels, Settings, Surface, single_error
 from stickiness.accuracy.prediction import Problem, covering_factor
-from stickiness.accuracy.quantities import TABLE, has_error_model
+from stickiness.accuracy.quantities import COLUMNS, has_error_model
 from stickiness.core.budget import Part, absent, unknown
 from stickiness.core.statistics import students_t
 
 # Columns of the error models, by variables of an ensemble's file and, over h_rms, by ranges.
-COLUMN_OF = {
-    column.variable: column.name
-    for quantity in TABLE
-    for column in quantity.columns
-    if "range" not in column.at
-}
-COLUMN_AT_RANGE = {
-    column.at["range"]: column.name
-    for quantity in TABLE
-    for column in quantity.columns
-    if "range" in column.at
-}
+COLUMN_OF = {c.variable: c.name for c in COLUMNS.values() if "range" not in c.at}
+COLUMN_AT_RANGE = {c.at["range"]: c.name for c in COLUMNS.values() if "range" in c.at}
 NOT_MEASURED = "how this quantity changes with the tolerance is not measured"
 ENDLESS = np.inf  # window of a continuous spectrum
 
@@ -59,14 +43,7 @@ QUADRATURE = {"area_fraction": 1e-9, "mean_gap": 1e-9, "attractive_area": 5e-7, 
 
 @dataclass(frozen=True)
 class Simulation:
-    """Errors of a mean over realisations, beside its own standard error.
-
-    Attributes
-    ----------
-    problem : Problem
-        Surface and error models.
-    settings : Settings
-    """
+    """Errors of a mean over realisations, beside its own standard error."""
 
     problem: Problem
     settings: Settings
@@ -74,27 +51,28 @@ class Simulation:
     @classmethod
     def of(cls, models: ErrorModels, made: Mapping[str, Any]) -> Simulation:
         """From the parameters of an ensemble's file, or of one that derives from it."""
-        settings = Settings(
-            made["pixels_per_wavelength"],
-            made["tolerance"],
-            len(made["seeds"]),
-            made.get("coarse_seeds", 0),
-        )
-        described = made.get("descriptor_seeds", 2048)
+        seeds, described = len(made["seeds"]), made.get("descriptor_seeds", 2048)
+        knobs = made["pixels_per_wavelength"], made["tolerance"], seeds
+        settings = Settings(*knobs, made.get("coarse_seeds", 0))
         return cls(Problem(models, Surface.of(made), (), (), described), settings)
 
-    def solver(self, column: str, pressure: float) -> float:
-        """Relative error of a column by the tolerance of the solver."""
-        at = self.problem.models, "solver", column, self.problem.surface, pressure
-        return single_error(*at, tolerance=self.settings.tolerance)
+    def solver(self, name: str, like: xr.DataArray) -> xr.DataArray:
+        """Relative error by the tolerance of the solver, along a variable."""
+        models, surface = self.problem.models, self.problem.surface
+        knob = {"tolerance": self.settings.tolerance}
 
-    def factor(self, column: str, pressure: float) -> float:
-        """Standard errors that cover 90 % of means of a column."""
-        return covering_factor(self.problem, self.settings, pressure, column)
+        def single(column, load):
+            return single_error(models, "solver", column, surface, load, **knob)
+
+        return along(single, name, like)
 
     def factors(self, name: str, like: xr.DataArray) -> xr.DataArray:
-        """`factor` along a variable: it goes with what was measured, wherever that is."""
-        return along(self.factor, name, like, widened=False)
+        """Standard errors that cover 90 % of means, along a variable, wherever that is."""
+
+        def single(column, load):
+            return covering_factor(self.problem, self.settings, load, column)
+
+        return along(single, name, like, widened=False)
 
     def parts(
         self,
@@ -104,50 +82,30 @@ class Simulation:
         discretisation: xr.DataArray,
         text: str = LEFT,
     ) -> dict[str, Part]:
-        """Parts of the budget of a mean.
+        """Parts of the budget of a mean along `pressure`, and `range` or `gap`.
 
-        Parameters
-        ----------
-        name : str
-            Of a variable of an ensemble's file without the ``_mean``, or of a column.
-        value, standard_error, discretisation : xarray.DataArray
-            Along `pressure`, and `range` or `gap`.
-        text : str
-            What the discretisation error is.
+        `name` is that of a variable of an ensemble's file without the ``_mean``, or of a column;
+        `text` says what the discretisation error is.
         """
-        if name != "attractive_area" and not has_error_model(COLUMN_OF.get(name, name)):
-            return self.parts_without_model(standard_error, discretisation, text)
-        solver, factor = along(self.solver, name, value), self.factors(name, value)
-        return {
-            "discretisation": Part(discretisation, text),
-            "solver": Part(solver * abs(value), "by the tolerance, as measured"),
-            "sampling": Part(factor * standard_error, "Student's t of the standard error"),
-            **SIMULATED,
-        }
-
-    def parts_without_model(
-        self,
-        standard_error: xr.DataArray | float,
-        discretisation: xr.DataArray | float,
-        text: str,
-    ) -> dict[str, Part]:
-        """Parts of the budget of a quantity whose errors were not measured."""
-        factor = students_t(self.settings.seeds)
-        return {
-            "discretisation": Part(discretisation, text),
-            "solver": unknown(NOT_MEASURED),
-            "sampling": Part(factor * standard_error, "Student's t by the fine seeds alone"),
-            **SIMULATED,
-        }
+        if name == "attractive_area" or has_error_model(COLUMN_OF.get(name, name)):
+            error, factor = self.solver(name, value), self.factors(name, value)
+            solver = Part(error * abs(value), "by the tolerance, as measured")
+            sampling = Part(factor * standard_error, "Student's t of the standard error")
+        else:
+            factor, solver = students_t(self.settings.seeds), unknown(NOT_MEASURED)
+            sampling = Part(factor * standard_error, "Student's t by the fine seeds alone")
+        discretisation = Part(discretisation, text)
+        parts = {"discretisation": discretisation, "solver": solver, "sampling": sampling}
+        return parts | SIMULATED
 
 
 def along(
-    model: Callable[[str, float], float], name: str, like: xr.DataArray, widened: bool = True
+    model: Callable[..., float], name: str, like: xr.DataArray, at: Any = (), widened: bool = True
 ) -> xr.DataArray:
-    """Values by column and pressure, along the pressures and ranges of a variable."""
+    """Values of a model by column, further coordinates `at` and pressure, along a variable."""
 
     def by(column):
-        return xr.apply_ufunc(model, column, like.pressure, vectorize=True)
+        return xr.apply_ufunc(model, column, *at, like.pressure, vectorize=True)
 
     if name != "attractive_area":
         return by(COLUMN_OF.get(name, name)) * (widen_gaps(like) if widened else 1.0)
@@ -179,15 +137,8 @@ def theory_error(
 ) -> xr.DataArray:
     """Relative error of theory in place of simulation; NaN for variants not measured.
 
-    Parameters
-    ----------
-    models : mapping
-        Table of `error_models.read_models`.
-    name : str
-        Of the variable, or of a column of their table.
-    like : xarray.DataArray
-        The variable with a coordinate `pressure`; without `surface` also along `hurst` and
-        `magnification`, of spectra without a window.
+    `name` is that of the variable or of a column. The variable `like` has a coordinate `pressure`;
+    without a `surface` also `hurst` and `magnification`, of spectra without a periodic cell.
     """
     kind = Surface.of(surface) if surface else Surface(0.8, 1.0, ENDLESS)
 
@@ -196,26 +147,24 @@ def theory_error(
         return single_error(models, "theory", column, at, pressure)
 
     where = kind if surface else like
-
-    def by(column):
-        return xr.apply_ufunc(
-            single, column, where.hurst, where.magnification, like.pressure, vectorize=True
-        )
-
-    if name == "attractive_area":
-        ends = {range_: by(column) for range_, column in COLUMN_AT_RANGE.items()}
-        found = interpolate_ranges(ends, like["range"])
-    else:
-        found = by(COLUMN_OF.get(name, name)) * widen_gaps(like)
+    found = along(single, name, like, (where.hurst, where.magnification))
     return found.where(like["variant"] == VARIANT) if "variant" in like.coords else found
 
 
 def theory_parts(
-    models: ErrorModels, name: str, value: xr.DataArray, surface: Mapping[str, Any] | None = None
+    models: ErrorModels,
+    name: str,
+    value: xr.DataArray,
+    surface: Mapping[str, Any] | None = None,
+    like: str = "",
 ) -> dict[str, Part]:
-    """Parts of the budget of a variable of theory's; arguments as of `theory_error`."""
+    """Parts of the budget of a variable of theory's; arguments as of `theory_error`.
+
+    `like` is the variable with the same error of the quadrature, by default the same.
+    """
+    quadrature = QUADRATURE[like or name] * abs(value)
     return {
-        "discretisation": Part(QUADRATURE[name] * abs(value), "of the quadrature, as tested"),
+        "discretisation": Part(quadrature, "of the quadrature, as tested"),
         "model": Part(theory_error(models, name, value, surface) * abs(value), MODEL),
         **BY_THEORY,
     }

@@ -1,21 +1,17 @@
 """Fields of one realisation at a few loads, for pictures."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import Any
 
 import xarray as xr
 
-from pipeline.conventions import DESCRIBED
-from stickiness.core import datasets
+from pipeline.conventions import annotate
 
 
-def fields(states: Sequence[Any], pressures: Any, surface: xr.Dataset, **texts: str) -> xr.Dataset:
-    """Gap, pressure and residual of states with these attributes, one for each pressure.
-
-    `texts` say what `contact_pressure` and `residual` are.
-    """
+def gather_fields(
+    states: Sequence[Any], pressures: Any, surface: xr.Dataset, **texts: str
+) -> xr.Dataset:
+    """Gap, pressure and residual of one state a pressure; `texts` describe the latter two."""
     dims = ("pressure", "x", "y")
     dataset = xr.Dataset(
         {
@@ -25,7 +21,4 @@ def fields(states: Sequence[Any], pressures: Any, surface: xr.Dataset, **texts: 
         },
         coords={"pressure": pressures, "x": surface.x, "y": surface.y},
     )
-    described = {name: ("1", text) for name, text in texts.items()}
-    return datasets.annotate(
-        dataset, pressure=DESCRIBED["pressure"], gap=DESCRIBED["gap"], **described
-    )
+    return annotate(dataset, **{name: ("1", text) for name, text in texts.items()})

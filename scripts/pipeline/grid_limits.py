@@ -4,8 +4,6 @@ For areas, gaps and P(u) `stickiness.contact.grid_limit` gives both. What derive
 inherits shift and error to first order.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
@@ -32,15 +30,7 @@ class Limit:
 def estimate_limits(
     realisations: xr.Dataset, quantities: dict[str, Callable[[xr.Dataset], xr.DataArray]]
 ) -> dict[str, Limit]:
-    """Limits of means over seeds, for quantities that `grid_limit` has a rule for.
-
-    Parameters
-    ----------
-    realisations
-        Files of `solve_repulsive`, along the dimension `seed`.
-    quantities
-        By the names of the rules.
-    """
+    """Limits of means over seeds, for quantities by the names of the rules of `grid_limit`."""
     fine = realisations.isel(resolution=-1, drop=True)
     edge_gap = fine.edge_gap.mean("seed")
     limits = {}
@@ -88,36 +78,23 @@ def subpixel_part(name: str, fine: xr.Dataset, values: xr.DataArray) -> xr.DataA
 
 
 def inherit(
-    ensemble: xr.Dataset,
-    quantity: Callable[[xr.Dataset], xr.DataArray],
-    names: Sequence[str],
+    ensemble: xr.Dataset, quantity: Callable[[xr.Dataset], xr.DataArray], names: Sequence[str]
 ) -> Limit:
-    """Limit of what derives from means of an ensemble, to first order.
+    """Limit of what derives from the means `names` of an ensemble, to first order.
 
     The errors of one mean at all loads and ranges are taken to rise and fall together, those of
     different means to be independent.
-
-    Parameters
-    ----------
-    ensemble
-        As `average_ensemble` makes it.
-    quantity
-        The quantity by the variables of one solution, as for `ensemble_means.coarse`.
-    names
-        The means it derives from, without the ``_mean``.
     """
     means = {name: ensemble[f"{name}_mean"] for name in names}
-    rest = xr.Dataset(
-        {"rms_slope": ensemble.rms_slope.mean("seed")}, {"pressure": ensemble.pressure}
-    )
+    slope = ensemble.rms_slope.mean("seed")
+    rest = xr.Dataset({"rms_slope": slope}, {"pressure": ensemble.pressure})
     unchanged = quantity(rest.assign(means))
 
     def change(name, by):
         moved = quantity(rest.assign({**means, name: means[name] + _STEP * by}))
         return (moved - unchanged) / _STEP
 
-    shift = xr.zeros_like(unchanged)
-    square = xr.zeros_like(unchanged)
+    shift, square = xr.zeros_like(unchanged), xr.zeros_like(unchanged)
     for name in names:
         square = square + change(name, ensemble[f"{name}_discretisation_error"]) ** 2
         if f"{name}_{EXTRAPOLATION}" in ensemble:

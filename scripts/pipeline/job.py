@@ -1,7 +1,5 @@
 """What every script shares: its log, and the job that it is when it is run by hand."""
 
-from __future__ import annotations
-
 import logging
 import sys
 from pathlib import Path
@@ -12,25 +10,15 @@ from typing import Any
 def start(names: dict[str, Any], rule: str, **wildcards: Any) -> Any:
     """Return the job's `snakemake` object; open its log and report errors to it.
 
-    Parameters
-    ----------
-    names : dict
-        ``globals()`` of the script, which hold `snakemake` if Snakemake runs it. By hand (from the
-        project's top folder, ``PYTHONPATH=scripts python scripts/fits/fit_kappa.py
-        case=H0.8_zeta128 fidelity=draft``) the job of `rule` with these wildcards is looked up in
-        the workflow, so that a script can be debugged alone.
-    rule, **wildcards
-        Example job for a run by hand.
+    `names` are the ``globals()`` of the script, which hold `snakemake` if Snakemake runs it. By
+    hand (from the project's top folder, ``PYTHONPATH=scripts python scripts/fits/fit_kappa.py
+    case=H0.8_zeta128 fidelity=draft``) the job of `rule` is looked up in the workflow, with the
+    wildcards given here unless the command line has others.
     """
     job = names.get("snakemake") or find_job(rule, **wildcards | arguments())
     Path(job.log[0]).parent.mkdir(parents=True, exist_ok=True)
-    logging.basicConfig(
-        filename=job.log[0],
-        filemode="w",
-        level=logging.INFO,
-        format="%(asctime)s %(levelname)s %(message)s",
-        force=True,
-    )
+    style = {"level": logging.INFO, "format": "%(asctime)s %(levelname)s %(message)s"}
+    logging.basicConfig(filename=job.log[0], filemode="w", force=True, **style)
     sys.excepthook = report_error
     return job
 

@@ -2,6 +2,7 @@
 
 import logging
 from dataclasses import fields
+from inspect import signature
 
 import numpy as np
 import xarray as xr
@@ -23,19 +24,8 @@ DRAWS, SEED = 200, 1
 REFERENCE_HURST = 0.8  # of the paper's lines C0 = 1e-3 and 1e-5 m^0.4
 POINTS_PER_DECADE = 10
 PICTURE_POINTS = 400  # along a side of the picture of the heights
-READ_KEYS = (  # of a measurement in the configuration that `topography.read` takes
-    "length",
-    "pixel_size",
-    "height_unit",
-    "position_unit",
-    "variable",
-    "channel",
-    "format",
-    "missing_value",
-    "missing",
-    "max_missing",
-    "missing_rim",
-)
+# Of a measurement in the configuration, what `topography.read` takes.
+READ_KEYS = set(signature(topography.read).parameters) - {"path"}
 
 
 def analyse(asked):
@@ -54,12 +44,9 @@ def analyse(asked):
     dataset = dataset.merge(describe_draws(drawn)).merge(picture_of(heights[0]))
     if stitched:
         dataset = dataset.merge(describe_stitching(stitched))
-    remarks = [
-        *self_affine_fit.remarks(spectrum.fit, np.nan_to_num(spectrum.anisotropy)),
-        *remarks_on_files(heights),
-        *remarks_on_limits(spectrum, extend_to),
-        *remarks_on_stitching(stitched),
-    ]
+    remarks = self_affine_fit.remarks(spectrum.fit, np.nan_to_num(spectrum.anisotropy))
+    remarks = [*remarks, *remarks_on_files(heights), *remarks_on_limits(spectrum, extend_to)]
+    remarks += remarks_on_stitching(stitched)
     for remark in remarks:
         logging.info(remark)
     return dataset.assign(
@@ -145,12 +132,10 @@ def log_error_of_fit(fit, q):
 
 def describe_draws(drawn):
     """Both ends of every moment, and the draws themselves for what depends on several."""
-    ends = {name: ("end", drawn.quantiles(name, END_QUANTILES)) for name in drawn.moments}
-    draws = {f"{name}_draws": ("draw", values) for name, values in drawn.moments.items()}
-    return xr.Dataset(
-        ends | draws | {"q0_draws": ("draw", drawn.q0)},
-        coords={"end": ENDS, "draw": np.arange(len(drawn.q0))},
-    )
+    data = {name: ("end", drawn.quantiles(name, END_QUANTILES)) for name in drawn.moments}
+    data |= {f"{name}_draws": ("draw", values) for name, values in drawn.moments.items()}
+    data["q0_draws"] = "draw", drawn.q0
+    return xr.Dataset(data, coords={"end": ENDS, "draw": np.arange(len(drawn.q0))})
 
 
 def picture_of(heights):
@@ -160,26 +145,20 @@ def picture_of(heights):
         return xr.Dataset({"profile": ("x", heights.heights)}, coords={"x": x})
     thin = max(1, *(n // PICTURE_POINTS for n in heights.heights.shape))
     picture = heights.heights[::thin, ::thin]
-    x, y = (
-        np.arange(n) * thin * d
-        for n, d in zip(picture.shape, (heights.dx, heights.dy), strict=True)
-    )
+    x, y = map(np.arange, picture.shape)
+    x, y = x * thin * heights.dx, y * thin * heights.dy
     return xr.Dataset({"heights": (("x", "y"), picture.astype("f4"))}, coords={"x": x, "y": y})
 
 
 def describe_stitching(stitched):
     """Spectrum of every measurement by itself, and their offsets."""
-    return xr.Dataset(
-        {
-            "psd_measurement": (("measurement", "wave_number_measured"), stitched.levels),
-            "offset": ("measurement", stitched.offsets),
-            "scatter": stitched.scatter,
-        },
-        coords={
-            "measurement": np.arange(len(stitched.offsets)),
-            "wave_number_measured": stitched.spectrum.rings.q,
-        },
-    )
+    data = {
+        "psd_measurement": (("measurement", "wave_number_measured"), stitched.levels),
+        "offset": ("measurement", stitched.offsets),
+        "scatter": stitched.scatter,
+    }
+    number, q = np.arange(len(stitched.offsets)), stitched.spectrum.rings.q
+    return xr.Dataset(data, coords={"measurement": number, "wave_number_measured": q})
 
 
 def remarks_on_files(heights):
@@ -211,15 +190,11 @@ def remarks_on_limits(spectrum, extend_to):
             f"no roll-off was found below wavelengths of {wavelength(fit.q_min)}, and longer "
             "ones cannot show one: q0 is that of the scan, not of the surface"
         )
-    shortest = f"{wavelength(spectrum.cutoff.q)} ({spectrum.cutoff.reason})"
+    shorter = f"waves shorter than {wavelength(spectrum.cutoff.q)} ({spectrum.cutoff.reason})"
     if extend_to is None:
-        found.append(f"waves shorter than {shortest} are not part of slope, curvature and a_V")
-    else:
-        found.append(
-            f"waves shorter than {shortest} follow the fitted law down to "
-            f"{wavelength(extend_to)}: carried on, not measured"
-        )
-    return found
+        return [*found, f"{shorter} are not part of slope, curvature and a_V"]
+    end = wavelength(extend_to)
+    return [*found, f"{shorter} follow the fitted law down to {end}: carried on, not measured"]
 
 
 def wavelength(q):

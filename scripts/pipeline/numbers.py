@@ -1,7 +1,5 @@
 """Numbers as text for readers: rounded to what is known, with powers of ten and SI prefixes."""
 
-from __future__ import annotations
-
 import math
 import re
 from collections.abc import Iterable

@@ -1,9 +1,7 @@
-"""Columns of the quantities that a case may ask for, from files of results.
+"""The quantities that a case may ask for: how they follow from areas, and from files of results.
 
-The quantities themselves are in `stickiness.accuracy.quantities`.
+The registry of quantities is `stickiness.accuracy.quantities`.
 """
-
-from __future__ import annotations
 
 from collections.abc import Sequence
 
@@ -11,20 +9,15 @@ import numpy as np
 import xarray as xr
 
 from pipeline.conventions import middles
-from pipeline.fits import fit_a_v
-from stickiness.accuracy.quantities import COLUMNS, MEASURED
+from stickiness.accuracy.quantities import COLUMNS
+from stickiness.criteria import a_v_fit
 
 
 def statistics(column: str, **files: xr.Dataset) -> tuple[xr.DataArray, xr.DataArray, xr.DataArray]:
-    """Return mean, standard error and discretisation error of a column, along the pressure.
+    """Mean, standard error and discretisation error of a column, along the pressure.
 
-    Parameters
-    ----------
-    column
-        One of `COLUMNS`.
-    **files
-        ``ensemble``, ``a_v`` and ``kappa``, as `average_ensemble`, `fit_a_v` and `fit_kappa` make
-        them; the fits for their own columns.
+    `files` are ``ensemble`` and, for their own columns, ``a_v`` and ``kappa``, as the rules
+    `average_ensemble`, `fit_a_v` and `fit_kappa` make them.
     """
     known = COLUMNS[column]
     found = files[known.file]
@@ -38,28 +31,18 @@ def statistics(column: str, **files: xr.Dataset) -> tuple[xr.DataArray, xr.DataA
 
 
 def quote(column: str, contact: xr.Dataset) -> xr.DataArray:
-    """Return a column of a contact to which `derive` has added its quantities."""
+    """A column of a contact to which `derive` has added its quantities."""
     known = COLUMNS[column]
     return _at(contact, known)[known.variable]
 
 
 def derive(contact: xr.Dataset, fit_interval: Sequence[float]) -> xr.Dataset:
-    """Add P(u), a_V and kappa to a contact.
+    """Add P(u), a_V and kappa to a contact: area, rms slope and attractive areas by load and range.
 
-    Parameters
-    ----------
-    contact
-        With ``area_fraction``, ``rms_slope`` and ``attractive_area`` along ``pressure`` and
-        ``range``, and any other dimensions.
-    fit_interval
-        Ranges over h_rms between which a_V is fitted.
+    `fit_interval` is that of a_V, in ranges over h_rms.
     """
-    fitted = fit_a_v(contact.attractive_area, contact.pressure, fit_interval)
-    return contact.assign(
-        gap_density=gap_density(contact),
-        a_v=fitted.isel(result=0),
-        kappa=slope_of_area(contact),
-    )
+    a_v = fit_a_v(contact.attractive_area, contact.pressure, fit_interval).isel(result=0)
+    return contact.assign(gap_density=gap_density(contact), a_v=a_v, kappa=slope_of_area(contact))
 
 
 def gap_density(solutions: xr.Dataset) -> xr.DataArray:
@@ -74,9 +57,36 @@ def slope_of_area(solutions: xr.Dataset) -> xr.DataArray:
     return solutions.area_fraction * solutions.rms_slope / solutions.pressure
 
 
-def describe_measured(names: Sequence[str]) -> dict[str, tuple[str, ...]]:
-    """Texts for `datasets.annotate` of the quantities measured on solutions."""
-    return {name: ("1", COLUMNS[name].text, "no contact") for name in names if name in MEASURED}
+def fit_intervals(areas, windows):
+    """a_V and the standard error of its fit along every dimension but the range's."""
+    fits = [fit_a_v(areas.attractive_area, areas.pressure, window) for window in windows]
+    both = xr.concat(fits, "window")
+    return xr.Dataset(
+        {
+            "a_v": both.isel(result=0),
+            "a_v_fit_error": both.isel(result=1),
+            "window_low": ("window", [float(low) for low, _ in windows]),
+            "window_high": ("window", [float(high) for _, high in windows]),
+        }
+    )
+
+
+def fit_a_v(area, pressure, fit_interval):
+    """a_V and the standard error of its fit, along the dimension `result`."""
+    ranges = area["range"].values
+
+    def fit(values, load):
+        found = a_v_fit.fit_a_v(ranges, values, float(load), window=tuple(fit_interval))
+        return np.array([found.value, found.standard_error])
+
+    return xr.apply_ufunc(
+        fit,
+        area,
+        pressure,
+        input_core_dims=[["range"], []],
+        output_core_dims=[["result"]],
+        vectorize=True,
+    )
 
 
 def _at(dataset, column):

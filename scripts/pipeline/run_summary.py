@@ -1,7 +1,5 @@
 """What a finished run holds, in a few lines for the terminal."""
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Iterable
 from pathlib import Path
@@ -13,12 +11,7 @@ from stickiness.core import datasets
 def summary(results: str, answers: Iterable[str] = ()) -> str:
     """Where the report is, how claims and pairs came out, and which cases missed their accuracy.
 
-    Parameters
-    ----------
-    results : str
-        Folder of the results.
-    answers : iterable of str
-        Answers of the cases that ask for an accuracy.
+    `results` is the folder, `answers` those files of cases that ask for an accuracy.
     """
     lines = [("results", results), *grades(Path(results)), *misses(answers)]
     report = Path(results, "report/report.html")

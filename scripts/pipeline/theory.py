@@ -1,7 +1,5 @@
 """Variants and corrections of Persson's theory that stages compute beside each other."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from typing import Any
 
@@ -10,8 +8,6 @@ import xarray as xr
 
 from pipeline.conventions import VARIANT, middles
 from stickiness.persson.kernels import CORRECTIONS
-
-DESCRIBED = ("1", "variant of the theory, and its correction if not that of Yang & Persson")
 
 
 def theories(variants: Iterable[str], gamma: float) -> dict[str, dict[str, Any]]:
@@ -43,17 +39,13 @@ def evaluate(theory, pressures, ranges):
 
 def contact_of(theory, pressures, ranges):
     """Quantities of a contact by theory, under the names of `solve_repulsive`."""
-    found = {name: [] for name in ("area_fraction", "mean_gap", "attractive_area")}
-    for load in pressures:
-        found["area_fraction"].append(float(theory.area_fraction(load)))
-        found["mean_gap"].append(float(theory.mean_gap(load)))
-        found["attractive_area"].append(theory.gap_cumulative(ranges, load))
-    return xr.Dataset(
-        {
-            "area_fraction": ("pressure", found["area_fraction"]),
-            "mean_gap": ("pressure", found["mean_gap"]),
-            "attractive_area": (("pressure", "range"), found["attractive_area"]),
-            "rms_slope": theory.spectrum.rms_slope,
-        },
-        coords={"pressure": np.asarray(pressures), "range": ranges},
-    )
+    data = {
+        "area_fraction": ("pressure", [float(theory.area_fraction(load)) for load in pressures]),
+        "mean_gap": ("pressure", [float(theory.mean_gap(load)) for load in pressures]),
+        "attractive_area": (
+            ("pressure", "range"),
+            [theory.gap_cumulative(ranges, load) for load in pressures],
+        ),
+        "rms_slope": theory.spectrum.rms_slope,
+    }
+    return xr.Dataset(data, coords={"pressure": np.asarray(pressures), "range": ranges})

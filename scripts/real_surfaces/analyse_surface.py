@@ -57,18 +57,14 @@ VARIABLE_TEXTS = {
 }
 
 # Quoted numbers, and the standard errors of those that were fitted.
-STANDARD_ERRORS = {
-    "hurst": "hurst_standard_error",
-    "C0_reference": "C0_reference_standard_error",
-    "q_rolloff": "q_rolloff_standard_error",
-}
+STANDARD_ERRORS = {n: f"{n}_standard_error" for n in ("hurst", "C0_reference", "q_rolloff")}
 
 
 def main(job):
     asked = job.params.surface
     dataset = measured_surface.analyse(asked) if asked["kind"] == "measured" else self_affine(asked)
     datasets.write(
-        annotated(dataset),
+        annotate(dataset),
         job.output[0],
         title=f"spectrum of a real surface: {asked['label']}",
         parameters={"surface": job.wildcards.real_surface, **asked},
@@ -78,33 +74,26 @@ def main(job):
 def self_affine(asked):
     """Both ends of the range of a parametric surface."""
     spectra = [configured_spectrum(asked, end) for end in (0, -1)]
-    q = np.geomspace(spectra[0].q0, spectra[0].q1, points(spectra[0].magnification))
-    dataset = moments_of(spectra, [s.h_rms for s in spectra])
+    smooth = spectra[0]
+    points = int(np.ceil(POINTS_PER_DECADE * np.log10(smooth.magnification))) + 2
+    q = np.geomspace(smooth.q0, smooth.q1, points)
+    dataset = moments_of(spectra)
     dataset["psd"] = (("end", "wave_number"), [s.psd(q) for s in spectra])
     dataset["C0"] = ("end", [s.C0 for s in spectra])
     line = [(s.psd(q) * q ** (2 * REFERENCE_HURST + 2)).max() for s in spectra]
     dataset["C0_reference_upper"] = ("end", line)
     return dataset.assign(
         hurst=asked["hurst"],
-        q0=spectra[0].q0 if spectra[0].q_rolloff is None else spectra[0].q_rolloff,
-        q1=spectra[0].q1,
+        q0=smooth.q0 if smooth.q_rolloff is None else smooth.q_rolloff,
+        q1=smooth.q1,
     ).assign_coords(wave_number=q)
 
 
-def moments_of(spectra, h_rms):
-    return xr.Dataset(
-        {
-            "h_rms": ("end", h_rms),
-            "rms_slope": ("end", [s.rms_slope for s in spectra]),
-            "rms_curvature": ("end", [s.rms_curvature for s in spectra]),
-            "elastic_energy": ("end", [s.elastic_energy() for s in spectra]),
-        },
-        coords={"end": ENDS},
-    )
-
-
-def points(magnification):
-    return int(np.ceil(POINTS_PER_DECADE * np.log10(magnification))) + 2
+def moments_of(spectra):
+    names = ("h_rms", "rms_slope", "rms_curvature")
+    data = {name: ("end", [getattr(s, name) for s in spectra]) for name in names}
+    data["elastic_energy"] = "end", [s.elastic_energy() for s in spectra]
+    return xr.Dataset(data, coords={"end": ENDS})
 
 
 def add_budgets(dataset, errors):
@@ -123,14 +112,12 @@ def add_budgets(dataset, errors):
     return dataset
 
 
-def annotated(dataset):
+def annotate(dataset):
     errors = {name: dataset[name] for name in STANDARD_ERRORS.values() if name in dataset}
     dataset = dataset.drop_vars(errors)
-    exponent = 2 - 2 * float(dataset.hurst)
     reference = f"m^{2 - 2 * REFERENCE_HURST:g}"
-    prefactor = f"m^{exponent:.4g}"
     texts = VARIABLE_TEXTS | {
-        "C0": (prefactor, "prefactor of C = C0 q^(-2(H+1))"),
+        "C0": (f"m^{2 - 2 * float(dataset.hurst):.4g}", "prefactor of C = C0 q^(-2(H+1))"),
         "C0_reference": (reference, f"prefactor of the line fitted at H = {REFERENCE_HURST}"),
         "C0_reference_upper": (reference, f"largest C q^(2(H+1)) at H = {REFERENCE_HURST}"),
     }

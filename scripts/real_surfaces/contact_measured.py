@@ -6,8 +6,8 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from pipeline import measured_surface
-from pipeline.contact_curves import load_curve
+from pipeline import conventions, measured_surface
+from pipeline.contact_curves import load_curves
 from pipeline.conventions import VARIANT, logarithmic_grid
 from pipeline.job import start
 from stickiness.config import checks
@@ -77,9 +77,8 @@ def highest_wave_number(bem, cutoff):
 def solve(heights, q0, q_max, setting):
     """Contact and theory for both ways of making the heights periodic."""
     blocks = [solve_periodic(heights, way, q0, q_max, setting) for way in WAYS]
-    dataset = xr.concat(
-        blocks, xr.DataArray(list(WAYS), dims="periodisation", name="periodisation")
-    )
+    ways = xr.DataArray(list(WAYS), dims="periodisation", name="periodisation")
+    dataset = xr.concat(blocks, ways)
     for name in ("attractive_area", "theory_attractive_area"):
         scale = 1.5 * dataset.pressure * dataset["range"] ** (2 / 3)
         dataset[name.replace("attractive_area", "a_v")] = dataset[name] / scale
@@ -95,15 +94,9 @@ def solve_periodic(heights, way, q0, q_max, setting):
     h_rms = float(np.std(limited))
     scaled, lengths = (limited - limited.mean()) / h_rms, tuple(q0 * s for s in sides)
     pressures, ranges = setting.pressures, setting.ranges
-    curves = [
-        load_curve(scaled[::step, ::step], lengths, pressures, ranges, setting.tolerance)
-        for step in (2, 1)
-    ]
-    pixels = [setting.pixels / 2, float(setting.pixels)]
-    block = xr.concat(
-        [curve[SOLVED_VARIABLES] for curve in curves],
-        xr.DataArray(pixels, dims="resolution", name="resolution"),
-    )
+    block = load_curves(scaled, lengths, (2, 1), pressures, ranges, setting.tolerance)
+    grids = [setting.pixels / 2, float(setting.pixels)]
+    block = block[SOLVED_VARIABLES].assign_coords(resolution=grids)
     theory = Persson(periodic.shells(scaled, lengths), variant=VARIANT, gamma=setting.gamma)
     areas = [theory.gap_cumulative(ranges, p) for p in pressures]
     block["theory_attractive_area"] = (("pressure", "range"), areas)
@@ -123,17 +116,10 @@ def check_size(sides, q_max, pixels):
 
 
 def annotate(dataset):
-    return datasets.annotate(
+    return conventions.annotate(
         dataset,
         periodisation=("1", "way in which the heights were made periodic"),
         resolution=("1", "grid points per shortest wavelength, at least"),
-        pressure=("1", "mean pressure over E* q0 h_rms"),
-        range=("1", "range of attraction over h_rms"),
-        area_fraction=("1", "repulsive contact area over nominal area"),
-        mean_gap=("1", "mean gap over h_rms"),
-        edge_gap=("1", "gap of the pixels next to the contact over h_rms: smallest range resolved"),
-        residual=("1", "complementarity residual over h_rms"),
-        attractive_area=("1", "area with gaps between 0 and the range, over nominal area"),
         theory_attractive_area=("1", "the same by theory on the spectrum of the same heights"),
         theory_area_fraction=("1", "contact area by theory on the spectrum of the same heights"),
         a_v=("1", "a_V = A_ad/((3/2) p (range/h_rms)^(2/3))"),

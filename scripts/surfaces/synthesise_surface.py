@@ -5,7 +5,7 @@ import logging
 import numpy as np
 import xarray as xr
 
-from pipeline.conventions import grid_points, spectrum_of, window_of
+from pipeline.conventions import annotate, cell_size, grid_points, make_heights, model_spectrum
 from pipeline.job import start
 from stickiness.core import datasets
 from stickiness.surfaces import synthesis
@@ -15,11 +15,10 @@ SOURCES = ["continuum", "lattice", "heights"]
 
 def main(job):
     asked = job.params.surface
-    spectrum, length = spectrum_of(asked), window_of(asked)
+    spectrum, length = model_spectrum(asked), cell_size(asked)
     n = grid_points(asked, job.params.pixels_per_wavelength)
-    heights = synthesis.synthesise(
-        spectrum, n, length, int(job.wildcards.seed), asked.get("amplitudes", "gaussian")
-    )
+    seed = int(job.wildcards.seed)
+    heights = make_heights(asked, n, seed)
     lattice = synthesis.lattice_spectrum(spectrum, length)
     realised = synthesis.realised_spectrum(heights, length)
     logging.info("n = %d, %d shells, rms slope %.6g", n, len(lattice.q), realised.rms_slope)
@@ -29,7 +28,7 @@ def main(job):
         title="random surface on a periodic window",
         parameters={
             **asked,
-            "seed": int(job.wildcards.seed),
+            "seed": seed,
             "pixels_per_wavelength": job.params.pixels_per_wavelength,
             "grid_points": n,
             "prescribed": spectrum.prescribed,
@@ -41,23 +40,19 @@ def to_dataset(heights, length, spectrum, lattice, realised):
     n = len(heights)
     x = np.arange(n) * (length / n)
     spectra = (spectrum, lattice, synthesis.moments(heights, length))
+    moments = ("h_rms", "rms_slope", "rms_curvature", "nayak")
     dataset = xr.Dataset(
         {
             "height": (("x", "y"), heights),
             "window_length": ((), length),
             "lattice_variance": ("wave_number", lattice.variance),
             "realised_variance": ("wave_number", realised_on(lattice, realised)),
-            "h_rms": ("source", [s.h_rms for s in spectra]),
-            "rms_slope": ("source", [s.rms_slope for s in spectra]),
-            "rms_curvature": ("source", [s.rms_curvature for s in spectra]),
-            "nayak": ("source", [s.nayak for s in spectra]),
-            "m40": ((), spectra[2].m40),
-            "m22": ((), spectra[2].m22),
-            "m04": ((), spectra[2].m04),
+            **{name: ("source", [getattr(s, name) for s in spectra]) for name in moments},
+            **{name: ((), getattr(spectra[2], name)) for name in ("m40", "m22", "m04")},
         },
         coords={"x": x, "y": x, "wave_number": lattice.q, "source": SOURCES},
     )
-    return datasets.annotate(
+    return annotate(
         dataset,
         x=("1", "position times q0"),
         y=("1", "position times q0"),
@@ -68,8 +63,6 @@ def to_dataset(heights, length, spectrum, lattice, realised):
         realised_variance=("1", "height variance of this surface on the shell over h_rms^2"),
         source=("1", "what the moments are taken from"),
         h_rms=("1", "rms height over the prescribed one"),
-        rms_slope=("1", "rms gradient over q0 h_rms"),
-        rms_curvature=("1", "rms Laplacian over q0^2 h_rms"),
         nayak=("1", "Nayak's bandwidth parameter m0 m4/m2^2"),
         m40=("1", "mean square of d2h/dx2 over q0^4 h_rms^2, from the heights"),
         m22=("1", "mean square of d2h/dxdy over q0^4 h_rms^2, from the heights"),

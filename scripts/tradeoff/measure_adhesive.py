@@ -10,9 +10,8 @@ import logging
 import numpy as np
 import xarray as xr
 
-from pipeline.adhesion_sets import DESCRIBED as ADHESION_DESCRIBED
-from pipeline.adhesion_sets import STRONGEST, closed, scaled_law
-from pipeline.conventions import grid_points, spectrum_of, window_of
+from pipeline.adhesion_sets import STRONGEST, scaled_law, solve_at_gap
+from pipeline.conventions import VARIABLES, cell_size, grid_points, model_spectrum
 from pipeline.job import start
 from pipeline.tradeoff import measuring
 from stickiness.adhesion import dmt
@@ -38,11 +37,11 @@ def main(job):
     grids = [p for p in sorted(adhesion["pixels"]) if grid_points(surface, p) <= most]
     settings = list_settings(adhesion, grids)
     finest = max(setting["pixels"] for setting in settings)
-    length, n = window_of(surface), grid_points(surface, finest)
+    length, n = cell_size(surface), grid_points(surface, finest)
     usual = 1 + grids.index(adhesion["at_pixels"])
     seeds, rows = np.arange(1, adhesion["more_seeds"] + 1), []
     for seed in seeds:
-        heights = synthesis.synthesise(spectrum_of(surface), n, length, int(seed))
+        heights = synthesis.synthesise(model_spectrum(surface), n, length, int(seed))
         chosen = settings if seed <= adhesion["seeds"] else settings[:usual]
         parts = [solve(heights, length, adhesion, finest, **s) for s in chosen]
         rows.append(measuring.stack(parts, "setting", np.arange(len(parts))))
@@ -93,7 +92,9 @@ def solve(heights, length, adhesion, finest, knob, pixels, tolerance, law):
             if attraction > STRONGEST * contact.mean_pressure:
                 continue
             state, values["seconds"][i, k] = measuring.time_task(
-                lambda law=traction, alone=contact: closed(sampled, length, law, alone, tolerance)
+                lambda law=traction, alone=contact: solve_at_gap(
+                    sampled, length, law, alone, tolerance
+                )
             )
             for name in STATE_TEXTS:
                 values[name][i, k] = state[name]
@@ -116,8 +117,8 @@ def annotate(dataset):
         **measuring.SETTING_TEXTS,
         **measuring.SHARED_TEXTS,
         pressure=("1", "mean pressure without adhesion at the same mean gap over E* q0 h_rms"),
-        range_over_h_rms=ADHESION_DESCRIBED["range_over_h_rms"],
-        adhesion_length_over_range=ADHESION_DESCRIBED["adhesion_length_over_range"],
+        range_over_h_rms=VARIABLES["range_over_h_rms"],
+        adhesion_length_over_range=VARIABLES["adhesion_length_over_range"],
         law=("1", "law of traction"),
         seconds=("s", "processor time of an adhesive state", missing),
         memory=("MB", "largest memory held at once at the largest load and last point"),

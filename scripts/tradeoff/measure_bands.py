@@ -8,7 +8,7 @@ import logging
 import numpy as np
 
 from pipeline.contact_curves import load_curve
-from pipeline.conventions import DESCRIBED, Q0, logarithmic_grid, spectrum_of
+from pipeline.conventions import Q0, VARIABLES, logarithmic_grid, model_spectrum
 from pipeline.job import start
 from pipeline.theory import contact_of
 from pipeline.tradeoff import measuring
@@ -24,7 +24,7 @@ def main(job):
     bands, pressures = job.params.bands, np.array(job.params.pressures)
     cuts, ranges = np.array(bands["magnification"]), logarithmic_grid(job.params.gaps)
     surface = {"hurst": float(job.wildcards.hurst), "magnification": int(cuts[-1])}
-    spectrum, seeds = spectrum_of(surface), np.arange(1, bands["seeds"] + 1)
+    spectrum, seeds = model_spectrum(surface), np.arange(1, bands["seeds"] + 1)
     points = np.minimum(bands["finest"] * cuts, bands["most_points"])
     rows = []
     for seed in seeds:
@@ -67,7 +67,7 @@ def filter_below(heights, cut):
 
 
 def annotate(dataset):
-    texts = {name: DESCRIBED[name] for name in (*KEPT[:3], "pressure", "range")}
+    texts = {name: VARIABLES[name] for name in (*KEPT[:3], "pressure", "range")}
     texts["rms_slope"] = ("1", "rms gradient over q0 h_rms")
     for name in KEPT:
         texts[f"theory_{name}"] = ("1", f"{texts[name][1]}, by theory on the lattice spectrum")

@@ -5,8 +5,8 @@ import logging
 import numpy as np
 import xarray as xr
 
-from pipeline.contact_curves import measured
-from pipeline.conventions import DESCRIBED, grid_points, logarithmic_grid, spectrum_of, window_of
+from pipeline.contact_curves import measure
+from pipeline.conventions import VARIABLES, cell_size, grid_points, logarithmic_grid, model_spectrum
 from pipeline.job import start
 from pipeline.tradeoff import measuring
 from stickiness.contact import solver
@@ -20,13 +20,13 @@ SINGLE = 1e-4  # tolerance that single precision can meet
 def main(job):
     surface, pressures = job.params.case, np.array(job.params.pressures)
     settings = list_settings(**job.params.settings)
-    ranges, length = logarithmic_grid(job.params.gaps), window_of(surface)
+    ranges, length = logarithmic_grid(job.params.gaps), cell_size(surface)
     finest = max(setting["pixels"] for setting in settings)
     n = grid_points(surface, finest)
     seeds, rows = np.arange(1, job.params.seeds + 1), []
     for seed in seeds:
         logging.info("seed %d", seed)
-        heights = synthesis.synthesise(spectrum_of(surface), n, length, int(seed))
+        heights = synthesis.synthesise(model_spectrum(surface), n, length, int(seed))
         slope = synthesis.moments(heights, length).rms_slope
         parts = [solve(heights, length, pressures, ranges, finest, **s) for s in settings]
         row = xr.concat(parts, "setting")
@@ -66,7 +66,7 @@ def solve(heights, length, pressures, ranges, finest, knob, pixels, tolerance):
         contact, solution_time = measuring.time_task(
             lambda p=load: solver.solve(sampled, length, p, **options)
         )
-        row, evaluation_time = measuring.time_task(lambda c=contact: measured(c, ranges))
+        row, evaluation_time = measuring.time_task(lambda c=contact: measure(c, ranges))
         rows.append(row.assign(solution_time=solution_time, evaluation_time=evaluation_time))
     return measuring.stack(rows, "pressure", pressures)
 
@@ -75,7 +75,7 @@ def annotate(dataset):
     names = ("pressure", "range", "area_fraction", "mean_gap", "attractive_area")
     return datasets.annotate(
         dataset,
-        **{name: DESCRIBED[name] for name in names},
+        **{name: VARIABLES[name] for name in names},
         **measuring.SETTING_TEXTS,
         **measuring.SHARED_TEXTS,
         pixel_area_fraction=("1", "repulsive contact area as counted in pixels, over nominal area"),

@@ -9,9 +9,8 @@ import logging
 import numpy as np
 import xarray as xr
 
-from pipeline.adhesion_sets import DESCRIBED as ADHESION_DESCRIBED
 from pipeline.adhesion_sets import LEAST, scaled_law
-from pipeline.conventions import grid_points, spectrum_of, window_of
+from pipeline.conventions import VARIABLES, cell_size, grid_points, model_spectrum
 from pipeline.job import start
 from pipeline.tradeoff import measuring
 from stickiness import adhesive
@@ -26,7 +25,7 @@ DECADES, PER_DECADE = 4, 10  # of the loads below the largest, for the DMT limit
 def main(job):
     surface, pull_off = job.params.case, job.params.pull_off
     settings, finest = list_settings(pull_off), max(pull_off["pixels"])
-    length, n = window_of(surface), grid_points(surface, finest)
+    length, n = cell_size(surface), grid_points(surface, finest)
     points = np.array(pull_off["points"])
     laws = [
         scaled_law(pull_off, pull_off["law"], strength, range_)
@@ -34,7 +33,7 @@ def main(job):
     ]
     seeds, rows = np.arange(1, pull_off["seeds"] + 1), []
     for seed in seeds:
-        heights = synthesis.synthesise(spectrum_of(surface), n, length, int(seed))
+        heights = synthesis.synthesise(model_spectrum(surface), n, length, int(seed))
         parts = [
             separate(
                 measuring.sample(heights, finest // s["pixels"]),
@@ -120,8 +119,8 @@ def annotate(dataset):
         balance=("1", "error of the energy balance of a step over the energies of the path"),
         pull_off=("1", "lowest mean pressure over E* q0 h_rms"),
         pull_off_dmt=("1", "the same in the DMT limit"),
-        range_over_h_rms=ADHESION_DESCRIBED["range_over_h_rms"],
-        adhesion_length_over_range=ADHESION_DESCRIBED["adhesion_length_over_range"],
+        range_over_h_rms=VARIABLES["range_over_h_rms"],
+        adhesion_length_over_range=VARIABLES["adhesion_length_over_range"],
         seconds=("s", "processor time of the separation"),
     )
 

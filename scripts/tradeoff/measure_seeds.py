@@ -10,7 +10,7 @@ import numpy as np
 
 from pipeline.coarse_solutions import DESCRIBED_FROM, SOLVED_FROM
 from pipeline.contact_curves import COARSE, load_curve
-from pipeline.conventions import DESCRIBED, grid_points, logarithmic_grid, spectrum_of, window_of
+from pipeline.conventions import VARIABLES, cell_size, grid_points, logarithmic_grid, model_spectrum
 from pipeline.job import start
 from pipeline.tradeoff import measuring
 from stickiness.accuracy import multilevel
@@ -41,7 +41,7 @@ def main(job):
     for kind, p, amplitudes in (("fixed", 4, "fixed"), ("coarse", COARSE, "gaussian")):
         more = solve_seeds(surface, path, seeds[kind], p, amplitudes)[[*KEPT, "seconds"]]
         dataset = dataset.merge(more.rename({name: f"{kind}_{name}" for name in (*more, "seed")}))
-    given, seconds = (spectrum_of(surface), window_of(surface)), []
+    given, seconds = (model_spectrum(surface), cell_size(surface)), []
     for name, dim, kind in (
         ("long_waves", "coarse_seed", "coarse"),
         ("other_long_waves", "other", "described"),
@@ -78,8 +78,8 @@ def solve_seeds(surface, path, seeds, pixels, amplitudes="gaussian"):
 def solve_seed(surface, path, seed, pixels, amplitudes):
     """Solve one seed at every load."""
     # Two pixels do not hold the shortest waves' slope: those surfaces are sampled from four.
-    n, length = grid_points(surface, max(pixels, 2 * COARSE)), window_of(surface)
-    heights = synthesis.synthesise(spectrum_of(surface), n, length, seed, amplitudes)
+    n, length = grid_points(surface, max(pixels, 2 * COARSE)), cell_size(surface)
+    heights = synthesis.synthesise(model_spectrum(surface), n, length, seed, amplitudes)
     slope = synthesis.moments(heights, length).rms_slope
     sampled = measuring.sample(heights, max(2 * COARSE // pixels, 1))
     return load_curve(sampled, length, *path).assign(rms_slope=slope)
@@ -87,9 +87,9 @@ def solve_seed(surface, path, seed, pixels, amplitudes):
 
 def annotate(dataset):
     missing = "not solved on this grid"
-    texts = {name: DESCRIBED[name] for name in ("pressure", "range")}
+    texts = {name: VARIABLES[name] for name in ("pressure", "range")}
     for prefix in ("", "fixed_", "coarse_"):
-        texts |= {f"{prefix}{name}": (*DESCRIBED[name], missing) for name in KEPT[:3]}
+        texts |= {f"{prefix}{name}": (*VARIABLES[name], missing) for name in KEPT[:3]}
         texts[f"{prefix}rms_slope"] = ("1", "rms gradient over q0 h_rms", missing)
         texts[f"{prefix}seconds"] = ("s", "processor time of all loads", missing)
         texts[f"{prefix}seed"] = measuring.SHARED_TEXTS["seed"]

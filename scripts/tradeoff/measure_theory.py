@@ -3,7 +3,7 @@
 import numpy as np
 import xarray as xr
 
-from pipeline.conventions import DESCRIBED, logarithmic_grid, spectrum_of
+from pipeline.conventions import VARIABLES, logarithmic_grid, model_spectrum
 from pipeline.job import start
 from pipeline.theory import contact_of
 from pipeline.tradeoff import measuring
@@ -17,7 +17,7 @@ def main(job):
     nodes, pressures = job.params.nodes, np.array(job.params.pressures)
     ranges, cases, memory = logarithmic_grid(job.params.gaps), [], []
     for name, surface in nodes["surfaces"].items():
-        spectrum, rows = spectrum_of(surface), []
+        spectrum, rows = model_spectrum(surface), []
         for multiple in nodes["multiples"]:
 
             def solve(spectrum=spectrum, multiple=multiple):
@@ -34,7 +34,7 @@ def main(job):
     datasets.write(
         datasets.annotate(
             dataset,
-            **{name: DESCRIBED[name] for name in names},
+            **{name: VARIABLES[name] for name in names},
             case=("1", "surface"),
             nodes=("1", "multiple of the number of quadrature nodes"),
             rms_slope=("1", "rms gradient over q0 h_rms"),

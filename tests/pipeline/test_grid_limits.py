@@ -5,7 +5,7 @@ import pytest
 import xarray as xr
 
 from fits.fit_a_v import average, fit_intervals
-from fits.fit_kappa import fitted_slope
+from fits.fit_kappa import fit_slope
 from pipeline import ensemble_means, grid_limits
 from pipeline.contact_curves import load_curve
 from pipeline.ensembles import AVERAGED, add_statistics
@@ -94,7 +94,7 @@ def test_slopes_inherit_the_relative_error_of_the_area(ensemble):
     mean = ensemble.area_fraction_mean * ensemble.rms_slope.mean() / ensemble.pressure
     np.testing.assert_allclose(limit.error, mean * relative, rtol=1e-9)
     np.testing.assert_array_equal(limit.shift, 0)
-    fit = grid_limits.inherit(ensemble, fitted_slope, ["area_fraction"])
+    fit = grid_limits.inherit(ensemble, fit_slope, ["area_fraction"])
     assert limit.error.min() < fit.error < limit.error.max()
 
 

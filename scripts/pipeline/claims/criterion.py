@@ -9,7 +9,7 @@ import xarray as xr
 
 from pipeline.claims.ledger import Files, Finding, claim, grade
 from pipeline.claims.texts import describe_sample
-from pipeline.conventions import VARIANT, spectrum_of, window_of
+from pipeline.conventions import VARIANT, cell_size, model_spectrum
 from stickiness import adhesive, criteria
 from stickiness.adhesion import equivalent_sphere
 from stickiness.adhesion.area_load import JTB_CONSTANT
@@ -358,5 +358,7 @@ def moment_ratios(heights: np.ndarray, length: float) -> np.ndarray:
 def fixed_amplitudes(data: xr.Dataset) -> tuple[np.ndarray, float]:
     """Surface whose modes have exactly the variances expected of those of `data`."""
     surface = datasets.parameters(data)
-    length = window_of(surface)
-    return synthesis.synthesise(spectrum_of(surface), data.sizes["x"], length, 1, "fixed"), length
+    length = cell_size(surface)
+    return synthesis.synthesise(
+        model_spectrum(surface), data.sizes["x"], length, 1, "fixed"
+    ), length

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 import xarray as xr
 
-from pipeline.conventions import spectrum_of, window_of
+from pipeline.conventions import cell_size, model_spectrum
 from pipeline.theory import contact_of
 from pipeline.tradeoff.fit_laws import Conditions, Points
 from pipeline.tradeoff.law_points import add_extrapolations
@@ -121,7 +121,7 @@ def list_theory_rows(
     """Rows of theory in place of simulation: its error is that of the model."""
     parameters = datasets.parameters(measured)
     surface, loads = Surface.of(parameters), measured.pressure.values
-    lattice = lattice_spectrum(spectrum_of(parameters), window_of(parameters))
+    lattice = lattice_spectrum(model_spectrum(parameters), cell_size(parameters))
     state, seconds = time_task(
         lambda: contact_of(Persson(lattice), loads, measured["range"].values)
     )

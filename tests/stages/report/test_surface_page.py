@@ -53,7 +53,7 @@ def scan(path, seed=1, micrometres=40.0, n=128):
 def analysed(path, **asked):
     """The file that the rule writes, read back."""
     asked = {"kind": "measured", "label": "plate & co", "source": "own", **asked}
-    dataset = analyse_surface.annotated(measured_surface.analyse(asked))
+    dataset = analyse_surface.annotate(measured_surface.analyse(asked))
     datasets.write(dataset, path, title="a", parameters={"surface": "plate", **asked})
     return datasets.read(path)
 
@@ -223,7 +223,7 @@ def test_page_of_a_parametric_surface(folder):
         "h_rms": ["1 um", "3 um"],
         "source": "own",
     }
-    dataset = analyse_surface.annotated(analyse_surface.self_affine(asked))
+    dataset = analyse_surface.annotate(analyse_surface.self_affine(asked))
     datasets.write(dataset, folder / "sand.nc", title="a", parameters=asked)
     page = page_of(datasets.read(folder / "sand.nc"), folder)
     assert "sand" in page

@@ -8,7 +8,7 @@ import xarray as xr
 import yaml
 
 from adhesion import solve_adhesive
-from pipeline.conventions import spectrum_of, window_of
+from pipeline.conventions import cell_size, model_spectrum
 from stickiness import surface
 from stickiness.adhesion import model_choice
 
@@ -149,10 +149,10 @@ def test_a_fresh_measurement_agrees_with_the_committed_table(committed, pressure
     """Other seeds on a coarser grid, at points of the table and between them."""
     asked = ASKED | {"pressures": [pressure], "range_over_h_rms": [reach]}
     asked["adhesion_length_over_range"] = [0.1 * strength]
-    length, chosen = window_of(SURFACE), np.ones((1, 1, 1), bool)
+    length, chosen = cell_size(SURFACE), np.ones((1, 1, 1), bool)
     ratios = []
     for seed in range(501, 507):
-        heights = surface.synthesise(spectrum_of(SURFACE), 128, length, seed)
+        heights = surface.synthesise(model_spectrum(SURFACE), 128, length, seed)
         states = solve_adhesive.states(heights, length, asked, chosen, 1e-6).squeeze()
         held = states.external_pressure / states.repulsive_area
         full = (1 - held / (states.pressure / states.area_alone)) / 2
