@@ -1,9 +1,7 @@
 """The map of validity: what counts as right, refused or failed, and that errors are detected."""
 
 import warnings
-from types import SimpleNamespace
 
-import matplotlib.image
 import numpy as np
 import pytest
 
@@ -18,13 +16,11 @@ from pipeline.stability.components import (
     Component,
     probe_point,
 )
-from stability import plot_stability, probe_stability
 from stability.probe_stability import COMPONENTS
 from stickiness import spectrum
 from stickiness.accuracy import prediction
 from stickiness.adhesion import dmt, equivalent_sphere, model_choice
 from stickiness.contact import solver
-from stickiness.core import datasets
 from stickiness.criteria import a_v_table, moduli
 
 
@@ -121,6 +117,7 @@ def test_a_wrong_solver_is_detected(monkeypatch, field, factor):
         probes_contact.solve_contact.cache_clear()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("component", "place", "name"),
     [
@@ -138,22 +135,3 @@ def test_a_wrong_model_is_detected(monkeypatch, component, place, name):
     component = COMPONENTS[component]
     found = [probe_point(component, point).outcome for point in component.points()[:12]]
     assert FAILED in found
-
-
-def test_map_is_stored_and_drawn(tmp_path):
-    files = []
-    for name, axes in (("spectrum", ("hurst", "unit")), ("sampling", ("hurst",))):
-        component = Component(lambda hurst, **_: returning(hurst)(), axes)
-        data = probe_stability.map_validity(component)
-        assert np.all((data.outcome == RIGHT) == (data.hurst <= 1))
-        files.append(tmp_path / f"{name}.nc")
-        parameters = {"outcomes": list(components.OUTCOMES)}
-        datasets.write(data, files[-1], title="map", parameters=parameters)
-    outputs = [str(tmp_path / f"map.{suffix}") for suffix in ("png", "pdf")]
-    plot_stability.main(SimpleNamespace(input=SimpleNamespace(components=files), output=outputs))
-    assert matplotlib.image.imread(outputs[0])[..., :3].std() > 0.05
-
-
-def test_axes_have_labels():
-    assert plot_stability.LABELS.keys() == components.AXES.keys()
-    assert len(plot_stability.LOOKS) == len(components.OUTCOMES)
