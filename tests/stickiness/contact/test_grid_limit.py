@@ -172,6 +172,7 @@ def test_error_covers_the_truth_in_nine_of_ten_cases(nested, grids):
     assert np.median(errors / truths) < 6 * np.median(misses / truths)
 
 
+@pytest.mark.slow
 def test_subpixel_area_beats_both_the_count_and_its_extrapolation(nested):
     true = np.array([row[-1]["area_fraction"] for row in nested])
     coarse, fine = (np.array([row[g]["counted"] for row in nested]) for g in (0, 1))
@@ -189,6 +190,7 @@ def test_subpixel_area_beats_both_the_count_and_its_extrapolation(nested):
     assert grid_limit.observed_order(*counts) == pytest.approx(1, abs=0.35)
 
 
+@pytest.mark.slow
 def test_mean_gap_needs_no_extrapolation(nested):
     true = np.array([row[-1]["mean_gap"] for row in nested])
     fine = np.array([row[1]["mean_gap"] for row in nested])

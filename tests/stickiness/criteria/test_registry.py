@@ -90,7 +90,7 @@ def test_an_entry_is_all_that_a_new_criterion_needs(made_up, road, judged):
     assert rows["Made & Up"]["reason"] == "Heights of 1 … 2 µm against nothing else."
     assert rows["Made & Up"]["says"] == "does not stick"
     verdicts = judged.assign_attrs(parameters='{"materials": {"gel": {"label": "gel"}}}')
-    listed = report.disagreements(verdicts, {"road": road})
+    listed = report.find_disagreements(verdicts, {"road": road})
     assert "Made & Up" in [row["criterion"] for row in listed]
 
 
@@ -127,6 +127,7 @@ def test_an_entry_that_lacks_something_is_refused(change, message):
         Criterion(**(entry | change))
 
 
+@pytest.mark.slow
 def test_every_threshold_is_where_the_margin_is_one(judged, road):
     """Also for margins that are no power of the adhesion length."""
     a_v = SurfaceAv(np.array([1e-9, 1.0]), np.array([[4.0, 4.0]]), 0, 1.0, 0.1)
