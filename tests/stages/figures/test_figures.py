@@ -191,8 +191,8 @@ def test_simulation_of_spheres_is_the_model_of_the_edges():
         coords=dict(zip(dims, (at, lengths, ranges), strict=True)),
         attrs={"parameters": '{"law": "maugis", "grid_points": 512, "refine": 1}'},
     ).expand_dims(resolution=[8.0])
-    found = compare_edges.compared(adhesive, alone, q0_h_rms, -1)
+    found = compare_edges.compare(adhesive, alone, q0_h_rms, -1)
     np.testing.assert_allclose(found.effect, found.effect_model, rtol=1e-3)
     few = adhesive.assign_attrs(parameters='{"law": "maugis", "grid_points": 64, "refine": 1}')
-    assert compare_edges.compared(few, alone, q0_h_rms, -1).effect.isnull().all()
+    assert compare_edges.compare(few, alone, q0_h_rms, -1).effect.isnull().all()
     np.testing.assert_allclose(found.edge_strength.transpose(*dims)[0], tau, rtol=1e-3)
