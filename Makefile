@@ -7,7 +7,7 @@ BIN := $(VENV)/bin
 PIP := $(BIN)/python -m pip install --quiet --disable-pip-version-check -c envs/constraints.txt
 SNAKEMAKE := $(BIN)/snakemake -j$(CORES)
 
-.PHONY: install reproduce draft test lint format dag benchmark docs pictures
+.PHONY: install reproduce draft test test-quick lint format dag benchmark docs pictures
 
 install: $(VENV)/.run  ## the environment alone
 
@@ -19,6 +19,9 @@ draft: $(VENV)/.run  ## everything, quick and rough
 
 test: $(VENV)/.dev $(VENV)/.peers  ## all tests
 	$(BIN)/python -m pytest
+
+test-quick: $(VENV)/.dev  ## the tests of about a minute: no workflow, no other codes, none that is slow
+	OMP_NUM_THREADS=1 $(BIN)/python -m pytest -m "not slow and not workflow and not peers"
 
 lint: $(VENV)/.dev  ## format and lint, nothing changed
 	$(BIN)/ruff format --check .

@@ -4,7 +4,11 @@ import shutil
 import sys
 from pathlib import Path
 
+import yaml
+
 ROOT = Path(__file__).parents[2]
+# Real surfaces that claims need, one by its spectrum and one by its heights.
+SURFACES = ("asphalt", "polished_steel", "jacksboro")
 PARTS = ("Snakefile", "rules", "scripts", "config", "envs", "profiles", "report")
 
 
@@ -20,6 +24,9 @@ def copy_workflow(folder):
         if entry.is_dir() and not hidden:
             (folder / entry.name).symlink_to(entry)
     shutil.copy2(ROOT / "tests/workflow/tiny.yaml", folder / "config/tiny.yaml")
+    surfaces = yaml.safe_load((ROOT / "config/surfaces.yaml").read_text(encoding="utf-8"))
+    few = {"surfaces": {name: surfaces["surfaces"][name] for name in SURFACES}}
+    (folder / "config/tiny_surfaces.yaml").write_text(yaml.safe_dump(few), encoding="utf-8")
 
 
 if __name__ == "__main__":

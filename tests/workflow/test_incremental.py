@@ -8,6 +8,7 @@ import time
 
 import pytest
 import yaml
+from helpers.copy_workflow import SURFACES as REAL_SURFACES
 from snakemake.utils import update_config
 
 from stickiness.core import datasets
@@ -123,7 +124,7 @@ def test_a_case_that_takes_plain_means_is_only_averaged_again(copy_of_finished):
         ),
         (
             "measured/topography.py",
-            {"analyse_surface": 7},
+            {"analyse_surface": len(REAL_SURFACES)},
             {"synthesise_surface", "solve_repulsive", "persson_sweep", "fit_a_v"},
         ),
         (
@@ -150,12 +151,15 @@ def test_comments_docstrings_and_times_of_change_rerun_nothing(copy_of_finished)
 
 
 @pytest.mark.parametrize(
-    ("target", "expected", "absent"),
+    ("targets", "expected", "absent"),
     [
         ("fig3", {"plot_fig3": 1, "solve_repulsive": CASES * SEEDS}, {"analyse_surface", "judge"}),
-        ("fig6", {"plot_fig6": 1, "analyse_surface": 7}, {"solve_repulsive", "persson_sweep"}),
+        (
+            "fig6 results/tiny/persson/sweeps/fig1a.nc",
+            {"plot_fig6": 1, "analyse_surface": len(REAL_SURFACES), "persson_sweep": 1},
+            {"solve_repulsive", "persson_surface"},
+        ),
         ("claims", {"check_claims": 1}, {"plot_fig1", "write_report"}),
-        ("results/tiny/persson/sweeps/fig1a.nc", {"persson_sweep": 1}, {"solve_repulsive"}),
         (
             "results/tiny/contact/ensembles/H0.9_zeta64.nc",
             {
@@ -168,32 +172,36 @@ def test_comments_docstrings_and_times_of_change_rerun_nothing(copy_of_finished)
         ),
     ],
 )
-def test_targets(fresh, target, expected, absent):
-    planned = fresh.planned(target)
+def test_targets(fresh, targets, expected, absent):
+    planned = fresh.planned(*targets.split())
     assert expected.items() <= planned.items(), planned
     assert absent.isdisjoint(planned), planned
 
 
-@pytest.mark.parametrize(
-    ("asked", "solved"),
-    [
-        ("model: auto, accuracy: 0.15", 0),
-        ("model: auto, accuracy: 0.01", SEEDS),
-        ("model: dmt", 0),
-        ("model: full", SEEDS),
-    ],
-)
-def test_full_adhesion_is_solved_only_where_the_dmt_limit_is_not_good_enough(fresh, asked, solved):
+def test_full_adhesion_is_solved_only_where_the_dmt_limit_is_not_good_enough(fresh):
+    asked = {
+        "rough": "model: auto, accuracy: 0.15",
+        "close": "model: auto, accuracy: 0.01",
+        "limit": "model: dmt",
+        "full": "model: full",
+    }
     fresh.edit("config/tiny.yaml", "{hurst: 0.8, magnification: 4}", SMALLEST)
     with (fresh / "config/tiny.yaml").open("a", encoding="utf-8") as file:
-        file.write(
-            "adhesion:\n  mine: {case: H0.8_zeta32, q0_h_rms: 0.1, range_over_h_rms: [3], "
-            "adhesion_length_over_range: [0.001, 0.003], pressures: [0.0065, 0.065], "
-            f"law: exponential, {asked}}}\n"
-        )
-    planned = fresh.planned("results/tiny/adhesion/full/mine.nc")
-    assert planned.get("solve_adhesive", 0) == solved
-    assert planned["adhesion_dmt"] == planned["average_adhesive"] == 1
+        file.write("adhesion:\n")
+        for name, model in asked.items():
+            file.write(
+                f"  {name}: {{case: H0.8_zeta32, q0_h_rms: 0.1, range_over_h_rms: [3], "
+                "adhesion_length_over_range: [0.001, 0.003], pressures: [0.0065, 0.065], "
+                f"law: exponential, {model}}}\n"
+            )
+    done = fresh.snakemake("-n", *(f"results/tiny/adhesion/full/{name}.nc" for name in asked))
+    assert done.returncode == 0, done.stdout
+    outputs = re.findall(r"output: results/tiny/adhesion/(\S+)\.nc", done.stdout)
+    assert {output for output in outputs if "/seed" in output} == {
+        f"full/{name}/seed{seed}" for name in ("close", "full") for seed in range(1, SEEDS + 1)
+    }
+    for name in asked:
+        assert outputs.count(f"dmt/{name}") == outputs.count(f"full/{name}") == 1
 
 
 def test_a_script_runs_by_hand(copy_of_finished):

@@ -1,9 +1,7 @@
 """The map of validity: what counts as right, refused or failed, and that errors are detected."""
 
 import warnings
-from types import SimpleNamespace
 
-import matplotlib.image
 import numpy as np
 import pytest
 
@@ -18,13 +16,11 @@ from pipeline.stability.components import (
     Component,
     probe_point,
 )
-from stability import plot_stability, probe_stability
 from stability.probe_stability import COMPONENTS
 from stickiness import spectrum
 from stickiness.accuracy import prediction
 from stickiness.adhesion import dmt, equivalent_sphere, model_choice
 from stickiness.contact import solver
-from stickiness.core import datasets
 from stickiness.criteria import a_v_table, moduli
 
 
@@ -121,6 +117,7 @@ def test_a_wrong_solver_is_detected(monkeypatch, field, factor):
         probes_contact.solve_contact.cache_clear()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("component", "place", "name"),
     [

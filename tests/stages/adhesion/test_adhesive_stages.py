@@ -91,6 +91,7 @@ def test_what_the_grid_does_not_resolve_is_left_out(heights):
     assert edge_zone.resolution(pixel, law.range, law.adhesion_length) > edge_zone.COARSEST
 
 
+@pytest.mark.slow
 def test_grid_hardly_matters_to_the_exponential_law(heights):
     """At half the resolution the relief by adhesion changes by less than a twentieth."""
     fine, coarse = (
@@ -113,6 +114,7 @@ def test_width_of_the_zone_follows_the_edge_law():
     assert edge_zone.zone_width(0.1, 0.01, 0.08) == pytest.approx(0.4)
 
 
+@pytest.mark.slow
 def test_equal_area_is_found_on_the_load_curve(heights):
     """Against a search for the pressure that gives the same pixels without adhesion."""
     curve = load_curve(heights, np.linspace(0.08, 0.5, 43))
@@ -166,6 +168,7 @@ def test_dmt_attraction_of_areas_is_that_over_the_gaps(heights):
             assert float(at) == pytest.approx(expected, rel=0.01)
 
 
+@pytest.mark.slow
 def test_dmt_of_coarse_solutions_is_a_control_without_bias():
     """Means over eight seeds, controlled, against the plain mean over all of many."""
     full, coarse = many_solutions(range(320))

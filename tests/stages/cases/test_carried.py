@@ -31,6 +31,7 @@ def simulated(hurst, magnification, pressures):
     return np.array(values)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("hurst", [0.5, 0.8])
 def test_carried_values_are_within_their_errors(hurst):
     """From magnification 16 to 64, the same long waves in both; the errors are of use, too."""

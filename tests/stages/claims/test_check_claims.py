@@ -26,11 +26,14 @@ def ledger_inputs():
         "RESULTS": "out",
         "REAL_SURFACES": {"steel": {"kind": "self_affine"}, "terrain": {"kind": "measured"}},
         "seeds_of": lambda case: [1, 2],
+        "surface_of": lambda case: f"out/surfaces/{case}/seed{{seed}}.nc",
+        "a_v_of_simulation": lambda case: f"out/fits/a_v/ensembles/{case}.nc",
     }
     exec(text[start : text.index("\n\n\n", start)], names)
     return names["ledger_inputs"]()
 
 
+@pytest.mark.slow
 def test_every_claim_runs_on_the_files_it_names():
     """A claim is given these files alone, so that it cannot read another."""
     files = files_by_name()

@@ -164,6 +164,7 @@ def test_wide_zones_of_strong_edges_are_not_called_tough():
     assert int(found.regime) == STRONG
 
 
+@pytest.mark.slow
 def test_threshold_is_where_attraction_balances_repulsion():
     threshold = float(pairs_of(1e6, [1e-9]).modulus_threshold[0, 0, 0])
     margins = [

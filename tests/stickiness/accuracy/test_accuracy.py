@@ -74,6 +74,7 @@ def test_cost_by_hand():
     assert cost == pytest.approx(2 * saved * (3 * (64 + 16 + 4) + 50 * 4) + 2000 * 0.001)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("asked", [0.3, 0.1, 0.05, 0.02])
 def test_cheapest_is_that_of_all_settings(asked):
     wanted = problem("area", "a_v", pressures=LOADS)
@@ -158,6 +159,7 @@ def test_presets_are_what_the_rule_gives(config):
         assert plan.preset(config["fidelities"][name]) == chosen, name
 
 
+@pytest.mark.slow
 def test_grid_errors_of_coarse_pixels_are_within_their_law():
     """Mean change from 4 to 16 points, of 48 surfaces that no law was fitted to."""
     laws, seeds = read_models(TABLE), range(7001, 7049)
@@ -174,6 +176,7 @@ def test_grid_errors_of_coarse_pixels_are_within_their_law():
     assert (found <= known + noise).all(), (found, known)
 
 
+@pytest.mark.slow
 def test_scatter_is_that_of_fresh_surfaces():
     """Sixty-four surfaces know their scatter to 9 %; the law, a power of the load, is good to 18 %.
 

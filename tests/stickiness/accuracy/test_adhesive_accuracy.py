@@ -157,6 +157,7 @@ def test_presets_reach_their_error_with_full_adhesion():
         assert adhesion.worst_error(given, few)[0] > error, name
 
 
+@pytest.mark.slow
 def test_grid_errors_of_fresh_surfaces_are_within_their_law():
     """Mean change of 1/kappa_ad from 4 to 16 points, of surfaces that no law was fitted to."""
     laws, rough = read_models(TABLE), Surface(hurst=0.7, magnification=16.0)

@@ -264,6 +264,7 @@ def contact(seed, s, pixels):
     return [solved.area_fraction - strip, solved.mean_gap, a_v]
 
 
+@pytest.mark.slow
 def test_rough_contacts():
     """Six experiments of 8 fine and 32 coarse seeds against plain means of 144 other seeds."""
     s = power_law(16.0)

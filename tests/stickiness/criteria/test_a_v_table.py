@@ -61,10 +61,12 @@ def direct(hurst, magnification, pressure, ranges, contact=False, variant="affer
     return local_a_v(area, pressure, ranges)
 
 
+@pytest.mark.slow
 def test_table_holds_what_is_needed(table):
     assert set(NEEDED) <= set(table)
 
 
+@pytest.mark.slow
 def test_between_its_points_the_table_is_theory(table):
     known = AvTable(table)
     ranges = np.array([1e-3, 0.012, 0.2, 0.9])
@@ -73,12 +75,14 @@ def test_between_its_points_the_table_is_theory(table):
     assert not found.edge.any()
 
 
+@pytest.mark.slow
 def test_limit_of_infinite_magnification_is_approached(table):
     found = AvTable(table).a_v_at(0.8, 0.05, RANGES[8:]).value / RATIO
     # The area within 1e-6 of contact, contact included, has converged to 1 % at zeta = 1e12.
     np.testing.assert_allclose(found, direct(0.8, 1e12, 0.05, RANGES[8:], contact=True), rtol=0.02)
 
 
+@pytest.mark.slow
 def test_limit_grows_as_the_scaling_argument_has_it(table):
     for hurst in (0.7, 0.8, 0.9):
         ends = AvTable(table).a_v_at(hurst, 0.05, [1e-8, 1e-7]).value
@@ -87,6 +91,7 @@ def test_limit_grows_as_the_scaling_argument_has_it(table):
         assert exponent == pytest.approx((3 - 5 * hurst) / (3 * hurst), abs=0.03)
 
 
+@pytest.mark.slow
 def test_below_the_edge_range_a_v_is_constant(table):
     known = AvTable(table)
     found = known.a_v_at(0.8, 0.05, [1e-8, 1e-6, 1e-5], 1e3)
@@ -99,6 +104,7 @@ def test_below_the_edge_range_a_v_is_constant(table):
     assert found.value[0] / RATIO == pytest.approx(want, rel=0.03)
 
 
+@pytest.mark.slow
 def test_errors_hold_the_simulations_own(table):
     found = AvTable(table).a_v_at(0.8, 0.05, 0.05, 1e4)
     # two cases that agree: their own error, which is not taken to average out
@@ -140,6 +146,7 @@ def test_ratio_is_smooth_in_load_where_the_set_of_cases_changes():
     assert float(logs.mean()) == pytest.approx(np.log(1.2) / 2, abs=0.01)
 
 
+@pytest.mark.slow
 def test_trend_holds_between_simulated_magnifications_and_widens_the_error_beyond(table):
     cases = [comparison(1.0, zeta=16), comparison(0.9, zeta=256)]
     simulation = tabulate_a_v.simulated(cases)
@@ -167,6 +174,7 @@ def test_loads_of_too_small_windows_are_left_out():
     assert np.all(found.simulation_ratio.isel(simulated_pressure=1) > 1.5)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("magnification", [1e3, np.inf])
 def test_error_grows_with_every_decade_below_the_simulated_ranges(table, magnification):
     drift = 0.09
@@ -184,6 +192,7 @@ def test_no_load_at_all_is_an_error():
         tabulate_a_v.simulated([small, small])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("argument", "value"),
     [("hurst", 0.5), ("pressure", 0.9), ("range_over_h_rms", 1e-9), ("magnification", 10.0)],

@@ -48,6 +48,7 @@ def test_file_of_an_instrument_tells_size_and_unit(tmp_path, counts):
     assert upright < 1e-20
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("instrument")
 def test_what_an_instrument_marks_as_missing_is_missing(tmp_path, counts):
     plane = np.add.outer(3 * np.arange(12), 2 * np.arange(10))

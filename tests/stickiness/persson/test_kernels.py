@@ -95,6 +95,7 @@ def test_work_of_squeezing_is_the_elastic_energy_of_full_contact(name, spectrum)
     assert work == pytest.approx(spectrum.elastic_energy(), rel=1e-7)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", CORRECTIONS)
 @pytest.mark.parametrize("variant", ["afferrante2018", "almqvist2011"])
 def test_normalised(name, variant):
