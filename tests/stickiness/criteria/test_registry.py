@@ -94,6 +94,7 @@ def test_an_entry_is_all_that_a_new_criterion_needs(made_up, road, judged):
     assert "Made & Up" in [row["criterion"] for row in listed]
 
 
+@pytest.mark.slow
 def test_a_new_criterion_is_on_figure_9(made_up, judged):
     table = SimpleNamespace(
         a_v_at=lambda hurst, load, reach, zeta: SimpleNamespace(
@@ -127,6 +128,7 @@ def test_an_entry_that_lacks_something_is_refused(change, message):
         Criterion(**(entry | change))
 
 
+@pytest.mark.slow
 def test_every_threshold_is_where_the_margin_is_one(judged, road):
     """Also for margins that are no power of the adhesion length."""
     a_v = SurfaceAv(np.array([1e-9, 1.0]), np.array([[4.0, 4.0]]), 0, 1.0, 0.1)

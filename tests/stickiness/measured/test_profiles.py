@@ -78,6 +78,7 @@ def test_profiles_give_the_spectrum_of_their_surface(lines):
     assert np.all(np.abs(np.mean(ratios, axis=0) - 1) < 3 * error)
 
 
+@pytest.mark.slow
 def test_errors_of_the_exponent_cover_it(lines):
     _, found = lines
     z = [(fit.hurst - 0.7) / fit.hurst_se for _, fit in found]
