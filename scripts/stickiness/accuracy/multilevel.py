@@ -77,7 +77,7 @@ class Estimate:
 
 def plain_mean(values: ArrayLike) -> Estimate:
     """Mean over axis 0 of at least two finite samples and its standard error, without controls."""
-    values = _samples("values", values, 2)
+    values = _check_samples("values", values, 2)
     return Estimate(values.mean(0), _error(values), np.zeros(values.shape[1:]))
 
 
@@ -115,8 +115,11 @@ def controlled_mean(values: ArrayLike, controls: ArrayLike, elsewhere: ArrayLike
     >>> bool(abs(estimate.mean - (3 + 2 * x[40:].mean())) < 1e-12)
     True
     """
-    values = _samples("values", values, 2)
-    controls, elsewhere = _samples("controls", controls, 2), _samples("elsewhere", elsewhere, 2)
+    values = _check_samples("values", values, 2)
+    controls, elsewhere = (
+        _check_samples("controls", controls, 2),
+        _check_samples("elsewhere", elsewhere, 2),
+    )
     if controls.ndim != 2 or len(controls) != len(values):
         raise ValueError(
             f"controls must be of shape ({len(values)}, k), one row for each of the values, "
@@ -134,7 +137,7 @@ def controlled_mean(values: ArrayLike, controls: ArrayLike, elsewhere: ArrayLike
             f"got {len(values)}"
         )
     flat = values.reshape(len(values), -1)
-    corrected, coefficient = _regressed(flat, controls, elsewhere.mean(0))
+    corrected, coefficient = _regress(flat, controls, elsewhere.mean(0))
     variance = _error(corrected) ** 2 + _error(elsewhere @ coefficient) ** 2
     return Estimate(
         corrected.mean(0).reshape(values.shape[1:]),
@@ -192,8 +195,8 @@ def multilevel_mean(
     Neither helps where the coarse solutions hold noise of their own, such as P(u) at gaps that
     their grid does not resolve: leave these entries to `plain_mean`.
     """
-    fine, coarse = _samples("fine", fine, 2), _samples("coarse", coarse, 2)
-    many = _samples("many", many, 2)
+    fine, coarse = _check_samples("fine", fine, 2), _check_samples("coarse", coarse, 2)
+    many = _check_samples("many", many, 2)
     if coarse.shape != fine.shape:
         raise ValueError(f"coarse must have the shape {fine.shape} of fine, got {coarse.shape}")
     if many.shape[1:] != fine.shape[1:]:
@@ -286,7 +289,7 @@ def descriptors(
     return np.array(rows).reshape(-1, len(DESCRIPTORS))
 
 
-def _regressed(values: NDArray, controls: NDArray, target: NDArray) -> tuple[NDArray, NDArray]:
+def _regress(values: NDArray, controls: NDArray, target: NDArray) -> tuple[NDArray, NDArray]:
     """Values moved to where the controls are at `target`, each by a fit without it; mean slopes."""
     centre, spread = controls.mean(0), controls.std(0)
     spread = np.where(spread > _SINGULAR * np.abs(centre), spread, np.inf)
@@ -329,7 +332,7 @@ def _error(samples: NDArray) -> NDArray:
     return samples.std(0, ddof=1) / np.sqrt(len(samples))
 
 
-def _samples(name: str, values: ArrayLike, fewest: int) -> NDArray:
+def _check_samples(name: str, values: ArrayLike, fewest: int) -> NDArray:
     values = np.asarray(values, dtype=float)
     if values.ndim == 0 or len(values) < fewest:
         raise ValueError(

@@ -73,14 +73,8 @@ def plans_of(config: Mapping[str, Any], models: ErrorModels) -> dict[str, Plan]:
             by_theory=not simulated or "carry_to" in case,
             within_accuracy="accuracy" in case,
         )
-        own = Plan(
-            settings=settings_of(name, config, models),
-            quantities=quantities,
-            pressures=tuple(sorted(case["pressures"])),
-            surface=case["surface"],
-            simulated=simulated,
-            owner=name,
-        )
+        settings, pressures = settings_of(name, config, models), tuple(sorted(case["pressures"]))
+        own = Plan(settings, quantities, pressures, case["surface"], simulated, name)
         owner = next((key for key, plan in plans.items() if shares(plan, own)), name)
         plans[name] = replace(own, owner=owner)
     return plans
@@ -99,9 +93,8 @@ def settings_of(name: str, config: Mapping[str, Any], models: ErrorModels) -> Se
         return replace(chosen, seeds=case.get("seeds", min(chosen.seeds, at_most)))
     chosen = preset(config["fidelities"][config["fidelity"]])
     seeds = case.get("seeds", config.get("seeds", chosen.seeds))
-    return replace(
-        chosen, seeds=seeds, coarse_seeds=0 if plain(case, config) else chosen.coarse_seeds
-    )
+    coarse = 0 if plain(case, config) else chosen.coarse_seeds
+    return replace(chosen, seeds=seeds, coarse_seeds=coarse)
 
 
 def plain(case: Mapping[str, Any], config: Mapping[str, Any]) -> bool:
@@ -111,12 +104,8 @@ def plain(case: Mapping[str, Any], config: Mapping[str, Any]) -> bool:
 
 def preset(fidelity: Mapping[str, Any]) -> Settings:
     """Return the settings of a preset of the configuration."""
-    return Settings(
-        fidelity["pixels_per_wavelength"],
-        fidelity["tolerance"],
-        fidelity["seeds"],
-        fidelity.get("coarse_seeds", FEWEST_COARSE),
-    )
+    chosen = (fidelity[key] for key in ("pixels_per_wavelength", "tolerance", "seeds"))
+    return Settings(*chosen, fidelity.get("coarse_seeds", FEWEST_COARSE))
 
 
 def cheapest_for(name: str, config: Mapping[str, Any], models: ErrorModels) -> Settings:

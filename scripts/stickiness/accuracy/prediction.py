@@ -120,9 +120,8 @@ def covering_factor(problem: Problem, settings: Settings, pressure: float, colum
     """
     if settings.seeds < 2:
         return math.nan
-    seeds = settings.seeds, settings.coarse_seeds
-    pixels = settings.pixels_per_wavelength
-    return float(covering_multiple(degrees_of_freedom(problem, pressure, column, pixels, *seeds)))
+    grid_and_seeds = settings.pixels_per_wavelength, settings.seeds, settings.coarse_seeds
+    return float(covering_multiple(degrees_of_freedom(problem, pressure, column, *grid_and_seeds)))
 
 
 def degrees_of_freedom(

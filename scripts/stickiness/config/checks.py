@@ -71,7 +71,7 @@ def load(path: str | Path) -> dict[str, Any]:
     return content
 
 
-def checked(
+def check_all(
     config: Mapping[str, Any], schemas: str | Path, name: str = "config/config.yaml"
 ) -> tuple[dict[str, Any], dict[str, Any]]:
     """Check the whole configuration and the files it names, without changing any of it.
@@ -120,7 +120,7 @@ def check_config(config: Mapping[str, Any], name: str = "config/config.yaml") ->
 
 def check_units(content: Mapping[str, Any], name: str) -> None:
     """Check that every value that needs a unit has one of the right dimension and is positive."""
-    for key, value, unit in _with_units(content, ""):
+    for key, value, unit in _find_units(content, ""):
         try:
             magnitude = si(value, unit)
         except ValueError as error:
@@ -146,7 +146,7 @@ def check_surfaces(surfaces: Mapping[str, Any], name: str = "config/surfaces.yam
             raise ConfigError(f"{name}: surfaces.{key}.{problem}")
 
 
-def _with_units(node: Any, key: str) -> Iterator[tuple[str, Any, str]]:
+def _find_units(node: Any, key: str) -> Iterator[tuple[str, Any, str]]:
     if isinstance(node, Mapping):
         for name, value in node.items():
             below = f"{key}.{name}" if key else name
@@ -155,4 +155,4 @@ def _with_units(node: Any, key: str) -> Iterator[tuple[str, Any, str]]:
                 for index, item in values:
                     yield below if index is None else f"{below}[{index}]", item, _UNITS[name]
             else:
-                yield from _with_units(value, below)
+                yield from _find_units(value, below)

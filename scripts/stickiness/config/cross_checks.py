@@ -27,16 +27,12 @@ def config_problems(config: Mapping[str, Any]) -> Iterator[str]:
     if fidelity not in config["fidelities"]:
         yield f"fidelity = {fidelity!r} is unknown; choose one of {', '.join(config['fidelities'])}"
     yield from grid_problems("gaps", config["gaps"])
-    yield from _paper_problems(config)
-    yield from _comparison_problems(config)
-    yield from _criteria_problems(config)
-    yield from _theory_problems(config["theory"]["table"])
-    yield from _case_problems(config)
-    yield from _window_problems(config["a_v"]["windows"], config["gaps"])
-    yield from _adhesion_table_problems(config)
-    yield from _loop_problems(config)
-    yield from _preset_problems(config)
-    yield from _whole_problems(config)
+    for find in (
+        *(_paper_problems, _comparison_problems, _criteria_problems, _theory_problems),
+        *(_case_problems, _window_problems, _adhesion_table_problems, _loop_problems),
+        *(_preset_problems, _whole_problems),
+    ):
+        yield from find(config)
 
 
 def _paper_problems(config: Mapping[str, Any]) -> Iterator[str]:
@@ -48,7 +44,8 @@ def _paper_problems(config: Mapping[str, Any]) -> Iterator[str]:
                 yield f"{table}: {name!r} is missing; the paper's figures and claims need it"
 
 
-def _theory_problems(table: Mapping[str, Any]) -> Iterator[str]:
+def _theory_problems(config: Mapping[str, Any]) -> Iterator[str]:
+    table = config["theory"]["table"]
     for key in ("hurst", "magnification", "pressure"):
         if sorted(table[key]) != table[key]:
             yield f"theory.table.{key} = {table[key]!r} must be in increasing order"
@@ -82,8 +79,9 @@ def _case_problems(config: Mapping[str, Any]) -> Iterator[str]:
         )
 
 
-def _window_problems(windows: list[list[float]], gaps: Mapping[str, float]) -> Iterator[str]:
-    for key, window in enumerate(windows):
+def _window_problems(config: Mapping[str, Any]) -> Iterator[str]:
+    gaps = config["gaps"]
+    for key, window in enumerate(config["a_v"]["windows"]):
         if not window[0] < window[1]:
             yield f"a_v.windows[{key}] = {window!r} must be [low, high] with low < high"
         if window[0] < gaps["minimum"] or window[1] > gaps["maximum"]:
@@ -215,9 +213,7 @@ def _preset_problems(config: Mapping[str, Any]) -> Iterator[str]:
                 yield unknown("tradeoff.presets.accuracy", name, table)
 
 
-def _model_problems(
-    key: str, case: Mapping[str, Any], surfaces: Mapping[str, Any]
-) -> Iterator[str]:
+def _model_problems(key: str, case: Mapping[str, Any], surfaces: Mapping) -> Iterator[str]:
     """Keys of a case must suit its model; `carry_to` must be above what is simulated."""
     if case.get("model") == "theory":
         for unused in ("accuracy", "at_most", "seeds", "sampling", "maps"):

@@ -10,5 +10,7 @@
 - `errata`: errors of the manuscript, as data that recompute themselves
 """
 
+from stickiness.criteria import formulas
 from stickiness.criteria.formulas import *  # noqa: F403
-from stickiness.criteria.formulas import __all__ as __all__
+
+__all__ = [*formulas.__all__]

@@ -227,17 +227,11 @@ class AvTable:
         simulation = np.hypot(self._ratio_error(where), trend * self._unseen(zeta))
         simulation = np.hypot(simulation, self._drift(eps))
         others = (NORMAL_90 * simulation) ** 2 + self._quadrature**2
-        parts = {
-            "value": value,
-            "low": value * np.exp(-np.sqrt(below**2 + others)),
-            "high": value * np.exp(np.sqrt(above**2 + others)),
-            "theory_below": below,
-            "theory_above": above,
-            "simulation": simulation,
-            "quadrature": np.full(h.size, self._quadrature),
-            "edge": edge,
-        }
-        return AvEstimate(**{name: part.reshape(shape)[()] for name, part in parts.items()})
+        low = value * np.exp(-np.sqrt(below**2 + others))
+        high = value * np.exp(np.sqrt(above**2 + others))
+        quadrature = np.full(h.size, self._quadrature)
+        parts = value, low, high, below, above, simulation, quadrature, edge
+        return AvEstimate(*(part.reshape(shape)[()] for part in parts))
 
     def _drift(self, eps):
         """Standard error that extrapolation adds below the simulated ranges, a step a decade.

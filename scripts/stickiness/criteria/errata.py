@@ -79,9 +79,8 @@ def _perimeter_units() -> dict[str, float]:
 
 
 def _kilometres() -> dict[str, float]:
-    return {
-        "h_over_range_limit_1e-12": formulas.h_rms_limit(1e-12, 0.05, 1.0, formulas.PRINTED_A_V)
-    }
+    limit = formulas.h_rms_limit(1e-12, 0.05, 1.0, formulas.PRINTED_A_V)
+    return {"h_over_range_limit_1e-12": limit}
 
 
 def _pastewka_robbins_numbers() -> dict[str, float]:

@@ -47,6 +47,12 @@ class MeasuredSpectrum:
     anisotropy: float  # amplitude of the dependence on direction; NaN for profiles
     fit: SelfAffineFit  # between `q_min` and the cutoff
 
+    @classmethod
+    def within_fit(cls, rings, area, narrow, cutoff, lowest, anisotropy, fit) -> MeasuredSpectrum:
+        """Spectrum whose limits are those within which `fit` found data."""
+        limits = fit.q_min, replace(cutoff, q=fit.q_max)
+        return cls(rings, area, narrow, *limits, lowest, anisotropy, fit)
+
 
 @dataclass(frozen=True)
 class Limits:
@@ -93,16 +99,9 @@ def analyse(
     cutoff = _cutoff(limits, narrow, q_min, plane.q_nyquist, heights.heights, steps)
     fit = fit_rings(narrow, q_min, cutoff.q)
     rings = radial_average(plane, bins_per_decade=RINGS)
-    return MeasuredSpectrum(
-        rings=rings,
-        area=rings.modes * plane.dqx * plane.dqy,
-        narrow=narrow,
-        q_min=fit.q_min,
-        cutoff=replace(cutoff, q=fit.q_max),
-        lowest=min(plane.dqx, plane.dqy),
-        anisotropy=plane.anisotropy(fit.q_min, fit.q_max)[0],
-        fit=fit,
-    )
+    area, lowest = rings.modes * plane.dqx * plane.dqy, min(plane.dqx, plane.dqy)
+    anisotropy = plane.anisotropy(fit.q_min, fit.q_max)[0]
+    return MeasuredSpectrum.within_fit(rings, area, narrow, cutoff, lowest, anisotropy, fit)
 
 
 def _analyse_profile(heights: Profile, taper: Taper, limits: Limits) -> MeasuredSpectrum:
@@ -117,16 +116,8 @@ def _analyse_profile(heights: Profile, taper: Taper, limits: Limits) -> Measured
     narrow, fit = profiles.isotropic(line, q_min, cutoff.q)
     q, mean, dof = merge_rings(narrow, narrow.psd, RINGS)
     rings = RadialPSD(q, mean, mean / np.sqrt(dof), np.rint(dof).astype(int), dof)
-    return MeasuredSpectrum(
-        rings=rings,
-        area=ring_areas(q, lowest),
-        narrow=narrow,
-        q_min=fit.q_min,
-        cutoff=replace(cutoff, q=fit.q_max),
-        lowest=lowest,
-        anisotropy=np.nan,
-        fit=fit,
-    )
+    area = ring_areas(q, lowest)
+    return MeasuredSpectrum.within_fit(rings, area, narrow, cutoff, lowest, np.nan, fit)
 
 
 def ring_areas(q: NDArray, lowest: float) -> NDArray:

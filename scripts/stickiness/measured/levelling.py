@@ -64,7 +64,7 @@ def without_rims(heights: NDArray, rim: Rim = "detect") -> tuple[NDArray, int]:
     measured and are dropped.
     """
     hole = ~np.isfinite(heights)
-    wide = _widened(hole, outstanding_rim(heights) if rim == "detect" else rim)
+    wide = _widen(hole, outstanding_rim(heights) if rim == "detect" else rim)
     return np.where(wide, np.nan, heights), int(np.count_nonzero(wide & ~hole))
 
 
@@ -79,7 +79,7 @@ def outstanding_rim(heights: NDArray) -> int:
     hole = ~np.isfinite(heights)
     for rim in range(LARGEST_RIM if hole.any() else 0, 0, -1):
         # 0 within, 1 the last of the rim, 2 beyond.
-        zone = 2 - _widened(hole, rim - 1).astype(int) - _widened(hole, rim)
+        zone = 2 - _widen(hole, rim - 1).astype(int) - _widen(hole, rim)
         to_rim, beyond = [], []
         for axis in range(heights.ndim):
             step = np.diff(heights, axis=axis)
@@ -92,7 +92,7 @@ def outstanding_rim(heights: NDArray) -> int:
     return 0
 
 
-def _widened(hole: NDArray, rim: int) -> NDArray:
+def _widen(hole: NDArray, rim: int) -> NDArray:
     return ndimage.maximum_filter(hole, size=2 * rim + 1, mode="constant", cval=False)
 
 

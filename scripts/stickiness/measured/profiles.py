@@ -123,7 +123,7 @@ def isotropic(
     says that the spectrum falls more slowly than that of any isotropic surface: noise.
     """
     profile = spectrum.rings(FINE)
-    rings = _scaled(profile, 1 / profile.q)
+    rings = _scale(profile, 1 / profile.q)
     fit = fit_rings(rings, q_min, q_max, rolloff)
     for _ in range(_ROUNDS):
         before = fit
@@ -132,7 +132,7 @@ def isotropic(
                 f"the profile's spectrum falls as q^{-2 * fit.hurst - 1:.2f}: too slowly for a "
                 "surface, rather noise; lower the highest wave number of the fit"
             )
-        rings = _scaled(profile, abel_ratio(profile.q, fit.hurst, fit.q_rolloff))
+        rings = _scale(profile, abel_ratio(profile.q, fit.hurst, fit.q_rolloff))
         # The model stays once it is chosen: else a plateau might come and go for ever.
         fit = fit_rings(rings, q_min, q_max, fit.q_rolloff is not None)
         if abs(fit.hurst - before.hurst) < 1e-3 * fit.hurst_se:
@@ -140,5 +140,5 @@ def isotropic(
     return rings, fit
 
 
-def _scaled(rings: RadialPSD, ratio: NDArray) -> RadialPSD:
+def _scale(rings: RadialPSD, ratio: NDArray) -> RadialPSD:
     return replace(rings, psd=rings.psd * ratio, standard_error=rings.standard_error * ratio)

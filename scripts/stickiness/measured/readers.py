@@ -215,7 +215,7 @@ def _read_instrument(path: Path, fmt: str | None, channel: str | int | None) -> 
             f"{path}: instruments' formats need SurfaceTopography, which is not installed; "
             f"run {INSTALL}"
         )
-    reader = _guarded(path, lambda io: io.open_topography(str(path), format=fmt))
+    reader = _guard(path, lambda io: io.open_topography(str(path), format=fmt))
     info = _channel(reader, channel, path)
     source = f"{path}: {info.name}"
     if not _holds_heights(info):
@@ -224,7 +224,7 @@ def _read_instrument(path: Path, fmt: str | None, channel: str | int | None) -> 
     # If the file does not hold the size, the caller must give it; until then it is in pixels.
     known = info.physical_sizes is not None
     size = {} if known else {"physical_sizes": tuple(float(n) for n in info.nb_grid_pts)}
-    data = _guarded(path, lambda _: reader.topography(channel_index=info.index, **size))
+    data = _guard(path, lambda _: reader.topography(channel_index=info.index, **size))
     unit = data.unit
     scale = metres(f"1 {unit}", f"{source}: unit of length in the file") if known and unit else None
     # Points that could not be measured come masked.
@@ -246,7 +246,7 @@ def _holds_heights(channel) -> bool:
     return channel.is_height_channel and not isinstance(channel.unit, tuple)
 
 
-def _guarded(path: Path, call: Callable):
+def _guard(path: Path, call: Callable):
     """Call SurfaceTopography; whatever it raises becomes one line that names the file."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # of its own dependencies

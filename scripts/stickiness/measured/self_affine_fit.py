@@ -182,9 +182,7 @@ def fit_rings(
     scale = float(np.exp(np.average(np.log(rings.q), weights=rings.dof)))
     x = np.log(rings.q / scale)
     plain, plain_misfit = whittle.weighted_fit(whittle.fit_power_law, x, rings)
-    if rolloff is False:
-        return _result(rings, scale, plain, plain_misfit, np.nan)
-    room = whittle.rolloff_room(x, rings)
+    room = None if rolloff is False else whittle.rolloff_room(x, rings)
     if room is None:
         if rolloff:
             raise ValueError("rolloff=True needs a wider range of q: lower q_min or raise q_max")

@@ -57,7 +57,7 @@ def draw(
     rng = np.random.default_rng(seed)
     rings, top = spectrum.rings, spectrum.cutoff.q * (1 + 1e-9)
     levels = rings.psd * _relative(spectrum, count, rng, stitched)
-    law = _laws(spectrum, count, rng)
+    law = _draw_power_laws(spectrum, count, rng)
     moments = {}
     for name, order in ORDERS.items():
         # Beyond the cutoff slope, curvature and energy would be the instrument's.
@@ -104,7 +104,7 @@ def _relative(
     return np.exp(logs + normal * np.sqrt(own) - variance / 2)
 
 
-def _laws(spectrum: MeasuredSpectrum, count: int, rng: np.random.Generator) -> NDArray:
+def _draw_power_laws(spectrum: MeasuredSpectrum, count: int, rng: np.random.Generator) -> NDArray:
     """Draws of (ln C at the cutoff, H) and, with a plateau, ln q_rolloff: (count, 2 or 3)."""
     fit = spectrum.fit
     centre = [np.log(fit.c0), fit.hurst] + ([np.log(fit.q_rolloff)] if fit.q_rolloff else [])
@@ -115,11 +115,8 @@ def _laws(spectrum: MeasuredSpectrum, count: int, rng: np.random.Generator) -> N
 
 def _beyond(q: float, q_end: float, law: NDArray, order: float) -> NDArray:
     """2 pi times the integral of q^(1 + order) C from `q` to `q_end` under every law drawn."""
-    return np.array(
-        [
-            PowerLawSegments([q, q_end], [np.exp(level)], [-2 * (hurst + 1)]).variance_below(
-                q_end, order
-            )
-            for level, hurst in law[:, :2]
-        ]
+    drawn = (
+        PowerLawSegments([q, q_end], [np.exp(level)], [-2 * (hurst + 1)])
+        for level, hurst in law[:, :2]
     )
+    return np.array([segments.variance_below(q_end, order) for segments in drawn])

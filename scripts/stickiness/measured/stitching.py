@@ -52,7 +52,7 @@ def stitch(measurements: Sequence[MeasuredSpectrum]) -> Stitched:
     broadest = min(measurements, key=lambda m: m.lowest)
     q_low = broadest.lowest
     logs, variances, q, present = _on_common_rings(measurements, broadest, q_low)
-    tau2 = _between(logs, variances)
+    tau2 = _variance_between(logs, variances)
     mean, error2 = _average(logs, variances, tau2)
     rings = _as_rings(q, mean, error2)
     top = max(measurements, key=lambda m: m.cutoff.q)
@@ -60,24 +60,14 @@ def stitch(measurements: Sequence[MeasuredSpectrum]) -> Stitched:
     fit = fit_rings(rings, q_min, top.cutoff.q)
     tau = float(np.sqrt(tau2)) if np.isfinite(tau2) else np.nan
     if tau > 0:
-        fit = _with_offsets(fit, logs, variances, tau, q, (q_min, top.cutoff.q))
-    overlap = present.sum(0) > 1
-    offsets = np.array(
-        [
-            np.mean((row - mean)[overlap & here]) if np.any(overlap & here) else np.nan
-            for row, here in zip(logs, present, strict=True)
-        ]
-    )
-    whole = MeasuredSpectrum(
-        rings=rings,
-        area=ring_areas(rings.q, q_low),
-        narrow=rings,
-        q_min=fit.q_min,
-        cutoff=replace(top.cutoff, q=fit.q_max),
-        lowest=q_low,
-        anisotropy=float(np.fmax.reduce([m.anisotropy for m in measurements])),
-        fit=fit,
-    )
+        fit = _add_offsets(fit, logs, variances, tau, q, (q_min, top.cutoff.q))
+    both = present & (present.sum(0) > 1)
+    offsets = np.full(len(logs), np.nan)
+    for k in np.flatnonzero(both.any(1)):
+        offsets[k] = np.mean((logs[k] - mean)[both[k]])
+    anisotropy = float(np.fmax.reduce([m.anisotropy for m in measurements]))
+    area = ring_areas(rings.q, q_low)
+    whole = MeasuredSpectrum.within_fit(rings, area, rings, top.cutoff, q_low, anisotropy, fit)
     levels = np.exp(logs + special.digamma(rings.dof) - np.log(rings.dof))
     return Stitched(whole, levels, offsets, _shares(variances, tau2), tau)
 
@@ -124,7 +114,7 @@ def _shares(variances: NDArray, tau2: float) -> NDArray:
     return weight / weight.sum(axis=0)
 
 
-def _between(logs: NDArray, variances: NDArray) -> float:
+def _variance_between(logs: NDArray, variances: NDArray) -> float:
     """Variance between measurements, from the mean offsets of all pairs that overlap.
 
     An offset smaller than its sampling error counts as that error.
@@ -156,7 +146,7 @@ def _inverse_trigamma(value: NDArray) -> NDArray:
     return x
 
 
-def _with_offsets(
+def _add_offsets(
     fit: SelfAffineFit,
     logs: NDArray,
     variances: NDArray,

@@ -28,7 +28,7 @@ def folder(tmp_path, monkeypatch):
 
 
 def check():
-    return checks.checked(checks.load(CONFIG), "config/schemas")
+    return checks.check_all(checks.load(CONFIG), "config/schemas")
 
 
 def changed(path, *keys, value):
@@ -333,7 +333,7 @@ def test_a_key_of_an_earlier_version_gets_one_line_with_what_to_do(tmp_path, key
 def test_the_check_changes_nothing(folder):
     given = checks.load(CONFIG)
     before = copy.deepcopy(given)
-    checks.checked(given, "config/schemas")
+    checks.check_all(given, "config/schemas")
     assert given == before
 
 

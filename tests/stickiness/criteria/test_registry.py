@@ -94,6 +94,7 @@ def test_an_entry_is_all_that_a_new_criterion_needs(made_up, road, judged):
     assert "Made & Up" in [row["criterion"] for row in listed]
 
 
+@pytest.mark.slow
 def test_a_new_criterion_is_on_figure_9(made_up, judged):
     table = SimpleNamespace(
         a_v_at=lambda hurst, load, reach, zeta: SimpleNamespace(

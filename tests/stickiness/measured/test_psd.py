@@ -259,6 +259,7 @@ def test_least_squares_on_the_logarithm_would_be_biased_and_the_fit_is_not():
     assert np.mean(naive) < -4 * np.std(naive) / np.sqrt(60)
 
 
+@pytest.mark.slow
 def test_rolloff_is_found_with_its_error():
     q_r, found = TAU * 12, []
     for seed in range(12):
