@@ -26,6 +26,8 @@ def ledger_inputs():
         "RESULTS": "out",
         "REAL_SURFACES": {"steel": {"kind": "self_affine"}, "terrain": {"kind": "measured"}},
         "seeds_of": lambda case: [1, 2],
+        "a_v_of_simulation": lambda case: f"out/fits/a_v/ensembles/{case}.nc",
+        "surface_of": lambda case: f"out/surfaces/{case}/seed{{seed}}.nc",
     }
     exec(text[start : text.index("\n\n\n", start)], names)
     return names["ledger_inputs"]()

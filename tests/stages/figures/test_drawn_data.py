@@ -407,6 +407,7 @@ def test_figure_5b_has_the_angles_in_degrees(ax, criterion_map):
     assert ax.get_title() == "$a_V$ = 3"
 
 
+@pytest.mark.slow
 def test_the_same_data_give_the_same_files(tmp_path, criterion_map):
     path = tmp_path / "map.nc"
     described = {name: ("1", name) for name in criterion_map.variables}
