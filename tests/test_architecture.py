@@ -143,9 +143,9 @@ def test_a_stage_has_one_script_for_each_of_its_rules(stage):
     assert path.exists(), f"scripts/{stage}/ has no rules/{stage}.smk"
     names, run = rules_of(path)
     figures = {s for s in scripts if s.startswith("plot_fig")}  # one rule may draw all of them
-    if any("{wildcards.figure}" in script for script in run):
+    if any("{params.figure}" in script for script in run):
         assert figures, "the figure rule has no scripts"
-        scripts, run = scripts - figures, [s for s in run if "{wildcards.figure}" not in s]
+        scripts, run = scripts - figures, [s for s in run if "{params.figure}" not in s]
         names = [name for name in names if any(name == Path(s).stem for s in run)]
     foreign = [script for script in run if Path(script).parts[0] != stage]
     assert not foreign, f"rules/{stage}.smk runs scripts of other stages: {foreign}"
