@@ -33,6 +33,7 @@ def ledger_inputs():
     return names["ledger_inputs"]()
 
 
+@pytest.mark.slow
 def test_every_claim_runs_on_the_files_it_names():
     """A claim is given these files alone, so that it cannot read another."""
     files = files_by_name()

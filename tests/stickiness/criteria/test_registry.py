@@ -127,6 +127,7 @@ def test_an_entry_that_lacks_something_is_refused(change, message):
         Criterion(**(entry | change))
 
 
+@pytest.mark.slow
 def test_every_threshold_is_where_the_margin_is_one(judged, road):
     """Also for margins that are no power of the adhesion length."""
     a_v = SurfaceAv(np.array([1e-9, 1.0]), np.array([[4.0, 4.0]]), 0, 1.0, 0.1)
