@@ -1,4 +1,4 @@
-# The claims of the paper, each recomputed and judged.
+# The claims of the paper, each recomputed and given a verdict.
 
 
 def ledger_inputs():

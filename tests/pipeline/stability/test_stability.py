@@ -135,22 +135,3 @@ def test_a_wrong_model_is_detected(monkeypatch, component, place, name):
     component = COMPONENTS[component]
     found = [probe_point(component, point).outcome for point in component.points()[:12]]
     assert FAILED in found
-
-
-def test_map_is_stored_and_drawn(tmp_path):
-    files = []
-    for name, axes in (("spectrum", ("hurst", "unit")), ("sampling", ("hurst",))):
-        component = Component(lambda hurst, **_: returning(hurst)(), axes)
-        data = probe_stability.map_validity(component)
-        assert np.all((data.outcome == RIGHT) == (data.hurst <= 1))
-        files.append(tmp_path / f"{name}.nc")
-        parameters = {"outcomes": list(components.OUTCOMES)}
-        datasets.write(data, files[-1], title="map", parameters=parameters)
-    outputs = [str(tmp_path / f"map.{suffix}") for suffix in ("png", "pdf")]
-    plot_stability.main(SimpleNamespace(input=SimpleNamespace(components=files), output=outputs))
-    assert matplotlib.image.imread(outputs[0])[..., :3].std() > 0.05
-
-
-def test_axes_have_labels():
-    assert plot_stability.LABELS.keys() == components.AXES.keys()
-    assert len(plot_stability.OUTCOMES) == len(components.OUTCOMES)

@@ -18,6 +18,7 @@ ASKED = {
 }
 
 
+@pytest.mark.slow
 def test_which_criteria_know_the_finest_waves():
     data = compare_criteria.compare(ASKED, 0.065, ConstantAv(), 3.0).against_magnification
     change = data.isel(magnification=-1) / data.isel(magnification=0)

@@ -167,6 +167,7 @@ def test_both_ends_enter_a_v_where_they_differ_in_shape(single, folder):
     assert np.all(rough[:2, 0] < 0.99 * smooth[:2, 0])
 
 
+@pytest.mark.slow
 def test_profile_goes_all_the_way(folder):
     s = SelfAffine(hurst=0.8, q0=1.0, q1=200.0, h_rms=300.0)
     h = surface.synthesise(s, n=512, length=2 * np.pi, seed=8)[:, 9]
@@ -182,6 +183,7 @@ def test_profile_goes_all_the_way(folder):
     assert "line profile" in page_of(found, folder)
 
 
+@pytest.mark.slow
 def test_page_shows_verdicts_errors_and_reasons(single, folder):
     page = page_of(single, folder)
     text = re.sub(r"<(style|script)>.*?</\1>|<[^>]+>", " ", page, flags=re.S)
@@ -198,6 +200,7 @@ def test_page_shows_verdicts_errors_and_reasons(single, folder):
     assert "not sticky" in text
 
 
+@pytest.mark.slow
 def test_page_fetches_nothing(single, folder):
     page = page_of(single, folder)
     assert "<script src" not in page
@@ -206,6 +209,7 @@ def test_page_fetches_nothing(single, folder):
         assert address in files or address.startswith(("#", "data:", "https://doi.org/10."))
 
 
+@pytest.mark.slow
 def test_page_of_a_stitched_surface_names_every_file(stitched, folder):
     page = page_of(stitched, folder)
     assert "b.txt" in page
@@ -213,6 +217,7 @@ def test_page_of_a_stitched_surface_names_every_file(stitched, folder):
     assert "factor between measurements in C" in page
 
 
+@pytest.mark.slow
 def test_page_of_a_parametric_surface(folder):
     asked = {
         "kind": "self_affine",
