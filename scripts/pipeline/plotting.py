@@ -63,7 +63,7 @@ SYMBOLS = {
 
 logging.getLogger("fontTools").setLevel(logging.ERROR)  # else pages about fonts in the log
 
-_SETTINGS = {
+SETTINGS = {
     "font.size": 8.5,
     "axes.titlesize": 8.5,
     "axes.labelsize": 8.5,
@@ -99,7 +99,7 @@ def make_panels(
     rows: str | Sequence[Sequence[str]], height: float, **grid: Any
 ) -> tuple[Figure, dict[str, Axes]]:
     """Figure of `height` inches with lettered panels laid out as in ``subplot_mosaic("AB;CC")``."""
-    mpl.rcParams.update(_SETTINGS)
+    mpl.rcParams.update(SETTINGS)
     return plt.subplot_mosaic(rows, figsize=(WIDTH, height), **grid)
 
 

@@ -188,7 +188,7 @@ def test_fits_paper(page, scratch):
 def test_letters_of_figures_are_legible(page, scratch, width, change, least):
     found, _ = probed(page, scratch, width, change)
     letters = ("font.size", "titlesize", "labelsize", "fontsize")
-    smallest = min(size for name, size in plotting._SETTINGS.items() if name.endswith(letters))
+    smallest = min(size for name, size in plotting.SETTINGS.items() if name.endswith(letters))
     resolution = pixels_per_inch(page)
     assert found["images"]
     for complete, natural, shown in found["images"]:
