@@ -17,11 +17,13 @@ reproduce: $(VENV)/.run  ## the full reproduction, at standard fidelity
 draft: $(VENV)/.run  ## everything, quick and rough
 	$(SNAKEMAKE) --config fidelity=draft
 
+PYTEST := OMP_NUM_THREADS=1 $(BIN)/python -m pytest -n $(CORES) --dist loadgroup
+
 test: $(VENV)/.dev $(VENV)/.peers  ## all tests
-	$(BIN)/python -m pytest
+	$(PYTEST)
 
 test-quick: $(VENV)/.dev  ## the tests of about a minute: no workflow, no other codes, none that is slow
-	OMP_NUM_THREADS=1 $(BIN)/python -m pytest -m "not slow and not workflow and not peers"
+	$(PYTEST) -m "not slow and not workflow and not peers"
 
 lint: $(VENV)/.dev  ## format and lint, nothing changed
 	$(BIN)/ruff format --check .

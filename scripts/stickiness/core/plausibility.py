@@ -16,7 +16,7 @@ _MOST_HEIGHT, _LEAST_HEIGHT = 100.0, 1e-9  # rms height over the side of the cel
 # Lowest and highest values of real solids and surfaces in SI units, with room to spare.
 _SI_LIMITS = {
     "modulus": (10.0, 1e13, "give it in Pa"),
-    "work_of_adhesion": (1e-6, 100.0, "give it in J/m^2"),
+    "work_of_adhesion": (1e-6, 10.0, "give it in J/m^2"),
     "range": (1e-11, 1e-5, "give it in m"),
     "rms_slope": (1e-7, 20.0, "give heights and lengths both in m"),
 }

@@ -46,6 +46,8 @@ class StickinessVerdict:
         a_V of the pair, and its limits.
     margins : dict of float
         Margin by every criterion of `registry.CRITERIA`; sticky above 1.
+    pair : Pair
+        What was asked of, in SI units.
     """
 
     word: str
@@ -58,6 +60,7 @@ class StickinessVerdict:
     a_v: float
     a_v_limits: tuple[float, float]
     margins: dict[str, float]
+    pair: Pair
 
     def __str__(self) -> str:
         low, high = self.margin_limits
@@ -68,12 +71,19 @@ class StickinessVerdict:
             for name, margin in self.margins.items()
             if name != EDGES
         )
+        pair = self.pair
+        asked = (
+            f"asked: E* = {pair.modulus:.3g} Pa, work of adhesion {pair.work_of_adhesion:.3g} J/m^2, "
+            f"range {pair.range:.3g} m, h_rms = {pair.h_rms:.3g} m, "
+            f"longest wave {2 * np.pi / pair.q0:.3g} m"
+        )
         return (
             f"{self.word}: margin {self.margin:.3g} ({low:.3g} to {high:.3g}), sticky above 1\n"
             f"sticks below E* = {modulus[0]:.3g} MPa ({modulus[1]:.3g} to {modulus[2]:.3g} MPa)\n"
             f"edges: {self.regime}{beyond}\n"
             f"a_V = {self.a_v:.3g} ({self.a_v_limits[0]:.3g} to {self.a_v_limits[1]:.3g})\n"
-            f"margins by other criteria: {others}"
+            f"margins by other criteria: {others}\n"
+            f"{asked}"
         )
 
 
@@ -180,6 +190,7 @@ def judge_pair(pair: Pair) -> StickinessVerdict:
         a_v=float(pair.a_v),
         a_v_limits=(float(pair.a_v_low), float(pair.a_v_high)),
         margins=margins,
+        pair=pair,
     )
 
 
@@ -195,6 +206,10 @@ def describe_surface(surface: Spectrum | ArrayLike, length: Any = None) -> dict[
         heights = np.asarray(surface, dtype=float)
         if heights.ndim != 2:
             raise ValueError(f"heights must be an (nx, ny) array, got the shape {heights.shape}")
+        if np.ndim(length) == 0 and heights.shape[0] != heights.shape[1]:
+            raise ValueError(
+                f"length must be both sides of heights of the shape {heights.shape}, got {length!r}"
+            )
         sides = np.broadcast_to(positive(length=length)[0], 2)
         dx, dy = (float(side) / n for side, n in zip(sides, heights.shape, strict=True))
         measured = instrument_spectrum.analyse(

@@ -44,13 +44,18 @@ def test_verdict_depends_within_the_limits_of_the_threshold():
     ("change", "message"),
     [
         ({"modulus": 0.7}, r"modulus = 0\.7 .* give it in Pa"),  # MPa
-        ({"work_of_adhesion": 1e3}, r"work_of_adhesion = 1e\+03 .* J/m\^2"),
+        ({"work_of_adhesion": 50}, r"work_of_adhesion = 50 .* J/m\^2"),  # mJ/m^2
         ({"range": 0.3}, r"range = 0\.3 .* give it in m"),  # nm
     ],
 )
 def test_values_in_other_units_are_warned_of(change, message):
     with pytest.warns(PlausibilityWarning, match=message):
         verdict(ROUGH, **GEL | change)
+
+
+def test_sides_of_oblong_heights_must_be_given():
+    with pytest.raises(ValueError, match=r"both sides of heights of the shape \(8, 16\)"):
+        verdict(np.ones((8, 16)), length=1e-3, **GEL)
 
 
 def test_heights_in_another_unit_than_the_length_are_warned_of():
