@@ -73,8 +73,8 @@ class StickinessVerdict:
         )
         pair = self.pair
         asked = (
-            f"asked: E* = {pair.modulus:.3g} Pa, work of adhesion {pair.work_of_adhesion:.3g} J/m^2, "
-            f"range {pair.range:.3g} m, h_rms = {pair.h_rms:.3g} m, "
+            f"asked: E* = {pair.modulus:.3g} Pa, work of adhesion "
+            f"{pair.work_of_adhesion:.3g} J/m^2, range {pair.range:.3g} m, h_rms = {pair.h_rms:.3g} m, "
             f"longest wave {2 * np.pi / pair.q0:.3g} m"
         )
         return (
