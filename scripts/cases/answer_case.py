@@ -32,7 +32,7 @@ from stickiness.surfaces.synthesis import lattice_spectrum
 DIMS = ("column", "pressure")
 RANGES = {"minimum": 1e-4, "maximum": 10.0, "per_decade": 16}
 BY_SIMULATION = {
-    "discretisation": "left in the limit of fine grids, or as measured if that is less",
+    "discretisation": "as in the ensemble's file, or as measured if that is less",
     "solver": "by the tolerance, as measured",
     "sampling": "Student's t of the standard error",
     "model": SIMULATED["model"].text,

@@ -93,6 +93,8 @@ def add_statistics(realisations, others, averaged=AVERAGED):
     dataset["edge_gap_mean"] = mean(realisations.edge_gap)
     ruled = {name: quantity for name, quantity in averaged.items() if name not in MEASURED}
     limits = grid_limits.estimate_limits(realisations, ruled)
+    for name in averaged.keys() & MEASURED.keys():
+        limits[name] = grid_limits.estimate_first_order(averaged[name](realisations))
     for name, quantity in averaged.items():
         more = coarse(dataset, quantity)
         dataset = add_errors(dataset, name, quantity(realisations), more, limit=limits.get(name))
@@ -105,7 +107,7 @@ def add_budgets(dataset, made, laws, averaged=AVERAGED):
     """The means with their errors by source."""
     simulation = Simulation.of(read_models(laws), made)
     for name in averaged:
-        left = SUFFIXES["discretisation_error"] if name in MEASURED else grid_limits.LEFT
+        left = grid_limits.FIRST_ORDER if name in MEASURED else grid_limits.LEFT
         parts = simulation.parts(name, *(dataset[f"{name}_{kind}"] for kind in SUFFIXES), left)
         dataset = with_budget(dataset, f"{name}_mean", **parts)
     return dataset
@@ -117,8 +119,8 @@ def annotate(dataset, averaged=AVERAGED):
         "edge_gap_mean": ("1", "gap next to the contact over h_rms: smallest range resolved"),
     }
     for name in averaged:
-        kind = {} if name in MEASURED else {"discretisation": grid_limits.DIRECT}
-        texts |= describe_errors(name, VARIABLES[name][1], **kind)
+        kind = grid_limits.FIRST_ORDER if name in MEASURED else grid_limits.DIRECT
+        texts |= describe_errors(name, VARIABLES[name][1], discretisation=kind)
     extrapolated = f"{VARIABLES['attractive_area'][1]}: of the mean, extrapolated from below the"
     texts[f"attractive_area_{EXTRAPOLATION}"] = ("1", f"{extrapolated} edge gap")
     return conventions.annotate(dataset, **texts)

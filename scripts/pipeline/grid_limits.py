@@ -14,6 +14,7 @@ from stickiness.contact import grid_limit
 
 DIRECT = "error left in the limit of fine grids, covers 90 %"
 LEFT = "left in the limit of fine grids"
+FIRST_ORDER = "twice the change from half the resolution: of first order in the pixel"
 INHERITED = "from the errors left in areas in the limit of fine grids"
 EXTRAPOLATION = "extrapolation"  # ending of the name of what a mean in the file holds of it
 _STEP = 1e-4  # share of a shift or an error in finite differences: first order is meant
@@ -49,6 +50,16 @@ def estimate_limits(
         )
         limits[name] = Limit(found.value - values.isel(resolution=-1).mean("seed"), found.error)
     return limits
+
+
+def estimate_first_order(values: xr.DataArray) -> Limit:
+    """Limit of the mean of a quantity that counts whole pixels at the edge: no shift, a wide error.
+
+    What a grid leaves out is then as much as its last change. Twice that covers single surfaces,
+    whose changes scatter.
+    """
+    fine, half = (values.isel(resolution=k, drop=True).mean("seed") for k in (-1, -2))
+    return Limit(xr.zeros_like(fine), 2 * abs(fine - half))
 
 
 def find_halved(realisations: xr.Dataset) -> list[int]:

@@ -8,8 +8,7 @@ from numpy.typing import ArrayLike
 
 from pipeline.conventions import VARIANT
 from stickiness.core import datasets
-from stickiness.core.budget import Part, absent
-from stickiness.core.statistics import COVERS
+from stickiness.core.budget import Part, absent, part
 from stickiness.criteria.a_v_table import SurfaceAv
 
 
@@ -27,7 +26,7 @@ class MeasuredAv:
     simulated: float  # a_V of the case itself
     over_lattice: float  # ratio of simulation to theory on the lattice spectrum of the case
     magnification: float  # of the broadest spectrum
-    sampling: float  # of the mean over seeds, covers 90 %; 0 for one seed, whose error is unknown
+    sampling: float  # of the mean over seeds, covers 90 %, by Student's t
     discretisation: float  # of the limit of fine grids
     fit_interval: float  # half the spread between intervals, as the 2/3 law holds only roughly
     bandwidth: float  # change over the last two decades of magnification, in which a_V still grows
@@ -71,7 +70,7 @@ class MeasuredAv:
         )
 
 
-SIMULATED = ("a_v_mean", "a_v_standard_error", "a_v_discretisation_error")
+SIMULATED = ("a_v_mean", "a_v_mean_error")
 IN_A_V = absent("in a_V's error, counted with the model")
 CLOSED = {
     "discretisation": IN_A_V,
@@ -105,11 +104,14 @@ def measure_a_v(inputs, pressure):
             f"{', '.join(f'{p:g}' for p in fit.pressure.values)}"
         )
     fit = fit[list(SIMULATED)].sel(pressure=pressure, method="nearest")
-    simulated, deviation, grid = (fit[name].values for name in SIMULATED)
+    simulated = fit.a_v_mean.values
     if not np.all(simulated > 0):
         raise ValueError(f"{inputs.a_v}: a_V at pressure {pressure:g} is {simulated}, not positive")
-    # A single seed or grid has no such error, which is NaN then.
-    deviation, grid = np.nan_to_num(deviation), np.nan_to_num(grid)
+    sampling, grid = (part(fit, "a_v_mean", name).values for name in ("sampling", "discretisation"))
+    if not np.isfinite([sampling[0], grid[0]]).all():
+        raise ValueError(
+            f"{inputs.a_v}: the error of a_V is not known; give its case two seeds or more"
+        )
     known = datasets.read(inputs.lattice, ["a_v"])
     lattice = known.a_v.sel(variant=VARIANT).sel(pressure=pressure, method="nearest").values
     theory = datasets.read(inputs.theory, ["a_v"]).a_v.sel(variant=VARIANT).isel(load=0)
@@ -124,7 +126,7 @@ def measure_a_v(inputs, pressure):
         simulated=float(simulated[0]),
         magnification=broadest,
         over_lattice=float(simulated[0] / lattice[0]),
-        sampling=COVERS * float(deviation[0]) * float(ratio[0]),
+        sampling=float(sampling[0]) * float(ratio[0]),
         discretisation=float(grid[0]) * float(ratio[0]),
         fit_interval=float(np.ptp(extrapolated)) / 2,
         bandwidth=float(extrapolated[0]) * abs(growth),

@@ -111,6 +111,28 @@ def cheapest(
     )
 
 
+def allow_for_few_seeds(problem: Problem, chosen: Settings, accuracy: float) -> Settings:
+    """Return settings with as many more fine seeds as Student's t asks for.
+
+    `cheapest` counts with the true scatter. The error that a few seeds will state is larger, since
+    their own standard error is what they know.
+    """
+    for n in (n for n in SEEDS if n >= max(chosen.seeds, 2)):
+        settings = Settings(chosen.pixels_per_wavelength, chosen.tolerance, n, chosen.coarse_seeds)
+        errors = []
+        for at in problem.points:
+            fixed = fixed_errors(problem, *at, chosen.pixels_per_wavelength, chosen.tolerance)
+            variance = mean_variance(
+                problem, *at, chosen.pixels_per_wavelength, n, chosen.coarse_seeds
+            )
+            errors.append(
+                math.hypot(*fixed, covering_factor(problem, settings, *at) * math.sqrt(variance))
+            )
+        if joint_error(errors) <= accuracy:
+            return settings
+    return Settings(chosen.pixels_per_wavelength, chosen.tolerance, SEEDS[-1], chosen.coarse_seeds)
+
+
 def seeds_enough(
     problem: Problem, settings: Settings, accuracy: float, fixed: ArrayLike, sampling: ArrayLike
 ) -> int | None:

@@ -8,7 +8,12 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from stickiness.accuracy import adhesion
-from stickiness.accuracy.choice import SEEDS, UnreachableError, cheapest
+from stickiness.accuracy.choice import (
+    SEEDS,
+    UnreachableError,
+    allow_for_few_seeds,
+    cheapest,
+)
 from stickiness.accuracy.error_models import ErrorModels, Settings, Surface
 from stickiness.accuracy.extrapolation import left_to_simulation
 from stickiness.accuracy.prediction import Problem
@@ -130,7 +135,8 @@ def cheapest_for(name: str, config: Mapping[str, Any], models: ErrorModels) -> S
         refused += f"extrapolated by theory, the simulation has to reach {accuracy:.2g}, and "
     try:
         only_plain = True if plain(case, config) else None
-        return cheapest(problem, accuracy or case["accuracy"], plain=only_plain)
+        wanted = accuracy or case["accuracy"]
+        return allow_for_few_seeds(problem, cheapest(problem, wanted, plain=only_plain), wanted)
     except UnreachableError as error:
         raise UnreachableError(f"{refused}{error}; {error.remedy}") from None
 

@@ -12,7 +12,7 @@ from pipeline.verdicts.materials import read_material
 from pipeline.verdicts.words import decide_pairs
 from stickiness import criteria
 from stickiness.adhesion import equivalent_sphere
-from stickiness.core import datasets
+from stickiness.core import budget, datasets
 from stickiness.criteria.a_v_table import VARIANTS, SurfaceAv, edge_range, local_a_v
 from stickiness.criteria.pair import REGIMES, STRONG, TOUGH, WEAK, WORDS
 from stickiness.criteria.registry import FULL_CONTACT
@@ -206,10 +206,16 @@ def fit_file(path, name, coords, **parameters):
     dims = ("window", *coords)
     shape = (3, *(len(values) for values in coords.values()))
     data = xr.Dataset({name: (dims, np.full(shape, 2.0))}, coords=coords)
-    data["a_v_standard_error"] = 0.1 * data[name]
-    data["a_v_discretisation_error"] = 0.05 * data[name]
     described = {key: ("1", key) for key in data.variables}
-    datasets.write(datasets.annotate(data, **described), path, title="t", parameters=parameters)
+    none = budget.absent("made up")
+    data = budget.with_budget(
+        datasets.annotate(data, **described),
+        name,
+        discretisation=budget.Part(0.1, "made up"),
+        sampling=budget.Part(0.38, "made up"),
+        **dict.fromkeys(("solver", "bandwidth", "model"), none),
+    )
+    datasets.write(data, path, title="t", parameters=parameters)
     return path
 
 
@@ -234,7 +240,7 @@ def inputs(tmp_path):
 def test_a_v_is_that_of_the_simulation_in_the_file(inputs):
     found = measure_a_v(inputs, 0.065)
     assert (found.value, found.simulated, found.over_lattice) == (2.0, 2.0, 1.0)
-    assert found.sampling == pytest.approx(1.645 * 0.2, rel=1e-3)  # standard errors to 90 %
+    assert found.sampling == pytest.approx(0.38)  # as the file states it, covering 90 %
     assert found.discretisation == pytest.approx(0.1)
     assert (found.fit_interval, found.bandwidth) == (0, 0)
 

@@ -1,14 +1,33 @@
 """What cases are solved with, and which of them share solutions."""
 
+import math
+from dataclasses import replace
+
 import pytest
 from helpers.laws import made_up, problem
 
 from stickiness.accuracy import plan
 from stickiness.accuracy.choice import UnreachableError, cheapest
 from stickiness.accuracy.error_models import Settings
-from stickiness.accuracy.prediction import worst_error
+from stickiness.accuracy.prediction import (
+    covering_factor,
+    error_parts,
+    joint_error,
+    worst_error,
+)
 
 PRESET = {"pixels_per_wavelength": 8, "tolerance": 1e-8, "seeds": 5, "coarse_seeds": 40}
+
+
+def stated_error(of_case, settings):
+    """Error that an answer is expected to state: Student's t of the standard error."""
+    errors = []
+    for at in of_case.points:
+        parts = error_parts(of_case, settings, *at)
+        factor = covering_factor(of_case, settings, *at) / 1.645
+        fixed = math.hypot(parts["discretisation"], parts["solver"])
+        errors.append(math.hypot(fixed, factor * parts["sampling"]))
+    return joint_error(errors)
 
 
 def config(**cases):
@@ -35,11 +54,17 @@ def test_preset_unless_the_case_says_otherwise():
     assert plan.plans_of(given, made_up())["a"].settings.seeds == 7
 
 
-def test_accuracy_has_the_cheapest_settings():
+def test_accuracy_has_the_cheapest_settings_and_seeds_enough_to_show_it():
     asked = {"accuracy": 0.05, "quantities": ["area", "mean_gap"]}
     plans = plan.plans_of(config(a=asked), made_up())
-    chosen = cheapest(problem("area", "mean_gap", pressures=(0.01, 0.1)), 0.05)
-    assert plans["a"].settings == chosen
+    of_case = problem("area", "mean_gap", pressures=(0.01, 0.1))
+    chosen, settings = cheapest(of_case, 0.05), plans["a"].settings
+    same = ("pixels_per_wavelength", "tolerance", "coarse_seeds")
+    assert [getattr(settings, key) for key in same] == [getattr(chosen, key) for key in same]
+    # With Student's t of its seeds the case is within the accuracy, and was not with fewer.
+    assert stated_error(of_case, settings) <= 0.05
+    if settings.seeds > chosen.seeds:
+        assert stated_error(of_case, replace(settings, seeds=settings.seeds - 1)) > 0.05
     assert not plans["a"].gaps
     assert not plans["a"].complete
 

@@ -45,12 +45,18 @@ def test_verdict_depends_within_the_limits_of_the_threshold():
     [
         ({"modulus": 0.7}, r"modulus = 0\.7 .* give it in Pa"),  # MPa
         ({"work_of_adhesion": 50}, r"work_of_adhesion = 50 .* J/m\^2"),  # mJ/m^2
-        ({"range": 0.3}, r"range = 0\.3 .* give it in m"),  # nm
+        ({"range": 3e-12}, r"range = 3e-12 .* give it in m"),
     ],
 )
 def test_values_in_other_units_are_warned_of(change, message):
     with pytest.warns(PlausibilityWarning, match=message):
         verdict(ROUGH, **GEL | change)
+
+
+def test_range_beyond_the_roughness_is_refused():
+    smooth = SelfAffine(hurst=0.8, q0=6e4, q1=6e8, h_rms=1e-8)
+    with pytest.raises(ValueError, match=r"range = 3e-07 is more than 10 times the rms height"):
+        verdict(smooth, **GEL | {"range": 3e-7})
 
 
 def test_sides_of_oblong_heights_must_be_given():
