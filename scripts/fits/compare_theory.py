@@ -61,7 +61,8 @@ def add_budgets(dataset, simulated, theory):
         scale = theory[name] / simulated[mean].where(simulated[mean] > 0) ** 2
         parts = {
             source: Part(scale * part(simulated, mean, source), "of the simulation")
-            for source in SOURCES[:-1]
+            for source in SOURCES
+            if source != "model"
         }
         dataset = with_budget(dataset, f"{name}_difference", **parts, **own)
     # Student's t, the same for all quantities of an ensemble but for the shares of its levels.

@@ -36,7 +36,7 @@ TEXTS = {
 }
 NUMBERS = {"error": "1", "bias": "1", "cost": "1", "seconds": "s", "memory": "MB"}
 COMMENT = """\
-Laws of error and cost, fitted by the target tradeoff; scripts/stickiness/accuracy.py says how they
+Error and cost models, fitted by the target tradeoff; scripts/stickiness/accuracy/ says how they
 are read. To take a new measurement over, copy it here and set the presets that it gives."""
 HEAD = """\
 Relative errors that cover 90 % and what they cost, a summary of tradeoff.nc: medians over cases.

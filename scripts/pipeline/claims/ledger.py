@@ -13,10 +13,13 @@ from types import ModuleType
 import numpy as np
 import xarray as xr
 
+from stickiness.core.budget import SOURCES
+
 REPRODUCED = "reproduced"
 QUALIFIED = "reproduced with a qualification"
 NOT = "not reproduced"
 OPEN = "not decided at this resolution"
+VERDICTS = (REPRODUCED, QUALIFIED, NOT, OPEN)
 
 Files = Mapping[str, xr.Dataset]  # a name that stands for several files has a list of datasets
 
@@ -36,6 +39,10 @@ class Finding:
     remark: str  # the qualification or the reason, with its numbers
     errors: Mapping[str, float] = field(default_factory=dict)
     comment: str = "as in the file of the value"  # what the errors are, or why there are none
+
+    def __post_init__(self):
+        if unknown := {*self.errors} - {*SOURCES} or {self.verdict} - {*VERDICTS}:
+            raise ValueError(f"{self.quantity}: {unknown} is neither an error source nor a verdict")
 
     @property
     def uncertainty(self) -> float:

@@ -161,6 +161,8 @@ TABLE = (
 
 QUANTITIES = {quantity.name: quantity for quantity in TABLE}
 COLUMNS = {column.name: column for quantity in TABLE for column in quantity.columns}
+if len(QUANTITIES) < len(TABLE) or len(COLUMNS) < sum(len(each.columns) for each in TABLE):
+    raise ValueError("two quantities or two columns have the same name")
 # What a case holds unless it names its quantities, and what figures and report need.
 MODELLED = tuple(quantity.name for quantity in TABLE if quantity.has_error_model)
 MEASURED = {quantity.name: quantity.measure for quantity in TABLE if quantity.measure}

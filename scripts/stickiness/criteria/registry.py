@@ -103,88 +103,87 @@ _HEIGHTS = ("h_rms", "q0", "adhesion_length", "range")
 _SLOPES = ("rms_slope", "rms_curvature", "adhesion_length", "range")
 
 
-CRITERIA = {
-    criterion.name: criterion
-    for criterion in (
-        Criterion(
-            EDGES,
-            "edges of contact",
-            margin=lambda pair: pair.attraction().ratio,
-            length=lambda pair: pair.edge_threshold(pair.a_v),
-            reason="The attractive area is {attractive_over_contact} of the contact area. The "
-            "Tabor parameter of the edges is {edge_strength} ({regime}). The attraction is "
-            "{over_dmt} times that of the DMT limit.",
-            line=Line("red", "-", 2.2),
-        ),
-        Criterion(
-            "violano",
-            "derived (DMT limit)",
-            margin=_margin_of(formulas.violano, *_HEIGHTS, "a_v"),
-            power=3 / 5,
-            reason="h_rms = {h_rms}, q0 = {q0}/m and a_V = {a_v}. Long waves set the repulsion; "
-            "the attraction acts over the gaps of contact without adhesion.",
-            line=Line("black", "-", 1.2),
-        ),
-        Criterion(
-            "violano_constant",
-            "derived (constant a_V)",
-            margin=_margin_of(formulas.violano, *_HEIGHTS, "constant_a_v"),
-            power=3 / 5,
-            reason="The same with a_V = {constant_a_v} of a broad spectrum instead of {a_v}.",
-            line=Line("black", "-.", 1.2, filled=False),
-        ),
-        Criterion(
-            "violano_printed",
-            "derived (9/4 as printed)",
-            margin=_margin_of(formulas.violano_printed, *_HEIGHTS),
-            power=3 / 5,
-            reason=f"The same with a_V = {formulas.PRINTED_A_V:g} instead of {{a_v}}.",
-            line=Line("black", ":", 1.2, filled=False),
-        ),
-        Criterion(
-            "pastewka_robbins",
-            "Pastewka–Robbins",
-            margin=_margin_of(formulas.pastewka_robbins, *_SLOPES),
-            power=5 / 6,  # the width of the attraction grows with the root of l_a
-            reason="Slope {rms_slope} and curvature {rms_curvature}/m, which the shortest waves "
-            "set. Neither h_rms nor q0 matters.",
-            line=Line("blue", "--"),
-        ),
-        Criterion(
-            "fuller_tabor",
-            "Fuller–Tabor",
-            margin=_margin_of(formulas.fuller_tabor, "h_rms", "rms_curvature", "adhesion_length"),
-            power=1.0,
-            reason="h_rms = {h_rms} against asperities of radius {summit_radius}, which the "
-            "shortest waves set.",
-            line=Line("green", "--"),
-        ),
-        Criterion(
-            "bearing_area",
-            "bearing area (BAM)",
-            margin=_margin_of(formulas.bearing_area, *_HEIGHTS),
-            power=1.0,
-            reason="Heights within the range of the mean plane attract: h_rms = {h_rms} and q0 = "
-            "{q0}/m. Finer waves do not matter.",
-            line=Line("orange", "-"),
-        ),
-        Criterion(
-            FULL_CONTACT,
-            "Persson–Tosatti",
-            margin=_margin_of(formulas.persson_tosatti, "elastic_energy", "adhesion_length"),
-            power=1.0,
-            reason="Full contact costs the energy {energy} and gains the work of adhesion "
-            "{work_of_adhesion}. Contact need not be full to stick.",
-            line=Line("purple", "-."),
-        ),
-        Criterion(
-            "dahlquist",
-            "Dahlquist",
-            margin=_margin_of(formulas.dahlquist, "modulus"),
-            modulus=formulas.DAHLQUIST_LIMIT,
-            reason="E* = {modulus} at 1 Hz against 1 MPa. The criterion considers no roughness at "
-            "all.",
-            line=Line("grey", "-", 1.0),
-        ),
-    )
-}
+_TABLE = (
+    Criterion(
+        EDGES,
+        "edges of contact",
+        margin=lambda pair: pair.attraction().ratio,
+        length=lambda pair: pair.edge_threshold(pair.a_v),
+        reason="The attractive area is {attractive_over_contact} of the contact area. The "
+        "Tabor parameter of the edges is {edge_strength} ({regime}). The attraction is "
+        "{over_dmt} times that of the DMT limit.",
+        line=Line("red", "-", 2.2),
+    ),
+    Criterion(
+        "violano",
+        "derived (DMT limit)",
+        margin=_margin_of(formulas.violano, *_HEIGHTS, "a_v"),
+        power=3 / 5,
+        reason="h_rms = {h_rms}, q0 = {q0}/m and a_V = {a_v}. Long waves set the repulsion; "
+        "the attraction acts over the gaps of contact without adhesion.",
+        line=Line("black", "-", 1.2),
+    ),
+    Criterion(
+        "violano_constant",
+        "derived (constant a_V)",
+        margin=_margin_of(formulas.violano, *_HEIGHTS, "constant_a_v"),
+        power=3 / 5,
+        reason="The same with a_V = {constant_a_v} of a broad spectrum instead of {a_v}.",
+        line=Line("black", "-.", 1.2, filled=False),
+    ),
+    Criterion(
+        "violano_printed",
+        "derived (9/4 as printed)",
+        margin=_margin_of(formulas.violano_printed, *_HEIGHTS),
+        power=3 / 5,
+        reason=f"The same with a_V = {formulas.PRINTED_A_V:g} instead of {{a_v}}.",
+        line=Line("black", ":", 1.2, filled=False),
+    ),
+    Criterion(
+        "pastewka_robbins",
+        "Pastewka–Robbins",
+        margin=_margin_of(formulas.pastewka_robbins, *_SLOPES),
+        power=5 / 6,  # the width of the attraction grows with the root of l_a
+        reason="Slope {rms_slope} and curvature {rms_curvature}/m, which the shortest waves "
+        "set. Neither h_rms nor q0 matters.",
+        line=Line("blue", "--"),
+    ),
+    Criterion(
+        "fuller_tabor",
+        "Fuller–Tabor",
+        margin=_margin_of(formulas.fuller_tabor, "h_rms", "rms_curvature", "adhesion_length"),
+        power=1.0,
+        reason="h_rms = {h_rms} against asperities of radius {summit_radius}, which the "
+        "shortest waves set.",
+        line=Line("green", "--"),
+    ),
+    Criterion(
+        "bearing_area",
+        "bearing area (BAM)",
+        margin=_margin_of(formulas.bearing_area, *_HEIGHTS),
+        power=1.0,
+        reason="Heights within the range of the mean plane attract: h_rms = {h_rms} and q0 = "
+        "{q0}/m. Finer waves do not matter.",
+        line=Line("orange", "-"),
+    ),
+    Criterion(
+        FULL_CONTACT,
+        "Persson–Tosatti",
+        margin=_margin_of(formulas.persson_tosatti, "elastic_energy", "adhesion_length"),
+        power=1.0,
+        reason="Full contact costs the energy {energy} and gains the work of adhesion "
+        "{work_of_adhesion}. Contact need not be full to stick.",
+        line=Line("purple", "-."),
+    ),
+    Criterion(
+        "dahlquist",
+        "Dahlquist",
+        margin=_margin_of(formulas.dahlquist, "modulus"),
+        modulus=formulas.DAHLQUIST_LIMIT,
+        reason="E* = {modulus} at 1 Hz against 1 MPa. The criterion considers no roughness at all.",
+        line=Line("grey", "-", 1.0),
+    ),
+)
+CRITERIA = {criterion.name: criterion for criterion in _TABLE}
+if len(CRITERIA) < len(_TABLE):
+    raise ValueError("two criteria have the same name")
