@@ -6,11 +6,13 @@ import xarray as xr
 
 from pipeline import conventions
 from stickiness.accuracy.error_models import COARSE
-from stickiness.accuracy.quantities import MEASURED
+from stickiness.accuracy.quantities import COLUMNS, MEASURED
 from stickiness.contact import gaps, solver, subpixel
 
 SOLVED = ("area_fraction", "mean_gap", "residual", "iterations", "fft_pairs")
 AREAS = ("attractive_area", "pixel_attractive_area")
+# Of quantities that a case may ask for beyond areas and mean gaps.
+MEASURED_TEXTS = {name: ("1", COLUMNS[name].text, "no contact") for name in MEASURED}
 RMS_SLOPE = ("1", "rms gradient of this realisation over q0 h_rms")
 
 
@@ -58,4 +60,4 @@ def measure(contact, ranges):
 
 
 def annotate(dataset):
-    return conventions.annotate(dataset, rms_slope=RMS_SLOPE)
+    return conventions.annotate(dataset, rms_slope=RMS_SLOPE, **MEASURED_TEXTS)

@@ -11,7 +11,6 @@ import xarray as xr
 from numpy.typing import NDArray
 from scipy.fft import next_fast_len
 
-from stickiness.accuracy.quantities import COLUMNS, MEASURED
 from stickiness.core import datasets
 from stickiness.surfaces.spectrum import SelfAffine
 from stickiness.surfaces.synthesis import synthesise
@@ -50,7 +49,6 @@ VARIABLES = {
     "adhesion_length_over_range": ("1", "adhesion length over range, sigma0/E*"),
     "range_over_h_rms": ("1", "range of attraction over h_rms"),
     "dmt_valid": ("1", "1 where the JTB condition for the DMT limit holds"),
-    **{name: ("1", COLUMNS[name].text, "no contact") for name in MEASURED},
 }
 
 

@@ -5,7 +5,7 @@ from operator import itemgetter
 import xarray as xr
 
 from pipeline import conventions, grid_limits
-from pipeline.contact_curves import RMS_SLOPE
+from pipeline.contact_curves import MEASURED_TEXTS, RMS_SLOPE
 from pipeline.conventions import VARIABLES
 from pipeline.ensemble_means import PREFIX, SUFFIXES, add_errors, coarse, describe_errors, mean
 from pipeline.error_budgets import Simulation
@@ -114,13 +114,13 @@ def add_budgets(dataset, made, laws, averaged=AVERAGED):
 
 
 def annotate(dataset, averaged=AVERAGED):
-    texts = {
+    texts = MEASURED_TEXTS | {
         "rms_slope": RMS_SLOPE,
         "edge_gap_mean": ("1", "gap next to the contact over h_rms: smallest range resolved"),
     }
     for name in averaged:
         kind = grid_limits.FIRST_ORDER if name in MEASURED else grid_limits.DIRECT
-        texts |= describe_errors(name, VARIABLES[name][1], discretisation=kind)
+        texts |= describe_errors(name, (VARIABLES | MEASURED_TEXTS)[name][1], discretisation=kind)
     extrapolated = f"{VARIABLES['attractive_area'][1]}: of the mean, extrapolated from below the"
     texts[f"attractive_area_{EXTRAPOLATION}"] = ("1", f"{extrapolated} edge gap")
     return conventions.annotate(dataset, **texts)

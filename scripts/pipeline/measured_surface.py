@@ -8,7 +8,7 @@ import numpy as np
 import xarray as xr
 
 from pipeline.numbers import quantity
-from stickiness.config import checks
+from stickiness.config.surface_entries import measurements
 from stickiness.core.units import si
 from stickiness.measured import (
     instrument_spectrum,
@@ -30,11 +30,11 @@ READ_KEYS = set(signature(topography.read).parameters) - {"path"}
 
 def analyse(asked):
     """Dataset of a measured surface, as configured."""
-    measurements = [one for _, one in checks.measurements(asked)]
-    heights = [read_levelled(one) for one in measurements]
+    entries = [one for _, one in measurements(asked)]
+    heights = [read_levelled(one) for one in entries]
     spectra = [
         instrument_spectrum.analyse(h, one.get("window", "hann"), limits_of(one))
-        for h, one in zip(heights, measurements, strict=True)
+        for h, one in zip(heights, entries, strict=True)
     ]
     stitched = stitching.stitch(spectra) if len(spectra) > 1 else None
     spectrum = stitched.spectrum if stitched else spectra[0]

@@ -119,8 +119,8 @@ def test_a_case_that_takes_plain_means_is_only_averaged_again(copy_of_finished):
         ),
         (
             "adhesion/edge_zone.py",
-            {"solve_adhesive": ADHESIVE * SEEDS, "average_adhesive": ADHESIVE},
-            {"solve_repulsive", "adhesion_dmt", "follow_loop", "adhesive_maps"},
+            {"solve_adhesive": ADHESIVE * SEEDS, "average_adhesive": ADHESIVE, "follow_loop": 1},
+            {"solve_repulsive", "persson_sweep", "analyse_surface", "average_ensemble"},
         ),
         (
             "measured/topography.py",

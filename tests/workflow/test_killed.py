@@ -25,7 +25,7 @@ def test_killed_run_resumes(fresh, finished):
     )
     surfaces = fresh / "results/tiny/surfaces/H0.8_zeta64"
     deadline = time.monotonic() + 120
-    while not list(surfaces.glob("seed*.nc")):
+    while not list((fresh / "results/tiny/contact/H0.8_zeta64").glob("seed*.nc")):
         assert time.monotonic() < deadline, "no job finished within two minutes"
         assert process.poll() is None, "the run ended before it could be killed"
         time.sleep(0.05)
