@@ -22,8 +22,7 @@ from pipeline.adhesion_sets import (
     scaled_law,
     solve_at_gap,
 )
-from pipeline.contact_curves import RMS_SLOPE
-from pipeline.conventions import pixels
+from pipeline.conventions import RMS_SLOPE, pixels
 from pipeline.job import start
 from stickiness.adhesion import dmt, edge_zone
 from stickiness.contact import solver, subpixel

@@ -13,7 +13,6 @@ SOLVED = ("area_fraction", "mean_gap", "residual", "iterations", "fft_pairs")
 AREAS = ("attractive_area", "pixel_attractive_area")
 # Of quantities that a case may ask for beyond areas and mean gaps.
 MEASURED_TEXTS = {name: ("1", COLUMNS[name].text, "no contact") for name in MEASURED}
-RMS_SLOPE = ("1", "rms gradient of this realisation over q0 h_rms")
 
 
 def steps_of(pixels_per_wavelength):
@@ -60,4 +59,4 @@ def measure(contact, ranges):
 
 
 def annotate(dataset):
-    return conventions.annotate(dataset, rms_slope=RMS_SLOPE, **MEASURED_TEXTS)
+    return conventions.annotate(dataset, rms_slope=conventions.RMS_SLOPE, **MEASURED_TEXTS)

@@ -51,6 +51,8 @@ VARIABLES = {
     "dmt_valid": ("1", "1 where the JTB condition for the DMT limit holds"),
 }
 
+RMS_SLOPE = ("1", "rms gradient of this realisation over q0 h_rms")
+
 
 def annotate(dataset: xr.Dataset, **own: tuple[str, ...]) -> xr.Dataset:
     """Describe every variable that `own` or else `VARIABLES` has texts for.

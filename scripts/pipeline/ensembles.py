@@ -5,8 +5,8 @@ from operator import itemgetter
 import xarray as xr
 
 from pipeline import conventions, grid_limits
-from pipeline.contact_curves import MEASURED_TEXTS, RMS_SLOPE
-from pipeline.conventions import VARIABLES
+from pipeline.contact_curves import MEASURED_TEXTS
+from pipeline.conventions import RMS_SLOPE, VARIABLES
 from pipeline.ensemble_means import PREFIX, SUFFIXES, add_errors, coarse, describe_errors, mean
 from pipeline.error_budgets import Simulation
 from pipeline.grid_limits import EXTRAPOLATION
