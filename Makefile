@@ -17,13 +17,15 @@ reproduce: $(VENV)/.run  ## the full reproduction, at standard fidelity
 draft: $(VENV)/.run  ## everything, quick and rough
 	$(SNAKEMAKE) --config fidelity=draft
 
-PYTEST := OMP_NUM_THREADS=1 $(BIN)/python -m pytest -n $(CORES) --dist loadgroup
+PYTEST := OMP_NUM_THREADS=1 $(BIN)/python -m pytest
 
+# Tests of the workflow share one run of it, which takes all cores itself.
 test: $(VENV)/.dev $(VENV)/.peers  ## all tests
-	$(PYTEST)
+	$(PYTEST) -n $(CORES) -m "not workflow"
+	$(PYTEST) -m workflow
 
 test-quick: $(VENV)/.dev  ## the tests of about a minute: no workflow, no other codes, none that is slow
-	$(PYTEST) -m "not slow and not workflow and not peers"
+	$(PYTEST) -n $(CORES) -m "not slow and not workflow and not peers"
 
 lint: $(VENV)/.dev  ## format and lint, nothing changed
 	$(BIN)/ruff format --check .
