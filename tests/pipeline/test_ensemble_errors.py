@@ -124,6 +124,7 @@ def test_dimensions_may_come_in_any_order(ensemble):
     xr.testing.assert_allclose(error, want[1], rtol=1e-14)
 
 
+@pytest.mark.slow
 def test_coarse_solutions_in_parts_are_those_of_one_file(tmp_path):
     """Parts are read back from files: those after the first describe no other seeds."""
     asked = {"hurst": 0.8, "magnification": 4}

@@ -60,6 +60,7 @@ def test_links_between_pages_lead_somewhere(page):
             assert ((ROOT / page).parent / target).exists(), f"{page}: {target}"
 
 
+@pytest.mark.slow
 def test_library_example_runs(tmp_path):
     done = subprocess.run(
         [sys.executable, ROOT / "examples/library.py"],

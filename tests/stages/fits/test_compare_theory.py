@@ -145,6 +145,7 @@ def solved(tmp_path_factory):
     return datasets.read(path)
 
 
+@pytest.mark.slow
 def test_ensemble_of_one_job_has_what_averages_have(solved):
     for name in AVERAGED:
         for kind in ("mean", "standard_error", "discretisation_error"):
@@ -184,6 +185,7 @@ def made_by_theory():
     return fit_gamma.case(made, xr.Dataset({"window_holds": ("pressure", [1, 1])}))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("quantity", ["area_fraction", "mean_gap", "attractive_area", "all"])
 def test_gamma_of_the_theory_itself_is_found(made_by_theory, quantity):
     draws = fit_gamma.sample(np.random.default_rng(1), 200, [1])

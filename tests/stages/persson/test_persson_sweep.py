@@ -37,6 +37,7 @@ def test_a_sweep_reaches_its_gap_with_the_area_of_the_closed_form(swept):
     assert float(swept.area_fraction) == pytest.approx(area, rel=1e-3)
 
 
+@pytest.mark.slow
 def test_a_large_window_holds_the_continuous_spectrum(swept, tmp_path):
     surface = {"hurst": 0.8, "magnification": 4, "window": 8}
     params = SHARED | {"surface": surface, "pressures": [float(swept.pressure)]}

@@ -70,6 +70,7 @@ def test_pull_off_is_of_one_surface():
     assert found == pytest.approx(1 / 16)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("asked", [0.3, 0.12, 0.06])
 def test_chosen_is_the_cheapest_of_all(asked):
     wanted = problem()

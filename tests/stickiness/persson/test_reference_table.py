@@ -68,6 +68,7 @@ def test_agrees_with_the_table(key, rows, nodes, tolerance):
     np.testing.assert_allclose(total, want["lost_fraction"][0], rtol=1e-6, atol=1e-10)
 
 
+@pytest.mark.slow
 def test_the_program_still_makes_the_table():
     """Area and mean gap of one case, which take it a second."""
     case = next(c for c in reference.CASES if c[0] == "shell")

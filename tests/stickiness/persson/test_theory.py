@@ -113,6 +113,7 @@ class Direct:
         return pair @ (weight / np.sqrt(2 * np.pi * h**2))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("hurst", "magnification", "gamma", "p"),
     [(0.8, 10.0, 0.45, 0.3), (0.5, 6.0, 0.45, 0.5), (0.8, 10.0, 1.0, 0.3)],
@@ -391,6 +392,7 @@ def test_dense_shells_approach_the_continuum(variant):
     np.testing.assert_allclose(a.gap_density(u, p), b.gap_density(u, p), rtol=2e-7)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("variant", VARIANTS)
 def test_window_spectrum_is_converged_and_normalised(variant):
     shells = surface.lattice_spectrum(power_law(128.0), 2 * np.pi)
@@ -461,6 +463,7 @@ def test_examples_in_the_documentation():
     assert doctest.testmod(persson).failed == 0
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("variant", ["afferrante2018", "almqvist2011"])
 def test_fewer_panels_next_to_full_contact_of_a_broad_spectrum(monkeypatch, variant):
     """Gaussians by the hundred thousand are put together: less work, the same distribution."""
