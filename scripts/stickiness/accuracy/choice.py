@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import itertools
 import math
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -115,22 +116,15 @@ def allow_for_few_seeds(problem: Problem, chosen: Settings, accuracy: float) -> 
     """Return settings with as many more fine seeds as Student's t asks for.
 
     `cheapest` counts with the true scatter. The error that a few seeds will state is larger, since
-    their own standard error is what they know.
+    their own standard error is what they know. If no number of `SEEDS` is enough, it is the last.
     """
+    grid = chosen.pixels_per_wavelength, chosen.tolerance
+    fixed = [math.hypot(*fixed_errors(problem, *at, *grid)) for at in problem.points]
     for n in (n for n in SEEDS if n >= max(chosen.seeds, 2)):
-        settings = Settings(chosen.pixels_per_wavelength, chosen.tolerance, n, chosen.coarse_seeds)
-        errors = []
-        for at in problem.points:
-            fixed = fixed_errors(problem, *at, chosen.pixels_per_wavelength, chosen.tolerance)
-            variance = mean_variance(
-                problem, *at, chosen.pixels_per_wavelength, n, chosen.coarse_seeds
-            )
-            errors.append(
-                math.hypot(*fixed, covering_factor(problem, settings, *at) * math.sqrt(variance))
-            )
-        if joint_error(errors) <= accuracy:
-            return settings
-    return Settings(chosen.pixels_per_wavelength, chosen.tolerance, SEEDS[-1], chosen.coarse_seeds)
+        settings = replace(chosen, seeds=n)
+        if joint_error(np.hypot(fixed, _stated_sampling(problem, settings))) <= accuracy:
+            break
+    return settings
 
 
 def seeds_enough(
@@ -142,26 +136,27 @@ def seeds_enough(
     covering 90 %: those that more seeds leave as they are, and that of the mean. The latter changes
     with the number of seeds as the error models say.
     """
-
-    def covered(n: int) -> NDArray:
-        pixels, coarse = settings.pixels_per_wavelength, settings.coarse_seeds
-        of_seeds = Settings(pixels, settings.tolerance, n, coarse)
-        factors = [
-            covering_factor(problem, of_seeds, pressure, column)
-            * math.sqrt(mean_variance(problem, pressure, column, pixels, n, coarse))
-            for column in problem.columns
-            for pressure in problem.pressures
-        ]
-        return np.reshape(factors, (len(problem.columns), len(problem.pressures)))
-
     if settings.seeds < 2:
         return None
-    now = covered(settings.seeds)
+    shape = len(problem.pressures), len(problem.columns)
+    now = _stated_sampling(problem, settings)
     for n in (n for n in SEEDS if n > settings.seeds):
-        errors = np.hypot(fixed, sampling * covered(n) / now)
-        if joint_error(errors.ravel()) <= accuracy:
+        falls = (_stated_sampling(problem, replace(settings, seeds=n)) / now).reshape(shape).T
+        if joint_error(np.hypot(fixed, sampling * falls).ravel()) <= accuracy:
             return n
     return None
+
+
+def _stated_sampling(problem: Problem, settings: Settings) -> NDArray:
+    """Sampling error that an answer is expected to state at every point, with Student's t."""
+    numbers = settings.pixels_per_wavelength, settings.seeds, settings.coarse_seeds
+    return np.array(
+        [
+            covering_factor(problem, settings, *at)
+            * math.sqrt(mean_variance(problem, *at, *numbers))
+            for at in problem.points
+        ]
+    )
 
 
 def _worst_errors(problem: Problem, grid: Settings, seeds: NDArray, coarse: NDArray) -> NDArray:
