@@ -32,6 +32,7 @@ except ValueError as error:
 FIDELITY = config["fidelities"][config["fidelity"]]
 RESULTS = f"{config['results']}/{config['fidelity']}"
 TRADEOFF = f"{config['results']}/tradeoff"
+REMAINING = f"{config['results']}/remaining"
 MODEL_SURFACES, CASES = config["model_surfaces"], config["cases"]
 SWEEPS, ADHESION, LOOPS = config["theory"]["sweeps"], config["adhesion"], config["loops"]
 GAMMA, GAPS, TRADE = config["theory"]["gamma"], config["gaps"], config["tradeoff"]

@@ -1,0 +1,27 @@
+# How much adhesion remains: approach and separation of rough surfaces, simulated once for all. The
+# model of the verdicts is compared with the committed summary.
+
+MEASURED = config["remaining"]["sets"]
+
+
+wildcard_constraints:
+    remaining_set=choices(MEASURED),
+
+
+def measured_points(wildcards):
+    """Points of the grid of a set."""
+    return MEASURED[wildcards.remaining_set]["points"] ** 2
+
+
+rule measure_remaining:
+    output:
+        f"{REMAINING}/{{remaining_set}}/seed{{seed}}.nc",
+    resources:
+        mem_mb=2000,
+        runtime=120,
+    params:
+        surface=lambda wildcards: MEASURED[wildcards.remaining_set],
+        law=config["remaining"]["law"],
+        squeeze=config["remaining"]["squeeze"],
+    script:
+        "../scripts/remaining/measure_remaining.py"

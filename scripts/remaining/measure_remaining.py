@@ -1,0 +1,123 @@
+"""Works of approach and separation of one rough surface, for a list of works of adhesion."""
+
+import logging
+import time
+import warnings
+
+import numpy as np
+import xarray as xr
+
+from pipeline.adhesion_sets import LAWS
+from pipeline.conventions import cell_size, model_spectrum
+from pipeline.job import start
+from stickiness.core import datasets
+from stickiness.core.plausibility import PlausibilityWarning
+from stickiness.remaining import measurement
+from stickiness.surfaces import synthesis
+
+QUOTED = {
+    "approach": "work of approach over the work of adhesion",
+    "separation": "work of separation over the work of adhesion",
+    "bound": "largest gain of energy over the work of adhesion",
+    "pull_off": "largest mean tension on separation over E* q0 h_rms",
+}
+OTHERS = {
+    "area_at_zero_load": "area at a gap of zero over nominal area, at zero load on approach",
+    "gap_at_zero_load": "mean gap over h_rms at zero load on approach",
+    "jumps": "jumps on the way there and back",
+    "pixels_in_zone": "width of the cohesive zone in pixels",
+    "fft_pairs": "convolutions",
+}
+
+
+RESOLVED = 2.0  # pixels in the cohesive zone
+FEWEST_PIXELS = 1.0  # below, points of the grid snap one by one, and the path is endless
+
+
+def main(job):
+    asked, seed = job.params.surface, int(job.wildcards.seed)
+    length = cell_size(asked)
+    heights = synthesis.synthesise(model_spectrum(asked), asked["points"], length, seed)
+    spectrum = synthesis.realised_spectrum(heights, length)
+    energy = spectrum.elastic_energy()
+    name = "zones" if "zones" in asked else "ranges"
+    rows = []
+    for ratio in asked["energies"]:
+        for value in asked[name]:
+            began = time.process_time()
+            adhesion_length = ratio * energy
+            range_ = np.sqrt(value * adhesion_length) if name == "zones" else value
+            law = LAWS[job.params.law](adhesion_length, range_)
+            row = measure(heights, length, law, job.params.squeeze)
+            row |= {"range": range_, "adhesion_length": adhesion_length}
+            rows.append(row | {"seconds": time.process_time() - began})
+            logging.info("w/U %g, %s %g: %s", ratio, name, value, row)
+    shape = len(asked["energies"]), len(asked[name])
+    dims = "energy", {"zones": "zone", "ranges": "range_over_h_rms"}[name]
+    dataset = xr.Dataset(
+        {key: (dims, np.reshape([row[key] for row in rows], shape)) for key in rows[0]},
+        coords={"energy": asked["energies"], dims[1]: asked[name]},
+    )
+    dataset["full_contact_energy"] = energy
+    dataset["rms_slope"] = spectrum.rms_slope
+    dataset["rms_curvature"] = spectrum.rms_curvature
+    dataset["shell_q"] = "shell", spectrum.q
+    dataset["shell_variance"] = "shell", spectrum.variance
+    datasets.write(
+        annotate(dataset),
+        job.output[0],
+        title="adhesion that remains on one rough surface",
+        parameters={**asked, "seed": seed, "law": job.params.law, "squeeze": job.params.squeeze},
+    )
+
+
+def measure(heights, length, law, squeeze):
+    """Quantities of one law with the change from half the grid; NaN where the grid is too coarse."""
+    pixels = law.range**2 / law.adhesion_length / (length / heights.shape[0])
+    row = dict.fromkeys((*QUOTED, *OTHERS, *(f"{key}_grid_error" for key in QUOTED)), np.nan)
+    row["pixels_in_zone"] = pixels
+    if pixels < FEWEST_PIXELS:
+        return row
+    with warnings.catch_warnings():
+        # What a coarse grid does to the result is in the limits.
+        warnings.simplefilter("ignore", PlausibilityWarning)
+        half_grid = pixels >= 2 * RESOLVED
+        found = measurement.measure(heights, length, law, squeeze, half_grid=half_grid)
+    row |= {key: getattr(found, key) for key in (*QUOTED, *OTHERS)}
+    for key in QUOTED:
+        low, high = getattr(found, f"{key}_limits")
+        row[f"{key}_grid_error"] = (high - low) / 2
+    return row
+
+
+def annotate(dataset):
+    coarse = "the grid does not resolve the cohesive zone"
+    texts = {key: ("1", text, coarse) for key, text in (QUOTED | OTHERS).items()}
+    texts |= {
+        f"{key}_grid_error": ("1", f"change from half the grid: {text}", "half grid too coarse")
+        for key, text in QUOTED.items()
+    }
+    for key in ("gap_at_zero_load", "area_at_zero_load"):
+        texts[key] = (*texts[key][:2], f"never attracted, or {coarse}")
+    coordinates = {
+        "zone": ("1", "q0 range^2 over adhesion length"),
+        "range_over_h_rms": ("1", "range over h_rms"),
+    }
+    texts |= {key: text for key, text in coordinates.items() if key in dataset.coords}
+    return datasets.annotate(
+        dataset,
+        **texts,
+        energy=("1", "work of adhesion over elastic energy of full contact of this surface"),
+        range=("1", "range over h_rms"),
+        adhesion_length=("1", "adhesion length over q0 h_rms^2"),
+        full_contact_energy=("1", "elastic energy of full contact over E* q0 h_rms^2"),
+        rms_slope=("1", "rms slope over q0 h_rms"),
+        rms_curvature=("1", "rms Laplacian over q0^2 h_rms"),
+        shell_q=("1", "wave number over q0"),
+        shell_variance=("1", "variance of the heights on a shell over h_rms^2"),
+        seconds=("s", "processor time"),
+    )
+
+
+if __name__ == "__main__":
+    main(start(globals(), "measure_remaining", remaining_set="H0.8_zeta8_2x2", seed=1))

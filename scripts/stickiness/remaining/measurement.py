@@ -1,0 +1,259 @@
+"""Adhesion that remains on a rough surface, simulated: approach, squeeze and separation.
+
+The surfaces approach at a given mean gap from afar until they press with the squeeze, and part
+again. The work that the attraction does on the way in, from afar to zero load, and the work that it
+takes to part them, from zero load on, are integrals of the mean tension over the mean gap. Jumps at
+a given gap do not add to them: what a jump loses is in neither.
+"""
+
+from __future__ import annotations
+
+import warnings
+from dataclasses import dataclass, replace
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from scipy.interpolate import PchipInterpolator
+
+from stickiness.adhesion import edge_zone
+from stickiness.adhesion.laws import TractionLaw
+from stickiness.adhesion.path import path
+from stickiness.adhesion.scaling import SEPARATION
+from stickiness.core.arguments import grid, number
+from stickiness.core.plausibility import PlausibilityWarning
+
+REACH = 4.0  # ranges between the highest point and the surface where the approach begins
+STEPS = 20  # of the path between far and close, at least
+BALANCE = 0.03  # error of a step's energy balance over the energies of the path
+POINTS = 50  # of the integral between two states
+FARTHEST = 3.0  # of the first distance, where separation must have ended
+# States of a path at most: more only where points of the grid snap one by one.
+MOST_STATES = 1000
+
+
+@dataclass(frozen=True, eq=False)
+class Remaining:
+    """What remains of the work of adhesion on a rough surface, by simulation.
+
+    Limits (low, high) hold the error of the grid, from every second point of it, and that of the
+    steps; NaN if the half grid was not solved.
+
+    Attributes
+    ----------
+    approach, separation : float
+        Work of approach, from afar to zero load, and of separation, from zero load after the squeeze
+        to parting, at given mean gaps, per nominal area over the work of adhesion.
+    bound : float
+        Largest gain of energy on the path over the work of adhesion: attraction less elastic
+        energy. Without jumps approach, bound and separation are equal; with them approach is less
+        and separation more.
+    pull_off : float
+        Largest mean tension on separation at given mean gaps [E*].
+    area_at_zero_load, gap_at_zero_load : float
+        Share of points in contact, and mean gap [length] at zero load on approach; NaN if the
+        surfaces never attract one another.
+    approach_limits, separation_limits, bound_limits, pull_off_limits : (float, float)
+        See above.
+    pixels_in_zone : float
+        Width of the cohesive zone, range^2/adhesion_length, in pixels. Below two, points of the
+        grid snap one by one and separation comes out too large.
+    jumps : int
+        Jumps on the path.
+    gap, pressure, separating : numpy.ndarray
+        Curve: mean gap [length], mean pressure [E*], whether on the way back.
+    fft_pairs : float
+        Convolutions that it took.
+    """
+
+    approach: float
+    separation: float
+    bound: float
+    pull_off: float
+    area_at_zero_load: float
+    gap_at_zero_load: float
+    approach_limits: tuple[float, float]
+    separation_limits: tuple[float, float]
+    bound_limits: tuple[float, float]
+    pull_off_limits: tuple[float, float]
+    pixels_in_zone: float
+    jumps: int
+    gap: NDArray
+    pressure: NDArray
+    separating: NDArray
+    fft_pairs: float
+
+    @property
+    def hysteresis(self) -> float:
+        """Work lost between approach and separation over the work of adhesion."""
+        return self.separation - self.approach
+
+    @property
+    def resolved(self) -> bool:
+        """Whether two pixels or more resolve the cohesive zone."""
+        return self.pixels_in_zone * edge_zone.COARSEST >= 1
+
+
+QUOTED = ("approach", "separation", "bound", "pull_off")
+
+
+def measure(
+    heights: ArrayLike,
+    length: float | tuple[float, float],
+    law: TractionLaw,
+    squeeze: float,
+    tol: float = 1e-4,
+    half_grid: bool = True,
+    logger=None,
+) -> Remaining:
+    """Measure what remains of adhesion on given heights.
+
+    Parameters
+    ----------
+    heights : (n0, n1) array
+        Periodic heights of the rigid surface [length].
+    length : float or pair of floats
+        Sides of the cell [length].
+    law : TractionLaw
+        Attraction.
+    squeeze : float
+        Mean pressure [E*] that the surfaces are pressed with before they part, positive.
+    tol : float
+        Residual of every state, see `adhesive.solve`.
+    half_grid : bool
+        Whether to solve on every second point as well, for the limits.
+    logger : logging.Logger, optional
+        Told every state.
+
+    Raises
+    ------
+    ValueError
+        If an argument is not what it should be.
+    ConvergenceError
+        If a state does not converge.
+    """
+    heights = grid("heights", heights)
+    squeeze = number("squeeze", squeeze)
+    found = _follow(heights, length, law, squeeze, tol, logger)
+    if not half_grid:
+        return found
+    with warnings.catch_warnings():
+        # The half grid is coarse on purpose: what that changes is the error.
+        warnings.simplefilter("ignore", PlausibilityWarning)
+        coarse = _follow(heights[::2, ::2], length, law, squeeze, tol, logger)
+    return replace(found, **_limits(found, coarse))
+
+
+def _follow(heights, length, law, squeeze, tol, logger):
+    """Approach, squeeze and part once; limits are NaN."""
+    first = float(heights.max() - heights.mean()) + REACH * law.range
+    settings = {
+        "control": "mean_gap",
+        "tol": tol,
+        "balance": BALANCE,
+        "smallest_jump": BALANCE,
+        "steps": STEPS,
+        "max_states": MOST_STATES,
+        "logger": logger,
+    }
+    closest = 0.0 if law.hard_wall else -0.2 * law.range
+    approach = []
+    for point in path(heights, length, law, (first, closest), **settings):
+        approach.append(point)
+        if point.state.mean_pressure >= squeeze:
+            break
+    last = approach[-1].state
+    separation = []
+    values = (last.mean_gap, first, FARTHEST * first)
+    start = replace(last, branch=SEPARATION)
+    for point in path(heights, length, law, values, start=start, **settings):
+        separation.append(point)
+        touching = point.state.repulsive_area_fraction > 0
+        if point.state.mean_gap >= first and not touching:
+            break
+    ways = [_Curve.of(points) for points in (approach, separation)]
+    points = approach + separation
+    gap, area = ways[0].zero_load()
+    energy = min(point.state.energy for point in points)
+    pixel = float(np.broadcast_to(length, 2)[0]) / heights.shape[0]
+    unknown = (np.nan, np.nan)
+    return Remaining(
+        approach=ways[0].work() / law.adhesion_length,
+        separation=ways[1].work() / law.adhesion_length,
+        bound=max(-energy, 0.0) / law.adhesion_length,
+        pull_off=max(-float(ways[1].pressure.min()), 0.0),
+        area_at_zero_load=area,
+        gap_at_zero_load=gap,
+        approach_limits=unknown,
+        separation_limits=unknown,
+        bound_limits=unknown,
+        pull_off_limits=unknown,
+        pixels_in_zone=1 / edge_zone.resolution(pixel, law.range, law.adhesion_length),
+        jumps=sum(point.event is not None for point in points),
+        gap=np.concatenate([way.gap for way in ways]),
+        pressure=np.concatenate([way.pressure for way in ways]),
+        separating=np.repeat([False, True], [len(way.gap) for way in ways]),
+        fft_pairs=sum(point.state.fft_pairs for point in points),
+    )
+
+
+@dataclass(frozen=True, eq=False)
+class _Curve:
+    """Mean pressure over the mean gap one way, with the places of its jumps."""
+
+    gap: NDArray
+    pressure: NDArray
+    area: NDArray
+    jumped: NDArray  # whether a jump led to a state
+
+    @classmethod
+    def of(cls, points):
+        states = [point.state for point in points]
+        return cls(
+            gap=np.array([state.mean_gap for state in states]),
+            pressure=np.array([state.mean_pressure for state in states]),
+            area=np.array([state.repulsive_area_fraction for state in states]),
+            jumped=np.array([point.event is not None for point in points]),
+        )
+
+    def work(self):
+        """Integral of the tension over the gap [E* length], positive."""
+        ends = [0, *np.flatnonzero(self.jumped), len(self.gap)]
+        total = 0.0
+        for start, end in pairwise(ends):
+            if end - start > 1:
+                total += _tension_over_gap(self.gap[start:end], self.pressure[start:end])
+            if 0 < start:  # across the jump before
+                before = slice(start - 1, start + 1)
+                tension = np.maximum(-self.pressure[before], 0)
+                total += abs(np.trapezoid(tension, self.gap[before]))
+        return float(total)
+
+    def zero_load(self):
+        """Mean gap and area where tension turns into pressure."""
+        crossing = np.flatnonzero((self.pressure[:-1] < 0) & (self.pressure[1:] >= 0))
+        if not crossing.size:
+            return np.nan, np.nan
+        i = crossing[-1]
+        share = -self.pressure[i] / (self.pressure[i + 1] - self.pressure[i])
+        gap, area = (x[i] + share * (x[i + 1] - x[i]) for x in (self.gap, self.area))
+        return float(gap), float(area)
+
+
+def _tension_over_gap(gap, pressure):
+    """Integral along a stretch without jumps, between its states along a monotone cubic."""
+    if gap[0] > gap[-1]:
+        gap, pressure = gap[::-1], pressure[::-1]
+    fine = np.linspace(gap[:-1], gap[1:], POINTS, endpoint=False).T.ravel()
+    fine = np.append(fine, gap[-1])
+    tension = np.maximum(-PchipInterpolator(gap, pressure)(fine), 0)
+    return np.trapezoid(tension, fine)
+
+
+def _limits(fine, coarse):
+    """Limits by the change from half the grid, which is more than what the grid still lacks."""
+    found = {}
+    for name in QUOTED:
+        value, error = getattr(fine, name), abs(getattr(fine, name) - getattr(coarse, name))
+        found[f"{name}_limits"] = (max(value - error, 0.0), value + error)
+    return found
