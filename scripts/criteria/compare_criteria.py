@@ -17,10 +17,10 @@ from stickiness.core import datasets
 from stickiness.core.budget import with_budget
 from stickiness.criteria.a_v_table import NEEDED, AvTable
 from stickiness.criteria.pair import Pair
-from stickiness.criteria.registry import CRITERIA, EDGES
+from stickiness.criteria.registry import CRITERIA, REMAINING
 from stickiness.surfaces.spectrum import SelfAffine
 
-LOW, HIGH = f"{EDGES}_low", f"{EDGES}_high"
+LOW, HIGH = f"{REMAINING}_low", f"{REMAINING}_high"
 
 
 def main(job):
@@ -84,18 +84,19 @@ def find_thresholds(pair):
     found = {
         name: criterion.adhesion_length_threshold(pair)
         for name, criterion in CRITERIA.items()
-        if criterion.has_length and name != EDGES
+        if criterion.has_length and name != REMAINING
     }
-    return found | dict(zip((EDGES, LOW, HIGH), pair.edge_thresholds(), strict=True))
+    lengths = (pair.remaining_threshold(sign) for sign in (0, 1, -1))
+    return found | dict(zip((REMAINING, LOW, HIGH), lengths, strict=True))
 
 
 def add_budgets(dataset):
-    """Add error budgets to the thresholds; only that of the edges states an error."""
+    """Add error budgets to the thresholds; only that of what remains states an error."""
     for name in ("against_roughness", "against_magnification"):
         value = dataset[name]
         ends = (value.sel(criterion=end, drop=True) for end in (LOW, HIGH))
         model = between(value, *ends)
-        model = replace(model, error=model.error.where(value.criterion == EDGES))
+        model = replace(model, error=model.error.where(value.criterion == REMAINING))
         dataset = with_budget(dataset, name, model=model, **CLOSED)
     return dataset
 
@@ -106,7 +107,7 @@ def describe(dataset):
         dataset,
         h_rms_over_range=("1", "rms height over range"),
         magnification=("1", "highest over lowest wave number"),
-        criterion=("1", "stickiness criterion; of the edges also its low and high end"),
+        criterion=("1", "stickiness criterion; of what remains also its low and high limit"),
         against_roughness=("1", text),
         against_magnification=("1", text),
     )

@@ -1,4 +1,4 @@
-"""Verdict for every material on every surface, by the edges of contact and other criteria."""
+"""Verdict for every material on every surface, by the adhesion that remains and other criteria."""
 
 import xarray as xr
 
@@ -12,6 +12,7 @@ from pipeline.verdicts.pairs import (
     BY_END,
     ENDS,
     describe_edges,
+    describe_remaining,
     find_margins,
     follow_rates,
     gather_pairs,
@@ -19,6 +20,7 @@ from pipeline.verdicts.pairs import (
 from pipeline.verdicts.probabilities import find_probabilities
 from pipeline.verdicts.words import decide_pairs, find_disagreement
 from stickiness.core import datasets
+from stickiness.criteria.pair import WORDS
 from stickiness.criteria.registry import CRITERIA
 
 OF_SURFACES = (*BY_END, "q0", "hurst")
@@ -56,6 +58,7 @@ def find_verdicts(materials, surfaces, a_v, constant, frequencies):
             "a_v_high": constant.high,
             "work_of_adhesion": ("material", [m.work_of_adhesion for m in materials.values()]),
             **find_margins(pair),
+            **describe_remaining(pair),
             **describe_edges(pair),
         },
         coords={
@@ -65,7 +68,7 @@ def find_verdicts(materials, surfaces, a_v, constant, frequencies):
             "criterion": list(CRITERIA),
         },
     )
-    dataset = dataset.assign(find_probabilities(materials, surfaces, a_v))
+    dataset = dataset.assign(find_probabilities(materials, surfaces))
     dataset = dataset.assign(follow_rates(pair, materials, frequencies))
     dataset["verdict"] = decide_pairs(dataset)
     dataset["disagrees"] = find_disagreement(dataset)
@@ -74,8 +77,10 @@ def find_verdicts(materials, surfaces, a_v, constant, frequencies):
 
 
 def describe(dataset):
-    of_edges = "attraction over repulsion at equal area of contact, by the edges"
-    threshold = "plane-strain modulus below which the pair sticks"
+    margin = "adhesion length over the one at which the wanted share remains"
+    remains = "share of the work of adhesion that remains"
+    pull_off = "largest mean tension on separation"
+    threshold = "plane-strain modulus below which the wanted share remains"
     return datasets.annotate(
         dataset,
         material=("1", "material"),
@@ -83,8 +88,16 @@ def describe(dataset):
         end=("1", "smooth or rough end of what is known of the surface"),
         criterion=("1", "stickiness criterion"),
         margin=("1", "threshold over actual value in the criterion's own form; sticky above 1"),
-        margin_low=("1", f"{of_edges}, at the low limits of a_V and of the model"),
-        margin_high=("1", f"{of_edges}, at the high limits of a_V and of the model"),
+        margin_low=("1", f"{margin}, low limit of the model"),
+        margin_high=("1", f"{margin}, high limit of the model"),
+        remaining=("1", remains),
+        remaining_low=("1", f"{remains}, low limit of the model"),
+        remaining_high=("1", f"{remains}, high limit of the model"),
+        remaining_quantile=("1", f"quantiles of the {remains}", "not measured"),
+        pull_off=("Pa", pull_off),
+        pull_off_low=("Pa", f"{pull_off}, low limit of the model"),
+        pull_off_high=("Pa", f"{pull_off}, high limit of the model"),
+        energy_ratio=("1", "work of adhesion over the elastic energy of full contact"),
         range_over_h_rms=("1", "range of attraction over rms height"),
         pair_a_v=("1", "a_V of the pair: its surface's spectrum, its range over h_rms"),
         pair_a_v_low=("1", "low limit of the pair's a_V"),
@@ -96,26 +109,26 @@ def describe(dataset):
         simulated=("1", "1 where full simulation bears the model out"),
         jtb_margin=("1", "rms height over the smallest at which the DMT limit holds (JTB)"),
         modulus_threshold=("Pa", threshold),
-        modulus_threshold_low=("Pa", f"{threshold}, at the low limits of a_V and of the model"),
-        modulus_threshold_high=("Pa", f"{threshold}, at the high limits of a_V and of the model"),
+        modulus_threshold_low=("Pa", f"{threshold}, low limit of the model"),
+        modulus_threshold_high=("Pa", f"{threshold}, high limit of the model"),
         work_of_adhesion=("J/m^2", "work of adhesion"),
         threshold_by_criterion=("Pa", "plane-strain modulus below which a criterion says sticky"),
         a_v=("1", "constant a_V of a broad spectrum, in the interval of the fit"),
         a_v_low=("1", "a_V less its error"),
         a_v_high=("1", "a_V plus its error"),
-        verdict=("1", "0 not sticky, 1 depends on what is not known, 2 sticky, 3 undecided"),
+        verdict=("1", ", ".join(f"{code} {word}" for code, word in enumerate(WORDS))),
         probability=("1", "share of draws that stick", "surface not measured"),
         quantile=("1", "quantile of the draws"),
-        margin_quantile=("1", "quantiles of the margin by the edges", "not measured"),
+        margin_quantile=("1", "quantiles of the margin", "not measured"),
         error_of_spectrum=("1", "standard deviation of ln margin by the spectrum", "not measured"),
-        error_of_model=("1", "standard deviation of ln margin by a_V and model", "not measured"),
+        error_of_model=("1", "standard deviation of ln margin by the model", "not measured"),
         frequency=("Hz", "frequency of loading"),
         modulus=("Pa", "plane-strain storage modulus", "beyond the material's table"),
         modulus_quoted=("Pa", "plane-strain storage modulus at 1 Hz, of the quoted margins"),
         margin_low_at_rate=("1", "lowest margin at a frequency", "beyond the material's table"),
         margin_high_at_rate=("1", "highest margin at a frequency", "beyond the material's table"),
         depends_on_rate=("1", "1 where the modulus is given as a function of the frequency"),
-        disagrees=("1", "1 where a criterion says the opposite of that of the edges"),
+        disagrees=("1", "1 where a criterion says the opposite of the verdict"),
     )
 
 

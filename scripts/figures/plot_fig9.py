@@ -5,7 +5,7 @@ import numpy as np
 from pipeline import plotting
 from pipeline.numbers import number
 from stickiness.core import datasets
-from stickiness.criteria.registry import CRITERIA, EDGES
+from stickiness.criteria.registry import CRITERIA, REMAINING
 
 LENGTH_LABEL = r"adhesion length at the threshold $l_a/\epsilon$"
 LIMITS = 1e-4, 1e4
@@ -28,10 +28,10 @@ def main(job):
 
 
 def draw_thresholds(ax, thresholds, made, held):
-    """Threshold of every criterion, that of the edges with its error; `held` is what is fixed."""
+    """Threshold of every criterion, that of what remains with its error; `held` is what is fixed."""
     (along,) = set(thresholds.dims) - {"criterion"}
     x = thresholds[along].values
-    low, high = (thresholds.sel(criterion=f"{EDGES}_{end}") for end in ("low", "high"))
+    low, high = (thresholds.sel(criterion=f"{REMAINING}_{end}") for end in ("low", "high"))
     plotting.draw_band(ax, x, low, high, plotting.RED, alpha=0.2)
     for criterion in select_criteria(thresholds):
         line, label = criterion.line, criterion.label.replace("a_V", "$a_V$")
@@ -54,10 +54,10 @@ def colour_of(criterion):
 
 
 def draw_surfaces(ax, verdicts):
-    """Modulus below which a material sticks, over the one by the edges, for every surface."""
+    """Modulus below which a material sticks, over the one of the verdict, for every surface."""
     by = verdicts.threshold_by_criterion
-    ratio = np.log10(by / by.sel(criterion=EDGES))
-    others = [criterion for criterion in select_criteria(by) if criterion.name != EDGES]
+    ratio = np.log10(by / by.sel(criterion=REMAINING))
+    others = [criterion for criterion in select_criteria(by) if criterion.name != REMAINING]
     places = np.arange(by.sizes["surface"])
     for index, criterion in enumerate(others):
         found = ratio.sel(criterion=criterion.name)
@@ -70,7 +70,7 @@ def draw_surfaces(ax, verdicts):
         ax.plot(x, middle, **look, markerfacecolor=face, markersize=4.5)
     ax.axhline(1, color=plotting.RED, linewidth=2)
     ax.set_xticks(places, [name.replace("_", "\n") for name in by.surface.values])
-    ax.set(yscale="log", ylim=(1e-7, 3e7), ylabel="threshold of E* over that by the edges")
+    ax.set(yscale="log", ylim=(1e-7, 3e7), ylabel="threshold of E* over that of the verdict")
 
 
 if __name__ == "__main__":

@@ -16,7 +16,7 @@ import xarray as xr
 from pipeline.conventions import at_load
 from pipeline.numbers import NOTHING, interval, number, percent, superscripted, with_error
 from pipeline.pages.surface_texts import describe_height, describe_line
-from pipeline.pages.verdict_texts import EDGES, WORD_TONES, WORDS, describe_pair
+from pipeline.pages.verdict_texts import REMAINING, WORD_TONES, WORDS, describe_pair
 from pipeline.tradeoff import summary
 from pipeline.verdicts.materials import describe_modulus
 from stickiness.accuracy import plan
@@ -207,11 +207,11 @@ def describe_material(name: str, entry: Mapping[str, Any]) -> Context:
 
 
 def find_disagreements(verdicts: xr.Dataset, surfaces: Datasets) -> list[Context]:
-    """Pairs on which a criterion differs from that of the contact edges, by direction."""
+    """Pairs on which a criterion differs from the verdict, by direction."""
     labels = labels_of(surfaces)
     materials = datasets.parameters(verdicts)["materials"]
     sticky = verdicts.margin > 1
-    edges = sticky.sel(criterion=EDGES)
+    ours = sticky.sel(criterion=REMAINING)
 
     def pairs(differs):
         found = []
@@ -226,11 +226,11 @@ def find_disagreements(verdicts: xr.Dataset, surfaces: Datasets) -> list[Context
         {
             "criterion": CRITERIA[name].label,
             "count": int(verdicts.disagrees.sel(criterion=name).sum()),
-            "sticky": pairs((sticky.sel(criterion=name) & ~edges).any("end")),
-            "not_sticky": pairs((~sticky.sel(criterion=name) & edges).any("end")),
+            "sticky": pairs((sticky.sel(criterion=name) & ~ours).any("end")),
+            "not_sticky": pairs((~sticky.sel(criterion=name) & ours).any("end")),
         }
         for name in map(str, verdicts.criterion.values)
-        if name != EDGES
+        if name != REMAINING
     ]
 
 

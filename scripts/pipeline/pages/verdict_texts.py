@@ -11,17 +11,17 @@ from pipeline.numbers import NOTHING, interval, number, percent, quantity
 from pipeline.pages.surface_texts import describe_height
 from stickiness.core import budget
 from stickiness.criteria.pair import WORDS
-from stickiness.criteria.registry import CRITERIA, EDGES
+from stickiness.criteria.registry import CRITERIA, REMAINING
+from stickiness.remaining.prediction import DEFAULT_SHARE
 
-WORD_TONES = ("no", "partly", "yes", "open")
-GRADES = (0, 2, 3, 1)  # of the codes: an undecided pair stands next to one that does not stick
+WORD_TONES = ("no", "open", "partly", "yes", "yes")
 REGIME_TEXTS = ("weak", "between weak and tough", "tough, near JKR", "strong, but not near JKR")
 
 
 def describe_pair(pair: xr.Dataset) -> dict[str, Any]:
     """Texts and numbers of a pair on the pages; intervals go from the rough to the smooth end."""
     code = int(pair.verdict)
-    margins = ends(pair.margin.sel(criterion=EDGES))
+    margins = ends(pair.margin.sel(criterion=REMAINING))
     thresholds = ends(pair.modulus_threshold)
     limits, threshold_limits, a_v = (
         (float(pair[f"{name}_low"].min()), float(pair[f"{name}_high"].max()))
@@ -30,8 +30,10 @@ def describe_pair(pair: xr.Dataset) -> dict[str, Any]:
     return {
         "verdict": WORDS[code],
         "tone": WORD_TONES[code],
-        "grade": GRADES[code],
-        "outside": not bool(pair.simulated.all()),
+        "grade": code,
+        "outside": False,
+        "remaining": describe_share(pair),
+        "pull_off": quantity(*sorted(map(float, pair.pull_off.values)), "Pa", digits=2),
         "margin": interval(*margins, digits=2),
         "order": float(np.sqrt(np.prod(margins))),
         "limits": interval(*limits, digits=2),
@@ -46,9 +48,16 @@ def describe_pair(pair: xr.Dataset) -> dict[str, Any]:
     }
 
 
+def describe_share(pair: xr.Dataset) -> str:
+    """Share of the work of adhesion that remains, with its limits over both ends."""
+    low, high = float(pair.remaining_low.min()), float(pair.remaining_high.max())
+    value = "–".join(dict.fromkeys(percent(x) for x in sorted(pair.remaining.values)))
+    return f"{value} ({percent(low)} to {percent(high)})"
+
+
 def find_dominant(pair: xr.Dataset) -> str:
     """Source of the largest error of the margin, at the end of the surface with the larger."""
-    margin = pair.sel(criterion=EDGES)
+    margin = pair.sel(criterion=REMAINING)
     worst = (margin.margin_total_error / margin.margin).argmax("end")
     return budget.dominant(margin.isel(end=worst), "margin")
 
@@ -71,7 +80,7 @@ def describe_draws(pair: xr.Dataset) -> dict[str, Any]:
     return numbers | {
         "probability": percent(share),
         "drawn": interval(*map(float, pair.margin_quantile.values[[0, -1]]), 2),
-        "errors": f"spectrum {percent(float(pair.error_of_spectrum))}, a_V and model "
+        "errors": f"spectrum {percent(float(pair.error_of_spectrum))}, model "
         f"{percent(float(pair.error_of_model))}",
     }
 
@@ -79,7 +88,7 @@ def describe_draws(pair: xr.Dataset) -> dict[str, Any]:
 def explain(pair: xr.Dataset, surface: xr.Dataset, work_of_adhesion: float) -> list[dict[str, Any]]:
     """One row for every criterion: what it says of a pair, its margins and its reason."""
     facts = gather_facts(pair, surface, work_of_adhesion)
-    edges = pair.margin.sel(criterion=EDGES) > 1
+    ours = pair.margin.sel(criterion=REMAINING) > 1
     rows = []
     for name in map(str, pair.criterion.values):
         margin = pair.margin.sel(criterion=name)
@@ -90,7 +99,7 @@ def explain(pair: xr.Dataset, surface: xr.Dataset, work_of_adhesion: float) -> l
                 "name": CRITERIA[name].label,
                 "says": says,
                 "margins": interval(*ends(margin), 2),
-                "disagrees": bool((sticky != edges).any()),
+                "disagrees": bool((sticky != ours).any()),
                 "reason": CRITERIA[name].reason.format(**facts),
             }
         )
@@ -107,6 +116,8 @@ def gather_facts(pair: xr.Dataset, surface: xr.Dataset, work_of_adhesion: float)
         for name in ("attractive_over_contact", "edge_strength", "over_dmt")
     }
     return of_edges | {
+        "remaining": describe_share(pair),
+        "wanted": percent(DEFAULT_SHARE),
         "regime": " to ".join(dict.fromkeys(REGIME_TEXTS[int(code)] for code in pair.regime)),
         "h_rms": describe_height(surface),
         "q0": number(float(surface.q0)),

@@ -78,7 +78,7 @@ CLOSED = {
     "sampling": IN_A_V,
     "bandwidth": absent("of the spectrum stated"),
 }
-LIMITS = "of a_V, its sources together, and of the model of the edges; the farther of both limits"
+OF_MODEL = "of the model, the farther of both limits"
 
 
 def between_limits(dataset: xr.Dataset, name: str) -> Part:
@@ -88,7 +88,7 @@ def between_limits(dataset: xr.Dataset, name: str) -> Part:
 
 def between(value: xr.DataArray, low: xr.DataArray, high: xr.DataArray) -> Part:
     """Part of the budget of a value that is known between two limits."""
-    return Part(np.maximum(abs(high - value), abs(value - low)), LIMITS)
+    return Part(np.maximum(abs(high - value), abs(value - low)), OF_MODEL)
 
 
 def measure_a_v(inputs, pressure):

@@ -1,4 +1,4 @@
-"""Every material on both ends of every surface: margins, thresholds and the state of the edges."""
+"""Every material on both ends of every surface: what remains, margins, thresholds, edges."""
 
 from dataclasses import replace
 
@@ -10,6 +10,7 @@ from stickiness.criteria.registry import CRITERIA
 
 ENDS = ("smooth", "rough")
 DIMS = ("material", "surface", "end")
+LIMITS = {"": 0, "_low": -1, "_high": 1}
 BY_END = ("h_rms", "rms_slope", "rms_curvature", "elastic_energy")
 
 
@@ -51,22 +52,33 @@ def find_margins(pair):
     }
 
 
-def describe_edges(pair):
-    """State of the edges of every pair, limits of the margin, and thresholds of E* with limits."""
-    found = pair.attraction()
+def describe_remaining(pair):
+    """What remains of adhesion on every pair, the margin's limits, thresholds of E*, pull-off."""
     low, high = pair.margin_limits()
-    value, least, most = (pair.work_of_adhesion / length for length in pair.edge_thresholds())
+    most, value, least = (pair.work_of_adhesion / pair.remaining_threshold(k) for k in (-1, 0, 1))
+    stresses = [stress * pair.modulus for stress in pair.pull_off()]
+    values = {
+        **{f"remaining{end}": pair.remaining(sign) for end, sign in LIMITS.items()},
+        **{f"pull_off{end}": x for end, x in zip(LIMITS, stresses, strict=True)},
+        "energy_ratio": pair.adhesion_length / pair.elastic_energy,
+        "margin_low": low,
+        "margin_high": high,
+        "modulus_threshold": value,
+        "modulus_threshold_low": most,
+        "modulus_threshold_high": least,
+    }
+    return {name: (DIMS, value) for name, value in values.items()}
+
+
+def describe_edges(pair):
+    """State of the edges of every pair."""
+    found = pair.attraction()
     validity = criteria.dmt_validity(pair.h_rms, pair.q0, pair.adhesion_length, pair.range)
     values = {
         "pair_a_v": pair.a_v,
         "pair_a_v_low": pair.a_v_low,
         "pair_a_v_high": pair.a_v_high,
         "range_over_h_rms": pair.range / pair.h_rms,
-        "margin_low": low,
-        "margin_high": high,
-        "modulus_threshold": value,
-        "modulus_threshold_low": most,
-        "modulus_threshold_high": least,
         "edge_strength": found.strength,
         "attractive_over_contact": found.attractive_over_contact,
         "over_dmt": found.effect,

@@ -1,8 +1,7 @@
-"""Probability that a pair sticks by the edges of contact, on surfaces that were measured.
+"""Probability that a pair sticks, on surfaces that were measured.
 
-The spectrum enters by its draws (`stickiness.measured.spectrum_draws`). a_V and the model's error
-enter by their limits, between which logarithms are drawn evenly. The limits cover two variants of
-the theory, an independent estimate and the errors of simulation.
+The spectrum enters by its draws (`stickiness.measured.spectrum_draws`), the model of the adhesion
+that remains by its error, drawn from a normal distribution of which the limits cover 90 %.
 """
 
 from dataclasses import dataclass
@@ -10,66 +9,66 @@ from dataclasses import dataclass
 import numpy as np
 
 from pipeline.verdicts.pairs import DIMS
-from stickiness.adhesion import equivalent_sphere
+from stickiness.core.statistics import COVERS
+from stickiness.remaining.prediction import Roughness
 
 QUANTILES = (0.05, 0.5, 0.95)
 SEED = 2
-DRAWN = ("h_rms_draws", "q0_draws", "rms_slope_draws")
+DRAWN = ("h_rms_draws", "q0_draws", "elastic_energy_draws")
 
 
 @dataclass(frozen=True)
-class DrawnMargin:
-    """Margin at the reference frequency, attraction over repulsion, as a distribution.
+class Drawn:
+    """Margin and share that remains at the reference frequency, as distributions.
 
     `from_spectrum` and `from_model` are the standard deviations of ln(margin) that the spectrum
-    alone, or a_V and the model alone, would leave.
+    alone, or the model alone, would leave.
     """
 
     margins: np.ndarray  # (n,), one for each draw
-    probability: float  # share of the draws that stick
+    remaining: np.ndarray  # (n,), share of the work of adhesion
     from_spectrum: float
     from_model: float
 
     @property
-    def quantiles(self):
-        """Margins at `QUANTILES`."""
-        return np.quantile(self.margins, QUANTILES)
+    def probability(self):
+        """Share of the draws that stick."""
+        return float(np.mean(self.margins > 1))
 
 
-def find_probabilities(materials, surfaces, a_v):
+def find_probabilities(materials, surfaces):
     """Distribution of the margin of every pair; NaN on surfaces that were not measured."""
     shape = (len(materials), len(surfaces))
     share, spectrum, from_model = (np.full(shape, np.nan) for _ in range(3))
-    quantiles = np.full((*shape, len(QUANTILES)), np.nan)
+    margins, remaining = np.full((2, *shape, len(QUANTILES)), np.nan)
     for i, solid in enumerate(materials.values()):
-        for j, (name, surface) in enumerate(surfaces.items()):
+        for j, surface in enumerate(surfaces.values()):
             if all(drawn in surface for drawn in DRAWN):
-                found = draw_margins(solid, surface, a_v[name])
-                share[i, j], quantiles[i, j] = found.probability, found.quantiles
+                found = draw_pair(solid, surface)
+                share[i, j] = found.probability
+                margins[i, j] = np.quantile(found.margins, QUANTILES)
+                remaining[i, j] = np.quantile(found.remaining, QUANTILES)
                 spectrum[i, j], from_model[i, j] = found.from_spectrum, found.from_model
     return {
         "probability": (DIMS[:2], share),
         "quantile": ("quantile", list(QUANTILES)),
-        "margin_quantile": ((*DIMS[:2], "quantile"), quantiles),
+        "margin_quantile": ((*DIMS[:2], "quantile"), margins),
+        "remaining_quantile": ((*DIMS[:2], "quantile"), remaining),
         "error_of_spectrum": (DIMS[:2], spectrum),
         "error_of_model": (DIMS[:2], from_model),
     }
 
 
-def draw_margins(material, surface, a_v):
-    """`DrawnMargin` of a `Material` on a surface with draws, under a `SurfaceAv`."""
-    h, q0, slope = (surface[name].values for name in DRAWN)
+def draw_pair(material, surface):
+    """`Drawn` of a `Material` on a surface with draws."""
+    rough = Roughness(*(surface[name].values for name in DRAWN))
     length = material.work_of_adhesion / material.modulus
-    value, low, high = np.transpose([a_v.at(material.range / x) for x in h])
-    share, sign = np.random.default_rng(SEED).random((2, len(h)))
-    at_value, drawn = (
-        equivalent_sphere.attraction(h, q0, slope, length, material.range, found)
-        for found in (value, low * (high / low) ** share)
-    )
-    margins = drawn.ratio * drawn.error_factor ** (2 * sign - 1)
-    return DrawnMargin(
+    sign = np.random.default_rng(SEED).normal(size=len(rough.h_rms)) / COVERS
+    at_value = length / rough.threshold(material.range)
+    margins = length / rough.threshold(material.range, sign=sign)
+    return Drawn(
         margins=margins,
-        probability=float(np.mean(margins > 1)),
-        from_spectrum=float(np.std(np.log(at_value.ratio))),
-        from_model=float(np.std(np.log(margins / at_value.ratio))),
+        remaining=rough.share(length, material.range, sign),
+        from_spectrum=float(np.std(np.log(at_value))),
+        from_model=float(np.std(np.log(margins / at_value))),
     )

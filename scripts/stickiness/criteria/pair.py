@@ -8,9 +8,11 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from stickiness.adhesion import equivalent_sphere
+from stickiness.remaining.prediction import DEFAULT_SHARE, Roughness
 
-WORDS = ("not sticky", "depends", "sticky", "undecided")
-NOT_STICKY, DEPENDS, STICKY, UNDECIDED = range(4)
+WORDS = ("does not stick", "touches without hold", "depends", "sticks", "sticks fully")
+NOT_STICKY, TOUCHES, DEPENDS, STICKY, STICKS_FULLY = range(5)
+FULL_SHARE = 0.8  # of the work of adhesion, from which a pair sticks fully
 REGIMES = ("weak", "between", "tough", "strong")
 WEAK, BETWEEN, TOUGH, STRONG = range(4)
 
@@ -31,6 +33,7 @@ class Pair:
     a_v_low: ArrayLike  # its limits
     a_v_high: ArrayLike
     constant_a_v: ArrayLike  # a_V of a broad spectrum, the same for every pair
+    wanted_share: float = DEFAULT_SHARE  # of the work of adhesion, that must remain to stick
 
     @property
     def adhesion_length(self) -> float | NDArray:
@@ -41,7 +44,32 @@ class Pair:
         """Attraction over repulsion by the edges of contact, for another a_V if one is given."""
         return self._attraction(self.adhesion_length, self.a_v if a_v is None else a_v)
 
+    @property
+    def roughness(self) -> Roughness:
+        """The surface as `stickiness.remaining` needs it."""
+        return Roughness(self.h_rms, self.q0, self.elastic_energy)
+
+    def remaining(self, sign: int = 0) -> float | NDArray:
+        """Share of the work of adhesion that remains; `sign` -1 or +1 for its low or high limit."""
+        return self.roughness.share(self.adhesion_length, self.range, sign)
+
+    def pull_off(self) -> tuple[ArrayLike, ArrayLike, ArrayLike]:
+        """Pull-off stress over E* with its low and high limit."""
+        return self.roughness.pull_off(self.adhesion_length, self.range)
+
+    def remaining_threshold(self, sign: int = 0) -> float | NDArray:
+        """Adhesion length [m] above which the wanted share remains.
+
+        With `sign` +1 or -1 by the high or low limit of the share.
+        """
+        return self.roughness.threshold(self.range, self.wanted_share, sign)
+
     def margin_limits(self) -> tuple[ArrayLike, ArrayLike]:
+        """Lowest and highest margin by the adhesion that remains, for the limits of its model."""
+        low, high = (self.adhesion_length / self.remaining_threshold(sign) for sign in (-1, 1))
+        return low, high
+
+    def edge_limits(self) -> tuple[ArrayLike, ArrayLike]:
         """Lowest and highest margin by the edges, for the limits of a_V and of the model."""
         low, high = self.attraction(self.a_v_low), self.attraction(self.a_v_high)
         return low.ratio / low.error_factor, high.ratio * high.error_factor
@@ -72,14 +100,20 @@ class Pair:
         return equivalent_sphere.adhesion_length_threshold(*at, error**sign)
 
 
-def decide(surely: ArrayLike, possibly: ArrayLike, holds: ArrayLike) -> NDArray:
+def decide(
+    low: ArrayLike, high: ArrayLike, grows: ArrayLike, wanted: float = DEFAULT_SHARE
+) -> NDArray:
     """Code of a verdict, its place in `WORDS`.
 
-    Contact grows by itself for all (`surely`) or some (`possibly`) of what is not known. Where it
-    does not, but full contact would hold (`holds`), history decides: undecided.
+    `low` and `high` are the limits of the share that remains, `grows` tells whether contact grows by
+    itself at the finest wave.
     """
-    decided = NOT_STICKY + np.asarray(possibly, dtype="i1") + np.asarray(surely, dtype="i1")
-    return np.where((decided == NOT_STICKY) & holds, UNDECIDED, decided).astype("i1")
+    low, high = np.asarray(low), np.asarray(high)
+    return np.select(
+        [high < wanted, low < wanted, low < FULL_SHARE],
+        [np.where(grows, TOUCHES, NOT_STICKY), DEPENDS, STICKY],
+        STICKS_FULLY,
+    ).astype("i1")
 
 
 def classify_edges(attraction: equivalent_sphere.EdgeAttraction) -> NDArray:

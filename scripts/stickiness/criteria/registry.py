@@ -16,13 +16,14 @@ from numpy.typing import NDArray
 from stickiness.criteria import formulas
 from stickiness.criteria.pair import Pair
 
+REMAINING = "remaining_adhesion"  # that verdicts rest on
 EDGES = "edge_adhesion"
 FULL_CONTACT = "persson_tosatti"
 FACTS = frozenset(  # what a reason can quote of a pair, as texts with units
     (
         *("attractive_over_contact", "edge_strength", "regime", "over_dmt", "h_rms", "q0"),
         *("rms_slope", "rms_curvature", "summit_radius", "energy"),
-        *("work_of_adhesion", "modulus", "a_v", "constant_a_v"),
+        *("work_of_adhesion", "modulus", "a_v", "constant_a_v", "remaining", "wanted"),
     )
 )
 
@@ -105,14 +106,24 @@ _SLOPES = ("rms_slope", "rms_curvature", "adhesion_length", "range")
 
 _TABLE = (
     Criterion(
+        REMAINING,
+        "remaining adhesion",
+        margin=lambda pair: pair.adhesion_length / pair.remaining_threshold(),
+        length=lambda pair: pair.remaining_threshold(),
+        reason="{remaining} of the work of adhesion remains; {wanted} is wanted. Full contact "
+        "would cost {energy} against the work of adhesion of {work_of_adhesion}.",
+        line=Line("red", "-", 2.2),
+    ),
+    Criterion(
         EDGES,
-        "edges of contact",
+        "onset at the finest wave",
         margin=lambda pair: pair.attraction().ratio,
         length=lambda pair: pair.edge_threshold(pair.a_v),
-        reason="The attractive area is {attractive_over_contact} of the contact area. The "
+        reason="Above 1 contact grows by itself at the finest wave, which is not to say that it "
+        "holds. The attractive area is {attractive_over_contact} of the contact area. The "
         "Tabor parameter of the edges is {edge_strength} ({regime}). The attraction is "
         "{over_dmt} times that of the DMT limit.",
-        line=Line("red", "-", 2.2),
+        line=Line("red", "--", 1.2, filled=False),
     ),
     Criterion(
         "violano",

@@ -13,9 +13,10 @@ from stickiness.core.plausibility import warn_of_si
 from stickiness.criteria.a_v_table import VARIANTS, SurfaceAv, theory_a_v
 from stickiness.criteria.formulas import pastewka_robbins_a_v
 from stickiness.criteria.pair import REGIMES, WORDS, Pair, classify_edges, decide
-from stickiness.criteria.registry import CRITERIA, EDGES, FULL_CONTACT
+from stickiness.criteria.registry import CRITERIA, EDGES, REMAINING
 from stickiness.measured import instrument_spectrum
 from stickiness.measured.topography import Topography
+from stickiness.remaining.prediction import DEFAULT_SHARE
 from stickiness.surfaces.spectrum import Spectrum, Tabulated
 
 LOAD = 0.065  # mean pressure over E* q0 h_rms, amid those where area grows with load in proportion
@@ -33,15 +34,19 @@ class StickinessVerdict:
     Attributes
     ----------
     word : str
-        One of `WORDS`: "depends" if 1 lies within the limits of the margin, "undecided" if contact
-        does not grow by itself but would hold once it is full.
+        One of `WORDS`: "depends" if the wanted share lies within the limits of what remains,
+        "touches without hold" if contact grows by itself at the finest wave but less remains.
+    remaining, remaining_limits : float, (float, float)
+        Share of the work of adhesion that remains on the rough surface, and its limits.
+    pull_off, pull_off_limits : float, (float, float)
+        Largest mean tension on separation, and its limits [Pa].
     margin, margin_limits : float, (float, float)
-        Attraction over repulsion at equal area of contact, by the edges, sticky above 1; lowest and
-        highest for the limits of a_V and of the model.
+        Adhesion length over the one at which the wanted share remains; sticks above 1.
     modulus_threshold, modulus_threshold_limits : float, (float, float)
-        Plane-strain modulus below which the pair sticks, and its limits [Pa].
+        Plane-strain modulus below which the wanted share remains, and its limits [Pa]. Margin and
+        threshold have the same relative errors.
     regime : str
-        One of `REGIMES`, by the Tabor parameter of the edges.
+        One of `REGIMES`, by the Tabor parameter of the edges of contact at the finest wave.
     simulated : bool
         Whether full simulation covers the state of the edges.
     a_v, a_v_limits : float, (float, float)
@@ -53,6 +58,10 @@ class StickinessVerdict:
     """
 
     word: str
+    remaining: float
+    remaining_limits: tuple[float, float]
+    pull_off: float
+    pull_off_limits: tuple[float, float]
     margin: float
     margin_limits: tuple[float, float]
     modulus_threshold: float
@@ -65,13 +74,13 @@ class StickinessVerdict:
     pair: Pair
 
     def __str__(self) -> str:
-        low, high = self.margin_limits
+        low, high = self.remaining_limits
         modulus = [x / 1e6 for x in (self.modulus_threshold, *self.modulus_threshold_limits)]
         beyond = "" if self.simulated else " (beyond what was simulated)"
         others = "; ".join(
             f"{CRITERIA[name].label} {margin:.3g}"
             for name, margin in self.margins.items()
-            if name != EDGES
+            if name != REMAINING
         )
         pair = self.pair
         asked = (
@@ -80,9 +89,12 @@ class StickinessVerdict:
             f"h_rms = {pair.h_rms:.3g} m, longest wave {2 * np.pi / pair.q0:.3g} m"
         )
         return (
-            f"{self.word}: margin {self.margin:.3g} ({low:.3g} to {high:.3g}), sticky above 1\n"
+            f"{self.word}: {self.remaining:.2g} of the work of adhesion remains "
+            f"({low:.2g} to {high:.2g}); {pair.wanted_share:g} is wanted\n"
+            f"pull-off stress: {self.pull_off:.2g} Pa "
+            f"({self.pull_off_limits[0]:.2g} to {self.pull_off_limits[1]:.2g} Pa)\n"
             f"sticks below E* = {modulus[0]:.3g} MPa ({modulus[1]:.3g} to {modulus[2]:.3g} MPa)\n"
-            f"edges: {self.regime}{beyond}\n"
+            f"edges at the finest wave: {self.regime}{beyond}\n"
             f"a_V = {self.a_v:.3g} ({self.a_v_limits[0]:.3g} to {self.a_v_limits[1]:.3g})\n"
             f"margins by other criteria: {others}\n"
             f"{asked}"
@@ -99,6 +111,7 @@ def verdict(
     length: float | tuple[float, float] | None = None,
     a_v: tuple[float, float, float] | None = None,
     constant_a_v: float = BROAD_A_V,
+    wanted_share: float = DEFAULT_SHARE,
 ) -> StickinessVerdict:
     """Say whether a material sticks to a rough surface.
 
@@ -123,6 +136,8 @@ def verdict(
         widened by `THEORY_ERROR`.
     constant_a_v : float
         a_V of a broad spectrum, for the criterion that takes one.
+    wanted_share : float
+        Share of the work of adhesion that must remain for a pair to stick, between 0 and 1.
 
     Returns
     -------
@@ -144,8 +159,10 @@ def verdict(
     >>> from stickiness.spectrum import SelfAffine
     >>> rough = SelfAffine(hurst=0.8, q0=6e4, q1=6e8, h_rms=1e-6)
     >>> verdict(rough, modulus=210e9, poisson=0.3, work_of_adhesion=0.1, range=3e-10).word
-    'not sticky'
+    'does not stick'
     """
+    if not 0 < wanted_share < 1:
+        raise ValueError(f"wanted_share must be between 0 and 1, got {wanted_share!r}")
     positive(modulus=modulus, work_of_adhesion=work_of_adhesion, range=range)
     if poisson is not None and not -1 < poisson <= 0.5:
         raise ValueError(f"poisson must be above -1 and at most 0.5, got {poisson!r}")
@@ -176,6 +193,7 @@ def verdict(
         a_v_low=low,
         a_v_high=high,
         constant_a_v=constant_a_v,
+        wanted_share=wanted_share,
     )
     return judge_pair(pair)
 
@@ -184,14 +202,19 @@ def judge_pair(pair: Pair) -> StickinessVerdict:
     """Verdict on a pair of numbers."""
     edges = pair.attraction()
     margins = {name: float(criterion.margin(pair)) for name, criterion in CRITERIA.items()}
-    low, high = map(float, pair.margin_limits())
-    value, least, most = (float(pair.work_of_adhesion / x) for x in pair.edge_thresholds())
+    low, remaining, high = (float(pair.remaining(sign)) for sign in (-1, 0, 1))
+    pull_off, *pull_off_limits = (float(x * pair.modulus) for x in pair.pull_off())
+    most, value, least = (pair.work_of_adhesion / pair.remaining_threshold(k) for k in (-1, 0, 1))
     return StickinessVerdict(
-        word=WORDS[int(decide(low > 1, high > 1, margins[FULL_CONTACT] > 1))],
-        margin=margins[EDGES],
-        margin_limits=(low, high),
-        modulus_threshold=value,
-        modulus_threshold_limits=(most, least),
+        word=WORDS[int(decide(low, high, margins[EDGES] > 1, pair.wanted_share))],
+        remaining=remaining,
+        remaining_limits=(low, high),
+        pull_off=pull_off,
+        pull_off_limits=tuple(pull_off_limits),
+        margin=margins[REMAINING],
+        margin_limits=tuple(map(float, pair.margin_limits())),
+        modulus_threshold=float(value),
+        modulus_threshold_limits=(float(most), float(least)),
         regime=REGIMES[int(classify_edges(edges))],
         simulated=bool(edges.simulated),
         a_v=float(pair.a_v),

@@ -1,1 +1,11 @@
-"""x"""
+"""How much adhesion remains on a rough surface: measured by simulation, predicted from the spectrum.
+
+- `measurement`: works of approach and separation and pull-off of given heights, simulated
+- `share`: share of the work of adhesion that remains, from weak to tough, in closed form
+- `prediction`: the same of a spectrum, with limits, and the adhesion that a share needs
+"""
+
+from stickiness.remaining.measurement import Remaining, measure
+from stickiness.remaining.prediction import Prediction, Roughness, predict
+
+__all__ = ["Prediction", "Remaining", "Roughness", "measure", "predict"]

@@ -1,0 +1,164 @@
+"""Adhesion that remains on a rough surface, predicted from its spectrum, with limits."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from scipy.optimize import elementwise
+
+from stickiness.core.arguments import number, plain, positive
+from stickiness.remaining.share import ONSET, find_onset, remaining_share, tough_area
+from stickiness.surfaces.spectrum import Spectrum
+
+# Errors that cover 90 %, from simulations that nothing was fitted to: of the onset (which is all at
+# small shares), and of a share.
+ONSET_ERROR = 0.06
+SHARE_ERROR = 0.15
+# Largest tension on separation is PULL_OFF * share * w/h_rms * x^PULL_OFF_POWER.
+PULL_OFF, PULL_OFF_POWER, PULL_OFF_ERROR = 0.62, -0.4, 0.35
+LARGEST_SIMULATED = 2.0  # energy ratio
+# Separation over what remains of the energy: jumps of what is finer than a simulation resolves.
+HYSTERESIS = 1.3
+DEFAULT_SHARE = 0.1  # of the work of adhesion, from which a pair is said to stick
+
+
+@dataclass(frozen=True)
+class Prediction:
+    """What remains of the work of adhesion on a rough surface, predicted; limits cover 90 %.
+
+    Attributes
+    ----------
+    approach, separation : float
+        Works of approach and of separation at given mean gaps, over the work of adhesion. The
+        theory has no jumps: both are the energy gained. Jumps lower the one and raise the other,
+        which the limits allow for.
+    pull_off : float
+        Largest mean tension on separation [E*].
+    area_at_zero_load : float
+        Share of the nominal area in contact, 0 where attraction acts over gaps.
+    approach_limits, separation_limits, pull_off_limits : (float, float)
+        Low and high.
+    energy_ratio : float
+        Work of adhesion over the elastic energy of full contact.
+    tabor : float
+        Tabor's parameter of the longest waves, (l_a^2/(q0^2 h_rms range^3))^(1/3): the range drops
+        out where it is large.
+    """
+
+    approach: float
+    separation: float
+    pull_off: float
+    area_at_zero_load: float
+    approach_limits: tuple[float, float]
+    separation_limits: tuple[float, float]
+    pull_off_limits: tuple[float, float]
+    energy_ratio: float
+    tabor: float
+
+
+@dataclass(frozen=True)
+class Roughness:
+    """What the prediction needs to know of a surface; numbers or arrays, lengths in one unit."""
+
+    h_rms: ArrayLike
+    q0: ArrayLike  # of the longest waves, or of the roll-off
+    elastic_energy: ArrayLike  # of full contact per nominal area over E* [length]
+
+    def share(self, adhesion_length: ArrayLike, range: ArrayLike, sign: int = 0) -> float | NDArray:
+        """Share of the work of adhesion that remains; `sign` -1 or +1 for its low or high limit."""
+        ratio = np.asarray(adhesion_length) / self.elastic_energy
+        zone = self.q0 * np.asarray(range) ** 2 / adhesion_length
+        reach = np.asarray(range) / self.h_rms
+        share = remaining_share(ratio, reach, zone, ONSET - sign * ONSET_ERROR)
+        return plain(np.minimum(np.asarray(share) * (1 + SHARE_ERROR) ** sign, 1.0))
+
+    def pull_off(
+        self, adhesion_length: ArrayLike, range: ArrayLike
+    ) -> tuple[ArrayLike, ArrayLike, ArrayLike]:
+        """Largest mean tension on separation over E*: value, low and high limit.
+
+        Beyond what was simulated, next to full contact, the high limit is the strength of the law.
+        """
+        ratio = np.asarray(adhesion_length) / self.elastic_energy
+        stress = PULL_OFF * ratio**PULL_OFF_POWER * np.asarray(adhesion_length) / self.h_rms
+        low, value, high = (
+            plain(stress * self.share(adhesion_length, range, sign) * (1 + PULL_OFF_ERROR) ** sign)
+            for sign in (-1, 0, 1)
+        )
+        strength = np.asarray(adhesion_length) / range
+        high = plain(np.where(ratio > LARGEST_SIMULATED, np.maximum(high, strength), high))
+        return value, low, high
+
+    def threshold(
+        self, range: ArrayLike, share: float = DEFAULT_SHARE, sign: ArrayLike = 0
+    ) -> float | NDArray:
+        """Adhesion length from which on at least a share remains.
+
+        With `sign` +1 or -1 that of the high or low limit of the share, which is shorter or longer.
+        """
+        range = np.asarray(range, dtype=float)
+        known = {"h_rms": self.h_rms, "q0": self.q0, "elastic_energy": self.elastic_energy}
+        h, q0, energy, range, sign = np.broadcast_arrays(*positive(**known, range=range), sign)
+
+        def excess(log_length, h, q0, energy, range, sign):
+            rough = Roughness(h, q0, energy)
+            return np.asarray(rough.share(np.exp(log_length), range, sign)) - share
+
+        # From nothing, however long the range, to full contact.
+        bracket = np.log(1e-9 * energy), np.log(20 * energy / (1 - share))
+        found = elementwise.find_root(excess, bracket, args=(h, q0, energy, range, sign))
+        # Attraction of a range far above h_rms holds whatever its strength.
+        return plain(np.where(found.success, np.exp(found.x), 1e-9 * energy))
+
+
+def predict(
+    spectrum: Spectrum, adhesion_length: float, range: float, q0: float | None = None
+) -> Prediction:
+    """Predict what remains of adhesion on a rough surface.
+
+    Parameters
+    ----------
+    spectrum : Spectrum
+        Of the surface.
+    adhesion_length : float
+        Work of adhesion over E* [length].
+    range : float
+        Range of the attraction [length].
+    q0 : float, optional
+        Wave number of the longest waves that matter [1/length]; by default that of the roll-off,
+        or the lowest of the spectrum.
+
+    Raises
+    ------
+    ValueError
+        If an argument is not positive and finite.
+
+    Examples
+    --------
+    >>> from stickiness.spectrum import SelfAffine
+    >>> rough = SelfAffine(hurst=0.8, q0=1.0, q1=1e4, h_rms=1.0)
+    >>> found = predict(rough, adhesion_length=1.0, range=0.01)
+    >>> print(f"{found.separation:.2f} of the work of adhesion remains")
+    0.42 of the work of adhesion remains
+    """
+    length, range = number("adhesion_length", adhesion_length), number("range", range)
+    if q0 is None:
+        q0 = getattr(spectrum, "q_rolloff", None) or spectrum.q0
+    q0, h = number("q0", q0), spectrum.h_rms
+    rough = Roughness(h, q0, spectrum.elastic_energy())
+    low, share, high = (float(rough.share(length, range, sign)) for sign in (-1, 0, 1))
+    ratio = length / rough.elastic_energy
+    pull_off, *pull_off_limits = map(float, rough.pull_off(length, range))
+    return Prediction(
+        approach=share,
+        separation=share,
+        pull_off=pull_off,
+        area_at_zero_load=float(tough_area(ratio, find_onset(q0 * range**2 / length))),
+        approach_limits=(low / HYSTERESIS, high),
+        separation_limits=(low, min(HYSTERESIS * high, 1.0)),
+        pull_off_limits=tuple(pull_off_limits),
+        energy_ratio=ratio,
+        tabor=float(np.cbrt(length**2 / (q0**2 * h * range**3))),
+    )
