@@ -1,4 +1,4 @@
-"""Attraction next to the edges of a contact, at equal area: from weak edges to tough ones as in JKR.
+"""Attraction next to the edges of contact at equal area: from weak edges to tough ones as in JKR.
 
 Next to an edge of contact the pressure is ``B x^(1/2)`` inside and the gap ``C x^(3/2)`` outside,
 with ``C = 4B/3E*``. A traction sigma pulling at a distance s outside, per length of edge, presses
