@@ -252,10 +252,10 @@ def asphalt_by_edges(files: Files) -> AsphaltByEdges:
     text = (
         f"It depends strongly on the shortest wavelength, assumed to be {shortest * 1e6:.2g} µm: "
         f"scaled with the a_V of Pastewka and Robbins it is {value * long:.2g} MPa for "
-        f"{shortest * 1e7:.2g} µm, {value * short:.2g} for {shortest * 1e5:.2g} µm and {value * finest:.2g} for "
-        f"{FINEST * 1e9:g} nm. C0 = {float(smooth.C0):g} in place of {float(rough.C0):g} m^0.4 "
-        f"gives {smoother:.2g} MPa. At the threshold the Tabor parameter of the "
-        f"edges is {edges.strength:.1g}"
+        f"{shortest * 1e7:.2g} µm, {value * short:.2g} for {shortest * 1e5:.2g} µm and "
+        f"{value * finest:.2g} for {FINEST * 1e9:g} nm. C0 = {float(smooth.C0):g} in place of "
+        f"{float(rough.C0):g} m^0.4 gives {smoother:.2g} MPa. At the threshold the Tabor parameter "
+        f"of the edges is {edges.strength:.1g}"
         + (": they are tough, so the range matters through a_V alone." if edges.tough else ".")
         + " With either C0, a shortest wavelength within a factor of 10 and the model's error of a "
         f"factor of {model:g} in attraction, the threshold lies between {low:.2g} and {high:.2g} "

@@ -526,7 +526,8 @@ def test_figure_8_opens_points_where_the_window_is_too_small(ax, compared):
     ((_, halves),) = bar_lengths(ax)
     np.testing.assert_allclose(halves, [0.2 * TOTAL, 0.1 * TOTAL])
     (text,) = ax.texts
-    assert text.get_text() == "rms 10%"  # of the load that the window is large enough for
+    # of the load that the window is large enough for, which is in the middle band
+    assert text.get_text() == "rms 10%\nmeans –, −10, – %"
 
 
 def test_figure_8b_has_gamma_with_its_interval_and_misfit(ax):
