@@ -111,7 +111,7 @@ _TABLE = (
         length=lambda pair: pair.edge_threshold(pair.a_v),
         reason="The attractive area is {attractive_over_contact} of the contact area. The "
         "Tabor parameter of the edges is {edge_strength} ({regime}). The attraction is "
-        "{over_dmt} times that of the DMT limit.",
+        "{over_dmt} times that of the DMT limit at equal area of contact.",
         line=Line("red", "-", 2.2),
     ),
     Criterion(
