@@ -1,8 +1,8 @@
 """Errors of Persson's theory by load in cells of many waves, and P(u) at small gaps on a fine grid.
 
 Cells of 4 by 4 and 8 by 8 longest wavelengths have summits enough for small loads; theory is on
-their discrete spectrum. Four points per shortest wavelength err by 2 to 5 % in the area, and hardly
-in the mean gap. Run it by hand (5 min):
+their discrete spectrum. Four points per shortest wavelength err by a few per cent in the area, and
+hardly in the mean gap. Run it by hand (5 min):
 
     python benchmarks/theory_by_load.py
 """
