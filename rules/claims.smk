@@ -23,6 +23,7 @@ def ledger_inputs():
         "adhesion_rough": f"{RESULTS}/adhesion/dmt/fig4b_rough.nc",
         "adhesion_smooth": f"{RESULTS}/adhesion/dmt/fig4b_smooth.nc",
         "map": f"{RESULTS}/criteria/map.nc",
+        "verdicts": f"{RESULTS}/criteria/verdicts.nc",
         "asphalt": f"{RESULTS}/real_surfaces/asphalt.nc",
         "asphalt_theory": f"{RESULTS}/persson/surfaces/asphalt.nc",
         "polished_steel": f"{RESULTS}/real_surfaces/polished_steel.nc",

@@ -1,5 +1,7 @@
 """Figure 10: attraction at the edges of contact, full simulation and its equivalent sphere."""
 
+from itertools import pairwise
+
 import numpy as np
 
 from pipeline import plotting
@@ -14,7 +16,9 @@ COLUMNS = (
 )
 LARGEST_ERROR = 0.25  # of a point that is drawn; covers 90 %
 LOOK = {"markersize": 3.5, "linestyle": "none", "elinewidth": 0.7}
-WEAKEST_EDGE = 1e-4  # left end of panel B
+WEAKEST_EDGE = 1e-3  # left end of panel B
+# Tabor parameters between which ratios are averaged: from about 0.2 on they have a trend.
+BINS = (1e-3, 0.01, 0.05, 0.2, 0.5, 1.0, 1.5, 2.5, 4.0)
 
 
 def main(job):
@@ -50,7 +54,10 @@ def draw_weak(ax, files):
     ax.set(xscale="log", yscale="log")
     ax.set_xlabel(r"attractive over contact area $A_\mathrm{ad}/A_\mathrm{rep}$")
     ax.set_ylabel("attraction at equal area over DMT's")
-    plotting.write_ticks(ax.yaxis, [1, 1.5, 2, 3, 4, 5])
+    wide = t[t > 0.7]
+    at_approach = equivalent_sphere.weak_effect_at_approach(wide)
+    plotting.draw_guide(ax, wide, at_approach, "at equal approach", (3, 0.4))
+    plotting.write_ticks(ax.yaxis, [0.4, 0.6, 1, 1.5, 2, 3, 4, 5])
     ax.set_title(rf"weak edges, $\tau$ < {equivalent_sphere.WEAK:g}")
     ax.legend()
 
@@ -59,16 +66,30 @@ def draw_ratios(ax, files):
     """Simulation over model at every strength, with the error that verdicts take."""
     ends = WEAKEST_EDGE, equivalent_sphere.WEAK, equivalent_sphere.STRONGEST_SIMULATED
     factors = equivalent_sphere.ERROR_WEAK, equivalent_sphere.ERROR_STRONG
-    for low, high, factor in zip(ends, ends[1:], factors, strict=False):
+    for (low, high), factor in zip(pairwise(ends), factors, strict=True):
         plotting.draw_band(ax, [low, high], 1 / factor, factor, GREY, alpha=0.2)
-    for index, data in enumerate(files):
-        _, strength, _, ratio, error = select_certain(data)
-        ax.errorbar(strength, ratio, error, **LOOK, **pick_look(index))
-    ax.axhline(1, color=BLACK)
+    points = [select_certain(data) for data in files]
+    for index, (_, strength, _, ratio, error) in enumerate(points):
+        ax.errorbar(strength, ratio, error, **LOOK, **pick_look(index), alpha=0.5)
+    ax.axhline(1, color=GREY, linewidth=0.9)
+    draw_means(ax, *np.concatenate(points, axis=1)[[1, 3]])
     ax.set(xscale="log", yscale="log", xlim=(ends[0], ends[-1]))
     plotting.write_ticks(ax.yaxis, [0.6, 0.7, 0.8, 0.9, 1, 1.2, 1.4, 1.6])
     ax.set(xlabel=r"Tabor parameter of the edges $\tau = l_ad/\epsilon^2$")
     ax.set_ylabel("simulation over equivalent sphere")
+
+
+def draw_means(ax, strength, ratio):
+    """Means of ratios between the strengths of `BINS`, as steps with their standard errors."""
+    look = {"color": BLACK, "linewidth": 2}
+    for low, high in pairwise(BINS):
+        inside = ratio[(strength >= low) & (strength < high)]
+        if inside.size > 1:  # else there is no error of the mean
+            error = inside.std(ddof=1) / np.sqrt(inside.size)
+            ax.plot([low, high], [inside.mean()] * 2, **look)
+            ax.errorbar(np.sqrt(low * high), inside.mean(), error, **look)
+    ax.plot([], [], **look, label="means, with standard errors")
+    ax.legend(loc="upper left")
 
 
 def name_surface(data):

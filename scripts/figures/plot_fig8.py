@@ -1,6 +1,7 @@
 """Figure 8: where Persson's theory fails, correction by correction, and gamma by simulation."""
 
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 import xarray as xr
@@ -26,8 +27,9 @@ SYMBOLS = {
 }
 ROWS = ("area_fraction", "mean_gap", "attractive_area", "gap_density", "distance")
 RANGE = 0.1  # over h_rms, of the attractive area
-LARGEST_DIFFERENCE = 0.5  # relative, shown
+LARGEST_DIFFERENCE = 0.6  # relative, shown
 GOOD_DIFFERENCE = 0.1  # relative, shaded
+LOAD_BANDS = (0, 0.02, 0.1, 1)  # over E* q0 h_rms, in which differences are averaged
 KNOWN_TO = 0.2  # relative error of P(u) up to which it is drawn
 LARGEST_GAP = 3  # over h_rms, up to which P(u) is drawn
 SMALL = {"va": "center", "fontsize": 7}
@@ -105,7 +107,7 @@ def make_case_keys(cases):
 
 def draw_quantity(ax, row, theory, cases):
     """One quantity by one theory, for all cases, with the mean of what is drawn."""
-    deviations = []
+    loads, deviations = [], []
     for case in cases:
         at = case.differences.sel(variant=theory)
         if row == "gap_density":
@@ -116,11 +118,23 @@ def draw_quantity(ax, row, theory, cases):
             error = np.nan_to_num(at[f"{name}_total_error"])
             draw_loads(ax, case, at[name].values, error)
             deviations.append(at[name].values[case.holds])
+            loads.append(at.pressure.values[case.holds])
     deviations = np.concatenate(deviations)
     rms = np.sqrt(np.nanmean(deviations**2))
     text = f"mean {np.nanmean(deviations):.2f}" if row == "distance" else f"rms {rms:.0%}"
+    if loads and row != "distance":
+        text += describe_bands(np.concatenate(loads), deviations)
     height, place = (0.07, "bottom") if row == "gap_density" else (0.93, "top")
     ax.text(0.97, height, text, ha="right", va=place, transform=ax.transAxes, fontsize=7.5)
+
+
+def describe_bands(loads, deviations):
+    """Means of deviations at small, middle and large loads."""
+    means = []
+    for low, high in pairwise(LOAD_BANDS):
+        inside = deviations[(loads > low) & (loads <= high)]
+        means.append(f"{100 * inside.mean():+.0f}".replace("-", "−") if inside.size else "–")
+    return f"\nmeans {', '.join(means)} %"
 
 
 def draw_loads(ax, case, y, error):
@@ -135,12 +149,19 @@ def draw_loads(ax, case, y, error):
 
 
 def draw_density(ax, case, at):
-    """P(u) by theory over simulation against u at one load, where simulation is certain enough."""
-    at = at.sel(pressure=LOAD, method="nearest")
-    y, error = at.gap_density_difference, at.gap_density_difference_total_error
-    known = (error < KNOWN_TO * (1 + y)) & (at.gap < LARGEST_GAP)
-    ax.plot(at.gap.where(known), y.where(known), color=case.look["color"], linewidth=0.8)
-    return y.where(known).values
+    """P(u) by theory over simulation against u, where simulation is certain enough.
+
+    At one load, the values of which are returned, and dashed at the smallest that the window holds.
+    """
+    differences = []
+    for load, line in ((LOAD, "-"), (at.pressure.values[case.holds].min(), "--")):
+        one = at.sel(pressure=load, method="nearest")
+        y, error = one.gap_density_difference, one.gap_density_difference_total_error
+        known = (error < KNOWN_TO * (1 + y)) & (one.gap < LARGEST_GAP)
+        look = {"color": case.look["color"], "linewidth": 0.8, "linestyle": line}
+        ax.plot(one.gap.where(known), y.where(known), **look)
+        differences.append(y.where(known).values)
+    return differences[0]
 
 
 def dress(ax, row, column):

@@ -28,7 +28,7 @@ def main(job):
 
 
 def draw_thresholds(ax, thresholds, made, held):
-    """Threshold of every criterion, that of what remains with its error; `held` is what is fixed."""
+    """Threshold of every criterion, the verdict's with its error; `held` is what is fixed."""
     (along,) = set(thresholds.dims) - {"criterion"}
     x = thresholds[along].values
     low, high = (thresholds.sel(criterion=f"{REMAINING}_{end}") for end in ("low", "high"))

@@ -72,7 +72,7 @@ def main(job):
 
 
 def measure(heights, length, law, squeeze):
-    """Quantities of one law with the change from half the grid; NaN where the grid is too coarse."""
+    """Quantities of one law, with the change from half the grid; NaN if the grid is too coarse."""
     pixels = law.range**2 / law.adhesion_length / (length / heights.shape[0])
     row = dict.fromkeys((*QUOTED, *OTHERS, *(f"{key}_grid_error" for key in QUOTED)), np.nan)
     row["pixels_in_zone"] = pixels

@@ -132,6 +132,7 @@ def adhesive(zeta, q0_h_rms=0.1, scale=1.0):
     data["inverse_kappa"] = 0.5 - data.inverse_kappa_ad
     data["inverse_kappa_net"] = 1.1 * data.inverse_kappa
     data["inverse_kappa_fit"] = data.inverse_kappa.mean("pressure")
+    data["repulsive_area"] = 0.5 * data.adhesion_length_over_range + 0 * data.inverse_kappa
     data["model"] = xr.full_like(data.inverse_kappa, "full", dtype="U4")
     slopes = "inverse_kappa", "inverse_kappa_net", "inverse_kappa_fit", "inverse_kappa_ad_net"
     data = with_errors(data, *slopes)
@@ -220,6 +221,14 @@ def theory_on(label, a_v=4.0):
     return made_by(data, label=label)
 
 
+def verdicts(**margins):
+    """Verdicts of materials by name, of which claims read the margin of the JTB condition alone."""
+    dims = "material", "surface", "end"
+    margin = np.broadcast_to(np.reshape([*margins.values()], (-1, 1, 1)), (len(margins), 1, 2))
+    coords = dict(zip(dims, ([*margins], ["polished_steel"], ["smooth", "rough"]), strict=True))
+    return xr.Dataset({"jtb_margin": (dims, margin)}, coords=coords)
+
+
 def generated(seed, zeta=16, stretch=1.0):
     """A surface as the pipeline makes it; `stretch` spoils its isotropy."""
     asked = case(zeta, seed=seed)
@@ -274,6 +283,7 @@ def make_files():
         "adhesion_rough": adhesion(64, q0_h_rms=0.3),
         "adhesion_smooth": adhesion(128, q0_h_rms=0.006),
         "map": stickiness_map(),
+        "verdicts": verdicts(crystal=24.0, gel=0.001),
         "asphalt": real_surface("asphalt"),
         "asphalt_theory": theory_on("asphalt"),
         "polished_steel": real_surface("polished steel", q0=2 * np.pi / 1e-4),

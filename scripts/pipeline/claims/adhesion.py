@@ -22,7 +22,8 @@ KNOWN = 0.3  # error over formula up to which a point is compared with it
     files=("adhesive_fig2", "adhesion_fig2"),
 )
 def kappa_threshold(files: Files) -> Finding:
-    full, limit = at_load(files["adhesive_fig2"]), at_load(files["adhesion_fig2"])
+    loads = files["adhesive_fig2"]
+    full, limit = at_load(loads), at_load(files["adhesion_fig2"])
     solved = full.inverse_kappa.dropna("range_over_h_rms", how="all")
     solved = solved if solved.range_over_h_rms.size else full.inverse_kappa
     crossed = [
@@ -48,6 +49,7 @@ def kappa_threshold(files: Files) -> Finding:
         remark=(
             "Full simulation at prescribed mean gaps; in the DMT limit the threshold is "
             f"{dmt_threshold:.2f}. {describe_threshold(at) if crosses else below} "
+            f"{describe_areas(loads.sel(range_over_h_rms=float(range_)))}"
             "On separation a pull-off force exists at smaller l_a/range already (claim 10). "
             f"{describe_resolved(full.isel(range_over_h_rms=0))}"
         ),
@@ -70,6 +72,19 @@ def describe_threshold(data: xr.Dataset) -> str:
         f"l_a/range = {float(half.adhesion_length_over_range):g} 1/kappa is {whole} by that area "
         f"and {net} by its compressed part."
     )
+
+
+def describe_areas(loads: xr.Dataset) -> str:
+    """The threshold at the mean gap of every load, and the area of contact there."""
+    found = []
+    for load in loads.pressure.values:
+        at = loads.sel(pressure=load).dropna("adhesion_length_over_range", subset=["inverse_kappa"])
+        threshold, _ = find_zero(at, "inverse_kappa")
+        if np.isfinite(threshold):
+            lengths = np.log(at.adhesion_length_over_range)
+            area = float(np.interp(np.log(threshold), lengths, at.repulsive_area))
+            found.append(f"{threshold:.2g} at an area of {area:.1%} (mean gap of p = {load:g})")
+    return f"It depends on the area of contact: {', '.join(found)}. " if found else ""
 
 
 def describe_resolved(smallest: xr.Dataset) -> str:

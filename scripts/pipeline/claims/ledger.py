@@ -18,7 +18,7 @@ from stickiness.core.budget import SOURCES
 REPRODUCED = "reproduced"
 QUALIFIED = "reproduced with a qualification"
 NOT = "not reproduced"
-OPEN = "not decided at this resolution"
+OPEN = "not decided"
 VERDICTS = (REPRODUCED, QUALIFIED, NOT, OPEN)
 
 Files = Mapping[str, xr.Dataset]  # a name that stands for several files has a list of datasets

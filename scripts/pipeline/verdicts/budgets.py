@@ -1,4 +1,4 @@
-"""Error budgets of verdicts: by the spectrum of a surface, by a_V and by the model of what remains."""
+"""Error budgets of verdicts: by the spectrum, by a_V and by the model of what remains."""
 
 from dataclasses import replace
 

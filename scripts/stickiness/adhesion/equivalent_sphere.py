@@ -1,4 +1,4 @@
-"""Attraction next to the edges of a contact: from weak, but not as DMT have it, to tough as in JKR.
+"""Attraction next to the edges of contact at equal area: from weak edges to tough ones as in JKR.
 
 Next to an edge of contact the pressure is ``B x^(1/2)`` inside and the gap ``C x^(3/2)`` outside,
 with ``C = 4B/3E*``. A traction sigma pulling at a distance s outside, per length of edge, presses
@@ -13,7 +13,7 @@ the edge, ``tau = l_a d/range^2``:
 
 * ``tau << 1``, *weak*: ``c = d``, the gaps are those without adhesion, as in the DMT limit. But the
   same load spread evenly would move the edge by ``(dA/dF) sigma_0 d`` per length only. The ratio
-  grows as ``d^(-1/2)``, that is range^(-1/3): weak adhesion is not the DMT limit.
+  grows as ``d^(-1/2)``, that is range^(-1/3).
 * ``tau >> 1``, *tough*: ``delta = (2/B) sqrt(E* w/pi)`` knows the work of adhesion w alone, as in
   JKR. The traction and its range drop out. Small zones are within 10 % of that from ``tau = 2`` on;
   zones as wide as the patches of contact (t above about 1) later, t = 10 at ``tau = 13``.
@@ -24,6 +24,15 @@ of this: Maugis' solution, in which ``a`` is the radius of contact, c that of th
 without its own closing, has the ratio to DMT's attraction ``sigma_0 pi (c_0^2 - a^2)``
 
     R = 2 [c^2 arccos(a/c) + a sqrt(c^2 - a^2)]/(pi (c_0^2 - a^2)).
+
+Weak is not the same as DMT's limit, and what differs depends on what is kept. With l_a -> 0 at a
+fixed range and area of contact, t is fixed and R tends to ``2 [(1 + t) arctan(sqrt t) +
+sqrt t]/(pi t)``, above 1. At a fixed approach it tends to ``2 [(1 + t) arctan(sqrt t) -
+sqrt t]/(pi t)``, below 1 (`weak_effect_at_approach`): the same edges lie further out, and what they
+carry makes up for part of the pull. Maugis' limit, lambda -> 0 at a fixed load and work of
+adhesion, is another: the range then grows without bound, and with it t, where both tend to 1, to
+DMT. Which force a given approach or area has in the DMT limit is an old question: Muller,
+Derjaguin & Toporov (1983), Pashley (1984), Greenwood (2007).
 
 A rough contact is taken for its *equivalent sphere*: the one of equal t, attractive over contact
 area, and equal tau. This has no constant to fit. Full simulation at equal area over the model (103
@@ -41,6 +50,8 @@ References
 ----------
 Maugis, J. Colloid Interface Sci. 150, 243 (1992), doi:10.1016/0021-9797(92)90285-T; the weight
 functions of edges: Tada, Paris & Irwin, The Stress Analysis of Cracks Handbook, 3rd ed. (2000).
+Muller, Derjaguin & Toporov, Colloids Surf. 7, 251 (1983); Pashley, Colloids Surf. 12, 69 (1984);
+Greenwood, Tribol. Lett. 26, 203 (2007).
 """
 
 from __future__ import annotations
@@ -170,6 +181,20 @@ def weak_effect(attractive_over_contact: ArrayLike) -> float | NDArray:
     (t,) = positive(attractive_over_contact=attractive_over_contact)
     root = np.sqrt(t)
     return plain(2 * ((1 + t) * np.arctan(root) + root) / (np.pi * t))
+
+
+def weak_effect_at_approach(attractive_over_contact: ArrayLike) -> float | NDArray:
+    """`weak_effect` at equal approach of the sphere, in place of equal area of contact.
+
+    ``2 [(1 + t) arctan(sqrt t) - sqrt t]/(pi t)``, which tends to 1 at large t as well, but to
+    ``(4/3pi) sqrt(t)`` at small t. A pull at the radius r of an open edge takes ``(2/pi)
+    arccos(a/r)`` of itself off the load, by reciprocity with the flat punch, whose surface is at
+    ``(2/pi) arcsin(a/r)`` of its indentation there. The edge may be held, since at a fixed approach
+    the load does not change with it to first order.
+    """
+    (t,) = positive(attractive_over_contact=attractive_over_contact)
+    root = np.sqrt(t)
+    return plain(2 * ((1 + t) * np.arctan(root) - root) / (np.pi * t))
 
 
 def tough_effect(attractive_over_contact: ArrayLike, strength: ArrayLike) -> float | NDArray:

@@ -105,8 +105,8 @@ def decide(
 ) -> NDArray:
     """Code of a verdict, its place in `WORDS`.
 
-    `low` and `high` are the limits of the share that remains, `grows` tells whether contact grows by
-    itself at the finest wave.
+    `low` and `high` are the limits of the share that remains, `grows` tells whether contact grows
+    by itself at the finest wave.
     """
     low, high = np.asarray(low), np.asarray(high)
     return np.select(

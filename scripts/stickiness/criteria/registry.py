@@ -122,7 +122,7 @@ _TABLE = (
         reason="Above 1 contact grows by itself at the finest wave, which is not to say that it "
         "holds. The attractive area is {attractive_over_contact} of the contact area. The "
         "Tabor parameter of the edges is {edge_strength} ({regime}). The attraction is "
-        "{over_dmt} times that of the DMT limit.",
+        "{over_dmt} times that of the DMT limit at equal area of contact.",
         line=Line("red", "--", 1.2, filled=False),
     ),
     Criterion(

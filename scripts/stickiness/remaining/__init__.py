@@ -1,4 +1,4 @@
-"""How much adhesion remains on a rough surface: measured by simulation, predicted from the spectrum.
+"""How much adhesion remains on a rough surface: simulated, or predicted from the spectrum.
 
 - `measurement`: works of approach and separation and pull-off of given heights, simulated
 - `share`: share of the work of adhesion that remains, from weak to tough, in closed form

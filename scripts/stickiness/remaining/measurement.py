@@ -42,8 +42,8 @@ class Remaining:
     Attributes
     ----------
     approach, separation : float
-        Work of approach, from afar to zero load, and of separation, from zero load after the squeeze
-        to parting, at given mean gaps, per nominal area over the work of adhesion.
+        Work of approach, from afar to zero load, and of separation, from zero load after the
+        squeeze to parting, at given mean gaps, per nominal area over the work of adhesion.
     bound : float
         Largest gain of energy on the path over the work of adhesion: attraction less elastic
         energy. Without jumps approach, bound and separation are equal; with them approach is less
@@ -223,7 +223,7 @@ class _Curve:
         for start, end in pairwise(ends):
             if end - start > 1:
                 total += _tension_over_gap(self.gap[start:end], self.pressure[start:end])
-            if 0 < start:  # across the jump before
+            if start > 0:  # across the jump before
                 before = slice(start - 1, start + 1)
                 tension = np.maximum(-self.pressure[before], 0)
                 total += abs(np.trapezoid(tension, self.gap[before]))

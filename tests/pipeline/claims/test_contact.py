@@ -44,12 +44,15 @@ def test_exponent_is_that_of_the_density(files):
     assert claim.verdict == NOT
 
 
-def test_exponent_is_graded_at_the_largest_magnification_alone(files):
+def test_exponent_that_holds_where_the_paper_shows_it_alone_is_qualified(files):
     steep = sweep((5e4,), exponent=-0.55)
     files["fig3a"] = xr.concat([sweep((1000.0,)), steep], "magnification")
     claim = contact.small_gap_exponent(files)
-    assert claim.verdict == NOT
-    assert "at zeta = 1000" in claim.remark
+    assert claim.verdict == QUALIFIED
+    assert claim.value == pytest.approx(-1 / 3)
+    assert "At zeta = 1000 the exponent is -0.33, -0.33, -0.33, -0.33 at" in claim.remark
+    assert "At zeta = 5e4 the exponent is -0.55" in claim.remark
+    assert "(1-2H)/H, -0.75 here" in claim.remark
 
 
 @pytest.mark.parametrize(
@@ -106,6 +109,16 @@ def test_a_v_is_graded_with_its_uncertainty(files, slopes, verdict):
     expected = np.linalg.norm([*parts, np.ptp(slopes) / 2])
     assert claim.uncertainty == pytest.approx(expected)
     assert claim.verdict == verdict
+
+
+def test_a_v_is_about_3_at_the_middle_magnifications(files):
+    """It may grow beyond them, but then it has not converged."""
+    fitted = files["fit_fig3c"]
+    grown = fitted.a_v * (fitted.magnification / 1e4) ** np.log10(1.06)
+    files["fit_fig3c"] = fitted.assign(a_v=grown)
+    claim = contact.a_v_against_magnification(files)
+    assert claim.verdict == QUALIFIED
+    assert "a_V is 3.00 to 3.18 at zeta = 1e4 to 1e5, about 3. It has not converged" in claim.remark
 
 
 def test_continuous_a_v_is_taken_at_the_magnification_of_the_simulation(files):

@@ -526,7 +526,8 @@ def test_figure_8_opens_points_where_the_window_is_too_small(ax, compared):
     ((_, halves),) = bar_lengths(ax)
     np.testing.assert_allclose(halves, [0.2 * TOTAL, 0.1 * TOTAL])
     (text,) = ax.texts
-    assert text.get_text() == "rms 10%"  # of the load that the window is large enough for
+    # of the load that the window is large enough for, which is in the middle band
+    assert text.get_text() == "rms 10%\nmeans –, −10, – %"
 
 
 def test_figure_8b_has_gamma_with_its_interval_and_misfit(ax):
@@ -613,6 +614,8 @@ def edges():
 def test_figure_10a_has_weak_edges_with_the_error_of_their_ratio(ax, edges):
     plot_fig10.draw_weak(ax, [edges])
     drawn(ax, [0.2, 1.0], [3.0, 2.0], marker="o")
+    t = np.geomspace(0.05, 200, 200)
+    drawn(ax, t[t > 0.7], equivalent_sphere.weak_effect_at_approach(t[t > 0.7]), linestyle=":")
     ((_, halves),) = bar_lengths(ax)
     np.testing.assert_allclose(halves, [3.0 * TOTAL, 2.0 * TOTAL])
     label = r"$\zeta$ = 32, $q_0h_\mathrm{rms}$ = 0.31"
@@ -623,8 +626,11 @@ def test_figure_10a_has_weak_edges_with_the_error_of_their_ratio(ax, edges):
 def test_figure_10b_shades_the_error_of_verdicts(ax, edges):
     plot_fig10.draw_ratios(ax, [edges])
     drawn(ax, [0.01, 0.02, 1.0], [1.1, 0.9, 0.8], marker="o")
-    ((_, halves),) = bar_lengths(ax)
+    (_, halves), (_, of_mean) = bar_lengths(ax)
     np.testing.assert_allclose(halves, TOTAL * np.array([1.1, 0.9, 0.8]))
+    # Two points lie between 0.01 and 0.05, and a single one has no error of its mean.
+    np.testing.assert_allclose(of_mean, [0.1])
+    drawn(ax, [0.01, 0.05], [1.0, 1.0], color=plotting.BLACK)
     for index, factor in enumerate((equivalent_sphere.ERROR_WEAK, equivalent_sphere.ERROR_STRONG)):
         _, low, high = band_ends(ax, index)
         np.testing.assert_allclose([low, high], [[1 / factor] * 2, [factor] * 2])

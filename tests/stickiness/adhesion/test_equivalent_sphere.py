@@ -6,7 +6,7 @@ from scipy.optimize import brentq
 
 from stickiness import adhesive, criteria, repulsive, spectrum, surface
 from stickiness.adhesion import edge_zone, equivalent_sphere
-from stickiness.closed_forms.adhesion import JKRSphere, MaugisSphere, MaugisWave
+from stickiness.closed_forms.adhesion import DMTSphere, JKRSphere, MaugisSphere, MaugisWave
 from stickiness.closed_forms.contact import Hertz, Westergaard
 
 RADIUS = 1.0
@@ -51,6 +51,41 @@ def test_limits_of_the_effect(t):
     # weakest: DMT's at long range, the edge law at short range
     assert equivalent_sphere.weak_effect(1e8) == pytest.approx(1, abs=1e-3)
     assert equivalent_sphere.weak_effect(1e-10) * 1e-5 == pytest.approx(4 / np.pi, rel=1e-4)
+
+
+@pytest.mark.parametrize("t", [0.01, 0.3, 1.0, 30.0])
+def test_weak_effect_at_equal_approach_is_that_of_maugis_sphere(t):
+    """Maugis' curve at the approach that Hertz has for the radius a, next to no adhesion."""
+    a, strength = 0.1, 1e-7
+    force = 4 * a**3 / (3 * RADIUS)
+    reach = float(Hertz(RADIUS, force).gap(a * np.sqrt(1 + t)))
+    maugis = MaugisSphere(RADIUS, strength * reach, reach)
+    held = brentq(
+        lambda x: maugis.at_contact_radius(x).indentation - a**2 / RADIUS, a, 1.01 * a, xtol=1e-15
+    )
+    found = (force - maugis.at_contact_radius(held).force) / (strength * np.pi * a**2 * t)
+    assert held > a
+    assert found == pytest.approx(equivalent_sphere.weak_effect_at_approach(t), rel=2e-4)
+    assert found < 1 < equivalent_sphere.weak_effect(t)
+
+
+def test_weak_effect_at_equal_approach_goes_the_other_way_for_small_zones():
+    t = np.array([1e-7, 1e-5])
+    found = equivalent_sphere.weak_effect_at_approach(t)
+    np.testing.assert_allclose(found, 4 / (3 * np.pi) * np.sqrt(t), rtol=3e-6)
+    assert equivalent_sphere.weak_effect_at_approach(1e8) == pytest.approx(1, abs=1e-3)
+
+
+def test_maugis_limit_at_fixed_load_and_work_of_adhesion_is_that_of_dmt():
+    """Its range grows without bound, so that the zone becomes wide against the contact."""
+    length, force = 1e-6, 3e-6
+    expected = DMTSphere(RADIUS, length).contact_radius(force)
+    ranges = np.array([1e-3, 1e-2, 1e-1])
+    spheres = [MaugisSphere(RADIUS, length, reach) for reach in ranges]
+    assert spheres[-1].maugis_parameter < 1e-2
+    off = [abs(one.at_force(force).contact_radius / expected - 1) for one in spheres]
+    assert off[0] > off[1] > off[2]
+    assert off[-1] < 1e-2
 
 
 @pytest.mark.parametrize("t", [1e-6, 1e-3, 1.0, 30.0])
