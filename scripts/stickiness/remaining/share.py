@@ -17,10 +17,10 @@ waves alone, and so does the share. Attraction that reaches over gaps advances t
 simulation in proportion to the range, ``x0 = ONSET/(1 + ADVANCE sqrt(z))``.
 
 **Weak attraction of long range** (`weak_share`). The heights hardly deform, and attraction acts
-over the gaps between them. The share is the largest of ``<exp(-gap/range)> - U(gap)/w`` over the mean
-gap, for Gaussian heights, as in the bearing area model of Ciavarella (2018,
-doi:10.1080/00218464.2017.1292139). U is the elastic energy of contact without adhesion as simulated,
-``U = U_full exp(-2.2 t - 0.2 t^2)`` at the mean gap t h_rms. No constant is fitted to adhesion.
+over the gaps between them. The share is the largest of ``<exp(-gap/range)> - U(gap)/w`` over the
+mean gap, for Gaussian heights, as in the bearing area model of Ciavarella (Meccanica 53, 241, 2018,
+doi:10.1007/s11012-017-0701-6). U is the elastic energy of contact without adhesion as simulated,
+``U_full exp(-2.2 t - 0.2 t^2)`` at the mean gap t h_rms. No constant is fitted to adhesion.
 
 Each is the energy of a state that the surfaces may take, so that the deepest is the larger of both;
 `remaining_share` rounds the corner between them.
