@@ -47,6 +47,7 @@ TARGETS = {
     "cases": expand(f"{RESULTS}/cases/{{case}}.nc", case=CASES),
     "stability": f"{RESULTS}/figures/stability.png",
     "dmt_error": f"{RESULTS}/adhesion/dmt_error.csv",
+    "remaining_measured": f"{REMAINING}/remaining.csv",
     "tradeoff": expand(
         f"{TRADEOFF}/{{file}}",
         file=["tradeoff.md", "presets.md", "validation.md", "tradeoff.png"],

@@ -37,7 +37,7 @@ MODEL_SURFACES, CASES = config["model_surfaces"], config["cases"]
 SWEEPS, ADHESION, LOOPS = config["theory"]["sweeps"], config["adhesion"], config["loops"]
 GAMMA, GAPS, TRADE = config["theory"]["gamma"], config["gaps"], config["tradeoff"]
 ERROR_MODELS = TRADE["table"]
-FIGURES = [f"fig{number}" for number in range(1, 11)]
+FIGURES = [f"fig{number}" for number in range(1, 12)]
 # Figures and report show the cases that are simulated for every quantity.
 COMPLETE = [case for case, planned in PLANS.items() if planned.complete]
 COMPARISONS = {

@@ -1,5 +1,6 @@
-# The paper's six figures with what was measured added, and four on what the models are good for:
-# 7 the DMT limit, 8 the theory, 9 the criteria, 10 attraction at the edges of contact.
+# The paper's six figures with what was measured added, and five on what the models are good for:
+# 7 the DMT limit, 8 the theory, 9 the criteria, 10 attraction at the edges of contact, 11 how much
+# adhesion remains.
 
 
 def several(path, **names):
@@ -50,6 +51,7 @@ FIGURE_INPUTS = {
         "verdicts": f"{RESULTS}/criteria/verdicts.nc",
     },
     "fig10": {"edges": several("adhesion/edges/{adhesion}.nc", adhesion=SIMULATED_IN_FULL)},
+    "fig11": {"table": config["remaining"]["table"]},
 }
 
 

@@ -3,6 +3,7 @@
 import numpy as np
 import xarray as xr
 
+from pipeline import remaining_table
 from pipeline.claims import CLAIMS
 from pipeline.job import start
 from pipeline.numbers import table
@@ -53,7 +54,9 @@ def input_paths(inputs, claims):
 
 
 def read(path):
-    return datasets.read(path) if isinstance(path, str) else [datasets.read(one) for one in path]
+    if not isinstance(path, str):
+        return [read(one) for one in path]
+    return remaining_table.read(path) if path.endswith(".csv") else datasets.read(path)
 
 
 def source_paths(claim, paths):

@@ -21,7 +21,8 @@ NOT = "not reproduced"
 OPEN = "not decided"
 VERDICTS = (REPRODUCED, QUALIFIED, NOT, OPEN)
 
-Files = Mapping[str, xr.Dataset]  # a name that stands for several files has a list of datasets
+# A name that stands for several files has a list of datasets; a table is a pandas.DataFrame.
+Files = Mapping[str, xr.Dataset]
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -1,0 +1,134 @@
+"""Figure 11: how much adhesion remains, simulated and by theories."""
+
+import numpy as np
+
+from pipeline import plotting, remaining_table
+from pipeline.plotting import BLACK, BLUE, GREEN, GREY, ORANGE, PURPLE, RED, make_dot, make_key
+from stickiness.remaining import theories
+from stickiness.remaining.prediction import Roughness
+from stickiness.remaining.share import find_onset, tough_share, weak_share
+
+RATIOS = np.geomspace(0.2, 3, 200)  # w/U_full
+ZONE = 0.1  # q0 range^2/l_a, of the lines of panel A
+GOAL = 0.25  # error that a theory may have where more than LEAST remains
+LEAST = 0.05
+HURST_COLOURS = {0.3: PURPLE, 0.5: RED, 0.6: ORANGE, 0.7: GREEN, 0.8: BLUE, 0.9: BLACK}
+MARKERS = {4: "o", 8: "P", 16: "s", 32: "^", 64: "D", 128: "v"}
+ENERGY_RATIO = r"$w/U_\mathrm{full}$"
+RANGES = np.geomspace(0.05, 5, 100)  # over h_rms
+
+
+def main(job):
+    table = remaining_table.read(job.input.table)
+    with plotting.open_figure(job.output, "AB;CD", 5.6) as panels:
+        draw_shares(panels["A"], table)
+        draw_errors(panels["B"], table)
+        draw_ranges(panels["C"], table)
+        draw_weak(panels["D"], table)
+
+
+def draw_shares(ax, table):
+    """Share that remains against w/U_full: simulations at short ranges, and the theories."""
+    tough = table[remaining_table.is_wide(table) & ~remaining_table.is_weak(table)]
+    tough = tough[
+        tough.groupby(["set", "seed", "energy_ratio"]).zone.transform("min") == tough.zone
+    ]
+    rough = Roughness(h_rms=1.0, q0=1.0, elastic_energy=0.55)  # amid the surfaces simulated
+    length = RATIOS * rough.elastic_energy
+    low, share, high = (rough.share(length, np.sqrt(ZONE * length), sign) for sign in (-1, 0, 1))
+    plotting.draw_band(ax, RATIOS, low, high, GREY, alpha=0.25)
+    ax.plot(RATIOS, share, color=BLACK, linewidth=1.8)
+    ax.plot(RATIOS, tough_share(RATIOS), color=BLACK, linestyle="--")
+    ax.plot(RATIOS, theories.full_contact_share(RATIOS), color=RED, linestyle=":")
+    smooth = tough[np.isclose(tough.hurst, 0.8) & (tough.magnification == 32)]
+    means = smooth.groupby("energy_ratio").multiscale.mean()
+    ax.plot(means.index, means, color=GREEN, linestyle="-.")
+    for (hurst, magnification), group in tough.groupby(["hurst", "magnification"]):
+        look = {"color": colour_of(hurst), "marker": mark_of(magnification)}
+        ax.plot(group.energy_ratio, group.bound, linestyle="none", markersize=3.5, **look)
+    keys = [
+        make_key("this theory", color=BLACK, linewidth=1.8),
+        make_key("range → 0", color=BLACK, linestyle="--"),
+        make_key("full contact", color=RED, linestyle=":"),
+        make_key("multiscale (Persson)", color=GREEN, linestyle="-."),
+    ]
+    ax.legend(handles=keys, loc="upper left")
+    ax.set(xlabel=ENERGY_RATIO, ylabel="share of $w$ that remains", xlim=(0.2, 2.5), ylim=(0, 0.7))
+
+
+def colour_of(hurst):
+    nearest = min(HURST_COLOURS, key=lambda known: abs(known - hurst))
+    return HURST_COLOURS[nearest]
+
+
+def mark_of(magnification):
+    nearest = min(MARKERS, key=lambda known: abs(np.log(known / magnification)))
+    return MARKERS[nearest]
+
+
+def draw_errors(ax, table):
+    """Theory over simulation in the works, where more than a little remains."""
+    table = table[remaining_table.is_wide(table) & (table.separation > LEAST)]
+    ax.axhspan(1 - GOAL, 1 + GOAL, color=GREY, alpha=0.2, linewidth=0)
+    ax.axhline(1, color=GREY, linewidth=0.9)
+    for name, marker in (("approach", "v"), ("separation", "^")):
+        for held, colour in ((False, BLUE), (True, RED)):
+            rows = table[(remaining_table.is_held(table) == held) & (table[name] > LEAST)]
+            look = {"marker": marker, "color": colour, "mfc": colour if held else "white"}
+            ratio = rows.predicted / rows[name]
+            ax.plot(rows.energy_ratio, ratio, linestyle="none", markersize=3.5, **look)
+    keys = [
+        make_dot("approach", color=GREY, marker="v"),
+        make_dot("separation", color=GREY, marker="^"),
+        make_dot("nothing was fitted to", color=RED),
+    ]
+    ax.legend(handles=keys, loc="lower left", ncols=2)
+    ax.set(xlabel=ENERGY_RATIO, ylabel="theory over simulation", xscale="log", ylim=(0.4, 1.6))
+
+
+def draw_ranges(ax, table):
+    """Works and energy against the width of the cohesive zone, on one surface."""
+    rows = table[table["set"] == "H0.8_zeta8_2x2"]
+    zone = np.geomspace(0.01, 0.3, 50)
+    ratios = sorted(rows.energy_ratio.unique())
+    for colour, ratio in plotting.shade(ratios):
+        line = tough_share(ratio, find_onset(zone))
+        ax.plot(zone, line, color=colour)
+        here = rows[rows.energy_ratio == ratio].sort_values("zone")
+        ax.plot(here.zone, here.bound, "o", color=colour)
+        fine = here.pixels_in_zone >= 4
+        for name, marker in (("approach", "v"), ("separation", "^")):
+            ax.plot(here.zone[fine], here[name][fine], marker, color=colour, mfc="white")
+            ax.plot(
+                here.zone[~fine], here[name][~fine], marker, color=colour, mfc="white", alpha=0.35
+            )
+        ax.text(0.32, line[-1], f"{ratio:g}", color=colour, fontsize=8, va="center")
+    keys = [
+        make_dot("energy"),
+        make_dot("separation", marker="^", mfc="white"),
+        make_dot("approach", marker="v", mfc="white"),
+        make_dot("two pixels in the zone", marker="^", mfc="white", alpha=0.35),
+    ]
+    ax.legend(handles=keys, loc="upper left", ncols=2)
+    ax.set(xscale="log", ylim=(0, 0.6), xlim=(0.01, 0.5))
+    ax.set_xlabel(r"width of the cohesive zone $q_0\epsilon^2/l_a$")
+    ax.set_ylabel("share of $w$")
+
+
+def draw_weak(ax, table):
+    """Share against the range of attraction, from weak to tough adhesion."""
+    rows = table[remaining_table.is_weak(table)]
+    energy = float(rows.full_contact_energy.iloc[0])
+    rough = Roughness(h_rms=1.0, q0=1.0, elastic_energy=energy)
+    for colour, ratio in plotting.shade(sorted(rows.energy_ratio.unique())):
+        ax.plot(RANGES, rough.share(ratio * energy, RANGES), color=colour, label=f"{ratio:g}")
+        ax.plot(RANGES, weak_share(ratio, RANGES), color=colour, linestyle=":", linewidth=0.9)
+        here = rows[rows.energy_ratio == ratio]
+        ax.plot(here.range, here.bound, "o", color=colour)
+    ax.set(xscale="log", yscale="log", ylim=(3e-3, 1), xlabel=plotting.RANGE)
+    ax.set_ylabel("share of $w$ that remains")
+    ax.legend(title=ENERGY_RATIO, loc="lower right")
+
+
+if __name__ == "__main__":
+    main(plotting.start_figure(globals()))

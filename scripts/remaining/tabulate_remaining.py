@@ -1,0 +1,109 @@
+"""Table of the adhesion that remains: every simulated value beside what the theories say of it."""
+
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+
+from pipeline.job import start
+from pipeline.numbers import number, table
+from stickiness.core import datasets
+from stickiness.remaining import multiscale, theories
+from stickiness.remaining.prediction import Roughness
+from stickiness.surfaces.spectrum import Shells
+
+SIMULATED = (
+    *("approach", "separation", "bound", "pull_off", "area_at_zero_load", "gap_at_zero_load"),
+    *("jumps", "pixels_in_zone", "approach_grid_error", "separation_grid_error"),
+    *("bound_grid_error", "pull_off_grid_error"),
+)
+DIGITS = 5
+BINS = (0.3, 0.4, 0.6, 0.8, 1.1, 1.5, 2.5)  # of w/U_full, of the short table
+COMMENT = """\
+# Adhesion that remains, simulated (target remaining_measured), with the theories beside it. To
+# take a new measurement over, copy it here. approach, separation and bound are over the work of
+# adhesion, lengths over h_rms, wave numbers over q0, stresses over E* q0 h_rms.
+"""
+HEAD = """\
+Shares of the work of adhesion, means over simulations by w/U_full: at widths of the cohesive zone
+q0 range^2/l_a up to 0.1, of surfaces of two by two waves and more.
+
+"""
+
+
+def main(job):
+    rows = [row for path in job.input for row in list_rows(path)]
+    frame = pd.DataFrame(rows)
+    with datasets.whole_file(job.output.table) as path:
+        path.write_text(COMMENT + round_numbers(frame).to_csv(index=False), encoding="utf-8")
+    with datasets.whole_file(job.output.summary) as path:
+        path.write_text(HEAD + summarise(frame), encoding="utf-8")
+
+
+def list_rows(path):
+    """Rows of one file: its points, in h_rms and q0, with the theories."""
+    data = datasets.read(path, SIMULATED)
+    made = datasets.parameters(data)
+    spectrum = Shells(data.shell_q.values, data.shell_variance.values)
+    local, _, finest = theories.local_threshold(spectrum)
+    energy = float(data.full_contact_energy)
+    rough = Roughness(h_rms=1.0, q0=1.0, elastic_energy=energy)
+    along = next(name for name in ("zone", "range_over_h_rms") if name in data.dims)
+    for ratio in data.energy.values:
+        for value in data[along].values:
+            point = data.sel({"energy": ratio, along: value})
+            if not np.isfinite(point.bound):
+                continue  # the grid was too coarse
+            length, range_ = float(point.adhesion_length), float(point.range)
+            low, share, high = (float(rough.share(length, range_, sign)) for sign in (-1, 0, 1))
+            yield {
+                "set": Path(path).parent.name,
+                "hurst": made["hurst"],
+                "magnification": made["magnification"],
+                "window": made["window"],
+                "points": made["points"],
+                "seed": made["seed"],
+                "full_contact_energy": energy,
+                "energy_ratio": float(ratio),
+                "zone": range_**2 / length,
+                "range": range_,
+                "adhesion_length": length,
+                **{name: float(point[name]) for name in SIMULATED},
+                "predicted": share,
+                "predicted_low": low,
+                "predicted_high": high,
+                "predicted_pull_off": float(rough.pull_off(length, range_)[0]),
+                "full_contact": theories.full_contact_share(ratio),
+                "multiscale": multiscale.solve(spectrum, length).share,
+                "dmt": theories.dmt_share(spectrum, length, range_),
+                "local_margin": length / local,
+                "finest_margin": length / finest,
+            }
+
+
+def round_numbers(frame):
+    """Numbers with as many digits as mean something."""
+    numbers = frame.select_dtypes("number").columns
+    return frame.assign(
+        **{name: frame[name].map(lambda x: float(f"{x:.{DIGITS}g}")) for name in numbers}
+    )
+
+
+def summarise(frame):
+    """Means of simulation and theories by w/U_full."""
+    names = ("approach", "separation", "bound", "predicted", "full_contact", "multiscale", "dmt")
+    tough = frame[(frame.zone < 0.11) & (frame.window > 1)]
+    groups = tough.groupby(pd.cut(tough.energy_ratio, BINS), observed=True)
+    rows = [
+        (
+            number(group.energy_ratio.mean(), 2),
+            len(group),
+            *(f"{group[n].mean():.3f}" for n in names),
+        )
+        for _, group in groups
+    ]
+    return table(("w/U_full", "points", *(name.replace("_", " ") for name in names)), rows)
+
+
+if __name__ == "__main__":
+    main(start(globals(), "tabulate_remaining"))

@@ -1,0 +1,84 @@
+"""Other theories of the adhesion that remains, to hold beside simulations.
+
+The local criterion and the energy of full contact look at one end of the problem each. The DMT
+form of the paper adds attraction to the gaps of contact without adhesion. Persson's multiscale
+theory has a module of its own, `multiscale`.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from stickiness.core.arguments import number, plain, positive
+from stickiness.persson.theory import Persson
+from stickiness.surfaces.spectrum import Spectrum
+
+# Of the tough limit of `adhesion.equivalent_sphere` with the a_V of the edges of contact and a
+# slope of area against load of 2: contact grows by itself from l_a = LOCAL h'^3/h'' on.
+LOCAL = 0.28
+_CUTS = 60
+_LOADS, _LOWEST, _HIGHEST = 60, 1e-5, 4.0  # over the rms gradient
+_GAPS = np.geomspace(1e-4, 16, 80)  # over h_rms
+
+
+def full_contact_share(energy_ratio: ArrayLike) -> float | NDArray:
+    """Share that full contact leaves of the work of adhesion (Persson & Tosatti 2001).
+
+    ``1 - U_full/w``, 0 where it is negative. doi:10.1063/1.1398300
+    """
+    (x,) = positive(energy_ratio=energy_ratio)
+    return plain(np.maximum(1 - 1 / x, 0.0))
+
+
+def local_threshold(spectrum: Spectrum) -> tuple[float, float, float]:
+    """Adhesion length above which contact grows by itself at every scale [length].
+
+    The local criterion, JKR at the shortest wave, taken at every cut of the spectrum.
+
+    Returns
+    -------
+    largest, cut, finest : float
+        Its maximum over the cuts, the wave number where that is [1/length], and the value at the
+        finest wave.
+    """
+    cuts = np.geomspace(spectrum.q0, spectrum.q1, _CUTS)[1:]
+    slope, curvature = (
+        np.sqrt(np.array([float(spectrum.variance_below(q, power)) for q in cuts]))
+        for power in (2, 4)
+    )
+    values = np.where(curvature > 0, LOCAL * slope**3 / np.where(curvature > 0, curvature, 1), 0)
+    most = int(np.argmax(values))
+    return float(values[most]), float(cuts[most]), float(values[-1])
+
+
+def dmt_share(spectrum: Spectrum, adhesion_length: ArrayLike, range: float) -> float | NDArray:
+    """Share of a DMT contact by Persson's theory: attraction over gaps without adhesion.
+
+    The largest gain of energy over the load, with the exponential law. For a range that is
+    comparable with the heights; as the range falls, edges of contact that attraction deforms are
+    what this leaves out.
+
+    Parameters
+    ----------
+    spectrum : Spectrum
+        Of the surface.
+    adhesion_length : array_like
+        Work of adhesion over E* [length].
+    range : float
+        Range of the exponential law [length].
+    """
+    range = number("range", range)
+    (length,) = positive(adhesion_length=adhesion_length)
+    theory = Persson(spectrum)
+    load = np.geomspace(_LOWEST, _HIGHEST, _LOADS) * spectrum.rms_slope
+    gap, area = theory.mean_gap(load), theory.area_fraction(load)
+    # Elastic energy, the work of the load from afar, by parts: int gap dp - p gap.
+    first = load[0] * gap[0]
+    strips = np.diff(np.log(load)) * ((load * gap)[1:] + (load * gap)[:-1]) / 2
+    energy = first + np.concatenate([[0.0], np.cumsum(strips)]) - load * gap
+    u = _GAPS * spectrum.h_rms
+    within = np.array([theory.gap_cumulative(u, p) for p in load])
+    attraction = np.trapezoid(np.exp(-u / range) / range * within, u, axis=1)
+    gained = np.max(area + attraction - energy / length[..., None], axis=-1)
+    return plain(np.maximum(gained, 0.0))
