@@ -74,7 +74,7 @@ def list_rows(path):
                 "predicted_high": high,
                 "predicted_pull_off": float(rough.pull_off(length, range_)[0]),
                 "full_contact": theories.full_contact_share(ratio),
-                "multiscale": multiscale.solve(spectrum, length).share,
+                "multiscale": multiscale.remaining_adhesion(spectrum, length).share,
                 "dmt": theories.dmt_share(spectrum, length, range_),
                 "local_margin": length / local,
                 "finest_margin": length / finest,

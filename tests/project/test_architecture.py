@@ -15,6 +15,7 @@ FLOORS = (
     {"surfaces"},
     {"contact", "persson", "measured"},
     {"adhesion"},
+    {"remaining"},
     {"closed_forms", "criteria", "accuracy"},
     {"config"},
 )

@@ -233,7 +233,9 @@ class _Curve:
         """Mean gap and area where tension turns into pressure."""
         crossing = np.flatnonzero((self.pressure[:-1] < 0) & (self.pressure[1:] >= 0))
         if not crossing.size:
-            return np.nan, np.nan
+            # Full contact holds tension at a gap of zero, and is the state at zero load too.
+            closed = self.pressure[-1] < 0
+            return (float(self.gap[-1]), float(self.area[-1])) if closed else (np.nan, np.nan)
         i = crossing[-1]
         share = -self.pressure[i] / (self.pressure[i + 1] - self.pressure[i])
         gap, area = (x[i] + share * (x[i + 1] - x[i]) for x in (self.gap, self.area))

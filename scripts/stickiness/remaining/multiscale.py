@@ -45,11 +45,11 @@ from dataclasses import dataclass
 from math import erfc, inf, sqrt
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 from scipy.optimize import brentq, minimize_scalar
 from scipy.special import erfc as erfcs
 
-from stickiness.core.arguments import nonnegative, number, plain
+from stickiness.core.arguments import number
 from stickiness.surfaces.spectrum import Shells, Spectrum
 
 WEIGHT = 0.45  # of the literature
@@ -153,31 +153,6 @@ def area_fraction(
     lowest = -2 * spectrum.elastic_energy()
     s = _search(lambda x: walk.reach(x, pressure)[0], w, lowest, w)
     return walk.reach(s, pressure)[1]
-
-
-def least_energy_share(ratio: ArrayLike, weight: float = LEAST_ENERGY_WEIGHT) -> float | NDArray:
-    """Return the share of adhesion that remains if the area of contact minimises the energy.
-
-    The same weight, one area A at all scales: the largest ``A - W(A)/ratio``. It is consistent in
-    that d(share w)/dw is A, which the walk's area is not, and depends on the spectrum only through
-    the energy of full contact. The weight of one third is fitted to simulated surfaces, where it is
-    within 25 % wherever 5 % or more remains on surfaces of 16 and more longest waves.
-
-    Parameters
-    ----------
-    ratio : array_like
-        Work of adhesion over the elastic energy of full contact, positive.
-    weight : float
-        Weight g of small contacts, 0 to 1: what the ratio must exceed.
-    """
-    (ratio,) = nonnegative(ratio=ratio)
-    weight = number("weight", weight, zero=True, most=1.0)
-    with np.errstate(divide="ignore", invalid="ignore"):
-        # Where dW/dA = ratio. Weight 1 is all or nothing.
-        square = np.where(weight < 1, (ratio - weight) / (3 * (1 - weight)), ratio > weight)
-        square = np.clip(square, 0, 1)
-        share = np.sqrt(square) * (1 - (weight + (1 - weight) * square) / ratio)
-    return plain(np.where(square > 0, share, 0.0))
 
 
 def _pull_off(walk: _Walk, w: float) -> float:

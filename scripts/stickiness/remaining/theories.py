@@ -79,6 +79,8 @@ def dmt_share(spectrum: Spectrum, adhesion_length: ArrayLike, range: float) -> f
     energy = first + np.concatenate([[0.0], np.cumsum(strips)]) - load * gap
     u = _GAPS * spectrum.h_rms
     within = np.array([theory.gap_cumulative(u, p) for p in load])
-    attraction = np.trapezoid(np.exp(-u / range) / range * within, u, axis=1)
+    # Mean of exp(-u/range), by parts; beyond the last gap there are no more.
+    decay = np.exp(-u / range)
+    attraction = np.trapezoid(decay / range * within, u, axis=1) + decay[-1] * within[:, -1]
     gained = np.max(area + attraction - energy / length[..., None], axis=-1)
     return plain(np.maximum(gained, 0.0))

@@ -13,7 +13,6 @@ from stickiness.remaining.multiscale import (
     Absorbed,
     area_fraction,
     group_shells,
-    least_energy_share,
     remaining_adhesion,
 )
 from stickiness.surfaces.spectrum import SelfAffine, Shells, Tabulated
@@ -172,16 +171,6 @@ def test_opening_tension_against_a_single_wave():
         trough = wave.full_contact_amplitude - wave.turning_points[1][1]
         ratios.append(trough / sqrt(length * 2 * pi / 2))
     assert ratios == pytest.approx([1.40, 1.17], abs=0.005)
-
-
-def test_least_energy():
-    area = np.linspace(0, 1, 100001)
-    ratios = np.array([0.2, 0.5, 1.0, 2.0, 4.0])
-    cost = area * (1 + 2 * area**2) / 3
-    direct = [max(area - cost / ratio) for ratio in ratios]
-    assert least_energy_share(ratios) == pytest.approx(direct, abs=1e-9)
-    assert least_energy_share([0.5, 2.0], weight=1.0) == pytest.approx([0, 0.5])
-    assert least_energy_share(0.0) == 0
 
 
 @pytest.mark.parametrize("ratio", [0.0, -1.0, np.nan])

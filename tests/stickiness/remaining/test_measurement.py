@@ -1,0 +1,68 @@
+"""Simulated works of approach and separation against closed forms and the balance of energy."""
+
+import numpy as np
+import pytest
+
+from stickiness import adhesive, surface
+from stickiness.remaining import measure
+from stickiness.spectrum import SelfAffine
+
+LENGTH = 4 * np.pi
+
+
+def random_heights(n=64, magnification=4.0):
+    spectrum = SelfAffine(hurst=0.8, q0=1.0, q1=magnification, h_rms=1.0)
+    return surface.synthesise(spectrum, n=n, length=LENGTH, seed=3)
+
+
+def test_flat_surfaces_part_at_the_full_work():
+    found = measure(np.zeros((16, 16)), 1.0, adhesive.Exponential(1e-3, 0.1), squeeze=0.01)
+    assert found.separation == pytest.approx(1, rel=0.02)
+    assert found.approach == pytest.approx(1, rel=0.02)
+
+
+def test_full_contact_of_a_wave_costs_its_energy():
+    x = np.arange(32) / 32
+    heights = np.cos(2 * np.pi * x)[:, None] * np.ones(32)  # U_full = pi/4 for a cell of side 1
+    heights *= 0.05
+    energy = np.pi / 4 * 0.05**2
+    law = adhesive.Exponential(4 * energy, 0.01)
+    found = measure(heights, 1.0, law, squeeze=0.05, half_grid=False)
+    assert found.bound == pytest.approx(1 - 1 / 4, abs=0.01)
+    assert found.area_at_zero_load == pytest.approx(1, abs=0.02)
+
+
+def test_without_jumps_all_works_are_the_energy_gained():
+    found = measure(random_heights(), LENGTH, adhesive.Exponential(0.3, 0.5), squeeze=0.1)
+    assert found.jumps == 0
+    assert found.approach == pytest.approx(found.bound, rel=0.03)
+    assert found.separation == pytest.approx(found.bound, rel=0.03)
+    assert found.hysteresis == pytest.approx(0, abs=0.03 * found.bound)
+    assert found.resolved
+
+
+def test_the_grid_resolves_or_says_so():
+    law = adhesive.Exponential(0.3, 0.5)
+    fine = measure(random_heights(128), LENGTH, law, squeeze=0.1, half_grid=False)
+    coarse = measure(random_heights(64), LENGTH, law, squeeze=0.1)
+    low, high = coarse.separation_limits
+    assert low <= fine.separation <= high or fine.separation == pytest.approx(
+        coarse.separation, rel=0.02
+    )
+    narrow = adhesive.Exponential(0.3, 0.3)
+    assert not measure(random_heights(32), LENGTH, narrow, 0.1, half_grid=False).resolved
+
+
+def test_more_adhesion_holds_more():
+    laws = [adhesive.Exponential(w, 0.5) for w in (0.1, 0.3, 0.6)]
+    found = [measure(random_heights(), LENGTH, law, 0.1, half_grid=False) for law in laws]
+    shares = [one.separation for one in found]
+    assert shares == sorted(shares)
+    assert [one.pull_off for one in found] == sorted(one.pull_off for one in found)
+    assert found[0].gap_at_zero_load > found[-1].gap_at_zero_load
+
+
+@pytest.mark.parametrize("squeeze", [0.0, -0.1, np.nan])
+def test_bad_squeeze_is_refused(squeeze):
+    with pytest.raises(ValueError, match="squeeze"):
+        measure(random_heights(32), LENGTH, adhesive.Exponential(0.3, 0.5), squeeze)

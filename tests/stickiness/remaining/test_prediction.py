@@ -1,0 +1,84 @@
+"""Predicted adhesion: inverse, limits, units, what must not matter."""
+
+import numpy as np
+import pytest
+
+from stickiness.remaining import Roughness, predict
+from stickiness.spectrum import SelfAffine
+
+TOUGH = {"adhesion_length": 1.0, "range": 1e-3}
+
+
+def rough(**changes):
+    return SelfAffine(**({"hurst": 0.8, "q0": 1.0, "q1": 1e4, "h_rms": 1.0} | changes))
+
+
+@pytest.mark.parametrize("sign", [-1, 0, 1])
+@pytest.mark.parametrize("share", [0.1, 0.5])
+def test_threshold_is_the_inverse_of_the_share(share, sign):
+    surface = Roughness(h_rms=1.0, q0=1.0, elastic_energy=0.6)
+    ranges = np.array([1e-4, 0.1, 0.5, 1.0])
+    length = surface.threshold(ranges, share, sign)
+    assert surface.share(length, ranges, sign) == pytest.approx(share, rel=1e-6)
+
+
+def test_thresholds_are_in_the_order_of_their_limits():
+    surface = Roughness(h_rms=1.0, q0=1.0, elastic_energy=0.6)
+    high, value, low = (surface.threshold(np.array([1e-4, 0.3, 1]), sign=k) for k in (1, 0, -1))
+    assert np.all(high < value)
+    assert np.all(value < low)
+
+
+def test_the_share_grows_with_the_work_of_adhesion():
+    surface = Roughness(h_rms=1.0, q0=1.0, elastic_energy=0.6)
+    lengths = np.geomspace(1e-6, 1e3, 400)
+    for reach in (1e-3, 0.1, 0.3, 0.7, 1.0, 3.0):
+        assert np.all(np.diff(surface.share(lengths, reach)) >= -1e-12)
+
+
+@pytest.mark.parametrize("unit", [1e-9, 1e6])
+def test_units_do_not_matter(unit):
+    found = predict(rough(), **TOUGH)
+    scaled = rough(q0=1 / unit, q1=1e4 / unit, h_rms=unit)
+    again = predict(scaled, adhesion_length=unit, range=1e-3 * unit)
+    for name in ("separation", "pull_off", "approach_limits", "tabor", "energy_ratio"):
+        assert getattr(again, name) == pytest.approx(getattr(found, name), rel=1e-9)
+
+
+def test_the_shortest_wavelength_hardly_matters_for_tough_pairs():
+    shares = [predict(rough(q1=q1), **TOUGH).separation for q1 in (1e3, 1e6)]
+    assert shares[1] == pytest.approx(shares[0], rel=0.05)
+    assert shares[1] < shares[0]  # finer roughness weakens
+
+
+def test_the_range_does_not_matter_for_tough_pairs():
+    shares = [predict(rough(), adhesion_length=1.0, range=r).separation for r in (1e-5, 1e-3)]
+    assert shares[1] == pytest.approx(shares[0], rel=0.01)
+
+
+def test_the_range_decides_for_hard_solids():
+    shares = [predict(rough(), adhesion_length=0.01, range=r).separation for r in (0.3, 3.0)]
+    assert shares[0] < 0.01
+    assert shares[1] > 0.3
+
+
+def test_a_plateau_counts_from_its_end():
+    found = predict(rough(q_rolloff=4.0), **TOUGH)
+    same = predict(rough(q_rolloff=4.0), **TOUGH, q0=4.0)
+    assert found == same
+
+
+def test_limits_hold_the_value():
+    for length in (1e-3, 0.3, 1.0, 10.0):
+        found = predict(rough(), adhesion_length=length, range=0.01)
+        for name in ("approach", "separation", "pull_off"):
+            low, high = getattr(found, f"{name}_limits")
+            assert low <= getattr(found, name) <= high
+            assert low < high
+
+
+@pytest.mark.parametrize("name", ["adhesion_length", "range", "q0"])
+@pytest.mark.parametrize("bad", [0.0, -1.0, np.nan, "1"])
+def test_bad_arguments_are_named(name, bad):
+    with pytest.raises(ValueError, match=name):
+        predict(rough(), **(TOUGH | {name: bad}))
