@@ -2,7 +2,6 @@
 
 from pathlib import Path
 
-import numpy as np
 import pandas as pd
 
 from pipeline.job import start
@@ -47,38 +46,37 @@ def list_rows(path):
     spectrum = Shells(data.shell_q.values, data.shell_variance.values)
     local, _, finest = theories.local_threshold(spectrum)
     energy = float(data.full_contact_energy)
-    rough = Roughness(h_rms=1.0, q0=1.0, elastic_energy=energy)
+    rough = Roughness(h_rms=1.0, q0=made.get("rolloff", 1.0), elastic_energy=energy)
     along = next(name for name in ("zone", "range_over_h_rms") if name in data.dims)
-    for ratio in data.energy.values:
-        for value in data[along].values:
-            point = data.sel({"energy": ratio, along: value})
-            if not np.isfinite(point.bound):
-                continue  # the grid was too coarse
-            length, range_ = float(point.adhesion_length), float(point.range)
-            low, share, high = (float(rough.share(length, range_, sign)) for sign in (-1, 0, 1))
-            yield {
-                "set": Path(path).parent.name,
-                "hurst": made["hurst"],
-                "magnification": made["magnification"],
-                "window": made["window"],
-                "points": made["points"],
-                "seed": made["seed"],
-                "full_contact_energy": energy,
-                "energy_ratio": float(ratio),
-                "zone": range_**2 / length,
-                "range": range_,
-                "adhesion_length": length,
-                **{name: float(point[name]) for name in SIMULATED},
-                "predicted": share,
-                "predicted_low": low,
-                "predicted_high": high,
-                "predicted_pull_off": float(rough.pull_off(length, range_)[0]),
-                "full_contact": theories.full_contact_share(ratio),
-                "multiscale": multiscale.remaining_adhesion(spectrum, length).share,
-                "dmt": theories.dmt_share(spectrum, length, range_),
-                "local_margin": length / local,
-                "finest_margin": length / finest,
-            }
+    points = data.stack(point=("energy", along)).dropna("point", subset=["bound"])
+    dmt = theories.dmt_share(spectrum, points.adhesion_length.values, points["range"].values)
+    for index, of_dmt in enumerate(dmt):  # where the grid was fine enough
+        point = points.isel(point=index)
+        ratio, length, range_ = (float(point[n]) for n in ("energy", "adhesion_length", "range"))
+        low, share, high = (float(rough.share(length, range_, sign)) for sign in (-1, 0, 1))
+        yield {
+            "set": Path(path).parent.name,
+            "hurst": made["hurst"],
+            "magnification": made["magnification"],
+            "window": made["window"],
+            "points": made["points"],
+            "seed": made["seed"],
+            "full_contact_energy": energy,
+            "energy_ratio": ratio,
+            "zone": range_**2 / length,
+            "range": range_,
+            "adhesion_length": length,
+            **{name: float(point[name]) for name in SIMULATED},
+            "predicted": share,
+            "predicted_low": low,
+            "predicted_high": high,
+            "predicted_pull_off": float(rough.pull_off(length, range_)[0]),
+            "full_contact": theories.full_contact_share(ratio),
+            "multiscale": multiscale.remaining_adhesion(spectrum, length, pull_off=False).share,
+            "dmt": float(of_dmt),
+            "local_margin": length / local,
+            "finest_margin": length / finest,
+        }
 
 
 def round_numbers(frame):

@@ -25,6 +25,7 @@ MANY_PARAMETERS = {
     "contact/solver.py:solve",
     "adhesion/solver.py:solve",
     "adhesion/path.py:path",
+    "criteria/verdict.py:verdict",
     "measured/topography.py:read",
 }
 MOST_LINES, MOST_PARAMETERS = 400, 8
@@ -163,8 +164,8 @@ def test_a_stage_has_one_script_for_each_of_its_rules(stage):
     )
 
 
-def test_there_are_ten_figures():
-    assert {f"plot_fig{n}" for n in range(1, 11)} == rules_of(RULES / "figures.smk").keys()
+def test_there_are_eleven_figures():
+    assert {f"plot_fig{n}" for n in range(1, 12)} == rules_of(RULES / "figures.smk").keys()
 
 
 def test_stages_have_the_same_names_everywhere():

@@ -10,7 +10,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from stickiness.core.arguments import number, plain, positive
+from stickiness.core.arguments import plain, positive
 from stickiness.persson.theory import Persson
 from stickiness.surfaces.spectrum import Spectrum
 
@@ -52,7 +52,7 @@ def local_threshold(spectrum: Spectrum) -> tuple[float, float, float]:
     return float(values[most]), float(cuts[most]), float(values[-1])
 
 
-def dmt_share(spectrum: Spectrum, adhesion_length: ArrayLike, range: float) -> float | NDArray:
+def dmt_share(spectrum: Spectrum, adhesion_length: ArrayLike, range: ArrayLike) -> float | NDArray:
     """Share of a DMT contact by Persson's theory: attraction over gaps without adhesion.
 
     The largest gain of energy over the load, with the exponential law. For a range that is
@@ -63,13 +63,10 @@ def dmt_share(spectrum: Spectrum, adhesion_length: ArrayLike, range: float) -> f
     ----------
     spectrum : Spectrum
         Of the surface.
-    adhesion_length : array_like
-        Work of adhesion over E* [length].
-    range : float
-        Range of the exponential law [length].
+    adhesion_length, range : array_like
+        Work of adhesion over E*, and range of the exponential law [length]; of one shape.
     """
-    range = number("range", range)
-    (length,) = positive(adhesion_length=adhesion_length)
+    length, range = np.broadcast_arrays(*positive(adhesion_length=adhesion_length, range=range))
     theory = Persson(spectrum)
     load = np.geomspace(_LOWEST, _HIGHEST, _LOADS) * spectrum.rms_slope
     gap, area = theory.mean_gap(load), theory.area_fraction(load)
@@ -80,7 +77,8 @@ def dmt_share(spectrum: Spectrum, adhesion_length: ArrayLike, range: float) -> f
     u = _GAPS * spectrum.h_rms
     within = np.array([theory.gap_cumulative(u, p) for p in load])
     # Mean of exp(-u/range), by parts; beyond the last gap there are no more.
-    decay = np.exp(-u / range)
-    attraction = np.trapezoid(decay / range * within, u, axis=1) + decay[-1] * within[:, -1]
+    reach = range[..., None, None]
+    decay = np.exp(-u / reach)
+    attraction = np.trapezoid(decay / reach * within, u, axis=-1) + decay[..., -1] * within[:, -1]
     gained = np.max(area + attraction - energy / length[..., None], axis=-1)
     return plain(np.maximum(gained, 0.0))
