@@ -122,6 +122,11 @@ def describe(dataset):
         margin_quantile=("1", "quantiles of the margin", "not measured"),
         error_of_spectrum=("1", "standard deviation of ln margin by the spectrum", "not measured"),
         error_of_model=("1", "standard deviation of ln margin by the model", "not measured"),
+        share_error_of_spectrum=(
+            "1",
+            f"standard deviation of the {remains}, by the spectrum",
+            "not measured",
+        ),
         frequency=("Hz", "frequency of loading"),
         modulus=("Pa", "plane-strain storage modulus", "beyond the material's table"),
         modulus_quoted=("Pa", "plane-strain storage modulus at 1 Hz, of the quoted margins"),

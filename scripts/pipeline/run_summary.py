@@ -4,8 +4,8 @@ from collections import Counter
 from collections.abc import Iterable
 from pathlib import Path
 
-from pipeline.pages.verdict_texts import WORDS
 from stickiness.core import datasets
+from stickiness.criteria.pair import WORDS
 
 
 def summary(results: str, answers: Iterable[str] = ()) -> str:
@@ -39,5 +39,5 @@ def misses(answers: Iterable[str]) -> list[tuple[str, str]]:
 
 
 def count(words: Iterable[str]) -> str:
-    """The words by their number: ``15 sticky, 11 depends``."""
+    """The words by their number: ``23 does not stick, 12 sticks``."""
     return ", ".join(f"{n} {word}" for word, n in Counter(map(str, words)).most_common())

@@ -15,7 +15,16 @@ NEEDED_VARIABLES = {
     "claims": ("statement", "quantity", "value", "value_error", "claimed", "verdict", "sources"),
     "verdicts": (
         *("margin", "margin_total_error", "modulus_threshold", "modulus_threshold_low"),
-        *("probability", "simulated", "verdict", "disagrees", "a_v", "a_v_low"),
+        *(
+            "remaining",
+            "pull_off",
+            "energy_ratio",
+            "probability",
+            "verdict",
+            "disagrees",
+            "a_v",
+            "a_v_low",
+        ),
     ),
     "surfaces": ("h_rms", "hurst", "hurst_total_error", "q0", "q1", "C0_reference_upper"),
     "ensembles": ("area_fraction_mean", "mean_gap_mean", "attractive_area_mean", "residual"),

@@ -12,9 +12,11 @@ from pipeline.pages.surface_figure import draw_surface
 from pipeline.pages.surface_texts import describe_height, describe_line, describe_slope
 from pipeline.pages.verdict_texts import describe_pair, ends, explain
 from pipeline.verdicts.materials import describe_modulus, read_material
+from pipeline.verdicts.texts import say_verdict
 from stickiness.core import datasets
 from stickiness.core.statistics import COVERS
 from stickiness.criteria.moduli import crossings
+from stickiness.remaining.prediction import DEFAULT_SHARE
 
 CAPTION = """Levelled heights of the first measurement, and the spectrum: radial averages with their
 sampling errors, the fitted self-affine spectrum, the cutoff of the instrument, the end of the
@@ -26,7 +28,7 @@ the margin against frequency.
 
 def main(job):
     surface = datasets.read(job.input.surface, ["psd", "hurst", "q0", "q1"])
-    verdicts = datasets.read(job.input.verdicts, ["margin", "verdict", "probability"])
+    verdicts = datasets.read(job.input.verdicts, ["remaining", "margin", "verdict", "probability"])
     pairs = verdicts.sel(surface=job.wildcards.real_surface)
     draw_surface(surface, pairs, job.output.figure)
     page = render(
@@ -65,6 +67,7 @@ def render(template, page, *, files, surface, pairs, materials, figure, bem=None
         measured=[t for t in surface.attrs.get("files", "").split("; ") if t],
         loads=measured_contact.describe_loads(bem) if bem is not None else [],
         load=number(LOAD),
+        wanted=percent(DEFAULT_SHARE),
         margins=[
             {"material": materials[name]["label"]}
             | measured_contact.describe_pair(bem, read_material(materials[name]), surface)
@@ -131,6 +134,7 @@ def describe_verdict(pair, surface, entry):
     solid = read_material(entry)
     return {
         "material": entry["label"],
+        "sentence": say_verdict(entry["label"], pair),
         "modulus": describe_modulus(entry),
         **describe_pair(pair),
         "rate": describe_rate(solid, pair, ends(pair.modulus_threshold))

@@ -46,9 +46,9 @@ def combine_ways(values):
 
 
 def describe_pair(bem, solid, surface):
-    """a_V at a material's range on the pressed heights, and the margin that follows.
+    """a_V at a material's range on the pressed heights, and the onset that follows.
 
-    Both are a dash where the range lies outside the gaps computed. The margin is a dash, too, where
+    Both are a dash where the range lies outside the gaps computed. The onset is a dash, too, where
     the range is below the gap of the pixels next to the contact, which the grid does not resolve.
     """
     at = bem.sel(pressure=LOAD, method="nearest")

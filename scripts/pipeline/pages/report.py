@@ -16,7 +16,7 @@ import xarray as xr
 from pipeline.conventions import at_load
 from pipeline.numbers import NOTHING, interval, number, percent, superscripted, with_error
 from pipeline.pages.surface_texts import describe_height, describe_line
-from pipeline.pages.verdict_texts import REMAINING, WORD_TONES, WORDS, describe_pair
+from pipeline.pages.verdict_texts import WORD_TONES, describe_pair
 from pipeline.tradeoff import summary
 from pipeline.verdicts.materials import describe_modulus
 from stickiness.accuracy import plan
@@ -25,7 +25,9 @@ from stickiness.accuracy.prediction import Problem, predicted_cost, worst_error
 from stickiness.accuracy.quantities import COLUMNS, MODELLED, columns_of
 from stickiness.core import budget, datasets
 from stickiness.criteria.errata import ERRATA
-from stickiness.criteria.registry import CRITERIA
+from stickiness.criteria.pair import FULL_SHARE, STICKS_FULLY, STICKY, TOUCHES, WORDS
+from stickiness.criteria.registry import CRITERIA, REMAINING
+from stickiness.remaining.prediction import DEFAULT_SHARE
 
 Datasets = Mapping[str, xr.Dataset]
 Context = dict[str, Any]
@@ -73,8 +75,7 @@ def summarise(claims: xr.Dataset, verdicts: xr.Dataset, ensembles: Sequence[xr.D
     """Numbers of the opening paragraph."""
     grades = Counter(str(verdict) for verdict in claims.verdict.values)
     order = [*CLAIM_TONES, *sorted(grades.keys() - CLAIM_TONES.keys())]
-    outside = ~verdicts.simulated.astype(bool).all("end")
-    sticky = verdicts.verdict == 2
+    counts = Counter(verdicts.verdict.values.ravel().tolist())
     seeds = sorted({len(datasets.parameters(ensemble)["seeds"]) for ensemble in ensembles})
     return {
         "claims": claims.sizes["claim"],
@@ -85,14 +86,15 @@ def summarise(claims: xr.Dataset, verdicts: xr.Dataset, ensembles: Sequence[xr.D
         "pairs": verdicts.verdict.size,
         "materials": verdicts.sizes["material"],
         "surfaces": verdicts.sizes["surface"],
-        "sticky": int(sticky.sum()),
+        "sticky": counts[STICKY] + counts[STICKS_FULLY],
+        "touching": counts[TOUCHES],
+        "wanted": percent(DEFAULT_SHARE),
+        "full": percent(FULL_SHARE),
         "by_verdict": [
-            (WORDS[code], count, WORD_TONES[code])
-            for code in (2, 1, 0, 3)
-            if (count := int((verdicts.verdict == code).sum()))
+            (WORDS[code], counts[code], WORD_TONES[code])
+            for code in reversed(range(len(WORDS)))
+            if counts[code]
         ],
-        "outside": int(outside.sum()),
-        "sticky_outside": int((sticky & outside).sum()),
         "realisations": interval(seeds[0], seeds[-1]),
     }
 

@@ -9,9 +9,10 @@ import xarray as xr
 
 from pipeline.numbers import NOTHING, interval, number, percent, quantity
 from pipeline.pages.surface_texts import describe_height
+from pipeline.verdicts.texts import describe_pull_off, describe_share, describe_threshold
 from stickiness.core import budget
 from stickiness.criteria.pair import WORDS
-from stickiness.criteria.registry import CRITERIA, REMAINING
+from stickiness.criteria.registry import CRITERIA, EDGES, REMAINING
 from stickiness.remaining.prediction import DEFAULT_SHARE
 
 WORD_TONES = ("no", "open", "partly", "yes", "yes")
@@ -22,37 +23,27 @@ def describe_pair(pair: xr.Dataset) -> dict[str, Any]:
     """Texts and numbers of a pair on the pages; intervals go from the rough to the smooth end."""
     code = int(pair.verdict)
     margins = ends(pair.margin.sel(criterion=REMAINING))
-    thresholds = ends(pair.modulus_threshold)
-    limits, threshold_limits, a_v = (
-        (float(pair[f"{name}_low"].min()), float(pair[f"{name}_high"].max()))
-        for name in ("margin", "modulus_threshold", "pair_a_v")
-    )
+    limits = float(pair.margin_low.min()), float(pair.margin_high.max())
     return {
         "verdict": WORDS[code],
         "tone": WORD_TONES[code],
         "grade": code,
-        "outside": False,
         "remaining": describe_share(pair),
-        "pull_off": quantity(*sorted(map(float, pair.pull_off.values)), "Pa", digits=2),
+        "remaining_value": float(pair.remaining.mean()),
+        "pull_off": describe_pull_off(pair),
+        "pull_off_value": float(pair.pull_off.mean()),
+        "energy_ratio": interval(*ends(pair.energy_ratio), digits=2),
+        "energy_ratio_value": float(pair.energy_ratio.mean()),
         "margin": interval(*margins, digits=2),
         "order": float(np.sqrt(np.prod(margins))),
         "limits": interval(*limits, digits=2),
-        "lowest": limits[0],
         "by": find_dominant(pair),
-        "threshold": quantity(*thresholds, "Pa", digits=2),
-        "threshold_limits": quantity(*threshold_limits, "Pa", digits=2),
-        "threshold_value": thresholds[0],
-        "a_v": interval(*a_v, digits=2),
-        "a_v_value": float(pair.pair_a_v.mean()),
+        "onset": interval(*ends(pair.margin.sel(criterion=EDGES)), digits=2),
+        "onset_value": float(pair.margin.sel(criterion=EDGES).mean()),
+        "threshold": describe_threshold(pair),
+        "threshold_value": float(pair.modulus_threshold.sel(end="rough")),
         **describe_draws(pair),
     }
-
-
-def describe_share(pair: xr.Dataset) -> str:
-    """Share of the work of adhesion that remains, with its limits over both ends."""
-    low, high = float(pair.remaining_low.min()), float(pair.remaining_high.max())
-    value = "–".join(dict.fromkeys(percent(x) for x in sorted(pair.remaining.values)))
-    return f"{value} ({percent(low)} to {percent(high)})"
 
 
 def find_dominant(pair: xr.Dataset) -> str:

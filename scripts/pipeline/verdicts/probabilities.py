@@ -22,13 +22,15 @@ class Drawn:
     """Margin and share that remains at the reference frequency, as distributions.
 
     `from_spectrum` and `from_model` are the standard deviations of ln(margin) that the spectrum
-    alone, or the model alone, would leave.
+    alone, or the model alone, would leave; `share_from_spectrum` is that of the share by the
+    spectrum alone.
     """
 
     margins: np.ndarray  # (n,), one for each draw
     remaining: np.ndarray  # (n,), share of the work of adhesion
     from_spectrum: float
     from_model: float
+    share_from_spectrum: float
 
     @property
     def probability(self):
@@ -39,23 +41,25 @@ class Drawn:
 def find_probabilities(materials, surfaces):
     """Distribution of the margin of every pair; NaN on surfaces that were not measured."""
     shape = (len(materials), len(surfaces))
-    share, spectrum, from_model = (np.full(shape, np.nan) for _ in range(3))
+    probability, spectrum, from_model, of_share = (np.full(shape, np.nan) for _ in range(4))
     margins, remaining = np.full((2, *shape, len(QUANTILES)), np.nan)
     for i, solid in enumerate(materials.values()):
         for j, surface in enumerate(surfaces.values()):
             if all(drawn in surface for drawn in DRAWN):
                 found = draw_pair(solid, surface)
-                share[i, j] = found.probability
+                probability[i, j] = found.probability
                 margins[i, j] = np.quantile(found.margins, QUANTILES)
                 remaining[i, j] = np.quantile(found.remaining, QUANTILES)
                 spectrum[i, j], from_model[i, j] = found.from_spectrum, found.from_model
+                of_share[i, j] = found.share_from_spectrum
     return {
-        "probability": (DIMS[:2], share),
+        "probability": (DIMS[:2], probability),
         "quantile": ("quantile", list(QUANTILES)),
         "margin_quantile": ((*DIMS[:2], "quantile"), margins),
         "remaining_quantile": ((*DIMS[:2], "quantile"), remaining),
         "error_of_spectrum": (DIMS[:2], spectrum),
         "error_of_model": (DIMS[:2], from_model),
+        "share_error_of_spectrum": (DIMS[:2], of_share),
     }
 
 
@@ -71,4 +75,5 @@ def draw_pair(material, surface):
         remaining=rough.share(length, material.range, sign),
         from_spectrum=float(np.std(np.log(at_value))),
         from_model=float(np.std(np.log(margins / at_value))),
+        share_from_spectrum=float(np.std(rough.share(length, material.range))),
     )

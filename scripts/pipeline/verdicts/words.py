@@ -6,19 +6,25 @@ from stickiness.remaining.prediction import DEFAULT_SHARE
 
 
 def decide_pairs(dataset):
-    """Code of the verdict over the whole range of the surface and the limits of the model.
+    """Code of the verdict over the whole range of the surface and the limits of the model."""
+    low, high = find_limits(dataset)
+    grows = (dataset.margin.sel(criterion=EDGES, drop=True) > 1).any("end")
+    wanted = dataset.attrs.get("wanted_share", DEFAULT_SHARE)
+    return low.copy(data=decide(low, high, grows, wanted))
 
-    On a measured surface the spectra drawn within its errors decide, by the quantiles of what
-    remains.
+
+def find_limits(dataset):
+    """Low and high limit of the share that remains, which decide.
+
+    Over both ends of the surface and the limits of the model. On a measured surface the spectra
+    drawn within its errors decide, by the quantiles of what remains.
     """
     low, high = dataset.remaining_low.min("end"), dataset.remaining_high.max("end")
     if "remaining_quantile" in dataset:
         drawn = dataset.remaining_quantile
         low = drawn.isel(quantile=0, drop=True).fillna(low)
         high = drawn.isel(quantile=-1, drop=True).fillna(high)
-    grows = (dataset.margin.sel(criterion=EDGES, drop=True) > 1).any("end")
-    wanted = dataset.attrs.get("wanted_share", DEFAULT_SHARE)
-    return low.copy(data=decide(low, high, grows, wanted))
+    return low, high
 
 
 def find_disagreement(dataset):

@@ -15,9 +15,11 @@ from stickiness.adhesion import equivalent_sphere
 from stickiness.core import budget, datasets
 from stickiness.criteria.a_v_table import VARIANTS, SurfaceAv, edge_range, local_a_v
 from stickiness.criteria.pair import REGIMES, STRONG, TOUGH, WEAK, WORDS
-from stickiness.criteria.registry import FULL_CONTACT
+from stickiness.criteria.registry import EDGES, REMAINING
 from stickiness.criteria.verdict import verdict
 from stickiness.persson import Persson
+from stickiness.remaining import predict
+from stickiness.remaining.prediction import DEFAULT_SHARE
 from stickiness.spectrum import SelfAffine
 
 LOAD = 0.065
@@ -63,24 +65,30 @@ def test_pair_takes_its_own_range():
     assert pair.at(1e-9) == pytest.approx(pair.at(1e-4))
 
 
+def pair_between(low, high, grows, quantiles=(np.nan, np.nan, np.nan)):
+    """Limits of the share at both ends of a surface, and margins of the onset there."""
+    data = {
+        "remaining_low": ("end", list(low)),
+        "remaining_high": ("end", list(high)),
+        "margin": (("end", "criterion"), [[x] for x in grows]),
+        "remaining_quantile": ("quantile", list(quantiles)),
+    }
+    return xr.Dataset(data, coords={"end": ["smooth", "rough"], "criterion": [EDGES]})
+
+
 @pytest.mark.parametrize(
-    ("low", "high", "full", "expected"),
+    ("low", "high", "grows", "expected"),
     [
-        ((2.0, 1.5), (3.0, 2.0), (2.0, 1.5), "sticky"),
-        ((2.0, 1.5), (3.0, 2.0), (0.1, 0.1), "sticky"),
-        ((2.0, 0.5), (3.0, 0.9), (0.1, 0.1), "depends"),
-        ((0.8, 0.5), (1.2, 0.6), (2.0, 0.1), "depends"),
-        ((0.5, 0.1), (0.9, 0.2), (0.9, 0.1), "not sticky"),
-        ((0.5, 0.1), (0.9, 0.2), (1.1, 0.1), "undecided"),
+        ((0.9, 0.85), (1.0, 0.9), (5.0, 5.0), "sticks fully"),
+        ((0.9, 0.15), (1.0, 0.9), (0.1, 0.1), "sticks"),  # the onset does not matter here
+        ((0.5, 0.05), (0.6, 0.2), (5.0, 5.0), "depends"),
+        ((0.5, 0.0), (0.6, 0.0), (0.1, 0.1), "depends"),
+        ((0.0, 0.0), (0.09, 0.0), (1.1, 0.1), "touches without hold"),
+        ((0.0, 0.0), (0.09, 0.0), (0.9, 0.1), "does not stick"),
     ],
 )
-def test_verdict(low, high, full, expected):
-    """What does not stick by itself, but would hold in full contact, is undecided."""
-    ends = {"end": ["smooth", "rough"]}
-    data = {"margin_low": ("end", list(low)), "margin_high": ("end", list(high))}
-    data["margin"] = ("end", "criterion"), [[x] for x in full]
-    coords = ends | {"criterion": [FULL_CONTACT]}
-    assert WORDS[int(decide_pairs(xr.Dataset(data, coords=coords)))] == expected
+def test_word_follows_from_shares_at_both_ends(low, high, grows, expected):
+    assert WORDS[int(decide_pairs(pair_between(low, high, grows)))] == expected
 
 
 def pairs_of(modulus, ranges, h_rms=1e-6, a_v=(4.0, 4.0, 4.0)):
@@ -136,25 +144,58 @@ def test_weak_edges_attract_more_than_the_sum():
     assert float(found.over_dmt) > 1.5
 
 
-@pytest.mark.parametrize(
-    ("modulus", "reach", "error"),
-    [
-        (1e11, 1e-7, equivalent_sphere.ERROR_WEAK),
-        (1e6, 1e-7, equivalent_sphere.ERROR_STRONG),
-        (1e6, 1e-10, equivalent_sphere.ERROR_BEYOND),
-    ],
-)
-def test_margin_goes_from_low_a_v_and_model_to_high_ones(modulus, reach, error):
-    found = pairs_of(modulus, [reach], a_v=(4.0, 3.0, 5.0)).isel(end=0, surface=0, material=0)
+@pytest.mark.parametrize(("modulus", "reach"), [(5e3, 1e-9), (1e4, 3e-8), (1e5, 1e-6)])
+def test_limits_are_those_of_the_remaining_share(modulus, reach):
+    found = pairs_of(modulus, [reach]).isel(end=0, surface=0, material=0)
     s = SelfAffine(hurst=0.8, q0=1e5, q1=1e8, h_rms=1e-6)
-    low, value, high = (
-        equivalent_sphere.attraction(s.h_rms, 1e5, s.rms_slope, 0.05 / modulus, reach, a_v).ratio
-        for a_v in (3.0, 4.0, 5.0)
+    expected = predict(s, 0.05 / modulus, reach)
+    assert float(found.remaining) == pytest.approx(expected.separation, rel=1e-9)
+    assert float(found.remaining_low) == pytest.approx(expected.separation_limits[0], rel=1e-9)
+    assert float(found.pull_off) == pytest.approx(expected.pull_off * modulus, rel=1e-9)
+    limits = [float(found[f"pull_off{end}"]) / modulus for end in ("_low", "_high")]
+    assert limits == pytest.approx(expected.pull_off_limits, rel=1e-9)
+    assert float(found.energy_ratio) == pytest.approx(expected.energy_ratio, rel=1e-9)
+    assert float(found.remaining_low) < float(found.remaining) < float(found.remaining_high)
+
+
+def test_margin_and_threshold_have_the_same_relative_errors():
+    # Of the limits and of the budget, for a pair about to stick and one far from it.
+    found = pairs_of(1e6, [1e-9]).sel(criterion=REMAINING).squeeze()
+    for end in ("_low", "_high"):
+        margins = found[f"margin{end}"] / found.margin
+        thresholds = found[f"modulus_threshold{end}"] / found.modulus_threshold
+        np.testing.assert_allclose(margins, thresholds, rtol=1e-9)
+        assert np.all(abs(np.log(margins)) > 0.05)
+    for source in ("model", "sampling"):
+        margin, threshold = (
+            found[f"{name}_error"].sel(source=source) / found[name]
+            for name in ("margin", "modulus_threshold")
+        )
+        np.testing.assert_allclose(margin, threshold, rtol=1e-9)
+
+
+def test_errors_of_the_spectrum_are_counted_once():
+    """The model's limits are its own; what the spectrum adds is apart, and none if there is one."""
+    found = pairs_of(1e4, [1e-9]).squeeze()
+    for name in ("remaining", "pull_off", "margin", "modulus_threshold"):
+        assert np.all(found[f"{name}_error"].sel(source="sampling") == 0), name
+    error = found.remaining_error.sel(source="model")
+    expected = np.maximum(
+        found.remaining_high - found.remaining, found.remaining - found.remaining_low
     )
-    assert float(found.margin.sel(criterion="edge_adhesion")) == pytest.approx(value, rel=1e-9)
-    assert float(found.margin_low) == pytest.approx(low / error, rel=1e-9)
-    assert float(found.margin_high) == pytest.approx(high * error, rel=1e-9)
-    assert float(found.margin_low) < value < float(found.margin_high)
+    np.testing.assert_allclose(error, expected)
+    others = found.margin_error.sel(source="model").where(found.criterion != REMAINING, drop=True)
+    assert np.isnan(others).all()  # other criteria state no error
+
+
+@pytest.mark.parametrize("modulus", [5e3, 2e4, 2e5])
+def test_verdict_does_not_know_the_range_of_tough_pairs(modulus):
+    found = pairs_of(modulus, [1e-11, 1e-10, 1e-9]).isel(end=0, surface=0)
+    share = found.remaining.values
+    np.testing.assert_allclose(share, share[0], rtol=0.01, atol=1e-9)
+    assert len(set(found.verdict.values.tolist())) == 1
+    margin = found.margin.sel(criterion=REMAINING).values
+    np.testing.assert_allclose(margin, margin[0], rtol=0.01)
 
 
 def test_wide_zones_of_strong_edges_are_not_called_tough():
@@ -165,13 +206,18 @@ def test_wide_zones_of_strong_edges_are_not_called_tough():
 
 
 @pytest.mark.slow
-def test_threshold_is_where_attraction_balances_repulsion():
+def test_threshold_is_where_the_wanted_share_remains():
     threshold = float(pairs_of(1e6, [1e-9]).modulus_threshold[0, 0, 0])
-    margins = [
-        float(pairs_of(threshold * by, [1e-9]).margin.sel(criterion="edge_adhesion")[0, 0, 0])
-        for by in (0.99, 1.01)
-    ]
-    assert margins[0] > 1 > margins[1]
+    shares = [float(pairs_of(threshold * by, [1e-9]).remaining[0, 0, 0]) for by in (0.99, 1.01)]
+    assert shares[0] > DEFAULT_SHARE > shares[1]
+    assert shares == pytest.approx([DEFAULT_SHARE] * 2, rel=0.1)
+
+
+@pytest.mark.parametrize("h_rms", [0.1e-6, 1e-6, 1e-5])
+def test_steel_does_not_stick(h_rms):
+    """Nor does its contact grow by itself, from polished to coarse."""
+    found = pairs_of(230e9, [3e-10], h_rms=h_rms).squeeze()
+    assert WORDS[int(found.verdict)] == "does not stick"
 
 
 def test_margin_at_another_rate_is_that_of_its_modulus():
@@ -183,7 +229,7 @@ def test_margin_at_another_rate_is_that_of_its_modulus():
         )
 
 
-@pytest.mark.parametrize(("modulus", "reach"), [(1e5, 1e-9), (1e8, 1e-9), (1e11, 1e-7)])
+@pytest.mark.parametrize(("modulus", "reach"), [(5e3, 1e-9), (1e5, 1e-9), (1e11, 1e-7)])
 def test_library_and_rule_give_the_same_numbers(modulus, reach):
     a_v = (4.0, 3.0, 5.0)
     by_rule = pairs_of(modulus, [reach], a_v=a_v).isel(end=0, surface=0, material=0)
@@ -197,6 +243,9 @@ def test_library_and_rule_give_the_same_numbers(modulus, reach):
     assert thresholds == pytest.approx(
         [found.modulus_threshold, *found.modulus_threshold_limits], rel=1e-9
     )
+    for name in ("remaining", "pull_off"):
+        by = [float(by_rule[f"{name}{end}"]) for end in ("", "_low", "_high")]
+        assert [getattr(found, name), *getattr(found, f"{name}_limits")] == pytest.approx(by)
     assert found.word == WORDS[int(by_rule.verdict)]
     assert found.regime == REGIMES[int(by_rule.regime)]
 

@@ -558,11 +558,11 @@ def test_figure_8b_has_gamma_with_its_interval_and_misfit(ax):
 # ---- figure 9
 
 
-CRITERIA_DRAWN = ["edge_adhesion", "violano", "pastewka_robbins", "fuller_tabor", "dahlquist"]
+CRITERIA_DRAWN = ["remaining_adhesion", "violano", "pastewka_robbins", "fuller_tabor", "dahlquist"]
 
 
-def test_figure_9a_has_every_criterion_that_knows_a_length_and_the_error_of_the_edges(ax):
-    names = [*CRITERIA_DRAWN[:4], "edge_adhesion_low", "edge_adhesion_high"]
+def test_figure_9a_has_every_criterion_that_knows_a_length_and_the_error_of_the_verdict(ax):
+    names = [*CRITERIA_DRAWN[:4], "remaining_adhesion_low", "remaining_adhesion_high"]
     height = np.array([10.0, 100.0])
     values = np.outer([1.0, 2.0, 3.0, 4.0, 0.5, 2.0], height**-0.5)
     coords = {"criterion": names, "h_rms_over_range": height}
@@ -578,7 +578,7 @@ def test_figure_9a_has_every_criterion_that_knows_a_length_and_the_error_of_the_
 
 
 def test_figure_9c_has_geometric_means_and_the_range_over_materials_and_ends(ax):
-    factors = np.array([1.0, 10.0, 0.01, 100.0, 7.0])  # over the edges, by criterion
+    factors = np.array([1.0, 10.0, 0.01, 100.0, 7.0])  # over the verdict's, by criterion
     spread = np.array([[0.5, 2.0], [0.25, 4.0]])[:, None, :, None] ** (np.arange(5) > 0)
     base = np.array([1e3, 1e6])[None, :, None, None]
     moduli = factors * spread * base * np.ones((2, 2, 2, 5))

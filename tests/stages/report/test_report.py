@@ -14,9 +14,12 @@ from pipeline import numbers
 from pipeline.pages import captions, report, surface_texts
 from pipeline.pages.benchmarks import run_times
 from pipeline.pages.provenance import describe_provenance
+from pipeline.verdicts import texts
 from report import write_report
 from stickiness.core import budget
 from stickiness.criteria.errata import ERRATA
+from stickiness.criteria.pair import DEPENDS, NOT_STICKY, STICKY, TOUCHES
+from stickiness.criteria.registry import EDGES, REMAINING
 
 TEMPLATE = Path(__file__).parents[3] / "report" / "report.html.j2"
 NASTY = '<script>alert("1 & 2")</script>'
@@ -61,19 +64,29 @@ def claims():
 
 @pytest.fixture
 def verdicts():
-    """Two materials on two surfaces: jelly sticks to glass, depends on sand; iron does not stick.
+    """Two materials on two surfaces: jelly sticks to glass, depends on sand; iron does neither.
 
-    On sand, the other criterion says the opposite of the derived one for iron alone.
+    Iron touches glass without hold. On sand, the other criterion says the opposite of the verdict
+    for iron alone.
     """
     derived = [[[9.0, 8.0], [2.0, 0.5]], [[0.1, 0.1], [0.01, 0.01]]]
     other = [[[9.0, 8.0], [2.0, 0.5]], [[0.1, 0.1], [3.0, 2.0]]]
+    onset = [[[9.0, 8.0], [2.0, 0.5]], [[5.0, 4.0], [0.1, 0.1]]]
+    remaining = np.array([[[0.7, 0.5], [0.3, 0.02]], [[0.01, 0.01], [0.0, 0.0]]])
+    pull_off = 1e4 * remaining
     dims = ("material", "surface", "end")
     dataset = xr.Dataset(
         {
-            "margin": ((*dims, "criterion"), np.stack([derived, other], axis=-1)),
+            "margin": ((*dims, "criterion"), np.stack([derived, onset, other], axis=-1)),
             "modulus_threshold": (dims, np.full((2, 2, 2), 2.5e6)),
-            "simulated": (dims, [[[1, 0], [1, 1]], [[1, 1], [1, 1]]]),
-            "verdict": (dims[:2], [[2, 1], [0, 0]]),
+            "remaining": (dims, remaining),
+            "remaining_low": (dims, 0.8 * remaining),
+            "remaining_high": (dims, 1.2 * remaining),
+            "pull_off": (dims, pull_off),
+            "pull_off_low": (dims, 0.5 * pull_off),
+            "pull_off_high": (dims, 2 * pull_off),
+            "energy_ratio": (dims, np.array(derived) / 2),
+            "verdict": (dims[:2], [[STICKY, DEPENDS], [TOUCHES, NOT_STICKY]]),
             "modulus_threshold_low": (dims, np.full((2, 2, 2), 1.5e6)),
             "modulus_threshold_high": (dims, np.full((2, 2, 2), 4.5e6)),
             "margin_low": (dims, np.array(derived) * 0.9),
@@ -85,7 +98,10 @@ def verdicts():
             "margin_quantile": ((*dims[:2], "quantile"), np.tile([0.5, 1.0, 2.0], (2, 2, 1))),
             "error_of_spectrum": (dims[:2], np.full((2, 2), 0.3)),
             "error_of_model": (dims[:2], np.full((2, 2), 0.4)),
-            "disagrees": ((*dims[:2], "criterion"), [[[0, 0], [0, 0]], [[0, 0], [0, 1]]]),
+            "disagrees": (
+                (*dims[:2], "criterion"),
+                [[[0, 0, 0], [0, 0, 0]], [[0, 1, 0], [0, 0, 1]]],
+            ),
             "a_v": 3.21,
             "a_v_low": 2.8,
             "a_v_high": 4.4,
@@ -94,10 +110,10 @@ def verdicts():
             "material": ["jelly", "iron"],
             "surface": ["glass", "sand"],
             "end": ["smooth", "rough"],
-            "criterion": ["edge_adhesion", "bearing_area"],
+            "criterion": [REMAINING, EDGES, "bearing_area"],
         },
     )
-    model = np.full((2, 2, 2, 2), 0.5)
+    model = np.full((2, 2, 2, 3), 0.5)
     dataset = budgeted(dataset, "margin", model=model)
     materials = {
         "jelly": {
@@ -390,13 +406,17 @@ def test_texts_are_escaped(page):
 def test_summary_counts(claims, verdicts):
     found = report.summarise(claims, verdicts, [ensemble(), ensemble(seeds=range(1, 5))])
     assert [(name, count) for name, count, _ in found["graded"]] == [(g, 1) for g in GRADES]
-    assert (found["pairs"], found["sticky"]) == (4, 1)
+    assert (found["pairs"], found["sticky"], found["touching"]) == (4, 1, 1)
+    assert (found["wanted"], found["full"]) == ("10 %", "80 %")
     assert [pair[:2] for pair in found["by_verdict"]] == [
-        ("sticky", 1),
+        ("sticks", 1),
         ("depends", 1),
-        ("not sticky", 2),
+        ("touches without hold", 1),
+        ("does not stick", 1),
     ]
-    assert (found["outside"], found["sticky_outside"]) == (1, 1)
+    fully = report.summarise(claims, verdicts.assign(verdict=verdicts.verdict + 1), [ensemble()])
+    assert (fully["sticky"], fully["touching"]) == (2, 1)
+    assert fully["by_verdict"][0][:2] == ("sticks fully", 1)
     assert (found["a_v"], found["a_v_range"]) == ("3.21", "2.8 … 4.4")
     assert found["realisations"] == "2 … 4"
 
@@ -404,25 +424,52 @@ def test_summary_counts(claims, verdicts):
 def test_every_verdict_stands_in_its_place(verdicts, surfaces):
     matrix = report.arrange_verdicts(verdicts, surfaces)
     assert [material["label"] for material in matrix["materials"]] == ["jelly & cream", "iron"]
-    found = [[(c["verdict"], c["outside"]) for c in row["cells"]] for row in matrix["rows"]]
-    assert found == [
-        [("sticky", True), ("not sticky", False)],
-        [("depends", False), ("not sticky", False)],
-    ]
-    sand = matrix["rows"][1]["cells"][0]
+    found = [[cell["verdict"] for cell in row["cells"]] for row in matrix["rows"]]
+    assert found == [["sticks", "touches without hold"], ["depends", "does not stick"]]
+    glass, sand = (row["cells"][0] for row in matrix["rows"])
+    assert glass["remaining"] == "50 … 70 % (40 to 84 %)"
+    assert glass["pull_off"] == "5 … 7 kPa (2.5 to 14 kPa)"
     assert (sand["margin"], sand["limits"]) == ("0.5 … 2", "0.45 … 2.2")
-    assert (sand["threshold"], sand["a_v"]) == ("2.5 MPa", "2 … 4")
+    assert sand["remaining"] == "2 … 30 % (1.6 to 36 %)"
+    assert sand["threshold"] == "2.5 MPa (1.5 to 4.5 MPa)"
+    assert sand["energy_ratio"] == "0.25 … 1"
+    iron = matrix["rows"][1]["cells"][1]
+    assert (iron["remaining"], iron["pull_off"]) == ("0 %", "–")
     assert matrix["materials"][0]["work_of_adhesion"] == "50 mJ/m²"
 
 
 def test_verdicts_are_worded_on_the_page(page):
     text = Reader(page).text
     for words in (
-        "sticky † m 8 … 9 (7.2 … 9.9) by model E* 2.5 MPa",
-        "depends m 0.5 … 2 (0.45 … 2.2) by model",
-        "not sticky m 0.1 (0.09 … 0.11) by model E* 2.5 MPa",
+        "sticks 50 … 70 % (40 to 84 %) E* 2.5 MPa (1.5 to 4.5 MPa)",
+        "depends 2 … 30 % (1.6 to 36 %) E* 2.5 MPa",
+        "touches without hold 1 % (0.8 to 1.2 %) E* 2.5 MPa",
+        "does not stick 0 % E* 2.5 MPa",
+        "1 of 4 pairs stick. 1 touch without hold",
     ):
         assert words in text
+    assert "†" not in text
+
+
+def test_verdicts_are_said_in_a_sentence(verdicts):
+    expected = {
+        ("jelly", "glass"): "jelly sticks: 50 … 70 % (40 to 84 %) of its work of adhesion remains.",
+        ("jelly", "sand"): "For jelly it depends: 2 … 30 % (1.6 to 36 %) of its work of adhesion "
+        "remains, and 10 % is wanted.",
+        ("iron", "glass"): "iron touches without hold: contact grows by itself at the finest wave, "
+        "but 1 % (0.8 to 1.2 %) of its work of adhesion remains.",
+        ("iron", "sand"): "iron does not stick: nothing of its work of adhesion remains.",
+    }
+    for (material, surface), sentence in expected.items():
+        pair = verdicts.sel(material=material, surface=surface)
+        assert texts.say_verdict(material, pair) == sentence
+
+
+def test_limits_on_a_measured_surface_are_those_of_its_draws(verdicts):
+    pair = verdicts.sel(material="jelly", surface="glass")
+    quantiles = xr.DataArray([0.31, 0.6, 0.77], dims="quantile")
+    found = texts.describe_share(pair.assign(remaining_quantile=quantiles))
+    assert found == "50 … 70 % (31 to 77 %)"
 
 
 def test_errors_of_a_pair_are_told_where_it_was_drawn(verdicts, surfaces):
@@ -434,7 +481,7 @@ def test_errors_of_a_pair_are_told_where_it_was_drawn(verdicts, surfaces):
     on_glass, on_sand = pairs[:2]
     assert on_glass["probability"] == on_glass["errors"] == "–"
     assert (on_sand["probability"], on_sand["drawn"]) == ("42 %", "0.5 … 2")
-    assert on_sand["errors"] == "spectrum 30 %, a_V and model 40 %"
+    assert on_sand["errors"] == "spectrum 30 %, model 40 %"
     assert on_sand["error"] == pytest.approx(0.5)
 
 
@@ -456,7 +503,9 @@ def test_symbols_are_set(text, html):
 
 
 def test_disagreement_names_pairs_and_direction(verdicts, surfaces):
-    (row,) = report.find_disagreements(verdicts, surfaces)
+    onset, row = report.find_disagreements(verdicts, surfaces)
+    assert onset["criterion"] == "onset at the finest wave"
+    assert onset["sticky"] == [("iron", ["glass pane"])]
     assert (row["criterion"], row["count"]) == ("bearing area (BAM)", 1)
     assert row["sticky"] == [("iron", ["sand < 1 mm"])]
     assert row["not_sticky"] == []

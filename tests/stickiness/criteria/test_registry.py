@@ -15,7 +15,7 @@ from pipeline.verdicts.markdown import write_markdown
 from pipeline.verdicts.materials import read_material
 from stickiness.core import datasets
 from stickiness.criteria.a_v_table import SurfaceAv
-from stickiness.criteria.registry import CRITERIA, EDGES, Criterion
+from stickiness.criteria.registry import CRITERIA, REMAINING, Criterion
 from stickiness.spectrum import SelfAffine
 
 COMPARED = {
@@ -146,4 +146,4 @@ def test_every_threshold_is_where_the_margin_is_one(judged, road):
 
 def test_names_and_labels_differ():
     assert len({c.label for c in CRITERIA.values()}) == len(CRITERIA)
-    assert next(iter(CRITERIA)) == EDGES
+    assert next(iter(CRITERIA)) == REMAINING

@@ -9,8 +9,9 @@ from stickiness import surface
 from stickiness.core.plausibility import PlausibilityWarning
 from stickiness.criteria import verdict as module
 from stickiness.criteria.pair import WORDS, decide
-from stickiness.criteria.registry import CRITERIA, EDGES
+from stickiness.criteria.registry import CRITERIA, EDGES, REMAINING
 from stickiness.criteria.verdict import verdict
+from stickiness.remaining.prediction import DEFAULT_SHARE
 from stickiness.spectrum import SelfAffine
 
 ROUGH = SelfAffine(hurst=0.8, q0=6e4, q1=6e8, h_rms=1e-6)
@@ -20,24 +21,66 @@ GEL = {"modulus": 0.1e6, "work_of_adhesion": 0.05, "range": 3e-10}
 def test_soft_sticks_and_stiff_does_not():
     soft = verdict(ROUGH, **GEL | {"modulus": 10e3})
     stiff = verdict(ROUGH, **GEL | {"modulus": 1e11})
-    assert (soft.word, stiff.word) == ("sticky", "not sticky")
+    assert (soft.word, stiff.word) == ("sticks fully", "does not stick")
     for found in (soft, stiff):
         assert found.margin_limits[0] < found.margin < found.margin_limits[1]
         assert found.margins.keys() == CRITERIA.keys()
-        assert found.margins[EDGES] == found.margin
+        assert found.margins[REMAINING] == found.margin
         low, high = found.modulus_threshold_limits
         assert low < found.modulus_threshold < high
 
 
-@pytest.mark.slow
 def test_verdict_depends_within_the_limits_of_the_threshold():
     found = verdict(ROUGH, **GEL)
     at_threshold = verdict(ROUGH, **GEL | {"modulus": found.modulus_threshold})
     assert at_threshold.word == "depends"
+    assert at_threshold.remaining == pytest.approx(DEFAULT_SHARE, rel=1e-6)
     assert at_threshold.margin == pytest.approx(1, rel=1e-6)
     low, high = found.modulus_threshold_limits
-    assert verdict(ROUGH, **GEL | {"modulus": 0.99 * low}).word == "sticky"
-    assert verdict(ROUGH, **GEL | {"modulus": 1.5 * high}).word in ("not sticky", "undecided")
+    words = [verdict(ROUGH, **GEL | {"modulus": by}).word for by in (0.99 * low, 1.01 * low)]
+    assert words == ["sticks", "depends"]
+    words = [verdict(ROUGH, **GEL | {"modulus": by}).word for by in (0.99 * high, 1.01 * high)]
+    assert words == ["depends", "touches without hold"]
+
+
+def test_margin_and_threshold_have_the_same_relative_errors():
+    found = verdict(ROUGH, **GEL)
+    for margin, threshold in zip(found.margin_limits, found.modulus_threshold_limits, strict=True):
+        assert margin / found.margin == pytest.approx(threshold / found.modulus_threshold)
+    assert found.margin == pytest.approx(found.modulus_threshold / GEL["modulus"])
+
+
+@pytest.mark.parametrize("modulus", [5e3, 30e3, 40e3, 70e3])
+def test_verdict_hardly_knows_the_finest_wave(modulus):
+    """Three decades of finer waves; the onset at the finest wave moves by more than a factor."""
+    finest = [SelfAffine(hurst=0.8, q0=6e4, q1=q1, h_rms=1e-6) for q1 in (6e7, 6e8, 6e9, 6e10)]
+    found = [verdict(s, **GEL | {"modulus": modulus}) for s in finest]
+    shares = np.array([one.remaining for one in found])
+    assert len({one.word for one in found}) == 1
+    assert np.ptp(shares) < 0.05 * shares.max()
+    onsets = [one.margins[EDGES] for one in found]
+    assert max(onsets) > 3 * min(onsets)
+
+
+@pytest.mark.parametrize("modulus", [5e3, 40e3, 70e3, 1e6])
+def test_verdict_does_not_know_the_range_of_tough_pairs(modulus):
+    """At a given work of adhesion."""
+    found = [
+        verdict(ROUGH, **GEL | {"modulus": modulus, "range": reach})
+        for reach in (3e-11, 3e-10, 3e-9)
+    ]
+    assert len({one.word for one in found}) == 1
+    shares = np.array([one.remaining for one in found])
+    assert np.ptp(shares) <= 0.01 * shares.max()
+
+
+def test_wanted_share_moves_the_verdict():
+    little = verdict(ROUGH, **GEL, wanted_share=0.01)
+    much = verdict(ROUGH, **GEL, wanted_share=0.7)
+    assert little.remaining == much.remaining
+    assert little.margin > verdict(ROUGH, **GEL).margin > much.margin
+    with pytest.raises(ValueError, match="wanted_share must be between 0 and 1, got 1"):
+        verdict(ROUGH, **GEL, wanted_share=1)
 
 
 @pytest.mark.parametrize(
@@ -118,22 +161,32 @@ def test_heights_need_their_length():
 
 
 @pytest.mark.parametrize(
-    ("surely", "possibly", "holds", "word"),
+    ("low", "high", "grows", "word"),
     [
-        (True, True, True, "sticky"),
-        (False, True, True, "depends"),
-        (False, False, True, "undecided"),
-        (False, False, False, "not sticky"),
+        (0.8, 1.0, True, "sticks fully"),
+        (0.79, 1.0, False, "sticks"),
+        (0.1, 0.2, False, "sticks"),
+        (0.09, 1.0, True, "depends"),
+        (0.0, 0.1, False, "depends"),
+        (0.0, 0.09, True, "touches without hold"),
+        (0.0, 0.09, False, "does not stick"),
     ],
 )
-def test_words(surely, possibly, holds, word):
-    assert WORDS[int(decide(surely, possibly, holds))] == word
+def test_words(low, high, grows, word):
+    assert WORDS[int(decide(low, high, grows))] == word
 
 
-def test_text_says_word_margin_and_threshold():
+def test_words_follow_the_wanted_share():
+    assert WORDS[int(decide(0.3, 0.4, True, wanted=0.2))] == "sticks"
+    assert WORDS[int(decide(0.3, 0.4, True, wanted=0.35))] == "depends"
+    assert WORDS[int(decide(0.3, 0.4, True, wanted=0.5))] == "touches without hold"
+
+
+def test_text_says_word_share_and_threshold():
     text = str(verdict(ROUGH, **GEL | {"modulus": 1e11}))
-    assert text.startswith("not sticky: margin ")
+    assert text.startswith("does not stick: 0 of the work of adhesion remains ")
     assert "sticks below E* = " in text
+    assert "onset at the finest wave" in text
     assert "Dahlquist" in text
 
 

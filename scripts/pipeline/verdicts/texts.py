@@ -1,0 +1,68 @@
+"""What remains of adhesion on a pair, as texts with limits, rounded for readers."""
+
+from __future__ import annotations
+
+import xarray as xr
+
+from pipeline.numbers import NOTHING, percent, quantity
+from pipeline.verdicts.words import find_limits
+from stickiness.criteria.pair import DEPENDS, TOUCHES, WORDS
+from stickiness.remaining.prediction import DEFAULT_SHARE
+
+LEAST_SHOWN = 1e-3  # share below which a text says 0 %
+
+
+def describe_share(pair: xr.Dataset) -> str:
+    """Share of the work of adhesion that remains, with the limits that decide the verdict."""
+    low, high = (round_share(limit) for limit in find_limits(pair))
+    value = show_shares(*sorted(map(round_share, pair.remaining.values)))
+    return value if low == high else f"{value} ({show_shares(low, high, ' to ')})"
+
+
+def round_share(share: float) -> float:
+    """The share, or 0 where it is too small to be shown."""
+    return float(share) if float(share) >= LEAST_SHOWN else 0.0
+
+
+def show_shares(low: float, high: float, between: str = " … ") -> str:
+    """Two shares as percentages, or one where they agree."""
+    texts = percent(low), percent(high)
+    return texts[1] if texts[0] == texts[1] else f"{texts[0].removesuffix(' %')}{between}{texts[1]}"
+
+
+def describe_pull_off(pair: xr.Dataset) -> str:
+    """Pull-off stress with its limits; a dash where nothing holds."""
+    if float(pair.pull_off_high.max()) == 0:
+        return NOTHING
+    return describe_pressure(pair, "pull_off")
+
+
+def describe_threshold(pair: xr.Dataset) -> str:
+    """Modulus below which the wanted share remains, with its limits."""
+    return describe_pressure(pair, "modulus_threshold")
+
+
+def describe_pressure(pair: xr.Dataset, name: str) -> str:
+    """Values [Pa] at both ends of the surface with the limits of the model."""
+    low, high = pair[f"{name}_low"].min(), pair[f"{name}_high"].max()
+    value = quantity(*sorted(map(float, pair[name].values)), "Pa", digits=2)
+    least, most = (quantity(float(x), float(x), "Pa", digits=2) for x in (low, high))
+    if float(low) == 0 or least.split()[-1] == most.split()[-1]:
+        least = least.split()[0]
+    return f"{value} ({least} to {most})"
+
+
+def say_verdict(material: str, pair: xr.Dataset) -> str:
+    """The verdict on a pair as one sentence."""
+    code, remains = int(pair.verdict), describe_share(pair)
+    if code == DEPENDS:
+        return (
+            f"For {material} it depends: {remains} of its work of adhesion remains, and "
+            f"{percent(DEFAULT_SHARE)} is wanted."
+        )
+    if round_share(find_limits(pair)[1]) == 0:
+        remains = "nothing"
+    remains += " of its work of adhesion remains"
+    if code == TOUCHES:
+        remains = f"contact grows by itself at the finest wave, but {remains}"
+    return f"{material} {WORDS[code]}: {remains}."
