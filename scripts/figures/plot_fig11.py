@@ -15,6 +15,7 @@ LEAST = 0.05
 HURST_COLOURS = {0.3: PURPLE, 0.5: RED, 0.6: ORANGE, 0.7: GREEN, 0.8: BLUE, 0.9: BLACK}
 MARKERS = {4: "o", 8: "P", 16: "s", 32: "^", 64: "D", 128: "v"}
 ENERGY_RATIO = r"$w/U_\mathrm{full}$"
+FINE, PALE = 3.9, 0.3  # pixels in the cohesive zone that resolve it; look of points with fewer
 RANGES = np.geomspace(0.05, 5, 100)  # over h_rms
 
 
@@ -75,14 +76,16 @@ def draw_errors(ax, table):
         for held, colour in ((False, BLUE), (True, RED)):
             rows = table[(remaining_table.is_held(table) == held) & (table[name] > LEAST)]
             look = {"marker": marker, "color": colour, "mfc": colour if held else "white"}
-            ratio = rows.predicted / rows[name]
-            ax.plot(rows.energy_ratio, ratio, linestyle="none", markersize=3.5, **look)
+            ratio, fine = rows.predicted / rows[name], rows.pixels_in_zone >= FINE
+            for which, alpha in ((fine, 1), (~fine, PALE)):
+                points = rows.energy_ratio[which], ratio[which]
+                ax.plot(*points, linestyle="none", markersize=3.5, alpha=alpha, **look)
     keys = [
         make_dot("approach", color=GREY, marker="v"),
         make_dot("separation", color=GREY, marker="^"),
         make_dot("nothing was fitted to", color=RED),
     ]
-    ax.legend(handles=keys, loc="lower left", ncols=2)
+    ax.legend(handles=keys, loc="lower left")
     ax.set(xlabel=ENERGY_RATIO, ylabel="theory over simulation", xscale="log", ylim=(0.4, 1.6))
 
 
@@ -96,21 +99,22 @@ def draw_ranges(ax, table):
         ax.plot(zone, line, color=colour)
         here = rows[rows.energy_ratio == ratio].sort_values("zone")
         ax.plot(here.zone, here.bound, "o", color=colour)
-        fine = here.pixels_in_zone >= 4
+        fine = here.pixels_in_zone >= FINE
         for name, marker in (("approach", "v"), ("separation", "^")):
             ax.plot(here.zone[fine], here[name][fine], marker, color=colour, mfc="white")
             ax.plot(
-                here.zone[~fine], here[name][~fine], marker, color=colour, mfc="white", alpha=0.35
+                here.zone[~fine], here[name][~fine], marker, color=colour, mfc="white", alpha=PALE
             )
         ax.text(0.32, line[-1], f"{ratio:g}", color=colour, fontsize=8, va="center")
     keys = [
         make_dot("energy"),
         make_dot("separation", marker="^", mfc="white"),
         make_dot("approach", marker="v", mfc="white"),
-        make_dot("two pixels in the zone", marker="^", mfc="white", alpha=0.35),
+        make_dot("two pixels in the zone", marker="^", mfc="white", alpha=PALE),
     ]
     ax.legend(handles=keys, loc="upper left", ncols=2)
-    ax.set(xscale="log", ylim=(0, 0.6), xlim=(0.01, 0.5))
+    ax.set(xscale="log", ylim=(0, 0.7), xlim=(0.01, 0.5))
+    plotting.write_ticks(ax.xaxis, [0.01, 0.03, 0.1, 0.3])
     ax.set_xlabel(r"width of the cohesive zone $q_0\epsilon^2/l_a$")
     ax.set_ylabel("share of $w$")
 

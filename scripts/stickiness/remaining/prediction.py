@@ -12,10 +12,11 @@ from stickiness.core.arguments import number, plain, positive
 from stickiness.remaining.share import ONSET, find_onset, remaining_share, tough_area
 from stickiness.surfaces.spectrum import Spectrum
 
-# Errors that cover 90 % of simulated surfaces of two by two waves and more: of the onset, of a
-# share, relative, and of a share, absolute, which is all that is known of small ones.
+# Errors that cover 90 % of simulated surfaces of two by two waves and more: of the onset; of a
+# share, relative and in proportion to what is lost; and of a share, absolute, which is all that is
+# known of small ones.
 ONSET_ERROR = 0.07
-SHARE_ERROR = 0.15
+SHARE_ERROR = 0.18
 LEAST_ERROR = 0.02
 # The largest tension on separation is what remains over a distance, the range plus
 # DISTANCE x^DISTANCE_POWER rms heights.
@@ -74,7 +75,8 @@ class Roughness:
         zone = self.q0 * np.asarray(range) ** 2 / adhesion_length
         reach = np.asarray(range) / self.h_rms
         share = remaining_share(ratio, reach, zone, ONSET - sign * ONSET_ERROR)
-        share = np.asarray(share) * (1 + SHARE_ERROR) ** sign + np.asarray(sign) * LEAST_ERROR
+        sign, lost = np.asarray(sign), 1 - np.asarray(share)
+        share = share * (1 + SHARE_ERROR * lost) ** sign + sign * LEAST_ERROR * lost
         return plain(np.clip(share, 0.0, 1.0))
 
     def pull_off(

@@ -30,7 +30,7 @@ from __future__ import annotations
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy.special import ndtr
+from scipy.special import erfcx, ndtr
 
 from stickiness.core.arguments import plain, positive
 
@@ -40,7 +40,6 @@ SHARPNESS = 8.0  # of the corner between tough and weak
 # within 30 % of simulations at H = 0.5 to 0.9 from full contact to a gap of 2.7.
 ENERGY_DECAY, ENERGY_CURVATURE = 2.2, 0.2
 _GAPS = np.linspace(0.0, 6.0, 121)  # mean gaps over h_rms
-_SHORTEST = 0.05  # range over h_rms below which attraction over gaps is nothing
 
 
 def tough_share(energy_ratio: ArrayLike, onset: ArrayLike = ONSET) -> float | NDArray:
@@ -69,13 +68,15 @@ def find_onset(zone: ArrayLike, onset: float = ONSET) -> float | NDArray:
 def weak_share(energy_ratio: ArrayLike, range_ratio: ArrayLike) -> float | NDArray:
     """Share that remains where attraction acts over the gaps of Gaussian heights."""
     x, e = np.broadcast_arrays(*positive(energy_ratio=energy_ratio, range_ratio=range_ratio))
-    e = np.maximum(e, _SHORTEST)[..., None]
     # Mean of exp(-gap/range) over open points, and the share of the closed ones.
-    open_points = np.exp(-_GAPS / e + 0.5 / e**2) * ndtr(_GAPS - 1 / e)
+    away = 1 / e[..., None] - _GAPS
+    near = np.exp(-(_GAPS**2) / 2) * erfcx(np.maximum(away, 0) / np.sqrt(2)) / 2
+    far = np.exp((np.minimum(away, 0) ** 2 - _GAPS**2) / 2) * ndtr(-away)
+    open_points = np.where(away > 0, near, far)
     attraction = open_points + ndtr(-_GAPS)
     energy = np.exp(-ENERGY_DECAY * _GAPS - ENERGY_CURVATURE * _GAPS**2)
     gained = np.max(attraction - energy / x[..., None], axis=-1)
-    return plain(np.where(range_ratio > _SHORTEST, np.maximum(gained, 0.0), 0.0))
+    return plain(np.maximum(gained, 0.0))
 
 
 def remaining_share(

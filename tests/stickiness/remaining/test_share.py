@@ -36,7 +36,7 @@ def test_energy_gained_grows_with_the_area_of_contact(onset):
 def test_attraction_of_long_range_needs_no_contact():
     # The mean gap at first touch is that of the heights' tail, far below the range.
     assert weak_share(1e-3, 100.0) == pytest.approx(1, abs=0.06)
-    assert weak_share(1e-3, 0.04) == 0
+    assert weak_share(1e-3, 0.04) < 1e-4
 
 
 def test_weak_share_falls_with_the_range_and_grows_with_the_work():
