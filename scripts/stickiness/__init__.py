@@ -12,6 +12,7 @@ What a user needs:
 - `dmt`: attraction over the gaps of a contact without adhesion
 - `persson`: Persson's theory of contact area, mean gap and distribution of gaps
 - `criteria`: stickiness criteria, closed forms
+- `remaining`: how much adhesion remains on a rough surface, simulated or predicted
 - `verdict`: whether a rough surface sticks, with thresholds and error limits, from SI values
 
 The packages behind them:
@@ -40,7 +41,16 @@ from importlib import import_module
 
 __version__ = "0.1.0"
 
-_MODULES = ("spectrum", "surface", "repulsive", "adhesive", "dmt", "persson", "criteria")
+_MODULES = (
+    "spectrum",
+    "surface",
+    "repulsive",
+    "adhesive",
+    "dmt",
+    "persson",
+    "criteria",
+    "remaining",
+)
 _PACKAGES = (
     *("surfaces", "contact", "adhesion", "measured"),
     *("accuracy", "closed_forms", "config", "core"),

@@ -30,7 +30,7 @@ def config_problems(config: Mapping[str, Any]) -> Iterator[str]:
     for find in (
         *(_paper_problems, _comparison_problems, _criteria_problems, _theory_problems),
         *(_case_problems, _window_problems, _adhesion_table_problems, _loop_problems),
-        *(_preset_problems, _whole_problems),
+        *(_preset_problems, _whole_problems, _remaining_problems),
     ):
         yield from find(config)
 
@@ -196,6 +196,20 @@ def _whole_problems(config: Mapping[str, Any]) -> Iterator[str]:
                     f"cases.{name}.{key} = {case[key]!r}: leave it out, {user} needs every "
                     "quantity by simulation; or add a case"
                 )
+
+
+def _remaining_problems(config: Mapping[str, Any]) -> Iterator[str]:
+    """Grids must hold the shortest waves, and a plateau must end before them."""
+    for name, surface in config["remaining"]["sets"].items():
+        key, magnification = f"remaining.sets.{name}", surface["magnification"]
+        least = 2 * magnification * surface["window"]
+        if surface["points"] < least:
+            yield (
+                f"{key}.points = {surface['points']!r} must be at least {least:g}, two per "
+                "shortest wavelength"
+            )
+        if surface.get("rolloff", 1) >= magnification:
+            yield f"{key}.rolloff = {surface['rolloff']!r} must be below magnification"
 
 
 def _preset_problems(config: Mapping[str, Any]) -> Iterator[str]:

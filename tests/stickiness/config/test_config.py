@@ -161,6 +161,14 @@ def model(*keys, value):
             changed(CONFIG, "tradeoff", "settings", "at_tolerances", value=1),
             ["tradeoff.settings", "at_tolerances", "at_tolerance"],
         ),
+        (
+            changed(CONFIG, "remaining", "sets", "H0.8_zeta32_4x4", "points", value=128),
+            ["remaining.sets.H0.8_zeta32_4x4.points", "128", "at least 256"],
+        ),
+        (
+            changed(CONFIG, "remaining", "sets", "H0.8_zeta16_rolloff", "rolloff", value=16),
+            ["H0.8_zeta16_rolloff.rolloff", "16", "below magnification"],
+        ),
         (case("sampling", value="best"), ["H0.8_zeta64.sampling", "'best'", "multilevel"]),
         (changed(CONFIG, "sampling", "method", value="plan"), ["method", "'plan'", "'plain'?"]),
         (
