@@ -25,7 +25,6 @@ def ledger_inputs():
         "map": f"{RESULTS}/criteria/map.nc",
         "verdicts": f"{RESULTS}/criteria/verdicts.nc",
         "asphalt": f"{RESULTS}/real_surfaces/asphalt.nc",
-        "asphalt_theory": f"{RESULTS}/persson/surfaces/asphalt.nc",
         "remaining": config["remaining"]["table"],
         "polished_steel": f"{RESULTS}/real_surfaces/polished_steel.nc",
         "measured_surfaces": [

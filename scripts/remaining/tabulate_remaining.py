@@ -65,7 +65,7 @@ def list_rows(path):
             "seed": made["seed"],
             "full_contact_energy": energy,
             "energy_ratio": ratio,
-            "zone": range_**2 / length,
+            "zone": rough.q0 * range_**2 / length,
             "range": range_,
             "adhesion_length": length,
             **{name: float(point[name]) for name in SIMULATED},

@@ -205,6 +205,7 @@ def real_surface(label, kind="self_affine", q0=1e3, c0=1e-3, h_rms=1e-6):
             "C0_reference_upper": ("end", [c0 / 10, c0]),
             "h_rms": ("end", [h_rms / 10, h_rms]),
             "rms_slope": ("end", [0.1, 1.0]),
+            "elastic_energy": ("end", [q0 * h_rms**2 / 150, q0 * h_rms**2 / 1.5]),
             "q0": q0,
             "q1": 2 * np.pi / 1e-6,
             "hurst": 0.8,
@@ -212,14 +213,6 @@ def real_surface(label, kind="self_affine", q0=1e3, c0=1e-3, h_rms=1e-6):
         coords={"end": ["smooth", "rough"]},
     )
     return made_by(data, kind=kind, label=label)
-
-
-def theory_on(label, a_v=4.0):
-    data = xr.Dataset(
-        {"a_v": (("variant", "range"), np.full((1, 2), a_v))},
-        coords={"variant": ["afferrante2018"], "range": [1e-9, 1.0]},
-    )
-    return made_by(data, label=label)
 
 
 def verdicts(**margins):
@@ -311,7 +304,6 @@ def make_files():
         "map": stickiness_map(),
         "verdicts": verdicts(crystal=24.0, gel=0.001),
         "asphalt": real_surface("asphalt"),
-        "asphalt_theory": theory_on("asphalt"),
         "polished_steel": real_surface("polished steel", q0=2 * np.pi / 1e-4),
         "measured_surfaces": [real_surface("terrain", kind="measured", c0=0.07)],
         "remaining": remaining(),

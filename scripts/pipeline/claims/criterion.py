@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 
 import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from pipeline.claims.ledger import NOT, OPEN, Files, Finding, claim, grade
+from pipeline.claims.ledger import Files, Finding, claim, grade
 from pipeline.claims.texts import describe_sample
-from pipeline.conventions import VARIANT, cell_size, model_spectrum
+from pipeline.conventions import cell_size, model_spectrum
 from pipeline.numbers import number
 from stickiness import adhesive, criteria
 from stickiness.adhesion import equivalent_sphere
@@ -29,7 +28,6 @@ PRINTED_LIMITS = np.array([1000.0, 67000.0, 1e6])  # h_rms/range of these
 PRINTED_MODULUS = 0.2  # MPa, of a block that sticks to asphalt
 UPPER_LINE = 1e-3  # m^0.4, C0 of the line above real surfaces
 EXACT = "closed form with numbers as printed"
-FINEST = 1e-9  # m, as the configuration has it for the paper's lines
 
 
 @claim(
@@ -112,41 +110,6 @@ def roughness_limits(files: Files) -> Finding:
     )
 
 
-@claim(19, "surfaces stick up to the roughness of claim 13 (its physics)", files=("map",))
-def sticky_roughness(files: Files) -> Finding:
-    m = files["map"]
-    value, low, high = edge_limits(m, EXAMPLES)
-    used = [criteria.PRINTED_A_V, measured_a_v(m)[0]]
-    limits = np.array([criteria.h_rms_limit(EXAMPLES, CRYSTAL, 1.0, a_v) for a_v in used])
-    jtb = criteria.jtb_limit(EXAMPLES, CRYSTAL, 1.0)
-    inside = (low <= PRINTED_LIMITS) & (high >= PRINTED_LIMITS)
-    return Finding(
-        quantity="h_rms/range up to which surfaces stick at range q0 = 1e-9, by the criterion of "
-        "the contact edges",
-        value=float(value[1]),
-        claimed=PRINTED_LIMITS[1],
-        verdict=grade(False, bool(inside.all())),
-        remark=(
-            "That criterion, with a_V as tabulated for roughness down to wavelengths of "
-            f"{datasets.parameters(m)['shortest_over_range']:g} ranges, gives {join(value)} "
-            f"({join(low)} to {join(high)}); the paper's limits are "
-            f"{join(PRINTED_LIMITS / value)} times that. {int(np.sum(limits < jtb))} of the 6 "
-            "limits of claim 13, by both coefficients, lie below the roughness above which the DMT "
-            f"limit, from which they follow, holds (JTB): {join(jtb)}."
-        ),
-        errors={"model": float(max(high[1] - value[1], value[1] - low[1]))},
-        comment="model: of a_V and of the edges, the larger side",
-    )
-
-
-def edge_limits(m: xr.Dataset, q0: NDArray) -> tuple[NDArray, NDArray, NDArray]:
-    """Limits of h_rms/range by the edges, a_V as tabulated, read off the map, with their ends."""
-    names = [f"h_rms_limit_edges{end}" for end in ("", "_low", "_high")]
-    logs = np.log(m[names].interp(adhesion_length_over_range=CRYSTAL, method="linear"))
-    logs = logs.assign_coords(range_times_q0=np.log(m.range_times_q0))
-    return tuple(np.exp(logs[name].interp(range_times_q0=np.log(q0))).values for name in names)
-
-
 def measured_a_v(m: xr.Dataset) -> tuple[float, float, float]:
     """a_V of the derived criterion with its low and high end."""
     return tuple(float(m[name]) for name in ("a_v", "a_v_low", "a_v_high"))
@@ -192,88 +155,6 @@ def printed_asphalt(files: Files) -> tuple[float, float]:
     rough = files["asphalt"].sel(end="rough")
     q0, c0, hurst = float(rough.q0), float(rough.C0), float(rough.hurst)
     return float(np.sqrt(np.pi * c0 / hurst) * q0**-hurst), q0
-
-
-@claim(
-    20,
-    "asphalt sticks to a block of E* below 0.2 MPa (the physics of claim 14)",
-    files=("asphalt", "asphalt_theory"),
-)
-def sticky_asphalt(files: Files) -> Finding:
-    h_rms, q0 = printed_asphalt(files)
-    validity = criteria.dmt_validity(h_rms, q0, WORK_OF_ADHESION / (PRINTED_MODULUS * 1e6), RANGE)
-    found = asphalt_by_edges(files)
-    inside = found.low <= PRINTED_MODULUS <= found.high
-    return Finding(
-        quantity="E* [MPa] below which asphalt sticks by the criterion of the contact edges, range "
-        "0.2 nm and work of adhesion 50 mJ/m^2",
-        value=found.value,
-        claimed=PRINTED_MODULUS,
-        verdict=OPEN if inside else NOT,
-        remark=(
-            f"{found.text} The paper's value lies {'within' if inside else 'outside'} that. It "
-            f"follows from the DMT limit, but h_rms is {validity.margin:.1g} times the least that "
-            "this limit requires (JTB)."
-        ),
-        errors={"model": np.nan},
-        comment="model: see the limits in the remark",
-    )
-
-
-@dataclass(frozen=True)
-class AsphaltByEdges:
-    """Modulus threshold of the example [MPa], its limits and how they come about."""
-
-    value: float
-    low: float
-    high: float
-    text: str
-
-
-def asphalt_by_edges(files: Files) -> AsphaltByEdges:
-    """Modulus threshold of the example by the edges of contact, with the spectrum's own a_V."""
-    asphalt, a_v = files["asphalt"], files["asphalt_theory"].a_v.sel(variant=VARIANT)
-    logs = np.log(a_v).assign_coords({"range": np.log(a_v["range"])})
-
-    def threshold(surface, factors):
-        h, q0, slope = (float(surface[name]) for name in ("h_rms", "q0", "rms_slope"))
-        own = float(np.exp(logs.interp(range=np.log(RANGE / h))))
-        lengths = equivalent_sphere.adhesion_length_threshold(h, q0, slope, RANGE, own, factors)
-        edges = equivalent_sphere.attraction(h, q0, slope, lengths[0], RANGE, own)
-        return WORK_OF_ADHESION / lengths / 1e6, edges
-
-    model = equivalent_sphere.ERROR_BEYOND
-    rough, smooth = asphalt.sel(end="rough"), asphalt.sel(end="smooth")
-    (value, low), edges = threshold(rough, np.array([1.0, 1 / model]))
-    (smoother, high), _ = threshold(smooth, np.array([1.0, model]))
-    shortest = 2 * np.pi / float(asphalt.q1)
-    long, short, finest = cutoff_factors(rough, [10 * shortest, shortest / 10, FINEST])
-    low, high = float(low * long), float(high * short)
-    text = (
-        f"It depends strongly on the shortest wavelength, assumed to be {shortest * 1e6:.2g} µm: "
-        f"scaled with the a_V of Pastewka and Robbins it is {value * long:.2g} MPa for "
-        f"{shortest * 1e7:.2g} µm, {value * short:.2g} for {shortest * 1e5:.2g} µm and "
-        f"{value * finest:.2g} for {FINEST * 1e9:g} nm. C0 = {float(smooth.C0):g} in place of "
-        f"{float(rough.C0):g} m^0.4 gives {smoother:.2g} MPa. At the threshold the Tabor parameter "
-        f"of the edges is {edges.strength:.1g}"
-        + (": they are tough, so the range matters through a_V alone." if edges.tough else ".")
-        + " With either C0, a shortest wavelength within a factor of 10 and the model's error of a "
-        f"factor of {model:g} in attraction, the threshold lies between {low:.2g} and {high:.2g} "
-        "MPa."
-    )
-    return AsphaltByEdges(float(value), low, high, text)
-
-
-def cutoff_factors(surface: xr.Dataset, wavelengths: list[float]) -> np.ndarray:
-    """Modulus thresholds for other shortest wavelengths over the one with the surface's own.
-
-    At the same C0, with Pastewka and Robbins' a_V.
-    """
-    q0, c0, hurst = float(surface.q0), float(surface.C0), float(surface.hurst)
-    cutoffs = (float(surface.q1), *(2 * np.pi / np.array(wavelengths)))
-    spectra = (SelfAffine(hurst=hurst, q0=q0, q1=q1, C0=c0) for q1 in cutoffs)
-    own, *others = (threshold_by_moments(spectrum, RANGE) for spectrum in spectra)
-    return own / np.array(others)
 
 
 def compare_with_line(measured: Sequence[xr.Dataset]) -> str:

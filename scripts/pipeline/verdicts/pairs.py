@@ -55,7 +55,9 @@ def find_margins(pair):
 def describe_remaining(pair):
     """What remains of adhesion on every pair, the margin's limits, thresholds of E*, pull-off."""
     low, high = pair.margin_limits()
-    most, value, least = (pair.work_of_adhesion / pair.remaining_threshold(k) for k in (-1, 0, 1))
+    lowest, value, highest = (
+        pair.work_of_adhesion / pair.remaining_threshold(sign) for sign in (-1, 0, 1)
+    )
     stresses = [stress * pair.modulus for stress in pair.pull_off()]
     values = {
         **{f"remaining{end}": pair.remaining(sign) for end, sign in LIMITS.items()},
@@ -64,8 +66,8 @@ def describe_remaining(pair):
         "margin_low": low,
         "margin_high": high,
         "modulus_threshold": value,
-        "modulus_threshold_low": most,
-        "modulus_threshold_high": least,
+        "modulus_threshold_low": lowest,
+        "modulus_threshold_high": highest,
     }
     return {name: (DIMS, value) for name, value in values.items()}
 

@@ -204,7 +204,9 @@ def judge_pair(pair: Pair) -> StickinessVerdict:
     margins = {name: float(criterion.margin(pair)) for name, criterion in CRITERIA.items()}
     low, remaining, high = (float(pair.remaining(sign)) for sign in (-1, 0, 1))
     pull_off, *pull_off_limits = (float(x * pair.modulus) for x in pair.pull_off())
-    most, value, least = (pair.work_of_adhesion / pair.remaining_threshold(k) for k in (-1, 0, 1))
+    lowest, value, highest = (
+        pair.work_of_adhesion / pair.remaining_threshold(sign) for sign in (-1, 0, 1)
+    )
     return StickinessVerdict(
         word=WORDS[int(decide(low, high, margins[EDGES] > 1, pair.wanted_share))],
         remaining=remaining,
@@ -214,7 +216,7 @@ def judge_pair(pair: Pair) -> StickinessVerdict:
         margin=margins[REMAINING],
         margin_limits=tuple(map(float, pair.margin_limits())),
         modulus_threshold=float(value),
-        modulus_threshold_limits=(float(most), float(least)),
+        modulus_threshold_limits=(float(lowest), float(highest)),
         regime=REGIMES[int(classify_edges(edges))],
         simulated=bool(edges.simulated),
         a_v=float(pair.a_v),

@@ -20,6 +20,7 @@ from stickiness.adhesion import edge_zone
 from stickiness.adhesion.laws import TractionLaw
 from stickiness.adhesion.path import path
 from stickiness.adhesion.scaling import SEPARATION
+from stickiness.contact.solver import ConvergenceError
 from stickiness.core.arguments import grid, number
 from stickiness.core.plausibility import PlausibilityWarning
 
@@ -57,7 +58,7 @@ class Remaining:
         See above.
     pixels_in_zone : float
         Width of the cohesive zone, range^2/adhesion_length, in pixels. Below two, points of the
-        grid snap one by one and separation comes out too large.
+        grid snap one by one.
     jumps : int
         Jumps on the path.
     gap, pressure, separating : numpy.ndarray
@@ -171,6 +172,9 @@ def _follow(heights, length, law, squeeze, tol, logger):
         touching = point.state.repulsive_area_fraction > 0
         if point.state.mean_gap >= first and not touching:
             break
+    else:
+        raise ConvergenceError("the surfaces have not parted at the end of the path", point.state)
+    # Beyond both ends of the path the tension does as much work as there is energy left.
     ways = [_Curve.of(points) for points in (approach, separation)]
     points = approach + separation
     gap, area = ways[0].zero_load()
@@ -178,8 +182,8 @@ def _follow(heights, length, law, squeeze, tol, logger):
     pixel = float(np.broadcast_to(length, 2)[0]) / heights.shape[0]
     unknown = (np.nan, np.nan)
     return Remaining(
-        approach=ways[0].work() / law.adhesion_length,
-        separation=ways[1].work() / law.adhesion_length,
+        approach=(ways[0].work() - approach[0].state.energy) / law.adhesion_length,
+        separation=(ways[1].work() - separation[-1].state.energy) / law.adhesion_length,
         bound=max(-energy, 0.0) / law.adhesion_length,
         pull_off=max(-float(ways[1].pressure.min()), 0.0),
         area_at_zero_load=area,

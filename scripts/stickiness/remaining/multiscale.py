@@ -26,7 +26,7 @@ J. Chem. Phys. 141, 124701 (2014), doi:10.1063/1.4895789.
 
 Simulated surfaces (H = 0.5 to 0.9, magnification 4 to 64) keep more than this says: where 5 % or
 more remains, the share at weight 0.45 is a tenth of it in the median, at 0.1 six tenths, and at 0
-three quarters. `least_energy_share` is nearer. The pull-off tension at 0.45 is within a quarter
+three quarters. `share` is nearer. The pull-off tension at 0.45 is within a quarter
 for H = 0.8, magnification 16 and w of 1 to 1.4 times the energy of full contact, too small below.
 
 Numerics. The energy s = gamma A at the longest wave, what remains, and A there, one, are all that a
@@ -53,8 +53,6 @@ from stickiness.core.arguments import number
 from stickiness.surfaces.spectrum import Shells, Spectrum
 
 WEIGHT = 0.45  # of the literature
-# For `least_energy_share`: from simulated surfaces, H = 0.5 to 0.9, magnification 4 to 64.
-LEAST_ENERGY_WEIGHT = 1 / 3
 # Least share that is told from nothing: towards the onset of adhesion the area vanishes as a small
 # power of the share, so that smaller ones need ever more scales.
 SMALLEST = 1e-6

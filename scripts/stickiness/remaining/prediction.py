@@ -12,18 +12,22 @@ from stickiness.core.arguments import number, plain, positive
 from stickiness.remaining.share import ONSET, find_onset, remaining_share, tough_area
 from stickiness.surfaces.spectrum import Spectrum
 
-# Errors that cover 90 % of simulated surfaces of two by two waves and more: of the onset; of a
-# share, relative and in proportion to what is lost; and of a share, absolute, which is all that is
-# known of small ones.
-ONSET_ERROR = 0.07
-SHARE_ERROR = 0.18
-LEAST_ERROR = 0.02
+# Errors of the onset; of a share, relative and in proportion to what is lost; and of a share,
+# absolute, which is all that is known of small ones. Together they hold all simulated surfaces of
+# two by two waves and more. That of the onset is the spread of the forms by which simulations are
+# extrapolated to short ranges.
+ONSET_ERROR = 0.08
+SHARE_ERROR = 0.15
+LEAST_ERROR = 0.015
 # The largest tension on separation is what remains over a distance, the range plus
 # DISTANCE x^DISTANCE_POWER rms heights.
 DISTANCE, DISTANCE_POWER, PULL_OFF_ERROR = 1.25, 0.25, 0.3
-LARGEST_SIMULATED = 2.0  # energy ratio
-# Separation over what remains of the energy: jumps of what is finer than a simulation resolves.
-HYSTERESIS = 1.3
+# Energy ratios between which the high limit of the pull-off goes over to the strength of the law.
+PULL_OFF_KNOWN, PULL_OFF_UNKNOWN = 1.4, 3.0
+# Jumps at a given mean gap: largest energy gained over the work of approach, and work of separation
+# over the energy gained, of all simulations. Both grow as the range falls below what was simulated.
+LATE, HYSTERESIS = 1.3, 1.6
+LEAST_LENGTH = 1e-12  # of thresholds, over the energy of full contact
 DEFAULT_SHARE = 0.1  # of the work of adhesion, from which a pair is said to stick
 
 
@@ -35,12 +39,13 @@ class Prediction:
     ----------
     approach, separation : float
         Works of approach and of separation at given mean gaps, over the work of adhesion. The
-        theory has no jumps: both are the energy gained. Jumps lower the one and raise the other,
-        which the limits allow for.
+        theory has no jumps: both are the energy gained. Jumps lower the one and raise the other;
+        the limits allow for as much of it as was simulated.
     pull_off : float
         Largest mean tension on separation [E*].
     area_at_zero_load : float
-        Share of the nominal area in contact, 0 where attraction acts over gaps.
+        Share of the nominal area in contact, 0 where attraction acts over gaps; an upper estimate,
+        see `share.tough_area`.
     approach_limits, separation_limits, pull_off_limits : (float, float)
         Low and high.
     energy_ratio : float
@@ -76,15 +81,18 @@ class Roughness:
         reach = np.asarray(range) / self.h_rms
         share = remaining_share(ratio, reach, zone, ONSET - sign * ONSET_ERROR)
         sign, lost = np.asarray(sign), 1 - np.asarray(share)
-        share = share * (1 + SHARE_ERROR * lost) ** sign + sign * LEAST_ERROR * lost
-        return plain(np.clip(share, 0.0, 1.0))
+        least = LEAST_ERROR * np.minimum(ratio / ONSET, 1.0)
+        share = share * (1 + SHARE_ERROR * lost) ** sign + sign * least * lost
+        # Full contact is a state that the surfaces may take.
+        return plain(np.clip(share, np.maximum(1 - 1 / ratio, 0.0), 1.0))
 
     def pull_off(
         self, adhesion_length: ArrayLike, range: ArrayLike
     ) -> tuple[ArrayLike, ArrayLike, ArrayLike]:
         """Largest mean tension on separation over E*: value, low and high limit.
 
-        Beyond what was simulated, next to full contact, the high limit is the strength of the law.
+        Towards full contact, beyond what was simulated, the high limit goes over to the strength
+        of the law.
         """
         ratio = np.asarray(adhesion_length) / self.elastic_energy
         distance = np.asarray(range) + DISTANCE * ratio**DISTANCE_POWER * self.h_rms
@@ -93,9 +101,10 @@ class Roughness:
             plain(stress * self.share(adhesion_length, range, sign) * (1 + PULL_OFF_ERROR) ** sign)
             for sign in (-1, 0, 1)
         )
-        strength = np.asarray(adhesion_length) / range
-        high = plain(np.where(ratio > LARGEST_SIMULATED, np.maximum(high, strength), high))
-        return value, low, high
+        strength = np.maximum(np.asarray(adhesion_length) / range, high)
+        known, unknown = np.log(PULL_OFF_KNOWN), np.log(PULL_OFF_UNKNOWN)
+        beyond = np.clip((np.log(ratio) - known) / (unknown - known), 0.0, 1.0)
+        return value, low, plain(np.asarray(high) ** (1 - beyond) * strength**beyond)
 
     def threshold(
         self, range: ArrayLike, share: float = DEFAULT_SHARE, sign: ArrayLike = 0
@@ -112,11 +121,12 @@ class Roughness:
             rough = Roughness(h, q0, energy)
             return np.asarray(rough.share(np.exp(log_length), range, sign)) - share
 
-        # From nothing, however long the range, to full contact.
-        bracket = np.log(1e-9 * energy), np.log(20 * energy / (1 - share))
-        found = elementwise.find_root(excess, bracket, args=(h, q0, energy, range, sign))
-        # Attraction of a range far above h_rms holds whatever its strength.
-        return plain(np.where(found.success, np.exp(found.x), 1e-9 * energy))
+        at = h, q0, energy, range, sign
+        bracket = np.log(LEAST_LENGTH * energy), np.log(20 * energy / (1 - share))
+        found = elementwise.find_root(excess, bracket, args=at)
+        # Attraction whose range is far above h_rms holds at any strength.
+        always = excess(bracket[0], *at) >= 0
+        return plain(np.where(always, LEAST_LENGTH * energy, np.exp(found.x)))
 
 
 def predict(
@@ -162,7 +172,7 @@ def predict(
         separation=share,
         pull_off=pull_off,
         area_at_zero_load=float(tough_area(ratio, find_onset(q0 * range**2 / length))),
-        approach_limits=(low / HYSTERESIS, high),
+        approach_limits=(low / LATE, high),
         separation_limits=(low, min(HYSTERESIS * high, 1.0)),
         pull_off_limits=tuple(pull_off_limits),
         energy_ratio=ratio,

@@ -1,15 +1,12 @@
 """Claims on the criterion, real surfaces and moments, on made-up files."""
 
-import re
-
 import numpy as np
 import pytest
-from helpers.claim_files import generated, real_surface, stickiness_map, verdicts
+from helpers.claim_files import generated, real_surface, verdicts
 
 from pipeline.claims import criterion
-from pipeline.claims.ledger import NOT, OPEN, QUALIFIED, REPRODUCED
+from pipeline.claims.ledger import NOT, QUALIFIED, REPRODUCED
 from stickiness import criteria
-from stickiness.adhesion import equivalent_sphere
 
 
 @pytest.mark.parametrize("a_v", [1.5, 3.0])
@@ -30,34 +27,6 @@ def test_formula_against_itself_is_qualified_and_wrong_angles_are_not(files):
     m = files["map"]
     files["map"] = m.assign_coords(h_rms_over_range=1.1 * m.h_rms_over_range)
     assert criterion.slope_angle(files).verdict == NOT
-
-
-def test_limits_count_those_outside_the_dmt_range(files):
-    assert "6 of the 6 limits" in criterion.sticky_roughness(files).remark
-    # With a_V = 8 the limit at range q0 = 1e-6 passes the JTB limit, 2667.
-    files["map"] = stickiness_map(a_v=(8.0, 7.0, 9.0))
-    assert "5 of the 6 limits" in criterion.sticky_roughness(files).remark
-
-
-def test_arithmetic_and_physics_of_the_limits_are_graded_apart(files, monkeypatch):
-    arithmetic = criterion.roughness_limits(files)
-    assert arithmetic.verdict == QUALIFIED  # the third of the printed limits does not follow
-    assert "1.07e+03, 6.77e+04, 4.27e+06" in arithmetic.remark
-    assert criterion.sticky_roughness(files).verdict == NOT
-    # The made-up map has 2 q0^(-1/2) l_a/range, and half or 1.5 times that as its ends.
-    monkeypatch.setattr(criterion, "PRINTED_LIMITS", 0.1 * np.array([1e3, 10**4.5, 1e6]))
-    assert criterion.sticky_roughness(files).verdict == QUALIFIED
-    assert criterion.roughness_limits(files).verdict == NOT
-
-
-def test_limits_by_the_edges_are_read_off_the_map(files):
-    # limits are q0^(-1/2) l_a/range times 2, 1 and 3
-    found = criterion.sticky_roughness(files)
-    expected = "100, 3.16e+03, 1e+05 (50, 1.58e+03, 5e+04 to 150, 4.74e+03, 1.5e+05)"
-    assert expected in found.remark
-    assert found.value == pytest.approx(0.1 * 10**4.5)
-    assert found.uncertainty == pytest.approx(0.05 * 10**4.5)
-    assert "0% of the map's thresholds have weak edges" in criterion.slope_angle(files).remark
 
 
 @pytest.mark.parametrize(
@@ -83,58 +52,6 @@ def test_tough_edges_do_not_ask_for_more_adhesion_on_finer_surfaces():
         assert criterion.fractal_exponent(hurst, criterion.threshold_by_moments) == pytest.approx(
             1 - 2 * hurst, abs=1e-3
         )
-
-
-def test_asphalt_by_its_edges_does_not_know_the_range(files, monkeypatch):
-    files["asphalt"] = real_surface("asphalt", h_rms=1e-3)
-    found = []
-    for reach in (1e-10, 2e-10):
-        monkeypatch.setattr(criterion, "RANGE", reach)
-        found.append(criterion.asphalt_by_edges(files))
-    assert all("tough" in one.text for one in found)
-    assert len({one.text.split(" µm and")[0] for one in found}) == 1
-    assert len({one.text.split("lies between ")[1] for one in found}) == 1
-    assert found[0].value == pytest.approx(found[1].value, rel=1e-2)
-
-
-def test_asphalt_by_its_edges_hinges_on_the_shortest_wavelength(files):
-    """Tough edges with Pastewka and Robbins' a_V: E* goes as wavelength^(1 - 2H), here -0.6."""
-    found = criterion.cutoff_factors(files["asphalt"].sel(end="rough"), [1e-5, 1e-6, 1e-7])
-    # The limit of broad spectra and of tough edges, which these are near.
-    np.testing.assert_allclose(found, [10**-0.6, 1, 10**0.6], rtol=0.1)
-    files["asphalt"] = real_surface("asphalt", h_rms=1e-3)
-    edges = criterion.asphalt_by_edges(files)
-    text, value = edges.text, edges.value
-    assert "they are tough" in text
-    number = r"([-+.\de]+)"
-    long, short, finest, smooth, low, high = (
-        float(re.search(pattern.replace("#", number), text).group(1))
-        for pattern in (
-            "Robbins it is # MPa",
-            "10 µm, # for",
-            "0.1 µm and # for 1 nm",
-            "gives # MPa",
-            "between # and",
-            "and # MPa.$",
-        )
-    )
-    # numbers are quoted with two digits
-    assert long / value == pytest.approx(found[0], rel=0.1)
-    assert short / value == pytest.approx(found[2], rel=0.1)
-    # of tough edges attraction goes as the root of the adhesion length
-    assert low == pytest.approx(long / equivalent_sphere.ERROR_BEYOND**2, rel=0.1)
-    assert high == pytest.approx(smooth * found[2] * equivalent_sphere.ERROR_BEYOND**2, rel=0.1)
-    assert low < long < value < short < min(finest, high)
-    assert (edges.low, edges.high) == pytest.approx((low, high), rel=0.1)
-
-
-def test_modulus_that_the_edges_neither_confirm_nor_exclude_is_not_decided(files, monkeypatch):
-    found = criterion.sticky_asphalt(files)
-    edges = criterion.asphalt_by_edges(files)
-    assert found.value == edges.value
-    for printed, verdict in ((0.9 * edges.high, OPEN), (1.1 * edges.high, NOT)):
-        monkeypatch.setattr(criterion, "PRINTED_MODULUS", printed)
-        assert criterion.sticky_asphalt(files).verdict == verdict
 
 
 def test_measured_surfaces_test_the_line(files):
