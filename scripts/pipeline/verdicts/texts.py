@@ -7,7 +7,7 @@ import xarray as xr
 from pipeline.numbers import NOTHING, percent, quantity
 from pipeline.verdicts.words import find_limits
 from stickiness.criteria.pair import DEPENDS, TOUCHES, WORDS
-from stickiness.remaining.prediction import DEFAULT_SHARE
+from stickiness.remaining.prediction import DEFAULT_SHARE, PULL_OFF_UNKNOWN
 
 LEAST_SHOWN = 1e-3  # share below which a text says 0 %
 
@@ -31,9 +31,15 @@ def show_shares(low: float, high: float, between: str = " … ") -> str:
 
 
 def describe_pull_off(pair: xr.Dataset) -> str:
-    """Pull-off stress with its limits; a dash where nothing holds."""
+    """Pull-off stress with its limits; a dash where nothing holds.
+
+    Near full contact, which was not simulated, only a low limit is known.
+    """
     if float(pair.pull_off_high.max()) == 0:
         return NOTHING
+    if float(pair.energy_ratio.max()) > PULL_OFF_UNKNOWN:
+        least = float(pair.pull_off_low.min())
+        return f"at least {quantity(least, least, 'Pa', digits=2)}"
     return describe_pressure(pair, "pull_off")
 
 

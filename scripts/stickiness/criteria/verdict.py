@@ -16,7 +16,7 @@ from stickiness.criteria.pair import REGIMES, WORDS, Pair, classify_edges, decid
 from stickiness.criteria.registry import CRITERIA, EDGES, REMAINING
 from stickiness.measured import instrument_spectrum
 from stickiness.measured.topography import Topography
-from stickiness.remaining.prediction import DEFAULT_SHARE
+from stickiness.remaining.prediction import DEFAULT_SHARE, PULL_OFF_UNKNOWN
 from stickiness.surfaces.spectrum import Spectrum, Tabulated
 
 LOAD = 0.065  # mean pressure over E* q0 h_rms, amid those where area grows with load in proportion
@@ -35,7 +35,8 @@ class StickinessVerdict:
     ----------
     word : str
         One of `WORDS`: "depends" if the wanted share lies within the limits of what remains,
-        "touches without hold" if contact grows by itself at the finest wave but less remains.
+        "touches without hold" if contact grows by itself at the finest wave but less remains,
+        "sticks fully" if at least `pair.FULL_SHARE` does.
     remaining, remaining_limits : float, (float, float)
         Share of the work of adhesion that remains on the rough surface, and its limits.
     pull_off, pull_off_limits : float, (float, float)
@@ -75,6 +76,7 @@ class StickinessVerdict:
 
     def __str__(self) -> str:
         low, high = self.remaining_limits
+        least, most = self.pull_off_limits
         modulus = [x / 1e6 for x in (self.modulus_threshold, *self.modulus_threshold_limits)]
         beyond = "" if self.simulated else " (beyond what was simulated)"
         others = "; ".join(
@@ -88,11 +90,13 @@ class StickinessVerdict:
             f"{pair.work_of_adhesion:.3g} J/m^2, range {pair.range:.3g} m, "
             f"h_rms = {pair.h_rms:.3g} m, longest wave {2 * np.pi / pair.q0:.3g} m"
         )
+        pull_off = f"{self.pull_off:.2g} Pa ({least:.2g} to {most:.2g} Pa)"
+        if pair.adhesion_length > PULL_OFF_UNKNOWN * pair.elastic_energy:
+            pull_off = f"at least {least:.2g} Pa (full contact, which was not simulated)"
         return (
             f"{self.word}: {self.remaining:.2g} of the work of adhesion remains "
             f"({low:.2g} to {high:.2g}); {pair.wanted_share:g} is wanted\n"
-            f"pull-off stress: {self.pull_off:.2g} Pa "
-            f"({self.pull_off_limits[0]:.2g} to {self.pull_off_limits[1]:.2g} Pa)\n"
+            f"pull-off stress: {pull_off}\n"
             f"sticks below E* = {modulus[0]:.3g} MPa ({modulus[1]:.3g} to {modulus[2]:.3g} MPa)\n"
             f"edges at the finest wave: {self.regime}{beyond}\n"
             f"a_V = {self.a_v:.3g} ({self.a_v_limits[0]:.3g} to {self.a_v_limits[1]:.3g})\n"

@@ -25,8 +25,10 @@ from stickiness.core.arguments import grid, number
 from stickiness.core.plausibility import PlausibilityWarning
 
 REACH = 4.0  # ranges between the highest point and the surface where the approach begins
+STEPS_ERROR = 0.03  # relative, of works and pull-off, by the steps of the path
 STEPS = 20  # of the path between far and close, at least
 BALANCE = 0.03  # error of a step's energy balance over the energies of the path
+COARSEST = 2.0  # pixels over the width of the cohesive zone that are followed at all
 POINTS = 50  # of the integral between two states
 FARTHEST = 3.0  # of the first distance, where separation must have ended
 # States of a path at most: more only where points of the grid snap one by one.
@@ -37,8 +39,8 @@ MOST_STATES = 1000
 class Remaining:
     """What remains of the work of adhesion on a rough surface, by simulation.
 
-    Limits (low, high) hold the error of the grid, from every second point of it, and that of the
-    steps; NaN if the half grid was not solved.
+    Limits (low, high) hold the change from a grid of every second point and `STEPS_ERROR` for the
+    steps of the path; NaN if that grid was not solved.
 
     Attributes
     ----------
@@ -116,9 +118,11 @@ def measure(
     length : float or pair of floats
         Sides of the cell [length].
     law : TractionLaw
-        Attraction.
+        Attraction, such as `adhesive.Exponential(adhesion_length, range)`. Pixels should be at
+        most range^2/(2 adhesion_length), a quarter of it for works to a few per cent.
     squeeze : float
-        Mean pressure [E*] that the surfaces are pressed with before they part, positive.
+        Mean pressure [E*] that the surfaces are pressed with before they part, positive. If full
+        contact is reached first, they part from there.
     tol : float
         Residual of every state, see `adhesive.solve`.
     half_grid : bool
@@ -135,6 +139,16 @@ def measure(
     """
     heights = grid("heights", heights)
     squeeze = number("squeeze", squeeze)
+    if isinstance(law, type) or not hasattr(law, "evaluate"):
+        raise ValueError(f"law must be a TractionLaw such as Exponential(...), got {law!r}")
+    pixel = float(np.broadcast_to(length, 2)[0]) / heights.shape[0]
+    coarse = edge_zone.resolution(pixel, law.range, law.adhesion_length)
+    if np.ptp(heights) > 0 and coarse > COARSEST:
+        raise ValueError(
+            f"a pixel of {pixel:.3g} is {coarse:.2g} times the width of the cohesive zone, "
+            "range^2/adhesion_length: points would snap one by one. Take pixels of at most "
+            f"{edge_zone.COARSEST * pixel / coarse:.3g} or a longer range"
+        )
     found = _follow(heights, length, law, squeeze, tol, logger)
     if not half_grid:
         return found
@@ -257,9 +271,10 @@ def _tension_over_gap(gap, pressure):
 
 
 def _limits(fine, coarse):
-    """Limits by the change from half the grid, which is more than what the grid still lacks."""
+    """Limits by the change from half the grid, more than what it still lacks, and by the steps."""
     found = {}
     for name in QUOTED:
-        value, error = getattr(fine, name), abs(getattr(fine, name) - getattr(coarse, name))
+        value = getattr(fine, name)
+        error = np.hypot(value - getattr(coarse, name), STEPS_ERROR * value)
         found[f"{name}_limits"] = (max(value - error, 0.0), value + error)
     return found

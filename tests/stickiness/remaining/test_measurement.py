@@ -22,8 +22,8 @@ def test_flat_surfaces_part_at_the_full_work():
 
 
 def test_full_contact_of_a_wave_costs_its_energy():
-    x = np.arange(32) / 32
-    heights = np.cos(2 * np.pi * x)[:, None] * np.ones(32)  # U_full = pi/4 for a cell of side 1
+    x = np.arange(64) / 64
+    heights = np.cos(2 * np.pi * x)[:, None] * np.ones(64)  # U_full = pi/4 for a cell of side 1
     heights *= 0.05
     energy = np.pi / 4 * 0.05**2
     law = adhesive.Exponential(4 * energy, 0.01)
@@ -66,3 +66,14 @@ def test_more_adhesion_holds_more():
 def test_bad_squeeze_is_refused(squeeze):
     with pytest.raises(ValueError, match="squeeze"):
         measure(random_heights(32), LENGTH, adhesive.Exponential(0.3, 0.5), squeeze)
+
+
+@pytest.mark.parametrize("law", ["exponential", 0.3, adhesive.Exponential])
+def test_a_law_of_another_kind_is_refused(law):
+    with pytest.raises(ValueError, match="law must be a TractionLaw"):
+        measure(random_heights(32), LENGTH, law, 0.1)
+
+
+def test_far_too_coarse_pixels_are_refused_before_the_path():
+    with pytest.raises(ValueError, match="Take pixels of at most"):
+        measure(random_heights(32), LENGTH, adhesive.Exponential(0.3, 0.1), 0.1)
