@@ -24,7 +24,7 @@ PAGES = {
     ),
     "surface": ("report/surfaces/jacksboro.html", 660, ""),
 }
-FIGURES = ("fig2", "fig3", "fig7")
+FIGURES = ("fig2", "fig3", "fig7", "fig11")
 
 
 def shot(browser: str, page: Path, height: int, hidden: str) -> Image.Image:
