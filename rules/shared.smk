@@ -3,7 +3,9 @@
 
 def mirrored(output, kind, name, ending):
     """File of a job's log or benchmark: below its rule's name, the path of its first result."""
-    folder = next(folder for folder in (RESULTS, TRADEOFF, REMAINING) if output.startswith(f"{folder}/"))
+    folder = next(
+        folder for folder in (RESULTS, TRADEOFF, REMAINING) if output.startswith(f"{folder}/")
+    )
     path = output.removeprefix(f"{folder}/").rsplit(".", 1)[0]
     return f"{folder}/{kind}/{name}/{path}{ending}"
 
