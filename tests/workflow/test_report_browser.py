@@ -286,4 +286,4 @@ def test_every_table_of_results_leads_to_its_data(finished, report):
     assert len(claims) == 21
     for claim in claims:
         measured = re.search(r'data-label="Measured".*?</td>', claim, re.S)[0]
-        assert re.search(r'<b class="nb"><a class="data" href="[^"]+\.nc"', measured), claim
+        assert re.search(r'<b class="nb"><a class="data" href="[^"]+\.(nc|csv)"', measured), claim
