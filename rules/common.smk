@@ -26,6 +26,8 @@ try:
     MATERIALS, REAL_SURFACES = checks.check_all(config, Path(workflow.basedir) / "config/schemas")
     PLANS = plan.plans_of(config, read_models(config["tradeoff"]["table"]))
     DMT_ERRORS = model_choice.read_table(config["dmt_error"])
+    if not Path(config["remaining"]["table"]).is_file():
+        raise ValueError(f"remaining.table = {config['remaining']['table']!r}: no such file")
 except ValueError as error:
     raise WorkflowError(str(error)) from None
 

@@ -94,7 +94,11 @@ def annotate(dataset):
     coarse = "the grid does not resolve the cohesive zone"
     texts = {key: ("1", text, coarse) for key, text in (QUOTED | OTHERS).items()}
     texts |= {
-        f"{key}_grid_error": ("1", f"change from half the grid: {text}", "half grid too coarse")
+        f"{key}_grid_error": (
+            "1",
+            f"error by half the grid and the steps: {text}",
+            "half grid too coarse",
+        )
         for key, text in QUOTED.items()
     }
     for key in ("gap_at_zero_load", "area_at_zero_load"):

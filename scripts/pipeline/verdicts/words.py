@@ -2,15 +2,13 @@
 
 from stickiness.criteria.pair import decide
 from stickiness.criteria.registry import EDGES, REMAINING
-from stickiness.remaining.prediction import DEFAULT_SHARE
 
 
 def decide_pairs(dataset):
     """Code of the verdict over the whole range of the surface and the limits of the model."""
     low, high = find_limits(dataset)
     grows = (dataset.margin.sel(criterion=EDGES, drop=True) > 1).any("end")
-    wanted = dataset.attrs.get("wanted_share", DEFAULT_SHARE)
-    return low.copy(data=decide(low, high, grows, wanted))
+    return low.copy(data=decide(low, high, grows))
 
 
 def find_limits(dataset):

@@ -69,35 +69,14 @@ class Pair:
         low, high = (self.adhesion_length / self.remaining_threshold(sign) for sign in (-1, 1))
         return low, high
 
-    def edge_limits(self) -> tuple[ArrayLike, ArrayLike]:
-        """Lowest and highest margin by the edges, for the limits of a_V and of the model."""
-        low, high = self.attraction(self.a_v_low), self.attraction(self.a_v_high)
-        return low.ratio / low.error_factor, high.ratio * high.error_factor
-
-    def edge_thresholds(self) -> tuple[ArrayLike, ArrayLike, ArrayLike]:
-        """Adhesion length [m] above which the pair sticks by the edges: value, low, high limit."""
-        return (
-            self.edge_threshold(self.a_v),
-            self.edge_threshold(self.a_v_high, +1),
-            self.edge_threshold(self.a_v_low, -1),
-        )
-
     def _attraction(self, adhesion_length, a_v):
         at = self.h_rms, self.q0, self.rms_slope, adhesion_length, self.range, a_v
         return equivalent_sphere.attraction(*at)
 
-    def edge_threshold(self, a_v: ArrayLike, sign: int = 0) -> float | NDArray:
-        """Adhesion length [m] above which the pair sticks by the edges, for an a_V.
-
-        With `sign` +1 or -1 the model's error raises or lowers it.
-        """
+    def edge_threshold(self, a_v: ArrayLike) -> float | NDArray:
+        """Adhesion length [m] above which contact grows by itself by the edges, for an a_V."""
         at = self.h_rms, self.q0, self.rms_slope, self.range, a_v
-        length = equivalent_sphere.adhesion_length_threshold(*at)
-        if not sign:
-            return length
-        # The model's error is that at the threshold without it.
-        error = self._attraction(length, a_v).error_factor
-        return equivalent_sphere.adhesion_length_threshold(*at, error**sign)
+        return equivalent_sphere.adhesion_length_threshold(*at)
 
 
 def decide(

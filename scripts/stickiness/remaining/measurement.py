@@ -188,13 +188,13 @@ def _follow(heights, length, law, squeeze, tol, logger):
             break
     else:
         raise ConvergenceError("the surfaces have not parted at the end of the path", point.state)
-    # Beyond both ends of the path the tension does as much work as there is energy left.
     ways = [_Curve.of(points) for points in (approach, separation)]
     points = approach + separation
     gap, area = ways[0].zero_load()
     energy = min(point.state.energy for point in points)
     pixel = float(np.broadcast_to(length, 2)[0]) / heights.shape[0]
     unknown = (np.nan, np.nan)
+    # Beyond both ends of the path the tension does as much work as there is energy left.
     return Remaining(
         approach=(ways[0].work() - approach[0].state.energy) / law.adhesion_length,
         separation=(ways[1].work() - separation[-1].state.energy) / law.adhesion_length,
