@@ -30,6 +30,7 @@ include: "rules/adhesion.smk"
 include: "rules/real_surfaces.smk"
 include: "rules/remaining.smk"
 include: "rules/criteria.smk"
+include: "rules/experiments.smk"
 include: "rules/figures.smk"
 include: "rules/claims.smk"
 include: "rules/report.smk"
@@ -41,6 +42,10 @@ include: "rules/shared.smk"
 TARGETS = {
     **{figure: f"{RESULTS}/figures/{figure}.png" for figure in FIGURES},
     "verdicts": f"{RESULTS}/criteria/verdicts.md",
+    "experiments": [
+        f"{RESULTS}/experiments/experiments.md",
+        f"{RESULTS}/figures/experiments.png",
+    ],
     "claims": f"{RESULTS}/claims/claims.md",
     "report": f"{RESULTS}/report/report.html",
     "surfaces": expand(f"{RESULTS}/report/surfaces/{{surface}}.html", surface=REAL_SURFACES),
@@ -58,7 +63,10 @@ TARGETS = {
 rule all:
     default_target: True
     input:
-        [TARGETS[target] for target in (*FIGURES, "verdicts", "claims", "report", "surfaces")],
+        [
+            TARGETS[target]
+            for target in (*FIGURES, "verdicts", "experiments", "claims", "report", "surfaces")
+        ],
         f"{RESULTS}/fits/a_v_table.nc",
 
 

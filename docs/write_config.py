@@ -28,6 +28,7 @@ TITLES = {
     "config": "config/config.yaml",
     "materials": "Materials: config/materials.yaml",
     "surfaces": "Real surfaces: config/surfaces.yaml",
+    "experiments": "Published experiments: config/experiments.yaml",
 }
 
 Schema = Mapping[str, Any]

@@ -26,6 +26,7 @@ def ledger_inputs():
         "verdicts": f"{RESULTS}/criteria/verdicts.nc",
         "asphalt": f"{RESULTS}/real_surfaces/asphalt.nc",
         "remaining": config["remaining"]["table"],
+        "experiments": f"{RESULTS}/experiments/experiments.nc",
         "polished_steel": f"{RESULTS}/real_surfaces/polished_steel.nc",
         "measured_surfaces": [
             f"{RESULTS}/real_surfaces/{name}.nc"

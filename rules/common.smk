@@ -23,7 +23,9 @@ from stickiness.adhesion import model_choice
 from stickiness.config import checks
 
 try:
-    MATERIALS, REAL_SURFACES = checks.check_all(config, Path(workflow.basedir) / "config/schemas")
+    MATERIALS, REAL_SURFACES, EXPERIMENTS = checks.check_all(
+        config, Path(workflow.basedir) / "config/schemas"
+    )
     PLANS = plan.plans_of(config, read_models(config["tradeoff"]["table"]))
     DMT_ERRORS = model_choice.read_table(config["dmt_error"])
     if not Path(config["remaining"]["table"]).is_file():

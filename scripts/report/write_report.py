@@ -2,6 +2,7 @@
 
 from pathlib import Path
 
+from pipeline.experiments import texts as experiments
 from pipeline.job import start
 from pipeline.pages import captions, report
 from pipeline.pages.benchmarks import run_times
@@ -27,6 +28,7 @@ NEEDED_VARIABLES = {
         ),
     ),
     "surfaces": ("h_rms", "hurst", "hurst_total_error", "q0", "q1", "C0_reference_upper"),
+    "experiments": ("quantity", "outcome", "criterion_outcome", "remaining", "work_of_approach"),
     "ensembles": ("area_fraction_mean", "mean_gap_mean", "attractive_area_mean", "residual"),
     "answers": ("value", "value_error", "value_total_error", "value_dominant"),
     "comparisons": tuple(f"{name}_difference" for name in report.QUANTITIES),
@@ -40,6 +42,7 @@ def main(job):
         job.output[0],
         read_results(inputs, params.figure_sources),
         figures=list(map(embed, inputs.figures, inputs.captions)),
+        experiments_figure=embed(inputs.experiments_figure, inputs.experiments_caption),
         tradeoff={
             "figure": embed(inputs.trade_figure, inputs.trade_caption),
             "source": inputs.trade,
@@ -71,15 +74,16 @@ def read_results(inputs, figure_sources):
     return report.Results(**contents, paths=paths)
 
 
-def render(template, page, results, *, figures, tradeoff, benchmarks, fidelity):
+def render(template, page, results, *, figures, experiments_figure, tradeoff, benchmarks, fidelity):
     """The page as text.
 
-    `results` are the datasets as `report.Results`, `figures` as `captions.embed_figure` makes them;
+    `results` are the datasets as `report.Results`, `figures` and `experiments_figure` as
+    `captions.embed_figure` makes them;
     `tradeoff` is what accuracy costs: its `figure`, a table for each knob (`tables`), the `source`
     of both, and `presets`; `benchmarks` is the folder of Snakemake's benchmark files.
     """
     claims, verdicts, surfaces = results.claims, results.verdicts, results.surfaces
-    data = [claims, verdicts, *surfaces.values(), *results.ensembles]
+    data = [claims, verdicts, results.experiments, *surfaces.values(), *results.ensembles]
     return captions.template_of(template, page).render(
         fidelity=fidelity,
         files_of=results.paths,
@@ -89,6 +93,7 @@ def render(template, page, results, *, figures, tradeoff, benchmarks, fidelity):
         errata=report.describe_errata(claims),
         matrix=report.arrange_verdicts(verdicts, surfaces),
         disagreements=report.find_disagreements(verdicts, surfaces),
+        experiments=experiments.describe(results.experiments) | {"figure": experiments_figure},
         surfaces=[report.describe_surface(name, data) for name, data in surfaces.items()],
         budgets=list(map(report.describe_budgets, results.answers)),
         tradeoff=tradeoff,

@@ -15,8 +15,9 @@ FLOORS = (
     {"surfaces"},
     {"contact", "persson", "measured"},
     {"adhesion"},
+    {"closed_forms"},
     {"remaining"},
-    {"closed_forms", "criteria", "accuracy"},
+    {"criteria", "accuracy"},
     {"config"},
 )
 FLOOR = {package: level for level, packages in enumerate(FLOORS) for package in packages}

@@ -283,7 +283,7 @@ def test_every_table_of_results_leads_to_its_data(finished, report):
             assert rows
     text = report.read_text(encoding="utf-8")
     claims = re.findall(r'<tr id="claim-\d+">.*?</tr>', text, re.S)
-    assert len(claims) == 21
+    assert len(claims) == 22
     for claim in claims:
         measured = re.search(r'data-label="Measured".*?</td>', claim, re.S)[0]
         assert re.search(r'<b class="nb"><a class="data" href="[^"]+\.(nc|csv)"', measured), claim

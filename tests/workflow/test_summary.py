@@ -12,7 +12,7 @@ def test_a_run_ends_with_a_summary(finished):
     text = finished.run.stdout
     assert re.search(r"^  report +results/tiny/report/report.html$", text, re.M)
     counts = re.search(r"^  claims +(.*)", text, re.M)[1]
-    assert sum(map(int, re.findall(r"\d+", counts))) == 21
+    assert sum(map(int, re.findall(r"\d+", counts))) == 22
     pairs = re.search(r"^  pairs +(.*)", text, re.M)[1]
     assert sum(map(int, re.findall(r"\d+", pairs))) == 7 * len(SURFACES)  # materials on surfaces
 

@@ -58,12 +58,13 @@ QUANTITIES = {
 class Results:
     """The datasets that the page is made of, and where they were read from.
 
-    `paths` has those of `claims` and `verdicts`, those of the others by name, and, a list for each,
-    those of the data behind the `figures`.
+    `paths` has those of `claims`, `verdicts` and `experiments`, those of the others by name, and, a
+    list for each, those of the data behind the `figures`.
     """
 
     claims: xr.Dataset
     verdicts: xr.Dataset
+    experiments: xr.Dataset
     surfaces: Datasets  # real surfaces by name
     ensembles: Sequence[xr.Dataset]  # one for every case: means over seeds
     answers: Sequence[xr.Dataset]  # values asked for

@@ -11,6 +11,7 @@ import yaml
 
 from stickiness.accuracy.quantities import QUANTITIES
 from stickiness.config.cross_checks import config_problems
+from stickiness.config.experiment_entries import experiment_problems
 from stickiness.config.messages import one_line
 from stickiness.config.surface_entries import (
     measurements,  # noqa: F401 (public here, too)
@@ -31,6 +32,7 @@ _UNITS = {
     "work_of_adhesion": "J/m^2",
 }
 
+TABLES = ("materials", "surfaces", "experiments")  # files of their own, by the key that names them
 # The surfaces that the claims ledger reads; may be edited but not removed.
 _PAPER_SURFACES = ("asphalt", "polished_steel")
 
@@ -73,25 +75,28 @@ def load(path: str | Path) -> dict[str, Any]:
 
 def check_all(
     config: Mapping[str, Any], schemas: str | Path, name: str = "config/config.yaml"
-) -> tuple[dict[str, Any], dict[str, Any]]:
+) -> tuple[dict[str, Any], dict[str, Any], dict[str, Any]]:
     """Check the whole configuration and the files it names, without changing any of it.
 
     `config` is the content of config.yaml with everything that overrides it, `schemas` the folder
-    of the schemas, `name` that of the configuration in errors. Returns the tables of materials.yaml
-    and surfaces.yaml. A ConfigError says in one line what is wrong first.
+    of the schemas, `name` that of the configuration in errors. Returns the tables of materials,
+    surfaces and experiments. A ConfigError says in one line what is wrong first.
     """
     schemas = Path(schemas)
     check_schema(config, schemas / "config.schema.yaml", name)
     check_config(config, name)
     tables = []
-    for table in ("materials", "surfaces"):
+    for table in TABLES:
         content = load(config[table])
         check_schema(content, schemas / f"{table}.schema.yaml", config[table])
-        check_units(content, config[table])
+        if table != "experiments":  # whose values say how they are known
+            check_units(content, config[table])
         tables.append(content[table])
-    check_materials(tables[0], config["materials"])
-    check_surfaces(tables[1], config["surfaces"])
-    return tables[0], tables[1]
+    materials, surfaces, experiments = tables
+    check_materials(materials, config["materials"])
+    check_surfaces(surfaces, config["surfaces"])
+    check_experiments(experiments, config["experiments"])
+    return materials, surfaces, experiments
 
 
 def check_schema(content: Mapping[str, Any], schema: str | Path, name: str) -> None:
@@ -144,6 +149,15 @@ def check_surfaces(surfaces: Mapping[str, Any], name: str = "config/surfaces.yam
     for key, surface in surfaces.items():
         for problem in surface_problems(surface):
             raise ConfigError(f"{name}: surfaces.{key}.{problem}")
+
+
+def check_experiments(
+    experiments: Mapping[str, Any], name: str = "config/experiments.yaml"
+) -> None:
+    """Check units, orders and completeness of published experiments."""
+    for key, experiment in experiments.items():
+        for problem in experiment_problems(experiment):
+            raise ConfigError(f"{name}: experiments.{key}.{problem}")
 
 
 def _find_units(node: Any, key: str) -> Iterator[tuple[str, Any, str]]:

@@ -17,7 +17,7 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.interpolate import RegularGridInterpolator
 from scipy.special import ndtri
 
-from stickiness.core.arguments import positive
+from stickiness.core.arguments import plain, positive
 from stickiness.persson.theory import Persson
 from stickiness.surfaces.spectrum import Spectrum
 
@@ -80,16 +80,16 @@ class SurfaceAv:
     ratio: float  # of simulation to theory, by which all are multiplied
     relative_error: float  # of that ratio; widens the limits
 
-    def at(self, range_over_h_rms: float) -> tuple[float, float, float]:
-        """Value, low and high limit at a range over h_rms, interpolated in logarithms."""
+    def at(self, range_over_h_rms: ArrayLike) -> tuple[ArrayLike, ArrayLike, ArrayLike]:
+        """Value, low and high limit at ranges over h_rms, interpolated in logarithms."""
         logs = [
             np.interp(np.log(range_over_h_rms), np.log(self.ranges), np.log(a)) for a in self.theory
         ]
         every = self.ratio * np.exp(logs)
         return (
-            float(every[self.quoted]),
-            float(every.min() * max(1 - self.relative_error, 0.01)),
-            float(every.max() * (1 + self.relative_error)),
+            plain(every[self.quoted]),
+            plain(every.min(axis=0) * max(1 - self.relative_error, 0.01)),
+            plain(every.max(axis=0) * (1 + self.relative_error)),
         )
 
 

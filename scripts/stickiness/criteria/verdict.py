@@ -269,8 +269,12 @@ def estimate_a_v(
     spectrum: Spectrum, known: dict[str, float], range_over_h_rms: float
 ) -> tuple[float, float, float]:
     """a_V by theory on a spectrum with its limits; `known` has q0 and the moments."""
+    return surface_a_v(spectrum, known).at(range_over_h_rms)
+
+
+def surface_a_v(spectrum: Spectrum, known: dict[str, float]) -> SurfaceAv:
+    """a_V by theory on a spectrum at every range; `known` has q0 and the moments."""
     moments = (known[name] for name in ("q0", "h_rms", "rms_slope", "rms_curvature"))
     edge_a_v = float(pastewka_robbins_a_v(*moments))
     names, a_v, _ = theory_a_v(spectrum, RANGES, LOAD, edge_a_v, q0=known["q0"])
-    quoted = names.index(VARIANTS[0])
-    return SurfaceAv(RANGES, np.array(a_v), quoted, 1.0, THEORY_ERROR).at(range_over_h_rms)
+    return SurfaceAv(RANGES, np.array(a_v), names.index(VARIANTS[0]), 1.0, THEORY_ERROR)

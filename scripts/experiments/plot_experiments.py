@@ -1,0 +1,135 @@
+"""Figure of the published experiments: predicted against observed, and the criteria."""
+
+import numpy as np
+from matplotlib.colors import ListedColormap
+
+from pipeline import plotting
+from pipeline.experiments.judgements import SILENT, WITHIN
+from pipeline.experiments.texts import MARKS
+from pipeline.job import start
+from pipeline.plotting import BLUE, GREEN, GREY, ORANGE, RED, make_dot, make_key
+from stickiness.core import datasets
+from stickiness.criteria.registry import CRITERIA, EDGES, REMAINING
+from stickiness.remaining.prediction import DEFAULT_SHARE
+
+NEEDED = ("quantity", "outcome", "criterion_outcome", "criterion_roughness", "pull_off_curve")
+FOLLOWED = "fuller_tabor"  # experiment whose pull-off is drawn against roughness
+WORKS = ("work_of_approach", "work_of_separation")
+NOTHING = 1e-4  # mJ/m^2, where what is predicted or observed to be none is drawn
+# From wrong to right, grey where nothing is decided; light enough for the marks.
+OUTCOME_COLOURS = ("#DDDDDD", "#F2B48C", "#F7E6A1", "#9CD1BE")
+
+
+def main(job):
+    dataset = datasets.read(job.input[0], NEEDED)
+    experiments = datasets.parameters(dataset)["experiments"]
+    margins = {"left": 0.09, "right": 0.985, "top": 0.97, "bottom": 0.1}
+    grid = {**margins, "wspace": 1.6, "hspace": 0.22, "height_ratios": [1, 2]}
+    with plotting.open_figure(
+        job.output, "AAABBB;..CCCC", 9.2, layout="none", gridspec_kw=grid
+    ) as panels:
+        draw_pull_off(panels["A"], dataset, experiments)
+        draw_works(panels["B"], dataset, experiments)
+        draw_criteria(panels["C"], dataset, experiments)
+
+
+def draw_pull_off(ax, dataset, experiments):
+    """Relative pull-off against roughness, with what was observed and other criteria's limits."""
+    h = dataset.roughness.values * 1e6
+    cases = [case for case in dataset.case.values if case.startswith(f"{FOLLOWED}/")]
+    for colour, name in zip((BLUE, RED, GREEN, ORANGE), cases, strict=False):
+        case = dataset.sel(case=name)
+        lowest, highest = case.pull_off_curve_lowest, case.pull_off_curve_highest
+        plotting.draw_band(ax, h, lowest, np.minimum(highest, 2), colour, alpha=0.15)
+        label = experiments[FOLLOWED]["cases"][name.split("/")[1]]["label"]
+        ax.plot(h, case.pull_off_curve, color=colour, label=label)
+        limits = [
+            float(case[f"observed_roughness_at_a_tenth_{end}"]) * 1e6 for end in ("low", "high")
+        ]
+        ax.plot(limits, [DEFAULT_SHARE] * 2, color=colour, linewidth=5, solid_capstyle="butt")
+        for criterion, marker in (("violano", "v"), (EDGES, "^")):
+            at = float(case.criterion_roughness.sel(criterion=criterion)) * 1e6
+            ax.plot(at, 0.035, marker, color=colour, mfc="white")
+    handles, _ = ax.get_legend_handles_labels()
+    keys = [
+        make_key("observed", linewidth=5),
+        make_dot("limit by the paper", marker="v", mfc="white"),
+        make_dot("onset, finest wave", marker="^", mfc="white"),
+    ]
+    ax.legend(handles=[*handles, *keys], loc="upper right", fontsize=7, bbox_to_anchor=(1, 0.95))
+    ax.set(xscale="log", yscale="log", xlim=(0.07, 300), ylim=(0.02, 3))
+    ax.set(xlabel="rms height [µm]", ylabel="pull-off over that from a smooth surface")
+    ax.axhline(DEFAULT_SHARE, color=GREY, linewidth=0.6, linestyle=":")
+
+
+def draw_works(ax, dataset, experiments):
+    """Predicted against observed works of adhesion, with all limits."""
+    ax.plot([NOTHING, 300], [NOTHING, 300], color=GREY, linewidth=0.8)
+    shown = {}
+    for case in dataset.transpose("case", ...).case.values:
+        point = dataset.sel(case=case)
+        name = point["quantity"].item()
+        if name not in WORKS:
+            continue
+        experiment = case.split("/")[0]
+        look = shown.setdefault(experiment, plotting.pick_look(len(shown)))
+        observed = clip([float(point[f"observed_{name}_{end}"]) for end in ("low", "high")])
+        low, value, high = clip(
+            [float(point[f"{name}{end}"]) for end in ("_lowest", "", "_highest")]
+        )
+        middle = np.sqrt(observed[0] * observed[1])
+        bars = {"color": look["color"], "linewidth": 0.9}
+        ax.plot(observed, [value] * 2, **bars)
+        ax.plot([middle] * 2, [low, high], **bars)
+        filled = {} if name == "work_of_approach" else {"mfc": "white"}
+        ax.plot(middle, value, **look, **filled)
+    keys = [make_dot(name_briefly(experiments[e]), **look) for e, look in shown.items()]
+    keys.append(make_dot("open: separation", mfc="white"))
+    ax.legend(handles=keys, loc="lower right", fontsize=7)
+    ax.set(xscale="log", yscale="log", xlim=(NOTHING, 300), ylim=(NOTHING / 2, 300))
+    ax.set(xlabel="observed work of adhesion [mJ/m²]", ylabel="predicted [mJ/m²]")
+
+
+def clip(values):
+    """Works in mJ/m^2, none at the edge of the panel."""
+    return np.maximum(np.array(values) * 1e3, NOTHING)
+
+
+def draw_criteria(ax, dataset, experiments):
+    """Every criterion on every case: right, right for some inputs, wrong, nothing decided."""
+    outcomes = dataset.criterion_outcome.transpose("case", "criterion").values
+    ax.imshow(
+        outcomes,
+        cmap=ListedColormap(OUTCOME_COLOURS),
+        vmin=SILENT - 0.5,
+        vmax=WITHIN + 0.5,
+        aspect="auto",
+    )
+    for (row, column), code in np.ndenumerate(outcomes):
+        ax.text(column, row, MARKS[int(code)], ha="center", va="center", fontsize=8)
+    labels = [criterion.label.replace("a_V", "$a_V$") for criterion in CRITERIA.values()]
+    ax.set_xticks(range(len(labels)), labels, rotation=35, ha="right", rotation_mode="anchor")
+    ax.set_yticks(range(len(outcomes)), [name_case(c, experiments) for c in dataset.case.values])
+    ax.get_xticklabels()[list(CRITERIA).index(REMAINING)].set_fontweight("bold")
+    ax.tick_params(length=0)
+    starts = [case.split("/")[0] for case in dataset.case.values]
+    for row in range(1, len(starts)):
+        if starts[row] != starts[row - 1]:
+            ax.axhline(row - 0.5, color="white", linewidth=3)
+
+
+def name_case(case, experiments):
+    """First word of the experiment's citation, and the case."""
+    experiment, name = case.split("/")
+    entry = experiments[experiment]
+    label = entry["cases"][name]["label"]
+    return f"{entry['short']}: {label}" if "short" in entry else label
+
+
+def name_briefly(entry):
+    """Author and year, or the label."""
+    return entry.get("short", entry["label"])
+
+
+if __name__ == "__main__":
+    main(start(globals(), "plot_experiments"))

@@ -1,0 +1,1 @@
+"""Published experiments: read from the configuration, predicted, and held against criteria."""
