@@ -17,6 +17,9 @@ from stickiness.surfaces.spectrum import SelfAffine
 
 SIGNS = (-1, 0, 1)  # low limit, value, high limit
 ROUGHNESS = np.geomspace(1e-11, 1e-3, 121)  # rms heights [m] along which adhesion is followed
+# Margins are nearly powers of the rms height: between points as far apart as these they are read
+# off to better than 1 %.
+COARSE = ROUGHNESS[::4]
 
 
 @dataclass(frozen=True)
@@ -98,12 +101,10 @@ def make_pair(observation: Observation, shapes: list[Shape], h_rms: NDArray) -> 
 def predict_observation(observation: Observation) -> Predicted:
     """Works of approach and separation and pull-off, with limits, for every combination."""
     shapes = shapes_of(observation)
-    rough = make_pair(
-        observation, shapes, np.broadcast_to(ROUGHNESS, (len(shapes), len(ROUGHNESS)))
-    )
+    rough = make_pair(observation, shapes, repeat(ROUGHNESS, shapes))
     follow = relative_pull_off if "radius" in observation.inputs else find_share
     curve = np.array([follow(observation, rough, sign) for sign in SIGNS])
-    tenth = np.array([[find_fall(row) for row in rows] for rows in curve])
+    tenth = np.array([[find_fall(ROUGHNESS, r, DEFAULT_SHARE) for r in rows] for rows in curve])
     pair = make_pair(observation, shapes, heights_of(observation, tenth[1]))
     work = pair.work_of_adhesion[:, 0]
     share, separation, relative = (
@@ -153,16 +154,21 @@ def relative_pull_off(observation: Observation, pair: Pair, sign: int) -> NDArra
     return np.minimum(stress * pair.range / pair.adhesion_length, 1.0)
 
 
-def find_fall(values: NDArray) -> float:
-    """Rms height [m] along `ROUGHNESS` at which values fall to a tenth for good."""
-    above = np.flatnonzero(values > DEFAULT_SHARE)
+def repeat(heights: NDArray, shapes: list[Shape]) -> NDArray:
+    """The same rms heights for every combination, ``(combination, n)``."""
+    return np.broadcast_to(heights, (len(shapes), len(heights)))
+
+
+def find_fall(heights: NDArray, values: NDArray, level: float) -> float:
+    """Rms height [m] at which values fall to a level for good, by logarithms."""
+    above = np.flatnonzero(values > level)
     last = above[-1] if above.size else 0
     if not above.size or last == values.size - 1:
-        return float(ROUGHNESS[last])
+        return float(heights[last])
     here = slice(last, last + 2)
     logs = np.log(np.maximum(values[here], 1e-300))
-    share = (logs[0] - np.log(DEFAULT_SHARE)) / (logs[0] - logs[1])
-    low, high = np.log(ROUGHNESS[here])
+    share = (logs[0] - np.log(level)) / (logs[0] - logs[1])
+    low, high = np.log(heights[here])
     return float(np.exp(low + share * (high - low)))
 
 
@@ -204,15 +210,13 @@ def find_roughness(observation: Observation) -> dict[str, NDArray]:
     NaN for a criterion that looks at no roughness.
     """
     shapes = shapes_of(observation)
-    rough = make_pair(
-        observation, shapes, np.broadcast_to(ROUGHNESS, (len(shapes), len(ROUGHNESS)))
-    )
+    rough = make_pair(observation, shapes, repeat(COARSE, shapes))
     found = {}
     for name, criterion in CRITERIA.items():
         margins = np.broadcast_to(criterion.margin(rough), rough.h_rms.shape)
         constant = criterion.modulus is not None
         found[name] = np.array(
-            [np.nan if constant else find_fall(row * DEFAULT_SHARE) for row in margins]
+            [np.nan if constant else find_fall(COARSE, row, 1.0) for row in margins]
         )
     return found
 
