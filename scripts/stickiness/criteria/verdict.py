@@ -95,12 +95,8 @@ class StickinessVerdict:
         if pair.adhesion_length > PULL_OFF_UNKNOWN * pair.elastic_energy:
             pull_off = f"at least {least:.2g} Pa (full contact, which was not simulated)"
         unlike = (
-            ""
-            if pair.widening == 1
-            else (
-                f"limits of what remains hold {pair.widening:g} times the errors: no surface with a "
-                "direction and no sum of unlike ones was simulated\n"
-            )
+            f"limits of what remains allow for {pair.widening:g} times the errors: no surfaces with "
+            "a direction and no sums were simulated\n"
         )
         return (
             f"{self.word}: {self.remaining:.2g} of the work of adhesion remains "
@@ -110,7 +106,7 @@ class StickinessVerdict:
             f"edges at the finest wave: {self.regime}{beyond}\n"
             f"a_V = {self.a_v:.3g} ({self.a_v_limits[0]:.3g} to {self.a_v_limits[1]:.3g})\n"
             f"margins by other criteria: {others}\n"
-            f"{unlike}"
+            f"{unlike if pair.widening > 1 else ''}"
             f"{asked}"
         )
 

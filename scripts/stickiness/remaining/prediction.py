@@ -145,8 +145,8 @@ class Roughness:
 def find_widening(spectrum: Spectrum) -> float:
     """Factor on the errors of a prediction from a spectrum: 1 for kinds that were simulated.
 
-    `UNLIKE` for surfaces with a direction and for sums of unlike ones, which were not when the
-    errors were measured.
+    `UNLIKE` for surfaces with a direction and for sums, which were not when the errors were
+    measured.
     """
     return 1.0 if spectrum.isotropic and not isinstance(spectrum, Sum) else UNLIKE
 

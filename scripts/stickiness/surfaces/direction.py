@@ -116,9 +116,10 @@ class Ellipse:
         if self._is_nearly_circle:
             return laws.psd(q)
         (q,) = nonnegative(q=q)
-        flat = q.reshape(-1, 1)
-        with np.errstate(divide="ignore"):
-            log_ratio = np.log(flat / laws.knots)
+        low, high = laws.ends
+        # Beyond the band as just beyond it: nothing is infinite there.
+        within = np.clip(q.reshape(-1, 1), 0.5 * low / self.reach, 2 * high * self.reach)
+        log_ratio = np.log(within / laws.knots)
         # Where the ellipses of the knots pass this wave number.
         at_knot = np.arccos(np.clip(-log_ratio / self._log_reach, -1, 1))
         x, weight = np.polynomial.legendre.leggauss(_PIECE)
@@ -126,8 +127,7 @@ class Ellipse:
         w = at_knot[:, 1:, None] + half * (1 + x)
         log_g = -self._log_reach * np.cos(w)
         log_law = laws.exponent[:, None] * (log_ratio[:, :-1, None] - log_g) - 2 * log_g
-        # q = 0 lies on no ellipse.
-        terms = self._fill(w) * np.exp(np.where(half > 0, log_law, 0.0))
+        terms = self._fill(w) * np.exp(log_law)
         mean = 2 / np.pi * np.sum((half * terms) @ weight * laws.level, axis=-1)
         return mean.reshape(q.shape)
 
@@ -148,8 +148,8 @@ class Ellipse:
         density = np.exp(2 * at) * self.mean_psd(laws, start[:, None] * np.exp(at))
         empty = density @ weight == 0  # between the bands of a spectrum that has a gap
         density[empty] = 1.0
-        high = np.expm1(2 * at) @ (np.diag(weight)) / np.expm1(2 * width)[:, None]
-        centre = np.sum(density * high, axis=1) / (density @ weight)
+        high = np.expm1(2 * at) / np.expm1(2 * width)[:, None]
+        centre = (density * high) @ weight / (density @ weight)
         slope = _find_slopes(centre, width) / width
         level = (density @ weight) / (np.exp(slope[:, None] * at) @ weight)
         return PowerLaws(np.exp(edges), np.where(empty, 0.0, level), slope - 2)
