@@ -95,8 +95,8 @@ class StickinessVerdict:
         if pair.adhesion_length > PULL_OFF_UNKNOWN * pair.elastic_energy:
             pull_off = f"at least {least:.2g} Pa (full contact, which was not simulated)"
         unlike = (
-            f"limits of what remains allow for {pair.widening:g} times the errors: no surfaces with "
-            "a direction and no sums were simulated\n"
+            f"limits of what remains allow for {pair.widening:g} times the errors: "
+            "no surfaces with a direction and no sums were simulated\n"
         )
         return (
             f"{self.word}: {self.remaining:.2g} of the work of adhesion remains "
