@@ -1,5 +1,15 @@
 """Spectra of random rough surfaces and their moments."""
 
-from stickiness.surfaces.spectrum import PowerLawSegments, SelfAffine, Shells, Spectrum, Tabulated
+from stickiness.surfaces.interface import Spectrum
+from stickiness.surfaces.spectrum import PowerLawSegments, SelfAffine, Shells, Tabulated
+from stickiness.surfaces.sums import Sum, combine
 
-__all__ = ["PowerLawSegments", "SelfAffine", "Shells", "Spectrum", "Tabulated"]
+__all__ = [
+    "PowerLawSegments",
+    "SelfAffine",
+    "Shells",
+    "Spectrum",
+    "Sum",
+    "Tabulated",
+    "combine",
+]

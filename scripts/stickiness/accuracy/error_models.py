@@ -43,8 +43,8 @@ OUTSIDE = 2.0  # factor by which errors outside are widened; P(u) at magnificati
 class Surface:
     """What settings depend on: Hurst exponent, q1/q0, side of the cell over longest wavelength.
 
-    Only surfaces of Gaussian amplitudes without a roll-off were measured: ``kind_measured`` is
-    false for others.
+    Only isotropic surfaces of Gaussian amplitudes without a roll-off were measured:
+    ``kind_measured`` is false for others.
     """
 
     hurst: float
@@ -55,7 +55,11 @@ class Surface:
     @classmethod
     def of(cls, made: Mapping[str, Any]) -> Surface:
         """From a model surface of the configuration, or the parameters of a file."""
-        usual = made.get("rolloff") is None and made.get("amplitudes", "gaussian") == "gaussian"
+        usual = (
+            made.get("rolloff") is None
+            and made.get("amplitudes", "gaussian") == "gaussian"
+            and made.get("anisotropy", 1) == 1
+        )
         return cls(made["hurst"], made["magnification"], made.get("window", 1.0), usual)
 
 

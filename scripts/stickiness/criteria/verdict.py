@@ -16,8 +16,9 @@ from stickiness.criteria.pair import REGIMES, WORDS, Pair, classify_edges, decid
 from stickiness.criteria.registry import CRITERIA, EDGES, REMAINING
 from stickiness.measured import instrument_spectrum
 from stickiness.measured.topography import Topography
-from stickiness.remaining.prediction import DEFAULT_SHARE, PULL_OFF_UNKNOWN
-from stickiness.surfaces.spectrum import Spectrum, Tabulated
+from stickiness.remaining.prediction import DEFAULT_SHARE, PULL_OFF_UNKNOWN, find_widening
+from stickiness.surfaces.interface import Spectrum
+from stickiness.surfaces.spectrum import Tabulated
 
 LOAD = 0.065  # mean pressure over E* q0 h_rms, amid those where area grows with load in proportion
 RANGES = np.geomspace(1e-14, 10, 61)  # over h_rms, where theory's a_V is evaluated
@@ -93,6 +94,10 @@ class StickinessVerdict:
         pull_off = f"{self.pull_off:.2g} Pa ({least:.2g} to {most:.2g} Pa)"
         if pair.adhesion_length > PULL_OFF_UNKNOWN * pair.elastic_energy:
             pull_off = f"at least {least:.2g} Pa (full contact, which was not simulated)"
+        unlike = (
+            f"limits of what remains allow for {pair.widening:g} times the errors: "
+            "no surfaces with a direction and no sums were simulated\n"
+        )
         return (
             f"{self.word}: {self.remaining:.2g} of the work of adhesion remains "
             f"({low:.2g} to {high:.2g}); {pair.wanted_share:g} is wanted\n"
@@ -101,6 +106,7 @@ class StickinessVerdict:
             f"edges at the finest wave: {self.regime}{beyond}\n"
             f"a_V = {self.a_v:.3g} ({self.a_v_limits[0]:.3g} to {self.a_v_limits[1]:.3g})\n"
             f"margins by other criteria: {others}\n"
+            f"{unlike if pair.widening > 1 else ''}"
             f"{asked}"
         )
 
@@ -235,7 +241,7 @@ def describe_surface(surface: Spectrum | ArrayLike, length: Any = None) -> dict[
     if isinstance(surface, Spectrum):
         if length is not None:
             raise ValueError(f"length is of measured heights; a spectrum has none, got {length!r}")
-        spectrum, q0 = surface, getattr(surface, "q_rolloff", None) or surface.q0
+        spectrum, q0 = surface, surface.q_longest
     else:
         if length is None:
             raise ValueError("length is missing: the side of the measured heights in m")
@@ -262,6 +268,7 @@ def describe_surface(surface: Spectrum | ArrayLike, length: Any = None) -> dict[
         "rms_slope": spectrum.rms_slope,
         "rms_curvature": spectrum.rms_curvature,
         "elastic_energy": spectrum.elastic_energy(),
+        "widening": find_widening(spectrum),
     }
 
 

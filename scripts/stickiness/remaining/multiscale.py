@@ -197,7 +197,7 @@ class _Walk:
         if not isinstance(spectrum, Spectrum):
             raise ValueError(f"spectrum must be a Spectrum, got {type(spectrum).__name__}")
         weight = number("weight", weight, zero=True, most=1.0)
-        nodes = number("nodes", nodes)
+        nodes, spectrum = number("nodes", nodes), spectrum.averaged()
         if isinstance(spectrum, Shells):
             spectrum = group_shells(spectrum)
             q = spectrum.q

@@ -10,7 +10,8 @@ from scipy.optimize import elementwise
 
 from stickiness.core.arguments import number, plain, positive
 from stickiness.remaining.share import ONSET, find_onset, remaining_share, tough_area
-from stickiness.surfaces.spectrum import Spectrum
+from stickiness.surfaces.interface import Spectrum
+from stickiness.surfaces.sums import Sum
 
 # Errors of the onset; of a share, relative and in proportion to what is lost; and of a share,
 # absolute, which is all that is known of small ones. Together they hold 94 % of simulated surfaces
@@ -29,6 +30,7 @@ PULL_OFF_KNOWN, PULL_OFF_UNKNOWN = 1.4, 3.0
 LATE, HYSTERESIS = 1.3, 1.6
 LEAST_LENGTH = 1e-12  # of thresholds, over the energy of full contact
 DEFAULT_SHARE = 0.1  # of the work of adhesion, from which a pair is said to stick
+UNLIKE = 2.0  # factor on the errors of surfaces unlike those simulated, see `find_widening`
 
 
 @dataclass(frozen=True)
@@ -53,6 +55,9 @@ class Prediction:
     tabor : float
         Tabor's parameter of the longest waves, (l_a^2/(q0^2 h_rms range^3))^(1/3): the range drops
         out where it is large.
+    widening : float
+        Factor on the errors that limits stand for: above 1 for surfaces unlike those simulated, see
+        `find_widening`.
     """
 
     approach: float
@@ -64,6 +69,7 @@ class Prediction:
     pull_off_limits: tuple[float, float]
     energy_ratio: float
     tabor: float
+    widening: float = 1.0
 
 
 @dataclass(frozen=True)
@@ -73,9 +79,11 @@ class Roughness:
     h_rms: ArrayLike
     q0: ArrayLike  # of the longest waves, or of the roll-off
     elastic_energy: ArrayLike  # of full contact per nominal area over E* [length]
+    widening: float = 1.0  # factor on the errors, see `find_widening`
 
     def share(self, adhesion_length: ArrayLike, range: ArrayLike, sign: int = 0) -> float | NDArray:
         """Share of the work of adhesion that remains; `sign` -1 or +1 for its low or high limit."""
+        sign = sign * self.widening
         ratio = np.asarray(adhesion_length) / self.elastic_energy
         zone = self.q0 * np.asarray(range) ** 2 / adhesion_length
         reach = np.asarray(range) / self.h_rms
@@ -98,7 +106,11 @@ class Roughness:
         distance = np.asarray(range) + DISTANCE * ratio**DISTANCE_POWER * self.h_rms
         stress = np.asarray(adhesion_length) / distance
         low, value, high = (
-            plain(stress * self.share(adhesion_length, range, sign) * (1 + PULL_OFF_ERROR) ** sign)
+            plain(
+                stress
+                * self.share(adhesion_length, range, sign)
+                * (1 + PULL_OFF_ERROR) ** (sign * self.widening)
+            )
             for sign in (-1, 0, 1)
         )
         strength = np.maximum(np.asarray(adhesion_length) / range, high)
@@ -115,6 +127,7 @@ class Roughness:
         """
         range = np.asarray(range, dtype=float)
         known = {"h_rms": self.h_rms, "q0": self.q0, "elastic_energy": self.elastic_energy}
+        sign = np.multiply(sign, self.widening)
         h, q0, energy, range, sign = np.broadcast_arrays(*positive(**known, range=range), sign)
 
         def excess(log_length, h, q0, energy, range, sign):
@@ -127,6 +140,15 @@ class Roughness:
         # Attraction whose range is far above h_rms holds at any strength.
         always = excess(bracket[0], *at) >= 0
         return plain(np.where(always, LEAST_LENGTH * energy, np.exp(found.x)))
+
+
+def find_widening(spectrum: Spectrum) -> float:
+    """Factor on the errors of a prediction from a spectrum: 1 for kinds that were simulated.
+
+    `UNLIKE` for surfaces with a direction and for sums, which were not when the errors were
+    measured.
+    """
+    return 1.0 if spectrum.isotropic and not isinstance(spectrum, Sum) else UNLIKE
 
 
 def predict(
@@ -148,7 +170,7 @@ def predict(
         Range of the attraction [length].
     q0 : float, optional
         Wave number of the longest waves that matter [1/length]; by default that of the roll-off,
-        or the lowest of the spectrum.
+        or the lowest of the spectrum, with a direction of its norm.
 
     Raises
     ------
@@ -167,9 +189,9 @@ def predict(
         raise ValueError(f"spectrum must be a Spectrum, got {type(spectrum).__name__}")
     length, range = number("adhesion_length", adhesion_length), number("range", range)
     if q0 is None:
-        q0 = getattr(spectrum, "q_rolloff", None) or spectrum.q0
+        q0 = spectrum.q_longest
     q0, h = number("q0", q0), spectrum.h_rms
-    rough = Roughness(h, q0, spectrum.elastic_energy())
+    rough = Roughness(h, q0, spectrum.elastic_energy(), find_widening(spectrum))
     low, share, high = (float(rough.share(length, range, sign)) for sign in (-1, 0, 1))
     ratio = length / rough.elastic_energy
     pull_off, *pull_off_limits = map(float, rough.pull_off(length, range))
@@ -183,4 +205,5 @@ def predict(
         pull_off_limits=tuple(pull_off_limits),
         energy_ratio=ratio,
         tabor=float(np.cbrt(length**2 / (q0**2 * h * range**3))),
+        widening=rough.widening,
     )

@@ -42,6 +42,7 @@ def local_threshold(spectrum: Spectrum) -> tuple[float, float, float]:
         Its maximum over the cuts, the wave number where that is [1/length], and the value at the
         finest wave.
     """
+    spectrum = spectrum.averaged()
     cuts = np.geomspace(spectrum.q0, spectrum.q1, _CUTS)[1:]
     slope, curvature = (
         np.sqrt(np.array([float(spectrum.variance_below(q, power)) for q in cuts]))

@@ -1,102 +1,23 @@
-"""Isotropic power spectral densities of rough surfaces and their moments.
+"""Power spectral densities of rough surfaces and their moments.
 
-One convention throughout: the two-dimensional power spectral density C(q) [length^4] of an
-isotropic surface has h_rms^2 = 2 pi * integral of q C(q) dq, with no factor 1/(4 pi^2).
-All integrals are closed forms, summed from the end where the terms are small, so that spectra
-of ten decades lose no digits to cancellation.
+One convention throughout: the two-dimensional power spectral density C(q) [length^4] has
+h_rms^2 = double integral of C d^2q, with no factor 1/(4 pi^2); averaged over directions,
+h_rms^2 = 2 pi * integral of q C(q) dq. Theories know a surface by that average: it has the same
+heights, gradients, curvatures and energy of full contact.
 """
 
 from __future__ import annotations
 
-from abc import ABC, abstractmethod
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from stickiness.core.arguments import nonnegative, number
-
-_ROUNDING = 1e-12  # q within this relative distance of the band's end still belongs to it
-
-
-class Spectrum(ABC):
-    """Isotropic height spectrum on a band of wave numbers ``q0 <= q <= q1``.
-
-    What the theory needs is `variance_below` and `variance_above`; everything else follows.
-    """
-
-    q0: float
-    q1: float
-
-    @abstractmethod
-    def psd(self, q: ArrayLike) -> NDArray:
-        """Power spectral density C(q) [length^4] at wave numbers `q` [1/length]; 0 off the band."""
-
-    @abstractmethod
-    def variance_below(self, q: ArrayLike, power: float = 0) -> NDArray:
-        """Return 2 pi * integral from q0 to `q` of q'^(1 + power) C(q') dq'.
-
-        ``power`` 0 gives the variance of the heights, 2 that of the gradient, 4 that of the
-        Laplacian, each of the part of the surface with wave numbers up to `q`.
-        """
-
-    @abstractmethod
-    def variance_above(self, q: ArrayLike, power: float = 0) -> NDArray:
-        """Return 2 pi * integral from `q` to q1 of q'^(1 + power) C(q') dq'."""
-
-    @abstractmethod
-    def at_gradient_variance(self, variance: ArrayLike) -> tuple[NDArray, NDArray]:
-        """Invert `variance_below(q, 2)`: q, and the height variance of all wave numbers beyond.
-
-        Within a shell of a discrete spectrum, where q stands still, both variances grow in
-        proportion.
-        """
-
-    @abstractmethod
-    def truncated(self, q1: float) -> Spectrum:
-        """Return the same spectrum cut at the high wave number `q1`."""
-
-    @property
-    def magnification(self) -> float:
-        """Ratio zeta = q1/q0 of the band's ends."""
-        return self.q1 / self.q0
-
-    @property
-    def h_rms(self) -> float:
-        """Root mean square height [length]."""
-        return float(np.sqrt(self.variance_below(self.q1)))
-
-    @property
-    def rms_slope(self) -> float:
-        """Root mean square of the surface gradient |grad h|, sqrt(2 m2)."""
-        return float(np.sqrt(self.variance_below(self.q1, 2)))
-
-    @property
-    def rms_curvature(self) -> float:
-        """Root mean square of the Laplacian [1/length], sqrt(8 m4/3)."""
-        return float(np.sqrt(self.variance_below(self.q1, 4)))
-
-    @property
-    def nayak(self) -> float:
-        """Nayak's bandwidth parameter alpha = m0 m4/m2^2 (Nayak 1971, doi:10.1115/1.3451608)."""
-        return self.moment(0) * self.moment(4) / self.moment(2) ** 2
-
-    def moment(self, order: int) -> float:
-        """Profile moment m0, m2 or m4 of the isotropic surface (Nayak 1971).
-
-        m0 = h_rms^2, m2 = pi int q^3 C dq, m4 = (3 pi/4) int q^5 C dq.
-        """
-        try:
-            share = {0: 1.0, 2: 1 / 2, 4: 3 / 8}[order]
-        except KeyError:
-            raise ValueError(f"moment: order must be 0, 2 or 4, got {order!r}") from None
-        return share * float(self.variance_below(self.q1, order))
-
-    def elastic_energy(self) -> float:
-        """Elastic energy of full contact per nominal area over E* [length].
-
-        (pi/2) * integral of q^2 C dq (Persson & Tosatti 2001, doi:10.1063/1.1398300).
-        """
-        return float(self.variance_below(self.q1, 1)) / 4
+from stickiness.surfaces.direction import CIRCLE, Ellipse
+from stickiness.surfaces.interface import Spectrum
+from stickiness.surfaces.moments import Moments
+from stickiness.surfaces.power_laws import ROUNDING, PowerLaws
 
 
 class PowerLawSegments(Spectrum):
@@ -108,75 +29,81 @@ class PowerLawSegments(Spectrum):
         Increasing wave numbers that separate the m segments.
     level, exponent : (m,) array
         C at the left end of each segment, and its exponent a.
+    ellipse : direction.Ellipse
+        Norm that takes the place of |q| in them: |q| by default.
     """
 
     prescribed = "C"
 
-    def __init__(self, knots: ArrayLike, level: ArrayLike, exponent: ArrayLike):
-        self._knots = np.asarray(knots, dtype=float)
-        self._level = np.asarray(level, dtype=float)
-        self._exponent = np.asarray(exponent, dtype=float)
-        self.q0, self.q1 = float(self._knots[0]), float(self._knots[-1])
+    def __init__(
+        self, knots: ArrayLike, level: ArrayLike, exponent: ArrayLike, ellipse: Ellipse = CIRCLE
+    ):
+        self.ellipse, self._laws = ellipse, PowerLaws.of(knots, level, exponent)
+        self.q0, self.q1 = self._laws.ends
+        self.isotropic = ellipse.is_circle
+
+    @cached_property
+    def _mean(self) -> PowerLaws:
+        """The power laws averaged over directions."""
+        return self._laws if self.isotropic else self.ellipse.average(self._laws)
 
     @property
     def knots(self) -> NDArray:
         """Wave numbers, both ends included, between which C is one power law each."""
-        return self._knots.copy()
+        return self._laws.knots.copy()
 
-    def _segment(self, q: NDArray) -> NDArray:
-        index = np.searchsorted(self._knots, q, side="right") - 1
-        return np.clip(index, 0, len(self._level) - 1)
+    @property
+    def band(self) -> tuple[float, float]:
+        """See `Spectrum.band`."""
+        return self.q0 / self.ellipse.reach, self.q1 * self.ellipse.reach
 
     def psd(self, q: ArrayLike) -> NDArray:
-        """C(q) [length^4]; zero outside the band."""
-        (q,) = nonnegative(q=q)
-        inside = (q >= self.q0 * (1 - _ROUNDING)) & (q <= self.q1 * (1 + _ROUNDING))
-        i = self._segment(q)
-        ratio = np.where(inside, q, self._knots[i]) / self._knots[i]
-        return np.where(inside, self._level[i] * ratio ** self._exponent[i], 0.0)
+        """C(q) [length^4], averaged over directions; zero outside the band."""
+        if self.isotropic:
+            return self._laws.psd(q)
+        return self.ellipse.mean_psd(self._laws, q)
 
-    def _integral(self, i: NDArray, a: NDArray, b: NDArray, power: float) -> NDArray:
-        """2 pi * integral of q^(1 + power) C from a to b, both in segment i."""
-        beta = self._exponent[i] + 2 + power
-        from_knot = np.log(a / self._knots[i])
-        level = self._level[i] * self._knots[i] ** (2 + power)
-        return 2 * np.pi * level * np.exp(beta * from_knot) * _expm1_over(beta, np.log(b / a))
+    def norm(self, qx: ArrayLike, qy: ArrayLike) -> NDArray:
+        """See `Spectrum.norm`."""
+        return self.ellipse.norm(qx, qy)
 
-    def _whole_segments(self, power: float) -> NDArray:
-        i = np.arange(len(self._level))
-        return self._integral(i, self._knots[:-1], self._knots[1:], power)
+    def psd_of_norm(self, norm: ArrayLike) -> NDArray:
+        """See `Spectrum.psd_of_norm`."""
+        return self._laws.psd(norm)
+
+    def averaged(self) -> PowerLawSegments:
+        """See `Spectrum.averaged`."""
+        if self.isotropic:
+            return self
+        return PowerLawSegments(self._mean.knots, self._mean.level, self._mean.exponent)
+
+    def directional_moments(self, axis: float | None = None) -> Moments:
+        """See `Spectrum.directional_moments`."""
+        of_norm = tuple(float(self._laws.below(self.q1, power)) for power in (0, 2, 4))
+        return self.ellipse.moments(of_norm, axis)
+
+    def total_variance(self, power: float = 0) -> float:
+        """See `Spectrum.total_variance`."""
+        return float(self._laws.below(self.q1, power)) * self.ellipse.mean_stretch(power)
 
     def variance_below(self, q: ArrayLike, power: float = 0) -> NDArray:
         """See `Spectrum.variance_below`."""
-        q = np.clip(*nonnegative(q=q), self.q0, self.q1)
-        i = self._segment(q)
-        before = np.concatenate([[0.0], np.cumsum(self._whole_segments(power))])
-        return before[i] + self._integral(i, self._knots[i], q, power)
+        return self._mean.below(q, power)
 
     def variance_above(self, q: ArrayLike, power: float = 0) -> NDArray:
         """See `Spectrum.variance_above`."""
-        q = np.clip(*nonnegative(q=q), self.q0, self.q1)
-        i = self._segment(q)
-        after = np.concatenate([np.cumsum(self._whole_segments(power)[::-1])[::-1], [0.0]])
-        return after[i + 1] + self._integral(i, q, self._knots[i + 1], power)
+        return self._mean.above(q, power)
 
     def at_gradient_variance(self, variance: ArrayLike) -> tuple[NDArray, NDArray]:
         """See `Spectrum.at_gradient_variance`."""
-        (variance,) = nonnegative(variance=variance)
-        before = np.concatenate([[0.0], np.cumsum(self._whole_segments(2))])
-        i = np.clip(np.searchsorted(before, variance, side="right") - 1, 0, len(self._level) - 1)
-        beta = self._exponent[i] + 4
-        level = 2 * np.pi * self._level[i] * self._knots[i] ** 4
-        q = self._knots[i] * np.exp(_log1p_over(beta, (variance - before[i]) / level))
-        q = np.clip(q, self.q0, self.q1)
+        q = self._mean.invert_gradient(variance)
         return q, self.variance_above(q)
 
     def truncated(self, q1: float) -> PowerLawSegments:
-        """Return the same spectrum cut at `q1` (q0 < q1 <= the present end)."""
-        _check_cut(self, q1)
-        keep = self._knots[:-1] < q1
-        knots = np.append(self._knots[:-1][keep], q1)
-        return PowerLawSegments(knots, self._level[keep], self._exponent[keep])
+        """Return the same spectrum cut at `q1` (q0 < q1 <= the present end) of the norm."""
+        check_cut(self, q1)
+        cut = self._laws.truncated(q1)
+        return PowerLawSegments(cut.knots, cut.level, cut.exponent, self.ellipse)
 
 
 class SelfAffine(PowerLawSegments):
@@ -194,17 +121,33 @@ class SelfAffine(PowerLawSegments):
         Prefactor [length^(2 - 2H)].
     q_rolloff : float, optional
         With it the spectrum is the plateau C = C0 q_rolloff^(-2(H+1)) for q0 <= q < q_rolloff.
+    anisotropy : float
+        Ratio of the correlation lengths, long over short, from 1 to 1e4.
+    angle : float
+        Direction of the long correlation length from x [rad].
 
     Raises
     ------
     ValueError
         If a parameter is out of range or both or none of `h_rms` and `C0` are given.
 
+    Notes
+    -----
+    With a direction q is an elliptic norm of the wave vector, (a k^2 + s^2/a)^(1/2), k and s being
+    its components along the long correlation length and across, a the anisotropy. `q0`, `q_rolloff`
+    and `q1` bound this norm: the longest waves have wave number q0/sqrt(a) along and q0 sqrt(a)
+    across, the shortest q1/sqrt(a) and q1 sqrt(a). `h_rms` does not depend on a, the rms slope
+    grows with it. `psd`, `variance_below` and the like are averages over directions at |q|.
+
     Examples
     --------
     >>> s = SelfAffine(hurst=0.8, q0=1.0, q1=64.0, h_rms=1.0)
     >>> round(s.h_rms, 12), round(s.magnification)
     (1.0, 64)
+    >>> ground = SelfAffine(hurst=0.8, q0=1.0, q1=64.0, h_rms=1.0, anisotropy=4.0)
+    >>> profiles = ground.directional_moments()  # m20 along the long waves, m02 across
+    >>> round(profiles.m02 / profiles.m20, 12), round(ground.rms_slope / s.rms_slope, 3)
+    (16.0, 1.458)
     """
 
     def __init__(
@@ -216,8 +159,11 @@ class SelfAffine(PowerLawSegments):
         h_rms: float | None = None,
         C0: float | None = None,
         q_rolloff: float | None = None,
+        anisotropy: float = 1.0,
+        angle: float = 0.0,
     ):
         _check_band(hurst, q0, q1, q_rolloff)
+        self.ellipse = Ellipse(anisotropy, angle)
         if (h_rms is None) == (C0 is None):
             raise ValueError(f"give one of h_rms and C0, got h_rms={h_rms!r} and C0={C0!r}")
         name, size = ("h_rms", h_rms) if C0 is None else ("C0", C0)
@@ -225,9 +171,9 @@ class SelfAffine(PowerLawSegments):
         self.hurst, self.q_rolloff, self.prescribed = hurst, q_rolloff, name
         with np.errstate(over="ignore", under="ignore", invalid="ignore", divide="ignore"):
             self._build(q0, q1, np.float64(1.0))
-            self.C0 = size if h_rms is None else float(size**2 / self.variance_below(q1))
+            self.C0 = size if h_rms is None else float(size**2 / self.total_variance())
             self._build(q0, q1, np.float64(self.C0))
-            variances = np.array([self.variance_below(q1, power) for power in (0, 2, 4)])
+            variances = np.array([self.total_variance(power) for power in (0, 2, 4)])
         if not np.all(np.isfinite(variances) & (variances > 0)):
             raise ValueError(
                 f"q0 = {q0!r}, q1 = {q1!r} and {name} = {size!r} leave the range of floats: take a "
@@ -236,25 +182,49 @@ class SelfAffine(PowerLawSegments):
 
     def _build(self, q0: float, q1: float, prefactor: float) -> None:
         slope = -2 * (self.hurst + 1)
+        bend = q0 if self.q_rolloff is None else self.q_rolloff
+        level = prefactor * np.float64(bend) ** slope
         if self.q_rolloff is None:
-            super().__init__([q0, q1], [prefactor * np.float64(q0) ** slope], [slope])
+            super().__init__([q0, q1], [level], [slope], self.ellipse)
         else:
-            level = prefactor * np.float64(self.q_rolloff) ** slope
-            super().__init__([q0, self.q_rolloff, q1], [level, level], [0.0, slope])
+            super().__init__([q0, bend, q1], [level, level], [0.0, slope], self.ellipse)
+
+    @property
+    def anisotropy(self) -> float:
+        """Ratio of the correlation lengths."""
+        return self.ellipse.ratio
+
+    @property
+    def angle(self) -> float:
+        """Direction of the long correlation length from x [rad]."""
+        return self.ellipse.angle
+
+    @property
+    def q_longest(self) -> float:
+        """See `Spectrum.q_longest`; with a direction the geometric mean of along and across."""
+        return self.q0 if self.q_rolloff is None else self.q_rolloff
 
     def truncated(self, q1: float) -> SelfAffine:
         """Return the same spectrum (same C0) cut at `q1`."""
-        _check_cut(self, q1)
+        check_cut(self, q1)
         if self.q_rolloff is not None and self.q_rolloff >= q1:
             return super().truncated(q1)
-        return SelfAffine(hurst=self.hurst, q0=self.q0, q1=q1, C0=self.C0, q_rolloff=self.q_rolloff)
+        return SelfAffine(
+            hurst=self.hurst,
+            q0=self.q0,
+            q1=q1,
+            C0=self.C0,
+            q_rolloff=self.q_rolloff,
+            anisotropy=self.anisotropy,
+            angle=self.angle,
+        )
 
     def __repr__(self) -> str:
-        rolloff = "" if self.q_rolloff is None else f", q_rolloff={self.q_rolloff:.6g}"
+        rest = "" if self.q_rolloff is None else f", q_rolloff={self.q_rolloff:.6g}"
+        if not self.isotropic:
+            rest += f", anisotropy={self.anisotropy:.6g}, angle={self.angle:.6g}"
         size = f"h_rms={self.h_rms:.6g}" if self.prescribed == "h_rms" else f"C0={self.C0:.6g}"
-        return (
-            f"SelfAffine(hurst={self.hurst}, q0={self.q0:.6g}, q1={self.q1:.6g}, {size}{rolloff})"
-        )
+        return f"SelfAffine(hurst={self.hurst}, q0={self.q0:.6g}, q1={self.q1:.6g}, {size}{rest})"
 
 
 class Tabulated(PowerLawSegments):
@@ -334,8 +304,8 @@ class Shells(Spectrum):
 
     def truncated(self, q1: float) -> Shells:
         """Return the shells up to and including `q1`."""
-        _check_cut(self, q1)
-        keep = self.q <= q1 * (1 + _ROUNDING)
+        check_cut(self, q1)
+        keep = self.q <= q1 * (1 + ROUNDING)
         return Shells(self.q[keep], self.variance[keep])
 
 
@@ -362,20 +332,8 @@ def _check_band(hurst: float, q0: float, q1: float, q_rolloff: float | None) -> 
         )
 
 
-def _check_cut(spectrum: Spectrum, q1: float) -> None:
+def check_cut(spectrum: Spectrum, q1: float) -> None:
     if not spectrum.q0 < number("q1", q1) <= spectrum.q1:
         raise ValueError(
             f"truncated: q1 must lie in (q0, q1] = ({spectrum.q0!r}, {spectrum.q1!r}], got {q1!r}"
         )
-
-
-def _expm1_over(beta: NDArray, x: NDArray) -> NDArray:
-    """Integral of exp(beta t) from 0 to x, that is expm1(beta x)/beta, regular at beta = 0."""
-    safe = np.where(beta == 0, 1.0, beta)
-    return np.where(beta == 0, x, np.expm1(safe * x) / safe)
-
-
-def _log1p_over(beta: NDArray, y: NDArray) -> NDArray:
-    """Inverse of `_expm1_over`: log1p(beta y)/beta, regular at beta = 0."""
-    safe = np.where(beta == 0, 1.0, beta)
-    return np.where(beta == 0, y, np.log1p(np.maximum(safe * y, -1 + 1e-16)) / safe)

@@ -8,7 +8,6 @@ that.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
@@ -16,49 +15,15 @@ from numpy.typing import NDArray
 from scipy import fft
 
 from stickiness.core.arguments import grid, integer, number
-from stickiness.surfaces.spectrum import Shells, Spectrum
+from stickiness.surfaces.interface import Spectrum
+from stickiness.surfaces.moments import Moments
+from stickiness.surfaces.spectrum import Shells
+from stickiness.surfaces.sums import Sum
 
 Amplitudes = Literal["gaussian", "fixed"]
 
 _MOST_WAVES = 2**15  # along a side; beyond, a list of all modes leaves no memory
 _ROUNDING = 1e-9  # relative slack on band limits that coincide with lattice wave numbers
-
-
-@dataclass(frozen=True)
-class Moments:
-    """Spectral moments of a periodic surface: ``m20`` is the mean of (dh/dx)^2 and so on.
-
-    ``m22`` is that of (d2h/dx dy)^2; lengths as the heights' and the window's.
-    """
-
-    m00: float
-    m20: float
-    m02: float
-    m40: float
-    m22: float
-    m04: float
-
-    @property
-    def h_rms(self) -> float:
-        """Root mean square height."""
-        return float(np.sqrt(self.m00))
-
-    @property
-    def rms_slope(self) -> float:
-        """Root mean square gradient."""
-        return float(np.sqrt(self.m20 + self.m02))
-
-    @property
-    def rms_curvature(self) -> float:
-        """Root mean square Laplacian."""
-        return float(np.sqrt(self.m40 + 2 * self.m22 + self.m04))
-
-    @property
-    def nayak(self) -> float:
-        """Bandwidth m0 m4/m2^2 with m2, m4 averaged over direction for an isotropic surface."""
-        m2 = (self.m20 + self.m02) / 2
-        m4 = 3 / 8 * (self.m40 + 2 * self.m22 + self.m04)
-        return self.m00 * m4 / m2**2
 
 
 def synthesise(
@@ -69,7 +34,8 @@ def synthesise(
     Parameters
     ----------
     spectrum : Spectrum
-        Wave numbers from q0 >= 2 pi/length to q1 <= pi n/length. At that very limit the grid
+        Wave numbers from q0 >= 2 pi/length to q1 <= pi n/length; with a direction, these are the
+        smallest and the largest |q| (`spectrum.band`). At that very limit the grid
         shows only the cosine part of the two modes along its axes: a surface to be measured or
         solved on the grid wants a few more pixels per wavelength.
     n : int
@@ -112,7 +78,8 @@ def lattice_spectrum(spectrum: Spectrum, length: float) -> Shells:
     """Return the spectrum that a periodic window holds, as delta-like shells.
 
     Each wave vector carries C(q) (2 pi/length)^2. If `spectrum` was prescribed by its h_rms, the
-    shells are scaled to that height, as `synthesise` scales its surfaces.
+    shells are scaled to that height, as `synthesise` scales its surfaces. Modes of one |q| make one
+    shell whatever their direction.
     """
     check_window(spectrum, length)
     i, j, variance = list_modes(spectrum, length)
@@ -172,31 +139,32 @@ def check_window(spectrum: Spectrum, length: float) -> None:
     if not isinstance(spectrum, Spectrum):
         raise ValueError(f"spectrum must be a Spectrum, got {type(spectrum).__name__}")
     length = number("length", length)
-    longest = 2 * np.pi / spectrum.q0
+    longest = 2 * np.pi / spectrum.band[0]
     if longest > length * (1 + _ROUNDING):
         raise ValueError(
             f"the window does not hold the band: longest wavelength {longest:.6g} "
-            f"exceeds length = {length:.6g}; enlarge length or raise q0"
+            f"exceeds length = {length:.6g}; enlarge length, raise q0"
+            f"{'' if spectrum.isotropic else ' or lower anisotropy'}"
         )
 
 
 def _check_grid(spectrum: Spectrum, n: int, length: float) -> None:
-    shortest = 2 * np.pi / spectrum.q1
+    shortest = 2 * np.pi / spectrum.band[1]
     if shortest < 2 * length / n * (1 - _ROUNDING):
         raise ValueError(
             f"the grid does not hold the band: shortest wavelength {shortest:.6g} is below two "
             f"pixels of {length / n:.6g}; take n >= {int(np.ceil(2 * length / shortest))} "
-            f"or lower q1"
+            f"or lower q1{'' if spectrum.isotropic else ' or anisotropy'}"
         )
 
 
 def list_modes(spectrum: Spectrum, length: float) -> tuple[NDArray, NDArray, NDArray]:
-    """Lattice indices (i, j) of the band, one of each pair +-k, by rising |k|, with variances.
+    """Lattice indices (i, j) of the band, one of each pair +-k, by rising norm, with variances.
 
     In this order random numbers stay with their modes when the band grows at its upper end.
     """
     dq = 2 * np.pi / length
-    reach = int(np.floor(spectrum.q1 / dq * (1 + _ROUNDING)))
+    reach = int(np.floor(spectrum.band[1] / dq * (1 + _ROUNDING)))
     if reach < 1:
         raise ValueError(f"no wave vector of a window of length {length:.6g} lies in the band")
     if reach > _MOST_WAVES:
@@ -208,29 +176,56 @@ def list_modes(spectrum: Spectrum, length: float) -> tuple[NDArray, NDArray, NDA
     i, j = np.meshgrid(np.arange(reach + 1), np.arange(-reach, reach + 1), indexing="ij")
     half = (i > 0) | (j > 0)
     i, j = i[half], j[half]
-    q = dq * np.hypot(i, j)
-    band = (q >= spectrum.q0 * (1 - _ROUNDING)) & (q <= spectrum.q1 * (1 + _ROUNDING))
-    i, j, q = i[band], j[band], q[band]
-    order = np.lexsort((j, i, i**2 + j**2))
-    i, j, q = i[order], j[order], q[order]
-    variance = _mode_variance(spectrum, q, dq)
+    band = _in_band(spectrum, i, j, dq)
+    i, j = i[band], j[band]
+    order = np.lexsort((j, i, _rank(spectrum, i, j)))
+    i, j = i[order], j[order]
+    variance = _mode_variance(spectrum, i, j, dq)
     if not variance.any():
         raise ValueError(f"no wave vector of a window of length {length:.6g} lies in the band")
     return i, j, variance
 
 
-def _mode_variance(spectrum: Spectrum, q: NDArray, dq: float) -> NDArray:
-    """Height variance of each mode: C dq^2, or a shell's variance in equal parts."""
+def _in_band(spectrum: Spectrum, i: NDArray, j: NDArray, dq: float) -> NDArray:
+    """Whether lattice vectors lie in the band."""
+    if isinstance(spectrum, Sum):
+        return np.any([_in_band(part, i, j, dq) for part in spectrum.parts], axis=0)
+    norm = dq * spectrum.norm(i, j)
+    return (norm >= spectrum.q0 * (1 - _ROUNDING)) & (norm <= spectrum.q1 * (1 + _ROUNDING))
+
+
+def _rank(spectrum: Spectrum, i: NDArray, j: NDArray) -> NDArray:
+    """Norm of lattice vectors, or what rises with it; equal ones are equal to the last bit."""
+    if spectrum.isotropic or isinstance(spectrum, Sum):
+        return i**2 + j**2
+    return np.round(np.log(spectrum.norm(i, j)), 10)
+
+
+def _mode_variance(spectrum: Spectrum, i: NDArray, j: NDArray, dq: float) -> NDArray:
+    """Height variance of each mode of the band: C dq^2, or a shell's variance in equal parts."""
+    if isinstance(spectrum, Sum):
+        return sum(_part_variance(part, i, j, dq) for part in spectrum.parts)
+    norm = dq * spectrum.norm(i, j)
     if not isinstance(spectrum, Shells):
-        return spectrum.psd(np.clip(q, spectrum.q0, spectrum.q1)) * dq**2
+        return spectrum.psd_of_norm(np.clip(norm, spectrum.q0, spectrum.q1)) * dq**2
     middle = (spectrum.q[1:] + spectrum.q[:-1]) / 2
-    shell = np.searchsorted(middle, q)
-    on_shell = np.abs(q - spectrum.q[shell]) <= _ROUNDING * q
+    shell = np.searchsorted(middle, norm)
+    on_shell = np.abs(norm - spectrum.q[shell]) <= _ROUNDING * norm
     count = 2 * np.bincount(shell[on_shell], minlength=len(spectrum.q))  # with mirror images
     if not count.all():
         missing = spectrum.q[np.argmin(count)]
         raise ValueError(f"no wave vector of the window lies on the shell at q = {missing:.6g}")
     return np.where(on_shell, (spectrum.variance / count)[shell], 0.0)
+
+
+def _part_variance(part: Spectrum, i: NDArray, j: NDArray, dq: float) -> NDArray:
+    """Height variance of the modes of a sum that one part of it holds, at its own height."""
+    own = _in_band(part, i, j, dq)
+    variance = np.zeros(len(i))
+    variance[own] = _mode_variance(part, i[own], j[own], dq)
+    if part.prescribed == "h_rms" and variance.any():
+        variance *= part.h_rms**2 / (2 * variance.sum())
+    return variance
 
 
 def draw_modes(variance: NDArray, seed: int, amplitudes: Amplitudes) -> NDArray:

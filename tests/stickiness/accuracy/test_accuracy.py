@@ -260,7 +260,7 @@ def test_tolerances_outside_the_measurement_widen():
 SAME = {"hurst": 0.8, "magnification": 32}
 
 
-@pytest.mark.parametrize("other", [{"rolloff": 3.0}, {"amplitudes": "fixed"}])
+@pytest.mark.parametrize("other", [{"rolloff": 3.0}, {"amplitudes": "fixed"}, {"anisotropy": 4.0}])
 def test_kinds_of_surfaces_that_were_not_measured_have_wider_errors(other):
     asked, settings = Surface.of(SAME | other), Settings(8, 1e-4, 4, 0)
     usual = error_parts(problem(), settings, 0.1, "area")

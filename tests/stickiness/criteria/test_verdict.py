@@ -190,5 +190,17 @@ def test_text_says_word_share_and_threshold():
     assert "Dahlquist" in text
 
 
+def test_limits_of_surfaces_that_were_not_simulated_are_wider_and_say_so():
+    turned = SelfAffine(hurst=0.8, q0=6e4, q1=6e8, h_rms=1e-6, anisotropy=4.0, angle=0.3)
+    modulus = GEL["modulus"] * ROUGH.elastic_energy() / turned.elastic_energy()
+    found, plain = verdict(turned, **GEL | {"modulus": modulus}), verdict(ROUGH, **GEL)
+    assert found.remaining == pytest.approx(plain.remaining, rel=0.02)
+    for name in ("remaining_limits", "modulus_threshold_limits"):
+        wide, narrow = (np.ptp(np.log(getattr(each, name))) for each in (found, plain))
+        assert wide > 1.5 * narrow
+    assert "no surfaces with a direction" in str(found)
+    assert "direction" not in str(plain)
+
+
 def test_example_in_the_documentation():
     assert doctest.testmod(module).failed == 0

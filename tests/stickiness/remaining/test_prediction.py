@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 from stickiness.remaining import Roughness, predict
-from stickiness.spectrum import SelfAffine
+from stickiness.remaining.prediction import UNLIKE
+from stickiness.spectrum import SelfAffine, combine
 
 TOUGH = {"adhesion_length": 1.0, "range": 1e-3}
 
@@ -66,6 +67,26 @@ def test_a_plateau_counts_from_its_end():
     found = predict(rough(q_rolloff=4.0), **TOUGH)
     same = predict(rough(q_rolloff=4.0), **TOUGH, q0=4.0)
     assert found == same
+
+
+@pytest.mark.parametrize(
+    "unlike",
+    [rough(anisotropy=4.0, angle=0.3), combine(rough(), rough(hurst=0.6, h_rms=0.1))],
+)
+def test_limits_are_wider_for_surfaces_that_were_not_simulated(unlike):
+    found = predict(unlike, **TOUGH)
+    as_if = SelfAffine(hurst=0.8, q0=1.0, q1=1e4, h_rms=unlike.h_rms)
+    length = TOUGH["adhesion_length"] * as_if.elastic_energy() / unlike.elastic_energy()
+    alike = predict(as_if, length, TOUGH["range"])
+    assert (found.widening, alike.widening) == (UNLIKE, 1)
+    assert found.energy_ratio == pytest.approx(alike.energy_ratio)
+    assert found.separation == pytest.approx(alike.separation, rel=0.01)
+    for name in ("separation_limits", "pull_off_limits"):
+        wide, narrow = (np.ptp(np.log(getattr(each, name))) for each in (found, alike))
+        assert wide > 1.1 * narrow
+    surface = Roughness(unlike.h_rms, 1.0, unlike.elastic_energy(), UNLIKE)
+    length = surface.threshold(TOUGH["range"], 0.2, 1)
+    assert surface.share(length, TOUGH["range"], 1) == pytest.approx(0.2, rel=1e-6)
 
 
 def test_limits_hold_the_value():

@@ -5,6 +5,7 @@ import pytest
 
 from stickiness.adhesion import equivalent_sphere
 from stickiness.criteria.formulas import pastewka_robbins_a_v
+from stickiness.remaining.multiscale import remaining_adhesion
 from stickiness.remaining.theories import dmt_share, full_contact_share, local_threshold
 from stickiness.spectrum import SelfAffine
 
@@ -41,3 +42,13 @@ def test_dmt_form_at_long_range_and_at_full_contact():
     length = 50 * surface.elastic_energy()
     assert dmt_share(surface, length, 1e-3) == pytest.approx(1 - 1 / 50, abs=0.03)
     assert dmt_share(surface, 1e-3, 1e-3) < 1e-3
+
+
+def test_theories_take_the_average_over_directions():
+    turned = SelfAffine(hurst=0.8, q0=1.0, q1=16.0, h_rms=1.0, anisotropy=4.0, angle=0.3)
+    mean = turned.averaged()
+    assert local_threshold(turned) == local_threshold(mean)
+    assert dmt_share(turned, 1.0, 0.3) == pytest.approx(dmt_share(mean, 1.0, 0.3), rel=1e-7)
+    w = turned.elastic_energy()
+    one, other = (remaining_adhesion(s, w, pull_off=False) for s in (turned, mean))
+    assert (one.share, one.area) == (other.share, other.area)
