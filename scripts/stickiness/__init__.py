@@ -7,6 +7,7 @@ What a user needs:
 
 - `spectrum`: power spectral densities of rough surfaces, their moments
 - `surface`: heights with a given spectrum on a periodic square
+- `solids`: elastic half-space, layers of finite thickness
 - `repulsive`: contact without adhesion, by boundary elements
 - `adhesive`: adhesive contact by boundary elements, loading and unloading curves
 - `dmt`: attraction over the gaps of a contact without adhesion
@@ -44,6 +45,7 @@ __version__ = "0.1.0"
 _MODULES = (
     "spectrum",
     "surface",
+    "solids",
     "repulsive",
     "adhesive",
     "dmt",

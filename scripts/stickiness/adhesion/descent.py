@@ -19,7 +19,6 @@ and before it is believed, the pressure is recomputed in double precision.
 
 import numpy as np
 
-from stickiness.adhesion.problem import LONGEST
 from stickiness.adhesion.state import State, balanced, evaluate, lowered, spans
 
 _REFRESH = 1e-4  # fall of the residual after which the elastic pressure is recomputed
@@ -88,9 +87,10 @@ class _Conjugate:
         self.spans = spans(problem.surface.heights.shape)
         # A point on its own is held by the stiffness of a pixel, long waves by that of the longest.
         self.pixel = problem.surface.quick.mean_stiffness
-        self.stiff_limit = _STIFF * np.sqrt(LONGEST * self.pixel)
+        self.longest = problem.surface.smoother.shift
+        self.stiff_limit = _STIFF * np.sqrt(self.longest * self.pixel)
         self.hardens = problem.law.hardens
-        self._stiffness = LONGEST
+        self._stiffness = self.longest
         self._direction = np.empty(problem.surface.heights.shape, np.float32)
         self._force = np.empty_like(self._direction)
         self._image = np.empty_like(self._direction)
@@ -106,7 +106,7 @@ class _Conjugate:
         force = state.force
         if self.hardens:  # of every point on its own, or in the longest wave
             self._stiffness = np.where(
-                state.slope > self.stiff_limit, state.slope + self.stiff_limit, LONGEST
+                state.slope > self.stiff_limit, state.slope + self.stiff_limit, self.longest
             )
         if problem.pressure is None:
             force = self._less_mean(force.copy(), state.free)

@@ -23,6 +23,7 @@ import numpy as np
 from stickiness.adhesion.scaling import APPROACH, SEPARATION, Adhesion, Control, Scaled
 from stickiness.adhesion.solver import ConvergenceError, Effort, PullOffError, relax_from, solve
 from stickiness.core.arguments import grid, number
+from stickiness.solids import HALF_SPACE
 
 _CONTROLS = ("pressure", "mean_gap")
 # Smooth law or not: by which a step may be refined for the sake of the balance alone.
@@ -72,12 +73,13 @@ def path(
     max_states=5000,
     max_iterations=3000,
     logger=None,
+    solid=HALF_SPACE,
 ) -> Iterator[PathPoint]:
     """Follow the contact through rising and falling pressure or mean gap.
 
     Parameters
     ----------
-    heights, length, law, tol, max_iterations, logger
+    heights, length, law, tol, max_iterations, logger, solid
         As for `solve`.
     values : sequence of float
         At least two values of the control to go through in turn, each different from the one
@@ -123,11 +125,12 @@ def path(
     for name, value in sizes.items():
         number(name, value)
     options = {"start": start, "tol": tol, "max_iterations": max_iterations, "logger": logger}
+    options["solid"] = solid
     first = solve(heights, length, law, **{control: values[0]}, **options)
     yield PathPoint(first)
     follower = _Follower(
         first=first,
-        scaled=Scaled.of(grid("heights", heights), first.length, law),
+        scaled=Scaled.of(grid("heights", heights), first.length, law, solid),
         control=control,
         effort=Effort(tol, max_iterations),
         balance=balance,

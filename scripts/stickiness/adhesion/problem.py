@@ -2,10 +2,10 @@
 
 Lengths along the surface are in units of one side of the cell, heights and gaps in units of
 h_rms (of the range of attraction if the surface is flat), pressures in E* times their quotient.
-The energy per area is ``E(g) = <u K u> / 2 + <phi(g)>``, ``u = g + h``, ``K = |q| / 2``,
-``phi' = traction``. A state of equilibrium at the mean pressure p has
-``r = K u + traction(g) + p = 0``, or, with a hard wall at ``g = 0``, ``r >= 0`` where ``g = 0`` and
-``r = 0`` elsewhere.
+The energy per area is ``E(g) = <u K u> / 2 + <phi(g)>``, ``u = g + h``, ``phi' = traction``,
+``K = |q| / 2`` or, for a layer, what `solids` says. A state of equilibrium at the mean pressure p
+has ``r = K u + traction(g) + p = 0``, or, with a hard wall at ``g = 0``, ``r >= 0`` where ``g = 0``
+and ``r = 0`` elsewhere.
 """
 
 from dataclasses import dataclass
@@ -13,31 +13,33 @@ from dataclasses import dataclass
 import numpy as np
 
 from stickiness.contact import convolution, half_space
+from stickiness.solids import HALF_SPACE, Solid
 
 LONGEST = np.pi  # |q| / 2 of the longest wave across a side of 1
 
 
 @dataclass(frozen=True, eq=False)
 class Surface:
-    """Heights (about their mean, in h_rms) with the elasticity of the half-space on their grid."""
+    """Heights (about their mean, in h_rms) with the elasticity of the solid on their grid."""
 
     heights: np.ndarray
     sides: tuple  # of the cell, in units of the first
+    solid: Solid = HALF_SPACE  # its thickness in the same unit
 
     @property
     def exact(self):
-        """Half-space in double precision."""
-        return half_space.half_space(self.heights.shape, self.sides)
+        """Elasticity in double precision."""
+        return half_space.half_space(self.heights.shape, self.sides, solid=self.solid)
 
     @property
     def quick(self):
-        """Half-space in single precision."""
-        return half_space.half_space(self.heights.shape, self.sides, np.float32)
+        """Elasticity in single precision."""
+        return half_space.half_space(self.heights.shape, self.sides, np.float32, self.solid)
 
     @property
     def smoother(self):
         """Approximate inverse of the stiffness."""
-        return _kept_smoother(self.heights.shape, self.sides)
+        return _kept_smoother(self.heights.shape, self.sides, self.solid)
 
     @property
     def pairs(self):
@@ -45,7 +47,7 @@ class Surface:
         return self.exact.pairs + self.quick.pairs + self.smoother.pairs
 
     def elastic(self, gap):
-        """Pressure of zero mean that deforms the half-space to a gap."""
+        """Pressure of zero mean that deforms the solid to a gap."""
         return self.exact.stiffness(gap + self.heights)
 
     def flattening_pressure(self):
@@ -90,14 +92,19 @@ class FrozenTraction:
 class Smoother:
     """Convolution with ``1 / (|q| / 2 + shift)`` in single precision; counts its `pairs`.
 
-    The shift is the stiffness of the longest wave: it stands for the grip of what touches on the
-    mean gap, which no elasticity holds.
+    The shift is the stiffness of the longest wave, of a layer that of its softest (long waves of a
+    thin incompressible one are the stiffest): it stands for the grip of what touches on the mean
+    gap, which no elasticity holds.
     """
 
-    def __init__(self, shape, sides):
+    def __init__(self, shape, sides, solid):
         self._convolution = convolution.choose(shape, np.float32)
         self._every = np.arange(shape[0])
-        symbol = 1 / (half_space.wavenumbers(shape, sides).T / 2 + LONGEST)
+        stiffness = half_space.effective_wavenumbers(shape, sides, solid).T / 2
+        self.shift = LONGEST
+        if solid != HALF_SPACE and stiffness.any():
+            self.shift = float(stiffness[stiffness > 0].min())
+        symbol = 1 / (stiffness + self.shift)
         self._symbol = self._convolution.symbol(symbol / (shape[0] * shape[1]))
         self.pairs = 0
 

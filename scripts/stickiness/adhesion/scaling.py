@@ -7,6 +7,7 @@ import numpy as np
 from stickiness.adhesion.problem import Problem, Surface
 from stickiness.adhesion.state import lowered
 from stickiness.contact.grids import measure_scale
+from stickiness.solids import HALF_SPACE
 
 APPROACH, SEPARATION = "approach", "separation"
 CLOSEST = 0.9  # of the range: penetration of a start, or in the mean, without a wall
@@ -24,7 +25,8 @@ class Adhesion:
         Gap in the unit of the heights: zero at the hard wall. A law without a wall has its
         equilibrium separation at gap 0, and negative gaps where it repels.
     mean_pressure, mean_gap : float
-        Means of pressure and gap that keep the state: one is prescribed, the other follows.
+        Means of pressure and gap that keep the state: one is prescribed, the other follows. The
+        gap is that between the surfaces; the mean compression of a layer is no part of it.
     repulsive_pressure, adhesive_pressure : float
         Positive and negative part of `pressure`, each averaged over the nominal area and
         positive: their difference is `mean_pressure` (to the residual).
@@ -107,12 +109,12 @@ class Scaled:
     residual_unit: float
 
     @classmethod
-    def of(cls, heights, lengths, law):
-        """Scale heights and law."""
+    def of(cls, heights, lengths, law, solid=HALF_SPACE):
+        """Scale heights, law and solid."""
         mean, rms = measure_scale(heights)
         height = rms if rms > 0 else law.range
         scaled = (heights - mean) / height if rms > 0 else np.zeros(heights.shape)
-        surface = Surface(scaled, (1.0, lengths[1] / lengths[0]))
+        surface = Surface(scaled, (1.0, lengths[1] / lengths[0]), solid.in_unit(lengths[0]))
         own_law = replace(
             law,
             adhesion_length=law.adhesion_length * lengths[0] / height**2,

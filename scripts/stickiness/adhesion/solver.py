@@ -1,4 +1,4 @@
-"""Adhesive contact of a periodic half-space at a prescribed mean pressure or mean gap."""
+"""Adhesive contact of a periodic elastic solid at a prescribed mean pressure or mean gap."""
 
 import warnings
 from dataclasses import dataclass, replace
@@ -12,6 +12,7 @@ from stickiness.contact.grids import check_length, measure_slope
 from stickiness.contact.solver import ConvergenceError
 from stickiness.core.arguments import grid, integer, number, numbers
 from stickiness.core.plausibility import PlausibilityWarning, warn_of_heights, warn_of_pressure
+from stickiness.solids import HALF_SPACE, check_solid
 
 # Pixel over epsilon^2/l_a above which edges of contact are a matter of the grid alone. At 2 a
 # sphere of Tabor parameter 5 holds 20 % too much.
@@ -32,8 +33,9 @@ def solve(
     tol=1e-8,
     max_iterations=3000,
     logger=None,
+    solid=HALF_SPACE,
 ):
-    """Solve the adhesive contact of a half-space with a rigid periodic surface.
+    """Solve the adhesive contact of an elastic solid with a rigid periodic surface.
 
     The problem has several solutions in general. The one found is the stable state, an `Adhesion`,
     that a descent in energy reaches from `start`. At a prescribed pressure the states are ordered:
@@ -64,6 +66,10 @@ def solve(
         Largest number of iterations.
     logger : logging.Logger, optional
         Told the progress at level DEBUG.
+    solid : solids.HalfSpace or solids.Layer, optional
+        Elastic solid, a half-space by default; the thickness of a layer is in the unit of
+        `length`. A mean gap is that between the surfaces: see `solids` on the approach of the
+        backing.
 
     Raises
     ------
@@ -95,11 +101,12 @@ def solve(
     if isinstance(law, type) or not hasattr(law, "evaluate"):
         raise ValueError(f"law must be a TractionLaw such as Maugis(...), got {law!r}")
     _check_control(pressure, mean_gap, law)
-    scaled = Scaled.of(heights, lengths, law)
+    scaled = Scaled.of(heights, lengths, law, check_solid(solid))
     scaled.check_start(start, mean_gap)
     warn_of_heights(scaled.rms_height, lengths[0])
     if pressure is not None and pressure > 1:
-        warn_of_pressure(pressure, measure_slope(heights, lengths))
+        stiffening = 1 / solid.factor(2 * np.pi / max(lengths))
+        warn_of_pressure(pressure, measure_slope(heights, lengths) * stiffening)
     if scaled.rms_height > 0:
         _warn_of_edges(lengths[0] / heights.shape[0], law)
     control, effort = Control(pressure, mean_gap), Effort(tol, max_iterations, logger)

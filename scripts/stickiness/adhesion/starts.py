@@ -11,7 +11,7 @@ from dataclasses import replace
 import numpy as np
 
 from stickiness.adhesion.descent import descend
-from stickiness.adhesion.problem import FrozenTraction, Surface
+from stickiness.adhesion.problem import FrozenTraction
 from stickiness.adhesion.softening_descent import quick_descent, suits
 from stickiness.adhesion.state import lowered
 from stickiness.contact import solver
@@ -42,7 +42,8 @@ def from_coarser_grids(problem, tol, max_iterations, observer, work):
     else:
         coarser = tuple(coarsen(n) for n in shape)
         heights = sample(problem.surface.heights, coarser)
-        coarse = replace(problem, surface=Surface(heights, problem.surface.sides))
+        surface = replace(problem.surface, heights=heights)
+        coarse = replace(problem, surface=surface)
         before = coarse.surface.pairs
         state = from_coarser_grids(coarse, _COARSE, max_iterations, None, work)
         work.append((coarse.surface.pairs - before) * heights.size)
@@ -66,7 +67,9 @@ def without_adhesion(problem, max_iterations):
     """Gap without adhesion at the control of a problem, and the convolutions it took."""
     surface = problem.surface
     if problem.pressure is not None:
-        contact = solver.press(surface.heights, surface.sides, problem.pressure, tol=_ROUGH)
+        contact = solver.press(
+            surface.heights, surface.sides, problem.pressure, tol=_ROUGH, solid=surface.solid
+        )
         return contact.gap, contact.fft_pairs
     gap = problem.mean_gap - surface.heights
     if gap.min() >= 0:

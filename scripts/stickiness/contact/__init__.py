@@ -2,7 +2,8 @@
 
 - `solver`: contact at a prescribed mean pressure, and along a load path
 - `active_set`: the iteration behind it
-- `half_space`: compliance of a periodic elastic half-space
+- `projected_gradients`: the iteration that takes over where that one fails on a layer
+- `half_space`: compliance of a periodic elastic solid
 - `preconditioner`: approximate inverse of the compliance
 - `convolution`: convolutions with an even kernel, block by block
 - `grids`: cell, scale of the heights, fields on coarser and finer grids

@@ -14,6 +14,7 @@ import pyfftw
 
 from stickiness.contact import half_space
 from stickiness.contact.preconditioner import Preconditioner, coarse_stiffness
+from stickiness.solids import HALF_SPACE, Solid
 
 PREDICTION = 0.7  # c in "contact where p > c k g": 0.5 to 1 predict about equally well
 _LOOSE = 0.15  # reduction of the gap on a set that is still changing much
@@ -24,6 +25,7 @@ _DOUBTFUL = 1e-4  # of the largest height: residual below which gaps need double
 _RESOLVED = 1e-4  # largest reduction of the gap asked of a correction in single precision
 _PATIENCE = 8  # updates without progress after which the set is solved ten times tighter
 _SURRENDER = 40  # updates without progress after which rounding is what limits the residual
+_SURRENDER_LAYER = 8  # and on a layer, where `projected_gradients` takes over
 
 
 @dataclass(frozen=True, eq=False)
@@ -33,6 +35,7 @@ class Problem:
     heights: np.ndarray  # in units of their rms, contiguous
     sides: tuple  # of the cell, in units of the first
     load: float  # mean pressure, in units of E* times rms height over side
+    solid: Solid = HALF_SPACE  # its thickness in units of the first side
 
 
 @dataclass(frozen=True, eq=False)
@@ -81,15 +84,15 @@ class _Grid:
     """Heights on a grid, and scratch fields in single and, unless `rough`, double precision."""
 
     def __init__(self, problem, rough):
-        heights, lengths = problem.heights, problem.sides
+        heights, lengths, solid = problem.heights, problem.sides, problem.solid
         self.shape = heights.shape
         self.heights = heights
         self.active = np.zeros(heights.size, bool)
         dtype = np.float32 if rough else np.float64
-        self.exact = _Field(half_space.half_space(self.shape, lengths, dtype))
-        single = half_space.half_space(self.shape, lengths, np.float32)
+        self.exact = _Field(half_space.half_space(self.shape, lengths, dtype, solid))
+        single = half_space.half_space(self.shape, lengths, np.float32, solid)
         self.quick = self.exact if rough else _Field(single, memory=self.exact)
-        self.coarse = coarse_stiffness(self.shape, lengths)
+        self.coarse = coarse_stiffness(self.shape, lengths, solid)
         # Below this residual rounding in single precision (some 1e-6 of the heights) is felt.
         self.doubtful = 0.0 if rough else _DOUBTFUL * float(np.abs(heights).max())
         self._before = self._count()
@@ -118,6 +121,7 @@ def relax(problem, *, tol, max_iterations, gap=None, pressure=None, rough=False,
     mean), or from a uniform pressure. `rough`: single precision suffices, `tol` is well above 1e-5.
     """
     heights, load = problem.heights, problem.load
+    surrender = _SURRENDER if problem.solid == HALF_SPACE else _SURRENDER_LAYER
     grid = _Grid(problem, rough)
     field = grid.quick if pressure is None else grid.exact
     total = load * heights.size
@@ -147,7 +151,7 @@ def relax(problem, *, tol, max_iterations, gap=None, pressure=None, rough=False,
                 "%d x %d: residual %.1e h_rms, area %.5f, %d iterations",
                 *(*grid.shape, residual, points.size / heights.size, iterations),
             )
-        if residual <= tol or iterations >= max_iterations or stale > _SURRENDER:
+        if residual <= tol or iterations >= max_iterations or stale > surrender:
             break
         if below.size + points.size == 1:
             break

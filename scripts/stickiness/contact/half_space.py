@@ -1,8 +1,8 @@
-"""Fourier operators of a periodic elastic half-space, on one thread and reproducible.
+"""Fourier operators of a periodic elastic solid, on one thread and reproducible.
 
-A pressure wave ``p_q`` (in units of E*) displaces the half-space by ``u_q = 2 p_q / |q|``, q != 0
+A pressure wave ``p_q`` (in units of E*) displaces a half-space by ``u_q = 2 p_q / |q|``, q != 0
 (Johnson, *Contact Mechanics*, 1985, section 13.2; Stanley and Kato, J. Tribol. 119:481, 1997,
-doi 10.1115/1.2833523).
+doi 10.1115/1.2833523), and a layer by S times that, see `solids`.
 """
 
 import threading
@@ -11,6 +11,7 @@ from functools import cached_property, lru_cache
 import numpy as np
 
 from stickiness.contact import convolution
+from stickiness.solids import HALF_SPACE
 
 _CACHES = []  # of all functions that `keep_per_thread` decorates
 
@@ -48,8 +49,23 @@ def wavenumbers(shape, lengths):
     return np.hypot(q0[:, None], q1[None, :])
 
 
+def effective_wavenumbers(shape, lengths, solid=HALF_SPACE):
+    """Wave numbers |q|/S at which a half-space is as stiff as the solid; `wavenumbers`' shape.
+
+    Twice the stiffness [E*]. Zero stays zero: the mean displacement is not the operators' matter.
+    """
+    q = wavenumbers(shape, lengths)
+    if solid != HALF_SPACE:
+        q[0, 0] = 1.0
+        q /= solid.factor(q)
+        q[0, 0] = 0.0
+    return q
+
+
 class HalfSpace:
     """Compliance ``2/|q|`` of a periodic half-space and its inverse, the stiffness, but for q = 0.
+
+    Or ``2 S/|q|`` of another solid.
 
     It counts its convolutions in `pairs`. `mean_stiffness` is the diagonal of the stiffness matrix:
     pressure under a pixel lifted alone, per unit of lift. The object owns its buffers: no two
@@ -63,17 +79,20 @@ class HalfSpace:
         Sides of the cell; displacements come out in this unit.
     dtype : data-type, optional
         Of the real fields: double precision, or single at about half the cost for large grids.
+    solid : solids.HalfSpace or solids.Layer, optional
+        Its thickness in the unit of `lengths`.
     """
 
-    def __init__(self, shape, lengths, dtype=np.float64):
+    def __init__(self, shape, lengths, dtype=np.float64, solid=HALF_SPACE):
         self.dtype = np.dtype(dtype)
         self.shape = tuple(int(n) for n in shape)
         self.lengths = tuple(float(a) for a in lengths)
+        self.solid = solid
         self.pairs = 0
         n0, n1 = self.shape
         self._convolution = convolution.choose(self.shape, self.dtype)
         # FFTW does not normalise; the symbols carry the 1 / (n0 n1) of the inverse transform.
-        q = wavenumbers(self.shape, self.lengths).T
+        q = effective_wavenumbers(self.shape, self.lengths, solid).T
         weight = np.full(q.shape[0], 2.0)
         weight[0] = 1.0
         if n1 % 2 == 0:
@@ -86,7 +105,7 @@ class HalfSpace:
     @cached_property
     def _stiffness(self):
         # Made on demand: in double precision the contact solvers rarely need it.
-        q = wavenumbers(self.shape, self.lengths).T
+        q = effective_wavenumbers(self.shape, self.lengths, self.solid).T
         q /= 2 * self.shape[0] * self.shape[1]
         return self._convolution.symbol(q)
 
@@ -116,9 +135,9 @@ class HalfSpace:
         return out
 
 
-def half_space(shape, lengths, dtype=np.float64):
+def half_space(shape, lengths, dtype=np.float64, solid=HALF_SPACE):
     """`HalfSpace` of a grid (arguments as there), kept for the next call of the same thread."""
-    return _kept_half_space(tuple(shape), tuple(lengths), np.dtype(dtype))
+    return _kept_half_space(tuple(shape), tuple(lengths), np.dtype(dtype), solid)
 
 
 _kept_half_space = keep_per_thread(24)(HalfSpace)

@@ -1,9 +1,9 @@
 """Preconditioner of the repulsive contact problem: an approximate inverse of the compliance.
 
-The inverse in full contact is the stiffness ``|q| / 2``. On a contact set it acts between an
-extension of the residual beyond the edge of contact and the transpose of that extension. On an
-even grid `CoarseStiffness` stands for it: transforms are four times smaller, at the price of one
-or two iterations more.
+The inverse in full contact is the stiffness, ``|q| / 2`` of a half-space. On a contact set it acts
+between an extension of the residual beyond the edge of contact and the transpose of that
+extension. On an even grid `CoarseStiffness` stands for it: transforms are four times smaller, at
+the price of one or two iterations more.
 """
 
 import numpy as np
@@ -23,16 +23,18 @@ class CoarseStiffness:
 
     B is the incidence of the points of the fine grid (of even sides) and the four coarse points
     around each (some may coincide). In single precision this is ``|q| / 2`` for long waves, but for
-    aliases, and the constant, 0.9 of the stiffness of the shortest wave, for short ones.
+    aliases, and the constant, 0.9 of the stiffness of the shortest wave, for short ones; the
+    stiffness of another solid likewise.
     """
 
-    def __init__(self, shape, lengths):
+    def __init__(self, shape, lengths, solid):
         self.shape = tuple(n // 2 for n in shape)
         self.applications = 0
         # Squared transfer of full weighting, summed over the aliases along each axis.
         weights = [(1 + np.cos(np.pi * np.fft.fftfreq(n)) ** 2) / 2 for n in self.shape]
-        q = half_space.wavenumbers(self.shape, lengths)
+        q = half_space.effective_wavenumbers(self.shape, lengths, solid)
         shortest = np.pi * np.hypot(shape[0] / lengths[0], shape[1] / lengths[1])
+        shortest /= solid.factor(shortest)
         constant = _SHORT * shortest / 2
         symbol = (q / 2 - constant) / np.outer(weights[0], weights[1][: q.shape[1]])
         # full weighting is B^T / 16 and interpolation B / 4
@@ -51,11 +53,11 @@ class CoarseStiffness:
         return self._image.ravel()
 
 
-def coarse_stiffness(shape, lengths):
+def coarse_stiffness(shape, lengths, solid):
     """`CoarseStiffness` of a grid, kept for the next call; None for a grid it does not suit."""
     if min(shape) < 4 or shape[0] % 2 or shape[1] % 2:
         return None
-    return _kept_coarse_stiffness(tuple(shape), tuple(lengths))
+    return _kept_coarse_stiffness(tuple(shape), tuple(lengths), solid)
 
 
 _kept_coarse_stiffness = half_space.keep_per_thread(12)(CoarseStiffness)

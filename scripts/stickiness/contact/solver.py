@@ -1,8 +1,9 @@
-"""Frictionless, non-adhesive contact of a periodic half-space with a rough rigid surface.
+"""Frictionless, non-adhesive contact of a periodic elastic solid with a rough rigid surface.
 
 Given heights ``h`` and a mean pressure, find the pressure ``p >= 0`` and the gap ``g >= 0`` with
-``p g = 0`` where ``g = u + shift - h`` and ``u_q = 2 p_q / |q|`` (Polonsky and Keer, Wear 231:206,
-1999, doi 10.1016/S0043-1648(99)00113-1; Stanley and Kato, doi 10.1115/1.2833523).
+``p g = 0`` where ``g = u + shift - h`` and ``u_q = 2 p_q / |q|``, or S times that for a layer
+(`solids`; Polonsky and Keer, Wear 231:206, 1999, doi 10.1016/S0043-1648(99)00113-1; Stanley and
+Kato, doi 10.1115/1.2833523).
 
 * For a guess of the contact set, preconditioned conjugate gradients solve ``g = 0`` there for the
   pressure (`preconditioner`). The number of iterations hardly depends on the grid.
@@ -11,13 +12,14 @@ Given heights ``h`` and a mean pressure, find the pressure ``p >= 0`` and the ga
 * Coarser grids supply a first guess of the gap, which is smooth enough to be interpolated. With the
   exact heights it gives a pressure. A point is put into contact where ``p > c k g``, k being the
   stiffness of a single pixel: this predicts the set to a per cent.
+* Where that fails on a layer, `projected_gradients` goes on.
 """
 
 from dataclasses import dataclass, replace
 
 import numpy as np
 
-from stickiness.contact import active_set
+from stickiness.contact import active_set, projected_gradients
 from stickiness.contact.grids import (
     check_length,
     coarsen,
@@ -28,10 +30,12 @@ from stickiness.contact.grids import (
 )
 from stickiness.core.arguments import grid, integer, number
 from stickiness.core.plausibility import warn_of_heights, warn_of_pressure
+from stickiness.solids import HALF_SPACE, check_solid
 
 _COARSEST = 64  # points along the shorter side of the coarsest grid
 _NEAR = 0.005  # relative change of load up to which the last solution is the better start
 _LOOSEST = 0.1  # of h_rms: beyond this no solution is worth the name
+_MOST_ON_LAYER = 150  # iterations with active sets on a layer: tens do, or they hardly gain
 _COARSE_TOLERANCE = 3e-3  # of h_rms: a guess for the next grid needs no more
 
 
@@ -50,6 +54,7 @@ class Contact:
         Share of points with positive pressure.
     shift : float
         Rigid displacement in ``gap = u + shift - h``, with u of zero mean; unit of the heights.
+        The approach of a layer's backing is ``solid.mean_compliance * mean_pressure - shift``.
     residual : float
         Largest violation of the contact conditions, in units of h_rms: the maximum over the grid
         of ``|u + shift - h|`` in contact and of the penetration ``-(u + shift - h)`` outside it.
@@ -100,8 +105,9 @@ def solve(
     max_iterations=1000,
     precision="double",
     logger=None,
+    solid=HALF_SPACE,
 ) -> Contact:
-    """Solve the contact of a half-space with a rigid periodic surface at a mean pressure.
+    """Solve the contact of an elastic solid with a rigid periodic surface at a mean pressure.
 
     Parameters
     ----------
@@ -123,6 +129,8 @@ def solve(
         nothing: all iterations but the last ones are in single precision anyway.
     logger : logging.Logger, optional
         Told the progress at level INFO.
+    solid : solids.HalfSpace or solids.Layer, optional
+        Elastic solid, a half-space by default; the thickness of a layer is in the unit of `length`.
 
     Raises
     ------
@@ -159,15 +167,26 @@ def solve(
         )
     if precision not in ("double", "single"):
         raise ValueError(f"precision must be 'double' or 'single', got {precision!r}")
+    solid = check_solid(solid)
     warn_of_heights(measure_scale(heights)[1], lengths[0])
     if pressure > 1:
-        warn_of_pressure(pressure, measure_slope(heights, lengths))
+        # a thin layer takes that much more pressure
+        stiffening = 1 / solid.factor(2 * np.pi / max(lengths))
+        warn_of_pressure(pressure, measure_slope(heights, lengths) * stiffening)
     rough = precision == "single"
-    return press(heights, lengths, pressure, tol, start, max_iterations, rough, logger)
+    return press(heights, lengths, pressure, tol, start, max_iterations, rough, logger, solid)
 
 
 def press(
-    heights, lengths, pressure, tol, start=None, max_iterations=1000, rough=False, logger=None
+    heights,
+    lengths,
+    pressure,
+    tol,
+    start=None,
+    max_iterations=1000,
+    rough=False,
+    logger=None,
+    solid=HALF_SPACE,
 ):
     """Solve as `solve` does, of arguments that were checked, in any unit: nothing is warned of.
 
@@ -179,19 +198,33 @@ def press(
     scaled = heights - mean
     scaled /= rms
     problem = active_set.Problem(
-        scaled, (1.0, lengths[1] / lengths[0]), pressure * (lengths[0] / rms)
+        scaled,
+        (1.0, lengths[1] / lengths[0]),
+        pressure * (lengths[0] / rms),
+        solid.in_unit(lengths[0]),
     )
     work = []
     guess = start.pressure if start is not None and start.area_fraction > 0 else None
+    layered = solid != HALF_SPACE
     state = active_set.relax(
         problem,
         tol=tol,
         rough=rough,
-        max_iterations=max_iterations,
+        max_iterations=min(max_iterations, _MOST_ON_LAYER) if layered else max_iterations,
         pressure=guess,
         gap=coarse_gap(problem, work, logger) if guess is None else None,
         logger=logger,
     )
+    spent = state.iterations, state.pairs
+    if layered and not state.residual <= tol and spent[0] < max_iterations:
+        state = projected_gradients.relax(
+            problem,
+            np.asarray(state.pressure, dtype=float),
+            tol=tol,
+            max_iterations=max_iterations - spent[0],
+            logger=logger,
+        )
+        spent = spent[0] + state.iterations, spent[1] + state.pairs
     # The fields are this call's own: scaled in place, for they may be large.
     field, gap = (np.asarray(values, dtype=float) for values in (state.pressure, state.gap))
     field *= rms / lengths[0]
@@ -204,14 +237,14 @@ def press(
         mean_gap=float(gap.mean()),
         shift=state.shift * rms + mean,
         residual=state.residual,
-        iterations=state.iterations,
-        fft_pairs=state.pairs + sum(work) / scaled.size,
+        iterations=spent[0],
+        fft_pairs=spent[1] + sum(work) / scaled.size,
         length=lengths,
         rms_height=rms,
     )
     if not state.residual <= tol:
         raise ConvergenceError(
-            f"residual {state.residual:.2e} h_rms after {state.iterations} iterations, "
+            f"residual {state.residual:.2e} h_rms after {spent[0]} iterations, "
             f"asked for {tol:.2e}: raise max_iterations, or tol if it is near rounding",
             contact,
         )

@@ -1,0 +1,235 @@
+"""Elastic solids that a rough surface presses on: half-space, or layer of finite thickness.
+
+A pressure wave ``p_q`` displaces the surface of a solid by ``u_q = (2/|q|) S p_q/E*``. E* is the
+plane-strain modulus of the material at the surface, that of the layer. S, the `factor`, is one for
+a half-space and a function of ``k = |q| d`` for a layer of thickness d. It follows from plane
+strain (Airy's function ``(A + B z) cosh qz + (C + D z) sinh qz``) with a surface free of shear:
+
+- free to slip on a rigid base: ``S = (cosh 2k - 1)/(sinh 2k + 2k)``;
+- bonded to a half-space, m being the shear modulus of the layer over that of the half-space,
+  ``a = 3 - 4 nu`` and b the same of the half-space, ``D = (1 + m b)(m + a)``:
+
+      S = [(1 - L)/2 cosh 2k + (1 + L)/2 sinh 2k + 2 k K]
+          / [(1 + L)/2 cosh 2k + (1 - L)/2 sinh 2k - (l + K)/2 - 2 k^2 K]
+
+  with ``l = (m b - a)/(1 + m b)``, ``K = (m - 1)/(m + a)`` and ``L = l K`` (O'Sullivan and King,
+  J. Tribol. 110:235, 1988);
+- bonded to a rigid base: the same at m = 0,
+
+      S = [a sinh 2k - 2k]/[a cosh 2k + 2 k^2 + 5 - 12 nu + 8 nu^2]
+
+  (Carbone and Mangialardi, J. Mech. Phys. Solids 56:684, 2008, doi 10.1016/j.jmps.2007.05.009).
+
+S tends to 1 for short waves. For long ones it is k/2 (slip), ``k (1 - 2 nu)/(2 (1 - nu)^2)``
+(bonded, compressible), ``2 k^3/3`` (bonded, nu = 1/2), and E* of the layer over that of an elastic
+backing. The code regroups numerator and denominator into sums of terms that do not cancel.
+
+**Mean pressure.** The wave q = 0 is no limit of the others. A half-space has no finite response,
+and everywhere in this library displacements have no mean: a mean gap is that between the deformed
+surfaces, whatever the solid. A layer as a whole yields by `mean_compliance` times the mean
+pressure besides. Who controls the approach of the backing (the distance by which its far side has
+come closer) adds that: approach = ``mean_compliance * pressure - shift`` in the terms of
+`repulsive.Contact`. The work of the load on the mean compression is stored there, so that mean
+gaps, energies and works of adhesion do not depend on it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Literal
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from stickiness.core.arguments import number, plain, positive
+
+_SHORTEST = 350.0  # k beyond which exp(-2k) is zero beside anything
+_SERIES = 1.5  # 2k below which sinh and cosh are expanded
+_TERMS = 12
+
+
+@dataclass(frozen=True)
+class HalfSpace:
+    """Elastic half-space: the default everywhere."""
+
+    mean_compliance = 0.0  # undefined; displacements are counted from their mean
+
+    def factor(self, q: ArrayLike) -> float:
+        """Compliance over that of a half-space: one."""
+        return 1.0
+
+    def compliance(self, q: ArrayLike) -> float | NDArray:
+        """Displacement per pressure u_q E*/p_q = 2/q [length] of waves `q` > 0 [1/length]."""
+        return _compliance(self, q)
+
+    def stiffness(self, q: ArrayLike) -> float | NDArray:
+        """Pressure per displacement p_q/(u_q E*) = q/2 [1/length] of waves `q` > 0 [1/length]."""
+        return _stiffness(self, q)
+
+    def in_unit(self, length: float) -> HalfSpace:
+        """Return the solid with `length` as the unit of length."""
+        return self
+
+
+@dataclass(frozen=True)
+class Backing:
+    """Elastic half-space that a layer is bonded to.
+
+    Parameters
+    ----------
+    modulus_ratio : float
+        Young's modulus of the half-space over that of the layer, positive.
+    poisson : float
+        Poisson's ratio of the half-space, 0 to 0.5.
+    """
+
+    modulus_ratio: float
+    poisson: float
+
+    def __post_init__(self):
+        _set(self, "modulus_ratio", number("modulus_ratio", self.modulus_ratio))
+        _set(self, "poisson", number("poisson", self.poisson, zero=True, most=0.5))
+
+
+@dataclass(frozen=True)
+class Layer:
+    """Elastic layer on a rigid base or on a half-space.
+
+    Parameters
+    ----------
+    thickness : float
+        Thickness d [length], positive.
+    poisson : float
+        Poisson's ratio nu, 0 to 0.5; exactly 0.5 for an incompressible layer.
+    backing : {"bonded", "slip"} or Backing
+        Bonded to a rigid base, free to slip on it without friction, or bonded to an elastic
+        half-space.
+
+    Raises
+    ------
+    ValueError
+        If an argument is out of range.
+
+    Examples
+    --------
+    >>> rubber = Layer(thickness=1.0, poisson=0.5)
+    >>> print(f"{rubber.compliance(0.01):.4e}")  # (4/3) q^2 d^3: long waves hardly move it
+    1.3332e-04
+    >>> rubber.mean_compliance
+    0.0
+    """
+
+    thickness: float
+    poisson: float
+    backing: Literal["bonded", "slip"] | Backing = "bonded"
+
+    def __post_init__(self):
+        _set(self, "thickness", number("thickness", self.thickness))
+        _set(self, "poisson", number("poisson", self.poisson, zero=True, most=0.5))
+        named = isinstance(self.backing, str) and self.backing in ("bonded", "slip")
+        if not (named or isinstance(self.backing, Backing)):
+            raise ValueError(
+                "backing must be 'bonded', 'slip' or a Backing(modulus_ratio, poisson), "
+                f"got {self.backing!r}"
+            )
+
+    @property
+    def mean_compliance(self) -> float:
+        """Compression per uniform pressure, times E* [length].
+
+        ``d (1 - 2 nu)/(1 - nu)^2``, which is d (1 + nu)(1 - 2 nu)/((1 - nu) E) per pressure. The
+        layer is wide and cannot spread, on a base that it sticks to or slips on alike. (A long
+        wave, 2 S/q, finds this compliance if bonded; if it slips, d, for material can flow from
+        crests to troughs.) An elastic backing is not counted: as of any half-space, its own mean
+        displacement is not defined.
+        """
+        return self.thickness * (1 - 2 * self.poisson) / (1 - self.poisson) ** 2
+
+    def factor(self, q: ArrayLike) -> float | NDArray:
+        """Compliance over that of a half-space, S, of waves `q` >= 0 [1/length]."""
+        k = np.minimum(np.asarray(q, dtype=float) * self.thickness, _SHORTEST)
+        if self.backing == "slip":
+            # Multiplied by 2 exp(-2k); exp(-2k) = 1 + gone.
+            gone = np.expm1(-2 * k)
+            below = -gone * (2 + gone) + 4 * k * (1 + gone)
+            return plain(gone**2 / np.where(k > 0, below, 1.0))
+        above, below = self._bonded(k)
+        return plain(above / below)
+
+    def compliance(self, q: ArrayLike) -> float | NDArray:
+        """Displacement per pressure u_q E*/p_q = 2 S/q [length] of waves `q` > 0 [1/length]."""
+        return _compliance(self, q)
+
+    def stiffness(self, q: ArrayLike) -> float | NDArray:
+        """Pressure per displacement p_q/(u_q E*) [1/length] of waves `q` > 0 [1/length]."""
+        return _stiffness(self, q)
+
+    def in_unit(self, length: float) -> Layer:
+        """Return the solid with `length` as the unit of length."""
+        return replace(self, thickness=self.thickness / length)
+
+    def _bonded(self, k: NDArray) -> tuple[NDArray, NDArray]:
+        """Numerator and denominator of S, both times 2 D exp(-2k)/(1 + m)^2.
+
+        In these groups all terms are positive, but for one that is always outweighed.
+        """
+        nu, other, soft, hard = self.poisson, 0.0, 0.0, 1.0
+        if isinstance(self.backing, Backing):
+            other = self.backing.poisson
+            ratio = self.backing.modulus_ratio * (1 + nu) / (1 + other)  # 1/m
+            soft, hard = 1 / (1 + ratio), ratio / (1 + ratio)  # m/(1 + m), 1/(1 + m)
+        a, b, open1, open2 = 3 - 4 * nu, 3 - 4 * other, 1 - 2 * nu, 1 - 2 * other
+        mixed = soft * hard
+        plus = 2 * (hard**2 * a + soft**2 * b + 2 * mixed * open1 * open2)  # D (1 + L)
+        minus = mixed * (1 + a) * (1 + b)  # D (1 - L)
+        linear = 2 * hard**2 * open1 + 2 * soft**2 * b - 4 * mixed * nu * open2
+        square = 4 * (1 - nu) * hard * (hard + soft * open2)  # D ((1 + L)/2 - K)
+        gone = np.exp(-2 * k)
+        sinh, cosh = -np.expm1(-4 * k), 1 + gone**2
+        odd, even = _less_leading_terms(2 * k)
+        above = (minus * cosh + plus * odd) / 2 + 4 * linear * k * gone
+        below = (plus * even + minus * sinh) / 2
+        below += ((hard * (1 + a)) ** 2 + 4 * square * k**2) * gone
+        return above, below
+
+
+Solid = HalfSpace | Layer
+HALF_SPACE = HalfSpace()
+
+
+def check_solid(solid: Solid) -> Solid:
+    """Return a solid; ValueError for anything else."""
+    if not isinstance(solid, Solid):
+        got = f"the class {solid.__name__}" if isinstance(solid, type) else repr(solid)
+        raise ValueError(f"solid must be solids.HalfSpace() or a solids.Layer(...), got {got}")
+    return solid
+
+
+def _set(frozen, name, value):
+    object.__setattr__(frozen, name, value)
+
+
+def _compliance(solid: Solid, q: ArrayLike) -> float | NDArray:
+    (q,) = positive(q=q)
+    return plain(2 / q * solid.factor(q))
+
+
+def _stiffness(solid: Solid, q: ArrayLike) -> float | NDArray:
+    (q,) = positive(q=q)
+    return plain(q / 2 / solid.factor(q))
+
+
+def _less_leading_terms(x: NDArray) -> tuple[NDArray, NDArray]:
+    """Return sinh x - x and cosh x - 1 - x^2/2, both times 2 exp(-x), without cancellation."""
+    gone = np.exp(-x)
+    odd = -np.expm1(-2 * x) - 2 * x * gone
+    even = 1 + gone**2 - (2 + x**2) * gone
+    small = x < _SERIES
+    y = np.where(small, x, 0.0) ** 2
+    third = fourth = np.zeros_like(y)  # sinh: x^3 (1/6 + ...), cosh: x^4 (1/24 + ...)
+    for n in range(_TERMS, 0, -1):
+        third = (1 + third * y) / ((2 * n) * (2 * n + 1))
+        fourth = (1 + fourth * y) / ((2 * n + 1) * (2 * n + 2))
+    odd = np.where(small, 2 * gone * x * y * third, odd)
+    even = np.where(small, gone * y**2 * fourth, even)
+    return odd, even

@@ -1,0 +1,175 @@
+"""Compliance of layers against the boundary value problem, solved on its own, and its limits."""
+
+import math
+
+import mpmath
+import numpy as np
+import pytest
+
+from stickiness.solids import Backing, HalfSpace, Layer
+
+POISSON = [0.0, 0.3, 0.4999, 0.5]
+WAVES = [1e-6, 1e-3, 0.1, 0.74, 0.76, 3.0, 10.0, 40.0]
+
+
+def matrix(shear, nu):
+    """Growth with depth of (u, w, xz, zz) in a wave (u sin x, w cos x, xz sin x, zz cos x).
+
+    Plane strain: equilibrium and Hooke's law as a system of the first order, regular at nu = 1/2.
+    """
+    return mpmath.matrix(
+        [
+            [0, 1, 1 / shear, 0],
+            [-nu / (1 - nu), 0, 0, (1 - 2 * nu) / (2 * shear * (1 - nu))],
+            [2 * shear / (1 - nu), 0, 0, nu / (1 - nu)],
+            [0, 0, -1, 0],
+        ]
+    )
+
+
+def boundary_value_problem(k, poisson, backing):
+    """S of a layer: shear-free surface under a unit pressure wave, conditions at its far side."""
+    with mpmath.workdps(150):
+        nu, eye = mpmath.mpf(poisson), mpmath.eye(4)
+        through = mpmath.expm(matrix(mpmath.mpf(1), nu) * mpmath.mpf(k))
+        if isinstance(backing, Backing):
+            other = mpmath.mpf(backing.poisson)
+            shear = mpmath.mpf(backing.modulus_ratio) * (1 + nu) / (1 + other)
+            # what decays with depth belongs to the double eigenvalue -1
+            growing = matrix(shear, other) + eye
+            conditions = (growing * growing)[:2, :]
+        else:
+            rows = {"bonded": (0, 1), "slip": (1, 2)}[backing]
+            conditions = mpmath.matrix([[eye[row, j] for j in range(4)] for row in rows])
+        conditions = conditions * through
+        unknown = mpmath.lu_solve(conditions[:, :2], conditions[:, 3])  # zz = -1
+        return float(unknown[1] / (1 - nu))  # w E*/2, E* = 2/(1 - nu)
+
+
+BACKINGS = [
+    "bonded",
+    "slip",
+    Backing(3.0, 0.2),
+    Backing(0.3, 0.5),
+    Backing(1e-6, 0.3),
+    Backing(1e6, 0.0),
+    Backing(1.0, 0.5),
+]
+
+
+@pytest.mark.parametrize("backing", BACKINGS, ids=str)
+@pytest.mark.parametrize("poisson", POISSON)
+def test_factor_solves_the_boundary_value_problem(poisson, backing):
+    waves = np.array(WAVES)
+    expected = [boundary_value_problem(k, poisson, backing) for k in WAVES]
+    # a thickness of two: k = q d
+    factor = Layer(2.0, poisson, backing).factor(waves / 2)
+    np.testing.assert_allclose(factor, expected, rtol=1e-12)
+
+
+@pytest.mark.parametrize("backing", BACKINGS, ids=str)
+@pytest.mark.parametrize("poisson", POISSON)
+def test_short_waves_see_a_half_space(poisson, backing):
+    layer = Layer(1.0, poisson, backing)
+    np.testing.assert_allclose(layer.factor([60.0, 1e3, 1e6, 1e300]), 1.0, rtol=1e-13)
+    assert layer.compliance(1e6) == pytest.approx(HalfSpace().compliance(1e6), rel=1e-13)
+
+
+@pytest.mark.parametrize(
+    ("poisson", "backing", "power", "prefactor"),
+    [
+        (0.5, "bonded", 3, 2 / 3),
+        (0.3, "bonded", 1, 0.4 / (2 * 0.7**2)),
+        (0.3, "slip", 1, 1 / 2),
+        (0.5, "slip", 1, 1 / 2),
+        # E* of the layer over that of the backing
+        (0.3, Backing(4.0, 0.5), 0, 0.75 / 0.91 / 4.0),
+    ],
+)
+def test_long_waves(poisson, backing, power, prefactor):
+    k = np.array([1e-6, 1e-5])
+    factor = Layer(1.0, poisson, backing).factor(k)
+    np.testing.assert_allclose(factor, prefactor * k**power, rtol=1e-4 if power == 0 else 1e-9)
+
+
+def test_nearly_incompressible_is_between_its_limits():
+    # 1 - 2 nu = 1e-12: compressible for k < 1e-6, as (1 - 2 nu) k and k^3 add up
+    nu = 0.5 * (1 - 1e-12)
+    k = np.array([1e-8, 1e-6, 1e-4])
+    expected = 2 * (1 - 2 * nu) * k + 2 / 3 * k**3
+    np.testing.assert_allclose(Layer(1.0, nu).factor(k), expected, rtol=1e-7)
+
+
+def test_the_same_material_below_is_a_half_space():
+    waves = np.geomspace(1e-6, 1e6, 50)
+    np.testing.assert_allclose(Layer(1.0, 0.3, Backing(1.0, 0.3)).factor(waves), 1.0, rtol=1e-14)
+
+
+def test_a_stiff_backing_is_rigid():
+    waves = np.geomspace(1e-2, 1e2, 20)
+    backed = Layer(1.0, 0.3, Backing(1e13, 0.3)).factor(waves)
+    np.testing.assert_allclose(backed, Layer(1.0, 0.3).factor(waves), rtol=1e-10)
+
+
+def test_half_space():
+    solid = HalfSpace()
+    assert solid.compliance(4.0) == 0.5
+    assert solid.stiffness(4.0) == 2.0
+    assert solid.mean_compliance == 0.0
+    assert solid.in_unit(3.0) == solid
+    assert isinstance(solid.compliance([1.0, 2.0]), np.ndarray)
+
+
+def test_stiffness_inverts_compliance_and_the_unit_of_length_is_free():
+    layer, waves = Layer(0.3, 0.45), np.geomspace(1e-3, 1e3, 30)
+    np.testing.assert_allclose(layer.stiffness(waves) * layer.compliance(waves), 1, rtol=1e-14)
+    small = layer.in_unit(0.01)
+    np.testing.assert_allclose(small.compliance(0.01 * waves), layer.compliance(waves) / 0.01)
+    assert isinstance(layer.compliance(1.0), float)
+
+
+@pytest.mark.parametrize("poisson", [0.0, 0.2, 0.4, 0.5])
+def test_mean_compression_is_that_of_uniaxial_strain(poisson):
+    """Hooke's law with no strain sideways: E (1 - nu)/((1 + nu)(1 - 2 nu)), by its inverse."""
+    layer = Layer(0.7, poisson)
+    # stress sideways s from 0 = s - nu (s + p); strain = (p - 2 nu s)/E; E* = E/(1 - nu^2)
+    sideways = poisson / (1 - poisson)
+    strain = (1 - 2 * poisson * sideways) / (1 - poisson**2)
+    assert layer.mean_compliance == pytest.approx(0.7 * strain, abs=1e-15)
+    # the limit of long waves of a bonded layer, which cannot flow sideways either
+    limit = layer.compliance(1e-7)
+    assert layer.mean_compliance == pytest.approx(limit, rel=1e-9, abs=1e-13)
+    assert Layer(0.7, poisson, "slip").mean_compliance == layer.mean_compliance
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        ((0.0, 0.3), "thickness must be positive"),
+        ((math.inf, 0.3), "thickness must be positive and finite"),
+        (("1", 0.3), "thickness must be a number"),
+        ((1.0, 0.6), "poisson must be non-negative and at most 0.5, got 0.6"),
+        ((1.0, -0.1), "poisson must be non-negative"),
+        ((1.0, 0.3, "glued"), "backing must be 'bonded', 'slip' or a Backing.*got 'glued'"),
+        ((1.0, 0.3, 2.0), "backing must be"),
+    ],
+)
+def test_bad_layers(arguments, message):
+    with pytest.raises(ValueError, match=message):
+        Layer(*arguments)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [((0.0, 0.3), "modulus_ratio must be positive"), ((1.0, 0.51), "poisson .* at most 0.5")],
+)
+def test_bad_backings(arguments, message):
+    with pytest.raises(ValueError, match=message):
+        Backing(*arguments)
+
+
+@pytest.mark.parametrize("solid", [HalfSpace(), Layer(1.0, 0.3)])
+def test_bad_waves(solid):
+    for ask in (solid.compliance, solid.stiffness):
+        with pytest.raises(ValueError, match="q must be positive and finite, got 0"):
+            ask(0.0)
