@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from stickiness.core.arguments import nonnegative, number
+from stickiness.solids import HALF_SPACE, Solid, check_solid
 
 _ROUNDING = 1e-12  # q within this relative distance of the band's end still belongs to it
 
@@ -91,12 +92,17 @@ class Spectrum(ABC):
             raise ValueError(f"moment: order must be 0, 2 or 4, got {order!r}") from None
         return share * float(self.variance_below(self.q1, order))
 
-    def elastic_energy(self) -> float:
+    def elastic_energy(self, solid: Solid = HALF_SPACE) -> float:
         """Elastic energy of full contact per nominal area over E* [length].
 
-        (pi/2) * integral of q^2 C dq (Persson & Tosatti 2001, doi:10.1063/1.1398300).
+        (pi/2) * integral of q^2 C dq (Persson & Tosatti 2001, doi:10.1063/1.1398300); of q^2 C/S
+        for a `solid` that is a layer, to 1e-12. The mean pressure's own energy is no part of it.
         """
-        return float(self.variance_below(self.q1, 1)) / 4
+        if check_solid(solid) == HALF_SPACE:
+            return float(self.variance_below(self.q1, 1)) / 4
+        from stickiness.surfaces.band_integral import integrate_band
+
+        return integrate_band(self, lambda q: q / solid.factor(q), self.q0, self.q1) / 4
 
 
 class PowerLawSegments(Spectrum):
