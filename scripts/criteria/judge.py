@@ -6,16 +6,17 @@ from pipeline.conventions import logarithmic_grid
 from pipeline.job import start
 from pipeline.verdicts.a_v import measure_a_v, scale_theory
 from pipeline.verdicts.budgets import add_budgets
+from pipeline.verdicts.joint import BY_END, ENDS
 from pipeline.verdicts.markdown import write_markdown
 from pipeline.verdicts.materials import read_material
 from pipeline.verdicts.pairs import (
-    BY_END,
-    ENDS,
     describe_edges,
+    describe_layers,
     describe_remaining,
     find_margins,
     follow_rates,
     gather_pairs,
+    join_all,
 )
 from pipeline.verdicts.probabilities import find_probabilities
 from pipeline.verdicts.words import decide_pairs, find_disagreement
@@ -23,7 +24,7 @@ from stickiness.core import datasets
 from stickiness.criteria.pair import WORDS
 from stickiness.criteria.registry import CRITERIA
 
-OF_SURFACES = (*BY_END, "q0", "hurst")
+OF_SURFACES = (*BY_END, "q0", "q1", "hurst", "psd")
 
 
 def main(job):
@@ -50,7 +51,8 @@ def main(job):
 
 def find_verdicts(materials, surfaces, a_v, constant, frequencies):
     """Every criterion for every material on both ends of every surface."""
-    pair = gather_pairs(materials, surfaces, a_v, constant)
+    joints = join_all(materials, surfaces, a_v)
+    pair = gather_pairs(materials, joints, constant)
     dataset = xr.Dataset(
         {
             "a_v": constant.value,
@@ -59,6 +61,7 @@ def find_verdicts(materials, surfaces, a_v, constant, frequencies):
             "work_of_adhesion": ("material", [m.work_of_adhesion for m in materials.values()]),
             **find_margins(pair),
             **describe_remaining(pair),
+            **describe_layers(joints),
             **describe_edges(pair),
         },
         coords={
@@ -68,7 +71,7 @@ def find_verdicts(materials, surfaces, a_v, constant, frequencies):
             "criterion": list(CRITERIA),
         },
     )
-    dataset = dataset.assign(find_probabilities(materials, surfaces))
+    dataset = dataset.assign(find_probabilities(materials, joints))
     dataset = dataset.assign(follow_rates(pair, materials, frequencies))
     dataset["verdict"] = decide_pairs(dataset)
     dataset["disagrees"] = find_disagreement(dataset)
@@ -99,6 +102,7 @@ def describe(dataset):
         pull_off_high=("Pa", f"{pull_off}, high limit of the model"),
         energy_ratio=("1", "work of adhesion over the elastic energy of full contact"),
         range_over_h_rms=("1", "range of attraction over rms height"),
+        stiffening=("1", "energy of full contact over that of a half-space"),
         pair_a_v=("1", "a_V of the pair: its surface's spectrum, its range over h_rms"),
         pair_a_v_low=("1", "low limit of the pair's a_V"),
         pair_a_v_high=("1", "high limit of the pair's a_V"),

@@ -20,10 +20,10 @@ def main(job):
     surface = datasets.read(job.input.surface, NEEDED)
     ranges = logarithmic_grid(job.params.ranges)
     load, gamma = job.params.pressure, job.params.gamma
-    names, a_v, edge = a_v_of(surface, -1, ranges, load, gamma)
+    names, a_v, edge = a_v_of(surface, "rough", ranges, load, gamma)
     if not same_shape(surface):
         # The law beyond the instrument's band is known with an error, which is that of a_V too.
-        more, other, _ = a_v_of(surface, 0, ranges, load, gamma)
+        more, other, _ = a_v_of(surface, "smooth", ranges, load, gamma)
         names, a_v = [*names, *(f"{name}, smooth end" for name in more)], [*a_v, *other]
     dataset = xr.Dataset(
         {"a_v": (("variant", "range"), a_v), "edge_range": edge},
@@ -68,7 +68,7 @@ def same_shape(surface):
 
 def edge_a_v(surface, end):
     """a_V equivalent to Pastewka and Robbins' attractive area, from slope and curvature."""
-    known = surface.isel(end=end)
+    known = surface.sel(end=end)
     moments = (float(known[name]) for name in ("h_rms", "rms_slope", "rms_curvature"))
     return criteria.pastewka_robbins_a_v(float(surface.q0), *moments)
 

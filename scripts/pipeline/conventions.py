@@ -73,6 +73,8 @@ def model_spectrum(surface: Mapping[str, Any]) -> SelfAffine:
         q1=Q0 * surface["magnification"],
         h_rms=1.0,
         q_rolloff=None if rolloff is None else Q0 * rolloff,
+        anisotropy=surface.get("anisotropy", 1.0),
+        angle=np.radians(surface.get("angle", 0.0)),
     )
 
 

@@ -22,6 +22,8 @@ def configured_spectrum(asked, end):
         q0=wave_number(asked, "q0", "longest_wavelength"),
         q1=wave_number(asked, "q1", "shortest_wavelength"),
         q_rolloff=wave_number(asked, "", "rolloff_wavelength"),
+        anisotropy=asked.get("anisotropy", 1.0),
+        angle=np.radians(asked.get("angle", 0.0)),
         **size,
     )
 
@@ -33,8 +35,8 @@ def wave_number(asked, key, wavelength):
     return 2 * np.pi / si(asked[wavelength], "m") if wavelength in asked else None
 
 
-def real_spectrum(surface, end=-1):
+def real_spectrum(surface, end="rough"):
     """Spectrum of one end of an analysed real surface, up to its q1."""
     inside = surface.wave_number <= float(surface.q1) * (1 + 1e-9)
-    known = surface.isel(end=end, wave_number=np.flatnonzero(inside))
+    known = surface.sel(end=end).isel(wave_number=np.flatnonzero(inside))
     return Tabulated(known.wave_number.values, known.psd.values)

@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 from stickiness.core.units import si
 from stickiness.criteria.moduli import REFERENCE_FREQUENCY, Constant, Modulus, Prony, Table
+from stickiness.solids import HALF_SPACE, Backing, Layer, Solid
 
 RATE_KEYS = ("youngs_modulus_table", "youngs_modulus_prony")
 
@@ -16,6 +17,8 @@ class Material:
     work_of_adhesion: float  # J/m^2
     range: float  # of the attraction, m
     depends_on_rate: bool  # whether the modulus is more than a constant
+    solid: Solid = HALF_SPACE  # or a layer, thickness in m
+    surface: str | None = None  # name of its own rough surface
 
     @property
     def modulus(self):
@@ -30,7 +33,21 @@ def read_material(entry):
         work_of_adhesion=si(entry["work_of_adhesion"], "J/m^2"),
         range=si(entry["range"], "m"),
         depends_on_rate=any(key in entry for key in RATE_KEYS),
+        solid=read_solid(entry),
+        surface=entry.get("surface"),
     )
+
+
+def read_solid(entry):
+    """Half-space, or layer on its backing."""
+    if "thickness" not in entry:
+        return HALF_SPACE
+    backing = entry.get("backing", "bonded")
+    if not isinstance(backing, str):
+        own = read_modulus(entry).storage(REFERENCE_FREQUENCY) * (1 - entry["poisson_ratio"] ** 2)
+        ratio = si(backing["youngs_modulus"], "Pa") / float(own)
+        backing = Backing(ratio, backing["poisson_ratio"])
+    return Layer(si(entry["thickness"], "m"), entry["poisson_ratio"], backing)
 
 
 def read_modulus(entry):
@@ -65,4 +82,15 @@ def describe_modulus(entry):
         text = f"E = {series['equilibrium']} at rest, {len(series['terms'])} Prony terms"
     else:
         text = f"E = {entry['youngs_modulus']}"
-    return f"{text}, ν = {entry['poisson_ratio']}"
+    text += f", ν = {entry['poisson_ratio']}"
+    return f"{text}, {describe_layer(entry)}" if "thickness" in entry else text
+
+
+def describe_layer(entry):
+    """Thickness and backing in words."""
+    backing = entry.get("backing", "bonded")
+    if backing == "slip":
+        return f"{entry['thickness']} thick, free to slip on a rigid base"
+    if backing == "bonded":
+        return f"{entry['thickness']} thick on a rigid base"
+    return f"{entry['thickness']} thick on a half-space of {backing['youngs_modulus']}"

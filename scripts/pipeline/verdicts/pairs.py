@@ -4,34 +4,45 @@ from dataclasses import replace
 
 import numpy as np
 
+from pipeline.verdicts.joint import BY_END, ENDS, join
 from stickiness import criteria
 from stickiness.criteria.pair import Pair, classify_edges
 from stickiness.criteria.registry import CRITERIA
 
-ENDS = ("smooth", "rough")
 DIMS = ("material", "surface", "end")
 LIMITS = {"": 0, "_low": -1, "_high": 1}
-BY_END = ("h_rms", "rms_slope", "rms_curvature", "elastic_energy")
 
 
-def gather_pairs(materials, surfaces, a_v, constant) -> Pair:
-    """`Pair` of arrays on the dimensions `DIMS`."""
-    shape = len(materials), len(surfaces), len(ENDS)
+def join_all(materials, surfaces, a_v):
+    """`Joint` of every pair, a row for every material."""
+    return [
+        [
+            join(material, surface, a_v[name], surfaces.get(material.surface))
+            for name, surface in surfaces.items()
+        ]
+        for material in materials.values()
+    ]
+
+
+def gather_pairs(materials, joints, constant) -> Pair:
+    """`Pair` of arrays on the dimensions `DIMS`; `joints` of `join_all`."""
+    shape = len(materials), len(joints[0]), len(ENDS)
     solids = materials.values()
     of_solids = {
         name: np.reshape([getattr(solid, name) for solid in solids], (-1, 1, 1))
         for name in ("modulus", "work_of_adhesion", "range")
     }
     of_surfaces = {
-        name: np.array([surface[name].sel(end=list(ENDS)).values for surface in surfaces.values()])
+        name: np.array([[getattr(joint, name) for joint in row] for row in joints])
         for name in BY_END
     }
-    of_surfaces["q0"] = np.reshape([float(surface.q0) for surface in surfaces.values()], (-1, 1))
+    for name in ("q0", "widening"):
+        numbers = [[getattr(joint, name) for joint in row] for row in joints]
+        of_surfaces[name] = np.array(numbers)[..., None]
     found = [
-        [[a_v[name].at(solid.range / h) for h in heights]
-         for name, heights in zip(surfaces, of_surfaces["h_rms"], strict=True)]
-        for solid in solids
-    ]  # fmt: skip
+        [joint.a_v_at(solid.range) for joint in row]
+        for solid, row in zip(solids, joints, strict=True)
+    ]
     of_pairs = dict(zip(("a_v", "a_v_low", "a_v_high"), np.moveaxis(found, -1, 0), strict=True))
     every = of_solids | of_surfaces | of_pairs
     return Pair(
@@ -50,6 +61,11 @@ def find_margins(pair):
         "margin": (dims, np.stack(margins, axis=-1)),
         "threshold_by_criterion": (dims, np.stack(moduli, axis=-1)),
     }
+
+
+def describe_layers(joints):
+    """Energy of full contact of every pair over that of a half-space."""
+    return {"stiffening": (DIMS, np.array([[joint.stiffening for joint in row] for row in joints]))}
 
 
 def describe_remaining(pair):

@@ -10,11 +10,9 @@ import numpy as np
 
 from pipeline.verdicts.pairs import DIMS
 from stickiness.core.statistics import COVERS
-from stickiness.remaining.prediction import Roughness
 
 QUANTILES = (0.05, 0.5, 0.95)
 SEED = 2
-DRAWN = ("h_rms_draws", "q0_draws", "elastic_energy_draws")
 
 
 @dataclass(frozen=True)
@@ -38,15 +36,15 @@ class Drawn:
         return float(np.mean(self.margins > 1))
 
 
-def find_probabilities(materials, surfaces):
+def find_probabilities(materials, joints):
     """Distribution of the margin of every pair; NaN on surfaces that were not measured."""
-    shape = (len(materials), len(surfaces))
+    shape = (len(materials), len(joints[0]))
     probability, spectrum, from_model, of_share = (np.full(shape, np.nan) for _ in range(4))
     margins, remaining = np.full((2, *shape, len(QUANTILES)), np.nan)
     for i, solid in enumerate(materials.values()):
-        for j, surface in enumerate(surfaces.values()):
-            if all(drawn in surface for drawn in DRAWN):
-                found = draw_pair(solid, surface)
+        for j, joint in enumerate(joints[i]):
+            if joint.drawn is not None:
+                found = draw_pair(solid, joint.drawn)
                 probability[i, j] = found.probability
                 margins[i, j] = np.quantile(found.margins, QUANTILES)
                 remaining[i, j] = np.quantile(found.remaining, QUANTILES)
@@ -63,9 +61,8 @@ def find_probabilities(materials, surfaces):
     }
 
 
-def draw_pair(material, surface):
-    """`Drawn` of a `Material` on a surface with draws."""
-    rough = Roughness(*(surface[name].values for name in DRAWN))
+def draw_pair(material, rough):
+    """`Drawn` of a `Material` on the draws of a surface."""
     length = material.work_of_adhesion / material.modulus
     sign = np.random.default_rng(SEED).normal(size=len(rough.h_rms)) / COVERS
     at_value = length / rough.threshold(material.range)

@@ -14,6 +14,7 @@ from stickiness.config.cross_checks import config_problems
 from stickiness.config.experiment_entries import experiment_problems
 from stickiness.config.messages import one_line
 from stickiness.config.surface_entries import (
+    layer_problems,
     measurements,  # noqa: F401 (public here, too)
     rate_problems,
     surface_problems,
@@ -22,6 +23,7 @@ from stickiness.core.units import si
 
 # Keys whose values are strings with units, and the unit that fixes their dimension.
 _LENGTHS = (
+    "thickness",
     *("range", "longest_wavelength", "shortest_wavelength", "rolloff_wavelength", "h_rms"),
     *("length", "pixel_size", "fit_from", "fit_to", "resolution", "tip_radius", "extend_to"),
 )
@@ -93,7 +95,7 @@ def check_all(
             check_units(content, config[table])
         tables.append(content[table])
     materials, surfaces, experiments = tables
-    check_materials(materials, config["materials"])
+    check_materials(materials, config["materials"], surfaces)
     check_surfaces(surfaces, config["surfaces"])
     check_experiments(experiments, config["experiments"])
     return materials, surfaces, experiments
@@ -134,10 +136,14 @@ def check_units(content: Mapping[str, Any], name: str) -> None:
             raise ConfigError(f"{name}: {key} = {value!r} must be positive")
 
 
-def check_materials(materials: Mapping[str, Any], name: str = "config/materials.yaml") -> None:
-    """Check moduli that depend on the rate: units, order, and that they cover 1 Hz."""
+def check_materials(
+    materials: Mapping[str, Any],
+    name: str = "config/materials.yaml",
+    surfaces: Mapping[str, Any] | None = None,
+) -> None:
+    """Check moduli that depend on the rate, layers, and the names of surfaces."""
     for key, material in materials.items():
-        for problem in rate_problems(material):
+        for problem in (*rate_problems(material), *layer_problems(material, surfaces or {})):
             raise ConfigError(f"{name}: materials.{key}.{problem}")
 
 

@@ -8,7 +8,7 @@ from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
-from stickiness.config.messages import unit_problem
+from stickiness.config.messages import unit_problem, unknown
 from stickiness.core.units import si
 from stickiness.measured import readers
 
@@ -35,6 +35,25 @@ def rate_problems(material: Mapping[str, Any]) -> Iterator[str]:
             f"youngs_modulus_table runs from {pairs[0][0]} to {pairs[-1][0]} and must cover 1 Hz, "
             "at which the verdict is quoted"
         )
+
+
+def layer_problems(material: Mapping[str, Any], surfaces: Mapping[str, Any]) -> Iterator[str]:
+    """Yield what is wrong with a layer or with the surface of a material, a line each."""
+    own = material.get("surface")
+    if own is not None and own not in surfaces:
+        yield unknown("surface", own, surfaces)
+    if "thickness" not in material:
+        if "backing" in material:
+            yield f"backing = {material['backing']!r} is of a layer: give its thickness, too"
+        return
+    poisson = material.get("poisson_ratio")
+    if "plane_strain_modulus" in material or poisson is None:
+        yield (
+            f"thickness = {material['thickness']!r}: a layer needs youngs_modulus and "
+            "poisson_ratio in place of plane_strain_modulus"
+        )
+    elif poisson < 0:
+        yield f"poisson_ratio = {poisson!r} of a layer must be between 0 and 0.5"
 
 
 def surface_problems(surface: Mapping[str, Any]) -> Iterator[str]:

@@ -4,6 +4,7 @@
 - `gaps`: gaps, from where contact is lost scale by scale
 - `kernels`: universal functions, tabulated once
 - `scale_quadrature`: quadrature over the scales
+- `layered_scales`: the same on a layer of finite thickness
 """
 
 from stickiness.persson.theory import Persson

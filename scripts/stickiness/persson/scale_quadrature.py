@@ -72,7 +72,7 @@ def scale_nodes(spectrum: Spectrum, nodes: float = 1.0) -> ScaleNodes:
     """
     if isinstance(spectrum, Shells):
         return _grouped_nodes(_shell_nodes(spectrum), nodes)
-    edges = _panel_edges(spectrum)
+    edges = scale_edges(spectrum)
     order = max(2, round(_ORDER * nodes))
     coarse = _gauss_nodes(spectrum, edges, order)
     if len(coarse.weight) > 2 * _MOST_COARSE * max(nodes, 1.0):
@@ -92,7 +92,7 @@ def knots(spectrum: Spectrum) -> NDArray:
     return getattr(spectrum, "knots", np.empty(0))[1:-1]
 
 
-def _panel_edges(spectrum: Spectrum) -> NDArray:
+def scale_edges(spectrum: Spectrum) -> NDArray:
     """Edges of panels in ln(q/q0), graded towards both ends and split at kinks of C.
 
     The integrand is like a square root near q0 at small loads and changes within small steps

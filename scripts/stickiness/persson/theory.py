@@ -42,7 +42,9 @@ from stickiness.persson.gaps import GapProfile, Setting, closure_error, gap_prof
 from stickiness.persson.gaps import cumulative as _cumulative
 from stickiness.persson.gaps import density as _density
 from stickiness.persson.kernels import CorrectionName, kernels
+from stickiness.persson.layered_scales import LayeredScales
 from stickiness.persson.scale_quadrature import scale_nodes
+from stickiness.solids import HALF_SPACE, Solid, check_solid
 from stickiness.surfaces.spectrum import Spectrum
 
 Variant = Literal["afferrante2018", "almqvist2011"]
@@ -78,11 +80,16 @@ class Persson:
     correction : {"yang2008", "wang2017", "xu2024"}
         How lost contact slows the diffusion of pressure and lowers the elastic energy:
         `kernels.Yang2008` (doi:10.1088/0953-8984/20/21/215214), `Wang2017` or `Xu2024`.
+    solid : solids.HalfSpace or solids.Layer, optional
+        Elastic solid, a half-space by default. On a layer the area, the mean gap and the pressure
+        at a mean gap are known, the distribution of gaps is not: see `layered_scales`.
 
     Raises
     ------
     ValueError
         If an argument is out of range.
+    NotImplementedError
+        From what needs the distribution of gaps, on a layer.
 
     Notes
     -----
@@ -105,6 +112,7 @@ class Persson:
         gamma: float | None = None,
         nodes: float = 1.0,
         correction: CorrectionName = "yang2008",
+        solid: Solid = HALF_SPACE,
     ):
         if not isinstance(spectrum, Spectrum):
             raise ValueError(f"spectrum must be a Spectrum, got {type(spectrum).__name__}")
@@ -115,7 +123,10 @@ class Persson:
         self.spectrum = spectrum = spectrum.averaged()
         self.variant, self.nodes = variant, nodes
         self.correction, self.gamma = correction, universal.correction.gamma
-        m2 = 0.5 * float(spectrum.variance_below(spectrum.q1, 2))
+        self.solid, self._layered = check_solid(solid), None
+        if solid != HALF_SPACE:
+            self._layered = LayeredScales(spectrum, solid, nodes)
+        m2 = self._variance_below(spectrum.q1)
         scales = scale_nodes(spectrum, nodes)
         self._setting = Setting(spectrum, universal, scales, m2, variant, nodes)
         self._profiles: dict[tuple[float, float], GapProfile] = {}
@@ -134,7 +145,7 @@ class Persson:
         (p,) = finite(p=p)
         if not np.all(p >= 0):
             raise ValueError(f"p must be finite and not negative, got {p!r}")
-        warn_of_pressure(float(np.max(p, initial=0.0)), self.spectrum.rms_slope)
+        warn_of_pressure(float(np.max(p, initial=0.0)), float(np.sqrt(2 * self._setting.m2)))
         m = self._setting.m2
         if magnification is not None:
             if np.ndim(magnification) or not magnification >= 1:
@@ -142,7 +153,7 @@ class Persson:
                     f"magnification must be a number of at least 1, got {magnification!r}"
                 )
             q = magnification * self.spectrum.q0
-            m = 0.5 * float(self.spectrum.variance_below(q, 2))
+            m = self._variance_below(q)
         if m == 0:
             return np.where(p > 0, 1.0, 0.0)[()]
         y = self._setting.kernels.invert_area_scale(m / np.where(p > 0, p, 1.0) ** 2)
@@ -155,6 +166,8 @@ class Persson:
         integral over `p` is the elastic energy of full contact.
         """
         (p,) = positive(p=p)
+        if self._layered is not None:
+            return self._layered.mean_gap(p, self._setting.kernels)
         s = np.sqrt(self._setting.scales.fine.below)
         x2 = (p[..., None] / s) ** 2
         kernel = s * np.exp(-x2) * self._setting.kernels.mean_kernel(x2)
@@ -197,6 +210,7 @@ class Persson:
 
         The difference from `mean_gap` measures how well P(u) closes.
         """
+        self._check_gaps_known()
         (p,) = positive(p=p)
         errors = [closure_error(self._profile(float(x), _REACH)) for x in p.ravel()]
         return self.mean_gap(p) + np.reshape(errors, p.shape)[()]
@@ -219,7 +233,21 @@ class Persson:
             high = min(high + 0.5, highest)
         return float(np.exp(brentq(excess, low, high, xtol=1e-13, rtol=1e-13)))
 
+    def _variance_below(self, q: float) -> float:
+        """Twice the variance of the pressure in full contact of the waves up to `q` [E*]."""
+        if self._layered is not None:
+            return self._layered.variance_below(q)
+        return 0.5 * float(self.spectrum.variance_below(q, 2))
+
+    def _check_gaps_known(self) -> None:
+        if self._layered is not None:
+            raise NotImplementedError(
+                "the distribution of gaps is known for a half-space only: on a layer take "
+                "area_fraction, mean_gap and pressure_at, or the gaps of repulsive.solve"
+            )
+
     def _over_gaps(self, u: ArrayLike, p: ArrayLike, evaluate) -> NDArray:
+        self._check_gaps_known()
         (p,) = positive(p=p)
         (u,) = nonnegative(u=u)
         finite = u[np.isfinite(u)]

@@ -7,6 +7,7 @@ from abc import ABC, abstractmethod
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from stickiness.solids import HALF_SPACE, Solid, check_solid
 from stickiness.surfaces.direction import CIRCLE
 from stickiness.surfaces.moments import Moments
 
@@ -126,9 +127,15 @@ class Spectrum(ABC):
             raise ValueError(f"moment: order must be 0, 2 or 4, got {order!r}") from None
         return share * self.total_variance(order)
 
-    def elastic_energy(self) -> float:
+    def elastic_energy(self, solid: Solid = HALF_SPACE) -> float:
         """Elastic energy of full contact per nominal area over E* [length].
 
-        (pi/2) * integral of q^2 C dq (Persson & Tosatti 2001, doi:10.1063/1.1398300).
+        (pi/2) * integral of q^2 C dq (Persson & Tosatti 2001, doi:10.1063/1.1398300); of q^2 C/S
+        for a `solid` that is a layer, to 1e-12. The mean pressure's own energy is no part of it.
         """
-        return self.total_variance(1) / 4
+        if check_solid(solid) == HALF_SPACE:
+            return self.total_variance(1) / 4
+        from stickiness.surfaces.band_integral import integrate_band
+
+        averaged = self.averaged()
+        return integrate_band(averaged, lambda q: q / solid.factor(q), *averaged.band) / 4

@@ -137,6 +137,54 @@ def test_the_unit_of_length_is_free(heights):
     np.testing.assert_allclose(other.pressure, one.pressure, rtol=1e-9, atol=1e-9)
 
 
+def press_paraboloid(radius, solid):
+    """Load and approach, over E*/R, that press a paraboloid into a contact of a given radius.
+
+    Hankel's transform of the pressure as ``int f(t) cos(qt) dt`` over the radius leaves Fredholm's
+    equation f(t) + (2/pi) int int (S - 1) cos(qs) cos(qt) dq f(s) ds = (approach - t^2)/pi; f
+    vanishes at the edge (Lebedev and Ufliand's method).
+    """
+    x, w = np.polynomial.legendre.leggauss(60)
+    t, dt = radius * (1 + x) / 2, radius * w / 2
+    waves, dq = np.polynomial.legendre.leggauss(400)
+    longest = 20 / solid.thickness  # S - 1 vanishes beyond
+    q, dq = longest * (1 + waves) / 2, longest * dq / 2
+    away = dq * (solid.factor(q) - 1)
+    at_edge = 2 / np.pi * (np.cos(radius * q) * away) @ np.cos(np.outer(q, t)) * dt
+    coupling = (
+        np.eye(60) + 2 / np.pi * (np.cos(np.outer(t, q)) * away) @ np.cos(np.outer(q, t)) * dt
+    )
+    flat, curved = (np.linalg.solve(coupling, b) / np.pi for b in (np.ones(60), -(t**2)))
+    # f at the edge by the equation itself, then the approach for which it vanishes
+    edge_flat = 1 / np.pi - at_edge @ flat
+    edge_curved = -(radius**2) / np.pi - at_edge @ curved
+    approach = -edge_curved / edge_flat
+    return 2 * np.pi * dt @ (approach * flat + curved), approach
+
+
+def test_the_reference_of_a_paraboloid_is_hertz_on_a_thick_layer():
+    load, approach = press_paraboloid(1.0, Layer(1e3, 0.3))
+    assert load == pytest.approx(4 / 3, rel=2e-3)
+    assert approach == pytest.approx(1.0, rel=2e-3)
+
+
+@pytest.mark.parametrize("thickness", [0.5, 1.0, 2.0])
+@pytest.mark.parametrize(("poisson", "backing"), [(0.5, "bonded"), (0.3, "bonded"), (0.5, "slip")])
+def test_a_paraboloid_on_a_layer(poisson, backing, thickness):
+    n, side, radius = 512, 12.0, 1.5
+    solid = Layer(thickness, poisson, backing)
+    load, approach = press_paraboloid(radius, solid)
+    x = (np.arange(n) - n / 2) * (side / n)
+    heights = -(x[:, None] ** 2 + x[None, :] ** 2) / 2
+    contact = repulsive.solve(heights, side, load / side**2, tol=1e-6, solid=solid)
+    found = np.sqrt(contact.area_fraction * side**2 / np.pi)
+    assert found == pytest.approx(radius, rel=5e-3)
+    # and by that of the backing: a layer that cannot slip hands nothing to its neighbours
+    if backing == "bonded":
+        moved = solid.mean_compliance * contact.mean_pressure - contact.shift
+        assert moved == pytest.approx(approach, rel=1e-2)
+
+
 @pytest.mark.parametrize("solid", [None, 1.0, Layer, "layer"])
 def test_bad_solids(heights, solid):
     with pytest.raises(ValueError, match="solid must be solids.HalfSpace.. or a solids.Layer"):

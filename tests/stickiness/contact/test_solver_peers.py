@@ -7,7 +7,8 @@ import warnings
 import numpy as np
 import pytest
 
-from stickiness import repulsive
+from stickiness import repulsive, solids
+from stickiness.contact import half_space
 
 pytestmark = pytest.mark.peers
 
@@ -56,3 +57,30 @@ def test_same_solution(code, shape, scaled_pressure, hurst):
     # single points at zero pressure and zero gap may fall on either side
     area = np.mean(theirs.pressure > 0)
     assert area == pytest.approx(ours.area_fraction, abs=3 / heights.size)
+
+
+@pytest.mark.parametrize("poisson", [0.0, 0.3, 0.49])
+@pytest.mark.parametrize("thickness", [0.03, 0.2])
+@pytest.mark.parametrize("share", [0.05, 0.3])
+def test_same_solution_on_a_bonded_layer(thickness, poisson, share):
+    """ContactMechanics has a layer bonded to a rigid base."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        peer = pytest.importorskip("ContactMechanics", reason=REASON)
+        from ContactMechanics.Optimization import ConstrainedConjugateGradients
+    heights, tol = rough((64, 64), 12, 0.8, seed=1), 1e-9
+    solid = solids.Layer(thickness, poisson)
+    pressure = share * solid.stiffness(2 * np.pi)
+    ours = repulsive.solve(heights, 1.0, pressure, tol=tol, solid=solid)
+    layer = peer.PeriodicFFTElasticHalfSpace(
+        heights.shape, 1 - poisson**2, (1.0, 1.0), thickness=thickness, poisson=poisson
+    )
+    result = ConstrainedConjugateGradients.constrained_conjugate_gradients(
+        layer, heights, external_force=pressure, pentol=tol, maxiter=20_000
+    )
+    theirs = np.abs(np.asarray(result.jac).reshape(heights.shape)) * heights.size
+    assert theirs.mean() == pytest.approx(pressure, rel=1e-9)
+    q = half_space.wavenumbers(heights.shape, (1.0, 1.0))
+    stiffness = solid.stiffness(q[q > 0]).max()
+    np.testing.assert_allclose(theirs, ours.pressure, atol=10 * tol * stiffness)
+    assert np.mean(theirs > 0) == pytest.approx(ours.area_fraction, abs=3 / heights.size)

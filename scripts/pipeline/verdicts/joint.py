@@ -1,0 +1,149 @@
+"""What a material and a surface bring to their contact, joined into one rough surface.
+
+The surface of a material that is rough itself adds its spectrum. A layer of finite thickness changes
+the energy that it takes to conform.
+"""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pipeline.real_spectra import real_spectrum
+from stickiness.core import datasets
+from stickiness.criteria.a_v_table import SurfaceAv
+from stickiness.criteria.verdict import surface_a_v
+from stickiness.remaining.prediction import UNLIKE, Roughness
+from stickiness.solids import HALF_SPACE
+from stickiness.surfaces.sums import combine
+
+ENDS = ("smooth", "rough")
+MOMENTS = ("h_rms", "rms_slope", "rms_curvature")
+BY_END = (*MOMENTS, "elastic_energy")
+DRAWN = ("h_rms_draws", "q0_draws", "elastic_energy_draws")
+
+
+@dataclass(frozen=True)
+class Joint:
+    """Rough surface of a pair; arrays ``(end,)``, lengths in m."""
+
+    h_rms: NDArray
+    rms_slope: NDArray
+    rms_curvature: NDArray
+    elastic_energy: NDArray  # of full contact per area over E*
+    stiffening: NDArray  # that energy over that of a half-space
+    q0: float
+    a_v: tuple[SurfaceAv, ...]  # by end
+    widening: float  # factor on the errors of what remains
+    drawn: Roughness | None  # arrays over the draws of a measured surface
+
+    def a_v_at(self, reach: float) -> NDArray:
+        """a_V with its low and high limit for a range [m], ``(end, 3)``."""
+        return np.array(
+            [found.at(reach / h) for found, h in zip(self.a_v, self.h_rms, strict=True)]
+        )
+
+
+def join(material, surface, a_v, own=None):
+    """`Joint` of a `Material`, the dataset of a surface with its a_V, and that of its own surface.
+
+    A sum of two surfaces has the a_V that theory has on its spectrum.
+    """
+    if own is None:
+        plain = take_surface(surface, a_v)
+    else:
+        plain = add_surfaces(surface, own, a_v)
+    if material.solid == HALF_SPACE:
+        return plain
+    spectra = find_spectra(surface, own)
+    energy = np.array([spectrum.elastic_energy(material.solid) for spectrum in spectra])
+    whole = np.array([spectrum.elastic_energy() for spectrum in spectra])
+    stiffening = energy / whole
+    drawn = plain.drawn
+    if drawn is not None:
+        # Draws have no spectrum of their own here: the layer acts on them as on both ends.
+        common = float(np.sqrt(np.prod(stiffening)))
+        drawn = replace(drawn, elastic_energy=drawn.elastic_energy * common)
+    return replace(
+        plain,
+        elastic_energy=plain.elastic_energy * stiffening,
+        stiffening=stiffening,
+        drawn=drawn,
+    )
+
+
+def find_spectra(surface, own=None):
+    """Spectra of both ends."""
+    return [
+        real_spectrum(surface, end)
+        if own is None
+        else combine(real_spectrum(surface, end), real_spectrum(own, end))
+        for end in ENDS
+    ]
+
+
+def take_surface(surface, a_v):
+    """`Joint` of a smooth half-space and a surface."""
+    by_end = {name: surface[name].sel(end=list(ENDS)).values for name in BY_END}
+    widening = find_widening(surface)
+    drawn = None
+    if all(name in surface for name in DRAWN):
+        drawn = Roughness(*(surface[name].values for name in DRAWN), widening=widening)
+    return Joint(
+        **by_end,
+        stiffening=np.ones(len(ENDS)),
+        q0=float(surface.q0),
+        a_v=(a_v,) * len(ENDS),
+        widening=widening,
+        drawn=drawn,
+    )
+
+
+def find_widening(surface):
+    """Factor on the errors of what remains on a surface: more if it has a direction."""
+    return UNLIKE if datasets.parameters(surface).get("anisotropy", 1.0) > 1 else 1.0
+
+
+def add_surfaces(surface, own, a_v):
+    """`Joint` of two rough solids, whose roughness is independent."""
+    one, other = take_surface(surface, a_v), take_surface(own, a_v)
+    sums = {name: np.hypot(getattr(one, name), getattr(other, name)) for name in MOMENTS}
+    energy = one.elastic_energy + other.elastic_energy
+    # The longest waves that matter are those of the surface that stores the energy.
+    share = float(np.mean(one.elastic_energy / energy))
+    q0 = one.q0**share * other.q0 ** (1 - share)
+    found = []
+    for end, spectrum in enumerate(find_spectra(surface, own)):
+        known = {name: float(sums[name][end]) for name in MOMENTS} | {"q0": q0}
+        found.append(
+            replace(
+                surface_a_v(spectrum, known), ratio=a_v.ratio, relative_error=a_v.relative_error
+            )
+        )
+    return Joint(
+        **sums,
+        elastic_energy=energy,
+        stiffening=np.ones(len(ENDS)),
+        q0=q0,
+        a_v=tuple(found),
+        widening=UNLIKE,
+        drawn=add_draws(one.drawn, other, share),
+    )
+
+
+def add_draws(drawn, other, share):
+    """Draws of a measured surface with another added: its draws, or the middle of its ends."""
+    if drawn is None:
+        return None
+    number = len(drawn.h_rms)
+    if other.drawn is not None:
+        names = ("h_rms", "q0", "elastic_energy")
+        more = Roughness(*(np.resize(getattr(other.drawn, name), number) for name in names))
+    else:
+        more = Roughness(np.mean(other.h_rms), other.q0, np.mean(other.elastic_energy))
+    return Roughness(
+        h_rms=np.hypot(drawn.h_rms, more.h_rms),
+        q0=drawn.q0**share * more.q0 ** (1 - share),
+        elastic_energy=drawn.elastic_energy + more.elastic_energy,
+        widening=UNLIKE,
+    )

@@ -1,0 +1,101 @@
+"""Scales of a rough surface on a layer, for Persson's contact theory.
+
+On a half-space a wave h_q costs the pressure (|q|/2) h_q and the energy (|q|/4) |h_q|^2 in full
+contact (E* = 1); on a layer both times 1/S, see `solids`. With ``m(q) = pi int q'^3 C/S^2 dq'`` in
+place of the profile variance of the gradient, the pressure has the variance m/2 as before, and the
+walk of pressures, hence the area A(m), is that of the half-space. The waves dm cost the energy
+``(1/2) (S/q) dm`` in place of ``dm/(2 q)``, and partial contact the same share of it: every 1/q in
+the mean gap becomes S/q. (``p du/dp = -dU/dp`` holds with the energy of the waves alone, for what
+the mean pressure stores in a layer is the work that it does on its mean compression.) Hence
+
+    ubar(p) = (2/sqrt(pi)) int ds F(p/s) S/q,   s^2 = m(q).
+
+`theory` integrates that by parts over d(-1/q), which keeps terms positive as 1/q falls with q. S/q
+need not: long waves find a thin incompressible layer the stiffest. So the integral is taken as it
+is, over ds. Where S/q rises with q, the gap u1 at which contact is lost may even be negative; the
+theory's density of gaps, made of Gaussians about u1, then means nothing, and is left out.
+
+Simulated surfaces (H = 0.8, magnification 8, pressures of 0.1 and 0.3 of the rms pressure of full
+contact) have the mean gap within 6 %. The area is too small the more, the less the longest waves
+soften: theory over simulation is 0.98 on a bonded incompressible layer of q0 d = 3, 0.91 on one
+that slips of 1, 0.67 at nu = 0.3 and 0.3, and 0.52 at nu = 1/2 and 0.5; at the larger pressure
+1.00, 0.95, 0.78 and 0.67. The correction of the theory was fitted to half-spaces.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from stickiness.persson.kernels import Kernels
+from stickiness.persson.scale_quadrature import scale_edges
+from stickiness.solids import Layer
+from stickiness.surfaces.band_integral import integrate_band
+from stickiness.surfaces.spectrum import Shells, Spectrum
+
+_ORDER = 8  # of Gauss quadrature on panels
+_FINE, _MOST_PARTS = 0.1, 20  # parts of panels, in ln m
+
+
+class LayeredScales:
+    """Variance m of a spectrum on a layer, and the mean gap that its scales make."""
+
+    def __init__(self, spectrum: Spectrum, solid: Layer, nodes: float = 1.0):
+        self.spectrum, self.solid = spectrum, solid
+        self.m2 = self.variance_below(spectrum.q1)
+        if isinstance(spectrum, Shells):
+            self._q = spectrum.q
+            self._m = np.cumsum(0.5 * spectrum.variance * self._slope_weight(self._q))
+        else:
+            self._q, self._m, self._growth = self._gauss_nodes(nodes)
+
+    def variance_below(self, q: float) -> float:
+        """Return m of the waves up to `q`."""
+        return 0.5 * integrate_band(self.spectrum, self._slope_weight, self.spectrum.q0, q)
+
+    def mean_gap(self, p: NDArray, universal: Kernels) -> NDArray:
+        """Mean gap [length] at mean pressures `p` > 0 [E*]."""
+        s, softness = np.sqrt(self._m), self.solid.factor(self._q) / self._q
+        x2 = (p[..., None] / s) ** 2
+        if isinstance(self.spectrum, Shells):
+            # within a shell S/q stands still: int F(p/s) ds = s kappa(p/s)
+            whole = s * np.exp(-x2) * universal.mean_kernel(x2)
+            terms = np.diff(whole, axis=-1, prepend=0.0)
+        else:
+            terms = np.exp(-x2) * universal.gap_kernel(x2) * self._growth / (2 * s)
+        return 2 / np.sqrt(np.pi) * np.sum(softness * terms, axis=-1)
+
+    def _slope_weight(self, q: NDArray) -> NDArray:
+        return (q / self.solid.factor(q)) ** 2
+
+    def _gauss_nodes(self, nodes: float) -> tuple[NDArray, NDArray, NDArray]:
+        """Wave numbers, m there, and what m grows by with the weight of each."""
+        edges = self.spectrum.q0 * np.exp(scale_edges(self.spectrum))
+        edges[-1] = self.spectrum.q1
+        edges = self._split(edges, _FINE / nodes)
+        x, w = np.polynomial.legendre.leggauss(max(2, round(_ORDER * nodes)))
+        start, half = np.log(edges[:-1, None]), 0.5 * np.diff(np.log(edges))[:, None]
+        q = np.exp(start + half * (1 + x))
+        growth = half * w * np.pi * q**2 * self.spectrum.psd(q) * self._slope_weight(q)
+        before = np.concatenate([[0.0], np.cumsum(growth.sum(axis=1))[:-1]])
+        # up to a node: the integral of the interpolating polynomial
+        within = growth / w @ _partial_weights(x).T
+        return q.ravel(), (before[:, None] + within).ravel(), growth.ravel()
+
+    def _split(self, edges: NDArray, fine: float) -> NDArray:
+        """Edges so close that ln m grows by little between them."""
+        m = np.array([self.variance_below(q) for q in edges])
+        growth = np.log(m[1:]) - np.log(np.maximum(m[:-1], 1e-300))
+        parts = np.clip(np.ceil(growth / fine), 1, _MOST_PARTS).astype(int)
+        start = np.concatenate([[0], np.cumsum(parts)])
+        return np.exp(np.interp(np.arange(start[-1] + 1), start, np.log(edges)))
+
+
+def _partial_weights(x: NDArray) -> NDArray:
+    """Weights, row by row, of the integral of a polynomial from -1 to each of the nodes."""
+    legendre = np.polynomial.legendre
+    values = legendre.legvander(x, len(x) - 1)
+    integrals = np.stack(
+        [legendre.legval(x, legendre.legint(unit, lbnd=-1)) for unit in np.eye(len(x))], axis=1
+    )
+    return integrals @ np.linalg.inv(values)

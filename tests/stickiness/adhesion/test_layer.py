@@ -1,0 +1,120 @@
+"""Adhesive contact of elastic layers."""
+
+import numpy as np
+import pytest
+
+from stickiness import adhesive, repulsive, spectrum, surface
+from stickiness.adhesive import Exponential, LennardJones, Maugis
+from stickiness.solids import Backing, HalfSpace, Layer
+
+LENGTH = 4 * np.pi
+ROUGH = spectrum.SelfAffine(hurst=0.8, q0=1.0, q1=4.0, h_rms=1.0)
+SOLIDS = [
+    Layer(0.4, 0.5),
+    Layer(0.4, 0.2),
+    Layer(1.0, 0.5, "slip"),
+    Layer(0.5, 0.4, Backing(0.3, 0.3)),
+]
+
+
+@pytest.fixture(scope="module")
+def heights():
+    return surface.synthesise(ROUGH, n=64, length=LENGTH, seed=3)
+
+
+def stiffen(displacement, solid, side=LENGTH):
+    """Pressure under a displacement by numpy's transforms alone."""
+    n = len(displacement)
+    q = np.hypot(*np.meshgrid(*[2 * np.pi * np.fft.fftfreq(n, side / n)] * 2))
+    q[0, 0] = 1
+    waves = np.fft.fft2(displacement) * solid.stiffness(q)
+    waves[0, 0] = 0
+    return np.fft.ifft2(waves).real
+
+
+def full_energy(heights, solid):
+    """Elastic energy of full contact."""
+    return 0.5 * float(np.mean(heights * stiffen(heights, solid)))
+
+
+@pytest.mark.parametrize("solid", SOLIDS, ids=str)
+@pytest.mark.parametrize("kind", [Exponential, Maugis, LennardJones])
+@pytest.mark.parametrize("control", ["pressure", "mean_gap"])
+def test_states_are_in_equilibrium(heights, solid, kind, control):
+    energy = full_energy(heights, solid)
+    law = kind(energy, 1.0)
+    prescribed = {"pressure": 0.05 * energy} if control == "pressure" else {"mean_gap": 0.8}
+    a = adhesive.solve(heights, LENGTH, law, tol=1e-8, solid=solid, **prescribed)
+    elastic = stiffen(a.gap + heights, solid)
+    reaction = elastic + law.traction(a.gap) + a.mean_pressure
+    unit = max(np.sqrt(np.mean(stiffen(heights, solid) ** 2)), law.strength)
+    away = a.gap > 0 if law.hard_wall else np.ones(a.gap.shape, bool)
+    assert np.abs(reaction[away]).max(initial=0) < 2e-8 * unit
+    if law.hard_wall:
+        assert reaction[~away].min(initial=0) > -2e-8 * unit
+    assert a.elastic_energy == pytest.approx(0.5 * np.mean((a.gap + heights) * elastic), rel=1e-9)
+    assert a.repulsive_pressure - a.adhesive_pressure == pytest.approx(
+        a.mean_pressure, abs=1e-7 * unit
+    )
+
+
+def test_weak_adhesion_is_contact_without(heights):
+    solid = Layer(0.4, 0.5)
+    law = Exponential(1e-9, 1.0)
+    adhesion = adhesive.solve(heights, LENGTH, law, pressure=1.0, solid=solid)
+    contact = repulsive.solve(heights, LENGTH, 1.0, solid=solid)
+    np.testing.assert_allclose(adhesion.gap, contact.gap, atol=1e-6)
+    assert adhesion.mean_gap == pytest.approx(contact.mean_gap, rel=1e-6)
+
+
+def test_thick_layers_are_half_spaces(heights):
+    law = Exponential(0.5, 0.7)
+    half = adhesive.solve(heights, LENGTH, law, pressure=0.05, solid=HalfSpace())
+    assert half.mean_gap == adhesive.solve(heights, LENGTH, law, pressure=0.05).mean_gap
+    thick = adhesive.solve(heights, LENGTH, law, pressure=0.05, solid=Layer(1e3, 0.5))
+    assert thick.mean_gap == pytest.approx(half.mean_gap, rel=1e-6)
+    assert thick.energy == pytest.approx(half.energy, rel=1e-6)
+
+
+@pytest.mark.parametrize("solid", SOLIDS[:2], ids=str)
+def test_a_path_balances_its_energies(heights, solid):
+    """The work at given mean gaps knows nothing of the compression of the layer as a whole."""
+    law = Exponential(full_energy(heights, solid), 1.5)
+    points = list(
+        adhesive.path(
+            heights,
+            LENGTH,
+            law,
+            (4.0, 1.0),
+            control="mean_gap",
+            tol=1e-6,
+            balance=1e-4,
+            solid=solid,
+        )
+    )
+    work = sum(point.work for point in points)
+    gain = points[-1].state.energy - points[0].state.energy
+    assert len(points) > 10
+    assert all(point.event is None for point in points)
+    assert work == pytest.approx(gain, rel=2e-3)
+
+
+def test_full_contact_of_a_wave_holds_its_energy():
+    """Pulled from full contact, work of adhesion less the energy of the layer's wave remains."""
+    x = 2 * np.pi * np.arange(32) / 32
+    wave = 0.02 * np.cos(x)[:, None] * np.ones(32)
+    solid = Layer(0.5, 0.5)
+    energy = 0.02**2 / 4 * solid.stiffness(1.0)
+    law = Maugis(20 * energy, 0.1)
+    a = adhesive.solve(wave, 2 * np.pi, law, pressure=0.0, start="separation", solid=solid)
+    assert a.repulsive_area_fraction == 1
+    assert a.elastic_energy == pytest.approx(energy, rel=1e-9)
+
+
+@pytest.mark.parametrize("solid", [None, 1.0, Layer])
+def test_bad_solids(heights, solid):
+    law = Exponential(0.1, 0.5)
+    with pytest.raises(ValueError, match="solid must be solids.HalfSpace.. or a solids.Layer"):
+        adhesive.solve(heights, LENGTH, law, pressure=0.1, solid=solid)
+    with pytest.raises(ValueError, match="solid must be solids.HalfSpace"):
+        list(adhesive.path(heights, LENGTH, law, (0.0, 0.1), solid=solid))
