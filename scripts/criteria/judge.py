@@ -103,6 +103,7 @@ def describe(dataset):
         energy_ratio=("1", "work of adhesion over the elastic energy of full contact"),
         range_over_h_rms=("1", "range of attraction over rms height"),
         stiffening=("1", "energy of full contact over that of a half-space"),
+        height_over_thickness=("1", "rms height over the thickness of a layer; 0: half-space"),
         pair_a_v=("1", "a_V of the pair: its surface's spectrum, its range over h_rms"),
         pair_a_v_low=("1", "low limit of the pair's a_V"),
         pair_a_v_high=("1", "high limit of the pair's a_V"),

@@ -9,7 +9,12 @@ import xarray as xr
 
 from pipeline.numbers import NOTHING, interval, number, percent, quantity
 from pipeline.pages.surface_texts import describe_height
-from pipeline.verdicts.texts import describe_pull_off, describe_share, describe_threshold
+from pipeline.verdicts.texts import (
+    describe_layer,
+    describe_pull_off,
+    describe_share,
+    describe_threshold,
+)
 from stickiness.core import budget
 from stickiness.criteria.pair import WORDS
 from stickiness.criteria.registry import CRITERIA, EDGES, REMAINING
@@ -29,6 +34,7 @@ def describe_pair(pair: xr.Dataset) -> dict[str, Any]:
         "tone": WORD_TONES[code],
         "grade": code,
         "remaining": describe_share(pair),
+        "layer": describe_layer(pair),
         "remaining_value": float(pair.remaining.mean()),
         "pull_off": describe_pull_off(pair),
         "pull_off_value": float(pair.pull_off.mean()),
@@ -101,7 +107,7 @@ def gather_facts(pair: xr.Dataset, surface: xr.Dataset, work_of_adhesion: float)
     """Texts by the names of `registry.FACTS`; intervals go from the smooth to the rough end."""
     curvature = float(surface.rms_curvature.sel(end="rough"))
     modulus = float(pair.modulus_quoted)
-    energy = float(surface.elastic_energy.sel(end="rough")) * modulus
+    energy = work_of_adhesion / float(pair.energy_ratio.sel(end="rough"))
     of_edges = {
         name: interval(*sorted(map(float, pair[name].values)), 2)
         for name in ("attractive_over_contact", "edge_strength", "over_dmt")

@@ -1,7 +1,7 @@
 """What a material and a surface bring to their contact, joined into one rough surface.
 
-The surface of a material that is rough itself adds its spectrum. A layer of finite thickness changes
-the energy that it takes to conform.
+The surface of a material that is rough itself adds its spectrum. A layer of finite thickness
+changes the energy that it takes to conform.
 """
 
 from dataclasses import dataclass, replace
@@ -32,6 +32,7 @@ class Joint:
     rms_curvature: NDArray
     elastic_energy: NDArray  # of full contact per area over E*
     stiffening: NDArray  # that energy over that of a half-space
+    height_over_thickness: NDArray  # rms height over the thickness of a layer, 0 of a half-space
     q0: float
     a_v: tuple[SurfaceAv, ...]  # by end
     widening: float  # factor on the errors of what remains
@@ -49,10 +50,7 @@ def join(material, surface, a_v, own=None):
 
     A sum of two surfaces has the a_V that theory has on its spectrum.
     """
-    if own is None:
-        plain = take_surface(surface, a_v)
-    else:
-        plain = add_surfaces(surface, own, a_v)
+    plain = take_surface(surface, a_v) if own is None else add_surfaces(surface, own, a_v)
     if material.solid == HALF_SPACE:
         return plain
     spectra = find_spectra(surface, own)
@@ -68,6 +66,7 @@ def join(material, surface, a_v, own=None):
         plain,
         elastic_energy=plain.elastic_energy * stiffening,
         stiffening=stiffening,
+        height_over_thickness=plain.h_rms / material.solid.thickness,
         drawn=drawn,
     )
 
@@ -92,6 +91,7 @@ def take_surface(surface, a_v):
     return Joint(
         **by_end,
         stiffening=np.ones(len(ENDS)),
+        height_over_thickness=np.zeros(len(ENDS)),
         q0=float(surface.q0),
         a_v=(a_v,) * len(ENDS),
         widening=widening,
@@ -124,6 +124,7 @@ def add_surfaces(surface, own, a_v):
         **sums,
         elastic_energy=energy,
         stiffening=np.ones(len(ENDS)),
+        height_over_thickness=np.zeros(len(ENDS)),
         q0=q0,
         a_v=tuple(found),
         widening=UNLIKE,

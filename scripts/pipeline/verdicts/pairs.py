@@ -64,8 +64,12 @@ def find_margins(pair):
 
 
 def describe_layers(joints):
-    """Energy of full contact of every pair over that of a half-space."""
-    return {"stiffening": (DIMS, np.array([[joint.stiffening for joint in row] for row in joints]))}
+    """What the thickness of a layer does to every pair."""
+    names = ("stiffening", "height_over_thickness")
+    return {
+        name: (DIMS, np.array([[getattr(joint, name) for joint in row] for row in joints]))
+        for name in names
+    }
 
 
 def describe_remaining(pair):

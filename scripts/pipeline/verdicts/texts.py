@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import xarray as xr
 
-from pipeline.numbers import NOTHING, percent, quantity
+from pipeline.numbers import NOTHING, interval, number, percent, quantity
 from pipeline.verdicts.words import find_limits
 from stickiness.criteria.pair import DEPENDS, TOUCHES, WORDS
 from stickiness.remaining.prediction import DEFAULT_SHARE, PULL_OFF_UNKNOWN
 
 LEAST_SHOWN = 1e-3  # share below which a text says 0 %
+LEAST_EFFECT = 0.05  # relative, of a layer's thickness on the energy of full contact
+MOST_STRAIN = 0.3  # rms height over thickness up to which a layer is taken for linear
 
 
 def describe_share(pair: xr.Dataset) -> str:
@@ -58,17 +60,34 @@ def describe_pressure(pair: xr.Dataset, name: str) -> str:
     return f"{value} ({least} to {most})"
 
 
+def describe_layer(pair: xr.Dataset) -> str:
+    """What the thickness of a layer does to the pair; empty where it does nothing."""
+    low, high = sorted(map(float, pair.stiffening.values))
+    height = float(pair.height_over_thickness.max())
+    if height > MOST_STRAIN:
+        return (
+            f"The rms height reaches {number(height, 2)} times the thickness of the layer, beyond "
+            "what a linear layer can tell."
+        )
+    if max(high - 1, 1 - low) < LEAST_EFFECT:
+        return ""
+    return (
+        f"Conforming takes {interval(low, high, 2)} times the energy of an infinitely deep solid."
+    )
+
+
 def say_verdict(material: str, pair: xr.Dataset) -> str:
     """The verdict on a pair as one sentence."""
     code, remains = int(pair.verdict), describe_share(pair)
+    layer = f" {text}" if (text := describe_layer(pair)) else ""
     if code == DEPENDS:
         return (
             f"For {material} it depends: {remains} of its work of adhesion remains, and "
-            f"{percent(DEFAULT_SHARE)} is wanted."
+            f"{percent(DEFAULT_SHARE)} is wanted.{layer}"
         )
     if round_share(find_limits(pair)[1]) == 0:
         remains = "nothing"
     remains += " of its work of adhesion remains"
     if code == TOUCHES:
         remains = f"contact grows by itself at the finest wave, but {remains}"
-    return f"{material} {WORDS[code]}: {remains}."
+    return f"{material} {WORDS[code]}: {remains}.{layer}"

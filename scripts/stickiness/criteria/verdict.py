@@ -17,6 +17,7 @@ from stickiness.criteria.registry import CRITERIA, EDGES, REMAINING
 from stickiness.measured import instrument_spectrum
 from stickiness.measured.topography import Topography
 from stickiness.remaining.prediction import DEFAULT_SHARE, PULL_OFF_UNKNOWN, find_widening
+from stickiness.solids import HALF_SPACE, Solid
 from stickiness.surfaces.interface import Spectrum
 from stickiness.surfaces.spectrum import Tabulated
 
@@ -122,6 +123,7 @@ def verdict(
     a_v: tuple[float, float, float] | None = None,
     constant_a_v: float = BROAD_A_V,
     wanted_share: float = DEFAULT_SHARE,
+    solid: Solid = HALF_SPACE,
 ) -> StickinessVerdict:
     """Say whether a material sticks to a rough surface.
 
@@ -148,6 +150,9 @@ def verdict(
         a_V of a broad spectrum, for the criterion that takes one.
     wanted_share : float
         Share of the work of adhesion that must remain for a pair to stick, between 0 and 1.
+    solid : HalfSpace or Layer
+        Of the material, thickness in m; see `stickiness.solids`. It changes what remains. Other
+        criteria than that and Persson-Tosatti's take a half-space.
 
     Returns
     -------
@@ -176,7 +181,7 @@ def verdict(
     positive(modulus=modulus, work_of_adhesion=work_of_adhesion, range=range)
     if poisson is not None and not -1 < poisson <= 0.5:
         raise ValueError(f"poisson must be above -1 and at most 0.5, got {poisson!r}")
-    known = describe_surface(surface, length)
+    known = describe_surface(surface, length, solid)
     warn_of_si(
         modulus=modulus,
         work_of_adhesion=work_of_adhesion,
@@ -236,7 +241,9 @@ def judge_pair(pair: Pair) -> StickinessVerdict:
     )
 
 
-def describe_surface(surface: Spectrum | ArrayLike, length: Any = None) -> dict[str, Any]:
+def describe_surface(
+    surface: Spectrum | ArrayLike, length: Any = None, solid: Solid = HALF_SPACE
+) -> dict[str, Any]:
     """Spectrum of a surface and its moments by the names of `Pair`; see `verdict`."""
     if isinstance(surface, Spectrum):
         if length is not None:
@@ -267,7 +274,7 @@ def describe_surface(surface: Spectrum | ArrayLike, length: Any = None) -> dict[
         "h_rms": spectrum.h_rms,
         "rms_slope": spectrum.rms_slope,
         "rms_curvature": spectrum.rms_curvature,
-        "elastic_energy": spectrum.elastic_energy(),
+        "elastic_energy": spectrum.elastic_energy(solid),
         "widening": find_widening(spectrum),
     }
 
