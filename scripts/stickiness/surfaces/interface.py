@@ -23,6 +23,7 @@ class Spectrum(ABC):
     q0: float
     q1: float
     isotropic: bool = True
+    anisotropy: float = 1.0  # ratio of the correlation lengths
 
     @abstractmethod
     def psd(self, q: ArrayLike) -> NDArray:

@@ -48,6 +48,16 @@ class PowerLawSegments(Spectrum):
         return self._laws if self.isotropic else self.ellipse.average(self._laws)
 
     @property
+    def anisotropy(self) -> float:
+        """Ratio of the correlation lengths."""
+        return self.ellipse.ratio
+
+    @property
+    def angle(self) -> float:
+        """Direction of the long correlation length from x [rad]."""
+        return self.ellipse.angle
+
+    @property
     def knots(self) -> NDArray:
         """Wave numbers, both ends included, between which C is one power law each."""
         return self._laws.knots.copy()
@@ -188,16 +198,6 @@ class SelfAffine(PowerLawSegments):
             super().__init__([q0, q1], [level], [slope], self.ellipse)
         else:
             super().__init__([q0, bend, q1], [level, level], [0.0, slope], self.ellipse)
-
-    @property
-    def anisotropy(self) -> float:
-        """Ratio of the correlation lengths."""
-        return self.ellipse.ratio
-
-    @property
-    def angle(self) -> float:
-        """Direction of the long correlation length from x [rad]."""
-        return self.ellipse.angle
 
     @property
     def q_longest(self) -> float:

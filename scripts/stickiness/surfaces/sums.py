@@ -72,6 +72,7 @@ class Sum(Spectrum):
         self.parts = parts
         self.q0, self.q1 = min(part.q0 for part in parts), max(part.q1 for part in parts)
         self.isotropic = all(part.isotropic for part in parts)
+        self.anisotropy = max(part.anisotropy for part in parts)  # of its parts, the largest
 
     @property
     def knots(self) -> NDArray:

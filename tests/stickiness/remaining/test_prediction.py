@@ -89,6 +89,13 @@ def test_limits_are_wider_for_surfaces_that_were_not_simulated(unlike):
     assert surface.share(length, TOUGH["range"], 1) == pytest.approx(0.2, rel=1e-6)
 
 
+def test_limits_widen_steadily_with_the_direction():
+    widening = [predict(rough(anisotropy=a), **TOUGH).widening for a in (1, 1.0001, 2, 3.9, 4, 99)]
+    assert widening[0] == 1
+    assert widening[1:3] == pytest.approx([1, 2**0.5], abs=1e-4)
+    assert widening[3:] == pytest.approx([2, 2, 2], abs=0.04)
+
+
 def test_limits_hold_the_value():
     for length in (1e-3, 0.3, 1.0, 10.0):
         found = predict(rough(), adhesion_length=length, range=0.01)

@@ -7,6 +7,7 @@ import pytest
 from scipy import integrate
 
 from stickiness import surface
+from stickiness.measured.psd import power_spectrum
 from stickiness.persson import Persson
 from stickiness.spectrum import SelfAffine
 from stickiness.surfaces import spectrum as module
@@ -280,6 +281,24 @@ def test_norm_and_its_reach():
     assert ellipse.norm(*across) == pytest.approx(1 / 3)
     assert ellipse.reach == 3.0
     assert ellipse.mean_stretch(0) == pytest.approx(1, rel=1e-14)
+
+
+@pytest.mark.parametrize("ratio", [1.5, 4.0])
+def test_measured_dependence_on_direction(ratio):
+    # C ~ 1 + A cos 2(phi - phi0), phi0 across the long correlation length
+    angle = 0.3
+    s = made(q1=10.0, anisotropy=ratio, angle=angle)
+    phi = (np.arange(2000) + 0.5) / 2000 * np.pi
+    density = (ratio * np.cos(phi) ** 2 + np.sin(phi) ** 2 / ratio) ** -1.8
+    want = -2 * np.mean(np.cos(2 * phi) * density) / density.mean()
+    ends = np.sqrt(ratio), 10 / np.sqrt(ratio)  # where ellipses fill whole circles
+    found = [
+        power_spectrum(surface.synthesise(s, 200, 4 * L, seed), L / 50).anisotropy(*ends)
+        for seed in range(4)
+    ]
+    amplitude, direction = np.mean(found, axis=0)
+    assert amplitude == pytest.approx(want, abs=0.03)
+    assert direction == pytest.approx(angle - np.pi / 2, abs=0.03)
 
 
 def test_examples_in_the_documentation():
