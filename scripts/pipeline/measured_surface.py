@@ -17,6 +17,7 @@ from stickiness.measured import (
     stitching,
     topography,
 )
+from stickiness.surfaces.direction import find_ratio
 
 ENDS = ["smooth", "rough"]
 END_QUANTILES = (0.16, 0.84)  # of the draws: one standard error
@@ -118,6 +119,7 @@ def describe_spectrum(spectrum, extend_to):
     )
     if np.isfinite(spectrum.anisotropy):
         dataset["anisotropy"] = spectrum.anisotropy
+        dataset["axis_ratio"] = find_ratio(spectrum.anisotropy, fit.hurst)
     if fit.q_rolloff is not None:
         dataset["q_rolloff"] = fit.q_rolloff
         dataset["q_rolloff_standard_error"] = fit.q_rolloff_se

@@ -42,6 +42,7 @@ VARIABLE_TEXTS = {
     "q_cutoff": ("1/m", "highest wave number that the instrument resolves"),
     "cutoff_detected": ("1", "1 if that was found in the data rather than given or by default"),
     "anisotropy": ("1", "amplitude of the spectrum's dependence on direction, cos 2 phi"),
+    "axis_ratio": ("1", "ratio of the long to the short correlation length"),
     "missing_fraction": ("1", "share of points that were missing or dropped, and interpolated"),
     "dropped_points": ("1", "points measured beside missing ones, not used"),
     "cropped_fraction": ("1", "share of points cut off to leave no missing ones"),
@@ -82,6 +83,8 @@ def self_affine(asked):
     dataset["C0"] = ("end", [s.C0 for s in spectra])
     line = [(s.psd(q) * q ** (2 * REFERENCE_HURST + 2)).max() for s in spectra]
     dataset["C0_reference_upper"] = ("end", line)
+    if "anisotropy" in asked:
+        dataset["axis_ratio"] = asked["anisotropy"]
     return dataset.assign(
         hurst=asked["hurst"],
         q0=smooth.q0 if smooth.q_rolloff is None else smooth.q_rolloff,

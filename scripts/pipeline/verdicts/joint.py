@@ -10,10 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pipeline.real_spectra import real_spectrum
-from stickiness.core import datasets
 from stickiness.criteria.a_v_table import SurfaceAv
 from stickiness.criteria.verdict import surface_a_v
-from stickiness.remaining.prediction import UNLIKE, Roughness
+from stickiness.remaining.prediction import Roughness, find_widening
 from stickiness.solids import HALF_SPACE
 from stickiness.surfaces.sums import combine
 
@@ -84,7 +83,7 @@ def find_spectra(surface, own=None):
 def take_surface(surface, a_v):
     """`Joint` of a smooth half-space and a surface."""
     by_end = {name: surface[name].sel(end=list(ENDS)).values for name in BY_END}
-    widening = find_widening(surface)
+    widening = find_widening(float(surface.axis_ratio)) if "axis_ratio" in surface else 1.0
     drawn = None
     if all(name in surface for name in DRAWN):
         drawn = Roughness(*(surface[name].values for name in DRAWN), widening=widening)
@@ -97,11 +96,6 @@ def take_surface(surface, a_v):
         widening=widening,
         drawn=drawn,
     )
-
-
-def find_widening(surface):
-    """Factor on the errors of what remains on a surface: more if it has a direction."""
-    return UNLIKE if datasets.parameters(surface).get("anisotropy", 1.0) > 1 else 1.0
 
 
 def add_surfaces(surface, own, a_v):
@@ -127,7 +121,7 @@ def add_surfaces(surface, own, a_v):
         height_over_thickness=np.zeros(len(ENDS)),
         q0=q0,
         a_v=tuple(found),
-        widening=UNLIKE,
+        widening=max(one.widening, other.widening),
         drawn=add_draws(one.drawn, other, share),
     )
 
@@ -146,5 +140,5 @@ def add_draws(drawn, other, share):
         h_rms=np.hypot(drawn.h_rms, more.h_rms),
         q0=drawn.q0**share * more.q0 ** (1 - share),
         elastic_energy=drawn.elastic_energy + more.elastic_energy,
-        widening=UNLIKE,
+        widening=max(drawn.widening, other.widening),
     )

@@ -97,7 +97,7 @@ class StickinessVerdict:
             pull_off = f"at least {least:.2g} Pa (full contact, which was not simulated)"
         unlike = (
             f"limits of what remains allow for {pair.widening:g} times the errors: "
-            "no surfaces with a direction and no sums were simulated\n"
+            "few surfaces with a direction were simulated\n"
         )
         return (
             f"{self.word}: {self.remaining:.2g} of the work of adhesion remains "
@@ -275,7 +275,7 @@ def describe_surface(
         "rms_slope": spectrum.rms_slope,
         "rms_curvature": spectrum.rms_curvature,
         "elastic_energy": spectrum.elastic_energy(solid),
-        "widening": find_widening(spectrum),
+        "widening": find_widening(spectrum.anisotropy),
     }
 
 

@@ -11,7 +11,6 @@ from scipy.optimize import elementwise
 from stickiness.core.arguments import number, plain, positive
 from stickiness.remaining.share import ONSET, find_onset, remaining_share, tough_area
 from stickiness.surfaces.interface import Spectrum
-from stickiness.surfaces.sums import Sum
 
 # Errors of the onset; of a share, relative and in proportion to what is lost; and of a share,
 # absolute, which is all that is known of small ones. Together they hold 94 % of simulated surfaces
@@ -144,17 +143,13 @@ class Roughness:
         return plain(np.where(always, LEAST_LENGTH * energy, np.exp(found.x)))
 
 
-def find_widening(spectrum: Spectrum) -> float:
-    """Factor on the errors of a prediction from a spectrum: 1 for kinds that were simulated.
+def find_widening(ratio: float) -> float:
+    """Factor on the errors of a prediction for a ratio of correlation lengths: 1 without direction.
 
-    `UNLIKE` for sums, which were not when the errors were measured, and for surfaces with a
-    direction, growing towards it from none on. Simulations of ratios up to 4 lie within the limits
+    It grows to `UNLIKE` at `UNLIKE_RATIO`. Simulations of ratios up to 4 lie within the limits
     without it, but they are few (`benchmarks/direction.py`).
     """
-    if isinstance(spectrum, Sum):
-        return UNLIKE
-    share = float(np.log(spectrum.anisotropy) / np.log(UNLIKE_RATIO))
-    return UNLIKE ** min(share, 1.0)
+    return UNLIKE ** min(float(np.log(ratio) / np.log(UNLIKE_RATIO)), 1.0)
 
 
 def predict(
@@ -197,7 +192,7 @@ def predict(
     if q0 is None:
         q0 = spectrum.q_longest
     q0, h = number("q0", q0), spectrum.h_rms
-    rough = Roughness(h, q0, spectrum.elastic_energy(), find_widening(spectrum))
+    rough = Roughness(h, q0, spectrum.elastic_energy(), find_widening(spectrum.anisotropy))
     low, share, high = (float(rough.share(length, range, sign)) for sign in (-1, 0, 1))
     ratio = length / rough.elastic_energy
     pull_off, *pull_off_limits = map(float, rough.pull_off(length, range))

@@ -20,7 +20,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy.optimize import elementwise
+from scipy.optimize import brentq, elementwise
 
 from stickiness.core.arguments import finite, nonnegative, number
 from stickiness.surfaces.moments import Moments
@@ -33,6 +33,8 @@ _PIECE = 32  # nodes of those over the part of an ellipse between two knots
 _CELLS = 56  # power laws for each knot
 _CELL_NODES = 16
 _CLOSEST = 1e-10  # ends of cells in ln q
+# Angles of the amplitude of cos 2 phi, and the ratio beyond which it hardly changes.
+_ANGLES, _LARGEST_FOUND = 2000, 20.0
 _STEEPEST = 60.0  # change of ln(q^2 C) over a cell
 
 
@@ -173,6 +175,32 @@ class Ellipse:
 
 
 CIRCLE = Ellipse()
+
+
+def find_amplitude(ratio: float, hurst: float) -> float:
+    """Amplitude A of C ~ 1 + A cos 2 phi of a self-affine spectrum with a direction.
+
+    That is what `measured.psd.PowerSpectrum.anisotropy` finds of its surfaces.
+    """
+    phi = np.pi * (np.arange(_ANGLES) + 0.5) / _ANGLES
+    density = (ratio * np.cos(phi) ** 2 + np.sin(phi) ** 2 / ratio) ** (-1 - hurst)
+    return float(-2 * np.mean(np.cos(2 * phi) * density) / np.mean(density))
+
+
+def find_ratio(amplitude: float, hurst: float) -> float:
+    """Ratio of the correlation lengths of a measured amplitude, at most `_LARGEST_FOUND`.
+
+    The inverse of `find_amplitude`, with a Hurst exponent from 0.1 to 1.
+    """
+    hurst = min(max(hurst, 0.1), 1.0)
+    if amplitude >= find_amplitude(_LARGEST_FOUND, hurst):
+        return _LARGEST_FOUND
+    if amplitude <= 0:
+        return 1.0
+    found = brentq(
+        lambda log: find_amplitude(np.exp(log), hurst) - amplitude, 0, np.log(_LARGEST_FOUND)
+    )
+    return float(np.exp(found))
 
 
 def _expm1_ratio(x: NDArray) -> NDArray:
