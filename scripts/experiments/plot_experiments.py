@@ -4,17 +4,24 @@ import numpy as np
 from matplotlib.colors import ListedColormap
 
 from pipeline import plotting
-from pipeline.experiments.judgements import SILENT, WITHIN
+from pipeline.experiments.judgements import COMPATIBLE, SILENT
 from pipeline.experiments.texts import MARKS
 from pipeline.job import start
 from pipeline.plotting import BLUE, GREEN, GREY, ORANGE, RED, make_dot, make_key
 from stickiness.core import datasets
 from stickiness.criteria.registry import CRITERIA, EDGES, REMAINING
-from stickiness.remaining.prediction import DEFAULT_SHARE
 
-NEEDED = ("quantity", "outcome", "criterion_outcome", "criterion_roughness", "pull_off_curve")
+NEEDED = (
+    "quantity",
+    "h_rms",
+    "outcome",
+    "criterion_outcome",
+    "criterion_roughness",
+    "pull_off_curve",
+)
 FOLLOWED = "fuller_tabor"  # experiment whose pull-off is drawn against roughness
 WORKS = ("work_of_approach", "work_of_separation")
+LEAST_SHOWN = 0.005  # relative pull-off
 NOTHING = 1e-4  # mJ/m^2, where what is predicted or observed to be none is drawn
 # From wrong to right, grey where nothing is decided; light enough for the marks.
 OUTCOME_COLOURS = ("#DDDDDD", "#F2B48C", "#F7E6A1", "#9CD1BE")
@@ -43,13 +50,10 @@ def draw_pull_off(ax, dataset, experiments):
         plotting.draw_band(ax, h, lowest, np.minimum(highest, 2), colour, alpha=0.15)
         label = experiments[FOLLOWED]["cases"][name.split("/")[1]]["label"]
         ax.plot(h, case.pull_off_curve, color=colour, label=label)
-        limits = [
-            float(case[f"observed_roughness_at_a_tenth_{end}"]) * 1e6 for end in ("low", "high")
-        ]
-        ax.plot(limits, [DEFAULT_SHARE] * 2, color=colour, linewidth=5, solid_capstyle="butt")
+        draw_observed(ax, case, colour)
         for criterion, marker in (("violano", "v"), (EDGES, "^")):
             at = float(case.criterion_roughness.sel(criterion=criterion)) * 1e6
-            ax.plot(at, 0.035, marker, color=colour, mfc="white")
+            ax.plot(at, 2 * LEAST_SHOWN, marker, color=colour, mfc="white")
     handles, _ = ax.get_legend_handles_labels()
     keys = [
         make_key("observed", linewidth=5),
@@ -57,9 +61,23 @@ def draw_pull_off(ax, dataset, experiments):
         make_dot("onset, finest wave", marker="^", mfc="white"),
     ]
     ax.legend(handles=[*handles, *keys], loc="upper right", fontsize=7, bbox_to_anchor=(1, 0.95))
-    ax.set(xscale="log", yscale="log", xlim=(0.07, 300), ylim=(0.02, 3))
+    ax.set(xscale="log", yscale="log", xlim=(0.07, 300), ylim=(LEAST_SHOWN, 3))
     ax.set(xlabel="rms height [µm]", ylabel="pull-off over that from a smooth surface")
-    ax.axhline(DEFAULT_SHARE, color=GREY, linewidth=0.6, linestyle=":")
+
+
+def draw_observed(ax, case, colour):
+    """What was observed: a range of roughness at its level, or of pull-off at its roughness."""
+    ends = ("low", "high")
+    if case["quantity"].item() == "limiting_roughness":
+        limits = [float(case[f"observed_limiting_roughness_{end}"]) * 1e6 for end in ends]
+        level = np.interp(
+            float(case.limiting_roughness), case.roughness.values, case.pull_off_curve.values
+        )
+        ax.plot(limits, [level] * 2, color=colour, linewidth=5, solid_capstyle="butt")
+        return
+    limits = [float(case[f"observed_relative_pull_off_{end}"]) for end in ends]
+    at = [float(case.h_rms) * 1e6] * 2
+    ax.plot(at, np.maximum(limits, LEAST_SHOWN), color=colour, linewidth=5, solid_capstyle="butt")
 
 
 def draw_works(ax, dataset, experiments):
@@ -102,7 +120,7 @@ def draw_criteria(ax, dataset, experiments):
         outcomes,
         cmap=ListedColormap(OUTCOME_COLOURS),
         vmin=SILENT - 0.5,
-        vmax=WITHIN + 0.5,
+        vmax=COMPATIBLE + 0.5,
         aspect="auto",
     )
     for (row, column), code in np.ndenumerate(outcomes):

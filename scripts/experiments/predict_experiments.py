@@ -4,9 +4,10 @@ import numpy as np
 import xarray as xr
 
 from pipeline.experiments import judgements, predictions
-from pipeline.experiments.entries import GRADES, OBSERVED_UNITS, read_observations
+from pipeline.experiments.entries import GRADES, MIDDLE, read_observations
 from pipeline.experiments.markdown import write_markdown
 from pipeline.job import start
+from stickiness.config.experiment_entries import OBSERVED_UNITS
 from stickiness.core import datasets
 from stickiness.core.budget import Part, absent, with_budget
 from stickiness.criteria.registry import CRITERIA
@@ -16,9 +17,10 @@ QUOTED = {
     "relative_pull_off": ("1", "pull-off over that from a smooth surface"),
     "work_of_approach": ("J/m^2", "apparent work of adhesion on approach"),
     "work_of_separation": ("J/m^2", "apparent work of adhesion on separation"),
-    "roughness_at_a_tenth": ("m", "rms height at which the pull-off falls to a tenth"),
+    "limiting_roughness": ("m", "rms height at which adhesion falls to the level observed"),
 }
 NOT_OBSERVED = "not observed"
+LARGEST_EFFECT = 1e9  # of an input, in place of an infinite one
 
 
 def main(job):
@@ -48,68 +50,71 @@ def predict_all(observations):
 def predict_case(observation):
     """Prediction, observation and outcome of one case."""
     predicted = predictions.predict_observation(observation)
-    middle = observation.middle
     known = {
         "quantity": observation.quantity,
         "outcome": np.int8(judgements.judge_prediction(observation, predicted)),
+        "value_inside": np.int8(judgements.is_value_inside(observation, predicted)),
+        "by_relation": np.int8(observation.relation is not None),
+        "tests": np.int8(observation.published and observation.relation is None),
         "known": np.int8(max(GRADES.index(grade) for grade in observation.grades.values())),
         "observed_known": np.int8(GRADES.index(observation.grades[observation.quantity])),
-        "energy_ratio": predicted.energy_ratio[middle],
-        "waves_in_contact": predicted.waves_in_contact[middle],
-        "work_of_adhesion": observation.inputs["work_of_adhesion"][middle],
+        "energy_ratio": predicted.energy_ratio[MIDDLE],
+        "waves_in_contact": predicted.waves_in_contact[MIDDLE],
+        "work_of_adhesion": observation.inputs["work_of_adhesion"][MIDDLE],
+        "h_rms": float(predictions.heights_of(observation, predicted.limit[1])[MIDDLE, 0]),
         **describe_effects(judgements.find_effects(observation, predicted)),
         **describe_observed(observation, predicted),
     }
-    for name, values in (predicted.values | {"roughness_at_a_tenth": predicted.tenth}).items():
-        known |= quote(name, values, middle)
+    for name, values in (predicted.values | {"limiting_roughness": predicted.limit}).items():
+        known |= quote(name, values)
     along = {
-        f"pull_off_curve{end}": ("roughness", predicted.curve[row, middle])
+        f"pull_off_curve{end}": ("roughness", predicted.curve[row, MIDDLE])
         for row, end in enumerate(("_low", "", "_high"))
     }
     along["pull_off_curve_lowest"] = "roughness", predicted.curve[0].min(axis=0)
     along["pull_off_curve_highest"] = "roughness", predicted.curve[2].max(axis=0)
     outcomes = judgements.judge_criteria(observation, predicted)
-    middle_only = predictions.without_error(observation)
-    roughness = predictions.find_roughness(middle_only)
+    roughness = predictions.find_roughness(observation)
     return xr.Dataset(
         known
         | along
         | {
             "criterion_outcome": ("criterion", np.array([outcomes[n] for n in CRITERIA], "i1")),
-            "criterion_roughness": ("criterion", [float(roughness[n][0]) for n in CRITERIA]),
+            "criterion_roughness": ("criterion", [roughness[n] for n in CRITERIA]),
         }
     )
 
 
-def quote(name, values, middle):
+def quote(name, values):
     """Value, limits of the model with every input in the middle, and limits over all inputs."""
     low, value, high = values
     return {
-        name: value[middle],
-        f"{name}_low": low[middle],
-        f"{name}_high": high[middle],
-        f"{name}_lowest": low.min(),
-        f"{name}_highest": high.max(),
+        name: value[MIDDLE],
+        f"{name}_low": low[MIDDLE],
+        f"{name}_high": high[MIDDLE],
+        f"{name}_lowest": np.nanmin(low, initial=np.inf) if np.isfinite(low).any() else np.nan,
+        f"{name}_highest": np.nanmax(high, initial=0) if np.isfinite(high).any() else np.nan,
     }
 
 
 def describe_effects(effects):
     """The input that matters most, by how much, and what the shortest wave does."""
-    most = max(effects, key=effects.get, default="")
+    known = {name: effect for name, effect in effects.items() if not np.isnan(effect)}
+    most = max(known, key=known.get, default="")
     return {
         "most_effective_input": most,
-        "effect_of_input": effects.get(most, 1.0),
-        "effect_of_shortest_wave": effects.get("shortest_wavelength", 1.0),
+        "effect_of_input": min(known.get(most, np.nan if effects else 1.0), LARGEST_EFFECT),
+        "effect_of_shortest_wave": min(effects.get("shortest_wavelength", 1.0), LARGEST_EFFECT),
     }
 
 
 def describe_observed(observation, predicted):
-    """Limits of every quantity that may be observed; NaN for all but one."""
-    low, high = judgements.observed_limits(observation, predicted)
+    """Limits of every quantity that may be observed, inputs in the middle; NaN for all but one."""
+    limits = [limit[MIDDLE] for limit in judgements.observed_limits(observation, predicted)]
     return {
         f"observed_{name}_{end}": float(value) if name == observation.quantity else np.nan
-        for name in OBSERVED_UNITS
-        for end, value in (("low", low.min()), ("high", high.max()))
+        for name in (*OBSERVED_UNITS, "sticks")
+        for end, value in zip(("low", "high"), limits, strict=True)
     }
 
 
@@ -121,7 +126,7 @@ def describe(dataset):
         texts[f"{name}_high"] = unit, f"{text}, high limit of the model"
         texts[f"{name}_lowest"] = unit, f"{text}, lowest limit over all that is plausible"
         texts[f"{name}_highest"] = unit, f"{text}, highest limit over all that is plausible"
-    for name in OBSERVED_UNITS:
+    for name in (*OBSERVED_UNITS, "sticks"):
         unit, text = QUOTED.get(name, ("1", "whether the pair sticks"))
         for end in ("low", "high"):
             texts[f"observed_{name}_{end}"] = unit, f"{text}, observed, {end} limit", NOT_OBSERVED
@@ -129,6 +134,10 @@ def describe(dataset):
         texts[f"pull_off_curve{end}"] = "1", f"pull-off over that from a smooth surface{end}"
     outcomes = ", ".join(f"{code} {word}" for code, word in enumerate(judgements.OUTCOMES))
     grades = ", ".join(f"{code} {word}" for code, word in enumerate(GRADES))
+    beyond = "beyond the heights followed"
+    for end in ("", "_low", "_high", "_lowest", "_highest"):
+        name = f"limiting_roughness{end}"
+        texts[name] = (*texts[name], beyond)
     return datasets.annotate(
         dataset,
         case=("1", "experiment and case"),
@@ -136,19 +145,27 @@ def describe(dataset):
         roughness=("m", "rms height"),
         quantity=("1", "what was observed"),
         outcome=("1", outcomes),
+        value_inside=("1", "1 where the value itself agrees, every input in the middle"),
+        by_relation=("1", "1 where a relation was observed, evaluated with the inputs"),
+        tests=("1", "1 where a published number or answer is held against the prediction"),
         known=("1", f"how the least known input is known: {grades}"),
         observed_known=("1", f"how the observation is known: {grades}"),
         energy_ratio=("1", "work of adhesion over the elastic energy of full contact"),
         waves_in_contact=("1", "longest waves across what holds at pull-off", "flat on flat"),
         work_of_adhesion=("J/m^2", "work of adhesion"),
+        h_rms=("m", "rms height, given or limiting"),
         most_effective_input=("1", "input within whose limits the prediction changes most"),
-        effect_of_input=("1", "factor by which it does"),
-        effect_of_shortest_wave=("1", "factor by which the shortest wave changes the prediction"),
+        effect_of_input=("1", "factor by which it does, at most 1e9", "nothing is predicted"),
+        effect_of_shortest_wave=(
+            "1",
+            "factor by which the shortest wave changes the prediction, at most 1e9",
+            "nothing is predicted",
+        ),
         criterion_outcome=("1", f"-1 nothing decided, {outcomes}"),
         criterion_roughness=(
             "m",
             "rms height up to which a criterion says sticky",
-            "looks at no roughness",
+            "looks at no roughness, or beyond the heights followed",
         ),
         **texts,
     )

@@ -4,49 +4,71 @@ from __future__ import annotations
 
 import numpy as np
 
-from pipeline.claims.ledger import NOT, QUALIFIED, REPRODUCED, Files, Finding, claim
-from pipeline.experiments.judgements import MISSED, SOME
-from pipeline.experiments.texts import compare_roughness, survivals
-from pipeline.numbers import interval, number
+from pipeline.claims.ledger import NOT, OPEN, QUALIFIED, REPRODUCED, Files, Finding, claim
+from pipeline.experiments.entries import GRADES
+from pipeline.experiments.judgements import COMPATIBLE, MISSED, SILENT, SOME
+from pipeline.experiments.texts import INPUTS
+from pipeline.numbers import percent, quantity
 from stickiness.core import datasets
-from stickiness.core.statistics import students_t
-from stickiness.criteria.registry import REMAINING
+from stickiness.remaining.prediction import DEFAULT_SHARE
 
 PAPER = "violano"
+RUBBER = "fuller_tabor/one_MPa"
 
 
 @claim(
     22,
-    "the criterion says up to which roughness soft solids stick (held against experiments)",
+    "the criterion says what sticks among soft solids (held against experiments)",
     files=("experiments",),
 )
 def stickiness_of_experiments(files: Files) -> Finding:
     dataset = files["experiments"]
-    labels = {
-        name: entry["label"] for name, entry in datasets.parameters(dataset)["experiments"].items()
+    experiments = datasets.parameters(dataset)["experiments"]
+    rubber = dataset.sel(case=RUBBER)
+    limit = float(rubber.criterion_roughness.sel(criterion=PAPER))
+    read = (dataset.tests == 1) & (dataset.observed_known == GRADES.index("read"))
+    codes = dataset.criterion_outcome.sel(criterion=PAPER).where(read, SILENT)
+    named = {
+        code: [name_case(str(c), experiments) for c in codes.case.values[codes.values == code]]
+        for code in (COMPATIBLE, SOME, MISSED)
     }
-    ratios, ours = (compare_roughness(dataset, name).values for name in (PAPER, REMAINING))
-    outcomes = {name: found[PAPER] for name, found in survivals(dataset).items()}
-    missed = [labels[name] for name, code in outcomes.items() if code == MISSED]
-    partly = [labels[name] for name, code in outcomes.items() if code == SOME]
-    verdict = NOT if missed else QUALIFIED if partly else REPRODUCED
-    logs = np.log(ratios)
-    value = float(np.exp(logs.mean()))
-    scatter = float(students_t(logs.size) * logs.std(ddof=1) / np.sqrt(logs.size))
+    at = quantity(float(rubber.h_rms), float(rubber.h_rms), "m", 2)
     return Finding(
-        quantity="roughness up to which the criterion says sticky over that observed, geometric "
-        "mean",
-        value=value,
-        claimed=1.0,
-        verdict=verdict,
+        quantity="rms height up to which the criterion says that rubber of 1 MPa sticks [um]",
+        value=limit * 1e6,
+        verdict=decide(named),
         remark=(
-            f"Over the {logs.size} observations of a limiting roughness the ratio is "
-            f"{interval(ratios.min(), ratios.max(), 2)}; that of the adhesion that remains is "
-            f"{interval(ours.min(), ours.max(), 2)}. Whatever is plausible of the unknown inputs, "
-            f"the criterion contradicts {number(len(missed))} of {number(len(outcomes))} "
-            f"experiments: {'; '.join(missed) or 'none'}. Most values of these experiments are "
-            "recalled or assumed; the table of experiments says which."
+            f"At an rms height of {at} such rubber was seen to lose its adhesion, or almost. The "
+            f"adhesion that remains there is {percent(float(rubber.relative_pull_off))} of the "
+            f"smooth pull-off ({percent(float(rubber.relative_pull_off_lowest))} to "
+            f"{percent(float(rubber.relative_pull_off_highest))}). Of the observations that could "
+            f"be read, the criterion contradicts {join(named[MISSED])} whatever the unknown "
+            f"inputs, agrees with {join(named[SOME])} for some of them, and with "
+            f"{join(named[COMPATIBLE])} for all. What is unknown is most often the "
+            f"{INPUTS['longest_wavelength']}. To stick is to keep {percent(DEFAULT_SHARE)} of the "
+            "adhesion. Observations that are only recalled or assumed do not count here."
         ),
-        errors={"sampling": value * float(np.expm1(scatter))},
-        comment="sampling: Student's t of the logarithms of a few observations",
+        errors={"model": np.nan},
+        comment="model: not known, for the spectrum of the roughened surface is not",
     )
+
+
+def decide(named: dict[int, list[str]]) -> str:
+    """Verdict from the observations that were read."""
+    if named[MISSED]:
+        return NOT
+    if named[SOME]:
+        return QUALIFIED
+    return REPRODUCED if named[COMPATIBLE] else OPEN
+
+
+def name_case(case: str, experiments: dict) -> str:
+    """Author and label of a case."""
+    experiment, name = case.split("/")
+    entry = experiments[experiment]
+    return f"{entry.get('short', entry['label'])} ({entry['cases'][name]['label']})"
+
+
+def join(names: list[str]) -> str:
+    """Names in a row, or none."""
+    return "; ".join(names) or "none"

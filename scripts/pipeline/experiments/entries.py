@@ -8,55 +8,43 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from stickiness.config.experiment_entries import CONDITIONS, conditions_of
+from stickiness.config.experiment_entries import CONDITIONS, OBSERVED_UNITS, conditions_of
 from stickiness.core.units import si
+from stickiness.remaining.prediction import DEFAULT_SHARE
 
 GRADES = ("read", "recalled", "assumed")
-LENGTHS = ("longest_wavelength", "rolloff_wavelength", "shortest_wavelength")
-SHAPE = ("hurst", *LENGTHS)
-OBSERVED_UNITS = {
-    "relative_pull_off": None,
-    "roughness_at_a_tenth": "m",
-    "work_of_approach": "J/m^2",
-    "work_of_separation": "J/m^2",
-    "sticks": None,
-}
-BOUNDS = 3  # values of a swept input: low, geometric middle, high
+SHAPE = ("hurst", "longest_wavelength", "rolloff_wavelength", "shortest_wavelength")
+MIDDLE = 0  # index of the combination with every input in the middle
 
 
 @dataclass(frozen=True)
 class Observation:
     """One observation, and the conditions it was made under.
 
-    `inputs` has, by name, arrays of one value for every combination of what is plausible; `axes`
-    the values of every input that is swept. Combination `middle` has all of them in the middle.
+    `inputs` has, by name, arrays of one value for every combination of what is plausible: first all
+    inputs in the middle, then each at its low and high end, the others in the middle, then all
+    corners. `swept` are the names of the inputs that are not known.
     """
 
     experiment: str
     name: str
     label: str
+    published: bool
     quantity: str
     low: float  # limits of what was observed, or of the factor of the relation; 0 or 1 of "sticks"
     high: float
+    level: float  # share of the adhesion that is left at a limiting roughness
     relation: str | None  # that was observed, in place of a number
     error: float  # of the relation
+    silent: tuple[str, ...]  # criteria that it does not test
     inputs: dict[str, NDArray]
-    axes: dict[str, NDArray]
+    swept: tuple[str, ...]
     grades: dict[str, str]  # by input and, under its quantity, of what was observed
-
-    @property
-    def middle(self) -> int:
-        """Index of the combination with every input in the middle."""
-        sizes = [len(values) for values in self.axes.values()]
-        return int(np.ravel_multi_index([size // 2 for size in sizes], sizes)) if sizes else 0
 
     def along(self, name: str) -> NDArray:
         """Indices of the combinations along one swept input, the others in the middle."""
-        sizes = [len(values) for values in self.axes.values()]
-        indices = np.arange(np.prod(sizes, dtype=int)).reshape(sizes)
-        every = slice(None)
-        place = [every if key == name else len(v) // 2 for key, v in self.axes.items()]
-        return indices[tuple(place)]
+        low = 1 + 2 * self.swept.index(name)
+        return np.array([low, MIDDLE, low + 1])
 
 
 def read_observations(experiments: Mapping[str, Any]) -> Iterator[Observation]:
@@ -69,11 +57,8 @@ def read_observations(experiments: Mapping[str, Any]) -> Iterator[Observation]:
 def read_observation(experiment: str, name: str, entry: Any, case: Any) -> Observation:
     """One case of an experiment."""
     conditions = conditions_of(entry, case)
-    values = {key: read_values(given, CONDITIONS[key]) for key, given in conditions.items()}
-    axes = {key: found for key, found in values.items() if len(found) > 1}
-    combined = np.array(list(product(*axes.values()))).reshape(-1, len(axes))
-    inputs = {key: np.full(len(combined), found[0]) for key, found in values.items()}
-    inputs |= dict(zip(axes, combined.T, strict=True))
+    ends = {key: read_ends(given, CONDITIONS[key]) for key, given in conditions.items()}
+    swept = tuple(key for key, found in ends.items() if len(found) > 1)
     observed = case["observed"]
     low, high = read_observed(observed)
     grades = {key: given["known"] for key, given in conditions.items()}
@@ -81,23 +66,38 @@ def read_observation(experiment: str, name: str, entry: Any, case: Any) -> Obser
         experiment=experiment,
         name=name,
         label=case["label"],
+        published=entry.get("published", True),
         quantity=observed["quantity"],
         low=low,
         high=high,
+        level=observed.get("level", DEFAULT_SHARE),
         relation=observed.get("relation"),
         error=si(observed["error"], "J/m^2") if "error" in observed else 0.0,
-        inputs=with_modulus(inputs),
-        axes=axes,
+        silent=tuple(observed.get("silent", ())),
+        inputs=with_modulus(combine_inputs(ends, swept)),
+        swept=swept,
         grades=grades | {observed["quantity"]: observed["known"]},
     )
 
 
-def read_values(given: Any, unit: str | None) -> NDArray:
-    """The value, or `BOUNDS` of them between the limits."""
-    if "value" in given:
-        return np.array([read_number(given["value"], unit)])
-    low, high = (read_number(value, unit) for value in given["between"])
-    return np.geomspace(low, high, BOUNDS)
+def combine_inputs(ends: Mapping[str, NDArray], swept: tuple[str, ...]) -> dict[str, NDArray]:
+    """Values of every input for all combinations; see `Observation`."""
+    # Places of the swept inputs between their ends: 0 low, 1 middle, 2 high.
+    places = [[1] * len(swept)]
+    for axis in range(len(swept)):
+        places += [[end if i == axis else 1 for i in range(len(swept))] for end in (0, 2)]
+    places = np.array([*places, *(list(corner) for corner in product((0, 2), repeat=len(swept)))])
+    inputs = {key: np.full(len(places), found[0]) for key, found in ends.items()}
+    for axis, key in enumerate(swept):
+        low, high = ends[key]
+        inputs[key] = np.array([low, np.sqrt(low * high), high])[places[:, axis]]
+    return inputs
+
+
+def read_ends(given: Any, unit: str | None) -> NDArray:
+    """The value, or both limits."""
+    values = given["between"] if "between" in given else [given["value"]]
+    return np.array([read_number(value, unit) for value in values])
 
 
 def read_observed(observed: Any) -> tuple[float, float]:
@@ -105,7 +105,7 @@ def read_observed(observed: Any) -> tuple[float, float]:
     if "relation" in observed:
         low, high = observed.get("factor", (1.0, 1.0))
         return low, high
-    unit = OBSERVED_UNITS[observed["quantity"]]
+    unit = OBSERVED_UNITS.get(observed["quantity"])
     given = observed["between"] if "between" in observed else [observed["value"]] * 2
     low, high = (read_number(value, unit) for value in given)
     return low, high

@@ -6,13 +6,13 @@ from functools import cache
 import numpy as np
 from numpy.typing import NDArray
 
-from pipeline.experiments.entries import SHAPE, Observation
+from pipeline.experiments.entries import MIDDLE, SHAPE, Observation
 from stickiness.criteria.a_v_table import SurfaceAv
 from stickiness.criteria.pair import Pair
 from stickiness.criteria.registry import CRITERIA
 from stickiness.criteria.verdict import BROAD_A_V, describe_surface, surface_a_v
 from stickiness.remaining import sphere
-from stickiness.remaining.prediction import DEFAULT_SHARE, HYSTERESIS, LATE
+from stickiness.remaining.prediction import HYSTERESIS, LATE
 from stickiness.surfaces.spectrum import SelfAffine
 
 SIGNS = (-1, 0, 1)  # low limit, value, high limit
@@ -39,12 +39,13 @@ class Predicted:
 
     `curve` is the adhesion along `ROUGHNESS`, ``(sign, combination, roughness)``: the pull-off of a
     sphere over that from a smooth surface, or the share of the work of adhesion that remains
-    between flats. `tenth` is the rms height [m] at which it falls to a tenth.
+    between flats. `limit` is the rms height [m] at which it falls to the level of the observation,
+    NaN beyond these heights.
     """
 
     values: dict[str, NDArray]
     curve: NDArray
-    tenth: NDArray
+    limit: NDArray
     waves_in_contact: NDArray  # longest waves across what holds a sphere at pull-off
     energy_ratio: NDArray
 
@@ -104,8 +105,9 @@ def predict_observation(observation: Observation) -> Predicted:
     rough = make_pair(observation, shapes, repeat(ROUGHNESS, shapes))
     follow = relative_pull_off if "radius" in observation.inputs else find_share
     curve = np.array([follow(observation, rough, sign) for sign in SIGNS])
-    tenth = np.array([[find_fall(ROUGHNESS, r, DEFAULT_SHARE) for r in rows] for rows in curve])
-    pair = make_pair(observation, shapes, heights_of(observation, tenth[1]))
+    level = observation.level
+    limit = np.array([[find_fall(ROUGHNESS, row, level) for row in rows] for rows in curve])
+    pair = make_pair(observation, shapes, heights_of(observation, limit[1]))
     work = pair.work_of_adhesion[:, 0]
     share, separation, relative = (
         np.array([find(observation, pair, sign)[:, 0] for sign in SIGNS])
@@ -119,15 +121,15 @@ def predict_observation(observation: Observation) -> Predicted:
             "work_of_separation": separation * work,
         },
         curve=curve,
-        tenth=tenth,
+        limit=limit,
         waves_in_contact=count_waves(observation, pair),
         energy_ratio=(pair.adhesion_length / pair.elastic_energy)[:, 0],
     )
 
 
-def heights_of(observation: Observation, tenth: NDArray) -> NDArray:
-    """Rms heights ``(combination, 1)``: as given, or where adhesion falls to a tenth."""
-    return observation.inputs.get("h_rms", tenth)[:, None]
+def heights_of(observation: Observation, limit: NDArray) -> NDArray:
+    """Rms heights ``(combination, 1)``: as given, or where adhesion falls to the level."""
+    return observation.inputs.get("h_rms", limit)[:, None]
 
 
 def find_share(observation: Observation, pair: Pair, sign: int) -> NDArray:
@@ -160,16 +162,15 @@ def repeat(heights: NDArray, shapes: list[Shape]) -> NDArray:
 
 
 def find_fall(heights: NDArray, values: NDArray, level: float) -> float:
-    """Rms height [m] at which values fall to a level for good, by logarithms."""
+    """Rms height [m] at which values fall to a level for good; NaN if that is not among them."""
     above = np.flatnonzero(values > level)
-    last = above[-1] if above.size else 0
-    if not above.size or last == values.size - 1:
-        return float(heights[last])
-    here = slice(last, last + 2)
-    logs = np.log(np.maximum(values[here], 1e-300))
-    share = (logs[0] - np.log(level)) / (logs[0] - logs[1])
+    if not above.size or above[-1] == values.size - 1:
+        return float("nan")
+    here = slice(above[-1], above[-1] + 2)
+    ends = values[here] if values[here].min() == 0 else np.log(values[here] / level)
+    start, end = ends - level if values[here].min() == 0 else ends
     low, high = np.log(heights[here])
-    return float(np.exp(low + share * (high - low)))
+    return float(np.exp(low + start / (start - end) * (high - low)))
 
 
 def count_waves(observation: Observation, pair: Pair) -> NDArray:
@@ -190,39 +191,50 @@ def find_observed(observation: Observation, pair: Pair) -> tuple[NDArray, NDArra
     if observation.relation == "energy_ratio":
         h_rms = pair.h_rms[:, 0] * np.sqrt(work / (factors * energy))
         return h_rms[1], h_rms[0]
-    conformal = np.maximum(work - energy, 0.0)
-    lost = factors * work if observation.relation == "cycle_loss" else 0 * factors
-    low, high = conformal + lost + np.array([[-1], [1]]) * observation.error
-    return np.maximum(low, 0.0), high
+    times = 2 if observation.relation == "cycle_loss" else 1
+    found = times * factors * work - energy
+    low, high = found + np.array([[-1], [1]]) * observation.error
+    return np.maximum(low, 0.0), np.maximum(high, 0.0)
 
 
-def find_margins(observation: Observation, tenth: NDArray) -> dict[str, NDArray]:
+def find_margins(observation: Observation, limit: NDArray) -> dict[str, NDArray]:
     """Margin ``(combination,)`` of every criterion; sticky above 1."""
-    pair = make_pair(observation, shapes_of(observation), heights_of(observation, tenth))
+    pair = make_pair(observation, shapes_of(observation), heights_of(observation, limit))
     return {
-        name: np.asarray(c.margin(pair)) * np.ones(pair.h_rms.shape) for name, c in CRITERIA.items()
+        name: (c.margin(pair) * np.ones(pair.h_rms.shape))[:, 0] for name, c in CRITERIA.items()
     }
 
 
-def find_roughness(observation: Observation) -> dict[str, NDArray]:
-    """Rms height [m] ``(combination,)`` up to which every criterion says sticky.
+def find_lengths(observation: Observation, heights: NDArray) -> dict[str, NDArray]:
+    """Adhesion length that a criterion asks for over the actual one, at heights ``(comb., n)``.
+
+    Criteria that know no adhesion length are left out.
+    """
+    pair = make_pair(observation, shapes_of(observation), heights)
+    return {
+        name: criterion.adhesion_length_threshold(pair) / pair.adhesion_length
+        for name, criterion in CRITERIA.items()
+        if criterion.has_length
+    }
+
+
+def find_roughness(observation: Observation) -> dict[str, float]:
+    """Rms height [m] up to which every criterion says sticky, every input in the middle.
 
     NaN for a criterion that looks at no roughness.
     """
-    shapes = shapes_of(observation)
-    rough = make_pair(observation, shapes, repeat(COARSE, shapes))
-    found = {}
-    for name, criterion in CRITERIA.items():
-        margins = np.broadcast_to(criterion.margin(rough), rough.h_rms.shape)
-        constant = criterion.modulus is not None
-        found[name] = np.array(
-            [np.nan if constant else find_fall(COARSE, row, 1.0) for row in margins]
-        )
-    return found
+    middle = select(observation, [MIDDLE])
+    shapes = shapes_of(middle)
+    rough = make_pair(middle, shapes, repeat(COARSE, shapes))
+    return {
+        name: find_fall(COARSE, criterion.margin(rough)[0], 1.0)
+        if criterion.has_length
+        else float("nan")
+        for name, criterion in CRITERIA.items()
+    }
 
 
-def without_error(observation: Observation) -> Observation:
-    """The observation with every input in the middle."""
-    middle = observation.middle
-    inputs = {name: values[[middle]] for name, values in observation.inputs.items()}
-    return replace(observation, inputs=inputs, axes={})
+def select(observation: Observation, combinations: list[int]) -> Observation:
+    """The observation with some of its combinations alone."""
+    inputs = {name: values[combinations] for name, values in observation.inputs.items()}
+    return replace(observation, inputs=inputs)

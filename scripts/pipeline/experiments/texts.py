@@ -3,15 +3,14 @@
 import numpy as np
 
 from pipeline.experiments.entries import GRADES
-from pipeline.experiments.judgements import MISSED, OUTCOMES, SILENT, SOME, WITHIN
-from pipeline.numbers import interval, number, percent, quantity
+from pipeline.experiments.judgements import COMPATIBLE, FEWEST_WAVES, MISSED, OUTCOMES, SILENT, SOME
+from pipeline.numbers import number, percent, quantity
 from stickiness.core import datasets
 from stickiness.criteria.registry import CRITERIA
-from stickiness.remaining.prediction import DEFAULT_SHARE
 
-UNITS = {"roughness_at_a_tenth": "m", "work_of_approach": "J/m²", "work_of_separation": "J/m²"}
+UNITS = {"limiting_roughness": "m", "work_of_approach": "J/m²", "work_of_separation": "J/m²"}
 NAMES = {
-    "roughness_at_a_tenth": "rms height at a tenth",
+    "limiting_roughness": "limiting rms height",
     "relative_pull_off": "relative pull-off",
     "work_of_approach": "work of approach",
     "work_of_separation": "work of separation",
@@ -30,10 +29,10 @@ INPUTS = {
     "shortest_wavelength": "shortest wave",
     "h_rms": "rms height",
 }
-MARKS = {SILENT: "–", MISSED: "✗", SOME: "≈", WITHIN: "✓"}
-TONES = {SILENT: "open", MISSED: "no", SOME: "partly", WITHIN: "yes"}
+MARKS = {SILENT: "–", MISSED: "✗", SOME: "≈", COMPATIBLE: "✓"}
+TONES = {SILENT: "open", MISSED: "no", SOME: "partly", COMPATIBLE: "yes"}
 LEAST_EFFECT = 1.1  # factor by which an input must change a prediction to be named
-WANTED = percent(DEFAULT_SHARE)
+MOST_EFFECT = 1e3  # factor beyond which it goes from nothing to something
 LEAST_SHARE = 1e-6  # of the work of adhesion; less is written as none
 
 
@@ -49,12 +48,15 @@ def describe(dataset):
 
 
 def count_outcomes(dataset):
-    """How many cases are within the limits, in a sentence."""
-    codes = dataset.outcome.values
-    within, some, missed = (int(np.sum(codes == code)) for code in (WITHIN, SOME, MISSED))
+    """How the cases came out, in two sentences; of published ones, without mere relations."""
+    tested = dataset.isel(case=dataset.tests.values == 1)
+    codes, inside = tested.outcome.values, tested.value_inside.values
+    good, some, missed = (int(np.sum(codes == code)) for code in (COMPATIBLE, SOME, MISSED))
     return (
-        f"Of {codes.size} cases, {within} lie within the limits whatever the unknown inputs, "
-        f"{some} for some of them, and {missed} are missed."
+        f"The limits of the prediction overlap with {good} of {codes.size} published observations "
+        f"whatever the unknown inputs, with {some} for some of them, and with {missed} for none. "
+        f"The value itself agrees with {int(inside.sum())}. None is a sharp test, because no "
+        "spectrum is known."
     )
 
 
@@ -70,16 +72,17 @@ def describe_case(case, experiments):
     entry = experiments[experiment]
     outcome = int(case.outcome)
     return {
-        "experiment": entry["label"],
+        "experiment": entry.get("short", entry["label"]),
         "case": entry["cases"][name]["label"],
         "quantity": NAMES[case["quantity"].item()],
         "observed": describe_observed(case),
         "known": GRADES[int(case.observed_known)],
         "least_known": GRADES[int(case.known)],
         "predicted": describe_predicted(case),
-        "outcome": OUTCOMES[outcome],
+        "outcome": OUTCOMES[outcome] + (", value too" if case.value_inside else ""),
         "tone": TONES[outcome],
         "depends": describe_effect(case),
+        "waves": describe_waves(case),
         "marks": {name: mark(case, name) for name in CRITERIA},
     }
 
@@ -90,26 +93,26 @@ def describe_observed(case):
     low, high = (float(case[f"observed_{observed}_{end}"]) for end in ("low", "high"))
     if observed == "sticks":
         return "sticks" if low else "does not stick"
-    return write(observed, low, high)
+    text = write(observed, low, high)
+    return f"{text} (relation)" if case.by_relation else text
 
 
 def describe_predicted(case):
     """What is predicted, with the limits over the model and all that is plausible."""
     name = predicted_name(case)
     value, low, high = (float(case[f"{name}{end}"]) for end in ("", "_lowest", "_highest"))
-    if name not in UNITS:
-        return f"{percent(value)} ({percent(low)} to {percent(high)}) remains"
-    whole = 1.0 if name == "roughness_at_a_tenth" else float(case.work_of_adhesion)
-    low, value, high = (0.0 if x < LEAST_SHARE * whole else x for x in (low, value, high))
-    if name == "roughness_at_a_tenth":
-        low, value, high = (float(case[f"{name}{end}"]) for end in ("_lowest", "", "_highest"))
+    if name in ("remaining", "relative_pull_off"):
+        return f"{percent(value)} ({percent(low)} to {percent(high)})"
+    if name != "limiting_roughness":
+        least = LEAST_SHARE * float(case.work_of_adhesion)
+        value, low, high = (0.0 if x < least else x for x in (value, low, high))
     return f"{write(name, value, value)} ({write(name, low, high)})"
 
 
 def write(name, low, high):
     """Limits of a quantity with its unit."""
     if name not in UNITS:
-        return interval(low, high, 2)
+        return f"{percent(low)} to {percent(high)}"
     if high <= 0:
         return f"0 {UNITS[name]}"
     return quantity(low, high, UNITS[name], 2)
@@ -118,9 +121,20 @@ def write(name, low, high):
 def describe_effect(case):
     """The unknown input that matters most, and by how much."""
     effect = float(case.effect_of_input)
+    if np.isnan(effect):
+        return "not resolved: nothing is predicted"
     if effect < LEAST_EFFECT:
-        return "on none of the unknown inputs"
-    return f"{INPUTS[case.most_effective_input.item()]} (factor {number(effect, 2)})"
+        return "no unknown input"
+    factor = "from none to some" if effect > MOST_EFFECT else f"factor {number(effect, 2)}"
+    return f"{INPUTS[case.most_effective_input.item()]} ({factor})"
+
+
+def describe_waves(case):
+    """Longest waves across what holds a sphere; marked where they are few."""
+    waves = float(case.waves_in_contact)
+    if np.isnan(waves):
+        return "flat"
+    return number(waves, 2) + (", too few" if waves < FEWEST_WAVES else "")
 
 
 def mark(case, criterion):
@@ -130,32 +144,22 @@ def mark(case, criterion):
 
 
 def survivals(dataset):
-    """Worst outcome of every criterion by experiment; `SILENT` where nothing was decided."""
+    """Worst outcome of every criterion by experiment; `SILENT` where nothing is tested."""
     experiments = [name.split("/")[0] for name in dataset.case.values.tolist()]
     table = {}
     for name in dict.fromkeys(experiments):
         rows = dataset.criterion_outcome.values[[e == name for e in experiments]]
-        decided = np.where(rows == SILENT, WITHIN + 1, rows).min(axis=0)
-        table[name] = dict(
-            zip(CRITERIA, np.where(decided > WITHIN, SILENT, decided).tolist(), strict=True)
-        )
+        worst = np.where(rows == SILENT, COMPATIBLE + 1, rows).min(axis=0)
+        codes = np.where(worst > COMPATIBLE, SILENT, worst).tolist()
+        table[name] = dict(zip(CRITERIA, codes, strict=True))
     return table
-
-
-def compare_roughness(dataset, criterion):
-    """Roughness limit of a criterion over that observed, geometric means; one for every case."""
-    cases = dataset.where(dataset["quantity"] == "roughness_at_a_tenth", drop=True)
-    observed = np.sqrt(
-        cases.observed_roughness_at_a_tenth_low * cases.observed_roughness_at_a_tenth_high
-    )
-    return cases.criterion_roughness.sel(criterion=criterion) / observed
 
 
 def explain_misses(dataset, experiments):
     """Reason looked for, by the label of every experiment with a case that was missed."""
     missed = {name.split("/")[0] for name in dataset.case.values[dataset.outcome.values == MISSED]}
     return {
-        entry["label"]: entry.get("missed", "no reason was found")
+        entry.get("short", entry["label"]): entry.get("missed", "no reason was found")
         for name, entry in experiments.items()
         if name in missed
     }

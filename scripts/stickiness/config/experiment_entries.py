@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import Any
 
-from stickiness.config.messages import unit_problem
+from stickiness.config.messages import unit_problem, unknown
 from stickiness.core.units import si
+from stickiness.criteria.registry import CRITERIA
 
 # Conditions that a case takes from its experiment unless it has its own, and their units.
 CONDITIONS = {
@@ -23,17 +24,18 @@ CONDITIONS = {
     "h_rms": "m",
 }
 _NEEDED = ("work_of_adhesion", "range", "hurst", "longest_wavelength", "shortest_wavelength")
-_UNITS = {
+# Units of what may be observed; whether a pair sticks has none and is no number.
+OBSERVED_UNITS = {
     "relative_pull_off": None,
-    "roughness_at_a_tenth": "m",
+    "limiting_roughness": "m",
     "work_of_approach": "J/m^2",
     "work_of_separation": "J/m^2",
 }
-# Quantity that a relation gives, and whether it needs a factor.
+# Quantity that a relation gives.
 RELATIONS = {
-    "conformal_contact": ("work_of_approach", False),
-    "cycle_loss": ("work_of_separation", True),
-    "energy_ratio": ("roughness_at_a_tenth", True),
+    "conformal_contact": "work_of_approach",
+    "cycle_loss": "work_of_separation",
+    "energy_ratio": "limiting_roughness",
 }
 _LIMITS = {"poisson_ratio": (0.0, 0.5), "hurst": (0.01, 1.0), "relative_pull_off": (0.0, 10.0)}
 
@@ -65,7 +67,7 @@ def experiment_problems(experiment: Mapping[str, Any]) -> Iterator[str]:
 
 def _case_problems(conditions: Mapping[str, Any], observed: Mapping[str, Any]) -> Iterator[str]:
     quantity = observed["quantity"]
-    needed = _NEEDED if quantity == "roughness_at_a_tenth" else (*_NEEDED, "h_rms")
+    needed = _NEEDED if quantity == "limiting_roughness" else (*_NEEDED, "h_rms")
     for key in needed:
         if key not in conditions:
             yield f": the key {key!r} is missing, here and in the experiment"
@@ -76,15 +78,17 @@ def _case_problems(conditions: Mapping[str, Any], observed: Mapping[str, Any]) -
         {"youngs_modulus", "poisson_ratio"} <= set(conditions)
     ):
         yield ": give plane_strain_modulus, or youngs_modulus and poisson_ratio"
+    for name in observed.get("silent", ()):
+        if name not in CRITERIA:
+            yield unknown(".observed.silent", name, CRITERIA)
     if quantity == "sticks":
         if not isinstance(observed.get("value"), bool):
             given = observed.get("value", observed.get("between"))
             yield f".observed.value = {given!r} must be true or false for 'sticks'"
-        return
-    if "relation" in observed:
+    elif "relation" in observed:
         yield from _relation_problems(observed)
     else:
-        yield from _value_problems(".observed", observed, _UNITS[quantity], quantity)
+        yield from _value_problems(".observed", observed, OBSERVED_UNITS[quantity], quantity)
     longest = "rolloff_wavelength" if "rolloff_wavelength" in conditions else "longest_wavelength"
     yield from _order_problems(conditions, "shortest_wavelength", longest)
     if longest == "rolloff_wavelength":
@@ -93,12 +97,12 @@ def _case_problems(conditions: Mapping[str, Any], observed: Mapping[str, Any]) -
 
 def _relation_problems(observed: Mapping[str, Any]) -> Iterator[str]:
     relation = observed["relation"]
-    quantity, needs_factor = RELATIONS[relation]
+    quantity = RELATIONS[relation]
     if observed["quantity"] != quantity:
         yield f".observed.quantity = {observed['quantity']!r} must be {quantity!r} for {relation!r}"
-    if needs_factor != ("factor" in observed):
-        yield f".observed: {relation!r} {'needs a factor' if needs_factor else 'takes no factor'}"
-    elif needs_factor and not observed["factor"][0] < observed["factor"][1]:
+    if "factor" not in observed:
+        yield f".observed: the key 'factor' is missing, limits of that of {relation!r}"
+    elif not observed["factor"][0] < observed["factor"][1]:
         yield f".observed.factor = {observed['factor']!r} must be [low, high] with low < high"
     yield from unit_problem(".observed.error", observed.get("error"), "J/m^2")
 

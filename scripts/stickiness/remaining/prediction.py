@@ -95,6 +95,11 @@ class Roughness:
         # Full contact is a state that the surfaces may take.
         return plain(np.clip(share, np.maximum(1 - 1 / ratio, 0.0), 1.0))
 
+    def distance(self, adhesion_length: ArrayLike, range: ArrayLike) -> float | NDArray:
+        """Distance over which what remains acts, the range plus part of the rms height [length]."""
+        ratio = np.asarray(adhesion_length) / self.elastic_energy
+        return plain(np.asarray(range) + DISTANCE * ratio**DISTANCE_POWER * self.h_rms)
+
     def pull_off(
         self, adhesion_length: ArrayLike, range: ArrayLike
     ) -> tuple[ArrayLike, ArrayLike, ArrayLike]:
@@ -104,8 +109,7 @@ class Roughness:
         of the law.
         """
         ratio = np.asarray(adhesion_length) / self.elastic_energy
-        distance = np.asarray(range) + DISTANCE * ratio**DISTANCE_POWER * self.h_rms
-        stress = np.asarray(adhesion_length) / distance
+        stress = np.asarray(adhesion_length) / self.distance(adhesion_length, range)
         low, value, high = (
             plain(
                 stress

@@ -1,16 +1,16 @@
 """Pull-off of a sphere from a rough surface: Maugis' sphere with the adhesion that remains.
 
 Where the contact holds many of the longest waves, roughness changes only what holds the surfaces
-together per area: the work of adhesion becomes what remains of it, and the strength of the law
-becomes the pull-off stress of the rough surface. Both come from `Roughness`. The sphere is then
-smooth, and Maugis' solution goes from JKR to DMT.
+together per area: the work of adhesion becomes what remains of it, and the distance over which it
+acts becomes that of the rough surface. Both come from `Roughness`. The sphere is then smooth, and
+Maugis' solution goes from JKR to DMT.
 
-A sphere comes off from its edge. The receding edge is pinned where the roughness favours contact,
-so that it takes more work than remains, and more than that of a smooth surface if contact was full.
-Dalvi et al. (PNAS 116, 25484, 2019, doi:10.1073/pnas.1913126116) measured a loss of the work of
-adhesion times the true area of contact in a cycle; Sanner et al. (Sci. Adv. 10, eadl1277, 2024,
-doi:10.1126/sciadv.adl1277) derive such a loss, which they find in proportion to the elastic energy.
-The high limit of the work of separation allows for both. The value does not.
+A sphere comes off from its edge. Roughness pins the edge, so that it takes more work to part the
+surfaces than remains. Dalvi et al. (PNAS 116, 25484, 2019, doi:10.1073/pnas.1913126116) measured
+what a cycle of contact and removal loses: the work of adhesion times the true area of contact. The
+high limit of the work of separation is what remains plus that loss. On nearly smooth surfaces it
+overstates, for there is nothing to pin the edge. The value has no pinning, nor has the low limit of
+the approach: the same authors found no other loss on approach than the elastic energy.
 """
 
 from __future__ import annotations
@@ -26,9 +26,6 @@ from stickiness.core.arguments import plain, positive
 from stickiness.remaining.prediction import HYSTERESIS, Roughness
 from stickiness.remaining.share import find_onset, tough_area
 
-# Work of separation over what a smooth surface takes, at most PINNING elastic energies more. The
-# factor of Sanner et al. is about 3 from memory; the limit is to hold it.
-PINNING = 4.0
 _LEAST, _MOST, _POINTS = 1e-3, 1e3, 121  # Maugis' parameter; JKR and DMT to 0.2 % beyond
 _NOTHING = np.finfo(float).tiny
 
@@ -81,10 +78,8 @@ def pull_off(
     """
     radius, length, range = positive(radius=radius, adhesion_length=adhesion_length, range=range)
     work = work_of_separation(rough, length, range, sign)
-    stress = np.asarray(rough.pull_off(length, range)[(0, 2, 1)[sign]])
     held = np.maximum(work, _NOTHING) * length
-    # A law of the work that remains and of the strength of the rough surface reaches so far.
-    reach = np.maximum(held / np.maximum(stress, _NOTHING), range)
+    reach = np.asarray(rough.distance(length, range))
     force = work * length * _coefficient(radius, held, reach)
     smooth = length * _coefficient(radius, length, range)
     zone = np.maximum(np.cbrt(9 * np.pi / 8 * held * radius**2), np.sqrt(2 * radius * reach))
@@ -103,8 +98,7 @@ def work_of_separation(
     ratio = np.asarray(adhesion_length) / rough.elastic_energy
     zone = rough.q0 * np.asarray(range) ** 2 / adhesion_length
     area = np.asarray(tough_area(ratio, find_onset(zone)))
-    pinned = np.minimum(share + area, 1 + PINNING / ratio)
-    return np.maximum(np.minimum(HYSTERESIS * share, 1.0), pinned)
+    return np.maximum(np.minimum(HYSTERESIS * share, 1.0), share + area)
 
 
 def _coefficient(radius: NDArray, length: NDArray, range: NDArray) -> NDArray:
