@@ -43,7 +43,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from stickiness.core.arguments import number, plain, positive
 
-_SHORTEST = 350.0  # k beyond which exp(-2k) is zero beside anything
+_SHORTEST = 25.0  # k beyond which S is 1 to rounding
 _SERIES = 1.5  # 2k below which sinh and cosh are expanded
 _TERMS = 12
 
@@ -147,14 +147,11 @@ class Layer:
 
     def factor(self, q: ArrayLike) -> float | NDArray:
         """Compliance over that of a half-space, S, of waves `q` >= 0 [1/length]."""
-        k = np.minimum(np.asarray(q, dtype=float) * self.thickness, _SHORTEST)
-        if self.backing == "slip":
-            # Multiplied by 2 exp(-2k); exp(-2k) = 1 + gone.
-            gone = np.expm1(-2 * k)
-            below = -gone * (2 + gone) + 4 * k * (1 + gone)
-            return plain(gone**2 / np.where(k > 0, below, 1.0))
-        above, below = self._bonded(k)
-        return plain(above / below)
+        k = np.asarray(q, dtype=float) * self.thickness
+        long = k < _SHORTEST
+        factor = np.ones(k.shape)
+        factor[long] = self._slipping(k[long]) if self.backing == "slip" else self._bonded(k[long])
+        return plain(factor)
 
     def compliance(self, q: ArrayLike) -> float | NDArray:
         """Displacement per pressure u_q E*/p_q = 2 S/q [length] of waves `q` > 0 [1/length]."""
@@ -168,8 +165,14 @@ class Layer:
         """Return the solid with `length` as the unit of length."""
         return replace(self, thickness=self.thickness / length)
 
-    def _bonded(self, k: NDArray) -> tuple[NDArray, NDArray]:
-        """Numerator and denominator of S, both times 2 D exp(-2k)/(1 + m)^2.
+    def _slipping(self, k: NDArray) -> NDArray:
+        """S on a rigid base without friction, from its parts times 2 exp(-2k) = 2 (1 + gone)."""
+        gone = np.expm1(-2 * k)
+        below = -gone * (2 + gone) + 4 * k * (1 + gone)
+        return gone**2 / np.where(k > 0, below, 1.0)
+
+    def _bonded(self, k: NDArray) -> NDArray:
+        """S of a bonded layer, from its numerator and denominator times 2 D exp(-2k)/(1 + m)^2.
 
         In these groups all terms are positive, but for one that is always outweighed.
         """
@@ -190,7 +193,7 @@ class Layer:
         above = (minus * cosh + plus * odd) / 2 + 4 * linear * k * gone
         below = (plus * even + minus * sinh) / 2
         below += ((hard * (1 + a)) ** 2 + 4 * square * k**2) * gone
-        return above, below
+        return above / below
 
 
 Solid = HalfSpace | Layer
@@ -225,11 +228,11 @@ def _less_leading_terms(x: NDArray) -> tuple[NDArray, NDArray]:
     odd = -np.expm1(-2 * x) - 2 * x * gone
     even = 1 + gone**2 - (2 + x**2) * gone
     small = x < _SERIES
-    y = np.where(small, x, 0.0) ** 2
-    third = fourth = np.zeros_like(y)  # sinh: x^3 (1/6 + ...), cosh: x^4 (1/24 + ...)
+    y, gone = x[small] ** 2, gone[small]
+    third = fourth = np.zeros_like(y)  # sinh: x^3 (1/6 + ...), cosh: x^4/2 (1/12 + ...)
     for n in range(_TERMS, 0, -1):
         third = (1 + third * y) / ((2 * n) * (2 * n + 1))
         fourth = (1 + fourth * y) / ((2 * n + 1) * (2 * n + 2))
-    odd = np.where(small, 2 * gone * x * y * third, odd)
-    even = np.where(small, gone * y**2 * fourth, even)
+    odd[small] = 2 * gone * x[small] * y * third
+    even[small] = gone * y**2 * fourth
     return odd, even

@@ -56,9 +56,11 @@ def effective_wavenumbers(shape, lengths, solid=HALF_SPACE):
     """
     q = wavenumbers(shape, lengths)
     if solid != HALF_SPACE:
+        half = shape[0] // 2 + 1  # the other wave vectors mirror these
         q[0, 0] = 1.0
-        q /= solid.factor(q)
+        q[:half] /= solid.factor(q[:half])
         q[0, 0] = 0.0
+        q[half:] = q[1 : shape[0] - half + 1][::-1]
     return q
 
 

@@ -23,6 +23,7 @@ from stickiness.adhesion.scaling import SEPARATION
 from stickiness.contact.solver import ConvergenceError
 from stickiness.core.arguments import grid, number
 from stickiness.core.plausibility import PlausibilityWarning
+from stickiness.solids import HALF_SPACE, Solid, check_solid
 
 REACH = 4.0  # ranges between the highest point and the surface where the approach begins
 STEPS_ERROR = 0.03  # relative, of works and pull-off, by the steps of the path
@@ -108,6 +109,7 @@ def measure(
     tol: float = 1e-4,
     half_grid: bool = True,
     logger=None,
+    solid: Solid = HALF_SPACE,
 ) -> Remaining:
     """Measure what remains of adhesion on given heights.
 
@@ -129,6 +131,9 @@ def measure(
         Whether to solve on every second point as well, for the limits.
     logger : logging.Logger, optional
         Told every state.
+    solid : solids.HalfSpace or solids.Layer
+        Elastic solid; the thickness of a layer is in the unit of `length`. Works at given mean
+        gaps are those of the surfaces: the mean compression of a layer stores and returns its own.
 
     Raises
     ------
@@ -149,27 +154,26 @@ def measure(
             "range^2/adhesion_length: points would snap one by one. Take pixels of at most "
             f"{edge_zone.COARSEST * pixel / coarse:.3g} or a longer range"
         )
-    found = _follow(heights, length, law, squeeze, tol, logger)
+    settings = {"tol": tol, "logger": logger, "solid": check_solid(solid)}
+    found = _follow(heights, length, law, squeeze, settings)
     if not half_grid:
         return found
     with warnings.catch_warnings():
         # The half grid is coarse on purpose: what that changes is the error.
         warnings.simplefilter("ignore", PlausibilityWarning)
-        coarse = _follow(heights[::2, ::2], length, law, squeeze, tol, logger)
+        coarse = _follow(heights[::2, ::2], length, law, squeeze, settings)
     return replace(found, **_limits(found, coarse))
 
 
-def _follow(heights, length, law, squeeze, tol, logger):
+def _follow(heights, length, law, squeeze, options):
     """Approach, squeeze and part once; limits are NaN."""
     first = float(heights.max() - heights.mean()) + REACH * law.range
-    settings = {
+    settings = options | {
         "control": "mean_gap",
-        "tol": tol,
         "balance": BALANCE,
         "smallest_jump": BALANCE,
         "steps": STEPS,
         "max_states": MOST_STATES,
-        "logger": logger,
     }
     closest = 0.0 if law.hard_wall else -0.2 * law.range
     approach = []

@@ -10,7 +10,12 @@ from scipy.optimize import elementwise
 
 from stickiness.core.arguments import number, plain, positive
 from stickiness.remaining.share import ONSET, find_onset, remaining_share, tough_area
+<<<<<<< HEAD
 from stickiness.surfaces.interface import Spectrum
+=======
+from stickiness.solids import HALF_SPACE, Solid, check_solid
+from stickiness.surfaces.spectrum import Spectrum
+>>>>>>> layers
 
 # Errors of the onset; of a share, relative and in proportion to what is lost; and of a share,
 # absolute, which is all that is known of small ones. Together they hold 94 % of simulated surfaces
@@ -19,6 +24,11 @@ from stickiness.surfaces.interface import Spectrum
 ONSET_ERROR = 0.08
 SHARE_ERROR = 0.15
 LEAST_ERROR = 0.015
+# All that was fitted to half-spaces. On layers simulations of H = 0.6 and 0.8 keep less and more
+# than predicted, by up to these parts of what is lost, times the distance of S of the longest waves
+# from 1: more on thin incompressible layers, whose long waves are stiffer than springs, less on
+# films on a soft backing and where S is about a half.
+LAYER_LESS, LAYER_MORE = 0.06, 0.2
 # The largest tension on separation is what remains over a distance, the range plus
 # DISTANCE x^DISTANCE_POWER rms heights.
 DISTANCE, DISTANCE_POWER, PULL_OFF_ERROR = 1.25, 0.25, 0.3
@@ -55,10 +65,14 @@ class Prediction:
         Work of adhesion over the elastic energy of full contact.
     tabor : float
         Tabor's parameter of the longest waves, (l_a^2/(q0^2 h_rms range^3))^(1/3): the range drops
+<<<<<<< HEAD
         out where it is large.
     widening : float
         Factor on the errors that limits stand for: above 1 for surfaces unlike those simulated, see
         `find_widening`.
+=======
+        out where it is large. On a layer the longest waves see the modulus E*/S instead of E*.
+>>>>>>> layers
     """
 
     approach: float
@@ -80,25 +94,44 @@ class Roughness:
     h_rms: ArrayLike
     q0: ArrayLike  # of the longest waves, or of the roll-off
     elastic_energy: ArrayLike  # of full contact per nominal area over E* [length]
+<<<<<<< HEAD
     widening: float = 1.0  # factor on the errors, see `find_widening`
+=======
+    softness: ArrayLike = 1.0  # S of the longest waves on a layer, see `solids`
+>>>>>>> layers
 
     def share(self, adhesion_length: ArrayLike, range: ArrayLike, sign: int = 0) -> float | NDArray:
         """Share of the work of adhesion that remains; `sign` -1 or +1 for its low or high limit."""
         sign = sign * self.widening
         ratio = np.asarray(adhesion_length) / self.elastic_energy
-        zone = self.q0 * np.asarray(range) ** 2 / adhesion_length
+        zone = self.zone(adhesion_length, range)
         reach = np.asarray(range) / self.h_rms
-        share = remaining_share(ratio, reach, zone, ONSET - sign * ONSET_ERROR)
+        onset = ONSET - sign * ONSET_ERROR
+        share = remaining_share(ratio, reach, zone, onset, self.softness)
         sign, lost = np.asarray(sign), 1 - np.asarray(share)
         least = LEAST_ERROR * np.minimum(ratio / ONSET, 1.0)
         share = share * (1 + SHARE_ERROR * lost) ** sign + sign * least * lost
+        harder = 1 - np.asarray(self.softness)
+        less, more = np.minimum(abs(harder), 1.0), np.maximum(harder, 0.0)
+        share = share + np.where(sign < 0, -LAYER_LESS * less, LAYER_MORE * more * sign) * lost
         # Full contact is a state that the surfaces may take.
         return plain(np.clip(share, np.maximum(1 - 1 / ratio, 0.0), 1.0))
 
+<<<<<<< HEAD
     def distance(self, adhesion_length: ArrayLike, range: ArrayLike) -> float | NDArray:
         """Distance over which what remains acts, the range plus part of the rms height [length]."""
         ratio = np.asarray(adhesion_length) / self.elastic_energy
         return plain(np.asarray(range) + DISTANCE * ratio**DISTANCE_POWER * self.h_rms)
+=======
+    def zone(self, adhesion_length: ArrayLike, range: ArrayLike) -> float | NDArray:
+        """Width of the cohesive zone over the longest waves.
+
+        That is twice the stiffness q0/(2 S) of these waves over the slope w/range^2 of the law,
+        so that attraction reaches over gaps the more, the stiffer a layer holds them.
+        """
+        softened = np.asarray(adhesion_length) * self.softness
+        return self.q0 * np.asarray(range) ** 2 / softened
+>>>>>>> layers
 
     def pull_off(
         self, adhesion_length: ArrayLike, range: ArrayLike
@@ -131,15 +164,20 @@ class Roughness:
         With `sign` +1 or -1 that of the high or low limit of the share, which is shorter or longer.
         """
         range = np.asarray(range, dtype=float)
+<<<<<<< HEAD
         known = {"h_rms": self.h_rms, "q0": self.q0, "elastic_energy": self.elastic_energy}
         sign = np.multiply(sign, self.widening)
         h, q0, energy, range, sign = np.broadcast_arrays(*positive(**known, range=range), sign)
+=======
+        known = vars(self) | {"range": range}
+        h, q0, energy, soft, range, sign = np.broadcast_arrays(*positive(**known), sign)
+>>>>>>> layers
 
-        def excess(log_length, h, q0, energy, range, sign):
-            rough = Roughness(h, q0, energy)
+        def excess(log_length, h, q0, energy, soft, range, sign):
+            rough = Roughness(h, q0, energy, soft)
             return np.asarray(rough.share(np.exp(log_length), range, sign)) - share
 
-        at = h, q0, energy, range, sign
+        at = h, q0, energy, soft, range, sign
         bracket = np.log(LEAST_LENGTH * energy), np.log(20 * energy / (1 - share))
         found = elementwise.find_root(excess, bracket, args=at)
         # Attraction whose range is far above h_rms holds at any strength.
@@ -157,7 +195,11 @@ def find_widening(ratio: float) -> float:
 
 
 def predict(
-    spectrum: Spectrum, adhesion_length: float, range: float, q0: float | None = None
+    spectrum: Spectrum,
+    adhesion_length: float,
+    range: float,
+    q0: float | None = None,
+    solid: Solid = HALF_SPACE,
 ) -> Prediction:
     """Predict what remains of adhesion on a rough surface.
 
@@ -175,7 +217,13 @@ def predict(
         Range of the attraction [length].
     q0 : float, optional
         Wave number of the longest waves that matter [1/length]; by default that of the roll-off,
+<<<<<<< HEAD
         or the lowest of the spectrum, with a direction of its norm.
+=======
+        or the lowest of the spectrum.
+    solid : solids.HalfSpace or solids.Layer
+        Elastic solid; the thickness of a layer is in the unit of the spectrum.
+>>>>>>> layers
 
     Raises
     ------
@@ -196,7 +244,12 @@ def predict(
     if q0 is None:
         q0 = spectrum.q_longest
     q0, h = number("q0", q0), spectrum.h_rms
+<<<<<<< HEAD
     rough = Roughness(h, q0, spectrum.elastic_energy(), find_widening(spectrum.anisotropy))
+=======
+    softness = check_solid(solid).factor(q0)
+    rough = Roughness(h, q0, spectrum.elastic_energy(solid), softness)
+>>>>>>> layers
     low, share, high = (float(rough.share(length, range, sign)) for sign in (-1, 0, 1))
     ratio = length / rough.elastic_energy
     pull_off, *pull_off_limits = map(float, rough.pull_off(length, range))
@@ -204,11 +257,15 @@ def predict(
         approach=share,
         separation=share,
         pull_off=pull_off,
-        area_at_zero_load=float(tough_area(ratio, find_onset(q0 * range**2 / length))),
+        area_at_zero_load=float(tough_area(ratio, find_onset(rough.zone(length, range)))),
         approach_limits=(low / LATE, high),
         separation_limits=(low, min(HYSTERESIS * high, 1.0)),
         pull_off_limits=tuple(pull_off_limits),
         energy_ratio=ratio,
+<<<<<<< HEAD
         tabor=float(np.cbrt(length**2 / (q0**2 * h * range**3))),
         widening=rough.widening,
+=======
+        tabor=float(np.cbrt((length * softness) ** 2 / (q0**2 * h * range**3))),
+>>>>>>> layers
     )

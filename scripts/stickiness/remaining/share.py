@@ -26,13 +26,21 @@ doi:10.1007/s11012-017-0701-6). U is the elastic energy of contact without adhes
 
 The deeper of two states is that with the larger share; `remaining_share` rounds the corner between
 them, which adds 9 % at most.
+
+**Thin layers** (`spring_share`). Waves much longer than a thin compressible layer, or one that
+slips, all have one stiffness: the layer is a bed of springs, and every point of the surface closes
+and opens on its own. For Gaussian heights that limit is exact, and nothing is fitted. The longest
+waves tell how near it is, by their S (see `solids`): the share is that of the half-space (with the
+energy of full contact of the layer, and its zone) and, weighted by ``(1 - S)^2``, what springs keep
+beyond it. That weight follows simulations of S = 0.1 to 0.5. Long waves of a thin incompressible
+layer are stiffer than springs, and keep more.
 """
 
 from __future__ import annotations
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy.special import erfcx, ndtr
+from scipy.special import erfcx, lambertw, ndtr
 
 from stickiness.core.arguments import plain, positive
 
@@ -42,6 +50,10 @@ SHARPNESS = 8.0  # of the corner between tough and weak
 # within 30 % of simulations at H = 0.5 to 0.9 from full contact to a gap of 2.7.
 ENERGY_DECAY, ENERGY_CURVATURE = 2.2, 0.2
 _GAPS = np.linspace(0.0, 10.0, 201)  # mean gaps over h_rms
+# Of springs over h_rms: clearances between undeformed surfaces, and their means.
+_CLEARANCES, _STEP = np.linspace(-6.0, 12.0, 901, retstep=True)
+_LEVELS = np.linspace(-0.5, 6.0, 66)
+_HEIGHTS = np.exp(-((_LEVELS[:, None] - _CLEARANCES) ** 2) / 2) * (_STEP / np.sqrt(2 * np.pi))
 
 
 def tough_share(energy_ratio: ArrayLike, onset: ArrayLike = ONSET) -> float | NDArray:
@@ -85,12 +97,42 @@ def weak_share(energy_ratio: ArrayLike, range_ratio: ArrayLike) -> float | NDArr
     return plain(np.maximum(gained, 0.0))
 
 
+def spring_share(energy_ratio: ArrayLike, range_ratio: ArrayLike) -> float | NDArray:
+    """Share that remains on a bed of springs, where each point of the surface is on its own.
+
+    A point whose undeformed surfaces are c apart (all energies over that of full contact) is
+    closed, ``c^2 - x``, or open at the gap g that balances the exponential law,
+    ``(c - g)^2 - x exp(-g/e)`` with ``y = (c - g)/e``, ``y exp(-y) = x/(2 e^2) exp(-c/e)``.
+    """
+    x, e = np.broadcast_arrays(*positive(energy_ratio=energy_ratio, range_ratio=range_ratio))
+    x, e = x[..., None], e[..., None]
+    closed = _CLEARANCES**2 - x
+    pull = x / (2 * e**2) * np.exp(np.minimum(-_CLEARANCES / e, 500.0))
+    holds = pull < np.exp(-1)
+    y = -lambertw(-np.where(holds, pull, 0.0)).real
+    holds &= e * y < _CLEARANCES
+    energy = np.where(holds, np.minimum(closed, e**2 * (y**2 - 2 * y)), closed)
+    gained = -np.min(energy @ _HEIGHTS.T, axis=-1) / x[..., 0]
+    return plain(np.clip(gained, 0.0, 1.0))
+
+
 def remaining_share(
-    energy_ratio: ArrayLike, range_ratio: ArrayLike, zone: ArrayLike, onset: float = ONSET
+    energy_ratio: ArrayLike,
+    range_ratio: ArrayLike,
+    zone: ArrayLike,
+    onset: float = ONSET,
+    softness: ArrayLike = 1.0,
 ) -> float | NDArray:
-    """Share that remains, from weak to tough: the larger of both, its corner rounded."""
+    """Share that remains, from weak to tough: the larger of both, its corner rounded.
+
+    `softness` is S of the longest waves on a layer: below 1 its points are partly on their own.
+    """
     tough = np.asarray(tough_share(energy_ratio, find_onset(zone, onset)))
     weak = np.asarray(weak_share(energy_ratio, range_ratio))
     larger, smaller = np.maximum(tough, weak), np.minimum(tough, weak)
     ratio = smaller / np.where(larger > 0, larger, 1.0)
-    return plain(np.minimum(larger * (1 + ratio**SHARPNESS) ** (1 / SHARPNESS), 1.0))
+    share = np.minimum(larger * (1 + ratio**SHARPNESS) ** (1 / SHARPNESS), 1.0)
+    alone = np.maximum(1 - np.asarray(softness), 0.0) ** 2
+    if np.any(alone > 0):
+        share = share + alone * np.maximum(spring_share(energy_ratio, range_ratio) - share, 0.0)
+    return plain(share)

@@ -1,0 +1,132 @@
+"""Adhesion that remains on elastic layers: simulated, predicted, and both together."""
+
+import numpy as np
+import pytest
+from scipy import optimize
+
+from stickiness import adhesive, surface
+from stickiness.remaining import Roughness, measure, predict
+from stickiness.remaining.share import remaining_share, spring_share
+from stickiness.solids import Backing, HalfSpace, Layer
+from stickiness.spectrum import SelfAffine
+
+LENGTH = 4 * np.pi
+ROUGH = SelfAffine(hurst=0.8, q0=1.0, q1=4.0, h_rms=1.0)
+
+
+def test_without_jumps_all_works_are_the_energy_gained():
+    heights = surface.synthesise(ROUGH, n=64, length=LENGTH, seed=3)
+    solid = Layer(0.5, 0.3)
+    law = adhesive.Exponential(ROUGH.elastic_energy(solid), 0.8)
+    found = measure(heights, LENGTH, law, squeeze=1.0, half_grid=False, solid=solid)
+    assert found.jumps == 0
+    assert 0.1 < found.bound < 1
+    assert found.approach == pytest.approx(found.bound, rel=0.03)
+    assert found.separation == pytest.approx(found.bound, rel=0.03)
+
+
+def test_full_contact_of_a_wave_costs_the_energy_of_the_layer():
+    x = np.arange(64) / 64
+    heights = 0.05 * np.cos(2 * np.pi * x)[:, None] * np.ones(64)
+    solid = Layer(0.3, 0.5)
+    energy = 0.05**2 / 4 * solid.stiffness(2 * np.pi)
+    law = adhesive.Exponential(4 * energy, 0.02)
+    found = measure(heights, 1.0, law, squeeze=1.0, half_grid=False, solid=solid)
+    assert found.bound == pytest.approx(1 - 1 / 4, abs=0.02)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("solid", "ratio"),
+    [
+        (Layer(0.2, 0.5, "slip"), 0.5),
+        (Layer(0.5, 0.5, "slip"), 1.0),
+        (Layer(1.0, 0.5), 1.5),
+        (Layer(3.0, 0.5), 1.0),
+        (Layer(0.2, 0.5), 1.0),
+    ],
+    ids=str,
+)
+def test_predicted_limits_hold_what_was_simulated(solid, ratio):
+    rough = SelfAffine(hurst=0.8, q0=1.0, q1=8.0, h_rms=1.0)
+    heights = surface.synthesise(rough, n=64, length=LENGTH, seed=1)
+    held = surface.realised_spectrum(heights, LENGTH)
+    work = ratio * held.elastic_energy(solid)
+    range_ = np.sqrt(2 * LENGTH / 64 * work)
+    law = adhesive.Exponential(work, range_)
+    found = measure(heights, LENGTH, law, squeeze=10.0, half_grid=False, solid=solid)
+    expected = predict(held, work, range_, solid=solid)
+    assert expected.energy_ratio == pytest.approx(ratio)
+    low, high = expected.separation_limits
+    assert low <= found.separation <= high
+    assert low <= found.bound <= high
+    low, high = expected.pull_off_limits
+    assert low <= found.pull_off <= high
+
+
+@pytest.mark.parametrize(("ratio", "reach"), [(0.3, 0.5), (1.0, 0.2), (1.0, 1.0), (3.0, 0.5)])
+def test_springs_by_the_state_of_each_point(ratio, reach):
+    """Deepest state at every height by search, mean over Gaussian heights by quadrature."""
+    gaps = np.concatenate([[0.0], np.geomspace(1e-4, 20, 2000)])
+
+    def energy(clearance):
+        return float(np.min((gaps - clearance) ** 2 - ratio * np.exp(-gaps / reach)))
+
+    heights, step = np.linspace(-6, 6, 601, retstep=True)
+    weights = np.exp(-(heights**2) / 2) / np.sqrt(2 * np.pi) * step
+
+    def gained(level):
+        return sum(w * energy(level - z) for w, z in zip(weights, heights, strict=True))
+
+    settings = {"bounds": (-0.2, 3.0), "method": "bounded", "options": {"xatol": 0.02}}
+    best = optimize.minimize_scalar(gained, **settings)
+    assert spring_share(ratio, reach) == pytest.approx(-best.fun / ratio, abs=2e-3)
+
+
+def test_springs_have_their_limits():
+    assert spring_share(1.0, 1e6) == pytest.approx(1.0, abs=1e-4)
+    assert spring_share(1e4, 0.1) == pytest.approx(1.0, abs=1e-2)
+    shares = spring_share(np.geomspace(1e-6, 1e3, 100), 0.1)
+    assert np.all(np.diff(shares) >= -1e-12)
+
+
+def test_a_soft_or_thick_layer_is_no_bed_of_springs():
+    for softness in (1.0, 3.0):
+        assert remaining_share(0.8, 0.1, 0.05, softness=softness) == remaining_share(0.8, 0.1, 0.05)
+
+
+def test_thick_layers_are_half_spaces():
+    half = predict(ROUGH, 0.5, 0.1)
+    assert predict(ROUGH, 0.5, 0.1, solid=HalfSpace()) == half
+    thick = predict(ROUGH, 0.5, 0.1, solid=Layer(1e3, 0.5))
+    for name in ("separation", "pull_off", "separation_limits", "tabor", "energy_ratio"):
+        assert getattr(thick, name) == pytest.approx(getattr(half, name), rel=1e-9)
+
+
+@pytest.mark.parametrize(
+    "solid", [Layer(0.3, 0.5), Layer(0.3, 0.3), Layer(1.0, 0.5, Backing(0.1, 0.3))]
+)
+def test_the_share_grows_with_the_work_and_units_do_not_matter(solid):
+    lengths = np.geomspace(1e-3, 1e4, 40)
+    found = [predict(ROUGH, w, 0.3, solid=solid) for w in lengths]
+    assert np.all(np.diff([one.separation for one in found]) >= -1e-9)
+    scaled = SelfAffine(hurst=0.8, q0=1e6, q1=4e6, h_rms=1e-6)
+    again = predict(scaled, 1e-6 * lengths[20], 0.3e-6, solid=solid.in_unit(1e6))
+    assert again.separation_limits == pytest.approx(found[20].separation_limits, rel=1e-9)
+    assert again.tabor == pytest.approx(found[20].tabor, rel=1e-9)
+
+
+@pytest.mark.parametrize("share", [0.1, 0.5])
+def test_threshold_is_the_inverse_of_the_share(share):
+    rough = Roughness(h_rms=1.0, q0=1.0, elastic_energy=3.0, softness=0.3)
+    ranges = np.array([0.1, 0.5, 1.0])
+    lengths = rough.threshold(ranges, share)
+    assert rough.share(lengths, ranges) == pytest.approx(share, rel=1e-5)
+
+
+@pytest.mark.parametrize("solid", [None, 1.0, Layer])
+def test_bad_solids(solid):
+    with pytest.raises(ValueError, match="solid must be solids.HalfSpace.. or a solids.Layer"):
+        predict(ROUGH, 0.5, 0.1, solid=solid)
+    with pytest.raises(ValueError, match="solid must be solids.HalfSpace.. or a solids.Layer"):
+        measure(np.zeros((8, 8)), 1.0, adhesive.Exponential(0.1, 0.5), 0.1, solid=solid)
