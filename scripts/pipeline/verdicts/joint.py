@@ -34,6 +34,7 @@ class Joint:
     height_over_thickness: NDArray  # rms height over the thickness of a layer, 0 of a half-space
     q0: float
     a_v: tuple[SurfaceAv, ...]  # by end
+    softness: float  # S of the longest waves on a layer
     widening: float  # factor on the errors of what remains
     drawn: Roughness | None  # arrays over the draws of a measured surface
 
@@ -56,16 +57,18 @@ def join(material, surface, a_v, own=None):
     energy = np.array([spectrum.elastic_energy(material.solid) for spectrum in spectra])
     whole = np.array([spectrum.elastic_energy() for spectrum in spectra])
     stiffening = energy / whole
+    softness = float(material.solid.factor(plain.q0))
     drawn = plain.drawn
     if drawn is not None:
         # Draws have no spectrum of their own here: the layer acts on them as on both ends.
-        common = float(np.sqrt(np.prod(stiffening)))
-        drawn = replace(drawn, elastic_energy=drawn.elastic_energy * common)
+        energy = drawn.elastic_energy * np.sqrt(np.prod(stiffening))
+        drawn = replace(drawn, elastic_energy=energy, softness=softness)
     return replace(
         plain,
         elastic_energy=plain.elastic_energy * stiffening,
         stiffening=stiffening,
         height_over_thickness=plain.h_rms / material.solid.thickness,
+        softness=softness,
         drawn=drawn,
     )
 
@@ -93,6 +96,7 @@ def take_surface(surface, a_v):
         height_over_thickness=np.zeros(len(ENDS)),
         q0=float(surface.q0),
         a_v=(a_v,) * len(ENDS),
+        softness=1.0,
         widening=widening,
         drawn=drawn,
     )
@@ -121,6 +125,7 @@ def add_surfaces(surface, own, a_v):
         height_over_thickness=np.zeros(len(ENDS)),
         q0=q0,
         a_v=tuple(found),
+        softness=1.0,
         widening=max(one.widening, other.widening),
         drawn=add_draws(one.drawn, other, share),
     )

@@ -36,7 +36,7 @@ def gather_pairs(materials, joints, constant) -> Pair:
         name: np.array([[getattr(joint, name) for joint in row] for row in joints])
         for name in BY_END
     }
-    for name in ("q0", "widening"):
+    for name in ("q0", "softness", "widening"):
         numbers = [[getattr(joint, name) for joint in row] for row in joints]
         of_surfaces[name] = np.array(numbers)[..., None]
     found = [

@@ -34,7 +34,10 @@ class Pair:
     a_v_high: ArrayLike
     constant_a_v: ArrayLike  # a_V of a broad spectrum, the same for every pair
     wanted_share: float = DEFAULT_SHARE  # of the work of adhesion, that must remain to stick
-    widening: float = 1.0  # factor on the errors of what remains, see `prediction.find_widening`
+    softness: ArrayLike = 1.0  # S of the longest waves on a layer, see `solids`
+    widening: ArrayLike = (
+        1.0  # factor on the errors of what remains, see `prediction.find_widening`
+    )
 
     @property
     def adhesion_length(self) -> float | NDArray:
@@ -48,7 +51,7 @@ class Pair:
     @property
     def roughness(self) -> Roughness:
         """The surface as `stickiness.remaining` needs it."""
-        return Roughness(self.h_rms, self.q0, self.elastic_energy, self.widening)
+        return Roughness(self.h_rms, self.q0, self.elastic_energy, self.softness, self.widening)
 
     def remaining(self, sign: int = 0) -> float | NDArray:
         """Share of the work of adhesion that remains; `sign` -1 or +1 for its low or high limit."""

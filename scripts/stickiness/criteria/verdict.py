@@ -275,6 +275,7 @@ def describe_surface(
         "rms_slope": spectrum.rms_slope,
         "rms_curvature": spectrum.rms_curvature,
         "elastic_energy": spectrum.elastic_energy(solid),
+        "softness": float(solid.factor(q0)),
         "widening": find_widening(spectrum.anisotropy),
     }
 

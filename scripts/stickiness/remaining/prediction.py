@@ -10,12 +10,8 @@ from scipy.optimize import elementwise
 
 from stickiness.core.arguments import number, plain, positive
 from stickiness.remaining.share import ONSET, find_onset, remaining_share, tough_area
-<<<<<<< HEAD
-from stickiness.surfaces.interface import Spectrum
-=======
 from stickiness.solids import HALF_SPACE, Solid, check_solid
-from stickiness.surfaces.spectrum import Spectrum
->>>>>>> layers
+from stickiness.surfaces.interface import Spectrum
 
 # Errors of the onset; of a share, relative and in proportion to what is lost; and of a share,
 # absolute, which is all that is known of small ones. Together they hold 94 % of simulated surfaces
@@ -65,14 +61,10 @@ class Prediction:
         Work of adhesion over the elastic energy of full contact.
     tabor : float
         Tabor's parameter of the longest waves, (l_a^2/(q0^2 h_rms range^3))^(1/3): the range drops
-<<<<<<< HEAD
-        out where it is large.
+        out where it is large. On a layer the longest waves see the modulus E*/S instead of E*.
     widening : float
         Factor on the errors that limits stand for: above 1 for surfaces unlike those simulated, see
         `find_widening`.
-=======
-        out where it is large. On a layer the longest waves see the modulus E*/S instead of E*.
->>>>>>> layers
     """
 
     approach: float
@@ -94,11 +86,8 @@ class Roughness:
     h_rms: ArrayLike
     q0: ArrayLike  # of the longest waves, or of the roll-off
     elastic_energy: ArrayLike  # of full contact per nominal area over E* [length]
-<<<<<<< HEAD
-    widening: float = 1.0  # factor on the errors, see `find_widening`
-=======
     softness: ArrayLike = 1.0  # S of the longest waves on a layer, see `solids`
->>>>>>> layers
+    widening: ArrayLike = 1.0  # factor on the errors, see `find_widening`
 
     def share(self, adhesion_length: ArrayLike, range: ArrayLike, sign: int = 0) -> float | NDArray:
         """Share of the work of adhesion that remains; `sign` -1 or +1 for its low or high limit."""
@@ -117,12 +106,11 @@ class Roughness:
         # Full contact is a state that the surfaces may take.
         return plain(np.clip(share, np.maximum(1 - 1 / ratio, 0.0), 1.0))
 
-<<<<<<< HEAD
     def distance(self, adhesion_length: ArrayLike, range: ArrayLike) -> float | NDArray:
         """Distance over which what remains acts, the range plus part of the rms height [length]."""
         ratio = np.asarray(adhesion_length) / self.elastic_energy
         return plain(np.asarray(range) + DISTANCE * ratio**DISTANCE_POWER * self.h_rms)
-=======
+
     def zone(self, adhesion_length: ArrayLike, range: ArrayLike) -> float | NDArray:
         """Width of the cohesive zone over the longest waves.
 
@@ -131,7 +119,6 @@ class Roughness:
         """
         softened = np.asarray(adhesion_length) * self.softness
         return self.q0 * np.asarray(range) ** 2 / softened
->>>>>>> layers
 
     def pull_off(
         self, adhesion_length: ArrayLike, range: ArrayLike
@@ -164,14 +151,10 @@ class Roughness:
         With `sign` +1 or -1 that of the high or low limit of the share, which is shorter or longer.
         """
         range = np.asarray(range, dtype=float)
-<<<<<<< HEAD
-        known = {"h_rms": self.h_rms, "q0": self.q0, "elastic_energy": self.elastic_energy}
-        sign = np.multiply(sign, self.widening)
-        h, q0, energy, range, sign = np.broadcast_arrays(*positive(**known, range=range), sign)
-=======
         known = vars(self) | {"range": range}
+        del known["widening"]
+        sign = np.multiply(sign, self.widening)
         h, q0, energy, soft, range, sign = np.broadcast_arrays(*positive(**known), sign)
->>>>>>> layers
 
         def excess(log_length, h, q0, energy, soft, range, sign):
             rough = Roughness(h, q0, energy, soft)
@@ -217,13 +200,9 @@ def predict(
         Range of the attraction [length].
     q0 : float, optional
         Wave number of the longest waves that matter [1/length]; by default that of the roll-off,
-<<<<<<< HEAD
         or the lowest of the spectrum, with a direction of its norm.
-=======
-        or the lowest of the spectrum.
     solid : solids.HalfSpace or solids.Layer
         Elastic solid; the thickness of a layer is in the unit of the spectrum.
->>>>>>> layers
 
     Raises
     ------
@@ -244,12 +223,13 @@ def predict(
     if q0 is None:
         q0 = spectrum.q_longest
     q0, h = number("q0", q0), spectrum.h_rms
-<<<<<<< HEAD
-    rough = Roughness(h, q0, spectrum.elastic_energy(), find_widening(spectrum.anisotropy))
-=======
-    softness = check_solid(solid).factor(q0)
-    rough = Roughness(h, q0, spectrum.elastic_energy(solid), softness)
->>>>>>> layers
+    rough = Roughness(
+        h_rms=h,
+        q0=q0,
+        elastic_energy=spectrum.elastic_energy(solid),
+        softness=check_solid(solid).factor(q0),
+        widening=find_widening(spectrum.anisotropy),
+    )
     low, share, high = (float(rough.share(length, range, sign)) for sign in (-1, 0, 1))
     ratio = length / rough.elastic_energy
     pull_off, *pull_off_limits = map(float, rough.pull_off(length, range))
@@ -262,10 +242,6 @@ def predict(
         separation_limits=(low, min(HYSTERESIS * high, 1.0)),
         pull_off_limits=tuple(pull_off_limits),
         energy_ratio=ratio,
-<<<<<<< HEAD
-        tabor=float(np.cbrt(length**2 / (q0**2 * h * range**3))),
+        tabor=float(np.cbrt((length * rough.softness) ** 2 / (q0**2 * h * range**3))),
         widening=rough.widening,
-=======
-        tabor=float(np.cbrt((length * softness) ** 2 / (q0**2 * h * range**3))),
->>>>>>> layers
     )

@@ -96,8 +96,7 @@ def work_of_separation(
     if sign <= 0:
         return share
     ratio = np.asarray(adhesion_length) / rough.elastic_energy
-    zone = rough.q0 * np.asarray(range) ** 2 / adhesion_length
-    area = np.asarray(tough_area(ratio, find_onset(zone)))
+    area = np.asarray(tough_area(ratio, find_onset(rough.zone(adhesion_length, range))))
     return np.maximum(np.minimum(HYSTERESIS * share, 1.0), share + area)
 
 
