@@ -115,8 +115,7 @@ MATERIAL = materials.read_material(
 
 def drawn(h, q0, energy=None):
     """Spectra of these rms heights and wave numbers; by default of energies as h^2 q0."""
-    parts = {"h_rms": h, "q0": q0, "elastic_energy": h**2 * q0 if energy is None else energy}
-    return xr.Dataset({f"{name}_draws": ("draw", part) for name, part in parts.items()})
+    return Roughness(h, q0, h**2 * q0 if energy is None else energy)
 
 
 def material_at(factor, rough):

@@ -69,11 +69,8 @@ def test_a_plateau_counts_from_its_end():
     assert found == same
 
 
-@pytest.mark.parametrize(
-    "unlike",
-    [rough(anisotropy=4.0, angle=0.3), combine(rough(), rough(hurst=0.6, h_rms=0.1))],
-)
-def test_limits_are_wider_for_surfaces_that_were_not_simulated(unlike):
+def test_limits_are_wider_for_surfaces_with_a_direction():
+    unlike = rough(anisotropy=4.0, angle=0.3)
     found = predict(unlike, **TOUGH)
     as_if = SelfAffine(hurst=0.8, q0=1.0, q1=1e4, h_rms=unlike.h_rms)
     length = TOUGH["adhesion_length"] * as_if.elastic_energy() / unlike.elastic_energy()
@@ -84,9 +81,16 @@ def test_limits_are_wider_for_surfaces_that_were_not_simulated(unlike):
     for name in ("separation_limits", "pull_off_limits"):
         wide, narrow = (np.ptp(np.log(getattr(each, name))) for each in (found, alike))
         assert wide > 1.1 * narrow
-    surface = Roughness(unlike.h_rms, 1.0, unlike.elastic_energy(), UNLIKE)
+    surface = Roughness(unlike.h_rms, 1.0, unlike.elastic_energy(), widening=UNLIKE)
     length = surface.threshold(TOUGH["range"], 0.2, 1)
     assert surface.share(length, TOUGH["range"], 1) == pytest.approx(0.2, rel=1e-6)
+
+
+def test_two_rough_solids_are_one_surface_of_their_sum():
+    pair, one = combine(rough(), rough()), rough(h_rms=2**0.5)
+    found, same = (predict(spectrum, **TOUGH) for spectrum in (pair, one))
+    assert found.separation == pytest.approx(same.separation, rel=1e-9)
+    assert found.separation_limits == pytest.approx(same.separation_limits, rel=1e-9)
 
 
 def test_limits_widen_steadily_with_the_direction():
