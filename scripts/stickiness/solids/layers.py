@@ -1,4 +1,4 @@
-"""Elastic solids that a rough surface presses on: half-space, or layer of finite thickness.
+"""Compliance of an elastic half-space and of layers of finite thickness, wave by wave.
 
 A pressure wave ``p_q`` displaces the surface of a solid by ``u_q = (2/|q|) S p_q/E*``. E* is the
 plane-strain modulus of the material at the surface, that of the layer. S, the `factor`, is one for
