@@ -12,6 +12,7 @@ LIBRARY = SCRIPTS / "stickiness"
 # A package imports from floors below its own, and from itself.
 FLOORS = (
     {"core"},
+    {"solids"},
     {"surfaces"},
     {"contact", "persson", "measured"},
     {"adhesion"},

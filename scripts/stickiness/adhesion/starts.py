@@ -67,8 +67,9 @@ def without_adhesion(problem, max_iterations):
     """Gap without adhesion at the control of a problem, and the convolutions it took."""
     surface = problem.surface
     if problem.pressure is not None:
+        effort = solver.Effort(_ROUGH)
         contact = solver.press(
-            surface.heights, surface.sides, problem.pressure, tol=_ROUGH, solid=surface.solid
+            surface.heights, surface.sides, problem.pressure, effort, solid=surface.solid
         )
         return contact.gap, contact.fft_pairs
     gap = problem.mean_gap - surface.heights

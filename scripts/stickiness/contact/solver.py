@@ -173,25 +173,22 @@ def solve(
         # a thin layer takes that much more pressure
         stiffening = 1 / solid.factor(2 * np.pi / max(lengths))
         warn_of_pressure(pressure, measure_slope(heights, lengths) * stiffening)
-    rough = precision == "single"
-    return press(heights, lengths, pressure, tol, start, max_iterations, rough, logger, solid)
+    effort = Effort(tol, max_iterations, precision == "single", logger)
+    return press(heights, lengths, pressure, effort, start, solid)
 
 
-def press(
-    heights,
-    lengths,
-    pressure,
-    tol,
-    start=None,
-    max_iterations=1000,
-    rough=False,
-    logger=None,
-    solid=HALF_SPACE,
-):
-    """Solve as `solve` does, of arguments that were checked, in any unit: nothing is warned of.
+@dataclass(frozen=True)
+class Effort:
+    """When to stop, whether in single precision throughout, and who is told: see `solve`."""
 
-    A `rough` solution is in single precision throughout.
-    """
+    tol: float
+    max_iterations: int = 1000
+    rough: bool = False
+    logger: object = None
+
+
+def press(heights, lengths, pressure, effort, start=None, solid=HALF_SPACE):
+    """Solve as `solve` does, of arguments that were checked, in any unit: nothing is warned of."""
     mean, rms = measure_scale(heights)
     if rms == 0 or pressure == 0:
         return _without_iterations(heights, lengths, pressure, rms)
@@ -203,28 +200,8 @@ def press(
         pressure * (lengths[0] / rms),
         solid.in_unit(lengths[0]),
     )
-    work = []
     guess = start.pressure if start is not None and start.area_fraction > 0 else None
-    layered = solid != HALF_SPACE
-    state = active_set.relax(
-        problem,
-        tol=tol,
-        rough=rough,
-        max_iterations=min(max_iterations, _MOST_ON_LAYER) if layered else max_iterations,
-        pressure=guess,
-        gap=coarse_gap(problem, work, logger) if guess is None else None,
-        logger=logger,
-    )
-    spent = state.iterations, state.pairs
-    if layered and not state.residual <= tol and spent[0] < max_iterations:
-        state = projected_gradients.relax(
-            problem,
-            np.asarray(state.pressure, dtype=float),
-            tol=tol,
-            max_iterations=max_iterations - spent[0],
-            logger=logger,
-        )
-        spent = spent[0] + state.iterations, spent[1] + state.pairs
+    state = _relax(problem, guess, effort)
     # The fields are this call's own: scaled in place, for they may be large.
     field, gap = (np.asarray(values, dtype=float) for values in (state.pressure, state.gap))
     field *= rms / lengths[0]
@@ -237,18 +214,46 @@ def press(
         mean_gap=float(gap.mean()),
         shift=state.shift * rms + mean,
         residual=state.residual,
-        iterations=spent[0],
-        fft_pairs=spent[1] + sum(work) / scaled.size,
+        iterations=state.iterations,
+        fft_pairs=state.pairs,
         length=lengths,
         rms_height=rms,
     )
-    if not state.residual <= tol:
+    if not state.residual <= effort.tol:
         raise ConvergenceError(
-            f"residual {state.residual:.2e} h_rms after {spent[0]} iterations, "
-            f"asked for {tol:.2e}: raise max_iterations, or tol if it is near rounding",
+            f"residual {state.residual:.2e} h_rms after {state.iterations} iterations, "
+            f"asked for {effort.tol:.2e}: raise max_iterations, or tol if it is near rounding",
             contact,
         )
     return contact
+
+
+def _relax(problem, guess, effort):
+    """State of a scaled problem from a guess of the pressure or, without one, coarser grids.
+
+    Its iterations and convolutions are those of all methods, the latter on all grids.
+    """
+    work, logger, limit = [], effort.logger, effort.max_iterations
+    layered = problem.solid != HALF_SPACE
+    state = active_set.relax(
+        problem,
+        tol=effort.tol,
+        rough=effort.rough,
+        max_iterations=min(limit, _MOST_ON_LAYER) if layered else limit,
+        pressure=guess,
+        gap=coarse_gap(problem, work, logger) if guess is None else None,
+        logger=logger,
+    )
+    iterations, pairs = state.iterations, state.pairs
+    if layered and not state.residual <= effort.tol and iterations < limit:
+        pressure = np.asarray(state.pressure, dtype=float)
+        left = limit - iterations
+        state = projected_gradients.relax(
+            problem, pressure, tol=effort.tol, max_iterations=left, logger=logger
+        )
+        iterations, pairs = iterations + state.iterations, pairs + state.pairs
+    pairs += sum(work) / problem.heights.size
+    return replace(state, iterations=iterations, pairs=pairs)
 
 
 def load_path(heights, length, pressures, tol=1e-8, **options):

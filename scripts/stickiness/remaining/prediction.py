@@ -202,7 +202,9 @@ def predict(
         Wave number of the longest waves that matter [1/length]; by default that of the roll-off,
         or the lowest of the spectrum, with a direction of its norm.
     solid : solids.HalfSpace or solids.Layer
-        Elastic solid; the thickness of a layer is in the unit of the spectrum.
+        Elastic solid; the thickness of a layer is in the unit of the spectrum. On thin
+        incompressible layers the value is a third to nine tenths of what was simulated (the less,
+        the weaker the adhesion); the limits hold that.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""Elastic solids that a rough surface presses on: half-space, or layer of finite thickness.
+"""Compliance of an elastic half-space and of layers of finite thickness, wave by wave.
 
 A pressure wave ``p_q`` displaces the surface of a solid by ``u_q = (2/|q|) S p_q/E*``. E* is the
 plane-strain modulus of the material at the surface, that of the layer. S, the `factor`, is one for
@@ -113,8 +113,8 @@ class Layer:
     Examples
     --------
     >>> rubber = Layer(thickness=1.0, poisson=0.5)
-    >>> print(f"{rubber.compliance(0.01):.4e}")  # (4/3) q^2 d^3: long waves hardly move it
-    1.3332e-04
+    >>> print(f"{rubber.compliance(0.01):.3e}")  # (4/3) q^2 d^3: long waves hardly move it
+    1.333e-04
     >>> rubber.mean_compliance
     0.0
     """

@@ -1,0 +1,15 @@
+"""Elastic solids that a rough surface presses on: half-space, or layer of finite thickness.
+
+- `layers`: compliance of both, wave by wave
+"""
+
+from stickiness.solids.layers import (
+    HALF_SPACE,
+    Backing,
+    HalfSpace,
+    Layer,
+    Solid,
+    check_solid,
+)
+
+__all__ = ["HALF_SPACE", "Backing", "HalfSpace", "Layer", "Solid", "check_solid"]
