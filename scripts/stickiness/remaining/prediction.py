@@ -98,11 +98,12 @@ class Roughness:
         onset = ONSET - sign * ONSET_ERROR
         share = remaining_share(ratio, reach, zone, onset, self.softness)
         sign, lost = np.asarray(sign), 1 - np.asarray(share)
-        least = LEAST_ERROR * np.minimum(ratio / ONSET, 1.0)
-        share = share * (1 + SHARE_ERROR * lost) ** sign + sign * least * lost
+        fades = np.minimum(ratio / ONSET, 1.0)  # of absolute errors, below the onset
+        share = share * (1 + SHARE_ERROR * lost) ** sign + sign * LEAST_ERROR * fades * lost
         harder = 1 - np.asarray(self.softness)
         less, more = np.minimum(abs(harder), 1.0), np.maximum(harder, 0.0)
-        share = share + np.where(sign < 0, -LAYER_LESS * less, LAYER_MORE * more * sign) * lost
+        layer = np.where(sign < 0, -LAYER_LESS * less, LAYER_MORE * more * sign)
+        share = share + layer * fades * lost
         # Full contact is a state that the surfaces may take.
         return plain(np.clip(share, np.maximum(1 - 1 / ratio, 0.0), 1.0))
 
