@@ -30,7 +30,7 @@ from stickiness.remaining.share import find_onset, tough_area
 # factor of Sanner et al. is about 3 from memory; the limit is to hold it.
 PINNING = 4.0
 _LEAST, _MOST, _POINTS = 1e-3, 1e3, 121  # Maugis' parameter; JKR and DMT to 0.2 % beyond
-_NOTHING = np.finfo(float).tiny
+_NOTHING = 1e-200
 
 
 @dataclass(frozen=True)
@@ -81,11 +81,14 @@ def pull_off(
     """
     radius, length, range = positive(radius=radius, adhesion_length=adhesion_length, range=range)
     work = work_of_separation(rough, length, range, sign)
-    stress = np.asarray(rough.pull_off(length, range)[(0, 2, 1)[sign]])
     held = np.maximum(work, _NOTHING) * length
-    # A law of the work that remains and of the strength of the rough surface reaches so far.
-    reach = np.maximum(held / np.maximum(stress, _NOTHING), range)
-    force = work * length * _coefficient(radius, held, reach)
+    stress = dict(zip((0, -1, 1), rough.pull_off(length, range), strict=True))
+    # A law of the work that remains and of the strength of the rough surface reaches so far. The
+    # weaker it is, the farther, towards DMT: the low force goes with the high strength.
+    reach, farthest = (
+        np.maximum(held / np.maximum(stress[of], _NOTHING), range) for of in (sign, -sign)
+    )
+    force = work * length * _coefficient(radius, held, farthest)
     smooth = length * _coefficient(radius, length, range)
     zone = np.maximum(np.cbrt(9 * np.pi / 8 * held * radius**2), np.sqrt(2 * radius * reach))
     return SpherePullOff(
