@@ -21,7 +21,7 @@ OBSERVED_UNITS = {
     "work_of_separation": "J/m^2",
     "sticks": None,
 }
-BOUNDS = 3  # values of a swept input: low, geometric middle, high
+BOUNDS = 3  # values of a swept input: low, geometric middle (from zero the mean), high
 
 
 @dataclass(frozen=True)
@@ -97,7 +97,7 @@ def read_values(given: Any, unit: str | None) -> NDArray:
     if "value" in given:
         return np.array([read_number(given["value"], unit)])
     low, high = (read_number(value, unit) for value in given["between"])
-    return np.geomspace(low, high, BOUNDS)
+    return np.geomspace(low, high, BOUNDS) if low > 0 else np.linspace(low, high, BOUNDS)
 
 
 def read_observed(observed: Any) -> tuple[float, float]:
