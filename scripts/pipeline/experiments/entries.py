@@ -71,7 +71,7 @@ def read_observation(experiment: str, name: str, entry: Any, case: Any) -> Obser
     conditions = conditions_of(entry, case)
     values = {key: read_values(given, CONDITIONS[key]) for key, given in conditions.items()}
     axes = {key: found for key, found in values.items() if len(found) > 1}
-    combined = np.array(list(product(*axes.values()))).reshape(-1, len(axes))
+    combined = np.array(list(product(*axes.values())))
     inputs = {key: np.full(len(combined), found[0]) for key, found in values.items()}
     inputs |= dict(zip(axes, combined.T, strict=True))
     observed = case["observed"]
