@@ -105,10 +105,13 @@ def make_panels(
 
 def save(figure: Figure, outputs: Iterable[str]) -> None:
     """Write the figure to every path, whole or not at all, free of the time of writing."""
-    for path in outputs:
-        with datasets.whole_file(path) as temporary:
-            undated = {"CreationDate": None} if temporary.suffix == ".pdf" else {}
-            figure.savefig(temporary, metadata=undated)
+    # Saving puts the layout engine back; in place of none it would put that of the settings.
+    laid_out = figure.get_layout_engine() is not None
+    with mpl.rc_context({"figure.constrained_layout.use": laid_out}):
+        for path in outputs:
+            with datasets.whole_file(path) as temporary:
+                undated = {"CreationDate": None} if temporary.suffix == ".pdf" else {}
+                figure.savefig(temporary, metadata=undated)
     plt.close(figure)
 
 

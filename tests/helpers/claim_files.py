@@ -6,11 +6,13 @@ import json
 import numpy as np
 import pandas as pd
 import xarray as xr
+from helpers.experiments import make_dataset
 
 from pipeline import conventions
 from pipeline.conventions import LOAD
 from stickiness import criteria, surface
 from stickiness.core import budget
+from stickiness.criteria.registry import REMAINING
 from stickiness.spectrum import SelfAffine
 
 LOADS = np.array([0.001, 0.0065, 0.03, LOAD, 0.13, 0.52])
@@ -263,6 +265,24 @@ def remaining(growth=0.0):
     return pd.concat(rows, ignore_index=True)
 
 
+def experiments(outcomes=(2, 2, 2), limits=(2e-6, 2e-6)):
+    """Two limiting roughnesses of 2 um, and a pair that does not stick.
+
+    `outcomes` of the paper's criterion by case, and its `limits` of the roughness.
+    """
+    at = {"quantity": "roughness_at_a_tenth", "observed": (1e-6, 4e-6), "predicted": (2e-6,) * 3}
+    found = [{"violano": outcome, REMAINING: 2} for outcome in outcomes]
+    roughness = [{"violano": limit, REMAINING: 2e-6} for limit in limits]
+    steel = {"quantity": "sticks", "observed": (0.0, 0.0), "predicted": (0.0, 0.0, 0.01)}
+    return make_dataset(
+        {
+            "ball/limit": {**at, "criteria": found[0], "limits": roughness[0]},
+            "ball/work": {**at, "criteria": found[1], "limits": roughness[1]},
+            "plate/steel": {**steel, "criteria": found[2]},
+        }
+    )
+
+
 def files_by_name():
     """Files of a world in which the paper's power laws hold, to be changed at will."""
     return {
@@ -307,5 +327,6 @@ def make_files():
         "polished_steel": real_surface("polished steel", q0=2 * np.pi / 1e-4),
         "measured_surfaces": [real_surface("terrain", kind="measured", c0=0.07)],
         "remaining": remaining(),
+        "experiments": experiments(),
         "seeds": [generated(seed) for seed in (1, 2, 3)],
     }

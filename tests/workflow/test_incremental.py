@@ -53,6 +53,12 @@ def test_editing_a_material_reruns_verdicts_and_report(copy_of_finished):
     assert planned == {"judge", "plot_fig9", "check_claims", "write_report", "write_surface"}
 
 
+def test_editing_an_experiment_reruns_its_prediction_claims_and_report(copy_of_finished):
+    copy_of_finished.edit("config/experiments.yaml", '"37 mJ/m^2"', '"38 mJ/m^2"')
+    planned = set(copy_of_finished.planned())
+    assert planned == {"predict_experiments", "plot_experiments", "check_claims", "write_report"}
+
+
 def test_changing_the_loads_of_the_case_of_a_v_reruns_verdicts(copy_of_finished):
     copy_of_finished.edit(
         "config/tiny.yaml",
@@ -161,6 +167,11 @@ def test_comments_docstrings_and_times_of_change_rerun_nothing(copy_of_finished)
             {"solve_repulsive", "persson_surface"},
         ),
         ("claims", {"check_claims": 1}, {"plot_fig1", "write_report"}),
+        (
+            "experiments",
+            {"predict_experiments": 1, "plot_experiments": 1},
+            {"solve_repulsive", "judge", "check_claims", "write_report"},
+        ),
         (
             "results/tiny/contact/ensembles/H0.9_zeta64.nc",
             {

@@ -90,7 +90,8 @@ def combine_inputs(ends: Mapping[str, NDArray], swept: tuple[str, ...]) -> dict[
     inputs = {key: np.full(len(places), found[0]) for key, found in ends.items()}
     for axis, key in enumerate(swept):
         low, high = ends[key]
-        inputs[key] = np.array([low, np.sqrt(low * high), high])[places[:, axis]]
+        middle = np.sqrt(low * high) if low > 0 else high / 2
+        inputs[key] = np.array([low, middle, high])[places[:, axis]]
     return inputs
 
 

@@ -44,11 +44,10 @@ def conditions_of(experiment: Mapping[str, Any], case: Mapping[str, Any]) -> dic
     """Conditions of a case: its own, or those of the experiment."""
     own = {key: case.get(key, experiment.get(key)) for key in CONDITIONS}
     # A modulus of the case's own, of either kind, replaces that of the experiment.
-    for key, other in (("plane_strain_modulus", "youngs_modulus"),) * 2:
+    moduli = "plane_strain_modulus", "youngs_modulus"
+    for key, other in (moduli, moduli[::-1]):
         if key in case and other not in case:
             own[other] = None
-        if other in case and key not in case:
-            own[key] = None
     return {key: given for key, given in own.items() if given is not None}
 
 

@@ -27,7 +27,7 @@ from stickiness.remaining.prediction import HYSTERESIS, Roughness
 from stickiness.remaining.share import find_onset, tough_area
 
 _LEAST, _MOST, _POINTS = 1e-3, 1e3, 121  # Maugis' parameter; JKR and DMT to 0.2 % beyond
-_NOTHING = np.finfo(float).tiny
+_NOTHING = 1e-200
 
 
 @dataclass(frozen=True)

@@ -63,6 +63,10 @@ def test_pair_takes_its_own_range():
     assert (value, low, high) == pytest.approx((6.0, 3.0 * 0.9, 6.0 * 1.1))
     assert pair.at(1e-3)[0] == pytest.approx(1.5 * np.sqrt(4.0 * 2.0))  # halfway in logarithms
     assert pair.at(1e-9) == pytest.approx(pair.at(1e-4))
+    for found, *expected in zip(
+        pair.at(np.array([1e-4, 1.0])), pair.at(1e-4), (1.5, 1.35, 4.95), strict=True
+    ):
+        assert found == pytest.approx(expected)
 
 
 def pair_between(low, high, grows, quantiles=(np.nan, np.nan, np.nan)):

@@ -1,7 +1,9 @@
 """The report's page, from small made-up data whose texts and numbers are known."""
 
+import copy
 import json
 import re
+from dataclasses import replace
 from html import unescape
 from html.parser import HTMLParser
 from pathlib import Path
@@ -9,6 +11,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import xarray as xr
+from helpers.experiments import EXPERIMENTS, make_dataset
 
 from pipeline import numbers
 from pipeline.pages import captions, report, surface_texts
@@ -249,6 +252,26 @@ def answer(sampling=0.01):
     return made_by(dataset, case="case_of_two", accuracy=0.03)
 
 
+def experiments(entries=EXPERIMENTS):
+    """A ball that holds and is missed, and a plate that does not stick."""
+    ball = {
+        "quantity": "work_of_separation",
+        "observed": (0.03, 0.03),
+        "predicted": (0.02, 0.01, 0.025),
+        "outcome": 0,
+        "effect_of_input": 1.4142,
+        "most_effective_input": "longest_wavelength",
+        "criteria": {"violano": 2, EDGES: 0},
+    }
+    plate = {
+        "quantity": "sticks",
+        "observed": (0.0, 0.0),
+        "predicted": (0.05, 0.01, 0.12),
+        "criteria": {"violano": 1},
+    }
+    return make_dataset({"ball/work": ball, "plate/steel": plate}, entries)
+
+
 TRADEOFF = {
     "figure": {
         "name": "tradeoff",
@@ -278,10 +301,17 @@ TRADEOFF = {
 
 
 @pytest.fixture
-def page(claims, verdicts, surfaces, figures, benchmarks):
+def page(render):
+    return render()
+
+
+@pytest.fixture
+def render(claims, verdicts, surfaces, figures, benchmarks):
+    """The page, with other results where they are given."""
     results = report.Results(
         claims=claims,
         verdicts=verdicts,
+        experiments=experiments(),
         surfaces=surfaces,
         ensembles=[ensemble()],
         answers=[answer()],
@@ -289,6 +319,7 @@ def page(claims, verdicts, surfaces, figures, benchmarks):
         paths={
             "claims": "out/claims.nc",
             "verdicts": "out/verdicts.nc",
+            "experiments": "out/experiments.nc",
             "surfaces": {name: f"out/surfaces/{name}.nc" for name in surfaces},
             "ensembles": {"case_of_two": "out/ensembles/case_of_two.nc"},
             "answers": {"case_of_two": "out/cases/case_of_two.nc"},
@@ -296,15 +327,20 @@ def page(claims, verdicts, surfaces, figures, benchmarks):
             "figures": {figure["name"]: [f"out/a/{figure['name']}.nc"] for figure in figures},
         },
     )
-    return write_report.render(
-        TEMPLATE,
-        "out/report/report.html",
-        results,
-        figures=figures,
-        tradeoff=TRADEOFF,
-        benchmarks=benchmarks,
-        fidelity="draft",
-    )
+
+    def render(**others):
+        return write_report.render(
+            TEMPLATE,
+            "out/report/report.html",
+            replace(results, **others),
+            figures=figures,
+            experiments_figure=figures[0] | {"name": "experiments", "alt": "What was observed."},
+            tradeoff=TRADEOFF,
+            benchmarks=benchmarks,
+            fidelity="draft",
+        )
+
+    return render
 
 
 class Reader(HTMLParser):
@@ -373,6 +409,7 @@ def test_every_claim_and_figure_appears(page):
     images = reader.attributes("img")
     assert [image["alt"] for image in images] == [
         *(f"Figure {n}: Caption {n} of a & b < gamma." for n in range(1, 7)),
+        "What was observed.",
         "What it costs.",
     ]
     assert all((image["width"], image["height"]) == ("100", "50") for image in images)
@@ -449,6 +486,30 @@ def test_verdicts_are_worded_on_the_page(page):
     ):
         assert words in text
     assert "†" not in text
+
+
+def test_experiments_are_on_the_page(page):
+    text = Reader(page).text
+    for words in (
+        "Of 2 cases, 1 lie within the limits",
+        "soft ball held work of separation 30 mJ/m² read 20 mJ/m² (10 … 25 mJ/m²) missed "
+        "longest wave (factor 1.4) ✓ ✗",
+        "hard plate steel on steel sticks does not stick read 5 % (1 % to 12 %) remains within "
+        "on none of the unknown inputs ≈ –",
+        "soft ball : the ball was wet",
+        "soft ball : Ball, J. Made Up 1, 2 (1999). Not found: the color of the ball.",
+        "hard plate : no source.",
+    ):
+        assert words in text, words
+    assert '<a class="data" href="../experiments.nc" title="experiments.nc">20 mJ/m²' in page
+    assert 'href="#experiments"' in page
+
+
+def test_notes_of_experiments_are_on_the_page(render):
+    noted = copy.deepcopy(EXPERIMENTS)
+    noted["plate"]["note"] = "Two plates & a < b."
+    text = Reader(render(experiments=experiments(noted))).text
+    assert "hard plate : no source. Two plates & a < b." in text
 
 
 def test_verdicts_are_said_in_a_sentence(verdicts):

@@ -11,8 +11,8 @@ from stickiness.config import checks
 from stickiness.measured import readers
 
 ROOT = Path(__file__).parents[3]
-CONFIG, MATERIALS, SURFACES = (
-    f"config/{name}.yaml" for name in ("config", "materials", "surfaces")
+CONFIG, MATERIALS, SURFACES, EXPERIMENTS = (
+    f"config/{name}.yaml" for name in ("config", "materials", "surfaces", "experiments")
 )
 
 
@@ -246,6 +246,15 @@ def model(*keys, value):
             ["criteria.frequencies.minimum", "below maximum"],
         ),
         (material("range", value="2,5 nm"), ["crystal.range", "2,5 nm", "decimal point"]),
+        (
+            changed(
+                EXPERIMENTS, "experiments", "dalvi", "hurst", value={"value": 2, "known": "read"}
+            ),
+            ["experiments.yaml", "dalvi.hurst.value", "2", "between 0.01 and 1"],
+        ),
+        (changed(EXPERIMENTS, "experimets", value={}), ["experimets", "'experiments'?"]),
+        (changed(CONFIG, "experiments", value="config/e.yaml"), ["config/e.yaml", "no such"]),
+        (changed(CONFIG, "experiments", value=None), ["'experiments' is missing"]),
         (changed(CONFIG, "surfaces", value="config/surfs.yaml"), ["config/surfs.yaml", "no such"]),
         (changed(CONFIG, "cases", "H0.8_zeta32", value=None), ["cases", "H0.8_zeta32", "missing"]),
         (
@@ -285,9 +294,10 @@ def test_one_line_names_key_value_and_remedy(folder, edit, words):
 
 
 def test_shipped_configuration_is_valid(folder):
-    materials, surfaces = check()
+    materials, surfaces, experiments = check()
     assert len(materials) >= 6
     assert "jacksboro" in surfaces
+    assert "fuller_tabor" in experiments
 
 
 def test_a_key_given_twice_is_refused(folder):

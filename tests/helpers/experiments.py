@@ -1,0 +1,119 @@
+"""Made-up experiments: entries of the configuration, observations, and a dataset of outcomes."""
+
+import copy
+import json
+
+import numpy as np
+import xarray as xr
+
+from pipeline.experiments.entries import OBSERVED_UNITS, read_observation
+from stickiness.criteria.registry import CRITERIA
+
+
+def known(value, by="read"):
+    """A value with its unit, or the limits of what is plausible."""
+    return {"between" if isinstance(value, list) else "value": value, "known": by}
+
+
+def seen(quantity, value=None, by="read", **more):
+    """What was observed: a value, its limits, or a relation."""
+    given = {} if value is None else known(value, by)
+    return {"quantity": quantity, "known": by, **given, **more}
+
+
+CONDITIONS = {
+    "plane_strain_modulus": known("1 MPa"),
+    "work_of_adhesion": known("50 mJ/m^2", "recalled"),
+    "range": known("0.3 nm", "assumed"),
+    "hurst": known(0.8),
+    "longest_wavelength": known("100 um"),
+    "shortest_wavelength": known("1 um"),
+}
+EXPERIMENTS = {
+    "ball": {
+        "label": "soft ball",
+        "short": "Ball 1999",
+        "citation": "Ball, J. Made Up 1, 2 (1999)",
+        "not_found": ["the color of the ball"],
+        "missed": "the ball was wet",
+        "radius": known("5 mm"),
+        **CONDITIONS,
+        "longest_wavelength": known(["50 um", "100 um"], "assumed"),
+        "cases": {
+            "limit": {
+                "label": "lost",
+                "observed": seen("roughness_at_a_tenth", ["1 um", "4 um"], "recalled"),
+            },
+            "work": {
+                "label": "held",
+                "h_rms": known("1 um"),
+                "observed": seen("work_of_separation", "30 mJ/m^2"),
+            },
+        },
+    },
+    "plate": {
+        "label": "hard plate",
+        "citation": "no source",
+        **CONDITIONS,
+        "plane_strain_modulus": known(["100 GPa", "200 GPa"], "assumed"),
+        "cases": {
+            "steel": {
+                "label": "steel on steel",
+                "h_rms": known("1 um"),
+                "observed": seen("sticks", False, "recalled"),
+            }
+        },
+    },
+}
+
+
+def make_experiments():
+    """`EXPERIMENTS`, to be changed at will."""
+    return copy.deepcopy(EXPERIMENTS)
+
+
+def observe(observed, **conditions):
+    """Observation of a case with other conditions than `CONDITIONS`; None: without."""
+    entry = {key: given for key, given in (CONDITIONS | conditions).items() if given is not None}
+    return read_observation("mine", "one", entry, {"label": "one", "observed": observed})
+
+
+def make_dataset(rows, experiments=EXPERIMENTS):
+    """Dataset of cases as `predict_experiments` writes it, from what differs by case.
+
+    `rows` has by case: `quantity`; `observed` and `predicted`, each (low, high) and (value, low,
+    high); and any of the flags. `criteria` has outcomes, `limits` the roughness limits of criteria,
+    by name; others have decided nothing and look at no roughness.
+    """
+    made = [make_row(**row) for row in rows.values()]
+    dataset = xr.concat(made, xr.DataArray([*rows], dims="case", name="case"))
+    return dataset.assign_attrs(parameters=json.dumps({"experiments": experiments}))
+
+
+def make_row(
+    quantity, observed, predicted, criteria=None, limits=None, most_effective_input="", **flags
+):
+    values = {"outcome": 2, "observed_known": 0, "known": 2, "effect_of_input": 1.0, **flags}
+    values |= {
+        f"observed_{name}_{end}": np.nan for name in OBSERVED_UNITS for end in ("low", "high")
+    }
+    values |= {f"observed_{quantity}_low": observed[0], f"observed_{quantity}_high": observed[1]}
+    for name in ("remaining", *OBSERVED_UNITS):
+        shown = predicted if quantity in (name, {"remaining": "sticks"}.get(name)) else [0.5] * 3
+        values |= {
+            f"{name}{end}": x for end, x in zip(("", "_lowest", "_highest"), shown, strict=True)
+        }
+    values |= {"quantity": quantity, "most_effective_input": most_effective_input}
+    values["work_of_adhesion"] = 0.05
+    outcomes, roughness = (
+        {**dict.fromkeys(CRITERIA, nothing), **(given or {})}
+        for nothing, given in ((-1, criteria), (np.nan, limits))
+    )
+    return xr.Dataset(
+        values
+        | {
+            "criterion_outcome": ("criterion", np.array([*outcomes.values()], "i1")),
+            "criterion_roughness": ("criterion", [*roughness.values()]),
+        },
+        coords={"criterion": [*CRITERIA]},
+    )

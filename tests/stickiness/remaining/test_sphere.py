@@ -1,0 +1,160 @@
+"""Pull-off of a sphere from a rough surface: JKR and DMT, roughness, limits."""
+
+import numpy as np
+import pytest
+
+from stickiness.closed_forms.adhesion import MaugisSphere
+from stickiness.remaining import Roughness, sphere
+
+RADIUS, LENGTH = 1.0, 1e-6
+TOUGH, WEAK = 1e-8, 10.0  # ranges; Tabor's parameters (l_a^2/range^3)^(1/3) of 1e4 and 1e-5
+
+
+def rough(h_rms, q0=1e4):
+    """A surface whose energy of full contact is that of H = 0.8 in the end, 2/3 q0 h_rms^2."""
+    h_rms = np.asarray(h_rms, dtype=float)
+    return Roughness(h_rms, q0, 2 / 3 * q0 * h_rms**2)
+
+
+def at_ratio(ratio, **more):
+    """A surface that this energy ratio makes with `LENGTH`."""
+    return rough(np.sqrt(1.5 * LENGTH / (ratio * 1e4)), **more)
+
+
+def draw(count, seed=3):
+    """Surfaces, radii, adhesion lengths and ranges from full contact to none."""
+    random = np.random.default_rng(seed)
+    h = 10 ** random.uniform(-4, 0, count)
+    surface = Roughness(h, 1.0, 0.6 * h**2)
+    length = surface.elastic_energy * 10 ** random.uniform(-2, 4, count)
+    reach = h * 10 ** random.uniform(-4, 2, count)
+    return surface, 10 ** random.uniform(0, 5, count), length, reach
+
+
+@pytest.mark.parametrize("sign", [-1, 0, 1])
+@pytest.mark.parametrize(("reach", "factor"), [(TOUGH, 1.5), (WEAK, 2.0)])
+def test_a_smooth_surface_is_jkr_or_dmt(reach, factor, sign):
+    found = sphere.pull_off(rough(1e-14), RADIUS, LENGTH, reach, sign)
+    assert found.force == pytest.approx(factor * np.pi * RADIUS * LENGTH, rel=0.002)
+    assert found.relative == pytest.approx(1, abs=2e-3)
+    assert found.work == pytest.approx(1, abs=1e-6)
+
+
+def test_smooth_spheres_are_those_of_maugis():
+    random = np.random.default_rng(5)
+    for radius, length, reach in 10 ** random.uniform(-2, 2, (25, 3)):
+        found = sphere.pull_off(Roughness(1e-12, 1e-3, 1e-27), radius, length, reach)
+        expected = -MaugisSphere(radius, length, reach).pull_off.force
+        assert found.force == pytest.approx(expected, rel=0.002)
+
+
+def test_the_zone_is_jkr_s_contact_or_derjaguin_s():
+    tough = sphere.pull_off(rough(1e-14), RADIUS, LENGTH, TOUGH)
+    assert tough.zone_radius == pytest.approx((9 * np.pi / 8 * LENGTH) ** (1 / 3), rel=1e-6)
+    weak = sphere.pull_off(rough(1e-14), RADIUS, LENGTH, WEAK)
+    assert weak.zone_radius == pytest.approx((2 * WEAK) ** 0.5, rel=1e-6)
+
+
+@pytest.mark.parametrize("sign", [-1, 0])
+@pytest.mark.parametrize("reach", [1e-8, 1e-6, 1e-4])
+def test_pull_off_falls_with_roughness(reach, sign):
+    found = sphere.pull_off(rough(np.geomspace(1e-8, 1e-3, 60)), RADIUS, LENGTH, reach, sign)
+    # Where all of the work remains, a law of longer reach may add what is between JKR and DMT.
+    lost = found.work < 0.9
+    assert lost.sum() > 20
+    assert np.all(np.diff(found.relative[lost]) <= 1e-12)
+    assert found.relative[-1] < 0.01
+
+
+def test_pull_off_of_a_tough_sphere_goes_with_the_share():
+    # At x = 2 the share is 1 - 1/x + 0.57/x exp(-(x - 0.43)/0.57), by hand.
+    found = sphere.pull_off(at_ratio(2.0), RADIUS, LENGTH, 1e-11)
+    assert found.work == pytest.approx(0.5181, rel=2e-3)
+    assert found.force == pytest.approx(1.5 * np.pi * LENGTH * 0.5181, rel=5e-3)
+
+
+def test_limits_hold_the_value():
+    at = draw(2000)
+    low, value, high = (sphere.pull_off(*at, sign) for sign in (-1, 0, 1))
+    for name in ("work", "force", "relative"):
+        found = [getattr(pull_off, name) for pull_off in (low, value, high)]
+        assert np.all(found[0] <= found[1] * (1 + 1e-12)), name
+        assert np.all(found[1] <= found[2] * (1 + 1e-12)), name
+        assert np.mean(found[0] < found[2]) > 0.9
+
+
+@pytest.mark.parametrize(
+    ("ratio", "expected"),
+    [
+        # Onset 0.35: share 0.65/e = 0.239 with its error 0.278; area at onset 0.43: 1 - 1/e.
+        (1.0, 0.2781 + 0.6321),
+        (20.0, 1 + 4 / 20),  # area is full: at most four elastic energies more
+    ],
+)
+def test_a_pinned_edge_takes_the_area_more_and_at_most_four_energies(ratio, expected):
+    high = sphere.work_of_separation(at_ratio(ratio), LENGTH, 1e-11, 1)
+    assert high == pytest.approx(expected, rel=0.02)
+
+
+def test_jumps_may_add_to_the_share_where_there_is_no_area():
+    surface = at_ratio(0.36)
+    high = sphere.work_of_separation(surface, LENGTH, 1e-11, 1)
+    assert high == pytest.approx(1.6 * surface.share(LENGTH, 1e-11, 1), rel=1e-9)
+
+
+def test_a_pinned_edge_stays_below_its_bounds():
+    surface, _, length, reach = draw(4000)
+    high = sphere.work_of_separation(surface, length, reach, 1)
+    ratio = length / surface.elastic_energy
+    onset = 0.43 / (1 + 1.3 * np.sqrt(surface.q0 * reach**2 / length))
+    area = 1 - np.exp(-np.maximum(ratio - onset, 0) / (1 - onset))
+    share = surface.share(length, reach, 1)
+    jumps = np.minimum(1.6 * share, 1)
+    for bound in (1 + 4 / ratio, share + area):
+        assert np.all(high <= np.maximum(jumps, bound) * (1 + 1e-9))
+        assert np.sum((high > jumps) & np.isclose(high, bound)) > 100  # either one decides
+    assert np.any(high > 1)
+
+
+def test_without_a_pinned_edge_the_share_remains():
+    surface, _, length, reach = draw(50)
+    for sign in (-1, 0):
+        found = sphere.work_of_separation(surface, length, reach, sign)
+        np.testing.assert_array_equal(found, surface.share(length, reach, sign))
+
+
+def test_arrays_broadcast():
+    radii, lengths = np.array([[1.0], [2.0]]), np.array([1e-7, 1e-6, 1e-5])
+    found = sphere.pull_off(rough(1e-6), radii, lengths, 1e-8)
+    assert found.relative.shape == found.force.shape == found.zone_radius.shape == (2, 3)
+    for row, radius in enumerate(radii[:, 0]):
+        for column, length in enumerate(lengths):
+            one = sphere.pull_off(rough(1e-6), radius, length, 1e-8)
+            assert isinstance(one.force, float)
+            assert found.force[row, column] == pytest.approx(one.force, rel=1e-12)
+
+
+@pytest.mark.parametrize("sign", [-1, 0, 1])
+def test_nothing_remains_of_the_weakest_adhesion(sign):
+    found = sphere.pull_off(Roughness(1.0, 1.0, 0.6), 1e3, 1e-30, 1e-3, sign)
+    assert found.relative == pytest.approx(0, abs=1e-20)
+    assert found.zone_radius < 1e3
+
+
+@pytest.mark.parametrize("unit", [1e-9, 1e6])
+def test_units_do_not_matter(unit):
+    found = sphere.pull_off(at_ratio(2.0), RADIUS, LENGTH, 1e-7)
+    known = at_ratio(2.0)
+    scaled = Roughness(known.h_rms * unit, known.q0 / unit, known.elastic_energy * unit)
+    again = sphere.pull_off(scaled, RADIUS * unit, LENGTH * unit, 1e-7 * unit)
+    assert again.relative == pytest.approx(found.relative, rel=1e-9)
+    assert again.force == pytest.approx(found.force * unit**2, rel=1e-9)
+    assert again.zone_radius == pytest.approx(found.zone_radius * unit, rel=1e-9)
+
+
+@pytest.mark.parametrize("name", ["radius", "adhesion_length", "range"])
+@pytest.mark.parametrize("bad", [0.0, -1.0, np.nan, np.inf, "1"])
+def test_bad_arguments_are_named(name, bad):
+    given = {"radius": RADIUS, "adhesion_length": LENGTH, "range": TOUGH} | {name: bad}
+    with pytest.raises(ValueError, match=f"^{name} must be"):
+        sphere.pull_off(rough(1e-6), **given)
