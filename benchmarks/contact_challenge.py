@@ -52,8 +52,9 @@ CELLS = (
     (50.0, (1024, 2048), (1,), (REFERENCE,)),
 )
 # Pixel [um], area with adhesion in the limit of fine grids over that counted at this pixel, and
-# the error of this ratio, as the part `cells` measures them at the reference load.
-LIMIT = ((0.0244, 1.14, 0.05), (0.0488, 1.15, 0.06))
+# the error of this ratio, at the reference load. From `cells`: 12 instead of 24 nm add 3.5 % on the
+# largest cell, and all finer grids together 2.5 to 3.1 times what this first step adds.
+LIMIT = ((0.0244, 1.10, 0.04), (0.0488, 1.11, 0.05))
 QUANTILES = (0.1, 0.5, 0.9)
 TOLERANCE = 1e-3  # with adhesion; areas change by less than 1e-3 of themselves below it
 
