@@ -21,6 +21,7 @@ from stickiness.accuracy import plan
 from stickiness.accuracy.error_models import read_models
 from stickiness.adhesion import model_choice
 from stickiness.config import checks
+from stickiness.config.measured_contact import MOST_POINTS
 
 try:
     MATERIALS, REAL_SURFACES, EXPERIMENTS = checks.check_all(

@@ -11,6 +11,12 @@ def topographies(wildcards):
     return [file for file in files if not file.startswith("builtin:")]
 
 
+def largest_contact(wildcards):
+    """Megapixels of the largest grid on which measured heights are pressed."""
+    bem = REAL_SURFACES[wildcards.real_surface]["bem"]
+    return bem.get("most_points", MOST_POINTS) ** 2 / 1e6
+
+
 rule analyse_surface:
     input:
         topographies=topographies,
@@ -29,8 +35,8 @@ rule contact_measured:
     output:
         f"{RESULTS}/real_surfaces/contact/{{real_surface}}.nc",
     resources:
-        mem_mb=4000,
-        runtime=60,
+        mem_mb=memory(36, largest_contact),
+        runtime=lambda wildcards: 60 + math.ceil(15 * largest_contact(wildcards)),
     params:
         surface=lambda wildcards: REAL_SURFACES[wildcards.real_surface],
         tolerance=FIDELITY["tolerance"],

@@ -3,11 +3,11 @@
 import numpy as np
 
 from pipeline.conventions import LOAD
-from pipeline.numbers import NOTHING, interval, number, with_error
-from stickiness.adhesion import equivalent_sphere
+from pipeline.numbers import NOTHING, interval, number, quantity, with_error
+from stickiness.adhesion import edge_zone, equivalent_sphere
 
 QUOTED_RANGE = 0.03  # over h_rms, as the caption of the table says
-WAYS = {"taper": "tapered", "mirror": "mirrored"}
+WAYS = {"taper": "tapered", "mirror": "mirrored", "given": "as they stand"}
 
 
 def describe_loads(bem):
@@ -23,6 +23,52 @@ def describe_loads(bem):
             }
         )
     return rows
+
+
+def describe_adhesion(bem):
+    """One row a load: areas and mean gap with full adhesion, beside those without; empty if none.
+
+    Contact is counted in pixels with adhesion, and by sub-pixel edges without.
+    """
+    if "adhesive_contact_area" not in bem:
+        return []
+    rows = []
+    for pressure in bem.pressure.values:
+        at = bem.sel(pressure=pressure)
+        applied = at.applied_pressure.values
+        rows.append(
+            {
+                "pressure": number(float(pressure)),
+                "applied": quantity(float(applied.min()), float(applied.max()), "Pa"),
+                "residual": number(float(at.adhesive_residual.max()), 2),
+            }
+            | {
+                name: with_error(*combine_ways(at[variable]))
+                for name, variable in {
+                    "area": "adhesive_contact_area",
+                    "attractive": "adhesive_attractive_area",
+                    "gap": "adhesive_mean_gap",
+                    "area_alone": "area_fraction",
+                    "gap_alone": "mean_gap",
+                }.items()
+            }
+        )
+    return rows
+
+
+def describe_edges(bem):
+    """Whether the finer grid resolves the edges of contact with adhesion, as a sentence."""
+    if "edge_resolution" not in bem:
+        return ""
+    coarse = float(bem.edge_resolution.isel(resolution=-1).max())
+    limit = number(edge_zone.COARSEST)
+    if coarse <= edge_zone.COARSEST:
+        return "The grid resolves the edges of contact."
+    return (
+        f"The grid does not resolve the edges of contact: a pixel is {number(coarse, 2)} times "
+        f"the length over which attraction bends the surfaces together, and should be at most "
+        f"{limit} times that. The change from half the resolution does not bound this error."
+    )
 
 
 def compare(at, name, theory):

@@ -8,6 +8,8 @@ from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
+from stickiness.config.measured_contact import bem_problems
+from stickiness.config.measurements import measurements
 from stickiness.config.messages import unit_problem, unknown
 from stickiness.core.units import si
 from stickiness.measured import readers
@@ -62,9 +64,7 @@ def surface_problems(surface: Mapping[str, Any]) -> Iterator[str]:
         for name, measurement in measurements(surface):
             for problem in _file_problems(measurement):
                 yield f"{name}{problem}"
-        index, count = surface.get("bem", {}).get("measurement", 0), len(measurements(surface))
-        if index >= count:
-            yield f"bem.measurement = {index} is counted from 0 and must be below {count}"
+        yield from bem_problems(surface)
         return
     longest = _wavelength(surface, "longest_wavelength", "q0")
     shortest = _wavelength(surface, "shortest_wavelength", "q1")
@@ -81,18 +81,6 @@ def surface_problems(surface: Mapping[str, Any]) -> Iterator[str]:
         values = [si(value, key_unit) for value in _as_list(surface.get(key, []))]
         if values != sorted(values):
             yield f"{key} = {surface[key]!r} must be [low, high]"
-
-
-def measurements(surface: Mapping[str, Any]) -> list[tuple[str, dict[str, Any]]]:
-    """Return every measurement of a measured surface: a prefix for messages, and all of its keys.
-
-    Keys beside the list `measurements` hold for every entry that does not give its own.
-    """
-    if "measurements" not in surface:
-        return [("", dict(surface))]
-    shared = {key: value for key, value in surface.items() if key != "measurements"}
-    several = enumerate(surface["measurements"])
-    return [(f"measurements[{index}].", shared | dict(one)) for index, one in several]
 
 
 def _file_problems(measurement: Mapping[str, Any]) -> Iterator[str]:

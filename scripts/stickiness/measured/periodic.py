@@ -17,7 +17,7 @@ from scipy import fft
 from stickiness.measured.psd import power_spectrum
 from stickiness.surfaces.spectrum import Shells
 
-Periodisation = Literal["taper", "mirror"]
+Periodisation = Literal["taper", "mirror", "given"]
 
 RIM = 0.125  # of a side over which a taper falls to zero, at either end
 SHELLS = 200  # per decade
@@ -27,16 +27,19 @@ def periodise(heights: ArrayLike, kind: Periodisation) -> NDArray:
     """Return levelled heights (nx, ny) that are periodic without a jump.
 
     "taper": the heights about their mean, times a taper that is 1 except in a cosine rim of an
-    eighth of each side. "mirror": the heights and their mirror images, (2 nx, 2 ny).
+    eighth of each side. "mirror": the heights and their mirror images, (2 nx, 2 ny). "given": the
+    heights are periodic as they stand and stay what they are.
     """
     heights = np.asarray(heights, dtype=float)
     if heights.ndim != 2:
         raise ValueError(f"heights must be a map (nx, ny), got shape {heights.shape}")
+    if kind == "given":
+        return heights
     if kind == "mirror":
         wide = np.concatenate([heights, heights[::-1]])
         return np.concatenate([wide, wide[:, ::-1]], axis=1)
     if kind != "taper":
-        raise ValueError(f"kind must be 'taper' or 'mirror', got {kind!r}")
+        raise ValueError(f"kind must be 'taper', 'mirror' or 'given', got {kind!r}")
     wx, wy = (_rim(n) for n in heights.shape)
     taper = wx[:, None] * wy
     return taper * (heights - np.sum(taper * heights) / taper.sum())

@@ -1,14 +1,19 @@
 """Contact of measured heights that were made periodic."""
 
 import re
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
+import xarray as xr
 
+from pipeline import measured_loads
 from pipeline.pages import measured_contact
 from pipeline.verdicts.materials import read_material
 from real_surfaces import contact_measured
-from stickiness import surface
+from stickiness import adhesive, repulsive, surface
+from stickiness.contact import subpixel
+from stickiness.core import datasets
 from stickiness.measured.topography import Topography
 from stickiness.spectrum import SelfAffine
 
@@ -106,3 +111,135 @@ def test_margin_is_shown_where_the_grid_resolves_the_range(whole, range_, shown)
     row = measured_contact.describe_pair(found, read_material(entry), known)
     assert row["resolved"] == shown
     assert (row["margin"] != "–") == shown
+
+
+# Heights that are periodic as they stand, with adhesion
+
+SOLID = {"plane_strain_modulus": "25 MPa", "work_of_adhesion": "50 mJ/m^2", "range": "40 nm"}
+SIDE, POINTS, H_RMS = 10e-6, 64, 0.2e-6
+
+
+@pytest.fixture(scope="module")
+def periodic_file(tmp_path_factory):
+    s = SelfAffine(hurst=0.8, q0=2 * np.pi / SIDE, q1=16 * np.pi / SIDE, h_rms=H_RMS)
+    path = tmp_path_factory.mktemp("periodic") / "heights.npy"
+    np.save(path, surface.synthesise(s, n=POINTS, length=SIDE, seed=3).T)
+    return path
+
+
+def asked_of(path, **bem):
+    return {
+        "kind": "measured",
+        "label": "plate",
+        "source": "own",
+        "file": str(path),
+        "length": "10 um",
+        "height_unit": "m",
+        "bem": {"periodic": True, "pressures": ["0.5 MPa", "250 kPa"], "adhesion": SOLID} | bem,
+    }
+
+
+@pytest.fixture(scope="module")
+def pressed(periodic_file, tmp_path_factory):
+    folder = tmp_path_factory.mktemp("pressed")
+    asked = asked_of(periodic_file)
+    q0 = 2 * np.pi / SIDE
+    known = xr.Dataset({"q0": q0, "q_cutoff": 8 * q0})
+    text = ("1/m", "wave number")
+    known = datasets.annotate(known, q0=text, q_cutoff=text)
+    datasets.write(known, folder / "in.nc", title="a", parameters={})
+    contact_measured.main(
+        SimpleNamespace(
+            input=SimpleNamespace(surface=folder / "in.nc"),
+            output=[folder / "out.nc"],
+            wildcards=SimpleNamespace(real_surface="plate"),
+            params=SimpleNamespace(
+                surface=asked,
+                gaps={"minimum": 0.01, "maximum": 1.0, "per_decade": 4},
+                pixels_per_wavelength=8,
+                tolerance=1e-6,
+                gamma=0.45,
+            ),
+        )
+    )
+    return datasets.read(folder / "out.nc")
+
+
+def test_periodic_heights_are_pressed_as_they_stand(pressed, periodic_file):
+    heights = np.load(periodic_file).T
+    assert list(pressed.periodisation.values) == ["given"]
+    assert float(pressed.h_rms.isel(periodisation=0)) == pytest.approx(H_RMS, rel=1e-9)
+    for step, resolution in ((2, 1.0), (1, 2.0)):
+        at = pressed.sel(resolution=resolution, periodisation="given").isel(pressure=0)
+        alone = repulsive.solve(heights[::step, ::step], SIDE, 0.01, tol=1e-6)
+        strip = subpixel.boundary_strip(alone.gap == 0)
+        assert float(at.area_fraction) == pytest.approx(alone.area_fraction - strip, abs=1e-9)
+        assert float(at.mean_gap) * H_RMS == pytest.approx(alone.mean_gap, rel=1e-5)
+
+
+def test_adhesion_is_that_of_the_solver_at_the_pressures_given(pressed, periodic_file):
+    heights = np.load(periodic_file).T
+    law = adhesive.Exponential(adhesion_length=0.05 / 25e6, range=40e-9)
+    applied = pressed.applied_pressure.isel(periodisation=0)
+    np.testing.assert_allclose(applied, [0.25e6, 0.5e6], rtol=1e-9)
+    for step, resolution in ((2, 1.0), (1, 2.0)):
+        for index, load in enumerate((0.01, 0.02)):
+            alone = repulsive.solve(heights[::step, ::step], SIDE, load, tol=1e-6)
+            state = adhesive.solve(heights[::step, ::step], SIDE, law, load, start=alone, tol=1e-8)
+            at = pressed.sel(resolution=resolution, periodisation="given").isel(pressure=index)
+            assert float(at.adhesive_mean_gap) * H_RMS == pytest.approx(state.mean_gap, rel=1e-3)
+            area = state.repulsive_area_fraction
+            assert float(at.adhesive_contact_area) == pytest.approx(area, rel=0.02)
+            assert float(at.adhesive_residual) <= 1e-3
+    fine = pressed.isel(resolution=-1)
+    assert np.all(fine.adhesive_contact_area >= fine.area_fraction)
+    assert float(fine.edge_resolution.max()) == pytest.approx(SIDE / 64 * 2e-9 / 40e-9**2)
+
+
+def test_adhesion_has_its_rows_on_the_page(pressed):
+    rows = measured_contact.describe_adhesion(pressed)
+    assert [row["applied"] for row in rows] == ["250 kPa", "500 kPa"]
+    assert all(re.fullmatch(r"[\d.]+( ± [\d.]+)?", row["area"]) for row in rows)
+    assert measured_contact.describe_loads(pressed)[0]["area"]["ways"].startswith("as they stand")
+    assert measured_contact.describe_edges(pressed) == "The grid resolves the edges of contact."
+    coarse = pressed.assign(edge_resolution=("resolution", [20.0, 10.0]))
+    assert "does not resolve" in measured_contact.describe_edges(coarse)
+
+
+def test_pressures_with_units_are_the_same_in_both_ways(whole):
+    h, _ = whole
+    solid = measured_loads.Solid(modulus=1.0, work_of_adhesion=0.02, range=0.5)
+    found = contact_of(h, pressures=np.array([0.3]), absolute=True, solid=solid, pixels=2)
+    np.testing.assert_allclose(found.applied_pressure, 0.3, rtol=1e-12)
+    assert np.all(found.adhesive_contact_area > 0)
+
+
+@pytest.mark.parametrize(
+    ("changed", "text"),
+    [
+        ({"most_points": 32}, r"64 x 64 points; .*at most bem\.most_points = 32"),
+        ({"most_points": 64, "shortest_wavelength": "0.5 um"}, r"or raise bem\.most_points"),
+    ],
+)
+def test_a_grid_beyond_most_points_is_refused(periodic_file, changed, text):
+    asked = asked_of(periodic_file, **changed)
+    bem = asked["bem"]
+    setting = measured_loads.Setting(
+        **measured_loads.read_loads(bem),
+        ranges=RANGES,
+        pixels=8,
+        tolerance=1e-4,
+        gamma=0.45,
+        ways=("given",),
+        own_grid="shortest_wavelength" not in bem,
+        most_points=bem["most_points"],
+    )
+    q_max = contact_measured.highest_wave_number(bem, 1e9)
+    with pytest.raises(ValueError, match=text):
+        contact_measured.solve(contact_measured.read_map(asked), 1.0, q_max, setting)
+
+
+def test_no_plane_is_taken_from_periodic_heights(periodic_file):
+    heights = np.load(periodic_file).T
+    read = contact_measured.read_map(asked_of(periodic_file)).heights
+    np.testing.assert_allclose(read, heights - heights.mean(), atol=1e-15)

@@ -9,15 +9,16 @@ import xarray as xr
 
 from criteria import judge
 from persson import persson_surface
-from pipeline import measured_surface
+from pipeline import measured_loads, measured_surface
 from pipeline.pages import captions, surface_figure, surface_texts
 from pipeline.verdicts.a_v import MeasuredAv
 from pipeline.verdicts.materials import read_material
-from real_surfaces import analyse_surface
+from real_surfaces import analyse_surface, contact_measured
 from report import write_surface
 from stickiness import surface
 from stickiness.core import datasets
 from stickiness.criteria.a_v_table import SurfaceAv
+from stickiness.measured import topography
 from stickiness.spectrum import SelfAffine
 
 TEMPLATE = Path(__file__).parents[3] / "report" / "surface.html.j2"
@@ -87,7 +88,7 @@ def stitched(folder):
     return analysed(folder / "both.nc", measurements=files, detrend="quadratic")
 
 
-def page_of(found, folder):
+def page_of(found, folder, bem=None):
     pairs = judged(found).sel(surface="plate")
     surface_figure.draw_surface(found, pairs, folder / "plate.png")
     return write_surface.render(
@@ -96,12 +97,13 @@ def page_of(found, folder):
         files={
             "surface": folder / "plate.nc",
             "verdicts": folder / "verdicts.nc",
-            "measured_contact": "",
+            "measured_contact": folder / "contact.nc" if bem is not None else "",
         },
         surface=found,
         pairs=pairs,
         materials=MATERIALS,
         figure=captions.embed_figure(folder / "plate.png", write_surface.CAPTION),
+        bem=bem,
     )
 
 
@@ -201,6 +203,32 @@ def test_page_shows_verdicts_errors_and_reasons(single, folder):
     assert "steel does not stick: nothing of its work of adhesion remains." in words
     assert re.search(r"For gel &lt;soft&gt; it depends: [\d. …]+ % \([\d.]+ to [\d.]+ %\)", text)
     assert "†" not in text
+
+
+@pytest.mark.slow
+def test_page_shows_contact_with_adhesion_of_periodic_heights(single, folder):
+    period = float(2 * np.pi / single.q0)
+    s = SelfAffine(hurst=0.8, q0=2 * np.pi / period, q1=16 * np.pi / period, h_rms=1e-6)
+    heights = surface.synthesise(s, n=32, length=period, seed=1)
+    given = topography.Topography(heights, period / 32, period / 32, "here")
+    setting = measured_loads.Setting(
+        pressures=np.array([1e5]) / 25e6,
+        absolute=True,
+        solid=measured_loads.Solid(25e6, 0.05, 2e-7),
+        ranges=np.geomspace(0.01, 1, 9),
+        pixels=4,
+        tolerance=1e-4,
+        gamma=0.45,
+        ways=("given",),
+        own_grid=True,
+    )
+    bem = contact_measured.solve(given, float(single.q0), 1.0, setting)
+    page = page_of(single, folder, contact_measured.annotate(bem))
+    text = " ".join(re.sub(r"<[^>]+>", " ", page).split())
+    assert "The heights are periodic as they stand" in text
+    assert "The same contact with full adhesion" in text
+    assert "100 kPa" in text
+    assert "tapered" not in text
 
 
 @pytest.mark.slow

@@ -397,3 +397,48 @@ def test_the_measurement_for_bem_must_exist():
     }
     with pytest.raises(checks.ConfigError, match=r"polished_steel\.bem\.measurement = 1 .*below 1"):
         checks.check_surfaces(surfaces)
+
+
+ADHESION = {"plane_strain_modulus": "25 MPa", "work_of_adhesion": "50 mJ/m^2", "range": "2 nm"}
+
+
+@pytest.mark.parametrize(
+    ("bem", "beside", "text"),
+    [
+        ({"pressures": ["1 MPa"]}, {}, r"pressures\[0\] = '1 MPa' needs bem\.adhesion"),
+        ({"pressures": ["1 MPa", 0.1], "adhesion": ADHESION}, {}, r"pressures\[1\] = 0\.1 has no"),
+        ({"pressures": ["1 m"], "adhesion": ADHESION}, {}, r"pressures\[0\] = '1 m' has the dim"),
+        ({"pressures": ["-1 Pa"], "adhesion": ADHESION}, {}, r"'-1 Pa' must be positive"),
+        ({"pressures": ["1 MPa", "1e6 Pa"], "adhesion": ADHESION}, {}, "must not repeat"),
+        ({"pressures": [0.1], "periodic": True}, {"detrend": "plane"}, "detrend = 'plane' would"),
+        ({"pressures": [0.1], "periodic": True}, {"missing": "crop"}, "missing = 'crop' would"),
+    ],
+)
+def test_a_contact_that_cannot_be_is_refused(bem, beside, text):
+    measured = {"kind": "measured", "file": __file__}
+    surfaces = {"asphalt": measured, "polished_steel": measured | beside | {"bem": bem}}
+    with pytest.raises(checks.ConfigError, match=r"surfaces\.polished_steel\..*" + text):
+        checks.check_surfaces(surfaces)
+
+
+@pytest.mark.parametrize(
+    ("bem", "text"),
+    [
+        ({"pressures": [0]}, r"pressures\[0\] = 0 must be greater than 0"),
+        ({"pressures": [0.1], "most_points": 16384}, "most_points = 16384 must be at most 8192"),
+        ({"pressures": [0.1], "adhesion": {"range": "1 nm"}}, "adhesion: "),
+        ({"pressures": [0.1], "periodic": "yes"}, "periodic = 'yes' must be of type boolean"),
+    ],
+)
+def test_the_schema_refuses_a_contact(bem, text):
+    entry = {"kind": "measured", "label": "a", "file": "a.npy", "source": "own", "bem": bem}
+    with pytest.raises(checks.ConfigError, match=text):
+        checks.check_schema(
+            {"surfaces": {"a": entry}}, ROOT / "config/schemas/surfaces.schema.yaml", "s.yaml"
+        )
+
+
+def test_units_within_adhesion_are_checked():
+    entry = {"bem": {"adhesion": ADHESION | {"range": "2 Pa"}}}
+    with pytest.raises(checks.ConfigError, match=r"a\.bem\.adhesion\.range = '2 Pa' has the dim"):
+        checks.check_units({"surfaces": {"a": entry}}, "s.yaml")

@@ -37,6 +37,10 @@ def test_a_mirror_keeps_every_height_and_a_taper_the_inner_ones(heights):
     assert tapered.mean() == pytest.approx(0, abs=1e-12)
 
 
+def test_heights_given_as_periodic_stay_what_they_are(heights):
+    np.testing.assert_array_equal(periodic.periodise(heights, "given"), heights)
+
+
 @pytest.mark.parametrize("q_max", [5.0, 20.0])
 def test_band_limited_heights_are_the_same_waves_on_a_finer_grid(q_max):
     s = SelfAffine(hurst=0.8, q0=1.0, q1=20.0, h_rms=1.0)
@@ -66,7 +70,7 @@ def test_shells_of_an_oblong_period_keep_height_and_slope():
     ("call", "message"),
     [
         (lambda: periodic.periodise(np.zeros(5), "taper"), r"map \(nx, ny\)"),
-        (lambda: periodic.periodise(np.zeros((5, 5)), "fold"), "'taper' or 'mirror', got 'fold'"),
+        (lambda: periodic.periodise(np.zeros((5, 5)), "fold"), "'mirror' or 'given', got 'fold'"),
         (lambda: periodic.band_limited(np.zeros((8, 8)), (1.0, 1.0), 99.0, 4), "Nyquist"),
     ],
 )
