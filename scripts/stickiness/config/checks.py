@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from itertools import chain
 from pathlib import Path
 from typing import Any
 
@@ -143,7 +144,7 @@ def check_materials(
 ) -> None:
     """Check moduli that depend on the rate, layers, and the names of surfaces."""
     for key, material in materials.items():
-        for problem in (*rate_problems(material), *layer_problems(material, surfaces or {})):
+        for problem in chain(rate_problems(material), layer_problems(material, surfaces or {})):
             raise ConfigError(f"{name}: materials.{key}.{problem}")
 
 
