@@ -3,5 +3,8 @@
 - `checks`: reads the files and checks them; errors name key, value and remedy
 - `cross_checks`: what the schema of config.yaml cannot say
 - `surface_entries`: what the schemas of materials and real surfaces cannot say
+- `experiment_entries`: what the schema of experiments cannot say
+- `measured_contact`: what the schema of contact of measured heights cannot say
+- `measurements`: the files of a measured surface
 - `messages`: the sentences of the errors
 """

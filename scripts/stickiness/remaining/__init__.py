@@ -5,6 +5,7 @@
 - `multiscale`: Persson's theory of adhesion over scales
 - `share`: share of the work of adhesion that remains, from weak to tough, in closed form
 - `prediction`: the same of a spectrum, with limits, and the adhesion that a share needs
+- `sphere`: pull-off of a sphere from a rough surface
 """
 
 from stickiness.remaining.measurement import Remaining, measure
