@@ -270,7 +270,7 @@ def experiments(outcomes=(2, 2, 2), limits=(2e-6, 2e-6)):
 
     `outcomes` of the paper's criterion by case, and its `limits` of the roughness.
     """
-    at = {"quantity": "roughness_at_a_tenth", "observed": (1e-6, 4e-6), "predicted": (2e-6,) * 3}
+    at = {"quantity": "limiting_roughness", "observed": (1e-6, 4e-6), "predicted": (2e-6,) * 3}
     found = [{"violano": outcome, REMAINING: 2} for outcome in outcomes]
     roughness = [{"violano": limit, REMAINING: 2e-6} for limit in limits]
     steel = {"quantity": "sticks", "observed": (0.0, 0.0), "predicted": (0.0, 0.0, 0.01)}

@@ -8,7 +8,7 @@ from pipeline.experiments import texts
 from pipeline.experiments.judgements import MISSED, SILENT, SOME, WITHIN
 
 LIMIT = {
-    "quantity": "roughness_at_a_tenth",
+    "quantity": "limiting_roughness",
     "observed": (1e-6, 4e-6),
     "predicted": (3e-6, 1.5e-6, 6e-6),
     "observed_known": 1,
