@@ -45,7 +45,7 @@ def test_every_case_is_there_with_what_it_was_made_from(dataset):
     assert dataset.case.values.tolist() == CASES
     assert datasets.parameters(dataset)["experiments"] == make_experiments()
     assert dataset["quantity"].values.tolist() == [
-        "roughness_at_a_tenth",
+        "limiting_roughness",
         "work_of_separation",
         "sticks",
     ]
