@@ -137,7 +137,7 @@ def draw_criteria(ax, dataset, experiments):
 
 
 def name_case(case, experiments):
-    """First word of the experiment's citation, and the case."""
+    """Author and year of the experiment, if it has them, and the case."""
     experiment, name = case.split("/")
     entry = experiments[experiment]
     label = entry["cases"][name]["label"]

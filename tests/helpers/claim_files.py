@@ -6,7 +6,7 @@ import json
 import numpy as np
 import pandas as pd
 import xarray as xr
-from helpers.experiments import make_dataset
+from helpers.experiments import EXPERIMENTS, make_dataset
 
 from pipeline import conventions
 from pipeline.conventions import LOAD
@@ -265,22 +265,39 @@ def remaining(growth=0.0):
     return pd.concat(rows, ignore_index=True)
 
 
-def experiments(outcomes=(2, 2, 2), limits=(2e-6, 2e-6)):
-    """Two limiting roughnesses of 2 um, and a pair that does not stick.
+RUBBER = {
+    "fuller_tabor": {
+        "label": "rubber spheres",
+        "short": "Rubber 1975",
+        "citation": "no source",
+        "cases": {"one_MPa": {"label": "rubber of 1 MPa"}},
+    }
+}
 
-    `outcomes` of the paper's criterion by case, and its `limits` of the roughness.
+
+def experiments(outcomes=(2, 2, 2), limit=40e-6, grades=(0, 0, 0), tests=(1, 1, 1)):
+    """Rubber that has lost its adhesion at 1 um, a limiting roughness, a pair that does not stick.
+
+    By case `outcomes` of the paper's criterion, `grades` of what was observed and whether it
+    `tests`; `limit` of the rubber's roughness by the paper's criterion.
     """
-    at = {"quantity": "roughness_at_a_tenth", "observed": (1e-6, 4e-6), "predicted": (2e-6,) * 3}
-    found = [{"violano": outcome, REMAINING: 2} for outcome in outcomes]
-    roughness = [{"violano": limit, REMAINING: 2e-6} for limit in limits]
+    rubber = {
+        "quantity": "relative_pull_off",
+        "observed": (0.0, 0.1),
+        "predicted": (0.2, 0.05, 0.6),
+        "limits": {"violano": limit, REMAINING: 2e-6},
+    }
+    ball = {"quantity": "limiting_roughness", "observed": (1e-6, 4e-6), "predicted": (2e-6,) * 3}
     steel = {"quantity": "sticks", "observed": (0.0, 0.0), "predicted": (0.0, 0.0, 0.01)}
-    return make_dataset(
-        {
-            "ball/limit": {**at, "criteria": found[0], "limits": roughness[0]},
-            "ball/work": {**at, "criteria": found[1], "limits": roughness[1]},
-            "plate/steel": {**steel, "criteria": found[2]},
-        }
-    )
+    cases = {"fuller_tabor/one_MPa": rubber, "ball/limit": ball, "plate/steel": steel}
+    rows = {
+        name: case
+        | {"criteria": {"violano": outcome, REMAINING: 2}, "observed_known": grade, "tests": test}
+        for (name, case), outcome, grade, test in zip(
+            cases.items(), outcomes, grades, tests, strict=True
+        )
+    }
+    return make_dataset(rows, EXPERIMENTS | RUBBER)
 
 
 def files_by_name():

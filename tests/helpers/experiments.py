@@ -42,7 +42,7 @@ EXPERIMENTS = {
         "cases": {
             "limit": {
                 "label": "lost",
-                "observed": seen("roughness_at_a_tenth", ["1 um", "4 um"], "recalled"),
+                "observed": seen("limiting_roughness", ["1 um", "4 um"], "recalled"),
             },
             "work": {
                 "label": "held",
@@ -82,7 +82,7 @@ def make_dataset(rows, experiments=EXPERIMENTS):
     """Dataset of cases as `predict_experiments` writes it, from what differs by case.
 
     `rows` has by case: `quantity`; `observed` and `predicted`, each (low, high) and (value, low,
-    high); and any of the flags. `criteria` has outcomes, `limits` the roughness limits of criteria,
+    high); and any of `FLAGS`. `criteria` has outcomes, `limits` the roughness limits of criteria,
     by name; others have decided nothing and look at no roughness.
     """
     made = [make_row(**row) for row in rows.values()]
@@ -90,10 +90,24 @@ def make_dataset(rows, experiments=EXPERIMENTS):
     return dataset.assign_attrs(parameters=json.dumps({"experiments": experiments}))
 
 
+FLAGS = {
+    "outcome": 2,
+    "value_inside": 0,
+    "by_relation": 0,
+    "tests": 1,
+    "observed_known": 0,
+    "known": 2,
+    "effect_of_input": 1.0,
+    "waves_in_contact": np.nan,
+    "work_of_adhesion": 0.05,
+    "h_rms": 1e-6,
+}
+
+
 def make_row(
     quantity, observed, predicted, criteria=None, limits=None, most_effective_input="", **flags
 ):
-    values = {"outcome": 2, "observed_known": 0, "known": 2, "effect_of_input": 1.0, **flags}
+    values = FLAGS | flags
     values |= {
         f"observed_{name}_{end}": np.nan for name in OBSERVED_UNITS for end in ("low", "high")
     }
@@ -104,7 +118,6 @@ def make_row(
             f"{name}{end}": x for end, x in zip(("", "_lowest", "_highest"), shown, strict=True)
         }
     values |= {"quantity": quantity, "most_effective_input": most_effective_input}
-    values["work_of_adhesion"] = 0.05
     outcomes, roughness = (
         {**dict.fromkeys(CRITERIA, nothing), **(given or {})}
         for nothing, given in ((-1, criteria), (np.nan, limits))

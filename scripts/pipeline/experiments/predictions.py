@@ -100,13 +100,21 @@ def make_pair(observation: Observation, shapes: list[Shape], h_rms: NDArray) -> 
 
 
 def predict_observation(observation: Observation) -> Predicted:
-    """Works of approach and separation and pull-off, with limits, for every combination."""
+    """Works of approach and separation and pull-off, with limits, for every combination.
+
+    ValueError if a limiting roughness was observed and none is predicted among `ROUGHNESS`.
+    """
     shapes = shapes_of(observation)
     rough = make_pair(observation, shapes, repeat(ROUGHNESS, shapes))
     follow = relative_pull_off if "radius" in observation.inputs else find_share
     curve = np.array([follow(observation, rough, sign) for sign in SIGNS])
     level = observation.level
     limit = np.array([[find_fall(ROUGHNESS, row, level) for row in rows] for rows in curve])
+    if observation.quantity == "limiting_roughness" and np.isnan(limit).any():
+        raise ValueError(
+            f"{observation.experiment}.cases.{observation.name}: adhesion falls to {level:g} at no "
+            f"rms height from {ROUGHNESS[0]:g} to {ROUGHNESS[-1]:g} m; correct the level or inputs"
+        )
     pair = make_pair(observation, shapes, heights_of(observation, limit[1]))
     work = pair.work_of_adhesion[:, 0]
     share, separation, relative = (

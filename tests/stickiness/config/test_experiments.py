@@ -31,7 +31,7 @@ MINE = {
         "limit": {
             "label": "roughness",
             "observed": {
-                "quantity": "roughness_at_a_tenth",
+                "quantity": "limiting_roughness",
                 "between": ["1 um", "2 um"],
                 "known": "recalled",
             },
@@ -74,7 +74,7 @@ def test_the_committed_experiments_pass():
     content = checks.load(ROOT / "config/experiments.yaml")
     checks.check_schema(content, SCHEMA, "config/experiments.yaml")
     checks.check_experiments(content["experiments"])
-    assert {"fuller_tabor", "dalvi", "plain_sense"} <= content["experiments"].keys()
+    assert {"fuller_tabor", "dalvi", "everyday"} <= content["experiments"].keys()
 
 
 def test_the_made_up_experiment_is_right_but_for_what_is_changed():
@@ -82,6 +82,12 @@ def test_the_made_up_experiment_is_right_but_for_what_is_changed():
     plateau = ("rolloff_wavelength", known(["1 um", "5 um"]))
     relation = seen("work_of_separation", relation="cycle_loss", factor=[1, 2], error="1 mJ/m^2")
     check(changed(plateau, (*FORCE, "observed", relation)))
+
+
+def test_level_silent_criteria_and_what_is_not_published_are_taken():
+    more = {"level": 0.03, "silent": ["persson_tosatti", "dahlquist"]}
+    observed = MINE["cases"]["limit"]["observed"] | more
+    check(changed((*LIMIT, "observed", observed), ("published", False)))
 
 
 @pytest.mark.parametrize(
@@ -175,22 +181,51 @@ def test_the_made_up_experiment_is_right_but_for_what_is_changed():
         ),
         (
             [(*FORCE, "observed", seen("work_of_separation", relation="cycle_loss"))],
-            "experiments.mine.cases.force.observed: 'cycle_loss' needs a factor",
+            "experiments.mine.cases.force.observed: the key 'factor' is missing, limits of that "
+            "of 'cycle_loss'",
         ),
         (
-            [
-                (
-                    *(*FORCE, "observed"),
-                    seen("work_of_approach", relation="conformal_contact", factor=[1, 2]),
-                )
-            ],
-            "experiments.mine.cases.force.observed: 'conformal_contact' takes no factor",
+            [(*FORCE, "observed", seen("work_of_approach", relation="conformal_contact"))],
+            "experiments.mine.cases.force.observed: the key 'factor' is missing, limits of that "
+            "of 'conformal_contact'",
+        ),
+        (
+            [(*LIMIT, "observed", seen("limiting_roughness", relation="energy_ratio"))],
+            "experiments.mine.cases.limit.observed: the key 'factor' is missing, limits of that "
+            "of 'energy_ratio'",
+        ),
+        (
+            [(*LIMIT, "observed", seen("limiting_roughness", value="1 um", silent=["dalquist"]))],
+            "experiments.mine.cases.limit.observed.silent = 'dalquist' is unknown; did you mean "
+            "'dahlquist'?",
+        ),
+        (
+            [(*LIMIT, "observed", seen("limiting_roughness", value="1 um", silent=[]))],
+            "experiments.mine.cases.limit.observed.silent = [] needs at least 1 item(s)",
+        ),
+        (
+            [(*LIMIT, "observed", seen("limiting_roughness", value="1 um", level=0))],
+            "experiments.mine.cases.limit.observed.level = 0 must be greater than 0",
+        ),
+        (
+            [(*LIMIT, "observed", seen("limiting_roughness", value="1 um", level=1))],
+            "experiments.mine.cases.limit.observed.level = 1 must be below 1",
+        ),
+        (
+            [("published", "no")],
+            "experiments.mine.published = 'no' must be of type boolean",
+        ),
+        (
+            [(*LIMIT, "observed", seen("roughness_at_a_tenth", value="1 um"))],
+            "experiments.mine.cases.limit.observed.quantity = 'roughness_at_a_tenth' is unknown; "
+            "choose one of relative_pull_off, limiting_roughness, work_of_approach, "
+            "work_of_separation, sticks",
         ),
         (
             [
                 (
                     *(*LIMIT, "observed"),
-                    seen("roughness_at_a_tenth", relation="energy_ratio", factor=[0.6, 0.4]),
+                    seen("limiting_roughness", relation="energy_ratio", factor=[0.6, 0.4]),
                 )
             ],
             "experiments.mine.cases.limit.observed.factor = [0.6, 0.4] must be [low, high] with "
@@ -200,14 +235,19 @@ def test_the_made_up_experiment_is_right_but_for_what_is_changed():
             [
                 (
                     *(*FORCE, "observed"),
-                    seen("work_of_approach", relation="conformal_contact", error="4 mm"),
+                    seen(
+                        "work_of_approach",
+                        relation="conformal_contact",
+                        factor=[1, 2],
+                        error="4 mm",
+                    ),
                 )
             ],
             "experiments.mine.cases.force.observed.error = '4 mm' has the dimension [length]: "
             "expected a number with a unit of the dimension of J/m^2",
         ),
         (
-            [(*LIMIT, "observed", seen("roughness_at_a_tenth", relation="energy_rato"))],
+            [(*LIMIT, "observed", seen("limiting_roughness", relation="energy_rato"))],
             "experiments.mine.cases.limit.observed.relation = 'energy_rato' is unknown; did you "
             "mean 'energy_ratio'?",
         ),
@@ -246,7 +286,7 @@ def test_the_made_up_experiment_is_right_but_for_what_is_changed():
             [("range", {"value": "1 nm"})],
             "experiments.mine.range: the key 'known' is missing (read: stands in a public text "
             "that was read; recalled: known from the literature, not checked; assumed: chosen "
-            "here)",
+            "or inferred here)",
         ),
         (
             [("range", known("1 nm", by="guessed"))],
