@@ -162,7 +162,8 @@ def test_both_ends_enter_a_v_where_they_differ_in_shape(single, folder):
     found = analysed(folder / "on2.nc", file=scan(folder / "a.txt"), extend_to="50 nm")
     ranges = np.geomspace(1e-5, 1, 21)
     smooth, rough = (
-        np.array(persson_surface.a_v_of(found, end, ranges, 0.065, 0.45)[1]) for end in ("smooth", "rough")
+        np.array(persson_surface.a_v_of(found, end, ranges, 0.065, 0.45)[1])
+        for end in ("smooth", "rough")
     )
     # The rough end has the lower H, and a_V of the edges grows as zeta^((5H - 3)/3): both variants
     # of the theory have it lower there, by some per cent.
