@@ -15,7 +15,8 @@ Kato, doi 10.1115/1.2833523).
 * Where that fails on a layer, `projected_gradients` goes on.
 
 Without a period u is that of a half-space loaded on a rectangle (`free_edges`). All else stands,
-but that coarser grids supply a guess of the pressure, for the stiffness is only approximate.
+but that the stiffness is only approximate: coarser grids supply a guess of the pressure, full
+contact is no special case, and `projected_gradients` stands by.
 """
 
 from dataclasses import dataclass, replace
@@ -38,7 +39,9 @@ from stickiness.solids import HALF_SPACE, check_solid
 _COARSEST = 64  # points along the shorter side of the coarsest grid
 _NEAR = 0.005  # relative change of load up to which the last solution is the better start
 _LOOSEST = 0.1  # of h_rms: beyond this no solution is worth the name
-_MOST_UNSURE = 150  # iterations with active sets but on a periodic half-space: tens do, or few gain
+_MOST_UNSURE = (
+    150  # iterations with active sets on a layer or with free edges: tens do, or few gain
+)
 _COARSE_TOLERANCE = 3e-3  # of h_rms: a guess for the next grid needs no more
 
 
@@ -145,7 +148,7 @@ def solve(
     periodic : bool
         Whether surface and pressure repeat. If not, the surface is all there is: a rigid body with
         free edges on a half-space without end, each height being that of a pixel. The total force
-        is `pressure` times the area within `length`. That takes three to five times as long. Only a
+        is `pressure` times the area within `length`. That takes two to five times as long. Only a
         half-space can have free edges.
 
     Raises
