@@ -25,7 +25,7 @@ _DOUBTFUL = 1e-4  # of the largest height: residual below which gaps need double
 _RESOLVED = 1e-4  # largest reduction of the gap asked of a correction in single precision
 _PATIENCE = 8  # updates without progress after which the set is solved ten times tighter
 _SURRENDER = 40  # updates without progress after which rounding is what limits the residual
-_SURRENDER_LAYER = 8  # and on a layer, where `projected_gradients` takes over
+_SURRENDER_UNSURE = 8  # and where `projected_gradients` takes over
 
 
 @dataclass(frozen=True, eq=False)
@@ -134,7 +134,7 @@ def relax(problem, *, tol, max_iterations, gap=None, pressure=None, rough=False,
     """
     heights, load = problem.heights, problem.load
     sure = problem.solid == HALF_SPACE and problem.periodic
-    surrender = _SURRENDER if sure else _SURRENDER_LAYER
+    surrender = _SURRENDER if sure else _SURRENDER_UNSURE
     grid = _Grid(problem, rough)
     field = grid.quick if pressure is None else grid.exact
     total = load * heights.size

@@ -61,7 +61,8 @@ class Contact:
     shift : float
         Rigid displacement in ``gap = u + shift - h``; unit of the heights. On a periodic surface u
         has no mean, and the approach of a layer's backing is ``solid.mean_compliance *
-        mean_pressure - shift``. With free edges u vanishes far away.
+        mean_pressure - shift``. With free edges u vanishes far away: the plane h = 0 is ``-shift``
+        below the surface of the undeformed half-space.
     residual : float
         Largest violation of the contact conditions, in units of h_rms: the maximum over the grid
         of ``|u + shift - h|`` in contact and of the penetration ``-(u + shift - h)`` outside it.
@@ -171,6 +172,9 @@ def solve(
     >>> wave = 0.01 * np.cos(2 * np.pi * x)[:, None] * np.ones(32)
     >>> solve(wave, length=1.0, pressure=0.1).area_fraction  # beyond pi * 0.01: full contact
     1.0
+    >>> punch = solve(np.zeros((128, 128)), length=1.0, pressure=0.01, periodic=False)
+    >>> print(f"{punch.mean_pressure / punch.approach:.2f}")  # fine pixels: 1.152
+    1.15
     """
     heights = grid("heights", heights)
     lengths = check_length(length, heights.shape)

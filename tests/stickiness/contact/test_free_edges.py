@@ -8,7 +8,7 @@ from scipy import integrate
 
 from stickiness import repulsive, solids
 from stickiness.closed_forms import contact as reference
-from stickiness.contact import active_set, free_edges, projected_gradients
+from stickiness.contact import active_set, free_edges, projected_gradients, solver
 
 PATCH = (12, 10)
 SIDES = (1.0, 1.5)
@@ -243,6 +243,16 @@ def test_two_methods_one_solution(scaled_pressure):
     # single points at zero pressure and zero gap may fall on either side
     assert state.area_fraction == pytest.approx(contact.area_fraction, abs=3 / heights.size)
     assert contact.mean_gap == pytest.approx(float(state.gap.mean()) * rms, rel=1e-7)
+
+
+def test_projected_gradients_go_on_where_active_sets_fail(monkeypatch):
+    heights = rough((96, 96), seed=7)
+    usual = solve(heights, 1.0, 0.5)
+    monkeypatch.setattr(solver, "_MOST_UNSURE", 3)
+    contact = solve(heights, 1.0, 0.5)
+    assert contact.iterations > 3
+    assert_solves(contact, heights, (1.0, 1.0))
+    np.testing.assert_allclose(contact.pressure, usual.pressure, atol=1e-8 * 10 * np.pi * 96)
 
 
 def test_images_in_a_periodic_cell():
