@@ -4,6 +4,7 @@
 - `active_set`: the iteration behind it
 - `projected_gradients`: the iteration that takes over where that one fails on a layer
 - `half_space`: compliance of a periodic elastic solid
+- `free_edges`: that of a half-space under a surface that does not repeat
 - `preconditioner`: approximate inverse of the compliance
 - `convolution`: convolutions with an even kernel, block by block
 - `grids`: cell, scale of the heights, fields on coarser and finer grids

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 import pyfftw
 
-from stickiness.contact import half_space
+from stickiness.contact import free_edges, half_space
 from stickiness.contact.preconditioner import Preconditioner, coarse_stiffness
 from stickiness.solids import HALF_SPACE, Solid
 
@@ -25,7 +25,7 @@ _DOUBTFUL = 1e-4  # of the largest height: residual below which gaps need double
 _RESOLVED = 1e-4  # largest reduction of the gap asked of a correction in single precision
 _PATIENCE = 8  # updates without progress after which the set is solved ten times tighter
 _SURRENDER = 40  # updates without progress after which rounding is what limits the residual
-_SURRENDER_LAYER = 8  # and on a layer, where `projected_gradients` takes over
+_SURRENDER_UNSURE = 8  # and where `projected_gradients` takes over
 
 
 @dataclass(frozen=True, eq=False)
@@ -36,6 +36,14 @@ class Problem:
     sides: tuple  # of the cell, in units of the first
     load: float  # mean pressure, in units of E* times rms height over side
     solid: Solid = HALF_SPACE  # its thickness in units of the first side
+    periodic: bool = True  # or a rectangle on a half-space without end
+
+    def operator(self, dtype):
+        """Compliance on this grid, and its inverse, be it approximate."""
+        shape = self.heights.shape
+        if self.periodic:
+            return half_space.half_space(shape, self.sides, dtype, self.solid)
+        return free_edges.free_half_space(shape, self.sides, dtype)
 
 
 @dataclass(frozen=True, eq=False)
@@ -84,17 +92,21 @@ class _Grid:
     """Heights on a grid, and scratch fields in single and, unless `rough`, double precision."""
 
     def __init__(self, problem, rough):
-        heights, lengths, solid = problem.heights, problem.sides, problem.solid
+        heights = problem.heights
         self.shape = heights.shape
         self.heights = heights
         self.active = np.zeros(heights.size, bool)
         dtype = np.float32 if rough else np.float64
-        self.exact = _Field(half_space.half_space(self.shape, lengths, dtype, solid))
-        single = half_space.half_space(self.shape, lengths, np.float32, solid)
-        self.quick = self.exact if rough else _Field(single, memory=self.exact)
-        self.coarse = coarse_stiffness(self.shape, lengths, solid)
+        self.exact = _Field(problem.operator(dtype))
+        self.quick = (
+            self.exact if rough else _Field(problem.operator(np.float32), memory=self.exact)
+        )
+        self.coarse = coarse_stiffness(self.shape, problem.sides, problem.solid)
         # Below this residual rounding in single precision (some 1e-6 of the heights) is felt.
-        self.doubtful = 0.0 if rough else _DOUBTFUL * float(np.abs(heights).max())
+        largest = float(np.abs(heights).max())
+        if not problem.periodic:  # an absolute displacement is about as large as this
+            largest = max(largest, problem.load)
+        self.doubtful = 0.0 if rough else _DOUBTFUL * largest
         self._before = self._count()
 
     def _count(self):
@@ -121,7 +133,8 @@ def relax(problem, *, tol, max_iterations, gap=None, pressure=None, rough=False,
     mean), or from a uniform pressure. `rough`: single precision suffices, `tol` is well above 1e-5.
     """
     heights, load = problem.heights, problem.load
-    surrender = _SURRENDER if problem.solid == HALF_SPACE else _SURRENDER_LAYER
+    sure = problem.solid == HALF_SPACE and problem.periodic
+    surrender = _SURRENDER if sure else _SURRENDER_UNSURE
     grid = _Grid(problem, rough)
     field = grid.quick if pressure is None else grid.exact
     total = load * heights.size
@@ -132,7 +145,7 @@ def relax(problem, *, tol, max_iterations, gap=None, pressure=None, rough=False,
         points, pressure = _predicted_from_pressure(grid, pressure, total)
     else:
         points, pressure = np.arange(heights.size), np.full(heights.size, load)
-    if points.size == heights.size:
+    if points.size == heights.size and problem.periodic:
         full = _full_contact(grid, load)
         if full.pressure.min() >= 0:
             return full

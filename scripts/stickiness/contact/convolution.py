@@ -51,13 +51,14 @@ class Real:
         """Convolve `field` into `out` with what `symbol` returned.
 
         `rows_in`, `rows_out`: increasing indices of the rows that are not zero, and of those
-        wanted.
+        wanted. Both arrays may be the corner of the grid that holds these rows: `field` is zero
+        beyond, and `out` gets no more.
         """
         modes = self._half.shape[1]
         if rows_in.size < self.shape[0]:
             self._spectrum[...] = 0
         for block, span in _blocks(rows_in, self._rows):
-            self._real[: block.size] = field[span]
+            _pad(field[span], self._real)
             self._rows_forward.execute()
             self._spectrum[:modes, span] = self._half[: block.size].T
         for start in range(0, self._spectrum.shape[0], self._strip):
@@ -70,7 +71,7 @@ class Real:
         for block, span in _blocks(rows_out, self._rows):
             self._half[: block.size] = self._spectrum[:modes, span].T
             self._rows_backward.execute()
-            out[span] = self._real[: block.size]
+            out[span] = self._real[: block.size, : out.shape[1]]
 
 
 class Packed:
@@ -135,7 +136,7 @@ class Packed:
                 plan.update_arrays(field[span].view(self._numbers), self._spectrum[span])
                 plan.execute()
                 continue
-            self._real[: block.size] = field[span]
+            _pad(field[span], self._real)
             plan.update_arrays(self._real.view(self._numbers), self._half)
             plan.execute()
             self._spectrum[span] = self._half[: block.size]
@@ -150,12 +151,12 @@ class Packed:
             self._half[: block.size] = self._spectrum[span]
             plan.update_arrays(self._half, self._real.view(self._numbers))
             plan.execute()
-            out[span] = self._real[: block.size]
+            out[span] = self._real[: block.size, : out.shape[1]]
 
     def _blocks(self, field, rows):
         """Blocks of rows, how to index them, and whether FFTW may work on them where they are."""
         usable = field.flags.c_contiguous and field.dtype == self._real.dtype
-        usable = usable and field.ctypes.data % _ALIGNED == 0
+        usable = usable and field.shape == self.shape and field.ctypes.data % _ALIGNED == 0
         usable = usable and field.strides[0] * self._rows % _ALIGNED == 0
         for block, span in _blocks(rows, self._rows):
             direct = usable and block.size == self._rows and isinstance(span, slice)
@@ -218,6 +219,13 @@ def _stride(n):
     """Padded length of a row: aligned for vector instructions, and no multiple of 1 kB."""
     stride = -(-n // 8) * 8
     return stride + 8 if stride % 128 == 0 else stride
+
+
+def _pad(block, rows):
+    """Copy a block into the first of the rows of a buffer, with zeros to their end."""
+    count, width = block.shape
+    rows[:count, :width] = block
+    rows[:count, width:] = 0
 
 
 def _blocks(rows, size):

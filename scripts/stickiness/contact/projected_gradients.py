@@ -15,7 +15,6 @@ has a tenth of its modulus. On a backing of a thousandth it does not converge.
 
 import numpy as np
 
-from stickiness.contact import half_space
 from stickiness.contact.active_set import State
 
 _JOINING = 1e-6  # of the mean pressure, for points that join: what they carry is the next step's
@@ -26,9 +25,7 @@ def relax(problem, pressure, *, tol, max_iterations, logger=None):
 
     Returns the first iterate within `tol`, or the one of the smallest residual.
     """
-    operator = half_space.half_space(
-        problem.heights.shape, problem.sides, np.float64, problem.solid
-    )
+    operator = problem.operator(np.float64)
     before, best, iterations = operator.pairs, None, 0
     pressure = np.maximum(pressure, 0.0)
     pressure *= problem.load / pressure.mean()

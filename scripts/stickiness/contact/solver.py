@@ -1,4 +1,4 @@
-"""Frictionless, non-adhesive contact of a periodic elastic solid with a rough rigid surface.
+"""Frictionless, non-adhesive contact of an elastic solid with a rough rigid surface.
 
 Given heights ``h`` and a mean pressure, find the pressure ``p >= 0`` and the gap ``g >= 0`` with
 ``p g = 0`` where ``g = u + shift - h`` and ``u_q = 2 p_q / |q|``, or S times that for a layer
@@ -13,13 +13,17 @@ Kato, doi 10.1115/1.2833523).
   exact heights it gives a pressure. A point is put into contact where ``p > c k g``, k being the
   stiffness of a single pixel: this predicts the set to a per cent.
 * Where that fails on a layer, `projected_gradients` goes on.
+
+Without a period u is that of a half-space loaded on a rectangle (`free_edges`). All else stands,
+but that the stiffness is only approximate: coarser grids supply a guess of the pressure, full
+contact is no special case, and `projected_gradients` stands by.
 """
 
 from dataclasses import dataclass, replace
 
 import numpy as np
 
-from stickiness.contact import active_set, projected_gradients
+from stickiness.contact import active_set, free_edges, projected_gradients
 from stickiness.contact.grids import (
     check_length,
     coarsen,
@@ -35,7 +39,9 @@ from stickiness.solids import HALF_SPACE, check_solid
 _COARSEST = 64  # points along the shorter side of the coarsest grid
 _NEAR = 0.005  # relative change of load up to which the last solution is the better start
 _LOOSEST = 0.1  # of h_rms: beyond this no solution is worth the name
-_MOST_ON_LAYER = 150  # iterations with active sets on a layer: tens do, or they hardly gain
+_MOST_UNSURE = (
+    150  # iterations with active sets on a layer or with free edges: tens do, or few gain
+)
 _COARSE_TOLERANCE = 3e-3  # of h_rms: a guess for the next grid needs no more
 
 
@@ -49,16 +55,19 @@ class Contact:
         Contact pressure in units of E*, zero outside contact; gap in the unit of the heights, zero
         in contact and positive outside; ``(n0, n1)``.
     mean_pressure, mean_gap : float
-        Prescribed mean pressure in units of E*, mean of `gap`.
+        Prescribed mean pressure in units of E*, mean of `gap` over the surface.
     area_fraction : float
         Share of points with positive pressure.
     shift : float
-        Rigid displacement in ``gap = u + shift - h``, with u of zero mean; unit of the heights.
-        The approach of a layer's backing is ``solid.mean_compliance * mean_pressure - shift``.
+        Rigid displacement in ``gap = u + shift - h``; unit of the heights. On a periodic surface u
+        has no mean, and the approach of a layer's backing is ``solid.mean_compliance *
+        mean_pressure - shift``. With free edges u vanishes far away: the plane h = 0 is ``-shift``
+        below the surface of the undeformed half-space.
     residual : float
         Largest violation of the contact conditions, in units of h_rms: the maximum over the grid
         of ``|u + shift - h|`` in contact and of the penetration ``-(u + shift - h)`` outside it.
-        Pressure is non-negative and balances the load to rounding, and is not part of it.
+        Pressure is non-negative and balances the load to rounding, and is not part of it. For a
+        flat punch with free edges the unit is the mean pressure [E*] times the first side.
     iterations : int
         Iterations of conjugate gradients on the given grid.
     fft_pairs : float
@@ -66,9 +75,13 @@ class Contact:
         coarser ones (also inside the preconditioner) counted by their share of the points of
         the given grid.
     length : tuple of float
-        Sides of the periodic cell.
+        Sides of the periodic cell, or of the surface if its edges are free.
     rms_height : float
         Root mean square of the heights about their mean.
+    approach : float
+        With free edges, distance [unit of the heights] by which surface and far half-space have
+        come closer since they touched, ``max(h) - shift``. Not a number on a periodic surface,
+        where it is infinite.
     """
 
     pressure: np.ndarray
@@ -82,6 +95,7 @@ class Contact:
     fft_pairs: float
     length: tuple
     rms_height: float
+    approach: float = np.nan
 
 
 class ConvergenceError(RuntimeError):
@@ -106,8 +120,9 @@ def solve(
     precision="double",
     logger=None,
     solid=HALF_SPACE,
+    periodic=True,
 ) -> Contact:
-    """Solve the contact of an elastic solid with a rigid periodic surface at a mean pressure.
+    """Solve the contact of an elastic solid with a rigid surface at a mean pressure.
 
     Parameters
     ----------
@@ -131,6 +146,11 @@ def solve(
         Told the progress at level INFO.
     solid : solids.HalfSpace or solids.Layer, optional
         Elastic solid, a half-space by default; the thickness of a layer is in the unit of `length`.
+    periodic : bool
+        Whether surface and pressure repeat. If not, the surface is all there is: a rigid body with
+        free edges on a half-space without end, each height being that of a pixel. The total force
+        is `pressure` times the area within `length`. That takes two to five times as long. Only a
+        half-space can have free edges.
 
     Raises
     ------
@@ -152,6 +172,9 @@ def solve(
     >>> wave = 0.01 * np.cos(2 * np.pi * x)[:, None] * np.ones(32)
     >>> solve(wave, length=1.0, pressure=0.1).area_fraction  # beyond pi * 0.01: full contact
     1.0
+    >>> punch = solve(np.zeros((128, 128)), length=1.0, pressure=0.01, periodic=False)
+    >>> print(f"{punch.mean_pressure / punch.approach:.2f}")  # fine pixels: 1.152
+    1.15
     """
     heights = grid("heights", heights)
     lengths = check_length(length, heights.shape)
@@ -168,13 +191,24 @@ def solve(
     if precision not in ("double", "single"):
         raise ValueError(f"precision must be 'double' or 'single', got {precision!r}")
     solid = check_solid(solid)
+    check_edges(periodic, solid)
     warn_of_heights(measure_scale(heights)[1], lengths[0])
     if pressure > 1:
         # a thin layer takes that much more pressure
         stiffening = 1 / solid.factor(2 * np.pi / max(lengths))
         warn_of_pressure(pressure, measure_slope(heights, lengths) * stiffening)
     effort = Effort(tol, max_iterations, precision == "single", logger)
-    return press(heights, lengths, pressure, effort, start, solid)
+    return press(heights, lengths, pressure, effort, start, solid, periodic)
+
+
+def check_edges(periodic, solid):
+    """Refuse free edges of anything but a half-space."""
+    if not isinstance(periodic, bool | np.bool_):
+        raise ValueError(f"periodic must be True or False, got {periodic!r}")
+    if not periodic and solid != HALF_SPACE:
+        raise ValueError(
+            f"periodic=False is for a half-space only, got solid={solid!r}; leave out one of them"
+        )
 
 
 @dataclass(frozen=True)
@@ -187,37 +221,41 @@ class Effort:
     logger: object = None
 
 
-def press(heights, lengths, pressure, effort, start=None, solid=HALF_SPACE):
+def press(heights, lengths, pressure, effort, start=None, solid=HALF_SPACE, periodic=True):
     """Solve as `solve` does, of arguments that were checked, in any unit: nothing is warned of."""
     mean, rms = measure_scale(heights)
-    if rms == 0 or pressure == 0:
-        return _without_iterations(heights, lengths, pressure, rms)
+    if pressure == 0 or (rms == 0 and periodic):
+        return _without_iterations(heights, lengths, pressure, rms, periodic)
+    unit = rms if rms > 0 else pressure * lengths[0]  # a flat punch only sinks in
     scaled = heights - mean
-    scaled /= rms
+    scaled /= unit
     problem = active_set.Problem(
         scaled,
         (1.0, lengths[1] / lengths[0]),
-        pressure * (lengths[0] / rms),
+        pressure * (lengths[0] / unit),
         solid.in_unit(lengths[0]),
+        bool(periodic),
     )
     guess = start.pressure if start is not None and start.area_fraction > 0 else None
     state = _relax(problem, guess, effort)
     # The fields are this call's own: scaled in place, for they may be large.
     field, gap = (np.asarray(values, dtype=float) for values in (state.pressure, state.gap))
-    field *= rms / lengths[0]
-    gap *= rms
+    field *= unit / lengths[0]
+    gap *= unit
+    shift = state.shift * unit + mean
     contact = Contact(
         pressure=field,
         gap=gap,
         mean_pressure=pressure,
         area_fraction=state.area_fraction,
         mean_gap=float(gap.mean()),
-        shift=state.shift * rms + mean,
+        shift=shift,
         residual=state.residual,
         iterations=state.iterations,
         fft_pairs=state.pairs,
         length=lengths,
         rms_height=rms,
+        approach=np.nan if periodic else float(heights.max()) - shift,
     )
     if not state.residual <= effort.tol:
         raise ConvergenceError(
@@ -234,18 +272,23 @@ def _relax(problem, guess, effort):
     Its iterations and convolutions are those of all methods, the latter on all grids.
     """
     work, logger, limit = [], effort.logger, effort.max_iterations
-    layered = problem.solid != HALF_SPACE
+    unsure = problem.solid != HALF_SPACE or not problem.periodic
+    gap = None
+    if guess is None and problem.periodic:
+        gap = coarse_gap(problem, work, logger)
+    elif guess is None:
+        guess = coarse_pressure(problem, work, logger)
     state = active_set.relax(
         problem,
         tol=effort.tol,
         rough=effort.rough,
-        max_iterations=min(limit, _MOST_ON_LAYER) if layered else limit,
+        max_iterations=min(limit, _MOST_UNSURE) if unsure else limit,
         pressure=guess,
-        gap=coarse_gap(problem, work, logger) if guess is None else None,
+        gap=gap,
         logger=logger,
     )
     iterations, pairs = state.iterations, state.pairs
-    if layered and not state.residual <= effort.tol and iterations < limit:
+    if unsure and not state.residual <= effort.tol and iterations < limit:
         pressure = np.asarray(state.pressure, dtype=float)
         left = limit - iterations
         state = projected_gradients.relax(
@@ -299,7 +342,29 @@ def coarse_gap(problem, work, logger=None):
     return interpolate(state.gap, shape)
 
 
-def _without_iterations(heights, lengths, pressure, rms):
+def coarse_pressure(problem, work, logger=None):
+    """First guess of the pressure with free edges, else as `coarse_gap`."""
+    shape = problem.heights.shape
+    if min(shape) < 2 * _COARSEST:
+        return None
+    heights = free_edges.coarsen_heights(problem.heights)
+    sides = tuple(
+        a * 2 * m / n for a, m, n in zip(problem.sides, heights.shape, shape, strict=True)
+    )
+    coarse = replace(problem, heights=heights, sides=sides)
+    state = active_set.relax(
+        coarse,
+        tol=_COARSE_TOLERANCE,
+        max_iterations=200,
+        pressure=coarse_pressure(coarse, work, logger),
+        rough=True,
+        logger=logger,
+    )
+    work.append(state.pairs * heights.size)
+    return free_edges.refine_pressure(state.pressure, shape)
+
+
+def _without_iterations(heights, lengths, pressure, rms, periodic):
     """Contact of a flat, which is in full contact, or of any surface that carries no load."""
     top = float(heights.max() if rms > 0 else heights.flat[0])
     gap = top - heights if rms > 0 else np.zeros(heights.shape)
@@ -315,4 +380,5 @@ def _without_iterations(heights, lengths, pressure, rms):
         fft_pairs=0.0,
         length=lengths,
         rms_height=rms,
+        approach=np.nan if periodic else 0.0,
     )
