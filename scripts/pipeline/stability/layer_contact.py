@@ -26,7 +26,12 @@ SOLIDS = {
     "soft solid": (0.5, "on a soft solid"),
     "stiff solid": (0.3, "on a stiff solid"),
 }
-_STRONGEST = ("bonded incompressible", "bonded compressible", "slip", "soft solid")
+_ADHESIVE = (
+    *(f"{name} exponential pressure" for name in SOLIDS if name != "stiff solid"),
+    "bonded incompressible exponential mean_gap",
+    "bonded incompressible maugis pressure",
+    "slip lennard_jones pressure",
+)
 
 
 @lru_cache(maxsize=64)
@@ -165,7 +170,7 @@ LAYER_CONTACT = {
         ("thickness", "pressure", "range_over_h_rms", "adhesion_length_over_range"),
         pairs=(("thickness", "pressure"), ("thickness", "adhesion_length_over_range"),
                ("thickness", "range_over_h_rms")),
-        variants=tuple(f"{name} exponential pressure" for name in _STRONGEST),
+        variants=_ADHESIVE,
         values={
             "thickness": (1e-4, 1e-2, 0.3, 3, 1e4),
             "pressure": (1e-8, 1e-3, 0.03, 0.3, 3, 100),
