@@ -16,6 +16,10 @@ LABELS = {
     "range_over_h_rms": "range\n$\\epsilon/h_\\mathrm{rms}$",
     "adhesion_length_over_range": "adhesion\n$l_a/\\epsilon$",
     "q0_h_rms": "roughness\n$q_0h_\\mathrm{rms}$",
+    "thickness": "layer\n$q_0d$",
+    "poisson": "Poisson\n$\\nu$",
+    "modulus_ratio": "backing\n$E_b/E$",
+    "anisotropy": "direction\n$a$",
     "unit": "unit\n$1/q_0$",
     "grid": "grid points\na side",
     "frequency": "rate\n$f\\tau$",
@@ -77,7 +81,7 @@ def outcome_keys(every):
 
 def shorten(value):
     """A number in few characters."""
-    exponent = round(np.log10(value))
+    exponent = round(np.log10(value)) if value else 0
     if abs(exponent) > 2 and np.isclose(value, 10.0**exponent):
         return rf"$10^{{{exponent}}}$"
     return f"{value:g}"

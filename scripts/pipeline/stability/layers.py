@@ -174,7 +174,7 @@ def probe_layer_theory(
         half = make_theory(*surface, HALF_SPACE)
         yield Check("area on a half-space", abs(area - float(half.area_fraction(p))), SCALED)
         other = abs(gap - float(half.mean_gap(p)))
-        yield Check("gap on a half-space", other / max(gap, 1e-12 * h_rms), 1e-6)
+        yield Check("gap on a half-space", other / max(gap, 1e-12 * h_rms), 1e-8)
 
 
 @lru_cache(maxsize=64)
