@@ -168,7 +168,7 @@ def test_the_boundary_value_problem_has_the_limits_of_thin_layers():
         ("layers", layers.Layer, "factor"),
         ("backed-layers", layers.Layer, "_bonded"),
         ("layer-theory", layered_scales.LayeredScales, "mean_gap"),
-        ("layer-remaining", remaining, "find_onset"),
+        ("layer-remaining", remaining.Roughness, "threshold"),
         ("direction", direction.Ellipse, "mean_stretch"),
         ("direction", direction.Ellipse, "mean_psd"),
         ("directed-surfaces", direction.Ellipse, "norm"),
