@@ -10,32 +10,37 @@ from pipeline.plotting import BLACK, BLUE, ORANGE, YELLOW, open_figure
 from stickiness.core import datasets
 
 LABELS = {
-    "magnification": "magnification\n$\\zeta$",
-    "hurst": "Hurst\n$H$",
-    "pressure": "load\n$p/(E^*q_0h_\\mathrm{rms})$",
-    "range_over_h_rms": "range\n$\\epsilon/h_\\mathrm{rms}$",
-    "adhesion_length_over_range": "adhesion\n$l_a/\\epsilon$",
-    "q0_h_rms": "roughness\n$q_0h_\\mathrm{rms}$",
-    "unit": "unit\n$1/q_0$",
-    "grid": "grid points\na side",
-    "frequency": "rate\n$f\\tau$",
+    "magnification": "magnification",
+    "hurst": "Hurst",
+    "pressure": "load",
+    "range_over_h_rms": "range",
+    "adhesion_length_over_range": "adhesion",
+    "q0_h_rms": "roughness",
+    "thickness": "thickness",
+    "poisson": "Poisson",
+    "modulus_ratio": "backing",
+    "anisotropy": "anisotropy",
+    "unit": "unit",
+    "grid": "grid",
+    "frequency": "rate",
 }
 OUTCOMES = ((BLUE, ""), (YELLOW, ""), (ORANGE, "///"), (BLACK, ""))  # colour and hatch, in order
 ROW_HEIGHT = 0.5  # inches
+SMALL = 6.5  # points, of labels in rows that are full
 
 
 def main(job):
     every = {Path(path).stem: datasets.read(path, ["outcome"]) for path in job.input.components}
-    mosaic = [[f"{name}/{axis}" for axis in LABELS] for name in every]
-    first_name, first_axis = next(iter(every)), next(iter(LABELS))
-    height = ROW_HEIGHT * len(every) + 1.2
-    with open_figure(job.output, mosaic, height) as panels:
-        for axis, label in LABELS.items():
-            panels[f"{first_name}/{axis}"].set_title(label)
+    axes = {name: [axis for axis in LABELS if axis in data] for name, data in every.items()}
+    most = max(map(len, axes.values()))
+    mosaic = [
+        [f"{name}/{axis}" for axis in own] + ["."] * (most - len(own)) for name, own in axes.items()
+    ]
+    with open_figure(job.output, mosaic, ROW_HEIGHT * len(every) + 0.4) as panels:
         for name, data in every.items():
-            for axis in LABELS:
+            for axis in axes[name]:
                 draw_strip(panels[f"{name}/{axis}"], data, axis)
-            first = panels[f"{name}/{first_axis}"]
+            first = panels[f"{name}/{axes[name][0]}"]
             look = {"rotation": 0, "ha": "right", "va": "center"}
             first.set_ylabel(f"{name}\n{data.sizes['point']} points", **look)
         place = {"loc": "outside lower center", "ncols": len(OUTCOMES)}
@@ -45,12 +50,10 @@ def main(job):
 def draw_strip(ax, data, axis):
     """Shares of the outcomes at each value of an axis, over all points that have it."""
     ax.set(yticks=[], ylim=(0, 1))
-    ax.tick_params(length=0)
+    ax.set_title(LABELS[axis], fontsize=SMALL, pad=2.5)
+    ax.tick_params(length=0, labelsize=SMALL, pad=1)
     for side in ax.spines.values():
         side.set_visible(False)
-    if axis not in data:
-        ax.set_xticks([])
-        return
     values = np.unique(data[axis].values)
     place, bottom = np.arange(len(values)), np.zeros(len(values))
     here = data[axis].values == values[:, None]
@@ -77,7 +80,7 @@ def outcome_keys(every):
 
 def shorten(value):
     """A number in few characters."""
-    exponent = round(np.log10(value))
+    exponent = round(np.log10(value)) if value else 0
     if abs(exponent) > 2 and np.isclose(value, 10.0**exponent):
         return rf"$10^{{{exponent}}}$"
     return f"{value:g}"

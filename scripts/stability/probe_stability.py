@@ -10,12 +10,15 @@ from pipeline.job import start
 from pipeline.stability.adhesion import ADHESION
 from pipeline.stability.components import AXES, OUTCOMES, probe_point
 from pipeline.stability.contact import CONTACT
+from pipeline.stability.direction import DIRECTION
 from pipeline.stability.inputs import INPUTS
+from pipeline.stability.layer_contact import LAYER_CONTACT
+from pipeline.stability.layers import LAYERS
 from pipeline.stability.theory import THEORY
 from pipeline.stability.verdicts import VERDICTS
 from stickiness.core import datasets
 
-COMPONENTS = THEORY | INPUTS | CONTACT | ADHESION | VERDICTS
+COMPONENTS = THEORY | INPUTS | CONTACT | ADHESION | VERDICTS | LAYERS | LAYER_CONTACT | DIRECTION
 LONGEST = 160  # characters of a message that are kept
 
 

@@ -29,7 +29,9 @@ from stickiness.core.plausibility import PlausibilityWarning
 from stickiness.criteria import a_v_fit, a_v_table, moduli
 from stickiness.measured import instrument_spectrum, psd, self_affine_fit, stitching
 from stickiness.persson import theory
-from stickiness.surfaces import spectrum, synthesis
+from stickiness.remaining import prediction as remaining
+from stickiness.solids import layers
+from stickiness.surfaces import direction, spectrum, sums, synthesis
 from stickiness.surfaces.spectrum import SelfAffine
 
 RIGHT, REFUSED, UNCONVERGED, FAILED = range(4)
@@ -38,9 +40,9 @@ SCALED = 1e-9  # relative error allowed where only the unit or an overall factor
 TIME_LIMIT = 30  # seconds of computing for a point; most take less than 0.1
 
 _MODULES = (
-    a_v_fit, a_v_table, adhesive, criteria, dmt, choice, equivalent_sphere, error_models, gaps,
-    grid_limit, instrument_spectrum, model_choice, moduli, multilevel, prediction, psd,
-    self_affine_fit, solver, spectrum, stitching, subpixel, synthesis, theory,
+    a_v_fit, a_v_table, adhesive, criteria, dmt, choice, direction, equivalent_sphere, error_models,
+    gaps, grid_limit, instrument_spectrum, layers, model_choice, moduli, multilevel, prediction,
+    psd, remaining, self_affine_fit, solver, spectrum, stitching, subpixel, sums, synthesis, theory,
 )  # fmt: skip
 _LIBRARY = Path(stickiness.__file__).parent
 
@@ -58,13 +60,23 @@ AXES = {
     "magnification": Axis("magnification q1/q0", (1.01, 2, 8, 64, 1e3, 1e6, 1e10), 64),
     "hurst": Axis("Hurst exponent", (0.05, 0.2, 0.5, 0.6, 0.8, 1.0), 0.8),
     "pressure": Axis(
-        "mean pressure over E* q0 h_rms", (1e-8, 1e-5, 1e-3, 0.03, 0.3, 3, 100, 1e6), 0.03
+        "mean pressure over E* q0 h_rms (on layers E*/S)",
+        (1e-8, 1e-5, 1e-3, 0.03, 0.3, 3, 100, 1e6),
+        0.03,
     ),
     "range_over_h_rms": Axis("range over h_rms", (1e-6, 1e-4, 1e-2, 0.3, 3, 30, 1e3), 0.3),
     "adhesion_length_over_range": Axis(
-        "adhesion length over range", (1e-6, 1e-4, 1e-2, 0.1, 1, 10), 0.01
+        "adhesion length over range (on layers of E*/S)", (1e-6, 1e-4, 1e-2, 0.1, 1, 10), 0.01
     ),
     "q0_h_rms": Axis("q0 times h_rms", (1e-9, 1e-6, 1e-3, 0.1, 1, 10), 0.1),
+    "thickness": Axis(
+        "thickness of a layer times q0", (1e-4, 1e-2, 0.1, 0.3, 1, 3, 30, 1e3, 1e4), 0.3
+    ),
+    "poisson": Axis("Poisson's ratio of a layer", (0, 0.3, 0.5), 0.5),
+    "modulus_ratio": Axis(
+        "modulus of the backing over that of the layer", (1e-6, 1e-3, 0.1, 1, 10, 1e3, 1e6), 0.1
+    ),
+    "anisotropy": Axis("ratio of correlation lengths", (1, 1 + 1e-6, 1.1, 2, 8, 100, 1e4), 2),
     "unit": Axis("1/q0 in units of length", (1e-9, 1e-6, 1e-3, 1, 1e3), 1),
     "grid": Axis("grid points a side", (2, 3, 4, 7, 16, 31, 32, 97, 128), 32),
     "frequency": Axis(

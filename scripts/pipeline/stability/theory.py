@@ -136,7 +136,8 @@ def probe_persson(
     yield Check("area + gaps = 1", abs(area + everything - 1), 1e-8)
     yield require("sign", min(area, gap, below, density) >= 0)
     yield Check("order", max(below - everything, 0.0), 1e-12)
-    yield Check("area", _area_error(t, variant.split()[1], p, area), 1e-7)
+    m2 = 0.5 * t.spectrum.rms_slope**2
+    yield Check("area", find_area_error(variant.split()[1], p, area, m2), 1e-7)
     same = theory(variant, hurst, magnification)
     yield Check("area, other unit", abs(area - float(same.area_fraction(pressure))), SCALED)
     other = float(same.mean_gap(pressure))
@@ -147,8 +148,8 @@ def probe_persson(
         yield compare_each("load at the gap", t.pressure_at(gap), p, 1e-6)
 
 
-def _area_error(t: Persson, correction: str, p: float, area: float) -> float:
-    """Relative error of the pressure variance at which the area is what the theory says."""
+def find_area_error(correction: str, p: float, area: float, m2: float) -> float:
+    """Relative error of the variance m2 at which the area is what the theory says."""
     if area > 1 - 1e-9 or area < 1e-12:  # erf leaves no digits to invert
         return 0.0
     y, gamma = float(erfinv(area)), _GAMMA[correction]
@@ -161,7 +162,6 @@ def _area_error(t: Persson, correction: str, p: float, area: float) -> float:
             lambda t: np.exp(-2 * t) / suppression(erf(y * np.exp(t)), gamma),
             0, 20, points=[max(np.log(1 / y), 0.1)] if y < 1 else None, limit=400, epsrel=1e-10,
         )[0]  # fmt: skip
-    m2 = 0.5 * t.spectrum.rms_slope**2
     # Near full contact the area hardly depends on the variance: errors weigh as in the area.
     weight = y * np.exp(-(y**2)) / area
     return abs(scale * p**2 / m2 - 1) * weight

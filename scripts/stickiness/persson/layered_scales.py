@@ -57,19 +57,24 @@ class LayeredScales:
         """Mean gap [length] at mean pressures `p` > 0 [E*]."""
         s, softness = np.sqrt(self._m), self.solid.factor(self._q) / self._q
         x2 = (p[..., None] / s) ** 2
+        faded = np.exp(-x2)
+        # within a shell S/q stands still: int F(p/s) ds = s kappa(p/s)
         if isinstance(self.spectrum, Shells):
-            # within a shell S/q stands still: int F(p/s) ds = s kappa(p/s)
-            whole = s * np.exp(-x2) * universal.mean_kernel(x2)
-            terms = np.diff(whole, axis=-1, prepend=0.0)
+            terms = np.diff(s * faded * universal.mean_kernel(x2), axis=-1, prepend=0.0)
         else:
-            terms = np.exp(-x2) * universal.gap_kernel(x2) * self._growth / (2 * s)
+            terms = faded * universal.gap_kernel(x2) * self._growth / (2 * s)
+            terms[..., 0] = s[0] * faded[..., 0] * universal.mean_kernel(x2[..., 0])
         return 2 / np.sqrt(np.pi) * np.sum(softness * terms, axis=-1)
 
     def _slope_weight(self, q: NDArray) -> NDArray:
         return (q / self.solid.factor(q)) ** 2
 
     def _gauss_nodes(self, nodes: float) -> tuple[NDArray, NDArray, NDArray]:
-        """Wave numbers, m there, and what m grows by with the weight of each."""
+        """Wave numbers, m there, and what m grows by with the weight of each.
+
+        The first panel, of relative width 1e-8 at most, is one shell: F(p/s) changes there at
+        small loads.
+        """
         edges = self.spectrum.q0 * np.exp(scale_edges(self.spectrum))
         edges[-1] = self.spectrum.q1
         edges = self._split(edges, _FINE / nodes)
@@ -80,7 +85,9 @@ class LayeredScales:
         before = np.concatenate([[0.0], np.cumsum(growth.sum(axis=1))[:-1]])
         # up to a node: the integral of the interpolating polynomial
         within = growth / w @ _partial_weights(x).T
-        return q.ravel(), (before[:, None] + within).ravel(), growth.ravel()
+        shell = self.spectrum.q0, growth[0].sum(), 0.0
+        rest = q[1:], before[1:, None] + within[1:], growth[1:]
+        return tuple(np.append(one, all_else) for one, all_else in zip(shell, rest, strict=True))
 
     def _split(self, edges: NDArray, fine: float) -> NDArray:
         """Edges so close that ln m grows by little between them."""

@@ -13,7 +13,7 @@ from stickiness.surfaces.interface import Spectrum
 from stickiness.surfaces.moments import Moments
 from stickiness.surfaces.spectrum import Shells, check_cut
 
-_ALIKE = 1e-9  # shells that much apart, relatively, are one
+_ALIKE = 1e-9  # shells or knots that much apart, relatively, are one
 _STEPS = 64  # of the table in ln q that inversion starts from, besides the knots
 _PRECISION = 4e-16  # of ln q
 
@@ -78,7 +78,10 @@ class Sum(Spectrum):
     def knots(self) -> NDArray:
         """Wave numbers, both ends included, between which C is smooth if it is isotropic."""
         every = [[part.q0, part.q1, *getattr(part, "knots", ())] for part in self.parts]
-        return np.unique(np.concatenate(every))
+        q = np.sort(np.concatenate(every))
+        kept = q[_find_first(q)]
+        kept[-1] = q[-1]
+        return kept
 
     @property
     def band(self) -> tuple[float, float]:
@@ -158,5 +161,10 @@ def _merge_shells(one: Shells, other: Shells) -> Shells:
     q = np.concatenate([one.q, other.q])
     order = np.argsort(q, kind="stable")
     q, variance = q[order], np.concatenate([one.variance, other.variance])[order]
-    first = np.flatnonzero(np.append(True, np.diff(q) > _ALIKE * q[1:]))
+    first = _find_first(q)
     return Shells(q[first], np.add.reduceat(variance, first))
+
+
+def _find_first(q: NDArray) -> NDArray:
+    """Indices of the first of those, in ascending order, that are one to rounding."""
+    return np.flatnonzero(np.append(True, np.diff(q) > _ALIKE * q[1:]))

@@ -5,7 +5,7 @@ import warnings
 import numpy as np
 import pytest
 
-from pipeline.stability import components
+from pipeline.stability import components, layer_contact
 from pipeline.stability import contact as probes_contact
 from pipeline.stability.components import (
     FAILED,
@@ -16,12 +16,17 @@ from pipeline.stability.components import (
     Component,
     probe_point,
 )
+from pipeline.stability.layers import THICK, find_response
 from stability.probe_stability import COMPONENTS
-from stickiness import spectrum
+from stickiness import adhesive, spectrum
 from stickiness.accuracy import prediction
 from stickiness.adhesion import dmt, equivalent_sphere, model_choice
 from stickiness.contact import solver
 from stickiness.criteria import a_v_table, moduli
+from stickiness.persson import layered_scales
+from stickiness.remaining import prediction as remaining
+from stickiness.solids import layers
+from stickiness.surfaces import direction, sums
 
 
 def outcome(probe, **point):
@@ -96,10 +101,23 @@ def test_the_middle_of_every_map_is_right(name):
     assert found.outcome == RIGHT, found
 
 
+@pytest.fixture
+def forget_contacts():
+    """No contact that was solved before or during the test is used again."""
+    caches = probes_contact.solve_contact, layer_contact.press_layer
+    for cache in caches:
+        cache.cache_clear()
+    yield
+    for cache in caches:
+        cache.cache_clear()
+
+
+@pytest.mark.parametrize("name", ["repulsive", "layer-contact"])
 @pytest.mark.parametrize(
     ("field", "factor"), [("pressure", 1.001), ("gap", 1.001), ("area_fraction", 1.01)]
 )
-def test_a_wrong_solver_is_detected(monkeypatch, field, factor):
+@pytest.mark.usefixtures("forget_contacts")
+def test_a_wrong_solver_is_detected(monkeypatch, name, field, factor):
     right = solver.solve
 
     def wrong(*arguments, **options):
@@ -108,13 +126,33 @@ def test_a_wrong_solver_is_detected(monkeypatch, field, factor):
         return contact
 
     monkeypatch.setattr(solver, "solve", wrong)
-    probes_contact.solve_contact.cache_clear()
-    try:
-        component = COMPONENTS["repulsive"]
-        found = probe_point(component, component.middle())
-        assert found.outcome == FAILED
-    finally:
-        probes_contact.solve_contact.cache_clear()
+    component = COMPONENTS[name]
+    found = probe_point(component, component.middle())
+    assert found.outcome == FAILED
+
+
+def test_a_layer_of_another_thickness_is_detected(monkeypatch):
+    right = adhesive.solve
+
+    def wrong(*arguments, solid, **options):
+        return right(*arguments, solid=solid.in_unit(1.001), **options)
+
+    monkeypatch.setattr(adhesive, "solve", wrong)
+    layer_contact.attach.cache_clear()
+    component = COMPONENTS["layer-adhesion"]
+    found = probe_point(component, component.middle())
+    layer_contact.attach.cache_clear()
+    assert found.outcome == FAILED
+
+
+def test_the_boundary_value_problem_has_the_limits_of_thin_layers():
+    """Long waves: k/2 if it slips, k (1 - 2 nu)/(2 (1 - nu)^2) and 2 k^3/3 if it is bonded."""
+    k, nu = 1e-7, 0.3
+    springs = 0.5 * k * (1 - 2 * nu) / (1 - nu) ** 2
+    assert find_response(k, nu, "slip") == pytest.approx(k / 2, rel=1e-12)
+    assert find_response(k, nu, "bonded") == pytest.approx(springs, rel=1e-12)
+    assert find_response(k, 0.5, "bonded") == pytest.approx(2 / 3 * k**3, rel=1e-12)
+    assert find_response(THICK, nu, "bonded") == pytest.approx(1, rel=1e-14)
 
 
 @pytest.mark.slow
@@ -127,6 +165,14 @@ def test_a_wrong_solver_is_detected(monkeypatch, field, factor):
         ("moduli", moduli.Prony, "storage"),
         ("a_v-table", a_v_table.AvTable, "_drift"),
         ("model-choice", model_choice.ErrorTable, "relative_error"),
+        ("layers", layers.Layer, "factor"),
+        ("backed-layers", layers.Layer, "_bonded"),
+        ("layer-theory", layered_scales.LayeredScales, "mean_gap"),
+        ("layer-remaining", remaining.Roughness, "threshold"),
+        ("direction", direction.Ellipse, "mean_stretch"),
+        ("direction", direction.Ellipse, "mean_psd"),
+        ("directed-surfaces", direction.Ellipse, "norm"),
+        ("sums", sums.Sum, "variance_above"),
     ],
 )
 def test_a_wrong_model_is_detected(monkeypatch, component, place, name):

@@ -33,3 +33,10 @@ def test_map_is_stored_and_drawn(tmp_path, monkeypatch):
 def test_axes_have_labels():
     assert plot_stability.LABELS.keys() == components.AXES.keys()
     assert len(plot_stability.OUTCOMES) == len(components.OUTCOMES)
+
+
+@pytest.mark.parametrize(
+    ("value", "text"), [(0.0, "0"), (0.5, "0.5"), (1e4, "$10^{4}$"), (100.0, "100")]
+)
+def test_numbers_are_short(value, text):
+    assert plot_stability.shorten(value) == text

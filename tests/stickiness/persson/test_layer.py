@@ -34,6 +34,13 @@ def test_thick_layers_are_half_spaces(correction):
     np.testing.assert_allclose(thick.mean_gap(p), half.mean_gap(p), rtol=1e-9)
 
 
+@pytest.mark.parametrize("load", [1e-12, 1e-8, 1e-6, 1e-4])
+def test_small_loads(load):
+    """Almost all of the gap is decided next to q0, where pressures are small."""
+    half, thick = (persson.Persson(ROUGH, solid=s) for s in (HalfSpace(), Layer(1e3, 0.5)))
+    assert thick.mean_gap(load) == pytest.approx(half.mean_gap(load), rel=1e-9)
+
+
 @pytest.mark.parametrize("solid", SOLIDS, ids=str)
 def test_mean_gap_over_pressure_is_the_energy_of_full_contact(solid):
     theory = persson.Persson(ROUGH, solid=solid)

@@ -118,6 +118,19 @@ def test_sums_of_sums_are_flat():
     assert repr(triple).startswith("Sum(SelfAffine(")
 
 
+def test_knots_apart_by_rounding_are_one():
+    """Else the steps of ln C between them are over nothing."""
+    one = SelfAffine(hurst=0.8, q0=1.0, q1=64.0, h_rms=1.0)
+    other = SelfAffine(hurst=0.8, q0=np.nextafter(1, 2), q1=np.nextafter(64, 0), h_rms=1e-5)
+    both = combine(one, other)
+    assert both.knots.tolist() == [1.0, 64.0]
+    directed = SelfAffine(hurst=0.8, q0=1.0, q1=64.0, h_rms=1.0, anisotropy=4.0)
+    assert np.diff(np.log(combine(one, directed).averaged().knots)).min() > 1e-9
+    theory = Persson(combine(one, directed))
+    with np.errstate(all="raise", under="ignore"):
+        assert theory.gap_cumulative(np.inf, 0.1) + theory.area_fraction(0.1) == pytest.approx(1)
+
+
 def test_bad_parts_are_named():
     with pytest.raises(ValueError, match="lattice_spectrum"):
         combine(ONE, Shells([1.0], [1.0]))
