@@ -275,7 +275,7 @@ RUBBER = {
 }
 
 
-def experiments(outcomes=(2, 2, 2), limit=40e-6, grades=(0, 0, 0), tests=(1, 1, 1)):
+def experiments(outcomes=(2, 2, 2), limit=40e-6, grades=(1, 1, 1), tests=(1, 1, 1)):
     """Rubber that has lost its adhesion at 1 um, a limiting roughness, a pair that does not stick.
 
     By case `outcomes` of the paper's criterion, `grades` of what was observed and whether it

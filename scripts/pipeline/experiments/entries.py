@@ -12,7 +12,7 @@ from stickiness.config.experiment_entries import CONDITIONS, OBSERVED_UNITS, con
 from stickiness.core.units import si
 from stickiness.remaining.prediction import DEFAULT_SHARE
 
-GRADES = ("read", "recalled", "assumed")
+GRADES = ("measured", "read", "recalled", "assumed")
 SHAPE = ("hurst", "longest_wavelength", "rolloff_wavelength", "shortest_wavelength")
 MIDDLE = 0  # index of the combination with every input in the middle
 

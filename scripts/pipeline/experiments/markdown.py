@@ -29,8 +29,10 @@ by their authors.
   does not stick is compatible if the low limit is below {wanted}.
 - **Depends on**: the unknown input that changes the prediction most.
 - **Waves**: longest waves across what holds a sphere. The model needs about {waves} or more.
-- *(relation)*: a reported relation, evaluated with the inputs of the case. It is Persson and
-  Tosatti's balance of energy: agreement with it is consistent, not a test.
+- *(relation)*: a reported relation, evaluated with the inputs of the case. It moves with them, so
+  that brackets may overlap where no combination does. It rests on Persson and Tosatti's balance of
+  energy: agreement with it is consistent, not a test. Relations and everyday pairs are not counted
+  above.
 
 """
 CRITERIA_HEAD = """

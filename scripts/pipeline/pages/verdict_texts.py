@@ -8,7 +8,6 @@ import numpy as np
 import xarray as xr
 
 from pipeline.numbers import NOTHING, interval, number, percent, quantity
-from pipeline.pages.surface_texts import describe_height
 from pipeline.verdicts.texts import (
     describe_layer,
     describe_pull_off,
@@ -105,7 +104,7 @@ def explain(pair: xr.Dataset, surface: xr.Dataset, work_of_adhesion: float) -> l
 
 def gather_facts(pair: xr.Dataset, surface: xr.Dataset, work_of_adhesion: float) -> dict[str, str]:
     """Texts by the names of `registry.FACTS`; intervals go from the smooth to the rough end."""
-    curvature = float(surface.rms_curvature.sel(end="rough"))
+    curvature = float(pair.pair_rms_curvature.sel(end="rough"))
     modulus = float(pair.modulus_quoted)
     energy = work_of_adhesion / float(pair.energy_ratio.sel(end="rough"))
     of_edges = {
@@ -116,11 +115,11 @@ def gather_facts(pair: xr.Dataset, surface: xr.Dataset, work_of_adhesion: float)
         "remaining": describe_share(pair),
         "wanted": percent(DEFAULT_SHARE),
         "regime": " to ".join(dict.fromkeys(REGIME_TEXTS[int(code)] for code in pair.regime)),
-        "h_rms": describe_height(surface),
-        "q0": number(float(surface.q0)),
+        "h_rms": quantity(*sorted(map(float, pair.pair_h_rms.values)), "m"),
+        "q0": number(float(pair.pair_q0.sel(end="rough"))),
         "a_v": number(float(pair.pair_a_v.mean()), 2),
         "constant_a_v": number(float(pair.a_v), 2),
-        "rms_slope": number(float(surface.rms_slope.sel(end="rough")), 2),
+        "rms_slope": number(float(pair.pair_rms_slope.sel(end="rough")), 2),
         "rms_curvature": number(curvature, 2),
         "summit_radius": quantity(2 / curvature, 2 / curvature, "m", 2),
         "energy": f"{number(energy, 2)} J/m²",

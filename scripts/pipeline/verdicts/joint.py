@@ -31,10 +31,11 @@ class Joint:
     rms_curvature: NDArray
     elastic_energy: NDArray  # of full contact per area over E*
     stiffening: NDArray  # that energy over that of a half-space
-    height_over_thickness: NDArray  # rms height over the thickness of a layer, 0 of a half-space
+    layer_strain: NDArray  # of a layer, see `find_strain`; 0 of a half-space
     q0: float
     a_v: tuple[SurfaceAv, ...]  # by end
     softness: float  # S of the longest waves on a layer
+    deep_energy: NDArray  # elastic energy of a half-space
     widening: float  # factor on the errors of what remains
     drawn: Roughness | None  # arrays over the draws of a measured surface
 
@@ -50,7 +51,10 @@ def join(material, surface, a_v, own=None):
 
     A sum of two surfaces has the a_V that theory has on its spectrum.
     """
-    plain = take_surface(surface, a_v) if own is None else add_surfaces(surface, own, a_v)
+    if own is None:
+        plain = take_surface(surface, a_v)
+    else:
+        plain = add_surfaces(surface, own, a_v, material.solid)
     if material.solid == HALF_SPACE:
         return plain
     spectra = find_spectra(surface, own)
@@ -61,16 +65,26 @@ def join(material, surface, a_v, own=None):
     drawn = plain.drawn
     if drawn is not None:
         # Draws have no spectrum of their own here: the layer acts on them as on both ends.
-        energy = drawn.elastic_energy * np.sqrt(np.prod(stiffening))
-        drawn = replace(drawn, elastic_energy=energy, softness=softness)
+        deep = drawn.elastic_energy
+        energy = deep * np.sqrt(np.prod(stiffening))
+        drawn = replace(drawn, elastic_energy=energy, softness=softness, deep_energy=deep)
     return replace(
         plain,
         elastic_energy=plain.elastic_energy * stiffening,
         stiffening=stiffening,
-        height_over_thickness=plain.h_rms / material.solid.thickness,
+        layer_strain=find_strain(plain, material.solid),
         softness=softness,
         drawn=drawn,
     )
+
+
+def find_strain(plain, layer):
+    """Strain that conforming asks of a layer, ``(end,)``, as an order of magnitude.
+
+    The rms height over the thickness; where the longest waves are longer than the layer is thick,
+    material has to flow along it, and shears by 1/(q0 thickness) more.
+    """
+    return plain.h_rms / (layer.thickness * min(1.0, plain.q0 * layer.thickness))
 
 
 def find_spectra(surface, own=None):
@@ -92,8 +106,9 @@ def take_surface(surface, a_v):
         drawn = Roughness(*(surface[name].values for name in DRAWN), widening=widening)
     return Joint(
         **by_end,
+        deep_energy=by_end["elastic_energy"],
         stiffening=np.ones(len(ENDS)),
-        height_over_thickness=np.zeros(len(ENDS)),
+        layer_strain=np.zeros(len(ENDS)),
         q0=float(surface.q0),
         a_v=(a_v,) * len(ENDS),
         softness=1.0,
@@ -102,13 +117,17 @@ def take_surface(surface, a_v):
     )
 
 
-def add_surfaces(surface, own, a_v):
+def add_surfaces(surface, own, a_v, solid):
     """`Joint` of two rough solids, whose roughness is independent."""
     one, other = take_surface(surface, a_v), take_surface(own, a_v)
     sums = {name: np.hypot(getattr(one, name), getattr(other, name)) for name in MOMENTS}
     energy = one.elastic_energy + other.elastic_energy
     # The longest waves that matter are those of the surface that stores the energy.
-    share = float(np.mean(one.elastic_energy / energy))
+    stored = [
+        np.sum([real_spectrum(each, end).elastic_energy(solid) for end in ENDS])
+        for each in (surface, own)
+    ]
+    share = float(stored[0] / np.sum(stored))
     q0 = one.q0**share * other.q0 ** (1 - share)
     found = []
     for end, spectrum in enumerate(find_spectra(surface, own)):
@@ -121,8 +140,9 @@ def add_surfaces(surface, own, a_v):
     return Joint(
         **sums,
         elastic_energy=energy,
+        deep_energy=energy,
         stiffening=np.ones(len(ENDS)),
-        height_over_thickness=np.zeros(len(ENDS)),
+        layer_strain=np.zeros(len(ENDS)),
         q0=q0,
         a_v=tuple(found),
         softness=1.0,
@@ -132,15 +152,17 @@ def add_surfaces(surface, own, a_v):
 
 
 def add_draws(drawn, other, share):
-    """Draws of a measured surface with another added: its draws, or the middle of its ends."""
+    """Draws of a measured surface with another added; none if that is known between ends only."""
     if drawn is None:
         return None
-    number = len(drawn.h_rms)
     if other.drawn is not None:
+        number = len(drawn.h_rms)
         names = ("h_rms", "q0", "elastic_energy")
         more = Roughness(*(np.resize(getattr(other.drawn, name), number) for name in names))
+    elif np.ptp(other.h_rms) == 0:
+        more = Roughness(other.h_rms[0], other.q0, other.elastic_energy[0])
     else:
-        more = Roughness(np.mean(other.h_rms), other.q0, np.mean(other.elastic_energy))
+        return None
     return Roughness(
         h_rms=np.hypot(drawn.h_rms, more.h_rms),
         q0=drawn.q0**share * more.q0 ** (1 - share),

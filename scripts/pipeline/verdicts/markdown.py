@@ -38,6 +38,9 @@ It rests on a_V of the pair: Persson's theory on the spectrum of the surface, at
 material over h_rms, times the ratio of simulation to theory ({ratio:.2f}). **DMT**: the margin of
 the paper's criterion in the same form, with the same a_V.
 
+**Layers.** A material with a thickness is a layer. What remains, and Persson–Tosatti's criterion,
+know that; the other criteria and the onset take a half-space.
+
 Moduli that depend on the rate are taken at 1 Hz; verdicts.nc has other rates. For comparison, the
 a_V of a broad spectrum:
 {constant}.

@@ -71,7 +71,13 @@ def read_modulus(entry):
 
 
 def describe_modulus(entry):
-    """Modulus as the configuration states it."""
+    """Modulus as the configuration states it, with the layer and the solid's own roughness."""
+    text = describe_elasticity(entry)
+    return f"{text}, rough as {entry['surface']}" if "surface" in entry else text
+
+
+def describe_elasticity(entry):
+    """Modulus, Poisson's ratio and layer."""
     if "plane_strain_modulus" in entry:
         return f"E* = {entry['plane_strain_modulus']}"
     if "youngs_modulus_table" in entry:

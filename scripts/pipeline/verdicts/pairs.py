@@ -8,6 +8,7 @@ from pipeline.verdicts.joint import BY_END, ENDS, join
 from stickiness import criteria
 from stickiness.criteria.pair import Pair, classify_edges
 from stickiness.criteria.registry import CRITERIA
+from stickiness.solids import Backing
 
 DIMS = ("material", "surface", "end")
 LIMITS = {"": 0, "_low": -1, "_high": 1}
@@ -34,7 +35,7 @@ def gather_pairs(materials, joints, constant) -> Pair:
     }
     of_surfaces = {
         name: np.array([[getattr(joint, name) for joint in row] for row in joints])
-        for name in BY_END
+        for name in (*BY_END, "deep_energy")
     }
     for name in ("q0", "softness", "widening"):
         numbers = [[getattr(joint, name) for joint in row] for row in joints]
@@ -63,20 +64,31 @@ def find_margins(pair):
     }
 
 
-def describe_layers(joints):
-    """What the thickness of a layer does to every pair."""
-    names = ("stiffening", "height_over_thickness")
-    return {
+def describe_joints(pair, joints):
+    """Roughness of every pair, and what the thickness of a layer does to it."""
+    names = ("stiffening", "layer_strain")
+    of_joints = {
         name: (DIMS, np.array([[getattr(joint, name) for joint in row] for row in joints]))
         for name in names
     }
+    moments = ("h_rms", "q0", "rms_slope", "rms_curvature")
+    return of_joints | {f"pair_{name}": (DIMS, getattr(pair, name)) for name in moments}
 
 
-def describe_remaining(pair):
-    """What remains of adhesion on every pair, the margin's limits, thresholds of E*, pull-off."""
+def describe_remaining(pair, materials):
+    """What remains of adhesion on every pair, the margin's limits, thresholds of E*, pull-off.
+
+    There is no threshold with an elastic backing: the modulus of the layer alone cannot change
+    without changing what the layer does.
+    """
+    known = [
+        np.nan if isinstance(getattr(solid.solid, "backing", None), Backing) else 1.0
+        for solid in materials.values()
+    ]
+    known = np.reshape(known, (-1, 1, 1))
     low, high = pair.margin_limits()
     lowest, value, highest = (
-        pair.work_of_adhesion / pair.remaining_threshold(sign) for sign in (-1, 0, 1)
+        known * pair.work_of_adhesion / pair.remaining_threshold(sign) for sign in (-1, 0, 1)
     )
     stresses = [stress * pair.modulus for stress in pair.pull_off()]
     values = {

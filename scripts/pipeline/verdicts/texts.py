@@ -5,13 +5,12 @@ from __future__ import annotations
 import xarray as xr
 
 from pipeline.numbers import NOTHING, interval, number, percent, quantity
-from pipeline.verdicts.words import find_limits
+from pipeline.verdicts.words import MOST_STRAIN, find_limits
 from stickiness.criteria.pair import DEPENDS, TOUCHES, WORDS
 from stickiness.remaining.prediction import DEFAULT_SHARE, PULL_OFF_UNKNOWN
 
 LEAST_SHOWN = 1e-3  # share below which a text says 0 %
 LEAST_EFFECT = 0.05  # relative, of a layer's thickness on the energy of full contact
-MOST_STRAIN = 0.3  # rms height over thickness up to which a layer is taken for linear
 
 
 def describe_share(pair: xr.Dataset) -> str:
@@ -63,17 +62,18 @@ def describe_pressure(pair: xr.Dataset, name: str) -> str:
 def describe_layer(pair: xr.Dataset) -> str:
     """What the thickness of a layer does to the pair; empty where it does nothing."""
     low, high = sorted(map(float, pair.stiffening.values))
-    height = float(pair.height_over_thickness.max())
-    if height > MOST_STRAIN:
-        return (
-            f"The rms height reaches {number(height, 2)} times the thickness of the layer, beyond "
-            "what a linear layer can tell."
+    strain = float(pair.layer_strain.max())
+    parts = []
+    if max(high - 1, 1 - low) >= LEAST_EFFECT:
+        parts.append(
+            f"Full contact costs {interval(low, high, 2)} times what it costs a deep solid."
         )
-    if max(high - 1, 1 - low) < LEAST_EFFECT:
-        return ""
-    return (
-        f"Conforming takes {interval(low, high, 2)} times the energy of an infinitely deep solid."
-    )
+    if strain > MOST_STRAIN:
+        parts.append(
+            f"Conforming would strain the layer by about {number(strain, 2)}, beyond what a linear "
+            "layer can tell: all adhesion may be lost."
+        )
+    return " ".join(parts)
 
 
 def say_verdict(material: str, pair: xr.Dataset) -> str:

@@ -3,6 +3,8 @@
 from stickiness.criteria.pair import decide
 from stickiness.criteria.registry import EDGES, REMAINING
 
+MOST_STRAIN = 0.3  # up to which a layer is taken for linear
+
 
 def decide_pairs(dataset):
     """Code of the verdict over the whole range of the surface and the limits of the model."""
@@ -22,6 +24,9 @@ def find_limits(dataset):
         drawn = dataset.remaining_quantile
         low = drawn.isel(quantile=0, drop=True).fillna(low)
         high = drawn.isel(quantile=-1, drop=True).fillna(high)
+    if "layer_strain" in dataset:
+        # Heights that a linear layer cannot take stiffen it: nothing may remain.
+        low = low.where(dataset.layer_strain.max("end") <= MOST_STRAIN, 0.0)
     return low, high
 
 

@@ -56,6 +56,13 @@ def layer_problems(material: Mapping[str, Any], surfaces: Mapping[str, Any]) -> 
         )
     elif poisson < 0:
         yield f"poisson_ratio = {poisson!r} of a layer must be between 0 and 0.5"
+    if isinstance(material.get("backing"), Mapping):
+        for key in ("youngs_modulus_table", "youngs_modulus_prony"):
+            if key in material:
+                yield (
+                    f"{key} with an elastic backing: give youngs_modulus, since only the layer "
+                    "would depend on the rate"
+                )
 
 
 def surface_problems(surface: Mapping[str, Any]) -> Iterator[str]:

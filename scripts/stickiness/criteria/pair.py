@@ -35,9 +35,8 @@ class Pair:
     constant_a_v: ArrayLike  # a_V of a broad spectrum, the same for every pair
     wanted_share: float = DEFAULT_SHARE  # of the work of adhesion, that must remain to stick
     softness: ArrayLike = 1.0  # S of the longest waves on a layer, see `solids`
-    widening: ArrayLike = (
-        1.0  # factor on the errors of what remains, see `prediction.find_widening`
-    )
+    deep_energy: ArrayLike | None = None  # of full contact of a half-space, under a layer
+    widening: ArrayLike = 1.0  # factor on the errors of what remains, as in `Roughness`
 
     @property
     def adhesion_length(self) -> float | NDArray:
@@ -51,7 +50,8 @@ class Pair:
     @property
     def roughness(self) -> Roughness:
         """The surface as `stickiness.remaining` needs it."""
-        return Roughness(self.h_rms, self.q0, self.elastic_energy, self.softness, self.widening)
+        surface = self.h_rms, self.q0, self.elastic_energy, self.softness
+        return Roughness(*surface, self.deep_energy, self.widening)
 
     def remaining(self, sign: int = 0) -> float | NDArray:
         """Share of the work of adhesion that remains; `sign` -1 or +1 for its low or high limit."""

@@ -17,7 +17,8 @@ from stickiness.criteria.registry import CRITERIA, EDGES, REMAINING
 from stickiness.measured import instrument_spectrum
 from stickiness.measured.topography import Topography
 from stickiness.remaining.prediction import DEFAULT_SHARE, PULL_OFF_UNKNOWN, find_widening
-from stickiness.solids import HALF_SPACE, Solid
+from stickiness.solids import HALF_SPACE, Layer, Solid
+from stickiness.surfaces.direction import find_ratio
 from stickiness.surfaces.interface import Spectrum
 from stickiness.surfaces.spectrum import Tabulated
 
@@ -179,6 +180,11 @@ def verdict(
     if not 0 < wanted_share < 1:
         raise ValueError(f"wanted_share must be between 0 and 1, got {wanted_share!r}")
     positive(modulus=modulus, work_of_adhesion=work_of_adhesion, range=range)
+    if isinstance(solid, Layer) and poisson != solid.poisson:
+        raise ValueError(
+            f"poisson = {poisson!r} must be that of the layer, {solid.poisson!r}: the modulus is "
+            "the layer's"
+        )
     if poisson is not None and not -1 < poisson <= 0.5:
         raise ValueError(f"poisson must be above -1 and at most 0.5, got {poisson!r}")
     known = describe_surface(surface, length, solid)
@@ -248,7 +254,7 @@ def describe_surface(
     if isinstance(surface, Spectrum):
         if length is not None:
             raise ValueError(f"length is of measured heights; a spectrum has none, got {length!r}")
-        spectrum, q0 = surface, surface.q_longest
+        spectrum, q0, ratio = surface, surface.q_longest, surface.anisotropy
     else:
         if length is None:
             raise ValueError("length is missing: the side of the measured heights in m")
@@ -268,6 +274,7 @@ def describe_surface(
         inside = rings.q <= measured.cutoff.q * (1 + 1e-9)
         spectrum = Tabulated(rings.q[inside], rings.psd[inside])
         q0 = measured.fit.q_rolloff or measured.lowest
+        ratio = find_ratio(np.nan_to_num(measured.anisotropy), measured.fit.hurst)
     return {
         "spectrum": spectrum,
         "q0": float(q0),
@@ -276,7 +283,8 @@ def describe_surface(
         "rms_curvature": spectrum.rms_curvature,
         "elastic_energy": spectrum.elastic_energy(solid),
         "softness": float(solid.factor(q0)),
-        "widening": find_widening(spectrum.anisotropy),
+        "deep_energy": spectrum.elastic_energy(),
+        "widening": find_widening(ratio),
     }
 
 

@@ -24,7 +24,7 @@ def combine(first: Spectrum, *others: Spectrum) -> Spectrum:
     Parameters
     ----------
     first, *others : Spectrum
-        Of each solid: all shells of periodic windows, or none.
+        Of each solid: either all are discrete spectra of periodic windows (`Shells`), or none.
 
     Returns
     -------
@@ -34,7 +34,7 @@ def combine(first: Spectrum, *others: Spectrum) -> Spectrum:
     Raises
     ------
     ValueError
-        If shells are to be added to a density.
+        If an argument is no spectrum, or if shells are to be added to a density.
 
     Examples
     --------
@@ -46,7 +46,9 @@ def combine(first: Spectrum, *others: Spectrum) -> Spectrum:
     spectra = (first, *others)
     for one in spectra:
         if not isinstance(one, Spectrum):
-            raise ValueError(f"combine takes spectra, got {type(one).__name__}")
+            raise ValueError(
+                f"combine takes spectra one by one, combine(*spectra), got {type(one).__name__}"
+            )
     shells = [isinstance(one, Shells) for one in spectra]
     if all(shells):
         return reduce(_merge_shells, spectra)
@@ -72,7 +74,7 @@ class Sum(Spectrum):
         self.parts = parts
         self.q0, self.q1 = min(part.q0 for part in parts), max(part.q1 for part in parts)
         self.isotropic = all(part.isotropic for part in parts)
-        self.anisotropy = max(part.anisotropy for part in parts)  # of its parts, the largest
+        self.anisotropy = self._weigh([part.anisotropy for part in parts])
 
     @property
     def knots(self) -> NDArray:
@@ -91,8 +93,13 @@ class Sum(Spectrum):
 
     @property
     def q_longest(self) -> float:
-        """See `Spectrum.q_longest`."""
-        return min(part.q_longest for part in self.parts)
+        """See `Spectrum.q_longest`: of the parts that store the energy of full contact."""
+        return self._weigh([part.q_longest for part in self.parts])
+
+    def _weigh(self, values: list[float]) -> float:
+        """Geometric mean, by the energies of full contact of the parts."""
+        energies = np.array([part.elastic_energy() for part in self.parts])
+        return float(np.exp(np.average(np.log(values), weights=energies)))
 
     def psd(self, q: ArrayLike) -> NDArray:
         """C(q) [length^4], averaged over directions; zero off all bands."""

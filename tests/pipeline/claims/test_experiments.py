@@ -10,7 +10,7 @@ from pipeline.claims.experiments import stickiness_of_experiments
 from pipeline.claims.ledger import NOT, OPEN, QUALIFIED, REPRODUCED
 from pipeline.experiments.judgements import COMPATIBLE, MISSED, SILENT, SOME
 
-READ, RECALLED, ASSUMED = range(3)
+READ, RECALLED, ASSUMED = range(1, 4)
 
 
 def find(**changes):

@@ -69,7 +69,7 @@ def test_a_layer_takes_the_energy_of_its_response(backing):
     assert found.stiffening == pytest.approx([ratio, ratio], rel=1e-5)
     assert found.elastic_energy == pytest.approx(ratio * surface.elastic_energy.values, rel=1e-5)
     assert found.softness == pytest.approx(layer_factor(float(surface.q0) * 40e-6, backing))
-    assert found.height_over_thickness == pytest.approx([1 / 40, 2 / 40], rel=1e-3)
+    assert found.layer_strain == pytest.approx([1 / 40, 2 / 40], rel=1e-3)
 
 
 def test_a_thick_layer_is_a_half_space():
@@ -134,12 +134,10 @@ def test_thinner_tapes_keep_less_and_the_text_says_so():
     assert remaining[0] > remaining[1] > remaining[2]
     at = {name: found.sel(material=name, surface="wall") for name in tapes}
     assert describe_layer(at["deep"]) == ""
-    assert describe_layer(at["50"]).startswith("Conforming takes 1")
-    text = "The rms height reaches 0.3 times the thickness of the layer, beyond what a linear"
-    thick = found.sel(material="20", surface="wall").assign(
-        height_over_thickness=("end", [0.15, 0.301])
-    )
-    assert describe_layer(thick).startswith(text)
+    assert describe_layer(at["50"]).startswith("Full contact costs 1")
+    text = "Conforming would strain the layer by about 0.3, beyond what a linear layer can tell"
+    thick = found.sel(material="20", surface="wall").assign(layer_strain=("end", [0.15, 0.301]))
+    assert text in describe_layer(thick)
     assert describe_layer(at["50"]) in say_verdict("tape", at["50"])
 
 

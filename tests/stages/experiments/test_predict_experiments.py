@@ -200,8 +200,8 @@ def test_what_matters_most_is_named(dataset):
 
 
 def test_the_least_known_input_is_kept(dataset):
-    assert dataset.known.values.tolist() == [2, 2, 2]  # assumed
-    assert dataset.observed_known.values.tolist() == [1, 0, 1]
+    assert dataset.known.values.tolist() == [3, 3, 3]  # assumed
+    assert dataset.observed_known.values.tolist() == [2, 1, 2]
 
 
 def test_criteria_are_judged_and_their_roughness_is_kept(dataset):

@@ -89,7 +89,7 @@ def verdicts():
             "pull_off_low": (dims, 0.5 * pull_off),
             "pull_off_high": (dims, 2 * pull_off),
             "stiffening": (dims, np.ones(remaining.shape)),
-            "height_over_thickness": (dims, np.zeros(remaining.shape)),
+            "layer_strain": (dims, np.zeros(remaining.shape)),
             "energy_ratio": (dims, np.array(derived) / 2),
             "verdict": (dims[:2], [[STICKY, DEPENDS], [TOUCHES, NOT_STICKY]]),
             "modulus_threshold_low": (dims, np.full((2, 2, 2), 1.5e6)),

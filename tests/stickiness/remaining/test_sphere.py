@@ -31,10 +31,11 @@ def draw(count, seed=3):
     return surface, 10 ** random.uniform(0, 5, count), length, reach
 
 
-# A pinned edge takes the work of adhesion once more, on the area, which is all of it.
-@pytest.mark.parametrize(("sign", "work"), [(-1, 1), (0, 1), (1, 2)])
+# Nothing pins the edge on a smooth surface.
+@pytest.mark.parametrize("sign", [-1, 0, 1])
 @pytest.mark.parametrize(("reach", "factor"), [(TOUGH, 1.5), (WEAK, 2.0)])
-def test_a_smooth_surface_is_jkr_or_dmt(reach, factor, sign, work):
+def test_a_smooth_surface_is_jkr_or_dmt(reach, factor, sign):
+    work = 1
     found = sphere.pull_off(rough(1e-14), RADIUS, LENGTH, reach, sign)
     assert found.force == pytest.approx(work * factor * np.pi * RADIUS * LENGTH, rel=0.002)
     assert found.relative == pytest.approx(work, abs=2e-3)
@@ -110,8 +111,8 @@ def test_limits_hold_the_value():
     [
         # Onset 0.35: share 0.65/e = 0.239 with its error 0.278; area at onset 0.43: 1 - 1/e.
         (1.0, 0.2781 + 0.6321),
-        # Share 1 - 1/20 = 0.95 with its error 0.95 (1 + 0.15/20) + 0.015/20; the whole area.
-        (20.0, 0.9579 + 1.0),
+        # The whole area would add 1; six energies of 1/20 add less.
+        (20.0, 1.3),
     ],
 )
 def test_a_pinned_edge_takes_the_area_more(ratio, expected):
@@ -132,11 +133,11 @@ def test_the_high_limit_is_the_larger_of_jumps_and_a_pinned_edge():
     onset = 0.43 / (1 + 1.3 * np.sqrt(surface.q0 * reach**2 / length))
     area = 1 - np.exp(-np.maximum(ratio - onset, 0) / (1 - onset))
     share = surface.share(length, reach, 1)
-    jumps, pinned = np.minimum(1.6 * share, 1), share + area
+    jumps, pinned = np.minimum(1.6 * share, 1), np.minimum(share + area, 1 + 6 / ratio)
     np.testing.assert_allclose(high, np.maximum(jumps, pinned), rtol=1e-9)
     for one, other in ((jumps, pinned), (pinned, jumps)):
         assert np.sum(one > other) > 100  # either one decides
-    assert np.max(high) == pytest.approx(2, abs=1e-3)  # both are at most the work of adhesion
+    assert 1.6 < np.max(high) < 2  # both are at most the work of adhesion
 
 
 def test_without_a_pinned_edge_the_share_remains():
