@@ -284,13 +284,15 @@ def test_level_silent_criteria_and_what_is_not_published_are_taken():
         ),
         (
             [("range", {"value": "1 nm"})],
-            "experiments.mine.range: the key 'known' is missing (measured: by you; read: stands in a "
-            "public text that was read; recalled: known from the literature, not checked; assumed: chosen "
+            "experiments.mine.range: the key 'known' is missing (measured: by you; read: stands in "
+            "a public text that was read; recalled: known from the literature, not checked; "
+            "assumed: chosen "
             "or inferred here)",
         ),
         (
             [("range", known("1 nm", by="guessed"))],
-            "experiments.mine.range.known = 'guessed' is unknown; choose one of measured, read, recalled, "
+            "experiments.mine.range.known = 'guessed' is unknown; choose one of measured, read, "
+            "recalled, "
             "assumed",
         ),
         (
