@@ -13,7 +13,7 @@ from pipeline.real_spectra import real_spectrum
 from stickiness.criteria.a_v_table import SurfaceAv
 from stickiness.criteria.verdict import surface_a_v
 from stickiness.remaining.prediction import Roughness, find_widening
-from stickiness.solids import HALF_SPACE
+from stickiness.solids import HALF_SPACE, Film
 from stickiness.surfaces.sums import combine
 
 ENDS = ("smooth", "rough")
@@ -62,15 +62,18 @@ def join(material, surface, a_v, own=None):
     whole = np.array([spectrum.elastic_energy() for spectrum in spectra])
     stiffening = energy / whole
     softness = float(material.solid.factor(plain.q0))
+    # A film is softer to some waves, its layer stiffer to others: a half-space bounds nothing.
+    bends = isinstance(material.solid.backing, Film)
     drawn = plain.drawn
     if drawn is not None:
         # Draws have no spectrum of their own here: the layer acts on them as on both ends.
-        deep = drawn.elastic_energy
+        deep = drawn.elastic_energy * (np.nan if bends else 1.0)
         energy = deep * np.sqrt(np.prod(stiffening))
         drawn = replace(drawn, elastic_energy=energy, softness=softness, deep_energy=deep)
     return replace(
         plain,
         elastic_energy=plain.elastic_energy * stiffening,
+        deep_energy=plain.deep_energy * (np.nan if bends else 1.0),
         stiffening=stiffening,
         layer_strain=find_strain(plain, material.solid),
         softness=softness,

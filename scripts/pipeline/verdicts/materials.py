@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 from stickiness.core.units import si
 from stickiness.criteria.moduli import REFERENCE_FREQUENCY, Constant, Modulus, Prony, Table
-from stickiness.solids import HALF_SPACE, Backing, Layer, Solid
+from stickiness.solids import HALF_SPACE, Backing, Film, Layer, Solid
 
 RATE_KEYS = ("youngs_modulus_table", "youngs_modulus_prony")
 
@@ -46,7 +46,10 @@ def read_solid(entry):
     if not isinstance(backing, str):
         own = read_modulus(entry).storage(REFERENCE_FREQUENCY) * (1 - entry["poisson_ratio"] ** 2)
         ratio = si(backing["youngs_modulus"], "Pa") / float(own)
-        backing = Backing(ratio, backing["poisson_ratio"])
+        if "thickness" in backing:
+            backing = Film(ratio, backing["poisson_ratio"], si(backing["thickness"], "m"))
+        else:
+            backing = Backing(ratio, backing["poisson_ratio"])
     return Layer(si(entry["thickness"], "m"), entry["poisson_ratio"], backing)
 
 
@@ -99,4 +102,7 @@ def describe_layer(entry):
         return f"{entry['thickness']} thick, free to slip on a rigid base"
     if backing == "bonded":
         return f"{entry['thickness']} thick on a rigid base"
+    if "thickness" in backing:
+        film = f"{backing['thickness']} and {backing['youngs_modulus']}"
+        return f"{entry['thickness']} thick on a film of {film}"
     return f"{entry['thickness']} thick on a half-space of {backing['youngs_modulus']}"

@@ -8,7 +8,7 @@ from pipeline.verdicts.joint import BY_END, ENDS, join
 from stickiness import criteria
 from stickiness.criteria.pair import Pair, classify_edges
 from stickiness.criteria.registry import CRITERIA
-from stickiness.solids import Backing
+from stickiness.solids import Backing, Film
 
 DIMS = ("material", "surface", "end")
 LIMITS = {"": 0, "_low": -1, "_high": 1}
@@ -82,7 +82,7 @@ def describe_remaining(pair, materials):
     without changing what the layer does.
     """
     known = [
-        np.nan if isinstance(getattr(solid.solid, "backing", None), Backing) else 1.0
+        np.nan if isinstance(getattr(solid.solid, "backing", None), Backing | Film) else 1.0
         for solid in materials.values()
     ]
     known = np.reshape(known, (-1, 1, 1))

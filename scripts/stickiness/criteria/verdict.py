@@ -16,7 +16,12 @@ from stickiness.criteria.pair import REGIMES, WORDS, Pair, classify_edges, decid
 from stickiness.criteria.registry import CRITERIA, EDGES, REMAINING
 from stickiness.measured import instrument_spectrum
 from stickiness.measured.topography import Topography
-from stickiness.remaining.prediction import DEFAULT_SHARE, PULL_OFF_UNKNOWN, find_widening
+from stickiness.remaining.prediction import (
+    DEFAULT_SHARE,
+    PULL_OFF_UNKNOWN,
+    find_deep_energy,
+    find_widening,
+)
 from stickiness.solids import HALF_SPACE, Layer, Solid
 from stickiness.surfaces.direction import find_ratio
 from stickiness.surfaces.interface import Spectrum
@@ -283,7 +288,7 @@ def describe_surface(
         "rms_curvature": spectrum.rms_curvature,
         "elastic_energy": spectrum.elastic_energy(solid),
         "softness": float(solid.factor(q0)),
-        "deep_energy": spectrum.elastic_energy(),
+        "deep_energy": find_deep_energy(spectrum, solid),
         "widening": find_widening(ratio),
     }
 

@@ -10,7 +10,7 @@ from scipy.optimize import elementwise
 
 from stickiness.core.arguments import number, plain, positive
 from stickiness.remaining.share import ONSET, find_onset, remaining_share, tough_area
-from stickiness.solids import HALF_SPACE, Solid, check_solid
+from stickiness.solids import HALF_SPACE, Film, Layer, Solid, check_solid
 from stickiness.surfaces.interface import Spectrum
 
 # Errors of the onset; of a share, relative and in proportion to what is lost; and of a share,
@@ -88,7 +88,8 @@ class Roughness:
     q0: ArrayLike  # of the longest waves, or of the roll-off
     elastic_energy: ArrayLike  # of full contact per nominal area over E* [length]
     softness: ArrayLike = 1.0  # S of the longest waves on a layer, see `solids`
-    deep_energy: ArrayLike | None = None  # of a half-space, where the solid is a layer
+    # Energy of a half-space, which bounds that of a layer; NaN: it does not.
+    deep_energy: ArrayLike | None = None
     widening: ArrayLike = 1.0  # factor on the errors, see `find_widening`
 
     def share(self, adhesion_length: ArrayLike, range: ArrayLike, sign: int = 0) -> float | NDArray:
@@ -107,14 +108,22 @@ class Roughness:
         layer = sign * np.where(sign < 0, LAYER_LESS * less, LAYER_MORE * more)
         share = share + layer * fades * lost
         if self.deep_energy is not None:
-            # A solid that is stiffer to every wave has no state of less energy, and a softer one
-            # has none of more.
-            deep = Roughness(self.h_rms, self.q0, self.deep_energy).share(
-                adhesion_length, range, sign
-            )
-            share = np.where(harder >= 0, np.minimum(share, deep), np.maximum(share, deep))
+            share = self._bound(share, adhesion_length, range, sign)
         # Full contact is a state that the surfaces may take.
         return plain(np.clip(share, np.maximum(1 - 1 / ratio, 0.0), 1.0))
+
+    def _bound(self, share, adhesion_length, range, sign) -> NDArray:
+        """Bound the share of a layer by that of a half-space.
+
+        A solid that is stiffer to every wave has no state of less energy, and a softer one has
+        none of more.
+        """
+        known = np.isfinite(self.deep_energy)
+        energy = np.where(known, self.deep_energy, self.elastic_energy)
+        deep = Roughness(self.h_rms, self.q0, energy).share(adhesion_length, range, sign)
+        stiffer = np.asarray(self.softness) <= 1
+        bound = np.where(stiffer, np.minimum(share, deep), np.maximum(share, deep))
+        return np.where(known, bound, share)
 
     def distance(self, adhesion_length: ArrayLike, range: ArrayLike) -> float | NDArray:
         """Distance over which what remains acts, the range plus part of the rms height [length]."""
@@ -163,7 +172,9 @@ class Roughness:
         range = np.asarray(range, dtype=float)
         surface = {name: value for name, value in vars(self).items() if value is not None}
         sign = np.multiply(sign, surface.pop("widening"))
-        at = np.broadcast_arrays(*positive(**surface, range=range), sign)
+        deep = {"deep_energy": surface.pop("deep_energy")} if "deep_energy" in surface else {}
+        at = np.broadcast_arrays(*positive(**surface), *deep.values(), *positive(range=range), sign)
+        surface |= deep
         energy = at[list(surface).index("elastic_energy")]
 
         def excess(log_length, *at):
@@ -176,6 +187,15 @@ class Roughness:
         # Attraction whose range is far above h_rms holds at any strength.
         always = excess(bracket[0], *at) >= 0
         return plain(np.where(always, LEAST_LENGTH * energy, np.exp(found.x)))
+
+
+def find_deep_energy(spectrum: Spectrum, solid: Solid) -> float | None:
+    """Elastic energy that bounds that of a layer; none where some waves are softer, others stiffer.
+
+    A film that bends is softer than a half-space to long waves, and its layer stiffer to others.
+    """
+    bends = isinstance(solid, Layer) and isinstance(solid.backing, Film)
+    return None if solid == HALF_SPACE or bends else spectrum.elastic_energy()
 
 
 def find_widening(ratio: float) -> float:
@@ -240,7 +260,7 @@ def predict(
         q0=q0,
         elastic_energy=spectrum.elastic_energy(solid),
         softness=check_solid(solid).factor(q0),
-        deep_energy=None if solid == HALF_SPACE else spectrum.elastic_energy(),
+        deep_energy=find_deep_energy(spectrum, solid),
         widening=find_widening(spectrum.anisotropy),
     )
     low, share, high = (float(rough.share(length, range, sign)) for sign in (-1, 0, 1))

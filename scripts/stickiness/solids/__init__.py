@@ -6,10 +6,11 @@
 from stickiness.solids.layers import (
     HALF_SPACE,
     Backing,
+    Film,
     HalfSpace,
     Layer,
     Solid,
     check_solid,
 )
 
-__all__ = ["HALF_SPACE", "Backing", "HalfSpace", "Layer", "Solid", "check_solid"]
+__all__ = ["HALF_SPACE", "Backing", "Film", "HalfSpace", "Layer", "Solid", "check_solid"]

@@ -92,8 +92,36 @@ class Backing:
 
 
 @dataclass(frozen=True)
+class Film:
+    """Elastic film, free on its back, that a layer is bonded to, as that of a tape.
+
+    It yields by bending as a plate: a pressure wave moves it by ``p/(D q^4)``, with ``D = E t^3/(12
+    (1 - nu^2))``, besides the layer as on a rigid base (Timoshenko and Woinowsky-Krieger, Theory of
+    Plates and Shells, 1959). Waves must be long against its thickness to bend it noticeably.
+
+    Parameters
+    ----------
+    modulus_ratio : float
+        Young's modulus of the film over that of the layer, positive.
+    poisson : float
+        Poisson's ratio of the film, 0 to 0.5.
+    thickness : float
+        Thickness t [length], positive.
+    """
+
+    modulus_ratio: float
+    poisson: float
+    thickness: float
+
+    def __post_init__(self):
+        _set(self, "modulus_ratio", number("modulus_ratio", self.modulus_ratio))
+        _set(self, "poisson", number("poisson", self.poisson, zero=True, most=0.5))
+        _set(self, "thickness", number("thickness", self.thickness))
+
+
+@dataclass(frozen=True)
 class Layer:
-    """Elastic layer on a rigid base or on a half-space.
+    """Elastic layer on a rigid base, on a half-space or on a film.
 
     Parameters
     ----------
@@ -101,9 +129,9 @@ class Layer:
         Thickness d [length], positive.
     poisson : float
         Poisson's ratio nu, 0 to 0.5; exactly 0.5 for an incompressible layer.
-    backing : {"bonded", "slip"} or Backing
+    backing : {"bonded", "slip"}, Backing or Film
         Bonded to a rigid base, free to slip on it without friction, or bonded to an elastic
-        half-space.
+        half-space or to a film that bends.
 
     Raises
     ------
@@ -121,16 +149,16 @@ class Layer:
 
     thickness: float
     poisson: float
-    backing: Literal["bonded", "slip"] | Backing = "bonded"
+    backing: Literal["bonded", "slip"] | Backing | Film = "bonded"
 
     def __post_init__(self):
         _set(self, "thickness", number("thickness", self.thickness))
         _set(self, "poisson", number("poisson", self.poisson, zero=True, most=0.5))
         named = isinstance(self.backing, str) and self.backing in ("bonded", "slip")
-        if not (named or isinstance(self.backing, Backing)):
+        if not (named or isinstance(self.backing, Backing | Film)):
             raise ValueError(
-                "backing must be 'bonded', 'slip' or a Backing(modulus_ratio, poisson), "
-                f"got {self.backing!r}"
+                "backing must be 'bonded', 'slip', a Backing(modulus_ratio, poisson) or a "
+                f"Film(modulus_ratio, poisson, thickness), got {self.backing!r}"
             )
 
     @property
@@ -151,6 +179,8 @@ class Layer:
         long = k < _SHORTEST
         factor = np.ones(k.shape)
         factor[long] = self._slipping(k[long]) if self.backing == "slip" else self._bonded(k[long])
+        if isinstance(self.backing, Film):
+            factor += self._bending(q)
         return plain(factor)
 
     def compliance(self, q: ArrayLike) -> float | NDArray:
@@ -163,7 +193,17 @@ class Layer:
 
     def in_unit(self, length: float) -> Layer:
         """Return the solid with `length` as the unit of length."""
-        return replace(self, thickness=self.thickness / length)
+        backing = self.backing
+        if isinstance(backing, Film):
+            backing = replace(backing, thickness=backing.thickness / length)
+        return replace(self, thickness=self.thickness / length, backing=backing)
+
+    def _bending(self, q: ArrayLike) -> NDArray:
+        """What bending of the film adds to S: E*/(2 D q^3)."""
+        film = self.backing
+        stiffness = film.modulus_ratio * (1 - self.poisson**2) / (1 - film.poisson**2)
+        thin = np.asarray(q, dtype=float) * film.thickness
+        return 6 / (stiffness * np.maximum(thin, np.finfo(float).tiny ** 0.25) ** 3)
 
     def _slipping(self, k: NDArray) -> NDArray:
         """S on a rigid base without friction, from its parts times 2 exp(-2k) = 2 (1 + gone)."""

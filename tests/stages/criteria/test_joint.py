@@ -87,6 +87,33 @@ def test_a_layer_on_its_own_material_is_a_half_space():
     assert found.stiffening == pytest.approx([1, 1], rel=1e-9)
 
 
+def test_a_tape_on_a_film_takes_less_energy_than_on_a_rigid_base():
+    film = {"youngs_modulus": "3 GPa", "poisson_ratio": 0.4, "thickness": "25 um"}
+    base, tape, thin = (
+        join(read_material(TAPE | {"thickness": "40 um", "backing": backing}), wall(), A_V)
+        for backing in ("bonded", film, film | {"thickness": "2 um"})
+    )
+    assert (base.stiffening > tape.stiffening).all()
+    assert (tape.stiffening > thin.stiffening).all()
+    assert np.isnan(tape.deep_energy).all()  # a half-space bounds nothing
+    assert np.isfinite(base.deep_energy).all()
+
+
+def test_no_threshold_with_a_film():
+    film = {"youngs_modulus": "3 GPa", "poisson_ratio": 0.4, "thickness": "25 um"}
+    found = judged(
+        {
+            "base": TAPE | {"thickness": "40 um"},
+            "film": TAPE | {"thickness": "40 um", "backing": film},
+        },
+        {"wall": wall()},
+    )
+    assert np.isfinite(found.modulus_threshold.sel(material="base")).all()
+    assert np.isnan(found.modulus_threshold.sel(material="film")).all()
+    shares = found.remaining.sel(surface="wall", end="rough")
+    assert float(shares.sel(material="film")) >= float(shares.sel(material="base"))
+
+
 def test_the_layer_acts_on_draws_as_on_both_ends():
     found = join(read_material(TAPE | {"thickness": "40 um"}), wall(draws=3), A_V)
     plain = join(read_material(TAPE), wall(draws=3), A_V)
@@ -161,6 +188,14 @@ def test_a_material_with_a_surface_sticks_less():
         (
             {"thickness": "50 um", "backing": "slip"},
             "E = 0.1 MPa, ν = 0.5, 50 um thick, free to slip on a rigid base",
+        ),
+        ({"surface": "wall"}, "E = 0.1 MPa, ν = 0.5, rough as wall"),
+        (
+            {
+                "thickness": "50 um",
+                "backing": {"youngs_modulus": "3 GPa", "poisson_ratio": 0.4, "thickness": "25 um"},
+            },
+            "E = 0.1 MPa, ν = 0.5, 50 um thick on a film of 25 um and 3 GPa",
         ),
         (
             {"thickness": "50 um", "backing": {"youngs_modulus": "1 GPa", "poisson_ratio": 0.4}},

@@ -6,7 +6,7 @@ import mpmath
 import numpy as np
 import pytest
 
-from stickiness.solids import Backing, HalfSpace, Layer
+from stickiness.solids import Backing, Film, HalfSpace, Layer
 
 POISSON = [0.0, 0.3, 0.4999, 0.5]
 WAVES = [1e-6, 1e-3, 0.1, 0.74, 0.76, 3.0, 10.0, 40.0]
@@ -173,3 +173,29 @@ def test_bad_waves(solid):
     for ask in (solid.compliance, solid.stiffness):
         with pytest.raises(ValueError, match="q must be positive and finite, got 0"):
             ask(0.0)
+
+
+@pytest.mark.parametrize("poisson", [0.3, 0.5])
+def test_a_film_bends_besides_the_layer_on_a_rigid_base(poisson):
+    thickness, modulus, ratio, nu = 0.1, 2.0, 50.0, 0.4
+    layer = Layer(0.2, poisson, Film(ratio, nu, thickness))
+    rigid = Layer(0.2, poisson)
+    q = np.geomspace(1e-3, 10, 9)
+    bending = modulus * ratio * thickness**3 / (12 * (1 - nu**2))  # D
+    plane_strain = modulus / (1 - poisson**2)
+    expected = rigid.compliance(q) / plane_strain + 1 / (bending * q**4)
+    np.testing.assert_allclose(layer.compliance(q) / plane_strain, expected, rtol=1e-12)
+    assert layer.in_unit(0.1).compliance(0.1 * 2) == pytest.approx(layer.compliance(2.0) / 0.1)
+
+
+def test_a_film_that_does_not_bend_is_a_rigid_base():
+    stiff = Layer(0.2, 0.5, Film(1e12, 0.4, 0.1))
+    q = np.geomspace(1, 100, 5)
+    np.testing.assert_allclose(stiff.factor(q), Layer(0.2, 0.5).factor(q), rtol=1e-6)
+
+
+def test_bad_films_are_refused():
+    with pytest.raises(ValueError, match="thickness must be positive and finite, got 0"):
+        Film(1e4, 0.4, 0)
+    with pytest.raises(ValueError, match=r"Film\(modulus_ratio, poisson, thickness\), got 'film'"):
+        Layer(1.0, 0.5, "film")
