@@ -6,6 +6,8 @@
 - `half_space`: compliance of a periodic elastic solid
 - `free_edges`: that of a half-space under a surface that does not repeat
 - `preconditioner`: approximate inverse of the compliance
+- `few_points`: approximate compliance of the few points that touch at small loads
+- `conjugate_gradients`: iteration that closes a gap on a set of points
 - `convolution`: convolutions with an even kernel, block by block
 - `grids`: cell, scale of the heights, fields on coarser and finer grids
 - `gaps`: area within a range of the wall, distribution of gaps

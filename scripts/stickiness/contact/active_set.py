@@ -5,6 +5,9 @@ grids are touched once per update of the set. Between updates the pressure is co
 precision: a correction reduces the gap by a factor of 10 to 1000, for which seven digits are
 enough, and the next update starts from the true gap (iterative refinement). That gap is in double
 precision as soon as rounding matters, and always in what is returned.
+
+Where few points may touch, corrections are made among these alone, changes of the set included
+(`few_points`), as long as they gain.
 """
 
 from dataclasses import dataclass
@@ -12,7 +15,8 @@ from dataclasses import dataclass
 import numpy as np
 import pyfftw
 
-from stickiness.contact import free_edges, half_space
+from stickiness.contact import few_points, free_edges, half_space
+from stickiness.contact.conjugate_gradients import close_gap
 from stickiness.contact.preconditioner import Preconditioner, coarse_stiffness
 from stickiness.solids import HALF_SPACE, Solid
 
@@ -22,8 +26,8 @@ _CLOSER = 0.03  # and on one that changes little
 _SETTLED = 1e-3  # share of changing points below which a set changes little
 _ADMITTED = 0.7  # penetrations up to this multiple of the rms gap in contact may yet vanish
 _DOUBTFUL = 1e-4  # of the largest height: residual below which gaps need double precision
-_RESOLVED = 1e-4  # largest reduction of the gap asked of a correction in single precision
 _PATIENCE = 8  # updates without progress after which the set is solved ten times tighter
+_DOUBT = 2  # updates without progress after which corrections among few points are given up
 _SURRENDER = 40  # updates without progress after which rounding is what limits the residual
 _SURRENDER_UNSURE = 8  # and where `projected_gradients` takes over
 
@@ -107,10 +111,12 @@ class _Grid:
         if not problem.periodic:  # an absolute displacement is about as large as this
             largest = max(largest, problem.load)
         self.doubtful = 0.0 if rough else _DOUBTFUL * largest
+        self.solid, self.sides = problem.solid, problem.sides
+        self.spent = 0.0  # convolutions of `few_points`, by their share of the points
         self._before = self._count()
 
     def _count(self):
-        pairs = self.quick.operator.pairs
+        pairs = self.quick.operator.pairs + self.spent
         if self.exact is not self.quick:
             pairs += self.exact.operator.pairs
         return pairs if self.coarse is None else pairs + self.coarse.applications / 4
@@ -149,6 +155,7 @@ def relax(problem, *, tol, max_iterations, gap=None, pressure=None, rough=False,
         full = _full_contact(grid, load)
         if full.pressure.min() >= 0:
             return full
+    few, dilute = None, problem.periodic and few_points.suit(grid.shape, grid.sides, points.size)
     best, precondition = None, None
     iterations, stale, loose, changed = 0, 0, _LOOSE, points.size
     while True:
@@ -168,6 +175,19 @@ def relax(problem, *, tol, max_iterations, gap=None, pressure=None, rough=False,
             break
         if below.size + points.size == 1:
             break
+        if dilute and stale < _DOUBT:
+            few = few_points.gather(grid, few, points, below, field.image, shift)
+            dilute = few is not None
+        else:
+            few, dilute = None, False
+        if dilute:
+            local = field.image[few.points].astype(float) + shift
+            left = max_iterations - iterations
+            points, pressure, count = few.settle(points, pressure, local, 0.3 * tol, left)
+            iterations += count
+            # such a correction gains a factor of 100
+            field = grid.quick if residual > 10 * grid.doubtful else grid.exact
+            continue
         if stale and stale % _PATIENCE == 0:
             loose /= 10
         admitted = below[field.image[below] + shift < -_ADMITTED * np.sqrt(np.mean(gaps**2))]
@@ -184,7 +204,7 @@ def relax(problem, *, tol, max_iterations, gap=None, pressure=None, rough=False,
             goal = max(reduction * float(np.std(gaps)), 0.1 * tol)
         residuals, scale = _scaled(gaps)
         gaps = None  # frees memory
-        change, count = _inner(
+        change, count = close_gap(
             precondition, residuals, goal / scale, changed == 0, max_iterations - iterations
         )
         iterations += count
@@ -292,42 +312,6 @@ def _changed(pressure, change, scale):
     total -= total.mean()
     total += pressure
     return total
-
-
-def _inner(precondition, residual, goal, largest, limit):
-    """Change of pressure, of zero sum, that closes the gap on a set of points.
-
-    Preconditioned conjugate gradients in single precision until the rms residual (or the `largest`)
-    is down to `goal`. Overwrites `residual`.
-    """
-    quick, points, rows = precondition.quick, precondition.points, precondition.inner_rows
-    change, count = np.zeros(points.size, np.float32), 1
-    if points.size == 1 or not residual.any():
-        return change, count
-    goal = max(goal, _RESOLVED)
-    direction, product = None, 1.0
-    while True:
-        z = precondition(residual)
-        z -= z.mean()
-        previous, product = product, float(residual @ z)
-        if not product > 0:  # nothing but rounding is left
-            break
-        if direction is None:
-            direction = z
-        else:
-            direction *= np.float32(product / previous)
-            direction += z
-        image = quick.apply(quick.operator.compliance, points, direction, rows, rows)[points]
-        step = np.float32(product / float(direction @ image))
-        change += step * direction
-        image *= step
-        residual -= image
-        residual -= residual.mean()
-        norm = np.abs(residual).max() if largest else np.sqrt(np.mean(residual**2))
-        if norm <= goal or count >= limit:
-            break
-        count += 1
-    return change, count
 
 
 def _state(grid, best, field, last, iterations):

@@ -19,11 +19,14 @@ def check_length(length, shape):
 def measure_scale(heights):
     """Mean and root mean square about it, safe from overflow and underflow of the squares."""
     mean = float(heights.mean())
-    largest = float(np.abs(heights - mean).max())
+    deviation = heights - mean
+    largest = max(float(deviation.max()), -float(deviation.min()))
     # Heights that differ by rounding only are flat.
     if largest <= 8 * np.finfo(float).eps * abs(mean):
         return mean, 0.0
-    return mean, largest * float(np.sqrt(np.mean(((heights - mean) / largest) ** 2)))
+    deviation /= largest
+    deviation *= deviation
+    return mean, largest * float(np.sqrt(np.mean(deviation)))
 
 
 def measure_slope(heights, lengths):

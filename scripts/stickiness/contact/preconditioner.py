@@ -106,6 +106,11 @@ class Preconditioner:
         count = self.points.size
         return image[:count] + self.transpose @ image[count:]
 
+    def compliance(self, values):
+        """Displacement of the points under a pressure on them, both in single precision."""
+        quick, rows = self.quick, self.inner_rows
+        return quick.apply(quick.operator.compliance, self.points, values, rows, rows)[self.points]
+
     def _stiffness(self, values):
         if self.corners is None:
             stiffness = self.quick.operator.stiffness

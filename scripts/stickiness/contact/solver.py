@@ -12,6 +12,7 @@ Kato, doi 10.1115/1.2833523).
 * Coarser grids supply a first guess of the gap, which is smooth enough to be interpolated. With the
   exact heights it gives a pressure. A point is put into contact where ``p > c k g``, k being the
   stiffness of a single pixel: this predicts the set to a per cent.
+* Below a per cent of contact only points that may touch take part in corrections (`few_points`).
 * Where that fails on a layer, `projected_gradients` goes on.
 
 Without a period u is that of a half-space loaded on a rectangle (`free_edges`). All else stands,
@@ -192,13 +193,14 @@ def solve(
         raise ValueError(f"precision must be 'double' or 'single', got {precision!r}")
     solid = check_solid(solid)
     check_edges(periodic, solid)
-    warn_of_heights(measure_scale(heights)[1], lengths[0])
+    scale = measure_scale(heights)
+    warn_of_heights(scale[1], lengths[0])
     if pressure > 1:
         # a thin layer takes that much more pressure
         stiffening = 1 / solid.factor(2 * np.pi / max(lengths))
         warn_of_pressure(pressure, measure_slope(heights, lengths) * stiffening)
     effort = Effort(tol, max_iterations, precision == "single", logger)
-    return press(heights, lengths, pressure, effort, start, solid, periodic)
+    return press(heights, lengths, pressure, effort, start, solid, periodic, scale)
 
 
 def check_edges(periodic, solid):
@@ -221,9 +223,14 @@ class Effort:
     logger: object = None
 
 
-def press(heights, lengths, pressure, effort, start=None, solid=HALF_SPACE, periodic=True):
-    """Solve as `solve` does, of arguments that were checked, in any unit: nothing is warned of."""
-    mean, rms = measure_scale(heights)
+def press(
+    heights, lengths, pressure, effort, start=None, solid=HALF_SPACE, periodic=True, scale=None
+):
+    """Solve as `solve` does, of arguments that were checked, in any unit: nothing is warned of.
+
+    `scale` is `measure_scale(heights)`, if it is known.
+    """
+    mean, rms = scale or measure_scale(heights)
     if pressure == 0 or (rms == 0 and periodic):
         return _without_iterations(heights, lengths, pressure, rms, periodic)
     unit = rms if rms > 0 else pressure * lengths[0]  # a flat punch only sinks in
