@@ -19,6 +19,7 @@ and before it is believed, the pressure is recomputed in double precision.
 
 import numpy as np
 
+from stickiness.adhesion.preconditioner import Preconditioner
 from stickiness.adhesion.state import State, balanced, evaluate, lowered, spans
 
 _REFRESH = 1e-4  # fall of the residual after which the elastic pressure is recomputed
@@ -40,7 +41,7 @@ def descend(problem, gap, tol, max_iterations, observer=None, elastic=None, roug
     evaluate(problem, state)
     fresh, reference = elastic is None or rough, state.residual
     conjugate = _Conjugate(problem)
-    last_soft, iteration = 0, 0
+    last_soft, iteration, soft = 0, 0, True
     while True:
         known = rough and state.residual <= tol
         if not fresh and not known and state.residual <= max(tol, _REFRESH * reference):
@@ -51,7 +52,7 @@ def descend(problem, gap, tol, max_iterations, observer=None, elastic=None, roug
         done = done or not np.isfinite(state.residual)
         if done or (observer is not None and observer(state)):
             break
-        direction, image = conjugate.direction(state)
+        direction, image = conjugate.direction(state, soft)
         lower, soft = _step(problem, state, direction, image, spare)
         iteration += 1
         last_soft = iteration if soft else last_soft
@@ -94,14 +95,18 @@ class _Conjugate:
         self._direction = np.empty(problem.surface.heights.shape, np.float32)
         self._force = np.empty_like(self._direction)
         self._image = np.empty_like(self._direction)
+        self._free = None
         self.forget()
 
     def forget(self):
         """Begin with steepest descent again."""
         self._product = None
 
-    def direction(self, state):
-        """Next direction and its image, overwritten by the next call."""
+    def direction(self, state, soft):
+        """Next direction and its image, overwritten by the next call.
+
+        After a `soft` step, of negative curvature, edges of contact are not attended to: they move.
+        """
         problem = self.problem
         force = state.force
         if self.hardens:  # of every point on its own, or in the longest wave
@@ -110,7 +115,7 @@ class _Conjugate:
             )
         if problem.pressure is None:
             force = self._less_mean(force.copy(), state.free)
-        step = self._precondition(force, state)
+        step = self._precondition(force, state, soft)
         product, cross = 0.0, 0.0
         for span in self.spans:
             product += float(np.vdot(step[span], force[span]))
@@ -140,17 +145,26 @@ class _Conjugate:
             shut = state.gap[span] <= 0
             np.maximum(direction, 0, out=direction, where=shut)
 
-    def _precondition(self, force, state):
+    def _precondition(self, force, state, soft):
         smooth = self.problem.surface.smoother.apply
         if self.hardens:
             stiff = self._stiffness > self.stiff_limit
             step = smooth(np.where(stiff, np.float32(0), force))
             np.divide(force, self._stiffness, out=step, where=stiff, casting="unsafe")
-        else:
+        elif soft:
             step = smooth(force)
+        else:
+            step = self._of_free_points(state.free)(force)
         for span in self.spans:
             step[span] *= state.free[span]
         return self._balance(step, state.free) if self.problem.pressure is None else step
+
+    def _of_free_points(self, free):
+        """Preconditioner, the last one as long as the free points stay."""
+        if self._free is None or not np.array_equal(self._free, free):
+            self._free = free.copy()
+            self._kept = Preconditioner(self.problem.surface, free)
+        return self._kept
 
     def _less_mean(self, force, points):
         """Subtract, in place, the mean force on some points, by what each would give way."""

@@ -12,10 +12,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from stickiness.contact import convolution, half_space
+from stickiness.adhesion.preconditioner import Smoother
+from stickiness.contact import half_space
 from stickiness.solids import HALF_SPACE, Solid
-
-LONGEST = np.pi  # |q| / 2 of the longest wave across a side of 1
 
 
 @dataclass(frozen=True, eq=False)
@@ -87,33 +86,6 @@ class FrozenTraction:
     def evaluate(self, gap):
         """Traction, its derivative and its potential."""
         return self.field, 0.0, self.field * gap
-
-
-class Smoother:
-    """Convolution with ``1 / (|q| / 2 + shift)`` in single precision; counts its `pairs`.
-
-    The shift is the stiffness of the longest wave, of a layer that of its softest (long waves of a
-    thin incompressible one are the stiffest): it stands for the grip of what touches on the mean
-    gap, which no elasticity holds.
-    """
-
-    def __init__(self, shape, sides, solid):
-        self._convolution = convolution.choose(shape, np.float32)
-        self._every = np.arange(shape[0])
-        stiffness = half_space.effective_wavenumbers(shape, sides, solid).T / 2
-        self.shift = LONGEST
-        if solid != HALF_SPACE and stiffness.any():
-            self.shift = float(stiffness[stiffness > 0].min())
-        symbol = 1 / (stiffness + self.shift)
-        self._symbol = self._convolution.symbol(symbol / (shape[0] * shape[1]))
-        self.pairs = 0
-
-    def apply(self, field):
-        """Convolve a field in single precision."""
-        out = np.empty_like(field)
-        self._convolution.apply(self._symbol, field, out, self._every, self._every)
-        self.pairs += 1
-        return out
 
 
 _kept_smoother = half_space.keep_per_thread(24)(Smoother)

@@ -3,17 +3,15 @@
 The steps are those of `descent`, in rounds: increments of gap, force and energy are in single
 precision within a round, and computed again in double precision between rounds (iterative
 refinement). Once the force is small it changes linearly with the gap: the law is then evaluated,
-and energies are compared, between rounds only. The preconditioner allows for the edge of contact,
-where the wall takes a share of a force. If a round raises the energy or changes nothing, the
-general descent takes over.
+and energies are compared, between rounds only. If a round raises the energy or changes nothing,
+the general descent takes over.
 """
 
 import numpy as np
 
+from stickiness.adhesion.preconditioner import Preconditioner
 from stickiness.adhesion.state import State, evaluate, spans
-from stickiness.contact.preconditioner import average_neighbours, build_neighbour_matrix
 
-_SHARE = 0.5  # of a force beside the wall that the wall takes
 _FALL = 1e-3  # reduction of the force by a round
 _LINEAR = 1e-3  # residual below which the traction is linear in the change of the gap
 _ROUND = 50  # steps of a round at most
@@ -115,7 +113,7 @@ class _Steps:
                 self.traction[span], self.slope[span], self.potential[span] = values
                 total += float(self.potential[span].sum(dtype=float))
             self.slack = _ROUNDING * abs(total)
-        self.precondition = _Preconditioner(self.surface, state.free)
+        self.precondition = Preconditioner(self.surface, state.free)
 
     def descend(self, goal, limit, convex):
         """Go on until the largest force is down to a goal, or curvature is no guide."""
@@ -236,26 +234,3 @@ class _Steps:
             self.slope, self.new_slope = self.new_slope, self.slope
             self.potential, self.new_potential = self.new_potential, self.potential
         return self.unit * longest <= _NEAR * self.law.range
-
-
-class _Preconditioner:
-    """Approximate inverse of the stiffness of the free points."""
-
-    def __init__(self, surface, free):
-        self.smooth, self.edge = surface.smoother.apply, None
-        if not free.all() and free.any():
-            self.band, columns, weights = average_neighbours(free.ravel(), free.shape)
-            self.edge = build_neighbour_matrix(weights * np.float32(-_SHARE), columns, free.size)
-            self.transpose = self.edge.T
-
-    def __call__(self, force):
-        """Step for a force that is zero on all but free points."""
-        if self.edge is None:
-            return self.smooth(force)
-        force = force.copy()
-        flat = force.ravel()
-        flat[self.band] += self.edge @ flat
-        step = self.smooth(force)
-        flat = step.ravel()
-        flat += self.transpose @ flat[self.band]
-        return step
