@@ -10,7 +10,7 @@ from criteria import judge
 from pipeline.verdicts.a_v import MeasuredAv
 from pipeline.verdicts.joint import ENDS, join
 from pipeline.verdicts.materials import describe_modulus, read_material
-from pipeline.verdicts.texts import describe_layer, say_verdict
+from pipeline.verdicts.texts import describe_layer, describe_threshold, say_verdict
 from stickiness.criteria.a_v_table import SurfaceAv
 from stickiness.spectrum import SelfAffine, Tabulated
 
@@ -110,6 +110,10 @@ def test_no_threshold_with_a_film():
     )
     assert np.isfinite(found.modulus_threshold.sel(material="base")).all()
     assert np.isnan(found.modulus_threshold.sel(material="film")).all()
+    measured = judged(
+        {"film": TAPE | {"thickness": "40 um", "backing": film}}, {"wall": wall(draws=5)}
+    )
+    assert np.isfinite(measured.probability).all()
     shares = found.remaining.sel(surface="wall", end="rough")
     assert float(shares.sel(material="film")) >= float(shares.sel(material="base"))
 
