@@ -10,7 +10,7 @@ from criteria import judge
 from pipeline.verdicts.a_v import MeasuredAv
 from pipeline.verdicts.joint import ENDS, join
 from pipeline.verdicts.materials import describe_modulus, read_material
-from pipeline.verdicts.texts import describe_layer, describe_threshold, say_verdict
+from pipeline.verdicts.texts import describe_layer, say_verdict
 from stickiness.criteria.a_v_table import SurfaceAv
 from stickiness.spectrum import SelfAffine, Tabulated
 
