@@ -68,7 +68,7 @@ def join(material, surface, a_v, own=None):
     if drawn is not None:
         # Draws have no spectrum of their own here: the layer acts on them as on both ends.
         deep = drawn.elastic_energy * (np.nan if bends else 1.0)
-        energy = deep * np.sqrt(np.prod(stiffening))
+        energy = drawn.elastic_energy * np.sqrt(np.prod(stiffening))
         drawn = replace(drawn, elastic_energy=energy, softness=softness, deep_energy=deep)
     return replace(
         plain,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import numpy as np
 import xarray as xr
 
 from pipeline.numbers import NOTHING, interval, number, percent, quantity
@@ -52,6 +53,8 @@ def describe_threshold(pair: xr.Dataset) -> str:
 def describe_pressure(pair: xr.Dataset, name: str) -> str:
     """Values [Pa] at both ends of the surface with the limits of the model."""
     low, high = pair[f"{name}_low"].min(), pair[f"{name}_high"].max()
+    if np.isnan(low):
+        return NOTHING
     value = quantity(*sorted(map(float, pair[name].values)), "Pa", digits=2)
     least, most = (quantity(float(x), float(x), "Pa", digits=2) for x in (low, high))
     if float(low) == 0 or least.split()[-1] == most.split()[-1]:

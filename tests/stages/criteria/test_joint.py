@@ -110,6 +110,10 @@ def test_no_threshold_with_a_film():
     )
     assert np.isfinite(found.modulus_threshold.sel(material="base")).all()
     assert np.isnan(found.modulus_threshold.sel(material="film")).all()
+    measured = judged(
+        {"film": TAPE | {"thickness": "40 um", "backing": film}}, {"wall": wall(draws=5)}
+    )
+    assert np.isfinite(measured.probability).all()
     shares = found.remaining.sel(surface="wall", end="rough")
     assert float(shares.sel(material="film")) >= float(shares.sel(material="base"))
 
