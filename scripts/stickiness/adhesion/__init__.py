@@ -4,6 +4,7 @@
 - `solver`: equilibrium at a prescribed mean pressure or mean gap
 - `path`: loading and unloading curves with their jumps
 - `scaling`: states in the caller's units, and the way to the solver's own and back
+- `preconditioner`: of descents, on a coarser grid and next to the edges of contact
 - `problem`: one problem in its own units: operators, law, what is prescribed
 - `state`: a gap and what follows from it point by point
 - `starts`: where a descent starts
