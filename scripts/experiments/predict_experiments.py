@@ -92,8 +92,8 @@ def quote(name, values):
         name: value[MIDDLE],
         f"{name}_low": low[MIDDLE],
         f"{name}_high": high[MIDDLE],
-        f"{name}_lowest": np.nanmin(low, initial=np.inf) if np.isfinite(low).any() else np.nan,
-        f"{name}_highest": np.nanmax(high, initial=0) if np.isfinite(high).any() else np.nan,
+        f"{name}_lowest": np.fmin.reduce(low),  # leaves out what is not a number
+        f"{name}_highest": np.fmax.reduce(high),
     }
 
 

@@ -104,7 +104,7 @@ def read_ends(given: Any, unit: str | None) -> NDArray:
 def read_observed(observed: Any) -> tuple[float, float]:
     """Limits of what was observed, equal if one value is given, or of a relation's factor."""
     if "relation" in observed:
-        low, high = observed.get("factor", (1.0, 1.0))
+        low, high = observed["factor"]
         return low, high
     unit = OBSERVED_UNITS.get(observed["quantity"])
     given = observed["between"] if "between" in observed else [observed["value"]] * 2

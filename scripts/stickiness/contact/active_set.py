@@ -24,7 +24,6 @@ PREDICTION = 0.7  # c in "contact where p > c k g": 0.5 to 1 predict about equal
 _LOOSE = 0.15  # reduction of the gap on a set that is still changing much
 _CLOSER = 0.03  # and on one that changes little
 _SETTLED = 1e-3  # share of changing points below which a set changes little
-_ADMITTED = 0.7  # penetrations up to this multiple of the rms gap in contact may yet vanish
 _DOUBTFUL = 1e-4  # of the largest height: residual below which gaps need double precision
 _PATIENCE = 8  # updates without progress after which the set is solved ten times tighter
 _DOUBT = 2  # updates without progress after which corrections among few points are given up
@@ -190,7 +189,9 @@ def relax(problem, *, tol, max_iterations, gap=None, pressure=None, rough=False,
             continue
         if stale and stale % _PATIENCE == 0:
             loose /= 10
-        admitted = below[field.image[below] + shift < -_ADMITTED * np.sqrt(np.mean(gaps**2))]
+        admitted = below[
+            field.image[below] + shift < -few_points.ADMITTED * np.sqrt(np.mean(gaps**2))
+        ]
         if admitted.size:
             points, pressure, gaps = _joined(grid, field, points, pressure, admitted, shift)
             precondition = None

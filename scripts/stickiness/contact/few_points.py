@@ -22,7 +22,7 @@ _WIDTH = 0.8  # of the split, in spacings: the shortest wave of that grid keeps 
 _REACH = 10  # of near pairs, in pixels
 _BESIDE = 3  # and of the stiffness that preconditions
 _TABLE = 64  # pixels along the sides of the table of near pairs
-_ADMITTED = 0.7  # penetrations up to this multiple of the rms gap in contact may yet vanish
+ADMITTED = 0.7  # penetrations up to this multiple of the rms gap in contact may yet vanish
 _ROUNDS = 30  # changes of the set in a correction
 _USUAL = 0.01  # reduction of the gap by a correction
 _BEST = 0.002  # and one that it can still make, if it is the last
@@ -92,7 +92,7 @@ class Candidates:
             goal = _USUAL * largest
         image = gap.copy()
         for _ in range(_ROUNDS):
-            joined = gap < -max(_ADMITTED * float(np.std(gap[active])), goal)
+            joined = gap < -max(ADMITTED * float(np.std(gap[active])), goal)
             settled = not (joined & ~active).any() and np.abs(gap[active]).max() <= goal
             if settled or count >= limit:
                 break

@@ -40,9 +40,8 @@ from stickiness.solids import HALF_SPACE, check_solid
 _COARSEST = 64  # points along the shorter side of the coarsest grid
 _NEAR = 0.005  # relative change of load up to which the last solution is the better start
 _LOOSEST = 0.1  # of h_rms: beyond this no solution is worth the name
-_MOST_UNSURE = (
-    150  # iterations with active sets on a layer or with free edges: tens do, or few gain
-)
+# Iterations with active sets on a layer or with free edges: either tens do, or more gain little.
+_MOST_UNSURE = 150
 _COARSE_TOLERANCE = 3e-3  # of h_rms: a guess for the next grid needs no more
 
 
