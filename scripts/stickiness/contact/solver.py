@@ -336,15 +336,7 @@ def coarse_gap(problem, work, logger=None):
         return None
     heights = sample(problem.heights, tuple(coarsen(n) for n in shape))
     coarse = replace(problem, heights=heights)
-    state = active_set.relax(
-        coarse,
-        tol=_COARSE_TOLERANCE,
-        max_iterations=200,
-        gap=coarse_gap(coarse, work, logger),
-        rough=True,
-        logger=logger,
-    )
-    work.append(state.pairs * heights.size)
+    state = _relax_roughly(coarse, work, logger, gap=coarse_gap(coarse, work, logger))
     return interpolate(state.gap, shape)
 
 
@@ -358,16 +350,22 @@ def coarse_pressure(problem, work, logger=None):
         a * 2 * m / n for a, m, n in zip(problem.sides, heights.shape, shape, strict=True)
     )
     coarse = replace(problem, heights=heights, sides=sides)
+    state = _relax_roughly(coarse, work, logger, pressure=coarse_pressure(coarse, work, logger))
+    return free_edges.refine_pressure(state.pressure, shape)
+
+
+def _relax_roughly(coarse, work, logger, **guess):
+    """State on a coarser grid, in single precision; `work` as in `coarse_gap`."""
     state = active_set.relax(
         coarse,
         tol=_COARSE_TOLERANCE,
         max_iterations=200,
-        pressure=coarse_pressure(coarse, work, logger),
         rough=True,
         logger=logger,
+        **guess,
     )
-    work.append(state.pairs * heights.size)
-    return free_edges.refine_pressure(state.pressure, shape)
+    work.append(state.pairs * coarse.heights.size)
+    return state
 
 
 def _without_iterations(heights, lengths, pressure, rms, periodic):
