@@ -96,6 +96,8 @@ def list_parameters(surface):
         ("roll-off", describe_roll_off(surface)),
         ("q1 [1/m]", number(float(surface.q1))),
     ]
+    if "axis_ratio" in surface:
+        rows.append(("ratio of correlation lengths", number(float(surface.axis_ratio), 2)))
     if "q_cutoff" in surface:
         wavelength = 2 * np.pi / float(surface.q_cutoff)
         text = f"{quantity(wavelength, wavelength, 'm')}: {surface.attrs['cutoff']}"
