@@ -26,19 +26,20 @@ def seeds_in_full(adhesion):
     if not model_of(adhesion).full.any():
         return []
     asked = ADHESION[adhesion]
-    return list(seeds_of(asked["case"]))[: asked.get("seeds")]
+    return seeds_of(asked["case"])[: asked.get("seeds")]
 
 
 def realisations_in_full(wildcards):
     folder = f"{RESULTS}/adhesion/full/{wildcards.adhesion}"
-    return [f"{folder}/seed{seed}.nc" for seed in seeds_in_full(wildcards.adhesion)]
+    parts = plan.seed_parts(len(seeds_in_full(wildcards.adhesion)))
+    return [f"{folder}/seeds{part}.nc" for part in parts]
 
 
 def same_without_adhesion(wildcards):
     """Contact without adhesion of the realisations that are solved in full."""
-    adhesion = wildcards.adhesion
-    folder = f"{RESULTS}/contact/{ADHESION[adhesion]['case']}"
-    return [f"{folder}/seed{seed}.nc" for seed in seeds_in_full(adhesion)]
+    case, count = case_of(wildcards), len(seeds_in_full(wildcards.adhesion))
+    parts = plan.covering_parts(count, among=len(seeds_of(case)))
+    return [f"{RESULTS}/contact/{case}/seeds{part}.nc" for part in parts]
 
 
 def case_of(wildcards):
@@ -66,13 +67,16 @@ rule adhesion_dmt:
 
 rule solve_adhesive:
     input:
-        surface=lambda wildcards: surface_of(case_of(wildcards)),
+        surfaces=lambda wildcards: surfaces_of(case_of(wildcards), wildcards.part),
     output:
-        f"{RESULTS}/adhesion/full/{{adhesion}}/seed{{seed}}.nc",
+        f"{RESULTS}/adhesion/full/{{adhesion}}/seeds{{part}}.nc",
+    # The longest jobs of a run: started late, they would keep one core busy and leave the others.
+    priority: 1
     resources:
-        mem_mb=memory(27, adhesion_size),
+        mem_mb=memory(27 + plan.SEEDS_A_FILE, adhesion_size),
         runtime=minutes(4.1, adhesion_size, adhesive_states),
     params:
+        seeds=lambda wildcards: plan.seeds_in(wildcards.part),
         adhesion=parameters_in_full,
         full=points_in_full,
     script:
@@ -117,7 +121,7 @@ rule tabulate_dmt_error:
 
 rule adhesive_maps:
     input:
-        surface=lambda wildcards: surface_of(case_of(wildcards)).format(seed=1),
+        surfaces=lambda wildcards: surfaces_of(case_of(wildcards)),
     output:
         f"{RESULTS}/adhesion/full/{{adhesion}}/maps.nc",
     resources:
@@ -128,11 +132,15 @@ rule adhesive_maps:
         "../scripts/adhesion/adhesive_maps.py"
 
 
+def surfaces_of_loop(wildcards):
+    """File that holds the first seed of a loop's surface; that of the presets' cases is at hand."""
+    part = plan.seed_parts(FIDELITY["seeds"])[0]
+    return f"{RESULTS}/surfaces/{LOOPS[wildcards.loop]['surface']}/seeds{part}.nc"
+
+
 rule follow_loop:
     input:
-        surface=lambda wildcards: (
-            f"{RESULTS}/surfaces/{LOOPS[wildcards.loop]['surface']}/seed1.nc"
-        ),
+        surfaces=surfaces_of_loop,
     output:
         f"{RESULTS}/adhesion/loops/{{loop}}.nc",
     resources:

@@ -33,7 +33,10 @@ def ledger_inputs():
             for name, surface in REAL_SURFACES.items()
             if surface["kind"] == "measured"
         ],
-        "seeds": [surface_of("H0.8_zeta64").format(seed=seed) for seed in seeds_of("H0.8_zeta64")],
+        "seeds": [
+            surfaces_of("H0.8_zeta64", part)
+            for part in plan.seed_parts(len(seeds_of("H0.8_zeta64")))
+        ],
     }
 
 

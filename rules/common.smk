@@ -58,6 +58,7 @@ def choices(names):
 
 wildcard_constraints:
     seed=r"\d+",
+    part=r"\d+-\d+",
     grid=r"(@\d+)?",
     case=choices(CASES),
     comparison=choices(COMPARISONS),
@@ -83,16 +84,23 @@ def pressures_of(name):
     return PLANS[name].pressures if name in CASES else config["comparisons"]["pressures"]
 
 
-def surface_of(case):
-    """Surface of a case on the grid that it is solved on, with the seed left open."""
-    planned = PLANS[case]
-    pixels = planned.settings.pixels_per_wavelength
-    grid = "" if pixels == FIDELITY["pixels_per_wavelength"] else f"@{pixels}"
-    return f"{RESULTS}/surfaces/{planned.surface}{grid}/seed{{seed}}.nc"
+def several(path, **names):
+    """Files of results for every one of some names."""
+    return expand(f"{RESULTS}/{path}", **names)
 
 
 def seeds_of(case):
-    return range(1, PLANS[case].settings.seeds + 1)
+    return list(range(1, PLANS[case].settings.seeds + 1))
+
+
+def surfaces_of(case, part=None):
+    """Surfaces of a case on the grid that it is solved on: the file that holds a part's seeds."""
+    planned = PLANS[case]
+    pixels = planned.settings.pixels_per_wavelength
+    grid = "" if pixels == FIDELITY["pixels_per_wavelength"] else f"@{pixels}"
+    last = plan.seeds_in(part)[-1] if part else 1
+    held = plan.covering_parts(last, among=planned.settings.seeds)[-1]
+    return f"{RESULTS}/surfaces/{planned.surface}{grid}/seeds{held}.nc"
 
 
 def a_v_of_simulation(case):

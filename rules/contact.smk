@@ -1,12 +1,13 @@
-# Contact without adhesion, by boundary elements. One job per case and seed walks the whole load
-# path, others walk it for many more seeds on a coarse grid; together they give the case's means.
+# Contact without adhesion, by boundary elements. A job walks the whole load path of a few seeds of a
+# case, others walk it for many more on a coarse grid; together they give the case's means.
 # Surfaces that theory alone is compared with take one job for all of it.
 
 
 def realisations(wildcards):
     """Fine solutions of a case, which an earlier case on the same surface may hold."""
-    folder = f"{RESULTS}/contact/{PLANS[wildcards.case].owner}"
-    return [f"{folder}/seed{seed}.nc" for seed in seeds_of(wildcards.case)]
+    owner = PLANS[wildcards.case].owner
+    parts = plan.covering_parts(len(seeds_of(wildcards.case)), among=len(seeds_of(owner)))
+    return [f"{RESULTS}/contact/{owner}/seeds{part}.nc" for part in parts]
 
 
 def coarse_solutions(wildcards):
@@ -19,6 +20,11 @@ def coarse_solutions(wildcards):
 def measured_of(wildcards):
     """Quantities of single solutions that a case asks for beyond areas and mean gaps."""
     return list(PLANS[wildcards.case].measured)
+
+
+def fine_paths(wildcards):
+    """Solutions in a file of fine seeds."""
+    return len(plan.seeds_in(wildcards.part)) * len(pressures_of(wildcards.case))
 
 
 def coarse_paths(wildcards):
@@ -46,13 +52,14 @@ def comparison_solutions(wildcards):
 
 rule solve_repulsive:
     input:
-        surface=lambda wildcards: surface_of(wildcards.case),
+        surfaces=lambda wildcards: surfaces_of(wildcards.case, wildcards.part),
     output:
-        f"{RESULTS}/contact/{{case}}/seed{{seed}}.nc",
+        f"{RESULTS}/contact/{{case}}/seeds{{part}}.nc",
     resources:
-        mem_mb=memory(17, case_size),
-        runtime=minutes(1.1, case_size, lambda wildcards: len(pressures_of(wildcards.case))),
+        mem_mb=memory(17 + plan.SEEDS_A_FILE, case_size),
+        runtime=minutes(1.1, case_size, fine_paths),
     params:
+        seeds=lambda wildcards: plan.seeds_in(wildcards.part),
         pressures=lambda wildcards: pressures_of(wildcards.case),
         tolerance=lambda wildcards: PLANS[wildcards.case].settings.tolerance,
         pixels_per_wavelength=lambda wildcards: (
@@ -67,8 +74,6 @@ rule solve_repulsive:
 rule solve_coarse:
     output:
         f"{RESULTS}/contact/{{case}}/coarse{{part}}.nc",
-    wildcard_constraints:
-        part=r"\d+-\d+",
     resources:
         mem_mb=memory(4 * 14, coarse_size),
         runtime=minutes(1.1, coarse_size, coarse_paths),
@@ -87,7 +92,7 @@ rule solve_coarse:
 
 rule contact_maps:
     input:
-        surface=lambda wildcards: surface_of(wildcards.case).format(seed=1),
+        surfaces=lambda wildcards: surfaces_of(wildcards.case),
     output:
         f"{RESULTS}/contact/{{case}}/maps.nc",
     resources:
@@ -107,6 +112,7 @@ rule average_ensemble:
     output:
         f"{RESULTS}/contact/ensembles/{{case}}.nc",
     params:
+        seeds=lambda wildcards: seeds_of(wildcards.case),
         pressures=lambda wildcards: PLANS[wildcards.case].pressures,
         quantities=lambda wildcards: PLANS[wildcards.case].quantities,
     script:

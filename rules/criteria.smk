@@ -1,4 +1,5 @@
-# Stickiness criteria: the map of the paper and a verdict for every material on every surface.
+# Stickiness criteria: the map of the paper, with a_V of simulation, and a verdict for every material
+# on every surface, which needs no simulation.
 
 # Files behind a_V: simulation of one case, theory on the same spectrum and on broad ones.
 A_V_FILES = {
@@ -34,13 +35,28 @@ rule compare_criteria:
         "../scripts/criteria/compare_criteria.py"
 
 
+def own_surfaces():
+    """Surfaces of the materials that are rough themselves."""
+    return sorted({entry["surface"] for entry in MATERIALS.values() if "surface" in entry})
+
+
+rule judge_surface:
+    input:
+        surface=f"{RESULTS}/real_surfaces/{{real_surface}}.nc",
+        own=several("real_surfaces/{surface}.nc", surface=own_surfaces()),
+    output:
+        f"{RESULTS}/criteria/verdicts/{{real_surface}}.nc",
+    params:
+        own=own_surfaces(),
+        materials=MATERIALS,
+        frequencies=config["criteria"]["frequencies"],
+    script:
+        "../scripts/criteria/judge_surface.py"
+
+
 rule judge:
     input:
-        **A_V_FILES,
-        surfaces=expand(f"{RESULTS}/real_surfaces/{{real_surface}}.nc", real_surface=REAL_SURFACES),
-        theories=expand(
-            f"{RESULTS}/persson/surfaces/{{real_surface}}.nc", real_surface=REAL_SURFACES
-        ),
+        several("criteria/verdicts/{surface}.nc", surface=REAL_SURFACES),
     output:
         dataset=f"{RESULTS}/criteria/verdicts.nc",
         table=report(
@@ -48,10 +64,5 @@ rule judge:
             category="Verdicts",
             caption="../report/verdicts.rst",
         ),
-    params:
-        materials=MATERIALS,
-        surfaces=list(REAL_SURFACES),
-        pressure=config["criteria"]["a_v"]["pressure"],
-        frequencies=config["criteria"]["frequencies"],
     script:
         "../scripts/criteria/judge.py"

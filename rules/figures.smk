@@ -3,11 +3,6 @@
 # adhesion remains.
 
 
-def several(path, **names):
-    """Files of results for every one of some names."""
-    return expand(f"{RESULTS}/{path}", **names)
-
-
 MAGNIFICATIONS = [f"H0.8_zeta{magnification}" for magnification in (32, 64, 128)]
 SIMULATED_IN_FULL = [adhesion for adhesion in ADHESION if seeds_in_full(adhesion)]
 FIGURE_INPUTS = {

@@ -1,5 +1,5 @@
-# Persson's theory: on continuous spectra for the paper's sweeps, on the discrete spectrum that the
-# cell of a simulated case really holds, and on the spectra of real surfaces.
+# Persson's theory: on continuous spectra for the paper's sweeps, and on the discrete spectrum that the
+# cell of a simulated case really holds.
 
 
 rule persson_sweep:
@@ -29,20 +29,6 @@ rule persson_lattice:
         gaps=GAPS,
     script:
         "../scripts/persson/persson_lattice.py"
-
-
-rule persson_surface:
-    input:
-        laws=ERROR_MODELS,
-        surface=f"{RESULTS}/real_surfaces/{{real_surface}}.nc",
-    output:
-        f"{RESULTS}/persson/surfaces/{{real_surface}}.nc",
-    params:
-        gamma=GAMMA,
-        pressure=config["criteria"]["a_v"]["pressure"],
-        ranges=config["criteria"]["ranges"],
-    script:
-        "../scripts/persson/persson_surface.py"
 
 
 rule persson_table:

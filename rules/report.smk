@@ -22,6 +22,7 @@ rule write_report:
         captions=expand("report/{figure}.rst", figure=FIGURES),
         claims=f"{RESULTS}/claims/claims.nc",
         verdicts=f"{RESULTS}/criteria/verdicts.nc",
+        criterion=f"{RESULTS}/criteria/map.nc",
         experiments=f"{RESULTS}/experiments/experiments.nc",
         experiments_figure=f"{RESULTS}/figures/experiments.png",
         experiments_caption="report/experiments.rst",
@@ -58,7 +59,7 @@ rule write_surface:
         template="report/surface.html.j2",
         parts=PAGE_PARTS,
         surface=f"{RESULTS}/real_surfaces/{{real_surface}}.nc",
-        verdicts=f"{RESULTS}/criteria/verdicts.nc",
+        verdicts=f"{RESULTS}/criteria/verdicts/{{real_surface}}.nc",
         measured_contact=find_measured_contact,
     output:
         figure=f"{RESULTS}/figures/surfaces/{{real_surface}}.png",

@@ -52,7 +52,7 @@ def loop_size(wildcards):
 
 
 def adhesive_states(wildcards):
-    """Solutions of a realisation in full, and those without adhesion that they start from."""
+    """Solutions in full of a file's seeds, and those without adhesion that they start from."""
     asked = ADHESION[wildcards.adhesion]
     laws = len(asked["range_over_h_rms"]) * len(asked["adhesion_length_over_range"])
-    return len(asked["pressures"]) * (1 + laws)
+    return len(plan.seeds_in(wildcards.part)) * len(asked["pressures"]) * (1 + laws)

@@ -1,4 +1,4 @@
-# Random surfaces on a periodic cell: one file a surface, grid (if not the preset's) and seed.
+# Random surfaces on a periodic cell: a file for a few seeds of a surface and grid (if not the preset's).
 
 
 def pixels_of(wildcards):
@@ -8,10 +8,11 @@ def pixels_of(wildcards):
 
 rule synthesise_surface:
     output:
-        f"{RESULTS}/surfaces/{{model_surface}}{{grid}}/seed{{seed}}.nc",
+        f"{RESULTS}/surfaces/{{model_surface}}{{grid}}/seeds{{part}}.nc",
     resources:
-        mem_mb=memory(9, surface_size),
+        mem_mb=memory(9 + plan.SEEDS_A_FILE, surface_size),
     params:
+        seeds=lambda wildcards: plan.seeds_in(wildcards.part),
         surface=lambda wildcards: MODEL_SURFACES[wildcards.model_surface],
         pixels_per_wavelength=pixels_of,
     script:

@@ -5,6 +5,7 @@ import numpy as np
 from pipeline.adhesion_sets import roughness, scaled_law
 from pipeline.fields import gather_fields
 from pipeline.job import start
+from pipeline.realisations import read_first
 from stickiness import adhesive
 from stickiness.core import datasets
 
@@ -12,7 +13,7 @@ TOLERANCE = 1e-6  # of the residual: far below what a picture shows
 
 
 def main(job):
-    surface = datasets.read(job.input.surface, ["height", "window_length"])
+    surface = read_first(job.input.surfaces)
     asked, shown = job.params.adhesion, job.params.adhesion["maps"]
     heights, length = surface.height.values, float(surface.window_length)
     given = {name: shown[name] for name in ("adhesion_length_over_range", "range_over_h_rms")}

@@ -19,6 +19,7 @@ from pipeline.dmt_limit import DmtLimit, fit_slope, linearity_error
 from pipeline.ensemble_means import add_errors, coarse, describe_errors, fine
 from pipeline.error_budgets import SIMULATED
 from pipeline.job import start
+from pipeline.realisations import read_all
 from stickiness.adhesion import edge_zone
 from stickiness.core import datasets
 from stickiness.core.budget import SOURCES, split, with_budget
@@ -77,12 +78,11 @@ def main(job):
     full = xr.DataArray(np.array(job.params.full), dims=AXES)
     asked = datasets.parameters(limit)
     dmt = DmtLimit.of(asked, ensemble)
-    files = [datasets.read(path, ["external_pressure"]) for path in job.input.realisations]
-    made = datasets.parameters(files[0]) if files else datasets.parameters(ensemble)
-    seeds = [datasets.parameters(file)["seed"] for file in files]
+    made, seeds = datasets.parameters(ensemble), []
     dataset = in_dmt_limit(limit)
-    if files:
-        states = xr.concat(files, xr.DataArray(seeds, dims="seed", name="seed"))
+    if job.input.realisations:
+        states = read_all(job.input.realisations, ["external_pressure"])
+        made, seeds = datasets.parameters(states), states.seed.values.tolist()
         solved = average(states, full, ensemble, dmt, made)
         dataset = join(solved, dataset, full)
     dataset = dataset.drop_vars(n for n in dataset if n.endswith("_discretisation_error"))

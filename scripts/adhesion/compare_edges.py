@@ -12,6 +12,7 @@ from pipeline import conventions
 from pipeline.adhesion_sets import LAWS, SOLVER
 from pipeline.error_budgets import SIMULATED
 from pipeline.job import start
+from pipeline.realisations import read_all
 from stickiness.adhesion import dmt, equivalent_sphere
 from stickiness.core import datasets
 from stickiness.core.budget import Part, with_budget
@@ -31,13 +32,11 @@ NEEDED = ("external_pressure", "repulsive_area", "attraction_dmt", "area_alone")
 def main(job):
     averages = datasets.read(job.input.averages, ["dmt_ratio", "q0_h_rms"])
     q0_h_rms = float(averages.q0_h_rms)
-    files = [
-        (datasets.read(path, NEEDED), datasets.read(alone, ALONE))
-        for path, alone in zip(job.input.realisations, job.input.alone, strict=True)
-    ]
+    adhesive = read_all(job.input.realisations, NEEDED)
+    alone = read_all(job.input.alone, ALONE)
+    pairs = [[each.sel(seed=seed) for each in (adhesive, alone)] for seed in adhesive.seed]
     coarse, states = (
-        xr.concat([compare(one, alone, q0_h_rms, grid) for one, alone in files], "seed")
-        for grid in (0, -1)
+        xr.concat([compare(*pair, q0_h_rms, grid) for pair in pairs], "seed") for grid in (0, -1)
     )
     resolved = states.effect.notnull().all("seed") & averages.dmt_ratio.notnull()
     dataset = annotate(states.mean("seed").where(resolved).assign(q0_h_rms=q0_h_rms))

@@ -16,6 +16,7 @@ from pipeline.adhesion_sets import LEAST, scaled_law
 from pipeline.conventions import annotate, pixels
 from pipeline.error_budgets import SIMULATED
 from pipeline.job import start
+from pipeline.realisations import read_first
 from stickiness import adhesive
 from stickiness.contact import solver
 from stickiness.core import datasets
@@ -53,7 +54,7 @@ STEPPED = {
 
 
 def main(job):
-    surface = datasets.read(job.input.surface, ["height", "window_length"])
+    surface = read_first(job.input.surfaces)
     asked = job.params.loop
     heights, length = surface.height.values, float(surface.window_length)
     lengths = np.sort(np.array(asked["adhesion_length_over_range"], dtype=float))

@@ -1,7 +1,7 @@
-"""Bring one realisation into adhesive contact at the mean gaps it has without adhesion.
+"""Bring realisations into adhesive contact at the mean gaps they have without adhesion.
 
 At a prescribed mean gap the whole attraction shows; a press would jump where the pressure falls on
-closing. Every state is solved on the grid of the realisation and on every second point of it, but
+closing. Every state is solved on the grid of the surface and on every second point of it, but
 for what the grid does not resolve, attraction so strong that the window closes altogether, and
 where the DMT limit is good enough.
 """
@@ -24,6 +24,7 @@ from pipeline.adhesion_sets import (
 )
 from pipeline.conventions import RMS_SLOPE, pixels
 from pipeline.job import start
+from pipeline.realisations import each_seed
 from stickiness.adhesion import dmt, edge_zone
 from stickiness.contact import solver, subpixel
 from stickiness.core import datasets
@@ -52,27 +53,30 @@ TOLERANCE = 1e-7
 
 
 def main(job):
-    surface = datasets.read(job.input.surface, ["height", "window_length", "rms_slope"])
+    surfaces = datasets.read(job.input.surfaces, ["height", "window_length", "rms_slope"])
     asked = job.params.adhesion
-    length, refine = float(surface.window_length), asked.get("refine", 1)
-    heights = resample(surface.height.values, refine * len(surface.height))
-    chosen = combinations(asked, length / len(heights), np.array(job.params.full))
-    solved = [states(heights[::step, ::step], length, asked, chosen) for step in (2, 1)]
-    made = datasets.parameters(surface)
-    finest = refine * pixels(surface)
+    length, refine = float(surfaces.window_length), asked.get("refine", 1)
+    points = refine * surfaces.sizes["x"]
+    chosen = combinations(asked, length / points, np.array(job.params.full))
+    finest = refine * pixels(surfaces)
     resolution = xr.DataArray([finest / 2, finest], dims="resolution", name="resolution")
-    dataset = xr.concat(solved, resolution, coords="minimal")
-    dataset["rms_slope"] = surface.rms_slope.sel(source="heights", drop=True)
+
+    def solve(heights):
+        fine = resample(heights, points)
+        solved = [states(fine[::step, ::step], length, asked, chosen) for step in (2, 1)]
+        return xr.concat(solved, resolution, coords="minimal")
+
     datasets.write(
-        annotate(dataset),
+        annotate(each_seed(solve, surfaces, job.params.seeds)),
         job.output[0],
-        title="adhesive contact of one realisation at given mean gaps",
+        title="adhesive contact of realisations at given mean gaps",
         parameters={
-            **made,
+            **datasets.parameters(surfaces),
+            "seeds": list(job.params.seeds),
             "q0_h_rms": roughness(asked),
             "law": asked["law"],
             "refine": refine,
-            "pixel": length / len(heights),
+            "pixel": length / points,
             "strongest": STRONGEST,
             "coarsest": edge_zone.COARSEST,
         },
@@ -128,4 +132,4 @@ def annotate(dataset):
 
 
 if __name__ == "__main__":
-    main(start(globals(), "solve_adhesive", adhesion="fig4b_rough", seed=1))
+    main(start(globals(), "solve_adhesive", adhesion="fig4b_rough", part="1-4"))

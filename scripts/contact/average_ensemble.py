@@ -11,7 +11,8 @@ from stickiness.core import datasets
 
 def main(job):
     averaged = choose_means(job.params.quantities)
-    dataset, parameters = ensemble_of(job.input, list(job.params.pressures), averaged)
+    asked = list(job.params.seeds), list(job.params.pressures)
+    dataset, parameters = ensemble_of(job.input, *asked, averaged)
     parameters["case"] = job.wildcards.case
     datasets.write(
         add_budgets(annotate(dataset, averaged), parameters, job.input.laws, averaged),

@@ -4,12 +4,13 @@ import numpy as np
 
 from pipeline.fields import gather_fields
 from pipeline.job import start
+from pipeline.realisations import read_first
 from stickiness.contact import solver
 from stickiness.core import datasets
 
 
 def main(job):
-    surface = datasets.read(job.input.surface, ["height", "window_length"])
+    surface = read_first(job.input.surfaces)
     pressures = np.sort(job.params.pressures)
     heights, length = surface.height.values, float(surface.window_length)
     contacts = solver.load_path(heights, length, pressures, tol=job.params.tolerance)

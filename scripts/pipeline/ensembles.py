@@ -11,6 +11,7 @@ from pipeline.ensemble_means import PREFIX, SUFFIXES, add_errors, coarse, descri
 from pipeline.error_budgets import Simulation
 from pipeline.grid_limits import EXTRAPOLATION
 from pipeline.quantities import gap_density
+from pipeline.realisations import read_all
 from stickiness.accuracy.error_models import read_models
 from stickiness.accuracy.quantities import MEASURED, QUANTITIES
 from stickiness.core import datasets
@@ -26,19 +27,22 @@ LONG_WAVES = ("long_waves", "other_long_waves")
 SURFACES = {"gaussian": "Gaussian surfaces", "fixed": "surfaces of fixed amplitudes"}
 
 
-def ensemble_of(inputs, loads, averaged):
-    """Means and errors from the files of realisations and coarse solutions, and what made them."""
-    files = [read(path, (*NEEDED, *optional(averaged)), loads) for path in inputs.realisations]
+def ensemble_of(inputs, seeds, loads, averaged):
+    """Means and errors from the files of realisations and coarse solutions, and what made them.
+
+    The files may be those of another case with more seeds and loads.
+    """
+    needed = (*NEEDED, *optional(averaged))
+    realisations = read_all(inputs.realisations, needed).sel(seed=seeds, pressure=loads)
     kept = (*COARSE, *optional(averaged))
-    others = [read(path, kept, loads) for path in inputs.coarse]
-    seeds = [datasets.parameters(file)["seed"] for file in files]
-    realisations = xr.concat(files, xr.DataArray(seeds, dims="seed", name="seed"))
+    others = [datasets.read(path, kept).sel(pressure=loads) for path in inputs.coarse]
     more = rename_coarse(join(others), kept) if others else xr.Dataset()
     dataset = add_statistics(realisations, more, averaged)
-    parameters = datasets.parameters(files[0])
-    parameters["largest_residual"] = float(realisations.residual.max())
-    del parameters["seed"]
-    return dataset, {**parameters, "seeds": seeds, **describe_sampling(parameters, dataset)}
+    parameters = datasets.parameters(realisations) | {
+        "seeds": seeds,
+        "largest_residual": float(realisations.residual.max()),
+    }
+    return dataset, {**parameters, **describe_sampling(parameters, dataset)}
 
 
 def join(files):
@@ -58,11 +62,6 @@ def choose_means(quantities):
     needed |= {"area_fraction", "mean_gap"}
     measured = {name: itemgetter(name) for name in MEASURED}
     return {name: value for name, value in (AVERAGED | measured).items() if name in needed}
-
-
-def read(path, names, loads):
-    """Solutions at the loads of this case; the file may be that of another one with more."""
-    return datasets.read(path, names).sel(pressure=loads)
 
 
 def rename_coarse(others, kept=(*COARSE, "attractive_area")):

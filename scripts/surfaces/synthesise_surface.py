@@ -1,4 +1,4 @@
-"""Make one random surface and record the spectrum and moments that its window really holds."""
+"""Make a few random surfaces and record the spectra and moments that their cells really hold."""
 
 import logging
 
@@ -11,24 +11,24 @@ from stickiness.core import datasets
 from stickiness.surfaces import synthesis
 
 SOURCES = ["continuum", "lattice", "heights"]
+MOMENTS = ("h_rms", "rms_slope", "rms_curvature", "nayak")
+SPLIT = ("m40", "m22", "m04")
 
 
 def main(job):
-    asked = job.params.surface
+    asked, seeds = job.params.surface, job.params.seeds
     spectrum, length = model_spectrum(asked), cell_size(asked)
     n = grid_points(asked, job.params.pixels_per_wavelength)
-    seed = int(job.wildcards.seed)
-    heights = make_heights(asked, n, seed)
     lattice = synthesis.lattice_spectrum(spectrum, length)
-    realised = synthesis.realised_spectrum(heights, length)
-    logging.info("n = %d, %d shells, rms slope %.6g", n, len(lattice.q), realised.rms_slope)
+    logging.info("n = %d, %d shells", n, len(lattice.q))
+    heights = np.array([make_heights(asked, n, seed) for seed in seeds])
     datasets.write(
-        to_dataset(heights, length, spectrum, lattice, realised),
+        to_dataset(heights, seeds, length, spectrum, lattice),
         job.output[0],
-        title="random surface on a periodic window",
+        title="random surfaces on a periodic window",
         parameters={
             **asked,
-            "seed": seed,
+            "seeds": list(seeds),
             "pixels_per_wavelength": job.params.pixels_per_wavelength,
             "grid_points": n,
             "prescribed": spectrum.prescribed,
@@ -36,21 +36,33 @@ def main(job):
     )
 
 
-def to_dataset(heights, length, spectrum, lattice, realised):
-    n = len(heights)
+def to_dataset(heights, seeds, length, spectrum, lattice):
+    n = heights.shape[-1]
     x = np.arange(n) * (length / n)
-    spectra = (spectrum, lattice, synthesis.moments(heights, length))
-    moments = ("h_rms", "rms_slope", "rms_curvature", "nayak")
+    realised = [realised_on(lattice, synthesis.realised_spectrum(h, length)) for h in heights]
+    measured = [synthesis.moments(h, length) for h in heights]
     dataset = xr.Dataset(
         {
-            "height": (("x", "y"), heights),
+            "height": (("seed", "x", "y"), heights),
             "window_length": ((), length),
             "lattice_variance": ("wave_number", lattice.variance),
-            "realised_variance": ("wave_number", realised_on(lattice, realised)),
-            **{name: ("source", [getattr(s, name) for s in spectra]) for name in moments},
-            **{name: ((), getattr(spectra[2], name)) for name in ("m40", "m22", "m04")},
+            "realised_variance": (("seed", "wave_number"), realised),
+            **{
+                name: (
+                    ("seed", "source"),
+                    [[getattr(s, name) for s in (spectrum, lattice, own)] for own in measured],
+                )
+                for name in MOMENTS
+            },
+            **{name: ("seed", [getattr(own, name) for own in measured]) for name in SPLIT},
         },
-        coords={"x": x, "y": x, "wave_number": lattice.q, "source": SOURCES},
+        coords={
+            "seed": list(seeds),
+            "x": x,
+            "y": x,
+            "wave_number": lattice.q,
+            "source": SOURCES,
+        },
     )
     return annotate(
         dataset,
@@ -79,4 +91,4 @@ def realised_on(lattice, realised):
 
 
 if __name__ == "__main__":
-    main(start(globals(), "synthesise_surface", model_surface="H0.8_zeta64", grid="", seed=1))
+    main(start(globals(), "synthesise_surface", model_surface="H0.8_zeta64", grid="", part="1-4"))

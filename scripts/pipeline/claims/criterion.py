@@ -274,7 +274,7 @@ def threshold_by_moments(s: SelfAffine, range_: float = 1e-30) -> float:
     files=("seeds",),
 )
 def spectral_moments(files: Files) -> Finding:
-    surfaces = files["seeds"]
+    surfaces = [data.sel(seed=seed) for data in files["seeds"] for seed in data.seed]
     ratios = np.array(
         [moment_ratios(data.height.values, float(data.window_length)) for data in surfaces]
     )

@@ -69,10 +69,16 @@ class Results:
     ensembles: Sequence[xr.Dataset]  # one for every case: means over seeds
     answers: Sequence[xr.Dataset]  # values asked for
     comparisons: Sequence[xr.Dataset]  # theory against simulation
+    criterion: xr.Dataset  # map of the paper's criterion
     paths: Mapping[str, Any]
 
 
-def summarise(claims: xr.Dataset, verdicts: xr.Dataset, ensembles: Sequence[xr.Dataset]) -> Context:
+def summarise(
+    claims: xr.Dataset,
+    verdicts: xr.Dataset,
+    criterion: xr.Dataset,
+    ensembles: Sequence[xr.Dataset],
+) -> Context:
     """Numbers of the opening paragraph."""
     grades = Counter(str(verdict) for verdict in claims.verdict.values)
     order = [*CLAIM_TONES, *sorted(grades.keys() - CLAIM_TONES.keys())]
@@ -81,9 +87,9 @@ def summarise(claims: xr.Dataset, verdicts: xr.Dataset, ensembles: Sequence[xr.D
     return {
         "claims": claims.sizes["claim"],
         "graded": [(name, grades[name], claim_tone(name)) for name in order if grades[name]],
-        "a_v": number(float(verdicts.a_v)),
-        "a_v_range": interval(float(verdicts.a_v_low), float(verdicts.a_v_high)),
-        "load": number(datasets.parameters(verdicts)["pressure"]),
+        "a_v": number(float(criterion.a_v)),
+        "a_v_range": interval(float(criterion.a_v_low), float(criterion.a_v_high)),
+        "load": number(datasets.parameters(criterion)["pressure"]),
         "pairs": verdicts.verdict.size,
         "materials": verdicts.sizes["material"],
         "surfaces": verdicts.sizes["surface"],

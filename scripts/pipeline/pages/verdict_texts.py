@@ -17,6 +17,7 @@ from pipeline.verdicts.texts import (
 from stickiness.core import budget
 from stickiness.criteria.pair import WORDS
 from stickiness.criteria.registry import CRITERIA, EDGES, REMAINING
+from stickiness.criteria.verdict import BROAD_A_V
 from stickiness.remaining.prediction import DEFAULT_SHARE
 
 WORD_TONES = ("no", "open", "partly", "yes", "yes")
@@ -118,7 +119,7 @@ def gather_facts(pair: xr.Dataset, surface: xr.Dataset, work_of_adhesion: float)
         "h_rms": quantity(*sorted(map(float, pair.pair_h_rms.values)), "m"),
         "q0": number(float(pair.pair_q0.sel(end="rough"))),
         "a_v": number(float(pair.pair_a_v.mean()), 2),
-        "constant_a_v": number(float(pair.a_v), 2),
+        "constant_a_v": number(BROAD_A_V, 2),
         "rms_slope": number(float(pair.pair_rms_slope.sel(end="rough")), 2),
         "rms_curvature": number(curvature, 2),
         "summit_radius": quantity(2 / curvature, 2 / curvature, "m", 2),

@@ -9,7 +9,6 @@ from numpy.typing import ArrayLike
 from pipeline.conventions import VARIANT
 from stickiness.core import datasets
 from stickiness.core.budget import Part, absent, part
-from stickiness.criteria.a_v_table import SurfaceAv
 
 
 @dataclass(frozen=True)
@@ -24,7 +23,6 @@ class MeasuredAv:
 
     value: float
     simulated: float  # a_V of the case itself
-    over_lattice: float  # ratio of simulation to theory on the lattice spectrum of the case
     magnification: float  # of the broadest spectrum
     sampling: float  # of the mean over seeds, covers 90 %, by Student's t
     discretisation: float  # of the limit of fine grids
@@ -125,21 +123,8 @@ def measure_a_v(inputs, pressure):
         value=float(extrapolated[0]),
         simulated=float(simulated[0]),
         magnification=broadest,
-        over_lattice=float(simulated[0] / lattice[0]),
         sampling=float(sampling[0]) * float(ratio[0]),
         discretisation=float(grid[0]) * float(ratio[0]),
         fit_interval=float(np.ptp(extrapolated)) / 2,
         bandwidth=float(extrapolated[0]) * abs(growth),
-    )
-
-
-def scale_theory(path, measured):
-    """`SurfaceAv` from a file of `persson_surface` and the `MeasuredAv` of the simulation."""
-    theory = datasets.read(path, ["a_v"]).a_v
-    return SurfaceAv(
-        ranges=theory["range"].values,
-        theory=theory.values,
-        quoted=list(theory["variant"].values).index(VARIANT),
-        ratio=measured.over_lattice,
-        relative_error=float(np.hypot(measured.sampling, measured.discretisation)) / measured.value,
     )

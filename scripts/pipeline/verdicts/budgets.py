@@ -12,9 +12,8 @@ OF_SPECTRUM = "of the spectrum measured; none of one end of what is given"
 OF_OURS = f"{OF_MODEL}; other criteria state none"
 
 
-def add_budgets(dataset, constant, draws):
+def add_budgets(dataset, draws):
     """Add error budgets to what is quoted of pairs: the spectrum, and the model."""
-    dataset = with_budget(dataset, "a_v", **constant.parts(constant.value))
     model = between_limits(dataset, "pair_a_v")
     dataset = with_budget(dataset, "pair_a_v", model=model, **CLOSED)
     for name, from_spectrum in find_spectrum_errors(dataset).items():

@@ -46,15 +46,13 @@ class Joint:
         )
 
 
-def join(material, surface, a_v, own=None):
-    """`Joint` of a `Material`, the dataset of a surface with its a_V, and that of its own surface.
+def join(material, surface, plain, own=None):
+    """`Joint` of a `Material` and the dataset of a surface, and that of the material's own surface.
 
-    A sum of two surfaces has the a_V that theory has on its spectrum.
+    `plain` is the `Joint` of a smooth half-space and the surface.
     """
-    if own is None:
-        plain = take_surface(surface, a_v)
-    else:
-        plain = add_surfaces(surface, own, a_v, material.solid)
+    if own is not None:
+        plain = add_surfaces(surface, own, plain, material.solid)
     if material.solid == HALF_SPACE:
         return plain
     spectra = find_spectra(surface, own)
@@ -100,7 +98,7 @@ def find_spectra(surface, own=None):
     ]
 
 
-def take_surface(surface, a_v):
+def take_surface(surface):
     """`Joint` of a smooth half-space and a surface."""
     by_end = {name: surface[name].sel(end=list(ENDS)).values for name in BY_END}
     widening = find_widening(float(surface.axis_ratio)) if "axis_ratio" in surface else 1.0
@@ -113,16 +111,32 @@ def take_surface(surface, a_v):
         stiffening=np.ones(len(ENDS)),
         layer_strain=np.zeros(len(ENDS)),
         q0=float(surface.q0),
-        a_v=(a_v,) * len(ENDS),
+        a_v=find_a_v(surface),
         softness=1.0,
         widening=widening,
         drawn=drawn,
     )
 
 
-def add_surfaces(surface, own, a_v, solid):
-    """`Joint` of two rough solids, whose roughness is independent."""
-    one, other = take_surface(surface, a_v), take_surface(own, a_v)
+def find_a_v(surface):
+    """a_V by theory on both ends, which is one where they differ by a factor only."""
+    ratio = surface.psd.sel(end=ENDS[0]) / surface.psd.sel(end=ENDS[-1])
+    same = np.ptp(ratio.values) < 1e-6 * ratio.values.max()
+    ends = ENDS[:1] if same else ENDS
+    found = [
+        surface_a_v(
+            real_spectrum(surface, end),
+            {name: float(surface[name].sel(end=end)) for name in MOMENTS}
+            | {"q0": float(surface.q0)},
+        )
+        for end in ends
+    ]
+    return tuple(found * len(ENDS) if same else found)
+
+
+def add_surfaces(surface, own, one, solid):
+    """`Joint` of two rough solids, whose roughness is independent; `one` is that of `surface`."""
+    other = take_surface(own)
     sums = {name: np.hypot(getattr(one, name), getattr(other, name)) for name in MOMENTS}
     energy = one.elastic_energy + other.elastic_energy
     # The longest waves that matter are those of the surface that stores the energy.
@@ -135,11 +149,7 @@ def add_surfaces(surface, own, a_v, solid):
     found = []
     for end, spectrum in enumerate(find_spectra(surface, own)):
         known = {name: float(sums[name][end]) for name in MOMENTS} | {"q0": q0}
-        found.append(
-            replace(
-                surface_a_v(spectrum, known), ratio=a_v.ratio, relative_error=a_v.relative_error
-            )
-        )
+        found.append(surface_a_v(spectrum, known))
     return Joint(
         **sums,
         elastic_energy=energy,

@@ -2,9 +2,9 @@
 
 from pipeline.numbers import interval, percent, table
 from pipeline.verdicts.texts import describe_pull_off, describe_share, describe_threshold
-from stickiness.core import datasets
 from stickiness.criteria.pair import FULL_SHARE, WORDS
 from stickiness.criteria.registry import CRITERIA, EDGES, REMAINING
+from stickiness.criteria.verdict import THEORY_ERROR
 from stickiness.remaining.prediction import DEFAULT_SHARE
 
 HEAD = """\
@@ -35,15 +35,13 @@ measured surfaces have one.
 **Onset at the finest wave.** Attraction over repulsion at equal area of contact, by the edges of
 contact. Above 1 contact grows by itself at the finest wave. That does not tell whether it holds.
 It rests on a_V of the pair: Persson's theory on the spectrum of the surface, at the range of the
-material over h_rms, times the ratio of simulation to theory ({ratio:.2f}). **DMT**: the margin of
-the paper's criterion in the same form, with the same a_V.
+material over h_rms, which differs from simulation by up to {theory:.0%}. **DMT**: the margin of the
+paper's criterion in the same form, with the same a_V.
 
 **Layers.** A material with a thickness is a layer. What remains, and Persson–Tosatti's criterion,
 know that; the other criteria and the onset take a half-space.
 
-Moduli that depend on the rate are taken at 1 Hz; verdicts.nc has other rates. For comparison, the
-a_V of a broad spectrum:
-{constant}.
+Moduli that depend on the rate are taken at 1 Hz; verdicts.nc has other rates.
 
 """
 COMPARED = """
@@ -62,16 +60,14 @@ COLUMNS = (
 )
 
 
-def write_markdown(dataset, constant, materials, surfaces):
-    """Text of the page; `constant` is a `MeasuredAv`."""
+def write_markdown(dataset, materials, names):
+    """Text of the page; `names` are the labels of the surfaces."""
     wanted = percent(DEFAULT_SHARE)
     head = HEAD.format(
         wanted=wanted,
         full=percent(FULL_SHARE),
-        ratio=constant.over_lattice,
-        constant=constant.describe(),
+        theory=THEORY_ERROR,
     )
-    names = {name: datasets.parameters(data)["label"] for name, data in surfaces.items()}
     rows = [
         (
             materials[material]["label"],

@@ -4,28 +4,30 @@ from dataclasses import replace
 
 import numpy as np
 
-from pipeline.verdicts.joint import BY_END, ENDS, join
+from pipeline.verdicts.joint import BY_END, ENDS, join, take_surface
 from stickiness import criteria
 from stickiness.criteria.pair import Pair, classify_edges
 from stickiness.criteria.registry import CRITERIA
+from stickiness.criteria.verdict import BROAD_A_V
 from stickiness.solids import Backing, Film
 
 DIMS = ("material", "surface", "end")
 LIMITS = {"": 0, "_low": -1, "_high": 1}
 
 
-def join_all(materials, surfaces, a_v):
-    """`Joint` of every pair, a row for every material."""
+def join_all(materials, surfaces, own):
+    """`Joint` of every pair, a row for every material; `own` has surfaces of rough materials."""
+    smooth = [take_surface(surface) for surface in surfaces.values()]
     return [
         [
-            join(material, surface, a_v[name], surfaces.get(material.surface))
-            for name, surface in surfaces.items()
+            join(material, surface, plain, own.get(material.surface))
+            for surface, plain in zip(surfaces.values(), smooth, strict=True)
         ]
         for material in materials.values()
     ]
 
 
-def gather_pairs(materials, joints, constant) -> Pair:
+def gather_pairs(materials, joints) -> Pair:
     """`Pair` of arrays on the dimensions `DIMS`; `joints` of `join_all`."""
     shape = len(materials), len(joints[0]), len(ENDS)
     solids = materials.values()
@@ -48,7 +50,7 @@ def gather_pairs(materials, joints, constant) -> Pair:
     every = of_solids | of_surfaces | of_pairs
     return Pair(
         **{name: np.broadcast_to(value, shape) for name, value in every.items()},
-        constant_a_v=constant.value,
+        constant_a_v=BROAD_A_V,
     )
 
 

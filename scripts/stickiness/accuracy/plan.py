@@ -26,7 +26,8 @@ from stickiness.accuracy.quantities import (
 )
 
 FEWEST_COARSE = 64  # coarse seeds if nothing says how many
-FIRST_FILE = 32  # coarse seeds in the first file of a case
+FIRST_FILE = 64  # coarse seeds in the first file of a case
+SEEDS_A_FILE = 4  # fine seeds: few enough to spread over cores, enough to outweigh a start
 
 
 @dataclass(frozen=True)
@@ -191,13 +192,45 @@ def coarse_parts(count: int) -> list[str]:
     Examples
     --------
     >>> coarse_parts(160)
-    ['1-32', '33-64', '65-128', '129-160']
+    ['1-64', '65-128', '129-160']
     """
     last, parts = 0, []
     while last < count:
         first, last = last + 1, min(max(2 * last, FIRST_FILE), count)
         parts.append(f"{first}-{last}")
     return parts
+
+
+def seed_parts(count: int) -> list[str]:
+    """Return the names of the files of so many fine seeds, `SEEDS_A_FILE` in each but the last.
+
+    Examples
+    --------
+    >>> seed_parts(9)
+    ['1-4', '5-8', '9-9']
+    """
+    firsts = range(1, count + 1, SEEDS_A_FILE)
+    return [f"{first}-{min(first + SEEDS_A_FILE - 1, count)}" for first in firsts]
+
+
+def covering_parts(count: int, among: int) -> list[str]:
+    """Return the files that hold so many fine seeds, those of `among` seeds where they do.
+
+    Examples
+    --------
+    >>> covering_parts(6, among=8), covering_parts(6, among=3)
+    (['1-4', '5-8'], ['1-4', '5-6'])
+    """
+    wanted, given = seed_parts(count), seed_parts(among)
+    held = zip(wanted, given, strict=False)
+    covering = [max(own, other, key=lambda part: seeds_in(part)[-1]) for own, other in held]
+    return covering + wanted[len(given) :]
+
+
+def seeds_in(part: str) -> list[int]:
+    """Return the seeds of a file by its name, numbered from 1."""
+    first, last = map(int, part.split("-"))
+    return list(range(first, last + 1))
 
 
 def coarse_range(part: str) -> range:

@@ -109,8 +109,7 @@ def _loop_problems(config: Mapping[str, Any]) -> Iterator[str]:
 def _criteria_problems(config: Mapping[str, Any]) -> Iterator[str]:
     """The maps of criteria must stay within the table of a_V."""
     criteria, table = config["criteria"], config["theory"]["table"]
-    for key in ("ranges", "frequencies"):
-        yield from grid_problems(f"criteria.{key}", criteria[key])
+    yield from grid_problems("criteria.frequencies", criteria["frequencies"])
     for part, grids in _CRITERIA_GRIDS.items():
         for key in grids:
             yield from grid_problems(f"criteria.{part}.{key}", criteria[part][key])

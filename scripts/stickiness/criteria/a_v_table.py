@@ -77,15 +77,14 @@ class SurfaceAv:
     # (m, n), a_V by every variant of the theory and by the edge law below the edge range
     theory: NDArray
     quoted: int  # which of them is quoted; the others are limits
-    ratio: float  # of simulation to theory, by which all are multiplied
-    relative_error: float  # of that ratio; widens the limits
+    relative_error: float  # of theory against simulation; widens the limits
 
     def at(self, range_over_h_rms: ArrayLike) -> tuple[ArrayLike, ArrayLike, ArrayLike]:
         """Value, low and high limit at ranges over h_rms, interpolated in logarithms."""
         logs = [
             np.interp(np.log(range_over_h_rms), np.log(self.ranges), np.log(a)) for a in self.theory
         ]
-        every = self.ratio * np.exp(logs)
+        every = np.exp(logs)
         return (
             plain(every[self.quoted]),
             plain(every.min(axis=0) * max(1 - self.relative_error, 0.01)),

@@ -305,4 +305,4 @@ def surface_a_v(spectrum: Spectrum, known: dict[str, float]) -> SurfaceAv:
     moments = (known[name] for name in ("q0", "h_rms", "rms_slope", "rms_curvature"))
     edge_a_v = float(pastewka_robbins_a_v(*moments))
     names, a_v, _ = theory_a_v(spectrum, RANGES, LOAD, edge_a_v, q0=known["q0"])
-    return SurfaceAv(RANGES, np.array(a_v), names.index(VARIANTS[0]), 1.0, THEORY_ERROR)
+    return SurfaceAv(RANGES, np.array(a_v), names.index(VARIANTS[0]), THEORY_ERROR)
