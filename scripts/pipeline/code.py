@@ -1,14 +1,20 @@
 """What code a script runs, as a hash that comments, docstrings and layout do not change."""
 
-import ast
 import hashlib
-from collections.abc import Iterator
+import re
+from dis import opmap
 from functools import cache
 from pathlib import Path
 from types import CodeType
 from typing import Any
 
-DOCUMENTED = (ast.Module, ast.ClassDef, ast.FunctionDef, ast.AsyncFunctionDef)
+NOP = opmap["NOP"]
+
+# The module, and what is imported of it: between parentheses, or on one line; or modules alone.
+# A syntax tree would say the same, but building it takes as long as all the rest.
+IMPORT = re.compile(
+    r"^[ \t]*(?:from[ \t]+([\w.]+)[ \t]+import[ \t]+(?:\(([^)]*)\)|(.*))|import[ \t]+(.*))", re.M
+)
 
 
 def code_of(scripts: str, script: str) -> str:
@@ -30,23 +36,10 @@ def code_of(scripts: str, script: str) -> str:
 
 
 @cache
-def parsed(path: Path) -> tuple[ast.Module, list[str]]:
-    """Syntax tree of a file without docstrings, and the names it imports that may be modules."""
-    tree, names = ast.parse(path.read_text(encoding="utf-8")), []
-    for node in ast.walk(tree):
-        if isinstance(node, ast.Import):
-            names += [alias.name for alias in node.names]
-        elif isinstance(node, ast.ImportFrom):
-            names += [f"{node.module}.{alias.name}" for alias in node.names]
-        elif isinstance(node, DOCUMENTED) and ast.get_docstring(node, clean=False) is not None:
-            node.body = node.body[1:] or [ast.copy_location(ast.Pass(), node.body[0])]
-    return tree, names
-
-
-@cache
 def instructions(path: Path) -> str:
-    """What a file is compiled to, without docstrings, assertions and line numbers, as text."""
-    return repr(parts_of(compile(parsed(path)[0], path.name, "exec", optimize=2)))
+    """Hash of what a file is compiled to, without docstrings, assertions and line numbers."""
+    code = compile(path.read_bytes(), path.name, "exec", optimize=2)
+    return hashlib.sha256(repr(parts_of(code)).encode()).hexdigest()
 
 
 def parts_of(constant: Any) -> Any:
@@ -55,23 +48,38 @@ def parts_of(constant: Any) -> Any:
         names = constant.co_names, constant.co_varnames, constant.co_freevars, constant.co_cellvars
         counts = constant.co_argcount, constant.co_posonlyargcount, constant.co_kwonlyargcount
         inner = [parts_of(each) for each in constant.co_consts]
-        return constant.co_name, constant.co_flags, counts, names, constant.co_code, inner
+        # Of a docstring an instruction is left that does nothing.
+        code = constant.co_code
+        code = b"".join(code[i : i + 2] for i in range(0, len(code), 2) if code[i] != NOP)
+        return constant.co_name, constant.co_flags, counts, names, code, inner
     return sorted(map(repr, constant)) if isinstance(constant, frozenset) else constant
 
 
 @cache
-def imports(path: Path, scripts: Path) -> tuple[Path, ...]:
+def imports(path: Path, scripts: Path) -> frozenset[Path]:
     """Files below `scripts` that a file imports, packages on the way to them included."""
-    return tuple(file for module in parsed(path)[1] for file in files_of(module, scripts))
+    names = names_imported(path.read_text(encoding="utf-8"))
+    return frozenset(file for name in names for file in files_of(name, scripts))
 
 
-def files_of(module: str, scripts: Path) -> Iterator[Path]:
+def names_imported(text: str) -> list[str]:
+    """Full names of all that a text imports, each of which may be a module."""
+    names = []
+    for module, several, some, modules in IMPORT.findall(re.sub(r"#.*", "", text)):
+        listed = (several or some or modules).split(",")
+        first = [part.split()[0] for part in listed if part.strip()]
+        names += [f"{module}.{name}" if module else name for name in first]
+    return names
+
+
+@cache
+def files_of(module: str, scripts: Path) -> tuple[Path, ...]:
     """Files that are read when a module is imported; none for what lies elsewhere."""
-    path = scripts
+    if not any(scripts.joinpath(module.partition(".")[0] + end).exists() for end in ("", ".py")):
+        return ()
+    path, files = scripts, []
     for part in module.split("."):
         path = path / part
-        file = (
-            path.with_suffix(".py") if path.with_suffix(".py").is_file() else path / "__init__.py"
-        )
-        if file.is_file():
-            yield file
+        plain = path.with_suffix(".py")
+        files.append(plain if plain.is_file() else path / "__init__.py")
+    return tuple(file for file in files if file.is_file())

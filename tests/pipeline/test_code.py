@@ -1,5 +1,8 @@
 """The hash of a job's code follows what it runs, and nothing else."""
 
+import ast
+from pathlib import Path
+
 import pytest
 
 from pipeline import code
@@ -20,9 +23,8 @@ def hashed(tmp_path):
         (tmp_path / name).write_text(text, encoding="utf-8")
 
     def hash_now():
-        code.parsed.cache_clear()
-        code.instructions.cache_clear()
-        code.imports.cache_clear()
+        for cached in (code.instructions, code.imports, code.files_of):
+            cached.cache_clear()
         return code.code_of(str(tmp_path / "scripts"), "../scripts/stage/rule.py")
 
     return tmp_path / "scripts", hash_now
@@ -60,3 +62,15 @@ def test_a_module_that_is_imported_within_a_function_counts(hashed):
     before = hash_now()
     (folder / "part/unused.py").write_text("def two():\n    return 3\n", encoding="utf-8")
     assert hash_now() != before
+
+
+def test_imports_are_those_of_the_syntax_tree():
+    scripts = Path(__file__).parents[2] / "scripts"
+    for file in scripts.rglob("*.py"):
+        text, names = file.read_text(encoding="utf-8"), []
+        for node in ast.walk(ast.parse(text)):
+            if isinstance(node, ast.Import):
+                names += [alias.name for alias in node.names]
+            elif isinstance(node, ast.ImportFrom):
+                names += [f"{node.module}.{alias.name}" for alias in node.names]
+        assert sorted(code.names_imported(text)) == sorted(names), file

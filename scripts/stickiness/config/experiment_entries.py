@@ -7,7 +7,6 @@ from typing import Any
 
 from stickiness.config.messages import unit_problem, unknown
 from stickiness.core.units import si
-from stickiness.criteria.registry import CRITERIA
 
 # Conditions that a case takes from its experiment unless it has its own, and their units.
 CONDITIONS = {
@@ -77,9 +76,6 @@ def _case_problems(conditions: Mapping[str, Any], observed: Mapping[str, Any]) -
         {"youngs_modulus", "poisson_ratio"} <= set(conditions)
     ):
         yield ": give plane_strain_modulus, or youngs_modulus and poisson_ratio"
-    for name in observed.get("silent", ()):
-        if name not in CRITERIA:
-            yield unknown(".observed.silent", name, CRITERIA)
     if quantity == "sticks":
         if not isinstance(observed.get("value"), bool):
             given = observed.get("value", observed.get("between"))

@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from .. import __version__
+from stickiness import __version__
 
 _TEXTS = ("units", "long_name", "nan_means")
 _CODES = ("numpy", "scipy", "pyfftw", "xarray", "netCDF4")

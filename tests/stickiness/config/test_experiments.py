@@ -196,7 +196,7 @@ def test_level_silent_criteria_and_what_is_not_published_are_taken():
         ),
         (
             [(*LIMIT, "observed", seen("limiting_roughness", value="1 um", silent=["dalquist"]))],
-            "experiments.mine.cases.limit.observed.silent = 'dalquist' is unknown; did you mean "
+            "experiments.mine.cases.limit.observed.silent[0] = 'dalquist' is unknown; did you mean "
             "'dahlquist'?",
         ),
         (
