@@ -233,7 +233,7 @@ def generated(seed, zeta=16, stretch=1.0):
     k = np.fft.fftfreq(3 * zeta, 1 / (3 * zeta))
     damped = np.fft.ifft2(np.fft.fft2(heights) * np.exp(-(((stretch - 1) * k / zeta) ** 2))).real
     data = xr.Dataset({"height": (("x", "y"), damped), "window_length": 2 * np.pi})
-    return made_by(data, **asked)
+    return made_by(data.expand_dims(seed=[seed]), **asked)
 
 
 def fig3c():

@@ -10,6 +10,7 @@ from helpers.claim_files import files_by_name
 from claims import check_claims
 from pipeline.claims import CLAIMS
 from pipeline.claims.ledger import REPRODUCED, VERDICTS, claim
+from stickiness.accuracy import plan
 
 RULES = Path(__file__).parents[3] / "rules"
 
@@ -27,7 +28,8 @@ def ledger_inputs():
         "config": {"remaining": {"table": "config/remaining.csv"}},
         "REAL_SURFACES": {"steel": {"kind": "self_affine"}, "terrain": {"kind": "measured"}},
         "seeds_of": lambda case: [1, 2],
-        "surface_of": lambda case: f"out/surfaces/{case}/seed{{seed}}.nc",
+        "plan": plan,
+        "surfaces_of": lambda case, part: f"out/surfaces/{case}/seeds{part}.nc",
         "a_v_of_simulation": lambda case: f"out/fits/a_v/ensembles/{case}.nc",
     }
     exec(text[start : text.index("\n\n\n", start)], names)

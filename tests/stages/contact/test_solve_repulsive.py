@@ -18,26 +18,27 @@ def surface(tmp_path_factory):
     x = np.arange(N) * LENGTH / N
     dataset = xr.Dataset(
         {
-            "height": (("x", "y"), np.tile(AMPLITUDE * np.cos(x)[:, None], N)),
+            "height": (("seed", "x", "y"), [np.tile(AMPLITUDE * np.cos(x)[:, None], N)] * 2),
             "window_length": ((), LENGTH),
-            "rms_slope": ("source", [AMPLITUDE / np.sqrt(2)]),
+            "rms_slope": (("seed", "source"), [[AMPLITUDE / np.sqrt(2)]] * 2),
         },
-        coords={"x": x, "y": x, "source": ["heights"]},
+        coords={"seed": [1, 2], "x": x, "y": x, "source": ["heights"]},
     )
     texts = {name: ("1", name) for name in dataset.variables}
-    path = tmp_path_factory.mktemp("surface") / "seed1.nc"
-    parameters = {"grid_points": N, "magnification": 1, "seed": 1}
+    path = tmp_path_factory.mktemp("surface") / "seeds1-2.nc"
+    parameters = {"grid_points": N, "magnification": 1, "seeds": [1, 2]}
     datasets.write(datasets.annotate(dataset, **texts), path, title="wave", parameters=parameters)
     return str(path)
 
 
 def job_of(path, surface, **params):
     asked = {"pressures": [0.5 * FULL, 2 * FULL], "tolerance": 1e-8} | params
-    return make_job(path, asked, {"case": "wave"}, surface=surface)
+    return make_job(path, asked, {"case": "wave"}, surfaces=surface)
 
 
 def test_load_path_of_a_wave(tmp_path, surface):
     asked = {
+        "seeds": [2],
         "pixels_per_wavelength": 4,
         "gaps": {"minimum": 0.01, "maximum": 10, "per_decade": 4},
         "measured": [],
@@ -51,6 +52,7 @@ def test_load_path_of_a_wave(tmp_path, surface):
     # Westergaard 1939: area fraction (2/pi) arcsin(sqrt(p/p_full)), to a point at either edge.
     assert half.values == pytest.approx(0.5, abs=2 / found.resolution.values.min())
     assert float(found.residual.max()) < 1e-6
+    assert found.seed.values.tolist() == [2]
 
 
 def test_maps_are_of_the_loads_asked_for(tmp_path, surface):

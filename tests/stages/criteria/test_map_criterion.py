@@ -19,7 +19,6 @@ ASKED_MAP = {
 CONSTANT = MeasuredAv(
     value=3.0,
     simulated=2.0,
-    over_lattice=1.0,
     magnification=1e6,
     sampling=0.2,
     discretisation=0.1,

@@ -1,13 +1,15 @@
 """The a_V of a pair and the verdict that follows."""
 
 from types import SimpleNamespace
+from unittest import mock
 
 import numpy as np
 import pytest
 import xarray as xr
 
-from criteria import judge
-from pipeline.verdicts.a_v import MeasuredAv, measure_a_v
+from criteria import judge_surface
+from pipeline.verdicts import joint
+from pipeline.verdicts.a_v import measure_a_v
 from pipeline.verdicts.materials import read_material
 from pipeline.verdicts.words import decide_pairs
 from stickiness import criteria
@@ -58,7 +60,7 @@ def test_edges_agree_with_pastewka_and_robbins(hurst, magnification):
 def test_pair_takes_its_own_range():
     ranges = np.array([1e-4, 1e-2, 1.0])
     theory = np.array([[4.0, 2.0, 1.0], [2.0, 2.0, 3.0]])
-    pair = SurfaceAv(ranges, theory, quoted=0, ratio=1.5, relative_error=0.1)
+    pair = SurfaceAv(ranges, 1.5 * theory, quoted=0, relative_error=0.1)
     value, low, high = pair.at(1e-4)
     assert (value, low, high) == pytest.approx((6.0, 3.0 * 0.9, 6.0 * 1.1))
     assert pair.at(1e-3)[0] == pytest.approx(1.5 * np.sqrt(4.0 * 2.0))  # halfway in logarithms
@@ -118,12 +120,9 @@ def pairs_of(modulus, ranges, h_rms=1e-6, a_v=(4.0, 4.0, 4.0)):
         {name: ("end", [value, value]) for name, value in known.items()} | {"q0": s.q0},
         coords={"end": ["smooth", "rough"]},
     )
-    a_v = SurfaceAv(np.array([1e-9, 1.0]), np.transpose([a_v, a_v]), 0, 1.0, 0.0)
-    parts = dict.fromkeys(("sampling", "discretisation", "fit_interval", "bandwidth"), 0.1)
-    constant = MeasuredAv(3.0, simulated=2.0, over_lattice=1.0, magnification=1e6, **parts)
-    return judge.find_verdicts(
-        solids, {"one": surface}, {"one": a_v}, constant, np.array([1.0, 1e3])
-    )
+    a_v = SurfaceAv(np.array([1e-9, 1.0]), np.transpose([a_v, a_v]), 0, 0.0)
+    with mock.patch.object(joint, "find_a_v", lambda surface: (a_v, a_v)):
+        return judge_surface.find_verdicts(solids, {"one": surface}, {}, np.array([1.0, 1e3]))
 
 
 def test_tough_edges_do_not_know_the_range():
@@ -292,7 +291,7 @@ def inputs(tmp_path):
 
 def test_a_v_is_that_of_the_simulation_in_the_file(inputs):
     found = measure_a_v(inputs, 0.065)
-    assert (found.value, found.simulated, found.over_lattice) == (2.0, 2.0, 1.0)
+    assert (found.value, found.simulated) == (2.0, 2.0)
     assert found.sampling == pytest.approx(0.38)  # as the file states it, covering 90 %
     assert found.discretisation == pytest.approx(0.1)
     assert (found.fit_interval, found.bandwidth) == (0, 0)

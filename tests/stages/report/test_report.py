@@ -107,9 +107,6 @@ def verdicts():
                 (*dims[:2], "criterion"),
                 [[[0, 0, 0], [0, 0, 0]], [[0, 1, 0], [0, 0, 1]]],
             ),
-            "a_v": 3.21,
-            "a_v_low": 2.8,
-            "a_v_high": 4.4,
         },
         coords={
             "material": ["jelly", "iron"],
@@ -322,9 +319,11 @@ def render(claims, verdicts, surfaces, figures, benchmarks):
         ensembles=[ensemble()],
         answers=[answer()],
         comparisons=[comparison()],
+        criterion=criterion(),
         paths={
             "claims": "out/claims.nc",
             "verdicts": "out/verdicts.nc",
+            "criterion": "out/map.nc",
             "experiments": "out/experiments.nc",
             "surfaces": {name: f"out/surfaces/{name}.nc" for name in surfaces},
             "ensembles": {"case_of_two": "out/ensembles/case_of_two.nc"},
@@ -446,8 +445,16 @@ def test_texts_are_escaped(page):
     assert "noisy &lt;spectrum&gt;" in page
 
 
+def criterion():
+    """Map of the paper's criterion: what of it the report shows."""
+    values = {"a_v": 3.21, "a_v_low": 2.8, "a_v_high": 4.4}
+    return xr.Dataset(values, attrs={"parameters": '{"pressure": 0.065}'})
+
+
 def test_summary_counts(claims, verdicts):
-    found = report.summarise(claims, verdicts, [ensemble(), ensemble(seeds=range(1, 5))])
+    found = report.summarise(
+        claims, verdicts, criterion(), [ensemble(), ensemble(seeds=range(1, 5))]
+    )
     assert [(name, count) for name, count, _ in found["graded"]] == [(g, 1) for g in GRADES]
     assert (found["pairs"], found["sticky"], found["touching"]) == (4, 1, 1)
     assert (found["wanted"], found["full"]) == ("10 %", "80 %")
@@ -457,7 +464,8 @@ def test_summary_counts(claims, verdicts):
         ("touches without hold", 1),
         ("does not stick", 1),
     ]
-    fully = report.summarise(claims, verdicts.assign(verdict=verdicts.verdict + 1), [ensemble()])
+    more = verdicts.assign(verdict=verdicts.verdict + 1)
+    fully = report.summarise(claims, more, criterion(), [ensemble()])
     assert (fully["sticky"], fully["touching"]) == (2, 1)
     assert fully["by_verdict"][0][:2] == ("sticks fully", 1)
     assert (found["a_v"], found["a_v_range"]) == ("3.21", "2.8 … 4.4")

@@ -7,11 +7,10 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from criteria import judge
-from persson import persson_surface
+from criteria import judge_surface
 from pipeline import measured_loads, measured_surface
 from pipeline.pages import captions, surface_figure, surface_texts
-from pipeline.verdicts.a_v import MeasuredAv
+from pipeline.verdicts import joint
 from pipeline.verdicts.materials import read_material
 from real_surfaces import analyse_surface, contact_measured
 from report import write_surface
@@ -60,13 +59,9 @@ def analysed(path, **asked):
 
 
 def judged(found):
-    ranges = np.geomspace(1e-8, 10, 10)
-    a_v = SurfaceAv(ranges, np.array([[2.0] * 10, [3.0] * 10]), 0, 1.0, 0.05)
-    parts = dict.fromkeys(("sampling", "discretisation", "fit_interval", "bandwidth"), 0.1)
-    constant = MeasuredAv(3.0, simulated=2.0, over_lattice=1.0, magnification=1e6, **parts)
     solids = {name: read_material(entry) for name, entry in MATERIALS.items()}
     frequencies = np.geomspace(1e-4, 1e6, 21)
-    return judge.find_verdicts(solids, {"plate": found}, {"plate": a_v}, constant, frequencies)
+    return judge_surface.find_verdicts(solids, {"plate": found}, {}, frequencies)
 
 
 @pytest.fixture(scope="module")
@@ -108,7 +103,7 @@ def page_of(found, folder, bem=None):
 
 
 def test_measured_surface_says_all_that_the_criteria_need(single):
-    assert set(judge.OF_SURFACES) <= set(single.variables)
+    assert set(judge_surface.OF_SURFACES) <= set(single.variables)
     assert float(single.h_rms.sel(end="smooth")) < float(single.h_rms.sel(end="rough"))
     # The scan is a quarter of a periodic surface of 80 um with an rms height of 300 nm.
     assert float(single.h_rms_measured) == pytest.approx(300e-9, rel=0.5)
@@ -154,20 +149,16 @@ def test_law_carried_on_reaches_its_end_and_opens_up(folder):
     ratio = rough[beyond] / smooth[beyond]
     assert np.all(np.diff(ratio) > 0)
     assert "carried on, not measured" in found.attrs["remarks"]
-    assert not persson_surface.same_shape(found)
 
 
-def test_both_ends_enter_a_v_where_they_differ_in_shape(single, folder):
-    assert persson_surface.same_shape(single)
+def test_each_end_has_its_own_a_v_where_they_differ_in_shape(single, folder):
+    one, other = joint.find_a_v(single)
+    assert one is other
     found = analysed(folder / "on2.nc", file=scan(folder / "a.txt"), extend_to="50 nm")
-    ranges = np.geomspace(1e-5, 1, 21)
-    smooth, rough = (
-        np.array(persson_surface.a_v_of(found, end, ranges, 0.065, 0.45)[1])
-        for end in ("smooth", "rough")
-    )
+    smooth, rough = (a_v.theory[:2, 0] for a_v in joint.find_a_v(found))
     # The rough end has the lower H, and a_V of the edges grows as zeta^((5H - 3)/3): both variants
     # of the theory have it lower there, by some per cent.
-    assert np.all(rough[:2, 0] < 0.99 * smooth[:2, 0])
+    assert np.all(rough < 0.99 * smooth)
 
 
 @pytest.mark.slow

@@ -10,10 +10,12 @@ from surfaces import synthesise_surface
 
 def made(folder, seed, **surface):
     asked = {"hurst": 0.8, "magnification": 8} | surface
-    params = {"surface": asked, "pixels_per_wavelength": 4}
-    job = make_job(folder / f"seed{seed}.nc", params, {"seed": seed})
+    params = {"seeds": [seed, seed + 1], "surface": asked, "pixels_per_wavelength": 4}
+    job = make_job(folder / f"seeds{seed}.nc", params, {})
     synthesise_surface.main(job)
-    return datasets.read(job.output[0])
+    both = datasets.read(job.output[0])
+    assert both.seed.values.tolist() == [seed, seed + 1]
+    return both.sel(seed=seed)
 
 
 def test_moments_are_those_of_the_heights(tmp_path):

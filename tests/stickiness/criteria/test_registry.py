@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from criteria import compare_criteria, judge
+from criteria import compare_criteria, judge_surface
 from figures import plot_fig9
 from pipeline.pages import report, verdict_texts
 from pipeline.plotting import make_panels
-from pipeline.verdicts.a_v import MeasuredAv
+from pipeline.verdicts import joint
 from pipeline.verdicts.markdown import write_markdown
 from pipeline.verdicts.materials import read_material
 from stickiness.core import datasets
@@ -32,7 +32,7 @@ GEL = {
     "work_of_adhesion": "50 mJ/m^2",
     "range": "0.3 nm",
 }
-CONSTANT = MeasuredAv(3.0, 2.0, 1.0, 1e6, 0.1, 0.1, 0.1, 0.1)
+A_V = SurfaceAv(np.array([1e-9, 1.0]), np.array([[4.0, 4.0]]), 0, 0.1)
 
 
 @pytest.fixture
@@ -55,12 +55,15 @@ def road(tmp_path):
     return datasets.read(path)
 
 
+@pytest.fixture(autouse=True)
+def fixed_a_v(monkeypatch):
+    monkeypatch.setattr(joint, "find_a_v", lambda surface: (A_V, A_V))
+
+
 @pytest.fixture
 def judged(road):
-    a_v = SurfaceAv(np.array([1e-9, 1.0]), np.array([[4.0, 4.0]]), 0, 1.0, 0.1)
     solids = {"gel": read_material(GEL)}
-    rates = np.array([1.0])
-    return judge.find_verdicts(solids, {"road": road}, {"road": a_v}, CONSTANT, rates)
+    return judge_surface.find_verdicts(solids, {"road": road}, {}, np.array([1.0]))
 
 
 @pytest.fixture
@@ -85,7 +88,7 @@ def test_an_entry_is_all_that_a_new_criterion_needs(made_up, road, judged):
     moduli = pair.threshold_by_criterion.sel(criterion="made_up").values
     np.testing.assert_allclose(moduli, [50e3, 25e3], rtol=1e-6)
 
-    assert "Made & Up" in write_markdown(judged, CONSTANT, {"gel": GEL}, {"road": road})
+    assert "Made & Up" in write_markdown(judged, {"gel": GEL}, {"road": "road"})
     rows = {row["name"]: row for row in verdict_texts.explain(pair, road, 0.05)}
     assert rows["Made & Up"]["reason"] == "Heights of 1 … 2 µm against nothing else."
     assert rows["Made & Up"]["says"] == "does not stick"
@@ -131,13 +134,12 @@ def test_an_entry_that_lacks_something_is_refused(change, message):
 @pytest.mark.slow
 def test_every_threshold_is_where_the_margin_is_one(judged, road):
     """Also for margins that are no power of the adhesion length."""
-    a_v = SurfaceAv(np.array([1e-9, 1.0]), np.array([[4.0, 4.0]]), 0, 1.0, 0.1)
     pair = judged.sel(material="gel", surface="road", end="rough")
     for name in CRITERIA:
         modulus = float(pair.threshold_by_criterion.sel(criterion=name))
         solids = {"gel": read_material(GEL | {"plane_strain_modulus": f"{modulus!r} Pa"})}
         at = (
-            judge.find_verdicts(solids, {"road": road}, {"road": a_v}, CONSTANT, np.array([1.0]))
+            judge_surface.find_verdicts(solids, {"road": road}, {}, np.array([1.0]))
             .sel(criterion=name, end="rough")
             .squeeze()
         )
