@@ -105,9 +105,11 @@ def make_panels(
 
 def save(figure: Figure, outputs: Iterable[str]) -> None:
     """Write the figure to every path, whole or not at all, free of the time of writing."""
-    # Saving puts the layout engine back; in place of none it would put that of the settings.
-    laid_out = figure.get_layout_engine() is not None
-    with mpl.rc_context({"figure.constrained_layout.use": laid_out}):
+    if (engine := figure.get_layout_engine()) is not None:
+        engine.execute(figure)  # once for all paths
+        figure.set_layout_engine("none")
+    # Saving would put the layout engine of the settings in place of none.
+    with mpl.rc_context({"figure.constrained_layout.use": False}):
         for path in outputs:
             with datasets.whole_file(path) as temporary:
                 undated = {"CreationDate": None} if temporary.suffix == ".pdf" else {}

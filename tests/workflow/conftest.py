@@ -11,6 +11,13 @@ from helpers.copy_workflow import copy_workflow
 TINY = ["--configfile", "config/config.yaml", "config/tiny.yaml"]
 
 
+def pytest_collection_modifyitems(items):
+    """Tests that share one run of the workflow go to one process, if there are several."""
+    for item in items:
+        if "finished" in getattr(item, "fixturenames", ()):
+            item.add_marker(pytest.mark.xdist_group("finished"))
+
+
 class Workflow:
     """The workflow in a folder, driven through its command line."""
 

@@ -14,8 +14,8 @@ from stickiness.core import datasets
 pytestmark = pytest.mark.workflow
 
 RESULTS = "results/tiny"
-SURFACE = f"{RESULTS}/surfaces/H0.9_zeta64/seed1.nc"
-SOLVED = f"{RESULTS}/contact/H0.9_zeta64/seed1.nc"
+SURFACE = f"{RESULTS}/surfaces/H0.9_zeta64/seeds1-2.nc"
+SOLVED = f"{RESULTS}/contact/H0.9_zeta64/seeds1-2.nc"
 TINY = ["--configfile", "config/config.yaml", "config/tiny.yaml"]
 
 
@@ -36,7 +36,7 @@ def completes(workflow, reference):
 
 @pytest.fixture
 def solved(finished, fresh):
-    """A folder with the surface and the solution of one realisation only, as a run left them."""
+    """A folder with the surface and the solution of one case only, as a run left them."""
     for path in (SURFACE, SOLVED):
         (fresh / path).parent.mkdir(parents=True)
         shutil.copy2(finished / path, fresh / path)
@@ -82,11 +82,12 @@ def cmdline(process):
 
 
 def test_truncated_and_foreign_files(solved, finished, reference):
-    other = SURFACE.replace("seed1", "seed2")
+    other = SURFACE.replace("H0.9", "H0.7")
     good = (solved / SURFACE).read_bytes()
     (solved / SURFACE).write_bytes(good[: len(good) // 2])
+    (solved / other).parent.mkdir(parents=True)
     shutil.copy(finished / SURFACE, solved / other)
-    said = errors(solved.snakemake("-k", SOLVED, SOLVED.replace("seed1", "seed2")))
+    said = errors(solved.snakemake("-k", SOLVED, SOLVED.replace("H0.9", "H0.7")))
     assert f"{SURFACE}: not a readable NetCDF file" in said
     assert f"{other}: holds what belongs in {SURFACE.removeprefix('results/')}; delete" in said
     (solved / SURFACE).unlink()

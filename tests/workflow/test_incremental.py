@@ -50,7 +50,10 @@ def test_editing_a_material_reruns_verdicts_and_report(copy_of_finished):
     copy_of_finished.edit("config/materials.yaml", '"40 mJ/m^2"', '"45 mJ/m^2"')
     planned = set(copy_of_finished.planned())
     # A claim is on what holds for practically all materials.
-    assert planned == {"judge", "plot_fig9", "check_claims", "write_report", "write_surface"}
+    assert planned == {
+        *("judge_surface", "judge", "write_surface"),
+        *("plot_fig9", "check_claims", "write_report"),
+    }
 
 
 def test_editing_an_experiment_reruns_its_prediction_claims_and_report(copy_of_finished):
@@ -59,25 +62,35 @@ def test_editing_an_experiment_reruns_its_prediction_claims_and_report(copy_of_f
     assert planned == {"predict_experiments", "plot_experiments", "check_claims", "write_report"}
 
 
-def test_changing_the_loads_of_the_case_of_a_v_reruns_verdicts(copy_of_finished):
+def test_changing_the_loads_of_the_case_of_a_v_reruns_its_maps_and_no_verdict(copy_of_finished):
     copy_of_finished.edit(
         "config/tiny.yaml",
         "theory:\n",
         "cases:\n  H0.8_zeta32_wide: {pressures: [0.03, 0.065]}\ntheory:\n",
     )
-    planned = copy_of_finished.planned("verdicts")
-    assert planned["solve_repulsive"] == SEEDS
-    assert {"fit_a_v", "judge"} <= planned.keys()
+    planned = copy_of_finished.planned("fig5")
+    assert planned["solve_repulsive"] == 1
+    assert {"fit_a_v", "map_criterion"} <= planned.keys()
+    assert copy_of_finished.planned("verdicts") == {}
 
 
-def test_adding_a_seed_runs_that_seed_and_its_averages(copy_of_finished):
+def test_adding_a_surface_judges_that_surface_alone(copy_of_finished):
+    with (copy_of_finished / "config/tiny_surfaces.yaml").open("a", encoding="utf-8") as file:
+        file.write(
+            "  mine: {kind: self_affine, label: mine, source: own, hurst: 0.8, h_rms: 1 um, "
+            "longest_wavelength: 1 mm, shortest_wavelength: 1 um}\n"
+        )
+    planned = copy_of_finished.planned("results/tiny/report/surfaces/mine.html")
+    assert planned == {"analyse_surface": 1, "judge_surface": 1, "write_surface": 1}
+
+
+def test_adding_a_seed_runs_its_file_and_its_averages(copy_of_finished):
     copy_of_finished.edit("config/tiny.yaml", "seeds: 2", "seeds: 3")
     planned = copy_of_finished.planned()
     assert planned["synthesise_surface"] == SURFACES
     assert planned["solve_repulsive"] == CASES
     assert planned["average_ensemble"] == CASES
-    assert planned["judge"] == 1  # its a_V is simulated
-    unaffected = {"persson_sweep", "persson_lattice", "contact_maps", "analyse_surface"}
+    unaffected = {"persson_sweep", "persson_lattice", "analyse_surface", "judge_surface"}
     unaffected.add("solve_coarse")  # the new seed is solved on the coarse grid by its own job
     assert unaffected.isdisjoint(planned)
 
@@ -116,7 +129,7 @@ def test_a_case_that_takes_plain_means_is_only_averaged_again(copy_of_finished):
         ),
         (
             "contact/solver.py",
-            {"solve_repulsive": CASES * SEEDS, "solve_coarse": MULTILEVEL, "contact_maps": 1},
+            {"solve_repulsive": CASES, "solve_coarse": MULTILEVEL, "contact_maps": 1},
             {"synthesise_surface", "persson_sweep", "persson_lattice", "analyse_surface"},
         ),
         (
@@ -126,7 +139,7 @@ def test_a_case_that_takes_plain_means_is_only_averaged_again(copy_of_finished):
         ),
         (
             "adhesion/edge_zone.py",
-            {"solve_adhesive": ADHESIVE * SEEDS, "average_adhesive": ADHESIVE, "follow_loop": 1},
+            {"solve_adhesive": ADHESIVE, "average_adhesive": ADHESIVE, "follow_loop": 1},
             {"solve_repulsive", "persson_sweep", "analyse_surface", "average_ensemble"},
         ),
         (
@@ -160,11 +173,11 @@ def test_comments_docstrings_and_times_of_change_rerun_nothing(copy_of_finished)
 @pytest.mark.parametrize(
     ("targets", "expected", "absent"),
     [
-        ("fig3", {"plot_fig3": 1, "solve_repulsive": CASES * SEEDS}, {"analyse_surface", "judge"}),
+        ("fig3", {"plot_fig3": 1, "solve_repulsive": CASES}, {"analyse_surface", "judge"}),
         (
             "fig6 results/tiny/persson/sweeps/fig1a.nc",
             {"plot_fig6": 1, "analyse_surface": len(REAL_SURFACES), "persson_sweep": 1},
-            {"solve_repulsive", "persson_surface"},
+            {"solve_repulsive", "judge_surface"},
         ),
         ("claims", {"check_claims": 1}, {"plot_fig1", "write_report"}),
         (
@@ -175,8 +188,8 @@ def test_comments_docstrings_and_times_of_change_rerun_nothing(copy_of_finished)
         (
             "results/tiny/contact/ensembles/H0.9_zeta64.nc",
             {
-                "synthesise_surface": SEEDS,
-                "solve_repulsive": SEEDS,
+                "synthesise_surface": 1,
+                "solve_repulsive": 1,
                 "solve_coarse": 1,
                 "average_ensemble": 1,
             },
@@ -209,8 +222,8 @@ def test_full_adhesion_is_solved_only_where_the_dmt_limit_is_not_good_enough(fre
     done = fresh.snakemake("-n", *(f"results/tiny/adhesion/full/{name}.nc" for name in asked))
     assert done.returncode == 0, done.stdout
     outputs = re.findall(r"output: results/tiny/adhesion/(\S+)\.nc", done.stdout)
-    assert {output for output in outputs if "/seed" in output} == {
-        f"full/{name}/seed{seed}" for name in ("close", "full") for seed in range(1, SEEDS + 1)
+    assert {output for output in outputs if "/seeds" in output} == {
+        f"full/{name}/seeds1-{SEEDS}" for name in ("close", "full")
     }
     for name in asked:
         assert outputs.count(f"dmt/{name}") == outputs.count(f"full/{name}") == 1

@@ -40,7 +40,7 @@ def test_killed_run_resumes(fresh, finished):
     assert done.returncode == 0, done.stdout
     # Of everything on the way, the same bits by one process at a time as by two.
     made = [path.relative_to(fresh.folder) for path in (fresh / "results").rglob("*.nc")]
-    assert len(made) >= 6
+    assert len(made) >= 4
     whole = [path for path, time in finished_surfaces.items() if path.stat().st_mtime_ns == time]
     assert whole, "what had been finished was made again"
     for path in made:

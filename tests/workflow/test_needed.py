@@ -1,11 +1,9 @@
 """A case runs what its quantities need and nothing else."""
 
 import pytest
+from helpers.copy_workflow import SURFACES
 
 pytestmark = pytest.mark.workflow
-
-SEEDS = 2
-
 
 def cases(workflow, text):
     """Add cases to the tiny configuration."""
@@ -13,15 +11,18 @@ def cases(workflow, text):
         file.write(f"cases:\n{text}")
 
 
-def test_a_verdict_needs_one_simulated_case(fresh):
-    """That of a_V, criteria.a_v.case, and no other."""
-    planned = fresh.planned("verdicts")
-    assert planned["judge"] == 1
-    assert planned["average_ensemble"] == 1
-    assert planned["solve_repulsive"] == SEEDS
-    assert {"solve_adhesive", "follow_loop"}.isdisjoint(planned), planned
-    listed = fresh.snakemake("-n", "verdicts").stdout
-    assert "results/tiny/fits/a_v/ensembles/H0.8_zeta32_wide.nc" in listed
+def test_a_verdict_needs_no_simulation(fresh):
+    count = len(SURFACES)
+    assert fresh.planned("verdicts") == {
+        "analyse_surface": count,
+        "judge_surface": count,
+        "judge": 1,
+    }
+
+
+def test_the_page_of_a_surface_runs_no_other(fresh):
+    planned = fresh.planned("results/tiny/report/surfaces/asphalt.html")
+    assert planned == {"analyse_surface": 1, "judge_surface": 1, "write_surface": 1}
 
 
 def test_a_case_of_theory_needs_no_surfaces(fresh):
@@ -34,8 +35,8 @@ def test_area_alone_needs_no_fits_and_no_theory(fresh):
     cases(fresh, "  mine: {surface: H0.7_zeta64, pressures: [0.05], quantities: [area]}\n")
     planned = fresh.planned("results/tiny/cases/mine.nc")
     assert planned == {
-        "synthesise_surface": SEEDS,
-        "solve_repulsive": SEEDS,
+        "synthesise_surface": 1,
+        "solve_repulsive": 1,
         "solve_coarse": 1,
         "average_ensemble": 1,
         "answer_case": 1,
@@ -57,7 +58,7 @@ def test_cases_on_the_same_realisations_share_them(fresh):
     )
     both = [f"results/tiny/cases/{name}.nc" for name in ("mine", "also_mine")]
     planned = fresh.planned(*both)
-    assert planned["synthesise_surface"] == planned["solve_repulsive"] == SEEDS
+    assert planned["synthesise_surface"] == planned["solve_repulsive"] == 1
     assert planned["solve_coarse"] == 1
     assert planned["average_ensemble"] == planned["answer_case"] == 2
 

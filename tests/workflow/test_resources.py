@@ -23,13 +23,13 @@ def asked(workflow, target, *options):
 
 
 def test_a_larger_grid_asks_for_more(fresh):
-    small = asked(fresh, "results/tiny/contact/H0.7_zeta64/seed1.nc")
+    small = asked(fresh, "results/tiny/contact/H0.7_zeta64/seeds1-2.nc")
     fresh.edit(
         "config/tiny.yaml",
         "H0.7_zeta64: {hurst: 0.7, magnification: 8}",
         "H0.7_zeta64: {hurst: 0.7, magnification: 1024}",
     )
-    large = asked(fresh, "results/tiny/contact/H0.7_zeta64/seed1.nc")
+    large = asked(fresh, "results/tiny/contact/H0.7_zeta64/seeds1-2.nc")
     # 4096 x 4096 doubles are 134 MB; the solver holds about 17 of them.
     assert 17 * 134 < large[0] < 40 * 134
     assert large[1] > small[1]
