@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import difflib
+import json
 from collections.abc import Iterator, Mapping
 from typing import Any
 
@@ -89,6 +90,12 @@ def one_line(error: jsonschema.ValidationError) -> str:
             choices = dict.fromkeys(error.validator_value)
             return f"{key} = {error.instance!r} is unknown; {suggest(error.instance, choices)}"
     wanted = error.validator_value
+    if wanted == "object" and {"value", "known"} <= error.schema.get("properties", {}).keys():
+        plain = json.dumps(error.instance, ensure_ascii=False)
+        return (
+            f"{key} = {error.instance!r} must say how it is known: write "
+            f"{{value: {plain}, known: measured}}, or read, recalled, assumed in place of measured"
+        )
     if error.validator == "type" and not isinstance(wanted, str):
         wanted = " or ".join(wanted)
     reason = _REASONS.get(error.validator, error.message).format(wanted)

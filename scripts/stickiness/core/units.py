@@ -2,10 +2,47 @@
 
 from __future__ import annotations
 
+import difflib
 import math
+import re
 from functools import cache
 
 import pint
+
+# Quantities that messages name: SI unit, words, example. The first of a dimension is its name.
+_QUANTITIES = (
+    ("m", "a length", "10 um"),
+    ("Pa", "a pressure", "2 MPa"),
+    ("J/m^2", "an energy per area", "50 mJ/m^2"),
+    ("1/m", "a wave number", "1e3 1/m"),
+    ("s", "a time", "1 ms"),
+    ("Hz", "a frequency", "1 Hz"),
+    ("m^2", "an area", "1 mm^2"),
+    ("m^3", "a volume", "1 mm^3"),
+    ("N", "a force", "5 mN"),
+    ("J", "an energy", "1 uJ"),
+    ("kg", "a mass", "1 g"),
+    ("m/s", "a velocity", "1 um/s"),
+    ("K", "a temperature", "300 K"),
+    ("Pa*s", "a viscosity", "1 Pa*s"),
+    ("mol/m^3", "a concentration", "1 mol/m^3"),
+)
+# Spellings by which a unit that pint does not know is recognised, by the SI unit that is wanted.
+_PREFIXES = {"m": ("k", "", "c", "m", "u", "n", "p"), "Pa": ("", "k", "M", "G")}
+_SPELLINGS = {
+    "m": [f"{prefix}m" for prefix in _PREFIXES["m"]],
+    "Pa": [f"{prefix}Pa" for prefix in _PREFIXES["Pa"]],
+    "J/m^2": ["J/m^2", "mJ/m^2", "N/m", "mN/m", "uJ/m^2", "erg/cm^2"],
+    "1/m": ["1/m", "1/mm", "1/um", "1/nm"],
+    "s": ["s", "ms", "us"],
+    "Hz": ["Hz", "kHz", "MHz"],
+}
+# Units that exist and are nearly always typing errors: what they are, and what is meant.
+_ASKED_BACK = {
+    "mPa": ("millipascal, a thousandth of a pascal", "MPa", "1e-3 Pa"),
+    "Mm": ("megametre, a thousand kilometres", "mm", "1e6 m"),
+    "Pm": ("petametre", "pm", "1e15 m"),
+}
 
 
 @cache
@@ -19,27 +56,70 @@ def si(value: str, unit: str) -> float:
     Raises
     ------
     ValueError
-        If `value` is not a number with a unit of that dimension.
+        If `value` is not a number with a unit of that dimension. The message says which kind of
+        quantity it is and which is wanted. It suggests a unit for one that does not exist, and
+        asks back for units that are nearly always typing errors, such as mPa.
 
     Examples
     --------
     >>> si("50 mJ/m^2", "J/m^2")
     0.05
     """
-    expected = f"expected a number with a unit of the dimension of {unit}"
+    wanted = _wanted(unit)
     if not isinstance(value, str):
-        raise ValueError(f"{value!r} has no unit: {expected}, as a string")
+        raise ValueError(f"{value!r} has no unit: {wanted}, as a text with its unit")
     if "," in value:  # a comma would be dropped, and 2,5 nm become 25 nm
         raise ValueError(f"{value!r} holds a comma: write the number with a decimal point")
+    _ask_back(value)
     try:
         quantity = _registry().Quantity(value)
         magnitude = float(quantity.to(unit).magnitude)
     except pint.DimensionalityError:
-        raise ValueError(
-            f"{value!r} has the dimension {quantity.dimensionality}: {expected}"
-        ) from None
+        raise ValueError(f"{value!r} {_kind(quantity)}; {wanted}") from None
     except Exception:  # pint raises tokenizer, attribute and type errors alike on malformed text
-        raise ValueError(f"{value!r} cannot be read: {expected}") from None
+        raise ValueError(f"{value!r} cannot be read: {_meant(value, unit) or wanted}") from None
     if not math.isfinite(magnitude):
-        raise ValueError(f"{value!r} is not finite: {expected}")
+        raise ValueError(f"{value!r} is not finite: {wanted}")
     return magnitude
+
+
+def _wanted(unit: str) -> str:
+    """Say what is wanted in place of a value, by its SI unit."""
+    for name, words, example in _QUANTITIES:
+        if _registry().Unit(name).dimensionality == _registry().Unit(unit).dimensionality:
+            return f"{words} is wanted, e.g. {example!r}"
+    return f"a number in {unit} is wanted, e.g. '1e-3 {unit}'"
+
+
+def _kind(quantity: pint.Quantity | float) -> str:
+    """Say which kind of quantity a value is, in words."""
+    dimension = getattr(quantity, "dimensionality", {})
+    if not dimension:
+        return "has no unit"
+    for name, words, _ in _QUANTITIES:
+        if _registry().Unit(name).dimensionality == dimension:
+            return f"is {words}"
+    return f"is in {quantity.units:~P}"
+
+
+def _ask_back(value: str) -> None:
+    """Refuse a unit that exists but is nearly always a typing error."""
+    for unit, (words, meant, instead) in _ASKED_BACK.items():
+        if re.search(rf"(?<![A-Za-z]){unit}(?![A-Za-z])", value):
+            raise ValueError(
+                f"{value!r}: {unit} is {words}; did you mean {value.replace(unit, meant)!r}? "
+                f"If not, write it in SI units, e.g. {instead!r}"
+            )
+
+
+def _meant(value: str, unit: str) -> str | None:
+    """Ask whether the closest unit of the wanted kind is meant, if one is close."""
+    match = re.fullmatch(r"\s*([-+]?[\d.]+(?:[eE][-+]?\d+)?)\s*(\S.*?)\s*", value)
+    if match is None:
+        return None
+    number, written = match.groups()
+    spellings = {known.lower().replace("^", ""): known for known in _SPELLINGS.get(unit, ())}
+    close = difflib.get_close_matches(
+        written.lower().replace("^", ""), spellings, n=1, cutoff=0.6
+    )
+    return f"did you mean '{number} {spellings[close[0]]}'?" if close else None

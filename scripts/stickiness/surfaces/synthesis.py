@@ -128,7 +128,10 @@ def resample(heights: NDArray, n: int) -> NDArray:
     keep = np.abs(i) <= n / 2
     lost = np.sum(np.abs(coefficients[~keep, :]) ** 2) + np.sum(np.abs(coefficients[:, ~keep]) ** 2)
     if lost > 1e-20 * np.sum(np.abs(coefficients) ** 2):
-        raise ValueError(f"n = {n} is too coarse: the surface has waves shorter than two pixels")
+        raise ValueError(
+            f"n = {n} is too coarse: the surface has waves shorter than two pixels; take a larger "
+            f"n, up to the {old} of the heights, or synthesise it with a lower q1"
+        )
     fine = np.zeros((n, n), dtype=complex)
     where = np.ix_(i[keep] % n, i[keep] % n)
     np.add.at(fine, where, coefficients[np.ix_(keep, keep)])
@@ -151,10 +154,11 @@ def check_window(spectrum: Spectrum, length: float) -> None:
 def _check_grid(spectrum: Spectrum, n: int, length: float) -> None:
     shortest = 2 * np.pi / spectrum.band[1]
     if shortest < 2 * length / n * (1 - _ROUNDING):
+        lower = f"q1 to {np.pi * n / length:.6g}" if spectrum.isotropic else "q1 or anisotropy"
         raise ValueError(
             f"the grid does not hold the band: shortest wavelength {shortest:.6g} is below two "
-            f"pixels of {length / n:.6g}; take n >= {int(np.ceil(2 * length / shortest))} "
-            f"or lower q1{'' if spectrum.isotropic else ' or anisotropy'}"
+            f"pixels of length/n = {length / n:.6g}; take n >= "
+            f"{int(np.ceil(2 * length / shortest))} or lower {lower}"
         )
 
 

@@ -95,17 +95,25 @@ def test_level_silent_criteria_and_what_is_not_published_are_taken():
     [
         (
             [("range", known("0.3"))],
-            "experiments.mine.range.value = '0.3' has the dimension dimensionless: expected "
-            "a number with a unit of the dimension of m",
+            "experiments.mine.range.value = '0.3' has no unit; a length is wanted, e.g. '10 um'",
         ),
         (
             [("range", known(0.3))],
             "experiments.mine.range.value = 0.3 must be of type string (the value with its unit)",
         ),
         (
+            [("hurst", 0.8)],
+            "experiments.mine.hurst = 0.8 must say how it is known: write {value: 0.8, known: "
+            "measured}, or read, recalled, assumed in place of measured",
+        ),
+        (
+            [("range", "0.3 nm")],
+            """experiments.mine.range = '0.3 nm' must say how it is known: write {value: "0.3 nm", """
+            "known: measured}",
+        ),
+        (
             [("radius", known("1 s"))],
-            "experiments.mine.radius.value = '1 s' has the dimension [time]: expected a number "
-            "with a unit of the dimension of m",
+            "experiments.mine.radius.value = '1 s' is a time; a length is wanted, e.g. '10 um'",
         ),
         (
             [("work_of_adhesion", known("-50 mJ/m^2"))],
@@ -165,14 +173,13 @@ def test_level_silent_criteria_and_what_is_not_published_are_taken():
         ),
         (
             [(*FORCE, "observed", seen("work_of_approach", value="5 mN"))],
-            "experiments.mine.cases.force.observed.value = '5 mN' has the dimension "
-            "[mass] * [length] / [time] ** 2: expected a number with a unit of the dimension of "
-            "J/m^2",
+            "experiments.mine.cases.force.observed.value = '5 mN' is a force; an energy per area "
+            "is wanted, e.g. '50 mJ/m^2'",
         ),
         (
             [(*FORCE, "observed", seen("work_of_approach", value=5))],
-            "experiments.mine.cases.force.observed.value = 5 has no unit: expected a number with a "
-            "unit of the dimension of J/m^2, as a string",
+            "experiments.mine.cases.force.observed.value = 5 has no unit: an energy per area is "
+            "wanted, e.g. '50 mJ/m^2', as a text with its unit",
         ),
         (
             [(*FORCE, "observed", seen("work_of_separation", relation="conformal_contact"))],
@@ -243,8 +250,8 @@ def test_level_silent_criteria_and_what_is_not_published_are_taken():
                     ),
                 )
             ],
-            "experiments.mine.cases.force.observed.error = '4 mm' has the dimension [length]: "
-            "expected a number with a unit of the dimension of J/m^2",
+            "experiments.mine.cases.force.observed.error = '4 mm' is a length; an energy per area "
+            "is wanted, e.g. '50 mJ/m^2'",
         ),
         (
             [(*LIMIT, "observed", seen("limiting_roughness", relation="energy_rato"))],
