@@ -119,7 +119,5 @@ def _meant(value: str, unit: str) -> str | None:
         return None
     number, written = match.groups()
     spellings = {known.lower().replace("^", ""): known for known in _SPELLINGS.get(unit, ())}
-    close = difflib.get_close_matches(
-        written.lower().replace("^", ""), spellings, n=1, cutoff=0.6
-    )
+    close = difflib.get_close_matches(written.lower().replace("^", ""), spellings, n=1, cutoff=0.6)
     return f"did you mean '{number} {spellings[close[0]]}'?" if close else None

@@ -46,6 +46,27 @@ def detrend_profile(heights: NDArray, kind: Detrend = "plane") -> NDArray:
     return heights - basis @ np.linalg.lstsq(basis, heights, rcond=None)[0]
 
 
+def rms_of_known(heights: NDArray, kind: Detrend = "plane") -> float:
+    """Root mean square of the finite points of a map or profile about the trend that fits them."""
+    known = np.isfinite(heights)
+    filled = np.where(known, heights, 0.0)
+    if heights.ndim == 1:
+        filled, known = filled[:, None], known[:, None]
+    degree = _DEGREES[kind]
+    x, y = (np.linspace(-1, 1, n) if n > 1 else np.zeros(1) for n in filled.shape)
+    px, py = (np.polynomial.legendre.legvander(t, degree) for t in (x, y))
+    terms = [(i, j) for i in range(degree + 1) for j in range(degree + 1 - i)]
+    i, j = np.array(terms).T
+    # Sums over known points of products of any two terms, and of terms and heights.
+    both = [
+        [(px[:, a] * px[:, c]) @ known @ (py[:, b] * py[:, d]) for c, d in terms] for a, b in terms
+    ]
+    beside = (px.T @ filled @ py)[i, j]
+    trend = np.zeros((degree + 1, degree + 1))
+    trend[i, j] = np.linalg.lstsq(np.array(both, dtype=float), beside, rcond=None)[0]
+    return float(np.sqrt(np.mean((filled - px @ trend @ py.T)[known] ** 2)))
+
+
 def _check(heights: NDArray, kind: str, dimensions: int) -> tuple[NDArray, int]:
     """Heights as floats and the degree of the polynomial."""
     if kind not in _DEGREES:

@@ -6,9 +6,7 @@ read by SurfaceTopography, an optional dependency (envs/instruments.txt).
 
 from __future__ import annotations
 
-import warnings
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from collections.abc import Sequence
 from importlib.util import find_spec
 from pathlib import Path
 
@@ -16,9 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stickiness.core.units import si
-from stickiness.measured import text_matrix
-
-Length = str | float  # "10 um", or metres
+from stickiness.measured import instruments, text_header, text_matrix, text_points
+from stickiness.measured.raw import Raw, sides
 
 INSTRUMENT = "instrument"
 OWN_FORMATS = ("netcdf", "numpy", "text")
@@ -31,25 +28,13 @@ _X_NAMES = ("x", "lon", "longitude", "easting")
 _Y_NAMES = ("y", "lat", "latitude", "northing")
 
 
-@dataclass(frozen=True)
-class Raw:
-    """Content of a file, heights in the file's own unit."""
-
-    heights: NDArray  # (nx, ny), the first axis along x, or a line profile (n,); NaN where missing
-    # grid steps [m]; None: the file does not tell (all below likewise)
-    steps: tuple[float, ...] | None
-    unit: str | None  # of the heights
-    source: str  # file, and variable or channel
-    positions: NDArray | None = None  # (n,), where a line profile was taken if not evenly
-    position_unit: str | None = None
-
-
 def format_of(path: str | Path, fmt: str | None = None) -> str:
     """Return which reader a file needs: "netcdf", "numpy", "text" or "instrument".
 
-    The name decides for NetCDF and numpy; any other file is a text matrix if it is text, and an
-    instrument's if it is binary or bears the name of an instrument's text format. `fmt` says it
-    outright: one of these four, or SurfaceTopography's name of a format ("di", "sur", "x3p" …).
+    The name decides for NetCDF and numpy. Any other file is a text matrix if it is text, and an
+    instrument's if it is binary, bears the name of an instrument's text format, or has a header
+    in an instrument's words. `fmt` says it outright: one of these four, or SurfaceTopography's
+    name of a format ("di", "sur", "x3p" …).
     """
     if fmt is not None:
         return fmt if fmt in OWN_FORMATS else INSTRUMENT
@@ -60,7 +45,10 @@ def format_of(path: str | Path, fmt: str | None = None) -> str:
         return INSTRUMENT
     with Path(path).open("rb") as file:
         head = file.read(1 << 20)  # headers in text may be long
-    return "text" if head.startswith(_UTF16) or b"\0" not in head else INSTRUMENT
+    if not head.startswith(_UTF16) and b"\0" in head:
+        return INSTRUMENT
+    header, _ = text_matrix.split_header(text_matrix.decode(head[: len(head) // 2 * 2]))
+    return INSTRUMENT if text_header.is_of_instrument(header) else "text"
 
 
 def can_read_instruments() -> bool:
@@ -88,32 +76,15 @@ def read(
     if variable is not None and kind in (INSTRUMENT, "text"):
         raise ValueError(f"{path}: variable is for NetCDF and npz, this is of kind {kind!r}")
     if kind == INSTRUMENT:
-        return _read_instrument(path, None if fmt == INSTRUMENT else fmt, channel)
+        if not can_read_instruments():
+            raise ValueError(
+                f"{path}: instruments' formats need SurfaceTopography, which is not installed; "
+                f"run {INSTALL}"
+            )
+        return instruments.read(path, None if fmt == INSTRUMENT else fmt, channel)
     if kind == "netcdf":
         return _read_netcdf(path, variable)
     return _read_numpy(path, variable) if kind == "numpy" else _read_text(path)
-
-
-def metres(value: Length, name: str) -> float:
-    """Convert "10 um", or a number of metres, to metres; errors name `name`."""
-    try:
-        length = value if isinstance(value, int | float) else si(value, "m")
-    except ValueError as error:
-        raise ValueError(f"{name}: {error}") from None
-    if not (np.isfinite(length) and length > 0):
-        raise ValueError(f"{name} must be positive and finite, got {value!r}")
-    return float(length)
-
-
-def sides(value: Length | Sequence[Length], shape: tuple[int, ...], name: str) -> tuple[float, ...]:
-    """Sides along every axis; a single value is that along x, with square pixels."""
-    if isinstance(value, str | int | float):
-        x = metres(value, name)
-        return tuple(x * n / shape[0] for n in shape)
-    if len(value) != len(shape):
-        many = "one length or two (x, y)" if len(shape) == 2 else "one length for a line profile"
-        raise ValueError(f"{name} must be {many}, got {value!r}")
-    return tuple(metres(v, name) for v in value)
 
 
 def _choose(
@@ -195,11 +166,16 @@ def _read_numpy(path: Path, variable: str | None) -> Raw:
 
 def _read_text(path: Path) -> Raw:
     text = text_matrix.parse(path)
+    if text_points.is_list(text.values):
+        heights, grid = text_points.to_map(path, text.values)
+        units = {"unit": text.value_unit, "position_unit": text.lateral_unit}
+        return Raw(heights, None, source=str(path), grid=grid, **units)
     heights = text.values.T
     if len(heights) == 1:
         return Raw(heights[0], None, text.value_unit, str(path))
     if len(heights) == 2 and heights.shape[1] > 2:
-        return Raw(heights[1], None, text.value_unit, str(path), positions=heights[0])
+        units = {"unit": text.value_unit, "position_unit": text.lateral_unit}
+        return Raw(heights[1], None, source=str(path), positions=heights[0], **units)
     steps = None
     if text.width is not None:
         # Without a height the pixels are square.
@@ -207,72 +183,6 @@ def _read_text(path: Path) -> Raw:
         size = sides(size, heights.shape, f"{path}: Width, Height in the header")
         steps = tuple(side / n for side, n in zip(size, heights.shape, strict=True))
     return Raw(heights, steps, text.value_unit, str(path))
-
-
-def _read_instrument(path: Path, fmt: str | None, channel: str | int | None) -> Raw:
-    if not can_read_instruments():
-        raise ValueError(
-            f"{path}: instruments' formats need SurfaceTopography, which is not installed; "
-            f"run {INSTALL}"
-        )
-    reader = _guard(path, lambda io: io.open_topography(str(path), format=fmt))
-    info = _channel(reader, channel, path)
-    source = f"{path}: {info.name}"
-    if not _holds_heights(info):
-        heights = ", ".join(repr(c.channel_id) for c in reader.channels if _holds_heights(c))
-        raise ValueError(f"{source} holds no heights; channels that do: {heights or 'none'}")
-    # If the file does not hold the size, the caller must give it; until then it is in pixels.
-    known = info.physical_sizes is not None
-    size = {} if known else {"physical_sizes": tuple(float(n) for n in info.nb_grid_pts)}
-    data = _guard(path, lambda _: reader.topography(channel_index=info.index, **size))
-    unit = data.unit
-    scale = metres(f"1 {unit}", f"{source}: unit of length in the file") if known and unit else None
-    # Points that could not be measured come masked.
-    heights = _floats(np.ma.filled(np.ma.asarray(data.heights(), dtype=float), np.nan))
-    if heights.ndim == 1:
-        positions = np.asarray(data.positions(), dtype=float) if scale else None
-        return Raw(heights, None, unit, source, positions, unit)
-    steps = None
-    if scale is not None:
-        steps = tuple(
-            float(side) * scale / n
-            for side, n in zip(data.physical_sizes, heights.shape, strict=True)
-        )
-    return Raw(heights, steps, unit, source)
-
-
-def _holds_heights(channel) -> bool:
-    # A pair stands for (lateral, data) where these differ in kind: no heights.
-    return channel.is_height_channel and not isinstance(channel.unit, tuple)
-
-
-def _guard(path: Path, call: Callable):
-    """Call SurfaceTopography; whatever it raises becomes one line that names the file."""
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")  # of its own dependencies
-        from SurfaceTopography import IO
-
-        try:
-            return call(IO)
-        except Exception as error:  # readers of broken files raise nearly anything
-            reason = " ".join(str(error).split()) or "no reason given"
-            raise ValueError(
-                f"{path}: SurfaceTopography cannot read it ({type(error).__name__}: {reason[:200]})"
-            ) from error
-
-
-def _channel(reader, wanted: str | int | None, path: Path):
-    """Return the channel named (or counted from 0), else the file's default."""
-    channels = reader.channels
-    if wanted is None:
-        return reader.default_channel
-    if isinstance(wanted, int) and 0 <= wanted < len(channels):
-        return channels[wanted]
-    named = [c for c in channels if wanted in (c.channel_id, c.name)]
-    if not named:
-        names = ", ".join(repr(c.channel_id) for c in channels)
-        raise ValueError(f"{path}: no channel {wanted!r}; the file has {names}")
-    return named[0]
 
 
 def _floats(values) -> NDArray:

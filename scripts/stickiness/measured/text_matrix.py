@@ -9,9 +9,11 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from stickiness.measured import text_header
+
 _COMMENT = ("#", "%", "//")
 _MISSING = {"nan", "-nan", "na", "n/a", "bad", "null", "none", "---", "--", "-", "***", "*", ""}
-_HEADER = re.compile(r"^\W*(width|height|value units?)\s*[:=]\s*(.+?)\s*$", re.IGNORECASE)
+_ALTERNATE = 5.0  # step to the next column over that to the next but one, if commas split numbers
 
 
 @dataclass(frozen=True)
@@ -22,6 +24,7 @@ class TextMatrix:
     width: str | None = None  # along the rows, with unit, from the header
     height: str | None = None  # down the columns
     value_unit: str | None = None  # of the numbers
+    lateral_unit: str | None = None  # of positions x y, if the columns are x y z
 
 
 def parse(path: Path) -> TextMatrix:
@@ -32,27 +35,34 @@ def parse(path: Path) -> TextMatrix:
     Gwyddion exports them, are read. Decimal commas are allowed if the separator is another.
     Missing points may be written as NaN, ---, *** or left empty between tabs, semicolons or commas.
 
-    A ValueError names file, line and field if there are no numbers, rows differ in length or a
-    field is no number.
+    A ValueError names file, line and field if there are no numbers, rows differ in length, a
+    field is no number, commas split the numbers, or the header says what is not read or other
+    numbers of rows and columns.
     """
-    header: dict[str, str] = {}
-    rows: list[tuple[int, str]] = []
-    for number, line in enumerate(_decode(path).splitlines(), start=1):
-        stripped = line.strip(" \r\n")
-        if stripped.startswith(_COMMENT) or (not rows and not _starts_with_number(stripped)):
-            match = _HEADER.match(stripped)
-            if match:
-                key = match[1].lower()
-                header["value_unit" if key.startswith("value") else key] = match[2]
-        elif stripped.strip():
-            rows.append((number, stripped))
+    header, rows = split_header(decode(path.read_bytes()))
     if not rows:
         raise ValueError(f"{path}: no line of numbers found; expected a matrix of heights")
-    return TextMatrix(_matrix(path, rows), **header)
+    text_header.check_factor(path, header)
+    values = _matrix(path, rows)
+    text_header.check_counts(path, header, values.shape)
+    return TextMatrix(values, **text_header.fields_of(header))
 
 
-def _decode(path: Path) -> str:
-    raw = path.read_bytes()
+def split_header(text: str) -> tuple[list[str], list[tuple[int, str]]]:
+    """Comments and lines before the first row, and the rows with their line numbers."""
+    header: list[str] = []
+    rows: list[tuple[int, str]] = []
+    for number, line in enumerate(text.splitlines(), start=1):
+        stripped = line.strip(" \r\n")
+        if stripped.startswith(_COMMENT) or (not rows and not _starts_with_number(stripped)):
+            header.append(stripped)
+        elif stripped.strip():
+            rows.append((number, stripped))
+    return header, rows
+
+
+def decode(raw: bytes) -> str:
+    """Text of a file, whatever of three encodings it has."""
     if raw.startswith((b"\xff\xfe", b"\xfe\xff")):
         return raw.decode("utf-16")
     try:
@@ -95,7 +105,23 @@ def _matrix(path: Path, rows: list[tuple[int, str]]) -> NDArray:
                 f"{len(values[0])}; every row needs as many"
             )
         values.append(row)
-    return np.array(values)
+    matrix = np.array(values)
+    if separator == "," and "." not in rows[0][1] and _commas_split(matrix):
+        raise ValueError(
+            f"{path}: {matrix.shape[1]} columns without a decimal point that alternate: decimal "
+            "commas, which its separating commas hide; separate by tabs or semicolons, or write "
+            "decimal points"
+        )
+    return matrix
+
+
+def _commas_split(matrix: NDArray) -> bool:
+    """Whether columns are by turns whole numbers and their decimals: close to the next but one."""
+    if matrix.shape[1] % 2 or matrix.shape[1] < 4 or np.any(matrix[:, 1::2] < 0):
+        return False
+    beside = np.nanmedian(np.abs(np.diff(matrix, axis=1)))
+    whole = np.nanmedian(np.abs(np.diff(matrix[:, ::2], axis=1)))
+    return bool(beside > _ALTERNATE * whole)
 
 
 def _number(path: Path, number: int, field: str) -> float:

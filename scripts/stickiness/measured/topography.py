@@ -25,9 +25,12 @@ from stickiness.measured.levelling import (
     detrend_profile,
     fill_missing,
     fill_profile,
+    rms_of_known,
     without_rims,
 )
-from stickiness.measured.readers import Length, Raw, metres, sides
+from stickiness.measured.plausibility import doubt_sizes, doubt_values
+from stickiness.measured.raw import Length, Raw, metres, sides
+from stickiness.measured.spikes import Spikes, find_spikes
 
 Size = Length | Sequence[Length] | None
 
@@ -39,6 +42,13 @@ class _Heights:
 
     heights: NDArray
     missing: int
+    as_read: NDArray | None
+
+    def h_rms_as_read(self, kind: Detrend = "plane") -> float:
+        """Root mean square height with the points that were dropped or masked, levelled [m]."""
+        if self.as_read is None:
+            return self.h_rms
+        return rms_of_known(self.as_read, kind)
 
     @property
     def h_rms(self) -> float:
@@ -62,6 +72,11 @@ class Topography(_Heights):
     missing: int = 0  # number of points that were missing and have been interpolated
     cropped: float = 0.0  # share of the measured points that was cut off to leave no missing ones
     dropped: int = 0  # number of points that were measured beside missing ones and not used
+    spikes: int = 0  # number of points far off their neighbours, not used
+    # As `heights` before anything was dropped, masked or filled, NaN where missing; None if
+    # nothing was dropped or masked.
+    as_read: NDArray | None = None
+    doubts: tuple[str, ...] = ()  # why no verdict should rest on the heights
 
     @property
     def size(self) -> tuple[float, float]:
@@ -80,11 +95,14 @@ class Profile(_Heights):
     heights: NDArray  # (n,) [m]
     dx: float  # step [m]
     source: str  # file (and variable or channel)
-    missing: int = 0  # this and `dropped` as in `Topography`
+    missing: int = 0  # this and those after `largest_gap` as in `Topography`
     # Largest distance between neighbouring points as measured [m]; above `dx` if they were
     # unevenly spaced and have been interpolated.
     largest_gap: float = 0.0
     dropped: int = 0
+    spikes: int = 0
+    as_read: NDArray | None = None
+    doubts: tuple[str, ...] = ()
 
     @property
     def length(self) -> float:
@@ -110,6 +128,7 @@ def read(
     missing: Missing = "fill",
     max_missing: float = MAX_MISSING,
     missing_rim: Rim = "detect",
+    spikes: Spikes = "mask",
 ) -> Topography | Profile:
     """Read a topography or a line profile.
 
@@ -143,6 +162,8 @@ def read(
     missing_rim : int or "detect"
         Width of the rim around missing points in which measured points are dropped [points];
         "detect" as in `levelling.without_rims`.
+    spikes : {"mask", "keep"}
+        Take points far off all their neighbours (`spikes.find_spikes`) for missing, or not.
 
     Returns
     -------
@@ -161,7 +182,9 @@ def read(
     -----
     In NetCDF the axis named x (or lon) is x, else the last one; grid steps come from evenly
     spaced coordinates with a unit of length. A text matrix may have a header as Gwyddion
-    writes it (Width, Height, Value units).
+    writes it (Width, Height, Value units); other headers are SurfaceTopography's. Text in three
+    columns is a list of points x y z on a grid. `doubts` of what is returned say which values
+    are none that surfaces have (`stickiness.measured.plausibility`).
     """
     path = Path(path)
     if not path.is_file():
@@ -174,55 +197,83 @@ def read(
         raise ValueError(f"missing must be 'fill', 'crop' or 'refuse', got {missing!r}")
     if missing_rim != "detect" and not (isinstance(missing_rim, int) and missing_rim >= 0):
         raise ValueError(f"missing_rim must be a number of points or 'detect', got {missing_rim!r}")
+    if spikes not in ("mask", "keep"):
+        raise ValueError(f"spikes must be 'mask' or 'keep', got {spikes!r}")
     raw = readers.read(path, format, variable, channel)
     heights = raw.heights
     if missing_value is not None:
         heights = np.where(heights == missing_value, np.nan, heights)
-    rule = missing, missing_rim, 0.0 if missing == "refuse" else max_missing, raw.source
+    limit = 0.0 if missing == "refuse" else max_missing
+    rule = _Rule(missing, missing_rim, limit, spikes, raw.source)
     if heights.ndim == 1:
-        found = _profile(_positions(raw, length, pixel_size, position_unit), heights, *rule)
+        found = _profile(_positions(raw, length, pixel_size, position_unit), heights, rule)
     else:
-        found = _map(heights, _steps(raw, length, pixel_size), *rule)
+        found = _map(heights, _steps(raw, length, pixel_size, position_unit), rule)
     scale = _scale(raw.source, "height_unit", height_unit, raw.unit)
-    found = replace(found, heights=found.heights * scale)
+    as_read = None if found.as_read is None else found.as_read * scale
+    found = replace(found, heights=found.heights * scale, as_read=as_read)
     if np.ptp(found.heights) == 0:
         flat = found.heights.flat[0]
         raise ValueError(f"{raw.source}: all heights are {flat:g} m; nothing to analyse")
-    return found
+    steps = (found.dx,) if heights.ndim == 1 else (found.dx, found.dy)
+    doubts = [*found.doubts, *doubt_sizes(found.heights, steps)]
+    return replace(found, doubts=tuple(f"{raw.source}: {doubt}" for doubt in doubts))
 
 
-def _map(
-    heights: NDArray, steps: Sequence[float], missing: Missing, rim: Rim, limit: float, source: str
-) -> Topography:
-    measured = heights.size
-    heights, dropped = without_rims(heights, rim)
-    if missing == "crop":
-        heights = heights[complete_rectangle(np.isfinite(heights), source)]
-    filled, count = fill_missing(heights, limit, _with_dropped(source, dropped))
-    return Topography(filled, *steps, source, count, 1 - heights.size / measured, dropped)
+@dataclass(frozen=True)
+class _Rule:
+    """What to do with points that are missing or wrong."""
+
+    missing: Missing
+    rim: Rim
+    limit: float  # largest share that is filled
+    spikes: Spikes
+    source: str
+
+    def drop(self, heights: NDArray) -> tuple[NDArray, int, int]:
+        """Heights without rims and spikes, and the numbers of both."""
+        left, dropped = without_rims(heights, self.rim)
+        if self.spikes == "keep":
+            return left, dropped, 0
+        spikes = find_spikes(left)
+        return np.where(spikes, np.nan, left), dropped, int(np.count_nonzero(spikes))
+
+    def name(self, dropped: int, spikes: int) -> str:
+        """Source with what was taken out, for messages on missing points."""
+        beside = f", {dropped} points beside missing ones dropped" if dropped else ""
+        return f"{self.source}{beside}{f', {spikes} spikes masked' if spikes else ''}"
 
 
-def _profile(
-    x: NDArray, heights: NDArray, missing: Missing, rim: Rim, limit: float, source: str
-) -> Profile:
+def _map(heights: NDArray, steps: Sequence[float], rule: _Rule) -> Topography:
+    left, dropped, spikes = rule.drop(heights)
+    as_read, doubts = heights if dropped or spikes else None, tuple(doubt_values(left))
+    if rule.missing == "crop":
+        left = left[complete_rectangle(np.isfinite(left), rule.source)]
+    filled, count = fill_missing(left, rule.limit, rule.name(dropped, spikes))
+    cropped = 1 - left.size / heights.size
+    numbers = count, cropped, dropped, spikes
+    return Topography(filled, *steps, rule.source, *numbers, as_read, doubts)
+
+
+def _profile(x: NDArray, heights: NDArray, rule: _Rule) -> Profile:
     order = np.argsort(x, kind="stable")
-    x, (heights, dropped) = x[order], without_rims(heights[order], rim)
-    if missing == "crop":
+    x, whole = x[order], heights[order]
+    heights, dropped, spikes = rule.drop(whole)
+    as_read, doubts = whole if dropped or spikes else None, tuple(doubt_values(heights))
+    source = rule.source
+    if rule.missing == "crop":
         kept = complete_run(np.isfinite(heights), source)
         x, heights = x[kept], heights[kept]
     if len(x) < 2 or not np.all(np.diff(x) > 0):
         raise ValueError(f"{source}: positions of a line profile must all differ")
-    filled, count = fill_profile(x, heights, limit, _with_dropped(source, dropped))
+    filled, count = fill_profile(x, heights, rule.limit, rule.name(dropped, spikes))
     gaps = np.diff(x)
     even = np.linspace(x[0], x[-1], len(x))
     step = float(even[1] - even[0])
     if np.ptp(gaps) > 1e-3 * step:
         filled = np.interp(even, x, filled)
-    return Profile(filled, step, source, count, float(gaps.max()), dropped)
-
-
-def _with_dropped(source: str, dropped: int) -> str:
-    return f"{source}, {dropped} points beside missing ones dropped" if dropped else source
+    numbers = count, float(gaps.max()), dropped, spikes
+    return Profile(filled, step, source, *numbers, as_read, doubts)
 
 
 def _positions(raw: Raw, length: Size, pixel_size: Size, position_unit: str | None) -> NDArray:
@@ -282,7 +333,7 @@ def metres_per_degree(latitude: float) -> tuple[float, float]:
 
 
 def _steps(
-    raw: Raw, length: Length | Sequence[Length] | None, pixel_size: Length | Sequence[Length] | None
+    raw: Raw, length: Size, pixel_size: Size, position_unit: str | None
 ) -> tuple[float, ...]:
     """Grid steps [m], from the caller or else from the file."""
     shape = raw.heights.shape
@@ -291,6 +342,9 @@ def _steps(
         return tuple(side / n for side, n in zip(size, shape, strict=True))
     if pixel_size is not None:
         return sides(pixel_size, (1, 1), f"{raw.source}: pixel_size")
+    if raw.grid is not None:
+        scale = _scale(raw.source, "position_unit", position_unit, raw.position_unit)
+        return tuple(step * scale for step in raw.grid)
     if raw.steps is None:
         raise ValueError(
             f"{raw.source}: the file does not tell its size; give length or pixel_size"

@@ -76,7 +76,8 @@ def test_what_an_instrument_marks_as_missing_is_missing(tmp_path, counts):
         ({"variable": "z"}, "variable is for NetCDF and npz"),
         ({"height_unit": "um"}, "height_unit = 'um', but the file says 'nm'"),
         ({"format": "x3p"}, r"a\.bcr: SurfaceTopography cannot read it"),
-        ({"format": "tiff2000"}, r"cannot read it \(UnknownFileFormat"),
+        ({"format": "tiff2000"}, "SurfaceTopography has no format 'tiff2000'; it knows al3d, "),
+        ({"format": "x3"}, "has no format 'x3'; did you mean 'x3p'?"),
         ({"missing": "guess"}, "missing must be 'fill', 'crop' or 'refuse', got 'guess'"),
     ],
 )

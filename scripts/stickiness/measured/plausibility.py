@@ -1,0 +1,122 @@
+"""Doubts about a measurement: values that no surface and no instrument have.
+
+A doubt is a sentence that names what is found and what helps. A measurement with doubts has a
+spectrum, but no verdict should rest on it. Limits lie beyond every file of surfaces that was
+tried; `tests/stickiness/measured/test_plausibility.py` holds them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from stickiness.core.statistics import COVERS
+from stickiness.measured.self_affine_fit import SelfAffineFit
+
+LONGEST_SIDE = 0.5  # [m]; the longest travel of profilometers is 0.3 m
+SHORTEST_SIDE = 1e-9  # [m]; a few atoms
+PLATEAU_SHARE = 0.002  # of the points, with one value, above which it stands out ...
+PLATEAU_TIMES = 20.0  # ... if it is so many times as frequent as the values next to it
+FEWEST_LEVELS = 16  # different heights; a converter of four bits
+FLATTEST, STEEPEST = 1e-7, 20.0  # rms slope between neighbours
+LARGEST_MISFIT = 1.0  # relative; a spectrum off its law by more than a factor e
+
+_NEXT = 3  # values on either side of a plateau's that it is compared with
+REFUSED_SIDE = (
+    f"is longer than {LONGEST_SIDE:g} m, which no microscope or profilometer measures; correct it "
+    "(2 mm, not 2 m?), or give plausibility: ignore if it is so"
+)
+
+
+def find_plateau(values: NDArray) -> tuple[float, float] | None:
+    """Value that stands out by how often it occurs, and its share of the points.
+
+    Instruments and conversions write zero, the limit of the range, or a number of their own where
+    nothing was measured. Such a value is `PLATEAU_TIMES` as frequent as the three next above and
+    below it; coarse steps of a converter alone are not. None if there is none.
+    """
+    known = values[np.isfinite(values)]
+    if known.size == 0:
+        return None
+    levels, counts = np.unique(known, return_counts=True)
+    top = int(np.argmax(counts))
+    beside = np.delete(counts[max(top - _NEXT, 0) : top + _NEXT + 1], min(top, _NEXT))
+    share = float(counts[top] / known.size)
+    if beside.size == 0 or share < PLATEAU_SHARE or counts[top] < PLATEAU_TIMES * beside.max():
+        return None
+    return float(levels[top]), share
+
+
+def doubt_values(values: NDArray) -> Iterator[str]:
+    """Doubts about numbers as they stand in a file, a map or a profile, NaN where missing."""
+    plateau = find_plateau(values)
+    if plateau is not None:
+        value, share = plateau
+        yield (
+            f"{share:.2g} of the points have the one value {value:g}, as where nothing was "
+            f"measured: give missing_value: {value:g}"
+        )
+    levels = len(np.unique(values[np.isfinite(values)][: 1 << 20]))
+    if levels < FEWEST_LEVELS:
+        yield (
+            f"there are only {levels} different heights: their range is below what the numbers "
+            "resolve; export the heights with more digits"
+        )
+
+
+def doubt_sizes(heights: NDArray, steps: Sequence[float]) -> Iterator[str]:
+    """Doubts about heights [m] on a grid of steps [m]: sides, range of the heights, slope."""
+    sides = [n * step for n, step in zip(heights.shape, steps, strict=True)]
+    if max(sides) > LONGEST_SIDE:
+        yield f"the side of {max(sides):.3g} m {REFUSED_SIDE}"
+    if max(sides) < SHORTEST_SIDE:
+        yield (
+            f"the side of {max(sides):.3g} m is shorter than {SHORTEST_SIDE:g} m, a few atoms: "
+            "correct length or pixel_size"
+        )
+    between = float(np.ptp(heights))
+    if between > max(sides):
+        yield (
+            f"the heights range over {between:.3g} m, more than the side of {max(sides):.3g} m: "
+            "correct height_unit or length"
+        )
+        return
+    slope = rms_slope(heights, steps)
+    if not FLATTEST <= slope <= STEEPEST:
+        yield (
+            f"the rms slope between points is {slope:.2g}, outside {FLATTEST:g} to {STEEPEST:g} of "
+            "surfaces: correct height_unit or length"
+        )
+
+
+def doubt_fit(fit: SelfAffineFit) -> Iterator[str]:
+    """Doubts about a spectrum by its self-affine fit; H counts within its error of 90 %."""
+    error = COVERS * fit.hurst_se
+    found = f"the spectrum has H = {fit.hurst:.2f} ± {error:.2f}, outside 0 < H <= 1"
+    if fit.hurst + error <= 0:
+        yield (
+            f"{found}: noise, spikes or lost points whiten it; look at the heights, or limit the "
+            "fit by resolution or fit_to to waves that the instrument resolves"
+        )
+    if fit.hurst - error > 1:
+        yield (
+            f"{found}: it falls as blur does; limit the fit by resolution or fit_to to waves that "
+            "the instrument resolves, or level by detrend: quadratic"
+        )
+    if fit.misfit > LARGEST_MISFIT:
+        yield (
+            f"the spectrum departs from a power law by {fit.misfit:.0%} (rms): limit the fit by "
+            "fit_from and fit_to to where it holds"
+        )
+
+
+def rms_slope(heights: NDArray, steps: Sequence[float]) -> float:
+    """Root mean square slope between neighbours, of all directions together."""
+    squares = [
+        np.mean((np.diff(heights, axis=axis) / step) ** 2)
+        for axis, step in enumerate(steps)
+        if heights.shape[axis] > 1
+    ]
+    return float(np.sqrt(np.sum(squares)))
