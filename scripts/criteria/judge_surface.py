@@ -17,7 +17,7 @@ from pipeline.verdicts.pairs import (
     join_all,
 )
 from pipeline.verdicts.probabilities import find_probabilities
-from pipeline.verdicts.words import decide_pairs, find_disagreement
+from pipeline.verdicts.words import decide_pairs, find_disagreement, find_doubts, withhold
 from stickiness.core import datasets
 from stickiness.criteria.pair import WORDS
 from stickiness.criteria.registry import CRITERIA
@@ -70,6 +70,8 @@ def find_verdicts(materials, surfaces, own, frequencies):
     dataset = dataset.assign(follow_rates(pair, materials, frequencies))
     dataset["verdict"] = decide_pairs(dataset)
     dataset["disagrees"] = find_disagreement(dataset)
+    dataset["not_judged"] = find_doubts(materials, surfaces, own)
+    dataset = withhold(dataset)
     draws = {name: surface.sizes.get("draw", 0) for name, surface in surfaces.items()}
     return add_budgets(describe(dataset), draws)
 
@@ -118,7 +120,8 @@ def describe(dataset):
         work_of_adhesion=("J/m^2", "work of adhesion"),
         threshold_by_criterion=("Pa", "plane-strain modulus below which a criterion says sticky"),
         verdict=("1", ", ".join(f"{code} {word}" for code, word in enumerate(WORDS))),
-        probability=("1", "share of draws that stick", "surface not measured"),
+        probability=("1", "share of draws that stick", "surface not measured or not judged"),
+        not_judged=("1", "why a pair is not judged, a line each; empty if it is"),
         quantile=("1", "quantile of the draws"),
         margin_quantile=("1", "quantiles of the margin", "not measured"),
         error_of_spectrum=("1", "standard deviation of ln margin by the spectrum", "not measured"),

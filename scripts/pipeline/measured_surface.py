@@ -12,6 +12,7 @@ from stickiness.config.surface_entries import measurements
 from stickiness.core.units import si
 from stickiness.measured import (
     instrument_spectrum,
+    plausibility,
     self_affine_fit,
     spectrum_draws,
     stitching,
@@ -24,6 +25,7 @@ END_QUANTILES = (0.16, 0.84)  # of the draws: one standard error
 DRAWS, SEED = 200, 1
 REFERENCE_HURST = 0.8  # of the paper's lines C0 = 1e-3 and 1e-5 m^0.4
 POINTS_PER_DECADE = 10
+FEWEST_POINTS, FEWEST_ON_LINE = 64, 256  # about so many are needed for a fit
 PICTURE_POINTS = 400  # along a side of the picture of the heights
 # Of a measurement in the configuration, what `topography.read` takes.
 READ_KEYS = set(signature(topography.read).parameters) - {"path"}
@@ -33,10 +35,7 @@ def analyse(asked):
     """Dataset of a measured surface, as configured."""
     entries = [one for _, one in measurements(asked)]
     heights = [read_levelled(one) for one in entries]
-    spectra = [
-        instrument_spectrum.analyse(h, one.get("window", "hann"), limits_of(one))
-        for h, one in zip(heights, entries, strict=True)
-    ]
+    spectra = [find_spectrum(h, one) for h, one in zip(heights, entries, strict=True)]
     stitched = stitching.stitch(spectra) if len(spectra) > 1 else None
     spectrum = stitched.spectrum if stitched else spectra[0]
     extend_to = 2 * np.pi / si(asked["extend_to"], "m") if "extend_to" in asked else None
@@ -48,17 +47,27 @@ def analyse(asked):
     remarks = self_affine_fit.remarks(spectrum.fit, np.nan_to_num(spectrum.anisotropy))
     remarks = [*remarks, *remarks_on_files(heights), *remarks_on_limits(spectrum, extend_to)]
     remarks += remarks_on_stitching(stitched)
+    doubts = [doubt for one in heights for doubt in one.doubts]
+    doubts += plausibility.doubt_fit(spectrum.fit)
+    if asked.get("plausibility", "check") == "ignore":
+        remarks += [f"judged all the same (plausibility: ignore): {doubt}" for doubt in doubts]
+        doubts = []
+    for doubt in doubts:
+        logging.warning("no verdict: %s", doubt)
     for remark in remarks:
         logging.info(remark)
     return dataset.assign(
         h_rms_measured=heights[0].h_rms,
+        h_rms_as_read=heights[0].h_rms_as_read(entries[0].get("detrend", "plane")),
         missing_fraction=max(h.missing_fraction for h in heights),
         dropped_points=sum(h.dropped for h in heights),
+        masked_spikes=sum(h.spikes for h in heights),
         cropped_fraction=max(getattr(h, "cropped", 0.0) for h in heights),
     ).assign_attrs(
         remarks="; ".join(remarks),
         cutoff=spectrum.cutoff.reason,
         files="; ".join(h.source for h in heights),
+        not_judged="\n".join(doubts),
     )
 
 
@@ -70,6 +79,21 @@ def read_levelled(measurement):
         keys = {key: measurement[key] for key in READ_KEYS if key in measurement}
         heights = topography.read(measurement["file"], **keys)
     return heights.detrended(measurement.get("detrend", "plane"))
+
+
+def find_spectrum(heights, measurement):
+    """Spectrum of one measurement; an error names the file and what helps."""
+    try:
+        return instrument_spectrum.analyse(
+            heights, measurement.get("window", "hann"), limits_of(measurement)
+        )
+    except ValueError as error:
+        points = " x ".join(map(str, heights.heights.shape))
+        raise ValueError(
+            f"{heights.source} has no spectrum that can be judged ({points} points): {error}; "
+            f"a map needs about {FEWEST_POINTS} points along its shorter side, a profile "
+            f"{FEWEST_ON_LINE}: measure a larger or wider area, or give fit_from and fit_to"
+        ) from None
 
 
 def limits_of(measurement):
@@ -167,6 +191,11 @@ def remarks_on_files(heights):
     """Remarks on what was missing."""
     found = []
     for one in heights:
+        if one.spikes:
+            found.append(
+                f"{one.spikes} points of {one.source} stand out from all their neighbours as "
+                "spikes and are not used (spikes: keep uses them)"
+            )
         if getattr(one, "cropped", 0):
             found.append(f"{one.cropped:.0%} of {one.source} cut off to leave no missing points")
         if one.dropped:

@@ -90,7 +90,7 @@ def list_parameters(surface):
         ("Hurst exponent H", with_error(float(surface.hurst), float(surface.hurst_total_error))),
         (f"C0 [{surface.C0.attrs['units']}]", describe_prefactor(surface)),
         (f"C0 at H = 0.8 [{unit}]", describe_line(surface)),
-        ("rms height", describe_height(surface)),
+        *list_heights(surface),
         ("rms slope", describe_slope(surface)),
         ("q0 [1/m]", describe_lowest(surface)),
         ("roll-off", describe_roll_off(surface)),
@@ -104,12 +104,30 @@ def list_parameters(surface):
         rows.append(("shortest wavelength of the instrument", text))
         rows.append(("missing points, interpolated", percent(float(surface.missing_fraction))))
         rows.append(("dropped beside missing points", f"{int(surface.dropped_points)} points"))
+        rows.append(("spikes, not used", f"{int(surface.masked_spikes)} points"))
         rows.append(("cut off for missing points", percent(float(surface.cropped_fraction))))
     if "anisotropy" in surface:
         rows.append(("dependence on direction, 0 … 2", number(float(surface.anisotropy), 2)))
     if "scatter" in surface:
         rows.append(("factor between measurements in C", number(np.exp(float(surface.scatter)), 3)))
     return rows
+
+
+def list_heights(surface):
+    """Rows of rms heights: by the spectrum, of the heights, and with the points not used."""
+    if "h_rms_measured" not in surface:
+        return [("rms height", describe_height(surface))]
+    rows = [
+        ("rms height by the spectrum, up to q1", describe_height(surface)),
+        ("rms height of the levelled heights", show_height(surface.h_rms_measured)),
+    ]
+    if int(surface.dropped_points) + int(surface.masked_spikes):
+        rows.append(("the same with the points not used", show_height(surface.h_rms_as_read)))
+    return rows
+
+
+def show_height(value):
+    return quantity(float(value), float(value), "m")
 
 
 def describe_lowest(surface):

@@ -25,7 +25,7 @@ from stickiness.accuracy.prediction import Problem, predicted_cost, worst_error
 from stickiness.accuracy.quantities import COLUMNS, MODELLED, columns_of
 from stickiness.core import budget, datasets
 from stickiness.criteria.errata import ERRATA
-from stickiness.criteria.pair import FULL_SHARE, STICKS_FULLY, STICKY, TOUCHES, WORDS
+from stickiness.criteria.pair import FULL_SHARE, NOT_JUDGED, STICKS_FULLY, STICKY, TOUCHES, WORDS
 from stickiness.criteria.registry import CRITERIA, REMAINING
 from stickiness.remaining.prediction import DEFAULT_SHARE
 
@@ -219,7 +219,7 @@ def find_disagreements(verdicts: xr.Dataset, surfaces: Datasets) -> list[Context
     """Pairs on which a criterion differs from the verdict, by direction."""
     labels = labels_of(surfaces)
     materials = datasets.parameters(verdicts)["materials"]
-    sticky = verdicts.margin > 1
+    sticky = verdicts.margin.where(verdicts.verdict != NOT_JUDGED, 0) > 1  # all say the same there
     ours = sticky.sel(criterion=REMAINING)
 
     def pairs(differs):

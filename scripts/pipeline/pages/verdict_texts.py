@@ -15,18 +15,20 @@ from pipeline.verdicts.texts import (
     describe_threshold,
 )
 from stickiness.core import budget
-from stickiness.criteria.pair import WORDS
+from stickiness.criteria.pair import NOT_JUDGED, WORDS
 from stickiness.criteria.registry import CRITERIA, EDGES, REMAINING
 from stickiness.criteria.verdict import BROAD_A_V
 from stickiness.remaining.prediction import DEFAULT_SHARE
 
-WORD_TONES = ("no", "open", "partly", "yes", "yes")
+WORD_TONES = ("no", "open", "partly", "yes", "yes", "open")
 REGIME_TEXTS = ("weak", "between weak and tough", "tough, near JKR", "strong, but not near JKR")
 
 
 def describe_pair(pair: xr.Dataset) -> dict[str, Any]:
     """Texts and numbers of a pair on the pages; intervals go from the rough to the smooth end."""
     code = int(pair.verdict)
+    if code == NOT_JUDGED:
+        return withheld_texts()
     margins = ends(pair.margin.sel(criterion=REMAINING))
     limits = float(pair.margin_low.min()), float(pair.margin_high.max())
     return {
@@ -49,6 +51,22 @@ def describe_pair(pair: xr.Dataset) -> dict[str, Any]:
         "threshold": describe_threshold(pair),
         "threshold_value": float(pair.modulus_threshold.sel(end="rough")),
         **describe_draws(pair),
+    }
+
+
+def withheld_texts() -> dict[str, Any]:
+    """The same of a pair that is not judged: no number, last in every order."""
+    numbers = ("grade", "remaining_value", "pull_off_value", "energy_ratio_value", "order")
+    numbers += ("onset_value", "threshold_value", "share", "quantile", "error")
+    texts = ("remaining", "pull_off", "energy_ratio", "margin", "limits", "by", "onset")
+    texts += ("threshold", "probability", "drawn", "errors")
+    return {
+        "verdict": WORDS[NOT_JUDGED],
+        "tone": WORD_TONES[NOT_JUDGED],
+        "layer": "",
+        **dict.fromkeys(numbers, -1.0),
+        **dict.fromkeys(texts, NOTHING),
+        "grade": -1,
     }
 
 
@@ -83,7 +101,12 @@ def describe_draws(pair: xr.Dataset) -> dict[str, Any]:
 
 
 def explain(pair: xr.Dataset, surface: xr.Dataset, work_of_adhesion: float) -> list[dict[str, Any]]:
-    """One row for every criterion: what it says of a pair, its margins and its reason."""
+    """One row for every criterion: what it says of a pair, its margins and its reason.
+
+    None of a pair that is not judged.
+    """
+    if int(pair.verdict) == NOT_JUDGED:
+        return []
     facts = gather_facts(pair, surface, work_of_adhesion)
     ours = pair.margin.sel(criterion=REMAINING) > 1
     rows = []

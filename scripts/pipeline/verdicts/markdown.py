@@ -1,8 +1,8 @@
 """Verdicts as a page of Markdown."""
 
-from pipeline.numbers import interval, percent, table
+from pipeline.numbers import NOTHING, interval, percent, table
 from pipeline.verdicts.texts import describe_pull_off, describe_share, describe_threshold
-from stickiness.criteria.pair import FULL_SHARE, WORDS
+from stickiness.criteria.pair import FULL_SHARE, NOT_JUDGED, WORDS
 from stickiness.criteria.registry import CRITERIA, EDGES, REMAINING
 from stickiness.criteria.verdict import THEORY_ERROR
 from stickiness.remaining.prediction import DEFAULT_SHARE
@@ -20,7 +20,8 @@ agree with the measurement and over the errors of the model. A share below 0.1 %
 **Verdict.** *Sticks*: at least {wanted} remains, within all limits. *Sticks fully*: at least {full}
 does. *Depends*: {wanted} lies within the limits. *Touches without hold*: less than {wanted}
 remains, but contact grows by itself at the finest wave. *Does not stick*: contact does not grow by
-itself either.
+itself either. *Not judged*: the measurement has what no surface has; its page says what, and what
+helps.
 
 **Margin.** Adhesion length w/E* over the one at which {wanted} remains, within its limits; above 1
 the pair sticks. **E* threshold**: the modulus below which it sticks. Both have the same relative
@@ -87,6 +88,8 @@ def write_markdown(dataset, materials, names):
 
 def describe_pair(pair):
     """Cells of a pair's row after material and surface."""
+    if int(pair.verdict) == NOT_JUDGED:
+        return WORDS[NOT_JUDGED], *[NOTHING] * (len(COLUMNS) - 3)
     differs = [CRITERIA[str(c)].label for c in pair.criterion.values[pair.disagrees == 1]]
     dmt = pair.margin.sel(criterion="violano") ** (5 / 3)  # h_rms limit over h_rms, as a ratio
     onset = pair.margin.sel(criterion=EDGES)

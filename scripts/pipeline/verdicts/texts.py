@@ -7,7 +7,7 @@ import xarray as xr
 
 from pipeline.numbers import NOTHING, interval, number, percent, quantity
 from pipeline.verdicts.words import MOST_STRAIN, find_limits
-from stickiness.criteria.pair import DEPENDS, TOUCHES, WORDS
+from stickiness.criteria.pair import DEPENDS, NOT_JUDGED, TOUCHES, WORDS
 from stickiness.remaining.prediction import DEFAULT_SHARE, PULL_OFF_UNKNOWN
 
 LEAST_SHOWN = 1e-3  # share below which a text says 0 %
@@ -82,6 +82,8 @@ def describe_layer(pair: xr.Dataset) -> str:
 def say_verdict(material: str, pair: xr.Dataset) -> str:
     """The verdict on a pair as one sentence."""
     code, remains = int(pair.verdict), describe_share(pair)
+    if code == NOT_JUDGED:
+        return f"{material}: not judged. {str(pair.not_judged.item()).replace(chr(10), '. ')}."
     layer = f" {text}" if (text := describe_layer(pair)) else ""
     if code == DEPENDS:
         return (

@@ -1,6 +1,9 @@
 """The verdict on every pair, and which criteria disagree with it."""
 
-from stickiness.criteria.pair import decide
+import numpy as np
+import xarray as xr
+
+from stickiness.criteria.pair import NOT_JUDGED, decide
 from stickiness.criteria.registry import EDGES, REMAINING
 
 MOST_STRAIN = 0.3  # up to which a layer is taken for linear
@@ -11,6 +14,40 @@ def decide_pairs(dataset):
     low, high = find_limits(dataset)
     grows = (dataset.margin.sel(criterion=EDGES, drop=True) > 1).any("end")
     return low.copy(data=decide(low, high, grows))
+
+
+def find_doubts(materials, surfaces, own):
+    """Why pairs are not judged, a text each, empty for those that are.
+
+    The reasons are those of the surface and of the one that the material has itself.
+    """
+    doubts = [
+        [
+            "\n".join(
+                filter(
+                    None,
+                    (
+                        one.attrs.get("not_judged")
+                        for one in (surface, own.get(m.surface))
+                        if one is not None
+                    ),
+                )
+            )
+            for surface in surfaces.values()
+        ]
+        for m in materials.values()
+    ]
+    return xr.DataArray(np.array(doubts, dtype=object), dims=("material", "surface"))
+
+
+def withhold(dataset):
+    """The dataset without verdict and probability where there are doubts about a surface."""
+    judged = dataset.not_judged == ""
+    return dataset.assign(
+        verdict=dataset.verdict.where(judged, NOT_JUDGED).astype(dataset.verdict.dtype),
+        probability=dataset.probability.where(judged),
+        disagrees=dataset.disagrees.where(judged, 0).astype("i1"),
+    )
 
 
 def find_limits(dataset):

@@ -12,7 +12,7 @@ from stickiness.config.measured_contact import bem_problems
 from stickiness.config.measurements import measurements
 from stickiness.config.messages import unit_problem, unknown
 from stickiness.core.units import si
-from stickiness.measured import readers
+from stickiness.measured import plausibility, readers
 
 _BUILTIN = ("builtin:jacksboro",)
 
@@ -103,6 +103,7 @@ def _file_problems(measurement: Mapping[str, Any]) -> Iterator[str]:
     if not Path(file).is_file():
         yield f"file = {file!r}: no such file; give a path from the working directory"
         return
+    yield from _side_problems(measurement)
     if "length" in measurement and "pixel_size" in measurement:
         yield f"pixel_size = {measurement['pixel_size']!r}: give length or pixel_size, not both"
     if measurement.get("missing", "fill") != "fill" and "max_missing" in measurement:
@@ -123,6 +124,20 @@ def _file_problems(measurement: Mapping[str, Any]) -> Iterator[str]:
     fit_from, fit_to = (measurement.get(key) for key in ("fit_from", "fit_to"))
     if fit_from and fit_to and not si(fit_to, "m") < si(fit_from, "m"):
         yield f"fit_to = {fit_to!r} must be below fit_from = {fit_from!r}"
+
+
+def _side_problems(measurement: Mapping[str, Any]) -> Iterator[str]:
+    """Yield sides that no measurement has."""
+    if measurement.get("plausibility") == "ignore":
+        return
+    for side in _as_list(measurement.get("length", [])):
+        if si(side, "m") > plausibility.LONGEST_SIDE:
+            yield f"length = {side!r} {plausibility.REFUSED_SIDE}"
+        if si(side, "m") < plausibility.SHORTEST_SIDE:
+            yield (
+                f"length = {side!r} is shorter than {plausibility.SHORTEST_SIDE:g} m, a few atoms; "
+                "correct it, or give plausibility: ignore if it is so"
+            )
 
 
 def _wavelength(surface: Mapping[str, Any], wavelength: str, wave_number: str) -> float:

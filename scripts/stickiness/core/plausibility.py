@@ -14,7 +14,10 @@ __all__ = ["PlausibilityWarning", "warn_of_heights", "warn_of_pressure", "warn_o
 _MOST_PRESSURE = 1000.0  # over the rms slope; half of that slope is what flattens a surface
 _MOST_HEIGHT, _LEAST_HEIGHT = 100.0, 1e-9  # rms height over the side of the cell
 # Lowest and highest values of real solids and surfaces in SI units, with room to spare.
+LONGEST_SIDE = 0.5  # [m]; the longest travel of profilometers is 0.3 m
+SHORTEST_SIDE = 1e-9  # [m]; a few atoms
 _SI_LIMITS = {
+    "length": (SHORTEST_SIDE, LONGEST_SIDE, "give the side of the heights in m (2e-3 for 2 mm)"),
     "modulus": (10.0, 1e13, "give it in Pa"),
     "work_of_adhesion": (1e-6, 10.0, "give it in J/m^2"),
     "range": (1e-11, 1e-5, "give it in m"),
@@ -53,7 +56,7 @@ def warn_of_heights(rms_height: float, length: float, stacklevel: int = 3) -> No
 
 
 def warn_of_si(stacklevel: int = 3, **values: float) -> None:
-    """Warn of a modulus, work of adhesion, range or rms slope that no real pair has in SI units.
+    """Warn of a length, modulus, work of adhesion, range or rms slope no real pair has in SI units.
 
     A slope far from 1 means that heights and lengths are in different units.
     """

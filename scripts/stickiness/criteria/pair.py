@@ -10,8 +10,11 @@ from numpy.typing import ArrayLike, NDArray
 from stickiness.adhesion import equivalent_sphere
 from stickiness.remaining.prediction import DEFAULT_SHARE, Roughness
 
-WORDS = ("does not stick", "touches without hold", "depends", "sticks", "sticks fully")
-NOT_STICKY, TOUCHES, DEPENDS, STICKY, STICKS_FULLY = range(5)
+WORDS = (
+    *("does not stick", "touches without hold", "depends", "sticks", "sticks fully"),
+    "not judged",
+)
+NOT_STICKY, TOUCHES, DEPENDS, STICKY, STICKS_FULLY, NOT_JUDGED = range(6)
 FULL_SHARE = 0.8  # of the work of adhesion, from which a pair sticks fully
 REGIMES = ("weak", "between", "tough", "strong")
 WEAK, BETWEEN, TOUGH, STRONG = range(4)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from dataclasses import dataclass
 from typing import Any
 
@@ -9,12 +10,13 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from stickiness.core.arguments import positive
-from stickiness.core.plausibility import warn_of_si
+from stickiness.core.plausibility import PlausibilityWarning, warn_of_si
 from stickiness.criteria.a_v_table import VARIANTS, SurfaceAv, theory_a_v
 from stickiness.criteria.formulas import pastewka_robbins_a_v
 from stickiness.criteria.pair import REGIMES, WORDS, Pair, classify_edges, decide
 from stickiness.criteria.registry import CRITERIA, EDGES, REMAINING
 from stickiness.measured import instrument_spectrum
+from stickiness.measured.plausibility import doubt_heights
 from stickiness.measured.topography import Topography
 from stickiness.remaining.prediction import (
     DEFAULT_SHARE,
@@ -173,7 +175,8 @@ def verdict(
     Warns
     -----
     PlausibilityWarning
-        If a value is none that real pairs have in SI units, such as a modulus given in MPa.
+        If a value is none that real pairs have in SI units, such as a modulus given in MPa or a
+        length of 2 for 2 mm, or if heights have what no surface has, such as spikes.
 
     Examples
     --------
@@ -271,10 +274,14 @@ def describe_surface(
                 f"length must be both sides of heights of the shape {heights.shape}, got {length!r}"
             )
         sides = np.broadcast_to(positive(length=length)[0], 2)
+        for side in dict.fromkeys(map(float, sides)):
+            warn_of_si(length=side, stacklevel=4)
         dx, dy = (float(side) / n for side, n in zip(sides, heights.shape, strict=True))
         measured = instrument_spectrum.analyse(
             Topography(heights, dx, dy, "heights").detrended("plane")
         )
+        for doubt in doubt_heights(heights, measured.fit):
+            warnings.warn(f"heights: {doubt}", PlausibilityWarning, stacklevel=3)
         rings = measured.rings
         inside = rings.q <= measured.cutoff.q * (1 + 1e-9)
         spectrum = Tabulated(rings.q[inside], rings.psd[inside])

@@ -12,11 +12,11 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from stickiness.core.plausibility import LONGEST_SIDE, SHORTEST_SIDE
 from stickiness.core.statistics import COVERS
 from stickiness.measured.self_affine_fit import SelfAffineFit
+from stickiness.measured.spikes import find_spikes
 
-LONGEST_SIDE = 0.5  # [m]; the longest travel of profilometers is 0.3 m
-SHORTEST_SIDE = 1e-9  # [m]; a few atoms
 PLATEAU_SHARE = 0.002  # of the points, with one value, above which it stands out ...
 PLATEAU_TIMES = 20.0  # ... if it is so many times as frequent as the values next to it
 FEWEST_LEVELS = 16  # different heights; a converter of four bits
@@ -110,6 +110,15 @@ def doubt_fit(fit: SelfAffineFit) -> Iterator[str]:
             f"the spectrum departs from a power law by {fit.misfit:.0%} (rms): limit the fit by "
             "fit_from and fit_to to where it holds"
         )
+
+
+def doubt_heights(heights: NDArray, fit: SelfAffineFit) -> Iterator[str]:
+    """Doubts about a map as it stands, spikes included, and about its spectrum."""
+    spikes = int(np.count_nonzero(find_spikes(heights)))
+    if spikes:
+        yield f"{spikes} points stand out from all their neighbours as spikes: mask and fill them"
+    yield from doubt_values(heights)
+    yield from doubt_fit(fit)
 
 
 def rms_slope(heights: NDArray, steps: Sequence[float]) -> float:

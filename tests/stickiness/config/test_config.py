@@ -198,7 +198,7 @@ def model(*keys, value):
         (material("plane_strain_modulus", value="-1 GPa"), ["crystal", "-1 GPa", "positive"]),
         (material("plane_strain_modulus", value="1 GN"), ["plane_strain_modulus", "1 GN", "Pa"]),
         (material("work_of_adhesion", value=0.05), ["work_of_adhesion", "0.05", "string"]),
-        (material("range", value="0.2 nanometre s"), ["range", "0.2 nanometre s", "unit"]),
+        (material("range", value="0.2 nanometre s"), ["range", "0.2 nanometre s", "a length is wanted"]),
         (material("source", value=None), ["crystal", "source", "missing"]),
         (material("thickness", value="50 um"), ["crystal", "50 um", "youngs_modulus"]),
         (material("thickness", value="50"), ["crystal.thickness", "'50'", "unit"]),
@@ -415,7 +415,7 @@ ADHESION = {"plane_strain_modulus": "25 MPa", "work_of_adhesion": "50 mJ/m^2", "
     [
         ({"pressures": ["1 MPa"]}, {}, r"pressures\[0\] = '1 MPa' needs bem\.adhesion"),
         ({"pressures": ["1 MPa", 0.1], "adhesion": ADHESION}, {}, r"pressures\[1\] = 0\.1 has no"),
-        ({"pressures": ["1 m"], "adhesion": ADHESION}, {}, r"pressures\[0\] = '1 m' has the dim"),
+        ({"pressures": ["1 m"], "adhesion": ADHESION}, {}, r"pressures\[0\] = '1 m' is a length"),
         ({"pressures": ["-1 Pa"], "adhesion": ADHESION}, {}, r"'-1 Pa' must be positive"),
         ({"pressures": ["1 MPa", "1e6 Pa"], "adhesion": ADHESION}, {}, "must not repeat"),
         ({"pressures": [0.1], "periodic": True}, {"detrend": "plane"}, "detrend = 'plane' would"),
@@ -448,5 +448,5 @@ def test_the_schema_refuses_a_contact(bem, text):
 
 def test_units_within_adhesion_are_checked():
     entry = {"bem": {"adhesion": ADHESION | {"range": "2 Pa"}}}
-    with pytest.raises(checks.ConfigError, match=r"a\.bem\.adhesion\.range = '2 Pa' has the dim"):
+    with pytest.raises(checks.ConfigError, match=r"a\.bem\.adhesion\.range = '2 Pa' is a pressure"):
         checks.check_units({"surfaces": {"a": entry}}, "s.yaml")

@@ -107,10 +107,34 @@ def test_sides_of_oblong_heights_must_be_given():
         verdict(np.ones((8, 16)), length=1e-3, **GEL)
 
 
+def warnings_of(heights, length):
+    """What the verdict on heights is warned of, as one text."""
+    with pytest.warns(PlausibilityWarning) as caught:
+        verdict(heights, length=length, **GEL)
+    return " ".join(str(warning.message) for warning in caught)
+
+
 def test_heights_in_another_unit_than_the_length_are_warned_of():
-    heights = surface.synthesise(SelfAffine(hurst=0.8, q0=1, q1=8, h_rms=0.1), 64, 2 * np.pi, 1)
-    with pytest.warns(PlausibilityWarning, match="heights and lengths both in m"):
-        verdict(1e6 * heights, length=2 * np.pi, **GEL)
+    rough = SelfAffine(hurst=0.8, q0=1e3, q1=8e3, h_rms=1e-4)
+    heights = surface.synthesise(rough, 64, 2e-3 * np.pi, 1)
+    assert "heights and lengths both in m" in warnings_of(1e6 * heights, 2e-3 * np.pi)
+
+
+def test_a_length_in_millimetres_is_warned_of_with_value_and_unit():
+    rough = SelfAffine(hurst=0.8, q0=np.pi, q1=30, h_rms=1e-3)  # slopes as of 1 um on 2 mm
+    heights = surface.synthesise(rough, 64, 2, 1)
+    found = warnings_of(heights, 2)
+    assert "length = 2 is outside 1e-09 to 0.5" in found
+    assert "in m (2e-3 for 2 mm)" in found
+
+
+def test_spikes_in_heights_are_warned_of():
+    rough = SelfAffine(hurst=0.8, q0=6e3, q1=2e5, h_rms=1e-6)
+    heights = surface.synthesise(rough, 128, 2 * np.pi / 6e3, 1)
+    heights[40, 50] = 1e-3
+    found = warnings_of(heights, 2 * np.pi / 6e3)
+    assert "1 points stand out from all their neighbours as spikes" in found
+    assert "the spectrum has H = -" in found
 
 
 def test_lengths_scale():
