@@ -90,9 +90,8 @@ def find_spectrum(heights, measurement):
     except ValueError as error:
         points = " x ".join(map(str, heights.heights.shape))
         raise ValueError(
-            f"{heights.source} has no spectrum that can be judged ({points} points): {error}; "
-            f"a map needs about {FEWEST_POINTS} points along its shorter side, a profile "
-            f"{FEWEST_ON_LINE}: measure a larger or wider area, or give fit_from and fit_to"
+            f"{heights.source}: no fit to the spectrum of {points} points: {error}; a map needs "
+            f"about {FEWEST_POINTS} points along its shorter side, a profile {FEWEST_ON_LINE}"
         ) from None
 
 

@@ -1,0 +1,111 @@
+"""Spikes are found whatever the surface, and no surface has any."""
+
+import numpy as np
+import pytest
+
+from stickiness import surface
+from stickiness.measured import topography
+from stickiness.measured.spikes import find_spikes
+from stickiness.spectrum import SelfAffine
+
+
+def rough(hurst=0.8, n=128, seed=1):
+    spectrum = SelfAffine(hurst=hurst, q0=1.0, q1=n / 4, h_rms=1.0)
+    return surface.synthesise(spectrum, n, 2 * np.pi, seed)
+
+
+def pillars(noise):
+    comb = np.arange(128) % 32 < 16
+    step = np.logical_and.outer(comb, comb).astype(float)
+    return step + noise * np.random.default_rng(0).standard_normal(step.shape)
+
+
+def tilted(heights):
+    return heights + np.add.outer(5.0 * np.arange(len(heights)), -3.0 * np.arange(len(heights)))
+
+
+GOOD = {
+    "rough": rough(0.3),
+    "smooth": rough(1.0),
+    "tilted": tilted(rough()),
+    "white noise": np.random.default_rng(0).standard_normal((128, 128)),
+    "eight bits": np.round(20 * rough()),
+    "few steps": np.round(2 * rough()),
+    "pillars": pillars(1e-3),
+    "pillars without noise": pillars(0.0),
+    "grooves of one point": np.tile(np.arange(128) % 8 == 0, (128, 1)) + pillars(1e-3),
+    "heavy tails": np.random.default_rng(0).standard_t(4, (128, 128)),
+    "ten by ten": rough(n=64)[:10, :10],
+    "strip": rough()[:, :5],
+    "flat": np.zeros((9, 9)),
+    "profile": rough()[0],
+    "profile of grooves": (np.arange(512) % 64 < 2) + 0.01 * rough(n=512)[0],
+    "profile of five": np.arange(5.0),
+}
+
+
+@pytest.mark.parametrize("name", GOOD)
+def test_no_surface_has_spikes(name):
+    assert not find_spikes(GOOD[name]).any()
+
+
+@pytest.mark.parametrize("height", [20.0, -20.0, 1e6, 1e300])
+@pytest.mark.parametrize("name", ["rough", "smooth", "tilted", "eight bits", "pillars", "profile"])
+def test_a_spike_is_found_at_its_place(name, height):
+    heights = GOOD[name] + 0.0
+    height = height * np.ptp(heights) if abs(height) < 1e9 else height
+    place = (60, 70)[: heights.ndim]
+    heights[place] += height
+    np.testing.assert_array_equal(np.argwhere(find_spikes(heights)), [place])
+
+
+def test_up_to_three_may_touch_and_more_are_found_one_by_one():
+    heights = rough()
+    places = {(0, 0), (0, 127), (30, 30), (30, 31), (31, 30), *((90, j) for j in range(0, 128, 4))}
+    for place in places:
+        heights[place] += 1e3
+    assert set(map(tuple, np.argwhere(find_spikes(heights)))) == places
+
+
+def test_missing_points_are_no_spikes_and_no_neighbours():
+    heights = rough()
+    heights[40:44, 40:44] = np.nan
+    heights[10, 10] = np.inf
+    heights[41, 41] = 1e3  # alone amid missing points
+    heights[44, 44] = 1e3
+    assert set(map(tuple, np.argwhere(find_spikes(heights)))) == {(44, 44)}
+    assert not find_spikes(np.full((4, 4), np.nan)).any()
+
+
+def test_blocks_of_rows_join():
+    heights = rough(n=512)
+    for row in (255, 256, 257):
+        heights[row, 100] += 1e3
+    assert np.count_nonzero(find_spikes(heights)) == 3
+
+
+@pytest.mark.parametrize("spikes", ["mask", "keep"])
+def test_reading_masks_spikes_unless_told_otherwise(tmp_path, spikes):
+    heights = rough()
+    clean = topography.read(saved(tmp_path, heights), length="1 mm", height_unit="um")
+    heights[60, 70] = 1e6
+    found = topography.read(
+        saved(tmp_path, heights), length="1 mm", height_unit="um", spikes=spikes
+    )
+    all_points = 1e6 * 1e-6 / 128
+    assert found.h_rms_as_read("mean") == pytest.approx(all_points, rel=1e-3)
+    if spikes == "keep":
+        assert (found.spikes, found.missing, found.as_read) == (0, 0, None)
+        return
+    assert (found.spikes, found.missing) == (1, 1)
+    assert found.h_rms == pytest.approx(clean.h_rms, rel=1e-3)
+
+
+def test_a_word_that_is_neither_is_refused(tmp_path):
+    with pytest.raises(ValueError, match="spikes must be 'mask' or 'keep', got 'drop'"):
+        topography.read(saved(tmp_path, rough()), length="1 mm", height_unit="um", spikes="drop")
+
+
+def saved(folder, heights):
+    np.save(folder / "a.npy", heights)
+    return folder / "a.npy"
