@@ -14,12 +14,13 @@ from stickiness.measured.raw import Raw, metres
 
 _HEAD = 4096  # bytes by which SurfaceTopography tells formats
 _LONGEST = 200  # characters of a reader's own words
-# Names of channels that hold something else, where the file does not tell their unit.
+# Names of channels that hold something else, some of them in metres, unless they say height.
 _NO_HEIGHTS = re.compile(
     r"phase|error|deflection|amplitude|current|potential|friction|intensity|quality|confidence"
-    r"|adhesion|dissipation|stiffness|modulus|deformation",
+    r"|adhesion|dissipation|stiffness|modulus|deformation|thumbnail",
     re.IGNORECASE,
 )
+_HEIGHTS = re.compile(r"height|topo", re.IGNORECASE)
 
 
 def read(path: Path, fmt: str | None, channel: str | int | None) -> Raw:
@@ -29,10 +30,11 @@ def read(path: Path, fmt: str | None, channel: str | int | None) -> Raw:
     hold heights.
     """
     reader = _open(path, fmt)
-    info = _channel(reader, channel, path)
+    channels, default = _guard(path, lambda: (reader.channels, reader.default_channel))
+    info = default if channel is None else _channel(channels, channel, path)
     source = f"{path}: {info.name}"
     if not holds_heights(info):
-        heights = ", ".join(repr(c.channel_id) for c in reader.channels if holds_heights(c))
+        heights = ", ".join(repr(c.channel_id) for c in channels if holds_heights(c))
         raise ValueError(f"{source} holds no heights; channels that do: {heights or 'none'}")
     # If the file does not hold the size, the caller must give it; until then it is in pixels.
     known = info.physical_sizes is not None
@@ -56,7 +58,8 @@ def read(path: Path, fmt: str | None, channel: str | int | None) -> Raw:
 
 def holds_heights(channel) -> bool:
     """Whether a channel of SurfaceTopography's holds heights."""
-    if channel.unit is None and _NO_HEIGHTS.search(str(channel.name)):
+    name = str(channel.name).rsplit("/", 1)[-1]
+    if _NO_HEIGHTS.search(name) and not _HEIGHTS.search(name):
         return False
     # A pair stands for (lateral, data) where these differ in kind: no heights.
     return channel.is_height_channel and not isinstance(channel.unit, tuple)
@@ -90,8 +93,10 @@ def _likely(io, path: Path) -> list[str]:
     head = path.read_bytes()[:_HEAD]
     by_head = [r.format() for r in io.readers if str(r.can_read(head)).endswith("YES")]
     suffix = path.suffix.lower().lstrip(".")
-    by_name = [r.format() for r in io.readers if suffix in (r.file_extensions() or ())]
-    return by_head or by_name
+    named = [r for r in io.readers if suffix in (r.file_extensions() or ())]
+    if b"\0" in head:
+        named = [r for r in named if "text/plain" not in (r.mime_types() or ())]
+    return by_head or [r.format() for r in named]
 
 
 def _library():
@@ -109,9 +114,7 @@ def _guard(path: Path, call: Callable, fmt: str = ""):
             return call()
         except Exception as error:  # readers of broken files raise nearly anything
             words = " ".join(str(error).split())
-            reason = (
-                f"{type(error).__name__}: {words[:_LONGEST]}" if words else "it gives no reason"
-            )
+            reason = f"{type(error).__name__}: {words[:_LONGEST]}".removesuffix(": ")
             as_format = f" as {fmt}" if fmt else ""
             raise ValueError(
                 f"{path}: SurfaceTopography cannot read it{as_format} ({reason}); is the file "
@@ -119,11 +122,8 @@ def _guard(path: Path, call: Callable, fmt: str = ""):
             ) from error
 
 
-def _channel(reader, wanted: str | int | None, path: Path):
-    """Return the channel named (or counted from 0), else the file's default."""
-    channels = reader.channels
-    if wanted is None:
-        return reader.default_channel
+def _channel(channels, wanted: str | int, path: Path):
+    """Return the channel named, or counted from 0."""
     if isinstance(wanted, int) and 0 <= wanted < len(channels):
         return channels[wanted]
     named = [c for c in channels if wanted in (c.channel_id, c.name)]

@@ -41,7 +41,10 @@ def parse(path: Path) -> TextMatrix:
     """
     header, rows = split_header(decode(path.read_bytes()))
     if not rows:
-        raise ValueError(f"{path}: no line of numbers found; expected a matrix of heights")
+        raise ValueError(
+            f"{path}: no line of numbers found; expected a matrix of heights, or give format: "
+            "instrument if it is an instrument's file"
+        )
     text_header.check_factor(path, header)
     values = _matrix(path, rows)
     text_header.check_counts(path, header, values.shape)

@@ -104,7 +104,9 @@ def test_spectra_of_self_affine_surfaces_are_not(hurst):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", ["al3d-1.al3d", "di-3.di", "frt-2.frt", "matrix-3.txt", "tmd-1.tmd"])
+@pytest.mark.parametrize(
+    "name", ["al3d-1.al3d", "di-3.di", "frt-2.frt", "matrix-3.txt", "tmd-1.tmd"]
+)
 def test_files_of_instruments_are_not(name):
     if not (SHARED / name).is_file() or not readers.can_read_instruments():
         pytest.skip("needs the files of /work/shared/surfaces and SurfaceTopography")
