@@ -192,8 +192,8 @@ def remarks_on_files(heights):
     for one in heights:
         if one.spikes:
             found.append(
-                f"{one.spikes} points of {one.source} stand out from all their neighbours as "
-                "spikes and are not used (spikes: keep uses them)"
+                f"points of {one.source} far off all their neighbours, spikes, which are not used: "
+                f"{one.spikes} (spikes: keep uses them)"
             )
         if getattr(one, "cropped", 0):
             found.append(f"{one.cropped:.0%} of {one.source} cut off to leave no missing points")
@@ -202,7 +202,7 @@ def remarks_on_files(heights):
                 f"{one.dropped} points of {one.source} beside missing ones were measured and are "
                 "not used (missing_rim)"
             )
-        if one.missing:
+        if one.missing > one.spikes:
             found.append(
                 f"{one.missing_fraction:.1%} of the points of {one.source} were missing and are "
                 "interpolated, smoother than the surface"

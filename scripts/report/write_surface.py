@@ -16,6 +16,7 @@ from pipeline.verdicts.texts import say_verdict
 from stickiness.core import datasets
 from stickiness.core.statistics import COVERS
 from stickiness.criteria.moduli import crossings
+from stickiness.criteria.pair import NOT_JUDGED
 from stickiness.remaining.prediction import DEFAULT_SHARE
 
 CAPTION = """Levelled heights of the first measurement, and the spectrum: radial averages with their
@@ -77,6 +78,7 @@ def render(template, page, *, files, surface, pairs, materials, figure, bem=None
             for name in names
             if bem is not None
         ],
+        not_judged=[t for t in surface.attrs.get("not_judged", "").split("\n") if t],
         verdicts=[
             describe_verdict(pairs.sel(material=name), surface, materials[name]) for name in names
         ],
@@ -161,7 +163,7 @@ def describe_verdict(pair, surface, entry):
         "modulus": describe_modulus(entry),
         **describe_pair(pair),
         "rate": describe_rate(solid, pair, ends(pair.modulus_threshold))
-        if solid.depends_on_rate
+        if solid.depends_on_rate and int(pair.verdict) != NOT_JUDGED
         else NOTHING,
         "criteria": explain(pair, surface, solid.work_of_adhesion),
     }

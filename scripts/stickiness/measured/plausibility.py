@@ -119,7 +119,7 @@ def doubt_heights(heights: NDArray, fit: SelfAffineFit) -> Iterator[str]:
     """Doubts about a map as it stands, spikes included, and about its spectrum."""
     spikes = int(np.count_nonzero(find_spikes(heights)))
     if spikes:
-        yield f"{spikes} points stand out from all their neighbours as spikes: mask and fill them"
+        yield f"points far off all their neighbours, spikes: {spikes}; mask and fill them"
     yield from doubt_values(heights)
     yield from doubt_fit(fit)
 

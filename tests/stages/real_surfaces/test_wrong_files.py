@@ -293,8 +293,7 @@ def test_a_masked_spike_changes_nothing_and_is_told(tmp_path):
     found = analyse(array(changed((60, 70), value=1e6)), tmp_path)
     assert found.not_judged == ""
     assert int(found.masked_spikes) == 1
-    assert "1 points of" in found.remarks
-    assert "(spikes: keep uses them)" in found.remarks
+    assert "spikes, which are not used: 1 (spikes: keep uses them)" in found.remarks
     for name in ("h_rms", "h_rms_measured", "hurst", "elastic_energy"):
         np.testing.assert_allclose(found[name], clean[name], rtol=2e-3)
     # One point of 1 m in 128 x 128.

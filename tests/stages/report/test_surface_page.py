@@ -1,6 +1,7 @@
 """From a file to a page: measured surfaces as the workflow analyses and shows them."""
 
 import re
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -12,11 +13,12 @@ from pipeline import measured_loads, measured_surface
 from pipeline.pages import captions, surface_figure, surface_texts
 from pipeline.verdicts import joint
 from pipeline.verdicts.materials import read_material
+from pipeline.verdicts.words import find_doubts
 from real_surfaces import analyse_surface, contact_measured
 from report import write_surface
 from stickiness import surface
 from stickiness.core import datasets
-from stickiness.criteria.a_v_table import SurfaceAv
+from stickiness.criteria.pair import NOT_JUDGED
 from stickiness.measured import topography
 from stickiness.spectrum import SelfAffine
 
@@ -221,6 +223,61 @@ def test_page_shows_contact_with_adhesion_of_periodic_heights(single, folder):
     assert "The same contact with full adhesion" in text
     assert "100 kPa" in text
     assert "tapered" not in text
+
+
+def spoiled(path, values):
+    """The scan with some heights replaced, by row and column of the file."""
+    lines = Path(scan(path)).read_text(encoding="utf-8").splitlines()
+    for (row, column), value in values.items():
+        fields = lines[2 + row].split("\t")
+        lines[2 + row] = "\t".join([*fields[:column], str(value), *fields[column + 1 :]])
+    path.write_text("\n".join(lines), encoding="utf-8")
+    return str(path)
+
+
+def words_of(page):
+    return " ".join(re.sub(r"<(style|script)>.*?</\1>|<[^>]+>", " ", page, flags=re.S).split())
+
+
+def test_an_implausible_surface_is_not_judged_and_its_page_says_why(folder):
+    zeros = {(i, j): 0 for i in range(0, 128, 4) for j in range(0, 128, 5)}
+    found = analysed(folder / "zeros.nc", file=spoiled(folder / "zeros.txt", zeros))
+    pairs = judged(found).sel(surface="plate")
+    assert (pairs.verdict == NOT_JUDGED).all()
+    assert np.isnan(pairs.probability).all()
+    assert not pairs.disagrees.any()
+    text = words_of(page_of(found, folder))
+    assert "Not judged. The measurement has what no surface has" in text
+    assert "of the points have the one value 0" in text
+    assert "give missing_value: 0" in text
+    assert "does not stick" not in text
+    assert "sticks below" not in text
+    told = analysed(
+        folder / "told.nc", file=spoiled(folder / "zeros.txt", zeros), plausibility="ignore"
+    )
+    assert (judged(told).verdict != NOT_JUDGED).all()
+
+
+def test_a_pair_is_not_judged_if_the_surface_of_its_material_is_not(single, folder):
+    doubtful = single.assign_attrs(not_judged="a spike")
+    materials = {"a": read_material(MATERIALS["steel"]), "b": read_material(MATERIALS["steel"])}
+    materials["b"] = replace(materials["b"], surface="own")
+    doubts = find_doubts(materials, {"plate": single}, {"own": doubtful})
+    assert doubts.values.tolist() == [[""], ["a spike"]]
+
+
+def test_page_names_all_rms_heights_and_the_spikes(single, folder):
+    assert "the same with the points not used" not in words_of(page_of(single, folder))
+    found = analysed(folder / "spike.nc", file=spoiled(folder / "spike.txt", {(60, 70): 1e6}))
+    text = words_of(page_of(found, folder))
+    for words in (
+        *("rms height by the spectrum, up to q 1", "rms height of the levelled heights"),
+        *("the same with the points not used 7.8", "spikes, not used 1 points"),
+        "(spikes: keep uses them)",
+    ):
+        assert words in text
+    assert "not judged" not in text
+    np.testing.assert_allclose(found.h_rms, single.h_rms, rtol=1e-3)
 
 
 @pytest.mark.slow

@@ -108,8 +108,8 @@ def test_level_silent_criteria_and_what_is_not_published_are_taken():
         ),
         (
             [("range", "0.3 nm")],
-            """experiments.mine.range = '0.3 nm' must say how it is known: write {value: "0.3 nm", """
-            "known: measured}",
+            "experiments.mine.range = '0.3 nm' must say how it is known: write "
+            '{value: "0.3 nm", known: measured}',
         ),
         (
             [("radius", known("1 s"))],

@@ -133,7 +133,7 @@ def test_spikes_in_heights_are_warned_of():
     heights = surface.synthesise(rough, 128, 2 * np.pi / 6e3, 1)
     heights[40, 50] = 1e-3
     found = warnings_of(heights, 2 * np.pi / 6e3)
-    assert "1 points stand out from all their neighbours as spikes" in found
+    assert "points far off all their neighbours, spikes: 1" in found
     assert "the spectrum has H = -" in found
 
 
