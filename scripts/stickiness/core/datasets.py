@@ -74,6 +74,9 @@ def write(
         written_as="/".join(_place(path)),
         **provenance(),
     )
+    for name in dataset.variables:
+        if dataset[name].dtype.kind in "OU":  # texts joined keep the width of the first one's file
+            dataset[name].encoding = {}
     with whole_file(path) as temporary:
         try:
             dataset.to_netcdf(temporary, engine="netcdf4")

@@ -183,3 +183,13 @@ def test_a_folder_that_may_not_be_written_to_is_named(dataset, open_folder):
     finally:
         path.parent.chmod(0o755)
     assert path.read_bytes() == content
+
+
+def test_texts_that_are_joined_keep_their_length(tmp_path):
+    for name, text in (("a", ""), ("b", "a longer text")):
+        one = xr.Dataset({"t": ("x", np.array([text], dtype=object))})
+        one = datasets.annotate(one, t=("1", "text"))
+        datasets.write(one, tmp_path / f"{name}.nc", title="a", parameters={})
+    both = xr.concat([datasets.read(tmp_path / f"{name}.nc") for name in "ab"], "x")
+    datasets.write(both, tmp_path / "both.nc", title="a", parameters={})
+    assert datasets.read(tmp_path / "both.nc").t.values.tolist() == ["", "a longer text"]
