@@ -113,7 +113,7 @@ def _guard(path: Path, call: Callable, fmt: str = ""):
         try:
             return call()
         except Exception as error:  # readers of broken files raise nearly anything
-            words = " ".join(str(error).split())
+            words = " ".join(re.sub("'?<_io[^>]*>'?", "", str(error)).split())
             reason = f"{type(error).__name__}: {words[:_LONGEST]}".removesuffix(": ")
             as_format = f" as {fmt}" if fmt else ""
             raise ValueError(

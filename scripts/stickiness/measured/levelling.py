@@ -179,7 +179,9 @@ def complete_run(known: NDArray, source: str = "heights") -> slice:
 def _check_missing(hole: NDArray, max_missing: float, source: str) -> int:
     missing = int(np.count_nonzero(hole))
     share = missing / hole.size
-    if missing == hole.size or share > max_missing:
+    if missing == hole.size:
+        raise ValueError(f"{source}: {missing} of {hole.size} points, which are all, are missing")
+    if share > max_missing:
         raise ValueError(
             f"{source}: {missing} of {hole.size} points ({share:.1%}) are missing, more than "
             f"the {max_missing:.1%} that are filled; cut them off with missing: crop, measure "

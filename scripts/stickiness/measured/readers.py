@@ -22,7 +22,7 @@ OWN_FORMATS = ("netcdf", "numpy", "text")
 INSTALL = "pip install -c envs/constraints.txt -r envs/instruments.txt"
 
 _SUFFIXES = {".nc": "netcdf", ".nc4": "netcdf", ".cdf": "netcdf", ".npz": "numpy", ".npy": "numpy"}
-_TEXT_OF_INSTRUMENTS = (".xyz", ".hfm", ".sdf", ".nms")  # readable, but no matrix of heights
+_TEXT_OF_INSTRUMENTS = (".hfm", ".sdf", ".nms")  # readable, but no matrix of heights
 _UTF16 = (b"\xff\xfe", b"\xfe\xff")
 _X_NAMES = ("x", "lon", "longitude", "easting")
 _Y_NAMES = ("y", "lat", "latitude", "northing")

@@ -135,7 +135,10 @@ REFUSED = {
     "a strip": (array(np.tile(ROUGH[:, :20], (9, 1))), ["1152 x 20 points", "64 points along its"]),
     "a short profile": (array(ROUGH[0, :30]), ["of 30 points", "a profile 256"]),
     "flat": (array(np.ones((N, N))), ["all heights are 1e-06 m; nothing to analyse"]),
-    "all missing": (array(np.full((N, N), np.nan)), ["100.0%", "missing"]),
+    "all missing": (
+        array(np.full((N, N), np.nan)),
+        ["16384 of 16384 points, which are all, are missing"],
+    ),
     "half missing": (
         array(np.where(ROUGH > 0, np.nan, ROUGH)),
         ["are missing, more than the 10.0% that are filled", "missing: crop"],
