@@ -150,7 +150,9 @@ def _read_numpy(path: Path, variable: str | None) -> Raw:
     try:
         loaded = np.load(path, allow_pickle=False)
     except (OSError, ValueError) as error:
-        raise ValueError(f"{path}: not a readable numpy file ({error})") from error
+        # numpy takes what it does not know for a pickle, and advises to load it all the same.
+        reason = "it holds no plain array" if "pickle" in str(error) else error
+        raise ValueError(f"{path}: not a readable numpy file ({reason})") from error
     if isinstance(loaded, np.ndarray):
         if loaded.ndim not in (1, 2):
             raise ValueError(

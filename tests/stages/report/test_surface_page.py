@@ -11,7 +11,9 @@ import xarray as xr
 from criteria import judge_surface
 from pipeline import measured_loads, measured_surface
 from pipeline.pages import captions, surface_figure, surface_texts
+from pipeline.pages.verdict_texts import describe_pair
 from pipeline.verdicts import joint
+from pipeline.verdicts.markdown import write_markdown
 from pipeline.verdicts.materials import read_material
 from pipeline.verdicts.words import find_doubts
 from real_surfaces import analyse_surface, contact_measured
@@ -252,6 +254,16 @@ def test_an_implausible_surface_is_not_judged_and_its_page_says_why(folder):
     assert "give missing_value: 0" in text
     assert "does not stick" not in text
     assert "sticks below" not in text
+    assert (
+        describe_pair(pairs.sel(material="gel")).keys()
+        == (
+            describe_pair(
+                judged(found.assign_attrs(not_judged="")).sel(material="gel", surface="plate")
+            )
+        ).keys()
+    )
+    table = write_markdown(judged(found), MATERIALS, {"plate": "plate"})
+    assert "| steel | plate | not judged | – |" in table
     told = analysed(
         folder / "told.nc", file=spoiled(folder / "zeros.txt", zeros), plausibility="ignore"
     )

@@ -1,10 +1,12 @@
 """Files as instruments wrote them, line profiles, channels, units and missing points."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 import xarray as xr
 
-from stickiness.measured import levelling, readers, topography
+from stickiness.measured import instruments, levelling, readers, topography
 
 VOID = 32767
 
@@ -131,6 +133,26 @@ def test_channels_are_of_instruments(tmp_path):
     (tmp_path / "a.txt").write_text("1 2 3\n4 5 6\n")
     with pytest.raises(ValueError, match=r"a\.txt: a text file has no channels"):
         topography.read(tmp_path / "a.txt", channel="Height")
+
+
+@pytest.mark.parametrize(
+    ("name", "unit", "is_height", "holds"),
+    [
+        ("Height", "m", True, True),
+        ("ZSensor", "nm", True, True),
+        ("Height (measured, retrace)", "m", True, True),
+        ("Error corrected height", "m", True, True),
+        ("Default", None, True, True),
+        ("Phase", None, True, False),
+        ("Measurement_000/Channel_000/Error", None, True, False),
+        ("Lock-In Amplitude", "m", True, False),
+        ("Adhesion", ("nm", "V"), True, False),
+        ("UserIn0", "m", False, False),
+    ],
+)
+def test_channels_of_heights(name, unit, is_height, holds):
+    channel = SimpleNamespace(name=name, unit=unit, is_height_channel=is_height)
+    assert instruments.holds_heights(channel) == holds
 
 
 # Line profiles
