@@ -12,19 +12,18 @@ from pipeline.theory import evaluate, theories
 from stickiness.accuracy.error_models import read_models
 from stickiness.core import datasets
 from stickiness.core.budget import with_budget
-from stickiness.persson.theory import Persson
 
 
 def main(job):
     sweep, ranges = job.params.sweep, logarithmic_grid(job.params.gaps)
-    named = theories(job.params.variants, job.params.gamma)
-    axes = list(named), sweep["hurst"], [float(m) for m in sweep["magnification"]]
     parts = []
-    for variant, *at in product(*axes):
-        at = dict(zip(("hurst", "magnification"), at, strict=True))
-        contact = evaluate_sweep(Persson(model_spectrum(at), **named[variant]), sweep, ranges)
+    for hurst, magnification in product(sweep["hurst"], map(float, sweep["magnification"])):
+        at = {"hurst": hurst, "magnification": magnification}
         axis = {name: [value] for name, value in at.items()}
-        parts.append(contact.expand_dims(variant=[variant], **axis))
+        named = theories(model_spectrum(at), job.params.variants, job.params.gamma)
+        for variant, theory in named.items():
+            contact = evaluate_sweep(theory, sweep, ranges)
+            parts.append(contact.expand_dims(variant=[variant], **axis))
     dataset, models = annotate(xr.combine_by_coords(parts)), read_models(job.input.laws)
     for name in QUADRATURE:
         value = dataset[name].assign_coords(pressure=dataset.pressure)
