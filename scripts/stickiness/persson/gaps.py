@@ -49,7 +49,8 @@ def gap_profile(setting: Setting, p: float, reach: float) -> GapProfile:
     curve = setting.curve(p)
     y_end = curve.y_end
     edges, change, thinned = _panel_edges(setting, curve, reach)
-    log_step, weight = _panel_nodes(edges, change)
+    few = len(change) < _MANY_PANELS * setting.nodes
+    log_step, weight = _panel_nodes(edges, change, few)
     lost = LostContact.at(setting, p, y_end, log_step)
     gap = np.exp(curve.log_gap(log_step, lost))
     width = _width(setting, lost, gap)
@@ -63,10 +64,9 @@ def gap_profile(setting: Setting, p: float, reach: float) -> GapProfile:
     return GapProfile(weight * area_per_log_step, gap, width, closed)
 
 
-def _panel_nodes(edges: NDArray, change: NDArray) -> tuple[NDArray, NDArray]:
+def _panel_nodes(edges: NDArray, change: NDArray, few: bool) -> tuple[NDArray, NDArray]:
     """Gauss-Legendre nodes, in order, and weights; fewer on panels that see little change."""
     at, weights, left = [], [], np.ones(len(change), dtype=bool)
-    few = len(change) < _MANY_PANELS
     for least, (x, w) in _RULES.items():
         chosen = left & ((change >= least) | few)
         left &= ~chosen
@@ -158,9 +158,8 @@ def _breaks(setting: Setting, p: float, y_end: float) -> tuple[NDArray, NDArray]
     chosen = np.flatnonzero(matter)[np.argsort(jump[matter])[::-1][:most]]
     strong = chosen[jump[chosen] > _STRONG] if shells else chosen[:0]
     depth = (p / erf(y[strong])) ** 2 / _ONSETS[:, None]
-    if setting.variant == "almqvist2011":
-        finer = 0.5 * q[strong] ** 2 * spectrum.variance_above(q[strong])
-        depth = np.concatenate([depth, finer * _SHARES[:, None]])
+    finer = 0.5 * q[strong] ** 2 * spectrum.variance_above(q[strong])
+    depth = np.concatenate([depth, finer * _SHARES[:, None]])
     before = np.maximum(m[strong] - depth, 1e-3 * m[strong]).ravel()
     near = setting.kernels.invert_area_scale(before / p**2)
     return np.log(y[chosen] - y_end), np.log(near[near > y_end] - y_end)
