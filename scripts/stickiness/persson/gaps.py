@@ -93,8 +93,11 @@ def _width(setting: Setting, lost: LostContact, gap: NDArray) -> NDArray:
     _, variance = spectrum.at_gradient_variance(2 * lost.m)
     # Next to the finest scale the height variance is the difference of nearly equal numbers;
     # there q hardly varies.
-    q, _ = spectrum.at_gradient_variance(2 * (m2 - 0.5 * lost.rest))
-    h = np.sqrt(np.where(lost.rest < 1e-6 * m2, 2 * lost.rest / q**2, variance))
+    finest = lost.rest < 1e-6 * m2
+    rest = lost.rest[finest]
+    q, _ = spectrum.at_gradient_variance(2 * (m2 - 0.5 * rest))
+    variance[finest] = 2 * rest / q**2
+    h = np.sqrt(variance)
     if setting.variant == "almqvist2011":
         return h
     return gap * h / np.hypot(gap, h)
