@@ -19,7 +19,6 @@ from typing import ClassVar, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy.interpolate import CubicHermiteSpline
 from scipy.special import erf, exp1
 
 CorrectionName = Literal["yang2008", "wang2017", "xu2024"]
@@ -158,12 +157,15 @@ class EvenTable:
     """
 
     def __init__(self, x: NDArray, value: NDArray, slope: NDArray):
-        spline, self._step = CubicHermiteSpline(x, value, slope), (x[-1] - x[0]) / (len(x) - 1)
-        self.x, self._last = x, len(x) - 2
-        # Of the powers 3 to 0 of the distance in steps, a row for each step.
-        self._rows = np.ascontiguousarray((spline.c.T * self._step ** np.arange(3, -1, -1)))
+        self.x, self._last, self._step = x, len(x) - 2, (x[-1] - x[0]) / (len(x) - 1)
+        start, rise, per_step = value[:-1], np.diff(value), slope * self._step
+        first, last = per_step[:-1], per_step[1:]
+        # Factors of the powers 3 to 0 of the distance in steps, a row for each step.
+        cubic, square = first + last - 2 * rise, 3 * rise - 2 * first - last
+        self._rows = np.stack([cubic, square, first, start], axis=1)
 
     def __call__(self, x: NDArray) -> NDArray:
+        """Return the values at `x`."""
         distance = (x - self.x[0]) / self._step
         place = np.minimum(np.maximum(distance, 0.0).astype(np.intp), self._last)
         distance = distance - place

@@ -1,10 +1,10 @@
 """Scales at which contact is lost under one load, and the gap u1 that each loss opens.
 
-u1 is a sum over all finer scales, far dearer than anything else the distribution of gaps needs, yet
-smooth: a shell of a discrete spectrum sets in with all its derivatives zero. Quadrature nodes on the
-other hand keep to every step of q(m), for the widths of the Gaussians have kinks there. So ln u1 is
-summed at Chebyshev points of panels that are halved until the series has converged, and
-interpolated at the nodes. It knows no variant of the theory: all of them share it.
+u1 is a sum over all finer scales, far dearer than anything else that the distribution of gaps
+needs, yet smooth: a shell of a discrete spectrum sets in with all its derivatives zero. Quadrature
+nodes on the other hand keep to every step of q(m), for the widths of the Gaussians have kinks
+there. So ln u1 is summed at Chebyshev points of panels that are halved until the series has
+converged, and interpolated at the nodes. All variants of the theory share it.
 """
 
 from __future__ import annotations
@@ -61,6 +61,7 @@ class LostContact:
 
     @classmethod
     def at(cls, setting: Setting, p: float, y_end: float, log_step: NDArray) -> LostContact:
+        """At values of ln(y - y_end), in order."""
         step = np.exp(log_step)
         rest = p**2 * setting.kernels.area_scale_step(y_end, step)
         y = y_end + step
@@ -72,7 +73,10 @@ class LostContact:
 
 @dataclass(frozen=True)
 class GapCurve:
-    """Ln u1 against ln(y - y_end) at one load: Chebyshev series of its smooth part on panels."""
+    """Ln u1 against ln(y - y_end) at one load: Chebyshev series of its smooth part on panels.
+
+    Errs by some 1e-7 with the default number of nodes, like the sum over scales itself.
+    """
 
     p: float
     y_end: float  # A = erf(y_end) at the finest resolution

@@ -27,8 +27,7 @@ def table():
     theory = theory.merge(persson_table.infinite(AXES, RANGES, GAMMA))
     theory["quadrature_error"] = persson_table.quadrature_error(AXES, RANGES, GAMMA)
     dataset = theory.isel(variant=0).merge(tabulate_a_v.reach(theory))
-    dataset = dataset.merge(tabulate_a_v.simulated([comparison(RATIO), comparison(RATIO)]))
-    return dataset
+    return dataset.merge(tabulate_a_v.simulated([comparison(RATIO), comparison(RATIO)]))
 
 
 def comparison(ratio, error=RATIO_ERROR, zeta=32, loads=(0.01, 0.1)):
