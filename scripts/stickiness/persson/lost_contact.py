@@ -88,7 +88,7 @@ class GapCurve:
         """Sum u1 on panels halved until the last terms of each series are small."""
         y_end = float(setting.kernels.invert_area_scale(setting.m2 / p**2))
         low, high = visible_range(setting, y_end)
-        tolerance = max(1e-7 * setting.nodes**-8, 1e-10)
+        tolerance = max(1e-7 * setting.nodes**-6, 1e-10)
         edges = np.linspace(low, high, 1 + int(np.ceil((high - low) * setting.nodes / _WIDTH)))
         panels, done = np.stack([edges[:-1], edges[1:]], axis=1), []
         while len(panels):
