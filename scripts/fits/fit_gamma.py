@@ -8,7 +8,6 @@ drawn with its cases when confidence intervals are taken.
 import numpy as np
 import xarray as xr
 from scipy.interpolate import CubicSpline
-from scipy.optimize import minimize_scalar
 
 from pipeline.conventions import cell_size, model_spectrum
 from pipeline.job import start
@@ -129,9 +128,9 @@ def fit(cases, draws, correction, quantity):
     )
     curve = CubicSpline(np.log(GRID), as_found[0])
     best = lowest(curve)
-    gammas = [lowest(CubicSpline(np.log(GRID), row)) for row in drawn]
+    gammas = lowest(CubicSpline(np.log(GRID), drawn, axis=1))
     ends = np.quantile(gammas, [0.5 - CONFIDENCE / 2, 0.5 + CONFIDENCE / 2])
-    spread = np.quantile(np.abs(np.array(gammas) - best), 0.9)
+    spread = np.quantile(np.abs(gammas - best), 0.9)
     own = correction_of(CORRECTIONS[correction]).gamma
     misfits = [np.sqrt(max(float(curve(np.log(gamma))), 0.0)) for gamma in (best, own)]
     return best, *ends, spread, *misfits
@@ -167,10 +166,20 @@ def mean_squares(cases, name, correction, chosen, off):
     return moved.mean(axis=1)
 
 
-def lowest(curve):
-    """Gamma at the lowest point of a curve over ln gamma, within the grid."""
-    bounds = np.log(GRID[[0, -1]])
-    return float(np.exp(minimize_scalar(curve, bounds=bounds, method="bounded").x))
+def lowest(curves):
+    """Gamma at the lowest point of one or several cubic splines over ln gamma, within the grid."""
+    cubic, square, slope, level = curves.c
+    length = np.diff(curves.x).reshape(-1, *[1] * (slope.ndim - 1))
+    # Both zeros of 3 cubic x^2 + 2 square x + slope, in the form without cancellation.
+    with np.errstate(invalid="ignore", divide="ignore"):
+        half = -(square + np.copysign(np.sqrt(square**2 - 3 * cubic * slope), square))
+        zeros = np.stack([half / (3 * cubic), slope / half])
+    inside = np.where((zeros > 0) & (zeros < length), zeros, 0.0)
+    at = np.concatenate([inside, length * np.ones_like(inside[:1])])
+    values = ((cubic * at + square) * at + slope) * at + level
+    at += curves.x[:-1].reshape(length.shape)
+    at, values = (part.reshape(-1, *slope.shape[1:]) for part in (at, values))
+    return np.exp(np.take_along_axis(at, values.argmin(axis=0)[None], axis=0)[0])
 
 
 def annotate(dataset):

@@ -10,7 +10,6 @@ from pipeline.theory import evaluate, theories
 from stickiness.accuracy.error_models import read_models
 from stickiness.core import datasets
 from stickiness.core.budget import with_budget
-from stickiness.persson.theory import Persson
 from stickiness.surfaces.synthesis import lattice_spectrum
 
 
@@ -18,8 +17,8 @@ def main(job):
     asked = job.params.surface
     lattice = lattice_spectrum(model_spectrum(asked), cell_size(asked))
     pressures, ranges = np.sort(job.params.pressures), logarithmic_grid(job.params.gaps)
-    named = theories(job.params.variants, job.params.gamma)
-    parts = [evaluate(Persson(lattice, **options), pressures, ranges) for options in named.values()]
+    named = theories(lattice, job.params.variants, job.params.gamma)
+    parts = [evaluate(theory, pressures, ranges) for theory in named.values()]
     names = xr.DataArray(list(named), dims="variant", name="variant")
     dataset = xr.concat(parts, names).assign(rms_slope=lattice.rms_slope)
     text = "rms gradient of the lattice spectrum over q0 h_rms"

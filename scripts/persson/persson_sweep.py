@@ -12,20 +12,19 @@ from pipeline.theory import evaluate, theories
 from stickiness.accuracy.error_models import read_models
 from stickiness.core import datasets
 from stickiness.core.budget import with_budget
-from stickiness.persson.theory import Persson
 
 
 def main(job):
     sweep, ranges = job.params.sweep, logarithmic_grid(job.params.gaps)
-    named = theories(job.params.variants, job.params.gamma)
-    axes = list(named), sweep["hurst"], [float(m) for m in sweep["magnification"]]
+    axes = {name: np.array(sweep[name], dtype=float) for name in ("hurst", "magnification")}
     parts = []
-    for variant, *at in product(*axes):
-        at = dict(zip(("hurst", "magnification"), at, strict=True))
-        contact = evaluate_sweep(Persson(model_spectrum(at), **named[variant]), sweep, ranges)
-        axis = {name: [value] for name, value in at.items()}
-        parts.append(contact.expand_dims(variant=[variant], **axis))
-    dataset, models = annotate(xr.combine_by_coords(parts)), read_models(job.input.laws)
+    for at in product(*axes.values()):
+        spectrum = model_spectrum(dict(zip(axes, map(float, at), strict=True)))
+        named = theories(spectrum, job.params.variants, job.params.gamma)
+        parts += [evaluate_sweep(theory, sweep, ranges) for theory in named.values()]
+    axes["variant"] = list(named)
+    dataset = stack(parts, axes).sortby(list(axes)).transpose("variant", ...)
+    dataset, models = annotate(dataset), read_models(job.input.laws)
     for name in QUADRATURE:
         value = dataset[name].assign_coords(pressure=dataset.pressure)
         dataset = with_budget(dataset, name, **theory_parts(models, name, value))
@@ -35,6 +34,16 @@ def main(job):
         title="Persson's theory on continuous self-affine spectra",
         parameters={**sweep, "variants": job.params.variants, "gamma": job.params.gamma},
     )
+
+
+def stack(parts, axes):
+    """Datasets in the order of the product of all axes as one; far sooner than by xarray."""
+    shape = tuple(map(len, axes.values()))
+    data = {}
+    for name, first in parts[0].data_vars.items():
+        values = np.array([part[name].values for part in parts])
+        data[name] = (*axes, *first.dims), values.reshape(*shape, *first.shape)
+    return xr.Dataset(data, coords=parts[0].coords.assign(axes))
 
 
 def evaluate_sweep(theory, sweep, ranges):

@@ -19,7 +19,7 @@ from stickiness.criteria.a_v_table import edge_range, local_a_v
 from stickiness.persson.theory import Persson
 
 AXES = ("hurst", "magnification", "pressure")
-OTHER_VARIANT = "almqvist2011"
+VARIANTS = (VARIANT, "almqvist2011")
 # There the area within the smallest range of contact, the contact included, has converged to 1e-5
 # for H from 0.3 to 1; contact itself vanishes, be it as slowly as 1/sqrt(ln zeta) for H = 1.
 INFINITE = 1e36
@@ -30,61 +30,60 @@ REFERENCE_NODES = 1.0
 def main(job):
     asked, gamma = job.params.table, job.params.gamma
     ranges = logarithmic_grid(asked["range"])
-    named = theories((VARIANT, OTHER_VARIANT), gamma)
-    names, options = list(named), list(named.values())
     axes = {name: np.array(asked[name], dtype=float) for name in AXES}
-    dataset = finite(axes, ranges, options).merge(infinite(axes, ranges, options))
+    dataset = finite(axes, ranges, gamma).merge(infinite(axes, ranges, gamma))
     dataset["quadrature_error"] = quadrature_error(axes, ranges, gamma)
-    dataset = annotate(dataset.assign_coords(variant=names, range=ranges))
+    dataset = annotate(dataset)
     datasets.write(
         add_budgets(dataset, read_models(job.input.laws)),
         job.output[0],
         title="a_V by Persson's theory on self-affine spectra",
-        parameters={**asked, "gamma": gamma, "quoted": names[0]},
+        parameters={**asked, "gamma": gamma, "quoted": VARIANT},
     )
 
 
-def finite(axes, ranges, options):
+def finite(axes, ranges, gamma):
     """a_V, edge range and the estimate of Pastewka and Robbins, at every magnification."""
     shape = tuple(map(len, axes.values()))
-    a_v = np.empty((len(options), *shape, len(ranges)))
-    edge, robbins = np.empty(shape), np.empty(shape[:2])
+    rows, edge, robbins = [], np.empty(shape), np.empty(shape[:2])
     for (i, hurst), (j, magnification) in product(
         enumerate(axes["hurst"]), enumerate(axes["magnification"])
     ):
         spectrum = self_affine(hurst, magnification)
-        a_v[:, i, j] = a_v_of(spectrum, axes["pressure"], ranges, options)
-        edge[i, j] = [edge_range(ranges, *pair) for pair in zip(*a_v[:2, i, j], strict=True)]
+        named = theories(spectrum, VARIANTS, gamma, NODES)
+        a_v = a_v_of(named.values(), axes["pressure"], ranges)
+        edge[i, j] = [edge_range(ranges, *pair) for pair in zip(*a_v[:2], strict=True)]
+        rows.append(a_v)
         moments = spectrum.rms_slope, spectrum.rms_curvature
         robbins[i, j] = criteria.pastewka_robbins_a_v(1.0, 1.0, *moments)
         logging.info("H = %g, zeta = %g", hurst, magnification)
+    a_v = np.stack(rows, axis=1).reshape(len(named), *shape, len(ranges))
     data = {
         "a_v": (("variant", *axes, "range"), a_v),
         "edge_range": (tuple(axes), edge),
         "edge_a_v": (("hurst", "magnification"), robbins),
     }
-    return xr.Dataset(data, coords=axes)
+    return xr.Dataset(data, coords={**axes, "variant": list(named), "range": ranges})
 
 
-def infinite(axes, ranges, options):
+def infinite(axes, ranges, gamma):
     """a_V in the limit of infinite magnification.
 
     There contact vanishes and all that was contact lies within the range: with the contact, the
     area converges far sooner.
     """
-    rows = [
-        a_v_of(self_affine(hurst, INFINITE), axes["pressure"], ranges, options, contact=True)
-        for hurst in axes["hurst"]
-    ]
+    rows = []
+    for hurst in axes["hurst"]:
+        named = theories(self_affine(hurst, INFINITE), VARIANTS, gamma, NODES)
+        rows.append(a_v_of(named.values(), axes["pressure"], ranges, contact=True))
     dims = ("variant", "hurst", "pressure", "range")
     return xr.Dataset({"a_v_limit": (dims, np.stack(rows, axis=1))})
 
 
-def a_v_of(spectrum, pressures, ranges, options, contact=False, nodes=NODES):
-    """a_V, (variant, pressure, range), with or without the contact itself."""
+def a_v_of(theories, pressures, ranges, contact=False):
+    """a_V, (theory, pressure, range), with or without the contact itself."""
     rows = []
-    for chosen in options:
-        theory = Persson(spectrum, nodes=nodes, **chosen)
+    for theory in theories:
         area = theory.gap_cumulative(ranges, pressures)
         if contact:
             area = area + theory.area_fraction(pressures)[:, None]
@@ -95,12 +94,11 @@ def a_v_of(spectrum, pressures, ranges, options, contact=False, nodes=NODES):
 def quadrature_error(axes, ranges, gamma):
     """Largest relative change from more nodes, at the ends of the table and for infinite zeta."""
     ends = [axes["hurst"][[0, -1]], [*axes["magnification"][[0, -1]], INFINITE]]
-    quoted = [{"variant": VARIANT, "gamma": gamma}]
     pressures, changes = axes["pressure"][[0, -1]], []
     for hurst, magnification in product(*ends):
         spectrum = self_affine(hurst, magnification)
-        given = spectrum, pressures, ranges, quoted
-        few, many = (a_v_of(*given, nodes=nodes) for nodes in (NODES, REFERENCE_NODES))
+        both = [Persson(spectrum, VARIANT, gamma, nodes) for nodes in (NODES, REFERENCE_NODES)]
+        few, many = a_v_of(both, pressures, ranges)
         changes.append(np.abs(few / many - 1).max())
     return max(changes)
 

@@ -1,24 +1,29 @@
 """Variants and corrections of Persson's theory that stages compute beside each other."""
 
-from collections.abc import Iterable
-from typing import Any
+from collections.abc import Sequence
 
 import numpy as np
 import xarray as xr
 
 from pipeline.conventions import VARIANT, middles
 from stickiness.persson.kernels import CORRECTIONS
+from stickiness.persson.theory import Persson
+from stickiness.surfaces.spectrum import Spectrum
 
 
-def theories(variants: Iterable[str], gamma: float) -> dict[str, dict[str, Any]]:
-    """Arguments of `Persson` by names.
+def theories(
+    spectrum: Spectrum, variants: Sequence[str], gamma: float, nodes: float = 1.0
+) -> dict[str, Persson]:
+    """Theories of a spectrum by names; `nodes` is that of `Persson`.
 
     The variants asked for with the correction of Yang & Persson and `gamma`, then the quoted
     variant with the other corrections, each with its source's own gamma.
     """
-    found = {name: {"variant": name, "gamma": gamma} for name in variants}
+    first = Persson(spectrum, variants[0], gamma, nodes)
+    found = {name: first.with_variant(name) for name in variants}
     for correction in CORRECTIONS[1:]:
-        found[f"{VARIANT}, {correction}"] = {"variant": VARIANT, "correction": correction}
+        name = f"{VARIANT}, {correction}"
+        found[name] = Persson(spectrum, VARIANT, nodes=nodes, correction=correction)
     return found
 
 

@@ -111,16 +111,12 @@ def theory_a_v(
     """
     ranges = np.asarray(ranges, dtype=float)
     h_rms, q0 = spectrum.h_rms, float(spectrum.q0 if q0 is None else q0)
-    resolved = [
-        local_a_v(
-            Persson(spectrum, variant=variant, gamma=gamma).gap_cumulative(
-                ranges * h_rms, pressure * q0 * h_rms
-            ),
-            pressure,
-            ranges,
-        )
+    theory = Persson(spectrum, gamma=gamma)
+    areas = [
+        theory.with_variant(variant).gap_cumulative(ranges * h_rms, pressure * q0 * h_rms)
         for variant in VARIANTS
     ]
+    resolved = [local_a_v(area, pressure, ranges) for area in areas]
     edge = edge_range(ranges, *resolved)
     at_edge = np.exp(np.interp(np.log(edge), np.log(ranges), np.log(resolved[0])))
     a_v = [np.where(ranges < edge, at_edge, a) for a in resolved]

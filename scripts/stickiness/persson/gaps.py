@@ -8,22 +8,27 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.special import erf, erfc
 
-from stickiness.persson.kernels import Kernels
-from stickiness.persson.scale_quadrature import ScaleNodes, knots
-from stickiness.surfaces.spectrum import Shells, Spectrum
+from stickiness.persson.lost_contact import TAIL_LOG, GapCurve, LostContact, Setting, visible_range
+from stickiness.persson.scale_quadrature import knots
+from stickiness.surfaces.spectrum import Shells
 
-_SMALLEST_LOG = 45.0  # gaps below exp(-45) of the others count as zero
-_TAIL_LOG = 38.0  # area lost beyond holds less than exp(-38) of what is lost in all
-_ORDER = 10  # of Gauss quadrature on panels
+# Gauss quadrature, by the least change that a panel sees.
+_RULES = {
+    least: np.polynomial.legendre.leggauss(order)
+    for least, order in {0.3: 10, 0.08: 5, 0.015: 3, 0.0: 2}.items()
+}
+_MANY_PANELS = 100  # with fewer, next to a strong shell, all have the first of these rules
 _PANEL = 1.4  # change over a panel, see `_panel_edges`
 _MOST_MOVES = 2000  # panels laid for Gaussians that move by many of their widths
-_MANY_PANELS = 350  # from there on those that see little change get half the nodes
 _LOOK, _LOOK_FAR = 0.2, 0.5  # steps in ln(y - y_end) and y^2 of the look that panels are laid by
 _MOST_SHELLS, _MOST_KNOTS = 600, 250  # that edges of panels keep to
 _STRONG = 0.02  # step of ln q from shell to shell that the approach to a shell shows
 _ONSETS = np.geomspace(1.5, 96.0, 13)  # of exp(-p^2/(m_shell - m)), negative exponents
 _SHARES = np.geomspace(0.03, 30.0, 7)  # height variance left in a shell over the finer ones'
-_BLOCK = 16  # values of m that share a set of nodes
+_FAR, _BLOCK = (
+    9.5,
+    10,
+)  # widths from which on a Gaussian is nothing; gaps that are looked at together
 _NARROWEST = 1e-150  # Gaussians that much narrower than the widest are points
 
 
@@ -37,38 +42,6 @@ class GapProfile:
     closed: float  # share whose gap and width are below exp(-45) of the others', not in `weight`
 
 
-@dataclass(frozen=True)
-class Setting:
-    """A surface as the theory sees it, at no particular load."""
-
-    spectrum: Spectrum
-    kernels: Kernels
-    scales: ScaleNodes
-    m2: float  # profile variance of the gradient of the whole surface
-    variant: str  # see `persson.Persson`
-    nodes: float  # multiplies the number of quadrature nodes
-
-
-@dataclass(frozen=True)
-class _LostContact:
-    """Contact lost at the scales where A = erf(y), y = y_end + step: what P(u) is made of."""
-
-    y: NDArray
-    step: NDArray
-    m: NDArray
-    rest: NDArray  # M - m
-
-    @classmethod
-    def at(cls, setting: Setting, p: float, y_end: float, log_step: NDArray) -> _LostContact:
-        step = np.exp(log_step)
-        rest = p**2 * setting.kernels.area_scale_step(y_end, step)
-        y = y_end + step
-        return cls(y, step, p**2 * setting.kernels.area_scale(y), rest)
-
-    def __getitem__(self, part: slice) -> _LostContact:
-        return _LostContact(self.y[part], self.step[part], self.m[part], self.rest[part])
-
-
 def gap_profile(setting: Setting, p: float, reach: float) -> GapProfile:
     """Quadrature of P(u) over the scales where contact is lost, for gaps up to `reach` h_rms.
 
@@ -76,87 +49,64 @@ def gap_profile(setting: Setting, p: float, reach: float) -> GapProfile:
     exp(-p(m)^2/(M - m)), and in y at the coarse one, where it grows as exp(y^2). Panels are
     laid so that no Gaussian is much narrower than one of them.
     """
-    y_end = float(setting.kernels.invert_area_scale(setting.m2 / p**2))
-    edges, change, thinned = _panel_edges(setting, p, y_end, reach)
-    start, log_step, weight = _panel_nodes(edges, change)
-    lost = _LostContact.at(setting, p, y_end, log_step)
-    gap = np.exp(_log_gap(setting, p, lost))
+    curve = setting.curve(p)
+    y_end = curve.y_end
+    edges, change, thinned = _panel_edges(setting, curve, reach)
+    few = len(change) < _MANY_PANELS * setting.nodes
+    log_step, weight = _panel_nodes(edges, change, few)
+    lost = LostContact.at(setting, p, y_end, log_step)
+    gap = np.exp(curve.log_gap(log_step, lost))
     width = _width(setting, lost, gap)
     if thinned:  # narrower than they are apart they would make a comb of P(u)
         apart = np.where(gap < reach * setting.spectrum.h_rms, np.abs(np.gradient(gap)), 0.0)
         width = np.maximum(width, apart)
     area_per_log_step = 2 / np.sqrt(np.pi) * np.exp(-(lost.y**2)) * lost.step
     # of the two complementary differences the one with more digits
-    ends = np.array([y_end, y_end + np.exp(start)])
+    ends = np.array([y_end, y_end + np.exp(edges[0])])
     closed = float(np.diff(erf(ends))[0] if y_end < 0.5 else -np.diff(erfc(ends))[0])
     return GapProfile(weight * area_per_log_step, gap, width, closed)
 
 
-def _panel_nodes(edges: NDArray, change: NDArray) -> tuple[float, NDArray, NDArray]:
-    """Gauss-Legendre nodes, in order, and weights; fewer where many panels see little change."""
-    full = (change > 0.3) | (len(edges) < _MANY_PANELS)
-    at, weights = [], []
-    for chosen, order in ((full, _ORDER), (~full, _ORDER // 2)):
-        x, w = np.polynomial.legendre.leggauss(order)
+def _panel_nodes(edges: NDArray, change: NDArray, few: bool) -> tuple[NDArray, NDArray]:
+    """Gauss-Legendre nodes, in order, and weights; fewer on panels that see little change."""
+    at, weights, left = [], [], np.ones(len(change), dtype=bool)
+    for least, (x, w) in _RULES.items():
+        chosen = left & ((change >= least) | few)
+        left &= ~chosen
         half = 0.5 * np.diff(edges)[chosen, None]
         at.append((edges[:-1][chosen, None] + half * (1 + x)).ravel())
         weights.append((half * w).ravel())
     at, weights = np.concatenate(at), np.concatenate(weights)
     order = np.argsort(at)
-    return float(edges[0]), at[order], weights[order]
+    return at[order], weights[order]
 
 
 def _step_range(setting: Setting, y_end: float) -> tuple[float, float]:
     """Range of ln(y - y_end) that matters."""
-    high = np.log(_TAIL_LOG / (y_end + np.sqrt(y_end**2 + _TAIL_LOG)))
+    low, high = visible_range(setting, y_end)
     if setting.variant == "almqvist2011":
         # u1 may vanish but the width goes as (M - m)^(1/2): that much must be negligible.
-        return np.log(y_end) - 42.0, high
-    slope = y_end**3 * float(setting.kernels.diffusion(y_end)) / 2
-    low = float(np.log(slope / erf(y_end) ** 2 / (_SMALLEST_LOG + y_end**2)))
-    return min(low, high - 1.0), high  # next to full contact all gaps are that small
+        low = np.log(y_end) - 42.0
+    return low, high
 
 
-def _log_gap(setting: Setting, p: float, lost: _LostContact) -> NDArray:
-    """Ln u1, free of underflow: u1 spans hundreds of orders of magnitude."""
-    parts = [slice(i, i + _BLOCK) for i in range(0, len(lost.y), _BLOCK)]
-    scaled = np.concatenate([_scaled_gap(setting, p, lost[part]) for part in parts])
-    return lost.y**2 - (p / erf(lost.y)) ** 2 / lost.rest + np.log(scaled)
-
-
-def _scaled_gap(setting: Setting, p: float, lost: _LostContact) -> NDArray:
-    """u1 less its exponential, by the sum over scales finer than each m."""
-    kernel = setting.kernels
-    nodes = setting.scales.beyond(lost.m.min(), lost.m.max())
-    coarse = (lost.m < 0.5 * setting.m2)[:, None]
-    s2 = np.where(coarse, nodes.below - lost.m[:, None], lost.rest[:, None] - nodes.above)
-    pressure2 = ((p / erf(lost.y)) ** 2)[:, None]
-    finest = pressure2 / lost.rest[:, None]
-    # What is not finer ends where the exponential is zero.
-    s2 = np.maximum(s2, pressure2 / (finest + 740.0))
-    x2 = pressure2 / s2
-    a = np.sqrt(np.pi) * p**2 * erf(lost.y) / (lost.y**3 * kernel.diffusion(lost.y))
-    factor = s2 * np.exp(-(lost.y**2))[:, None] + 0.5 * a[:, None]
-    terms = np.exp(finest - x2) * kernel.gap_kernel(x2) * factor / np.sqrt(s2)
-    return 2 / np.sqrt(np.pi) * (terms @ nodes.weight)
-
-
-def _width(setting: Setting, lost: _LostContact, gap: NDArray) -> NDArray:
+def _width(setting: Setting, lost: LostContact, gap: NDArray) -> NDArray:
     """Standard deviation of the Gaussians."""
     spectrum, m2 = setting.spectrum, setting.m2
     _, variance = spectrum.at_gradient_variance(2 * lost.m)
     # Next to the finest scale the height variance is the difference of nearly equal numbers;
     # there q hardly varies.
-    q, _ = spectrum.at_gradient_variance(2 * (m2 - 0.5 * lost.rest))
-    h = np.sqrt(np.where(lost.rest < 1e-6 * m2, 2 * lost.rest / q**2, variance))
+    finest = lost.rest < 1e-6 * m2
+    rest = lost.rest[finest]
+    q, _ = spectrum.at_gradient_variance(2 * (m2 - 0.5 * rest))
+    variance[finest] = 2 * rest / q**2
+    h = np.sqrt(variance)
     if setting.variant == "almqvist2011":
         return h
     return gap * h / np.hypot(gap, h)
 
 
-def _panel_edges(
-    setting: Setting, p: float, y_end: float, reach: float
-) -> tuple[NDArray, NDArray, bool]:
+def _panel_edges(setting: Setting, curve: GapCurve, reach: float) -> tuple[NDArray, NDArray, bool]:
     """Edges of panels in ln(y - y_end), the change over each, and whether they are too few.
 
     Over each the Gaussians move by some four of their widths at most, their widths and the area
@@ -164,6 +114,7 @@ def _panel_edges(
     full contact of a broad spectrum the Gaussians are thousands of times narrower than far from
     zero and move by more of their widths. A change of 1 needs ten nodes.
     """
+    p, y_end = curve.p, curve.y_end
     low, high = _step_range(setting, y_end)
     probe = np.linspace(low, high, 300)
     # u1 grows as exp(y^2) where y is large.
@@ -172,8 +123,8 @@ def _panel_edges(
     grid = np.interp(np.linspace(0, number[-1], 2 + int(number[-1])), number, probe)
     breaks, onsets = (x[(x > low) & (x < high)] for x in _breaks(setting, p, y_end))
     grid = np.union1d(grid, np.append(breaks, onsets))
-    lost = _LostContact.at(setting, p, y_end, grid)
-    log_gap = _log_gap(setting, p, lost)
+    lost = LostContact.at(setting, p, y_end, grid)
+    log_gap = curve.log_gap(grid, lost)
     gap = np.exp(log_gap)
     width = np.maximum(_width(setting, lost, gap), 1e-300)
     seen = np.minimum(gap, reach * setting.spectrum.h_rms)
@@ -207,13 +158,12 @@ def _breaks(setting: Setting, p: float, y_end: float) -> tuple[NDArray, NDArray]
         jump = np.abs(np.diff(np.diff(np.log(spectrum.psd(at))) / np.diff(np.log(at))))
     m = 0.5 * spectrum.variance_below(q, 2)
     y = setting.kernels.invert_area_scale(m / p**2)
-    matter = (y > y_end) & (y**2 < y_end**2 + _TAIL_LOG)
+    matter = (y > y_end) & (y**2 < y_end**2 + TAIL_LOG)
     chosen = np.flatnonzero(matter)[np.argsort(jump[matter])[::-1][:most]]
     strong = chosen[jump[chosen] > _STRONG] if shells else chosen[:0]
     depth = (p / erf(y[strong])) ** 2 / _ONSETS[:, None]
-    if setting.variant == "almqvist2011":
-        finer = 0.5 * q[strong] ** 2 * spectrum.variance_above(q[strong])
-        depth = np.concatenate([depth, finer * _SHARES[:, None]])
+    finer = 0.5 * q[strong] ** 2 * spectrum.variance_above(q[strong])
+    depth = np.concatenate([depth, finer * _SHARES[:, None]])
     before = np.maximum(m[strong] - depth, 1e-3 * m[strong]).ravel()
     near = setting.kernels.invert_area_scale(before / p**2)
     return np.log(y[chosen] - y_end), np.log(near[near > y_end] - y_end)
@@ -222,15 +172,19 @@ def _breaks(setting: Setting, p: float, y_end: float) -> tuple[NDArray, NDArray]
 def density(u: NDArray, profile: GapProfile) -> NDArray:
     """P(u) [1/length] at gaps `u`, `(k,)`."""
     result = np.zeros(len(u))
-    order = np.argsort(u)
-    for block in np.array_split(order, max(1, len(u) // 25)) if len(u) else ():
+    for block in _neighbours(u):
         result[block] = _density_of_neighbours(u[block], profile)
     return result
 
 
+def _neighbours(u: NDArray) -> list[NDArray]:
+    """Indices of gaps, in blocks of ones near each other."""
+    return np.array_split(np.argsort(u), max(1, len(u) // _BLOCK)) if len(u) else []
+
+
 def _density_of_neighbours(u: NDArray, profile: GapProfile) -> NDArray:
     """P(u) of gaps near each other: most Gaussians are too far off to count."""
-    far = 9.5 * profile.width
+    far = _FAR * profile.width
     near = (profile.gap - far < u.max()) & (profile.gap + far > u.min())
     near &= profile.width > _NARROWEST * profile.width.max()
     gap, width = profile.gap[near], profile.width[near]
@@ -241,22 +195,38 @@ def _density_of_neighbours(u: NDArray, profile: GapProfile) -> NDArray:
     return pair @ (profile.weight[near] / (np.sqrt(2 * np.pi) * width))
 
 
-def _bounded(width: NDArray) -> NDArray:
-    """Widths that may be divided by."""
-    return np.maximum(width, max(_NARROWEST * float(width.max()), 1e-300))
+def _least_width(profile: GapProfile) -> float:
+    """Least width that may be divided by."""
+    return max(_NARROWEST * float(profile.width.max()), 1e-300)
 
 
 def cumulative(u: NDArray, profile: GapProfile) -> NDArray:
     """Integral of P from 0 to `u`, `(k,)`."""
-    width = np.sqrt(2) * _bounded(profile.width)
-    to_left = (u[:, None] - profile.gap) / width
-    pair = erf(to_left) + erf(to_left + 2 * profile.gap / width)
+    result = np.zeros(len(u))
+    for block in _neighbours(u):
+        result[block] = _cumulative_of_neighbours(u[block], profile)
+    return result + np.where(u > 0, profile.closed, 0.0)
+
+
+def _cumulative_of_neighbours(u: NDArray, profile: GapProfile) -> NDArray:
+    """Integral of P to gaps near each other: Gaussians far off are within all or none of them."""
+    far = _FAR * profile.width
+    within = profile.gap + far <= u.min()
+    near = ~within & (profile.gap - far < u.max())
+    gap, weight = profile.gap[near], profile.weight[near]
+    width = np.sqrt(2) * np.maximum(profile.width[near], _least_width(profile))
+    to_left = (u[:, None] - gap) / width
+    pair = erf(to_left)
+    to_left += 2 * gap / width
+    pair += erf(to_left)
     # Within a small part of the width about zero that is a difference of nearly equal numbers.
-    small = np.minimum(u[:, None] / width, 1e-4)
-    centre2 = np.minimum((profile.gap / width) ** 2, 700.0)
-    series = small * np.exp(-centre2) * (1 + (2 * centre2 - 1) / 3 * small**2)
-    pair = np.where(small < 1e-4, 4 / np.sqrt(np.pi) * series, pair)
-    return 0.5 * pair @ profile.weight + np.where(u > 0, profile.closed, 0.0)
+    tiny = u[:, None] < 1e-4 * width
+    if tiny.any():
+        small = np.where(tiny, u[:, None] / width, 0.0)
+        centre2 = np.minimum((gap / width) ** 2, 700.0)
+        series = small * np.exp(-centre2) * (1 + (2 * centre2 - 1) / 3 * small**2)
+        pair = np.where(tiny, 4 / np.sqrt(np.pi) * series, pair)
+    return 0.5 * pair @ weight + profile.weight[within].sum()
 
 
 def closure_error(profile: GapProfile) -> float:
@@ -264,7 +234,7 @@ def closure_error(profile: GapProfile) -> float:
 
     The pair of Gaussians about u1 and -u1, taken at positive gaps, has a larger mean.
     """
-    width = _bounded(profile.width)
+    width = np.maximum(profile.width, _least_width(profile))
     ratio = profile.gap / width
     excess = np.sqrt(2 / np.pi) * width * np.exp(-0.5 * ratio**2)
     excess -= profile.gap * erfc(ratio / np.sqrt(2))

@@ -29,6 +29,8 @@ range eps falls towards h(zeta), where it is some zeta^((5H-3)/3).
 
 from __future__ import annotations
 
+from copy import copy
+from dataclasses import replace
 from typing import Literal
 
 import numpy as np
@@ -38,11 +40,12 @@ from scipy.special import erf
 
 from stickiness.core.arguments import finite, nonnegative, number, positive
 from stickiness.core.plausibility import warn_of_pressure
-from stickiness.persson.gaps import GapProfile, Setting, closure_error, gap_profile
+from stickiness.persson.gaps import GapProfile, closure_error, gap_profile
 from stickiness.persson.gaps import cumulative as _cumulative
 from stickiness.persson.gaps import density as _density
 from stickiness.persson.kernels import CorrectionName, kernels
 from stickiness.persson.layered_scales import LayeredScales
+from stickiness.persson.lost_contact import Setting
 from stickiness.persson.scale_quadrature import scale_nodes
 from stickiness.solids import HALF_SPACE, Solid, check_solid
 from stickiness.surfaces.spectrum import Spectrum
@@ -50,7 +53,7 @@ from stickiness.surfaces.spectrum import Spectrum
 Variant = Literal["afferrante2018", "almqvist2011"]
 
 _VARIANTS = ("afferrante2018", "almqvist2011")
-_REACH = 16.0  # gaps up to 0.6 of this many h_rms are resolved without being asked for
+_REACH = 17.0  # gaps up to 0.6 of this many h_rms (10) are resolved without being asked for
 _FARTHEST = 1024.0  # in h_rms; the theory's tail P ~ 1/(u ln u)^2 beyond means nothing
 
 
@@ -116,8 +119,7 @@ class Persson:
     ):
         if not isinstance(spectrum, Spectrum):
             raise ValueError(f"spectrum must be a Spectrum, got {type(spectrum).__name__}")
-        if variant not in _VARIANTS:
-            raise ValueError(f"variant must be one of {_VARIANTS}, got {variant!r}")
+        _check_variant(variant)
         nodes = number("nodes", nodes)
         universal = kernels(gamma, correction)
         self.spectrum = spectrum = spectrum.averaged()
@@ -130,6 +132,17 @@ class Persson:
         scales = scale_nodes(spectrum, nodes)
         self._setting = Setting(spectrum, universal, scales, m2, variant, nodes)
         self._profiles: dict[tuple[float, float], GapProfile] = {}
+
+    def with_variant(self, variant: Variant) -> Persson:
+        """Return the same theory with another width of the Gaussians.
+
+        What they share is computed once, also later on; ValueError if there is no such variant.
+        """
+        _check_variant(variant)
+        other = copy(self)
+        other.variant, other._profiles = variant, {}
+        other._setting = replace(self._setting, variant=variant)
+        return other
 
     def area_fraction(self, p: ArrayLike, magnification: float | None = None) -> NDArray:
         """Relative contact area A/A_nom, array of the shape of `p`.
@@ -264,3 +277,8 @@ class Persson:
                 self._profiles.clear()
             self._profiles[p, reach] = gap_profile(self._setting, p, reach)
         return self._profiles[p, reach]
+
+
+def _check_variant(variant: str) -> None:
+    if variant not in _VARIANTS:
+        raise ValueError(f"variant must be one of {_VARIANTS}, got {variant!r}")

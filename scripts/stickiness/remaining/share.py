@@ -86,15 +86,19 @@ def find_onset(zone: ArrayLike, onset: float = ONSET) -> float | NDArray:
 def weak_share(energy_ratio: ArrayLike, range_ratio: ArrayLike) -> float | NDArray:
     """Share that remains where attraction acts over the gaps of Gaussian heights."""
     x, e = np.broadcast_arrays(*positive(energy_ratio=energy_ratio, range_ratio=range_ratio))
-    # Mean of exp(-gap/range) over open points, and the share of the closed ones.
-    away = 1 / e[..., None] - _GAPS
+    energy = np.exp(-ENERGY_DECAY * _GAPS - ENERGY_CURVATURE * _GAPS**2)
+    # What attraction gains is dear and knows the range alone, of which grids of pairs have few.
+    ranges, place = np.unique(e, return_inverse=True)
+    gained = _mean_attraction(ranges)[place.reshape(e.shape)] - energy / x[..., None]
+    return plain(np.maximum(np.max(gained, axis=-1), 0.0))
+
+
+def _mean_attraction(range_ratio: NDArray) -> NDArray:
+    """Mean of exp(-gap/range) over a surface, ``(range, mean gap)``; contact counts as 1."""
+    away = 1 / range_ratio[:, None] - _GAPS
     near = np.exp(-(_GAPS**2) / 2) * erfcx(np.maximum(away, 0) / np.sqrt(2)) / 2
     far = np.exp((np.minimum(away, 0) ** 2 - _GAPS**2) / 2) * ndtr(-away)
-    open_points = np.where(away > 0, near, far)
-    attraction = open_points + ndtr(-_GAPS)
-    energy = np.exp(-ENERGY_DECAY * _GAPS - ENERGY_CURVATURE * _GAPS**2)
-    gained = np.max(attraction - energy / x[..., None], axis=-1)
-    return plain(np.maximum(gained, 0.0))
+    return np.where(away > 0, near, far) + ndtr(-_GAPS)
 
 
 def spring_share(energy_ratio: ArrayLike, range_ratio: ArrayLike) -> float | NDArray:

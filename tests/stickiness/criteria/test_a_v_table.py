@@ -6,7 +6,6 @@ import xarray as xr
 
 from fits import tabulate_a_v
 from persson import persson_table
-from pipeline.theory import theories
 from stickiness.core.statistics import COVERS
 from stickiness.criteria.a_v_table import NEEDED, PARTED, AvTable, edge_range, local_a_v
 from stickiness.persson import Persson
@@ -24,13 +23,11 @@ RATIO, RATIO_ERROR = 1.1, 0.05
 
 @pytest.fixture(scope="module")
 def table():
-    options = list(theories(("afferrante2018", "almqvist2011"), GAMMA).values())
-    theory = persson_table.finite(AXES, RANGES, options)
-    theory = theory.merge(persson_table.infinite(AXES, RANGES, options))
+    theory = persson_table.finite(AXES, RANGES, GAMMA)
+    theory = theory.merge(persson_table.infinite(AXES, RANGES, GAMMA))
     theory["quadrature_error"] = persson_table.quadrature_error(AXES, RANGES, GAMMA)
     dataset = theory.isel(variant=0).merge(tabulate_a_v.reach(theory))
-    dataset = dataset.merge(tabulate_a_v.simulated([comparison(RATIO), comparison(RATIO)]))
-    return dataset.assign_coords(range=RANGES)
+    return dataset.merge(tabulate_a_v.simulated([comparison(RATIO), comparison(RATIO)]))
 
 
 def comparison(ratio, error=RATIO_ERROR, zeta=32, loads=(0.01, 0.1)):

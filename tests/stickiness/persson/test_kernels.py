@@ -2,10 +2,10 @@
 
 import numpy as np
 import pytest
-from scipy import integrate, optimize, special
+from scipy import integrate, interpolate, optimize, special
 
 from stickiness.persson import Persson
-from stickiness.persson.kernels import correction_of, kernels
+from stickiness.persson.kernels import EvenTable, correction_of, kernels
 from stickiness.spectrum import SelfAffine, Shells
 
 CORRECTIONS = ("yang2008", "wang2017", "xu2024")
@@ -208,3 +208,11 @@ def test_prefactor_of_the_two_thirds_law_grows_as_the_range_shrinks(hurst):
     theory = Persson(power_law(1e8, hurst))
     a_v = theory.gap_cumulative(eps, 0.065) / eps ** (2 / 3)
     assert np.all(np.diff(np.log(a_v)) < 0)
+
+
+def test_even_tables_are_hermite_splines():
+    x = np.linspace(-3.0, 2.0, 41)
+    at = np.append(np.linspace(-3.4, 2.4, 999), x)
+    found = EvenTable(x, np.sin(x), np.cos(x))(at)
+    want = interpolate.CubicHermiteSpline(x, np.sin(x), np.cos(x))(at)
+    np.testing.assert_allclose(found, want, rtol=0, atol=1e-13)
