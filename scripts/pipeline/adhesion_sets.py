@@ -71,8 +71,7 @@ def first_gap(contact, weaker, adhesion_length):
 
 
 def solve_at_gap(heights, length, law, contact, tolerance, weaker=None):
-    """State at the mean gap of a contact without adhesion, reached from `first_gap`; its gap, too.
-    """
+    """State, and its gap, at the mean gap of a contact without adhesion, from `first_gap`."""
     start = first_gap(contact, weaker, law.adhesion_length)
     state = adhesive.solve(
         heights, length, law, mean_gap=contact.mean_gap, start=start, tol=tolerance

@@ -5,10 +5,11 @@ precision within a round, and computed again in double precision between rounds 
 refinement). Once the force is small it changes linearly with the gap: the law is then evaluated,
 and energies are compared, between rounds only.
 
-A point that would pass the wall stays behind it for the rest of the round: it takes no further part
-and is put back at the end. So no step needs an image of its own, but a round ends when the force
-on what was put off is no longer small against the residual. If a round raises the energy or changes
-nothing, the general descent takes over.
+Until then a step is cut short at the wall, which takes an image of its own: one that passes the
+wall might pass a barrier, too. Afterwards points that pass it by little stay behind it for the rest
+of the round and are put back at its end, and a round ends when the force on them is no longer small
+against the residual. If a round raises the energy or changes nothing, the general descent takes
+over.
 """
 
 import numpy as np
@@ -20,7 +21,7 @@ _FALL = 1e-3  # reduction of the force by a round
 _LINEAR = 1e-3  # residual below which the traction is linear in the change of the gap
 _ROUND = 50  # steps of a round at most
 _NEAR = 0.03  # change of a gap, over the range, up to which that holds
-_CUT = 1.0  # force on points behind the wall over the residual from which a step is cut short
+_CUT = 1.0  # force on points behind the wall over the residual from which a step is cut anyway
 _PUT_OFF = 0.3  # residual over the force on points behind the wall at which a round ends
 _FAR = np.float32(-1e30)  # no bound
 _SHORTENINGS = 30
@@ -68,7 +69,9 @@ def _moved(problem, state, steps, other):
         gap += state.gap[span]
         gap *= steps.above[span]
         total += float(np.maximum(gap, 0, out=gap).sum())
-    if problem.mean_gap is not None and total > 0:  # in proportion: contact stays contact, edges keep their shape
+    if (
+        problem.mean_gap is not None and total > 0
+    ):  # in proportion: contact stays contact, edges keep their shape
         other.gap *= problem.mean_gap * other.gap.size / total
     other.elastic[...] = problem.surface.elastic(other.gap)
     change = 0.0
@@ -90,12 +93,12 @@ class _Steps:
         self.law, self.unit = problem.law, problem.unit
         self.at_gap = problem.pressure is None
         self.pixel = problem.surface.quick.mean_stiffness
-        fields = [np.zeros(shape, np.float32) for _ in range(15)]
+        fields = [np.zeros(shape, np.float32) for _ in range(13)]
         # `change` of the gap in a round, over the unit of pressure; `lowest` closes the gap.
-        self.change, self.lowest, self.traction, self.slope, self.potential, *fields = fields
-        self.new_traction, self.new_slope, self.new_potential, *fields = fields
-        # `force` is the reaction on free points, `fall` its last change.
-        self.reaction, self.force, self.fall, *fields = fields
+        self.change, self.lowest, self.traction, self.slope, *fields = fields
+        self.new_traction, self.new_slope, *fields = fields
+        # `force` is the reaction on free points, `last_force` that one step before.
+        self.reaction, self.force, self.last_force, *fields = fields
         self.direction, self.image, self.step, self.cut = fields
         # Points that take part, and those above the wall: 1, the others 0; quicker than booleans.
         self.free, self.above = np.empty((2, *shape), np.float32)
@@ -123,17 +126,16 @@ class _Steps:
         mean = float(state.force.sum(dtype=float)) / max(self.free_points, 1)
         mean = np.float32(mean if self.at_gap else 0)
         for span in self.spans:
-            force = state.force[span] - mean * self.free[span]
-            np.subtract(force, self.force[span], out=self.fall[span])
-            self.force[span] = force
+            np.subtract(state.force[span], mean * self.free[span], out=self.last_force[span])
+        self.force, self.last_force = self.last_force, self.force
         if not self.linear:
-            total = 0.0
+            self.potential = 0.0
             for span in self.spans:
-                gap = -self.unit * self.lowest[span]
-                values = self.law.at(span).evaluate(gap)
-                self.traction[span], self.slope[span], self.potential[span] = values
-                total += float(self.potential[span].sum(dtype=float))
-            self.slack = _ROUNDING * abs(total)
+                gap = np.float32(-self.unit) * self.lowest[span]
+                traction, slope, potential = self.law.at(span).evaluate(gap)
+                self.traction[span], self.slope[span] = traction, slope
+                self.potential += float(potential.sum())
+            self.slack = _ROUNDING * abs(self.potential)
 
     def descend(self, goal, limit, convex):
         """Go on until the largest force is down to a goal, or curvature is no guide."""
@@ -152,6 +154,7 @@ class _Steps:
             if not curvature > 0:
                 curvature, longest = stiffness, self.law.range
                 self.last_soft, self.soft = self.count, self.linear or convex
+                self.precondition = self.surface.smoother.apply  # edges of contact move
             longest /= self.unit * largest
             # A uniform direction has no stiffness.
             length = min(-slope / curvature, longest) if curvature > 0 else longest
@@ -171,8 +174,8 @@ class _Steps:
             if self.at_gap:
                 part -= mean * self.free[span]
             self.product += float(np.vdot(part, self.force[span]))
-            weight += float(np.vdot(part, self.fall[span]))
-        weight = max(0.0, weight / last) if last > 0 else 0.0
+            weight += float(np.vdot(part, self.last_force[span]))
+        weight = max(0.0, (self.product - weight) / last) if last > 0 else 0.0
         total = count = 0.0
         for span in self.spans:
             direction, above = self.direction[span], self.above[span]
@@ -222,7 +225,8 @@ class _Steps:
             height += self.change[span]
             height -= self.lowest[span]
             deepest = min(deepest, float(height.min()))
-        if -deepest * self.pixel <= max(_CUT * self.residual, self.behind):
+        allowed = _CUT * self.residual if self.linear else 0.0
+        if -deepest * self.pixel <= max(allowed, self.behind):
             return self.direction, self.image, length
         total, count = 0.0, 0.0
         for span in self.spans:
@@ -242,23 +246,22 @@ class _Steps:
 
     def _rise(self, step, image, factor):
         """Change of energy by a step, summed over the grid; keeps what the law says there."""
-        total = 0.0
+        total = work = self.new_potential = 0.0
         for span in self.spans:
             part = step[span] * factor
-            gap = self.change[span] + part
-            gap -= self.lowest[span]
+            gap = part - self.lowest[span]
+            gap += self.change[span]
             np.maximum(gap, 0, out=gap)
             gap *= np.float32(self.unit)
             traction, slope, potential = self.law.at(span).evaluate(gap)
             self.new_traction[span], self.new_slope[span] = traction, slope
-            self.new_potential[span] = potential
-            potential = potential - self.potential[span]
-            elastic = image[span] * (factor / 2)
+            self.new_potential += float(potential.sum())
+            elastic = np.multiply(image[span], factor / 2, out=gap)
             elastic += self.reaction[span]
-            total += self.unit**2 * float(np.vdot(part, elastic))
-            total -= self.unit * float(np.vdot(part, self.traction[span]))
-            total += float(potential.sum(dtype=float))
-        return total
+            total += float(np.vdot(part, elastic))
+            work += float(np.vdot(part, self.traction[span]))
+        total = self.unit * (self.unit * total - work)
+        return total + self.new_potential - self.potential
 
     def _go(self, step, image, factor):
         """Make a step; returns whether it is short enough for the present tangent."""
@@ -284,12 +287,13 @@ class _Steps:
         if not self.linear:
             self.traction, self.new_traction = self.new_traction, self.traction
             self.slope, self.new_slope = self.new_slope, self.slope
-            self.potential, self.new_potential = self.new_potential, self.potential
+            self.potential = self.new_potential
         return self.unit * longest <= _NEAR * self.law.range
 
     def _release(self, mean):
         """Free points that the wall would have to pull, put off those behind it; new forces."""
         residual, deepest, count, changed = 0.0, 0.0, 0, False
+        self.force, self.last_force = self.last_force, self.force
         for span in self.spans:
             reaction, force = self.reaction[span], self.force[span]
             if self.at_gap:
@@ -302,10 +306,8 @@ class _Steps:
             count += np.count_nonzero(free)
             changed = changed or not np.array_equal(free, self.free[span])
             self.free[span] = free
-            np.negative(force, out=self.fall[span])
             np.multiply(reaction, self.free[span], out=force)
             residual = max(residual, float(force.max()), -float(force.min()))
-            self.fall[span] += force
         self.residual, self.behind, self.free_points = residual, -deepest * self.pixel, count
         if changed:
             self.precondition = Preconditioner(self.surface, self.free)
