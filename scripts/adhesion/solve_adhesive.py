@@ -17,6 +17,7 @@ from pipeline.adhesion_sets import (
     AXES,
     MISSING,
     STRONGEST,
+    WEAK,
     axes,
     roughness,
     scaled_law,
@@ -106,13 +107,19 @@ def states(heights, length, asked, chosen, tolerance=TOLERANCE):
         alone["area_alone"][i] = contact.area_fraction
         alone["mean_gap"][i] = contact.mean_gap
         alone["edge_gap"][i] = subpixel.edge_gap(contact.gap)
+        weaker = {}  # by range, the last state with weak adhesion
         for j, k in itertools.product(range(lengths.size), range(ranges.size)):
             law = scaled_law(asked, asked["law"], lengths.values[j], ranges.values[k])
             attraction = dmt.adhesive_pressure(contact.gap, law)
             values["attraction_dmt"][i, j, k] = attraction
             if chosen[i, j, k] and attraction <= STRONGEST * contact.mean_pressure:
-                for name, value in solve_at_gap(heights, length, law, contact, tolerance).items():
+                weak = attraction <= WEAK * contact.mean_pressure
+                known = weaker.get(k) if weak else None
+                found, gap = solve_at_gap(heights, length, law, contact, tolerance, known)
+                for name, value in found.items():
                     values[name][i, j, k] = value
+                if weak:
+                    weaker[k] = law.adhesion_length, gap
     return xr.Dataset(
         {name: (AXES, value) for name, value in values.items()}
         | {name: ("pressure", value) for name, value in alone.items()},

@@ -23,6 +23,7 @@ OUTSIDE = "outside the table of measured errors"
 # the stickiest ended on another branch, 2e-3 of it away.
 SOLVER = 1e-6
 STRONGEST = 8.0  # attraction over repulsion, in the DMT limit, that is still looked at
+WEAK = 0.1  # attraction over repulsion, in the DMT limit, up to which the answer is nearly linear
 LEAST = 20  # states of a loop at least, loading or unloading
 
 ATTRIBUTES = {  # quantities of an adhesive state by their names in files
@@ -54,13 +55,30 @@ def scaled_law(
     return LAWS[kind](adhesion_length=strength * range_over_h_rms, range=range_over_h_rms)
 
 
-def solve_at_gap(heights, length, law, contact, tolerance):
-    """State at the mean gap of a contact without adhesion, reached from that contact."""
-    gap = contact.mean_gap
-    state = adhesive.solve(heights, length, law, mean_gap=gap, start=contact, tol=tolerance)
+def first_gap(contact, weaker, adhesion_length):
+    """Gap from which a state is reached: that without adhesion, or beyond it if adhesion is weak.
+
+    `weaker` is None or the adhesion length and the gap of a state with the same range and mean gap.
+    While the attraction is below `WEAK` of the load, the change of the gap grows as it does.
+    """
+    if weaker is None:
+        return contact.gap
+    length, gap = weaker
+    change = gap - contact.gap
+    change *= adhesion_length / length
+    change += contact.gap
+    return np.maximum(change, 0, out=change)
+
+
+def solve_at_gap(heights, length, law, contact, tolerance, weaker=None):
+    """State, and its gap, at the mean gap of a contact without adhesion, from `first_gap`."""
+    start = first_gap(contact, weaker, law.adhesion_length)
+    state = adhesive.solve(
+        heights, length, law, mean_gap=contact.mean_gap, start=start, tol=tolerance
+    )
     logging.info(
         f"n = {len(heights)}, p = {contact.mean_pressure:.3g}, l_a {law.adhesion_length:.3g}, "
         f"range {law.range:g}: area {state.repulsive_area_fraction:.4f}, "
         f"residual {state.residual:.1e}, {state.iterations} iterations"
     )
-    return {name: getattr(state, attribute) for name, attribute in ATTRIBUTES.items()}
+    return {name: getattr(state, attribute) for name, attribute in ATTRIBUTES.items()}, state.gap

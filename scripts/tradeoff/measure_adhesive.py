@@ -91,7 +91,7 @@ def solve(heights, length, adhesion, finest, knob, pixels, tolerance, law):
             values["attraction_dmt"][i, k] = attraction
             if attraction > STRONGEST * contact.mean_pressure:
                 continue
-            state, values["seconds"][i, k] = measuring.time_task(
+            (state, _), values["seconds"][i, k] = measuring.time_task(
                 lambda law=traction, alone=contact: solve_at_gap(
                     sampled, length, law, alone, tolerance
                 )

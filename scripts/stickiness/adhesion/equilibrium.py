@@ -51,7 +51,8 @@ def relax(problem, gap, tol, max_iterations, closing=True, logger=None):
         state.iterations = spent
         if watch.separated or not state.residual <= tol or spent >= max_iterations:
             break
-        mode = _unstable_mode(problem, state) if state.last_run < _QUICK else None
+        unsure = state.last_run < _QUICK and not _surely_stable(problem, state)
+        mode = _unstable_mode(problem, state) if unsure else None
         if mode is None:
             break
         gap = _left(problem, state, mode, closing)
@@ -122,6 +123,13 @@ def _relax_frozen(problem, gap, tol, max_iterations, watch):
     evaluate(problem, state)
     state.iterations, state.last_run = spent, spent
     return state
+
+
+def _surely_stable(problem, state):
+    """Whether the law softens less than elasticity holds the longest wave, at a given mean gap."""
+    surface = problem.surface
+    softest = min(surface.smoother.shift, np.pi / max(surface.sides))
+    return problem.mean_gap is not None and float(-state.slope.min()) < softest
 
 
 def _unstable_mode(problem, state):

@@ -1,19 +1,17 @@
 """Preconditioner of the descents: an approximate inverse of the stiffness of the free points.
 
 Most of the inverse is in long waves, so that it is applied on a grid half as fine: its transforms
-are four times smaller. At the edge of contact the wall takes a share of a force.
+are four times smaller. Beside the wall, coarse points take part by their share of free ones.
 """
 
 import numpy as np
 
 from stickiness.contact import convolution, half_space
-from stickiness.contact.preconditioner import average_neighbours, build_neighbour_matrix
 from stickiness.solids import HALF_SPACE
 
 LONGEST = np.pi  # |q| / 2 of the longest wave across a side of 1
 # Yield of short waves over that of the shortest on its own; 1 to 2 do about equally well.
 _SHORT = 1.6
-_SHARE = 0.5  # of a force beside the wall that the wall takes
 
 
 class Smoother:
@@ -30,13 +28,13 @@ class Smoother:
         self.shift = LONGEST
         if solid != HALF_SPACE and stiffness.any():
             self.shift = float(stiffness[stiffness > 0].min())
-        self._halved = min(shape) >= 4 and shape[0] % 2 == 0 and shape[1] % 2 == 0
-        if self._halved:
+        self.halved = min(shape) >= 4 and shape[0] % 2 == 0 and shape[1] % 2 == 0
+        if self.halved:
             self._constant = np.float32(_SHORT / (stiffness.max() + self.shift))
             shape = tuple(n // 2 for n in shape)
             stiffness = half_space.effective_wavenumbers(shape, sides, solid).T / 2
         symbol = 1 / (stiffness + self.shift)
-        if self._halved:
+        if self.halved:
             # Squared transfer of full weighting, summed over the aliases along each axis; that is
             # B^T / 16, and interpolation is B / 4.
             weights = [(1 + np.cos(np.pi * np.fft.fftfreq(n)) ** 2) / 2 for n in shape]
@@ -47,39 +45,37 @@ class Smoother:
         self._symbol = self._convolution.symbol(symbol / (shape[0] * shape[1]))
         self.pairs = 0.0  # in units of the grid of the fields
 
-    def apply(self, field):
-        """Convolve a field in single precision."""
-        values = _gather(field) if self._halved else field
+    def apply(self, field, share=None):
+        """Convolve a field in single precision; long waves between the `share` of coarse points."""
+        values = _gather(field) if self.halved else field
+        if share is not None:
+            values *= share
         out = np.empty_like(values)
         self._convolution.apply(self._symbol, values, out, self._every, self._every)
         self.pairs += out.size / field.size
-        if self._halved:
+        if share is not None:
+            out *= share
+        if self.halved:
             out = _spread(out)
             out += self._constant * field
         return out
 
 
 class Preconditioner:
-    """Approximate inverse of the stiffness of the free points."""
+    """Approximate inverse of the stiffness of the free points.
+
+    Beside the wall long waves give way less: coarse points take part by their share of free ones.
+    """
 
     def __init__(self, surface, free):
-        self.smooth, self.edge = surface.smoother.apply, None
-        if not free.all() and free.any():
-            self.band, columns, weights = average_neighbours(free.ravel(), free.shape)
-            self.edge = build_neighbour_matrix(weights * np.float32(-_SHARE), columns, free.size)
-            self.transpose = self.edge.T
+        self.smoother, self.share = surface.smoother, None
+        if self.smoother.halved:
+            self.share = _gather(free.astype(np.float32, copy=False))
+            self.share /= 16
 
     def __call__(self, force):
         """Step for a force that is zero on all but free points."""
-        if self.edge is None:
-            return self.smooth(force)
-        force = force.copy()
-        flat = force.ravel()
-        flat[self.band] += self.edge @ flat
-        step = self.smooth(force)
-        flat = step.ravel()
-        flat += self.transpose @ flat[self.band]
-        return step
+        return self.smoother.apply(force, self.share)
 
 
 def _gather(field):

@@ -1,10 +1,15 @@
-"""Quick descent for laws that only soften, at a prescribed pressure, mostly in single precision.
+"""Quick descent for laws that only soften, mostly in single precision.
 
 The steps are those of `descent`, in rounds: increments of gap, force and energy are in single
 precision within a round, and computed again in double precision between rounds (iterative
 refinement). Once the force is small it changes linearly with the gap: the law is then evaluated,
-and energies are compared, between rounds only. If a round raises the energy or changes nothing,
-the general descent takes over.
+and energies are compared, between rounds only.
+
+Until then a step is cut short at the wall, which takes an image of its own: one that passes the
+wall might pass a barrier, too. Afterwards points that pass it by little stay behind it for the rest
+of the round and are put back at its end, and a round ends when the force on them is no longer small
+against the residual. If a round raises the energy or changes nothing, the general descent takes
+over.
 """
 
 import numpy as np
@@ -16,22 +21,25 @@ _FALL = 1e-3  # reduction of the force by a round
 _LINEAR = 1e-3  # residual below which the traction is linear in the change of the gap
 _ROUND = 50  # steps of a round at most
 _NEAR = 0.03  # change of a gap, over the range, up to which that holds
+_CUT = 1.0  # force on points behind the wall over the residual from which a step is cut anyway
+_PUT_OFF = 0.3  # residual over the force on points behind the wall at which a round ends
+_FAR = np.float32(-1e30)  # no bound
 _SHORTENINGS = 30
 _ROUNDING = 1e-7  # relative error of a sum of energies in single precision
-_MARGIN = 0.5  # of the tolerance that a last round aims for
+_MARGIN = 0.8  # of the tolerance that a last round aims for
 
 
 def suits(problem):
     """Whether a problem is one for `quick_descent`."""
-    return problem.wall and not problem.law.hardens and problem.pressure is not None
+    return problem.wall and not problem.law.hardens
 
 
 def quick_descent(problem, gap, tol, max_iterations, observer=None, convex=False):
     """Go down in energy from a gap; returns the last `State` and whether the descent finished.
 
-    It does not if a round raises the energy or comes to nothing, or, if `convex`, at the first
-    direction of negative curvature. `observer` is called with the state at every round; descent
-    stops when it returns true.
+    At a prescribed mean gap the start must have it. It does not finish if a round raises the energy
+    or comes to nothing, or, if `convex`, at the first direction of negative curvature. `observer`
+    is called with the state at every round; descent stops when it returns true.
     """
     state, other = State.empty(gap.shape), State.empty(gap.shape)
     state.gap[...] = gap
@@ -55,17 +63,22 @@ def quick_descent(problem, gap, tol, max_iterations, observer=None, convex=False
 
 def _moved(problem, state, steps, other):
     """State after a round into the arrays of another; returns whether the energy fell."""
+    total = 0.0
     for span in spans(state.gap.shape):
         gap = np.multiply(steps.change[span], problem.unit, out=other.gap[span], dtype=float)
         gap += state.gap[span]
-        gap[steps.change[span] <= steps.lowest[span]] = 0
-        np.maximum(gap, 0, out=gap)
+        gap *= steps.above[span]
+        total += float(np.maximum(gap, 0, out=gap).sum())
+    if (
+        problem.mean_gap is not None and total > 0
+    ):  # in proportion: contact stays contact, edges keep their shape
+        other.gap *= problem.mean_gap * other.gap.size / total
     other.elastic[...] = problem.surface.elastic(other.gap)
     change = 0.0
     for span in spans(state.gap.shape):
         force = state.elastic[span] + other.elastic[span]
         force *= 0.5
-        force += problem.pressure
+        force += state.pressure
         change += float(np.vdot(other.gap[span] - state.gap[span], force))
     evaluate(problem, other)
     change = change / state.gap.size + other.potential - state.potential
@@ -78,13 +91,17 @@ class _Steps:
     def __init__(self, problem, shape):
         self.problem, self.surface, self.spans = problem, problem.surface, spans(shape)
         self.law, self.unit = problem.law, problem.unit
-        fields = [np.zeros(shape, np.float32) for _ in range(14)]
+        self.at_gap = problem.pressure is None
+        self.pixel = problem.surface.quick.mean_stiffness
+        fields = [np.zeros(shape, np.float32) for _ in range(13)]
         # `change` of the gap in a round, over the unit of pressure; `lowest` closes the gap.
-        self.change, self.lowest, self.traction, self.slope, self.potential, *fields = fields
-        self.new_traction, self.new_slope, self.new_potential, *fields = fields
-        # `force` is the reaction on free points, `fall` its last change.
-        self.reaction, self.force, self.fall, self.direction, self.image, self.cut = fields
-        self.free = np.empty(shape, bool)
+        self.change, self.lowest, self.traction, self.slope, *fields = fields
+        self.new_traction, self.new_slope, *fields = fields
+        # `force` is the reaction on free points, `last_force` that one step before.
+        self.reaction, self.force, self.last_force, *fields = fields
+        self.direction, self.image, self.step, self.cut = fields
+        # Points that take part, and those above the wall: 1, the others 0; quicker than booleans.
+        self.free, self.above = np.empty((2, *shape), np.float32)
         # Steps so far, and up to the last direction of negative curvature; `soft` tells whether
         # the round ended at one, along which the tangent of the law is no guide.
         self.count = self.last_soft = 0
@@ -93,40 +110,40 @@ class _Steps:
     def begin(self, state):
         """Begin a round at a state; directions stay conjugate to those of the last one."""
         self.linear = state.residual < _LINEAR and not self.soft
-        self.residual, self.soft = state.residual, False
+        self.residual, self.behind, self.soft = state.residual, 0.0, False
         self.change[...] = 0
         for span in self.spans:
             reaction = state.elastic[span] + state.traction[span]
-            reaction += self.problem.pressure
+            reaction += state.pressure
             reaction /= self.unit
             self.reaction[span] = reaction
             self.lowest[span] = state.gap[span] / -self.unit
             self.slope[span] = state.slope[span]
-            np.subtract(state.force[span], self.force[span], out=self.fall[span])
-            self.force[span] = state.force[span]
+            self.above[span] = state.gap[span] > 0
         self.free[...] = state.free
+        self.free_points = np.count_nonzero(state.free)
+        self.precondition = Preconditioner(self.surface, self.free)
+        mean = float(state.force.sum(dtype=float)) / max(self.free_points, 1)
+        mean = np.float32(mean if self.at_gap else 0)
+        for span in self.spans:
+            np.subtract(state.force[span], mean * self.free[span], out=self.last_force[span])
+        self.force, self.last_force = self.last_force, self.force
         if not self.linear:
-            total = 0.0
+            self.potential = 0.0
             for span in self.spans:
-                gap = -self.unit * self.lowest[span]
-                values = self.law.at(span).evaluate(gap)
-                self.traction[span], self.slope[span], self.potential[span] = values
-                total += float(self.potential[span].sum(dtype=float))
-            self.slack = _ROUNDING * abs(total)
-        self.precondition = Preconditioner(self.surface, state.free)
+                gap = np.float32(-self.unit) * self.lowest[span]
+                traction, slope, potential = self.law.at(span).evaluate(gap)
+                self.traction[span], self.slope[span] = traction, slope
+                self.potential += float(potential.sum())
+            self.slack = _ROUNDING * abs(self.potential)
 
     def descend(self, goal, limit, convex):
         """Go on until the largest force is down to a goal, or curvature is no guide."""
         limit = min(limit, self.count + _ROUND)
-        while self.count < limit and self.residual > goal:
-            step = self.precondition(self.force)
-            last, self.product, weight = self.product, 0.0, 0.0
-            for span in self.spans:
-                step[span] *= self.free[span]
-                self.product += float(np.vdot(step[span], self.force[span]))
-                weight += float(np.vdot(step[span], self.fall[span]))
-            weight = max(0.0, weight / last) if last > 0 else 0.0
-            slope, stiffness, softening, largest = self._turn(step, weight)
+        while self.count < limit and self.residual > max(goal, _PUT_OFF * self.behind):
+            weight = self._turn(self.precondition(self.force))
+            self.surface.quick.stiffness(self.direction, out=self.image)
+            slope, stiffness, softening, largest = self._measure()
             self.count += 1
             if not slope < 0:
                 if weight == 0:
@@ -137,100 +154,160 @@ class _Steps:
             if not curvature > 0:
                 curvature, longest = stiffness, self.law.range
                 self.last_soft, self.soft = self.count, self.linear or convex
+                self.precondition = self.surface.smoother.apply  # edges of contact move
             longest /= self.unit * largest
             # A uniform direction has no stiffness.
             length = min(-slope / curvature, longest) if curvature > 0 else longest
             if self.soft or not self._advance(slope, length):
                 break
 
-    def _turn(self, step, weight):
-        """Next direction; slope and curvatures of the energy along it, its largest component."""
+    def _turn(self, step):
+        """Next direction, from a preconditioned force; returns the weight of the last one."""
+        last, self.product, weight, total = self.product, 0.0, 0.0, 0.0
         for span in self.spans:
-            direction = self.direction[span]
+            part = step[span]
+            part *= self.free[span]
+            total += float(part.sum())
+        mean = np.float32(total / max(self.free_points, 1) if self.at_gap else 0)
+        for span in self.spans:
+            part = step[span]
+            if self.at_gap:
+                part -= mean * self.free[span]
+            self.product += float(np.vdot(part, self.force[span]))
+            weight += float(np.vdot(part, self.last_force[span]))
+        weight = max(0.0, (self.product - weight) / last) if last > 0 else 0.0
+        total = count = 0.0
+        for span in self.spans:
+            direction, above = self.direction[span], self.above[span]
             direction *= np.float32(weight)
             direction *= self.free[span]
             direction -= step[span]
-            # A free point at the wall is pulled off it: it can only open.
-            shut = self.change[span] <= self.lowest[span]
-            np.maximum(direction, 0, out=direction, where=shut)
-        self.surface.quick.stiffness(self.direction, out=self.image)
+            # A free point at the wall, or behind it, can only open.
+            np.maximum(direction, above * _FAR, out=direction)
+            total += float(direction.sum())
+            count += float(above.sum())
+        if self.at_gap and count:
+            mean = np.float32(total / count)
+            for span in self.spans:
+                self.direction[span] -= mean * self.above[span]
+        return weight
+
+    def _measure(self):
+        """Slope and curvatures of the energy along the direction, its largest component."""
         slope = stiffness = softening = largest = 0.0
         for span in self.spans:
             direction = self.direction[span]
             slope += float(np.vdot(direction, self.force[span]))
             stiffness += float(np.vdot(direction, self.image[span]))
             softening += float(np.vdot(direction, self.slope[span] * direction))
-            largest = max(largest, float(np.abs(direction).max()))
+            largest = max(largest, float(direction.max()), -float(direction.min()))
         return slope, stiffness, softening, largest
 
     def _advance(self, slope, length):
-        """Go along the direction, not beyond the wall; returns whether the round may go on."""
+        """Go along the direction; returns whether the round may go on."""
         for _ in range(1 if self.linear else _SHORTENINGS):
-            step, image, factor = self._within(np.float32(length))
-            rise = 0.0 if self.linear else self._rise(step, image, factor)
+            step = self._within(np.float32(length))
+            rise = 0.0 if self.linear else self._rise(*step)
             if self.linear or rise <= self.slack:
-                return self._go(step, image, factor)
+                return self._go(*step)
             predicted = length * slope * self.unit**2
             length *= min(max(-0.5 * predicted / (rise - predicted), 0.1), 0.5)
         return False
 
     def _within(self, length):
-        """Step, its image, and a factor for both; if cut short at the wall, of its own image."""
+        """Step, its image, and a factor for both; cut short at the wall, of its own image.
+
+        Not if the force on what lies behind the wall is small: that is put off.
+        """
+        deepest = 0.0
         for span in self.spans:
-            if np.any(self.change[span] + length * self.direction[span] < self.lowest[span]):
-                break
-        else:
+            height = self.direction[span] * length
+            height += self.change[span]
+            height -= self.lowest[span]
+            deepest = min(deepest, float(height.min()))
+        allowed = _CUT * self.residual if self.linear else 0.0
+        if -deepest * self.pixel <= max(allowed, self.behind):
             return self.direction, self.image, length
-        step = np.empty_like(self.direction)
+        total, count = 0.0, 0.0
         for span in self.spans:
-            np.multiply(self.direction[span], length, out=step[span])
-            np.maximum(step[span], self.lowest[span] - self.change[span], out=step[span])
-        return step, self.surface.quick.stiffness(step, out=self.cut), np.float32(1)
+            step, above = self.step[span], self.above[span]
+            np.multiply(self.direction[span], length, out=step)
+            least = self.lowest[span] - self.change[span]
+            np.minimum(least, 0, out=least)  # what is behind stays there
+            np.maximum(step, least, out=step)
+            above[...] = step > least
+            count += float(above.sum())
+            total += float(step.sum())
+        if self.at_gap and count:
+            mean = np.float32(total / count)
+            for span in self.spans:
+                self.step[span] -= mean * self.above[span]
+        return self.step, self.surface.quick.stiffness(self.step, out=self.cut), np.float32(1)
 
     def _rise(self, step, image, factor):
         """Change of energy by a step, summed over the grid; keeps what the law says there."""
-        total = 0.0
+        total = work = self.new_potential = 0.0
         for span in self.spans:
             part = step[span] * factor
-            gap = self.change[span] + part
-            gap -= self.lowest[span]
+            gap = part - self.lowest[span]
+            gap += self.change[span]
             np.maximum(gap, 0, out=gap)
             gap *= np.float32(self.unit)
             traction, slope, potential = self.law.at(span).evaluate(gap)
             self.new_traction[span], self.new_slope[span] = traction, slope
-            self.new_potential[span] = potential
-            potential = potential - self.potential[span]
-            elastic = image[span] * (factor / 2)
+            self.new_potential += float(potential.sum())
+            elastic = np.multiply(image[span], factor / 2, out=gap)
             elastic += self.reaction[span]
-            total += self.unit**2 * float(np.vdot(part, elastic))
-            total -= self.unit * float(np.vdot(part, self.traction[span]))
-            total += float(potential.sum(dtype=float))
-        return total
+            total += float(np.vdot(part, elastic))
+            work += float(np.vdot(part, self.traction[span]))
+        total = self.unit * (self.unit * total - work)
+        return total + self.new_potential - self.potential
 
     def _go(self, step, image, factor):
         """Make a step; returns whether it is short enough for the present tangent."""
-        residual = longest = 0.0
+        longest, total = 0.0, 0.0
         for span in self.spans:
-            change, reaction, force = self.change[span], self.reaction[span], self.force[span]
             part = step[span] * factor
+            change, reaction, free = self.change[span], self.reaction[span], self.free[span]
             change += part
-            np.maximum(change, self.lowest[span], out=change)
-            reaction += factor * image[span]
+            if step is self.step:  # no rounding where it ends at the wall
+                at_wall = (self.above[span] == 0) & (free != 0) & (part < 0)
+                change[at_wall] = self.lowest[span][at_wall]
             if self.linear:
-                longest = max(longest, float(np.abs(change).max()))
+                longest = max(longest, float(change.max()), -float(change.min()))
                 part *= self.slope[span]
             else:
                 np.subtract(self.new_traction[span], self.traction[span], out=part)
                 part /= np.float32(self.unit)
             reaction += part
-            free = np.logical_or(change > self.lowest[span], reaction < 0, out=self.free[span])
-            np.negative(force, out=self.fall[span])
-            np.multiply(reaction, free, out=force)
-            self.fall[span] += force
-            residual = np.maximum(residual, np.abs(force).max())
-        self.residual = float(residual)
+            reaction += np.multiply(image[span], factor, out=part)
+            if self.at_gap:
+                total += float(np.vdot(reaction, free))
+        self._release(np.float32(total / max(self.free_points, 1)))
         if not self.linear:
             self.traction, self.new_traction = self.new_traction, self.traction
             self.slope, self.new_slope = self.new_slope, self.slope
-            self.potential, self.new_potential = self.new_potential, self.potential
+            self.potential = self.new_potential
         return self.unit * longest <= _NEAR * self.law.range
+
+    def _release(self, mean):
+        """Free points that the wall would have to pull, put off those behind it; new forces."""
+        residual, deepest, count, changed = 0.0, 0.0, 0, False
+        self.force, self.last_force = self.last_force, self.force
+        for span in self.spans:
+            reaction, force = self.reaction[span], self.force[span]
+            if self.at_gap:
+                reaction -= mean
+            height = self.change[span] - self.lowest[span]
+            deepest = min(deepest, float(height.min()))
+            above = height > 0
+            self.above[span] = above
+            free = np.logical_or(above, reaction < 0)
+            count += np.count_nonzero(free)
+            changed = changed or not np.array_equal(free, self.free[span])
+            self.free[span] = free
+            np.multiply(reaction, self.free[span], out=force)
+            residual = max(residual, float(force.max()), -float(force.min()))
+        self.residual, self.behind, self.free_points = residual, -deepest * self.pixel, count
+        if changed:
+            self.precondition = Preconditioner(self.surface, self.free)

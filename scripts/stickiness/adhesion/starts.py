@@ -26,7 +26,8 @@ _COARSEST = 128  # points along the shorter side of a grid from which coarser on
 def has_coarser_grids(problem):
     """Whether `from_coarser_grids` is for this problem and its grid."""
     fine = min(problem.surface.heights.shape) >= _COARSEST
-    return fine and suits(problem) and problem.law.smooth
+    suited = suits(problem) and problem.law.smooth
+    return fine and suited and problem.pressure is not None
 
 
 def from_coarser_grids(problem, tol, max_iterations, observer, work):
