@@ -64,6 +64,7 @@ def test_a_module_that_is_imported_within_a_function_counts(hashed):
     assert hash_now() != before
 
 
+@pytest.mark.slow
 def test_imports_are_those_of_the_syntax_tree():
     scripts = Path(__file__).parents[2] / "scripts"
     for file in scripts.rglob("*.py"):

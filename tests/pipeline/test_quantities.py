@@ -67,24 +67,24 @@ def files(tmp_path_factory):
     folder, found = tmp_path_factory.mktemp("slope"), {}
     solver = {"pressures": LOADS, "tolerance": 1e-6, "gaps": None}
     for name, measured in (("with", ["contact_slope"]), ("without", [])):
-        seeds = []
-        for seed in (1, 2, 3):
-            path = f"surface{seed}.nc"
-            params = {"surface": ASKED, "pixels_per_wavelength": 4}
-            wildcards = {"seed": str(seed), "model_surface": "some"}
-            synthesise_surface.main(job(folder, {}, params, path, **wildcards))
-            params = solver | {"pixels_per_wavelength": 4, "measured": measured}
-            inputs = {"surface": str(folder / path)}
-            solve_repulsive.main(job(folder, inputs, params, f"{name}{seed}.nc"))
-            seeds.append(str(folder / f"{name}{seed}.nc"))
+        solved = []
+        for seeds in ([1, 2], [3]):
+            path = f"surfaces{seeds[0]}.nc"
+            params = {"seeds": seeds, "surface": ASKED, "pixels_per_wavelength": 4}
+            synthesise_surface.main(job(folder, {}, params, path, model_surface="some"))
+            params = solver | {"seeds": seeds, "pixels_per_wavelength": 4, "measured": measured}
+            inputs = {"surfaces": str(folder / path)}
+            solve_repulsive.main(job(folder, inputs, params, f"{name}{seeds[0]}.nc"))
+            solved.append(str(folder / f"{name}{seeds[0]}.nc"))
         params = solver | {"surface": ASKED, "after": 0, "seeds": 40, "descriptor_seeds": 64}
         solve_coarse.main(job(folder, {}, params | {"measured": measured}, f"{name}_coarse.nc"))
         inputs = {
-            "realisations": seeds,
+            "realisations": solved,
             "coarse": [str(folder / f"{name}_coarse.nc")],
             "laws": TABLE,
         }
-        params = {"pressures": LOADS, "quantities": WANTED if measured else WANTED[:1]}
+        quantities = WANTED if measured else WANTED[:1]
+        params = {"seeds": [1, 2, 3], "pressures": LOADS, "quantities": quantities}
         average_ensemble.main(job(folder, inputs, params, f"{name}.nc"))
         found[name] = datasets.read(folder / f"{name}.nc")
     return folder, found

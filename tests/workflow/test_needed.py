@@ -5,6 +5,7 @@ from helpers.copy_workflow import SURFACES
 
 pytestmark = pytest.mark.workflow
 
+
 def cases(workflow, text):
     """Add cases to the tiny configuration."""
     with (workflow / "config/tiny.yaml").open("a", encoding="utf-8") as file:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import Any
 
-from stickiness.config.messages import unit_problem, unknown
+from stickiness.config.messages import unit_problem
 from stickiness.core.units import si
 
 # Conditions that a case takes from its experiment unless it has its own, and their units.

@@ -94,6 +94,7 @@ def test_points_move_pairs_of_axes_and_each_comes_once():
     assert len({tuple(point.items()) for point in points}) == len(points)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", COMPONENTS)
 def test_the_middle_of_every_map_is_right(name):
     component = COMPONENTS[name]

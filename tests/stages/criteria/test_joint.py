@@ -109,6 +109,7 @@ def test_a_tape_on_a_film_takes_less_energy_than_on_a_rigid_base():
     assert np.isfinite(base.deep_energy).all()
 
 
+@pytest.mark.slow
 def test_no_threshold_with_a_film():
     film = {"youngs_modulus": "3 GPa", "poisson_ratio": 0.4, "thickness": "25 um"}
     found = judged(
@@ -166,6 +167,7 @@ def judged(materials, surfaces):
     return judge_surface.find_verdicts(solids, surfaces, surfaces, np.array([1.0]))
 
 
+@pytest.mark.slow
 def test_thinner_tapes_keep_less_and_the_text_says_so():
     tapes = {"deep": {}} | {d: {"thickness": f"{d} um"} for d in ("50", "20")}
     found = judged({name: TAPE | keys for name, keys in tapes.items()}, {"wall": wall(h_rms=3e-6)})
@@ -180,6 +182,7 @@ def test_thinner_tapes_keep_less_and_the_text_says_so():
     assert describe_layer(at["50"]) in say_verdict("tape", at["50"])
 
 
+@pytest.mark.slow
 def test_a_material_with_a_surface_sticks_less():
     rough = judged(
         {"smooth": TAPE, "rough": TAPE | {"surface": "wall"}}, {"wall": wall(h_rms=3e-6)}

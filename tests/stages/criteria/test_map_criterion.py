@@ -43,6 +43,7 @@ def test_map_with_constant_a_v_has_the_closed_form():
         np.testing.assert_allclose(ratio.values[there], share**0.6, rtol=1e-5)
 
 
+@pytest.mark.slow
 def test_edges_of_the_map_are_weak_above_its_line_and_balance_on_the_threshold():
     made = made_map()
     roughness = map_criterion.Roughness(ConstantAv(), ASKED_MAP, 0.065)

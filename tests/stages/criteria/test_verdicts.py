@@ -121,7 +121,7 @@ def pairs_of(modulus, ranges, h_rms=1e-6, a_v=(4.0, 4.0, 4.0)):
         coords={"end": ["smooth", "rough"]},
     )
     a_v = SurfaceAv(np.array([1e-9, 1.0]), np.transpose([a_v, a_v]), 0, 0.0)
-    with mock.patch.object(joint, "find_a_v", lambda surface: (a_v, a_v)):
+    with mock.patch.object(joint, "find_a_v", return_value=(a_v, a_v)):
         return judge_surface.find_verdicts(solids, {"one": surface}, {}, np.array([1.0, 1e3]))
 
 

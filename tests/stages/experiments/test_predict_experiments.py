@@ -278,6 +278,7 @@ def remember(panel, shown):
     return spy
 
 
+@pytest.mark.slow
 def test_the_figure_shows_the_curve_the_works_and_every_mark(made, dataset, monkeypatch):
     monkeypatch.setattr(plot_experiments, "FOLLOWED", "ball")
     shown = {}

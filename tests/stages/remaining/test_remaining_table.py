@@ -49,6 +49,7 @@ def test_shares_and_work_of_adhesion_of_a_file(measured):
     assert data.approach.values == pytest.approx(data.bound.values, rel=0.05)
 
 
+@pytest.mark.slow
 def test_table_has_every_point_with_its_theories(measured, tmp_path):
     paths = {name: tmp_path / name for name in ("table", "summary")}
     run(tabulate_remaining, input=[str(measured)], output=SimpleNamespace(**paths))

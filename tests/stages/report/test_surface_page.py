@@ -327,6 +327,7 @@ def test_page_of_a_parametric_surface(folder):
     assert "half the Nyquist" not in page
 
 
+@pytest.mark.slow
 def test_error_of_the_share_by_the_spectrum_is_part_of_what_was_drawn(single):
     pair = judged(single).sel(surface="plate", material="gel")
     error = float(pair.remaining_error.sel(source="sampling", end="rough"))
@@ -340,6 +341,7 @@ def test_error_of_the_share_by_the_spectrum_is_part_of_what_was_drawn(single):
     assert float(stress) == pytest.approx(relative)
 
 
+@pytest.mark.slow
 def test_rates_of_the_page_follow_the_modulus(single):
     pair = judged(single).sel(surface="plate", material="gel")
     solid = read_material(MATERIALS["gel"])

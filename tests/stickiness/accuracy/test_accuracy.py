@@ -149,6 +149,7 @@ def config():
     return yaml.safe_load((ROOT / "config/config.yaml").read_text(encoding="utf-8"))
 
 
+@pytest.mark.slow
 def test_presets_are_what_the_rule_gives(config):
     laws, asked = read_models(TABLE), config["tradeoff"]["presets"]
     surface_asked = config["model_surfaces"][asked["surface"]]

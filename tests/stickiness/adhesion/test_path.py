@@ -64,6 +64,7 @@ def test_flat_on_flat_pulls_off_at_the_strength(kind):
     assert all(point.state.branch == "separation" for point in points[1:])
 
 
+@pytest.mark.slow
 def test_weakly_adhesive_sphere_pulls_off_as_maugis_and_dmt_have_it():
     """Tabor 0.1: the zone of attraction is wide, what touches is a few pixels."""
     law = sphere_law(Maugis, 0.1, 0.06)
@@ -296,6 +297,7 @@ def test_loop_encloses_the_energy_that_its_jumps_lose():
     assert areas[0] == pytest.approx(areas[1], rel=0.1)
 
 
+@pytest.mark.slow
 def test_mean_gap_follows_the_curve_beyond_pull_off():
     """One smooth summit: the curve under control of the mean gap has pull-off as its minimum."""
     law = sphere_law(Exponential, 0.5, 0.15)

@@ -108,6 +108,7 @@ def model(*keys, value):
     return changed(CONFIG, "model_surfaces", "H0.8_zeta64", *keys, value=value)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("edit", "words"),
     [

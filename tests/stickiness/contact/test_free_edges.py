@@ -230,6 +230,7 @@ def test_two_methods_one_solution(scaled_pressure):
     assert contact.mean_gap == pytest.approx(float(state.gap.mean()) * rms, rel=1e-7)
 
 
+@pytest.mark.slow
 def test_projected_gradients_go_on_where_active_sets_fail(monkeypatch):
     heights = rough((96, 96), seed=7)
     usual = solve(heights, 1.0, 0.5)
@@ -277,6 +278,7 @@ def test_units_and_symmetries():
     np.testing.assert_allclose(turned.pressure[::-1, ::-1], contact.pressure, atol=1e-5)
 
 
+@pytest.mark.slow
 def test_loading_path_and_starts():
     """Further loads press further; dF/d(approach), the contact stiffness, grows with the area."""
     heights = rough((128, 128), seed=5)

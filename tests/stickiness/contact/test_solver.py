@@ -249,6 +249,7 @@ def test_an_offset_of_the_heights_shifts_only():
     assert lifted.shift - 1e3 == pytest.approx(base.shift, abs=1e-7)
 
 
+@pytest.mark.slow
 @pytest.mark.filterwarnings("ignore:(heights of|pressure =)")
 @settings(max_examples=15, deadline=None, derandomize=True)
 @given(

@@ -296,6 +296,7 @@ def test_shift_mirror_and_transpose_of_heights(seed, n, load, shift, transpose):
         assert areas[0] == pytest.approx(areas[1], abs=2.5 / h.size)
 
 
+@pytest.mark.slow
 @given(seeds, laws, loads, st.integers(0, 30))
 def test_symmetry_of_adhesive_contact(seed, law, load, shift):
     """Where the state is unique: adhesion too weak for jumps."""
@@ -352,6 +353,7 @@ def test_spectra_and_their_stitching_do_not_depend_on_order(seed, hurst):
     assert other.scatter == pytest.approx(one.scatter, rel=1e-6)
 
 
+@pytest.mark.slow
 @given(seeds, laws)
 def test_the_same_adhesion_gives_the_same_bits(seed, law):
     states = [adhered(heights_of(seed, 16), law, 0.5, 0.1, 0.05) for _ in range(2)]

@@ -127,6 +127,7 @@ def material_at(factor, rough):
 ROUGH = Roughness(h_rms=1e-6, q0=1e5, elastic_energy=1e-7)
 
 
+@pytest.mark.slow
 def test_errors_of_the_spectrum_pass_to_the_margin():
     # Tough: the threshold is in proportion to the elastic energy, whatever h_rms and q0.
     rng = np.random.default_rng(0)
@@ -139,6 +140,7 @@ def test_errors_of_the_spectrum_pass_to_the_margin():
     assert found.from_spectrum < 1e-3
 
 
+@pytest.mark.slow
 def test_draws_spread_over_the_error_of_the_model():
     """One spectrum: what is left are the model's errors, of which the limits cover 90 %."""
     many = drawn(np.full(4000, 1e-6), np.full(4000, 1e5), np.full(4000, 1e-7))
@@ -154,6 +156,7 @@ def test_draws_spread_over_the_error_of_the_model():
     np.testing.assert_allclose(np.quantile(found.remaining, (0.05, 0.5, 0.95)), shares, rtol=0.03)
 
 
+@pytest.mark.slow
 def test_probability_is_the_share_of_the_margin_above_one():
     """Half of them at the threshold, all or none of them well beyond the model's error."""
     many = drawn(np.full(4000, 1e-6), np.full(4000, 1e5), np.full(4000, 1e-7))

@@ -30,6 +30,7 @@ def test_soft_sticks_and_stiff_does_not():
         assert low < found.modulus_threshold < high
 
 
+@pytest.mark.slow
 def test_verdict_depends_within_the_limits_of_the_threshold():
     found = verdict(ROUGH, **GEL)
     at_threshold = verdict(ROUGH, **GEL | {"modulus": found.modulus_threshold})

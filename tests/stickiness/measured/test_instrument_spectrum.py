@@ -117,6 +117,7 @@ def test_limits_that_leave_nothing_are_named():
         instrument_spectrum.analyse(Topography(h, dx, dx, "here"), limits=Limits(tip_radius=1e6))
 
 
+@pytest.mark.slow
 def test_uneven_profile_is_trusted_to_its_largest_gap():
     _, h, dx = patch(n=1024, q1=500.0)
     even = instrument_spectrum.analyse(Profile(h[:, 7], dx, "here").detrended())

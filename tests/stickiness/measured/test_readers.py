@@ -69,6 +69,7 @@ def test_what_an_instrument_marks_as_missing_is_missing(tmp_path, counts):
     assert cropped.cropped == pytest.approx(1 - cropped.heights.size / 120)
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("instrument")
 @pytest.mark.parametrize(
     ("arguments", "message"),

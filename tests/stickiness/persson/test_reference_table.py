@@ -83,6 +83,7 @@ def test_the_program_still_makes_the_table():
     np.testing.assert_allclose(made, kept, rtol=1e-12)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("variant", ["afferrante2018", "almqvist2011"])
 @pytest.mark.parametrize("name", list(reference.SPECTRA))
 def test_normalised_to_ten_digits(name, variant):

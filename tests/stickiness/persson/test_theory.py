@@ -261,6 +261,7 @@ def test_pressure_at_inverts_mean_gap(gap):
         assert theory.mean_gap(theory.pressure_at(gap)) == pytest.approx(gap, rel=1e-11)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("variant", VARIANTS)
 @pytest.mark.parametrize("hurst", [0.3, 0.8, 1.0])
 @pytest.mark.parametrize("magnification", [1.01, 10.0, 1e3, 1e6, 1e8])
@@ -290,6 +291,7 @@ def test_density_integrates_to_the_cumulative_distribution(variant):
     assert np.all(np.diff(cumulative) >= 0)
 
 
+@pytest.mark.slow
 def test_first_moment_is_that_of_the_density():
     s, p = power_law(), 0.065
     u = np.concatenate([[0.0], np.geomspace(1e-5, 900, 1500)])
@@ -366,6 +368,7 @@ def test_table_of_a_power_law_is_the_power_law(points):
     )
 
 
+@pytest.mark.slow
 def test_rough_table_with_many_points():
     rng = np.random.default_rng(3)
     q = np.geomspace(1, 1e4, 2000)

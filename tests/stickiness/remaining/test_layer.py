@@ -25,6 +25,7 @@ def test_without_jumps_all_works_are_the_energy_gained():
     assert found.separation == pytest.approx(found.bound, rel=0.03)
 
 
+@pytest.mark.slow
 def test_full_contact_of_a_wave_costs_the_energy_of_the_layer():
     x = np.arange(64) / 64
     heights = 0.05 * np.cos(2 * np.pi * x)[:, None] * np.ones(64)

@@ -21,6 +21,7 @@ def test_flat_surfaces_part_at_the_full_work():
     assert found.approach == pytest.approx(1, rel=0.02)
 
 
+@pytest.mark.slow
 def test_full_contact_of_a_wave_costs_its_energy():
     x = np.arange(64) / 64
     heights = np.cos(2 * np.pi * x)[:, None] * np.ones(64)  # U_full = pi/4 for a cell of side 1
@@ -32,6 +33,7 @@ def test_full_contact_of_a_wave_costs_its_energy():
     assert found.area_at_zero_load == pytest.approx(1, abs=0.02)
 
 
+@pytest.mark.slow
 def test_without_jumps_all_works_are_the_energy_gained():
     found = measure(random_heights(), LENGTH, adhesive.Exponential(0.3, 0.5), squeeze=0.1)
     assert found.jumps == 0
@@ -41,6 +43,7 @@ def test_without_jumps_all_works_are_the_energy_gained():
     assert found.resolved
 
 
+@pytest.mark.slow
 def test_the_grid_resolves_or_says_so():
     law = adhesive.Exponential(0.3, 0.5)
     fine = measure(random_heights(128), LENGTH, law, squeeze=0.1, half_grid=False)
@@ -53,6 +56,7 @@ def test_the_grid_resolves_or_says_so():
     assert not measure(random_heights(32), LENGTH, narrow, 0.1, half_grid=False).resolved
 
 
+@pytest.mark.slow
 def test_more_adhesion_holds_more():
     laws = [adhesive.Exponential(w, 0.5) for w in (0.1, 0.3, 0.6)]
     found = [measure(random_heights(), LENGTH, law, 0.1, half_grid=False) for law in laws]

@@ -109,6 +109,7 @@ def test_any_adhesion_and_magnification(no_pull_off, magnification, hurst):
     assert shares[-1] > 0.99
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("spectrum", [power_law(), Shells([1.0, 2.0, 5.0], [1.0, 0.2, 0.02])])
 def test_scales_are_fine_enough(spectrum):
     w = 1.2 * spectrum.elastic_energy()
@@ -134,6 +135,7 @@ def test_nothing_remains_of_weak_adhesion():
     assert remaining_adhesion(power_law(), 1e-3) == multiscale.MultiscaleAdhesion(0.0, 0.0, 0.0)
 
 
+@pytest.mark.slow
 def test_units_do_not_matter():
     one = remaining_adhesion(power_law(), 0.6)
     other = SelfAffine(hurst=0.8, q0=1e6, q1=16e6, h_rms=2e-6)

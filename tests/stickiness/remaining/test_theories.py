@@ -36,6 +36,7 @@ def test_full_contact():
     assert full_contact_share(np.array([0.5, 1.0, 4.0])) == pytest.approx([0, 0, 0.75])
 
 
+@pytest.mark.slow
 def test_dmt_form_at_long_range_and_at_full_contact():
     surface = rough(32.0)
     assert dmt_share(surface, 0.01, 100.0) == pytest.approx(1, abs=0.1)
@@ -44,6 +45,7 @@ def test_dmt_form_at_long_range_and_at_full_contact():
     assert dmt_share(surface, 1e-3, 1e-3) < 1e-3
 
 
+@pytest.mark.slow
 def test_theories_take_the_average_over_directions():
     turned = SelfAffine(hurst=0.8, q0=1.0, q1=16.0, h_rms=1.0, anisotropy=4.0, angle=0.3)
     mean = turned.averaged()

@@ -25,6 +25,7 @@ def test_powers_have_closed_forms(rough, power):
         assert found == pytest.approx(float(expected), rel=1e-11)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("rough", SPECTRA, ids=lambda s: type(s).__name__)
 @pytest.mark.parametrize("thickness", [1e-4, 0.05, 1.0, 3.0])
 @pytest.mark.parametrize(
