@@ -5,15 +5,16 @@ are four times smaller. At the edge of contact the wall takes a share of a force
 """
 
 import numpy as np
+from scipy import sparse
 
 from stickiness.contact import convolution, half_space
-from stickiness.contact.preconditioner import average_neighbours, build_neighbour_matrix
 from stickiness.solids import HALF_SPACE
 
 LONGEST = np.pi  # |q| / 2 of the longest wave across a side of 1
 # Yield of short waves over that of the shortest on its own; 1 to 2 do about equally well.
 _SHORT = 1.6
 _SHARE = 0.5  # of a force beside the wall that the wall takes
+_DIAGONAL = 0.6  # weight of a diagonal neighbour beside a direct one
 
 
 class Smoother:
@@ -109,3 +110,61 @@ def _spread(coarse):
 def _split(field, axis):
     """Views of every second row or column, and of those between."""
     return (field[::2], field[1::2]) if axis == 0 else (field[:, ::2], field[:, 1::2])
+
+
+def average_neighbours(active, shape):
+    """Points beside an active set (flat, periodic, not empty), and means over active neighbours.
+
+    Returns their flat indices and, of shape ``(band.size, 8)``, flat indices of active points and
+    their weights: zero for a neighbour that is not active, their sum below one.
+    """
+    band = np.flatnonzero(_surroundings(active.reshape(shape)))
+    first = int(np.argmax(active))
+    columns = np.zeros((band.size, 8), np.int32)
+    weights = np.zeros((band.size, 8), np.float32)
+    for i, (neighbour, weight) in enumerate(_neighbours(band, shape)):
+        touching = active[neighbour]
+        weights[:, i] = np.float32(weight) * touching
+        columns[:, i] = np.where(touching, neighbour, first)
+    weights /= 1 + weights.sum(axis=1, keepdims=True)
+    return band, columns, weights
+
+
+def build_neighbour_matrix(weights, columns, width):
+    """Sparse matrix of eight entries a row, those of neighbours that do not count being zero."""
+    starts = np.arange(0, weights.size + 1, 8, dtype=np.int32)
+    shape = (weights.shape[0], width)
+    return sparse.csr_array((weights.ravel(), columns.ravel(), starts), shape=shape)
+
+
+def _surroundings(active):
+    """Points of a periodic grid that are not active but next to one that is."""
+    reached = active.copy()
+    for axis in (0, 1):
+        a, b = np.moveaxis(reached, axis, 0), np.moveaxis(reached.copy(), axis, 0)
+        a[1:] |= b[:-1]
+        a[:-1] |= b[1:]
+        a[0] |= b[-1]
+        a[-1] |= b[0]
+    reached &= ~active
+    return reached
+
+
+def _neighbours(points, shape):
+    """Flat indices of the eight periodic neighbours of points, each with its weight."""
+    n0, n1 = shape
+    column = points % n1
+    first, last = np.flatnonzero(column == 0), np.flatnonzero(column == n1 - 1)
+    for i in (-1, 0, 1):
+        row = points + i * n1
+        if i < 0:
+            row[row < 0] += n0 * n1
+        elif i > 0:
+            row[row >= n0 * n1] -= n0 * n1
+        left, right = row - 1, row + 1
+        left[first] += n1
+        right[last] -= n1
+        if i:
+            yield row, 1.0
+        yield left, _DIAGONAL if i else 1.0
+        yield right, _DIAGONAL if i else 1.0

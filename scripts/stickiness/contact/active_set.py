@@ -17,7 +17,7 @@ import pyfftw
 
 from stickiness.contact import few_points, free_edges, half_space
 from stickiness.contact.conjugate_gradients import close_gap
-from stickiness.contact.preconditioner import Preconditioner, coarse_stiffness
+from stickiness.contact.preconditioner import Preconditioner
 from stickiness.solids import HALF_SPACE, Solid
 
 PREDICTION = 0.7  # c in "contact where p > c k g": 0.5 to 1 predict about equally well
@@ -104,21 +104,20 @@ class _Grid:
         self.quick = (
             self.exact if rough else _Field(problem.operator(np.float32), memory=self.exact)
         )
-        self.coarse = coarse_stiffness(self.shape, problem.sides, problem.solid)
         # Below this residual rounding in single precision (some 1e-6 of the heights) is felt.
         largest = float(np.abs(heights).max())
         if not problem.periodic:  # an absolute displacement is about as large as this
             largest = max(largest, problem.load)
         self.doubtful = 0.0 if rough else _DOUBTFUL * largest
         self.solid, self.sides = problem.solid, problem.sides
-        self.spent = 0.0  # convolutions of `few_points`, by their share of the points
+        self.spent = 0.0  # convolutions on coarser grids, by their share of the points
         self._before = self._count()
 
     def _count(self):
         pairs = self.quick.operator.pairs + self.spent
         if self.exact is not self.quick:
             pairs += self.exact.operator.pairs
-        return pairs if self.coarse is None else pairs + self.coarse.applications / 4
+        return pairs
 
     @property
     def pairs(self):
