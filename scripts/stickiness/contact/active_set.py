@@ -17,9 +17,12 @@ import pyfftw
 
 from stickiness.contact import few_points, free_edges, half_space
 from stickiness.contact.conjugate_gradients import close_gap
+from stickiness.contact.grids import measure_slope
 from stickiness.contact.preconditioner import Preconditioner
 from stickiness.solids import HALF_SPACE, Solid
 
+_GENEROUS = 2.0  # first set over the contact that is expected
+_MOST = 0.5  # of all points: beyond this the first set is all of them
 PREDICTION = 0.7  # c in "contact where p > c k g": 0.5 to 1 predict about equally well
 _LOOSE = 0.15  # reduction of the gap on a set that is still changing much
 _CLOSER = 0.03  # and on one that changes little
@@ -134,7 +137,7 @@ def relax(problem, *, tol, max_iterations, gap=None, pressure=None, rough=False,
     """Find pressure and gap on one grid; returns the iterate of the smallest residual.
 
     Starts from a guess of the `gap` (single precision), from one of the `pressure` (any positive
-    mean), or from a uniform pressure. `rough`: single precision suffices, `tol` is well above 1e-5.
+    mean), or from a uniform pressure on the highest points. `rough`: single precision suffices, `tol` is well above 1e-5.
     """
     heights, load = problem.heights, problem.load
     sure = problem.solid == HALF_SPACE and problem.periodic
@@ -148,7 +151,8 @@ def relax(problem, *, tol, max_iterations, gap=None, pressure=None, rough=False,
     elif pressure is not None:
         points, pressure = _predicted_from_pressure(grid, pressure, total)
     else:
-        points, pressure = np.arange(heights.size), np.full(heights.size, load)
+        points = _highest(problem)
+        pressure = np.full(points.size, total / points.size)
     if points.size == heights.size and problem.periodic:
         full = _full_contact(grid, load)
         if full.pressure.min() >= 0:
@@ -250,6 +254,19 @@ def _gap(grid, field, points, pressure):
     grid.active[points] = False
     depth = float(-(image[below].min() + shift)) if below.size else 0.0
     return shift, gaps, below, max(float(np.abs(gaps).max()), depth)
+
+
+def _highest(problem):
+    """Points that may touch, for want of a guess: the highest, many of them; all at a high load.
+
+    At small loads the area of contact is about twice the load over the rms slope.
+    """
+    heights = problem.heights
+    area = 2 * problem.load / (measure_slope(heights, problem.sides) or 1.0)
+    count = int(_GENEROUS * area * heights.size) + 1
+    if not problem.periodic or problem.solid != HALF_SPACE or count > _MOST * heights.size:
+        return np.arange(heights.size)
+    return np.sort(np.argpartition(heights.ravel(), -count)[-count:])
 
 
 def _predicted_from_gap(grid, gap, load):
