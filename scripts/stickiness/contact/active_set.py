@@ -24,8 +24,8 @@ from stickiness.solids import HALF_SPACE, Solid
 _GENEROUS = 2.0  # first set over the contact that is expected
 _MOST = 0.5  # of all points: beyond this the first set is all of them
 PREDICTION = 0.7  # c in "contact where p > c k g": 0.5 to 1 predict about equally well
-_LOOSE = 0.15  # reduction of the gap on a set that is still changing much
-_CLOSER = 0.03  # and on one that changes little
+_LOOSE = 0.4  # reduction of the gap on a set that is still changing much
+_CLOSER = 0.01  # and on one that changes little
 _SETTLED = 1e-3  # share of changing points below which a set changes little
 _DOUBTFUL = 1e-4  # of the largest height: residual below which gaps need double precision
 _PATIENCE = 8  # updates without progress after which the set is solved ten times tighter

@@ -14,8 +14,8 @@ from scipy import sparse
 from stickiness.contact import convolution, half_space
 
 _SPACING = 4  # of the grid of the extension, in pixels
-_OWN = 4.0  # weight of a point of that grid beside its next one: 2 to 8 do about equally well
-_REST = 0.02  # weight of rest: far from all contact the extension vanishes
+_OWN = 8.0  # weight of a point of that grid beside its next one: 2 to 16 do about equally well
+_REST = 0.3  # weight of rest: far from all contact the extension vanishes
 
 
 class Preconditioner:
