@@ -89,7 +89,7 @@ class _Field:
     def spread(self, points, values, wanted):
         """Values, at other points, of a field that is zero but for `values` at `points`."""
         self.field[points] = values
-        spread = self.field[wanted].astype(float)
+        spread = self.field[wanted].astype(float, copy=False)
         self.field[points] = 0
         return spread
 
@@ -137,7 +137,8 @@ def relax(problem, *, tol, max_iterations, gap=None, pressure=None, rough=False,
     """Find pressure and gap on one grid; returns the iterate of the smallest residual.
 
     Starts from a guess of the `gap` (single precision), from one of the `pressure` (any positive
-    mean), or from a uniform pressure on the highest points. `rough`: single precision suffices, `tol` is well above 1e-5.
+    mean), or from a uniform pressure on the highest points. `rough`: single precision suffices,
+    `tol` is well above 1e-5.
     """
     heights, load = problem.heights, problem.load
     sure = problem.solid == HALF_SPACE and problem.periodic
@@ -193,9 +194,10 @@ def relax(problem, *, tol, max_iterations, gap=None, pressure=None, rough=False,
         if stale and stale % _PATIENCE == 0:
             loose /= 10
         admitted = below[
-            field.image[below] + shift < -few_points.ADMITTED * np.sqrt(np.mean(gaps**2))
+            field.image[below] + shift < -few_points.ADMITTED * np.sqrt(gaps @ gaps / gaps.size)
         ]
         if admitted.size:
+            gaps = None  # frees memory
             points, pressure, gaps = _joined(grid, field, points, pressure, admitted, shift)
             precondition = None
         changed += admitted.size
@@ -245,7 +247,7 @@ def _gap(grid, field, points, pressure):
     """
     image = field.apply(field.operator.compliance, points, pressure, grid.rows(points))
     np.subtract(image, grid.heights.ravel(), out=image, casting="same_kind")
-    gaps = image[points].astype(float)
+    gaps = image[points].astype(float, copy=False)
     shift = float(-gaps.mean())
     gaps += shift
     below = np.flatnonzero(image < -shift)
@@ -311,7 +313,9 @@ def _joined(grid, field, points, pressure, extra, shift):
     joined = np.flatnonzero(grid.active)
     grid.active[joined] = False
     spread = grid.exact.spread(points, pressure, joined)
-    return joined, spread, field.image[joined].astype(float) + shift
+    gaps = field.image[joined].astype(float, copy=False)
+    gaps += shift
+    return joined, spread, gaps
 
 
 def _scaled(gaps):
