@@ -301,6 +301,7 @@ def _predicted_from_pressure(grid, pressure, total):
 
 
 def _balanced(pressure, total):
+    pressure = pressure.astype(float, copy=False)  # single precision would upset the balance
     force = pressure.sum()
     if force > 0:
         return pressure * (total / force)
