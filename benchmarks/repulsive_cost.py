@@ -32,6 +32,7 @@ LOADS = (0.003, 0.01, 0.065, 0.3, 1.0, 3.0)
 GROWTH = (0.01, 0.1)  # loads of `growth`
 FIELDS = ("n", "load", "area", "seconds", "pairs", "pair_seconds", "gigabytes", "arrays")
 _OFTEN = 2048  # sides up to which the least of three times counts
+_ONCE = 4096  # sides beyond which operators are made within the only time
 COLOURS = {0.01: "#0072b2", 0.1: "#d55e00"}
 
 
@@ -57,13 +58,13 @@ def timed(heights, load):
 
 
 def peak(heights, load):
-    """Largest memory of a solution beside the heights, the operators it makes included: bytes."""
+    """Bytes beside the heights with the operators it makes, time and solution of a load."""
     half_space.clear_caches()
     tracemalloc.start()
-    contact = repulsive.solve(heights, 1.0, load * Q0)
+    seconds, contact = timed(heights, load)
     most = tracemalloc.get_traced_memory()[1]
     tracemalloc.stop()
-    return most, contact
+    return most, seconds, contact
 
 
 def seconds_of_a_pair(n, times):
@@ -85,8 +86,9 @@ def growth(chosen):
         heights = heights_of(n, chosen.hurst, chosen.seed)
         runs = 3 if n <= _OFTEN else 1
         for load in GROWTH:
-            most, contact = peak(heights, load)
-            seconds = min(timed(heights, load)[0] for _ in range(runs))
+            most, seconds, contact = peak(heights, load)
+            if n <= _ONCE:
+                seconds = min(timed(heights, load)[0] for _ in range(runs))
             pair = seconds_of_a_pair(n, 3 * runs)
             figures = contact.area_fraction, seconds, contact.fft_pairs, pair
             figures = [float(f"{x:.4g}") for x in (*figures, most / 1e9, most / heights.nbytes)]
@@ -112,9 +114,10 @@ def draw(path, rows):
             label = f"load {load:g} $E^* q_0 h_\\mathrm{{rms}}$"
             values = [row[name] for row in among]
             axes.plot(n, values, marker=marker, color=COLOURS[load], label=label)
-    bare = [row["pair_seconds"] for row in among]
+    n = sorted({row["n"] for row in rows})
+    bare = [min(row["pair_seconds"] for row in rows if row["n"] == m) for m in n]
     times.plot(n, bare, "k^--", label="one bare FFT pair")
-    memory.plot(n, [8e-9 * m**2 for m in n], "k--", label="one array")
+    memory.plot(n, [8e-9 * m**2 for m in n], "k--", label="one array of the grid")
     titles = ("processor time [s]", "memory beside the heights [GB]", "FFT pairs")
     for (axes, _), title in zip(panels, titles, strict=True):
         axes.set_xscale("log", base=2)
@@ -125,7 +128,7 @@ def draw(path, rows):
     times.set_yscale("log")
     memory.set_yscale("log")
     pairs.set_ylim(bottom=0)
-    times.legend(fontsize=8)
+    times.legend(fontsize=8, loc="lower right")
     memory.legend(fontsize=8)
     figure.savefig(path, dpi=150)
 
@@ -153,7 +156,7 @@ def memory(chosen):
     n = chosen.sizes[-1]
     heights = heights_of(n, chosen.hurst, chosen.seed)
     for load in LOADS:
-        most, contact = peak(heights, load)
+        most, _, contact = peak(heights, load)
         arrays = most / heights.nbytes
         print(f"n = {n}, load {load:g}, area {contact.area_fraction:.3f}: {arrays:.1f} arrays")
 
