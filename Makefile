@@ -61,8 +61,9 @@ $(VENV)/.dev: envs/dev.txt $(VENV)/.run
 	$(PIP) -r envs/dev.txt
 	touch $@
 
-# Reference codes for the tests; where they do not install, those tests are skipped.
-$(VENV)/.peers: envs/peers.txt envs/instruments.txt $(VENV)/.dev
+# Reference codes for tests and benchmarks, which leave out those that do not install.
+$(VENV)/.peers: envs/peers.txt envs/aspher.txt envs/instruments.txt $(VENV)/.dev
 	-$(PIP) -r envs/instruments.txt
 	-$(PIP) -r envs/peers.txt
+	-$(PIP) -r envs/aspher.txt
 	touch $@

@@ -17,12 +17,15 @@ import pyfftw
 
 from stickiness.contact import few_points, free_edges, half_space
 from stickiness.contact.conjugate_gradients import close_gap
-from stickiness.contact.preconditioner import Preconditioner, coarse_stiffness
+from stickiness.contact.grids import measure_slope
+from stickiness.contact.preconditioner import Preconditioner
 from stickiness.solids import HALF_SPACE, Solid
 
+_GENEROUS = 2.0  # first set over the contact that is expected
+_MOST = 0.5  # of all points: beyond this the first set is all of them
 PREDICTION = 0.7  # c in "contact where p > c k g": 0.5 to 1 predict about equally well
-_LOOSE = 0.15  # reduction of the gap on a set that is still changing much
-_CLOSER = 0.03  # and on one that changes little
+_LOOSE = 0.4  # reduction of the gap on a set that is still changing much
+_CLOSER = 0.01  # and on one that changes little
 _SETTLED = 1e-3  # share of changing points below which a set changes little
 _DOUBTFUL = 1e-4  # of the largest height: residual below which gaps need double precision
 _PATIENCE = 8  # updates without progress after which the set is solved ten times tighter
@@ -86,7 +89,7 @@ class _Field:
     def spread(self, points, values, wanted):
         """Values, at other points, of a field that is zero but for `values` at `points`."""
         self.field[points] = values
-        spread = self.field[wanted].astype(float)
+        spread = self.field[wanted].astype(float, copy=False)
         self.field[points] = 0
         return spread
 
@@ -104,21 +107,20 @@ class _Grid:
         self.quick = (
             self.exact if rough else _Field(problem.operator(np.float32), memory=self.exact)
         )
-        self.coarse = coarse_stiffness(self.shape, problem.sides, problem.solid)
         # Below this residual rounding in single precision (some 1e-6 of the heights) is felt.
         largest = float(np.abs(heights).max())
         if not problem.periodic:  # an absolute displacement is about as large as this
             largest = max(largest, problem.load)
         self.doubtful = 0.0 if rough else _DOUBTFUL * largest
         self.solid, self.sides = problem.solid, problem.sides
-        self.spent = 0.0  # convolutions of `few_points`, by their share of the points
+        self.spent = 0.0  # convolutions on coarser grids, by their share of the points
         self._before = self._count()
 
     def _count(self):
         pairs = self.quick.operator.pairs + self.spent
         if self.exact is not self.quick:
             pairs += self.exact.operator.pairs
-        return pairs if self.coarse is None else pairs + self.coarse.applications / 4
+        return pairs
 
     @property
     def pairs(self):
@@ -135,7 +137,8 @@ def relax(problem, *, tol, max_iterations, gap=None, pressure=None, rough=False,
     """Find pressure and gap on one grid; returns the iterate of the smallest residual.
 
     Starts from a guess of the `gap` (single precision), from one of the `pressure` (any positive
-    mean), or from a uniform pressure. `rough`: single precision suffices, `tol` is well above 1e-5.
+    mean), or from a uniform pressure on the highest points. `rough`: single precision suffices,
+    `tol` is well above 1e-5.
     """
     heights, load = problem.heights, problem.load
     sure = problem.solid == HALF_SPACE and problem.periodic
@@ -149,7 +152,8 @@ def relax(problem, *, tol, max_iterations, gap=None, pressure=None, rough=False,
     elif pressure is not None:
         points, pressure = _predicted_from_pressure(grid, pressure, total)
     else:
-        points, pressure = np.arange(heights.size), np.full(heights.size, load)
+        points = _highest(problem)
+        pressure = np.full(points.size, total / points.size)
     if points.size == heights.size and problem.periodic:
         full = _full_contact(grid, load)
         if full.pressure.min() >= 0:
@@ -190,9 +194,10 @@ def relax(problem, *, tol, max_iterations, gap=None, pressure=None, rough=False,
         if stale and stale % _PATIENCE == 0:
             loose /= 10
         admitted = below[
-            field.image[below] + shift < -few_points.ADMITTED * np.sqrt(np.mean(gaps**2))
+            field.image[below] + shift < -few_points.ADMITTED * np.sqrt(gaps @ gaps / gaps.size)
         ]
         if admitted.size:
+            gaps = None  # frees memory
             points, pressure, gaps = _joined(grid, field, points, pressure, admitted, shift)
             precondition = None
         changed += admitted.size
@@ -242,7 +247,7 @@ def _gap(grid, field, points, pressure):
     """
     image = field.apply(field.operator.compliance, points, pressure, grid.rows(points))
     np.subtract(image, grid.heights.ravel(), out=image, casting="same_kind")
-    gaps = image[points].astype(float)
+    gaps = image[points].astype(float, copy=False)
     shift = float(-gaps.mean())
     gaps += shift
     below = np.flatnonzero(image < -shift)
@@ -251,6 +256,19 @@ def _gap(grid, field, points, pressure):
     grid.active[points] = False
     depth = float(-(image[below].min() + shift)) if below.size else 0.0
     return shift, gaps, below, max(float(np.abs(gaps).max()), depth)
+
+
+def _highest(problem):
+    """Points that may touch, for want of a guess: the highest, many of them; all at a high load.
+
+    At small loads the area of contact is about twice the load over the rms slope.
+    """
+    heights = problem.heights
+    area = 2 * problem.load / (measure_slope(heights, problem.sides) or 1.0)
+    count = int(_GENEROUS * area * heights.size) + 1
+    if not problem.periodic or problem.solid != HALF_SPACE or count > _MOST * heights.size:
+        return np.arange(heights.size)
+    return np.sort(np.argpartition(heights.ravel(), -count)[-count:])
 
 
 def _predicted_from_gap(grid, gap, load):
@@ -283,6 +301,7 @@ def _predicted_from_pressure(grid, pressure, total):
 
 
 def _balanced(pressure, total):
+    pressure = pressure.astype(float, copy=False)  # single precision would upset the balance
     force = pressure.sum()
     if force > 0:
         return pressure * (total / force)
@@ -295,7 +314,9 @@ def _joined(grid, field, points, pressure, extra, shift):
     joined = np.flatnonzero(grid.active)
     grid.active[joined] = False
     spread = grid.exact.spread(points, pressure, joined)
-    return joined, spread, field.image[joined].astype(float) + shift
+    gaps = field.image[joined].astype(float, copy=False)
+    gaps += shift
+    return joined, spread, gaps
 
 
 def _scaled(gaps):
