@@ -86,6 +86,7 @@ def render(template, page, results, *, figures, experiments_figure, tradeoff, be
     return captions.template_of(template, page).render(
         fidelity=fidelity,
         files_of=results.paths,
+        answers=report.answer_own(verdicts, surfaces),
         summary=report.summarise(claims, verdicts, results.criterion, results.ensembles),
         figures=figures,
         claims=[report.describe_claim(claims.sel(claim=number)) for number in claims.claim.values],

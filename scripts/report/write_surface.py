@@ -7,7 +7,8 @@ import numpy as np
 from pipeline.conventions import LOAD
 from pipeline.job import start
 from pipeline.numbers import NOTHING, interval, number, percent, quantity, with_error
-from pipeline.pages import captions, measured_contact
+from pipeline.pages import captions, measured_contact, provided
+from pipeline.pages.provided import own_first
 from pipeline.pages.surface_figure import draw_surface
 from pipeline.pages.surface_texts import describe_height, describe_line, describe_slope
 from pipeline.pages.verdict_texts import describe_pair, ends, explain
@@ -55,7 +56,7 @@ def main(job):
 def render(template, page, *, files, surface, pairs, materials, figure, bem=None):
     """The page as text, with links to the files behind it from where it will lie."""
     made = datasets.parameters(surface)
-    names = list(map(str, pairs.material.values))
+    names = own_first(map(str, pairs.material.values), provided.MATERIALS)
     return captions.template_of(template, page).render(
         files_of=files,
         report=Path(page).parents[1] / "report.html",
@@ -80,7 +81,9 @@ def render(template, page, *, files, surface, pairs, materials, figure, bem=None
         ],
         not_judged=[t for t in surface.attrs.get("not_judged", "").split("\n") if t],
         verdicts=[
-            describe_verdict(pairs.sel(material=name), surface, materials[name]) for name in names
+            describe_verdict(pairs.sel(material=name), surface, materials[name])
+            | {"own": name not in provided.MATERIALS}
+            for name in names
         ],
     )
 

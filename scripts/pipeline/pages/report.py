@@ -15,10 +15,13 @@ import xarray as xr
 
 from pipeline.conventions import at_load
 from pipeline.numbers import NOTHING, interval, number, percent, superscripted, with_error
+from pipeline.pages import provided
+from pipeline.pages.provided import own_first
 from pipeline.pages.surface_texts import describe_height, describe_line
 from pipeline.pages.verdict_texts import WORD_TONES, describe_pair
 from pipeline.tradeoff import summary
 from pipeline.verdicts.materials import describe_modulus
+from pipeline.verdicts.texts import say_verdict
 from stickiness.accuracy import plan
 from stickiness.accuracy.error_models import ErrorModels, Surface
 from stickiness.accuracy.prediction import Problem, predicted_cost, worst_error
@@ -178,7 +181,8 @@ def arrange_verdicts(verdicts: xr.Dataset, surfaces: Datasets) -> Context:
     """Materials against surfaces, and every pair on its own."""
     labels = labels_of(surfaces)
     materials = datasets.parameters(verdicts)["materials"]
-    names, on = (list(map(str, verdicts[dim].values)) for dim in ("material", "surface"))
+    names = own_first(map(str, verdicts.material.values), provided.MATERIALS)
+    on = own_first(map(str, verdicts.surface.values), provided.SURFACES)
     cells = {
         (material, surface): describe_pair(verdicts.sel(material=material, surface=surface))
         | {"material": materials[material]["label"], "name": surface, "surface": labels[surface]}
@@ -197,6 +201,26 @@ def arrange_verdicts(verdicts: xr.Dataset, surfaces: Datasets) -> Context:
         ],
         "pairs": list(cells.values()),
     }
+
+
+def answer_own(verdicts: xr.Dataset, surfaces: Datasets) -> list[str]:
+    """A sentence for every pair of the user's: own materials on own surfaces, or on all.
+
+    Surfaces of the user's without own materials have those that come with the project.
+    """
+    materials, labels = datasets.parameters(verdicts)["materials"], labels_of(surfaces)
+    mine = provided.own(materials, provided.MATERIALS)
+    places = provided.own(labels, provided.SURFACES)
+    if not mine and not places:
+        return []
+    return [
+        say_verdict(
+            f"{materials[material]['label']} on {labels[surface]}",
+            verdicts.sel(material=material, surface=surface),
+        )
+        for surface in places or labels
+        for material in mine or materials
+    ]
 
 
 def labels_of(surfaces: Datasets) -> dict[str, str]:
