@@ -3,6 +3,7 @@
 import os
 import re
 import sys
+import time
 from pathlib import Path
 
 from snakemake.exceptions import WorkflowError
@@ -34,6 +35,7 @@ try:
 except ValueError as error:
     raise WorkflowError(str(error)) from None
 
+STARTED = time.time()
 FIDELITY = config["fidelities"][config["fidelity"]]
 RESULTS = f"{config['results']}/{config['fidelity']}"
 TRADEOFF = f"{config['results']}/tradeoff"
@@ -112,8 +114,17 @@ def summarise():
     from pipeline.run_summary import summary
 
     answers = [f"{RESULTS}/cases/{case}.nc" for case in CASES if "accuracy" in CASES[case]]
-    print(summary(RESULTS, answers), file=sys.stderr)
+    print(summary(RESULTS, STARTED, answers), file=sys.stderr)
 
 
 onsuccess:
     summarise()
+
+
+onerror:
+    summarise()
+    print(
+        "  failed    Some jobs failed, as said above; what does not depend on them was made. "
+        "Mend what they name\n            and run the same command again: it makes the rest.",
+        file=sys.stderr,
+    )

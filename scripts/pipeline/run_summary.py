@@ -8,25 +8,36 @@ from stickiness.core import datasets
 from stickiness.criteria.pair import WORDS
 
 
-def summary(results: str, answers: Iterable[str] = ()) -> str:
+def summary(results: str, since: float, answers: Iterable[str] = ()) -> str:
     """Where the report is, how claims and pairs came out, and which cases missed their accuracy.
 
-    `results` is the folder, `answers` those files of cases that ask for an accuracy.
+    `results` is the folder, `answers` those files of cases that ask for an accuracy. Files are left
+    out that were written before `since` [s since the epoch], which are of an earlier run.
     """
-    lines = [("results", results), *grades(Path(results)), *misses(answers)]
+    lines = [("results", results), *grades(Path(results), since), *misses(answers)]
     report = Path(results, "report/report.html")
-    if report.exists():
+    if is_new(report, since):
         lines.insert(1, ("report", str(report)))
+    pages = [
+        page for page in Path(results, "report/surfaces").glob("*.html") if is_new(page, since)
+    ]
+    if pages:
+        lines.append(("pages", ", ".join(map(str, sorted(pages)))))
     return "\n".join(f"  {what:<9} {text}" for what, text in lines)
 
 
-def grades(results: Path) -> list[tuple[str, str]]:
-    """Which claims hold and which pairs stick, as far as there are files of them."""
+def is_new(path: Path, since: float) -> bool:
+    """Whether a file was written after a time."""
+    return path.exists() and path.stat().st_mtime >= since
+
+
+def grades(results: Path, since: float) -> list[tuple[str, str]]:
+    """Which claims hold and which pairs stick, as far as this run has found it out."""
     lines = []
     claims, verdicts = results / "claims/claims.nc", results / "criteria/verdicts.nc"
-    if claims.exists():
+    if is_new(claims, since):
         lines.append(("claims", count(datasets.read(claims, ["verdict"]).verdict.values)))
-    if verdicts.exists():
+    if is_new(verdicts, since):
         codes = datasets.read(verdicts, ["verdict"]).verdict.values.ravel()
         lines.append(("pairs", count(WORDS[code] for code in codes)))
     return lines

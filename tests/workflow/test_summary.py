@@ -17,6 +17,26 @@ def test_a_run_ends_with_a_summary(finished):
     assert sum(map(int, re.findall(r"\d+", pairs))) == 7 * len(SURFACES)  # materials on surfaces
 
 
+def test_a_bad_file_holds_up_what_needs_it_and_nothing_else(copy_of_finished):
+    (copy_of_finished / "config/torn.txt").write_text("no heights\n", encoding="utf-8")
+    with (copy_of_finished / "config/tiny_surfaces.yaml").open("a", encoding="utf-8") as file:
+        file.write(
+            "  torn: {kind: measured, label: torn, source: own, file: config/torn.txt, "
+            "format: text, length: 1 mm, height_unit: um}\n"
+            "  mine: {kind: self_affine, label: mine, source: own, hurst: 0.8, h_rms: 1 um, "
+            "longest_wavelength: 1 mm, shortest_wavelength: 1 um}\n"
+        )
+    done = copy_of_finished.snakemake("verdicts", "surfaces")
+    assert done.returncode != 0
+    assert re.search(r"config/torn\.txt: .*no line of numbers", done.stdout)
+    pages = copy_of_finished / "results/tiny/report/surfaces"
+    assert (pages / "mine.html").exists()
+    assert not (pages / "torn.html").exists()
+    assert re.search(r"^  pages +results/tiny/report/surfaces/mine.html$", done.stdout, re.M)
+    assert "  failed    Some jobs failed" in done.stdout
+    assert not re.search(r"^  (pairs|claims) ", done.stdout, re.M), "a count of an earlier run"
+
+
 def test_a_failed_job_says_why_in_a_line_and_its_log_has_the_trace(copy_of_finished):
     copy_of_finished.edit(
         "scripts/criteria/map_criterion.py",
