@@ -36,6 +36,14 @@ except ValueError as error:
     raise WorkflowError(str(error)) from None
 
 STARTED = time.time()
+for target in sys.argv[1:]:
+    asked = re.match(rf"{re.escape(config['results'])}/([^/]+)/", target)
+    if asked and asked[1] in config["fidelities"] and asked[1] != config["fidelity"]:
+        raise WorkflowError(
+            f"{target} is of fidelity {asked[1]}, this run of {config['fidelity']}: "
+            f"add --config fidelity={asked[1]}"
+        )
+
 FIDELITY = config["fidelities"][config["fidelity"]]
 RESULTS = f"{config['results']}/{config['fidelity']}"
 TRADEOFF = f"{config['results']}/tradeoff"

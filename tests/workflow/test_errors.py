@@ -17,3 +17,9 @@ def test_stops_before_any_job(fresh):
     assert message in done.stdout
     assert "Traceback" not in done.stdout
     assert not (fresh / "results").exists()
+
+
+def test_a_target_of_another_fidelity_gets_a_hint(fresh):
+    done = fresh.snakemake("-n", "results/draft/report/report.html")
+    assert done.returncode != 0
+    assert "is of fidelity draft, this run of tiny: add --config fidelity=draft" in done.stdout
