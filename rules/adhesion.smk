@@ -125,26 +125,22 @@ rule adhesive_maps:
     output:
         f"{RESULTS}/adhesion/full/{{adhesion}}/maps.nc",
     resources:
-        mem_mb=memory(27, adhesion_size),
+        mem_mb=memory(27 + plan.SEEDS_A_FILE, adhesion_size),
     params:
         adhesion=lambda wildcards: ADHESION[wildcards.adhesion],
     script:
         "../scripts/adhesion/adhesive_maps.py"
 
 
-def surfaces_of_loop(wildcards):
-    """File that holds the first seed of a loop's surface; that of the presets' cases is at hand."""
-    part = plan.seed_parts(FIDELITY["seeds"])[0]
-    return f"{RESULTS}/surfaces/{LOOPS[wildcards.loop]['surface']}/seeds{part}.nc"
-
-
 rule follow_loop:
     input:
-        surfaces=surfaces_of_loop,
+        surfaces=lambda wildcards: surfaces_on(
+            LOOPS[wildcards.loop]["surface"], FIDELITY["pixels_per_wavelength"]
+        ),
     output:
         f"{RESULTS}/adhesion/loops/{{loop}}.nc",
     resources:
-        mem_mb=memory(36, loop_size),
+        mem_mb=memory(36 + plan.SEEDS_A_FILE, loop_size),
         runtime=60,
     params:
         loop=lambda wildcards: LOOPS[wildcards.loop],

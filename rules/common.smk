@@ -103,14 +103,23 @@ def seeds_of(case):
     return list(range(1, PLANS[case].settings.seeds + 1))
 
 
-def surfaces_of(case, part=None):
+def surfaces_of(case, part="1-1"):
     """Surfaces of a case on the grid that it is solved on: the file that holds a part's seeds."""
     planned = PLANS[case]
-    pixels = planned.settings.pixels_per_wavelength
+    return surfaces_on(planned.surface, planned.settings.pixels_per_wavelength, part)
+
+
+def surfaces_on(surface, pixels, part="1-1"):
+    """File of surfaces on a grid that holds a part's seeds: as many as any case wants of them."""
+    counts = [
+        each.settings.seeds
+        for each in PLANS.values()
+        if each.simulated
+        and (each.surface, each.settings.pixels_per_wavelength) == (surface, pixels)
+    ]
+    held = plan.covering_parts(plan.seeds_in(part)[-1], among=max(counts, default=1))[-1]
     grid = "" if pixels == FIDELITY["pixels_per_wavelength"] else f"@{pixels}"
-    last = plan.seeds_in(part)[-1] if part else 1
-    held = plan.covering_parts(last, among=planned.settings.seeds)[-1]
-    return f"{RESULTS}/surfaces/{planned.surface}{grid}/seeds{held}.nc"
+    return f"{RESULTS}/surfaces/{surface}{grid}/seeds{held}.nc"
 
 
 def a_v_of_simulation(case):
@@ -126,9 +135,9 @@ def summarise():
 
 
 onstart:
-    # On this machine there is no rate of jobs to limit, but for its sake Snakemake 9 looks for jobs
-    # to start once a second for every job that has ended: 12 % of a core in a long run.
-    if workflow.local_exec:
+    # On this machine there is no rate of jobs to limit, but for its sake Snakemake 9.27 looks for
+    # jobs to start once a second for every job that has ended: 12 % of a core in a long run.
+    if workflow.local_exec and hasattr(workflow.scheduler, "job_rate_limiter"):
         workflow.scheduler.job_rate_limiter = None
 
 

@@ -96,7 +96,7 @@ rule contact_maps:
     output:
         f"{RESULTS}/contact/{{case}}/maps.nc",
     resources:
-        mem_mb=memory(22, case_size),
+        mem_mb=memory(22 + plan.SEEDS_A_FILE, case_size),
     params:
         pressures=lambda wildcards: CASES[wildcards.case].get("maps", []),
         tolerance=lambda wildcards: PLANS[wildcards.case].settings.tolerance,

@@ -13,7 +13,7 @@ import numpy as np
 import xarray as xr
 
 from pipeline import conventions
-from pipeline.adhesion_sets import AXES, MISSING, OUTSIDE, SOLVER
+from pipeline.adhesion_sets import AXES, MISSING, OUTSIDE, solver_error
 from pipeline.conventions import LINEAR_UP_TO, cell_size
 from pipeline.dmt_limit import DmtLimit, fit_slope, linearity_error
 from pipeline.ensemble_means import add_errors, coarse, describe_errors, fine
@@ -63,7 +63,7 @@ SLOWLY = "2.4 times the change from half the resolution, as it falls with the ro
 AREA_OF_DMT = ("repulsive_area", "net_repulsive_area")  # without what attraction draws in
 LEFT = {
     "discretisation": "change from half the resolution, or in the DMT limit what is left of it",
-    "solver": "by the tolerance, as measured",
+    "solver": "by the tolerance, as measured; of strong attraction by the branch of the solution",
     "sampling": "Student's t of the standard error",
     "bandwidth": SIMULATED["bandwidth"].text,
     "model": "of the DMT limit as measured, of areas not known; of full simulation what comparing "
@@ -138,23 +138,27 @@ def average(states, full, ensemble, dmt, made):
         for name in ("inverse_kappa_ad", "dmt_ratio")
     }
     models |= {name: linearity_error(dataset[of], linear) for name, of in LOADWISE.items()}
+    solver = solver_error(states)
     for name in ALL:
         model, seeds = models.get(name, 0.0), states.sizes["seed"]
-        dataset[f"{name}_error"] = errors(dataset, name, model, seeds)
+        dataset[f"{name}_error"] = errors(dataset, name, model, seeds, solver)
     dataset["residual"] = states.residual.max(["seed", "resolution"])
     dataset["iterations"] = fine(states.iterations).mean("seed")
     return dataset
 
 
-def errors(dataset, name, model, seeds):
+def errors(dataset, name, model, seeds, solver):
     """Errors of a mean of full simulations, along `source`.
 
     Of multilevel means, too, Student's t is that of the seeds solved in full: more than enough.
     """
     value = dataset[name]
+    if "pressure" not in value.dims:
+        solver = solver.max("pressure")
     parts = {
         "discretisation": dataset[f"{name}_discretisation_error"],
-        "solver": SOLVER * abs(value),
+        "solver": solver
+        * (abs(value) + value.pressure if name == "external_pressure" else abs(value)),
         "sampling": students_t(seeds) * dataset[f"{name}_standard_error"],
         "bandwidth": 0.0,
         "model": abs(model),

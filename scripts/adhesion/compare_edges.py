@@ -9,7 +9,7 @@ import numpy as np
 import xarray as xr
 
 from pipeline import conventions
-from pipeline.adhesion_sets import LAWS, SOLVER
+from pipeline.adhesion_sets import LAWS, solver_error
 from pipeline.error_budgets import SIMULATED
 from pipeline.job import start
 from pipeline.realisations import read_all
@@ -40,8 +40,9 @@ def main(job):
     )
     resolved = states.effect.notnull().all("seed") & averages.dmt_ratio.notnull()
     dataset = annotate(states.mean("seed").where(resolved).assign(q0_h_rms=q0_h_rms))
+    solver = solver_error(adhesive)
     for name in QUOTED:
-        dataset = with_budget(dataset, name, **parts(coarse[name], states[name]))
+        dataset = with_budget(dataset, name, **parts(coarse[name], states[name], solver))
     datasets.write(
         dataset,
         job.output[0],
@@ -50,13 +51,13 @@ def main(job):
     )
 
 
-def parts(coarse, fine):
+def parts(coarse, fine, solver):
     """Parts of the budget of a mean over seeds, known on two grids."""
     change = abs((fine - coarse).mean("seed", skipna=False))
     error = students_t(fine.sizes["seed"]) * fine.std("seed", ddof=1)
     return {
         "discretisation": Part(change, "change from half the resolution"),
-        "solver": Part(SOLVER * fine.mean("seed"), "by the tolerance, as measured"),
+        "solver": Part(solver * fine.mean("seed"), "by tolerance and branch, as measured"),
         "sampling": Part(error / np.sqrt(fine.sizes["seed"]), "Student's t"),
         **SIMULATED,
     }

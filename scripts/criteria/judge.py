@@ -13,6 +13,9 @@ def main(job):
     every = [datasets.read(path, NEEDED) for path in job.input]
     labels = {str(one.surface.item()): datasets.parameters(one)["label"] for one in every}
     dataset = xr.concat(every, "surface", data_vars="minimal", coords="minimal", join="exact")
+    for name in dataset:  # of the surfaces, one may lack numbers that others have
+        missing = max((one[name].attrs.get("nan_means", "") for one in every), key=len)
+        dataset[name].attrs |= {"nan_means": missing} if missing else {}
     materials = datasets.parameters(every[0])["materials"]
     datasets.write(
         dataset,

@@ -71,9 +71,8 @@ def find_verdicts(materials, surfaces, own, frequencies):
     dataset["verdict"] = decide_pairs(dataset)
     dataset["disagrees"] = find_disagreement(dataset)
     dataset["not_judged"] = find_doubts(materials, surfaces, own)
-    dataset = withhold(dataset)
     draws = {name: surface.sizes.get("draw", 0) for name, surface in surfaces.items()}
-    return add_budgets(describe(dataset), draws)
+    return withhold(add_budgets(describe(dataset), draws))
 
 
 def describe(dataset):
@@ -120,7 +119,7 @@ def describe(dataset):
         work_of_adhesion=("J/m^2", "work of adhesion"),
         threshold_by_criterion=("Pa", "plane-strain modulus below which a criterion says sticky"),
         verdict=("1", ", ".join(f"{code} {word}" for code, word in enumerate(WORDS))),
-        probability=("1", "share of draws that stick", "surface not measured or not judged"),
+        probability=("1", "share of draws that stick", "surface not measured"),
         not_judged=("1", "why a pair is not judged, a line each; empty if it is"),
         quantile=("1", "quantile of the draws"),
         margin_quantile=("1", "quantiles of the margin", "not measured"),

@@ -55,7 +55,8 @@ def colour_of(criterion):
 
 def draw_surfaces(ax, verdicts):
     """Modulus below which a material sticks, over the one of the verdict, for every surface."""
-    by = verdicts.threshold_by_criterion
+    # Without surfaces that are not judged.
+    by = verdicts.threshold_by_criterion.dropna("surface", how="all")
     ratio = np.log10(by / by.sel(criterion=REMAINING))
     others = [criterion for criterion in select_criteria(by) if criterion.name != REMAINING]
     places = np.arange(by.sizes["surface"])

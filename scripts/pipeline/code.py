@@ -2,7 +2,8 @@
 
 import hashlib
 import re
-from dis import opmap
+from bisect import bisect_left
+from dis import Bytecode, opmap
 from functools import cache
 from pathlib import Path
 from types import CodeType
@@ -48,11 +49,21 @@ def parts_of(constant: Any) -> Any:
         names = constant.co_names, constant.co_varnames, constant.co_freevars, constant.co_cellvars
         counts = constant.co_argcount, constant.co_posonlyargcount, constant.co_kwonlyargcount
         inner = [parts_of(each) for each in constant.co_consts]
-        # Of a docstring an instruction is left that does nothing.
-        code = constant.co_code
-        code = b"".join(code[i : i + 2] for i in range(0, len(code), 2) if code[i] != NOP)
-        return constant.co_name, constant.co_flags, counts, names, code, inner
+        return constant.co_name, constant.co_flags, counts, names, *work_of(constant), inner
     return sorted(map(repr, constant)) if isinstance(constant, frozenset) else constant
+
+
+def work_of(code: CodeType) -> tuple[bytes, list[tuple[int, ...]]]:
+    """Instructions, and which of them stand under which handler of exceptions.
+
+    Left out are instructions that do nothing, one of which is left of a docstring.
+    """
+    kept = [i for i in range(0, len(code.co_code), 2) if code.co_code[i] != NOP]
+    handled = [
+        (*(bisect_left(kept, at) for at in (e.start, e.end, e.target)), e.depth, e.lasti)
+        for e in Bytecode(code).exception_entries
+    ]
+    return b"".join(code.co_code[i : i + 2] for i in kept), handled
 
 
 @cache

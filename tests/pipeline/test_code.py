@@ -54,6 +54,16 @@ def test_words_and_what_does_not_run_leave_it(hashed, name, text):
     assert hash_now() == before
 
 
+def test_what_is_tried_counts(hashed):
+    folder, hash_now = hashed
+    body = "def one():\n{}\n    except ValueError:\n        return 2\n"
+    before = None
+    for tried in ("    try:\n        a()\n        b()", "    a()\n    try:\n        b()"):
+        (folder / "part/used.py").write_text(body.format(tried), encoding="utf-8")
+        assert hash_now() != before
+        before = hash_now()
+
+
 def test_a_module_that_is_imported_within_a_function_counts(hashed):
     folder, hash_now = hashed
     (folder / "part/used.py").write_text(

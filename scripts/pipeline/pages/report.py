@@ -94,6 +94,7 @@ def summarise(
         "a_v_range": interval(float(criterion.a_v_low), float(criterion.a_v_high)),
         "load": number(datasets.parameters(criterion)["pressure"]),
         "pairs": verdicts.verdict.size,
+        "judged": verdicts.verdict.size - counts[NOT_JUDGED],
         "materials": verdicts.sizes["material"],
         "surfaces": verdicts.sizes["surface"],
         "sticky": counts[STICKY] + counts[STICKS_FULLY],

@@ -109,6 +109,8 @@ def draw_rates(ax, pairs):
     for index, name in enumerate(pairs.material.values):
         pair, colour = pairs.sel(material=name), COLOURS[index % len(COLOURS)]
         low, high = pair.margin_low_at_rate, pair.margin_high_at_rate
+        if low.isnull().all():  # not judged
+            continue
         plotting.draw_band(ax, pair.frequency, low, high, colour)
         ax.plot(pair.frequency, np.sqrt(low * high), color=colour, label=str(name))
     ax.axhline(1, color=GREY, linewidth=0.9, linestyle="--")

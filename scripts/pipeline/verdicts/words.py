@@ -41,13 +41,22 @@ def find_doubts(materials, surfaces, own):
 
 
 def withhold(dataset):
-    """The dataset without verdict and probability where there are doubts about a surface."""
+    """The dataset without any number of pairs where there are doubts about a surface."""
     judged = dataset.not_judged == ""
-    return dataset.assign(
-        verdict=dataset.verdict.where(judged, NOT_JUDGED).astype(dataset.verdict.dtype),
-        probability=dataset.probability.where(judged),
-        disagrees=dataset.disagrees.where(judged, 0).astype("i1"),
-    )
+    if judged.all():
+        return dataset
+    with xr.set_options(keep_attrs=True):
+        numbers = {
+            name: values.where(judged).transpose(*values.dims)
+            for name, values in dataset.items()
+            if values.dtype.kind == "f" and {"material", "surface"} <= set(values.dims)
+        }
+        verdict = dataset.verdict.where(judged, NOT_JUDGED).astype(dataset.verdict.dtype)
+        disagrees = dataset.disagrees.where(judged, 0).astype("i1")
+    for values in numbers.values():
+        known = values.attrs.get("nan_means")
+        values.attrs["nan_means"] = f"{known}, or not judged" if known else "not judged"
+    return dataset.assign(numbers, verdict=verdict, disagrees=disagrees)
 
 
 def find_limits(dataset):

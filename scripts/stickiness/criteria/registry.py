@@ -139,7 +139,7 @@ _TABLE = (
         "derived (constant a_V)",
         margin=_margin_of(formulas.violano, *_HEIGHTS, "constant_a_v"),
         power=3 / 5,
-        reason="The same with a_V = {constant_a_v} of a broad spectrum instead of {a_v}.",
+        reason="The same with a_V = {constant_a_v}, as the paper has it, instead of {a_v}.",
         line=Line("black", "-.", 1.2, filled=False),
     ),
     Criterion(

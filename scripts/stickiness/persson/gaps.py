@@ -25,10 +25,8 @@ _MOST_SHELLS, _MOST_KNOTS = 600, 250  # that edges of panels keep to
 _STRONG = 0.02  # step of ln q from shell to shell that the approach to a shell shows
 _ONSETS = np.geomspace(1.5, 96.0, 13)  # of exp(-p^2/(m_shell - m)), negative exponents
 _SHARES = np.geomspace(0.03, 30.0, 7)  # height variance left in a shell over the finer ones'
-_FAR, _BLOCK = (
-    9.5,
-    10,
-)  # widths from which on a Gaussian is nothing; gaps that are looked at together
+_FAR = 9.5  # widths from which on a Gaussian is nothing
+_BLOCK = 10  # gaps that are looked at together
 _NARROWEST = 1e-150  # Gaussians that much narrower than the widest are points
 
 

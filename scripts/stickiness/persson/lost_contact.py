@@ -9,6 +9,7 @@ converged, and interpolated at the nodes. All variants of the theory share it.
 
 from __future__ import annotations
 
+import logging
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -95,7 +96,10 @@ class GapCurve:
             start, end = panels.T
             series = _series(setting, p, y_end, start, end)
             ready = np.abs(series[:, -3:]).max(axis=1) < tolerance
-            ready |= end - start < _NARROWEST
+            narrow = ~ready & (end - start < _NARROWEST)
+            if narrow.any():
+                logging.info("p = %g: %d panels of gaps not converged", p, narrow.sum())
+            ready |= narrow
             done += zip(start[ready], series[ready], strict=True)
             middle = 0.5 * (start + end)
             halves = np.stack([start, middle, middle, end], axis=1)
