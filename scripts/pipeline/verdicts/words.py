@@ -56,7 +56,7 @@ def withhold(dataset):
     for values in numbers.values():
         known = values.attrs.get("nan_means")
         values.attrs["nan_means"] = f"{known}, or not judged" if known else "not judged"
-    return dataset.assign(numbers, verdict=verdict, disagrees=disagrees)
+    return dataset.assign(numbers | {"verdict": verdict, "disagrees": disagrees})
 
 
 def find_limits(dataset):
