@@ -20,9 +20,9 @@ OUTSIDE = "outside the table of measured errors"
 
 # Relative. Of 24 states solved to 1e-7 and to 1e-9 (loads 0.03 and 0.065, range 0.1 h_rms,
 # l_a/range 0.05 to 0.4, magnifications 16 and 32) 22 changed by less than 3e-8 of the load. Two of
-# the stickiest ended on another branch. Where a jump ends depends on the steps of the descent: of 21
-# states with attraction up to 8 times the load two moved by 1.7 % of it when the descent changed, and
-# 4 of 412 by up to 0.9 %, all with attraction above 1.8.
+# the stickiest ended on another branch. Where a jump ends depends on the steps of the descent: when
+# they changed, of 21 states with attraction up to 8 times the load two moved by 1.7 % of it, and of
+# 412 four by up to 0.9 %, all with attraction above 1.8.
 SOLVER = 1e-6
 BRANCH, BRANCHING = 0.02, 1.5  # relative error where the attraction is that many times the load
 STRONGEST = 8.0  # attraction over repulsion, in the DMT limit, that is still looked at

@@ -5,6 +5,7 @@ import numpy as np
 from pipeline import plotting
 from pipeline.plotting import BLACK, COLOURS, GREY
 from stickiness.core.statistics import COVERS
+from stickiness.criteria.pair import NOT_JUDGED
 
 HURST = 0.8  # of the lines
 LINES = (1e-3, 1e-5)  # m^0.4
@@ -15,7 +16,8 @@ def draw_surface(surface, pairs, output):
     """Write a figure with a panel for everything that the surface and its pairs have to show."""
     pictures = {"heights": draw_heights, "profile": draw_profile}
     pictured = next((name for name in pictures if name in surface), None)
-    depending = pairs.isel(material=np.flatnonzero(pairs.depends_on_rate.values == 1))
+    shown = (pairs.depends_on_rate == 1) & (pairs.verdict != NOT_JUDGED)
+    depending = pairs.isel(material=np.flatnonzero(shown))
     rows = ["AB" if pictured else "AA"]
     if depending.sizes["material"]:
         rows.append("CC" if pictured else "BB")
@@ -109,8 +111,6 @@ def draw_rates(ax, pairs):
     for index, name in enumerate(pairs.material.values):
         pair, colour = pairs.sel(material=name), COLOURS[index % len(COLOURS)]
         low, high = pair.margin_low_at_rate, pair.margin_high_at_rate
-        if low.isnull().all():  # not judged
-            continue
         plotting.draw_band(ax, pair.frequency, low, high, colour)
         ax.plot(pair.frequency, np.sqrt(low * high), color=colour, label=str(name))
     ax.axhline(1, color=GREY, linewidth=0.9, linestyle="--")
