@@ -80,7 +80,7 @@ class Persson:
         gap, 5e-7 in P(u) and its integral and 1e-10 in the normalisation, for magnifications from
         1.001 to 1e8; 0.5 by 1e-4 in P(u), 1.5 by 3e-8 and 2 by 1e-8. Next to full contact, in
         spectra broader than about 1e5, P(u) errs by 5e-6, its integral by 2e-7 of the open area. A
-        few shells decades apart err by 1e-3 in P(u) and 5e-5 in its integral with 1, by 1e-7 with 2.
+        few shells decades apart err by 1e-3 in P(u), 5e-5 in its integral with 1, by 1e-7 with 2.
     correction : {"yang2008", "wang2017", "xu2024"}
         How lost contact slows the diffusion of pressure and lowers the elastic energy:
         `kernels.Yang2008` (doi:10.1088/0953-8984/20/21/215214), `Wang2017` or `Xu2024`.
