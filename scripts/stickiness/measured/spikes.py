@@ -11,12 +11,15 @@ from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy import ndimage
 
 Spikes = Literal["mask", "keep"]
 
 OUTLYING = 30.0  # distance of a spike from its neighbours over that of the `TYPICAL` points
 TYPICAL = 0.99  # share of the points below that distance; more spikes than the rest are no spikes
+MOST_TOUCHING = 4  # spikes of a map in one group; longer groups are scratches and fibres
 
+_CONNECTS = 1 / 3  # share of the distance of a spike from which points count to its group
 _ROWS = 256  # worked on at a time
 
 
@@ -24,10 +27,13 @@ def find_spikes(heights: NDArray) -> NDArray:
     """Mark points that are far off their neighbours.
 
     The distance of a point of a map (nx, ny) is that to the third closest in height of its eight
-    neighbours, so that an edge, a corner or a ridge is close to its own, and up to three spikes
-    may touch. On a line profile (n,) it is that to the second closest of four. A spike is more
-    than `OUTLYING` times as far off as 99 % of the points are. Slopes are taken out by the
-    medians of the steps. Points that are not finite are none, and no neighbours.
+    neighbours, so that an edge, a corner or a ridge of two points' width is close to its own, and
+    up to three spikes may touch. On a line profile (n,) it is that to the second closest of four.
+    A spike is more than `OUTLYING` times as far off as 99 % of the points are. A scratch or fibre
+    of one point's width is so too, but not alone: groups of more than `MOST_TOUCHING`
+    such points that touch are no spikes. An island of one point is taken for a spike.
+    Slopes are taken out by the medians of the steps. Points that are not finite are none, and no
+    neighbours.
 
     Returns a mask of the shape of the heights.
     """
@@ -39,7 +45,19 @@ def find_spikes(heights: NDArray) -> NDArray:
     typical = np.quantile(known, TYPICAL, method="lower")
     # Coarse steps of an instrument's converter: many points equal their neighbours.
     typical = max(typical, known[known > 0].min())
-    return np.nan_to_num(distance, nan=0.0, posinf=0.0) > OUTLYING * typical
+    distance = np.nan_to_num(distance, nan=0.0, posinf=0.0)
+    spikes = distance > OUTLYING * typical
+    if level.ndim == 2 and spikes.any():
+        # By a lower limit, or a scratch of varying depth would fall to pieces as small as spikes.
+        spikes &= _in_small_groups(distance > _CONNECTS * OUTLYING * typical)
+    return spikes
+
+
+def _in_small_groups(marked: NDArray) -> NDArray:
+    """Marked points in groups of at most `MOST_TOUCHING` that touch, by side or corner."""
+    groups, _ = ndimage.label(marked, structure=np.ones((3, 3)))
+    sizes = np.bincount(groups.ravel())
+    return marked & (sizes <= MOST_TOUCHING)[groups]
 
 
 def _without_slope(heights: NDArray) -> NDArray:

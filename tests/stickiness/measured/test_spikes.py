@@ -24,7 +24,20 @@ def tilted(heights):
     return heights + np.add.outer(5.0 * np.arange(len(heights)), -3.0 * np.arange(len(heights)))
 
 
+def scratched(depth, columns, n=256, varying=0.0):
+    """A surface of 1 nm rms with a scratch one point wide; the row's column in `columns`."""
+    heights = rough(n=n)
+    along = np.arange(n)
+    heights[along, columns(along)] -= depth * (1 + varying * np.sin(along / 3))
+    return heights
+
+
 GOOD = {
+    "straight scratch": scratched(40.0, lambda i: 0 * i + 90),
+    "oblique scratch": scratched(40.0, lambda i: 20 + i // 3),
+    "diagonal scratch": scratched(25.0, lambda i: i),
+    "fibre": scratched(-40.0, lambda i: 60 + np.rint(40 * np.sin(i / 80)).astype(int)),
+    "scratch of varying depth": scratched(6.0, lambda i: 20 + i // 3, varying=0.8),
     "rough": rough(0.3),
     "smooth": rough(1.0),
     "tilted": tilted(rough()),
@@ -62,6 +75,14 @@ def test_a_spike_is_found_at_its_place(name, height):
 def test_up_to_three_may_touch_and_more_are_found_one_by_one():
     heights = rough()
     places = {(0, 0), (0, 127), (30, 30), (30, 31), (31, 30), *((90, j) for j in range(0, 128, 4))}
+    for place in places:
+        heights[place] += 1e3
+    assert set(map(tuple, np.argwhere(find_spikes(heights)))) == places
+
+
+def test_spikes_beside_a_scratch_are_found_and_the_scratch_stays():
+    heights = GOOD["oblique scratch"] + 0.0
+    places = {(30, 200), (31, 201), (200, 20)}
     for place in places:
         heights[place] += 1e3
     assert set(map(tuple, np.argwhere(find_spikes(heights)))) == places
