@@ -301,3 +301,23 @@ def test_a_masked_spike_changes_nothing_and_is_told(tmp_path):
         np.testing.assert_allclose(found[name], clean[name], rtol=2e-3)
     # One point of 1 m in 128 x 128.
     assert float(found.h_rms_as_read) == pytest.approx(1 / 128, rel=0.01)
+
+
+def test_many_spikes_and_those_that_change_the_rms_height_are_told_with_both_numbers(tmp_path):
+    one = analyse(array(changed((60, 70), value=1e6)), tmp_path).remarks
+    assert "the rms height is 7.81 mm with all points, " in one
+    assert "without those not used: if they are part of the surface, give spikes: keep" in one
+    islands = [(i, j) for i in range(5, N, 25) for j in range(5, N, 25)]  # 25 of 16384
+    many = analyse(array(changed(*islands, value=9.0)), tmp_path)
+    assert int(many.masked_spikes) == 25
+    assert "0.0015 of the points of" in many.remarks
+    few = analyse(array(changed((60, 70), value=9.0)), tmp_path)
+    assert int(few.masked_spikes) == 1
+    assert "with all points" not in few.remarks
+
+
+def test_scratches_of_one_point_are_used(tmp_path):
+    scratched = changed(*((i, 20 + i // 2) for i in range(N)), value=-60.0)
+    found = analyse(array(scratched), tmp_path)
+    assert int(found.masked_spikes) == 0
+    assert float(found.h_rms_measured) == pytest.approx(np.std(scratched) * 1e-6, rel=0.05)
