@@ -48,7 +48,8 @@ def analyse(asked):
         dataset = dataset.merge(describe_stitching(stitched))
     remarks = self_affine_fit.remarks(spectrum.fit, np.nan_to_num(spectrum.anisotropy))
     as_read = [
-        h.h_rms_as_read(one.get("detrend", "plane")) for h, one in zip(heights, entries, strict=True)
+        h.h_rms_as_read(one.get("detrend", "plane"))
+        for h, one in zip(heights, entries, strict=True)
     ]
     remarks += remarks_on_files(heights) + remarks_on_spikes(heights, as_read)
     remarks += remarks_on_limits(spectrum, extend_to)

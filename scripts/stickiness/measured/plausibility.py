@@ -68,8 +68,8 @@ def doubt_values(values: NDArray) -> Iterator[str]:
         )
     if len(levels) < FEWEST_LEVELS:
         yield (
-            f"there are only {len(levels)} different heights: their range is below what the numbers "
-            "resolve; export the heights with more digits"
+            f"there are only {len(levels)} different heights: their range is below what the "
+            "numbers resolve; export the heights with more digits"
         )
 
 
