@@ -25,7 +25,7 @@ FLATTEST, STEEPEST = 1e-7, 20.0  # rms slope between neighbours
 LARGEST_MISFIT = 1.0  # relative; a spectrum off its law by more than a factor e
 # By which H may exceed 1 beyond its error. Of 20 surfaces each, 256 x 256, made with H = 0.9 or 1
 # and blurred by up to 1.5 or 0.7 points, 0 to 17 exceed it by more than 0, 0 to 2 by more than
-# 0.1; of those made with H = 0.8 and blurred by 3 points all do, by 5 or more.
+# 0.1; of those made with H = 0.8 and blurred by 2 points 2 do, by 3 points all.
 HURST_BIAS = 0.1
 
 _NEXT = 3  # values on either side of a plateau's that it is compared with
