@@ -26,6 +26,8 @@ DRAWS, SEED = 200, 1
 REFERENCE_HURST = 0.8  # of the paper's lines C0 = 1e-3 and 1e-5 m^0.4
 POINTS_PER_DECADE = 10
 FEWEST_POINTS, FEWEST_ON_LINE = 64, 256  # about so many are needed for a fit
+# Spikes beyond which a remark tells what they change: share of the points, relative rms height.
+MANY_SPIKES, LARGE_CHANGE = 1e-3, 0.1
 PICTURE_POINTS = 400  # along a side of the picture of the heights
 # Of a measurement in the configuration, what `topography.read` takes.
 READ_KEYS = set(signature(topography.read).parameters) - {"path"}
@@ -45,7 +47,12 @@ def analyse(asked):
     if stitched:
         dataset = dataset.merge(describe_stitching(stitched))
     remarks = self_affine_fit.remarks(spectrum.fit, np.nan_to_num(spectrum.anisotropy))
-    remarks = [*remarks, *remarks_on_files(heights), *remarks_on_limits(spectrum, extend_to)]
+    as_read = [
+        h.h_rms_as_read(one.get("detrend", "plane"))
+        for h, one in zip(heights, entries, strict=True)
+    ]
+    remarks += remarks_on_files(heights) + remarks_on_spikes(heights, as_read)
+    remarks += remarks_on_limits(spectrum, extend_to)
     remarks += remarks_on_stitching(stitched)
     doubts = [doubt for one in heights for doubt in one.doubts]
     doubts += plausibility.doubt_fit(spectrum.fit)
@@ -58,7 +65,7 @@ def analyse(asked):
         logging.info(remark)
     return dataset.assign(
         h_rms_measured=heights[0].h_rms,
-        h_rms_as_read=heights[0].h_rms_as_read(entries[0].get("detrend", "plane")),
+        h_rms_as_read=as_read[0],
         missing_fraction=max(h.missing_fraction for h in heights),
         dropped_points=sum(h.dropped for h in heights),
         masked_spikes=sum(h.spikes for h in heights),
@@ -209,6 +216,20 @@ def remarks_on_files(heights):
             )
         if one.heights.ndim == 1:
             found.append(f"{one.source} is a line profile: isotropy is assumed, not seen")
+    return found
+
+
+def remarks_on_spikes(heights, as_read):
+    """Remarks on spikes that are many, or change the rms height; `as_read` is that with them."""
+    found = []
+    for one, before in zip(heights, as_read, strict=True):
+        share, after = one.spikes / one.heights.size, one.h_rms
+        if one.spikes and (share > MANY_SPIKES or abs(before - after) > LARGE_CHANGE * after):
+            found.append(
+                f"{share:.2g} of the points of {one.source} are spikes, and the rms height is "
+                f"{quantity(before, before, 'm')} with all points, {quantity(after, after, 'm')} "
+                "without those not used: if they are part of the surface, give spikes: keep"
+            )
     return found
 
 

@@ -43,6 +43,7 @@ _ASKED_BACK = {
     "Mm": ("megametre, a thousand kilometres", "mm", "1e6 m"),
     "Pm": ("petametre", "pm", "1e15 m"),
 }
+_SECONDS = r"\s*[*·⋅\s]\s*s(?:econds?)?(?![A-Za-z])"  # behind mPa: a viscosity, where it is common
 
 
 @cache
@@ -105,7 +106,7 @@ def _kind(quantity: pint.Quantity | float) -> str:
 def _ask_back(value: str) -> None:
     """Refuse a unit that exists but is nearly always a typing error."""
     for unit, (words, meant, instead) in _ASKED_BACK.items():
-        if re.search(rf"(?<![A-Za-z]){unit}(?![A-Za-z])", value):
+        if re.search(rf"(?<![A-Za-z]){unit}(?![A-Za-z])(?!{_SECONDS})", value):
             raise ValueError(
                 f"{value!r}: {unit} is {words}; did you mean {value.replace(unit, meant)!r}? "
                 f"If not, write it in SI units, e.g. {instead!r}"

@@ -168,14 +168,20 @@ def _read_numpy(path: Path, variable: str | None) -> Raw:
 
 def _read_text(path: Path) -> Raw:
     text = text_matrix.parse(path)
+    table = text.values.T.shape
     if text_points.is_list(text.values):
         heights, grid = text_points.to_map(path, text.values)
+        text_header.check_counts(path, text.header, heights.shape, table)
         units = {"unit": text.value_unit, "position_unit": text.lateral_unit}
         return Raw(heights, None, source=str(path), grid=grid, **units)
     heights = text.values.T
+    is_profile = len(heights) == 1 or (len(heights) == 2 and heights.shape[1] > 2)
+    # Headers of profiles count points along x, or rows of the table.
+    also = [(heights.shape[1], 1)] if is_profile else []
+    text_header.check_counts(path, text.header, table, *also)
     if len(heights) == 1:
         return Raw(heights[0], None, text.value_unit, str(path))
-    if len(heights) == 2 and heights.shape[1] > 2:
+    if is_profile:
         units = {"unit": text.value_unit, "position_unit": text.lateral_unit}
         return Raw(heights[1], None, source=str(path), positions=heights[0], **units)
     steps = None

@@ -22,20 +22,34 @@ _OF_INSTRUMENTS = re.compile(
     r"|^\s*x;y;valid|^\s*scan data\b|^\W*lateral um",
     re.IGNORECASE,
 )
+_FACTORS = r"z?(?:factor|scal(?:e|ing)|multiplier|conversion)"
+_PER_COUNT = r"(?:(?:\bper|/)\s*(?:counts?|bits?|digits?|lsb)|\bbits?\s*to)(?![a-z])"
+_OF_HEIGHTS = r"(?:z|heights?|data|values?|elevations?|counts?|vertical)"
+_BESIDE = r"[\s_()\[\]-]+(?:[a-z]+[\s_()\[\]-]+)?"  # at most one word between
+# A factor of the heights says so, has a unit per count, or no other word before its number:
+# zoom, colours and axes have factors and scales of their own.
 _FACTOR = re.compile(
-    r"\b(factor|scal(e|ing)|multiplier|conversion|bits?\s*to|per\s+(count|bit|digit|lsb))\b",
+    rf"(?<![a-z]){_OF_HEIGHTS}{_BESIDE}{_FACTORS}(?![a-z])"
+    rf"|(?<![a-z]){_FACTORS}{_BESIDE}{_OF_HEIGHTS}(?![a-z])|(?<![a-z])z{_FACTORS}(?![a-z])"
+    rf"|{_PER_COUNT}|^\W*(?:{_FACTORS}[\s_-]*)+(?:[:=]|$|[-+\d.])",
     re.IGNORECASE,
 )
 _NUMBER = re.compile(r"[-+]?\d*\.?\d+(?:[eE][-+]?\d+)?")
+# A number of points: whole, and not that of a length or of points per length.
+_UNITS = r"(?:[pnuµμmckf]?m|microns?|[a-z]*met(?:er|re)s?|å|a|mil|inch|in|dpi|ppi|deg|%|°)"
+_COUNT = rf"(\d+)(?!\d|[.,]\d|e[-+]?\d|\s*(?:{_UNITS}(?![a-z])|/))"
+_START = r"(?:^\W*|\d[\s,;]+)(?:(?:number|no\.?)\s+of\s+)?"  # of a line, or after another number
 _COLUMNS = re.compile(
-    r"\b(?:x[-_ ]?pixels?|columns|cols|nx|x[-_ ]?res(?:olution)?|points per line|w)\s*[:=]\s*(\d+)",
+    r"(?:\b(?:x[-_ ]?pixels?|nx|x[-_ ]?res(?:olution)?|points per line)"
+    rf"|{_START}(?:columns|cols))\s*[:=]\s*{_COUNT}",
     re.IGNORECASE,
 )
 _ROWS = re.compile(
-    r"\b(?:y[-_ ]?pixels?|rows|lines|ny|y[-_ ]?res(?:olution)?|h)\s*[:=]\s*(\d+)", re.IGNORECASE
+    rf"(?:\b(?:y[-_ ]?pixels?|ny|y[-_ ]?res(?:olution)?)|{_START}(?:rows|lines))\s*[:=]\s*{_COUNT}",
+    re.IGNORECASE,
 )
 _BOTH = re.compile(
-    r"\b(?:resolution|pixels|points|grid|shape)\s*[:=]\s*(\d+)\s*[x×*,]\s*(\d+)", re.IGNORECASE
+    rf"\b(?:resolution|pixels|points|grid|shape)\s*[:=]\s*(\d+)\s*[x×*,]\s*{_COUNT}", re.IGNORECASE
 )
 
 
@@ -69,15 +83,20 @@ def check_factor(path: Path, lines: Iterable[str]) -> None:
             )
 
 
-def check_counts(path: Path, lines: Iterable[str], shape: tuple[int, int]) -> None:
-    """Refuse a matrix (rows, columns) whose header states other numbers of them."""
+def check_counts(path: Path, lines: Iterable[str], *shapes: tuple[int, int]) -> None:
+    """Refuse a file whose header states numbers of columns and rows that it does not have.
+
+    `shapes` are (columns, rows) that the header may mean. Messages name those of the first.
+    """
     for line in lines:
         both = _BOTH.search(line)
         stated = both.groups() if both else (_COLUMNS.search(line), _ROWS.search(line))
-        for said, found, what in zip(stated, shape[::-1], ("columns", "rows"), strict=True):
+        for said, found, what in zip(
+            stated, zip(*shapes, strict=True), ("columns", "rows"), strict=True
+        ):
             count = said if said is None or isinstance(said, str) else said[1]
-            if count is not None and int(count) != found:
+            if count is not None and int(count) not in found:
                 raise ValueError(
-                    f"{path}: {found} {what}, but its header says {line.strip()!r}; is the file "
+                    f"{path}: {found[0]} {what}, but its header says {line.strip()!r}; is the file "
                     "complete, and do decimal commas or separators split its numbers?"
                 )

@@ -21,6 +21,7 @@ class TextMatrix:
     """Content of a text matrix."""
 
     values: NDArray  # (rows, columns), as written, NaN where a point is marked as missing
+    header: tuple[str, ...]  # lines of comments, and those before the first row
     width: str | None = None  # along the rows, with unit, from the header
     height: str | None = None  # down the columns
     value_unit: str | None = None  # of the numbers
@@ -36,8 +37,7 @@ def parse(path: Path) -> TextMatrix:
     Missing points may be written as NaN, ---, *** or left empty between tabs, semicolons or commas.
 
     A ValueError names file, line and field if there are no numbers, rows differ in length, a
-    field is no number, commas split the numbers, or the header says what is not read or other
-    numbers of rows and columns.
+    field is no number, commas split the numbers, or the header says what is not read.
     """
     header, rows = split_header(decode(path.read_bytes()))
     if not rows:
@@ -47,8 +47,7 @@ def parse(path: Path) -> TextMatrix:
         )
     text_header.check_factor(path, header)
     values = _matrix(path, rows)
-    text_header.check_counts(path, header, values.shape)
-    return TextMatrix(values, **text_header.fields_of(header))
+    return TextMatrix(values, tuple(header), **text_header.fields_of(header))
 
 
 def split_header(text: str) -> tuple[list[str], list[tuple[int, str]]]:

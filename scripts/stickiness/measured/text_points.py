@@ -9,7 +9,8 @@ from numpy.typing import NDArray
 
 FEWEST_POINTS = 16  # rows of three numbers, from which they are a list of points and no matrix
 _SLACK = 0.01  # of a step, by which positions may be off the grid
-_FULLEST_GAP = 0.5  # share of the grid that may have no point; more are scattered points
+_ONE_STEP = 1.5  # times the shortest distance of positions, below which they are one step apart
+_MOST_EMPTY = 0.5  # share of the grid that may have no point; more are scattered points
 
 
 def is_list(values: NDArray) -> bool:
@@ -26,7 +27,7 @@ def to_map(path: Path, points: NDArray) -> tuple[NDArray, tuple[float, float]]:
     points = points[np.isfinite(points[:, :2]).all(axis=1)]
     (i, dx), (j, dy) = (_index(path, points[:, axis], "xy"[axis]) for axis in (0, 1))
     shape = int(i.max()) + 1, int(j.max()) + 1
-    if len(points) < _FULLEST_GAP * shape[0] * shape[1]:
+    if len(points) < (1 - _MOST_EMPTY) * shape[0] * shape[1]:
         raise ValueError(
             f"{path}: three columns, which as x y z leave most of a grid of {shape[0]} x "
             f"{shape[1]} points empty; resample them on a grid, or export a matrix"
@@ -45,7 +46,10 @@ def _index(path: Path, positions: NDArray, name: str) -> tuple[NDArray, float]:
     if gaps.size == 0:
         raise ValueError(f"{path}: three columns, which as x y z all have one {name}")
     gaps = gaps[gaps > _SLACK * gaps.max()]  # positions that differ by rounding only
-    step = float((levels[-1] - levels[0]) / max(round((levels[-1] - levels[0]) / gaps.min()), 1))
+    # Gaps of rounded positions differ: one step is the mean of the short ones, and then what
+    # fits the whole side.
+    step = gaps[gaps < _ONE_STEP * gaps.min()].mean()
+    step = float((levels[-1] - levels[0]) / np.rint(gaps / step).sum())
     index = (positions - levels[0]) / step
     if np.abs(index - np.rint(index)).max() > 10 * _SLACK:
         raise ValueError(

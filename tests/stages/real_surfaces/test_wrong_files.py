@@ -102,6 +102,26 @@ REFUSED = {
         text("# z factor: 0.5 nm per count\n" + table(), **ENTRY),
         ["'# z factor: 0.5 nm per count'", "not read", "format: instrument"],
     ),
+    "a factor of the heights": (
+        text("# Scale factor for heights = 2\n" + table(), **ENTRY),
+        ["'# Scale factor for heights = 2'", "not read"],
+    ),
+    "a vertical scale": (
+        text("# Vertical scale: 0.5 um\n" + table(), **ENTRY),
+        ["'# Vertical scale: 0.5 um'", "not read"],
+    ),
+    "a factor of nothing else": (
+        text("# Scale: 0.5 nm\n" + table(), **ENTRY),
+        ["'# Scale: 0.5 nm'", "not read"],
+    ),
+    "a unit per count": (
+        text("# Detector: 0.5 nm/count\n" + table(), **ENTRY),
+        ["'# Detector: 0.5 nm/count'", "not read"],
+    ),
+    "x y z of another number of columns": (
+        text("# nx: 64 ny: 128\n" + points(), **ENTRY),
+        ["128 columns", "'# nx: 64 ny: 128'"],
+    ),
     "an instrument's header, read as text": (
         text("# pixel size = 1e-6 m\n" + table(), format="text"),
         ["'# pixel size = 1e-6 m'", "give format: instrument"],
@@ -265,10 +285,39 @@ def test_a_good_file_is_judged(tmp_path):
     assert float(found.h_rms_as_read) == float(found.h_rms_measured)
 
 
+HARMLESS = """
+X Resolution: 0.15625 um
+Y Resolution: 5 um
+Resolution: 300 dpi
+Grid: 10 x 10 um
+W: 10 um
+h = 3
+Averaged lines: 4
+Lines: 500/mm
+Skipped columns: 2
+nx: 128 ny: 128
+columns: 128, rows: 128
+Zoom factor: 20
+Colour scale: 1
+x scale: 2
+Scale bar: 5 um
+16 bits per pixel
+"""
+COMMENTS = [f"# {line}\n" for line in HARMLESS.strip().splitlines()]
+
+
+@pytest.mark.parametrize("line", COMMENTS)
+def test_headers_that_state_neither_counts_nor_factors_are_passed_over(tmp_path, line):
+    found = analyse(text(line + table(), **ENTRY), tmp_path)
+    assert found.not_judged == ""
+
+
 @pytest.mark.parametrize(
     "make",
     [
         text(table(ROUGH, ";", comma=True), **ENTRY),
+        text("# nx: 128 ny: 128\n" + points(), **ENTRY),
+        text("# columns: 3\n# rows: 16384\n" + points(), **ENTRY),
         text("# x-pixels: 128\n# y-pixels: 128\n" + table(), **ENTRY),
         text(points(), height_unit="um", pixel_size=f"{2 / N} mm"),
         text("# Lateral units: m\n# Value units: um\n" + points(), length="2 mm"),
@@ -301,3 +350,23 @@ def test_a_masked_spike_changes_nothing_and_is_told(tmp_path):
         np.testing.assert_allclose(found[name], clean[name], rtol=2e-3)
     # One point of 1 m in 128 x 128.
     assert float(found.h_rms_as_read) == pytest.approx(1 / 128, rel=0.01)
+
+
+def test_many_spikes_and_those_that_change_the_rms_height_are_told_with_both_numbers(tmp_path):
+    one = analyse(array(changed((60, 70), value=1e6)), tmp_path).remarks
+    assert "the rms height is 7.81 mm with all points, " in one
+    assert "without those not used: if they are part of the surface, give spikes: keep" in one
+    islands = [(i, j) for i in range(5, N, 25) for j in range(5, N, 25)]  # 25 of 16384
+    many = analyse(array(changed(*islands, value=9.0)), tmp_path)
+    assert int(many.masked_spikes) == 25
+    assert "0.0015 of the points of" in many.remarks
+    few = analyse(array(changed((60, 70), value=9.0)), tmp_path)
+    assert int(few.masked_spikes) == 1
+    assert "with all points" not in few.remarks
+
+
+def test_scratches_of_one_point_are_used(tmp_path):
+    scratched = changed(*((i, 20 + i // 2) for i in range(N)), value=-60.0)
+    found = analyse(array(scratched), tmp_path)
+    assert int(found.masked_spikes) == 0
+    assert float(found.h_rms_measured) == pytest.approx(np.std(scratched) * 1e-6, rel=0.05)

@@ -16,6 +16,10 @@ from stickiness.core.units import si
         ("1e3 1/m", "1/m", 1e3),
         ("1e-3 m^0.4", "m^0.4", 1e-3),
         ("1 km", "m", 1e3),
+        ("1 mPa*s", "Pa*s", 1e-3),
+        ("0.9 mPa s", "Pa*s", 9e-4),
+        ("0.9 mPa·s", "Pa*s", 9e-4),
+        ("3 mPa * s", "Pa*s", 3e-3),
     ],
 )
 def test_converts_to_si(text, unit, value):
@@ -39,6 +43,7 @@ def test_anything_else_says_what_is_expected(text):
         ("30 kpa", "Pa", "'30 kpa' cannot be read: did you mean '30 kPa'?"),
         ("2 mpa", "Pa", "did you mean '2 MPa'?"),
         ("30 mPa", "Pa", "mPa is millipascal, a thousandth of a pascal; did you mean '30 MPa'?"),
+        ("30 mPa*st", "Pa", "mPa is millipascal"),
         ("2 Mm", "m", "Mm is megametre, a thousand kilometres; did you mean '2 mm'?"),
         ("10 Um", "m", "did you mean '10 um'?"),
         ("50 mj/m2", "J/m^2", "did you mean '50 mJ/m^2'?"),

@@ -156,7 +156,35 @@ def test_channels_of_heights(name, unit, is_height, holds):
     assert instruments.holds_heights(channel) == holds
 
 
+# Lists of points
+
+
+@pytest.mark.parametrize(("step", "form"), [(1 / 3, "{:.2f}"), (0.0195, "{:.3f}")])
+def test_positions_of_few_digits_are_on_their_grid(tmp_path, step, form):
+    rng = np.random.default_rng(0)
+    heights = rng.random((20, 30))
+    heights[[3, 4, 9]] = np.nan  # rows of points that are left out
+    lines = [
+        f"{form.format(step * i)} {form.format(2 * step * j)} {heights[i, j]:.6f}"
+        for i, j in np.argwhere(np.isfinite(heights))
+    ]
+    (tmp_path / "a.txt").write_text("# nx: 20 ny: 30\n" + "\n".join(lines))
+    raw = readers.read(tmp_path / "a.txt")
+    np.testing.assert_allclose(raw.heights, heights, atol=1e-6)
+    np.testing.assert_allclose(raw.grid, [step, 2 * step], rtol=0.01)
+
+
 # Line profiles
+
+
+@pytest.mark.parametrize("header", ["# nx: 40\n", "# rows: 40\n", "# columns: 2\n"])
+def test_headers_of_profiles_count_points_or_the_table(tmp_path, header):
+    path = tmp_path / "line.txt"
+    path.write_text(header + "\n".join(f"{i} {i % 7}" for i in range(40)))
+    assert readers.read(path).heights.shape == (40,)
+    path.write_text("# nx: 50\n" + "\n".join(f"{i} {i % 7}" for i in range(40)))
+    with pytest.raises(ValueError, match="2 columns, but its header says '# nx: 50'"):
+        readers.read(path)
 
 
 def test_profile_of_one_column_needs_its_length(tmp_path):
