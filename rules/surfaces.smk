@@ -9,6 +9,8 @@ def pixels_of(wildcards):
 rule synthesise_surface:
     output:
         f"{RESULTS}/surfaces/{{model_surface}}{{grid}}/seeds{{part}}.nc",
+    # The longest jobs of a run wait for them.
+    priority: 2
     resources:
         mem_mb=memory(9 + plan.SEEDS_A_FILE, surface_size),
     params:
