@@ -11,6 +11,7 @@ from helpers.copy_workflow import copy_workflow
 TINY = ["--configfile", "config/config.yaml", "config/tiny.yaml"]
 
 
+@pytest.hookimpl(tryfirst=True)  # xdist reads the marks in a hook of its own
 def pytest_collection_modifyitems(items):
     """Tests that share one run of the workflow go to one process, if there are several."""
     for item in items:
