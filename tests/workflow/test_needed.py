@@ -18,6 +18,7 @@ def test_a_verdict_needs_no_simulation(fresh):
         "analyse_surface": count,
         "judge_surface": count,
         "judge": 1,
+        "verdicts": 1,
     }
 
 

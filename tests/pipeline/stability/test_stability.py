@@ -7,6 +7,7 @@ import pytest
 
 from pipeline.stability import components, layer_contact
 from pipeline.stability import contact as probes_contact
+from pipeline.stability import direction as probes_direction
 from pipeline.stability.components import (
     FAILED,
     REFUSED,
@@ -156,6 +157,14 @@ def test_the_boundary_value_problem_has_the_limits_of_thin_layers():
     assert find_response(THICK, nu, "bonded") == pytest.approx(1, rel=1e-14)
 
 
+@pytest.fixture
+def no_spectra_kept():
+    """Spectra of other tests know the right model, and those of this one the wrong one."""
+    probes_direction.point_spectrum.cache_clear()
+    yield
+    probes_direction.point_spectrum.cache_clear()
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("component", "place", "name"),
@@ -176,7 +185,7 @@ def test_the_boundary_value_problem_has_the_limits_of_thin_layers():
         ("sums", sums.Sum, "variance_above"),
     ],
 )
-def test_a_wrong_model_is_detected(monkeypatch, component, place, name):
+def test_a_wrong_model_is_detected(monkeypatch, component, place, name, no_spectra_kept):
     right = getattr(place, name)
     monkeypatch.setattr(place, name, lambda *a, **options: 1.01 * right(*a, **options) + 1e-3)
     component = COMPONENTS[component]
