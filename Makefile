@@ -19,9 +19,10 @@ draft: $(VENV)/.run  ## everything, quick and rough
 
 PYTEST := OMP_NUM_THREADS=1 $(BIN)/python -m pytest
 
-# One of the processes runs the workflow once, for all tests that look at a finished run.
+# Tests of the workflow share one run of it, which takes all cores itself.
 test: $(VENV)/.dev $(VENV)/.peers  ## all tests
-	$(PYTEST) -n $(CORES) --dist loadgroup
+	$(PYTEST) -n $(CORES) -m "not workflow"
+	$(PYTEST) -m workflow
 
 test-quick: $(VENV)/.dev  ## the tests of about a minute: no workflow, no other codes, none that is slow
 	$(PYTEST) -n $(CORES) -m "not slow and not workflow and not peers"

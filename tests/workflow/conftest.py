@@ -11,14 +11,6 @@ from helpers.copy_workflow import copy_workflow
 TINY = ["--configfile", "config/config.yaml", "config/tiny.yaml"]
 
 
-@pytest.hookimpl(tryfirst=True)  # xdist reads the marks in a hook of its own
-def pytest_collection_modifyitems(items):
-    """Tests that share one run of the workflow go to one process, if there are several."""
-    for item in items:
-        if "finished" in getattr(item, "fixturenames", ()):
-            item.add_marker(pytest.mark.xdist_group("finished"))
-
-
 class Workflow:
     """The workflow in a folder, driven through its command line."""
 
