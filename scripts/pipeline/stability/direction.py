@@ -42,6 +42,9 @@ def probe_direction(anisotropy, hurst, magnification, q0_h_rms, unit, variant) -
     followed = 2e-8 if a <= 8 else 2e-7 if a <= 100 else 2e-6
     yield compare_each("elastic energy, averaged", mean.elastic_energy(), energy, followed)
     yield compare_each("band", s.band, [1 / unit / np.sqrt(a), magnification / unit * np.sqrt(a)])
+    q = np.geomspace(*s.band, 20_001)
+    variance = 2 * np.pi * np.trapezoid(q**2 * s.psd(q), np.log(q))
+    yield compare_each("spectrum", variance, h_rms**2, 1e-3)
     middle = np.sqrt(s.q0 * s.q1)
     halves = s.variance_below(middle) + s.variance_above(middle)
     yield compare_each("both halves", halves, h_rms**2)

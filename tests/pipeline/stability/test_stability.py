@@ -189,5 +189,6 @@ def test_a_wrong_model_is_detected(monkeypatch, component, place, name, no_spect
     right = getattr(place, name)
     monkeypatch.setattr(place, name, lambda *a, **options: 1.01 * right(*a, **options) + 1e-3)
     component = COMPONENTS[component]
-    found = [probe_point(component, point).outcome for point in component.points()[:12]]
-    assert FAILED in found
+    points = component.points()  # the first ones differ in a single parameter
+    spread = points[:: max(1, len(points) // 6)]
+    assert any(probe_point(component, point).outcome == FAILED for point in [*points[:12], *spread])
