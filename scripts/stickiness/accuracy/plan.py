@@ -221,10 +221,7 @@ def covering_parts(count: int, among: int) -> list[str]:
     >>> covering_parts(6, among=8), covering_parts(6, among=3)
     (['1-4', '5-8'], ['1-4', '5-6'])
     """
-    wanted, given = seed_parts(count), seed_parts(among)
-    held = zip(wanted, given, strict=False)
-    covering = [max(own, other, key=lambda part: seeds_in(part)[-1]) for own, other in held]
-    return covering + wanted[len(given) :]
+    return [part for part in seed_parts(max(count, among)) if seeds_in(part)[0] <= count]
 
 
 def seeds_in(part: str) -> list[int]:
@@ -235,5 +232,4 @@ def seeds_in(part: str) -> list[int]:
 
 def coarse_range(part: str) -> range:
     """Return the coarse seeds of a file, numbered from 0."""
-    first, last = map(int, part.split("-"))
-    return range(first - 1, last)
+    return range(seeds_in(part)[0] - 1, seeds_in(part)[-1])
