@@ -12,7 +12,8 @@ import xarray as xr
 
 from pipeline.conventions import logarithmic_grid
 from pipeline.job import start
-from pipeline.verdicts.a_v import CLOSED, between, measure_a_v
+from pipeline.simulated_a_v import measure_a_v
+from pipeline.verdicts.budgets import CLOSED, between
 from stickiness.core import datasets
 from stickiness.core.budget import with_budget
 from stickiness.criteria.a_v_table import NEEDED, AvTable

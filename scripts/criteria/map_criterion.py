@@ -8,7 +8,8 @@ from scipy.optimize import elementwise
 
 from pipeline.conventions import logarithmic_grid
 from pipeline.job import start
-from pipeline.verdicts.a_v import CLOSED, between_limits, measure_a_v
+from pipeline.simulated_a_v import measure_a_v
+from pipeline.verdicts.budgets import CLOSED, between_limits
 from stickiness import criteria
 from stickiness.adhesion import area_load, equivalent_sphere
 from stickiness.core import datasets

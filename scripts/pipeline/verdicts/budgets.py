@@ -3,11 +3,18 @@
 import numpy as np
 import xarray as xr
 
-from pipeline.verdicts.a_v import CLOSED, OF_MODEL, between_limits
 from stickiness.core.budget import Part, absent, with_budget
 from stickiness.core.statistics import COVERS
 from stickiness.criteria.registry import REMAINING
 
+IN_A_V = absent("in a_V's error, counted with the model")
+CLOSED = {
+    "discretisation": IN_A_V,
+    "solver": absent("closed forms"),
+    "sampling": IN_A_V,
+    "bandwidth": absent("of the spectrum stated"),
+}
+OF_MODEL = "of the model, the farther of both limits"
 OF_SPECTRUM = "of the spectrum measured; none of one end of what is given"
 OF_OURS = f"{OF_MODEL}; other criteria state none"
 
@@ -65,3 +72,13 @@ def add_budget_of_probability(dataset, draws):
         bandwidth=CLOSED["bandwidth"],
         model=inside,
     )
+
+
+def between_limits(dataset: xr.Dataset, name: str) -> Part:
+    """Part of the budget of a variable that has a low and a high limit beside it."""
+    return between(*(dataset[f"{name}{end}"] for end in ("", "_low", "_high")))
+
+
+def between(value: xr.DataArray, low: xr.DataArray, high: xr.DataArray) -> Part:
+    """Part of the budget of a value that is known between two limits."""
+    return Part(np.maximum(abs(high - value), abs(value - low)), OF_MODEL)

@@ -5,7 +5,7 @@ import pytest
 from helpers.constant_a_v import ConstantAv
 
 from criteria import map_criterion
-from pipeline.verdicts.a_v import MeasuredAv
+from pipeline.simulated_a_v import MeasuredAv
 from stickiness.adhesion import equivalent_sphere
 
 ASKED_MAP = {
@@ -18,8 +18,6 @@ ASKED_MAP = {
 }
 CONSTANT = MeasuredAv(
     value=3.0,
-    simulated=2.0,
-    magnification=1e6,
     sampling=0.2,
     discretisation=0.1,
     fit_interval=0.1,

@@ -1,9 +1,8 @@
-"""a_V of the criteria: simulated for one case, extrapolated to other spectra by theory."""
+"""a_V of the paper's criterion: simulated for one case, carried to a broad spectrum by theory."""
 
 from dataclasses import dataclass
 
 import numpy as np
-import xarray as xr
 from numpy.typing import ArrayLike
 
 from pipeline.conventions import VARIANT
@@ -22,8 +21,6 @@ class MeasuredAv:
     """
 
     value: float
-    simulated: float  # a_V of the case itself
-    magnification: float  # of the broadest spectrum
     sampling: float  # of the mean over seeds, covers 90 %, by Student's t
     discretisation: float  # of the limit of fine grids
     fit_interval: float  # half the spread between intervals, as the 2/3 law holds only roughly
@@ -58,35 +55,8 @@ class MeasuredAv:
         """Value plus its error."""
         return self.value + self.error
 
-    def describe(self) -> str:
-        """Value, error and parts in words."""
-        return (
-            f"a_V = {self.value:.2f} ± {self.error:.2f} (simulated {self.simulated:.2f}, "
-            f"extrapolated by theory to zeta = {self.magnification:.0e}; sampling "
-            f"{self.sampling:.2f}, discretisation {self.discretisation:.2f}, fit interval "
-            f"{self.fit_interval:.2f}, bandwidth {self.bandwidth:.2f})"
-        )
-
 
 SIMULATED = ("a_v_mean", "a_v_mean_error")
-IN_A_V = absent("in a_V's error, counted with the model")
-CLOSED = {
-    "discretisation": IN_A_V,
-    "solver": absent("closed forms"),
-    "sampling": IN_A_V,
-    "bandwidth": absent("of the spectrum stated"),
-}
-OF_MODEL = "of the model, the farther of both limits"
-
-
-def between_limits(dataset: xr.Dataset, name: str) -> Part:
-    """Part of the budget of a variable that has a low and a high limit beside it."""
-    return between(*(dataset[f"{name}{end}"] for end in ("", "_low", "_high")))
-
-
-def between(value: xr.DataArray, low: xr.DataArray, high: xr.DataArray) -> Part:
-    """Part of the budget of a value that is known between two limits."""
-    return Part(np.maximum(abs(high - value), abs(value - low)), OF_MODEL)
 
 
 def measure_a_v(inputs, pressure):
@@ -121,8 +91,6 @@ def measure_a_v(inputs, pressure):
     growth = float(theory.isel(window=0).sel(magnification=broadest) / before) - 1
     return MeasuredAv(
         value=float(extrapolated[0]),
-        simulated=float(simulated[0]),
-        magnification=broadest,
         sampling=float(sampling[0]) * float(ratio[0]),
         discretisation=float(grid[0]) * float(ratio[0]),
         fit_interval=float(np.ptp(extrapolated)) / 2,
