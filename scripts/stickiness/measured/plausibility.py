@@ -64,7 +64,7 @@ def doubt_values(values: NDArray) -> Iterator[str]:
         value, share = plateau
         yield (
             f"{share:.2g} of the points have the one value {value:g}, as where nothing was "
-            f"measured: give missing_value: {_written(value)}"
+            f"measured: give missing_value: {_written(value)} (in an array: put NaN there)"
         )
     if len(levels) < FEWEST_LEVELS:
         yield (
