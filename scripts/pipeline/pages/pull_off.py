@@ -155,6 +155,7 @@ def draw(dataset):
     shown = ColumnDataSource({"zone": [zones[first]]})
     marker = ColumnDataSource({"gap": [gap[first]], "tension": [tension[first]]})
     curve = make_plot(
+        sizing_mode="stretch_width",
         height=360,
         y_range=tuple(limit * per_tension for limit in limits_of_tension(dataset)),
         x_axis_label=f"mean gap [{unit_gap}]",

@@ -144,7 +144,7 @@ def draw(dataset, texts):
             "height": [scales["height"].code(dataset.heights.values.T)],
         }
     )
-    plot = draw_map(sides, unit_x, 0.83)
+    plot = draw_map(sides, unit_x, 0.86)
     look = {"x": 0, "y": 0, "dw": sides[0] * per_x, "dh": sides[1] * per_x, "source": shown}
     layers = {}
     for name, colours in (("gap", palette(GAPS)), ("height", palette(HEIGHTS))):
@@ -219,11 +219,12 @@ def describe_point(image, scales, unit_x):
 
 
 def draw_map(sides, unit, shape):
-    """Empty plot of a map in a box that is `shape` times as wide as a square map would take."""
+    """Empty plot of a map, in a box as wide as high, times `shape`, for a square map."""
     plot = make_plot(
         x_range=DataRange1d(range_padding=0),  # of fixed ranges a narrow window changes the shape
         y_range=DataRange1d(range_padding=0),
         match_aspect=True,
+        sizing_mode="scale_width",
         aspect_ratio=max(sides[0] / sides[1], 0.3) * shape,
         x_axis_label=f"x [{unit}]",
         y_axis_label=f"y [{unit}]",
@@ -235,7 +236,6 @@ def draw_map(sides, unit, shape):
 def make_plot(**asked):
     """Empty Bokeh plot; dragging and scrolling stay the page's until a tool is chosen."""
     plot = figure(
-        sizing_mode="stretch_width",
         tools="pan,wheel_zoom,box_zoom,reset,save",
         active_drag=None,
         active_scroll=None,
