@@ -1,5 +1,9 @@
 # Real surfaces: parameters from the literature, or topographies analysed for their spectrum, and
-# contact of measured heights where that is asked for.
+# contact of measured heights where that is asked for. Pictures of contact need no asking.
+
+from pipeline.pages.provided import choose_pictured
+
+PICTURED_MATERIAL = choose_pictured(MATERIALS)
 
 
 def topographies(wildcards):
@@ -45,3 +49,33 @@ rule contact_measured:
         gaps=GAPS,
     script:
         "../scripts/real_surfaces/contact_measured.py"
+
+
+rule press_measured:
+    input:
+        surface=f"{RESULTS}/real_surfaces/{{real_surface}}.nc",
+        topographies=topographies,
+    output:
+        dataset=f"{RESULTS}/real_surfaces/pictures/{{real_surface}}.nc",
+        figure=f"{RESULTS}/figures/surfaces/{{real_surface}}_touch.png",
+    params:
+        surface=lambda wildcards: REAL_SURFACES[wildcards.real_surface],
+    script:
+        "../scripts/real_surfaces/press_measured.py"
+
+
+rule pull_measured:
+    input:
+        surface=f"{RESULTS}/real_surfaces/{{real_surface}}.nc",
+        topographies=topographies,
+    output:
+        dataset=f"{RESULTS}/real_surfaces/pull_off/{{real_surface}}.nc",
+        figure=f"{RESULTS}/figures/surfaces/{{real_surface}}_pull_off.png",
+    params:
+        surface=lambda wildcards: REAL_SURFACES[wildcards.real_surface],
+        material=PICTURED_MATERIAL,
+        entry=MATERIALS[PICTURED_MATERIAL],
+        law=config["remaining"]["law"],
+        squeeze=config["remaining"]["squeeze"],
+    script:
+        "../scripts/real_surfaces/pull_measured.py"

@@ -14,6 +14,19 @@ def find_measured_contact(wildcards):
     return [f"{RESULTS}/real_surfaces/contact/{wildcards.real_surface}.nc"] if asked else []
 
 
+def find_pictures(wildcards):
+    """Contact that the page of a measured surface shows, with its pictures for paper."""
+    name = wildcards.real_surface
+    if REAL_SURFACES[name]["kind"] != "measured":
+        return []
+    return [
+        f"{RESULTS}/real_surfaces/pictures/{name}.nc",
+        f"{RESULTS}/figures/surfaces/{name}_touch.png",
+        f"{RESULTS}/real_surfaces/pull_off/{name}.nc",
+        f"{RESULTS}/figures/surfaces/{name}_pull_off.png",
+    ]
+
+
 rule write_report:
     input:
         template="report/report.html.j2",
@@ -61,6 +74,7 @@ rule write_surface:
         surface=f"{RESULTS}/real_surfaces/{{real_surface}}.nc",
         verdicts=f"{RESULTS}/criteria/verdicts/{{real_surface}}.nc",
         measured_contact=find_measured_contact,
+        pictures=find_pictures,
     output:
         figure=f"{RESULTS}/figures/surfaces/{{real_surface}}.png",
         page=report(

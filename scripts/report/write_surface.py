@@ -7,7 +7,7 @@ import numpy as np
 from pipeline.conventions import LOAD
 from pipeline.job import start
 from pipeline.numbers import NOTHING, interval, number, percent, quantity, with_error
-from pipeline.pages import captions, measured_contact, provided
+from pipeline.pages import captions, interactive, measured_contact, provided, pull_off, touch
 from pipeline.pages.provided import own_first
 from pipeline.pages.surface_figure import draw_surface
 from pipeline.pages.surface_texts import describe_height, describe_line, describe_slope
@@ -48,13 +48,17 @@ def main(job):
         bem=datasets.read(job.input.measured_contact[0], ["a_v"])
         if job.input.measured_contact
         else None,
+        **describe_pictures(job.input.pictures, pairs, datasets.parameters(verdicts)["materials"]),
     )
     with datasets.whole_file(job.output.page) as path:
         path.write_text(page, encoding="utf-8")
 
 
-def render(template, page, *, files, surface, pairs, materials, figure, bem=None):
-    """The page as text, with links to the files behind it from where it will lie."""
+def render(template, page, *, files, surface, pairs, materials, figure, bem=None, **pictures):
+    """The page as text, with links to the files behind it from where it will lie.
+
+    `pictures` are those of `describe_pictures`.
+    """
     made = datasets.parameters(surface)
     names = own_first(map(str, pairs.material.values), provided.MATERIALS)
     return captions.template_of(template, page).render(
@@ -85,7 +89,22 @@ def render(template, page, *, files, surface, pairs, materials, figure, bem=None
             | {"own": name not in provided.MATERIALS}
             for name in names
         ],
+        **{"touch": None, "pull_off": None, **pictures},
     )
+
+
+def describe_pictures(paths, pairs, materials):
+    """Contact and pull-off of measured heights, from the files of `find_pictures`, if any."""
+    if not paths:
+        return {}
+    own = provided.own(map(str, pairs.material.values), provided.MATERIALS)
+    solids = {materials[name]["label"]: read_material(materials[name]) for name in own}
+    pressed, pressed_still, pulled, pulled_still = paths
+    return {
+        "library": interactive.library(),
+        "touch": touch.describe(pressed, pressed_still, solids),
+        "pull_off": pull_off.describe(pulled, pulled_still, lambda name: pairs.sel(material=name)),
+    }
 
 
 def list_parameters(surface):

@@ -1,6 +1,9 @@
 """Materials and surfaces that come with the project; a user's own are shown before them."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
+from typing import Any
+
+from pipeline.verdicts.materials import read_material
 
 MATERIALS = frozenset(("psa", "pdms", "natural_rubber", "pmma", "steel", "crystal", "soft_block"))
 SURFACES = frozenset(
@@ -25,3 +28,9 @@ def own_first(names: Iterable[str], provided: frozenset[str]) -> list[str]:
 def own(names: Iterable[str], provided: frozenset[str]) -> list[str]:
     """The names that do not come with the project."""
     return [name for name in names if name not in provided]
+
+
+def choose_pictured(materials: Mapping[str, Mapping[str, Any]]) -> str:
+    """The material whose pull-off is pictured: the first own one, or else the softest."""
+    mine = own(materials, MATERIALS)
+    return mine[0] if mine else min(materials, key=lambda m: read_material(materials[m]).modulus)

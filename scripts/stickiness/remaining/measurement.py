@@ -18,7 +18,7 @@ from scipy.interpolate import PchipInterpolator
 
 from stickiness.adhesion import edge_zone
 from stickiness.adhesion.laws import TractionLaw
-from stickiness.adhesion.path import path
+from stickiness.adhesion.path import PathPoint, path
 from stickiness.adhesion.scaling import SEPARATION
 from stickiness.contact.solver import ConvergenceError
 from stickiness.core.arguments import grid, number
@@ -68,6 +68,8 @@ class Remaining:
         Curve: mean gap [length], mean pressure [E*], whether on the way back.
     fft_pairs : float
         Convolutions that it took.
+    points : tuple of PathPoint
+        States of the curve with their fields.
     """
 
     approach: float
@@ -86,6 +88,7 @@ class Remaining:
     pressure: NDArray
     separating: NDArray
     fft_pairs: float
+    points: tuple[PathPoint, ...]
 
     @property
     def hysteresis(self) -> float:
@@ -155,13 +158,13 @@ def measure(
             f"{edge_zone.COARSEST * pixel / coarse:.3g} or a longer range"
         )
     settings = {"tol": tol, "logger": logger, "solid": check_solid(solid)}
-    found = _follow(heights, length, law, squeeze, settings)
     if not half_grid:
-        return found
+        return _follow(heights, length, law, squeeze, settings)
     with warnings.catch_warnings():
         # The half grid is coarse on purpose: what that changes is the error.
         warnings.simplefilter("ignore", PlausibilityWarning)
-        coarse = _follow(heights[::2, ::2], length, law, squeeze, settings)
+        coarse = replace(_follow(heights[::2, ::2], length, law, squeeze, settings), points=())
+    found = _follow(heights, length, law, squeeze, settings)
     return replace(found, **_limits(found, coarse))
 
 
@@ -216,6 +219,7 @@ def _follow(heights, length, law, squeeze, options):
         pressure=np.concatenate([way.pressure for way in ways]),
         separating=np.repeat([False, True], [len(way.gap) for way in ways]),
         fft_pairs=sum(point.state.fft_pairs for point in points),
+        points=tuple(points),
     )
 
 

@@ -62,8 +62,8 @@ def analysed(path, **asked):
     return datasets.read(path)
 
 
-def judged(found):
-    solids = {name: read_material(entry) for name, entry in MATERIALS.items()}
+def judged(found, materials=MATERIALS):
+    solids = {name: read_material(entry) for name, entry in materials.items()}
     frequencies = np.geomspace(1e-4, 1e6, 21)
     return judge_surface.find_verdicts(solids, {"plate": found}, {}, frequencies)
 
@@ -87,7 +87,7 @@ def stitched(folder):
     return analysed(folder / "both.nc", measurements=files, detrend="quadratic")
 
 
-def page_of(found, folder, bem=None):
+def page_of(found, folder, bem=None, **pictures):
     pairs = judged(found).sel(surface="plate")
     surface_figure.draw_surface(found, pairs, folder / "plate.png")
     return write_surface.render(
@@ -103,6 +103,7 @@ def page_of(found, folder, bem=None):
         materials=MATERIALS,
         figure=captions.embed_figure(folder / "plate.png", write_surface.CAPTION),
         bem=bem,
+        **pictures,
     )
 
 

@@ -22,7 +22,7 @@ def jump(h):
 
 def test_no_jump_is_left(heights):
     assert jump(heights + np.arange(40)[:, None]) > 2
-    for kind in ("taper", "mirror"):
+    for kind in ("taper", "mirror", "smooth"):
         assert jump(periodic.periodise(heights, kind)) < 1
 
 
@@ -35,6 +35,20 @@ def test_a_mirror_keeps_every_height_and_a_taper_the_inner_ones(heights):
     shift = heights[20, 16] - tapered[20, 16]
     np.testing.assert_allclose(tapered[5:35, 4:28], heights[5:35, 4:28] - shift)
     assert tapered.mean() == pytest.approx(0, abs=1e-12)
+
+
+def test_a_smooth_correction_leaves_periodic_heights_and_inner_ones_alone(heights):
+    x = 2 * np.pi * np.arange(40) / 40
+    wave = np.cos(3 * x)[:, None] * np.ones(32)
+    step = np.linspace(-0.5, 0.5, 40)[:, None]
+    # A wave of whole periods has the step of two neighbours across its border, and no more.
+    assert np.std(periodic.periodise(wave, "smooth") - wave) < 0.05
+    corrected = periodic.periodise(heights + step, "smooth")
+    change = corrected - heights - step
+    assert corrected.mean() == pytest.approx(np.mean(heights))
+    curvature = sum(np.roll(change, s, a) for s in (1, -1) for a in (0, 1)) - 4 * change
+    np.testing.assert_allclose(curvature[1:-1, 1:-1], 0, atol=1e-12)
+    assert np.abs(curvature[0]).max() > 0.1
 
 
 def test_heights_given_as_periodic_stay_what_they_are(heights):
@@ -70,7 +84,7 @@ def test_shells_of_an_oblong_period_keep_height_and_slope():
     ("call", "message"),
     [
         (lambda: periodic.periodise(np.zeros(5), "taper"), r"map \(nx, ny\)"),
-        (lambda: periodic.periodise(np.zeros((5, 5)), "fold"), "'mirror' or 'given', got 'fold'"),
+        (lambda: periodic.periodise(np.zeros((5, 5)), "fold"), "'smooth' or 'given', got 'fold'"),
         (lambda: periodic.band_limited(np.zeros((8, 8)), (1.0, 1.0), 99.0, 4), "Nyquist"),
     ],
 )

@@ -41,6 +41,8 @@ def test_without_jumps_all_works_are_the_energy_gained():
     assert found.separation == pytest.approx(found.bound, rel=0.03)
     assert found.hysteresis == pytest.approx(0, abs=0.03 * found.bound)
     assert found.resolved
+    assert [point.state.mean_gap for point in found.points] == list(found.gap)
+    assert found.points[0].state.gap.shape == (64, 64)
 
 
 @pytest.mark.slow

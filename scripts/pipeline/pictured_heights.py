@@ -1,0 +1,71 @@
+"""Measured heights as pictures of their contact press them: periodic, on a grid of given size."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pipeline.measured_surface import read_levelled
+from stickiness.config.measurements import measurements
+from stickiness.measured import periodic, topography
+
+WAY = "smooth"  # a tapered rim is flat: it sticks better than the surface
+MOST_PIXELS, LEAST_PIXELS = 8, 4  # per shortest wavelength
+_ROUNDING = 1e-9
+# Why a surface has no pictures.
+NOT_JUDGED = "the surface is not judged"
+NO_MAP = "it was measured along lines only, and contact needs a map of heights"
+
+
+@dataclass(frozen=True)
+class Pictured:
+    """Periodic heights [m], sides [m], shortest wave [m], change of the heights over their rms.
+
+    The change is the rms one by which the heights were made periodic, before waves were left out.
+    """
+
+    heights: NDArray
+    sides: tuple[float, float]
+    shortest_wavelength: float
+    change: float
+
+    @property
+    def h_rms(self) -> float:
+        """Root mean square of the heights about their mean [m]."""
+        return float(np.std(self.heights))
+
+    @property
+    def places(self) -> tuple[NDArray, NDArray]:
+        """Middles of the pixels of a grid half as fine along both sides [m]."""
+        shape = (n // 2 for n in self.heights.shape)
+        return tuple(
+            (np.arange(n) + 0.5) * side / n for n, side in zip(shape, self.sides, strict=True)
+        )
+
+
+def read_map(asked):
+    """Levelled heights of the first measurement that is a map; None if all are profiles."""
+    for _, measurement in measurements(asked):
+        heights = read_levelled(measurement)
+        if isinstance(heights, topography.Topography):
+            return heights
+    return None
+
+
+def prepare(heights, q_cutoff, points):
+    """`Pictured` heights without waves beyond the instrument's cutoff or too short for the grid.
+
+    `points` is the largest number along a side; fewer are taken where they resolve all waves.
+    """
+    whole = periodic.periodise(heights.heights, WAY)
+    waves = max(heights.size) / (2 * np.pi)  # per wave number along the longer side
+    q_max = min(q_cutoff, points / (LEAST_PIXELS * waves)) * (1 - _ROUNDING)
+    pixels = min(MOST_PIXELS, points / (waves * q_max)) * (1 - _ROUNDING)
+    limited = periodic.band_limited(whole, heights.size, q_max, pixels)
+    change = float(np.std(whole - heights.heights) / np.std(heights.heights))
+    return Pictured(limited - limited.mean(), heights.size, 2 * np.pi / q_max, change)
+
+
+def halve(field):
+    """Mean of every block of two by two points."""
+    return field.reshape(field.shape[0] // 2, 2, field.shape[1] // 2, 2).mean(axis=(1, 3))

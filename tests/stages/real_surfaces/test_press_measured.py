@@ -1,0 +1,119 @@
+"""Pictures of where measured heights touch: fields, loads, errors."""
+
+import numpy as np
+import pytest
+
+from pipeline import pictured_heights
+from pipeline.pages import stills, touch
+from pipeline.verdicts.materials import Material, read_material
+from real_surfaces import press_measured
+from stickiness import repulsive, surface
+from stickiness.contact import subpixel
+from stickiness.core import datasets
+from stickiness.measured import periodic
+from stickiness.measured.topography import Topography
+from stickiness.spectrum import SelfAffine
+
+SIDE, Q0 = 1e-4, 2 * np.pi * 4 / 1e-4
+TAPE = {
+    "label": "tape",
+    "youngs_modulus": "0.3 MPa",
+    "poisson_ratio": 0.5,
+    "work_of_adhesion": "50 mJ/m^2",
+    "range": "0.3 nm",
+}
+
+
+def plate(n=128, seed=1, width=None):
+    """Patch of a rough surface that is not periodic, with waves of 2 pixels and more."""
+    s = SelfAffine(hurst=0.8, q0=1.0, q1=n / 2.0, h_rms=1e-6, q_rolloff=4.0)
+    h = surface.synthesise(s, n=2 * n, length=4 * np.pi, seed=seed)[:n, : width or n]
+    return Topography(h, SIDE / n, SIDE / n, "here")
+
+
+@pytest.fixture(scope="module")
+def pressed():
+    return press_measured.press(plate(), Q0, 2 * np.pi / SIDE * 16, 128)
+
+
+def test_a_share_of_every_block_touches_and_more_at_every_load(pressed):
+    assert pressed.contact.dims == ("pressure", "x", "y")
+    assert pressed.contact.shape == (8, 64, 64)
+    assert set(np.unique(pressed.contact)) <= {0, 0.25, 0.5, 0.75, 1}
+    assert np.all(np.diff(pressed.area_fraction) > 0)
+    assert np.all(np.diff(pressed.mean_gap) < 0)
+    # Where it touches once it touches at every higher load.
+    lost = pressed.contact.values[1:] < pressed.contact.values[:-1]
+    assert lost.mean() < 1e-3
+    assert 5e-4 < float(pressed.area_fraction[0]) < 3e-3
+    assert 0.3 < float(pressed.area_fraction[-1]) < 0.5
+
+
+def test_traction_balances_the_load_and_gaps_are_where_nothing_touches(pressed):
+    traction = pressed.contact_pressure.mean(["x", "y"])
+    np.testing.assert_allclose(traction, pressed.mean_pressure, rtol=1e-5)
+    np.testing.assert_allclose(pressed.gap.mean(["x", "y"]), pressed.mean_gap, rtol=1e-5)
+    closed = pressed.contact.values == 1
+    assert closed.any()
+    assert np.all(pressed.gap.values[closed] == 0)
+    assert np.all(pressed.gap.values[~closed] > 0)
+    assert np.all(pressed.contact_pressure.values[pressed.contact.values == 0] == 0)
+    assert float(pressed.residual.max()) <= press_measured.TOLERANCE
+
+
+def test_area_is_within_its_error_of_a_direct_solution_on_a_finer_grid(pressed):
+    whole = periodic.periodise(plate().heights, "smooth")
+    fine = periodic.band_limited(whole, (SIDE, SIDE), 2 * np.pi / SIDE * 15.99, 32)
+    assert fine.shape[0] >= 4 * len(pressed.x)
+    for index in (3, 7):
+        at = pressed.isel(pressure=index)
+        contact = repulsive.solve(fine, SIDE, float(at.mean_pressure), tol=1e-5)
+        area = contact.area_fraction - subpixel.boundary_strip(contact.gap == 0)
+        assert abs(float(at.area_fraction) - area) <= float(at.area_fraction_discretisation_error)
+
+
+def test_a_grid_that_is_too_coarse_leaves_waves_out_and_says_so():
+    heights, cutoff = plate(), 2 * np.pi / SIDE * 32
+    coarse = pictured_heights.prepare(heights, cutoff, 64)
+    assert coarse.heights.shape == (64, 64)
+    assert coarse.shortest_wavelength == pytest.approx(SIDE / 16)
+    fine = pictured_heights.prepare(heights, cutoff, 512)
+    assert fine.heights.shape == (256, 256)
+    assert fine.shortest_wavelength == pytest.approx(SIDE / 32)
+    long = pictured_heights.prepare(plate(width=64), cutoff, 128)
+    assert long.heights.shape == (128, 64)
+    assert long.sides == pytest.approx((SIDE, SIDE / 2))
+
+
+def test_file_keeps_fields_and_is_small(pressed, tmp_path):
+    path = tmp_path / "pictures/plate.nc"
+    datasets.write(pressed, path, title="a", parameters={"surface": "plate"})
+    back = datasets.read(path)
+    np.testing.assert_array_equal(back.contact, pressed.contact)
+    np.testing.assert_array_equal(back.gap, pressed.gap)
+    assert path.stat().st_size < 500_000
+
+
+def test_page_says_pressures_of_materials_of_one_modulus_alone(pressed):
+    tape = read_material(TAPE)
+    rated = Material(tape.plane_strain, 0.05, 3e-10, depends_on_rate=True)
+    rough = Material(tape.plane_strain, 0.05, 3e-10, depends_on_rate=False, surface="plate")
+    rows = touch.describe_loads(pressed, {"tape": tape, "rated": rated, "rough": rough})
+    assert [list(row["pressures"]) for row in rows] == [["tape"]] * 8
+    first = float(pressed.mean_pressure[0]) * 0.4e6
+    assert rows[0]["pressures"]["tape"].startswith(f"{first:.2g} ")
+    assert "for tape" in touch.say(rows[0])
+    assert "p/(E* q<sub>0</sub> h<sub>rms</sub>) = " in touch.say(
+        touch.describe_loads(pressed, {"rated": rated})[0]
+    )
+    for row in rows:
+        assert "±" in row["area"]
+        assert "±" in row["gap"]
+
+
+def test_picture_for_paper_shows_every_load(pressed, tmp_path):
+    stills.draw_touch(pressed, tmp_path / "a.png")
+    assert (tmp_path / "a.png").read_bytes().startswith(b"\x89PNG")
+    drawn = touch.draw(pressed, ["load"] * 8)
+    slider = drawn.select_one({"name": "load"})
+    assert (slider.start, slider.end) == (0, 7)
