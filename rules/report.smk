@@ -63,6 +63,7 @@ rule write_surface:
         measured_contact=find_measured_contact,
     output:
         figure=f"{RESULTS}/figures/surfaces/{{real_surface}}.png",
+        curves=f"{RESULTS}/figures/surfaces/{{real_surface}}_curves.png",
         page=report(
             f"{RESULTS}/report/surfaces/{{real_surface}}.html",
             category="Surfaces",

@@ -7,7 +7,7 @@ import numpy as np
 from pipeline.conventions import LOAD
 from pipeline.job import start
 from pipeline.numbers import NOTHING, interval, number, percent, quantity, with_error
-from pipeline.pages import captions, measured_contact, provided
+from pipeline.pages import captions, interactive, measured_contact, provided, remaining_curves
 from pipeline.pages.provided import own_first
 from pipeline.pages.surface_figure import draw_surface
 from pipeline.pages.surface_texts import describe_height, describe_line, describe_slope
@@ -23,8 +23,18 @@ from stickiness.remaining.prediction import DEFAULT_SHARE
 CAPTION = """Levelled heights of the first measurement, and the spectrum: radial averages with their
 sampling errors, the fitted self-affine spectrum, the cutoff of the instrument, the end of the
 plateau with its error if there is one, and the lines of the paper. Grey: the fit extrapolated
-beyond the instrument, with its error. Errors cover 90 %. If moduli depend on the rate: limits of
-the margin against frequency.
+beyond the instrument, with its error. Errors cover 90 %.
+"""
+CURVES = """Share of the work of adhesion that remains on this surface. Lines: both ends of what is
+known of the surface; shaded: limits, 5 and 95 %, with the errors of the model and of the spectrum.
+Filled points: the pair as it is. Above the dashed line, at {wanted}, it sticks. Modulus: against E*
+of the material, all else equal; open circles: the threshold. None of a layer with an elastic
+backing, which would have to change as well. Roughness: all heights times a factor, at an unchanged
+shape of the spectrum; the rms height is that of the surface, midway between its ends. The roughness
+of the material's own, if it has one, changes as well. Rate: against the frequency of loading, of
+materials whose modulus depends on it; the work of adhesion does not change.
+"""
+ON_SCREEN = """A press on a name hides its curves or shows them; at first {shown} are shown.
 """
 
 
@@ -32,7 +42,8 @@ def main(job):
     surface = datasets.read(job.input.surface, ["psd", "hurst", "q0", "q1"])
     verdicts = datasets.read(job.input.verdicts, ["remaining", "margin", "verdict", "probability"])
     pairs = verdicts.sel(surface=job.wildcards.real_surface)
-    draw_surface(surface, pairs, job.output.figure)
+    draw_surface(surface, job.output.figure)
+    materials = datasets.parameters(verdicts)["materials"]
     page = render(
         job.input.template,
         job.output.page,
@@ -43,7 +54,8 @@ def main(job):
         },
         surface=surface,
         pairs=pairs,
-        materials=datasets.parameters(verdicts)["materials"],
+        materials=materials,
+        curves=draw_curves(pairs, materials, job.output.curves),
         figure=captions.embed_figure(job.output.figure, CAPTION),
         bem=datasets.read(job.input.measured_contact[0], ["a_v"])
         if job.input.measured_contact
@@ -53,10 +65,32 @@ def main(job):
         path.write_text(page, encoding="utf-8")
 
 
-def render(template, page, *, files, surface, pairs, materials, figure, bem=None):
+def draw_curves(pairs, materials, output):
+    """Figure of what remains, and its picture, which is written; None if nothing is judged."""
+    labels = {name: materials[name]["label"] for name in order(pairs)}
+    remaining_curves.draw_static(pairs, labels, output)
+    drawn = remaining_curves.draw_interactive(pairs, labels)
+    if drawn is None:
+        return None
+    caption = CURVES.format(wanted=percent(DEFAULT_SHARE))
+    if len(labels) > remaining_curves.SHOWN:
+        caption += ON_SCREEN.format(shown=remaining_curves.SHOWN)
+    return {
+        "library": interactive.library(),
+        "interactive": interactive.embed(drawn),
+        "still": captions.embed_figure(output, caption),
+    }
+
+
+def order(pairs):
+    """Names of the materials, the user's own first."""
+    return own_first(map(str, pairs.material.values), provided.MATERIALS)
+
+
+def render(template, page, *, files, surface, pairs, materials, figure, curves=None, bem=None):
     """The page as text, with links to the files behind it from where it will lie."""
     made = datasets.parameters(surface)
-    names = own_first(map(str, pairs.material.values), provided.MATERIALS)
+    names = order(pairs)
     return captions.template_of(template, page).render(
         files_of=files,
         report=Path(page).parents[1] / "report.html",
@@ -64,6 +98,7 @@ def render(template, page, *, files, surface, pairs, materials, figure, bem=None
         kind=made["kind"].replace("_", "-"),
         source=made.get("source", ""),
         figure=figure,
+        curves=curves,
         known=list_parameters(surface),
         remarks=[t for t in (*surface.attrs.get("remarks", "").split("; "), made.get("note")) if t],
         measured=[t for t in surface.attrs.get("files", "").split("; ") if t],

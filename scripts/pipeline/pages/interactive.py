@@ -10,7 +10,9 @@ from markupsafe import Markup
 
 def library() -> Markup:
     """Bokeh itself as script elements, once a page, for its head: 1.7 MB."""
-    return Markup(Resources(mode="inline", components=["bokeh", "bokeh-widgets"]).render_js())
+    scripts = Resources(mode="inline", components=["bokeh", "bokeh-widgets"]).js_raw[:-1]
+    quiet = 'Bokeh.logger.set_level("error");'  # in place of the last, which says its level
+    return Markup("\n").join(Markup(f"<script>{text}</script>") for text in (*scripts, quiet))
 
 
 def embed(figure: UIElement) -> Markup:

@@ -96,9 +96,12 @@ def weak_share(energy_ratio: ArrayLike, range_ratio: ArrayLike) -> float | NDArr
 def _mean_attraction(range_ratio: NDArray) -> NDArray:
     """Mean of exp(-gap/range) over a surface, ``(range, mean gap)``; contact counts as 1."""
     away = 1 / range_ratio[:, None] - _GAPS
-    near = np.exp(-(_GAPS**2) / 2) * erfcx(np.maximum(away, 0) / np.sqrt(2)) / 2
-    far = np.exp((np.minimum(away, 0) ** 2 - _GAPS**2) / 2) * ndtr(-away)
-    return np.where(away > 0, near, far) + ndtr(-_GAPS)
+    found = np.exp(-(_GAPS**2) / 2) * erfcx(np.maximum(away, 0) / np.sqrt(2)) / 2
+    far = away <= 0  # nowhere if the range is short
+    if far.any():
+        gaps = np.broadcast_to(_GAPS, away.shape)[far]
+        found[far] = np.exp((away[far] ** 2 - gaps**2) / 2) * ndtr(-away[far])
+    return found + ndtr(-_GAPS)
 
 
 def spring_share(energy_ratio: ArrayLike, range_ratio: ArrayLike) -> float | NDArray:
