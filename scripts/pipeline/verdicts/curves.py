@@ -84,6 +84,7 @@ def follow_draws(solid, drawn, moduli, heights):
     """Quantiles of the share over the draws of a surface, ``(dim, quantile)``; NaN without."""
     if drawn is None:
         return np.full((len(moduli), len(QUANTILES)), np.nan)
+    (moduli, heights), place = np.unique([moduli, heights], axis=1, return_inverse=True)
     factor = heights[:, None]
     deep = None if drawn.deep_energy is None else drawn.deep_energy * factor**2
     rough = replace(
@@ -94,4 +95,4 @@ def follow_draws(solid, drawn, moduli, heights):
     )
     length = solid.work_of_adhesion / moduli[:, None]
     shares = rough.share(length, solid.range, draw_signs(drawn))
-    return np.quantile(shares, QUANTILES, axis=-1).T
+    return np.quantile(shares, QUANTILES, axis=-1).T[place]

@@ -43,7 +43,7 @@ def describe_pull_off(pair: xr.Dataset) -> str:
     if high == 0:
         return NOTHING
     if float(pair.energy_ratio.max()) > PULL_OFF_UNKNOWN:
-        return f"at least {show_stresses(low, low, KPA)}"
+        return f"at least {show_stress(low, KPA)}" if low >= LEAST_STRESS else "not known"
     return describe_stress(pair, "pull_off", KPA)
 
 
@@ -71,6 +71,8 @@ def show_stresses(low: float, high: float, unit: float, between: str = " … ") 
     >>> show_stresses(2e5, 3.14e6, MPA), show_stresses(0.5, 2.0, KPA, " to ")
     ('0.2 … 3.1', '< 0.001 to 0.002')
     """
+    if high < LEAST_STRESS:
+        return show_stress(high, unit)
     if between == " … " and low >= LEAST_STRESS and high <= MOST_STRESS:
         return interval(low / unit, high / unit, 2)
     return between.join(dict.fromkeys(show_stress(x, unit) for x in (low, high)))
