@@ -55,8 +55,10 @@ def main(job):
         surface=surface,
         pairs=pairs,
         materials=materials,
-        curves=draw_curves(pairs, materials, job.output.curves),
-        figure=captions.embed_figure(job.output.figure, CAPTION),
+        figures={
+            "surface": captions.embed_figure(job.output.figure, CAPTION),
+            "curves": draw_curves(pairs, materials, job.output.curves),
+        },
         bem=datasets.read(job.input.measured_contact[0], ["a_v"])
         if job.input.measured_contact
         else None,
@@ -87,7 +89,7 @@ def order(pairs):
     return own_first(map(str, pairs.material.values), provided.MATERIALS)
 
 
-def render(template, page, *, files, surface, pairs, materials, figure, curves=None, bem=None):
+def render(template, page, *, files, surface, pairs, materials, figures, bem=None):
     """The page as text, with links to the files behind it from where it will lie."""
     made = datasets.parameters(surface)
     names = order(pairs)
@@ -97,8 +99,8 @@ def render(template, page, *, files, surface, pairs, materials, figure, curves=N
         label=made["label"],
         kind=made["kind"].replace("_", "-"),
         source=made.get("source", ""),
-        figure=figure,
-        curves=curves,
+        figure=figures["surface"],
+        curves=figures["curves"],
         known=list_parameters(surface),
         remarks=[t for t in (*surface.attrs.get("remarks", "").split("; "), made.get("note")) if t],
         measured=[t for t in surface.attrs.get("files", "").split("; ") if t],

@@ -1,7 +1,7 @@
 """The report and the pages of surfaces as a real browser shows and prints them.
 
 Chromium runs without a window and without a network. A probe, a script appended to a copy of the
-page, measures the page in the browser and puts what it found in the page's place.
+page, measures the page in the browser and puts what it found at its end.
 """
 
 import base64
@@ -41,10 +41,11 @@ FLAGS = [
 ]
 A4 = 680  # CSS pixels between the margins of 15 mm
 PROBE = """
-(() => {
+setTimeout(() => {
   for (const details of document.querySelectorAll("details")) details.open = true;
   const name = (e) => `${e.tagName}#${e.id}.${e.className}`;
   const boxed = (e) => e.closest(".wide, .frame, nav.contents, .skip") !== null;
+  const shown = (e) => e.getClientRects().length > 0;
   const found = {
     width: innerWidth,
     scroll: document.documentElement.scrollWidth,
@@ -52,7 +53,11 @@ PROBE = """
       .filter((e) => !boxed(e) && e.getBoundingClientRect().right > innerWidth + 1).map(name),
     scrolling: [...document.querySelectorAll(".wide, .frame")]
       .filter((e) => e.scrollWidth > e.clientWidth + 1).map(name),
-    images: [...document.images].map((e) => [e.complete, e.naturalWidth, e.clientWidth]),
+    images: [...document.images].filter(shown)
+      .map((e) => [e.complete, e.naturalWidth, e.clientWidth]),
+    stills: [...document.querySelectorAll(".still")].map(shown),
+    interactive: [...document.querySelectorAll(".interactive")].filter(shown)
+      .map((e) => e.querySelector("[data-root-id] > *")?.clientHeight ?? 0),
     loaded: performance.getEntriesByType("resource").map((entry) => entry.name.slice(0, 200))
       .filter((address) => !address.startsWith("data:")),
     tables: [...document.querySelectorAll("table.sortable")].map((table) => {
@@ -83,8 +88,9 @@ PROBE = """
   };
   const told = document.createElement("pre");
   told.textContent = JSON.stringify(found);
-  document.documentElement.replaceChildren(told);
-})();
+  told.id = "told";
+  document.body.append(told);
+}, 2000);  // Bokeh has drawn by then
 """
 
 
@@ -114,9 +120,10 @@ def probed(page, folder, width=1280, change=None):
     text = page.read_text(encoding="utf-8")
     copy = folder / f"{page.stem}-{width}.html"
     text = change(text) if change else text
-    copy.write_text(text.replace("</body>", f"<script>{PROBE}</script></body>"), encoding="utf-8")
+    body, end, rest = text.rpartition("</body>")  # scripts of the page may have the word as well
+    copy.write_text(f"{body}<script>{PROBE}</script>{end}{rest}", encoding="utf-8")
     dom, console = chromium(copy, folder / "profile", "--dump-dom", width=width)
-    told = re.search(r"<pre>(.*?)</pre>", dom, re.S)
+    told = re.search(r'<pre id="told">(.*?)</pre>', dom, re.S)
     assert told, dom[:2000]
     return json.loads(unescape(told[1])), console
 
@@ -152,7 +159,7 @@ def page(request):
 def pixels_per_inch(page):
     """Resolution at which a page's first picture was drawn."""
     text = page.read_text(encoding="utf-8")
-    png = base64.b64decode(re.search(r"data:image/png;base64,([^\"]+)", text)[1])
+    png = base64.b64decode(re.search(r'<img src="data:image/png;base64,([^"]+)', text)[1])
     at = png.index(b"pHYs") + 4
     return struct.unpack(">I", png[at : at + 4])[0] * 0.0254
 
@@ -194,6 +201,17 @@ def test_letters_of_figures_are_legible(page, scratch, width, change, least):
     for complete, natural, shown in found["images"]:
         assert complete
         assert smallest / 72 * resolution * shown / natural >= least  # CSS pixels
+
+
+def test_interactive_figures_are_drawn_and_leave_paper_to_pictures(page, scratch):
+    on_screen, console = probed(page, scratch)
+    assert console == []
+    assert on_screen["interactive"]
+    assert min(on_screen["interactive"]) > 300  # CSS pixels
+    printed, _ = probed(page, scratch, A4, as_printed)
+    assert printed["interactive"] == []
+    assert not any(on_screen["stills"])
+    assert all(printed["stills"])
 
 
 def test_loads_nothing(page, scratch):

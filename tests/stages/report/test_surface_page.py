@@ -10,12 +10,13 @@ import xarray as xr
 
 from criteria import judge_surface
 from pipeline import measured_loads, measured_surface
+from pipeline.numbers import number
 from pipeline.pages import captions, remaining_curves, surface_figure, surface_texts
 from pipeline.pages.verdict_texts import describe_pair
 from pipeline.verdicts import joint
 from pipeline.verdicts.markdown import write_markdown
 from pipeline.verdicts.materials import read_material
-from pipeline.verdicts.words import find_doubts
+from pipeline.verdicts.words import find_doubts, find_limits
 from real_surfaces import analyse_surface, contact_measured
 from report import write_surface
 from stickiness import surface
@@ -101,8 +102,10 @@ def page_of(found, folder, bem=None):
         surface=found,
         pairs=pairs,
         materials=MATERIALS,
-        figure=captions.embed_figure(folder / "plate.png", write_surface.CAPTION),
-        curves=write_surface.draw_curves(pairs, MATERIALS, folder / "plate_curves.png"),
+        figures={
+            "surface": captions.embed_figure(folder / "plate.png", write_surface.CAPTION),
+            "curves": write_surface.draw_curves(pairs, MATERIALS, folder / "plate_curves.png"),
+        },
         bem=bem,
     )
 
@@ -321,7 +324,7 @@ def test_page_shows_what_remains_of_judged_pairs_alone(single, folder):
         drawn = [gel.rough[gel.own], gel.smooth[gel.own]]
         at_pair = pairs.remaining.sel(material="gel", end=["rough", "smooth"]).values
         np.testing.assert_allclose(drawn, 100 * at_pair, rtol=1e-9)
-        assert gel.at[gel.own].endswith("E* = 0.013 MPa") == (axis != "roughness")
+        assert gel.at[gel.own].endswith("E* = 5.3 MPa") == (axis != "roughness")
     withheld = pairs.assign(verdict=pairs.verdict * 0 + NOT_JUDGED)
     assert remaining_curves.draw_interactive(withheld, labels) is None
 
@@ -338,11 +341,23 @@ def test_three_materials_are_shown_at_first(single):
         assert legend.click_policy == "hide"
         visible = [{r.visible for r in item.renderers} for item in legend.items]
         assert visible == [{True}] * 3 + [{False}] * 2
-        looks = {
-            (item.renderers[0].glyph.line_dash, item.renderers[2].glyph.marker)
-            for item in legend.items
-        }
+        drawn = [item.renderers for item in legend.items]
+        looks = {(str(line.glyph.line_dash), point.glyph.marker) for line, _, point, *_ in drawn}
         assert len(looks) == 5
+
+
+@pytest.mark.slow
+def test_threshold_of_a_stitched_surface_has_the_errors_of_its_margin(stitched):
+    """Measurements that differ widen both, beyond what the model alone does."""
+    pair = judged(stitched).sel(surface="plate", material="steel")
+    shown = describe_pair(pair)
+    thresholds = np.array([float(x) for x in find_limits(pair, "modulus_threshold")])
+    margins = np.array([float(x) for x in find_limits(pair, "margin")])
+    np.testing.assert_allclose(thresholds, float(pair.modulus_quoted) * margins)
+    text = " to ".join(number(float(x) / 1e6, 2) for x in thresholds)
+    assert shown["threshold"].endswith(f"({text})")
+    of_model = float(pair.modulus_threshold_high.max() / pair.modulus_threshold_low.min())
+    assert thresholds[1] / thresholds[0] > 1.5 * of_model
 
 
 @pytest.mark.slow
