@@ -77,6 +77,7 @@ rule write_surface:
         pictures=find_pictures,
     output:
         figure=f"{RESULTS}/figures/surfaces/{{real_surface}}.png",
+        curves=f"{RESULTS}/figures/surfaces/{{real_surface}}_curves.png",
         page=report(
             f"{RESULTS}/report/surfaces/{{real_surface}}.html",
             category="Surfaces",

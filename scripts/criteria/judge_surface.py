@@ -5,6 +5,7 @@ import xarray as xr
 from pipeline.conventions import logarithmic_grid
 from pipeline.job import start
 from pipeline.verdicts.budgets import add_budgets
+from pipeline.verdicts.curves import OF_RATE, follow_remaining
 from pipeline.verdicts.joint import BY_END, ENDS
 from pipeline.verdicts.materials import read_material
 from pipeline.verdicts.pairs import (
@@ -67,7 +68,8 @@ def find_verdicts(materials, surfaces, own, frequencies):
         },
     )
     dataset = dataset.assign(find_probabilities(materials, joints))
-    dataset = dataset.assign(follow_rates(pair, materials, frequencies))
+    dataset = dataset.assign(follow_rates(materials, frequencies))
+    dataset = dataset.assign(follow_remaining(pair, materials, joints, frequencies))
     dataset["verdict"] = decide_pairs(dataset)
     dataset["disagrees"] = find_disagreement(dataset)
     dataset["not_judged"] = find_doubts(materials, surfaces, own)
@@ -116,6 +118,12 @@ def describe(dataset):
         modulus_threshold=("Pa", threshold, "elastic backing"),
         modulus_threshold_low=("Pa", f"{threshold}, low limit of the model", "elastic backing"),
         modulus_threshold_high=("Pa", f"{threshold}, high limit of the model", "elastic backing"),
+        modulus_threshold_quantile=(
+            "Pa",
+            f"quantiles of the {threshold}",
+            "not measured, or elastic backing",
+        ),
+        pull_off_quantile=("Pa", f"quantiles of the {pull_off}", "not measured"),
         work_of_adhesion=("J/m^2", "work of adhesion"),
         threshold_by_criterion=("Pa", "plane-strain modulus below which a criterion says sticky"),
         verdict=("1", ", ".join(f"{code} {word}" for code, word in enumerate(WORDS))),
@@ -133,11 +141,29 @@ def describe(dataset):
         frequency=("Hz", "frequency of loading"),
         modulus=("Pa", "plane-strain storage modulus", "beyond the material's table"),
         modulus_quoted=("Pa", "plane-strain storage modulus at 1 Hz, of the quoted margins"),
-        margin_low_at_rate=("1", "lowest margin at a frequency", "beyond the material's table"),
-        margin_high_at_rate=("1", "highest margin at a frequency", "beyond the material's table"),
+        **describe_curves(remains),
         depends_on_rate=("1", "1 where the modulus is given as a function of the frequency"),
         disagrees=("1", "1 where a criterion says the opposite of the verdict"),
     )
+
+
+def describe_curves(remains):
+    """Descriptions of the share along the modulus, the heights and the rate."""
+    axes = {
+        "modulus": ("for E* times a factor", "elastic backing"),
+        "roughness": ("for the pair's heights times a factor", "not judged"),
+        "rate": ("at a frequency", OF_RATE),
+    }
+    described = {
+        "modulus_factor": ("1", "factor on the plane-strain modulus"),
+        "roughness_factor": ("1", "factor on the heights, at unchanged shape of the spectrum"),
+    }
+    for axis, (text, unknown) in axes.items():
+        name = f"remaining_by_{axis}"
+        described[name] = ("1", f"{remains}, {text}", unknown)
+        for end in ("low", "high"):
+            described[f"{name}_{end}"] = ("1", f"{remains}, {text}, {end} limit", unknown)
+    return described
 
 
 if __name__ == "__main__":

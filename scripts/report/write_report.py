@@ -4,8 +4,9 @@ from pathlib import Path
 
 from pipeline.experiments import texts as experiments
 from pipeline.job import start
-from pipeline.pages import captions, report
+from pipeline.pages import captions, interactive, report
 from pipeline.pages.benchmarks import run_times
+from pipeline.pages.pairs_figure import draw_pairs
 from pipeline.pages.provenance import describe_provenance
 from pipeline.tradeoff import summary
 from stickiness.accuracy.error_models import read_models
@@ -82,6 +83,7 @@ def render(template, page, results, *, figures, experiments_figure, tradeoff, be
     of both, and `presets`; `benchmarks` is the folder of Snakemake's benchmark files.
     """
     claims, verdicts, surfaces = results.claims, results.verdicts, results.surfaces
+    matrix = report.arrange_verdicts(verdicts, surfaces)
     data = [claims, verdicts, results.experiments, *surfaces.values(), *results.ensembles]
     return captions.template_of(template, page).render(
         fidelity=fidelity,
@@ -91,7 +93,9 @@ def render(template, page, results, *, figures, experiments_figure, tradeoff, be
         figures=figures,
         claims=[report.describe_claim(claims.sel(claim=number)) for number in claims.claim.values],
         errata=report.describe_errata(claims),
-        matrix=report.arrange_verdicts(verdicts, surfaces),
+        matrix=matrix,
+        library=interactive.library(),
+        every_pair=interactive.embed(draw_pairs(verdicts, matrix["pairs"])),
         disagreements=report.find_disagreements(verdicts, surfaces),
         experiments=experiments.describe(results.experiments) | {"figure": experiments_figure},
         surfaces=[report.describe_surface(name, data) for name, data in surfaces.items()],

@@ -7,7 +7,15 @@ import numpy as np
 from pipeline.conventions import LOAD
 from pipeline.job import start
 from pipeline.numbers import NOTHING, interval, number, percent, quantity, with_error
-from pipeline.pages import captions, interactive, measured_contact, provided, pull_off, touch
+from pipeline.pages import (
+    captions,
+    interactive,
+    measured_contact,
+    provided,
+    pull_off,
+    remaining_curves,
+    touch,
+)
 from pipeline.pages.provided import own_first
 from pipeline.pages.surface_figure import draw_surface
 from pipeline.pages.surface_texts import describe_height, describe_line, describe_slope
@@ -23,8 +31,19 @@ from stickiness.remaining.prediction import DEFAULT_SHARE
 CAPTION = """Levelled heights of the first measurement, and the spectrum: radial averages with their
 sampling errors, the fitted self-affine spectrum, the cutoff of the instrument, the end of the
 plateau with its error if there is one, and the lines of the paper. Grey: the fit extrapolated
-beyond the instrument, with its error. Errors cover 90 %. If moduli depend on the rate: limits of
-the margin against frequency.
+beyond the instrument, with its error. Errors cover 90 %.
+"""
+CURVES = """Share of the work of adhesion that remains on this surface. Lines: both ends of what is
+known of the surface; shaded: limits, 5 and 95 %, with the errors of the model and of the spectrum.
+Filled points: the pair as it is. Above the dashed line, at {wanted}, it sticks. Modulus: against E*
+of the material, all else equal; open circles: the threshold. None of a layer with an elastic
+backing, which would have to change as well. Roughness: all heights times a factor, at an unchanged
+shape of the spectrum; the rms height is that of the surface, midway between its ends. The roughness
+of the material's own, if it has one, changes as well. Rate: against the frequency of loading, of
+materials whose modulus depends on it; the work of adhesion does not change.
+"""
+DRAWN = ("curves", "touch", "pull_off")  # interactive figures of a page
+ON_SCREEN = """A press on a name hides its curves or shows them; at first {shown} are shown.
 """
 
 
@@ -32,7 +51,8 @@ def main(job):
     surface = datasets.read(job.input.surface, ["psd", "hurst", "q0", "q1"])
     verdicts = datasets.read(job.input.verdicts, ["remaining", "margin", "verdict", "probability"])
     pairs = verdicts.sel(surface=job.wildcards.real_surface)
-    draw_surface(surface, pairs, job.output.figure)
+    draw_surface(surface, job.output.figure)
+    materials = datasets.parameters(verdicts)["materials"]
     page = render(
         job.input.template,
         job.output.page,
@@ -43,31 +63,57 @@ def main(job):
         },
         surface=surface,
         pairs=pairs,
-        materials=datasets.parameters(verdicts)["materials"],
-        figure=captions.embed_figure(job.output.figure, CAPTION),
+        materials=materials,
+        figures={
+            "surface": captions.embed_figure(job.output.figure, CAPTION),
+            "curves": draw_curves(pairs, materials, job.output.curves),
+            **describe_pictures(job.input.pictures, pairs, materials),
+        },
         bem=datasets.read(job.input.measured_contact[0], ["a_v"])
         if job.input.measured_contact
         else None,
-        **describe_pictures(job.input.pictures, pairs, datasets.parameters(verdicts)["materials"]),
     )
     with datasets.whole_file(job.output.page) as path:
         path.write_text(page, encoding="utf-8")
 
 
-def render(template, page, *, files, surface, pairs, materials, figure, bem=None, **pictures):
+def draw_curves(pairs, materials, output):
+    """Figure of what remains, and its picture, which is written; None if nothing is judged."""
+    labels = {name: materials[name]["label"] for name in order(pairs)}
+    remaining_curves.draw_static(pairs, labels, output)
+    drawn = remaining_curves.draw_interactive(pairs, labels)
+    if drawn is None:
+        return None
+    caption = CURVES.format(wanted=percent(DEFAULT_SHARE))
+    if len(labels) > remaining_curves.SHOWN:
+        caption += ON_SCREEN.format(shown=remaining_curves.SHOWN)
+    return {
+        "figure": interactive.embed(drawn),
+        "still": captions.embed_figure(output, caption),
+    }
+
+
+def order(pairs):
+    """Names of the materials, the user's own first."""
+    return own_first(map(str, pairs.material.values), provided.MATERIALS)
+
+
+def render(template, page, *, files, surface, pairs, materials, figures, bem=None):
     """The page as text, with links to the files behind it from where it will lie.
 
-    `pictures` are those of `describe_pictures`.
+    `figures` are that of the surface and those `DRAWN` that there are.
     """
     made = datasets.parameters(surface)
-    names = own_first(map(str, pairs.material.values), provided.MATERIALS)
+    names = order(pairs)
     return captions.template_of(template, page).render(
         files_of=files,
         report=Path(page).parents[1] / "report.html",
         label=made["label"],
         kind=made["kind"].replace("_", "-"),
         source=made.get("source", ""),
-        figure=figure,
+        library=interactive.library() if any(figures.get(name) for name in DRAWN) else "",
+        figure=figures["surface"],
+        **{name: figures.get(name) for name in DRAWN},
         known=list_parameters(surface),
         remarks=[t for t in (*surface.attrs.get("remarks", "").split("; "), made.get("note")) if t],
         measured=[t for t in surface.attrs.get("files", "").split("; ") if t],
@@ -89,7 +135,6 @@ def render(template, page, *, files, surface, pairs, materials, figure, bem=None
             | {"own": name not in provided.MATERIALS}
             for name in names
         ],
-        **{"touch": None, "pull_off": None, **pictures},
     )
 
 
@@ -101,7 +146,6 @@ def describe_pictures(paths, pairs, materials):
     solids = {materials[name]["label"]: read_material(materials[name]) for name in own}
     pressed, pressed_still, pulled, pulled_still = paths
     return {
-        "library": interactive.library(),
         "touch": touch.describe(pressed, pressed_still, solids),
         "pull_off": pull_off.describe(pulled, pulled_still, lambda name: pairs.sel(material=name)),
     }

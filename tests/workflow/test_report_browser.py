@@ -159,7 +159,7 @@ def page(request):
 def pixels_per_inch(page):
     """Resolution at which a page's first picture was drawn."""
     text = page.read_text(encoding="utf-8")
-    png = base64.b64decode(re.search(r"data:image/png;base64,([^\"]+)", text)[1])
+    png = base64.b64decode(re.search(r'<img src="data:image/png;base64,([^"]+)', text)[1])
     at = png.index(b"pHYs") + 4
     return struct.unpack(">I", png[at : at + 4])[0] * 0.0254
 
@@ -201,6 +201,17 @@ def test_letters_of_figures_are_legible(page, scratch, width, change, least):
     for complete, natural, shown in found["images"]:
         assert complete
         assert smallest / 72 * resolution * shown / natural >= least  # CSS pixels
+
+
+def test_interactive_figures_are_drawn_and_leave_paper_to_pictures(page, scratch):
+    on_screen, console = probed(page, scratch)
+    assert console == []
+    assert on_screen["interactive"]
+    assert min(on_screen["interactive"]) > 300  # CSS pixels
+    printed, _ = probed(page, scratch, A4, as_printed)
+    assert printed["interactive"] == []
+    assert not any(on_screen["stills"])
+    assert all(printed["stills"])
 
 
 def test_loads_nothing(page, scratch):

@@ -186,7 +186,8 @@ def arrange_verdicts(verdicts: xr.Dataset, surfaces: Datasets) -> Context:
     on = own_first(map(str, verdicts.surface.values), provided.SURFACES)
     cells = {
         (material, surface): describe_pair(verdicts.sel(material=material, surface=surface))
-        | {"material": materials[material]["label"], "name": surface, "surface": labels[surface]}
+        | {"key": material, "material": materials[material]["label"]}
+        | {"name": surface, "surface": labels[surface]}
         for material in names
         for surface in on
     }

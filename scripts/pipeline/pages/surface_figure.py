@@ -1,32 +1,25 @@
-"""One surface as a figure: heights, spectrum with fit and lines, margins against the rate."""
+"""One surface as a figure: heights, and spectrum with fit and lines."""
 
 import numpy as np
 
 from pipeline import plotting
 from pipeline.plotting import BLACK, COLOURS, GREY
 from stickiness.core.statistics import COVERS
-from stickiness.criteria.pair import NOT_JUDGED
 
 HURST = 0.8  # of the lines
 LINES = (1e-3, 1e-5)  # m^0.4
 PREFIXES = ((1e3, 1e-3, "km"), (1, 1, "m"), (1e-3, 1e3, "mm"), (1e-6, 1e6, "µm"), (0, 1e9, "nm"))
 
 
-def draw_surface(surface, pairs, output):
-    """Write a figure with a panel for everything that the surface and its pairs have to show."""
+def draw_surface(surface, output):
+    """Write a figure with the heights, if there are any, and the spectrum."""
     pictures = {"heights": draw_heights, "profile": draw_profile}
     pictured = next((name for name in pictures if name in surface), None)
-    shown = (pairs.depends_on_rate == 1) & (pairs.verdict != NOT_JUDGED)
-    depending = pairs.isel(material=np.flatnonzero(shown))
-    rows = ["AB" if pictured else "AA"]
-    if depending.sizes["material"]:
-        rows.append("CC" if pictured else "BB")
-    with plotting.open_figure([output], ";".join(rows), (3.3, 5.6)[len(rows) - 1]) as panels:
+    row = "AB" if pictured else "AA"
+    with plotting.open_figure([output], row, 3.3) as panels:
         if pictured:
             pictures[pictured](panels["A"], surface)
-        draw_spectrum(panels[rows[0][1]], surface)
-        if len(rows) > 1:
-            draw_rates(panels[rows[1][0]], depending)
+        draw_spectrum(panels[row[1]], surface)
 
 
 def draw_heights(ax, surface):
@@ -104,16 +97,3 @@ def draw_limits(ax, surface):
     if "q_rolloff" in surface:
         q, error = float(surface.q_rolloff), float(surface.q_rolloff_total_error)
         ax.axvspan(max(q - error, q / 3), q + error, color=COLOURS[2], alpha=0.25, linewidth=0)
-
-
-def draw_rates(ax, pairs):
-    """Margins of materials whose modulus depends on the rate, between their limits."""
-    for index, name in enumerate(pairs.material.values):
-        pair, colour = pairs.sel(material=name), COLOURS[index % len(COLOURS)]
-        low, high = pair.margin_low_at_rate, pair.margin_high_at_rate
-        plotting.draw_band(ax, pair.frequency, low, high, colour)
-        ax.plot(pair.frequency, np.sqrt(low * high), color=colour, label=str(name))
-    ax.axhline(1, color=GREY, linewidth=0.9, linestyle="--")
-    ax.axvline(1, color=GREY, linewidth=0.9, linestyle=":")
-    ax.set(xscale="log", yscale="log", xlabel="frequency [Hz]", ylabel="margin (above 1 sticks)")
-    ax.legend()

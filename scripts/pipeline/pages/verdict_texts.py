@@ -9,11 +9,14 @@ import xarray as xr
 
 from pipeline.numbers import NOTHING, interval, number, percent, quantity
 from pipeline.verdicts.texts import (
+    MPA,
     describe_layer,
     describe_pull_off,
     describe_share,
     describe_threshold,
+    show_stress,
 )
+from pipeline.verdicts.words import find_limits
 from stickiness.core import budget
 from stickiness.criteria.pair import NOT_JUDGED, WORDS
 from stickiness.criteria.registry import CRITERIA, EDGES, REMAINING
@@ -30,7 +33,7 @@ def describe_pair(pair: xr.Dataset) -> dict[str, Any]:
     if code == NOT_JUDGED:
         return withheld_texts()
     margins = ends(pair.margin.sel(criterion=REMAINING))
-    limits = float(pair.margin_low.min()), float(pair.margin_high.max())
+    limits = map(float, find_limits(pair, "margin"))
     return {
         "verdict": WORDS[code],
         "tone": WORD_TONES[code],
@@ -48,6 +51,7 @@ def describe_pair(pair: xr.Dataset) -> dict[str, Any]:
         "by": find_dominant(pair),
         "onset": interval(*ends(pair.margin.sel(criterion=EDGES)), digits=2),
         "onset_value": float(pair.margin.sel(criterion=EDGES).mean()),
+        "own_modulus": show_stress(float(pair.modulus_quoted), MPA),
         "threshold": describe_threshold(pair),
         "threshold_value": float(pair.modulus_threshold.sel(end="rough")),
         **describe_draws(pair),
@@ -57,9 +61,9 @@ def describe_pair(pair: xr.Dataset) -> dict[str, Any]:
 def withheld_texts() -> dict[str, Any]:
     """The same of a pair that is not judged: no number, last in every order."""
     numbers = ("grade", "remaining_value", "pull_off_value", "energy_ratio_value", "order")
-    numbers += ("onset_value", "threshold_value", "share", "quantile", "error")
+    numbers += ("onset_value", "threshold_value", "share", "error")
     texts = ("remaining", "pull_off", "energy_ratio", "margin", "limits", "by", "onset")
-    texts += ("threshold", "probability", "drawn", "errors")
+    texts += ("own_modulus", "threshold", "probability", "errors")
     return {
         "verdict": WORDS[NOT_JUDGED],
         "tone": WORD_TONES[NOT_JUDGED],
@@ -87,14 +91,12 @@ def describe_draws(pair: xr.Dataset) -> dict[str, Any]:
     share = float(pair.probability)
     numbers = {
         "share": share,
-        "quantile": float(pair.margin_quantile[0]),
         "error": float(np.hypot(pair.error_of_spectrum, pair.error_of_model)),
     }
     if not np.isfinite(share):
-        return numbers | {"probability": NOTHING, "drawn": NOTHING, "errors": NOTHING}
+        return numbers | {"probability": NOTHING, "errors": NOTHING}
     return numbers | {
         "probability": percent(share),
-        "drawn": interval(*map(float, pair.margin_quantile.values[[0, -1]]), 2),
         "errors": f"spectrum {percent(float(pair.error_of_spectrum))}, model "
         f"{percent(float(pair.error_of_model))}",
     }

@@ -1,7 +1,14 @@
 """Verdicts as a page of Markdown."""
 
 from pipeline.numbers import NOTHING, interval, percent, table
-from pipeline.verdicts.texts import describe_pull_off, describe_share, describe_threshold
+from pipeline.verdicts.texts import (
+    MPA,
+    describe_pull_off,
+    describe_share,
+    describe_threshold,
+    show_stress,
+)
+from pipeline.verdicts.words import find_limits
 from stickiness.criteria.pair import FULL_SHARE, NOT_JUDGED, WORDS
 from stickiness.criteria.registry import CRITERIA, EDGES, REMAINING
 from stickiness.criteria.verdict import THEORY_ERROR
@@ -25,7 +32,8 @@ helps.
 
 **Margin.** Adhesion length w/E* over the one at which {wanted} remains, within its limits; above 1
 the pair sticks. **E* threshold**: the modulus below which it sticks. Both have the same relative
-errors.
+errors. E* = E/(1 − ν²) is the plane-strain modulus; the column before has that of the material at
+1 Hz. Below 1 Pa and above 10 TPa thresholds are bounds.
 
 **Pull-off.** Largest mean tension on separation. Close to full contact its high limit is the
 strength of the attraction, because that state was not simulated.
@@ -56,8 +64,9 @@ Figure 9 shows the influence of the shortest wavelength.
 
 """
 COLUMNS = (
-    *("material", "surface", "verdict", "remains", "pull-off", "E* threshold", "P", "w/U_full"),
-    *("margin", "onset at the finest wave", "DMT", "criteria that disagree"),
+    *("material", "surface", "verdict", "remains", "pull-off [kPa]", "E* [MPa]"),
+    *("E* threshold [MPa]", "P", "w/U_full", "margin"),
+    *("onset at the finest wave", "DMT", "criteria that disagree"),
 )
 
 
@@ -97,10 +106,11 @@ def describe_pair(pair):
         WORDS[int(pair.verdict)],
         describe_share(pair),
         describe_pull_off(pair),
+        show_stress(float(pair.modulus_quoted), MPA),
         describe_threshold(pair),
         percent(float(pair.probability)),
         show_interval(pair.energy_ratio.min(), pair.energy_ratio.max(), 2),
-        show_interval(pair.margin_low.min(), pair.margin_high.max(), 2),
+        show_interval(*find_limits(pair, "margin"), 2),
         show_interval(onset.min(), onset.max(), 2),
         show_interval(dmt.min(), dmt.max(), 2),
         ", ".join(differs) or "none",

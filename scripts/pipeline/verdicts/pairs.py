@@ -1,7 +1,5 @@
 """Every material on both ends of every surface: what remains, margins, thresholds, edges."""
 
-from dataclasses import replace
-
 import numpy as np
 
 from pipeline.verdicts.joint import BY_END, ENDS, join, take_surface
@@ -83,10 +81,7 @@ def describe_remaining(pair, materials):
     There is no threshold with an elastic backing: the modulus of the layer alone cannot change
     without changing what the layer does.
     """
-    known = [
-        np.nan if isinstance(getattr(solid.solid, "backing", None), Backing | Film) else 1.0
-        for solid in materials.values()
-    ]
+    known = [1.0 if is_scalable(solid) else np.nan for solid in materials.values()]
     known = np.reshape(known, (-1, 1, 1))
     low, high = pair.margin_limits()
     lowest, value, highest = (
@@ -104,6 +99,11 @@ def describe_remaining(pair, materials):
         "modulus_threshold_high": highest,
     }
     return {name: (DIMS, value) for name, value in values.items()}
+
+
+def is_scalable(material):
+    """Whether all that deforms goes with the material's modulus: it has no elastic backing."""
+    return not isinstance(getattr(material.solid, "backing", None), Backing | Film)
 
 
 def describe_edges(pair):
@@ -125,20 +125,13 @@ def describe_edges(pair):
     return {name: (DIMS, value) for name, value in values.items()}
 
 
-def follow_rates(pair, materials, frequencies):
-    """Modulus and limits of the margin at every frequency."""
+def follow_rates(materials, frequencies):
+    """Modulus at every frequency; beyond a material's table there is none."""
     solids = materials.values()
     moduli = np.array([np.atleast_1d(m.plane_strain.storage(frequencies)) for m in solids])
-    known = ~np.isnan(moduli)  # beyond a material's table there is no modulus
-    at_rate = np.where(known, moduli, 1.0).T[..., None, None]
-    low, high = replace(pair, modulus=at_rate).margin_limits()
-    dims = ("frequency", "material", "surface")
-    known = known.T[..., None]
     return {
         "frequency": ("frequency", frequencies),
         "modulus": (("material", "frequency"), moduli),
         "modulus_quoted": ("material", [m.modulus for m in solids]),
-        "margin_low_at_rate": (dims, np.where(known, low.min(axis=-1), np.nan)),
-        "margin_high_at_rate": (dims, np.where(known, high.max(axis=-1), np.nan)),
         "depends_on_rate": ("material", [int(m.depends_on_rate) for m in solids]),
     }

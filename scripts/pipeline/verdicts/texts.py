@@ -5,12 +5,14 @@ from __future__ import annotations
 import numpy as np
 import xarray as xr
 
-from pipeline.numbers import NOTHING, interval, number, percent, quantity
+from pipeline.numbers import NOTHING, interval, number, percent
 from pipeline.verdicts.words import MOST_STRAIN, find_limits
 from stickiness.criteria.pair import DEPENDS, NOT_JUDGED, TOUCHES, WORDS
 from stickiness.remaining.prediction import DEFAULT_SHARE, PULL_OFF_UNKNOWN
 
 LEAST_SHOWN = 1e-3  # share below which a text says 0 %
+KPA, MPA = 1e3, 1e6  # Pa: of the pull-off, and of moduli
+LEAST_STRESS, MOST_STRESS = 1.0, 1e13  # Pa, beyond which a text says so: nobody can use them
 LEAST_EFFECT = 0.05  # relative, of a layer's thickness on the energy of full contact
 
 
@@ -33,33 +35,56 @@ def show_shares(low: float, high: float, between: str = " … ") -> str:
 
 
 def describe_pull_off(pair: xr.Dataset) -> str:
-    """Pull-off stress with its limits; a dash where nothing holds.
+    """Pull-off stress [kPa] with its limits; a dash where nothing holds.
 
     Near full contact, which was not simulated, only a low limit is known.
     """
-    if float(pair.pull_off_high.max()) == 0:
+    low, high = map(float, find_limits(pair, "pull_off"))
+    if high == 0:
         return NOTHING
     if float(pair.energy_ratio.max()) > PULL_OFF_UNKNOWN:
-        least = float(pair.pull_off_low.min())
-        return f"at least {quantity(least, least, 'Pa', digits=2)}"
-    return describe_pressure(pair, "pull_off")
+        return f"at least {show_stress(low, KPA)}" if low >= LEAST_STRESS else "not known"
+    return describe_stress(pair, "pull_off", KPA)
 
 
 def describe_threshold(pair: xr.Dataset) -> str:
-    """Modulus below which the wanted share remains, with its limits."""
-    return describe_pressure(pair, "modulus_threshold")
+    """E* [MPa] below which the wanted share remains, with its limits."""
+    return describe_stress(pair, "modulus_threshold", MPA)
 
 
-def describe_pressure(pair: xr.Dataset, name: str) -> str:
-    """Values [Pa] at both ends of the surface with the limits of the model."""
-    low, high = pair[f"{name}_low"].min(), pair[f"{name}_high"].max()
+def describe_stress(pair: xr.Dataset, name: str, unit: float) -> str:
+    """Values in a unit [Pa] at both ends of the surface, with the limits of all that is unknown."""
+    low, high = map(float, find_limits(pair, name))
     if np.isnan(low):
         return NOTHING
-    value = quantity(*sorted(map(float, pair[name].values)), "Pa", digits=2)
-    least, most = (quantity(float(x), float(x), "Pa", digits=2) for x in (low, high))
-    if float(low) == 0 or least.split()[-1] == most.split()[-1]:
-        least = least.split()[0]
-    return f"{value} ({least} to {most})"
+    if high < LEAST_STRESS:
+        return "below 1 Pa"
+    values = sorted(map(float, pair[name].values))
+    return f"{show_stresses(*values, unit)} ({show_stresses(low, high, unit, ' to ')})"
+
+
+def show_stresses(low: float, high: float, unit: float, between: str = " … ") -> str:
+    """Two stresses [Pa] in a unit [Pa], or one where they agree; outside of what matters, bounds.
+
+    Examples
+    --------
+    >>> show_stresses(2e5, 3.14e6, MPA), show_stresses(0.5, 2.0, KPA, " to ")
+    ('0.2 … 3.1', '< 0.001 to 0.002')
+    """
+    if high < LEAST_STRESS:
+        return show_stress(high, unit)
+    if between == " … " and low >= LEAST_STRESS and high <= MOST_STRESS:
+        return interval(low / unit, high / unit, 2)
+    return between.join(dict.fromkeys(show_stress(x, unit) for x in (low, high)))
+
+
+def show_stress(value: float, unit: float) -> str:
+    """A stress [Pa] in a unit [Pa], or the bound that it is beyond."""
+    if 0 < value < LEAST_STRESS:
+        return f"< {number(LEAST_STRESS / unit)}"
+    if value > MOST_STRESS:
+        return f"> {number(MOST_STRESS / unit)}"
+    return number(value / unit, 2)
 
 
 def describe_layer(pair: xr.Dataset) -> str:

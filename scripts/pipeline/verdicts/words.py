@@ -59,15 +59,16 @@ def withhold(dataset):
     return dataset.assign(numbers | {"verdict": verdict, "disagrees": disagrees})
 
 
-def find_limits(dataset):
-    """Low and high limit of the share that remains, which decide.
+def find_limits(dataset, name="remaining"):
+    """Low and high limit of what is known of a pair: of the share that remains, they decide.
 
-    Over both ends of the surface and the limits of the model. On a measured surface the spectra
-    drawn within its errors decide, by the quantiles of what remains.
+    Over both ends of the surface and the limits of the model. On a measured surface those of the
+    spectra drawn within its errors, which have the errors of the model as well, by quantiles.
+    `name` may be another quantity that follows from what remains.
     """
-    low, high = dataset.remaining_low.min("end"), dataset.remaining_high.max("end")
-    if "remaining_quantile" in dataset:
-        drawn = dataset.remaining_quantile
+    low, high = dataset[f"{name}_low"].min("end"), dataset[f"{name}_high"].max("end")
+    if f"{name}_quantile" in dataset:
+        drawn = dataset[f"{name}_quantile"]
         low = drawn.isel(quantile=0, drop=True).fillna(low)
         high = drawn.isel(quantile=-1, drop=True).fillna(high)
     if "layer_strain" in dataset:

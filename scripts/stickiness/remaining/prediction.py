@@ -92,7 +92,9 @@ class Roughness:
     deep_energy: ArrayLike | None = None
     widening: ArrayLike = 1.0  # factor on the errors, see `find_widening`
 
-    def share(self, adhesion_length: ArrayLike, range: ArrayLike, sign: int = 0) -> float | NDArray:
+    def share(
+        self, adhesion_length: ArrayLike, range: ArrayLike, sign: ArrayLike = 0
+    ) -> float | NDArray:
         """Share of the work of adhesion that remains; `sign` -1 or +1 for its low or high limit."""
         sign = sign * self.widening
         ratio = np.asarray(adhesion_length) / self.elastic_energy
@@ -142,25 +144,30 @@ class Roughness:
     def pull_off(
         self, adhesion_length: ArrayLike, range: ArrayLike
     ) -> tuple[ArrayLike, ArrayLike, ArrayLike]:
-        """Largest mean tension on separation over E*: value, low and high limit.
+        """Largest mean tension on separation over E*: value, low and high limit."""
+        low, value, high = (self.tension(adhesion_length, range, sign) for sign in (-1, 0, 1))
+        return value, low, high
+
+    def tension(
+        self, adhesion_length: ArrayLike, range: ArrayLike, sign: ArrayLike = 0
+    ) -> float | NDArray:
+        """Largest mean tension on separation over E*; `sign` as of `share`.
 
         Towards full contact, beyond what was simulated, the high limit goes over to the strength
         of the law.
         """
-        ratio = np.asarray(adhesion_length) / self.elastic_energy
-        stress = np.asarray(adhesion_length) / self.distance(adhesion_length, range)
-        low, value, high = (
-            plain(
-                stress
-                * self.share(adhesion_length, range, sign)
-                * (1 + PULL_OFF_ERROR) ** (sign * self.widening)
-            )
-            for sign in (-1, 0, 1)
+        length = np.asarray(adhesion_length)
+        found = np.asarray(
+            length
+            / self.distance(length, range)
+            * self.share(length, range, sign)
+            * (1 + PULL_OFF_ERROR) ** (np.asarray(sign) * self.widening)
         )
-        strength = np.maximum(np.asarray(adhesion_length) / range, high)
         known, unknown = np.log(PULL_OFF_KNOWN), np.log(PULL_OFF_UNKNOWN)
-        beyond = np.clip((np.log(ratio) - known) / (unknown - known), 0.0, 1.0)
-        return value, low, plain(np.asarray(high) ** (1 - beyond) * strength**beyond)
+        beyond = np.clip(
+            (np.log(length / self.elastic_energy) - known) / (unknown - known), 0.0, 1.0
+        ) * np.clip(sign, 0.0, 1.0)
+        return plain(found ** (1 - beyond) * np.maximum(length / range, found) ** beyond)
 
     def threshold(
         self, range: ArrayLike, share: float = DEFAULT_SHARE, sign: ArrayLike = 0

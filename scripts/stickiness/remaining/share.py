@@ -53,6 +53,7 @@ _GAPS = np.linspace(0.0, 10.0, 201)  # mean gaps over h_rms
 # Of springs over h_rms: clearances between undeformed surfaces, and their means.
 _CLEARANCES, _STEP = np.linspace(-6.0, 12.0, 901, retstep=True)
 _LEVELS = np.linspace(-0.5, 6.0, 66)
+_BLOCK, _TINY = 100, 1e-6
 _HEIGHTS = np.exp(-((_LEVELS[:, None] - _CLEARANCES) ** 2) / 2) * (_STEP / np.sqrt(2 * np.pi))
 
 
@@ -96,9 +97,12 @@ def weak_share(energy_ratio: ArrayLike, range_ratio: ArrayLike) -> float | NDArr
 def _mean_attraction(range_ratio: NDArray) -> NDArray:
     """Mean of exp(-gap/range) over a surface, ``(range, mean gap)``; contact counts as 1."""
     away = 1 / range_ratio[:, None] - _GAPS
-    near = np.exp(-(_GAPS**2) / 2) * erfcx(np.maximum(away, 0) / np.sqrt(2)) / 2
-    far = np.exp((np.minimum(away, 0) ** 2 - _GAPS**2) / 2) * ndtr(-away)
-    return np.where(away > 0, near, far) + ndtr(-_GAPS)
+    found = np.exp(-(_GAPS**2) / 2) * erfcx(np.maximum(away, 0) / np.sqrt(2)) / 2
+    far = away <= 0  # nowhere if the range is short
+    if far.any():
+        gaps = np.broadcast_to(_GAPS, away.shape)[far]
+        found[far] = np.exp((away[far] ** 2 - gaps**2) / 2) * ndtr(-away[far])
+    return found + ndtr(-_GAPS)
 
 
 def spring_share(energy_ratio: ArrayLike, range_ratio: ArrayLike) -> float | NDArray:
@@ -109,15 +113,25 @@ def spring_share(energy_ratio: ArrayLike, range_ratio: ArrayLike) -> float | NDA
     ``(c - g)^2 - x exp(-g/e)`` with ``y = (c - g)/e``, ``y exp(-y) = x/(2 e^2) exp(-c/e)``.
     """
     x, e = np.broadcast_arrays(*positive(energy_ratio=energy_ratio, range_ratio=range_ratio))
-    x, e = x[..., None], e[..., None]
+    blocks = -(-x.size // _BLOCK)  # arrays that fit the cache
+    parts = (np.array_split(values.ravel(), max(blocks, 1)) for values in (x, e))
+    gained = np.concatenate([_gain_of_springs(*part) for part in zip(*parts, strict=True)])
+    return plain(np.clip(gained.reshape(x.shape), 0.0, 1.0))
+
+
+def _gain_of_springs(energy_ratio: NDArray, range_ratio: NDArray) -> NDArray:
+    """Energy gained over the work of adhesion, ``(n,)``."""
+    x, e = energy_ratio[:, None], range_ratio[:, None]
     closed = _CLEARANCES**2 - x
     pull = x / (2 * e**2) * np.exp(np.minimum(-_CLEARANCES / e, 500.0))
     holds = pull < np.exp(-1)
-    y = -lambertw(-np.where(holds, pull, 0.0)).real
+    pull = np.where(holds, pull, 0.0)
+    y = pull * (1 + pull)  # to rounding where it is tiny, which is nearly everywhere
+    strong = pull > _TINY
+    y[strong] = -lambertw(-pull[strong]).real
     holds &= e * y < _CLEARANCES
     energy = np.where(holds, np.minimum(closed, e**2 * (y**2 - 2 * y)), closed)
-    gained = -np.min(energy @ _HEIGHTS.T, axis=-1) / x[..., 0]
-    return plain(np.clip(gained, 0.0, 1.0))
+    return -np.min(energy @ _HEIGHTS.T, axis=-1) / x[:, 0]
 
 
 def remaining_share(

@@ -223,15 +223,6 @@ def test_steel_does_not_stick(h_rms):
     assert WORDS[int(found.verdict)] == "does not stick"
 
 
-def test_margin_at_another_rate_is_that_of_its_modulus():
-    found = pairs_of(1e6, [1e-9]).squeeze()
-    # a constant modulus: at every frequency that of 1 Hz
-    for limit in ("low", "high"):
-        np.testing.assert_allclose(
-            found[f"margin_{limit}_at_rate"], float(found[f"margin_{limit}"][0]), rtol=1e-12
-        )
-
-
 @pytest.mark.parametrize(("modulus", "reach"), [(5e3, 1e-9), (1e5, 1e-9), (1e11, 1e-7)])
 def test_library_and_rule_give_the_same_numbers(modulus, reach):
     a_v = (4.0, 3.0, 5.0)
