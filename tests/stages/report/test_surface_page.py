@@ -105,9 +105,9 @@ def page_of(found, folder, bem=None, **pictures):
         figures={
             "surface": captions.embed_figure(folder / "plate.png", write_surface.CAPTION),
             "curves": write_surface.draw_curves(pairs, MATERIALS, folder / "plate_curves.png"),
+            **pictures,
         },
         bem=bem,
-        **pictures,
     )
 
 
