@@ -14,7 +14,15 @@ import pandas as pd
 import xarray as xr
 
 from pipeline.conventions import at_load
-from pipeline.numbers import NOTHING, interval, number, percent, superscripted, with_error
+from pipeline.numbers import (
+    NOTHING,
+    difference,
+    interval,
+    number,
+    percent,
+    superscripted,
+    with_error,
+)
 from pipeline.pages import provided
 from pipeline.pages.provided import own_first
 from pipeline.pages.surface_texts import describe_height, describe_line
@@ -90,8 +98,8 @@ def summarise(
     return {
         "claims": claims.sizes["claim"],
         "graded": [(name, grades[name], claim_tone(name)) for name in order if grades[name]],
-        "a_v": number(float(criterion.a_v)),
-        "a_v_range": interval(float(criterion.a_v_low), float(criterion.a_v_high)),
+        "a_v": number(float(criterion.a_v), 2),
+        "a_v_range": interval(float(criterion.a_v_low), float(criterion.a_v_high), 2),
         "load": number(datasets.parameters(criterion)["pressure"]),
         "pairs": verdicts.verdict.size,
         "judged": verdicts.verdict.size - counts[NOT_JUDGED],
@@ -314,8 +322,10 @@ def compare_theory(comparisons: Sequence[xr.Dataset]) -> list[Context]:
         for load in loads[np.unique(np.linspace(0, len(loads) - 1, 5).astype(int)[1:4])]:
             here = at.sel(pressure=load)
             cells = {
-                name: f"{float(here[f'{name}_difference']):+.1%} ± "
-                f"{float(here[f'{name}_difference_total_error']):.1%}"
+                name: difference(
+                    float(here[f"{name}_difference"]),
+                    float(here[f"{name}_difference_total_error"]),
+                )
                 for name in QUANTITIES
             }
             case = datasets.parameters(comparison)["case"]

@@ -11,6 +11,7 @@ from stickiness.criteria.pair import DEPENDS, NOT_JUDGED, TOUCHES, WORDS
 from stickiness.remaining.prediction import DEFAULT_SHARE, PULL_OFF_UNKNOWN
 
 LEAST_SHOWN = 1e-3  # share below which a text says 0 %
+LEAST_STRESS = 1e-3  # Pa, of a pull-off that holds anything
 LEAST_EFFECT = 0.05  # relative, of a layer's thickness on the energy of full contact
 
 
@@ -37,7 +38,7 @@ def describe_pull_off(pair: xr.Dataset) -> str:
 
     Near full contact, which was not simulated, only a low limit is known.
     """
-    if float(pair.pull_off_high.max()) == 0:
+    if float(pair.pull_off_high.max()) < LEAST_STRESS:
         return NOTHING
     if float(pair.energy_ratio.max()) > PULL_OFF_UNKNOWN:
         least = float(pair.pull_off_low.min())
@@ -80,7 +81,13 @@ def describe_layer(pair: xr.Dataset) -> str:
 
 
 def say_verdict(material: str, pair: xr.Dataset) -> str:
-    """The verdict on a pair as one sentence."""
+    """The verdict on a pair as one sentence; a small first word gets its capital letter."""
+    sentence = _say_verdict(material, pair)
+    first = sentence.split(maxsplit=1)[0]
+    return sentence[0].upper() + sentence[1:] if first.islower() else sentence
+
+
+def _say_verdict(material: str, pair: xr.Dataset) -> str:
     code, remains = int(pair.verdict), describe_share(pair)
     if code == NOT_JUDGED:
         return f"{material}: not judged. {str(pair.not_judged.item()).replace(chr(10), '. ')}."

@@ -45,7 +45,7 @@ def test_loop_is_graded_by_its_width_and_its_pull_off(files, made, verdict):
     assert "At p = 0.02 the area is 0.040 on loading" in claim.remark
     if "pull_off" not in made:
         assert "at zero gap is 0.030, of which 0.022 is compressed" in claim.remark
-    assert "25% of the work" in claim.remark
+    assert "25 % of the work" in claim.remark
 
 
 @pytest.mark.parametrize(

@@ -196,7 +196,7 @@ def test_page_shows_verdicts_errors_and_reasons(single, folder):
     # Steel is stiff and does not stick; the gel is soft at 1 Hz and stiff beyond its relaxation.
     assert re.search(r"sticks\s+below [\d. ×⁰-⁹]+ Hz", text)
     words = " ".join(text.split())
-    assert "steel does not stick: nothing of its work of adhesion remains." in words
+    assert "Steel does not stick: nothing of its work of adhesion remains." in words
     assert re.search(r"For gel &lt;soft&gt; it depends: [\d. …]+ % \([\d.]+ to [\d.]+ %\)", text)
     assert "†" not in text
 
