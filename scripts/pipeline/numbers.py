@@ -99,7 +99,7 @@ def difference(value: float, error: float) -> str:
 
 def keep_whole(text: str) -> str:
     """Text with no-break spaces inside its numbers: before powers, errors and units."""
-    text = re.sub(rf"(?<=[\d)⁰¹²³⁴-⁹]) (?=×|±|(?:{_UNITS})(?!\w))", _NO_BREAK, text)
+    text = re.sub(rf"(?<=[\d)⁰¹²³⁴-⁹]) (?=×|±|(?:{_UNITS})(?![A-Za-z0-9]))", _NO_BREAK, text)
     text = re.sub(r"(?<=[×±≤≥<=]) (?=[−\d])|(?<=[\w>]) (?==)", _NO_BREAK, text)
     shared = re.compile(rf"\([^()…]+ … [^()…]+\){_NO_BREAK}×")
     return shared.sub(lambda found: found[0].replace(" ", _NO_BREAK), text)

@@ -20,11 +20,13 @@ from stickiness.criteria.moduli import crossings
 from stickiness.criteria.pair import NOT_JUDGED
 from stickiness.remaining.prediction import DEFAULT_SHARE
 
-CAPTION = """Levelled heights of the first measurement, and the spectrum: radial averages with their
-sampling errors, the fitted self-affine spectrum, the cutoff of the instrument, the end of the
-plateau with its error if there is one, and the lines of the paper. Grey: the fit extrapolated
-beyond the instrument, with its error. Errors cover 90 %. If moduli depend on the rate: limits of
-the margin against frequency.
+CAPTION = """Heights and spectrum of the surface, with the fitted self-affine spectrum and the lines
+of the paper. If moduli depend on the rate: margins of these materials against frequency.
+
+Heights are those of the first measurement, levelled. Points of the spectrum are radial averages
+with their sampling errors. Dotted: the cutoff of the instrument. Shaded: the end of the plateau
+with its error, if there is one. Grey: the fit extrapolated beyond the instrument, with its error.
+Errors cover 90 %.
 """
 
 

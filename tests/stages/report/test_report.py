@@ -12,8 +12,8 @@ import numpy as np
 import pytest
 import xarray as xr
 from helpers.experiments import EXPERIMENTS, make_dataset
+from helpers.pages import LINE, LINES, RAW, find_long_captions, find_raw_symbols
 
-from pipeline import numbers
 from pipeline.pages import captions, report, surface_texts
 from pipeline.pages.benchmarks import run_times
 from pipeline.pages.provenance import describe_provenance
@@ -25,6 +25,7 @@ from stickiness.criteria.pair import DEPENDS, NOT_STICKY, STICKY, TOUCHES
 from stickiness.criteria.registry import EDGES, REMAINING
 
 TEMPLATE = Path(__file__).parents[3] / "report" / "report.html.j2"
+CAPTIONS = sorted(TEMPLATE.parent.glob("*.rst"))
 NASTY = '<script>alert("1 & 2")</script>'
 GRADES = ("reproduced", "reproduced with a qualification", "not reproduced", "undecided")
 VOID = {"meta", "link", "img", "br", "wbr", "input", "hr"}
@@ -283,6 +284,7 @@ TRADEOFF = {
         "height": 50,
         "alt": "What it costs.",
         "caption": "What it costs.",
+        "details": "",
     },
     "source": "config/trade.csv",
     "tables": [(["seeds", "area", "cost"], [["4 plain", "13 %", "40"]])],
@@ -305,7 +307,8 @@ TRADEOFF = {
 
 @pytest.fixture
 def page(render):
-    return render()
+    """The page with plain spaces inside its numbers."""
+    return render().replace("\u00a0", " ")
 
 
 @pytest.fixture
@@ -427,7 +430,7 @@ def test_every_claim_and_figure_appears(page):
 def test_claims_show_value_error_and_files(page):
     text = Reader(page).text
     assert "1.891 ± 0.033" in text
-    assert "by sampling : sampling 0.032, discretisation 0.01" in text  # largest first
+    assert "by sampling : sampling 0.032 discretisation 0.01" in text  # largest first
     assert "sampling, not known" in text
     assert "−2 by sampling, not known : sampling not known quantity 1" in text
     assert "b/ seed1.nc and 1 more" in text
@@ -513,7 +516,7 @@ def test_experiments_are_on_the_page(page):
         "hard plate steel on steel sticks does not stick read 5 % (1 % to 12 %) compatible, value "
         "too no unknown input flat ≈ –",
         "Ball 1999 : the ball was wet",
-        "soft ball : Ball, J. Made Up 1, 2 (1999). Not found: the color of the ball.",
+        "soft ball : Ball, J. Made Up 1, 2 (1999). Not found: the color of the ball",
         "hard plate : no source.",
     ):
         assert words in text, words
@@ -569,6 +572,7 @@ def test_errors_of_a_pair_are_told_where_it_was_drawn(verdicts, surfaces):
         ("a_V,PR ~ zeta^((5H-3)/3)", "a<sub>V,PR</sub> ~ ζ<sup>(5H−3)/3</sup>"),
         ("C0 = 1e-3 m^0.4", "C<sub>0</sub> = 1e-3 m<sup>0.4</sup>"),
         ("shape_a q01 x_rms_y", "shape_a q01 x_rms_y"),
+        ("p_ad/2p_rep, w/U_full", "p<sub>ad</sub>/2p<sub>rep</sub>, w/U<sub>full</sub>"),
         (
             "<i> & doi:10.1234/q0",
             '&lt;i&gt; &amp; <a href="https://doi.org/10.1234/q0">doi:10.1234/q0</a>',
@@ -579,12 +583,70 @@ def test_symbols_are_set(text, html):
     assert captions.typeset(text) == html
 
 
-def test_disagreement_names_pairs_and_direction(verdicts, surfaces):
-    onset, row = report.find_disagreements(verdicts, surfaces)
-    assert onset["criterion"] == "onset at the finest wave"
-    assert onset["sticky"] == [("iron", ["glass pane"])]
-    assert (row["criterion"], row["count"]) == ("bearing area (BAM)", 1)
-    assert row["sticky"] == [("iron", ["sand < 1 mm"])]
+def test_titles_have_symbols_of_plain_letters():
+    assert captions.plain("C0 = 10⁻³ m^0.4 & l_a < h_rms") == "C₀ = 10⁻³ m⁰·⁴ & lₐ < hᵣₘₛ"
+
+
+def raw(data):
+    """The same data with symbols in every label, as a user may write them."""
+    made = json.loads(data.attrs["parameters"])
+    for entry in made.get("materials", {}).values():
+        entry["label"] += ", l_a = 0.05 range"
+    if "label" in made:
+        made["label"] += ", C0 = 10⁻³ m^0.4"
+    return data.assign_attrs(parameters=json.dumps(made))
+
+
+def test_no_raw_symbol_is_shown(render, verdicts, surfaces, claims):
+    assert find_raw_symbols("<p>a_b</p><p>m^2</p><code>c_d</code><img alt='e_f'>") == [
+        *("a_b", "m^2", "e_f"),
+    ]
+    labelled = {name: raw(data) for name, data in surfaces.items()}
+    quantities = claims.quantity.values.astype(object)
+    quantities[0] = "p_ad/2p_rep at l_a/range = 0.1, m^0.4"
+    asked = claims.assign(quantity=("claim", quantities.astype(str)))
+    page = render(verdicts=raw(verdicts), surfaces=labelled, claims=asked)
+    assert find_raw_symbols(page) == []
+    assert "l<sub>a</sub>\u00a0=\u00a00.05 range" in page
+
+
+def test_captions_on_the_page_are_short(render):
+    assert find_long_captions(f"<table><caption>{'long ' * 96}</caption></table>")
+    folded = f"<table><caption>Short.<details>{'long ' * 96}</details></caption></table>"
+    assert find_long_captions(folded) == []
+    assert find_long_captions(render()) == []
+
+
+@pytest.mark.parametrize("path", CAPTIONS, ids=lambda path: path.stem)
+def test_a_caption_is_short_and_its_symbols_are_set(path, tmp_path):
+    from matplotlib.figure import Figure
+
+    picture = tmp_path / f"{path.stem}.png"
+    Figure(figsize=(1, 1)).savefig(picture)
+    made = captions.embed_figure(picture, path.read_text(encoding="utf-8"))
+    first, details = (
+        re.sub("<[^>]*>", "", unescape(str(made[part]))) for part in ("caption", "details")
+    )
+    assert 0 < len(first) <= LINE * LINES
+    assert not RAW.search(first + details)
+    assert not RAW.search(made["alt"])
+    assert "system-message" not in made["caption"] + made["details"]
+    assert details or not path.stem.startswith("fig")
+
+
+def test_disagreement_counts_pairs_by_verdict_and_names_them(verdicts, surfaces):
+    found = report.find_disagreements(verdicts, surfaces)
+    assert [(word, total) for word, _, total in found["heads"]] == [
+        ("sticks", 1),
+        ("depends", 1),
+        ("touches without hold", 1),
+        ("does not stick", 1),
+    ]
+    onset, row = found["rows"]
+    assert (onset["criterion"], onset["counts"]) == ("onset at the finest wave", [0, 0, 1, 0])
+    assert onset["sticky"] == ["iron on glass pane"]
+    assert (row["criterion"], row["counts"]) == ("bearing area (BAM)", [0, 0, 0, 1])
+    assert row["sticky"] == ["iron on sand < 1 mm"]
     assert row["not_sticky"] == []
 
 
@@ -667,47 +729,6 @@ def test_caption_cannot_smuggle_html():
     html = captions.caption_html(".. raw:: html\n\n   <b>bold</b>\n\nText <i>& more.")
     assert "<b>" not in html
     assert "&lt;i&gt;&amp; more." in html
-
-
-@pytest.mark.parametrize(
-    ("value", "error", "text"),
-    [
-        (1.8912, 0.0331, "1.891 ± 0.033"),
-        (3.68, 1.0, "3.7 ± 1.0"),
-        (0.99, 0.0996, "0.99 ± 0.10"),
-        (-4.2e-6, 3e-7, "(−4.20 ± 0.30) × 10⁻⁶"),
-        (67720, 120, "67720 ± 120"),
-        (2.0, np.nan, "2"),
-        (np.nan, np.nan, "–"),
-    ],
-)
-def test_value_with_error(value, error, text):
-    assert numbers.with_error(value, error) == text
-
-
-@pytest.mark.parametrize(
-    ("low", "high", "text"),
-    [
-        (1.0, 1.0004, "1"),
-        (0.1, 20.0, "0.1 … 20"),
-        (5.08e-4, 1.61e-3, "(5.08 … 16.1) × 10⁻⁴"),
-        (7e-6, 3.0, "7 × 10⁻⁶ … 3"),
-        (2e4, 3e6, "(0.02 … 3) × 10⁶"),
-        (0.0, np.inf, "0 … ∞"),
-    ],
-)
-def test_interval(low, high, text):
-    assert numbers.interval(low, high) == text
-
-
-def test_quantity_keeps_its_prefix_when_rounding_up():
-    assert numbers.quantity(999.9999, 999.9999, "Pa") == "1 kPa"
-    assert numbers.quantity(2e-12, 2e-12, "m") == "0.002 nm"
-
-
-def test_quantity_with_error_is_rounded_to_it():
-    assert numbers.quantity_with_error(1.6347e2, 20.49, "m") == "(163 ± 20) m"
-    assert numbers.quantity_with_error(2.7049e-8, 2.449e-9, "m") == "(27.0 ± 2.4) nm"
 
 
 def test_accuracy_that_was_not_reached_is_named():
