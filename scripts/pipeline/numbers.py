@@ -47,11 +47,26 @@ def interval(low: float, high: float, digits: int = 3) -> str:
     if texts[0] == texts[1]:
         return texts[0]
     powers = [_exponent(value, digits) for value in (low, high)]
-    if all(power in _PLAIN for power in powers) or abs(powers[1] - powers[0]) > 2:
+    if all(power in _PLAIN for power in powers):
+        return " … ".join(_align(low, high, texts, digits))
+    if abs(powers[1] - powers[0]) > 2:
         return " … ".join(texts)
     shared = max(powers, key=abs) if max(powers) in _PLAIN else max(powers)
-    scaled = (number(value / 10.0**shared, digits) for value in (low, high))
-    return f"({' … '.join(scaled)}){_times_ten_to(shared)}"
+    low, high = (value / 10.0**shared for value in (low, high))
+    texts = _align(low, high, (number(low, digits), number(high, digits)), digits)
+    return f"({' … '.join(texts)}){_times_ten_to(shared)}"
+
+
+def _align(low: float, high: float, texts: tuple[str, str], digits: int) -> list[str]:
+    """Numbers less than a decade apart with as many decimals as either has, if it is known so."""
+    if not 0 < abs(high) < 10 * abs(low):
+        return list(texts)
+    decimals = [len(text.partition(".")[2]) for text in texts]
+    known = [digits - 1 - _exponent(value, digits) for value in (low, high)]
+    return [
+        _signed(value, _fixed(abs(value), max(own, min(most, max(decimals)))))
+        for value, own, most in zip((low, high), decimals, known, strict=True)
+    ]
 
 
 def quantity(low: float, high: float, unit: str, digits: int = 3) -> str:
@@ -98,11 +113,11 @@ def difference(value: float, error: float) -> str:
 
 
 def keep_whole(text: str) -> str:
-    """Text with no-break spaces inside its numbers: before powers, errors and units."""
+    """Text with no-break spaces inside its numbers and inside limits in brackets."""
     text = re.sub(rf"(?<=[\d)⁰¹²³⁴-⁹]) (?=×|±|(?:{_UNITS})(?![A-Za-z0-9]))", _NO_BREAK, text)
     text = re.sub(r"(?<=[×±≤≥<=]) (?=[−\d])|(?<=[\w>]) (?==)", _NO_BREAK, text)
-    shared = re.compile(rf"\([^()…]+ … [^()…]+\){_NO_BREAK}×")
-    return shared.sub(lambda found: found[0].replace(" ", _NO_BREAK), text)
+    whole = re.compile(rf"\([^()…]+ … [^()…]+\){_NO_BREAK}×|\([\d.]+ to [\d.]+[^()]{{0,5}}\)")
+    return whole.sub(lambda found: found[0].replace(" ", _NO_BREAK), text)
 
 
 def _exponent(value: float, digits: int) -> int:

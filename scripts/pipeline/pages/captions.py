@@ -89,7 +89,8 @@ def keep_numbers_whole(value: Any) -> Any:
     """What a template is about to show, its numbers unbroken; scripts and pictures as they are."""
     if not isinstance(value, str) or len(value) > _LONGEST_TEXT:
         return value
-    return type(value)(keep_whole(value))
+    kept = keep_whole(value)
+    return Markup(kept) if isinstance(value, Markup) else kept
 
 
 def _symbols(text: str) -> str:

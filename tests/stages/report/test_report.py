@@ -483,10 +483,10 @@ def test_every_verdict_stands_in_its_place(verdicts, surfaces):
     glass, sand = (row["cells"][0] for row in matrix["rows"])
     assert glass["remaining"] == "50 … 70 % (40 to 84 %)"
     assert glass["pull_off"] == "at least 2.5 kPa"  # near full contact, not simulated
-    assert (sand["margin"], sand["limits"]) == ("0.5 … 2", "0.45 … 2.2")
+    assert (sand["margin"], sand["limits"]) == ("0.5 … 2.0", "0.45 … 2.2")
     assert sand["remaining"] == "2 … 30 % (1.6 to 36 %)"
     assert sand["threshold"] == "2.5 MPa (1.5 to 4.5 MPa)"
-    assert sand["energy_ratio"] == "0.25 … 1"
+    assert sand["energy_ratio"] == "0.25 … 1.0"
     iron = matrix["rows"][1]["cells"][1]
     assert (iron["remaining"], iron["pull_off"]) == ("0 %", "–")
     assert matrix["materials"][0]["work_of_adhesion"] == "50 mJ/m²"
@@ -513,7 +513,7 @@ def test_experiments_are_on_the_page(page):
         "of them, and with 0 for none. The value itself agrees with 1.",
         "Ball 1999 held work of separation 30 mJ/m² (relation) read 20 mJ/m² (10 … 25 mJ/m²) "
         "missed longest wave (factor 1.4) 3.3, too few ✓ ✗",
-        "hard plate steel on steel sticks does not stick read 5 % (1 % to 12 %) compatible, value "
+        "hard plate steel on steel sticks does not stick read 5 % (1 to 12 %) compatible, value "
         "too no unknown input flat ≈ –",
         "Ball 1999 : the ball was wet",
         "soft ball : Ball, J. Made Up 1, 2 (1999). Not found: the color of the ball",
@@ -560,7 +560,7 @@ def test_errors_of_a_pair_are_told_where_it_was_drawn(verdicts, surfaces):
     ]
     on_glass, on_sand = pairs[:2]
     assert on_glass["probability"] == on_glass["errors"] == "–"
-    assert (on_sand["probability"], on_sand["drawn"]) == ("42 %", "0.5 … 2")
+    assert (on_sand["probability"], on_sand["drawn"]) == ("42 %", "0.5 … 2.0")
     assert on_sand["errors"] == "spectrum 30 %, model 40 %"
     assert on_sand["error"] == pytest.approx(0.5)
 
