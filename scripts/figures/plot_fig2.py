@@ -58,7 +58,7 @@ def draw_slopes(ax, kappas):
     ax.axhline(2, color=GREY, linestyle="--", linewidth=0.9)
     ax.set(xscale="log", ylim=(1.4, 3.7), xlabel=plotting.PRESSURE)
     ax.set(ylabel=r"$\kappa_\mathrm{rep}=A_\mathrm{rep}h'_\mathrm{rms}E^*/(A_\mathrm{nom}p)$")
-    ax.set_title(f"open: area above {LINEAR_UP_TO:.0%}")
+    ax.set_title(f"open: area above {100 * LINEAR_UP_TO:.0f} %")
     lines = [make_key("theory"), make_key(r"$\kappa$ = 2", linestyle="--", linewidth=0.9)]
     ax.legend(handles=[*handles, *lines], loc="upper right")
 

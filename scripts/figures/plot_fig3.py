@@ -204,7 +204,7 @@ def draw_exponents(ax, fit, cases):
         ax.axhline(level, color=BLACK, linestyle=":", linewidth=0.9)
         ax.text(x, level + 0.015, text, ha=side, fontsize=8)
     ax.set(xscale="log", xlim=(1e-4, 10), ylim=(0, 1.3), xlabel=plotting.RANGE)
-    ax.set_ylabel(r"$\mathrm{d}\ln A_\mathrm{ad}/\mathrm{d}\ln\epsilon$")
+    ax.set_ylabel(r"$\mathrm{d}\,\ln A_\mathrm{ad}\,/\,\mathrm{d}\,\ln\epsilon$")
     ax.legend(handles=make_case_keys(cases), loc="upper left", title="BEM")
     ax.set_title(f"{state(hurst=hurst, pressure=LOAD)}, theory as in A")
 

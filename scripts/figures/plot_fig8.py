@@ -1,14 +1,14 @@
-"""Figure 8: where Persson's theory fails, correction by correction, and gamma by simulation."""
+"""Figure 8: Persson's theory over simulation, by surface and by theory, and gamma by simulation."""
 
 from dataclasses import dataclass
-from itertools import pairwise
 
 import numpy as np
 import xarray as xr
 
 from pipeline import plotting
 from pipeline.conventions import LOAD, VARIANT
-from pipeline.plotting import BLACK, GREY, make_dot, make_key, pick_look, state
+from pipeline.numbers import interval
+from pipeline.plotting import BLACK, BLUE, GREY, RED, make_dot, pick_look, state
 from stickiness.core import datasets
 
 CORRECTIONS = {"yang2008": "Yang & Persson", "wang2017": "Wang & Müser", "xu2024": "Xu et al."}
@@ -25,183 +25,158 @@ SYMBOLS = {
     "gap_density": r"$P(u)$",
     "all": "all",
 }
-ROWS = ("area_fraction", "mean_gap", "attractive_area", "gap_density", "distance")
+TITLES = {
+    "area_fraction": "contact area",
+    "mean_gap": "mean gap",
+    "attractive_area": "attractive area",
+}
 RANGE = 0.1  # over h_rms, of the attractive area
-LARGEST_DIFFERENCE = 0.6  # relative, shown
+LOADS = {0.01: (BLUE, "o"), LOAD: (BLACK, "s"), 0.4: (RED, "^")}  # the nearest of each case
 GOOD_DIFFERENCE = 0.1  # relative, shaded
-LOAD_BANDS = (0, 0.02, 0.1, 1)  # over E* q0 h_rms, in which differences are averaged
-KNOWN_TO = 0.2  # relative error of P(u) up to which it is drawn
-LARGEST_GAP = 3  # over h_rms, up to which P(u) is drawn
+SHOWN = (0.55, 1.5)  # ratios
+KNOWN_TO = 0.2  # relative error of P(u) up to which it counts
+LARGEST_GAP = 3  # over h_rms, up to which P(u) counts
 SMALL = {"va": "center", "fontsize": 7}
 
 
 @dataclass(frozen=True)
 class Case:
-    """Differences of theory from simulation for one surface, with its look."""
+    """Differences of theory from simulation for one surface."""
 
     differences: xr.Dataset
-    look: dict
 
     @property
-    def made(self):
-        """Parameters of the surface."""
-        return datasets.parameters(self.differences)
+    def order(self):
+        """Hurst exponent, magnification, and longest waves a side of the cell."""
+        made = datasets.parameters(self.differences)
+        return made["hurst"], made["magnification"], made.get("window", 1)
+
+    @property
+    def label(self):
+        """What tells the surface from the others, for an axis."""
+        hurst, magnification, window = self.order
+        return f"{state(hurst=hurst, magnification=magnification)}, {window:g}×{window:g}"
 
     @property
     def holds(self):
         """Where the window holds summits enough."""
         return self.differences.window_holds.values == 1
 
+    def nearest(self, load):
+        """Place of the load that is nearest on a log axis."""
+        return int(np.argmin(np.abs(np.log(self.differences.pressure.values / load))))
+
 
 def main(job):
-    cases = order_cases([datasets.read(path, ["distance"]) for path in job.input.comparisons])
+    cases = order_cases([datasets.read(path, ["window_holds"]) for path in job.input.comparisons])
     gamma = datasets.read(job.input.gamma, ["gamma", "gamma_low", "gamma_high", "quantities_agree"])
-    grid = [[f"{row}{column}" for column in range(len(THEORIES))] for row in ROWS]
-    rows, heights = [*grid, ["A", "A", "B", "B"]], [1] * len(ROWS) + [1.65]
-    with plotting.open_figure(job.output, rows, 10.2, height_ratios=heights) as panels:
-        for column, (theory, title) in enumerate(THEORIES.items()):
-            for row in ROWS:
-                ax = panels[f"{row}{column}"]
-                draw_quantity(ax, row, theory, cases)
-                dress(ax, row, column)
-            panels[f"{ROWS[0]}{column}"].set_title(title)
-        draw_windows(panels["A"], cases)
-        draw_gamma(panels["B"], gamma)
+    rows, heights = "AABBCC;DDDEEE;FFFFFF", [0.3 * len(cases) + 0.6, 2.2, 2.2]
+    with plotting.open_figure(
+        job.output, rows, sum(heights) + 0.9, height_ratios=heights
+    ) as panels:
+        for letter, name in zip("ABC", TITLES, strict=True):
+            draw_ratios(panels[letter], name, cases)
+        name_cases(panels["A"], cases)
+        for letter in "BC":
+            panels[letter].tick_params(labelleft=False)
+        draw_theories(panels["D"], cases)
+        draw_gamma(panels["E"], gamma)
+        draw_windows(panels["F"], cases)
         panels["A"].figure.legend(
-            handles=make_case_keys(cases), loc="outside upper center", ncols=6
+            handles=make_load_keys(cases), loc="outside upper center", ncols=len(LOADS) + 1
         )
 
 
 def order_cases(comparisons):
-    """Cases by Hurst exponent (colour), magnification (marker) and window, in order."""
-
-    def order(comparison):
-        made = datasets.parameters(comparison)
-        return made["hurst"], made["magnification"], made.get("window", 1)
-
-    comparisons = sorted(comparisons, key=order)
-    hurst, magnification, _ = (
-        sorted(set(values)) for values in zip(*map(order, comparisons), strict=True)
-    )
-    cases = []
-    for comparison in comparisons:
-        own_hurst, own_magnification, _ = order(comparison)
-        colour = pick_look(hurst.index(own_hurst))["color"]
-        marker = pick_look(magnification.index(own_magnification))["marker"]
-        cases.append(Case(comparison, {"color": colour, "marker": marker}))
-    return cases
+    """Cases by Hurst exponent, magnification and window."""
+    return sorted(map(Case, comparisons), key=lambda case: case.order)
 
 
-def make_case_keys(cases):
-    colours = {case.made["hurst"]: case.look["color"] for case in cases}
-    markers = {case.made["magnification"]: case.look["marker"] for case in cases}
-    return [
-        *(make_key(state(hurst=h), color=colour) for h, colour in colours.items()),
-        *(
-            make_dot(state(magnification=zeta), marker=marker)
-            for zeta, marker in sorted(markers.items())
-        ),
-        make_dot("window too small for the load", mfc="white"),
-    ]
+def make_load_keys(cases):
+    """Handles of the loads, each with the range of its cases' nearest ones."""
+    keys = []
+    for load, (colour, marker) in LOADS.items():
+        near = [float(case.differences.pressure[case.nearest(load)]) for case in cases]
+        text = rf"$\hat{{p}}$ = {interval(min(near), max(near))}"
+        keys.append(make_dot(text, color=colour, marker=marker))
+    return [*keys, make_dot("cell too small for the load", mfc="white")]
 
 
-def draw_quantity(ax, row, theory, cases):
-    """One quantity by one theory, for all cases, with the mean of what is drawn."""
-    loads, deviations = [], []
+def draw_ratios(ax, name, cases):
+    """Theory over simulation of one quantity: a row for every case, a point for every load."""
+    for row, case in enumerate(cases):
+        at = case.differences.sel(variant=VARIANT)
+        at = at.interp({"range": RANGE}) if name == "attractive_area" else at
+        for place, (load, (colour, marker)) in enumerate(LOADS.items()):
+            one = at.isel(pressure=case.nearest(load))
+            draw_ratio(
+                ax,
+                row + 0.25 * (place - 1),
+                1 + float(one[f"{name}_difference"]),
+                float(np.nan_to_num(one[f"{name}_difference_total_error"])),
+                {"color": colour, "marker": marker},
+                holds=case.holds[case.nearest(load)],
+            )
+    for row, (one, other) in enumerate(zip(cases, cases[1:], strict=False)):
+        if one.order[0] != other.order[0]:
+            ax.axhline(row + 0.5, color=GREY, linewidth=0.5)
+    ax.axvspan(1 - GOOD_DIFFERENCE, 1 + GOOD_DIFFERENCE, color=GREY, alpha=0.15, linewidth=0)
+    ax.axvline(1, color=GREY, linewidth=0.7, zorder=0)
+    ax.set(xlim=SHOWN, ylim=(len(cases) - 0.4, -0.6), title=TITLES[name], yticks=[])
+    ax.set_xlabel(f"theory/simulation, {SYMBOLS[name]}")
+
+
+def draw_ratio(ax, height, ratio, error, look, *, holds):
+    """One point with its error; open where the window is too small, an arrow if it lies outside."""
+    ax.errorbar(ratio, height, xerr=error, color=look["color"], elinewidth=0.8, alpha=0.6)
+    face = look["color"] if holds else "white"
+    inside = np.clip(ratio, *SHOWN)
+    marker = look["marker"] if inside == ratio else ("<" if ratio < inside else ">")
+    look = look | {"marker": marker, "clip_on": False, "markersize": 4, "mew": 0.8}
+    ax.plot(inside, height, linestyle="none", **look, mfc=face)
+
+
+def name_cases(ax, cases):
+    ax.set_yticks(range(len(cases)), [case.label for case in cases])
+    ax.tick_params(axis="y", length=0)
+
+
+def draw_theories(ax, cases):
+    """Root mean square of what each theory is off, by quantity, where the windows hold."""
+    names = [*TITLES, "gap_density"]
+    for index, (theory, label) in enumerate(THEORIES.items()):
+        found = [root_mean_square(name, theory, cases) for name in names]
+        y = np.arange(len(names)) + 0.2 * (index - 1.5)
+        ax.plot(found, y, **pick_look(index, linestyle="none"), label=label)
+    ax.axvline(100 * GOOD_DIFFERENCE, color=GREY, linestyle=":", linewidth=0.9)
+    ax.set_yticks(range(len(names)), [SYMBOLS[name] for name in names])
+    ax.set(ylim=(len(names) - 0.5, -0.5), xlabel="theory less simulation, rms [%]")
+    ax.set_xlim(0, 2.2 * ax.get_xlim()[1])  # room for the legend
+    for row in range(1, len(names)):
+        ax.axhline(row - 0.5, color=GREY, linewidth=0.5)
+    ax.tick_params(axis="y", length=0)
+    ax.legend(loc="right", frameon=True, framealpha=1, edgecolor="none")
+
+
+def root_mean_square(name, theory, cases):
+    """In per cent, over every case and load whose window holds."""
+    found = []
     for case in cases:
         at = case.differences.sel(variant=theory)
-        if row == "gap_density":
-            deviations.append(draw_density(ax, case, at))
-        else:
-            name = row if row == "distance" else f"{row}_difference"
-            at = at.interp({"range": RANGE}) if row == "attractive_area" else at
-            error = np.nan_to_num(at[f"{name}_total_error"])
-            draw_loads(ax, case, at[name].values, error)
-            deviations.append(at[name].values[case.holds])
-            loads.append(at.pressure.values[case.holds])
-    deviations = np.concatenate(deviations)
-    rms = np.sqrt(np.nanmean(deviations**2))
-    text = f"mean {np.nanmean(deviations):.2f}" if row == "distance" else f"rms {rms:.0%}"
-    if loads and row != "distance":
-        text += describe_bands(np.concatenate(loads), deviations)
-    height, place = (0.07, "bottom") if row == "gap_density" else (0.93, "top")
-    ax.text(0.97, height, text, ha="right", va=place, transform=ax.transAxes, fontsize=7.5)
+        if name == "gap_density":
+            found.append(find_density_differences(at))
+            continue
+        at = at.interp({"range": RANGE}) if name == "attractive_area" else at
+        found.append(at[f"{name}_difference"].values[case.holds])
+    return 100 * np.sqrt(np.nanmean(np.concatenate(found) ** 2))
 
 
-def describe_bands(loads, deviations):
-    """Means of deviations at small, middle and large loads."""
-    means = []
-    for low, high in pairwise(LOAD_BANDS):
-        inside = deviations[(loads > low) & (loads <= high)]
-        means.append(f"{100 * inside.mean():+.0f}".replace("-", "−") if inside.size else "–")
-    return f"\nmeans {', '.join(means)} %"
-
-
-def draw_loads(ax, case, y, error):
-    """Differences against pressure: a line where the window holds, open points elsewhere."""
-    x = case.differences.pressure.values
-    colour = case.look["color"]
-    ax.errorbar(x, y, error, color=colour, elinewidth=0.6, linestyle="none", capsize=0, alpha=0.5)
-    ax.plot(x, np.where(case.holds, y, np.nan), "-", color=colour, linewidth=0.7)
-    look = case.look | {"linestyle": "none", "markersize": 2.6, "mew": 0.6}
-    for chosen, face in ((case.holds, colour), (~case.holds, "white")):
-        ax.plot(x[chosen], y[chosen], **look, mfc=face)
-
-
-def draw_density(ax, case, at):
-    """P(u) by theory over simulation against u, where simulation is certain enough.
-
-    At one load, the values of which are returned, and dashed at the smallest that the window holds.
-    """
-    differences = []
-    for load, line in ((LOAD, "-"), (at.pressure.values[case.holds].min(), "--")):
-        one = at.sel(pressure=load, method="nearest")
-        y, error = one.gap_density_difference, one.gap_density_difference_total_error
-        known = (error < KNOWN_TO * (1 + y)) & (one.gap < LARGEST_GAP)
-        look = {"color": case.look["color"], "linewidth": 0.8, "linestyle": line}
-        ax.plot(one.gap.where(known), y.where(known), **look)
-        differences.append(y.where(known).values)
-    return differences[0]
-
-
-def dress(ax, row, column):
-    """Axes of one panel of the grid."""
-    density = row == "gap_density"
-    ax.set(xscale="log", xlim=(2e-3, 4) if density else (7e-4, 0.8))
-    ax.set_xlabel(plotting.GAP if density else "")
-    if row == "distance":
-        ax.set(yscale="log", ylim=(4e-3, 2), xlabel=plotting.PRESSURE)
-        label = r"$W_1/h_\mathrm{rms}$"
-    else:
-        ax.axhline(0, color=GREY, linewidth=0.7, zorder=0)
-        shade = {"color": GREY, "alpha": 0.13, "linewidth": 0, "zorder": 0}
-        ax.axhspan(-GOOD_DIFFERENCE, GOOD_DIFFERENCE, **shade)
-        ax.set_ylim(-LARGEST_DIFFERENCE, LARGEST_DIFFERENCE)
-        label = f"theory/BEM − 1\n{SYMBOLS[row]}"
-    if column == 0:
-        ax.set_ylabel(label)
-    else:
-        ax.tick_params(labelleft=False)
-
-
-def draw_windows(ax, cases):
-    """Attractive area at small loads against how far below the highest summit the mean gap is."""
-    for case in cases:
-        at = case.differences.sel(variant=VARIANT).interp({"range": RANGE})
-        over = 1 / (1 + at.attractive_area_difference)
-        error = over**2 * at.attractive_area_difference_total_error
-        below = at.highest_summit - at.theory_mean_gap
-        look = case.look | {"linestyle": "none", "markersize": 3, "elinewidth": 0.6, "mew": 0.7}
-        face = "white" if case.made.get("window", 1) == 1 else case.look["color"]
-        ax.errorbar(below, over, np.nan_to_num(error), **look, mfc=face)
-    ax.axhline(1, color=GREY, linewidth=0.7, zorder=0)
-    ax.axvline(float(cases[0].differences.margin), color=GREY, linestyle=":")
-    ax.set(yscale="log", xlim=(-0.8, 3.2))
-    plotting.write_ticks(ax.yaxis, [0.7, 1, 1.5, 2, 3])
-    ax.set_xlabel(r"highest summit less theory's mean gap, over $h_\mathrm{rms}$")
-    ax.set_ylabel(rf"BEM/theory, $A_\mathrm{{ad}}({RANGE:g}\,h_\mathrm{{rms}})$")
-    keys = [make_dot("window of one wave", mfc="white"), make_dot("of several")]
-    ax.legend(handles=keys, loc="upper right")
+def find_density_differences(at):
+    """Differences of P(u) at the load of the paper's figures, where simulation knows it."""
+    one = at.sel(pressure=LOAD, method="nearest")
+    difference, error = one.gap_density_difference, one.gap_density_difference_total_error
+    known = (error < KNOWN_TO * (1 + difference)) & (one.gap < LARGEST_GAP)
+    return difference.where(known).values
 
 
 def draw_gamma(ax, gamma):
@@ -212,7 +187,7 @@ def draw_gamma(ax, gamma):
     count = gamma.sizes["quantity"]
     for index, (correction, label) in enumerate(CORRECTIONS.items()):
         at = gamma.sel(correction=correction)
-        aside = 0.26 * (1 - index)
+        aside = 0.26 * (index - 1)
         if not at.quantities_agree:
             at = at.sel(quantity=at["quantity"] != "all")
             ax.text(0.27, count - 1 + aside, f"{label}: none fits all", **SMALL)
@@ -221,12 +196,37 @@ def draw_gamma(ax, gamma):
         look = pick_look(index, linestyle="none")
         ax.errorbar(at.gamma, y, xerr=bars, elinewidth=1, capsize=2, **look, label=label)
         for height, end, misfit in zip(y, at.gamma_high.values, at.misfit.values, strict=True):
-            ax.text(end + 0.015, height, f"{misfit:.0%}", **SMALL)
+            ax.text(end + 0.015, height, f"{100 * misfit:.0f} %", **SMALL)
         ax.plot(float(at.own_gamma), count - 0.45, **look, mfc="white", clip_on=False)
     ax.plot([], [], linestyle="none", marker="o", color=BLACK, mfc="white", label="source's own")
     ax.set_yticks(np.arange(count), [SYMBOLS[str(name)] for name in gamma.quantity.values])
     ax.set(ylim=(count - 0.3, -0.5), xlim=(0.25, 1.15), xlabel=r"best $\gamma$, 95 %, and misfit")
     ax.legend(loc="lower right")
+
+
+def draw_windows(ax, cases):
+    """Attractive area, simulation over theory, against what of the highest summit is in reach."""
+    for case in cases:
+        at = case.differences.sel(variant=VARIANT).interp({"range": RANGE})
+        over = 1 / (1 + at.attractive_area_difference)
+        error = np.nan_to_num(over**2 * at.attractive_area_difference_total_error)
+        below = at.highest_summit - at.theory_mean_gap
+        colour, marker = (RED, "o") if case.order[2] == 1 else (BLUE, "s")
+        look = {"linestyle": "none", "markersize": 3, "elinewidth": 0.6, "mew": 0.7}
+        ax.errorbar(below, over, error, **look, color=colour, marker=marker)
+    ax.axhline(1, color=GREY, linewidth=0.7, zorder=0)
+    margin = float(cases[0].differences.margin)
+    ax.axvline(margin, color=GREY, linestyle=":")
+    ax.set(yscale="log", xlim=(-0.8, 3.2))
+    ax.text(margin, 0.93, "too few summits ", ha="right", transform=ax.get_xaxis_transform())
+    plotting.write_ticks(ax.yaxis, [0.7, 1, 1.5, 2, 3])
+    ax.set_xlabel(r"highest summit less theory's mean gap, over $h_\mathrm{rms}$")
+    ax.set_ylabel(f"simulation/theory, {SYMBOLS['attractive_area']}")
+    keys = [
+        make_dot("cell of one longest wave", color=RED),
+        make_dot("of several", color=BLUE, marker="s"),
+    ]
+    ax.legend(handles=keys, loc="upper right")
 
 
 if __name__ == "__main__":

@@ -23,8 +23,8 @@ def main(job):
         panels["A"].set_xlabel(r"roughness $h_\mathrm{rms}/\epsilon$")
         panels["B"].set_xlabel(r"magnification $\zeta = q_1/q_0$")
         draw_surfaces(panels["C"], verdicts)
-        handles, texts = panels["A"].get_legend_handles_labels()
-        panels["C"].legend(handles, texts, loc="upper left", ncols=2)
+        keys = list(make_keys(select_criteria(verdicts.threshold_by_criterion)))
+        panels["C"].legend(handles=keys, loc="upper left", ncols=2, handlelength=2.6)
 
 
 def draw_thresholds(ax, thresholds, made, held):
@@ -39,7 +39,7 @@ def draw_thresholds(ax, thresholds, made, held):
         ax.plot(x, thresholds.sel(criterion=criterion.name), label=label, **look)
     ax.set(xscale="log", yscale="log", ylim=LIMITS, ylabel=LENGTH_LABEL)
     ax.text(0.03, 0.93, "sticky above", transform=ax.transAxes, color=plotting.GREY)
-    both = rf"H = {made['hurst']:g}, $\epsilon q_0$ = {number(made['range_times_q0'])}"
+    both = rf"$H$ = {made['hurst']:g}, $\epsilon q_0$ = {number(made['range_times_q0'])}"
     ax.text(0.97, 0.04, f"{both}\n{held}", transform=ax.transAxes, ha="right")
 
 
@@ -47,6 +47,18 @@ def select_criteria(thresholds):
     """Criteria with a line: those that know an adhesion length."""
     names = set(map(str, thresholds.criterion.values))
     return [c for c in CRITERIA.values() if c.has_length and c.name in names]
+
+
+def make_keys(criteria):
+    """Legend handles: the lines of A and B with the points of C; the verdict's has no points."""
+    others = [criterion for criterion in criteria if criterion.name != REMAINING]
+    for criterion in criteria:
+        line = criterion.line
+        look = {"color": colour_of(criterion), "linestyle": line.style, "linewidth": line.width}
+        if criterion in others:
+            face = look["color"] if line.filled else "white"
+            look |= {"marker": plotting.pick_look(others.index(criterion))["marker"], "mfc": face}
+        yield plotting.make_key(criterion.label.replace("a_V", "$a_V$"), **look)
 
 
 def colour_of(criterion):
@@ -71,7 +83,7 @@ def draw_surfaces(ax, verdicts):
         ax.plot(x, middle, **look, markerfacecolor=face, markersize=4.5)
     ax.axhline(1, color=plotting.RED, linewidth=2)
     ax.set_xticks(places, [name.replace("_", "\n") for name in by.surface.values])
-    ax.set(yscale="log", ylim=(1e-7, 3e7), ylabel="threshold of E* over that of the verdict")
+    ax.set(yscale="log", ylim=(1e-5, 3e8), ylabel="threshold of E* over that of the verdict")
 
 
 if __name__ == "__main__":

@@ -7,7 +7,7 @@ from inspect import signature
 import numpy as np
 import xarray as xr
 
-from pipeline.numbers import quantity
+from pipeline.numbers import percent, quantity
 from stickiness.config.surface_entries import measurements
 from stickiness.core.units import si
 from stickiness.measured import (
@@ -203,7 +203,9 @@ def remarks_on_files(heights):
                 f"{one.spikes} (spikes: keep uses them)"
             )
         if getattr(one, "cropped", 0):
-            found.append(f"{one.cropped:.0%} of {one.source} cut off to leave no missing points")
+            found.append(
+                f"{percent(one.cropped)} of {one.source} cut off to leave no missing points"
+            )
         if one.dropped:
             found.append(
                 f"{one.dropped} points of {one.source} beside missing ones were measured and are "
@@ -211,8 +213,8 @@ def remarks_on_files(heights):
             )
         if one.missing > one.spikes:
             found.append(
-                f"{one.missing_fraction:.1%} of the points of {one.source} were missing and are "
-                "interpolated, smoother than the surface"
+                f"{percent(one.missing_fraction)} of the points of {one.source} were missing and "
+                "are interpolated, smoother than the surface"
             )
         if one.heights.ndim == 1:
             found.append(f"{one.source} is a line profile: isotropy is assumed, not seen")

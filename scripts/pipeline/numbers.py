@@ -7,6 +7,9 @@ from collections.abc import Iterable
 _SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 _PREFIXES = {9: "G", 6: "M", 3: "k", 0: "", -3: "m", -6: "µ", -9: "n"}
 _PLAIN = range(-3, 5)  # decimal exponents written without a power of ten
+_LEAST_SHARE = 1e-4  # that a percentage tells from none
+_UNITS = r"%|°C?|1/m|[GMkmµn]?(?:Pa|m|J|N|Hz|s)(?:/m²)?"
+_NO_BREAK = "\u00a0"
 NOTHING = "–"
 
 
@@ -20,6 +23,8 @@ def number(value: float, digits: int = 3) -> str:
     else:
         text = _fixed(abs(value) / 10.0**power, digits - 1)
     text = text.rstrip("0").rstrip(".") if "." in text else text
+    if text == "1" and power not in _PLAIN:
+        return _signed(value, _ten_to(power))
     return _signed(value, text + _times_ten_to(power))
 
 
@@ -36,16 +41,32 @@ def with_error(value: float, error: float) -> str:
 
 
 def interval(low: float, high: float, digits: int = 3) -> str:
-    """``low … high``, or one number where they agree."""
+    """``low … high`` in increasing order, or one number where they agree."""
+    low, high = sorted((low, high))
     texts = number(low, digits), number(high, digits)
     if texts[0] == texts[1]:
         return texts[0]
     powers = [_exponent(value, digits) for value in (low, high)]
-    if all(power in _PLAIN for power in powers) or abs(powers[1] - powers[0]) > 2:
+    if all(power in _PLAIN for power in powers):
+        return " … ".join(_align(low, high, texts, digits))
+    if abs(powers[1] - powers[0]) > 2:
         return " … ".join(texts)
     shared = max(powers, key=abs) if max(powers) in _PLAIN else max(powers)
-    scaled = (number(value / 10.0**shared, digits) for value in (low, high))
-    return f"({' … '.join(scaled)}){_times_ten_to(shared)}"
+    low, high = (value / 10.0**shared for value in (low, high))
+    texts = _align(low, high, (number(low, digits), number(high, digits)), digits)
+    return f"({' … '.join(texts)}){_times_ten_to(shared)}"
+
+
+def _align(low: float, high: float, texts: tuple[str, str], digits: int) -> list[str]:
+    """Numbers less than a decade apart with as many decimals as either has, if it is known so."""
+    if not 0 < abs(high) < 10 * abs(low):
+        return list(texts)
+    decimals = [len(text.partition(".")[2]) for text in texts]
+    known = [digits - 1 - _exponent(value, digits) for value in (low, high)]
+    return [
+        _signed(value, _fixed(abs(value), max(own, min(most, max(decimals)))))
+        for value, own, most in zip((low, high), decimals, known, strict=True)
+    ]
 
 
 def quantity(low: float, high: float, unit: str, digits: int = 3) -> str:
@@ -72,8 +93,31 @@ def superscripted(unit: str) -> str:
 
 
 def percent(share: float) -> str:
-    """Share as a percentage to two digits."""
-    return NOTHING if math.isnan(share) else f"{number(100 * share, 2)} %"
+    """Share as a percentage to two digits; one that is tiny as less than the least shown."""
+    if math.isnan(share):
+        return NOTHING
+    if 0 < share < _LEAST_SHARE:
+        return f"< {number(100 * _LEAST_SHARE)} %"
+    return f"{number(100 * share, 2)} %"
+
+
+def change(share: float) -> str:
+    """Relative change in whole per cent, with its sign."""
+    return f"{100 * share:+.0f} %".replace("-", "−")
+
+
+def difference(value: float, error: float) -> str:
+    """Relative difference with its error in per cent and with its sign: ``(+10.0 ± 3.0) %``."""
+    sign = "+" if value > 0 else ""
+    return f"({sign}{with_error(100 * value, 100 * error)}) %"
+
+
+def keep_whole(text: str) -> str:
+    """Text with no-break spaces inside its numbers and inside limits in brackets."""
+    text = re.sub(rf"(?<=[\d)⁰¹²³⁴-⁹]) (?=×|±|(?:{_UNITS})(?![A-Za-z0-9]))", _NO_BREAK, text)
+    text = re.sub(r"(?<=[×±≤≥<=]) (?=[−\d])|(?<=[\w>]) (?==)", _NO_BREAK, text)
+    whole = re.compile(rf"\([^()…]+ … [^()…]+\){_NO_BREAK}×|\([\d.]+ to [\d.]+[^()]{{0,5}}\)")
+    return whole.sub(lambda found: found[0].replace(" ", _NO_BREAK), text)
 
 
 def _exponent(value: float, digits: int) -> int:
@@ -87,8 +131,12 @@ def _fixed(value: float, decimals: int) -> str:
     return f"{round(value, decimals):.{max(decimals, 0)}f}"
 
 
+def _ten_to(power: int) -> str:
+    return f"10{str(power).translate(_SUPERSCRIPTS)}"
+
+
 def _times_ten_to(power: int) -> str:
-    return "" if power in _PLAIN else f" × 10{str(power).translate(_SUPERSCRIPTS)}"
+    return "" if power in _PLAIN else f" × {_ten_to(power)}"
 
 
 def _signed(value: float, text: str) -> str:

@@ -10,7 +10,7 @@ from pipeline.pages.pairs_figure import draw_pairs
 from pipeline.pages.provenance import describe_provenance
 from pipeline.tradeoff import summary
 from stickiness.accuracy.error_models import read_models
-from stickiness.accuracy.quantities import MODELLED
+from stickiness.accuracy.quantities import COLUMNS, MODELLED
 from stickiness.core import datasets
 
 NEEDED_VARIABLES = {
@@ -101,12 +101,17 @@ def render(template, page, results, *, figures, experiments_figure, tradeoff, be
         surfaces=[report.describe_surface(name, data) for name, data in surfaces.items()],
         budgets=list(map(report.describe_budgets, results.answers)),
         tradeoff=tradeoff,
-        asked_quantities=list(MODELLED),
+        asked_quantities=[name_quantity(name) for name in MODELLED],
         comparisons=report.compare_theory(results.comparisons),
         quantities=list(report.QUANTITIES.values()),
         run_times=run_times(benchmarks),
         provenance=describe_provenance(data, results.ensembles),
     )
+
+
+def name_quantity(name):
+    """A quantity as a reader knows it; one of several columns has no label of its own."""
+    return COLUMNS[name].label if name in COLUMNS else name.replace("_", " ")
 
 
 if __name__ == "__main__":

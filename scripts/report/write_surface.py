@@ -28,22 +28,32 @@ from stickiness.criteria.moduli import crossings
 from stickiness.criteria.pair import NOT_JUDGED
 from stickiness.remaining.prediction import DEFAULT_SHARE
 
-CAPTION = """Levelled heights of the first measurement, and the spectrum: radial averages with their
-sampling errors, the fitted self-affine spectrum, the cutoff of the instrument, the end of the
-plateau with its error if there is one, and the lines of the paper. Grey: the fit extrapolated
-beyond the instrument, with its error. Errors cover 90 %.
+CAPTION = """Heights and spectrum of the surface, with the fitted self-affine spectrum and the lines
+of the paper.
+
+Heights are those of the first measurement, levelled. Points of the spectrum are radial averages
+with their sampling errors. Dotted: the cutoff of the instrument. Shaded: the end of the plateau
+with its error, if there is one. Grey: the fit extrapolated beyond the instrument, with its error.
+Errors cover 90 %.
 """
-CURVES = """Share of the work of adhesion that remains on this surface. Lines: both ends of what is
-known of the surface; shaded: limits, 5 and 95 %, with the errors of the model and of the spectrum.
-Filled points: the pair as it is. Above the dashed line, at {wanted}, it sticks. Modulus: against E*
-of the material, all else equal; open circles: the threshold. None of a layer with an elastic
-backing, which would have to change as well. Roughness: all heights times a factor, at an unchanged
-shape of the spectrum; the rms height is that of the surface, midway between its ends. The roughness
-of the material's own, if it has one, changes as well. Rate: against the frequency of loading, of
-materials whose modulus depends on it; the work of adhesion does not change.
+CURVES = """Share of the work of adhesion that remains on this surface, with limits of 5 and 95 %.
+Above the dashed line, at {wanted}, it sticks. Filled points: the pair as it is. {shown}
+
+Lines: both ends of what is known of the surface; shaded: limits with the errors of the model and of
+the spectrum.
+
+Modulus: against E* of the material, all else equal; open circles: the threshold. None of a layer
+with an elastic backing, which would have to change as well.
+
+Roughness: all heights times a factor, at an unchanged shape of the spectrum; the rms height is that
+of the surface, midway between its ends. The roughness of the material's own, if it has one, changes
+as well.
+
+Rate: against the frequency of loading, of materials whose modulus depends on it; the work of
+adhesion does not change.
 """
+ON_SCREEN = "A press on a name hides its curves or shows them; at first {shown} are shown."
 DRAWN = ("curves", "touch", "pull_off")  # interactive figures of a page
-ON_SCREEN = """A press on a name hides its curves or shows them; at first {shown} are shown.
 """
 
 
@@ -84,9 +94,9 @@ def draw_curves(pairs, materials, output):
     drawn = remaining_curves.draw_interactive(pairs, labels)
     if drawn is None:
         return None
-    caption = CURVES.format(wanted=percent(DEFAULT_SHARE))
-    if len(labels) > remaining_curves.SHOWN:
-        caption += ON_SCREEN.format(shown=remaining_curves.SHOWN)
+    many = len(labels) > remaining_curves.SHOWN
+    shown = ON_SCREEN.format(shown=remaining_curves.SHOWN) if many else ""
+    caption = CURVES.format(wanted=percent(DEFAULT_SHARE), shown=shown)
     return {
         "figure": interactive.embed(drawn),
         "still": captions.embed_figure(output, caption),

@@ -8,6 +8,7 @@ import xarray as xr
 from pipeline.claims.ledger import OPEN, QUALIFIED, Files, Finding, claim, grade
 from pipeline.claims.texts import describe_sample, errors_by_source, quote, quote_number
 from pipeline.conventions import LOAD, at_load
+from pipeline.numbers import percent
 from stickiness import criteria
 from stickiness.core import budget, datasets
 
@@ -83,7 +84,9 @@ def describe_areas(loads: xr.Dataset) -> str:
         if np.isfinite(threshold):
             lengths = np.log(at.adhesion_length_over_range)
             area = float(np.interp(np.log(threshold), lengths, at.repulsive_area))
-            found.append(f"{threshold:.2g} at an area of {area:.1%} (mean gap of p = {load:g})")
+            found.append(
+                f"{threshold:.2g} at an area of {percent(area)} (mean gap of p = {load:g})"
+            )
     return f"It depends on the area of contact: {', '.join(found)}. " if found else ""
 
 
@@ -153,8 +156,8 @@ def hysteresis(files: Files) -> Finding:
         remark=(
             f"At pull-off the area at zero gap is {area:.3f}, of which {net:.3f} is compressed. At "
             f"p = {load:g} the area is {loading:.3f} on loading and {unloading:.3f} on unloading. "
-            f"At prescribed mean gap the loop loses {lost:.0%} of the work done on the surfaces; "
-            f"number of jumps: {int(gap.jumped.sum())}. With l_a/range = "
+            f"At prescribed mean gap the loop loses {percent(lost)} of the work done on the "
+            f"surfaces; number of jumps: {int(gap.jumped.sum())}. With l_a/range = "
             f"{float(weak.adhesion_length_over_range):g} the surfaces separate at p = "
             f"{float(weak.mean_pressure):.2g}, area {float(weak.repulsive_area_fraction):.3f}."
         ),

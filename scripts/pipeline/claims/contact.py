@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from pipeline.claims.ledger import Files, Finding, claim, grade
 from pipeline.claims.texts import describe_sample, errors_by_source, power_of_ten, quote
 from pipeline.conventions import LINEAR_UP_TO, VARIANT, at_load
+from pipeline.numbers import percent
 from stickiness.core import budget, datasets
 from stickiness.criteria import a_v_fit
 
@@ -51,7 +52,7 @@ def area_slope(files: Files) -> Finding:
 
 def describe_kappa(fit: xr.Dataset) -> str:
     (small, first), (large, last) = kappa_ends(fit)
-    return f"from {first:.2f} at an area of {small:.2%} to {last:.2f} at {large:.0%}"
+    return f"from {first:.2f} at an area of {percent(small)} to {last:.2f} at {percent(large)}"
 
 
 def kappa_ends(fit: xr.Dataset, largest: float = LINEAR_UP_TO) -> list[tuple[float, float]]:
@@ -75,7 +76,8 @@ def density_converges(files: Files) -> Finding:
         quantity=f"u/h_rms above which P changes by < 5 % from zeta = {zetas[0]} to {zetas[1]}",
         value=limit,
         verdict=grade(limit <= float(sweep.gap.min()), limit < 0.5),
-        remark=f"P converges above this gap only; at u/h_rms = 0.01 it changes by {worst:.0%}.",
+        remark="P converges above this gap only; at u/h_rms = 0.01 it changes by "
+        f"{percent(worst)}.",
         errors={"discretisation": spacing, "model": np.nan},
         comment=f"discretisation: spacing of the gaps; model: {NOT_MEASURED}",
     )
@@ -228,7 +230,7 @@ def area_against_range(files: Files) -> Finding:
         verdict=grade(settled and ratio < 1.05, large < 0.1 and ratio < 1.25),
         remark=(
             f"Slope a_V by fit interval: {slopes}. From zeta = {zetas[0]} to {zetas[1]} A_ad still "
-            f"grows by {large:.1%} at range/h_rms = 0.1 and by {small:.1%} at 0.01."
+            f"grows by {percent(large)} at range/h_rms = 0.1 and by {percent(small)} at 0.01."
         ),
         errors={"model": np.nan},
         comment=f"model: {NOT_MEASURED}",
@@ -285,7 +287,7 @@ def a_v_against_magnification(files: Files) -> Finding:
     first = fit.a_v.isel(window=0)
     step = first.isel(magnification=-1) / first.isel(magnification=-2) - 1
     zetas = [power_of_ten(zeta) for zeta in fit.magnification[-2:]]
-    growth = ", ".join(f"{float(g):.1%} (H = {float(g.hurst):g})" for g in step)
+    growth = ", ".join(f"{percent(float(g))} (H = {float(g.hurst):g})" for g in step)
     value, error = float(intervals[0]), float(np.ptp(intervals.values)) / 2
     grown = abs(value * float(step.sel(hurst=0.8, method="nearest")))
     fit = fit.isel(magnification=-1, window=0).sel(hurst=0.8, method="nearest")

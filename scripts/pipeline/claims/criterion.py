@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from pipeline.claims.ledger import Files, Finding, claim, grade
 from pipeline.claims.texts import describe_sample
 from pipeline.conventions import cell_size, model_spectrum
-from pipeline.numbers import number
+from pipeline.numbers import change, number, percent
 from stickiness import adhesive, criteria
 from stickiness.adhesion import equivalent_sphere
 from stickiness.adhesion.area_load import JTB_CONSTANT
@@ -67,7 +67,7 @@ def describe_weak_edges(m: xr.Dataset) -> str:
     ratio = m.h_rms_limit / m.h_rms_limit_edges
     return (
         "By the criterion of the contact edges, with roughness down to wavelengths of "
-        f"{datasets.parameters(m)['shortest_over_range']:g} ranges, {weak:.0%} of the map's "
+        f"{datasets.parameters(m)['shortest_over_range']:g} ranges, {percent(weak)} of the map's "
         "thresholds have weak edges; the DMT limit with the same a_V gives "
         f"{float(ratio.min()):.2f} to {float(ratio.max()):.2f} times the roughness."
     )
@@ -103,8 +103,8 @@ def roughness_limits(files: Files) -> Finding:
         remark=(
             f"The coefficient 9/4 gives {join(printed)} (the last is not 1e6). But 9/4 is a_V = "
             f"1.5: a_V = {a_v:.2f} (simulated, extrapolated by theory) gives {join(derived)} (with "
-            f"its errors {low[1] / derived[1] - 1:+.0%}, {high[1] / derived[1] - 1:+.0%}). Whether "
-            "such surfaces stick is another claim (19)."
+            f"its errors {change(low[1] / derived[1] - 1)}, {change(high[1] / derived[1] - 1)}). "
+            "Whether such surfaces stick is another claim (19)."
         ),
         comment=EXACT,
     )

@@ -17,6 +17,7 @@ from pipeline.claims.criterion import (
     join,
 )
 from pipeline.claims.ledger import NOT, OPEN, Files, Finding, claim, grade
+from pipeline.numbers import change, percent
 from stickiness import criteria
 from stickiness.core import datasets
 from stickiness.core.statistics import students_t
@@ -43,8 +44,8 @@ def sticky_roughness(files: Files) -> Finding:
     inside = (low <= PRINTED_LIMITS) & (high >= PRINTED_LIMITS)
     jtb = criteria.jtb_limit(EXAMPLES, CRYSTAL, 1.0)
     return Finding(
-        quantity=f"h_rms/range up to which {DEFAULT_SHARE:.0%} of the work of adhesion remains, at "
-        "range q0 = 1e-9",
+        quantity=f"h_rms/range up to which {percent(DEFAULT_SHARE)} of the work of adhesion "
+        "remains, at range q0 = 1e-9",
         value=float(value[1]),
         claimed=PRINTED_LIMITS[1],
         verdict=grade(False, bool(inside.all())),
@@ -89,8 +90,8 @@ def sticky_asphalt(files: Files) -> Finding:
     h_rms, q0 = (float(ends[0][name]) for name in ("h_rms", "q0"))
     validity = criteria.dmt_validity(h_rms, q0, length, RANGE)
     return Finding(
-        quantity=f"E* [MPa] below which {DEFAULT_SHARE:.0%} of the work of adhesion remains on "
-        "asphalt, range 0.2 nm and work of adhesion 50 mJ/m^2",
+        quantity=f"E* [MPa] below which {percent(DEFAULT_SHARE)} of the work of adhesion remains "
+        "on asphalt, range 0.2 nm and work of adhesion 50 mJ/m^2",
         value=value,
         claimed=PRINTED_MODULUS,
         verdict=OPEN if inside else NOT,
@@ -140,9 +141,9 @@ def truncation(files: Files) -> Finding:
             "weakens adhesion, by the energy that it takes to conform. For "
             "H > 1/2 this energy converges, as 1 - zeta^(1 - 2H): by the theory of the verdicts, "
             f"waves from zeta = {BROAD:g} to {BROADEST:g} change what remains by "
-            f"{late[0.8] - 1:+.0%} at H = 0.8, but by {late[0.5] - 1:+.0%} at H = 0.5, where the "
-            "energy grows without limit. The onset of contact at the finest wave depends on the "
-            "truncation at any H."
+            f"{change(late[0.8] - 1)} at H = 0.8, but by {change(late[0.5] - 1)} at H = 0.5, where "
+            "the energy grows without limit. The onset of contact at the finest wave depends on "
+            "the truncation at any H."
         ),
         errors={"sampling": scatter(ratios[0.8])},
         comment="sampling: Student's t of a few surfaces",

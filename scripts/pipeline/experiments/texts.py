@@ -102,7 +102,7 @@ def describe_predicted(case):
     name = predicted_name(case)
     value, low, high = (float(case[f"{name}{end}"]) for end in ("", "_lowest", "_highest"))
     if name in ("remaining", "relative_pull_off"):
-        return f"{percent(value)} ({percent(low)} to {percent(high)})"
+        return f"{percent(value)} ({write(name, low, high)})"
     if name != "limiting_roughness":
         least = LEAST_SHARE * float(case.work_of_adhesion)
         value, low, high = (0.0 if x < least else x for x in (value, low, high))
@@ -112,7 +112,7 @@ def describe_predicted(case):
 def write(name, low, high):
     """Limits of a quantity with its unit."""
     if name not in UNITS:
-        return f"{percent(low)} to {percent(high)}"
+        return f"{percent(low).removesuffix(' %')} to {percent(high)}"
     if high <= 0:
         return f"0 {UNITS[name]}"
     return quantity(low, high, UNITS[name], 2)

@@ -14,6 +14,8 @@ from docutils.writers.html5_polyglot import Writer
 from jinja2 import Environment, FileSystemLoader, StrictUndefined, Template
 from markupsafe import Markup, escape
 
+from pipeline.numbers import keep_whole
+
 _RST = {
     "raw_enabled": False,
     "file_insertion_enabled": False,
@@ -22,15 +24,20 @@ _RST = {
     "_disable_config": True,
 }
 _DOI = re.compile(r"doi:(10\.\d{4,9}/(?:\([^\s()]*\)|[^\s,;:()&]*[^\s,;:()&.])+)")
-
+_LONGEST_TEXT = 100_000  # characters; beyond are pictures
 
 # Symbols as the texts of datasets spell them, escaped, and how a page shows them.
 _GREEK = {"kappa": "κ", "zeta": "ζ", "sigma": "σ", "theta": "θ", "beta": "β", "Delta": "Δ"}
 _SUBSCRIPTED = re.compile(
-    r"(?<!\w)(h(?:&#39;|'){0,2}|[aAlpκσΔ])_(rms|ad|rep|nom|th|V,PR|V|a|r)(?![A-Za-z0-9_])"
+    r"(?<![A-Za-z_])([A-Za-zκΔσ](?:&#39;|'){0,2})_([A-Za-z]+(?:,[A-Z]+)?|\d)(?![A-Za-z0-9_])"
     r"|(?<!\w)([qCσ])([01])(?![A-Za-z0-9_])"
 )
-_RAISED = re.compile(r"(?<=[\w)*>])\^(?:\(((?:[^()]|\([^()]*\))+)\)|(-?\d+(?:\.\d+)?))")
+_RAISED = re.compile(
+    r"(?<=[\w)*>])\^(?:\(((?:[^()]|\([^()]*\))+)\)|(-?\d+(?:\.\d+)?|[A-Za-z](?!\w)))"
+)
+_TAGS = re.compile(r"<(/?su[bp])>")
+_LOW = str.maketrans("0123456789aehijklmnoprstuvx", "₀₁₂₃₄₅₆₇₈₉ₐₑₕᵢⱼₖₗₘₙₒₚᵣₛₜᵤᵥₓ")
+_HIGH = str.maketrans("0123456789.−()n", "⁰¹²³⁴⁵⁶⁷⁸⁹·⁻⁽⁾ⁿ")
 
 
 def template_of(path: str | Path, page: str | Path) -> Template:
@@ -44,6 +51,7 @@ def template_of(path: str | Path, page: str | Path) -> Template:
         loader=FileSystemLoader(path.parent),
         autoescape=True,
         undefined=StrictUndefined,
+        finalize=keep_numbers_whole,
         trim_blocks=True,
         lstrip_blocks=True,
     )
@@ -53,6 +61,7 @@ def template_of(path: str | Path, page: str | Path) -> Template:
 
     environment.filters |= {
         "typeset": typeset,
+        "plain": plain,
         "href": href,
         "place": lambda target: re.sub(r"^(\.\./)+", "", href(target)),
         "breakable": lambda text: Markup(re.sub("([/_])", r"\1<wbr>", str(escape(text)))),
@@ -68,6 +77,22 @@ def typeset(text: str) -> Markup:
     return Markup("".join(parts))
 
 
+def plain(text: str) -> str:
+    """Text without markup whose symbols are set with what letters there are: for titles."""
+    parts = _TAGS.split(_symbols(text))
+    for index in range(2, len(parts), 4):
+        parts[index] = parts[index].translate(_LOW if parts[index - 1] == "sub" else _HIGH)
+    return "".join(part for index, part in enumerate(parts) if index % 2 == 0)
+
+
+def keep_numbers_whole(value: Any) -> Any:
+    """What a template is about to show, its numbers unbroken; scripts and pictures as they are."""
+    if not isinstance(value, str) or len(value) > _LONGEST_TEXT or "<script" in value:
+        return value
+    kept = keep_whole(value)
+    return Markup(kept) if isinstance(value, Markup) else kept
+
+
 def _symbols(text: str) -> str:
     """Symbols of an escaped text as HTML."""
     for name, letter in _GREEK.items():
@@ -79,29 +104,32 @@ def _symbols(text: str) -> str:
 
 
 def embed_figure(path: str | Path, caption: str) -> dict[str, Any]:
-    """A PNG as a data URI, with its caption as HTML and an alternative text."""
+    """A PNG as a data URI, with an alternative text and its caption as HTML.
+
+    The first paragraph is the caption, those that follow are details for a fold.
+    """
     content = Path(path).read_bytes()
     if not content.startswith(b"\x89PNG\r\n\x1a\n"):
         raise ValueError(f"{path}: not a PNG file; delete it and re-run")
     width, height = struct.unpack(">II", content[16:24])
     name = Path(path).stem
+    first, _, details = caption.strip().partition("\n\n")
     return {
         "name": name,
         "title": f"Figure {name.removeprefix('fig')}",
         "data": base64.b64encode(content).decode("ascii"),
         "width": width,
         "height": height,
-        "caption": caption_html(caption),
-        "alt": first_sentence(caption),
+        "caption": caption_html(first),
+        "details": caption_html(details),
+        "alt": first_sentence(first),
     }
 
 
 def caption_html(caption: str) -> Markup:
-    """Caption in reStructuredText as HTML, symbols set; docutils escapes what is not markup."""
+    """Caption in reStructuredText as HTML; docutils escapes what is not markup."""
     body = publish_parts(caption, writer=Writer(), settings_overrides=_RST)["body"]
-    pieces = re.split(r"(<[^>]*>)", body)
-    pieces[::2] = map(_symbols, pieces[::2])
-    return Markup("".join(pieces))
+    return Markup(" ".join(body.split()))
 
 
 def first_sentence(caption: str) -> str:

@@ -26,8 +26,9 @@ from stickiness.core import datasets
 MOST_STATES = 80  # on a page
 WIDEST_ZONE = 0.2  # q0 range^2/(adhesion length) of most simulations behind the model
 CAPTION = """Mean tension against the mean gap, on approach and on separation, and the surface at
-the same moment: in contact (orange), within the range of the attraction (blue), open (grey). The
-squeeze in between goes beyond the axis. Heights on {grid} points, waves down to {shortest}.
+the same moment: in contact (orange), within the range of the attraction (blue), open (grey).
+
+The squeeze in between goes beyond the axis. Heights on {grid} points, waves down to {shortest}.
 """
 CHANGE = """
 const k = slider.value;

@@ -14,7 +14,15 @@ import pandas as pd
 import xarray as xr
 
 from pipeline.conventions import at_load
-from pipeline.numbers import NOTHING, interval, number, percent, superscripted, with_error
+from pipeline.numbers import (
+    NOTHING,
+    difference,
+    interval,
+    number,
+    percent,
+    superscripted,
+    with_error,
+)
 from pipeline.pages import provided
 from pipeline.pages.provided import own_first
 from pipeline.pages.surface_texts import describe_height, describe_line
@@ -90,8 +98,8 @@ def summarise(
     return {
         "claims": claims.sizes["claim"],
         "graded": [(name, grades[name], claim_tone(name)) for name in order if grades[name]],
-        "a_v": number(float(criterion.a_v)),
-        "a_v_range": interval(float(criterion.a_v_low), float(criterion.a_v_high)),
+        "a_v": number(float(criterion.a_v), 2),
+        "a_v_range": interval(float(criterion.a_v_low), float(criterion.a_v_high), 2),
         "load": number(datasets.parameters(criterion)["pressure"]),
         "pairs": verdicts.verdict.size,
         "judged": verdicts.verdict.size - counts[NOT_JUDGED],
@@ -138,14 +146,14 @@ def describe_claim(claim: xr.Dataset) -> Context:
     }
 
 
-def list_errors(claim: xr.Dataset) -> str:
+def list_errors(claim: xr.Dataset) -> list[str]:
     """Errors of a claim's value by source, the largest first."""
     error = claim.value_error.fillna(np.inf)
     parts = error.where(error > 0, drop=True).sortby(-error)
-    return ", ".join(
+    return [
         f"{source} {number(value, 2) if np.isfinite(value) else 'not known'}"
         for source, value in zip(parts.source.values, map(float, parts), strict=True)
-    )
+    ]
 
 
 def name_dominant(data: xr.Dataset, name: str) -> str:
@@ -241,32 +249,39 @@ def describe_material(name: str, entry: Mapping[str, Any]) -> Context:
     }
 
 
-def find_disagreements(verdicts: xr.Dataset, surfaces: Datasets) -> list[Context]:
-    """Pairs on which a criterion differs from the verdict, by direction."""
+def find_disagreements(verdicts: xr.Dataset, surfaces: Datasets) -> Context:
+    """How many pairs of each verdict every criterion contradicts, and which, by direction."""
     labels = labels_of(surfaces)
     materials = datasets.parameters(verdicts)["materials"]
+    codes = [code for code in reversed(range(NOT_JUDGED)) if (verdicts.verdict == code).any()]
     sticky = verdicts.margin.where(verdicts.verdict != NOT_JUDGED, 0) > 1  # all say the same there
     ours = sticky.sel(criterion=REMAINING)
 
-    def pairs(differs):
-        found = []
-        for material in verdicts.material.values:
-            row = differs.sel(material=material)
-            where = [labels[name] for name in verdicts.surface.values if row.sel(surface=name)]
-            if where:
-                found.append((materials[material]["label"], where))
-        return found
+    def list_pairs(differs):
+        return [
+            f"{materials[material]['label']} on {labels[surface]}"
+            for material in verdicts.material.values
+            for surface in verdicts.surface.values
+            if differs.sel(material=material, surface=surface)
+        ]
 
-    return [
+    def count(name):
+        against = verdicts.disagrees.sel(criterion=name) == 1
+        return [int((against & (verdicts.verdict == code)).sum()) for code in codes]
+
+    totals = [int((verdicts.verdict == code).sum()) for code in codes]
+    rows = [
         {
             "criterion": CRITERIA[name].label,
-            "count": int(verdicts.disagrees.sel(criterion=name).sum()),
-            "sticky": pairs((sticky.sel(criterion=name) & ~ours).any("end")),
-            "not_sticky": pairs((~sticky.sel(criterion=name) & ours).any("end")),
+            "counts": count(name),
+            "sticky": list_pairs((sticky.sel(criterion=name) & ~ours).any("end")),
+            "not_sticky": list_pairs((~sticky.sel(criterion=name) & ours).any("end")),
         }
         for name in map(str, verdicts.criterion.values)
         if name != REMAINING
     ]
+    heads = [(WORDS[c], WORD_TONES[c], total) for c, total in zip(codes, totals, strict=True)]
+    return {"heads": heads, "rows": rows}
 
 
 def describe_surface(name: str, surface: xr.Dataset) -> Context:
@@ -315,8 +330,10 @@ def compare_theory(comparisons: Sequence[xr.Dataset]) -> list[Context]:
         for load in loads[np.unique(np.linspace(0, len(loads) - 1, 5).astype(int)[1:4])]:
             here = at.sel(pressure=load)
             cells = {
-                name: f"{float(here[f'{name}_difference']):+.1%} ± "
-                f"{float(here[f'{name}_difference_total_error']):.1%}"
+                name: difference(
+                    float(here[f"{name}_difference"]),
+                    float(here[f"{name}_difference_total_error"]),
+                )
                 for name in QUANTITIES
             }
             case = datasets.parameters(comparison)["case"]

@@ -38,10 +38,12 @@ HIGHEST = 255  # code of a gap or a height
 FIRST = 4  # load shown at first
 SHARES = [f"{RED}{alpha}" for alpha in ("00", "73", "a6", "d9", "ff")]  # by points of four
 CAPTION = """Where the surface touches an elastic half-space, without adhesion: contact in orange
-on the gap. The grid of {grid} points holds waves down to {shortest}{cutoff}. Finer waves split
-every contact into smaller ones. To make the heights periodic they were changed by {change} of their
-rms value, most of it next to the border. Errors of areas and gaps are their change from a grid half
-as fine. What finer waves and the change at the border do is no part of them.
+on the gap. The heights have waves down to {shortest}{cutoff}. Finer waves split every contact into
+smaller ones.
+
+The grid has {grid} points. To make the heights periodic they were changed by {change} of their rms
+value, most of it next to the border. Errors of areas and gaps are their change from a grid half as
+fine. What finer waves and the change at the border do is no part of them.
 """
 CHANGE = """
 const k = slider.value;

@@ -44,7 +44,7 @@ measured surfaces have one.
 **Onset at the finest wave.** Attraction over repulsion at equal area of contact, by the edges of
 contact. Above 1 contact grows by itself at the finest wave. That does not tell whether it holds.
 It rests on a_V of the pair: Persson's theory on the spectrum of the surface, at the range of the
-material over h_rms. Its error is taken as {theory:.0%}. **DMT**: the margin of the paper's
+material over h_rms. Its error is taken as {theory}. **DMT**: the margin of the paper's
 criterion in the same form, with the same a_V.
 
 **Layers.** A material with a thickness is a layer. What remains, and Persson–Tosatti's criterion,
@@ -76,7 +76,7 @@ def write_markdown(dataset, materials, names):
     head = HEAD.format(
         wanted=wanted,
         full=percent(FULL_SHARE),
-        theory=THEORY_ERROR,
+        theory=percent(THEORY_ERROR),
     )
     rows = [
         (

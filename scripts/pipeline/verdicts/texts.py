@@ -105,7 +105,13 @@ def describe_layer(pair: xr.Dataset) -> str:
 
 
 def say_verdict(material: str, pair: xr.Dataset) -> str:
-    """The verdict on a pair as one sentence."""
+    """The verdict on a pair as one sentence; a small first word gets its capital letter."""
+    sentence = _say_verdict(material, pair)
+    first = sentence.split(maxsplit=1)[0]
+    return sentence[0].upper() + sentence[1:] if first.islower() else sentence
+
+
+def _say_verdict(material: str, pair: xr.Dataset) -> str:
     code, remains = int(pair.verdict), describe_share(pair)
     if code == NOT_JUDGED:
         return f"{material}: not judged. {str(pair.not_judged.item()).replace(chr(10), '. ')}."

@@ -183,9 +183,9 @@ def _check_missing(hole: NDArray, max_missing: float, source: str) -> int:
         raise ValueError(f"{source}: {missing} of {hole.size} points, which are all, are missing")
     if share > max_missing:
         raise ValueError(
-            f"{source}: {missing} of {hole.size} points ({share:.1%}) are missing, more than "
-            f"the {max_missing:.1%} that are filled; cut them off with missing: crop, measure "
-            "again or raise max_missing"
+            f"{source}: {missing} of {hole.size} points ({100 * share:.1f} %) are missing, more "
+            f"than the {100 * max_missing:.1f} % that are filled; cut them off with missing: crop, "
+            "measure again or raise max_missing"
         )
     return missing
 

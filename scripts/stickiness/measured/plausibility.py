@@ -126,8 +126,8 @@ def doubt_fit(fit: SelfAffineFit) -> Iterator[str]:
         )
     if fit.misfit > LARGEST_MISFIT:
         yield (
-            f"the spectrum departs from a power law by {fit.misfit:.0%} (rms): limit the fit by "
-            "fit_from and fit_to to where it holds"
+            f"the spectrum departs from a power law by {100 * fit.misfit:.0f} % (rms): limit the "
+            "fit by fit_from and fit_to to where it holds"
         )
 
 

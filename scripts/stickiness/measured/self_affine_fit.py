@@ -204,7 +204,7 @@ def remarks(fit: SelfAffineFit, anisotropy: float = 0.0) -> list[str]:
             "or the instrument's blur (H too high)"
         )
     if fit.misfit > LARGE_MISFIT:
-        found.append(f"the spectrum departs from a power law by {fit.misfit:.0%} (rms)")
+        found.append(f"the spectrum departs from a power law by {100 * fit.misfit:.0f} % (rms)")
     if anisotropy > LARGE_ANISOTROPY:
         found.append(
             f"C depends on direction (amplitude {anisotropy:.2f} of cos 2 phi): theory for "

@@ -7,6 +7,7 @@ from helpers.claim_files import adhesive, loop
 from pipeline.claims import adhesion as adhesion_claims
 from pipeline.claims.ledger import NOT, OPEN, QUALIFIED, REPRODUCED
 from pipeline.conventions import LOAD
+from pipeline.numbers import percent
 
 
 def test_threshold_lies_between_the_lengths_around_it(files):
@@ -21,7 +22,7 @@ def test_threshold_lies_between_the_lengths_around_it(files):
     at = float(below[int(np.argmin(np.abs(below.values - 0.25)))])
     # Half of l_a/range as made up, at every load, between lengths by their logarithms.
     area = np.interp(np.log(claim.value), np.log(lengths), 0.5 * lengths)
-    assert f"{claim.value:.2g} at an area of {area:.1%} (mean gap of p = 0.03)" in claim.remark
+    assert f"{claim.value:.2g} at an area of {percent(area)} (mean gap of p = 0.03)" in claim.remark
     assert f"1/kappa is {at:.2f} ± {0.05 * at:.2f} by that area and {1.1 * at:.2f}" in claim.remark
 
 
@@ -45,7 +46,7 @@ def test_loop_is_graded_by_its_width_and_its_pull_off(files, made, verdict):
     assert "At p = 0.02 the area is 0.040 on loading" in claim.remark
     if "pull_off" not in made:
         assert "at zero gap is 0.030, of which 0.022 is compressed" in claim.remark
-    assert "25% of the work" in claim.remark
+    assert "25 % of the work" in claim.remark
 
 
 @pytest.mark.parametrize(

@@ -59,7 +59,7 @@ def test_a_case_in_words(dataset):
         "observed": "1 … 4 µm",
         "known": "recalled",
         "least_known": "assumed",
-        "predicted": "3 µm (1.5 … 6 µm)",
+        "predicted": "3 µm (1.5 … 6.0 µm)",
         "outcome": "compatible, value too",
         "tone": "yes",
         "depends": "longest wave (factor 1.4)",
@@ -72,7 +72,7 @@ def test_a_case_in_words(dataset):
     assert work["depends"] == "no unknown input"
     assert steel["experiment"] == "hard plate"  # which has no short name
     assert steel["observed"] == "does not stick"
-    assert steel["predicted"] == "5 % (1 × 10⁻⁷ % to 12 %)"
+    assert steel["predicted"] == "5 % (< 0.01 to 12 %)"
     assert (steel["outcome"], steel["tone"]) == ("compatible for some inputs", "partly")
     assert steel["least_known"] == "recalled"
     assert steel["depends"] == "no unknown input"  # 5 % is not named

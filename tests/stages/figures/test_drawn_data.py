@@ -139,7 +139,7 @@ def test_labels_move_apart_and_keep_their_order():
 
 
 def test_quantities_are_written_as_equations():
-    assert plotting.state(hurst=0.8, magnification=1e6) == r"$H$ = 0.8, $\zeta$ = 1 × 10⁶"
+    assert plotting.state(hurst=0.8, magnification=1e6) == r"$H$ = 0.8, $\zeta$ = 10⁶"
 
 
 def test_a_figure_that_fails_leaves_the_old_one(tmp_path, monkeypatch):
@@ -508,29 +508,36 @@ def test_figure_7b_has_the_weakest_adhesion_with_its_compressed_area(ax, ratios)
 
 @pytest.fixture
 def compared():
-    pressure = [0.001, 0.065]
+    """Theory of two surfaces: the first has a window too small for its smallest load."""
     variables = {
-        "area_fraction_difference*": ("pressure", [0.2, -0.1]),
-        "window_holds": ("pressure", [0, 1]),
+        "area_fraction_difference*": (("variant", "pressure"), [[0.2, -0.1, 3.0]]),
+        "window_holds": ("pressure", [0, 1, 1]),
     }
-    data = dataset(variables, {"pressure": pressure}, hurst=0.8, magnification=64)
-    return data.expand_dims(variant=["afferrante2018"])
+    coords = {"pressure": [0.01, 0.065, 0.5], "variant": ["afferrante2018"]}
+    made = {"hurst": 0.8, "magnification": 64}
+    return [dataset(variables, coords, **made), dataset(variables, coords, **made, window=4)]
 
 
-def test_figure_8_opens_points_where_the_window_is_too_small(ax, compared):
-    compared = compared.assign(window_holds=compared.window_holds.isel(variant=0))
-    cases = plot_fig8.order_cases([compared])
-    plot_fig8.draw_quantity(ax, "area_fraction", "afferrante2018", cases)
-    drawn(ax, [0.001], [0.2], markerfacecolor="white", marker="o")
-    drawn(ax, [0.065], [-0.1], markerfacecolor=plotting.BLUE, marker="o")
-    ((_, halves),) = bar_lengths(ax)
-    np.testing.assert_allclose(halves, [0.2 * TOTAL, 0.1 * TOTAL])
-    (text,) = ax.texts
-    # of the load that the window is large enough for, which is in the middle band
-    assert text.get_text() == "rms 10%\nmeans –, −10, – %"
+def test_figure_8_has_a_row_for_every_case_and_a_point_for_every_load(ax, compared):
+    cases = plot_fig8.order_cases(compared[::-1])
+    assert [case.label.split(", ")[-1] for case in cases] == ["1×1", "4×4"]
+    plot_fig8.draw_ratios(ax, "area_fraction", cases)
+    for row in (0, 1):
+        # Open where the window is too small; an arrow at the edge where a ratio is outside.
+        drawn(ax, [1.2], [row - 0.25], markerfacecolor="white", marker="o")
+        drawn(ax, [0.9], [row], markerfacecolor=plotting.BLACK, marker="s")
+        drawn(ax, [plot_fig8.SHOWN[1]], [row + 0.25], marker=">")
+    halves = [half for _, found in bar_lengths(ax, axis=0) for half in found]
+    np.testing.assert_allclose(halves, [0.2 * TOTAL, 0.1 * TOTAL, 3 * TOTAL] * 2)
 
 
-def test_figure_8b_has_gamma_with_its_interval_and_misfit(ax):
+def test_figure_8d_averages_where_windows_hold(compared):
+    cases = plot_fig8.order_cases(compared)
+    root = plot_fig8.root_mean_square("area_fraction", "afferrante2018", cases)
+    assert root == pytest.approx(100 * np.sqrt((0.1**2 + 3**2) / 2))
+
+
+def test_figure_8e_has_gamma_with_its_interval_and_misfit(ax):
     dims = ("correction", "quantity")
     names = ["area_fraction", "mean_gap", "attractive_area", "all"]
     low, best, high = (np.full((3, 4), value) for value in (0.4, 0.5, 0.7))
@@ -544,12 +551,12 @@ def test_figure_8b_has_gamma_with_its_interval_and_misfit(ax):
     }
     coords = {"correction": list(plot_fig8.CORRECTIONS), "quantity": names}
     plot_fig8.draw_gamma(ax, dataset(variables, coords))
-    drawn(ax, [0.5] * 3, np.arange(3) + 0.26, marker="o", linestyle="None")
+    drawn(ax, [0.5] * 3, np.arange(3) - 0.26, marker="o", linestyle="None")
     drawn(ax, [0.5] * 4, np.arange(4), marker="s", linestyle="None")
     _, halves = bar_lengths(ax, axis=0)[0]
     np.testing.assert_allclose(halves, 0.15)
     texts = [text.get_text() for text in ax.texts]
-    assert texts.count("6%") == 10
+    assert texts.count("6 %") == 10
     assert "Yang & Persson: none fits all" in texts
     assert [label.get_text() for label in ax.get_yticklabels()][-1] == "all"
     assert "95 %" in ax.get_xlabel()

@@ -161,7 +161,7 @@ REFUSED = {
     ),
     "half missing": (
         array(np.where(ROUGH > 0, np.nan, ROUGH)),
-        ["are missing, more than the 10.0% that are filled", "missing: crop"],
+        ["are missing, more than the 10.0 % that are filled", "missing: crop"],
     ),
     "three dimensions": (
         lambda folder: array(np.ones((3, 4, 5)))(folder),

@@ -1,5 +1,6 @@
 """From a file to a page: measured surfaces as the workflow analyses and shows them."""
 
+import json
 import re
 from dataclasses import replace
 from pathlib import Path
@@ -7,6 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import xarray as xr
+from helpers.pages import find_long_captions, find_raw_symbols
 
 from criteria import judge_surface
 from pipeline import measured_loads, measured_surface
@@ -190,6 +192,7 @@ def test_profile_goes_all_the_way(folder):
 def test_page_shows_verdicts_errors_and_reasons(single, folder):
     page = page_of(single, folder)
     text = re.sub(r"<(style|script)\b.*?</\1>|<[^>]+>", " ", page, flags=re.S)
+    text = text.replace("\u00a0", " ")
     assert "gel &lt;soft&gt;" in page
     assert "plate &amp; co" in page
     for words in ("Hurst exponent H", "shortest wavelength of the instrument", "half the Nyquist"):
@@ -201,7 +204,7 @@ def test_page_shows_verdicts_errors_and_reasons(single, folder):
     # Steel is stiff and does not stick; the gel is soft at 1 Hz and stiff beyond its relaxation.
     assert re.search(r"sticks\s+below [\d. ×⁰-⁹]+ Hz", text)
     words = " ".join(text.split())
-    assert "steel does not stick: nothing of its work of adhesion remains." in words
+    assert "Steel does not stick: nothing of its work of adhesion remains." in words
     assert re.search(r"For gel &lt;soft&gt; it depends: [\d. …]+ % \([\d.]+ to [\d.]+ %\)", text)
     assert "†" not in text
 
@@ -295,6 +298,19 @@ def test_page_names_all_rms_heights_and_the_spikes(single, folder):
         assert words in text
     assert "not judged" not in text
     np.testing.assert_allclose(found.h_rms, single.h_rms, rtol=1e-3)
+
+
+@pytest.mark.slow
+def test_page_shows_no_raw_symbol_and_short_captions(single, folder, monkeypatch):
+    monkeypatch.setitem(MATERIALS["gel"], "label", "gel, l_a = 0.05 range")
+    made = datasets.parameters(single) | {"label": "C0 = 10⁻³ m^0.4"}
+    found = single.assign_attrs(
+        parameters=json.dumps(made), remarks="h_rms is small; C falls as q^-5.3"
+    )
+    page = page_of(found, folder)
+    assert find_raw_symbols(page) == []
+    assert "<title>C₀\u00a0=\u00a010⁻³\u00a0m⁰·⁴" in page
+    assert find_long_captions(page) == []
 
 
 @pytest.mark.slow

@@ -62,7 +62,7 @@ def test_what_an_instrument_marks_as_missing_is_missing(tmp_path, counts):
     whole = topography.read(bcr(tmp_path / "b.bcr", plane))
     # Harmonic filling goes on a plane exactly.
     np.testing.assert_allclose(filled.heights, whole.heights, atol=1e-20)
-    with pytest.raises(ValueError, match=r"2 of 120 points \(1\.7%\) are missing"):
+    with pytest.raises(ValueError, match=r"2 of 120 points \(1\.7 %\) are missing"):
         topography.read(path, missing="refuse")
     cropped = topography.read(path, missing="crop")
     assert cropped.missing == 0
