@@ -54,7 +54,6 @@ adhesion does not change.
 """
 ON_SCREEN = "A press on a name hides its curves or shows them; at first {shown} are shown."
 DRAWN = ("curves", "touch", "pull_off")  # interactive figures of a page
-"""
 
 
 def main(job):
