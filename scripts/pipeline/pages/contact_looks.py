@@ -43,4 +43,4 @@ def scale_of_tension(dataset):
 def limits_of_tension(dataset):
     """Ends of an axis [Pa] that shows the tension; the squeeze may be far beyond."""
     largest = float(dataset.mean_traction.max())
-    return max(-2 * largest, 1.1 * float(dataset.mean_traction.min())), 1.15 * largest
+    return max(-2 * largest, 1.1 * float(dataset.mean_traction.min())), 1.3 * largest

@@ -6,7 +6,7 @@ import numpy as np
 from bokeh.layouts import column, row
 from bokeh.models import ColumnDataSource, CustomJS, Div, LinearColorMapper, Slider, Span
 
-from pipeline.numbers import number, percent, quantity
+from pipeline.numbers import NOTHING, number, percent, quantity
 from pipeline.pages import captions, interactive
 from pipeline.pages.contact_looks import (
     ZONES,
@@ -20,7 +20,7 @@ from pipeline.pages.surface_figure import unit_of
 from pipeline.pages.touch import draw_map, make_plot
 from pipeline.pictured_heights import NO_MAP, NOT_JUDGED
 from pipeline.plotting import BLACK, BLUE, RED
-from pipeline.verdicts.texts import describe_pull_off, describe_share, show_shares
+from pipeline.verdicts.texts import describe_share, show_shares
 from stickiness.core import datasets
 
 MOST_STATES = 80  # on a page
@@ -37,6 +37,7 @@ shown.data = {zone: [at.zone[k]]};
 marker.data = {gap: [at.gap[k]], tension: [at.tension[k]]};
 text.text = at.text[k];
 """
+ENDS = ("", "_low", "_high")
 WAYS = ((0, "approach", BLUE), (1, "separation", RED))
 
 
@@ -86,20 +87,23 @@ def write_caption(dataset):
 
 def compare(dataset, pair):
     """Rows of what remains and of the pull-off: simulated, by the model, and as the verdict has."""
-    simulated, model = (
-        {"remains": say_share(dataset, prefix), "pull_off": say_pull_off(dataset, prefix)}
-        for prefix in ("", "predicted_")
-    )
-    verdict = {"remains": describe_share(pair), "pull_off": describe_pull_off(pair)}
-    return [
-        {"name": f"Simulation, range {metres(dataset.range)}", **simulated},
-        {"name": "Model, the same heights and range", **model},
+    both = [
         {
-            "name": f"Model, all of the spectrum, range {metres(dataset.material_range)}: "
-            "the verdict",
-            **verdict,
-        },
+            "remains": say_share(dataset, prefix),
+            "pull_off": say_tension(*(dataset[f"{prefix}pull_off{end}"] for end in ENDS)),
+        }
+        for prefix in ("", "predicted_")
     ]
+    verdict = {
+        "remains": describe_share(pair),
+        "pull_off": say_tension(*(pair[f"pull_off{end}"] for end in ENDS)),
+    }
+    names = (
+        f"Simulation, range {metres(dataset.range)}",
+        "Model, the same heights and range",
+        f"Model, all of the spectrum, range {metres(dataset.material_range)}: the verdict",
+    )
+    return [{"name": name, **row} for name, row in zip(names, (*both, verdict), strict=True)]
 
 
 def say_share(dataset, prefix):
@@ -110,11 +114,15 @@ def say_share(dataset, prefix):
     return f"{show_shares(*sorted(both))} ({show_shares(low, high, ' to ')})"
 
 
-def say_pull_off(dataset, prefix):
-    """Largest mean tension with its limits."""
-    value, low, high = (float(dataset[f"{prefix}pull_off{end}"]) for end in ("", "_low", "_high"))
-    texts = (quantity(x, x, "Pa", 2) for x in (value, low, high))
-    return "{} ({} to {})".format(*texts)
+def say_tension(value, low, high):
+    """Tension [Pa], or both ends of a range, with limits; a dash where nothing holds."""
+    if float(high.max()) == 0:
+        return NOTHING
+    text = quantity(float(value.min()), float(value.max()), "Pa", 2)
+    least, most = (
+        quantity(limit, limit, "Pa", 2) for limit in (float(low.min()), float(high.max()))
+    )
+    return f"{text} ({least} to {most})"
 
 
 def judge(dataset):

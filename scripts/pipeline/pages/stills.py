@@ -41,7 +41,7 @@ def draw_touch(dataset, output):
             look = {"origin": "lower", "interpolation": "nearest"}
             extent = [0, sides[0] * per_x, 0, sides[1] * per_x]
             ax.imshow((1 - share) * colours + share * CONTACT, extent=extent, **look)
-            ax.set_title(percent(float(at.area_fraction)), loc="right")
+            ax.set_title(f"{percent(float(at.area_fraction))} contact", loc="right")
             ax.tick_params(labelleft=letter == rows[index // BESIDE][0])
         for letter in rows[-1]:
             panels[letter].set_xlabel(f"x [{unit_x}]")

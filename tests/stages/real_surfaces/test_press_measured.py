@@ -85,6 +85,19 @@ def test_a_grid_that_is_too_coarse_leaves_waves_out_and_says_so():
     assert long.sides == pytest.approx((SIDE, SIDE / 2))
 
 
+def test_the_first_measurement_that_is_a_map_is_pressed(tmp_path):
+    line, area = tmp_path / "line.txt", tmp_path / "map.txt"
+    heights = plate(64).heights
+    np.savetxt(line, heights[:, 0] * 1e6)
+    np.savetxt(area, heights.T * 1e6)
+    units = {"kind": "measured", "height_unit": "um", "length": "100 um"}
+    profile, matrix = {"file": str(line)}, {"file": str(area)}
+    assert pictured_heights.read_map(units | profile) is None
+    found = pictured_heights.read_map(units | {"measurements": [profile, matrix]})
+    assert found.source == str(area)
+    assert found.heights.shape == (64, 64)
+
+
 def test_file_keeps_fields_and_is_small(pressed, tmp_path):
     path = tmp_path / "pictures/plate.nc"
     datasets.write(pressed, path, title="a", parameters={"surface": "plate"})
