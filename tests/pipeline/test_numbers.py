@@ -61,6 +61,11 @@ def test_quantity_keeps_its_prefix_when_rounding_up():
     assert numbers.quantity(2e-12, 2e-12, "m") == "0.002 nm"
 
 
+def test_quantity_has_the_prefix_of_what_stands_beside():
+    assert numbers.quantity(7.3e-7, 7.3e-7, "m", 2) == "730 nm"
+    assert numbers.quantity(7.3e-7, 7.3e-7, "m", 2, beside=1.7e-6) == "0.73 µm"
+
+
 def test_quantity_with_error_is_rounded_to_it():
     assert numbers.quantity_with_error(1.6347e2, 20.49, "m") == "(163 ± 20) m"
     assert numbers.quantity_with_error(2.7049e-8, 2.449e-9, "m") == "(27.0 ± 2.4) nm"
@@ -100,6 +105,8 @@ def test_changes_have_a_sign():
         ("H = 0.8, l<sub>a</sub> = 0.05 range", 3),
         ("10⁻³ m<sup>0.4</sup>", 1),
         ("< 0.01 %", 1),
+        ("0.73 µm (0.34 … 1.7 µm)", 2),
+        ("≤ (0.13 … 4.7) × 10⁻⁴", 1),
         ("5 materials on 7 surfaces", 5),
     ],
 )
