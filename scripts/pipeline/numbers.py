@@ -62,11 +62,11 @@ def _align(low: float, high: float, texts: tuple[str, str], digits: int) -> list
     if not 0 < abs(high) < 10 * abs(low):
         return list(texts)
     decimals = [len(text.partition(".")[2]) for text in texts]
-    known = [digits - 1 - _exponent(value, digits) for value in (low, high)]
-    return [
-        _signed(value, _fixed(abs(value), max(own, min(most, max(decimals)))))
-        for value, own, most in zip((low, high), decimals, known, strict=True)
-    ]
+    aligned = []
+    for value, text, own in zip((low, high), texts, decimals, strict=True):
+        wanted = min(digits - 1 - _exponent(value, digits), max(decimals))
+        aligned.append(_signed(value, _fixed(abs(value), wanted)) if wanted > own else text)
+    return aligned
 
 
 def quantity(low: float, high: float, unit: str, digits: int = 3, beside: float = 0.0) -> str:

@@ -56,6 +56,20 @@ def test_interval_is_in_increasing_order(low, high, text):
     assert numbers.interval(low, high) == text
 
 
+@pytest.mark.parametrize(
+    ("low", "high", "text"),
+    [
+        (0.91, 1.0, "0.91 … 1.0"),
+        (3e-9, 5.4e-9, "(3.0 … 5.4) × 10⁻⁹"),
+        (0.2, 2.0, "0.2 … 2"),
+        (153.0, 188.0, "150 … 190"),
+        (9.96, 12.3, "10 … 12"),
+    ],
+)
+def test_ends_of_an_interval_have_as_many_decimals_where_they_are_close(low, high, text):
+    assert numbers.interval(low, high, 2) == text
+
+
 def test_quantity_keeps_its_prefix_when_rounding_up():
     assert numbers.quantity(999.9999, 999.9999, "Pa") == "1 kPa"
     assert numbers.quantity(2e-12, 2e-12, "m") == "0.002 nm"
