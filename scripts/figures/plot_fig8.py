@@ -97,7 +97,7 @@ def make_load_keys(cases):
     keys = []
     for load, (colour, marker) in LOADS.items():
         near = [float(case.differences.pressure[case.nearest(load)]) for case in cases]
-        text = rf"$\hat{{p}}$ = {interval(min(near), max(near))}"
+        text = rf"$\hat{{p}}$ = {interval(min(near), max(near), 2)}"
         keys.append(make_dot(text, color=colour, marker=marker))
     return [*keys, make_dot("cell too small for the load", mfc="white")]
 

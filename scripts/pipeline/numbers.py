@@ -29,9 +29,9 @@ def number(value: float, digits: int = 3) -> str:
 
 
 def with_error(value: float, error: float) -> str:
-    """``value ± error``, rounded to two digits of the error; an unknown or no error is left out."""
+    """``value ± error``, rounded to two digits of the error; one not known or of 0 is left out."""
     if not (math.isfinite(value) and math.isfinite(error) and error > 0):
-        return number(value, 4)
+        return number(value, 4 if error == 0 else 3)
     power = _exponent(max(abs(value), error), 4)
     scale = 1.0 if power in _PLAIN else 10.0**power
     decimals = 1 - _exponent(error / scale, 2)
@@ -62,16 +62,17 @@ def _align(low: float, high: float, texts: tuple[str, str], digits: int) -> list
     if not 0 < abs(high) < 10 * abs(low):
         return list(texts)
     decimals = [len(text.partition(".")[2]) for text in texts]
-    known = [digits - 1 - _exponent(value, digits) for value in (low, high)]
-    return [
-        _signed(value, _fixed(abs(value), max(own, min(most, max(decimals)))))
-        for value, own, most in zip((low, high), decimals, known, strict=True)
-    ]
+    aligned = []
+    for value, text, own in zip((low, high), texts, decimals, strict=True):
+        wanted = min(digits - 1 - _exponent(value, digits), max(decimals))
+        aligned.append(_signed(value, _fixed(abs(value), wanted)) if wanted > own else text)
+    return aligned
 
 
-def quantity(low: float, high: float, unit: str, digits: int = 3) -> str:
-    """Interval in the SI prefix that suits its larger end."""
-    scale, prefix = _prefixed(max(abs(low), abs(high)), digits)
+def quantity(low: float, high: float, unit: str, digits: int = 3, beside: float = 0.0) -> str:
+    """Interval in the SI prefix that suits its larger end, or what is not far larger beside it."""
+    largest = max(abs(low), abs(high))
+    scale, prefix = _prefixed(beside if largest < beside < 1e3 * largest else largest, digits)
     return f"{interval(low / scale, high / scale, digits)} {prefix}{unit}"
 
 
@@ -112,11 +113,24 @@ def difference(value: float, error: float) -> str:
     return f"({sign}{with_error(100 * value, 100 * error)}) %"
 
 
+def write_powers(text: str) -> str:
+    """Text with numbers such as 1e-5 as powers of ten, and with the signs ±, ≤, − and µ."""
+
+    def write(found):
+        mantissa, power = found[1], _ten_to(int(found[2]))
+        return power if mantissa == "1" else f"{mantissa} × {power}"
+
+    text = re.sub(r"(?<=\s)\+-(?=\s)", "±", re.sub(r"<=|&lt;=", "≤", text))
+    text = re.sub(r"(\d |\[)um\b", r"\1µm", text)
+    text = re.sub(r"(?<![\w.])(\d+(?:\.\d+)?)e([+-]?\d+)(?!\w)", write, text)
+    return re.sub(r"(?:(?<=[\s(=])|^)-(?=\d)", "−", text)
+
+
 def keep_whole(text: str) -> str:
     """Text with no-break spaces inside its numbers and inside limits in brackets."""
     text = re.sub(rf"(?<=[\d)⁰¹²³⁴-⁹]) (?=×|±|(?:{_UNITS})(?![A-Za-z0-9]))", _NO_BREAK, text)
-    text = re.sub(r"(?<=[×±≤≥<=]) (?=[−\d])|(?<=[\w>]) (?==)", _NO_BREAK, text)
-    whole = re.compile(rf"\([^()…]+ … [^()…]+\){_NO_BREAK}×|\([\d.]+ to [\d.]+[^()]{{0,5}}\)")
+    text = re.sub(r"(?<=[×±≤≥<=]) (?=[−\d(])|(?<=[\w>]) (?==)", _NO_BREAK, text)
+    whole = re.compile(rf"\([^()…]+ … [^()…]+\){_NO_BREAK}×|\([\d.]+ (?:to|…) [\d.]+[^()]{{0,8}}\)")
     return whole.sub(lambda found: found[0].replace(" ", _NO_BREAK), text)
 
 

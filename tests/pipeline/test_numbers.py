@@ -56,9 +56,28 @@ def test_interval_is_in_increasing_order(low, high, text):
     assert numbers.interval(low, high) == text
 
 
+@pytest.mark.parametrize(
+    ("low", "high", "text"),
+    [
+        (0.91, 1.0, "0.91 … 1.0"),
+        (3e-9, 5.4e-9, "(3.0 … 5.4) × 10⁻⁹"),
+        (0.2, 2.0, "0.2 … 2"),
+        (153.0, 188.0, "150 … 190"),
+        (9.96, 12.3, "10 … 12"),
+    ],
+)
+def test_ends_of_an_interval_have_as_many_decimals_where_they_are_close(low, high, text):
+    assert numbers.interval(low, high, 2) == text
+
+
 def test_quantity_keeps_its_prefix_when_rounding_up():
     assert numbers.quantity(999.9999, 999.9999, "Pa") == "1 kPa"
     assert numbers.quantity(2e-12, 2e-12, "m") == "0.002 nm"
+
+
+def test_quantity_has_the_prefix_of_what_stands_beside():
+    assert numbers.quantity(7.3e-7, 7.3e-7, "m", 2) == "730 nm"
+    assert numbers.quantity(7.3e-7, 7.3e-7, "m", 2, beside=1.7e-6) == "0.73 µm"
 
 
 def test_quantity_with_error_is_rounded_to_it():
@@ -100,6 +119,8 @@ def test_changes_have_a_sign():
         ("H = 0.8, l<sub>a</sub> = 0.05 range", 3),
         ("10⁻³ m<sup>0.4</sup>", 1),
         ("< 0.01 %", 1),
+        ("0.73 µm (0.34 … 1.7 µm)", 2),
+        ("≤ (0.13 … 4.7) × 10⁻⁴", 1),
         ("5 materials on 7 surfaces", 5),
     ],
 )

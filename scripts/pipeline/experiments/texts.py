@@ -106,16 +106,16 @@ def describe_predicted(case):
     if name != "limiting_roughness":
         least = LEAST_SHARE * float(case.work_of_adhesion)
         value, low, high = (0.0 if x < least else x for x in (value, low, high))
-    return f"{write(name, value, value)} ({write(name, low, high)})"
+    return f"{write(name, value, value, high)} ({write(name, low, high)})"
 
 
-def write(name, low, high):
-    """Limits of a quantity with its unit."""
+def write(name, low, high, beside=0.0):
+    """Limits of a quantity with its unit, in the prefix of what stands beside."""
     if name not in UNITS:
         return f"{percent(low).removesuffix(' %')} to {percent(high)}"
     if high <= 0:
         return f"0 {UNITS[name]}"
-    return quantity(low, high, UNITS[name], 2)
+    return quantity(low, high, UNITS[name], 2, beside)
 
 
 def describe_effect(case):

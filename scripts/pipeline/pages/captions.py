@@ -14,7 +14,7 @@ from docutils.writers.html5_polyglot import Writer
 from jinja2 import Environment, FileSystemLoader, StrictUndefined, Template
 from markupsafe import Markup, escape
 
-from pipeline.numbers import keep_whole
+from pipeline.numbers import keep_whole, write_powers
 
 _RST = {
     "raw_enabled": False,
@@ -94,7 +94,8 @@ def keep_numbers_whole(value: Any) -> Any:
 
 
 def _symbols(text: str) -> str:
-    """Symbols of an escaped text as HTML."""
+    """Symbols and powers of ten of an escaped text as HTML."""
+    text = write_powers(text)
     for name, letter in _GREEK.items():
         text = re.sub(rf"\b{name}(?=\b|_|\d)", letter, text)
     text = _SUBSCRIPTED.sub(

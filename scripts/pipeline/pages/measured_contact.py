@@ -76,10 +76,10 @@ def compare(at, name, theory):
     value, error = combine_ways(at[name])
     return {
         "value": with_error(value, error),
-        "ways": ", ".join(
+        "ways": [
             f"{WAYS[way]} {number(float(at[name].sel(periodisation=way).isel(resolution=-1)), 2)}"
             for way in map(str, at.periodisation.values)
-        ),
+        ],
         "theory": interval(*sorted(map(float, at[theory].values)), 2),
     }
 

@@ -104,7 +104,7 @@ def test_a_relation_may_leave_nothing():
 def test_a_pull_off_is_a_percentage():
     row = {"quantity": "relative_pull_off", "observed": (0.0, 0.1), "predicted": (0.2, 0.05, 0.5)}
     found = say(row)
-    assert (found["observed"], found["predicted"]) == ("0 % to 10 %", "20 % (5 % to 50 %)")
+    assert (found["observed"], found["predicted"]) == ("0 to 10 %", "20 % (5 to 50 %)")
 
 
 def test_next_to_nothing_is_written_as_none():

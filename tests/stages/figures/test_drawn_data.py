@@ -602,6 +602,16 @@ def test_figure_9c_has_geometric_means_and_the_range_over_materials_and_ends(ax)
     assert [text.get_text() for text in ax.get_xticklabels()] == ["a\nline", "wafer"]
 
 
+def test_figure_9_names_the_points_that_it_draws(ax):
+    criteria = [plot_fig9.CRITERIA[name] for name in CRITERIA_DRAWN[:4]]
+    keys = list(plot_fig9.make_keys(criteria))
+    assert [key.get_label() for key in keys] == [c.label for c in criteria[:1]] + [
+        c.label.replace("a_V", "$a_V$") for c in criteria[1:]
+    ]
+    assert keys[0].get_marker() == "None"  # the verdict is a line
+    assert [key.get_marker() for key in keys[1:]] == list(plotting.MARKERS[:3])
+
+
 # ---- figure 10
 
 

@@ -95,7 +95,7 @@ def test_rows_of_the_page_hold_value_error_and_theory(whole):
     rows = measured_contact.describe_loads(found)
     assert [row["pressure"] for row in rows] == ["0.03", "0.3"]
     assert re.fullmatch(r"[\d.]+ ± [\d.]+", rows[1]["area"]["value"])
-    assert rows[1]["area"]["ways"].startswith("tapered 0.")
+    assert rows[1]["area"]["ways"][0].startswith("tapered 0.")
     value, error = measured_contact.combine_ways(found.area_fraction.isel(pressure=1))
     fine = found.area_fraction.isel(pressure=1, resolution=-1).values
     assert value == pytest.approx(fine.mean())
@@ -200,7 +200,9 @@ def test_adhesion_has_its_rows_on_the_page(pressed):
     rows = measured_contact.describe_adhesion(pressed)
     assert [row["applied"] for row in rows] == ["250 kPa", "500 kPa"]
     assert all(re.fullmatch(r"[\d.]+( ± [\d.]+)?", row["area"]) for row in rows)
-    assert measured_contact.describe_loads(pressed)[0]["area"]["ways"].startswith("as they stand")
+    assert measured_contact.describe_loads(pressed)[0]["area"]["ways"][0].startswith(
+        "as they stand"
+    )
     assert measured_contact.describe_edges(pressed) == "The grid resolves the edges of contact."
     coarse = pressed.assign(edge_resolution=("resolution", [20.0, 10.0]))
     assert "does not resolve" in measured_contact.describe_edges(coarse)

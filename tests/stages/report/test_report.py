@@ -625,8 +625,10 @@ def test_errors_of_a_pair_are_told_where_it_was_drawn(verdicts, surfaces):
     [
         ("u/h_rms, q0 h'_rms", "u/h<sub>rms</sub>, q<sub>0</sub> h&#39;<sub>rms</sub>"),
         ("a_V,PR ~ zeta^((5H-3)/3)", "a<sub>V,PR</sub> ~ ζ<sup>(5H−3)/3</sup>"),
-        ("C0 = 1e-3 m^0.4", "C<sub>0</sub> = 1e-3 m<sup>0.4</sup>"),
+        ("C0 = 1e-3 m^0.4", "C<sub>0</sub> = 10⁻³ m<sup>0.4</sup>"),
         ("shape_a q01 x_rms_y", "shape_a q01 x_rms_y"),
+        ("2.15 +- 0.15 um [um] <= 2", "2.15 ± 0.15 µm [µm] ≤ 2"),
+        ("zeta = 6.77e+04 (-0.3, -1e5)", "ζ = 6.77 × 10⁴ (−0.3, −10⁵)"),
         ("p_ad/2p_rep, w/U_full", "p<sub>ad</sub>/2p<sub>rep</sub>, w/U<sub>full</sub>"),
         (
             "<i> & doi:10.1234/q0",
