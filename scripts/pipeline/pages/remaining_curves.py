@@ -26,6 +26,7 @@ STROKES = ("-", "--", ":", "-.", (0, (5, 1, 1, 1, 1, 1)), (0, (8, 2)), (0, (1, 3
 POINTS = ("circle", "square", "triangle", "diamond", "inverted_triangle", "plus", "x")
 FACTORS = (0.1, 0.2, 0.5, 1, 2, 5, 10)  # on the heights, that have a tick
 MATTERS = 0.99, 1e-3  # shares beyond which a curve along the modulus says nothing more
+SAME = 0.2  # %, difference of curves that nobody sees
 ROOM = 3.0  # factor on the modulus by which its curve goes on there
 TABS = {"modulus": "Modulus", "roughness": "Roughness", "rate": "Rate"}
 LABELS = {
@@ -62,6 +63,12 @@ class Trace:
     own: int  # place of the pair as it is
     thresholds: NDArray  # abscissae where the wanted share remains
     threshold: str
+
+    @property
+    def ends(self) -> tuple[str, ...]:
+        """Ends of the surface that are drawn: one where the eye could not tell them apart."""
+        same = np.allclose(self.rough, self.smooth, rtol=0, atol=SAME)
+        return ("rough",) if same else ("rough", "smooth")
 
 
 def draw_interactive(pairs: xr.Dataset, labels: dict[str, str]) -> Tabs | None:
@@ -180,7 +187,6 @@ def draw_axis(axis: str, traces: list[Trace], pairs: xr.Dataset) -> figure:
 
 def draw_trace(plot: figure, one: Trace, visible: bool) -> list[Any]:
     """Limits, both ends of the surface, the pair as it is and its threshold, as renderers."""
-    colour = COLOURS[one.place % len(COLOURS)]
     columns = {name: getattr(one, name) for name in ("x", "rough", "smooth", "low", "high", "at")}
     columns |= {
         "label": [one.label] * len(one.x),
@@ -188,38 +194,33 @@ def draw_trace(plot: figure, one: Trace, visible: bool) -> list[Any]:
         "limits": tell_limits(one),
     }
     source = ColumnDataSource(columns)
-    own = ColumnDataSource(
-        {name: [values[one.own]] * 2 for name, values in columns.items()}
-        | {"y": [one.rough[one.own], one.smooth[one.own]]}
-    )
-    look = {"color": colour, "visible": visible}
+    look = {"color": COLOURS[one.place % len(COLOURS)], "visible": visible}
     band = plot.varea("x", "low", "high", source=source, fill_alpha=0.15, **look)
     dash = DASHES[one.place % len(DASHES)]
     lines = [
-        plot.line("x", end, source=source, line_dash=dash, line_width=2, **look)
-        for end in ("rough", "smooth")
+        plot.line("x", end, source=source, line_dash=dash, line_width=2, **look) for end in one.ends
     ]
-    point = POINTS[one.place % len(POINTS)]
-    marks = plot.scatter("x", "y", source=own, marker=point, size=10, **look)
     told = [("", "@label"), ("at", "@at"), ("remains", "@share"), ("limits", "@limits")]
-    plot.add_tools(HoverTool(renderers=[*lines, marks], tooltips=told, visible=False))
-    inside = (one.thresholds >= one.x[0]) & (one.thresholds <= one.x[-1])
-    if not inside.any():
-        return [*lines, marks, band]
-    at = one.thresholds[inside]
-    ends = ColumnDataSource(
-        {
-            "x": at,
-            "y": np.full(len(at), 100 * DEFAULT_SHARE),
-            "label": [one.label] * len(at),
-            "threshold": [one.threshold] * len(at),
-        }
-    )
-    hollow = {"marker": "circle", "size": 9, "fill_color": "white", "line_color": colour}
-    crossings = plot.scatter("x", "y", source=ends, visible=visible, line_width=2, **hollow)
+    plot.add_tools(HoverTool(renderers=lines, tooltips=told, visible=False))
+    x, y = [one.x[one.own]] * len(one.ends), [getattr(one, end)[one.own] for end in one.ends]
+    point = POINTS[one.place % len(POINTS)]
+    marks = plot.scatter(x, y, marker=point, size=10, **look)
+    return [*lines, marks, band, *draw_thresholds(plot, one, look)]
+
+
+def draw_thresholds(plot: figure, one: Trace, look: dict[str, Any]) -> list[Any]:
+    """Where the curve of each end passes the wanted share, if that is in sight."""
+    at = one.thresholds[: len(one.ends)]
+    at = at[(at >= one.x[0]) & (at <= one.x[-1])]
+    if not at.size:
+        return []
+    texts = {"label": [one.label] * len(at), "threshold": [one.threshold] * len(at)}
+    source = ColumnDataSource({"x": at, "y": np.full(len(at), 100 * DEFAULT_SHARE)} | texts)
+    hollow = look | {"fill_color": "white", "line_width": 2, "size": 9}
+    circles = plot.scatter("x", "y", source=source, marker="circle", **hollow)
     told = [("", "@label"), ("threshold of E*", "@threshold")]
-    plot.add_tools(HoverTool(renderers=[crossings], tooltips=told, visible=False))
-    return [*lines, marks, band, crossings]
+    plot.add_tools(HoverTool(renderers=[circles], tooltips=told, visible=False))
+    return [circles]
 
 
 def tell_shares(one: Trace) -> list[str]:
@@ -274,9 +275,9 @@ def draw_line(ax: Any, one: Trace) -> None:
     colour = COLOURS[one.place % len(COLOURS)]
     look = {"color": colour, "linestyle": STROKES[one.place % len(STROKES)]}
     plotting.draw_band(ax, one.x, one.low, one.high, colour, alpha=0.15)
-    ax.plot(one.x, one.rough, **look)
-    ax.plot(one.x, one.smooth, **look)
-    own = [one.x[one.own]] * 2, [one.rough[one.own], one.smooth[one.own]]
     marker = MARKERS[one.place % len(MARKERS)]
-    ax.plot(*own, color=colour, marker=marker, linestyle="none")
+    for end in one.ends:
+        share = getattr(one, end)
+        ax.plot(one.x, share, **look)
+        ax.plot(one.x[one.own], share[one.own], color=colour, marker=marker)
     ax.plot([], [], marker=marker, **look, label=one.label)

@@ -20,7 +20,8 @@ def describe_share(pair: xr.Dataset) -> str:
     """Share of the work of adhesion that remains, with the limits that decide the verdict."""
     low, high = (round_share(limit) for limit in find_limits(pair))
     value = show_shares(*sorted(map(round_share, pair.remaining.values)))
-    return value if low == high else f"{value} ({show_shares(low, high, ' to ')})"
+    limits = show_shares(low, high, " to ")
+    return value if limits == value else f"{value} ({limits})"
 
 
 def round_share(share: float) -> float:

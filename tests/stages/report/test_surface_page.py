@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import xarray as xr
+from bokeh.models import Line, Scatter
 from helpers.pages import find_long_captions, find_raw_symbols
 
 from criteria import judge_surface
@@ -358,8 +359,14 @@ def test_three_materials_are_shown_at_first(single):
         assert legend.click_policy == "hide"
         visible = [{r.visible for r in item.renderers} for item in legend.items]
         assert visible == [{True}] * 3 + [{False}] * 2
-        drawn = [item.renderers for item in legend.items]
-        looks = {(str(line.glyph.line_dash), point.glyph.marker) for line, _, point, *_ in drawn}
+        looks = {
+            tuple(
+                str(getattr(r.glyph, "line_dash" if isinstance(r.glyph, Line) else "marker"))
+                for r in item.renderers
+                if isinstance(r.glyph, Line | Scatter)
+            )
+            for item in legend.items
+        }
         assert len(looks) == 5
 
 
