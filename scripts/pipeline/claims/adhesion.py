@@ -80,6 +80,12 @@ def describe_threshold(data: xr.Dataset) -> str:
 
 def describe_areas(loads: xr.Dataset) -> str:
     """The threshold at the mean gap of every load, and the area of contact there."""
+    found = list_areas(loads)
+    return f"It depends on the area of contact: {found}. " if found else ""
+
+
+def list_areas(loads: xr.Dataset) -> str:
+    """Thresholds at one range with their areas, in a row; empty where there are none."""
     found = []
     for load in loads.pressure.values:
         at = loads.sel(pressure=load).dropna("adhesion_length_over_range", subset=["inverse_kappa"])
@@ -88,7 +94,7 @@ def describe_areas(loads: xr.Dataset) -> str:
             lengths = np.log(at.adhesion_length_over_range)
             area = float(np.interp(np.log(threshold), lengths, at.repulsive_area))
             found.append(f"{threshold:.2g} at an area of {area:.1%} (mean gap of p = {load:g})")
-    return f"It depends on the area of contact: {', '.join(found)}. " if found else ""
+    return ", ".join(found)
 
 
 def describe_resolved(smallest: xr.Dataset) -> str:

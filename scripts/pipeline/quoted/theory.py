@@ -1,5 +1,8 @@
 """Theory against simulation: its errors by correction, gamma, and the table of a_V."""
 
+from collections.abc import Iterable, Mapping
+from typing import Any
+
 import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
@@ -35,7 +38,7 @@ def quote_deviations(sources: Sources) -> dict[str, str]:
     return {"theory.surfaces": str(len(compared)), "theory.deviations": table(HEADS, rows)}
 
 
-def root_mean_square(files, variant: str, name: str) -> float:
+def root_mean_square(files: Iterable[xr.Dataset], variant: str, name: str) -> float:
     """Root mean square of the differences that can be told, all surfaces in one."""
     values = np.concatenate([list_differences(data.sel(variant=variant), name) for data in files])
     return float(np.sqrt(np.nanmean(values**2)))
@@ -59,7 +62,7 @@ def quote_trends(sources: Sources) -> dict[str, str]:
     files = [d.sel(variant=VARIANT) for d in sources.read_all("fits/theory").values()]
     by = [(datasets.parameters(data), data) for data in files]
     coarse = [data for made, data in by if made["magnification"] == 16]
-    narrow = [d for made, d in by if made.get("window", 1) == 1 and made["hurst"] >= LEAST_HURST]
+    narrow = [data for made, data in by if is_narrow(made)]
     fine = [d for d in narrow if datasets.parameters(d)["magnification"] >= 64]
     smooth = [d for d in narrow if datasets.parameters(d)["hurst"] == 0.8]
     wide = [d for made, d in by if made.get("window", 1) >= 4 and made["hurst"] == 0.8]
@@ -73,6 +76,26 @@ def quote_trends(sources: Sources) -> dict[str, str]:
         "theory.mean_gap.wide": say_shares(pick(wide, "mean_gap", LOAD)),
         "theory.mean_gap.wide_small": say_shares(pick(wide, "mean_gap", 0.001)),
     }
+
+
+def quote_wang(sources: Sources) -> dict[str, str]:
+    """How far the mean gap is off in cells of one wave, by two corrections."""
+    texts = {}
+    for name, variant in (("yang", VARIANT), ("wang", f"{VARIANT}, wang2017")):
+        found = np.concatenate(
+            [
+                data.mean_gap_difference.sel(variant=variant, pressure=slice(0.0649, 0.2001)).values
+                for data in sources.read_all("fits/theory").values()
+                if is_narrow(datasets.parameters(data))
+            ]
+        )
+        texts[name] = percent(np.abs(found).max()) if name == "yang" else say_shares(-found)
+    return {f"theory.mean_gap.{name}": text for name, text in texts.items()}
+
+
+def is_narrow(made: Mapping[str, Any]) -> bool:
+    """Whether a surface is smooth enough to be compared at most loads, and of one wave."""
+    return made.get("window", 1) == 1 and made["hurst"] >= LEAST_HURST
 
 
 def pick(files: list[xr.Dataset], name: str, load: float) -> list[float]:
@@ -107,4 +130,4 @@ def quote_a_v_table(sources: Sources) -> dict[str, str]:
     }
 
 
-NUMBERS = (quote_deviations, quote_trends, quote_gamma, quote_a_v_table)
+NUMBERS = (quote_deviations, quote_trends, quote_wang, quote_gamma, quote_a_v_table)

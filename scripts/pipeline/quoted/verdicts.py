@@ -13,8 +13,11 @@ from stickiness import criteria
 from stickiness.core import datasets
 from stickiness.criteria.pair import DEPENDS, NOT_STICKY, STICKS_FULLY, STICKY, TOUCHES
 from stickiness.criteria.registry import EDGES, FULL_CONTACT, REMAINING
-from stickiness.remaining.prediction import DEFAULT_SHARE
+from stickiness.remaining import Roughness
+from stickiness.remaining.prediction import DEFAULT_SHARE, ONSET_ERROR
+from stickiness.remaining.share import ONSET
 
+SHORT = 1e-6  # range over h_rms that does not matter
 TERRAIN = "jacksboro"  # left out where thresholds are compared
 RIVALS = {
     "full_contact": FULL_CONTACT,
@@ -97,7 +100,11 @@ def quote_roughness(sources: Sources) -> dict[str, str]:
     m = sources.read("criteria/map")
     shortest = datasets.parameters(m)["shortest_over_range"]
     printed = criteria.h_rms_limit(EXAMPLES, CRYSTAL, 1.0, criteria.PRINTED_A_V)
-    edges = interpolate_edges(m)
+    edges, dmt, constant = (
+        interpolate_at_crystal(m[f"h_rms_limit{end}"]) for end in ("_edges", "", "_constant")
+    )
+    lower = [float(np.exp((dmt - constant).interp(range_times_q0=np.log(q)))) for q in EXAMPLES]
+    ratio = m.h_rms_limit / m.h_rms_limit_edges
     rows, stated, over = [], [], []
     for q0, said, formula in zip(EXAMPLES, PRINTED_LIMITS, printed, strict=True):
         value, low, high = (find_roughness(q0, shortest, sign) for sign in (0, -1, 1))
@@ -110,20 +117,29 @@ def quote_roughness(sources: Sources) -> dict[str, str]:
     heads += ("onset at the finest wave", f"{percent(DEFAULT_SHARE)} remains", "its limits")
     return {
         "roughness.table": table(heads, rows),
+        "roughness.dmt": percent(float(abs(ratio - 1).max())),
+        "roughness.constant": say_range(lower),
         "roughness.stated_over": f"{stated[0]}, {stated[1]} and {stated[2]}",
         "roughness.onset_over": f"{over[0]}, {over[1]} and {over[2]}",
     }
 
 
-def interpolate_edges(m: xr.Dataset) -> xr.DataArray:
-    """Logarithm of the largest h_rms/range by the onset at the crystal's l_a/range, in logarithms.
-
-    By the logarithm of range q0.
-    """
-    logs = np.log(m.h_rms_limit_edges)
+def interpolate_at_crystal(limit: xr.DataArray) -> xr.DataArray:
+    """Logarithm of h_rms/range at the l_a/range of a crystal, by that of range q0."""
+    logs = np.log(limit)
     names = ("range_times_q0", "adhesion_length_over_range")
     logs = logs.assign_coords({name: np.log(logs[name]) for name in names})
     return logs.interp(adhesion_length_over_range=np.log(CRYSTAL))
+
+
+def quote_onset(sources: Sources) -> dict[str, str]:
+    """Work of adhesion over the energy of full contact at which contact holds, short ranges."""
+    rough = Roughness(h_rms=1.0, q0=1.0, elastic_energy=1.0)
+    low, value, high = (float(rough.threshold(SHORT, sign=sign)) for sign in (1, 0, -1))
+    return {
+        "onset": f"{ONSET:.2f} ± {ONSET_ERROR:.2f}",
+        "onset.wanted": f"{value:.2f} ({low:.2f} to {high:.2f})",
+    }
 
 
 def quote_asphalt(sources: Sources) -> dict[str, str]:
@@ -150,5 +166,5 @@ def quote_jtb(sources: Sources) -> dict[str, str]:
 
 NUMBERS = (
     *(quote_counts, quote_pairs, quote_limits, quote_rivals),
-    *(quote_roughness, quote_asphalt, quote_jtb),
+    *(quote_roughness, quote_onset, quote_asphalt, quote_jtb),
 )
