@@ -7,7 +7,7 @@ BIN := $(VENV)/bin
 PIP := $(BIN)/python -m pip install --quiet --disable-pip-version-check -c envs/constraints.txt
 SNAKEMAKE := $(BIN)/snakemake -j$(CORES)
 
-.PHONY: install reproduce draft test test-quick lint format dag benchmark docs pictures
+.PHONY: install reproduce draft test test-quick lint format dag benchmark docs pictures numbers
 
 install: $(VENV)/.run  ## the environment alone
 
@@ -43,6 +43,9 @@ dag: $(VENV)/.run  ## what would run
 
 docs: $(VENV)/.run  ## the reference of the configuration, from the schemas
 	$(BIN)/python docs/write_config.py
+
+numbers: $(VENV)/.run  ## the numbers of README.md and docs, from results/standard and results/draft
+	$(BIN)/python docs/fill_numbers.py
 
 pictures: $(VENV)/.run  ## the pictures of README.md and docs, from results/standard and with Chromium
 	$(BIN)/python docs/take_pictures.py

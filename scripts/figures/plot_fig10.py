@@ -5,20 +5,14 @@ from itertools import pairwise
 import numpy as np
 
 from pipeline import plotting
+from pipeline.edge_points import BINS, COLUMNS, select_certain
 from pipeline.numbers import number
 from pipeline.plotting import BLACK, GREY, pick_look, state
 from stickiness.adhesion import equivalent_sphere
 from stickiness.core import datasets
 
-COLUMNS = (
-    *("attractive_over_contact", "edge_strength"),
-    *("effect", "over_model", "over_model_total_error"),
-)
-LARGEST_ERROR = 0.25  # of a point that is drawn; covers 90 %
 LOOK = {"markersize": 3.5, "linestyle": "none", "elinewidth": 0.7}
 WEAKEST_EDGE = 1e-3  # left end of panel B
-# Tabor parameters between which ratios are averaged: from about 0.2 on they have a trend.
-BINS = (1e-3, 0.01, 0.05, 0.2, 0.5, 1.0, 1.5, 2.5, 4.0)
 
 
 def main(job):
@@ -26,13 +20,6 @@ def main(job):
     with plotting.open_figure(job.output, "AB", 3.4) as panels:
         draw_weak(panels["A"], files)
         draw_ratios(panels["B"], files)
-
-
-def select_certain(data):
-    """Points with an error small enough to say something, as columns."""
-    dims = data.effect.dims
-    columns = np.array([data[name].transpose(*dims).values.ravel() for name in COLUMNS])
-    return columns[:, columns[-1] < LARGEST_ERROR]
 
 
 def draw_weak(ax, files):

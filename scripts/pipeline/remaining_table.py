@@ -6,6 +6,8 @@ from pathlib import Path
 
 import pandas as pd
 
+from pipeline.numbers import number, table
+
 COLUMNS = (
     *("set", "hurst", "magnification", "window", "points", "seed", "full_contact_energy"),
     *("energy_ratio", "zone", "range", "adhesion_length", "approach", "separation", "bound"),
@@ -14,6 +16,7 @@ COLUMNS = (
 )
 HELD = "_held"  # end of the name of a set that nothing was fitted to
 WEAK = "_weak"  # of a set from weak to tough adhesion
+BINS = (0.3, 0.4, 0.6, 0.8, 1.1, 1.5, 2.5)  # of w/U_full, of the table of means
 
 
 def read(path: str | Path) -> pd.DataFrame:
@@ -47,3 +50,19 @@ def is_weak(table: pd.DataFrame) -> pd.Series:
 def is_held(table: pd.DataFrame) -> pd.Series:
     """Whether nothing was fitted to rows."""
     return table["set"].str.endswith(HELD)
+
+
+def summarise(frame: pd.DataFrame) -> str:
+    """Means of simulation and theories by w/U_full, as a table in Markdown."""
+    names = ("approach", "separation", "bound", "predicted", "full_contact", "multiscale", "dmt")
+    tough = frame[(frame.zone < 0.11) & (frame.window > 1)]
+    groups = tough.groupby(pd.cut(tough.energy_ratio, BINS), observed=True)
+    rows = [
+        (
+            number(group.energy_ratio.mean(), 2),
+            len(group),
+            *(f"{group[n].mean():.3f}" for n in names),
+        )
+        for _, group in groups
+    ]
+    return table(("w/U_full", "points", *(name.replace("_", " ") for name in names)), rows)

@@ -4,8 +4,8 @@ from pathlib import Path
 
 import pandas as pd
 
+from pipeline import remaining_table
 from pipeline.job import start
-from pipeline.numbers import number, table
 from stickiness.core import datasets
 from stickiness.remaining import multiscale, theories
 from stickiness.remaining.prediction import Roughness
@@ -17,7 +17,6 @@ SIMULATED = (
     *("bound_grid_error", "pull_off_grid_error"),
 )
 DIGITS = 5
-BINS = (0.3, 0.4, 0.6, 0.8, 1.1, 1.5, 2.5)  # of w/U_full, of the short table
 COMMENT = """\
 # Adhesion that remains, simulated (target remaining_measured), with the theories beside it. To
 # take a new measurement over, copy it here. approach, separation and bound are over the work of
@@ -36,7 +35,7 @@ def main(job):
     with datasets.whole_file(job.output.table) as path:
         path.write_text(COMMENT + round_numbers(frame).to_csv(index=False), encoding="utf-8")
     with datasets.whole_file(job.output.summary) as path:
-        path.write_text(HEAD + summarise(frame), encoding="utf-8")
+        path.write_text(HEAD + remaining_table.summarise(frame), encoding="utf-8")
 
 
 def list_rows(path):
@@ -87,22 +86,6 @@ def round_numbers(frame):
     return frame.assign(
         **{name: frame[name].map(lambda x: float(f"{x:.{DIGITS}g}")) for name in numbers}
     )
-
-
-def summarise(frame):
-    """Means of simulation and theories by w/U_full."""
-    names = ("approach", "separation", "bound", "predicted", "full_contact", "multiscale", "dmt")
-    tough = frame[(frame.zone < 0.11) & (frame.window > 1)]
-    groups = tough.groupby(pd.cut(tough.energy_ratio, BINS), observed=True)
-    rows = [
-        (
-            number(group.energy_ratio.mean(), 2),
-            len(group),
-            *(f"{group[n].mean():.3f}" for n in names),
-        )
-        for _, group in groups
-    ]
-    return table(("w/U_full", "points", *(name.replace("_", " ") for name in names)), rows)
 
 
 if __name__ == "__main__":

@@ -32,10 +32,8 @@ def kappa_threshold(files: Files) -> Finding:
     ]
     range_ = crossed[0] if crossed else solved.range_over_h_rms[-1]
     at = full.sel(range_over_h_rms=range_)
-    dmt = limit.sel(range_over_h_rms=range_).isel(adhesion_length_over_range=0)
     threshold, errors = find_zero(at, "inverse_kappa")
     crosses = np.isfinite(threshold)
-    dmt_threshold = float(dmt.adhesion_length_over_range / (2 * dmt.inverse_kappa_ad))
     lowest = float(at.inverse_kappa.min().fillna(0.5))
     below = f"1/kappa falls to {lowest:.2f}; the grid does not resolve larger l_a/range."
     return Finding(
@@ -49,7 +47,7 @@ def kappa_threshold(files: Files) -> Finding:
         verdict=QUALIFIED if crosses else OPEN,
         remark=(
             "Full simulation at prescribed mean gaps; in the DMT limit the threshold is "
-            f"{dmt_threshold:.2f}. {describe_threshold(at) if crosses else below} "
+            f"{dmt_threshold(limit, range_):.2f}. {describe_threshold(at) if crosses else below} "
             f"{describe_areas(loads.sel(range_over_h_rms=float(range_)))}"
             "On separation a pull-off force exists at smaller l_a/range already (claim 10). "
             f"{describe_resolved(full.isel(range_over_h_rms=0))}"
@@ -57,6 +55,12 @@ def kappa_threshold(files: Files) -> Finding:
         errors=errors,
         comment="errors of 1/kappa at the less certain of the two points beside the threshold",
     )
+
+
+def dmt_threshold(limit: xr.Dataset, range_: float | xr.DataArray) -> float:
+    """Threshold of l_a/range in the DMT limit, at one range over h_rms."""
+    weakest = limit.sel(range_over_h_rms=range_).isel(adhesion_length_over_range=0)
+    return float(weakest.adhesion_length_over_range / (2 * weakest.inverse_kappa_ad))
 
 
 def describe_threshold(data: xr.Dataset) -> str:
@@ -77,6 +81,12 @@ def describe_threshold(data: xr.Dataset) -> str:
 
 def describe_areas(loads: xr.Dataset) -> str:
     """The threshold at the mean gap of every load, and the area of contact there."""
+    found = list_areas(loads)
+    return f"It depends on the area of contact: {found}. " if found else ""
+
+
+def list_areas(loads: xr.Dataset) -> str:
+    """Thresholds at one range with their areas, in a row; empty where there are none."""
     found = []
     for load in loads.pressure.values:
         at = loads.sel(pressure=load).dropna("adhesion_length_over_range", subset=["inverse_kappa"])
@@ -87,7 +97,7 @@ def describe_areas(loads: xr.Dataset) -> str:
             found.append(
                 f"{threshold:.2g} at an area of {percent(area)} (mean gap of p = {load:g})"
             )
-    return f"It depends on the area of contact: {', '.join(found)}. " if found else ""
+    return ", ".join(found)
 
 
 def describe_resolved(smallest: xr.Dataset) -> str:
@@ -139,7 +149,7 @@ def hysteresis(files: Files) -> Finding:
     tension = pull_off(loop)
     load = float(press.mean_pressure.max()) / 5
     loading, unloading = (area_at(press, load, way) for way in (0, 1))
-    lost = float(gap.dissipated.sum() / gap.work.where(gap.work > 0).sum())
+    lost = lost_share(gap)
     weak = loop.isel(adhesion_length_over_range=0).sel(control="pressure").dropna("state")
     weak = weak.isel(state=-1)
     made = datasets.parameters(loop)
@@ -169,6 +179,11 @@ def hysteresis(files: Files) -> Finding:
     )
 
 
+def lost_share(gap: xr.Dataset) -> float:
+    """Energy lost over the work done on the surfaces, along a loop at prescribed mean gaps."""
+    return float(gap.dissipated.sum() / gap.work.where(gap.work > 0).sum())
+
+
 def pull_off(loop: xr.Dataset) -> float:
     """Mean pressure of the last state under a press, at the largest adhesion length."""
     press = loop.isel(adhesion_length_over_range=-1).sel(control="pressure")
@@ -196,10 +211,8 @@ def area_at(curve: xr.Dataset, load: float, way: int) -> float:
     ),
 )
 def inverse_kappa_ad(files: Files) -> Finding:
-    sets = [ratios_to_formula(files[f"adhesive_{s}"], files[f"adhesion_{s}"]) for s in SURFACES]
-    ratios = {name: np.concatenate([ratio[name] for ratio in sets]) for name in sets[0]}
-    slopes, error = ratios["inverse_kappa_ad"], ratios["error"]
-    known = (error < KNOWN) & (slopes > 0)
+    ratios = join_ratios(files)
+    slopes, known = ratios["inverse_kappa_ad"], find_known(ratios)
     if not known.any():
         remark = "No point is known to 30 % of the formula."
         return Finding(quantity="-", value=np.nan, claimed=1.0, verdict=OPEN, remark=remark)
@@ -235,6 +248,17 @@ def inverse_kappa_ad(files: Files) -> Finding:
         errors={source: float(np.mean(ratios[source][known])) for source in budget.SOURCES},
         comment="means of the errors of single points",
     )
+
+
+def join_ratios(files: Files) -> dict[str, np.ndarray]:
+    """Ratios to the formula of all points of both surfaces."""
+    sets = [ratios_to_formula(files[f"adhesive_{s}"], files[f"adhesion_{s}"]) for s in SURFACES]
+    return {name: np.concatenate([ratio[name] for ratio in sets]) for name in sets[0]}
+
+
+def find_known(ratios: dict[str, np.ndarray]) -> np.ndarray:
+    """Points that are known well enough to be compared with the formula."""
+    return (ratios["error"] < KNOWN) & (ratios["inverse_kappa_ad"] > 0)
 
 
 def ratios_to_formula(full: xr.Dataset, limit: xr.Dataset) -> dict[str, np.ndarray]:

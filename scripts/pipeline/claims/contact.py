@@ -284,8 +284,8 @@ def load_exponent(loads: np.ndarray, area: xr.DataArray, at: float = 0.03) -> np
 def a_v_against_magnification(files: Files) -> Finding:
     fit = files["fit_fig3c"].sel(variant=VARIANT).isel(load=0)
     intervals = fit.a_v.isel(magnification=-1).sel(hurst=0.8, method="nearest")
-    first = fit.a_v.isel(window=0)
-    step = first.isel(magnification=-1) / first.isel(magnification=-2) - 1
+    first = theory_a_v(files["fit_fig3c"])
+    step = last_growth(first)
     zetas = [power_of_ten(zeta) for zeta in fit.magnification[-2:]]
     growth = ", ".join(f"{percent(float(g))} (H = {float(g.hurst):g})" for g in step)
     value, error = float(intervals[0]), float(np.ptp(intervals.values)) / 2
@@ -316,6 +316,16 @@ def a_v_against_magnification(files: Files) -> Finding:
             "theory and half the range over the fit intervals"
         ),
     )
+
+
+def theory_a_v(fit: xr.Dataset) -> xr.DataArray:
+    """a_V by theory on the first fit interval, by Hurst exponent and magnification."""
+    return fit.a_v.sel(variant=VARIANT).isel(load=0, window=0)
+
+
+def last_growth(a_v: xr.DataArray) -> xr.DataArray:
+    """Relative growth over the last step of magnification."""
+    return a_v.isel(magnification=-1) / a_v.isel(magnification=-2) - 1
 
 
 def describe_simulated_a_v(files: Files, continuous: xr.DataArray) -> str:

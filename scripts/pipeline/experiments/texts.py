@@ -1,5 +1,7 @@
 """Experiments in words: what was observed, what is predicted, and which criterion survives."""
 
+from collections import Counter
+
 import numpy as np
 
 from pipeline.experiments.entries import GRADES
@@ -49,15 +51,20 @@ def describe(dataset):
 
 def count_outcomes(dataset):
     """How the cases came out, in two sentences; of published ones, without mere relations."""
-    tested = dataset.isel(case=dataset.tests.values == 1)
-    codes, inside = tested.outcome.values, tested.value_inside.values
-    good, some, missed = (int(np.sum(codes == code)) for code in (COMPATIBLE, SOME, MISSED))
+    by, tested, inside = tally_outcomes(dataset)
     return (
-        f"The limits of the prediction overlap with {good} of {codes.size} published observations "
-        f"whatever the unknown inputs, with {some} for some of them, and with {missed} for none. "
-        f"The value itself agrees with {int(inside.sum())}. None is a sharp test, because no "
-        "spectrum is known."
+        f"The limits of the prediction overlap with {by[COMPATIBLE]} of {tested} published "
+        f"observations whatever the unknown inputs, with {by[SOME]} for some of them, and with "
+        f"{by[MISSED]} for none. The value itself agrees with {inside}. None is a sharp test, "
+        "because no spectrum is known."
     )
+
+
+def tally_outcomes(dataset):
+    """Tests by their outcome, how many there are, and with how many the value itself agrees."""
+    tested = dataset.isel(case=dataset.tests.values == 1)
+    codes = Counter(tested.outcome.values.tolist())
+    return codes, tested.sizes["case"], int(tested.value_inside.sum())
 
 
 def predicted_name(case):

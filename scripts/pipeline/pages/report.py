@@ -91,9 +91,8 @@ def summarise(
     ensembles: Sequence[xr.Dataset],
 ) -> Context:
     """Numbers of the opening paragraph."""
-    grades = Counter(str(verdict) for verdict in claims.verdict.values)
+    grades, counts = count_grades(claims), count_verdicts(verdicts)
     order = [*CLAIM_TONES, *sorted(grades.keys() - CLAIM_TONES.keys())]
-    counts = Counter(verdicts.verdict.values.ravel().tolist())
     seeds = sorted({len(datasets.parameters(ensemble)["seeds"]) for ensemble in ensembles})
     return {
         "claims": claims.sizes["claim"],
@@ -116,6 +115,16 @@ def summarise(
         ],
         "realisations": interval(seeds[0], seeds[-1]),
     }
+
+
+def count_grades(claims: xr.Dataset) -> Counter[str]:
+    """Number of claims by grade."""
+    return Counter(str(verdict) for verdict in claims.verdict.values)
+
+
+def count_verdicts(verdicts: xr.Dataset) -> Counter[int]:
+    """Number of pairs by the code of their verdict."""
+    return Counter(verdicts.verdict.values.ravel().tolist())
 
 
 def claim_tone(verdict: str) -> str:

@@ -17,7 +17,7 @@ from helpers.pages import LINE, LINES, RAW, find_long_captions, find_raw_symbols
 
 from pipeline import numbers
 from pipeline.pages import captions, pairs_figure, report, surface_texts
-from pipeline.pages.benchmarks import run_times
+from pipeline.pages.benchmarks import processor_time, run_times
 from pipeline.pages.provenance import describe_provenance
 from pipeline.verdicts import texts
 from report import write_report
@@ -215,11 +215,13 @@ def figures(tmp_path):
 def benchmarks(tmp_path):
     folder = tmp_path / "benchmarks"
     (folder / "slow_rule" / "case").mkdir(parents=True)
-    head = "s\th:m:s\tmax_rss\n"
-    (folder / "slow_rule" / "case" / "seed1.tsv").write_text(head + "10.5\t0:00:10\t200.0\n")
-    (folder / "slow_rule" / "case" / "seed2.tsv").write_text(head + "30.25\t0:00:30\t100.0\n")
-    (folder / "write_report.tsv").write_text(head + "99.0\t0:01:39\t999.0\n")  # an earlier run
-    (folder / "quick_rule.tsv").write_text(head + "0.5\t0:00:00\tNA\n")
+    head = "s\th:m:s\tmax_rss\tcpu_time\n"
+    (folder / "slow_rule" / "case" / "seed1.tsv").write_text(head + "10.5\t0:00:10\t200.0\t9.0\n")
+    (folder / "slow_rule" / "case" / "seed2.tsv").write_text(head + "30.25\t0:00:30\t100.0\t28.5\n")
+    (folder / "write_report.tsv").write_text(
+        head + "99.0\t0:01:39\t999.0\t99.0\n"
+    )  # an earlier run
+    (folder / "quick_rule.tsv").write_text(head + "0.5\t0:00:00\tNA\tNA\n")
     return folder
 
 
@@ -751,11 +753,18 @@ def test_run_times_add_up(benchmarks):
         "rule": "slow_rule",
         "jobs": 2,
         "total": "40.8",  # 10.5 + 30.25
+        "processor": "37.5",  # 9 + 28.5
         "longest": "30.2",
         "memory": "200",
     }
     assert (quick["rule"], quick["memory"]) == ("quick_rule", "–")
-    assert (times["jobs"], times["total"]) == (3, "41.2")
+    assert (times["jobs"], times["total"], times["processor"]) == (3, "41.2", "37.5")
+
+
+def test_processor_time_of_some_jobs(benchmarks):
+    assert processor_time(benchmarks, "seed2") == 28.5
+    with pytest.raises(FileNotFoundError, match=r"no benchmark nobody\.tsv"):
+        processor_time(benchmarks, "nobody")
 
 
 def test_mixed_versions_are_pointed_out(claims):
