@@ -38,8 +38,10 @@ format: $(VENV)/.dev
 	$(BIN)/ruff check --fix .
 	$(BIN)/snakefmt Snakefile rules
 
+# Snakemake prints this table twice, amid other lines; those are shown if it fails.
 dag: $(VENV)/.run  ## what would run
-	$(BIN)/snakemake -n --quiet rules
+	@found=$$($(BIN)/snakemake -n --quiet host rules reason 2>&1) || { echo "$$found"; exit 1; }; \
+	echo "$$found" | sed -n '/^Nothing/p; /^job /,/^total/p; /^total/q'
 
 docs: $(VENV)/.run  ## the reference of the configuration, from the schemas
 	$(BIN)/python docs/write_config.py

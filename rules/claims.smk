@@ -1,5 +1,21 @@
 # The claims of the paper, each recomputed and given a verdict.
 
+from snakemake.exceptions import WorkflowError
+
+# Surfaces that the paper speaks of. A table of one's own may lack them.
+PAPER_SURFACES = ("asphalt", "polished_steel")
+
+
+def paper_surface(name):
+    """Input function: the file of one of them."""
+
+    def find(wildcards):
+        if name not in REAL_SURFACES:
+            raise WorkflowError(f"{config['surfaces']}: the claims need the surface {name!r}")
+        return f"{RESULTS}/real_surfaces/{name}.nc"
+
+    return find
+
 
 def ledger_inputs():
     """Files behind the claims, by the names that the claims in scripts/pipeline/claims use."""
@@ -24,10 +40,9 @@ def ledger_inputs():
         "adhesion_smooth": f"{RESULTS}/adhesion/dmt/fig4b_smooth.nc",
         "map": f"{RESULTS}/criteria/map.nc",
         "verdicts": f"{RESULTS}/criteria/verdicts.nc",
-        "asphalt": f"{RESULTS}/real_surfaces/asphalt.nc",
-        "remaining": config["remaining"]["table"],
+        **{name: paper_surface(name) for name in PAPER_SURFACES},
+        "remaining": REMAINING_TABLE,
         "experiments": f"{RESULTS}/experiments/experiments.nc",
-        "polished_steel": f"{RESULTS}/real_surfaces/polished_steel.nc",
         "measured_surfaces": [
             f"{RESULTS}/real_surfaces/{name}.nc"
             for name, surface in REAL_SURFACES.items()

@@ -1,45 +1,99 @@
-# Checks the configuration and turns it into the tables that the rules use. No rule stands here.
+# Finds the project, checks the configuration and turns it into the tables that the rules use. No rule
+# stands here.
 
+import io
 import os
 import re
+import subprocess
 import sys
+import tarfile
+import tempfile
 import time
 from pathlib import Path
 
-from snakemake.exceptions import WorkflowError
+from snakemake.sourcecache import HostingProviderFile, LocalSourceFile
+from snakemake.utils import update_config
+
+MODIFIER = workflow.modifier
+MODULE = MODIFIER.namespace  # name that another workflow gives this one as its module, or None
+
+
+def find_project(rules_folder):
+    """Folder of the project: where these rules lie, or a copy if Snakemake reads them from git."""
+    if isinstance(rules_folder, LocalSourceFile):
+        return Path(rules_folder.get_path_or_uri(secret_free=True)).parent
+    if isinstance(rules_folder, HostingProviderFile):
+        return check_out(rules_folder.hosted_repo.repo_clone, rules_folder.ref)
+    sys.exit(f"{rules_folder}: give the Snakefile as a path, github(…) or gitlab(…)")
+
+
+def check_out(repository, ref):
+    """Copy of a commit in Snakemake's cache: scripts import modules, which must lie in a folder."""
+    git = ["git", "-C", str(repository)]
+    commit = subprocess.check_output([*git, "rev-parse", f"{ref}^{{commit}}"], text=True).strip()
+    folder = workflow.sourcecache.cache_path / "stickiness" / commit
+    if not folder.exists():
+        folder.parent.mkdir(parents=True, exist_ok=True)
+        part = tempfile.mkdtemp(dir=folder.parent)
+        content = subprocess.check_output([*git, "archive", commit])
+        tarfile.open(fileobj=io.BytesIO(content)).extractall(part, filter="data")
+        os.rename(part, folder)
+    return folder
+
+
+PROJECT = find_project(workflow.current_basedir)
+
+
+def own(path):
+    """A file of the project, from the folder of the run, whatever prefix a module has."""
+    return local(path if os.path.samefile(PROJECT, ".") else f"{PROJECT}/{path}")
+
+
+def placed(path):
+    """Where a file of results lies if a module has a prefix."""
+    return str(MODIFIER.modify_path(path))
+
 
 # Of this process and, by its environment, of every job.
-SCRIPTS = f"{workflow.basedir}/scripts"
+SCRIPTS = f"{PROJECT}/scripts"
 sys.path.insert(0, SCRIPTS)
-os.environ.update(PYTHONPATH=SCRIPTS)
+others = [path for path in os.environ.get("PYTHONPATH", "").split(os.pathsep) if path]
+os.environ.update(PYTHONPATH=os.pathsep.join([SCRIPTS, *others]))
 # One thread a job: `-j` runs seeds and cases side by side, which scales better than threaded
 # linear algebra on arrays of this size, and sums do not depend on the number of cores.
 for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
     os.environ.setdefault(name, "1")
 
-from pipeline.code import code_of
+from pipeline import code
 from stickiness.accuracy import plan
 from stickiness.accuracy.error_models import read_models
 from stickiness.adhesion import model_choice
 from stickiness.config import checks
+from stickiness.config.files import locate_files
 from stickiness.config.measured_contact import MOST_POINTS
 
 try:
+    # What a user leaves out is as in the project's own file.
+    given, config = config, locate_files(checks.load(PROJECT / "config/config.yaml"), own)
+    update_config(config, given)
     MATERIALS, REAL_SURFACES, EXPERIMENTS = checks.check_all(
-        config, Path(workflow.basedir) / "config/schemas"
+        config,
+        PROJECT / "config/schemas",
+        f"config of module {MODULE}" if MODULE else "config/config.yaml",
+        made=bool(MODULE),
     )
     PLANS = plan.plans_of(config, read_models(config["tradeoff"]["table"]))
     DMT_ERRORS = model_choice.read_table(config["dmt_error"])
     if not Path(config["remaining"]["table"]).is_file():
         raise ValueError(f"remaining.table = {config['remaining']['table']!r}: no such file")
 except ValueError as error:
-    raise WorkflowError(str(error)) from None
+    sys.exit(str(error))  # one line, where an exception's would have Snakemake's around it
 
 STARTED = time.time()
-for target in sys.argv[1:]:
+for target in [] if MODULE else sys.argv[1:]:
     asked = re.match(rf"{re.escape(config['results'])}/([^/]+)/", target)
     if asked and asked[1] in config["fidelities"] and asked[1] != config["fidelity"]:
-        raise WorkflowError(
+        sys.exit(
             f"{target} is of fidelity {asked[1]}, this run of {config['fidelity']}: "
             f"add --config fidelity={asked[1]}"
         )
@@ -51,7 +105,8 @@ REMAINING = f"{config['results']}/remaining"
 MODEL_SURFACES, CASES = config["model_surfaces"], config["cases"]
 SWEEPS, ADHESION, LOOPS = config["theory"]["sweeps"], config["adhesion"], config["loops"]
 GAMMA, GAPS, TRADE = config["theory"]["gamma"], config["gaps"], config["tradeoff"]
-ERROR_MODELS = TRADE["table"]
+ERROR_MODELS, TRADE_SUMMARY = local(TRADE["table"]), local(TRADE["summary"])
+REMAINING_TABLE = local(config["remaining"]["table"])
 FIGURES = [f"fig{number}" for number in range(1, 12)]
 # Figures and report show the cases that are simulated for every quantity.
 COMPLETE = [case for case, planned in PLANS.items() if planned.complete]
@@ -130,8 +185,8 @@ def summarise():
     """Say where the results are and what they hold."""
     from pipeline.run_summary import summary
 
-    answers = [f"{RESULTS}/cases/{case}.nc" for case in CASES if "accuracy" in CASES[case]]
-    print(summary(RESULTS, STARTED, answers), file=sys.stderr)
+    answers = [placed(f"{RESULTS}/cases/{case}.nc") for case in CASES if "accuracy" in CASES[case]]
+    print(summary(placed(RESULTS), STARTED, answers), file=sys.stderr)
 
 
 onstart:

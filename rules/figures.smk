@@ -46,7 +46,7 @@ FIGURE_INPUTS = {
         "verdicts": f"{RESULTS}/criteria/verdicts.nc",
     },
     "fig10": {"edges": several("adhesion/edges/{adhesion}.nc", adhesion=SIMULATED_IN_FULL)},
-    "fig11": {"table": config["remaining"]["table"]},
+    "fig11": {"table": REMAINING_TABLE},
 }
 
 

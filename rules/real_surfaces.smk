@@ -12,7 +12,7 @@ def topographies(wildcards):
     if surface["kind"] != "measured":
         return []
     files = [measurement["file"] for _, measurement in checks.measurements(surface)]
-    return [file for file in files if not file.startswith("builtin:")]
+    return [local(file) for file in files if not file.startswith("builtin:")]
 
 
 def largest_contact(wildcards):

@@ -1,6 +1,6 @@
 # The report of all results, and a page for every real surface.
 
-PAGE_PARTS = [f"report/{part}" for part in ("macros.html.j2", "page.css", "page.js")]
+PAGE_PARTS = [own(f"report/{part}") for part in ("macros.html.j2", "page.css", "page.js")]
 
 
 def datasets_of(figure):
@@ -29,24 +29,24 @@ def find_pictures(wildcards):
 
 rule write_report:
     input:
-        template="report/report.html.j2",
+        template=own("report/report.html.j2"),
         parts=PAGE_PARTS,
         figures=expand(f"{RESULTS}/figures/{{figure}}.png", figure=FIGURES),
-        captions=expand("report/{figure}.rst", figure=FIGURES),
+        captions=[own(f"report/{figure}.rst") for figure in FIGURES],
         claims=f"{RESULTS}/claims/claims.nc",
         verdicts=f"{RESULTS}/criteria/verdicts.nc",
         criterion=f"{RESULTS}/criteria/map.nc",
         experiments=f"{RESULTS}/experiments/experiments.nc",
         experiments_figure=f"{RESULTS}/figures/experiments.png",
-        experiments_caption="report/experiments.rst",
+        experiments_caption=own("report/experiments.rst"),
         ensembles=expand(f"{RESULTS}/contact/ensembles/{{case}}.nc", case=COMPLETE),
         comparisons=expand(f"{RESULTS}/fits/theory/{{case}}.nc", case=COMPLETE),
         surfaces=expand(f"{RESULTS}/real_surfaces/{{real_surface}}.nc", real_surface=REAL_SURFACES),
         answers=expand(f"{RESULTS}/cases/{{case}}.nc", case=CASES),
         laws=ERROR_MODELS,
-        trade=TRADE["summary"],
+        trade=TRADE_SUMMARY,
         trade_figure=f"{RESULTS}/figures/tradeoff.png",
-        trade_caption="report/tradeoff.rst",
+        trade_caption=own("report/tradeoff.rst"),
     output:
         report(
             f"{RESULTS}/report/report.html",
@@ -54,7 +54,7 @@ rule write_report:
             caption="../report/report.rst",
         ),
     params:
-        benchmarks=f"{RESULTS}/benchmarks",
+        benchmarks=placed(f"{RESULTS}/benchmarks"),
         presets={
             "fidelities": config["fidelities"],
             "asked": TRADE["presets"],
@@ -69,7 +69,7 @@ rule write_report:
 
 rule write_surface:
     input:
-        template="report/surface.html.j2",
+        template=own("report/surface.html.j2"),
         parts=PAGE_PARTS,
         surface=f"{RESULTS}/real_surfaces/{{real_surface}}.nc",
         verdicts=f"{RESULTS}/criteria/verdicts/{{real_surface}}.nc",

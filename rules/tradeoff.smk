@@ -174,8 +174,8 @@ rule plot_tradeoff:
 # The report shows the measurement that is in use: the committed tables.
 use rule plot_tradeoff as plot_measured_trade with:
     input:
-        summary=TRADE["summary"],
-        laws=TRADE["table"],
+        summary=TRADE_SUMMARY,
+        laws=ERROR_MODELS,
     output:
         png=f"{RESULTS}/figures/tradeoff.png",
         pdf=f"{RESULTS}/figures/tradeoff.pdf",

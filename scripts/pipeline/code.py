@@ -1,7 +1,11 @@
 """What code a script runs, as a hash that comments, docstrings and layout do not change."""
 
+import contextlib
 import hashlib
+import json
+import os
 import re
+import sys
 from bisect import bisect_left
 from dis import Bytecode, opmap
 from functools import cache
@@ -10,6 +14,8 @@ from types import CodeType
 from typing import Any
 
 NOP = opmap["NOP"]
+# In the folder of the run; another Python compiles to something else.
+MEMORY = Path(f".snakemake/code-{sys.implementation.cache_tag}.json")
 
 # The module, and what is imported of it: between parentheses, or on one line; or modules alone.
 # A syntax tree would say the same, but building it takes as long as all the rest.
@@ -32,11 +38,44 @@ def code_of(scripts: str, script: str) -> str:
                 found.add(path)
                 todo.append(path)
     names = sorted((path.relative_to(folder).as_posix(), path) for path in found)
-    text = "\n".join(f"{name}: {instructions(path)}" for name, path in names)
+    text = "\n".join(f"{name}: {read(path)[0]}" for name, path in names)
     return hashlib.sha256(text.encode()).hexdigest()[:16]
 
 
 @cache
+def read(path: Path) -> tuple[str, list[str]]:
+    """Hash of what a file is compiled to, and full names of all that it imports.
+
+    A file that is as it was when a run before this one read it, by time of change and size, is
+    not compiled again.
+    """
+    status = path.stat()
+    stamp = [status.st_mtime_ns, status.st_size]
+    known, *found = memory().get(str(path), [None])
+    if known != stamp:
+        found = [instructions(path), names_imported(path.read_text(encoding="utf-8"))]
+        memory()[str(path)] = [stamp, *found]
+    return tuple(found)
+
+
+@cache
+def memory() -> dict[str, list[Any]]:
+    """What runs found in files, by path; it is empty if it cannot be read."""
+    try:
+        return json.loads(MEMORY.read_text(encoding="utf-8"))
+    except (OSError, ValueError):
+        return {}
+
+
+def remember() -> None:
+    """Keep what was found in files for the next run, where the folder may be written to."""
+    with contextlib.suppress(OSError):
+        MEMORY.parent.mkdir(exist_ok=True)
+        part = MEMORY.with_suffix(f".{os.getpid()}")
+        part.write_text(json.dumps(memory()), encoding="utf-8")
+        part.replace(MEMORY)
+
+
 def instructions(path: Path) -> str:
     """Hash of what a file is compiled to, without docstrings, assertions and line numbers."""
     code = compile(path.read_bytes(), path.name, "exec", optimize=2)
@@ -69,8 +108,7 @@ def work_of(code: CodeType) -> tuple[bytes, list[tuple[int, ...]]]:
 @cache
 def imports(path: Path, scripts: Path) -> frozenset[Path]:
     """Files below `scripts` that a file imports, packages on the way to them included."""
-    names = names_imported(path.read_text(encoding="utf-8"))
-    return frozenset(file for name in names for file in files_of(name, scripts))
+    return frozenset(file for name in read(path)[1] for file in files_of(name, scripts))
 
 
 def names_imported(text: str) -> list[str]:

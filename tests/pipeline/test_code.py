@@ -23,7 +23,7 @@ def hashed(tmp_path):
         (tmp_path / name).write_text(text, encoding="utf-8")
 
     def hash_now():
-        for cached in (code.instructions, code.imports, code.files_of):
+        for cached in (code.read, code.memory, code.imports, code.files_of):
             cached.cache_clear()
         return code.code_of(str(tmp_path / "scripts"), "../scripts/stage/rule.py")
 
@@ -85,3 +85,31 @@ def test_imports_are_those_of_the_syntax_tree():
             elif isinstance(node, ast.ImportFrom):
                 names += [f"{node.module}.{alias.name}" for alias in node.names]
         assert sorted(code.names_imported(text)) == sorted(names), file
+
+
+def test_files_as_they_were_are_not_compiled_again(hashed, tmp_path, monkeypatch):
+    folder, hash_now = hashed
+    monkeypatch.setattr(code, "MEMORY", tmp_path / "memory/code.json")
+    before = hash_now()
+    code.remember()
+    compiled = []
+    compile_one = code.instructions
+    monkeypatch.setattr(
+        code, "instructions", lambda path: compiled.append(path.name) or compile_one(path)
+    )
+    assert hash_now() == before
+    assert compiled == []
+    (folder / "part/used.py").write_text("def one():\n    return 10\n", encoding="utf-8")
+    assert hash_now() != before
+    assert compiled == ["used.py"]
+
+
+def test_a_memory_that_cannot_be_read_or_written_does_no_harm(hashed, tmp_path, monkeypatch):
+    _, hash_now = hashed
+    before = hash_now()
+    (tmp_path / "memory").write_text("not a folder", encoding="utf-8")
+    monkeypatch.setattr(code, "MEMORY", tmp_path / "memory/code.json")
+    assert hash_now() == before
+    code.remember()
+    monkeypatch.setattr(code, "MEMORY", tmp_path / "memory")
+    assert hash_now() == before

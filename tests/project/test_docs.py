@@ -97,7 +97,11 @@ def test_version_is_the_same_everywhere():
 
     citation = yaml.safe_load((ROOT / "CITATION.cff").read_text(encoding="utf-8"))
     project = (ROOT / "pyproject.toml").read_text(encoding="utf-8")
+    changes = (ROOT / "CHANGELOG.md").read_text(encoding="utf-8")
     assert citation["version"] == __version__
+    assert re.findall(r"^## (\d.*)$", changes, re.M)[0] == (
+        f"{__version__} - {citation['date-released']}"
+    )
     assert f'version = "{__version__}"' in project
     # What the citation file format asks for.
     assert {"cff-version", "message", "title", "authors"} <= citation.keys()
@@ -107,7 +111,12 @@ def test_changelog_keeps_its_form():
     text = (ROOT / "CHANGELOG.md").read_text(encoding="utf-8")
     headings = re.findall(r"^### (.*)$", text, re.M)
     assert set(headings) <= {"Added", "Changed", "Deprecated", "Removed", "Fixed", "Security"}
-    assert re.findall(r"^## (.*)$", text, re.M)[0].startswith("Unreleased")
+    newest, *releases = re.findall(r"^## (.*)$", text, re.M)
+    assert newest == "Unreleased"
+    dated = [re.fullmatch(r"(\d+)\.(\d+)\.(\d+) - (\d{4}-\d\d-\d\d)", name) for name in releases]
+    assert all(dated), releases
+    versions = [tuple(map(int, found.groups()[:3])) for found in dated]
+    assert versions == sorted(versions, reverse=True)
 
 
 def test_metadata_of_the_catalog():
@@ -146,7 +155,7 @@ def test_map_leads_to_solver_fit_verdict_and_errors():
 
 
 def test_pages_are_few_and_readme_is_short():
-    assert len(PAGES) <= 1 + 6
+    assert len(PAGES) <= 1 + 7
     assert len((ROOT / "README.md").read_text(encoding="utf-8").splitlines()) <= 120
 
 

@@ -65,6 +65,38 @@ def test_conda_and_pip_agree():
         assert release.startswith(pins[CONDA_NAMES.get(package, package)])
 
 
+def test_pixi_names_the_versions_of_conda_and_of_the_tests():
+    text = (ROOT / "pyproject.toml").read_text(encoding="utf-8")
+    pixi = tomllib.loads(text)["tool"]["pixi"]
+    conda = yaml.safe_load((ENVS / "environment.yaml").read_text(encoding="utf-8"))
+    python, *pinned = conda["dependencies"]
+    pins = dict(line.split("=") for line in pinned)
+    named = {
+        package: version.removesuffix(".*") for package, version in pixi["dependencies"].items()
+    }
+    assert named.pop("python") == python.removeprefix("python")
+    assert named == pins
+    assert pixi["workspace"]["channels"] == [
+        channel for channel in conda["channels"] if channel != "nodefaults"
+    ]
+    tested = pixi["feature"]["test"]["pypi-dependencies"]
+    assert {package: version.removeprefix("==") for package, version in tested.items()} == pip_pins(
+        "dev.txt"
+    )
+    assert {"reproduce", "draft", "dag"} == pixi["tasks"].keys()
+
+
+def test_container_is_made_of_the_pins():
+    text = (ENVS / "Containerfile").read_text(encoding="utf-8")
+    (python,) = re.findall(r"^FROM python:(\d+\.\d+)-slim-\w+$", text, re.M)
+    assert tuple(map(int, python.split("."))) >= (3, 11)
+    (installed,) = re.findall(r"^RUN pip install (.*)$", text, re.M)
+    assert "-c envs/constraints.txt -r envs/requirements.txt" in installed
+    for line in re.findall(r"^COPY (.*)$", text, re.M):
+        for source in line.split()[:-1]:
+            assert (ROOT / source).exists(), source
+
+
 @pytest.mark.parametrize("name", ["requirements.txt", "dev.txt", "slurm.txt", "progress.txt"])
 def test_constraints_agree(name):
     constraints = pip_pins("constraints.txt")

@@ -19,8 +19,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+import scipy  # scipy.special is loaded when first used, which reading a configuration does not
 from numpy.typing import ArrayLike, NDArray
-from scipy import special
 
 from stickiness.accuracy.error_models import (
     COARSE,
@@ -89,13 +89,13 @@ def joint_error(errors: ArrayLike) -> NDArray:
     """
     single = np.asarray(errors, float)
     low, high = np.ones((2, *single.shape[1:]))
-    high *= -special.ndtri((1 - 0.9) / 2 / len(single)) / COVERS
+    high *= -scipy.special.ndtri((1 - 0.9) / 2 / len(single)) / COVERS
     largest = single.max(axis=0)
     with np.errstate(divide="ignore", invalid="ignore"):
         share = np.where(largest > 0, COVERS / math.sqrt(2) * largest / single, np.inf)
     for _ in range(_BISECTIONS):
         middle = (low + high) / 2
-        beyond = np.sum(special.erfc(middle * share) ** TOGETHER, axis=0) > 0.1**TOGETHER
+        beyond = np.sum(scipy.special.erfc(middle * share) ** TOGETHER, axis=0) > 0.1**TOGETHER
         low, high = np.where(beyond, middle, low), np.where(beyond, high, middle)
     return SAFETY * high * largest
 

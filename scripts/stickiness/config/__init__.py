@@ -5,6 +5,7 @@
 - `surface_entries`: what the schemas of materials and real surfaces cannot say
 - `experiment_entries`: what the schema of experiments cannot say
 - `measured_contact`: what the schema of contact of measured heights cannot say
+- `files`: the files that a configuration names
 - `measurements`: the files of a measured surface
 - `messages`: the sentences of the errors
 """

@@ -11,8 +11,9 @@ from typing import Any
 from stickiness.config.measured_contact import bem_problems
 from stickiness.config.measurements import measurements
 from stickiness.config.messages import unit_problem, unknown
+from stickiness.core import plausibility
 from stickiness.core.units import si
-from stickiness.measured import plausibility, readers
+from stickiness.measured import readers
 
 _BUILTIN = ("builtin:jacksboro",)
 
@@ -65,11 +66,14 @@ def layer_problems(material: Mapping[str, Any], surfaces: Mapping[str, Any]) -> 
                 )
 
 
-def surface_problems(surface: Mapping[str, Any]) -> Iterator[str]:
-    """Yield what is wrong with a real surface and its files, a line each."""
+def surface_problems(surface: Mapping[str, Any], made: bool = False) -> Iterator[str]:
+    """Yield what is wrong with a real surface and its files, a line each.
+
+    With `made`, files may be missing, since another workflow makes them.
+    """
     if surface["kind"] == "measured":
         for name, measurement in measurements(surface):
-            for problem in _file_problems(measurement):
+            for problem in _file_problems(measurement, made):
                 yield f"{name}{problem}"
         yield from bem_problems(surface)
         return
@@ -90,7 +94,7 @@ def surface_problems(surface: Mapping[str, Any]) -> Iterator[str]:
             yield f"{key} = {surface[key]!r} must be [low, high]"
 
 
-def _file_problems(measurement: Mapping[str, Any]) -> Iterator[str]:
+def _file_problems(measurement: Mapping[str, Any], made: bool) -> Iterator[str]:
     """Yield what is wrong with a measurement, as far as is known before its file is read."""
     file = measurement["file"]
     for key in ("height_unit", "position_unit"):
@@ -101,7 +105,8 @@ def _file_problems(measurement: Mapping[str, Any]) -> Iterator[str]:
             yield f"file = {file!r} is unknown; built in: {', '.join(_BUILTIN)}"
         return
     if not Path(file).is_file():
-        yield f"file = {file!r}: no such file; give a path from the working directory"
+        if not made:
+            yield f"file = {file!r}: no such file; give a path from the working directory"
         return
     yield from _side_problems(measurement)
     if "length" in measurement and "pixel_size" in measurement:

@@ -15,6 +15,10 @@ _MOST_PRESSURE = 1000.0  # over the rms slope; half of that slope is what flatte
 _MOST_HEIGHT, _LEAST_HEIGHT = 100.0, 1e-9  # rms height over the side of the cell
 LONGEST_SIDE = 0.5  # [m]; the longest travel of profilometers is 0.3 m
 SHORTEST_SIDE = 1e-9  # [m]; a few atoms
+REFUSED_SIDE = (
+    f"is longer than {LONGEST_SIDE:g} m, which no microscope or profilometer measures; correct it "
+    "(2 mm, not 2 m?), or give plausibility: ignore if it is so"
+)
 # Lowest and highest values of real solids and surfaces in SI units, with room to spare.
 _SI_LIMITS = {
     "length": (SHORTEST_SIDE, LONGEST_SIDE, "give the side of the heights in m (2e-3 for 2 mm)"),

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import math
 
+import scipy  # scipy.special is loaded when first used, a third of a second
 from numpy.typing import ArrayLike, NDArray
-from scipy import special  # not stats, whose import would cost every job a third of a second
 
 COVERS = 1.645  # standard deviations that cover 90 % of a normal distribution
 _QUANTILE = 0.95  # one-sided, of the same
@@ -13,7 +13,7 @@ _QUANTILE = 0.95  # one-sided, of the same
 
 def covering_multiple(freedom: ArrayLike) -> NDArray:
     """Return how many standard errors with so many degrees of freedom cover 90 %."""
-    return special.stdtrit(freedom, _QUANTILE)
+    return scipy.special.stdtrit(freedom, _QUANTILE)
 
 
 def students_t(seeds: int) -> float:

@@ -51,6 +51,11 @@ def _registry() -> pint.UnitRegistry:
     return pint.UnitRegistry()
 
 
+@cache  # a configuration is read more than once: for its checks and for its values
+def _parsed(value: str) -> pint.Quantity | float:
+    return _registry().Quantity(value)
+
+
 def si(value: str, unit: str) -> float:
     """Magnitude of a string such as "0.1 um" in the SI unit `unit`, which fixes its dimension.
 
@@ -73,7 +78,7 @@ def si(value: str, unit: str) -> float:
         raise ValueError(f"{value!r} holds a comma: write the number with a decimal point")
     _ask_back(value)
     try:
-        quantity = _registry().Quantity(value)
+        quantity = _parsed(value)
         magnitude = float(quantity.to(unit).magnitude)
     except pint.DimensionalityError:
         raise ValueError(f"{value!r} {_kind(quantity)}; {wanted}") from None
@@ -84,6 +89,7 @@ def si(value: str, unit: str) -> float:
     return magnitude
 
 
+@cache
 def _wanted(unit: str) -> str:
     """Say what is wanted in place of a value, by its SI unit."""
     for name, words, example in _QUANTITIES:

@@ -12,7 +12,7 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from stickiness.core.plausibility import LONGEST_SIDE, SHORTEST_SIDE
+from stickiness.core.plausibility import LONGEST_SIDE, REFUSED_SIDE, SHORTEST_SIDE
 from stickiness.core.statistics import COVERS
 from stickiness.measured.self_affine_fit import SelfAffineFit
 from stickiness.measured.spikes import find_spikes
@@ -29,10 +29,6 @@ LARGEST_MISFIT = 1.0  # relative; a spectrum off its law by more than a factor e
 HURST_BIAS = 0.1
 
 _NEXT = 3  # values on either side of a plateau's that it is compared with
-REFUSED_SIDE = (
-    f"is longer than {LONGEST_SIDE:g} m, which no microscope or profilometer measures; correct it "
-    "(2 mm, not 2 m?), or give plausibility: ignore if it is so"
-)
 
 
 def find_plateau(levels: NDArray, counts: NDArray) -> tuple[float, float] | None:
