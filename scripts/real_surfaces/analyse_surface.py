@@ -24,7 +24,7 @@ VARIABLE_TEXTS = {
     "fitted": ("1", "1 where the wave number is within the range of the fit"),
     "h_rms": ("m", "rms height"),
     "h_rms_measured": ("m", "rms height of the levelled heights, without a window"),
-    "h_rms_as_read": ("m", "the same with the points that were dropped or masked"),
+    "h_rms_as_read": ("m", "rms height of the levelled heights, with points dropped or masked"),
     "masked_spikes": ("1", "points far off all their neighbours, not used"),
     "rms_slope": ("1", "rms gradient, of waves up to q1"),
     "rms_curvature": ("1/m", "rms Laplacian, of waves up to q1"),

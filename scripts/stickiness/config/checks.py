@@ -35,7 +35,7 @@ _UNITS = {
     "work_of_adhesion": "J/m^2",
 }
 
-TABLES = ("materials", "surfaces", "experiments")  # files of their own, by the key that names them
+TABLES = ("materials", "surfaces", "experiments")  #: files of their own, by the key that names them
 # The surfaces that the claims ledger reads; may be edited but not removed.
 _PAPER_SURFACES = ("asphalt", "polished_steel")
 

@@ -7,7 +7,7 @@ import math
 from numpy.typing import ArrayLike, NDArray
 from scipy import special  # not stats, whose import would cost every job a third of a second
 
-COVERS = 1.645  # standard deviations that cover 90 % of a normal distribution
+COVERS = 1.645  #: standard deviations that cover 90 % of a normal distribution
 _QUANTILE = 0.95  # one-sided, of the same
 
 
