@@ -46,8 +46,8 @@ napoleon_use_rtype = False
 python_maximum_signature_line_length = 88
 
 html_theme = "furo"
+html_show_copyright = False
 html_title = f"{project} {release}"
-html_theme_options = {"source_directory": ""}
 
 
 def setup(app):
