@@ -103,7 +103,7 @@ class StickinessVerdict:
         if pair.adhesion_length > PULL_OFF_UNKNOWN * pair.elastic_energy:
             pull_off = f"at least {least:.2g} Pa (full contact, which was not simulated)"
         unlike = (
-            f"limits of what remains allow for {pair.widening:g} times the errors: "
+            f"limits of what remains allow for {pair.widening:.3g} times the errors: "
             "few surfaces with a direction were simulated\n"
         )
         return (
