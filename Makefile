@@ -20,7 +20,7 @@ draft: $(VENV)/.run  ## everything, quick and rough
 PYTEST := OMP_NUM_THREADS=1 $(BIN)/python -m pytest
 
 # Tests of the workflow share one run of it, which takes all cores itself.
-test: $(VENV)/.dev $(VENV)/.peers  ## all tests
+test: $(VENV)/.dev $(VENV)/.docs $(VENV)/.peers  ## all tests
 	$(PYTEST) -n $(CORES) -m "not workflow"
 	$(PYTEST) -m workflow
 
@@ -43,8 +43,13 @@ dag: $(VENV)/.run  ## what would run
 	@found=$$($(BIN)/snakemake -n --quiet host rules reason 2>&1) || { echo "$$found"; exit 1; }; \
 	echo "$$found" | sed -n '/^Nothing/p; /^job /,/^total/p; /^total/q'
 
-docs: $(VENV)/.run  ## the reference of the configuration, from the schemas
+# Sphinx runs the notebook, too, and takes the root of the project for its folder of sources.
+SPHINX := $(BIN)/python -m sphinx -W --keep-going -c docs
+
+docs: $(VENV)/.docs  ## pages in docs/_build/html, the reference of the configuration, pictures of the rules
 	$(BIN)/python docs/write_config.py
+	$(BIN)/python docs/draw_rules.py
+	$(SPHINX) -b html . docs/_build/html
 
 numbers: $(VENV)/.run  ## the numbers of README.md and docs, from results/standard and results/draft
 	$(BIN)/python docs/fill_numbers.py
@@ -65,6 +70,10 @@ $(VENV)/.run: envs/requirements.txt envs/constraints.txt | $(VENV)/bin/python
 
 $(VENV)/.dev: envs/dev.txt $(VENV)/.run
 	$(PIP) -r envs/dev.txt
+	touch $@
+
+$(VENV)/.docs: envs/docs.txt $(VENV)/.run
+	$(PIP) -r envs/docs.txt
 	touch $@
 
 # Reference codes for tests and benchmarks, which leave out those that do not install.

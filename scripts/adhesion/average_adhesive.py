@@ -46,7 +46,7 @@ FITS = {
 LOADWISE = {"inverse_kappa_fit": "inverse_kappa", "inverse_kappa_ad_fit": "inverse_kappa_ad"}
 RATIOS = {
     "dmt_ratio": ("1/kappa_ad of the full simulation over that of the DMT limit", None),
-    "dmt_ratio_net": ("the same with the net repulsive area", None),
+    "dmt_ratio_net": ("1/kappa_ad with the net repulsive area over that of the DMT limit", None),
 }
 ALL = STATES | SLOPES | FITS | RATIOS
 OTHERS = {

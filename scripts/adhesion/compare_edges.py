@@ -132,12 +132,13 @@ def attractive_area(areas, ranges, law):
 
 
 def annotate(dataset):
+    effect = "attraction at equal area of contact over the DMT limit"
     return conventions.annotate(
         dataset,
         attractive_over_contact=("1", "attractive over contact area without adhesion", MISSING),
         edge_strength=("1", "Tabor's parameter of the edges", MISSING),
-        effect=("1", "attraction at equal area of contact over the DMT limit", MISSING),
-        effect_model=("1", "the same by the equivalent sphere", MISSING),
+        effect=("1", effect, MISSING),
+        effect_model=("1", f"{effect}, by the equivalent sphere", MISSING),
         over_model=("1", "simulation over model, mean over realisations", MISSING),
     )
 

@@ -45,7 +45,7 @@ STATE = {
 }
 ALONE = {
     "area_alone": "contact area without adhesion over nominal area, by pixels",
-    "mean_gap": "mean gap over h_rms, the same with and without adhesion",
+    "mean_gap": "mean gap over h_rms, with and without adhesion",
     "edge_gap": "gap next to the contact without adhesion over h_rms",
 }
 # Not that of the contact without adhesion: a looser one turns single pixels, and their area is all

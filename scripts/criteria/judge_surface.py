@@ -20,7 +20,7 @@ from pipeline.verdicts.pairs import (
 from pipeline.verdicts.probabilities import find_probabilities
 from pipeline.verdicts.words import decide_pairs, find_disagreement, find_doubts, withhold
 from stickiness.core import datasets
-from stickiness.criteria.pair import WORDS
+from stickiness.criteria.pair import REGIMES, WORDS
 from stickiness.criteria.registry import CRITERIA
 
 OF_SURFACES = (*BY_END, "q0", "q1", "hurst", "psd")
@@ -34,14 +34,12 @@ def main(job):
     }
     materials = {name: read_material(entry) for name, entry in job.params.materials.items()}
     frequencies = logarithmic_grid(job.params.frequencies)
+    label = datasets.parameters(surface)["label"]
     datasets.write(
         find_verdicts(materials, {job.wildcards.real_surface: surface}, own, frequencies),
         job.output[0],
-        title="verdicts of the stickiness criteria on one surface",
-        parameters={
-            "materials": job.params.materials,
-            "label": datasets.parameters(surface)["label"],
-        },
+        title=f"verdicts of the stickiness criteria: {label}",
+        parameters={"materials": job.params.materials, "label": label},
     )
 
 
@@ -82,7 +80,8 @@ def describe(dataset):
     remains = "share of the work of adhesion that remains"
     pull_off = "largest mean tension on separation"
     threshold = "plane-strain modulus below which the wanted share remains"
-    return datasets.annotate(
+    words = ", ".join(f"{code} {word}" for code, word in enumerate(WORDS))
+    dataset = datasets.annotate(
         dataset,
         material=("1", "material"),
         surface=("1", "real surface"),
@@ -126,7 +125,7 @@ def describe(dataset):
         pull_off_quantile=("Pa", f"quantiles of the {pull_off}", "not measured"),
         work_of_adhesion=("J/m^2", "work of adhesion"),
         threshold_by_criterion=("Pa", "plane-strain modulus below which a criterion says sticky"),
-        verdict=("1", ", ".join(f"{code} {word}" for code, word in enumerate(WORDS))),
+        verdict=("1", f"verdict: {words}"),
         probability=("1", "share of draws that stick", "surface not measured"),
         not_judged=("1", "why a pair is not judged, a line each; empty if it is"),
         quantile=("1", "quantile of the draws"),
@@ -145,6 +144,9 @@ def describe(dataset):
         depends_on_rate=("1", "1 where the modulus is given as a function of the frequency"),
         disagrees=("1", "1 where a criterion says the opposite of the verdict"),
     )
+    dataset.verdict.attrs |= datasets.flags(WORDS)
+    dataset.regime.attrs |= datasets.flags(REGIMES)
+    return dataset
 
 
 def describe_curves(remains):

@@ -19,6 +19,13 @@ QUOTED = {
     "work_of_separation": ("J/m^2", "apparent work of adhesion on separation"),
     "limiting_roughness": ("m", "rms height at which adhesion falls to the level observed"),
 }
+LIMITS = {
+    "": "",
+    "_low": ", low limit of the model",
+    "_high": ", high limit of the model",
+    "_lowest": ", lowest limit over all that is plausible",
+    "_highest": ", highest limit over all that is plausible",
+}
 NOT_OBSERVED = "not observed"
 LARGEST_EFFECT = 1e9  # of an input, in place of an infinite one
 
@@ -120,31 +127,26 @@ def describe_observed(observation, predicted):
 
 def describe(dataset):
     texts = {}
-    for name, (unit, text) in QUOTED.items():
-        texts[name] = unit, text
-        texts[f"{name}_low"] = unit, f"{text}, low limit of the model"
-        texts[f"{name}_high"] = unit, f"{text}, high limit of the model"
-        texts[f"{name}_lowest"] = unit, f"{text}, lowest limit over all that is plausible"
-        texts[f"{name}_highest"] = unit, f"{text}, highest limit over all that is plausible"
+    quoted = QUOTED | {"pull_off_curve": QUOTED["relative_pull_off"]}
+    for name, (unit, text) in quoted.items():
+        texts |= {f"{name}{end}": (unit, f"{text}{limit}") for end, limit in LIMITS.items()}
     for name in (*OBSERVED_UNITS, "sticks"):
         unit, text = QUOTED.get(name, ("1", "whether the pair sticks"))
         for end in ("low", "high"):
             texts[f"observed_{name}_{end}"] = unit, f"{text}, observed, {end} limit", NOT_OBSERVED
-    for end in ("", "_low", "_high", "_lowest", "_highest"):
-        texts[f"pull_off_curve{end}"] = "1", f"pull-off over that from a smooth surface{end}"
     outcomes = ", ".join(f"{code} {word}" for code, word in enumerate(judgements.OUTCOMES))
     grades = ", ".join(f"{code} {word}" for code, word in enumerate(GRADES))
     beyond = "beyond the heights followed"
-    for end in ("", "_low", "_high", "_lowest", "_highest"):
+    for end in LIMITS:
         name = f"limiting_roughness{end}"
         texts[name] = (*texts[name], beyond)
-    return datasets.annotate(
+    dataset = datasets.annotate(
         dataset,
         case=("1", "experiment and case"),
         criterion=("1", "stickiness criterion"),
         roughness=("m", "rms height"),
         quantity=("1", "what was observed"),
-        outcome=("1", outcomes),
+        outcome=("1", f"outcome: {outcomes}"),
         value_inside=("1", "1 where the value itself agrees, every input in the middle"),
         by_relation=("1", "1 where a relation was observed, evaluated with the inputs"),
         tests=("1", "1 where a published number or answer is held against the prediction"),
@@ -155,13 +157,17 @@ def describe(dataset):
         work_of_adhesion=("J/m^2", "work of adhesion"),
         h_rms=("m", "rms height, given or limiting"),
         most_effective_input=("1", "input within whose limits the prediction changes most"),
-        effect_of_input=("1", "factor by which it does, at most 1e9", "nothing is predicted"),
+        effect_of_input=(
+            "1",
+            "factor by which this input changes the prediction, at most 1e9",
+            "nothing is predicted",
+        ),
         effect_of_shortest_wave=(
             "1",
             "factor by which the shortest wave changes the prediction, at most 1e9",
             "nothing is predicted",
         ),
-        criterion_outcome=("1", f"-1 nothing decided, {outcomes}"),
+        criterion_outcome=("1", f"outcome by a criterion: -1 nothing decided, {outcomes}"),
         criterion_roughness=(
             "m",
             "rms height up to which a criterion says sticky",
@@ -169,6 +175,12 @@ def describe(dataset):
         ),
         **texts,
     )
+    dataset.outcome.attrs |= datasets.flags(judgements.OUTCOMES)
+    silent = ("nothing decided", *judgements.OUTCOMES)
+    dataset.criterion_outcome.attrs |= datasets.flags(silent, first=judgements.SILENT)
+    for name in ("known", "observed_known"):
+        dataset[name].attrs |= datasets.flags(GRADES)
+    return dataset
 
 
 def add_budgets(dataset):

@@ -187,6 +187,7 @@ def annotate(dataset):
     interval += "errors"
     agree = "1 where one gamma lies within the intervals of the three quantities; where 0, that of "
     agree += f"{EVERY} is a compromise that none of them may hold"
+    misfit = "root mean square of ln(theory/simulation) at the"
     return datasets.annotate(
         dataset,
         correction=("1", "correction of the theory"),
@@ -194,8 +195,8 @@ def annotate(dataset):
         gamma=("1", "gamma at which theory agrees best with simulation"),
         gamma_low=("1", f"low end of the {interval}"),
         gamma_high=("1", f"high end of the {interval}"),
-        misfit=("1", "root mean square of ln(theory/simulation) at the best gamma"),
-        misfit_own=("1", "the same at the gamma of the correction's source"),
+        misfit=("1", f"{misfit} best gamma"),
+        misfit_own=("1", f"{misfit} gamma of the correction's source"),
         quantities_agree=("1", agree),
         own_gamma=("1", "gamma of the correction's source"),
     )

@@ -18,13 +18,13 @@ from stickiness.core.statistics import COVERS
 VARIABLE_TEXTS = {
     "end": ("1", "smooth or rough end of what is known of the surface"),
     "wave_number": ("1/m", "wave number"),
-    "psd": ("m^4", "power spectral density C, h_rms^2 = 2 pi int q C dq"),
+    "psd": ("m^4", "power spectral density"),
     "psd_standard_error": ("m^4", "sampling error of the power spectral density"),
     "psd_fit": ("m^4", "fitted self-affine spectrum"),
     "fitted": ("1", "1 where the wave number is within the range of the fit"),
     "h_rms": ("m", "rms height"),
     "h_rms_measured": ("m", "rms height of the levelled heights, without a window"),
-    "h_rms_as_read": ("m", "the same with the points that were dropped or masked"),
+    "h_rms_as_read": ("m", "rms height of the levelled heights, with points dropped or masked"),
     "masked_spikes": ("1", "points far off all their neighbours, not used"),
     "rms_slope": ("1", "rms gradient, of waves up to q1"),
     "rms_curvature": ("1/m", "rms Laplacian, of waves up to q1"),
@@ -127,7 +127,9 @@ def annotate(dataset):
         "C0_reference_upper": (reference, f"largest C q^(2(H+1)) at H = {REFERENCE_HURST}"),
     }
     present = {name: text for name, text in texts.items() if name in dataset.variables}
-    return add_budgets(datasets.annotate(dataset, **present), errors)
+    dataset = datasets.annotate(dataset, **present)
+    dataset.psd.attrs["comment"] = "h_rms^2 = 2 pi int q C dq"
+    return add_budgets(dataset, errors)
 
 
 if __name__ == "__main__":

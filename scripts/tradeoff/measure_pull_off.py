@@ -118,7 +118,7 @@ def annotate(dataset):
         **measuring.SHARED_TEXTS,
         balance=("1", "error of the energy balance of a step over the energies of the path"),
         pull_off=("1", "lowest mean pressure over E* q0 h_rms"),
-        pull_off_dmt=("1", "the same in the DMT limit"),
+        pull_off_dmt=("1", "lowest mean pressure over E* q0 h_rms in the DMT limit"),
         range_over_h_rms=VARIABLES["range_over_h_rms"],
         adhesion_length_over_range=VARIABLES["adhesion_length_over_range"],
         seconds=("s", "processor time of the separation"),

@@ -1,6 +1,8 @@
-"""Documentation that can go stale: configuration, links, files that pages name, the example."""
+"""Documentation that can go stale: configuration, links, files named, pictures, examples, pages."""
 
 import importlib.util
+import json
+import os
 import re
 import subprocess
 import sys
@@ -155,7 +157,7 @@ def test_map_leads_to_solver_fit_verdict_and_errors():
 
 
 def test_pages_are_few_and_readme_is_short():
-    assert len(PAGES) <= 1 + 7
+    assert len(PAGES) <= 1 + 9
     assert len((ROOT / "README.md").read_text(encoding="utf-8").splitlines()) <= 120
 
 
@@ -169,3 +171,108 @@ def test_anchors_between_pages_exist():
         for target, anchor in re.findall(r"\]\(([^)#\s]*)#([^)]+)\)", text):
             file = (ROOT / page).parent / target if target else ROOT / page
             assert anchor in anchors(file), f"{page}: {target}#{anchor}"
+
+
+@pytest.fixture(scope="module")
+def draw_rules():
+    return script_of_docs("draw_rules")
+
+
+def test_arrows_that_follow_from_others_are_left_out(draw_rules):
+    arrows = {("a", "b"), ("b", "c"), ("c", "d"), ("a", "c"), ("a", "d"), ("x", "d")}
+    kept = {("a", "b"), ("b", "c"), ("c", "d"), ("x", "d")}
+    assert draw_rules.reduce_arrows(arrows) == kept
+
+
+@pytest.mark.slow
+@pytest.mark.workflow
+def test_pictures_of_the_rules_are_up_to_date(draw_rules):
+    for picture, (names, arrows) in draw_rules.wanted().items():
+        assert min(len(names), len(arrows)) > 10
+        assert draw_rules.shown(picture) == (names, arrows), "run: python docs/draw_rules.py"
+
+
+NOTEBOOK = ROOT / "examples/from_heights_to_verdict.ipynb"
+
+
+def test_notebook_is_kept_without_outputs():
+    cells = json.loads(NOTEBOOK.read_text(encoding="utf-8"))["cells"]
+    code = [cell for cell in cells if cell["cell_type"] == "code"]
+    assert len(code) > 10
+    for cell in code:
+        assert cell["outputs"] == []
+        assert cell["execution_count"] is None
+
+
+@pytest.mark.slow
+@pytest.mark.workflow
+def test_notebook_runs(monkeypatch):
+    """In its own folder, as Jupyter runs it; the verdicts are those of the tutorial's wall."""
+    nbformat, nbclient = pytest.importorskip("nbformat"), pytest.importorskip("nbclient")
+    monkeypatch.setenv("PYTHONPATH", str(ROOT / "scripts"))
+    notebook = nbformat.read(NOTEBOOK, as_version=4)
+    nbclient.NotebookClient(
+        notebook, timeout=300, resources={"metadata": {"path": str(NOTEBOOK.parent)}}
+    ).execute()
+    outputs = [out for cell in notebook.cells for out in cell.get("outputs", [])]
+    said = "".join(out["text"] for out in outputs if out["output_type"] == "stream")
+    hurst, error = map(float, re.search(r"^H +?= ([\d.]+) ± ([\d.]+)", said, re.M).groups())
+    assert abs(hurst - 0.8) < 3 * error
+    assert re.findall(r"^([a-z ]+): [\d.e-]+ of the work of adhesion", said, re.M) == [
+        "does not stick",
+        "sticks",
+    ]
+    pictures = [out for out in outputs if "image/png" in out.get("data", {})]
+    assert len(pictures) >= 8
+
+
+@pytest.fixture(scope="module")
+def pages(tmp_path_factory):
+    """The pages as `make docs` builds them, warnings being errors, but for the notebook's run."""
+    pytest.importorskip("sphinx")
+    folder = tmp_path_factory.mktemp("pages")
+    command = [sys.executable, "-m", "sphinx", "-W", "--keep-going", "-q", "-c", "docs"]
+    done = subprocess.run(
+        [*command, "-D", "nb_execution_mode=off", ".", str(folder)],
+        cwd=ROOT,
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.returncode == 0, done.stderr
+    return folder
+
+
+@pytest.mark.slow
+def test_reference_has_every_public_name_of_the_library(pages):
+    from sphinx.util.inventory import InventoryFile
+
+    import stickiness
+
+    with (pages / "objects.inv").open("rb") as file:
+        listed = InventoryFile.load(file, "", os.path.join)
+    listed = {name for kind, names in listed.items() if kind.startswith("py:") for name in names}
+    assert "stickiness.verdict" in listed
+    modules = [name for name in dir(stickiness) if name not in ("verdict", "__version__")]
+    for module in modules:
+        part = getattr(stickiness, module)
+        for name in getattr(part, "__all__", []):
+            value = getattr(part, name)
+            places = {part.__name__, getattr(value, "__module__", None)}
+            if not callable(value):  # constants are described where they are defined
+                places |= {one.rpartition(".")[0] for one in listed if one.endswith(f".{name}")}
+            found = {f"{place}.{name}" for place in places} & listed
+            assert found, f"{part.__name__}.{name}: not in docs/library, or not described"
+
+
+@pytest.mark.slow
+def test_links_between_built_pages_lead_somewhere(pages):
+    """Links that lead to a file in the pages, such as those from README.md to docs."""
+    checked = 0
+    for page in [*pages.glob("*.html"), *pages.glob("docs/*.html")]:
+        text = page.read_text(encoding="utf-8")
+        for target in re.findall(r'(?:href|src)="([^"#?]+)[^"]*"', text):
+            if not re.match(r"[a-z]+:", target):
+                assert (page.parent / target).exists(), f"{page.relative_to(pages)}: {target}"
+                checked += 1
+    assert checked > 100

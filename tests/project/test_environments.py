@@ -97,7 +97,9 @@ def test_container_is_made_of_the_pins():
             assert (ROOT / source).exists(), source
 
 
-@pytest.mark.parametrize("name", ["requirements.txt", "dev.txt", "slurm.txt", "progress.txt"])
+@pytest.mark.parametrize(
+    "name", ["requirements.txt", "dev.txt", "docs.txt", "slurm.txt", "progress.txt"]
+)
 def test_constraints_agree(name):
     constraints = pip_pins("constraints.txt")
     for package, version in pip_pins(name).items():
@@ -137,6 +139,6 @@ def test_the_library_depends_on_what_it_imports_alone():
 
 
 def test_tests_import_nothing_that_no_environment_names():
-    files = ("requirements.txt", "dev.txt", "peers.txt", "instruments.txt")
+    files = ("requirements.txt", "dev.txt", "docs.txt", "peers.txt", "instruments.txt")
     named = {package for name in files for package in pip_pins(name)}
     assert imported_by("tests") <= named

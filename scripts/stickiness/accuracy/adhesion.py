@@ -24,9 +24,9 @@ QUANTITIES = {
     "pull_off": ("pull_off",),
 }
 COLUMNS = tuple(itertools.chain(*QUANTITIES.values()))
-TOLERANCE = 1e-7  # of the solver of full adhesion, whatever that of the settings
-PULL_OFF_UP_TO = 32  # magnification to which pull-offs were measured
-FEWEST = 8  # seeds from which on a mean has a control
+TOLERANCE = 1e-7  #: of the solver of full adhesion, whatever that of the settings
+PULL_OFF_UP_TO = 32  #: magnification to which pull-offs were measured
+FEWEST = 8  #: seeds from which on a mean has a control
 
 
 def predicted_error(problem: Problem, settings: Settings, pressure: float, column: str) -> float:

@@ -21,7 +21,7 @@ from stickiness.accuracy.prediction import (
 )
 from stickiness.core.statistics import COVERS
 
-SAME_COST = 1.05  # ratio of costs that were not measured well enough to tell them apart
+SAME_COST = 1.05  #: ratio of costs that were not measured well enough to tell them apart
 
 # From what settings are put together; the pixels are those for which errors were measured.
 PIXELS = (4, 8, 16)

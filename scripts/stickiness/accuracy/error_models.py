@@ -24,8 +24,8 @@ from stickiness.accuracy.quantities import MODELLED, columns_of
 
 PARTS = ("discretisation", "solver", "scatter", "fine_share", "coarse_share", "theory", "carrying")
 COSTS = ("fine_cost", "coarse_cost", "described_cost", "tolerance_cost")
-COARSE = 2  # pixels per shortest wavelength of the coarse seeds, the fewest that hold it
-FULL = 1e-8  # tolerance at which costs were measured
+COARSE = 2  #: pixels per shortest wavelength of the coarse seeds, the fewest that hold it
+FULL = 1e-8  #: tolerance at which costs were measured
 # Where the models were fitted or, at the largest Hurst exponent and the smallest pressure, compared
 # with other simulations.
 MEASURED = {
@@ -36,7 +36,7 @@ MEASURED = {
 }
 # Finer settings have at most the error at the edge; coarser ones are outside what was measured.
 KNOBS = {"pixels": (4.0, 16.0), "tolerance": (1e-8, 1e-3)}
-OUTSIDE = 2.0  # factor by which errors outside are widened; P(u) at magnification 128 needs 1.1
+OUTSIDE = 2.0  #: factor by which errors outside are widened; P(u) at magnification 128 needs 1.1
 
 
 @dataclass(frozen=True)

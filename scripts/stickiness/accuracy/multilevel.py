@@ -257,9 +257,9 @@ def descriptors(
     Returns
     -------
     (number of seeds, 7) array
-        In the order of `DESCRIPTORS`: mean of |q| times the height variance [length], which is 4/E*
-        times the elastic energy of full contact per area; rms slope and its square; mean height
-        [length] of the highest 1, 3, 10 and 30 % of the area.
+        In the order of `DESCRIPTORS`: mean of ``|q|`` times the height variance [length], which is
+        4/E* times the elastic energy of full contact per area; rms slope and its square; mean
+        height [length] of the highest 1, 3, 10 and 30 % of the area.
     """
     check_window(spectrum, length)
     if amplitudes not in ("gaussian", "fixed"):

@@ -25,9 +25,9 @@ from stickiness.accuracy.quantities import (
     refuse_unknown,
 )
 
-FEWEST_COARSE = 64  # coarse seeds if nothing says how many
-FIRST_FILE = 64  # coarse seeds in the first file of a case
-SEEDS_A_FILE = 4  # fine seeds: few enough to spread over cores, enough to outweigh a start
+FEWEST_COARSE = 64  #: coarse seeds if nothing says how many
+FIRST_FILE = 64  #: coarse seeds in the first file of a case
+SEEDS_A_FILE = 4  #: fine seeds: few enough to spread over cores, enough to outweigh a start
 
 
 @dataclass(frozen=True)
@@ -35,12 +35,12 @@ class Plan:
     """How one case is solved."""
 
     settings: Settings
-    quantities: tuple[str, ...]  # what is wanted, of `quantities.QUANTITIES`
-    pressures: tuple[float, ...]  # ascending
-    surface: str  # name of the model surface
-    simulated: bool  # false if theory alone is asked for
-    # Case whose solutions of single realisations are used: the case itself or an earlier one on
-    # the same surface and settings that has all its loads.
+    quantities: tuple[str, ...]  #: what is wanted, of `quantities.QUANTITIES`
+    pressures: tuple[float, ...]  #: ascending
+    surface: str  #: name of the model surface
+    simulated: bool  #: false if theory alone is asked for
+    #: Case whose solutions of single realisations are used: the case itself or an earlier one on
+    #: the same surface and settings that has all its loads.
     owner: str
 
     @property

@@ -38,7 +38,7 @@ from stickiness.core.statistics import COVERS, covering_multiple
 # accuracy, at a median of 1.23 times the least cost; without it 88 % on the hardest of these. Half
 # of that was taken before the surfaces of `validation` were looked at.
 SAFETY = 1.05
-TOGETHER = 2.0  # power with which chances add up; 1 would be a plain sum, infinity their largest
+TOGETHER = 2.0  #: power with which chances add up; 1 would be a plain sum, infinity their largest
 _BISECTIONS = 16
 
 
@@ -46,11 +46,11 @@ _BISECTIONS = 16
 class Problem:
     """What is to be known, and how errors are predicted."""
 
-    models: ErrorModels  # of `error_models.read_models`
+    models: ErrorModels  #: of `error_models.read_models`
     surface: Surface
-    pressures: Sequence[float]  # mean, over E* q0 h_rms
-    columns: Sequence[str]  # of the quantities wanted, see `quantities.columns_of`
-    descriptor_seeds: int = 2048  # of which only the long waves are looked at
+    pressures: Sequence[float]  #: mean, over E* q0 h_rms
+    columns: Sequence[str]  #: of the quantities wanted, see `quantities.columns_of`
+    descriptor_seeds: int = 2048  #: of which only the long waves are looked at
 
     @property
     def points(self) -> list[tuple[float, str]]:

@@ -25,16 +25,16 @@ Measure = Callable[[NDArray, NDArray, float], float]
 class Column:
     """One number of a quantity at each load."""
 
-    name: str  # in the tables of errors and in the answer to a case
-    text: str  # in files of results
-    label: str  # in the report
-    variable: str  # in the file of results, without an ending such as ``_mean``
-    heading: str = ""  # of a narrow table
-    # where along `range` or `gap`, over h_rms
+    name: str  #: in the tables of errors and in the answer to a case
+    text: str  #: in files of results
+    label: str  #: in the report
+    variable: str  #: in the file of results, without an ending such as ``_mean``
+    heading: str = ""  #: of a narrow table
+    #: where along `range` or `gap`, over h_rms
     at: Mapping[str, float] = field(default_factory=dict)
-    file: str = "ensemble"  # or the fit ``a_v`` or ``kappa``
-    # Value by a `Persson` at a pressure, up to a factor that no magnification changes. Without
-    # it theory alone cannot answer a case, nor extrapolate it to a broader spectrum.
+    file: str = "ensemble"  #: or the fit ``a_v`` or ``kappa``
+    #: Value by a `Persson` at a pressure, up to a factor that no magnification changes. Without
+    #: it theory alone cannot answer a case, nor extrapolate it to a broader spectrum.
     of_theory: OfTheory | None = None
 
     def __post_init__(self) -> None:
@@ -48,11 +48,11 @@ class Quantity:
 
     name: str
     columns: tuple[Column, ...]
-    means: tuple[str, ...]  # of the ensemble, that it needs
-    # Measures it on one solution, from heights (n, n) over h_rms, gaps (n, n) over h_rms and
-    # the side of the cell over 1/q0. Solvers call it if a case asks for the quantity.
+    means: tuple[str, ...]  #: of the ensemble, that it needs
+    #: Measures it on one solution, from heights (n, n) over h_rms, gaps (n, n) over h_rms and
+    #: the side of the cell over 1/q0. Solvers call it if a case asks for the quantity.
     measure: Measure | None = None
-    # Whether its errors were measured. Cases have all such quantities by default.
+    #: Whether its errors were measured. Cases have all such quantities by default.
     has_error_model: bool = True
 
     def __post_init__(self) -> None:

@@ -65,12 +65,12 @@ from scipy.optimize import elementwise
 from stickiness.adhesion.area_load import traction_ratio
 from stickiness.core.arguments import plain, positive
 
-KAPPA_REP = 2.0  # area over load without adhesion, A_rep/A_nom = kappa p/(E* h'_rms)
+KAPPA_REP = 2.0  #: area over load without adhesion, A_rep/A_nom = kappa p/(E* h'_rms)
 
-WEAK = 0.2  # strength tau up to which adhesion is weak
-STRONGEST_SIMULATED = 4.0  # strength tau up to which the model was held against simulation
+WEAK = 0.2  #: strength tau up to which adhesion is weak
+STRONGEST_SIMULATED = 4.0  #: strength tau up to which the model was held against simulation
 TOUGH, TOUGH_WITHIN = 2.0, 0.1  # see `tough`
-SMALLEST_SIMULATED = 0.13  # attractive over contact area from which on it was
+SMALLEST_SIMULATED = 0.13  #: attractive over contact area from which on it was
 # Factors, up or down, within which simulation agrees with the model; beyond what was simulated a
 # guess that allows for edges with scattered B and for contacts that are no spheres.
 ERROR_WEAK, ERROR_STRONG, ERROR_BEYOND = 1.3, 1.4, 2.0
@@ -80,12 +80,12 @@ ERROR_WEAK, ERROR_STRONG, ERROR_BEYOND = 1.3, 1.4, 2.0
 class EdgeAttraction:
     """Attraction on a rough contact at a given area of contact."""
 
-    # What adhesion takes off the external load, over the load without it; sticky above 1.
+    #: What adhesion takes off the external load, over the load without it; sticky above 1.
     ratio: float | NDArray
-    error_factor: float | NDArray  # up or down, by which `ratio` may be wrong for the model's sake
-    effect: float | NDArray  # `ratio` over its DMT limit
-    attractive_over_contact: float | NDArray  # area within the range, without adhesion
-    strength: float | NDArray  # Tabor's tau of the edges: weak below `WEAK`, see `tough`
+    error_factor: float | NDArray  #: up or down, by which `ratio` may be wrong for the model's sake
+    effect: float | NDArray  #: `ratio` over its DMT limit
+    attractive_over_contact: float | NDArray  #: area within the range, without adhesion
+    strength: float | NDArray  #: Tabor's tau of the edges: weak below `WEAK`, see `tough`
 
     @property
     def simulated(self) -> bool | NDArray:

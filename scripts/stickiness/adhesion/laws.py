@@ -47,10 +47,10 @@ class TractionLaw(ABC):
 
     adhesion_length: float
     range: float
-    # Whether a wall at gap 0 repels; if not, the law itself does, and gaps must exceed -range.
+    #: Whether a wall at gap 0 repels; if not, the law itself does, and gaps must exceed -range.
     hard_wall: ClassVar[bool] = True
-    # Whether the traction is continuous beyond the wall; where it is not it must jump at `range`
-    # between constants, as that of Maugis does.
+    #: Whether the traction is continuous beyond the wall; where it is not it must jump at `range`
+    #: between constants, as that of Maugis does.
     smooth: ClassVar[bool] = True
 
     def __post_init__(self):

@@ -42,8 +42,8 @@ class ErrorTable:
     def relative_error(self, law: str, hurst: float, *values: float) -> float:
         """Largest relative error of the DMT limit in 1/kappa_ad, NaN outside the table.
 
-        It is |DMT/full - 1| with the ratio as far from 1 as its error allows. The values are in the
-        order of `AXES`, positive and finite (else ValueError); between the lattice's points,
+        It is ``|DMT/full - 1|`` with the ratio as far from 1 as its error allows. The values are in
+        the order of `AXES`, positive and finite (else ValueError); between the lattice's points,
         logarithms are linear.
         """
         if (law, hurst) not in self.lattices:
@@ -114,9 +114,9 @@ def _lattice(points):
 class Choice:
     """Model of every point, arrays (pressures, adhesion lengths, ranges), each in rising order."""
 
-    full: NDArray  # bool: whether the full model is to be solved, else the DMT limit
-    dmt_error: NDArray  # relative error of the DMT limit by the table, NaN outside it
-    jtb: NDArray  # bool: whether the condition of Joe, Thouless and Barber for that limit holds
+    full: NDArray  #: bool: whether the full model is to be solved, else the DMT limit
+    dmt_error: NDArray  #: relative error of the DMT limit by the table, NaN outside it
+    jtb: NDArray  #: bool: whether the condition of Joe, Thouless and Barber for that limit holds
 
 
 def choose(asked: Mapping[str, Any], surface: Mapping[str, Any], table: ErrorTable) -> Choice:

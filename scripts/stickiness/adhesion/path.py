@@ -160,10 +160,10 @@ class _Follower:
     balance: float
     smallest_jump: float
     located: float
-    span: float  # between the largest and the smallest value of the control
-    left: int  # states that may still be computed
+    span: float  #: between the largest and the smallest value of the control
+    left: int  #: states that may still be computed
     logger: object
-    scale: float = 0.0  # largest change of elastic plus interaction energy so far [E* length]
+    scale: float = 0.0  #: largest change of elastic plus interaction energy so far [E* length]
 
     def __post_init__(self):
         self.scale = _LEAST_SCALE * self.first.law.adhesion_length

@@ -9,7 +9,7 @@ import numpy as np
 from stickiness.contact import convolution, half_space
 from stickiness.solids import HALF_SPACE
 
-LONGEST = np.pi  # |q| / 2 of the longest wave across a side of 1
+LONGEST = np.pi  #: ``|q|`` / 2 of the longest wave across a side of 1
 # Yield of short waves over that of the shortest on its own; 1 to 2 do about equally well.
 _SHORT = 1.6
 

@@ -22,8 +22,8 @@ class Surface:
     """Heights (about their mean, in h_rms) with the elasticity of the solid on their grid."""
 
     heights: np.ndarray
-    sides: tuple  # of the cell, in units of the first
-    solid: Solid = HALF_SPACE  # its thickness in the same unit
+    sides: tuple  #: of the cell, in units of the first
+    solid: Solid = HALF_SPACE  #: its thickness in the same unit
 
     @property
     def exact(self):
@@ -59,8 +59,8 @@ class Problem:
     """Surface, law (in the units of the surface) and control: a pressure or a mean gap."""
 
     surface: Surface
-    law: object  # TractionLaw or FrozenTraction
-    unit: float  # pressure that residuals are measured in
+    law: object  #: TractionLaw or FrozenTraction
+    unit: float  #: pressure that residuals are measured in
     pressure: float | None = None
     mean_gap: float | None = None
 
@@ -74,8 +74,8 @@ class Problem:
 class FrozenTraction:
     """Traction that does not depend on the gap: with the hard wall the problem is convex."""
 
-    field: np.ndarray  # or one number
-    range: float  # of the law it is frozen from
+    field: np.ndarray  #: or one number
+    range: float  #: of the law it is frozen from
     hard_wall = True
     hardens = False
 

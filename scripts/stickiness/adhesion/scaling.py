@@ -10,7 +10,7 @@ from stickiness.contact.grids import measure_scale
 from stickiness.solids import HALF_SPACE
 
 APPROACH, SEPARATION = "approach", "separation"
-CLOSEST = 0.9  # of the range: penetration of a start, or in the mean, without a wall
+CLOSEST = 0.9  #: of the range: penetration of a start, or in the mean, without a wall
 
 
 @dataclass(frozen=True, eq=False)
@@ -104,7 +104,7 @@ class Scaled:
     law: object
     original_law: object
     lengths: tuple
-    height: float  # unit of heights and gaps
+    height: float  #: unit of heights and gaps
     rms_height: float
     residual_unit: float
 

@@ -17,19 +17,19 @@ class State:
     """A gap with what follows from it."""
 
     gap: np.ndarray
-    elastic: np.ndarray  # pressure of zero mean that belongs to the gap
-    traction: np.ndarray  # of the law at this gap, with its slope
+    elastic: np.ndarray  #: pressure of zero mean that belongs to the gap
+    traction: np.ndarray  #: of the law at this gap, with its slope
     slope: np.ndarray
-    free: np.ndarray  # points that are open or would be pulled by the wall
-    # Sum of elastic pressure, traction and mean pressure on free points, in the problem's unit and
-    # in single precision: zero in equilibrium.
+    free: np.ndarray  #: points that are open or would be pulled by the wall
+    #: Sum of elastic pressure, traction and mean pressure on free points, in the problem's unit and
+    #: in single precision: zero in equilibrium.
     force: np.ndarray
-    potential: float = 0.0  # mean of the law's
-    pressure: float = 0.0  # mean, prescribed or that of the prescribed mean gap
-    residual: float = np.inf  # largest magnitude of the force
+    potential: float = 0.0  #: mean of the law's
+    pressure: float = 0.0  #: mean, prescribed or that of the prescribed mean gap
+    residual: float = np.inf  #: largest magnitude of the force
     iterations: int = 0
-    last_run: int = 0  # iterations since a direction of negative curvature was met
-    start_pairs: float = 0.0  # convolutions of the start, on coarser grids by share of the points
+    last_run: int = 0  #: iterations since a direction of negative curvature was met
+    start_pairs: float = 0.0  #: convolutions of the start, on coarser grids by share of the points
 
     @classmethod
     def empty(cls, shape):

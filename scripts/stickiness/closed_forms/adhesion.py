@@ -201,10 +201,10 @@ def full_contact_pull_off(heights: ArrayLike, length: float | tuple, law: Tracti
 def critical_wavelength(slope: ArrayLike):
     """Wavelength [length] above which parallel flats at a uniform gap are unstable.
 
-    A wave of the gap is resisted by the stiffness |q|/2 of the half-space and driven by `slope`,
-    the derivative of the traction with respect to the gap [E*/length], negative and finite (else
-    ValueError): the gap is stable at a fixed mean while ``pi/wavelength`` exceeds minus that slope.
-    In a periodic cell the longest wavelength is the side, whatever its amplitude.
+    A wave of the gap is resisted by the stiffness ``|q|/2`` of the half-space and driven by
+    `slope`, the derivative of the traction with respect to the gap [E*/length], negative and finite
+    (else ValueError): the gap is stable at a fixed mean while ``pi/wavelength`` exceeds minus
+    that slope. In a periodic cell the longest wavelength is the side, whatever its amplitude.
     """
     (steepness,) = positive(**{"-slope": -np.asarray(slope, dtype=float)})
     return plain(np.pi / steepness)

@@ -159,9 +159,9 @@ class HertzEllipse:
 class Summit:
     """Highest point of a surface."""
 
-    position: tuple[float, float]  # along axes 0 and 1 [length]
-    height: float  # there
-    curvatures: tuple[float, float]  # principal ones [1/length], positive, the smaller first
+    position: tuple[float, float]  #: along axes 0 and 1 [length]
+    height: float  #: there
+    curvatures: tuple[float, float]  #: principal ones [1/length], positive, the smaller first
 
 
 def highest_summit(heights, length):

@@ -55,10 +55,10 @@ def check_force(force: float, pull_off: float) -> float:
 class SphereState:
     """One equilibrium of a sphere, or arrays of them along a curve."""
 
-    contact_radius: float | NDArray  # of the circle of zero gap [length]
-    cohesive_radius: float | NDArray  # within which the attraction acts [length]
-    force: float | NDArray  # [E* length^2]
-    indentation: float | NDArray  # approach of distant points [length]
+    contact_radius: float | NDArray  #: of the circle of zero gap [length]
+    cohesive_radius: float | NDArray  #: within which the attraction acts [length]
+    force: float | NDArray  #: [E* length^2]
+    indentation: float | NDArray  #: approach of distant points [length]
 
 
 @dataclass(frozen=True)

@@ -168,10 +168,10 @@ class AdhesiveWave(_Wave):
 class WaveState:
     """One equilibrium of the wave under the Maugis law, or arrays of them along a curve."""
 
-    pressure: float | NDArray  # mean [E*]
-    area_fraction: float | NDArray  # share of the wave in contact
-    # Share of the wave within the range of attraction, that in contact included; one if the
-    # cohesive zones of neighbouring crests have met.
+    pressure: float | NDArray  #: mean [E*]
+    area_fraction: float | NDArray  #: share of the wave in contact
+    #: Share of the wave within the range of attraction, that in contact included; one if the
+    #: cohesive zones of neighbouring crests have met.
     cohesive_fraction: float | NDArray
 
 

@@ -35,7 +35,7 @@ _UNITS = {
     "work_of_adhesion": "J/m^2",
 }
 
-TABLES = ("materials", "surfaces", "experiments")  # files of their own, by the key that names them
+TABLES = ("materials", "surfaces", "experiments")  #: files of their own, by the key that names them
 
 
 class ConfigError(ValueError):

@@ -9,7 +9,7 @@ from stickiness.config.measurements import measurements
 from stickiness.config.messages import unit_problem
 from stickiness.core.units import si
 
-MOST_POINTS = 2048  # of the grid along a side, unless `most_points` says otherwise
+MOST_POINTS = 2048  #: of the grid along a side, unless `most_points` says otherwise
 
 
 def bem_problems(surface: Mapping[str, Any]) -> Iterator[str]:

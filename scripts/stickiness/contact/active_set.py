@@ -23,7 +23,7 @@ from stickiness.solids import HALF_SPACE, Solid
 
 _GENEROUS = 2.0  # first set over the contact that is expected
 _MOST = 0.5  # of all points: beyond this the first set is all of them
-PREDICTION = 0.7  # c in "contact where p > c k g": 0.5 to 1 predict about equally well
+PREDICTION = 0.7  #: c in "contact where p > c k g": 0.5 to 1 predict about equally well
 _LOOSE = 0.4  # reduction of the gap on a set that is still changing much
 _CLOSER = 0.01  # and on one that changes little
 _SETTLED = 1e-3  # share of changing points below which a set changes little
@@ -38,11 +38,11 @@ _SURRENDER_UNSURE = 8  # and where `projected_gradients` takes over
 class Problem:
     """Contact problem on one grid."""
 
-    heights: np.ndarray  # in units of their rms, contiguous
-    sides: tuple  # of the cell, in units of the first
-    load: float  # mean pressure, in units of E* times rms height over side
-    solid: Solid = HALF_SPACE  # its thickness in units of the first side
-    periodic: bool = True  # or a rectangle on a half-space without end
+    heights: np.ndarray  #: in units of their rms, contiguous
+    sides: tuple  #: of the cell, in units of the first
+    load: float  #: mean pressure, in units of E* times rms height over side
+    solid: Solid = HALF_SPACE  #: its thickness in units of the first side
+    periodic: bool = True  #: or a rectangle on a half-space without end
 
     def operator(self, dtype):
         """Compliance on this grid, and its inverse, be it approximate."""

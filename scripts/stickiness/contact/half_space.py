@@ -43,14 +43,14 @@ def clear_caches():
 
 
 def wavenumbers(shape, lengths):
-    """Magnitudes |q| of a real transform's wavevectors, ``(shape[0], shape[1] // 2 + 1)``."""
+    """Magnitudes ``|q|`` of a real transform's wavevectors, ``(shape[0], shape[1] // 2 + 1)``."""
     q0 = 2 * np.pi * np.fft.fftfreq(shape[0], lengths[0] / shape[0])
     q1 = 2 * np.pi * np.fft.rfftfreq(shape[1], lengths[1] / shape[1])
     return np.hypot(q0[:, None], q1[None, :])
 
 
 def effective_wavenumbers(shape, lengths, solid=HALF_SPACE):
-    """Wave numbers |q|/S at which a half-space is as stiff as the solid; `wavenumbers`' shape.
+    """Wave numbers ``|q|``/S at which a half-space is as stiff as the solid; `wavenumbers`' shape.
 
     Twice the stiffness [E*]. Zero stays zero: the mean displacement is not the operators' matter.
     """

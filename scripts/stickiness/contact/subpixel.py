@@ -26,7 +26,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from stickiness.core.arguments import numbers, positive
 
-STRIP_WIDTH = 0.100  # pixels per pixel side of boundary, in this discretisation
+STRIP_WIDTH = 0.100  #: pixels per pixel side of boundary, in this discretisation
 
 # A straight edge along a grid axis, solved on the grid (a wave of 1024 pixels): distance in
 # pixels of the first open point from the true edge, against the ratio of s = u^(2/3) at the first
@@ -212,10 +212,10 @@ def _between_open_points(s: NDArray, contact: NDArray, levels: NDArray) -> NDArr
 class _Edges:
     """Edges of contact on the grid lines along one axis, all arrays of one length."""
 
-    index: tuple[NDArray, NDArray]  # of the first open point
-    distance: NDArray  # of that point from the edge, in pixels
-    second: NDArray  # s of the point beyond, NaN where the gap closes again
-    lifted: NDArray  # s of the first point by the edge law, zero where the solution's is as good
+    index: tuple[NDArray, NDArray]  #: of the first open point
+    distance: NDArray  #: of that point from the edge, in pixels
+    second: NDArray  #: s of the point beyond, NaN where the gap closes again
+    lifted: NDArray  #: s of the first point by the edge law, zero where the solution's is as good
 
     def table(self, s: NDArray, weight: float) -> NDArray:
         """Rows of distance, first s, second s and the weight of the lines."""

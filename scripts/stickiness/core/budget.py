@@ -20,8 +20,10 @@ from dataclasses import dataclass
 import numpy as np
 import xarray as xr
 
+from stickiness.core import datasets
+
 SOURCES = ("discretisation", "solver", "sampling", "bandwidth", "model")
-NONE = -1  # flag of what has no error, or no value
+NONE = -1  #: flag of what has no error, or no value
 ENDINGS = ("_error", "_total_error", "_dominant")
 SOURCE_TEXTS = ("1", "where an error comes from")
 
@@ -84,11 +86,12 @@ def with_budget(
     largest.attrs = {
         "units": "1",
         "long_name": f"source of the largest error: {text}",
-        "flag_values": np.arange(NONE, len(SOURCES), dtype="i1"),
-        "flag_meanings": " ".join(("none", *SOURCES)),
+        **datasets.flags(("none", *SOURCES), first=NONE),
     }
-    added = zip((f"{name}{ending}" for ending in ENDINGS), (error, total, largest), strict=True)
-    dataset = dataset.assign(dict(added)).assign_coords(source=list(SOURCES))
+    names = [f"{name}{ending}" for ending in ENDINGS]
+    quoted = value.assign_attrs(ancillary_variables=" ".join(names))
+    added = dict(zip(names, (error, total, largest), strict=True))
+    dataset = dataset.assign({name: quoted, **added}).assign_coords(source=list(SOURCES))
     dataset.source.attrs = dict(zip(("units", "long_name"), SOURCE_TEXTS, strict=True))
     return dataset
 

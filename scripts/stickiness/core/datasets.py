@@ -45,23 +45,33 @@ def annotate(dataset: xr.Dataset, **described: tuple[str, ...]) -> xr.Dataset:
     return dataset
 
 
+def flags(words: Iterable[str], first: int = 0) -> dict[str, Any]:
+    """Attributes that say what the codes `first`, `first` + 1, … mean (CF conventions §3.5)."""
+    meanings = [word.replace(" ", "_") for word in words]
+    codes = np.arange(first, first + len(meanings), dtype="i1")
+    return {"flag_values": codes, "flag_meanings": " ".join(meanings)}
+
+
 def write(
     dataset: xr.Dataset, path: str | Path, *, title: str, parameters: Mapping[str, Any]
 ) -> None:
     """Write a dataset with its parameters (as JSON) and provenance, whole or not at all.
 
+    Variables that are texts are written without units.
+
     Raises
     ------
     DatasetError
-        If a variable lacks `units` or `long_name`, or `nan_means` though it holds values that are
-        not finite.
+        If a variable lacks `long_name`, `units` though it holds numbers, or `nan_means` though it
+        holds values that are not finite.
     WriteError
         If the disk is full, may not be written to, or fails; an old file is left as it was.
     """
     path = Path(path)
     for name in dataset.variables:
         values, attributes = dataset[name].values, dataset[name].attrs
-        missing = {"units", "long_name"} - attributes.keys()
+        demanded = {"long_name"} if _is_text(values) else {"units", "long_name"}
+        missing = demanded - attributes.keys()
         if missing:
             raise DatasetError(f"{path}: variable {name!r} lacks {', '.join(sorted(missing))}")
         unexplained = values.dtype.kind == "f" and "nan_means" not in attributes
@@ -75,8 +85,9 @@ def write(
         **provenance(),
     )
     for name in dataset.variables:
-        if dataset[name].dtype.kind in "OU":  # texts joined keep the width of the first one's file
-            dataset[name].encoding = {}
+        if _is_text(dataset[name]):
+            dataset[name].attrs.pop("units", None)
+            dataset[name].encoding = {}  # texts joined keep the width of the first one's file
     with whole_file(path) as temporary:
         try:
             dataset.to_netcdf(temporary, engine="netcdf4")
@@ -112,6 +123,10 @@ def read(path: str | Path, variables: Iterable[str] = ()) -> xr.Dataset:
 def parameters(dataset: xr.Dataset) -> dict[str, Any]:
     """The parameters that made a dataset, as given to `write`."""
     return json.loads(dataset.attrs["parameters"])
+
+
+def _is_text(values: Any) -> bool:
+    return values.dtype.kind in "OU"
 
 
 def _check_origin(dataset: xr.Dataset, path: Path) -> None:

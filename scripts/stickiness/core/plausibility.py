@@ -13,8 +13,8 @@ __all__ = ["PlausibilityWarning", "warn_of_heights", "warn_of_pressure", "warn_o
 
 _MOST_PRESSURE = 1000.0  # over the rms slope; half of that slope is what flattens a surface
 _MOST_HEIGHT, _LEAST_HEIGHT = 100.0, 1e-9  # rms height over the side of the cell
-LONGEST_SIDE = 0.5  # [m]; the longest travel of profilometers is 0.3 m
-SHORTEST_SIDE = 1e-9  # [m]; a few atoms
+LONGEST_SIDE = 0.5  #: [m]; the longest travel of profilometers is 0.3 m
+SHORTEST_SIDE = 1e-9  #: [m]; a few atoms
 REFUSED_SIDE = (
     f"is longer than {LONGEST_SIDE:g} m, which no microscope or profilometer measures; correct it "
     "(2 mm, not 2 m?), or give plausibility: ignore if it is so"

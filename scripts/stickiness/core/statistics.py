@@ -7,7 +7,7 @@ import math
 import scipy  # scipy.special is loaded when first used, a third of a second
 from numpy.typing import ArrayLike, NDArray
 
-COVERS = 1.645  # standard deviations that cover 90 % of a normal distribution
+COVERS = 1.645  #: standard deviations that cover 90 % of a normal distribution
 _QUANTILE = 0.95  # one-sided, of the same
 
 

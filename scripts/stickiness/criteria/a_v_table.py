@@ -21,10 +21,10 @@ from stickiness.core.arguments import plain, positive
 from stickiness.persson.theory import Persson
 from stickiness.surfaces.spectrum import Spectrum
 
-PARTED = 1.5  # ratio of the theory's variants from which on neither resolves the edges of contact
-VARIANTS = ("afferrante2018", "almqvist2011")  # P(0) infinite and finite: limits on the truth
-EDGE_LAW = "pastewka_robbins"  # independent estimate of what the edges alone give
-NORMAL_90 = float(ndtri(0.95))  # standard errors either side that cover 90 %
+PARTED = 1.5  #: ratio of the theory's variants from which on neither resolves the edges of contact
+VARIANTS = ("afferrante2018", "almqvist2011")  #: P(0) infinite and finite: limits on the truth
+EDGE_LAW = "pastewka_robbins"  #: independent estimate of what the edges alone give
+NORMAL_90 = float(ndtri(0.95))  #: standard errors either side that cover 90 %
 NEEDED = (
     *("a_v", "a_v_limit", "edge_range", "edge_a_v", "quadrature_error", "extrapolation_error"),
     *("theory_below", "theory_above", "theory_below_limit", "theory_above_limit"),
@@ -73,11 +73,11 @@ def edge_range(ranges: ArrayLike, infinite: ArrayLike, finite: ArrayLike) -> flo
 class SurfaceAv:
     """a_V of a surface against the range, with limits."""
 
-    ranges: NDArray  # (n,), over h_rms, increasing
-    # (m, n), a_V by every variant of the theory and by the edge law below the edge range
+    ranges: NDArray  #: (n,), over h_rms, increasing
+    #: (m, n), a_V by every variant of the theory and by the edge law below the edge range
     theory: NDArray
-    quoted: int  # which of them is quoted; the others are limits
-    relative_error: float  # of theory against simulation; widens the limits
+    quoted: int  #: which of them is quoted; the others are limits
+    relative_error: float  #: of theory against simulation; widens the limits
 
     def at(self, range_over_h_rms: ArrayLike) -> tuple[ArrayLike, ArrayLike, ArrayLike]:
         """Value, low and high limit at ranges over h_rms, interpolated in logarithms."""
@@ -139,15 +139,15 @@ class AvEstimate:
     value: NDArray
     low: NDArray
     high: NDArray
-    # ln of how far other variants and corrections of the theory lie below and above the quoted
-    # one; below the edge range, the estimate of Pastewka and Robbins
+    #: ln of how far other variants and corrections of the theory lie below and above the quoted
+    #: one; below the edge range, the estimate of Pastewka and Robbins
     theory_below: NDArray
     theory_above: NDArray
-    # standard relative error of the ratio of simulation to theory, with what its trend may
-    # change beyond the simulated magnifications and its drift below the simulated ranges
+    #: standard relative error of the ratio of simulation to theory, with what its trend may
+    #: change beyond the simulated magnifications and its drift below the simulated ranges
     simulation: NDArray
-    quadrature: NDArray  # largest relative error of the theory's quadrature
-    edge: NDArray  # where the range is below the edge range, so that a_V no longer depends on it
+    quadrature: NDArray  #: largest relative error of the theory's quadrature
+    edge: NDArray  #: where the range is below the edge range, so that a_V no longer depends on it
 
 
 class AvTable:

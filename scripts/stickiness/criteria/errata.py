@@ -22,12 +22,12 @@ _MEASURED_A_V = 3.0  # the value the paper finds, 3/2 of which is the right coef
 class Erratum:
     """One inconsistency of the printed paper: what is printed, what is right, and the proof."""
 
-    number: int  # position in the list
+    number: int  #: position in the list
     subject: str
     printed: str
     correct: str
     proof: str
-    # numbers, by name, that the statements quote or compare
+    #: numbers, by name, that the statements quote or compare
     recompute: Callable[[], dict[str, float]]
 
 

@@ -39,11 +39,11 @@ __all__ = [  # noqa: PLE0604
     *("traction_ratio", "violano", "violano_c0_limit", "violano_printed"),
 ]
 
-PRINTED_A_V = 1.5  # the coefficient 9/4 printed in the paper is (3/2) a_V with this a_V
-PR_CONSTANT = np.pi * (3 / 16) ** (2 / 3)  # Pastewka & Robbins (2014), 1.03
-DAHLQUIST_LIMIT = 1e6  # Pa
+PRINTED_A_V = 1.5  #: the coefficient 9/4 printed in the paper is (3/2) a_V with this a_V
+PR_CONSTANT = np.pi * (3 / 16) ** (2 / 3)  #: Pastewka & Robbins (2014), 1.03
+DAHLQUIST_LIMIT = 1e6  #: Pa
 _GAUSS_NODES, _GAUSS_WEIGHTS = np.polynomial.legendre.leggauss(8)
-CRYSTAL_RANGE_RATIO = float(np.sqrt(24 * 0.05))  # Delta_r/range at l_a = 0.05 range
+CRYSTAL_RANGE_RATIO = float(np.sqrt(24 * 0.05))  #: Delta_r/range at l_a = 0.05 range
 
 
 @dataclass(frozen=True)

@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from stickiness.core.arguments import plain, positive
 
-REFERENCE_FREQUENCY = 1.0  # Hz, Dahlquist's
+REFERENCE_FREQUENCY = 1.0  #: Hz, Dahlquist's
 _GLASSY = 1e100  # x from which on a term is E_i to rounding; its square does not overflow
 
 
@@ -38,8 +38,8 @@ class Constant:
 class Prony:
     """Relaxation modulus E(t) = equilibrium + sum of E_i exp(-t/tau_i)."""
 
-    equilibrium: float  # modulus at rest [Pa]
-    terms: tuple[tuple[float, float], ...]  # E_i [Pa] and tau_i [s]
+    equilibrium: float  #: modulus at rest [Pa]
+    terms: tuple[tuple[float, float], ...]  #: E_i [Pa] and tau_i [s]
 
     def __post_init__(self):
         positive(equilibrium=self.equilibrium)
@@ -65,8 +65,8 @@ class Prony:
 class Table:
     """Storage modulus as measured, interpolated in logarithms."""
 
-    frequencies: tuple[float, ...]  # increasing [Hz]
-    moduli: tuple[float, ...]  # [Pa]
+    frequencies: tuple[float, ...]  #: increasing [Hz]
+    moduli: tuple[float, ...]  #: [Pa]
 
     def __post_init__(self):
         frequencies, _ = positive(frequencies=self.frequencies, moduli=self.moduli)

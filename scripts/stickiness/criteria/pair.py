@@ -15,7 +15,7 @@ WORDS = (
     "not judged",
 )
 NOT_STICKY, TOUCHES, DEPENDS, STICKY, STICKS_FULLY, NOT_JUDGED = range(6)
-FULL_SHARE = 0.8  # of the work of adhesion, from which a pair sticks fully
+FULL_SHARE = 0.8  #: of the work of adhesion, from which a pair sticks fully
 REGIMES = ("weak", "between", "tough", "strong")
 WEAK, BETWEEN, TOUGH, STRONG = range(4)
 
@@ -24,22 +24,22 @@ WEAK, BETWEEN, TOUGH, STRONG = range(4)
 class Pair:
     """A material on a surface; numbers, or arrays that broadcast against each other."""
 
-    h_rms: ArrayLike  # [m]
-    q0: ArrayLike  # lowest wave number [1/m]
-    rms_slope: ArrayLike  # rms gradient [1]
-    rms_curvature: ArrayLike  # rms Laplacian [1/m]
-    elastic_energy: ArrayLike  # of full contact per nominal area over E* [m]
-    modulus: ArrayLike  # plane-strain modulus E* [Pa]
-    work_of_adhesion: ArrayLike  # [J/m^2]
-    range: ArrayLike  # of the attraction [m]
-    a_v: ArrayLike  # at this range on this surface
-    a_v_low: ArrayLike  # its limits
+    h_rms: ArrayLike  #: [m]
+    q0: ArrayLike  #: lowest wave number [1/m]
+    rms_slope: ArrayLike  #: rms gradient [1]
+    rms_curvature: ArrayLike  #: rms Laplacian [1/m]
+    elastic_energy: ArrayLike  #: of full contact per nominal area over E* [m]
+    modulus: ArrayLike  #: plane-strain modulus E* [Pa]
+    work_of_adhesion: ArrayLike  #: [J/m^2]
+    range: ArrayLike  #: of the attraction [m]
+    a_v: ArrayLike  #: at this range on this surface
+    a_v_low: ArrayLike  #: its limits
     a_v_high: ArrayLike
-    constant_a_v: ArrayLike  # a_V of a broad spectrum, the same for every pair
-    wanted_share: float = DEFAULT_SHARE  # of the work of adhesion, that must remain to stick
-    softness: ArrayLike = 1.0  # S of the longest waves on a layer, see `solids`
-    deep_energy: ArrayLike | None = None  # of full contact of a half-space, under a layer
-    widening: ArrayLike = 1.0  # factor on the errors of what remains, as in `Roughness`
+    constant_a_v: ArrayLike  #: a_V of a broad spectrum, the same for every pair
+    wanted_share: float = DEFAULT_SHARE  #: of the work of adhesion, that must remain to stick
+    softness: ArrayLike = 1.0  #: S of the longest waves on a layer, see `solids`
+    deep_energy: ArrayLike | None = None  #: of full contact of a half-space, under a layer
+    widening: ArrayLike = 1.0  #: factor on the errors of what remains, as in `Roughness`
 
     @property
     def adhesion_length(self) -> float | NDArray:

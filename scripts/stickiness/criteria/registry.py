@@ -16,10 +16,10 @@ from numpy.typing import NDArray
 from stickiness.criteria import formulas
 from stickiness.criteria.pair import Pair
 
-REMAINING = "remaining_adhesion"  # that verdicts rest on
+REMAINING = "remaining_adhesion"  #: that verdicts rest on
 EDGES = "edge_adhesion"
 FULL_CONTACT = "persson_tosatti"
-FACTS = frozenset(  # what a reason can quote of a pair, as texts with units
+FACTS = frozenset(  #: what a reason can quote of a pair, as texts with units
     (
         *("attractive_over_contact", "edge_strength", "regime", "over_dmt", "h_rms", "q0"),
         *("rms_slope", "rms_curvature", "summit_radius", "energy"),
@@ -32,10 +32,10 @@ FACTS = frozenset(  # what a reason can quote of a pair, as texts with units
 class Line:
     """Line of a criterion in figure 9."""
 
-    colour: str = "grey"  # name in the palette
-    style: str = "-"  # as matplotlib has it
-    width: float = 1.4  # [pt]
-    filled: bool = True  # whether its symbols are
+    colour: str = "grey"  #: name in the palette
+    style: str = "-"  #: as matplotlib has it
+    width: float = 1.4  #: [pt]
+    filled: bool = True  #: whether its symbols are
 
 
 @dataclass(frozen=True)
@@ -46,17 +46,17 @@ class Criterion:
     `FACTS`, or that there is not exactly one threshold.
     """
 
-    name: str  # in datasets
-    label: str  # for people
-    # threshold over actual value in the criterion's own form; sticky above 1
+    name: str  #: in datasets
+    label: str  #: for people
+    #: threshold over actual value in the criterion's own form; sticky above 1
     margin: Callable[[Pair], NDArray]
-    reason: str  # what it looks at, for `str.format` with `FACTS`
-    power: float | None = None  # of the adhesion length, that the margin is proportional to
-    # adhesion length [m] above which the pair sticks, of a margin that is no power of it
+    reason: str  #: what it looks at, for `str.format` with `FACTS`
+    power: float | None = None  #: of the adhesion length, that the margin is proportional to
+    #: adhesion length [m] above which the pair sticks, of a margin that is no power of it
     length: Callable[[Pair], NDArray] | None = None
-    # [Pa] below which everything sticks, of a criterion without adhesion length
+    #: [Pa] below which everything sticks, of a criterion without adhesion length
     modulus: float | None = None
-    line: Line = Line()  # in figure 9
+    line: Line = Line()  #: in figure 9
 
     def __post_init__(self):
         for entry in ("name", "label", "reason"):

@@ -27,14 +27,13 @@ from stickiness.remaining.prediction import (
 from stickiness.solids import HALF_SPACE, Layer, Solid
 from stickiness.surfaces.direction import find_ratio
 from stickiness.surfaces.interface import Spectrum
-from stickiness.surfaces.spectrum import Tabulated
 
-LOAD = 0.065  # mean pressure over E* q0 h_rms, amid those where area grows with load in proportion
-RANGES = np.geomspace(1e-14, 10, 61)  # over h_rms, where theory's a_V is evaluated
+LOAD = 0.065  #: mean pressure over E* q0 h_rms, amid those where area grows with load in proportion
+RANGES = np.geomspace(1e-14, 10, 61)  #: over h_rms, where theory's a_V is evaluated
 # Relative, of theory's a_V against simulation: the error model of config/accuracy.csv at this load,
 # doubled as for all spectra broader than those measured.
 THEORY_ERROR = 0.25
-BROAD_A_V = 3.0  # of broad spectra, as Violano et al. (2019) find it
+BROAD_A_V = 3.0  #: of broad spectra, as Violano et al. (2019) find it
 
 
 @dataclass(frozen=True)
@@ -104,7 +103,7 @@ class StickinessVerdict:
         if pair.adhesion_length > PULL_OFF_UNKNOWN * pair.elastic_energy:
             pull_off = f"at least {least:.2g} Pa (full contact, which was not simulated)"
         unlike = (
-            f"limits of what remains allow for {pair.widening:g} times the errors: "
+            f"limits of what remains allow for {pair.widening:.3g} times the errors: "
             "few surfaces with a direction were simulated\n"
         )
         return (
@@ -282,9 +281,7 @@ def describe_surface(
         )
         for doubt in doubt_heights(heights, measured.fit):
             warnings.warn(f"heights: {doubt}", PlausibilityWarning, stacklevel=3)
-        rings = measured.rings
-        inside = rings.q <= measured.cutoff.q * (1 + 1e-9)
-        spectrum = Tabulated(rings.q[inside], rings.psd[inside])
+        spectrum = measured.spectrum()
         q0 = measured.fit.q_rolloff or measured.lowest
         ratio = find_ratio(np.nan_to_num(measured.anisotropy), measured.fit.hurst)
     return {

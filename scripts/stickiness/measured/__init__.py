@@ -1,6 +1,9 @@
 """Measured topographies, from the file to a spectrum with its errors.
 
-- `topography`: maps and line profiles: the public `read`
+`read` gives the heights of a file, `analyse` their spectrum, `draw` its moments with their errors,
+`periodise` and `band_limited` heights that the solvers take. The modules:
+
+- `topography`: maps and line profiles
 - `readers`: file formats
 - `raw`: what a file holds, before anything is done to it
 - `instruments`: files as instruments wrote them
@@ -20,3 +23,25 @@
 - `spectrum_draws`: moments of a measured spectrum with their errors
 - `periodic`: measured heights made periodic for the solver
 """
+
+from importlib import import_module
+
+# Loaded when they are first used: checks of the configuration need two light modules alone.
+_PLACES = {
+    **dict.fromkeys(("Profile", "Topography", "jacksboro", "read"), "topography"),
+    **dict.fromkeys(("Limits", "MeasuredSpectrum", "analyse"), "instrument_spectrum"),
+    **dict.fromkeys(("Draws", "draw"), "spectrum_draws"),
+    **dict.fromkeys(("band_limited", "periodise"), "periodic"),
+}
+
+__all__ = [*_PLACES]  # noqa: PLE0604
+
+
+def __getattr__(name: str):
+    if name not in _PLACES:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    return getattr(import_module(f"{__name__}.{_PLACES[name]}"), name)
+
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *__all__})

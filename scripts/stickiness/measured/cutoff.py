@@ -11,9 +11,9 @@ from scipy import special
 
 from stickiness.measured.psd import RadialPSD, merge_rings
 
-TIP_FACTOR = 0.5  # curvature over 1/R from which the tip's shape shows (Sanner et al. 2022)
-BLUR_EXPONENT = 5.0  # C ~ q^-s falls faster than any self-affine surface does (s = 4 at H = 1)
-NOISE_EXPONENT = 1.5  # and slower than any (s = 2 at H = 0)
+TIP_FACTOR = 0.5  #: curvature over 1/R from which the tip's shape shows (Sanner et al. 2022)
+BLUR_EXPONENT = 5.0  #: C ~ q^-s falls faster than any self-affine surface does (s = 4 at H = 1)
+NOISE_EXPONENT = 1.5  #: and slower than any (s = 2 at H = 0)
 
 _RINGS = 20  # per decade
 _WIDTH = np.log(10) / 4  # of the interval for the local exponent
@@ -25,10 +25,10 @@ _ROOM = 10**0.5  # smallest ratio of the bend to the lowest wave number
 class Bend:
     """Wave number beyond which a spectrum is the instrument's rather than the surface's."""
 
-    q: float  # highest wave number of the surface's spectrum [1/length]
-    # the spectrum beyond falls faster or slower than that of any surface
+    q: float  #: highest wave number of the surface's spectrum [1/length]
+    #: the spectrum beyond falls faster or slower than that of any surface
     kind: Literal["blur", "noise"]
-    exponent: float  # s in C ~ q^-s just beyond
+    exponent: float  #: s in C ~ q^-s just beyond
 
 
 def tip_cutoff(heights: ArrayLike, steps: tuple[float, ...], radius: float) -> float | None:

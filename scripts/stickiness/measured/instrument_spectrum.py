@@ -19,8 +19,9 @@ from stickiness.measured.self_affine_fit import (
     narrow_rings,
 )
 from stickiness.measured.topography import Profile, Topography
+from stickiness.surfaces.spectrum import Tabulated
 
-RINGS = 10  # per decade, of the spectrum that is shown and integrated
+RINGS = 10  #: per decade, of the spectrum that is shown and integrated
 _ROUNDING = 1e-13  # relative range of heights below which they are all the same
 
 
@@ -28,30 +29,35 @@ _ROUNDING = 1e-13  # relative range of heights below which they are all the same
 class Cutoff:
     """Highest wave number at which the spectrum is the surface's, and why."""
 
-    q: float  # [1/length]
+    q: float  #: [1/length]
     reason: str
-    detected: bool = False  # in the spectrum or the heights, not given or by default
+    detected: bool = False  #: in the spectrum or the heights, not given or by default
 
 
 @dataclass(frozen=True)
 class MeasuredSpectrum:
     """Isotropic spectrum of a surface as measured."""
 
-    rings: RadialPSD  # C in rings, to show and to integrate [length^4]
-    # (m,), of each ring in the plane of q [1/length^2]; the sum of C times it is the variance
+    rings: RadialPSD  #: C in rings, to show and to integrate [length^4]
+    #: (m,), of each ring in the plane of q [1/length^2]; the sum of C times it is the variance
     area: NDArray
-    narrow: RadialPSD  # rings for the fit
-    q_min: float  # lowest wave number that taper and levelling do not change [1/length]
-    cutoff: Cutoff  # highest wave number that the instrument resolves
-    lowest: float  # wave number of the scan [1/length]
-    anisotropy: float  # amplitude of the dependence on direction; NaN for profiles
-    fit: SelfAffineFit  # between `q_min` and the cutoff
+    narrow: RadialPSD  #: rings for the fit
+    q_min: float  #: lowest wave number that taper and levelling do not change [1/length]
+    cutoff: Cutoff  #: highest wave number that the instrument resolves
+    lowest: float  #: wave number of the scan [1/length]
+    anisotropy: float  #: amplitude of the dependence on direction; NaN for profiles
+    fit: SelfAffineFit  #: between `q_min` and the cutoff
 
     @classmethod
     def within_fit(cls, rings, area, narrow, cutoff, lowest, anisotropy, fit) -> MeasuredSpectrum:
         """Spectrum whose limits are those within which `fit` found data."""
         limits = fit.q_min, replace(cutoff, q=fit.q_max)
         return cls(rings, area, narrow, *limits, lowest, anisotropy, fit)
+
+    def spectrum(self) -> Tabulated:
+        """Return the spectrum as measured, up to the cutoff, as theories and `verdict` take it."""
+        inside = self.rings.between(0.0, self.cutoff.q * (1 + 1e-9))
+        return Tabulated(inside.q, inside.psd)
 
 
 @dataclass(frozen=True)
@@ -61,11 +67,11 @@ class Limits:
     `fit_to` overrides all below it.
     """
 
-    fit_from: float | None = None  # longest wavelength of the fit interval
-    fit_to: float | None = None  # shortest one
-    resolution: float | None = None  # shortest wavelength that the instrument resolves
-    tip_radius: float | None = None  # of a scanning tip
-    detect: bool = True  # look for blur and noise in the spectrum
+    fit_from: float | None = None  #: longest wavelength of the fit interval
+    fit_to: float | None = None  #: shortest one
+    resolution: float | None = None  #: shortest wavelength that the instrument resolves
+    tip_radius: float | None = None  #: of a scanning tip
+    detect: bool = True  #: look for blur and noise in the spectrum
 
     def __post_init__(self):
         for name in ("fit_from", "fit_to", "resolution", "tip_radius"):

@@ -9,9 +9,9 @@ from numpy.typing import NDArray
 from scipy import ndimage, sparse
 from scipy.sparse import linalg
 
-MAX_MISSING = 0.1  # default largest share of missing points that are filled
-OUTSTANDING = 5.0  # rms step at a rim over that elsewhere, above which the rim is dropped
-LARGEST_RIM = 5  # widest rim that "detect" drops [points]
+MAX_MISSING = 0.1  #: default largest share of missing points that are filled
+OUTSTANDING = 5.0  #: rms step at a rim over that elsewhere, above which the rim is dropped
+LARGEST_RIM = 5  #: widest rim that "detect" drops [points]
 
 Detrend = Literal["mean", "plane", "quadratic"]
 Missing = Literal["fill", "crop", "refuse"]

@@ -21,8 +21,8 @@ from stickiness.surfaces.spectrum import Shells
 
 Periodisation = Literal["taper", "mirror", "smooth", "given"]
 
-RIM = 0.125  # of a side over which a taper falls to zero, at either end
-SHELLS = 200  # per decade
+RIM = 0.125  #: of a side over which a taper falls to zero, at either end
+SHELLS = 200  #: per decade
 
 
 def periodise(heights: ArrayLike, kind: Periodisation) -> NDArray:

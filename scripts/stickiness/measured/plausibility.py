@@ -20,9 +20,9 @@ from stickiness.measured.spikes import find_spikes
 # Share of the points with one value above which it stands out, if it is so many times as frequent
 # as the values next to it. Up to 6 times were seen, at 1 % of the points (elevations in metres).
 PLATEAUS = ((0.002, 20.0), (0.03, 5.0))
-FEWEST_LEVELS = 16  # different heights; a converter of four bits
+FEWEST_LEVELS = 16  #: different heights; a converter of four bits
 FLATTEST, STEEPEST = 1e-7, 20.0  # rms slope between neighbours
-LARGEST_MISFIT = 1.0  # relative; a spectrum off its law by more than a factor e
+LARGEST_MISFIT = 1.0  #: relative; a spectrum off its law by more than a factor e
 # By which H may exceed 1 beyond its error. Of 20 surfaces each, 256 x 256, made with H = 0.9 or 1
 # and blurred by up to 1.5 or 0.7 points, 0 to 17 exceed it by more than 0, 0 to 2 by more than
 # 0.1; of those made with H = 0.8 and blurred by 2 points 2 do, by 3 points all.

@@ -19,8 +19,8 @@ from scipy import fft, special
 from stickiness.measured.psd import RadialPSD, Taper, average_by_ring, logarithmic_rings
 from stickiness.measured.self_affine_fit import SelfAffineFit, fit_rings
 
-LOWEST_HURST = -0.4  # at -1/2 the transform of q^(-2(H+1)) no longer exists
-FINE = 200  # rings per decade for the fit
+LOWEST_HURST = -0.4  #: at -1/2 the transform of q^(-2(H+1)) no longer exists
+FINE = 200  #: rings per decade for the fit
 _ROUNDS = 20
 
 
@@ -28,12 +28,12 @@ _ROUNDS = 20
 class ProfileSpectrum:
     """One-dimensional power spectral density of a line profile, q > 0."""
 
-    q: NDArray  # (m,), multiples of 2 pi over the length [1/length]
-    psd: NDArray  # (m,), C1(q) [length^3]
-    variance: float  # mean square of the tapered heights over that of the taper [length^2]
-    independence: float  # this and `blur` as in `psd.PowerSpectrum`
+    q: NDArray  #: (m,), multiples of 2 pi over the length [1/length]
+    psd: NDArray  #: (m,), C1(q) [length^3]
+    variance: float  #: mean square of the tapered heights over that of the taper [length^2]
+    independence: float  #: this and `blur` as in `psd.PowerSpectrum`
     blur: float
-    n: int  # points of the profile
+    n: int  #: points of the profile
 
     @property
     def q_nyquist(self) -> float:

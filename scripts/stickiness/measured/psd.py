@@ -25,20 +25,20 @@ Spacing = Literal["log", "linear"]
 class PowerSpectrum:
     """Two-dimensional power spectral density on the half plane q_y >= 0."""
 
-    qx: NDArray  # (nx,), along the first axis [1/length], in the order of the FFT
-    qy: NDArray  # (ny//2 + 1,), along the second axis, not negative
-    psd: NDArray  # (nx, ny//2 + 1), C(qx, qy) [length^4]
-    # (ny//2 + 1,): modes of the full plane for which each column stands (2; 1 for columns that
-    # hold both members of each conjugate pair)
+    qx: NDArray  #: (nx,), along the first axis [1/length], in the order of the FFT
+    qy: NDArray  #: (ny//2 + 1,), along the second axis, not negative
+    psd: NDArray  #: (nx, ny//2 + 1), C(qx, qy) [length^4]
+    #: (ny//2 + 1,): modes of the full plane for which each column stands (2; 1 for columns that
+    #: hold both members of each conjugate pair)
     multiplicity: NDArray
-    variance: float  # mean square of the tapered heights over that of the taper [length^2]
-    # Independent modes per mode: 1 without a taper, (mean w^2)^2/mean w^4 with one, because a
-    # taper correlates neighbouring modes.
+    variance: float  #: mean square of the tapered heights over that of the taper [length^2]
+    #: Independent modes per mode: 1 without a taper, (mean w^2)^2/mean w^4 with one, because a
+    #: taper correlates neighbouring modes.
     independence: float
-    # Half width of the taper's main lobe, in lattice steps: 0 without a taper. Modes nearer to
-    # q = 0 than this are mixed with the mean and the trend.
+    #: Half width of the taper's main lobe, in lattice steps: 0 without a taper. Modes nearer to
+    #: q = 0 than this are mixed with the mean and the trend.
     blur: float
-    taper: str  # its name
+    taper: str  #: its name
 
     @property
     def dqx(self) -> float:
@@ -52,7 +52,7 @@ class PowerSpectrum:
 
     @property
     def q(self) -> NDArray:
-        """|q| of every mode, shape of `psd` [1/length]."""
+        """``|q|`` of every mode, shape of `psd` [1/length]."""
         return np.hypot(self.qx[:, None], self.qy[None, :])
 
     @property
@@ -96,12 +96,12 @@ class PowerSpectrum:
 class RadialPSD:
     """Radially averaged power spectral density, one entry for each ring that holds modes."""
 
-    q: NDArray  # (m,), of the ring, geometric mean over its modes [1/length]
-    psd: NDArray  # (m,), mean of C over the modes of the ring [length^4]
-    standard_error: NDArray  # of `psd` by sampling a Gaussian isotropic surface, psd/sqrt(dof)
-    modes: NDArray  # of the full plane in the ring
-    # Independent exponentially distributed values among them: half of `modes` (conjugate
-    # pairs), times `independence`. The mean has a Gamma distribution of this shape.
+    q: NDArray  #: (m,), of the ring, geometric mean over its modes [1/length]
+    psd: NDArray  #: (m,), mean of C over the modes of the ring [length^4]
+    standard_error: NDArray  #: of `psd` by sampling a Gaussian isotropic surface, psd/sqrt(dof)
+    modes: NDArray  #: of the full plane in the ring
+    #: Independent exponentially distributed values among them: half of `modes` (conjugate
+    #: pairs), times `independence`. The mean has a Gamma distribution of this shape.
     dof: NDArray
 
     def __len__(self) -> int:
@@ -177,7 +177,7 @@ def power_spectrum(
 def radial_average(
     spectrum: PowerSpectrum, spacing: Spacing = "log", bins_per_decade: float = 10
 ) -> RadialPSD:
-    """Average a 2D spectrum over rings of |q|.
+    """Average a 2D spectrum over rings of ``|q|``.
 
     Every mode but q = 0 falls into exactly one ring, those in the corners beyond `q_nyquist`
     included, so that the sum of psd * modes * dqx * dqy is still the variance.

@@ -17,14 +17,14 @@ Length = str | float  # "10 um", or metres
 class Raw:
     """Content of a file, heights in the file's own unit."""
 
-    heights: NDArray  # (nx, ny), the first axis along x, or a line profile (n,); NaN where missing
-    # grid steps [m]; None: the file does not tell (all below likewise)
+    heights: NDArray  #: (nx, ny), the first axis along x, or a line profile (n,); NaN where missing
+    #: grid steps [m]; None: the file does not tell (all below likewise)
     steps: tuple[float, ...] | None
-    unit: str | None  # of the heights
-    source: str  # file, and variable or channel
-    positions: NDArray | None = None  # (n,), where a line profile was taken if not evenly
+    unit: str | None  #: of the heights
+    source: str  #: file, and variable or channel
+    positions: NDArray | None = None  #: (n,), where a line profile was taken if not evenly
     position_unit: str | None = None
-    # (2,) grid steps of a list of points x y z, in `position_unit`, in place of `steps`
+    #: (2,) grid steps of a list of points x y z, in `position_unit`, in place of `steps`
     grid: tuple[float, float] | None = None
 
 

@@ -22,11 +22,11 @@ from stickiness.measured import whittle
 from stickiness.measured.psd import PowerSpectrum, RadialPSD, merge_rings, radial_average
 from stickiness.surfaces.spectrum import SelfAffine
 
-LOWEST_MODES = 4  # lattice steps left out at low q if the heights were tapered
-NYQUIST_SHARE = 0.5  # default highest q over q_Nyquist
-ROLLOFF_AIC = 10.0  # gain in AIC below which the simpler model is kept
-LARGE_MISFIT = 0.3  # relative; above, a power law describes the spectrum badly
-LARGE_ANISOTROPY = 0.5  # C along and across the lay then differ by a factor of three
+LOWEST_MODES = 4  #: lattice steps left out at low q if the heights were tapered
+NYQUIST_SHARE = 0.5  #: default highest q over q_Nyquist
+ROLLOFF_AIC = 10.0  #: gain in AIC below which the simpler model is kept
+LARGE_MISFIT = 0.3  #: relative; above, a power law describes the spectrum badly
+LARGE_ANISOTROPY = 0.5  #: C along and across the lay then differ by a factor of three
 
 _FINE = 200  # narrow rings per decade: C varies by 4 % across one, its mean by 7e-5
 
@@ -35,14 +35,14 @@ _FINE = 200  # narrow rings per decade: C varies by 4 % across one, its mean by 
 class HurstLine:
     """Prefactors of C = C0 q^(-2(H+1)) at a given Hurst exponent [length^(2 - 2H)]."""
 
-    hurst: float  # imposed
-    # Least squares of ln C over logarithmic rings of equal weight, corrected for the bias of
-    # the logarithm.
+    hurst: float  #: imposed
+    #: Least squares of ln C over logarithmic rings of equal weight, corrected for the bias of
+    #: the logarithm.
     c0: float
-    c0_se: float  # from the scatter about the line
-    q: NDArray  # (m,), of the rings [1/length]
-    c0_of_q: NDArray  # C q^(2(H+1)) in each ring
-    c0_of_q_se: NDArray  # by sampling
+    c0_se: float  #: from the scatter about the line
+    q: NDArray  #: (m,), of the rings [1/length]
+    c0_of_q: NDArray  #: C q^(2(H+1)) in each ring
+    c0_of_q_se: NDArray  #: by sampling
 
     @property
     def upper(self) -> float:
@@ -63,29 +63,29 @@ class HurstLine:
 class SelfAffineFit:
     """Power law C = C0 q^(-2(H+1)) fitted to a spectrum, with a plateau below `q_rolloff`."""
 
-    hurst: float  # as fitted; it may be outside 0 < H <= 1
-    hurst_se: float  # standard error
-    c0: float  # [length^(2 - 2H)], so that its unit depends on H
+    hurst: float  #: as fitted; it may be outside 0 < H <= 1
+    hurst_se: float  #: standard error
+    c0: float  #: [length^(2 - 2H)], so that its unit depends on H
     c0_se: float
-    # Of (ln c0, hurst) or (ln c0, hurst, ln q_rolloff). ln c0 and hurst are strongly
-    # correlated: q = 1 lies far from the data.
+    #: Of (ln c0, hurst) or (ln c0, hurst, ln q_rolloff). ln c0 and hurst are strongly
+    #: correlated: q = 1 lies far from the data.
     log_covariance: NDArray
-    q_min: float  # lowest and highest wave number used [1/length]
+    q_min: float  #: lowest and highest wave number used [1/length]
     q_max: float
-    q_rolloff: float | None  # end of the plateau [1/length]; None if the data show none
-    dof: float  # independent modes in the fit interval
-    # Mean square misfit of rings (ten a decade) over that of sampling alone: about 1 for an
-    # isotropic Gaussian power law, below 1 with a taper (it correlates the modes of a ring less
-    # than `dof` assumes).
+    q_rolloff: float | None  #: end of the plateau [1/length]; None if the data show none
+    dof: float  #: independent modes in the fit interval
+    #: Mean square misfit of rings (ten a decade) over that of sampling alone: about 1 for an
+    #: isotropic Gaussian power law, below 1 with a taper (it correlates the modes of a ring less
+    #: than `dof` assumes).
     dispersion: float
-    # Relative rms departure of the spectrum from the fit beyond sampling noise; 0 if sampling
-    # explains it all. Every ring's weight is limited to 1/misfit^2, and the standard errors
-    # grow with it: more modes do not determine the exponent of a spectrum that is no power law.
+    #: Relative rms departure of the spectrum from the fit beyond sampling noise; 0 if sampling
+    #: explains it all. Every ring's weight is limited to 1/misfit^2, and the standard errors
+    #: grow with it: more modes do not determine the exponent of a spectrum that is no power law.
     misfit: float
-    # Akaike's criterion without plateau minus with one; positive speaks for a plateau. NaN if
-    # not compared.
+    #: Akaike's criterion without plateau minus with one; positive speaks for a plateau. NaN if
+    #: not compared.
     aic_gain: float
-    rings: RadialPSD  # narrow ones, that the fit used
+    rings: RadialPSD  #: narrow ones, that the fit used
 
     @property
     def q_rolloff_se(self) -> float | None:

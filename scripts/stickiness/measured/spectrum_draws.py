@@ -23,11 +23,11 @@ ORDERS = {"h_rms": 0, "rms_slope": 2, "rms_curvature": 4, "elastic_energy": 1}
 class Draws:
     """Moments of spectra that agree with a measured one."""
 
-    # (n,) each: `h_rms` [length], `rms_slope`, `rms_curvature` [1/length] and `elastic_energy`
-    # [length], the last of full contact per area over E*
+    #: (n,) each: `h_rms` [length], `rms_slope`, `rms_curvature` [1/length] and `elastic_energy`
+    #: [length], the last of full contact per area over E*
     moments: dict[str, NDArray]
-    # (n,), lowest wave number of the self-affine range [1/length]: the end of the plateau if
-    # one was found, else the lowest of the scan, without error
+    #: (n,), lowest wave number of the self-affine range [1/length]: the end of the plateau if
+    #: one was found, else the lowest of the scan, without error
     q0: NDArray
 
     def quantiles(self, name: str, levels: tuple[float, ...]) -> NDArray:

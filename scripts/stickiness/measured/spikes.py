@@ -15,9 +15,9 @@ from scipy import ndimage
 
 Spikes = Literal["mask", "keep"]
 
-OUTLYING = 30.0  # distance of a spike from its neighbours over that of the `TYPICAL` points
-TYPICAL = 0.99  # share of the points below that distance; more spikes than the rest are no spikes
-MOST_TOUCHING = 4  # spikes of a map in one group; longer groups are scratches and fibres
+OUTLYING = 30.0  #: distance of a spike from its neighbours over that of the `TYPICAL` points
+TYPICAL = 0.99  #: share of the points below that distance; more spikes than the rest are no spikes
+MOST_TOUCHING = 4  #: spikes of a map in one group; longer groups are scratches and fibres
 
 _CONNECTS = 1 / 3  # share of the distance of a spike from which points count to its group
 _ROWS = 256  # worked on at a time

@@ -20,23 +20,23 @@ from stickiness.measured.instrument_spectrum import MeasuredSpectrum, ring_areas
 from stickiness.measured.psd import RadialPSD
 from stickiness.measured.self_affine_fit import SelfAffineFit, fit_rings
 
-RINGS = 20  # per decade
-REFERENCE_EXPONENT = 3.6  # of C ~ q^-s, taken out before a mean over a ring: H = 0.8
+RINGS = 20  #: per decade
+REFERENCE_EXPONENT = 3.6  #: of C ~ q^-s, taken out before a mean over a ring: H = 0.8
 
 
 @dataclass(frozen=True)
 class Stitched:
     """Several measurements of one surface as one spectrum."""
 
-    # the whole; the errors of `fit` include the scatter between measurements
+    #: the whole; the errors of `fit` include the scatter between measurements
     spectrum: MeasuredSpectrum
-    # (k, m), C of each measurement in the rings of `spectrum`, NaN outside its band
+    #: (k, m), C of each measurement in the rings of `spectrum`, NaN outside its band
     levels: NDArray
-    # (k,), mean of ln C minus the stitched one where measurements overlap, else NaN
+    #: (k,), mean of ln C minus the stitched one where measurements overlap, else NaN
     offsets: NDArray
-    # (k, m), weight of each measurement in each ring; the sum over measurements is 1
+    #: (k, m), weight of each measurement in each ring; the sum over measurements is 1
     shares: NDArray
-    scatter: float  # tau, standard deviation of the offsets in ln C; NaN if no two overlap
+    scatter: float  #: tau, standard deviation of the offsets in ln C; NaN if no two overlap
 
 
 def stitch(measurements: Sequence[MeasuredSpectrum]) -> Stitched:

@@ -20,12 +20,12 @@ _ALTERNATE = 5.0  # step to the next column over that to the next but one, if co
 class TextMatrix:
     """Content of a text matrix."""
 
-    values: NDArray  # (rows, columns), as written, NaN where a point is marked as missing
-    header: tuple[str, ...]  # lines of comments, and those before the first row
-    width: str | None = None  # along the rows, with unit, from the header
-    height: str | None = None  # down the columns
-    value_unit: str | None = None  # of the numbers
-    lateral_unit: str | None = None  # of positions x y, if the columns are x y z
+    values: NDArray  #: (rows, columns), as written, NaN where a point is marked as missing
+    header: tuple[str, ...]  #: lines of comments, and those before the first row
+    width: str | None = None  #: along the rows, with unit, from the header
+    height: str | None = None  #: down the columns
+    value_unit: str | None = None  #: of the numbers
+    lateral_unit: str | None = None  #: of positions x y, if the columns are x y z
 
 
 def parse(path: Path) -> TextMatrix:

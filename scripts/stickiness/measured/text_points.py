@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-FEWEST_POINTS = 16  # rows of three numbers, from which they are a list of points and no matrix
+FEWEST_POINTS = 16  #: rows of three numbers, from which they are a list of points and no matrix
 _SLACK = 0.01  # of a step, by which positions may be off the grid
 _ONE_STEP = 1.5  # times the shortest distance of positions, below which they are one step apart
 _MOST_EMPTY = 0.5  # share of the grid that may have no point; more are scattered points

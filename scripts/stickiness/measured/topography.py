@@ -11,6 +11,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
+import xarray as xr
 from numpy.typing import NDArray
 
 from stickiness.measured import readers
@@ -65,18 +66,18 @@ class _Heights:
 class Topography(_Heights):
     """Heights of a surface on a rectangular grid."""
 
-    heights: NDArray  # (nx, ny), the first axis along x [m]
-    dx: float  # grid step along x [m]
-    dy: float  # along y [m]
-    source: str  # file (and variable) of the heights
-    missing: int = 0  # number of points that were missing and have been interpolated
-    cropped: float = 0.0  # share of the measured points that was cut off to leave no missing ones
-    dropped: int = 0  # number of points that were measured beside missing ones and not used
-    spikes: int = 0  # number of points far off their neighbours, not used
-    # As `heights` before anything was dropped, masked or filled, NaN where missing; None if
-    # nothing was dropped or masked.
+    heights: NDArray  #: (nx, ny), the first axis along x [m]
+    dx: float  #: grid step along x [m]
+    dy: float  #: along y [m]
+    source: str  #: file (and variable) of the heights
+    missing: int = 0  #: number of points that were missing and have been interpolated
+    cropped: float = 0.0  #: share of the measured points that was cut off to leave no missing ones
+    dropped: int = 0  #: number of points that were measured beside missing ones and not used
+    spikes: int = 0  #: number of points far off their neighbours, not used
+    #: As `heights` before anything was dropped, masked or filled, NaN where missing; None if
+    #: nothing was dropped or masked.
     as_read: NDArray | None = None
-    doubts: tuple[str, ...] = ()  # why no verdict should rest on the heights
+    doubts: tuple[str, ...] = ()  #: why no verdict should rest on the heights
 
     @property
     def size(self) -> tuple[float, float]:
@@ -87,17 +88,26 @@ class Topography(_Heights):
         """Return the topography levelled by `detrend`."""
         return replace(self, heights=detrend(self.heights, kind))
 
+    def to_xarray(self) -> xr.DataArray:
+        """Return the heights along `x` and `y` with units, so that ``.plot()`` labels itself."""
+        positions = {
+            axis: (axis, step * np.arange(n), {"units": "m", "long_name": f"position along {axis}"})
+            for axis, step, n in zip("xy", (self.dx, self.dy), self.heights.shape, strict=True)
+        }
+        attributes = {"units": "m", "long_name": "height"}
+        return xr.DataArray(self.heights, positions, ("x", "y"), "height", attributes)
+
 
 @dataclass(frozen=True)
 class Profile(_Heights):
     """Heights along a line, evenly spaced."""
 
-    heights: NDArray  # (n,) [m]
-    dx: float  # step [m]
-    source: str  # file (and variable or channel)
-    missing: int = 0  # this and those after `largest_gap` as in `Topography`
-    # Largest distance between neighbouring points as measured [m]; above `dx` if they were
-    # unevenly spaced and have been interpolated.
+    heights: NDArray  #: (n,) [m]
+    dx: float  #: step [m]
+    source: str  #: file (and variable or channel)
+    missing: int = 0  #: this and those after `largest_gap` as in `Topography`
+    #: Largest distance between neighbouring points as measured [m]; above `dx` if they were
+    #: unevenly spaced and have been interpolated.
     largest_gap: float = 0.0
     dropped: int = 0
     spikes: int = 0
@@ -226,7 +236,7 @@ class _Rule:
 
     missing: Missing
     rim: Rim
-    limit: float  # largest share that is filled
+    limit: float  #: largest share that is filled
     spikes: Spikes
     source: str
 

@@ -14,7 +14,7 @@ from scipy import optimize
 
 from stickiness.measured.psd import RadialPSD, merge_rings, wide_rings
 
-COARSE = 10  # rings per decade for the misfit
+COARSE = 10  #: rings per decade for the misfit
 
 _ALTERNATIONS = 20
 _SLOPES = (-1e3, 1e3)  # bracket of the exponent s in C ~ q^-s; wide, plateaus are tried anywhere

@@ -34,10 +34,10 @@ _NARROWEST = 1e-150  # Gaussians that much narrower than the widest are points
 class GapProfile:
     """Where contact is lost on the way from the coarsest to the finest resolution, at one load."""
 
-    weight: NDArray  # shares of the nominal area
-    gap: NDArray  # u1 of each share [length]
-    width: NDArray  # standard deviation of the Gaussian about it [length]
-    closed: float  # share whose gap and width are below exp(-45) of the others', not in `weight`
+    weight: NDArray  #: shares of the nominal area
+    gap: NDArray  #: u1 of each share [length]
+    width: NDArray  #: standard deviation of the Gaussian about it [length]
+    closed: float  #: share whose gap and width are below exp(-45) of the others', not in `weight`
 
 
 def gap_profile(setting: Setting, p: float, reach: float) -> GapProfile:

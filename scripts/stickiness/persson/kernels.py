@@ -37,10 +37,10 @@ class Correction(ABC):
     A function of y, A = erf(y) being the relative contact area; S goes from gamma at A = 0 to 1.
     """
 
-    gamma: float  # S as the contact vanishes
+    gamma: float  #: S as the contact vanishes
 
-    own_gamma: ClassVar[float]  # the source's
-    lowest_gamma: ClassVar[float] = 0.0  # not itself allowed
+    own_gamma: ClassVar[float]  #: the source's
+    lowest_gamma: ClassVar[float] = 0.0  #: not itself allowed
 
     @abstractmethod
     def diffusion(self, y: ArrayLike) -> NDArray:

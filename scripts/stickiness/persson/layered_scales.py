@@ -1,10 +1,11 @@
 """Scales of a rough surface on a layer, for Persson's contact theory.
 
-On a half-space a wave h_q costs the pressure (|q|/2) h_q and the energy (|q|/4) |h_q|^2 in full
-contact (E* = 1); on a layer both times 1/S, see `solids`. With ``m(q) = pi int q'^3 C/S^2 dq'`` in
-place of the profile variance of the gradient, the pressure has the variance m/2 as before, and the
-walk of pressures, hence the area A(m), is that of the half-space. The waves dm cost the energy
-``(1/2) (S/q) dm`` in place of ``dm/(2 q)``, and partial contact the same share of it: every 1/q in
+On a half-space a wave h_q costs the pressure ``(|q|/2) h_q`` and the energy ``(|q|/4) |h_q|^2`` in
+full contact (E* = 1); on a layer both times 1/S, see `solids`. With ``m(q) = pi int q'^3 C/S^2
+dq'`` in place of the profile variance of the gradient, the pressure has the variance m/2 as before,
+and the walk of pressures, hence the area A(m), is that of the half-space. The waves dm cost the
+energy ``(1/2) (S/q) dm`` in place of ``dm/(2 q)``, and partial contact the same share of it: every
+1/q in
 the mean gap becomes S/q. (``p du/dp = -dU/dp`` holds with the energy of the waves alone, for what
 the mean pressure stores in a layer is the work that it does on its mean compression.) Hence
 

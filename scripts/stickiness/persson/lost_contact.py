@@ -20,8 +20,8 @@ from stickiness.persson.kernels import Kernels
 from stickiness.persson.scale_quadrature import ScaleNodes
 from stickiness.surfaces.spectrum import Spectrum
 
-SMALLEST_LOG = 45.0  # gaps below exp(-45) of the others count as zero
-TAIL_LOG = 38.0  # area lost beyond holds less than exp(-38) of what is lost in all
+SMALLEST_LOG = 45.0  #: gaps below exp(-45) of the others count as zero
+TAIL_LOG = 38.0  #: area lost beyond holds less than exp(-38) of what is lost in all
 _ORDER = 16  # Chebyshev points of a panel
 _WIDTH, _NARROWEST = 1.5, 1e-3  # of panels in ln(y - y_end): the first ones, and where halving ends
 _ANGLES = np.pi * (np.arange(_ORDER) + 0.5) / _ORDER
@@ -37,10 +37,10 @@ class Setting:
     spectrum: Spectrum
     kernels: Kernels
     scales: ScaleNodes
-    m2: float  # profile variance of the gradient of the whole surface
-    variant: str  # see `persson.Persson`
-    nodes: float  # multiplies the number of quadrature nodes
-    curves: dict[float, GapCurve] = field(default_factory=dict)  # by load, whatever the variant
+    m2: float  #: profile variance of the gradient of the whole surface
+    variant: str  #: see `persson.Persson`
+    nodes: float  #: multiplies the number of quadrature nodes
+    curves: dict[float, GapCurve] = field(default_factory=dict)  #: by load, whatever the variant
 
     def curve(self, p: float) -> GapCurve:
         """u1 at the load `p`, made once."""
@@ -58,7 +58,7 @@ class LostContact:
     y: NDArray
     step: NDArray
     m: NDArray
-    rest: NDArray  # M - m
+    rest: NDArray  #: M - m
 
     @classmethod
     def at(cls, setting: Setting, p: float, y_end: float, log_step: NDArray) -> LostContact:
@@ -80,9 +80,9 @@ class GapCurve:
     """
 
     p: float
-    y_end: float  # A = erf(y_end) at the finest resolution
-    edges: NDArray  # (k + 1,), of the panels
-    series: NDArray  # (k, order)
+    y_end: float  #: A = erf(y_end) at the finest resolution
+    edges: NDArray  #: (k + 1,), of the panels
+    series: NDArray  #: (k, order)
 
     @classmethod
     def at(cls, setting: Setting, p: float) -> GapCurve:

@@ -30,9 +30,9 @@ _PANEL_MARGIN, _GROUP_MARGIN = 0.35, 8.0
 class Nodes:
     """Nodes of a quadrature: the integral of f d(-1/q) is sum(weight f)."""
 
-    below: NDArray  # m at the nodes
-    above: NDArray  # M - m, M being m of the whole surface; both are free of cancellation
-    weight: NDArray  # [length]
+    below: NDArray  #: m at the nodes
+    above: NDArray  #: M - m, M being m of the whole surface; both are free of cancellation
+    weight: NDArray  #: [length]
 
     def __getitem__(self, part: slice) -> Nodes:
         return Nodes(self.below[part], self.above[part], self.weight[part])
@@ -49,10 +49,10 @@ class ScaleNodes:
 
     fine: Nodes
     coarse: Nodes
-    edge: NDArray  # (k + 1,): m at the edges of the panels
-    fine_start: NDArray  # (k + 1,): first node of each panel, then that beyond the last panel,
-    coarse_start: NDArray  # which is the jump of -1/q at q1
-    margin: float  # the coarse nodes of a panel will do at so many times its width from it
+    edge: NDArray  #: (k + 1,): m at the edges of the panels
+    fine_start: NDArray  #: (k + 1,): first node of each panel, then that beyond the last panel,
+    coarse_start: NDArray  #: which is the jump of -1/q at q1
+    margin: float  #: the coarse nodes of a panel will do at so many times its width from it
 
     def beyond(self, lowest: float, highest: float) -> Nodes:
         """Nodes for functions that set in at some m from `lowest` to `highest`."""

@@ -25,13 +25,13 @@ from stickiness.core.arguments import grid, number
 from stickiness.core.plausibility import PlausibilityWarning
 from stickiness.solids import HALF_SPACE, Solid, check_solid
 
-REACH = 4.0  # ranges between the highest point and the surface where the approach begins
-STEPS_ERROR = 0.03  # relative, of works and pull-off, by the steps of the path
-STEPS = 20  # of the path between far and close, at least
-BALANCE = 0.03  # error of a step's energy balance over the energies of the path
-COARSEST = 2.0  # pixels over the width of the cohesive zone that are followed at all
-POINTS = 50  # of the integral between two states
-FARTHEST = 3.0  # of the first distance, where separation must have ended
+REACH = 4.0  #: ranges between the highest point and the surface where the approach begins
+STEPS_ERROR = 0.03  #: relative, of works and pull-off, by the steps of the path
+STEPS = 20  #: of the path between far and close, at least
+BALANCE = 0.03  #: error of a step's energy balance over the energies of the path
+COARSEST = 2.0  #: pixels over the width of the cohesive zone that are followed at all
+POINTS = 50  #: of the integral between two states
+FARTHEST = 3.0  #: of the first distance, where separation must have ended
 # States of a path at most: more only where points of the grid snap one by one.
 MOST_STATES = 1000
 
@@ -230,7 +230,7 @@ class _Curve:
     gap: NDArray
     pressure: NDArray
     area: NDArray
-    jumped: NDArray  # whether a jump led to a state
+    jumped: NDArray  #: whether a jump led to a state
 
     @classmethod
     def of(cls, points):

@@ -1,11 +1,11 @@
 r"""Persson's multiscale theory of adhesion in the limit of short range (JKR's).
 
-Roughness comes into sight from the longest wave on. With E* = 1, V = <|grad h|^2>/4 of the waves in
-sight and p the mean pressure, the pressure in contact performs a random walk in "time" V from p on:
-P(sigma, V) obeys ``dP/dV = (1/2) d2P/dsigma2``, P(sigma, 0) = delta(sigma - p). Contact is lost
-where the tension reaches sigma_a, ``P(-sigma_a, V) = 0``, and what remains is the area
-``A(V) = int P dsigma``. With w the adhesion length, a contact of area A whose finer waves are not
-yet in sight carries the energy gamma per area,
+Roughness comes into sight from the longest wave on. With E* = 1, ``V = <|grad h|^2>/4`` of the
+waves in sight and p the mean pressure, the pressure in contact performs a random walk in "time" V
+from p on: P(sigma, V) obeys ``dP/dV = (1/2) d2P/dsigma2``, P(sigma, 0) = delta(sigma - p).
+Contact is lost where the tension reaches sigma_a, ``P(-sigma_a, V) = 0``, and what remains is the
+area ``A(V) = int P dsigma``. With w the adhesion length, a contact of area A whose finer waves are
+not yet in sight carries the energy gamma per area,
 
     ``gamma A = w A_1 - int_V^V1 W(A) dV/q``,    ``W(A) = A [g + (1 - g) A^2]``,
 
@@ -52,22 +52,22 @@ from scipy.special import erfc as erfcs
 from stickiness.core.arguments import number
 from stickiness.surfaces.spectrum import Shells, Spectrum
 
-WEIGHT = 0.45  # of the literature
+WEIGHT = 0.45  #: of the literature
 # Least share that is told from nothing: towards the onset of adhesion the area vanishes as a small
 # power of the share, so that smaller ones need ever more scales.
 SMALLEST = 1e-6
-MOST_SHELLS = 40  # more shells of a window are put together
-PER_DECADE = 8.0  # of V, and as many of the wave number
-FIRST = 0.02  # V at the first node over the square of the distance to sigma_a: nothing lost yet
+MOST_SHELLS = 40  #: more shells of a window are put together
+PER_DECADE = 8.0  #: of V, and as many of the wave number
+FIRST = 0.02  #: V at the first node over the square of the distance to sigma_a: nothing lost yet
 # Nodes before the last V, over V. In weak adhesion contact holds at the finest scales only.
 LAST = np.geomspace(1e-3, 0.25, 6)
-WIDEST = 1e-15  # first node over the last, at least
-FINER = 3.0  # nodes for the area under pressure, where sigma_a sets in between two of them
-TRIES = 100  # at the area after one step
-AGREEMENT = 1e-7  # relative, of the area after one step
-LOST = 1e-12  # area that is none
-SEARCH = 1e-6  # of the work of adhesion: precision of what remains
-SEARCH_TENSION = 1e-4  # the same in the search for pull-off
+WIDEST = 1e-15  #: first node over the last, at least
+FINER = 3.0  #: nodes for the area under pressure, where sigma_a sets in between two of them
+TRIES = 100  #: at the area after one step
+AGREEMENT = 1e-7  #: relative, of the area after one step
+LOST = 1e-12  #: area that is none
+SEARCH = 1e-6  #: of the work of adhesion: precision of what remains
+SEARCH_TENSION = 1e-4  #: the same in the search for pull-off
 
 
 @dataclass(frozen=True)
@@ -190,7 +190,7 @@ class _Walk:
     spectrum: Spectrum
     weight: float
     nodes: float
-    edges: NDArray  # V at which the wave number jumps, or where to look at it
+    edges: NDArray  #: V at which the wave number jumps, or where to look at it
 
     @classmethod
     def of(cls, spectrum, weight, nodes):

@@ -34,8 +34,8 @@ PULL_OFF_KNOWN, PULL_OFF_UNKNOWN = 1.4, 3.0
 # Jumps at a given mean gap: what the energy gained over the work of approach, and the work of
 # separation over the energy gained, reach in simulations. Both grow as the range falls further.
 LATE, HYSTERESIS = 1.3, 1.6
-LEAST_LENGTH = 1e-12  # of thresholds, over the energy of full contact
-DEFAULT_SHARE = 0.1  # of the work of adhesion, from which a pair is said to stick
+LEAST_LENGTH = 1e-12  #: of thresholds, over the energy of full contact
+DEFAULT_SHARE = 0.1  #: of the work of adhesion, from which a pair is said to stick
 # Factor on the errors of surfaces unlike those simulated, at a ratio of correlation lengths, see
 # `find_widening`.
 UNLIKE, UNLIKE_RATIO = 2.0, 4.0
@@ -85,12 +85,12 @@ class Roughness:
     """What the prediction needs to know of a surface; numbers or arrays, lengths in one unit."""
 
     h_rms: ArrayLike
-    q0: ArrayLike  # of the longest waves, or of the roll-off
-    elastic_energy: ArrayLike  # of full contact per nominal area over E* [length]
-    softness: ArrayLike = 1.0  # S of the longest waves on a layer, see `solids`
-    # Energy of a half-space, which bounds that of a layer; NaN: it does not.
+    q0: ArrayLike  #: of the longest waves, or of the roll-off
+    elastic_energy: ArrayLike  #: of full contact per nominal area over E* [length]
+    softness: ArrayLike = 1.0  #: S of the longest waves on a layer, see `solids`
+    #: Energy of a half-space, which bounds that of a layer; NaN: it does not.
     deep_energy: ArrayLike | None = None
-    widening: ArrayLike = 1.0  # factor on the errors, see `find_widening`
+    widening: ArrayLike = 1.0  #: factor on the errors, see `find_widening`
 
     def share(
         self, adhesion_length: ArrayLike, range: ArrayLike, sign: ArrayLike = 0

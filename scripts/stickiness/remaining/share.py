@@ -45,7 +45,7 @@ from scipy.special import erfcx, lambertw, ndtr
 from stickiness.core.arguments import plain, positive
 
 ONSET, ADVANCE = 0.43, 1.3
-SHARPNESS = 8.0  # of the corner between tough and weak
+SHARPNESS = 8.0  #: of the corner between tough and weak
 # Exponents of the elastic energy of contact without adhesion against the mean gap over h_rms:
 # within 30 % of simulations at H = 0.5 to 0.9 from full contact to a gap of 2.7.
 ENERGY_DECAY, ENERGY_CURVATURE = 2.2, 0.2

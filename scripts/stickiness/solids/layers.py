@@ -236,8 +236,8 @@ class Layer:
         return above / below
 
 
-Solid = HalfSpace | Layer
-HALF_SPACE = HalfSpace()
+Solid = HalfSpace | Layer  #: what the solvers and theories take
+HALF_SPACE = HalfSpace()  #: their default
 
 
 def check_solid(solid: Solid) -> Solid:

@@ -16,7 +16,7 @@ class Spectrum(ABC):
     """Height spectrum on a band of wave numbers ``q0 <= q <= q1``, averaged over directions.
 
     What the theory needs is `variance_below` and `variance_above`; everything else follows. Only
-    `PowerLawSegments` may have a direction: then `norm` takes the place of |q| in the band, and
+    `PowerLawSegments` may have a direction: then `norm` takes the place of ``|q|`` in the band, and
     `averaged` is the isotropic spectrum that theories use in its place.
     """
 
@@ -30,7 +30,7 @@ class Spectrum(ABC):
         """Power spectral density C(q) [length^4] at wave numbers `q` [1/length]; 0 off the band."""
 
     def norm(self, qx: ArrayLike, qy: ArrayLike) -> NDArray:
-        """Norm of wave vectors that `q0` and `q1` bound: |q| without a direction."""
+        """Norm of wave vectors that `q0` and `q1` bound: ``|q|`` without a direction."""
         return np.hypot(qx, qy)
 
     def psd_of_norm(self, norm: ArrayLike) -> NDArray:
@@ -80,7 +80,7 @@ class Spectrum(ABC):
 
     @property
     def band(self) -> tuple[float, float]:
-        """Smallest and largest |q| of all waves."""
+        """Smallest and largest ``|q|`` of all waves."""
         return self.q0, self.q1
 
     @property
@@ -94,7 +94,7 @@ class Spectrum(ABC):
         return self.q1 / self.q0
 
     def total_variance(self, power: float = 0) -> float:
-        """Return the integral of |q|^power C over all wave vectors: see `variance_below`."""
+        """Return the integral of ``|q|^power`` C over all wave vectors: see `variance_below`."""
         return float(self.variance_below(self.q1, power))
 
     @property
@@ -104,7 +104,7 @@ class Spectrum(ABC):
 
     @property
     def rms_slope(self) -> float:
-        """Root mean square of the surface gradient |grad h|, sqrt(2 m2)."""
+        """Root mean square of the surface gradient ``|grad h|``, sqrt(2 m2)."""
         return float(np.sqrt(self.total_variance(2)))
 
     @property

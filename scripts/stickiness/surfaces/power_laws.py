@@ -13,16 +13,16 @@ from numpy.typing import ArrayLike, NDArray
 
 from stickiness.core.arguments import nonnegative
 
-ROUNDING = 1e-12  # q within this relative distance of the band's end still belongs to it
+ROUNDING = 1e-12  #: q within this relative distance of the band's end still belongs to it
 
 
 @dataclass(frozen=True, eq=False)
 class PowerLaws:
     """C = C_i (q/q_i)^a_i between the knots q_i and q_(i+1); zero beyond the first and the last."""
 
-    knots: NDArray  # (m + 1,), increasing wave numbers
-    level: NDArray  # (m,), C at the left end of each segment
-    exponent: NDArray  # (m,), a of each segment
+    knots: NDArray  #: (m + 1,), increasing wave numbers
+    level: NDArray  #: (m,), C at the left end of each segment
+    exponent: NDArray  #: (m,), a of each segment
 
     @classmethod
     def of(cls, knots: ArrayLike, level: ArrayLike, exponent: ArrayLike) -> PowerLaws:

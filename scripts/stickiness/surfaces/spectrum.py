@@ -30,7 +30,7 @@ class PowerLawSegments(Spectrum):
     level, exponent : (m,) array
         C at the left end of each segment, and its exponent a.
     ellipse : direction.Ellipse
-        Norm that takes the place of |q| in them: |q| by default.
+        Norm that takes the place of ``|q|`` in them: ``|q|`` by default.
     """
 
     prescribed = "C"
@@ -147,7 +147,7 @@ class SelfAffine(PowerLawSegments):
     its components along the long correlation length and across, a the anisotropy. `q0`, `q_rolloff`
     and `q1` bound this norm: the longest waves have wave number q0/sqrt(a) along and q0 sqrt(a)
     across, the shortest q1/sqrt(a) and q1 sqrt(a). `h_rms` does not depend on a, the rms slope
-    grows with it. `psd`, `variance_below` and the like are averages over directions at |q|.
+    grows with it. `psd`, `variance_below` and the like are averages over directions at ``|q|``.
 
     Examples
     --------
@@ -247,7 +247,7 @@ class Tabulated(PowerLawSegments):
 
 
 class Shells(Spectrum):
-    """Discrete spectrum: height variance sitting on shells |q| = q_i, as on a periodic window.
+    """Discrete spectrum: height variance sitting on shells ``|q|`` = q_i, as on a periodic window.
 
     Parameters
     ----------

@@ -35,7 +35,7 @@ def synthesise(
     ----------
     spectrum : Spectrum
         Wave numbers from q0 >= 2 pi/length to q1 <= pi n/length; with a direction, these are the
-        smallest and the largest |q| (`spectrum.band`). At that very limit the grid
+        smallest and the largest ``|q|`` (`spectrum.band`). At that very limit the grid
         shows only the cosine part of the two modes along its axes: a surface to be measured or
         solved on the grid wants a few more pixels per wavelength.
     n : int
@@ -78,8 +78,8 @@ def lattice_spectrum(spectrum: Spectrum, length: float) -> Shells:
     """Return the spectrum that a periodic window holds, as delta-like shells.
 
     Each wave vector carries C(q) (2 pi/length)^2. If `spectrum` was prescribed by its h_rms, the
-    shells are scaled to that height, as `synthesise` scales its surfaces. Modes of one |q| make one
-    shell whatever their direction.
+    shells are scaled to that height, as `synthesise` scales its surfaces. Modes of one ``|q|`` make
+    one shell whatever their direction.
     """
     check_window(spectrum, length)
     i, j, variance = list_modes(spectrum, length)
@@ -91,7 +91,7 @@ def lattice_spectrum(spectrum: Spectrum, length: float) -> Shells:
 
 
 def realised_spectrum(heights: NDArray, length: float) -> Shells:
-    """Return the spectrum of given periodic heights `(n, n)`, one shell per distinct |q|."""
+    """Return the spectrum of given periodic heights `(n, n)`, one shell per distinct ``|q|``."""
     i, j, power = _periodogram(heights)
     if not power.ravel()[1:].any():
         raise ValueError("heights must not be flat: they hold no wave")

@@ -136,6 +136,13 @@ def test_tough_edges_do_not_know_the_range():
     assert np.all(edges < dmt / 10)
 
 
+def test_codes_have_their_words_as_flags():
+    found = pairs_of(1e5, [1e-10])
+    assert found.verdict.attrs["flag_meanings"].split() == [w.replace(" ", "_") for w in WORDS]
+    assert found.regime.attrs["flag_meanings"].split() == list(REGIMES)
+    assert found.regime.attrs["flag_values"][TOUGH] == TOUGH
+
+
 def test_weak_edges_attract_more_than_the_sum():
     found = pairs_of(1e11, [1e-9]).isel(end=0, surface=0, material=0)
     assert int(found.regime) == WEAK

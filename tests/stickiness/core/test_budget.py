@@ -32,6 +32,7 @@ def test_errors_add_in_quadrature_and_the_largest_is_named():
     np.testing.assert_allclose(found.q_total_error, [5.0, np.sqrt(17)])
     assert budget.dominant(found.isel(x=0), "q") == "model"
     np.testing.assert_allclose(budget.part(found, "q", "discretisation"), [3.0, 1.0])
+    assert found.q.attrs["ancillary_variables"] == "q_error q_total_error q_dominant"
     assert found.q_error.attrs["units"] == found.q_total_error.attrs["units"] == "m"
     assert "discretisation: of the grid" in found.q_error.attrs["comment"]
     assert "solver: none, made up" in found.q_error.attrs["comment"]

@@ -56,6 +56,24 @@ def test_units_are_asked_for(dataset, tmp_path):
         write(dataset, tmp_path / "file.nc")
 
 
+def test_texts_have_a_name_and_no_units(dataset, tmp_path):
+    """A plot then labels their axis without a unit."""
+    named = dataset.assign_coords(law=("pressure", ["hard", "soft"]))
+    with pytest.raises(datasets.DatasetError, match="'law' lacks long_name"):
+        write(named, tmp_path / "file.nc")
+    write(datasets.annotate(named, law=("1", "traction law")), tmp_path / "file.nc")
+    again = datasets.read(tmp_path / "file.nc")
+    assert again.law.attrs == {"long_name": "traction law"}
+    assert again.area.attrs["units"] == "1"
+    write(again, tmp_path / "file.nc")
+
+
+def test_flags_name_codes_from_the_first_on():
+    found = datasets.flags(("nothing decided", "missed"), first=-1)
+    assert found["flag_values"].tolist() == [-1, 0]
+    assert found["flag_meanings"] == "nothing_decided missed"
+
+
 def test_failure_leaves_the_old_file_and_nothing_else(tmp_path):
     path = tmp_path / "table.md"
     path.write_text("old")

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy import ndimage
 
-from stickiness import surface
+from stickiness import measured, surface
 from stickiness.measured import (
     cutoff,
     instrument_spectrum,
@@ -127,6 +127,17 @@ def test_uneven_profile_is_trusted_to_its_largest_gap():
 
 
 @pytest.mark.slow
+def test_spectrum_ends_at_the_cutoff_and_holds_the_rings_below_it():
+    s, h, dx = patch()
+    found = measured.analyse(Topography(h, dx, dx, "test").detrended())
+    spectrum = found.spectrum()
+    assert spectrum.q1 <= found.cutoff.q * (1 + 1e-9) < found.rings.q[-1]
+    assert spectrum.psd(found.rings.q[5]) == pytest.approx(found.rings.psd[5])
+    inside = found.rings.q <= spectrum.q1
+    of_rings = np.sqrt(np.sum((found.area * found.rings.psd * found.rings.q**2)[inside]))
+    assert spectrum.rms_slope == pytest.approx(of_rings, rel=0.15)
+
+
 def test_profile_and_map_agree_on_moments():
     s, h, dx = patch(n=1024, q1=400.0)
     plane = instrument_spectrum.analyse(Topography(h, dx, dx, "map").detrended())

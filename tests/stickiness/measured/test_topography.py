@@ -28,6 +28,14 @@ def write(path, matrix, separator="\t", header="", comma=False):
 HEADER = "# Channel: Z\n# Width: 10.00 µm\n# Height: 25 µm\n# Value units: nm\n"
 
 
+def test_heights_as_a_data_array_lie_where_they_were_measured():
+    heights = np.arange(6.0).reshape(3, 2)
+    found = topography.Topography(heights, 0.5, 2.0, "test").to_xarray()
+    assert found.sel(x=1.0, y=2.0) == heights[2, 1]
+    assert [found[name].attrs["units"] for name in ("x", "y")] == ["m", "m"]
+    assert found.attrs == {"units": "m", "long_name": "height"}
+
+
 # Text matrices
 
 

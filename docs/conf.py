@@ -1,0 +1,65 @@
+"""Sphinx: README.md, docs, the notebook and the library's reference as pages (`make docs`).
+
+The root of the project is the folder of sources, so that links between files lead to the same place
+on a git host and in the pages.
+"""
+
+import os
+import sys
+from pathlib import Path
+
+SCRIPTS = str(Path(__file__).parents[1] / "scripts")
+sys.path.insert(0, SCRIPTS)
+os.environ["PYTHONPATH"] = SCRIPTS  # of the notebook's kernel
+
+from stickiness import __version__ as release  # noqa: E402, F401
+
+project = "stickiness"
+root_doc = "docs/index"
+include_patterns = ["README.md", "CHANGELOG.md", "docs/*.md", "docs/library/*.md", "examples/*"]
+exclude_patterns = [
+    *(".*", "**/__pycache__", "*.egg-info", "docs/_build", "examples/*.py"),
+    *("benchmarks", "config", "data", "envs", "logs", "profiles", "report", "results"),
+    *("rules", "scripts", "tests"),
+]
+extensions = [
+    "myst_nb",
+    "sphinx.ext.autodoc",
+    "sphinx.ext.autosummary",
+    "sphinx.ext.napoleon",
+]
+myst_heading_anchors = 3
+
+nb_execution_mode = "force"
+nb_execution_raise_on_error = True
+nb_execution_timeout = 300
+
+default_role = "code"
+autodoc_member_order = "bysource"
+autodoc_preserve_defaults = True
+autodoc_type_aliases = {name: name for name in ("ArrayLike", "NDArray")}
+autodoc_typehints_format = "short"
+autosummary_generate = False
+napoleon_google_docstring = False
+napoleon_use_param = False
+napoleon_use_rtype = False
+python_maximum_signature_line_length = 88
+
+html_theme = "furo"
+html_show_copyright = False
+html_title = f"{project} {release}"
+
+
+def setup(app):
+    """Let the folder of the pages open at the index."""
+    app.connect("build-finished", write_entrance)
+
+
+def write_entrance(app, error):
+    """Write an index.html that leads to the index page."""
+    page = f"{app.config.root_doc}.html"
+    if app.builder.format == "html" and error is None:
+        text = (
+            f'<meta http-equiv="refresh" content="0; url={page}"><a href="{page}">{project}</a>\n'
+        )
+        (Path(app.outdir) / "index.html").write_text(text, encoding="utf-8")
