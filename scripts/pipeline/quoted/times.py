@@ -9,7 +9,7 @@ from pipeline.numbers import number
 from pipeline.pages.benchmarks import processor_time
 from pipeline.quoted.sources import Sources
 
-PAGE = "asphalt"  # surface whose page stands for all
+PAGE = "jacksboro"  # measured surface whose page stands for all
 
 
 def quote_jobs(sources: Sources) -> dict[str, str]:
