@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from bokeh.embed import components
 from bokeh.models import UIElement
+from bokeh.plotting import figure
 from bokeh.resources import Resources
 from markupsafe import Markup
 
@@ -19,3 +22,20 @@ def embed(figure: UIElement) -> Markup:
     """The element and the script that draw one figure where they stand; needs `library`."""
     script, element = components(figure)
     return Markup(element + script)
+
+
+def make_plot(sizing_mode: str = "stretch_width", **asked: Any) -> figure:
+    """Empty plot, as wide as the page; `asked` are further arguments of Bokeh's `figure`.
+
+    Dragging and scrolling stay the page's until a tool is chosen.
+    """
+    plot = figure(
+        sizing_mode=sizing_mode,
+        tools="pan,wheel_zoom,box_zoom,reset,save",
+        active_drag=None,
+        active_scroll=None,
+        toolbar_location="above",
+        **asked,
+    )
+    plot.toolbar.logo = None
+    return plot

@@ -10,6 +10,7 @@ import xarray as xr
 from bokeh.models import ColumnDataSource, HoverTool, Legend, Span
 from bokeh.plotting import figure
 
+from pipeline.pages.interactive import make_plot
 from pipeline.plotting import BLUE, GREEN, ORANGE, RED
 from pipeline.verdicts.words import find_limits
 from stickiness.criteria.pair import (
@@ -37,7 +38,7 @@ TOLD = [
     ("", "@material on @surface"),
     ("verdict", "@verdict"),
     ("remains", "@remaining"),
-    ("w/U_full", "@energy_ratio"),
+    ("work over energy", "@energy_ratio"),
     ("margin", "@limits"),
     ("pull-off [kPa]", "@pull_off"),
     ("E* threshold [MPa]", "@threshold; the material: @own_modulus"),
@@ -49,18 +50,14 @@ def draw_pairs(verdicts: xr.Dataset, pairs: Sequence[Mapping[str, Any]]) -> figu
 
     `pairs` are the texts of every pair, as `report.arrange_verdicts` makes them.
     """
-    plot = figure(
+    plot = make_plot(
         height=460,
-        sizing_mode="stretch_width",
         x_axis_type="log",
         x_range=(LEAST_RATIO / 1.5, MOST_RATIO * 1.5),
         y_range=(-3, 103),
-        x_axis_label="work of adhesion over the elastic energy of full contact, w/U_full",
+        x_axis_label="work of adhesion over the elastic energy of full contact",
         y_axis_label="remaining share [%]",
-        tools="pan,box_zoom,wheel_zoom,reset,save",
-        active_drag=None,  # a finger on a phone scrolls the page
     )
-    plot.toolbar.logo = None
     plot.add_layout(
         Span(location=100 * DEFAULT_SHARE, dimension="width", line_dash="dashed", line_color="#666")
     )

@@ -17,7 +17,7 @@ from pipeline.pages.contact_looks import (
 )
 from pipeline.pages.pull_off_states import moments
 from pipeline.pages.surface_figure import unit_of
-from pipeline.pages.touch import draw_map, make_plot
+from pipeline.pages.touch import draw_map
 from pipeline.pictured_heights import NO_MAP, NOT_JUDGED
 from pipeline.plotting import BLACK, BLUE, RED
 from pipeline.verdicts.texts import describe_share, show_shares
@@ -163,7 +163,7 @@ def draw(dataset):
     stored = ColumnDataSource({"zone": zones, "gap": gap, "tension": tension, "text": texts})
     shown = ColumnDataSource({"zone": [zones[first]]})
     marker = ColumnDataSource({"gap": [gap[first]], "tension": [tension[first]]})
-    curve = make_plot(
+    curve = interactive.make_plot(
         sizing_mode="stretch_width",
         height=360,
         y_range=tuple(limit * per_tension for limit in limits_of_tension(dataset)),

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from pipeline import plotting
 from pipeline.numbers import number, quantity
+from pipeline.pages.interactive import make_plot
 from pipeline.plotting import COLOURS, GREY, MARKERS
 from pipeline.verdicts.texts import MPA, describe_threshold, round_share, show_shares, show_stress
 from stickiness.criteria.pair import NOT_JUDGED
@@ -156,19 +157,14 @@ def find_nearest(values: xr.DataArray) -> int:
 
 def draw_axis(axis: str, traces: list[Trace], pairs: xr.Dataset) -> figure:
     """Interactive figure of all curves along one axis."""
-    plot = figure(
+    plot = make_plot(
         height=340 + LEGEND_ROW * len(traces),
-        sizing_mode="stretch_width",
         x_axis_type="log",
         x_range=DataRange1d(only_visible=True, range_padding=0.02),
         y_range=(-2, 102),
         x_axis_label=LABELS[axis],
         y_axis_label=REMAINS,
-        tools="pan,box_zoom,wheel_zoom,reset,save",
-        active_drag=None,  # a finger on a phone scrolls the page
-        toolbar_location="above",
     )
-    plot.toolbar.logo = None
     plot.add_layout(
         Span(location=100 * DEFAULT_SHARE, dimension="width", line_dash="dashed", line_color="#666")
     )

@@ -17,7 +17,6 @@ from bokeh.models import (
     RadioButtonGroup,
     Slider,
 )
-from bokeh.plotting import figure
 
 from pipeline.numbers import number, percent, quantity, quantity_with_error, with_error
 from pipeline.pages import captions, interactive
@@ -222,7 +221,7 @@ def describe_point(image, scales, unit_x):
 
 def draw_map(sides, unit, shape):
     """Empty plot of a map, in a box as wide as high, times `shape`, for a square map."""
-    plot = make_plot(
+    plot = interactive.make_plot(
         x_range=DataRange1d(range_padding=0),  # of fixed ranges a narrow window changes the shape
         y_range=DataRange1d(range_padding=0),
         match_aspect=True,
@@ -232,17 +231,4 @@ def draw_map(sides, unit, shape):
         y_axis_label=f"y [{unit}]",
     )
     plot.grid.visible = False
-    return plot
-
-
-def make_plot(**asked):
-    """Empty Bokeh plot; dragging and scrolling stay the page's until a tool is chosen."""
-    plot = figure(
-        tools="pan,wheel_zoom,box_zoom,reset,save",
-        active_drag=None,
-        active_scroll=None,
-        toolbar_location="above",
-        **asked,
-    )
-    plot.toolbar.logo = None
     return plot
