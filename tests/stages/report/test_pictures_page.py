@@ -113,7 +113,7 @@ def describe(plate, paths, materials):
 
 @pytest.fixture(scope="module")
 def page(plate, folder, paths, materials):
-    text = page_of(plate, folder, **describe(plate, paths, materials))
+    text = page_of(plate, folder, curves=None, **describe(plate, paths, materials))
     path = folder / "page.html"
     path.write_text(text, encoding="utf-8")
     return path
@@ -208,7 +208,7 @@ def test_surfaces_without_a_map_or_a_verdict_have_no_pictures(plate, paths, mate
         found = describe(plate, [left_out, paths[1], left_out, paths[3]], materials)
         assert found["touch"] is None
         assert (found["pull_off"] is not None) is shown
-    text = page_of(plate, folder, **found)
+    text = page_of(plate, folder, curves=None, **found)
     assert "Pull-off of soft tape is not simulated: nothing remains." in text
     assert 'id="touch"' not in text
     assert "Bokeh" not in text
