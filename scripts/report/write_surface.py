@@ -114,13 +114,14 @@ def render(template, page, *, files, surface, pairs, materials, figures, bem=Non
     """
     made = datasets.parameters(surface)
     names = order(pairs)
+    any_drawn = any("figure" in (figures.get(name) or {}) for name in DRAWN)
     return captions.template_of(template, page).render(
         files_of=files,
         report=Path(page).parents[1] / "report.html",
         label=made["label"],
         kind=made["kind"].replace("_", "-"),
         source=made.get("source", ""),
-        library=interactive.library() if any(figures.get(name) for name in DRAWN) else "",
+        library=interactive.library() if any_drawn else "",
         figure=figures["surface"],
         **{name: figures.get(name) for name in DRAWN},
         known=list_parameters(surface),
