@@ -1,12 +1,11 @@
 # Finds the project, checks the configuration and turns it into the tables that the rules use. No rule
 # stands here.
 
-import io
 import os
 import re
+import shutil
 import subprocess
 import sys
-import tarfile
 import tempfile
 import time
 from pathlib import Path
@@ -36,8 +35,12 @@ def check_out(repository, ref):
         folder.parent.mkdir(parents=True, exist_ok=True)
         part = tempfile.mkdtemp(dir=folder.parent)
         content = subprocess.check_output([*git, "archive", commit])
-        tarfile.open(fileobj=io.BytesIO(content)).extractall(part, filter="data")
-        os.rename(part, folder)
+        subprocess.run(["tar", "-x", "-C", part], input=content, check=True)
+        os.chmod(part, 0o755)
+        try:
+            os.rename(part, folder)
+        except OSError:  # another run was first
+            shutil.rmtree(part)
     return folder
 
 

@@ -36,7 +36,7 @@ def with_error(value: float, error: float) -> str:
     scale = 1.0 if power in _PLAIN else 10.0**power
     decimals = 1 - _exponent(error / scale, 2)
     shown, spread = (_fixed(abs(x) / scale, decimals) for x in (value, error))
-    text = f"{_signed(value, shown)} ± {spread}"
+    text = f"{_signed(value, shown) if float(shown) else shown} ± {spread}"
     return text if power in _PLAIN else f"({text}){_times_ten_to(power)}"
 
 
@@ -72,14 +72,16 @@ def _align(low: float, high: float, texts: tuple[str, str], digits: int) -> list
 def quantity(low: float, high: float, unit: str, digits: int = 3, beside: float = 0.0) -> str:
     """Interval in the SI prefix that suits its larger end, or what is not far larger beside it."""
     largest = max(abs(low), abs(high))
-    scale, prefix = _prefixed(beside if largest < beside < 1e3 * largest else largest, digits)
+    near = largest < beside < 1e3 * largest or largest == 0
+    scale, prefix = _prefixed(beside if near else largest, digits)
     return f"{interval(low / scale, high / scale, digits)} {prefix}{unit}"
 
 
 def quantity_with_error(value: float, error: float, unit: str) -> str:
     """``(value ± error)``, rounded to two digits of the error, in the SI prefix that suits it."""
     scale, prefix = _prefixed(max(abs(value), error), 3)
-    return f"({with_error(value / scale, error / scale)}) {prefix}{unit}"
+    text = with_error(value / scale, error / scale)
+    return f"({text}) {prefix}{unit}" if "±" in text else f"{text} {prefix}{unit}"
 
 
 def _prefixed(largest: float, digits: int) -> tuple[float, str]:
@@ -104,13 +106,15 @@ def percent(share: float) -> str:
 
 def change(share: float) -> str:
     """Relative change in whole per cent, with its sign."""
-    return f"{100 * share:+.0f} %".replace("-", "−")
+    text = f"{100 * share:+.0f} %".replace("-", "−")
+    return "0 %" if text[1:] == "0 %" else text
 
 
 def difference(value: float, error: float) -> str:
     """Relative difference with its error in per cent and with its sign: ``(+10.0 ± 3.0) %``."""
-    sign = "+" if value > 0 else ""
-    return f"({sign}{with_error(100 * value, 100 * error)}) %"
+    text = with_error(100 * value, 100 * error)
+    sign = "+" if value > 0 and re.search("[1-9]", text.partition("±")[0]) else ""
+    return f"({sign}{text}) %"
 
 
 def write_powers(text: str) -> str:

@@ -128,3 +128,18 @@ def test_a_number_does_not_break(text, pieces):
     kept = numbers.keep_whole(text)
     assert len(kept.split(" ")) == pieces
     assert kept.replace("\u00a0", " ") == text
+
+
+def test_what_rounds_to_none_has_no_sign():
+    assert numbers.change(-0.004) == numbers.change(0.004) == "0 %"
+    assert numbers.difference(-1e-6, 0.03) == "(0.0 ± 3.0) %"
+    assert numbers.difference(1e-6, 0.03) == "(0.0 ± 3.0) %"
+
+
+def test_a_quantity_without_an_error_has_no_brackets():
+    assert numbers.quantity_with_error(1.2e-6, 0.0, "m") == "1.2 µm"
+    assert numbers.quantity_with_error(1.2e-6, 1e-7, "m") == "(1.20 ± 0.10) µm"
+
+
+def test_nothing_has_the_prefix_of_what_stands_beside():
+    assert numbers.quantity(0.0, 0.0, "J/m²", beside=8e-8) == "0 nJ/m²"

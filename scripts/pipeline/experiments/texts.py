@@ -120,7 +120,7 @@ def write(name, low, high, beside=0.0):
     """Limits of a quantity with its unit, in the prefix of what stands beside."""
     if name not in UNITS:
         return f"{percent(low).removesuffix(' %')} to {percent(high)}"
-    if high <= 0:
+    if high <= 0 and beside <= 0:
         return f"0 {UNITS[name]}"
     return quantity(low, high, UNITS[name], 2, beside)
 

@@ -14,6 +14,7 @@ from pipeline.verdicts.texts import (
     describe_pull_off,
     describe_share,
     describe_threshold,
+    show_probability,
     show_stress,
 )
 from pipeline.verdicts.words import find_limits
@@ -96,7 +97,7 @@ def describe_draws(pair: xr.Dataset) -> dict[str, Any]:
     if not np.isfinite(share):
         return numbers | {"probability": NOTHING, "errors": NOTHING}
     return numbers | {
-        "probability": percent(share),
+        "probability": show_probability(pair),
         "errors": f"spectrum {percent(float(pair.error_of_spectrum))}, model "
         f"{percent(float(pair.error_of_model))}",
     }

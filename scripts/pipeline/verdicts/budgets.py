@@ -59,9 +59,13 @@ def find_model_error(dataset, name):
 
 
 def add_budget_of_probability(dataset, draws):
-    """The number of draws limits how well a probability is known."""
+    """The number of draws limits how well a probability is known: Wilson's interval."""
     share, number = dataset.probability, xr.DataArray(list(draws.values()), dims="surface")
-    scatter = COVERS * np.sqrt(share * (1 - share) / number.where(number > 0))
+    number = number.where(number > 0)
+    shrunk = 1 + COVERS**2 / number
+    middle = (share + COVERS**2 / (2 * number)) / shrunk
+    half = COVERS * np.sqrt(share * (1 - share) / number + (COVERS / (2 * number)) ** 2) / shrunk
+    scatter = abs(middle - share) + half
     inside = absent("drawn")
     return with_budget(
         dataset,

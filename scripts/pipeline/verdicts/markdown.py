@@ -6,6 +6,7 @@ from pipeline.verdicts.texts import (
     describe_pull_off,
     describe_share,
     describe_threshold,
+    show_probability,
     show_stress,
 )
 from pipeline.verdicts.words import find_limits
@@ -108,7 +109,7 @@ def describe_pair(pair):
         describe_pull_off(pair),
         show_stress(float(pair.modulus_quoted), MPA),
         describe_threshold(pair),
-        percent(float(pair.probability)),
+        show_probability(pair),
         show_interval(pair.energy_ratio.min(), pair.energy_ratio.max(), 2),
         show_interval(*find_limits(pair, "margin"), 2),
         show_interval(onset.min(), onset.max(), 2),

@@ -48,6 +48,15 @@ def describe_pull_off(pair: xr.Dataset) -> str:
     return describe_stress(pair, "pull_off", KPA)
 
 
+def show_probability(pair: xr.Dataset) -> str:
+    """Share of the draws that stick; of none or all of them a bound, for draws are few."""
+    share = float(pair.probability)
+    if share not in (0, 1):
+        return percent(share)
+    error = float(pair.probability_total_error)
+    return f"< {percent(error)}" if share == 0 else f"> {percent(1 - error)}"
+
+
 def describe_threshold(pair: xr.Dataset) -> str:
     """E* [MPa] below which the wanted share remains, with its limits."""
     return describe_stress(pair, "modulus_threshold", MPA)

@@ -109,7 +109,7 @@ def test_a_pull_off_is_a_percentage():
 
 def test_next_to_nothing_is_written_as_none():
     found = say(WORK | {"predicted": (0.04e-6, 1e-12, 1e-3)})["predicted"]
-    assert found == "0 J/m² (0 … 1 mJ/m²)"  # below a millionth of 50 mJ/m^2
+    assert found == "0 mJ/m² (0 … 1 mJ/m²)"  # below a millionth of 50 mJ/m^2
     assert say(WORK | {"predicted": (0.06e-6, 1e-12, 1e-3)})["predicted"].startswith("60 nJ/m² (0")
 
 

@@ -104,6 +104,7 @@ def verdicts():
             "pair_a_v_low": (dims, np.full((2, 2, 2), 2.0)),
             "pair_a_v_high": (dims, np.full((2, 2, 2), 4.0)),
             "probability": (dims[:2], [[np.nan, 0.42], [np.nan, 0.0]]),
+            "probability_total_error": (dims[:2], [[np.nan, 0.06], [np.nan, 0.013]]),
             "margin_quantile": ((*dims[:2], "quantile"), np.tile([0.5, 1.0, 2.0], (2, 2, 1))),
             "error_of_spectrum": (dims[:2], np.full((2, 2), 0.3)),
             "error_of_model": (dims[:2], np.full((2, 2), 0.4)),
@@ -618,6 +619,7 @@ def test_errors_of_a_pair_are_told_where_it_was_drawn(verdicts, surfaces):
     on_glass, on_sand = pairs[:2]
     assert on_glass["probability"] == on_glass["errors"] == "–"
     assert on_sand["probability"] == "42 %"
+    assert pairs[3]["probability"] == "< 1.3 %"  # of no draw, which are few
     assert on_sand["errors"] == "spectrum 30 %, model 40 %"
     assert on_sand["error"] == pytest.approx(0.5)
 
