@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass
 
+from pipeline.numbers import write_powers
 from stickiness.core.units import si
 from stickiness.criteria.moduli import REFERENCE_FREQUENCY, Constant, Modulus, Prony, Table
 from stickiness.solids import HALF_SPACE, Backing, Film, Layer, Solid
@@ -75,7 +76,7 @@ def read_modulus(entry):
 
 def describe_modulus(entry):
     """Modulus as the configuration states it, with the layer and the solid's own roughness."""
-    text = describe_elasticity(entry)
+    text = write_powers(describe_elasticity(entry))
     return f"{text}, rough as {entry['surface']}" if "surface" in entry else text
 
 
