@@ -18,7 +18,12 @@ from pipeline.pages import (
 )
 from pipeline.pages.provided import own_first
 from pipeline.pages.surface_figure import draw_surface
-from pipeline.pages.surface_texts import describe_height, describe_line, describe_slope
+from pipeline.pages.surface_texts import (
+    describe_height,
+    describe_line,
+    describe_slope,
+    say_what_was_seen,
+)
 from pipeline.pages.verdict_texts import describe_pair, ends, explain
 from pipeline.verdicts.materials import describe_modulus, read_material
 from pipeline.verdicts.texts import say_verdict
@@ -124,6 +129,7 @@ def render(template, page, *, files, surface, pairs, materials, figures, bem=Non
         library=interactive.library() if any_drawn else "",
         figure=figures["surface"],
         **{name: figures.get(name) for name in DRAWN},
+        seen=say_what_was_seen(surface),
         known=list_parameters(surface),
         remarks=[t for t in (*surface.attrs.get("remarks", "").split("; "), made.get("note")) if t],
         measured=[t for t in surface.attrs.get("files", "").split("; ") if t],

@@ -68,7 +68,7 @@ def describe_stress(pair: xr.Dataset, name: str, unit: float) -> str:
     if np.isnan(low):
         return NOTHING
     if high < LEAST_STRESS:
-        return "below 1 Pa"
+        return show_stress(high, unit)
     values = sorted(map(float, pair[name].values))
     return f"{show_stresses(*values, unit)} ({show_stresses(low, high, unit, ' to ')})"
 
@@ -135,5 +135,5 @@ def _say_verdict(material: str, pair: xr.Dataset) -> str:
         remains = "nothing"
     remains += " of its work of adhesion remains"
     if code == TOUCHES:
-        remains = f"contact grows by itself at the finest wave, but {remains}"
+        remains = f"{remains}, though contact grows by itself at the finest wave"
     return f"{material} {WORDS[code]}: {remains}.{layer}"

@@ -15,6 +15,7 @@ from criteria import judge_surface
 from pipeline import measured_loads, measured_surface
 from pipeline.numbers import number
 from pipeline.pages import captions, remaining_curves, surface_figure, surface_texts
+from pipeline.pages.surface_texts import say_what_was_seen
 from pipeline.pages.verdict_texts import describe_pair
 from pipeline.verdicts import joint
 from pipeline.verdicts.markdown import write_markdown
@@ -263,6 +264,8 @@ def test_an_implausible_surface_is_not_judged_and_its_page_says_why(folder):
     assert "give missing_value: 0" in text
     assert "does not stick" not in text
     assert "sticks below" not in text
+    assert "Criteria that disagree" not in text
+    assert "Verdict at" not in text
     assert (
         describe_pair(pairs.sel(material="gel")).keys()
         == (
@@ -441,3 +444,15 @@ def test_errors_of_sizes_cover_what_those_of_the_fit_do():
     assert surface_texts.describe_height(measured) == "(1.00 ± 0.16) µm"
     assert surface_texts.describe_slope(measured) == "0.200 ± 0.016"
     assert surface_texts.describe_height(measured.drop_vars("draw")) == "0.9 … 1.1 µm"
+
+
+def test_a_page_says_at_once_what_was_not_seen(single):
+    said = say_what_was_seen(single)
+    assert said.startswith("Measured: heights of ")
+    assert said.endswith("Shorter waves are not counted; they would lower what remains.")
+    longer = single.assign(q1=100 * single.q1, missing_fraction=0.29)
+    said = say_what_was_seen(longer.rename(heights="profile"))
+    assert "not counted" not in said
+    assert "are assumed. It was measured along lines" in said
+    assert said.endswith("29 % of the points are missing.")
+    assert say_what_was_seen(single.drop_vars("q_cutoff")) == ""
