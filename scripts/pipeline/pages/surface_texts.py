@@ -6,6 +6,8 @@ import xarray as xr
 from pipeline.numbers import interval, quantity, quantity_with_error, with_error
 from stickiness.core.statistics import COVERS
 
+MOST_SLOPE = 1.0  # rms, up to which slopes are taken for small
+
 
 def describe_height(surface: xr.Dataset) -> str:
     """The height with its error, or its range for a surface that is given by one."""
@@ -21,6 +23,16 @@ def describe_slope(surface: xr.Dataset) -> str:
     if is_measured(surface):
         return with_error((low + high) / 2, COVERS * (high - low) / 2)
     return interval(low, high)
+
+
+def warn_of_slope(surface: xr.Dataset) -> str:
+    """That slopes are not small, if the rms slope may exceed `MOST_SLOPE`; else empty."""
+    if max(ends(surface.rms_slope)) <= MOST_SLOPE:
+        return ""
+    return (
+        f"The rms slope is {describe_slope(surface)}. Linear elasticity and small slopes are "
+        "assumed, so what rests on waves this steep is an extrapolation."
+    )
 
 
 def describe_line(surface: xr.Dataset) -> str:
