@@ -23,6 +23,7 @@ from pipeline.pages.surface_texts import (
     describe_line,
     describe_slope,
     say_what_was_seen,
+    warn_of_slope,
 )
 from pipeline.pages.verdict_texts import describe_pair, ends, explain
 from pipeline.verdicts.materials import describe_modulus, read_material
@@ -41,11 +42,16 @@ with their sampling errors. Dotted: the cutoff of the instrument. Shaded: the en
 with its error, if there is one. Grey: the fit extrapolated beyond the instrument, with its error.
 Errors cover 90 %.
 """
-CURVES = """Share of the work of adhesion that remains on this surface, with limits of 5 and 95 %.
+CURVES = """Share of the work of adhesion that remains on this surface, with limits.
 Above the dashed line, at {wanted}, it sticks. Filled points: the pair as it is. {shown}
 
-Lines: both ends of what is known of the surface; shaded: limits with the errors of the model and of
-the spectrum.
+Lines: both ends of what is known of the surface. Of a measured surface these are quantiles of 16
+and 84 % over the spectra compatible with the measurement; of one from the literature, plausible
+ends. Shaded: limits. Of a measured surface these are quantiles of 5 and 95 % over the spectra and
+the errors of the model; of one from the literature, the limits of the model at the plausible ends.
+Those of the model cover 90 % where more than 5 % remains.
+
+Linear elasticity and small slopes are assumed at all heights, also where the rms slope exceeds 1.
 
 Modulus: against E* of the material, all else equal; open circles: the threshold. None of a layer
 with an elastic backing, which would have to change as well.
@@ -131,7 +137,15 @@ def render(template, page, *, files, surface, pairs, materials, figures, bem=Non
         **{name: figures.get(name) for name in DRAWN},
         seen=say_what_was_seen(surface),
         known=list_parameters(surface),
-        remarks=[t for t in (*surface.attrs.get("remarks", "").split("; "), made.get("note")) if t],
+        remarks=[
+            text
+            for text in (
+                *surface.attrs.get("remarks", "").split("; "),
+                made.get("note"),
+                warn_of_slope(surface),
+            )
+            if text
+        ],
         measured=[t for t in surface.attrs.get("files", "").split("; ") if t],
         loads=measured_contact.describe_loads(bem) if bem is not None else [],
         periodic=bem is not None and "given" in bem.periodisation.values,

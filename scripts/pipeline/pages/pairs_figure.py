@@ -21,8 +21,7 @@ from stickiness.criteria.pair import (
     TOUCHES,
     WORDS,
 )
-from stickiness.remaining.prediction import DEFAULT_SHARE
-from stickiness.remaining.share import tough_share
+from stickiness.remaining.prediction import DEFAULT_SHARE, Roughness
 
 LOOKS = {  # of a verdict
     STICKS_FULLY: ("square", BLUE),
@@ -32,6 +31,8 @@ LOOKS = {  # of a verdict
     NOT_STICKY: ("x", RED),
 }
 LEAST_RATIO, MOST_RATIO = 1e-6, 1e3  # w/U_full; pairs beyond stand at the edges
+SHORT = 1e-5  # range over h_rms of the line
+SAME = 0.05, 0.2  # of log(w/U_full) and share [%]: differences of ends that nobody sees
 TEXTS = ("material", "surface", "verdict", "remaining", "energy_ratio", "limits")
 TEXTS += ("pull_off", "threshold", "own_modulus")
 TOLD = [
@@ -55,15 +56,13 @@ def draw_pairs(verdicts: xr.Dataset, pairs: Sequence[Mapping[str, Any]]) -> figu
         x_axis_type="log",
         x_range=(LEAST_RATIO / 1.5, MOST_RATIO * 1.5),
         y_range=(-3, 103),
-        x_axis_label="work of adhesion over the elastic energy of full contact",
+        x_axis_label="work of adhesion over energy of full contact",
         y_axis_label="remaining share [%]",
     )
     plot.add_layout(
         Span(location=100 * DEFAULT_SHARE, dimension="width", line_dash="dashed", line_color="#666")
     )
-    ratios = np.geomspace(LEAST_RATIO, MOST_RATIO, 500)
-    look = {"line_color": "#999999", "line_dash": "dotted", "line_width": 1.5}
-    items = [("short range", [plot.line(ratios, 100 * tough_share(ratios), **look)])]
+    items = [("the model, short range", [draw_model(plot)])]
     for code, (marker, colour) in LOOKS.items():
         rows = [row for row in pairs if row["grade"] == code]
         if rows:
@@ -72,30 +71,59 @@ def draw_pairs(verdicts: xr.Dataset, pairs: Sequence[Mapping[str, Any]]) -> figu
     return plot
 
 
-def draw_group(plot, verdicts, rows, marker, colour):
-    """Pairs of one verdict with their limits, as renderers."""
-    places = [locate(verdicts.sel(material=row["key"], surface=row["name"])) for row in rows]
-    columns = {name: [place[name] for place in places] for name in places[0]}
-    columns |= {name: [row[name] for row in rows] for name in TEXTS}
-    source = ColumnDataSource(columns)
-    look = {"source": source, "line_color": colour}
-    across = plot.segment("left", "share", "right", "share", line_alpha=0.6, **look)
-    up = plot.segment("ratio", "low", "ratio", "high", line_alpha=0.6, **look)
+def draw_model(plot: figure) -> Any:
+    """Line of the model for an attraction of short range, on a half-space."""
+    rough = Roughness(h_rms=1.0, q0=1.0, elastic_energy=1.0)
+    ratios = np.geomspace(LEAST_RATIO, MOST_RATIO, 500)
+    look = {"line_color": "#999999", "line_dash": "dotted", "line_width": 1.5}
+    return plot.line(ratios, 100 * rough.share(ratios, SHORT), **look)
+
+
+def draw_group(
+    plot: figure,
+    verdicts: xr.Dataset,
+    rows: Sequence[Mapping[str, Any]],
+    marker: str,
+    colour: str,
+) -> list[Any]:
+    """Pairs of one verdict with their limits, both ends of each joined, as renderers."""
+    ends = []  # of all pairs: texts, w/U_full, share, low and high limit
+    for row in rows:
+        texts = {name: row[name] for name in TEXTS}
+        pair = verdicts.sel(material=row["key"], surface=row["name"])
+        ends.append([texts | end for end in locate(pair)])
+    look = {"line_color": colour}
+    joined = plot.multi_line(
+        [[end["ratio"] for end in pair] for pair in ends],
+        [[end["share"] for end in pair] for pair in ends],
+        line_alpha=0.6,
+        **look,
+    )
+    points = [end for pair in ends for end in pair]
+    source = ColumnDataSource({name: [point[name] for point in points] for name in points[0]})
+    look["source"] = source
+    bars = plot.segment("ratio", "low", "ratio", "high", line_alpha=0.6, **look)
     fill = {"fill_color": colour, "fill_alpha": 0.8}
-    points = plot.scatter("ratio", "share", marker=marker, size=10, line_width=1.5, **fill, **look)
-    plot.add_tools(HoverTool(renderers=[points], tooltips=TOLD, visible=False))
-    return [points, across, up]
+    marks = plot.scatter("ratio", "share", marker=marker, size=9, line_width=1.5, **fill, **look)
+    plot.add_tools(HoverTool(renderers=[marks], tooltips=TOLD, visible=False))
+    return [marks, bars, joined]
 
 
-def locate(pair: xr.Dataset) -> dict[str, float]:
-    """Middle and limits of the share [%], and of w/U_full between both ends of the surface."""
-    ends = np.clip(np.sort(pair.energy_ratio.values), LEAST_RATIO, MOST_RATIO)
+def locate(pair: xr.Dataset) -> list[dict[str, float]]:
+    """Ends of what is known, the less share first: w/U_full, share and bar [%].
+
+    The bar of the first reaches down to the low limit, that of the last up to the high limit. Ends
+    that the eye cannot tell apart are one.
+    """
+    ratios = np.clip(pair.energy_ratio.values, LEAST_RATIO, MOST_RATIO)
+    shares = 100 * pair.remaining.values
+    ends = [
+        {"ratio": float(ratios[i]), "share": float(shares[i])} for i in np.lexsort((ratios, shares))
+    ]
+    same = np.allclose(np.log(ratios), np.log(ratios[0]), rtol=0, atol=SAME[0])
+    if same and np.allclose(shares, shares[0], rtol=0, atol=SAME[1]):
+        ends = ends[:1]
+    ends = [end | {"low": end["share"], "high": end["share"]} for end in ends]
     low, high = find_limits(pair)
-    return {
-        "left": float(ends[0]),
-        "right": float(ends[-1]),
-        "ratio": float(np.sqrt(ends[0] * ends[-1])),
-        "share": 100 * float(pair.remaining.mean()),
-        "low": 100 * float(low),
-        "high": 100 * float(high),
-    }
+    ends[0]["low"], ends[-1]["high"] = 100 * float(low), 100 * float(high)
+    return ends

@@ -7,6 +7,7 @@ from pipeline.numbers import interval, percent, quantity, quantity_with_error, w
 from stickiness.core.statistics import COVERS
 
 MANY_MISSING = 0.05  # share of the points from which the reader is told at once
+MOST_SLOPE = 1.0  # rms, up to which slopes are taken for small
 
 
 def say_what_was_seen(surface: xr.Dataset) -> str:
@@ -46,6 +47,16 @@ def describe_slope(surface: xr.Dataset) -> str:
     if is_measured(surface):
         return with_error((low + high) / 2, COVERS * (high - low) / 2)
     return interval(low, high)
+
+
+def warn_of_slope(surface: xr.Dataset) -> str:
+    """That slopes are not small, if the rms slope may exceed `MOST_SLOPE`; else empty."""
+    if max(ends(surface.rms_slope)) <= MOST_SLOPE:
+        return ""
+    return (
+        f"The rms slope is {describe_slope(surface)}. Linear elasticity and small slopes are "
+        "assumed, so what rests on waves this steep is an extrapolation."
+    )
 
 
 def describe_line(surface: xr.Dataset) -> str:

@@ -3,6 +3,7 @@
 from collections.abc import Iterable
 
 import pandas as pd
+from scipy.stats import gmean
 
 from pipeline import remaining_table
 from pipeline.claims import remaining as claims
@@ -11,6 +12,8 @@ from pipeline.quoted.sources import Sources, say_range
 from stickiness.remaining.prediction import HYSTERESIS, LATE
 
 GOAL, LEAST = 0.25, 0.05  # error that the theory may have where more than this remains
+ONSET = 0.35  # w/U_full up to which little more than nothing remains
+FINE = 12, 0.3  # magnification and w/U_full from which on the theory is compared there
 SHORTER = "H0.8_zeta8_2x2"  # set with several ranges
 KINDS = ("approach", "separation")
 
@@ -55,7 +58,7 @@ def quote_limits(sources: Sources) -> dict[str, str]:
     frame = read(sources)
     low, high = frame.predicted_low, frame.predicted_high
     inside = {
-        "": frame.bound.between(low, high),
+        "": is_inside(frame),
         ".approach": frame.approach.between(low / LATE, high),
         ".separation": frame.separation.between(low, high * HYSTERESIS),
     }
@@ -69,6 +72,33 @@ def quote_limits(sources: Sources) -> dict[str, str]:
         for kind, held in inside.items():
             texts[f"remaining.held.{name}{kind}"] = percent(float(held[cells].mean()))
     return texts
+
+
+def quote_onset(sources: Sources) -> dict[str, str]:
+    """How often the limits hold energies near the onset, where they miss, and the theory's sign."""
+    frame = read(sources)
+    tough = frame[remaining_table.is_wide(frame) & ~remaining_table.is_weak(frame)]
+    near, few = tough[tough.energy_ratio <= ONSET], tough[tough.predicted.between(0.02, LEAST)]
+    fine = near[(near.magnification >= FINE[0]) & (near.energy_ratio >= FINE[1])]
+    ratio = fine.predicted / fine.bound
+    return {
+        "remaining.onset": say_of(is_inside(near)),
+        "remaining.onset.below": str(int((near.bound < near.predicted_low).sum())),
+        "remaining.onset.above": str(int((near.bound > near.predicted_high).sum())),
+        "remaining.onset.ratio": f"{gmean(ratio):.1f} ({say_range(ratio)})",
+        "remaining.few.below": say_of(few.bound < few.predicted_low),
+        "remaining.held.more": say_of(is_inside(tough[tough.predicted > LEAST])),
+    }
+
+
+def is_inside(frame: pd.DataFrame) -> pd.Series:
+    """Whether the limits of the theory hold the energy gained."""
+    return frame.bound.between(frame.predicted_low, frame.predicted_high)
+
+
+def say_of(held: pd.Series) -> str:
+    """How many of how many, ``20 of 31``."""
+    return f"{int(held.sum())} of {len(held)}"
 
 
 def quote_pull_off(sources: Sources) -> dict[str, str]:
@@ -140,6 +170,6 @@ def quote_truncation(sources: Sources) -> dict[str, str]:
 
 
 NUMBERS = (
-    *(quote_means, quote_accuracy, quote_limits, quote_pull_off),
+    *(quote_means, quote_accuracy, quote_limits, quote_onset, quote_pull_off),
     *(quote_ranks, quote_ranges, quote_truncation),
 )

@@ -21,9 +21,11 @@ HEAD = """\
 **What remains.** Share of the work of adhesion w that remains on the rough surface. A pair sticks
 if at least {wanted} remains. The share follows from w/U_full, the work of adhesion over the elastic
 energy of full contact. For H > 1/2 the rms height and the longest waves set this energy. The range
-of the attraction enters only where it is long. Limits in brackets cover 90 %. They hold for both
-ends of what is known of the surface. On a measured surface they are quantiles over the spectra that
-agree with the measurement and over the errors of the model. A share below 0.1 % is written as 0 %.
+of the attraction matters less the larger w/U_full is. Limits are in brackets. Those of the model
+cover 90 % where more than 5 % remains. On a measured surface limits are quantiles of 5 and 95 %
+over the spectra that agree with the measurement and over the errors of the model. On one from the
+literature they are the limits of the model at the plausible ends of what is known of it. A share
+below 0.1 % is written as 0 %.
 
 **Verdict.** *Sticks*: at least {wanted} remains, within all limits. *Sticks fully*: at least {full}
 does. *Depends*: {wanted} lies within the limits. *Touches without hold*: less than {wanted}

@@ -3,6 +3,7 @@
 import copy
 import json
 import re
+from collections import defaultdict
 from dataclasses import replace
 from html import unescape
 from html.parser import HTMLParser
@@ -11,7 +12,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import xarray as xr
-from bokeh.models import Scatter
+from bokeh.models import MultiLine, Scatter
 from helpers.experiments import EXPERIMENTS, make_dataset
 from helpers.pages import LINE, LINES, RAW, find_long_captions, find_raw_symbols
 
@@ -534,20 +535,32 @@ def test_every_judged_pair_is_on_one_axis(verdicts, surfaces):
     pairs = report.arrange_verdicts(verdicts, surfaces)["pairs"]
     plot = pairs_figure.draw_pairs(verdicts, pairs)
     points = [r for r in plot.renderers if isinstance(r.glyph, Scatter)]
-    shown = {
-        (m, s): (word, ratio, share, low, high)
-        for data in (r.data_source.data for r in points)
-        for m, s, word, ratio, share, low, high in zip(
-            *(data[n] for n in ("material", "surface", "verdict", "ratio", "share", "low", "high")),
-            strict=True,
-        )
-    }
+    names = ("verdict", "ratio", "share", "low", "high")
+    shown = defaultdict(list)
+    for data in (r.data_source.data for r in points):
+        rows = zip(*(data[n] for n in ("material", "surface", *names)), strict=True)
+        for material, surface, *row in rows:
+            shown[material, surface].append(row)
     assert len(shown) == 4
-    word, *numbers = shown["jelly & cream", "sand < 1 mm"]
+    (word, *less), (_, *more) = shown["jelly & cream", "sand < 1 mm"]
     assert word == "depends"
-    assert numbers == pytest.approx([0.5, 16.0, 1.6, 36.0])
+    assert less == pytest.approx([0.25, 2.0, 1.6, 2.0])
+    assert more == pytest.approx([1.0, 30.0, 30.0, 36.0])
+    ((_, *alone),) = shown["iron", "glass pane"]  # both ends agree
+    assert alone == pytest.approx([0.05, 1.0, 0.8, 1.2])
     doubtful = [pair | {"grade": -1} for pair in pairs]
-    assert len(pairs_figure.draw_pairs(verdicts, doubtful).renderers) == 1  # theory alone
+    (line,) = pairs_figure.draw_pairs(verdicts, doubtful).renderers  # the model alone
+    at = line.data_source.data
+    shares = np.interp(np.log([0.3, 2.0]), np.log(at["x"]), at["y"])
+    assert shares == pytest.approx([0.44, 51.8], rel=0.02)
+
+
+def test_both_ends_of_a_pair_are_one_line(verdicts, surfaces):
+    pairs = report.arrange_verdicts(verdicts, surfaces)["pairs"]
+    plot = pairs_figure.draw_pairs(verdicts, pairs)
+    lines = [r.data_source.data for r in plot.renderers if isinstance(r.glyph, MultiLine)]
+    drawn = sorted(tuple(xs) for data in lines for xs in data["xs"])
+    assert drawn == [(0.005,), (0.05,), (0.25, 1.0), (4.0, 4.5)]
 
 
 def test_verdicts_are_worded_on_the_page(page):

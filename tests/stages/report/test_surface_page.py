@@ -192,7 +192,8 @@ def test_profile_goes_all_the_way(folder):
 
 @pytest.mark.slow
 def test_page_shows_verdicts_errors_and_reasons(single, folder):
-    page = page_of(single, folder)
+    steep = single.assign(rms_slope=single.rms_slope.copy(data=[1.9, 2.1]))
+    page = page_of(steep, folder)
     text = re.sub(r"<(style|script)\b.*?</\1>|<[^>]+>", " ", page, flags=re.S)
     text = text.replace("\u00a0", " ")
     assert "gel &lt;soft&gt;" in page
@@ -202,6 +203,7 @@ def test_page_shows_verdicts_errors_and_reasons(single, folder):
     for name in ("Dahlquist", "Pastewka–Robbins", "Fuller–Tabor", "Persson–Tosatti"):
         assert name in text
     assert "considers no roughness at all" in text
+    assert "The rms slope is 2.00 ± 0.16. Linear elasticity and small slopes are assumed" in text
     assert "E* = 230 GPa" in text
     # Steel is stiff and does not stick; the gel is soft at 1 Hz and stiff beyond its relaxation.
     assert re.search(r"sticks\s+below [\d. ×⁰-⁹]+ Hz", text)
@@ -456,3 +458,13 @@ def test_a_page_says_at_once_what_was_not_seen(single):
     assert "are assumed. It was measured along lines" in said
     assert said.endswith("29 % of the points are missing.")
     assert say_what_was_seen(single.drop_vars("q_cutoff")) == ""
+
+
+@pytest.mark.parametrize(
+    ("slopes", "words"), [([0.4, 2.3], "The rms slope is 0.4 … 2.3. "), ([0.4, 1.0], "")]
+)
+def test_steep_surfaces_have_a_remark(slopes, words):
+    surface = xr.Dataset({"rms_slope": ("end", slopes)}, coords={"end": ["smooth", "rough"]})
+    text = surface_texts.warn_of_slope(surface)
+    assert text.startswith(words)
+    assert ("small slopes are assumed" in text) == bool(words)
