@@ -195,7 +195,7 @@ def test_page_says_what_the_pictures_leave_out(page):
         "The attraction reaches",
         "not 0.3 nm : the grid resolves no shorter one.",
         "The longer range and the missing waves let more adhesion remain",
-        "soft tape, pressed on with at least",
+        "In a simulation with adhesion, soft tape is pressed on with at least",
         "Work of separation by the model, the same heights and range",
         "The verdict: energy gained by the model, all of the spectrum, range 0.3 nm",
         "Pull-off [kPa]",
