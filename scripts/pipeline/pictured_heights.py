@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from pipeline.measured_surface import read_levelled
+from pipeline.measured_surface import find_spectrum, read_levelled
 from stickiness.config.measurements import measurements
 from stickiness.measured import periodic, topography
 
@@ -44,22 +44,31 @@ class Pictured:
 
 
 def read_map(asked):
-    """Levelled heights of the first measurement that is a map; None if all are profiles."""
+    """First measurement that is a map: levelled heights, its own cutoff [1/m]; None if none is.
+
+    Other measurements may resolve finer waves: the cutoff of the surface is the finest.
+    """
     for _, measurement in measurements(asked):
         heights = read_levelled(measurement)
         if isinstance(heights, topography.Topography):
-            return heights
+            return heights, find_spectrum(heights, measurement).cutoff.q
     return None
 
 
+def name_measurement(asked, heights):
+    """Which of several measurements is pictured; empty where there is one."""
+    return heights.source if len(measurements(asked)) > 1 else ""
+
+
 def prepare(heights, q_cutoff, points):
-    """`Pictured` heights without waves beyond the instrument's cutoff or too short for the grid.
+    """`Pictured` heights without waves beyond the cutoff [1/m], the map or the grid.
 
     `points` is the largest number along a side; fewer are taken where they resolve all waves.
     """
     whole = periodic.periodise(heights.heights, WAY)
     waves = max(heights.size) / (2 * np.pi)  # per wave number along the longer side
-    q_max = min(q_cutoff, points / (LEAST_PIXELS * waves)) * (1 - _ROUNDING)
+    nyquist = np.pi / max(heights.dx, heights.dy)
+    q_max = min(q_cutoff, nyquist, points / (LEAST_PIXELS * waves)) * (1 - _ROUNDING)
     pixels = min(MOST_PIXELS, points / (waves * q_max)) * (1 - _ROUNDING)
     limited = periodic.band_limited(whole, heights.size, q_max, pixels)
     change = float(np.std(whole - heights.heights) / np.std(heights.heights))

@@ -14,7 +14,7 @@ import xarray as xr
 from pipeline import pictured_heights
 from pipeline.adhesion_sets import LAWS
 from pipeline.job import start
-from pipeline.numbers import quantity
+from pipeline.numbers import percent, quantity
 from pipeline.pages.stills import draw_pull_off, draw_reason
 from pipeline.pictured_heights import NO_MAP, NOT_JUDGED
 from pipeline.verdicts.materials import read_material
@@ -26,7 +26,8 @@ from stickiness.measured import periodic
 from stickiness.remaining import measure, predict
 
 POINTS = 192  # along the longer side, at most
-PIXELS_IN_ZONE = 3.0  # the cohesive zone's width
+# In the width of the cohesive zone: half the grid, which tells the error, resolves it with two.
+PIXELS_IN_ZONE = 4.0
 TOLERANCE = 1e-3
 OPEN, ATTRACTED, TOUCHING = range(3)
 QUOTED = {
@@ -50,6 +51,7 @@ TEXTS = {
     "energy_ratio": ("1", "work of adhesion over elastic energy of full contact"),
     "h_rms": ("m", "rms height of the heights simulated"),
     "shortest_wavelength": ("m", "shortest wave of the heights simulated"),
+    "judged_wavelength": ("m", "shortest wave of the spectrum judged"),
     "squeeze_pressure": ("Pa", "mean pressure before separation, at least"),
 }
 
@@ -59,16 +61,18 @@ class LeftOutError(Exception):
 
 
 def main(job):
-    surface = datasets.read(job.input.surface, ["q0", "q_cutoff"])
+    surface = datasets.read(job.input.surface, ["q0", "q1"])
     asked, entry = job.params.surface, job.params.entry
     try:
+        heights, q_cutoff = find_heights(surface, asked)
         found = simulate(
-            find_heights(surface, asked),
-            float(surface.q0),
+            pictured_heights.prepare(heights, q_cutoff, POINTS),
+            (float(surface.q0), float(surface.q1)),
             read_material(entry),
             job.params.law,
             job.params.squeeze,
         )
+        found.attrs["measurement"] = pictured_heights.name_measurement(asked, heights)
         draw_pull_off(found, job.output.figure)
     except LeftOutError as reason:
         logging.info("no pictures: %s", reason)
@@ -84,22 +88,24 @@ def main(job):
 
 
 def find_heights(surface, asked):
-    """Heights to pull off from."""
+    """Heights to pull off from, and their cutoff [1/m]."""
     if surface.attrs["not_judged"]:
         raise LeftOutError(NOT_JUDGED)
-    heights = pictured_heights.read_map(asked)
-    if heights is None:
+    found = pictured_heights.read_map(asked)
+    if found is None:
         raise LeftOutError(NO_MAP)
-    return pictured_heights.prepare(heights, float(surface.q_cutoff), POINTS)
+    return found
 
 
-def simulate(pictured, q0, material, law, squeeze):
+def simulate(pictured, band, material, law, squeeze):
     """Dataset of the states of approach, squeeze and separation, and of the model for the same.
 
-    `squeeze` is the mean pressure before separation over E* q0 h_rms.
+    `band` is q0 and q1 [1/m] of the spectrum judged. `squeeze` is the mean pressure before
+    separation over E* q0 h_rms.
     """
     if material.surface is not None:
         raise LeftOutError("the material has a roughness of its own, which the picture would lack")
+    q0, q1 = band
     h_rms, sides, solid = pictured.h_rms, pictured.sides, material.solid
     length = material.work_of_adhesion / material.modulus
     pixel = sides[0] / pictured.heights.shape[0]
@@ -113,8 +119,8 @@ def simulate(pictured, q0, material, law, squeeze):
     predicted = predict(spectrum, length, range_, q0, solid)
     if predicted.separation_limits[1] < LEAST_SHOWN:
         raise LeftOutError(
-            f"nothing of its work of adhesion remains, even at a range of {metres(range_)}, the "
-            "shortest that the grid resolves"
+            f"by the model less than {percent(LEAST_SHOWN)} of its work of adhesion remains, even "
+            f"at a range of {metres(range_)}, the shortest that the grid resolves"
         )
     try:
         with warnings.catch_warnings():
@@ -142,9 +148,10 @@ def simulate(pictured, q0, material, law, squeeze):
         energy_ratio=predicted.energy_ratio,
         h_rms=h_rms,
         shortest_wavelength=pictured.shortest_wavelength,
+        judged_wavelength=2 * np.pi / q1,
         squeeze_pressure=settings["squeeze"] * material.modulus,
     )
-    return datasets.annotate(dataset, **TEXTS).assign_attrs(left_out="")
+    return datasets.annotate(dataset, **TEXTS).assign_attrs(left_out="", measurement="")
 
 
 def metres(length):

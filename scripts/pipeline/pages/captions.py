@@ -13,6 +13,7 @@ from docutils.core import publish_doctree, publish_parts
 from docutils.writers.html5_polyglot import Writer
 from jinja2 import Environment, FileSystemLoader, StrictUndefined, Template
 from markupsafe import Markup, escape
+from xarray import Dataset
 
 from pipeline.numbers import keep_whole, write_powers
 
@@ -125,6 +126,12 @@ def embed_figure(path: str | Path, caption: str) -> dict[str, Any]:
         "details": caption_html(details),
         "alt": first_sentence(first),
     }
+
+
+def say_measurement(dataset: Dataset) -> str:
+    """Which of several measurements a picture has, for a caption; empty where there is one."""
+    name = dataset.attrs["measurement"]
+    return f"The heights are those of the first map measured, ``{name}``. " if name else ""
 
 
 def caption_html(caption: str) -> Markup:

@@ -3,10 +3,11 @@
 from pathlib import Path
 
 import numpy as np
+import xarray as xr
 from bokeh.layouts import column, row
 from bokeh.models import ColumnDataSource, CustomJS, Div, LinearColorMapper, Slider, Span
 
-from pipeline.numbers import NOTHING, number, percent, quantity
+from pipeline.numbers import percent, quantity
 from pipeline.pages import captions, interactive
 from pipeline.pages.contact_looks import (
     ZONES,
@@ -20,15 +21,17 @@ from pipeline.pages.surface_figure import unit_of
 from pipeline.pages.touch import draw_map
 from pipeline.pictured_heights import NO_MAP, NOT_JUDGED
 from pipeline.plotting import BLACK, BLUE, RED
-from pipeline.verdicts.texts import describe_share, show_shares
+from pipeline.verdicts.materials import RATE_KEYS
+from pipeline.verdicts.texts import describe_pull_off, describe_share
 from stickiness.core import datasets
 
 MOST_STATES = 80  # on a page
-WIDEST_ZONE = 0.2  # q0 range^2/(adhesion length) of most simulations behind the model
+TOO_HIGH = 0.05  # share that remains, below which the model says more than simulations have
 CAPTION = """Mean tension against the mean gap, on approach and on separation, and the surface at
 the same moment: in contact (orange), within the range of the attraction (blue), open (grey).
 
-The squeeze in between goes beyond the axis. Heights on {grid} points, waves down to {shortest}.
+The squeeze in between goes beyond the axis. {measurement}Heights on {grid} points, waves down to
+{shortest}.
 """
 CHANGE = """
 const k = slider.value;
@@ -38,6 +41,7 @@ marker.data = {gap: [at.gap[k]], tension: [at.tension[k]]};
 text.text = at.text[k];
 """
 ENDS = ("", "_low", "_high")
+OF_PAIRS = {"remaining": "separation", "pull_off": "pull_off"}  # as a simulation calls them
 WAYS = ((0, "approach", BLUE), (1, "separation", RED))
 
 
@@ -61,11 +65,19 @@ def describe(path, still, pair):
         "still": captions.embed_figure(still, write_caption(dataset)),
         "rows": compare(dataset, pair(made["material"])),
         "agreement": judge(dataset),
+        "rated": any(key in made for key in RATE_KEYS),
+        "squeeze": quantity(*2 * (float(dataset.squeeze_pressure),), "Pa", 2),
         "range": metres(dataset.range),
         "material_range": metres(dataset.material_range),
-        "longer": float(dataset.range) > 1.001 * float(dataset.material_range),
+        "longer": exceeds(dataset.range, dataset.material_range),
+        "coarser": exceeds(dataset.shortest_wavelength, dataset.judged_wavelength),
         "file": Path(path),
     }
+
+
+def exceeds(length, other):
+    """Whether a length is longer than another by more than rounding."""
+    return float(length) > 1.001 * float(other)
 
 
 def metres(length):
@@ -82,63 +94,55 @@ def thin(dataset):
 def write_caption(dataset):
     """The caption with the numbers of this simulation."""
     points = " by ".join(str(dataset.sizes[axis]) for axis in ("x", "y"))
-    return CAPTION.format(grid=points, shortest=metres(dataset.shortest_wavelength))
+    return CAPTION.format(
+        grid=points,
+        shortest=metres(dataset.shortest_wavelength),
+        measurement=captions.say_measurement(dataset),
+    )
 
 
 def compare(dataset, pair):
     """Rows of what remains and of the pull-off: simulated, by the model, and as the verdict has."""
-    both = [
-        {
-            "remains": say_share(dataset, prefix),
-            "pull_off": say_tension(*(dataset[f"{prefix}pull_off{end}"] for end in ENDS)),
-        }
-        for prefix in ("", "predicted_")
-    ]
-    verdict = {
-        "remains": describe_share(pair),
-        "pull_off": say_tension(*(pair[f"pull_off{end}"] for end in ENDS)),
+    rows = {
+        f"Work of separation, simulated, range {metres(dataset.range)}": as_pair(dataset, ""),
+        "Work of separation by the model, the same heights and range": as_pair(
+            dataset, "predicted_"
+        ),
+        "The verdict: energy gained by the model, all of the spectrum, range "
+        f"{metres(dataset.material_range)}": pair,
     }
-    names = (
-        f"Simulation, range {metres(dataset.range)}",
-        "Model, the same heights and range",
-        f"Model, all of the spectrum, range {metres(dataset.material_range)}: the verdict",
-    )
-    return [{"name": name, **row} for name, row in zip(names, (*both, verdict), strict=True)]
+    return [
+        {"name": name, "remains": describe_share(of), "pull_off": describe_pull_off(of)}
+        for name, of in rows.items()
+    ]
 
 
-def say_share(dataset, prefix):
-    """Works of approach and separation as shares of the work of adhesion, with their limits."""
-    both = [float(dataset[f"{prefix}{name}"]) for name in ("approach", "separation")]
-    low = float(dataset[f"{prefix}approach_low"])
-    high = float(dataset[f"{prefix}separation_high"])
-    return f"{show_shares(*sorted(both))} ({show_shares(low, high, ' to ')})"
-
-
-def say_tension(value, low, high):
-    """Tension [Pa], or both ends of a range, with limits; a dash where nothing holds."""
-    if float(high.max()) == 0:
-        return NOTHING
-    text = quantity(float(value.min()), float(value.max()), "Pa", 2)
-    least, most = (
-        quantity(limit, limit, "Pa", 2) for limit in (float(low.min()), float(high.max()))
-    )
-    return f"{text} ({least} to {most})"
+def as_pair(dataset, prefix):
+    """Simulated or predicted numbers as a verdict has those of a pair, at ends that agree."""
+    found = {
+        f"{to}{end}": dataset[f"{prefix}{name}{end}"]
+        for to, name in OF_PAIRS.items()
+        for end in ENDS
+    }
+    # Where this is large the model knows no pull-off. A simulation does.
+    ratio = dataset.energy_ratio if prefix else xr.zeros_like(dataset.energy_ratio)
+    return xr.Dataset(found | {"energy_ratio": ratio}).expand_dims(end=2)
 
 
 def judge(dataset):
     """Whether the simulation lies within the limits of the model, as a sentence."""
     names = {"separation": "share that remains on separation", "pull_off": "pull-off"}
-    beyond = [text for name, text in names.items() if not overlap(dataset, name)]
+    beyond = {name: text for name, text in names.items() if not overlap(dataset, name)}
     if not beyond:
         return "Simulation and model for the same heights and range agree within their limits."
-    width = float(dataset.zone_width)
-    why = "These hold for surfaces of many long waves with Gaussian heights, and this is one patch."
-    if width > WIDEST_ZONE:
-        why = (
-            f"Most simulations behind it have cohesive zones of {WIDEST_ZONE}/q0 at most, and "
-            f"here the zone is {number(width, 2)}/q0 wide."
-        )
-    return f"The {' and the '.join(beyond)} lies beyond the limits of the model. {why}"
+    below = all(float(dataset[name]) < float(dataset[f"predicted_{name}"]) for name in beyond)
+    known = (
+        f", which is known to be too high where less than {percent(TOO_HIGH)} remains"
+        if below and float(dataset.separation) < TOO_HIGH
+        else ""
+    )
+    lie = "lie" if len(beyond) > 1 else "lies"
+    return f"The {' and the '.join(beyond.values())} {lie} beyond the limits of the model{known}."
 
 
 def overlap(dataset, name):

@@ -18,7 +18,7 @@ from bokeh.models import (
     Slider,
 )
 
-from pipeline.numbers import number, percent, quantity, quantity_with_error, with_error
+from pipeline.numbers import number, percent, quantity
 from pipeline.pages import captions, interactive
 from pipeline.pages.contact_looks import (
     GAPS,
@@ -35,14 +35,16 @@ from stickiness.solids import HALF_SPACE
 
 HIGHEST = 255  # code of a gap or a height
 FIRST = 4  # load shown at first
+DIGITS = 3  # of areas and gaps
 SHARES = [f"{RED}{alpha}" for alpha in ("00", "73", "a6", "d9", "ff")]  # by points of four
 CAPTION = """Where the surface touches an elastic half-space, without adhesion: contact in orange
 on the gap. The heights have waves down to {shortest}{cutoff}. Finer waves split every contact into
 smaller ones.
 
-The grid has {grid} points. To make the heights periodic they were changed by {change} of their rms
-value, most of it next to the border. Errors of areas and gaps are their change from a grid half as
-fine. What finer waves and the change at the border do is no part of them.
+{measurement}The grid has {grid} points. To make the heights periodic they were changed by {change}
+of their rms value, most of it next to the border. Errors of areas and gaps are their largest
+relative change from a grid half as fine, at the load and its neighbours. What finer waves and the
+change at the border do is no part of them.
 """
 CHANGE = """
 const k = slider.value;
@@ -83,6 +85,7 @@ def write_caption(dataset):
         grid=" by ".join(str(2 * dataset.sizes[axis]) for axis in ("x", "y")),
         shortest=quantity(shortest, shortest, "m", 2),
         cutoff=limit,
+        measurement=captions.say_measurement(dataset),
         change=percent(float(dataset.change)),
     )
 
@@ -112,11 +115,19 @@ def describe_loads(dataset, materials):
             {
                 "pressure": number(float(pressure), 2),
                 "pressures": loads,
-                "area": f"({with_error(100 * area, 100 * error)}) %",
-                "gap": quantity_with_error(gap, gap_error, "m"),
+                "area": show_with_error(area, error, 100, "%"),
+                "gap": show_with_error(gap, gap_error, *unit_of(gap)),
             }
         )
     return rows
+
+
+def show_with_error(value, error, factor, unit):
+    """Value times a factor to three digits, with its error rounded up to the last of them."""
+    value, error = value * factor, error * factor
+    decimals = max(DIGITS - 1 - int(np.floor(np.log10(value))), 0)
+    error = np.ceil(round(error * 10**decimals, 6)) / 10**decimals
+    return f"({value:.{decimals}f} ± {error:.{decimals}f}) {unit}"
 
 
 def say(row):

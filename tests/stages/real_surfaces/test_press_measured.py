@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from pipeline import pictured_heights
+from pipeline import measured_surface, pictured_heights
 from pipeline.pages import stills, touch
 from pipeline.verdicts.materials import Material, read_material
 from real_surfaces import press_measured
@@ -65,7 +65,7 @@ def test_area_is_within_its_error_of_a_direct_solution_on_a_finer_grid(pressed):
     whole = periodic.periodise(plate().heights, "smooth")
     fine = periodic.band_limited(whole, (SIDE, SIDE), 2 * np.pi / SIDE * 15.99, 32)
     assert fine.shape[0] >= 4 * len(pressed.x)
-    for index in (3, 7):
+    for index in (3, 5, 7):
         at = pressed.isel(pressure=index)
         contact = repulsive.solve(fine, SIDE, float(at.mean_pressure), tol=1e-5)
         area = contact.area_fraction - subpixel.boundary_strip(contact.gap == 0)
@@ -85,6 +85,18 @@ def test_a_grid_that_is_too_coarse_leaves_waves_out_and_says_so():
     assert long.sides == pytest.approx((SIDE, SIDE / 2))
 
 
+def test_a_cutoff_beyond_the_map_leaves_waves_of_two_pixels():
+    """That of another measurement, or pixels longer along one side."""
+    heights = plate(100)
+    found = pictured_heights.prepare(heights, 1e8, 512)
+    assert found.shortest_wavelength == pytest.approx(2 * heights.dx)
+    assert found.heights.shape == (400, 400)
+    oblong = Topography(heights.heights, heights.dx, 2 * heights.dy, "here")
+    assert pictured_heights.prepare(oblong, 1e8, 512).shortest_wavelength == pytest.approx(
+        4 * heights.dx
+    )
+
+
 def test_the_first_measurement_that_is_a_map_is_pressed(tmp_path):
     line, area = tmp_path / "line.txt", tmp_path / "map.txt"
     heights = plate(64).heights
@@ -93,9 +105,54 @@ def test_the_first_measurement_that_is_a_map_is_pressed(tmp_path):
     units = {"kind": "measured", "height_unit": "um", "length": "100 um"}
     profile, matrix = {"file": str(line)}, {"file": str(area)}
     assert pictured_heights.read_map(units | profile) is None
-    found = pictured_heights.read_map(units | {"measurements": [profile, matrix]})
+    several = units | {"measurements": [profile, matrix]}
+    found, _ = pictured_heights.read_map(several)
     assert found.source == str(area)
     assert found.heights.shape == (64, 64)
+    assert pictured_heights.name_measurement(several, found) == str(area)
+    assert pictured_heights.name_measurement(units | matrix, found) == ""
+
+
+def test_a_map_has_its_own_cutoff_and_not_that_of_a_finer_one(tmp_path):
+    paths = [tmp_path / name for name in ("coarse.txt", "fine.txt")]
+    for seed, path in enumerate(paths):
+        np.savetxt(path, plate(seed=seed).heights.T * 1e6)
+    units = {"kind": "measured", "label": "both", "source": "own", "height_unit": "um"}
+    coarse, fine = (
+        {"file": str(path), "length": length}
+        for path, length in zip(paths, ("100 um", "20 um"), strict=True)
+    )
+    both = units | {"measurements": [coarse, fine]}
+    found, cutoff = pictured_heights.read_map(both)
+    alone = float(measured_surface.analyse(units | coarse).q_cutoff)
+    assert cutoff == pytest.approx(alone)
+    assert pictured_heights.read_map(units | fine)[1] > 2 * cutoff
+    prepared = pictured_heights.prepare(found, cutoff, 512)
+    assert prepared.shortest_wavelength == pytest.approx(2 * np.pi / alone)
+
+
+def test_error_does_not_vanish_where_the_change_does():
+    fine = np.array([1.0, 2.0, 4.0, 8.0, 16.0])
+    error = press_measured.find_error(fine, fine * [1.01, 1.0, 0.97, 1.02, 1.0])
+    np.testing.assert_allclose(error / fine, [0.01, 0.03, 0.03, 0.03, 0.02])
+
+
+def test_numbers_have_three_digits_and_an_error_that_is_never_none(pressed):
+    assert touch.show_with_error(0.001793, 0.000030, 100, "%") == "(0.179 ± 0.003) %"
+    assert touch.show_with_error(0.36659, 0.01109, 100, "%") == "(36.7 ± 1.2) %"
+    assert touch.show_with_error(3.1348e-6, 6.9e-10, 1e6, "µm") == "(3.13 ± 0.01) µm"
+    assert touch.show_with_error(123.4e-6, 2.4e-6, 1e6, "µm") == "(123 ± 3) µm"
+    for row in touch.describe_loads(pressed, {}):
+        for text in (row["area"], row["gap"]):
+            value, error = text.split(")")[0].strip("(").split(" ± ")
+            assert len(value.replace(".", "").lstrip("0")) <= 3, text
+            assert float(error) > 0, text
+
+
+def test_caption_names_the_measurement_among_several(pressed):
+    assert "The heights are those" not in touch.write_caption(pressed)
+    named = pressed.assign_attrs(measurement="data/b.txt")
+    assert "those of the first map measured, ``data/b.txt``." in touch.write_caption(named)
 
 
 def test_file_keeps_fields_and_is_small(pressed, tmp_path):

@@ -6,17 +6,21 @@ import numpy as np
 import pytest
 
 from pipeline import pictured_heights
+from pipeline.numbers import number, percent
 from pipeline.pages import pull_off, stills
 from pipeline.pages.pull_off_states import moments
 from pipeline.verdicts.materials import read_material
+from pipeline.verdicts.texts import describe_share
 from real_surfaces import pull_measured
 from real_surfaces.pull_measured import ATTRACTED, OPEN, TOUCHING, LeftOutError
+from remaining import measure_remaining
 from stickiness import surface
 from stickiness.criteria.moduli import Constant
 from stickiness.measured.topography import Topography
 from stickiness.spectrum import SelfAffine
 
-SIDE, Q0 = 1e-4, 2 * np.pi * 4 / 1e-4
+SIDE = 1e-4
+BAND = 2 * np.pi * 4 / SIDE, 2 * np.pi * 16 / SIDE
 GEL = read_material(
     {
         "plane_strain_modulus": "0.1 MPa",
@@ -26,13 +30,13 @@ GEL = read_material(
 )
 
 
-def simulate(material=GEL, h_rms=2e-6, points=64):
+def simulate(material=GEL, h_rms=2e-6, points=64, band=BAND):
     s = SelfAffine(hurst=0.8, q0=4.0, q1=16.0, h_rms=h_rms)
     h = surface.synthesise(s, n=64, length=2 * np.pi, seed=2)
     pictured = pictured_heights.prepare(
         Topography(h, SIDE / 64, SIDE / 64, "here"), 2 * np.pi / SIDE * 16, points
     )
-    return pull_measured.simulate(pictured, Q0, material, "exponential", 0.1)
+    return pull_measured.simulate(pictured, band, material, "exponential", 0.1)
 
 
 @pytest.fixture(scope="module")
@@ -70,6 +74,8 @@ def test_range_is_that_of_the_grid_and_a_longer_one_that_of_the_material(pulled)
     assert float(pulled.material_range) == GEL.range
     wide = replace(GEL, range=1.9e-6)
     assert float(simulate(wide)["range"]) == wide.range
+    # Errors are told from half the grid, as those of the simulations behind the model.
+    assert pull_measured.PIXELS_IN_ZONE >= 2 * measure_remaining.RESOLVED
 
 
 def test_simulation_agrees_with_the_model_of_the_verdicts(pulled):
@@ -78,12 +84,53 @@ def test_simulation_agrees_with_the_model_of_the_verdicts(pulled):
     assert pull_off.overlap(pulled, "pull_off")
     assert "agree" in pull_off.judge(pulled)
     assert 0.05 < float(pulled.predicted_separation) < 0.9
+
+
+def test_disagreement_names_what_the_model_is_known_to_get_wrong(pulled):
     off = pulled.assign(predicted_pull_off_high=pulled.pull_off_low / 2)
-    assert "The pull-off lies beyond the limits" in pull_off.judge(off)
+    assert pull_off.judge(off) == "The pull-off lies beyond the limits of the model."
+    names = [f"{name}{end}" for name in ("separation", "pull_off") for end in pull_off.ENDS]
+    less = pulled.assign({name: pulled[name] * 0.02 for name in names})
+    assert float(less.separation) < pull_off.TOO_HIGH
+    assert pull_off.judge(less) == (
+        "The share that remains on separation and the pull-off lie beyond the limits of the model, "
+        "which is known to be too high where less than 5 % remains."
+    )
+    # Where the simulation has more, that is no reason.
+    model = {f"predicted_{name}": less[name] / 2 for name in names}
+    assert "known" not in pull_off.judge(less.assign(model))
+    # Nor where much remains.
+    much = pulled.assign({f"predicted_{name}": pulled[name] * 3 for name in names})
+    assert "beyond" in pull_off.judge(much)
+    assert "known" not in pull_off.judge(much)
+
+
+def test_table_shows_the_limits_that_are_compared(pulled):
+    """Those of separation, and of the verdict in its own words."""
+    pair = pull_off.as_pair(pulled, "predicted_").assign(remaining=("end", [0.2, 0.3]))
+    rows = pull_off.compare(pulled, pair)
+    assert [row["name"].split(",")[0] for row in rows] == [
+        "Work of separation",
+        "Work of separation by the model",
+        "The verdict: energy gained by the model",
+    ]
+    for row, prefix in zip(rows, ("", "predicted_"), strict=False):
+        shares = [percent(float(pulled[f"{prefix}separation{end}"])) for end in pull_off.ENDS]
+        value, low, high = (share.removesuffix(" %") for share in shares)
+        assert row["remains"] == f"{value} % ({low} to {high} %)"
+        tensions = [float(pulled[f"{prefix}pull_off{end}"]) / 1e3 for end in pull_off.ENDS]
+        value, low, high = (number(tension, 2) for tension in tensions)
+        assert row["pull_off"] == f"{value} ({low} to {high})"
+    assert rows[2]["remains"] == describe_share(pair)
+    assert rows[2]["remains"].startswith("20 … 30 %")
+    # Near full contact the model knows no pull-off, and the simulation does.
+    strong = pulled.assign(energy_ratio=10.0)
+    near = pull_off.compare(strong, pull_off.as_pair(strong, "predicted_"))
+    assert [row["pull_off"].startswith("at least") for row in near] == [False, True, True]
 
 
 def test_what_is_not_simulated_says_why():
-    with pytest.raises(LeftOutError, match="nothing of its work of adhesion remains"):
+    with pytest.raises(LeftOutError, match="by the model less than 0.1 % of its work"):
         simulate(replace(GEL, plane_strain=Constant(2e11)))
     with pytest.raises(LeftOutError, match="longer than the rms height, 9.9 nm"):
         simulate(h_rms=1e-8)

@@ -87,14 +87,15 @@ def plate(folder):
 @pytest.fixture(scope="module")
 def paths(folder, plate):
     """The four files of pictures that the page is given."""
-    heights, q0, cutoff = pictured_plate(), float(plate.q0), 2 * np.pi / 40e-6 * 16
+    heights, cutoff = pictured_plate(), 2 * np.pi / 40e-6 * 16
+    q0, q1 = float(plate.q0), float(plate.q1)
     names = ("touch.nc", "touch.png", "pull_off.nc", "pull_off.png")
     found = [folder / name for name in names]
     pressed = press_measured.press(heights, q0, cutoff, 128)
     datasets.write(pressed, found[0], title="a", parameters={"surface": "plate"})
     stills.draw_touch(pressed, found[1])
     pictured = pictured_heights.prepare(heights, cutoff, 64)
-    pulled = pull_measured.simulate(pictured, q0, read_material(TAPE), "exponential", 0.1)
+    pulled = pull_measured.simulate(pictured, (q0, q1), read_material(TAPE), "exponential", 0.1)
     made = {"surface": "plate", "material": "tape", **TAPE}
     datasets.write(pulled, found[2], title="a", parameters=made)
     stills.draw_pull_off(pulled, found[3])
@@ -193,10 +194,33 @@ def test_page_says_what_the_pictures_leave_out(page):
         "To make the heights periodic they were changed by",
         "The attraction reaches",
         "not 0.3 nm : the grid resolves no shorter one.",
-        "Model, the same heights and range",
-        "range 0.3 nm: the verdict",
+        "The longer range and the missing waves let more adhesion remain",
+        "In a simulation with adhesion, soft tape is pressed on with at least",
+        "Work of separation by the model, the same heights and range",
+        "The verdict: energy gained by the model, all of the spectrum, range 0.3 nm",
+        "Pull-off [kPa]",
     ):
         assert sentence in words, sentence
+
+
+@pytest.mark.parametrize("missing", [True, False])
+def test_page_says_what_lets_more_remain_and_what_rate_the_solid_has(
+    plate, paths, folder, materials, missing
+):
+    """Of a material that depends on rate, with and without waves that the grid lacks."""
+    pulled = datasets.read(paths[2])
+    if not missing:
+        pulled["judged_wavelength"] = pulled.shortest_wavelength
+    made = datasets.parameters(pulled)
+    entry = MATERIALS["gel"] if missing else TAPE
+    path = folder / f"rated_{missing}.nc"
+    datasets.write(pulled, path, title="a", parameters={"surface": "plate", **made, **entry})
+    found = describe(plate, [*paths[:2], path, paths[3]], materials)
+    text = page_of(plate, folder, curves=None, **found)
+    rate = "as an elastic solid with its modulus at 1\u00a0Hz"
+    assert (rate in text) is missing
+    why = "The longer range and the missing waves let" if missing else "The longer range lets"
+    assert f"{why} more adhesion remain" in text
 
 
 def test_surfaces_without_a_map_or_a_verdict_have_no_pictures(plate, paths, materials, folder):
