@@ -92,7 +92,8 @@ def test_example_runs(folder):
     assert {path.name for path in (folder / "results").iterdir()} == {"stickiness", "answer.txt"}
     logs = folder / "results/stickiness/draft/logs"
     assert {path.name for path in logs.iterdir()} == {
-        *("analyse_surface", "judge_surface", "judge", "write_surface")
+        *("analyse_surface", "press_measured", "pull_measured"),
+        *("judge_surface", "judge", "write_surface"),
     }
     again = snakemake(folder, "-n", "-s", EXAMPLE / "Snakefile")
     assert "Nothing to be done" in again.stdout, again.stdout
@@ -106,6 +107,8 @@ def test_a_prefix_holds_for_results_alone(folder):
     (folder / "data/wall.txt").write_text("not read in a dry-run", encoding="utf-8")
     assert jobs(snakemake(folder, "-n", f"deep/{PAGE}")) == {
         "stickiness_analyse_surface": 1,
+        "stickiness_press_measured": 1,
+        "stickiness_pull_measured": 1,
         "stickiness_judge_surface": 1,
         "stickiness_write_surface": 1,
     }
