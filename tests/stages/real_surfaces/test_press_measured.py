@@ -6,7 +6,7 @@ import pytest
 from pipeline import measured_surface, pictured_heights
 from pipeline.pages import stills, touch
 from pipeline.verdicts.materials import Material, read_material
-from real_surfaces import press_measured
+from real_surfaces import contact_measured, press_measured
 from stickiness import repulsive, surface
 from stickiness.contact import subpixel
 from stickiness.core import datasets
@@ -129,6 +129,13 @@ def test_a_map_has_its_own_cutoff_and_not_that_of_a_finer_one(tmp_path):
     assert pictured_heights.read_map(units | fine)[1] > 2 * cutoff
     prepared = pictured_heights.prepare(found, cutoff, 512)
     assert prepared.shortest_wavelength == pytest.approx(2 * np.pi / alone)
+    # Contact that is asked for (bem) is of one measurement, too.
+    finest = pictured_heights.read_map(units | fine)[1]
+    for measurement, expected in ((0, cutoff), (1, finest)):
+        asked = both | {"bem": {"measurement": measurement}}
+        heights = contact_measured.read_map(asked)
+        pressed = contact_measured.find_cutoff(asked, heights, finest)
+        assert pressed == pytest.approx(expected)
 
 
 def test_error_does_not_vanish_where_the_change_does():
