@@ -13,6 +13,7 @@ from PIL import Image, ImageChops
 DOCS = Path(__file__).parent
 RESULTS = DOCS.parent / "results/standard"
 FLAGS = ("--headless", "--no-sandbox", "--disable-gpu", "--hide-scrollbars", "--no-first-run")
+FLAGS += ("--virtual-time-budget=8000",)  # until scripts have drawn
 # Page, height of the window, and what is hidden.
 PAGES = {
     "report": ("report/report.html", 1250, ""),
@@ -22,7 +23,11 @@ PAGES = {
         "nav, main > :not(#verdicts), #verdicts > :not(#matrix) { display: none !important }"
         ".page { display: block !important }",
     ),
-    "surface": ("report/surfaces/jacksboro.html", 660, ""),
+    "surface": (
+        "report/surfaces/jacksboro.html",
+        1300,
+        "main > :not(h1, #touch, #touch + figure) { display: none !important }",
+    ),
 }
 FIGURES = ("fig2", "fig3", "fig7", "fig11")
 
