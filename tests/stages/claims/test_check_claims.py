@@ -25,7 +25,9 @@ def ledger_inputs():
     start = text.index("def ledger_inputs")
     names = {
         "RESULTS": "out",
-        "config": {"remaining": {"table": "config/remaining.csv"}},
+        "REMAINING_TABLE": "config/remaining.csv",
+        "PAPER_SURFACES": ("asphalt", "polished_steel"),
+        "paper_surface": lambda name: f"out/real_surfaces/{name}.nc",
         "REAL_SURFACES": {"steel": {"kind": "self_affine"}, "terrain": {"kind": "measured"}},
         "seeds_of": lambda case: [1, 2],
         "plan": plan,

@@ -199,10 +199,10 @@ def test_a_material_with_a_surface_sticks_less():
     ("keys", "text"),
     [
         ({}, "E = 0.1 MPa, ν = 0.5"),
-        ({"thickness": "50 um"}, "E = 0.1 MPa, ν = 0.5, 50 um thick on a rigid base"),
+        ({"thickness": "50 um"}, "E = 0.1 MPa, ν = 0.5, 50 µm thick on a rigid base"),
         (
             {"thickness": "50 um", "backing": "slip"},
-            "E = 0.1 MPa, ν = 0.5, 50 um thick, free to slip on a rigid base",
+            "E = 0.1 MPa, ν = 0.5, 50 µm thick, free to slip on a rigid base",
         ),
         ({"surface": "wall"}, "E = 0.1 MPa, ν = 0.5, rough as wall"),
         (
@@ -210,11 +210,11 @@ def test_a_material_with_a_surface_sticks_less():
                 "thickness": "50 um",
                 "backing": {"youngs_modulus": "3 GPa", "poisson_ratio": 0.4, "thickness": "25 um"},
             },
-            "E = 0.1 MPa, ν = 0.5, 50 um thick on a film of 25 um and 3 GPa",
+            "E = 0.1 MPa, ν = 0.5, 50 µm thick on a film of 25 µm and 3 GPa",
         ),
         (
             {"thickness": "50 um", "backing": {"youngs_modulus": "1 GPa", "poisson_ratio": 0.4}},
-            "E = 0.1 MPa, ν = 0.5, 50 um thick on a half-space of 1 GPa",
+            "E = 0.1 MPa, ν = 0.5, 50 µm thick on a half-space of 1 GPa",
         ),
     ],
 )

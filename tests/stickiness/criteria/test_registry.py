@@ -94,7 +94,7 @@ def test_an_entry_is_all_that_a_new_criterion_needs(made_up, road, judged):
     assert rows["Made & Up"]["says"] == "does not stick"
     verdicts = judged.assign_attrs(parameters='{"materials": {"gel": {"label": "gel"}}}')
     listed = report.find_disagreements(verdicts, {"road": road})
-    assert "Made & Up" in [row["criterion"] for row in listed]
+    assert "Made & Up" in [row["criterion"] for row in listed["rows"]]
 
 
 @pytest.mark.slow
