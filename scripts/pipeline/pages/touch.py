@@ -93,12 +93,13 @@ def write_caption(dataset):
 def describe_loads(dataset, materials):
     """Texts of every load; pressures of the materials to which the contact applies.
 
-    Those have one modulus, no layer and no roughness of their own.
+    Those have no layer and no roughness of their own. A modulus that depends on the rate is that
+    at 1 Hz.
     """
     suited = {
-        label: solid.modulus
+        f"{label} at 1 Hz" if solid.depends_on_rate else label: solid.modulus
         for label, solid in materials.items()
-        if not solid.depends_on_rate and solid.solid == HALF_SPACE and solid.surface is None
+        if solid.solid == HALF_SPACE and solid.surface is None
     }
     rows = []
     for pressure in dataset.pressure.values:
