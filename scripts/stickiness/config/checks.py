@@ -18,6 +18,7 @@ from stickiness.config.surface_entries import (
     layer_problems,
     measurements,  # noqa: F401 (public here, too)
     rate_problems,
+    size_problems,
     surface_problems,
 )
 from stickiness.core.units import si
@@ -146,7 +147,11 @@ def check_materials(
 ) -> None:
     """Check moduli that depend on the rate, layers, and the names of surfaces."""
     for key, material in materials.items():
-        for problem in chain(rate_problems(material), layer_problems(material, surfaces or {})):
+        for problem in chain(
+            size_problems(material),
+            rate_problems(material),
+            layer_problems(material, surfaces or {}),
+        ):
             raise ConfigError(f"{name}: materials.{key}.{problem}")
 
 

@@ -16,6 +16,14 @@ from stickiness.core.units import si
 from stickiness.measured import readers
 
 _BUILTIN = ("builtin:jacksboro",)
+# Far wider than those of real solids, for mistaken prefixes; tough tapes dissipate 1 kJ/m^2.
+_SIZES = {
+    "plane_strain_modulus": ("1 Pa", "100000 GPa"),
+    "youngs_modulus": ("1 Pa", "100000 GPa"),
+    "work_of_adhesion": ("1e-9 J/m^2", "10000 J/m^2"),
+    "range": ("1e-12 m", "1e-4 m"),
+    "thickness": ("1e-10 m", "1 m"),
+}
 
 
 def rate_problems(material: Mapping[str, Any]) -> Iterator[str]:
@@ -38,6 +46,14 @@ def rate_problems(material: Mapping[str, Any]) -> Iterator[str]:
             f"youngs_modulus_table runs from {pairs[0][0]} to {pairs[-1][0]} and must cover 1 Hz, "
             "at which the verdict is quoted"
         )
+
+
+def size_problems(material: Mapping[str, Any]) -> Iterator[str]:
+    """Yield which sizes of a material are those of no solid, a line each."""
+    for key, (low, high) in _SIZES.items():
+        unit = low.partition(" ")[2]
+        if key in material and not si(low, unit) <= si(material[key], unit) <= si(high, unit):
+            yield f"{key} = {material[key]!r} is beyond all solids; {low} to {high} is taken"
 
 
 def layer_problems(material: Mapping[str, Any], surfaces: Mapping[str, Any]) -> Iterator[str]:
