@@ -7,7 +7,7 @@ from inspect import signature
 import numpy as np
 import xarray as xr
 
-from pipeline.numbers import percent, quantity
+from pipeline.numbers import amount, percent
 from stickiness.config.surface_entries import measurements
 from stickiness.core.units import si
 from stickiness.measured import (
@@ -229,7 +229,7 @@ def remarks_on_spikes(heights, as_read):
         if one.spikes and (share > MANY_SPIKES or abs(before - after) > LARGE_CHANGE * after):
             found.append(
                 f"{share:.2g} of the points of {one.source} are spikes, and the rms height is "
-                f"{quantity(before, before, 'm')} with all points, {quantity(after, after, 'm')} "
+                f"{amount(before, 'm')} with all points, {amount(after, 'm')} "
                 "without those not used: if they are part of the surface, give spikes: keep"
             )
     return found
@@ -251,7 +251,7 @@ def remarks_on_limits(spectrum, extend_to):
 
 
 def wavelength(q):
-    return quantity(2 * np.pi / q, 2 * np.pi / q, "m")
+    return amount(2 * np.pi / q, "m")
 
 
 def remarks_on_stitching(stitched):

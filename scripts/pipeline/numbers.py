@@ -73,18 +73,24 @@ def quantity(low: float, high: float, unit: str, digits: int = 3, beside: float 
     """Interval in the SI prefix that suits its larger end, or what is not far larger beside it."""
     largest = max(abs(low), abs(high))
     near = largest < beside < 1e3 * largest or largest == 0
-    scale, prefix = _prefixed(beside if near else largest, digits)
+    scale, prefix = prefixed(beside if near else largest, digits)
     return f"{interval(low / scale, high / scale, digits)} {prefix}{unit}"
+
+
+def amount(value: float, unit: str, digits: int = 3) -> str:
+    """One value in the SI prefix that suits it."""
+    return quantity(value, value, unit, digits)
 
 
 def quantity_with_error(value: float, error: float, unit: str) -> str:
     """``(value ± error)``, rounded to two digits of the error, in the SI prefix that suits it."""
-    scale, prefix = _prefixed(max(abs(value), error), 3)
+    scale, prefix = prefixed(max(abs(value), error), 3)
     text = with_error(value / scale, error / scale)
     return f"({text}) {prefix}{unit}" if "±" in text else f"{text} {prefix}{unit}"
 
 
-def _prefixed(largest: float, digits: int) -> tuple[float, str]:
+def prefixed(largest: float, digits: int) -> tuple[float, str]:
+    """Scale and SI prefix that suit a number once it is rounded."""
     power = 3 * (_exponent(largest, digits) // 3)
     power = min(max(power, min(_PREFIXES)), max(_PREFIXES))
     return 10.0**power, _PREFIXES[power]

@@ -14,7 +14,7 @@ import xarray as xr
 from pipeline import pictured_heights
 from pipeline.adhesion_sets import LAWS
 from pipeline.job import start
-from pipeline.numbers import percent, quantity
+from pipeline.numbers import amount, percent
 from pipeline.pages.stills import draw_pull_off, draw_reason
 from pipeline.pictured_heights import NO_MAP, NOT_JUDGED
 from pipeline.verdicts.materials import read_material
@@ -155,7 +155,7 @@ def simulate(pictured, band, material, law, squeeze):
 
 
 def metres(length):
-    return quantity(length, length, "m", 2)
+    return amount(length, "m", 2)
 
 
 def describe_states(found, pictured, modulus):

@@ -6,7 +6,7 @@ import numpy as np
 
 from pipeline.conventions import LOAD
 from pipeline.job import start
-from pipeline.numbers import NOTHING, interval, number, percent, quantity, with_error
+from pipeline.numbers import NOTHING, amount, interval, number, percent, with_error
 from pipeline.pages import (
     captions,
     interactive,
@@ -198,7 +198,7 @@ def list_parameters(surface):
         rows.append(("ratio of correlation lengths", number(float(surface.axis_ratio), 2)))
     if "q_cutoff" in surface:
         wavelength = 2 * np.pi / float(surface.q_cutoff)
-        text = f"{quantity(wavelength, wavelength, 'm')}: {surface.attrs['cutoff']}"
+        text = f"{amount(wavelength, 'm')}: {surface.attrs['cutoff']}"
         rows.append(("shortest wavelength of the instrument", text))
         rows.append(("missing points, interpolated", percent(float(surface.missing_fraction))))
         rows.append(("dropped beside missing points", f"{int(surface.dropped_points)} points"))
@@ -225,7 +225,7 @@ def list_heights(surface):
 
 
 def show_height(value):
-    return quantity(float(value), float(value), "m")
+    return amount(float(value), "m")
 
 
 def describe_lowest(surface):

@@ -3,6 +3,7 @@
 from matplotlib import colormaps
 from matplotlib.colors import to_hex, to_rgba
 
+from pipeline.numbers import prefixed
 from pipeline.pages.surface_figure import unit_of
 from pipeline.plotting import RED, SKY
 
@@ -33,11 +34,9 @@ def unit_of_map(dataset):
 
 
 def scale_of_tension(dataset):
-    """Factor and unit that suit the largest tension."""
-    largest = float(dataset.mean_traction.max())
-    units = ((1e9, "GPa"), (1e6, "MPa"), (1e3, "kPa"), (1.0, "Pa"), (1e-3, "mPa"))
-    least, unit = next((u for u in units if largest >= u[0]), (1e-6, "µPa"))
-    return 1 / least, unit
+    """Factor and unit that suit the largest tension; pascals at least."""
+    scale, prefix = prefixed(max(float(dataset.mean_traction.max()), 1.0), 3)
+    return 1 / scale, f"{prefix}Pa"
 
 
 def limits_of_tension(dataset):

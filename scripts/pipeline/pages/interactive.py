@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from bokeh.embed import components
-from bokeh.models import UIElement
+from bokeh.models import Slider, UIElement
 from bokeh.plotting import figure
 from bokeh.resources import Resources
 from markupsafe import Markup
@@ -39,3 +39,17 @@ def make_plot(sizing_mode: str = "stretch_width", **asked: Any) -> figure:
     )
     plot.toolbar.logo = None
     return plot
+
+
+def make_slider(name: str, title: str, count: int, first: int) -> Slider:
+    """Slider over `count` pictures, which its title names in place of their numbers."""
+    return Slider(
+        name=name,
+        title=title,
+        start=0,
+        end=count - 1,
+        value=first,
+        step=1,
+        show_value=False,
+        sizing_mode="stretch_width",
+    )

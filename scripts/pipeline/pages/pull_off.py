@@ -5,9 +5,9 @@ from pathlib import Path
 import numpy as np
 import xarray as xr
 from bokeh.layouts import column, row
-from bokeh.models import ColumnDataSource, CustomJS, Div, LinearColorMapper, Slider, Span
+from bokeh.models import ColumnDataSource, CustomJS, Div, LinearColorMapper, Span
 
-from pipeline.numbers import percent, quantity
+from pipeline.numbers import amount, percent
 from pipeline.pages import captions, interactive
 from pipeline.pages.contact_looks import (
     ZONES,
@@ -66,7 +66,7 @@ def describe(path, still, pair):
         "rows": compare(dataset, pair(made["material"])),
         "agreement": judge(dataset),
         "rated": any(key in made for key in RATE_KEYS),
-        "squeeze": quantity(*2 * (float(dataset.squeeze_pressure),), "Pa", 2),
+        "squeeze": amount(float(dataset.squeeze_pressure), "Pa", 2),
         "range": metres(dataset.range),
         "material_range": metres(dataset.material_range),
         "longer": exceeds(dataset.range, dataset.material_range),
@@ -81,7 +81,7 @@ def exceeds(length, other):
 
 
 def metres(length):
-    return quantity(float(length), float(length), "m", 2)
+    return amount(float(length), "m", 2)
 
 
 def thin(dataset):
@@ -185,16 +185,8 @@ def draw(dataset):
     mapper = LinearColorMapper(palette=list(ZONES.values()), low=0, high=2)
     plot.image("zone", x=0, y=0, **box, source=shown, color_mapper=mapper)
     text = Div(text=texts[first], sizing_mode="stretch_width")
-    slider = Slider(
-        start=0,
-        end=len(states) - 1,
-        value=first,
-        step=1,
-        title="Moment, from approach through squeeze to separation",
-        show_value=False,
-        sizing_mode="stretch_width",
-        name="moment",
-    )
+    title = "Moment, from approach through squeeze to separation"
+    slider = interactive.make_slider("moment", title, len(states), first)
     passed = {"slider": slider, "shown": shown, "stored": stored, "marker": marker, "text": text}
     slider.js_on_change("value", CustomJS(args=passed, code=CHANGE))
     for each in (curve, plot):
@@ -210,7 +202,7 @@ def say_state(state):
     kind = "tension" if tension >= 0 else "pressure"
     return (
         f"{way}. Mean gap {metres(state.mean_gap)}, mean {kind} "
-        f"{quantity(abs(tension), abs(tension), 'Pa', 2)}. In contact: "
+        f"{amount(abs(tension), 'Pa', 2)}. In contact: "
         f"{percent(float(state.contact_area))}. Within the range of attraction: "
         f"{percent(float(state.attracted_area))}."
     )

@@ -3,7 +3,7 @@
 import numpy as np
 import xarray as xr
 
-from pipeline.numbers import interval, percent, quantity, quantity_with_error, with_error
+from pipeline.numbers import amount, interval, percent, quantity, quantity_with_error, with_error
 from stickiness.core.statistics import COVERS
 
 MANY_MISSING = 0.05  # share of the points from which the reader is told at once
@@ -15,13 +15,13 @@ def say_what_was_seen(surface: xr.Dataset) -> str:
     if "q_cutoff" not in surface:
         return ""
     finest, longest = (
-        quantity(length, length, "m", 2)
+        amount(length, "m", 2)
         for length in (2 * np.pi / float(q) for q in (surface.q_cutoff, surface.wave_number.min()))
     )
-    height = quantity(*2 * (float(surface.h_rms_measured),), "m", 3)
+    height = amount(float(surface.h_rms_measured), "m")
     said = [f"Measured: heights of {height} rms, and waves from {longest} down to {finest}."]
     if float(surface.q1) > float(surface.q_cutoff) * (1 + 1e-9):
-        assumed = quantity(*2 * (2 * np.pi / float(surface.q1),), "m", 2)
+        assumed = amount(2 * np.pi / float(surface.q1), "m", 2)
         said.append(f"Shorter waves, down to {assumed}, are assumed.")
     else:
         said.append("Shorter waves are not counted; they would lower what remains.")

@@ -15,10 +15,9 @@ from bokeh.models import (
     HoverTool,
     LinearColorMapper,
     RadioButtonGroup,
-    Slider,
 )
 
-from pipeline.numbers import number, percent, quantity
+from pipeline.numbers import amount, number, percent
 from pipeline.pages import captions, interactive
 from pipeline.pages.contact_looks import (
     GAPS,
@@ -79,11 +78,11 @@ def describe(path, still, materials):
 def write_caption(dataset):
     """The caption with the numbers of this surface."""
     shortest, cutoff = float(dataset.shortest_wavelength), float(dataset.cutoff_wavelength)
-    finest = quantity(cutoff, cutoff, "m", 2)
+    finest = amount(cutoff, "m", 2)
     limit = f"; the instrument resolves {finest}" if shortest > 1.001 * cutoff else ""
     return CAPTION.format(
         grid=" by ".join(str(2 * dataset.sizes[axis]) for axis in ("x", "y")),
-        shortest=quantity(shortest, shortest, "m", 2),
+        shortest=amount(shortest, "m", 2),
         cutoff=limit,
         measurement=captions.say_measurement(dataset),
         change=percent(float(dataset.change)),
@@ -109,7 +108,7 @@ def describe_loads(dataset, materials):
             float(at[f"{name}_discretisation_error"]) for name in ("area_fraction", "mean_gap")
         )
         loads = {
-            label: quantity(*2 * (float(at.mean_pressure) * modulus,), "Pa", 2)
+            label: amount(float(at.mean_pressure) * modulus, "Pa", 2)
             for label, modulus in suited.items()
         }
         rows.append(
@@ -172,16 +171,7 @@ def draw(dataset, texts):
     top = plot.image("contact", color_mapper=shares, **look, name="contact")
     plot.add_tools(describe_point(top, scales, unit_x))
     text = Div(text=texts[first], sizing_mode="stretch_width")
-    slider = Slider(
-        start=0,
-        end=len(gaps) - 1,
-        value=first,
-        step=1,
-        title="Load, from light to heavy",
-        show_value=False,
-        sizing_mode="stretch_width",
-        name="load",
-    )
+    slider = interactive.make_slider("load", "Load, from light to heavy", len(gaps), first)
     passed = {"slider": slider, "shown": shown, "stored": stored, "text": text, "texts": texts}
     slider.js_on_change("value", CustomJS(args=passed, code=CHANGE))
     toggle = RadioButtonGroup(labels=["Gaps", "Heights"], active=0, name="layer")

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from pipeline.numbers import NOTHING, interval, number, percent, quantity
+from pipeline.numbers import NOTHING, amount, interval, number, percent, quantity
 from pipeline.verdicts.texts import (
     MPA,
     describe_layer,
@@ -148,8 +148,8 @@ def gather_facts(pair: xr.Dataset, surface: xr.Dataset, work_of_adhesion: float)
         "constant_a_v": number(BROAD_A_V, 2),
         "rms_slope": number(float(pair.pair_rms_slope.sel(end="rough")), 2),
         "rms_curvature": number(curvature, 2),
-        "summit_radius": quantity(2 / curvature, 2 / curvature, "m", 2),
+        "summit_radius": amount(2 / curvature, "m", 2),
         "energy": f"{number(energy, 2)} J/m²",
         "work_of_adhesion": f"{number(work_of_adhesion, 2)} J/m²",
-        "modulus": quantity(modulus, modulus, "Pa", 2),
+        "modulus": amount(modulus, "Pa", 2),
     }
