@@ -8,7 +8,7 @@ import numpy as np
 import xarray as xr
 
 from pipeline.numbers import amount, percent
-from stickiness.config.surface_entries import measurements
+from stickiness.config.measurements import measurements
 from stickiness.core.units import si
 from stickiness.measured import (
     instrument_spectrum,
@@ -86,6 +86,17 @@ def read_levelled(measurement):
         keys = {key: measurement[key] for key in READ_KEYS if key in measurement}
         heights = topography.read(measurement["file"], **keys)
     return heights.detrended(measurement.get("detrend", "plane"))
+
+
+def find_cutoff(asked, index, heights, finest):
+    """Cutoff [1/m] of one of a surface's measurements, whose levelled heights these are.
+
+    `finest` is that of the surface, which is that of its finest measurement.
+    """
+    listed = measurements(asked)
+    if len(listed) == 1:
+        return finest
+    return min(finest, find_spectrum(heights, listed[index][1]).cutoff.q)
 
 
 def find_spectrum(heights, measurement):

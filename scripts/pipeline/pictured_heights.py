@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from pipeline.measured_surface import find_spectrum, read_levelled
+from pipeline.measured_surface import find_cutoff, read_levelled
 from stickiness.config.measurements import measurements
 from stickiness.measured import periodic, topography
 
@@ -43,15 +43,15 @@ class Pictured:
         )
 
 
-def read_map(asked):
+def read_map(asked, finest):
     """First measurement that is a map: levelled heights, its own cutoff [1/m]; None if none is.
 
-    Other measurements may resolve finer waves: the cutoff of the surface is the finest.
+    `finest` is the cutoff of the surface.
     """
-    for _, measurement in measurements(asked):
+    for index, (_, measurement) in enumerate(measurements(asked)):
         heights = read_levelled(measurement)
         if isinstance(heights, topography.Topography):
-            return heights, find_spectrum(heights, measurement).cutoff.q
+            return heights, find_cutoff(asked, index, heights, finest)
     return None
 
 

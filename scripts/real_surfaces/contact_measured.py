@@ -37,7 +37,9 @@ def main(job):
         own_grid="shortest_wavelength" not in bem,
         most_points=bem.get("most_points", MOST_POINTS),
     )
-    q_max = highest_wave_number(bem, find_cutoff(asked, heights, float(surface.q_cutoff)))
+    index, finest = bem.get("measurement", 0), float(surface.q_cutoff)
+    cutoff = measured_surface.find_cutoff(asked, index, heights, finest)
+    q_max = highest_wave_number(bem, cutoff)
     datasets.write(
         annotate(solve(heights, float(surface.q0), q_max, setting)),
         job.output[0],
@@ -56,15 +58,6 @@ def read_map(asked):
     if isinstance(heights, topography.Profile):
         raise ValueError(f"{heights.source} is a line profile; bem needs a map of heights")
     return heights
-
-
-def find_cutoff(asked, heights, finest):
-    """Cutoff [1/m] of the measurement that is pressed; the surface's is that of its finest one."""
-    measurements = checks.measurements(asked)
-    if len(measurements) == 1:
-        return finest
-    measurement = measurements[asked["bem"].get("measurement", 0)][1]
-    return min(finest, measured_surface.find_spectrum(heights, measurement).cutoff.q)
 
 
 def highest_wave_number(bem, cutoff):

@@ -45,9 +45,9 @@ TEXTS = {
 
 
 def main(job):
-    surface = datasets.read(job.input.surface, ["q0"])
-    asked = job.params.surface
-    found = None if surface.attrs["not_judged"] else pictured_heights.read_map(asked)
+    surface = datasets.read(job.input.surface, ["q0", "q_cutoff"])
+    asked, finest = job.params.surface, float(surface.q_cutoff)
+    found = None if surface.attrs["not_judged"] else pictured_heights.read_map(asked, finest)
     if found is None:
         reason = NOT_JUDGED if surface.attrs["not_judged"] else NO_MAP
         logging.info("no pictures: %s", reason)

@@ -61,7 +61,7 @@ class LeftOutError(Exception):
 
 
 def main(job):
-    surface = datasets.read(job.input.surface, ["q0", "q1"])
+    surface = datasets.read(job.input.surface, ["q0", "q1", "q_cutoff"])
     asked, entry = job.params.surface, job.params.entry
     try:
         heights, q_cutoff = find_heights(surface, asked)
@@ -91,7 +91,7 @@ def find_heights(surface, asked):
     """Heights to pull off from, and their cutoff [1/m]."""
     if surface.attrs["not_judged"]:
         raise LeftOutError(NOT_JUDGED)
-    found = pictured_heights.read_map(asked)
+    found = pictured_heights.read_map(asked, float(surface.q_cutoff))
     if found is None:
         raise LeftOutError(NO_MAP)
     return found

@@ -13,14 +13,10 @@ import yaml
 from stickiness.accuracy.quantities import QUANTITIES
 from stickiness.config.cross_checks import config_problems
 from stickiness.config.experiment_entries import experiment_problems
+from stickiness.config.material_entries import layer_problems, rate_problems, size_problems
+from stickiness.config.measurements import measurements  # noqa: F401 (public here, too)
 from stickiness.config.messages import one_line
-from stickiness.config.surface_entries import (
-    layer_problems,
-    measurements,  # noqa: F401 (public here, too)
-    rate_problems,
-    size_problems,
-    surface_problems,
-)
+from stickiness.config.surface_entries import surface_problems
 from stickiness.core.units import si
 
 # Keys whose values are strings with units, and the unit that fixes their dimension.

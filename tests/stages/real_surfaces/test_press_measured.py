@@ -104,9 +104,9 @@ def test_the_first_measurement_that_is_a_map_is_pressed(tmp_path):
     np.savetxt(area, heights.T * 1e6)
     units = {"kind": "measured", "height_unit": "um", "length": "100 um"}
     profile, matrix = {"file": str(line)}, {"file": str(area)}
-    assert pictured_heights.read_map(units | profile) is None
+    assert pictured_heights.read_map(units | profile, 1e9) is None
     several = units | {"measurements": [profile, matrix]}
-    found, _ = pictured_heights.read_map(several)
+    found, _ = pictured_heights.read_map(several, 1e9)
     assert found.source == str(area)
     assert found.heights.shape == (64, 64)
     assert pictured_heights.name_measurement(several, found) == str(area)
@@ -123,18 +123,18 @@ def test_a_map_has_its_own_cutoff_and_not_that_of_a_finer_one(tmp_path):
         for path, length in zip(paths, ("100 um", "20 um"), strict=True)
     )
     both = units | {"measurements": [coarse, fine]}
-    found, cutoff = pictured_heights.read_map(both)
+    finest = float(measured_surface.analyse(units | fine).q_cutoff)
+    found, cutoff = pictured_heights.read_map(both, finest)
     alone = float(measured_surface.analyse(units | coarse).q_cutoff)
     assert cutoff == pytest.approx(alone)
-    assert pictured_heights.read_map(units | fine)[1] > 2 * cutoff
+    assert pictured_heights.read_map(units | fine, finest)[1] == finest > 2 * cutoff
     prepared = pictured_heights.prepare(found, cutoff, 512)
     assert prepared.shortest_wavelength == pytest.approx(2 * np.pi / alone)
     # Contact that is asked for (bem) is of one measurement, too.
-    finest = pictured_heights.read_map(units | fine)[1]
     for measurement, expected in ((0, cutoff), (1, finest)):
         asked = both | {"bem": {"measurement": measurement}}
         heights = contact_measured.read_map(asked)
-        pressed = contact_measured.find_cutoff(asked, heights, finest)
+        pressed = measured_surface.find_cutoff(asked, measurement, heights, finest)
         assert pressed == pytest.approx(expected)
 
 
