@@ -89,6 +89,13 @@ def quantity_with_error(value: float, error: float, unit: str) -> str:
     return f"({text}) {prefix}{unit}" if "±" in text else f"{text} {prefix}{unit}"
 
 
+def with_rough_error(value: float, error: float, unit: str, digits: int = 3) -> str:
+    """``(value ± error) unit``, the value to `digits` digits, the error rounded up to its last."""
+    decimals = max(digits - 1 - _exponent(value, digits), 0)
+    error = math.ceil(round(error * 10**decimals, 6)) / 10**decimals
+    return f"({value:.{decimals}f} ± {error:.{decimals}f}) {unit}"
+
+
 def prefixed(largest: float, digits: int) -> tuple[float, str]:
     """Scale and SI prefix that suit a number once it is rounded."""
     power = 3 * (_exponent(largest, digits) // 3)

@@ -34,10 +34,9 @@ class Pictured:
         """Root mean square of the heights about their mean [m]."""
         return float(np.std(self.heights))
 
-    @property
-    def places(self) -> tuple[NDArray, NDArray]:
-        """Middles of the pixels of a grid half as fine along both sides [m]."""
-        shape = (n // 2 for n in self.heights.shape)
+    def places(self, step: int = 1) -> tuple[NDArray, NDArray]:
+        """Middles of blocks of `step` by `step` pixels along both sides [m]."""
+        shape = (n // step for n in self.heights.shape)
         return tuple(
             (np.arange(n) + 0.5) * side / n for n, side in zip(shape, self.sides, strict=True)
         )

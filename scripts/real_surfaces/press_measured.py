@@ -82,7 +82,7 @@ def press(heights, q0, q_cutoff, points):
         logging.info("load %d: area %.4f", len(rows), state.area_fraction)
     fine = xr.concat(rows, "pressure")
     coarse = load_curve(pictured.heights[::2, ::2], pictured.sides, loads, (), TOLERANCE)
-    x, y = pictured.places
+    x, y = pictured.places(2)
     data = {name: (("pressure", "x", "y"), np.float32(field)) for name, field in fields.items()}
     for name in ("area_fraction", "mean_gap"):
         error = find_error(fine[name].values, coarse[name].values)

@@ -162,10 +162,6 @@ def describe_states(found, pictured, modulus):
     """Curve and zones of all states."""
     states = [point.state for point in found.points]
     zones = np.array([find_zones(state) for state in states])
-    places = [
-        (np.arange(n) + 0.5) * side / n
-        for n, side in zip(pictured.heights.shape, pictured.sides, strict=True)
-    ]
     dataset = xr.Dataset(
         {
             "zone": (("state", "x", "y"), zones),
@@ -175,7 +171,7 @@ def describe_states(found, pictured, modulus):
             "contact_area": ("state", (zones == TOUCHING).mean(axis=(1, 2))),
             "attracted_area": ("state", (zones == ATTRACTED).mean(axis=(1, 2))),
         },
-        coords=dict(zip(("x", "y"), places, strict=True)),
+        coords=dict(zip(("x", "y"), pictured.places(), strict=True)),
     )
     dataset.zone.encoding = {"zlib": True}
     return dataset

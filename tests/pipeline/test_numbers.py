@@ -143,3 +143,17 @@ def test_a_quantity_without_an_error_has_no_brackets():
 
 def test_nothing_has_the_prefix_of_what_stands_beside():
     assert numbers.quantity(0.0, 0.0, "J/m²", beside=8e-8) == "0 nJ/m²"
+
+
+@pytest.mark.parametrize(
+    ("value", "error", "text"),
+    [
+        (0.1793, 0.0030, "(0.179 ± 0.003) %"),
+        (36.659, 1.109, "(36.7 ± 1.2) %"),
+        (3.1348, 6.9e-4, "(3.13 ± 0.01) %"),
+        (123.4, 2.4, "(123 ± 3) %"),
+        (9.996, 0.1, "(10.0 ± 0.1) %"),
+    ],
+)
+def test_a_rough_error_is_rounded_up_to_the_last_digit(value, error, text):
+    assert numbers.with_rough_error(value, error, "%") == text

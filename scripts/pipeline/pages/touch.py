@@ -17,7 +17,7 @@ from bokeh.models import (
     RadioButtonGroup,
 )
 
-from pipeline.numbers import amount, number, percent
+from pipeline.numbers import amount, number, percent, with_rough_error
 from pipeline.pages import captions, interactive
 from pipeline.pages.contact_looks import (
     GAPS,
@@ -34,7 +34,6 @@ from stickiness.solids import HALF_SPACE
 
 HIGHEST = 255  # code of a gap or a height
 FIRST = 4  # load shown at first
-DIGITS = 3  # of areas and gaps
 SHARES = [f"{RED}{alpha}" for alpha in ("00", "73", "a6", "d9", "ff")]  # by points of four
 CAPTION = """Where the surface touches an elastic half-space, without adhesion: contact in orange
 on the gap. The heights have waves down to {shortest}{cutoff}. Finer waves split every contact into
@@ -111,23 +110,16 @@ def describe_loads(dataset, materials):
             label: amount(float(at.mean_pressure) * modulus, "Pa", 2)
             for label, modulus in suited.items()
         }
+        factor, unit = unit_of(gap)
         rows.append(
             {
                 "pressure": number(float(pressure), 2),
                 "pressures": loads,
-                "area": show_with_error(area, error, 100, "%"),
-                "gap": show_with_error(gap, gap_error, *unit_of(gap)),
+                "area": with_rough_error(100 * area, 100 * error, "%"),
+                "gap": with_rough_error(gap * factor, gap_error * factor, unit),
             }
         )
     return rows
-
-
-def show_with_error(value, error, factor, unit):
-    """Value times a factor to three digits, with its error rounded up to the last of them."""
-    value, error = value * factor, error * factor
-    decimals = max(DIGITS - 1 - int(np.floor(np.log10(value))), 0)
-    error = np.ceil(round(error * 10**decimals, 6)) / 10**decimals
-    return f"({value:.{decimals}f} ± {error:.{decimals}f}) {unit}"
 
 
 def say(row):

@@ -6,10 +6,12 @@ from unittest import mock
 import numpy as np
 import pytest
 import xarray as xr
+from scipy.stats import binomtest
 
 from criteria import judge_surface
 from pipeline.simulated_a_v import measure_a_v
 from pipeline.verdicts import joint
+from pipeline.verdicts.budgets import add_budget_of_probability
 from pipeline.verdicts.materials import read_material
 from pipeline.verdicts.words import decide_pairs
 from stickiness import criteria
@@ -300,3 +302,14 @@ def test_a_v_at_another_load_is_refused(inputs):
         ValueError, match=r"case.nc: has no a_V at criteria.a_v.pressure = 0.1;.*0.03"
     ):
         measure_a_v(inputs, 0.1)
+
+
+@pytest.mark.parametrize("count", [0, 3, 100, 200])
+def test_error_of_a_probability_is_that_of_its_interval(count):
+    interval = binomtest(count, 200).proportion_ci(0.9, method="wilson")
+    share = count / 200
+    about = {"units": "1", "long_name": "share of the draws that stick"}
+    pair = xr.Dataset({"probability": (("material", "surface"), [[share]], about)})
+    found = add_budget_of_probability(pair, {"wall": 200})
+    farther = max(share - interval.low, interval.high - share)
+    assert float(found.probability_total_error.squeeze()) == pytest.approx(farther, rel=1e-4)

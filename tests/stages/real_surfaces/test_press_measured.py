@@ -145,10 +145,6 @@ def test_error_does_not_vanish_where_the_change_does():
 
 
 def test_numbers_have_three_digits_and_an_error_that_is_never_none(pressed):
-    assert touch.show_with_error(0.001793, 0.000030, 100, "%") == "(0.179 ± 0.003) %"
-    assert touch.show_with_error(0.36659, 0.01109, 100, "%") == "(36.7 ± 1.2) %"
-    assert touch.show_with_error(3.1348e-6, 6.9e-10, 1e6, "µm") == "(3.13 ± 0.01) µm"
-    assert touch.show_with_error(123.4e-6, 2.4e-6, 1e6, "µm") == "(123 ± 3) µm"
     for row in touch.describe_loads(pressed, {}):
         for text in (row["area"], row["gap"]):
             value, error = text.split(")")[0].strip("(").split(" ± ")
