@@ -6,7 +6,7 @@ from unittest import mock
 import numpy as np
 import pytest
 import xarray as xr
-from scipy.stats import binomtest
+from scipy.stats import binomtest, norm
 
 from criteria import judge_surface
 from pipeline.simulated_a_v import measure_a_v
@@ -17,6 +17,7 @@ from pipeline.verdicts.words import decide_pairs
 from stickiness import criteria
 from stickiness.adhesion import equivalent_sphere
 from stickiness.core import budget, datasets
+from stickiness.core.statistics import COVERS
 from stickiness.criteria.a_v_table import VARIANTS, SurfaceAv, edge_range, local_a_v
 from stickiness.criteria.pair import REGIMES, STRONG, TOUGH, WEAK, WORDS
 from stickiness.criteria.registry import EDGES, REMAINING
@@ -306,10 +307,11 @@ def test_a_v_at_another_load_is_refused(inputs):
 
 @pytest.mark.parametrize("count", [0, 3, 100, 200])
 def test_error_of_a_probability_is_that_of_its_interval(count):
-    interval = binomtest(count, 200).proportion_ci(0.9, method="wilson")
+    covered = 2 * norm.cdf(COVERS) - 1
+    interval = binomtest(count, 200).proportion_ci(covered, method="wilson")
     share = count / 200
     about = {"units": "1", "long_name": "share of the draws that stick"}
     pair = xr.Dataset({"probability": (("material", "surface"), [[share]], about)})
     found = add_budget_of_probability(pair, {"wall": 200})
     farther = max(share - interval.low, interval.high - share)
-    assert float(found.probability_total_error.squeeze()) == pytest.approx(farther, rel=1e-4)
+    assert float(found.probability_total_error.squeeze()) == pytest.approx(farther, rel=1e-10)
