@@ -5,11 +5,10 @@ import numpy as np
 from pipeline import plotting, remaining_table
 from pipeline.plotting import BLACK, BLUE, GREEN, GREY, ORANGE, PURPLE, RED, make_dot, make_key
 from stickiness.remaining import theories
-from stickiness.remaining.prediction import Roughness
+from stickiness.remaining.prediction import SHORT_RANGE, Roughness
 from stickiness.remaining.share import find_onset, tough_share, weak_share
 
 RATIOS = np.geomspace(0.2, 3, 200)  # w/U_full
-SHORT = 1e-6  # range over h_rms that does not matter
 ZONE = 0.1  # q0 range^2/l_a, of the lines of panel A
 GOAL = 0.25  # error that a theory may have where more than LEAST remains
 LEAST = 0.05
@@ -40,7 +39,7 @@ def draw_shares(ax, table):
     low, share, high = (rough.share(length, np.sqrt(ZONE * length), sign) for sign in (-1, 0, 1))
     plotting.draw_band(ax, RATIOS, low, high, GREY, alpha=0.25)
     ax.plot(RATIOS, share, color=BLACK, linewidth=1.8)
-    ax.plot(RATIOS, rough.share(length, SHORT), color=BLACK, linestyle="--")
+    ax.plot(RATIOS, rough.share(length, SHORT_RANGE), color=BLACK, linestyle="--")
     ax.plot(RATIOS, theories.full_contact_share(RATIOS), color=RED, linestyle=":")
     smooth = tough[np.isclose(tough.hurst, 0.8) & (tough.magnification == 32)]
     means = smooth.groupby("energy_ratio").multiscale.mean()

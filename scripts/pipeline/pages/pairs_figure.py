@@ -21,7 +21,7 @@ from stickiness.criteria.pair import (
     TOUCHES,
     WORDS,
 )
-from stickiness.remaining.prediction import DEFAULT_SHARE, Roughness
+from stickiness.remaining.prediction import DEFAULT_SHARE, SHORT_RANGE, Roughness
 
 LOOKS = {  # of a verdict
     STICKS_FULLY: ("square", BLUE),
@@ -31,7 +31,6 @@ LOOKS = {  # of a verdict
     NOT_STICKY: ("x", RED),
 }
 LEAST_RATIO, MOST_RATIO = 1e-6, 1e3  # w/U_full; pairs beyond stand at the edges
-SHORT = 1e-5  # range over h_rms of the line
 SAME = 0.05, 0.2  # of log(w/U_full) and share [%]: differences of ends that nobody sees
 TEXTS = ("material", "surface", "verdict", "remaining", "energy_ratio", "limits")
 TEXTS += ("pull_off", "threshold", "own_modulus")
@@ -76,7 +75,7 @@ def draw_model(plot: figure) -> Any:
     rough = Roughness(h_rms=1.0, q0=1.0, elastic_energy=1.0)
     ratios = np.geomspace(LEAST_RATIO, MOST_RATIO, 500)
     look = {"line_color": "#999999", "line_dash": "dotted", "line_width": 1.5}
-    return plot.line(ratios, 100 * rough.share(ratios, SHORT), **look)
+    return plot.line(ratios, 100 * rough.share(ratios, SHORT_RANGE), **look)
 
 
 def draw_group(

@@ -14,10 +14,9 @@ from stickiness.core import datasets
 from stickiness.criteria.pair import DEPENDS, NOT_STICKY, STICKS_FULLY, STICKY, TOUCHES
 from stickiness.criteria.registry import EDGES, FULL_CONTACT, REMAINING
 from stickiness.remaining import Roughness
-from stickiness.remaining.prediction import DEFAULT_SHARE, ONSET_ERROR
+from stickiness.remaining.prediction import DEFAULT_SHARE, ONSET_ERROR, SHORT_RANGE
 from stickiness.remaining.share import ONSET, tough_share, weak_share
 
-SHORT = 1e-6  # range over h_rms that does not matter
 BELOW = 0.3, 0.4, 0.5  # w/U_full near the onset
 TERRAIN = "jacksboro"  # left out where thresholds are compared
 RIVALS = {
@@ -136,8 +135,8 @@ def interpolate_at_crystal(limit: xr.DataArray) -> xr.DataArray:
 def quote_onset(sources: Sources) -> dict[str, str]:
     """Work of adhesion over the energy of full contact at which contact holds, short ranges."""
     rough = Roughness(h_rms=1.0, q0=1.0, elastic_energy=1.0)
-    low, value, high = (float(rough.threshold(SHORT, sign=sign)) for sign in (1, 0, -1))
-    weak = [f"{100 * share:.1f}" for share in weak_share(BELOW, SHORT)]
+    low, value, high = (float(rough.threshold(SHORT_RANGE, sign=sign)) for sign in (1, 0, -1))
+    weak = [f"{100 * share:.1f}" for share in weak_share(BELOW, SHORT_RANGE)]
     return {
         "onset": f"{ONSET:.2f} ± {ONSET_ERROR:.2f}",
         "onset.weak": f"{', '.join(weak[:-1])} and {weak[-1]} %",

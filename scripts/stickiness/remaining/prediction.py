@@ -36,6 +36,7 @@ PULL_OFF_KNOWN, PULL_OFF_UNKNOWN = 1.4, 3.0
 # Jumps at a given mean gap: what the energy gained over the work of approach, and the work of
 # separation over the energy gained, reach in simulations. Both grow as the range falls further.
 LATE, HYSTERESIS = 1.3, 1.6
+SHORT_RANGE = 1e-6  #: over h_rms; at 1e-4 no share differs by more than 3e-5
 LEAST_LENGTH = 1e-12  #: of thresholds, over the energy of full contact
 DEFAULT_SHARE = 0.1  #: of the work of adhesion, from which a pair is said to stick
 # Factor on the errors of surfaces unlike those simulated, at a ratio of correlation lengths, see
