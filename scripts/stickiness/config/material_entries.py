@@ -46,7 +46,7 @@ def size_problems(material: Mapping[str, Any]) -> Iterator[str]:
     for key, (low, high) in _SIZES.items():
         unit = low.partition(" ")[2]
         if key in material and not si(low, unit) <= si(material[key], unit) <= si(high, unit):
-            yield f"{key} = {material[key]!r} is beyond all solids; {low} to {high} is taken"
+            yield f"{key} = {material[key]!r} must be in {low} … {high}; no solid is beyond"
 
 
 def layer_problems(material: Mapping[str, Any], surfaces: Mapping[str, Any]) -> Iterator[str]:
