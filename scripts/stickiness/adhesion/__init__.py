@@ -10,6 +10,7 @@
 - `starts`: where a descent starts
 - `descent`: projected, preconditioned nonlinear conjugate gradients
 - `softening_descent`: faster descent for laws that only soften
+- `softening_loops`: its loops over the grid, compiled
 - `equilibrium`: stable equilibrium from a start
 - `dmt`: attraction over the gaps of a contact without adhesion
 - `area_load`: area against load in the DMT limit

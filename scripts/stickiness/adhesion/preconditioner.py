@@ -7,6 +7,7 @@ are four times smaller. Beside the wall, coarse points take part by their share 
 import numpy as np
 
 from stickiness.contact import convolution, half_space
+from stickiness.core.compiled import compiled
 from stickiness.solids import HALF_SPACE
 
 LONGEST = np.pi  #: ``|q|`` / 2 of the longest wave across a side of 1
@@ -56,8 +57,9 @@ class Smoother:
         if share is not None:
             out *= share
         if self.halved:
-            out = _spread(out)
-            out += self._constant * field
+            row = np.empty(out.shape[1] + 1, np.float32)
+            coarse, out = out, np.empty_like(field)
+            _spread(coarse, self._constant, field, out, row)
         return out
 
 
@@ -80,28 +82,32 @@ class Preconditioner:
 
 def _gather(field):
     """Sums over the points around each coarse one, ``B^T field``."""
-    for axis in (0, 1):
-        even, odd = _split(field, axis)
-        field = np.roll(odd, 1, axis)
-        field += odd
-        field += even
-        field += even
-    return field
-
-
-def _spread(coarse):
-    """Sums over the coarse points around each point, ``B coarse``."""
-    for axis in (1, 0):
-        shape = list(coarse.shape)
-        shape[axis] *= 2
-        out = np.empty(shape, coarse.dtype)
-        even, odd = _split(out, axis)
-        np.add(coarse, coarse, out=even)
-        np.add(coarse, np.roll(coarse, -1, axis), out=odd)
-        coarse = out
+    coarse = np.empty(tuple(n // 2 for n in field.shape), np.float32)
+    _add_around(field, coarse, np.empty(field.shape[1], np.float32))
     return coarse
 
 
-def _split(field, axis):
-    """Views of every second row or column, and of those between."""
-    return (field[::2], field[1::2]) if axis == 0 else (field[:, ::2], field[:, 1::2])
+@compiled
+def _add_around(field, coarse, row):
+    n0, n1 = coarse.shape
+    for i in range(n0):
+        before = 2 * i - 1 if i else 2 * n0 - 1
+        for j in range(2 * n1):
+            row[j] = field[before, j] + field[2 * i, j] + field[2 * i, j] + field[2 * i + 1, j]
+        coarse[i, 0] = row[2 * n1 - 1] + row[0] + row[0] + row[1]
+        for j in range(1, n1):
+            coarse[i, j] = row[2 * j - 1] + row[2 * j] + row[2 * j] + row[2 * j + 1]
+
+
+@compiled
+def _spread(coarse, constant, field, out, row):
+    """Sums over the coarse points around each point, ``B coarse``, plus a multiple of a field."""
+    n0, n1 = coarse.shape
+    for i in range(2 * n0):
+        after = (i + 1) // 2 % n0
+        for j in range(n1):
+            row[j] = coarse[i // 2, j] + coarse[after, j]
+        row[n1] = row[0]
+        for j in range(n1):
+            out[i, 2 * j] = row[j] + row[j] + constant * field[i, 2 * j]
+            out[i, 2 * j + 1] = row[j] + row[j + 1] + constant * field[i, 2 * j + 1]

@@ -7,6 +7,7 @@ import numpy as np
 from stickiness.adhesion.problem import Problem, Surface
 from stickiness.adhesion.state import lowered
 from stickiness.contact.grids import measure_scale
+from stickiness.core.compiled import compiled
 from stickiness.solids import HALF_SPACE
 
 APPROACH, SEPARATION = "approach", "separation"
@@ -177,28 +178,27 @@ class Scaled:
     def adhesion(self, state, branch, problem, pairs):
         """`Adhesion` in the caller's units."""
         law, gap = self.law, state.gap
-        at_wall = gap <= 0
-        if law.hard_wall:
-            reaction = state.elastic + state.traction + state.pressure
-            reaction = np.where(at_wall, np.maximum(reaction, 0), 0)
-        else:
-            reaction = np.zeros(gap.shape)
-        net = (reaction - state.traction) * self.stress
-        touching = at_wall if law.hard_wall else gap < 0
-        near = (gap <= law.range) & ~touching
+        net = np.empty(gap.shape)
+        fields = gap, state.elastic, state.traction, self.surface.heights, net
+        repulsion, attraction, elastic, *areas = (
+            value / gap.size
+            for value in _sum_up(
+                *(field.ravel() for field in fields), state.pressure, law.hard_wall, law.range
+            )
+        )
+        net *= self.stress
         energy = self.height * self.stress
-        elastic = 0.5 * float(np.mean((gap + self.surface.heights) * state.elastic))
         return Adhesion(
             pressure=net,
             gap=gap * self.height,
             mean_pressure=state.pressure * self.stress,
-            repulsive_pressure=float(np.mean(np.maximum(net, 0))),
-            adhesive_pressure=float(np.mean(np.maximum(-net, 0))),
-            repulsive_area_fraction=float(np.mean(touching)),
-            net_repulsive_area_fraction=float(np.mean(touching & (net > 0))),
-            adhesive_area_fraction=float(np.mean(near)),
+            repulsive_pressure=repulsion * self.stress,
+            adhesive_pressure=attraction * self.stress,
+            repulsive_area_fraction=areas[0],
+            net_repulsive_area_fraction=areas[1],
+            adhesive_area_fraction=areas[2],
             mean_gap=float(gap.mean()) * self.height,
-            elastic_energy=elastic * energy,
+            elastic_energy=elastic / 2 * energy,
             interaction_energy=state.potential * energy,
             residual=state.residual,
             iterations=state.iterations,
@@ -209,3 +209,25 @@ class Scaled:
             length=self.lengths,
             rms_height=self.rms_height,
         )
+
+
+@compiled
+def _sum_up(gap, elastic, traction, heights, net, pressure, wall, reach):
+    """Fill in the net pressure at every point, and sum up over all what `Adhesion` has means of.
+
+    Returns sums of repulsion, of attraction and of twice the elastic energy, and counts of points
+    in contact, of those that are compressed, and of others within the reach of the law.
+    """
+    repulsion = attraction = energy = 0.0
+    touching = compressed = near = 0
+    for i in range(gap.size):
+        contact = gap[i] <= 0 if wall else gap[i] < 0
+        push = elastic[i] + traction[i] + pressure if wall and contact else 0.0
+        net[i] = (push if push > 0 else 0.0) - traction[i]
+        repulsion += net[i] if net[i] > 0 else 0.0
+        attraction -= net[i] if net[i] < 0 else 0.0
+        energy += (gap[i] + heights[i]) * elastic[i]
+        touching += contact
+        compressed += contact and net[i] > 0
+        near += not contact and gap[i] <= reach
+    return repulsion, attraction, energy, touching, compressed, near

@@ -1,13 +1,14 @@
 """State of a descent: a gap and all that follows from it point by point.
 
-These operations are bound by memory. They go over the grid in blocks of rows that stay in cache,
-each block once for all that is to be computed there, and they write over the arrays of a state that
-is no longer needed.
+These operations are bound by memory. The law goes over the grid in blocks of rows that stay in
+cache, and all write over the arrays of a state that is no longer needed.
 """
 
 from dataclasses import dataclass
 
 import numpy as np
+
+from stickiness.core.compiled import compiled
 
 _POINTS = 2**14  # in a block: 128 kB in double precision
 
@@ -49,38 +50,49 @@ def evaluate(problem, state):
 
     The mean pressure, if not prescribed, is the one that balances the open points in the mean.
     """
-    law, wall, unit = problem.law, problem.wall, problem.unit
-    potential, total, count, least = 0.0, 0.0, 0, np.inf
+    law, potential = problem.law, 0.0
     for span in spans(state.gap.shape):
-        gap = state.gap[span]
-        traction, slope, energy = law.at(span).evaluate(gap)
-        state.traction[span], state.slope[span] = traction, slope
+        values = law.at(span).evaluate(state.gap[span])
+        state.traction[span], state.slope[span], energy = values
         potential += float(np.sum(energy))
-        if problem.pressure is None:
-            unloaded = state.elastic[span] + traction
-            least = min(least, float(unloaded.min()))
-            open_points = gap > 0 if wall else np.ones(gap.shape, bool)
-            count += int(np.count_nonzero(open_points))
-            total += float(np.sum(unloaded, where=open_points))
     state.potential = potential / state.gap.size
+    fields = state.gap.ravel(), state.elastic.ravel(), state.traction.ravel()
     state.pressure = problem.pressure
     if state.pressure is None:
+        total, count, least = _unloaded(*fields, problem.wall)
         # In full contact the least pressure that keeps it.
         state.pressure = -total / count if count else -least
-    largest = 0.0
-    for span in spans(state.gap.shape):
-        reaction = state.elastic[span] + state.traction[span]
-        reaction += state.pressure
-        if wall:
-            free = np.logical_or(state.gap[span] > 0, reaction < 0, out=state.free[span])
-            reaction *= free
-        else:
-            state.free[span] = True
-        reaction /= unit
-        largest = np.maximum(largest, np.abs(reaction).max())  # keeps NaN
-        state.force[span] = reaction
-    state.residual = float(largest)
+    force, free = state.force.ravel(), state.free.ravel()
+    _react(*fields, state.pressure, problem.unit, problem.wall, free, force)
+    state.residual = largest(force)
     return state
+
+
+@compiled
+def _unloaded(gap, elastic, traction, wall):
+    """Sum and count of reactions without load on open points, and the least on all points."""
+    total, count, least = 0.0, 0, np.inf
+    for i in range(gap.size):
+        reaction = elastic[i] + traction[i]
+        if gap[i] > 0 or not wall:
+            total += reaction
+            count += 1
+        least = min(least, reaction)
+    return total, count, least
+
+
+@compiled
+def _react(gap, elastic, traction, pressure, unit, wall, free, force):
+    """Find the points that are free, and the forces on them."""
+    for i in range(gap.size):
+        reaction = elastic[i] + traction[i] + pressure
+        free[i] = gap[i] > 0 or reaction < 0 or not wall
+        force[i] = reaction / unit if free[i] else 0.0
+
+
+def largest(field):
+    """Largest magnitude in a field; not a number if any is none."""
+    return float(np.maximum(field.max(), -field.min()))
 
 
 def balanced(field, points=None):

@@ -12,6 +12,8 @@ the last bits of a result do not depend on how busy the machine was.
 import numpy as np
 import pyfftw
 
+from stickiness.core.compiled import compiled
+
 _FLAGS = ("FFTW_ESTIMATE", "FFTW_DESTROY_INPUT")
 _ROWS = 64  # rows transformed at a time along axis 1
 _STRIP = 2**12  # numbers transformed at a time along axis 0 on either side of a mirror: 32 kB
@@ -98,11 +100,12 @@ class Packed:
         self._half = pyfftw.zeros_aligned((self._rows, _stride(modes)), numbers)[:, :modes]
         self._before = pyfftw.zeros_aligned((widest, n0), numbers)
         self._after = pyfftw.zeros_aligned((widest, n0), numbers)
-        self._mirror = np.empty_like(self._before)
+        self._product = pyfftw.zeros_aligned((widest, n0), numbers)
+        self._mirror = np.empty(2 * n0, dtype)
         self._rows_forward = _plan(self._real.view(numbers), self._half, "FFTW_FORWARD")
         self._rows_backward = _plan(self._half, self._real.view(numbers), "FFTW_BACKWARD")
         self._columns_forward = _plan(self._before, self._after, "FFTW_FORWARD")
-        self._columns_backward = _plan(self._after, self._before, "FFTW_BACKWARD")
+        self._columns_backward = _plan(self._product, self._before, "FFTW_BACKWARD")
 
     def symbol(self, values):
         """Prepare a symbol, as `Real.symbol` does."""
@@ -175,7 +178,8 @@ class Packed:
                 count += width
             self._columns_forward.execute()
             rows = slice(start, start + count)
-            self._combine(direct[rows], crossed[rows], self._after[:count], self._mirror[:count])
+            values, product = (field.view(self._dtype) for field in (self._after, self._product))
+            _combine(direct[rows], crossed[rows], values, product, self._mirror)
             self._columns_backward.execute()
             start, count = start + count, 0
             for strip in group:
@@ -183,15 +187,22 @@ class Packed:
                 self._spectrum[:, strip] = self._before[count : count + width].T
                 count += width
 
-    def _combine(self, direct, crossed, z, mirror):
-        # A group is closed under k -> -k: its rows mirror one another in reverse. Reversing real
-        # and imaginary parts along with the numbers turns z into i conj(z).
-        parts, mirrored = z.view(self._dtype), mirror.view(self._dtype)
-        mirrored[:, :2] = parts[::-1, 1::-1]
-        mirrored[:, 2:] = parts[::-1, :1:-1]
-        np.multiply(mirror, crossed, out=mirror)
-        np.multiply(z, direct, out=z)
-        z += mirror
+
+@compiled
+def _combine(direct, crossed, values, product, mirror):
+    """``a z_k + i b conj(z_-k)`` of the first rows of a group; real and imaginary parts in turn.
+
+    A group is closed under k -> -k: its rows mirror one another in reverse. Reversing real and
+    imaginary parts along with the numbers turns z into i conj(z).
+    """
+    rows, n = direct.shape
+    for r in range(rows):
+        mirror[0], mirror[1] = values[rows - 1 - r, 1], values[rows - 1 - r, 0]
+        for t in range(2, 2 * n):
+            mirror[t] = values[rows - 1 - r, 2 * n + 1 - t]
+        for k in range(n):
+            for t in (2 * k, 2 * k + 1):
+                product[r, t] = direct[r, k] * values[r, t] + crossed[r, k] * mirror[t]
 
 
 def choose(shape, dtype):

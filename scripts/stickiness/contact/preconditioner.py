@@ -9,9 +9,9 @@ grid of a sixteenth of the points.
 """
 
 import numpy as np
-from scipy import sparse
 
 from stickiness.contact import convolution, half_space
+from stickiness.core.compiled import compiled
 
 _SPACING = 4  # of the grid of the extension, in pixels
 _OWN = 8.0  # weight of a point of that grid beside its next one: 2 to 16 do about equally well
@@ -29,8 +29,10 @@ class Preconditioner:
         if points.size < grid.heights.size:
             self.mean = _kept_mean(tuple(grid.shape), tuple(grid.sides))
             self.quick.field[points] = 1
-            self.weights = self.mean.apply(self.quick.field.reshape(grid.shape))
+            self.mean.gather(self.quick.field.reshape(grid.shape))
             self.quick.field[points] = 0
+            self.weights = np.ones(grid.shape, np.float32)
+            self.mean.spread(self.weights, self.weights)
             self.weights += np.float32(_REST)
             np.divide(1, self.weights, out=self.weights)
             self.weights.ravel()[points] = 0
@@ -44,11 +46,12 @@ class Preconditioner:
             return quick.apply(stiffness, points, residual, self.rows, self.rows)[points]
         field, image = quick.field.reshape(quick.shape), quick.image.reshape(quick.shape)
         quick.field[points] = residual
-        np.multiply(self.mean.apply(field), self.weights, out=image)
+        self.mean.gather(field)
+        self.mean.spread(self.weights, image)
         quick.image[points] = residual
         stiffness(image, field)
-        np.multiply(field, self.weights, out=image)
-        pressure = self.mean.apply(image).ravel()[points]
+        self.mean.gather(field, self.weights)
+        pressure = self.mean.at(points)
         pressure += quick.field[points]
         quick.field[:] = 0
         self.grid.spent += 2 / _SPACING**2
@@ -61,38 +64,94 @@ class Preconditioner:
 
 
 class _Mean:
-    """Sums weighted by the inverse square of the distance, smooth over a few pixels."""
+    """Sums weighted by the inverse square of the distance, smooth over a few pixels.
+
+    `gather` takes them of a field on the coarse grid, `spread` and `at` give them on the fine one.
+    """
 
     def __init__(self, shape, sides):
-        self.coarse = tuple(-(-n // _SPACING) for n in shape)
-        self._spread = [_interpolation(n, m) for n, m in zip(shape, self.coarse, strict=True)]
-        self._gather = [matrix.T.tocsr() for matrix in self._spread]
-        steps = [a / m for a, m in zip(sides, self.coarse, strict=True)]
-        axes = [np.fft.fftfreq(m, 1 / m) * step for m, step in zip(self.coarse, steps, strict=True)]
+        coarse = tuple(-(-n // _SPACING) for n in shape)
+        self._axes = [_interpolation(n, m) for n, m in zip(shape, coarse, strict=True)]
+        steps = [a / m for a, m in zip(sides, coarse, strict=True)]
+        axes = [np.fft.fftfreq(m, 1 / m) * step for m, step in zip(coarse, steps, strict=True)]
         square = np.add.outer(axes[0] ** 2, axes[1] ** 2) / (steps[0] * steps[1])
         square[0, 0] = 1 / _OWN
         symbol = np.fft.rfft2(1 / square).real / square.size / _SPACING**2
-        self._convolution = convolution.choose(self.coarse, np.float32)
+        self._convolution = convolution.choose(coarse, np.float32)
         self._symbol = self._convolution.symbol(symbol.T)
-        self._image = np.zeros(self.coarse, np.float32)
-        self._every = np.arange(self.coarse[0])
+        self._rows = np.empty((coarse[0], shape[1]), np.float32)
+        self._field, self._image = np.zeros((2, *coarse), np.float32)
+        self._every = np.arange(coarse[0])
 
-    def apply(self, field):
-        """Sums at all points of a grid, in single precision."""
-        coarse = np.ascontiguousarray((self._gather[1] @ (self._gather[0] @ field).T).T)
-        self._convolution.apply(self._symbol, coarse, self._image, self._every, self._every)
-        return self._spread[0] @ np.ascontiguousarray((self._spread[1] @ self._image.T).T)
+    def gather(self, field, weights=None):
+        """Take the sums of a field in single precision, or of its product with weights."""
+        _add_to_coarse(field, weights, *self._axes, self._rows, self._field)
+        self._convolution.apply(self._symbol, self._field, self._image, self._every, self._every)
+
+    def spread(self, weights, out):
+        """Sums at all points of a grid, times weights."""
+        _interpolate(self._image, *self._axes, self._rows, weights, out)
+
+    def at(self, points):
+        """Sums at some points, given by flat indices."""
+        out = np.empty(points.size, np.float32)
+        _interpolate_at(points, self._image, *self._axes, out)
+        return out
 
 
 _kept_mean = half_space.keep_per_thread(12)(_Mean)
 
 
 def _interpolation(n, m):
-    """Matrix of linear interpolation along a periodic axis, from m points to n."""
+    """Linear interpolation along a periodic axis from m points to n: both neighbours, a weight."""
     position = (np.arange(n) + 0.5) * (m / n) - 0.5
-    left = np.floor(position).astype(np.int32)
-    t = (position - left).astype(np.float32)
-    columns = np.stack([left % m, (left + 1) % m], axis=1)
-    weights = np.stack([1 - t, t], axis=1)
-    starts = np.arange(0, 2 * n + 1, 2)
-    return sparse.csr_array((weights.ravel(), columns.ravel(), starts), shape=(n, m))
+    left = np.floor(position).astype(np.int64)
+    return left % m, (left + 1) % m, (position - left).astype(np.float32)
+
+
+@compiled
+def _add_to_coarse(field, weights, axis0, axis1, rows, coarse):
+    """Transpose of an interpolation, of a field or of its product with weights."""
+    left, right, t = axis0
+    rows[...] = 0
+    for i in range(field.shape[0]):
+        a, b, later = left[i], right[i], t[i]
+        for j in range(field.shape[1]):
+            value = field[i, j] if weights is None else field[i, j] * weights[i, j]
+            rows[b, j] += later * value
+            rows[a, j] += value - later * value
+    left, right, t = axis1
+    coarse[...] = 0
+    for i in range(rows.shape[0]):
+        for j in range(rows.shape[1]):
+            later = t[j] * rows[i, j]
+            coarse[i, left[j]] += rows[i, j] - later
+            coarse[i, right[j]] += later
+
+
+@compiled
+def _interpolate(coarse, axis0, axis1, rows, weights, out):
+    """Interpolate along both axes, and multiply by weights."""
+    left, right, t = axis1
+    for i in range(rows.shape[0]):
+        for j in range(rows.shape[1]):
+            a = coarse[i, left[j]]
+            rows[i, j] = a + t[j] * (coarse[i, right[j]] - a)
+    left, right, t = axis0
+    for i in range(out.shape[0]):
+        a, b, later = left[i], right[i], t[i]
+        for j in range(out.shape[1]):
+            out[i, j] = (rows[a, j] + later * (rows[b, j] - rows[a, j])) * weights[i, j]
+
+
+@compiled
+def _interpolate_at(points, coarse, axis0, axis1, out):
+    """Interpolate along both axes at some points."""
+    left0, right0, t0 = axis0
+    left1, right1, t1 = axis1
+    for k in range(points.size):
+        i, j = divmod(points[k], left1.size)
+        a, b = left1[j], right1[j]
+        upper = coarse[left0[i], a] + t1[j] * (coarse[left0[i], b] - coarse[left0[i], a])
+        lower = coarse[right0[i], a] + t1[j] * (coarse[right0[i], b] - coarse[right0[i], a])
+        out[k] = upper + t0[i] * (lower - upper)

@@ -19,9 +19,32 @@ def rough(n, seed=1):
 @pytest.mark.parametrize("shape", [(32, 32), (31, 45), (6, 50)])
 def test_the_mean_is_symmetric(shape):
     rng = np.random.default_rng(1)
-    a, b = rng.random((2, *shape)).astype(np.float32)
+    a, b, weights = rng.random((3, *shape)).astype(np.float32)
     mean = _Mean(shape, (1.0, shape[1] / shape[0]))
-    assert np.sum(a * mean.apply(b)) == pytest.approx(np.sum(b * mean.apply(a)), rel=1e-4)
+
+    def apply(field):
+        out = np.empty(shape, np.float32)
+        mean.gather(field, weights)
+        mean.spread(weights, out)
+        return out
+
+    assert np.sum(a * apply(b)) == pytest.approx(np.sum(b * apply(a)), rel=1e-4)
+
+
+def test_the_mean_at_points_is_that_of_the_grid():
+    shape = (12, 21)
+    field = np.random.default_rng(1).random(shape).astype(np.float32)
+    mean, out = _Mean(shape, (1.0, 1.75)), np.empty(shape, np.float32)
+    mean.gather(field)
+    mean.spread(np.ones(shape, np.float32), out)
+    np.testing.assert_allclose(mean.at(np.arange(field.size)), out.ravel(), rtol=1e-5)
+    # far from a single point the sums fall off with the inverse square of the distance
+    point = np.zeros((256, 256), np.float32)
+    point[128, 128] = 1
+    mean = _Mean(point.shape, (1.0, 1.0))
+    mean.gather(point)
+    near, far = mean.at(128 * 256 + 128 + np.array([16, 32]))
+    assert near / far == pytest.approx(4, rel=0.1)
 
 
 def preconditioned(shape, touching, solid):

@@ -1,0 +1,37 @@
+"""Loops over grids, compiled when they are first called.
+
+numpy passes over memory once for every operation, a compiled loop once for all operations that a
+point needs. What is compiled is kept on disk, beside the source or in the user's cache.
+"""
+
+from functools import wraps
+
+# Sums may be taken in any order, so that vector instructions serve; nothing else is given up.
+_FREEDOMS = {"reassoc", "contract", "nsz"}
+
+
+def compiled(function):
+    """Compile a function of arrays and numbers at its first call.
+
+    Imports numba then: most programs of a workflow solve nothing and start faster without it.
+    """
+    made = None
+
+    @wraps(function)
+    def call(*arguments):
+        nonlocal made
+        if made is None:
+            made = _compile(function)
+        return made(*arguments)
+
+    return call
+
+
+def _compile(function):
+    import numba  # noqa: PLC0415 - see `compiled`
+
+    options = {"fastmath": _FREEDOMS, "error_model": "numpy", "nogil": True}
+    try:
+        return numba.njit(cache=True, **options)(function)
+    except RuntimeError:  # neither folder can be written
+        return numba.njit(**options)(function)
