@@ -16,7 +16,6 @@ def test_a_verdict_needs_no_simulation(fresh):
     count = len(SURFACES)
     assert fresh.planned("verdicts") == {
         "analyse_surface": count,
-        "judge_surface": count,
         "judge": 1,
         "verdicts": 1,
     }
@@ -24,7 +23,7 @@ def test_a_verdict_needs_no_simulation(fresh):
 
 def test_the_page_of_a_surface_runs_no_other(fresh):
     planned = fresh.planned("results/tiny/report/surfaces/asphalt.html")
-    assert planned == {"analyse_surface": 1, "judge_surface": 1, "write_surface": 1}
+    assert planned == {"analyse_surface": 1, "write_surface": 1}
 
 
 def test_a_case_of_theory_needs_no_surfaces(fresh):
