@@ -218,7 +218,8 @@ def test_full_adhesion_is_solved_only_where_the_dmt_limit_is_not_good_enough(fre
             )
     done = fresh.snakemake("-n", *(f"results/tiny/adhesion/full/{name}.nc" for name in asked))
     assert done.returncode == 0, done.stdout
-    outputs = re.findall(r"output: results/tiny/adhesion/(\S+)\.nc", done.stdout)
+    made = " ".join(re.findall("output: .*", done.stdout))
+    outputs = re.findall(r"results/tiny/adhesion/(\S+)\.nc", made)
     assert {output for output in outputs if "/seeds" in output} == {
         f"full/{name}/seeds1-{SEEDS}" for name in ("close", "full")
     }
@@ -235,7 +236,7 @@ def test_a_script_runs_by_hand(copy_of_finished):
     update_config(merged, yaml.safe_load(tiny.read_text(encoding="utf-8")))
     config.write_text(yaml.safe_dump(merged), encoding="utf-8")
     run = subprocess.run(
-        [sys.executable, "scripts/adhesion/adhesion_dmt.py", "adhesion=fig2"],
+        [sys.executable, "scripts/adhesion/average_adhesive.py", "adhesion=fig2"],
         cwd=copy_of_finished.folder,
         env={**os.environ, "PYTHONPATH": "scripts"},
         capture_output=True,
