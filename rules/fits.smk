@@ -1,4 +1,5 @@
-# a_V of simulation, with its errors and what the fit interval does to it; where theory departs from simulation; a_V in a table.
+# a_V of simulation, with its errors and what the fit interval does to it; where theory departs from
+# simulation; a_V in a table.
 
 # Whatever is simulated for every quantity, with which theory is compared.
 SIMULATED = [*COMPLETE, *COMPARISONS]
