@@ -1,4 +1,4 @@
-"""Persson's theory on continuous self-affine spectra, over a sweep of the configuration, and a_V."""
+"""Persson's theory on continuous self-affine spectra, over a configured sweep, and its a_V."""
 
 from itertools import product
 
