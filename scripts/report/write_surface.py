@@ -31,9 +31,9 @@ from pipeline.verdicts.materials import describe_modulus, read_material
 from pipeline.verdicts.texts import say_verdict
 from stickiness.core import datasets
 from stickiness.core.statistics import COVERS
-from stickiness.criteria.moduli import crossings
 from stickiness.criteria.pair import NOT_JUDGED
 from stickiness.remaining.prediction import DEFAULT_SHARE
+from stickiness.solids.moduli import crossings
 
 CAPTION = """Heights and spectrum of the surface, with the fitted self-affine spectrum and the lines
 of the paper.
