@@ -28,7 +28,7 @@ def fit_kappa(ensemble: xr.Dataset, models: ErrorModels) -> xr.Dataset:
 def add_theory(theory: xr.Dataset, models: ErrorModels, surface: dict) -> xr.Dataset:
     """Theory on the lattice spectrum of a surface with its kappa, which has a budget."""
     text = f"{TEXT} by Persson's theory on the lattice spectrum"
-    theory = conventions.annotate(theory.assign(kappa=slope_of_area(theory)), kappa=("1", text))
+    theory = datasets.annotate(theory.assign(kappa=slope_of_area(theory)), kappa=("1", text))
     parts = theory_parts(models, "kappa", theory.kappa, surface, "area_fraction")
     return with_budget(theory, "kappa", **parts)
 
