@@ -50,9 +50,7 @@ _ASKED_BACK = {
 _SECONDS = r"\s*[*·⋅\s]\s*s(?:econds?)?(?![A-Za-z])"  # behind mPa: a viscosity, where it is common
 
 
-CACHE = (
-    "STICKINESS_UNITS"  #: environment variable: folder in which pint keeps units, ready made
-)
+CACHE = "STICKINESS_UNITS"  #: environment variable: folder in which pint keeps units, ready made
 
 
 @cache
