@@ -51,20 +51,6 @@ def ensemble_of(wildcards):
     return f"{RESULTS}/contact/ensembles/{case_of(wildcards)}.nc"
 
 
-rule adhesion_dmt:
-    input:
-        laws=ERROR_MODELS,
-        ensemble=ensemble_of,
-    output:
-        f"{RESULTS}/adhesion/dmt/{{adhesion}}.nc",
-    params:
-        adhesion=lambda wildcards: ADHESION[wildcards.adhesion],
-        dmt_error=lambda wildcards: model_of(wildcards.adhesion).dmt_error.tolist(),
-        jtb=lambda wildcards: model_of(wildcards.adhesion).jtb.tolist(),
-    script:
-        "../scripts/adhesion/adhesion_dmt.py"
-
-
 rule solve_adhesive:
     input:
         surfaces=lambda wildcards: surfaces_of(case_of(wildcards), wildcards.part),
@@ -85,13 +71,17 @@ rule solve_adhesive:
 
 rule average_adhesive:
     input:
-        limit=f"{RESULTS}/adhesion/dmt/{{adhesion}}.nc",
+        laws=ERROR_MODELS,
         ensemble=ensemble_of,
         realisations=realisations_in_full,
     output:
-        f"{RESULTS}/adhesion/full/{{adhesion}}.nc",
+        averages=f"{RESULTS}/adhesion/full/{{adhesion}}.nc",
+        limit=f"{RESULTS}/adhesion/dmt/{{adhesion}}.nc",
     params:
+        adhesion=lambda wildcards: ADHESION[wildcards.adhesion],
         full=points_in_full,
+        dmt_error=lambda wildcards: model_of(wildcards.adhesion).dmt_error.tolist(),
+        jtb=lambda wildcards: model_of(wildcards.adhesion).jtb.tolist(),
     script:
         "../scripts/adhesion/average_adhesive.py"
 

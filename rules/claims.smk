@@ -23,6 +23,7 @@ def ledger_inputs():
         "kappa_64": f"{RESULTS}/fits/kappa/H0.8_zeta64.nc",
         "kappa_128": f"{RESULTS}/fits/kappa/H0.8_zeta128.nc",
         "kappa_wide": f"{RESULTS}/fits/kappa/H0.8_zeta32_wide.nc",
+        "lattice_128": f"{RESULTS}/persson/lattice/H0.8_zeta128.nc",
         "lattice_wide": f"{RESULTS}/persson/lattice/H0.8_zeta32_wide.nc",
         "fit_lattice_128": f"{RESULTS}/fits/a_v/lattice/H0.8_zeta128.nc",
         "ensemble_wide": f"{RESULTS}/contact/ensembles/H0.8_zeta32_wide.nc",

@@ -67,6 +67,9 @@ os.environ.update(PYTHONPATH=os.pathsep.join([SCRIPTS, *others]))
 for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
     os.environ.setdefault(name, "1")
 
+# Made by the first run, which reads units before any job does.
+os.environ.setdefault("STICKINESS_UNITS", os.path.abspath(".snakemake/units"))
+
 from pipeline import code
 from stickiness.accuracy import plan
 from stickiness.accuracy.error_models import read_models

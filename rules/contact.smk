@@ -1,5 +1,6 @@
 # Contact without adhesion, by boundary elements. A job walks the whole load path of a few seeds of a
-# case, others walk it for many more on a coarse grid; together they give the case's means.
+# case, others walk it for many more on a coarse grid; together they give the
+# case's means and the slope of its area against load.
 # Surfaces that theory alone is compared with take one job for all of it.
 
 
@@ -110,7 +111,8 @@ rule average_ensemble:
         realisations=realisations,
         coarse=coarse_solutions,
     output:
-        f"{RESULTS}/contact/ensembles/{{case}}.nc",
+        means=f"{RESULTS}/contact/ensembles/{{case}}.nc",
+        kappa=f"{RESULTS}/fits/kappa/{{case}}.nc",
     params:
         seeds=lambda wildcards: seeds_of(wildcards.case),
         pressures=lambda wildcards: PLANS[wildcards.case].pressures,

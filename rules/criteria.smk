@@ -40,23 +40,18 @@ def own_surfaces():
     return sorted({entry["surface"] for entry in MATERIALS.values() if "surface" in entry})
 
 
-rule judge_surface:
-    input:
-        surface=f"{RESULTS}/real_surfaces/{{real_surface}}.nc",
-        own=several("real_surfaces/{surface}.nc", surface=own_surfaces()),
-    output:
-        f"{RESULTS}/criteria/verdicts/{{real_surface}}.nc",
-    params:
-        own=own_surfaces(),
-        materials=MATERIALS,
-        frequencies=config["criteria"]["frequencies"],
-    script:
-        "../scripts/criteria/judge_surface.py"
+OWN_SURFACES = several("real_surfaces/{surface}.nc", surface=own_surfaces())
+# What a verdict depends on beside the surface.
+JUDGED = {
+    "own": own_surfaces(),
+    "materials": MATERIALS,
+    "frequencies": config["criteria"]["frequencies"],
+}
 
 
 rule judge:
     input:
-        several("criteria/verdicts/{surface}.nc", surface=REAL_SURFACES),
+        several("real_surfaces/{surface}.nc", surface=REAL_SURFACES),
     output:
         dataset=f"{RESULTS}/criteria/verdicts.nc",
         table=report(
@@ -64,5 +59,8 @@ rule judge:
             category="Verdicts",
             caption="../report/verdicts.rst",
         ),
+    params:
+        **JUDGED,
+        surfaces=list(REAL_SURFACES),
     script:
         "../scripts/criteria/judge.py"

@@ -38,7 +38,7 @@ FIGURE_INPUTS = {
     "fig6": {"surfaces": several("real_surfaces/{surface}.nc", surface=REAL_SURFACES)},
     "fig7": {"adhesive": f"{RESULTS}/adhesion/full/dmt_error.nc"},
     "fig8": {
-        "comparisons": several("fits/theory/{compared}.nc", compared=[*CASES, *COMPARISONS]),
+        "comparisons": several("fits/theory/{compared}.nc", compared=SIMULATED),
         "gamma": f"{RESULTS}/fits/gamma.nc",
     },
     "fig9": {

@@ -72,16 +72,19 @@ rule write_surface:
         template=own("report/surface.html.j2"),
         parts=PAGE_PARTS,
         surface=f"{RESULTS}/real_surfaces/{{real_surface}}.nc",
-        verdicts=f"{RESULTS}/criteria/verdicts/{{real_surface}}.nc",
+        own=OWN_SURFACES,
         measured_contact=find_measured_contact,
         pictures=find_pictures,
     output:
         figure=f"{RESULTS}/figures/surfaces/{{real_surface}}.png",
         curves=f"{RESULTS}/figures/surfaces/{{real_surface}}_curves.png",
+        verdicts=f"{RESULTS}/criteria/verdicts/{{real_surface}}.nc",
         page=report(
             f"{RESULTS}/report/surfaces/{{real_surface}}.html",
             category="Surfaces",
             caption="../report/surface.rst",
         ),
+    params:
+        **JUDGED,
     script:
         "../scripts/report/write_surface.py"

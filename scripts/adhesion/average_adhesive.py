@@ -1,4 +1,4 @@
-"""Adhesion of a set of parameters: at every point by the model chosen, with all its errors.
+"""Adhesion of a set of parameters: in the DMT limit, and at every point by the model chosen.
 
 Of full simulation the realisations are averaged: slopes of the area-load relation, and how far the
 DMT limit is. With kappa = 2 without adhesion, 1/kappa = 1/2 - 1/kappa_ad. The latter is how much
@@ -15,6 +15,7 @@ import xarray as xr
 from pipeline import conventions
 from pipeline.adhesion_sets import AXES, MISSING, OUTSIDE, solver_error
 from pipeline.conventions import LINEAR_UP_TO, cell_size
+from pipeline.dmt_averages import write_limit
 from pipeline.dmt_limit import DmtLimit, fit_slope, linearity_error
 from pipeline.ensemble_means import add_errors, coarse, describe_errors, fine
 from pipeline.error_budgets import SIMULATED
@@ -73,8 +74,10 @@ FEW = f"DMT limit, {MISSING}, a single seed, or fewer than two loads to fit"
 
 
 def main(job):
-    limit = datasets.read(job.input.limit, ["inverse_kappa_ad", "dmt_error", "dmt_valid"])
     ensemble = datasets.read(job.input.ensemble, ["attractive_area", "area_fraction", "rms_slope"])
+    errors = {"dmt_valid": job.params.jtb, "dmt_error": job.params.dmt_error}
+    write_limit(job.params.adhesion, ensemble, job.input.laws, errors, job.output.limit)
+    limit = datasets.read(job.output.limit)
     full = xr.DataArray(np.array(job.params.full), dims=AXES)
     asked = datasets.parameters(limit)
     dmt = DmtLimit.of(asked, ensemble)
@@ -91,7 +94,7 @@ def main(job):
     dataset["zone_strength"] = zone_width(ensemble, limit) * strength / limit.range_over_h_rms
     datasets.write(
         add_budgets(annotate(dataset)),
-        job.output[0],
+        job.output.averages,
         title="adhesive contact averaged over realisations, by the model chosen",
         parameters={**made, **asked, "seeds": seeds},
     )

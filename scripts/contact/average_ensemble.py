@@ -1,11 +1,14 @@
 """Average the realisations of a case: means in the limit of fine grids, with their errors.
 
 Coarse solutions of further seeds, if the case has them, are kept beside the values seed by seed:
-whatever is derived from those is averaged in the same way.
+whatever is derived from those is averaged in the same way, as the slope of area against load is.
 """
 
+from pipeline.conventions import LINEAR_UP_TO
 from pipeline.ensembles import add_budgets, annotate, choose_means, ensemble_of
 from pipeline.job import start
+from pipeline.kappa import fit_kappa
+from stickiness.accuracy.error_models import read_models
 from stickiness.core import datasets
 
 
@@ -16,9 +19,15 @@ def main(job):
     parameters["case"] = job.wildcards.case
     datasets.write(
         add_budgets(annotate(dataset, averaged), parameters, job.input.laws, averaged),
-        job.output[0],
+        job.output.means,
         title="repulsive contact averaged over realisations",
         parameters=parameters,
+    )
+    datasets.write(
+        fit_kappa(datasets.read(job.output.means), read_models(job.input.laws)),
+        job.output.kappa,
+        title="slope of the area-load relation",
+        parameters={**parameters, "linear_up_to": LINEAR_UP_TO},
     )
 
 

@@ -1,22 +1,15 @@
-"""Join the verdicts on all surfaces, and write them as a page."""
-
-import xarray as xr
+"""Verdict for every material on every surface, and the same as a page."""
 
 from pipeline.job import start
+from pipeline.verdicts.judging import judge, read_surfaces
 from pipeline.verdicts.markdown import write_markdown
 from stickiness.core import datasets
 
-NEEDED = ("remaining", "margin", "verdict", "probability")
-
 
 def main(job):
-    every = [datasets.read(path, NEEDED) for path in job.input]
-    labels = {str(one.surface.item()): datasets.parameters(one)["label"] for one in every}
-    dataset = xr.concat(every, "surface", data_vars="minimal", coords="minimal", join="exact")
-    for name in dataset:  # of the surfaces, one may lack numbers that others have
-        missing = max((one[name].attrs.get("nan_means", "") for one in every), key=len)
-        dataset[name].attrs |= {"nan_means": missing} if missing else {}
-    materials = datasets.parameters(every[0])["materials"]
+    surfaces, materials = read_surfaces(job.params.surfaces, job.input), job.params.materials
+    labels = {name: datasets.parameters(surface)["label"] for name, surface in surfaces.items()}
+    dataset = judge(surfaces, {name: surfaces[name] for name in job.params.own}, job.params)
     datasets.write(
         dataset,
         job.output.dataset,

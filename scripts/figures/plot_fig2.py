@@ -18,14 +18,14 @@ SIZE = 3.5  # of markers
 def main(job):
     kappas = read_all(job.input.kappa, ["kappa", "area_fraction"])
     ensembles = read_all(job.input.ensembles, ["area_fraction_mean", "rms_slope"])
-    lattices = read_all(job.input.lattices, ["area_fraction"])
+    lattices = read_all(job.input.lattices, ["area_fraction", "kappa"])
     maps = datasets.read(job.input.maps, ["gap"])
     limit = datasets.read(job.input.adhesion, ["inverse_kappa", "q0_h_rms"])
     adhesive = datasets.read(job.input.adhesive, ["inverse_kappa", "q0_h_rms"])
     adhesive_maps = datasets.read(job.input.adhesive_maps, ["gap"])
     rows = "ABC;DEF;GHI"
     with plotting.open_figure(job.output, rows, 7.9, height_ratios=[1.15, 1, 1]) as panels:
-        draw_slopes(panels["A"], kappas)
+        draw_slopes(panels["A"], kappas, lattices)
         draw_threshold(panels["B"], limit, adhesive)
         draw_areas(panels["C"], ensembles, lattices)
         draw_maps(panels, maps, adhesive_maps)
@@ -40,13 +40,13 @@ def magnification(dataset):
     return datasets.parameters(dataset)["magnification"]
 
 
-def draw_slopes(ax, kappas):
+def draw_slopes(ax, kappas, lattices):
     """kappa_rep load by load; open symbols beyond the area that is called linear."""
     handles = []
-    for index, kappa in enumerate(kappas):
+    for index, (kappa, lattice) in enumerate(zip(kappas, lattices, strict=True)):
         look = pick_look(index)
         # Both variants of the theory have the same area.
-        theory = kappa.kappa_theory.sel(variant=VARIANT)
+        theory = lattice.kappa.sel(variant=VARIANT)
         ax.plot(kappa.pressure, theory, color=look["color"], linewidth=0.9)
         pressure = plotting.move_aside(kappa.pressure, index - 1)
         plotting.draw_points(ax, pressure, kappa, "kappa", **look, markersize=SIZE)

@@ -1,4 +1,4 @@
-"""Theory on the lattice spectrum of a case against its simulation, with the errors of both.
+"""Theory on the lattice spectra of cases against their simulation, with the errors of both.
 
 Distributions of the gap are compared by the area between the cumulative ones, contact included,
 
@@ -7,40 +7,39 @@ Distributions of the gap are compared by the area between the cumulative ones, c
 which is Wasserstein's distance: the mean length by which gaps would have to be moved to turn one
 distribution into the other. It takes the atom of contact at u = 0 and an infinite P(0) in its
 stride, needs no bins, has a unit, and bounds the difference of mean gaps.
-
-Theory's heights are Gaussian without end, those of a window end at its highest summit. Where theory
-puts the mean gap near or above it, the window holds too few summits to be compared with.
 """
 
 import numpy as np
 import xarray as xr
 
 from pipeline import conventions
-from pipeline.conventions import VARIABLES, grid_points, make_heights
+from pipeline.conventions import VARIABLES
 from pipeline.ensemble_means import coarse, discretisation_error, ensemble_mean
 from pipeline.grid_limits import EXTRAPOLATION
 from pipeline.job import start
 from stickiness.core import datasets
 from stickiness.core.budget import SOURCES, Part, absent, part, with_budget
 
-WINDOWS = 64  # random ones, whose highest summits are averaged
-LONG_WAVES = 64.0  # wave number over q0 beyond which waves add nothing to the highest summit
-MARGIN = 0.75  # over h_rms, of theory's mean gap below the highest summit
 PARTS = ("area_fraction", "attractive_area")  # of the cumulative distribution
+WINDOW = ("highest_summit", "margin", "window_holds")  # of theory's file
 COMPARED = ("area_fraction", "mean_gap", "attractive_area", "gap_density")
 
 
 def main(job):
-    simulated = datasets.read(job.input.ensemble, [f"{name}_mean" for name in COMPARED])
-    theory = datasets.read(job.input.theory, COMPARED)
+    inputs = job.input.ensembles, job.input.theories
+    for ensemble, lattice, output in zip(*inputs, job.output, strict=True):
+        compare(ensemble, lattice, output)
+
+
+def compare(ensemble, lattice, output):
+    """Compare theory on a lattice spectrum with an ensemble, and write what is found."""
+    simulated = datasets.read(ensemble, [f"{name}_mean" for name in COMPARED])
+    theory = datasets.read(lattice, [*COMPARED, *WINDOW])
     dataset = differences(simulated, theory).merge(distance(simulated, theory))
-    summit = highest_summit(datasets.parameters(simulated))
-    holds = theory.mean_gap.isel(variant=0, drop=True) < summit - MARGIN
-    found = {"highest_summit": summit, "theory_mean_gap": theory.mean_gap, "margin": MARGIN}
-    dataset = dataset.assign(found | {"window_holds": holds.astype("i1")})
+    dataset = annotate(dataset.assign(theory_mean_gap=theory.mean_gap))
     datasets.write(
-        add_budgets(annotate(dataset), simulated, theory),
-        job.output[0],
+        add_budgets(dataset, simulated, theory).assign(theory[list(WINDOW)]),
+        output,
         title="theory on the lattice spectrum against simulation",
         parameters=datasets.parameters(simulated),
     )
@@ -128,21 +127,11 @@ def integral(values):
     return values.integrate("range") + values.isel(range=0, drop=True) * ranges[0]
 
 
-def highest_summit(made):
-    """Mean height over h_rms of the highest point of a window."""
-    asked = {**made, "magnification": min(made["magnification"], LONG_WAVES)}
-    points = grid_points(asked, 4)
-    return float(np.mean([make_heights(asked, points, seed).max() for seed in range(WINDOWS)]))
-
-
 def annotate(dataset):
     text = "area between the cumulative distributions of the gap (Wasserstein distance) over h_rms"
     unknown = "a single seed"
     texts = {
-        "highest_summit": ("1", "mean height of a window's highest point over h_rms"),
         "theory_mean_gap": ("1", "mean gap over h_rms by theory"),
-        "margin": ("1", "least distance of theory's mean gap from the highest summit"),
-        "window_holds": ("1", "1 where theory's mean gap is so far below the highest summit"),
         "distance": ("1", text),
         "distance_standard_error": ("1", f"{text}: standard error", unknown),
         "distance_discretisation_error": ("1", f"{text}: error in the limit of fine grids"),
@@ -155,4 +144,4 @@ def annotate(dataset):
 
 
 if __name__ == "__main__":
-    main(start(globals(), "compare_theory", compared="H0.8_zeta64"))
+    main(start(globals(), "compare_theory"))

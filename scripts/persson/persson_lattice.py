@@ -1,16 +1,33 @@
-"""Persson's theory on the lattice spectrum that the window of a simulated case holds."""
+"""Persson's theory on the lattice spectrum that the window of a simulated case holds, and its a_V.
+
+Theory's heights are Gaussian without end, those of a window end at its highest summit. Where theory
+puts the mean gap near or above it, the window holds too few summits to be compared with.
+"""
 
 import numpy as np
 import xarray as xr
 
-from pipeline.conventions import annotate, cell_size, logarithmic_grid, model_spectrum
+from pipeline.a_v_fits import write_fits
+from pipeline.conventions import (
+    annotate,
+    cell_size,
+    grid_points,
+    logarithmic_grid,
+    make_heights,
+    model_spectrum,
+)
 from pipeline.error_budgets import QUADRATURE, theory_parts
 from pipeline.job import start
+from pipeline.kappa import add_theory
 from pipeline.theory import evaluate, theories
 from stickiness.accuracy.error_models import read_models
 from stickiness.core import datasets
 from stickiness.core.budget import with_budget
 from stickiness.surfaces.synthesis import lattice_spectrum
+
+WINDOWS = 64  # random ones, whose highest summits are averaged
+LONG_WAVES = 64.0  # wave number over q0 beyond which waves add nothing to the highest summit
+MARGIN = 0.75  # over h_rms, of theory's mean gap below the highest summit
 
 
 def main(job):
@@ -26,12 +43,35 @@ def main(job):
     models = read_models(job.input.laws)
     for name in QUADRATURE:
         dataset = with_budget(dataset, name, **theory_parts(models, name, dataset[name], asked))
+    if job.params.simulated:
+        dataset = add_window(dataset, asked)
     datasets.write(
-        dataset,
-        job.output[0],
+        add_theory(dataset, models, asked),
+        job.output.theory,
         title="Persson's theory on the lattice spectrum of a case",
         parameters={**asked, "case": job.wildcards.compared, "gamma": job.params.gamma},
     )
+    write_fits(job.output.theory, job.output.a_v, job.params.windows, job.input.laws)
+
+
+def add_window(theory, asked):
+    """Add whether the window holds summits enough for theory to be compared with simulation."""
+    summit = highest_summit(asked)
+    holds = theory.mean_gap.isel(variant=0, drop=True) < summit - MARGIN
+    found = {"highest_summit": summit, "margin": MARGIN, "window_holds": holds.astype("i1")}
+    return datasets.annotate(
+        theory.assign(found),
+        highest_summit=("1", "mean height of a window's highest point over h_rms"),
+        margin=("1", "least distance of theory's mean gap from the highest summit"),
+        window_holds=("1", "1 where theory's mean gap is so far below the highest summit"),
+    )
+
+
+def highest_summit(made):
+    """Mean height over h_rms of the highest point of a window."""
+    asked = {**made, "magnification": min(made["magnification"], LONG_WAVES)}
+    points = grid_points(asked, 4)
+    return float(np.mean([make_heights(asked, points, seed).max() for seed in range(WINDOWS)]))
 
 
 if __name__ == "__main__":

@@ -1,10 +1,11 @@
-"""Persson's theory on continuous self-affine spectra, over a sweep of the configuration."""
+"""Persson's theory on continuous self-affine spectra, over a configured sweep, and its a_V."""
 
 from itertools import product
 
 import numpy as np
 import xarray as xr
 
+from pipeline.a_v_fits import write_fits
 from pipeline.conventions import annotate, logarithmic_grid, model_spectrum
 from pipeline.error_budgets import QUADRATURE, theory_parts
 from pipeline.job import start
@@ -30,10 +31,11 @@ def main(job):
         dataset = with_budget(dataset, name, **theory_parts(models, name, value))
     datasets.write(
         dataset,
-        job.output[0],
+        job.output.theory,
         title="Persson's theory on continuous self-affine spectra",
         parameters={**sweep, "variants": job.params.variants, "gamma": job.params.gamma},
     )
+    write_fits(job.output.theory, job.output.a_v, job.params.windows, job.input.laws)
 
 
 def stack(parts, axes):

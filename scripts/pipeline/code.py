@@ -121,14 +121,16 @@ def names_imported(text: str) -> list[str]:
     return names
 
 
-@cache
-def files_of(module: str, scripts: Path) -> tuple[Path, ...]:
+def files_of(module: str, scripts: Path) -> list[Path]:
     """Files that are read when a module is imported; none for what lies elsewhere."""
-    if not any(scripts.joinpath(module.partition(".")[0] + end).exists() for end in ("", ".py")):
-        return ()
-    path, files = scripts, []
-    for part in module.split("."):
-        path = path / part
-        plain = path.with_suffix(".py")
-        files.append(plain if plain.is_file() else path / "__init__.py")
-    return tuple(file for file in files if file.is_file())
+    parts, known = module.split("."), modules(scripts)
+    names = (".".join(parts[: end + 1]) for end in range(len(parts)))
+    return [known[name] for name in names if name in known]
+
+
+@cache
+def modules(scripts: Path) -> dict[str, Path]:
+    """Files below `scripts` by the full names of their modules."""
+    paths = {path.relative_to(scripts).with_suffix(""): path for path in scripts.rglob("*.py")}
+    names = {place.as_posix().replace("/", "."): path for place, path in paths.items()}
+    return {name.removesuffix(".__init__"): path for name, path in names.items()}

@@ -11,7 +11,7 @@ def start(names: dict[str, Any], rule: str, **wildcards: Any) -> Any:
     """Return the job's `snakemake` object; open its log and report errors to it.
 
     `names` are the ``globals()`` of the script, which hold `snakemake` if Snakemake runs it. By
-    hand (from the project's top folder, ``PYTHONPATH=scripts python scripts/fits/fit_kappa.py
+    hand (from the project's top folder, ``PYTHONPATH=scripts python scripts/fits/fit_a_v.py
     case=H0.8_zeta128 fidelity=draft``) the job of `rule` is looked up in the workflow, with the
     wildcards given here unless the command line has others.
     """

@@ -17,7 +17,7 @@ def statistics(column: str, **files: xr.Dataset) -> tuple[xr.DataArray, xr.DataA
     """Mean, standard error and discretisation error of a column, along the pressure.
 
     `files` are ``ensemble`` and, for their own columns, ``a_v`` and ``kappa``, as the rules
-    `average_ensemble`, `fit_a_v` and `fit_kappa` make them.
+    `average_ensemble` and `fit_a_v` make them.
     """
     known = COLUMNS[column]
     found = files[known.file]

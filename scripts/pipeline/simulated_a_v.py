@@ -60,7 +60,7 @@ SIMULATED = ("a_v_mean", "a_v_mean_error")
 
 
 def measure_a_v(inputs, pressure):
-    """`MeasuredAv` at a load over E* q0 h_rms, from three files of `fit_a_v`.
+    """`MeasuredAv` at a load over E* q0 h_rms, from three fits of a_V.
 
     `inputs.a_v` is of the simulated case, `inputs.lattice` of theory on the lattice spectrum of the
     same case, and `inputs.theory` of a sweep over magnification. Their first interval is quoted.

@@ -26,13 +26,14 @@ from pipeline.pages.surface_texts import (
     warn_of_slope,
 )
 from pipeline.pages.verdict_texts import describe_pair, ends, explain
+from pipeline.verdicts.judging import OF_SURFACES, judge, read_surfaces
 from pipeline.verdicts.materials import describe_modulus, read_material
 from pipeline.verdicts.texts import say_verdict
 from stickiness.core import datasets
 from stickiness.core.statistics import COVERS
-from stickiness.criteria.moduli import crossings
 from stickiness.criteria.pair import NOT_JUDGED
 from stickiness.remaining.prediction import DEFAULT_SHARE
+from stickiness.solids.moduli import crossings
 
 CAPTION = """Heights and spectrum of the surface, with the fitted self-affine spectrum and the lines
 of the paper.
@@ -68,17 +69,16 @@ DRAWN = ("curves", "touch", "pull_off")  # interactive figures of a page
 
 
 def main(job):
-    surface = datasets.read(job.input.surface, ["psd", "hurst", "q0", "q1"])
-    verdicts = datasets.read(job.input.verdicts, ["remaining", "margin", "verdict", "probability"])
-    pairs = verdicts.sel(surface=job.wildcards.real_surface)
+    surface = datasets.read(job.input.surface, OF_SURFACES)
+    materials = job.params.materials
+    pairs = write_verdicts(job, surface)
     draw_surface(surface, job.output.figure)
-    materials = datasets.parameters(verdicts)["materials"]
     page = render(
         job.input.template,
         job.output.page,
         files={
             "surface": job.input.surface,
-            "verdicts": job.input.verdicts,
+            "verdicts": job.output.verdicts,
             "measured_contact": job.input.measured_contact[0] if job.input.measured_contact else "",
         },
         surface=surface,
@@ -95,6 +95,20 @@ def main(job):
     )
     with datasets.whole_file(job.output.page) as path:
         path.write_text(page, encoding="utf-8")
+
+
+def write_verdicts(job, surface):
+    """Verdict for every material on the surface, as they are written."""
+    name, label = job.wildcards.real_surface, datasets.parameters(surface)["label"]
+    own = read_surfaces(job.params.own, job.input.own)
+    verdicts = judge({name: surface}, own, job.params)
+    datasets.write(
+        verdicts,
+        job.output.verdicts,
+        title=f"verdicts of the stickiness criteria: {label}",
+        parameters={"materials": job.params.materials, "label": label},
+    )
+    return verdicts.sel(surface=name)
 
 
 def draw_curves(pairs, materials, output):

@@ -48,9 +48,8 @@ def kappa(zeta, fall=0.0, level=2.0, **more):
             "area_fraction": ("pressure", LOADS * values / 2),
             "kappa": ("pressure", values),
             "kappa_fit": values[-1],
-            "kappa_theory": (("variant", "pressure"), [0 * LOADS + 2.4]),
         },
-        coords={"pressure": LOADS, "variant": [conventions.VARIANT]},
+        coords={"pressure": LOADS},
     )
     return made_by(with_errors(data, "kappa", "kappa_fit"), **case(zeta, **more))
 
@@ -71,6 +70,7 @@ def ensemble(zeta, separation=1.0, power=1.0, **more):
 def lattice():
     data = ensemble(32)
     data = data.rename(mean_gap_mean="mean_gap", attractive_area_mean="attractive_area")
+    data["kappa"] = "pressure", 0 * LOADS + 2.4
     return data.expand_dims(variant=[conventions.VARIANT])
 
 
@@ -319,6 +319,7 @@ def make_files():
         "kappa_128": kappa(128),
         "kappa_wide": kappa(32, window=4),
         "ensemble_wide": wide,
+        "lattice_128": lattice(),
         "lattice_wide": lattice(),
         "fit_bem_wide": fit(wide, 2.9, 3.0, 3.1),
         "fit_bem_64": fit(ensemble(64), 2.9, 3.0, 3.1),

@@ -4,12 +4,12 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from fits.fit_a_v import average, fit_intervals
-from fits.fit_kappa import fit_slope
 from pipeline import ensemble_means, grid_limits
+from pipeline.a_v_fits import average
 from pipeline.contact_curves import load_curve
 from pipeline.ensembles import AVERAGED, add_statistics
-from pipeline.quantities import slope_of_area
+from pipeline.kappa import fit_slope
+from pipeline.quantities import fit_intervals, slope_of_area
 from stickiness import spectrum, surface
 from stickiness.contact import grid_limit
 

@@ -85,7 +85,9 @@ def files(tmp_path_factory):
         }
         quantities = WANTED if measured else WANTED[:1]
         params = {"seeds": [1, 2, 3], "pressures": LOADS, "quantities": quantities}
-        average_ensemble.main(job(folder, inputs, params, f"{name}.nc"))
+        averaging = job(folder, inputs, params, "")
+        averaging.output = SimpleNamespace(means=folder / f"{name}.nc", kappa=folder / "kappa.nc")
+        average_ensemble.main(averaging)
         found[name] = datasets.read(folder / f"{name}.nc")
     return folder, found
 

@@ -73,9 +73,9 @@ def test_a_number_without_a_budget_is_found(copy_of_finished):
     path = copy_of_finished / "results/tiny/fits/kappa/H0.8_zeta64.nc"
     dataset = datasets.read(path)
     made, title = datasets.parameters(dataset), dataset.attrs["title"]
-    stripped = dataset.drop_vars("kappa_total_error").rename(kappa_theory="kappa_by_theory")
+    stripped = dataset.drop_vars("kappa_total_error").rename(kappa_fit="kappa_fitted")
     datasets.write(stripped, path, title=title, parameters=made)
     found = missing(copy_of_finished / "results/tiny", "fits/kappa")
-    assert {"fits/kappa/H0.8_zeta64.nc: kappa", "fits/kappa/H0.8_zeta64.nc: kappa_by_theory"} <= {
+    assert {"fits/kappa/H0.8_zeta64.nc: kappa", "fits/kappa/H0.8_zeta64.nc: kappa_fitted"} <= {
         *found
     }

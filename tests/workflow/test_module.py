@@ -93,7 +93,7 @@ def test_example_runs(folder):
     logs = folder / "results/stickiness/draft/logs"
     assert {path.name for path in logs.iterdir()} == {
         *("analyse_surface", "press_measured", "pull_measured"),
-        *("judge_surface", "judge", "write_surface"),
+        *("judge", "write_surface"),
     }
     again = snakemake(folder, "-n", "-s", EXAMPLE / "Snakefile")
     assert "Nothing to be done" in again.stdout, again.stdout
@@ -109,7 +109,6 @@ def test_a_prefix_holds_for_results_alone(folder):
         "stickiness_analyse_surface": 1,
         "stickiness_press_measured": 1,
         "stickiness_pull_measured": 1,
-        "stickiness_judge_surface": 1,
         "stickiness_write_surface": 1,
     }
 
@@ -154,4 +153,4 @@ def test_from_any_folder(tmp_path):
     """No configuration of its own at all."""
     page = "results/standard/report/surfaces/asphalt.html"
     planned = jobs(snakemake(tmp_path, "-n", "-s", ROOT / "Snakefile", page))
-    assert planned == {"analyse_surface": 1, "judge_surface": 1, "write_surface": 1}
+    assert planned == {"analyse_surface": 1, "write_surface": 1}

@@ -26,11 +26,11 @@ from stickiness.accuracy import choice, error_models, multilevel, prediction
 from stickiness.adhesion import dmt, equivalent_sphere, model_choice
 from stickiness.contact import gaps, grid_limit, solver, subpixel
 from stickiness.core.plausibility import PlausibilityWarning
-from stickiness.criteria import a_v_fit, a_v_table, moduli
+from stickiness.criteria import a_v_fit, a_v_table
 from stickiness.measured import instrument_spectrum, psd, self_affine_fit, stitching
 from stickiness.persson import theory
 from stickiness.remaining import prediction as remaining
-from stickiness.solids import layers
+from stickiness.solids import layers, moduli
 from stickiness.surfaces import direction, spectrum, sums, synthesis
 from stickiness.surfaces.spectrum import SelfAffine
 

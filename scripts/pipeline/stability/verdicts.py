@@ -11,8 +11,8 @@ from scipy.optimize import brentq
 
 from pipeline.stability.components import WIDE, Check, Component, compare_each, model, require
 from stickiness.adhesion import equivalent_sphere, model_choice
-from stickiness.criteria import moduli
 from stickiness.criteria.a_v_table import NORMAL_90, AvTable
+from stickiness.solids import moduli
 
 # --- Edges of contact: Maugis' sphere by bisection in the ratio of radii, and its two limits. ---
 

@@ -4,8 +4,8 @@ from dataclasses import dataclass
 
 from pipeline.numbers import write_powers
 from stickiness.core.units import si
-from stickiness.criteria.moduli import REFERENCE_FREQUENCY, Constant, Modulus, Prony, Table
 from stickiness.solids import HALF_SPACE, Backing, Film, Layer, Solid
+from stickiness.solids.moduli import REFERENCE_FREQUENCY, Constant, Modulus, Prony, Table
 
 RATE_KEYS = ("youngs_modulus_table", "youngs_modulus_prony")
 

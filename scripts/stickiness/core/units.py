@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+import contextlib
 import difflib
 import math
+import os
 import re
 from functools import cache
+from typing import TYPE_CHECKING
 
-import pint
+if TYPE_CHECKING:  # else where it is used: most jobs read no units, and importing takes 0.3 s
+    import pint
 
 # Quantities that messages name: SI unit, words, example. The first of a dimension is its name.
 _QUANTITIES = (
@@ -46,8 +50,15 @@ _ASKED_BACK = {
 _SECONDS = r"\s*[*·⋅\s]\s*s(?:econds?)?(?![A-Za-z])"  # behind mPa: a viscosity, where it is common
 
 
+CACHE = "STICKINESS_UNITS"  #: environment variable: folder in which pint keeps units, ready made
+
+
 @cache
 def _registry() -> pint.UnitRegistry:
+    import pint
+
+    with contextlib.suppress(Exception):  # no such variable, a folder or file that is of no use
+        return pint.UnitRegistry(cache_folder=os.environ[CACHE])
     return pint.UnitRegistry()
 
 
@@ -71,6 +82,8 @@ def si(value: str, unit: str) -> float:
     >>> si("50 mJ/m^2", "J/m^2")
     0.05
     """
+    import pint
+
     wanted = _wanted(unit)
     if not isinstance(value, str):
         raise ValueError(f"{value!r} has no unit: {wanted}, as a text with its unit")

@@ -6,7 +6,6 @@
 - `verdict`: from a surface and a material to a verdict
 - `a_v_fit`: the prefactor a_V fitted to attractive areas
 - `a_v_table`: a_V by theory: of a spectrum, and tabulated for self-affine surfaces
-- `moduli`: moduli that depend on the rate
 - `errata`: errors of the manuscript, as data that recompute themselves
 """
 

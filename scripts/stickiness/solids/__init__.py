@@ -1,6 +1,7 @@
 """Elastic solids that a rough surface presses on: half-space, or layer of finite thickness.
 
 - `layers`: compliance of both, wave by wave
+- `moduli`: moduli that depend on the rate
 """
 
 from stickiness.solids.layers import (

@@ -23,10 +23,10 @@ from stickiness import adhesive, spectrum
 from stickiness.accuracy import prediction
 from stickiness.adhesion import dmt, equivalent_sphere, model_choice
 from stickiness.contact import solver
-from stickiness.criteria import a_v_table, moduli
+from stickiness.criteria import a_v_table
 from stickiness.persson import layered_scales
 from stickiness.remaining import prediction as remaining
-from stickiness.solids import layers
+from stickiness.solids import layers, moduli
 from stickiness.surfaces import direction, sums
 
 

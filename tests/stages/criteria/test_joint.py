@@ -6,8 +6,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from criteria import judge_surface
-from pipeline.verdicts import joint
+from pipeline.verdicts import joint, judging
 from pipeline.verdicts.joint import ENDS, join, take_surface
 from pipeline.verdicts.materials import describe_modulus, read_material
 from pipeline.verdicts.texts import describe_layer, say_verdict
@@ -164,7 +163,7 @@ def test_a_direction_widens_limits():
 
 def judged(materials, surfaces):
     solids = {name: read_material(entry) for name, entry in materials.items()}
-    return judge_surface.find_verdicts(solids, surfaces, surfaces, np.array([1.0]))
+    return judging.find_verdicts(solids, surfaces, surfaces, np.array([1.0]))
 
 
 @pytest.mark.slow

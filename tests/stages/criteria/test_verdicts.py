@@ -8,9 +8,8 @@ import pytest
 import xarray as xr
 from scipy.stats import binomtest, norm
 
-from criteria import judge_surface
 from pipeline.simulated_a_v import measure_a_v
-from pipeline.verdicts import joint
+from pipeline.verdicts import joint, judging
 from pipeline.verdicts.budgets import add_budget_of_probability
 from pipeline.verdicts.materials import read_material
 from pipeline.verdicts.words import decide_pairs
@@ -125,7 +124,7 @@ def pairs_of(modulus, ranges, h_rms=1e-6, a_v=(4.0, 4.0, 4.0)):
     )
     a_v = SurfaceAv(np.array([1e-9, 1.0]), np.transpose([a_v, a_v]), 0, 0.0)
     with mock.patch.object(joint, "find_a_v", return_value=(a_v, a_v)):
-        return judge_surface.find_verdicts(solids, {"one": surface}, {}, np.array([1.0, 1e3]))
+        return judging.find_verdicts(solids, {"one": surface}, {}, np.array([1.0, 1e3]))
 
 
 def test_tough_edges_do_not_know_the_range():

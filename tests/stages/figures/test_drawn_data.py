@@ -232,11 +232,12 @@ def test_figure_2a_opens_points_above_the_linear_area(ax):
     kappa = np.array([2.2, 2.1, 1.9])
     variables = {
         "kappa*": ("pressure", kappa),
-        "kappa_theory": (("variant", "pressure"), np.outer(FACTORS, kappa)),
         "area_fraction": ("pressure", [0.02, 0.2, 0.6]),
     }
-    data = dataset(variables, {"pressure": pressure, "variant": VARIANTS}, magnification=32)
-    plot_fig2.draw_slopes(ax, [data])
+    data = dataset(variables, {"pressure": pressure}, magnification=32)
+    theory = {"kappa": (("variant", "pressure"), np.outer(FACTORS, kappa))}
+    lattice = dataset(theory, {"pressure": pressure, "variant": VARIANTS})
+    plot_fig2.draw_slopes(ax, [data], [lattice])
     drawn(ax, pressure, kappa, marker="None", linestyle="-")
     x = pressure / 1.05
     drawn(ax, x, kappa, markerfacecolor=plotting.BLUE, marker="o")

@@ -8,6 +8,7 @@ import xarray as xr
 
 from contact import solve_ensemble
 from fits import compare_theory, fit_gamma
+from persson import persson_lattice
 from pipeline.ensembles import AVERAGED
 from stickiness.core import datasets
 from stickiness.core.statistics import COVERS
@@ -102,7 +103,7 @@ def test_grid_errors_of_contact_and_gaps_cancel_in_the_distance():
 def test_highest_summit_is_that_of_the_window():
     # Gaussian heights of n independent summits reach about sqrt(2 ln n) h_rms.
     small, large = (
-        compare_theory.highest_summit({"hurst": 0.8, "magnification": 8, "window": window})
+        persson_lattice.highest_summit({"hurst": 0.8, "magnification": 8, "window": window})
         for window in (1, 4)
     )
     assert 2.3 < small < 2.8
@@ -111,10 +112,10 @@ def test_highest_summit_is_that_of_the_window():
 
 def test_highest_summit_hardly_depends_on_short_waves(monkeypatch):
     made = {"hurst": 0.8, "magnification": 64}
-    full = compare_theory.highest_summit(made)
-    monkeypatch.setattr(compare_theory, "LONG_WAVES", 16.0)
+    full = persson_lattice.highest_summit(made)
+    monkeypatch.setattr(persson_lattice, "LONG_WAVES", 16.0)
     # one and the same rms height; four times the waves make it a few per cent higher
-    assert compare_theory.highest_summit(made) == pytest.approx(full, rel=0.06)
+    assert persson_lattice.highest_summit(made) == pytest.approx(full, rel=0.06)
 
 
 @pytest.fixture(scope="module")

@@ -15,8 +15,8 @@ from real_surfaces import pull_measured
 from real_surfaces.pull_measured import ATTRACTED, OPEN, TOUCHING, LeftOutError
 from remaining import measure_remaining
 from stickiness import surface
-from stickiness.criteria.moduli import Constant
 from stickiness.measured.topography import Topography
+from stickiness.solids.moduli import Constant
 from stickiness.spectrum import SelfAffine
 
 SIDE = 1e-4

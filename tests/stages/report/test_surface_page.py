@@ -11,13 +11,12 @@ import xarray as xr
 from bokeh.models import Line, Scatter
 from helpers.pages import find_long_captions, find_raw_symbols
 
-from criteria import judge_surface
 from pipeline import measured_loads, measured_surface
 from pipeline.numbers import number
 from pipeline.pages import captions, remaining_curves, surface_figure, surface_texts
 from pipeline.pages.surface_texts import say_what_was_seen
 from pipeline.pages.verdict_texts import describe_pair
-from pipeline.verdicts import joint
+from pipeline.verdicts import joint, judging
 from pipeline.verdicts.markdown import write_markdown
 from pipeline.verdicts.materials import read_material
 from pipeline.verdicts.words import find_doubts, find_limits
@@ -70,7 +69,7 @@ def analysed(path, **asked):
 def judged(found, materials=MATERIALS):
     solids = {name: read_material(entry) for name, entry in materials.items()}
     frequencies = np.geomspace(1e-4, 1e6, 21)
-    return judge_surface.find_verdicts(solids, {"plate": found}, {}, frequencies)
+    return judging.find_verdicts(solids, {"plate": found}, {}, frequencies)
 
 
 @pytest.fixture(scope="module")
@@ -116,7 +115,7 @@ def page_of(found, folder, bem=None, **pictures):
 
 
 def test_measured_surface_says_all_that_the_criteria_need(single):
-    assert set(judge_surface.OF_SURFACES) <= set(single.variables)
+    assert set(judging.OF_SURFACES) <= set(single.variables)
     assert float(single.h_rms.sel(end="smooth")) < float(single.h_rms.sel(end="rough"))
     # The scan is a quarter of a periodic surface of 80 um with an rms height of 300 nm.
     assert float(single.h_rms_measured) == pytest.approx(300e-9, rel=0.5)

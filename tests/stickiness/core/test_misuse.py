@@ -9,9 +9,10 @@ from stickiness.adhesion import equivalent_sphere, model_choice
 from stickiness.contact import grid_limit, subpixel
 from stickiness.core import units
 from stickiness.core.plausibility import PlausibilityWarning
-from stickiness.criteria import a_v_table, moduli
+from stickiness.criteria import a_v_table
 from stickiness.measured import instrument_spectrum, psd, topography
 from stickiness.persson import Persson
+from stickiness.solids import moduli
 
 SIDE = 2 * np.pi
 BAND = spectrum.SelfAffine(hurst=0.8, q0=1.0, q1=4.0, h_rms=1.0)

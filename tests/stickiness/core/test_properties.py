@@ -15,10 +15,10 @@ from stickiness.adhesion import equivalent_sphere
 from stickiness.contact import grid_limit
 from stickiness.core import datasets
 from stickiness.criteria import a_v_table
-from stickiness.criteria.moduli import Prony, Table, crossings
 from stickiness.measured import instrument_spectrum, stitching
 from stickiness.measured.topography import Topography
 from stickiness.persson import Persson
+from stickiness.solids.moduli import Prony, Table, crossings
 from stickiness.spectrum import SelfAffine, Shells
 
 TOL = 1e-8

@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from criteria import compare_criteria, judge_surface
+from criteria import compare_criteria
 from figures import plot_fig9
 from pipeline.pages import report, verdict_texts
 from pipeline.plotting import make_panels
-from pipeline.verdicts import joint
+from pipeline.verdicts import joint, judging
 from pipeline.verdicts.markdown import write_markdown
 from pipeline.verdicts.materials import read_material
 from stickiness.core import datasets
@@ -63,7 +63,7 @@ def fixed_a_v(monkeypatch):
 @pytest.fixture
 def judged(road):
     solids = {"gel": read_material(GEL)}
-    return judge_surface.find_verdicts(solids, {"road": road}, {}, np.array([1.0]))
+    return judging.find_verdicts(solids, {"road": road}, {}, np.array([1.0]))
 
 
 @pytest.fixture
@@ -139,7 +139,7 @@ def test_every_threshold_is_where_the_margin_is_one(judged, road):
         modulus = float(pair.threshold_by_criterion.sel(criterion=name))
         solids = {"gel": read_material(GEL | {"plane_strain_modulus": f"{modulus!r} Pa"})}
         at = (
-            judge_surface.find_verdicts(solids, {"road": road}, {}, np.array([1.0]))
+            judging.find_verdicts(solids, {"road": road}, {}, np.array([1.0]))
             .sel(criterion=name, end="rough")
             .squeeze()
         )

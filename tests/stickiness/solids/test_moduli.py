@@ -10,10 +10,10 @@ from scipy import integrate
 from pipeline.verdicts import materials
 from pipeline.verdicts.probabilities import draw_pair
 from pipeline.verdicts.words import decide_pairs
-from stickiness.criteria.moduli import Constant, Prony, Table, crossings
 from stickiness.criteria.pair import WORDS
 from stickiness.criteria.registry import EDGES
 from stickiness.remaining.prediction import DEFAULT_SHARE, Roughness
+from stickiness.solids.moduli import Constant, Prony, Table, crossings
 
 SERIES = Prony(1e4, ((3e4, 1.0), (2e5, 1e-3)))
 ENTRY = {"label": "a", "work_of_adhesion": "70 mJ/m^2", "range": "0.3 nm", "source": "b"}

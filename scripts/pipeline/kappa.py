@@ -1,4 +1,4 @@
-"""kappa_rep = A_rep E* h'_rms/(A_nom p) of a case, load by load and fitted, beside theory's."""
+"""kappa_rep = A_rep E* h'_rms/(A_nom p) of a case, load by load and fitted, and of theory."""
 
 import xarray as xr
 
@@ -6,30 +6,31 @@ from pipeline import conventions, grid_limits
 from pipeline.conventions import LINEAR_UP_TO
 from pipeline.ensemble_means import SUFFIXES, add_errors, coarse, describe_errors
 from pipeline.error_budgets import Simulation, theory_parts
-from pipeline.job import start
 from pipeline.quantities import slope_of_area
-from stickiness.accuracy.error_models import read_models
+from stickiness.accuracy.error_models import ErrorModels
 from stickiness.core import datasets
 from stickiness.core.budget import ENDINGS, with_budget
 
+TEXT = "kappa = A_rep E* h'_rms/(A_nom p)"
 
-def main(job):
-    ensemble = datasets.read(job.input.ensemble, ["area_fraction", "rms_slope"])
-    theory = datasets.read(job.input.theory, ["area_fraction", "rms_slope"])
-    known = {"area_fraction": ensemble.area_fraction_mean, "kappa_theory": slope_of_area(theory)}
-    dataset = xr.Dataset(known)
+
+def fit_kappa(ensemble: xr.Dataset, models: ErrorModels) -> xr.Dataset:
+    """Kappa of an ensemble at every load and fitted, and the mean area, with their errors."""
+    dataset = xr.Dataset({"area_fraction": ensemble.area_fraction_mean})
     for name, quantity in {"kappa": slope_of_area, "kappa_fit": fit_slope}.items():
         dataset = average(dataset, name, quantity, ensemble)
-    models = read_models(job.input.laws)
-    dataset = add_budgets(annotate(dataset), models, datasets.parameters(ensemble))
+    dataset = add_budgets(annotate(dataset), Simulation.of(models, datasets.parameters(ensemble)))
     for ending in ENDINGS:
         dataset[f"area_fraction{ending}"] = ensemble[f"area_fraction_mean{ending}"]
-    datasets.write(
-        dataset,
-        job.output[0],
-        title="slope of the area-load relation",
-        parameters={**datasets.parameters(ensemble), "linear_up_to": LINEAR_UP_TO},
-    )
+    return dataset
+
+
+def add_theory(theory: xr.Dataset, models: ErrorModels, surface: dict) -> xr.Dataset:
+    """Theory on the lattice spectrum of a surface with its kappa, which has a budget."""
+    text = f"{TEXT} by Persson's theory on the lattice spectrum"
+    theory = datasets.annotate(theory.assign(kappa=slope_of_area(theory)), kappa=("1", text))
+    parts = theory_parts(models, "kappa", theory.kappa, surface, "area_fraction")
+    return with_budget(theory, "kappa", **parts)
 
 
 def average(dataset, name, quantity, ensemble):
@@ -39,17 +40,16 @@ def average(dataset, name, quantity, ensemble):
     return add_errors(dataset, name, values, more, plain=True, limit=limit)
 
 
-def add_budgets(dataset, models, made):
+def add_budgets(dataset, simulation):
     """Every kappa with its errors by source, those of the fit as at the largest of its loads."""
-    simulation, inside = Simulation.of(models, made), dataset.area_fraction <= LINEAR_UP_TO
+    inside = dataset.area_fraction <= LINEAR_UP_TO
     loads = {"kappa": dataset.pressure, "kappa_fit": dataset.pressure.where(inside).max()}
     for name, pressure in loads.items():
         errors = (dataset[f"{name}_{kind}"] for kind in list(SUFFIXES)[1:])
         value = dataset[name].assign_coords(pressure=pressure)
         parts = simulation.parts("kappa", value, *errors, grid_limits.INHERITED)
         dataset = with_budget(dataset, name, **parts)
-    parts = theory_parts(models, "kappa", dataset.kappa_theory, made, "area_fraction")
-    return with_budget(dataset, "kappa_theory", **parts)
+    return dataset
 
 
 def fit_slope(ensemble):
@@ -61,15 +61,9 @@ def fit_slope(ensemble):
 
 
 def annotate(dataset):
-    text = "kappa = A_rep E* h'_rms/(A_nom p)"
-    fit = f"{text}, fitted through the origin up to {LINEAR_UP_TO:.0%} area"
+    fit = f"{TEXT}, fitted through the origin up to {LINEAR_UP_TO:.0%} area"
     return conventions.annotate(
         dataset,
-        kappa_theory=("1", f"{text} by Persson's theory on the lattice spectrum"),
-        **describe_errors("kappa", text, plain=True, discretisation=grid_limits.INHERITED),
+        **describe_errors("kappa", TEXT, plain=True, discretisation=grid_limits.INHERITED),
         **describe_errors("kappa_fit", fit, plain=True, discretisation=grid_limits.INHERITED),
     )
-
-
-if __name__ == "__main__":
-    main(start(globals(), "fit_kappa", case="H0.8_zeta64"))

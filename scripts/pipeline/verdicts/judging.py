@@ -1,9 +1,8 @@
-"""Verdict for every material on one surface, by the adhesion that remains and other criteria."""
+"""Verdict for every material on a surface, by the adhesion that remains and other criteria."""
 
 import xarray as xr
 
 from pipeline.conventions import logarithmic_grid
-from pipeline.job import start
 from pipeline.verdicts.budgets import add_budgets
 from pipeline.verdicts.curves import OF_RATE, follow_remaining
 from pipeline.verdicts.joint import BY_END, ENDS
@@ -26,21 +25,18 @@ from stickiness.criteria.registry import CRITERIA
 OF_SURFACES = (*BY_END, "q0", "q1", "hurst", "psd")
 
 
-def main(job):
-    surface = datasets.read(job.input.surface, OF_SURFACES)
-    own = {
-        name: datasets.read(path, OF_SURFACES)
-        for name, path in zip(job.params.own, job.input.own, strict=True)
-    }
-    materials = {name: read_material(entry) for name, entry in job.params.materials.items()}
-    frequencies = logarithmic_grid(job.params.frequencies)
-    label = datasets.parameters(surface)["label"]
-    datasets.write(
-        find_verdicts(materials, {job.wildcards.real_surface: surface}, own, frequencies),
-        job.output[0],
-        title=f"verdicts of the stickiness criteria: {label}",
-        parameters={"materials": job.params.materials, "label": label},
-    )
+def read_surfaces(names, paths):
+    """Datasets of real surfaces by name, with what a verdict needs."""
+    return {name: datasets.read(path, OF_SURFACES) for name, path in zip(names, paths, strict=True)}
+
+
+def judge(surfaces, own, asked):
+    """Verdicts on surfaces, as a dataset; `asked` are the parameters of the rules that judge.
+
+    `own` has the surfaces of materials that are rough themselves, by name.
+    """
+    materials = {name: read_material(entry) for name, entry in asked.materials.items()}
+    return find_verdicts(materials, surfaces, own, logarithmic_grid(asked.frequencies))
 
 
 def find_verdicts(materials, surfaces, own, frequencies):
@@ -166,7 +162,3 @@ def describe_curves(remains):
         for end in ("low", "high"):
             described[f"{name}_{end}"] = ("1", f"{remains}, {text}, {end} limit", unknown)
     return described
-
-
-if __name__ == "__main__":
-    main(start(globals(), "judge_surface", real_surface="asphalt"))

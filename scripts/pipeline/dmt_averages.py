@@ -8,7 +8,6 @@ from pipeline.adhesion_sets import AXES, OUTSIDE, axes, roughness
 from pipeline.dmt_limit import QUANTITIES, DmtLimit, linearity_error
 from pipeline.ensemble_means import add_errors, coarse, describe_errors
 from pipeline.error_budgets import SIMULATED, Simulation
-from pipeline.job import start
 from stickiness.accuracy.error_models import read_models
 from stickiness.core import datasets
 from stickiness.core.budget import ENDINGS, Part, with_budget
@@ -17,16 +16,18 @@ MODEL = "of the DMT limit against full simulation, as measured"
 MODEL_OF_FIT = f"{MODEL}, and what the straight line leaves out"
 
 
-def main(job):
-    asked = job.params.adhesion
-    ensemble = datasets.read(job.input.ensemble, ["attractive_area", "area_fraction", "rms_slope"])
+def write_limit(asked, ensemble, laws, errors, output):
+    """Write a set of adhesive parameters in the DMT limit, averaged over an ensemble.
+
+    `errors` has, at every point, ``dmt_valid`` and ``dmt_error``, the measured error of the limit.
+    """
     limit = DmtLimit.of(asked, ensemble)
     pressures, lengths, ranges = axes(asked)
     dataset = xr.Dataset(
         {
             "area_fraction": ensemble.area_fraction_mean.sel(pressure=pressures),
-            "dmt_valid": (AXES, np.asarray(job.params.jtb, dtype="i1")),
-            "dmt_error": (AXES, np.asarray(job.params.dmt_error, dtype=float)),
+            "dmt_valid": (AXES, np.asarray(errors["dmt_valid"], dtype="i1")),
+            "dmt_error": (AXES, np.asarray(errors["dmt_error"], dtype=float)),
             "q0_h_rms": roughness(asked),
         },
         coords={one.name: one for one in (pressures, lengths, ranges)},
@@ -36,14 +37,14 @@ def main(job):
         left = grid_limits.inherit(ensemble, quantity, ["area_fraction", "attractive_area"])
         values, more = quantity(ensemble), coarse(ensemble, quantity)
         dataset = add_errors(dataset, name, values, more, plain=True, limit=left)
-    simulation = Simulation.of(read_models(job.input.laws), datasets.parameters(ensemble))
+    simulation = Simulation.of(read_models(laws), datasets.parameters(ensemble))
     dataset = add_budgets(annotate(dataset), simulation, limit.linear)
     for ending in ENDINGS:
         known = ensemble[f"area_fraction_mean{ending}"]
         dataset[f"area_fraction{ending}"] = known.sel(pressure=pressures)
     datasets.write(
         dataset,
-        job.output[0],
+        output,
         title=f"adhesion in the DMT limit, {asked['law']} traction",
         parameters={**datasets.parameters(ensemble), **asked},
     )
@@ -97,7 +98,3 @@ def annotate(dataset):
         dmt_error=("1", "measured relative error of this 1/kappa_ad", OUTSIDE),
         **{name: (*text[:2], few) if "fit" in name else text for name, text in texts.items()},
     )
-
-
-if __name__ == "__main__":
-    main(start(globals(), "adhesion_dmt", adhesion="fig2"))
