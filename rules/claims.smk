@@ -5,6 +5,9 @@ from snakemake.exceptions import WorkflowError
 # Surfaces that the paper speaks of. A table of one's own may lack them.
 PAPER_SURFACES = ("asphalt", "polished_steel")
 
+# Adhesive sets of Figure 4B, without "fig4b_".
+FIG4B = ("rough", "rough_near", "smooth")
+
 
 def paper_surface(name):
     """Input function: the file of one of them."""
@@ -34,11 +37,9 @@ def ledger_inputs():
         **{f"fit_fig{n}": f"{RESULTS}/fits/a_v/sweeps/fig{n}.nc" for n in ("3a", "3c", "3d")},
         "loop": f"{RESULTS}/adhesion/loops/fig4a.nc",
         "adhesive_fig2": f"{RESULTS}/adhesion/full/fig2.nc",
-        "adhesive_rough": f"{RESULTS}/adhesion/full/fig4b_rough.nc",
-        "adhesive_smooth": f"{RESULTS}/adhesion/full/fig4b_smooth.nc",
+        **{f"adhesive_{name}": f"{RESULTS}/adhesion/full/fig4b_{name}.nc" for name in FIG4B},
         "adhesion_fig2": f"{RESULTS}/adhesion/dmt/fig2.nc",
-        "adhesion_rough": f"{RESULTS}/adhesion/dmt/fig4b_rough.nc",
-        "adhesion_smooth": f"{RESULTS}/adhesion/dmt/fig4b_smooth.nc",
+        **{f"adhesion_{name}": f"{RESULTS}/adhesion/dmt/fig4b_{name}.nc" for name in FIG4B},
         "map": f"{RESULTS}/criteria/map.nc",
         "verdicts": f"{RESULTS}/criteria/verdicts.nc",
         **{name: paper_surface(name) for name in PAPER_SURFACES},

@@ -30,7 +30,7 @@ FIGURE_INPUTS = {
     },
     "fig4": {
         "loop": f"{RESULTS}/adhesion/loops/fig4a.nc",
-        "rough": f"{RESULTS}/adhesion/full/fig4b_rough.nc",
+        "rough": several("adhesion/full/fig4b_{name}.nc", name=["rough", "rough_near"]),
         "smooth": f"{RESULTS}/adhesion/full/fig4b_smooth.nc",
         "a_v": several("fits/a_v/ensembles/{case}.nc", case=MAGNIFICATIONS[1:]),
     },

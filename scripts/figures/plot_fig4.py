@@ -1,5 +1,7 @@
 """Figure 4: area against external load with adhesion, and the adhesive part of the slope."""
 
+import xarray as xr
+
 from pipeline import plotting
 from pipeline.plotting import BLACK, GREY, MARKERS, RED, make_dot, make_key, state
 from stickiness import criteria
@@ -15,7 +17,7 @@ SMALL = 3  # size of open markers
 def main(job):
     loop = datasets.read(job.input.loop, ["mean_pressure", "repulsive_area_fraction"])
     pressure = job.params.pressure
-    surfaces = [read_at(path, pressure) for path in (job.input.rough, job.input.smooth)]
+    surfaces = [read_at(paths, pressure) for paths in (job.input.rough, [job.input.smooth])]
     a_v = [read_a_v(path, pressure) for path in job.input.a_v]
     with plotting.open_figure(job.output, "AB;CB", 5.4, width_ratios=[1, 1.15]) as panels:
         draw_loops(panels["A"], loop.isel(resolution=-1))
@@ -23,8 +25,10 @@ def main(job):
         draw_ranges(panels["C"], surfaces, a_v)
 
 
-def read_at(path, pressure):
-    data = datasets.read(path, ["inverse_kappa_ad", "q0_h_rms"])
+def read_at(paths, pressure):
+    """Averages of one surface at a pressure, its ranges from one file or several."""
+    parts = [datasets.read(path, ["inverse_kappa_ad", "q0_h_rms"]) for path in paths]
+    data = xr.concat(parts, "range_over_h_rms", data_vars="minimal").sortby("range_over_h_rms")
     return data.sel(pressure=pressure, method="nearest")
 
 

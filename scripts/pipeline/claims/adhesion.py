@@ -13,7 +13,7 @@ from stickiness import criteria
 from stickiness.core import budget, datasets
 
 PAPER_A_V = 2.8  # in the formula of Figure 4B
-SURFACES = ("rough", "smooth")  # of Figure 4B, ends of the names of their files
+SETS = ("rough", "rough_near", "smooth")  # of Figure 4B, ends of the names of files
 KNOWN = 0.3  # error over formula up to which a point is compared with it
 
 
@@ -202,10 +202,8 @@ def area_at(curve: xr.Dataset, load: float, way: int) -> float:
     11,
     "1/kappa_ad follows the formula with a_V = 2.8 over six decades (Fig. 4B)",
     files=(
-        "adhesive_rough",
-        "adhesive_smooth",
-        "adhesion_rough",
-        "adhesion_smooth",
+        *(f"adhesive_{name}" for name in SETS),
+        *(f"adhesion_{name}" for name in SETS),
         "fit_bem_64",
         "fit_bem_128",
     ),
@@ -252,7 +250,7 @@ def inverse_kappa_ad(files: Files) -> Finding:
 
 def join_ratios(files: Files) -> dict[str, np.ndarray]:
     """Ratios to the formula of all points of both surfaces."""
-    sets = [ratios_to_formula(files[f"adhesive_{s}"], files[f"adhesion_{s}"]) for s in SURFACES]
+    sets = [ratios_to_formula(files[f"adhesive_{s}"], files[f"adhesion_{s}"]) for s in SETS]
     return {name: np.concatenate([ratio[name] for ratio in sets]) for name in sets[0]}
 
 
@@ -262,7 +260,7 @@ def find_known(ratios: dict[str, np.ndarray]) -> np.ndarray:
 
 
 def ratios_to_formula(full: xr.Dataset, limit: xr.Dataset) -> dict[str, np.ndarray]:
-    """All points of one surface, and their errors, over the formula; `direct` and `dmt` as such."""
+    """All points of one set, and their errors, over the formula; `direct` and `dmt` as such."""
     full, limit = at_load(full), at_load(limit)
     formula = xr.zeros_like(full.inverse_kappa_ad) + criteria.inverse_kappa_ad(
         float(full.q0_h_rms),

@@ -14,7 +14,7 @@ from pipeline.quoted.sources import Sources
 from stickiness.adhesion import equivalent_sphere
 from stickiness.core import budget
 
-EDGES = ("dmt_error", "dmt_error_zeta128", "fig2", "fig4b_rough", "fig4b_smooth")
+EDGES = ("dmt_error", "dmt_error_zeta128", "fig2", *(f"fig4b_{name}" for name in claims.SETS))
 LEAST_AREA, SMALL_AREA = 0.2, 0.3  # attractive over contact area: of most sets, and of few
 RANGE = 0.1  # over h_rms, of the threshold
 TREND_FROM = 0.2  # Tabor parameter of the edges
@@ -88,9 +88,9 @@ def quote_threshold(sources: Sources) -> dict[str, str]:
 
 def quote_formula(sources: Sources) -> dict[str, str]:
     """1/kappa_ad of simulation over the paper's formula, as in claim 11."""
-    names = ("rough", "smooth")
-    files = {f"adhesive_{name}": sources.read(f"adhesion/full/fig4b_{name}") for name in names}
-    files |= {f"adhesion_{name}": sources.read(f"adhesion/dmt/fig4b_{name}") for name in names}
+    sets = claims.SETS
+    files = {f"adhesive_{name}": sources.read(f"adhesion/full/fig4b_{name}") for name in sets}
+    files |= {f"adhesion_{name}": sources.read(f"adhesion/dmt/fig4b_{name}") for name in sets}
     ratios = claims.join_ratios(files)
     known, resolved = claims.find_known(ratios), np.isfinite(ratios["direct"])
     slopes = ratios["inverse_kappa_ad"][known]

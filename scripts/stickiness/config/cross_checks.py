@@ -12,7 +12,7 @@ from stickiness.config.messages import grid_problems, unit_problem, unknown
 _PAPER = {
     "cases": ("H0.8_zeta32", "H0.8_zeta64", "H0.8_zeta128", "H0.8_zeta32_wide"),
     "theory.sweeps": ("fig1a", "fig1b", "fig3a", "fig3b", "fig3c", "fig3d"),
-    "adhesion": ("fig2", "fig4b_rough", "fig4b_smooth", "dmt_error"),
+    "adhesion": ("fig2", "fig4b_rough", "fig4b_rough_near", "fig4b_smooth", "dmt_error"),
     "loops": ("fig4a",),
 }
 _CRITERIA_GRIDS = {
