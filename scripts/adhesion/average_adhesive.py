@@ -14,12 +14,13 @@ import xarray as xr
 
 from pipeline import conventions
 from pipeline.adhesion_sets import AXES, MISSING, OUTSIDE, solver_error
-from pipeline.conventions import LINEAR_UP_TO, cell_size
+from pipeline.conventions import LINEAR_UP_TO
 from pipeline.dmt_averages import write_limit
 from pipeline.dmt_limit import DmtLimit, fit_slope, linearity_error
 from pipeline.ensemble_means import add_errors, coarse, describe_errors, fine
 from pipeline.error_budgets import SIMULATED
 from pipeline.job import start
+from pipeline.model_surfaces import cell_size
 from pipeline.realisations import read_all
 from stickiness.adhesion import edge_zone
 from stickiness.core import datasets

@@ -13,9 +13,10 @@ import numpy as np
 import xarray as xr
 
 from pipeline.adhesion_sets import LEAST, scaled_law
-from pipeline.conventions import annotate, pixels
+from pipeline.conventions import annotate
 from pipeline.error_budgets import SIMULATED
 from pipeline.job import start
+from pipeline.model_surfaces import pixels
 from pipeline.realisations import read_first
 from stickiness import adhesive
 from stickiness.contact import solver

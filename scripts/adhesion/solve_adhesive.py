@@ -23,8 +23,9 @@ from pipeline.adhesion_sets import (
     scaled_law,
     solve_at_gap,
 )
-from pipeline.conventions import RMS_SLOPE, pixels
+from pipeline.conventions import RMS_SLOPE
 from pipeline.job import start
+from pipeline.model_surfaces import pixels
 from pipeline.realisations import each_seed
 from stickiness.adhesion import dmt, edge_zone
 from stickiness.contact import solver, subpixel

@@ -6,9 +6,10 @@ import numpy as np
 import xarray as xr
 
 from pipeline import conventions
-from pipeline.conventions import VARIANT, cell_size, logarithmic_grid, model_spectrum
+from pipeline.conventions import VARIANT, logarithmic_grid
 from pipeline.error_budgets import BY_THEORY, NOT_MEASURED, QUADRATURE, SIMULATED
 from pipeline.job import start
+from pipeline.model_surfaces import cell_size, model_spectrum
 from pipeline.quantities import derive, quote, statistics
 from pipeline.theory import contact_of
 from stickiness.accuracy.choice import seeds_enough

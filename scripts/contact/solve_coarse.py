@@ -6,8 +6,9 @@ one is too. Of still more surfaces only the long waves are described.
 
 from pipeline.coarse_solutions import annotate, coarse_solutions
 from pipeline.contact_curves import COARSE
-from pipeline.conventions import grid_points, logarithmic_grid
+from pipeline.conventions import logarithmic_grid
 from pipeline.job import start
+from pipeline.model_surfaces import grid_points
 from stickiness.core import datasets
 
 

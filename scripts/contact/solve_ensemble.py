@@ -6,13 +6,7 @@ import numpy as np
 import xarray as xr
 
 from pipeline import coarse_solutions, contact_curves
-from pipeline.conventions import (
-    cell_size,
-    grid_points,
-    logarithmic_grid,
-    make_heights,
-    waves_across,
-)
+from pipeline.conventions import logarithmic_grid
 from pipeline.ensembles import (
     add_budgets,
     add_statistics,
@@ -21,6 +15,7 @@ from pipeline.ensembles import (
     rename_coarse,
 )
 from pipeline.job import start
+from pipeline.model_surfaces import cell_size, grid_points, make_heights, waves_across
 from stickiness.core import datasets
 from stickiness.surfaces import synthesis
 

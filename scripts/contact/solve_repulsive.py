@@ -8,8 +8,9 @@ wavelength is the control of `solve_coarse`'s many others.
 import numpy as np
 
 from pipeline.contact_curves import annotate, load_curves, steps_of
-from pipeline.conventions import logarithmic_grid, pixels
+from pipeline.conventions import logarithmic_grid
 from pipeline.job import start
+from pipeline.model_surfaces import pixels
 from pipeline.realisations import each_seed
 from stickiness.core import datasets
 

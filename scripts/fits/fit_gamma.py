@@ -9,8 +9,8 @@ import numpy as np
 import xarray as xr
 from scipy.interpolate import CubicSpline
 
-from pipeline.conventions import cell_size, model_spectrum
 from pipeline.job import start
+from pipeline.model_surfaces import cell_size, model_spectrum
 from stickiness.core import datasets
 from stickiness.core.budget import Part, absent, with_budget
 from stickiness.core.statistics import COVERS

@@ -8,17 +8,11 @@ import numpy as np
 import xarray as xr
 
 from pipeline.a_v_fits import write_fits
-from pipeline.conventions import (
-    annotate,
-    cell_size,
-    grid_points,
-    logarithmic_grid,
-    make_heights,
-    model_spectrum,
-)
+from pipeline.conventions import annotate, logarithmic_grid
 from pipeline.error_budgets import QUADRATURE, theory_parts
 from pipeline.job import start
 from pipeline.kappa import add_theory
+from pipeline.model_surfaces import cell_size, grid_points, make_heights, model_spectrum
 from pipeline.theory import evaluate, theories
 from stickiness.accuracy.error_models import read_models
 from stickiness.core import datasets

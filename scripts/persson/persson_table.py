@@ -7,9 +7,10 @@ import numpy as np
 import xarray as xr
 
 from pipeline import conventions
-from pipeline.conventions import VARIANT, logarithmic_grid, model_spectrum
+from pipeline.conventions import VARIANT, logarithmic_grid
 from pipeline.error_budgets import BY_THEORY, theory_parts
 from pipeline.job import start
+from pipeline.model_surfaces import model_spectrum
 from pipeline.theory import theories
 from stickiness import criteria
 from stickiness.accuracy.error_models import read_models

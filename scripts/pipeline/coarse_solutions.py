@@ -7,7 +7,7 @@ import xarray as xr
 
 from pipeline import contact_curves
 from pipeline.contact_curves import COARSE, load_curve
-from pipeline.conventions import cell_size, grid_points, make_heights, model_spectrum
+from pipeline.model_surfaces import cell_size, grid_points, make_heights, model_spectrum
 from stickiness.accuracy import multilevel
 from stickiness.core import datasets
 from stickiness.surfaces import synthesis

@@ -1,19 +1,15 @@
-"""Conventions shared by the stages: units, model surfaces, grids, and what variables mean.
+"""Conventions shared by the stages: units, lists of points, and what variables mean.
 
 Model surfaces have q0 = 1, h_rms = 1 and E* = 1: pressures come out in units of E* q0 h_rms.
 """
 
 from collections.abc import Mapping
-from typing import Any
 
 import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
-from scipy.fft import next_fast_len
 
 from stickiness.core import datasets
-from stickiness.surfaces.spectrum import SelfAffine
-from stickiness.surfaces.synthesis import synthesise
 
 Q0 = 1.0
 VARIANT = "afferrante2018"  # of the theory, where one is quoted
@@ -64,36 +60,6 @@ def annotate(dataset: xr.Dataset, **own: tuple[str, ...]) -> xr.Dataset:
     return datasets.annotate(dataset, **texts)
 
 
-def model_spectrum(surface: Mapping[str, Any]) -> SelfAffine:
-    """Spectrum of a model surface of the configuration, in units of q0 and h_rms."""
-    rolloff = surface.get("rolloff")
-    return SelfAffine(
-        hurst=surface["hurst"],
-        q0=Q0,
-        q1=Q0 * surface["magnification"],
-        h_rms=1.0,
-        q_rolloff=None if rolloff is None else Q0 * rolloff,
-        anisotropy=surface.get("anisotropy", 1.0),
-        angle=np.radians(surface.get("angle", 0.0)),
-    )
-
-
-def cell_size(surface: Mapping[str, Any]) -> float:
-    """Side of a model surface's periodic cell, in units of 1/q0."""
-    return surface.get("window", 1.0) * 2 * np.pi / Q0
-
-
-def waves_across(surface: Mapping[str, Any]) -> float:
-    """Shortest wavelengths along the side of a model surface's cell."""
-    return surface["magnification"] * surface.get("window", 1.0)
-
-
-def make_heights(surface: Mapping[str, Any], points: int, seed: int) -> NDArray:
-    """Heights over h_rms of one realisation of a model surface on a grid of `points` a side."""
-    amplitudes = surface.get("amplitudes", "gaussian")
-    return synthesise(model_spectrum(surface), points, cell_size(surface), int(seed), amplitudes)
-
-
 def at_load(data: xr.Dataset) -> xr.Dataset:
     """The point next to `LOAD`."""
     return data.sel(pressure=LOAD, method="nearest")
@@ -107,22 +73,6 @@ def logarithmic_grid(grid: Mapping[str, float] | None) -> NDArray:
     return np.geomspace(grid["minimum"], grid["maximum"], round(decades * grid["per_decade"]) + 1)
 
 
-def pixels(surface: xr.Dataset) -> float:
-    """Grid points per shortest wavelength of a surface's file, as realised by the grid."""
-    made = datasets.parameters(surface)
-    return made["grid_points"] / waves_across(made)
-
-
 def middles(edges: NDArray) -> NDArray:
     """Geometric middles of neighbouring points."""
     return np.sqrt(edges[1:] * edges[:-1])
-
-
-def grid_points(asked, pixels_per_wavelength):
-    """Number of grid points, good for the FFT, with at least the pixels asked for.
-
-    A multiple of the even number that does so for 2 pixels, so that the coarser grids of the
-    solutions are part of it.
-    """
-    waves = int(np.ceil(waves_across(asked) - 1e-9))
-    return pixels_per_wavelength * next_fast_len(waves, real=True)

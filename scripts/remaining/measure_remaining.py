@@ -8,8 +8,8 @@ import numpy as np
 import xarray as xr
 
 from pipeline.adhesion_sets import LAWS
-from pipeline.conventions import cell_size, model_spectrum
 from pipeline.job import start
+from pipeline.model_surfaces import cell_size, model_spectrum
 from stickiness.core import datasets
 from stickiness.core.plausibility import PlausibilityWarning
 from stickiness.remaining import measurement

@@ -5,8 +5,9 @@ import logging
 import numpy as np
 import xarray as xr
 
-from pipeline.conventions import annotate, cell_size, grid_points, make_heights, model_spectrum
+from pipeline.conventions import annotate
 from pipeline.job import start
+from pipeline.model_surfaces import cell_size, grid_points, make_heights, model_spectrum
 from stickiness.core import datasets
 from stickiness.surfaces import synthesis
 

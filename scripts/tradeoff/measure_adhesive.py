@@ -11,8 +11,9 @@ import numpy as np
 import xarray as xr
 
 from pipeline.adhesion_sets import STRONGEST, scaled_law, solve_at_gap
-from pipeline.conventions import VARIABLES, cell_size, grid_points, model_spectrum
+from pipeline.conventions import VARIABLES
 from pipeline.job import start
+from pipeline.model_surfaces import cell_size, grid_points, model_spectrum
 from pipeline.tradeoff import measuring
 from stickiness.adhesion import dmt
 from stickiness.contact import solver

@@ -8,8 +8,9 @@ import logging
 import numpy as np
 
 from pipeline.contact_curves import load_curve
-from pipeline.conventions import Q0, VARIABLES, logarithmic_grid, model_spectrum
+from pipeline.conventions import Q0, VARIABLES, logarithmic_grid
 from pipeline.job import start
+from pipeline.model_surfaces import model_spectrum
 from pipeline.theory import contact_of
 from pipeline.tradeoff import measuring
 from stickiness.core import datasets

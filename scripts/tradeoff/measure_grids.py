@@ -6,8 +6,9 @@ import numpy as np
 import xarray as xr
 
 from pipeline.contact_curves import measure
-from pipeline.conventions import VARIABLES, cell_size, grid_points, logarithmic_grid, model_spectrum
+from pipeline.conventions import VARIABLES, logarithmic_grid
 from pipeline.job import start
+from pipeline.model_surfaces import cell_size, grid_points, model_spectrum
 from pipeline.tradeoff import measuring
 from stickiness.contact import solver
 from stickiness.core import datasets

@@ -10,8 +10,9 @@ import numpy as np
 import xarray as xr
 
 from pipeline.adhesion_sets import LEAST, scaled_law
-from pipeline.conventions import VARIABLES, cell_size, grid_points, model_spectrum
+from pipeline.conventions import VARIABLES
 from pipeline.job import start
+from pipeline.model_surfaces import cell_size, grid_points, model_spectrum
 from pipeline.tradeoff import measuring
 from stickiness import adhesive
 from stickiness.adhesion import dmt

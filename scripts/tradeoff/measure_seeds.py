@@ -10,8 +10,9 @@ import numpy as np
 
 from pipeline.coarse_solutions import DESCRIBED_FROM, SOLVED_FROM
 from pipeline.contact_curves import COARSE, load_curve
-from pipeline.conventions import VARIABLES, cell_size, grid_points, logarithmic_grid, model_spectrum
+from pipeline.conventions import VARIABLES, logarithmic_grid
 from pipeline.job import start
+from pipeline.model_surfaces import cell_size, grid_points, model_spectrum
 from pipeline.tradeoff import measuring
 from stickiness.accuracy import multilevel
 from stickiness.core import datasets

@@ -3,8 +3,9 @@
 import numpy as np
 import xarray as xr
 
-from pipeline.conventions import VARIABLES, logarithmic_grid, model_spectrum
+from pipeline.conventions import VARIABLES, logarithmic_grid
 from pipeline.job import start
+from pipeline.model_surfaces import model_spectrum
 from pipeline.theory import contact_of
 from pipeline.tradeoff import measuring
 from stickiness.core import datasets

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from pipeline.claims.ledger import Files, Finding, claim, grade
 from pipeline.claims.texts import describe_sample
-from pipeline.conventions import cell_size, model_spectrum
+from pipeline.model_surfaces import cell_size, model_spectrum
 from pipeline.numbers import change, number, percent
 from stickiness import adhesive, criteria
 from stickiness.adhesion import equivalent_sphere

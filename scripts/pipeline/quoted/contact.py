@@ -4,7 +4,8 @@ import numpy as np
 
 from pipeline.claims import contact as claims
 from pipeline.claims.texts import quote, quote_number
-from pipeline.conventions import VARIANT, at_load, cell_size, model_spectrum
+from pipeline.conventions import VARIANT, at_load
+from pipeline.model_surfaces import cell_size, model_spectrum
 from pipeline.numbers import number, percent
 from pipeline.quoted.sources import Sources, say_range
 from stickiness.core import datasets

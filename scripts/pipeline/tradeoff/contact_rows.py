@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 import xarray as xr
 
-from pipeline.conventions import cell_size, model_spectrum
+from pipeline.model_surfaces import cell_size, model_spectrum
 from pipeline.theory import contact_of
 from pipeline.tradeoff.fit_laws import Conditions, Points
 from pipeline.tradeoff.law_points import add_extrapolations

@@ -27,6 +27,7 @@ def ledger_inputs():
         "RESULTS": "out",
         "REMAINING_TABLE": "config/remaining.csv",
         "PAPER_SURFACES": ("asphalt", "polished_steel"),
+        "FIG4B": ("rough", "rough_near", "smooth"),
         "paper_surface": lambda name: f"out/real_surfaces/{name}.nc",
         "REAL_SURFACES": {"steel": {"kind": "self_affine"}, "terrain": {"kind": "measured"}},
         "seeds_of": lambda case: [1, 2],

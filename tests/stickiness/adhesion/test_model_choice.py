@@ -8,7 +8,7 @@ import xarray as xr
 import yaml
 
 from adhesion import solve_adhesive
-from pipeline.conventions import cell_size, model_spectrum
+from pipeline.model_surfaces import cell_size, model_spectrum
 from stickiness import surface
 from stickiness.adhesion import model_choice
 
