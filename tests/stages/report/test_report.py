@@ -610,6 +610,7 @@ def test_experiments_are_on_the_page(page):
     assert 'href="#experiments"' in page
 
 
+@pytest.mark.slow
 def test_notes_of_experiments_are_on_the_page(render):
     noted = copy.deepcopy(EXPERIMENTS)
     noted["plate"]["note"] = "Two plates & a < b."
@@ -686,6 +687,7 @@ def raw(data):
     return data.assign_attrs(parameters=json.dumps(made))
 
 
+@pytest.mark.slow
 def test_no_raw_symbol_is_shown(render, verdicts, surfaces, claims):
     assert find_raw_symbols("<p>a_b</p><p>m^2</p><code>c_d</code><img alt='e_f'>") == [
         *("a_b", "m^2", "e_f"),
@@ -699,6 +701,7 @@ def test_no_raw_symbol_is_shown(render, verdicts, surfaces, claims):
     assert "l<sub>a</sub>\u00a0=\u00a00.05 range" in page
 
 
+@pytest.mark.slow
 def test_captions_on_the_page_are_short(render):
     assert find_long_captions(f"<table><caption>{'long ' * 96}</caption></table>")
     folded = f"<table><caption>Short.<details>{'long ' * 96}</details></caption></table>"

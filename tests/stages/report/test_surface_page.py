@@ -267,6 +267,7 @@ def words_of(page):
     return " ".join(re.sub(r"<(style|script)\b.*?</\1>|<[^>]+>", " ", page, flags=re.S).split())
 
 
+@pytest.mark.slow
 def test_an_implausible_surface_is_not_judged_and_its_page_says_why(folder):
     zeros = {(i, j): 0 for i in range(0, 128, 4) for j in range(0, 128, 5)}
     found = analysed(folder / "zeros.nc", file=spoiled(folder / "zeros.txt", zeros))
@@ -306,6 +307,7 @@ def test_a_pair_is_not_judged_if_the_surface_of_its_material_is_not(single, fold
     assert doubts.values.tolist() == [[""], ["a spike"]]
 
 
+@pytest.mark.slow
 def test_page_names_all_rms_heights_and_the_spikes(single, page, folder):
     assert "the same with the points not used" not in words_of(page)
     found = analysed(folder / "spike.nc", file=spoiled(folder / "spike.txt", {(60, 70): 1e6}))
