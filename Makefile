@@ -17,15 +17,15 @@ reproduce: $(VENV)/.run  ## the full reproduction, at standard fidelity
 draft: $(VENV)/.run  ## everything, quick and rough
 	$(SNAKEMAKE) --config fidelity=draft
 
-PYTEST := OMP_NUM_THREADS=1 $(BIN)/python -m pytest
+# Each process goes on with its half of the tests and then with what is left of the other's.
+PYTEST := OMP_NUM_THREADS=1 $(BIN)/python -m pytest -n $(CORES) --dist worksteal
 
-# Tests of the workflow share one run of it, which takes all cores itself.
 test: $(VENV)/.dev $(VENV)/.docs $(VENV)/.peers  ## all tests
-	$(PYTEST) -n $(CORES) -m "not workflow"
+	$(PYTEST) -m "not workflow"
 	$(PYTEST) -m workflow
 
 test-quick: $(VENV)/.dev  ## the tests of about a minute: no workflow, no other codes, none that is slow
-	$(PYTEST) -n $(CORES) -m "not slow and not workflow and not peers"
+	$(PYTEST) -m "not slow and not workflow and not peers"
 
 lint: $(VENV)/.dev  ## format and lint, nothing changed
 	$(BIN)/ruff format --check .

@@ -52,6 +52,7 @@ def test_grids_are_those_of_doubled_resolution(grids, chosen):
     )
 
 
+@pytest.mark.slow
 def test_errors_cover_what_finer_grids_change(solved, ensemble):
     """Against 32 points per wavelength, whose own error is a few times less than at 8."""
     finer = solve(32, (1,)).isel(resolution=0)

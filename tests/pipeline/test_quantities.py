@@ -92,6 +92,7 @@ def files(tmp_path_factory):
     return folder, found
 
 
+@pytest.mark.slow
 def test_means_of_others_do_not_change(files):
     _, found = files
     assert "contact_slope_mean" not in found["without"]

@@ -119,6 +119,7 @@ def test_options_are_pinned_and_no_requirement(name, package):
     assert optional.keys().isdisjoint(pip_pins("requirements.txt"))
 
 
+@pytest.mark.slow
 def test_requirements_are_what_the_pipeline_imports():
     imported = imported_by("scripts", "rules") - pip_pins("instruments.txt").keys()
     assert imported | NEVER_IMPORTED == pip_pins("requirements.txt").keys()
@@ -138,6 +139,7 @@ def test_the_library_depends_on_what_it_imports_alone():
     assert imported | {"netcdf4"} == pyproject()["library"]
 
 
+@pytest.mark.slow
 def test_tests_import_nothing_that_no_environment_names():
     files = ("requirements.txt", "dev.txt", "docs.txt", "peers.txt", "instruments.txt")
     named = {package for name in files for package in pip_pins(name)}

@@ -28,6 +28,7 @@ NUMBERS = COMMITTED["numbers"]
 PAGES = {path.name: path.read_text(encoding="utf-8") for path in filling.PAGES}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("page", PAGES)
 def test_pages_have_the_committed_numbers(page):
     assert PAGES[page] == filling.fill(PAGES[page], NUMBERS), "run: make numbers"

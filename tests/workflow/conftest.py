@@ -1,12 +1,15 @@
 """A copy of the workflow in a folder of its own, run once at tiny size."""
 
-import re
+import fcntl
+import json
+import os
 import subprocess
 import sys
 from pathlib import Path
 
 import pytest
 from helpers.copy_workflow import copy_workflow
+from helpers.dry_runs import dry_run, jobs
 
 TINY = ["--configfile", "config/config.yaml", "config/tiny.yaml"]
 
@@ -35,16 +38,13 @@ class Workflow:
             check=False,
         )
 
+    def dry_run(self, *arguments):
+        return dry_run(self.folder, *arguments, *TINY)
+
     def planned(self, *arguments):
         """Rules and number of jobs that a dry-run lists, without the target rules."""
-        done = self.snakemake("-n", *arguments, "--quiet", "host")
-        assert done.returncode == 0, done.stdout
-        table = re.search(r"^job\s+count\n[-\s]+\n(.*?)^total", done.stdout, re.M | re.S)
-        if table is None:
-            assert "Nothing to be done" in done.stdout, done.stdout
-            return {}
-        jobs = dict(line.split() for line in table[1].strip().splitlines())
-        return {rule: int(count) for rule, count in jobs.items() if rule != "all"}
+        listed = jobs(self.dry_run(*arguments, "--quiet", "host", "rules", "reason"))
+        return {rule: count for rule, count in listed.items() if rule != "all"}
 
     def edit(self, path, old, new):
         """Replace a text in a file of this copy, which must be there."""
@@ -67,10 +67,19 @@ def fresh(tmp_path):
 
 @pytest.fixture(scope="session")
 def finished(tmp_path_factory):
-    """The workflow after a complete run; not to be changed."""
-    workflow = copied(tmp_path_factory.mktemp("finished"))
-    workflow.run = workflow.snakemake()
-    assert workflow.run.returncode == 0, workflow.run.stdout
+    """The workflow after a complete run, one for all processes of tests; not to be changed."""
+    base = tmp_path_factory.getbasetemp()
+    shared = (base.parent if "PYTEST_XDIST_WORKER" in os.environ else base) / "finished"
+    with shared.with_suffix(".lock").open("w") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        workflow, said = Workflow(shared), shared.with_suffix(".json")
+        if not said.exists():
+            shared.mkdir()
+            run = copied(shared).snakemake()
+            said.write_text(json.dumps([run.returncode, run.stdout]), encoding="utf-8")
+    code, stdout = json.loads(said.read_text(encoding="utf-8"))
+    assert code == 0, stdout
+    workflow.run = subprocess.CompletedProcess(workflow.command(), code, stdout)
     return workflow
 
 

@@ -24,5 +24,5 @@ def test_stops_before_any_job(fresh):
 
 
 def test_a_target_of_another_fidelity_gets_a_hint(fresh):
-    line = only_line(fresh.snakemake("-n", "results/draft/report/report.html"))
+    line = only_line(fresh.dry_run("results/draft/report/report.html"))
     assert line.endswith("is of fidelity draft, this run of tiny: add --config fidelity=draft")

@@ -216,7 +216,7 @@ def test_full_adhesion_is_solved_only_where_the_dmt_limit_is_not_good_enough(fre
                 "adhesion_length_over_range: [0.001, 0.003], pressures: [0.0065, 0.065], "
                 f"law: exponential, {model}}}\n"
             )
-    done = fresh.snakemake("-n", *(f"results/tiny/adhesion/full/{name}.nc" for name in asked))
+    done = fresh.dry_run(*(f"results/tiny/adhesion/full/{name}.nc" for name in asked))
     assert done.returncode == 0, done.stdout
     made = " ".join(re.findall("output: .*", done.stdout))
     outputs = re.findall(r"results/tiny/adhesion/(\S+)\.nc", made)

@@ -1,13 +1,13 @@
 """Other workflows use this one as a module, from a folder and from git, with a few own keys."""
 
 import os
-import re
 import shutil
 import subprocess
 import sys
 
 import pytest
 from helpers.copy_workflow import PARTS, ROOT
+from helpers.dry_runs import dry_run, jobs
 
 pytestmark = pytest.mark.workflow
 
@@ -50,13 +50,6 @@ def snakemake(folder, *arguments, **environment):
     )
 
 
-def jobs(done):
-    """Jobs by rule in the table of a dry-run."""
-    assert done.returncode == 0, done.stdout
-    table = re.search(r"^job\s+count\n[-\s]+\n(.*?)^total", done.stdout, re.M | re.S)
-    return {rule: int(count) for rule, count in map(str.split, table[1].strip().splitlines())}
-
-
 @pytest.fixture
 def folder(tmp_path):
     """A folder with the configuration of the example."""
@@ -95,7 +88,7 @@ def test_example_runs(folder):
         *("analyse_surface", "press_measured", "pull_measured"),
         *("judge", "write_surface"),
     }
-    again = snakemake(folder, "-n", "-s", EXAMPLE / "Snakefile")
+    again = dry_run(folder, "-s", EXAMPLE / "Snakefile")
     assert "Nothing to be done" in again.stdout, again.stdout
 
 
@@ -105,7 +98,7 @@ def test_a_prefix_holds_for_results_alone(folder):
     (folder / "Snakefile").write_text(text, encoding="utf-8")
     (folder / "data").mkdir()
     (folder / "data/wall.txt").write_text("not read in a dry-run", encoding="utf-8")
-    assert jobs(snakemake(folder, "-n", f"deep/{PAGE}")) == {
+    assert jobs(dry_run(folder, f"deep/{PAGE}")) == {
         "stickiness_analyse_surface": 1,
         "stickiness_press_measured": 1,
         "stickiness_pull_measured": 1,
@@ -114,10 +107,10 @@ def test_a_prefix_holds_for_results_alone(folder):
 
 
 def test_claims_say_which_surface_they_lack(folder):
-    done = snakemake(folder, "-n", "-s", EXAMPLE / "Snakefile", "stickiness_claims")
+    done = dry_run(folder, "-s", EXAMPLE / "Snakefile", "stickiness_claims")
     assert done.returncode != 0
     assert "config/surfaces.yaml: the claims need the surface 'asphalt'" in done.stdout
-    planned = jobs(snakemake(folder, "-n", "-s", EXAMPLE / "Snakefile", "stickiness_all"))
+    planned = jobs(dry_run(folder, "-s", EXAMPLE / "Snakefile", "stickiness_all"))
     assert "stickiness_check_claims" not in planned
     assert planned["stickiness_plot_fig1"] == 1
 
@@ -125,7 +118,7 @@ def test_claims_say_which_surface_they_lack(folder):
 def test_a_wrong_key_names_the_module(folder):
     path = folder / "config/config.yaml"
     path.write_text(path.read_text(encoding="utf-8") + "  sedes: 3\n", encoding="utf-8")
-    done = snakemake(folder, "-n", "-s", EXAMPLE / "Snakefile")
+    done = dry_run(folder, "-s", EXAMPLE / "Snakefile")
     assert done.returncode != 0
     (line,) = done.stdout.strip().splitlines()
     assert line.startswith("config of module stickiness: unknown key 'sedes'")
@@ -152,5 +145,5 @@ def test_deployed_from_a_hosted_repository(repository, tmp_path):
 def test_from_any_folder(tmp_path):
     """No configuration of its own at all."""
     page = "results/standard/report/surfaces/asphalt.html"
-    planned = jobs(snakemake(tmp_path, "-n", "-s", ROOT / "Snakefile", page))
+    planned = jobs(dry_run(tmp_path, "-s", ROOT / "Snakefile", page))
     assert planned == {"analyse_surface": 1, "write_surface": 1}

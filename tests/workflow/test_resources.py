@@ -1,12 +1,11 @@
 """What jobs ask a cluster for, and how the Slurm profile groups them."""
 
 import re
-import subprocess
-import sys
 from pathlib import Path
 
 import pytest
 import yaml
+from helpers.dry_runs import dry_run
 
 pytestmark = pytest.mark.workflow
 
@@ -16,7 +15,7 @@ PROFILE = yaml.safe_load((ROOT / "profiles/slurm/config.yaml").read_text(encodin
 
 def asked(workflow, target, *options):
     """Memory [MB] and time [min] that the job of a target asks for."""
-    listed = workflow.snakemake("-n", target, *options).stdout
+    listed = workflow.dry_run(target, *options).stdout
     output = listed.index(f"output: {target}")
     resources = re.search(r"resources: (.*)", listed[output:])[1]
     return tuple(int(re.search(rf"{name}=(\d+)", resources)[1]) for name in ("mem_mb", "runtime"))
@@ -37,12 +36,11 @@ def test_a_larger_grid_asks_for_more(fresh):
 
 
 def test_groups_are_of_rules_that_exist_and_none_depends_on_itself(fresh):
-    listed = fresh.snakemake("--list-rules")
+    listed = fresh.dry_run("--list-rules")
     groups = dict(entry.split("=") for entry in PROFILE["groups"])
     components = dict(entry.split("=") for entry in PROFILE["group-components"])
     assert groups.keys() <= set(listed.stdout.split())
     assert set(groups.values()) == components.keys()
-    command = [sys.executable, "-m", "snakemake", "-n", "--quiet", "all"]
-    command += ["--groups", *PROFILE["groups"], "--group-components", *PROFILE["group-components"]]
-    planned = subprocess.run(command, cwd=fresh.folder, text=True, capture_output=True, check=False)
-    assert planned.returncode == 0, planned.stdout + planned.stderr
+    options = ["--groups", *PROFILE["groups"], "--group-components", *PROFILE["group-components"]]
+    planned = dry_run(fresh.folder, "--quiet", "all", *options)
+    assert planned.returncode == 0, planned.stdout

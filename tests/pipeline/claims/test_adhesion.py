@@ -10,6 +10,7 @@ from pipeline.conventions import LOAD
 from pipeline.numbers import percent
 
 
+@pytest.mark.slow
 def test_threshold_lies_between_the_lengths_around_it(files):
     full = files["adhesive_fig2"]
     claim = adhesion_claims.kappa_threshold(files)
@@ -49,6 +50,7 @@ def test_loop_is_graded_by_its_width_and_its_pull_off(files, made, verdict):
     assert "25 % of the work" in claim.remark
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("scale", "verdict"), [(1, REPRODUCED), (2, QUALIFIED), (5, NOT), (0.2, NOT)]
 )

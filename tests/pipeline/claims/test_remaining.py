@@ -48,6 +48,7 @@ def test_sticky_roughness_is_that_of_the_energy_of_full_contact(files):
     assert found.uncertainty > 0
 
 
+@pytest.mark.slow
 def test_printed_limits_within_the_errors_qualify(files, monkeypatch):
     value = np.array([claims.find_roughness(q0, 4.0, 0) for q0 in claims.EXAMPLES])
     monkeypatch.setattr(claims, "PRINTED_LIMITS", 1.05 * value)

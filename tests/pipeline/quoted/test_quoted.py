@@ -68,6 +68,7 @@ def test_means_of_bins_with_several_points():
     assert np.array(found) == pytest.approx(np.array([(0.2, 1.1), (1.0, 0.8)]))
 
 
+@pytest.mark.slow
 def test_a_dry_run_that_fails_says_why(tmp_path):
     with pytest.raises(RuntimeError, match="(?i)snakefile"):
         times.count_jobs(tmp_path)

@@ -105,6 +105,7 @@ def curves(request):
     return followed(request.param)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("axis", "at"),
     [
@@ -127,6 +128,7 @@ def test_at_the_pair_itself_curves_are_what_is_stored(drawn, strain, axis, at):
     assert (float(expected[1].sel(material="layer")) == 0) == (strain > 0.3)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("axis", ["modulus", "roughness"])
 def test_stiffer_and_rougher_keep_less_within_limits_in_order(curves, axis):
     values = curves.sel(material=["tape", "slow", "layer"])

@@ -156,6 +156,7 @@ def test_weak_edges_attract_more_than_the_sum():
     assert float(found.over_dmt) > 1.5
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("modulus", "reach"), [(5e3, 1e-9), (1e4, 3e-8), (1e5, 1e-6)])
 def test_limits_are_those_of_the_remaining_share(modulus, reach):
     found = pairs_of(modulus, [reach]).isel(end=0, surface=0, material=0)
@@ -200,6 +201,7 @@ def test_errors_of_the_spectrum_are_counted_once():
     assert np.isnan(others).all()  # other criteria state no error
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("modulus", [5e3, 2e4, 2e5])
 def test_verdict_does_not_know_the_range_of_tough_pairs(modulus):
     found = pairs_of(modulus, [1e-11, 1e-10, 1e-9]).isel(end=0, surface=0)
@@ -232,6 +234,7 @@ def test_steel_does_not_stick(h_rms):
     assert WORDS[int(found.verdict)] == "does not stick"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("modulus", "reach"), [(5e3, 1e-9), (1e5, 1e-9), (1e11, 1e-7)])
 def test_library_and_rule_give_the_same_numbers(modulus, reach):
     a_v = (4.0, 3.0, 5.0)

@@ -184,6 +184,7 @@ def test_page_says_pressures_of_half_spaces_alone(pressed):
         assert "±" in row["gap"]
 
 
+@pytest.mark.slow
 def test_picture_for_paper_shows_every_load(pressed, tmp_path):
     stills.draw_touch(pressed, tmp_path / "a.png")
     assert (tmp_path / "a.png").read_bytes().startswith(b"\x89PNG")

@@ -33,6 +33,7 @@ def measured(tmp_path_factory):
     return path
 
 
+@pytest.mark.slow
 def test_points_that_the_grid_does_not_resolve_are_left_out(measured):
     data = xr.open_dataset(measured)
     assert np.isnan(data.bound.sel(zone=0.05)).all()

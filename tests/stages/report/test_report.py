@@ -50,8 +50,8 @@ def budgeted(dataset, name, **errors):
     return budget.with_budget(dataset, name, **parts)
 
 
-@pytest.fixture
-def claims():
+@pytest.fixture(scope="module")
+def made_claims():
     count = len(GRADES)
     columns = {
         "statement": [f"statement {n}" for n in range(1, count)] + [NASTY],
@@ -69,8 +69,8 @@ def claims():
     return made_by(budgeted(dataset, "value", **errors), errata=errata)
 
 
-@pytest.fixture
-def verdicts():
+@pytest.fixture(scope="module")
+def made_verdicts():
     """Two materials on two surfaces: jelly sticks to glass, depends on sand; iron does neither.
 
     Iron touches glass without hold. On sand, the other criterion says the opposite of the verdict
@@ -142,8 +142,8 @@ def verdicts():
     return made_by(dataset, materials=materials, pressure=0.065)
 
 
-@pytest.fixture
-def surfaces():
+@pytest.fixture(scope="module")
+def made_surfaces():
     known = xr.Dataset(
         {
             "h_rms": ("end", [2e-7, 2e-6]),
@@ -200,12 +200,27 @@ def ensemble(seeds=(1, 2), residual=1e-6):
 
 
 @pytest.fixture
-def figures(tmp_path):
+def claims(made_claims):
+    return copy.deepcopy(made_claims)
+
+
+@pytest.fixture
+def verdicts(made_verdicts):
+    return copy.deepcopy(made_verdicts)
+
+
+@pytest.fixture
+def surfaces(made_surfaces):
+    return copy.deepcopy(made_surfaces)
+
+
+@pytest.fixture(scope="module")
+def figures(tmp_path_factory):
     from matplotlib.figure import Figure
 
-    made = []
+    made, folder = [], tmp_path_factory.mktemp("figures")
     for number in range(1, 7):
-        path = tmp_path / f"fig{number}.png"
+        path = folder / f"fig{number}.png"
         Figure(figsize=(2, 1)).savefig(path, dpi=50)
         made.append(
             captions.embed_figure(path, f"Caption {number} of *a* & b < gamma. More {{words}}.")
@@ -213,9 +228,9 @@ def figures(tmp_path):
     return made
 
 
-@pytest.fixture
-def benchmarks(tmp_path):
-    folder = tmp_path / "benchmarks"
+@pytest.fixture(scope="module")
+def benchmarks(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("benchmarks")
     (folder / "slow_rule" / "case").mkdir(parents=True)
     head = "s\th:m:s\tmax_rss\tcpu_time\n"
     (folder / "slow_rule" / "case" / "seed1.tsv").write_text(head + "10.5\t0:00:10\t200.0\t9.0\n")
@@ -312,20 +327,20 @@ TRADEOFF = {
 }
 
 
-@pytest.fixture
+@pytest.fixture(scope="module")
 def page(render):
     """The page with plain spaces inside its numbers."""
     return render().replace("\u00a0", " ")
 
 
-@pytest.fixture
-def render(claims, verdicts, surfaces, figures, benchmarks):
+@pytest.fixture(scope="module")
+def render(made_claims, made_verdicts, made_surfaces, figures, benchmarks):
     """The page, with other results where they are given."""
     results = report.Results(
-        claims=claims,
-        verdicts=verdicts,
+        claims=made_claims,
+        verdicts=made_verdicts,
         experiments=experiments(),
-        surfaces=surfaces,
+        surfaces=made_surfaces,
         ensembles=[ensemble()],
         answers=[answer()],
         comparisons=[comparison()],
@@ -335,7 +350,7 @@ def render(claims, verdicts, surfaces, figures, benchmarks):
             "verdicts": "out/verdicts.nc",
             "criterion": "out/map.nc",
             "experiments": "out/experiments.nc",
-            "surfaces": {name: f"out/surfaces/{name}.nc" for name in surfaces},
+            "surfaces": {name: f"out/surfaces/{name}.nc" for name in made_surfaces},
             "ensembles": {"case_of_two": "out/ensembles/case_of_two.nc"},
             "answers": {"case_of_two": "out/cases/case_of_two.nc"},
             "comparisons": {"case_of_two": "out/fits/case_of_two.nc"},
@@ -595,6 +610,7 @@ def test_experiments_are_on_the_page(page):
     assert 'href="#experiments"' in page
 
 
+@pytest.mark.slow
 def test_notes_of_experiments_are_on_the_page(render):
     noted = copy.deepcopy(EXPERIMENTS)
     noted["plate"]["note"] = "Two plates & a < b."
@@ -671,6 +687,7 @@ def raw(data):
     return data.assign_attrs(parameters=json.dumps(made))
 
 
+@pytest.mark.slow
 def test_no_raw_symbol_is_shown(render, verdicts, surfaces, claims):
     assert find_raw_symbols("<p>a_b</p><p>m^2</p><code>c_d</code><img alt='e_f'>") == [
         *("a_b", "m^2", "e_f"),
@@ -684,6 +701,7 @@ def test_no_raw_symbol_is_shown(render, verdicts, surfaces, claims):
     assert "l<sub>a</sub>\u00a0=\u00a00.05 range" in page
 
 
+@pytest.mark.slow
 def test_captions_on_the_page_are_short(render):
     assert find_long_captions(f"<table><caption>{'long ' * 96}</caption></table>")
     folded = f"<table><caption>Short.<details>{'long ' * 96}</details></caption></table>"

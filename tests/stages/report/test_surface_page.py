@@ -107,11 +107,25 @@ def page_of(found, folder, bem=None, **pictures):
         materials=MATERIALS,
         figures={
             "surface": captions.embed_figure(folder / "plate.png", write_surface.CAPTION),
-            "curves": write_surface.draw_curves(pairs, MATERIALS, folder / "plate_curves.png"),
-            **pictures,
+            **(pictures or {"curves": draw_curves(pairs, folder)}),
         },
         bem=bem,
     )
+
+
+def draw_curves(pairs, folder):
+    return write_surface.draw_curves(pairs, MATERIALS, folder / "plate_curves.png")
+
+
+@pytest.fixture(scope="module")
+def page(single, folder):
+    return page_of(single, folder)
+
+
+@pytest.fixture(scope="module")
+def pairs(single):
+    """Verdicts on the surface of a single scan."""
+    return judged(single).sel(surface="plate")
 
 
 def test_measured_surface_says_all_that_the_criteria_need(single):
@@ -252,6 +266,7 @@ def words_of(page):
     return " ".join(re.sub(r"<(style|script)\b.*?</\1>|<[^>]+>", " ", page, flags=re.S).split())
 
 
+@pytest.mark.slow
 def test_an_implausible_surface_is_not_judged_and_its_page_says_why(folder):
     zeros = {(i, j): 0 for i in range(0, 128, 4) for j in range(0, 128, 5)}
     found = analysed(folder / "zeros.nc", file=spoiled(folder / "zeros.txt", zeros))
@@ -291,8 +306,9 @@ def test_a_pair_is_not_judged_if_the_surface_of_its_material_is_not(single, fold
     assert doubts.values.tolist() == [[""], ["a spike"]]
 
 
-def test_page_names_all_rms_heights_and_the_spikes(single, folder):
-    assert "the same with the points not used" not in words_of(page_of(single, folder))
+@pytest.mark.slow
+def test_page_names_all_rms_heights_and_the_spikes(single, page, folder):
+    assert "the same with the points not used" not in words_of(page)
     found = analysed(folder / "spike.nc", file=spoiled(folder / "spike.txt", {(60, 70): 1e6}))
     text = words_of(page_of(found, folder))
     for words in (
@@ -319,8 +335,7 @@ def test_page_shows_no_raw_symbol_and_short_captions(single, folder, monkeypatch
 
 
 @pytest.mark.slow
-def test_page_fetches_nothing(single, folder):
-    page = page_of(single, folder)
+def test_page_fetches_nothing(page):
     assert "<script src" not in page
     files = {"../report.html", "../../plate.nc", "../../verdicts.nc"}
     written = re.sub(r"<script\b.*?</script>", "", page, flags=re.S)
@@ -329,11 +344,9 @@ def test_page_fetches_nothing(single, folder):
 
 
 @pytest.mark.slow
-def test_page_shows_what_remains_of_judged_pairs_alone(single, folder):
-    page = page_of(single, folder)
+def test_page_shows_what_remains_of_judged_pairs_alone(page, pairs):
     assert page.count("Bokeh.logger.set_level") == 1
     assert 'id="curves"' in page
-    pairs = judged(single).sel(surface="plate")
     labels = {name: MATERIALS[name]["label"] for name in ("steel", "gel")}
     found = remaining_curves.trace_all(pairs, labels)
     assert {axis: [one.label for one in traces] for axis, traces in found.items()} == {
@@ -352,12 +365,11 @@ def test_page_shows_what_remains_of_judged_pairs_alone(single, folder):
 
 
 @pytest.mark.slow
-def test_three_materials_are_shown_at_first(single):
-    one = judged(single).sel(surface="plate")
-    pairs = xr.concat([one.sel(material="gel")] * 5, "material").assign_coords(
+def test_three_materials_are_shown_at_first(pairs):
+    five = xr.concat([pairs.sel(material="gel")] * 5, "material").assign_coords(
         material=list("abcde")
     )
-    tabs = remaining_curves.draw_interactive(pairs, {name: name for name in "abcde"})
+    tabs = remaining_curves.draw_interactive(five, {name: name for name in "abcde"})
     for panel in tabs.tabs:
         (legend,) = panel.child.legend
         assert legend.click_policy == "hide"
@@ -415,8 +427,8 @@ def test_page_of_a_parametric_surface(folder):
 
 
 @pytest.mark.slow
-def test_error_of_the_share_by_the_spectrum_is_part_of_what_was_drawn(single):
-    pair = judged(single).sel(surface="plate", material="gel")
+def test_error_of_the_share_by_the_spectrum_is_part_of_what_was_drawn(pairs):
+    pair = pairs.sel(material="gel")
     error = float(pair.remaining_error.sel(source="sampling", end="rough"))
     low, _, high = pair.remaining_quantile.values
     # The draws have the errors of the model as well.
@@ -429,8 +441,8 @@ def test_error_of_the_share_by_the_spectrum_is_part_of_what_was_drawn(single):
 
 
 @pytest.mark.slow
-def test_rates_of_the_page_follow_the_modulus(single):
-    pair = judged(single).sel(surface="plate", material="gel")
+def test_rates_of_the_page_follow_the_modulus(pairs):
+    pair = pairs.sel(material="gel")
     solid = read_material(MATERIALS["gel"])
     at = pair.modulus.values
     np.testing.assert_allclose(at, solid.plane_strain.storage(pair.frequency.values))

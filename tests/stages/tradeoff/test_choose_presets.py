@@ -33,6 +33,7 @@ def rows(tmp_path_factory):
     return presets, {row[0]: dict(zip(cells[0], row, strict=True)) for row in cells[2:]}
 
 
+@pytest.mark.slow
 def test_presets_keep_their_promise(rows):
     presets, table = rows
     for name, error in presets["accuracy"].items():

@@ -37,6 +37,7 @@ def full_energy(heights, solid):
     return 0.5 * float(np.mean(heights * stiffen(heights, solid)))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("solid", SOLIDS, ids=str)
 @pytest.mark.parametrize("kind", [Exponential, Maugis, LennardJones])
 @pytest.mark.parametrize("control", ["pressure", "mean_gap"])

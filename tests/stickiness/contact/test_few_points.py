@@ -61,6 +61,7 @@ def test_same_solution_as_on_the_grid(monkeypatch, seed, pressure):
     assert_same(monkeypatch, rough((256, 256), seed), 1.0, pressure)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("shape", "sides"),
     [((255, 255), (1, 1)), ((131, 262), ROW), ((200, 144), (1, 0.8)), ((128, 257), ROW)],

@@ -202,6 +202,7 @@ def test_solution_is_that_of_a_direct_method(load):
     assert contact.shift == pytest.approx(shift, abs=1e-10 * max(load, 1))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("shape", [(65, 63), (48, 64), (33, 70), (2, 2), (1, 64), (3, 50)])
 @pytest.mark.parametrize("pressure", [0.01, 1.0])
 def test_any_grid(shape, pressure):
@@ -210,6 +211,7 @@ def test_any_grid(shape, pressure):
     assert_solves(solve(heights, 1.0, pressure), heights, sides)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("scaled_pressure", [1e-3, 0.065, 0.3, 2.0])
 def test_two_methods_one_solution(scaled_pressure):
     """From coarser grids by active sets, and by projected gradients from a uniform pressure."""

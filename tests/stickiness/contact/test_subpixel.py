@@ -25,6 +25,7 @@ def closed_attractive_area(closed, eps):
     return 2 * position / closed.wavelength - closed.area_fraction
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("direction", [(3, 1), (1, 2), (3, -2), (2, 0), (5, 2)])
 def test_straight_edges_in_any_direction(direction):
     rng = np.random.default_rng(0)
@@ -161,6 +162,7 @@ def test_perimeter_of_a_disc():
     assert subpixel.perimeter(disc) == pytest.approx(2 * np.pi * r / n**2, rel=1e-12)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", [adhesive.Maugis, adhesive.Exponential])
 def test_adhesive_pressure_of_a_short_range(kind):
     """On a coarse grid, at a range far below the edge gap, against the closed form."""

@@ -80,6 +80,7 @@ def made_up(monkeypatch):
     return entry
 
 
+@pytest.mark.slow
 def test_an_entry_is_all_that_a_new_criterion_needs(made_up, road, judged):
     pair = judged.sel(material="gel", surface="road")
     margins = pair.margin.sel(criterion="made_up").values

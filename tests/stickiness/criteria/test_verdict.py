@@ -51,6 +51,7 @@ def test_margin_and_threshold_have_the_same_relative_errors():
     assert found.margin == pytest.approx(found.modulus_threshold / GEL["modulus"])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("modulus", [5e3, 30e3, 40e3, 70e3])
 def test_verdict_hardly_knows_the_finest_wave(modulus):
     """Three decades of finer waves; the onset at the finest wave moves by more than a factor."""
@@ -63,6 +64,7 @@ def test_verdict_hardly_knows_the_finest_wave(modulus):
     assert max(onsets) > 3 * min(onsets)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("modulus", [5e3, 40e3, 70e3, 1e6])
 def test_verdict_does_not_know_the_range_of_tough_pairs(modulus):
     """At a given work of adhesion."""

@@ -138,6 +138,7 @@ def test_spectrum_ends_at_the_cutoff_and_holds_the_rings_below_it():
     assert spectrum.rms_slope == pytest.approx(of_rings, rel=0.15)
 
 
+@pytest.mark.slow
 def test_profile_and_map_agree_on_moments():
     s, h, dx = patch(n=1024, q1=400.0)
     plane = instrument_spectrum.analyse(Topography(h, dx, dx, "map").detrended())

@@ -179,6 +179,7 @@ def test_wrong_arguments_of_rings():
 # The fit
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("hurst", [0.3, 0.8, 1.0])
 def test_fit_is_exact_where_there_is_no_noise(hurst):
     _, heights = periodic(0, hurst=hurst, amplitudes="fixed")

@@ -82,6 +82,7 @@ def test_area_of_wang_and_mueser_step_by_step():
     assert Persson(s, correction="wang2017").area_fraction(p) == pytest.approx(want, rel=1e-9)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", CORRECTIONS)
 @pytest.mark.parametrize("spectrum", [power_law(50.0), Shells([1.0, 3.0, 4.0], [1.0, 0.2, 0.1])])
 def test_work_of_squeezing_is_the_elastic_energy_of_full_contact(name, spectrum):

@@ -99,6 +99,7 @@ def test_the_distribution_of_gaps_is_refused():
             ask()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("solid", "least"),
     [

@@ -24,6 +24,7 @@ SPECTRA = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("correction", ["yang2008", "xu2024"])
 @pytest.mark.parametrize("name", list(SPECTRA))
 @pytest.mark.parametrize("load", [1e-4, 0.065, 2.0])

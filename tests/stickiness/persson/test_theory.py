@@ -202,6 +202,7 @@ def test_area_at_a_magnification_is_that_of_the_truncated_surface():
     assert theory.area_fraction(0.0) == 0.0
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("gamma", [0.3, 0.45, 1.0])
 @pytest.mark.parametrize(
     "spectrum",

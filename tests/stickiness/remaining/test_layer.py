@@ -104,6 +104,7 @@ def test_thick_layers_are_half_spaces():
         assert getattr(thick, name) == pytest.approx(getattr(half, name), rel=1e-9)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "solid", [Layer(0.3, 0.5), Layer(0.3, 0.3), Layer(1.0, 0.5, Backing(0.1, 0.3))]
 )

@@ -73,6 +73,7 @@ def march_by_finite_differences(s, weight, steps=3000, points=3000):
     return energy / area, area
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("s", "weight"), [(0.05, 0.45), (0.2, 0.1)])
 def test_march_agrees_with_finite_differences(no_pull_off, s, weight):
     w, area = march_by_finite_differences(s, weight)

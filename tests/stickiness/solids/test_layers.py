@@ -57,6 +57,7 @@ BACKINGS = [
 ]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("backing", BACKINGS, ids=str)
 @pytest.mark.parametrize("poisson", POISSON)
 def test_factor_solves_the_boundary_value_problem(poisson, backing):

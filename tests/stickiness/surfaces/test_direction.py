@@ -111,6 +111,7 @@ def test_theories_take_the_average():
     )
 
 
+@pytest.mark.slow
 def test_mean_gap_of_full_range_of_loads_gives_the_energy():
     # int ubar dp is the energy of full contact
     s = made(anisotropy=6.0)
