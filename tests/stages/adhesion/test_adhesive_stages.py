@@ -131,6 +131,26 @@ def test_equal_area_is_found_on_the_load_curve(heights):
     assert float(one.inverse_kappa_ad) != pytest.approx(expected, rel=0.01)
 
 
+def test_a_change_of_no_pixel_is_not_a_certain_zero(heights):
+    """Adhesion too weak to turn a pixel: what may have gone unseen covers what is in proportion."""
+    made = {"grid_points": len(heights), "refine": 1}
+    strong, weak = (
+        solved(heights, law="exponential", adhesion_length_over_range=[length])
+        for length in (1e-2, 1e-6)
+    )
+    alone = weak.area_alone.item()
+    assert strong.repulsive_area.item() > alone == weak.repulsive_area.item()
+    linear = (weak.area_alone.squeeze() < 1).expand_dims("pressure")
+    more = average_adhesive.add_pixels(weak, made)
+    fuller = average_adhesive.add_slopes(more, load_curve(heights), linear)
+    unseen = abs((fuller.inverse_kappa_ad - weak.inverse_kappa_ad).item())
+    in_proportion = 1e-4 * strong.inverse_kappa_ad.item()
+    assert weak.inverse_kappa_ad.item() < in_proportion < unseen
+    # a pixel takes its share of the area off the load that goes with it
+    share = average_adhesive.UNSEEN / heights.size / alone
+    assert unseen == pytest.approx(share / 2, rel=0.01)
+
+
 def test_fits_go_through_the_origin_and_over_the_linear_loads_only():
     pressure = xr.DataArray([1.0, 2.0, 4.0], dims="pressure")
     area, linear = 0.5 * pressure, xr.DataArray([True, True, False], dims="pressure")
