@@ -16,13 +16,21 @@ WEAKEST_EDGE = 1e-3  # left end of panel B
 
 
 def main(job):
-    files = [datasets.read(path, COLUMNS) for path in job.input.edges]
+    points = join_surfaces([datasets.read(path, COLUMNS) for path in job.input.edges])
     with plotting.open_figure(job.output, "AB", 3.4) as panels:
-        draw_weak(panels["A"], files)
-        draw_ratios(panels["B"], files)
+        draw_weak(panels["A"], points)
+        draw_ratios(panels["B"], list(points.values()))
 
 
-def draw_weak(ax, files):
+def join_surfaces(files):
+    """Certain points of every surface, by its name: of one file or several."""
+    points = {}
+    for data in files:
+        points.setdefault(name_surface(data), []).append(select_certain(data))
+    return {name: np.concatenate(parts, axis=1) for name, parts in points.items()}
+
+
+def draw_weak(ax, points):
     """Weak edges: effect against the attractive area, with the closed form."""
     t = np.geomspace(0.05, 200, 200)
     ax.plot(t, equivalent_sphere.weak_effect(t), color=BLACK, label="equivalent sphere")
@@ -31,13 +39,10 @@ def draw_weak(ax, files):
     plotting.draw_guide(ax, small, 4 / np.pi * small**-0.5, formula, (0.05, 1.95))
     ax.axhline(1, color=GREY, linewidth=0.9, linestyle="--")
     ax.text(0.06, 1.04, "DMT limit", color=GREY, fontsize=8)
-    for index, data in enumerate(files):
-        area, strength, effect, ratio, error = select_certain(data)
+    for index, (name, (area, strength, effect, ratio, error)) in enumerate(points.items()):
         weak = strength < equivalent_sphere.WEAK
         bars = (effect * error / ratio)[weak]
-        ax.errorbar(
-            area[weak], effect[weak], bars, label=name_surface(data), **LOOK, **pick_look(index)
-        )
+        ax.errorbar(area[weak], effect[weak], bars, label=name, **LOOK, **pick_look(index))
     ax.set(xscale="log", yscale="log")
     ax.set_xlabel(r"attractive over contact area $A_\mathrm{ad}/A_\mathrm{rep}$")
     ax.set_ylabel("attraction at equal area over DMT's")
@@ -49,13 +54,12 @@ def draw_weak(ax, files):
     ax.legend()
 
 
-def draw_ratios(ax, files):
+def draw_ratios(ax, points):
     """Simulation over model at every strength, with the error that verdicts take."""
     ends = WEAKEST_EDGE, equivalent_sphere.WEAK, equivalent_sphere.STRONGEST_SIMULATED
     factors = equivalent_sphere.ERROR_WEAK, equivalent_sphere.ERROR_STRONG
     for (low, high), factor in zip(pairwise(ends), factors, strict=True):
         plotting.draw_band(ax, [low, high], 1 / factor, factor, GREY, alpha=0.2)
-    points = [select_certain(data) for data in files]
     for index, (_, strength, _, ratio, error) in enumerate(points):
         ax.errorbar(strength, ratio, error, **LOOK, **pick_look(index), alpha=0.5)
     ax.axhline(1, color=GREY, linewidth=0.9)

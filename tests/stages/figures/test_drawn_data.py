@@ -630,7 +630,8 @@ def edges():
 
 
 def test_figure_10a_has_weak_edges_with_the_error_of_their_ratio(ax, edges):
-    plot_fig10.draw_weak(ax, [edges])
+    halves = [edges.isel(adhesion_length_over_range=[i]) for i in (0, 1)]
+    plot_fig10.draw_weak(ax, plot_fig10.join_surfaces(halves))  # of one surface, a single name
     drawn(ax, [0.2, 1.0], [3.0, 2.0], marker="o")
     t = np.geomspace(0.05, 200, 200)
     drawn(ax, t[t > 0.7], equivalent_sphere.weak_effect_at_approach(t[t > 0.7]), linestyle=":")
@@ -642,7 +643,7 @@ def test_figure_10a_has_weak_edges_with_the_error_of_their_ratio(ax, edges):
 
 
 def test_figure_10b_shades_the_error_of_verdicts(ax, edges):
-    plot_fig10.draw_ratios(ax, [edges])
+    plot_fig10.draw_ratios(ax, list(plot_fig10.join_surfaces([edges]).values()))
     drawn(ax, [0.01, 0.02, 1.0], [1.1, 0.9, 0.8], marker="o")
     (_, halves), (_, of_mean) = bar_lengths(ax)
     np.testing.assert_allclose(halves, TOTAL * np.array([1.1, 0.9, 0.8]))
