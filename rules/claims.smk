@@ -5,9 +5,6 @@ from snakemake.exceptions import WorkflowError
 # Surfaces that the paper speaks of. A table of one's own may lack them.
 PAPER_SURFACES = ("asphalt", "polished_steel")
 
-# Adhesive sets of Figure 4B, without "fig4b_".
-FIG4B = ("rough", "rough_near", "smooth")
-
 
 def paper_surface(name):
     """Input function: the file of one of them."""

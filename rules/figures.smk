@@ -4,6 +4,7 @@
 
 
 MAGNIFICATIONS = [f"H0.8_zeta{magnification}" for magnification in (32, 64, 128)]
+FIG4B = ("rough", "rough_near", "smooth")  # its adhesive sets, without "fig4b_"
 SIMULATED_IN_FULL = [adhesion for adhesion in ADHESION if seeds_in_full(adhesion)]
 FIGURE_INPUTS = {
     "fig1": {
@@ -30,7 +31,7 @@ FIGURE_INPUTS = {
     },
     "fig4": {
         "loop": f"{RESULTS}/adhesion/loops/fig4a.nc",
-        "rough": several("adhesion/full/fig4b_{name}.nc", name=["rough", "rough_near"]),
+        "rough": several("adhesion/full/fig4b_{name}.nc", name=FIG4B[:2]),
         "smooth": f"{RESULTS}/adhesion/full/fig4b_smooth.nc",
         "a_v": several("fits/a_v/ensembles/{case}.nc", case=MAGNIFICATIONS[1:]),
     },

@@ -11,6 +11,7 @@ from dataclasses import replace
 
 import numpy as np
 import xarray as xr
+from scipy import special
 
 from pipeline import conventions
 from pipeline.adhesion_sets import AXES, MISSING, OUTSIDE, solver_error
@@ -63,14 +64,12 @@ OTHERS = {
 SLOW = 1 / (np.sqrt(2) - 1)  # over the change from half the resolution
 SLOWLY = "2.4 times the change from half the resolution, as it falls with the root of the pixel"
 AREA_OF_DMT = ("repulsive_area", "net_repulsive_area")  # without what attraction draws in
-# Areas are counts of pixels. If adhesion turns none of them in any realisation it may yet turn this
-# many on average, at 90 % (Poisson): scatter alone would call a change of zero certain.
-UNSEEN = float(np.log(10))
+COVERED = 0.9  # share of the cases in which a count is within its limit
 LEFT = {
     "discretisation": "change from half the resolution, or in the DMT limit what is left of it",
     "solver": "by the tolerance, as measured; of strong attraction by the branch of the solution",
-    "sampling": "Student's t of the standard error, but not less than what 2.3 pixels more in all "
-    "realisations together would change",
+    "sampling": "Student's t of the standard error; of full simulation not less than what the "
+    "count of turned pixels leaves open",
     "bandwidth": SIMULATED["bandwidth"].text,
     "model": "of the DMT limit as measured, of areas not known; of full simulation what comparing "
     "at equal area instead of equal mean gap changes, or what a straight line leaves out",
@@ -158,10 +157,18 @@ def average(states, full, ensemble, dmt, made):
 
 
 def add_pixels(states, made):
-    """States with the pixels that may have gone unseen, shared out among the realisations."""
+    """States with the pixels more that adhesion may turn on average, as well as it is known.
+
+    Areas are counts of pixels. After k of them that turned in all realisations together, the mean
+    is up to that of which no more than k turn in a tenth of the cases, 2.3 if none did: scatter
+    alone would call a change of zero certain. Pixels are taken as independent (Poisson); where they
+    turn in strips along the edges, the scatter between realisations is larger and stands.
+    """
     pixels = states.sizes["seed"] * (made["grid_points"] * made["refine"]) ** 2
+    turned = pixels * abs(fine(states.repulsive_area - states.area_alone)).mean("seed")
+    unseen = xr.apply_ufunc(special.gammaincinv, turned + 1, COVERED) - turned
     areas = [name for name in STATES if name.endswith("_area")]
-    return states.assign({name: states[name] + UNSEEN / pixels for name in areas})
+    return states.assign({name: states[name] + unseen / pixels for name in areas})
 
 
 def errors(dataset, name, seeds, *, model, solver, unseen):

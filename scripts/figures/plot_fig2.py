@@ -47,7 +47,7 @@ def draw_slopes(ax, kappas, lattices):
         look = pick_look(index)
         # Both variants of the theory have the same area.
         theory = lattice.kappa.sel(variant=VARIANT)
-        ax.plot(kappa.pressure, theory, color=look["color"], linewidth=0.9)
+        ax.plot(theory.pressure, theory, color=look["color"], linewidth=0.9)
         pressure = plotting.move_aside(kappa.pressure, index - 1)
         plotting.draw_points(ax, pressure, kappa, "kappa", **look, markersize=SIZE)
         beyond = kappa.kappa.where(kappa.area_fraction > LINEAR_UP_TO)

@@ -28,7 +28,8 @@ def main(job):
 def read_at(paths, pressure):
     """Averages of one surface at a pressure, its ranges from one file or several."""
     parts = [datasets.read(path, ["inverse_kappa_ad", "q0_h_rms"]) for path in paths]
-    data = xr.concat(parts, "range_over_h_rms", data_vars="minimal").sortby("range_over_h_rms")
+    data = xr.concat(parts, "range_over_h_rms", data_vars="minimal", join="exact")
+    data = data.sortby("range_over_h_rms")
     return data.sel(pressure=pressure, method="nearest")
 
 

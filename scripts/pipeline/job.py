@@ -1,6 +1,8 @@
 """What every script shares: its log, and the job that it is when it is run by hand."""
 
 import logging
+import os
+import platform
 import sys
 from pathlib import Path
 from types import SimpleNamespace
@@ -20,6 +22,9 @@ def start(names: dict[str, Any], rule: str, **wildcards: Any) -> Any:
     style = {"level": logging.INFO, "format": "%(asctime)s %(levelname)s %(message)s"}
     logging.basicConfig(filename=job.log[0], filemode="w", force=True, **style)
     sys.excepthook = report_error
+    # Machines that share the folder may have unlike processors.
+    compiled = Path(".snakemake", "loops", platform.node()).absolute()
+    os.environ.setdefault("NUMBA_CACHE_DIR", str(compiled))
     return job
 
 

@@ -13,11 +13,11 @@ over.
 """
 
 import numpy as np
-import pyfftw
 
 from stickiness.adhesion import softening_loops as loops
 from stickiness.adhesion.preconditioner import Preconditioner
 from stickiness.adhesion.state import State, evaluate, largest, spans
+from stickiness.contact import convolution
 
 _FALL = 1e-3  # reduction of the force by a round
 _LINEAR = 1e-3  # residual below which the traction is linear in the change of the gap
@@ -87,7 +87,7 @@ class _Steps:
         self.at_gap = problem.pressure is None
         self.pixel = problem.surface.quick.mean_stiffness
         size = shape[0] * shape[1]
-        fields = [pyfftw.zeros_aligned(size, np.float32) for _ in range(13)]
+        fields = [convolution.aligned_zeros(size, np.float32) for _ in range(13)]
         # `change` of the gap in a round, over the unit of pressure; `lowest` closes the gap.
         self.change, self.lowest, self.traction, self.slope, *fields = fields
         self.new_traction, self.new_slope, *fields = fields
@@ -121,7 +121,7 @@ class _Steps:
             mean = self.force.sum(dtype=float) / max(self.free_points, 1)
             loops.lower(self.force, np.float32(mean), self.free)
         if not self.linear:
-            self.potential = self._evaluate(self.step, 0.0, self.traction, self.slope)
+            self.potential = self._evaluate(self.change, 0.0, self.traction, self.slope)
             self.slack = _ROUNDING * abs(self.potential)
 
     def descend(self, goal, limit, convex):

@@ -8,7 +8,7 @@ import numpy as np
 
 from stickiness.core.compiled import compiled
 
-_NONE = np.float32(0)
+_NONE, _HALF = np.float32(0), np.float32(0.5)
 
 
 @compiled
@@ -17,7 +17,7 @@ def move(gap, new_gap, change, unit, above):
     total = 0.0
     for i in range(gap.size):
         moved = gap[i] + change[i] * unit
-        moved = moved if above[i] and moved > 0 else 0.0
+        moved = 0.0 if not above[i] or moved <= 0 else moved  # keeps what is not a number
         new_gap[i] = moved
         total += moved
     return total
@@ -126,7 +126,7 @@ def gaps_after(step, factor, change, lowest, unit, gap):
     """Gap after a step, not below the wall, in the unit of the law."""
     for i in range(step.size):
         height = step[i] * factor - lowest[i] + change[i]
-        gap[i] = unit * height if height > 0 else _NONE
+        gap[i] = _NONE if height <= 0 else unit * height
 
 
 @compiled
@@ -135,7 +135,7 @@ def work(step, factor, image, reaction, traction):
     elastic = attraction = 0.0
     for i in range(step.size):
         part = step[i] * factor
-        elastic += part * (image[i] * (factor / 2) + reaction[i])
+        elastic += part * (image[i] * factor * _HALF + reaction[i])
         attraction += part * traction[i]
     return elastic, attraction
 
@@ -184,7 +184,7 @@ def release(reaction, mean, change, lowest, above, free, force, height):
         reaction[i] = left
         height[i] = change[i] - lowest[i]
         above[i] = height[i] > 0
-        now = above[i] or left < 0
+        now = above[i] or not left >= 0
         changed += now != free[i]
         free[i] = now
         count += now

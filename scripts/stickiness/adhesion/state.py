@@ -86,7 +86,7 @@ def _react(gap, elastic, traction, pressure, unit, wall, free, force):
     """Find the points that are free, and the forces on them."""
     for i in range(gap.size):
         reaction = elastic[i] + traction[i] + pressure
-        free[i] = gap[i] > 0 or reaction < 0 or not wall
+        free[i] = gap[i] > 0 or not reaction >= 0 or not wall  # keeps what is not a number
         force[i] = reaction / unit if free[i] else 0.0
 
 

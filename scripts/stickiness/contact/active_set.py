@@ -13,9 +13,8 @@ Where few points may touch, corrections are made among these alone, changes of t
 from dataclasses import dataclass
 
 import numpy as np
-import pyfftw
 
-from stickiness.contact import few_points, free_edges, half_space
+from stickiness.contact import convolution, few_points, free_edges, half_space
 from stickiness.contact.conjugate_gradients import close_gap
 from stickiness.contact.grids import measure_slope
 from stickiness.contact.preconditioner import Preconditioner
@@ -73,8 +72,8 @@ class _Field:
         self.shape = operator.shape
         size = self.shape[0] * self.shape[1]
         if memory is None:
-            self.field = pyfftw.zeros_aligned(size, operator.dtype)
-            self.image = pyfftw.empty_aligned(size, operator.dtype)
+            self.field = convolution.aligned_zeros(size, operator.dtype)
+            self.image = convolution.aligned_zeros(size, operator.dtype)
         else:  # zeros are zeros in any precision, and an image is read before the next is made
             self.field = memory.field.view(operator.dtype)[:size]
             self.image = memory.image.view(operator.dtype)[:size]

@@ -205,6 +205,11 @@ def _combine(direct, crossed, values, product, mirror):
                 product[r, t] = direct[r, k] * values[r, t] + crossed[r, k] * mirror[t]
 
 
+def aligned_zeros(size, dtype):
+    """Field of zeros that transforms may work on where it is."""
+    return pyfftw.zeros_aligned(size, dtype, n=_ALIGNED)
+
+
 def choose(shape, dtype):
     """Convolution for a grid: `Packed` in single precision and an even number of columns."""
     kind = Packed if dtype == np.float32 and shape[1] % 2 == 0 else Real

@@ -6,7 +6,8 @@ point needs. What is compiled is kept on disk, beside the source or in the user'
 
 from functools import wraps
 
-# Sums may be taken in any order, so that vector instructions serve; nothing else is given up.
+# Sums may be taken in any order, so that vector instructions serve; nothing else is given up. What
+# is kept on disk does not notice a change of this line: delete it then.
 _FREEDOMS = {"reassoc", "contract", "nsz"}
 
 
@@ -21,17 +22,21 @@ def compiled(function):
     def call(*arguments):
         nonlocal made
         if made is None:
-            made = _compile(function)
+            made = _compile(function, cache=True)
+            try:
+                return made(*arguments)
+            except OSError:  # a full or vanished folder, found before the function runs
+                made = _compile(function, cache=False)
         return made(*arguments)
 
     return call
 
 
-def _compile(function):
+def _compile(function, *, cache):
     import numba  # noqa: PLC0415 - see `compiled`
 
     options = {"fastmath": _FREEDOMS, "error_model": "numpy", "nogil": True}
     try:
-        return numba.njit(cache=True, **options)(function)
-    except RuntimeError:  # neither folder can be written
+        return numba.njit(cache=cache, **options)(function)
+    except RuntimeError:  # no folder for it can be written
         return numba.njit(**options)(function)

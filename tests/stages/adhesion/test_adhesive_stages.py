@@ -3,7 +3,7 @@ import itertools
 import numpy as np
 import pytest
 import xarray as xr
-from scipy import optimize
+from scipy import optimize, stats
 
 from adhesion import average_adhesive, solve_adhesive
 from pipeline.adhesion_sets import scaled_law
@@ -146,9 +146,19 @@ def test_a_change_of_no_pixel_is_not_a_certain_zero(heights):
     unseen = abs((fuller.inverse_kappa_ad - weak.inverse_kappa_ad).item())
     in_proportion = 1e-4 * strong.inverse_kappa_ad.item()
     assert weak.inverse_kappa_ad.item() < in_proportion < unseen
-    # a pixel takes its share of the area off the load that goes with it
-    share = average_adhesive.UNSEEN / heights.size / alone
-    assert unseen == pytest.approx(share / 2, rel=0.01)
+    # pixels take their share of the area off the load that goes with it: 2.3 of them, for exp(-2.3)
+    # is a tenth
+    assert unseen == pytest.approx(np.log(10) / heights.size / alone / 2, rel=0.01)
+
+
+@pytest.mark.parametrize("turned", [0, 1, 3, 40])
+def test_pixels_unseen_are_the_limit_of_a_poisson_count(turned):
+    made, area = {"grid_points": 10, "refine": 2}, (("seed", "resolution"), np.full((8, 1), 0.5))
+    states = xr.Dataset(dict.fromkeys(average_adhesive.STATES, area) | {"area_alone": area})
+    states["repulsive_area"] = states.repulsive_area + turned / (8 * 400)
+    more = average_adhesive.add_pixels(states, made).repulsive_area - states.repulsive_area
+    limit = turned + more.sum().item() * 400
+    assert stats.poisson.cdf(turned, limit) == pytest.approx(0.1)
 
 
 def test_fits_go_through_the_origin_and_over_the_linear_loads_only():
