@@ -13,7 +13,10 @@ from stickiness.criteria.errata import ERRATA
 COLUMNS = {
     "statement": ("what the paper claims",),
     "quantity": ("what the value is, with its unit",),
-    "value": ("measured value, in the unit that `quantity` names",),
+    "value": (
+        "measured value, in the unit that `quantity` names",
+        "nothing was known well enough",
+    ),
     "comment": ("what the errors are, or why they are not known or do not apply",),
     "claimed": ("the paper's value", "the paper gives none"),
     "verdict": ("verdict",),
@@ -125,6 +128,8 @@ def name_dominant(finding):
 
 
 def with_error(value, uncertainty):
+    if np.isnan(value):
+        return "not known"
     if uncertainty == 0:
         return f"{value:.4g} (exact)"
     error = "" if np.isnan(uncertainty) else f" ± {uncertainty:.2g}"

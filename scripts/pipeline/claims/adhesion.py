@@ -213,7 +213,8 @@ def inverse_kappa_ad(files: Files) -> Finding:
     slopes, known = ratios["inverse_kappa_ad"], find_known(ratios)
     if not known.any():
         remark = "No point is known to 30 % of the formula."
-        return Finding(quantity="-", value=np.nan, claimed=1.0, verdict=OPEN, remark=remark)
+        quantity = "1/kappa_ad by slopes over the formula"
+        return Finding(quantity=quantity, value=np.nan, claimed=1.0, verdict=OPEN, remark=remark)
     net = ratios["inverse_kappa_ad_net"]
     net = net[(ratios["net_error"] < KNOWN) & (net > 0)]
     resolved = np.isfinite(ratios["direct"])

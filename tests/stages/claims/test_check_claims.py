@@ -9,8 +9,9 @@ from helpers.claim_files import files_by_name
 
 from claims import check_claims
 from pipeline.claims import CLAIMS
-from pipeline.claims.ledger import REPRODUCED, VERDICTS, claim
+from pipeline.claims.ledger import OPEN, REPRODUCED, VERDICTS, claim
 from stickiness.accuracy import plan
+from stickiness.core import datasets
 
 RULES = Path(__file__).parents[3] / "rules"
 
@@ -85,3 +86,18 @@ def test_a_source_that_is_not_known_dominates():
     assert check_claims.name_dominant(finding) == "model (not known)"
     finding = SimpleNamespace(errors={"sampling": 0.3, "model": 0.4}, uncertainty=0.5)
     assert check_claims.name_dominant(finding) == "model"
+
+
+def test_a_claim_of_which_nothing_is_known_is_open_and_written(tmp_path):
+    """As where adhesion on the grids of a quick run is known to no point of Figure 4B."""
+    files = files_by_name()
+    for name in ("rough", "rough_near", "smooth"):
+        data = files[f"adhesive_{name}"]
+        files[f"adhesive_{name}"] = data.assign(inverse_kappa_ad=-data.inverse_kappa_ad)
+    (eleventh,) = (one for one in CLAIMS if one.number == 11)
+    found, sources = eleventh(files), [["full.nc"]]
+    assert found.verdict == OPEN
+    dataset = check_claims.to_dataset([eleventh], [found], sources)
+    datasets.write(dataset, tmp_path / "claims.nc", title="claims", parameters={})
+    assert np.isnan(datasets.read(tmp_path / "claims.nc").value.item())
+    assert "over the formula: not known |" in check_claims.to_markdown([eleventh], [found], sources)
