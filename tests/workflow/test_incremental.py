@@ -19,7 +19,7 @@ SEEDS, CASES, SURFACES = 2, 6, 6
 SMALLEST = "{hurst: 0.8, magnification: 32}"  # of the measured errors of the DMT limit
 MULTILEVEL = 5  # cases with coarse solutions
 COMPARISONS = 1  # further surfaces on which theory is compared with simulation
-ADHESIVE = 5  # sets of adhesive parameters
+ADHESIVE = 6  # sets of adhesive parameters
 
 
 def test_clean_run_has_no_warnings(finished):
@@ -132,7 +132,7 @@ def test_a_case_that_takes_plain_means_is_only_averaged_again(copy_of_finished):
         (
             "accuracy/multilevel.py",
             {"solve_coarse": MULTILEVEL, "average_ensemble": CASES},
-            {"synthesise_surface", "solve_repulsive", "persson_sweep", "analyse_surface"},
+            {"synthesise_surface", "solve_repulsive", "persson_table", "analyse_surface"},
         ),
         (
             "adhesion/edge_zone.py",
