@@ -64,7 +64,7 @@ OTHERS = {
 SLOW = 1 / (np.sqrt(2) - 1)  # over the change from half the resolution
 SLOWLY = "2.4 times the change from half the resolution, as it falls with the root of the pixel"
 AREA_OF_DMT = ("repulsive_area", "net_repulsive_area")  # without what attraction draws in
-COVERED = 0.9  # share of the cases in which a count is within its limit
+COVERED = 0.9  # confidence of the upper limit of a count of pixels
 LEFT = {
     "discretisation": "change from half the resolution, or in the DMT limit what is left of it",
     "solver": "by the tolerance, as measured; of strong attraction by the branch of the solution",
@@ -157,12 +157,13 @@ def average(states, full, ensemble, dmt, made):
 
 
 def add_pixels(states, made):
-    """States with the pixels more that adhesion may turn on average, as well as it is known.
+    """States with as much more area as the count of turned pixels cannot rule out.
 
-    Areas are counts of pixels. After k of them that turned in all realisations together, the mean
-    is up to that of which no more than k turn in a tenth of the cases, 2.3 if none did: scatter
-    alone would call a change of zero certain. Pixels are taken as independent (Poisson); where they
-    turn in strips along the edges, the scatter between realisations is larger and stands.
+    Areas are counts of pixels. If adhesion turned k of them in all realisations together, its mean
+    number lies below the upper limit of a Poisson count with 90 % confidence: 2.3 for k = 0. The
+    scatter between realisations cannot tell this, as it vanishes where no pixel turned. The limit
+    takes pixels as independent. Where they turn in strips along the edges, scatter is larger and
+    is the error.
     """
     pixels = states.sizes["seed"] * (made["grid_points"] * made["refine"]) ** 2
     turned = pixels * abs(fine(states.repulsive_area - states.area_alone)).mean("seed")

@@ -123,13 +123,13 @@ def names_imported(text: str) -> list[str]:
 
 def files_of(module: str, scripts: Path) -> list[Path]:
     """Files that are read when a module is imported; none for what lies elsewhere."""
-    parts, known = module.split("."), modules(scripts)
+    parts, known = module.split("."), find_modules(scripts)
     names = (".".join(parts[: end + 1]) for end in range(len(parts)))
     return [known[name] for name in names if name in known]
 
 
 @cache
-def modules(scripts: Path) -> dict[str, Path]:
+def find_modules(scripts: Path) -> dict[str, Path]:
     """Files below `scripts` by the full names of their modules."""
     paths = {path.relative_to(scripts).with_suffix(""): path for path in scripts.rglob("*.py")}
     names = {place.as_posix().replace("/", "."): path for place, path in paths.items()}

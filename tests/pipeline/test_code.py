@@ -23,7 +23,7 @@ def hashed(tmp_path):
         (tmp_path / name).write_text(text, encoding="utf-8")
 
     def hash_now():
-        for cached in (code.read, code.memory, code.imports, code.modules):
+        for cached in (code.read, code.memory, code.imports, code.find_modules):
             cached.cache_clear()
         return code.code_of(str(tmp_path / "scripts"), "../scripts/stage/rule.py")
 

@@ -89,6 +89,7 @@ def _gather(field):
 
 @compiled
 def _add_around(field, coarse, row):
+    """Fill the coarse points with sums of what is around them; `row` is scratch."""
     n0, n1 = coarse.shape
     for i in range(n0):
         before = 2 * i - 1 if i else 2 * n0 - 1
@@ -101,7 +102,7 @@ def _add_around(field, coarse, row):
 
 @compiled
 def _spread(coarse, constant, field, out, row):
-    """Sums over the coarse points around each point, ``B coarse``, plus a multiple of a field."""
+    """Sums over coarse points around each point, ``B coarse``, plus the constant times a field."""
     n0, n1 = coarse.shape
     for i in range(2 * n0):
         after = (i + 1) // 2 % n0

@@ -72,7 +72,7 @@ def _moved(problem, state, steps, other):
         other.gap *= problem.mean_gap * other.gap.size / total
     other.elastic[...] = problem.surface.elastic(other.gap)
     pressures = state.elastic.ravel(), other.elastic.ravel(), state.pressure
-    change = loops.work_between(*gaps, *pressures)
+    change = loops.sum_work_between(*gaps, *pressures)
     evaluate(problem, other)
     change = change / state.gap.size + other.potential - state.potential
     return change <= 8 * np.finfo(float).eps * abs(state.potential)
@@ -155,7 +155,7 @@ class _Steps:
         """
         force = self.force.reshape(self.shape)
         step = self.precondition(force).ravel()
-        total, product, last_product, *forces = loops.products(
+        total, product, last_product, *forces = loops.sum_over_free(
             step, self.free, self.force, self.last_force
         )
         mean = total / max(self.free_points, 1) if self.at_gap else 0.0
@@ -198,7 +198,7 @@ class _Steps:
 
     def _rise(self, step, image, factor):
         """Change of energy by a step, summed over the grid; keeps what the law says there."""
-        elastic, work = loops.work(step, factor, image, self.reaction, self.traction)
+        elastic, work = loops.sum_work(step, factor, image, self.reaction, self.traction)
         self.new_potential = self._evaluate(step, factor, self.new_traction, self.new_slope)
         total = self.unit * (self.unit * elastic - work)
         return total + self.new_potential - self.potential
@@ -206,7 +206,7 @@ class _Steps:
     def _evaluate(self, step, factor, traction, slope):
         """Traction and slope of the law after a step; returns the sum of its potential."""
         gap, total = traction, 0.0  # a block of gaps makes room for tractions
-        loops.gaps_after(
+        loops.find_gaps(
             step, np.float32(factor), self.change, self.lowest, np.float32(self.unit), gap
         )
         gap, traction, slope = (field.reshape(self.shape) for field in (gap, traction, slope))

@@ -24,7 +24,7 @@ def move(gap, new_gap, change, unit, above):
 
 
 @compiled
-def work_between(gap, new_gap, elastic, new_elastic, pressure):
+def sum_work_between(gap, new_gap, elastic, new_elastic, pressure):
     """Work against elastic and mean pressure between two gaps, summed over the grid."""
     total = 0.0
     for i in range(gap.size):
@@ -42,7 +42,7 @@ def dot(a, b):
 
 
 @compiled
-def products(step, free, force, last_force):
+def sum_over_free(step, free, force, last_force):
     """Sums over free points: of a step, its products with two forces, and of these forces."""
     total = product = last_product = forces = last_forces = 0.0
     for i in range(step.size):
@@ -122,7 +122,7 @@ def cut(step, direction, length, change, lowest, above):
 
 
 @compiled
-def gaps_after(step, factor, change, lowest, unit, gap):
+def find_gaps(step, factor, change, lowest, unit, gap):
     """Gap after a step, not below the wall, in the unit of the law."""
     for i in range(step.size):
         height = step[i] * factor - lowest[i] + change[i]
@@ -130,7 +130,7 @@ def gaps_after(step, factor, change, lowest, unit, gap):
 
 
 @compiled
-def work(step, factor, image, reaction, traction):
+def sum_work(step, factor, image, reaction, traction):
     """Work of a step against the mean of its reactions, and against the traction."""
     elastic = attraction = 0.0
     for i in range(step.size):

@@ -1,7 +1,8 @@
 """Loops over grids, compiled when they are first called.
 
 numpy passes over memory once for every operation, a compiled loop once for all operations that a
-point needs. What is compiled is kept on disk, beside the source or in the user's cache.
+point needs. numba keeps what is compiled on disk: in ``NUMBA_CACHE_DIR`` (jobs of the workflow set
+it), beside the source, or in the user's cache.
 """
 
 from functools import wraps

@@ -34,9 +34,9 @@ def interpolation():
 
 LOOPS = {
     softening_loops.move: lambda: (double(), double(), single(), 0.7, points()),
-    softening_loops.work_between: lambda: (double(), double(), double(), double(), 0.3),
+    softening_loops.sum_work_between: lambda: (double(), double(), double(), double(), 0.3),
     softening_loops.dot: lambda: (single(), single()),
-    softening_loops.products: lambda: (single(), points(), single(), single()),
+    softening_loops.sum_over_free: lambda: (single(), points(), single(), single()),
     softening_loops.turn: lambda: (single(), real(0.6), single(), real(0.1), points(), points()),
     softening_loops.lower: lambda: (single(), real(0.1), points()),
     softening_loops.settle: lambda: (single(), real(0.1), points(), single(), single()),
@@ -45,11 +45,11 @@ LOOPS = {
         *(single(), single(), real(0.5)),
         *(single(), single(), points()),
     ),
-    softening_loops.gaps_after: lambda: (
+    softening_loops.find_gaps: lambda: (
         *(single(), real(0.5), single(), single()),
         *(real(0.7), single()),
     ),
-    softening_loops.work: lambda: (single(), real(0.5), single(), single(), single()),
+    softening_loops.sum_work: lambda: (single(), real(0.5), single(), single(), single()),
     softening_loops.go: lambda: (
         *(single(), real(0.5), single(), single(), single()),
         *(points(), (single(), single()), real(0.7)),
