@@ -32,10 +32,10 @@ import numpy as np  # noqa: E402
 from scipy import ndimage, optimize, sparse  # noqa: E402
 
 from stickiness import adhesive, repulsive, spectrum, surface  # noqa: E402
-from stickiness.contact import grid_limit, grids, subpixel  # noqa: E402
-from stickiness.core.plausibility import PlausibilityWarning  # noqa: E402
+from stickiness import surface as synthesis  # noqa: E402
 from stickiness.measured import topography  # noqa: E402
-from stickiness.surfaces import synthesis  # noqa: E402
+from stickiness.plausibility import PlausibilityWarning  # noqa: E402
+from stickiness.repulsive import grid_limit, grids, subpixel  # noqa: E402
 
 # Lengths in um, pressures over E*.
 SIDE, ROLLOFF, SHORTEST, HURST = 100.0, 20.0, 0.1, 0.8

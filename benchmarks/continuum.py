@@ -21,7 +21,7 @@ import numpy as np  # noqa: E402 - the number of threads must be set before nump
 import xarray as xr  # noqa: E402
 
 from stickiness import dmt, repulsive, spectrum, surface  # noqa: E402
-from stickiness.contact import grid_limit, subpixel  # noqa: E402
+from stickiness.repulsive import grid_limit, subpixel  # noqa: E402
 
 RANGES = 10.0 ** (np.arange(-64, 17) / 16)  # over h_rms, as in config.yaml
 YASTREBOV = (np.pi - 1 + np.log(2)) / 24

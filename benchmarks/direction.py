@@ -22,8 +22,8 @@ import time
 import numpy as np
 
 from stickiness import adhesive, remaining, repulsive, spectrum, surface
-from stickiness.contact import subpixel
 from stickiness.persson import Persson
+from stickiness.repulsive import subpixel
 
 HURST, MAGNIFICATION, CELL = 0.8, 16.0, 4
 RATIOS = {1: 512, 2: 720, 4: 1024, 8: 1440}  # points on a side

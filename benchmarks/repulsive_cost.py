@@ -25,7 +25,7 @@ matplotlib.use("Agg")
 from matplotlib import pyplot as plt  # noqa: E402
 
 from stickiness import repulsive, spectrum, surface  # noqa: E402
-from stickiness.contact import half_space  # noqa: E402
+from stickiness.repulsive import half_space  # noqa: E402
 
 Q0 = 2 * np.pi
 LOADS = (0.003, 0.01, 0.065, 0.3, 1.0, 3.0)

@@ -27,7 +27,7 @@ import contact_codes  # noqa: E402 - the number of threads must be set before nu
 import numpy as np  # noqa: E402
 
 from stickiness import spectrum, surface  # noqa: E402
-from stickiness.contact import half_space  # noqa: E402
+from stickiness.repulsive import half_space  # noqa: E402
 
 OURS = "stickiness"
 _TIGHTER = 4  # runs at tighter and tighter tolerances until the error is met

@@ -20,9 +20,8 @@ import numpy as np  # noqa: E402 - the number of threads must be set before nump
 import xarray as xr  # noqa: E402
 from scipy import stats  # noqa: E402
 
-from stickiness import dmt, repulsive, spectrum, surface  # noqa: E402
+from stickiness import datasets, dmt, repulsive, spectrum, surface  # noqa: E402
 from stickiness.accuracy import multilevel  # noqa: E402
-from stickiness.core import datasets  # noqa: E402
 from stickiness.persson import Persson  # noqa: E402
 
 RANGES = np.geomspace(1e-3, 1, 49)

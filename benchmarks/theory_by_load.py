@@ -10,8 +10,8 @@ hardly in the mean gap. Run it by hand (5 min):
 import numpy as np
 
 from stickiness import dmt, repulsive, spectrum, surface
-from stickiness.contact import subpixel
 from stickiness.persson import Persson
+from stickiness.repulsive import subpixel
 
 LOADS = np.array([0.003, 0.01, 0.03, 0.08, 0.15, 0.25, 0.5])  # over E* q0 h_rms, at h_rms = 1
 CASES = ((0.8, 16, 8, 8), (0.8, 64, 4, 6), (0.5, 16, 8, 6))  # H, magnification, cell, seeds

@@ -8,8 +8,8 @@ Every state is held against the contact without adhesion of the same area. Run i
 
 import numpy as np
 
-from stickiness import adhesive, repulsive, spectrum, surface
-from stickiness.adhesion import edge_zone, equivalent_sphere
+from stickiness import adhesive, equivalent_sphere, repulsive, spectrum, surface
+from stickiness.adhesive import edge_zone
 
 LENGTH, POINTS = 2 * np.pi, 768
 LOADS = np.array([0.02, 0.04, 0.065, 0.1, 0.15, 0.22, 0.3])  # over E* q0 h_rms, at h_rms = 1

@@ -13,7 +13,7 @@ from typing import Any
 ROOT = Path(__file__).parents[1]
 sys.path.insert(0, str(ROOT / "scripts"))
 
-from stickiness.config.checks import read_schema  # noqa: E402
+from common.config.checks import read_schema  # noqa: E402
 
 TARGET = ROOT / "docs/config.md"
 HEAD = """# Every key of the configuration

@@ -18,7 +18,7 @@ def paper_surface(name):
 
 
 def ledger_inputs():
-    """Files behind the claims, by the names that the claims in scripts/pipeline/claims use."""
+    """Files behind the claims, by the names that the claims in scripts/claims use."""
     return {
         "kappa_64": f"{RESULTS}/fits/kappa/H0.8_zeta64.nc",
         "kappa_128": f"{RESULTS}/fits/kappa/H0.8_zeta128.nc",

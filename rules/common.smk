@@ -70,13 +70,13 @@ for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
 # Made by the first run, which reads units before any job does.
 os.environ.setdefault("STICKINESS_UNITS", os.path.abspath(".snakemake/units"))
 
-from pipeline import code
+from common import source_hash
 from stickiness.accuracy import plan
 from stickiness.accuracy.error_models import read_models
-from stickiness.adhesion import model_choice
-from stickiness.config import checks
-from stickiness.config.files import locate_files
-from stickiness.config.measured_contact import MOST_POINTS
+from stickiness.accuracy import model_choice
+from common.config import checks
+from common.config.files import locate_files
+from common.config.measured_contact import MOST_POINTS
 
 try:
     # What a user leaves out is as in the project's own file.
@@ -189,7 +189,7 @@ def a_v_of_simulation(case):
 
 def summarise():
     """Say where the results are and what they hold."""
-    from pipeline.run_summary import summary
+    from common.run_summary import summary
 
     answers = [placed(f"{RESULTS}/cases/{case}.nc") for case in CASES if "accuracy" in CASES[case]]
     print(summary(placed(RESULTS), STARTED, answers), file=sys.stderr)

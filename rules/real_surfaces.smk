@@ -1,7 +1,7 @@
 # Real surfaces: parameters from the literature, or topographies analysed for their spectrum, and
 # contact of measured heights where that is asked for. Pictures of contact need no asking.
 
-from pipeline.pages.provided import choose_pictured
+from report.provided import choose_pictured
 
 PICTURED_MATERIAL = choose_pictured(MATERIALS)
 

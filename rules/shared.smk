@@ -22,11 +22,11 @@ def share(each):
     each.set_log(mirrored(output, "logs", Path(path).stem, ".log"))
     each.benchmark = mirrored(output, "benchmarks", Path(path).stem, ".tsv")
     if workflow.is_main_process:  # which alone decides and records what is up to date
-        each.set_params(code=code.code_of(SCRIPTS, path))
+        each.set_params(code=source_hash.code_of(SCRIPTS, path))
 
 
 for each in MODIFIER.rules:  # in a module those of this workflow alone
     if each.script:
         share(each)
 if workflow.is_main_process:
-    code.remember()
+    source_hash.remember()

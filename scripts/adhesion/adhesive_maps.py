@@ -2,12 +2,11 @@
 
 import numpy as np
 
-from pipeline.adhesion_sets import roughness, scaled_law
-from pipeline.fields import gather_fields
-from pipeline.job import start
-from pipeline.realisations import read_first
-from stickiness import adhesive
-from stickiness.core import datasets
+from common.adhesion_sets import roughness, scaled_law
+from common.fields import gather_fields
+from common.job import start
+from common.realisations import read_first
+from stickiness import adhesive, datasets
 
 TOLERANCE = 1e-6  # of the residual: far below what a picture shows
 

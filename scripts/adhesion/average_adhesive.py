@@ -13,20 +13,20 @@ import numpy as np
 import xarray as xr
 from scipy import special
 
-from pipeline import conventions
-from pipeline.adhesion_sets import AXES, MISSING, OUTSIDE, solver_error
-from pipeline.conventions import LINEAR_UP_TO
-from pipeline.dmt_averages import write_limit
-from pipeline.dmt_limit import DmtLimit, fit_slope, linearity_error
-from pipeline.ensemble_means import add_errors, coarse, describe_errors, fine
-from pipeline.error_budgets import SIMULATED
-from pipeline.job import start
-from pipeline.model_surfaces import cell_size
-from pipeline.realisations import read_all
-from stickiness.adhesion import edge_zone
-from stickiness.core import datasets
-from stickiness.core.budget import SOURCES, split, with_budget
-from stickiness.core.statistics import students_t
+from adhesion.dmt_averages import write_limit
+from adhesion.dmt_limit import DmtLimit, fit_slope, linearity_error
+from common import conventions
+from common.adhesion_sets import AXES, MISSING, OUTSIDE, solver_error
+from common.conventions import LINEAR_UP_TO
+from common.ensemble_means import add_errors, coarse, describe_errors, fine
+from common.error_budgets import SIMULATED
+from common.job import start
+from common.model_surfaces import cell_size
+from common.realisations import read_all
+from stickiness import datasets
+from stickiness.adhesive import edge_zone
+from stickiness.error_budget import SOURCES, split, with_budget
+from stickiness.statistics import students_t
 
 # Averages, with the quantity of the DMT limit that is their control, if any.
 STATES = {

@@ -8,15 +8,15 @@ what adhesion takes off the load, over the attraction in the DMT limit, is the e
 import numpy as np
 import xarray as xr
 
-from pipeline import conventions
-from pipeline.adhesion_sets import LAWS, solver_error
-from pipeline.error_budgets import SIMULATED
-from pipeline.job import start
-from pipeline.realisations import read_all
-from stickiness.adhesion import dmt, equivalent_sphere
-from stickiness.core import datasets
-from stickiness.core.budget import Part, with_budget
-from stickiness.core.statistics import students_t
+from common import conventions
+from common.adhesion_sets import LAWS, solver_error
+from common.error_budgets import SIMULATED
+from common.job import start
+from common.realisations import read_all
+from stickiness import datasets, equivalent_sphere
+from stickiness.adhesive import dmt
+from stickiness.error_budget import Part, with_budget
+from stickiness.statistics import students_t
 
 MISSING = (
     "not resolved, fewer than 100 points of the grid drawn into contact, a window closes, or the "

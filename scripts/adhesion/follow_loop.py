@@ -12,17 +12,16 @@ from itertools import product
 import numpy as np
 import xarray as xr
 
-from pipeline.adhesion_sets import LEAST, scaled_law
-from pipeline.conventions import annotate
-from pipeline.error_budgets import SIMULATED
-from pipeline.job import start
-from pipeline.model_surfaces import pixels
-from pipeline.realisations import read_first
-from stickiness import adhesive
-from stickiness.contact import solver
-from stickiness.core import datasets
-from stickiness.core.budget import Part, unknown, with_budget
-from stickiness.core.plausibility import PlausibilityWarning
+from common.adhesion_sets import LEAST, scaled_law
+from common.conventions import annotate
+from common.error_budgets import SIMULATED
+from common.job import start
+from common.model_surfaces import pixels
+from common.realisations import read_first
+from stickiness import adhesive, datasets
+from stickiness.error_budget import Part, unknown, with_budget
+from stickiness.plausibility import PlausibilityWarning
+from stickiness.repulsive import solver
 
 CONTROLS = ("mean_gap", "pressure")
 TOLERANCE = 1e-5  # of the residual: far below what the width of a line shows

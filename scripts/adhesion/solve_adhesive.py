@@ -12,8 +12,8 @@ import logging
 import numpy as np
 import xarray as xr
 
-from pipeline import conventions
-from pipeline.adhesion_sets import (
+from common import conventions
+from common.adhesion_sets import (
     AXES,
     MISSING,
     STRONGEST,
@@ -23,14 +23,14 @@ from pipeline.adhesion_sets import (
     scaled_law,
     solve_at_gap,
 )
-from pipeline.conventions import RMS_SLOPE
-from pipeline.job import start
-from pipeline.model_surfaces import pixels
-from pipeline.realisations import each_seed
-from stickiness.adhesion import dmt, edge_zone
-from stickiness.contact import solver, subpixel
-from stickiness.core import datasets
-from stickiness.surfaces.synthesis import resample
+from common.conventions import RMS_SLOPE
+from common.job import start
+from common.model_surfaces import pixels
+from common.realisations import each_seed
+from stickiness import datasets
+from stickiness.adhesive import dmt, edge_zone
+from stickiness.repulsive import solver, subpixel
+from stickiness.surface import resample
 
 STATE = {
     "external_pressure": "mean pressure over E* q0 h_rms",

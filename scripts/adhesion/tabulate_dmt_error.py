@@ -4,9 +4,10 @@ import csv
 
 import numpy as np
 
-from pipeline.job import start
-from stickiness.adhesion.model_choice import COLUMNS
-from stickiness.core import budget, datasets
+from common.job import start
+from stickiness import datasets
+from stickiness import error_budget as budget
+from stickiness.accuracy.model_choice import COLUMNS
 
 
 def main(job):

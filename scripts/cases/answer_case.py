@@ -5,13 +5,14 @@ import logging
 import numpy as np
 import xarray as xr
 
-from pipeline import conventions
-from pipeline.conventions import VARIANT, logarithmic_grid
-from pipeline.error_budgets import BY_THEORY, NOT_MEASURED, QUADRATURE, SIMULATED
-from pipeline.job import start
-from pipeline.model_surfaces import cell_size, model_spectrum
-from pipeline.quantities import derive, quote, statistics
-from pipeline.theory import contact_of
+from common import conventions
+from common.conventions import VARIANT, logarithmic_grid
+from common.error_budgets import BY_THEORY, NOT_MEASURED, QUADRATURE, SIMULATED
+from common.job import start
+from common.model_surfaces import cell_size, model_spectrum
+from common.quantities import derive, quote, statistics
+from common.theory import contact_of
+from stickiness import datasets
 from stickiness.accuracy.choice import seeds_enough
 from stickiness.accuracy.error_models import (
     Settings,
@@ -24,11 +25,10 @@ from stickiness.accuracy.error_models import (
 from stickiness.accuracy.extrapolation import carrying_error
 from stickiness.accuracy.prediction import Problem, covering_factor, joint_error
 from stickiness.accuracy.quantities import COLUMNS, columns_of, has_error_model
-from stickiness.core import datasets
-from stickiness.core.budget import SOURCES, Part, absent, part, with_budget
-from stickiness.core.statistics import students_t
+from stickiness.error_budget import SOURCES, Part, absent, part, with_budget
 from stickiness.persson.theory import Persson
-from stickiness.surfaces.synthesis import lattice_spectrum
+from stickiness.statistics import students_t
+from stickiness.surface import lattice_spectrum
 
 DIMS = ("column", "pressure")
 RANGES = {"minimum": 1e-4, "maximum": 10.0, "per_decade": 16}

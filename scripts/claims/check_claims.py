@@ -3,11 +3,12 @@
 import numpy as np
 import xarray as xr
 
-from pipeline import remaining_table
-from pipeline.claims import CLAIMS
-from pipeline.job import start
-from pipeline.numbers import table
-from stickiness.core import budget, datasets
+from claims.all_claims import CLAIMS
+from common import remaining_table
+from common.formatting import table
+from common.job import start
+from stickiness import datasets
+from stickiness import error_budget as budget
 from stickiness.criteria.errata import ERRATA
 
 COLUMNS = {

@@ -4,12 +4,12 @@ Coarse solutions of further seeds, if the case has them, are kept beside the val
 whatever is derived from those is averaged in the same way, as the slope of area against load is.
 """
 
-from pipeline.conventions import LINEAR_UP_TO
-from pipeline.ensembles import add_budgets, annotate, choose_means, ensemble_of
-from pipeline.job import start
-from pipeline.kappa import fit_kappa
+from common.conventions import LINEAR_UP_TO
+from common.job import start
+from common.kappa import fit_kappa
+from contact.ensembles import add_budgets, annotate, choose_means, ensemble_of
+from stickiness import datasets
 from stickiness.accuracy.error_models import read_models
-from stickiness.core import datasets
 
 
 def main(job):

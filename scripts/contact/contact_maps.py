@@ -2,11 +2,11 @@
 
 import numpy as np
 
-from pipeline.fields import gather_fields
-from pipeline.job import start
-from pipeline.realisations import read_first
-from stickiness.contact import solver
-from stickiness.core import datasets
+from common.fields import gather_fields
+from common.job import start
+from common.realisations import read_first
+from stickiness import datasets
+from stickiness.repulsive import solver
 
 
 def main(job):

@@ -4,12 +4,12 @@ Their seeds are others. Each surface is solved on 2 pixels per shortest waveleng
 one is too. Of still more surfaces only the long waves are described.
 """
 
-from pipeline.coarse_solutions import annotate, coarse_solutions
-from pipeline.contact_curves import COARSE
-from pipeline.conventions import logarithmic_grid
-from pipeline.job import start
-from pipeline.model_surfaces import grid_points
-from stickiness.core import datasets
+from common.coarse_solutions import annotate, coarse_solutions
+from common.contact_curves import COARSE
+from common.conventions import logarithmic_grid
+from common.job import start
+from common.model_surfaces import grid_points
+from stickiness import datasets
 
 
 def main(job):

@@ -5,19 +5,19 @@ import logging
 import numpy as np
 import xarray as xr
 
-from pipeline import coarse_solutions, contact_curves
-from pipeline.conventions import logarithmic_grid
-from pipeline.ensembles import (
+from common import coarse_solutions, contact_curves
+from common.conventions import logarithmic_grid
+from common.job import start
+from common.model_surfaces import cell_size, grid_points, make_heights, waves_across
+from contact.ensembles import (
     add_budgets,
     add_statistics,
     annotate,
     describe_sampling,
     rename_coarse,
 )
-from pipeline.job import start
-from pipeline.model_surfaces import cell_size, grid_points, make_heights, waves_across
-from stickiness.core import datasets
-from stickiness.surfaces import synthesis
+from stickiness import datasets
+from stickiness import surface as synthesis
 
 
 def main(job):

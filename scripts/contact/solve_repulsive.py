@@ -7,12 +7,12 @@ wavelength is the control of `solve_coarse`'s many others.
 
 import numpy as np
 
-from pipeline.contact_curves import annotate, load_curves, steps_of
-from pipeline.conventions import logarithmic_grid
-from pipeline.job import start
-from pipeline.model_surfaces import pixels
-from pipeline.realisations import each_seed
-from stickiness.core import datasets
+from common.contact_curves import annotate, load_curves, steps_of
+from common.conventions import logarithmic_grid
+from common.job import start
+from common.model_surfaces import pixels
+from common.realisations import each_seed
+from stickiness import datasets
 
 
 def main(job):

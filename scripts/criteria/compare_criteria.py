@@ -10,16 +10,16 @@ from dataclasses import replace
 import numpy as np
 import xarray as xr
 
-from pipeline.conventions import logarithmic_grid
-from pipeline.job import start
-from pipeline.simulated_a_v import measure_a_v
-from pipeline.verdicts.budgets import CLOSED, between
-from stickiness.core import datasets
-from stickiness.core.budget import with_budget
+from common.conventions import logarithmic_grid
+from common.job import start
+from criteria.budgets import CLOSED, between
+from criteria.simulated_a_v import measure_a_v
+from stickiness import datasets
 from stickiness.criteria.a_v_table import NEEDED, AvTable
 from stickiness.criteria.pair import Pair
 from stickiness.criteria.registry import CRITERIA, REMAINING
-from stickiness.surfaces.spectrum import SelfAffine
+from stickiness.error_budget import with_budget
+from stickiness.spectrum.kinds import SelfAffine
 
 LOW, HIGH = f"{REMAINING}_low", f"{REMAINING}_high"
 

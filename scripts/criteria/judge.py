@@ -1,9 +1,9 @@
 """Verdict for every material on every surface, and the same as a page."""
 
-from pipeline.job import start
-from pipeline.verdicts.judging import judge, read_surfaces
-from pipeline.verdicts.markdown import write_markdown
-from stickiness.core import datasets
+from common.job import start
+from criteria.judging import judge, read_surfaces
+from criteria.verdict_markdown import write_markdown
+from stickiness import datasets
 
 
 def main(job):

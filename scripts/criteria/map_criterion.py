@@ -6,16 +6,14 @@ import numpy as np
 import xarray as xr
 from scipy.optimize import elementwise
 
-from pipeline.conventions import logarithmic_grid
-from pipeline.job import start
-from pipeline.simulated_a_v import measure_a_v
-from pipeline.verdicts.budgets import CLOSED, between_limits
-from stickiness import criteria
-from stickiness.adhesion import area_load, equivalent_sphere
-from stickiness.core import datasets
-from stickiness.core.budget import with_budget
+from common.conventions import logarithmic_grid
+from common.job import start
+from criteria.budgets import CLOSED, between_limits
+from criteria.simulated_a_v import measure_a_v
+from stickiness import area_load, criteria, datasets, equivalent_sphere
 from stickiness.criteria.a_v_table import NEEDED, AvTable
-from stickiness.surfaces.spectrum import SelfAffine
+from stickiness.error_budget import with_budget
+from stickiness.spectrum.kinds import SelfAffine
 
 
 def main(job):

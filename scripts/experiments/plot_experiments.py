@@ -3,12 +3,12 @@
 import numpy as np
 from matplotlib.colors import ListedColormap
 
-from pipeline import plotting
-from pipeline.experiments.judgements import COMPATIBLE, SILENT
-from pipeline.experiments.texts import MARKS
-from pipeline.job import start
-from pipeline.plotting import BLUE, GREEN, GREY, ORANGE, RED, make_dot, make_key
-from stickiness.core import datasets
+from common import plotting
+from common.job import start
+from common.plotting import BLUE, GREEN, GREY, ORANGE, RED, make_dot, make_key
+from experiments.judgements import COMPATIBLE, SILENT
+from experiments.texts import MARKS
+from stickiness import datasets
 from stickiness.criteria.registry import CRITERIA, EDGES, REMAINING
 
 NEEDED = (

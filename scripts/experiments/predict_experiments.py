@@ -3,14 +3,14 @@
 import numpy as np
 import xarray as xr
 
-from pipeline.experiments import judgements, predictions
-from pipeline.experiments.entries import GRADES, MIDDLE, read_observations
-from pipeline.experiments.markdown import write_markdown
-from pipeline.job import start
-from stickiness.config.experiment_entries import OBSERVED_UNITS
-from stickiness.core import datasets
-from stickiness.core.budget import Part, absent, with_budget
+from common.config.experiment_entries import OBSERVED_UNITS
+from common.job import start
+from experiments import judgements, predictions
+from experiments.entries import GRADES, MIDDLE, read_observations
+from experiments.experiment_markdown import write_markdown
+from stickiness import datasets
 from stickiness.criteria.registry import CRITERIA
+from stickiness.error_budget import Part, absent, with_budget
 
 QUOTED = {
     "remaining": ("1", "share of the work of adhesion that remains"),

@@ -2,11 +2,11 @@
 
 import numpy as np
 
-from pipeline import plotting
-from pipeline.conventions import VARIANT
-from pipeline.plotting import COLOURS, GREY, make_dot, make_key, state
-from pipeline.theory import between_corrections
-from stickiness.core import datasets
+from common import plotting
+from common.conventions import VARIANT
+from common.plotting import COLOURS, GREY, make_dot, make_key, state
+from common.theory import between_corrections
+from stickiness import datasets
 
 GAPS = [0.003, 0.01, 0.03, 0.1, 0.3, 1.0]  # over h_rms, of panel B
 LOADS = [0.0065, 0.065, 0.26]  # over E* q0 h_rms, of panel C

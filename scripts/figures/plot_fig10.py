@@ -4,12 +4,11 @@ from itertools import pairwise
 
 import numpy as np
 
-from pipeline import plotting
-from pipeline.edge_points import BINS, COLUMNS, select_certain
-from pipeline.numbers import number
-from pipeline.plotting import BLACK, GREY, pick_look, state
-from stickiness.adhesion import equivalent_sphere
-from stickiness.core import datasets
+from common import plotting
+from common.formatting import number
+from common.plotting import BLACK, GREY, pick_look, state
+from figures.edge_points import BINS, COLUMNS, select_certain
+from stickiness import datasets, equivalent_sphere
 
 LOOK = {"markersize": 3.5, "linestyle": "none", "elinewidth": 0.7}
 WEAKEST_EDGE = 1e-3  # left end of panel B

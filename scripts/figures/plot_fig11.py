@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from pipeline import plotting, remaining_table
-from pipeline.plotting import BLACK, BLUE, GREEN, GREY, ORANGE, PURPLE, RED, make_dot, make_key
+from common import plotting, remaining_table
+from common.plotting import BLACK, BLUE, GREEN, GREY, ORANGE, PURPLE, RED, make_dot, make_key
 from stickiness.remaining import theories
 from stickiness.remaining.prediction import SHORT_RANGE, Roughness
 from stickiness.remaining.share import find_onset, tough_share, weak_share

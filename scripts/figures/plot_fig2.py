@@ -5,10 +5,10 @@ from matplotlib.colors import to_rgb
 from matplotlib.patches import Rectangle
 from scipy.ndimage import gaussian_filter
 
-from pipeline import plotting
-from pipeline.conventions import LINEAR_UP_TO, VARIANT
-from pipeline.plotting import BLACK, BLUE, GREY, make_dot, make_key, pick_look, state
-from stickiness.core import datasets
+from common import plotting
+from common.conventions import LINEAR_UP_TO, VARIANT
+from common.plotting import BLACK, BLUE, GREY, make_dot, make_key, pick_look, state
+from stickiness import datasets
 
 DETAIL = 0.3  # side of the detail in panels G to I, in window sides
 GAP_COLOUR, CONTACT_COLOUR, ATTRACTION_COLOUR = "white", BLACK, "#FF2A00"

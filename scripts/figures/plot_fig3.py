@@ -5,13 +5,12 @@ from dataclasses import dataclass
 import numpy as np
 import xarray as xr
 
-from pipeline import plotting
-from pipeline.conventions import LOAD, VARIANT
-from pipeline.numbers import number
-from pipeline.plotting import BLACK, GREY, MARKERS, make_dot, make_key, pick_look, state
-from pipeline.theory import between_corrections
-from stickiness import criteria
-from stickiness.core import datasets
+from common import plotting
+from common.conventions import LOAD, VARIANT
+from common.formatting import number
+from common.plotting import BLACK, GREY, MARKERS, make_dot, make_key, pick_look, state
+from common.theory import between_corrections
+from stickiness import criteria, datasets
 
 EXPONENT = 2 / 3
 SIMULATED_RANGES = slice(3e-3, 0.3)  # over h_rms, of the points of panel A

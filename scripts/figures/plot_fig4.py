@@ -2,10 +2,9 @@
 
 import xarray as xr
 
-from pipeline import plotting
-from pipeline.plotting import BLACK, GREY, MARKERS, RED, make_dot, make_key, state
-from stickiness import criteria
-from stickiness.core import datasets
+from common import plotting
+from common.plotting import BLACK, GREY, MARKERS, RED, make_dot, make_key, state
+from stickiness import criteria, datasets
 
 PAPER_A_V = 2.8
 THRESHOLD = 0.5  # of 1/kappa_ad, beyond which the contact is sticky

@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from pipeline import plotting
-from pipeline.plotting import BLACK, COLOURS, GREY, RED, make_dot, make_key, state
-from stickiness.core import datasets
+from common import plotting
+from common.plotting import BLACK, COLOURS, GREY, RED, make_dot, make_key, state
+from stickiness import datasets
 
 LENGTHS = [0.001, 0.01, 0.1, 1.0, 10.0]  # l_a/range
 EMPHASISED = 0.05  # l_a/range of a crystal on itself

@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from pipeline import plotting
-from pipeline.plotting import BLACK, COLOURS, GREY
-from stickiness.core import datasets
+from common import plotting
+from common.plotting import BLACK, COLOURS, GREY
+from stickiness import datasets
 
 HURST = 0.8  # of the lines
 EXPONENT = 2 * (HURST + 1)

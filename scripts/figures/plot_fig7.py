@@ -3,11 +3,11 @@
 import matplotlib as mpl
 import numpy as np
 
-from pipeline import plotting
-from pipeline.conventions import middles
-from pipeline.plotting import BLACK, GREY, make_key, pick_look, state
-from stickiness import criteria
-from stickiness.core import budget, datasets
+from common import plotting
+from common.conventions import middles
+from common.plotting import BLACK, GREY, make_key, pick_look, state
+from stickiness import criteria, datasets
+from stickiness import error_budget as budget
 
 ACCURACY = 0.15  # of the DMT limit, as Figure 4B asks
 LARGEST_RATIO = 4.0  # up or down, that the colours tell apart

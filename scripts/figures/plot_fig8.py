@@ -5,11 +5,11 @@ from dataclasses import dataclass
 import numpy as np
 import xarray as xr
 
-from pipeline import plotting
-from pipeline.conventions import LOAD, VARIANT
-from pipeline.numbers import interval
-from pipeline.plotting import BLACK, BLUE, GREY, RED, make_dot, pick_look, state
-from stickiness.core import datasets
+from common import plotting
+from common.conventions import LOAD, VARIANT
+from common.formatting import interval
+from common.plotting import BLACK, BLUE, GREY, RED, make_dot, pick_look, state
+from stickiness import datasets
 
 CORRECTIONS = {"yang2008": "Yang & Persson", "wang2017": "Wang & Müser", "xu2024": "Xu et al."}
 THEORIES = {

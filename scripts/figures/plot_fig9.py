@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from pipeline import plotting
-from pipeline.numbers import number
-from stickiness.core import datasets
+from common import plotting
+from common.formatting import number
+from stickiness import datasets
 from stickiness.criteria.registry import CRITERIA, REMAINING
 
 LENGTH_LABEL = r"adhesion length at the threshold $l_a/\epsilon$"

@@ -12,13 +12,13 @@ stride, needs no bins, has a unit, and bounds the difference of mean gaps.
 import numpy as np
 import xarray as xr
 
-from pipeline import conventions
-from pipeline.conventions import VARIABLES
-from pipeline.ensemble_means import coarse, discretisation_error, ensemble_mean
-from pipeline.grid_limits import EXTRAPOLATION
-from pipeline.job import start
-from stickiness.core import datasets
-from stickiness.core.budget import SOURCES, Part, absent, part, with_budget
+from common import conventions
+from common.conventions import VARIABLES
+from common.ensemble_means import coarse, discretisation_error, ensemble_mean
+from common.grid_limits import EXTRAPOLATION
+from common.job import start
+from stickiness import datasets
+from stickiness.error_budget import SOURCES, Part, absent, part, with_budget
 
 PARTS = ("area_fraction", "attractive_area")  # of the cumulative distribution
 WINDOW = ("highest_summit", "margin", "window_holds")  # of theory's file

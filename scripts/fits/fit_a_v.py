@@ -1,7 +1,7 @@
 """Fit a_V to the attractive areas of a simulated case."""
 
-from pipeline.a_v_fits import write_fits
-from pipeline.job import start
+from common.a_v_fits import write_fits
+from common.job import start
 
 
 def main(job):

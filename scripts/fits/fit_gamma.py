@@ -9,14 +9,14 @@ import numpy as np
 import xarray as xr
 from scipy.interpolate import CubicSpline
 
-from pipeline.job import start
-from pipeline.model_surfaces import cell_size, model_spectrum
-from stickiness.core import datasets
-from stickiness.core.budget import Part, absent, with_budget
-from stickiness.core.statistics import COVERS
+from common.job import start
+from common.model_surfaces import cell_size, model_spectrum
+from stickiness import datasets
+from stickiness.error_budget import Part, absent, with_budget
 from stickiness.persson.kernels import CORRECTIONS, correction_of
 from stickiness.persson.theory import Persson
-from stickiness.surfaces.synthesis import lattice_spectrum
+from stickiness.statistics import COVERS
+from stickiness.surface import lattice_spectrum
 
 GRID = np.geomspace(0.15, 1.0, 16)  # of gamma
 FEW = np.geomspace(0.15, 1.0, 4)  # of gamma, for attractive areas: their logarithms are smooth

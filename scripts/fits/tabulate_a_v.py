@@ -3,10 +3,10 @@
 import numpy as np
 import xarray as xr
 
-from pipeline.job import start
-from stickiness.core import datasets
-from stickiness.core.budget import ENDINGS, Part, absent, unknown, with_budget
-from stickiness.core.statistics import COVERS
+from common.job import start
+from stickiness import datasets
+from stickiness.error_budget import ENDINGS, Part, absent, unknown, with_budget
+from stickiness.statistics import COVERS
 
 SMALLEST_RANGE = 0.01  # over h_rms; below, simulated areas are extrapolated on most grids
 PER_DECADE = 4  # simulated ranges

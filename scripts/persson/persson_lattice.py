@@ -7,17 +7,17 @@ puts the mean gap near or above it, the window holds too few summits to be compa
 import numpy as np
 import xarray as xr
 
-from pipeline.a_v_fits import write_fits
-from pipeline.conventions import annotate, logarithmic_grid
-from pipeline.error_budgets import QUADRATURE, theory_parts
-from pipeline.job import start
-from pipeline.kappa import add_theory
-from pipeline.model_surfaces import cell_size, grid_points, make_heights, model_spectrum
-from pipeline.theory import evaluate, theories
+from common.a_v_fits import write_fits
+from common.conventions import annotate, logarithmic_grid
+from common.error_budgets import QUADRATURE, theory_parts
+from common.job import start
+from common.kappa import add_theory
+from common.model_surfaces import cell_size, grid_points, make_heights, model_spectrum
+from common.theory import evaluate, theories
+from stickiness import datasets
 from stickiness.accuracy.error_models import read_models
-from stickiness.core import datasets
-from stickiness.core.budget import with_budget
-from stickiness.surfaces.synthesis import lattice_spectrum
+from stickiness.error_budget import with_budget
+from stickiness.surface import lattice_spectrum
 
 WINDOWS = 64  # random ones, whose highest summits are averaged
 LONG_WAVES = 64.0  # wave number over q0 beyond which waves add nothing to the highest summit

@@ -5,15 +5,15 @@ from itertools import product
 import numpy as np
 import xarray as xr
 
-from pipeline.a_v_fits import write_fits
-from pipeline.conventions import annotate, logarithmic_grid
-from pipeline.error_budgets import QUADRATURE, theory_parts
-from pipeline.job import start
-from pipeline.model_surfaces import model_spectrum
-from pipeline.theory import evaluate, theories
+from common.a_v_fits import write_fits
+from common.conventions import annotate, logarithmic_grid
+from common.error_budgets import QUADRATURE, theory_parts
+from common.job import start
+from common.model_surfaces import model_spectrum
+from common.theory import evaluate, theories
+from stickiness import datasets
 from stickiness.accuracy.error_models import read_models
-from stickiness.core import datasets
-from stickiness.core.budget import with_budget
+from stickiness.error_budget import with_budget
 
 
 def main(job):

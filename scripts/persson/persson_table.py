@@ -6,17 +6,16 @@ from itertools import product
 import numpy as np
 import xarray as xr
 
-from pipeline import conventions
-from pipeline.conventions import VARIANT, logarithmic_grid
-from pipeline.error_budgets import BY_THEORY, theory_parts
-from pipeline.job import start
-from pipeline.model_surfaces import model_spectrum
-from pipeline.theory import theories
-from stickiness import criteria
+from common import conventions
+from common.conventions import VARIANT, logarithmic_grid
+from common.error_budgets import BY_THEORY, theory_parts
+from common.job import start
+from common.model_surfaces import model_spectrum
+from common.theory import theories
+from stickiness import criteria, datasets
 from stickiness.accuracy.error_models import read_models
-from stickiness.core import datasets
-from stickiness.core.budget import Part, absent, unknown, with_budget
 from stickiness.criteria.a_v_table import edge_range, local_a_v
+from stickiness.error_budget import Part, absent, unknown, with_budget
 from stickiness.persson.theory import Persson
 
 AXES = ("hurst", "magnification", "pressure")

@@ -7,13 +7,13 @@ the uncertainty of the surface, each with its moments.
 import numpy as np
 import xarray as xr
 
-from pipeline import measured_surface
-from pipeline.job import start
-from pipeline.measured_surface import ENDS, POINTS_PER_DECADE, REFERENCE_HURST
-from pipeline.real_spectra import configured_spectrum
-from stickiness.core import datasets
-from stickiness.core.budget import Part, absent, with_budget
-from stickiness.core.statistics import COVERS
+from common.job import start
+from common.real_spectra import configured_spectrum
+from real_surfaces import measured_surface
+from real_surfaces.measured_surface import ENDS, POINTS_PER_DECADE, REFERENCE_HURST
+from stickiness import datasets
+from stickiness.error_budget import Part, absent, with_budget
+from stickiness.statistics import COVERS
 
 VARIABLE_TEXTS = {
     "end": ("1", "smooth or rough end of what is known of the surface"),

@@ -5,17 +5,18 @@ import logging
 import numpy as np
 import xarray as xr
 
-from pipeline import conventions, measured_adhesion, measured_surface
-from pipeline.contact_curves import load_curves
-from pipeline.conventions import VARIANT, logarithmic_grid
-from pipeline.job import start
-from pipeline.measured_loads import Setting, read_loads
-from stickiness.config import checks
-from stickiness.config.measured_contact import MOST_POINTS
-from stickiness.core import datasets
-from stickiness.core.units import si
+from common import conventions
+from common.config import checks
+from common.config.measured_contact import MOST_POINTS
+from common.contact_curves import load_curves
+from common.conventions import VARIANT, logarithmic_grid
+from common.job import start
+from real_surfaces import measured_adhesion, measured_surface
+from real_surfaces.measured_loads import Setting, read_loads
+from stickiness import datasets
 from stickiness.measured import periodic, topography
 from stickiness.persson.theory import Persson
+from stickiness.units import si
 
 WAYS = ("taper", "mirror")  # to make heights periodic that are not
 AS_THEY_STAND = ("given",)

@@ -7,14 +7,14 @@ import xarray as xr
 from scipy.ndimage import maximum_filter1d
 from scipy.special import erfinv
 
-from pipeline import pictured_heights
-from pipeline.contact_curves import load_curve, measure
-from pipeline.job import start
-from pipeline.pages.stills import draw_reason, draw_touch
-from pipeline.pictured_heights import NO_MAP, NOT_JUDGED, halve
-from stickiness.contact import solver
-from stickiness.contact.grids import measure_slope
-from stickiness.core import datasets
+from common.contact_curves import load_curve, measure
+from common.job import start
+from real_surfaces import pictured_heights
+from real_surfaces.pictured_heights import NO_MAP, NOT_JUDGED, halve
+from report.stills import draw_reason, draw_touch
+from stickiness import datasets
+from stickiness.repulsive import solver
+from stickiness.repulsive.grids import measure_slope
 
 POINTS = 512  # along the longer side, at most; pictures have half of them
 # Shares of the area in contact by theory: at small loads those solved are up to 1.8 times as large.

@@ -11,19 +11,19 @@ import warnings
 import numpy as np
 import xarray as xr
 
-from pipeline import pictured_heights
-from pipeline.adhesion_sets import LAWS
-from pipeline.job import start
-from pipeline.numbers import amount, percent
-from pipeline.pages.stills import draw_pull_off, draw_reason
-from pipeline.pictured_heights import NO_MAP, NOT_JUDGED
-from pipeline.verdicts.materials import read_material
-from pipeline.verdicts.texts import LEAST_SHOWN
-from stickiness.contact.solver import ConvergenceError
-from stickiness.core import datasets
-from stickiness.core.plausibility import PlausibilityWarning
+from common.adhesion_sets import LAWS
+from common.formatting import amount, percent
+from common.job import start
+from criteria.materials import read_material
+from criteria.texts import LEAST_SHOWN
+from real_surfaces import pictured_heights
+from real_surfaces.pictured_heights import NO_MAP, NOT_JUDGED
+from report.stills import draw_pull_off, draw_reason
+from stickiness import datasets
 from stickiness.measured import periodic
+from stickiness.plausibility import PlausibilityWarning
 from stickiness.remaining import measure, predict
+from stickiness.repulsive.solver import ConvergenceError
 
 POINTS = 192  # along the longer side, at most
 # In the width of the cohesive zone: half the grid, which tells the error, resolves it with two.

@@ -7,13 +7,13 @@ import warnings
 import numpy as np
 import xarray as xr
 
-from pipeline.adhesion_sets import LAWS
-from pipeline.job import start
-from pipeline.model_surfaces import cell_size, model_spectrum
-from stickiness.core import datasets
-from stickiness.core.plausibility import PlausibilityWarning
+from common.adhesion_sets import LAWS
+from common.job import start
+from common.model_surfaces import cell_size, model_spectrum
+from stickiness import datasets
+from stickiness import surface as synthesis
+from stickiness.plausibility import PlausibilityWarning
 from stickiness.remaining import measurement
-from stickiness.surfaces import synthesis
 
 QUOTED = {
     "approach": "work of approach over the work of adhesion",

@@ -4,12 +4,12 @@ from pathlib import Path
 
 import pandas as pd
 
-from pipeline import remaining_table
-from pipeline.job import start
-from stickiness.core import datasets
+from common import remaining_table
+from common.job import start
+from stickiness import datasets
 from stickiness.remaining import multiscale, theories
 from stickiness.remaining.prediction import Roughness
-from stickiness.surfaces.spectrum import Shells
+from stickiness.spectrum.kinds import Shells
 
 SIMULATED = (
     *("approach", "separation", "bound", "pull_off", "area_at_zero_load", "gap_at_zero_load"),

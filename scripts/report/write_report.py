@@ -2,16 +2,17 @@
 
 from pathlib import Path
 
-from pipeline.experiments import texts as experiments
-from pipeline.job import start
-from pipeline.pages import captions, interactive, report
-from pipeline.pages.benchmarks import run_times
-from pipeline.pages.pairs_figure import draw_pairs
-from pipeline.pages.provenance import describe_provenance
-from pipeline.tradeoff import summary
+from common.job import start
+from experiments import texts as experiments
+from report import captions, interactive
+from report import report_parts as report
+from report.benchmarks import run_times
+from report.pairs_figure import draw_pairs
+from report.provenance import describe_provenance
+from stickiness import datasets
 from stickiness.accuracy.error_models import read_models
 from stickiness.accuracy.quantities import COLUMNS, MODELLED
-from stickiness.core import datasets
+from tradeoff import summary
 
 NEEDED_VARIABLES = {
     "claims": ("statement", "quantity", "value", "value_error", "claimed", "verdict", "sources"),

@@ -4,10 +4,13 @@ from pathlib import Path
 
 import numpy as np
 
-from pipeline.conventions import LOAD
-from pipeline.job import start
-from pipeline.numbers import NOTHING, amount, interval, number, percent, with_error
-from pipeline.pages import (
+from common.conventions import LOAD
+from common.formatting import NOTHING, amount, interval, number, percent, with_error
+from common.job import start
+from criteria.judging import OF_SURFACES, judge, read_surfaces
+from criteria.materials import describe_modulus, read_material
+from criteria.texts import say_verdict
+from report import (
     captions,
     interactive,
     measured_contact,
@@ -16,24 +19,21 @@ from pipeline.pages import (
     remaining_curves,
     touch,
 )
-from pipeline.pages.provided import own_first
-from pipeline.pages.surface_figure import draw_surface
-from pipeline.pages.surface_texts import (
+from report.provided import own_first
+from report.surface_figure import draw_surface
+from report.surface_texts import (
     describe_height,
     describe_line,
     describe_slope,
     say_what_was_seen,
     warn_of_slope,
 )
-from pipeline.pages.verdict_texts import describe_pair, ends, explain
-from pipeline.verdicts.judging import OF_SURFACES, judge, read_surfaces
-from pipeline.verdicts.materials import describe_modulus, read_material
-from pipeline.verdicts.texts import say_verdict
-from stickiness.core import datasets
-from stickiness.core.statistics import COVERS
+from report.verdict_texts import describe_pair, ends, explain
+from stickiness import datasets
 from stickiness.criteria.pair import NOT_JUDGED
 from stickiness.remaining.prediction import DEFAULT_SHARE
 from stickiness.solids.moduli import crossings
+from stickiness.statistics import COVERS
 
 CAPTION = """Heights and spectrum of the surface, with the fitted self-affine spectrum and the lines
 of the paper.

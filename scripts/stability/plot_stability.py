@@ -5,9 +5,9 @@ from pathlib import Path
 import numpy as np
 from matplotlib.patches import Patch
 
-from pipeline.job import start
-from pipeline.plotting import BLACK, BLUE, ORANGE, YELLOW, open_figure
-from stickiness.core import datasets
+from common.job import start
+from common.plotting import BLACK, BLUE, ORANGE, YELLOW, open_figure
+from stickiness import datasets
 
 LABELS = {
     "magnification": "magnification",

@@ -6,17 +6,17 @@ from collections import Counter
 import numpy as np
 import xarray as xr
 
-from pipeline.job import start
-from pipeline.stability.adhesion import ADHESION
-from pipeline.stability.components import AXES, OUTCOMES, probe_point
-from pipeline.stability.contact import CONTACT
-from pipeline.stability.direction import DIRECTION
-from pipeline.stability.inputs import INPUTS
-from pipeline.stability.layer_contact import LAYER_CONTACT
-from pipeline.stability.layers import LAYERS
-from pipeline.stability.theory import THEORY
-from pipeline.stability.verdicts import VERDICTS
-from stickiness.core import datasets
+from common.job import start
+from stability.adhesion_components import ADHESION
+from stability.components import AXES, OUTCOMES, probe_point
+from stability.contact_components import CONTACT
+from stability.direction_components import DIRECTION
+from stability.inputs_components import INPUTS
+from stability.layer_contact_components import LAYER_CONTACT
+from stability.layers_components import LAYERS
+from stability.theory_components import THEORY
+from stability.verdicts_components import VERDICTS
+from stickiness import datasets
 
 COMPONENTS = THEORY | INPUTS | CONTACT | ADHESION | VERDICTS | LAYERS | LAYER_CONTACT | DIRECTION
 LONGEST = 160  # characters of a message that are kept

@@ -16,14 +16,11 @@ What a user needs:
 - `remaining`: how much adhesion remains on a rough surface, simulated or predicted
 - `verdict`: whether a rough surface sticks, with thresholds and error limits, from SI values
 
-The packages behind them:
+And what these rest on:
 
-- `surfaces`, `contact`, `adhesion`: spectra and heights; solvers without and with adhesion
 - `measured`: measured topographies, from the file to a spectrum with its errors
 - `accuracy`: errors and costs of simulations, and the settings that an accuracy needs
-- `closed_forms`: exact solutions to compare the solvers with
-- `config`: checks of the workflow's configuration
-- `core`: arguments, units, datasets and error budgets, which all parts share
+- `arguments`, `units`, `datasets`, `error_budget`, `plausibility`: what all parts share
 
 Names are loaded when they are first used.
 
@@ -53,10 +50,7 @@ _MODULES = (
     "criteria",
     "remaining",
 )
-_PACKAGES = (
-    *("surfaces", "contact", "adhesion", "measured"),
-    *("accuracy", "closed_forms", "config", "core"),
-)
+_PACKAGES = ("measured", "accuracy", "closed_forms", "datasets")
 _FUNCTIONS = {"verdict": "stickiness.criteria.verdict"}
 
 __all__ = [*_MODULES, *_FUNCTIONS, *_PACKAGES, "__version__"]  # noqa: PLE0604

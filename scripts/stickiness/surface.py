@@ -1,12 +1,259 @@
-"""Random heights with a given spectrum on a periodic window, and what they really hold."""
+"""Random surfaces on a periodic square window: synthesis, spectrum and moments.
 
-from stickiness.surfaces.synthesis import (
-    Moments,
-    lattice_spectrum,
-    moments,
-    realised_spectrum,
-    resample,
-    synthesise,
-)
+A window of side L holds the wave vectors 2 pi (i, j)/L and no others. A surface made on it has its
+lattice spectrum, not the continuous one that was asked for (at H = 0.8 the four modes of the
+longest wavelength carry more than half the height variance): simulation and theory are compared on
+that.
+"""
 
-__all__ = ["Moments", "lattice_spectrum", "moments", "realised_spectrum", "resample", "synthesise"]
+from __future__ import annotations
+
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import fft
+
+from stickiness.arguments import grid, integer, number
+from stickiness.spectrum.interface import Spectrum
+from stickiness.spectrum.kinds import Shells
+from stickiness.spectrum.moments import Moments
+from stickiness.spectrum.sums import Sum
+
+Amplitudes = Literal["gaussian", "fixed"]
+
+_MOST_WAVES = 2**15  # along a side; beyond, a list of all modes leaves no memory
+_ROUNDING = 1e-9  # relative slack on band limits that coincide with lattice wave numbers
+
+
+def synthesise(
+    spectrum: Spectrum, n: int, length: float, seed: int, amplitudes: Amplitudes = "gaussian"
+) -> NDArray:
+    """Random periodic surface with a given spectrum, band limits exact.
+
+    Parameters
+    ----------
+    spectrum : Spectrum
+        Wave numbers from q0 >= 2 pi/length to q1 <= pi n/length; with a direction, these are the
+        smallest and the largest ``|q|`` (`spectrum.band`). At that very limit the grid
+        shows only the cosine part of the two modes along its axes: a surface to be measured or
+        solved on the grid wants a few more pixels per wavelength.
+    n : int
+        Grid points per side.
+    length : float
+        Side of the window [length].
+    seed : int
+        The surface depends on spectrum, length, seed and kind alone, not on `n`: grids of other
+        sizes sample the same surface, and a larger q1 adds modes to those already there.
+    amplitudes : {"gaussian", "fixed"}
+        "gaussian": independent Gaussian modes, the samples of a Gaussian random field.
+        "fixed": every amplitude at its rms value, only the phases random (those of the Gaussian
+        surface of the same seed). Its ensemble is narrower and is not the Gaussian one.
+
+    Returns
+    -------
+    heights : (n, n) array
+        Zero mean [length]. If the spectrum was prescribed by its h_rms, the rms height of every
+        surface is exactly that; if by its C0 or a table, it scatters as the modes do.
+
+    Raises
+    ------
+    ValueError
+        If the window or the grid cannot hold the band, or an argument is out of range.
+    """
+    check_window(spectrum, length)
+    n, seed = integer("n", n, least=2), integer("seed", seed, least=0)
+    _check_grid(spectrum, n, length)
+    if amplitudes not in ("gaussian", "fixed"):
+        raise ValueError(f"amplitudes must be 'gaussian' or 'fixed', got {amplitudes!r}")
+    i, j, variance = list_modes(spectrum, length)
+    modes = draw_modes(variance, seed, amplitudes)
+    heights = sum_modes(i, j, modes, n)
+    if spectrum.prescribed == "h_rms":
+        heights *= spectrum.h_rms / np.sqrt(2 * np.sum(np.abs(modes) ** 2))
+    return heights
+
+
+def lattice_spectrum(spectrum: Spectrum, length: float) -> Shells:
+    """Return the spectrum that a periodic window holds, as delta-like shells.
+
+    Each wave vector carries C(q) (2 pi/length)^2. If `spectrum` was prescribed by its h_rms, the
+    shells are scaled to that height, as `synthesise` scales its surfaces. Modes of one ``|q|`` make
+    one shell whatever their direction.
+    """
+    check_window(spectrum, length)
+    i, j, variance = list_modes(spectrum, length)
+    square, shell = np.unique(i**2 + j**2, return_inverse=True)
+    total = 2 * np.bincount(shell, weights=variance)  # each mode and its mirror image
+    if spectrum.prescribed == "h_rms":
+        total *= spectrum.h_rms**2 / total.sum()
+    return Shells(2 * np.pi / length * np.sqrt(square), total)
+
+
+def realised_spectrum(heights: NDArray, length: float) -> Shells:
+    """Return the spectrum of given periodic heights `(n, n)`, one shell per distinct ``|q|``."""
+    i, j, power = _periodogram(heights)
+    if not power.ravel()[1:].any():
+        raise ValueError("heights must not be flat: they hold no wave")
+    length = number("length", length)
+    square, shell = np.unique(i**2 + j**2, return_inverse=True)
+    total = np.bincount(shell.ravel(), weights=power.ravel())
+    # Modes that hold nothing but rounding are not part of the surface's band.
+    keep = (square > 0) & (total > 1e-24 * total[1:].sum())
+    return Shells(2 * np.pi / length * np.sqrt(square[keep]), total[keep])
+
+
+def moments(heights: NDArray, length: float) -> Moments:
+    """Spectral moments of periodic heights `(n, n)`, derivatives taken in Fourier space."""
+    i, j, power = _periodogram(heights)
+    length = number("length", length)
+    power = np.where((i == 0) & (j == 0), 0.0, power)
+    dq = 2 * np.pi / length
+    kx, ky = i * dq, j * dq
+    orders = (0, 0), (2, 0), (0, 2), (4, 0), (2, 2), (0, 4)
+    return Moments(**{f"m{a}{b}": float(np.sum(kx**a * ky**b * power)) for a, b in orders})
+
+
+def resample(heights: NDArray, n: int) -> NDArray:
+    """Same band-limited surface on a grid of `n` x `n`, by Fourier interpolation.
+
+    ValueError if the coarser grid cannot hold what the heights contain.
+    """
+    heights, n = grid("heights", heights, square=True), integer("n", n, least=1)
+    old = heights.shape[0]
+    if n == old:
+        return heights.copy()
+    coefficients = fft.fft2(heights) / old**2
+    i = fft.fftfreq(old, 1 / old).astype(int)
+    keep = np.abs(i) <= n / 2
+    lost = np.sum(np.abs(coefficients[~keep, :]) ** 2) + np.sum(np.abs(coefficients[:, ~keep]) ** 2)
+    if lost > 1e-20 * np.sum(np.abs(coefficients) ** 2):
+        raise ValueError(
+            f"n = {n} is too coarse: the surface has waves shorter than two pixels; take a larger "
+            f"n, up to the {old} of the heights, or synthesise it with a lower q1"
+        )
+    fine = np.zeros((n, n), dtype=complex)
+    where = np.ix_(i[keep] % n, i[keep] % n)
+    np.add.at(fine, where, coefficients[np.ix_(keep, keep)])
+    return fft.ifft2(fine).real * n**2
+
+
+def check_window(spectrum: Spectrum, length: float) -> None:
+    if not isinstance(spectrum, Spectrum):
+        raise ValueError(f"spectrum must be a Spectrum, got {type(spectrum).__name__}")
+    length = number("length", length)
+    longest = 2 * np.pi / spectrum.band[0]
+    if longest > length * (1 + _ROUNDING):
+        raise ValueError(
+            f"the window does not hold the band: longest wavelength {longest:.6g} "
+            f"exceeds length = {length:.6g}; enlarge length, raise q0"
+            f"{'' if spectrum.isotropic else ' or lower anisotropy'}"
+        )
+
+
+def _check_grid(spectrum: Spectrum, n: int, length: float) -> None:
+    shortest = 2 * np.pi / spectrum.band[1]
+    if shortest < 2 * length / n * (1 - _ROUNDING):
+        lower = f"q1 to {np.pi * n / length:.6g}" if spectrum.isotropic else "q1 or anisotropy"
+        raise ValueError(
+            f"the grid does not hold the band: shortest wavelength {shortest:.6g} is below two "
+            f"pixels of length/n = {length / n:.6g}; take n >= "
+            f"{int(np.ceil(2 * length / shortest))} or lower {lower}"
+        )
+
+
+def list_modes(spectrum: Spectrum, length: float) -> tuple[NDArray, NDArray, NDArray]:
+    """Lattice indices (i, j) of the band, one of each pair +-k, by rising norm, with variances.
+
+    In this order random numbers stay with their modes when the band grows at its upper end.
+    """
+    dq = 2 * np.pi / length
+    reach = int(np.floor(spectrum.band[1] / dq * (1 + _ROUNDING)))
+    if reach < 1:
+        raise ValueError(f"no wave vector of a window of length {length:.6g} lies in the band")
+    if reach > _MOST_WAVES:
+        raise ValueError(
+            f"length = {length:.6g} holds {reach} of the shortest waves, more than {_MOST_WAVES}: "
+            f"q0 = {spectrum.q0:.6g} and q1 = {spectrum.q1:.6g} must be in the inverse of its "
+            "unit; otherwise lower q1 or length"
+        )
+    i, j = np.meshgrid(np.arange(reach + 1), np.arange(-reach, reach + 1), indexing="ij")
+    half = (i > 0) | (j > 0)
+    i, j = i[half], j[half]
+    band = _in_band(spectrum, i, j, dq)
+    i, j = i[band], j[band]
+    order = np.lexsort((j, i, _rank(spectrum, i, j)))
+    i, j = i[order], j[order]
+    variance = _mode_variance(spectrum, i, j, dq)
+    if not variance.any():
+        raise ValueError(f"no wave vector of a window of length {length:.6g} lies in the band")
+    return i, j, variance
+
+
+def _in_band(spectrum: Spectrum, i: NDArray, j: NDArray, dq: float) -> NDArray:
+    """Whether lattice vectors lie in the band."""
+    if isinstance(spectrum, Sum):
+        return np.any([_in_band(part, i, j, dq) for part in spectrum.parts], axis=0)
+    norm = dq * spectrum.norm(i, j)
+    return (norm >= spectrum.q0 * (1 - _ROUNDING)) & (norm <= spectrum.q1 * (1 + _ROUNDING))
+
+
+def _rank(spectrum: Spectrum, i: NDArray, j: NDArray) -> NDArray:
+    """Norm of lattice vectors, or what rises with it; equal ones are equal to the last bit."""
+    if spectrum.isotropic or isinstance(spectrum, Sum):
+        return i**2 + j**2
+    return np.round(np.log(spectrum.norm(i, j)), 10)
+
+
+def _mode_variance(spectrum: Spectrum, i: NDArray, j: NDArray, dq: float) -> NDArray:
+    """Height variance of each mode of the band: C dq^2, or a shell's variance in equal parts."""
+    if isinstance(spectrum, Sum):
+        return sum(_part_variance(part, i, j, dq) for part in spectrum.parts)
+    norm = dq * spectrum.norm(i, j)
+    if not isinstance(spectrum, Shells):
+        return spectrum.psd_of_norm(np.clip(norm, spectrum.q0, spectrum.q1)) * dq**2
+    middle = (spectrum.q[1:] + spectrum.q[:-1]) / 2
+    shell = np.searchsorted(middle, norm)
+    on_shell = np.abs(norm - spectrum.q[shell]) <= _ROUNDING * norm
+    count = 2 * np.bincount(shell[on_shell], minlength=len(spectrum.q))  # with mirror images
+    if not count.all():
+        missing = spectrum.q[np.argmin(count)]
+        raise ValueError(f"no wave vector of the window lies on the shell at q = {missing:.6g}")
+    return np.where(on_shell, (spectrum.variance / count)[shell], 0.0)
+
+
+def _part_variance(part: Spectrum, i: NDArray, j: NDArray, dq: float) -> NDArray:
+    """Height variance of the modes of a sum that one part of it holds, at its own height."""
+    own = _in_band(part, i, j, dq)
+    variance = np.zeros(len(i))
+    variance[own] = _mode_variance(part, i[own], j[own], dq)
+    if part.prescribed == "h_rms" and variance.any():
+        variance *= part.h_rms**2 / (2 * variance.sum())
+    return variance
+
+
+def draw_modes(variance: NDArray, seed: int, amplitudes: Amplitudes) -> NDArray:
+    """Complex amplitudes of modes of given variances; more modes leave the first ones as are."""
+    draws = np.random.Generator(np.random.PCG64(seed)).standard_normal((len(variance), 2))
+    modes = draws[:, 0] + 1j * draws[:, 1]  # E|modes|^2 = 2
+    if amplitudes == "fixed":
+        modes *= np.sqrt(2) / np.abs(modes)
+    modes *= np.sqrt(variance / 2)
+    return modes
+
+
+def sum_modes(i: NDArray, j: NDArray, modes: NDArray, n: int) -> NDArray:
+    """Sum of modes exp(i k x) + complex conjugate on the n x n grid."""
+    coefficients = np.zeros((n, n), dtype=complex)
+    np.add.at(coefficients, (i % n, j % n), modes)
+    np.add.at(coefficients, (-i % n, -j % n), modes.conj())
+    return fft.ifft2(coefficients).real * n**2
+
+
+def _periodogram(heights: NDArray) -> tuple[NDArray, NDArray, NDArray]:
+    """Integer wave vectors and |h_k|^2, which sums to the mean square of the heights."""
+    heights = grid("heights", heights, square=True)
+    n = heights.shape[0]
+    index = fft.fftfreq(n, 1 / n).round().astype(int)
+    i, j = np.meshgrid(index, index, indexing="ij")
+    return i, j, np.abs(fft.fft2(heights) / n**2) ** 2

@@ -5,11 +5,11 @@ import logging
 import numpy as np
 import xarray as xr
 
-from pipeline.conventions import annotate
-from pipeline.job import start
-from pipeline.model_surfaces import cell_size, grid_points, make_heights, model_spectrum
-from stickiness.core import datasets
-from stickiness.surfaces import synthesis
+from common.conventions import annotate
+from common.job import start
+from common.model_surfaces import cell_size, grid_points, make_heights, model_spectrum
+from stickiness import datasets
+from stickiness import surface as synthesis
 
 SOURCES = ["continuum", "lattice", "heights"]
 MOMENTS = ("h_rms", "rms_slope", "rms_curvature", "nayak")

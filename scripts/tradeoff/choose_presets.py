@@ -1,12 +1,12 @@
 """Presets of accuracy from the measured laws, beside those of the configuration."""
 
-from pipeline.job import start
-from pipeline.numbers import table
+from common.formatting import table
+from common.job import start
+from stickiness import datasets
 from stickiness.accuracy import adhesion, plan, prediction
 from stickiness.accuracy.error_models import Surface, read_models
 from stickiness.accuracy.prediction import Problem
 from stickiness.accuracy.quantities import MODELLED, columns_of
-from stickiness.core import datasets
 
 HEAD = """\
 A preset is the cheapest settings whose predicted error, which covers 90 % of means, stays below

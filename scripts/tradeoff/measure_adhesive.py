@@ -10,15 +10,15 @@ import logging
 import numpy as np
 import xarray as xr
 
-from pipeline.adhesion_sets import STRONGEST, scaled_law, solve_at_gap
-from pipeline.conventions import VARIABLES
-from pipeline.job import start
-from pipeline.model_surfaces import cell_size, grid_points, model_spectrum
-from pipeline.tradeoff import measuring
-from stickiness.adhesion import dmt
-from stickiness.contact import solver
-from stickiness.core import datasets
-from stickiness.surfaces import synthesis
+from common.adhesion_sets import STRONGEST, scaled_law, solve_at_gap
+from common.conventions import VARIABLES
+from common.job import start
+from common.model_surfaces import cell_size, grid_points, model_spectrum
+from stickiness import datasets
+from stickiness import surface as synthesis
+from stickiness.adhesive import dmt
+from stickiness.repulsive import solver
+from tradeoff import measuring
 
 FINEST_TOLERANCE = 1e-10  # the reference of the other tolerances
 STATE_TEXTS = {

@@ -7,15 +7,15 @@ import logging
 
 import numpy as np
 
-from pipeline.contact_curves import load_curve
-from pipeline.conventions import Q0, VARIABLES, logarithmic_grid
-from pipeline.job import start
-from pipeline.model_surfaces import model_spectrum
-from pipeline.theory import contact_of
-from pipeline.tradeoff import measuring
-from stickiness.core import datasets
+from common.contact_curves import load_curve
+from common.conventions import Q0, VARIABLES, logarithmic_grid
+from common.job import start
+from common.model_surfaces import model_spectrum
+from common.theory import contact_of
+from stickiness import datasets
+from stickiness import surface as synthesis
 from stickiness.persson.theory import Persson
-from stickiness.surfaces import synthesis
+from tradeoff import measuring
 
 LENGTH = 2 * np.pi / Q0  # a window of one longest wavelength, on which wave numbers are integers
 KEPT = ["area_fraction", "mean_gap", "attractive_area", "rms_slope"]

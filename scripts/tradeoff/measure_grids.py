@@ -5,14 +5,14 @@ import logging
 import numpy as np
 import xarray as xr
 
-from pipeline.contact_curves import measure
-from pipeline.conventions import VARIABLES, logarithmic_grid
-from pipeline.job import start
-from pipeline.model_surfaces import cell_size, grid_points, model_spectrum
-from pipeline.tradeoff import measuring
-from stickiness.contact import solver
-from stickiness.core import datasets
-from stickiness.surfaces import synthesis
+from common.contact_curves import measure
+from common.conventions import VARIABLES, logarithmic_grid
+from common.job import start
+from common.model_surfaces import cell_size, grid_points, model_spectrum
+from stickiness import datasets
+from stickiness import surface as synthesis
+from stickiness.repulsive import solver
+from tradeoff import measuring
 
 FINEST_TOLERANCE = 1e-12  # the reference of the other tolerances
 SINGLE = 1e-4  # tolerance that single precision can meet

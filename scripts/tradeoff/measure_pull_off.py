@@ -9,16 +9,15 @@ import logging
 import numpy as np
 import xarray as xr
 
-from pipeline.adhesion_sets import LEAST, scaled_law
-from pipeline.conventions import VARIABLES
-from pipeline.job import start
-from pipeline.model_surfaces import cell_size, grid_points, model_spectrum
-from pipeline.tradeoff import measuring
-from stickiness import adhesive
-from stickiness.adhesion import dmt
-from stickiness.contact import solver
-from stickiness.core import datasets
-from stickiness.surfaces import synthesis
+from common.adhesion_sets import LEAST, scaled_law
+from common.conventions import VARIABLES
+from common.job import start
+from common.model_surfaces import cell_size, grid_points, model_spectrum
+from stickiness import adhesive, datasets
+from stickiness import surface as synthesis
+from stickiness.adhesive import dmt
+from stickiness.repulsive import solver
+from tradeoff import measuring
 
 DECADES, PER_DECADE = 4, 10  # of the loads below the largest, for the DMT limit
 

@@ -8,15 +8,15 @@ import logging
 
 import numpy as np
 
-from pipeline.coarse_solutions import DESCRIBED_FROM, SOLVED_FROM
-from pipeline.contact_curves import COARSE, load_curve
-from pipeline.conventions import VARIABLES, logarithmic_grid
-from pipeline.job import start
-from pipeline.model_surfaces import cell_size, grid_points, model_spectrum
-from pipeline.tradeoff import measuring
+from common.coarse_solutions import DESCRIBED_FROM, SOLVED_FROM
+from common.contact_curves import COARSE, load_curve
+from common.conventions import VARIABLES, logarithmic_grid
+from common.job import start
+from common.model_surfaces import cell_size, grid_points, model_spectrum
+from stickiness import datasets
+from stickiness import surface as synthesis
 from stickiness.accuracy import multilevel
-from stickiness.core import datasets
-from stickiness.surfaces import synthesis
+from tradeoff import measuring
 
 KEPT = ("area_fraction", "mean_gap", "attractive_area", "rms_slope")
 CONTINUUM = ("pixel_area_fraction", "pixel_attractive_area", "edges", "edge_gap")

@@ -3,13 +3,13 @@
 import numpy as np
 import xarray as xr
 
-from pipeline.conventions import VARIABLES, logarithmic_grid
-from pipeline.job import start
-from pipeline.model_surfaces import model_spectrum
-from pipeline.theory import contact_of
-from pipeline.tradeoff import measuring
-from stickiness.core import datasets
+from common.conventions import VARIABLES, logarithmic_grid
+from common.job import start
+from common.model_surfaces import model_spectrum
+from common.theory import contact_of
+from stickiness import datasets
 from stickiness.persson.theory import Persson
+from tradeoff import measuring
 
 REPETITIONS = 3  # of a state, whose least time counts
 

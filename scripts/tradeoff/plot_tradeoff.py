@@ -4,15 +4,15 @@ import itertools
 
 import numpy as np
 
-from pipeline import plotting
-from pipeline.job import start
-from pipeline.plotting import COLOURS, GREY, MARKERS, write_ticks
-from pipeline.tradeoff import summary
+from common import plotting
+from common.job import start
+from common.plotting import COLOURS, GREY, MARKERS, write_ticks
 from stickiness.accuracy import plan
 from stickiness.accuracy.choice import COARSE_SEEDS, PIXELS, SEEDS, TOLERANCES
 from stickiness.accuracy.error_models import Settings, Surface, read_models
 from stickiness.accuracy.prediction import Problem, predicted_cost, worst_error
 from stickiness.accuracy.quantities import MODELLED, columns_of
+from tradeoff import summary
 
 LOADS = ("0.01", "0.065", "0.3")
 SHOWN = {"area": "contact area", "a_v": r"$a_V$", "mean_gap": "mean gap"}

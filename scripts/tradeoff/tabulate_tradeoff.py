@@ -6,22 +6,22 @@ import numpy as np
 import pandas as pd
 import xarray as xr
 
-from pipeline.job import start
-from pipeline.numbers import table as markdown_table
-from pipeline.tradeoff import summary
-from pipeline.tradeoff.adhesion_rows import list_adhesion_rows, list_pull_offs, list_states
-from pipeline.tradeoff.contact_rows import (
+from common.formatting import table as markdown_table
+from common.job import start
+from stickiness import datasets
+from stickiness.accuracy.error_models import Surface, write_models
+from tradeoff import summary
+from tradeoff.adhesion_rows import list_adhesion_rows, list_pull_offs, list_states
+from tradeoff.contact_rows import (
     list_band_rows,
     list_grid_rows,
     list_node_rows,
     list_seed_rows,
     list_theory_rows,
 )
-from pipeline.tradeoff.fit_laws import Points
-from pipeline.tradeoff.law_points import add_costs, add_grid_errors, add_sampling, add_tolerances
-from pipeline.tradeoff.seed_pool import make_pool
-from stickiness.accuracy.error_models import Surface, write_models
-from stickiness.core import datasets
+from tradeoff.fit_laws import Points
+from tradeoff.law_points import add_costs, add_grid_errors, add_sampling, add_tolerances
+from tradeoff.seed_pool import make_pool
 
 TEXTS = {
     "knob": "what is varied",

@@ -11,10 +11,9 @@ from dataclasses import replace
 import numpy as np
 import xarray as xr
 
-from pipeline.job import start
-from pipeline.numbers import table
-from pipeline.tradeoff.measuring import COVERED
-from pipeline.tradeoff.seed_pool import Resampling, make_pool
+from common.formatting import table
+from common.job import start
+from stickiness import datasets
 from stickiness.accuracy.choice import (
     COARSE_SEEDS,
     PIXELS,
@@ -33,8 +32,9 @@ from stickiness.accuracy.error_models import (
 )
 from stickiness.accuracy.prediction import Problem
 from stickiness.accuracy.quantities import MODELLED, columns_of
-from stickiness.core import datasets
-from stickiness.core.statistics import COVERS
+from stickiness.statistics import COVERS
+from tradeoff.measuring import COVERED
+from tradeoff.seed_pool import Resampling, make_pool
 
 CASES, SEARCHES = 60, 120  # repetitions: of every case, and in the search of what is cheapest
 DESCRIBED = 2048

@@ -8,10 +8,10 @@ import pandas as pd
 import xarray as xr
 from helpers.experiments import EXPERIMENTS, make_dataset
 
-from pipeline import conventions
-from pipeline.conventions import LOAD
+from common import conventions
+from common.conventions import LOAD
 from stickiness import criteria, surface
-from stickiness.core import budget
+from stickiness import error_budget as budget
 from stickiness.criteria.registry import REMAINING
 from stickiness.spectrum import SelfAffine
 

@@ -6,7 +6,7 @@ import json
 import numpy as np
 import xarray as xr
 
-from pipeline.experiments.entries import OBSERVED_UNITS, read_observation
+from experiments.entries import OBSERVED_UNITS, read_observation
 from stickiness.criteria.registry import CRITERIA
 
 

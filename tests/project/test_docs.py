@@ -129,7 +129,7 @@ def test_metadata_of_the_catalog():
 
 # Folders that pages name files by; the packages below `scripts` stand without it in tables.
 FOLDERS = ("scripts", "rules", "config", "benchmarks", "examples", "envs", "profiles", "tests")
-PACKAGES = ("stickiness", "pipeline")
+PACKAGES = ("stickiness", "common")
 
 
 def paths_of(page):

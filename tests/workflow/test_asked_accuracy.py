@@ -4,8 +4,8 @@ import re
 
 import pytest
 
+from stickiness import datasets
 from stickiness.accuracy import plan
-from stickiness.core import datasets
 
 pytestmark = pytest.mark.workflow
 

@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 import yaml
 
-from stickiness.core import budget, datasets
+from stickiness import datasets
+from stickiness import error_budget as budget
 
 pytestmark = pytest.mark.workflow
 

@@ -9,7 +9,7 @@ import time
 import psutil
 import pytest
 
-from stickiness.core import datasets
+from stickiness import datasets
 
 pytestmark = pytest.mark.workflow
 

@@ -11,7 +11,7 @@ import yaml
 from helpers.copy_workflow import SURFACES as REAL_SURFACES
 from snakemake.utils import update_config
 
-from stickiness.core import datasets
+from stickiness import datasets
 
 pytestmark = pytest.mark.workflow
 

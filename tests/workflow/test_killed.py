@@ -7,7 +7,7 @@ import time
 
 import pytest
 
-from stickiness.core import datasets
+from stickiness import datasets
 
 pytestmark = pytest.mark.workflow
 

@@ -80,7 +80,7 @@ def test_accuracy_has_its_own_grid_and_seeds(fresh):
 
 def test_a_case_of_area_alone_runs(fresh):
     """Not a dry-run: files without attractive areas go through every stage."""
-    from stickiness.core import datasets
+    from stickiness import datasets
 
     cases(
         fresh,

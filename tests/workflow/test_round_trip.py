@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from stickiness.core import datasets
+from stickiness import datasets
 
 pytestmark = pytest.mark.workflow
 

@@ -19,7 +19,7 @@ from stickiness.accuracy.prediction import (
     mean_variance,
     worst_error,
 )
-from stickiness.core.statistics import COVERS
+from stickiness.statistics import COVERS
 
 SAME_COST = 1.05  #: ratio of costs that were not measured well enough to tell them apart
 

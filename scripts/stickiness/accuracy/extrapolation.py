@@ -75,7 +75,7 @@ def _values(hurst: float, magnification: float, pressure: float) -> dict[str, fl
     """Columns by theory on continuous spectra, up to factors that no magnification changes."""
     # Every job of a run reads the configuration; theory is loaded only if a case extrapolates.
     from stickiness.persson.theory import Persson
-    from stickiness.surfaces.spectrum import SelfAffine
+    from stickiness.spectrum.kinds import SelfAffine
 
     theory = Persson(SelfAffine(hurst=hurst, q0=1.0, q1=magnification, h_rms=1.0))
     found = {name: COLUMNS[name].of_theory for name in columns_of(MODELLED)}

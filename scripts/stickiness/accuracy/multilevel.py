@@ -37,15 +37,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy import fft
 
-from stickiness.core.arguments import integer
-from stickiness.surfaces.spectrum import Spectrum
-from stickiness.surfaces.synthesis import (
-    Amplitudes,
-    check_window,
-    draw_modes,
-    list_modes,
-    sum_modes,
-)
+from stickiness.arguments import integer
+from stickiness.spectrum.kinds import Spectrum
+from stickiness.surface import Amplitudes, check_window, draw_modes, list_modes, sum_modes
 
 _SUMMITS = (0.01, 0.03, 0.1, 0.3)  # share of the area whose mean height is taken
 DESCRIPTORS = (

@@ -31,7 +31,7 @@ from stickiness.accuracy.error_models import (
     nearest_measured,
     single_error,
 )
-from stickiness.core.statistics import COVERS, covering_multiple
+from stickiness.statistics import COVERS, covering_multiple
 
 # By how much the error of the worst quantity is widened, see `joint_error`. With 1.1 and models
 # fitted without the surface at hand, 96 % of runs on the four surfaces of `finer` were within the

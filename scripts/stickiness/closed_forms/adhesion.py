@@ -18,7 +18,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from stickiness.adhesion.laws import TractionLaw
+from stickiness.adhesive.laws import TractionLaw
+from stickiness.arguments import plain, positive
 from stickiness.closed_forms.contact import Hertz, PositiveFields, full_contact_pressure
 from stickiness.closed_forms.maugis_sphere import (
     MaugisSphere,
@@ -28,7 +29,6 @@ from stickiness.closed_forms.maugis_sphere import (
     tabor_parameter,
 )
 from stickiness.closed_forms.wave import AdhesiveWave, MaugisWave, WaveState
-from stickiness.core.arguments import plain, positive
 
 __all__ = [
     "AdhesiveWave",

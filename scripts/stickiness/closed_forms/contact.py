@@ -10,9 +10,9 @@ from dataclasses import dataclass
 import numpy as np
 from scipy import optimize, special
 
-from stickiness.contact import half_space
-from stickiness.contact.grids import check_length
-from stickiness.core.arguments import positive
+from stickiness.arguments import positive
+from stickiness.repulsive import half_space
+from stickiness.repulsive.grids import check_length
 
 
 class PositiveFields:

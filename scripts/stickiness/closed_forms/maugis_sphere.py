@@ -12,9 +12,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy import optimize
 
-from stickiness.adhesion.equivalent_sphere import opening
+from stickiness.arguments import plain, positive
 from stickiness.closed_forms.contact import PositiveFields
-from stickiness.core.arguments import plain, positive
+from stickiness.equivalent_sphere import opening
 
 _EDGE = np.pi / 2  # the angle arccos(a/c) of a point contact within a cohesive zone
 

@@ -16,8 +16,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy import optimize
 
+from stickiness.arguments import plain
 from stickiness.closed_forms.contact import PositiveFields, Westergaard
-from stickiness.core.arguments import plain
 
 # Gauss-Legendre on [0, 1] after a substitution that is flat of third order at either end: it
 # removes a square root at one and a logarithm at the other to some 1e-11.

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from stickiness.core.arguments import positive
+from stickiness.arguments import positive
 
 __all__ = ["AvFit", "fit_a_v", "local_exponent", "window_sensitivity"]
 

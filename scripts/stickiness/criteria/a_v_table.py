@@ -17,9 +17,9 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.interpolate import RegularGridInterpolator
 from scipy.special import ndtri
 
-from stickiness.core.arguments import plain, positive
+from stickiness.arguments import plain, positive
 from stickiness.persson.theory import Persson
-from stickiness.surfaces.spectrum import Spectrum
+from stickiness.spectrum.kinds import Spectrum
 
 PARTED = 1.5  #: ratio of the theory's variants from which on neither resolves the edges of contact
 VARIANTS = ("afferrante2018", "almqvist2011")  #: P(0) infinite and finite: limits on the truth

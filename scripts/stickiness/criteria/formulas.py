@@ -16,7 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import minimize_scalar
 from scipy.special import ndtr
 
-from stickiness.adhesion.area_load import (  # noqa: F401
+from stickiness.area_load import (  # noqa: F401
     h_rms_limit,
     inverse_kappa,
     inverse_kappa_ad,
@@ -27,8 +27,8 @@ from stickiness.adhesion.area_load import (  # noqa: F401
     traction_ratio,
     violano_c0_limit,
 )
-from stickiness.core.arguments import plain, positive
-from stickiness.surfaces.spectrum import Spectrum
+from stickiness.arguments import plain, positive
+from stickiness.spectrum.kinds import Spectrum
 
 __all__ = [  # noqa: PLE0604
     *("CRYSTAL_RANGE_RATIO", "DAHLQUIST_LIMIT", "PRINTED_A_V", "PR_CONSTANT", "DmtValidity"),

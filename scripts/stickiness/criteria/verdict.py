@@ -9,8 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from stickiness.core.arguments import positive
-from stickiness.core.plausibility import PlausibilityWarning, warn_of_si
+from stickiness.arguments import positive
 from stickiness.criteria.a_v_table import VARIANTS, SurfaceAv, theory_a_v
 from stickiness.criteria.formulas import pastewka_robbins_a_v
 from stickiness.criteria.pair import REGIMES, WORDS, Pair, classify_edges, decide
@@ -18,6 +17,7 @@ from stickiness.criteria.registry import CRITERIA, EDGES, REMAINING
 from stickiness.measured import instrument_spectrum
 from stickiness.measured.plausibility import doubt_heights
 from stickiness.measured.topography import Topography
+from stickiness.plausibility import PlausibilityWarning, warn_of_si
 from stickiness.remaining.prediction import (
     DEFAULT_SHARE,
     PULL_OFF_UNKNOWN,
@@ -25,8 +25,8 @@ from stickiness.remaining.prediction import (
     find_widening,
 )
 from stickiness.solids import HALF_SPACE, Layer, Solid
-from stickiness.surfaces.direction import find_ratio
-from stickiness.surfaces.interface import Spectrum
+from stickiness.spectrum.direction import find_ratio
+from stickiness.spectrum.interface import Spectrum
 
 LOAD = 0.065  #: mean pressure over E* q0 h_rms, amid those where area grows with load in proportion
 RANGES = np.geomspace(1e-14, 10, 61)  #: over h_rms, where theory's a_V is evaluated

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from stickiness.core.arguments import number, numbers
+from stickiness.arguments import number, numbers
 from stickiness.measured import profiles
 from stickiness.measured.cutoff import find_bend, tip_cutoff
 from stickiness.measured.psd import RadialPSD, Taper, merge_rings, power_spectrum, radial_average
@@ -19,7 +19,7 @@ from stickiness.measured.self_affine_fit import (
     narrow_rings,
 )
 from stickiness.measured.topography import Profile, Topography
-from stickiness.surfaces.spectrum import Tabulated
+from stickiness.spectrum.kinds import Tabulated
 
 RINGS = 10  #: per decade, of the spectrum that is shown and integrated
 _ROUNDING = 1e-13  # relative range of heights below which they are all the same

@@ -17,7 +17,7 @@ from numpy.typing import ArrayLike, NDArray
 from scipy import fft
 
 from stickiness.measured.psd import power_spectrum
-from stickiness.surfaces.spectrum import Shells
+from stickiness.spectrum.kinds import Shells
 
 Periodisation = Literal["taper", "mirror", "smooth", "given"]
 

@@ -12,10 +12,10 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from stickiness.core.plausibility import LONGEST_SIDE, REFUSED_SIDE, SHORTEST_SIDE
-from stickiness.core.statistics import COVERS
 from stickiness.measured.self_affine_fit import SelfAffineFit
 from stickiness.measured.spikes import find_spikes
+from stickiness.plausibility import LONGEST_SIDE, REFUSED_SIDE, SHORTEST_SIDE
+from stickiness.statistics import COVERS
 
 # Share of the points with one value above which it stands out, if it is so many times as frequent
 # as the values next to it. Up to 6 times were seen, at 1 % of the points (elevations in metres).

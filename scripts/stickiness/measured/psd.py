@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy import fft
 
-from stickiness.core.arguments import grid, number
+from stickiness.arguments import grid, number
 
 Taper = Literal["none", "hann", "hann_radial"]
 Spacing = Literal["log", "linear"]

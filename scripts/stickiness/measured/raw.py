@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from stickiness.core.units import si
+from stickiness.units import si
 
 Length = str | float  # "10 um", or metres
 

@@ -13,9 +13,9 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from stickiness.core.units import si
 from stickiness.measured import instruments, text_header, text_matrix, text_points
 from stickiness.measured.raw import Raw, sides
+from stickiness.units import si
 
 INSTRUMENT = "instrument"
 OWN_FORMATS = ("netcdf", "numpy", "text")

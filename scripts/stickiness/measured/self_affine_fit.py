@@ -20,7 +20,7 @@ from scipy import special
 
 from stickiness.measured import whittle
 from stickiness.measured.psd import PowerSpectrum, RadialPSD, merge_rings, radial_average
-from stickiness.surfaces.spectrum import SelfAffine
+from stickiness.spectrum.kinds import SelfAffine
 
 LOWEST_MODES = 4  #: lattice steps left out at low q if the heights were tapered
 NYQUIST_SHARE = 0.5  #: default highest q over q_Nyquist

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from stickiness.measured.instrument_spectrum import MeasuredSpectrum
 from stickiness.measured.stitching import Stitched
-from stickiness.surfaces.spectrum import PowerLawSegments
+from stickiness.spectrum.kinds import PowerLawSegments
 
 ORDERS = {"h_rms": 0, "rms_slope": 2, "rms_curvature": 4, "elastic_energy": 1}
 

@@ -10,7 +10,7 @@ from scipy.special import erf, erfc
 
 from stickiness.persson.lost_contact import TAIL_LOG, GapCurve, LostContact, Setting, visible_range
 from stickiness.persson.scale_quadrature import knots
-from stickiness.surfaces.spectrum import Shells
+from stickiness.spectrum.kinds import Shells
 
 # Gauss quadrature, by the least change that a panel sees.
 _RULES = {

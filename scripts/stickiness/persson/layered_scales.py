@@ -31,8 +31,8 @@ from numpy.typing import NDArray
 from stickiness.persson.kernels import Kernels
 from stickiness.persson.scale_quadrature import scale_edges
 from stickiness.solids import Layer
-from stickiness.surfaces.band_integral import integrate_band
-from stickiness.surfaces.spectrum import Shells, Spectrum
+from stickiness.spectrum.band_integral import integrate_band
+from stickiness.spectrum.kinds import Shells, Spectrum
 
 _ORDER = 8  # of Gauss quadrature on panels
 _FINE, _MOST_PARTS = 0.1, 20  # parts of panels, in ln m

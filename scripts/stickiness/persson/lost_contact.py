@@ -18,7 +18,7 @@ from scipy.special import erf
 
 from stickiness.persson.kernels import Kernels
 from stickiness.persson.scale_quadrature import ScaleNodes
-from stickiness.surfaces.spectrum import Spectrum
+from stickiness.spectrum.kinds import Spectrum
 
 SMALLEST_LOG = 45.0  #: gaps below exp(-45) of the others count as zero
 TAIL_LOG = 38.0  #: area lost beyond holds less than exp(-38) of what is lost in all

@@ -14,7 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from stickiness.surfaces.spectrum import Shells, Spectrum
+from stickiness.spectrum.kinds import Shells, Spectrum
 
 _ORDER = 7  # of Gauss quadrature on panels
 _WIDEST = 0.7  # panels, in ln q

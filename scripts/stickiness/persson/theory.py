@@ -38,8 +38,7 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import brentq
 from scipy.special import erf
 
-from stickiness.core.arguments import finite, nonnegative, number, positive
-from stickiness.core.plausibility import warn_of_pressure
+from stickiness.arguments import finite, nonnegative, number, positive
 from stickiness.persson.gaps import GapProfile, closure_error, gap_profile
 from stickiness.persson.gaps import cumulative as _cumulative
 from stickiness.persson.gaps import density as _density
@@ -47,8 +46,9 @@ from stickiness.persson.kernels import CorrectionName, kernels
 from stickiness.persson.layered_scales import LayeredScales
 from stickiness.persson.lost_contact import Setting
 from stickiness.persson.scale_quadrature import scale_nodes
+from stickiness.plausibility import warn_of_pressure
 from stickiness.solids import HALF_SPACE, Solid, check_solid
-from stickiness.surfaces.spectrum import Spectrum
+from stickiness.spectrum.kinds import Spectrum
 
 Variant = Literal["afferrante2018", "almqvist2011"]
 

@@ -16,13 +16,13 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.interpolate import PchipInterpolator
 
-from stickiness.adhesion import edge_zone
-from stickiness.adhesion.laws import TractionLaw
-from stickiness.adhesion.path import PathPoint, path
-from stickiness.adhesion.scaling import SEPARATION
-from stickiness.contact.solver import ConvergenceError
-from stickiness.core.arguments import grid, number
-from stickiness.core.plausibility import PlausibilityWarning
+from stickiness.adhesive import edge_zone
+from stickiness.adhesive.laws import TractionLaw
+from stickiness.adhesive.path import PathPoint, path
+from stickiness.adhesive.scaling import SEPARATION
+from stickiness.arguments import grid, number
+from stickiness.plausibility import PlausibilityWarning
+from stickiness.repulsive.solver import ConvergenceError
 from stickiness.solids import HALF_SPACE, Solid, check_solid
 
 REACH = 4.0  #: ranges between the highest point and the surface where the approach begins

@@ -49,8 +49,8 @@ from numpy.typing import NDArray
 from scipy.optimize import brentq, minimize_scalar
 from scipy.special import erfc as erfcs
 
-from stickiness.core.arguments import number
-from stickiness.surfaces.spectrum import Shells, Spectrum
+from stickiness.arguments import number
+from stickiness.spectrum.kinds import Shells, Spectrum
 
 WEIGHT = 0.45  #: of the literature
 # Least share that is told from nothing: towards the onset of adhesion the area vanishes as a small

@@ -8,10 +8,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import elementwise
 
-from stickiness.core.arguments import number, plain, positive
+from stickiness.arguments import number, plain, positive
 from stickiness.remaining.share import ONSET, find_onset, remaining_share, tough_area
 from stickiness.solids import HALF_SPACE, Film, Layer, Solid, check_solid
-from stickiness.surfaces.interface import Spectrum
+from stickiness.spectrum.interface import Spectrum
 
 # Errors of the onset; of a share, relative and in proportion to what is lost; and of a share,
 # absolute, which is all that is known of small ones. In simulations of two by two waves and more

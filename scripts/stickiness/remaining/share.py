@@ -48,7 +48,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.special import erfcx, lambertw, ndtr
 
-from stickiness.core.arguments import plain, positive
+from stickiness.arguments import plain, positive
 
 ONSET, ADVANCE = 0.43, 1.3
 SHARPNESS = 8.0  #: of the corner between tough and weak

@@ -22,8 +22,8 @@ from functools import cache
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from stickiness.arguments import plain, positive
 from stickiness.closed_forms.adhesion import JKRSphere, MaugisSphere, maugis_parameter
-from stickiness.core.arguments import plain, positive
 from stickiness.remaining.prediction import HYSTERESIS, Roughness
 from stickiness.remaining.share import find_onset, tough_area
 

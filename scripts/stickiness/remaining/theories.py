@@ -10,9 +10,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from stickiness.core.arguments import plain, positive
+from stickiness.arguments import plain, positive
 from stickiness.persson.theory import Persson
-from stickiness.surfaces.spectrum import Spectrum
+from stickiness.spectrum.kinds import Spectrum
 
 # Of the tough limit of `adhesion.equivalent_sphere` with the a_V of the edges of contact and a
 # slope of area against load of 2: contact grows by itself from l_a = LOCAL h'^3/h'' on.

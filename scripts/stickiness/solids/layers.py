@@ -41,7 +41,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from stickiness.core.arguments import number, plain, positive
+from stickiness.arguments import number, plain, positive
 
 _SHORTEST = 25.0  # k beyond which S is 1 to rounding
 _SERIES = 1.5  # 2k below which sinh and cosh are expanded

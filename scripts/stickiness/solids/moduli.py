@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from stickiness.core.arguments import plain, positive
+from stickiness.arguments import plain, positive
 
 REFERENCE_FREQUENCY = 1.0  #: Hz, Dahlquist's
 _GLASSY = 1e100  # x from which on a term is E_i to rounding; its square does not overflow

@@ -42,7 +42,7 @@ from stickiness.accuracy.prediction import (
     predicted_cost,
     worst_error,
 )
-from stickiness.core.statistics import COVERS
+from stickiness.statistics import COVERS
 
 ROOT = Path(__file__).parents[3]
 TABLE = ROOT / "config/accuracy.csv"

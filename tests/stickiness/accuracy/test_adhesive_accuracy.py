@@ -11,8 +11,7 @@ import xarray as xr
 import yaml
 
 from adhesion import solve_adhesive
-from pipeline import ensemble_means
-from pipeline.tradeoff.adhesion_rows import scattered, threshold, varied
+from common import ensemble_means
 from stickiness import adhesive, repulsive, spectrum, surface
 from stickiness.accuracy import adhesion, plan
 from stickiness.accuracy.choice import COARSE_SEEDS, PIXELS, SEEDS, TOLERANCES, UnreachableError
@@ -24,6 +23,7 @@ from stickiness.accuracy.error_models import (
     single_error,
 )
 from stickiness.accuracy.prediction import Problem
+from tradeoff.adhesion_rows import scattered, threshold, varied
 
 ROOT = Path(__file__).parents[3]
 TABLE = ROOT / "config/accuracy.csv"

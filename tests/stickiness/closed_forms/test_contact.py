@@ -5,7 +5,7 @@ import pytest
 
 from stickiness import repulsive, spectrum, surface
 from stickiness.closed_forms import contact as reference
-from stickiness.contact import subpixel
+from stickiness.repulsive import subpixel
 
 
 def displacement_under(ellipse, points=400):

@@ -6,10 +6,10 @@ import xarray as xr
 
 from fits import tabulate_a_v
 from persson import persson_table
-from stickiness.core.statistics import COVERS
 from stickiness.criteria.a_v_table import NEEDED, PARTED, AvTable, edge_range, local_a_v
 from stickiness.persson import Persson
 from stickiness.spectrum import SelfAffine
+from stickiness.statistics import COVERS
 
 GAMMA = 0.45
 AXES = {

@@ -8,8 +8,7 @@ import yaml
 from scipy.optimize import brentq
 from scipy.stats import norm
 
-from stickiness import adhesive, criteria, dmt, spectrum
-from stickiness.core import units
+from stickiness import adhesive, criteria, dmt, spectrum, units
 
 # A point far from all thresholds and with no two numbers alike, in arbitrary units.
 POINT = {"h_rms": 2.0, "q0": 0.03, "adhesion_length": 0.011, "range": 0.3}

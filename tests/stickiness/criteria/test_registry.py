@@ -6,14 +6,14 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from criteria import compare_criteria
+from common.plotting import make_panels
+from criteria import compare_criteria, joint, judging
+from criteria.materials import read_material
+from criteria.verdict_markdown import write_markdown
 from figures import plot_fig9
-from pipeline.pages import report, verdict_texts
-from pipeline.plotting import make_panels
-from pipeline.verdicts import joint, judging
-from pipeline.verdicts.markdown import write_markdown
-from pipeline.verdicts.materials import read_material
-from stickiness.core import datasets
+from report import report_parts as report
+from report import verdict_texts
+from stickiness import datasets
 from stickiness.criteria.a_v_table import SurfaceAv
 from stickiness.criteria.registry import CRITERIA, REMAINING, Criterion
 from stickiness.spectrum import SelfAffine

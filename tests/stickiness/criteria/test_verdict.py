@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 
 from stickiness import surface
-from stickiness.core.plausibility import PlausibilityWarning
 from stickiness.criteria import verdict as module
 from stickiness.criteria.pair import WORDS, decide
 from stickiness.criteria.registry import CRITERIA, EDGES, REMAINING
 from stickiness.criteria.verdict import verdict
+from stickiness.plausibility import PlausibilityWarning
 from stickiness.remaining.prediction import DEFAULT_SHARE
 from stickiness.spectrum import SelfAffine
 

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from stickiness.config import checks
-from stickiness.core.units import si
+from common.config import checks
 from stickiness.measured import levelling, text_matrix, topography
+from stickiness.units import si
 
 CONFIG = Path(__file__).parents[3] / "config"
 

@@ -15,7 +15,7 @@ from stickiness.remaining.multiscale import (
     group_shells,
     remaining_adhesion,
 )
-from stickiness.surfaces.spectrum import SelfAffine, Shells, Tabulated
+from stickiness.spectrum.kinds import SelfAffine, Shells, Tabulated
 
 
 def power_law(magnification=16.0, hurst=0.8):

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from pipeline import remaining_table
+from common import remaining_table
 from stickiness.remaining.share import (
     ONSET,
     find_onset,

@@ -7,9 +7,9 @@ import pytest
 import xarray as xr
 from scipy import integrate
 
-from pipeline.verdicts import materials
-from pipeline.verdicts.probabilities import draw_pair
-from pipeline.verdicts.words import decide_pairs
+from criteria import materials
+from criteria.probabilities import draw_pair
+from criteria.words import decide_pairs
 from stickiness.criteria.pair import WORDS
 from stickiness.criteria.registry import EDGES
 from stickiness.remaining.prediction import DEFAULT_SHARE, Roughness

@@ -1,0 +1,170 @@
+"""Error budgets of what simulation and theory give, by error models.
+
+The models are for the columns of their table. What lies between two of the ranges of attraction is
+interpolated, and what lies outside is widened like all that was not measured.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from common.conventions import GAPS_MEASURED, VARIANT
+from common.grid_limits import LEFT
+from stickiness.accuracy.error_models import OUTSIDE, ErrorModels, Settings, Surface, single_error
+from stickiness.accuracy.prediction import Problem, covering_factor
+from stickiness.accuracy.quantities import COLUMNS, has_error_model
+from stickiness.error_budget import Part, absent, unknown
+from stickiness.statistics import students_t
+
+# Columns of the error models, by variables of an ensemble's file and, over h_rms, by ranges.
+COLUMN_OF = {c.variable: c.name for c in COLUMNS.values() if "range" not in c.at}
+COLUMN_AT_RANGE = {c.at["range"]: c.name for c in COLUMNS.values() if "range" in c.at}
+NOT_MEASURED = "how this quantity changes with the tolerance is not measured"
+ENDLESS = np.inf  # window of a continuous spectrum
+
+SIMULATED = {
+    "bandwidth": absent("the case's own spectrum is simulated"),
+    "model": absent("linear elastic half-space and hard wall define the quantity"),
+}
+BY_THEORY = {
+    "solver": absent("nothing is iterated"),
+    "sampling": absent("theory is of the ensemble"),
+    "bandwidth": absent("of the spectrum stated"),
+}
+MODEL = f"of {VARIANT} against simulation, as measured; of other variants not measured"
+# Relative, of the quadrature with the default number of nodes, see `stickiness.persson.Persson`.
+QUADRATURE = {"area_fraction": 1e-9, "mean_gap": 1e-9, "attractive_area": 5e-7, "gap_density": 5e-6}
+
+
+@dataclass(frozen=True)
+class Simulation:
+    """Errors of a mean over realisations, beside its own standard error."""
+
+    problem: Problem
+    settings: Settings
+
+    @classmethod
+    def of(cls, models: ErrorModels, made: Mapping[str, Any]) -> Simulation:
+        """From the parameters of an ensemble's file, or of one that derives from it."""
+        seeds, described = len(made["seeds"]), made.get("descriptor_seeds", 2048)
+        knobs = made["pixels_per_wavelength"], made["tolerance"], seeds
+        settings = Settings(*knobs, made.get("coarse_seeds", 0))
+        return cls(Problem(models, Surface.of(made), (), (), described), settings)
+
+    def solver(self, name: str, like: xr.DataArray) -> xr.DataArray:
+        """Relative error by the tolerance of the solver, along a variable."""
+        models, surface = self.problem.models, self.problem.surface
+        knob = {"tolerance": self.settings.tolerance}
+
+        def single(column, load):
+            return single_error(models, "solver", column, surface, load, **knob)
+
+        return along(single, name, like)
+
+    def factors(self, name: str, like: xr.DataArray) -> xr.DataArray:
+        """Standard errors that cover 90 % of means, along a variable, wherever that is."""
+
+        def single(column, load):
+            return covering_factor(self.problem, self.settings, load, column)
+
+        return along(single, name, like, widened=False)
+
+    def parts(
+        self,
+        name: str,
+        value: xr.DataArray,
+        standard_error: xr.DataArray,
+        discretisation: xr.DataArray,
+        text: str = LEFT,
+    ) -> dict[str, Part]:
+        """Parts of the budget of a mean along `pressure`, and `range` or `gap`.
+
+        `name` is that of a variable of an ensemble's file without the ``_mean``, or of a column;
+        `text` says what the discretisation error is.
+        """
+        if name == "attractive_area" or has_error_model(COLUMN_OF.get(name, name)):
+            error, factor = self.solver(name, value), self.factors(name, value)
+            solver = Part(error * abs(value), "by the tolerance, as measured")
+            sampling = Part(factor * standard_error, "Student's t of the standard error")
+        else:
+            factor, solver = students_t(self.settings.seeds), unknown(NOT_MEASURED)
+            sampling = Part(factor * standard_error, "Student's t by the fine seeds alone")
+        discretisation = Part(discretisation, text)
+        parts = {"discretisation": discretisation, "solver": solver, "sampling": sampling}
+        return parts | SIMULATED
+
+
+def along(
+    model: Callable[..., float], name: str, like: xr.DataArray, at: Any = (), widened: bool = True
+) -> xr.DataArray:
+    """Values of a model by column, further coordinates `at` and pressure, along a variable."""
+
+    def by(column):
+        return xr.apply_ufunc(model, column, *at, like.pressure, vectorize=True)
+
+    if name != "attractive_area":
+        return by(COLUMN_OF.get(name, name)) * (widen_gaps(like) if widened else 1.0)
+    ends = {range_: by(column) for range_, column in COLUMN_AT_RANGE.items()}
+    return interpolate_ranges(ends, like["range"], widened)
+
+
+def interpolate_ranges(
+    ends: Mapping[float, xr.DataArray], ranges: xr.DataArray, widened: bool = True
+) -> xr.DataArray:
+    """A power law between the two ranges measured, held and widened outside."""
+    (low, first), (high, last) = ends.items()
+    share = np.log(ranges / low) / np.log(high / low)
+    inside = share.clip(0, 1)
+    found = first ** (1 - inside) * last**inside
+    return found * xr.where(share == inside, 1, OUTSIDE) if widened else found
+
+
+def widen_gaps(like: xr.DataArray) -> xr.DataArray | float:
+    """Factor for gaps outside those that the error of P(u) was measured over."""
+    if "gap" not in like.dims:
+        return 1.0
+    inside = (like.gap >= GAPS_MEASURED[0]) & (like.gap <= GAPS_MEASURED[1])
+    return xr.where(inside, 1.0, OUTSIDE)
+
+
+def theory_error(
+    models: ErrorModels, name: str, like: xr.DataArray, surface: Mapping[str, Any] | None = None
+) -> xr.DataArray:
+    """Relative error of theory in place of simulation; NaN for variants not measured.
+
+    `name` is that of the variable or of a column. The variable `like` has a coordinate `pressure`;
+    without a `surface` also `hurst` and `magnification`, of spectra without a periodic cell.
+    """
+    kind = Surface.of(surface) if surface else Surface(0.8, 1.0, ENDLESS)
+
+    def single(column, hurst, magnification, pressure):
+        at = replace(kind, hurst=hurst, magnification=magnification)
+        return single_error(models, "theory", column, at, pressure)
+
+    where = kind if surface else like
+    found = along(single, name, like, (where.hurst, where.magnification))
+    return found.where(like["variant"] == VARIANT) if "variant" in like.coords else found
+
+
+def theory_parts(
+    models: ErrorModels,
+    name: str,
+    value: xr.DataArray,
+    surface: Mapping[str, Any] | None = None,
+    like: str = "",
+) -> dict[str, Part]:
+    """Parts of the budget of a variable of theory's; arguments as of `theory_error`.
+
+    `like` is the variable with the same error of the quadrature, by default the same.
+    """
+    quadrature = QUADRATURE[like or name] * abs(value)
+    return {
+        "discretisation": Part(quadrature, "of the quadrature, as tested"),
+        "model": Part(theory_error(models, name, value, surface) * abs(value), MODEL),
+        **BY_THEORY,
+    }

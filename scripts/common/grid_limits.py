@@ -1,0 +1,113 @@
+"""What the limit of fine grids changes in the means of ensembles, and the error that is left.
+
+For areas, gaps and P(u) `stickiness.repulsive.grid_limit` gives both. What derives from these means
+inherits shift and error to first order.
+"""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import xarray as xr
+
+from stickiness.repulsive import grid_limit
+
+DIRECT = "error left in the limit of fine grids, covers 90 %"
+LEFT = "left in the limit of fine grids"
+FIRST_ORDER = "twice the change from half the resolution: of first order in the pixel"
+INHERITED = "from the errors left in areas in the limit of fine grids"
+EXTRAPOLATION = "extrapolation"  # ending of the name of what a mean in the file holds of it
+_STEP = 1e-4  # share of a shift or an error in finite differences: first order is meant
+
+
+@dataclass(frozen=True)
+class Limit:
+    """What to add to a mean over the solutions on the finest grid, and the error it then has."""
+
+    shift: xr.DataArray
+    error: xr.DataArray
+
+
+def estimate_limits(
+    realisations: xr.Dataset, quantities: dict[str, Callable[[xr.Dataset], xr.DataArray]]
+) -> dict[str, Limit]:
+    """Limits of means over seeds, for quantities by the names of the rules of `grid_limit`."""
+    fine = realisations.isel(resolution=-1, drop=True)
+    edge_gap = fine.edge_gap.mean("seed")
+    limits = {}
+    for name, quantity in quantities.items():
+        climbs = np.inf
+        if name == "attractive_area":
+            # Nothing is below the gap next to an edge where there is no edge.
+            climbs = (fine["range"] / edge_gap).where(edge_gap > 0, np.inf)
+        values = quantity(realisations)
+        found = grid_limit.estimate(
+            name,
+            [values.isel(resolution=k, drop=True).mean("seed") for k in find_halved(realisations)],
+            subpixel_part(name, fine, quantity(fine)).mean("seed"),
+            fine.edges.sum("seed"),
+            climbs,
+        )
+        limits[name] = Limit(found.value - values.isel(resolution=-1).mean("seed"), found.error)
+    return limits
+
+
+def estimate_first_order(values: xr.DataArray) -> Limit:
+    """Limit of the mean of a quantity that counts whole pixels at the edge: no shift, a wide error.
+
+    What a grid leaves out is then as much as its last change. Twice that covers single surfaces,
+    whose changes scatter.
+    """
+    fine, half = (values.isel(resolution=k, drop=True).mean("seed") for k in (-1, -2))
+    return Limit(xr.zeros_like(fine), 2 * abs(fine - half))
+
+
+def find_halved(realisations: xr.Dataset) -> list[int]:
+    """Indices, up to three, of the finest grids that are each twice as fine as the one before."""
+    resolution = realisations.resolution.values
+    chosen = [len(resolution) - 1]
+    while chosen[0] > 0 and len(chosen) < 3:
+        if not np.isclose(resolution[chosen[0]], 2 * resolution[chosen[0] - 1]):
+            break
+        chosen.insert(0, chosen[0] - 1)
+    return chosen
+
+
+def subpixel_part(name: str, fine: xr.Dataset, values: xr.DataArray) -> xr.DataArray:
+    """What sub-pixel edges contribute to a quantity on one grid, see `grid_limit.estimate`."""
+    area = fine.area_fraction - fine.pixel_area_fraction
+    if name == "area_fraction":
+        return area
+    if name == "mean_gap":
+        return area * fine.edge_gap
+    attractive = fine.attractive_area - fine.pixel_attractive_area
+    if name == "attractive_area":
+        return attractive
+    share = (attractive / fine.attractive_area).where(fine.attractive_area > 0, 0.0)
+    share = share.isel(range=slice(-1)).rename(range="gap")
+    return values * share.assign_coords(gap=values.gap)
+
+
+def inherit(
+    ensemble: xr.Dataset, quantity: Callable[[xr.Dataset], xr.DataArray], names: Sequence[str]
+) -> Limit:
+    """Limit of what derives from the means `names` of an ensemble, to first order.
+
+    The errors of one mean at all loads and ranges are taken to rise and fall together, those of
+    different means to be independent.
+    """
+    means = {name: ensemble[f"{name}_mean"] for name in names}
+    slope = ensemble.rms_slope.mean("seed")
+    rest = xr.Dataset({"rms_slope": slope}, {"pressure": ensemble.pressure})
+    unchanged = quantity(rest.assign(means))
+
+    def change(name, by):
+        moved = quantity(rest.assign({**means, name: means[name] + _STEP * by}))
+        return (moved - unchanged) / _STEP
+
+    shift, square = xr.zeros_like(unchanged), xr.zeros_like(unchanged)
+    for name in names:
+        square = square + change(name, ensemble[f"{name}_discretisation_error"]) ** 2
+        if f"{name}_{EXTRAPOLATION}" in ensemble:
+            shift = shift + change(name, ensemble[f"{name}_{EXTRAPOLATION}"])
+    return Limit(shift, np.sqrt(square))

@@ -1,0 +1,60 @@
+"""Model surfaces of the configuration, in units of `conventions`: spectrum, cell, heights, grid."""
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+from scipy.fft import next_fast_len
+
+from common.conventions import Q0
+from stickiness import datasets
+from stickiness.spectrum.kinds import SelfAffine
+from stickiness.surface import synthesise
+
+
+def model_spectrum(surface: Mapping[str, Any]) -> SelfAffine:
+    """Spectrum of a model surface of the configuration, in units of q0 and h_rms."""
+    rolloff = surface.get("rolloff")
+    return SelfAffine(
+        hurst=surface["hurst"],
+        q0=Q0,
+        q1=Q0 * surface["magnification"],
+        h_rms=1.0,
+        q_rolloff=None if rolloff is None else Q0 * rolloff,
+        anisotropy=surface.get("anisotropy", 1.0),
+        angle=np.radians(surface.get("angle", 0.0)),
+    )
+
+
+def cell_size(surface: Mapping[str, Any]) -> float:
+    """Side of a model surface's periodic cell, in units of 1/q0."""
+    return surface.get("window", 1.0) * 2 * np.pi / Q0
+
+
+def waves_across(surface: Mapping[str, Any]) -> float:
+    """Shortest wavelengths along the side of a model surface's cell."""
+    return surface["magnification"] * surface.get("window", 1.0)
+
+
+def make_heights(surface: Mapping[str, Any], points: int, seed: int) -> NDArray:
+    """Heights over h_rms of one realisation of a model surface on a grid of `points` a side."""
+    amplitudes = surface.get("amplitudes", "gaussian")
+    return synthesise(model_spectrum(surface), points, cell_size(surface), int(seed), amplitudes)
+
+
+def grid_points(asked, pixels_per_wavelength):
+    """Number of grid points, good for the FFT, with at least the pixels asked for.
+
+    A multiple of the even number that does so for 2 pixels, so that the coarser grids of the
+    solutions are part of it.
+    """
+    waves = int(np.ceil(waves_across(asked) - 1e-9))
+    return pixels_per_wavelength * next_fast_len(waves, real=True)
+
+
+def pixels(surface: xr.Dataset) -> float:
+    """Grid points per shortest wavelength of a surface's file, as realised by the grid."""
+    made = datasets.parameters(surface)
+    return made["grid_points"] / waves_across(made)

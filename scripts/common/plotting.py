@@ -1,0 +1,223 @@
+"""Look of the figures: colours that the colour-blind can tell apart, error bars, files."""
+
+from __future__ import annotations
+
+import logging
+import string
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+import matplotlib as mpl
+
+mpl.use("Agg")  # no display on a cluster
+
+import matplotlib.pyplot as plt
+import numpy as np
+import xarray as xr
+from matplotlib.axes import Axes
+from matplotlib.axis import Axis
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.ticker import FixedLocator, FuncFormatter, NullFormatter
+from numpy.typing import ArrayLike, NDArray
+
+from common.formatting import number
+from common.job import start
+from stickiness import datasets
+from stickiness.statistics import COVERS
+
+# Okabe & Ito, Color Universal Design (2008).
+BLACK, ORANGE, SKY, GREEN = "#000000", "#E69F00", "#56B4E9", "#009E73"
+YELLOW, BLUE, RED, PURPLE = "#F0E442", "#0072B2", "#D55E00", "#CC79A7"
+COLOURS = (BLUE, RED, GREEN, ORANGE, PURPLE, SKY, BLACK)
+MARKERS = ("o", "s", "^", "D", "v", "P", "X")
+GREY = "0.45"
+BARS, HOLLOW, FILLED = 3, 3.5, 4  # from back to front: error bars, open points, filled points
+WIDTH = 7.1  # inches, two columns of a journal
+VARIANT_LINES = {"afferrante2018": "-", "almqvist2011": "--"}
+VARIANT_LABELS = {
+    "afferrante2018": "Afferrante et al. 2018",
+    "almqvist2011": "Almqvist et al. 2011",
+}
+
+# Labels of axes that several figures have.
+PRESSURE = r"pressure $p/(E^*q_0h_\mathrm{rms})$"
+GAP = r"gap $u/h_\mathrm{rms}$"
+RANGE = r"range $\epsilon/h_\mathrm{rms}$"
+ADHESION_LENGTH = r"adhesion length $l_a/\epsilon$"
+MAGNIFICATION = r"magnification $\zeta$"
+CONTACT_AREA = r"area $A_\mathrm{rep}/A_\mathrm{nom}$"
+
+SYMBOLS = {
+    "hurst": "$H$",
+    "magnification": r"$\zeta$",
+    "pressure": r"$\hat{p}$",
+    "mean_gap": r"$\bar{u}/h_\mathrm{rms}$",
+    "range": r"$\epsilon/h_\mathrm{rms}$",
+    "adhesion_length": r"$l_a/\epsilon$",
+    "q0_h_rms": r"$q_0h_\mathrm{rms}$",
+    "a_v": "$a_V$",
+}
+
+logging.getLogger("fontTools").setLevel(logging.ERROR)  # else pages about fonts in the log
+
+SETTINGS = {
+    "font.size": 8.5,
+    "axes.titlesize": 8.5,
+    "axes.labelsize": 8.5,
+    "legend.fontsize": 8,
+    "xtick.labelsize": 8,
+    "ytick.labelsize": 8,
+    "figure.titlesize": 9,
+    "axes.linewidth": 0.7,
+    "lines.linewidth": 1.2,
+    "lines.markersize": 4,
+    "xtick.direction": "in",
+    "ytick.direction": "in",
+    "xtick.top": True,
+    "ytick.right": True,
+    "legend.frameon": False,
+    "legend.handlelength": 1.7,
+    "legend.labelspacing": 0.3,
+    "legend.columnspacing": 1.0,
+    "legend.borderaxespad": 0.4,
+    "legend.title_fontsize": 8,
+    "figure.constrained_layout.use": True,
+    "savefig.dpi": 200,
+    "pdf.fonttype": 42,  # text stays text
+}
+
+
+def start_figure(names: dict[str, Any]) -> Any:
+    """Job of the figure whose script has these ``globals()``, found by the script's name."""
+    return start(names, Path(names["__file__"]).stem)
+
+
+def make_panels(
+    rows: str | Sequence[Sequence[str]], height: float, **grid: Any
+) -> tuple[Figure, dict[str, Axes]]:
+    """Figure of `height` inches with lettered panels laid out as in ``subplot_mosaic("AB;CC")``."""
+    mpl.rcParams.update(SETTINGS)
+    return plt.subplot_mosaic(rows, figsize=(WIDTH, height), **grid)
+
+
+def save(figure: Figure, outputs: Iterable[str]) -> None:
+    """Write the figure to every path, whole or not at all, free of the time of writing."""
+    if (engine := figure.get_layout_engine()) is not None:
+        engine.execute(figure)  # once for all paths
+        figure.set_layout_engine("none")
+    # Saving would put the layout engine of the settings in place of none.
+    with mpl.rc_context({"figure.constrained_layout.use": False}):
+        for path in outputs:
+            with datasets.whole_file(path) as temporary:
+                undated = {"CreationDate": None} if temporary.suffix == ".pdf" else {}
+                figure.savefig(temporary, metadata=undated)
+    plt.close(figure)
+
+
+@contextmanager
+def open_figure(
+    outputs: Iterable[str], rows: str | Sequence[Sequence[str]], height: float, **grid: Any
+) -> Iterator[dict[str, Axes]]:
+    """Panels to draw in; at the end those named by a letter show it and the files are written."""
+    figure, panels = make_panels(rows, height, **grid)
+    yield panels
+    for name, ax in panels.items():
+        if name in string.ascii_uppercase:
+            ax.set_title(name, loc="left", fontweight="bold", fontsize=10)
+    save(figure, outputs)
+
+
+def state(**values: float) -> str:
+    """Equations like "H = 0.8, ζ = 64" for the quantities of `SYMBOLS`."""
+    return ", ".join(f"{SYMBOLS[name]} = {number(value)}" for name, value in values.items())
+
+
+def pick_look(index: int, **more: Any) -> dict[str, Any]:
+    """Colour and marker of one of several sets of points."""
+    colour, marker = COLOURS[index % len(COLOURS)], MARKERS[index % len(MARKERS)]
+    return {"color": colour, "marker": marker} | more
+
+
+def shade(values: Sequence) -> Iterator[tuple[NDArray, Any]]:
+    """Every value of an ordered family with its colour, from dark to light."""
+    colours = mpl.colormaps["cividis"](np.linspace(0, 0.9, len(values)))
+    return zip(colours, values, strict=True)
+
+
+def read_errors(data: xr.Dataset, name: str) -> tuple[xr.DataArray, xr.DataArray]:
+    """Sampling error of a variable, and all errors in quadrature; unknown ones are left out."""
+    by_source = data[f"{name}_error"]
+    return by_source.sel(source="sampling").fillna(0), np.sqrt((by_source**2).sum("source"))
+
+
+def draw_points(
+    ax: Axes, x: ArrayLike, data: xr.Dataset, name: str, scale: float = 1.0, **look: Any
+) -> None:
+    """A variable over `scale`: a thick bar for its sampling error, a thin one for all errors."""
+    y, (sampling, total) = data[name] / scale, read_errors(data, name)
+    bars = {"linestyle": "none", "color": look["color"], "zorder": BARS}
+    ax.errorbar(x, y, total / scale, elinewidth=0.7, **bars)
+    ax.errorbar(x, y, sampling / scale, elinewidth=1.8, **bars)
+    ax.plot(x, y, **{"linestyle": "none", "marker": "o", "zorder": FILLED} | look)
+
+
+def draw_spectrum(
+    ax: Axes, q: ArrayLike, psd: NDArray, standard_error: NDArray, **look: Any
+) -> None:
+    """Rings of a measured spectrum with bars that cover 90 %, on log axes."""
+    error = COVERS * standard_error
+    below = np.minimum(error, 0.9 * psd)  # a bar down to zero has no end on a log axis
+    look = {"marker": "o", "linestyle": "none", "markersize": 2.5, "elinewidth": 0.7} | look
+    ax.errorbar(q, psd, [below, error], **look)
+
+
+def draw_hollow(ax: Axes, x: ArrayLike, y: ArrayLike, **look: Any) -> None:
+    """Open points, above the error bars and below the filled points that they are beside."""
+    ax.plot(x, y, **{"linestyle": "none", "mfc": "white", "zorder": HOLLOW} | look)
+
+
+def draw_band(
+    ax: Axes, x: ArrayLike, low: ArrayLike, high: ArrayLike, colour: Any, alpha: float = 0.3
+) -> None:
+    """Shaded area between two curves."""
+    ax.fill_between(x, low, high, color=colour, alpha=alpha, linewidth=0)
+
+
+def move_aside(x: ArrayLike, steps: float, step: float = 1.05) -> NDArray:
+    """Abscissae of a log axis moved by a few per cent, so that equal ones can be told apart."""
+    return np.asarray(x) * step**steps
+
+
+def draw_guide(ax: Axes, x: ArrayLike, y: ArrayLike, text: str, at: tuple[float, float]) -> None:
+    """Thin line that shows a power law or a formula, with its name."""
+    ax.plot(x, y, color=GREY, linewidth=0.9, linestyle=":")
+    ax.text(*at, text, color=GREY, fontsize=8)
+
+
+def push_apart(positions: Iterable[float], factor: float) -> list[float]:
+    """Heights of labels on a log axis, pushed up until neighbours differ by `factor`."""
+    positions = list(positions)
+    below = 0.0
+    for index in np.argsort(positions):
+        below = positions[index] = max(positions[index], below * factor)
+    return positions
+
+
+def write_ticks(axis: Axis, values: Iterable[float]) -> None:
+    """Ticks of a log axis of few decades at these values, written out."""
+    axis.set_major_locator(FixedLocator(list(values)))
+    axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+    axis.set_minor_formatter(NullFormatter())
+
+
+def make_key(label: str, **look: Any) -> Line2D:
+    """Legend handle of a line that belongs to no curve in particular."""
+    return Line2D([], [], label=label, **({"color": GREY} | look))
+
+
+def make_dot(label: str, **look: Any) -> Line2D:
+    """Legend handle of a point."""
+    return make_key(label, **({"linestyle": "none", "marker": "o"} | look))

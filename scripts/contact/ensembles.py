@@ -1,0 +1,125 @@
+"""The file of an ensemble: means over the realisations of a case, with their errors."""
+
+from operator import itemgetter
+
+import xarray as xr
+
+from common import conventions, grid_limits
+from common.contact_curves import MEASURED_TEXTS
+from common.conventions import RMS_SLOPE, VARIABLES
+from common.ensemble_means import PREFIX, SUFFIXES, add_errors, coarse, describe_errors, mean
+from common.error_budgets import Simulation
+from common.grid_limits import EXTRAPOLATION
+from common.quantities import gap_density
+from common.realisations import read_all
+from stickiness import datasets
+from stickiness.accuracy.error_models import read_models
+from stickiness.accuracy.quantities import MEASURED, QUANTITIES
+from stickiness.error_budget import with_budget
+
+# Of realisations: what an ensemble's file keeps seed by seed, and what is read. COARSE: of coarse
+# solutions. All have the optional ones besides, if the case wants them.
+KEPT = ("area_fraction", "mean_gap", "residual", "iterations", "rms_slope")
+NEEDED = (*KEPT, "pixel_area_fraction", "edges", "edge_gap")
+COARSE = ("area_fraction", "mean_gap", "rms_slope")
+OPTIONAL = ("attractive_area", *MEASURED)
+LONG_WAVES = ("long_waves", "other_long_waves")
+SURFACES = {"gaussian": "Gaussian surfaces", "fixed": "surfaces of fixed amplitudes"}
+
+
+def ensemble_of(inputs, seeds, loads, averaged):
+    """Means and errors from the files of realisations and coarse solutions, and what made them.
+
+    The files may be those of another case with more seeds and loads.
+    """
+    needed = (*NEEDED, *optional(averaged))
+    realisations = read_all(inputs.realisations, needed).sel(seed=seeds, pressure=loads)
+    kept = (*COARSE, *optional(averaged))
+    others = [datasets.read(path, kept).sel(pressure=loads) for path in inputs.coarse]
+    more = rename_coarse(join(others), kept) if others else xr.Dataset()
+    dataset = add_statistics(realisations, more, averaged)
+    parameters = datasets.parameters(realisations) | {
+        "seeds": seeds,
+        "largest_residual": float(realisations.residual.max()),
+    }
+    return dataset, {**parameters, **describe_sampling(parameters, dataset)}
+
+
+def join(files):
+    """Coarse solutions of all files; the seeds that are not solved are in the first."""
+    solved = xr.concat([file.drop_dims("other") for file in files], "seed", data_vars="minimal")
+    return solved.merge(files[0][["other_long_waves"]])
+
+
+def optional(averaged):
+    """Variables of single solutions that only some cases have, of what is averaged."""
+    return [name for name in OPTIONAL if name in averaged]
+
+
+def choose_means(quantities):
+    """What to average for the quantities wanted of a case; areas and mean gaps come for free."""
+    needed = {mean for quantity in quantities for mean in QUANTITIES[quantity].means}
+    needed |= {"area_fraction", "mean_gap"}
+    measured = {name: itemgetter(name) for name in MEASURED}
+    return {name: value for name, value in (AVERAGED | measured).items() if name in needed}
+
+
+def rename_coarse(others, kept=(*COARSE, "attractive_area")):
+    """Coarse solutions under names that leave those of the fine ones free."""
+    names = {name: f"{PREFIX}{name}" for name in (*kept, "seed")}
+    return others[[*kept, *LONG_WAVES]].rename(names)
+
+
+def describe_sampling(made, dataset):
+    """What the means stand for and how they are taken, for the parameters of the file."""
+    surfaces, window = SURFACES[made.get("amplitudes", "gaussian")], made.get("window", 1)
+    meant = {"estimates": f"mean over {surfaces} on a window of {window:g} longest wavelengths"}
+    if f"{PREFIX}seed" not in dataset.dims or dataset.sizes["seed"] == 1:
+        return meant | {"estimator": "plain"}
+    counts = {"coarse_seeds": dataset.sizes[f"{PREFIX}seed"]}
+    return meant | counts | {"descriptor_seeds": dataset.sizes["other"], "estimator": "multilevel"}
+
+
+AVERAGED = {
+    **{name: itemgetter(name) for name in ("area_fraction", "mean_gap", "attractive_area")},
+    "gap_density": gap_density,
+}
+
+
+def add_statistics(realisations, others, averaged=AVERAGED):
+    """Mean and errors of every quantity, beside the values seed by seed."""
+    dataset = realisations[[*KEPT, *optional(averaged)]].merge(others)
+    dataset["edge_gap_mean"] = mean(realisations.edge_gap)
+    ruled = {name: quantity for name, quantity in averaged.items() if name not in MEASURED}
+    limits = grid_limits.estimate_limits(realisations, ruled)
+    for name in averaged.keys() & MEASURED.keys():
+        limits[name] = grid_limits.estimate_first_order(averaged[name](realisations))
+    for name, quantity in averaged.items():
+        more = coarse(dataset, quantity)
+        dataset = add_errors(dataset, name, quantity(realisations), more, limit=limits.get(name))
+    if "attractive_area" in averaged:  # the one quantity that has any
+        dataset[f"attractive_area_{EXTRAPOLATION}"] = limits["attractive_area"].shift
+    return dataset
+
+
+def add_budgets(dataset, made, laws, averaged=AVERAGED):
+    """The means with their errors by source."""
+    simulation = Simulation.of(read_models(laws), made)
+    for name in averaged:
+        left = grid_limits.FIRST_ORDER if name in MEASURED else grid_limits.LEFT
+        parts = simulation.parts(name, *(dataset[f"{name}_{kind}"] for kind in SUFFIXES), left)
+        dataset = with_budget(dataset, f"{name}_mean", **parts)
+    return dataset
+
+
+def annotate(dataset, averaged=AVERAGED):
+    texts = MEASURED_TEXTS | {
+        "rms_slope": RMS_SLOPE,
+        "edge_gap_mean": ("1", "gap next to the contact over h_rms: smallest range resolved"),
+    }
+    for name in averaged:
+        kind = grid_limits.FIRST_ORDER if name in MEASURED else grid_limits.DIRECT
+        texts |= describe_errors(name, (VARIABLES | MEASURED_TEXTS)[name][1], discretisation=kind)
+    extrapolated = f"{VARIABLES['attractive_area'][1]}: of the mean, extrapolated from below the"
+    texts[f"attractive_area_{EXTRAPOLATION}"] = ("1", f"{extrapolated} edge gap")
+    return conventions.annotate(dataset, **texts)

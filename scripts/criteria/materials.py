@@ -1,0 +1,109 @@
+"""Materials of the configuration in SI units."""
+
+from dataclasses import dataclass
+
+from common.formatting import write_powers
+from stickiness.solids import HALF_SPACE, Backing, Film, Layer, Solid
+from stickiness.solids.moduli import REFERENCE_FREQUENCY, Constant, Modulus, Prony, Table
+from stickiness.units import si
+
+RATE_KEYS = ("youngs_modulus_table", "youngs_modulus_prony")
+
+
+@dataclass(frozen=True)
+class Material:
+    """Pair of a solid and a rigid rough counterface."""
+
+    plane_strain: Modulus  # E* [Pa] against the frequency
+    work_of_adhesion: float  # J/m^2
+    range: float  # of the attraction, m
+    depends_on_rate: bool  # whether the modulus is more than a constant
+    solid: Solid = HALF_SPACE  # or a layer, thickness in m
+    surface: str | None = None  # name of its own rough surface
+
+    @property
+    def modulus(self):
+        """E* at the reference frequency of 1 Hz [Pa]."""
+        return float(self.plane_strain.storage(REFERENCE_FREQUENCY))
+
+
+def read_material(entry):
+    """`Material` from its entry in the configuration."""
+    return Material(
+        plane_strain=read_modulus(entry),
+        work_of_adhesion=si(entry["work_of_adhesion"], "J/m^2"),
+        range=si(entry["range"], "m"),
+        depends_on_rate=any(key in entry for key in RATE_KEYS),
+        solid=read_solid(entry),
+        surface=entry.get("surface"),
+    )
+
+
+def read_solid(entry):
+    """Half-space, or layer on its backing."""
+    if "thickness" not in entry:
+        return HALF_SPACE
+    backing = entry.get("backing", "bonded")
+    if not isinstance(backing, str):
+        own = read_modulus(entry).storage(REFERENCE_FREQUENCY) * (1 - entry["poisson_ratio"] ** 2)
+        ratio = si(backing["youngs_modulus"], "Pa") / float(own)
+        if "thickness" in backing:
+            backing = Film(ratio, backing["poisson_ratio"], si(backing["thickness"], "m"))
+        else:
+            backing = Backing(ratio, backing["poisson_ratio"])
+    return Layer(si(entry["thickness"], "m"), entry["poisson_ratio"], backing)
+
+
+def read_modulus(entry):
+    """Modulus E* = E/(1 - nu^2) as a function of the frequency."""
+    if "plane_strain_modulus" in entry:
+        return Constant(si(entry["plane_strain_modulus"], "Pa"))
+    factor = 1 / (1 - entry["poisson_ratio"] ** 2)
+    if "youngs_modulus_table" in entry:
+        pairs = entry["youngs_modulus_table"]
+        return Table(
+            tuple(si(frequency, "Hz") for frequency, _ in pairs),
+            tuple(factor * si(modulus, "Pa") for _, modulus in pairs),
+        )
+    if "youngs_modulus_prony" in entry:
+        series = entry["youngs_modulus_prony"]
+        return Prony(
+            factor * si(series["equilibrium"], "Pa"),
+            tuple((factor * si(modulus, "Pa"), si(time, "s")) for modulus, time in series["terms"]),
+        )
+    return Constant(factor * si(entry["youngs_modulus"], "Pa"))
+
+
+def describe_modulus(entry):
+    """Modulus as the configuration states it, with the layer and the solid's own roughness."""
+    text = write_powers(describe_elasticity(entry))
+    return f"{text}, rough as {entry['surface']}" if "surface" in entry else text
+
+
+def describe_elasticity(entry):
+    """Modulus, Poisson's ratio and layer."""
+    if "plane_strain_modulus" in entry:
+        return f"E* = {entry['plane_strain_modulus']}"
+    if "youngs_modulus_table" in entry:
+        pairs = entry["youngs_modulus_table"]
+        text = f"E′ = {pairs[0][1]} at {pairs[0][0]} … {pairs[-1][1]} at {pairs[-1][0]}"
+    elif "youngs_modulus_prony" in entry:
+        series = entry["youngs_modulus_prony"]
+        text = f"E = {series['equilibrium']} at rest, {len(series['terms'])} Prony terms"
+    else:
+        text = f"E = {entry['youngs_modulus']}"
+    text += f", ν = {entry['poisson_ratio']}"
+    return f"{text}, {describe_layer(entry)}" if "thickness" in entry else text
+
+
+def describe_layer(entry):
+    """Thickness and backing in words."""
+    backing = entry.get("backing", "bonded")
+    if backing == "slip":
+        return f"{entry['thickness']} thick, free to slip on a rigid base"
+    if backing == "bonded":
+        return f"{entry['thickness']} thick on a rigid base"
+    if "thickness" in backing:
+        film = f"{backing['thickness']} and {backing['youngs_modulus']}"
+        return f"{entry['thickness']} thick on a film of {film}"
+    return f"{entry['thickness']} thick on a half-space of {backing['youngs_modulus']}"

@@ -1,0 +1,139 @@
+"""What remains of adhesion on a pair, as texts with limits, rounded for readers."""
+
+from __future__ import annotations
+
+import numpy as np
+import xarray as xr
+
+from common.formatting import NOTHING, interval, number, percent
+from criteria.words import MOST_STRAIN, find_limits
+from stickiness.criteria.pair import DEPENDS, NOT_JUDGED, TOUCHES, WORDS
+from stickiness.remaining.prediction import DEFAULT_SHARE, PULL_OFF_UNKNOWN
+
+LEAST_SHOWN = 1e-3  # share below which a text says 0 %
+KPA, MPA = 1e3, 1e6  # Pa: of the pull-off, and of moduli
+LEAST_STRESS, MOST_STRESS = 1.0, 1e13  # Pa, beyond which a text says so: nobody can use them
+LEAST_EFFECT = 0.05  # relative, of a layer's thickness on the energy of full contact
+
+
+def describe_share(pair: xr.Dataset) -> str:
+    """Share of the work of adhesion that remains, with the limits that decide the verdict."""
+    low, high = (round_share(limit) for limit in find_limits(pair))
+    value = show_shares(*sorted(map(round_share, pair.remaining.values)))
+    limits = show_shares(low, high, " to ")
+    return value if limits == value else f"{value} ({limits})"
+
+
+def round_share(share: float) -> float:
+    """The share, or 0 where it is too small to be shown."""
+    return float(share) if float(share) >= LEAST_SHOWN else 0.0
+
+
+def show_shares(low: float, high: float, between: str = " … ") -> str:
+    """Two shares as percentages, or one where they agree."""
+    texts = percent(low), percent(high)
+    return texts[1] if texts[0] == texts[1] else f"{texts[0].removesuffix(' %')}{between}{texts[1]}"
+
+
+def describe_pull_off(pair: xr.Dataset) -> str:
+    """Pull-off stress [kPa] with its limits; a dash where nothing holds.
+
+    Near full contact, which was not simulated, only a low limit is known.
+    """
+    low, high = map(float, find_limits(pair, "pull_off"))
+    if high == 0:
+        return NOTHING
+    if float(pair.energy_ratio.max()) > PULL_OFF_UNKNOWN:
+        return f"at least {show_stress(low, KPA)}" if low >= LEAST_STRESS else "not known"
+    return describe_stress(pair, "pull_off", KPA)
+
+
+def show_probability(pair: xr.Dataset) -> str:
+    """Share of the draws that stick; of none or all of them a bound, for draws are few."""
+    share = float(pair.probability)
+    if share not in (0, 1):
+        return percent(share)
+    error = float(pair.probability_total_error)
+    return f"< {percent(error)}" if share == 0 else f"> {percent(1 - error)}"
+
+
+def describe_threshold(pair: xr.Dataset) -> str:
+    """E* [MPa] below which the wanted share remains, with its limits."""
+    return describe_stress(pair, "modulus_threshold", MPA)
+
+
+def describe_stress(pair: xr.Dataset, name: str, unit: float) -> str:
+    """Values in a unit [Pa] at both ends of the surface, with the limits of all that is unknown."""
+    low, high = map(float, find_limits(pair, name))
+    if np.isnan(low):
+        return NOTHING
+    if high < LEAST_STRESS:
+        return show_stress(high, unit)
+    values = sorted(map(float, pair[name].values))
+    return f"{show_stresses(*values, unit)} ({show_stresses(low, high, unit, ' to ')})"
+
+
+def show_stresses(low: float, high: float, unit: float, between: str = " … ") -> str:
+    """Two stresses [Pa] in a unit [Pa], or one where they agree; outside of what matters, bounds.
+
+    Examples
+    --------
+    >>> show_stresses(2e5, 3.14e6, MPA), show_stresses(0.5, 2.0, KPA, " to ")
+    ('0.2 … 3.1', '< 0.001 to 0.002')
+    """
+    if high < LEAST_STRESS:
+        return show_stress(high, unit)
+    if between == " … " and low >= LEAST_STRESS and high <= MOST_STRESS:
+        return interval(low / unit, high / unit, 2)
+    return between.join(dict.fromkeys(show_stress(x, unit) for x in (low, high)))
+
+
+def show_stress(value: float, unit: float) -> str:
+    """A stress [Pa] in a unit [Pa], or the bound that it is beyond."""
+    if 0 < value < LEAST_STRESS:
+        return f"< {number(LEAST_STRESS / unit)}"
+    if value > MOST_STRESS:
+        return f"> {number(MOST_STRESS / unit)}"
+    return number(value / unit, 2)
+
+
+def describe_layer(pair: xr.Dataset) -> str:
+    """What the thickness of a layer does to the pair; empty where it does nothing."""
+    low, high = sorted(map(float, pair.stiffening.values))
+    strain = float(pair.layer_strain.max())
+    parts = []
+    if max(high - 1, 1 - low) >= LEAST_EFFECT:
+        parts.append(
+            f"Full contact costs {interval(low, high, 2)} times what it costs a deep solid."
+        )
+    if strain > MOST_STRAIN:
+        parts.append(
+            f"Conforming would strain the layer by about {number(strain, 2)}, beyond what a linear "
+            "layer can tell: all adhesion may be lost."
+        )
+    return " ".join(parts)
+
+
+def say_verdict(material: str, pair: xr.Dataset) -> str:
+    """The verdict on a pair as one sentence; a small first word gets its capital letter."""
+    sentence = _say_verdict(material, pair)
+    first = sentence.split(maxsplit=1)[0]
+    return sentence[0].upper() + sentence[1:] if first.islower() else sentence
+
+
+def _say_verdict(material: str, pair: xr.Dataset) -> str:
+    code, remains = int(pair.verdict), describe_share(pair)
+    if code == NOT_JUDGED:
+        return f"{material}: not judged. {str(pair.not_judged.item()).replace(chr(10), '. ')}."
+    layer = f" {text}" if (text := describe_layer(pair)) else ""
+    if code == DEPENDS:
+        return (
+            f"For {material} it depends: {remains} of its work of adhesion remains, and "
+            f"{percent(DEFAULT_SHARE)} is wanted.{layer}"
+        )
+    if round_share(find_limits(pair)[1]) == 0:
+        remains = "nothing"
+    remains += " of its work of adhesion remains"
+    if code == TOUCHES:
+        remains = f"{remains}, though contact grows by itself at the finest wave"
+    return f"{material} {WORDS[code]}: {remains}.{layer}"

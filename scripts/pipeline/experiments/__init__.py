@@ -1,1 +1,0 @@
-"""Published experiments: read from the configuration, predicted, and held against criteria."""

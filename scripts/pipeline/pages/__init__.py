@@ -1,1 +1,0 @@
-"""Figures' style, texts and tables of the report and of the pages of surfaces."""

@@ -1,1 +1,0 @@
-"""Probes of every part of the library at the extremes of its parameters."""

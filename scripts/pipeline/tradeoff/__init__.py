@@ -1,1 +1,0 @@
-"""What accuracy costs: studies of every setting and the error models fitted to them."""

@@ -1,1 +1,0 @@
-"""What a verdict on a pair of material and surface rests on."""

@@ -1,0 +1,19 @@
+"""Adhesive contact: traction laws, states of equilibrium, loading and unloading curves."""
+
+from stickiness.adhesive.laws import Exponential, LennardJones, Maugis, TractionLaw
+from stickiness.adhesive.path import PathPoint, path
+from stickiness.adhesive.scaling import Adhesion
+from stickiness.adhesive.solver import ConvergenceError, PullOffError, solve
+
+__all__ = [
+    "Adhesion",
+    "ConvergenceError",
+    "Exponential",
+    "LennardJones",
+    "Maugis",
+    "PathPoint",
+    "PullOffError",
+    "TractionLaw",
+    "path",
+    "solve",
+]

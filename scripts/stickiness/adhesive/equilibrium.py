@@ -1,0 +1,183 @@
+"""Stable equilibrium from a start: smooth laws, the law of Maugis, and what has no equilibrium.
+
+A law whose traction jumps (Maugis) is relaxed with its traction frozen at the points within its
+range, a convex problem, and frozen anew. As its potential is concave, every such round lowers the
+energy until the set of points no longer changes: it cannot cycle. At a prescribed load the rounds
+are monotone too, as added attraction lowers the gap everywhere: from the solution without adhesion
+the set only grows to the least possible (approach), from full contact it only shrinks to the
+largest (separation).
+
+A smooth law is relaxed as it is. A state found within a few iterations may be an unstable one
+(two flats at a distance): it is probed for directions of negative curvature, and left along one.
+"""
+
+from dataclasses import replace
+
+import numpy as np
+
+from stickiness.adhesive.descent import descend
+from stickiness.adhesive.problem import FrozenTraction
+from stickiness.adhesive.softening_descent import quick_descent, suits
+from stickiness.adhesive.starts import from_coarser_grids, has_coarser_grids, without_adhesion
+from stickiness.adhesive.state import State, balanced, evaluate, lowered
+
+_QUICK = 8  # iterations below which convergence says little about stability
+_PROBES = 30
+_FALL = 0.1  # fall of the residual between two updates of a frozen traction
+_ESCAPES = 5
+
+
+def relax(problem, gap, tol, max_iterations, closing=True, logger=None):
+    """Relax a gap to a stable equilibrium; returns the last `State`, converged or not, and a flag.
+
+    The flag tells whether the surfaces part under tension: no attraction left can balance the pull.
+    A `gap` of None stands for loading from afar; a given one has the mean gap if that is
+    prescribed. `max_iterations` bounds all descents together. An unstable state is left towards
+    contact if `closing`, else away from it.
+    """
+    watch = _Watch(problem, logger)
+    run = _relax_smooth if problem.law.smooth else _relax_frozen
+    spent, state, work = 0, None, []
+    if gap is None:
+        if has_coarser_grids(problem):
+            state = from_coarser_grids(problem, tol, max_iterations, watch, work)
+        if state is None:
+            gap, pairs = without_adhesion(problem, max_iterations)
+            work.append(pairs * gap.size)
+    for _ in range(_ESCAPES):
+        if state is None or gap is not None:
+            state = run(problem, gap, tol, max_iterations - spent, watch)
+        spent += state.iterations
+        state.iterations = spent
+        if watch.separated or not state.residual <= tol or spent >= max_iterations:
+            break
+        unsure = state.last_run < _QUICK and not _surely_stable(problem, state)
+        mode = _unstable_mode(problem, state) if unsure else None
+        if mode is None:
+            break
+        gap = _left(problem, state, mode, closing)
+    state.start_pairs = sum(work) / state.gap.size
+    return state, watch.separated
+
+
+class _Watch:
+    """Observer of a descent: logs, and stops it when tension has parted the surfaces."""
+
+    def __init__(self, problem, logger):
+        self.law, self.pull, self.logger = problem.law, None, logger
+        if problem.pressure is not None and problem.pressure < 0:
+            self.pull = -problem.pressure
+        self.separated = False
+
+    def __call__(self, state):
+        if self.logger is not None:
+            self.logger.debug("residual %.2e, mean gap %.6g", state.residual, state.gap.mean())
+        if self.pull is not None:
+            nearest = float(state.gap.min())
+            if nearest > self.law.strength_gap:
+                self.separated = float(self.law.traction(nearest)) < self.pull
+        return self.separated
+
+
+def _relax_smooth(problem, gap, tol, max_iterations, watch):
+    spent = 0
+    if suits(problem):
+        state, finished = quick_descent(problem, gap, tol, max_iterations, watch)
+        if finished:
+            return state
+        gap, spent = state.gap, state.iterations
+    state = descend(problem, gap, tol, max_iterations - spent, watch)
+    state.iterations += spent
+    return state
+
+
+def _relax_frozen(problem, gap, tol, max_iterations, watch):
+    law = problem.law
+    state = State.empty(gap.shape)
+    state.gap[...], state.elastic[...] = gap, problem.surface.elastic(gap)
+    inside = gap <= law.range
+    aim, spent = None, 0
+    while True:
+        traction = FrozenTraction(law.maugis_stress * inside, law.range)
+        frozen = replace(problem, law=traction)
+        if aim is None:
+            aim = max(tol, _FALL * evaluate(frozen, state).residual)
+        final = aim <= tol
+        left = max_iterations - spent
+        state = descend(frozen, state.gap, aim, left, watch, elastic=state.elastic, rough=not final)
+        spent += state.iterations
+        if watch.separated or spent >= max_iterations or not state.residual <= aim:
+            break
+        changed = (state.gap <= law.range) != inside
+        if not final and changed.any():
+            # Only where the gap is farther from the range than it may be from equilibrium.
+            away = float(np.abs(frozen.surface.smoother.apply(state.force)).max())
+            changed &= np.abs(state.gap - law.range) > 2 * frozen.unit * away
+        if changed.any():
+            inside ^= changed
+            aim = None
+        elif final:
+            break
+        else:
+            aim = max(tol, _FALL * aim)
+    evaluate(problem, state)
+    state.iterations, state.last_run = spent, spent
+    return state
+
+
+def _surely_stable(problem, state):
+    """Whether the law softens less than elasticity holds the longest wave, at a given mean gap."""
+    surface = problem.surface
+    softest = min(surface.smoother.shift, np.pi / max(surface.sides))
+    return problem.mean_gap is not None and float(-state.slope.min()) < softest
+
+
+def _unstable_mode(problem, state):
+    """Direction of negative curvature, or None if conjugate gradients find none.
+
+    Where the law softens, elasticity couples all points with one sign: the softest mode of the
+    open points is positive, and a positive right-hand side has a share of it.
+    """
+    open_points = state.gap > 0 if problem.wall else np.ones(state.gap.shape, bool)
+    softening = np.where(open_points, np.maximum(-state.slope, 0), 0)
+    if not softening.any():
+        return None
+    x0 = np.cos(2 * np.pi * np.arange(softening.shape[0]) / softening.shape[0])
+    x1 = np.cos(2 * np.pi * np.arange(softening.shape[1]) / softening.shape[1])
+    # A prescribed mean gap leaves a uniform load no work to do.
+    load = softening / softening.max() * (1 + 0.1 * (x0[:, None] + x1[None, :]))
+    residual = _constrained(problem, -load.astype(np.float32), open_points)
+    direction, product = None, 0.0
+    first = float(np.abs(residual).max())
+    for _ in range(_PROBES):
+        image = problem.surface.smoother.apply(residual)
+        image = _constrained(problem, image, open_points)
+        last, product = product, float(np.vdot(image, residual))
+        if not product > 0:
+            return None
+        direction = -image if direction is None else direction * np.float32(product / last) - image
+        stress = problem.surface.quick.stiffness(direction) + state.slope * direction
+        curvature = float(np.vdot(direction, stress))
+        if curvature < 0:
+            return direction
+        stress = _constrained(problem, stress.astype(np.float32), open_points)
+        residual = residual + np.float32(product / curvature) * stress
+        if float(np.abs(residual).max()) < 1e-3 * first:
+            return None
+    return None
+
+
+def _constrained(problem, field, points):
+    """Part of a field on some points, without a mean if the mean gap is prescribed."""
+    field = field * points
+    return balanced(field, points) if problem.pressure is None else field
+
+
+def _left(problem, state, mode, closing):
+    """Gap a tenth of the range away from an unstable state."""
+    mode = mode / float(np.abs(mode).max())
+    if (mode.sum() > 0) == closing:
+        mode = -mode
+    lowest = 0.0 if problem.wall else 0.5 * (state.gap - problem.law.range)
+    gap = np.maximum(state.gap + 0.1 * problem.law.range * mode, lowest)
+    return gap if problem.mean_gap is None else lowered(gap, problem.mean_gap, lowest)

@@ -1,0 +1,286 @@
+"""Loading and unloading curves: quasi-static paths along branches, with their jumps.
+
+Every state is the end of a descent in energy from the one before, as in a slow experiment: it stays
+on its branch until that ends, and then falls to the next. Whether a step was reversible shows in
+its energy balance,
+
+    -(change of energy) - (integral of the mean pressure over the mean gap) = dissipated energy,
+
+integrated along a parabola of the controlled quantity through both ends and the state before. The
+error is of fourth order in the step on a branch; at a jump it does not vanish with the step. So the
+balance sets the steps, and a jump is a step that stays out of balance when it is as short as the
+tolerance for its place. On a grid, attraction of short range passes over points one by one, each
+with a jump of its own (a Maugis zone always does). Below a given size such jumps are not sought
+out: they are left in the dissipated energy of the step they fall into.
+"""
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from stickiness.adhesive.scaling import APPROACH, SEPARATION, Adhesion, Control, Scaled
+from stickiness.adhesive.solver import ConvergenceError, Effort, PullOffError, relax_from, solve
+from stickiness.arguments import grid, number
+from stickiness.solids import HALF_SPACE
+
+_CONTROLS = ("pressure", "mean_gap")
+# Smooth law or not: by which a step may be refined for the sake of the balance alone.
+_SUBSTEPS = {True: 16, False: 4}
+_LEAST_SCALE = 1e-3  # of energies, over the work of adhesion
+_NEAR_ZERO = 0.01  # share of the path's span below which a place is not located relative to itself
+
+
+@dataclass(frozen=True, eq=False)
+class PathPoint:
+    """One state of a path and how it was reached.
+
+    Attributes
+    ----------
+    state : Adhesion
+        State; its `branch` is the direction of the path.
+    event : str or None
+        "jump-in" or "jump-out" if a jump led here, "pull-off" if the path ends here because any
+        greater tension tears the surfaces apart.
+    bracket : tuple of float or None
+        Values of the control between which the event lies, the last one before it first.
+    work, dissipated : float
+        Work of the control in this step per nominal area [E* length]; that work less the gain in
+        energy, which is lost at a jump and the error of integration elsewhere. It is infinite at
+        a pull-off, where a dead load falls forever.
+    """
+
+    state: Adhesion
+    event: str | None = None
+    bracket: tuple | None = None
+    work: float = 0.0
+    dissipated: float = 0.0
+
+
+def path(
+    heights,
+    length,
+    law,
+    values,
+    control="pressure",
+    start=None,
+    tol=1e-8,
+    balance=1e-5,
+    smallest_jump=1e-3,
+    located=1e-4,
+    steps=20,
+    max_states=5000,
+    max_iterations=3000,
+    logger=None,
+    solid=HALF_SPACE,
+) -> Iterator[PathPoint]:
+    """Follow the contact through rising and falling pressure or mean gap.
+
+    Parameters
+    ----------
+    heights, length, law, tol, max_iterations, logger, solid
+        As for `solve`.
+    values : sequence of float
+        At least two values of the control to go through in turn, each different from the one
+        before, in units of E* (pressure) or of the heights (mean gap). Steps between them adapt.
+    control : {"pressure", "mean_gap"}
+        What is prescribed. A press controls the pressure and jumps where the curve turns back;
+        control of the mean gap follows the curve through most of its turns.
+    start : optional
+        Of the first state, as for `solve`.
+    balance : float
+        Largest error of the energy balance in a step, relative to the largest change of elastic
+        plus interaction energy along the path so far. Errors of steps add up: over a stretch
+        without jumps 1e-6 leaves less than 1e-4 of the energy gained (see the tests).
+    smallest_jump : float
+        Least dissipated energy of a jump that is located, relative to the same; smaller ones
+        are part of the step that they fall into.
+    located : float
+        Width of the brackets around jumps, relative to the control there (to a hundredth of
+        the path's span if that is larger).
+    steps : int
+        Least number of steps between two of the values.
+    max_states : int
+        States to compute at most.
+
+    Yields
+    ------
+    PathPoint
+        States in order, the first one without work. After a pull-off the path ends.
+
+    Raises
+    ------
+    ValueError
+        If an argument is not what it should be.
+    PullOffError
+        If there is no equilibrium at the first value.
+    ConvergenceError
+        If a state does not converge or `max_states` do not suffice.
+    """
+    values = _check_values(values)
+    if control not in _CONTROLS:
+        raise ValueError(f"control must be 'pressure' or 'mean_gap', got {control!r}")
+    sizes = {"balance": balance, "smallest_jump": smallest_jump, "located": located, "steps": steps}
+    for name, value in sizes.items():
+        number(name, value)
+    options = {"start": start, "tol": tol, "max_iterations": max_iterations, "logger": logger}
+    options["solid"] = solid
+    first = solve(heights, length, law, **{control: values[0]}, **options)
+    yield PathPoint(first)
+    follower = _Follower(
+        first=first,
+        scaled=Scaled.of(grid("heights", heights), first.length, law, solid),
+        control=control,
+        effort=Effort(tol, max_iterations),
+        balance=balance,
+        smallest_jump=max(smallest_jump, balance),
+        located=located,
+        span=float(np.ptp(values)),
+        left=max_states - 1,
+        logger=logger,
+    )
+    last = first
+    for target in values[1:]:
+        for point in follower.leg(last, target, steps):
+            yield point
+            if point.event == "pull-off":
+                return
+            last = point.state
+
+
+@dataclass(eq=False)
+class _Follower:
+    """Follows a path leg by leg."""
+
+    first: Adhesion
+    scaled: Scaled
+    control: str
+    effort: Effort
+    balance: float
+    smallest_jump: float
+    located: float
+    span: float  #: between the largest and the smallest value of the control
+    left: int  #: states that may still be computed
+    logger: object
+    scale: float = 0.0  #: largest change of elastic plus interaction energy so far [E* length]
+
+    def __post_init__(self):
+        self.scale = _LEAST_SCALE * self.first.law.adhesion_length
+
+    def leg(self, state, target, steps):
+        """Points from a state (left out) to a value of the control."""
+        value = state.mean_pressure if self.control == "pressure" else state.mean_gap
+        closing = (target > value) == (self.control == "pressure")
+        branch = APPROACH if closing else SEPARATION
+        longest = abs(target - value) / steps
+        finest = longest / _SUBSTEPS[self.first.law.smooth]
+        before, step, blocked = None, longest, _Blocked()
+        while value != target:
+            end = target if blocked.at is None else blocked.at
+            trial = blocked.trial(value, end, step, self._width(end))
+            successor = self._solve(state, trial, branch)
+            point, imbalance = self._point(before, state, successor)
+            width = abs(trial - value)
+            allowed = self.smallest_jump if width <= finest else self.balance
+            if imbalance <= allowed * self.scale:
+                yield point
+                growth = 0.8 * (self.balance * self.scale / max(imbalance, 1e-300)) ** 0.25
+                step = min(longest, width * min(2.0, max(growth, 0.2)))
+                before, state, value = state, successor, trial
+            elif width > self._width(trial):
+                blocked.at, blocked.failures, step = trial, blocked.failures + 1, width / 2
+                continue
+            elif successor is None:
+                yield PathPoint(state, "pull-off", (value, trial), 0.0, math.inf)
+                return
+            else:
+                event = "jump-in" if closing else "jump-out"
+                yield PathPoint(successor, event, (value, trial), point.work, point.dissipated)
+                before, state, value, step = None, successor, trial, longest
+            if trial == end:
+                blocked = _Blocked()
+
+    def _width(self, value):
+        """Width of the bracket of an event."""
+        return self.located * max(abs(value), _NEAR_ZERO * self.span)
+
+    def _solve(self, state, value, branch):
+        """State at a value, from a neighbour; None if the surfaces part."""
+        if self.left <= 0:
+            raise ConvergenceError("max_states do not suffice for this path: raise it", state)
+        self.left -= 1
+        prescribed = Control(**{self.control: value})
+        gap = self.scaled.first_gap(state, prescribed.mean_gap)
+        try:
+            successor = relax_from(self.scaled, gap, branch, prescribed, self.effort)
+        except PullOffError:
+            return None
+        if self.logger is not None:
+            self.logger.info(
+                "pressure %.6g, mean gap %.6g, area %.4f, %d iterations",
+                successor.mean_pressure,
+                successor.mean_gap,
+                successor.repulsive_area_fraction,
+                successor.iterations,
+            )
+        return successor
+
+    def _point(self, before, state, successor):
+        """Point of the path and the imbalance of its energies."""
+        if successor is None:
+            return None, math.inf
+        work = self._work(before, state, successor)
+        dissipated = work - (successor.energy - state.energy)
+        change = abs(successor.elastic_energy - self.first.elastic_energy)
+        change += abs(successor.interaction_energy - self.first.interaction_energy)
+        self.scale = max(self.scale, change)
+        return PathPoint(successor, work=work, dissipated=dissipated), abs(dissipated)
+
+    def _work(self, before, state, successor):
+        """Work of the control: minus the integral of the mean pressure over the mean gap."""
+        points = [s for s in (before, state, successor) if s is not None]
+        if self.control == "mean_gap":
+            return -_integral([(s.mean_gap, s.mean_pressure) for s in points])
+        # By parts, for the mean gap is a function of the pressure and not the other way round.
+        ends = state.mean_pressure * state.mean_gap - successor.mean_pressure * successor.mean_gap
+        return ends + _integral([(s.mean_pressure, s.mean_gap) for s in points])
+
+
+@dataclass(eq=False)
+class _Blocked:
+    """Value of the control that could not be reached in balance, and how often that was tried."""
+
+    at: float | None = None
+    failures: int = 0
+
+    def trial(self, value, end, step, width):
+        """Next value towards an end: by the step, or by halves if the end is known to fail."""
+        distance = abs(end - value)
+        if self.at is not None and distance > width and (self.failures > 2 or step < distance):
+            step = distance / 2 if self.failures > 2 else min(step, distance / 2)
+        elif self.at is not None:
+            return end
+        # No crumb of a step before the end.
+        return end if 1.01 * step >= distance else value + math.copysign(step, end - value)
+
+
+def _integral(points):
+    """Integral between the last two points, on the parabola if there are three."""
+    (x1, y1), (x2, y2) = points[-2:]
+    step = x2 - x1
+    total = step * (y1 + y2) / 2
+    if len(points) == 3:
+        x0, y0 = points[0]
+        curvature = ((y2 - y1) / step - (y1 - y0) / (x1 - x0)) / (x2 - x0)
+        total -= step**3 / 6 * curvature
+    return total
+
+
+def _check_values(values):
+    values = [float(value) for value in values]
+    if len(values) < 2 or not np.all(np.isfinite(values)):
+        raise ValueError(f"values must be at least two finite numbers, got {values!r}")
+    if not np.all(np.diff(values)):
+        raise ValueError(f"values must differ from one to the next, got {values!r}")
+    return values

@@ -1,0 +1,250 @@
+"""Quick descent for laws that only soften, mostly in single precision.
+
+The steps are those of `descent`, in rounds: increments of gap, force and energy are in single
+precision within a round, and computed again in double precision between rounds (iterative
+refinement). Once the force is small it changes linearly with the gap: the law is then evaluated,
+and energies are compared, between rounds only.
+
+Until then a step is cut short at the wall, which takes an image of its own: one that passes the
+wall might pass a barrier, too. Afterwards points that pass it by little stay behind it for the rest
+of the round and are put back at its end, and a round ends when the force on them is no longer small
+against the residual. If a round raises the energy or changes nothing, the general descent takes
+over.
+"""
+
+import numpy as np
+
+from stickiness.adhesive import softening_loops as loops
+from stickiness.adhesive.preconditioner import Preconditioner
+from stickiness.adhesive.state import State, evaluate, largest, spans
+from stickiness.repulsive import convolution
+
+_FALL = 1e-3  # reduction of the force by a round
+_LINEAR = 1e-3  # residual below which the traction is linear in the change of the gap
+_ROUND = 50  # steps of a round at most
+_NEAR = 0.03  # change of a gap, over the range, up to which that holds
+_CUT = 1.0  # force on points behind the wall over the residual from which a step is cut anyway
+_PUT_OFF = 0.3  # residual over the force on points behind the wall at which a round ends
+_SHORTENINGS = 30
+_ROUNDING = 1e-7  # relative error of a sum of energies in single precision
+_MARGIN = 0.8  # of the tolerance that a last round aims for
+
+
+def suits(problem):
+    """Whether a problem is one for `quick_descent`."""
+    return problem.wall and not problem.law.hardens
+
+
+def quick_descent(problem, gap, tol, max_iterations, observer=None, convex=False):
+    """Go down in energy from a gap; returns the last `State` and whether the descent finished.
+
+    At a prescribed mean gap the start must have it. It does not finish if a round raises the energy
+    or comes to nothing, or, if `convex`, at the first direction of negative curvature. `observer`
+    is called with the state at every round; descent stops when it returns true.
+    """
+    state, other = State.empty(gap.shape), State.empty(gap.shape)
+    state.gap[...] = gap
+    state.elastic[...] = problem.surface.elastic(gap)
+    evaluate(problem, state)
+    steps, finished = _Steps(problem, gap.shape), True
+    while finished:
+        done = state.residual <= tol or steps.count >= max_iterations
+        done = done or not np.isfinite(state.residual)
+        if done or (observer is not None and observer(state)):
+            break
+        steps.begin(state)
+        steps.descend(max(_FALL * state.residual, _MARGIN * tol), max_iterations, convex)
+        finished = not (convex and steps.last_soft) and (steps.soft or steps.change.any())
+        finished = finished and _moved(problem, state, steps, other)
+        if finished:
+            state, other = other, state
+    state.iterations, state.last_run = steps.count, steps.count - steps.last_soft
+    return state, finished
+
+
+def _moved(problem, state, steps, other):
+    """State after a round into the arrays of another; returns whether the energy fell."""
+    gaps = state.gap.ravel(), other.gap.ravel()
+    total = loops.move(*gaps, steps.change, problem.unit, steps.above)
+    if (
+        problem.mean_gap is not None and total > 0
+    ):  # in proportion: contact stays contact, edges keep their shape
+        other.gap *= problem.mean_gap * other.gap.size / total
+    other.elastic[...] = problem.surface.elastic(other.gap)
+    pressures = state.elastic.ravel(), other.elastic.ravel(), state.pressure
+    change = loops.sum_work_between(*gaps, *pressures)
+    evaluate(problem, other)
+    change = change / state.gap.size + other.potential - state.potential
+    return change <= 8 * np.finfo(float).eps * abs(state.potential)
+
+
+class _Steps:
+    """Conjugate directions and steps along them, in single precision and the problem's pressure."""
+
+    def __init__(self, problem, shape):
+        self.problem, self.surface, self.shape = problem, problem.surface, shape
+        self.law, self.unit = problem.law, problem.unit
+        self.at_gap = problem.pressure is None
+        self.pixel = problem.surface.quick.mean_stiffness
+        size = shape[0] * shape[1]
+        fields = [convolution.aligned_zeros(size, np.float32) for _ in range(13)]
+        # `change` of the gap in a round, over the unit of pressure; `lowest` closes the gap.
+        self.change, self.lowest, self.traction, self.slope, *fields = fields
+        self.new_traction, self.new_slope, *fields = fields
+        # `force` is the reaction on free points, `last_force` that one step before.
+        self.reaction, self.force, self.last_force, *fields = fields
+        self.direction, self.image, self.step, self.cut_image = fields
+        # Points that take part, and those above the wall.
+        self.free, self.above = np.empty((2, size), bool)
+        # Steps so far, and up to the last direction of negative curvature; `soft` tells whether
+        # the round ended at one, along which the tangent of the law is no guide.
+        self.count = self.last_soft = 0
+        self.product, self.soft = 0.0, False
+
+    def begin(self, state):
+        """Begin a round at a state; directions stay conjugate to those of the last one."""
+        self.linear = state.residual < _LINEAR and not self.soft
+        self.residual, self.behind, self.soft = state.residual, 0.0, False
+        self.change[...] = 0
+        self.lowest[...] = state.gap.ravel() / -self.unit
+        reaction = state.elastic + state.traction
+        reaction += state.pressure
+        reaction /= self.unit
+        self.reaction[...] = reaction.ravel()
+        self.slope[...] = state.slope.ravel()
+        self.free[...], self.above[...] = state.free.ravel(), state.gap.ravel() > 0
+        self.free_points = np.count_nonzero(self.free)
+        self.precondition = Preconditioner(self.surface, self.free.reshape(self.shape))
+        self.force, self.last_force = self.last_force, self.force
+        self.force[...] = state.force.ravel()
+        if self.at_gap:
+            mean = self.force.sum(dtype=float) / max(self.free_points, 1)
+            loops.lower(self.force, np.float32(mean), self.free)
+        if not self.linear:
+            self.potential = self._evaluate(self.change, 0.0, self.traction, self.slope)
+            self.slack = _ROUNDING * abs(self.potential)
+
+    def descend(self, goal, limit, convex):
+        """Go on until the largest force is down to a goal, or curvature is no guide."""
+        limit = min(limit, self.count + _ROUND)
+        while self.count < limit and self.residual > max(goal, _PUT_OFF * self.behind):
+            weight, slope, softening = self._turn()
+            self._stiffen(self.direction, self.image)
+            stiffness = loops.dot(self.direction, self.image)
+            self.count += 1
+            if not slope < 0:
+                if weight == 0:
+                    break  # nothing but rounding is left to gain
+                self.product = 0.0
+                continue
+            curvature, longest = stiffness + softening, max(self.law.range, 1.0)
+            if not curvature > 0:
+                curvature, longest = stiffness, self.law.range
+                self.last_soft, self.soft = self.count, self.linear or convex
+                self.precondition = self.surface.smoother.apply  # edges of contact move
+            longest /= self.unit * largest(self.direction)
+            # A uniform direction has no stiffness.
+            length = min(-slope / curvature, longest) if curvature > 0 else longest
+            if self.soft or not self._advance(slope, length):
+                break
+
+    def _turn(self):
+        """Turn the direction; returns the weight of the last one, slope and curvature by the law.
+
+        These are slope and curvature of the energy along the new direction.
+        """
+        force = self.force.reshape(self.shape)
+        step = self.precondition(force).ravel()
+        total, product, last_product, *forces = loops.sum_over_free(
+            step, self.free, self.force, self.last_force
+        )
+        mean = total / max(self.free_points, 1) if self.at_gap else 0.0
+        last, self.product = self.product, product - mean * forces[0]
+        gain = self.product - (last_product - mean * forces[1])
+        weight = max(0.0, gain / last) if last > 0 else 0.0
+        total, count = loops.turn(
+            self.direction, np.float32(weight), step, np.float32(mean), self.free, self.above
+        )
+        mean = np.float32(total / count if self.at_gap and count else 0)
+        return weight, *loops.settle(self.direction, mean, self.above, self.force, self.slope)
+
+    def _advance(self, slope, length):
+        """Go along the direction; returns whether the round may go on."""
+        for _ in range(1 if self.linear else _SHORTENINGS):
+            step = self._within(np.float32(length))
+            rise = 0.0 if self.linear else self._rise(*step)
+            if self.linear or rise <= self.slack:
+                return self._go(*step)
+            predicted = length * slope * self.unit**2
+            length *= min(max(-0.5 * predicted / (rise - predicted), 0.1), 0.5)
+        return False
+
+    def _within(self, length):
+        """Step, its image, and a factor for both; cut short at the wall, of its own image.
+
+        Not if the force on what lies behind the wall is small: that is put off.
+        """
+        allowed = max(_CUT * self.residual if self.linear else 0.0, self.behind)
+        bound = np.float32(-allowed / self.pixel)
+        if not loops.count_deeper(bound, self.direction, length, self.change, self.lowest):
+            return self.direction, self.image, length
+        total, count = loops.cut(
+            self.step, self.direction, length, self.change, self.lowest, self.above
+        )
+        if self.at_gap and count:
+            loops.lower(self.step, np.float32(total / count), self.above)
+        self._stiffen(self.step, self.cut_image)
+        return self.step, self.cut_image, np.float32(1)
+
+    def _rise(self, step, image, factor):
+        """Change of energy by a step, summed over the grid; keeps what the law says there."""
+        elastic, work = loops.sum_work(step, factor, image, self.reaction, self.traction)
+        self.new_potential = self._evaluate(step, factor, self.new_traction, self.new_slope)
+        total = self.unit * (self.unit * elastic - work)
+        return total + self.new_potential - self.potential
+
+    def _evaluate(self, step, factor, traction, slope):
+        """Traction and slope of the law after a step; returns the sum of its potential."""
+        gap, total = traction, 0.0  # a block of gaps makes room for tractions
+        loops.find_gaps(
+            step, np.float32(factor), self.change, self.lowest, np.float32(self.unit), gap
+        )
+        gap, traction, slope = (field.reshape(self.shape) for field in (gap, traction, slope))
+        for span in spans(self.shape):
+            traction[span], slope[span], potential = self.law.at(span).evaluate(gap[span])
+            total += float(potential.sum())
+        return total
+
+    def _go(self, step, image, factor):
+        """Make a step; returns whether it is short enough for the present tangent."""
+        fields = self.change, self.reaction, self.free
+        if self.linear:
+            total = loops.go_linearly(step, factor, image, *fields, self.slope)
+        else:
+            tractions = self.traction, self.new_traction
+            total = loops.go(step, factor, image, *fields, tractions, np.float32(self.unit))
+            self.traction, self.new_traction = self.new_traction, self.traction
+            self.slope, self.new_slope = self.new_slope, self.slope
+            self.potential = self.new_potential
+        if step is self.step:  # no rounding where it ends at the wall
+            loops.end_at_wall(step, self.change, self.lowest, self.free, self.above)
+        mean = total / max(self.free_points, 1) if self.at_gap else 0.0
+        self._release(np.float32(mean))
+        return not self.linear or self.unit * largest(self.change) <= _NEAR * self.law.range
+
+    def _release(self, mean):
+        """Free points that the wall would have to pull, put off those behind it; new forces."""
+        self.force, self.last_force = self.last_force, self.force
+        height = self.step  # scratch: not in use here
+        self.free_points, changed = loops.release(
+            *(self.reaction, mean, self.change, self.lowest),
+            *(self.above, self.free, self.force, height),
+        )
+        self.residual = largest(self.force)
+        self.behind = max(-float(height.min()), 0.0) * self.pixel
+        if changed:
+            self.precondition = Preconditioner(self.surface, self.free.reshape(self.shape))
+
+    def _stiffen(self, field, out):
+        """Pressure that causes a displacement."""
+        self.surface.quick.stiffness(field.reshape(self.shape), out=out.reshape(self.shape))

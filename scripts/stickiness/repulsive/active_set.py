@@ -1,0 +1,356 @@
+"""Active-set iteration of the repulsive contact problem, in dimensionless variables.
+
+`solver` states the problem and the method. Pressures of the contact set are short vectors; whole
+grids are touched once per update of the set. Between updates the pressure is corrected in single
+precision: a correction reduces the gap by a factor of 10 to 1000, for which seven digits are
+enough, and the next update starts from the true gap (iterative refinement). That gap is in double
+precision as soon as rounding matters, and always in what is returned.
+
+Where few points may touch, corrections are made among these alone, changes of the set included
+(`few_points`), as long as they gain.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from stickiness.repulsive import convolution, few_points, free_edges, half_space
+from stickiness.repulsive.conjugate_gradients import close_gap
+from stickiness.repulsive.grids import measure_slope
+from stickiness.repulsive.preconditioner import Preconditioner
+from stickiness.solids import HALF_SPACE, Solid
+
+_GENEROUS = 2.0  # first set over the contact that is expected
+_MOST = 0.5  # of all points: beyond this the first set is all of them
+PREDICTION = 0.7  #: c in "contact where p > c k g": 0.5 to 1 predict about equally well
+_LOOSE = 0.4  # reduction of the gap on a set that is still changing much
+_CLOSER = 0.01  # and on one that changes little
+_SETTLED = 1e-3  # share of changing points below which a set changes little
+_DOUBTFUL = 1e-4  # of the largest height: residual below which gaps need double precision
+_PATIENCE = 8  # updates without progress after which the set is solved ten times tighter
+_DOUBT = 2  # updates without progress after which corrections among few points are given up
+_SURRENDER = 40  # updates without progress after which rounding is what limits the residual
+_SURRENDER_UNSURE = 8  # and where `projected_gradients` takes over
+
+
+@dataclass(frozen=True, eq=False)
+class Problem:
+    """Contact problem on one grid."""
+
+    heights: np.ndarray  #: in units of their rms, contiguous
+    sides: tuple  #: of the cell, in units of the first
+    load: float  #: mean pressure, in units of E* times rms height over side
+    solid: Solid = HALF_SPACE  #: its thickness in units of the first side
+    periodic: bool = True  #: or a rectangle on a half-space without end
+
+    def operator(self, dtype):
+        """Compliance on this grid, and its inverse, be it approximate."""
+        shape = self.heights.shape
+        if self.periodic:
+            return half_space.half_space(shape, self.sides, dtype, self.solid)
+        return free_edges.free_half_space(shape, self.sides, dtype)
+
+
+@dataclass(frozen=True, eq=False)
+class State:
+    """Outcome of `relax`: fields in units of the side, the rms height and E*."""
+
+    pressure: np.ndarray
+    gap: np.ndarray
+    shift: float
+    area_fraction: float
+    residual: float
+    iterations: int
+    pairs: float
+
+
+class _Field:
+    """A field that is zero but at some points, and its image under an operator."""
+
+    def __init__(self, operator, memory=None):
+        self.operator = operator
+        self.shape = operator.shape
+        size = self.shape[0] * self.shape[1]
+        if memory is None:
+            self.field = convolution.aligned_zeros(size, operator.dtype)
+            self.image = convolution.aligned_zeros(size, operator.dtype)
+        else:  # zeros are zeros in any precision, and an image is read before the next is made
+            self.field = memory.field.view(operator.dtype)[:size]
+            self.image = memory.image.view(operator.dtype)[:size]
+
+    def apply(self, operation, points, values, rows_in, rows_out=None):
+        """Image of a field that is zero but for `values` at `points`; `image` holds it."""
+        self.field[points] = values
+        operation(self.field.reshape(self.shape), self.image.reshape(self.shape), rows_in, rows_out)
+        self.field[points] = 0
+        return self.image
+
+    def spread(self, points, values, wanted):
+        """Values, at other points, of a field that is zero but for `values` at `points`."""
+        self.field[points] = values
+        spread = self.field[wanted].astype(float, copy=False)
+        self.field[points] = 0
+        return spread
+
+
+class _Grid:
+    """Heights on a grid, and scratch fields in single and, unless `rough`, double precision."""
+
+    def __init__(self, problem, rough):
+        heights = problem.heights
+        self.shape = heights.shape
+        self.heights = heights
+        self.active = np.zeros(heights.size, bool)
+        dtype = np.float32 if rough else np.float64
+        self.exact = _Field(problem.operator(dtype))
+        self.quick = (
+            self.exact if rough else _Field(problem.operator(np.float32), memory=self.exact)
+        )
+        # Below this residual rounding in single precision (some 1e-6 of the heights) is felt.
+        largest = float(np.abs(heights).max())
+        if not problem.periodic:  # an absolute displacement is about as large as this
+            largest = max(largest, problem.load)
+        self.doubtful = 0.0 if rough else _DOUBTFUL * largest
+        self.solid, self.sides = problem.solid, problem.sides
+        self.spent = 0.0  # convolutions on coarser grids, by their share of the points
+        self._before = self._count()
+
+    def _count(self):
+        pairs = self.quick.operator.pairs + self.spent
+        if self.exact is not self.quick:
+            pairs += self.exact.operator.pairs
+        return pairs
+
+    @property
+    def pairs(self):
+        """Convolutions since this object was made."""
+        return self._count() - self._before
+
+    def rows(self, points):
+        hit = np.zeros(self.shape[0], bool)
+        hit[points // self.shape[1]] = True
+        return np.flatnonzero(hit)
+
+
+def relax(problem, *, tol, max_iterations, gap=None, pressure=None, rough=False, logger=None):
+    """Find pressure and gap on one grid; returns the iterate of the smallest residual.
+
+    Starts from a guess of the `gap` (single precision), from one of the `pressure` (any positive
+    mean), or from a uniform pressure on the highest points. `rough`: single precision suffices,
+    `tol` is well above 1e-5.
+    """
+    heights, load = problem.heights, problem.load
+    sure = problem.solid == HALF_SPACE and problem.periodic
+    surrender = _SURRENDER if sure else _SURRENDER_UNSURE
+    grid = _Grid(problem, rough)
+    field = grid.quick if pressure is None else grid.exact
+    total = load * heights.size
+    if gap is not None:
+        points, pressure = _predicted_from_gap(grid, gap, load)
+        gap = None  # frees the memory, if nobody else holds it
+    elif pressure is not None:
+        points, pressure = _predicted_from_pressure(grid, pressure, total)
+    else:
+        points = _highest(problem)
+        pressure = np.full(points.size, total / points.size)
+    if points.size == heights.size and problem.periodic:
+        full = _full_contact(grid, load)
+        if full.pressure.min() >= 0:
+            return full
+    few, dilute = None, problem.periodic and few_points.suit(grid.shape, grid.sides, points.size)
+    best, precondition = None, None
+    iterations, stale, loose, changed = 0, 0, _LOOSE, points.size
+    while True:
+        shift, gaps, below, residual = _gap(grid, field, points, pressure)
+        if residual <= tol and field is not grid.exact:
+            field = grid.exact
+            continue
+        stale += 1
+        if best is None or residual < best[-1]:
+            best, stale = (points, pressure, shift, residual), 0
+        if logger is not None:
+            logger.info(
+                "%d x %d: residual %.1e h_rms, area %.5f, %d iterations",
+                *(*grid.shape, residual, points.size / heights.size, iterations),
+            )
+        if residual <= tol or iterations >= max_iterations or stale > surrender:
+            break
+        if below.size + points.size == 1:
+            break
+        if dilute and stale < _DOUBT:
+            few = few_points.gather(grid, few, points, below, field.image, shift)
+            dilute = few is not None
+        else:
+            few, dilute = None, False
+        if dilute:
+            local = field.image[few.points].astype(float) + shift
+            left = max_iterations - iterations
+            points, pressure, count = few.settle(points, pressure, local, 0.3 * tol, left)
+            iterations += count
+            # such a correction gains a factor of 100
+            field = grid.quick if residual > 10 * grid.doubtful else grid.exact
+            continue
+        if stale and stale % _PATIENCE == 0:
+            loose /= 10
+        admitted = below[
+            field.image[below] + shift < -few_points.ADMITTED * np.sqrt(gaps @ gaps / gaps.size)
+        ]
+        if admitted.size:
+            gaps = None  # frees memory
+            points, pressure, gaps = _joined(grid, field, points, pressure, admitted, shift)
+            precondition = None
+        changed += admitted.size
+        if precondition is None:
+            precondition = Preconditioner(grid, points)
+        if changed == 0:
+            goal = 0.5 * tol
+        else:
+            reduction = loose if changed > _SETTLED * points.size else min(loose, _CLOSER)
+            goal = max(reduction * float(np.std(gaps)), 0.1 * tol)
+        residuals, scale = _scaled(gaps)
+        gaps = None  # frees memory
+        change, count = close_gap(
+            precondition, residuals, goal / scale, changed == 0, max_iterations - iterations
+        )
+        iterations += count
+        pressure = _changed(pressure, change, scale)
+        change = residuals = None
+        keep = pressure > 0
+        changed = points.size - int(np.count_nonzero(keep))
+        if changed:
+            points, pressure = points[keep], pressure[keep]
+            pressure *= total / pressure.sum()
+            precondition = None
+        changed += admitted.size
+        field = grid.quick if residual > grid.doubtful else grid.exact
+    return _state(grid, best, field, pressure, iterations)
+
+
+def _full_contact(grid, load):
+    """Full contact of any surface: the pressure is that of the heights as a displacement."""
+    operator = grid.exact.operator
+    heights = grid.heights.astype(operator.dtype, copy=False)
+    pressure = operator.stiffness(heights)
+    misfit = operator.compliance(pressure)
+    misfit -= grid.heights
+    residual = float(np.abs(misfit).max())
+    pressure += load
+    misfit[...] = 0
+    return State(pressure, misfit, 0.0, 1.0, residual, 0, grid.pairs)
+
+
+def _gap(grid, field, points, pressure):
+    """Shift, gaps in contact, points that penetrate outside it, and residual of an iterate.
+
+    The shift makes the mean gap in contact vanish; the image of `field` keeps the gap without it.
+    """
+    image = field.apply(field.operator.compliance, points, pressure, grid.rows(points))
+    np.subtract(image, grid.heights.ravel(), out=image, casting="same_kind")
+    gaps = image[points].astype(float, copy=False)
+    shift = float(-gaps.mean())
+    gaps += shift
+    below = np.flatnonzero(image < -shift)
+    grid.active[points] = True
+    below = below[~grid.active[below]]
+    grid.active[points] = False
+    depth = float(-(image[below].min() + shift)) if below.size else 0.0
+    return shift, gaps, below, max(float(np.abs(gaps).max()), depth)
+
+
+def _highest(problem):
+    """Points that may touch, for want of a guess: the highest, many of them; all at a high load.
+
+    At small loads the area of contact is about twice the load over the rms slope.
+    """
+    heights = problem.heights
+    area = 2 * problem.load / (measure_slope(heights, problem.sides) or 1.0)
+    count = int(_GENEROUS * area * heights.size) + 1
+    if not problem.periodic or problem.solid != HALF_SPACE or count > _MOST * heights.size:
+        return np.arange(heights.size)
+    return np.sort(np.argpartition(heights.ravel(), -count)[-count:])
+
+
+def _predicted_from_gap(grid, gap, load):
+    """Contact set and pressure that a guess of the gap implies: inside contact both are good."""
+    operator, shape = grid.quick.operator, grid.shape
+    surface = grid.quick.image.reshape(shape)  # scratch: not in use here
+    np.add(gap, grid.heights, out=surface, casting="same_kind")
+    pressure = operator.stiffness(surface)
+    pressure += np.float32(load)
+    np.multiply(gap, np.float32(PREDICTION * operator.mean_stiffness), out=surface)
+    np.maximum(surface, 0, out=surface)
+    points = np.flatnonzero(pressure > surface)
+    if points.size == 0:
+        points = np.array([np.argmax(pressure)])
+    pressure = pressure.ravel()[points].astype(float)
+    return points, _balanced(np.maximum(pressure, 0), load * gap.size)
+
+
+def _predicted_from_pressure(grid, pressure, total):
+    """Contact set and pressure from a guess of the pressure."""
+    flat = pressure.ravel()
+    points = np.flatnonzero(flat > 0)
+    shift, *_ = _gap(grid, grid.exact, points, _balanced(flat[points], total))
+    threshold = grid.exact.image + shift
+    threshold *= PREDICTION * grid.exact.operator.mean_stiffness * (flat.sum() / total)
+    predicted = np.flatnonzero(flat > np.maximum(threshold, 0))
+    if predicted.size:
+        points = predicted
+    return points, _balanced(flat[points], total)
+
+
+def _balanced(pressure, total):
+    pressure = pressure.astype(float, copy=False)  # single precision would upset the balance
+    force = pressure.sum()
+    if force > 0:
+        return pressure * (total / force)
+    return np.full(pressure.size, total / pressure.size)
+
+
+def _joined(grid, field, points, pressure, extra, shift):
+    grid.active[points] = True
+    grid.active[extra] = True
+    joined = np.flatnonzero(grid.active)
+    grid.active[joined] = False
+    spread = grid.exact.spread(points, pressure, joined)
+    gaps = field.image[joined].astype(float, copy=False)
+    gaps += shift
+    return joined, spread, gaps
+
+
+def _scaled(gaps):
+    """Residuals of zero mean in single precision, and their unit: the rms gap."""
+    mean, scale = float(gaps.mean()), float(np.std(gaps)) or 1.0
+    residual = np.empty(gaps.size, np.float32)
+    np.subtract(mean, gaps, out=residual, casting="same_kind")
+    residual /= np.float32(scale)
+    return residual, scale
+
+
+def _changed(pressure, change, scale):
+    """Pressure plus a change of zero sum."""
+    total = np.multiply(change, scale, dtype=float)
+    total -= total.mean()
+    total += pressure
+    return total
+
+
+def _state(grid, best, field, last, iterations):
+    touching, pressure, shift, residual = best
+    # The image may belong to a later, worse iterate, or be in single precision.
+    if pressure is not last or field is not grid.exact:
+        shift, *_, residual = _gap(grid, grid.exact, touching, pressure)
+    gap, filled = grid.exact.image, grid.exact.field
+    gap += gap.dtype.type(shift)
+    np.maximum(gap, 0, out=gap)
+    gap[touching] = 0
+    filled[touching] = pressure
+    return State(
+        pressure=filled.reshape(grid.shape),
+        gap=gap.reshape(grid.shape),
+        shift=shift,
+        area_fraction=touching.size / gap.size,
+        residual=residual,
+        iterations=iterations,
+        pairs=grid.pairs,
+    )

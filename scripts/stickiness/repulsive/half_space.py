@@ -1,0 +1,145 @@
+"""Fourier operators of a periodic elastic solid, on one thread and reproducible.
+
+A pressure wave ``p_q`` (in units of E*) displaces a half-space by ``u_q = 2 p_q / |q|``, q != 0
+(Johnson, *Contact Mechanics*, 1985, section 13.2; Stanley and Kato, J. Tribol. 119:481, 1997,
+doi 10.1115/1.2833523), and a layer by S times that, see `solids`.
+"""
+
+import threading
+from functools import cached_property, lru_cache
+
+import numpy as np
+
+from stickiness.repulsive import convolution
+from stickiness.solids import HALF_SPACE
+
+_CACHES = []  # of all functions that `keep_per_thread` decorates
+
+
+def keep_per_thread(most):
+    """Decorate a function of hashable arguments: keep the `most` last results of each thread.
+
+    The operators own their plans and buffers, so that no two threads may share one.
+    """
+
+    def decorate(make):
+        @lru_cache(maxsize=most)
+        def kept(thread, *arguments):
+            return make(*arguments)
+
+        def of_this_thread(*arguments):
+            return kept(threading.get_ident(), *arguments)
+
+        _CACHES.append(kept)
+        return of_this_thread
+
+    return decorate
+
+
+def clear_caches():
+    """Free the plans and buffers that functions decorated with `keep_per_thread` hold."""
+    for kept in _CACHES:
+        kept.cache_clear()
+
+
+def wavenumbers(shape, lengths):
+    """Magnitudes ``|q|`` of a real transform's wavevectors, ``(shape[0], shape[1] // 2 + 1)``."""
+    q0 = 2 * np.pi * np.fft.fftfreq(shape[0], lengths[0] / shape[0])
+    q1 = 2 * np.pi * np.fft.rfftfreq(shape[1], lengths[1] / shape[1])
+    return np.hypot(q0[:, None], q1[None, :])
+
+
+def effective_wavenumbers(shape, lengths, solid=HALF_SPACE):
+    """Wave numbers ``|q|``/S at which a half-space is as stiff as the solid; `wavenumbers`' shape.
+
+    Twice the stiffness [E*]. Zero stays zero: the mean displacement is not the operators' matter.
+    """
+    q = wavenumbers(shape, lengths)
+    if solid != HALF_SPACE:
+        half = shape[0] // 2 + 1  # the other wave vectors mirror these
+        q[0, 0] = 1.0
+        q[:half] /= solid.factor(q[:half])
+        q[0, 0] = 0.0
+        q[half:] = q[1 : shape[0] - half + 1][::-1]
+    return q
+
+
+class HalfSpace:
+    """Compliance ``2/|q|`` of a periodic half-space and its inverse, the stiffness, but for q = 0.
+
+    Or ``2 S/|q|`` of another solid.
+
+    It counts its convolutions in `pairs`. `mean_stiffness` is the diagonal of the stiffness matrix:
+    pressure under a pixel lifted alone, per unit of lift. The object owns its buffers: no two
+    threads may use it at once (`half_space` hands every thread its own).
+
+    Parameters
+    ----------
+    shape : tuple of int
+        Grid points ``(n0, n1)``; even, odd and prime numbers work.
+    lengths : tuple of float
+        Sides of the cell; displacements come out in this unit.
+    dtype : data-type, optional
+        Of the real fields: double precision, or single at about half the cost for large grids.
+    solid : solids.HalfSpace or solids.Layer, optional
+        Its thickness in the unit of `lengths`.
+    """
+
+    def __init__(self, shape, lengths, dtype=np.float64, solid=HALF_SPACE):
+        self.dtype = np.dtype(dtype)
+        self.shape = tuple(int(n) for n in shape)
+        self.lengths = tuple(float(a) for a in lengths)
+        self.solid = solid
+        self.pairs = 0
+        n0, n1 = self.shape
+        self._convolution = convolution.choose(self.shape, self.dtype)
+        # FFTW does not normalise; the symbols carry the 1 / (n0 n1) of the inverse transform.
+        q = effective_wavenumbers(self.shape, self.lengths, solid).T
+        weight = np.full(q.shape[0], 2.0)
+        weight[0] = 1.0
+        if n1 % 2 == 0:
+            weight[-1] = 1.0
+        self.mean_stiffness = float(weight @ q.sum(axis=1)) / (2 * n0 * n1)
+        q[0, 0] = np.inf
+        np.divide(2 / (n0 * n1), q, out=q)
+        self._compliance = self._convolution.symbol(q)
+
+    @cached_property
+    def _stiffness(self):
+        # Made on demand: in double precision the contact solvers rarely need it.
+        q = effective_wavenumbers(self.shape, self.lengths, self.solid).T
+        q /= 2 * self.shape[0] * self.shape[1]
+        return self._convolution.symbol(q)
+
+    def compliance(self, pressure, out=None, rows_in=None, rows_out=None):
+        """Displacement, of zero mean and in the unit of `lengths`, under a pressure [E*].
+
+        `rows_in`: increasing indices of the only rows with pressure; `rows_out`: those wanted of
+        the displacement, the others stay as they are in `out` (default: all).
+        """
+        return self._convolve(pressure, self._compliance, out, rows_in, rows_out)
+
+    def stiffness(self, displacement, out=None, rows_in=None, rows_out=None):
+        """Pressure [E*], of zero mean, that causes a displacement; arguments as in `compliance`."""
+        return self._convolve(displacement, self._stiffness, out, rows_in, rows_out)
+
+    def _convolve(self, field, symbol, out, rows_in, rows_out):
+        if field.shape != self.shape:
+            raise ValueError(f"field has shape {field.shape}, the half-space {self.shape}")
+        if out is None:
+            empty = np.empty if rows_out is None else np.zeros
+            out = empty(self.shape, self.dtype)
+        every = np.arange(self.shape[0])
+        rows_in = every if rows_in is None else rows_in
+        rows_out = every if rows_out is None else rows_out
+        self._convolution.apply(symbol, field, out, rows_in, rows_out)
+        self.pairs += 1
+        return out
+
+
+def half_space(shape, lengths, dtype=np.float64, solid=HALF_SPACE):
+    """`HalfSpace` of a grid (arguments as there), kept for the next call of the same thread."""
+    return _kept_half_space(tuple(shape), tuple(lengths), np.dtype(dtype), solid)
+
+
+_kept_half_space = keep_per_thread(24)(HalfSpace)

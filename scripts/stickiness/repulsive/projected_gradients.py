@@ -1,0 +1,89 @@
+"""Projected conjugate gradients for the repulsive contact problem: slower, but sure.
+
+The active-set iteration supposes that pressure on a point moves the others less and less with
+distance, as on a half-space. A stiff film on a soft backing bends, and a thin incompressible layer
+yields only where material can flow off: there it may cycle, or hardly gain. The method of Polonsky
+and Keer (Wear 231:206, 1999, doi 10.1016/S0043-1648(99)00113-1) changes the set of contact with
+every step. Here the stiffness preconditions it, between masks of the contact, and the directions
+are Polak-Ribiere's: some hundreds of iterations of three convolutions in double precision where
+the original takes thousands.
+
+On 256 points a side, h_rms = 1 and the longest wave 2 pi, it takes 40 to 100 iterations more on
+incompressible layers of d = 0.01 and less, and some 400 on a film of d = 0.1 or 0.3 whose backing
+has a tenth of its modulus. On a backing of a thousandth it does not converge.
+"""
+
+import numpy as np
+
+from stickiness.repulsive.active_set import State
+
+_JOINING = 1e-6  # of the mean pressure, for points that join: what they carry is the next step's
+
+
+def relax(problem, pressure, *, tol, max_iterations, logger=None):
+    """Find pressure and gap on one grid from a pressure of any positive mean.
+
+    Returns the first iterate within `tol`, or the one of the smallest residual.
+    """
+    operator = problem.operator(np.float64)
+    before, best, iterations = operator.pairs, None, 0
+    pressure = np.maximum(pressure, 0.0)
+    pressure *= problem.load / pressure.mean()
+    old, direction, last = np.zeros_like(pressure), np.zeros_like(pressure), np.inf
+    while True:
+        gap, touching, shift, residual = _gap(problem, operator, pressure)
+        if best is None or residual < best[0]:
+            best = residual, shift, pressure.copy(), gap.copy()
+        if logger is not None and iterations % 50 == 0:
+            logger.info("projected: residual %.1e h_rms, %d iterations", residual, iterations)
+        if residual <= tol or iterations >= max_iterations:
+            break
+        gap_in_contact = gap * touching
+        fall = operator.stiffness(gap_in_contact)
+        fall *= touching
+        fall[touching] -= fall[touching].mean()
+        product = float(np.vdot(gap_in_contact, fall))
+        weight = max(0.0, (product - float(np.vdot(old, fall))) / last)
+        direction *= weight
+        direction *= touching
+        direction += fall
+        old, iterations = gap_in_contact, iterations + 1
+        last = product if _step(problem, operator, pressure, gap, direction) else np.inf
+    return _state(best, iterations, operator.pairs - before)
+
+
+def _gap(problem, operator, pressure):
+    """Gap of zero mean in contact, points in contact, shift and residual of an iterate."""
+    gap = operator.compliance(pressure)
+    gap -= problem.heights
+    touching = pressure > 0
+    shift = -float(gap[touching].mean())
+    gap += shift
+    residual = max(float(np.abs(gap[touching]).max()), -float(gap.min()))
+    return gap, touching, shift, residual
+
+
+def _step(problem, operator, pressure, gap, direction):
+    """Change the pressure, in place, along a direction; whether the next one may be conjugate."""
+    touching = pressure > 0
+    image = operator.compliance(direction)
+    image -= image[touching].mean()
+    curvature = float(np.vdot(image, direction))
+    if not curvature > 0:  # nothing but rounding is left
+        direction[...] = 0
+        return False
+    pressure -= float(np.vdot(gap, direction)) / curvature * direction
+    np.maximum(pressure, 0, out=pressure)
+    joined = (pressure == 0) & (gap < 0)
+    pressure[joined] = _JOINING * problem.load
+    pressure *= problem.load / pressure.mean()
+    return not joined.any()
+
+
+def _state(best, iterations, pairs):
+    residual, shift, pressure, gap = best
+    touching = pressure > 0
+    np.maximum(gap, 0.0, out=gap)
+    gap[touching] = 0
+    area = float(np.mean(touching))
+    return State(pressure, gap, shift, area, residual, iterations, pairs)

@@ -1,0 +1,15 @@
+"""Spectra of random rough surfaces and their moments."""
+
+from stickiness.spectrum.interface import Spectrum
+from stickiness.spectrum.kinds import PowerLawSegments, SelfAffine, Shells, Tabulated
+from stickiness.spectrum.sums import Sum, combine
+
+__all__ = [
+    "PowerLawSegments",
+    "SelfAffine",
+    "Shells",
+    "Spectrum",
+    "Sum",
+    "Tabulated",
+    "combine",
+]

@@ -1,0 +1,229 @@
+"""Surfaces with a direction: spectra of an elliptic norm of the wave vector.
+
+C(q) = C(Q), where Q^2 = a k^2 + s^2/a, k and s being the components of q along the long correlation
+length and across it, a the ratio of the correlation lengths. The norm keeps areas, so that C(Q)
+has the same height variance at any ratio. On an ellipse of constant Q the wave number runs from
+Q/sqrt(a), along, to Q sqrt(a), across: the stretch ``g = |q|/Q``, with g^2 = cos^2 t/a + a sin^2 t
+at the angles t of the circle that the ellipse is stretched from, which are evenly filled. Averages
+over t take the variable w in ln g = -ln(sqrt(a)) cos w, which leaves periodic smooth integrands at
+any ratio.
+
+Averaged over directions C is ``<C(q/g)/g^2>``. At the ends of the waves that the ellipses of a knot
+Q_k hold, Q_k/sqrt(a) and Q_k sqrt(a), it is like a square root; in between two knots, beyond these,
+a power law. `Ellipse.average` follows it by power laws between nodes that crowd at those ends, each
+of which holds the height and the gradient variance exactly.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from scipy.optimize import brentq, elementwise
+
+from stickiness.arguments import finite, nonnegative, number
+from stickiness.spectrum.moments import Moments
+from stickiness.spectrum.power_laws import PowerLaws
+
+MOST = 1e4  #: ratios up to which averages were checked
+_ALIKE = 1e-4  # ratios nearer to 1 change no average by more than 1e-8
+_NODES = 64  # of averages over whole ellipses
+_PIECE = 32  # nodes of those over the part of an ellipse between two knots
+_CELLS = 56  # power laws for each knot
+_CELL_NODES = 16
+_CLOSEST = 1e-10  # ends of cells in ln q
+# Angles of the amplitude of cos 2 phi, and the ratio beyond which it hardly changes.
+_ANGLES, _LARGEST_FOUND = 2000, 20.0
+_STEEPEST = 60.0  # change of ln(q^2 C) over a cell
+
+
+@dataclass(frozen=True)
+class Ellipse:
+    """Norm of wave vectors, and the averages over directions that belong to it.
+
+    Parameters
+    ----------
+    ratio : float
+        Of the correlation lengths, long over short, from 1 to 1e4.
+    angle : float
+        Direction of the long correlation length from x [rad].
+    """
+
+    ratio: float = 1.0
+    angle: float = 0.0
+
+    def __post_init__(self):
+        if not 1 <= number("anisotropy", self.ratio) <= MOST:
+            raise ValueError(
+                f"anisotropy must be between 1 and {MOST:g}, got {self.ratio!r}: it is the long "
+                "over the short correlation length"
+            )
+        if np.ndim(finite(angle=self.angle)[0]):
+            raise ValueError(f"angle must be a number, got {self.angle!r}")
+
+    @property
+    def is_circle(self) -> bool:
+        """Whether all directions are alike."""
+        return self.ratio == 1
+
+    @property
+    def reach(self) -> float:
+        """Largest ``|q|`` on an ellipse over its norm; the smallest is the inverse of it."""
+        return float(np.sqrt(self.ratio))
+
+    def norm(self, qx: ArrayLike, qy: ArrayLike) -> NDArray:
+        """Norm Q of wave vectors."""
+        if self.is_circle:
+            return np.hypot(qx, qy)
+        qx, qy = np.asarray(qx, dtype=float), np.asarray(qy, dtype=float)
+        c, s = np.cos(self.angle), np.sin(self.angle)
+        return np.hypot((c * qx + s * qy) * self.reach, (c * qy - s * qx) / self.reach)
+
+    def mean_stretch(self, power: float) -> float:
+        """Average of g^power over an ellipse: that of ``|q|^power`` over Q^power."""
+        if self.is_circle:
+            return 1.0
+        w = np.pi * (np.arange(_NODES) + 0.5) / _NODES
+        log_g = -self._log_reach * np.cos(w)
+        return float(np.mean(2 * self._fill(w) * np.exp(power * log_g)))
+
+    def moments(self, totals: tuple[float, float, float], axis: float | None = None) -> Moments:
+        """Moments by direction (Longuet-Higgins 1957, doi:10.1098/rsta.1957.0002).
+
+        Parameters
+        ----------
+        totals : (float, float, float)
+            2 pi * integral of Q^(1 + power) C(Q) dQ for powers 0, 2 and 4.
+        axis : float, optional
+            Direction of x in the names of the moments, from the surface's x [rad]: the long
+            correlation length by default.
+        """
+        height, gradient, laplacian = totals
+        a, turn = self.ratio, 0.0 if axis is None else axis - self.angle
+        c2, s2 = np.cos(turn) ** 2, np.sin(turn) ** 2
+        m20, m02 = gradient / 2 / a, gradient / 2 * a
+        m40, m22, m04 = 3 / 8 * laplacian / a**2, laplacian / 8, 3 / 8 * laplacian * a**2
+        return Moments(
+            m00=height,
+            m20=float(c2 * m20 + s2 * m02),
+            m02=float(s2 * m20 + c2 * m02),
+            m40=float(c2**2 * m40 + 6 * c2 * s2 * m22 + s2**2 * m04),
+            m22=float(c2 * s2 * (m40 + m04 - 2 * m22) + (c2 - s2) ** 2 * m22),
+            m04=float(s2**2 * m40 + 6 * c2 * s2 * m22 + c2**2 * m04),
+        )
+
+    def mean_psd(self, laws: PowerLaws, q: ArrayLike) -> NDArray:
+        """C averaged over directions at wave numbers `q`, exactly."""
+        if self._is_nearly_circle:
+            return laws.psd(q)
+        (q,) = nonnegative(q=q)
+        low, high = laws.ends
+        # Beyond the band as just beyond it: nothing is infinite there.
+        within = np.clip(q.reshape(-1, 1), 0.5 * low / self.reach, 2 * high * self.reach)
+        log_ratio = np.log(within / laws.knots)
+        # Where the ellipses of the knots pass this wave number.
+        at_knot = np.arccos(np.clip(-log_ratio / self._log_reach, -1, 1))
+        x, weight = np.polynomial.legendre.leggauss(_PIECE)
+        half = 0.5 * (at_knot[:, :-1] - at_knot[:, 1:])[..., None]
+        w = at_knot[:, 1:, None] + half * (1 + x)
+        log_g = -self._log_reach * np.cos(w)
+        log_law = laws.exponent[:, None] * (log_ratio[:, :-1, None] - log_g) - 2 * log_g
+        terms = self._fill(w) * np.exp(log_law)
+        mean = 2 / np.pi * np.sum((half * terms) @ weight * laws.level, axis=-1)
+        return mean.reshape(q.shape)
+
+    def average(self, laws: PowerLaws) -> PowerLaws:
+        """Power laws of ``|q|`` that follow the average over directions of those of the norm.
+
+        Height and gradient variance between any two of their knots are exact. The energy of full
+        contact errs by less than 1e-8 up to a ratio of 8, by 1e-7 at 100 and 1e-6 at 1e4.
+        """
+        if self._is_nearly_circle:
+            return laws
+        around = -self._log_reach * np.cos(np.linspace(0, np.pi, _CELLS + 1))
+        edges = np.unique(np.add.outer(np.log(laws.knots), around))
+        edges = edges[np.append(True, np.diff(edges) > _CLOSEST)]
+        width, start = np.diff(edges), np.exp(edges[:-1])
+        share, weight = _cell_quadrature()
+        at = width[:, None] * share
+        density = np.exp(2 * at) * self.mean_psd(laws, start[:, None] * np.exp(at))
+        empty = density @ weight == 0  # between the bands of a spectrum that has a gap
+        density[empty] = 1.0
+        high = np.expm1(2 * at) / np.expm1(2 * width)[:, None]
+        centre = (density * high) @ weight / (density @ weight)
+        slope = _find_slopes(centre, width) / width
+        level = (density @ weight) / (np.exp(slope[:, None] * at) @ weight)
+        return PowerLaws(np.exp(edges), np.where(empty, 0.0, level), slope - 2)
+
+    @property
+    def _log_reach(self) -> float:
+        return float(np.log(self.ratio)) / 2
+
+    @property
+    def _is_nearly_circle(self) -> bool:
+        return self.ratio - 1 < _ALIKE
+
+    def _fill(self, w: NDArray) -> NDArray:
+        """dt/dw, its mean over w from 0 to pi being a half."""
+        length = self._log_reach
+        s2, c2 = np.sin(w / 2) ** 2, np.cos(w / 2) ** 2
+        low, high = 4 * length * s2, 4 * length * c2
+        # Each of the roots vanishes with the sine of one end.
+        ends = _expm1_ratio(low) * _expm1_ratio(-high)
+        return 0.5 * np.exp(-2 * length * np.cos(w)) / np.sqrt(ends)
+
+
+CIRCLE = Ellipse()
+
+
+def find_amplitude(ratio: float, hurst: float) -> float:
+    """Amplitude A of C ~ 1 + A cos 2 phi of a self-affine spectrum with a direction.
+
+    That is what `measured.psd.PowerSpectrum.anisotropy` finds of its surfaces.
+    """
+    phi = np.pi * (np.arange(_ANGLES) + 0.5) / _ANGLES
+    density = (ratio * np.cos(phi) ** 2 + np.sin(phi) ** 2 / ratio) ** (-1 - hurst)
+    return float(-2 * np.mean(np.cos(2 * phi) * density) / np.mean(density))
+
+
+def find_ratio(amplitude: float, hurst: float) -> float:
+    """Ratio of the correlation lengths of a measured amplitude, at most `_LARGEST_FOUND`.
+
+    The inverse of `find_amplitude`, with a Hurst exponent from 0.1 to 1.
+    """
+    hurst = min(max(hurst, 0.1), 1.0)
+    if amplitude >= find_amplitude(_LARGEST_FOUND, hurst):
+        return _LARGEST_FOUND
+    if amplitude <= 0:
+        return 1.0
+    found = brentq(
+        lambda log: find_amplitude(np.exp(log), hurst) - amplitude, 0, np.log(_LARGEST_FOUND)
+    )
+    return float(np.exp(found))
+
+
+def _expm1_ratio(x: NDArray) -> NDArray:
+    """(exp(x) - 1)/x."""
+    safe = np.where(x == 0, 1.0, x)
+    return np.where(x == 0, 1.0, np.expm1(safe) / safe)
+
+
+def _cell_quadrature() -> tuple[NDArray, NDArray]:
+    """Nodes and weights on 0 to 1 for functions that are like a square root at both ends."""
+    x, weight = np.polynomial.legendre.leggauss(_CELL_NODES)
+    turn = 0.5 * np.pi * (1 + x)
+    return 0.5 * (1 - np.cos(turn)), 0.25 * np.pi * np.sin(turn) * weight
+
+
+def _find_slopes(centre: NDArray, width: NDArray) -> NDArray:
+    """Change over each cell of ln(q^2 C) that puts the gradient's centre where it is."""
+    share, weight = _cell_quadrature()
+
+    def excess(slope, centre, width):
+        density = np.exp(slope[..., None] * (share - 0.5)) * weight
+        high = np.expm1(2 * width[..., None] * share) / np.expm1(2 * width[..., None])
+        return np.sum(density * high, axis=-1) / np.sum(density, axis=-1) - centre
+
+    ends = np.full_like(centre, -_STEEPEST), np.full_like(centre, _STEEPEST)
+    return elementwise.find_root(excess, ends, args=(centre, width)).x

@@ -1,0 +1,339 @@
+"""Power spectral densities of rough surfaces and their moments.
+
+One convention throughout: the two-dimensional power spectral density C(q) [length^4] has
+h_rms^2 = double integral of C d^2q, with no factor 1/(4 pi^2); averaged over directions,
+h_rms^2 = 2 pi * integral of q C(q) dq. Theories know a surface by that average: it has the same
+heights, gradients, curvatures and energy of full contact.
+"""
+
+from __future__ import annotations
+
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from stickiness.arguments import nonnegative, number
+from stickiness.spectrum.direction import CIRCLE, Ellipse
+from stickiness.spectrum.interface import Spectrum
+from stickiness.spectrum.moments import Moments
+from stickiness.spectrum.power_laws import ROUNDING, PowerLaws
+
+
+class PowerLawSegments(Spectrum):
+    """Spectrum made of adjoining power laws C = C_i (q/q_i)^a_i; the base of the analytic ones.
+
+    Parameters
+    ----------
+    knots : (m + 1,) array
+        Increasing wave numbers that separate the m segments.
+    level, exponent : (m,) array
+        C at the left end of each segment, and its exponent a.
+    ellipse : direction.Ellipse
+        Norm that takes the place of ``|q|`` in them: ``|q|`` by default.
+    """
+
+    prescribed = "C"
+
+    def __init__(
+        self, knots: ArrayLike, level: ArrayLike, exponent: ArrayLike, ellipse: Ellipse = CIRCLE
+    ):
+        self.ellipse, self._laws = ellipse, PowerLaws.of(knots, level, exponent)
+        self.q0, self.q1 = self._laws.ends
+        self.isotropic = ellipse.is_circle
+
+    @cached_property
+    def _mean(self) -> PowerLaws:
+        """The power laws averaged over directions."""
+        return self._laws if self.isotropic else self.ellipse.average(self._laws)
+
+    @property
+    def anisotropy(self) -> float:
+        """Ratio of the correlation lengths."""
+        return self.ellipse.ratio
+
+    @property
+    def angle(self) -> float:
+        """Direction of the long correlation length from x [rad]."""
+        return self.ellipse.angle
+
+    @property
+    def knots(self) -> NDArray:
+        """Wave numbers, both ends included, between which C is one power law each."""
+        return self._laws.knots.copy()
+
+    @property
+    def band(self) -> tuple[float, float]:
+        """See `Spectrum.band`."""
+        return self.q0 / self.ellipse.reach, self.q1 * self.ellipse.reach
+
+    def psd(self, q: ArrayLike) -> NDArray:
+        """C(q) [length^4], averaged over directions; zero outside the band."""
+        if self.isotropic:
+            return self._laws.psd(q)
+        return self.ellipse.mean_psd(self._laws, q)
+
+    def norm(self, qx: ArrayLike, qy: ArrayLike) -> NDArray:
+        """See `Spectrum.norm`."""
+        return self.ellipse.norm(qx, qy)
+
+    def psd_of_norm(self, norm: ArrayLike) -> NDArray:
+        """See `Spectrum.psd_of_norm`."""
+        return self._laws.psd(norm)
+
+    def averaged(self) -> PowerLawSegments:
+        """See `Spectrum.averaged`."""
+        if self.isotropic:
+            return self
+        return PowerLawSegments(self._mean.knots, self._mean.level, self._mean.exponent)
+
+    def directional_moments(self, axis: float | None = None) -> Moments:
+        """See `Spectrum.directional_moments`."""
+        of_norm = tuple(float(self._laws.below(self.q1, power)) for power in (0, 2, 4))
+        return self.ellipse.moments(of_norm, axis)
+
+    def total_variance(self, power: float = 0) -> float:
+        """See `Spectrum.total_variance`."""
+        return float(self._laws.below(self.q1, power)) * self.ellipse.mean_stretch(power)
+
+    def variance_below(self, q: ArrayLike, power: float = 0) -> NDArray:
+        """See `Spectrum.variance_below`."""
+        return self._mean.below(q, power)
+
+    def variance_above(self, q: ArrayLike, power: float = 0) -> NDArray:
+        """See `Spectrum.variance_above`."""
+        return self._mean.above(q, power)
+
+    def at_gradient_variance(self, variance: ArrayLike) -> tuple[NDArray, NDArray]:
+        """See `Spectrum.at_gradient_variance`."""
+        q = self._mean.invert_gradient(variance)
+        return q, self.variance_above(q)
+
+    def truncated(self, q1: float) -> PowerLawSegments:
+        """Return the same spectrum cut at `q1` (q0 < q1 <= the present end) of the norm."""
+        check_cut(self, q1)
+        cut = self._laws.truncated(q1)
+        return PowerLawSegments(cut.knots, cut.level, cut.exponent, self.ellipse)
+
+
+class SelfAffine(PowerLawSegments):
+    """Self-affine spectrum C = C0 q^(-2(H+1)) from q0 (or q_rolloff) to q1.
+
+    Parameters
+    ----------
+    hurst : float
+        Hurst exponent H, 0 < H <= 1 (fractal dimension D = 3 - H).
+    q0, q1 : float
+        Lowest and highest wave number [1/length].
+    h_rms : float, optional
+        Root mean square height [length] of the continuous spectrum. Give this or `C0`.
+    C0 : float, optional
+        Prefactor [length^(2 - 2H)].
+    q_rolloff : float, optional
+        With it the spectrum is the plateau C = C0 q_rolloff^(-2(H+1)) for q0 <= q < q_rolloff.
+    anisotropy : float
+        Ratio of the correlation lengths, long over short, from 1 to 1e4.
+    angle : float
+        Direction of the long correlation length from x [rad].
+
+    Raises
+    ------
+    ValueError
+        If a parameter is out of range or both or none of `h_rms` and `C0` are given.
+
+    Notes
+    -----
+    With a direction q is an elliptic norm of the wave vector, (a k^2 + s^2/a)^(1/2), k and s being
+    its components along the long correlation length and across, a the anisotropy. `q0`, `q_rolloff`
+    and `q1` bound this norm: the longest waves have wave number q0/sqrt(a) along and q0 sqrt(a)
+    across, the shortest q1/sqrt(a) and q1 sqrt(a). `h_rms` does not depend on a, the rms slope
+    grows with it. `psd`, `variance_below` and the like are averages over directions at ``|q|``.
+
+    Examples
+    --------
+    >>> s = SelfAffine(hurst=0.8, q0=1.0, q1=64.0, h_rms=1.0)
+    >>> round(s.h_rms, 12), round(s.magnification)
+    (1.0, 64)
+    >>> ground = SelfAffine(hurst=0.8, q0=1.0, q1=64.0, h_rms=1.0, anisotropy=4.0)
+    >>> profiles = ground.directional_moments()  # m20 along the long waves, m02 across
+    >>> round(profiles.m02 / profiles.m20, 12), round(ground.rms_slope / s.rms_slope, 3)
+    (16.0, 1.458)
+    """
+
+    def __init__(
+        self,
+        *,
+        hurst: float,
+        q0: float,
+        q1: float,
+        h_rms: float | None = None,
+        C0: float | None = None,
+        q_rolloff: float | None = None,
+        anisotropy: float = 1.0,
+        angle: float = 0.0,
+    ):
+        _check_band(hurst, q0, q1, q_rolloff)
+        self.ellipse = Ellipse(anisotropy, angle)
+        if (h_rms is None) == (C0 is None):
+            raise ValueError(f"give one of h_rms and C0, got h_rms={h_rms!r} and C0={C0!r}")
+        name, size = ("h_rms", h_rms) if C0 is None else ("C0", C0)
+        size = number(name, size)
+        self.hurst, self.q_rolloff, self.prescribed = hurst, q_rolloff, name
+        with np.errstate(over="ignore", under="ignore", invalid="ignore", divide="ignore"):
+            self._build(q0, q1, np.float64(1.0))
+            self.C0 = size if h_rms is None else float(size**2 / self.total_variance())
+            self._build(q0, q1, np.float64(self.C0))
+            variances = np.array([self.total_variance(power) for power in (0, 2, 4)])
+        if not np.all(np.isfinite(variances) & (variances > 0)):
+            raise ValueError(
+                f"q0 = {q0!r}, q1 = {q1!r} and {name} = {size!r} leave the range of floats: take a "
+                "unit of length in which they are nearer to 1"
+            )
+
+    def _build(self, q0: float, q1: float, prefactor: float) -> None:
+        slope = -2 * (self.hurst + 1)
+        bend = q0 if self.q_rolloff is None else self.q_rolloff
+        level = prefactor * np.float64(bend) ** slope
+        if self.q_rolloff is None:
+            super().__init__([q0, q1], [level], [slope], self.ellipse)
+        else:
+            super().__init__([q0, bend, q1], [level, level], [0.0, slope], self.ellipse)
+
+    @property
+    def q_longest(self) -> float:
+        """See `Spectrum.q_longest`; with a direction the geometric mean of along and across."""
+        return self.q0 if self.q_rolloff is None else self.q_rolloff
+
+    def truncated(self, q1: float) -> SelfAffine:
+        """Return the same spectrum (same C0) cut at `q1`."""
+        check_cut(self, q1)
+        if self.q_rolloff is not None and self.q_rolloff >= q1:
+            return super().truncated(q1)
+        return SelfAffine(
+            hurst=self.hurst,
+            q0=self.q0,
+            q1=q1,
+            C0=self.C0,
+            q_rolloff=self.q_rolloff,
+            anisotropy=self.anisotropy,
+            angle=self.angle,
+        )
+
+    def __repr__(self) -> str:
+        rest = "" if self.q_rolloff is None else f", q_rolloff={self.q_rolloff:.6g}"
+        if not self.isotropic:
+            rest += f", anisotropy={self.anisotropy:.6g}, angle={self.angle:.6g}"
+        size = f"h_rms={self.h_rms:.6g}" if self.prescribed == "h_rms" else f"C0={self.C0:.6g}"
+        return f"SelfAffine(hurst={self.hurst}, q0={self.q0:.6g}, q1={self.q1:.6g}, {size}{rest})"
+
+
+class Tabulated(PowerLawSegments):
+    """Spectrum through measured points, interpolated linearly in log C against log q.
+
+    Parameters
+    ----------
+    q : (m,) array
+        Increasing wave numbers [1/length], m >= 2.
+    C : (m,) array
+        Power spectral density [length^4] in this project's convention, positive.
+    """
+
+    def __init__(self, q: ArrayLike, C: ArrayLike):
+        q, C = _check_points(q, C, "C", least=2)
+        if not (np.all(np.isfinite(C)) and np.all(C > 0)):
+            bad = int(np.argmin(np.where(np.isfinite(C), C, -np.inf)))
+            raise ValueError(f"C must be positive and finite, got C[{bad}] = {C[bad]!r}")
+        super().__init__(q, C[:-1], np.diff(np.log(C)) / np.diff(np.log(q)))
+
+
+class Shells(Spectrum):
+    """Discrete spectrum: height variance sitting on shells ``|q|`` = q_i, as on a periodic window.
+
+    Parameters
+    ----------
+    q : (m,) array
+        Increasing wave numbers of the shells [1/length].
+    variance : (m,) array
+        Height variance on each shell [length^2], non-negative.
+    """
+
+    prescribed = "variance"
+
+    def __init__(self, q: ArrayLike, variance: ArrayLike):
+        q, variance = _check_points(q, variance, "variance", least=1)
+        if not (np.all(np.isfinite(variance)) and np.all(variance >= 0) and variance.any()):
+            raise ValueError("variance must be finite, non-negative and not all zero")
+        keep = variance > 0
+        self.q, self.variance = q[keep], variance[keep]
+        self.q0, self.q1 = float(self.q[0]), float(self.q[-1])
+
+    def psd(self, q: ArrayLike) -> NDArray:
+        """C averaged over the ring between the midpoints to the neighbouring shells."""
+        if len(self.q) == 1:
+            raise ValueError("a single shell is a delta function: it has no density")
+        middle = (self.q[1:] + self.q[:-1]) / 2
+        edges = np.concatenate(
+            [[self.q0 - (middle[0] - self.q0)], middle, [2 * self.q1 - middle[-1]]]
+        )
+        density = self.variance / (np.pi * np.diff(edges**2))
+        (q,) = nonnegative(q=q)
+        i = np.searchsorted(edges, q, side="right") - 1
+        inside = (i >= 0) & (i < len(density))
+        return np.where(inside, density[np.clip(i, 0, len(density) - 1)], 0.0)
+
+    def variance_below(self, q: ArrayLike, power: float = 0) -> NDArray:
+        """See `Spectrum.variance_below`; a shell at `q` itself counts as below."""
+        before = np.concatenate([[0.0], np.cumsum(self.variance * self.q**power)])
+        (q,) = nonnegative(q=q)
+        return before[np.searchsorted(self.q, q, side="right")]
+
+    def variance_above(self, q: ArrayLike, power: float = 0) -> NDArray:
+        """See `Spectrum.variance_above`; a shell at `q` itself counts as below."""
+        after = np.concatenate([np.cumsum((self.variance * self.q**power)[::-1])[::-1], [0.0]])
+        (q,) = nonnegative(q=q)
+        return after[np.searchsorted(self.q, q, side="right")]
+
+    def at_gradient_variance(self, variance: ArrayLike) -> tuple[NDArray, NDArray]:
+        """See `Spectrum.at_gradient_variance`."""
+        gradient = np.cumsum(self.variance * self.q**2)
+        (variance,) = nonnegative(variance=variance)
+        i = np.minimum(np.searchsorted(gradient, variance, side="left"), len(self.q) - 1)
+        after = np.concatenate([np.cumsum(self.variance[::-1])[::-1], [0.0]])
+        rest = np.maximum(gradient[i] - variance, 0.0) / self.q[i] ** 2
+        return self.q[i], after[i + 1] + rest
+
+    def truncated(self, q1: float) -> Shells:
+        """Return the shells up to and including `q1`."""
+        check_cut(self, q1)
+        keep = self.q <= q1 * (1 + ROUNDING)
+        return Shells(self.q[keep], self.variance[keep])
+
+
+def _check_points(q: ArrayLike, values: ArrayLike, name: str, least: int) -> tuple[NDArray, ...]:
+    q, values = np.asarray(q, dtype=float), np.asarray(values, dtype=float)
+    if q.ndim != 1 or q.shape != values.shape or len(q) < least:
+        shapes = f"{q.shape} and {values.shape}"
+        raise ValueError(f"q and {name} must be 1D, of one length >= {least}; got {shapes}")
+    if not (np.all(np.isfinite(q)) and q[0] > 0 and np.all(np.diff(q) > 0)):
+        raise ValueError("q must be positive, finite and strictly increasing")
+    return q, values
+
+
+def _check_band(hurst: float, q0: float, q1: float, q_rolloff: float | None) -> None:
+    number("hurst", hurst)
+    if not hurst <= 1:
+        raise ValueError(f"hurst must be in (0, 1], got {hurst!r}")
+    number("q0", q0)
+    if not number("q1", q1) > q0:
+        raise ValueError(f"q1 must be finite and above q0 = {q0!r}, got {q1!r}")
+    if q_rolloff is not None and not q0 < number("q_rolloff", q_rolloff) < q1:
+        raise ValueError(
+            f"q_rolloff must lie between q0 = {q0!r} and q1 = {q1!r}, got {q_rolloff!r}"
+        )
+
+
+def check_cut(spectrum: Spectrum, q1: float) -> None:
+    if not spectrum.q0 < number("q1", q1) <= spectrum.q1:
+        raise ValueError(
+            f"truncated: q1 must lie in (q0, q1] = ({spectrum.q0!r}, {spectrum.q1!r}], got {q1!r}"
+        )

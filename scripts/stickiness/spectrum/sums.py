@@ -1,0 +1,177 @@
+"""Spectra of independent roughness that adds up, as that of two rough solids in contact."""
+
+from __future__ import annotations
+
+from functools import reduce
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from scipy.optimize import elementwise
+
+from stickiness.arguments import nonnegative
+from stickiness.spectrum.interface import Spectrum
+from stickiness.spectrum.kinds import Shells, check_cut
+from stickiness.spectrum.moments import Moments
+
+_ALIKE = 1e-9  # shells or knots that much apart, relatively, are one
+_STEPS = 64  # of the table in ln q that inversion starts from, besides the knots
+_PRECISION = 4e-16  # of ln q
+
+
+def combine(first: Spectrum, *others: Spectrum) -> Spectrum:
+    """Spectrum of rough solids that press on each other: their roughness is independent and adds.
+
+    Parameters
+    ----------
+    first, *others : Spectrum
+        Of each solid: either all are discrete spectra of periodic windows (`Shells`), or none.
+
+    Returns
+    -------
+    Spectrum
+        C = C_1 + C_2 + ...: shells of shells, else a `Sum`.
+
+    Raises
+    ------
+    ValueError
+        If an argument is no spectrum, or if shells are to be added to a density.
+
+    Examples
+    --------
+    >>> from stickiness.spectrum import SelfAffine
+    >>> rough = SelfAffine(hurst=0.8, q0=1.0, q1=64.0, h_rms=3.0)
+    >>> round(combine(rough, SelfAffine(hurst=0.6, q0=2.0, q1=500.0, h_rms=4.0)).h_rms, 12)
+    5.0
+    """
+    spectra = (first, *others)
+    for one in spectra:
+        if not isinstance(one, Spectrum):
+            raise ValueError(
+                f"combine takes spectra one by one, combine(*spectra), got {type(one).__name__}"
+            )
+    shells = [isinstance(one, Shells) for one in spectra]
+    if all(shells):
+        return reduce(_merge_shells, spectra)
+    if any(shells):
+        raise ValueError(
+            "combine: shells and a density have no common form; take surface.lattice_spectrum of "
+            "the density on the window of the shells"
+        )
+    parts = [part for one in spectra for part in getattr(one, "parts", (one,))]
+    return Sum(*parts) if len(parts) > 1 else first
+
+
+class Sum(Spectrum):
+    """Sum of the densities of independent surfaces; see `combine`.
+
+    A surface of it has the sum of the mode variances that each part's own would have on the
+    window: those of a part with prescribed h_rms are scaled to it.
+    """
+
+    prescribed = "C"
+
+    def __init__(self, *parts: Spectrum):
+        self.parts = parts
+        self.q0, self.q1 = min(part.q0 for part in parts), max(part.q1 for part in parts)
+        self.isotropic = all(part.isotropic for part in parts)
+        self.anisotropy = self._weigh([part.anisotropy for part in parts])
+
+    @property
+    def knots(self) -> NDArray:
+        """Wave numbers, both ends included, between which C is smooth if it is isotropic."""
+        every = [[part.q0, part.q1, *getattr(part, "knots", ())] for part in self.parts]
+        q = np.sort(np.concatenate(every))
+        kept = q[_find_first(q)]
+        kept[-1] = q[-1]
+        return kept
+
+    @property
+    def band(self) -> tuple[float, float]:
+        """See `Spectrum.band`."""
+        low, high = zip(*(part.band for part in self.parts), strict=True)
+        return min(low), max(high)
+
+    @property
+    def q_longest(self) -> float:
+        """See `Spectrum.q_longest`: of the parts that store the energy of full contact."""
+        return self._weigh([part.q_longest for part in self.parts])
+
+    def _weigh(self, values: list[float]) -> float:
+        """Geometric mean, by the energies of full contact of the parts."""
+        energies = np.array([part.elastic_energy() for part in self.parts])
+        return float(np.exp(np.average(np.log(values), weights=energies)))
+
+    def psd(self, q: ArrayLike) -> NDArray:
+        """C(q) [length^4], averaged over directions; zero off all bands."""
+        return sum(part.psd(q) for part in self.parts)
+
+    def psd_of_vector(self, qx: ArrayLike, qy: ArrayLike) -> NDArray:
+        """See `Spectrum.psd_of_vector`."""
+        return sum(part.psd_of_vector(qx, qy) for part in self.parts)
+
+    def averaged(self) -> Spectrum:
+        """See `Spectrum.averaged`."""
+        return self if self.isotropic else Sum(*(part.averaged() for part in self.parts))
+
+    def directional_moments(self, axis: float | None = None) -> Moments:
+        """See `Spectrum.directional_moments`; the axis is x by default."""
+        every = [part.directional_moments(axis or 0.0) for part in self.parts]
+        return reduce(Moments.plus, every)
+
+    def total_variance(self, power: float = 0) -> float:
+        """See `Spectrum.total_variance`."""
+        return sum(part.total_variance(power) for part in self.parts)
+
+    def variance_below(self, q: ArrayLike, power: float = 0) -> NDArray:
+        """See `Spectrum.variance_below`."""
+        return sum(part.variance_below(q, power) for part in self.parts)
+
+    def variance_above(self, q: ArrayLike, power: float = 0) -> NDArray:
+        """See `Spectrum.variance_above`."""
+        return sum(part.variance_above(q, power) for part in self.parts)
+
+    def at_gradient_variance(self, variance: ArrayLike) -> tuple[NDArray, NDArray]:
+        """See `Spectrum.at_gradient_variance`."""
+        (variance,) = nonnegative(variance=variance)
+        low, high = np.log(self.band)
+        table = np.union1d(np.log(self.averaged().knots), np.linspace(low, high, _STEPS))
+        known = self.variance_below(np.exp(table), 2)
+        i = np.clip(np.searchsorted(known, variance, side="right") - 1, 0, len(table) - 2)
+        # Rounding aside, each lies between its two of the table.
+        target = np.clip(variance, known[i], known[i + 1])
+
+        def excess(log_q, target):
+            return self.variance_below(np.exp(log_q), 2) - target
+
+        tolerances = {"xatol": _PRECISION, "xrtol": _PRECISION, "fatol": 0.0, "frtol": 0.0}
+        found = elementwise.find_root(
+            excess, (table[i], table[i + 1]), args=(target,), tolerances=tolerances
+        )
+        # Bands that do not meet leave a range of q without waves.
+        log_q = np.where(known[i] == known[i + 1], table[i], found.x)
+        q = np.clip(np.exp(log_q), *self.band)
+        return q, self.variance_above(q)
+
+    def truncated(self, q1: float) -> Spectrum:
+        """Return the sum of the same spectra cut at `q1`, each of its norm."""
+        check_cut(self, q1)
+        kept = [part for part in self.parts if part.q0 < q1]
+        cut = [part.truncated(q1) if part.q1 > q1 else part for part in kept]
+        return Sum(*cut) if len(cut) > 1 else cut[0]
+
+    def __repr__(self) -> str:
+        return f"Sum({', '.join(map(repr, self.parts))})"
+
+
+def _merge_shells(one: Shells, other: Shells) -> Shells:
+    """Shells of both; those at one wave number, to rounding, hold the sum."""
+    q = np.concatenate([one.q, other.q])
+    order = np.argsort(q, kind="stable")
+    q, variance = q[order], np.concatenate([one.variance, other.variance])[order]
+    first = _find_first(q)
+    return Shells(q[first], np.add.reduceat(variance, first))
+
+
+def _find_first(q: NDArray) -> NDArray:
+    """Indices of the first of those, in ascending order, that are one to rounding."""
+    return np.flatnonzero(np.append(True, np.diff(q) > _ALIKE * q[1:]))

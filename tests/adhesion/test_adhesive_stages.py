@@ -1,0 +1,235 @@
+import itertools
+
+import numpy as np
+import pytest
+import xarray as xr
+from scipy import optimize, stats
+
+from adhesion import average_adhesive, solve_adhesive
+from adhesion.dmt_limit import DmtLimit, fit_slope, linearity_error
+from common.adhesion_sets import scaled_law
+from stickiness import adhesive, dmt, repulsive, spectrum, surface
+from stickiness.accuracy import multilevel
+from stickiness.adhesive import edge_zone
+
+LENGTH = 2 * np.pi
+AXES = "pressures", "adhesion_length_over_range", "range_over_h_rms"
+ASKED = {
+    "q0_h_rms": 0.1,
+    "range_over_h_rms": [0.3],
+    "adhesion_length_over_range": [1e-3],
+    "pressures": [0.1],
+    "law": "maugis",
+}
+
+
+@pytest.fixture(scope="module")
+def heights():
+    s = spectrum.SelfAffine(hurst=0.8, q0=1.0, q1=8.0, h_rms=1.0)
+    return surface.synthesise(s, 64, LENGTH, seed=3)
+
+
+def solved(heights, curve=None, **changes):
+    """States in full and what compares them with contact without adhesion, at one resolution."""
+    asked = ASKED | changes
+    full = np.ones([len(asked[name]) for name in AXES], bool)
+    chosen = solve_adhesive.combinations(asked, LENGTH / len(heights), full)
+    states = solve_adhesive.states(heights, LENGTH, asked, chosen, 1e-9)
+    states = states.assign(rms_slope=2.0).expand_dims(seed=[3], resolution=[8.0])
+    linear = states.area_alone.squeeze() < 1
+    curve = load_curve(heights) if curve is None else curve
+    return average_adhesive.add_slopes(states, curve, linear.expand_dims("pressure"))
+
+
+def load_curve(heights, loads=(0.02, 0.05, 0.1, 0.2)):
+    """Area without adhesion at loads around that of the states, as an ensemble has it."""
+    loads = np.unique([*loads, 0.1])
+    path = repulsive.load_path(heights, LENGTH, loads, tol=1e-9)
+    area = np.array([[[contact.area_fraction for contact in path]]])
+    return xr.Dataset(
+        {"area_fraction": (("seed", "resolution", "pressure"), area)},
+        coords={"seed": [3], "resolution": [8.0], "pressure": loads},
+    )
+
+
+def test_attraction_beyond_all_gaps_is_a_load(heights):
+    """Felt everywhere at once, it takes its strength off the pressure and leaves the area."""
+    one = solved(heights, range_over_h_rms=[100.0]).squeeze()
+    strength = 1e-3 / 0.1
+    np.testing.assert_allclose(one.external_pressure, 0.1 - strength, rtol=1e-6)
+    assert float(one.repulsive_area) == float(one.area_alone)
+    # the same area is at the same mean gap
+    np.testing.assert_allclose(one.inverse_kappa_ad_equal_area, one.inverse_kappa_ad, rtol=1e-6)
+    contact = repulsive.solve(heights, LENGTH, 0.1, tol=1e-9)
+    assert float(one.net_repulsive_area) == np.mean(contact.pressure > strength)
+    # DMT sums it over the open area only
+    np.testing.assert_allclose(one.dmt_ratio, 1 / (1 - one.area_alone), rtol=1e-6)
+
+
+def test_weak_attraction_relieves_by_the_gaps_that_it_closes(heights):
+    """Virtual work: at a given mean gap it takes the slope of its potential off the pressure."""
+    one = solved(heights).squeeze()
+    law = scaled_law(ASKED, "maugis", 1e-3, 0.3)
+
+    def potential(pressure):
+        contact = repulsive.solve(heights, LENGTH, pressure, tol=1e-10)
+        return contact.mean_gap, float(np.mean(law.potential(contact.gap)))
+
+    (gap_low, low), (gap_high, high) = potential(0.0999), potential(0.1001)
+    relief = (low - high) / (gap_low - gap_high)
+    # first order in an attraction that is some thousandths of the pressure
+    assert 0.1 - float(one.external_pressure) == pytest.approx(relief, rel=0.02)
+
+
+def test_what_the_grid_does_not_resolve_is_left_out(heights):
+    states = solved(heights, adhesion_length_over_range=[1e-3, 1.0])
+    pressure = states.external_pressure.squeeze()
+    assert np.isfinite(pressure[0])
+    assert np.isnan(pressure[1])
+    law = scaled_law(ASKED, "maugis", 1.0, 0.3)
+    pixel = LENGTH / 64
+    assert edge_zone.resolution(pixel, law.range, law.adhesion_length) > edge_zone.COARSEST
+
+
+@pytest.mark.slow
+def test_grid_hardly_matters_to_the_exponential_law(heights):
+    """At half the resolution the relief by adhesion changes by less than a twentieth."""
+    fine, coarse = (
+        solved(part, adhesion_length_over_range=[0.03], law="exponential")
+        for part in (surface.resample(heights, 256), surface.resample(heights, 128))
+    )
+    one, other = (float(part.inverse_kappa_ad.squeeze()) for part in (fine, coarse))
+    assert other == pytest.approx(one, rel=0.05)
+
+
+def test_units_of_the_laws():
+    law = scaled_law({"q0_h_rms": 0.1}, "exponential", 0.05, 0.2)
+    assert isinstance(law, adhesive.Exponential)
+    assert law.maugis_stress == pytest.approx(0.5)  # (l_a/range)/(q0 h_rms)
+    assert law.range == 0.2
+
+
+def test_width_of_the_zone_follows_the_edge_law():
+    # u = C x^(3/2) with one pixel from the edge: eight times the gap at four times the distance
+    assert edge_zone.zone_width(0.1, 0.01, 0.08) == pytest.approx(0.4)
+
+
+@pytest.mark.slow
+def test_equal_area_is_found_on_the_load_curve(heights):
+    """Against a search for the pressure that gives the same pixels without adhesion."""
+    curve = load_curve(heights, np.linspace(0.08, 0.5, 43))
+    one = solved(heights, curve, adhesion_length_over_range=[0.05]).squeeze()
+    area = float(one.repulsive_area)
+    assert area > 1.03 * float(one.area_alone)
+
+    def excess(pressure):
+        return repulsive.solve(heights, LENGTH, pressure, tol=1e-9).area_fraction - area
+
+    held = optimize.bisect(excess, 0.1, 0.5, xtol=1e-4)
+    expected = (1 - float(one.external_pressure) / held) / 2
+    assert float(one.inverse_kappa_ad_equal_area) == pytest.approx(expected, rel=0.01)
+    assert float(one.inverse_kappa_ad) != pytest.approx(expected, rel=0.01)
+
+
+def test_a_change_of_no_pixel_is_not_a_certain_zero(heights):
+    """Adhesion too weak to turn a pixel: what may have gone unseen covers what is in proportion."""
+    made = {"grid_points": len(heights), "refine": 1}
+    strong, weak = (
+        solved(heights, law="exponential", adhesion_length_over_range=[length])
+        for length in (1e-2, 1e-6)
+    )
+    alone = weak.area_alone.item()
+    assert strong.repulsive_area.item() > alone == weak.repulsive_area.item()
+    linear = (weak.area_alone.squeeze() < 1).expand_dims("pressure")
+    more = average_adhesive.add_pixels(weak, made)
+    fuller = average_adhesive.add_slopes(more, load_curve(heights), linear)
+    unseen = abs((fuller.inverse_kappa_ad - weak.inverse_kappa_ad).item())
+    in_proportion = 1e-4 * strong.inverse_kappa_ad.item()
+    assert weak.inverse_kappa_ad.item() < in_proportion < unseen
+    # pixels take their share of the area off the load that goes with it: 2.3 of them, for exp(-2.3)
+    # is a tenth
+    assert unseen == pytest.approx(np.log(10) / heights.size / alone / 2, rel=0.01)
+
+
+@pytest.mark.parametrize("turned", [0, 1, 3, 40])
+def test_pixels_unseen_are_the_limit_of_a_poisson_count(turned):
+    made, area = {"grid_points": 10, "refine": 2}, (("seed", "resolution"), np.full((8, 1), 0.5))
+    states = xr.Dataset(dict.fromkeys(average_adhesive.STATES, area) | {"area_alone": area})
+    states["repulsive_area"] = states.repulsive_area + turned / (8 * 400)
+    more = average_adhesive.add_pixels(states, made).repulsive_area - states.repulsive_area
+    limit = turned + more.sum().item() * 400
+    assert stats.poisson.cdf(turned, limit) == pytest.approx(0.1)
+
+
+def test_fits_go_through_the_origin_and_over_the_linear_loads_only():
+    pressure = xr.DataArray([1.0, 2.0, 4.0], dims="pressure")
+    area, linear = 0.5 * pressure, xr.DataArray([True, True, False], dims="pressure")
+    external = pressure - xr.DataArray([0.2, 0.1, 9.0], dims="pressure")
+    expected = (0.5 * 0.8 + 1.0 * 1.9) / (0.5**2 + 1.0**2)
+    assert float(fit_slope(external, area, linear)) == pytest.approx(expected)
+    gap = external.where(external != external[0])
+    assert np.isnan(fit_slope(gap, area, linear))  # one load is not solved
+    assert np.isnan(fit_slope(external, area, linear & (pressure < 2)))  # a single load
+    assert float(linearity_error(external / area, linear)) == pytest.approx((1.9 - 1.6) / 2)
+
+
+def test_dmt_attraction_of_areas_is_that_over_the_gaps(heights):
+    """From the attractive areas of an ensemble as from the gaps themselves, for either law."""
+    contact = repulsive.solve(heights, LENGTH, 0.1, tol=1e-9)
+    gaps = np.geomspace(1e-4, 10, 81)
+    solved = xr.Dataset(
+        {
+            "attractive_area": (("pressure", "range"), [dmt.attractive_area(contact.gap, gaps)]),
+            "area_fraction": ("pressure", [contact.area_fraction]),
+            "rms_slope": 2.0,
+        },
+        coords={"pressure": [0.1], "range": gaps},
+    )
+    for law in ("maugis", "exponential"):
+        asked = ASKED | {"law": law, "range_over_h_rms": [0.3, 3.0]}
+        asked["adhesion_length_over_range"] = [1e-3, 2e-3]
+        limit = DmtLimit(asked, xr.DataArray([True], dims="pressure"))
+        got = limit.attraction(solved).squeeze()
+        for length, reach in itertools.product(*(got[name].values for name in got.dims[::-1])):
+            one = scaled_law(asked, law, length, reach)
+            expected = dmt.adhesive_pressure(contact.gap, one)
+            at = got.sel(adhesion_length_over_range=length, range_over_h_rms=reach)
+            # 16 areas a decade, which count the points one by one
+            assert float(at) == pytest.approx(expected, rel=0.01)
+
+
+@pytest.mark.slow
+def test_dmt_of_coarse_solutions_is_a_control_without_bias():
+    """Means over eight seeds, controlled, against the plain mean over all of many."""
+    full, coarse = many_solutions(range(320))
+    plain, controlled = [], []
+    groups = np.arange(len(full)).reshape(-1, 8)
+    for group in groups:
+        others = np.setdiff1d(np.arange(len(full)), group)
+        got = multilevel.multilevel_mean(full[group], coarse[group], coarse[others], fewest=8)
+        plain.append(full[group].mean(0))
+        controlled.append(got.mean)
+    plain, controlled = np.array(plain), np.array(controlled)
+    # The means of the groups are nearly the same for all, so it is their difference that tells.
+    difference = controlled - plain
+    error = difference.std(0, ddof=1) / np.sqrt(len(groups))
+    assert np.all(np.abs(difference.mean(0)) < 3 * error)
+    gain = plain.var(0, ddof=1) / controlled.var(0, ddof=1)
+    # With so few pixels much of the scatter is theirs, of which no control knows.
+    assert np.all(gain > 1.5)
+
+
+def many_solutions(seeds):
+    """1/kappa_ad in full, weak and strong adhesion, and in the DMT limit on 2 points a wave."""
+    asked = ASKED | {"law": "exponential", "adhesion_length_over_range": [0.01, 0.1]}
+    s = spectrum.SelfAffine(hurst=0.8, q0=1.0, q1=8.0, h_rms=1.0)
+    none, both = np.zeros((1, 2, 1), bool), np.ones((1, 2, 1), bool)
+    full, limit = [], []
+    for seed in seeds:
+        heights = surface.synthesise(s, 32, LENGTH, seed=seed)
+        one = solve_adhesive.states(heights, LENGTH, asked, both, 1e-6).squeeze()
+        held = one.external_pressure / one.repulsive_area
+        full.append(((1 - held / (one.pressure / one.area_alone)) / 2).values)
+        coarse = solve_adhesive.states(heights[::2, ::2], LENGTH, asked, none, 1e-6).squeeze()
+        limit.append((coarse.attraction_dmt / coarse.pressure / 2).values)
+    return np.array(full), np.array(limit)

@@ -1,0 +1,62 @@
+"""Claims held against the adhesion that remains."""
+
+import numpy as np
+import pytest
+from helpers import claim_files
+
+from claims import remaining_claims as claims
+from claims.ledger import NOT, OPEN, QUALIFIED, REPRODUCED
+from claims.remaining_claims import sticky_asphalt, sticky_roughness, truncation
+from common import remaining_table
+
+
+@pytest.mark.parametrize(("growth", "verdict"), [(0.0, REPRODUCED), (0.3, QUALIFIED)])
+def test_verdict_follows_from_the_energy_gained(growth, verdict):
+    found = truncation({"remaining": claim_files.remaining(growth)})
+    assert found.verdict == verdict
+    assert found.value == pytest.approx(1 / (1 + growth))
+
+
+def test_simulated_works_on_the_committed_table():
+    table = remaining_table.read("config/remaining.csv")
+    found = truncation({"remaining": table})
+    assert found.verdict == QUALIFIED
+    assert 0.3 < found.value < 0.7
+
+
+def test_what_converges_decides_the_grade(monkeypatch):
+    monkeypatch.setattr(claims, "extend", lambda hurst: 0.5)
+    found = truncation({"remaining": claim_files.remaining(0.3)})
+    assert found.verdict == NOT
+
+
+def test_finer_waves_matter_less_the_smoother_the_surface():
+    smooth, rough = claims.extend(0.8), claims.extend(0.5)
+    assert rough < smooth < 1
+
+
+@pytest.fixture
+def files():
+    return claim_files.files_by_name()
+
+
+def test_sticky_roughness_is_that_of_the_energy_of_full_contact(files):
+    found = sticky_roughness(files)
+    assert found.verdict == NOT
+    # l_a = x U_full with U_full = 2/3 q0 h_rms^2 at H = 0.8, x = 0.75 where a tenth remains.
+    assert found.value == pytest.approx((0.05 / (0.75 * 2 / 3 * 1e-9)) ** 0.5, rel=0.03)
+    assert found.uncertainty > 0
+
+
+@pytest.mark.slow
+def test_printed_limits_within_the_errors_qualify(files, monkeypatch):
+    value = np.array([claims.find_roughness(q0, 4.0, 0) for q0 in claims.EXAMPLES])
+    monkeypatch.setattr(claims, "PRINTED_LIMITS", 1.05 * value)
+    assert sticky_roughness(files).verdict == QUALIFIED
+
+
+def test_modulus_within_the_limits_is_not_decided(files, monkeypatch):
+    found = sticky_asphalt(files)
+    for printed, verdict in ((found.value, OPEN), (1e4 * found.value, NOT)):
+        monkeypatch.setattr(claims, "PRINTED_MODULUS", printed)
+        assert sticky_asphalt(files).verdict == verdict

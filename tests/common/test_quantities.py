@@ -1,0 +1,158 @@
+"""A quantity that is measured on solutions because a case asks for it: the slope in contact."""
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from cases import answer_case
+from contact import average_ensemble, solve_coarse, solve_repulsive
+from stickiness import datasets, repulsive, spectrum, surface
+from stickiness import error_budget as budget
+from stickiness.accuracy.quantities import (
+    MODELLED,
+    QUANTITIES,
+    Column,
+    Quantity,
+    slope_within_contact,
+)
+from surfaces import synthesise_surface
+
+ASKED = {"hurst": 0.8, "magnification": 8}
+LOADS, WANTED = [0.02, 0.2], ["area", "contact_slope"]
+TABLE = "config/accuracy.csv"
+
+
+def test_full_contact_has_the_slope_of_the_surface():
+    band = spectrum.SelfAffine(hurst=0.8, q0=2.0, q1=16.0, h_rms=0.3)
+    heights = surface.synthesise(band, 64, np.pi, seed=3)
+    found = slope_within_contact(heights, np.zeros_like(heights), np.pi)
+    assert found == pytest.approx(surface.moments(heights, np.pi).rms_slope, rel=1e-10)
+
+
+@pytest.mark.parametrize("pressure", [0.05, 0.15, 0.3])
+def test_crests_of_a_wave_in_partial_contact(pressure):
+    """Over a strip of half width b of cos(q x), the mean of sin^2 is 1/2 - sin(2 q b)/(4 q b)."""
+    length, n = 2.0, 512
+    q = 2 * np.pi / length
+    heights = 0.4 * np.cos(q * length * np.arange(n) / n)[:, None] * np.ones((1, 8))
+    heights = np.tile(heights, (1, n // 8))[::4, ::4]
+    contact = repulsive.solve(heights, length, pressure)
+    half = np.pi * contact.area_fraction  # q b
+    assert 0.1 < contact.area_fraction < 0.9
+    want = 0.4 * q * np.sqrt(0.5 - np.sin(2 * half) / (4 * half))
+    # The strip ends within a pixel, 1/128 of the wave.
+    found = slope_within_contact(heights, contact.gap, length)
+    assert found == pytest.approx(want, rel=0.02)
+    assert found < surface.moments(heights, length).rms_slope
+
+
+def test_no_contact_has_no_slope():
+    assert np.isnan(slope_within_contact(np.eye(4), np.ones((4, 4)), 1.0))
+
+
+def job(folder, inputs, params, output, **wildcards):
+    return SimpleNamespace(
+        input=SimpleNamespace(**inputs),
+        params=SimpleNamespace(**params),
+        output=[str(folder / output)],
+        wildcards=SimpleNamespace(case="mine", **wildcards),
+    )
+
+
+@pytest.fixture(scope="module")
+def files(tmp_path_factory):
+    """Files of a case from its surfaces to its means, and the same without the slope."""
+    folder, found = tmp_path_factory.mktemp("slope"), {}
+    solver = {"pressures": LOADS, "tolerance": 1e-6, "gaps": None}
+    for name, measured in (("with", ["contact_slope"]), ("without", [])):
+        solved = []
+        for seeds in ([1, 2], [3]):
+            path = f"surfaces{seeds[0]}.nc"
+            params = {"seeds": seeds, "surface": ASKED, "pixels_per_wavelength": 4}
+            synthesise_surface.main(job(folder, {}, params, path, model_surface="some"))
+            params = solver | {"seeds": seeds, "pixels_per_wavelength": 4, "measured": measured}
+            inputs = {"surfaces": str(folder / path)}
+            solve_repulsive.main(job(folder, inputs, params, f"{name}{seeds[0]}.nc"))
+            solved.append(str(folder / f"{name}{seeds[0]}.nc"))
+        params = solver | {"surface": ASKED, "after": 0, "seeds": 40, "descriptor_seeds": 64}
+        solve_coarse.main(job(folder, {}, params | {"measured": measured}, f"{name}_coarse.nc"))
+        inputs = {
+            "realisations": solved,
+            "coarse": [str(folder / f"{name}_coarse.nc")],
+            "laws": TABLE,
+        }
+        quantities = WANTED if measured else WANTED[:1]
+        params = {"seeds": [1, 2, 3], "pressures": LOADS, "quantities": quantities}
+        averaging = job(folder, inputs, params, "")
+        averaging.output = SimpleNamespace(means=folder / f"{name}.nc", kappa=folder / "kappa.nc")
+        average_ensemble.main(averaging)
+        found[name] = datasets.read(folder / f"{name}.nc")
+    return folder, found
+
+
+@pytest.mark.slow
+def test_means_of_others_do_not_change(files):
+    _, found = files
+    assert "contact_slope_mean" not in found["without"]
+    shared = list(found["without"].data_vars)
+    xr.testing.assert_identical(
+        found["with"][shared].drop_attrs(deep=False),
+        found["without"].drop_attrs(deep=False),
+    )
+
+
+def test_slope_in_contact_is_averaged_with_its_errors(files):
+    _, found = files
+    ensemble = found["with"]
+    slope, whole = ensemble.contact_slope_mean, ensemble.rms_slope.mean()
+    assert ((slope > 0.2 * whole) & (slope < 1.5 * whole)).all()
+    assert (ensemble.contact_slope_standard_error > 0).all()
+    assert (ensemble.contact_slope_discretisation_error > 0).all()
+    error = ensemble.contact_slope_mean_error
+    assert np.isnan(error.sel(source="solver")).all()
+    assert "solver: not known, " in error.comment
+    assert "not measured" in error.comment
+    assert np.isfinite(error.drop_sel(source="solver")).all()
+    assert np.isnan(ensemble.contact_slope_mean_total_error).all()
+
+
+def test_case_is_answered_with_what_is_not_known(files):
+    folder, found = files
+    plan = {
+        "quantities": WANTED,
+        "pressures": LOADS,
+        "simulated": True,
+        "settings": {
+            "pixels_per_wavelength": 4,
+            "tolerance": 1e-6,
+            "seeds": 3,
+            "coarse_seeds": 40,
+        },
+        "surface": ASKED,
+        "accuracy": None,
+    }
+    inputs = SimpleNamespace(solved=str(folder / "with.nc"), laws=TABLE, get=lambda name: None)
+    asked = job(folder, {}, {"plan": plan, "fit_interval": [0.01, 0.1]}, "answer.nc")
+    asked.input = inputs
+    answer_case.main(asked)
+    answer = datasets.read(folder / "answer.nc")
+    slope = answer.sel(column="contact_slope")
+    np.testing.assert_array_equal(slope.value, found["with"].contact_slope_mean)
+    assert np.isnan(slope.value_total_error).all()
+    assert budget.dominant(slope.isel(pressure=0), "value") == "solver"
+    assert "contact_slope not known: " in answer.value_error.comment
+    assert np.isfinite(answer.sel(column="area").value_total_error).all()
+
+
+def test_entries_that_nothing_makes_are_refused():
+    column = Column("twist", "twist", "twist", "twist")
+    with pytest.raises(ValueError, match=r"quantity twist: nothing makes the mean 'twist'"):
+        Quantity("twist", (column,), means=("twist",))
+    with pytest.raises(ValueError, match=r"column twist: file = 'fit', must be one of"):
+        Column("twist", "twist", "twist", "twist", file="fit")
+
+
+def test_cases_hold_what_has_error_models_unless_they_name_their_quantities():
+    assert set(QUANTITIES) - set(MODELLED) == {"contact_slope"}

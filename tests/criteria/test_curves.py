@@ -1,0 +1,194 @@
+"""What remains along the modulus, the heights and the rate: the pair's own, thresholds, order."""
+
+from functools import cache
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from criteria.curves import MODULUS_FACTORS, ROUGHNESS_FACTORS, follow, follow_remaining
+from criteria.joint import Joint
+from criteria.materials import read_material
+from criteria.pairs import DIMS, describe_remaining, gather_pairs
+from criteria.probabilities import find_probabilities
+from criteria.words import find_limits
+from stickiness.criteria.a_v_table import SurfaceAv
+from stickiness.remaining import predict
+from stickiness.remaining.prediction import DEFAULT_SHARE, Roughness
+from stickiness.spectrum import SelfAffine
+
+A_V = SurfaceAv(np.array([1e-9, 1.0]), np.full((2, 2), 3.0), 0, 0.1)
+HEIGHTS, Q0 = np.array([1e-6, 1.5e-6]), 6e4
+
+
+def rough(h_rms):
+    return SelfAffine(hurst=0.8, q0=Q0, q1=1e3 * Q0, h_rms=h_rms)
+
+
+ENERGY = np.array([rough(h).elastic_energy() for h in HEIGHTS])
+TAPE = {
+    "youngs_modulus": "0.4 MPa",
+    "poisson_ratio": 0.5,
+    "work_of_adhesion": "70 mJ/m^2",
+    "range": "3 nm",
+}
+SERIES = {"equilibrium": "0.1 MPa", "terms": [["0.5 MPa", "0.1 s"], ["1 GPa", "1 us"]]}
+FILM = {"youngs_modulus": "3 GPa", "poisson_ratio": 0.4, "thickness": "25 um"}
+ENTRIES = {
+    "tape": TAPE,
+    "slow": {**TAPE, "youngs_modulus_prony": SERIES},
+    "layer": TAPE | {"thickness": "40 um"},
+    "film": TAPE | {"thickness": "40 um", "backing": FILM},
+}
+ENTRIES["slow"].pop("youngs_modulus")
+FREQUENCIES, DRAWS = np.geomspace(1e-4, 1e6, 21), 60
+
+
+def made_joint(solid, drawn, strain=0.1):
+    """Surface of a pair, with spectra drawn around its middle if it was measured."""
+    layered = "thickness" in solid
+    softness, factor = (0.5, 1.3) if layered else (1.0, 1.0)
+    draws = None
+    if drawn:
+        h = np.random.default_rng(1).lognormal(np.log(1.2e-6), 0.35, DRAWS)
+        energy = ENERGY[0] * (h / HEIGHTS[0]) ** 2
+        draws = Roughness(h, np.full(DRAWS, Q0), factor * energy, softness, energy)
+    return Joint(
+        h_rms=HEIGHTS,
+        rms_slope=np.ones(2),
+        rms_curvature=np.full(2, 1e7),
+        elastic_energy=factor * ENERGY,
+        stiffening=np.full(2, factor),
+        layer_strain=np.full(2, strain if layered else 0.0),
+        q0=Q0,
+        a_v=(A_V, A_V),
+        softness=softness,
+        deep_energy=ENERGY,
+        widening=1.0,
+        drawn=draws,
+    )
+
+
+@cache
+def followed(drawn, strain=0.1):
+    """Curves beside what is stored of the pairs."""
+    materials = {name: read_material(entry) for name, entry in ENTRIES.items()}
+    joints = [[made_joint(entry, drawn, strain)] for entry in ENTRIES.values()]
+    pair = gather_pairs(materials, joints)
+    dataset = xr.Dataset(
+        describe_remaining(pair, materials)
+        | {"layer_strain": (DIMS, np.array([[j.layer_strain for j in row] for row in joints]))},
+        coords={"material": list(materials), "surface": ["wall"], "end": ["smooth", "rough"]},
+    )
+    dataset = dataset.assign(find_probabilities(materials, joints))
+    curves = follow_remaining(pair, materials, joints, FREQUENCIES)
+    return dataset.assign(curves).assign_coords(frequency=FREQUENCIES).squeeze("surface")
+
+
+def follow_at(moduli, drawn):
+    """Share and limits of the tape at these E* [Pa]."""
+    materials = {"tape": read_material(TAPE)}
+    joints = [[made_joint(TAPE, drawn)]]
+    found = follow(
+        gather_pairs(materials, joints),
+        list(materials.values()),
+        joints,
+        "modulus_factor",
+        np.reshape(moduli, (-1, 1)),
+        np.ones(len(moduli)),
+    )
+    return [values.squeeze(("material", "surface")) for values in found]
+
+
+@pytest.fixture(scope="module", params=[False, True], ids=["given", "measured"])
+def curves(request):
+    return followed(request.param)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("axis", "at"),
+    [
+        ("modulus", {"modulus_factor": np.argmin(abs(np.log(MODULUS_FACTORS)))}),
+        ("roughness", {"roughness_factor": np.argmin(abs(np.log(ROUGHNESS_FACTORS)))}),
+        ("rate", {"frequency": np.argmin(abs(np.log(FREQUENCIES)))}),
+    ],
+)
+@pytest.mark.parametrize("strain", [0.1, 0.5])
+@pytest.mark.parametrize("drawn", [False, True])
+def test_at_the_pair_itself_curves_are_what_is_stored(drawn, strain, axis, at):
+    found = followed(drawn, strain=strain)
+    there, expected = found.isel(at), (found.remaining, *find_limits(found))
+    known = there.material != "film" if axis != "roughness" else np.full(4, True)
+    for name, values in zip(("", "_low", "_high"), expected, strict=True):
+        curve = there[f"remaining_by_{axis}{name}"]
+        np.testing.assert_allclose(curve[known], values[known], rtol=1e-9)
+    assert (there.remaining > 0.01).all()
+    assert (there.remaining < 0.99).all()
+    assert (float(expected[1].sel(material="layer")) == 0) == (strain > 0.3)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("axis", ["modulus", "roughness"])
+def test_stiffer_and_rougher_keep_less_within_limits_in_order(curves, axis):
+    values = curves.sel(material=["tape", "slow", "layer"])
+    low, high = (values[f"remaining_by_{axis}_{end}"] for end in ("low", "high"))
+    for curve in (values[f"remaining_by_{axis}"], low, high):
+        falls = np.diff(curve.values, axis=-1)
+        assert falls.max() <= 1e-12
+        assert falls.min() < -0.05
+    assert (low <= high).all()
+    if float(curves.remaining_quantile.isnull().all()):  # else quantiles, not ends, are the limits
+        inside = values[f"remaining_by_{axis}"]
+        assert (low <= inside).all()
+        assert (inside <= high).all()
+
+
+@pytest.mark.parametrize("drawn", [False, True])
+def test_curves_cross_the_wanted_share_at_the_threshold(drawn):
+    tape = followed(drawn).sel(material="tape")
+    thresholds = tape.modulus_threshold.values
+    share, _, _ = follow_at(thresholds, drawn)
+    np.testing.assert_allclose(np.diag(share), DEFAULT_SHARE, rtol=1e-6)
+    limits = [float(x) for x in find_limits(tape, "modulus_threshold")]
+    assert limits[0] < min(thresholds) < max(thresholds) < limits[1]
+    _, low, high = follow_at(limits, drawn)
+    # Quantiles of thresholds and of shares interpolate between different draws.
+    np.testing.assert_allclose([low[0], high[1]], DEFAULT_SHARE, rtol=0.02 if drawn else 1e-6)
+
+
+def test_limits_of_the_threshold_are_those_of_the_margin():
+    """On a measured surface both have the errors of the spectrum and of the model."""
+    tape = followed(True).sel(material="tape")
+    margins = np.array([float(x) for x in find_limits(tape, "margin")])
+    thresholds = np.array([float(x) for x in find_limits(tape, "modulus_threshold")])
+    np.testing.assert_allclose(thresholds, margins * read_material(TAPE).modulus)
+    of_model = tape.modulus_threshold_low.min(), tape.modulus_threshold_high.max()
+    assert thresholds[0] < float(of_model[0])
+    assert thresholds[1] > float(of_model[1])
+    pull_off = [float(x) for x in find_limits(tape, "pull_off")]
+    assert pull_off[0] < float(tape.pull_off.min()) < float(tape.pull_off.max()) < pull_off[1]
+
+
+def test_a_factor_on_the_heights_is_another_surface(curves):
+    length, reach = 0.07 / (0.4e6 / 0.75), 3e-9
+    for place in (0, 10, 20, 32):
+        scaled = [rough(h * ROUGHNESS_FACTORS[place]) for h in HEIGHTS]
+        expected = [predict(spectrum, length, reach).separation for spectrum in scaled]
+        found = curves.remaining_by_roughness.sel(material="tape").isel(roughness_factor=place)
+        np.testing.assert_allclose(found, expected, rtol=1e-9)
+
+
+def test_the_rate_counts_by_the_modulus(curves):
+    moduli = read_material(ENTRIES["slow"]).plane_strain.storage(FREQUENCIES)
+    drawn = not float(curves.remaining_quantile.isnull().all())
+    for name, expected in zip(("", "_low", "_high"), follow_at(moduli, drawn), strict=True):
+        found = curves[f"remaining_by_rate{name}"].sel(material="slow")
+        np.testing.assert_allclose(found, expected.transpose(..., "modulus_factor"), rtol=1e-9)
+
+
+def test_an_elastic_backing_has_no_curve_along_the_modulus(curves):
+    film = curves.sel(material="film")
+    assert np.isnan(film.remaining_by_modulus).all()
+    assert np.isnan(film.remaining_by_rate_low).all()
+    assert np.isfinite(film.remaining_by_roughness).all()

@@ -1,0 +1,58 @@
+"""Limits of roughness on the map of the criterion."""
+
+import numpy as np
+import pytest
+from helpers.constant_a_v import ConstantAv
+
+from criteria import map_criterion
+from criteria.simulated_a_v import MeasuredAv
+from stickiness import equivalent_sphere
+
+ASKED_MAP = {
+    "hurst": 0.8,
+    "shortest_over_range": 4,
+    "range_times_q0": {"minimum": 1e-7, "maximum": 1e-2, "per_decade": 2},
+    "adhesion_length_over_range": {"minimum": 1e-3, "maximum": 10, "per_decade": 2},
+    "slope_parameter": [1, 0.1],
+    "slope_a_v": 3.0,
+}
+CONSTANT = MeasuredAv(
+    value=3.0,
+    sampling=0.2,
+    discretisation=0.1,
+    fit_interval=0.1,
+    bandwidth=0.5,
+)
+
+
+def made_map():
+    roughness = map_criterion.Roughness(ConstantAv(), ASKED_MAP, 0.065)
+    return map_criterion.find_limits(ASKED_MAP, CONSTANT, roughness)
+
+
+def test_map_with_constant_a_v_has_the_closed_form():
+    made = made_map()
+    inside = made.h_rms_limit.notnull()
+    ratio = (made.h_rms_limit / made.h_rms_limit_constant).where(inside)
+    np.testing.assert_allclose(ratio.values[inside.values], 1, rtol=1e-5)
+    for end, share in (("low", 0.8), ("high", 1.3)):
+        ratio = made[f"h_rms_limit_{end}"] / made.h_rms_limit
+        there = ratio.notnull().values
+        np.testing.assert_allclose(ratio.values[there], share**0.6, rtol=1e-5)
+
+
+@pytest.mark.slow
+def test_edges_of_the_map_are_weak_above_its_line_and_balance_on_the_threshold():
+    made = made_map()
+    roughness = map_criterion.Roughness(ConstantAv(), ASKED_MAP, 0.065)
+    q0, length = 1e-4, 0.1
+    at = {"range_times_q0": q0, "adhesion_length_over_range": length}
+    one = made.sel(at, method="nearest")
+
+    def edges(h):
+        slope = roughness.slope(h, np.array(q0))
+        return equivalent_sphere.attraction(h, q0, slope, length, 1.0, 3.0)
+
+    assert edges(float(one.weak_limit)).strength == pytest.approx(equivalent_sphere.WEAK, rel=1e-4)
+    assert edges(float(one.h_rms_limit_edges)).ratio == pytest.approx(1, rel=1e-4)
+    assert one.h_rms_limit_edges_low < one.h_rms_limit_edges < one.h_rms_limit_edges_high

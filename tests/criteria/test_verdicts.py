@@ -1,0 +1,318 @@
+"""The a_V of a pair and the verdict that follows."""
+
+from types import SimpleNamespace
+from unittest import mock
+
+import numpy as np
+import pytest
+import xarray as xr
+from scipy.stats import binomtest, norm
+
+from criteria import joint, judging
+from criteria.budgets import add_budget_of_probability
+from criteria.materials import read_material
+from criteria.simulated_a_v import measure_a_v
+from criteria.words import decide_pairs
+from stickiness import criteria, datasets, equivalent_sphere
+from stickiness import error_budget as budget
+from stickiness.criteria.a_v_table import VARIANTS, SurfaceAv, edge_range, local_a_v
+from stickiness.criteria.pair import REGIMES, STRONG, TOUGH, WEAK, WORDS
+from stickiness.criteria.registry import EDGES, REMAINING
+from stickiness.criteria.verdict import verdict
+from stickiness.persson import Persson
+from stickiness.remaining import predict
+from stickiness.remaining.prediction import DEFAULT_SHARE
+from stickiness.spectrum import SelfAffine
+from stickiness.statistics import COVERS
+
+LOAD = 0.065
+
+
+def edge_ratio(hurst, magnification):
+    """Theory's a_V of the edges over the one equivalent to Pastewka and Robbins'."""
+    spectrum = SelfAffine(hurst=hurst, q0=1.0, q1=magnification, h_rms=1.0)
+    ranges = np.geomspace(1e-12, 10, 105)
+    a_v = [
+        local_a_v(Persson(spectrum, variant=variant).gap_cumulative(ranges, LOAD), LOAD, ranges)
+        for variant in VARIANTS
+    ]
+    edge = edge_range(ranges, *a_v)
+    at_edge = np.exp(np.interp(np.log(edge), np.log(ranges), np.log(a_v[0])))
+    theirs = criteria.pastewka_robbins_a_v(1.0, 1.0, spectrum.rms_slope, spectrum.rms_curvature)
+    return float(at_edge) / theirs
+
+
+@pytest.mark.parametrize("hurst", [0.6, 0.7, 0.8, 0.9])
+def test_edges_grow_with_magnification_as_pastewka_and_robbins_have_it(hurst):
+    # Theirs rests on rms slope and curvature alone and knows nothing of Persson's theory. 0.03 is
+    # small against the exponents (5H - 3)/3 of 0 to 0.5, and what two decades leave of transients.
+    exponent = np.log(edge_ratio(hurst, 1e6) / edge_ratio(hurst, 1e4)) / np.log(100)
+    assert abs(exponent) < 0.03
+
+
+@pytest.mark.parametrize("magnification", [1e3, 1e5])
+@pytest.mark.parametrize("hurst", [0.6, 0.7, 0.8, 0.9])
+def test_edges_agree_with_pastewka_and_robbins(hurst, magnification):
+    # Estimates of the contact area alone differ by kappa = 2 against 2.36; both enter the limits
+    # of a pair's a_V.
+    assert edge_ratio(hurst, magnification) == pytest.approx(1.1, rel=0.35)
+
+
+def test_pair_takes_its_own_range():
+    ranges = np.array([1e-4, 1e-2, 1.0])
+    theory = np.array([[4.0, 2.0, 1.0], [2.0, 2.0, 3.0]])
+    pair = SurfaceAv(ranges, 1.5 * theory, quoted=0, relative_error=0.1)
+    value, low, high = pair.at(1e-4)
+    assert (value, low, high) == pytest.approx((6.0, 3.0 * 0.9, 6.0 * 1.1))
+    assert pair.at(1e-3)[0] == pytest.approx(1.5 * np.sqrt(4.0 * 2.0))  # halfway in logarithms
+    assert pair.at(1e-9) == pytest.approx(pair.at(1e-4))
+    for found, *expected in zip(
+        pair.at(np.array([1e-4, 1.0])), pair.at(1e-4), (1.5, 1.35, 4.95), strict=True
+    ):
+        assert found == pytest.approx(expected)
+
+
+def pair_between(low, high, grows, quantiles=(np.nan, np.nan, np.nan)):
+    """Limits of the share at both ends of a surface, and margins of the onset there."""
+    data = {
+        "remaining_low": ("end", list(low)),
+        "remaining_high": ("end", list(high)),
+        "margin": (("end", "criterion"), [[x] for x in grows]),
+        "remaining_quantile": ("quantile", list(quantiles)),
+    }
+    return xr.Dataset(data, coords={"end": ["smooth", "rough"], "criterion": [EDGES]})
+
+
+@pytest.mark.parametrize(
+    ("low", "high", "grows", "expected"),
+    [
+        ((0.9, 0.85), (1.0, 0.9), (5.0, 5.0), "sticks fully"),
+        ((0.9, 0.15), (1.0, 0.9), (0.1, 0.1), "sticks"),  # the onset does not matter here
+        ((0.5, 0.05), (0.6, 0.2), (5.0, 5.0), "depends"),
+        ((0.5, 0.0), (0.6, 0.0), (0.1, 0.1), "depends"),
+        ((0.0, 0.0), (0.09, 0.0), (1.1, 0.1), "touches without hold"),
+        ((0.0, 0.0), (0.09, 0.0), (0.9, 0.1), "does not stick"),
+    ],
+)
+def test_word_follows_from_shares_at_both_ends(low, high, grows, expected):
+    assert WORDS[int(decide_pairs(pair_between(low, high, grows)))] == expected
+
+
+def pairs_of(modulus, ranges, h_rms=1e-6, a_v=(4.0, 4.0, 4.0)):
+    """Verdicts on one surface for materials of one modulus and several ranges."""
+    solids = {
+        f"range {reach:g}": read_material(
+            {
+                "plane_strain_modulus": f"{modulus} Pa",
+                "work_of_adhesion": "0.05 J/m^2",
+                "range": f"{reach} m",
+            }
+        )
+        for reach in ranges
+    }
+    s = SelfAffine(hurst=0.8, q0=1e5, q1=1e8, h_rms=h_rms)
+    known = {
+        "h_rms": s.h_rms,
+        "rms_slope": s.rms_slope,
+        "rms_curvature": s.rms_curvature,
+        "elastic_energy": s.elastic_energy(),
+    }
+    surface = xr.Dataset(
+        {name: ("end", [value, value]) for name, value in known.items()} | {"q0": s.q0},
+        coords={"end": ["smooth", "rough"]},
+    )
+    a_v = SurfaceAv(np.array([1e-9, 1.0]), np.transpose([a_v, a_v]), 0, 0.0)
+    with mock.patch.object(joint, "find_a_v", return_value=(a_v, a_v)):
+        return judging.find_verdicts(solids, {"one": surface}, {}, np.array([1.0, 1e3]))
+
+
+def test_tough_edges_do_not_know_the_range():
+    # a_V constant, as next to smooth edges: the DMT limit goes as range^(-1/3), JKR not at all
+    found = pairs_of(1e5, [1e-10, 1e-9]).isel(end=0, surface=0)
+    assert list(found.regime.values) == [TOUGH] * 2
+    edges = found.margin.sel(criterion="edge_adhesion").values
+    dmt = found.margin.sel(criterion="violano").values ** (5 / 3)
+    assert edges[0] == pytest.approx(edges[1], rel=0.05)
+    assert dmt[0] == pytest.approx(dmt[1] * 10 ** (1 / 3), rel=1e-9)
+    assert np.all(edges < dmt / 10)
+
+
+def test_codes_have_their_words_as_flags():
+    found = pairs_of(1e5, [1e-10])
+    assert found.verdict.attrs["flag_meanings"].split() == [w.replace(" ", "_") for w in WORDS]
+    assert found.regime.attrs["flag_meanings"].split() == list(REGIMES)
+    assert found.regime.attrs["flag_values"][TOUGH] == TOUGH
+
+
+def test_weak_edges_attract_more_than_the_sum():
+    found = pairs_of(1e11, [1e-9]).isel(end=0, surface=0, material=0)
+    assert int(found.regime) == WEAK
+    t = float(found.attractive_over_contact)
+    dmt = float(found.margin.sel(criterion="violano")) ** (5 / 3)
+    assert float(found.margin.sel(criterion="edge_adhesion")) == pytest.approx(
+        dmt * equivalent_sphere.weak_effect(t), rel=0.02
+    )
+    assert float(found.over_dmt) > 1.5
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("modulus", "reach"), [(5e3, 1e-9), (1e4, 3e-8), (1e5, 1e-6)])
+def test_limits_are_those_of_the_remaining_share(modulus, reach):
+    found = pairs_of(modulus, [reach]).isel(end=0, surface=0, material=0)
+    s = SelfAffine(hurst=0.8, q0=1e5, q1=1e8, h_rms=1e-6)
+    expected = predict(s, 0.05 / modulus, reach)
+    assert float(found.remaining) == pytest.approx(expected.separation, rel=1e-9)
+    assert float(found.remaining_low) == pytest.approx(expected.separation_limits[0], rel=1e-9)
+    assert float(found.pull_off) == pytest.approx(expected.pull_off * modulus, rel=1e-9)
+    limits = [float(found[f"pull_off{end}"]) / modulus for end in ("_low", "_high")]
+    assert limits == pytest.approx(expected.pull_off_limits, rel=1e-9)
+    assert float(found.energy_ratio) == pytest.approx(expected.energy_ratio, rel=1e-9)
+    assert float(found.remaining_low) < float(found.remaining) < float(found.remaining_high)
+
+
+def test_margin_and_threshold_have_the_same_relative_errors():
+    # Of the limits and of the budget, for a pair about to stick and one far from it.
+    found = pairs_of(1e6, [1e-9]).sel(criterion=REMAINING).squeeze()
+    for end in ("_low", "_high"):
+        margins = found[f"margin{end}"] / found.margin
+        thresholds = found[f"modulus_threshold{end}"] / found.modulus_threshold
+        np.testing.assert_allclose(margins, thresholds, rtol=1e-9)
+        assert np.all(abs(np.log(margins)) > 0.05)
+    for source in ("model", "sampling"):
+        margin, threshold = (
+            found[f"{name}_error"].sel(source=source) / found[name]
+            for name in ("margin", "modulus_threshold")
+        )
+        np.testing.assert_allclose(margin, threshold, rtol=1e-9)
+
+
+def test_errors_of_the_spectrum_are_counted_once():
+    """The model's limits are its own; what the spectrum adds is apart, and none if there is one."""
+    found = pairs_of(1e4, [1e-9]).squeeze()
+    for name in ("remaining", "pull_off", "margin", "modulus_threshold"):
+        assert np.all(found[f"{name}_error"].sel(source="sampling") == 0), name
+    error = found.remaining_error.sel(source="model")
+    expected = np.maximum(
+        found.remaining_high - found.remaining, found.remaining - found.remaining_low
+    )
+    np.testing.assert_allclose(error, expected)
+    others = found.margin_error.sel(source="model").where(found.criterion != REMAINING, drop=True)
+    assert np.isnan(others).all()  # other criteria state no error
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("modulus", [5e3, 2e4, 2e5])
+def test_verdict_does_not_know_the_range_of_tough_pairs(modulus):
+    found = pairs_of(modulus, [1e-11, 1e-10, 1e-9]).isel(end=0, surface=0)
+    share = found.remaining.values
+    np.testing.assert_allclose(share, share[0], rtol=0.01, atol=1e-9)
+    assert len(set(found.verdict.values.tolist())) == 1
+    margin = found.margin.sel(criterion=REMAINING).values
+    np.testing.assert_allclose(margin, margin[0], rtol=0.01)
+
+
+def test_wide_zones_of_strong_edges_are_not_called_tough():
+    found = pairs_of(1e3, [1e-6]).isel(end=0, surface=0, material=0)
+    assert float(found.attractive_over_contact) > 10
+    assert float(found.edge_strength) > equivalent_sphere.TOUGH
+    assert int(found.regime) == STRONG
+
+
+@pytest.mark.slow
+def test_threshold_is_where_the_wanted_share_remains():
+    threshold = float(pairs_of(1e6, [1e-9]).modulus_threshold[0, 0, 0])
+    shares = [float(pairs_of(threshold * by, [1e-9]).remaining[0, 0, 0]) for by in (0.99, 1.01)]
+    assert shares[0] > DEFAULT_SHARE > shares[1]
+    assert shares == pytest.approx([DEFAULT_SHARE] * 2, rel=0.1)
+
+
+@pytest.mark.parametrize("h_rms", [0.1e-6, 1e-6, 1e-5])
+def test_steel_does_not_stick(h_rms):
+    """Nor does its contact grow by itself, from polished to coarse."""
+    found = pairs_of(230e9, [3e-10], h_rms=h_rms).squeeze()
+    assert WORDS[int(found.verdict)] == "does not stick"
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("modulus", "reach"), [(5e3, 1e-9), (1e5, 1e-9), (1e11, 1e-7)])
+def test_library_and_rule_give_the_same_numbers(modulus, reach):
+    a_v = (4.0, 3.0, 5.0)
+    by_rule = pairs_of(modulus, [reach], a_v=a_v).isel(end=0, surface=0, material=0)
+    s = SelfAffine(hurst=0.8, q0=1e5, q1=1e8, h_rms=1e-6)
+    found = verdict(s, modulus=modulus, work_of_adhesion=0.05, range=reach, a_v=a_v)
+    for name, margin in found.margins.items():
+        assert float(by_rule.margin.sel(criterion=name)) == pytest.approx(margin, rel=1e-12)
+    limits = (float(by_rule.margin_low), float(by_rule.margin_high))
+    assert found.margin_limits == pytest.approx(limits, rel=1e-12)
+    thresholds = [float(by_rule[f"modulus_threshold{end}"]) for end in ("", "_low", "_high")]
+    assert thresholds == pytest.approx(
+        [found.modulus_threshold, *found.modulus_threshold_limits], rel=1e-9
+    )
+    for name in ("remaining", "pull_off"):
+        by = [float(by_rule[f"{name}{end}"]) for end in ("", "_low", "_high")]
+        assert [getattr(found, name), *getattr(found, f"{name}_limits")] == pytest.approx(by)
+    assert found.word == WORDS[int(by_rule.verdict)]
+    assert found.regime == REGIMES[int(by_rule.regime)]
+
+
+def fit_file(path, name, coords, **parameters):
+    """Fits of a_V over three intervals, as `fit_a_v` writes them."""
+    dims = ("window", *coords)
+    shape = (3, *(len(values) for values in coords.values()))
+    data = xr.Dataset({name: (dims, np.full(shape, 2.0))}, coords=coords)
+    described = {key: ("1", key) for key in data.variables}
+    none = budget.absent("made up")
+    data = budget.with_budget(
+        datasets.annotate(data, **described),
+        name,
+        discretisation=budget.Part(0.1, "made up"),
+        sampling=budget.Part(0.38, "made up"),
+        **dict.fromkeys(("solver", "bandwidth", "model"), none),
+    )
+    datasets.write(data, path, title="t", parameters=parameters)
+    return path
+
+
+@pytest.fixture
+def inputs(tmp_path):
+    """Simulation with a_V = 2, theory 2 on the same spectrum and on all others."""
+    loads = [0.03, 0.065]
+    lattice = {"variant": ["afferrante2018"], "pressure": loads}
+    sweep = {
+        "variant": ["afferrante2018"],
+        "hurst": [0.8],
+        "magnification": [1e2, 1e4, 1e6],
+        "load": [0],
+    }
+    return SimpleNamespace(
+        a_v=fit_file(tmp_path / "case.nc", "a_v_mean", {"pressure": loads}),
+        lattice=fit_file(tmp_path / "lattice.nc", "a_v", lattice, hurst=0.8),
+        theory=fit_file(tmp_path / "theory.nc", "a_v", sweep),
+    )
+
+
+def test_a_v_is_that_of_the_simulation_in_the_file(inputs):
+    found = measure_a_v(inputs, 0.065)
+    assert found.value == 2.0
+    assert found.sampling == pytest.approx(0.38)  # as the file states it, covering 90 %
+    assert found.discretisation == pytest.approx(0.1)
+    assert (found.fit_interval, found.bandwidth) == (0, 0)
+
+
+def test_a_v_at_another_load_is_refused(inputs):
+    with pytest.raises(
+        ValueError, match=r"case.nc: has no a_V at criteria.a_v.pressure = 0.1;.*0.03"
+    ):
+        measure_a_v(inputs, 0.1)
+
+
+@pytest.mark.parametrize("count", [0, 3, 100, 200])
+def test_error_of_a_probability_is_that_of_its_interval(count):
+    covered = 2 * norm.cdf(COVERS) - 1
+    interval = binomtest(count, 200).proportion_ci(covered, method="wilson")
+    share = count / 200
+    about = {"units": "1", "long_name": "share of the draws that stick"}
+    pair = xr.Dataset({"probability": (("material", "surface"), [[share]], about)})
+    found = add_budget_of_probability(pair, {"wall": 200})
+    farther = max(share - interval.low, interval.high - share)
+    assert float(found.probability_total_error.squeeze()) == pytest.approx(farther, rel=1e-10)

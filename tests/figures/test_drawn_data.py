@@ -1,0 +1,673 @@
+"""What the figures show: lines, points and bars are the numbers of the data they are drawn from."""
+
+import json
+from pathlib import Path
+from types import SimpleNamespace
+
+import matplotlib.pyplot as plt
+import numpy as np
+import pytest
+import xarray as xr
+from matplotlib.collections import LineCollection, PolyCollection, QuadMesh
+from matplotlib.colors import same_color
+
+from common import plotting
+from figures import (
+    plot_fig1,
+    plot_fig2,
+    plot_fig3,
+    plot_fig4,
+    plot_fig5,
+    plot_fig6,
+    plot_fig7,
+    plot_fig8,
+    plot_fig9,
+    plot_fig10,
+)
+from stability import plot_stability
+from stickiness import datasets, equivalent_sphere
+from stickiness import error_budget as budget
+from tradeoff import plot_tradeoff
+
+# Relative errors by source of everything "measured" here: in quadrature 3, 4, 12 give 13 %.
+SHARES = {"discretisation": 0.03, "sampling": 0.04, "model": 0.12}
+SAMPLING, TOTAL = 0.04, 0.13
+VARIANTS = ["afferrante2018", "afferrante2018, wang2017", "almqvist2011"]
+FACTORS = [1.0, 1.2, 0.5]  # of the variants, so that the band is from 1 to 1.2
+
+
+@pytest.fixture
+def ax():
+    figure, panels = plotting.make_panels("A", 3)
+    yield panels["A"]
+    plt.close(figure)
+
+
+def dataset(variables, coords, **parameters):
+    """Dataset with parameters; a name that ends in * gets errors by source."""
+    data = xr.Dataset({name.rstrip("*"): v for name, v in variables.items()}, coords=coords)
+    for name in (name.rstrip("*") for name in variables if name.endswith("*")):
+        parts = [abs(data[name]) * SHARES.get(source, 0.0) for source in budget.SOURCES]
+        data[f"{name}_error"] = xr.concat(parts, "source")
+        data[f"{name}_total_error"] = TOTAL * abs(data[name])
+    data = data.assign_coords(source=list(budget.SOURCES))
+    return data.assign_attrs(parameters=json.dumps(parameters))
+
+
+def drawn(ax, x, y, **look):
+    """The only line of this look that is drawn through these points, point by point."""
+    x, y = np.broadcast_arrays(np.asarray(x, float), np.asarray(y, float))
+    found = []
+    for line in ax.lines:
+        data = np.array(line.get_data(), dtype=float)
+        same = data.shape[1:] == x.shape and np.allclose(data, [x, y], rtol=1e-9, equal_nan=True)
+        values = {name: getattr(line, f"get_{name}")() for name in look}
+        alike = all(
+            same_color(values[name], value) if "color" in name else values[name] == value
+            for name, value in look.items()
+        )
+        found += [line] if same and alike else []
+    assert len(found) == 1, f"{len(found)} lines of {look} through {x}, {y}"
+    return found[0]
+
+
+def bar_lengths(ax, axis=1):
+    """Half the length of every error bar, one array for every set of points."""
+    halves = []
+    for container in ax.containers:
+        (bars,) = container.lines[2]
+        ends = np.array([ends for ends in bars.get_segments() if len(ends)])[:, :, axis]
+        halves.append((bars.get_linewidth()[0], (ends[:, 1] - ends[:, 0]) / 2))
+    return halves
+
+
+def assert_bars(ax, values):
+    """A thin bar for all errors and a thick one for the sampling error of these values."""
+    (thin, total), (thick, sampling) = bar_lengths(ax)
+    assert thin < thick
+    np.testing.assert_allclose(total, TOTAL * np.ravel(values), rtol=1e-9)
+    np.testing.assert_allclose(sampling, SAMPLING * np.ravel(values), rtol=1e-9)
+
+
+def band_ends(ax, index=0):
+    """Lowest and highest ordinate of a band at each of its abscissae."""
+    bands = [c for c in ax.collections if isinstance(c, PolyCollection)]
+    corners = bands[index].get_paths()[0].vertices
+    x = np.unique(corners[:, 0])
+    rows = [corners[corners[:, 0] == value][:, 1] for value in x]
+    return x, [row.min() for row in rows], [row.max() for row in rows]
+
+
+def legend_texts(ax):
+    return [text.get_text() for text in ax.get_legend().get_texts()]
+
+
+def assert_axes(ax, x, y, scales):
+    assert (ax.get_xscale(), ax.get_yscale()) == scales
+    assert x in ax.get_xlabel()
+    assert y in ax.get_ylabel()
+
+
+LOG = ("log", "log")
+
+
+# ---- what all figures share
+
+
+def test_bars_are_the_errors_and_unknown_ones_are_left_out(ax):
+    data = dataset({"mean*": ("x", [1.0, 2.0])}, {"x": [1.0, 2.0]})
+    data.mean_error.loc[{"source": "sampling"}] = [np.nan, 0.08]
+    plotting.draw_points(ax, [1, 2], data, "mean", 2.0, color=plotting.RED)
+    drawn(ax, [1, 2], [0.5, 1.0], marker="o", color=plotting.RED)
+    (_, total), (_, sampling) = bar_lengths(ax)
+    np.testing.assert_allclose(sampling, [0, 0.04])
+    np.testing.assert_allclose(total, [np.hypot(0.03, 0.12) / 2, 0.13])
+
+
+def test_open_points_lie_above_bars_and_below_filled_points(ax):
+    data = dataset({"mean*": ("x", [1.0])}, {"x": [1.0]})
+    plotting.draw_hollow(ax, [1], [3.0], marker="o", color=plotting.RED)
+    plotting.draw_points(ax, [1], data, "mean", color=plotting.RED)
+    bars = ax.containers[0].lines[2][0].get_zorder()
+    hollow, filled = drawn(ax, [1], [3.0]), drawn(ax, [1], [1.0], marker="o")
+    assert same_color(hollow.get_markerfacecolor(), "white")
+    assert bars < hollow.get_zorder() < filled.get_zorder()
+
+
+def test_labels_move_apart_and_keep_their_order():
+    assert plotting.push_apart([1.0, 5.0, 1.05, 1.02], 1.1) == pytest.approx([1.0, 5.0, 1.21, 1.1])
+
+
+def test_quantities_are_written_as_equations():
+    assert plotting.state(hurst=0.8, magnification=1e6) == r"$H$ = 0.8, $\zeta$ = 10⁶"
+
+
+def test_a_figure_that_fails_leaves_the_old_one(tmp_path, monkeypatch):
+    path = tmp_path / "fig.png"
+    path.write_bytes(b"old")
+    figure, _ = plotting.make_panels("A", 2)
+
+    def break_off(temporary, **_):
+        temporary.write_bytes(b"half")
+        raise OSError("no space left on device")
+
+    monkeypatch.setattr(figure, "savefig", break_off)
+    with pytest.raises(OSError, match="no space"):
+        plotting.save(figure, [str(path)])
+    assert path.read_bytes() == b"old"
+    assert list(tmp_path.iterdir()) == [path]
+    plt.close(figure)
+
+
+# ---- figure 1
+
+
+def densities(dims, coords, density):
+    values = xr.DataArray(FACTORS, coords={"variant": VARIANTS}, dims="variant") * density
+    data = xr.Dataset({"gap_density": values}, coords=coords)
+    data = data.expand_dims([d for d in ("hurst", "load") if d not in dims])
+    return data.assign(mean_gap=2.0).assign_coords(hurst=[0.8])
+
+
+def test_figure_1a_has_both_variants_of_the_theory_and_the_band_of_corrections(ax):
+    gap = xr.DataArray([1e-3, 1e-2, 0.1], dims="gap", coords={"gap": [1e-3, 1e-2, 0.1]})
+    zeta = xr.DataArray([10.0, 100.0], dims="magnification", coords={"magnification": [10, 100]})
+    density = zeta**0.2 * gap**-0.1
+    plot_fig1.draw_magnifications(ax, densities((), {}, density))
+    for colour, value in zip(plotting.COLOURS, (10, 100), strict=False):
+        expected = value**0.2 * gap.values**-0.1
+        drawn(ax, gap, expected, color=colour, linestyle="-")
+        drawn(ax, gap, 0.5 * expected, color=colour, linestyle="--")
+    x, low, high = band_ends(ax)
+    np.testing.assert_allclose(low, 10**0.2 * x**-0.1)
+    np.testing.assert_allclose(high, 1.2 * 10**0.2 * x**-0.1)
+    assert_axes(ax, "gap $u/h", "density $h", LOG)
+    assert legend_texts(ax)[:2] == [r"$\zeta$ = 10", r"$\zeta$ = 100"]
+
+
+def test_figure_1b_interpolates_gaps_along_a_power_law(ax):
+    gap = xr.DataArray(np.geomspace(1e-4, 10, 6), dims="gap")
+    gap = gap.assign_coords(gap=gap.values)
+    zeta = xr.DataArray([3.0, 30.0], dims="magnification", coords={"magnification": [3.0, 30.0]})
+    plot_fig1.draw_convergence(ax, densities((), {}, zeta**0.1 * gap**-0.4))
+    for value in plot_fig1.GAPS:
+        drawn(ax, [3, 30], np.array([3, 30]) ** 0.1 * value**-0.4, marker=".")
+    assert_axes(ax, "magnification", "density $h", LOG)
+
+
+def test_figure_1c_shades_errors_and_opens_points_below_the_edge_gap(ax):
+    gap = np.array([1e-3, 1e-2, 0.1, 1.0])
+    coords = {"gap": gap, "pressure": plot_fig1.LOADS}
+    dims = ("pressure", "gap")
+    values = np.outer([1.0, 2.0, 3.0], gap**-0.3)
+    surface = {"hurst": 0.8, "magnification": 64}
+    ensemble = dataset(
+        {
+            "gap_density_mean*": (dims, values),
+            "edge_gap_mean": ("pressure", [0.02] * 3),
+            "runs": ("seed", [1, 2]),
+        },
+        coords,
+        **surface,
+    )
+    theory = xr.DataArray(FACTORS, coords={"variant": VARIANTS}, dims="variant")
+    lattice = xr.Dataset({"gap_density": theory * xr.DataArray(values, dims=dims, coords=coords)})
+    plot_fig1.draw_simulation(ax, ensemble, lattice)
+    first = values[0]
+    drawn(ax, gap, np.where(gap > 0.02, first, np.nan), marker=".", color=plotting.BLUE)
+    drawn(ax, gap, np.where(gap < 0.02, first, np.nan), marker="o", markerfacecolor="white")
+    for index, share in enumerate((TOTAL, SAMPLING)):
+        _, low, high = band_ends(ax, index)
+        np.testing.assert_allclose(low, (1 - share) * first)
+        np.testing.assert_allclose(high, (1 + share) * first)
+    drawn(ax, gap, 0.5 * values[2], linestyle="--", color=plotting.GREEN)
+    assert "2 realisations" in ax.get_title()
+
+
+# ---- figure 2
+
+
+def test_figure_2a_opens_points_above_the_linear_area(ax):
+    pressure = np.array([0.01, 0.1, 0.5])
+    kappa = np.array([2.2, 2.1, 1.9])
+    variables = {
+        "kappa*": ("pressure", kappa),
+        "area_fraction": ("pressure", [0.02, 0.2, 0.6]),
+    }
+    data = dataset(variables, {"pressure": pressure}, magnification=32)
+    theory = {"kappa": (("variant", "pressure"), np.outer(FACTORS, kappa))}
+    lattice = dataset(theory, {"pressure": pressure, "variant": VARIANTS})
+    plot_fig2.draw_slopes(ax, [data], [lattice])
+    drawn(ax, pressure, kappa, marker="None", linestyle="-")
+    x = pressure / 1.05
+    drawn(ax, x, kappa, markerfacecolor=plotting.BLUE, marker="o")
+    drawn(ax, x, [np.nan, np.nan, 1.9], markerfacecolor="white")
+    assert_bars(ax, kappa)
+    assert legend_texts(ax) == [r"$\zeta$ = 32", "theory", r"$\kappa$ = 2"]
+    assert_axes(ax, "pressure $p/(E^*", "kappa", ("log", "linear"))
+
+
+def test_figure_2b_has_full_solution_fit_compressed_area_and_dmt_limit(ax):
+    dims = ("pressure", "range_over_h_rms", "adhesion_length_over_range")
+    lengths = np.array([0.01, 0.1])
+    coords = dict(zip(dims, ([0.065], [0.1], lengths), strict=True))
+    value = np.array([[[0.4, -0.1]]])
+    variables = {
+        "inverse_kappa*": (dims, value),
+        "inverse_kappa_fit": (dims, value + 0.01),
+        "inverse_kappa_net": (dims, value + 0.02),
+        "q0_h_rms": ((), 0.1),
+    }
+    limit = dataset({"inverse_kappa": (dims, value + 0.03)}, coords)
+    plot_fig2.draw_threshold(ax, limit, dataset(variables, coords))
+    drawn(ax, lengths, [0.4, -0.1], marker="o", linestyle="None")
+    drawn(ax, lengths, [0.41, -0.09], linestyle="-")
+    drawn(ax, lengths, [0.42, -0.08], markerfacecolor="white")
+    drawn(ax, lengths, [0.43, -0.07], linestyle=":")
+    assert_bars(ax, [0.4, 0.1])
+    assert_axes(ax, r"adhesion length $l_a/\epsilon$", "1/", ("log", "linear"))
+
+
+def test_figure_2_maps_show_contact_and_the_zone_of_attraction(ax):
+    gap = xr.DataArray([[0.0, 0.05], [0.2, 0.0]], dims=("x", "y"))
+    plot_fig2.draw_contact(ax, xr.Dataset({"gap": gap, "pressure": 0.2}), 0.1)
+    (image,) = ax.images
+    picture = image.get_array()
+    assert same_color(picture[0, 0], plotting.BLACK)
+    assert same_color(picture[1, 0], plot_fig2.ATTRACTION_COLOUR)  # row is y
+    assert same_color(picture[0, 1], "white")
+    assert ax.get_title() == r"$\hat{p}$ = 0.2"
+
+
+# ---- figure 3
+
+
+@pytest.fixture
+def case():
+    pressure = [0.0065, 0.065]
+    ranges = np.array([0.01, 0.03, 0.1, 0.2, 0.3])
+    coords = {"pressure": pressure, "range": ranges}
+    dims = ("pressure", "range")
+    area = np.outer([1, 10], 0.02 * ranges ** (2 / 3))
+    surface = {"hurst": 0.8, "magnification": 64, "window": 4}
+    fits = {"a_v_mean*": (("window", "pressure"), [[3.0, 2.0], [9.0, 9.0]])}
+    fits["exponent"] = (dims, np.full(area.shape, 0.7))
+    a_v = np.array(FACTORS)[:, None, None] * [[2.5, 1.5], [9.0, 9.0]]
+    lattice = {"a_v": (("variant", "window", "pressure"), a_v)}
+    return plot_fig3.Case(
+        dataset({"attractive_area_mean*": (dims, area)}, coords, **surface),
+        dataset(fits, coords, **surface),
+        dataset(lattice, {"pressure": pressure, "variant": VARIANTS}, **surface),
+    )
+
+
+def test_figure_3a_has_every_fourth_area_against_the_range_to_two_thirds(ax, case):
+    ranges = case.areas["range"].values
+    zeta = [10.0, 1000.0]
+    area = np.outer(FACTORS, ranges)[None, None, :, None] * np.ones((1, 1, 1, 2, 1))
+    dims = ("hurst", "load", "variant", "magnification", "range")
+    variables = {
+        "attractive_area": (dims, area),
+        "pressure": (("variant", "magnification"), np.full((3, 2), 0.065)),
+    }
+    coords = {"hurst": [0.8], "variant": VARIANTS, "magnification": zeta, "range": ranges}
+    plot_fig3.draw_magnifications(ax, dataset(variables, coords), [case])
+    shown = ranges[::4]
+    drawn(ax, shown ** (2 / 3) - 0.004, 0.2 * shown ** (2 / 3), marker="o")
+    drawn(ax, ranges ** (2 / 3), ranges, color=[*plotting.shade(range(2))][1][0])
+    guide = drawn(ax, [0, 0.3 ** (2 / 3)], [0, 1.5 * 3 * 0.065 * 0.3 ** (2 / 3)])
+    assert guide.get_linestyle() == ":"
+    assert_bars(ax, 0.2 * shown ** (2 / 3))
+    assert legend_texts(ax) == [r"$\zeta$ = 64, 4×4 waves", r"$a_V$ = 3"]
+    assert_axes(ax, r"\epsilon/h", r"A_\mathrm{ad}/A_\mathrm{nom}", ("linear", "linear"))
+
+
+def test_figure_3_takes_a_v_of_the_first_window_at_its_load(ax, case):
+    plot_fig3.draw_case(ax, case, 64, [0.065], color=plotting.RED, marker="D")
+    drawn(ax, [64], [2.0], markerfacecolor=plotting.RED, marker="D")
+    drawn(ax, [64], [1.5], markerfacecolor="white", marker="D")
+    assert_bars(ax, [2.0])
+
+
+# ---- figure 4
+
+
+def test_figure_4b_leaves_out_slopes_below_their_error(ax):
+    value = np.array([0.5, 0.1])
+    data = dataset({"inverse_kappa_ad*": ("length", value)}, {"length": [1, 2]})
+    data.inverse_kappa_ad_error[{"length": 1}] = 0.1  # in quadrature over all sources: more
+    plot_fig4.draw_slopes(ax, [1, 2], data, "inverse_kappa_ad", 0.5, color="k", marker="o")
+    drawn(ax, [1, 2], [1.0, np.nan], marker="o")
+    (_, total), (_, sampling) = bar_lengths(ax)
+    assert total[0] == pytest.approx(TOTAL)
+    assert sampling[0] == pytest.approx(SAMPLING)
+
+
+def test_figure_4c_is_in_proportion_to_adhesion_and_over_the_formula(ax):
+    dims = ("adhesion_length_over_range", "range_over_h_rms")
+    a_v, q0_h_rms, ranges = 5.6, 0.1, np.array([0.1, 1.0])
+    lengths = np.array([0.001, 0.002, 1.0])
+    coords = dict(zip(dims, (lengths, ranges), strict=True))
+    # The formula with twice the paper's a_V, so that all is at 2.
+    value = plot_fig4.criteria.inverse_kappa_ad(1, q0_h_rms, lengths[:, None] * ranges, ranges, a_v)
+    variables = {
+        "inverse_kappa_ad*": (dims, value),
+        "inverse_kappa_ad_direct": (dims, value / 2),
+        "q0_h_rms": ((), q0_h_rms),
+    }
+    data = dataset(variables, coords)
+    assert plot_fig4.largest_weak_length(data) == 0.002
+    plot_fig4.draw_ranges(ax, [data], [1.4])
+    for range_ in ranges:
+        drawn(ax, [range_ / np.sqrt(1.08)], [2.0], marker="o", linestyle="None", markersize=4)
+        drawn(ax, [range_ / np.sqrt(1.08)], [1.0], marker="o", markerfacecolor="white")
+    drawn(ax, [0, 1], [0.5, 0.5], linestyle="--")
+    assert_axes(ax, r"range $\epsilon", "over formula", ("log", "linear"))
+
+
+# ---- figure 5
+
+
+@pytest.fixture
+def criterion_map():
+    """Limits that are power laws of the adhesion length and the wave number."""
+    x, lengths = np.array([1e-12, 1e-3]), np.array([1e-3, 1e-1, 10.0])
+    dims = ("range_times_q0", "adhesion_length_over_range")
+    names = [*plot_fig5.LOOKS, f"{plot_fig5.EDGES}_low", f"{plot_fig5.EDGES}_high"]
+    law = np.outer(x**-0.6, lengths**0.5)
+    variables = {name: (dims, (1 + k) * law) for k, name in enumerate(names)}
+    variables |= {"a_v": ((), 3.7)}
+    angles = [[150.0, 70.0], [160.0, 90.0]]
+    variables |= {"slope_angle": (("slope_parameter", "h_rms_over_range"), angles)}
+    coords = dict(zip(dims, (x, lengths), strict=True))
+    coords |= {"slope_parameter": [1, 0.1], "h_rms_over_range": [1.0, 10.0]}
+    return dataset(variables, coords, slope_a_v=3.0)
+
+
+def test_figure_5a_interpolates_limits_between_adhesion_lengths(ax, criterion_map):
+    plot_fig5.draw_limits(ax, criterion_map)
+    x = criterion_map.range_times_q0.values
+    for colour, length in plotting.shade(plot_fig5.LENGTHS):
+        drawn(ax, x, x**-0.6 * length**0.5, color=colour, linewidth=1.2)
+    for k, look in enumerate(plot_fig5.LOOKS.values()):
+        drawn(ax, x, (1 + k) * x**-0.6 * 0.05**0.5, **look)
+    at, low, high = band_ends(ax)
+    np.testing.assert_allclose(low, 7 * at**-0.6 * 0.05**0.5)
+    np.testing.assert_allclose(high, 8 * at**-0.6 * 0.05**0.5)
+    drawn(ax, [1e-6, 1e-9, 1e-12], [1e3, 6.7e4, 1e6], marker="o")
+    assert_axes(ax, r"\epsilon q_0", r"h_\mathrm{rms}/\epsilon", LOG)
+    assert len(legend_texts(ax)) == 7
+
+
+def test_figure_5b_has_the_angles_in_degrees(ax, criterion_map):
+    plot_fig5.draw_angles(ax, criterion_map)
+    drawn(ax, [1, 10], [150, 70], color=plotting.BLUE)
+    drawn(ax, [1, 10], [160, 90], color=plotting.RED)
+    drawn(ax, [0, 1], [90, 90], linestyle="--")
+    assert_axes(ax, "roughness", "[°]", ("log", "linear"))
+    assert ax.get_title() == "$a_V$ = 3"
+
+
+@pytest.mark.slow
+def test_the_same_data_give_the_same_files(tmp_path, criterion_map):
+    path = tmp_path / "map.nc"
+    described = {name: ("1", name) for name in criterion_map.variables}
+    data = datasets.annotate(criterion_map, **described)
+    datasets.write(data, path, title="map", parameters={"slope_a_v": 3.0})
+    contents = []
+    for name in ("a", "b"):
+        outputs = [str(tmp_path / f"{name}.{suffix}") for suffix in ("png", "pdf")]
+        plot_fig5.main(SimpleNamespace(input=SimpleNamespace(map=path), output=outputs))
+        contents.append([Path(output).read_bytes() for output in outputs])
+    assert contents[0] == contents[1]
+    assert contents[0][1].startswith(b"%PDF-")
+
+
+# ---- figure 6
+
+
+def spectrum(label, **more):
+    q = np.geomspace(1e3, 1e6, 4)
+    levels = {"psd": (("end", "wave_number"), [1e-5 * q**-3.6, 1e-3 * q**-3.6])}
+    return dataset(levels | more, {"end": ["smooth", "rough"], "wave_number": q}, label=label)
+
+
+def test_figure_6_fills_between_the_ends_of_a_parametric_surface(ax):
+    plot_fig6.draw_spectra(ax, [spectrum("road")], plot_fig6.EXPONENT)
+    _, low, high = band_ends(ax)
+    np.testing.assert_allclose(low, 1e-5)
+    np.testing.assert_allclose(high, 1e-3)
+    drawn(ax, [1e-4, 1e10], [1e-3, 1e-3], linestyle="--")
+    assert ax.get_legend_handles_labels()[1] == ["road"]
+
+
+def test_figure_6_draws_no_more_than_was_measured(ax):
+    q = np.geomspace(1e3, 1e6, 4)
+    fit, fitted = 2e-5 * q**-3.6, np.array([0, 1, 1, 0], dtype="i1")
+    more = {
+        "psd_fit": ("wave_number", fit),
+        "psd_standard_error": ("wave_number", 2e-6 * q**-3.6),
+        "fitted": ("wave_number", fitted),
+        "q1": ((), 1e6),
+        "q_cutoff": ((), 1e5),
+    }
+    plot_fig6.draw_measured(ax, spectrum("wafer", **more), plot_fig6.EXPONENT, plotting.BLUE)
+    drawn(ax, q[:3], [1e-5] * 3, marker="o")
+    drawn(ax, q[:3], [np.nan, 2e-5, 2e-5], color=plotting.BLACK)
+    ((_, halves),) = bar_lengths(ax)
+    np.testing.assert_allclose(halves, 1.645 * 2e-6, rtol=1e-3)  # 90 %, not one standard error
+
+
+# ---- figure 7
+
+
+@pytest.fixture
+def ratios():
+    dims = ("pressure", "adhesion_length_over_range", "range_over_h_rms")
+    coords = dict(zip(dims, ([0.065], [0.001, 0.01], [0.1, 1.0]), strict=True))
+    value = np.array([[[1.0, 1.5], [3.0, np.nan]]])
+    variables = {
+        "dmt_ratio*": (dims, value),
+        "dmt_ratio_net": (dims, value - 0.2),
+        "zone_strength": (dims, [[[0.1, 0.2], [5.0, 6.0]]]),
+        "q0_h_rms": ((), 0.1),
+    }
+    return dataset(variables, coords, magnification=32)
+
+
+def test_figure_7a_writes_ratios_bold_where_the_dmt_limit_holds(ax, ratios):
+    plot_fig7.draw_plane(ax, ratios.sel(pressure=0.065))
+    (mesh,) = [c for c in ax.collections if isinstance(c, QuadMesh)]
+    shown = np.ma.filled(mesh.get_array(), np.nan)
+    np.testing.assert_array_equal(shown, ratios.dmt_ratio.values[0])
+    texts = {text.get_text(): text for text in ax.texts}
+    assert set(texts) == {"1.00", "1.50", "3.00", "·"}
+    assert texts["1.00"].get_weight() == "bold"
+    assert texts["1.50"].get_weight() == "normal"
+    assert texts["3.00"].get_position() == (0.1, 0.01)
+    assert_axes(ax, "range", "adhesion length", LOG)
+
+
+def test_figure_7a_takes_the_error_into_account(ratios):
+    error = plot_fig7.error_of_dmt(ratios).values[0]
+    assert error[0, 0] == pytest.approx(np.expm1(TOTAL))
+    assert error[0, 1] == pytest.approx(1.5 * np.exp(TOTAL) - 1)
+
+
+def test_figure_7b_has_the_weakest_adhesion_with_its_compressed_area(ax, ratios):
+    plot_fig7.draw_weak(ax, ratios)
+    x = np.array([0.1, 1.0]) / 1.06
+    drawn(ax, x, [1.0, 1.5], marker="o", color=plotting.BLUE, markerfacecolor=plotting.BLUE)
+    drawn(ax, x, [0.8, 1.3], markerfacecolor="white")
+    assert_bars(ax, [1.0, 1.5])
+    assert legend_texts(ax) == [r"$\hat{p}$ = 0.065", "compressed area"]
+    assert_axes(ax, "range", "full over DMT", LOG)
+
+
+# ---- figure 8
+
+
+@pytest.fixture
+def compared():
+    """Theory of two surfaces: the first has a window too small for its smallest load."""
+    variables = {
+        "area_fraction_difference*": (("variant", "pressure"), [[0.2, -0.1, 3.0]]),
+        "window_holds": ("pressure", [0, 1, 1]),
+    }
+    coords = {"pressure": [0.01, 0.065, 0.5], "variant": ["afferrante2018"]}
+    made = {"hurst": 0.8, "magnification": 64}
+    return [dataset(variables, coords, **made), dataset(variables, coords, **made, window=4)]
+
+
+def test_figure_8_has_a_row_for_every_case_and_a_point_for_every_load(ax, compared):
+    cases = plot_fig8.order_cases(compared[::-1])
+    assert [case.label.split(", ")[-1] for case in cases] == ["1×1", "4×4"]
+    plot_fig8.draw_ratios(ax, "area_fraction", cases)
+    for row in (0, 1):
+        # Open where the window is too small; an arrow at the edge where a ratio is outside.
+        drawn(ax, [1.2], [row - 0.25], markerfacecolor="white", marker="o")
+        drawn(ax, [0.9], [row], markerfacecolor=plotting.BLACK, marker="s")
+        drawn(ax, [plot_fig8.SHOWN[1]], [row + 0.25], marker=">")
+    halves = [half for _, found in bar_lengths(ax, axis=0) for half in found]
+    np.testing.assert_allclose(halves, [0.2 * TOTAL, 0.1 * TOTAL, 3 * TOTAL] * 2)
+
+
+def test_figure_8d_averages_where_windows_hold(compared):
+    cases = plot_fig8.order_cases(compared)
+    root = plot_fig8.root_mean_square("area_fraction", "afferrante2018", cases)
+    assert root == pytest.approx(100 * np.sqrt((0.1**2 + 3**2) / 2))
+
+
+def test_figure_8e_has_gamma_with_its_interval_and_misfit(ax):
+    dims = ("correction", "quantity")
+    names = ["area_fraction", "mean_gap", "attractive_area", "all"]
+    low, best, high = (np.full((3, 4), value) for value in (0.4, 0.5, 0.7))
+    variables = {
+        "gamma": (dims, best),
+        "gamma_low": (dims, low),
+        "gamma_high": (dims, high),
+        "misfit": (dims, np.full((3, 4), 0.06)),
+        "own_gamma": ("correction", [0.45, 0.55, 0.45]),
+        "quantities_agree": ("correction", [0, 1, 0]),
+    }
+    coords = {"correction": list(plot_fig8.CORRECTIONS), "quantity": names}
+    plot_fig8.draw_gamma(ax, dataset(variables, coords))
+    drawn(ax, [0.5] * 3, np.arange(3) - 0.26, marker="o", linestyle="None")
+    drawn(ax, [0.5] * 4, np.arange(4), marker="s", linestyle="None")
+    _, halves = bar_lengths(ax, axis=0)[0]
+    np.testing.assert_allclose(halves, 0.15)
+    texts = [text.get_text() for text in ax.texts]
+    assert texts.count("6 %") == 10
+    assert "Yang & Persson: none fits all" in texts
+    assert [label.get_text() for label in ax.get_yticklabels()][-1] == "all"
+    assert "95 %" in ax.get_xlabel()
+
+
+# ---- figure 9
+
+
+CRITERIA_DRAWN = ["remaining_adhesion", "violano", "pastewka_robbins", "fuller_tabor", "dahlquist"]
+
+
+def test_figure_9a_has_every_criterion_that_knows_a_length_and_the_error_of_the_verdict(ax):
+    names = [*CRITERIA_DRAWN[:4], "remaining_adhesion_low", "remaining_adhesion_high"]
+    height = np.array([10.0, 100.0])
+    values = np.outer([1.0, 2.0, 3.0, 4.0, 0.5, 2.0], height**-0.5)
+    coords = {"criterion": names, "h_rms_over_range": height}
+    thresholds = xr.DataArray(values, coords, ("criterion", "h_rms_over_range"))
+    made = {"hurst": 0.8, "range_times_q0": 1e-6}
+    plot_fig9.draw_thresholds(ax, thresholds, made, "held")
+    for factor in (1, 2, 3, 4):
+        drawn(ax, height, factor * height**-0.5)
+    x, low, high = band_ends(ax)
+    np.testing.assert_allclose([low, high], np.outer([0.5, 2.0], x**-0.5))
+    assert len(ax.get_legend_handles_labels()[1]) == 4
+    assert [text.get_text() for text in ax.texts][-1].endswith("\nheld")
+
+
+def test_figure_9c_has_geometric_means_and_the_range_over_materials_and_ends(ax):
+    factors = np.array([1.0, 10.0, 0.01, 100.0, 7.0])  # over the verdict's, by criterion
+    spread = np.array([[0.5, 2.0], [0.25, 4.0]])[:, None, :, None] ** (np.arange(5) > 0)
+    base = np.array([1e3, 1e6])[None, :, None, None]
+    moduli = factors * spread * base * np.ones((2, 2, 2, 5))
+    dims = ("material", "surface", "end", "criterion")
+    coords = {"surface": ["a_line", "wafer"], "criterion": CRITERIA_DRAWN}
+    data = xr.Dataset({"threshold_by_criterion": (dims, moduli)}, coords)
+    plot_fig9.draw_surfaces(ax, data)
+    for index, factor in enumerate(factors[1:4]):
+        drawn(ax, np.arange(2) + 0.09 * (index - 1), [factor] * 2)
+    bars = [c for c in ax.collections if isinstance(c, LineCollection)]
+    assert len(bars) == 3  # Dahlquist's modulus does not depend on the surface
+    ends = np.array(bars[0].get_segments())[:, :, 1]
+    np.testing.assert_allclose(ends, [[2.5, 40.0]] * 2)
+    assert [text.get_text() for text in ax.get_xticklabels()] == ["a\nline", "wafer"]
+
+
+def test_figure_9_names_the_points_that_it_draws(ax):
+    criteria = [plot_fig9.CRITERIA[name] for name in CRITERIA_DRAWN[:4]]
+    keys = list(plot_fig9.make_keys(criteria))
+    assert [key.get_label() for key in keys] == [c.label for c in criteria[:1]] + [
+        c.label.replace("a_V", "$a_V$") for c in criteria[1:]
+    ]
+    assert keys[0].get_marker() == "None"  # the verdict is a line
+    assert [key.get_marker() for key in keys[1:]] == list(plotting.MARKERS[:3])
+
+
+# ---- figure 10
+
+
+@pytest.fixture
+def edges():
+    dims = ("pressure", "adhesion_length_over_range", "range_over_h_rms")
+    coords = dict(zip(dims, ([0.065], [0.01, 0.1], [0.1, 1.0]), strict=True))
+    variables = {
+        "attractive_over_contact": (dims, [[[0.2, 1.0], [2.0, 3.0]]]),
+        "edge_strength": (dims, [[[0.01, 0.02], [1.0, 0.03]]]),
+        "effect": (dims, [[[3.0, 2.0], [1.5, 1.2]]]),
+        "over_model*": (dims, [[[1.1, 0.9], [0.8, 4.0]]]),  # the last with too large an error
+    }
+    return dataset(variables, coords, magnification=32, q0_h_rms=0.314159)
+
+
+def test_figure_10a_has_weak_edges_with_the_error_of_their_ratio(ax, edges):
+    halves = [edges.isel(adhesion_length_over_range=[i]) for i in (0, 1)]
+    plot_fig10.draw_weak(ax, plot_fig10.join_surfaces(halves))  # of one surface, a single name
+    drawn(ax, [0.2, 1.0], [3.0, 2.0], marker="o")
+    t = np.geomspace(0.05, 200, 200)
+    drawn(ax, t[t > 0.7], equivalent_sphere.weak_effect_at_approach(t[t > 0.7]), linestyle=":")
+    ((_, halves),) = bar_lengths(ax)
+    np.testing.assert_allclose(halves, [3.0 * TOTAL, 2.0 * TOTAL])
+    label = r"$\zeta$ = 32, $q_0h_\mathrm{rms}$ = 0.31"
+    assert legend_texts(ax) == ["equivalent sphere", label]
+    assert_axes(ax, "A_", "over DMT", LOG)
+
+
+def test_figure_10b_shades_the_error_of_verdicts(ax, edges):
+    plot_fig10.draw_ratios(ax, list(plot_fig10.join_surfaces([edges]).values()))
+    drawn(ax, [0.01, 0.02, 1.0], [1.1, 0.9, 0.8], marker="o")
+    (_, halves), (_, of_mean) = bar_lengths(ax)
+    np.testing.assert_allclose(halves, TOTAL * np.array([1.1, 0.9, 0.8]))
+    # Two points lie between 0.01 and 0.05, and a single one has no error of its mean.
+    np.testing.assert_allclose(of_mean, [0.1])
+    drawn(ax, [0.01, 0.05], [1.0, 1.0], color=plotting.BLACK)
+    for index, factor in enumerate((equivalent_sphere.ERROR_WEAK, equivalent_sphere.ERROR_STRONG)):
+        _, low, high = band_ends(ax, index)
+        np.testing.assert_allclose([low, high], [[1 / factor] * 2, [factor] * 2])
+
+
+# ---- accuracy against cost, and the map of validity
+
+
+def test_front_is_what_nothing_cheaper_equals():
+    cost, error = np.array([1.0, 2.0, 3.0, 2.0, 4.0]), np.array([0.5, 0.3, 0.4, 0.2, 0.2])
+    assert list(plot_tradeoff.find_front(cost, error)) == [0, 3]
+
+
+def test_stability_bars_are_shares_of_outcomes(ax):
+    data = xr.Dataset(
+        {"hurst": ("point", [0.2, 0.2, 0.8, 0.8]), "outcome": ("point", [0, 3, 0, 0])}
+    )
+    plot_stability.draw_strip(ax, data, "hurst")
+    heights = np.reshape([bar.get_height() for bar in ax.patches], (4, 2))
+    np.testing.assert_allclose(heights, [[0.5, 1], [0, 0], [0, 0], [0.5, 0]])
+    assert [label.get_text() for label in ax.get_xticklabels()] == ["0.2", "0.8"]

@@ -1,0 +1,245 @@
+"""Contact of measured heights that were made periodic."""
+
+import re
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from criteria.materials import read_material
+from real_surfaces import contact_measured, measured_loads
+from report import measured_contact
+from stickiness import adhesive, datasets, repulsive, surface
+from stickiness.measured.topography import Topography
+from stickiness.repulsive import subpixel
+from stickiness.spectrum import SelfAffine
+
+RANGES = np.geomspace(0.003, 1, 11)
+
+
+def contact_of(h, q_max=16.0, **changed):
+    setting = {
+        "pressures": np.array([0.03, 0.3]),
+        "ranges": RANGES,
+        "pixels": 4,
+        "tolerance": 1e-6,
+        "gamma": 0.45,
+    } | changed
+    step = 2 * np.pi / len(h)
+    heights = Topography(h, step, step, "here")
+    return contact_measured.solve(heights, 1.0, q_max, contact_measured.Setting(**setting))
+
+
+@pytest.fixture(scope="module")
+def whole():
+    s = SelfAffine(hurst=0.8, q0=1.0, q1=16.0, h_rms=1.0)
+    h = surface.synthesise(s, n=128, length=2 * np.pi, seed=5)
+    return h, contact_measured.annotate(contact_of(h))
+
+
+def test_both_ways_bracket_nothing_absurd(whole):
+    h, found = whole
+    # The mirror keeps the variance but for the waves beyond the band that its seams make.
+    assert float(found.h_rms.sel(periodisation="mirror")) == pytest.approx(np.std(h), rel=0.02)
+    assert float(found.h_rms.sel(periodisation="taper")) < np.std(h)
+    fine = found.isel(resolution=-1)
+    assert np.all(fine.area_fraction.isel(pressure=1) > fine.area_fraction.isel(pressure=0))
+    assert np.all(np.diff(fine.attractive_area, axis=-1) >= 0)
+    # Area grows nearly linearly, and Persson's is within a third on one small surface.
+    assert np.all(
+        np.abs(fine.area_fraction / fine.theory_area_fraction - 1).isel(pressure=1) < 0.35
+    )
+
+
+def test_contact_of_a_smooth_wave_is_westergaard_s():
+    # h = cos x, alone: contact over sin^2(pi a/L) = p/(pi E* amplitude/L) (Westergaard 1939), in
+    # which the amplitude is sqrt(2) h_rms. A mirror image of whole periods is the wave itself.
+    n = 256
+    x = (np.arange(n) + 0.5) * 2 * np.pi / n  # mirrored between points: an even wave goes on
+    found = contact_of(np.tile(np.cos(x)[:, None], (1, n)), pressures=np.array([0.2]), pixels=16)
+    area = float(found.area_fraction.sel(periodisation="mirror").isel(resolution=-1, pressure=0))
+    # pi E* amplitude/L with L = 2 pi and amplitude sqrt(2) in units of h_rms is 1/sqrt(2).
+    expected = 2 / np.pi * np.arcsin(np.sqrt(0.2 * np.sqrt(2)))
+    assert area == pytest.approx(expected, abs=2 / 256)
+
+
+def test_grid_that_would_be_too_large_is_refused_with_the_remedy():
+    with pytest.raises(ValueError, match=r"more than 2048; give bem\.shortest_wavelength of"):
+        contact_of(np.random.default_rng(0).normal(size=(256, 256)), q_max=120.0, pixels=64)
+
+
+def test_waves_are_not_shorter_than_the_instrument():
+    assert contact_measured.highest_wave_number({}, 5.0) == 5.0
+    coarse = contact_measured.highest_wave_number({"shortest_wavelength": "2 m"}, 5.0)
+    assert coarse == pytest.approx(np.pi)
+    with pytest.raises(ValueError, match="below the instrument's"):
+        contact_measured.highest_wave_number({"shortest_wavelength": "1 m"}, 5.0)
+
+
+def test_a_profile_is_refused(tmp_path):
+    path = tmp_path / "line.txt"
+    path.write_text("\n".join(str(v) for v in np.random.default_rng(0).normal(size=30)))
+    asked = {"file": str(path), "length": "1 um", "height_unit": "nm", "bem": {"pressures": [0.1]}}
+    with pytest.raises(ValueError, match="is a line profile; bem needs a map"):
+        contact_measured.read_map(asked)
+
+
+# On the page
+
+
+def test_rows_of_the_page_hold_value_error_and_theory(whole):
+    _, found = whole
+    rows = measured_contact.describe_loads(found)
+    assert [row["pressure"] for row in rows] == ["0.03", "0.3"]
+    assert re.fullmatch(r"[\d.]+ ± [\d.]+", rows[1]["area"]["value"])
+    assert rows[1]["area"]["ways"][0].startswith("tapered 0.")
+    value, error = measured_contact.combine_ways(found.area_fraction.isel(pressure=1))
+    fine = found.area_fraction.isel(pressure=1, resolution=-1).values
+    assert value == pytest.approx(fine.mean())
+    assert error >= abs(fine[1] - fine[0]) / 2
+
+
+@pytest.mark.parametrize(("range_", "shown"), [("0.2 m", True), ("5 m", False), ("3 mm", False)])
+def test_margin_is_shown_where_the_grid_resolves_the_range(whole, range_, shown):
+    _, found = whole
+    entry = {"plane_strain_modulus": "1 Pa", "work_of_adhesion": "0.1 J/m^2", "range": range_}
+    ends = {"h_rms": ("end", [1.0, 1.0]), "rms_slope": ("end", [3.0, 3.0])}
+    known = found.isel(resolution=-1, periodisation=0)[[]].assign(ends | {"q0": 1.0})
+    row = measured_contact.describe_pair(found, read_material(entry), known)
+    assert row["resolved"] == shown
+    assert (row["margin"] != "–") == shown
+
+
+# Heights that are periodic as they stand, with adhesion
+
+SOLID = {"plane_strain_modulus": "25 MPa", "work_of_adhesion": "50 mJ/m^2", "range": "40 nm"}
+SIDE, POINTS, H_RMS = 10e-6, 64, 0.2e-6
+
+
+@pytest.fixture(scope="module")
+def periodic_file(tmp_path_factory):
+    s = SelfAffine(hurst=0.8, q0=2 * np.pi / SIDE, q1=16 * np.pi / SIDE, h_rms=H_RMS)
+    path = tmp_path_factory.mktemp("periodic") / "heights.npy"
+    np.save(path, surface.synthesise(s, n=POINTS, length=SIDE, seed=3).T)
+    return path
+
+
+def asked_of(path, **bem):
+    return {
+        "kind": "measured",
+        "label": "plate",
+        "source": "own",
+        "file": str(path),
+        "length": "10 um",
+        "height_unit": "m",
+        "bem": {"periodic": True, "pressures": ["0.5 MPa", "250 kPa"], "adhesion": SOLID} | bem,
+    }
+
+
+@pytest.fixture(scope="module")
+def pressed(periodic_file, tmp_path_factory):
+    folder = tmp_path_factory.mktemp("pressed")
+    asked = asked_of(periodic_file)
+    q0 = 2 * np.pi / SIDE
+    known = xr.Dataset({"q0": q0, "q_cutoff": 8 * q0})
+    text = ("1/m", "wave number")
+    known = datasets.annotate(known, q0=text, q_cutoff=text)
+    datasets.write(known, folder / "in.nc", title="a", parameters={})
+    contact_measured.main(
+        SimpleNamespace(
+            input=SimpleNamespace(surface=folder / "in.nc"),
+            output=[folder / "out.nc"],
+            wildcards=SimpleNamespace(real_surface="plate"),
+            params=SimpleNamespace(
+                surface=asked,
+                gaps={"minimum": 0.01, "maximum": 1.0, "per_decade": 4},
+                pixels_per_wavelength=8,
+                tolerance=1e-6,
+                gamma=0.45,
+            ),
+        )
+    )
+    return datasets.read(folder / "out.nc")
+
+
+def test_periodic_heights_are_pressed_as_they_stand(pressed, periodic_file):
+    heights = np.load(periodic_file).T
+    assert list(pressed.periodisation.values) == ["given"]
+    assert float(pressed.h_rms.isel(periodisation=0)) == pytest.approx(H_RMS, rel=1e-9)
+    for step, resolution in ((2, 1.0), (1, 2.0)):
+        at = pressed.sel(resolution=resolution, periodisation="given").isel(pressure=0)
+        alone = repulsive.solve(heights[::step, ::step], SIDE, 0.01, tol=1e-6)
+        strip = subpixel.boundary_strip(alone.gap == 0)
+        assert float(at.area_fraction) == pytest.approx(alone.area_fraction - strip, abs=1e-9)
+        assert float(at.mean_gap) * H_RMS == pytest.approx(alone.mean_gap, rel=1e-5)
+
+
+def test_adhesion_is_that_of_the_solver_at_the_pressures_given(pressed, periodic_file):
+    heights = np.load(periodic_file).T
+    law = adhesive.Exponential(adhesion_length=0.05 / 25e6, range=40e-9)
+    applied = pressed.applied_pressure.isel(periodisation=0)
+    np.testing.assert_allclose(applied, [0.25e6, 0.5e6], rtol=1e-9)
+    for step, resolution in ((2, 1.0), (1, 2.0)):
+        for index, load in enumerate((0.01, 0.02)):
+            alone = repulsive.solve(heights[::step, ::step], SIDE, load, tol=1e-6)
+            state = adhesive.solve(heights[::step, ::step], SIDE, law, load, start=alone, tol=1e-8)
+            at = pressed.sel(resolution=resolution, periodisation="given").isel(pressure=index)
+            assert float(at.adhesive_mean_gap) * H_RMS == pytest.approx(state.mean_gap, rel=1e-3)
+            area = state.repulsive_area_fraction
+            assert float(at.adhesive_contact_area) == pytest.approx(area, rel=0.02)
+            assert float(at.adhesive_residual) <= 1e-3
+    fine = pressed.isel(resolution=-1)
+    assert np.all(fine.adhesive_contact_area >= fine.area_fraction)
+    assert float(fine.edge_resolution.max()) == pytest.approx(SIDE / 64 * 2e-9 / 40e-9**2)
+
+
+def test_adhesion_has_its_rows_on_the_page(pressed):
+    rows = measured_contact.describe_adhesion(pressed)
+    assert [row["applied"] for row in rows] == ["250 kPa", "500 kPa"]
+    assert all(re.fullmatch(r"[\d.]+( ± [\d.]+)?", row["area"]) for row in rows)
+    assert measured_contact.describe_loads(pressed)[0]["area"]["ways"][0].startswith(
+        "as they stand"
+    )
+    assert measured_contact.describe_edges(pressed) == "The grid resolves the edges of contact."
+    coarse = pressed.assign(edge_resolution=("resolution", [20.0, 10.0]))
+    assert "does not resolve" in measured_contact.describe_edges(coarse)
+
+
+def test_pressures_with_units_are_the_same_in_both_ways(whole):
+    h, _ = whole
+    solid = measured_loads.Solid(modulus=1.0, work_of_adhesion=0.02, range=0.5)
+    found = contact_of(h, pressures=np.array([0.3]), absolute=True, solid=solid, pixels=2)
+    np.testing.assert_allclose(found.applied_pressure, 0.3, rtol=1e-12)
+    assert np.all(found.adhesive_contact_area > 0)
+
+
+@pytest.mark.parametrize(
+    ("changed", "text"),
+    [
+        ({"most_points": 32}, r"64 x 64 points; .*at most bem\.most_points = 32"),
+        ({"most_points": 64, "shortest_wavelength": "0.5 um"}, r"or raise bem\.most_points"),
+    ],
+)
+def test_a_grid_beyond_most_points_is_refused(periodic_file, changed, text):
+    asked = asked_of(periodic_file, **changed)
+    bem = asked["bem"]
+    setting = measured_loads.Setting(
+        **measured_loads.read_loads(bem),
+        ranges=RANGES,
+        pixels=8,
+        tolerance=1e-4,
+        gamma=0.45,
+        ways=("given",),
+        own_grid="shortest_wavelength" not in bem,
+        most_points=bem["most_points"],
+    )
+    q_max = contact_measured.highest_wave_number(bem, 1e9)
+    with pytest.raises(ValueError, match=text):
+        contact_measured.solve(contact_measured.read_map(asked), 1.0, q_max, setting)
+
+
+def test_no_plane_is_taken_from_periodic_heights(periodic_file):
+    heights = np.load(periodic_file).T
+    read = contact_measured.read_map(asked_of(periodic_file)).heights
+    np.testing.assert_allclose(read, heights - heights.mean(), atol=1e-15)

@@ -1,0 +1,389 @@
+"""Contact of a surface that does not repeat: closed forms, dense algebra, a peer."""
+
+import warnings
+
+import numpy as np
+import pytest
+from helpers.direct_contact import solve_directly
+from scipy import integrate
+
+from stickiness import repulsive, solids
+from stickiness.closed_forms import contact as reference
+from stickiness.repulsive import active_set, free_edges, projected_gradients, solver
+
+PATCH = (12, 10)
+SIDES = (1.0, 1.5)
+
+
+def rough(shape, hurst=0.8, modes=12, seed=0):
+    """Self-affine heights of unit rms; cut from a periodic surface, so that edges do not match."""
+    n = 2 * max(shape)
+    rng = np.random.default_rng(seed)
+    k = np.fft.fftfreq(n, 1 / n)
+    radius = np.hypot(k[:, None], k[None, :])
+    inside = (radius >= 1) & (radius <= modes)
+    amplitude = np.where(inside, np.maximum(radius, 1) ** -(1 + hurst), 0)
+    heights = np.fft.ifft2(np.fft.fft2(rng.standard_normal((n, n))) * amplitude).real
+    heights = heights[: shape[0], : shape[1]]
+    return heights / heights.std()
+
+
+def paraboloid(n, center=(0.5, 0.5), side=1.0):
+    """Heights of a paraboloid of radius one, at the middle of pixels."""
+    x = (np.arange(n) + 0.5) * side / n
+    return -((x[:, None] - center[0]) ** 2 + (x[None, :] - center[1]) ** 2) / 2
+
+
+def solve(heights, length, pressure, **options):
+    return repulsive.solve(heights, length, pressure, periodic=False, **options)
+
+
+def compliance_matrix(shape, sides):
+    """Displacement of every pixel under unit pressure on every other, one by one."""
+    pixel = [a / n for a, n in zip(sides, shape, strict=True)]
+    kernel = free_edges.displace_by_pixel(shape, pixel)
+    i, j = (index.ravel() for index in np.indices(shape))
+    return kernel[np.abs(i[:, None] - i), np.abs(j[:, None] - j)]
+
+
+def assert_solves(contact, heights, sides, tol=1e-8):
+    """Check the conditions of contact by direct summation."""
+    assert np.all(contact.pressure >= 0)
+    assert np.all(contact.gap >= 0)
+    assert not np.any(contact.pressure * contact.gap)
+    # the force is balanced to the rounding of a sum
+    assert contact.pressure.mean() == pytest.approx(contact.mean_pressure, rel=1e-12)
+    image = compliance_matrix(heights.shape, sides) @ contact.pressure.ravel()
+    gap = image.reshape(heights.shape) + contact.shift - heights
+    unit = heights.std() or contact.mean_pressure * sides[0]
+    # 1.01 and 1e-13: the residual is measured with transforms, with other rounding
+    assert np.abs(gap - contact.gap).max() <= (1.01 * tol + 1e-13) * unit
+    touching = contact.pressure > 0
+    violation = max(np.abs(gap[touching]).max(), -gap.min())
+    assert violation <= (1.01 * contact.residual + 1e-13) * unit
+    assert contact.area_fraction == np.mean(touching)
+    assert contact.mean_gap == pytest.approx(contact.gap.mean())
+    assert contact.approach == heights.max() - contact.shift
+
+
+def test_kernel_is_the_integral_of_one_over_r():
+    pixel = (0.1, 0.25)
+    kernel = free_edges.displace_by_pixel((4, 4), pixel)
+    for i, j in [(1, 0), (0, 1), (2, 3), (3, 1)]:
+        integral, _ = integrate.dblquad(
+            lambda y, x: 1 / np.hypot(x, y),
+            *((i - 0.5) * pixel[0], (i + 0.5) * pixel[0]),
+            *((j - 0.5) * pixel[1], (j + 0.5) * pixel[1]),
+            epsrel=1e-11,
+        )
+        assert kernel[i, j] == pytest.approx(integral / np.pi, rel=1e-9)
+    # middle of a square of side s: 4 s ln(1 + sqrt 2) / pi (Johnson 1985, section 3.3)
+    square = free_edges.displace_by_pixel((1, 1), (0.3, 0.3))
+    assert square[0, 0] == pytest.approx(4 * 0.3 * np.log(1 + np.sqrt(2)) / np.pi, rel=1e-14)
+
+
+def test_kernel_is_that_of_a_point_force_far_away():
+    kernel = free_edges.displace_by_pixel((2001, 1), (1.0, 1.0))
+    # the next term is r**-2 / 24, rounding some 1e-16 r**2
+    assert kernel[2000, 0] == pytest.approx(1 / (np.pi * 2000), rel=2e-8)
+
+
+@pytest.mark.parametrize(("dtype", "accuracy"), [(np.float64, 1e-14), (np.float32, 1e-6)])
+@pytest.mark.parametrize("shape", [(12, 10), (7, 11), (64, 66), (1, 9), (1, 1)])
+def test_convolution_is_the_direct_sum(shape, dtype, accuracy):
+    operator = free_edges.free_half_space(shape, SIDES, dtype)
+    pressure = np.random.default_rng(0).random(shape)
+    expected = compliance_matrix(shape, SIDES) @ pressure.ravel()
+    found = operator.compliance(pressure.astype(dtype)).ravel()
+    np.testing.assert_allclose(found, expected, rtol=accuracy)
+
+
+def test_some_rows_of_the_convolution():
+    operator = free_edges.FreeHalfSpace(PATCH, SIDES)
+    pressure = np.zeros(PATCH)
+    rows_in, rows_out = np.array([2, 3, 7]), np.array([0, 7, 8])
+    pressure[rows_in] = np.random.default_rng(0).random((3, PATCH[1]))
+    out = np.full(PATCH, 7.0)
+    operator.compliance(pressure, out, rows_in, rows_out)
+    np.testing.assert_allclose(
+        out[rows_out], operator.compliance(pressure)[rows_out], rtol=1e-14, atol=0
+    )
+    assert np.all(np.delete(out, rows_out, axis=0) == 7.0)
+
+
+def test_reciprocity_and_positive_work():
+    operator = free_edges.free_half_space((33, 20), SIDES)
+    rng = np.random.default_rng(1)
+    one, other = rng.standard_normal((2, 33, 20))
+    there = np.vdot(one, operator.compliance(other))
+    back = np.vdot(other, operator.compliance(one))
+    work = np.vdot(one, operator.compliance(one))
+    assert work > 0
+    assert there == pytest.approx(back, abs=1e-13 * work)
+    assert np.linalg.eigvalsh(compliance_matrix(PATCH, SIDES)).min() > 0
+
+
+@pytest.mark.parametrize("n", [64, 128, 256])
+@pytest.mark.parametrize("radius", [0.05, 0.1, 0.3])
+def test_hertz_without_images(radius, n):
+    """Also the approach, which a periodic surface does not have."""
+    hertz = reference.Hertz(1.0, 4 / 3 * radius**3)
+    contact = solve(paraboloid(n), 1.0, hertz.load)
+    pixel = 1 / (n * radius)
+    assert contact.pressure.sum() / n**2 == pytest.approx(hertz.load, rel=1e-12)
+    assert np.sqrt(contact.area_fraction / np.pi) == pytest.approx(radius, rel=0.2 * pixel)
+    # the summit, at height zero, lies between pixels
+    assert -contact.shift == pytest.approx(hertz.indentation, rel=0.1 * pixel**2)
+    assert contact.pressure.max() == pytest.approx(hertz.largest_pressure, rel=0.3 * pixel**2)
+    x = (np.arange(n) + 0.5) / n - 0.5
+    r = np.hypot(x[:, None], x[None, :])
+    outside = r > 1.3 * radius
+    np.testing.assert_allclose(
+        contact.gap[outside], hertz.gap(r)[outside], rtol=0, atol=0.3 * pixel**2 * radius**2
+    )
+
+
+def test_the_place_on_the_surface_does_not_matter():
+    load = 4 / 3 * 0.08**3
+    middle = solve(paraboloid(128), 1.0, load, tol=1e-10)
+    corner = solve(paraboloid(128, (0.125, 0.8125)), 1.0, load, tol=1e-10)
+    moved = np.roll(middle.pressure, (-48, 40), (0, 1))
+    np.testing.assert_allclose(corner.pressure, moved, atol=1e-7 * moved.max())
+    assert corner.shift == pytest.approx(middle.shift, rel=1e-6)
+
+
+def test_elliptic_paraboloid():
+    ellipse = reference.HertzEllipse((0.5, 2.0), 4 / 3 * 0.1**3)
+    x = (np.arange(256) + 0.5) / 256 - 0.5
+    contact = solve(-(0.5 * x[:, None] ** 2 + 2.0 * x[None, :] ** 2) / 2, 1.0, ellipse.load)
+    # 29 by 11 pixels from the middle
+    assert -contact.shift == pytest.approx(ellipse.indentation, rel=1e-3)
+    assert contact.pressure.max() == pytest.approx(ellipse.largest_pressure, rel=1e-3)
+    assert contact.area_fraction == pytest.approx(ellipse.area, rel=0.02)
+
+
+def test_flat_square_punch():
+    """Force over approach is that of charge over potential of a square plate.
+
+    The capacitance of a square of side s is 0.36679 s times 4 pi eps0 (Hwang and Mascagni, J. Appl.
+    Phys. 95:3798, 2004): F = 0.36679 pi E* s approach. Pixels are as soft as s/n is small.
+    """
+    forces = []
+    for n in (64, 128, 256):
+        contact = solve(np.full((n, n), 3.0), 2.0, 0.01)
+        assert contact.area_fraction == 1
+        assert contact.mean_gap == contact.rms_height == 0
+        forces.append(0.01 * 2.0**2 / (2.0 * contact.approach))
+    assert forces[0] < forces[1] < forces[2]
+    order = np.log2((forces[1] - forces[0]) / (forces[2] - forces[1]))
+    assert order == pytest.approx(1, abs=0.05)
+    assert 2 * forces[2] - forces[1] == pytest.approx(0.36679 * np.pi, rel=1e-4)
+
+
+def test_a_flat_strip_in_two_orders():
+    """Sides and pixels that differ, in full contact, against dense algebra."""
+    contact = solve(np.zeros(PATCH), SIDES, 0.01)
+    assert_solves(contact, np.zeros(PATCH), SIDES)
+    matrix = compliance_matrix(PATCH, SIDES)
+    stiffness = np.linalg.solve(matrix, np.ones(len(matrix))).mean()
+    assert contact.approach == pytest.approx(0.01 / stiffness, rel=1e-7)
+    turned = solve(np.zeros(PATCH[::-1]), SIDES[::-1], 0.01)
+    np.testing.assert_allclose(turned.pressure.T, contact.pressure, rtol=1e-6)
+
+
+@pytest.mark.parametrize("load", [0.03, 0.3, 3.0, 300.0])
+def test_solution_is_that_of_a_direct_method(load):
+    heights = rough(PATCH, modes=5, seed=3)
+    pressure, active, shift = solve_directly(compliance_matrix(PATCH, SIDES), heights, load)
+    contact = solve(heights, SIDES, load, tol=1e-11)
+    np.testing.assert_array_equal(contact.pressure.ravel() > 0, active)
+    # the largest stiffness, about pi n / 2, times the tolerance bounds the error of the pressure
+    np.testing.assert_allclose(contact.pressure.ravel(), pressure, atol=1e-9)
+    assert contact.shift == pytest.approx(shift, abs=1e-10 * max(load, 1))
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("shape", [(65, 63), (48, 64), (33, 70), (2, 2), (1, 64), (3, 50)])
+@pytest.mark.parametrize("pressure", [0.01, 1.0])
+def test_any_grid(shape, pressure):
+    heights = np.random.default_rng(0).standard_normal(shape)
+    sides = (1.0, shape[1] / shape[0])
+    assert_solves(solve(heights, 1.0, pressure), heights, sides)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("scaled_pressure", [1e-3, 0.065, 0.3, 2.0])
+def test_two_methods_one_solution(scaled_pressure):
+    """From coarser grids by active sets, and by projected gradients from a uniform pressure."""
+    heights, load = rough((130, 128), seed=1), scaled_pressure * 2 * np.pi
+    sides = (1.0, 128 / 130)
+    contact = solve(heights, sides, load, tol=1e-9)
+    assert contact.residual <= 1e-9
+    rms = contact.rms_height
+    problem = active_set.Problem(
+        (heights - heights.mean()) / rms, sides, load / rms, periodic=False
+    )
+    uniform = np.ones_like(heights)
+    state = projected_gradients.relax(problem, uniform, tol=1e-9, max_iterations=300)
+    assert state.residual <= 1e-9
+    np.testing.assert_allclose(state.pressure * rms, contact.pressure, atol=1e-9 * 10 * np.pi * 130)
+    # single points at zero pressure and zero gap may fall on either side
+    assert state.area_fraction == pytest.approx(contact.area_fraction, abs=3 / heights.size)
+    assert contact.mean_gap == pytest.approx(float(state.gap.mean()) * rms, rel=1e-7)
+
+
+@pytest.mark.slow
+def test_projected_gradients_go_on_where_active_sets_fail(monkeypatch):
+    heights = rough((96, 96), seed=7)
+    usual = solve(heights, 1.0, 0.5)
+    monkeypatch.setattr(solver, "_MOST_UNSURE", 3)
+    contact = solve(heights, 1.0, 0.5)
+    assert contact.iterations > 3
+    assert_solves(contact, heights, (1.0, 1.0))
+    np.testing.assert_allclose(contact.pressure, usual.pressure, atol=1e-8 * 10 * np.pi * 96)
+
+
+def test_images_in_a_periodic_cell():
+    """Beside the periodic solution of a small contact, whose images are known.
+
+    The unit charges of a square lattice of constant D and a uniform background that neutralises
+    them displace a point of the lattice by -3.900265/D (Bonsall and Maradudin, Phys. Rev. B
+    15:1959, 1977; twice the energy); the curvature of that goes as D**-3.
+    """
+    n, force = 64, 4 / 3 * 0.3**3
+    heights = paraboloid(n)
+    alone = solve(heights, 1.0, force)
+    for cells in (2, 4):
+        wide = np.full((cells * n, cells * n), -5.0)
+        wide[:n, :n] = heights
+        contact = repulsive.solve(wide, float(cells), force / cells**2)
+        assert not contact.pressure[n:].any()
+        moved = 3.900265 / np.pi * force / cells
+        assert contact.shift - alone.shift == pytest.approx(moved, rel=(0.3 / cells) ** 2)
+        inside = heights > -((0.8 * 0.3) ** 2) / 2
+        # 19 pixels to the radius: the kernels of the two differ between neighbours
+        np.testing.assert_allclose(
+            contact.pressure[:n, :n][inside], alone.pressure[inside], rtol=0.02 / cells**3 + 2e-3
+        )
+
+
+def test_units_and_symmetries():
+    heights = rough((96, 80), seed=4)
+    contact = solve(heights, SIDES, 0.5, tol=1e-9)
+    small = solve(1e-3 * heights, [1e-3 * a for a in SIDES], 0.5, tol=1e-9)
+    np.testing.assert_allclose(small.pressure, contact.pressure, atol=1e-6)
+    assert small.approach == pytest.approx(1e-3 * contact.approach, rel=1e-8)
+    high = solve(heights + 100.0, SIDES, 0.5, tol=1e-9)
+    assert high.shift == pytest.approx(contact.shift + 100.0, rel=1e-9)
+    assert high.approach == pytest.approx(contact.approach, rel=1e-8)
+    turned = solve(heights[::-1, ::-1], SIDES, 0.5, tol=1e-9)
+    np.testing.assert_allclose(turned.pressure[::-1, ::-1], contact.pressure, atol=1e-5)
+
+
+@pytest.mark.slow
+def test_loading_path_and_starts():
+    """Further loads press further; dF/d(approach), the contact stiffness, grows with the area."""
+    heights = rough((128, 128), seed=5)
+    loads = np.geomspace(0.01, 30, 8)
+    path = list(repulsive.load_path(heights, 1.0, loads, periodic=False))
+    approach = np.array([c.approach for c in path])
+    stiffness = np.diff(loads) / np.diff(approach)
+    assert np.all(stiffness > 0)
+    assert np.all(np.diff(stiffness) > 0)
+    # no contact is stiffer than the flat punch of the same outline
+    assert stiffness[-1] < 0.36679 * np.pi
+    again = solve(heights, 1.0, 1.001 * loads[3], start=path[3])
+    fresh = solve(heights, 1.0, 1.001 * loads[3])
+    assert again.approach == pytest.approx(fresh.approach, rel=1e-7)
+    assert again.fft_pairs < fresh.fft_pairs
+
+
+def test_pressure_peaks_at_free_edges():
+    """Under a large load it is that of a punch: infinite at the edges, finite in the middle."""
+    pressure = solve(rough((64, 64)), 1.0, 100.0).pressure
+    rim = np.ones((64, 64), bool)
+    rim[1:-1, 1:-1] = False
+    assert pressure[rim].mean() > 3 * pressure[16:48, 16:48].mean()
+
+
+def test_no_load():
+    heights = rough(PATCH)
+    contact = solve(heights, SIDES, 0.0)
+    assert contact.approach == contact.area_fraction == 0
+    assert contact.shift == heights.max()
+    np.testing.assert_array_equal(contact.gap, heights.max() - heights)
+
+
+def test_single_precision():
+    heights = rough((128, 128), seed=6)
+    quick = solve(heights, 1.0, 0.3, tol=1e-3, precision="single")
+    assert quick.residual <= 1e-3
+    assert quick.approach == pytest.approx(solve(heights, 1.0, 0.3).approach, abs=1e-3)
+
+
+def test_too_few_iterations():
+    with pytest.raises(repulsive.ConvergenceError, match="max_iterations") as failure:
+        solve(rough((64, 64)), 1.0, 0.3, max_iterations=2)
+    assert failure.value.residual > 1e-8
+    assert np.isfinite(failure.value.contact.approach)
+
+
+def test_periodic_contact_has_no_approach():
+    assert np.isnan(repulsive.solve(rough(PATCH), SIDES, 0.1).approach)
+    assert np.isnan(repulsive.solve(np.zeros(PATCH), SIDES, 0.1).approach)
+
+
+def test_layers_are_refused():
+    with pytest.raises(ValueError, match="periodic=False is for a half-space only"):
+        solve(rough(PATCH), SIDES, 0.1, solid=solids.Layer(0.1, 0.3))
+
+
+@pytest.mark.parametrize("periodic", [None, 0, "no", "free"])
+def test_bad_edges(periodic):
+    with pytest.raises(ValueError, match="periodic must be True or False"):
+        repulsive.solve(rough(PATCH), SIDES, 0.1, periodic=periodic)
+
+
+@pytest.mark.parametrize(
+    ("name", "value"),
+    [("pressure", -1.0), ("pressure", np.nan), ("length", 0.0), ("tol", 1.0), ("heights", [1.0])],
+)
+def test_other_bad_arguments(name, value):
+    given = {"heights": rough(PATCH), "length": SIDES, "pressure": 0.1} | {name: value}
+    with pytest.raises(ValueError, match=name):
+        repulsive.solve(**given, periodic=False)
+
+
+def test_fields_of_another_shape_are_refused():
+    with pytest.raises(ValueError, match="field has shape"):
+        free_edges.free_half_space(PATCH, SIDES).compliance(np.zeros((3, 3)))
+
+
+@pytest.mark.peers
+@pytest.mark.parametrize("pressure", [0.06, 0.6, 3.0])
+@pytest.mark.parametrize("shape", [(64, 64), (48, 81)])
+def test_same_solution_as_contact_mechanics(shape, pressure):
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # it warns of a missing MPI on import
+        peer = pytest.importorskip(
+            "ContactMechanics", reason="not installed: pip install -r envs/peers.txt"
+        )
+        from ContactMechanics.Optimization import ConstrainedConjugateGradients
+    heights, tol = rough(shape, modes=20, seed=1), 1e-9
+    ours = solve(heights, (1.0, 1.0), pressure, tol=tol)
+    result = ConstrainedConjugateGradients.constrained_conjugate_gradients(
+        peer.FreeFFTElasticHalfSpace(shape, 1.0, (1.0, 1.0)),
+        heights,
+        external_force=pressure,
+        pentol=tol,
+        thermotol=tol,
+        maxiter=20_000,
+    )
+    assert result.success
+    theirs = np.asarray(result.jac).reshape(shape) * heights.size
+    # residuals of 1e-9 in the gap times the largest stiffness of the grid, with a margin of ten
+    # since the codes define their residuals differently
+    stiffness = np.pi * np.hypot(*shape) / 2
+    np.testing.assert_allclose(theirs, ours.pressure, atol=10 * tol * stiffness)
+    assert -result.offset == pytest.approx(ours.shift, abs=10 * tol)
+    assert np.mean(theirs > 0) == pytest.approx(ours.area_fraction, abs=3 / heights.size)

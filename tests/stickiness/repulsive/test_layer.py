@@ -1,0 +1,191 @@
+"""Contact of elastic layers without adhesion."""
+
+import numpy as np
+import pytest
+
+from stickiness import repulsive, spectrum, surface
+from stickiness.repulsive import half_space
+from stickiness.repulsive.half_space import wavenumbers
+from stickiness.solids import Backing, HalfSpace, Layer
+
+LENGTH = 4 * np.pi  # two waves of wave number one
+ROUGH = spectrum.SelfAffine(hurst=0.8, q0=1.0, q1=16.0, h_rms=1.0)
+BACKINGS = ["bonded", "slip", Backing(5.0, 0.3), Backing(0.2, 0.3)]
+
+
+@pytest.fixture(scope="module")
+def heights():
+    return surface.synthesise(ROUGH, n=128, length=LENGTH, seed=3)
+
+
+def displace(pressure, solid, side=LENGTH):
+    """Displacement by numpy's transforms alone."""
+    n = len(pressure)
+    q = np.hypot(*np.meshgrid(*[2 * np.pi * np.fft.fftfreq(n, side / n)] * 2))
+    q[0, 0] = 1
+    waves = np.fft.fft2(pressure) * solid.compliance(q)
+    waves[0, 0] = 0
+    return np.fft.ifft2(waves).real
+
+
+def flattening_pressure(heights, solid, side=LENGTH):
+    """Root mean square pressure of full contact."""
+    q = wavenumbers(heights.shape, (side, side))
+    q[0, 0] = 1
+    waves = np.fft.rfft2(heights) * solid.stiffness(q)
+    waves[0, 0] = 0
+    return np.fft.irfft2(waves, s=heights.shape).std()
+
+
+@pytest.mark.parametrize("solid", [Layer(0.3, 0.5), Layer(0.3, 0.2), Layer(2.0, 0.5, "slip")])
+@pytest.mark.parametrize("shape", [(16, 16), (17, 13), (24, 9)])
+def test_operators_carry_the_compliance_of_the_solid(shape, solid):
+    sides = (0.7, 1.9)
+    operator = half_space.HalfSpace(shape, sides, solid=solid)
+    pressure = np.random.default_rng(1).standard_normal(shape)
+    q = wavenumbers(shape, sides)
+    q[0, 0] = 1
+    waves = np.fft.rfft2(pressure) * solid.compliance(q)
+    waves[0, 0] = 0
+    expected = np.fft.irfft2(waves, s=shape)
+    np.testing.assert_allclose(operator.compliance(pressure), expected, rtol=1e-10, atol=1e-15)
+    back = operator.stiffness(expected)
+    np.testing.assert_allclose(back, pressure - pressure.mean(), atol=1e-10)
+    unit = np.zeros(shape)
+    unit[0, 0] = 1
+    assert operator.stiffness(unit)[0, 0] == pytest.approx(operator.mean_stiffness)
+
+
+@pytest.mark.parametrize("thickness", [0.2, 1.0, 3.0])
+@pytest.mark.parametrize("backing", BACKINGS, ids=str)
+@pytest.mark.parametrize("load", [0.03, 0.4])
+def test_contact_conditions(heights, backing, thickness, load):
+    solid = Layer(thickness, 0.5, backing)
+    pressure = load * flattening_pressure(heights, solid)
+    contact = repulsive.solve(heights, LENGTH, pressure, tol=1e-8, solid=solid)
+    gap = displace(contact.pressure, solid) + contact.shift - heights
+    touching = contact.pressure > 0
+    assert contact.pressure.min() >= 0
+    assert contact.pressure.mean() == pytest.approx(pressure, rel=1e-12)
+    assert np.abs(gap[touching]).max() < 2e-8 * heights.std()
+    assert gap.min() > -2e-8 * heights.std()
+    np.testing.assert_allclose(contact.gap, np.where(touching, 0, gap), atol=2e-8 * heights.std())
+    assert 0 < contact.area_fraction < 1
+
+
+@pytest.mark.parametrize("backing", ["bonded", "slip", Backing(5.0, 0.3)], ids=str)
+def test_a_single_wave_in_full_contact(backing):
+    """The mean pressure that just closes a wave is its stiffness times the amplitude."""
+    x = 2 * np.pi * np.arange(64) / 64
+    wave = 0.01 * np.cos(x)[:, None] * np.ones(64)
+    solid = Layer(0.4, 0.4, backing)
+    closing = 0.01 * solid.stiffness(1.0)
+    full = repulsive.solve(wave, 2 * np.pi, 1.001 * closing, solid=solid)
+    assert full.area_fraction == 1
+    expected = 1.001 * closing + closing * np.cos(x)
+    np.testing.assert_allclose(full.pressure[:, 0], expected, rtol=1e-9, atol=1e-12)
+    assert repulsive.solve(wave, 2 * np.pi, 0.98 * closing, solid=solid).area_fraction < 1
+
+
+@pytest.mark.parametrize("backing", BACKINGS, ids=str)
+@pytest.mark.parametrize("poisson", [0.3, 0.5])
+def test_thick_layers_are_half_spaces(heights, backing, poisson):
+    half = repulsive.solve(heights, LENGTH, 0.1, solid=HalfSpace())
+    thick = repulsive.solve(heights, LENGTH, 0.1, solid=Layer(1e3, poisson, backing))
+    np.testing.assert_allclose(thick.pressure, half.pressure, atol=1e-6)
+    assert thick.area_fraction == half.area_fraction
+    assert thick.mean_gap == pytest.approx(half.mean_gap, rel=1e-9)
+
+
+@pytest.mark.parametrize("thickness", [1e-4, 1e-2, 1e3])
+@pytest.mark.parametrize(
+    ("poisson", "backing"), [(0.5, "bonded"), (0.3, "bonded"), (0.5, "slip")], ids=str
+)
+def test_extreme_thickness_converges(heights, thickness, poisson, backing):
+    solid = Layer(thickness, poisson, backing)
+    pressure = 0.2 * flattening_pressure(heights, solid)
+    contact = repulsive.solve(heights, LENGTH, pressure, tol=1e-7, solid=solid)
+    assert contact.residual <= 1e-7
+    assert 0.1 < contact.area_fraction < 0.8
+
+
+def test_a_thin_compressible_layer_is_a_bed_of_springs(heights):
+    """Winkler: the pressure is the overlap over the compliance of long waves."""
+    solid = Layer(1e-3, 0.3)
+    spring = solid.compliance(1e-4)
+    pressure = 0.3 * heights.std() / spring
+    contact = repulsive.solve(heights, LENGTH, pressure, solid=solid)
+    level = (heights - spring * contact.pressure)[contact.pressure > 0]
+    # every point in contact has sunk to one level, all others lie below it
+    assert np.ptp(level) < 1e-3 * heights.std()
+    assert heights[contact.pressure == 0].max() < level.max() + 1e-3 * heights.std()
+
+
+def test_where_active_sets_cycle_projected_gradients_go_on(heights):
+    solid = Layer(0.1, 0.5, Backing(0.1, 0.3))
+    pressure = 0.3 * flattening_pressure(heights, solid)
+    contact = repulsive.solve(heights, LENGTH, pressure, solid=solid)
+    assert contact.residual <= 1e-8
+    with pytest.raises(repulsive.ConvergenceError) as failure:
+        repulsive.solve(heights, LENGTH, pressure, solid=solid, max_iterations=2)
+    assert failure.value.contact.iterations <= 2
+
+
+def test_the_unit_of_length_is_free(heights):
+    one = repulsive.solve(heights, LENGTH, 0.2, solid=Layer(0.5, 0.4))
+    other = repulsive.solve(1e-3 * heights, 1e-3 * LENGTH, 0.2, solid=Layer(0.5e-3, 0.4))
+    np.testing.assert_allclose(other.pressure, one.pressure, rtol=1e-9, atol=1e-9)
+
+
+def press_paraboloid(radius, solid):
+    """Load and approach, over E*/R, that press a paraboloid into a contact of a given radius.
+
+    Hankel's transform of the pressure as ``int f(t) cos(qt) dt`` over the radius leaves Fredholm's
+    equation f(t) + (2/pi) int int (S - 1) cos(qs) cos(qt) dq f(s) ds = (approach - t^2)/pi; f
+    vanishes at the edge (Lebedev and Ufliand's method).
+    """
+    x, w = np.polynomial.legendre.leggauss(60)
+    t, dt = radius * (1 + x) / 2, radius * w / 2
+    waves, dq = np.polynomial.legendre.leggauss(400)
+    longest = 20 / solid.thickness  # S - 1 vanishes beyond
+    q, dq = longest * (1 + waves) / 2, longest * dq / 2
+    away = dq * (solid.factor(q) - 1)
+    at_edge = 2 / np.pi * (np.cos(radius * q) * away) @ np.cos(np.outer(q, t)) * dt
+    coupling = (
+        np.eye(60) + 2 / np.pi * (np.cos(np.outer(t, q)) * away) @ np.cos(np.outer(q, t)) * dt
+    )
+    flat, curved = (np.linalg.solve(coupling, b) / np.pi for b in (np.ones(60), -(t**2)))
+    # f at the edge by the equation itself, then the approach for which it vanishes
+    edge_flat = 1 / np.pi - at_edge @ flat
+    edge_curved = -(radius**2) / np.pi - at_edge @ curved
+    approach = -edge_curved / edge_flat
+    return 2 * np.pi * dt @ (approach * flat + curved), approach
+
+
+def test_the_reference_of_a_paraboloid_is_hertz_on_a_thick_layer():
+    load, approach = press_paraboloid(1.0, Layer(1e3, 0.3))
+    assert load == pytest.approx(4 / 3, rel=2e-3)
+    assert approach == pytest.approx(1.0, rel=2e-3)
+
+
+@pytest.mark.parametrize("thickness", [0.5, 1.0, 2.0])
+@pytest.mark.parametrize(("poisson", "backing"), [(0.5, "bonded"), (0.3, "bonded"), (0.5, "slip")])
+def test_a_paraboloid_on_a_layer(poisson, backing, thickness):
+    n, side, radius = 512, 12.0, 1.5
+    solid = Layer(thickness, poisson, backing)
+    load, approach = press_paraboloid(radius, solid)
+    x = (np.arange(n) - n / 2) * (side / n)
+    heights = -(x[:, None] ** 2 + x[None, :] ** 2) / 2
+    contact = repulsive.solve(heights, side, load / side**2, tol=1e-6, solid=solid)
+    found = np.sqrt(contact.area_fraction * side**2 / np.pi)
+    assert found == pytest.approx(radius, rel=5e-3)
+    # and by that of the backing: a layer that cannot slip hands nothing to its neighbours
+    if backing == "bonded":
+        moved = solid.mean_compliance * contact.mean_pressure - contact.shift
+        assert moved == pytest.approx(approach, rel=1e-2)
+
+
+@pytest.mark.parametrize("solid", [None, 1.0, Layer, "layer"])
+def test_bad_solids(heights, solid):
+    with pytest.raises(ValueError, match="solid must be solids.HalfSpace.. or a solids.Layer"):
+        repulsive.solve(heights, LENGTH, 0.1, solid=solid)

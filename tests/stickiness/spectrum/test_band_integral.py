@@ -1,0 +1,66 @@
+"""Elastic energy of roughness on layers."""
+
+import numpy as np
+import pytest
+from scipy import integrate
+
+from stickiness.solids import Backing, HalfSpace, Layer
+from stickiness.spectrum import SelfAffine, Shells, Tabulated
+from stickiness.spectrum.band_integral import integrate_band
+
+ROUGH = SelfAffine(hurst=0.8, q0=1.0, q1=1e4, h_rms=1.0, q_rolloff=3.0)
+SPECTRA = [
+    ROUGH,
+    SelfAffine(hurst=0.3, q0=1.0, q1=2.0, h_rms=1.0),
+    Tabulated([1.0, 2.0, 7.0, 100.0], [1.0, 0.3, 0.02, 1e-7]),
+]
+
+
+@pytest.mark.parametrize("rough", SPECTRA, ids=lambda s: type(s).__name__)
+@pytest.mark.parametrize("power", [0, 1, 2])
+def test_powers_have_closed_forms(rough, power):
+    for low, high in ((rough.q0, rough.q1), (1.1, 1.9), (0.1, 1.5), (5.0, 1e9)):
+        found = integrate_band(rough, lambda q: q**power, low, high)
+        expected = rough.variance_below(high, power) - rough.variance_below(low, power)
+        assert found == pytest.approx(float(expected), rel=1e-11)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("rough", SPECTRA, ids=lambda s: type(s).__name__)
+@pytest.mark.parametrize("thickness", [1e-4, 0.05, 1.0, 3.0])
+@pytest.mark.parametrize(
+    ("poisson", "backing"), [(0.5, "bonded"), (0.3, "slip"), (0.4, Backing(9.0, 0.3))]
+)
+def test_energy_on_a_layer(rough, thickness, poisson, backing):
+    solid = Layer(thickness, poisson, backing)
+
+    def integrand(log_q):
+        q = np.exp(log_q)
+        return np.pi / 2 * q**3 * rough.psd(q) / solid.factor(q)
+
+    knots = np.log(rough.knots)
+    number = len(knots) - 1
+    edges = np.interp(np.linspace(0, number, 60 * number + 1), np.arange(number + 1), knots)
+    expected = sum(
+        integrate.quad(integrand, a, b, epsabs=0, epsrel=1e-13)[0]
+        for a, b in zip(edges[:-1], edges[1:], strict=True)
+    )
+    assert rough.elastic_energy(solid) == pytest.approx(expected, rel=1e-10)
+
+
+def test_energy_of_shells_is_a_sum():
+    shells = Shells([1.0, 2.0, 5.0], [0.5, 0.2, 0.1])
+    solid = Layer(0.3, 0.5)
+    expected = np.sum(shells.variance * solid.stiffness(shells.q)) / 2
+    assert shells.elastic_energy(solid) == pytest.approx(expected, rel=1e-14)
+
+
+@pytest.mark.parametrize("rough", [*SPECTRA, Shells([1.0, 2.0], [1.0, 0.2])])
+def test_thick_layers_and_half_spaces_agree(rough):
+    assert rough.elastic_energy(HalfSpace()) == rough.elastic_energy()
+    assert rough.elastic_energy(Layer(1e3, 0.5)) == pytest.approx(rough.elastic_energy(), rel=1e-12)
+
+
+def test_a_bad_solid_is_named():
+    with pytest.raises(ValueError, match="solid must be solids.HalfSpace"):
+        ROUGH.elastic_energy(3.0)

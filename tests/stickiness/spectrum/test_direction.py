@@ -1,0 +1,306 @@
+"""Spectra with a direction: 2D integrals, averages, moments by direction, surfaces, errors."""
+
+import doctest
+
+import numpy as np
+import pytest
+from scipy import integrate
+
+from stickiness import surface
+from stickiness.measured.psd import power_spectrum
+from stickiness.persson import Persson
+from stickiness.spectrum import SelfAffine
+from stickiness.spectrum import kinds as module
+from stickiness.spectrum.direction import Ellipse
+
+L = 2 * np.pi  # so that wave numbers are lattice indices
+GOOD = {"hurst": 0.8, "q0": 1.0, "q1": 16.0, "h_rms": 1.0}
+
+
+def made(**changes):
+    return SelfAffine(**{**GOOD, **changes})
+
+
+def by_direction(s, ratio, power):
+    """Integral of |q|^power C over the plane: over ln q along each direction, then over these."""
+
+    def along(phi):
+        stretch = np.sqrt(ratio * np.cos(phi) ** 2 + np.sin(phi) ** 2 / ratio)
+        knots = np.log(s.knots / stretch)
+
+        def term(t):
+            norm = min(max(np.exp(t) * stretch, s.q0), s.q1)
+            return np.exp((2 + power) * t) * s.C0 * max(norm, s.q_longest) ** (-2 * (s.hurst + 1))
+
+        parts = zip(knots[:-1], knots[1:], strict=True)
+        return sum(integrate.quad(term, *ends, epsabs=0, epsrel=1e-11)[0] for ends in parts)
+
+    whole = integrate.quad(along, 0, np.pi / 2, epsabs=0, epsrel=1e-10, limit=200)[0]
+    return 4 * whole
+
+
+@pytest.mark.parametrize("ratio", [1.0, 1.00005, 1.5, 8.0])
+@pytest.mark.parametrize("rest", [{}, {"hurst": 0.4, "q1": 400.0, "q_rolloff": 5.0}])
+def test_height_slope_and_energy_are_integrals_over_the_plane(ratio, rest):
+    s = made(anisotropy=ratio, **rest)
+    mean = s.averaged()
+    for power, name in ((0, "h_rms"), (2, "rms_slope"), (1, "elastic_energy"), (4, None)):
+        want = by_direction(s, ratio, power)
+        assert s.total_variance(power) == pytest.approx(want, rel=2e-9)
+        if name is not None:
+            assert mean.total_variance(power) == pytest.approx(want, rel=1e-8)
+    assert s.h_rms == pytest.approx(1.0, rel=1e-13)
+    assert s.rms_slope == pytest.approx(np.sqrt(by_direction(s, ratio, 2)), rel=1e-9)
+    assert s.elastic_energy() == pytest.approx(by_direction(s, ratio, 1) / 4, rel=1e-9)
+
+
+@pytest.mark.parametrize("ratio", [20.0, 100.0, 1e4])
+@pytest.mark.parametrize("q1", [2.0, 1e6])
+def test_averages_of_long_ellipses(ratio, q1):
+    s = made(anisotropy=ratio, q1=q1)
+    mean = s.averaged()
+    assert mean.h_rms == pytest.approx(s.h_rms, rel=1e-12)
+    assert mean.rms_slope == pytest.approx(s.rms_slope, rel=1e-12)
+    assert mean.elastic_energy() == pytest.approx(s.elastic_energy(), rel=1e-6)
+    assert (mean.q0, mean.q1) == pytest.approx(s.band, rel=1e-12)
+    # <g^2> and <g^4> of an ellipse
+    iso = made(q1=q1)
+    assert s.rms_slope**2 / iso.rms_slope**2 == pytest.approx((ratio + 1 / ratio) / 2, rel=1e-12)
+    fourth = 3 / 8 * (ratio**2 + ratio**-2) + 1 / 4
+    assert s.rms_curvature**2 / iso.rms_curvature**2 == pytest.approx(fourth, rel=1e-12)
+
+
+@pytest.mark.parametrize("ratio", [1.3, 4.0, 30.0])  # 30: no circle lies in the band
+def test_density_is_the_mean_over_directions(ratio):
+    s = made(anisotropy=ratio, angle=0.4, q_rolloff=3.0)
+    phi = (np.arange(200_000) + 0.5) / 200_000 * 2 * np.pi
+    low, high = s.band
+    for q in (low * 1.01, 1.0, 3.0, 5.0, 16.0, high * 0.99):
+        want = s.psd_of_vector(q * np.cos(phi), q * np.sin(phi)).mean()
+        # steps of the band's ends on 2e5 directions
+        assert s.psd(q) == pytest.approx(want, rel=3e-3)
+    assert list(s.psd([0.0, low * 0.99, high * 1.01])) == [0, 0, 0]
+    assert s.psd([[1.0, 2.0]]).shape == (1, 2)
+
+
+def test_average_holds_the_variance_of_the_density_between_knots():
+    s = made(anisotropy=4.0)
+    mean = s.averaged()
+    for k in (10, 60, 90):
+        ends = np.log(mean.knots[[k, k + 3]])
+        want, _ = integrate.quad(
+            lambda t: 2 * np.pi * np.exp(2 * t) * float(s.psd(np.exp(t))), *ends, epsabs=0
+        )
+        got = np.diff(mean.variance_below(np.exp(ends)))[0]
+        assert got == pytest.approx(want, rel=1e-9)
+        assert np.diff(s.variance_below(np.exp(ends)))[0] == got
+
+
+def test_theories_take_the_average():
+    s = made(anisotropy=4.0, angle=1.0)
+    loads = np.array([0.02, 0.3]) * s.rms_slope
+    one, other = Persson(s), Persson(s.averaged())
+    np.testing.assert_array_equal(one.area_fraction(loads), other.area_fraction(loads))
+    np.testing.assert_array_equal(one.mean_gap(loads), other.mean_gap(loads))
+    # a sum of many isotropic spectra, each one direction of the ellipse
+    angle = (np.arange(400) + 0.5) / 400 * np.pi / 2
+    stretch = np.sqrt(np.cos(angle) ** 2 / 4 + 4 * np.sin(angle) ** 2)
+    gradient = np.mean(stretch**2) * made().rms_slope ** 2
+    assert one.area_fraction(loads) == pytest.approx(
+        Persson(made(h_rms=np.sqrt(gradient) / made().rms_slope)).area_fraction(loads), rel=1e-9
+    )
+
+
+@pytest.mark.slow
+def test_mean_gap_of_full_range_of_loads_gives_the_energy():
+    # int ubar dp is the energy of full contact
+    s = made(anisotropy=6.0)
+    p = np.geomspace(1e-8, 20, 4000) * s.rms_slope
+    gaps = Persson(s).mean_gap(p)
+    assert integrate.trapezoid(gaps * p, np.log(p)) == pytest.approx(s.elastic_energy(), rel=1e-5)
+
+
+def test_moments_by_direction():
+    iso, s = made(), made(anisotropy=3.0, angle=0.5)
+    along = s.directional_moments()
+    assert along.m20 == pytest.approx(iso.moment(2) / 3, rel=1e-12)
+    assert along.m02 == pytest.approx(iso.moment(2) * 3, rel=1e-12)
+    assert along.m40 == pytest.approx(iso.moment(4) / 9, rel=1e-12)
+    assert along.m22 == pytest.approx(iso.moment(4) / 3, rel=1e-12)
+    assert along.m04 == pytest.approx(iso.moment(4) * 9, rel=1e-12)
+    for axis in (None, 0.0, 0.5, 2.0):
+        m = s.directional_moments(axis)
+        for name in ("h_rms", "rms_slope", "rms_curvature"):
+            assert getattr(m, name) == pytest.approx(getattr(s, name), rel=1e-12)
+    across = s.directional_moments(0.5 + np.pi / 2)
+    assert (across.m20, across.m40) == pytest.approx((along.m02, along.m04), rel=1e-12)
+
+
+@pytest.mark.parametrize("s", [made(), made(anisotropy=1.0, angle=0.3)])
+def test_isotropic_limit_of_moments_by_direction(s):
+    for axis in (None, 0.7):
+        m = s.directional_moments(axis)
+        assert m.m00 == pytest.approx(s.moment(0), rel=1e-14)
+        assert (m.m20, m.m02) == pytest.approx((s.moment(2),) * 2, rel=1e-14)
+        assert (m.m40, m.m04) == pytest.approx((s.moment(4),) * 2, rel=1e-14)
+        assert m.m22 == pytest.approx(s.moment(4) / 3, rel=1e-14)
+
+
+def test_ratio_one_is_isotropic_to_the_last_bit():
+    plain, round_ = made(C0=0.1, h_rms=None), made(C0=0.1, h_rms=None, anisotropy=1, angle=0.7)
+    for amplitudes in ("gaussian", "fixed"):
+        pair = [surface.synthesise(s, 40, L, 3, amplitudes) for s in (plain, round_)]
+        np.testing.assert_array_equal(*pair)
+    q = np.geomspace(0.5, 20, 50)
+    np.testing.assert_array_equal(plain.psd(q), round_.psd(q))
+    np.testing.assert_array_equal(plain.variance_below(q, 1), round_.variance_below(q, 1))
+    assert round_.averaged() is round_
+    windows = [surface.lattice_spectrum(s, L) for s in (plain, round_)]
+    np.testing.assert_array_equal(*(window.variance for window in windows))
+
+
+def test_ratios_next_to_one_are_next_to_isotropic():
+    # first order in the ratio's distance from 1 cancels over directions
+    for distance in (1e-9, 1e-4 * 0.99, 1e-4 * 1.01, 1e-3):
+        s = made(anisotropy=1 + distance)
+        assert s.rms_slope == pytest.approx(made().rms_slope, rel=distance**2 + 1e-14)
+        gap = Persson(s).mean_gap(0.1) / Persson(made()).mean_gap(0.1)
+        assert gap == pytest.approx(1, abs=2 * distance**2 + 2e-6)
+
+
+@pytest.mark.parametrize("angle", [0.0, 0.6, np.pi / 2, -2.0])
+def test_slopes_of_surfaces_by_direction(angle):
+    # many waves: lattice sums are within two per cent of the integrals
+    s = made(q0=6.0, q1=40.0, C0=1.0, h_rms=None, anisotropy=3.0, angle=angle)
+    m = surface.moments(surface.synthesise(s, 144, L, 1, amplitudes="fixed"), L)
+    want = s.directional_moments(0.0)
+    for name in ("m00", "m20", "m02", "m40", "m22", "m04"):
+        assert getattr(m, name) == pytest.approx(getattr(want, name), rel=0.02)
+
+
+def test_ratio_of_slopes_of_gaussian_surfaces():
+    s = made(q0=2.0, q1=16.0, anisotropy=4.0)
+    logs = []
+    for seed in range(24):
+        m = surface.moments(surface.synthesise(s, 72, L, seed), L)
+        assert m.h_rms == pytest.approx(1.0, rel=1e-12)
+        logs.append(np.log(m.m02 / m.m20))
+    error = np.std(logs, ddof=1) / np.sqrt(len(logs))
+    assert error < 0.05
+    # C is sampled on the lattice: 3 %
+    assert np.mean(logs) == pytest.approx(np.log(16), abs=3 * error + 0.03)
+
+
+def test_a_right_angle_transposes_the_statistics():
+    along, across = (made(anisotropy=4.0, q0=2.0, angle=turn) for turn in (0.0, np.pi / 2))
+    one, other = (surface.lattice_spectrum(s, L) for s in (along, across))
+    np.testing.assert_allclose(other.q, one.q, rtol=1e-12)
+    np.testing.assert_allclose(other.variance, one.variance, rtol=1e-9)
+    first, second = (
+        surface.moments(surface.synthesise(s, 72, L, 2, amplitudes="fixed"), L)
+        for s in (along, across)
+    )
+    assert (second.m20, second.m40) == pytest.approx((first.m02, first.m04), rel=1e-9)
+    assert (second.m02, second.m22) == pytest.approx((first.m20, first.m22), rel=1e-9)
+
+
+@pytest.mark.parametrize("angle", [0.0, 0.3])
+def test_modes_lie_in_the_ellipse_and_hold_its_variances(angle):
+    s = made(q0=2.0, C0=1.0, h_rms=None, anisotropy=4.0, angle=angle)
+    power = np.abs(np.fft.fft2(surface.synthesise(s, 72, L, 0, amplitudes="fixed")) / 72**2) ** 2
+    k = np.fft.fftfreq(72, 1 / 72)
+    want = s.psd_of_vector(k[:, None], k[None, :])
+    np.testing.assert_allclose(power, want, rtol=1e-9, atol=1e-25)
+    window = surface.lattice_spectrum(s, L)
+    assert window.h_rms**2 == pytest.approx(want.sum(), rel=1e-12)
+    realised = surface.realised_spectrum(np.fft.ifft2(np.sqrt(power)).real * 72**2, L)
+    np.testing.assert_allclose(realised.q, window.q, rtol=1e-12)
+    np.testing.assert_allclose(realised.variance, window.variance, rtol=1e-9)
+
+
+def test_seeds_grids_and_bands_of_surfaces_with_a_direction():
+    s = made(q0=2.0, q1=10.0, C0=1.0, h_rms=None, anisotropy=4.0, angle=0.3)
+    h = surface.synthesise(s, 48, L, 7)
+    np.testing.assert_array_equal(h, surface.synthesise(s, 48, L, 7))
+    np.testing.assert_allclose(surface.synthesise(s, 96, L, 7)[::2, ::2], h, atol=1e-12)
+    wide = made(q0=2.0, q1=20.0, C0=1.0, h_rms=None, anisotropy=4.0, angle=0.3)
+    more = surface.synthesise(wide, 96, L, 7) - surface.synthesise(s, 96, L, 7)
+    k = np.fft.fftfreq(96, 1 / 96)
+    inside = s.norm(k[:, None], k[None, :]) <= 10
+    assert np.abs(np.fft.fft2(more)[inside]).max() < 1e-15 * 96**2 * np.abs(h).max()
+
+
+def test_truncation_cuts_the_norm_and_keeps_the_direction():
+    s = made(anisotropy=4.0, angle=0.3, q_rolloff=3.0)
+    qx, qy = np.random.default_rng(0).uniform(-5, 5, (2, 200))
+    for q1 in (8.0, 2.5):
+        cut = s.truncated(q1)
+        inside = s.norm(qx, qy) <= q1
+        np.testing.assert_allclose(
+            cut.psd_of_vector(qx, qy), np.where(inside, s.psd_of_vector(qx, qy), 0), rtol=1e-12
+        )
+        assert (cut.q0, cut.q1) == (1.0, q1)
+        assert cut.band == pytest.approx((0.5, 2 * q1))
+    assert "anisotropy=4, angle=0.3" in repr(s)
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        ({"anisotropy": 0.5}, "anisotropy"),
+        ({"anisotropy": 0.0}, "anisotropy"),
+        ({"anisotropy": np.nan}, "anisotropy"),
+        ({"anisotropy": np.inf}, "anisotropy"),
+        ({"anisotropy": 2e4}, "anisotropy must be between 1 and 10000"),
+        ({"anisotropy": "4"}, "anisotropy"),
+        ({"angle": np.inf}, "angle"),
+        ({"angle": [0.0, 1.0]}, "angle"),
+        ({"angle": "x"}, "angle"),
+        ({"anisotropy": 1e4, "q1": 1e154}, "leave the range of floats"),
+    ],
+)
+def test_bad_directions_are_named(change, message):
+    with pytest.raises(ValueError, match=message):
+        made(**change)
+
+
+def test_cells_and_grids_that_do_not_hold_the_waves_are_named():
+    s = made(q0=3.0, q1=12.0, anisotropy=16.0)  # longest along: 4 times 2 pi/3
+    with pytest.raises(ValueError, match="longest wavelength 8.37758.*or lower anisotropy"):
+        surface.synthesise(s, 128, L, 0)
+    with pytest.raises(ValueError, match="n >= 192 or lower q1 or anisotropy"):
+        surface.synthesise(s, 128, 2 * L, 0)
+    assert surface.synthesise(s, 192, 2 * L, 0).std() == pytest.approx(1, rel=1e-3)
+    long = made(q0=10.0, q1=20.0, anisotropy=100.0)
+    assert surface.lattice_spectrum(long, L).h_rms == pytest.approx(1.0, rel=1e-12)
+
+
+def test_norm_and_its_reach():
+    ellipse = Ellipse(9.0, 0.5)
+    along, across = (np.array([np.cos(t), np.sin(t)]) for t in (0.5, 0.5 + np.pi / 2))
+    assert ellipse.norm(*along) == pytest.approx(3.0)
+    assert ellipse.norm(*across) == pytest.approx(1 / 3)
+    assert ellipse.reach == 3.0
+    assert ellipse.mean_stretch(0) == pytest.approx(1, rel=1e-14)
+
+
+@pytest.mark.parametrize("ratio", [1.5, 4.0])
+def test_measured_dependence_on_direction(ratio):
+    # C ~ 1 + A cos 2(phi - phi0), phi0 across the long correlation length
+    angle = 0.3
+    s = made(q1=10.0, anisotropy=ratio, angle=angle)
+    phi = (np.arange(2000) + 0.5) / 2000 * np.pi
+    density = (ratio * np.cos(phi) ** 2 + np.sin(phi) ** 2 / ratio) ** -1.8
+    want = -2 * np.mean(np.cos(2 * phi) * density) / density.mean()
+    ends = np.sqrt(ratio), 10 / np.sqrt(ratio)  # where ellipses fill whole circles
+    found = [
+        power_spectrum(surface.synthesise(s, 200, 4 * L, seed), L / 50).anisotropy(*ends)
+        for seed in range(4)
+    ]
+    amplitude, direction = np.mean(found, axis=0)
+    assert amplitude == pytest.approx(want, abs=0.03)
+    assert direction == pytest.approx(angle - np.pi / 2, abs=0.03)
+
+
+def test_examples_in_the_documentation():
+    assert doctest.testmod(module).failed == 0

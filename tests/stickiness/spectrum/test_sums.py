@@ -1,0 +1,142 @@
+"""Sums of spectra: additive integrals, the inverse, one doubled spectrum, surfaces, errors."""
+
+import doctest
+
+import numpy as np
+import pytest
+
+from stickiness import surface
+from stickiness.persson import Persson
+from stickiness.spectrum import SelfAffine, Shells, Sum, Tabulated, combine, sums
+
+L = 2 * np.pi
+ONE = SelfAffine(hurst=0.8, q0=1.0, q1=64.0, h_rms=1.0)
+OTHER = SelfAffine(hurst=0.5, q0=2.0, q1=500.0, C0=0.3, q_rolloff=6.0)
+TURNED = SelfAffine(hurst=0.7, q0=3.0, q1=40.0, h_rms=0.5, anisotropy=4.0, angle=0.3)
+APART = SelfAffine(hurst=0.8, q0=100.0, q1=800.0, h_rms=0.1)
+PAIRS = [(ONE, OTHER), (ONE, TURNED), (ONE, APART), (OTHER, Tabulated([1.0, 2.0, 9.0], [3, 1, 1]))]
+
+
+@pytest.mark.parametrize("pair", PAIRS)
+def test_integrals_add(pair):
+    both = combine(*pair)
+    q = np.geomspace(0.4, 900, 40)
+    for power in (0, 1, 2, 4):
+        for name in ("variance_below", "variance_above"):
+            want = sum(getattr(s, name)(q, power) for s in pair)
+            np.testing.assert_array_equal(getattr(both, name)(q, power), want)
+    for order in (0, 2, 4):
+        assert both.moment(order) == pytest.approx(sum(s.moment(order) for s in pair), rel=1e-14)
+    assert both.elastic_energy() == pytest.approx(sum(s.elastic_energy() for s in pair), rel=1e-14)
+    assert both.h_rms == pytest.approx(np.hypot(*(s.h_rms for s in pair)), rel=1e-14)
+    np.testing.assert_allclose(both.psd(q), sum(s.psd(q) for s in pair), rtol=1e-14)
+    m = both.directional_moments()
+    want = [s.directional_moments(0.0) for s in pair]
+    assert m.m20 == pytest.approx(sum(each.m20 for each in want), rel=1e-14)
+    assert m.rms_curvature == pytest.approx(both.rms_curvature, rel=1e-12)
+
+
+@pytest.mark.parametrize("pair", PAIRS)
+def test_inverse_of_the_gradient_variance(pair):
+    both = combine(*pair).averaged()
+    q = both.q0 * both.magnification ** np.linspace(0, 1, 37)
+    gradient = both.variance_below(q, 2)
+    back, above = both.at_gradient_variance(gradient)
+    np.testing.assert_allclose(
+        both.variance_below(back, 2), gradient, rtol=1e-13, atol=1e-15 * gradient[-1]
+    )
+    np.testing.assert_allclose(above, both.variance_above(q), rtol=1e-9, atol=1e-13)
+    np.testing.assert_allclose(both.at_gradient_variance(gradient[-1] * 2)[0], both.q1, rtol=1e-15)
+    assert both.at_gradient_variance(gradient.reshape(1, -1))[0].shape == (1, 37)
+
+
+@pytest.mark.parametrize("rest", [{}, {"q_rolloff": 5.0}, {"anisotropy": 3.0}])
+def test_two_alike_are_one_of_twice_the_density(rest):
+    kind = {"hurst": 0.8, "q0": 1.0, "q1": 64.0, **rest}
+    both, one = combine(*[SelfAffine(C0=0.1, **kind)] * 2), SelfAffine(C0=0.2, **kind)
+    assert both.knots == pytest.approx(one.knots, rel=1e-15)
+    assert both.q_longest == pytest.approx(one.q_longest, rel=1e-14)
+    assert both.band == one.band
+    loads = np.array([0.02, 0.1, 0.5]) * one.rms_slope
+    theories = Persson(both), Persson(one)
+    for name in ("area_fraction", "mean_gap"):
+        got, want = (getattr(theory, name)(loads) for theory in theories)
+        np.testing.assert_allclose(got, want, rtol=1e-11)
+    got, want = (theory.gap_cumulative(0.1 * one.h_rms, loads) for theory in theories)
+    np.testing.assert_allclose(got, want, rtol=1e-8)
+
+
+def test_theory_of_unlike_ones():
+    # bands that leave a range of wave numbers without waves
+    for pair in ((ONE, OTHER), (ONE, APART)):
+        theory = Persson(combine(*pair))
+        load = 0.1 * combine(*pair).rms_slope
+        total = theory.gap_cumulative(1e9, load) + theory.area_fraction(load)
+        assert total == pytest.approx(1, abs=1e-9)
+        assert theory.mean_gap(load) > Persson(pair[0]).mean_gap(load)
+
+
+def test_surfaces_of_a_sum_hold_what_those_of_its_parts_do():
+    one = SelfAffine(hurst=0.8, q0=1.0, q1=8.0, h_rms=1.0)
+    other = SelfAffine(hurst=0.5, q0=2.0, q1=12.0, C0=0.1, anisotropy=2.0, angle=0.4)
+    both = combine(one, other)
+    got = surface.lattice_spectrum(both, L)
+    want = combine(*(surface.lattice_spectrum(s, L) for s in (one, other)))
+    np.testing.assert_allclose(got.q, want.q, rtol=1e-12)
+    np.testing.assert_allclose(got.variance, want.variance, rtol=1e-12)
+    m = surface.moments(surface.synthesise(both, 48, L, 3, amplitudes="fixed"), L)
+    assert m.m00 == pytest.approx(want.moment(0), rel=1e-12)
+    assert m.m20 + m.m02 == pytest.approx(2 * want.moment(2), rel=1e-12)
+    power = np.zeros((48, 48))
+    for s in (one, other):
+        made = surface.synthesise(s, 48, L, 3, amplitudes="fixed")
+        power += np.abs(np.fft.fft2(made)) ** 2
+    got = np.abs(np.fft.fft2(surface.synthesise(both, 48, L, 3, amplitudes="fixed"))) ** 2
+    np.testing.assert_allclose(got, power, rtol=1e-9, atol=1e-20 * power.max())
+
+
+def test_shells_add_to_shells():
+    both = combine(Shells([1.0, 2.0], [1.0, 0.5]), Shells([2.0 * (1 + 1e-15), 3.0], [0.25, 1.0]))
+    np.testing.assert_allclose(both.q, [1, 2, 3])
+    np.testing.assert_allclose(both.variance, [1, 0.75, 1])
+
+
+def test_truncation():
+    both = combine(ONE, OTHER)
+    cut = both.truncated(30.0)
+    assert cut.h_rms**2 == pytest.approx(float(both.variance_below(30.0)), rel=1e-12)
+    assert cut.truncated(1.5).h_rms ** 2 == pytest.approx(ONE.variance_below(1.5), rel=1e-12)
+    with pytest.raises(ValueError, match="q1"):
+        both.truncated(0.5)
+
+
+def test_sums_of_sums_are_flat():
+    triple = combine(combine(ONE, OTHER), TURNED)
+    assert isinstance(triple, Sum)
+    assert triple.parts == (ONE, OTHER, TURNED)
+    assert combine(ONE) is ONE
+    assert repr(triple).startswith("Sum(SelfAffine(")
+
+
+def test_knots_apart_by_rounding_are_one():
+    """Else the steps of ln C between them are over nothing."""
+    one = SelfAffine(hurst=0.8, q0=1.0, q1=64.0, h_rms=1.0)
+    other = SelfAffine(hurst=0.8, q0=np.nextafter(1, 2), q1=np.nextafter(64, 0), h_rms=1e-5)
+    both = combine(one, other)
+    assert both.knots.tolist() == [1.0, 64.0]
+    directed = SelfAffine(hurst=0.8, q0=1.0, q1=64.0, h_rms=1.0, anisotropy=4.0)
+    assert np.diff(np.log(combine(one, directed).averaged().knots)).min() > 1e-9
+    theory = Persson(combine(one, directed))
+    with np.errstate(all="raise", under="ignore"):
+        assert theory.gap_cumulative(np.inf, 0.1) + theory.area_fraction(0.1) == pytest.approx(1)
+
+
+def test_bad_parts_are_named():
+    with pytest.raises(ValueError, match="lattice_spectrum"):
+        combine(ONE, Shells([1.0], [1.0]))
+    with pytest.raises(ValueError, match="takes spectra one by one, .* got float"):
+        combine(ONE, 1.0)
+
+
+def test_examples_in_the_documentation():
+    assert doctest.testmod(sums).failed == 0

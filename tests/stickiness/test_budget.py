@@ -1,0 +1,140 @@
+"""Error budgets: sources, total and the largest of them, and what is not known."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from cases import answer_case
+from common import error_budgets
+from stickiness import datasets
+from stickiness import error_budget as budget
+from stickiness.accuracy.error_models import Surface, read_models, single_error
+from stickiness.accuracy.prediction import Problem
+
+LAWS = read_models(Path(__file__).parents[2] / "config/accuracy.csv")
+NONE = budget.absent("made up")
+
+
+def quoted(values, **parts):
+    """Dataset of one variable `q` with a budget."""
+    known = {"units": "m", "long_name": "height"}
+    dataset = xr.Dataset({"q": ("x", np.array(values, float))}).assign_attrs()
+    dataset["q"].attrs = known
+    dataset = dataset.assign_coords(x=np.arange(len(values)))
+    dataset.x.attrs = {"units": "1", "long_name": "place"}
+    return budget.with_budget(dataset, "q", **{**dict.fromkeys(budget.SOURCES, NONE), **parts})
+
+
+def test_errors_add_in_quadrature_and_the_largest_is_named():
+    grid = budget.Part(xr.DataArray([3.0, -1.0], dims="x"), "of the grid")
+    found = quoted([10.0, 20.0], discretisation=grid, model=budget.Part(4.0, "of the model"))
+    np.testing.assert_allclose(found.q_total_error, [5.0, np.sqrt(17)])
+    assert budget.dominant(found.isel(x=0), "q") == "model"
+    np.testing.assert_allclose(budget.part(found, "q", "discretisation"), [3.0, 1.0])
+    assert found.q.attrs["ancillary_variables"] == "q_error q_total_error q_dominant"
+    assert found.q_error.attrs["units"] == found.q_total_error.attrs["units"] == "m"
+    assert "discretisation: of the grid" in found.q_error.attrs["comment"]
+    assert "solver: none, made up" in found.q_error.attrs["comment"]
+
+
+def test_what_is_not_known_counts_as_the_largest_and_leaves_no_total():
+    found = quoted([1.0], sampling=budget.unknown("a single seed"), model=budget.Part(9.0, "m"))
+    assert np.isnan(found.q_total_error).all()
+    assert budget.dominant(found.isel(x=0), "q") == "sampling"
+    assert "a single seed" in found.q_total_error.attrs["nan_means"]
+
+
+def test_no_error_and_no_value_have_no_source():
+    found = quoted([1.0, np.nan], model=budget.Part(xr.DataArray([0.0, 1.0], dims="x"), "m"))
+    assert [budget.dominant(found.isel(x=i), "q") for i in (0, 1)] == ["none", "none"]
+    assert np.isnan(found.q_error.isel(x=1)).all()
+
+
+def test_flags_are_those_of_the_conventions_and_survive_the_file(tmp_path):
+    found = quoted([1.0], model=budget.Part(0.5, "m"))
+    datasets.write(found, tmp_path / "a.nc", title="t", parameters={})
+    flag = datasets.read(tmp_path / "a.nc").q_dominant
+    assert flag.dtype == np.int8
+    assert flag.attrs["flag_values"].dtype == np.int8
+    assert len(flag.attrs["flag_values"]) == len(flag.attrs["flag_meanings"].split())
+    assert budget.dominant(xr.Dataset({"q_dominant": flag.isel(x=0)}), "q") == "model"
+
+
+def ensemble_of(seeds, **more):
+    made = {"hurst": 0.8, "magnification": 32, "pixels_per_wavelength": 8, "tolerance": 1e-6}
+    return error_budgets.Simulation.of(LAWS, {**made, "seeds": list(range(seeds)), **more})
+
+
+@pytest.mark.parametrize(("seeds", "factor"), [(2, 6.314), (8, 1.895)])
+def test_sampling_covers_90_per_cent_by_students_t(seeds, factor):
+    value = xr.DataArray([0.05], dims="pressure", coords={"pressure": [0.065]})
+    parts = ensemble_of(seeds).parts("area_fraction", value, 0.01 * value, 0.002 * value)
+    assert float(parts["sampling"].error[0]) == pytest.approx(factor * 5e-4, rel=1e-3)
+    surface = Surface(0.8, 32)
+    solver = single_error(LAWS, "solver", "area", surface, 0.065, tolerance=1e-6)
+    assert float(parts["solver"].error[0]) == pytest.approx(solver * 0.05)
+
+
+@pytest.mark.parametrize(
+    ("name", "along"),
+    [("attractive_area", {"range": [1e-3, 0.03, 1.0]}), ("gap_density", {"gap": [1e-3, 0.1, 3.0]})],
+)
+def test_what_was_measured_is_not_widened_outside_the_laws(name, along):
+    shape = {"pressure": [0.065], **along}
+    value = xr.DataArray(np.ones((1, 3)), dims=list(shape), coords=shape)
+    parts = ensemble_of(8).parts(name, value, 0.01 * value, 0.002 * value)
+    np.testing.assert_allclose(parts["sampling"].error, 0.01895, rtol=1e-3)
+    solver = parts["solver"].error.values.ravel()
+    assert solver[0] >= 1.9 * single_error(
+        LAWS, "solver", "gap_distribution" if name == "gap_density" else "attractive_area_0.01",
+        Surface(0.8, 32), 0.065, tolerance=1e-6,
+    )  # fmt: skip
+
+
+def test_an_accuracy_of_which_nothing_is_known_is_missed():
+    at = {"column": ["area", "a_v"], "pressure": [0.01, 0.1]}
+    known = xr.DataArray([[0.01, 0.01], [0.01, np.nan]], dims=list(at), coords=at)
+    answer = xr.Dataset({"value": xr.ones_like(known), "value_total_error": known})
+    problem = Problem(LAWS, Surface(0.8, 32), at["pressure"], at["column"])
+    text = answer_case.describe_miss(answer, problem, {"accuracy": 0.05}, "mine")
+    assert text == "error of a_v at pressure 0.1 not known"
+
+
+def test_a_single_seed_has_no_total():
+    value = xr.Dataset({"q": ("pressure", [0.05])}, coords={"pressure": [0.065]})
+    value.q.attrs = {"units": "1", "long_name": "area"}
+    parts = ensemble_of(1).parts("area_fraction", value.q, np.nan * value.q, 0.1 * value.q)
+    found = budget.with_budget(value, "q", **parts)
+    assert np.isnan(found.q_total_error).all()
+    assert budget.dominant(found.isel(pressure=0), "q") == "sampling"
+
+
+def test_errors_between_the_measured_ranges_follow_a_power_law():
+    ranges = xr.DataArray([0.001, 0.01, np.sqrt(1e-3), 0.1, 1.0], dims="range")
+    found = error_budgets.interpolate_ranges(
+        {0.01: xr.DataArray(0.04), 0.1: xr.DataArray(0.01)}, ranges
+    )
+    np.testing.assert_allclose(found, [0.08, 0.04, 0.02, 0.01, 0.02])
+
+
+@pytest.mark.parametrize("kind", [{"rolloff": 3.0}, {"amplitudes": "fixed"}])
+def test_errors_of_theory_are_wider_on_surfaces_that_were_not_measured(kind):
+    like = xr.DataArray([1.0], {"pressure": [0.065]}, ("pressure",))
+    surface = {"hurst": 0.8, "magnification": 32}
+    usual, other = (
+        error_budgets.theory_error(LAWS, "area_fraction", like, asked)
+        for asked in (surface, surface | kind)
+    )
+    np.testing.assert_allclose(other, 2 * usual)
+
+
+def test_theory_errs_as_measured_and_other_variants_by_what_nobody_knows():
+    axes = {"variant": ["afferrante2018", "almqvist2011"], "pressure": [0.01, 0.065]}
+    like = xr.DataArray(np.ones((2, 2)), axes, tuple(axes))
+    found = error_budgets.theory_error(LAWS, "mean_gap", like, {"hurst": 0.8, "magnification": 32})
+    surface = Surface(0.8, 32)
+    wanted = [single_error(LAWS, "theory", "mean_gap", surface, p) for p in (0.01, 0.065)]
+    np.testing.assert_allclose(found.sel(variant="afferrante2018"), wanted)
+    assert np.isnan(found.sel(variant="almqvist2011")).all()

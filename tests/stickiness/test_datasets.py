@@ -1,0 +1,213 @@
+"""NetCDF between stages: whole or not at all, checked when read."""
+
+import os
+import resource
+from contextlib import contextmanager
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from stickiness import datasets
+
+
+@pytest.fixture
+def dataset():
+    data = xr.Dataset({"area": ("pressure", [0.1, 0.2])}, coords={"pressure": [1.0, 2.0]})
+    return datasets.annotate(data, area=("1", "area fraction"), pressure=("1", "mean pressure"))
+
+
+def write(dataset, path, **parameters):
+    datasets.write(dataset, path, title="a test", parameters=parameters)
+
+
+def test_round_trip(dataset, tmp_path):
+    path = tmp_path / "below" / "file.nc"
+    write(dataset, path, seed=3, hurst=0.8)
+    again = datasets.read(path, ["area"])
+    xr.testing.assert_identical(again.drop_attrs(deep=False), dataset.drop_attrs(deep=False))
+    assert datasets.parameters(again) == {"seed": 3, "hurst": 0.8}
+    assert {"version_numpy", "version_fftw", "version_stickiness"} <= again.attrs.keys()
+    assert [file.name for file in path.parent.iterdir()] == ["file.nc"]
+
+
+def test_same_content_is_the_same_bytes(dataset, tmp_path):
+    contents = []
+    for _ in range(2):
+        write(dataset, tmp_path / "a.nc", seed=1)
+        contents.append((tmp_path / "a.nc").read_bytes())
+    assert contents[0] == contents[1]
+
+
+def test_nan_must_be_explained(dataset, tmp_path):
+    dataset["area"][0] = np.nan
+    with pytest.raises(datasets.DatasetError, match="'area' holds values that are not finite"):
+        write(dataset, tmp_path / "file.nc")
+    assert not list(tmp_path.iterdir())
+    datasets.annotate(dataset, area=("1", "area fraction", "not measured"))
+    write(dataset, tmp_path / "file.nc")
+
+
+def test_units_are_asked_for(dataset, tmp_path):
+    del dataset["area"].attrs["units"]
+    with pytest.raises(datasets.DatasetError, match="'area' lacks units"):
+        write(dataset, tmp_path / "file.nc")
+
+
+def test_texts_have_a_name_and_no_units(dataset, tmp_path):
+    """A plot then labels their axis without a unit."""
+    named = dataset.assign_coords(law=("pressure", ["hard", "soft"]))
+    with pytest.raises(datasets.DatasetError, match="'law' lacks long_name"):
+        write(named, tmp_path / "file.nc")
+    write(datasets.annotate(named, law=("1", "traction law")), tmp_path / "file.nc")
+    again = datasets.read(tmp_path / "file.nc")
+    assert again.law.attrs == {"long_name": "traction law"}
+    assert again.area.attrs["units"] == "1"
+    write(again, tmp_path / "file.nc")
+
+
+def test_flags_name_codes_from_the_first_on():
+    found = datasets.flags(("nothing decided", "missed"), first=-1)
+    assert found["flag_values"].tolist() == [-1, 0]
+    assert found["flag_meanings"] == "nothing_decided missed"
+
+
+def test_failure_leaves_the_old_file_and_nothing_else(tmp_path):
+    path = tmp_path / "table.md"
+    path.write_text("old")
+
+    def fail():
+        with datasets.whole_file(path) as temporary:
+            temporary.write_text("half")
+            raise RuntimeError
+
+    with pytest.raises(RuntimeError):
+        fail()
+    assert path.read_text() == "old"
+    assert list(tmp_path.iterdir()) == [path]
+
+
+def test_leftovers_of_a_killed_job_are_removed(tmp_path):
+    (tmp_path / ".table.md.abcd_123.md").write_text("half")
+    (tmp_path / ".table-2.md.abcd_123.md").write_text("another job's, still being written")
+    with datasets.whole_file(tmp_path / "table.md") as temporary:
+        temporary.write_text("whole")
+    names = {file.name for file in tmp_path.iterdir()}
+    assert names == {"table.md", ".table-2.md.abcd_123.md"}
+
+
+def test_reading_names_file_and_variable(dataset, tmp_path):
+    path = tmp_path / "file.nc"
+    with pytest.raises(datasets.DatasetError, match=r"file\.nc: no such file"):
+        datasets.read(path)
+    write(dataset, path)
+    with pytest.raises(datasets.DatasetError, match=r"file\.nc: lacks the variable 'gap'"):
+        datasets.read(path, ["area", "gap"])
+
+
+@pytest.mark.parametrize("content", [b"", b"not NetCDF at all", b"\x89HDF\r\n\x1a\n truncated"])
+def test_foreign_and_truncated_files(content, tmp_path):
+    path = tmp_path / "file.nc"
+    path.write_bytes(content)
+    with pytest.raises(datasets.DatasetError, match=r"file\.nc: not a readable NetCDF file"):
+        datasets.read(path)
+
+
+def test_a_file_of_another_place_is_refused(dataset, tmp_path):
+    """Right variables, but of another seed or case: nothing else would tell."""
+    one, other = tmp_path / "case/seed1.nc", tmp_path / "case/seed2.nc"
+    write(dataset, one, seed=1)
+    other.write_bytes(one.read_bytes())
+    with pytest.raises(datasets.DatasetError, match=r"seed2\.nc: holds what belongs in case/seed1"):
+        datasets.read(other, ["area"])
+    (tmp_path / "elsewhere").mkdir()
+    moved = (tmp_path / "case").rename(tmp_path / "elsewhere/case")  # all of it may move
+    assert datasets.read(moved / "seed1.nc").equals(dataset)
+
+
+def test_a_file_of_nobody_is_refused(dataset, tmp_path):
+    dataset.to_netcdf(tmp_path / "file.nc", engine="netcdf4")
+    with pytest.raises(datasets.DatasetError, match=r"file\.nc: not written by this project"):
+        datasets.read(tmp_path / "file.nc", ["area"])
+
+
+@pytest.mark.parametrize("share", [0.02, 0.5, 0.99])
+def test_a_truncated_file_is_refused(dataset, share, tmp_path):
+    path = tmp_path / "file.nc"
+    write(dataset, path)
+    content = path.read_bytes()
+    path.write_bytes(content[: int(share * len(content))])
+    with pytest.raises(datasets.DatasetError, match=r"file\.nc: .*delete it and re-run"):
+        datasets.read(path, ["area"])
+
+
+@contextmanager
+def no_file_beyond(size):
+    """A disk with room for no more: what goes beyond is refused by the operating system."""
+    soft, hard = resource.getrlimit(resource.RLIMIT_FSIZE)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (size, hard))
+    try:
+        yield
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, (soft, hard))
+
+
+def test_a_full_disk_leaves_the_old_file_and_says_so(dataset, tmp_path):
+    path = tmp_path / "file.nc"
+    write(dataset, path, seed=1)
+    larger = xr.Dataset({"height": (("x", "y"), np.random.default_rng(1).normal(size=(200, 200)))})
+    datasets.annotate(larger, height=("1", "height"))
+    message = r"file\.nc: could not be written .*make room and run the same command again"
+    with no_file_beyond(50_000), pytest.raises(datasets.WriteError, match=message):
+        write(larger, path, seed=2)
+    assert datasets.read(path).equals(dataset)
+    assert list(tmp_path.iterdir()) == [path]
+    write(larger, path, seed=2)
+    assert datasets.read(path).equals(larger)
+
+
+@contextmanager
+def as_nobody():
+    """Without the rights of root, who may write anywhere."""
+    if os.geteuid() != 0:
+        yield
+        return
+    os.seteuid(65534)
+    try:
+        yield
+    finally:
+        os.seteuid(0)
+
+
+@pytest.fixture
+def open_folder():
+    """A folder that everyone may look into, unlike pytest's."""
+    with TemporaryDirectory() as folder:
+        Path(folder).chmod(0o755)
+        yield Path(folder)
+
+
+def test_a_folder_that_may_not_be_written_to_is_named(dataset, open_folder):
+    path = open_folder / "results" / "file.nc"
+    write(dataset, path, seed=1)
+    content = path.read_bytes()
+    path.parent.chmod(0o555)
+    message = r"file\.nc: could not be written .*allow writing in .*results and run"
+    try:
+        with as_nobody(), pytest.raises(datasets.WriteError, match=message):
+            write(dataset, path, seed=2)
+    finally:
+        path.parent.chmod(0o755)
+    assert path.read_bytes() == content
+
+
+def test_texts_that_are_joined_keep_their_length(tmp_path):
+    for name, text in (("a", ""), ("b", "a longer text")):
+        one = xr.Dataset({"t": ("x", np.array([text], dtype=object))})
+        one = datasets.annotate(one, t=("1", "text"))
+        datasets.write(one, tmp_path / f"{name}.nc", title="a", parameters={})
+    both = xr.concat([datasets.read(tmp_path / f"{name}.nc") for name in "ab"], "x")
+    datasets.write(both, tmp_path / "both.nc", title="a", parameters={})
+    assert datasets.read(tmp_path / "both.nc").t.values.tolist() == ["", "a longer text"]
