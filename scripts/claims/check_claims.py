@@ -1,48 +1,49 @@
 """The claims ledger: every claim of the paper with its measured value and verdict."""
 
+from pathlib import Path
+
+import jinja2
 import numpy as np
 import xarray as xr
 
-from claims.all_claims import CLAIMS
-from common import remaining_table
-from common.formatting import table
+from claims import adhesion_claims, contact_claims, criterion_claims, remaining_claims
+from claims.ledger import collect
+from common import formatting, remaining_table
 from common.job import start
-from stickiness import datasets
-from stickiness import error_budget as budget
+from stickiness import datasets, error_budget
 from stickiness.criteria.errata import ERRATA
 
+CLAIMS = collect(contact_claims, adhesion_claims, criterion_claims, remaining_claims)
+PROSE = ("statement", "quantity", "remark", "comment")
 COLUMNS = {
     "statement": ("what the paper claims",),
     "quantity": ("what the value is, with its unit",),
-    "value": (
-        "measured value, in the unit that `quantity` names",
-        "nothing was known well enough",
-    ),
+    "value": ("measured value, in the unit that `quantity` names", "nothing was known well enough"),
     "comment": ("what the errors are, or why they are not known or do not apply",),
     "claimed": ("the paper's value", "the paper gives none"),
     "verdict": ("verdict",),
     "remark": ("qualification or reason",),
     "sources": ("files that the value came from",),
 }
-NUMBERS = ("value", "claimed")  # all other columns are texts
 
 
 def main(job):
-    paths = input_paths(job.input, CLAIMS)
+    paths = find_paths(job.input, CLAIMS)
     files = {name: read(path) for name, path in paths.items()}
-    findings = [claim(files) for claim in CLAIMS]
-    sources = [source_paths(claim, paths) for claim in CLAIMS]
+    environment = make_environment(Path(job.input.prose).parent)
+    rows = [examine(claim, files, paths, environment) for claim in CLAIMS]
     datasets.write(
-        to_dataset(CLAIMS, findings, sources),
+        to_dataset(rows),
         job.output.dataset,
         title="claims of the paper, recomputed",
         parameters={"errata": {str(erratum.number): erratum.recompute() for erratum in ERRATA}},
     )
+    page = environment.get_template(Path(job.input.page).name).render(claims=rows, errata=ERRATA)
     with datasets.whole_file(job.output.table) as path:
-        path.write_text(to_markdown(CLAIMS, findings, sources), encoding="utf-8")
+        path.write_text(page, encoding="utf-8")
 
 
-def input_paths(inputs, claims):
+def find_paths(inputs, claims):
     """Paths, or lists of paths, by the names that the claims use."""
     paths = {}
     for claim in claims:
@@ -63,72 +64,105 @@ def read(path):
     return remaining_table.read(path) if path.endswith(".csv") else datasets.read(path)
 
 
-def source_paths(claim, paths):
+def make_environment(folder):
+    """Templates of a folder, with filters for numbers."""
+    environment = jinja2.Environment(
+        loader=jinja2.FileSystemLoader(folder),
+        undefined=jinja2.StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+        keep_trailing_newline=True,
+    )
+    environment.filters |= {
+        "fixed": lambda value, digits=2: f"{float(value):.{digits}f}",
+        "g": lambda value, digits=6: f"{float(value):.{digits}g}",
+        "power": write_power,
+        "plus_minus": write_with_error,
+        "percent": lambda share: formatting.percent(float(share)),
+        "change": lambda share: formatting.change(float(share)),
+        "number": formatting.number,
+        "amount": lambda value, unit, digits: formatting.amount(float(value), unit, digits),
+    }
+    environment.tests["finite"] = np.isfinite
+    return environment
+
+
+def write_power(value):
+    """Magnification as 1000 or 5e4."""
+    value = float(value)
+    return f"{value:g}" if value < 1e4 else f"{value:.2g}".replace("e+0", "e")
+
+
+def write_with_error(pair):
+    """Value with its error, if that is known."""
+    value, error = pair
+    return f"{value:.2f}" + (f" ± {error:.2f}" if np.isfinite(error) else "")
+
+
+def examine(claim, files, paths, environment):
+    """A row of the ledger: the finding of a claim, its prose and the files behind it."""
+    finding = claim(files)
+    return {
+        "number": claim.number,
+        "value": finding.value,
+        "claimed_value": finding.claimed,
+        "errors": finding.errors,
+        "verdict": finding.verdict,
+        "measured": write_measured(finding.value, finding.uncertainty),
+        "dominant": name_dominant(finding),
+        "claimed": "" if np.isnan(finding.claimed) else f"{finding.claimed:.4g}",
+        "sources": find_sources(claim, paths),
+        **write_prose(claim.number, finding.facts, environment),
+    }
+
+
+def write_prose(number, facts, environment):
+    """Statement, quantity, remark and comment of a claim, each on one line."""
+    template = environment.get_template("claims.j2")
+    module = template.make_module({"facts": facts, **facts, "number": number})
+    return {name: " ".join(str(getattr(module, name)).split()) for name in PROSE}
+
+
+def find_sources(claim, paths):
     """Files behind a claim, each once; one name may stand for several files."""
     groups = (paths[name] for name in claim.files)
     found = [path for group in groups for path in ([group] if isinstance(group, str) else group)]
     return list(dict.fromkeys(found))
 
 
-def to_dataset(claims, findings, sources):
-    columns = {name: [getattr(finding, name, None) for finding in findings] for name in COLUMNS} | {
-        "statement": [claim.statement for claim in claims],
-        "sources": map(" ".join, sources),
+def to_dataset(rows):
+    texts = {
+        name: [row[name] for row in rows] for name in COLUMNS if name not in ("value", "claimed")
     }
+    texts["sources"] = [" ".join(row["sources"]) for row in rows]
+    numbers = {
+        "value": [row["value"] for row in rows],
+        "claimed": [row["claimed_value"] for row in rows],
+    }
+    columns = {name: np.array(column, object) for name, column in texts.items()}
+    columns |= {name: np.array(column, float) for name, column in numbers.items()}
     dataset = xr.Dataset(
-        {
-            name: ("claim", np.array(list(column), float if name in NUMBERS else object))
-            for name, column in columns.items()
-        },
-        coords={"claim": [claim.number for claim in claims]},
+        {name: ("claim", columns[name]) for name in COLUMNS},
+        coords={"claim": [row["number"] for row in rows]},
     )
-    texts = {name: ("1", *texts) for name, texts in COLUMNS.items()}
-    dataset = datasets.annotate(dataset, claim=("1", "number of the claim"), **texts)
+    described = {name: ("1", *text) for name, text in COLUMNS.items()}
+    dataset = datasets.annotate(dataset, claim=("1", "number of the claim"), **described)
     parts = {}
-    for source in budget.SOURCES:
-        error = [finding.errors.get(source, 0.0) for finding in findings]
-        error = xr.DataArray(error, dims="claim")
-        parts[source] = budget.Part(error, "see the comment of each claim")
-    return budget.with_budget(dataset, "value", **parts)
-
-
-def to_markdown(claims, findings, sources):
-    rows = [
-        (
-            claim.number,
-            claim.statement,
-            f"**{found.verdict}**",
-            f"{found.quantity}: {with_error(found.value, found.uncertainty)}",
-            name_dominant(found),
-            "" if np.isnan(found.claimed) else f"{found.claimed:.4g}",
-            found.remark,
-            "; ".join(files) or "closed form",
-        )
-        for claim, found, files in zip(claims, findings, sources, strict=True)
-    ]
-    columns = ("#", "claim", "verdict", "measured", "error by", "claimed", "remark", "from")
-    errata = [
-        (e.number, e.subject, e.printed, e.correct, e.proof)
-        + (", ".join(f"{name} = {value:.4g}" for name, value in e.recompute().items()),)
-        for e in ERRATA
-    ]
-    heads = ("#", "subject", "printed", "correct", "proof", "recomputed")
-    of_claims, of_errata = table(columns, rows), table(heads, errata)
-    return (
-        f"# Claims of the paper, recomputed\n\n{of_claims}\n"
-        f"# Errata of the manuscript\n\n{of_errata}"
-    )
+    for source in error_budget.SOURCES:
+        error = xr.DataArray([row["errors"].get(source, 0.0) for row in rows], dims="claim")
+        parts[source] = error_budget.Part(error, "see the comment of each claim")
+    return error_budget.with_budget(dataset, "value", **parts)
 
 
 def name_dominant(finding):
-    """Largest source of the error; of those not known, all."""
+    """Source of the largest error; all sources that are not known, if there are any."""
     unknown = [source for source, error in finding.errors.items() if np.isnan(error)]
     if unknown:
         return f"{', '.join(unknown)} (not known)"
     return max(finding.errors, key=finding.errors.get) if finding.uncertainty else ""
 
 
-def with_error(value, uncertainty):
+def write_measured(value, uncertainty):
     if np.isnan(value):
         return "not known"
     if uncertainty == 0:

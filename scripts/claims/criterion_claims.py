@@ -1,16 +1,13 @@
-"""Claims on the criterion and what it says of real surfaces, and on moments."""
+"""Claims on the criterion and its predictions for real surfaces, and on spectral moments."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
-from claims.ledger import Files, Finding, claim, grade
-from claims.texts import describe_sample
-from common.formatting import change, number, percent
+from claims.ledger import Files, Finding, claim, describe_cell, grade
 from common.model_surfaces import cell_size, model_spectrum
 from stickiness import adhesive, criteria, datasets, equivalent_sphere
 from stickiness import surface as synthesis
@@ -18,21 +15,16 @@ from stickiness.area_load import JTB_CONSTANT
 from stickiness.spectrum.kinds import SelfAffine
 from stickiness.statistics import students_t
 
-# What the paper puts into its examples.
+# Numbers of the paper's examples.
 RANGE, WORK_OF_ADHESION = 0.2e-9, 0.05  # m, J/m^2
 CRYSTAL = 0.05  # l_a/range
 EXAMPLES = np.array([1e-6, 1e-9, 1e-12])  # range q0
 PRINTED_LIMITS = np.array([1000.0, 67000.0, 1e6])  # h_rms/range of these
 PRINTED_MODULUS = 0.2  # MPa, of a block that sticks to asphalt
 UPPER_LINE = 1e-3  # m^0.4, C0 of the line above real surfaces
-EXACT = "closed form with numbers as printed"
 
 
-@claim(
-    12,
-    "map of stickiness with the JTB line; slope angles through 90° at a_V = 3 (Fig. 5)",
-    files=("map",),
-)
+@claim(12, "map")
 def slope_angle(files: Files) -> Finding:
     m = files["map"].sortby("slope_parameter")
     a_v = datasets.parameters(m)["slope_a_v"]
@@ -42,32 +34,22 @@ def slope_angle(files: Files) -> Finding:
         crossing.append(float(np.interp(-90, -angle.values, m.h_rms_over_range.values)))
     expected = criteria.h_rms_limit(m.slope_parameter.values, 1.0, 1.0, a_v)
     worst = float(np.max(np.abs(np.array(crossing) / expected - 1)))
+    found = m.h_rms_limit_edges.notnull()
+    ratio = m.h_rms_limit / m.h_rms_limit_edges
     return Finding(
-        quantity=f"h_rms/range at 90° for range q0/(l_a/range) = {float(m.slope_parameter[-1]):g}",
         value=crossing[-1],
         claimed=float(expected[-1]),
         verdict=grade(False, worst < 0.01),
-        remark=(
-            "This checks the algebra: crossings read off the drawn angles agree with the closed "
-            f"form within {worst:.1g}. Thresholds above h_rms/range = {largest_dmt(a_v):.0f} (a_V "
-            f"= {a_v:g}) lie outside the range of the DMT limit (JTB), so the criterion finds no "
-            f"rougher surface sticky within its own assumptions. {describe_weak_edges(m)}"
-        ),
         errors={"discretisation": worst * crossing[-1]},
-        comment="discretisation: crossings of the curve as drawn; a_V is exact by definition",
-    )
-
-
-def describe_weak_edges(m: xr.Dataset) -> str:
-    """Share of the map's thresholds with weak adhesion, and what the DMT limit makes of them."""
-    found = m.h_rms_limit_edges.notnull()
-    weak = float((m.h_rms_limit_edges > m.weak_limit).where(found).mean())
-    ratio = m.h_rms_limit / m.h_rms_limit_edges
-    return (
-        "By the criterion of the contact edges, with roughness down to wavelengths of "
-        f"{datasets.parameters(m)['shortest_over_range']:g} ranges, {percent(weak)} of the map's "
-        "thresholds have weak edges; the DMT limit with the same a_V gives "
-        f"{float(ratio.min()):.2f} to {float(ratio.max()):.2f} times the roughness."
+        facts={
+            "parameter": m.slope_parameter[-1],
+            "worst": worst,
+            "a_v": a_v,
+            "largest_dmt": largest_dmt(a_v),
+            "shortest": datasets.parameters(m)["shortest_over_range"],
+            "weak": (m.h_rms_limit_edges > m.weak_limit).where(found).mean(),
+            "dmt_ratio": (ratio.min(), ratio.max()),
+        },
     )
 
 
@@ -80,12 +62,7 @@ def largest_dmt(a_v: float) -> float:
     return (1.5 * a_v / JTB_CONSTANT) ** 1.5
 
 
-@claim(
-    13,
-    "by the printed criterion h_rms/range = 1000, 67000, 1e6 at range q0 = 1e-6, 1e-9, 1e-12, "
-    "l_a/range = 0.05 (its arithmetic)",
-    files=("map",),
-)
+@claim(13, "map")
 def roughness_limits(files: Files) -> Finding:
     a_v, low, high = measured_a_v(files["map"])
     printed, derived, low, high = (
@@ -94,17 +71,15 @@ def roughness_limits(files: Files) -> Finding:
     )
     close = np.abs(printed / PRINTED_LIMITS - 1) < 0.1
     return Finding(
-        quantity="h_rms/range at range q0 = 1e-9 by the printed coefficient 9/4",
         value=float(printed[1]),
         claimed=PRINTED_LIMITS[1],
         verdict=grade(bool(close.all()), bool(close[:2].all())),
-        remark=(
-            f"The coefficient 9/4 gives {join(printed)} (the last is not 1e6). But 9/4 is a_V = "
-            f"1.5: a_V = {a_v:.2f} (simulated, extrapolated by theory) gives {join(derived)} (with "
-            f"its errors {change(low[1] / derived[1] - 1)}, {change(high[1] / derived[1] - 1)}). "
-            "Whether such surfaces stick is another claim (19)."
-        ),
-        comment=EXACT,
+        facts={
+            "printed": printed,
+            "a_v": a_v,
+            "derived": derived,
+            "errors": [low[1] / derived[1] - 1, high[1] / derived[1] - 1],
+        },
     )
 
 
@@ -113,16 +88,7 @@ def measured_a_v(m: xr.Dataset) -> tuple[float, float, float]:
     return tuple(float(m[name]) for name in ("a_v", "a_v_low", "a_v_high"))
 
 
-def join(values: NDArray) -> str:
-    return ", ".join(f"{value:.3g}" for value in values)
-
-
-@claim(
-    14,
-    "real spectra lie under C0 = 1e-3 m^0.4; by the printed criterion asphalt sticks below "
-    "E* = 0.2 MPa (its arithmetic, Fig. 6)",
-    files=("asphalt", "map", "measured_surfaces"),
-)
+@claim(14, "asphalt", "map", "measured_surfaces")
 def real_surfaces(files: Files) -> Finding:
     h_rms, q0 = printed_asphalt(files)
     a_v = measured_a_v(files["map"])
@@ -130,21 +96,23 @@ def real_surfaces(files: Files) -> Finding:
         criteria.modulus_threshold(h_rms, q0, WORK_OF_ADHESION, RANGE, value) / 1e6
         for value in (criteria.PRINTED_A_V, *a_v)
     )
+    # Only measured spectra can test the line, not parameters that somebody assumed.
     measured = files["measured_surfaces"]
+    heights = [float(data.C0_reference_upper.max()) / UPPER_LINE for data in measured]
     under = [float(data.C0_reference_upper.max()) <= UPPER_LINE for data in measured]
     close = abs(printed / PRINTED_MODULUS - 1) < 0.1
     return Finding(
-        quantity="E* [MPa] below which asphalt sticks by the printed coefficient 9/4, range 0.2 nm "
-        "and work of adhesion 50 mJ/m^2",
         value=printed,
         claimed=PRINTED_MODULUS,
         verdict=grade(close and bool(under) and all(under), close),
-        remark=(
-            f"But 9/4 is a_V = 1.5: a_V = {a_v[0]:.2f} (simulated, extrapolated by theory) gives "
-            f"{derived:.3g} MPa ({low:.3g} to {high:.3g}), of the order of Dahlquist's 1 MPa. "
-            f"{compare_with_line(measured)} Whether asphalt sticks is another claim (20)."
-        ),
-        comment=EXACT,
+        facts={
+            "a_v": a_v[0],
+            "derived": (derived, low, high),
+            "measured": [
+                (datasets.parameters(data)["label"], height)
+                for data, height in zip(measured, heights, strict=True)
+            ],
+        },
     )
 
 
@@ -155,92 +123,54 @@ def printed_asphalt(files: Files) -> tuple[float, float]:
     return float(np.sqrt(np.pi * c0 / hurst) * q0**-hurst), q0
 
 
-def compare_with_line(measured: Sequence[xr.Dataset]) -> str:
-    """Where measured spectra lie; assumed parameters cannot test the line."""
-    found = ", ".join(
-        f"{datasets.parameters(data)['label']} reaches "
-        f"{float(data.C0_reference_upper.max()) / UPPER_LINE:.2g} times the line"
-        for data in measured
-    )
-    return (
-        "Only measured spectra can test the line, not assumed parameters or the paper's own "
-        f"bounds: {found or 'there are none'}."
-    )
-
-
-@claim(
-    15,
-    "polished steel, L = 0.1 mm, h_rms = 1 µm: q0 h_rms = 0.1 and the JTB condition for the DMT "
-    "limit holds for practically all materials",
-    files=("verdicts", "polished_steel"),
-)
+@claim(15, "verdicts", "polished_steel")
 def polished_steel(files: Files) -> Finding:
     steel, verdicts = files["polished_steel"].sel(end="rough"), files["verdicts"]
     h, q0 = float(steel.h_rms), float(steel.q0)
     margin = verdicts.jtb_margin.sel(surface="polished_steel", end="rough").sortby("material")
-    holds = bool((margin > 1).all())
-    crystal = criteria.dmt_validity(h, q0, CRYSTAL * RANGE, RANGE).margin
+    satisfied = bool((margin > 1).all())
+    margins = list(zip(margin.material.values, margin.values, strict=True))
     return Finding(
-        quantity="h_rms over the least that the DMT limit requires (JTB), smallest of the "
-        f"{margin.size} materials; claimed to be above 1",
         value=float(margin.min()),
-        verdict=grade(holds and abs(q0 * h / 0.1 - 1) < 0.1, holds),
-        remark=(
-            f"2π h_rms/L = {q0 * h:.3f}. At l_a/range = {CRYSTAL:g}, range = {RANGE * 1e9:g} nm, "
-            f"the margin is {crystal:.3g}. The condition holds for "
-            f"{describe_margins(margin.where(margin > 1, drop=True))}. It does not hold for "
-            f"{describe_margins(margin.where(margin <= 1, drop=True))}: softer solids have larger "
-            "adhesion lengths."
-        ),
-        comment="closed form; materials as configured",
+        verdict=grade(satisfied and abs(q0 * h / 0.1 - 1) < 0.1, satisfied),
+        facts={
+            "slope": q0 * h,
+            "crystal": criteria.dmt_validity(h, q0, CRYSTAL * RANGE, RANGE).margin,
+            "ratio": CRYSTAL,
+            "range": RANGE,
+            "within": [pair for pair in margins if pair[1] > 1],
+            "outside": [pair for pair in margins if pair[1] <= 1],
+        },
     )
 
 
-def describe_margins(margins: xr.DataArray) -> str:
-    """Materials with their margins, or none."""
-    values = zip(margins.material.values, margins.values, strict=True)
-    return ", ".join(f"{name} ({number(value, 2)})" for name, value in values) or "none"
-
-
-@claim(16, "sigma0 = (9√3/16) sigma_th, and l_a = 0.05 range for a crystal on itself")
+@claim(16)
 def crystal_strength(files: Files) -> Finding:
     law = adhesive.LennardJones(adhesion_length=1.0, range=1.0)
     gaps = np.linspace(0, 2, 200001)
     strength = float(law.traction(gaps).max())
     ratio = law.maugis_stress / strength
-    # sigma_th about E*/20 makes l_a/range = sigma0/E* = ratio/20.
     return Finding(
-        quantity="sigma0/sigma_th of the Lennard-Jones law, by its numerical maximum",
         value=float(ratio),
         claimed=9 * np.sqrt(3) / 16,
         verdict=grade(abs(ratio / (9 * np.sqrt(3) / 16) - 1) < 1e-6, False),
-        remark=f"With sigma_th = E*/20, l_a/range = {ratio / 20:.4f}.",
         errors={"discretisation": float(gaps[1])},
-        comment="discretisation: spacing of the gaps",
+        # sigma_th is about E*/20, so that l_a/range = sigma0/E* = ratio/20.
+        facts={"length": ratio / 20},
     )
 
 
-@claim(17, "Pastewka-Robbins: a_V,PR ~ zeta^((5H-3)/3), sticky for D < 2.4; constant close to 1")
+@claim(17)
 def pastewka_robbins(files: Files) -> Finding:
     hursts = np.array([0.5, 0.6, 0.7, 0.8])
     errors = [fractal_exponent(h, pastewka_robbins_a_v) - (5 * h - 3) / 3 for h in hursts]
     tough = [fractal_exponent(h, threshold_by_moments) - (1 - 2 * h) for h in hursts]
     worst = float(np.abs(errors).max())
     return Finding(
-        quantity="largest error of the exponent (5H-3)/3 at zeta = 1e12, for spectra with "
-        "H = 0.5 to 0.8",
         value=worst,
         claimed=0.0,
         verdict=grade(worst < 1e-3, worst < 0.05),
-        remark=(
-            "The exponent vanishes at H = 0.6, D = 2.4; π(3/16)^(2/3) = "
-            f"{criteria.PR_CONSTANT:.3f}. The nearer H is to 1, the larger the zeta at which the "
-            "limit is reached. With that attractive area and tough edges the adhesion length at "
-            "the threshold scales as zeta^(1-2H) (checked within "
-            f"{np.abs(tough).max():.1g}), so that surfaces "
-            "with D < 2.5 stick in that limit."
-        ),
-        comment="closed form of exact moments; the value is itself the distance from a limit",
+        facts={"constant": criteria.PR_CONSTANT, "tough": np.abs(tough).max()},
     )
 
 
@@ -266,11 +196,7 @@ def threshold_by_moments(s: SelfAffine, range_: float = 1e-30) -> float:
     )
 
 
-@claim(
-    18,
-    "3 m22 = m40 = m04, h'_rms = √(2 m2), h''_rms = √(8 m4/3) on generated surfaces",
-    files=("seeds",),
-)
+@claim(18, "seeds")
 def spectral_moments(files: Files) -> Finding:
     surfaces = [data.sel(seed=seed) for data in files["seeds"] for seed in data.seed]
     ratios = np.array(
@@ -284,21 +210,18 @@ def spectral_moments(files: Files) -> Finding:
     error = single[:, 0] / np.sqrt(2)
     mean, expected = ratios.mean(axis=(0, 2)), expected.mean(axis=1)
     return Finding(
-        quantity=(
-            f"3 m22/m40 and 3 m22/m04, mean over {len(surfaces)} surfaces, "
-            f"H = {datasets.parameters(surfaces[0])['hurst']:g}, {describe_sample(surfaces[0])}"
-        ),
         value=float(mean[0]),
         claimed=float(expected[0]),
         verdict=grade(bool(np.all(off < 3 * single)), bool(np.all(off < 0.05))),
-        remark=(
-            "The claimed value is that of the modes of the window, a disc of lattice points. With "
-            f"profile moments along x and y: h'_rms/√(2 m2) = {mean[1]:.3f} ± {error[1]:.3f} "
-            f"(lattice {expected[1]:.3f}), h''_rms/√(8 m4/3) = {mean[2]:.4f} ± {error[2]:.4f} "
-            f"(lattice {expected[2]:.4f})."
-        ),
         errors={"sampling": students_t(len(surfaces)) * float(error[0])},
-        comment="sampling: scatter over the surfaces, with Student's t",
+        facts={
+            "surfaces": len(surfaces),
+            "hurst": datasets.parameters(surfaces[0])["hurst"],
+            "cell": describe_cell(surfaces[0]),
+            "mean": mean,
+            "error": error,
+            "lattice": expected,
+        },
     )
 
 

@@ -1,7 +1,7 @@
-"""The ledger of claims: what a claim states, which files it reads and what it finds in them.
+"""The ledger of claims: which files test a claim, and what they say about it.
 
-A claim is a function from files to a `Finding`, decorated with `claim`. It knows no number that it
-could have read from a file.
+A claim is a function from files to a `Finding`, decorated with `claim`. It takes every number from
+a file or a closed form. Its statement and remark are in ``report/claims.j2``.
 """
 
 from __future__ import annotations
@@ -9,10 +9,12 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from types import ModuleType
+from typing import Any
 
 import numpy as np
 import xarray as xr
 
+from stickiness import datasets, error_budget
 from stickiness.error_budget import SOURCES
 
 REPRODUCED = "reproduced"
@@ -21,7 +23,7 @@ NOT = "not reproduced"
 OPEN = "not decided"
 VERDICTS = (REPRODUCED, QUALIFIED, NOT, OPEN)
 
-# A name that stands for several files has a list of datasets; a table is a pandas.DataFrame.
+# A name may stand for several files (a list of datasets) or for a table (a pandas.DataFrame).
 Files = Mapping[str, xr.Dataset]
 
 
@@ -29,51 +31,61 @@ Files = Mapping[str, xr.Dataset]
 class Finding:
     """What the files say about a claim.
 
-    `errors` of the value, by their source, cover 90 %; NaN: not known; a source that is left out
-    does not apply.
+    Attributes
+    ----------
+    value, claimed : float
+        The value found here, and the paper's value; NaN if the paper gives none.
+    verdict : str
+        One of `VERDICTS`.
+    errors : mapping from str to float
+        Errors of the value by source, each covering 90 %. NaN: the error is not known. A source
+        that does not apply is left out.
+    facts : mapping
+        Further numbers and names for the remark.
     """
 
-    quantity: str  # what `value` is, with its unit
     value: float
-    claimed: float = np.nan  # the paper's value, if it gives one
-    verdict: str  # one of those above
-    remark: str  # the qualification or the reason, with its numbers
+    verdict: str
+    claimed: float = np.nan
     errors: Mapping[str, float] = field(default_factory=dict)
-    comment: str = "as in the file of the value"  # what the errors are, or why there are none
+    facts: Mapping[str, Any] = field(default_factory=dict)
 
     def __post_init__(self):
         if unknown := {*self.errors} - {*SOURCES} or {self.verdict} - {*VERDICTS}:
-            raise ValueError(f"{self.quantity}: {unknown} is neither an error source nor a verdict")
+            raise ValueError(f"{unknown} is neither an error source nor a verdict")
 
     @property
     def uncertainty(self) -> float:
-        """All errors in quadrature; NaN where one of them is not known."""
+        """All errors in quadrature; NaN if one of them is not known."""
         return float(np.linalg.norm([*self.errors.values()])) if self.errors else 0.0
 
 
 @dataclass(frozen=True)
 class Claim:
-    """A statement of the paper, the files that it is tested by, and the test."""
+    """A claim of the paper: its number, the files that test it, and the test."""
 
     number: int
-    statement: str
-    files: tuple[str, ...]  # as the rule names them; that of the value comes first
+    files: tuple[str, ...]  # as the rule names them; the file of the value comes first
     examine: Callable[[Files], Finding]
 
     def __call__(self, files: Files) -> Finding:
-        """Examine the claim with its own files out of all."""
+        """Examine the claim with its files out of all."""
         return self.examine({name: files[name] for name in self.files})
 
 
-def claim(
-    number: int, statement: str, files: tuple[str, ...] = ()
-) -> Callable[[Callable[[Files], Finding]], Claim]:
+def claim(number: int, *files: str) -> Callable[[Callable[[Files], Finding]], Claim]:
     """Make the decorated function the claim with this number."""
-    return lambda examine: Claim(number, statement, files, examine)
+    return lambda examine: Claim(number, files, examine)
 
 
 def collect(*topics: ModuleType) -> tuple[Claim, ...]:
-    """Claims of some modules in the order of their numbers, which must be 1, 2, 3 …, each once."""
+    """Claims of some modules, sorted by number.
+
+    Raises
+    ------
+    ValueError
+        If the numbers are not 1, 2, 3 …, each once.
+    """
     claims = [found for topic in topics for found in vars(topic).values() if type(found) is Claim]
     claims.sort(key=lambda found: found.number)
     for position, found in enumerate(claims, 1):
@@ -85,5 +97,21 @@ def collect(*topics: ModuleType) -> tuple[Claim, ...]:
 
 
 def grade(fully: bool, partly: bool) -> str:
-    """Verdict from whether the claim holds outright or within limits that the remark states."""
+    """Verdict on a claim that is true outright, or within limits that the remark states."""
     return REPRODUCED if fully else QUALIFIED if partly else NOT
+
+
+def errors_by_source(data: xr.Dataset, name: str) -> dict[str, float]:
+    """Errors of a single number by source."""
+    return {source: float(error_budget.part(data, name, source)) for source in SOURCES}
+
+
+def value_and_error(data: xr.Dataset, name: str) -> tuple[float, float]:
+    """A single number of a dataset with its total error."""
+    return float(data[name]), float(error_budget.total_error(data, name))
+
+
+def describe_cell(data: xr.Dataset) -> dict[str, float]:
+    """Magnification of a simulated case, and the side of its cell in longest wavelengths."""
+    made = datasets.parameters(data)
+    return {"zeta": made["magnification"], "waves": made.get("window", 1)}

@@ -1,4 +1,4 @@
-"""Claims on what sticks, held against the adhesion that remains."""
+"""Claims on what sticks, compared with the adhesion that remains and with experiments."""
 
 from __future__ import annotations
 
@@ -14,48 +14,43 @@ from claims.criterion_claims import (
     PRINTED_MODULUS,
     RANGE,
     WORK_OF_ADHESION,
-    join,
 )
-from claims.ledger import NOT, OPEN, Files, Finding, claim, grade
-from common.formatting import change, percent
+from claims.ledger import NOT, OPEN, QUALIFIED, REPRODUCED, Files, Finding, claim, grade
+from experiments.entries import GRADES
+from experiments.judgements import COMPATIBLE, MISSED, SILENT, SOME
 from stickiness import criteria, datasets
 from stickiness.remaining import Roughness, predict
 from stickiness.remaining.prediction import DEFAULT_SHARE
 from stickiness.spectrum.kinds import SelfAffine
 from stickiness.statistics import students_t
 
-LITTLE = 0.1  # change of what remains that is none
+NEGLIGIBLE = 0.1  # relative change of the remaining share that does not count
 COARSE, FINE = 4, 32  # magnifications of the same long waves
 ZONE = 0.1  # q0 range^2/l_a, of both
 BROAD, BROADEST = 1e3, 1e6  # magnifications that theory compares: the paper has up to 1e3 and more
+PAPER = "violano"  # the paper's criterion
+RUBBER = "fuller_tabor/one_MPa"
 
 
-@claim(
-    19,
-    "surfaces stick up to the roughness of claim 13 (its physics)",
-    files=("map",),
-)
+@claim(19, "map")
 def sticky_roughness(files: Files) -> Finding:
     shortest = datasets.parameters(files["map"])["shortest_over_range"]
     value, low, high = (
         np.array([find_roughness(q0, shortest, sign) for q0 in EXAMPLES]) for sign in (0, -1, 1)
     )
     inside = (low <= PRINTED_LIMITS) & (high >= PRINTED_LIMITS)
-    jtb = criteria.jtb_limit(EXAMPLES, CRYSTAL, 1.0)
     return Finding(
-        quantity=f"h_rms/range up to which {percent(DEFAULT_SHARE)} of the work of adhesion "
-        "remains, at range q0 = 1e-9",
         value=float(value[1]),
         claimed=PRINTED_LIMITS[1],
         verdict=grade(False, bool(inside.all())),
-        remark=(
-            f"At H = 0.8 and roughness down to wavelengths of {shortest:g} ranges this is "
-            f"{join(value)} ({join(low)} to {join(high)}) for the three values of range q0; the "
-            f"paper's limits are {join(PRINTED_LIMITS / value)} times that. They follow from the "
-            f"DMT limit, which holds for rougher surfaces only (JTB: {join(jtb)})."
-        ),
         errors={"model": float(max(high[1] - value[1], value[1] - low[1]))},
-        comment="model: of what remains, the larger side",
+        facts={
+            "wanted": DEFAULT_SHARE,
+            "shortest": shortest,
+            "limits": {"value": value, "low": low, "high": high},
+            "times": PRINTED_LIMITS / value,
+            "jtb": criteria.jtb_limit(EXAMPLES, CRYSTAL, 1.0),
+        },
     )
 
 
@@ -75,11 +70,7 @@ def find_roughness(range_times_q0: float, shortest: float, sign: int) -> float:
     return float(np.exp(brentq(excess, np.log(2.0), np.log(1e9))))
 
 
-@claim(
-    20,
-    "asphalt sticks to a block of E* below 0.2 MPa (the physics of claim 14)",
-    files=("asphalt",),
-)
+@claim(20, "asphalt")
 def sticky_asphalt(files: Files) -> Finding:
     ends = [files["asphalt"].sel(end=end) for end in ("rough", "smooth")]
     value, smooth = (find_modulus(end, 0) for end in ends)
@@ -87,22 +78,19 @@ def sticky_asphalt(files: Files) -> Finding:
     inside = low <= PRINTED_MODULUS <= high
     length = WORK_OF_ADHESION / (PRINTED_MODULUS * 1e6)
     h_rms, q0 = (float(ends[0][name]) for name in ("h_rms", "q0"))
-    validity = criteria.dmt_validity(h_rms, q0, length, RANGE)
     return Finding(
-        quantity=f"E* [MPa] below which {percent(DEFAULT_SHARE)} of the work of adhesion remains "
-        "on asphalt, range 0.2 nm and work of adhesion 50 mJ/m^2",
         value=value,
         claimed=PRINTED_MODULUS,
         verdict=OPEN if inside else NOT,
-        remark=(
-            f"C0 = {float(ends[1].C0):g} in place of {float(ends[0].C0):g} m^0.4 gives "
-            f"{smooth:.2g} MPa. With the errors of the model the threshold lies between {low:.2g} "
-            f"and {high:.2g} MPa, whatever the shortest wavelength. The paper's value lies "
-            f"{'within' if inside else 'outside'} that. It follows from the DMT limit, but h_rms "
-            f"is {validity.margin:.1g} times the least that this limit requires (JTB)."
-        ),
         errors={"model": max(value - low, find_modulus(ends[0], 1) - value)},
-        comment="model: of what remains, the larger side",
+        facts={
+            "wanted": DEFAULT_SHARE,
+            "c0": [end.C0 for end in ends],
+            "smooth": smooth,
+            "limits": (low, high),
+            "inside": inside,
+            "jtb": criteria.dmt_validity(h_rms, q0, length, RANGE).margin,
+        },
     )
 
 
@@ -113,45 +101,29 @@ def find_modulus(surface: xr.Dataset, sign: int) -> float:
     return float(WORK_OF_ADHESION / rough.threshold(RANGE, sign=sign) / 1e6)
 
 
-@claim(
-    21,
-    "the truncation of the spectrum does not matter: rms height and longest wave decide (abstract)",
-    files=("remaining",),
-)
+@claim(21, "remaining")
 def truncation(files: Files) -> Finding:
     table = files["remaining"]
     ratios = {hurst: compare(table, hurst) for hurst in (0.8, 0.5)}
     smooth, rough = (float(np.mean(ratios[hurst])) for hurst in (0.8, 0.5))
     changes = [abs(1 - ratio) for ratio in (smooth, rough)]
     late = {hurst: extend(hurst) for hurst in (0.8, 0.5)}
-    settled = abs(1 - late[0.8]) < LITTLE
+    settled = abs(1 - late[0.8]) < NEGLIGIBLE
+    scatter = np.std(ratios[0.8], ddof=1) / np.sqrt(len(ratios[0.8]))
     return Finding(
-        quantity=(
-            f"energy gained with waves up to zeta = {FINE} over that up to {COARSE}, same work of "
-            "adhesion, H = 0.8"
-        ),
         value=smooth,
         claimed=1.0,
-        verdict=grade(max(changes) < LITTLE, settled),
-        remark=(
-            "Simulation of tough contact at equal rms height and longest wave, at the work of "
-            f"adhesion that is the energy of full contact up to zeta = {COARSE}. For H = 0.5 it is "
-            f"{rough:.2f}. On all {len(ratios) * len(ratios[0.8])} surfaces finer roughness "
-            "weakens adhesion, by the energy that it takes to conform. For "
-            "H > 1/2 this energy converges, as 1 - zeta^(1 - 2H): by the theory of the verdicts, "
-            f"waves from zeta = {BROAD:g} to {BROADEST:g} change what remains by "
-            f"{change(late[0.8] - 1)} at H = 0.8, but by {change(late[0.5] - 1)} at H = 0.5, where "
-            "the energy grows without limit. The onset of contact at the finest wave depends on "
-            "the truncation at any H."
-        ),
-        errors={"sampling": scatter(ratios[0.8])},
-        comment="sampling: Student's t of a few surfaces",
+        verdict=grade(max(changes) < NEGLIGIBLE, settled),
+        errors={"sampling": float(students_t(len(ratios[0.8])) * scatter)},
+        facts={
+            "coarse": COARSE,
+            "fine": FINE,
+            "rough": rough,
+            "surfaces": sum(map(len, ratios.values())),
+            "broad": (BROAD, BROADEST),
+            "late": [late[0.8] - 1, late[0.5] - 1],
+        },
     )
-
-
-def scatter(values: list[float]) -> float:
-    """Error of a mean that covers 90 %."""
-    return float(students_t(len(values)) * np.std(values, ddof=1) / np.sqrt(len(values)))
 
 
 def extend(hurst: float) -> float:
@@ -179,3 +151,38 @@ def compare(table: pd.DataFrame, hurst: float) -> list[float]:
         gained = [np.interp(work, one.adhesion_length, one.bound) for one in (coarse, fine)]
         ratios.append(float(gained[1] / gained[0]))
     return ratios
+
+
+@claim(22, "experiments")
+def stickiness_of_experiments(files: Files) -> Finding:
+    dataset = files["experiments"]
+    entries = datasets.parameters(dataset)["experiments"]
+    rubber = dataset.sel(case=RUBBER)
+    limit = float(rubber.criterion_roughness.sel(criterion=PAPER))
+    read = (dataset.tests == 1) & (dataset.observed_known == GRADES.index("read"))
+    codes = dataset.criterion_outcome.sel(criterion=PAPER).where(read, SILENT)
+    named = {
+        code: [name_case(str(c), entries) for c in codes.case.values[codes.values == code]]
+        for code in (COMPATIBLE, SOME, MISSED)
+    }
+    verdicts = {MISSED: NOT, SOME: QUALIFIED, COMPATIBLE: REPRODUCED}
+    return Finding(
+        value=limit * 1e6,
+        # The worst outcome among the observations that were read from a publication.
+        verdict=next((verdict for code, verdict in verdicts.items() if named[code]), OPEN),
+        errors={"model": np.nan},
+        facts={
+            "rubber": rubber,
+            "missed": named[MISSED],
+            "some": named[SOME],
+            "compatible": named[COMPATIBLE],
+            "wanted": DEFAULT_SHARE,
+        },
+    )
+
+
+def name_case(case: str, experiments: dict) -> str:
+    """Author and label of a case."""
+    experiment, name = case.split("/")
+    entry = experiments[experiment]
+    return f"{entry.get('short', entry['label'])} ({entry['cases'][name]['label']})"

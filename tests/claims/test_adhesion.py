@@ -4,10 +4,9 @@ import numpy as np
 import pytest
 from helpers.claim_files import adhesive, loop
 
-from claims import adhesion_claims as adhesion_claims
+from claims import adhesion_claims
 from claims.ledger import NOT, OPEN, QUALIFIED, REPRODUCED
 from common.conventions import LOAD
-from common.formatting import percent
 
 
 @pytest.mark.slow
@@ -23,8 +22,10 @@ def test_threshold_lies_between_the_lengths_around_it(files):
     at = float(below[int(np.argmin(np.abs(below.values - 0.25)))])
     # Half of l_a/range as made up, at every load, between lengths by their logarithms.
     area = np.interp(np.log(claim.value), np.log(lengths), 0.5 * lengths)
-    assert f"{claim.value:.2g} at an area of {percent(area)} (mean gap of p = 0.03)" in claim.remark
-    assert f"1/kappa is {at:.2f} ± {0.05 * at:.2f} by that area and {1.1 * at:.2f}" in claim.remark
+    found = {load: (threshold, area) for threshold, area, load in claim.facts["areas"]}
+    assert found[0.03] == pytest.approx((claim.value, area))
+    assert claim.facts["half"]["whole"] == pytest.approx((at, 0.05 * at))
+    assert claim.facts["half"]["net"][0] == pytest.approx(1.1 * at)
 
 
 def test_threshold_that_is_not_reached_is_no_number_of_its_own(files):
@@ -32,7 +33,7 @@ def test_threshold_that_is_not_reached_is_no_number_of_its_own(files):
     claim = adhesion_claims.kappa_threshold(files)
     assert claim.verdict == OPEN
     assert claim.value == float(files["adhesive_fig2"].adhesion_length_over_range[-1])
-    assert "largest simulated" in claim.quantity
+    assert not claim.facts["crosses"]
 
 
 @pytest.mark.parametrize(
@@ -44,10 +45,12 @@ def test_loop_is_graded_by_its_width_and_its_pull_off(files, made, verdict):
     claim = adhesion_claims.hysteresis(files)
     assert claim.verdict == verdict
     assert claim.value == pytest.approx(made.get("pull_off", -0.02))
-    assert "At p = 0.02 the area is 0.040 on loading" in claim.remark
+    assert claim.facts["load"] == pytest.approx(0.02)
+    assert claim.facts["loading"] == pytest.approx(0.04)
     if "pull_off" not in made:
-        assert "at zero gap is 0.030, of which 0.022 is compressed" in claim.remark
-    assert "25 % of the work" in claim.remark
+        assert float(claim.facts["area"]) == pytest.approx(0.03)
+        assert claim.facts["net"] == pytest.approx(0.0225)
+    assert float(claim.facts["lost"]) == pytest.approx(0.25)
 
 
 @pytest.mark.slow
@@ -62,5 +65,5 @@ def test_simulation_is_compared_with_the_formula(files, scale, verdict):
     assert claim.value == pytest.approx(scale)
     assert claim.uncertainty == pytest.approx(0.05 * scale)
     assert claim.verdict == verdict
-    assert f"{0.8 * scale:.2f} to {0.8 * scale:.2f}" in claim.remark  # directly
-    assert "2.90 ± 0.14" in claim.remark  # a_V of the surfaces
+    assert claim.facts["direct"][:2] == pytest.approx((0.8 * scale, 0.8 * scale))
+    assert claim.facts["a_v"][0] == pytest.approx((2.9, 0.145))

@@ -25,7 +25,7 @@ def test_kappa_is_that_of_the_load_and_not_of_the_fit(files):
     assert claim.value == pytest.approx(2.08)
     assert claim.uncertainty == pytest.approx(0.05 * 2.08)
     first = 2.08 * (1 - 0.05 * np.log(LOADS[0] / LOAD))
-    assert f"from {first:.2f} at" in claim.remark
+    assert claim.facts["ends"][0][1] == pytest.approx(first)
     assert claim.verdict == QUALIFIED
     files["kappa_128"] = kappa(128, level=2.3)
     assert contact.area_slope(files).verdict == NOT
@@ -50,9 +50,9 @@ def test_exponent_that_holds_where_the_paper_shows_it_alone_is_qualified(files):
     claim = contact.small_gap_exponent(files)
     assert claim.verdict == QUALIFIED
     assert claim.value == pytest.approx(-1 / 3)
-    assert "At zeta = 1000 the exponent is -0.33, -0.33, -0.33, -0.33 at" in claim.remark
-    assert "At zeta = 5e4 the exponent is -0.55" in claim.remark
-    assert "(1-2H)/H, -0.75 here" in claim.remark
+    (_, shown), (_, broad) = claim.facts["exponents"]
+    np.testing.assert_allclose(shown, -1 / 3, rtol=1e-6)
+    np.testing.assert_allclose(broad, -0.55, rtol=1e-6)
 
 
 @pytest.mark.parametrize(
@@ -65,7 +65,7 @@ def test_separation_is_graded_on_theory_and_simulation(files, theory, simulation
     claim = contact.load_separation(files)
     assert claim.verdict == verdict
     assert (claim.uncertainty > 1e-9) == (simulation != 1)  # theory is at 1 on the same spectrum
-    assert ("disagrees" in claim.remark) == (simulation != 1)
+    assert claim.facts["agrees"] == (simulation == 1)
 
 
 @pytest.mark.parametrize(
@@ -118,11 +118,13 @@ def test_a_v_is_about_3_at_the_middle_magnifications(files):
     files["fit_fig3c"] = fitted.assign(a_v=grown)
     claim = contact.a_v_against_magnification(files)
     assert claim.verdict == QUALIFIED
-    assert "a_V is 3.00 to 3.18 at zeta = 1e4 to 1e5, about 3. It has not converged" in claim.remark
+    assert np.array(claim.facts["middle"]) == pytest.approx([3.0, 3.18])
+    assert claim.facts["about"]
+    assert not claim.facts["steady"]
 
 
 def test_continuous_a_v_is_taken_at_the_magnification_of_the_simulation(files):
     continuous = files["fit_fig3c"].isel(window=0, load=0).sel(variant=conventions.VARIANT).a_v
     continuous = continuous * np.log10(continuous.magnification)
-    text = contact.describe_simulated_a_v(files, continuous)
-    assert f"{3 * np.log10(128):.2f} on the continuous one" in text
+    found = contact.compare_simulated_a_v(files, continuous)
+    assert found["continuous"] == pytest.approx(3 * np.log10(128))

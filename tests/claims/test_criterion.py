@@ -41,9 +41,8 @@ def test_dmt_condition_is_to_hold_for_every_material(files, margins, verdict):
     found = criterion.polished_steel(files)
     assert found.verdict == verdict
     assert found.value == min(margins.values())
-    assert "holds for crystal (24)" in found.remark
-    missed = "gel (0.001)" if verdict == NOT else "none"
-    assert f"does not hold for {missed}" in found.remark
+    assert ("crystal", 24.0) in found.facts["within"]
+    assert found.facts["outside"] == ([("gel", 0.001)] if verdict == NOT else [])
 
 
 def test_tough_edges_do_not_ask_for_more_adhesion_on_finer_surfaces():
@@ -57,11 +56,11 @@ def test_tough_edges_do_not_ask_for_more_adhesion_on_finer_surfaces():
 def test_measured_surfaces_test_the_line(files):
     found = criterion.real_surfaces(files)
     assert found.verdict == QUALIFIED
-    assert "terrain reaches 70 times the line" in found.remark
+    assert found.facts["measured"] == [("terrain", pytest.approx(70))]
     files["measured_surfaces"] = [real_surface("steel", kind="measured", c0=1e-4)]
     assert criterion.real_surfaces(files).verdict == REPRODUCED
     files["measured_surfaces"] = []
-    assert "there are none" in criterion.real_surfaces(files).remark
+    assert criterion.real_surfaces(files).facts["measured"] == []
 
 
 def test_moment_ratios_of_two_crossed_waves():

@@ -8,6 +8,7 @@ from claims import remaining_claims as claims
 from claims.ledger import NOT, OPEN, QUALIFIED, REPRODUCED
 from claims.remaining_claims import sticky_asphalt, sticky_roughness, truncation
 from common import remaining_table
+from experiments.judgements import COMPATIBLE, MISSED, SILENT, SOME
 
 
 @pytest.mark.parametrize(("growth", "verdict"), [(0.0, REPRODUCED), (0.3, QUALIFIED)])
@@ -60,3 +61,49 @@ def test_modulus_within_the_limits_is_not_decided(files, monkeypatch):
     for printed, verdict in ((found.value, OPEN), (1e4 * found.value, NOT)):
         monkeypatch.setattr(claims, "PRINTED_MODULUS", printed)
         assert sticky_asphalt(files).verdict == verdict
+
+
+READ, RECALLED, ASSUMED = range(1, 4)
+
+
+def compare_experiments(**changes):
+    return claims.stickiness_of_experiments({"experiments": claim_files.experiments(**changes)})
+
+
+@pytest.mark.parametrize(
+    ("outcomes", "verdict"),
+    [
+        ((COMPATIBLE, SILENT, COMPATIBLE), REPRODUCED),
+        ((COMPATIBLE, SOME, COMPATIBLE), QUALIFIED),
+        ((MISSED, SOME, COMPATIBLE), NOT),
+        ((SILENT, SILENT, SILENT), OPEN),
+    ],
+)
+def test_verdict_is_the_worst_of_the_outcomes(outcomes, verdict):
+    assert compare_experiments(outcomes=outcomes).verdict == verdict
+
+
+@pytest.mark.parametrize("grade", [RECALLED, ASSUMED])
+def test_only_observations_that_were_read_count(grade):
+    outcomes = (COMPATIBLE, MISSED, SOME)
+    assert compare_experiments(outcomes=outcomes).verdict == NOT
+    found = compare_experiments(outcomes=outcomes, grades=(READ, grade, READ))
+    assert found.verdict == QUALIFIED
+    found = compare_experiments(outcomes=outcomes, tests=(1, 0, 1))
+    assert found.verdict == QUALIFIED
+    assert found.facts["missed"] == []
+    assert compare_experiments(outcomes=outcomes, grades=(grade,) * 3).verdict == OPEN
+
+
+def test_value_is_the_roughness_limit_of_the_rubber_in_micrometres():
+    found = compare_experiments(limit=37e-6)
+    assert found.value == pytest.approx(37.0)
+    assert np.isnan(found.claimed)  # the paper gives none
+    assert np.isnan(found.uncertainty)
+
+
+def test_observations_are_named_by_the_outcome_of_the_criterion():
+    facts = compare_experiments(outcomes=(MISSED, SOME, MISSED)).facts
+    assert facts["missed"] == ["Rubber 1975 (rubber of 1 MPa)", "hard plate (steel on steel)"]
+    assert facts["some"] == ["Ball 1999 (lost)"]
+    assert facts["compatible"] == []
