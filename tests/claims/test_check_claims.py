@@ -19,15 +19,15 @@ def test_every_claim_runs_on_the_files_it_names():
     """A claim gets these files alone, so it cannot read another."""
     files = files_by_name()
     assert files.keys() == {name for claim in CLAIMS for name in claim.files}
-    for claim in CLAIMS:
-        found = claim(files)
+    for one in CLAIMS:
+        found = one(files)
         assert found.verdict in VERDICTS
         assert np.isfinite(found.value)
-        prose = check_claims.write_prose(claim.number, found.facts, ENVIRONMENT)
+        prose = check_claims.write_prose(one.number, found.facts, ENVIRONMENT)
         assert all(prose[name] for name in PROSE)
         assert "nan" not in " ".join(prose.values()).split()
-        if claim.number in (1, 2, 3, 4, 6, 7, 8, 9):  # the made-up files obey these exactly
-            assert found.verdict == REPRODUCED, claim.number
+        if one.number in (1, 2, 3, 4, 6, 7, 8, 9):  # the made-up files obey these exactly
+            assert found.verdict == REPRODUCED, one.number
 
 
 def test_sources_are_listed_once_in_the_order_of_the_claim():
