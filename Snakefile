@@ -53,6 +53,7 @@ TARGETS = {
     ],
     "claims": f"{RESULTS}/claims/claims.md",
     "report": f"{RESULTS}/report/report.html",
+    "findings": f"{RESULTS}/report/findings.md",
     "surfaces": expand(f"{RESULTS}/report/surfaces/{{surface}}.html", surface=REAL_SURFACES),
     "cases": expand(f"{RESULTS}/cases/{{case}}.nc", case=CASES),
     "stability": f"{RESULTS}/figures/stability.png",
@@ -67,7 +68,7 @@ TARGETS = {
 
 # The report shows the claims, which need the paper's surfaces.
 ALL = (*FIGURES, "verdicts", "experiments", "surfaces")
-ALL += ("claims", "report") if REAL_SURFACES.keys() >= set(PAPER_SURFACES) else ()
+ALL += ("claims", "report", "findings") if REAL_SURFACES.keys() >= set(PAPER_SURFACES) else ()
 
 
 rule all:

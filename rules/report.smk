@@ -88,3 +88,24 @@ rule write_surface:
         **JUDGED,
     script:
         "../scripts/report/write_surface.py"
+
+
+rule write_findings:
+    input:
+        template=own("report/findings.md.j2"),
+        claims=f"{RESULTS}/claims/claims.nc",
+        a_v=several("fits/a_v/ensembles/{case}.nc", case=COMPLETE),
+        lattices=several("fits/a_v/lattice/{case}.nc", case=COMPLETE),
+        gamma=f"{RESULTS}/fits/gamma.nc",
+        dmt_error=f"{RESULTS}/adhesion/full/dmt_error.nc",
+        edges=several("adhesion/edges/{adhesion}.nc", adhesion=SIMULATED_IN_FULL),
+        remaining=REMAINING_TABLE,
+        verdicts=f"{RESULTS}/criteria/verdicts.nc",
+        experiments=f"{RESULTS}/experiments/experiments.nc",
+        tradeoff=TRADE_SUMMARY,
+    output:
+        f"{RESULTS}/report/findings.md",
+    params:
+        fidelity=config["fidelity"],
+    script:
+        "../scripts/report/write_findings.py"

@@ -2,14 +2,14 @@
 
 from pathlib import Path
 
-import jinja2
 import numpy as np
 import xarray as xr
 
 from claims import adhesion_claims, contact_claims, criterion_claims, remaining_claims
 from claims.ledger import collect
-from common import formatting, remaining_table
+from common import remaining_table
 from common.job import start
+from common.templates import make_environment
 from stickiness import datasets, error_budget
 from stickiness.criteria.errata import ERRATA
 
@@ -62,41 +62,6 @@ def read(path):
     if not isinstance(path, str):
         return [read(one) for one in path]
     return remaining_table.read(path) if path.endswith(".csv") else datasets.read(path)
-
-
-def make_environment(folder):
-    """Templates of a folder, with filters for numbers."""
-    environment = jinja2.Environment(
-        loader=jinja2.FileSystemLoader(folder),
-        undefined=jinja2.StrictUndefined,
-        trim_blocks=True,
-        lstrip_blocks=True,
-        keep_trailing_newline=True,
-    )
-    environment.filters |= {
-        "fixed": lambda value, digits=2: f"{float(value):.{digits}f}",
-        "g": lambda value, digits=6: f"{float(value):.{digits}g}",
-        "power": write_power,
-        "plus_minus": write_with_error,
-        "percent": lambda share: formatting.percent(float(share)),
-        "change": lambda share: formatting.change(float(share)),
-        "number": formatting.number,
-        "amount": lambda value, unit, digits: formatting.amount(float(value), unit, digits),
-    }
-    environment.tests["finite"] = np.isfinite
-    return environment
-
-
-def write_power(value):
-    """Magnification as 1000 or 5e4."""
-    value = float(value)
-    return f"{value:g}" if value < 1e4 else f"{value:.2g}".replace("e+0", "e")
-
-
-def write_with_error(pair):
-    """Value with its error, if that is known."""
-    value, error = pair
-    return f"{value:.2f}" + (f" ± {error:.2f}" if np.isfinite(error) else "")
 
 
 def examine(claim, files, paths, environment):

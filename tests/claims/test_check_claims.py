@@ -9,9 +9,10 @@ from helpers.claim_files import files_by_name
 from claims import check_claims
 from claims.check_claims import CLAIMS, PROSE
 from claims.ledger import OPEN, REPRODUCED, VERDICTS, Finding, claim
+from common.templates import make_environment, write_power
 from stickiness import datasets
 
-ENVIRONMENT = check_claims.make_environment(Path(__file__).parents[2] / "report")
+ENVIRONMENT = make_environment(Path(__file__).parents[2] / "report")
 
 
 @pytest.mark.slow
@@ -65,7 +66,7 @@ def test_a_source_that_is_not_known_dominates():
 
 @pytest.mark.parametrize(("number", "text"), [(10, "10"), (1000, "1000"), (5e4, "5e4")])
 def test_magnifications_in_words(number, text):
-    assert check_claims.write_power(number) == text
+    assert write_power(number) == text
 
 
 def test_a_claim_of_which_nothing_is_known_is_open_and_written(tmp_path):
