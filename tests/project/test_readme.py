@@ -1,0 +1,77 @@
+"""The numbers in README.md lie within their errors of the results of a run."""
+
+from pathlib import Path
+
+import pandas as pd
+import pytest
+
+from common.conventions import at_load
+from report import write_findings
+from stickiness import datasets, error_budget
+
+ROOT = Path(__file__).parents[2]
+RUNS = [ROOT / "results" / fidelity for fidelity in ("standard", "draft")]
+
+
+@pytest.fixture(scope="module")
+def results():
+    """Folder of a finished run, of the better fidelity if there are two."""
+    for folder in RUNS:
+        if (folder / "report/findings.md").exists():
+            return folder
+    pytest.skip("no finished run: make draft or make reproduce")
+
+
+def read_claim(results, number):
+    claim = datasets.read(results / "claims/claims.nc").sel(claim=number)
+    return float(claim.value), float(claim.value_total_error)
+
+
+def read_cell(results):
+    data = datasets.read(results / "fits/a_v/ensembles/H0.8_zeta32_wide.nc")
+    at = at_load(data).isel(window=0)
+    return float(at.a_v_mean), float(error_budget.total_error(at, "a_v_mean"))
+
+
+def read_dmt_ratio(results):
+    found = dict(write_findings.compare_dmt(datasets.read(results / "adhesion/full/dmt_error.nc")))
+    return found[1.0]
+
+
+def read_sphere(results):
+    files = [datasets.read(path) for path in sorted((results / "adhesion/edges").glob("*.nc"))]
+    return write_findings.compare_sphere(files)["ratio"]
+
+
+def read_works(results):
+    table = pd.read_csv(ROOT / "config/remaining.csv", comment="#")
+    return 100 * write_findings.compare_remaining(table)["near"], 0.0
+
+
+def count_sticking(results):
+    counts = write_findings.list_verdicts(datasets.read(results / "criteria/verdicts.nc"))["counts"]
+    return counts["sticks"] + counts["sticks fully"], 0.0
+
+
+def count_failed_claims(results):
+    verdicts = datasets.read(results / "claims/claims.nc").verdict.values
+    return sum(verdict == "not reproduced" for verdict in verdicts), 0.0
+
+
+@pytest.mark.parametrize(
+    ("text", "number", "rounding", "read"),
+    [
+        ("theory gives 3.7 at 10⁶", 3.7, 0.05, lambda results: read_claim(results, 8)),
+        ("a_V is only 1.8", 1.8, 0.05, read_cell),
+        ("by a factor of 1.1", 1.1, 0.05, read_dmt_ratio),
+        ("simulation is 1.03 times", 1.03, 0.005, read_sphere),
+        ("95 % of the predicted works", 95, 0.5, read_works),
+        ("49 pairs of material and surface, 7 stick", 7, 0, count_sticking),
+        ("Of 22 graded claims, 5 are not reproduced", 5, 0, count_failed_claims),
+    ],
+)
+def test_number_lies_within_its_error(results, text, number, rounding, read):
+    readme = " ".join((ROOT / "README.md").read_text(encoding="utf-8").split())
+    assert text in readme
+    value, error = read(results)
+    assert abs(value - number) <= error + rounding
