@@ -98,19 +98,6 @@ def band_ends(ax, index=0):
     return x, [row.min() for row in rows], [row.max() for row in rows]
 
 
-def legend_texts(ax):
-    return [text.get_text() for text in ax.get_legend().get_texts()]
-
-
-def assert_axes(ax, x, y, scales):
-    assert (ax.get_xscale(), ax.get_yscale()) == scales
-    assert x in ax.get_xlabel()
-    assert y in ax.get_ylabel()
-
-
-LOG = ("log", "log")
-
-
 # ---- what all figures share
 
 
@@ -132,14 +119,6 @@ def test_open_points_lie_above_bars_and_below_filled_points(ax):
     hollow, filled = drawn(ax, [1], [3.0]), drawn(ax, [1], [1.0], marker="o")
     assert same_color(hollow.get_markerfacecolor(), "white")
     assert bars < hollow.get_zorder() < filled.get_zorder()
-
-
-def test_labels_move_apart_and_keep_their_order():
-    assert plotting.push_apart([1.0, 5.0, 1.05, 1.02], 1.1) == pytest.approx([1.0, 5.0, 1.21, 1.1])
-
-
-def test_quantities_are_written_as_equations():
-    assert plotting.state(hurst=0.8, magnification=1e6) == r"$H$ = 0.8, $\zeta$ = 10⁶"
 
 
 def test_a_figure_that_fails_leaves_the_old_one(tmp_path, monkeypatch):
@@ -181,8 +160,6 @@ def test_figure_1a_has_both_variants_of_the_theory_and_the_band_of_corrections(a
     x, low, high = band_ends(ax)
     np.testing.assert_allclose(low, 10**0.2 * x**-0.1)
     np.testing.assert_allclose(high, 1.2 * 10**0.2 * x**-0.1)
-    assert_axes(ax, "gap $u/h", "density $h", LOG)
-    assert legend_texts(ax)[:2] == [r"$\zeta$ = 10", r"$\zeta$ = 100"]
 
 
 def test_figure_1b_interpolates_gaps_along_a_power_law(ax):
@@ -192,7 +169,6 @@ def test_figure_1b_interpolates_gaps_along_a_power_law(ax):
     plot_fig1.draw_convergence(ax, densities((), {}, zeta**0.1 * gap**-0.4))
     for value in plot_fig1.GAPS:
         drawn(ax, [3, 30], np.array([3, 30]) ** 0.1 * value**-0.4, marker=".")
-    assert_axes(ax, "magnification", "density $h", LOG)
 
 
 def test_figure_1c_shades_errors_and_opens_points_below_the_edge_gap(ax):
@@ -243,8 +219,6 @@ def test_figure_2a_opens_points_above_the_linear_area(ax):
     drawn(ax, x, kappa, markerfacecolor=plotting.BLUE, marker="o")
     drawn(ax, x, [np.nan, np.nan, 1.9], markerfacecolor="white")
     assert_bars(ax, kappa)
-    assert legend_texts(ax) == [r"$\zeta$ = 32", "theory", r"$\kappa$ = 2"]
-    assert_axes(ax, "pressure $p/(E^*", "kappa", ("log", "linear"))
 
 
 def test_figure_2b_has_full_solution_fit_compressed_area_and_dmt_limit(ax):
@@ -265,7 +239,6 @@ def test_figure_2b_has_full_solution_fit_compressed_area_and_dmt_limit(ax):
     drawn(ax, lengths, [0.42, -0.08], markerfacecolor="white")
     drawn(ax, lengths, [0.43, -0.07], linestyle=":")
     assert_bars(ax, [0.4, 0.1])
-    assert_axes(ax, r"adhesion length $l_a/\epsilon$", "1/", ("log", "linear"))
 
 
 def test_figure_2_maps_show_contact_and_the_zone_of_attraction(ax):
@@ -318,8 +291,6 @@ def test_figure_3a_has_every_fourth_area_against_the_range_to_two_thirds(ax, cas
     guide = drawn(ax, [0, 0.3 ** (2 / 3)], [0, 1.5 * 3 * 0.065 * 0.3 ** (2 / 3)])
     assert guide.get_linestyle() == ":"
     assert_bars(ax, 0.2 * shown ** (2 / 3))
-    assert legend_texts(ax) == [r"$\zeta$ = 64, 4×4 waves", r"$a_V$ = 3"]
-    assert_axes(ax, r"\epsilon/h", r"A_\mathrm{ad}/A_\mathrm{nom}", ("linear", "linear"))
 
 
 def test_figure_3_takes_a_v_of_the_first_window_at_its_load(ax, case):
@@ -362,7 +333,6 @@ def test_figure_4c_is_in_proportion_to_adhesion_and_over_the_formula(ax):
         drawn(ax, [range_ / np.sqrt(1.08)], [2.0], marker="o", linestyle="None", markersize=4)
         drawn(ax, [range_ / np.sqrt(1.08)], [1.0], marker="o", markerfacecolor="white")
     drawn(ax, [0, 1], [0.5, 0.5], linestyle="--")
-    assert_axes(ax, r"range $\epsilon", "over formula", ("log", "linear"))
 
 
 # ---- figure 5
@@ -395,7 +365,6 @@ def test_figure_5a_interpolates_limits_between_adhesion_lengths(ax, criterion_ma
     np.testing.assert_allclose(low, 7 * at**-0.6 * 0.05**0.5)
     np.testing.assert_allclose(high, 8 * at**-0.6 * 0.05**0.5)
     drawn(ax, [1e-6, 1e-9, 1e-12], [1e3, 6.7e4, 1e6], marker="o")
-    assert_axes(ax, r"\epsilon q_0", r"h_\mathrm{rms}/\epsilon", LOG)
     assert len(legend_texts(ax)) == 7
 
 
@@ -404,7 +373,6 @@ def test_figure_5b_has_the_angles_in_degrees(ax, criterion_map):
     drawn(ax, [1, 10], [150, 70], color=plotting.BLUE)
     drawn(ax, [1, 10], [160, 90], color=plotting.RED)
     drawn(ax, [0, 1], [90, 90], linestyle="--")
-    assert_axes(ax, "roughness", "[°]", ("log", "linear"))
     assert ax.get_title() == "$a_V$ = 3"
 
 
@@ -485,7 +453,6 @@ def test_figure_7a_writes_ratios_bold_where_the_dmt_limit_holds(ax, ratios):
     assert texts["1.00"].get_weight() == "bold"
     assert texts["1.50"].get_weight() == "normal"
     assert texts["3.00"].get_position() == (0.1, 0.01)
-    assert_axes(ax, "range", "adhesion length", LOG)
 
 
 def test_figure_7a_takes_the_error_into_account(ratios):
@@ -500,8 +467,6 @@ def test_figure_7b_has_the_weakest_adhesion_with_its_compressed_area(ax, ratios)
     drawn(ax, x, [1.0, 1.5], marker="o", color=plotting.BLUE, markerfacecolor=plotting.BLUE)
     drawn(ax, x, [0.8, 1.3], markerfacecolor="white")
     assert_bars(ax, [1.0, 1.5])
-    assert legend_texts(ax) == [r"$\hat{p}$ = 0.065", "compressed area"]
-    assert_axes(ax, "range", "full over DMT", LOG)
 
 
 # ---- figure 8
@@ -603,16 +568,6 @@ def test_figure_9c_has_geometric_means_and_the_range_over_materials_and_ends(ax)
     assert [text.get_text() for text in ax.get_xticklabels()] == ["a\nline", "wafer"]
 
 
-def test_figure_9_names_the_points_that_it_draws(ax):
-    criteria = [plot_fig9.CRITERIA[name] for name in CRITERIA_DRAWN[:4]]
-    keys = list(plot_fig9.make_keys(criteria))
-    assert [key.get_label() for key in keys] == [c.label for c in criteria[:1]] + [
-        c.label.replace("a_V", "$a_V$") for c in criteria[1:]
-    ]
-    assert keys[0].get_marker() == "None"  # the verdict is a line
-    assert [key.get_marker() for key in keys[1:]] == list(plotting.MARKERS[:3])
-
-
 # ---- figure 10
 
 
@@ -637,9 +592,6 @@ def test_figure_10a_has_weak_edges_with_the_error_of_their_ratio(ax, edges):
     drawn(ax, t[t > 0.7], equivalent_sphere.weak_effect_at_approach(t[t > 0.7]), linestyle=":")
     ((_, halves),) = bar_lengths(ax)
     np.testing.assert_allclose(halves, [3.0 * TOTAL, 2.0 * TOTAL])
-    label = r"$\zeta$ = 32, $q_0h_\mathrm{rms}$ = 0.31"
-    assert legend_texts(ax) == ["equivalent sphere", label]
-    assert_axes(ax, "A_", "over DMT", LOG)
 
 
 def test_figure_10b_shades_the_error_of_verdicts(ax, edges):
