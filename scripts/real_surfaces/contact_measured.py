@@ -1,26 +1,74 @@
 """Contact of measured heights themselves, made periodic in two ways, beside theory on the same."""
 
 import logging
+import warnings
+from dataclasses import dataclass
 
 import numpy as np
 import xarray as xr
+from numpy.typing import NDArray
 
 from common import conventions
 from common.config import checks
-from common.config.measured_contact import MOST_POINTS
+from common.config.measured_contact import MOST_POINTS, has_units
 from common.contact_curves import load_curves
 from common.conventions import VARIANT, logarithmic_grid
 from common.job import start
-from real_surfaces import measured_adhesion, measured_surface
-from real_surfaces.measured_loads import Setting, read_loads
+from criteria.materials import Material, read_material
+from real_surfaces import measured_surface
 from stickiness import datasets
+from stickiness.adhesive import edge_zone
+from stickiness.adhesive import solver as adhesive
+from stickiness.adhesive.laws import Exponential
 from stickiness.measured import periodic, topography
 from stickiness.persson.theory import Persson
+from stickiness.plausibility import PlausibilityWarning
+from stickiness.repulsive import solver as repulsive
 from stickiness.units import si
 
 WAYS = ("taper", "mirror")  # to make heights periodic that are not
 AS_THEY_STAND = ("given",)
 SOLVED_VARIABLES = ["area_fraction", "mean_gap", "edge_gap", "residual", "attractive_area"]
+# With adhesion. Areas of contact change by less than 1e-3 of themselves from here to 1e-5 where
+# the grid hardly resolves the attraction, which is where solutions are slow.
+ADHESIVE_TOLERANCE = 1e-3
+START_TOLERANCE = 1e-4  # of the contact without adhesion, over h_rms
+MAX_ITERATIONS = 10000
+VARIABLE_TEXTS = {
+    "periodisation": ("1", "way in which the heights were made periodic"),
+    "resolution": ("1", "grid points per shortest wavelength, at least"),
+    "theory_attractive_area": ("1", "attractive area by theory on the spectrum of these heights"),
+    "theory_area_fraction": ("1", "contact area by theory on the spectrum of these heights"),
+    "a_v": ("1", "a_V = A_ad/((3/2) p (range/h_rms)^(2/3))"),
+    "theory_a_v": ("1", "a_V by theory on the spectrum of these heights"),
+    "h_rms": ("m", "rms height of the periodic surface"),
+    "q1": ("1/m", "highest wave number of the heights pressed"),
+    "adhesive_contact_area": ("1", "area at a gap of zero with adhesion, by pixels"),
+    "adhesive_attractive_area": ("1", "area with gaps up to the range of attraction, by pixels"),
+    "adhesive_mean_gap": ("1", "mean gap over h_rms with adhesion"),
+    "adhesive_residual": ("1", "unbalanced pressure over the strength or the flattening pressure"),
+    "edge_resolution": (
+        "1",
+        f"pixel over range^2 E*/w; edges of contact are resolved up to {edge_zone.COARSEST}",
+    ),
+    "applied_pressure": ("Pa", "mean pressure"),
+}
+
+
+@dataclass(frozen=True)
+class Setting:
+    """Loads and settings: pressures over E* q0 h_rms, ranges over h_rms."""
+
+    pressures: NDArray  # over E* alone if `absolute`
+    ranges: NDArray
+    pixels: int  # per shortest wavelength, at least
+    tolerance: float
+    gamma: float  # of the theory
+    absolute: bool = False
+    material: Material | None = None  # for contact with adhesion
+    ways: tuple[str, ...] = WAYS
+    own_grid: bool = False  # periodic heights are not resampled
+    most_points: int = MOST_POINTS
 
 
 def main(job):
@@ -28,19 +76,16 @@ def main(job):
     asked = job.params.surface
     bem = asked["bem"]
     heights = read_map(asked)
-    setting = Setting(
-        **read_loads(bem),
+    index, finest = bem.get("measurement", 0), float(surface.q_cutoff)
+    cutoff = measured_surface.find_cutoff(asked, index, heights, finest)
+    q_max = highest_wave_number(bem, cutoff)
+    setting = read_setting(
+        bem,
         ranges=logarithmic_grid(job.params.gaps),
         pixels=job.params.pixels_per_wavelength,
         tolerance=job.params.tolerance,
         gamma=job.params.gamma,
-        ways=AS_THEY_STAND if bem.get("periodic", False) else WAYS,
-        own_grid="shortest_wavelength" not in bem,
-        most_points=bem.get("most_points", MOST_POINTS),
     )
-    index, finest = bem.get("measurement", 0), float(surface.q_cutoff)
-    cutoff = measured_surface.find_cutoff(asked, index, heights, finest)
-    q_max = highest_wave_number(bem, cutoff)
     datasets.write(
         annotate(solve(heights, float(surface.q0), q_max, setting)),
         job.output[0],
@@ -50,7 +95,7 @@ def main(job):
 
 
 def read_map(asked):
-    """Levelled heights of the measurement whose contact is asked for."""
+    """Levelled heights of the measurement whose contact is configured."""
     bem = asked["bem"]
     measurement = checks.measurements(asked)[bem.get("measurement", 0)][1]
     if bem.get("periodic", False):
@@ -74,6 +119,23 @@ def highest_wave_number(bem, cutoff):
     return asked
 
 
+def read_setting(bem, **settings):
+    """Loads, material and grid as configured, beside the other settings."""
+    material = read_material(bem["adhesion"]) if "adhesion" in bem else None
+    pressures, absolute = bem["pressures"], has_units(bem["pressures"])
+    if absolute:
+        pressures = [si(pressure, "Pa") / material.modulus for pressure in pressures]
+    return Setting(
+        np.sort(pressures),
+        absolute=absolute,
+        material=material,
+        ways=AS_THEY_STAND if bem.get("periodic", False) else WAYS,
+        own_grid="shortest_wavelength" not in bem,
+        most_points=bem.get("most_points", MOST_POINTS),
+        **settings,
+    )
+
+
 def solve(heights, q0, q_max, setting):
     """Contact and theory for every way of making the heights periodic."""
     blocks = [solve_periodic(heights, way, q0, q_max, setting) for way in setting.ways]
@@ -88,7 +150,8 @@ def solve_periodic(heights, way, q0, q_max, setting):
     limited, sides, q_max, pixels = make_periodic(heights, way, q_max, setting)
     h_rms = float(np.std(limited))
     scaled, lengths = (limited - limited.mean()) / h_rms, tuple(q0 * s for s in sides)
-    pressures, ranges = setting.scaled_pressures(q0 * h_rms), setting.ranges
+    pressures = setting.pressures / (q0 * h_rms) if setting.absolute else setting.pressures
+    ranges = setting.ranges
     block = load_curves(scaled, lengths, (2, 1), pressures, ranges, setting.tolerance)
     block = block[SOLVED_VARIABLES]
     theory = Persson(periodic.shells(scaled, lengths), variant=VARIANT, gamma=setting.gamma)
@@ -98,10 +161,18 @@ def solve_periodic(heights, way, q0, q_max, setting):
     for name in ("attractive_area", "theory_attractive_area"):
         scale = 1.5 * block.pressure * block["range"] ** (2 / 3)
         block[name.replace("attractive_area", "a_v")] = block[name] / scale
-    if setting.solid is not None:
-        law = setting.solid.scaled_law(q0, h_rms)
-        block = block.merge(measured_adhesion.load_curves(scaled, lengths, pressures, law))
-        block["applied_pressure"] = "pressure", pressures * setting.solid.modulus * q0 * h_rms
+    if setting.material is not None:
+        modulus = setting.material.modulus
+        length = setting.material.work_of_adhesion / modulus
+        # In the units of the scaled heights, pressures over E* q0 h_rms.
+        law = Exponential(
+            adhesion_length=length / (q0 * h_rms**2), range=setting.material.range / h_rms
+        )
+        curves = [
+            press_with_adhesion(scaled[::step, ::step], lengths, pressures, law) for step in (2, 1)
+        ]
+        block = block.merge(xr.concat(curves, "resolution"))
+        block["applied_pressure"] = "pressure", pressures * modulus * q0 * h_rms
     block = block.assign_coords(resolution=[pixels / 2, float(pixels)])
     return block.assign(h_rms=h_rms, q1=q_max)
 
@@ -119,36 +190,57 @@ def make_periodic(heights, way, q_max, setting):
         return heights.heights, heights.size, nyquist, 2
     whole = periodic.periodise(heights.heights, way)
     sides = whole.shape[0] * heights.dx, whole.shape[1] * heights.dy
-    check_size(sides, q_max, setting.pixels, setting.most_points)
+    points = max(sides) * q_max / (2 * np.pi) * setting.pixels
+    if points > setting.most_points:
+        shortest = 2 * np.pi / q_max * points / setting.most_points
+        raise ValueError(
+            f"bem needs {points:.0f} grid points a side, more than {setting.most_points}; give "
+            f"bem.shortest_wavelength of {shortest:.3g} m or more, or raise bem.most_points"
+        )
     limited = periodic.band_limited(whole, sides, q_max, setting.pixels)
     logging.info("%s: %d x %d points", way, *limited.shape)
     return limited, sides, q_max, setting.pixels
 
 
-def check_size(sides, q_max, pixels, most_points):
-    """Refuse a grid that would be too large."""
-    points = max(sides) * q_max / (2 * np.pi) * pixels
-    if points > most_points:
-        shortest = 2 * np.pi / q_max * points / most_points
-        raise ValueError(
-            f"bem needs {points:.0f} grid points a side, more than {most_points}; give "
-            f"bem.shortest_wavelength of {shortest:.3g} m or more, or raise bem.most_points"
+def press_with_adhesion(heights, lengths, pressures, law):
+    """Quantities with adhesion at every pressure, each from the contact without adhesion.
+
+    This leads to the state with the widest gaps, where loading from afar ends. Whether the grid
+    resolves the edges of contact is stored, so no warning says so.
+    """
+    rows = []
+    for contact in repulsive.load_path(heights, lengths, pressures, tol=START_TOLERANCE):
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", PlausibilityWarning)
+            state = adhesive.solve(
+                heights,
+                lengths,
+                law,
+                pressure=contact.mean_pressure,
+                start=contact,
+                tol=ADHESIVE_TOLERANCE,
+                max_iterations=MAX_ITERATIONS,
+            )
+        attracted = (state.gap > 0) & (state.gap <= state.law.range)
+        row = {
+            "adhesive_contact_area": state.repulsive_area_fraction,
+            "adhesive_attractive_area": np.mean(attracted),
+            "adhesive_mean_gap": state.mean_gap,
+            "adhesive_residual": state.residual,
+        }
+        rows.append(xr.Dataset(row))
+        logging.info(
+            f"n = {len(heights)}: with adhesion, load {len(rows)} of {len(pressures)}, area "
+            f"{state.repulsive_area_fraction:.4f}, {state.iterations} iterations"
         )
+    curve = xr.concat(rows, xr.DataArray(list(pressures), dims="pressure", name="pressure"))
+    pixel = max(side / n for side, n in zip(lengths, heights.shape, strict=True))
+    resolution = edge_zone.resolution(pixel, law.range, law.adhesion_length)
+    return curve.assign(edge_resolution=resolution)
 
 
 def annotate(dataset):
-    return conventions.annotate(
-        dataset,
-        periodisation=("1", "way in which the heights were made periodic"),
-        resolution=("1", "grid points per shortest wavelength, at least"),
-        theory_attractive_area=("1", "attractive area by theory on the spectrum of these heights"),
-        theory_area_fraction=("1", "contact area by theory on the spectrum of these heights"),
-        a_v=("1", "a_V = A_ad/((3/2) p (range/h_rms)^(2/3))"),
-        theory_a_v=("1", "a_V by theory on the spectrum of these heights"),
-        h_rms=("m", "rms height of the periodic surface"),
-        q1=("1/m", "highest wave number of the heights pressed"),
-        **measured_adhesion.TEXTS,
-    )
+    return conventions.annotate(dataset, **VARIABLE_TEXTS)
 
 
 if __name__ == "__main__":

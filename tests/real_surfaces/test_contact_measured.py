@@ -8,7 +8,7 @@ import pytest
 import xarray as xr
 
 from criteria.materials import read_material
-from real_surfaces import contact_measured, measured_loads
+from real_surfaces import contact_measured
 from report import measured_contact
 from stickiness import adhesive, datasets, repulsive, surface
 from stickiness.measured.topography import Topography
@@ -208,8 +208,10 @@ def test_adhesion_has_its_rows_on_the_page(pressed):
 
 def test_pressures_with_units_are_the_same_in_both_ways(whole):
     h, _ = whole
-    solid = measured_loads.Solid(modulus=1.0, work_of_adhesion=0.02, range=0.5)
-    found = contact_of(h, pressures=np.array([0.3]), absolute=True, solid=solid, pixels=2)
+    entry = {"plane_strain_modulus": "1 Pa", "work_of_adhesion": "20 mJ/m^2", "range": "0.5 m"}
+    found = contact_of(
+        h, pressures=np.array([0.3]), absolute=True, material=read_material(entry), pixels=2
+    )
     np.testing.assert_allclose(found.applied_pressure, 0.3, rtol=1e-12)
     assert np.all(found.adhesive_contact_area > 0)
 
@@ -224,15 +226,8 @@ def test_pressures_with_units_are_the_same_in_both_ways(whole):
 def test_a_grid_beyond_most_points_is_refused(periodic_file, changed, text):
     asked = asked_of(periodic_file, **changed)
     bem = asked["bem"]
-    setting = measured_loads.Setting(
-        **measured_loads.read_loads(bem),
-        ranges=RANGES,
-        pixels=8,
-        tolerance=1e-4,
-        gamma=0.45,
-        ways=("given",),
-        own_grid="shortest_wavelength" not in bem,
-        most_points=bem["most_points"],
+    setting = contact_measured.read_setting(
+        bem, ranges=RANGES, pixels=8, tolerance=1e-4, gamma=0.45
     )
     q_max = contact_measured.highest_wave_number(bem, 1e9)
     with pytest.raises(ValueError, match=text):

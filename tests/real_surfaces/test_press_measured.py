@@ -4,7 +4,13 @@ import numpy as np
 import pytest
 
 from criteria.materials import Material, read_material
-from real_surfaces import contact_measured, measured_surface, pictured_heights, press_measured
+from real_surfaces import (
+    analyse_surface,
+    contact_measured,
+    measured_surface,
+    pictured_heights,
+    press_measured,
+)
 from report import stills, touch
 from stickiness import datasets, repulsive, surface
 from stickiness.measured import periodic
@@ -121,9 +127,9 @@ def test_a_map_has_its_own_cutoff_and_not_that_of_a_finer_one(tmp_path):
         for path, length in zip(paths, ("100 um", "20 um"), strict=True)
     )
     both = units | {"measurements": [coarse, fine]}
-    finest = float(measured_surface.analyse(units | fine).q_cutoff)
+    finest = float(analyse_surface.analyse(units | fine).q_cutoff)
     found, cutoff = pictured_heights.read_map(both, finest)
-    alone = float(measured_surface.analyse(units | coarse).q_cutoff)
+    alone = float(analyse_surface.analyse(units | coarse).q_cutoff)
     assert cutoff == pytest.approx(alone)
     assert pictured_heights.read_map(units | fine, finest)[1] == finest > 2 * cutoff
     prepared = pictured_heights.prepare(found, cutoff, 512)

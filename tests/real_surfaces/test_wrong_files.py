@@ -6,9 +6,8 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from real_surfaces import measured_surface
+from real_surfaces import analyse_surface
 from stickiness import surface
-from stickiness.measured import readers
 from stickiness.spectrum import SelfAffine
 
 N = 128
@@ -240,7 +239,7 @@ WITHHELD = {
 
 def analyse(make, folder, **entry):
     asked = {"kind": "measured", "label": "a", "source": "own", **make(folder), **entry}
-    return measured_surface.analyse(asked)
+    return analyse_surface.analyse(asked)
 
 
 @pytest.mark.parametrize("name", REFUSED)
@@ -251,8 +250,6 @@ def test_a_wrong_file_is_refused_with_its_name_and_what_helps(tmp_path, name):
 
 @pytest.mark.parametrize("name", BROKEN)
 def test_a_broken_file_has_the_words_of_its_reader(tmp_path, name):
-    if not readers.can_read_instruments():
-        pytest.skip("SurfaceTopography is not installed (envs/instruments.txt)")
     make, words = BROKEN[name]
     check_refused(make, words, tmp_path)
 
@@ -330,8 +327,6 @@ def test_other_texts_of_the_same_heights_give_the_same(tmp_path, make):
 
 
 def test_the_header_of_an_instrument_tells_size_unit_and_factor(tmp_path):
-    if not readers.can_read_instruments():
-        pytest.skip("SurfaceTopography is not installed (envs/instruments.txt)")
     header = "# h = 128\n# w = 128\n# pixel size = 1.5625e-5 m\n"
     header += "# height conversion factor (-> m) = 8.6e-8\n"
     found = analyse(text(header + table(ROUGH / 0.086)), tmp_path)

@@ -16,7 +16,7 @@ from criteria import joint, judging
 from criteria.materials import read_material
 from criteria.verdict_markdown import write_markdown
 from criteria.words import find_doubts, find_limits
-from real_surfaces import analyse_surface, contact_measured, measured_loads, measured_surface
+from real_surfaces import analyse_surface, contact_measured
 from report import captions, remaining_curves, surface_figure, surface_texts, write_surface
 from report.surface_texts import say_what_was_seen
 from report.verdict_texts import describe_pair
@@ -58,7 +58,7 @@ def scan(path, seed=1, micrometres=40.0, n=128):
 def analysed(path, **asked):
     """The file that the rule writes, read back."""
     asked = {"kind": "measured", "label": "plate & co", "source": "own", **asked}
-    dataset = analyse_surface.annotate(measured_surface.analyse(asked))
+    dataset = analyse_surface.annotate(analyse_surface.analyse(asked))
     datasets.write(dataset, path, title="a", parameters={"surface": "plate", **asked})
     return datasets.read(path)
 
@@ -229,10 +229,11 @@ def test_page_shows_contact_with_adhesion_of_periodic_heights(single, folder):
     s = SelfAffine(hurst=0.8, q0=2 * np.pi / period, q1=16 * np.pi / period, h_rms=1e-6)
     heights = surface.synthesise(s, n=32, length=period, seed=1)
     given = topography.Topography(heights, period / 32, period / 32, "here")
-    setting = measured_loads.Setting(
+    gel = {"plane_strain_modulus": "25 MPa", "work_of_adhesion": "50 mJ/m^2", "range": "0.2 um"}
+    setting = contact_measured.Setting(
         pressures=np.array([1e5]) / 25e6,
         absolute=True,
-        solid=measured_loads.Solid(25e6, 0.05, 2e-7),
+        material=read_material(gel),
         ranges=np.geomspace(0.01, 1, 9),
         pixels=4,
         tolerance=1e-4,

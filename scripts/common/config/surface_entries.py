@@ -68,11 +68,6 @@ def _file_problems(measurement: Mapping[str, Any], made: bool) -> Iterator[str]:
             f"leave it out with missing: {measurement['missing']}"
         )
     kind = readers.format_of(file, measurement.get("format"))
-    if kind == readers.INSTRUMENT and not readers.can_read_instruments():
-        yield (
-            f"file = {file!r} is an instrument's and needs SurfaceTopography, which is not "
-            f"installed; run {readers.INSTALL}"
-        )
     if kind != readers.INSTRUMENT and "channel" in measurement:
         yield f"channel = {measurement['channel']!r}: a {kind} file has no channels; leave it out"
     if kind not in ("netcdf", "numpy") and "variable" in measurement:

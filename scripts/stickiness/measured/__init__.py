@@ -3,24 +3,16 @@
 `read` gives the heights of a file, `analyse` their spectrum, `draw` its moments with their errors,
 `periodise` and `band_limited` heights that the solvers take. The modules:
 
-- `topography`: maps and line profiles
-- `readers`: file formats
-- `raw`: what a file holds, before anything is done to it
-- `instruments`: files as instruments wrote them
-- `text_matrix`: heights exported as text
-- `text_header`: what a text file says of itself
-- `text_points`: lists of points x y z
-- `levelling`: levelling, missing points
-- `spikes`: points far off their neighbours
+- `topography`: maps and line profiles, read from files
+- `readers`: content of a file, by NetCDF, numpy or SurfaceTopography
+- `plain_text`: matrices and lists of points as text, and what their headers say
+- `levelling`: levelling, missing points, spikes
 - `plausibility`: doubts about a measurement
 - `psd`: power spectral density of a map, averages over rings
 - `profiles`: spectra of line profiles, and the isotropic ones behind them
-- `cutoff`: where an instrument stops resolving the surface
-- `self_affine_fit`: Hurst exponent, prefactor and roll-off of a spectrum
-- `whittle`: the likelihood of that fit
-- `instrument_spectrum`: all of these for one measurement
-- `stitching`: several measurements as one spectrum
-- `spectrum_draws`: moments of a measured spectrum with their errors
+- `self_affine_fit`: Hurst exponent, prefactor and roll-off of a spectrum, by Whittle's likelihood
+- `instrument_spectrum`: spectrum of one measurement, up to where the instrument resolves
+- `stitching`: several measurements as one spectrum, moments with their errors
 - `periodic`: measured heights made periodic for the solver
 """
 
@@ -30,7 +22,7 @@ from importlib import import_module
 _PLACES = {
     **dict.fromkeys(("Profile", "Topography", "jacksboro", "read"), "topography"),
     **dict.fromkeys(("Limits", "MeasuredSpectrum", "analyse"), "instrument_spectrum"),
-    **dict.fromkeys(("Draws", "draw"), "spectrum_draws"),
+    **dict.fromkeys(("Draws", "draw"), "stitching"),
     **dict.fromkeys(("band_limited", "periodise"), "periodic"),
 }
 

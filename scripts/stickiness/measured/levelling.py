@@ -1,80 +1,85 @@
-"""Levelling of measured heights; missing points, filled or cut off."""
+"""Levelling of measured heights; missing points, dropped, filled or cut off; spikes.
+
+Spikes are single points far off their neighbours, as errors of instruments are. White-light and
+focus-variation instruments write them where light is lost, scanning probes where the loop slips,
+converters where a marker of missing points was taken for a height. One is enough to set rms height,
+slope and energy of a map, because its spectrum is white.
+"""
 
 from __future__ import annotations
 
+import warnings
 from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import ndimage, sparse
-from scipy.sparse import linalg
+from scipy import ndimage
 
 MAX_MISSING = 0.1  #: default largest share of missing points that are filled
 OUTSTANDING = 5.0  #: rms step at a rim over that elsewhere, above which the rim is dropped
 LARGEST_RIM = 5  #: widest rim that "detect" drops [points]
+OUTLYING = 30.0  #: distance of a spike from its neighbours over that of the `TYPICAL` points
+TYPICAL = 0.99  #: share of the points below that distance; more spikes than the rest are no spikes
+MOST_TOUCHING = 4  #: spikes of a map in one group; longer groups are scratches and fibres
 
 Detrend = Literal["mean", "plane", "quadratic"]
 Missing = Literal["fill", "crop", "refuse"]
 Rim = int | Literal["detect"]
+Spikes = Literal["mask", "keep"]
 
 _DEGREES = {"mean": 0, "plane": 1, "quadratic": 2}
+_CONNECTS = 1 / 3  # share of the distance of a spike from which points count to its group
+_ROWS = 256  # worked on at a time
 
 
 def detrend(heights: NDArray, kind: Detrend = "plane") -> NDArray:
-    """Subtract the mean, plane or quadratic surface that fits heights (nx, ny) best.
+    """Subtract the mean, plane or quadratic surface that fits a map or profile best.
 
-    `kind` is a polynomial of total degree 0, 1 or 2 in x and y, fitted by least squares.
+    `kind` is a polynomial of total degree 0, 1 or 2 in x and y, fitted by least squares. The
+    heights (nx, ny) or (n,) are finite.
     """
-    heights, degree = _check(heights, kind, 2)
-    x, y = (np.linspace(-1, 1, n) if n > 1 else np.zeros(1) for n in heights.shape)
+    degree = _degree(kind)
+    heights = np.asarray(heights, dtype=float)
+    if heights.ndim not in (1, 2) or not np.all(np.isfinite(heights)):
+        raise ValueError(f"heights must be finite and 1D or 2D, got shape {heights.shape}")
     # Legendre polynomials of each axis: nearly orthogonal on the grid, so the normal equations
     # (small, whatever the grid) lose no digits.
-    px, py = (np.polynomial.legendre.legvander(t, degree) for t in (x, y))
-    terms = [(i, j) for i in range(degree + 1) for j in range(degree + 1 - i)]
-    i, j = np.array(terms).T
+    if heights.ndim == 1:
+        basis = _legendre(len(heights), degree)
+        return heights - basis @ np.linalg.lstsq(basis, heights, rcond=None)[0]
+    px, py = (_legendre(n, degree) for n in heights.shape)
+    i, j = _terms(degree)
     gram = (px.T @ px)[np.ix_(i, i)] * (py.T @ py)[np.ix_(j, j)]
-    coefficients = np.linalg.lstsq(gram, (px.T @ heights @ py)[i, j], rcond=None)[0]
     trend = np.zeros((degree + 1, degree + 1))
-    trend[i, j] = coefficients
+    trend[i, j] = np.linalg.lstsq(gram, (px.T @ heights @ py)[i, j], rcond=None)[0]
     return heights - px @ trend @ py.T
-
-
-def detrend_profile(heights: NDArray, kind: Detrend = "plane") -> NDArray:
-    """Subtract the mean, line ("plane") or parabola that fits a profile (n,) best."""
-    heights, degree = _check(heights, kind, 1)
-    basis = np.polynomial.legendre.legvander(np.linspace(-1, 1, len(heights)), degree)
-    return heights - basis @ np.linalg.lstsq(basis, heights, rcond=None)[0]
 
 
 def rms_of_known(heights: NDArray, kind: Detrend = "plane") -> float:
     """Root mean square of the finite points of a map or profile about the trend that fits them."""
-    known = np.isfinite(heights)
-    filled = np.where(known, heights, 0.0)
-    if heights.ndim == 1:
-        filled, known = filled[:, None], known[:, None]
-    degree = _DEGREES[kind]
-    x, y = (np.linspace(-1, 1, n) if n > 1 else np.zeros(1) for n in filled.shape)
-    px, py = (np.polynomial.legendre.legvander(t, degree) for t in (x, y))
-    terms = [(i, j) for i in range(degree + 1) for j in range(degree + 1 - i)]
-    i, j = np.array(terms).T
-    # Sums over known points of products of any two terms, and of terms and heights.
-    both = [
-        [(px[:, a] * px[:, c]) @ known @ (py[:, b] * py[:, d]) for c, d in terms] for a, b in terms
-    ]
-    beside = (px.T @ filled @ py)[i, j]
-    trend = np.zeros((degree + 1, degree + 1))
-    trend[i, j] = np.linalg.lstsq(np.array(both, dtype=float), beside, rcond=None)[0]
-    return float(np.sqrt(np.mean((filled - px @ trend @ py.T)[known] ** 2)))
+    heights = heights if heights.ndim == 2 else heights[:, None]
+    known, degree = np.isfinite(heights), _degree(kind)
+    px, py = (_legendre(n, degree) for n in heights.shape)
+    design = np.array([np.outer(px[:, i], py[:, j])[known] for i, j in _terms(degree).T])
+    values = heights[known]
+    trend = np.linalg.lstsq(design @ design.T, design @ values, rcond=None)[0]
+    return float(np.sqrt(np.mean((values - trend @ design) ** 2)))
 
 
-def _check(heights: NDArray, kind: str, dimensions: int) -> tuple[NDArray, int]:
-    """Heights as floats and the degree of the polynomial."""
+def _degree(kind: str) -> int:
     if kind not in _DEGREES:
         raise ValueError(f"detrend must be one of {sorted(_DEGREES)}, got {kind!r}")
-    heights = np.asarray(heights, dtype=float)
-    if heights.ndim != dimensions or not np.all(np.isfinite(heights)):
-        raise ValueError(f"heights must be {dimensions}D and finite, got shape {heights.shape}")
-    return heights, _DEGREES[kind]
+    return _DEGREES[kind]
+
+
+def _legendre(n: int, degree: int) -> NDArray:
+    t = np.linspace(-1, 1, n) if n > 1 else np.zeros(1)
+    return np.polynomial.legendre.legvander(t, degree)
+
+
+def _terms(degree: int) -> NDArray:
+    """Powers of x and y, (2, m), of a polynomial of this total degree."""
+    return np.array([(i, j) for i in range(degree + 1) for j in range(degree + 1 - i)]).T
 
 
 def without_rims(heights: NDArray, rim: Rim = "detect") -> tuple[NDArray, int]:
@@ -122,37 +127,46 @@ def _rms(values: NDArray) -> float:
 
 
 def fill_missing(
-    heights: NDArray, max_missing: float = MAX_MISSING, source: str = "heights"
+    heights: NDArray,
+    max_missing: float = MAX_MISSING,
+    source: str = "heights",
+    positions: NDArray | None = None,
 ) -> tuple[NDArray, int]:
-    """Fill points that are not finite with the harmonic function of their neighbours.
+    """Fill points of a map or profile that are not finite from their neighbours.
 
-    Each filled point is the mean of its (up to four) neighbours: there are no new extremes, and a
-    plane stays a plane. Returns a copy, and how many points were missing. A ValueError names
-    `source` if that is more than the share `max_missing`.
+    In a map (nx, ny) each filled point is the mean of its (up to four) neighbours: there are no new
+    extremes, and a plane stays a plane. In a profile (n,) with increasing `positions` it is
+    interpolated linearly, and heights are constant beyond the first and the last known one.
+    Returns a copy, and how many points were missing. A ValueError names `source` if that is more
+    than the share `max_missing`.
     """
     hole = ~np.isfinite(heights)
-    missing = _check_missing(hole, max_missing, source)
+    missing = int(np.count_nonzero(hole))
+    if missing == hole.size:
+        raise ValueError(f"{source}: {missing} of {hole.size} points, which are all, are missing")
+    if missing / hole.size > max_missing:
+        raise ValueError(
+            f"{source}: {missing} of {hole.size} points ({100 * missing / hole.size:.1f} %) are "
+            f"missing, more than the {100 * max_missing:.1f} % that are filled; cut them off with "
+            "missing: crop, measure again or raise max_missing"
+        )
     if not missing:
         return np.array(heights, dtype=float), 0
-    filled = np.where(hole, 0.0, heights)
-    filled[hole] = _harmonic(filled, hole)
-    return filled, missing
+    if heights.ndim == 1:
+        return np.interp(positions, positions[~hole], heights[~hole]), missing
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # of SurfaceTopography's own dependencies
+        from SurfaceTopography import Topography  # takes two seconds
+
+    masked = Topography(np.ma.array(heights, mask=hole), physical_sizes=heights.shape)
+    filled = np.array(masked.interpolate_undefined_data().heights())
+    return np.where(hole, filled, heights), missing
 
 
-def fill_profile(
-    x: NDArray, heights: NDArray, max_missing: float = MAX_MISSING, source: str = "heights"
-) -> tuple[NDArray, int]:
-    """Fill the points of a profile that are not finite by linear interpolation; see `fill_missing`.
-
-    Heights are constant beyond the first and the last known one; `x` increases.
-    """
-    hole = ~np.isfinite(heights)
-    missing = _check_missing(hole, max_missing, source)
-    return np.interp(x, x[~hole], heights[~hole]), missing
-
-
-def complete_rectangle(known: NDArray, source: str = "heights") -> tuple[slice, slice]:
-    """Return the rectangle with most points of those in which every one is known (nx, ny)."""
+def complete_rectangle(known: NDArray, source: str = "heights") -> tuple[slice, ...]:
+    """Return the largest rectangle of a map, or run of a profile, in which every point is known."""
+    if known.ndim == 1:
+        return complete_rectangle(known[None, :], source)[1:]
     # For every row the largest rectangle under the histogram of known points that end in it.
     best, height = (0, slice(0), slice(0)), np.zeros(known.shape[1], dtype=int)
     for row, line in enumerate(known):
@@ -171,42 +185,71 @@ def complete_rectangle(known: NDArray, source: str = "heights") -> tuple[slice, 
     return best[1], best[2]
 
 
-def complete_run(known: NDArray, source: str = "heights") -> slice:
-    """Return the longest stretch of a profile (n,) in which every point is known."""
-    return complete_rectangle(np.asarray(known)[None, :], source)[1]
+def find_spikes(heights: NDArray) -> NDArray:
+    """Mark points that are far off their neighbours.
+
+    The distance of a point of a map (nx, ny) is that to the third closest in height of its eight
+    neighbours, so that an edge, a corner or a ridge of two points' width is close to its own, and
+    up to three spikes may touch. On a line profile (n,) it is that to the second closest of four.
+    A spike is more than `OUTLYING` times as far off as 99 % of the points are. A scratch or fibre
+    of one point's width is so too, but not alone: groups of more than `MOST_TOUCHING`
+    such points that touch are no spikes. An island of one point is taken for a spike.
+    Slopes are taken out by the medians of the steps. Points that are not finite are none, and no
+    neighbours.
+
+    Returns a mask of the shape of the heights.
+    """
+    level = _without_slope(np.asarray(heights, dtype=float))
+    distance = _map_distance(level) if level.ndim == 2 else _line_distance(level)
+    known = distance[np.isfinite(distance)]
+    if not known.size or not known.max() > 0:
+        return np.zeros(level.shape, dtype=bool)
+    typical = np.quantile(known, TYPICAL, method="lower")
+    # Coarse steps of an instrument's converter: many points equal their neighbours.
+    typical = max(typical, known[known > 0].min())
+    distance = np.nan_to_num(distance, nan=0.0, posinf=0.0)
+    spikes = distance > OUTLYING * typical
+    if level.ndim == 2 and spikes.any():
+        # By a lower limit, or a scratch of varying depth would fall to pieces as small as spikes.
+        spikes &= _in_small_groups(distance > _CONNECTS * OUTLYING * typical)
+    return spikes
 
 
-def _check_missing(hole: NDArray, max_missing: float, source: str) -> int:
-    missing = int(np.count_nonzero(hole))
-    share = missing / hole.size
-    if missing == hole.size:
-        raise ValueError(f"{source}: {missing} of {hole.size} points, which are all, are missing")
-    if share > max_missing:
-        raise ValueError(
-            f"{source}: {missing} of {hole.size} points ({100 * share:.1f} %) are missing, more "
-            f"than the {100 * max_missing:.1f} % that are filled; cut them off with missing: crop, "
-            "measure again or raise max_missing"
-        )
-    return missing
+def _in_small_groups(marked: NDArray) -> NDArray:
+    """Marked points in groups of at most `MOST_TOUCHING` that touch, by side or corner."""
+    groups, _ = ndimage.label(marked, structure=np.ones((3, 3)))
+    sizes = np.bincount(groups.ravel())
+    return marked & (sizes <= MOST_TOUCHING)[groups]
 
 
-def _harmonic(heights: NDArray, hole: NDArray) -> NDArray:
-    """Solve Laplace's equation on the holes; there is no condition at the edge of the grid."""
-    index = np.full(hole.shape, -1)
-    index[hole] = np.arange(np.count_nonzero(hole))
-    neighbours = ndimage.convolve(
-        np.ones(hole.shape), np.array([[0, 1, 0], [1, 0, 1], [0, 1, 0]]), mode="constant"
-    )
-    known = np.zeros(np.count_nonzero(hole))
-    rows, columns = [], []
-    for along, value in ((index, heights), (index.T, heights.T)):
-        for one, other in ((slice(-1), slice(1, None)), (slice(1, None), slice(-1))):
-            here, there = along[one], along[other]
-            both, edge = (here >= 0) & (there >= 0), (here >= 0) & (there < 0)
-            rows.append(here[both])
-            columns.append(there[both])
-            np.add.at(known, here[edge], value[other][edge])
-    rows, columns = np.concatenate(rows), np.concatenate(columns)
-    coupling = sparse.csr_array((np.ones(len(rows)), (rows, columns)), shape=(len(known),) * 2)
-    laplacian = sparse.csc_array(sparse.diags_array(neighbours[hole]) - coupling)
-    return linalg.spsolve(laplacian, known)
+def _without_slope(heights: NDArray) -> NDArray:
+    level = np.where(np.isfinite(heights), heights, np.nan)
+    for axis, n in enumerate(level.shape):
+        steps = np.diff(level, axis=axis)
+        steps = steps[np.isfinite(steps)]
+        if steps.size:
+            along = np.expand_dims(np.arange(n), [i for i in range(level.ndim) if i != axis])
+            level = level - np.median(steps) * along
+    return level
+
+
+def _map_distance(heights: NDArray) -> NDArray:
+    """Distance of every point of a map to the third closest neighbour; NaN where there is none."""
+    padded = np.pad(heights, 1, constant_values=np.nan)
+    nx, ny = heights.shape
+    shifts = [(i, j) for i in range(3) for j in range(3) if (i, j) != (1, 1)]
+    found = np.empty(heights.shape)
+    for start in range(0, nx, _ROWS):
+        stop = min(start + _ROWS, nx)
+        here = heights[start:stop]
+        around = [np.abs(padded[start + i : stop + i, j : j + ny] - here) for i, j in shifts]
+        found[start:stop] = np.partition(around, 2, axis=0)[2]  # NaN comes last
+    return found
+
+
+def _line_distance(heights: NDArray) -> NDArray:
+    """Distance of every point of a profile to the second closest of four neighbours."""
+    padded = np.pad(heights, 2, constant_values=np.nan)
+    n = len(heights)
+    around = [np.abs(padded[i : i + n] - heights) for i in (0, 1, 3, 4)]
+    return np.partition(around, 1, axis=0)[1]

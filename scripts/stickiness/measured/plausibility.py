@@ -12,8 +12,8 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from stickiness.measured.levelling import find_spikes
 from stickiness.measured.self_affine_fit import SelfAffineFit
-from stickiness.measured.spikes import find_spikes
 from stickiness.plausibility import LONGEST_SIDE, REFUSED_SIDE, SHORTEST_SIDE
 from stickiness.statistics import COVERS
 

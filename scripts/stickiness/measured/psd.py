@@ -18,7 +18,6 @@ from scipy import fft
 from stickiness.arguments import grid, number
 
 Taper = Literal["none", "hann", "hann_radial"]
-Spacing = Literal["log", "linear"]
 
 
 @dataclass(frozen=True)
@@ -174,10 +173,8 @@ def power_spectrum(
     )
 
 
-def radial_average(
-    spectrum: PowerSpectrum, spacing: Spacing = "log", bins_per_decade: float = 10
-) -> RadialPSD:
-    """Average a 2D spectrum over rings of ``|q|``.
+def radial_average(spectrum: PowerSpectrum, bins_per_decade: float = 10) -> RadialPSD:
+    """Average a 2D spectrum over logarithmic rings of ``|q|``.
 
     Every mode but q = 0 falls into exactly one ring, those in the corners beyond `q_nyquist`
     included, so that the sum of psd * modes * dqx * dqy is still the variance.
@@ -185,22 +182,15 @@ def radial_average(
     Parameters
     ----------
     spectrum : PowerSpectrum
-    spacing : {"log", "linear"}
-        Rings of equal ratio, or of the width of one lattice step.
     bins_per_decade : float
-        Logarithmic rings per decade. The average over a ring exceeds C at its mean q by about
+        Rings per decade. The average over a ring exceeds C at its mean q by about
         s^2 (ln 10/bins_per_decade)^2/24 for C ~ q^-s: 3 % at 10 a decade and s = 3.6.
     """
-    if spacing not in ("log", "linear"):
-        raise ValueError(f"spacing must be 'log' or 'linear', got {spacing!r}")
     bins_per_decade = number("bins_per_decade", bins_per_decade)
     q = spectrum.q.ravel()
     weight = np.broadcast_to(spectrum.multiplicity, spectrum.psd.shape).ravel()
     q, weight, psd = q[1:], weight[1:], spectrum.psd.ravel()[1:]  # the first mode is q = 0
-    if spacing == "linear":
-        ring = np.rint(q / max(spectrum.dqx, spectrum.dqy)).astype(int)
-    else:
-        ring = logarithmic_rings(q, q.min(), bins_per_decade)
+    ring = logarithmic_rings(q, q.min(), bins_per_decade)
     q, mean, modes = average_by_ring(ring, weight, q, psd)
     dof = modes / 2 * spectrum.independence
     return RadialPSD(q, mean, mean / np.sqrt(dof), np.rint(modes).astype(int), dof)

@@ -1,43 +1,89 @@
-"""Content of a file of measured heights: NetCDF, numpy, text or an instrument's format.
+"""Content of a file of measured heights: NetCDF, numpy, plain text or an instrument's format.
 
-Instruments' own formats (AFM, white light, focus variation, profilometers; some forty of them) are
-read by SurfaceTopography, an optional dependency (envs/instruments.txt).
+Instruments' formats (AFM, white light, focus variation, profilometers; some forty of them) are
+read by SurfaceTopography. It is imported when it is needed: that takes two seconds.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from importlib.util import find_spec
+import difflib
+import re
+import warnings
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
-from stickiness.measured import instruments, text_header, text_matrix, text_points
-from stickiness.measured.raw import Raw, sides
+from stickiness.measured import plain_text
 from stickiness.units import si
 
-INSTRUMENT = "instrument"
-OWN_FORMATS = ("netcdf", "numpy", "text")
-INSTALL = "pip install -c envs/constraints.txt -r envs/instruments.txt"
+Length = str | float  # "10 um", or metres
 
+INSTRUMENT = "instrument"
+
+_FORMATS = ("netcdf", "numpy", "text")  # not by SurfaceTopography
 _SUFFIXES = {".nc": "netcdf", ".nc4": "netcdf", ".cdf": "netcdf", ".npz": "numpy", ".npy": "numpy"}
 _TEXT_OF_INSTRUMENTS = (".hfm", ".sdf", ".nms")  # readable, but no matrix of heights
-_UTF16 = (b"\xff\xfe", b"\xfe\xff")
 _X_NAMES = ("x", "lon", "longitude", "easting")
 _Y_NAMES = ("y", "lat", "latitude", "northing")
+# Channels that hold something else, some of them in metres, unless they say height.
+_NO_HEIGHTS = re.compile(
+    r"phase|error|deflection|amplitude|current|potential|friction|intensity|quality|confidence"
+    r"|adhesion|dissipation|stiffness|modulus|deformation|thumbnail",
+    re.IGNORECASE,
+)
+_HEIGHTS = re.compile(r"height|topo", re.IGNORECASE)
+_LONGEST = 200  # characters of SurfaceTopography's words
+
+
+@dataclass(frozen=True)
+class Raw:
+    """Content of a file, heights in the file's own unit."""
+
+    heights: NDArray  #: (nx, ny), the first axis along x, or a line profile (n,); NaN where missing
+    source: str  #: file, and variable or channel
+    unit: str | None = None  #: of the heights; None: the file does not tell (all below likewise)
+    steps: tuple[float, ...] | None = None  #: of the grid [m]
+    positions: NDArray | None = None  #: (n,), of the points of a line profile
+    #: (2,) grid steps of a list of points x y z, in `position_unit`, instead of `steps`
+    grid: tuple[float, float] | None = None
+    position_unit: str | None = None
+
+
+def metres(value: Length, name: str) -> float:
+    """Convert "10 um", or a number of metres, to metres; errors name `name`."""
+    try:
+        length = value if isinstance(value, int | float) else si(value, "m")
+    except ValueError as error:
+        raise ValueError(f"{name}: {error}") from None
+    if not (np.isfinite(length) and length > 0):
+        raise ValueError(f"{name} must be positive and finite, got {value!r}")
+    return float(length)
+
+
+def sides(value: Length | Sequence[Length], shape: tuple[int, ...], name: str) -> tuple[float, ...]:
+    """Sides along every axis [m]; a single value is that along x, with square pixels."""
+    if isinstance(value, str | int | float):
+        x = metres(value, name)
+        return tuple(x * n / shape[0] for n in shape)
+    if len(value) != len(shape):
+        many = "one length or two (x, y)" if len(shape) == 2 else "one length for a line profile"
+        raise ValueError(f"{name} must be {many}, got {value!r}")
+    return tuple(metres(v, name) for v in value)
 
 
 def format_of(path: str | Path, fmt: str | None = None) -> str:
     """Return which reader a file needs: "netcdf", "numpy", "text" or "instrument".
 
-    The name decides for NetCDF and numpy. Any other file is a text matrix if it is text, and an
+    The name decides for NetCDF and numpy. Any other file is plain text if it is text, and an
     instrument's if it is binary, bears the name of an instrument's text format, or has a header
     in an instrument's words. `fmt` says it outright: one of these four, or SurfaceTopography's
     name of a format ("di", "sur", "x3p" …).
     """
     if fmt is not None:
-        return fmt if fmt in OWN_FORMATS else INSTRUMENT
+        return fmt if fmt in _FORMATS else INSTRUMENT
     suffix = Path(path).suffix.lower()
     if suffix in _SUFFIXES:
         return _SUFFIXES[suffix]
@@ -45,15 +91,10 @@ def format_of(path: str | Path, fmt: str | None = None) -> str:
         return INSTRUMENT
     with Path(path).open("rb") as file:
         head = file.read(1 << 20)  # headers in text may be long
-    if not head.startswith(_UTF16) and b"\0" in head:
+    if not head.startswith(plain_text.UTF16) and b"\0" in head:
         return INSTRUMENT
-    header, _ = text_matrix.split_header(text_matrix.decode(head[: len(head) // 2 * 2]))
-    return INSTRUMENT if text_header.is_of_instrument(header) else "text"
-
-
-def can_read_instruments() -> bool:
-    """Whether SurfaceTopography is installed."""
-    return find_spec("SurfaceTopography") is not None
+    header, _ = plain_text.split_header(plain_text.decode(head[: len(head) // 2 * 2]))
+    return INSTRUMENT if plain_text.is_of_instrument(header) else "text"
 
 
 def read(
@@ -76,35 +117,10 @@ def read(
     if variable is not None and kind in (INSTRUMENT, "text"):
         raise ValueError(f"{path}: variable is for NetCDF and npz, this is of kind {kind!r}")
     if kind == INSTRUMENT:
-        if not can_read_instruments():
-            raise ValueError(
-                f"{path}: instruments' formats need SurfaceTopography, which is not installed; "
-                f"run {INSTALL}"
-            )
-        return instruments.read(path, None if fmt == INSTRUMENT else fmt, channel)
+        return _read_instrument(path, None if fmt == INSTRUMENT else fmt, channel)
     if kind == "netcdf":
         return _read_netcdf(path, variable)
     return _read_numpy(path, variable) if kind == "numpy" else _read_text(path)
-
-
-def _choose(
-    arrays: dict[str, int], candidates: Sequence[str], wanted: str | None, path: Path, what: str
-) -> str:
-    """Name of the array to read, of `arrays` with their dimensions: one map, else one profile."""
-    if wanted is not None:
-        if wanted not in arrays:
-            raise ValueError(f"{path}: no {what} {wanted!r}; the file has {sorted(arrays)}")
-        if arrays[wanted] not in (1, 2):
-            raise ValueError(f"{path}: {what} {wanted!r} is neither a map (2D) nor a profile (1D)")
-        return wanted
-    maps = [name for name in candidates if arrays[name] == 2]
-    found = maps or [name for name in candidates if arrays[name] == 1]
-    if len(found) != 1:
-        raise ValueError(
-            f"{path}: needs one two-dimensional {what}, or one profile, found {sorted(found)}; "
-            "name one as variable"
-        )
-    return found[0]
 
 
 def _read_netcdf(path: Path, variable: str | None) -> Raw:
@@ -114,33 +130,53 @@ def _read_netcdf(path: Path, variable: str | None) -> Raw:
         dataset = xr.load_dataset(path)
     except (OSError, ValueError) as error:
         raise ValueError(f"{path}: not a readable NetCDF file ({error})") from error
-    arrays = {str(n): v.ndim for n, v in dataset.variables.items()}
-    name = _choose(arrays, [str(n) for n in dataset.data_vars], variable, path, "variable")
+    dimensions = {str(n): v.ndim for n, v in dataset.variables.items()}
+    candidates = [str(n) for n in dataset.data_vars]
+    name = _choose(dimensions, candidates, variable, path, "variable")
     data = dataset[name]
-    source, unit = f"{path}: {name}", data.attrs.get("units")
+    known = {"source": f"{path}: {name}", "unit": data.attrs.get("units")}
     if data.ndim == 1:
-        along = str(data.dims[0])
-        positions, position_unit = None, None
-        if along in dataset.coords and "units" in dataset[along].attrs:
-            positions = np.array(dataset[along].values, dtype=float)
-            position_unit = dataset[along].attrs["units"]
-        return Raw(_floats(data.values), None, unit, source, positions, position_unit)
+        along = dataset.get(str(data.dims[0]))
+        if along is not None and "units" in along.attrs:
+            known["positions"] = np.array(along.values, dtype=float)
+            known["position_unit"] = along.attrs["units"]
+        return Raw(np.array(data.values, dtype=float), **known)
     first, second = (str(d).lower() for d in data.dims)
     data = data if first in _X_NAMES or second in _Y_NAMES else data.transpose()
-    steps = tuple(_coordinate_step(dataset, str(d), path) for d in data.dims)
-    return Raw(_floats(data.values), None if None in steps else steps, unit, source)
+    steps = tuple(_coordinate_step(dataset.get(str(d)), path) for d in data.dims)
+    return Raw(np.array(data.values, dtype=float), steps=None if None in steps else steps, **known)
 
 
-def _coordinate_step(dataset, name: str, path: Path) -> float | None:
+def _choose(
+    dimensions: dict[str, int], candidates: Sequence[str], wanted: str | None, path: Path, what: str
+) -> str:
+    """Name of the array to read: the one wanted, else the only map, else the only profile."""
+    if wanted is not None:
+        if wanted not in dimensions:
+            raise ValueError(f"{path}: no {what} {wanted!r}; the file has {sorted(dimensions)}")
+        if dimensions[wanted] not in (1, 2):
+            raise ValueError(f"{path}: {what} {wanted!r} is neither a map (2D) nor a profile (1D)")
+        return wanted
+    maps = [name for name in candidates if dimensions[name] == 2]
+    found = maps or [name for name in candidates if dimensions[name] == 1]
+    if len(found) != 1:
+        raise ValueError(
+            f"{path}: needs one two-dimensional {what}, or one profile, found {sorted(found)}; "
+            "name one as variable"
+        )
+    return found[0]
+
+
+def _coordinate_step(coordinate, path: Path) -> float | None:
     """Step of an evenly spaced coordinate with a unit of length [m]; None if it has no unit."""
-    if name not in dataset.coords or "units" not in dataset[name].attrs:
+    if coordinate is None or "units" not in coordinate.attrs:
         return None
-    x = np.asarray(dataset[name].values, dtype=float)
-    steps = np.diff(x)
+    steps = np.diff(np.asarray(coordinate.values, dtype=float))
     if len(steps) == 0 or np.ptp(steps) > 1e-3 * abs(steps.mean()):
+        name = coordinate.name
         raise ValueError(f"{path}: coordinate {name!r} is not evenly spaced; resample the data")
     try:
-        unit = si(f"1 {dataset[name].attrs['units']}", "m")
+        unit = si(f"1 {coordinate.attrs['units']}", "m")
     except ValueError:
         return None  # degrees, pixels: the caller must say
     return abs(float(steps.mean())) * unit
@@ -158,40 +194,133 @@ def _read_numpy(path: Path, variable: str | None) -> Raw:
             raise ValueError(
                 f"{path}: needs a two-dimensional array or a profile, got shape {loaded.shape}"
             )
-        return Raw(_floats(loaded.T), None, None, str(path))
+        return Raw(np.array(loaded.T, dtype=float), str(path))
     with loaded:
         arrays = {name: loaded[name] for name in loaded.files}
     dimensions = {name: array.ndim for name, array in arrays.items()}
     name = _choose(dimensions, list(arrays), variable, path, "key")
-    return Raw(_floats(arrays[name].T), None, None, f"{path}: {name}")
+    return Raw(np.array(arrays[name].T, dtype=float), f"{path}: {name}")
 
 
 def _read_text(path: Path) -> Raw:
-    text = text_matrix.parse(path)
-    table = text.values.T.shape
-    if text_points.is_list(text.values):
-        heights, grid = text_points.to_map(path, text.values)
-        text_header.check_counts(path, text.header, heights.shape, table)
-        units = {"unit": text.value_unit, "position_unit": text.lateral_unit}
-        return Raw(heights, None, source=str(path), grid=grid, **units)
-    heights = text.values.T
+    text = plain_text.parse(path)
+    heights, source = text.values.T, str(path)
+    unit, lateral_unit = text.fields.get("value_unit"), text.fields.get("lateral_unit")
+    if plain_text.is_list(text.values):
+        mapped, grid = plain_text.map_points(path, text.values)
+        plain_text.check_counts(path, text.header, mapped.shape, heights.shape)
+        return Raw(mapped, source, unit, grid=grid, position_unit=lateral_unit)
     is_profile = len(heights) == 1 or (len(heights) == 2 and heights.shape[1] > 2)
     # Headers of profiles count points along x, or rows of the table.
     also = [(heights.shape[1], 1)] if is_profile else []
-    text_header.check_counts(path, text.header, table, *also)
+    plain_text.check_counts(path, text.header, heights.shape, *also)
     if len(heights) == 1:
-        return Raw(heights[0], None, text.value_unit, str(path))
+        return Raw(heights[0], source, unit)
     if is_profile:
-        units = {"unit": text.value_unit, "position_unit": text.lateral_unit}
-        return Raw(heights[1], None, source=str(path), positions=heights[0], **units)
+        return Raw(heights[1], source, unit, positions=heights[0], position_unit=lateral_unit)
     steps = None
-    if text.width is not None:
+    if "width" in text.fields:
         # Without a height the pixels are square.
-        size = text.width if text.height is None else (text.width, text.height)
+        size = [text.fields[name] for name in ("width", "height") if name in text.fields]
+        size = size if len(size) == 2 else size[0]
         size = sides(size, heights.shape, f"{path}: Width, Height in the header")
         steps = tuple(side / n for side, n in zip(size, heights.shape, strict=True))
-    return Raw(heights, steps, text.value_unit, str(path))
+    return Raw(heights, source, unit, steps)
 
 
-def _floats(values) -> NDArray:
-    return np.array(values, dtype=float)
+def _read_instrument(path: Path, fmt: str | None, channel: str | int | None) -> Raw:
+    """Read a channel of heights, by default the file's own; `fmt` as SurfaceTopography names it."""
+    reader = _open(path, fmt)
+    channels, info = _call(path, lambda: (reader.channels, reader.default_channel))
+    heights_in = ", ".join(repr(c.channel_id) for c in channels if holds_heights(c))
+    if channel is not None:
+        named = [c for c in channels if channel in (c.channel_id, c.name)]
+        if isinstance(channel, int):
+            named = channels[channel : channel + 1] if channel >= 0 else []
+        if not named:
+            raise ValueError(
+                f"{path}: no channel {channel!r}; the file has "
+                f"{heights_in or 'no channel of heights'}"
+            )
+        info = named[0]
+    source = f"{path}: {info.name}"
+    if not holds_heights(info):
+        raise ValueError(f"{source} holds no heights; channels that do: {heights_in or 'none'}")
+    # If the file does not hold the size, the caller must give it; until then it is in pixels.
+    known = info.physical_sizes is not None
+    size = {} if known else {"physical_sizes": tuple(float(n) for n in info.nb_grid_pts)}
+    data = _call(path, lambda: reader.topography(channel_index=info.index, **size))
+    unit = data.unit
+    scale = metres(f"1 {unit}", f"{source}: unit of length in the file") if known and unit else None
+    # Points that could not be measured come masked.
+    heights = np.array(np.ma.filled(np.ma.asarray(data.heights(), dtype=float), np.nan), float)
+    if heights.ndim == 1:
+        positions = np.asarray(data.positions(), dtype=float) if scale else None
+        return Raw(heights, source, unit, positions=positions, position_unit=unit)
+    if scale is None:
+        return Raw(heights, source, unit)
+    lengths = zip(data.physical_sizes, heights.shape, strict=True)
+    return Raw(heights, source, unit, tuple(float(side) * scale / n for side, n in lengths))
+
+
+def holds_heights(channel) -> bool:
+    """Whether a channel of SurfaceTopography's holds heights."""
+    name = str(channel.name).rsplit("/", 1)[-1]
+    if _NO_HEIGHTS.search(name) and not _HEIGHTS.search(name):
+        return False
+    # A pair stands for (lateral, data) where these differ in kind: no heights.
+    return channel.is_height_channel and not isinstance(channel.unit, tuple)
+
+
+def _open(path: Path, fmt: str | None):
+    """Open a file; if no format fits, the error is that of the format that it claims to have."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # of SurfaceTopography's own dependencies
+        from SurfaceTopography import IO
+
+        if fmt is None:
+            try:
+                return IO.open_topography(str(path))
+            except Exception:  # the names of all formats tried help nobody
+                fmt = _claimed_format(IO, path)
+    if fmt not in IO.lookup_reader_by_format:
+        known = sorted(IO.lookup_reader_by_format)
+        close = difflib.get_close_matches(fmt, known, n=1)
+        hint = f"did you mean {close[0]!r}?" if close else f"it knows {', '.join(known)}"
+        raise ValueError(f"{path}: SurfaceTopography has no format {fmt!r}; {hint}")
+    return _call(path, lambda: IO.open_topography(str(path), format=fmt), fmt)
+
+
+def _claimed_format(IO, path: Path) -> str:
+    """Format that a file has by its first bytes, else by its name."""
+    head = path.read_bytes()[:4096]
+    suffix = path.suffix.lower().lstrip(".")
+    by_head = [r for r in IO.readers if str(r.can_read(head)).endswith("YES")]
+    by_name = [
+        r
+        for r in IO.readers
+        if suffix in (r.file_extensions() or ())
+        and not (b"\0" in head and "text/plain" in (r.mime_types() or ()))
+    ]
+    for reader in [*by_head, *by_name]:
+        return reader.format()
+    raise ValueError(
+        f"{path}: neither its content nor its name is of a format that SurfaceTopography "
+        "reads; export it as a text matrix, .nc or .npy, or give format"
+    ) from None
+
+
+def _call(path: Path, call: Callable, fmt: str = ""):
+    """Call SurfaceTopography; whatever it raises becomes one line that names the file."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        try:
+            return call()
+        except Exception as error:  # readers of broken files raise nearly anything
+            words = " ".join(re.sub("'?<_io[^>]*>'?", "", str(error)).split())
+            reason = f"{type(error).__name__}: {words[:_LONGEST]}".removesuffix(": ")
+            as_format = f" as {fmt}" if fmt else ""
+            raise ValueError(
+                f"{path}: SurfaceTopography cannot read it{as_format} ({reason}); is the file "
+                "complete?"
+            ) from error

@@ -11,15 +11,21 @@ rings (Paule & Mandel 1982, doi:10.6028/jres.087.022).
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import dataclass, replace
 from functools import partial
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy import special
+from scipy import optimize, special
 
-from stickiness.measured import whittle
-from stickiness.measured.psd import PowerSpectrum, RadialPSD, merge_rings, radial_average
+from stickiness.measured.psd import (
+    PowerSpectrum,
+    RadialPSD,
+    merge_rings,
+    radial_average,
+    wide_rings,
+)
 from stickiness.spectrum.kinds import SelfAffine
 
 LOWEST_MODES = 4  #: lattice steps left out at low q if the heights were tapered
@@ -28,35 +34,27 @@ ROLLOFF_AIC = 10.0  #: gain in AIC below which the simpler model is kept
 LARGE_MISFIT = 0.3  #: relative; above, a power law describes the spectrum badly
 LARGE_ANISOTROPY = 0.5  #: C along and across the lay then differ by a factor of three
 
+COARSE = 10  #: rings per decade for the misfit
+
 _FINE = 200  # narrow rings per decade: C varies by 4 % across one, its mean by 7e-5
+_ALTERNATIONS = 20
+_SLOPES = (-1e3, 1e3)  # bracket of the exponent s in C ~ q^-s; wide, plateaus are tried anywhere
 
 
 @dataclass(frozen=True)
 class HurstLine:
     """Prefactors of C = C0 q^(-2(H+1)) at a given Hurst exponent [length^(2 - 2H)]."""
 
-    hurst: float  #: imposed
     #: Least squares of ln C over logarithmic rings of equal weight, corrected for the bias of
     #: the logarithm.
     c0: float
     c0_se: float  #: from the scatter about the line
-    q: NDArray  #: (m,), of the rings [1/length]
-    c0_of_q: NDArray  #: C q^(2(H+1)) in each ring
-    c0_of_q_se: NDArray  #: by sampling
+    c0_of_q: NDArray  #: (m,), C q^(2(H+1)) in each ring of the fit interval
 
     @property
     def upper(self) -> float:
         """Upper envelope: the largest `c0_of_q` of all rings [length^(2 - 2H)]."""
         return float(self.c0_of_q.max())
-
-    @property
-    def q_upper(self) -> float:
-        """Wave number at which the spectrum touches its upper envelope [1/length]."""
-        return float(self.q[np.argmax(self.c0_of_q)])
-
-    def below(self, c0: float) -> NDArray:
-        """Whether the spectrum lies below the line of prefactor `c0`, ring by ring."""
-        return self.c0_of_q < c0
 
 
 @dataclass(frozen=True)
@@ -73,11 +71,6 @@ class SelfAffineFit:
     q_min: float  #: lowest and highest wave number used [1/length]
     q_max: float
     q_rolloff: float | None  #: end of the plateau [1/length]; None if the data show none
-    dof: float  #: independent modes in the fit interval
-    #: Mean square misfit of rings (ten a decade) over that of sampling alone: about 1 for an
-    #: isotropic Gaussian power law, below 1 with a taper (it correlates the modes of a ring less
-    #: than `dof` assumes).
-    dispersion: float
     #: Relative rms departure of the spectrum from the fit beyond sampling noise; 0 if sampling
     #: explains it all. Every ring's weight is limited to 1/misfit^2, and the standard errors
     #: grow with it: more modes do not determine the exponent of a spectrum that is no power law.
@@ -132,27 +125,20 @@ class SelfAffineFit:
         scatter = np.std(logs, ddof=1) if len(logs) > 1 else np.nan
         c0 = float(np.exp(logs.mean()))
         se = c0 * float(scatter / np.sqrt(len(logs)))
-        return HurstLine(hurst, c0, se, q, mean, mean / np.sqrt(dof))
+        return HurstLine(c0, se, mean)
 
 
-def fit_self_affine(
-    spectrum: PowerSpectrum,
-    q_min: float | None = None,
-    q_max: float | None = None,
-    rolloff: bool | None = None,
+def fit_rings(
+    rings: RadialPSD, q_min: float, q_max: float, rolloff: bool | None = None
 ) -> SelfAffineFit:
     """Fit a self-affine spectrum, with or without a plateau at low q.
 
     Parameters
     ----------
-    spectrum : PowerSpectrum
-        From `psd.power_spectrum`.
-    q_min : float, optional
-        Lowest wave number used [1/length]. Default: the lowest of the lattice without a taper;
-        with one four lattice steps, below which the taper and levelling change the spectrum.
-    q_max : float, optional
-        Highest wave number used [1/length]. Default: half of `q_nyquist`, above which aliasing
-        and the instrument's finite resolution bend the spectrum. Give less for a blunt tip.
+    rings : RadialPSD
+        So narrow that their mean C is C at `rings.q`, in ascending order (`narrow_rings`).
+    q_min, q_max : float
+        Lowest and highest wave number used [1/length].
     rolloff : bool, optional
         Fit a plateau or not. Default: only if it gains more than 10 in Akaike's criterion.
 
@@ -162,34 +148,19 @@ def fit_self_affine(
         If fewer than five rings (ten a decade) or 20 independent modes lie in the fit interval,
         or the spectrum vanishes there.
     """
-    step = max(spectrum.dqx, spectrum.dqy)
-    if q_min is None:
-        q_min = (LOWEST_MODES if spectrum.blur else 1) * step
-    if q_max is None:
-        q_max = NYQUIST_SHARE * spectrum.q_nyquist
-    return fit_rings(narrow_rings(spectrum), q_min, q_max, rolloff)
-
-
-def fit_rings(
-    rings: RadialPSD, q_min: float, q_max: float, rolloff: bool | None = None
-) -> SelfAffineFit:
-    """Fit a self-affine spectrum to the rings of any measurement; see `fit_self_affine`.
-
-    Rings are so narrow that their mean C is C at `rings.q`, in ascending order.
-    """
     rings = _within(rings, q_min, q_max)
     # ln q about the middle of the data, where exponent and level are least correlated.
     scale = float(np.exp(np.average(np.log(rings.q), weights=rings.dof)))
     x = np.log(rings.q / scale)
-    plain, plain_misfit = whittle.weighted_fit(whittle.fit_power_law, x, rings)
-    room = None if rolloff is False else whittle.rolloff_room(x, rings)
+    plain, plain_misfit = weighted_fit(fit_power_law, x, rings)
+    room = None if rolloff is False else rolloff_room(x, rings)
     if room is None:
         if rolloff:
             raise ValueError("rolloff=True needs a wider range of q: lower q_min or raise q_max")
         return _result(rings, scale, plain, plain_misfit, np.nan)
-    bent, bent_misfit = whittle.weighted_fit(partial(whittle.fit_rolloff, room), x, rings)
-    limited = whittle.limit_weight(rings, bent_misfit)
-    gain = 2 * (whittle.deviance(x, limited, *plain) - whittle.deviance(x, limited, *bent)) - 2
+    bent, bent_misfit = weighted_fit(partial(fit_rolloff, room), x, rings)
+    limited = limit_weight(rings, bent_misfit)
+    gain = 2 * (deviance(x, limited, *plain) - deviance(x, limited, *bent)) - 2
     if rolloff or gain > ROLLOFF_AIC:
         return _result(rings, scale, bent, bent_misfit, gain)
     return _result(rings, scale, plain, plain_misfit, gain)
@@ -224,7 +195,7 @@ def _within(rings: RadialPSD, low: float, high: float) -> RadialPSD:
     # The slack keeps modes exactly on a limit, whatever the rounding of |q|.
     low, high = low * (1 - 1e-9), high * (1 + 1e-9)
     rings = rings.between(low, high)
-    wide = len(merge_rings(rings, rings.psd, whittle.COARSE)[0]) if len(rings) else 0
+    wide = len(merge_rings(rings, rings.psd, COARSE)[0]) if len(rings) else 0
     if wide < 5 or rings.dof.sum() < 20:
         raise ValueError(
             f"too few modes between q_min = {low:.6g} and q_max = {high:.6g} for a fit: "
@@ -245,7 +216,7 @@ def _result(
     design = [np.ones_like(x), -2 * (log_q + np.log(scale))]
     design += [-s * (x < c) for c in corner]
     design = np.array(design)
-    information = (design * whittle.limit_weight(rings, misfit).dof) @ design.T
+    information = (design * limit_weight(rings, misfit).dof) @ design.T
     covariance = np.linalg.inv(information)
     c0 = float(np.exp(a + s * np.log(scale)))
     return SelfAffineFit(
@@ -257,9 +228,93 @@ def _result(
         q_min=float(rings.q[0]),
         q_max=float(rings.q[-1]),
         q_rolloff=scale * float(np.exp(corner[0])) if corner else None,
-        dof=float(rings.dof.sum()),
-        dispersion=whittle.dispersion(rings, whittle.power_law(x, *parameters), len(parameters)),
         misfit=misfit,
         aic_gain=float(gain),
         rings=rings,
     )
+
+
+# Whittle's likelihood, with weights limited by the misfit
+
+
+def fit_power_law(x: NDArray, rings: RadialPSD) -> tuple[float, float]:
+    """Maximise the likelihood of ln C = a - s x: (a, s). The likelihood has one maximum."""
+    weight = rings.dof / rings.dof.sum()
+    centre = float(weight @ x)
+    log_psd = np.log(rings.psd)
+
+    def moments(s: float) -> tuple[float, float]:
+        exponent = log_psd + s * (x - centre)
+        level = exponent.max()
+        share = weight * np.exp(exponent - level)
+        return float(np.log(share.sum()) + level), float(share @ (x - centre) / share.sum())
+
+    s = optimize.brentq(lambda s: moments(s)[1], *_SLOPES, xtol=1e-12)
+    return moments(s)[0] + s * centre, s
+
+
+def rolloff_room(x: NDArray, rings: RadialPSD) -> tuple[float, float] | None:
+    """Interval in which a plateau may end: above four modes, a tenth of a decade below the top."""
+    inside = x[(np.cumsum(rings.dof) > 4) & (x < x[-1] - np.log(10) / 10)]
+    return (float(inside[0]), float(inside[-1])) if len(inside) > 1 else None
+
+
+def fit_rolloff(
+    room: tuple[float, float], x: NDArray, rings: RadialPSD
+) -> tuple[float, float, float]:
+    """Maximise the likelihood of ln C = a - s max(x, c), c within `room`: (a, s, c)."""
+
+    def cost(c: float) -> float:
+        return deviance(x, rings, *fit_power_law(np.maximum(x, c), rings), c)
+
+    # The likelihood has kinks and several maxima in c: scan, then refine.
+    grid = np.linspace(*room, 40)
+    best = int(np.argmin([cost(c) for c in grid]))
+    bounds = grid[max(best - 1, 0)], grid[min(best + 1, len(grid) - 1)]
+    c = float(optimize.minimize_scalar(cost, bounds=bounds, method="bounded").x)
+    return *fit_power_law(np.maximum(x, c), rings), c
+
+
+def weighted_fit(fit: Callable, x: NDArray, rings: RadialPSD) -> tuple[tuple[float, ...], float]:
+    """Alternate between fitting with limited weights and the misfit that limits them."""
+    misfit = 0.0
+    parameters = fit(x, rings)
+    for _ in range(_ALTERNATIONS):
+        new = rms_misfit(rings, power_law(x, *parameters), len(parameters))
+        if abs(new - misfit) <= 0.01 * new:  # far below the error of the misfit
+            return parameters, new
+        misfit = new
+        parameters = fit(x, limit_weight(rings, misfit))
+    return parameters, misfit
+
+
+def rms_misfit(rings: RadialPSD, model: NDArray, parameters: int) -> float:
+    """Return tau for which wide rings scatter as var(mean/C) = 1/dof + tau^2."""
+    _, ratio, dof = merge_rings(rings, rings.psd / model, COARSE)
+    square = (ratio - 1) ** 2
+
+    def excess(variance: float) -> float:
+        return float(np.sum(square / (1 / dof + variance))) - (len(ratio) - parameters)
+
+    if excess(0.0) <= 0:
+        return 0.0
+    highest = float(square.sum())  # there every term is below 1, and their sum below 1
+    return float(np.sqrt(optimize.brentq(excess, 0.0, highest)))
+
+
+def limit_weight(rings: RadialPSD, misfit: float) -> RadialPSD:
+    """Return narrow rings that count nu/(1 + nu tau^2), nu of the wide ring they belong to."""
+    index = wide_rings(rings, COARSE)
+    wide = np.bincount(index, weights=rings.dof)[index]
+    return replace(rings, dof=rings.dof / (1 + wide * misfit**2))
+
+
+def power_law(x: NDArray, a: float, s: float, c: float = -np.inf) -> NDArray:
+    """C at ln q = x: exp(a - s x), and constant below x = c."""
+    return np.exp(a - s * np.maximum(x, c))
+
+
+def deviance(x: NDArray, rings: RadialPSD, a: float, s: float, c: float = -np.inf) -> float:
+    """Negative logarithm of the likelihood, up to a constant."""
+    ratio = rings.psd / power_law(x, a, s, c)
+    return float(rings.dof @ (ratio - np.log(ratio)))

@@ -9,47 +9,34 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Self
 
 import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from stickiness.measured import readers
-from stickiness.measured.levelling import (
-    MAX_MISSING,
-    Detrend,
-    Missing,
-    Rim,
-    complete_rectangle,
-    complete_run,
-    detrend,
-    detrend_profile,
-    fill_missing,
-    fill_profile,
-    rms_of_known,
-    without_rims,
-)
+from stickiness.measured import levelling, readers
+from stickiness.measured.levelling import MAX_MISSING, Detrend, Missing, Rim, Spikes
 from stickiness.measured.plausibility import doubt_sizes, doubt_values
-from stickiness.measured.raw import Length, Raw, metres, sides
-from stickiness.measured.spikes import Spikes, find_spikes
+from stickiness.measured.readers import Length, Raw, metres, sides
 
 Size = Length | Sequence[Length] | None
 
 _WGS84_A, _WGS84_E2 = 6378137.0, 6.69437999014e-3  # semi-major axis [m], eccentricity squared
 
 
+@dataclass(frozen=True, kw_only=True)
 class _Heights:
     """What maps and profiles have in common."""
 
-    heights: NDArray
-    missing: int
-    as_read: NDArray | None
-
-    def h_rms_as_read(self, kind: Detrend = "plane") -> float:
-        """Root mean square height with the points that were dropped or masked, levelled [m]."""
-        if self.as_read is None:
-            return self.h_rms
-        return rms_of_known(self.as_read, kind)
+    missing: int = 0  #: number of points that were missing and have been interpolated
+    cropped: float = 0.0  #: share of the measured points that was cut off to leave no missing ones
+    dropped: int = 0  #: number of points that were measured beside missing ones and not used
+    spikes: int = 0  #: number of points far off their neighbours, not used
+    #: As `heights` before anything was dropped, masked or filled, NaN where missing; None if
+    #: nothing was dropped or masked.
+    as_read: NDArray | None = None
+    doubts: tuple[str, ...] = ()  #: why no verdict should rest on the heights
 
     @property
     def h_rms(self) -> float:
@@ -61,32 +48,47 @@ class _Heights:
         """Share of the points that were missing."""
         return self.missing / self.heights.size
 
+    def h_rms_as_read(self, kind: Detrend = "plane") -> float:
+        """Root mean square height with the points that were dropped or masked, levelled [m]."""
+        return self.h_rms if self.as_read is None else levelling.rms_of_known(self.as_read, kind)
+
+    def detrended(self, kind: Detrend = "plane") -> Self:
+        """Return the same measurement less its mean, plane (line) or quadratic trend."""
+        return replace(self, heights=levelling.detrend(self.heights, kind))
+
 
 @dataclass(frozen=True)
 class Topography(_Heights):
-    """Heights of a surface on a rectangular grid."""
+    """Heights of a surface on a rectangular grid.
 
-    heights: NDArray  #: (nx, ny), the first axis along x [m]
-    dx: float  #: grid step along x [m]
-    dy: float  #: along y [m]
-    source: str  #: file (and variable) of the heights
-    missing: int = 0  #: number of points that were missing and have been interpolated
-    cropped: float = 0.0  #: share of the measured points that was cut off to leave no missing ones
-    dropped: int = 0  #: number of points that were measured beside missing ones and not used
-    spikes: int = 0  #: number of points far off their neighbours, not used
-    #: As `heights` before anything was dropped, masked or filled, NaN where missing; None if
-    #: nothing was dropped or masked.
-    as_read: NDArray | None = None
-    doubts: tuple[str, ...] = ()  #: why no verdict should rest on the heights
+    Parameters
+    ----------
+    heights : (nx, ny) array
+        Finite heights, the first axis along x [m].
+    dx, dy : float
+        Grid steps along x and y [m].
+    source : str
+        File (and variable or channel) of the heights, for messages.
+    missing, dropped, spikes : int, optional
+        Numbers of points that were interpolated, that were measured beside missing ones and not
+        used, and that were far off their neighbours and not used.
+    cropped : float, optional
+        Share of the measured points that was cut off to leave no missing ones.
+    as_read : array, optional
+        Heights before points were dropped, masked or filled, NaN where missing [m].
+    doubts : tuple of str, optional
+        Reasons why no verdict should rest on these heights.
+    """
+
+    heights: NDArray
+    dx: float
+    dy: float
+    source: str
 
     @property
     def size(self) -> tuple[float, float]:
         """Sides along x and y [m]."""
         return self.heights.shape[0] * self.dx, self.heights.shape[1] * self.dy
-
-    def detrended(self, kind: Detrend = "plane") -> Topography:
-        """Return the topography levelled by `detrend`."""
-        return replace(self, heights=detrend(self.heights, kind))
 
     def to_xarray(self) -> xr.DataArray:
         """Return the heights along `x` and `y` with units, so that ``.plot()`` labels itself."""
@@ -100,28 +102,32 @@ class Topography(_Heights):
 
 @dataclass(frozen=True)
 class Profile(_Heights):
-    """Heights along a line, evenly spaced."""
+    """Evenly spaced heights along a line.
 
-    heights: NDArray  #: (n,) [m]
-    dx: float  #: step [m]
-    source: str  #: file (and variable or channel)
-    missing: int = 0  #: this and those after `largest_gap` as in `Topography`
-    #: Largest distance between neighbouring points as measured [m]; above `dx` if they were
-    #: unevenly spaced and have been interpolated.
+    Parameters
+    ----------
+    heights : (n,) array
+        Finite heights [m].
+    dx : float
+        Step [m].
+    source : str
+        File (and variable or channel) of the heights, for messages.
+    largest_gap : float, optional
+        Largest distance between neighbouring points as measured [m]; above `dx` if they were
+        unevenly spaced and have been interpolated.
+    missing, dropped, spikes, cropped, as_read, doubts
+        As in `Topography`.
+    """
+
+    heights: NDArray
+    dx: float
+    source: str
     largest_gap: float = 0.0
-    dropped: int = 0
-    spikes: int = 0
-    as_read: NDArray | None = None
-    doubts: tuple[str, ...] = ()
 
     @property
     def length(self) -> float:
         """Length of the line [m]."""
         return len(self.heights) * self.dx
-
-    def detrended(self, kind: Detrend = "plane") -> Profile:
-        """Return the profile levelled by `detrend_profile`."""
-        return replace(self, heights=detrend_profile(self.heights, kind))
 
 
 def read(
@@ -210,80 +216,55 @@ def read(
     if spikes not in ("mask", "keep"):
         raise ValueError(f"spikes must be 'mask' or 'keep', got {spikes!r}")
     raw = readers.read(path, format, variable, channel)
-    heights = raw.heights
+    source, heights = raw.source, raw.heights
     if missing_value is not None:
         heights = np.where(heights == missing_value, np.nan, heights)
-    limit = 0.0 if missing == "refuse" else max_missing
-    rule = _Rule(missing, missing_rim, limit, spikes, raw.source)
     if heights.ndim == 1:
-        found = _profile(_positions(raw, length, pixel_size, position_unit), heights, rule)
+        x = _positions(raw, length, pixel_size, position_unit)
+        order = np.argsort(x, kind="stable")
+        x, heights = x[order], heights[order]
+        if len(x) < 2 or not np.all(np.diff(x) > 0):
+            raise ValueError(f"{source}: positions of a line profile must all differ")
     else:
-        found = _map(heights, _steps(raw, length, pixel_size, position_unit), rule)
-    scale = _scale(raw.source, "height_unit", height_unit, raw.unit)
-    as_read = None if found.as_read is None else found.as_read * scale
-    found = replace(found, heights=found.heights * scale, as_read=as_read)
-    if np.ptp(found.heights) == 0:
-        flat = found.heights.flat[0]
-        raise ValueError(f"{raw.source}: all heights are {flat:g} m; nothing to analyse")
-    steps = (found.dx,) if heights.ndim == 1 else (found.dx, found.dy)
-    doubts = [*found.doubts, *doubt_sizes(found.heights, steps)]
-    return replace(found, doubts=tuple(f"{raw.source}: {doubt}" for doubt in doubts))
+        x, steps = None, _steps(raw, length, pixel_size, position_unit)
 
+    left, dropped = levelling.without_rims(heights, missing_rim)
+    spiky = levelling.find_spikes(left) if spikes == "mask" else np.zeros(left.shape, bool)
+    masked = int(np.count_nonzero(spiky))
+    left = np.where(spiky, np.nan, left)
+    doubts = [*doubt_values(left)]
+    if missing == "crop":
+        kept = levelling.complete_rectangle(np.isfinite(left), source)
+        left, x = left[kept], x if x is None else x[kept]
+    name = source
+    name += f", {dropped} points beside missing ones dropped" if dropped else ""
+    name += f", {masked} spikes masked" if masked else ""
+    limit = 0.0 if missing == "refuse" else max_missing
+    filled, count = levelling.fill_missing(left, limit, name, x)
 
-@dataclass(frozen=True)
-class _Rule:
-    """What to do with points that are missing or wrong."""
-
-    missing: Missing
-    rim: Rim
-    limit: float  #: largest share that is filled
-    spikes: Spikes
-    source: str
-
-    def drop(self, heights: NDArray) -> tuple[NDArray, int, int]:
-        """Heights without rims and spikes, and the numbers of both."""
-        left, dropped = without_rims(heights, self.rim)
-        if self.spikes == "keep":
-            return left, dropped, 0
-        spikes = find_spikes(left)
-        return np.where(spikes, np.nan, left), dropped, int(np.count_nonzero(spikes))
-
-    def name(self, dropped: int, spikes: int) -> str:
-        """Source with what was taken out, for messages on missing points."""
-        beside = f", {dropped} points beside missing ones dropped" if dropped else ""
-        return f"{self.source}{beside}{f', {spikes} spikes masked' if spikes else ''}"
-
-
-def _map(heights: NDArray, steps: Sequence[float], rule: _Rule) -> Topography:
-    left, dropped, spikes = rule.drop(heights)
-    as_read, doubts = heights if dropped or spikes else None, tuple(doubt_values(left))
-    if rule.missing == "crop":
-        left = left[complete_rectangle(np.isfinite(left), rule.source)]
-    filled, count = fill_missing(left, rule.limit, rule.name(dropped, spikes))
-    cropped = 1 - left.size / heights.size
-    numbers = count, cropped, dropped, spikes
-    return Topography(filled, *steps, rule.source, *numbers, as_read, doubts)
-
-
-def _profile(x: NDArray, heights: NDArray, rule: _Rule) -> Profile:
-    order = np.argsort(x, kind="stable")
-    x, whole = x[order], heights[order]
-    heights, dropped, spikes = rule.drop(whole)
-    as_read, doubts = whole if dropped or spikes else None, tuple(doubt_values(heights))
-    source = rule.source
-    if rule.missing == "crop":
-        kept = complete_run(np.isfinite(heights), source)
-        x, heights = x[kept], heights[kept]
-    if len(x) < 2 or not np.all(np.diff(x) > 0):
-        raise ValueError(f"{source}: positions of a line profile must all differ")
-    filled, count = fill_profile(x, heights, rule.limit, rule.name(dropped, spikes))
-    gaps = np.diff(x)
-    even = np.linspace(x[0], x[-1], len(x))
-    step = float(even[1] - even[0])
-    if np.ptp(gaps) > 1e-3 * step:
-        filled = np.interp(even, x, filled)
-    numbers = count, float(gaps.max()), dropped, spikes
-    return Profile(filled, step, source, *numbers, as_read, doubts)
+    scale = _scale(source, "height_unit", height_unit, raw.unit)
+    numbers = {
+        "missing": count,
+        "cropped": 1 - left.size / heights.size,
+        "dropped": dropped,
+        "spikes": masked,
+        "as_read": heights * scale if dropped or masked else None,
+    }
+    if x is not None:
+        if len(x) < 2:
+            raise ValueError(f"{source}: a line profile needs two points at least")
+        gaps, even = np.diff(x), np.linspace(x[0], x[-1], len(x))
+        steps = (float(even[1] - even[0]),)
+        if np.ptp(gaps) > 1e-3 * steps[0]:
+            filled = np.interp(even, x, filled)
+    filled = filled * scale
+    if np.ptp(filled) == 0:
+        raise ValueError(f"{source}: all heights are {filled.flat[0]:g} m; nothing to analyse")
+    doubts += doubt_sizes(filled, steps)
+    numbers["doubts"] = tuple(f"{source}: {doubt}" for doubt in doubts)
+    if x is not None:
+        return Profile(filled, *steps, source, float(gaps.max()), **numbers)
+    return Topography(filled, *steps, source, **numbers)
 
 
 def _positions(raw: Raw, length: Size, pixel_size: Size, position_unit: str | None) -> NDArray:
@@ -300,6 +281,26 @@ def _positions(raw: Raw, length: Size, pixel_size: Size, position_unit: str | No
     if not np.all(np.isfinite(raw.positions)):
         raise ValueError(f"{raw.source}: a position of the profile is missing")
     return raw.positions * _scale(raw.source, "position_unit", position_unit, raw.position_unit)
+
+
+def _steps(
+    raw: Raw, length: Size, pixel_size: Size, position_unit: str | None
+) -> tuple[float, ...]:
+    """Grid steps [m], from the caller or else from the file."""
+    shape = raw.heights.shape
+    if length is not None:
+        size = sides(length, shape, f"{raw.source}: length")
+        return tuple(side / n for side, n in zip(size, shape, strict=True))
+    if pixel_size is not None:
+        return sides(pixel_size, (1, 1), f"{raw.source}: pixel_size")
+    if raw.grid is not None:
+        scale = _scale(raw.source, "position_unit", position_unit, raw.position_unit)
+        return tuple(step * scale for step in raw.grid)
+    if raw.steps is None:
+        raise ValueError(
+            f"{raw.source}: the file does not tell its size; give length or pixel_size"
+        )
+    return raw.steps
 
 
 def _scale(source: str, key: str, given: str | None, in_file: str | None) -> float:
@@ -340,23 +341,3 @@ def metres_per_degree(latitude: float) -> tuple[float, float]:
     east = _WGS84_A / np.sqrt(w) * np.cos(latitude)
     north = _WGS84_A * (1 - _WGS84_E2) / w**1.5
     return float(np.deg2rad(east)), float(np.deg2rad(north))
-
-
-def _steps(
-    raw: Raw, length: Size, pixel_size: Size, position_unit: str | None
-) -> tuple[float, ...]:
-    """Grid steps [m], from the caller or else from the file."""
-    shape = raw.heights.shape
-    if length is not None:
-        size = sides(length, shape, f"{raw.source}: length")
-        return tuple(side / n for side, n in zip(size, shape, strict=True))
-    if pixel_size is not None:
-        return sides(pixel_size, (1, 1), f"{raw.source}: pixel_size")
-    if raw.grid is not None:
-        scale = _scale(raw.source, "position_unit", position_unit, raw.position_unit)
-        return tuple(step * scale for step in raw.grid)
-    if raw.steps is None:
-        raise ValueError(
-            f"{raw.source}: the file does not tell its size; give length or pixel_size"
-        )
-    return raw.steps

@@ -8,7 +8,6 @@ import pytest
 import yaml
 
 from common.config import checks
-from stickiness.measured import readers
 
 ROOT = Path(__file__).parents[3]
 CONFIG, MATERIALS, SURFACES, EXPERIMENTS = (
@@ -352,18 +351,6 @@ def test_a_key_given_twice_is_refused(folder):
 def test_broken_yaml_names_file_and_line(folder):
     Path(MATERIALS).write_text("materials:\n  psa: {label: [}\n", encoding="utf-8")
     with pytest.raises(checks.ConfigError, match=r"materials\.yaml: line 2"):
-        check()
-
-
-def test_instruments_need_their_optional_dependency(folder, monkeypatch):
-    Path("scan.sur").write_bytes(b"DIGITAL SURF\0\0")
-    terrain(file="scan.sur")()
-    monkeypatch.setattr(readers, "can_read_instruments", lambda: True)
-    check()
-    monkeypatch.setattr(readers, "can_read_instruments", lambda: False)
-    with pytest.raises(
-        checks.ConfigError, match=r"scan\.sur.*needs SurfaceTopography.*pip install"
-    ):
         check()
 
 

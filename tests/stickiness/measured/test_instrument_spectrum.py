@@ -7,15 +7,8 @@ import pytest
 from scipy import ndimage
 
 from stickiness import measured, surface
-from stickiness.measured import (
-    cutoff,
-    instrument_spectrum,
-    psd,
-    self_affine_fit,
-    spectrum_draws,
-    stitching,
-)
-from stickiness.measured.instrument_spectrum import Limits
+from stickiness.measured import instrument_spectrum, psd, self_affine_fit, stitching
+from stickiness.measured.instrument_spectrum import Limits, find_bend, tip_cutoff
 from stickiness.measured.topography import Profile, Topography
 from stickiness.spectrum import SelfAffine
 
@@ -32,7 +25,7 @@ def patch(hurst=0.8, seed=1, n=512, q1=250.0):
 def bend(h, dx):
     plane = psd.power_spectrum(h - h.mean(), dx, taper="hann")
     rings = self_affine_fit.narrow_rings(plane)
-    return cutoff.find_bend(rings, 4 * plane.dqx, plane.q_nyquist)
+    return find_bend(rings, 4 * plane.dqx, plane.q_nyquist)
 
 
 @pytest.mark.parametrize("hurst", [0.5, 0.8, 0.95])
@@ -71,11 +64,11 @@ def test_tip_cutoff_of_a_wave_is_known():
     # Second difference over d: 2 a (1 - cos k d)/d^2 = 1/(2R), solved for d; the stencil is 2 d.
     d = np.linspace(0.5, 2.5, 100001)
     expected = 2 * d[np.argmin(np.abs(3 * (1 - np.cos(k * d)) / d**2 - 1 / (2 * radius)))]
-    found = cutoff.tip_cutoff(heights, (0.02,), radius)
+    found = tip_cutoff(heights, (0.02,), radius)
     assert found == pytest.approx(expected, rel=0.05)
-    assert cutoff.tip_cutoff(heights, (0.02,), radius=0.05) is None  # 10 > 6: sharp enough
+    assert tip_cutoff(heights, (0.02,), radius=0.05) is None  # 10 > 6: sharp enough
     with pytest.raises(ValueError, match="radius must be positive"):
-        cutoff.tip_cutoff(heights, (0.02,), 0.0)
+        tip_cutoff(heights, (0.02,), 0.0)
 
 
 @pytest.mark.parametrize(
@@ -253,7 +246,7 @@ def test_draws_scatter_about_the_moments_of_the_surface():
     length, n = 4 * np.pi, 512
     h = surface.synthesise(s, n=n, length=length, seed=4)
     found = instrument_spectrum.analyse(Topography(h, length / n, length / n, "here"), "none")
-    drawn = spectrum_draws.draw(found, 400, seed=1)
+    drawn = stitching.draw(found, 400, seed=1)
     # A periodic surface keeps its variance whatever the spectrum estimated from it.
     assert np.mean(drawn.moments["h_rms"] ** 2) == pytest.approx(np.var(h), rel=0.02)
     inside = s.truncated(found.cutoff.q)
@@ -275,15 +268,15 @@ def test_without_a_plateau_q0_is_that_of_the_scan():
     _, h, dx = patch()
     found = instrument_spectrum.analyse(Topography(h, dx, dx, "here").detrended())
     assert found.fit.q_rolloff is None
-    np.testing.assert_array_equal(spectrum_draws.draw(found, 5, seed=1).q0, found.lowest)
+    np.testing.assert_array_equal(stitching.draw(found, 5, seed=1).q0, found.lowest)
 
 
 def test_law_carried_on_adds_its_waves_and_their_uncertainty():
     _, h, dx = patch()
     found = instrument_spectrum.analyse(Topography(h, dx, dx, "here").detrended())
     end = 100 * found.cutoff.q
-    plain = spectrum_draws.draw(found, 400, seed=1).moments
-    more = spectrum_draws.draw(found, 400, seed=1, extend_to=end).moments
+    plain = stitching.draw(found, 400, seed=1).moments
+    more = stitching.draw(found, 400, seed=1, extend_to=end).moments
     law = found.fit.spectrum(found.cutoff.q, end)
     added = np.median(more["rms_slope"] ** 2) - np.median(plain["rms_slope"] ** 2)
     assert added == pytest.approx(law.rms_slope**2, rel=0.15)
@@ -299,16 +292,16 @@ def test_law_that_cannot_be_carried_on():
     _, h, dx = patch()
     found = instrument_spectrum.analyse(Topography(h, dx, dx, "here").detrended())
     with pytest.raises(ValueError, match="extend_to must be below the shortest wavelength"):
-        spectrum_draws.draw(found, 5, seed=1, extend_to=0.5 * found.cutoff.q)
+        stitching.draw(found, 5, seed=1, extend_to=0.5 * found.cutoff.q)
     smooth = replace(found, fit=replace(found.fit, hurst=1.4))
     with pytest.raises(ValueError, match=r"H = 1\.40 is no self-affine"):
-        spectrum_draws.draw(smooth, 5, seed=1, extend_to=2 * found.cutoff.q)
+        stitching.draw(smooth, 5, seed=1, extend_to=2 * found.cutoff.q)
 
 
 def test_the_same_seed_draws_the_same(scans):
     whole = stitching.stitch(scans[1][0])
     first, again = (
-        spectrum_draws.draw(whole.spectrum, 20, seed=3, stitched=whole).moments["h_rms"]
+        stitching.draw(whole.spectrum, 20, seed=3, stitched=whole).moments["h_rms"]
         for _ in range(2)
     )
     np.testing.assert_array_equal(first, again)

@@ -7,7 +7,7 @@ from scipy import special
 from stickiness import surface
 from stickiness.measured import levelling, self_affine_fit, topography
 from stickiness.measured.psd import merge_rings, power_spectrum, radial_average
-from stickiness.measured.self_affine_fit import fit_self_affine
+from stickiness.measured.self_affine_fit import LOWEST_MODES, NYQUIST_SHARE, fit_rings, narrow_rings
 from stickiness.spectrum import SelfAffine
 
 TAU = 2 * np.pi
@@ -18,6 +18,13 @@ def periodic(seed, n=128, hurst=0.8, rolloff=None, amplitudes="gaussian"):
     """Heights on the unit square with C0 = 1, all modes up to 3/4 of Nyquist."""
     s = SelfAffine(hurst=hurst, q0=TAU, q1=TAU * 3 * n / 8, C0=1.0, q_rolloff=rolloff)
     return s, surface.synthesise(s, n=n, length=1.0, seed=seed, amplitudes=amplitudes)
+
+
+def fit_self_affine(spectrum, q_min=None, q_max=None, rolloff=None):
+    """Fit in the interval that `instrument_spectrum.analyse` takes without limits."""
+    lowest = (LOWEST_MODES if spectrum.blur else 1) * max(spectrum.dqx, spectrum.dqy)
+    q_max = NYQUIST_SHARE * spectrum.q_nyquist if q_max is None else q_max
+    return fit_rings(narrow_rings(spectrum), lowest if q_min is None else q_min, q_max, rolloff)
 
 
 def cropped(seed, **arguments):
@@ -40,8 +47,6 @@ def test_parseval(window, shape):
     # Every mode but q = 0 lies in one ring; q = 0 holds nothing but rounding.
     assert np.sum(rings.psd * rings.modes) * cell == pytest.approx(spectrum.variance, rel=1e-12)
     assert rings.modes.sum() == heights.size - 1
-    linear = radial_average(spectrum, "linear")
-    assert np.sum(linear.psd * linear.modes) * cell == pytest.approx(spectrum.variance, rel=1e-12)
     if window == "none":
         assert spectrum.variance == pytest.approx(np.var(heights), rel=1e-12)
 
@@ -168,8 +173,6 @@ def test_wrong_arguments_of_the_spectrum(arguments, message):
 
 def test_wrong_arguments_of_rings():
     spectrum = power_spectrum(np.eye(8), 1.0)
-    with pytest.raises(ValueError, match="spacing.*'cubic'"):
-        radial_average(spectrum, "cubic")
     with pytest.raises(ValueError, match="bins_per_decade.*0"):
         radial_average(spectrum, bins_per_decade=0)
     with pytest.raises(ValueError, match="no modes"):
@@ -194,11 +197,10 @@ def test_fit_is_exact_where_there_is_no_noise(hurst):
     line = fit.c0_at_hurst(hurst)
     # Here the correction for the logarithm of noisy means has nothing to correct: it shifts each
     # ring by ln(nu) - digamma(nu), at most 0.27 in the ring of four modes.
-    shift = np.log(line.c0_of_q_se**-2) - special.digamma(line.c0_of_q_se**-2)
+    dof = merge_rings(fit.rings, fit.rings.psd, 10)[2]
+    shift = np.log(dof) - special.digamma(dof)
     assert line.c0 == pytest.approx(np.exp(shift.mean()), rel=1e-3)
     np.testing.assert_allclose(line.c0_of_q, 1, rtol=1e-3)
-    assert line.below(1.01).all()
-    assert not line.below(0.99).any()
     assert line.upper == pytest.approx(1, rel=1e-3)
 
 
@@ -318,7 +320,6 @@ def test_prefactor_at_an_imposed_exponent_is_unbiased():
     assert np.mean(logs) == pytest.approx(0, abs=4 * np.std(logs) / np.sqrt(40))
     assert np.std(logs) == pytest.approx(claimed, rel=0.35)
     assert all(line.upper > line.c0 for line in lines)
-    assert all(line.q_upper in line.q for line in lines)
 
 
 def test_a_spectrum_that_is_no_power_law_is_called_one_with_honest_errors():
@@ -336,7 +337,6 @@ def test_a_spectrum_that_is_no_power_law_is_called_one_with_honest_errors():
     assert abs(below.hurst - 0.2) < 3 * below.hurst_se
     assert abs(above.hurst - 1.0) < 3 * above.hurst_se
     assert fit.misfit > 0.2 > above.misfit
-    assert fit.dispersion > 5
     # Not merely the law of the many modes at high q: the low decade has a say.
     assert 0.3 < fit.hurst < 0.9
     # Although the range is wider, the error is larger.

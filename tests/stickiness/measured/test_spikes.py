@@ -5,7 +5,7 @@ import pytest
 
 from stickiness import surface
 from stickiness.measured import topography
-from stickiness.measured.spikes import find_spikes
+from stickiness.measured.levelling import find_spikes
 from stickiness.spectrum import SelfAffine
 
 
@@ -120,11 +120,6 @@ def test_reading_masks_spikes_unless_told_otherwise(tmp_path, spikes):
         return
     assert (found.spikes, found.missing) == (1, 1)
     assert found.h_rms == pytest.approx(clean.h_rms, rel=1e-3)
-
-
-def test_a_word_that_is_neither_is_refused(tmp_path):
-    with pytest.raises(ValueError, match="spikes must be 'mask' or 'keep', got 'drop'"):
-        topography.read(saved(tmp_path, rough()), length="1 mm", height_unit="um", spikes="drop")
 
 
 def saved(folder, heights):

@@ -9,7 +9,7 @@ import pytest
 from scipy import signal
 
 from stickiness import surface
-from stickiness.measured import cutoff, levelling, profiles, psd, readers, topography
+from stickiness.measured import instrument_spectrum, levelling, profiles, psd, topography
 from stickiness.spectrum import SelfAffine
 
 SAMPLES = Path(
@@ -20,8 +20,6 @@ PER_DECADE = 10
 
 
 def reference():
-    if not readers.can_read_instruments():
-        pytest.skip("SurfaceTopography is not installed (envs/instruments.txt)")
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         import SurfaceTopography.IO  # the package's own imports warn
@@ -129,7 +127,7 @@ def test_profile_of_a_synthetic_surface_is_theirs():
 def test_tip_cutoff_is_theirs():
     Topography = reference().Topography
     h, dx = synthetic(n=128)
-    found = cutoff.tip_cutoff(h, (dx,), radius=0.02)
+    found = instrument_spectrum.tip_cutoff(h, (dx,), radius=0.02)
     theirs = Topography(h, (2 * np.pi, 2 * np.pi)).scanning_probe_reliability_cutoff(0.02)
     # Theirs is sought between pixels, ours between few distances of whole pixels.
     assert found == pytest.approx(theirs, rel=0.15)
@@ -163,14 +161,6 @@ def test_spectrum_of_a_whole_sample_file_is_theirs_in_the_same_window(file, wind
     windowed = middle_window(window, heights.shape, size) * without_level(heights, size, window)
     ratio, _ = both(ours, reference().Topography(windowed, size, periodic=True), window)
     np.testing.assert_allclose(ratio, 1, rtol=1e-6)
-
-
-def test_filled_points_are_theirs():
-    path, theirs = sample("frt-2.frt")
-    ours = topography.read(path, max_missing=0.3, missing_rim=0, spikes="keep")
-    assert ours.missing == 12314
-    filled = theirs.interpolate_undefined_data().heights()
-    np.testing.assert_allclose(ours.heights, filled, atol=1e-9 * ours.h_rms)
 
 
 @pytest.mark.parametrize("rim", [1, 2, 3])

@@ -1,16 +1,32 @@
-"""Reading, filling and levelling of measured topographies, and the catalogue of surfaces."""
+"""Measured files read as maps and profiles: formats, units, missing points, levelling."""
 
-from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 import xarray as xr
 
-from common.config import checks
-from stickiness.measured import levelling, text_matrix, topography
-from stickiness.units import si
+from stickiness.measured import levelling, plain_text, readers, topography
 
-CONFIG = Path(__file__).parents[3] / "config"
+VOID = 32767
+HEADER = "# Channel: Z\n# Width: 10.00 µm\n# Height: 25 µm\n# Value units: nm\n"
+
+
+def bcr(path, counts, void=True):
+    """Write counts (rows along y) in the BCR-STM format: 0.5 nm a count, 4 by 3 nm a pixel."""
+    ny, nx = counts.shape
+    header = (
+        f"fileformat = bcrstm\nheadersize = 2048\nxpixels = {nx}\nypixels = {ny}\n"
+        f"xlength = {4 * nx}\nylength = {3 * ny}\nxunit = nm\nyunit = nm\nzunit = nm\n"
+        f"bit2nm = 0.5\nintelmode = 1\nvoidpixels = {VOID if void else 0}\n"
+    )
+    path.write_bytes(header.encode().ljust(2048) + counts.astype("<i2").tobytes())
+    return path
+
+
+@pytest.fixture
+def counts():
+    return np.random.default_rng(5).integers(-900, 900, size=(12, 10))
 
 
 @pytest.fixture
@@ -25,18 +41,7 @@ def write(path, matrix, separator="\t", header="", comma=False):
     return path
 
 
-HEADER = "# Channel: Z\n# Width: 10.00 µm\n# Height: 25 µm\n# Value units: nm\n"
-
-
-def test_heights_as_a_data_array_lie_where_they_were_measured():
-    heights = np.arange(6.0).reshape(3, 2)
-    found = topography.Topography(heights, 0.5, 2.0, "test").to_xarray()
-    assert found.sel(x=1.0, y=2.0) == heights[2, 1]
-    assert [found[name].attrs["units"] for name in ("x", "y")] == ["m", "m"]
-    assert found.attrs == {"units": "m", "long_name": "height"}
-
-
-# Text matrices
+# Plain text
 
 
 @pytest.mark.parametrize(
@@ -58,44 +63,22 @@ def test_every_separator_and_decimal_comma_gives_the_same_heights(
 def test_header_of_gwyddion_tells_size_and_unit(tmp_path, matrix, encoding):
     path = write(tmp_path / "a.txt", matrix, header=HEADER)
     path.write_text(path.read_text(encoding="utf-8"), encoding=encoding)
-    t = topography.read(path)
+    t = topography.read(path, height_unit="1e-9 m")  # the same unit as in the file
     # 4 columns over 10 um, 5 rows over 25 um
     np.testing.assert_allclose([t.dx, t.dy], [2.5e-6, 5e-6], rtol=1e-12)
     np.testing.assert_allclose(t.size, [10e-6, 25e-6], rtol=1e-12)
     np.testing.assert_allclose(t.heights, matrix.T * 1e-9, rtol=1e-12)
     assert t.source == str(path)
-
-
-def test_the_caller_overrides_the_header(tmp_path, matrix):
-    path = write(tmp_path / "a.txt", matrix, header=HEADER)
-    t = topography.read(path, length=["1 mm", "2 mm"])
-    np.testing.assert_allclose(t.size, [1e-3, 2e-3], rtol=1e-12)
-
-
-def test_units_of_height_must_not_disagree(tmp_path, matrix):
-    path = write(tmp_path / "a.txt", matrix, header=HEADER)
-    same = topography.read(path, height_unit="1e-9 m")
-    np.testing.assert_allclose(same.heights, 1e-9 * matrix.T, rtol=1e-12)
-    with pytest.raises(ValueError, match="height_unit = 'm', but the file says 'nm'"):
-        topography.read(path, height_unit="m")
-
-
-def test_a_flat_surface_is_refused(tmp_path):
-    path = write(tmp_path / "a.txt", np.ones((8, 8)), header=HEADER)
-    with pytest.raises(ValueError, match="all heights are 1e-09 m"):
-        topography.read(path)
-
-
-def test_one_length_means_square_pixels(tmp_path, matrix):
-    path = write(tmp_path / "a.txt", matrix)
-    t = topography.read(path, length="8 um", height_unit="nm")
-    np.testing.assert_allclose([t.dx, t.dy], [2e-6, 2e-6], rtol=1e-12)
+    given = topography.read(path, length=["1 mm", "2 mm"])
+    np.testing.assert_allclose(given.size, [1e-3, 2e-3], rtol=1e-12)
+    square = topography.read(path, length="8 um")
+    np.testing.assert_allclose([square.dx, square.dy], [2e-6, 2e-6], rtol=1e-12)
 
 
 def test_uncommented_header_lines_and_missing_marks(tmp_path):
     path = tmp_path / "a.csv"
     path.write_text("Profile data\nWidth: 3 um\nValue units: nm\n1;2;3;\n4;---;6;\n7;8;9;\n")
-    raw = text_matrix.parse(path)
+    raw = plain_text.parse(path)
     np.testing.assert_array_equal(raw.values, [[1, 2, 3], [4, np.nan, 6], [7, 8, 9]])
     t = topography.read(path, max_missing=0.2)
     assert t.missing == 1
@@ -103,48 +86,22 @@ def test_uncommented_header_lines_and_missing_marks(tmp_path):
     assert t.heights[1, 1] == pytest.approx(5e-9, rel=1e-12)
 
 
-@pytest.mark.parametrize(
-    ("text", "message"),
-    [
-        ("1 2\n3 x\n", r"line 2: 'x' is not a number"),
-        ("# c\n1 2\n3 4 5\n", r"line 3: 3 numbers where the first row has 2"),
-        ("nothing here\n", "no line of numbers"),
-        ("", "no line of numbers"),
-    ],
-)
-def test_broken_text_is_named_with_its_line(tmp_path, text, message):
-    path = tmp_path / "broken.txt"
-    path.write_text(text)
-    with pytest.raises(ValueError, match=message) as error:
-        topography.read(path, length="1 um", height_unit="nm")
-    assert "broken.txt" in str(error.value)
+@pytest.mark.parametrize(("step", "form"), [(1 / 3, "{:.2f}"), (0.0195, "{:.3f}")])
+def test_positions_of_few_digits_are_on_their_grid(tmp_path, step, form):
+    rng = np.random.default_rng(0)
+    heights = rng.random((20, 30))
+    heights[[3, 4, 9]] = np.nan  # rows of points that are left out
+    lines = [
+        f"{form.format(step * i)} {form.format(2 * step * j)} {heights[i, j]:.6f}"
+        for i, j in np.argwhere(np.isfinite(heights))
+    ]
+    (tmp_path / "a.txt").write_text("# nx: 20 ny: 30\n" + "\n".join(lines))
+    raw = readers.read(tmp_path / "a.txt")
+    np.testing.assert_allclose(raw.heights, heights, atol=1e-6)
+    np.testing.assert_allclose(raw.grid, [step, 2 * step], rtol=0.01)
 
 
-# Arguments and other formats
-
-
-@pytest.mark.parametrize(
-    ("arguments", "message"),
-    [
-        ({"height_unit": "nm"}, "does not tell its size; give length or pixel_size"),
-        ({"length": "1 um"}, "does not tell the unit of height; give height_unit"),
-        ({"length": "1 um", "pixel_size": "1 nm"}, "length or pixel_size, not both"),
-        ({"length": "1 kg", "height_unit": "nm"}, "length.*'1 kg'"),
-        ({"length": "-1 um", "height_unit": "nm"}, "length must be positive.*'-1 um'"),
-        ({"length": ["1 um"] * 3, "height_unit": "nm"}, "one length or two"),
-        ({"length": "1 um", "height_unit": "parsec per fortnight"}, "height_unit"),
-        ({"length": "1 um", "height_unit": "nm", "max_missing": 1.5}, "max_missing.*1.5"),
-    ],
-)
-def test_what_the_file_does_not_tell_must_be_told(tmp_path, matrix, arguments, message):
-    path = write(tmp_path / "bare.txt", matrix)
-    with pytest.raises(ValueError, match=message):
-        topography.read(path, **arguments)
-
-
-def test_no_such_file(tmp_path):
-    with pytest.raises(FileNotFoundError, match="nowhere"):
-        topography.read(tmp_path / "nowhere.txt")
+# numpy and NetCDF
 
 
 @pytest.mark.parametrize("suffix", ["npy", "npz"])
@@ -190,6 +147,125 @@ def test_netcdf_takes_units_and_steps_from_the_file(tmp_path, matrix, dims):
         topography.read(path, variable="depth")
 
 
+# Files of instruments
+
+
+def test_file_of_an_instrument_tells_size_and_unit(tmp_path, counts):
+    t = topography.read(bcr(tmp_path / "a.bcr", counts))
+    np.testing.assert_allclose([t.dx, t.dy], [4e-9, 3e-9], rtol=1e-12)
+    assert t.heights.shape == (10, 12)
+    # Instruments may count y upwards or downwards: the spectrum does not care.
+    upright = min(
+        np.abs(t.heights - 0.5e-9 * c.T).max() for c in (counts, counts[::-1], counts[:, ::-1])
+    )
+    assert upright < 1e-20
+
+
+def test_what_an_instrument_marks_as_missing_is_missing(tmp_path, counts):
+    plane = np.add.outer(3 * np.arange(12), 2 * np.arange(10))
+    holes = plane.copy()
+    holes[4, 5] = holes[7, 2] = VOID
+    path = bcr(tmp_path / "a.bcr", holes)
+    filled = topography.read(path)
+    assert filled.missing == 2
+    whole = topography.read(bcr(tmp_path / "b.bcr", plane))
+    # Harmonic filling goes on a plane exactly.
+    np.testing.assert_allclose(filled.heights, whole.heights, atol=1e-20)
+    with pytest.raises(ValueError, match=r"2 of 120 points \(1\.7 %\) are missing"):
+        topography.read(path, missing="refuse")
+    cropped = topography.read(path, missing="crop")
+    assert cropped.missing == 0
+    assert cropped.cropped == pytest.approx(1 - cropped.heights.size / 120)
+
+
+@pytest.mark.parametrize(
+    ("name", "content", "kind"),
+    [
+        ("a.txt", b"1 2\n3 4\n", "text"),
+        ("a.dat", "1 2\n".encode("utf-16"), "text"),
+        ("a.dat", b"header\n" * 2000 + b"\0\1\2", "instrument"),
+        ("a.xyz", b"1 2 3\n", "text"),
+        ("a.sdf", b"1 2 3\n", "instrument"),
+        ("a.txt", b"# pixel size = 1e-6 m\n1 2 3\n", "instrument"),
+        ("a.txt", b"X;Y;valid\n[mm];[mm];[1/0]\n1;2;1\n", "instrument"),
+        ("a.NC", b"", "netcdf"),
+        ("a.npz", b"", "numpy"),
+    ],
+)
+def test_format_follows_from_name_and_content(tmp_path, name, content, kind):
+    (tmp_path / name).write_bytes(content)
+    assert readers.format_of(tmp_path / name) == kind
+    assert readers.format_of(tmp_path / name, "text") == "text"
+    assert readers.format_of(tmp_path / name, "di") == "instrument"
+
+
+@pytest.mark.parametrize(
+    ("name", "unit", "is_height", "holds"),
+    [
+        ("Height", "m", True, True),
+        ("ZSensor", "nm", True, True),
+        ("Height (measured, retrace)", "m", True, True),
+        ("Error corrected height", "m", True, True),
+        ("Default", None, True, True),
+        ("Phase", None, True, False),
+        ("Measurement_000/Channel_000/Error", None, True, False),
+        ("Lock-In Amplitude", "m", True, False),
+        ("Adhesion", ("nm", "V"), True, False),
+        ("UserIn0", "m", False, False),
+    ],
+)
+def test_channels_of_heights(name, unit, is_height, holds):
+    channel = SimpleNamespace(name=name, unit=unit, is_height_channel=is_height)
+    assert readers.holds_heights(channel) == holds
+
+
+# Errors name file, value and remedy in one line
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        ({"channel": "Phase"}, r"a\.bcr: no channel 'Phase'; the file has 'Default'"),
+        ({"channel": 7}, r"a\.bcr: no channel 7"),
+        ({"variable": "z"}, "variable is for NetCDF and npz"),
+        ({"height_unit": "um"}, "height_unit = 'um', but the file says 'nm'"),
+        ({"format": "x3p"}, r"a\.bcr: SurfaceTopography cannot read it"),
+        ({"format": "tiff2000"}, "SurfaceTopography has no format 'tiff2000'; it knows al3d, "),
+        ({"format": "text"}, r"a\.bcr: its header says 'bit2nm = 0.5', .* give format: instrument"),
+        ({"length": "1 um", "pixel_size": "1 nm"}, "length or pixel_size, not both"),
+        ({"length": "1 kg"}, "length.*'1 kg'"),
+        ({"length": "-1 um"}, "length must be positive.*'-1 um'"),
+        ({"length": ["1 um"] * 3}, "one length or two"),
+        ({"height_unit": "parsec per fortnight"}, "height_unit"),
+        ({"max_missing": 1.5}, "max_missing.*1.5"),
+        ({"missing": "guess"}, "missing must be 'fill', 'crop' or 'refuse', got 'guess'"),
+        ({"missing_rim": -1}, "missing_rim.*-1"),
+        ({"spikes": "drop"}, "spikes must be 'mask' or 'keep', got 'drop'"),
+    ],
+)
+def test_arguments_that_do_not_fit_the_file(tmp_path, counts, arguments, message):
+    path = bcr(tmp_path / "a.bcr", counts)
+    with pytest.raises(ValueError, match=message) as caught:
+        topography.read(path, **arguments)
+    assert "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("name", "content", "arguments", "message"),
+    [
+        ("a.txt", "1 2 3\n4 5 6\n", {"channel": "Height"}, "a text file has no channels"),
+        ("a.txt", "0 1\n1 2\n1 3\n", {"position_unit": "m"}, "must all differ"),
+        ("a.nc", "not binary at all", {}, "a.nc: not a readable NetCDF file"),
+    ],
+)
+def test_files_that_do_not_fit_the_arguments(tmp_path, name, content, arguments, message):
+    (tmp_path / name).write_text(content)
+    with pytest.raises(ValueError, match=message):
+        topography.read(tmp_path / name, height_unit="m", **arguments)
+    with pytest.raises(FileNotFoundError, match="nowhere"):
+        topography.read(tmp_path / "nowhere.txt")
+
+
 def test_netcdf_with_uneven_coordinates_is_refused(tmp_path, matrix):
     path = tmp_path / "a.nc"
     x = ("x", [0.0, 1.0, 2.0, 4.0], {"units": "um"})
@@ -198,11 +274,61 @@ def test_netcdf_with_uneven_coordinates_is_refused(tmp_path, matrix):
         topography.read(path)
 
 
-@pytest.mark.parametrize("name", ["a.nc", "a.npz"])
-def test_files_that_are_not_what_their_name_says(tmp_path, name):
-    (tmp_path / name).write_text("not binary at all")
-    with pytest.raises(ValueError, match=f"{name}: not a readable"):
-        topography.read(tmp_path / name)
+# Line profiles
+
+
+@pytest.mark.parametrize("header", ["# nx: 40\n", "# rows: 40\n", "# columns: 2\n"])
+def test_headers_of_profiles_count_points_or_the_table(tmp_path, header):
+    path = tmp_path / "line.txt"
+    path.write_text(header + "\n".join(f"{i} {i % 7}" for i in range(40)))
+    assert readers.read(path).heights.shape == (40,)
+    path.write_text("# nx: 50\n" + "\n".join(f"{i} {i % 7}" for i in range(40)))
+    with pytest.raises(ValueError, match="2 columns, but its header says '# nx: 50'"):
+        readers.read(path)
+
+
+def test_profile_of_one_column_needs_its_length(tmp_path):
+    path = tmp_path / "line.txt"
+    path.write_text("\n".join(map(str, range(20))))
+    with pytest.raises(ValueError, match="does not tell the profile's length"):
+        topography.read(path, height_unit="nm")
+    p = topography.read(path, height_unit="nm", length="10 um")
+    assert isinstance(p, topography.Profile)
+    assert (p.dx, p.length) == pytest.approx((0.5e-6, 10e-6))
+    np.testing.assert_allclose(p.heights, 1e-9 * np.arange(20), atol=1e-24)
+    with pytest.raises(ValueError, match="one length for a line profile"):
+        topography.read(path, height_unit="nm", length=["10 um", "20 um"])
+
+
+def test_profile_with_uneven_positions_is_resampled(tmp_path):
+    x = np.array([0.0, 1.0, 2.5, 3.0, 4.0, 6.0])
+    path = tmp_path / "line.csv"
+    path.write_text("\n".join(f"{a};{3 * a + 1}" for a in x[::-1]))
+    with pytest.raises(ValueError, match="unit of position; give position_unit"):
+        topography.read(path, height_unit="nm")
+    p = topography.read(path, height_unit="nm", position_unit="um")
+    # Linear interpolation keeps a line; six points from 0 to 6 um.
+    np.testing.assert_allclose(p.heights, 1e-9 * (3 * np.linspace(0, 6, 6) + 1), rtol=1e-12)
+    assert (p.dx, p.largest_gap) == pytest.approx((1.2e-6, 2e-6))
+    np.testing.assert_allclose(p.detrended().heights, 0, atol=1e-22)
+
+
+def test_profile_from_netcdf_with_missing_points(tmp_path):
+    heights = np.arange(10.0)
+    heights[[3, 9]] = np.nan
+    data = xr.Dataset(
+        {"z": ("s", heights, {"units": "um"})}, coords={"s": ("s", np.arange(10), {"units": "mm"})}
+    )
+    data.to_netcdf(tmp_path / "a.nc")
+    p = topography.read(tmp_path / "a.nc", max_missing=0.2)
+    assert (p.missing, p.dx) == (2, pytest.approx(1e-3))
+    # A line goes on as a line inside; at the end the last height does.
+    np.testing.assert_allclose(p.heights, 1e-6 * np.array([*range(9), 8]), atol=1e-20)
+    cropped = topography.read(tmp_path / "a.nc", missing="crop")
+    np.testing.assert_allclose(cropped.heights, 1e-6 * np.arange(4, 9), atol=1e-20)
+
+
+# Missing points and spikes
 
 
 def test_the_number_that_marks_missing_points(tmp_path):
@@ -215,20 +341,28 @@ def test_the_number_that_marks_missing_points(tmp_path):
     assert t.missing_fraction == 0.01
 
 
-def test_jacksboro_has_the_steps_of_the_ellipsoid():
-    t = topography.jacksboro()
-    assert t.heights.shape == (403, 344)
-    assert t.heights.min() == 236
-    assert t.heights.max() == 1076
-    # The usual series for the length of a degree on WGS 84, independent of the radii of curvature
-    # used; its coefficients are rounded to 1 cm in 111 km.
-    phi = np.deg2rad((36.73291666666667 + 36.44625) / 2)
-    north = 111132.92 - 559.82 * np.cos(2 * phi) + 1.175 * np.cos(4 * phi)
-    east = 111412.84 * np.cos(phi) - 93.5 * np.cos(3 * phi) + 0.118 * np.cos(5 * phi)
-    np.testing.assert_allclose([t.dx, t.dy], np.array([east, north]) / 1200, rtol=1e-6)
+def test_largest_complete_rectangle_equals_brute_force():
+    rng = np.random.default_rng(2)
+    for share in (0.05, 0.3, 0.7):
+        known = rng.random((9, 7)) > share
+        found = known[levelling.complete_rectangle(known)]
+        assert found.all()
+        largest = max(
+            known[a:b, c:d].size
+            for a in range(9)
+            for b in range(a + 1, 10)
+            for c in range(7)
+            for d in range(c + 1, 8)
+            if known[a:b, c:d].all()
+        )
+        assert found.size == largest
 
 
-# Filling and levelling
+def test_longest_run_and_nothing_known():
+    known = np.array([1, 1, 0, 1, 1, 1, 0, 1], dtype=bool)
+    assert levelling.complete_rectangle(known) == (slice(3, 6),)
+    with pytest.raises(ValueError, match="here: every point is missing"):
+        levelling.complete_rectangle(np.zeros((3, 3), dtype=bool), "here")
 
 
 def test_holes_in_a_plane_are_filled_exactly():
@@ -293,20 +427,13 @@ def test_rims_are_dropped_on_reading(tmp_path, missing):
     assert plane.h_rms < 1.1e-6 * np.std(heights)
     plane = topography.read(tmp_path / "map.npy", **asked, missing_rim=0)
     assert plane.dropped == 0
-    with pytest.raises(ValueError, match="missing_rim.*-1"):
-        topography.read(tmp_path / "map.npy", **asked, missing_rim=-1)
     with pytest.raises(
         ValueError, match=r"npy, 40 points beside missing ones dropped: 120 of 3000"
     ):
         topography.read(tmp_path / "map.npy", **asked | {"missing": "fill", "max_missing": 0.03})
 
 
-@pytest.mark.parametrize("share", [0.2, 1.0])
-def test_too_many_missing_points_are_refused(share):
-    heights = np.zeros(1000).reshape(20, 50)
-    heights.ravel()[: int(1000 * share)] = np.nan
-    with pytest.raises(ValueError, match=rf"scan\.nc: {int(1000 * share)} of 1000 points"):
-        levelling.fill_missing(heights, source="scan.nc")
+# Levelling, and what maps tell
 
 
 @pytest.mark.parametrize(("kind", "terms"), [("mean", 1), ("plane", 3), ("quadratic", 6)])
@@ -322,6 +449,16 @@ def test_levelling_equals_a_dense_least_squares_fit(kind, terms):
     np.testing.assert_allclose(levelling.detrend(heights, kind), expected, atol=1e-10)
 
 
+def test_trend_of_heights_with_holes_is_that_of_the_rest():
+    x, y = np.meshgrid(np.arange(23.0), np.arange(17.0), indexing="ij")
+    rough = np.random.default_rng(6).normal(size=x.shape)
+    holes = np.where(np.random.default_rng(7).random(x.shape) < 0.1, np.nan, rough)
+    tilted = levelling.rms_of_known(holes + 3 * x - y)
+    assert tilted == pytest.approx(levelling.rms_of_known(holes), rel=1e-9)
+    assert levelling.rms_of_known(rough) == pytest.approx(np.std(levelling.detrend(rough)))
+    assert levelling.rms_of_known(rough[0]) == pytest.approx(np.std(levelling.detrend(rough[0])))
+
+
 def test_levelling_of_a_topography_keeps_what_it_came_with(tmp_path, matrix):
     path = write(tmp_path / "a.txt", matrix, header=HEADER)
     raw = topography.read(path)
@@ -333,21 +470,22 @@ def test_levelling_of_a_topography_keeps_what_it_came_with(tmp_path, matrix):
         raw.detrended("cubic")
 
 
-# The catalogue
+def test_heights_as_a_data_array_lie_where_they_were_measured():
+    heights = np.arange(6.0).reshape(3, 2)
+    found = topography.Topography(heights, 0.5, 2.0, "test").to_xarray()
+    assert found.sel(x=1.0, y=2.0) == heights[2, 1]
+    assert [found[name].attrs["units"] for name in ("x", "y")] == ["m", "m"]
+    assert found.attrs == {"units": "m", "long_name": "height"}
 
 
-def test_catalogue_of_surfaces_is_valid_and_states_its_sources():
-    pytest.importorskip("yaml")
-    catalogue = checks.load(CONFIG / "surfaces.yaml")
-    checks.check_units(catalogue, "surfaces.yaml")
-    surfaces = catalogue["surfaces"]
-    checks.check_surfaces(surfaces)
-    assert all(len(s["source"]) > 20 for s in surfaces.values())
-    # Claims of the paper on asphalt and polished steel, as numbers.
-    assert si(surfaces["asphalt"]["C0"][1], "m^0.4") == 1e-3
-    wavelength = si(surfaces["asphalt"]["longest_wavelength"], "m")
-    assert 2 * np.pi / wavelength == pytest.approx(1e3, rel=1e-3)
-    steel = surfaces["polished_steel"]
-    q0 = 2 * np.pi / si(steel["longest_wavelength"], "m")
-    # "of the order of 0.1": within a factor two
-    assert 0.05 < q0 * si(steel["h_rms"], "m") < 0.2
+def test_jacksboro_has_the_steps_of_the_ellipsoid():
+    t = topography.jacksboro()
+    assert t.heights.shape == (403, 344)
+    assert t.heights.min() == 236
+    assert t.heights.max() == 1076
+    # The usual series for the length of a degree on WGS 84, independent of the radii of curvature
+    # used; its coefficients are rounded to 1 cm in 111 km.
+    phi = np.deg2rad((36.73291666666667 + 36.44625) / 2)
+    north = 111132.92 - 559.82 * np.cos(2 * phi) + 1.175 * np.cos(4 * phi)
+    east = 111412.84 * np.cos(phi) - 93.5 * np.cos(3 * phi) + 0.118 * np.cos(5 * phi)
+    np.testing.assert_allclose([t.dx, t.dy], np.array([east, north]) / 1200, rtol=1e-6)
