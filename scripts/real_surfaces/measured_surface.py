@@ -25,7 +25,7 @@ def read_levelled(measurement):
 def find_cutoff(asked, index, heights, finest):
     """Cutoff [1/m] of one of a surface's measurements, whose levelled heights these are.
 
-    `finest` is that of the surface, which is that of its finest measurement.
+    `finest` is the cutoff of the surface: of its finest measurement.
     """
     listed = measurements(asked)
     if len(listed) == 1:

@@ -358,10 +358,3 @@ def test_many_spikes_and_those_that_change_the_rms_height_are_told_with_both_num
     few = analyse(array(changed((60, 70), value=9.0)), tmp_path)
     assert int(few.masked_spikes) == 1
     assert "with all points" not in few.remarks
-
-
-def test_scratches_of_one_point_are_used(tmp_path):
-    scratched = changed(*((i, 20 + i // 2) for i in range(N)), value=-60.0)
-    found = analyse(array(scratched), tmp_path)
-    assert int(found.masked_spikes) == 0
-    assert float(found.h_rms_measured) == pytest.approx(np.std(scratched) * 1e-6, rel=0.05)

@@ -1,4 +1,7 @@
-"""One measurement of a surface, map or line profile, as an isotropic spectrum with its limits."""
+"""One measurement of a surface, map or line profile, as an isotropic spectrum with its limits.
+
+The spectrum ends where the instrument stops resolving the surface: by its tip, blur or noise.
+"""
 
 from __future__ import annotations
 
@@ -93,7 +96,20 @@ def analyse(
 ) -> MeasuredSpectrum:
     """Isotropic spectrum of one levelled measurement, with its limits and its self-affine fit.
 
-    The taper is that of `psd.power_spectrum`.
+    Parameters
+    ----------
+    heights : Topography or Profile
+        Levelled heights, in any one unit of length.
+    taper : {"none", "hann", "hann_radial"}
+        Taper of the heights (`psd.power_spectrum`); "none" for periodic heights only.
+    limits : Limits, optional
+        Limits of the instrument. Default: the cutoff is detected, and at most half the Nyquist
+        wave number.
+
+    Returns
+    -------
+    MeasuredSpectrum
+        C(q) in rings [length^4], the interval in which it is the surface's spectrum, and the fit.
 
     Raises
     ------
@@ -192,13 +208,13 @@ class Bend:
     """Wave number beyond which a spectrum is the instrument's rather than the surface's."""
 
     q: float  #: highest wave number of the surface's spectrum [1/length]
-    #: the spectrum beyond falls faster or slower than that of any surface
+    #: whether the spectrum beyond falls faster or slower than any surface's
     kind: Literal["blur", "noise"]
     exponent: float  #: s in C ~ q^-s just beyond
 
 
 def tip_cutoff(heights: ArrayLike, steps: tuple[float, ...], radius: float) -> float | None:
-    """Wavelength below which a spherical tip has left its own shape in the heights.
+    """Wavelength below which the heights show the shape of the tip, a sphere.
 
     A tip of radius R leaves no peak sharper than itself: heights are unreliable at distances over
     which some second difference reaches -1/(2R) (Sanner, Nöhring, Thimons, Jacobs & Pastewka

@@ -18,7 +18,7 @@ from scipy import ndimage
 MAX_MISSING = 0.1  #: default largest share of missing points that are filled
 OUTSTANDING = 5.0  #: rms step at a rim over that elsewhere, above which the rim is dropped
 LARGEST_RIM = 5  #: widest rim that "detect" drops [points]
-OUTLYING = 30.0  #: distance of a spike from its neighbours over that of the `TYPICAL` points
+OUTLYING = 30.0  #: distance of a spike from its neighbours over the distance of `TYPICAL` points
 TYPICAL = 0.99  #: share of the points below that distance; more spikes than the rest are no spikes
 MOST_TOUCHING = 4  #: spikes of a map in one group; longer groups are scratches and fibres
 
@@ -155,7 +155,7 @@ def fill_missing(
     if heights.ndim == 1:
         return np.interp(positions, positions[~hole], heights[~hole]), missing
     with warnings.catch_warnings():
-        warnings.simplefilter("ignore")  # of SurfaceTopography's own dependencies
+        warnings.simplefilter("ignore")  # of what SurfaceTopography imports
         from SurfaceTopography import Topography  # takes two seconds
 
     masked = Topography(np.ma.array(heights, mask=hole), physical_sizes=heights.shape)
@@ -188,14 +188,14 @@ def complete_rectangle(known: NDArray, source: str = "heights") -> tuple[slice, 
 def find_spikes(heights: NDArray) -> NDArray:
     """Mark points that are far off their neighbours.
 
-    The distance of a point of a map (nx, ny) is that to the third closest in height of its eight
-    neighbours, so that an edge, a corner or a ridge of two points' width is close to its own, and
-    up to three spikes may touch. On a line profile (n,) it is that to the second closest of four.
-    A spike is more than `OUTLYING` times as far off as 99 % of the points are. A scratch or fibre
-    of one point's width is so too, but not alone: groups of more than `MOST_TOUCHING`
-    such points that touch are no spikes. An island of one point is taken for a spike.
-    Slopes are taken out by the medians of the steps. Points that are not finite are none, and no
-    neighbours.
+    The distance of a point of a map (nx, ny) is its difference in height to the third closest in
+    height of its eight neighbours, so that points of an edge, a corner or a ridge two points wide
+    are close to each other, and up to three spikes may touch. On a line profile (n,) it is the
+    difference to the second closest of four. A spike is more than `OUTLYING` times as far off as
+    99 % of the points are. Points of a scratch or fibre one point wide are as far off, but not
+    alone: groups of more than `MOST_TOUCHING` such points that touch are no spikes. An island of
+    one point is taken for a spike. Slopes are taken out by the medians of the steps. Points that
+    are not finite are neither spikes nor neighbours.
 
     Returns a mask of the shape of the heights.
     """

@@ -26,12 +26,26 @@ SHELLS = 200  #: per decade
 
 
 def periodise(heights: ArrayLike, kind: Periodisation) -> NDArray:
-    """Return levelled heights (nx, ny) that are periodic without a jump.
+    """Return levelled heights that are periodic without a jump.
 
-    "taper": the heights about their mean, times a taper that is 1 except in a cosine rim of an
-    eighth of each side. "mirror": the heights and their mirror images, (2 nx, 2 ny). "smooth": the
-    heights less the smoothest map that has their steps from one side to the opposite. "given": the
-    heights are periodic as they stand and stay what they are.
+    Parameters
+    ----------
+    heights : (nx, ny) array
+        Levelled heights, in any unit.
+    kind : {"taper", "mirror", "smooth", "given"}
+        "taper": the heights about their mean, times a taper that is 1 except in a cosine rim of an
+        eighth of each side. "mirror": the heights and their mirror images. "smooth": the heights
+        less the smoothest map that has the same steps between opposite sides. "given": the heights
+        are periodic already and are not changed.
+
+    Returns
+    -------
+    (nx, ny) array, or (2 nx, 2 ny) for "mirror"
+
+    Raises
+    ------
+    ValueError
+        If the heights are no map, or `kind` is unknown.
     """
     heights = np.asarray(heights, dtype=float)
     if heights.ndim != 2:
@@ -51,7 +65,7 @@ def periodise(heights: ArrayLike, kind: Periodisation) -> NDArray:
 
 
 def _steps_between_sides(heights: NDArray) -> NDArray:
-    """Map whose periodic Laplacian is that of the steps across the border, of zero mean."""
+    """Map of zero mean whose periodic Laplacian vanishes but for the steps across the border."""
     steps = np.zeros_like(heights)
     across, along = heights[-1] - heights[0], heights[:, -1] - heights[:, 0]
     steps[0] += across
@@ -75,9 +89,26 @@ def band_limited(
 ) -> NDArray:
     """Periodic heights without waves beyond `q_max`, on a grid that resolves the others.
 
-    There are at least `pixels` grid points per shortest wavelength; their numbers are multiples of
-    four, so that every second point is a grid, too. A ValueError says if the given grid does not
-    hold waves up to `q_max`.
+    Parameters
+    ----------
+    heights : (nx, ny) array
+        Heights of one period, in any unit.
+    sides : pair of float
+        Sides of the period along x and y [length].
+    q_max : float
+        Highest wave number that is kept [1/length].
+    pixels : int
+        Grid points per shortest wavelength, at least.
+
+    Returns
+    -------
+    (mx, my) array
+        Heights; mx and my are multiples of four, so that every second point is a grid, too.
+
+    Raises
+    ------
+    ValueError
+        If the grid of `heights` does not hold waves up to `q_max`.
     """
     heights = np.asarray(heights, dtype=float)
     nyquist = np.pi * min(n / side for n, side in zip(heights.shape, sides, strict=True))

@@ -43,7 +43,7 @@ _PER_COUNT = r"(?:(?:\bper|/)\s*(?:counts?|bits?|digits?|lsb)|\bbits?\s*to)(?![a
 _OF_HEIGHTS = r"(?:z|heights?|data|values?|elevations?|counts?|vertical)"
 _BESIDE = r"[\s_()\[\]-]+(?:[a-z]+[\s_()\[\]-]+)?"  # at most one word between
 # A factor of the heights says so, has a unit per count, or no other word before its number:
-# zoom, colours and axes have factors and scales of their own.
+# zoom, colours and axes have factors and scales, too.
 _FACTOR = re.compile(
     rf"(?<![a-z]){_OF_HEIGHTS}{_BESIDE}{_FACTORS}(?![a-z])"
     rf"|(?<![a-z]){_FACTORS}{_BESIDE}{_OF_HEIGHTS}(?![a-z])|(?<![a-z])z{_FACTORS}(?![a-z])"
@@ -51,7 +51,7 @@ _FACTOR = re.compile(
     re.IGNORECASE,
 )
 _NUMBER = re.compile(r"[-+]?\d*\.?\d+(?:[eE][-+]?\d+)?")
-# A number of points: whole, and not that of a length or of points per length.
+# A number of points: a whole number without a unit of length, and not per length.
 _UNITS = r"(?:[pnuµμmckf]?m|microns?|[a-z]*met(?:er|re)s?|å|a|mil|inch|in|dpi|ppi|deg|%|°)"
 _COUNT = rf"(\d+)(?!\d|[.,]\d|e[-+]?\d|\s*(?:{_UNITS}(?![a-z])|/))"
 _START = r"(?:^\W*|\d[\s,;]+)(?:(?:number|no\.?)\s+of\s+)?"  # of a line, or after another number
@@ -143,7 +143,7 @@ def decode(raw: bytes) -> str:
 def check_counts(path: Path, header: Iterable[str], *shapes: tuple[int, int]) -> None:
     """Refuse a file whose header states numbers of columns and rows that it does not have.
 
-    `shapes` are (columns, rows) that the header may mean. Messages name those of the first.
+    `shapes` are (columns, rows) that the header may mean. Messages name the first.
     """
     for line in header:
         both = _BOTH.search(line)

@@ -2,7 +2,7 @@
 
 A doubt is a sentence that names what is found and what helps. A measurement with doubts has a
 spectrum, but no verdict should rest on it. Limits were chosen on fifteen files of instruments,
-which are not in the repository; those of H on surfaces of known H.
+which are not in the repository; the limits of H on surfaces of known H.
 """
 
 from __future__ import annotations
@@ -36,9 +36,9 @@ def find_plateau(levels: NDArray, counts: NDArray) -> tuple[float, float] | None
 
     `levels` are the different values in ascending order, `counts` how often they occur.
 
-    Instruments and conversions write zero, the limit of the range, or a number of their own where
+    Instruments and conversions write zero, the limit of the range, or a marker where
     nothing was measured. Such a value is many times as frequent (`PLATEAUS`) as the three next
-    above and below it; those of a converter's coarse steps are not. None if there is none.
+    above and below it; the coarse steps of a converter are not. None if there is none.
     """
     if levels.size == 0:
         return None

@@ -3,8 +3,8 @@
 Convention of the project, one dimension less: h_rms^2 is the integral of C1 dq over all q, both
 signs. A profile across an isotropic surface has C1(q) = integral of C(sqrt(q^2 + k^2)) dk over all
 k, Abel's transform of C (Nayak 1971, doi:10.1115/1.3451608). Its inverse takes a derivative of a
-noisy spectrum. Here the ratio C/C1 is that of the self-affine spectrum fitted to the profile. It
-is exact for such a spectrum; elsewhere its error is that of the local exponent: for C ~ q^-s the
+noisy spectrum. Here the ratio C/C1 is taken from the self-affine fit to the profile. It is
+exact for such a spectrum; elsewhere its error follows from the local exponent: for C ~ q^-s the
 ratio is Gamma(s/2)/(sqrt(pi) Gamma(s/2 - 1/2))/q.
 """
 
@@ -104,7 +104,7 @@ def abel_ratio(q: ArrayLike, hurst: float, q_rolloff: float | None = None) -> ND
     if q_rolloff is None:
         return special.gamma(hurst + 1) / (np.sqrt(np.pi) * special.gamma(hurst + 0.5)) / q
     # With C = 1 on the plateau. Beyond q_rolloff the integral over k is an incomplete beta
-    # function in t = (q/|q|)^2, below it that of a constant.
+    # function in t = (q/|q|)^2, below it the integrand is constant.
     t = np.minimum((q / q_rolloff) ** 2, 1.0)
     level = np.minimum((q / q_rolloff) ** (-2 * (hurst + 1)), 1.0)
     tail = special.betainc(hurst + 0.5, 0.5, t) * special.beta(hurst + 0.5, 0.5)
@@ -120,7 +120,7 @@ def isotropic(
 
     Returns narrow rings of C [length^4] with the degrees of freedom of the profile, and the fit in
     the convention of two dimensions. Besides what `self_affine_fit.fit_rings` raises, a ValueError
-    says that the spectrum falls more slowly than that of any isotropic surface: noise.
+    says that the spectrum falls more slowly than any isotropic surface's: noise.
     """
     profile = spectrum.rings(FINE)
     rings = _scale(profile, 1 / profile.q)

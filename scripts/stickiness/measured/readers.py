@@ -40,7 +40,7 @@ _LONGEST = 200  # characters of SurfaceTopography's words
 
 @dataclass(frozen=True)
 class Raw:
-    """Content of a file, heights in the file's own unit."""
+    """Content of a file, heights in the unit of the file."""
 
     heights: NDArray  #: (nx, ny), the first axis along x, or a line profile (n,); NaN where missing
     source: str  #: file, and variable or channel
@@ -229,7 +229,7 @@ def _read_text(path: Path) -> Raw:
 
 
 def _read_instrument(path: Path, fmt: str | None, channel: str | int | None) -> Raw:
-    """Read a channel of heights, by default the file's own; `fmt` as SurfaceTopography names it."""
+    """Read a channel of heights, by default the reader's choice; `fmt` as SurfaceTopography names it."""
     reader = _open(path, fmt)
     channels, info = _call(path, lambda: (reader.channels, reader.default_channel))
     heights_in = ", ".join(repr(c.channel_id) for c in channels if holds_heights(c))
@@ -273,9 +273,9 @@ def holds_heights(channel) -> bool:
 
 
 def _open(path: Path, fmt: str | None):
-    """Open a file; if no format fits, the error is that of the format that it claims to have."""
+    """Open a file; if no reader can, report the error of the format that it claims to have."""
     with warnings.catch_warnings():
-        warnings.simplefilter("ignore")  # of SurfaceTopography's own dependencies
+        warnings.simplefilter("ignore")  # of what SurfaceTopography imports
         from SurfaceTopography import IO
 
         if fmt is None:

@@ -1,4 +1,4 @@
-"""Several measurements of one surface as one spectrum, and moments of a spectrum with their errors.
+"""Several measurements stitched to one spectrum; moments of a spectrum with their errors.
 
 Measurements at different magnifications cover different wave numbers at different places. Where
 they overlap, ln C is averaged with weights 1/(sampling variance + tau^2), in which tau is the
@@ -137,7 +137,7 @@ def _variance_between(logs: NDArray, variances: NDArray) -> float:
 
 
 def _as_rings(q: NDArray, mean: NDArray, error2: NDArray) -> RadialPSD:
-    """Rings whose ln C has this mean and variance; those of a single measurement are its own."""
+    """Rings whose ln C has this mean and variance; of one measurement alone they are unchanged."""
     dof = _inverse_trigamma(error2)
     level = np.exp(mean + special.digamma(dof) - np.log(dof))
     modes = np.maximum(np.rint(dof), 1).astype(int)
@@ -207,9 +207,26 @@ def draw(
     stitched: Stitched | None = None,
     extend_to: float | None = None,
 ) -> Draws:
-    """Draw moments of a measured spectrum; of that of `stitched` if several measurements are.
+    """Draw moments of spectra that agree with a measured one.
 
-    With `extend_to` the fit extrapolates the spectrum up to this wave number [1/length].
+    Parameters
+    ----------
+    spectrum : MeasuredSpectrum
+        Of one measurement, or the `spectrum` of `stitched`.
+    count : int
+        Number of draws.
+    seed : int
+        Of the random numbers; the same seed draws the same moments.
+    stitched : Stitched, optional
+        If the spectrum was stitched: the scatter between measurements varies, too.
+    extend_to : float, optional
+        Wave number up to which the fit extrapolates the spectrum [1/length]. Default: slope,
+        curvature and energy end at the cutoff.
+
+    Returns
+    -------
+    Draws
+        `count` values of every moment and of q0.
 
     Raises
     ------
@@ -256,16 +273,16 @@ def _relative(
     """Drawn over measured C in every ring (count, m)."""
     # The mean of dof exponential values has the relative variance 1/dof. A log-normal distribution
     # of that mean and variance is positive and lacks the far tail of the posterior of a single
-    # mode: the variance of the scan's own heights is known.
+    # mode: the variance of the measured heights is known.
     variance = np.log1p(1 / spectrum.rings.dof)
-    own, logs = variance, 0.0
+    sampling, logs = variance, 0.0
     if stitched is not None:
         tau = np.nan_to_num(stitched.scatter)
         logs = rng.normal(size=(count, len(stitched.shares))) * tau @ stitched.shares
         # The errors of the rings already hold the offsets, as if these were independent.
-        own = np.maximum(variance - tau**2 * np.sum(stitched.shares**2, axis=0), 0.0)
+        sampling = np.maximum(variance - tau**2 * np.sum(stitched.shares**2, axis=0), 0.0)
     normal = rng.normal(size=(count, len(variance)))
-    return np.exp(logs + normal * np.sqrt(own) - variance / 2)
+    return np.exp(logs + normal * np.sqrt(sampling) - variance / 2)
 
 
 def _draw_power_laws(spectrum: MeasuredSpectrum, count: int, rng: np.random.Generator) -> NDArray:

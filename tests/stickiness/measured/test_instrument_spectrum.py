@@ -181,27 +181,6 @@ def test_stitched_spectrum_covers_its_truth(scans):
         assert 0.4 < np.sqrt(np.mean(z**2)) < 1.5
 
 
-def test_stitching_reaches_from_the_lowest_to_the_highest(scans):
-    _, pairs = scans
-    whole = stitching.stitch(pairs[0])
-    large, small = pairs[0]
-    assert whole.spectrum.lowest == large.lowest
-    assert whole.spectrum.cutoff.q == pytest.approx(small.cutoff.q, rel=0.1)
-    assert np.isfinite(whole.levels[0]).sum() < len(whole.spectrum.rings)
-    np.testing.assert_allclose(whole.shares.sum(0), 1, rtol=1e-12)
-
-
-def test_rings_of_one_measurement_alone_are_its_own(scans):
-    _, pairs = scans
-    whole = stitching.stitch(pairs[1])
-    alone = np.isfinite(whole.levels[0]) & ~np.isfinite(whole.levels[1])
-    rings = whole.spectrum.rings
-    assert alone.sum() > 3
-    np.testing.assert_allclose(whole.levels[0][alone], rings.psd[alone], rtol=0.3)
-    lowest = pairs[1][0].narrow
-    assert rings.psd[0] == pytest.approx(lowest.psd[0] * (lowest.q[0] / rings.q[0]) ** 3.6)
-
-
 def test_an_offset_is_seen_and_widens_the_errors(scans):
     _, pairs = scans
     large, small = pairs[2]
@@ -219,6 +198,8 @@ def test_measurements_that_do_not_overlap_say_nothing_of_their_offset(scans):
     found = stitching.stitch([large, apart])
     assert np.isnan(found.scatter)
     assert np.isnan(found.offsets).all()
+    with pytest.raises(ValueError, match="two measurements at least, got 1"):
+        stitching.stitch([large])
 
 
 def test_a_map_and_a_profile_can_be_stitched():
@@ -231,11 +212,6 @@ def test_a_map_and_a_profile_can_be_stitched():
     assert abs(fit.hurst - 0.8) < 3 * fit.hurst_se
     # Both see the same spectrum, the profile by some tens of modes.
     assert whole.scatter < 0.5
-
-
-def test_stitching_one_is_refused(scans):
-    with pytest.raises(ValueError, match="two measurements at least, got 1"):
-        stitching.stitch(scans[1][0][:1])
 
 
 # Moments and their errors
@@ -262,13 +238,6 @@ def test_draws_scatter_about_the_moments_of_the_surface():
     # The end of the plateau is drawn with the error of its fit.
     fit = found.fit
     assert np.std(np.log(drawn.q0)) == pytest.approx(fit.q_rolloff_se / fit.q_rolloff, rel=0.15)
-
-
-def test_without_a_plateau_q0_is_that_of_the_scan():
-    _, h, dx = patch()
-    found = instrument_spectrum.analyse(Topography(h, dx, dx, "here").detrended())
-    assert found.fit.q_rolloff is None
-    np.testing.assert_array_equal(stitching.draw(found, 5, seed=1).q0, found.lowest)
 
 
 def test_law_carried_on_adds_its_waves_and_their_uncertainty():

@@ -24,21 +24,11 @@ def with_zeros(heights, share):
     return heights
 
 
-def with_block(heights):
-    heights = heights + 0.0
-    heights[:20, :30] = heights.max()  # saturated
-    return heights
-
-
 @pytest.mark.parametrize(
     ("values", "words"),
     [
-        (with_zeros(rough(), 0.05), "0.051 of the points have the one value 0, as where nothing"),
         (with_zeros(rough() + 7, 0.004), "give missing_value: 0"),
-        (with_zeros(np.round(50 * rough()) + 1000, 0.05), "give missing_value: 0"),
-        (with_block(rough()), "0.037 of the points have the one value"),
         (with_zeros(np.round(1000 * rough()), 0.05), "the one value 0"),
-        (np.round(3 * rough()), "different heights: their range is below what the numbers"),
         (with_zeros(rough()[0], 0.05), "give missing_value: 0"),
     ],
 )
@@ -75,20 +65,11 @@ def test_the_marker_that_the_message_names_is_read_as_missing(tmp_path, marker):
     assert found.missing == np.count_nonzero(rough() > 1.3)
 
 
-def test_levels_are_counted_in_all_points():
-    flat = np.tile(np.arange(8.0), 1 << 17)  # the first 2^20 points
-    rest = 20 + np.random.default_rng(0).random(1 << 18)
-    assert not list(plausibility.doubt_values(np.concatenate([flat, rest])))
-
-
 @pytest.mark.parametrize(
     ("factor", "step", "words"),
     [
-        (1e-6, 1.25, "the side of 160 m is longer than 0.5 m"),
         (1e-6, 2.0 / 128, "the side of 2 m is longer than 0.5 m"),
         (1e-13, 1e-12, "the side of 1.28e-10 m is shorter than 1e-09 m"),
-        (8.3e-3, 1e-6, "the heights range over"),
-        (1e-4, 1e-6, "more than the side of 0.000128 m: correct height_unit or length"),
         (1e-14, 1e-6, "the rms slope between points is"),
     ],
 )
@@ -107,14 +88,6 @@ def fit_of(heights, step=1e-6):
     return instrument_spectrum.analyse(map_).fit
 
 
-def test_spectra_that_no_law_describes_are_doubted():
-    noise = np.random.default_rng(0).standard_normal((128, 128))
-    assert "H = -0.96 ± 0.09, outside" in " ".join(plausibility.doubt_fit(fit_of(noise)))
-    blurred = surface.synthesise(SelfAffine(hurst=0.8, q0=1, q1=12, h_rms=1), 128, 2 * np.pi, 1)
-    assert "it falls as blur does" in " ".join(plausibility.doubt_fit(fit_of(blurred)))
-    assert "departs from a power law" in " ".join(plausibility.doubt_fit(fit_of(blurred)))
-
-
 @pytest.mark.parametrize("hurst", [0.1, 0.5, 0.8, 1.0])
 def test_spectra_of_self_affine_surfaces_are_not(hurst):
     assert not list(plausibility.doubt_fit(fit_of(1e-7 * rough(hurst, 256))))
@@ -128,10 +101,3 @@ def test_spectra_as_steep_as_surfaces_through_instruments_are_not(hurst, blur):
         heights = surface.synthesise(spectrum, 256, 2 * np.pi, seed)
         blurred = ndimage.gaussian_filter(heights, blur, mode="wrap")
         assert not list(plausibility.doubt_fit(fit_of(blurred)))
-
-
-def test_a_scan_coarser_than_the_roll_off_is_told():
-    coarse = np.random.default_rng(1).standard_normal((128, 128))  # nothing correlates
-    assert "or the scan is coarser than the roll-off" in " ".join(
-        plausibility.doubt_fit(fit_of(coarse))
-    )

@@ -5,7 +5,7 @@ import pytest
 from scipy import special
 
 from stickiness import surface
-from stickiness.measured import levelling, self_affine_fit, topography
+from stickiness.measured import levelling, self_affine_fit
 from stickiness.measured.psd import merge_rings, power_spectrum, radial_average
 from stickiness.measured.self_affine_fit import LOWEST_MODES, NYQUIST_SHARE, fit_rings, narrow_rings
 from stickiness.spectrum import SelfAffine
@@ -171,14 +171,6 @@ def test_wrong_arguments_of_the_spectrum(arguments, message):
         power_spectrum(**{"heights": np.zeros((8, 8)), "dx": 1.0, **arguments})
 
 
-def test_wrong_arguments_of_rings():
-    spectrum = power_spectrum(np.eye(8), 1.0)
-    with pytest.raises(ValueError, match="bins_per_decade.*0"):
-        radial_average(spectrum, bins_per_decade=0)
-    with pytest.raises(ValueError, match="no modes"):
-        spectrum.anisotropy(100.0, 200.0)
-
-
 # The fit
 
 
@@ -242,26 +234,6 @@ def test_coverage_of_the_confidence_interval(kind, hurst):
     assert plateaus <= 1
 
 
-def test_least_squares_on_the_logarithm_would_be_biased_and_the_fit_is_not():
-    rng = np.random.default_rng(0)
-    naive, level, line = [], [], []
-    for _ in range(60):
-        # White noise: C0 = dx^2/(2 pi)^2 at H = -1, here as if for a given exponent.
-        fit = fit_self_affine(power_spectrum(rng.normal(size=(32, 32)), TAU), rolloff=False)
-        at = fit.psd(fit.q_max / 2)
-        level.append(at)
-        naive.append(np.mean(np.log(fit.rings.psd)))
-        merged = merge_rings(fit.rings, fit.rings.psd, 10)
-        line.append(np.mean(np.log(merged[1]) - special.digamma(merged[2]) + np.log(merged[2])))
-    # C = 1. Each ring of four modes (two independent) adds digamma(2) - ln 2 = -0.27 to a mean
-    # of logarithms.
-    assert np.mean(naive) < -0.1
-    assert np.mean(level) == pytest.approx(1, abs=0.03)
-    # Four standard errors.
-    assert np.mean(line) == pytest.approx(0, abs=4 * np.std(line) / np.sqrt(60))
-    assert np.mean(naive) < -4 * np.std(naive) / np.sqrt(60)
-
-
 @pytest.mark.slow
 def test_rolloff_is_found_with_its_error():
     q_r, found = TAU * 12, []
@@ -278,20 +250,6 @@ def test_rolloff_is_found_with_its_error():
     _, heights, dx = cropped(1, rolloff=TAU * 40)
     fit = fit_self_affine(power_spectrum(heights, dx, taper="hann"))
     assert fit.q_rolloff == pytest.approx(TAU * 40, abs=4 * fit.q_rolloff_se)
-
-
-def test_rolloff_may_be_asked_for_or_forbidden():
-    _, heights = periodic(0, rolloff=TAU * 12)
-    spectrum = power_spectrum(heights, 1 / 128)
-    assert fit_self_affine(spectrum, rolloff=False).q_rolloff is None
-    _, heights = periodic(0)
-    spectrum = power_spectrum(heights, 1 / 128)
-    assert fit_self_affine(spectrum, rolloff=True).q_rolloff is not None
-    line = fit_self_affine(spectrum, rolloff=False)
-    # Above the plateau both are the same law.
-    q = np.array([TAU * 16])
-    both = fit_self_affine(spectrum, rolloff=True).psd(q) / line.psd(q)
-    assert both == pytest.approx(1, abs=0.1)
 
 
 def test_scales_as_the_units_do():
@@ -371,11 +329,8 @@ def test_range_without_enough_modes_is_refused(arguments, message):
     _, heights = periodic(0)
     with pytest.raises(ValueError, match=message):
         fit_self_affine(power_spectrum(heights, 1 / 128), **arguments)
-
-
-def test_flat_surface_is_refused():
     with pytest.raises(ValueError, match="spectrum vanishes"):
-        fit_self_affine(power_spectrum(np.zeros((64, 64)), 1.0))
+        fit_self_affine(power_spectrum(0 * heights, 1 / 128))
 
 
 @pytest.mark.parametrize("hurst", [0.0, 1.2])
@@ -383,17 +338,3 @@ def test_imposed_exponent_out_of_range(hurst):
     _, heights = periodic(0)
     with pytest.raises(ValueError, match="hurst must be in 0 < H <= 1"):
         fit_self_affine(power_spectrum(heights, 1 / 128)).c0_at_hurst(hurst)
-
-
-@pytest.mark.slow
-def test_terrain_is_self_affine_once_it_is_windowed():
-    t = topography.jacksboro().detrended("plane")
-    fits = {w: fit_self_affine(power_spectrum(t.heights, t.dx, t.dy, w)) for w in WINDOWS}
-    # The two windows weigh different parts of the map and agree; published exponents of terrain
-    # at these scales lie between about 0.5 and 1.
-    assert fits["hann"].hurst == pytest.approx(
-        fits["hann_radial"].hurst, abs=2 * fits["hann"].hurst_se
-    )
-    assert 0.5 < fits["hann"].hurst < 1
-    # The leakage's q^-2 tail looks like a low exponent.
-    assert fits["none"].hurst < fits["hann"].hurst - 2 * fits["hann"].hurst_se

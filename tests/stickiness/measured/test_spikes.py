@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 
 from stickiness import surface
-from stickiness.measured import topography
 from stickiness.measured.levelling import find_spikes
 from stickiness.spectrum import SelfAffine
 
@@ -96,32 +95,3 @@ def test_missing_points_are_no_spikes_and_no_neighbours():
     heights[44, 44] = 1e3
     assert set(map(tuple, np.argwhere(find_spikes(heights)))) == {(44, 44)}
     assert not find_spikes(np.full((4, 4), np.nan)).any()
-
-
-def test_blocks_of_rows_join():
-    heights = rough(n=512)
-    for row in (255, 256, 257):
-        heights[row, 100] += 1e3
-    assert np.count_nonzero(find_spikes(heights)) == 3
-
-
-@pytest.mark.parametrize("spikes", ["mask", "keep"])
-def test_reading_masks_spikes_unless_told_otherwise(tmp_path, spikes):
-    heights = rough()
-    clean = topography.read(saved(tmp_path, heights), length="1 mm", height_unit="um")
-    heights[60, 70] = 1e6
-    found = topography.read(
-        saved(tmp_path, heights), length="1 mm", height_unit="um", spikes=spikes
-    )
-    all_points = 1e6 * 1e-6 / 128
-    assert found.h_rms_as_read("mean") == pytest.approx(all_points, rel=1e-3)
-    if spikes == "keep":
-        assert (found.spikes, found.missing, found.as_read) == (0, 0, None)
-        return
-    assert (found.spikes, found.missing) == (1, 1)
-    assert found.h_rms == pytest.approx(clean.h_rms, rel=1e-3)
-
-
-def saved(folder, heights):
-    np.save(folder / "a.npy", heights)
-    return folder / "a.npy"

@@ -133,24 +133,6 @@ def test_tip_cutoff_is_theirs():
     assert found == pytest.approx(theirs, rel=0.15)
 
 
-@pytest.mark.parametrize("file", FILES)
-def test_spectrum_of_a_sample_file_is_theirs_within_five_per_cent(file):
-    path, theirs = sample(file)
-    heights = theirs.heights()
-    ours = topography.read(path, missing="crop", missing_rim=0).detrended()
-    kept = levelling.complete_rectangle(~np.ma.getmaskarray(heights))
-    heights = np.ma.getdata(heights)[kept]
-    size = tuple(n * step for n, step in zip(heights.shape, theirs.pixel_size, strict=True))
-    Topography = reference().Topography
-    levelled = Topography(heights, size).detrend("height")
-    np.testing.assert_allclose(ours.heights, levelled.heights(), atol=1e-8 * ours.h_rms)
-    ratio, modes = both(ours, levelled)
-    # Below four steps of the lattice the constant that their window leaves decides.
-    np.testing.assert_allclose(ratio[modes >= 4], 1, rtol=0.05)
-    ratio, _ = both(ours, Topography(without_level(levelled.heights(), size), size))
-    np.testing.assert_allclose(ratio, 1, rtol=0.05)
-
-
 @pytest.mark.parametrize("window", ["hann", "hann_radial"])
 @pytest.mark.parametrize("file", FILES)
 def test_spectrum_of_a_whole_sample_file_is_theirs_in_the_same_window(file, window):
@@ -163,14 +145,13 @@ def test_spectrum_of_a_whole_sample_file_is_theirs_in_the_same_window(file, wind
     np.testing.assert_allclose(ratio, 1, rtol=1e-6)
 
 
-@pytest.mark.parametrize("rim", [1, 2, 3])
-def test_rims_of_holes_decide_on_height_and_spectrum(rim):
+def test_rims_of_holes_decide_on_height_and_spectrum():
     # On the rims of the holes the instrument wrote outliers of hundreds of times the roughness,
     # halfway down the flank of the window: there half a pixel makes 14 %.
     path, theirs = sample("frt-2.frt")
     size, Topography = theirs.physical_sizes, reference().Topography
     worst, rms = [], []
-    for dropped in (0, rim):
+    for dropped in (0, 1):
         ours = topography.read(
             path, max_missing=0.4, missing_rim=dropped, spikes="keep"
         ).detrended()
@@ -184,8 +165,4 @@ def test_rims_of_holes_decide_on_height_and_spectrum(rim):
     assert worst[1] < 0.02
     assert rms[0] > 50 * rms[1]
     assert rms[1] == pytest.approx(2.91e-7, rel=0.04)
-
-
-def test_outliers_on_rims_are_found():
-    path, _ = sample("frt-2.frt")
     assert topography.read(path, max_missing=0.3).dropped == 675
