@@ -125,18 +125,14 @@ def analyse(asked):
     spectrum = stitched.spectrum if stitched else spectra[0]
     extend_to = 2 * np.pi / si(asked["extend_to"], "m") if "extend_to" in asked else None
     drawn = stitching.draw(spectrum, DRAWS, SEED, stitched=stitched, extend_to=extend_to)
-    dataset = describe_spectrum(spectrum, extend_to)
-    dataset = dataset.merge(describe_draws(drawn)).merge(picture_of(heights[0]))
-    if stitched:
-        dataset = dataset.merge(describe_stitching(stitched))
-    remarks = self_affine_fit.remarks(spectrum.fit, np.nan_to_num(spectrum.anisotropy))
     as_read = [
         h.h_rms_as_read(one.get("detrend", "plane"))
         for h, one in zip(heights, entries, strict=True)
     ]
-    remarks += remarks_on_files(heights) + remarks_on_spikes(heights, as_read)
-    remarks += remarks_on_limits(spectrum, extend_to)
-    remarks += remarks_on_stitching(stitched)
+    remarks = self_affine_fit.remarks(spectrum.fit, np.nan_to_num(spectrum.anisotropy))
+    for one, before in zip(heights, as_read, strict=True):
+        remarks += remarks_on_file(one, before)
+    remarks += remarks_on_spectrum(spectrum, stitched, extend_to)
     doubts = [doubt for one in heights for doubt in one.doubts]
     doubts += plausibility.doubt_fit(spectrum.fit)
     if asked.get("plausibility", "check") == "ignore":
@@ -146,6 +142,22 @@ def analyse(asked):
         logging.warning("no verdict: %s", doubt)
     for remark in remarks:
         logging.info(remark)
+
+    dataset = describe_spectrum(spectrum, extend_to)
+    # Both ends of every moment, and the draws themselves for what depends on several.
+    for name, values in drawn.moments.items():
+        dataset[name] = "end", drawn.quantiles(name, END_QUANTILES)
+        dataset[f"{name}_draws"] = "draw", values
+    dataset["q0_draws"] = "draw", drawn.q0
+    dataset = dataset.assign_coords(draw=np.arange(DRAWS)).merge(picture_of(heights[0]))
+    if stitched:
+        by_ring = "measurement", "wave_number_measured"
+        dataset["psd_measurement"] = by_ring, stitched.levels
+        dataset["offset"] = "measurement", stitched.offsets
+        dataset["scatter"] = stitched.scatter
+        dataset = dataset.assign_coords(
+            measurement=np.arange(len(heights)), wave_number_measured=spectrum.rings.q
+        )
     return dataset.assign(
         h_rms_measured=heights[0].h_rms,
         h_rms_as_read=as_read[0],
@@ -173,7 +185,9 @@ def describe_spectrum(spectrum, extend_to):
         count = int(np.ceil(np.log10(extend_to / top) * POINTS_PER_DECADE)) + 1
         more = np.geomspace(top, extend_to, count)[0 if q[inside][-1] < top * 0.99 else 1 :]
         q = np.append(q[inside], more)
-        spread = log_error_of_fit(fit, more)
+        # Standard error of the fitted ln C, beyond the plateau.
+        design = np.array([np.ones_like(more), -2 * np.log(more)])
+        spread = np.sqrt(np.einsum("in,ij,jn->n", design, fit.log_covariance[:2, :2], design))
         psd = [np.append(rings.psd[inside], fit.psd(more) * np.exp(s * spread)) for s in (-1, 1)]
         error = np.append(error[inside], fit.psd(more) * spread)
     fitted = (q >= fit.q_min * (1 - 1e-9)) & (q <= fit.q_max * (1 + 1e-9))
@@ -207,20 +221,6 @@ def describe_spectrum(spectrum, extend_to):
     return dataset
 
 
-def log_error_of_fit(fit, q):
-    """Standard error of the fitted ln C at wave numbers beyond the plateau."""
-    design = np.array([np.ones_like(q), -2 * np.log(q)])
-    return np.sqrt(np.einsum("in,ij,jn->n", design, fit.log_covariance[:2, :2], design))
-
-
-def describe_draws(drawn):
-    """Both ends of every moment, and the draws themselves for what depends on several."""
-    data = {name: ("end", drawn.quantiles(name, END_QUANTILES)) for name in drawn.moments}
-    data |= {f"{name}_draws": ("draw", values) for name, values in drawn.moments.items()}
-    data["q0_draws"] = "draw", drawn.q0
-    return xr.Dataset(data, coords={"end": ENDS, "draw": np.arange(len(drawn.q0))})
-
-
 def picture_of(heights):
     """Levelled heights, thinned to what a picture shows."""
     if heights.heights.ndim == 1:
@@ -233,88 +233,64 @@ def picture_of(heights):
     return xr.Dataset({"heights": (("x", "y"), picture.astype("f4"))}, coords={"x": x, "y": y})
 
 
-def describe_stitching(stitched):
-    """Spectrum of every measurement by itself, and their offsets."""
-    data = {
-        "psd_measurement": (("measurement", "wave_number_measured"), stitched.levels),
-        "offset": ("measurement", stitched.offsets),
-        "scatter": stitched.scatter,
-    }
-    number, q = np.arange(len(stitched.offsets)), stitched.spectrum.rings.q
-    return xr.Dataset(data, coords={"measurement": number, "wave_number_measured": q})
-
-
-def remarks_on_files(heights):
-    """Remarks on what was missing."""
-    found = []
-    for one in heights:
-        if one.spikes:
+def remarks_on_file(heights, with_spikes):
+    """Remarks on points that were not used; `with_spikes` is the rms height with all points."""
+    source, found = heights.source, []
+    if heights.spikes:
+        found.append(
+            f"points of {source} far off all their neighbours, spikes, which are not used: "
+            f"{heights.spikes} (spikes: keep uses them)"
+        )
+        share, change = heights.spikes / heights.heights.size, abs(with_spikes - heights.h_rms)
+        if share > MANY_SPIKES or change > LARGE_CHANGE * heights.h_rms:
             found.append(
-                f"points of {one.source} far off all their neighbours, spikes, which are not used: "
-                f"{one.spikes} (spikes: keep uses them)"
-            )
-        if one.cropped:
-            found.append(
-                f"{percent(one.cropped)} of {one.source} cut off to leave no missing points"
-            )
-        if one.dropped:
-            found.append(
-                f"{one.dropped} points of {one.source} beside missing ones were measured and are "
-                "not used (missing_rim)"
-            )
-        if one.missing > one.spikes:
-            found.append(
-                f"{percent(one.missing_fraction)} of the points of {one.source} were missing and "
-                "are interpolated, smoother than the surface"
-            )
-        if one.heights.ndim == 1:
-            found.append(f"{one.source} is a line profile: isotropy is assumed, not seen")
-    return found
-
-
-def remarks_on_spikes(heights, as_read):
-    """Remarks on spikes that are many, or change the rms height; `as_read` is that with them."""
-    found = []
-    for one, before in zip(heights, as_read, strict=True):
-        share, after = one.spikes / one.heights.size, one.h_rms
-        if one.spikes and (share > MANY_SPIKES or abs(before - after) > LARGE_CHANGE * after):
-            found.append(
-                f"{share:.2g} of the points of {one.source} are spikes, and the rms height is "
-                f"{amount(before, 'm')} with all points, {amount(after, 'm')} "
+                f"{share:.2g} of the points of {source} are spikes, and the rms height is "
+                f"{amount(with_spikes, 'm')} with all points, {amount(heights.h_rms, 'm')} "
                 "without those not used: if they are part of the surface, give spikes: keep"
             )
+    if heights.cropped:
+        found.append(f"{percent(heights.cropped)} of {source} cut off to leave no missing points")
+    if heights.dropped:
+        found.append(
+            f"{heights.dropped} points of {source} beside missing ones were measured and are "
+            "not used (missing_rim)"
+        )
+    if heights.missing > heights.spikes:
+        found.append(
+            f"{percent(heights.missing_fraction)} of the points of {source} were missing and "
+            "are interpolated, smoother than the surface"
+        )
+    if heights.heights.ndim == 1:
+        found.append(f"{source} is a line profile: isotropy is assumed, not seen")
     return found
 
 
-def remarks_on_limits(spectrum, extend_to):
-    """Remarks on the ends of the spectrum."""
+def remarks_on_spectrum(spectrum, stitched, extend_to):
+    """Remarks on the ends of the spectrum, and on how well several measurements agree."""
+
+    def wavelength(q):
+        return amount(2 * np.pi / q, "m")
+
     found, fit = [], spectrum.fit
     if fit.q_rolloff is None:
         found.append(
             f"no roll-off was found below wavelengths of {wavelength(fit.q_min)}, and longer "
-            "ones cannot show one: q0 is that of the scan, not of the surface"
+            "ones cannot show one: q0 is the lowest wave number of the scan, not of the surface"
         )
     shorter = f"waves shorter than {wavelength(spectrum.cutoff.q)} ({spectrum.cutoff.reason})"
     if extend_to is None:
-        return [*found, f"{shorter} are not part of slope, curvature and a_V"]
-    end = wavelength(extend_to)
-    return [*found, f"{shorter} follow the fitted law down to {end}: carried on, not measured"]
-
-
-def wavelength(q):
-    return amount(2 * np.pi / q, "m")
-
-
-def remarks_on_stitching(stitched):
-    """Remarks on how well several measurements agree."""
-    if stitched is None:
-        return []
-    if np.isnan(stitched.scatter):
-        return ["no two measurements overlap: whether they agree in height cannot be told"]
-    return [
-        f"{len(stitched.offsets)} measurements stitched, which differ by a factor of "
-        f"{np.exp(stitched.scatter):.2f} in C (standard deviation)"
-    ]
+        found.append(f"{shorter} are not part of slope, curvature and a_V")
+    else:
+        end = wavelength(extend_to)
+        found.append(f"{shorter} follow the fitted law down to {end}: extrapolated, not measured")
+    if stitched is not None and np.isnan(stitched.scatter):
+        found.append("no two measurements overlap: whether they agree in height cannot be told")
+    elif stitched is not None:
+        found.append(
+            f"{len(stitched.offsets)} measurements stitched, which differ by a factor of "
+            f"{np.exp(stitched.scatter):.2f} in C (standard deviation)"
+        )
+    return found
 
 
 def add_budgets(dataset, errors):

@@ -171,7 +171,7 @@ def test_law_carried_on_reaches_its_end_and_opens_up(folder):
     np.testing.assert_allclose(rough[~beyond], smooth[~beyond])
     ratio = rough[beyond] / smooth[beyond]
     assert np.all(np.diff(ratio) > 0)
-    assert "carried on, not measured" in found.attrs["remarks"]
+    assert "extrapolated, not measured" in found.attrs["remarks"]
 
 
 def test_each_end_has_its_own_a_v_where_they_differ_in_shape(single, folder):

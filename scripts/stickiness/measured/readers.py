@@ -229,7 +229,7 @@ def _read_text(path: Path) -> Raw:
 
 
 def _read_instrument(path: Path, fmt: str | None, channel: str | int | None) -> Raw:
-    """Read a channel of heights, by default the reader's choice; `fmt` as SurfaceTopography names it."""
+    """Read a channel of heights; `fmt` as SurfaceTopography names it."""
     reader = _open(path, fmt)
     channels, info = _call(path, lambda: (reader.channels, reader.default_channel))
     heights_in = ", ".join(repr(c.channel_id) for c in channels if holds_heights(c))

@@ -14,6 +14,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import partial
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -41,20 +42,14 @@ _ALTERNATIONS = 20
 _SLOPES = (-1e3, 1e3)  # bracket of the exponent s in C ~ q^-s; wide, plateaus are tried anywhere
 
 
-@dataclass(frozen=True)
-class HurstLine:
+class HurstLine(NamedTuple):
     """Prefactors of C = C0 q^(-2(H+1)) at a given Hurst exponent [length^(2 - 2H)]."""
 
     #: Least squares of ln C over logarithmic rings of equal weight, corrected for the bias of
     #: the logarithm.
     c0: float
     c0_se: float  #: from the scatter about the line
-    c0_of_q: NDArray  #: (m,), C q^(2(H+1)) in each ring of the fit interval
-
-    @property
-    def upper(self) -> float:
-        """Upper envelope: the largest `c0_of_q` of all rings [length^(2 - 2H)]."""
-        return float(self.c0_of_q.max())
+    upper: float  #: upper envelope: the largest C q^(2(H+1)) of all rings
 
 
 @dataclass(frozen=True)
@@ -125,7 +120,7 @@ class SelfAffineFit:
         scatter = np.std(logs, ddof=1) if len(logs) > 1 else np.nan
         c0 = float(np.exp(logs.mean()))
         se = c0 * float(scatter / np.sqrt(len(logs)))
-        return HurstLine(c0, se, mean)
+        return HurstLine(c0, se, float(mean.max()))
 
 
 def fit_rings(

@@ -163,7 +163,7 @@ def read(
     variable : str, optional
         NetCDF variable or npz key. Default: the only two-dimensional one, else the only profile.
     channel : str or int, optional
-        Channel of an instrument's file, by name or counted from 0. Default: the first that the format prefers.
+        Channel of an instrument's file, by name or number. Default: the file's first of heights.
     format : str, optional
         "netcdf", "numpy", "text", "instrument" or SurfaceTopography's name of a format, if the
         file's name and content mislead.

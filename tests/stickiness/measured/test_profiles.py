@@ -20,15 +20,6 @@ def test_parseval(window, n):
         assert line.variance == pytest.approx(np.var(h), rel=1e-12)
 
 
-def test_one_wave():
-    x = np.arange(200) * 0.1
-    line = profiles.profile_spectrum(3 * np.cos(2 * np.pi * 7 * x / 20), 0.1, "none")
-    assert np.argmax(line.psd) == 6
-    assert line.q[6] == pytest.approx(2 * np.pi * 7 / 20)
-    # Variance 9/2 over both signs of q.
-    assert line.psd[6] * line.q[0] * 2 == pytest.approx(4.5)
-
-
 @pytest.mark.parametrize(("hurst", "q_rolloff"), [(0.5, None), (0.8, None), (0.8, 2.0), (1.0, 1.0)])
 @pytest.mark.parametrize("q", [0.3, 1.0, 3.0])
 def test_ratio_of_both_spectra_is_abels_transform(hurst, q_rolloff, q):

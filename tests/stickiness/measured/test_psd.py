@@ -61,40 +61,12 @@ def test_mirrored_or_lifted_heights_have_the_same_rings(window, shape):
         np.testing.assert_allclose(other, rings, rtol=1e-9)
 
 
-def test_one_wave_on_unequal_spacings():
-    nx, ny, dx, dy = 24, 40, 0.5, 0.2
-    kx, ky = TAU * 3 / (nx * dx), TAU * 5 / (ny * dy)
-    x, y = np.meshgrid(dx * np.arange(nx), dy * np.arange(ny), indexing="ij")
-    spectrum = power_spectrum(2 * np.cos(kx * x + ky * y), dx, dy)
-    cell = TAU**2 / (nx * dx * ny * dy)
-    i = np.unravel_index(np.argmax(spectrum.psd), spectrum.psd.shape)
-    assert (spectrum.qx[i[0]], spectrum.qy[i[1]]) == pytest.approx((kx, ky), rel=1e-12)
-    # Variance a^2/2 = 2, half of it in each of the modes +k and -k.
-    assert spectrum.psd[i] == pytest.approx(1 / cell, rel=1e-12)
-    assert spectrum.total() == pytest.approx(2, rel=1e-12)
-
-
 @pytest.mark.parametrize("n", [64, 63])
 def test_modes_of_a_surface_with_fixed_amplitudes_have_exactly_the_spectrum_asked_for(n):
     s, heights = periodic(3, n=n, amplitudes="fixed")
     spectrum = power_spectrum(heights, 1 / n)
     band = (spectrum.q > 1) & (spectrum.q < s.q1 * (1 - 1e-6))
     np.testing.assert_allclose(spectrum.psd[band], s.psd(spectrum.q[band]), rtol=1e-9)
-
-
-def test_mean_over_surfaces_is_the_spectrum_in_each_ring():
-    n, seeds = 64, 60
-    means = []
-    for seed in range(seeds):
-        s, heights = periodic(seed, n=n)
-        rings = radial_average(power_spectrum(heights, 1 / n), bins_per_decade=100)
-        keep = rings.q < s.q1
-        means.append(rings.psd[keep] / s.psd(rings.q[keep]))
-    deviation = (np.mean(means, axis=0) - 1) * np.sqrt(seeds * rings.dof[keep])
-    # Standard normal in each of the independent rings, if C and its standard error are right.
-    assert len(deviation) > 50
-    assert np.abs(deviation).max() < 4.5
-    assert 0.7 < np.mean(deviation**2) < 1.4
 
 
 def test_hann_window_has_its_known_moments():
@@ -192,7 +164,6 @@ def test_fit_is_exact_where_there_is_no_noise(hurst):
     dof = merge_rings(fit.rings, fit.rings.psd, 10)[2]
     shift = np.log(dof) - special.digamma(dof)
     assert line.c0 == pytest.approx(np.exp(shift.mean()), rel=1e-3)
-    np.testing.assert_allclose(line.c0_of_q, 1, rtol=1e-3)
     assert line.upper == pytest.approx(1, rel=1e-3)
 
 

@@ -114,16 +114,6 @@ def test_spectrum_of_a_synthetic_surface_is_theirs(steps):
     np.testing.assert_allclose(ratio, 1, rtol=1e-9)
 
 
-def test_profile_of_a_synthetic_surface_is_theirs():
-    UniformLineScan = reference().UniformLineScan
-    h, dx = synthetic()
-    line = profiles.profile_spectrum(h[:, 5], dx, "none")
-    theirs = UniformLineScan(h[:, 5], 2 * np.pi, periodic=True)
-    q, c = theirs.power_spectrum_from_profile(window=None, resampling_method=None, reliable=False)
-    np.testing.assert_allclose(line.q[:40], q[1:41], rtol=1e-12)
-    np.testing.assert_allclose(2 * np.pi * line.psd[:40], c[1:41], rtol=1e-9)
-
-
 def test_tip_cutoff_is_theirs():
     Topography = reference().Topography
     h, dx = synthetic(n=128)
