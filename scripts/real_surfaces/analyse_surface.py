@@ -79,19 +79,19 @@ STANDARD_ERRORS = {n: f"{n}_standard_error" for n in ("hurst", "C0_reference", "
 
 
 def main(job):
-    asked = job.params.surface
-    dataset = analyse(asked) if asked["kind"] == "measured" else self_affine(asked)
+    entry = job.params.surface
+    dataset = analyse(entry) if entry["kind"] == "measured" else self_affine(entry)
     datasets.write(
         annotate(dataset),
         job.output[0],
-        title=f"spectrum of a real surface: {asked['label']}",
-        parameters={"surface": job.wildcards.real_surface, **asked},
+        title=f"spectrum of a real surface: {entry['label']}",
+        parameters={"surface": job.wildcards.real_surface, **entry},
     )
 
 
-def self_affine(asked):
+def self_affine(entry):
     """Both ends of the range of a parametric surface."""
-    spectra = [configured_spectrum(asked, end) for end in (0, -1)]
+    spectra = [configured_spectrum(entry, end) for end in (0, -1)]
     smooth = spectra[0]
     points = int(np.ceil(POINTS_PER_DECADE * np.log10(smooth.magnification))) + 2
     q = np.geomspace(smooth.q0, smooth.q1, points)
@@ -100,10 +100,10 @@ def self_affine(asked):
     dataset["C0"] = ("end", [s.C0 for s in spectra])
     line = [(s.psd(q) * q ** (2 * REFERENCE_HURST + 2)).max() for s in spectra]
     dataset["C0_reference_upper"] = ("end", line)
-    if "anisotropy" in asked:
-        dataset["axis_ratio"] = asked["anisotropy"]
+    if "anisotropy" in entry:
+        dataset["axis_ratio"] = entry["anisotropy"]
     return dataset.assign(
-        hurst=asked["hurst"],
+        hurst=entry["hurst"],
         q0=smooth.q0 if smooth.q_rolloff is None else smooth.q_rolloff,
         q1=smooth.q1,
     ).assign_coords(wave_number=q)
@@ -116,14 +116,14 @@ def moments_of(spectra):
     return xr.Dataset(data, coords={"end": ENDS})
 
 
-def analyse(asked):
+def analyse(entry):
     """Dataset of a measured surface, as configured."""
-    entries = [one for _, one in measurements(asked)]
+    entries = [one for _, one in measurements(entry)]
     heights = [read_levelled(one) for one in entries]
     spectra = [find_spectrum(h, one) for h, one in zip(heights, entries, strict=True)]
     stitched = stitching.stitch(spectra) if len(spectra) > 1 else None
     spectrum = stitched.spectrum if stitched else spectra[0]
-    extend_to = 2 * np.pi / si(asked["extend_to"], "m") if "extend_to" in asked else None
+    extend_to = 2 * np.pi / si(entry["extend_to"], "m") if "extend_to" in entry else None
     drawn = stitching.draw(spectrum, DRAWS, SEED, stitched=stitched, extend_to=extend_to)
     as_read = [
         h.h_rms_as_read(one.get("detrend", "plane"))
@@ -135,7 +135,7 @@ def analyse(asked):
     remarks += remarks_on_spectrum(spectrum, stitched, extend_to)
     doubts = [doubt for one in heights for doubt in one.doubts]
     doubts += plausibility.doubt_fit(spectrum.fit)
-    if asked.get("plausibility", "check") == "ignore":
+    if entry.get("plausibility", "check") == "ignore":
         remarks += [f"judged all the same (plausibility: ignore): {doubt}" for doubt in doubts]
         doubts = []
     for doubt in doubts:

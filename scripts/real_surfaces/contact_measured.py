@@ -73,11 +73,11 @@ class Setting:
 
 def main(job):
     surface = datasets.read(job.input.surface, ["q0", "q_cutoff"])
-    asked = job.params.surface
-    bem = asked["bem"]
-    heights = read_map(asked)
+    entry = job.params.surface
+    bem = entry["bem"]
+    heights = read_map(entry)
     index, finest = bem.get("measurement", 0), float(surface.q_cutoff)
-    cutoff = measured_surface.find_cutoff(asked, index, heights, finest)
+    cutoff = measured_surface.find_cutoff(entry, index, heights, finest)
     q_max = highest_wave_number(bem, cutoff)
     setting = read_setting(
         bem,
@@ -89,15 +89,15 @@ def main(job):
     datasets.write(
         annotate(solve(heights, float(surface.q0), q_max, setting)),
         job.output[0],
-        title=f"contact of measured heights: {asked['label']}",
-        parameters={"surface": job.wildcards.real_surface, "source": heights.source, **asked},
+        title=f"contact of measured heights: {entry['label']}",
+        parameters={"surface": job.wildcards.real_surface, "source": heights.source, **entry},
     )
 
 
-def read_map(asked):
+def read_map(entry):
     """Levelled heights of the measurement whose contact is configured."""
-    bem = asked["bem"]
-    measurement = checks.measurements(asked)[bem.get("measurement", 0)][1]
+    bem = entry["bem"]
+    measurement = checks.measurements(entry)[bem.get("measurement", 0)][1]
     if bem.get("periodic", False):
         measurement = measurement | {"detrend": "mean"}  # a plane would break the period
     heights = measured_surface.read_levelled(measurement)
@@ -110,13 +110,13 @@ def highest_wave_number(bem, cutoff):
     """Highest wave number of the contact: the instrument's, or a lower one as configured."""
     if "shortest_wavelength" not in bem:
         return cutoff
-    asked = 2 * np.pi / si(bem["shortest_wavelength"], "m")
-    if asked > cutoff * (1 + 1e-9):
+    wanted = 2 * np.pi / si(bem["shortest_wavelength"], "m")
+    if wanted > cutoff * (1 + 1e-9):
         raise ValueError(
             f"bem.shortest_wavelength = {bem['shortest_wavelength']!r} is below the instrument's "
             f"{2 * np.pi / cutoff:.3g} m; leave it out or give a longer one"
         )
-    return asked
+    return wanted
 
 
 def read_setting(bem, **settings):

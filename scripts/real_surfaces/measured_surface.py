@@ -22,12 +22,12 @@ def read_levelled(measurement):
     return heights.detrended(measurement.get("detrend", "plane"))
 
 
-def find_cutoff(asked, index, heights, finest):
+def find_cutoff(entry, index, heights, finest):
     """Cutoff [1/m] of one of a surface's measurements, whose levelled heights these are.
 
     `finest` is the cutoff of the surface: of its finest measurement.
     """
-    listed = measurements(asked)
+    listed = measurements(entry)
     if len(listed) == 1:
         return finest
     return min(finest, find_spectrum(heights, listed[index][1]).cutoff.q)

@@ -200,7 +200,7 @@ def find_spikes(heights: NDArray) -> NDArray:
     Returns a mask of the shape of the heights.
     """
     level = _without_slope(np.asarray(heights, dtype=float))
-    distance = _map_distance(level) if level.ndim == 2 else _line_distance(level)
+    distance = _neighbour_distance(level)
     known = distance[np.isfinite(distance)]
     if not known.size or not known.max() > 0:
         return np.zeros(level.shape, dtype=bool)
@@ -211,15 +211,10 @@ def find_spikes(heights: NDArray) -> NDArray:
     spikes = distance > OUTLYING * typical
     if level.ndim == 2 and spikes.any():
         # By a lower limit, or a scratch of varying depth would fall to pieces as small as spikes.
-        spikes &= _in_small_groups(distance > _CONNECTS * OUTLYING * typical)
+        marked = distance > _CONNECTS * OUTLYING * typical
+        groups, _ = ndimage.label(marked, structure=np.ones((3, 3)))  # touch by side or corner
+        spikes &= (np.bincount(groups.ravel()) <= MOST_TOUCHING)[groups]
     return spikes
-
-
-def _in_small_groups(marked: NDArray) -> NDArray:
-    """Marked points in groups of at most `MOST_TOUCHING` that touch, by side or corner."""
-    groups, _ = ndimage.label(marked, structure=np.ones((3, 3)))
-    sizes = np.bincount(groups.ravel())
-    return marked & (sizes <= MOST_TOUCHING)[groups]
 
 
 def _without_slope(heights: NDArray) -> NDArray:
@@ -233,8 +228,12 @@ def _without_slope(heights: NDArray) -> NDArray:
     return level
 
 
-def _map_distance(heights: NDArray) -> NDArray:
-    """Distance of every point of a map to the third closest neighbour; NaN where there is none."""
+def _neighbour_distance(heights: NDArray) -> NDArray:
+    """Distance of every point to its third closest neighbour of eight, second of four on a line."""
+    if heights.ndim == 1:
+        padded, n = np.pad(heights, 2, constant_values=np.nan), len(heights)
+        around = [np.abs(padded[i : i + n] - heights) for i in (0, 1, 3, 4)]
+        return np.partition(around, 1, axis=0)[1]  # NaN comes last
     padded = np.pad(heights, 1, constant_values=np.nan)
     nx, ny = heights.shape
     shifts = [(i, j) for i in range(3) for j in range(3) if (i, j) != (1, 1)]
@@ -243,13 +242,5 @@ def _map_distance(heights: NDArray) -> NDArray:
         stop = min(start + _ROWS, nx)
         here = heights[start:stop]
         around = [np.abs(padded[start + i : stop + i, j : j + ny] - here) for i, j in shifts]
-        found[start:stop] = np.partition(around, 2, axis=0)[2]  # NaN comes last
+        found[start:stop] = np.partition(around, 2, axis=0)[2]
     return found
-
-
-def _line_distance(heights: NDArray) -> NDArray:
-    """Distance of every point of a profile to the second closest of four neighbours."""
-    padded = np.pad(heights, 2, constant_values=np.nan)
-    n = len(heights)
-    around = [np.abs(padded[i : i + n] - heights) for i in (0, 1, 3, 4)]
-    return np.partition(around, 1, axis=0)[1]

@@ -31,37 +31,24 @@ HURST_BIAS = 0.1
 _NEXT = 3  # values on either side of a plateau's that it is compared with
 
 
-def find_plateau(levels: NDArray, counts: NDArray) -> tuple[float, float] | None:
-    """Value that stands out by how often it occurs, and its share of the points.
-
-    `levels` are the different values in ascending order, `counts` how often they occur.
-
-    Instruments and conversions write zero, the limit of the range, or a marker where
-    nothing was measured. Such a value is many times as frequent (`PLATEAUS`) as the three next
-    above and below it; the coarse steps of a converter are not. None if there is none.
-    """
-    if levels.size == 0:
-        return None
-    top = int(np.argmax(counts))
-    beside = np.delete(counts[max(top - _NEXT, 0) : top + _NEXT + 1], min(top, _NEXT))
-    share = float(counts[top] / counts.sum())
-    if beside.size == 0:
-        return None
-    times = counts[top] / beside.max()
-    stands_out = any(share >= least and times >= most for least, most in PLATEAUS)
-    return (float(levels[top]), share) if stands_out else None
-
-
 def doubt_values(values: NDArray) -> Iterator[str]:
-    """Doubts about numbers as they stand in a file, a map or a profile, NaN where missing."""
+    """Doubts about numbers as they stand in a file, a map or a profile, NaN where missing.
+
+    Instruments and conversions write zero, the limit of the range, or a marker where nothing was
+    measured. Such a value is many times as frequent (`PLATEAUS`) as the three next above and below
+    it; the coarse steps of a converter are not.
+    """
     levels, counts = np.unique(values[np.isfinite(values)], return_counts=True)
-    plateau = find_plateau(levels, counts)
-    if plateau is not None:
-        value, share = plateau
-        yield (
-            f"{share:.2g} of the points have the one value {value:g}, as where nothing was "
-            f"measured: give missing_value: {_written(value)} (in an array: put NaN there)"
-        )
+    if len(levels) > 1:
+        top = int(np.argmax(counts))
+        beside = np.delete(counts[max(top - _NEXT, 0) : top + _NEXT + 1], min(top, _NEXT))
+        share, times = counts[top] / counts.sum(), counts[top] / beside.max()
+        if any(share >= least and times >= most for least, most in PLATEAUS):
+            yield (
+                f"{share:.2g} of the points have the one value {levels[top]:g}, as where nothing "
+                f"was measured: give missing_value: {_written(levels[top])} (in an array: put NaN "
+                "there)"
+            )
     if len(levels) < FEWEST_LEVELS:
         yield (
             f"there are only {len(levels)} different heights: their range is below what the "
