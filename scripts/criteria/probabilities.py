@@ -1,6 +1,6 @@
 """Probability that a pair sticks, on surfaces that were measured.
 
-The spectrum enters by its draws (`stickiness.measured.spectrum_draws`), the model of the adhesion
+The spectrum enters by its draws (`stickiness.measured.stitching`), the model of the adhesion
 that remains by its error, drawn from a normal distribution of which the limits cover 90 %.
 """
 
