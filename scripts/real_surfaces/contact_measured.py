@@ -6,8 +6,7 @@ import numpy as np
 import xarray as xr
 
 from common import conventions
-from common.config import checks
-from common.config.measured_contact import MOST_POINTS
+from common.config.entries import MOST_POINTS, measurements
 from common.contact_curves import load_curves
 from common.conventions import VARIANT, logarithmic_grid
 from common.job import start
@@ -52,7 +51,7 @@ def main(job):
 def read_map(asked):
     """Levelled heights of the measurement whose contact is asked for."""
     bem = asked["bem"]
-    measurement = checks.measurements(asked)[bem.get("measurement", 0)][1]
+    measurement = measurements(asked)[bem.get("measurement", 0)][1]
     if bem.get("periodic", False):
         measurement = measurement | {"detrend": "mean"}  # a plane would break the period
     heights = measured_surface.read_levelled(measurement)

