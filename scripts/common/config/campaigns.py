@@ -141,8 +141,7 @@ class Tradeoff(Section):
     finer: MeasuredSurfaces = needed("more of them, on finer grids and at other loads")
     validation: MeasuredSurfaces = needed("surfaces that the choice of settings is checked on")
 
-    def problems(self, context: Mapping[str, Any]) -> Iterable[str]:
-        """Require that the presets and the settings name entries that exist."""
+    def _problems(self, context: Mapping[str, Any]) -> Iterable[str]:
         for name in self.settings.surfaces:
             if name not in self.cases.surfaces:
                 yield f.unknown("settings.surfaces", name, self.cases.surfaces)
@@ -166,9 +165,8 @@ class RemainingSet(BandWithPlateau):
     zones: f.Values = optional("q0 range^2/adhesion_length")
     ranges: f.Values = optional("ranges over h_rms")
 
-    def problems(self, context: Mapping[str, Any]) -> Iterable[str]:
-        """Require a grid that holds the shortest waves."""
-        yield from super().problems(context)
+    def _problems(self, context: Mapping[str, Any]) -> Iterable[str]:
+        yield from super()._problems(context)
         least = 2 * self.magnification * (self.window or 1)
         if self.points < least:
             yield f"points = {self.points} must be at least {least:g}, two per shortest wavelength"

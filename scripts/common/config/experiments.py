@@ -68,7 +68,7 @@ def known(kind: Any, unit: str | None = None) -> type[KnownValue]:
         value: kind = None
         between: f.Pair[kind] = None
 
-        def problems(self, context: Mapping[str, Any]) -> Iterable[str]:
+        def _problems(self, context: Mapping[str, Any]) -> Iterable[str]:
             return self.order_problems(unit)
 
     Checked.__name__ = "KnownValue"  # by which the reference calls it
@@ -126,8 +126,7 @@ class Observed(KnownValue):
     error: f.Energy = optional('error of the relation either way, e.g. "4 mJ/m^2"')
     factor: f.Pair[f.Positive] = optional("limits of true over nominal area or of the energy ratio")
 
-    def problems(self, context: Mapping[str, Any]) -> Iterable[str]:
-        """Require what the quantity or the relation needs."""
+    def _problems(self, context: Mapping[str, Any]) -> Iterable[str]:
         field = "value" if self.between is None else "between"
         if self.quantity == "sticks":
             if not isinstance(self.value, bool):
@@ -178,8 +177,7 @@ class Experiment(Conditions):
     missed: f.Text = optional("reason looked for, where the prediction misses the observation")
     cases: f.Names[ObservedCase] = needed("what was observed, by name")
 
-    def problems(self, context: Mapping[str, Any]) -> Iterable[str]:
-        """Require what every case needs, from the case or the experiment."""
+    def _problems(self, context: Mapping[str, Any]) -> Iterable[str]:
         for name, case in self.cases.items():
             conditions = conditions_of(self.given(), case.given())
             for problem in _condition_problems(conditions, case.observed.quantity):

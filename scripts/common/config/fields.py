@@ -51,13 +51,12 @@ class Section(BaseModel):
     @classmethod
     def _check_keys(cls, given: Any) -> Any:
         if isinstance(given, dict):
-            for problem in cls.key_problems(given):
+            for problem in cls._key_problems(given):
                 raise refusal(f": {problem}")
         return given
 
     @classmethod
-    def key_problems(cls, given: Mapping[str, Any]) -> Iterator[str]:
-        """Yield which keys are unknown, missing or exclude each other."""
+    def _key_problems(cls, given: Mapping[str, Any]) -> Iterator[str]:
         fields = cls.model_fields
         for key in given:
             if key in cls.old:
@@ -74,11 +73,11 @@ class Section(BaseModel):
 
     @model_validator(mode="after")
     def _check_together(self, info: ValidationInfo) -> Section:
-        for problem in self.problems(info.context or {}):
+        for problem in self._problems(info.context or {}):
             raise refusal(problem if problem.startswith(":") else f".{problem}")
         return self
 
-    def problems(self, context: Mapping[str, Any]) -> Iterable[str]:
+    def _problems(self, context: Mapping[str, Any]) -> Iterable[str]:
         """Yield what is wrong with several keys together: ``key = value …`` or ``: …``."""
         return ()
 
@@ -199,7 +198,6 @@ class Grid(Section):
     maximum: Positive = needed("largest value")
     per_decade: Annotated[int, Field(ge=1, le=200)] = needed("values per decade")
 
-    def problems(self, context: Mapping[str, Any]) -> Iterable[str]:
-        """Require ends in order."""
+    def _problems(self, context: Mapping[str, Any]) -> Iterable[str]:
         if not self.minimum < self.maximum:
             yield f"minimum = {self.minimum:g} must be below maximum = {self.maximum:g}"

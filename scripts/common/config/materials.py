@@ -60,8 +60,7 @@ class Material(ElasticPair, f.Labelled):
     )
     surface: str = optional("name of the rough surface of the solid itself, added to the other")
 
-    def problems(self, context: Mapping[str, Any]) -> Iterable[str]:
-        """Check the order of a table, the name of the surface, and what a layer needs."""
+    def _problems(self, context: Mapping[str, Any]) -> Iterable[str]:
         pairs = self.youngs_modulus_table or []
         frequencies = [si(frequency, "Hz") for frequency, _ in pairs]
         if any(b <= a for a, b in pairwise(frequencies)):

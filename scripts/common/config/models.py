@@ -72,8 +72,7 @@ class BandWithPlateau(Band):
 
     rolloff: f.Magnification = optional("q_rolloff/q0, below which the spectrum is flat")
 
-    def problems(self, context: Mapping[str, Any]) -> Iterable[str]:
-        """Require that a plateau ends before the shortest waves."""
+    def _problems(self, context: Mapping[str, Any]) -> Iterable[str]:
         if self.rolloff is not None and self.rolloff >= self.magnification:
             yield (
                 f"rolloff = {self.rolloff:g} must be below magnification = {self.magnification:g}"
@@ -106,8 +105,7 @@ class Case(Section):
     sampling: Estimator = optional("overrides sampling.method")
     maps: f.Values = optional("loads at which gaps and pressures of the first seed are kept")
 
-    def problems(self, context: Mapping[str, Any]) -> Iterable[str]:
-        """Require keys that suit each other."""
+    def _problems(self, context: Mapping[str, Any]) -> Iterable[str]:
         for key in ("accuracy", "at_most", "seeds", "sampling", "maps"):
             value = getattr(self, key)
             if self.model == "theory" and value is not None:
@@ -164,8 +162,7 @@ class Theory(Section):
     table: Table = needed("points at which a_V is tabulated")
     sweeps: f.Names[Sweep] = needed("computations on continuous spectra, by name")
 
-    def problems(self, context: Mapping[str, Any]) -> Iterable[str]:
-        """Require the variant that is quoted."""
+    def _problems(self, context: Mapping[str, Any]) -> Iterable[str]:
         if "afferrante2018" not in self.variants:
             yield f"variants = {self.variants!r} lacks 'afferrante2018', which is quoted"
 
@@ -215,8 +212,7 @@ class AdhesionSet(Adhesive):
     refine: Literal[1, 2, 4] = optional("refinement of the case's grid; default 1")
     maps: AdhesiveMaps = optional("states whose fields are kept")
 
-    def problems(self, context: Mapping[str, Any]) -> Iterable[str]:
-        """Require keys that suit the model."""
+    def _problems(self, context: Mapping[str, Any]) -> Iterable[str]:
         if self.model == "auto" and self.accuracy is None:
             yield "accuracy is missing; model: auto chooses by it, relative in 1/kappa_ad"
         if self.model != "auto" and self.accuracy is not None:
@@ -303,8 +299,7 @@ class Configuration(Section):
     loops: f.Names[Loop] = needed("approach and separation of one realisation, by name")
     criteria: Criteria = needed("criteria of stickiness")
 
-    def problems(self, context: Mapping[str, Any]) -> Iterable[str]:
-        """Require that entries name others that exist and fit."""
+    def _problems(self, context: Mapping[str, Any]) -> Iterable[str]:
         if self.fidelity not in self.fidelities:
             yield f.unknown("fidelity", self.fidelity, self.fidelities)
         yield from self._paper_problems()

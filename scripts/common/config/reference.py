@@ -25,25 +25,7 @@ from common.config.models import Configuration
 from common.config.surfaces import Surfaces
 
 PAGE = Path(__file__).parents[3] / "docs/configuration.md"
-HEAD = """# Every key of the configuration
-
-<!-- The tables are written by common.config.reference from the models in scripts/common/config. -->
-
-**Your files.** Edit the files in `config`, or keep your changes apart: a second file overrides
-single keys, as in `snakemake -j2 --configfile mine.yaml`. It may name files of materials, surfaces
-and experiments of yours (`materials: my_materials.yaml`); paths start at the folder of the run.
-`--config fidelity=draft` overrides a setting for one run; edit `config/config.yaml` to change it
-for good. Names of your entries consist of letters, digits, dots, dashes and underscores.
-
-**Units.** A value with a unit is a text of a number and a unit, e.g. `"0.1 um"` or `"50 mJ/m^2"`.
-The tables name its quantity, such as *length* or *modulus*. Simulations have no units: heights are
-in units of h_rms, lengths of 1/q0, pressures of E\\* q0 h_rms.
-
-**Errors.** Every file is checked before any job starts. An error is one line that names the file,
-the key, its value, and what would be right.
-
-Bold keys are required. Keys that several sections share stand in a table of their own.
-"""
+MARK = "<!-- Below, the tables are written by common.config.reference from its models. -->"
 FILES = {
     "config": (Configuration, "config/config.yaml and config/campaigns/paper.yaml"),
     "materials": (Materials, "config/materials.yaml"),
@@ -147,8 +129,12 @@ def table(model: type[Section]) -> str:
 
 
 def page() -> str:
-    """Write the whole page; models that several files share stand with the first."""
-    parts, shown = [HEAD.rstrip()], set()
+    """Write the whole page: its head as it is, and the tables of all files.
+
+    Models that several files share stand with the first.
+    """
+    head, _, _ = PAGE.read_text(encoding="utf-8").partition(MARK)
+    parts, shown = [head + MARK], set()
     for model, file in FILES.values():
         found = collect(model, {})
         parts.append(f"## {file}")

@@ -51,8 +51,7 @@ class SelfAffine(RealSurface, Direction):
     h_rms: f.one_or_two(f.Length) = optional('rms height or its range, e.g. ["0.5 um", "2 um"]')
     C0: f.one_or_two(str) = optional('prefactor of C0 q^(-2(H+1)) or its range, e.g. "1e-3 m^0.4"')
 
-    def problems(self, context: Mapping[str, Any]) -> Iterable[str]:
-        """Check the order of wavelengths and ranges, and the unit of C0."""
+    def _problems(self, context: Mapping[str, Any]) -> Iterable[str]:
         longest = _wavelength(self.longest_wavelength, self.q0)
         shortest = _wavelength(self.shortest_wavelength, self.q1)
         if not shortest < longest:
@@ -134,8 +133,7 @@ class Contact(Section):
         "contact with full adhesion on approach, attraction that decays exponentially, as well"
     )
 
-    def problems(self, context: Mapping[str, Any]) -> Iterable[str]:
-        """Require pressures of one kind, with the modulus that they need."""
+    def _problems(self, context: Mapping[str, Any]) -> Iterable[str]:
         for index, pressure in enumerate(self.pressures if has_units(self.pressures) else []):
             key = f"pressures[{index}] = {pressure!r}"
             if not isinstance(pressure, str):
@@ -171,8 +169,7 @@ class Measured(RealSurface, Reading):
     )
     bem: Contact = optional("contact of the measured heights themselves, made periodic")
 
-    def problems(self, context: Mapping[str, Any]) -> Iterable[str]:
-        """Check the files, as far as is known before they are read, and the contact."""
+    def _problems(self, context: Mapping[str, Any]) -> Iterable[str]:
         entries = measurements(self.model_dump(exclude_unset=True))
         for prefix, entry in entries:
             for problem in _file_problems(entry, context["made"]):
