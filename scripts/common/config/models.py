@@ -174,6 +174,11 @@ class FitIntervals(Section):
         "fit intervals [low, high] of range/h_rms; the first is quoted, others show its influence"
     )
 
+    def _problems(self, context: Mapping[str, Any]) -> Iterable[str]:
+        for index, (low, high) in enumerate(self.windows):
+            if not low < high:
+                yield f"windows[{index}] = {[low, high]!r} must be [low, high] with low < high"
+
 
 class Adhesive(Section):
     """Adhesive parameters of simulations."""
@@ -300,15 +305,21 @@ class Configuration(Section):
     criteria: Criteria = needed("criteria of stickiness")
 
     def _problems(self, context: Mapping[str, Any]) -> Iterable[str]:
-        if self.fidelity not in self.fidelities:
-            yield f.unknown("fidelity", self.fidelity, self.fidelities)
         yield from self._paper_problems()
-        yield from self._comparison_problems()
-        yield from self._case_problems()
-        yield from self._adhesion_problems()
-        yield from self._criteria_problems()
+        for key, name, known in self._references():
+            if name not in known:
+                yield f.unknown(key, name, known)
+        for name in sorted(self.comparisons.surfaces.keys() & self.cases.keys()):
+            yield f"comparisons.surfaces.{name} has the name of a case; give it another"
+        for key, case, pressure in self._loads():
+            if pressure not in self.cases[case].pressures:
+                yield f"{key} = {pressure:g} is not among the pressures of cases.{case}"
+        for key, value, axis, low, high in self._limits():
+            if not low <= value <= high:
+                yield f"{key} = {value:g} must lie within {axis} {low:g} … {high:g}"
 
     def _paper_problems(self) -> Iterator[str]:
+        """Require what the figures and the claims read."""
         for table, present, names in (
             ("cases", self.cases, PAPER_CASES),
             ("theory.sweeps", self.theory.sweeps, PAPER_SWEEPS),
@@ -326,82 +337,56 @@ class Configuration(Section):
         users |= {asked.case: f"adhesion.{key}" for key, asked in self.adhesion.items()}
         users[self.criteria.a_v.case] = "criteria.a_v"
         for name, user in users.items():
-            case = self.cases.get(name)
             for key in ("quantities", "model"):
-                if getattr(case, key, None) not in (None, "simulation"):
+                value = getattr(self.cases.get(name), key, None)
+                if value not in (None, "simulation"):
                     yield (
-                        f"cases.{name}.{key} = {getattr(case, key)!r}: leave it out, {user} needs "
-                        "every quantity by simulation; or add a case"
+                        f"cases.{name}.{key} = {value!r}: leave it out, {user} needs every "
+                        "quantity by simulation; or add a case"
                     )
 
-    def _comparison_problems(self) -> Iterator[str]:
-        surfaces = self.comparisons.surfaces
-        for name in sorted(surfaces.keys() & self.cases.keys()):
-            yield f"comparisons.surfaces.{name} has the name of a case; give it another"
+    def _references(self) -> Iterator[tuple[str, str, Mapping[str, Any]]]:
+        """Yield keys that name entries: key, name, and the entries that there are."""
+        yield "fidelity", self.fidelity, self.fidelities
         for key, fidelity in self.fidelities.items():
             for name in fidelity.comparisons or []:
-                if name not in surfaces:
-                    yield f.unknown(f"fidelities.{key}.comparisons", name, surfaces)
+                yield f"fidelities.{key}.comparisons", name, self.comparisons.surfaces
+        for key, case in self.cases.items():
+            yield f"cases.{key}.surface", case.surface, self.model_surfaces
+        for key, loop in self.loops.items():
+            yield f"loops.{key}.surface", loop.surface, self.model_surfaces
+        for key, asked in self.adhesion.items():
+            yield f"adhesion.{key}.case", asked.case, self.cases
+        yield "criteria.a_v.case", self.criteria.a_v.case, self.cases
 
-    def _case_problems(self) -> Iterator[str]:
-        for table, entries in (("cases", self.cases), ("loops", self.loops)):
-            for key, entry in entries.items():
-                if entry.surface not in self.model_surfaces:
-                    yield f.unknown(f"{table}.{key}.surface", entry.surface, self.model_surfaces)
-        for index, (low, high) in enumerate(self.a_v.windows):
-            if not low < high:
-                yield f"a_v.windows[{index}] = {[low, high]!r} must be [low, high] with low < high"
-            if low < self.gaps.minimum or high > self.gaps.maximum:
-                yield (
-                    f"a_v.windows[{index}] = {[low, high]!r} must lie within gaps.minimum … "
-                    "gaps.maximum"
-                )
-
-    def _adhesion_problems(self) -> Iterator[str]:
-        low, high = self.gaps.minimum, self.gaps.maximum
-        for name, asked in self.adhesion.items():
-            key = f"adhesion.{name}"
-            if asked.case not in self.cases:
-                yield f.unknown(f"{key}.case", asked.case, self.cases)
-                return
+    def _loads(self) -> Iterator[tuple[str, str, float]]:
+        """Yield keys whose pressures a case must have: key, case and pressure."""
+        for key, asked in self.adhesion.items():
             for pressure in asked.pressures:
-                if pressure not in self.cases[asked.case].pressures:
-                    yield f"{key}.pressures: {pressure:g} is not among those of cases.{asked.case}"
-            for value in asked.range_over_h_rms:
-                if not low <= value <= high:
-                    yield (
-                        f"{key}.range_over_h_rms: {value:g} must lie within gaps.minimum … "
-                        f"gaps.maximum, {low:g} … {high:g}"
-                    )
+                yield f"adhesion.{key}.pressures", asked.case, pressure
+        yield "criteria.a_v.pressure", self.criteria.a_v.case, self.criteria.a_v.pressure
 
-    def _criteria_problems(self) -> Iterator[str]:
-        """Require that the maps of criteria stay within the table of a_V."""
-        chosen, compared = self.criteria.a_v, self.criteria.compared
-        if chosen.case not in self.cases:
-            yield f.unknown("criteria.a_v.case", chosen.case, self.cases)
-        elif chosen.pressure not in self.cases[chosen.case].pressures:
-            yield (
-                f"criteria.a_v.pressure = {chosen.pressure:g} is not among the pressures of "
-                f"cases.{chosen.case}"
-            )
-        table = self.theory.table
-        ratios = [1 / table.range.maximum, 1 / table.range.minimum]
-        broad, rough = compared.magnification, compared.h_rms_over_range
-        quoted_broad, quoted_rough = compared.quoted_magnification, compared.quoted_h_rms_over_range
-        inverse = "range, inverted:"
-        for key, value, axis, within in (
-            ("a_v.pressure", chosen.pressure, "pressure", table.pressure),
-            ("map.hurst", self.criteria.map.hurst, "hurst", table.hurst),
-            ("compared.hurst", compared.hurst, "hurst", table.hurst),
-            ("compared.quoted_magnification", quoted_broad, "magnification", table.magnification),
-            ("compared.magnification.minimum", broad.minimum, "magnification", table.magnification),
-            ("compared.magnification.maximum", broad.maximum, "magnification", table.magnification),
-            ("compared.quoted_h_rms_over_range", quoted_rough, inverse, ratios),
-            ("compared.h_rms_over_range.minimum", rough.minimum, inverse, ratios),
-            ("compared.h_rms_over_range.maximum", rough.maximum, inverse, ratios),
-        ):
-            if not within[0] <= value <= within[-1]:
-                yield (
-                    f"criteria.{key} = {value:g} must lie within theory.table.{axis} "
-                    f"{within[0]:g} … {within[-1]:g}"
-                )
+    def _limits(self) -> Iterator[tuple[str, float, str, float, float]]:
+        """Yield keys that the grid of gaps and the table of a_V limit, with both limits."""
+        gaps = "gaps.minimum … gaps.maximum:", self.gaps.minimum, self.gaps.maximum
+        for index, window in enumerate(self.a_v.windows):
+            for end in window:
+                yield f"a_v.windows[{index}]", end, *gaps
+        for key, asked in self.adhesion.items():
+            for value in asked.range_over_h_rms:
+                yield f"adhesion.{key}.range_over_h_rms", value, *gaps
+        table, criteria = self.theory.table, self.criteria
+        hurst, pressure, broad = (
+            (f"theory.table.{axis}", getattr(table, axis)[0], getattr(table, axis)[-1])
+            for axis in ("hurst", "pressure", "magnification")
+        )
+        rough = "theory.table.range, inverted:", 1 / table.range.maximum, 1 / table.range.minimum
+        yield "criteria.a_v.pressure", criteria.a_v.pressure, *pressure
+        yield "criteria.map.hurst", criteria.map.hurst, *hurst
+        compared = criteria.compared
+        yield "criteria.compared.hurst", compared.hurst, *hurst
+        for key, limits in (("magnification", broad), ("h_rms_over_range", rough)):
+            grid, quoted = getattr(compared, key), getattr(compared, f"quoted_{key}")
+            yield f"criteria.compared.{key}.minimum", grid.minimum, *limits
+            yield f"criteria.compared.{key}.maximum", grid.maximum, *limits
+            yield f"criteria.compared.quoted_{key}", quoted, *limits
