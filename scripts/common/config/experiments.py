@@ -43,7 +43,7 @@ class KnownValue(Section):
     def _require_its_source(cls, given: Any) -> Any:
         if not isinstance(given, dict):
             plain = f'"{given}"' if isinstance(given, str) else given
-            raise f.refusal(
+            raise f.Refusal(
                 f" = {given!r} must say how it is known: write {{value: {plain}, known: "
                 "measured}, or read, recalled, assumed instead of measured"
             )

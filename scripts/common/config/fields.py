@@ -17,7 +17,6 @@ from pydantic import (
     ValidationInfo,
     model_validator,
 )
-from pydantic_core import PydanticCustomError
 
 from stickiness.units import si
 
@@ -32,6 +31,10 @@ def _add_choices(schema: dict[str, Any], section: type[Section]) -> None:
     ]
     if groups:
         schema["allOf"] = groups
+
+
+class Refusal(ValueError):
+    """What is wrong, in words that go on where the path of the key ends."""
 
 
 class Section(BaseModel):
@@ -52,7 +55,7 @@ class Section(BaseModel):
     def _check_keys(cls, given: Any) -> Any:
         if isinstance(given, dict):
             for problem in cls._key_problems(given):
-                raise refusal(f": {problem}")
+                raise Refusal(f": {problem}")
         return given
 
     @classmethod
@@ -74,17 +77,12 @@ class Section(BaseModel):
     @model_validator(mode="after")
     def _check_together(self, info: ValidationInfo) -> Section:
         for problem in self._problems(info.context or {}):
-            raise refusal(problem if problem.startswith(":") else f".{problem}")
+            raise Refusal(problem if problem.startswith(":") else f".{problem}")
         return self
 
     def _problems(self, context: Mapping[str, Any]) -> Iterable[str]:
         """Yield what is wrong with several keys together: ``key = value …`` or ``: …``."""
         return ()
-
-
-def refusal(said: str) -> PydanticCustomError:
-    """Return an error whose text goes on where the path of the key ends."""
-    return PydanticCustomError("refused", "{said}", {"said": said})
 
 
 def unknown(key: str, value: str, known: Iterable[str]) -> str:
@@ -129,12 +127,12 @@ def quantity(word: str, unit: str, *limits: str) -> Any:
         try:
             found = si(value, unit)
         except ValueError as error:
-            raise refusal(f" = {error}") from None
+            raise Refusal(f" = {error}") from None
         if not found > 0:
-            raise refusal(f" = {value!r} must be positive")
+            raise Refusal(f" = {value!r} must be positive")
         if limits and not si(limits[0], unit) <= found <= si(limits[1], unit):
             low, high = limits
-            raise refusal(f" = {value!r} must be in {low} … {high}; no solid is beyond")
+            raise Refusal(f" = {value!r} must be in {low} … {high}; no solid is beyond")
         return value
 
     return Annotated[str, BeforeValidator(check), Field(json_schema_extra={"quantity": word})]
@@ -147,7 +145,7 @@ def one_or_two(kind: Any) -> Any:
 
 def _refuse_repeated(values: list[Any]) -> list[Any]:
     if len({str(value) for value in values}) < len(values):
-        raise refusal(f" = {values!r} must not repeat a value")
+        raise Refusal(f" = {values!r} must not repeat a value")
     return values
 
 

@@ -159,8 +159,8 @@ def one_line(error: Mapping[str, Any]) -> str:
     steps = [step for step in error["loc"] if not re.match(r"<|\[key\]", str(step))]
     path = "".join(f"[{step}]" if isinstance(step, int) else f".{step}" for step in steps)[1:]
     value, details = error["input"], error.get("ctx", {})
-    if error["type"] == "refused":
-        return f"{path}{details['said']}".lstrip(":. ")
+    if error["type"] == "value_error":
+        return f"{path}{details['error']}".lstrip(":. ")
     if error["type"] == "literal_error":
         choices = [
             choice for choice in re.findall(r"[\w.]+", details["expected"]) if choice != "or"

@@ -23,7 +23,7 @@ Estimator = Literal["multilevel", "plain"]
 
 def _ascend(values: list[float]) -> list[float]:
     if values != sorted(values):
-        raise f.refusal(f" = {values!r} must be in increasing order")
+        raise f.Refusal(f" = {values!r} must be in increasing order")
     return values
 
 
