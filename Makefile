@@ -47,7 +47,7 @@ dag: $(VENV)/.run  ## what would run
 SPHINX := $(BIN)/python -m sphinx -W --keep-going -c docs
 
 docs: $(VENV)/.docs  ## pages in docs/_build/html, the reference of the configuration, pictures of the rules
-	$(BIN)/python docs/write_config.py
+	PYTHONPATH=scripts $(BIN)/python -m common.config.reference
 	$(BIN)/python docs/draw_rules.py
 	$(SPHINX) -b html . docs/_build/html
 

@@ -74,24 +74,31 @@ from common import source_hash
 from stickiness.accuracy import plan
 from stickiness.accuracy.error_models import read_models
 from stickiness.accuracy import model_choice
-from common.config import checks
-from common.config.files import locate_files
-from common.config.measured_contact import MOST_POINTS
+from common.config import load
+from common.config.entries import MOST_POINTS, measurements
+
+# Tables that this project measured, which are committed.
+ERROR_MODELS, TRADE_SUMMARY = own("config/accuracy.csv"), own("config/tradeoff.csv")
+REMAINING_TABLE, DMT_ERROR_TABLE = own("config/remaining.csv"), own("config/dmt_error.csv")
 
 try:
-    # What a user leaves out is as in the project's own file.
-    given, config = config, locate_files(checks.load(PROJECT / "config/config.yaml"), own)
+    # What a user leaves out is as in the project.
+    given, config = config, load.defaults(PROJECT, own)
     update_config(config, given)
-    MATERIALS, REAL_SURFACES, EXPERIMENTS = checks.check_all(
-        config,
-        PROJECT / "config/schemas",
-        f"config of module {MODULE}" if MODULE else "config/config.yaml",
-        made=bool(MODULE),
+    TRADE, REMAINING_CAMPAIGN = (load.campaign(PROJECT, name) for name in ("tradeoff", "remaining"))
+    if workflow.is_main_process:  # whose jobs read what was checked here
+        load.check_all(
+            config,
+            {"tradeoff": TRADE, "remaining": REMAINING_CAMPAIGN},
+            given,
+            f"config of module {MODULE}" if MODULE else load.USER,
+            made=bool(MODULE),
+        )
+    MATERIALS, REAL_SURFACES, EXPERIMENTS = (
+        load.load(config[table])[table] for table in load.TABLES
     )
-    PLANS = plan.plans_of(config, read_models(config["tradeoff"]["table"]))
-    DMT_ERRORS = model_choice.read_table(config["dmt_error"])
-    if not Path(config["remaining"]["table"]).is_file():
-        raise ValueError(f"remaining.table = {config['remaining']['table']!r}: no such file")
+    PLANS = plan.plans_of(config, read_models(ERROR_MODELS))
+    DMT_ERRORS = model_choice.read_table(DMT_ERROR_TABLE)
 except ValueError as error:
     sys.exit(str(error))  # one line, where an exception's would have Snakemake's around it
 
@@ -110,9 +117,7 @@ TRADEOFF = f"{config['results']}/tradeoff"
 REMAINING = f"{config['results']}/remaining"
 MODEL_SURFACES, CASES = config["model_surfaces"], config["cases"]
 SWEEPS, ADHESION, LOOPS = config["theory"]["sweeps"], config["adhesion"], config["loops"]
-GAMMA, GAPS, TRADE = config["theory"]["gamma"], config["gaps"], config["tradeoff"]
-ERROR_MODELS, TRADE_SUMMARY = local(TRADE["table"]), local(TRADE["summary"])
-REMAINING_TABLE = local(config["remaining"]["table"])
+GAMMA, GAPS = config["theory"]["gamma"], config["gaps"]
 FIGURES = [f"fig{number}" for number in range(1, 12)]
 # Figures and report show the cases that are simulated for every quantity.
 COMPLETE = [case for case, planned in PLANS.items() if planned.complete]

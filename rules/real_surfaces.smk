@@ -11,7 +11,7 @@ def topographies(wildcards):
     surface = REAL_SURFACES[wildcards.real_surface]
     if surface["kind"] != "measured":
         return []
-    files = [measurement["file"] for _, measurement in checks.measurements(surface)]
+    files = [measurement["file"] for _, measurement in measurements(surface)]
     return [local(file) for file in files if not file.startswith("builtin:")]
 
 
@@ -75,7 +75,7 @@ rule pull_measured:
         surface=lambda wildcards: REAL_SURFACES[wildcards.real_surface],
         material=PICTURED_MATERIAL,
         entry=MATERIALS[PICTURED_MATERIAL],
-        law=config["remaining"]["law"],
-        squeeze=config["remaining"]["squeeze"],
+        law=REMAINING_CAMPAIGN["law"],
+        squeeze=REMAINING_CAMPAIGN["squeeze"],
     script:
         "../scripts/real_surfaces/pull_measured.py"

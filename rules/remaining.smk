@@ -1,7 +1,7 @@
 # How much adhesion remains: approach and separation of rough surfaces, simulated once for all. The
 # model of the verdicts is compared with the committed summary.
 
-MEASURED = config["remaining"]["sets"]
+MEASURED = REMAINING_CAMPAIGN["sets"]
 
 
 wildcard_constraints:
@@ -21,8 +21,8 @@ rule measure_remaining:
         runtime=120,
     params:
         surface=lambda wildcards: MEASURED[wildcards.remaining_set],
-        law=config["remaining"]["law"],
-        squeeze=config["remaining"]["squeeze"],
+        law=REMAINING_CAMPAIGN["law"],
+        squeeze=REMAINING_CAMPAIGN["squeeze"],
     script:
         "../scripts/remaining/measure_remaining.py"
 

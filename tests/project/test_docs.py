@@ -22,38 +22,6 @@ def script_of_docs(name):
     return module
 
 
-@pytest.fixture(scope="module")
-def write_config():
-    return script_of_docs("write_config")
-
-
-def test_every_key_is_described(write_config):
-    assert write_config.undescribed() == []
-
-
-def test_reference_of_the_configuration_is_up_to_date(write_config):
-    text = (ROOT / "docs/config.md").read_text(encoding="utf-8")
-    assert text == write_config.reference(), "run: python docs/write_config.py"
-
-
-def leaves(value, path=""):
-    if isinstance(value, dict):
-        for key, inner in value.items():
-            yield from leaves(inner, f"{path}.{key}" if path else str(key))
-    else:
-        yield path
-
-
-def test_reference_knows_every_key_in_use(write_config):
-    """Keys of config.yaml, found by the schemas' patterns: none is missed by the walk."""
-    known = re.findall(r"^\| \**`([^`]+)`", write_config.section("config"), re.M)
-    patterns = [re.compile(re.escape(key).replace(r"\*", r"[A-Za-z0-9._-]+")) for key in known]
-    config = yaml.safe_load((ROOT / "config/config.yaml").read_text(encoding="utf-8"))
-    grid = re.compile(r"\.(minimum|maximum|per_decade)$")
-    for path in leaves(config):
-        assert any(p.fullmatch(path) or p.fullmatch(grid.sub("", path)) for p in patterns), path
-
-
 @pytest.mark.parametrize("page", PAGES)
 def test_links_between_pages_lead_somewhere(page):
     text = (ROOT / page).read_text(encoding="utf-8")
