@@ -13,8 +13,7 @@ from common.adhesion_sets import LAWS, solver_error
 from common.error_budgets import SIMULATED
 from common.job import start
 from common.realisations import read_all
-from stickiness import datasets, equivalent_sphere
-from stickiness.adhesive import dmt
+from stickiness import datasets, dmt, equivalent_sphere
 from stickiness.error_budget import Part, with_budget
 from stickiness.statistics import students_t
 

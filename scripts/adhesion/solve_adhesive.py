@@ -27,8 +27,8 @@ from common.conventions import RMS_SLOPE
 from common.job import start
 from common.model_surfaces import pixels
 from common.realisations import each_seed
-from stickiness import datasets
-from stickiness.adhesive import dmt, edge_zone
+from stickiness import datasets, dmt
+from stickiness.adhesive import edge_zone
 from stickiness.repulsive import solver, subpixel
 from stickiness.surface import resample
 

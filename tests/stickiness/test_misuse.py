@@ -18,7 +18,7 @@ from stickiness.criteria import a_v_table
 from stickiness.measured import instrument_spectrum, psd, topography
 from stickiness.persson import Persson
 from stickiness.plausibility import PlausibilityWarning
-from stickiness.repulsive import grid_limit, subpixel
+from stickiness.repulsive import richardson, subpixel
 from stickiness.solids import moduli
 
 SIDE = 2 * np.pi
@@ -110,17 +110,17 @@ MISUSES = {
         "magnification must be at least 1",
     ),
     "limit of NaN": (
-        lambda: grid_limit.estimate("area_fraction", [0.1, np.nan], 0, 10),
+        lambda: richardson.estimate("area_fraction", [0.1, np.nan], 0, 10),
         "values and part must be finite",
     ),
     "one seed for several": (lambda: multilevel.descriptors(BAND, SIDE, 3), "seeds must be"),
     "a name for a seed": (lambda: multilevel.descriptors(BAND, SIDE, ["a"]), "seeds must be"),
     "number of edges not a number": (
-        lambda: grid_limit.estimate("area_fraction", [0.1, 0.2], 0, np.nan),
+        lambda: richardson.estimate("area_fraction", [0.1, 0.2], 0, np.nan),
         "edges must not be negative or NaN",
     ),
     "climb of NaN": (
-        lambda: grid_limit.estimate("attractive_area", [0.1, 0.2], 0, 9, np.nan),
+        lambda: richardson.estimate("attractive_area", [0.1, 0.2], 0, 9, np.nan),
         "climbs must not be negative or NaN",
     ),
     "a gap for its contact": (lambda: subpixel.boundary_strip(HEIGHTS), "contact must be a non-em"),

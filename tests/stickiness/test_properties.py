@@ -15,7 +15,7 @@ from stickiness.criteria import a_v_table
 from stickiness.measured import instrument_spectrum, stitching
 from stickiness.measured.topography import Topography
 from stickiness.persson import Persson
-from stickiness.repulsive import grid_limit
+from stickiness.repulsive import richardson
 from stickiness.solids.moduli import Prony, Table, crossings
 from stickiness.spectrum import SelfAffine, Shells
 
@@ -88,8 +88,8 @@ def test_criteria_do_not_know_the_unit(h_rms, log_adhesion, log_range, unit):
     factors,
 )
 def test_limits_of_fine_grids_scale(values, part, edges, factor):
-    one = grid_limit.estimate("mean_gap", list(values), part, edges)
-    other = grid_limit.estimate("mean_gap", list(factor * values), factor * part, edges)
+    one = richardson.estimate("mean_gap", list(values), part, edges)
+    other = richardson.estimate("mean_gap", list(factor * values), factor * part, edges)
     np.testing.assert_allclose(other.value, factor * one.value, rtol=1e-12)
     # An error below the rounding of the values is none.
     np.testing.assert_allclose(other.error, factor * one.error, rtol=1e-9, atol=1e-18 * factor)

@@ -2,8 +2,7 @@
 
 from stickiness.adhesive.laws import Exponential, LennardJones, Maugis, TractionLaw
 from stickiness.adhesive.path import PathPoint, path
-from stickiness.adhesive.scaling import Adhesion
-from stickiness.adhesive.solver import ConvergenceError, PullOffError, solve
+from stickiness.adhesive.solver import Adhesion, ConvergenceError, PullOffError, solve
 
 __all__ = [
     "Adhesion",

@@ -20,8 +20,18 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from stickiness.adhesive.scaling import APPROACH, SEPARATION, Adhesion, Control, Scaled
-from stickiness.adhesive.solver import ConvergenceError, Effort, PullOffError, relax_from, solve
+from stickiness.adhesive.solver import (
+    APPROACH,
+    SEPARATION,
+    Adhesion,
+    Control,
+    ConvergenceError,
+    Effort,
+    PullOffError,
+    Scaled,
+    relax_from,
+    solve,
+)
 from stickiness.arguments import grid, number
 from stickiness.solids import HALF_SPACE
 

@@ -12,7 +12,7 @@ from scipy import optimize, special
 
 from stickiness.arguments import positive
 from stickiness.repulsive import half_space
-from stickiness.repulsive.grids import check_length
+from stickiness.repulsive.half_space import check_length
 
 
 class PositiveFields:

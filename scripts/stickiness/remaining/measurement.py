@@ -19,7 +19,7 @@ from scipy.interpolate import PchipInterpolator
 from stickiness.adhesive import edge_zone
 from stickiness.adhesive.laws import TractionLaw
 from stickiness.adhesive.path import PathPoint, path
-from stickiness.adhesive.scaling import SEPARATION
+from stickiness.adhesive.solver import SEPARATION
 from stickiness.arguments import grid, number
 from stickiness.plausibility import PlausibilityWarning
 from stickiness.repulsive.solver import ConvergenceError

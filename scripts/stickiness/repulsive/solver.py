@@ -12,7 +12,7 @@ Kato, doi 10.1115/1.2833523).
 * Coarser grids supply a first guess of the gap, which is smooth enough to be interpolated. With the
   exact heights it gives a pressure. A point is put into contact where ``p > c k g``, k being the
   stiffness of a single pixel: this predicts the set to a per cent.
-* Below a per cent of contact only points that may touch take part in corrections (`few_points`).
+* Below a per cent of contact corrections involve only points that may touch (`dilute_contact`).
 * Where that fails on a layer, `projected_gradients` goes on.
 
 Without a period u is that of a half-space loaded on a rectangle (`free_edges`). All else stands,
@@ -27,7 +27,7 @@ import numpy as np
 from stickiness.arguments import grid, integer, number
 from stickiness.plausibility import warn_of_heights, warn_of_pressure
 from stickiness.repulsive import active_set, free_edges, projected_gradients
-from stickiness.repulsive.grids import (
+from stickiness.repulsive.half_space import (
     check_length,
     coarsen,
     interpolate,
@@ -37,11 +37,13 @@ from stickiness.repulsive.grids import (
 )
 from stickiness.solids import HALF_SPACE, check_solid
 
-_COARSEST = 64  # points along the shorter side of the coarsest grid
-_NEAR = 0.005  # relative change of load up to which the last solution is the better start
-_LOOSEST = 0.1  # of h_rms: beyond this no solution is worth the name
+_MIN_COARSE_POINTS = 64  # points along the shorter side of the coarsest grid
+_MAX_LOAD_CHANGE = (
+    0.005  # relative change of load up to which the last solution is the better start
+)
+_MAX_TOLERANCE = 0.1  # of h_rms: beyond this no solution is worth the name
 # Iterations with active sets on a layer or with free edges: either tens do, or more gain little.
-_MOST_UNSURE = 150
+_MAX_UNSURE_ITERATIONS = 150
 _COARSE_TOLERANCE = 3e-3  # of h_rms: a guess for the next grid needs no more
 
 
@@ -179,7 +181,7 @@ def solve(
     heights = grid("heights", heights)
     lengths = check_length(length, heights.shape)
     pressure = number("pressure", pressure, zero=True)
-    tol = number("tol", tol, most=_LOOSEST)
+    tol = number("tol", tol, most=_MAX_TOLERANCE)
     max_iterations = integer("max_iterations", max_iterations, least=1)
     if not (start is None or isinstance(start, Contact)):
         raise ValueError(f"start must be a Contact of the same grid, got {type(start).__name__}")
@@ -288,7 +290,7 @@ def _relax(problem, guess, effort):
         problem,
         tol=effort.tol,
         rough=effort.rough,
-        max_iterations=min(limit, _MOST_UNSURE) if unsure else limit,
+        max_iterations=min(limit, _MAX_UNSURE_ITERATIONS) if unsure else limit,
         pressure=guess,
         gap=gap,
         logger=logger,
@@ -320,7 +322,10 @@ def load_path(heights, length, pressures, tol=1e-8, **options):
     """
     last = None
     for pressure in pressures:
-        near = last is not None and abs(pressure - last.mean_pressure) < _NEAR * last.mean_pressure
+        near = (
+            last is not None
+            and abs(pressure - last.mean_pressure) < _MAX_LOAD_CHANGE * last.mean_pressure
+        )
         start = last if near else None
         last = solve(heights, length, pressure, tol=tol, start=start, **options)
         yield last
@@ -332,7 +337,7 @@ def coarse_gap(problem, work, logger=None):
     `work` gets the convolutions on every coarser grid, times its points.
     """
     shape = problem.heights.shape
-    if min(shape) < 2 * _COARSEST:
+    if min(shape) < 2 * _MIN_COARSE_POINTS:
         return None
     heights = sample(problem.heights, tuple(coarsen(n) for n in shape))
     coarse = replace(problem, heights=heights)
@@ -343,7 +348,7 @@ def coarse_gap(problem, work, logger=None):
 def coarse_pressure(problem, work, logger=None):
     """First guess of the pressure with free edges, else as `coarse_gap`."""
     shape = problem.heights.shape
-    if min(shape) < 2 * _COARSEST:
+    if min(shape) < 2 * _MIN_COARSE_POINTS:
         return None
     heights = free_edges.coarsen_heights(problem.heights)
     sides = tuple(

@@ -1,10 +1,10 @@
 """Quick descent of laws that only soften, against the general one."""
 
 import numpy as np
+from stickiness.adhesive.scaling import Control, Scaled
 
 from stickiness import adhesive, repulsive, spectrum, surface
 from stickiness.adhesive.descent import descend
-from stickiness.adhesive.scaling import Control, Scaled
 from stickiness.adhesive.softening_descent import quick_descent
 
 

@@ -2,8 +2,8 @@
 
 Every grid samples the same band-limited surface, each half as fine as the next.
 
-* *Counted in pixels*, areas are of first order in the pixel. `richardson` takes about two thirds of
-  the error of the contact area away at 4 + 8 points per shortest wavelength.
+* *Counted in pixels*, areas are of first order in the pixel. `extrapolate` takes away about two
+  thirds of the error of the contact area at 4 + 8 points per shortest wavelength.
 * *With sub-pixel edges* (`subpixel`) more than nine tenths of the error are gone. From grid to grid
   the contact area still changes with the power 1.7, attractive areas at ranges above the edge gap
   with 1.6, their slope P(u) with 1.5, the mean gap with 2.6; but the sign of a change depends on
@@ -127,7 +127,7 @@ def estimate(
     )
 
 
-def richardson(coarse: Values, fine: Values, order: float = 1.0) -> Values:
+def extrapolate(coarse: Values, fine: Values, order: float = 1.0) -> Values:
     """Extrapolate from two grids, one twice as fine, an error that falls with the power `order`.
 
     The order is 1 for areas counted in pixels; ValueError unless it is positive. Richardson, Phil.
