@@ -50,7 +50,7 @@ _MODULES = (
     "criteria",
     "remaining",
 )
-_PACKAGES = ("measured", "accuracy", "closed_forms", "datasets")
+_PACKAGES = ("measured", "accuracy", "datasets")
 _FUNCTIONS = {"verdict": "stickiness.criteria.verdict"}
 
 __all__ = [*_MODULES, *_FUNCTIONS, *_PACKAGES, "__version__"]  # noqa: PLE0604

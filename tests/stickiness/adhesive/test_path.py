@@ -4,10 +4,10 @@ import itertools
 
 import numpy as np
 import pytest
+from references import adhesion as references
 
 from stickiness import adhesive
 from stickiness.adhesive import Exponential, LennardJones, Maugis
-from stickiness.closed_forms import adhesion as references
 
 RADIUS = 1.0  # of the spheres, on a side of 1
 

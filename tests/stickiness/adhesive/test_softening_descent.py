@@ -1,11 +1,11 @@
 """Quick descent of laws that only soften, against the general one."""
 
 import numpy as np
-from stickiness.adhesive.scaling import Control, Scaled
 
 from stickiness import adhesive, repulsive, spectrum, surface
 from stickiness.adhesive.descent import descend
 from stickiness.adhesive.softening_descent import quick_descent
+from stickiness.adhesive.solver import Control, Scaled
 
 
 def test_agrees_with_the_general_descent_at_a_mean_gap():

@@ -4,11 +4,11 @@ import logging
 
 import numpy as np
 import pytest
+from references import adhesion as references
 from scipy import optimize
 
 from stickiness import adhesive, dmt, repulsive
 from stickiness.adhesive import Exponential, LennardJones, Maugis
-from stickiness.closed_forms import adhesion as references
 
 # Some of the laws under test are too short of range for these grids, on purpose.
 pytestmark = pytest.mark.filterwarnings("ignore:a pixel of")

@@ -2,11 +2,10 @@
 
 import numpy as np
 import pytest
-from stickiness.adhesive.state import State, evaluate
 
 from stickiness.adhesive import softening_descent
 from stickiness.adhesive.laws import Exponential
-from stickiness.adhesive.problem import Problem, Surface
+from stickiness.adhesive.problem import Problem, State, Surface, evaluate
 
 
 @pytest.fixture

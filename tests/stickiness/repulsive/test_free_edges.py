@@ -4,11 +4,11 @@ import warnings
 
 import numpy as np
 import pytest
-from helpers.direct_contact import solve_directly
+from references import contact as reference
+from references.contact import solve_directly
 from scipy import integrate
 
 from stickiness import repulsive, solids
-from stickiness.closed_forms import contact as reference
 from stickiness.repulsive import active_set, free_edges, projected_gradients, solver
 
 PATCH = (12, 10)
@@ -236,7 +236,7 @@ def test_two_methods_one_solution(scaled_pressure):
 def test_projected_gradients_go_on_where_active_sets_fail(monkeypatch):
     heights = rough((96, 96), seed=7)
     usual = solve(heights, 1.0, 0.5)
-    monkeypatch.setattr(solver, "_MOST_UNSURE", 3)
+    monkeypatch.setattr(solver, "_MAX_UNSURE_ITERATIONS", 3)
     contact = solve(heights, 1.0, 0.5)
     assert contact.iterations > 3
     assert_solves(contact, heights, (1.0, 1.0))

@@ -4,7 +4,7 @@ from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 import pytest
-from helpers.half_space import displacement
+from references.contact import displacement
 
 from stickiness.repulsive import half_space
 

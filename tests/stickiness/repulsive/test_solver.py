@@ -4,13 +4,12 @@ import logging
 
 import numpy as np
 import pytest
-from helpers.direct_contact import solve_directly
-from helpers.half_space import displacement
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from references import contact as reference
+from references.contact import displacement, solve_directly
 
 from stickiness import repulsive
-from stickiness.closed_forms import contact as reference
 
 
 def rough(n, hurst=0.8, magnification=None, seed=0, modes=64):

@@ -2,10 +2,10 @@
 
 import numpy as np
 import pytest
+from references import contact as reference
 from scipy.optimize import brentq
 
 from stickiness import adhesive, dmt, repulsive
-from stickiness.closed_forms import contact as reference
 from stickiness.repulsive import subpixel
 
 

@@ -6,9 +6,9 @@ import warnings
 
 import numpy as np
 import pytest
+from references import adhesion as references
 
 from stickiness import adhesive, spectrum, surface
-from stickiness.closed_forms import adhesion as references
 
 pytestmark = pytest.mark.peers
 
