@@ -23,13 +23,13 @@ def rough(shape, seed, sides=(1.0, 1.0), shortest=8):
     return heights / slope
 
 
-def count_settlements(monkeypatch):
+def count_corrections(monkeypatch):
     """Points of the grid and number of candidates at every correction from now on."""
-    sizes, settle = [], dilute_contact.Candidates.correct_pressure
+    sizes, correct = [], dilute_contact.Candidates.correct_pressure
 
     def counted(self, *arguments):
         sizes.append((self._grid.heights.size, self.points.size))
-        return settle(self, *arguments)
+        return correct(self, *arguments)
 
     monkeypatch.setattr(dilute_contact.Candidates, "correct_pressure", counted)
     return sizes
@@ -37,7 +37,7 @@ def count_settlements(monkeypatch):
 
 def assert_same(monkeypatch, heights, sides, pressure, tol=1e-8, **options):
     """Compare with the solution on the whole grid; returns that among few points."""
-    sizes = count_settlements(monkeypatch)
+    sizes = count_corrections(monkeypatch)
     contact = repulsive.solve(heights, sides, pressure, tol=tol, **options)
     assert sizes, "no correction among few points"
     with monkeypatch.context() as patch:
@@ -55,8 +55,7 @@ def assert_same(monkeypatch, heights, sides, pressure, tol=1e-8, **options):
     return contact
 
 
-@pytest.mark.parametrize("pressure", [1e-4, 5e-4, 2e-3])
-@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.parametrize(("seed", "pressure"), [(0, 1e-4), (1, 5e-4), (2, 2e-3)])
 def test_same_solution_as_on_the_grid(monkeypatch, seed, pressure):
     assert_same(monkeypatch, rough((256, 256), seed), 1.0, pressure)
 
@@ -84,8 +83,7 @@ def test_contact_across_the_boundary_moves_with_the_surface(monkeypatch):
     np.testing.assert_allclose(moved, expected.gap, atol=4e-8 * contact.rms_height)
 
 
-@pytest.mark.parametrize("thickness", [0.02, 0.3])
-@pytest.mark.parametrize("poisson", [0.3, 0.5])
+@pytest.mark.parametrize(("thickness", "poisson"), [(0.02, 0.5), (0.3, 0.3)])
 def test_layers(monkeypatch, thickness, poisson):
     solid = Layer(thickness=thickness, poisson=poisson)
     assert_same(monkeypatch, rough((256, 256), 1), 1.0, 5e-4, solid=solid)
@@ -95,7 +93,7 @@ def test_candidates_grow(monkeypatch):
     # Candidates are first what touches or penetrates at a poor guess: others have to join.
     monkeypatch.setattr(dilute_contact, "_CANDIDATE_GAP", 0.0)
     monkeypatch.setattr("stickiness.repulsive.active_set.PREDICTION", 3.0)
-    sizes = count_settlements(monkeypatch)
+    sizes = count_corrections(monkeypatch)
     assert_same(monkeypatch, rough((256, 256), 1), 1.0, 2e-3)
     finest = [count for size, count in sizes if size == 256**2]
     assert max(finest) > finest[0]
@@ -113,13 +111,6 @@ def test_one_and_two_points():
     contact = repulsive.solve(heights, 1.0, 1e-6)
     assert np.argwhere(contact.pressure).tolist() == [list(first), list(second)]
     assert contact.pressure[first] == pytest.approx(contact.pressure[second])
-
-
-def test_too_many_pairs_are_left_to_the_grid(monkeypatch):
-    monkeypatch.setattr(dilute_contact, "_MAX_PAIRS", 1e-4)
-    sizes = count_settlements(monkeypatch)
-    assert repulsive.solve(rough((256, 256), 1), 1.0, 2e-3).residual <= 1e-8
-    assert not sizes
 
 
 def test_corrections_that_gain_nothing_are_left_to_the_grid(monkeypatch):

@@ -47,15 +47,6 @@ def test_straight_edges_in_any_direction(direction):
     assert abs(np.mean(strips)) < 0.1 * edge
 
 
-def test_counting_sees_nothing_below_the_edge_gap():
-    gap, closed = wave((2, 1), 0.35)
-    eps = 0.1 * gap[gap > 0].min()
-    assert dmt.attractive_area(gap, eps) == 0
-    assert subpixel.attractive_area(gap, eps) == pytest.approx(
-        closed_attractive_area(closed, eps), rel=0.15
-    )
-
-
 def test_distance_of_the_first_open_point_from_a_straight_edge():
     """Against the solver: the table must be the one of this discretisation."""
     n = 512
@@ -102,14 +93,6 @@ def test_attractive_area_does_not_depend_on_axes_or_origin(rough_contacts):
     np.testing.assert_allclose(stacked, area, rtol=1e-12)
 
 
-def test_blocks_of_rows_change_nothing(rough_contacts, monkeypatch):
-    gap, _ = rough_contacts[16]
-    eps = np.geomspace(1e-4, 1, 20)
-    area = subpixel.attractive_area(gap, eps)
-    monkeypatch.setattr(subpixel, "_BLOCK", 1000)
-    np.testing.assert_allclose(subpixel.attractive_area(gap, eps), area, rtol=1e-12)
-
-
 def test_without_edges():
     assert subpixel.attractive_area(np.zeros((8, 8)), 0.1) == 0
     gap = np.full((8, 8), 0.2)
@@ -130,15 +113,6 @@ def test_single_pixels_of_gap_and_contact():
         assert 0 < area[0] < 1e-3
         strip = subpixel.boundary_strip(touching)
         assert area[1] == pytest.approx(np.mean(~touching) + strip, rel=1e-12)
-
-
-def test_a_mask_may_call_gaps_of_zero_open():
-    gap = np.zeros((6, 6))
-    touching = np.zeros((6, 6), bool)
-    touching[:3] = True
-    assert subpixel.attractive_area(gap, 1e-9, touching) == pytest.approx(
-        0.5 + subpixel.boundary_strip(touching), rel=1e-12
-    )
 
 
 def test_rough_contact_below_the_edge_gap(rough_contacts):
