@@ -13,8 +13,8 @@ import xarray as xr
 
 from stickiness import adhesive
 from stickiness.accuracy.model_choice import roughness
+from stickiness.traction_laws import LAWS
 
-LAWS = {"maugis": adhesive.Maugis, "exponential": adhesive.Exponential}
 MISSING = "the grid does not resolve the edge, or a window closes"
 OUTSIDE = "outside the table of measured errors"
 

@@ -20,6 +20,7 @@ And what these rest on:
 
 - `measured`: measured topographies, from the file to a spectrum with its errors
 - `accuracy`: errors and costs of simulations, and the settings that an accuracy needs
+- `traction_laws`: attraction as a function of the gap
 - `arguments`, `units`, `datasets`, `error_budget`, `plausibility`: what all parts share
 
 Names are loaded when they are first used.

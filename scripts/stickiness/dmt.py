@@ -31,6 +31,7 @@ from numpy.typing import ArrayLike, NDArray
 from stickiness.arguments import numbers, positive
 from stickiness.repulsive import subpixel as subpixel_edges
 from stickiness.repulsive.subpixel import STRIP_WIDTH, boundary_strip, edge_gap, gap_and_contact
+from stickiness.traction_laws import TractionLaw
 
 _FIT = ("AvFit", "fit_a_v", "local_exponent", "window_sensitivity")
 
@@ -127,7 +128,7 @@ def gap_density(
 
 
 def adhesive_pressure(
-    gap: ArrayLike, law, contact: ArrayLike | None = None, *, subpixel: bool = False
+    gap: ArrayLike, law: TractionLaw, contact: ArrayLike | None = None, *, subpixel: bool = False
 ) -> float:
     """Mean attraction p_ad [E*], the integral of sigma(u) P(u) over the open gaps.
 
@@ -167,7 +168,7 @@ def adhesive_pressure(
     return float(attraction_of_areas(area, ranges, law))
 
 
-def attraction_of_areas(area: ArrayLike, ranges: ArrayLike, law) -> NDArray:
+def attraction_of_areas(area: ArrayLike, ranges: ArrayLike, law: TractionLaw) -> NDArray:
     """Mean attraction p_ad [E*] from attractive areas, the integral of sigma over them.
 
     Gaps up to the smallest range count with the traction at half of it, those beyond the largest

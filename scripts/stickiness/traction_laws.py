@@ -1,4 +1,4 @@
-"""Traction laws of adhesion.
+"""Traction laws of adhesion. To add one, write its class here and name it in `LAWS`.
 
 Pressures are in units of the plane-strain modulus E*, tension positive for tractions; gaps, ranges
 and the adhesion length l_a = (work of adhesion)/E* share one unit of length. A gap of zero is where
@@ -199,3 +199,7 @@ class LennardJones(TractionLaw):
         """Energy per area over E* [length] at `gap`; -adhesion_length at gap 0."""
         s = self._inverse_separation(gap)
         return -self.adhesion_length * (4 * s**2 - s**8) / 3
+
+
+#: Laws that a configuration may name.
+LAWS = {"maugis": Maugis, "exponential": Exponential}
