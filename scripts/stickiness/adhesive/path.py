@@ -122,7 +122,7 @@ def path(
     Raises
     ------
     ValueError
-        If an argument is not what it should be.
+        If an argument is malformed or out of range; the message names it.
     PullOffError
         If there is no equilibrium at the first value.
     ConvergenceError

@@ -115,11 +115,11 @@ def solve(
 ):
     """Solve the adhesive contact of an elastic solid with a rigid periodic surface.
 
-    The problem has several solutions in general. The one found is the stable state, an `Adhesion`,
-    that a descent in energy reaches from `start`. At a prescribed pressure the states are ordered:
-    that with the widest gaps is where loading from afar ends, that with the closest where
-    unloading from full contact does. `Adhesion.enthalpy` tells which of two states at one pressure
-    is the deeper minimum, `Adhesion.energy` at one mean gap.
+    In general the problem has several solutions. This function returns the stable state that a
+    descent in energy reaches from `start`. At a prescribed pressure the states are ordered: loading
+    from afar ends in the one with the widest gaps, unloading from full contact in the one with the
+    narrowest. Of two states at the same pressure the one of lower `Adhesion.enthalpy` is the deeper
+    minimum; at the same mean gap, the one of lower `Adhesion.energy`.
 
     Parameters
     ----------
@@ -130,29 +130,33 @@ def solve(
     law : TractionLaw
         Attraction, its adhesion length and range in the same unit.
     pressure, mean_gap : float
-        Give one: mean pressure in units of E*, negative for tension, or mean gap.
+        Exactly one of them: mean pressure in units of E*, negative for tension, or mean gap.
     start : str, Adhesion, repulsive.Contact or array_like, optional
-        "approach" (default): as from the solution without adhesion at the same control; under
-        tension, from the adhesive solution at zero pressure. At a prescribed pressure coarser
-        grids lead there, unless a descent on any of them meets negative curvature, which a jump
-        would; a `solver.Contact` as the start does without them. "separation": from full
-        contact, at a prescribed pressure only (`path` follows a mean gap back). Or any state on
-        the same grid, or its gap: the start of a descent.
+        "approach" (default): the descent starts from the solution without adhesion at the same
+        control or, under tension, from the adhesive solution at zero pressure. At a prescribed
+        pressure coarser grids supply a better start unless a descent on one of them meets negative
+        curvature, as a jump would; pass a `repulsive.Contact` to skip them. "separation": the
+        descent starts from full contact, at a prescribed pressure only (`path` follows a mean gap
+        back). Or any state on the same grid, or its gap.
     tol : float
         Largest accepted `Adhesion.residual`.
     max_iterations : int
         Largest number of iterations.
     logger : logging.Logger, optional
-        Told the progress at level DEBUG.
+        Receives the progress at level DEBUG.
     solid : solids.HalfSpace or solids.Layer, optional
         Elastic solid, a half-space by default; the thickness of a layer is in the unit of
-        `length`. A mean gap is that between the surfaces: see `solids` on the approach of the
-        backing.
+        `length`. The mean gap is measured between the surfaces: see `solids.layers` on the approach
+        of the backing.
+
+    Returns
+    -------
+    Adhesion
 
     Raises
     ------
     ValueError
-        If an argument is not what it should be.
+        If an argument is malformed or out of range; the message names it.
     PullOffError
         If the tension tears the surfaces apart; it carries the last iterate.
     ConvergenceError
@@ -227,8 +231,8 @@ def relax_from(scaled, gap, branch, control, effort, spent=(0, 0)):
         )
     if not state.residual <= tol:
         raise ConvergenceError(
-            f"residual {state.residual:.2e} after {state.iterations} iterations, "
-            f"asked for {tol:.2e}: raise max_iterations, or tol if it is near rounding",
+            f"residual {state.residual:.2e} after {state.iterations} iterations exceeds tol = "
+            f"{tol:.2e}: raise max_iterations, or tol if it is near rounding",
             result,
         )
     return result

@@ -136,16 +136,3 @@ def extrapolate(coarse: Values, fine: Values, order: float = 1.0) -> Values:
     if not order > 0:
         raise ValueError(f"order must be positive, got {order!r}")
     return fine + (fine - coarse) / (2**order - 1)
-
-
-def observed_order(coarse: Values, middle: Values, fine: Values) -> Values:
-    """Power of the pixel size with which three grids converge: log2 of the ratio of changes.
-
-    Arrays of cases are pooled by the rms of their changes along the first axis: the ratio of two
-    changes of random sign means nothing alone.
-    """
-    first, second = (
-        np.sqrt(np.mean(np.atleast_1d(change) ** 2, axis=0))
-        for change in (np.subtract(middle, coarse), np.subtract(fine, middle))
-    )
-    return np.log2(first / second)

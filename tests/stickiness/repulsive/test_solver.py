@@ -312,7 +312,6 @@ def test_tolerance_beyond_rounding_fails_in_finite_time():
         ({"length": (1.0, np.nan)}, "length must be"),
         ({"pressure": np.nan}, "pressure must be"),
         ({"max_iterations": 0}, "max_iterations must be"),
-        ({"precision": "half"}, "precision must be 'double' or 'single', got 'half'"),
         ({"start": repulsive.solve(np.eye(4), 1.0, 0.1)}, "same grid"),
         ({"solid": Layer}, "solid must be solids.HalfSpace.. or a solids.Layer"),
     ],
@@ -321,18 +320,6 @@ def test_wrong_arguments(change, message):
     arguments = {"heights": rough(8, magnification=2), "length": 1.0, "pressure": 0.1} | change
     with pytest.raises(ValueError, match=message):
         repulsive.solve(**arguments)
-
-
-@pytest.mark.parametrize("periodic", [True, False])
-def test_single_precision_meets_a_loose_tolerance(periodic):
-    """Both solutions have gaps within their tolerances of the exact one."""
-    heights = rough(64, seed=18)
-    double = repulsive.solve(heights, 1.0, 0.4, periodic=periodic)
-    single = repulsive.solve(heights, 1.0, 0.4, tol=1e-4, precision="single", periodic=periodic)
-    assert single.residual <= 1e-4
-    assert single.gap.dtype == single.pressure.dtype == np.float64
-    assert single.area_fraction == pytest.approx(double.area_fraction, abs=2 / 64**2)
-    np.testing.assert_allclose(single.gap, double.gap, atol=1e-3)
 
 
 @pytest.mark.slow

@@ -128,14 +128,6 @@ def test_rough_contact_below_the_edge_gap(rough_contacts):
     assert np.all(counted < -3 * np.abs(found))
 
 
-def test_perimeter_of_a_disc():
-    n, r = 400, 100
-    x = np.arange(n) - n / 2 + 0.5
-    disc = np.hypot(*np.meshgrid(x, x, indexing="ij")) < r
-    # The staircase of a convex shape is as long as its bounding box.
-    assert subpixel.perimeter(disc) == pytest.approx(2 * np.pi * r / n**2, rel=1e-12)
-
-
 @pytest.mark.slow
 @pytest.mark.parametrize("kind", [adhesive.Maugis, adhesive.Exponential])
 def test_adhesive_pressure_of_a_short_range(kind):
@@ -175,7 +167,6 @@ def test_gap_density_from_subpixel_areas(rough_contacts):
         (lambda: subpixel.attractive_area([[0.0, 1.0]], 0.0), "eps must be positive"),
         (lambda: subpixel.attractive_area([[0.0, -1.0]], 1.0), "gap must not be negative"),
         (lambda: subpixel.boundary_strip([True]), "contact must be at least two-dim"),
-        (lambda: subpixel.perimeter([True]), "contact must be at least two-dim"),
         (lambda: dmt.gap_density([[0.0, 1.0]], [-1.0, 1.0], subpixel=True), "edges must not be"),
     ],
 )
