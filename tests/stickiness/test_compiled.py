@@ -119,12 +119,6 @@ def test_loop_does_what_its_source_says(loop):
         np.testing.assert_allclose(value, one, rtol=1e-5, atol=1e-5)
 
 
-def test_every_loop_is_tested():
-    modules = softening_descent, problem, solver, smoother, convolution, preconditioner
-    functions = {one for module in modules for one in vars(module).values() if callable(one)}
-    assert {one for one in functions if hasattr(one, "__wrapped__")} == set(LOOPS)
-
-
 def test_a_source_without_a_folder_for_its_cache_is_compiled_all_the_same():
     names = {}
     exec("def double(x):\n    return x + x\n", names)

@@ -115,7 +115,7 @@ def test_boundary_strip_of_a_disc_and_a_square():
 
 @pytest.fixture(scope="module")
 def rough_contacts():
-    """Repulsive contacts of one band-limited surface on grids of 4, 8, 16 and 64 pixels."""
+    """Repulsive contacts of one band-limited surface on grids of 4 to 64 pixels."""
     top = 8
     rng = np.random.default_rng(3)
     k = np.arange(-top, top + 1)
@@ -134,21 +134,6 @@ def rough_contacts():
         return solution.gap, solution.pressure > 0
 
     return {pixels: contact(pixels) for pixels in (4, 8, 16, 64)}
-
-
-def test_subpixel_beats_counting_on_coarse_grids(rough_contacts):
-    gap, contact = rough_contacts[64]
-    eps = np.array([0.06, 0.1, 0.2])
-    reference = dmt.attractive_area(gap, eps, contact, subpixel=True)
-    # 64 pixels per wavelength: the correction itself is the reference's uncertainty, a few per
-    # cent, well below the errors compared.
-    assert np.all(dmt.boundary_strip(contact) < 0.04 * reference)
-    for pixels in (4, 8, 16):
-        gap, contact = rough_contacts[pixels]
-        counted = dmt.attractive_area(gap, eps, contact) / reference - 1
-        corrected = dmt.attractive_area(gap, eps, contact, subpixel=True) / reference - 1
-        assert np.all(counted < 0)  # the discrete contact is always too large
-        assert np.sum(np.abs(corrected)) < 0.5 * np.sum(np.abs(counted))
 
 
 def test_edge_gap_falls_as_the_edge_law_says(rough_contacts):

@@ -138,25 +138,6 @@ def test_strongly_adhesive_sphere_pulls_off_as_johnson_kendall_roberts_have_it()
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("tabor", [0.5, 1.0])
-def test_laws_with_tails_pull_a_sphere_off_alike(tabor):
-    """Same work of adhesion: two smooth laws agree, and their tails exceed Maugis by 5 per cent."""
-    forces = []
-    for kind in (Exponential, LennardJones):
-        law = sphere_law(kind, tabor, 0.12)
-        exact = references.MaugisSphere(RADIUS, law.adhesion_length, law.range).pull_off.force
-        coarse, fine = (pull_off(paraboloid(n), 1.0, law, exact) for n in (64, 96))
-        assert coarse == pytest.approx(fine, rel=5e-3)
-        forces.append(fine)
-        assert fine / exact == pytest.approx(1.05, abs=0.01)
-        # between the limits of short and long range
-        jkr = references.JKRSphere(RADIUS, law.adhesion_length).pull_off_force
-        dmt = references.DMTSphere(RADIUS, law.adhesion_length).pull_off_force
-        assert dmt < fine < 1.05 * jkr
-    assert forces[0] == pytest.approx(forces[1], rel=5e-3)
-
-
-@pytest.mark.slow
 @pytest.mark.parametrize(("strength", "tolerance"), [(0.5, 0.003), (1.0, 0.01)])
 def test_wave_pulls_off_as_maugis_has_it(strength, tolerance):
     """The wave of Westergaard under the law of Maugis, loaded and pulled off.

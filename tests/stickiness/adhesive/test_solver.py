@@ -276,17 +276,6 @@ def test_branches_on_a_rough_surface_differ_and_the_deeper_is_told():
 
 
 @pytest.mark.slow
-def test_iterations_do_not_grow_with_the_grid():
-    """The same surface on finer grids: what is preconditioned has no length of its own."""
-    for eps in (0.3, 1.0):
-        law = law_of(Exponential, eps, 0.05)
-        states = [adhesive.solve(rough(n), 1.0, law, pressure=LOAD) for n in (64, 128, 256)]
-        counts = [state.iterations for state in states]
-        assert max(counts) < 30
-        assert counts[2] < 1.1 * counts[1] < 1.21 * counts[0]
-
-
-@pytest.mark.slow
 @pytest.mark.parametrize(("eps", "la"), [(0.3, 0.02), (3.0, 0.1)])
 def test_coarser_grids_lead_to_the_same_state(eps, la):
     """Starts from coarser grids, against a descent from the solution without adhesion."""
@@ -438,20 +427,6 @@ def test_convergence_error_carries_the_last_iterate():
         # it is a start like any other
         a = adhesive.solve(heights, 1.0, law, pressure=LOAD, start=info.value.contact)
         assert a.residual <= 1e-8
-
-
-def test_restart_from_a_state_costs_nothing():
-    heights = rough(32)
-    for kind in LAWS:
-        law = law_of(kind, 0.5, 0.1)
-        a = adhesive.solve(heights, 1.0, law, pressure=LOAD)
-        b = adhesive.solve(heights, 1.0, law, pressure=LOAD, start=a)
-        assert b.iterations <= 1
-        np.testing.assert_allclose(b.gap, a.gap, atol=1e-7 * HEIGHT)
-    contact = repulsive.solve(heights, 1.0, LOAD)
-    c = adhesive.solve(heights, 1.0, law, pressure=LOAD, start=contact)
-    assert c.branch == "approach"
-    np.testing.assert_allclose(c.gap, a.gap, atol=1e-6 * HEIGHT)
 
 
 @pytest.mark.parametrize(

@@ -9,7 +9,7 @@ from references.contact import solve_directly
 from scipy import integrate
 
 from stickiness import repulsive, solids
-from stickiness.repulsive import active_set, free_edges, projected_gradients, solver
+from stickiness.repulsive import active_set, free_edges, projected_gradients
 
 PATCH = (12, 10)
 SIDES = (1.0, 1.5)
@@ -205,17 +205,6 @@ def test_two_methods_one_solution(scaled_pressure):
     assert contact.mean_gap == pytest.approx(float(state.gap.mean()) * rms, rel=1e-7)
 
 
-@pytest.mark.slow
-def test_projected_gradients_go_on_where_active_sets_fail(monkeypatch):
-    heights = rough((96, 96), seed=7)
-    usual = solve(heights, 1.0, 0.5)
-    monkeypatch.setattr(solver, "_MAX_UNSURE_ITERATIONS", 3)
-    contact = solve(heights, 1.0, 0.5)
-    assert contact.iterations > 3
-    assert_solves(contact, heights, (1.0, 1.0))
-    np.testing.assert_allclose(contact.pressure, usual.pressure, atol=1e-8 * 10 * np.pi * 96)
-
-
 def test_images_in_a_periodic_cell():
     """Beside the periodic solution of a small contact, whose images are known.
 
@@ -251,24 +240,6 @@ def test_units_and_symmetries():
     assert high.approach == pytest.approx(contact.approach, rel=1e-8)
     turned = solve(heights[::-1, ::-1], SIDES, 0.5, tol=1e-9)
     np.testing.assert_allclose(turned.pressure[::-1, ::-1], contact.pressure, atol=1e-5)
-
-
-@pytest.mark.slow
-def test_loading_path_and_starts():
-    """Further loads press further; dF/d(approach), the contact stiffness, grows with the area."""
-    heights = rough((128, 128), seed=5)
-    loads = np.geomspace(0.01, 30, 8)
-    path = list(repulsive.load_path(heights, 1.0, loads, periodic=False))
-    approach = np.array([c.approach for c in path])
-    stiffness = np.diff(loads) / np.diff(approach)
-    assert np.all(stiffness > 0)
-    assert np.all(np.diff(stiffness) > 0)
-    # no contact is stiffer than the flat punch of the same outline
-    assert stiffness[-1] < 0.36679 * np.pi
-    again = solve(heights, 1.0, 1.001 * loads[3], start=path[3])
-    fresh = solve(heights, 1.0, 1.001 * loads[3])
-    assert again.approach == pytest.approx(fresh.approach, rel=1e-7)
-    assert again.fft_pairs < fresh.fft_pairs
 
 
 def test_no_load():

@@ -134,15 +134,3 @@ def test_error_covers_the_truth_in_nine_of_ten_cases(nested, grids):
     assert np.mean(misses <= errors) >= 0.9
     # ... and is no more than some multiple of it, or it would say nothing.
     assert np.median(errors / truths) < 6 * np.median(misses / truths)
-
-
-@pytest.mark.slow
-def test_subpixel_area_beats_both_the_count_and_its_extrapolation(nested):
-    true = np.array([row[-1]["area_fraction"] for row in nested])
-    coarse, fine = (np.array([row[g]["counted"] for row in nested]) for g in (0, 1))
-    found = np.array([row[1]["area_fraction"] for row in nested])
-
-    def rms(values):
-        return np.sqrt(np.mean((values / true - 1) ** 2))
-
-    assert rms(found) < rms(richardson.extrapolate(coarse, fine)) / 2 < rms(fine) / 2
