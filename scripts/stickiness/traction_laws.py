@@ -50,7 +50,7 @@ class TractionLaw(ABC):
     #: Whether a wall at gap 0 repels; if not, the law itself does, and gaps must exceed -range.
     hard_wall: ClassVar[bool] = True
     #: Whether the traction is continuous beyond the wall; where it is not it must jump at `range`
-    #: between constants, as that of Maugis does.
+    #: between constants, as in the law of Maugis.
     smooth: ClassVar[bool] = True
 
     def __post_init__(self):
@@ -161,7 +161,7 @@ class LennardJones(TractionLaw):
 
     sigma = (8 adhesion_length/(3 range)) [(range/g)^3 - (range/g)^9] with g = gap + range, so that
     gap 0 is the equilibrium separation. All methods need gap > -range. With `hard_wall` a wall at
-    gap 0 takes the place of the law's own repulsion.
+    gap 0 replaces the repulsion of the law.
     """
 
     hard_wall: bool = False

@@ -3,7 +3,7 @@
 The unknown is the gap. Points are free where the gap is open or where the wall would have to pull;
 the others rest at the wall. Directions are Polak-Ribiere's, preconditioned with
 ``1 / (|q| / 2 + |q|_min / 2)`` between masks of the free points, so that the number of iterations
-hardly depends on the grid. Where a law hardens steeply, its own stiffness preconditions.
+hardly depends on the grid. Where a law hardens steeply, its stiffness preconditions.
 
 The step is the exact one for the curvature along the direction, clipped at the wall, shortened
 until the energy falls. Where that curvature is negative, the step is the one of the elastic energy
@@ -88,7 +88,7 @@ class _Conjugate:
     def __init__(self, problem):
         self.problem = problem
         self.spans = spans(problem.surface.heights.shape)
-        # A point on its own is held by the stiffness of a pixel, long waves by that of the longest.
+        # A single point is held by the stiffness of a pixel, long waves by the longest wave's.
         self.pixel = problem.surface.quick.mean_stiffness
         self.longest = problem.surface.smoother.shift
         self.stiff_limit = _STIFF_POINT * np.sqrt(self.longest * self.pixel)
@@ -111,7 +111,7 @@ class _Conjugate:
         """
         problem = self.problem
         force = state.force
-        if self.hardens:  # of every point on its own, or in the longest wave
+        if self.hardens:  # of every point alone, or in the longest wave
             self._stiffness = np.where(
                 state.slope > self.stiff_limit, state.slope + self.stiff_limit, self.longest
             )
@@ -266,7 +266,7 @@ def _move(problem, state, line, length, lower):
 
 
 def _shortcut(problem, state, lower):
-    """Elastic pressure after a step cut short at bounds; change of energy but the law's own."""
+    """Elastic pressure after a step cut short at bounds; change of energy without the law's."""
     if problem.mean_gap is not None:
         lowest = 0.0 if problem.wall else _LARGEST_APPROACH * (state.gap - problem.law.range)
         lower.gap[...] = lowered(lower.gap, problem.mean_gap, lowest)

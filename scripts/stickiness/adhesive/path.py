@@ -10,8 +10,8 @@ integrated along a parabola of the controlled quantity through both ends and the
 error is of fourth order in the step on a branch; at a jump it does not vanish with the step. So the
 balance sets the steps, and a jump is a step that stays out of balance when it is as short as the
 tolerance for its place. On a grid, attraction of short range passes over points one by one, each
-with a jump of its own (a Maugis zone always does). Below a given size such jumps are not sought
-out: they are left in the dissipated energy of the step they fall into.
+with a small jump (a Maugis zone always does). Jumps below a given size are not located: they add to
+the dissipated energy of the step in which they occur.
 """
 
 import math

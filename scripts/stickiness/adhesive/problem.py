@@ -1,4 +1,4 @@
-"""One problem of adhesive contact in its own units: operators, traction law and what is prescribed.
+"""A problem of adhesive contact in scaled units: operators, traction law, prescribed load or gap.
 
 Lengths along the surface are in units of one side of the cell, heights and gaps in units of
 h_rms (of the range of attraction if the surface is flat), pressures in E* times their quotient.
@@ -111,7 +111,7 @@ class State:
     #: in single precision: zero in equilibrium.
     force: np.ndarray
     potential: float = 0.0  #: mean of the law's
-    pressure: float = 0.0  #: mean, prescribed or that of the prescribed mean gap
+    pressure: float = 0.0  #: mean, prescribed or in balance with the prescribed mean gap
     residual: float = np.inf  #: largest magnitude of the force
     iterations: int = 0
     last_run: int = 0  #: iterations since a direction of negative curvature was met

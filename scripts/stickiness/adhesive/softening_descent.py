@@ -5,7 +5,7 @@ precision within a round, and computed again in double precision between rounds 
 refinement). Once the force is small it changes linearly with the gap: the law is then evaluated,
 and energies are compared, between rounds only.
 
-Until then a step is cut short at the wall, which takes an image of its own: one that passes the
+Until then a step is cut short at the wall, which takes another convolution: a step that passes the
 wall might pass a barrier, too. Afterwards points that pass it by little stay behind it for the rest
 of the round and are put back at its end, and a round ends when the force on them is no longer small
 against the residual. If a round raises the energy or changes nothing, the general descent takes
@@ -189,7 +189,7 @@ class _Steps:
         return False
 
     def _within(self, length):
-        """Step, its image, and a factor for both; cut short at the wall, of its own image.
+        """Step, its image, and a factor for both; a step cut short at the wall has a new image.
 
         Not if the force on what lies behind the wall is small: that is put off.
         """

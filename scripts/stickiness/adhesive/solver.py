@@ -93,7 +93,7 @@ class Adhesion:
 
     @property
     def enthalpy(self):
-        """Energy plus that of the load, least among the states at one pressure [E* length]."""
+        """Energy plus the potential energy of the load, lowest in the deepest state [E* length]."""
         return self.energy + self.mean_pressure * self.mean_gap
 
 
@@ -294,7 +294,7 @@ class Control:
 
 @dataclass(frozen=True, eq=False)
 class Scaled:
-    """Surface and law in the solver's own units, and the way back."""
+    """Surface and law in the units of the solver, and the conversion back."""
 
     surface: Surface
     law: object
@@ -311,13 +311,13 @@ class Scaled:
         height = rms if rms > 0 else law.range
         scaled = (heights - mean) / height if rms > 0 else np.zeros(heights.shape)
         surface = Surface(scaled, (1.0, lengths[1] / lengths[0]), solid.in_unit(lengths[0]))
-        own_law = replace(
+        scaled_law = replace(
             law,
             adhesion_length=law.adhesion_length * lengths[0] / height**2,
             range=law.range / height,
         )
-        unit = max(surface.flattening_pressure(), own_law.strength)
-        return cls(surface, own_law, law, lengths, height, rms, unit)
+        unit = max(surface.flattening_pressure(), scaled_law.strength)
+        return cls(surface, scaled_law, law, lengths, height, rms, unit)
 
     @property
     def stress(self):
@@ -356,7 +356,7 @@ class Scaled:
                 raise ValueError("start must have finite gaps, got NaN or infinite values")
 
     def first_gap(self, start, mean_gap=None):
-        """Gap of a state in own units, made to have a prescribed mean.
+        """Scaled gap of a state, adjusted to a prescribed mean.
 
         It is changed in proportion, so that contact stays contact, or rigidly where there is none.
         """

@@ -1,13 +1,13 @@
 """Active-set iteration of the repulsive contact problem, in dimensionless variables.
 
-`solver` states the problem and the method. Pressures of the contact set are short vectors; whole
-grids are touched once per update of the set. Between updates the pressure is corrected in single
-precision: a correction reduces the gap by a factor of 10 to 1000, for which seven digits are
-enough, and the next update starts from the true gap (iterative refinement). That gap is in double
-precision as soon as rounding matters, and always in what is returned.
+`solver` states the problem and the method. The pressures of the contact set are short vectors;
+whole grids are touched once per update of the set. Between updates the pressure is corrected in
+single precision: a correction reduces the gap by a factor of 10 to 1000, for which seven digits are
+enough, and the next update starts from the true gap (iterative refinement). That gap is computed in
+double precision as soon as rounding matters, and always for the result.
 
-Where few points may touch, corrections are made among these alone, changes of the set included
-(`dilute_contact`), as long as they gain.
+Where few points may touch, only these take part in corrections and in changes of the set
+(`dilute_contact`), as long as this makes progress.
 """
 
 from dataclasses import dataclass
@@ -239,7 +239,7 @@ def relax(problem, *, tol, max_iterations, gap=None, pressure=None, rough=False,
 
 
 def _full_contact(grid, load):
-    """Full contact of any surface: the pressure is that of the heights as a displacement."""
+    """Full contact of any surface: the pressure that displaces the solid by the heights."""
     operator = grid.exact.operator
     heights = grid.heights.astype(operator.dtype, copy=False)
     pressure = operator.stiffness(heights)

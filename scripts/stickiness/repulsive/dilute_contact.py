@@ -1,11 +1,12 @@
 """Correction of the pressure where few points touch: an approximate compliance of these alone.
 
-Below a per cent of contact most of a convolution goes into points that hold nothing. Those that may
-touch, the *candidates*, are few, and mostly near ones move each other. Their compliance is split in
-wave numbers, as Ewald split the Coulomb potential (Ann. Phys. 369:253, 1921): short waves are a
-sparse matrix of near pairs, long ones a convolution on a grid of a sixteenth of the points, between
-cubic B-splines (Essmann et al., J. Chem. Phys. 103:8577, 1995, doi 10.1063/1.470117). It is exact
-to a hundredth: enough for a correction, after which `active_set` measures the true gap.
+Below 1 % of contact a convolution spends most of its work on points without pressure. The points
+that may touch, the *candidates*, are few, and mostly near ones displace each other. Their
+compliance is split by wave number, as Ewald split the Coulomb potential (Ann. Phys. 369:253, 1921):
+short waves give a sparse matrix of near pairs, long waves a convolution on a grid with a sixteenth
+of the points, between cubic B-splines (Essmann et al., J. Chem. Phys. 103:8577, 1995, doi
+10.1063/1.470117). It is accurate to 1 %: enough for a correction, after which `active_set` measures
+the true gap.
 """
 
 import numpy as np
@@ -184,7 +185,7 @@ def _truncate_kernel(symbol, reach):
 
 
 def _multiply(matrix, values, image):
-    """Add to an image that of a symmetric matrix: of both its halves and the diagonal element."""
+    """Add to an image the product of values and a symmetric matrix: two halves and diagonal."""
     upper, lower, diagonal = matrix
     image = image + upper @ values
     image += lower @ values

@@ -20,7 +20,7 @@ _CACHES = []  # of all functions that `keep_per_thread` decorates
 def keep_per_thread(most):
     """Decorate a function of hashable arguments: keep the `most` last results of each thread.
 
-    The operators own their plans and buffers, so that no two threads may share one.
+    Operators contain FFTW plans and buffers, which two threads must not share.
     """
 
     def decorate(make):
@@ -71,8 +71,8 @@ class HalfSpace:
     Or ``2 S/|q|`` of another solid.
 
     It counts its convolutions in `pairs`. `mean_stiffness` is the diagonal of the stiffness matrix:
-    pressure under a pixel lifted alone, per unit of lift. The object owns its buffers: no two
-    threads may use it at once (`half_space` hands every thread its own).
+    pressure under a pixel lifted alone, per unit of lift. The object contains buffers: no two
+    threads may use it at once (`half_space` returns a separate one for every thread).
 
     Parameters
     ----------

@@ -2,12 +2,12 @@
 
 The preconditioner is an approximate inverse of the compliance.
 
-The exact inverse is the stiffness, ``|q| / 2`` of a half-space, between an extension of the
-displacement beyond the edge of contact and the transpose of that extension: that of least energy,
-under which the free surface holds nothing. Next to a straight edge it weights what the contact does
-by the inverse square of the distance (Poisson's kernel of the root of the Laplacian; Landkof,
-*Foundations of Modern Potential Theory*, 1972). A mean with such weights stands for it, taken on a
-grid of a sixteenth of the points.
+The exact inverse is the stiffness, ``|q| / 2`` for a half-space, between an extension of the
+displacement beyond the edge of contact and the transpose of that extension. The extension is the
+one of least energy, under which the free surface carries no pressure. Next to a straight edge it
+weights the displacement in contact by the inverse square of the distance (Poisson's kernel of the
+root of the Laplacian; Landkof, *Foundations of Modern Potential Theory*, 1972). A mean with such
+weights approximates it, taken on a grid with a sixteenth of the points.
 """
 
 import numpy as np

@@ -47,7 +47,7 @@ class Rule:
     change: float  #: share of the last change between grids
     part: float  #: share of the sub-pixel part of the value
     noise: float  #: the same over the square root of the number of edge pixels
-    unresolved_part: float = 0.0  #: in place of `part` at ranges far below the edge gap
+    unresolved_part: float = 0.0  #: replaces `part` at ranges far below the edge gap
     #: Share of the last change that is added to the value far below the edge gap; it falls to zero
     #: as the range rises to `resolved` edge gaps.
     weight: float = 0.0

@@ -240,7 +240,7 @@ def press(
     )
     guess = start.pressure if start is not None and start.area_fraction > 0 else None
     state = _relax(problem, guess, effort)
-    # The fields are this call's own: scaled in place, for they may be large.
+    # Nothing else refers to these fields: they may be large, and are scaled in place.
     field, gap = (np.asarray(values, dtype=float) for values in (state.pressure, state.gap))
     field *= unit / lengths[0]
     gap *= unit

@@ -1,7 +1,7 @@
 """Compliance of an elastic half-space and of layers of finite thickness, wave by wave.
 
 A pressure wave ``p_q`` displaces the surface of a solid by ``u_q = (2/|q|) S p_q/E*``. E* is the
-plane-strain modulus of the material at the surface, that of the layer. S, the `factor`, is one for
+plane-strain modulus of the material at the surface, i.e. of the layer. S, the `factor`, is one for
 a half-space and a function of ``k = |q| d`` for a layer of thickness d. It follows from plane
 strain (Airy's function ``(A + B z) cosh qz + (C + D z) sinh qz``) with a surface free of shear:
 
@@ -65,7 +65,7 @@ class HalfSpace:
 
 @dataclass(frozen=True)
 class Film:
-    """Elastic film, free on its back, that a layer is bonded to, as that of a tape.
+    """Elastic film, free on its back, that a layer is bonded to, such as the film of a tape.
 
     It yields by bending as a plate: a pressure wave moves it by ``p/(D q^4)``, with ``D = E t^3/(12
     (1 - nu^2))``, besides the layer as on a rigid base (Timoshenko and Woinowsky-Krieger, Theory of
