@@ -16,8 +16,8 @@ from common import conventions
 from common.adhesion_sets import (
     AXES,
     MISSING,
+    NEARLY_LINEAR,
     STRONGEST,
-    WEAK,
     axes,
     roughness,
     scaled_law,
@@ -114,7 +114,7 @@ def states(heights, length, asked, chosen, tolerance=TOLERANCE):
             attraction = dmt.adhesive_pressure(contact.gap, law)
             values["attraction_dmt"][i, j, k] = attraction
             if chosen[i, j, k] and attraction <= STRONGEST * contact.mean_pressure:
-                weak = attraction <= WEAK * contact.mean_pressure
+                weak = attraction <= NEARLY_LINEAR * contact.mean_pressure
                 known = weaker.get(k) if weak else None
                 found, gap = solve_at_gap(heights, length, law, contact, tolerance, known)
                 for name, value in found.items():
