@@ -17,8 +17,8 @@ counted         65 %     51 %     33 %     15 %     6.4 %    1.9 %
 sub-pixel       10 %     7 %      4 %      1.8 %    0.7 %    0.16 %
 =============== ======== ======== ======== ======== ======== =========
 
-(``benchmarks/continuum.py``; a strip added at every range, after Yastrebov et al. 2017, leaves
-125, 36, 8, 2.7, 1.4 and 0.4 %). `repulsive.richardson` says how large the remaining error may be.
+A strip added at every range, after Yastrebov et al. 2017, leaves 125, 36, 8, 2.7, 1.4 and 0.4 %.
+`repulsive.richardson` estimates the remaining error.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ from stickiness.repulsive import subpixel as subpixel_edges
 from stickiness.repulsive.subpixel import STRIP_WIDTH, boundary_strip, edge_gap, gap_and_contact
 from stickiness.traction_laws import TractionLaw
 
-_FIT = ("AvFit", "fit_a_v", "local_exponent", "window_sensitivity")
+_FIT = ("AvFit", "fit_a_v", "local_exponent")
 
 __all__ = [  # noqa: PLE0604
     "STRIP_WIDTH",

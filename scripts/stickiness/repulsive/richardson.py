@@ -18,7 +18,7 @@ systematic part), and the same over the square root of the number of edge pixels
 The coefficients were fitted on 84 contacts of magnification 16 to 64, with up to 2048 points per
 side. On 49 others, of magnification 64 and 128, up to 4096 points and Hurst exponents 0.5 to 0.9,
 coverage is 90 to 100 %, quantity by quantity; the error is two to five times the rms of the true
-one, for the fit includes surfaces of few spots (``benchmarks/continuum.py``).
+one, because the fit includes surfaces of few spots.
 """
 
 from __future__ import annotations
