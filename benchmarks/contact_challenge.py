@@ -35,7 +35,7 @@ from stickiness import adhesive, repulsive, spectrum, surface  # noqa: E402
 from stickiness import surface as synthesis  # noqa: E402
 from stickiness.measured import topography  # noqa: E402
 from stickiness.plausibility import PlausibilityWarning  # noqa: E402
-from stickiness.repulsive import grid_limit, grids, subpixel  # noqa: E402
+from stickiness.repulsive import half_space, richardson, subpixel  # noqa: E402
 
 # Lengths in um, pressures over E*.
 SIDE, ROLLOFF, SHORTEST, HURST = 100.0, 20.0, 0.1, 0.8
@@ -172,7 +172,7 @@ def describe_heights(name, heights, side):
     """Print moments, and the gradient on 512 points a side as published."""
     moments = synthesis.moments(heights, side)
     step = max(1, len(heights) // 512)
-    slope = grids.measure_slope(heights[::step, ::step], (side, side))
+    slope = half_space.measure_slope(heights[::step, ::step], (side, side))
     print(
         f"{name}: h_rms {moments.h_rms:.4f} um, rms gradient {moments.rms_slope:.4f}, on every "
         f"{step}. point {slope:.5f}, 1/rms Laplacian {1e3 * moments.rms_curvature**-1:.2f} nm"
@@ -253,7 +253,7 @@ def continuum_area(coarse, fine):
     The error is the larger of two differences: from the grid half as fine, and from the linear
     extrapolation of the areas counted in pixels.
     """
-    line = grid_limit.richardson(coarse["counted"], fine["counted"])
+    line = richardson.extrapolate(coarse["counted"], fine["counted"])
     return fine["area"], max(abs(fine["area"] - coarse["area"]), abs(fine["area"] - line))
 
 

@@ -1,7 +1,7 @@
 """Validate the continuum limit: sub-pixel edges, extrapolation and its error, against 4096 points.
 
 Solves surfaces on nested grids from 2 points per shortest wavelength up to 64 (32 at magnification
-128), keeps areas, gaps and edges, and prints what `contact.grid_limit` and `contact.subpixel`
+128), keeps areas, gaps and edges, and prints what `repulsive.richardson` and `repulsive.subpixel`
 are built on: orders of convergence, gain over counting pixels, coverage of the error estimate.
 Coefficients were fitted on the cases called *calibration*; coverage is that of the *validation*.
 Example, half an hour on one core and 2 GB; cases already in the file are not solved again::
@@ -21,7 +21,7 @@ import numpy as np  # noqa: E402 - the number of threads must be set before nump
 import xarray as xr  # noqa: E402
 
 from stickiness import dmt, repulsive, spectrum, surface  # noqa: E402
-from stickiness.repulsive import grid_limit, subpixel  # noqa: E402
+from stickiness.repulsive import richardson, subpixel  # noqa: E402
 
 RANGES = 10.0 ** (np.arange(-64, 17) / 16)  # over h_rms, as in config.yaml
 YASTREBOV = (np.pi - 1 + np.log(2)) / 24
@@ -190,12 +190,25 @@ def print_reference(data):
         if name.startswith("P"):
             continue
         own = fine.sel(pixels=64)
-        counts = grid_limit.richardson(counted.sel(pixels=32), counted.sel(pixels=64))
+        counts = richardson.extrapolate(counted.sel(pixels=32), counted.sel(pixels=64))
         difference = 100 * (own / counts - 1)
         change = 100 * rms(own / fine.sel(pixels=32) - 1)
         print(
             f"{name:12s}{float(difference.mean()):9.3f}{float(difference.std()):9.3f}{change:9.3f}"
         )
+
+
+def observed_order(coarse, middle, fine):
+    """Power of the pixel size with which three grids converge: log2 of the ratio of changes.
+
+    Arrays of cases are pooled by the rms of their changes along the first axis: the ratio of two
+    changes of random sign means nothing alone.
+    """
+    first, second = (
+        np.sqrt(np.mean(np.atleast_1d(change) ** 2, axis=0))
+        for change in (np.subtract(middle, coarse), np.subtract(fine, middle))
+    )
+    return np.log2(first / second)
 
 
 def print_orders(data):
@@ -207,7 +220,7 @@ def print_orders(data):
             relative = values / finest(fine)[0]
             by = [relative.sel(pixels=p).values for p in (2, *pixels)]
             change = [100 * np.sqrt(np.nanmean((b - a) ** 2)) for a, b in zip(by, by[1:])]  # noqa: B905
-            orders = (grid_limit.observed_order(*by[i : i + 3]) for i in (1, 2))
+            orders = (observed_order(*by[i : i + 3]) for i in (1, 2))
             print(
                 f"{name:12s}{label:10s}"
                 + "".join(f"{c:9.3f}" for c in change)
@@ -226,7 +239,7 @@ def print_coverage(data):
         for name, rule, eps, fine, counted, part in quantities(data):
             at = {"pixels": grids[-1]}
             climbs = np.inf if eps is None else eps / data.edge_gap.sel(**at)
-            found = grid_limit.estimate(
+            found = richardson.estimate(
                 rule,
                 [fine.sel(pixels=p) for p in grids],
                 part.sel(**at),
@@ -257,7 +270,7 @@ def print_ensembles(data):
                 _, rule, eps, fine, _, part = row
                 at = {"pixels": grids[-1]}
                 mean_gap = members.edge_gap.sel(**at).mean("case")
-                found = grid_limit.estimate(
+                found = richardson.estimate(
                     rule,
                     [fine.sel(pixels=p).mean("case") for p in grids],
                     part.sel(**at).mean("case"),
@@ -305,7 +318,7 @@ def print_cheapest(data):
         cells = []
         for p in (4, 8, 16):
             steps = [counted.sel(pixels=q) for q in (p // 2, p)]
-            three = (steps[1], grid_limit.richardson(*steps), fine.sel(pixels=p))
+            three = (steps[1], richardson.extrapolate(*steps), fine.sel(pixels=p))
             cells.append(" / ".join(f"{100 * rms(value / true - 1):7.3f}" for value in three))
         print(f"  {name:12s}" + "   ".join(cells))
 

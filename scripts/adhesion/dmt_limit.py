@@ -15,7 +15,7 @@ import xarray as xr
 
 from common.adhesion_sets import axes, scaled_law
 from common.conventions import LINEAR_UP_TO
-from stickiness.adhesive import dmt
+from stickiness import dmt
 
 PER_DECADE = 64  # ranges at which a traction law is integrated
 SMALLEST = 1e-300  # area: none at ranges that a coarse grid does not see

@@ -18,11 +18,11 @@ from real_surfaces import measured_surface
 from stickiness import datasets
 from stickiness.adhesive import edge_zone
 from stickiness.adhesive import solver as adhesive
-from stickiness.adhesive.laws import Exponential
 from stickiness.measured import periodic, topography
 from stickiness.persson.theory import Persson
 from stickiness.plausibility import PlausibilityWarning
 from stickiness.repulsive import solver as repulsive
+from stickiness.traction_laws import Exponential
 from stickiness.units import si
 
 WAYS = ("taper", "mirror")  # to make heights periodic that are not

@@ -33,14 +33,6 @@ def test_round_trip(dataset, tmp_path):
     assert [file.name for file in path.parent.iterdir()] == ["file.nc"]
 
 
-def test_same_content_is_the_same_bytes(dataset, tmp_path):
-    contents = []
-    for _ in range(2):
-        write(dataset, tmp_path / "a.nc", seed=1)
-        contents.append((tmp_path / "a.nc").read_bytes())
-    assert contents[0] == contents[1]
-
-
 def test_nan_must_be_explained(dataset, tmp_path):
     dataset["area"][0] = np.nan
     with pytest.raises(datasets.DatasetError, match="'area' holds values that are not finite"):
@@ -68,12 +60,6 @@ def test_texts_have_a_name_and_no_units(dataset, tmp_path):
     write(again, tmp_path / "file.nc")
 
 
-def test_flags_name_codes_from_the_first_on():
-    found = datasets.flags(("nothing decided", "missed"), first=-1)
-    assert found["flag_values"].tolist() == [-1, 0]
-    assert found["flag_meanings"] == "nothing_decided missed"
-
-
 def test_failure_leaves_the_old_file_and_nothing_else(tmp_path):
     path = tmp_path / "table.md"
     path.write_text("old")
@@ -87,15 +73,6 @@ def test_failure_leaves_the_old_file_and_nothing_else(tmp_path):
         fail()
     assert path.read_text() == "old"
     assert list(tmp_path.iterdir()) == [path]
-
-
-def test_leftovers_of_a_killed_job_are_removed(tmp_path):
-    (tmp_path / ".table.md.abcd_123.md").write_text("half")
-    (tmp_path / ".table-2.md.abcd_123.md").write_text("another job's, still being written")
-    with datasets.whole_file(tmp_path / "table.md") as temporary:
-        temporary.write_text("whole")
-    names = {file.name for file in tmp_path.iterdir()}
-    assert names == {"table.md", ".table-2.md.abcd_123.md"}
 
 
 def test_reading_names_file_and_variable(dataset, tmp_path):

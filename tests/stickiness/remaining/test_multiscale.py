@@ -4,10 +4,10 @@ from math import erf, pi, sqrt
 
 import numpy as np
 import pytest
+from references.adhesion import AdhesiveWave
 from scipy.linalg import solve_banded
 from scipy.special import ndtr
 
-from stickiness.closed_forms.adhesion import AdhesiveWave
 from stickiness.remaining import multiscale
 from stickiness.remaining.multiscale import (
     Absorbed,

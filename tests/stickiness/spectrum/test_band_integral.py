@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy import integrate
 
-from stickiness.solids import Backing, HalfSpace, Layer
+from stickiness.solids import HalfSpace, Layer
 from stickiness.spectrum import SelfAffine, Shells, Tabulated
 from stickiness.spectrum.band_integral import integrate_band
 
@@ -28,9 +28,7 @@ def test_powers_have_closed_forms(rough, power):
 @pytest.mark.slow
 @pytest.mark.parametrize("rough", SPECTRA, ids=lambda s: type(s).__name__)
 @pytest.mark.parametrize("thickness", [1e-4, 0.05, 1.0, 3.0])
-@pytest.mark.parametrize(
-    ("poisson", "backing"), [(0.5, "bonded"), (0.3, "slip"), (0.4, Backing(9.0, 0.3))]
-)
+@pytest.mark.parametrize(("poisson", "backing"), [(0.5, "bonded"), (0.3, "slip"), (0.4, "bonded")])
 def test_energy_on_a_layer(rough, thickness, poisson, backing):
     solid = Layer(thickness, poisson, backing)
 

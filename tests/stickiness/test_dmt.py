@@ -1,96 +1,11 @@
-"""Traction laws and DMT integrals against closed forms and finer grids."""
+"""Areas, densities and attraction over gaps against closed forms and finer grids; fit of a_V."""
 
 import numpy as np
 import pytest
-from scipy.integrate import quad
 
 from stickiness import adhesive, dmt, repulsive
 
 LAWS = (adhesive.Maugis, adhesive.Exponential, adhesive.LennardJones)
-LENGTH, RANGE = 0.3, 0.7
-
-
-def _law(kind):
-    return kind(adhesion_length=LENGTH, range=RANGE)
-
-
-# --- traction laws -------------------------------------------------------------------------
-
-
-@pytest.mark.parametrize("kind", LAWS)
-def test_traction_integrates_to_adhesion_length(kind):
-    law = _law(kind)
-    # Split at the range: the Maugis law jumps there.
-    near = quad(lambda u: float(law.traction(u)), 0, RANGE, epsrel=1e-11)[0]
-    far = quad(lambda u: float(law.traction(u)), RANGE * (1 + 1e-14), np.inf, epsrel=1e-11)[0]
-    assert near + far == pytest.approx(LENGTH, rel=1e-9)
-
-
-@pytest.mark.parametrize("kind", LAWS)
-@pytest.mark.parametrize("u", [0.05, 0.3, 0.69, 0.8, 3.0])
-def test_potential_is_minus_the_integral_of_the_traction_beyond(kind, u):
-    law = _law(kind)
-    stops = sorted({u, max(u, RANGE)})
-    parts = [
-        quad(lambda x: float(law.traction(x)), a, b, epsrel=1e-11)[0]
-        for a, b in zip(stops, [*stops[1:], np.inf], strict=True)
-    ]
-    # Absolute: beyond the range the Maugis integral is a rounding of the jump's end point.
-    assert law.potential(u) == pytest.approx(-sum(parts), rel=1e-8, abs=1e-12)
-
-
-@pytest.mark.parametrize("kind", LAWS)
-def test_potential_at_zero_gap_is_minus_adhesion_length(kind):
-    assert _law(kind).potential(0.0) == pytest.approx(-LENGTH, rel=1e-14)
-
-
-@pytest.mark.parametrize("kind", LAWS)
-def test_derivative_by_central_differences(kind):
-    law = _law(kind)
-    u = np.array([0.01, 0.1, 0.3, 0.5, 1.0, 2.0])
-    step = 1e-5
-    # Truncation error step^2 f'''/6 is below 1e-7 of the largest derivative for RANGE = 0.7.
-    numeric = (law.traction(u + step) - law.traction(u - step)) / (2 * step)
-    scale = 16 * LENGTH / RANGE**2
-    np.testing.assert_allclose(law.derivative(u), numeric, atol=1e-7 * scale)
-
-
-@pytest.mark.parametrize("kind", LAWS)
-def test_strength_is_the_largest_traction(kind):
-    law = _law(kind)
-    u = np.linspace(0, 3, 30001)
-    assert law.traction(u).max() == pytest.approx(law.strength, rel=1e-7)
-    assert law.traction(u).max() <= law.strength * (1 + 1e-14)
-
-
-def test_lennard_jones_strength_and_maugis_stress():
-    law = _law(adhesive.LennardJones)
-    assert law.traction(law.strength_gap) == pytest.approx(law.strength, rel=1e-14)
-    assert law.strength_gap + RANGE == pytest.approx(3 ** (1 / 6) * RANGE, rel=1e-14)
-    assert law.derivative(law.strength_gap) == pytest.approx(0, abs=1e-13)
-    assert law.maugis_stress == pytest.approx(9 * np.sqrt(3) / 16 * law.strength, rel=1e-14)
-    assert law.traction(0.0) == 0
-    assert law.traction(-0.1) < 0
-
-
-def test_maugis_includes_its_range():
-    law = _law(adhesive.Maugis)
-    assert law.traction(RANGE) == LENGTH / RANGE
-    assert law.traction(np.nextafter(RANGE, 1)) == 0
-
-
-@pytest.mark.parametrize("kind", LAWS)
-@pytest.mark.parametrize("bad", [0.0, -1.0, np.nan, np.inf, "1", None])
-def test_laws_reject_bad_parameters(kind, bad):
-    with pytest.raises(ValueError, match="adhesion_length must be (positive|a number)"):
-        kind(adhesion_length=bad, range=1.0)
-    with pytest.raises(ValueError, match="range must be (positive|a number)"):
-        kind(adhesion_length=1.0, range=bad)
-
-
-def test_lennard_jones_rejects_gaps_beyond_the_wall():
-    with pytest.raises(ValueError, match="gap must exceed"):
-        _law(adhesive.LennardJones).traction([0.0, -RANGE])
 
 
 # --- areas and densities of given gaps -----------------------------------------------------
@@ -142,13 +57,6 @@ def test_gap_density_integrates_to_the_open_area_and_its_moment_to_the_mean_gap(
     assert np.sum(density * centre * np.diff(edges)) == pytest.approx(
         gap.mean(), abs=(edges[1] - edges[0]) / 2
     )
-
-
-def test_gap_density_is_the_derivative_of_the_attractive_area():
-    gap = _hertz_gap(128)
-    edges = np.linspace(0.1, 1.0, 10)
-    area = dmt.attractive_area(gap, edges)
-    np.testing.assert_allclose(dmt.gap_density(gap, edges) * 0.1, np.diff(area), atol=1e-12)
 
 
 def test_maugis_pressure_is_stress_times_attractive_area():
@@ -207,7 +115,7 @@ def test_boundary_strip_of_a_disc_and_a_square():
 
 @pytest.fixture(scope="module")
 def rough_contacts():
-    """Repulsive contacts of one band-limited surface on grids of 4, 8, 16 and 64 pixels."""
+    """Repulsive contacts of one band-limited surface on grids of 4 to 64 pixels."""
     top = 8
     rng = np.random.default_rng(3)
     k = np.arange(-top, top + 1)
@@ -228,45 +136,12 @@ def rough_contacts():
     return {pixels: contact(pixels) for pixels in (4, 8, 16, 64)}
 
 
-def test_subpixel_beats_counting_on_coarse_grids(rough_contacts):
-    gap, contact = rough_contacts[64]
-    eps = np.array([0.06, 0.1, 0.2])
-    reference = dmt.attractive_area(gap, eps, contact, subpixel=True)
-    # 64 pixels per wavelength: the correction itself is the reference's uncertainty, a few per
-    # cent, well below the errors compared.
-    assert np.all(dmt.boundary_strip(contact) < 0.04 * reference)
-    for pixels in (4, 8, 16):
-        gap, contact = rough_contacts[pixels]
-        counted = dmt.attractive_area(gap, eps, contact) / reference - 1
-        corrected = dmt.attractive_area(gap, eps, contact, subpixel=True) / reference - 1
-        assert np.all(counted < 0)  # the discrete contact is always too large
-        assert np.sum(np.abs(corrected)) < 0.5 * np.sum(np.abs(counted))
-
-
-def test_strip_moves_area_from_contact_to_gap(rough_contacts):
-    fine = rough_contacts[64][1]
-    reference = fine.mean() - dmt.boundary_strip(fine)
-    for pixels in (4, 8, 16):
-        contact = rough_contacts[pixels][1]
-        # Yastrebov et al. find residual errors of the corrected contact area of a few per cent
-        # at grids as coarse as the shortest wavelength.
-        assert contact.mean() - dmt.boundary_strip(contact) == pytest.approx(reference, rel=0.05)
-        assert contact.mean() > reference
-
-
 def test_edge_gap_falls_as_the_edge_law_says(rough_contacts):
     gaps = [dmt.edge_gap(*rough_contacts[pixels]) for pixels in (4, 8, 16, 64)]
     assert gaps == sorted(gaps, reverse=True)
     # u = C x^(3/2): 16 to 64 pixels per wavelength shrink x four times, u eight times. Medians of
     # some hundred edge pixels scatter by their square root.
     assert gaps[2] / gaps[3] == pytest.approx(8, rel=0.25)
-
-
-def test_edge_gap_needs_an_edge():
-    with pytest.raises(ValueError, match="no edge"):
-        dmt.edge_gap(np.ones((4, 4)))
-    with pytest.raises(ValueError, match="no edge"):
-        dmt.edge_gap(np.zeros((4, 4)))
 
 
 # --- fit of a_V ----------------------------------------------------------------------------
@@ -305,24 +180,13 @@ def test_standard_error_matches_the_scatter_of_fits(weighted):
             0.065,
             sigma=noise if weighted else None,
         )
-        for _ in range(2000)
+        for _ in range(500)
     ]
     values = np.array([fit.value for fit in fits])
     errors = np.array([fit.standard_error for fit in fits])
-    # 2000 fits know their scatter to 1.6 %, their mean to scatter/45: three deviations each.
-    assert values.std() == pytest.approx(np.sqrt(np.mean(errors**2)), rel=0.05)
-    assert values.mean() == pytest.approx(3.0, abs=3 * values.std() / np.sqrt(2000))
-
-
-def test_window_sensitivity_shows_a_departure_from_the_law():
-    # With exponent 1 in place of 2/3 a_V must rise with the window, exactly as eps^(1/3) averaged.
-    area = 1.5 * 0.065 * EPS
-    windows = [(1e-3, 1e-2), (1e-2, 1e-1), (1e-1, 1.0)]
-    fits = dmt.window_sensitivity(EPS, area, 0.065, windows)
-    values = [fit.value for fit in fits]
-    np.testing.assert_allclose(np.divide(values[1:], values[:-1]), 10 ** (1 / 3), rtol=1e-9)
-    assert [fit.window for fit in fits] == windows
-    assert min(fit.relative_residual for fit in fits) > 0.05
+    # 500 fits know their scatter to 3.2 %, their mean to scatter/22: three deviations each.
+    assert values.std() == pytest.approx(np.sqrt(np.mean(errors**2)), rel=0.1)
+    assert values.mean() == pytest.approx(3.0, abs=3 * values.std() / np.sqrt(500))
 
 
 # --- refusals ------------------------------------------------------------------------------

@@ -2,8 +2,8 @@
 
 Every grid samples the same band-limited surface, each half as fine as the next.
 
-* *Counted in pixels*, areas are of first order in the pixel. `richardson` takes about two thirds of
-  the error of the contact area away at 4 + 8 points per shortest wavelength.
+* *Counted in pixels*, areas are of first order in the pixel. `extrapolate` takes away about two
+  thirds of the error of the contact area at 4 + 8 points per shortest wavelength.
 * *With sub-pixel edges* (`subpixel`) more than nine tenths of the error are gone. From grid to grid
   the contact area still changes with the power 1.7, attractive areas at ranges above the edge gap
   with 1.6, their slope P(u) with 1.5, the mean gap with 2.6; but the sign of a change depends on
@@ -18,7 +18,7 @@ systematic part), and the same over the square root of the number of edge pixels
 The coefficients were fitted on 84 contacts of magnification 16 to 64, with up to 2048 points per
 side. On 49 others, of magnification 64 and 128, up to 4096 points and Hurst exponents 0.5 to 0.9,
 coverage is 90 to 100 %, quantity by quantity; the error is two to five times the rms of the true
-one, for the fit includes surfaces of few spots (``benchmarks/continuum.py``).
+one, because the fit includes surfaces of few spots.
 """
 
 from __future__ import annotations
@@ -47,7 +47,7 @@ class Rule:
     change: float  #: share of the last change between grids
     part: float  #: share of the sub-pixel part of the value
     noise: float  #: the same over the square root of the number of edge pixels
-    unresolved_part: float = 0.0  #: in place of `part` at ranges far below the edge gap
+    unresolved_part: float = 0.0  #: replaces `part` at ranges far below the edge gap
     #: Share of the last change that is added to the value far below the edge gap; it falls to zero
     #: as the range rises to `resolved` edge gaps.
     weight: float = 0.0
@@ -127,7 +127,7 @@ def estimate(
     )
 
 
-def richardson(coarse: Values, fine: Values, order: float = 1.0) -> Values:
+def extrapolate(coarse: Values, fine: Values, order: float = 1.0) -> Values:
     """Extrapolate from two grids, one twice as fine, an error that falls with the power `order`.
 
     The order is 1 for areas counted in pixels; ValueError unless it is positive. Richardson, Phil.
@@ -136,16 +136,3 @@ def richardson(coarse: Values, fine: Values, order: float = 1.0) -> Values:
     if not order > 0:
         raise ValueError(f"order must be positive, got {order!r}")
     return fine + (fine - coarse) / (2**order - 1)
-
-
-def observed_order(coarse: Values, middle: Values, fine: Values) -> Values:
-    """Power of the pixel size with which three grids converge: log2 of the ratio of changes.
-
-    Arrays of cases are pooled by the rms of their changes along the first axis: the ratio of two
-    changes of random sign means nothing alone.
-    """
-    first, second = (
-        np.sqrt(np.mean(np.atleast_1d(change) ** 2, axis=0))
-        for change in (np.subtract(middle, coarse), np.subtract(fine, middle))
-    )
-    return np.log2(first / second)

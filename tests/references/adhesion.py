@@ -1,10 +1,18 @@
-"""Adhesive contact of a half-space with a one-dimensional wave: limit of short range, Maugis law.
+"""Closed forms of adhesive contact: spheres in the limits and between them, one-dimensional waves.
 
-Units and signs are those of `closed_forms.adhesion`, which exports all of this. The rigid wave is
-``amplitude * cos(2 pi x / wavelength)``, x the distance from a crest. Phases are
+Lengths are in one unit of the caller's choice, pressures in units of the plane-strain modulus E*,
+forces in units of E* times length squared. The adhesion length is l_a = (work of adhesion)/E*.
+Pressures, forces and indentations are positive in compression, so that a pull-off force is
+negative.
+
+A sphere of radius R is that of JKR for Tabor parameters (R l_a^2/range^3)^(1/3) above about 5, and
+of DMT below about 0.1; `MaugisSphere` holds for any range. Paraboloids stand for spheres: contact
+radii are small against R.
+
+A rigid wave is ``amplitude * cos(2 pi x / wavelength)``, x the distance from a crest. Phases are
 psi = pi x / wavelength: contact of half-width a stands for psi_a = pi a / wavelength and the area
 fraction ``2 psi_a / pi``. Fields are real and imaginary parts of one function of the complex phase,
-as without adhesion (`closed_forms.contact.Westergaard`).
+as without adhesion. `AdhesiveWave` is the limit of short range.
 """
 
 from __future__ import annotations
@@ -14,10 +22,10 @@ from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+from references.contact import Hertz, Westergaard
 from scipy import optimize
 
-from stickiness.arguments import plain
-from stickiness.closed_forms.contact import PositiveFields, Westergaard
+from stickiness.remaining import sphere
 
 # Gauss-Legendre on [0, 1] after a substitution that is flat of third order at either end: it
 # removes a square root at one and a logarithm at the other to some 1e-11.
@@ -29,7 +37,186 @@ _SAMPLES = 400  # points on which the curve of equilibria is searched for turnin
 
 
 @dataclass(frozen=True)
-class _Wave(PositiveFields):
+class JKRSphere:
+    """Adhesive contact of a half-space with a paraboloid, attraction of vanishing range.
+
+    Johnson, Kendall & Roberts, Proc. R. Soc. A 324, 301 (1971), doi:10.1098/rspa.1971.0141.
+
+    Parameters
+    ----------
+    radius, adhesion_length : float
+        Radius of curvature, work of adhesion over E* [length].
+    """
+
+    radius: float
+    adhesion_length: float
+
+    @property
+    def pull_off_force(self) -> float:
+        """Least force under load control, -3/2 pi R l_a."""
+        return -1.5 * np.pi * self.radius * self.adhesion_length
+
+    @property
+    def pull_off_radius(self) -> float:
+        """Contact radius [length] at `pull_off_force`."""
+        return float(np.cbrt(9 * np.pi * self.adhesion_length * self.radius**2 / 8))
+
+    def force(self, contact_radius: ArrayLike):
+        """Force [E* length^2] of a contact of given radius [length], on either branch."""
+        a = np.asarray(contact_radius, dtype=float)
+        lost = np.sqrt(8 * np.pi * self.adhesion_length * a**3)
+        return 4 * a**3 / (3 * self.radius) - lost
+
+    def indentation(self, contact_radius: ArrayLike):
+        """Approach of distant points [length] at a given contact radius [length]."""
+        a = np.asarray(contact_radius, dtype=float)
+        return a**2 / self.radius - self._stretch(a)
+
+    def contact_radius(self, force: float) -> float:
+        """Contact radius [length] at a force, on the branch that is stable under load control."""
+        unit = -self.pull_off_force
+        # F + 3 pi R w + sqrt(...) is the perfect square (sqrt(unit) + sqrt(F + unit))^2.
+        root = np.sqrt(unit) + np.sqrt(force + unit)
+        return float(np.cbrt(0.75 * self.radius * root**2))
+
+    def repulsive_radius(self, contact_radius: ArrayLike):
+        """Radius [length] within which the pressure is positive; zero if it is so nowhere."""
+        a = np.asarray(contact_radius, dtype=float)
+        share = self._stretch(a) * self.radius / (2 * a**2)
+        return a * np.sqrt(np.maximum(1 - share, 0))
+
+    def contact_pressure(self, r: ArrayLike, contact_radius: float):
+        """Pressure [E*] at distances `r` [length] from the axis; zero outside contact.
+
+        At the edge it tends to minus infinity as an inverse square root.
+        """
+        a = np.asarray(contact_radius, dtype=float)
+        r = np.asarray(r, dtype=float)
+        root = np.sqrt(np.maximum(1 - (r / a) ** 2, 0))
+        with np.errstate(divide="ignore"):
+            tension = self._stretch(a) / (np.pi * a * root)
+        return np.where(r > a, 0.0, 2 * a * root / (np.pi * self.radius) - tension)
+
+    def gap(self, r: ArrayLike, contact_radius: float):
+        """Gap [length] at distances `r` [length] from the axis; zero in contact."""
+        a = np.asarray(contact_radius, dtype=float)
+        hertz = Hertz(self.radius, float(4 * a**3 / (3 * self.radius)))
+        ratio = np.maximum(np.asarray(r, dtype=float) / a, 1.0)
+        return hertz.gap(r) + self._stretch(a) * 2 / np.pi * np.arccos(1 / ratio)
+
+    def _stretch(self, a: NDArray) -> NDArray:
+        """Displacement [length] of the flat punch superposed on the Hertzian solution."""
+        return np.sqrt(2 * np.pi * self.adhesion_length * a)
+
+
+@dataclass(frozen=True)
+class DMTSphere:
+    """Adhesive contact with a paraboloid when attraction does not deform it.
+
+    Hertz' contact under the force plus 2 pi R l_a. Derjaguin, Muller & Toporov, J. Colloid
+    Interface Sci. 53, 314 (1975), doi:10.1016/0021-9797(75)90018-1; in this form Maugis (1992).
+    """
+
+    radius: float
+    adhesion_length: float
+
+    @property
+    def pull_off_force(self) -> float:
+        """Least force, -2 pi R l_a, at which the contact shrinks to a point."""
+        return -2 * np.pi * self.radius * self.adhesion_length
+
+    def contact_radius(self, force: float) -> float:
+        """Contact radius [length] at a force [E* length^2]."""
+        return float(np.cbrt(0.75 * self.radius * (force - self.pull_off_force)))
+
+    def indentation(self, force: float) -> float:
+        """Approach of distant points [length] at a force [E* length^2]."""
+        return self.contact_radius(force) ** 2 / self.radius
+
+
+@dataclass(frozen=True)
+class SphereState:
+    """One equilibrium of a sphere."""
+
+    contact_radius: float  #: of the circle of zero gap [length]
+    cohesive_radius: float  #: within which the attraction acts [length]
+    force: float  #: [E* length^2]
+    indentation: float  #: approach of distant points [length]
+
+
+@dataclass(frozen=True)
+class MaugisSphere:
+    """Adhesive contact of a half-space with a paraboloid, Maugis law, any range.
+
+    States are those of `stickiness.remaining.sphere.maugis_curve`, in the caller's units.
+
+    Parameters
+    ----------
+    radius, adhesion_length, range : float
+        Radius of curvature, work of adhesion over E*, range of the traction [length].
+    """
+
+    radius: float
+    adhesion_length: float
+    range: float
+
+    @property
+    def strength(self) -> float:
+        """Traction within the range [E*]."""
+        return self.adhesion_length / self.range
+
+    @property
+    def maugis_parameter(self) -> float:
+        """Maugis' lambda."""
+        return float(sphere.maugis_parameter(self.radius, self.adhesion_length, self.range))
+
+    @property
+    def pull_off(self) -> SphereState:
+        """State of least force, where contact is lost under load control."""
+        return self._at(sphere.find_pull_off(self.maugis_parameter))
+
+    def at_contact_radius(self, contact_radius: float) -> SphereState:
+        """State of a given contact radius [length]: there is one for each."""
+        return self._at(
+            self._solve(lambda t: self._at(t).contact_radius - contact_radius, np.pi / 2)
+        )
+
+    def at_force(self, force: float) -> SphereState:
+        """State at a force [E* length^2] on the branch that is stable under load control."""
+        least = sphere.find_pull_off(self.maugis_parameter)
+        return self._at(self._solve(lambda t: self._at(t).force - force, least))
+
+    def contact_pressure(self, r: ArrayLike, state: SphereState):
+        """Net pressure [E*] at distances `r` [length]: minus the strength in the cohesive zone."""
+        r = np.asarray(r, dtype=float)
+        a, c = state.contact_radius, state.cohesive_radius
+        inside = np.maximum(a**2 - r**2, 0)
+        hertz = 2 * np.sqrt(inside) / (np.pi * self.radius)
+        angle = np.arctan2(np.sqrt(c**2 - a**2), np.sqrt(inside))
+        return np.where(r > c, 0.0, hertz - 2 * self.strength / np.pi * angle)
+
+    def _at(self, angle: float) -> SphereState:
+        a, c, force, indentation = sphere.maugis_curve(angle, self.maugis_parameter)
+        unit = np.cbrt(0.75 * np.pi * self.adhesion_length * self.radius**2)
+        return SphereState(
+            float(a * unit),
+            float(c * unit),
+            float(force * np.pi * self.adhesion_length * self.radius),
+            float(indentation * unit**2 / self.radius),
+        )
+
+    def _solve(self, excess, highest: float) -> float:
+        """Angle below `highest` where an excess that falls with the angle vanishes."""
+        if excess(highest) >= 0:
+            return highest
+        lowest = highest / 2
+        while excess(lowest) < 0:
+            lowest /= 2
+        return float(optimize.brentq(excess, lowest, highest, xtol=1e-300, rtol=1e-14))
+
+
+@dataclass(frozen=True)
+class _Wave:
     amplitude: float
     wavelength: float
     adhesion_length: float
@@ -50,11 +237,8 @@ class _Wave(PositiveFields):
             np.sqrt(2 * self.adhesion_length / self.wavelength) / self.full_contact_amplitude
         )
 
-    def _phase(self, fraction: ArrayLike, name: str = "area_fraction") -> NDArray:
-        share = np.asarray(fraction, dtype=float)
-        if not np.all((share > 0) & (share < 1)):
-            raise ValueError(f"{name} must lie between 0 and 1, got {fraction!r}")
-        return np.pi / 2 * share
+    def _phase(self, fraction: ArrayLike) -> NDArray:
+        return np.pi / 2 * np.asarray(fraction, dtype=float)
 
     def _position(self, x: ArrayLike) -> NDArray:
         """Phase of the distance to the nearest crest, from 0 to pi/2."""
@@ -93,23 +277,15 @@ class AdhesiveWave(_Wave):
     def pressure(self, area_fraction: ArrayLike):
         """Mean pressure [E*] of a contact of given area fraction, stable or not."""
         psi = self._phase(area_fraction)
-        return plain(
-            self.full_contact_amplitude * (np.sin(psi) ** 2 - self.alpha * np.sqrt(np.tan(psi)))
-        )
+        return self.full_contact_amplitude * (np.sin(psi) ** 2 - self.alpha * np.sqrt(np.tan(psi)))
 
     @property
     def turning_points(self) -> tuple[tuple[float, float], tuple[float, float]]:
         """Pull-off and jump into full contact, as pairs of area fraction and pressure [E*].
 
-        Partial contact is stable under load control between them. ValueError if alpha exceeds
-        `LARGEST_ALPHA`: the wave then jumps from apart to full contact.
+        Partial contact is stable under load control between them, if alpha is below
+        `LARGEST_ALPHA`; above it the wave jumps from apart to full contact.
         """
-        if self.alpha >= self.LARGEST_ALPHA:
-            raise ValueError(
-                f"alpha = {self.alpha:.6g} leaves no stable partial contact; "
-                f"it must be below {self.LARGEST_ALPHA:.6g}: raise amplitude or lower "
-                "adhesion_length"
-            )
 
         def slope(psi):
             return 4 * np.sin(psi) ** 1.5 * np.cos(psi) ** 2.5 - self.alpha
@@ -121,18 +297,8 @@ class AdhesiveWave(_Wave):
         return (first, self.pressure(first)), (last, self.pressure(last))
 
     def area_fraction(self, pressure: float) -> float:
-        """Area fraction of the stable partial contact at a mean pressure [E*].
-
-        ValueError if there is none, below pull-off or above the jump into full contact.
-        """
-        (first, least), (last, most) = self.turning_points
-        if not least <= pressure <= most:
-            raise ValueError(
-                f"pressure must lie between pull-off {least:.6g} and the jump into full contact "
-                f"{most:.6g}, got {pressure!r}"
-            )
-        if pressure in (least, most):
-            return first if pressure == least else last
+        """Area fraction of the stable partial contact at a mean pressure [E*]."""
+        (first, _), (last, _) = self.turning_points
         return float(
             optimize.brentq(lambda x: self.pressure(x) - pressure, first, last, xtol=1e-15)
         )
@@ -150,14 +316,14 @@ class AdhesiveWave(_Wave):
         with np.errstate(divide="ignore"):
             tension = self._tension(psi) * np.cos(here) / inside
         pressure = 2 * self.full_contact_amplitude * np.cos(here) * inside - tension
-        return plain(np.where(here > psi, 0.0, pressure))
+        return np.where(here > psi, 0.0, pressure)
 
     def gap(self, x: ArrayLike, area_fraction: float):
         """Gap [length] at distances `x` [length] from a crest; zero in contact."""
         psi, here = self._phase(area_fraction), self._position(x)
         ratio = np.maximum(np.sin(here) / np.sin(psi), 1.0)
         opening = 2 * self._tension(psi) * self.wavelength / np.pi * np.arccosh(ratio)
-        return plain(self._westergaard(float(area_fraction)).gap(x) + opening)
+        return self._westergaard(float(area_fraction)).gap(x) + opening
 
     def _tension(self, psi: NDArray) -> NDArray:
         """Mean tension [E*] of the superposed periodic flat punch."""
@@ -201,25 +367,11 @@ class MaugisWave(_Wave):
         """Traction within the range [E*]."""
         return self.adhesion_length / self.range
 
-    @property
-    def full_contact_pull_off(self) -> float:
-        """Mean pressure [E*] below which full contact begins to open in the troughs."""
-        return self.full_contact_amplitude - self.strength
-
-    def at_cohesive_fraction(self, cohesive_fraction: float) -> WaveState:
-        """Return the equilibrium whose attraction covers a given share of the wave, below one.
-
-        ValueError if the share is not between 0 and 1, or the gap could not be so small there even
-        with a point contact.
-        """
-        c = float(self._phase(cohesive_fraction, "cohesive_fraction"))
+    def at_cohesive_fraction(self, cohesive_fraction: float) -> WaveState | None:
+        """Equilibrium whose attraction covers a given share of the wave, None if there is none."""
+        c = float(self._phase(cohesive_fraction))
         a = self._contact_phase(c)
-        if a is None:
-            raise ValueError(
-                f"cohesive_fraction = {cohesive_fraction!r} belongs to no contact: the gap at its "
-                "edge is below the range even with a point contact"
-            )
-        return self._state(a, c)
+        return None if a is None else self._state(a, c)
 
     @cached_property
     def _curve(self) -> tuple[NDArray, NDArray]:
@@ -248,8 +400,6 @@ class MaugisWave(_Wave):
         contact. States follow each other by growing attractive area. The point contact where the
         curve starts, and full contact where it ends, are left out.
         """
-        if not np.isfinite(pressure):
-            raise ValueError(f"pressure must be finite, got {pressure!r}")
         a, c = self._curve
         excess = self._state(a, c).pressure - pressure
         states, stable = [], []
@@ -268,7 +418,7 @@ class MaugisWave(_Wave):
         outer = (np.sin(c) ** 2 - np.sin(a) ** 2) * np.cos(here) ** 2
         angle = np.arctan2(np.sqrt(outer), np.cos(c) * np.sqrt(inside))
         angle = np.where(here > a, np.pi / 2, angle)
-        return plain(np.where(here > c, 0.0, hertzian - 2 * self.strength / np.pi * angle))
+        return np.where(here > c, 0.0, hertzian - 2 * self.strength / np.pi * angle)
 
     def _between(self, pressure: float, low: tuple, high: tuple) -> WaveState:
         """Equilibrium at a pressure between two neighbours of the curve."""
@@ -286,7 +436,7 @@ class MaugisWave(_Wave):
         spread = np.maximum(np.sin(c - a) * np.sin(c + a), 0)
         angle = np.arctan2(np.sqrt(spread), np.cos(c))  # arccos(cos c/cos a), precise for c near a
         pressure = self.full_contact_amplitude * np.sin(a) ** 2 - 2 * self.strength / np.pi * angle
-        return WaveState(plain(pressure), plain(2 / np.pi * a), plain(2 / np.pi * c))
+        return WaveState((pressure), (2 / np.pi * a), (2 / np.pi * c))
 
     def _contact_phase(self, c: float) -> float | None:
         """Phase a of the contact with a gap of the range at c; None if even a = 0 falls short."""

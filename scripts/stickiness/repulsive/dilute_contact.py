@@ -1,42 +1,46 @@
 """Correction of the pressure where few points touch: an approximate compliance of these alone.
 
-Below a per cent of contact most of a convolution goes into points that hold nothing. Those that may
-touch, the *candidates*, are few, and mostly near ones move each other. Their compliance is split in
-wave numbers, as Ewald split the Coulomb potential (Ann. Phys. 369:253, 1921): short waves are a
-sparse matrix of near pairs, long ones a convolution on a grid of a sixteenth of the points, between
-cubic B-splines (Essmann et al., J. Chem. Phys. 103:8577, 1995, doi 10.1063/1.470117). It is exact
-to a hundredth: enough for a correction, after which `active_set` measures the true gap.
+Below 1 % of contact a convolution spends most of its work on points without pressure. The points
+that may touch, the *candidates*, are few, and mostly near ones displace each other. Their
+compliance is split by wave number, as Ewald split the Coulomb potential (Ann. Phys. 369:253, 1921):
+short waves give a sparse matrix of near pairs, long waves a convolution on a grid with a sixteenth
+of the points, between cubic B-splines (Essmann et al., J. Chem. Phys. 103:8577, 1995, doi
+10.1063/1.470117). It is accurate to 1 %: enough for a correction, after which `active_set` measures
+the true gap.
 """
 
 import numpy as np
 from scipy import fft, sparse
 
 from stickiness.repulsive import convolution, half_space
-from stickiness.repulsive.conjugate_gradients import close_gap
+from stickiness.repulsive.preconditioner import close_gap
 
-_SHARE = 0.012  # of all points that may be candidates: beyond these two the grid is as cheap
-_PAIRS = 0.8  # near pairs, per point of the grid
-_MARGIN = 1.0  # of the rms gap in contact: candidates are what lies below
+# Beyond these two limits the whole grid is as cheap.
+_MAX_CANDIDATES = 0.012  # of all points
+_MAX_PAIRS = 0.8  # near pairs, per point of the grid
+_CANDIDATE_GAP = 1.0  # of the rms gap in contact: candidates are what lies below
 _SPACING = 4  # of the grid of long waves, in pixels
-_WIDTH = 0.8  # of the split, in spacings: the shortest wave of that grid keeps 0.013
+_SPLIT_WIDTH = 0.8  # of the split, in spacings: the shortest wave of that grid keeps 0.013
 _REACH = 10  # of near pairs, in pixels
 _BESIDE = 3  # and of the stiffness that preconditions
 _TABLE = 64  # pixels along the sides of the table of near pairs
-ADMITTED = 0.7  #: penetrations up to this multiple of the rms gap in contact may yet vanish
-_ROUNDS = 30  # changes of the set in a correction
-_USUAL = 0.01  # reduction of the gap by a correction
-_BEST = 0.002  # and one that it can still make, if it is the last
-_LOOSE = 0.1  # and one between changes of the set
+ADMITTED_PENETRATION = (
+    0.7  #: penetrations up to this multiple of the rms gap in contact may yet vanish
+)
+_MAX_SET_CHANGES = 30  # changes of the set in a correction
+_USUAL_REDUCTION = 0.01  # reduction of the gap by a correction
+_BEST_REDUCTION = 0.002  # and one that it can still make, if it is the last
+_REDUCTION_WHILE_CHANGING = 0.1  # and one between changes of the set
 
 
-def suit(shape, sides, count):
+def is_worthwhile(shape, sides, count):
     """Whether corrections among `count` candidates pay on a grid, of about square pixels."""
     pixel = [a / n for a, n in zip(sides, shape, strict=True)]
     square = max(pixel) < 1.5 * min(pixel)
-    return square and min(shape) >= 2 * _TABLE and count <= _SHARE * shape[0] * shape[1]
+    return square and min(shape) >= 2 * _TABLE and count <= _MAX_CANDIDATES * shape[0] * shape[1]
 
 
-def gather(grid, last, points, below, image, shift):
+def select_candidates(grid, last, points, below, image, shift):
     """Candidates at an iterate: the `last` ones unless some that penetrate, `below`, are missing.
 
     `points` touch, and `image` plus `shift` is the gap. None if they are too many.
@@ -47,12 +51,12 @@ def gather(grid, last, points, below, image, shift):
         grid.active[last.points] = False
         if not missing:
             return last
-    likely = image < _MARGIN * np.std(image[points]) - shift
+    likely = image < _CANDIDATE_GAP * np.std(image[points]) - shift
     likely[points] = True
     if last is not None:
         likely[last.points] = True
     likely = np.flatnonzero(likely)
-    if not suit(grid.shape, grid.sides, likely.size):
+    if not is_worthwhile(grid.shape, grid.sides, likely.size):
         return None
     split = _kept_split(grid.shape, tuple(grid.sides), grid.solid)
     pairs = _pair(likely, grid.shape, split)
@@ -78,7 +82,7 @@ class Candidates:
         """Pressure for a gap in contact, short waves only: a preconditioner."""
         return _multiply(self._beside, gap, 0)
 
-    def settle(self, points, pressure, gap, goal, limit):
+    def correct_pressure(self, points, pressure, gap, goal, limit):
         """Correct a pressure on some candidates so as to close the `gap`, given at all of them.
 
         Returns points, pressure and the number of iterations, about `limit` at most.
@@ -88,11 +92,11 @@ class Candidates:
         before[active] = pressure
         after, gap, count = before.copy(), gap - gap[active].mean(), 0
         largest = float(np.abs(gap[active]).max())
-        if goal < _BEST * largest:
-            goal = _USUAL * largest
+        if goal < _BEST_REDUCTION * largest:
+            goal = _USUAL_REDUCTION * largest
         image = gap.copy()
-        for _ in range(_ROUNDS):
-            joined = gap < -max(ADMITTED * float(np.std(gap[active])), goal)
+        for _ in range(_MAX_SET_CHANGES):
+            joined = gap < -max(ADMITTED_PENETRATION * float(np.std(gap[active])), goal)
             settled = not (joined & ~active).any() and np.abs(gap[active]).max() <= goal
             if settled or count >= limit:
                 break
@@ -100,8 +104,10 @@ class Candidates:
             misfit = gap[active].mean() - gap[active]
             scale = float(np.abs(misfit).max()) or 1.0
             misfit = (misfit / scale).astype(np.float32)
-            reduction = max(_LOOSE, 0.5 * goal / scale)
-            change, more = close_gap(_Part(self, active), misfit, reduction, True, limit - count)
+            reduction = max(_REDUCTION_WHILE_CHANGING, 0.5 * goal / scale)
+            change, more = close_gap(
+                _Touching(self, active), misfit, reduction, True, limit - count
+            )
             count += more
             after[active] += (change - change.mean(dtype=float)) * scale
             steady = not (joined & ~touched).any() and after[active].min() > 0
@@ -115,7 +121,7 @@ class Candidates:
         return self.points[active], after[active], count
 
 
-class _Part:
+class _Touching:
     """Compliance, and its preconditioner when called, of the candidates that touch."""
 
     def __init__(self, candidates, active):
@@ -137,12 +143,12 @@ class _Split:
 
     def __init__(self, shape, sides, solid):
         self.coarse = tuple(fft.next_fast_len(-(-n // _SPACING), real=True) for n in shape)
-        width = _WIDTH * max(a / m for a, m in zip(sides, self.coarse, strict=True))
+        width = _SPLIT_WIDTH * max(a / m for a, m in zip(sides, self.coarse, strict=True))
         # Near pairs do not feel how large the cell is.
         table, patch = (_TABLE, _TABLE), [_TABLE * a / n for a, n in zip(sides, shape, strict=True)]
         q = half_space.effective_wavenumbers(table, patch, solid)
-        self.near = _window(_invert(q) * (1 - _long(table, patch, width)), _REACH)
-        self.beside = _window(q / 2, _BESIDE)
+        self.near = _truncate_kernel(_invert(q) * (1 - _long(table, patch, width)), _REACH)
+        self.beside = _truncate_kernel(q / 2, _BESIDE)
         symbol = _invert(half_space.effective_wavenumbers(self.coarse, sides, solid))
         symbol *= _long(self.coarse, sides, width)
         blur = [np.sinc(np.fft.fftfreq(m)) ** 8 for m in self.coarse]  # of two cubic B-splines
@@ -171,7 +177,7 @@ def _invert(q):
     return np.divide(2, q, out=np.zeros_like(q), where=q > 0)
 
 
-def _window(symbol, reach):
+def _truncate_kernel(symbol, reach):
     """Kernel within a reach, on the half of a square that holds every pair once; its diagonal."""
     kernel = np.fft.irfft2(symbol, (_TABLE, _TABLE)).astype(np.float32)
     first, second = np.arange(_REACH + 1)[:, None], np.arange(-_REACH, _REACH + 1)
@@ -179,7 +185,7 @@ def _window(symbol, reach):
 
 
 def _multiply(matrix, values, image):
-    """Add to an image that of a symmetric matrix: of both its halves and the diagonal element."""
+    """Add to an image the product of values and a symmetric matrix: two halves and diagonal."""
     upper, lower, diagonal = matrix
     image = image + upper @ values
     image += lower @ values
@@ -211,7 +217,7 @@ def _pair(points, shape, split):
     begin, end = (np.searchsorted(places, a.ravel()).reshape(a.shape).T for a in (begin, end))
     count = (end - begin).ravel()
     ends = np.cumsum(count)
-    if ends[-1] > _PAIRS * shape[0] * shape[1]:
+    if ends[-1] > _MAX_PAIRS * shape[0] * shape[1]:
         return None
     entry = np.arange(ends[-1], dtype=np.int32)
     entry += np.repeat((begin.ravel() - ends + count).astype(np.int32), count)
@@ -224,8 +230,8 @@ def _pair(points, shape, split):
     return near, _symmetric(split.beside, offset[beside], columns[beside], starts)
 
 
-def _symmetric(window, offset, columns, starts):
-    kernel, diagonal = window
+def _symmetric(kernel_and_diagonal, offset, columns, starts):
+    kernel, diagonal = kernel_and_diagonal
     size = (starts.size - 1,) * 2
     data = kernel.ravel()[offset], columns, starts.astype(np.int32)
     upper = sparse.csr_array(data, shape=size)

@@ -1,4 +1,4 @@
-"""Traction laws of adhesion.
+"""Traction laws of adhesion. To add one, write its class here and name it in `LAWS`.
 
 Pressures are in units of the plane-strain modulus E*, tension positive for tractions; gaps, ranges
 and the adhesion length l_a = (work of adhesion)/E* share one unit of length. A gap of zero is where
@@ -50,7 +50,7 @@ class TractionLaw(ABC):
     #: Whether a wall at gap 0 repels; if not, the law itself does, and gaps must exceed -range.
     hard_wall: ClassVar[bool] = True
     #: Whether the traction is continuous beyond the wall; where it is not it must jump at `range`
-    #: between constants, as that of Maugis does.
+    #: between constants, as in the law of Maugis.
     smooth: ClassVar[bool] = True
 
     def __post_init__(self):
@@ -161,7 +161,7 @@ class LennardJones(TractionLaw):
 
     sigma = (8 adhesion_length/(3 range)) [(range/g)^3 - (range/g)^9] with g = gap + range, so that
     gap 0 is the equilibrium separation. All methods need gap > -range. With `hard_wall` a wall at
-    gap 0 takes the place of the law's own repulsion.
+    gap 0 replaces the repulsion of the law.
     """
 
     hard_wall: bool = False
@@ -199,3 +199,7 @@ class LennardJones(TractionLaw):
         """Energy per area over E* [length] at `gap`; -adhesion_length at gap 0."""
         s = self._inverse_separation(gap)
         return -self.adhesion_length * (4 * s**2 - s**8) / 3
+
+
+#: Laws that a configuration may name.
+LAWS = {"maugis": Maugis, "exponential": Exponential}

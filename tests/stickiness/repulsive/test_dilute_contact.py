@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from stickiness import repulsive
-from stickiness.repulsive import few_points, half_space
+from stickiness.repulsive import dilute_contact, half_space
 from stickiness.repulsive.active_set import Problem, _Grid
 from stickiness.solids import HALF_SPACE, Layer
 
@@ -23,25 +23,25 @@ def rough(shape, seed, sides=(1.0, 1.0), shortest=8):
     return heights / slope
 
 
-def count_settlements(monkeypatch):
+def count_corrections(monkeypatch):
     """Points of the grid and number of candidates at every correction from now on."""
-    sizes, settle = [], few_points.Candidates.settle
+    sizes, correct = [], dilute_contact.Candidates.correct_pressure
 
     def counted(self, *arguments):
         sizes.append((self._grid.heights.size, self.points.size))
-        return settle(self, *arguments)
+        return correct(self, *arguments)
 
-    monkeypatch.setattr(few_points.Candidates, "settle", counted)
+    monkeypatch.setattr(dilute_contact.Candidates, "correct_pressure", counted)
     return sizes
 
 
 def assert_same(monkeypatch, heights, sides, pressure, tol=1e-8, **options):
     """Compare with the solution on the whole grid; returns that among few points."""
-    sizes = count_settlements(monkeypatch)
+    sizes = count_corrections(monkeypatch)
     contact = repulsive.solve(heights, sides, pressure, tol=tol, **options)
     assert sizes, "no correction among few points"
     with monkeypatch.context() as patch:
-        patch.setattr(few_points, "suit", lambda *arguments: False)
+        patch.setattr(dilute_contact, "is_worthwhile", lambda *arguments: False)
         count = len(sizes)
         expected = repulsive.solve(heights, sides, pressure, tol=tol, **options)
         assert len(sizes) == count
@@ -55,8 +55,7 @@ def assert_same(monkeypatch, heights, sides, pressure, tol=1e-8, **options):
     return contact
 
 
-@pytest.mark.parametrize("pressure", [1e-4, 5e-4, 2e-3])
-@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.parametrize(("seed", "pressure"), [(0, 1e-4), (1, 5e-4), (2, 2e-3)])
 def test_same_solution_as_on_the_grid(monkeypatch, seed, pressure):
     assert_same(monkeypatch, rough((256, 256), seed), 1.0, pressure)
 
@@ -84,8 +83,7 @@ def test_contact_across_the_boundary_moves_with_the_surface(monkeypatch):
     np.testing.assert_allclose(moved, expected.gap, atol=4e-8 * contact.rms_height)
 
 
-@pytest.mark.parametrize("thickness", [0.02, 0.3])
-@pytest.mark.parametrize("poisson", [0.3, 0.5])
+@pytest.mark.parametrize(("thickness", "poisson"), [(0.02, 0.5), (0.3, 0.3)])
 def test_layers(monkeypatch, thickness, poisson):
     solid = Layer(thickness=thickness, poisson=poisson)
     assert_same(monkeypatch, rough((256, 256), 1), 1.0, 5e-4, solid=solid)
@@ -93,9 +91,9 @@ def test_layers(monkeypatch, thickness, poisson):
 
 def test_candidates_grow(monkeypatch):
     # Candidates are first what touches or penetrates at a poor guess: others have to join.
-    monkeypatch.setattr(few_points, "_MARGIN", 0.0)
+    monkeypatch.setattr(dilute_contact, "_CANDIDATE_GAP", 0.0)
     monkeypatch.setattr("stickiness.repulsive.active_set.PREDICTION", 3.0)
-    sizes = count_settlements(monkeypatch)
+    sizes = count_corrections(monkeypatch)
     assert_same(monkeypatch, rough((256, 256), 1), 1.0, 2e-3)
     finest = [count for size, count in sizes if size == 256**2]
     assert max(finest) > finest[0]
@@ -115,20 +113,13 @@ def test_one_and_two_points():
     assert contact.pressure[first] == pytest.approx(contact.pressure[second])
 
 
-def test_too_many_pairs_are_left_to_the_grid(monkeypatch):
-    monkeypatch.setattr(few_points, "_PAIRS", 1e-4)
-    sizes = count_settlements(monkeypatch)
-    assert repulsive.solve(rough((256, 256), 1), 1.0, 2e-3).residual <= 1e-8
-    assert not sizes
-
-
 def test_corrections_that_gain_nothing_are_left_to_the_grid(monkeypatch):
     def idle(self, points, pressure, gap, goal, limit):
         return points, pressure, 0
 
     heights = rough((256, 256), 1)
     expected = repulsive.solve(heights, 1.0, 5e-4)
-    monkeypatch.setattr(few_points.Candidates, "settle", idle)
+    monkeypatch.setattr(dilute_contact.Candidates, "correct_pressure", idle)
     contact = repulsive.solve(heights, 1.0, 5e-4)
     assert contact.residual <= 1e-8
     assert contact.area_fraction == expected.area_fraction
@@ -142,9 +133,9 @@ def test_compliance_is_right_to_a_hundredth(shape, sides, solid):
     rng = np.random.default_rng(0)
     points = np.flatnonzero(rng.random(shape[0] * shape[1]) < 0.005)
     problem = Problem(np.zeros(shape), sides, 1.0, solid)
-    split = few_points._kept_split(shape, sides, solid)
-    candidates = few_points.Candidates(
-        _Grid(problem, True), points, split, *few_points._pair(points, shape, split)
+    split = dilute_contact._kept_split(shape, sides, solid)
+    candidates = dilute_contact.Candidates(
+        _Grid(problem, True), points, split, *dilute_contact._pair(points, shape, split)
     )
     pressure = rng.random(points.size).astype(np.float32)
     field = np.zeros(shape)
