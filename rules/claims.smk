@@ -66,5 +66,13 @@ rule check_claims:
             category="Claims",
             caption="../report/claims.rst",
         ),
+    log:
+        f"{RESULTS}/logs/check_claims/claims/claims.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/check_claims/claims/claims.tsv"
+    conda:
+        "../envs/environment.yaml"
+    params:
+        code=source_hash("claims/check_claims.py"),
     script:
         "../scripts/claims/check_claims.py"

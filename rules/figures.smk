@@ -65,8 +65,14 @@ for figure, files in FIGURE_INPUTS.items():
                 caption=f"../report/{figure}.rst",
             ),
             pdf=f"{RESULTS}/figures/{figure}.pdf",
+        log:
+            f"{RESULTS}/logs/plot_{figure}/figures/{figure}.log",
+        benchmark:
+            f"{RESULTS}/benchmarks/plot_{figure}/figures/{figure}.tsv"
+        conda:
+            "../envs/environment.yaml"
         params:
-            figure=figure,
             pressure=config["criteria"]["a_v"]["pressure"],
+            code=source_hash(f"figures/plot_{figure}.py"),
         script:
-            "../scripts/figures/plot_{params.figure}.py"
+            f"../scripts/figures/plot_{figure}.py"
