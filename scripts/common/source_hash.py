@@ -9,6 +9,7 @@ from functools import cache
 from pathlib import Path
 
 SCRIPTS = Path(__file__).parents[1]
+DOCUMENTED = (ast.Module, ast.ClassDef, ast.FunctionDef, ast.AsyncFunctionDef)
 CACHE = Path(".snakemake/source_hashes.json")  # below the folder of the run
 
 
@@ -54,10 +55,8 @@ def read_source(path: Path) -> tuple[str, list[str]]:
 def normalise(tree: ast.Module) -> ast.Module:
     """Remove the docstrings; a syntax tree has neither comments nor layout."""
     for node in ast.walk(tree):
-        body = getattr(node, "body", None)
-        if isinstance(body, list) and body and isinstance(body[0], ast.Expr):
-            if isinstance(getattr(body[0].value, "value", None), str):
-                del body[0]
+        if isinstance(node, DOCUMENTED) and ast.get_docstring(node, clean=False) is not None:
+            del node.body[0]
     return tree
 
 
