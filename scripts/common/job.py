@@ -52,7 +52,7 @@ def find_job(rule: str, wildcards: dict[str, Any]) -> SimpleNamespace:
     rule from the workflow behind it.
     """
     from snakemake.api import SnakemakeApi
-    from snakemake.io import Wildcards
+    from snakemake.rules import Wildcards
     from snakemake.settings.types import ConfigSettings, OutputSettings, ResourceSettings
 
     config = {key: wildcards.pop(key) for key in ("fidelity",) if key in wildcards}

@@ -11,7 +11,8 @@ FILES = {
     "part/unused.py": "def two():\n    return 2\n",
     "other/late.py": "def three():\n    return 3\n",
 }
-REWORDED = (
+BODY = FILES["part/used.py"].split("\n", 1)[1]
+REWORDED = f'# A comment.\ndef one():\n    """A docstring."""\n{BODY}'
     '# A comment.\ndef one():\n    """A docstring."""\n' + FILES["part/used.py"].split("\n", 1)[1]
 )
 
