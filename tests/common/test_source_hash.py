@@ -13,8 +13,6 @@ FILES = {
 }
 BODY = FILES["part/used.py"].split("\n", 1)[1]
 REWORDED = f'# A comment.\ndef one():\n    """A docstring."""\n{BODY}'
-    '# A comment.\ndef one():\n    """A docstring."""\n' + FILES["part/used.py"].split("\n", 1)[1]
-)
 
 
 @pytest.fixture
