@@ -73,6 +73,7 @@ for figure, files in FIGURE_INPUTS.items():
             "../envs/environment.yaml"
         params:
             pressure=config["criteria"]["a_v"]["pressure"],
+            figure=figure,  # the path of the script is formatted when the job runs
             code=source_hash(f"figures/plot_{figure}.py"),
         script:
-            f"../scripts/figures/plot_{figure}.py"
+            "../scripts/figures/plot_{params.figure}.py"
