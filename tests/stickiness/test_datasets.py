@@ -1,6 +1,7 @@
 """NetCDF between stages: whole or not at all, checked when read."""
 
 import resource
+from contextlib import contextmanager
 
 import numpy as np
 import pytest
