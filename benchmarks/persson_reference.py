@@ -1,28 +1,26 @@
-"""Reference values of Persson's contact theory, by mpmath, for `test_persson_reference.py`.
+"""Reference values of Persson's contact theory in 30 digits, by mpmath, with which a test compares it.
 
-Shares nothing with the library. Written from the relations as they are published, with integrals
+This program shares nothing with the library. It is written from the relations as they are published, with integrals
 over wave numbers: where the library integrates by parts over -1/q this program integrates
 q^2 C w F over q and differentiates under the integral. The pressure diffuses by
 dV_eff = S(A) dV, the mean gap seen from a magnification on takes the elastic energy d(A S)/dA,
 and P(u) is the integral of its pair of Gaussians over the area lost. 30 digits are carried; the
-quadratures are composite Gauss-Legendre, and with half again as many nodes (`--check`) the cases
-repeated so far change by less than 1e-10 of their values.
+quadratures are composite Gauss-Legendre; with half again as many nodes values change by less than
+1e-10 of themselves.
 
 Writes tests/data/persson_reference.csv in about a quarter of an hour::
 
-    python tests/make_persson_reference.py
+    python benchmarks/persson_reference.py
 """
 
-import argparse
 import csv
-import sys
 from bisect import bisect_right
 from functools import cache, lru_cache
 from pathlib import Path
 
 from mpmath import mp, mpf
 
-TABLE = Path(__file__).parents[1] / "data" / "persson_reference.csv"
+TABLE = Path(__file__).parents[1] / "tests/data/persson_reference.csv"
 
 # name: (kind, parameters); lengths in any unit
 SPECTRA = {
@@ -485,25 +483,12 @@ HEADER = [
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--check", type=int, nargs="*", help="cases to repeat with more nodes")
-    parser.add_argument("--cases", type=int, nargs="*", help="cases to print, and write nothing")
-    chosen = parser.parse_args()
     mp.dps = 30
-    if chosen.check is not None or chosen.cases is not None:
-        writer = csv.writer(sys.stdout)
-        for i in (chosen.check or []) + (chosen.cases or []):
-            writer.writerows(rows(CASES[i], DENSITY))
-            if chosen.check:
-                writer.writerows(rows(CASES[i], 1.0))
-            sys.stdout.flush()
-        return
     with TABLE.open("w", newline="") as file:
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(HEADER)
         for case in CASES:
             writer.writerows(rows(case, DENSITY))
-            file.flush()
 
 
 if __name__ == "__main__":
