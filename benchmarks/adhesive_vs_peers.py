@@ -8,8 +8,7 @@ independent function, `adhesive_codes.assess`. Example::
 Surfaces are self-affine with H = 0.8 and q0 h_rms = 0.1, the load is p/(E* q0 h_rms) = 0.065, the
 law exponential unless told otherwise. Times are processor seconds on one thread; compare ratios
 within a run rather than seconds. Tamaas solves at mean gaps and has to search for the load: the
-columns "solves" and "last" tell how many solutions that took and how long the last one. Codes with
-"told" or "shipped" in their name are told the mean gap or displacement that this solver found.
+columns "solves" and "last" tell how many solutions that took and how long the last one.
 A time above --limit is a lower bound: the code was stopped, or would have searched on.
 """
 
@@ -31,12 +30,7 @@ from stickiness import adhesive, spectrum, surface  # noqa: E402
 CODES = {
     "stickiness": adhesive_codes.stickiness,
     "adhesion": adhesive_codes.adhesion,
-    "adhesion-ccg": adhesive_codes.adhesion_ccg,
-    "adhesion-lbfgs": adhesive_codes.adhesion_lbfgs,
-    "adhesion-shipped": adhesive_codes.adhesion_shipped,
     "tamaas": adhesive_codes.tamaas,
-    "tamaas-told": adhesive_codes.tamaas_told,
-    "tamaas-load": adhesive_codes.tamaas_load,
 }
 LAWS = {"exponential": adhesive.Exponential, "maugis": adhesive.Maugis}
 SCALED_PRESSURE, SLOPE, HURST = 0.065, 0.1, 0.8
@@ -127,7 +121,7 @@ def warm_up(names, law):
     heights, law, pressure = problem(Case(64, 8, 1.0, 0.01), law, 0)
     for name in names:
         try:
-            CODES[name](heights, 1.0, law, pressure, 1e-3, known=heights.max())
+            CODES[name](heights, 1.0, law, pressure, 1e-3)
         except (ImportError, NotImplementedError):
             continue
 
@@ -143,10 +137,9 @@ def main():
         arguments = heights, 1.0, law, pressure, chosen.tol
         runs = [adhesive_codes.stickiness(*arguments) for _ in range(3)]
         ours = statistics.median_low(run.seconds for run in runs)
-        known = float(runs[0].gap.mean())
         for name in chosen.codes:
             try:
-                run = CODES[name](*arguments, known=known, limit=chosen.limit)
+                run = CODES[name](*arguments, limit=chosen.limit)
             except ImportError as error:
                 print(f"{case.n:4d} {name}: not installed ({error}); see envs/peers.txt")
             except NotImplementedError as error:

@@ -1,12 +1,11 @@
-"""Reference values of Persson's contact theory in 30 digits, by mpmath, with which a test compares it.
+"""Reference values of Persson's contact theory, by mpmath with 30 digits.
 
-This program shares nothing with the library. It is written from the relations as they are published, with integrals
-over wave numbers: where the library integrates by parts over -1/q this program integrates
-q^2 C w F over q and differentiates under the integral. The pressure diffuses by
-dV_eff = S(A) dV, the mean gap seen from a magnification on takes the elastic energy d(A S)/dA,
-and P(u) is the integral of its pair of Gaussians over the area lost. 30 digits are carried; the
-quadratures are composite Gauss-Legendre; with half again as many nodes values change by less than
-1e-10 of themselves.
+This program shares nothing with the library. It is written from the relations as published, with
+integrals over wave numbers: where the library integrates by parts over -1/q this program
+integrates q^2 C w F over q and differentiates under the integral. The pressure diffuses by
+dV_eff = S(A) dV, the mean gap seen from a magnification on takes the elastic energy d(A S)/dA, and
+P(u) is the integral of its pair of Gaussians over the area lost. The quadratures are composite
+Gauss-Legendre; with half again as many nodes values change by less than 1e-10 of themselves.
 
 Writes tests/data/persson_reference.csv in about a quarter of an hour::
 
