@@ -1,6 +1,7 @@
 # Finds the project, checks the configuration and turns it into the tables that the rules use. No rule
 # stands here.
 
+import contextlib
 import os
 import re
 import subprocess
@@ -21,23 +22,17 @@ def find_project():
     # must lie in a folder. Its documentation offers no way to the clone that it keeps in its cache.
     clone = getattr(getattr(rules_folder, "hosted_repo", None), "repo_clone", None)
     if clone is None:
-        sys.exit(
-            f"{rules_folder}: give the Snakefile as a path or, with Snakemake 9.6 or newer, "
-            "as github(…) or gitlab(…)"
-        )
+        sys.exit(f"{rules_folder}: give the Snakefile as a path, or use a newer Snakemake")
     git = ["git", "-C", str(clone)]
     ref = f"{rules_folder.ref}^{{commit}}"
     commit = subprocess.check_output([*git, "rev-parse", ref], text=True).strip()
     copy = Path(f"{clone}-{commit}")
     if not copy.exists():
-        part = tempfile.mkdtemp(dir=copy.parent)
-        content = subprocess.check_output([*git, "archive", commit])
-        subprocess.run(["tar", "-x", "-C", part], input=content, check=True)
-        os.chmod(part, 0o755)
-        try:
-            os.rename(part, copy)
-        except OSError:  # another run was faster
-            subprocess.run(["rm", "-r", part], check=True)
+        with tempfile.TemporaryDirectory(dir=copy.parent) as folder:
+            content = subprocess.check_output([*git, "archive", "--prefix=copy/", commit])
+            subprocess.run(["tar", "-x", "-C", folder], input=content, check=True)
+            with contextlib.suppress(OSError):  # another run may have been faster
+                os.rename(f"{folder}/copy", copy)
     return copy
 
 
