@@ -132,7 +132,14 @@ rule write_findings:
         tradeoff=TRADE_SUMMARY,
     output:
         f"{RESULTS}/report/findings.md",
+    log:
+        f"{RESULTS}/logs/write_findings/report/findings.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/write_findings/report/findings.tsv"
+    conda:
+        "../envs/environment.yaml"
     params:
         fidelity=config["fidelity"],
+        code=source_hash("report/write_findings.py"),
     script:
         "../scripts/report/write_findings.py"
