@@ -57,8 +57,8 @@ def ledger_inputs():
 rule check_claims:
     input:
         **ledger_inputs(),
-        prose=own("report/claims.j2"),
-        page=own("report/claims.md.j2"),
+        prose=project_file("report/claims.j2"),
+        page=project_file("report/claims.md.j2"),
     output:
         dataset=f"{RESULTS}/claims/claims.nc",
         table=report(

@@ -119,7 +119,7 @@ rule write_surface:
 
 rule write_findings:
     input:
-        template=own("report/findings.md.j2"),
+        template=project_file("report/findings.md.j2"),
         claims=f"{RESULTS}/claims/claims.nc",
         a_v=several("fits/a_v/ensembles/{case}.nc", case=COMPLETE),
         lattices=several("fits/a_v/lattice/{case}.nc", case=COMPLETE),
