@@ -67,8 +67,12 @@ from common.config import load
 from common.config.entries import MOST_POINTS, measurements
 
 # Tables that this project measured, which are committed.
-ERROR_MODELS, TRADE_SUMMARY = project_file("config/accuracy.csv"), project_file("config/tradeoff.csv")
-REMAINING_TABLE, DMT_ERROR_TABLE = project_file("config/remaining.csv"), project_file("config/dmt_error.csv")
+ERROR_MODELS, TRADE_SUMMARY = project_file("config/accuracy.csv"), project_file(
+    "config/tradeoff.csv"
+)
+REMAINING_TABLE, DMT_ERROR_TABLE = project_file("config/remaining.csv"), project_file(
+    "config/dmt_error.csv"
+)
 
 try:
     # What a user leaves out is as in the project.
