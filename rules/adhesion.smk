@@ -31,14 +31,14 @@ def seeds_in_full(adhesion):
 
 def realisations_in_full(wildcards):
     folder = f"{RESULTS}/adhesion/full/{wildcards.adhesion}"
-    parts = plan.seed_parts(len(seeds_in_full(wildcards.adhesion)))
+    parts = plan.seed_batches(len(seeds_in_full(wildcards.adhesion)))
     return [f"{folder}/seeds{part}.nc" for part in parts]
 
 
 def same_without_adhesion(wildcards):
     """Contact without adhesion of the realisations that are solved in full."""
     case, count = case_of(wildcards), len(seeds_in_full(wildcards.adhesion))
-    parts = plan.covering_parts(count, among=len(seeds_of(case)))
+    parts = plan.batches_covering(count, among=len(seeds_of(case)))
     return [f"{RESULTS}/contact/{case}/seeds{part}.nc" for part in parts]
 
 

@@ -24,7 +24,6 @@ def describe_plan(wildcards):
         "settings": vars(planned.settings),
         "surface": model_surface_of(wildcards.case),
         "accuracy": case.get("accuracy"),
-        **({"carry_to": case["carry_to"]} if "carry_to" in case else {}),
     }
 
 

@@ -49,7 +49,7 @@ def ledger_inputs():
         ],
         "seeds": [
             surfaces_of("H0.8_zeta64", part)
-            for part in plan.seed_parts(len(seeds_of("H0.8_zeta64")))
+            for part in plan.seed_batches(len(seeds_of("H0.8_zeta64")))
         ],
     }
 

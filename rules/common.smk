@@ -176,7 +176,7 @@ def surfaces_on(surface, pixels, part="1-1"):
         if each.simulated
         and (each.surface, each.settings.pixels_per_wavelength) == (surface, pixels)
     ]
-    held = plan.covering_parts(plan.seeds_in(part)[-1], among=max(counts, default=1))[-1]
+    held = plan.batches_covering(plan.seeds_in(part)[-1], among=max(counts, default=1))[-1]
     grid = "" if pixels == FIDELITY["pixels_per_wavelength"] else f"@{pixels}"
     return f"{RESULTS}/surfaces/{surface}{grid}/seeds{held}.nc"
 

@@ -6,16 +6,16 @@
 
 def realisations(wildcards):
     """Fine solutions of a case, which an earlier case on the same surface may hold."""
-    owner = PLANS[wildcards.case].owner
-    parts = plan.covering_parts(len(seeds_of(wildcards.case)), among=len(seeds_of(owner)))
-    return [f"{RESULTS}/contact/{owner}/seeds{part}.nc" for part in parts]
+    solved_by = PLANS[wildcards.case].solved_by
+    parts = plan.batches_covering(len(seeds_of(wildcards.case)), among=len(seeds_of(solved_by)))
+    return [f"{RESULTS}/contact/{solved_by}/seeds{part}.nc" for part in parts]
 
 
 def coarse_solutions(wildcards):
     """Coarse solutions behind a case's means, shared likewise; none for plain means."""
     planned = PLANS[wildcards.case]
-    parts = plan.coarse_parts(planned.settings.coarse_seeds)
-    return [f"{RESULTS}/contact/{planned.owner}/coarse{part}.nc" for part in parts]
+    parts = plan.coarse_batches(planned.settings.coarse_seeds)
+    return [f"{RESULTS}/contact/{planned.solved_by}/coarse{part}.nc" for part in parts]
 
 
 def measured_of(wildcards):

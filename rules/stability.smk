@@ -1,35 +1,19 @@
-# Where each part of the library is right, refuses, or fails, at the extremes of its parameters.
+# Where each part of the library is right, refuses, or fails, at the extremes of two parameters.
 # Independent of fidelity and cases.
 
 COMPONENTS = [
     "spectrum",
-    "odd-spectra",
-    "direction",
-    "sums",
-    "synthesise",
-    "directed-surfaces",
-    "measured",
-    "sampling",
-    "accuracy",
-    "persson",
-    "layers",
-    "backed-layers",
-    "layer-theory",
-    "layer-remaining",
-    "repulsive",
-    "layer-contact",
-    "sub-pixel",
-    "dmt",
-    "dmt-limit",
-    "adhesive",
-    "layer-adhesion",
-    "tension",
+    "surface",
+    "wave",
+    "contact",
+    "adhesion",
     "paths",
-    "model-choice",
-    "edge-adhesion",
-    "a_v-table",
+    "theory",
+    "PSD",
     "criteria",
-    "moduli",
+    "verdict",
+    "layer",
+    "layer-contact",
 ]
 
 

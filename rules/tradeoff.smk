@@ -1,5 +1,5 @@
-# What accuracy costs: every knob of simulation and theory varied on a few surfaces, its error in
-# each quantity beside its cost. Measured apart from the fidelities, which come from it.
+# What accuracy costs: every setting of simulation and every model, its error in each quantity beside
+# its cost, measured on a few surfaces. It does not depend on the fidelities, which come from it.
 
 TRADE_SETS = {
     name: TRADE[part]
@@ -18,7 +18,6 @@ PRESETS = {
 
 wildcard_constraints:
     trade_case=choices([*TRADE_SURFACES, *ADHESIVE_SURFACES]),
-    hurst=choices(map(str, TRADE["bands"]["hurst"])),
 
 
 def trade_set(wildcards):
@@ -26,89 +25,30 @@ def trade_set(wildcards):
     return TRADE_SETS[wildcards.trade_case]
 
 
-rule measure_grids:
+rule measure_contact:
     output:
-        f"{TRADEOFF}/grids/{{trade_case}}.nc",
+        f"{TRADEOFF}/contact/{{trade_case}}.nc",
     log:
-        f"{TRADEOFF}/logs/measure_grids/grids/{{trade_case}}.log",
+        f"{TRADEOFF}/logs/measure_contact/contact/{{trade_case}}.log",
     benchmark:
-        f"{TRADEOFF}/benchmarks/measure_grids/grids/{{trade_case}}.tsv"
+        f"{TRADEOFF}/benchmarks/measure_contact/contact/{{trade_case}}.tsv"
     conda:
         "../envs/environment.yaml"
     resources:
         mem_mb=3000,
-    params:
-        case=lambda wildcards: TRADE_SURFACES[wildcards.trade_case],
-        settings={k: v for k, v in TRADE["settings"].items() if k != "surfaces"},
-        pressures=TRADE["pressures"],
-        seeds=TRADE["seeds"],
-        gaps=GAPS,
-        code=source_hash("tradeoff/measure_grids.py"),
-    script:
-        "../scripts/tradeoff/measure_grids.py"
-
-
-rule measure_seeds:
-    output:
-        f"{TRADEOFF}/seeds/{{trade_case}}.nc",
-    log:
-        f"{TRADEOFF}/logs/measure_seeds/seeds/{{trade_case}}.log",
-    benchmark:
-        f"{TRADEOFF}/benchmarks/measure_seeds/seeds/{{trade_case}}.tsv"
-    conda:
-        "../envs/environment.yaml"
-    resources:
-        mem_mb=2000,
     params:
         case=lambda wildcards: TRADE_SURFACES[wildcards.trade_case],
         pressures=lambda wildcards: trade_set(wildcards).get("pressures", TRADE["pressures"]),
         pixels=lambda wildcards: trade_set(wildcards)["pixels"],
         counts=lambda wildcards: trade_set(wildcards)["counts"],
-        tolerance=TRADE["settings"]["at_tolerance"],
         first_seed=lambda wildcards: trade_set(wildcards)["first_seed"],
-        gaps=GAPS,
-        code=source_hash("tradeoff/measure_seeds.py"),
-    script:
-        "../scripts/tradeoff/measure_seeds.py"
-
-
-rule measure_bands:
-    output:
-        f"{TRADEOFF}/bands/H{{hurst}}.nc",
-    log:
-        f"{TRADEOFF}/logs/measure_bands/bands/H{{hurst}}.log",
-    benchmark:
-        f"{TRADEOFF}/benchmarks/measure_bands/bands/H{{hurst}}.tsv"
-    conda:
-        "../envs/environment.yaml"
-    resources:
-        mem_mb=3000,
-    params:
-        bands=TRADE["bands"],
-        pressures=TRADE["pressures"],
+        tolerances=TRADE["settings"]["tolerances"],
         tolerance=TRADE["settings"]["at_tolerance"],
+        at_pixels=TRADE["settings"]["at_pixels"],
         gaps=GAPS,
-        code=source_hash("tradeoff/measure_bands.py"),
+        code=source_hash("tradeoff/measure_contact.py"),
     script:
-        "../scripts/tradeoff/measure_bands.py"
-
-
-rule measure_theory:
-    output:
-        f"{TRADEOFF}/theory.nc",
-    log:
-        f"{TRADEOFF}/logs/measure_theory/theory.log",
-    benchmark:
-        f"{TRADEOFF}/benchmarks/measure_theory/theory.tsv"
-    conda:
-        "../envs/environment.yaml"
-    params:
-        nodes=TRADE["nodes"],
-        pressures=TRADE["pressures"],
-        gaps=GAPS,
-        code=source_hash("tradeoff/measure_theory.py"),
-    script:
-        "../scripts/tradeoff/measure_theory.py"
+        "../scripts/tradeoff/measure_contact.py"
 
 
 rule measure_adhesive:
@@ -154,20 +94,21 @@ rule measure_pull_off:
 
 rule tabulate_tradeoff:
     input:
-        grids=expand(f"{TRADEOFF}/grids/{{name}}.nc", name=TRADE["settings"]["surfaces"]),
-        seeds=expand(
-            f"{TRADEOFF}/seeds/{{name}}.nc",
+        contact=expand(
+            f"{TRADEOFF}/contact/{{name}}.nc",
             name=[*TRADE["cases"]["surfaces"], *TRADE["finer"]["surfaces"]],
         ),
-        bands=expand(f"{TRADEOFF}/bands/H{{hurst}}.nc", hurst=TRADE["bands"]["hurst"]),
-        theory=f"{TRADEOFF}/theory.nc",
         adhesive=expand(f"{TRADEOFF}/adhesive/{{name}}.nc", name=ADHESIVE_SURFACES),
         pull_off=expand(f"{TRADEOFF}/pull_off/{{name}}.nc", name=ADHESIVE_SURFACES),
+        validation=expand(f"{TRADEOFF}/contact/{{name}}.nc", name=TRADE["validation"]["surfaces"]),
+        template=project_file("report/tradeoff.md.j2"),
     output:
         dataset=f"{TRADEOFF}/tradeoff.nc",
         laws=f"{TRADEOFF}/accuracy.csv",
         summary=f"{TRADEOFF}/tradeoff.csv",
         table=f"{TRADEOFF}/tradeoff.md",
+        presets=f"{TRADEOFF}/presets.md",
+        validation=f"{TRADEOFF}/validation.md",
     log:
         f"{TRADEOFF}/logs/tabulate_tradeoff/tradeoff.log",
     benchmark:
@@ -175,47 +116,11 @@ rule tabulate_tradeoff:
     conda:
         "../envs/environment.yaml"
     params:
+        presets=PRESETS,
+        accuracies=TRADE["validation"]["accuracies"],
         code=source_hash("tradeoff/tabulate_tradeoff.py"),
     script:
         "../scripts/tradeoff/tabulate_tradeoff.py"
-
-
-rule validate_accuracy:
-    input:
-        laws=f"{TRADEOFF}/accuracy.csv",
-        seeds=expand(f"{TRADEOFF}/seeds/{{name}}.nc", name=TRADE["validation"]["surfaces"]),
-    output:
-        dataset=f"{TRADEOFF}/validation.nc",
-        table=f"{TRADEOFF}/validation.md",
-    log:
-        f"{TRADEOFF}/logs/validate_accuracy/validation.log",
-    benchmark:
-        f"{TRADEOFF}/benchmarks/validate_accuracy/validation.tsv"
-    conda:
-        "../envs/environment.yaml"
-    params:
-        accuracies=TRADE["validation"]["accuracies"],
-        code=source_hash("tradeoff/validate_accuracy.py"),
-    script:
-        "../scripts/tradeoff/validate_accuracy.py"
-
-
-rule choose_presets:
-    input:
-        laws=f"{TRADEOFF}/accuracy.csv",
-    output:
-        f"{TRADEOFF}/presets.md",
-    log:
-        f"{TRADEOFF}/logs/choose_presets/presets.log",
-    benchmark:
-        f"{TRADEOFF}/benchmarks/choose_presets/presets.tsv"
-    conda:
-        "../envs/environment.yaml"
-    params:
-        **PRESETS,
-        code=source_hash("tradeoff/choose_presets.py"),
-    script:
-        "../scripts/tradeoff/choose_presets.py"
 
 
 rule plot_tradeoff:

@@ -89,5 +89,6 @@ def test_a_case_of_area_alone_runs(fresh):
     assert (area.value < [0.2, 0.4]).all()
     ensemble = datasets.read(fresh / "results/tiny/contact/ensembles/mine.nc")
     assert "attractive_area" not in ensemble
+    assert (area.value.values == ensemble.area_fraction_mean.values).all()
     # Magnification 8 is below what was measured.
     assert (answer.extrapolated == 1).all()

@@ -1,4 +1,4 @@
-"""Laws of `stickiness.accuracy`, fitted to what was measured."""
+"""Fit the error models of `stickiness.accuracy.error_models` to what was measured."""
 
 from __future__ import annotations
 
@@ -14,7 +14,6 @@ from tradeoff.measuring import COVERED
 
 FEATURES = ("constant", "hurst", "magnification", "window", "pressure", "pixels", "tolerance")
 FLOOR = 1e-10  # errors below are rounding and do not tell how they depend on anything
-CAUTIOUS = "carrying"  # the part of which noise exceeds the error itself, in areas
 PRIOR = 8.0  # twice the variance of exponents before anything is known of them
 
 
@@ -49,41 +48,38 @@ class Points:
     def fit(self) -> dict[tuple[str, str], ErrorModel]:
         """Fit every part: least squares of logarithms, or maximum likelihood of noisy values."""
         return {
-            key: fit_noisy(rows, key[0] == CAUTIOUS)
-            if any(noise for *_, noise in rows)
-            else fit_least_squares(rows)
+            key: fit_noisy(rows) if any(noise for *_, noise in rows) else fit_least_squares(rows)
             for key, rows in self.rows.items()
         }
 
 
 def fit_least_squares(rows: list[tuple]) -> ErrorModel:
-    """Fit one law to logarithms; features that no two points differ in stay out."""
+    """Fit one model to logarithms; features that no two points differ in stay out."""
     rows = [row for row in rows if row[1] > FLOOR] or rows[-1:]
     features = np.array([row for row, *_ in rows])
     values = np.maximum([value for _, value, _ in rows], FLOOR)
     varied = find_varied(features)
     coefficients = np.zeros(features.shape[1])
     coefficients[varied], *_ = np.linalg.lstsq(features[:, varied], np.log(values))
-    return make_law(coefficients, values / np.exp(features @ coefficients))
+    return make_model(coefficients, values / np.exp(features @ coefficients))
 
 
-def fit_noisy(rows: list[tuple], cautious: bool = False) -> ErrorModel:
+def fit_noisy(rows: list[tuple]) -> ErrorModel:
     """Fit the standard deviation of values of either sign that are known with some noise.
 
-    Values are taken as normal about zero with the variances of the law and of the noise, so that
-    few realisations do not make an error seem larger than it is. The spread is about laws fitted
-    without the surface of each value. To be cautious, noise counts as error in the spread, and no
-    surface is left out: without it the law could not tell the error from the noise.
+    Values are taken as normal about zero with the variances of the model and of the noise, so that
+    few realisations do not make an error seem larger than it is. The spread compares each value
+    with a model fitted without its surface.
     """
     features, values, noise = (np.array(part) for part in zip(*rows, strict=True))
     surfaces = features[:, 1:4]
     every, ratio = np.ones(len(rows), bool), np.empty(len(rows))
     for surface in np.unique(surfaces, axis=0):
-        own = (surfaces == surface).all(axis=1)
-        others = every if cautious or own.all() else ~own
-        law = np.exp(features[own] @ maximise_likelihood(features, values, noise, others))
-        ratio[own] = np.abs(values[own]) / np.hypot(law, 0.0 if cautious else noise[own])
-    return make_law(maximise_likelihood(features, values, noise, every), ratio)
+        here = (surfaces == surface).all(axis=1)
+        others = every if here.all() else ~here
+        model = np.exp(features[here] @ maximise_likelihood(features, values, noise, others))
+        ratio[here] = np.abs(values[here]) / np.hypot(model, noise[here])
+    return make_model(maximise_likelihood(features, values, noise, every), ratio)
 
 
 def maximise_likelihood(
@@ -96,8 +92,9 @@ def maximise_likelihood(
     apart = features[:, varied] - centre
 
     def log_unlikelihood(coefficients):
-        own = np.exp(2 * apart @ coefficients) + noise**2
-        return 0.5 * np.sum(np.log(own) + values**2 / own) + np.sum(coefficients[1:] ** 2) / PRIOR
+        variance = np.exp(2 * apart @ coefficients) + noise**2
+        misfit = 0.5 * np.sum(np.log(variance) + values**2 / variance)
+        return misfit + np.sum(coefficients[1:] ** 2) / PRIOR
 
     begin = np.zeros(varied.sum())
     begin[0] = np.log(np.sqrt(np.mean(values**2)))
@@ -115,8 +112,8 @@ def find_varied(features: NDArray) -> NDArray:
     return varied
 
 
-def make_law(coefficients: NDArray, ratio: NDArray) -> ErrorModel:
-    """Law of these coefficients; `ratio` holds the measured values over it."""
+def make_model(coefficients: NDArray, ratio: NDArray) -> ErrorModel:
+    """Model with these coefficients; `ratio` holds the measured values over it."""
     return ErrorModel(
         **dict(zip(FEATURES, coefficients.tolist(), strict=True)),
         spread=float(np.quantile(ratio, COVERED)),
