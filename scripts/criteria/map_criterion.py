@@ -10,7 +10,8 @@ from common.conventions import logarithmic_grid
 from common.job import start
 from criteria.budgets import CLOSED, between_limits
 from criteria.simulated_a_v import measure_a_v
-from stickiness import area_load, criteria, datasets, equivalent_sphere
+from stickiness import criteria, datasets
+from stickiness.criteria import area_load, equivalent_sphere
 from stickiness.criteria.a_v_table import NEEDED, AvTable
 from stickiness.error_budget import with_budget
 from stickiness.spectrum.kinds import SelfAffine

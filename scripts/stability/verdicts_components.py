@@ -10,8 +10,8 @@ import xarray as xr
 from scipy.optimize import brentq
 
 from stability.components import WIDE, Check, Component, compare_each, model, require
-from stickiness import equivalent_sphere
 from stickiness.accuracy import model_choice
+from stickiness.criteria import equivalent_sphere
 from stickiness.criteria.a_v_table import NORMAL_90, AvTable
 from stickiness.solids import moduli
 

@@ -13,8 +13,9 @@ from criteria.budgets import add_budget_of_probability
 from criteria.materials import read_material
 from criteria.simulated_a_v import measure_a_v
 from criteria.words import decide_pairs
-from stickiness import criteria, datasets, equivalent_sphere
+from stickiness import criteria, datasets
 from stickiness import error_budget as budget
+from stickiness.criteria import equivalent_sphere
 from stickiness.criteria.a_v_table import VARIANTS, SurfaceAv, edge_range, local_a_v
 from stickiness.criteria.pair import REGIMES, STRONG, TOUGH, WEAK, WORDS
 from stickiness.criteria.registry import EDGES, REMAINING

@@ -12,9 +12,9 @@ from stability import layer_contact_components as layer_contact
 from stability.components import FAILED, REFUSED, RIGHT, UNCONVERGED, Check, Component, probe_point
 from stability.layers_components import THICK, find_response
 from stability.probe_stability import COMPONENTS
-from stickiness import adhesive, dmt, equivalent_sphere, spectrum
+from stickiness import adhesive, dmt, spectrum
+from stickiness.criteria import a_v_table, equivalent_sphere
 from stickiness.accuracy import model_choice, prediction
-from stickiness.criteria import a_v_table
 from stickiness.persson import layered_scales
 from stickiness.remaining import prediction as remaining
 from stickiness.repulsive import solver

@@ -16,7 +16,8 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import minimize_scalar
 from scipy.special import ndtr
 
-from stickiness.area_load import (  # noqa: F401
+from stickiness.arguments import plain, positive
+from stickiness.criteria.area_load import (  # noqa: F401
     h_rms_limit,
     inverse_kappa,
     inverse_kappa_ad,
@@ -27,7 +28,6 @@ from stickiness.area_load import (  # noqa: F401
     traction_ratio,
     violano_c0_limit,
 )
-from stickiness.arguments import plain, positive
 from stickiness.spectrum.kinds import Spectrum
 
 __all__ = [  # noqa: PLE0604

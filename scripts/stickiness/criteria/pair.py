@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from stickiness import equivalent_sphere
+from stickiness.criteria import equivalent_sphere
 from stickiness.remaining.prediction import DEFAULT_SHARE, Roughness
 
 WORDS = (

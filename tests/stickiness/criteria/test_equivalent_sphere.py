@@ -6,7 +6,8 @@ from references.adhesion import DMTSphere, JKRSphere, MaugisSphere, MaugisWave
 from references.contact import Hertz, Westergaard
 from scipy.optimize import brentq
 
-from stickiness import adhesive, criteria, equivalent_sphere, repulsive, spectrum, surface
+from stickiness import adhesive, criteria, repulsive, spectrum, surface
+from stickiness.criteria import equivalent_sphere
 from stickiness.adhesive import edge_zone
 
 RADIUS = 1.0

@@ -62,8 +62,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import elementwise
 
-from stickiness.area_load import traction_ratio
 from stickiness.arguments import plain, positive
+from stickiness.criteria.area_load import traction_ratio
 
 KAPPA_REP = 2.0  #: area over load without adhesion, A_rep/A_nom = kappa p/(E* h'_rms)
 
@@ -110,7 +110,7 @@ def attraction(
     """Attraction over repulsion at equal area of contact, by the equivalent sphere.
 
     `rms_slope` is the root mean square gradient of all waves, `kappa_rep` the slope of area against
-    load without adhesion; the other arguments are those of `area_load.traction_ratio`.
+    load without adhesion; the other arguments are those of `criteria.area_load.traction_ratio`.
     """
     slope, kappa_rep = positive(rms_slope=rms_slope, kappa_rep=kappa_rep)
     dmt = traction_ratio(h_rms, q0, adhesion_length, range, a_v)
