@@ -17,7 +17,7 @@ from criteria.texts import (
     show_probability,
     show_stress,
 )
-from criteria.words import find_limits
+from criteria.classification import find_limits
 from stickiness import error_budget as budget
 from stickiness.criteria.pair import NOT_JUDGED, WORDS
 from stickiness.criteria.registry import CRITERIA, EDGES, REMAINING

@@ -11,7 +11,7 @@ from criteria.joint import Joint
 from criteria.materials import read_material
 from criteria.pairs import DIMS, describe_remaining, gather_pairs
 from criteria.probabilities import find_probabilities
-from criteria.words import find_limits
+from criteria.classification import find_limits
 from stickiness.criteria.a_v_table import SurfaceAv
 from stickiness.remaining import predict
 from stickiness.remaining.prediction import DEFAULT_SHARE, Roughness

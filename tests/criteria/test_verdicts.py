@@ -12,7 +12,7 @@ from criteria import joint, judging
 from criteria.budgets import add_budget_of_probability
 from criteria.materials import read_material
 from criteria.simulated_a_v import measure_a_v
-from criteria.words import decide_pairs
+from criteria.classification import decide_pairs
 from stickiness import criteria, datasets
 from stickiness import error_budget as budget
 from stickiness.criteria import equivalent_sphere

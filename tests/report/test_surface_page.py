@@ -15,7 +15,7 @@ from common.formatting import number
 from criteria import joint, judging
 from criteria.materials import read_material
 from criteria.verdict_markdown import write_markdown
-from criteria.words import find_doubts, find_limits
+from criteria.classification import find_doubts, find_limits
 from real_surfaces import analyse_surface, contact_measured
 from report import captions, remaining_curves, surface_figure, surface_texts, write_surface
 from report.surface_texts import say_what_was_seen

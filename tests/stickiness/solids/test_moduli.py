@@ -9,7 +9,7 @@ from scipy import integrate
 
 from criteria import materials
 from criteria.probabilities import draw_pair
-from criteria.words import decide_pairs
+from criteria.classification import decide_pairs
 from stickiness.criteria.pair import WORDS
 from stickiness.criteria.registry import EDGES
 from stickiness.remaining.prediction import DEFAULT_SHARE, Roughness
