@@ -64,6 +64,7 @@ from scipy.optimize import elementwise
 
 from stickiness.arguments import plain, positive
 from stickiness.criteria.area_load import traction_ratio
+from stickiness.remaining.sphere import opening
 
 KAPPA_REP = 2.0  #: area over load without adhesion, A_rep/A_nom = kappa p/(E* h'_rms)
 
@@ -278,13 +279,6 @@ def adhesion_length_threshold(
     tough = range / (dmt * tough_effect(t, tau)) ** 2
     bracket = np.log(0.5 * weak), np.log(4 * (weak + tough))
     return plain(np.exp(elementwise.find_root(excess, bracket, args=surface).x))
-
-
-def opening(t: NDArray) -> NDArray:
-    """Evaluate sin t cos t - t cos 2t, by its series where the terms cancel."""
-    x = np.minimum(2 * t, 0.5)
-    series = x**3 / 6 * (1 - x**2 / 10 * (1 - x**2 / 28 * (1 - x**2 / 54 * (1 - x**2 / 88))))
-    return np.where(2 * t < 0.5, series, np.sin(2 * t) / 2 - t * np.cos(2 * t))
 
 
 def _hertz_gap(angle: NDArray) -> NDArray:

@@ -95,7 +95,7 @@ class Roughness:
     relative_compliance: ArrayLike = 1.0  #: S of the longest waves on a layer, see `solids`
     #: Energy of a half-space, which bounds that of a layer; NaN: it does not.
     half_space_energy: ArrayLike | None = None
-    anisotropy_error_factor: ArrayLike = 1.0  #: factor on the errors, see `find_anisotropy_error_factor`
+    anisotropy_error_factor: ArrayLike = 1.0  #: see `find_anisotropy_error_factor`
 
     def share(
         self, adhesion_length: ArrayLike, range: ArrayLike, sign: ArrayLike = 0
@@ -184,7 +184,8 @@ class Roughness:
         range = np.asarray(range, dtype=float)
         surface = {name: value for name, value in vars(self).items() if value is not None}
         sign = np.multiply(sign, surface.pop("anisotropy_error_factor"))
-        deep = {"half_space_energy": surface.pop("half_space_energy")} if "half_space_energy" in surface else {}
+        bound = {"half_space_energy"} & surface.keys()
+        deep = {name: surface.pop(name) for name in bound}
         at = np.broadcast_arrays(*positive(**surface), *deep.values(), *positive(range=range), sign)
         surface |= deep
         energy = at[list(surface).index("elastic_energy")]
