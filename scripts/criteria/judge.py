@@ -2,7 +2,7 @@
 
 from common.formatting import NOTHING, interval
 from common.job import start
-from common.markdown import write_page
+from common.templates import write_page
 from criteria.classification import find_limits
 from criteria.judging import judge, read_surfaces
 from criteria.texts import (

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from common.config.entries import CONDITIONS, OBSERVED_UNITS, conditions_of
 from common.job import start
-from common.markdown import write_page
+from common.templates import write_page
 from experiments import outcomes
 from experiments.outcomes import COMPATIBLE, GRADES, MISSED, OUTCOMES, SILENT, SOME
 from stickiness import datasets
