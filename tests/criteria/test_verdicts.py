@@ -8,16 +8,16 @@ import pytest
 import xarray as xr
 from scipy.stats import binomtest, norm
 
-from criteria import joint, judging
+from criteria import judging, pair_roughness
 from criteria.budgets import add_budget_of_probability
+from criteria.classification import decide_pairs
 from criteria.materials import read_material
 from criteria.simulated_a_v import measure_a_v
-from criteria.classification import decide_pairs
 from stickiness import criteria, datasets
 from stickiness import error_budget as budget
 from stickiness.criteria import equivalent_sphere
 from stickiness.criteria.a_v_table import VARIANTS, SurfaceAv, edge_range, local_a_v
-from stickiness.criteria.pair import REGIMES, STRONG, TOUGH, WEAK, WORDS
+from stickiness.criteria.pair import REGIMES, STRONG, TOUCHES, TOUGH, WEAK, WORDS
 from stickiness.criteria.registry import EDGES, REMAINING
 from stickiness.criteria.verdict import verdict
 from stickiness.persson import Persson
@@ -91,7 +91,7 @@ def pair_between(low, high, grows, quantiles=(np.nan, np.nan, np.nan)):
         ((0.9, 0.15), (1.0, 0.9), (0.1, 0.1), "sticks"),  # the onset does not matter here
         ((0.5, 0.05), (0.6, 0.2), (5.0, 5.0), "depends"),
         ((0.5, 0.0), (0.6, 0.0), (0.1, 0.1), "depends"),
-        ((0.0, 0.0), (0.09, 0.0), (1.1, 0.1), "touches without hold"),
+        ((0.0, 0.0), (0.09, 0.0), (1.1, 0.1), WORDS[TOUCHES]),
         ((0.0, 0.0), (0.09, 0.0), (0.9, 0.1), "does not stick"),
     ],
 )
@@ -123,7 +123,7 @@ def pairs_of(modulus, ranges, h_rms=1e-6, a_v=(4.0, 4.0, 4.0)):
         coords={"end": ["smooth", "rough"]},
     )
     a_v = SurfaceAv(np.array([1e-9, 1.0]), np.transpose([a_v, a_v]), 0, 0.0)
-    with mock.patch.object(joint, "find_a_v", return_value=(a_v, a_v)):
+    with mock.patch.object(pair_roughness, "find_a_v", return_value=(a_v, a_v)):
         return judging.find_verdicts(solids, {"one": surface}, {}, np.array([1.0, 1e3]))
 
 
@@ -314,6 +314,6 @@ def test_error_of_a_probability_is_that_of_its_interval(count):
     share = count / 200
     about = {"units": "1", "long_name": "share of the draws that stick"}
     pair = xr.Dataset({"probability": (("material", "surface"), [[share]], about)})
-    found = add_budget_of_probability(pair, {"wall": 200})
+    found = add_budget_of_probability(pair, [200])
     farther = max(share - interval.low, interval.high - share)
     assert float(found.probability_total_error.squeeze()) == pytest.approx(farther, rel=1e-10)

@@ -7,7 +7,7 @@ import pytest
 
 from stickiness import surface
 from stickiness.criteria import verdict as module
-from stickiness.criteria.pair import WORDS, decide
+from stickiness.criteria.pair import TOUCHES, WORDS, decide
 from stickiness.criteria.registry import CRITERIA, EDGES, REMAINING
 from stickiness.criteria.verdict import verdict
 from stickiness.plausibility import PlausibilityWarning
@@ -41,7 +41,7 @@ def test_verdict_depends_within_the_limits_of_the_threshold():
     words = [verdict(ROUGH, **GEL | {"modulus": by}).word for by in (0.99 * low, 1.01 * low)]
     assert words == ["sticks", "depends"]
     words = [verdict(ROUGH, **GEL | {"modulus": by}).word for by in (0.99 * high, 1.01 * high)]
-    assert words == ["depends", "touches without hold"]
+    assert words == ["depends", WORDS[TOUCHES]]
 
 
 def test_margin_and_threshold_have_the_same_relative_errors():
@@ -195,7 +195,7 @@ def test_heights_need_their_length():
         (0.1, 0.2, False, "sticks"),
         (0.09, 1.0, True, "depends"),
         (0.0, 0.1, False, "depends"),
-        (0.0, 0.09, True, "touches without hold"),
+        (0.0, 0.09, True, WORDS[TOUCHES]),
         (0.0, 0.09, False, "does not stick"),
     ],
 )
@@ -206,7 +206,7 @@ def test_words(low, high, grows, word):
 def test_words_follow_the_wanted_share():
     assert WORDS[int(decide(0.3, 0.4, True, wanted=0.2))] == "sticks"
     assert WORDS[int(decide(0.3, 0.4, True, wanted=0.35))] == "depends"
-    assert WORDS[int(decide(0.3, 0.4, True, wanted=0.5))] == "touches without hold"
+    assert WORDS[int(decide(0.3, 0.4, True, wanted=0.5))] == WORDS[TOUCHES]
 
 
 def test_text_says_word_share_and_threshold():
