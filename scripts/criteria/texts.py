@@ -116,23 +116,24 @@ def describe_layer(pair: xr.Dataset) -> str:
 
 def say_verdict(material: str, pair: xr.Dataset) -> str:
     """The verdict on a pair as one sentence; a small first word gets its capital letter."""
+    sentence = _say_verdict(material, pair)
+    first = sentence.split(maxsplit=1)[0]
+    return sentence[0].upper() + sentence[1:] if first.islower() else sentence
+
+
+def _say_verdict(material: str, pair: xr.Dataset) -> str:
     code, remains = int(pair.verdict), describe_share(pair)
+    if code == NOT_JUDGED:
+        return f"{material}: not judged. {str(pair.not_judged.item()).replace(chr(10), '. ')}."
+    layer = f" {text}" if (text := describe_layer(pair)) else ""
+    if code == DEPENDS:
+        return (
+            f"For {material} it depends: {remains} of its work of adhesion remains, and "
+            f"{percent(DEFAULT_SHARE)} is wanted.{layer}"
+        )
     if round_share(find_limits(pair)[1]) == 0:
         remains = "nothing"
     remains += " of its work of adhesion remains"
-    if code == NOT_JUDGED:
-        reasons = str(pair.not_judged.item()).replace("\n", ". ")
-        sentence = f"{material}: not judged. {reasons}."
-    elif code == DEPENDS:
-        sentence = f"For {material} it depends: {remains}, and {percent(DEFAULT_SHARE)} is wanted."
-    elif code == TOUCHES:
-        sentence = (
-            f"{material} adheres locally but does not hold: {remains}, though contact grows by "
-            "itself at the finest wave."
-        )
-    else:
-        sentence = f"{material} {WORDS[code]}: {remains}."
-    if code != NOT_JUDGED and (layer := describe_layer(pair)):
-        sentence += f" {layer}"
-    first = sentence.split(maxsplit=1)[0]
-    return sentence[0].upper() + sentence[1:] if first.islower() else sentence
+    if code == TOUCHES:
+        remains = f"{remains}, though contact grows by itself at the finest wave"
+    return f"{material} {WORDS[code]}: {remains}.{layer}"

@@ -15,7 +15,7 @@ from report import report_parts as report
 from report import verdict_texts
 from stickiness import datasets
 from stickiness.criteria.a_v_table import SurfaceAv
-from stickiness.criteria.registry import CRITERIA, REMAINING, Criterion
+from stickiness.criteria.registry import CRITERIA, Criterion
 from stickiness.spectrum import SelfAffine
 
 COMPARED = {
@@ -143,8 +143,3 @@ def test_every_threshold_is_where_the_margin_is_one(judged, road):
             .squeeze()
         )
         assert float(at.margin) == pytest.approx(1, rel=1e-6), name
-
-
-def test_names_and_labels_differ():
-    assert len({c.label for c in CRITERIA.values()}) == len(CRITERIA)
-    assert next(iter(CRITERIA)) == REMAINING
