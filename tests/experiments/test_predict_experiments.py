@@ -5,7 +5,7 @@ from types import SimpleNamespace
 import matplotlib.pyplot as plt
 import numpy as np
 import pytest
-from helpers.experiments import known, make_experiments, observe, seen
+from helpers.experiments import known, make_dataset, make_experiments, observe, seen
 
 from experiments import outcomes, plot_experiments
 from experiments import predict_experiments as experiments
@@ -255,6 +255,34 @@ def test_the_dataset_has_predictions_limits_and_outcomes(dataset):
     assert float(ball.waves_in_contact) == pytest.approx(expected, rel=1e-6)
     limit = float(dataset.limiting_roughness.sel(case="ball/limit"))
     np.testing.assert_allclose(dataset.h_rms, [limit, 1e-6, 1e-6])
+
+
+@pytest.mark.parametrize(
+    ("row", "expected"),
+    [
+        (
+            {"quantity": "limiting_roughness", "observed": (1e-6, 4e-6)}
+            | {"predicted": (3e-6, 1.5e-6, 6e-6), "waves_in_contact": 4.04},
+            {"observed": "1 … 4 µm", "predicted": "3 µm (1.5 … 6.0 µm)", "waves": "4, too few"},
+        ),
+        (
+            {"quantity": "work_of_separation", "observed": (0.03, 0.03), "by_relation": 1}
+            | {"predicted": (0.04e-6, 1e-12, 1e-3), "outcome": MISSED},
+            {"observed": "30 mJ/m² (relation)", "predicted": "0 mJ/m² (0 … 1 mJ/m²)", "tone": "no"},
+        ),
+        (
+            {"quantity": "sticks", "observed": (0.0, 0.0), "predicted": (0.05, 1e-9, 0.12)}
+            | {"effect_of_input": 1001.0, "most_effective_input": "range"},
+            {"observed": "does not stick", "predicted": "5 % (< 0.01 to 12 %)", "waves": "flat"}
+            | {"depends": "range of the attraction (from none to some)"},
+        ),
+    ],
+)
+def test_a_case_in_words(row, expected):
+    described = outcomes.describe(make_dataset({"ball/work": row}))
+    (case,) = described["cases"]
+    assert {key: case[key] for key in expected} == expected
+    assert described["missed"] == ({"Ball 1999": "the ball was wet"} if "tone" in expected else {})
 
 
 def test_the_page_has_every_case_and_source(made, dataset):
