@@ -6,7 +6,7 @@ import json
 import numpy as np
 import xarray as xr
 
-from common.config.experiment_entries import OBSERVED_UNITS
+from common.config.entries import OBSERVED_UNITS
 from experiments.predict_experiments import read_observation
 from stickiness.criteria.registry import CRITERIA
 
