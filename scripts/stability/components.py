@@ -22,9 +22,9 @@ import numpy as np
 
 import stickiness
 from stickiness import adhesive, criteria, dmt
-from stickiness.criteria import a_v_fit, a_v_table, equivalent_sphere
 from stickiness import surface as synthesis
 from stickiness.accuracy import choice, error_models, model_choice, multilevel, prediction
+from stickiness.criteria import a_v_fit, a_v_table, equivalent_sphere
 from stickiness.measured import instrument_spectrum, psd, self_affine_fit, stitching
 from stickiness.persson import theory
 from stickiness.plausibility import PlausibilityWarning

@@ -13,8 +13,8 @@ from stability.components import FAILED, REFUSED, RIGHT, UNCONVERGED, Check, Com
 from stability.layers_components import THICK, find_response
 from stability.probe_stability import COMPONENTS
 from stickiness import adhesive, dmt, spectrum
-from stickiness.criteria import a_v_table, equivalent_sphere
 from stickiness.accuracy import model_choice, prediction
+from stickiness.criteria import a_v_table, equivalent_sphere
 from stickiness.persson import layered_scales
 from stickiness.remaining import prediction as remaining
 from stickiness.repulsive import solver

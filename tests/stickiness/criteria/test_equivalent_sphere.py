@@ -7,8 +7,8 @@ from references.contact import Hertz, Westergaard
 from scipy.optimize import brentq
 
 from stickiness import adhesive, criteria, repulsive, spectrum, surface
-from stickiness.criteria import equivalent_sphere
 from stickiness.adhesive import edge_zone
+from stickiness.criteria import equivalent_sphere
 
 RADIUS = 1.0
 
