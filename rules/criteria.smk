@@ -65,7 +65,8 @@ JUDGED = {
 
 rule judge:
     input:
-        several("real_surfaces/{surface}.nc", surface=REAL_SURFACES),
+        surfaces=several("real_surfaces/{surface}.nc", surface=REAL_SURFACES),
+        template=own("report/verdicts.md.j2"),
     output:
         dataset=f"{RESULTS}/criteria/verdicts.nc",
         table=report(

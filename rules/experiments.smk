@@ -2,6 +2,8 @@
 
 
 rule predict_experiments:
+    input:
+        template=own("report/experiments.md.j2"),
     output:
         dataset=f"{RESULTS}/experiments/experiments.nc",
         table=report(

@@ -13,7 +13,8 @@ from common.adhesion_sets import solver_error
 from common.error_budgets import SIMULATED
 from common.job import start
 from common.realisations import read_all
-from stickiness import datasets, dmt, equivalent_sphere
+from stickiness import datasets, dmt
+from stickiness.criteria import equivalent_sphere
 from stickiness.error_budget import Part, with_budget
 from stickiness.statistics import students_t
 from stickiness.traction_laws import LAWS

@@ -6,7 +6,7 @@ import numpy as np
 import xarray as xr
 
 from common.formatting import NOTHING, interval, number, percent
-from criteria.words import MOST_STRAIN, find_limits
+from criteria.classification import MOST_STRAIN, find_limits
 from stickiness.criteria.pair import DEPENDS, NOT_JUDGED, TOUCHES, WORDS
 from stickiness.remaining.prediction import DEFAULT_SHARE, PULL_OFF_UNKNOWN
 

@@ -4,8 +4,8 @@ import numpy as np
 
 from common.conventions import LOAD
 from common.formatting import NOTHING, interval, number, quantity, with_error
-from stickiness import equivalent_sphere
 from stickiness.adhesive import edge_zone
+from stickiness.criteria import equivalent_sphere
 
 QUOTED_RANGE = 0.03  # over h_rms, as the caption of the table says
 WAYS = {"taper": "tapered", "mirror": "mirrored", "given": "as they stand"}

@@ -11,7 +11,7 @@ from bokeh.models import ColumnDataSource, HoverTool, Legend, Span
 from bokeh.plotting import figure
 
 from common.plotting import BLUE, GREEN, ORANGE, RED
-from criteria.words import find_limits
+from criteria.classification import find_limits
 from report.interactive import make_plot
 from stickiness.criteria.pair import (
     DEPENDS,

@@ -8,6 +8,7 @@ import numpy as np
 import xarray as xr
 
 from common.formatting import NOTHING, amount, interval, number, percent, quantity
+from criteria.classification import find_limits
 from criteria.texts import (
     MPA,
     describe_layer,
@@ -17,7 +18,6 @@ from criteria.texts import (
     show_probability,
     show_stress,
 )
-from criteria.words import find_limits
 from stickiness import error_budget as budget
 from stickiness.criteria.pair import NOT_JUDGED, WORDS
 from stickiness.criteria.registry import CRITERIA, EDGES, REMAINING

@@ -10,7 +10,8 @@ from common.conventions import VARIANT, at_load
 from common.job import start
 from common.templates import make_environment
 from figures.edge_points import join_certain
-from stickiness import datasets, equivalent_sphere, error_budget
+from stickiness import datasets, error_budget
+from stickiness.criteria import equivalent_sphere
 
 WELL_KNOWN = 0.25  # relative error of a predicted work that counts as met
 RESOLVED = 3.9  # pixels in the cohesive zone from which simulated works are taken as known

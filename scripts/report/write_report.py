@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from common.job import start
-from experiments import texts as experiments
+from experiments import outcomes as experiments
 from report import captions, interactive
 from report import report_parts as report
 from report.benchmarks import run_times

@@ -32,8 +32,9 @@ from stability.closed_forms import (
     press_springs,
     westergaard,
 )
-from stickiness import adhesive, criteria, equivalent_sphere, remaining
+from stickiness import adhesive, criteria, remaining
 from stickiness import surface as synthesis
+from stickiness.criteria import equivalent_sphere
 from stickiness.measured import instrument_spectrum, psd
 from stickiness.measured.topography import Topography
 from stickiness.persson.theory import Persson

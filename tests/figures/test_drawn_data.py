@@ -26,8 +26,9 @@ from figures import (
     plot_fig10,
 )
 from stability import plot_stability
-from stickiness import datasets, equivalent_sphere
+from stickiness import datasets
 from stickiness import error_budget as budget
+from stickiness.criteria import equivalent_sphere
 from tradeoff import plot_tradeoff
 
 # Relative errors by source of everything "measured" here: in quadrature 3, 4, 12 give 13 %.

@@ -12,10 +12,10 @@ from bokeh.models import Line, Scatter
 from helpers.pages import find_long_captions, find_raw_symbols
 
 from common.formatting import number
-from criteria import joint, judging
+from criteria import judging, pair_roughness
+from criteria.classification import find_doubts, find_limits
+from criteria.judge import describe_page
 from criteria.materials import read_material
-from criteria.verdict_markdown import write_markdown
-from criteria.words import find_doubts, find_limits
 from real_surfaces import analyse_surface, contact_measured
 from report import captions, remaining_curves, surface_figure, surface_texts, write_surface
 from report.surface_texts import say_what_was_seen
@@ -175,10 +175,10 @@ def test_law_carried_on_reaches_its_end_and_opens_up(folder):
 
 
 def test_each_end_has_its_own_a_v_where_they_differ_in_shape(single, folder):
-    one, other = joint.find_a_v(single)
+    one, other = pair_roughness.find_a_v(single)
     assert one is other
     found = analysed(folder / "on2.nc", file=scan(folder / "a.txt"), extend_to="50 nm")
-    smooth, rough = (a_v.theory[:2, 0] for a_v in joint.find_a_v(found))
+    smooth, rough = (a_v.theory[:2, 0] for a_v in pair_roughness.find_a_v(found))
     # The rough end has the lower H, and a_V of the edges grows as zeta^((5H - 3)/3): both variants
     # of the theory have it lower there, by some per cent.
     assert np.all(rough < 0.99 * smooth)
@@ -288,8 +288,8 @@ def test_an_implausible_surface_is_not_judged_and_its_page_says_why(folder):
             )
         ).keys()
     )
-    table = write_markdown(judged(found), MATERIALS, {"plate": "plate"})
-    assert "| steel | plate | not judged | – |" in table
+    rows = describe_page(judged(found), MATERIALS, {"plate": "plate"})["pairs"]
+    assert ("steel", "plate", "not judged", "–") in [row[:4] for row in rows]
     told = analysed(
         folder / "told.nc", file=spoiled(folder / "zeros.txt", zeros), plausibility="ignore"
     )

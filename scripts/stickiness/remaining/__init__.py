@@ -8,7 +8,15 @@
 - `sphere`: pull-off of a sphere from a rough surface
 """
 
-from stickiness.remaining.measurement import Remaining, measure
+from importlib import import_module
+
 from stickiness.remaining.prediction import Prediction, Roughness, predict
 
-__all__ = ["Prediction", "Remaining", "Roughness", "measure", "predict"]
+__all__ = ["Prediction", "Remaining", "Roughness", "measure", "predict"]  # noqa: PLE0604
+
+
+def __getattr__(name: str):
+    # Predictions need no solver: it is loaded with the first simulation.
+    if name in ("Remaining", "measure"):
+        return getattr(import_module("stickiness.remaining.measurement"), name)
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

@@ -118,7 +118,7 @@ def test_the_share_grows_with_the_work_and_units_do_not_matter(solid):
 
 @pytest.mark.parametrize("share", [0.1, 0.5])
 def test_threshold_is_the_inverse_of_the_share(share):
-    rough = Roughness(h_rms=1.0, q0=1.0, elastic_energy=3.0, softness=0.3)
+    rough = Roughness(h_rms=1.0, q0=1.0, elastic_energy=3.0, relative_compliance=0.3)
     ranges = np.array([0.1, 0.5, 1.0])
     lengths = rough.threshold(ranges, share)
     assert rough.share(lengths, ranges) == pytest.approx(share, rel=1e-5)

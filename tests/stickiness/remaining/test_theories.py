@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from stickiness import equivalent_sphere
+from stickiness.criteria import equivalent_sphere
 from stickiness.criteria.formulas import pastewka_robbins_a_v
 from stickiness.remaining.multiscale import remaining_adhesion
 from stickiness.remaining.theories import dmt_share, full_contact_share, local_threshold

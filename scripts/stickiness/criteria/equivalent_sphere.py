@@ -62,8 +62,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import elementwise
 
-from stickiness.area_load import traction_ratio
 from stickiness.arguments import plain, positive
+from stickiness.criteria.area_load import traction_ratio
+from stickiness.remaining.sphere import opening
 
 KAPPA_REP = 2.0  #: area over load without adhesion, A_rep/A_nom = kappa p/(E* h'_rms)
 
@@ -110,7 +111,7 @@ def attraction(
     """Attraction over repulsion at equal area of contact, by the equivalent sphere.
 
     `rms_slope` is the root mean square gradient of all waves, `kappa_rep` the slope of area against
-    load without adhesion; the other arguments are those of `area_load.traction_ratio`.
+    load without adhesion; the other arguments are those of `criteria.area_load.traction_ratio`.
     """
     slope, kappa_rep = positive(rms_slope=rms_slope, kappa_rep=kappa_rep)
     dmt = traction_ratio(h_rms, q0, adhesion_length, range, a_v)
@@ -278,13 +279,6 @@ def adhesion_length_threshold(
     tough = range / (dmt * tough_effect(t, tau)) ** 2
     bracket = np.log(0.5 * weak), np.log(4 * (weak + tough))
     return plain(np.exp(elementwise.find_root(excess, bracket, args=surface).x))
-
-
-def opening(t: NDArray) -> NDArray:
-    """Evaluate sin t cos t - t cos 2t, by its series where the terms cancel."""
-    x = np.minimum(2 * t, 0.5)
-    series = x**3 / 6 * (1 - x**2 / 10 * (1 - x**2 / 28 * (1 - x**2 / 54 * (1 - x**2 / 88))))
-    return np.where(2 * t < 0.5, series, np.sin(2 * t) / 2 - t * np.cos(2 * t))
 
 
 def _hertz_gap(angle: NDArray) -> NDArray:

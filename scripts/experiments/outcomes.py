@@ -1,15 +1,20 @@
-"""Experiments in words: what was observed, what is predicted, and which criterion survives."""
+"""Grades and outcomes of published experiments, and how pages and claims show them."""
 
 from collections import Counter
 
 import numpy as np
 
 from common.formatting import number, percent, quantity
-from experiments.entries import GRADES
-from experiments.judgements import COMPATIBLE, FEWEST_WAVES, MISSED, OUTCOMES, SILENT, SOME
 from stickiness import datasets
 from stickiness.criteria.registry import CRITERIA
 
+GRADES = ("measured", "read", "recalled", "assumed")
+OUTCOMES = ("missed", "compatible for some inputs", "compatible")
+MISSED, SOME, COMPATIBLE = range(3)
+SILENT = -1  # of a criterion, on an observation that does not test it
+MARKS = {SILENT: "–", MISSED: "✗", SOME: "≈", COMPATIBLE: "✓"}
+TONES = {SILENT: "open", MISSED: "no", SOME: "partly", COMPATIBLE: "yes"}
+FEWEST_WAVES = 5.0  # across what holds a sphere, from which the model of a sphere applies
 UNITS = {"limiting_roughness": "m", "work_of_approach": "J/m²", "work_of_separation": "J/m²"}
 NAMES = {
     "limiting_roughness": "limiting rms height",
@@ -31,16 +36,14 @@ INPUTS = {
     "shortest_wavelength": "shortest wave",
     "h_rms": "rms height",
 }
-MARKS = {SILENT: "–", MISSED: "✗", SOME: "≈", COMPATIBLE: "✓"}
-TONES = {SILENT: "open", MISSED: "no", SOME: "partly", COMPATIBLE: "yes"}
 LEAST_EFFECT = 1.1  # factor by which an input must change a prediction to be named
 MOST_EFFECT = 1e3  # factor beyond which it goes from nothing to something
 LEAST_SHARE = 1e-6  # of the work of adhesion; less is written as none
 
 
-def describe(dataset):
-    """All that a page says of the experiments."""
-    experiments = datasets.parameters(dataset)["experiments"]
+def describe(dataset, experiments=None):
+    """All that a page shows of the experiments; by default, those that the dataset was made of."""
+    experiments = experiments or datasets.parameters(dataset)["experiments"]
     return {
         "cases": [describe_case(dataset.sel(case=c), experiments) for c in dataset.case.values],
         "counts": count_outcomes(dataset),
@@ -51,26 +54,14 @@ def describe(dataset):
 
 def count_outcomes(dataset):
     """How the cases came out, in two sentences; of published ones, without mere relations."""
-    by, tested, inside = tally_outcomes(dataset)
-    return (
-        f"The limits of the prediction overlap with {by[COMPATIBLE]} of {tested} published "
-        f"observations whatever the unknown inputs, with {by[SOME]} for some of them, and with "
-        f"{by[MISSED]} for none. The value itself agrees with {inside}. None is a sharp test, "
-        "because no spectrum is known."
-    )
-
-
-def tally_outcomes(dataset):
-    """Tests by their outcome, how many there are, and with how many the value itself agrees."""
     tested = dataset.isel(case=dataset.tests.values == 1)
-    codes = Counter(tested.outcome.values.tolist())
-    return codes, tested.sizes["case"], int(tested.value_inside.sum())
-
-
-def predicted_name(case):
-    """Variable that holds the prediction of what was observed."""
-    observed = case["quantity"].item()
-    return "remaining" if observed == "sticks" else observed
+    by = Counter(tested.outcome.values.tolist())
+    return (
+        f"The limits of the prediction overlap with {by[COMPATIBLE]} of {tested.sizes['case']} "
+        f"published observations whatever the unknown inputs, with {by[SOME]} for some of them, "
+        f"and with {by[MISSED]} for none. The value itself agrees with "
+        f"{int(tested.value_inside.sum())}. None is a sharp test, because no spectrum is known."
+    )
 
 
 def describe_case(case, experiments):
@@ -90,7 +81,10 @@ def describe_case(case, experiments):
         "tone": TONES[outcome],
         "depends": describe_effect(case),
         "waves": describe_waves(case),
-        "marks": {name: mark(case, name) for name in CRITERIA},
+        "marks": {
+            name: {"mark": MARKS[code], "tone": TONES[code]}
+            for name, code in zip(CRITERIA, case.criterion_outcome.values.tolist(), strict=True)
+        },
     }
 
 
@@ -100,24 +94,25 @@ def describe_observed(case):
     low, high = (float(case[f"observed_{observed}_{end}"]) for end in ("low", "high"))
     if observed == "sticks":
         return "sticks" if low else "does not stick"
-    text = write(observed, low, high)
+    text = show_interval(observed, low, high)
     return f"{text} (relation)" if case.by_relation else text
 
 
 def describe_predicted(case):
     """What is predicted, with the limits over the model and all that is plausible."""
-    name = predicted_name(case)
+    observed = case["quantity"].item()
+    name = "remaining" if observed == "sticks" else observed
     value, low, high = (float(case[f"{name}{end}"]) for end in ("", "_lowest", "_highest"))
     if name in ("remaining", "relative_pull_off"):
-        return f"{percent(value)} ({write(name, low, high)})"
+        return f"{percent(value)} ({show_interval(name, low, high)})"
     if name != "limiting_roughness":
         least = LEAST_SHARE * float(case.work_of_adhesion)
         value, low, high = (0.0 if x < least else x for x in (value, low, high))
-    return f"{write(name, value, value, high)} ({write(name, low, high)})"
+    return f"{show_interval(name, value, value, high)} ({show_interval(name, low, high)})"
 
 
-def write(name, low, high, beside=0.0):
-    """Limits of a quantity with its unit, in the prefix of what stands beside."""
+def show_interval(name, low, high, beside=0.0):
+    """Limits of a quantity with its unit, in the prefix that suits what stands beside."""
     if name not in UNITS:
         return f"{percent(low).removesuffix(' %')} to {percent(high)}"
     if high <= 0 and beside <= 0:
@@ -144,21 +139,14 @@ def describe_waves(case):
     return number(waves, 2) + (", too few" if waves < FEWEST_WAVES else "")
 
 
-def mark(case, criterion):
-    """Mark and tone of one criterion."""
-    code = int(case.criterion_outcome.sel(criterion=criterion))
-    return {"mark": MARKS[code], "tone": TONES[code]}
-
-
-def survivals(dataset):
+def find_survivals(dataset):
     """Worst outcome of every criterion by experiment; `SILENT` where nothing is tested."""
     experiments = [name.split("/")[0] for name in dataset.case.values.tolist()]
     table = {}
     for name in dict.fromkeys(experiments):
         rows = dataset.criterion_outcome.values[[e == name for e in experiments]]
         worst = np.where(rows == SILENT, COMPATIBLE + 1, rows).min(axis=0)
-        codes = np.where(worst > COMPATIBLE, SILENT, worst).tolist()
-        table[name] = dict(zip(CRITERIA, codes, strict=True))
+        table[name] = np.where(worst > COMPATIBLE, SILENT, worst).tolist()
     return table
 
 

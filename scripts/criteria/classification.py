@@ -24,18 +24,13 @@ def find_doubts(materials, surfaces, own):
     doubts = [
         [
             "\n".join(
-                filter(
-                    None,
-                    (
-                        one.attrs.get("not_judged")
-                        for one in (surface, own.get(m.surface))
-                        if one is not None
-                    ),
-                )
+                reason
+                for one in (surface, own.get(material.surface))
+                if one is not None and (reason := one.attrs.get("not_judged"))
             )
             for surface in surfaces.values()
         ]
-        for m in materials.values()
+        for material in materials.values()
     ]
     return xr.DataArray(np.array(doubts, dtype=object), dims=("material", "surface"))
 

@@ -6,8 +6,9 @@ from references.adhesion import DMTSphere, JKRSphere, MaugisSphere, MaugisWave
 from references.contact import Hertz, Westergaard
 from scipy.optimize import brentq
 
-from stickiness import adhesive, criteria, equivalent_sphere, repulsive, spectrum, surface
+from stickiness import adhesive, criteria, repulsive, spectrum, surface
 from stickiness.adhesive import edge_zone
+from stickiness.criteria import equivalent_sphere
 
 RADIUS = 1.0
 
