@@ -39,16 +39,15 @@ from scipy.optimize import brentq
 from scipy.special import erf
 
 from stickiness.arguments import finite, nonnegative, number, positive
-from stickiness.persson.gaps import GapProfile, closure_error, gap_profile
+from stickiness.persson.gaps import GapProfile, Setting, closure_error, gap_profile
 from stickiness.persson.gaps import cumulative as _cumulative
 from stickiness.persson.gaps import density as _density
 from stickiness.persson.kernels import CorrectionName, kernels
 from stickiness.persson.layered_scales import LayeredScales
-from stickiness.persson.lost_contact import Setting
 from stickiness.persson.scale_quadrature import scale_nodes
 from stickiness.plausibility import warn_of_pressure
 from stickiness.solids import HALF_SPACE, Solid, check_solid
-from stickiness.spectrum.kinds import Spectrum
+from stickiness.spectrum.interface import Spectrum, check_spectrum
 
 Variant = Literal["afferrante2018", "almqvist2011"]
 
@@ -118,8 +117,7 @@ class Persson:
         correction: CorrectionName = "yang2008",
         solid: Solid = HALF_SPACE,
     ):
-        if not isinstance(spectrum, Spectrum):
-            raise ValueError(f"spectrum must be a Spectrum, got {type(spectrum).__name__}")
+        check_spectrum(spectrum)
         _check_variant(variant)
         nodes = number("nodes", nodes)
         universal = kernels(gamma, correction)
