@@ -86,12 +86,12 @@ def follow_draws(solid, drawn, moduli, heights):
         return np.full((len(moduli), len(QUANTILES)), np.nan)
     (moduli, heights), place = np.unique([moduli, heights], axis=1, return_inverse=True)
     factor = heights[:, None]
-    deep = None if drawn.deep_energy is None else drawn.deep_energy * factor**2
+    deep = None if drawn.half_space_energy is None else drawn.half_space_energy * factor**2
     rough = replace(
         drawn,
         h_rms=drawn.h_rms * factor,
         elastic_energy=drawn.elastic_energy * factor**2,
-        deep_energy=deep,
+        half_space_energy=deep,
     )
     length = solid.work_of_adhesion / moduli[:, None]
     shares = rough.share(length, solid.range, draw_signs(drawn))

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from common.real_spectra import real_spectrum
 from stickiness.criteria.a_v_table import SurfaceAv
 from stickiness.criteria.verdict import surface_a_v
-from stickiness.remaining.prediction import Roughness, find_widening
+from stickiness.remaining.prediction import Roughness, find_anisotropy_error_factor
 from stickiness.solids import HALF_SPACE, Film
 from stickiness.spectrum.sums import combine
 
@@ -67,7 +67,8 @@ def join(material, surface, plain, own=None):
         # Draws have no spectrum of their own here: the layer acts on them as on both ends.
         deep = drawn.elastic_energy * (np.nan if bends else 1.0)
         energy = drawn.elastic_energy * np.sqrt(np.prod(stiffening))
-        drawn = replace(drawn, elastic_energy=energy, softness=softness, deep_energy=deep)
+        drawn = replace(drawn, elastic_energy=energy)
+        drawn = replace(drawn, relative_compliance=softness, half_space_energy=deep)
     return replace(
         plain,
         elastic_energy=plain.elastic_energy * stiffening,
@@ -101,10 +102,13 @@ def find_spectra(surface, own=None):
 def take_surface(surface):
     """`Joint` of a smooth half-space and a surface."""
     by_end = {name: surface[name].sel(end=list(ENDS)).values for name in BY_END}
-    widening = find_widening(float(surface.axis_ratio)) if "axis_ratio" in surface else 1.0
+    widening = 1.0
+    if "axis_ratio" in surface:
+        widening = find_anisotropy_error_factor(float(surface.axis_ratio))
     drawn = None
     if all(name in surface for name in DRAWN):
-        drawn = Roughness(*(surface[name].values for name in DRAWN), widening=widening)
+        drawn = Roughness(*(surface[name].values for name in DRAWN))
+        drawn = replace(drawn, anisotropy_error_factor=widening)
     return Joint(
         **by_end,
         deep_energy=by_end["elastic_energy"],
@@ -180,5 +184,5 @@ def add_draws(drawn, other, share):
         h_rms=np.hypot(drawn.h_rms, more.h_rms),
         q0=drawn.q0**share * more.q0 ** (1 - share),
         elastic_energy=drawn.elastic_energy + more.elastic_energy,
-        widening=max(drawn.widening, other.widening),
+        anisotropy_error_factor=max(drawn.anisotropy_error_factor, other.widening),
     )

@@ -52,7 +52,7 @@ def probe_direction(anisotropy, hurst, magnification, q0_h_rms, unit, variant) -
     found = remaining.predict(s, energy, 0.1 * h_rms)
     yield compare_each("energy ratio", found.energy_ratio, 1)
     yield from check_prediction(found)
-    yield require("widening", 1 <= found.widening <= 2)
+    yield require("widening", 1 <= found.anisotropy_error_factor <= 2)
     yield from check_area(s, 0.1 * s.rms_slope, s.rms_slope)
 
 

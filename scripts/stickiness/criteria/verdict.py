@@ -21,8 +21,8 @@ from stickiness.plausibility import PlausibilityWarning, warn_of_si
 from stickiness.remaining.prediction import (
     DEFAULT_SHARE,
     PULL_OFF_UNKNOWN,
-    find_deep_energy,
-    find_widening,
+    find_anisotropy_error_factor,
+    find_half_space_energy,
 )
 from stickiness.solids import HALF_SPACE, Layer, Solid
 from stickiness.spectrum.direction import find_ratio
@@ -292,8 +292,8 @@ def describe_surface(
         "rms_curvature": spectrum.rms_curvature,
         "elastic_energy": spectrum.elastic_energy(solid),
         "softness": float(solid.factor(q0)),
-        "deep_energy": find_deep_energy(spectrum, solid),
-        "widening": find_widening(ratio),
+        "deep_energy": find_half_space_energy(spectrum, solid),
+        "widening": find_anisotropy_error_factor(ratio),
     }
 
 

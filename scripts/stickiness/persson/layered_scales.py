@@ -5,8 +5,8 @@ full contact (E* = 1); on a layer both times 1/S, see `solids`. With ``m(q) = pi
 dq'`` instead of the profile variance of the gradient, the pressure has the variance m/2 as before,
 and the walk of pressures, hence the area A(m), is that of the half-space. The waves dm cost the
 energy ``(1/2) (S/q) dm`` instead of ``dm/(2 q)``, and partial contact the same share of it: every
-1/q in the mean gap becomes S/q. (``p du/dp = -dU/dp`` holds with the energy of the waves alone, for what
-the mean pressure stores in a layer is the work that it does on its mean compression.) Hence
+1/q in the mean gap becomes S/q. (``p du/dp = -dU/dp`` holds with the energy of the waves alone, for
+what the mean pressure stores in a layer is the work that it does on its mean compression.) Hence
 
     ubar(p) = (2/sqrt(pi)) int ds F(p/s) S/q,   s^2 = m(q).
 

@@ -149,18 +149,19 @@ def remaining_share(
     range_ratio: ArrayLike,
     zone: ArrayLike,
     onset: float = ONSET,
-    softness: ArrayLike = 1.0,
+    relative_compliance: ArrayLike = 1.0,
 ) -> float | NDArray:
     """Share that remains, from weak to tough: the larger of both, its corner rounded.
 
-    `softness` is S of the longest waves on a layer: below 1 its points are partly on their own.
+    `relative_compliance` is S of the longest waves on a layer: below 1 its points are partly on
+    their own.
     """
     tough = np.asarray(tough_share(energy_ratio, find_onset(zone, onset)))
     weak = np.asarray(weak_share(energy_ratio, range_ratio))
     larger, smaller = np.maximum(tough, weak), np.minimum(tough, weak)
     ratio = smaller / np.where(larger > 0, larger, 1.0)
     share = np.minimum(larger * (1 + ratio**SHARPNESS) ** (1 / SHARPNESS), 1.0)
-    alone = np.maximum(1 - np.asarray(softness), 0.0) ** 2
+    alone = np.maximum(1 - np.asarray(relative_compliance), 0.0) ** 2
     if np.any(alone > 0):
         share = share + alone * np.maximum(spring_share(energy_ratio, range_ratio) - share, 0.0)
     return plain(share)

@@ -92,8 +92,10 @@ def test_springs_have_their_limits():
 
 
 def test_a_soft_or_thick_layer_is_no_bed_of_springs():
-    for softness in (1.0, 3.0):
-        assert remaining_share(0.8, 0.1, 0.05, softness=softness) == remaining_share(0.8, 0.1, 0.05)
+    for relative_compliance in (1.0, 3.0):
+        assert remaining_share(
+            0.8, 0.1, 0.05, relative_compliance=relative_compliance
+        ) == remaining_share(0.8, 0.1, 0.05)
 
 
 def test_thick_layers_are_half_spaces():
@@ -120,7 +122,7 @@ def test_the_share_grows_with_the_work_and_units_do_not_matter(solid):
 
 @pytest.mark.parametrize("share", [0.1, 0.5])
 def test_threshold_is_the_inverse_of_the_share(share):
-    rough = Roughness(h_rms=1.0, q0=1.0, elastic_energy=3.0, softness=0.3)
+    rough = Roughness(h_rms=1.0, q0=1.0, elastic_energy=3.0, relative_compliance=0.3)
     ranges = np.array([0.1, 0.5, 1.0])
     lengths = rough.threshold(ranges, share)
     assert rough.share(lengths, ranges) == pytest.approx(share, rel=1e-5)
