@@ -3,9 +3,8 @@
 import numpy as np
 
 from common.adhesion_sets import roughness, scaled_law
-from common.fields import gather_fields
 from common.job import start
-from common.realisations import read_first
+from common.model_surfaces import gather_fields, read_first
 from stickiness import adhesive, datasets
 
 TOLERANCE = 1e-6  # of the residual: far below what a picture shows

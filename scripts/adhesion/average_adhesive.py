@@ -21,8 +21,7 @@ from common.conventions import LINEAR_UP_TO
 from common.ensemble_means import add_errors, coarse, describe_errors, fine
 from common.error_budgets import SIMULATED
 from common.job import start
-from common.model_surfaces import cell_size
-from common.realisations import read_all
+from common.model_surfaces import cell_size, read_all
 from stickiness import datasets
 from stickiness.adhesive import edge_zone
 from stickiness.error_budget import SOURCES, split, with_budget

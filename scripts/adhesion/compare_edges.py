@@ -12,7 +12,7 @@ from common import conventions
 from common.adhesion_sets import LAWS, solver_error
 from common.error_budgets import SIMULATED
 from common.job import start
-from common.realisations import read_all
+from common.model_surfaces import read_all
 from stickiness import datasets, equivalent_sphere
 from stickiness.adhesive import dmt
 from stickiness.error_budget import Part, with_budget

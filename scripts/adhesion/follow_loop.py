@@ -16,8 +16,7 @@ from common.adhesion_sets import LEAST, scaled_law
 from common.conventions import annotate
 from common.error_budgets import SIMULATED
 from common.job import start
-from common.model_surfaces import pixels
-from common.realisations import read_first
+from common.model_surfaces import pixels, read_first
 from stickiness import adhesive, datasets
 from stickiness.error_budget import Part, unknown, with_budget
 from stickiness.plausibility import PlausibilityWarning

@@ -25,8 +25,7 @@ from common.adhesion_sets import (
 )
 from common.conventions import RMS_SLOPE
 from common.job import start
-from common.model_surfaces import pixels
-from common.realisations import each_seed
+from common.model_surfaces import each_seed, pixels
 from stickiness import datasets
 from stickiness.adhesive import dmt, edge_zone
 from stickiness.repulsive import solver, subpixel

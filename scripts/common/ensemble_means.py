@@ -18,6 +18,7 @@ SUFFIXES = {
     "standard_error": "standard error of the ensemble mean",
     "discretisation_error": "change from half the resolution",
 }
+MEAN = SUFFIXES["mean"]
 FEWEST = 8  # seeds from which on a slope fitted to them is better than none
 PREFIX = "coarse_"  # of what an ensemble's file keeps of coarse solutions, and of their seeds
 
@@ -40,8 +41,8 @@ class Coarse:
 def coarse(ensemble: xr.Dataset, quantity: Callable[[xr.Dataset], xr.DataArray]) -> Coarse | None:
     """A quantity of the coarse solutions of an ensemble; None if it has none.
 
-    `quantity` reads the variables of fine solutions, say ``area_fraction``; here it gets those of
-    the coarse ones under the same names.
+    `quantity` reads variables of fine solutions, say ``area_fraction``; here it is passed the
+    coarse ones under the same names.
     """
     if f"{PREFIX}seed" not in ensemble.dims:
         return None
@@ -115,15 +116,14 @@ def add_errors(dataset, name, values, more=None, plain=False, limit=None):
     )
 
 
-def describe_errors(name, text, plain=False, units="1", discretisation=None):
-    """Texts of what `add_errors` adds; `discretisation` if not the change of grids."""
-    texts = {f"{name}_{ending}": (units, f"{text}: {what}") for ending, what in SUFFIXES.items()}
-    texts[f"{name}_standard_error"] += ("a single seed",)
-    if discretisation:
-        texts[f"{name}_discretisation_error"] = (units, f"{text}: {discretisation}")
-    if plain:
-        texts[name] = (units, text)
-        del texts[f"{name}_mean"]
+def describe_errors(quantities, plain=False, discretisation=SUFFIXES["discretisation_error"]):
+    """Texts of what `add_errors` adds for `quantities`, texts by names."""
+    texts = {}
+    for name, text in quantities.items():
+        texts[name if plain else f"{name}_mean"] = ("1", text if plain else f"{text}: {MEAN}")
+        error = f"{text}: {SUFFIXES['standard_error']}"
+        texts[f"{name}_standard_error"] = ("1", error, "a single seed")
+        texts[f"{name}_discretisation_error"] = ("1", f"{text}: {discretisation}")
     return texts
 
 

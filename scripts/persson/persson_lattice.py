@@ -7,12 +7,11 @@ puts the mean gap near or above it, the window holds too few summits to be compa
 import numpy as np
 import xarray as xr
 
-from common.a_v_fits import write_fits
 from common.conventions import annotate, logarithmic_grid
 from common.error_budgets import QUADRATURE, theory_parts
 from common.job import start
-from common.kappa import add_theory
 from common.model_surfaces import cell_size, grid_points, make_heights, model_spectrum
+from common.quantities import add_kappa, write_a_v
 from common.theory import evaluate, theories
 from stickiness import datasets
 from stickiness.accuracy.error_models import read_models
@@ -40,12 +39,12 @@ def main(job):
     if job.params.simulated:
         dataset = add_window(dataset, asked)
     datasets.write(
-        add_theory(dataset, models, asked),
+        add_kappa(dataset, models, asked),
         job.output.theory,
         title="Persson's theory on the lattice spectrum of a case",
         parameters={**asked, "case": job.wildcards.compared, "gamma": job.params.gamma},
     )
-    write_fits(job.output.theory, job.output.a_v, job.params.windows, job.input.laws)
+    write_a_v(job.output.theory, job.output.a_v, job.params.windows, job.input.laws)
 
 
 def add_window(theory, asked):
