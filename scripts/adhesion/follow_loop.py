@@ -50,6 +50,10 @@ STEPPED = {
     "work": "work of the control on the way from the state before, per nominal area",
     "dissipated": "energy lost on the way from the state before, per nominal area",
 }
+VARIABLES = {
+    n: ("1", text, "beyond the end of the curve") for n, text in (STATES | STEPPED).items()
+}
+VARIABLES |= {"control": "what is prescribed", "state": "number of the state along the curve"}
 
 
 def main(job):
@@ -63,9 +67,9 @@ def main(job):
         at = {"resolution": finest / step, "control": control, "adhesion_length_over_range": value}
         curves.append(found.expand_dims({name: [where] for name, where in at.items()}))
     longest = max((one.state for one in curves), key=len)
-    dataset = describe(xr.combine_by_coords([one.reindex(state=longest) for one in curves]))
+    dataset = xr.combine_by_coords([one.reindex(state=longest) for one in curves])
     datasets.write(
-        add_quoted(dataset),
+        add_quoted(annotate(dataset, **VARIABLES)),
         job.output[0],
         title="approach and separation of one realisation with adhesion",
         parameters={**datasets.parameters(surface), **asked},
@@ -128,17 +132,6 @@ def add_quoted(dataset):
             **SIMULATED,
         )
     return dataset
-
-
-def describe(dataset):
-    missing = "beyond the end of the curve"
-    texts = {key: ("1", text, missing) for key, text in {**STATES, **STEPPED}.items()}
-    return annotate(
-        dataset,
-        control=("1", "what is prescribed"),
-        state=("1", "number of the state along the curve"),
-        **texts,
-    )
 
 
 if __name__ == "__main__":

@@ -23,7 +23,6 @@ from common.adhesion_sets import (
     scaled_law,
     solve_at_gap,
 )
-from common.conventions import RMS_SLOPE
 from common.job import start
 from common.model_surfaces import each_seed, pixels
 from stickiness import datasets
@@ -48,6 +47,13 @@ ALONE = {
     "mean_gap": "mean gap over h_rms, with and without adhesion",
     "edge_gap": "gap next to the contact without adhesion over h_rms",
 }
+VARIABLES = {
+    **ALONE,
+    **{name: ("1", text, f"DMT limit, or {MISSING}") for name, text in STATE.items()},
+    "pressure": "mean pressure without adhesion at the same mean gap over E* q0 h_rms",
+    "rms_slope": conventions.RMS_SLOPE,
+    "attraction_dmt": "attraction over the gaps without adhesion, p_ad/(E* q0 h_rms)",
+}
 # Not that of the contact without adhesion: a looser one turns single pixels, and their area is all
 # that weak adhesion changes. It costs a third more than 1e-4.
 TOLERANCE = 1e-7
@@ -68,7 +74,7 @@ def main(job):
         return xr.concat(solved, resolution, coords="minimal")
 
     datasets.write(
-        annotate(each_seed(solve, surfaces, job.params.seeds)),
+        conventions.annotate(each_seed(solve, surfaces, job.params.seeds), **VARIABLES),
         job.output[0],
         title="adhesive contact of realisations at given mean gaps",
         parameters={
@@ -124,17 +130,6 @@ def states(heights, length, asked, chosen, tolerance=TOLERANCE):
         {name: (AXES, value) for name, value in values.items()}
         | {name: ("pressure", value) for name, value in alone.items()},
         coords={one.name: one for one in (pressures, lengths, ranges)},
-    )
-
-
-def annotate(dataset):
-    return conventions.annotate(
-        dataset,
-        pressure=("1", "mean pressure without adhesion at the same mean gap over E* q0 h_rms"),
-        rms_slope=RMS_SLOPE,
-        attraction_dmt=("1", "attraction over the gaps without adhesion, p_ad/(E* q0 h_rms)"),
-        **{name: ("1", text) for name, text in ALONE.items()},
-        **{name: ("1", text, f"DMT limit, or {MISSING}") for name, text in STATE.items()},
     )
 
 

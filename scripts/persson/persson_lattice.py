@@ -1,7 +1,7 @@
-"""Persson's theory on the lattice spectrum that the window of a simulated case holds, and its a_V.
+"""Persson's theory on the lattice spectrum of the cell of a simulated case, and its a_V.
 
-Theory's heights are Gaussian without end, those of a window end at its highest summit. Where theory
-puts the mean gap near or above it, the window holds too few summits to be compared with.
+The theory's Gaussian heights are unbounded, those of a cell end at its highest summit. Where theory
+predicts a mean gap near or above this summit, the cell has too few summits for a comparison.
 """
 
 import numpy as np
@@ -47,9 +47,11 @@ def main(job):
     write_a_v(job.output.theory, job.output.a_v, job.params.windows, job.input.laws)
 
 
-def add_window(theory, asked):
-    """Add whether the window holds summits enough for theory to be compared with simulation."""
-    summit = highest_summit(asked)
+def add_window(theory, surface):
+    """Add whether the cell has summits enough for theory to be compared with simulation."""
+    long = {**surface, "magnification": min(surface["magnification"], LONG_WAVES)}
+    points = grid_points(long, 4)
+    summit = float(np.mean([make_heights(long, points, seed).max() for seed in range(WINDOWS)]))
     holds = theory.mean_gap.isel(variant=0, drop=True) < summit - MARGIN
     found = {"highest_summit": summit, "margin": MARGIN, "window_holds": holds.astype("i1")}
     return datasets.annotate(
@@ -58,13 +60,6 @@ def add_window(theory, asked):
         margin=("1", "least distance of theory's mean gap from the highest summit"),
         window_holds=("1", "1 where theory's mean gap is so far below the highest summit"),
     )
-
-
-def highest_summit(made):
-    """Mean height over h_rms of the highest point of a window."""
-    asked = {**made, "magnification": min(made["magnification"], LONG_WAVES)}
-    points = grid_points(asked, 4)
-    return float(np.mean([make_heights(asked, points, seed).max() for seed in range(WINDOWS)]))
 
 
 if __name__ == "__main__":

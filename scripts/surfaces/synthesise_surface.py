@@ -14,6 +14,21 @@ from stickiness import surface as synthesis
 SOURCES = ["continuum", "lattice", "heights"]
 MOMENTS = ("h_rms", "rms_slope", "rms_curvature", "nayak")
 SPLIT = ("m40", "m22", "m04")
+VARIABLES = {
+    "x": "position times q0",
+    "y": "position times q0",
+    "height": "height over h_rms",
+    "window_length": "side of the window times q0",
+    "wave_number": "wave number of the shell over q0",
+    "lattice_variance": "expected height variance on the shell over h_rms^2",
+    "realised_variance": "height variance of this surface on the shell over h_rms^2",
+    "source": "what the moments are taken from",
+    "h_rms": "rms height over the prescribed one",
+    "nayak": "Nayak's bandwidth parameter m0 m4/m2^2",
+    "m40": "mean square of d2h/dx2 over q0^4 h_rms^2, from the heights",
+    "m22": "mean square of d2h/dxdy over q0^4 h_rms^2, from the heights",
+    "m04": "mean square of d2h/dy2 over q0^4 h_rms^2, from the heights",
+}
 
 
 def main(job):
@@ -65,22 +80,7 @@ def to_dataset(heights, seeds, length, spectrum, lattice):
             "source": SOURCES,
         },
     )
-    return annotate(
-        dataset,
-        x=("1", "position times q0"),
-        y=("1", "position times q0"),
-        height=("1", "height over h_rms"),
-        window_length=("1", "side of the window times q0"),
-        wave_number=("1", "wave number of the shell over q0"),
-        lattice_variance=("1", "expected height variance on the shell over h_rms^2"),
-        realised_variance=("1", "height variance of this surface on the shell over h_rms^2"),
-        source=("1", "what the moments are taken from"),
-        h_rms=("1", "rms height over the prescribed one"),
-        nayak=("1", "Nayak's bandwidth parameter m0 m4/m2^2"),
-        m40=("1", "mean square of d2h/dx2 over q0^4 h_rms^2, from the heights"),
-        m22=("1", "mean square of d2h/dxdy over q0^4 h_rms^2, from the heights"),
-        m04=("1", "mean square of d2h/dy2 over q0^4 h_rms^2, from the heights"),
-    )
+    return annotate(dataset, **VARIABLES)
 
 
 def realised_on(lattice, realised):
