@@ -49,9 +49,7 @@ def main(job):
 
 def add_window(theory, surface):
     """Add whether the cell has summits enough for theory to be compared with simulation."""
-    long = {**surface, "magnification": min(surface["magnification"], LONG_WAVES)}
-    points = grid_points(long, 4)
-    summit = float(np.mean([make_heights(long, points, seed).max() for seed in range(WINDOWS)]))
+    summit = highest_summit(surface)
     holds = theory.mean_gap.isel(variant=0, drop=True) < summit - MARGIN
     found = {"highest_summit": summit, "margin": MARGIN, "window_holds": holds.astype("i1")}
     return datasets.annotate(
@@ -60,6 +58,13 @@ def add_window(theory, surface):
         margin=("1", "least distance of theory's mean gap from the highest summit"),
         window_holds=("1", "1 where theory's mean gap is so far below the highest summit"),
     )
+
+
+def highest_summit(surface):
+    """Mean height over h_rms of the highest point of a cell."""
+    long = {**surface, "magnification": min(surface["magnification"], LONG_WAVES)}
+    points = grid_points(long, 4)
+    return float(np.mean([make_heights(long, points, seed).max() for seed in range(WINDOWS)]))
 
 
 if __name__ == "__main__":

@@ -26,17 +26,6 @@ def test_without_jumps_all_works_are_the_energy_gained():
 
 
 @pytest.mark.slow
-def test_full_contact_of_a_wave_costs_the_energy_of_the_layer():
-    x = np.arange(64) / 64
-    heights = 0.05 * np.cos(2 * np.pi * x)[:, None] * np.ones(64)
-    solid = Layer(0.3, 0.5)
-    energy = 0.05**2 / 4 * solid.stiffness(2 * np.pi)
-    law = adhesive.Exponential(4 * energy, 0.02)
-    found = measure(heights, 1.0, law, squeeze=1.0, half_grid=False, solid=solid)
-    assert found.bound == pytest.approx(1 - 1 / 4, abs=0.02)
-
-
-@pytest.mark.slow
 @pytest.mark.parametrize(
     ("solid", "ratio"),
     [

@@ -5,6 +5,7 @@ import pytest
 
 from stickiness import adhesive, surface
 from stickiness.remaining import measure
+from stickiness.solids import HalfSpace, Layer
 from stickiness.spectrum import SelfAffine
 
 LENGTH = 4 * np.pi
@@ -22,13 +23,13 @@ def test_flat_surfaces_part_at_the_full_work():
 
 
 @pytest.mark.slow
-def test_full_contact_of_a_wave_costs_its_energy():
+@pytest.mark.parametrize("solid", [HalfSpace(), Layer(0.3, 0.5)])
+def test_full_contact_of_a_wave_costs_its_energy(solid):
     x = np.arange(64) / 64
-    heights = np.cos(2 * np.pi * x)[:, None] * np.ones(64)  # U_full = pi/4 for a cell of side 1
-    heights *= 0.05
-    energy = np.pi / 4 * 0.05**2
+    heights = 0.05 * np.cos(2 * np.pi * x)[:, None] * np.ones(64)
+    energy = 0.05**2 / 4 * solid.stiffness(2 * np.pi)
     law = adhesive.Exponential(4 * energy, 0.01)
-    found = measure(heights, 1.0, law, squeeze=0.05, half_grid=False)
+    found = measure(heights, 1.0, law, squeeze=1.0, half_grid=False, solid=solid)
     assert found.bound == pytest.approx(1 - 1 / 4, abs=0.01)
     assert found.area_at_zero_load == pytest.approx(1, abs=0.02)
 

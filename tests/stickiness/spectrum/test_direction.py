@@ -11,7 +11,6 @@ from stickiness.measured.psd import power_spectrum
 from stickiness.persson import Persson
 from stickiness.spectrum import SelfAffine
 from stickiness.spectrum import kinds as module
-from stickiness.spectrum.direction import Ellipse
 
 L = 2 * np.pi  # so that wave numbers are lattice indices
 GOOD = {"hurst": 0.8, "q0": 1.0, "q1": 16.0, "h_rms": 1.0}
@@ -111,15 +110,6 @@ def test_theories_take_the_average():
     )
 
 
-@pytest.mark.slow
-def test_mean_gap_of_full_range_of_loads_gives_the_energy():
-    # int ubar dp is the energy of full contact
-    s = made(anisotropy=6.0)
-    p = np.geomspace(1e-8, 20, 4000) * s.rms_slope
-    gaps = Persson(s).mean_gap(p)
-    assert integrate.trapezoid(gaps * p, np.log(p)) == pytest.approx(s.elastic_energy(), rel=1e-5)
-
-
 def test_moments_by_direction():
     iso, s = made(), made(anisotropy=3.0, angle=0.5)
     along = s.directional_moments()
@@ -176,32 +166,6 @@ def test_slopes_of_surfaces_by_direction(angle):
     want = s.directional_moments(0.0)
     for name in ("m00", "m20", "m02", "m40", "m22", "m04"):
         assert getattr(m, name) == pytest.approx(getattr(want, name), rel=0.02)
-
-
-def test_ratio_of_slopes_of_gaussian_surfaces():
-    s = made(q0=2.0, q1=16.0, anisotropy=4.0)
-    logs = []
-    for seed in range(24):
-        m = surface.moments(surface.synthesise(s, 72, L, seed), L)
-        assert m.h_rms == pytest.approx(1.0, rel=1e-12)
-        logs.append(np.log(m.m02 / m.m20))
-    error = np.std(logs, ddof=1) / np.sqrt(len(logs))
-    assert error < 0.05
-    # C is sampled on the lattice: 3 %
-    assert np.mean(logs) == pytest.approx(np.log(16), abs=3 * error + 0.03)
-
-
-def test_a_right_angle_transposes_the_statistics():
-    along, across = (made(anisotropy=4.0, q0=2.0, angle=turn) for turn in (0.0, np.pi / 2))
-    one, other = (surface.lattice_spectrum(s, L) for s in (along, across))
-    np.testing.assert_allclose(other.q, one.q, rtol=1e-12)
-    np.testing.assert_allclose(other.variance, one.variance, rtol=1e-9)
-    first, second = (
-        surface.moments(surface.synthesise(s, 72, L, 2, amplitudes="fixed"), L)
-        for s in (along, across)
-    )
-    assert (second.m20, second.m40) == pytest.approx((first.m02, first.m04), rel=1e-9)
-    assert (second.m02, second.m22) == pytest.approx((first.m20, first.m22), rel=1e-9)
 
 
 @pytest.mark.parametrize("angle", [0.0, 0.3])
@@ -273,15 +237,6 @@ def test_cells_and_grids_that_do_not_hold_the_waves_are_named():
     assert surface.synthesise(s, 192, 2 * L, 0).std() == pytest.approx(1, rel=1e-3)
     long = made(q0=10.0, q1=20.0, anisotropy=100.0)
     assert surface.lattice_spectrum(long, L).h_rms == pytest.approx(1.0, rel=1e-12)
-
-
-def test_norm_and_its_reach():
-    ellipse = Ellipse(9.0, 0.5)
-    along, across = (np.array([np.cos(t), np.sin(t)]) for t in (0.5, 0.5 + np.pi / 2))
-    assert ellipse.norm(*along) == pytest.approx(3.0)
-    assert ellipse.norm(*across) == pytest.approx(1 / 3)
-    assert ellipse.reach == 3.0
-    assert ellipse.mean_stretch(0) == pytest.approx(1, rel=1e-14)
 
 
 @pytest.mark.parametrize("ratio", [1.5, 4.0])

@@ -154,14 +154,6 @@ def test_table_is_linear_in_log_log():
     np.testing.assert_array_equal(s.knots, q)
 
 
-def test_table_of_a_plateau_and_a_power_law_is_the_roll_off_spectrum():
-    s = SelfAffine(hurst=0.7, q0=1.0, q1=1e3, C0=1.0, q_rolloff=10.0)
-    q = np.array([1.0, 4.0, 10.0, 90.0, 1e3])
-    table = Tabulated(q, s.psd(q))
-    for order in (0, 2, 4):
-        assert table.moment(order) == pytest.approx(s.moment(order), rel=1e-12)
-
-
 def test_shells_sum_up():
     q, variance = np.array([1.0, 2.0, 5.0]), np.array([3.0, 0.5, 0.25])
     s = Shells(q, variance)
