@@ -369,15 +369,3 @@ def _cumulative_of_neighbours(u: NDArray, profile: GapProfile) -> NDArray:
         series = small * np.exp(-centre2) * (1 + (2 * centre2 - 1) / 3 * small**2)
         pair = np.where(tiny, 4 / np.sqrt(np.pi) * series, pair)
     return 0.5 * pair @ weight + profile.weight[within].sum()
-
-
-def closure_error(profile: GapProfile) -> float:
-    """Integral of u P over all u less the mean gap [length], the integral of u1 over the area.
-
-    The pair of Gaussians about u1 and -u1, taken at positive gaps, has a larger mean.
-    """
-    width = np.maximum(profile.width, _least_width(profile))
-    ratio = profile.gap / width
-    excess = np.sqrt(2 / np.pi) * width * np.exp(-0.5 * ratio**2)
-    excess -= profile.gap * erfc(ratio / np.sqrt(2))
-    return float(profile.weight @ excess)

@@ -39,7 +39,7 @@ from scipy.optimize import brentq
 from scipy.special import erf
 
 from stickiness.arguments import finite, nonnegative, number, positive
-from stickiness.persson.gaps import GapProfile, Setting, closure_error, gap_profile
+from stickiness.persson.gaps import GapProfile, Setting, gap_profile
 from stickiness.persson.gaps import cumulative as _cumulative
 from stickiness.persson.gaps import density as _density
 from stickiness.persson.kernels import CorrectionName, kernels
@@ -216,16 +216,6 @@ class Persson:
         relative attractive area of a traction that acts up to `u`. Arguments as of `gap_density`.
         """
         return self._over_gaps(u, p, _cumulative)
-
-    def first_moment(self, p: ArrayLike) -> NDArray:
-        """Mean gap [length] that P(u) implies, int u P du.
-
-        The difference from `mean_gap` measures how well P(u) closes.
-        """
-        self._check_gaps_known()
-        (p,) = positive(p=p)
-        errors = [closure_error(self._profile(float(x), _REACH)) for x in p.ravel()]
-        return self.mean_gap(p) + np.reshape(errors, p.shape)[()]
 
     def _pressure_at(self, target: float) -> float:
         def excess(log_p: float) -> float:

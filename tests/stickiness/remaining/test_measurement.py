@@ -40,8 +40,7 @@ def test_without_jumps_all_works_are_the_energy_gained():
     assert found.jumps == 0
     assert found.approach == pytest.approx(found.bound, rel=0.03)
     assert found.separation == pytest.approx(found.bound, rel=0.03)
-    assert found.hysteresis == pytest.approx(0, abs=0.03 * found.bound)
-    assert found.resolved
+    assert found.pixels_in_zone > 2
     assert [point.state.mean_gap for point in found.points] == list(found.gap)
     assert found.points[0].state.gap.shape == (64, 64)
 
@@ -56,7 +55,7 @@ def test_the_grid_resolves_or_says_so():
         coarse.separation, rel=0.02
     )
     narrow = adhesive.Exponential(0.3, 0.3)
-    assert not measure(random_heights(32), LENGTH, narrow, 0.1, half_grid=False).resolved
+    assert measure(random_heights(32), LENGTH, narrow, 0.1, half_grid=False).pixels_in_zone < 2
 
 
 @pytest.mark.slow
