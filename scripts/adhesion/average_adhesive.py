@@ -87,8 +87,8 @@ def main(job):
     write_limit(job.params.adhesion, ensemble, job.input.laws, errors, job.output.limit)
     limit = datasets.read(job.output.limit)
     full = xr.DataArray(np.array(job.params.full), dims=AXES)
-    asked = datasets.parameters(limit)
-    dmt = DmtLimit.of(asked, ensemble)
+    adhesion = datasets.parameters(limit)
+    dmt = DmtLimit.of(adhesion, ensemble)
     made, seeds = datasets.parameters(ensemble), []
     dataset = take_dmt_limit(limit)
     if job.input.realisations:
@@ -107,7 +107,7 @@ def main(job):
         dataset,
         job.output.averages,
         title="adhesive contact averaged over realisations, by the model chosen",
-        parameters={**made, **asked, "seeds": seeds},
+        parameters={**made, **adhesion, "seeds": seeds},
     )
 
 
@@ -133,7 +133,7 @@ def control_of(name):
 
 
 def average(states, full, ensemble, dmt, made):
-    """Means over the realisations solved in full; where they are not, their own DMT limit."""
+    """Means over the realisations: full simulations, or their DMT limit where there are none."""
     whole = fine(states.external_pressure).notnull().all("seed") | ~full
     wide = zone_width(ensemble, states) >= edge_zone.NARROWEST * made["pixel"]
     states = add_dmt(states, full)
@@ -188,7 +188,7 @@ def add_pixels(states, made):
 def errors(dataset, name, seeds, *, model, solver, unseen):
     """Errors of a mean of full simulations, along `source`.
 
-    Of multilevel means, too, Student's t is that of the seeds solved in full: more than enough.
+    Student's t is for the seeds solved in full, which is more than enough for multilevel means.
     """
     value = dataset[name]
     if "pressure" not in value.dims:
@@ -215,7 +215,7 @@ def find_controls(ensemble, quantity, seeds):
 
 
 def add_dmt(states, full):
-    """States with those of the DMT limit where there is no full one asked for."""
+    """States, in the DMT limit where no full simulation is wanted."""
     limit = {
         "external_pressure": states.pressure - states.attraction_dmt,
         "repulsive_area": states.area_alone,

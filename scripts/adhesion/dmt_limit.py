@@ -45,22 +45,22 @@ MODEL_OF_FIT = f"{MODEL}, and what the straight line leaves out"
 class DmtLimit:
     """Quantities of a set of adhesive parameters."""
 
-    asked: Mapping[str, Any]  # the set, as in the configuration
+    adhesion: Mapping[str, Any]  # the set, as in the configuration
     linear: xr.DataArray  # by pressure, whether the area is one that a slope is fitted to
 
     @classmethod
-    def of(cls, asked: Mapping[str, Any], ensemble: xr.Dataset) -> DmtLimit:
+    def of(cls, adhesion: Mapping[str, Any], ensemble: xr.Dataset) -> DmtLimit:
         """Limit for an ensemble, whose mean area says where it is linear in the load."""
-        area = ensemble.area_fraction_mean.sel(pressure=axes(asked)[0])
-        return cls(asked, (area <= LINEAR_UP_TO).drop_vars(set(area.coords) - {"pressure"}))
+        area = ensemble.area_fraction_mean.sel(pressure=axes(adhesion)[0])
+        return cls(adhesion, (area <= LINEAR_UP_TO).drop_vars(set(area.coords) - {"pressure"}))
 
     def at_loads(self, solved: xr.Dataset) -> xr.Dataset:
         """Solutions at the pressures of the set."""
-        return solved.sel(pressure=axes(self.asked)[0])
+        return solved.sel(pressure=axes(self.adhesion)[0])
 
     def attraction(self, solved: xr.Dataset) -> xr.DataArray:
         """Mean attraction, the integral of the law over the gaps."""
-        _, lengths, ranges = axes(self.asked)
+        _, lengths, ranges = axes(self.adhesion)
         logs = np.log(np.maximum(self.at_loads(solved).attractive_area, SMALLEST))
         known = logs["range"].values
         count = round(np.log10(known[-1] / known[0]) * PER_DECADE) + 1
@@ -68,7 +68,7 @@ class DmtLimit:
         parts = []
         for range_ in ranges.values:
             # In proportion to the adhesion length: once for the smallest of them.
-            law = scaled_law(self.asked, self.asked["law"], float(lengths[0]), range_)
+            law = scaled_law(self.adhesion, self.adhesion["law"], float(lengths[0]), range_)
             nodes = np.union1d(np.geomspace(known[0], known[-1], count), [range_])
             area = np.exp(logs.interp(range=np.log(nodes).clip(*np.log(known[[0, -1]]))))
             area = area.transpose(..., "range")
@@ -118,19 +118,19 @@ def linearity_error(values: xr.DataArray, linear: xr.DataArray) -> xr.DataArray:
     return (inside.max("pressure") - inside.min("pressure")) / 2
 
 
-def write_limit(asked, ensemble, laws, errors, output):
+def write_limit(adhesion, ensemble, laws, errors, output):
     """Write a set of adhesive parameters in the DMT limit, averaged over an ensemble.
 
     `errors` has, at every point, ``dmt_valid`` and ``dmt_error``, the measured error of the limit.
     """
-    limit = DmtLimit.of(asked, ensemble)
-    pressures, lengths, ranges = axes(asked)
+    limit = DmtLimit.of(adhesion, ensemble)
+    pressures, lengths, ranges = axes(adhesion)
     dataset = xr.Dataset(
         {
             "area_fraction": ensemble.area_fraction_mean.sel(pressure=pressures),
             "dmt_valid": (AXES, np.asarray(errors["dmt_valid"], dtype="i1")),
             "dmt_error": (AXES, np.asarray(errors["dmt_error"], dtype=float)),
-            "q0_h_rms": roughness(asked),
+            "q0_h_rms": roughness(adhesion),
         },
         coords={one.name: one for one in (pressures, lengths, ranges)},
     )
@@ -148,13 +148,13 @@ def write_limit(asked, ensemble, laws, errors, output):
     datasets.write(
         dataset,
         output,
-        title=f"adhesion in the DMT limit, {asked['law']} traction",
-        parameters={**datasets.parameters(ensemble), **asked},
+        title=f"adhesion in the DMT limit, {adhesion['law']} traction",
+        parameters={**datasets.parameters(ensemble), **adhesion},
     )
 
 
 def add_budgets(dataset, simulation, linear):
-    """Every quantity with its errors, those of fits as at the least certain of their loads."""
+    """Add the errors of every quantity, for fits those at the least certain of their loads."""
     for name in QUANTITIES:
         fitted = "fit" in name
         solver, factor, model = (

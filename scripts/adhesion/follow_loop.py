@@ -58,12 +58,12 @@ VARIABLES |= {"control": "what is prescribed", "state": "number of the state alo
 
 def main(job):
     surface = read_first(job.input.surfaces)
-    asked = job.params.loop
+    loop = job.params.loop
     heights, length = surface.height.values, float(surface.window_length)
-    lengths = np.sort(np.array(asked["adhesion_length_over_range"], dtype=float))
+    lengths = np.sort(np.array(loop["adhesion_length_over_range"], dtype=float))
     finest, curves = pixels(surface), []
     for step, control, value in product(STEPS, CONTROLS, lengths):
-        found = follow(heights[::step, ::step], length, asked, value, control)
+        found = follow(heights[::step, ::step], length, loop, value, control)
         at = {"resolution": finest / step, "control": control, "adhesion_length_over_range": value}
         curves.append(found.expand_dims({name: [where] for name, where in at.items()}))
     longest = max((one.state for one in curves), key=len)
@@ -72,18 +72,18 @@ def main(job):
         add_quoted(annotate(dataset, **VARIABLES)),
         job.output[0],
         title="approach and separation of one realisation with adhesion",
-        parameters={**datasets.parameters(surface), **asked},
+        parameters={**datasets.parameters(surface), **loop},
     )
 
 
-def follow(heights, length, asked, adhesion_length_over_range, control):
+def follow(heights, length, loop, adhesion_length_over_range, control):
     """States from afar to the largest pressure and back, along `state`."""
-    law = scaled_law(asked, asked["law"], adhesion_length_over_range, asked["range_over_h_rms"])
+    law = scaled_law(loop, loop["law"], adhesion_length_over_range, loop["range_over_h_rms"])
     far = float(heights.max() - heights.mean()) + MARGIN * law.range
-    nearest = solver.solve(heights, length, asked["pressure"], tol=TOLERANCE).mean_gap
+    nearest = solver.solve(heights, length, loop["pressure"], tol=TOLERANCE).mean_gap
     turns = {
         "mean_gap": (far, nearest, far),
-        "pressure": (0.0, asked["pressure"], -2 * law.strength),
+        "pressure": (0.0, loop["pressure"], -2 * law.strength),
     }
     settings = {"tol": TOLERANCE, "balance": BALANCE, "smallest_jump": BALANCE, "steps": LEAST}
     with warnings.catch_warnings():

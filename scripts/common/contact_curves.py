@@ -47,12 +47,12 @@ def load_curves(heights, length, steps, *path):
 def load_curve(heights, length, pressures, ranges, tolerance, names=()):
     """Contact quantities at every pressure, each load started from the one before.
 
-    `names` are those of the quantities that are measured because a case asks for them.
+    `names` are further quantities to measure, which a case wants.
     """
     rows = []
     for contact in solver.load_path(heights, length, pressures, tol=tolerance):
-        asked = {name: MEASURED[name](heights, contact.gap, length) for name in names}
-        rows.append(measure(contact, ranges).assign(asked))
+        surface = {name: MEASURED[name](heights, contact.gap, length) for name in names}
+        rows.append(measure(contact, ranges).assign(surface))
         logging.info(
             f"n = {len(heights)}: load {len(rows)} of {len(pressures)}, area "
             f"{contact.area_fraction:.4f}, residual {contact.residual:.1e}, "

@@ -27,9 +27,9 @@ PREFIX = "coarse_"  # of what an ensemble's file keeps of coarse solutions, and 
 class Coarse:
     """A quantity of seeds that are solved on the coarsest grid alone, and their long waves.
 
-    `twin` is the same quantity of the seeds of the mean, by default their own values on the
-    coarsest grid. One of its own may be another model, not in proportion to the values: its
-    coefficient is then a slope, and it needs `FEWEST` seeds.
+    `twin` is the same quantity for the seeds of the mean, by default their values on the coarsest
+    grid. It may come from another model that is not proportional to the values; its coefficient is
+    then a slope, and needs `FEWEST` seeds.
     """
 
     values: xr.DataArray  # along `seed`, without `resolution`
@@ -65,7 +65,7 @@ def standard_error(values):
 def discretisation_error(values):
     """Discretisation error of the mean, from the change between the two finest grids.
 
-    The mean change and its own standard error in quadrature, so that changes of either sign do not
+    The mean change and its standard error in quadrature, so that changes of either sign do not
     cancel. It bounds an error that falls at least in proportion to the pixel size.
     """
     change = fine(values.diff("resolution"))
@@ -81,13 +81,14 @@ def ensemble_mean(values, more=None):
     if more is None or count == 1 or (more.twin is not None and count < FEWEST):
         return plain
     few = fine(values).transpose("seed", ...)
-    own = more.twin is None
-    twin = values.isel(resolution=0, drop=True) if own else more.twin
+    proportional = more.twin is None
+    twin = values.isel(resolution=0, drop=True) if proportional else more.twin
     twin = twin.transpose(*few.dims)
     many = more.values.transpose(*few.dims)
     finite = np.all([np.isfinite(part).all("seed").values for part in (few, twin, many)], axis=0)
     solved = (np.where(finite, part.values, 0.0) for part in (few, twin, many))
-    waves, slopes = (more.controls.values, more.elsewhere.values), {} if own else {"fewest": FEWEST}
+    waves = more.controls.values, more.elsewhere.values
+    slopes = {} if proportional else {"fewest": FEWEST}
     found = multilevel.multilevel_mean(*solved, *waves, **slopes)
     best, error = (part.transpose(*few.dims[1:]) for part in plain)
     return (

@@ -44,13 +44,13 @@ def make_heights(surface: Mapping[str, Any], points: int, seed: int) -> NDArray:
     return synthesise(model_spectrum(surface), points, cell_size(surface), int(seed), amplitudes)
 
 
-def grid_points(asked, pixels_per_wavelength):
-    """Number of grid points, good for the FFT, with at least the pixels asked for.
+def grid_points(surface, pixels_per_wavelength):
+    """Number of grid points, good for the FFT, with at least this many pixels per wave.
 
     A multiple of the even number that does so for 2 pixels, so that the coarser grids of the
     solutions are part of it.
     """
-    waves = int(np.ceil(waves_across(asked) - 1e-9))
+    waves = int(np.ceil(waves_across(surface) - 1e-9))
     return pixels_per_wavelength * next_fast_len(waves, real=True)
 
 

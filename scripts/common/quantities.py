@@ -46,7 +46,7 @@ A_V_VARIABLES = {
 def statistics(column: str, **files: xr.Dataset) -> tuple[xr.DataArray, xr.DataArray, xr.DataArray]:
     """Mean, standard error and discretisation error of a column, along the pressure.
 
-    `files` are ``ensemble`` and, for their own columns, ``a_v`` and ``kappa``, as the rules
+    `files` are ``ensemble`` and, for their columns, ``a_v`` and ``kappa``, as the rules
     `average_ensemble` and `fit_a_v` make them.
     """
     known = COLUMNS[column]
@@ -69,7 +69,7 @@ def quote(column: str, contact: xr.Dataset) -> xr.DataArray:
 def derive(contact: xr.Dataset, fit_interval: Sequence[float]) -> xr.Dataset:
     """Add P(u), a_V and kappa to a contact: area, rms slope and attractive areas by load and range.
 
-    `fit_interval` is that of a_V, in ranges over h_rms.
+    `fit_interval` is for a_V, in ranges over h_rms.
     """
     a_v = fit_a_v(contact.attractive_area, contact.pressure, fit_interval).isel(result=0)
     return contact.assign(gap_density=gap_density(contact), a_v=a_v, kappa=slope_of_area(contact))

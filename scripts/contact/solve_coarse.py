@@ -12,9 +12,9 @@ from stickiness import datasets
 
 
 def main(job):
-    asked = job.params.surface
+    surface = job.params.surface
     dataset = coarse_solutions(
-        asked,
+        surface,
         range(job.params.after, job.params.seeds),
         job.params.descriptor_seeds,
         job.params.pressures,
@@ -27,12 +27,12 @@ def main(job):
         job.output[0],
         title="coarse contact solutions and long waves of many realisations",
         parameters={
-            **asked,
+            **surface,
             "case": job.wildcards.case,
             "tolerance": job.params.tolerance,
             "largest_residual": float(dataset.residual.max()),
             "pixels_per_wavelength": COARSE,
-            "grid_points": grid_points(asked, COARSE),
+            "grid_points": grid_points(surface, COARSE),
         },
     )
 

@@ -61,7 +61,7 @@ def main(job):
 
 def add_budgets(dataset, simulated, theory):
     """Add the errors of the simulation to the differences, which are the error of the theory."""
-    own = {"model": absent("the difference is that of the model")}
+    model = absent("the difference is the error of the model")
     for name in COMPARED:
         mean = f"{name}_mean"
         scale = theory[name] / simulated[mean].where(simulated[mean] > 0) ** 2
@@ -70,7 +70,7 @@ def add_budgets(dataset, simulated, theory):
             for source in SOURCES
             if source != "model"
         }
-        dataset = with_budget(dataset, f"{name}_difference", **parts, **own)
+        dataset = with_budget(dataset, f"{name}_difference", **parts, model=model)
     # Student's t, the same for all quantities of an ensemble but for the shares of its levels.
     factor = part(simulated, "mean_gap_mean", "sampling") / simulated.mean_gap_standard_error
     solver = [part(simulated, f"{name}_mean", "solver") for name in PARTS]
@@ -81,7 +81,7 @@ def add_budgets(dataset, simulated, theory):
         solver=Part(integral(np.hypot(*solver)), "of both areas, by the tolerance"),
         sampling=Part(factor * dataset.distance_standard_error, "Student's t"),
         bandwidth=absent("one spectrum for both"),
-        **own,
+        model=model,
     )
 
 
@@ -89,7 +89,7 @@ def distance(simulated, theory):
     """W1 with its errors, and the W1 that sampling alone would give.
 
     Contact and gaps next to it trade places: at large gaps errors of the two areas cancel, for
-    together they are all of the surface. So both errors are those of their sum.
+    together they are all of the surface. So both errors are taken of their sum.
     """
     mean, sampling = ensemble_mean(cumulative(simulated), coarse(simulated, cumulative))
     mean = mean + sum(simulated.get(f"{name}_{EXTRAPOLATION}", 0) for name in PARTS)

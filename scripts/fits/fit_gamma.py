@@ -102,7 +102,7 @@ def attractive(lattice, gamma, correction, loads):
 
 
 def against(ensemble, name, few, theory):
-    """Logarithms of theory less those of simulation, and the simulation's relative errors."""
+    """Logarithms of theory over simulation, and the simulation's relative errors."""
     simulated = ensemble[[f"{name}_mean", f"{name}_mean_total_error"]].transpose("pressure", ...)
     if "range" in simulated.dims:
         simulated = simulated.sel(pressure=few).interp({"range": list(RANGES)})
@@ -133,7 +133,7 @@ def agreement(dataset):
 
 
 def fit(cases, draws, correction, quantity):
-    """Gamma, the ends of its confidence interval, misfits at it and at the source's own."""
+    """Gamma, the ends of its confidence interval, misfits at it and at the value of the source."""
     names = QUANTITIES if quantity == EVERY else (quantity,)
     every = np.arange(len(cases))[None]
     still = every, np.zeros((len(QUANTITIES), *every.shape))
@@ -155,7 +155,7 @@ def add_budgets(dataset, spread):
     """Add the errors of gamma: by resampling, and for all quantities how far single ones differ."""
     each = dataset.gamma.sel(quantity=list(QUANTITIES))
     apart = abs(each - dataset.gamma.sel(quantity=EVERY)).max("quantity")
-    text = f"how far the gammas of single quantities are from that of {EVERY}"
+    text = f"how far the gammas of single quantities are from the one for {EVERY}"
     return with_budget(
         dataset,
         "gamma",

@@ -81,7 +81,7 @@ def simulated(comparisons):
     largest magnification. Cases differ by more than their errors, by Hurst exponent and window: a
     variance between them (a random effect, by moments) enters weights and error, the latter that of
     a further case. It adds what leaving out one case after the other changes (jackknife), and the
-    cases' own errors, not taken to average out, for grids err to one side in all of them.
+    cases' errors, which are not taken to average out, as grids err to one side in all of them.
     """
     points = collect(comparisons)
     loads = np.unique(points.pressure)

@@ -24,8 +24,8 @@ MARGIN = 0.75  # over h_rms, of theory's mean gap below the highest summit
 
 
 def main(job):
-    asked = job.params.surface
-    lattice = lattice_spectrum(model_spectrum(asked), cell_size(asked))
+    surface = job.params.surface
+    lattice = lattice_spectrum(model_spectrum(surface), cell_size(surface))
     pressures, ranges = np.sort(job.params.pressures), logarithmic_grid(job.params.gaps)
     named = theories(lattice, job.params.variants, job.params.gamma)
     parts = [evaluate(theory, pressures, ranges) for theory in named.values()]
@@ -35,14 +35,14 @@ def main(job):
     dataset = annotate(dataset, rms_slope=("1", text))
     models = read_models(job.input.laws)
     for name in QUADRATURE:
-        dataset = with_budget(dataset, name, **theory_parts(models, name, dataset[name], asked))
+        dataset = with_budget(dataset, name, **theory_parts(models, name, dataset[name], surface))
     if job.params.simulated:
-        dataset = add_window(dataset, asked)
+        dataset = add_window(dataset, surface)
     datasets.write(
-        add_kappa(dataset, models, asked),
+        add_kappa(dataset, models, surface),
         job.output.theory,
         title="Persson's theory on the lattice spectrum of a case",
-        parameters={**asked, "case": job.wildcards.compared, "gamma": job.params.gamma},
+        parameters={**surface, "case": job.wildcards.compared, "gamma": job.params.gamma},
     )
     write_a_v(job.output.theory, job.output.a_v, job.params.windows, job.input.laws)
 

@@ -34,16 +34,16 @@ VARIABLES = {
 
 
 def main(job):
-    asked, gamma = job.params.table, job.params.gamma
-    ranges = logarithmic_grid(asked["range"])
-    axes = {name: np.array(asked[name], dtype=float) for name in AXES}
+    table, gamma = job.params.table, job.params.gamma
+    ranges = logarithmic_grid(table["range"])
+    axes = {name: np.array(table[name], dtype=float) for name in AXES}
     dataset = finite(axes, ranges, gamma).merge(infinite(axes, ranges, gamma))
     dataset["quadrature_error"] = quadrature_error(axes, ranges, gamma)
     datasets.write(
         add_budgets(annotate(dataset, **VARIABLES), read_models(job.input.laws)),
         job.output[0],
         title="a_V by Persson's theory on self-affine spectra",
-        parameters={**asked, "gamma": gamma, "quoted": VARIANT},
+        parameters={**table, "gamma": gamma, "quoted": VARIANT},
     )
 
 
@@ -109,7 +109,7 @@ def quadrature_error(axes, ranges, gamma):
 
 
 def add_budgets(dataset, models):
-    """a_V with its errors, as large as those of the attractive area, and the edges' estimate."""
+    """Add the errors of a_V, as large as for the attractive area, and of the edges' estimate."""
     limit = dataset.a_v_limit.assign_coords(magnification=np.inf)
     for name, value in {"a_v": dataset.a_v, "a_v_limit": limit}.items():
         quadrature = Part(dataset.quadrature_error * value, "of the quadrature, the largest")

@@ -55,15 +55,15 @@ FEWEST_PIXELS = 1.0  # below, points of the grid snap one by one, and the path i
 
 
 def main(job):
-    asked, seed = job.params.surface, int(job.wildcards.seed)
-    length = cell_size(asked)
-    heights = synthesis.synthesise(model_spectrum(asked), asked["points"], length, seed)
+    surface, seed = job.params.surface, int(job.wildcards.seed)
+    length = cell_size(surface)
+    heights = synthesis.synthesise(model_spectrum(surface), surface["points"], length, seed)
     spectrum = synthesis.realised_spectrum(heights, length)
     energy = spectrum.elastic_energy()
-    name = "zones" if "zones" in asked else "ranges"
+    name = "zones" if "zones" in surface else "ranges"
     rows = []
-    for ratio in asked["energies"]:
-        for value in asked[name]:
+    for ratio in surface["energies"]:
+        for value in surface[name]:
             began = time.process_time()
             adhesion_length = ratio * energy
             range_ = np.sqrt(value * adhesion_length) if name == "zones" else value
@@ -72,11 +72,11 @@ def main(job):
             row |= {"range": range_, "adhesion_length": adhesion_length}
             rows.append(row | {"seconds": time.process_time() - began})
             logging.info("w/U %g, %s %g: %s", ratio, name, value, row)
-    shape = len(asked["energies"]), len(asked[name])
+    shape = len(surface["energies"]), len(surface[name])
     dims = "energy", {"zones": "zone", "ranges": "range_over_h_rms"}[name]
     dataset = xr.Dataset(
         {key: (dims, np.reshape([row[key] for row in rows], shape)) for key in rows[0]},
-        coords={"energy": asked["energies"], dims[1]: asked[name]},
+        coords={"energy": surface["energies"], dims[1]: surface[name]},
     )
     dataset["full_contact_energy"] = energy
     dataset["rms_slope"] = spectrum.rms_slope
@@ -87,7 +87,7 @@ def main(job):
         annotate(dataset, **VARIABLES),
         job.output[0],
         title="adhesion that remains on one rough surface",
-        parameters={**asked, "seed": seed, "law": job.params.law, "squeeze": job.params.squeeze},
+        parameters={**surface, "seed": seed, "law": job.params.law, "squeeze": job.params.squeeze},
     )
 
 

@@ -1,9 +1,8 @@
 """Random surfaces on a periodic square window: synthesis, spectrum and moments.
 
 A window of side L holds the wave vectors 2 pi (i, j)/L and no others. A surface made on it has its
-lattice spectrum, not the continuous one that was asked for (at H = 0.8 the four modes of the
-longest wavelength carry more than half the height variance): simulation and theory are compared on
-that.
+lattice spectrum, not the continuous one (at H = 0.8 the four modes of the longest wavelength carry
+more than half the height variance). Simulation and theory are compared on the lattice spectrum.
 """
 
 from __future__ import annotations
@@ -42,8 +41,8 @@ def synthesise(
         sizes sample the same surface, and a larger q1 adds modes to those already there.
     amplitudes : {"gaussian", "fixed"}
         "gaussian": independent Gaussian modes, the samples of a Gaussian random field.
-        "fixed": every amplitude at its rms value, only the phases random (those of the Gaussian
-        surface of the same seed). Its ensemble is narrower and is not the Gaussian one.
+        "fixed": every amplitude at its rms value, only the phases random (the same as in the
+        Gaussian surface of this seed). Its ensemble is narrower and is not the Gaussian one.
 
     Returns
     -------

@@ -32,18 +32,18 @@ VARIABLES = {
 
 
 def main(job):
-    asked, seeds = job.params.surface, job.params.seeds
-    spectrum, length = model_spectrum(asked), cell_size(asked)
-    n = grid_points(asked, job.params.pixels_per_wavelength)
+    surface, seeds = job.params.surface, job.params.seeds
+    spectrum, length = model_spectrum(surface), cell_size(surface)
+    n = grid_points(surface, job.params.pixels_per_wavelength)
     lattice = synthesis.lattice_spectrum(spectrum, length)
     logging.info("n = %d, %d shells", n, len(lattice.q))
-    heights = np.array([make_heights(asked, n, seed) for seed in seeds])
+    heights = np.array([make_heights(surface, n, seed) for seed in seeds])
     datasets.write(
         to_dataset(heights, seeds, length, spectrum, lattice),
         job.output[0],
         title="random surfaces on a periodic window",
         parameters={
-            **asked,
+            **surface,
             "seeds": list(seeds),
             "pixels_per_wavelength": job.params.pixels_per_wavelength,
             "grid_points": n,
@@ -66,11 +66,11 @@ def to_dataset(heights, seeds, length, spectrum, lattice):
             **{
                 name: (
                     ("seed", "source"),
-                    [[getattr(s, name) for s in (spectrum, lattice, own)] for own in measured],
+                    [[getattr(s, name) for s in (spectrum, lattice, one)] for one in measured],
                 )
                 for name in MOMENTS
             },
-            **{name: ("seed", [getattr(own, name) for own in measured]) for name in SPLIT},
+            **{name: ("seed", [getattr(one, name) for one in measured]) for name in SPLIT},
         },
         coords={
             "seed": list(seeds),

@@ -68,7 +68,7 @@ class ScaleNodes:
 def scale_nodes(spectrum: Spectrum, nodes: float = 1.0) -> ScaleNodes:
     """Quadratures over the scales of a spectrum; `nodes` multiplies their numbers of nodes.
 
-    Gauss quadrature for continuous spectra; every shell is a node of its own. Where there are very
+    Gauss quadrature for continuous spectra; every shell is a node. Where there are very
     many shells or points of a table, neighbours are put together.
     """
     if spectrum.is_discrete:
@@ -145,7 +145,7 @@ def _grouped_nodes(discrete: Nodes, nodes: float) -> ScaleNodes:
 def _grouped(nodes: Nodes, label: NDArray, first: NDArray) -> tuple[Nodes, NDArray]:
     """Replace all nodes of one label by two, and return where those of `first` have gone.
 
-    They are the Gauss quadrature of the group's own distribution over m, which keeps four moments
+    They are the Gauss quadrature of the group's distribution over m, which keeps four moments
     and so errs by the fourth power of the group's width.
     """
     begin = np.flatnonzero(np.diff(label, prepend=-np.inf))

@@ -126,7 +126,7 @@ def measure(
         Told every state.
     solid : solids.HalfSpace or solids.Layer
         Elastic solid; the thickness of a layer is in the unit of `length`. Works at given mean
-        gaps are those of the surfaces: the mean compression of a layer stores and returns its own.
+        gaps exclude the mean compression of a layer, which stores and returns its energy.
 
     Raises
     ------

@@ -93,7 +93,7 @@ class Roughness:
     q0: ArrayLike  #: of the longest waves, or of the roll-off
     elastic_energy: ArrayLike  #: of full contact per nominal area over E* [length]
     relative_compliance: ArrayLike = 1.0  #: S of the longest waves on a layer, see `solids`
-    #: Energy of a half-space, which bounds that of a layer; NaN: it does not.
+    #: Energy of a half-space, which bounds the energy of a layer; NaN where it does not.
     half_space_energy: ArrayLike | None = None
     #: Factor on the errors, see `find_anisotropy_error_factor`.
     anisotropy_error_factor: ArrayLike = 1.0
@@ -121,7 +121,7 @@ class Roughness:
         return plain(np.clip(share, np.maximum(1 - 1 / ratio, 0.0), 1.0))
 
     def _bound(self, share, adhesion_length, range, sign) -> NDArray:
-        """Bound the share of a layer by that of a half-space.
+        """Bound the share of a layer by the share of a half-space.
 
         A solid that is stiffer to every wave has no state of less energy, and a softer one has
         none of more.
@@ -180,7 +180,7 @@ class Roughness:
     ) -> float | NDArray:
         """Adhesion length from which on at least a share remains.
 
-        With `sign` +1 or -1 that of the high or low limit of the share, which is shorter or longer.
+        With `sign` +1 or -1, from which on the high or low limit of the share is at least that.
         """
         range = np.asarray(range, dtype=float)
         surface = {name: value for name, value in vars(self).items() if value is not None}
@@ -204,7 +204,7 @@ class Roughness:
 
 
 def find_half_space_energy(spectrum: Spectrum, solid: Solid) -> float | None:
-    """Elastic energy of a half-space, if it bounds that of the layer, else None.
+    """Elastic energy of a half-space, if it bounds the energy of the layer, else None.
 
     It is no bound where the layer is softer to some waves and stiffer to others: a film that bends
     is softer than a half-space to long waves, and its layer stiffer to others.
@@ -231,9 +231,9 @@ def predict(
 ) -> Prediction:
     """Predict what remains of adhesion on a rough surface.
 
-    The limits are those of surfaces that hold many of the longest waves. In a periodic cell of one
-    wave, realisations scatter by a factor of two and keep more: compare simulations in cells of
-    four by four waves, with their own spectrum (`surface.realised_spectrum`).
+    The limits are for surfaces with many of the longest waves. In a periodic cell of one wave,
+    realisations scatter by a factor of two and keep more. Compare with simulations in cells of four
+    by four waves, and use the spectrum of those heights (`surface.realised_spectrum`).
 
     Parameters
     ----------
@@ -244,7 +244,7 @@ def predict(
     range : float
         Range of the attraction [length].
     q0 : float, optional
-        Wave number of the longest waves that matter [1/length]; by default that of the roll-off,
+        Wave number of the longest waves that matter [1/length]; by default the roll-off,
         or the lowest of the spectrum, with a direction of its norm.
     solid : solids.HalfSpace or solids.Layer
         Elastic solid; the thickness of a layer is in the unit of the spectrum. On thin

@@ -20,7 +20,7 @@ LOCAL = 0.28
 _CUTS = 60
 _LOADS, _LOWEST, _HIGHEST = 60, 1e-5, 4.0  # over the rms gradient
 _GAPS = np.geomspace(1e-4, 16, 80)  # over h_rms
-_MOST_SHELLS = 40  # the theory of a thousand shells takes long, and that of forty says the same
+_MOST_SHELLS = 40  # a thousand shells take long, and forty give the same
 
 
 def full_contact_share(energy_ratio: ArrayLike) -> float | NDArray:

@@ -158,7 +158,7 @@ class Ellipse:
         return np.hypot((c * qx + s * qy) * self.reach, (c * qy - s * qx) / self.reach)
 
     def mean_stretch(self, power: float) -> float:
-        """Average of g^power over an ellipse: that of ``|q|^power`` over Q^power."""
+        """Average of g^power, i.e. of ``|q|^power``/Q^power, over an ellipse."""
         if self.is_circle:
             return 1.0
         w = np.pi * (np.arange(_NODES) + 0.5) / _NODES
@@ -211,7 +211,7 @@ class Ellipse:
         return mean.reshape(q.shape)
 
     def average(self, laws: PowerLaws) -> PowerLaws:
-        """Power laws of ``|q|`` that follow the average over directions of those of the norm.
+        """Power laws of ``|q|`` that follow the power laws of the norm, averaged over directions.
 
         Height and gradient variance between any two of their knots are exact. The energy of full
         contact errs by less than 1e-8 up to a ratio of 8, by 1e-7 at 100 and 1e-6 at 1e4.

@@ -120,8 +120,8 @@ class Spectrum(ABC):
     def variance_below(self, q: ArrayLike, power: float = 0) -> NDArray:
         """Return 2 pi * integral from q0 to `q` of q'^(1 + power) C(q') dq'.
 
-        ``power`` 0 gives the variance of the heights, 2 that of the gradient, 4 that of the
-        Laplacian, each of the part of the surface with wave numbers up to `q`.
+        ``power`` 0, 2 and 4 give the variances of the heights, the gradient and the Laplacian of
+        the part of the surface with wave numbers up to `q`.
         """
 
     @abstractmethod
@@ -199,7 +199,7 @@ class Spectrum(ABC):
         """Elastic energy of full contact per nominal area over E* [length].
 
         (pi/2) * integral of q^2 C dq (Persson & Tosatti 2001, doi:10.1063/1.1398300); of q^2 C/S
-        for a `solid` that is a layer, to 1e-12. The mean pressure's own energy is no part of it.
+        for a `solid` that is a layer, to 1e-12. The energy of the mean pressure is not included.
         """
         if check_solid(solid) == HALF_SPACE:
             return self.total_variance(1) / 4

@@ -312,7 +312,7 @@ class Shells(Spectrum):
         return float(np.sum(self.variance[inside] * function(self.q[inside])))
 
     def mode_variance(self, i: NDArray, j: NDArray, dq: float) -> NDArray:
-        """Height variance of each mode of the band: that of its shell in equal parts."""
+        """Height variance of each mode of the band: its shell's variance in equal parts."""
         norm = dq * self.norm(i, j)
         middle = (self.q[1:] + self.q[:-1]) / 2
         shell = np.searchsorted(middle, norm)

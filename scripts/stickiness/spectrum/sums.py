@@ -1,4 +1,4 @@
-"""Spectra of independent roughness that adds up, as that of two rough solids in contact."""
+"""Spectra of independent roughness that adds up, such as two rough solids in contact."""
 
 from __future__ import annotations
 
@@ -63,8 +63,8 @@ def combine(first: Spectrum, *others: Spectrum) -> Spectrum:
 class Sum(Spectrum):
     """Sum of the densities of independent surfaces; see `combine`.
 
-    A surface of it has the sum of the mode variances that each part's own would have on the
-    window: those of a part with prescribed h_rms are scaled to it.
+    Its surfaces have the sum of the mode variances of the parts, each part with a prescribed h_rms
+    being scaled to it.
     """
 
     def __init__(self, *parts: Spectrum):
