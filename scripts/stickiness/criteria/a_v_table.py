@@ -46,10 +46,11 @@ def edge_range(ranges: ArrayLike, infinite: ArrayLike, finite: ArrayLike) -> flo
 
     Below it one variant of the theory lets P(u) grow without bound, the other tends to a constant,
     while gaps next to an edge have P ~ u^(-1/3). The range is the largest at which the attractive
-    area of the first is `PARTED` times the second. The theory there, held constant below, is 1.0 to
-    1.2 times what simulation finds next to edges (H = 0.7 to 0.9, magnification 32 to 128, loads from
-    0.0065 to 0.46). It agrees with the independent estimate of Pastewka and Robbins: for magnifications of 10^3 and 10^6 it is 1.4 times theirs at H =
-    0.6, 1.2 and 1.1 at 0.7, 1.1 and 0.95 at 0.8, 0.95 and 0.8 at 0.9.
+    area of the first is `PARTED` times the second. The theory there, held constant below, is 1.0
+    to 1.2 times what simulation finds next to edges (H = 0.7 to 0.9, magnification 32 to 128, loads
+    from 0.0065 to 0.46). It agrees with the independent estimate of Pastewka and Robbins: for
+    magnifications of 10^3 and 10^6 it is 1.4 times theirs at H = 0.6, 1.2 and 1.1 at 0.7, 1.1 and
+    0.95 at 0.8, 0.95 and 0.8 at 0.9.
 
     `infinite` and `finite` are the attractive areas (or a_V) (n,) at increasing `ranges` by the
     variants with infinite and finite P(0). The result is between the ranges, along a power law; the
