@@ -38,8 +38,8 @@ slips, all have one stiffness: the layer is a bed of springs, and every point of
 and opens independently. For Gaussian heights that limit is exact, and nothing is fitted. The
 longest waves tell how near it is, by their S (see `solids`): the share is the half-space's (with
 the energy of full contact of the layer, and its zone) and, weighted by ``(1 - S)^2``, what springs
-keep beyond it. That weight follows simulations of S = 0.1 to 0.5. Long waves of a thin incompressible
-layer are stiffer than springs, and keep more.
+keep beyond it. That weight follows simulations of S = 0.1 to 0.5. Long waves of a thin
+incompressible layer are stiffer than springs, and keep more.
 """
 
 from __future__ import annotations
