@@ -28,9 +28,9 @@ def test_full_contact_of_a_wave_costs_its_energy(solid):
     x = np.arange(64) / 64
     heights = 0.05 * np.cos(2 * np.pi * x)[:, None] * np.ones(64)
     energy = 0.05**2 / 4 * solid.stiffness(2 * np.pi)
-    law = adhesive.Exponential(4 * energy, 0.01)
+    law = adhesive.Exponential(4 * energy, 0.02)
     found = measure(heights, 1.0, law, squeeze=1.0, half_grid=False, solid=solid)
-    assert found.bound == pytest.approx(1 - 1 / 4, abs=0.01)
+    assert found.bound == pytest.approx(1 - 1 / 4, abs=0.02)
     assert found.area_at_zero_load == pytest.approx(1, abs=0.02)
 
 
