@@ -8,7 +8,7 @@ from scipy import optimize, stats
 from adhesion import average_adhesive, solve_adhesive
 from adhesion.dmt_limit import DmtLimit, fit_slope, linearity_error
 from common.adhesion_sets import scaled_law
-from stickiness import adhesive, dmt, repulsive, spectrum, surface
+from stickiness import dmt, repulsive, spectrum, surface
 from stickiness.adhesive import edge_zone
 
 LENGTH = 2 * np.pi
@@ -88,24 +88,6 @@ def test_what_the_grid_does_not_resolve_is_left_out(heights):
     law = scaled_law(ASKED, "maugis", 1.0, 0.3)
     pixel = LENGTH / 64
     assert edge_zone.resolution(pixel, law.range, law.adhesion_length) > edge_zone.COARSEST
-
-
-@pytest.mark.slow
-def test_grid_hardly_matters_to_the_exponential_law(heights):
-    """At half the resolution the relief by adhesion changes by less than a twentieth."""
-    fine, coarse = (
-        solved(part, adhesion_length_over_range=[0.03], law="exponential")
-        for part in (surface.resample(heights, 256), surface.resample(heights, 128))
-    )
-    one, other = (float(part.inverse_kappa_ad.squeeze()) for part in (fine, coarse))
-    assert other == pytest.approx(one, rel=0.05)
-
-
-def test_units_of_the_laws():
-    law = scaled_law({"q0_h_rms": 0.1}, "exponential", 0.05, 0.2)
-    assert isinstance(law, adhesive.Exponential)
-    assert law.maugis_stress == pytest.approx(0.5)  # (l_a/range)/(q0 h_rms)
-    assert law.range == 0.2
 
 
 def test_width_of_the_zone_follows_the_edge_law():

@@ -201,16 +201,3 @@ def test_cases_of_one_window_do_not_average_their_errors_out(made_by_theory):
     assert width[1] == pytest.approx(np.log(high / low), rel=0.15)  # eight copies know no more
     # Of 8 windows, some are drawn more than once: errors average out by less than sqrt(8).
     assert 0.35 * width[1] < width[8] < 0.75 * width[1]
-
-
-@pytest.mark.parametrize(("lows", "agree"), [((0.4, 0.45, 0.48), True), ((0.3, 0.4, 0.51), False)])
-def test_quantities_agree_where_their_intervals_share_a_gamma(lows, agree):
-    lows = np.array([*lows, 0.45])
-    intervals = xr.Dataset(
-        {
-            "gamma_low": (("correction", "quantity"), [lows]),
-            "gamma_high": (("correction", "quantity"), [lows + 0.2]),
-        },
-        coords={"quantity": [*fit_gamma.QUANTITIES, fit_gamma.EVERY]},
-    )
-    assert bool(fit_gamma.agreement(intervals).all()) is agree

@@ -24,10 +24,8 @@ from stickiness.spectrum.interface import Spectrum
 SMALLEST_LOG = 45.0  #: gaps below exp(-45) of the others count as zero
 TAIL_LOG = 38.0  #: area lost beyond holds less than exp(-38) of what is lost in all
 _SERIES_ORDER = 16  # Chebyshev points of a panel
-_SERIES_PANEL, _LEAST_PANEL = (
-    1.5,
-    1e-3,
-)  # of panels in ln(y - y_end): the first ones, and where halving ends
+# Widths in ln(y - y_end) of the first panels of the series, and where halving ends.
+_SERIES_PANEL, _LEAST_PANEL = 1.5, 1e-3
 _ANGLES = np.pi * (np.arange(_SERIES_ORDER) + 0.5) / _SERIES_ORDER
 _POINTS = -np.cos(_ANGLES)
 _TO_SERIES = np.polynomial.chebyshev.chebvander(_POINTS, _SERIES_ORDER - 1).T * (2 / _SERIES_ORDER)

@@ -119,16 +119,6 @@ def test_trend_with_magnification_is_no_scatter():
     assert (found.smallest_magnification, found.largest_magnification) == (16, 256)
 
 
-def test_ratio_is_smooth_in_load_where_the_set_of_cases_changes():
-    loads = np.geomspace(0.01, 0.5, 9)
-    cases = [comparison(1.2, loads=loads[::4]), comparison(1.0, loads=loads)]
-    logs = np.log(tabulate_a_v.simulated(cases).simulation_ratio)
-    jumps = np.abs(logs.diff("simulated_pressure"))
-    assert float(jumps.max()) < 0.2 * np.log(1.2)
-    # equal say, in spite of three times the loads
-    assert float(logs.mean()) == pytest.approx(np.log(1.2) / 2, abs=0.01)
-
-
 @pytest.mark.slow
 def test_trend_holds_between_simulated_magnifications_and_widens_the_error_beyond(table):
     cases = [comparison(1.0, zeta=16), comparison(0.9, zeta=256)]

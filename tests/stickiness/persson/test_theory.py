@@ -1,15 +1,12 @@
 """Persson's theory against its formulas evaluated directly, limits, and conservation of energy."""
 
-import doctest
-
 import mpmath
 import numpy as np
 import pytest
 from scipy import integrate, special
 
-from stickiness import persson, surface
+from stickiness import surface
 from stickiness.persson import Persson
-from stickiness.persson import gaps as persson_gaps
 from stickiness.persson.kernels import kernels
 from stickiness.spectrum import SelfAffine, Shells, Tabulated
 
@@ -249,34 +246,6 @@ def test_shapes():
 def test_bad_arguments_are_named(call, name):
     with pytest.raises(ValueError, match=name):
         call(power_law(10.0))
-
-
-def test_examples_in_the_documentation():
-    assert doctest.testmod(persson).failed == 0
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("variant", ["afferrante2018", "almqvist2011"])
-def test_fewer_panels_next_to_full_contact_of_a_broad_spectrum(monkeypatch, variant):
-    """Gaussians by the hundred thousand are put together: less work, the same distribution."""
-    spectrum = SelfAffine(hurst=0.8, q0=1.0, q1=1e6, h_rms=1.0)
-    pressure, gaps = 25.0, np.geomspace(1e-8, 10, 60)
-    found = []
-    for most in (10**9, 300):
-        monkeypatch.setattr(persson_gaps, "_MOST_MOVES", most)
-        theory = Persson(spectrum, variant=variant)
-        density, share = theory.gap_density(gaps, pressure), theory.gap_cumulative(gaps, pressure)
-        (profile,) = theory._profiles.values()
-        found.append((density, share, len(profile.gap)))
-        total = theory.area_fraction(pressure) + theory.gap_cumulative(np.inf, pressure)
-        assert total == pytest.approx(1, abs=1e-9)
-    (density, share, many), (density_few, share_few, few) = found
-    assert few < many / 3
-    lost = 1 - theory.area_fraction(pressure)
-    np.testing.assert_allclose(share_few, share, atol=1e-5 * lost)
-    matters = density * gaps > 1e-3 * lost
-    assert matters.sum() > 10
-    np.testing.assert_allclose(density_few[matters], density[matters], rtol=1e-3)
 
 
 def test_heights_of_any_size():

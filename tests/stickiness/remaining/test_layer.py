@@ -7,7 +7,7 @@ from scipy import optimize
 from stickiness import adhesive, surface
 from stickiness.remaining import Roughness, measure, predict
 from stickiness.remaining.share import remaining_share, spring_share
-from stickiness.solids import Backing, HalfSpace, Layer
+from stickiness.solids import HalfSpace, Layer
 from stickiness.spectrum import SelfAffine
 
 LENGTH = 4 * np.pi
@@ -93,20 +93,6 @@ def test_thick_layers_are_half_spaces():
     thick = predict(ROUGH, 0.5, 0.1, solid=Layer(1e3, 0.5))
     for name in ("separation", "pull_off", "separation_limits", "tabor", "energy_ratio"):
         assert getattr(thick, name) == pytest.approx(getattr(half, name), rel=1e-9)
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize(
-    "solid", [Layer(0.3, 0.5), Layer(0.3, 0.3), Layer(1.0, 0.5, Backing(0.1, 0.3))]
-)
-def test_the_share_grows_with_the_work_and_units_do_not_matter(solid):
-    lengths = np.geomspace(1e-3, 1e4, 40)
-    found = [predict(ROUGH, w, 0.3, solid=solid) for w in lengths]
-    assert np.all(np.diff([one.separation for one in found]) >= -1e-9)
-    scaled = SelfAffine(hurst=0.8, q0=1e6, q1=4e6, h_rms=1e-6)
-    again = predict(scaled, 1e-6 * lengths[20], 0.3e-6, solid=solid.in_unit(1e6))
-    assert again.separation_limits == pytest.approx(found[20].separation_limits, rel=1e-9)
-    assert again.tabor == pytest.approx(found[20].tabor, rel=1e-9)
 
 
 @pytest.mark.parametrize("share", [0.1, 0.5])

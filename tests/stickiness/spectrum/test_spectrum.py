@@ -7,8 +7,10 @@ import numpy as np
 import pytest
 from scipy import integrate
 
-from stickiness import spectrum as module
-from stickiness.spectrum import SelfAffine, Shells, Tabulated
+from stickiness import spectrum
+from stickiness.persson import theory
+from stickiness.remaining import prediction
+from stickiness.spectrum import SelfAffine, Shells, Tabulated, kinds, sums
 
 
 def by_quadrature(s, a, b, power, breaks=()):
@@ -208,7 +210,8 @@ def test_elastic_energy():
     assert s.elastic_energy() == pytest.approx(want, rel=1e-12)
 
 
-def test_examples_in_the_documentation():
+@pytest.mark.parametrize("module", [spectrum, kinds, sums, theory, prediction])
+def test_examples_in_the_documentation(module):
     assert doctest.testmod(module).failed == 0
 
 
