@@ -93,10 +93,9 @@ class Roughness:
     q0: ArrayLike  #: of the longest waves, or of the roll-off
     elastic_energy: ArrayLike  #: of full contact per nominal area over E* [length]
     relative_compliance: ArrayLike = 1.0  #: S of the longest waves on a layer, see `solids`
-    #: Energy of a half-space, which bounds the energy of a layer; NaN where it does not.
+    #: Energy of a half-space, which bounds that of a layer; NaN: it does not.
     half_space_energy: ArrayLike | None = None
-    #: Factor on the errors, see `find_anisotropy_error_factor`.
-    anisotropy_error_factor: ArrayLike = 1.0
+    anisotropy_error_factor: ArrayLike = 1.0  #: see `find_anisotropy_error_factor`
 
     def share(
         self, adhesion_length: ArrayLike, range: ArrayLike, sign: ArrayLike = 0
@@ -185,8 +184,8 @@ class Roughness:
         range = np.asarray(range, dtype=float)
         surface = {name: value for name, value in vars(self).items() if value is not None}
         sign = np.multiply(sign, surface.pop("anisotropy_error_factor"))
-        deep = surface.pop("half_space_energy", None)
-        deep = {} if deep is None else {"half_space_energy": deep}
+        bound = {"half_space_energy"} & surface.keys()
+        deep = {name: surface.pop(name) for name in bound}
         at = np.broadcast_arrays(*positive(**surface), *deep.values(), *positive(range=range), sign)
         surface |= deep
         energy = at[list(surface).index("elastic_energy")]
@@ -204,10 +203,9 @@ class Roughness:
 
 
 def find_half_space_energy(spectrum: Spectrum, solid: Solid) -> float | None:
-    """Elastic energy of a half-space, if it bounds the energy of the layer, else None.
+    """Elastic energy that bounds that of a layer; none where some waves are softer, others stiffer.
 
-    It is no bound where the layer is softer to some waves and stiffer to others: a film that bends
-    is softer than a half-space to long waves, and its layer stiffer to others.
+    A film that bends is softer than a half-space to long waves, and its layer stiffer to others.
     """
     bends = isinstance(solid, Layer) and isinstance(solid.backing, Film)
     return None if solid == HALF_SPACE or bends else spectrum.elastic_energy()

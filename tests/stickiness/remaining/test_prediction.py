@@ -94,8 +94,10 @@ def test_two_rough_solids_are_one_surface_of_their_sum():
 
 
 def test_limits_widen_steadily_with_the_direction():
-    found = [predict(rough(anisotropy=a), **TOUGH) for a in (1, 1.0001, 2, 3.9, 4, 99)]
-    widening = [one.anisotropy_error_factor for one in found]
+    widening = [
+        predict(rough(anisotropy=a), **TOUGH).anisotropy_error_factor
+        for a in (1, 1.0001, 2, 3.9, 4, 99)
+    ]
     assert widening[0] == 1
     assert widening[1:3] == pytest.approx([1, 2**0.5], abs=1e-4)
     assert widening[3:] == pytest.approx([2, 2, 99**0.5], abs=0.04)
