@@ -34,8 +34,15 @@ rule answer_case:
         laws=ERROR_MODELS,
     output:
         f"{RESULTS}/cases/{{case}}.nc",
+    log:
+        f"{RESULTS}/logs/answer_case/cases/{{case}}.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/answer_case/cases/{{case}}.tsv"
+    conda:
+        "../envs/environment.yaml"
     params:
         plan=describe_plan,
         fit_interval=config["a_v"]["windows"][0],
+        code=source_hash("cases/answer_case.py"),
     script:
         "../scripts/cases/answer_case.py"

@@ -15,9 +15,16 @@ rule map_criterion:
         a_v_table=f"{RESULTS}/fits/a_v_table.nc",
     output:
         f"{RESULTS}/criteria/map.nc",
+    log:
+        f"{RESULTS}/logs/map_criterion/criteria/map.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/map_criterion/criteria/map.tsv"
+    conda:
+        "../envs/environment.yaml"
     params:
         map=config["criteria"]["map"],
         pressure=config["criteria"]["a_v"]["pressure"],
+        code=source_hash("criteria/map_criterion.py"),
     script:
         "../scripts/criteria/map_criterion.py"
 
@@ -28,9 +35,16 @@ rule compare_criteria:
         a_v_table=f"{RESULTS}/fits/a_v_table.nc",
     output:
         f"{RESULTS}/criteria/compared.nc",
+    log:
+        f"{RESULTS}/logs/compare_criteria/criteria/compared.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/compare_criteria/criteria/compared.tsv"
+    conda:
+        "../envs/environment.yaml"
     params:
         compared=config["criteria"]["compared"],
         pressure=config["criteria"]["a_v"]["pressure"],
+        code=source_hash("criteria/compare_criteria.py"),
     script:
         "../scripts/criteria/compare_criteria.py"
 
@@ -59,8 +73,15 @@ rule judge:
             category="Verdicts",
             caption="../report/verdicts.rst",
         ),
+    log:
+        f"{RESULTS}/logs/judge/criteria/verdicts.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/judge/criteria/verdicts.tsv"
+    conda:
+        "../envs/environment.yaml"
     params:
         **JUDGED,
         surfaces=list(REAL_SURFACES),
+        code=source_hash("criteria/judge.py"),
     script:
         "../scripts/criteria/judge.py"

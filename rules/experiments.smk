@@ -9,8 +9,15 @@ rule predict_experiments:
             category="Experiments",
             caption="../report/experiments.rst",
         ),
+    log:
+        f"{RESULTS}/logs/predict_experiments/experiments/experiments.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/predict_experiments/experiments/experiments.tsv"
+    conda:
+        "../envs/environment.yaml"
     params:
         experiments=EXPERIMENTS,
+        code=source_hash("experiments/predict_experiments.py"),
     script:
         "../scripts/experiments/predict_experiments.py"
 
@@ -25,5 +32,13 @@ rule plot_experiments:
             caption="../report/experiments.rst",
         ),
         pdf=f"{RESULTS}/figures/experiments.pdf",
+    log:
+        f"{RESULTS}/logs/plot_experiments/figures/experiments.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/plot_experiments/figures/experiments.tsv"
+    conda:
+        "../envs/environment.yaml"
+    params:
+        code=source_hash("experiments/plot_experiments.py"),
     script:
         "../scripts/experiments/plot_experiments.py"

@@ -36,10 +36,18 @@ COMPONENTS = [
 rule probe_stability:
     output:
         f"{RESULTS}/stability/{{component}}.nc",
+    log:
+        f"{RESULTS}/logs/probe_stability/stability/{{component}}.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/probe_stability/stability/{{component}}.tsv"
     wildcard_constraints:
         component=choices(COMPONENTS),
+    conda:
+        "../envs/environment.yaml"
     resources:
         runtime=20,
+    params:
+        code=source_hash("stability/probe_stability.py"),
     script:
         "../scripts/stability/probe_stability.py"
 
@@ -54,5 +62,13 @@ rule plot_stability:
             caption="../report/stability.rst",
         ),
         pdf=f"{RESULTS}/figures/stability.pdf",
+    log:
+        f"{RESULTS}/logs/plot_stability/figures/stability.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/plot_stability/figures/stability.tsv"
+    conda:
+        "../envs/environment.yaml"
+    params:
+        code=source_hash("stability/plot_stability.py"),
     script:
         "../scripts/stability/plot_stability.py"

@@ -29,6 +29,12 @@ def trade_set(wildcards):
 rule measure_grids:
     output:
         f"{TRADEOFF}/grids/{{trade_case}}.nc",
+    log:
+        f"{TRADEOFF}/logs/measure_grids/grids/{{trade_case}}.log",
+    benchmark:
+        f"{TRADEOFF}/benchmarks/measure_grids/grids/{{trade_case}}.tsv"
+    conda:
+        "../envs/environment.yaml"
     resources:
         mem_mb=3000,
     params:
@@ -37,6 +43,7 @@ rule measure_grids:
         pressures=TRADE["pressures"],
         seeds=TRADE["seeds"],
         gaps=GAPS,
+        code=source_hash("tradeoff/measure_grids.py"),
     script:
         "../scripts/tradeoff/measure_grids.py"
 
@@ -44,6 +51,12 @@ rule measure_grids:
 rule measure_seeds:
     output:
         f"{TRADEOFF}/seeds/{{trade_case}}.nc",
+    log:
+        f"{TRADEOFF}/logs/measure_seeds/seeds/{{trade_case}}.log",
+    benchmark:
+        f"{TRADEOFF}/benchmarks/measure_seeds/seeds/{{trade_case}}.tsv"
+    conda:
+        "../envs/environment.yaml"
     resources:
         mem_mb=2000,
     params:
@@ -54,6 +67,7 @@ rule measure_seeds:
         tolerance=TRADE["settings"]["at_tolerance"],
         first_seed=lambda wildcards: trade_set(wildcards)["first_seed"],
         gaps=GAPS,
+        code=source_hash("tradeoff/measure_seeds.py"),
     script:
         "../scripts/tradeoff/measure_seeds.py"
 
@@ -61,6 +75,12 @@ rule measure_seeds:
 rule measure_bands:
     output:
         f"{TRADEOFF}/bands/H{{hurst}}.nc",
+    log:
+        f"{TRADEOFF}/logs/measure_bands/bands/H{{hurst}}.log",
+    benchmark:
+        f"{TRADEOFF}/benchmarks/measure_bands/bands/H{{hurst}}.tsv"
+    conda:
+        "../envs/environment.yaml"
     resources:
         mem_mb=3000,
     params:
@@ -68,6 +88,7 @@ rule measure_bands:
         pressures=TRADE["pressures"],
         tolerance=TRADE["settings"]["at_tolerance"],
         gaps=GAPS,
+        code=source_hash("tradeoff/measure_bands.py"),
     script:
         "../scripts/tradeoff/measure_bands.py"
 
@@ -75,10 +96,17 @@ rule measure_bands:
 rule measure_theory:
     output:
         f"{TRADEOFF}/theory.nc",
+    log:
+        f"{TRADEOFF}/logs/measure_theory/theory.log",
+    benchmark:
+        f"{TRADEOFF}/benchmarks/measure_theory/theory.tsv"
+    conda:
+        "../envs/environment.yaml"
     params:
         nodes=TRADE["nodes"],
         pressures=TRADE["pressures"],
         gaps=GAPS,
+        code=source_hash("tradeoff/measure_theory.py"),
     script:
         "../scripts/tradeoff/measure_theory.py"
 
@@ -86,6 +114,12 @@ rule measure_theory:
 rule measure_adhesive:
     output:
         f"{TRADEOFF}/adhesive/{{trade_case}}.nc",
+    log:
+        f"{TRADEOFF}/logs/measure_adhesive/adhesive/{{trade_case}}.log",
+    benchmark:
+        f"{TRADEOFF}/benchmarks/measure_adhesive/adhesive/{{trade_case}}.tsv"
+    conda:
+        "../envs/environment.yaml"
     resources:
         mem_mb=2000,
     params:
@@ -95,6 +129,7 @@ rule measure_adhesive:
             for key, value in TRADE["adhesion"].items()
             if key not in ("surfaces", "pull_off")
         },
+        code=source_hash("tradeoff/measure_adhesive.py"),
     script:
         "../scripts/tradeoff/measure_adhesive.py"
 
@@ -102,10 +137,17 @@ rule measure_adhesive:
 rule measure_pull_off:
     output:
         f"{TRADEOFF}/pull_off/{{trade_case}}.nc",
+    log:
+        f"{TRADEOFF}/logs/measure_pull_off/pull_off/{{trade_case}}.log",
+    benchmark:
+        f"{TRADEOFF}/benchmarks/measure_pull_off/pull_off/{{trade_case}}.tsv"
+    conda:
+        "../envs/environment.yaml"
     params:
         case=lambda wildcards: ADHESIVE_SURFACES[wildcards.trade_case],
         pull_off=TRADE["adhesion"]["pull_off"]
         | {key: TRADE["adhesion"][key] for key in ("q0_h_rms", "law", "at_pixels")},
+        code=source_hash("tradeoff/measure_pull_off.py"),
     script:
         "../scripts/tradeoff/measure_pull_off.py"
 
@@ -126,6 +168,14 @@ rule tabulate_tradeoff:
         laws=f"{TRADEOFF}/accuracy.csv",
         summary=f"{TRADEOFF}/tradeoff.csv",
         table=f"{TRADEOFF}/tradeoff.md",
+    log:
+        f"{TRADEOFF}/logs/tabulate_tradeoff/tradeoff.log",
+    benchmark:
+        f"{TRADEOFF}/benchmarks/tabulate_tradeoff/tradeoff.tsv"
+    conda:
+        "../envs/environment.yaml"
+    params:
+        code=source_hash("tradeoff/tabulate_tradeoff.py"),
     script:
         "../scripts/tradeoff/tabulate_tradeoff.py"
 
@@ -137,8 +187,15 @@ rule validate_accuracy:
     output:
         dataset=f"{TRADEOFF}/validation.nc",
         table=f"{TRADEOFF}/validation.md",
+    log:
+        f"{TRADEOFF}/logs/validate_accuracy/validation.log",
+    benchmark:
+        f"{TRADEOFF}/benchmarks/validate_accuracy/validation.tsv"
+    conda:
+        "../envs/environment.yaml"
     params:
         accuracies=TRADE["validation"]["accuracies"],
+        code=source_hash("tradeoff/validate_accuracy.py"),
     script:
         "../scripts/tradeoff/validate_accuracy.py"
 
@@ -148,8 +205,15 @@ rule choose_presets:
         laws=f"{TRADEOFF}/accuracy.csv",
     output:
         f"{TRADEOFF}/presets.md",
+    log:
+        f"{TRADEOFF}/logs/choose_presets/presets.log",
+    benchmark:
+        f"{TRADEOFF}/benchmarks/choose_presets/presets.tsv"
+    conda:
+        "../envs/environment.yaml"
     params:
         **PRESETS,
+        code=source_hash("tradeoff/choose_presets.py"),
     script:
         "../scripts/tradeoff/choose_presets.py"
 
@@ -165,8 +229,15 @@ rule plot_tradeoff:
             caption="../report/tradeoff.rst",
         ),
         pdf=f"{TRADEOFF}/tradeoff.pdf",
+    log:
+        f"{TRADEOFF}/logs/plot_tradeoff/tradeoff.log",
+    benchmark:
+        f"{TRADEOFF}/benchmarks/plot_tradeoff/tradeoff.tsv"
+    conda:
+        "../envs/environment.yaml"
     params:
         **PRESETS,
+        code=source_hash("tradeoff/plot_tradeoff.py"),
     script:
         "../scripts/tradeoff/plot_tradeoff.py"
 
@@ -179,3 +250,7 @@ use rule plot_tradeoff as plot_measured_trade with:
     output:
         png=f"{RESULTS}/figures/tradeoff.png",
         pdf=f"{RESULTS}/figures/tradeoff.pdf",
+    log:
+        f"{RESULTS}/logs/plot_measured_trade/figures/tradeoff.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/plot_measured_trade/figures/tradeoff.tsv"

@@ -9,14 +9,14 @@ import numpy as np
 import xarray as xr
 
 from common import conventions
-from common.adhesion_sets import LAWS, solver_error
+from common.adhesion_sets import solver_error
 from common.error_budgets import SIMULATED
 from common.job import start
 from common.model_surfaces import read_all
-from stickiness import datasets, equivalent_sphere
-from stickiness.adhesive import dmt
+from stickiness import datasets, dmt, equivalent_sphere
 from stickiness.error_budget import Part, with_budget
 from stickiness.statistics import students_t
+from stickiness.traction_laws import LAWS
 
 MISSING = (
     "not resolved, fewer than 100 points of the grid drawn into contact, a window closes, or the "

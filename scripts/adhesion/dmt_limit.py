@@ -18,9 +18,8 @@ from common.adhesion_sets import AXES, OUTSIDE, axes, roughness, scaled_law
 from common.conventions import LINEAR_UP_TO
 from common.ensemble_means import add_errors, coarse, describe_errors
 from common.error_budgets import SIMULATED, Simulation
-from stickiness import datasets
+from stickiness import datasets, dmt
 from stickiness.accuracy.error_models import read_models
-from stickiness.adhesive import dmt
 from stickiness.error_budget import ENDINGS, Part, with_budget
 
 PER_DECADE = 64  # ranges at which a traction law is integrated

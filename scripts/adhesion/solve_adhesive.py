@@ -16,8 +16,8 @@ from common import conventions
 from common.adhesion_sets import (
     AXES,
     MISSING,
+    NEARLY_LINEAR,
     STRONGEST,
-    WEAK,
     axes,
     roughness,
     scaled_law,
@@ -25,8 +25,8 @@ from common.adhesion_sets import (
 )
 from common.job import start
 from common.model_surfaces import each_seed, pixels
-from stickiness import datasets
-from stickiness.adhesive import dmt, edge_zone
+from stickiness import datasets, dmt
+from stickiness.adhesive import edge_zone
 from stickiness.repulsive import solver, subpixel
 from stickiness.surface import resample
 
@@ -119,7 +119,7 @@ def states(heights, length, adhesion, chosen, tolerance=TOLERANCE):
             attraction = dmt.adhesive_pressure(contact.gap, law)
             values["attraction_dmt"][i, j, k] = attraction
             if chosen[i, j, k] and attraction <= STRONGEST * contact.mean_pressure:
-                weak = attraction <= WEAK * contact.mean_pressure
+                weak = attraction <= NEARLY_LINEAR * contact.mean_pressure
                 known = weaker.get(k) if weak else None
                 found, gap = solve_at_gap(heights, length, law, contact, tolerance, known)
                 for name, value in found.items():

@@ -11,11 +11,12 @@ import xarray as xr
 
 from common.conventions import RMS_SLOPE
 from common.model_surfaces import cell_size, grid_points, make_heights, model_spectrum
+from stickiness import dmt
 from stickiness import surface as synthesis
 from stickiness.accuracy import multilevel
 from stickiness.accuracy.error_models import COARSE
 from stickiness.accuracy.quantities import COLUMNS, MEASURED
-from stickiness.repulsive import gaps, solver, subpixel
+from stickiness.repulsive import solver, subpixel
 
 SOLVED = ("area_fraction", "mean_gap", "residual", "iterations", "fft_pairs")
 AREAS = ("attractive_area", "pixel_attractive_area")
@@ -70,7 +71,7 @@ def measure(contact, ranges):
     found["edge_gap"] = subpixel.edge_gap(contact.gap) if 0 < found["area_fraction"] < 1 else 0.0
     found["edges"] = subpixel.edge_count(touching)
     if len(ranges):
-        areas = (gaps.attractive_area(contact.gap, ranges, subpixel=fine) for fine in (True, False))
+        areas = (dmt.attractive_area(contact.gap, ranges, subpixel=fine) for fine in (True, False))
         found |= {name: ("range", area) for name, area in zip(AREAS, areas, strict=True)}
         return xr.Dataset(found, {"range": ranges})
     return xr.Dataset(found)

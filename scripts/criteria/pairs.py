@@ -7,7 +7,7 @@ from stickiness import criteria
 from stickiness.criteria.pair import Pair, classify_edges
 from stickiness.criteria.registry import CRITERIA
 from stickiness.criteria.verdict import BROAD_A_V
-from stickiness.solids import Backing, Film
+from stickiness.solids import Film
 
 DIMS = ("material", "surface", "end")
 LIMITS = {"": 0, "_low": -1, "_high": 1}
@@ -103,7 +103,7 @@ def describe_remaining(pair, materials):
 
 def is_scalable(material):
     """Whether all that deforms goes with the material's modulus: it has no elastic backing."""
-    return not isinstance(getattr(material.solid, "backing", None), Backing | Film)
+    return not isinstance(getattr(material.solid, "backing", None), Film)
 
 
 def describe_edges(pair):

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from common.config.experiment_entries import CONDITIONS, OBSERVED_UNITS, conditions_of
+from common.config.entries import CONDITIONS, OBSERVED_UNITS, conditions_of
 from stickiness.remaining.prediction import DEFAULT_SHARE
 from stickiness.units import si
 

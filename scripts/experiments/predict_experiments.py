@@ -3,7 +3,7 @@
 import numpy as np
 import xarray as xr
 
-from common.config.experiment_entries import OBSERVED_UNITS
+from common.config.entries import OBSERVED_UNITS
 from common.job import start
 from experiments import judgements, predictions
 from experiments.entries import GRADES, MIDDLE, read_observations

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from common.config.measurements import measurements
+from common.config.entries import measurements
 from real_surfaces.measured_surface import find_cutoff, read_levelled
 from stickiness.measured import periodic, topography
 

@@ -14,7 +14,7 @@ from real_surfaces.pictured_heights import NO_MAP, NOT_JUDGED, halve
 from report.stills import draw_reason, draw_touch
 from stickiness import datasets
 from stickiness.repulsive import solver
-from stickiness.repulsive.grids import measure_slope
+from stickiness.repulsive.half_space import measure_slope
 
 POINTS = 512  # along the longer side, at most; pictures have half of them
 # Shares of the area in contact by theory: at small loads those solved are up to 1.8 times as large.

@@ -11,7 +11,6 @@ import warnings
 import numpy as np
 import xarray as xr
 
-from common.adhesion_sets import LAWS
 from common.formatting import amount, percent
 from common.job import start
 from criteria.materials import read_material
@@ -24,6 +23,7 @@ from stickiness.measured import periodic
 from stickiness.plausibility import PlausibilityWarning
 from stickiness.remaining import measure, predict
 from stickiness.repulsive.solver import ConvergenceError
+from stickiness.traction_laws import LAWS
 
 POINTS = 192  # along the longer side, at most
 # In the width of the cohesive zone: half the grid, which tells the error, resolves it with two.

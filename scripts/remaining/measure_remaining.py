@@ -7,7 +7,6 @@ import warnings
 import numpy as np
 import xarray as xr
 
-from common.adhesion_sets import LAWS
 from common.conventions import annotate
 from common.job import start
 from common.model_surfaces import cell_size, model_spectrum
@@ -15,6 +14,7 @@ from stickiness import datasets
 from stickiness import surface as synthesis
 from stickiness.plausibility import PlausibilityWarning
 from stickiness.remaining import measurement
+from stickiness.traction_laws import LAWS
 
 QUOTED = {
     "approach": "work of approach over the work of adhesion",

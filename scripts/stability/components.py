@@ -21,16 +21,15 @@ from typing import Any, NamedTuple
 import numpy as np
 
 import stickiness
-from stickiness import adhesive, criteria, equivalent_sphere
+from stickiness import adhesive, criteria, dmt, equivalent_sphere
 from stickiness import surface as synthesis
 from stickiness.accuracy import choice, error_models, model_choice, multilevel, prediction
-from stickiness.adhesive import dmt
 from stickiness.criteria import a_v_fit, a_v_table
 from stickiness.measured import instrument_spectrum, psd, self_affine_fit, stitching
 from stickiness.persson import theory
 from stickiness.plausibility import PlausibilityWarning
 from stickiness.remaining import prediction as remaining
-from stickiness.repulsive import gaps, grid_limit, solver, subpixel
+from stickiness.repulsive import richardson, solver, subpixel
 from stickiness.solids import layers, moduli
 from stickiness.spectrum import direction, sums
 from stickiness.spectrum import kinds as spectrum
@@ -43,8 +42,8 @@ TIME_LIMIT = 30  # seconds of computing for a point; most take less than 0.1
 
 _MODULES = (
     a_v_fit, a_v_table, adhesive, criteria, dmt, choice, direction, equivalent_sphere, error_models,
-    gaps, grid_limit, instrument_spectrum, layers, model_choice, moduli, multilevel, prediction,
-    psd, remaining, self_affine_fit, solver, spectrum, stitching, subpixel, sums, synthesis, theory,
+    instrument_spectrum, layers, model_choice, moduli, multilevel, prediction, psd, remaining,
+    richardson, self_affine_fit, solver, spectrum, stitching, subpixel, sums, synthesis, theory,
 )  # fmt: skip
 _LIBRARY = Path(stickiness.__file__).parent
 

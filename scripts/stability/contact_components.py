@@ -8,11 +8,10 @@ from functools import lru_cache
 import numpy as np
 
 from stability.components import Check, Component, compare_each, model, require
-from stickiness import adhesive
+from stickiness import adhesive, dmt
 from stickiness import surface as synthesis
-from stickiness.adhesive import dmt
 from stickiness.criteria import a_v_fit
-from stickiness.repulsive import gaps, grid_limit, solver, subpixel
+from stickiness.repulsive import richardson, solver, subpixel
 
 TOLERANCE = 1e-8  # asked of the solvers
 SLACK = 2.0  # for what rounding adds to a residual that was met to the tolerance
@@ -80,22 +79,22 @@ def probe_edges(
     c = solve_contact(hurst, magnification, pressure, q0_h_rms, unit, grid)
     same = solve_contact(hurst, magnification, pressure, grid=grid)
     ranges = np.array([range_over_h_rms, 1e6])
-    area = gaps.attractive_area(c.gap, ranges * h_rms, subpixel=True)
+    area = dmt.attractive_area(c.gap, ranges * h_rms, subpixel=True)
     strip = subpixel.boundary_strip(c.gap == 0)
     contact = float(np.mean(c.gap == 0)) - strip
     # Areas of contact and gap add up to one, up to what clefts and narrow spots leave.
     yield Check("areas add up", abs(contact + area[1] - 1), 1e-9)
     yield require("sign and order", -1e-12 <= area[0] <= area[1] + 1e-12)
-    other = gaps.attractive_area(same.gap, ranges, subpixel=True)
+    other = dmt.attractive_area(same.gap, ranges, subpixel=True)
     # Contacts that differ by a point have edges that differ by a few.
     yield Check("other unit", float(np.max(np.abs(area - other))) * grid**2 / 4, 1)
-    values = [gaps.attractive_area(g, ranges * h_rms) for g in (c.gap[::2, ::2], c.gap)]
-    limit = grid_limit.estimate(
+    values = [dmt.attractive_area(g, ranges * h_rms) for g in (c.gap[::2, ::2], c.gap)]
+    limit = richardson.estimate(
         "attractive_area", values, area - values[1], subpixel.edge_count(c.gap == 0), ranges
     )
     yield require("limit", np.all(np.isfinite([limit.value, limit.error])))
     edges = np.array([0.0, *(np.geomspace(1e-7, 1e4, 23) * h_rms)])
-    share = np.sum(gaps.gap_density(c.gap, edges) * np.diff(edges))
+    share = np.sum(dmt.gap_density(c.gap, edges) * np.diff(edges))
     yield Check("P(u) normalised", abs(share + np.mean(c.gap == 0) - 1), 1e-9)
 
 
@@ -120,7 +119,7 @@ def probe_dmt(
     open_share = 1 - (c.area_fraction - subpixel.boundary_strip(c.gap == 0))
     yield Check("sub-pixel, below the strength", max(fine / law.strength - open_share, 0.0), 1e-9)
     if variant == "maugis":
-        area = adhesion_length_over_range * gaps.attractive_area(c.gap, eps, subpixel=True)
+        area = adhesion_length_over_range * dmt.attractive_area(c.gap, eps, subpixel=True)
         yield Check("Maugis by areas", abs(fine - area) / max(area, 1e-300), 1e-9)
     same = LAWS[variant](adhesion_length_over_range * range_over_h_rms, range_over_h_rms)
     plain = solve_contact(hurst, magnification, pressure)

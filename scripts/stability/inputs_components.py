@@ -14,6 +14,7 @@ from scipy.special import beta, erf, gamma
 from adhesion.dmt_limit import DmtLimit
 from stability.components import SCALED, WIDE, Check, Component, compare_each, model
 from stability.theory_components import THEORIES
+from stickiness import dmt
 from stickiness import surface as synthesis
 from stickiness.accuracy.choice import (
     COARSE_SEEDS,
@@ -26,7 +27,7 @@ from stickiness.accuracy.choice import (
 )
 from stickiness.accuracy.error_models import ErrorModel, Settings, Surface, nearest_measured
 from stickiness.accuracy.prediction import SAFETY, Problem, predicted_cost, worst_error
-from stickiness.adhesive import LennardJones, dmt
+from stickiness.adhesive import LennardJones
 from stickiness.measured import instrument_spectrum, psd, stitching
 from stickiness.measured.topography import Topography
 from stickiness.persson.theory import Persson

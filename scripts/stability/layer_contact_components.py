@@ -23,11 +23,9 @@ SOLIDS = {
     "bonded compressible": (0.3, "bonded"),
     "bonded cork": (0.0, "bonded"),
     "slip": (0.5, "slip"),
-    "soft solid": (0.5, "on a soft solid"),
-    "stiff solid": (0.3, "on a stiff solid"),
 }
 _ADHESIVE = (
-    *(f"{name} exponential pressure" for name in SOLIDS if name != "stiff solid"),
+    *(f"{name} exponential pressure" for name in SOLIDS),
     "bonded incompressible exponential mean_gap",
     "bonded incompressible maugis pressure",
     "slip lennard_jones pressure",

@@ -22,27 +22,16 @@ from stability.theory_components import find_area_error
 from stickiness import remaining
 from stickiness.persson.theory import Persson
 from stickiness.remaining import Roughness
-from stickiness.solids import HALF_SPACE, Backing, Layer, Solid
+from stickiness.solids import HALF_SPACE, Layer, Solid
 
 THICK = 40.0  # thickness times wave number from which a layer is a half-space to 1e-30
-BACKINGS = {
-    "bonded": "bonded",
-    "slip": "slip",
-    "on a soft solid": Backing(1e-3, 0.3),
-    "on a stiff solid": Backing(1e3, 0.3),
-}
+BACKINGS = {"bonded": "bonded", "slip": "slip"}
 
 # --- Response: the boundary value problem of plane strain, in 150 digits. ---
 
 
 def probe_layers(thickness, poisson, unit, variant) -> Iterator[Check]:
     yield from check_response(thickness, poisson, unit, BACKINGS[variant])
-
-
-def probe_backed_layers(thickness, poisson, modulus_ratio, variant) -> Iterator[Check]:
-    """The variant tells Poisson's ratio of the backing."""
-    backing = Backing(modulus_ratio, float(variant.split()[-1]))
-    yield from check_response(thickness, poisson, 1.0, backing)
 
 
 def check_response(thickness, poisson, unit, backing) -> Iterator[Check]:
@@ -60,7 +49,7 @@ def check_response(thickness, poisson, unit, backing) -> Iterator[Check]:
 
 
 @cache
-def find_response(k: float, poisson: float, backing: str | Backing) -> float:
+def find_response(k: float, poisson: float, backing: str) -> float:
     """S of a wave of k = |q| d: shear-free surface under a unit pressure wave."""
     if k > THICK:
         return 1.0
@@ -68,14 +57,8 @@ def find_response(k: float, poisson: float, backing: str | Backing) -> float:
         nu, one = Decimal(poisson), Decimal(1)
         through = carry_down(grow_with_depth(one, nu), Decimal(k))
         eye = make_identity()
-        if isinstance(backing, Backing):
-            other = Decimal(backing.poisson)
-            shear = Decimal(backing.modulus_ratio) * (1 + nu) / (1 + other)
-            # What decays with depth belongs to the double eigenvalue -1.
-            growing = grow_with_depth(shear, other) + eye
-            held = (growing @ growing)[:2]
-        else:  # no displacements, or no shear and none downwards
-            held = eye[:2] if backing == "bonded" else eye[1:3]
+        # no displacements, or no shear and none downwards
+        held = eye[:2] if backing == "bonded" else eye[1:3]
         (a, b, _, e), (c, d, _, f) = held @ through
         depth = (a * f - c * e) / (a * d - b * c)  # with zz = -1 and no shear at the surface
         return float(depth / (1 - nu))  # E* = 2/(1 - nu)
@@ -251,18 +234,12 @@ LAYERS = {
         variants=("bonded", "slip"),
         values={"thickness": _DEPTHS, "poisson": _POISSON},
     ),
-    "backed-layers": Component(
-        probe_backed_layers,
-        ("thickness", "poisson", "modulus_ratio"),
-        variants=tuple(f"on a solid of {nu}" for nu in (0, 0.3, 0.5)),
-        values={"thickness": _DEPTHS, "poisson": _POISSON},
-    ),
     "layer-theory": Component(
         probe_layer_theory,
         ("thickness", "poisson", "hurst", "magnification", "pressure", "q0_h_rms", "unit"),
         pairs=(("thickness", "pressure"), ("thickness", "poisson"), ("thickness", "magnification"),
                ("q0_h_rms", "unit")),
-        variants=("bonded", "slip", "on a soft solid"),
+        variants=("bonded", "slip"),
         values=_SURFACE | {"q0_h_rms": (1e-9, 0.1, 10)},
     ),
     "layer-remaining": Component(

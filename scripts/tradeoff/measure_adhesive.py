@@ -14,9 +14,8 @@ from common.adhesion_sets import STRONGEST, scaled_law, solve_at_gap
 from common.conventions import VARIABLES
 from common.job import start
 from common.model_surfaces import cell_size, grid_points, model_spectrum
-from stickiness import datasets
+from stickiness import datasets, dmt
 from stickiness import surface as synthesis
-from stickiness.adhesive import dmt
 from stickiness.repulsive import solver
 from tradeoff import measuring
 

@@ -13,9 +13,8 @@ from common.adhesion_sets import LEAST, scaled_law
 from common.conventions import VARIABLES
 from common.job import start
 from common.model_surfaces import cell_size, grid_points, model_spectrum
-from stickiness import adhesive, datasets
+from stickiness import adhesive, datasets, dmt
 from stickiness import surface as synthesis
-from stickiness.adhesive import dmt
 from stickiness.repulsive import solver
 from tradeoff import measuring
 

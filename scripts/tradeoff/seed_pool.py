@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from stickiness.accuracy import multilevel
 from stickiness.accuracy.choice import COARSE_SEEDS, SEEDS
 from stickiness.accuracy.error_models import COARSE, Settings
-from stickiness.repulsive import grid_limit
+from stickiness.repulsive import richardson
 from tradeoff.measuring import derived
 
 KEPT = ("area_fraction", "mean_gap", "attractive_area", "rms_slope")
@@ -205,7 +205,7 @@ def select_grid(measured: xr.Dataset, pixels: int) -> xr.Dataset:
 def extrapolate_area(half: xr.Dataset, one: xr.Dataset) -> xr.DataArray:
     """Extrapolate attractive areas from below the edge gap, as those of ensembles are."""
     edge_gap = one.edge_gap.mean("seed")
-    return grid_limit.estimate(
+    return richardson.estimate(
         "attractive_area",
         [half.attractive_area, one.attractive_area],
         one.attractive_area - one.pixel_attractive_area,

@@ -9,7 +9,7 @@ from common.contact_curves import load_curve
 from common.quantities import average_a_v, fit_intervals, fit_slope, slope_of_area
 from contact.ensembles import AVERAGED, add_statistics
 from stickiness import spectrum, surface
-from stickiness.repulsive import grid_limit
+from stickiness.repulsive import richardson
 
 LOADS = np.array([0.02, 0.2])
 RANGES = np.geomspace(1e-3, 10, 33)
@@ -69,7 +69,7 @@ def test_attractive_areas_alone_are_extrapolated_and_below_the_edge_gap_alone(so
     for name, quantity in AVERAGED.items():
         shift = ensemble[f"{name}_mean"] - ensemble_means.mean(quantity(solved))
         if name == "attractive_area":
-            below = ensemble["range"] < grid_limit.RULES[name].resolved * ensemble.edge_gap_mean
+            below = ensemble["range"] < richardson.RULES[name].resolved * ensemble.edge_gap_mean
             np.testing.assert_array_equal(shift != 0, below.transpose(*shift.dims))
             np.testing.assert_allclose(shift, ensemble.attractive_area_extrapolation, atol=1e-15)
         else:

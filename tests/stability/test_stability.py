@@ -12,9 +12,8 @@ from stability import layer_contact_components as layer_contact
 from stability.components import FAILED, REFUSED, RIGHT, UNCONVERGED, Check, Component, probe_point
 from stability.layers_components import THICK, find_response
 from stability.probe_stability import COMPONENTS
-from stickiness import adhesive, equivalent_sphere, spectrum
+from stickiness import adhesive, dmt, equivalent_sphere, spectrum
 from stickiness.accuracy import model_choice, prediction
-from stickiness.adhesive import dmt
 from stickiness.criteria import a_v_table
 from stickiness.persson import layered_scales
 from stickiness.remaining import prediction as remaining

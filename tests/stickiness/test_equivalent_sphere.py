@@ -2,12 +2,12 @@
 
 import numpy as np
 import pytest
+from references.adhesion import DMTSphere, JKRSphere, MaugisSphere, MaugisWave
+from references.contact import Hertz, Westergaard
 from scipy.optimize import brentq
 
 from stickiness import adhesive, criteria, equivalent_sphere, repulsive, spectrum, surface
 from stickiness.adhesive import edge_zone
-from stickiness.closed_forms.adhesion import DMTSphere, JKRSphere, MaugisSphere, MaugisWave
-from stickiness.closed_forms.contact import Hertz, Westergaard
 
 RADIUS = 1.0
 

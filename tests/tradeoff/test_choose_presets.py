@@ -19,7 +19,8 @@ def percent(text):
 def rows(tmp_path_factory):
     """Rows of the table for the presets of the configuration, by their first cell."""
     config = yaml.safe_load((ROOT / "config/config.yaml").read_text(encoding="utf-8"))
-    presets = config["tradeoff"]["presets"]
+    trade = yaml.safe_load((ROOT / "config/campaigns/tradeoff.yaml").read_text(encoding="utf-8"))
+    presets = trade["presets"]
     params = {
         "presets": presets,
         "surface": config["model_surfaces"][presets["surface"]],

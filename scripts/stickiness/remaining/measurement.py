@@ -17,13 +17,13 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.interpolate import PchipInterpolator
 
 from stickiness.adhesive import edge_zone
-from stickiness.adhesive.laws import TractionLaw
 from stickiness.adhesive.path import PathPoint, path
-from stickiness.adhesive.scaling import SEPARATION
+from stickiness.adhesive.solver import SEPARATION
 from stickiness.arguments import grid, number
 from stickiness.plausibility import PlausibilityWarning
 from stickiness.repulsive.solver import ConvergenceError
 from stickiness.solids import HALF_SPACE, Solid, check_solid
+from stickiness.traction_laws import TractionLaw
 
 REACH = 4.0  #: ranges between the highest point and the surface where the approach begins
 STEPS_ERROR = 0.03  #: relative, of works and pull-off, by the steps of the path

@@ -158,7 +158,8 @@ def config():
 
 @pytest.mark.slow
 def test_presets_are_what_the_rule_gives(config):
-    laws, asked = read_models(TABLE), config["tradeoff"]["presets"]
+    trade = yaml.safe_load((ROOT / "config/campaigns/tradeoff.yaml").read_text(encoding="utf-8"))
+    laws, asked = read_models(TABLE), trade["presets"]
     surface_asked = config["model_surfaces"][asked["surface"]]
     for name in asked["accuracy"]:
         chosen = plan.preset_by_rule(

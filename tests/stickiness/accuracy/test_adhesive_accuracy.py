@@ -147,7 +147,8 @@ def test_what_a_control_leaves():
 
 def test_presets_reach_their_error_with_full_adhesion():
     config = yaml.safe_load((ROOT / "config/config.yaml").read_text(encoding="utf-8"))
-    laws, asked = read_models(TABLE), config["tradeoff"]["presets"]
+    trade = yaml.safe_load((ROOT / "config/campaigns/tradeoff.yaml").read_text(encoding="utf-8"))
+    laws, asked = read_models(TABLE), trade["presets"]
     wanted, surface_asked = asked["adhesive"], config["model_surfaces"][asked["surface"]]
     columns = list(itertools.chain(*(adhesion.QUANTITIES[q] for q in wanted["quantities"])))
     given = Problem(laws, Surface.of(surface_asked), asked["pressures"], columns)
