@@ -9,8 +9,7 @@ import logging
 
 import numpy as np
 
-from common.coarse_solutions import DESCRIBED_FROM, SOLVED_FROM
-from common.contact_curves import COARSE, load_curve
+from common.contact_curves import COARSE, DESCRIBED_FROM, SOLVED_FROM, load_curve
 from common.conventions import VARIABLES, logarithmic_grid
 from common.job import start
 from common.model_surfaces import cell_size, grid_points, model_spectrum

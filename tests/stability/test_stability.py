@@ -20,8 +20,9 @@ from stability.components import (
     Component,
     probe_point,
 )
-from stickiness import datasets, equivalent_sphere, spectrum
+from stickiness import datasets, spectrum
 from stickiness.adhesive import Exponential
+from stickiness.criteria import equivalent_sphere
 from stickiness.persson.theory import Persson
 from stickiness.remaining import prediction as remaining
 from stickiness.repulsive import solver

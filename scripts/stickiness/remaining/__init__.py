@@ -2,7 +2,6 @@
 
 - `measurement`: works of approach and separation and pull-off of given heights, simulated
 - `theories`: local criterion, energy of full contact and DMT form, to compare
-- `multiscale`: Persson's theory of adhesion over scales
 - `share`: share of the work of adhesion that remains, from weak to tough, in closed form
 - `prediction`: the same of a spectrum, with limits, and the adhesion that a share needs
 - `sphere`: pull-off of a sphere from a rough surface

@@ -11,7 +11,7 @@ from scipy.optimize import elementwise
 from stickiness.arguments import number, plain, positive
 from stickiness.remaining.share import ONSET, find_onset, remaining_share, tough_area
 from stickiness.solids import HALF_SPACE, Film, Layer, Solid, check_solid
-from stickiness.spectrum.interface import Spectrum
+from stickiness.spectrum.interface import Spectrum, check_spectrum
 
 # Errors of the onset; of a share, relative and in proportion to what is lost; and of a share,
 # absolute, which is all that is known of small ones. In simulations of two by two waves and more
@@ -120,7 +120,7 @@ class Roughness:
         return plain(np.clip(share, np.maximum(1 - 1 / ratio, 0.0), 1.0))
 
     def _bound(self, share, adhesion_length, range, sign) -> NDArray:
-        """Bound the share of a layer by that of a half-space.
+        """Bound the share of a layer by the share of a half-space.
 
         A solid that is stiffer to every wave has no state of less energy, and a softer one has
         none of more.
@@ -179,7 +179,7 @@ class Roughness:
     ) -> float | NDArray:
         """Adhesion length from which on at least a share remains.
 
-        With `sign` +1 or -1 that of the high or low limit of the share, which is shorter or longer.
+        With `sign` +1 or -1, from which on the high or low limit of the share is at least that.
         """
         range = np.asarray(range, dtype=float)
         surface = {name: value for name, value in vars(self).items() if value is not None}
@@ -229,9 +229,9 @@ def predict(
 ) -> Prediction:
     """Predict what remains of adhesion on a rough surface.
 
-    The limits are those of surfaces that hold many of the longest waves. In a periodic cell of one
-    wave, realisations scatter by a factor of two and keep more: compare simulations in cells of
-    four by four waves, with their own spectrum (`surface.realised_spectrum`).
+    The limits are for surfaces with many of the longest waves. In a periodic cell of one wave,
+    realisations scatter by a factor of two and keep more. Compare with simulations in cells of four
+    by four waves, and use the spectrum of those heights (`surface.realised_spectrum`).
 
     Parameters
     ----------
@@ -242,7 +242,7 @@ def predict(
     range : float
         Range of the attraction [length].
     q0 : float, optional
-        Wave number of the longest waves that matter [1/length]; by default that of the roll-off,
+        Wave number of the longest waves that matter [1/length]; by default the roll-off,
         or the lowest of the spectrum, with a direction of its norm.
     solid : solids.HalfSpace or solids.Layer
         Elastic solid; the thickness of a layer is in the unit of the spectrum. On thin
@@ -262,8 +262,7 @@ def predict(
     >>> print(f"{found.separation:.2f} of the work of adhesion remains")
     0.39 of the work of adhesion remains
     """
-    if not isinstance(spectrum, Spectrum):
-        raise ValueError(f"spectrum must be a Spectrum, got {type(spectrum).__name__}")
+    check_spectrum(spectrum)
     length, range = number("adhesion_length", adhesion_length), number("range", range)
     if q0 is None:
         q0 = spectrum.q_longest

@@ -117,8 +117,3 @@ def test_limits_hold_the_value():
 def test_bad_arguments_are_named(name, bad):
     with pytest.raises(ValueError, match=name):
         predict(rough(), **(TOUGH | {name: bad}))
-
-
-def test_heights_in_place_of_a_spectrum_are_refused():
-    with pytest.raises(ValueError, match="spectrum must be a Spectrum, got ndarray"):
-        predict(np.zeros((8, 8)), **TOUGH)

@@ -5,7 +5,7 @@ import pytest
 from scipy.special import erf
 
 from stickiness.persson import Persson
-from stickiness.persson.lost_contact import LostContact, scaled_gap
+from stickiness.persson.gaps import LostContact, scaled_gap
 from stickiness.spectrum import SelfAffine, Shells
 from stickiness.surface import lattice_spectrum
 
