@@ -6,7 +6,6 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
-import pandas as pd
 import xarray as xr
 from bokeh.embed import components
 from bokeh.models import ColumnDataSource, HoverTool, Legend, Span, UIElement
@@ -113,12 +112,13 @@ def draw_group(
         **look,
     )
     told = ({name: row[name] for name in ("material", "surface", "word")} for row in rows)
-    points = pd.DataFrame(
+    points = [
         end | names | row["text"]
         for pair, names, row in zip(pairs, told, rows, strict=True)
         for end in pair
-    )
-    look["source"] = ColumnDataSource(points)
+    ]
+    source = ColumnDataSource({name: [point[name] for point in points] for name in points[0]})
+    look["source"] = source
     bars = plot.segment("ratio", "low", "ratio", "high", line_alpha=0.6, **look)
     fill = {"fill_color": colour, "fill_alpha": 0.8}
     marks = plot.scatter("ratio", "share", marker=marker, size=9, line_width=1.5, **fill, **look)

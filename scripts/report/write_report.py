@@ -149,7 +149,7 @@ def name_dominant(data):
 
 
 def group_seeds(paths):
-    """Paths and how many more they stand for: of the seeds of one folder the first stands for all."""
+    """Paths and how many more they stand for: of the seeds of a folder the first stands for all."""
     folders = Counter(Path(path).parent for path in paths if Path(path).stem.startswith("seed"))
     first = {}
     for path in paths:
