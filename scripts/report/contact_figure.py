@@ -128,13 +128,13 @@ def draw_separation(panels: Mapping[str, Any], pull_off: xr.Dataset) -> None:
 
 
 def find_moments(pull_off: xr.Dataset) -> dict[str, int]:
-    """Indices of two states: in contact without load on approach, and pull-off."""
+    """Indices of two states: pressed together without load on approach, and pull-off."""
     tension, back = pull_off.mean_traction.values, pull_off.separating.values.astype(bool)
     there = np.flatnonzero(~back)
-    touching = there[pull_off.contact_area.values[there] > 0]
-    approach = touching if touching.size else there
+    attracted = there[tension[there] > 0]
+    around = there[np.isin(there, attracted[-1] + np.arange(2))] if attracted.size else there
     return {
-        "unloaded": int(min(approach, key=lambda index: abs(tension[index]))),
+        "unloaded": int(min(around, key=lambda index: abs(tension[index]))),
         "pull-off": int(np.flatnonzero(back)[np.argmax(tension[back])]),
     }
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+import xarray as xr
 
 from common import provided
 from common.conventions import LOAD
@@ -191,7 +192,7 @@ def as_pair(pull_off, prefix):
     }
     # Where this is large the model knows no pull-off. A simulation does.
     found["energy_ratio"] = pull_off.energy_ratio * bool(prefix)
-    return pull_off[[]].drop_vars(pull_off.coords).assign(found).expand_dims(end=2)
+    return xr.Dataset(found).expand_dims(end=2)
 
 
 def describe_measured_contact(bem, surface, materials):

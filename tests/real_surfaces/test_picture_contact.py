@@ -8,7 +8,12 @@ import xarray as xr
 from bokeh.models import GlyphRenderer
 
 from criteria.materials import Material, read_material
-from real_surfaces import contact_measured, measured_surface, picture_contact
+from real_surfaces import (
+    analyse_surface,
+    contact_measured,
+    measured_surface,
+    picture_contact,
+)
 from real_surfaces.picture_contact import ATTRACTED, OPEN, TOUCHING, LeftOutError
 from remaining import measure_remaining
 from report import contact_figure, write_surface
@@ -149,8 +154,8 @@ def test_a_map_has_its_own_cutoff_and_not_that_of_a_finer_one(tmp_path):
         for path, length in zip(paths, ("100 um", "20 um"), strict=True)
     )
     both = units | {"measurements": [coarse, fine]}
-    finest = float(measured_surface.analyse(units | fine).q_cutoff)
-    alone = float(measured_surface.analyse(units | coarse).q_cutoff)
+    finest = float(analyse_surface.analyse(units | fine).q_cutoff)
+    alone = float(analyse_surface.analyse(units | coarse).q_cutoff)
     found, cutoff = picture_contact.find_heights(analysed(finest), both)
     assert cutoff == pytest.approx(alone)
     assert picture_contact.find_heights(analysed(finest), units | fine)[1] == finest > 2 * cutoff
