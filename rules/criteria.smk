@@ -86,3 +86,22 @@ rule judge:
         code=source_hash("criteria/judge.py"),
     script:
         "../scripts/criteria/judge.py"
+
+
+rule judge_surface:
+    input:
+        surface=f"{RESULTS}/real_surfaces/{{real_surface}}.nc",
+        own=OWN_SURFACES,
+    output:
+        f"{RESULTS}/criteria/verdicts/{{real_surface}}.nc",
+    log:
+        f"{RESULTS}/logs/judge_surface/criteria/verdicts/{{real_surface}}.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/judge_surface/criteria/verdicts/{{real_surface}}.tsv"
+    conda:
+        "../envs/environment.yaml"
+    params:
+        **JUDGED,
+        code=source_hash("criteria/judge_surface.py"),
+    script:
+        "../scripts/criteria/judge_surface.py"

@@ -1,7 +1,7 @@
-# Real surfaces: parameters from the literature, or topographies analysed for their spectrum, and
-# contact of measured heights where that is asked for. Pictures of contact need no asking.
+# Real surfaces: parameters from the literature, or topographies analysed for their spectrum. Every
+# measured map has a picture of its contact; `bem` in its entry adds contact with error estimates.
 
-from report.provided import choose_pictured
+from common.provided import choose_pictured
 
 PICTURED_MATERIAL = choose_pictured(MATERIALS)
 
@@ -65,37 +65,18 @@ rule contact_measured:
         "../scripts/real_surfaces/contact_measured.py"
 
 
-rule press_measured:
+rule picture_contact:
     input:
         surface=f"{RESULTS}/real_surfaces/{{real_surface}}.nc",
         topographies=topographies,
     output:
-        dataset=f"{RESULTS}/real_surfaces/pictures/{{real_surface}}.nc",
-        figure=f"{RESULTS}/figures/surfaces/{{real_surface}}_touch.png",
+        contact=f"{RESULTS}/real_surfaces/pictures/{{real_surface}}.nc",
+        pull_off=f"{RESULTS}/real_surfaces/pull_off/{{real_surface}}.nc",
+        figure=f"{RESULTS}/figures/surfaces/{{real_surface}}_contact.png",
     log:
-        f"{RESULTS}/logs/press_measured/real_surfaces/pictures/{{real_surface}}.log",
+        f"{RESULTS}/logs/picture_contact/real_surfaces/pictures/{{real_surface}}.log",
     benchmark:
-        f"{RESULTS}/benchmarks/press_measured/real_surfaces/pictures/{{real_surface}}.tsv"
-    conda:
-        "../envs/environment.yaml"
-    params:
-        surface=lambda wildcards: REAL_SURFACES[wildcards.real_surface],
-        code=source_hash("real_surfaces/press_measured.py"),
-    script:
-        "../scripts/real_surfaces/press_measured.py"
-
-
-rule pull_measured:
-    input:
-        surface=f"{RESULTS}/real_surfaces/{{real_surface}}.nc",
-        topographies=topographies,
-    output:
-        dataset=f"{RESULTS}/real_surfaces/pull_off/{{real_surface}}.nc",
-        figure=f"{RESULTS}/figures/surfaces/{{real_surface}}_pull_off.png",
-    log:
-        f"{RESULTS}/logs/pull_measured/real_surfaces/pull_off/{{real_surface}}.log",
-    benchmark:
-        f"{RESULTS}/benchmarks/pull_measured/real_surfaces/pull_off/{{real_surface}}.tsv"
+        f"{RESULTS}/benchmarks/picture_contact/real_surfaces/pictures/{{real_surface}}.tsv"
     conda:
         "../envs/environment.yaml"
     params:
@@ -104,6 +85,6 @@ rule pull_measured:
         entry=MATERIALS[PICTURED_MATERIAL],
         law=REMAINING_CAMPAIGN["law"],
         squeeze=REMAINING_CAMPAIGN["squeeze"],
-        code=source_hash("real_surfaces/pull_measured.py"),
+        code=source_hash("real_surfaces/picture_contact.py"),
     script:
-        "../scripts/real_surfaces/pull_measured.py"
+        "../scripts/real_surfaces/picture_contact.py"

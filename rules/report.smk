@@ -21,23 +21,17 @@ def figure_sources(wildcards, output):
     }
 
 
-def find_measured_contact(wildcards):
-    """Contact of the measured heights of a surface, if it is asked for."""
-    asked = "bem" in REAL_SURFACES[wildcards.real_surface]
-    return [f"{RESULTS}/real_surfaces/contact/{wildcards.real_surface}.nc"] if asked else []
-
-
-def find_pictures(wildcards):
-    """Contact that the page of a measured surface shows, with its pictures for paper."""
+def contact_of_surface(wildcards):
+    """Simulated contact of measured heights that the page of a surface shows, if there is any."""
     name = wildcards.real_surface
-    if REAL_SURFACES[name]["kind"] != "measured":
-        return []
-    return [
-        f"{RESULTS}/real_surfaces/pictures/{name}.nc",
-        f"{RESULTS}/figures/surfaces/{name}_touch.png",
-        f"{RESULTS}/real_surfaces/pull_off/{name}.nc",
-        f"{RESULTS}/figures/surfaces/{name}_pull_off.png",
-    ]
+    found = {}
+    if "bem" in REAL_SURFACES[name]:
+        found["measured_contact"] = f"{RESULTS}/real_surfaces/contact/{name}.nc"
+    if REAL_SURFACES[name]["kind"] == "measured":
+        found["contact"] = f"{RESULTS}/real_surfaces/pictures/{name}.nc"
+        found["pull_off"] = f"{RESULTS}/real_surfaces/pull_off/{name}.nc"
+        found["contact_figure"] = f"{RESULTS}/figures/surfaces/{name}_contact.png"
+    return found
 
 
 rule write_report:
@@ -89,16 +83,14 @@ rule write_report:
 
 rule write_surface:
     input:
+        unpack(contact_of_surface),
         template=project_file("report/surface.html.j2"),
         parts=PAGE_PARTS,
         surface=f"{RESULTS}/real_surfaces/{{real_surface}}.nc",
-        own=OWN_SURFACES,
-        measured_contact=find_measured_contact,
-        pictures=find_pictures,
+        verdicts=f"{RESULTS}/criteria/verdicts/{{real_surface}}.nc",
     output:
         figure=f"{RESULTS}/figures/surfaces/{{real_surface}}.png",
         curves=f"{RESULTS}/figures/surfaces/{{real_surface}}_curves.png",
-        verdicts=f"{RESULTS}/criteria/verdicts/{{real_surface}}.nc",
         page=report(
             f"{RESULTS}/report/surfaces/{{real_surface}}.html",
             category="Surfaces",
@@ -111,7 +103,6 @@ rule write_surface:
     conda:
         "../envs/environment.yaml"
     params:
-        **JUDGED,
         code=source_hash("report/write_surface.py"),
     script:
         "../scripts/report/write_surface.py"

@@ -17,7 +17,7 @@ def test_a_verdict_needs_no_simulation(fresh):
 
 def test_the_page_of_a_surface_runs_no_other(fresh):
     planned = fresh.planned("results/tiny/report/surfaces/asphalt.html")
-    assert planned == {"analyse_surface": 1, "write_surface": 1}
+    assert planned == {"analyse_surface": 1, "judge_surface": 1, "write_surface": 1}
 
 
 def test_a_case_of_theory_needs_no_surfaces(fresh):

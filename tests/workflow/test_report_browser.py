@@ -41,7 +41,21 @@ FLAGS = [
 ]
 A4 = 680  # CSS pixels between the margins of 15 mm
 PROBE = """
-setTimeout(() => {
+const drawn = () => new Promise((done) => setTimeout(done, 1000));
+// Moves the slider of the load: text below it before and after.
+const slide = async () => {
+  const below = (root) => [...root.querySelectorAll("*")].flatMap(
+    (e) => [e, ...(e.shadowRoot ? below(e.shadowRoot) : [])]);
+  const words = () => below(document.body).filter((e) => e.classList.contains("bk-clearfix"))
+    .map((e) => e.textContent).join(" ");
+  const model = Bokeh.documents.map((d) => d.get_model_by_name("load")).find((m) => m);
+  if (!model) return [];
+  const before = words();
+  model.value = 7;
+  await drawn();
+  return [before, words()];
+};
+setTimeout(async () => {
   for (const details of document.querySelectorAll("details")) details.open = true;
   const name = (e) => `${e.tagName}#${e.id}.${e.className}`;
   const boxed = (e) => e.closest(".wide, .frame, nav.contents, .skip") !== null;
@@ -56,6 +70,7 @@ setTimeout(() => {
     images: [...document.images].filter(shown)
       .map((e) => [e.complete, e.naturalWidth, e.clientWidth]),
     stills: [...document.querySelectorAll(".still")].map(shown),
+    slider: await slide(),
     interactive: [...document.querySelectorAll(".interactive")].filter(shown)
       .map((e) => e.querySelector("[data-root-id] > *")?.clientHeight ?? 0),
     loaded: performance.getEntriesByType("resource").map((entry) => entry.name.slice(0, 200))
@@ -193,6 +208,14 @@ def test_interactive_figures_are_drawn_and_leave_paper_to_pictures(page, scratch
     assert printed["interactive"] == []
     assert not any(on_screen["stills"])
     assert all(printed["stills"])
+
+
+def test_slider_changes_the_load(measured_page, scratch):
+    found, console = probed(measured_page, scratch)
+    before, after = found["slider"]
+    assert "Contact area" in before
+    assert before != after
+    assert console == []
 
 
 def ordered(values, direction):

@@ -11,8 +11,7 @@ from criteria import compare_criteria, judging, pair_roughness
 from criteria.judge import describe_page
 from criteria.materials import read_material
 from figures import plot_fig9
-from report import report_parts as report
-from report import verdict_texts
+from report import table_rows, write_report
 from stickiness import datasets
 from stickiness.criteria.a_v_table import SurfaceAv
 from stickiness.criteria.registry import CRITERIA, Criterion
@@ -90,12 +89,13 @@ def test_an_entry_is_all_that_a_new_criterion_needs(made_up, road, judged):
     np.testing.assert_allclose(moduli, [50e3, 25e3], rtol=1e-6)
 
     assert "Made & Up" in describe_page(judged, {"gel": GEL}, {"road": "road"})["others"]
-    rows = {row["name"]: row for row in verdict_texts.explain(pair, road, 0.05)}
+    rows = {row["name"]: row for row in table_rows.explain(pair, 0.05)}
     assert rows["Made & Up"]["reason"] == "Heights of 1 … 2 µm against nothing else."
-    assert rows["Made & Up"]["says"] == "does not stick"
+    assert rows["Made & Up"]["answer"] == "does not stick"
     verdicts = judged.assign_attrs(parameters='{"materials": {"gel": {"label": "gel"}}}')
-    listed = report.find_disagreements(verdicts, {"road": road})
-    assert "Made & Up" in [row["criterion"] for row in listed["rows"]]
+    pairs = write_report.arrange_pairs(verdicts, {"road": road})
+    listed = write_report.find_disagreements(verdicts, pairs)
+    assert "Made & Up" in [row["criterion"] for row in listed]
 
 
 @pytest.mark.slow
