@@ -66,7 +66,7 @@ JUDGED = {
 rule judge:
     input:
         surfaces=several("real_surfaces/{surface}.nc", surface=REAL_SURFACES),
-        template=own("report/verdicts.md.j2"),
+        template=project_file("report/verdicts.md.j2"),
     output:
         dataset=f"{RESULTS}/criteria/verdicts.nc",
         table=report(

@@ -3,7 +3,7 @@
 
 rule predict_experiments:
     input:
-        template=own("report/experiments.md.j2"),
+        template=project_file("report/experiments.md.j2"),
     output:
         dataset=f"{RESULTS}/experiments/experiments.nc",
         table=report(

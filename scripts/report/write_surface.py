@@ -13,8 +13,9 @@ from criteria.materials import RATE_KEYS, describe_modulus, read_material
 from criteria.texts import describe_pull_off, describe_share
 from report import contact_figure, interactive, pages, surface_figures
 from report.table_rows import describe_pair, describe_surface, explain
-from stickiness import datasets, equivalent_sphere
+from stickiness import datasets
 from stickiness.adhesive import edge_zone
+from stickiness.criteria import equivalent_sphere
 from stickiness.criteria.pair import NOT_JUDGED
 from stickiness.remaining.prediction import DEFAULT_SHARE
 from stickiness.solids.moduli import crossings

@@ -9,12 +9,12 @@ import numpy as np
 import pytest
 import xarray as xr
 from bokeh.models import Line, Scatter
-from criteria.words import find_doubts, find_limits
 from helpers.pages import Page, make_job
 
 from common import provided
 from common.formatting import number, with_error
-from criteria import joint, judge_surface, judging
+from criteria import judge_surface, judging, pair_roughness
+from criteria.classification import find_doubts, find_limits
 from criteria.materials import read_material
 from real_surfaces import analyse_surface, contact_measured, picture_contact
 from report import contact_figure, surface_figures, write_surface
@@ -174,10 +174,10 @@ def test_law_carried_on_reaches_its_end_and_opens_up(folder):
 
 
 def test_each_end_has_its_own_a_v_where_they_differ_in_shape(single, folder):
-    one, other = joint.find_a_v(single)
+    one, other = pair_roughness.find_a_v(single)
     assert one is other
     found = analysed(folder / "on2.nc", file=scan(folder / "a.txt"), extend_to="50 nm")
-    smooth, rough = (a_v.theory[:2, 0] for a_v in joint.find_a_v(found))
+    smooth, rough = (a_v.theory[:2, 0] for a_v in pair_roughness.find_a_v(found))
     # The rough end has the lower H, and a_V of the edges grows as zeta^((5H - 3)/3): both variants
     # of the theory have it lower there, by some per cent.
     assert np.all(rough < 0.99 * smooth)
