@@ -39,8 +39,8 @@ include: "rules/criteria.smk"
 include: "rules/experiments.smk"
 include: "rules/figures.smk"
 include: "rules/claims.smk"
-include: "rules/report.smk"
 include: "rules/tradeoff.smk"
+include: "rules/report.smk"
 include: "rules/stability.smk"
 
 

@@ -1,10 +1,10 @@
 """Reference values of Persson's contact theory, by mpmath with 30 digits.
 
-This program shares nothing with the library. It is written from the relations as published, with
-integrals over wave numbers: where the library integrates by parts over -1/q this program
-integrates q^2 C w F over q and differentiates under the integral. The pressure diffuses by
-dV_eff = S(A) dV, the mean gap seen from a magnification on takes the elastic energy d(A S)/dA, and
-P(u) is the integral of its pair of Gaussians over the area lost. The quadratures are composite
+This program shares nothing with the library. It is written from the relations as published: the
+pressure diffuses by dV_eff = S(A) dV; the mean gap seen from a magnification on takes the elastic
+energy d(A S)/dA; P(u) is the integral of its pair of Gaussians over the area lost. Where the
+library integrates by parts over -1/q and takes derivatives in closed form, this program integrates
+over the slope variance and differentiates numerically. The quadratures are composite
 Gauss-Legendre; with half again as many nodes values change by less than 1e-10 of themselves.
 
 Writes tests/data/persson_reference.csv in about a quarter of an hour::
@@ -15,9 +15,11 @@ Writes tests/data/persson_reference.csv in about a quarter of an hour::
 import csv
 from bisect import bisect_right
 from functools import cache, lru_cache
+from itertools import accumulate, pairwise
 from pathlib import Path
 
 from mpmath import mp, mpf
+from numpy.polynomial.legendre import leggauss
 
 TABLE = Path(__file__).parents[1] / "tests/data/persson_reference.csv"
 
@@ -81,81 +83,53 @@ CASES = (
     ("five shells", OLD, "yang2008", 0.45, 1e-6, NARROW),
     ("five shells", NEW, "xu2024", None, 3.0, (1e-4, 1e-2, 0.3)),
 )
-DENSITY = 1.5  # width of panels, in ln(q/q_m - 1) and such
 OWN_GAMMA = {"yang2008": (9, 20), "wang2017": (5, 9), "xu2024": (9, 20)}
+DEGREE = 16  # terms of the polynomials
 
 
-@lru_cache
+@cache
 def gauss_legendre(order):
-    """Nodes on (-1, 1) and weights."""
-    found = []
-    for i in range(order):
-        x = mp.cos(mp.pi * (i + mpf(3) / 4) / (order + mpf(1) / 2))
-        for _ in range(8):
-            here, before = mp.legendre(order, x), mp.legendre(order - 1, x)
-            slope = order * (before - x * here) / (1 - x * x)
-            x -= here / slope
-        found.append((x, 2 / ((1 - x * x) * slope**2)))
-    return tuple(found)
+    """Nodes on (-1, 1) and weights, whose 16 digits are more than the table keeps."""
+    return [(mpf(float(x)), mpf(float(weight))) for x, weight in zip(*leggauss(order), strict=True)]
 
 
 class Tail:
-    """Integral of f(t) dt/t from x to the last edge, by Chebyshev series cell by cell."""
+    """Integral of f(t) dt/t from x to infinity, by polynomials in ln t from edge to edge."""
 
-    def __init__(self, f, edges, above, degree=16):
-        self.edges, self.cells = edges, []
-        angles = [mp.pi * (2 * k + 1) / (2 * degree) for k in range(degree)]
-        cosines = [[mp.cos(j * angle) for angle in angles] for j in range(degree)]
-        total = above
-        for low, high in reversed(list(zip(edges[:-1], edges[1:], strict=True))):
-            middle, half = (mp.log(low) + mp.log(high)) / 2, (mp.log(high) - mp.log(low)) / 2
-            values = [f(mp.exp(middle + half * c)) for c in cosines[1]]
-            series = [
-                2 * mp.fsum(v * c for v, c in zip(values, row, strict=True)) / degree
-                for row in cosines
-            ]
-            series += [mpf(0)] * 2
-            series[0] /= 2
-            twice = [2 * series[0], *series[1:]]
-            integral = [(twice[j - 1] - twice[j + 1]) / (2 * j) for j in range(1, degree)]
-            at_end = mp.fsum(integral)
-            at_start = mp.fsum(c * (-1) ** (j + 1) for j, c in enumerate(integral))
-            cell = [mpf(0)] + [c * half for c in integral]
-            self.cells.append((middle, half, cell, total + half * at_end, series[:degree]))
-            total += half * (at_end - at_start)
-        self.cells.reverse()
-
-    def both(self, x):
-        """The integral and the integrand f(x)."""
-        i = min(max(bisect_right(self.edges, x) - 1, 0), len(self.cells) - 1)
-        middle, half, integral, end, integrand = self.cells[i]
-        t = (mp.log(x) - middle) / half
-        return end - clenshaw(integral, t), clenshaw(integrand, t)
+    def __init__(self, f, above):
+        # `above` is the integral as a function of the last edge
+        edges = [mpf("1e-16") * mp.exp(mpf(i) / 2) for i in range(74)]
+        while edges[-1] < 30:
+            edges.append(min(edges[-1] * mp.exp(mpf(1) / 4), mp.sqrt(edges[-1] ** 2 + 2)))
+        self.edges, self.cells, total = edges, [], above(edges[-1])
+        for low, high in reversed(list(pairwise(edges))):
+            middle, half = mp.log(low * high) / 2, mp.log(high / low) / 2
+            values = cache(lambda t, m=middle, h=half: f(mp.exp(m + h * t)))
+            series = mp.chebyfit(values, [-1, 1], DEGREE)  # highest power first
+            integral = [-half * c / (DEGREE - k) for k, c in enumerate(series)]
+            integral.append(total - mp.fsum(integral))
+            total = mp.polyval(integral, -1)
+            self.cells.insert(0, (middle, half, integral))
 
     def __call__(self, x):
-        return self.both(x)[0]
+        middle, half, integral = self.cells[
+            min(max(bisect_right(self.edges, x) - 1, 0), len(self.cells) - 1)
+        ]
+        return mp.polyval(integral, (mp.log(x) - middle) / half)
 
 
-def clenshaw(series, t):
-    """Sum of a Chebyshev series."""
-    b1 = b2 = mpf(0)
-    twice = 2 * t
-    for c in reversed(series):
-        b1, b2 = c + twice * b1 - b2, b1
-    return b1 - t * b2
+def density(y):
+    """d erf(y)/dy."""
+    return 2 / mp.sqrt(mp.pi) * mp.exp(-y * y)
 
 
-class Universal:
-    """Corrected diffusion S, energy K and their integrals T and F, for one correction."""
+class Kernel:
+    """Integrals T of the corrected diffusion S and F of the energy d(A S)/dA."""
 
     def __init__(self, correction, gamma):
         self.correction, self.gamma = correction, gamma
-        low = [mpf("1e-16") * mp.exp(mpf(i) / 2) for i in range(73)]
-        edges = [x for x in low if x < 1.0]
-        while edges[-1] < 30:
-            edges.append(min(edges[-1] * mp.exp(mpf(1) / 4), mp.sqrt(edges[-1] ** 2 + 2)))
-        self.T = Tail(lambda t: 2 / (t**2 * self.S(t)), edges, edges[-1] ** -2)
-        self.F = Tail(lambda t: self.K(t) * mp.exp(-t * t), edges, mpf(0))
+        self.T = Tail(lambda t: 2 / (t**2 * self.S(t)), lambda last: last**-2)
+        self.F = Tail(lambda t: self.energy(t) * mp.exp(-t * t), lambda last: mpf(0))
 
     def S(self, y):
         """As printed, or from the printed area law."""
@@ -165,166 +139,75 @@ class Universal:
         if self.correction == "wang2017":
             return gamma - mpf(2) / 9 * area**2 + (mpf(11) / 9 - gamma) * area**4
         # dV_eff/dV with V_eff = 1/y^2 and V = 1/(y^2 g)
-        g, g_slope = gamma + (1 - gamma) * area, (1 - gamma) * self.density(y)
+        g, g_slope = gamma + (1 - gamma) * area, (1 - gamma) * density(y)
         return (-2 / y**3) / (-2 / (y**3 * g) - g_slope / (y * g) ** 2)
 
-    def K(self, y):
-        """d(A S)/dA."""
-        area, gamma = mp.erf(y), self.gamma
-        if self.correction == "yang2008":
-            return gamma + 3 * (1 - gamma) * area**2
-        if self.correction == "wang2017":
-            return gamma - mpf(2) / 3 * area**2 + 5 * (mpf(11) / 9 - gamma) * area**4
-        step = y * mpf("1e-9")
-        with mp.workdps(50):
-            around = [(mp.erf(y + k * step) * self.S(y + k * step)) for k in (-2, -1, 1, 2)]
-            slope = (8 * (around[2] - around[1]) - (around[3] - around[0])) / (12 * step)
-            return +(slope / self.density(y))
-
-    @staticmethod
-    def density(y):
-        """d erf(y)/dy."""
-        return 2 / mp.sqrt(mp.pi) * mp.exp(-y * y)
+    def energy(self, y):
+        step = y * mpf("1e-12")
+        with mp.workdps(60):
+            rise = mp.erf(y + step) * self.S(y + step) - mp.erf(y - step) * self.S(y - step)
+            return +(rise / (2 * step * density(y)))
 
 
-@lru_cache
-def universal(correction, gamma):
-    """One `Universal` per correction."""
-    return Universal(correction, gamma)
-
-
-def power_integral(level, knot, exponent, a, b):
-    """Integral of level (q/knot)^exponent from a to b."""
-    if exponent == -1:
-        return level * knot * mp.log(b / a)
-    e = exponent + 1
-    return level * knot / e * ((b / knot) ** e - (a / knot) ** e)
+kernel_of = lru_cache(Kernel)
 
 
 class Continuous:
-    """C(q) of adjoining power laws."""
+    """C(q) of adjoining power laws. `m` is pi int q^3 C up to a wave number, `knots` are its."""
 
-    def __init__(self, knots, level, exponent):
-        self.knots, self.level, self.exponent = knots, level, exponent
-        self.q0, self.q1 = knots[0], knots[-1]
-        self.h_rms = mp.sqrt(2 * mp.pi * self.integral(1, self.q0, self.q1))
-        self.M = mp.pi * self.integral(3, self.q0, self.q1)
+    shells = False
 
-    def piece(self, q):
-        return min(max(bisect_right(self.knots, q) - 1, 0), len(self.level) - 1)
+    def __init__(self, q, level, exponent):
+        self.q, self.level, self.exponent = q, level, exponent
+        self.q0 = q[0]
+        parts = [mp.pi * self.integral(3, a, b) for a, b in pairwise(q)]
+        self.knots = list(accumulate(parts, initial=mpf(0)))
+        self.h_rms = mp.sqrt(self.height_variance(mpf(0)))
 
-    def C(self, q):
-        i = self.piece(q)
-        return self.level[i] * (q / self.knots[i]) ** self.exponent[i]
-
-    def integral(self, power, a, b):
-        """Integral of q^power C from a to b."""
-        parts = []
-        for i, level in enumerate(self.level):
-            low, high = max(a, self.knots[i]), min(b, self.knots[i + 1])
+    def integral(self, power, start, stop):
+        """Integral of q^power C."""
+        total = mpf(0)
+        for (a, b), level, exponent in zip(
+            pairwise(self.q), self.level, self.exponent, strict=True
+        ):
+            low, high, e = max(a, start), min(b, stop), exponent + power + 1
             if low < high:
-                knot = self.knots[i]
-                exponent = self.exponent[i] + power
-                parts.append(power_integral(level * knot**power, knot, exponent, low, high))
-        return mp.fsum(parts)
+                ends = mp.log(high / low) if e == 0 else ((high / a) ** e - (low / a) ** e) / e
+                total += level * a ** (power + 1) * ends
+        return total
 
-    def at(self, m):
-        """Wave number up to which pi int q^3 C is m."""
-        i = 0
-        while i < len(self.level) - 1:
-            part = mp.pi * self.integral(3, self.knots[i], self.knots[i + 1])
-            if part > m:
-                break
-            m, i = m - part, i + 1
-        knot, e = self.knots[i], self.exponent[i] + 4
-        share = m / (mp.pi * self.level[i] * knot**4)
-        return knot * (mp.exp(share) if e == 0 else (1 + e * share) ** (1 / e))
+    def wave_number(self, m):
+        i = min(bisect_right(self.knots, m), len(self.level)) - 1
+        e = self.exponent[i] + 4
+        share = (m - self.knots[i]) / (mp.pi * self.level[i] * self.q[i] ** 4)
+        return self.q[i] * (mp.exp(share) if e == 0 else (1 + e * share) ** (1 / e))
 
     def height_variance(self, m):
         """Of what is finer than m."""
-        return 2 * mp.pi * self.integral(1, self.at(m), self.q1)
-
-    def gap(self, kernel, m, P, dP, density):
-        """Mean gap seen from m on and its derivative with respect to m."""
-        a, rest = self.at(m), self.M - m
-        smallest = P**2 / (P**2 / rest + 70)
-        start = mp.log(self.at(m + smallest) / a - 1) if smallest < rest else None
-        end = mp.log(self.q1 / a - 1)
-        start = end - 3 if start is None else min(start, end - mpf(1) / 100)
-        stops = sorted(mp.log(k / a - 1) for k in self.knots if k > a)
-        edges = [start]
-        for stop in (x for x in stops if x > start):
-            count = int(mp.ceil((stop - edges[-1]) / density)) or 1
-            begin = edges[-1]
-            edges += [begin + (stop - begin) * k / count for k in range(1, count + 1)]
-        value, slope = mpf(0), mpf(0)
-        for low, high in zip(edges[:-1], edges[1:], strict=True):
-            i = self.piece(a * (1 + mp.exp((low + high) / 2)))
-            knot, level, exponent = self.knots[i], self.level[i], self.exponent[i]
-            before = mp.pi * self.integral(3, self.q0, knot) - m
-            for x, weight in gauss_legendre(16):
-                r = mp.exp((low + high) / 2 + (high - low) / 2 * x)
-                q = a * (1 + r)
-                C = level * (q / knot) ** exponent
-                if exponent == -4:
-                    D = before + mp.pi * level * knot**4 * mp.log(q / knot)
-                else:
-                    D = before + mp.pi * (C * q**4 - level * knot**4) / (exponent + 4)
-                root = mp.sqrt(D)
-                F, turn = kernel.F.both(P / root)  # turn = -x F'
-                turn *= root / P
-                share = weight * (high - low) / 2 * a * r * q**2 * C
-                value += share * F / root
-                slope += share * (F / (2 * root * D) - turn * (dP / D + P / (2 * D * D)))
-        return mp.sqrt(mp.pi) * value, mp.sqrt(mp.pi) * slope
+        return 2 * mp.pi * self.integral(1, self.wave_number(m), self.q[-1])
 
 
 class Shells:
     """Height variance on shells of one wave number each, which m passes through evenly."""
 
+    shells = True
+
     def __init__(self, q, variance):
-        self.q, self.variance = q, variance
-        self.q0, self.q1 = q[0], q[-1]
+        self.q, self.variance, self.q0 = q, variance, q[0]
+        parts = [v * k * k / 2 for k, v in zip(q, variance, strict=True)]
+        self.knots = list(accumulate(parts, initial=mpf(0)))
         self.h_rms = mp.sqrt(mp.fsum(variance))
-        self.upto = [
-            mp.fsum(v * k * k for k, v in zip(q[: i + 1], variance, strict=False)) / 2
-            for i in range(len(q))
-        ]
-        self.M = self.upto[-1]
+
+    def shell(self, m):
+        return min(bisect_right(self.knots, m), len(self.q)) - 1
+
+    def wave_number(self, m):
+        return self.q[self.shell(m)]
 
     def height_variance(self, m):
         """Of what is finer than m."""
-        i = min(bisect_right(self.upto, m), len(self.q) - 1)
-        return mp.fsum(self.variance[i + 1 :]) + 2 * (self.upto[i] - m) / self.q[i] ** 2
-
-    def gap(self, kernel, m, P, dP, density):
-        """Mean gap seen from m on and its derivative with respect to m."""
-        value, slope = mpf(0), mpf(0)
-        start, rest = mpf(0), self.M - m
-        smallest = P**2 / (P**2 / rest + 70)
-        for q, upto in zip(self.q, self.upto, strict=True):
-            if upto <= m:
-                continue
-            stop = upto - m
-            low, high = mp.log(max(start, smallest)), mp.log(stop)
-            if high > low:
-                count = int(mp.ceil((high - low) / density))
-                part = inner = mpf(0)
-                for k in range(count):
-                    half = (high - low) / (2 * count)
-                    for x, weight in gauss_legendre(16):
-                        D = mp.exp(low + half * (2 * k + 1 + x))
-                        root = mp.sqrt(D)
-                        F, turn = kernel.F.both(P / root)  # turn = -x F'
-                        part += weight * half * root * F
-                        inner -= weight * half * turn * root / P * dP
-                value += part / q
-                slope += inner / q
-                slope -= kernel.F(P / mp.sqrt(stop)) / mp.sqrt(stop) / q
-                if start > smallest:
-                    slope += kernel.F(P / mp.sqrt(start)) / mp.sqrt(start) / q
-            start = stop
-        return value / mp.sqrt(mp.pi), slope / mp.sqrt(mp.pi)
+        i = self.shell(m)
+        return mp.fsum(self.variance[i + 1 :]) + 2 * (self.knots[i + 1] - m) / self.q[i] ** 2
 
 
 def spectrum_of(name):
@@ -334,7 +217,10 @@ def spectrum_of(name):
         return Shells(*([mpf(x) for x in column] for column in values))
     if kind == "table":
         q, C = ([mpf(x) for x in column] for column in values)
-        slopes = [mp.log(C[i + 1] / C[i]) / mp.log(q[i + 1] / q[i]) for i in range(len(q) - 1)]
+        slopes = [
+            mp.log(c / b) / mp.log(k / j)
+            for (j, k), (b, c) in zip(pairwise(q), pairwise(C), strict=True)
+        ]
         return Continuous(q, C[:-1], slopes)
     hurst, magnification, rolloff = (x if x is None else mpf(x) for x in values)
     slope = -2 * (hurst + 1)
@@ -349,101 +235,82 @@ def spectrum_of(name):
 class Theory:
     """One spectrum at one load."""
 
-    def __init__(self, spectrum, variant, kernel, p, density):
+    def __init__(self, spectrum, variant, kernel, p):
         self.spectrum, self.variant, self.kernel, self.p = spectrum, variant, kernel, p
-        self.density, self.order = density, 14 if density == DENSITY else 20
-        target = mp.log(spectrum.M / p**2)
-        self.y_end = mp.exp(
-            mp.findroot(
-                lambda v: mp.log(kernel.T(mp.exp(v))) - target,
-                (-target / 2, -target / 2 + mpf("0.1")),
-                tol=mpf("1e-50"),
-            )
-        )
+        self.y_end = self.y_at(spectrum.knots[-1])
+
+    def y_at(self, m):
+        """Where A = erf(y): p^2 T(y) = m."""
+        target = mp.log(m / self.p**2)
+        ends = (-target / 2, -target / 2 + mpf("0.1"))
+        return mp.exp(mp.findroot(lambda v: mp.log(self.kernel.T(mp.exp(v))) - target, ends))
 
     def area(self):
         return mp.erf(self.y_end)
 
     def mean_gap(self):
-        return self.spectrum.gap(self.kernel, mpf(0), self.p, mpf(0), self.density)[0]
+        return self.gap(mpf(0), self.p)
+
+    def gap(self, m, P):
+        """Mean gap seen from m on: int F(P/D^1/2)/(pi D)^1/2 dD/q over the D = m' - m beyond."""
+        knots, q = self.spectrum.knots, self.spectrum.wave_number
+        rest = knots[-1] - m
+        smallest = P**2 / (P**2 / rest + 70)
+        stops = [mp.log(knot - m) for knot in knots if knot - m > smallest]
+        value = mpf(0)
+        for a, b in pairwise([mp.log(smallest), *stops]):
+            count = int(mp.ceil(b - a))
+            half = (b - a) / (2 * count)
+            for k in range(count):
+                for x, weight in gauss_legendre(16):
+                    D = mp.exp(a + half * (2 * k + 1 + x))
+                    root = mp.sqrt(D)
+                    value += weight * half * root * self.kernel.F(P / root) / q(m + D)
+        return value / mp.sqrt(mp.pi)
 
     @cache  # noqa: B019 - one theory at a time
     def lost(self, log_step):
-        """u1 and the width where A = erf(y_end + step)."""
-        y = self.y_end + mp.exp(log_step)
-        m = self.p**2 * self.kernel.T(y)
-        area, slope = mp.erf(y), self.kernel.density(y)
-        slope *= -(y**3) * self.kernel.S(y) / (2 * self.p**2)  # dA/dm
-        P = self.p / area
-        gap, gap_slope = self.spectrum.gap(self.kernel, m, P, -P * slope / area, self.density)
-        u1 = gap + gap_slope * area / slope
-        h = mp.sqrt(self.spectrum.height_variance(m))
+        """u1 = d(A gap)/dA and the width where A = erf(y_end + step)."""
+        step = mp.exp(log_step)
+        y, change = self.y_end + step, step * mpf("1e-11")
+        below, above = (
+            mp.erf(v) * self.gap(self.p**2 * self.kernel.T(v), self.p / mp.erf(v))
+            for v in (y - change, y + change)
+        )
+        u1 = (above - below) / (mp.erf(y + change) - mp.erf(y - change))
+        h = mp.sqrt(self.spectrum.height_variance(self.p**2 * self.kernel.T(y)))
         return u1, h if self.variant == OLD else u1 * h / mp.sqrt(u1**2 + h**2)
 
     def breaks(self):
-        """Steps at which the wave number is not a smooth function of m."""
-        s = self.spectrum
-        if isinstance(s, Shells):
-            inner = s.upto[:-1]
-        else:
-            inner = [mp.pi * s.integral(3, s.q0, k) for k in s.knots[1:-1]]
-        found = []
-        for m in inner:
-            target = mp.log(m / self.p**2)
-            guess = -target / 2
-            y = mp.exp(
-                mp.findroot(
-                    lambda v, t=target: mp.log(self.kernel.T(mp.exp(v))) - t, (guess, guess + 0.1)
-                )
-            )
+        """Steps at which the wave number is not smooth in m, closing in on shells from below."""
+        for m in self.spectrum.knots[1:-1]:
+            y = self.y_at(m)
+            yield mp.log(y - self.y_end)
             P = self.p / mp.erf(y)
-            found.append(mp.log(y - self.y_end))
-            if isinstance(s, Shells):
-                found += self.approach(m, P)
-        return found
-
-    def approach(self, m, P):
-        """Steps that close in on a shell from its coarse side."""
-        found = []
-        for k in range(24):
-            before = m - P**2 / mpf(2) ** k
-            if before > m / 1000:
-                target = mp.log(before / self.p**2)
-                y = mp.exp(
-                    mp.findroot(
-                        lambda v, t=target: mp.log(self.kernel.T(mp.exp(v))) - t,
-                        (-target / 2, -target / 2 + mpf("0.1")),
-                    )
-                )
-                found.append(mp.log(y - self.y_end))
-        return found
+            near = [m - P**2 / mpf(2) ** k for k in range(24)] if self.spectrum.shells else []
+            yield from (mp.log(self.y_at(b) - self.y_end) for b in near if b > m / 1000)
 
     def distribution(self, gaps):
         """Density and cumulative distribution at the `gaps`."""
-        high = mp.log(mp.sqrt(self.y_end**2 + 45) - self.y_end)
-        low = high
+        low = high = mp.log(mp.sqrt(self.y_end**2 + 45) - self.y_end)
         while True:  # down to where the Gaussians are points next to the smallest gap
             u1, width = self.lost(low)
             if u1 + 12 * width < min(gaps):
                 break
             low -= mpf(3) / 4
-        panels = sorted({low, high, *(b for b in self.breaks() if low < b < high)})
-        panels = [self.split(a, b, max(gaps)) for a, b in zip(panels[:-1], panels[1:], strict=True)]
-        density, cumulative = [mpf(0)] * len(gaps), [mpf(0)] * len(gaps)
-        for a, b in (pair for part in panels for pair in part):
-            for x, weight in gauss_legendre(self.order):
+        stops = sorted({low, high, *(b for b in self.breaks() if low < b < high)})
+        density_at = [mpf(0)] * len(gaps)
+        cumulative = [mp.erf(self.y_end + mp.exp(low)) - mp.erf(self.y_end)] * len(gaps)
+        for a, b in (panel for ends in pairwise(stops) for panel in self.split(*ends, max(gaps))):
+            for x, weight in gauss_legendre(14):
                 t = (a + b) / 2 + (b - a) / 2 * x
-                y = self.y_end + mp.exp(t)
-                share = weight * (b - a) / 2 * mp.exp(t) * self.kernel.density(y)
+                share = weight * (b - a) / 2 * mp.exp(t) * density(self.y_end + mp.exp(t))
                 u1, width = self.lost(t)
                 for i, u in enumerate(gaps):
                     left, right = (u - u1) / width, (u + u1) / width
-                    pair = mp.exp(-(left**2) / 2) + mp.exp(-(right**2) / 2)
-                    density[i] += share * pair / (mp.sqrt(2 * mp.pi) * width)
-                    pair = mp.erf(left / mp.sqrt(2)) + mp.erf(right / mp.sqrt(2))
-                    cumulative[i] += share * pair / 2
-        closed = mp.erf(self.y_end + mp.exp(low)) - mp.erf(self.y_end)
-        return density, [c + closed for c in cumulative]
+                    density_at[i] += share * (mp.npdf(left) + mp.npdf(right)) / width
+                    cumulative[i] += share * (mp.ncdf(left) + mp.ncdf(right) - 1)
+        return density_at, cumulative
 
     def split(self, a, b, largest):
         """Panels over which the Gaussians move and widen little, those far off left out."""
@@ -458,21 +325,24 @@ class Theory:
         return self.split(a, middle, largest) + self.split(middle, b, largest)
 
 
-def rows(case, density):
-    """Lines of the table for one case."""
-    name, variant, correction, gamma, load, gaps = case
+def theory_of(case):
+    """Theory of one case."""
+    name, variant, correction, gamma, load, _ = case
     spectrum = spectrum_of(name)
-    gamma_used = mpf(gamma) if gamma else mpf(OWN_GAMMA[correction][0]) / OWN_GAMMA[correction][1]
-    kernel = universal(correction, gamma_used)
-    theory = Theory(spectrum, variant, kernel, mpf(load) * spectrum.q0 * spectrum.h_rms, density)
-    at = [mpf(u) * spectrum.h_rms for u in gaps]
-    density_at, cumulative = theory.distribution(at)
+    numerator, denominator = OWN_GAMMA[correction]
+    kernel = kernel_of(correction, mpf(gamma) if gamma else mpf(numerator) / denominator)
+    return Theory(spectrum, variant, kernel, mpf(load) * spectrum.q0 * spectrum.h_rms)
+
+
+def rows(case):
+    """Lines of the table for one case."""
+    theory, gaps = theory_of(case), case[-1]
+    h = theory.spectrum.h_rms
     area, mean_gap = theory.area(), theory.mean_gap()
-    for u, P, share in zip(gaps, density_at, cumulative, strict=True):
-        values = (1 - area, area, mean_gap / spectrum.h_rms, P * spectrum.h_rms, share)
-        yield [name, variant, correction, "" if gamma is None else gamma, load, u] + [
-            mp.nstr(value, 15) for value in values
-        ]
+    found = theory.distribution([mpf(u) * h for u in gaps])
+    for u, P, share in zip(gaps, *found, strict=True):
+        values = (1 - area, area, mean_gap / h, P * h, share)
+        yield [*("" if x is None else x for x in case[:-1]), u, *(mp.nstr(v, 15) for v in values)]
 
 
 HEADER = [
@@ -482,13 +352,13 @@ HEADER = [
 
 
 def main():
-    mp.dps = 30
     with TABLE.open("w", newline="") as file:
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(HEADER)
         for case in CASES:
-            writer.writerows(rows(case, DENSITY))
+            writer.writerows(rows(case))
 
 
 if __name__ == "__main__":
+    mp.dps = 30
     main()

@@ -7,7 +7,6 @@ the limit of any such method. Example::
 """
 
 import argparse
-import csv
 import os
 import time
 import tracemalloc
@@ -16,10 +15,8 @@ from pathlib import Path
 for variable in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
     os.environ[variable] = "1"
 
-import matplotlib  # noqa: E402 - the number of threads must be set before numpy is loaded
-import numpy as np  # noqa: E402
-
-matplotlib.use("Agg")
+import numpy as np  # noqa: E402 - the number of threads must be set before numpy is loaded
+import pandas as pd  # noqa: E402
 from matplotlib import pyplot as plt  # noqa: E402
 
 from stickiness import repulsive, spectrum, surface  # noqa: E402
@@ -27,7 +24,6 @@ from stickiness.repulsive import half_space  # noqa: E402
 
 Q0 = 2 * np.pi
 LOADS = (0.01, 0.1)
-FIELDS = ("n", "load", "area", "seconds", "pairs", "pair_seconds", "gigabytes", "arrays")
 _OFTEN = 2048  # sides up to which the least of three times counts
 _ONCE = 4096  # sides beyond which operators are made within the only time
 COLOURS = {0.01: "#0072b2", 0.1: "#d55e00"}
@@ -76,7 +72,7 @@ def seconds_of_a_pair(n, times):
 
 
 def growth(chosen):
-    """Rows of the table, a solution each."""
+    """Return the table, a row for each solution."""
     rows = []
     for n in chosen.sizes:
         heights = heights_of(n, chosen.hurst, chosen.seed)
@@ -85,39 +81,27 @@ def growth(chosen):
             most, seconds, contact = peak(heights, load)
             if n <= _ONCE:
                 seconds = min(timed(heights, load)[0] for _ in range(runs))
-            pair = seconds_of_a_pair(n, 3 * runs)
-            figures = contact.area_fraction, seconds, contact.fft_pairs, pair
-            figures = [float(f"{x:.4g}") for x in (*figures, most / 1e9, most / heights.nbytes)]
-            rows.append(dict(zip(FIELDS, (n, load, *figures), strict=True)))
+            row = {"n": n, "load": load, "area": contact.area_fraction, "seconds": seconds}
+            row |= {"pairs": contact.fft_pairs, "pair_seconds": seconds_of_a_pair(n, 3 * runs)}
+            rows.append(row | {"gigabytes": most / 1e9, "arrays": most / heights.nbytes})
             print(rows[-1], flush=True)
-    return rows
+    return pd.DataFrame(rows)
 
 
-def write(path, rows):
-    with path.open("w", newline="", encoding="utf-8") as file:
-        table = csv.DictWriter(file, FIELDS, lineterminator="\n")
-        table.writeheader()
-        table.writerows(rows)
-
-
-def draw(path, rows):
+def draw(path, table):
     figure, (times, memory, pairs) = plt.subplots(1, 3, figsize=(9.5, 3.4), layout="constrained")
     panels = ((times, "seconds"), (memory, "gigabytes"), (pairs, "pairs"))
-    for load, marker in zip(LOADS, "os", strict=True):
-        among = [row for row in rows if row["load"] == load]
-        n = [row["n"] for row in among]
+    for (load, rows), marker in zip(table.groupby("load"), "os", strict=True):
+        label = f"load {load:g} $E^* q_0 h_\\mathrm{{rms}}$"
         for axes, name in panels:
-            label = f"load {load:g} $E^* q_0 h_\\mathrm{{rms}}$"
-            values = [row[name] for row in among]
-            axes.plot(n, values, marker=marker, color=COLOURS[load], label=label)
-    n = sorted({row["n"] for row in rows})
-    bare = [min(row["pair_seconds"] for row in rows if row["n"] == m) for m in n]
-    times.plot(n, bare, "k^--", label="one bare FFT pair")
-    memory.plot(n, [8e-9 * m**2 for m in n], "k--", label="one array of the grid")
+            axes.plot(rows.n, rows[name], marker=marker, color=COLOURS[load], label=label)
+    bare = table.groupby("n").pair_seconds.min()
+    times.plot(bare.index, bare, "k^--", label="one bare FFT pair")
+    memory.plot(bare.index, 8e-9 * bare.index**2, "k--", label="one array of the grid")
     titles = ("processor time [s]", "memory beside the heights [GB]", "FFT pairs")
     for (axes, _), title in zip(panels, titles, strict=True):
         axes.set_xscale("log", base=2)
-        axes.set_xticks(n, [str(m) for m in n])
+        axes.set_xticks(bare.index, bare.index.astype(str))
         axes.set_xlabel("points along a side")
         axes.set_title(title, fontsize=10)
         axes.grid(alpha=0.3)
@@ -131,9 +115,9 @@ def draw(path, rows):
 
 def main():
     chosen = options()
-    rows = growth(chosen)
-    write(chosen.output / "repulsive_cost.csv", rows)
-    draw(chosen.output / "repulsive_cost.png", rows)
+    table = growth(chosen)
+    table.to_csv(chosen.output / "repulsive_cost.csv", index=False, float_format="%.4g")
+    draw(chosen.output / "repulsive_cost.png", table)
 
 
 if __name__ == "__main__":

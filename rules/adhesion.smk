@@ -11,6 +11,11 @@ def model_of(adhesion):
     return model_choice.choose(asked, model_surface_of(asked["case"]), DMT_ERRORS)
 
 
+def case_of(wildcards):
+    """Contact case behind a set of adhesive parameters."""
+    return ADHESION[wildcards.adhesion]["case"]
+
+
 def points_in_full(wildcards):
     return model_of(wildcards.adhesion).full.tolist()
 
@@ -42,15 +47,6 @@ def same_without_adhesion(wildcards):
     return [f"{RESULTS}/contact/{case}/seeds{part}.nc" for part in parts]
 
 
-def case_of(wildcards):
-    """Contact case behind a set of adhesive parameters."""
-    return ADHESION[wildcards.adhesion]["case"]
-
-
-def ensemble_of(wildcards):
-    return f"{RESULTS}/contact/ensembles/{case_of(wildcards)}.nc"
-
-
 rule solve_adhesive:
     input:
         surfaces=lambda wildcards: surfaces_of(case_of(wildcards), wildcards.part),
@@ -79,7 +75,7 @@ rule solve_adhesive:
 rule average_adhesive:
     input:
         laws=ERROR_MODELS,
-        ensemble=ensemble_of,
+        ensemble=lambda wildcards: f"{RESULTS}/contact/ensembles/{case_of(wildcards)}.nc",
         realisations=realisations_in_full,
     output:
         averages=f"{RESULTS}/adhesion/full/{{adhesion}}.nc",
@@ -122,9 +118,7 @@ rule compare_edges:
 # The committed table is a copy of this one, so that models can be chosen before anything is solved.
 rule tabulate_dmt_error:
     input:
-        adhesive=[
-            f"{RESULTS}/adhesion/full/{name}.nc" for name in ("dmt_error", "dmt_error_zeta128")
-        ],
+        adhesive=several("adhesion/full/{name}.nc", name=["dmt_error", "dmt_error_zeta128"]),
     output:
         f"{RESULTS}/adhesion/dmt_error.csv",
     log:

@@ -19,6 +19,7 @@ def paper_surface(name):
 
 def ledger_inputs():
     """Files behind the claims, by the names that the claims in scripts/claims use."""
+    parts = plan.seed_batches(len(seeds_of("H0.8_zeta64")))
     return {
         "kappa_64": f"{RESULTS}/fits/kappa/H0.8_zeta64.nc",
         "kappa_128": f"{RESULTS}/fits/kappa/H0.8_zeta128.nc",
@@ -42,15 +43,8 @@ def ledger_inputs():
         **{name: paper_surface(name) for name in PAPER_SURFACES},
         "remaining": REMAINING_TABLE,
         "experiments": f"{RESULTS}/experiments/experiments.nc",
-        "measured_surfaces": [
-            f"{RESULTS}/real_surfaces/{name}.nc"
-            for name, surface in REAL_SURFACES.items()
-            if surface["kind"] == "measured"
-        ],
-        "seeds": [
-            surfaces_of("H0.8_zeta64", part)
-            for part in plan.seed_batches(len(seeds_of("H0.8_zeta64")))
-        ],
+        "measured_surfaces": several("real_surfaces/{surface}.nc", surface=MEASURED_SURFACES),
+        "seeds": [surfaces_of("H0.8_zeta64", part) for part in parts],
     }
 
 

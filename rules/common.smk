@@ -60,18 +60,15 @@ for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
 os.environ.setdefault("STICKINESS_UNITS", os.path.abspath(".snakemake/units"))
 
 from common.source_hash import save_cache, source_hash
-from stickiness.accuracy import plan
+from stickiness.accuracy import model_choice, plan
 from stickiness.accuracy.error_models import read_models
-from stickiness.accuracy import model_choice
 from common.config import load
 from common.config.entries import MOST_POINTS, measurements
 
 # Tables that this project measured, which are committed.
-ERROR_MODELS, TRADE_SUMMARY = project_file("config/accuracy.csv"), project_file(
-    "config/tradeoff.csv"
-)
-REMAINING_TABLE, DMT_ERROR_TABLE = project_file("config/remaining.csv"), project_file(
-    "config/dmt_error.csv"
+ERROR_MODELS, TRADE_SUMMARY, REMAINING_TABLE, DMT_ERROR_TABLE = (
+    project_file(f"config/{name}.csv")
+    for name in ("accuracy", "tradeoff", "remaining", "dmt_error")
 )
 
 try:
@@ -80,13 +77,9 @@ try:
     update_config(config, given)
     TRADE, REMAINING_CAMPAIGN = (load.campaign(PROJECT, name) for name in ("tradeoff", "remaining"))
     if workflow.is_main_process:  # whose jobs read what was checked here
-        load.check_all(
-            config,
-            {"tradeoff": TRADE, "remaining": REMAINING_CAMPAIGN},
-            given,
-            f"config of module {MODULE}" if MODULE else load.USER,
-            made=bool(MODULE),
-        )
+        name = f"config of module {MODULE}" if MODULE else load.USER
+        campaigns = {"tradeoff": TRADE, "remaining": REMAINING_CAMPAIGN}
+        load.check_all(config, campaigns, given, name, made=bool(MODULE))
     MATERIALS, REAL_SURFACES, EXPERIMENTS = (
         load.load(config[table])[table] for table in load.TABLES
     )
@@ -112,6 +105,7 @@ MODEL_SURFACES, CASES = config["model_surfaces"], config["cases"]
 SWEEPS, ADHESION, LOOPS = config["theory"]["sweeps"], config["adhesion"], config["loops"]
 GAMMA, GAPS = config["theory"]["gamma"], config["gaps"]
 FIGURES = [f"fig{number}" for number in range(1, 12)]
+MEASURED_SURFACES = [name for name, entry in REAL_SURFACES.items() if entry["kind"] == "measured"]
 # Figures and report show the cases that are simulated for every quantity.
 COMPLETE = [case for case, planned in PLANS.items() if planned.complete]
 COMPARISONS = {
@@ -158,23 +152,25 @@ def several(path, **names):
     return expand(f"{RESULTS}/{path}", **names)
 
 
+def pixels_of_case(case):
+    return PLANS[case].settings.pixels_per_wavelength
+
+
 def seeds_of(case):
     return list(range(1, PLANS[case].settings.seeds + 1))
 
 
 def surfaces_of(case, part="1-1"):
     """Surfaces of a case on the grid that it is solved on: the file that holds a part's seeds."""
-    planned = PLANS[case]
-    return surfaces_on(planned.surface, planned.settings.pixels_per_wavelength, part)
+    return surfaces_on(PLANS[case].surface, pixels_of_case(case), part)
 
 
 def surfaces_on(surface, pixels, part="1-1"):
     """File of surfaces on a grid that holds a part's seeds: as many as any case wants of them."""
     counts = [
         each.settings.seeds
-        for each in PLANS.values()
-        if each.simulated
-        and (each.surface, each.settings.pixels_per_wavelength) == (surface, pixels)
+        for case, each in PLANS.items()
+        if each.simulated and (each.surface, pixels_of_case(case)) == (surface, pixels)
     ]
     held = plan.batches_covering(plan.seeds_in(part)[-1], among=max(counts, default=1))[-1]
     grid = "" if pixels == FIDELITY["pixels_per_wavelength"] else f"@{pixels}"

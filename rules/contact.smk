@@ -1,7 +1,6 @@
 # Contact without adhesion, by boundary elements. A job walks the whole load path of a few seeds of a
-# case, others walk it for many more on a coarse grid; together they give the
-# case's means and the slope of its area against load.
-# Surfaces that theory alone is compared with take one job for all of it.
+# case, others walk it for many more on a coarse grid; together they give the means and the slope of
+# area against load. A surface with which theory alone is compared takes one job.
 
 
 def realisations(wildcards):
@@ -69,9 +68,7 @@ rule solve_repulsive:
         seeds=lambda wildcards: plan.seeds_in(wildcards.part),
         pressures=lambda wildcards: pressures_of(wildcards.case),
         tolerance=lambda wildcards: PLANS[wildcards.case].settings.tolerance,
-        pixels_per_wavelength=lambda wildcards: (
-            PLANS[wildcards.case].settings.pixels_per_wavelength
-        ),
+        pixels_per_wavelength=lambda wildcards: pixels_of_case(wildcards.case),
         gaps=gaps_of,
         measured=measured_of,
         code=source_hash("contact/solve_repulsive.py"),

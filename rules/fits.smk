@@ -48,7 +48,7 @@ if SIMULATED:
 rule tabulate_a_v:
     input:
         theory=f"{RESULTS}/persson/table.nc",
-        comparisons=expand(f"{RESULTS}/fits/theory/{{compared}}.nc", compared=SIMULATED),
+        comparisons=several("fits/theory/{compared}.nc", compared=SIMULATED),
     output:
         f"{RESULTS}/fits/a_v_table.nc",
     log:
@@ -65,8 +65,8 @@ rule tabulate_a_v:
 
 rule fit_gamma:
     input:
-        ensembles=expand(f"{RESULTS}/contact/ensembles/{{compared}}.nc", compared=SIMULATED),
-        comparisons=expand(f"{RESULTS}/fits/theory/{{compared}}.nc", compared=SIMULATED),
+        ensembles=several("contact/ensembles/{compared}.nc", compared=SIMULATED),
+        comparisons=several("fits/theory/{compared}.nc", compared=SIMULATED),
     output:
         f"{RESULTS}/fits/gamma.nc",
     log:

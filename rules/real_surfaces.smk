@@ -8,10 +8,10 @@ PICTURED_MATERIAL = choose_pictured(MATERIALS)
 
 def topographies(wildcards):
     """Files of a real surface's measurements; those that come with the project are left out."""
-    surface = REAL_SURFACES[wildcards.real_surface]
-    if surface["kind"] != "measured":
+    if wildcards.real_surface not in MEASURED_SURFACES:
         return []
-    files = [measurement["file"] for _, measurement in measurements(surface)]
+    measured = measurements(REAL_SURFACES[wildcards.real_surface])
+    files = [measurement["file"] for _, measurement in measured]
     return [local(file) for file in files if not file.startswith("builtin:")]
 
 

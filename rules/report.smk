@@ -27,7 +27,7 @@ def contact_of_surface(wildcards):
     found = {}
     if "bem" in REAL_SURFACES[name]:
         found["measured_contact"] = f"{RESULTS}/real_surfaces/contact/{name}.nc"
-    if REAL_SURFACES[name]["kind"] == "measured":
+    if name in MEASURED_SURFACES:
         found["contact"] = f"{RESULTS}/real_surfaces/pictures/{name}.nc"
         found["pull_off"] = f"{RESULTS}/real_surfaces/pull_off/{name}.nc"
         found["contact_figure"] = f"{RESULTS}/figures/surfaces/{name}_contact.png"
@@ -38,7 +38,7 @@ rule write_report:
     input:
         template=project_file("report/report.html.j2"),
         parts=PAGE_PARTS,
-        figures=expand(f"{RESULTS}/figures/{{figure}}.png", figure=FIGURES),
+        figures=several("figures/{figure}.png", figure=FIGURES),
         captions=[project_file(f"report/{figure}.rst") for figure in FIGURES],
         claims=f"{RESULTS}/claims/claims.nc",
         verdicts=f"{RESULTS}/criteria/verdicts.nc",
@@ -46,10 +46,10 @@ rule write_report:
         experiments=f"{RESULTS}/experiments/experiments.nc",
         experiments_figure=f"{RESULTS}/figures/experiments.png",
         experiments_caption=project_file("report/experiments.rst"),
-        ensembles=expand(f"{RESULTS}/contact/ensembles/{{case}}.nc", case=COMPLETE),
-        comparisons=expand(f"{RESULTS}/fits/theory/{{case}}.nc", case=COMPLETE),
-        surfaces=expand(f"{RESULTS}/real_surfaces/{{real_surface}}.nc", real_surface=REAL_SURFACES),
-        answers=expand(f"{RESULTS}/cases/{{case}}.nc", case=CASES),
+        ensembles=several("contact/ensembles/{case}.nc", case=COMPLETE),
+        comparisons=several("fits/theory/{case}.nc", case=COMPLETE),
+        surfaces=several("real_surfaces/{surface}.nc", surface=REAL_SURFACES),
+        answers=several("cases/{case}.nc", case=CASES),
         laws=ERROR_MODELS,
         trade=TRADE_SUMMARY,
         trade_figure=f"{RESULTS}/figures/tradeoff.png",
@@ -68,12 +68,7 @@ rule write_report:
         "../envs/environment.yaml"
     params:
         benchmarks=lambda wildcards, output: str(results_folder(wildcards, output) / "benchmarks"),
-        presets={
-            "fidelities": config["fidelities"],
-            "asked": TRADE["presets"],
-            "surface": MODEL_SURFACES.get(TRADE["presets"]["surface"]),
-            "descriptor_seeds": config["sampling"]["descriptor_seeds"],
-        },
+        presets=PRESETS,
         fidelity=config["fidelity"],
         figure_sources=figure_sources,
         code=source_hash("report/write_report.py"),

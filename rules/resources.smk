@@ -27,9 +27,7 @@ def surface_size(wildcards):
 
 
 def case_size(wildcards):
-    return megapixels(
-        model_surface_of(wildcards.case), PLANS[wildcards.case].settings.pixels_per_wavelength
-    )
+    return megapixels(model_surface_of(wildcards.case), pixels_of_case(wildcards.case))
 
 
 def coarse_size(wildcards):
@@ -41,9 +39,8 @@ def comparison_size(wildcards):
 
 
 def adhesion_size(wildcards):
-    asked = ADHESION[wildcards.adhesion]
-    pixels = PLANS[asked["case"]].settings.pixels_per_wavelength * asked.get("refine", 1)
-    return megapixels(model_surface_of(asked["case"]), pixels)
+    case, refine = case_of(wildcards), ADHESION[wildcards.adhesion].get("refine", 1)
+    return megapixels(model_surface_of(case), pixels_of_case(case) * refine)
 
 
 def loop_size(wildcards):

@@ -64,11 +64,7 @@ rule measure_adhesive:
         mem_mb=2000,
     params:
         case=lambda wildcards: ADHESIVE_SURFACES[wildcards.trade_case],
-        adhesion={
-            key: value
-            for key, value in TRADE["adhesion"].items()
-            if key not in ("surfaces", "pull_off")
-        },
+        adhesion={k: v for k, v in TRADE["adhesion"].items() if k not in ("surfaces", "pull_off")},
         code=source_hash("tradeoff/measure_adhesive.py"),
     script:
         "../scripts/tradeoff/measure_adhesive.py"

@@ -274,11 +274,11 @@ def head_tables(medians):
     ]
 
 
-def describe_presets(models, fidelities, asked, surface, descriptor_seeds):
+def describe_presets(models, fidelities, presets, surface, descriptor_seeds):
     """Settings of every preset, with their predicted cost and errors."""
-    given = models, Surface.of(surface), asked["pressures"]
+    given = models, Surface.of(surface), presets["pressures"]
     rows = []
-    for name, error in asked["accuracy"].items():
+    for name, error in presets["accuracy"].items():
         chosen = plan.preset(fidelities[name])
         problems = [Problem(*given, columns_of([one]), descriptor_seeds) for one in MODELLED]
         whole = Problem(*given, columns_of(MODELLED), descriptor_seeds)
