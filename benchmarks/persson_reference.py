@@ -271,13 +271,13 @@ class Theory:
     @cache  # noqa: B019 - one theory at a time
     def lost(self, log_step):
         """u1 = d(A gap)/dA and the width where A = erf(y_end + step)."""
-        step = mp.exp(log_step)
-        y, change = self.y_end + step, step * mpf("1e-11")
-        below, above = (
-            mp.erf(v) * self.gap(self.p**2 * self.kernel.T(v), self.p / mp.erf(v))
-            for v in (y - change, y + change)
-        )
-        u1 = (above - below) / (mp.erf(y + change) - mp.erf(y - change))
+        y, change = self.y_end + mp.exp(log_step), mp.exp(log_step) * mpf("1e-11")
+        with mp.workdps(60):  # near full contact A is 1 but for some 1e-30
+            below, above = (
+                mp.erf(v) * self.gap(self.p**2 * self.kernel.T(v), self.p / mp.erf(v))
+                for v in (y - change, y + change)
+            )
+            u1 = (above - below) / (2 * change * density(y))
         h = mp.sqrt(self.spectrum.height_variance(self.p**2 * self.kernel.T(y)))
         return u1, h if self.variant == OLD else u1 * h / mp.sqrt(u1**2 + h**2)
 

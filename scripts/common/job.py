@@ -26,8 +26,7 @@ def start(names: dict[str, Any], rule: str, **wildcards: Any) -> Any:
     """
     job = names.get("snakemake")
     if job is None:
-        given = dict(argument.split("=", 1) for argument in sys.argv[1:])
-        job = find_job(rule, wildcards | given)
+        job = find_job(rule, wildcards | dict(given.split("=", 1) for given in sys.argv[1:]))
     Path(job.log[0]).parent.mkdir(parents=True, exist_ok=True)
     style = {"level": logging.INFO, "format": "%(asctime)s %(levelname)s %(message)s"}
     logging.basicConfig(filename=job.log[0], filemode="w", force=True, **style)
@@ -46,25 +45,19 @@ def report_error(kind: type[BaseException], error: BaseException, trace: Any) ->
 
 
 def find_job(rule: str, wildcards: dict[str, Any]) -> SimpleNamespace:
-    """Return the job of a rule with `input`, `output`, `params` and `log` as in a run.
-
-    The documented API of Snakemake runs workflows but does not show single jobs, so this takes the
-    rule from the workflow behind it.
-    """
+    """Return the job of a rule with `input`, `output`, `params` and `log` as in a run."""
     from snakemake.api import SnakemakeApi
     from snakemake.rules import Wildcards
     from snakemake.settings.types import ConfigSettings, OutputSettings, ResourceSettings
 
-    config = {key: wildcards.pop(key) for key in ("fidelity",) if key in wildcards}
+    config = ConfigSettings(config={k: wildcards.pop(k) for k in ("fidelity",) if k in wildcards})
     with SnakemakeApi(OutputSettings(quiet=None)) as api:
-        found = api.workflow(
-            ResourceSettings(cores=1),
-            config_settings=ConfigSettings(config=config),
-            snakefile=Path("Snakefile"),
-        )._workflow.get_rule(rule)
-        job = SimpleNamespace(rule=rule, wildcards=Wildcards(fromdict=wildcards))
-        job.input, *_ = found.expand_input(job.wildcards, groupid=None)
-        job.output, _ = found.expand_output(job.wildcards)
-        job.params, _ = found.expand_params(job.wildcards, job.input, job.output, found)
-        job.log = found.expand_log(job.wildcards)
-        return job
+        run = api.workflow(
+            ResourceSettings(cores=1), config_settings=config, snakefile=Path("Snakefile")
+        )
+        # The documented API runs workflows but does not show single jobs.
+        found, w = run._workflow.get_rule(rule), Wildcards(fromdict=wildcards)
+        (inputs, *_), (outputs, _) = found.expand_input(w, groupid=None), found.expand_output(w)
+        params, _ = found.expand_params(w, inputs, outputs, found)
+        files = {"input": inputs, "output": outputs, "log": found.expand_log(w)}
+        return SimpleNamespace(rule=rule, wildcards=w, params=params, **files)

@@ -9,7 +9,6 @@ from functools import cache
 from pathlib import Path
 
 SCRIPTS = Path(__file__).parents[1]
-DOCUMENTED = (ast.Module, ast.ClassDef, ast.FunctionDef, ast.AsyncFunctionDef)
 CACHE = Path(".snakemake/source_hashes.json")  # below the folder of the run
 
 
@@ -23,19 +22,18 @@ def source_hash(script: str) -> str:
     script : str
         Path below ``scripts/``, such as ``"adhesion/solve_adhesive.py"``.
     """
-    found, queue = {}, [SCRIPTS / script]
+    digests, queue = {}, [SCRIPTS / script]
     while queue:
         path = queue.pop()
-        if path not in found:
-            found[path], names = read_source(path)
-            queue += [modules()[name] for name in names if name in modules()]
-    lines = sorted(f"{path.relative_to(SCRIPTS)}: {digest}" for path, digest in found.items())
+        if path not in digests:
+            digests[path], imported = read_source(path)
+            queue += [find_modules()[name] for name in imported if name in find_modules()]
+    lines = sorted(f"{path.relative_to(SCRIPTS)}: {digest}" for path, digest in digests.items())
     return hashlib.sha256("\n".join(lines).encode()).hexdigest()[:16]
 
 
 @cache
-def modules() -> dict[str, Path]:
-    """Files below ``scripts/`` by the dotted names under which they are imported."""
+def find_modules() -> dict[str, Path]:
     files = {path.relative_to(SCRIPTS).with_suffix(""): path for path in SCRIPTS.rglob("*.py")}
     return {".".join(name.parts).removesuffix(".__init__"): path for name, path in files.items()}
 
@@ -46,18 +44,14 @@ def read_source(path: Path) -> tuple[str, list[str]]:
     stamp = [path.stat().st_mtime_ns, path.stat().st_size]
     entry = load_cache().get(str(path))
     if entry is None or entry[0] != stamp:
-        tree = normalise(ast.parse(path.read_bytes()))
+        tree = ast.parse(path.read_bytes())
+        for node in ast.walk(tree):
+            documented = ast.Module | ast.ClassDef | ast.FunctionDef | ast.AsyncFunctionDef
+            if isinstance(node, documented) and ast.get_docstring(node, clean=False) is not None:
+                del node.body[0]
         digest = hashlib.sha256(ast.dump(tree).encode()).hexdigest()
         entry = load_cache()[str(path)] = [stamp, digest, sorted(imported_names(tree))]
     return entry[1], entry[2]
-
-
-def normalise(tree: ast.Module) -> ast.Module:
-    """Remove the docstrings; a syntax tree has neither comments nor layout."""
-    for node in ast.walk(tree):
-        if isinstance(node, DOCUMENTED) and ast.get_docstring(node, clean=False) is not None:
-            del node.body[0]
-    return tree
 
 
 def imported_names(tree: ast.Module) -> set[str]:
@@ -74,7 +68,6 @@ def imported_names(tree: ast.Module) -> set[str]:
 
 @cache
 def load_cache() -> dict[str, list]:
-    """Read what earlier runs found, by path; nothing if there is no such file."""
     with contextlib.suppress(OSError, ValueError):
         return json.loads(CACHE.read_text(encoding="utf-8"))
     return {}
@@ -82,11 +75,8 @@ def load_cache() -> dict[str, list]:
 
 def save_cache() -> None:
     """Keep what was found for the next run, where the folder may be written to."""
-    text = json.dumps(load_cache())
     with contextlib.suppress(OSError):
-        if CACHE.exists() and CACHE.read_text(encoding="utf-8") == text:
-            return
         CACHE.parent.mkdir(exist_ok=True)
-        part = CACHE.with_suffix(f".{os.getpid()}")
-        part.write_text(text, encoding="utf-8")
+        part = CACHE.with_suffix(f".{os.getpid()}")  # other runs never read half a file
+        part.write_text(json.dumps(load_cache()), encoding="utf-8")
         part.replace(CACHE)

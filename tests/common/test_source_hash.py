@@ -29,7 +29,7 @@ def hash_now(tmp_path, monkeypatch):
     def changed(name=None, text=None):
         if name:
             write(name, text)
-        for cached in (code.modules, code.read_source, code.load_cache):
+        for cached in (code.find_modules, code.read_source, code.load_cache):
             cached.cache_clear()
         found = code.source_hash("stage/rule.py")
         code.save_cache()
@@ -38,7 +38,7 @@ def hash_now(tmp_path, monkeypatch):
     for item in FILES.items():
         write(*item)
     yield changed
-    for cached in (code.modules, code.read_source, code.load_cache):
+    for cached in (code.find_modules, code.read_source, code.load_cache):
         cached.cache_clear()
 
 

@@ -16,44 +16,33 @@ ROUNDING = 1e-9  # relative to the largest value of a variable
 
 def main():
     one, other = map(Path, sys.argv[1:3])
-    files = {path.relative_to(one) for path in one.rglob("*.nc")}
-    missing = sorted(str(file) for file in files if not (other / file).is_file())
-    if missing or not files:
-        sys.exit(f"{other} has no {', '.join(missing)}" if missing else f"no .nc file in {one}")
-    apart = {}
-    variables = 0
-    for file in sorted(files):
-        for name, distance in distances(one / file, other / file):
-            variables += 1
-            if distance > 0:
-                apart[f"{file}: {name}"] = distance
+    files = sorted(path.relative_to(one) for path in one.rglob("*.nc"))
+    found = {file: list_distances(one / file, other / file) for file in files}
+    apart = {(file, name): d for file, of in found.items() for name, d in of.items() if d > 0}
+    variables = sum(map(len, found.values()))
     same = variables - len(apart)
     print(f"{len(files)} files, {variables} variables, {same} of them the same bit by bit")
-    for where, distance in sorted(apart.items(), key=lambda item: -item[1])[:10]:
-        print(f"  {where} apart by {distance:.1e} of its largest value")
-    if any(distance > ROUNDING for distance in apart.values()):
-        sys.exit(f"FAILED: more than rounding ({ROUNDING:g})")
+    for (file, name), distance in sorted(apart.items(), key=lambda item: -item[1])[:10]:
+        print(f"  {file}: {name} apart by {distance:.1e} of its largest value")
+    if not files or any(distance > ROUNDING for distance in apart.values()):
+        sys.exit(f"FAILED: no files, or more than rounding ({ROUNDING:g})")
 
 
-def distances(one, other):
-    """Name and largest difference of each variable of two files, inf where they cannot compare."""
+def list_distances(one, other):
+    """Largest difference over the largest value of each variable, inf where they cannot compare."""
+    if not other.is_file():
+        return {"the whole file": np.inf}
     with xr.open_dataset(one) as a, xr.open_dataset(other) as b:
-        for name in sorted(set(a.variables) | set(b.variables)):
-            if name not in a.variables or name not in b.variables:
-                yield name, np.inf
-                continue
-            yield name, distance(a[name].values, b[name].values)
+        names = {*a.variables, *b.variables}
+        shared = a.variables.keys() & b.variables.keys()
+        return {n: distance(a[n].values, b[n].values) if n in shared else np.inf for n in names}
 
 
 def distance(a, b):
-    """Largest difference over the largest value; inf if shape, type or missing values differ."""
-    if a.shape != b.shape or a.dtype.kind != b.dtype.kind:
-        return np.inf
-    if a.dtype.kind not in "fc":
-        return 0.0 if np.array_equal(a, b) else np.inf
-    if np.array_equal(a, b, equal_nan=True):
+    number = a.dtype.kind in "fc" and a.dtype.kind == b.dtype.kind
+    if a.shape == b.shape and np.array_equal(a, b, equal_nan=number):
         return 0.0
-    if not np.array_equal(np.isfinite(a), np.isfinite(b)):
+    if not number or a.shape != b.shape or not np.array_equal(np.isfinite(a), np.isfinite(b)):
         return np.inf
     finite = np.isfinite(a)
     return float(np.max(np.abs(a - b)[finite]) / np.max(np.abs(a)[finite]))

@@ -59,28 +59,21 @@ def complete(workflow, finished):
     assert not list((workflow / "results").rglob(".*.nc")), "a temporary file was left behind"
 
 
-def test_a_killed_job_fails_and_what_was_finished_stays(fresh, finished):
-    """The job alone, as by the kernel when memory runs out."""
-    run = start(fresh, SOLVED)
+def test_a_killed_job_and_a_killed_run_lose_nothing_that_was_finished(fresh, finished):
+    run = start(fresh, SOLVED)  # whose job is killed, as by the kernel when memory runs out
     os.kill(wait_for(lambda: solving_jobs(run), run)[0], signal.SIGKILL)
     output, _ = run.communicate(timeout=120)
     assert run.returncode != 0
     assert "solve_repulsive" in output
     assert not (fresh / SOLVED).exists()
     written = (fresh / SURFACE).stat().st_mtime_ns
-    complete(fresh, finished)
-    assert (fresh / SURFACE).stat().st_mtime_ns == written
-
-
-def test_a_killed_run_leaves_a_lock_and_is_resumed(fresh, finished):
-    run = start(fresh, SOLVED)
-    wait_for(lambda: (fresh / SURFACE).exists(), run)
+    run = start(fresh, SOLVED)  # which is killed as a whole
+    wait_for(lambda: solving_jobs(run), run)
     second = fresh.snakemake(SOLVED)
     assert second.returncode != 0
     assert "lock" in second.stdout.lower()
     os.killpg(run.pid, signal.SIGKILL)
     run.communicate()
-    written = (fresh / SURFACE).stat().st_mtime_ns
     unlocked = fresh.snakemake("--unlock", SOLVED)  # as Snakemake says
     assert unlocked.returncode == 0, unlocked.stdout
     complete(fresh, finished)

@@ -3,84 +3,51 @@
 import pytest
 from helpers.copy_workflow import SURFACES
 
+from stickiness import datasets
+
 pytestmark = pytest.mark.workflow
 
+CASE = "  {}: {{surface: H0.7_zeta64, pressures: [{}], {}}}\n"
+PAGE = {"analyse_surface": 1, "judge_surface": 1, "write_surface": 1}
+SIMULATION = {"synthesise_surface": 1, "solve_repulsive": 1, "solve_coarse": 1}
+AREA = SIMULATION | {"average_ensemble": 1, "answer_case": 1}
 
-def cases(workflow, text):
-    """Add cases to the tiny configuration."""
+
+def plan_cases(workflow, **cases):
+    """Jobs that answer these cases, each given by its loads and other keys."""
+    text = "".join(CASE.format(name, *keys) for name, keys in cases.items())
     workflow.add(f"cases:\n{text}")
+    return workflow.planned(*(f"results/tiny/cases/{name}.nc" for name in cases))
 
 
-def test_a_verdict_needs_no_simulation(fresh):
+def test_a_verdict_needs_no_simulation_and_a_page_no_other_surface(fresh):
     assert fresh.planned("verdicts") == {"analyse_surface": len(SURFACES), "judge": 1}
+    assert fresh.planned("results/tiny/report/surfaces/asphalt.html") == PAGE
 
 
-def test_the_page_of_a_surface_runs_no_other(fresh):
-    planned = fresh.planned("results/tiny/report/surfaces/asphalt.html")
-    assert planned == {"analyse_surface": 1, "judge_surface": 1, "write_surface": 1}
-
-
-def test_a_case_of_theory_needs_no_surfaces(fresh):
-    cases(fresh, "  mine: {surface: H0.7_zeta64, pressures: [0.05], model: theory}\n")
-    planned = fresh.planned("results/tiny/cases/mine.nc")
-    assert planned == {"persson_lattice": 1, "answer_case": 1}
-
-
-def test_area_alone_needs_no_fits_and_no_theory(fresh):
-    cases(fresh, "  mine: {surface: H0.7_zeta64, pressures: [0.05], quantities: [area]}\n")
-    planned = fresh.planned("results/tiny/cases/mine.nc")
-    assert planned == {
-        "synthesise_surface": 1,
-        "solve_repulsive": 1,
-        "solve_coarse": 1,
-        "average_ensemble": 1,
-        "answer_case": 1,
-    }
-
-
-def test_quantities_bring_their_own_fits(fresh):
-    cases(fresh, "  mine: {surface: H0.7_zeta64, pressures: [0.05], quantities: [a_v, kappa]}\n")
-    planned = fresh.planned("results/tiny/cases/mine.nc")
-    assert planned["fit_a_v"] == 1
-    assert "persson_lattice" not in planned
+@pytest.mark.parametrize(
+    ("keys", "jobs"),
+    [
+        ("model: theory", {"persson_lattice": 1, "answer_case": 1}),
+        ("quantities: [area]", AREA),
+        ("quantities: [a_v, kappa]", AREA | {"fit_a_v": 1}),
+    ],
+)
+def test_quantities_bring_what_they_need(fresh, keys, jobs):
+    assert plan_cases(fresh, mine=("0.05", keys)) == jobs
 
 
 def test_cases_on_the_same_realisations_share_them(fresh):
     """The loads of the second case are among those of the first, which is another one's whole."""
-    cases(
-        fresh,
-        "  mine: {surface: H0.7_zeta64, pressures: [0.05, 0.1]}\n"
-        "  also_mine: {surface: H0.7_zeta64, pressures: [0.1], quantities: [area, a_v]}\n",
-    )
-    both = [f"results/tiny/cases/{name}.nc" for name in ("mine", "also_mine")]
-    planned = fresh.planned(*both)
-    assert planned["synthesise_surface"] == planned["solve_repulsive"] == 1
-    assert planned["solve_coarse"] == 1
+    also = ("0.1", "quantities: [area, a_v]")
+    planned = plan_cases(fresh, mine=("0.05, 0.1", "seeds: 2"), also_mine=also)
+    assert SIMULATION.items() <= planned.items()
     assert planned["average_ensemble"] == planned["answer_case"] == 2
 
 
-def test_accuracy_has_its_own_grid_and_seeds(fresh):
-    """Three plain seeds or more on whatever grid; not those of the tiny preset."""
-    cases(
-        fresh,
-        "  rough: {surface: H0.7_zeta64, pressures: [0.05], accuracy: 0.3, quantities: [area]}\n"
-        "  close: {surface: H0.7_zeta64, pressures: [0.05], accuracy: 0.1, quantities: [area]}\n",
-    )
-    rough, close = (fresh.planned(f"results/tiny/cases/{name}.nc") for name in ("rough", "close"))
-    assert "fit_a_v" not in close
-    work = [plan["solve_repulsive"] + 10 * plan.get("solve_coarse", 0) for plan in (rough, close)]
-    assert work[0] < work[1]
-
-
 def test_a_case_of_area_alone_runs(fresh):
-    """Not a dry-run: files without attractive areas go through every stage."""
-    from stickiness import datasets
-
-    cases(
-        fresh,
-        "  mine:\n    surface: H0.7_zeta64\n    pressures: [0.05, 0.1]\n"
-        "    quantities: [area, mean_gap]\n",
-    )
+    """Files without attractive areas go through every stage."""
+    plan_cases(fresh, mine=("0.05, 0.1", "quantities: [area, mean_gap]"))
     done = fresh.snakemake("results/tiny/cases/mine.nc")
     assert done.returncode == 0, done.stdout
     answer = datasets.read(fresh / "results/tiny/cases/mine.nc")
@@ -90,5 +57,4 @@ def test_a_case_of_area_alone_runs(fresh):
     ensemble = datasets.read(fresh / "results/tiny/contact/ensembles/mine.nc")
     assert "attractive_area" not in ensemble
     assert (area.value.values == ensemble.area_fraction_mean.values).all()
-    # Magnification 8 is below what was measured.
-    assert (answer.extrapolated == 1).all()
+    assert (answer.extrapolated == 1).all()  # magnification 8 is below what was measured

@@ -1,4 +1,4 @@
-"""What jobs ask a cluster for, and how the Slurm profile groups them."""
+"""What jobs ask a cluster for, how the Slurm profile groups them, and what every rule names."""
 
 import re
 from pathlib import Path
@@ -7,34 +7,32 @@ import pytest
 import yaml
 from helpers.dry_runs import dry_run
 
-pytestmark = pytest.mark.workflow
-
 ROOT = Path(__file__).parents[2]
 PROFILE = yaml.safe_load((ROOT / "profiles/slurm/config.yaml").read_text(encoding="utf-8"))
 
 
-def asked(workflow, target, *options):
+def ask(workflow, target):
     """Memory [MB] and time [min] that the job of a target asks for."""
-    listed = workflow.dry_run(target, *options).stdout
-    output = listed.index(f"output: {target}")
-    resources = re.search(r"resources: (.*)", listed[output:])[1]
+    listed = workflow.dry_run(target).stdout
+    resources = re.search(r"resources: (.*)", listed[listed.index(f"output: {target}") :])[1]
     return tuple(int(re.search(rf"{name}=(\d+)", resources)[1]) for name in ("mem_mb", "runtime"))
 
 
+@pytest.mark.workflow
 def test_a_larger_grid_asks_for_more(fresh):
-    small = asked(fresh, "results/tiny/contact/H0.7_zeta64/seeds1-2.nc")
+    target = "results/tiny/contact/H0.7_zeta64/seeds1-2.nc"
+    small = ask(fresh, target)
     fresh.edit(
-        "config/tiny.yaml",
-        "H0.7_zeta64: {hurst: 0.7, magnification: 8}",
-        "H0.7_zeta64: {hurst: 0.7, magnification: 1024}",
+        "config/tiny.yaml", "hurst: 0.7, magnification: 8", "hurst: 0.7, magnification: 1024"
     )
-    large = asked(fresh, "results/tiny/contact/H0.7_zeta64/seeds1-2.nc")
+    large = ask(fresh, target)
     # 4096 x 4096 doubles are 134 MB; the solver holds about 17 of them.
     assert 17 * 134 < large[0] < 40 * 134
     assert large[1] > small[1]
     assert small[0] < 1000
 
 
+@pytest.mark.workflow
 def test_groups_are_of_rules_that_exist_and_none_depends_on_itself(fresh):
     listed = fresh.dry_run("--list-rules")
     groups = dict(entry.split("=") for entry in PROFILE["groups"])
@@ -44,3 +42,15 @@ def test_groups_are_of_rules_that_exist_and_none_depends_on_itself(fresh):
     options = ["--groups", *PROFILE["groups"], "--group-components", *PROFILE["group-components"]]
     planned = dry_run(fresh.folder, "--quiet", "all", *options)
     assert planned.returncode == 0, planned.stdout
+
+
+@pytest.mark.parametrize("file", sorted((ROOT / "rules").glob("*.smk")), ids=lambda path: path.stem)
+def test_rules_name_environment_log_and_the_hash_of_their_script(file):
+    for rule in re.split(r"^ *(?=rule\b)", file.read_text(encoding="utf-8"), flags=re.M)[1:]:
+        if script := re.search(r'"\.\./(scripts/.*\.py)"', rule):
+            environment = re.search(r'conda:\s+"\.\./(.*)"', rule)[1]
+            assert (ROOT / environment).is_file()
+            assert re.search(r"log:\s+f\"\{\w+\}/logs/", rule)
+            assert re.search(r"benchmark:\s+f\"\{\w+\}/benchmarks/", rule)
+            hashed = re.search(r'code=source_hash\(f?"(.*)"\)', rule)[1]
+            assert f"scripts/{hashed}" == script[1].replace("{params.figure}", "{figure}")
