@@ -51,6 +51,7 @@ def test_both_ways_bracket_nothing_absurd(whole):
     assert np.all(np.abs(ratio - 1) < 0.35)
 
 
+@pytest.mark.slow
 def test_contact_of_a_smooth_wave_is_westergaard_s():
     # h = cos x, alone: contact over sin^2(pi a/L) = p/(pi E* amplitude/L) (Westergaard 1939), in
     # which the amplitude is sqrt(2) h_rms. A mirror image of whole periods is the wave itself.
