@@ -213,17 +213,14 @@ def find_spikes(heights: NDArray) -> NDArray:
 
 def _neighbour_distance(heights: NDArray) -> NDArray:
     """Distance of every point to its third closest neighbour of eight, second of four on a line."""
-    if heights.ndim == 1:
-        padded, n = np.pad(heights, 2, constant_values=np.nan), len(heights)
-        around = [np.abs(padded[i : i + n] - heights) for i in (0, 1, 3, 4)]
-        return np.partition(around, 1, axis=0)[1]  # NaN comes last
-    padded = np.pad(heights, 1, constant_values=np.nan)
-    nx, ny = heights.shape
-    shifts = [(i, j) for i in range(3) for j in range(3) if (i, j) != (1, 1)]
+    reach, rank = (2, 2) if heights.ndim == 1 else (1, 3)
+    padded = np.pad(heights, reach, constant_values=np.nan)
+    around = np.lib.stride_tricks.sliding_window_view(padded, (2 * reach + 1,) * heights.ndim)
     found = np.empty(heights.shape)
-    for start in range(0, nx, _ROWS):
-        stop = min(start + _ROWS, nx)
-        here = heights[start:stop]
-        around = [np.abs(padded[start + i : stop + i, j : j + ny] - here) for i, j in shifts]
-        found[start:stop] = np.partition(around, 2, axis=0)[2]
+    for start in range(0, len(heights), _ROWS):
+        rows = slice(start, start + _ROWS)
+        here = heights[rows]
+        distance = np.abs(around[rows].reshape(*here.shape, -1) - here[..., None])
+        # The point itself is the closest; NaN comes last.
+        found[rows] = np.partition(distance, rank, axis=-1)[..., rank]
     return found
