@@ -35,7 +35,10 @@ OF_INSTRUMENTS = re.compile(
 _FACTOR = re.compile(
     r"factor|scal(e|ing)\b|multiplier|conversion|(\bper|/)\s*(count|bit|digit|lsb)s?\b", re.I
 )
-_OF_PICTURES = re.compile(r"zoom|colou?r|\bbar\b|\b[xy]\b", re.I)  # factors of no heights
+# Factors of pictures and axes, unless heights are named beside them.
+_OF_NO_HEIGHTS = re.compile(
+    r"^(?!.*(\bz\b|height|vertical|count|data)).*(zoom|colou?r|\bbar\b|\b[xy]\b)", re.IGNORECASE
+)
 # A number of points: at the start of a line or after another number, without a unit.
 _COUNT = r"(?:^\W*|\d[\s,;]+)(?:{})\s*[:=]\s*(\d+)(?![\w./])"
 _COLUMNS = re.compile(_COUNT.format("nx|columns|cols|x[-_ ]?pixels?"), re.IGNORECASE)
@@ -99,7 +102,7 @@ def parse(path: Path) -> tuple[NDArray, list[str], dict[str, str]]:
                 f"{path}: its header says {line!r}, which the text reader does not take; "
                 "give format: instrument"
             )
-        if _FACTOR.search(line) and re.search(r"\d", line) and not _OF_PICTURES.search(line):
+        if _FACTOR.search(line) and re.search(r"\d", line) and not _OF_NO_HEIGHTS.search(line):
             raise ValueError(
                 f"{path}: its header says {line!r}, which is not read; apply it to the "
                 "heights and remove the line, or try format: instrument"
