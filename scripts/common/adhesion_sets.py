@@ -13,8 +13,8 @@ import xarray as xr
 
 from stickiness import adhesive
 from stickiness.accuracy.model_choice import roughness
+from stickiness.traction_laws import LAWS
 
-LAWS = {"maugis": adhesive.Maugis, "exponential": adhesive.Exponential}
 MISSING = "the grid does not resolve the edge, or a window closes"
 OUTSIDE = "outside the table of measured errors"
 
@@ -27,7 +27,8 @@ OUTSIDE = "outside the table of measured errors"
 SOLVER = 1e-6
 BRANCH, BRANCHING = 0.03, 1.5  # relative error where the attraction is that many times the load
 STRONGEST = 8.0  # attraction over repulsion, in the DMT limit, that is still looked at
-WEAK = 0.1  # attraction over repulsion, in the DMT limit, up to which the answer is nearly linear
+# Attraction over repulsion, in the DMT limit, up to which the answer is nearly linear in it.
+NEARLY_LINEAR = 0.1
 LEAST = 20  # states of a loop at least, loading or unloading
 
 ATTRIBUTES = {  # quantities of an adhesive state by their names in files
@@ -42,9 +43,9 @@ ATTRIBUTES = {  # quantities of an adhesive state by their names in files
 AXES = ("pressure", "adhesion_length_over_range", "range_over_h_rms")
 
 
-def axes(asked: Mapping[str, Any]) -> tuple[xr.DataArray, xr.DataArray, xr.DataArray]:
+def axes(adhesion: Mapping[str, Any]) -> tuple[xr.DataArray, xr.DataArray, xr.DataArray]:
     """Pressures, adhesion lengths and ranges of a set, each in increasing order."""
-    lists = (asked["pressures"], *(asked[name] for name in AXES[1:]))
+    lists = (adhesion["pressures"], *(adhesion[name] for name in AXES[1:]))
     values = {
         name: np.sort(np.array(given, float)) for name, given in zip(AXES, lists, strict=True)
     }
@@ -52,18 +53,21 @@ def axes(asked: Mapping[str, Any]) -> tuple[xr.DataArray, xr.DataArray, xr.DataA
 
 
 def scaled_law(
-    asked: Mapping[str, Any], kind: str, adhesion_length_over_range: float, range_over_h_rms: float
+    adhesion: Mapping[str, Any],
+    kind: str,
+    adhesion_length_over_range: float,
+    range_over_h_rms: float,
 ) -> adhesive.TractionLaw:
     """Traction law in the units of the simulations."""
-    strength = adhesion_length_over_range / roughness(asked)
+    strength = adhesion_length_over_range / roughness(adhesion)
     return LAWS[kind](adhesion_length=strength * range_over_h_rms, range=range_over_h_rms)
 
 
 def first_gap(contact, weaker, adhesion_length):
-    """Gap from which a state is reached: that without adhesion, or beyond it if adhesion is weak.
+    """First guess of the gap: without adhesion, or extrapolated if adhesion is weak.
 
     `weaker` is None or the adhesion length and the gap of a state with the same range and mean gap.
-    While the attraction is below `WEAK` of the load, the change of the gap grows as it does.
+    While the attraction is below `NEARLY_LINEAR` of the load, the gap changes in proportion to it.
     """
     if weaker is None:
         return contact.gap

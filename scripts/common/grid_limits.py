@@ -1,6 +1,6 @@
 """What the limit of fine grids changes in the means of ensembles, and the error that is left.
 
-For areas, gaps and P(u) `stickiness.repulsive.grid_limit` gives both. What derives from these means
+For areas, gaps and P(u) `stickiness.repulsive.richardson` gives both. What derives from these means
 inherits shift and error to first order.
 """
 
@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 import xarray as xr
 
-from stickiness.repulsive import grid_limit
+from stickiness.repulsive import richardson
 
 DIRECT = "error left in the limit of fine grids, covers 90 %"
 LEFT = "left in the limit of fine grids"
@@ -31,7 +31,7 @@ class Limit:
 def estimate_limits(
     realisations: xr.Dataset, quantities: dict[str, Callable[[xr.Dataset], xr.DataArray]]
 ) -> dict[str, Limit]:
-    """Limits of means over seeds, for quantities by the names of the rules of `grid_limit`."""
+    """Limits of means over seeds, for quantities by the names of the rules of `richardson`."""
     fine = realisations.isel(resolution=-1, drop=True)
     edge_gap = fine.edge_gap.mean("seed")
     limits = {}
@@ -41,7 +41,7 @@ def estimate_limits(
             # Nothing is below the gap next to an edge where there is no edge.
             climbs = (fine["range"] / edge_gap).where(edge_gap > 0, np.inf)
         values = quantity(realisations)
-        found = grid_limit.estimate(
+        found = richardson.estimate(
             name,
             [values.isel(resolution=k, drop=True).mean("seed") for k in find_halved(realisations)],
             subpixel_part(name, fine, quantity(fine)).mean("seed"),
@@ -74,7 +74,7 @@ def find_halved(realisations: xr.Dataset) -> list[int]:
 
 
 def subpixel_part(name: str, fine: xr.Dataset, values: xr.DataArray) -> xr.DataArray:
-    """What sub-pixel edges contribute to a quantity on one grid, see `grid_limit.estimate`."""
+    """What sub-pixel edges contribute to a quantity on one grid, see `richardson.estimate`."""
     area = fine.area_fraction - fine.pixel_area_fraction
     if name == "area_fraction":
         return area

@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 
 from common.formatting import write_powers
-from stickiness.solids import HALF_SPACE, Backing, Film, Layer, Solid
+from stickiness.solids import HALF_SPACE, Film, Layer, Solid
 from stickiness.solids.moduli import REFERENCE_FREQUENCY, Constant, Modulus, Prony, Table
 from stickiness.units import si
 
@@ -26,6 +26,11 @@ class Material:
         """E* at the reference frequency of 1 Hz [Pa]."""
         return float(self.plane_strain.storage(REFERENCE_FREQUENCY))
 
+    @property
+    def is_scalable(self):
+        """Whether all that deforms has the material's modulus: a film has one of its own."""
+        return not isinstance(getattr(self.solid, "backing", None), Film)
+
 
 def read_material(entry):
     """`Material` from its entry in the configuration."""
@@ -40,17 +45,14 @@ def read_material(entry):
 
 
 def read_solid(entry):
-    """Half-space, or layer on its backing."""
+    """Half-space, or layer on a rigid base or a film."""
     if "thickness" not in entry:
         return HALF_SPACE
     backing = entry.get("backing", "bonded")
     if not isinstance(backing, str):
-        own = read_modulus(entry).storage(REFERENCE_FREQUENCY) * (1 - entry["poisson_ratio"] ** 2)
-        ratio = si(backing["youngs_modulus"], "Pa") / float(own)
-        if "thickness" in backing:
-            backing = Film(ratio, backing["poisson_ratio"], si(backing["thickness"], "m"))
-        else:
-            backing = Backing(ratio, backing["poisson_ratio"])
+        layer = read_modulus(entry).storage(REFERENCE_FREQUENCY) * (1 - entry["poisson_ratio"] ** 2)
+        ratio = si(backing["youngs_modulus"], "Pa") / float(layer)
+        backing = Film(ratio, backing["poisson_ratio"], si(backing["thickness"], "m"))
     return Layer(si(entry["thickness"], "m"), entry["poisson_ratio"], backing)
 
 
@@ -103,7 +105,5 @@ def describe_layer(entry):
         return f"{entry['thickness']} thick, free to slip on a rigid base"
     if backing == "bonded":
         return f"{entry['thickness']} thick on a rigid base"
-    if "thickness" in backing:
-        film = f"{backing['thickness']} and {backing['youngs_modulus']}"
-        return f"{entry['thickness']} thick on a film of {film}"
-    return f"{entry['thickness']} thick on a half-space of {backing['youngs_modulus']}"
+    film = f"{backing['thickness']} and {backing['youngs_modulus']}"
+    return f"{entry['thickness']} thick on a film of {film}"

@@ -8,7 +8,8 @@ from common import plotting
 from common.formatting import number
 from common.plotting import BLACK, GREY, pick_look, state
 from figures.edge_points import BINS, COLUMNS, select_certain
-from stickiness import datasets, equivalent_sphere
+from stickiness import datasets
+from stickiness.criteria import equivalent_sphere
 
 LOOK = {"markersize": 3.5, "linestyle": "none", "elinewidth": 0.7}
 WEAKEST_EDGE = 1e-3  # left end of panel B

@@ -41,9 +41,6 @@ def draw_shares(ax, table):
     ax.plot(RATIOS, share, color=BLACK, linewidth=1.8)
     ax.plot(RATIOS, rough.share(length, SHORT_RANGE), color=BLACK, linestyle="--")
     ax.plot(RATIOS, theories.full_contact_share(RATIOS), color=RED, linestyle=":")
-    smooth = tough[np.isclose(tough.hurst, 0.8) & (tough.magnification == 32)]
-    means = smooth.groupby("energy_ratio").multiscale.mean()
-    ax.plot(means.index, means, color=GREEN, linestyle="-.")
     for (hurst, magnification), group in tough.groupby(["hurst", "magnification"]):
         look = {"color": colour_of(hurst), "marker": mark_of(magnification)}
         ax.plot(group.energy_ratio, group.bound, linestyle="none", markersize=3.5, **look)
@@ -51,7 +48,6 @@ def draw_shares(ax, table):
         make_key("this theory", color=BLACK, linewidth=1.8),
         make_key("range → 0", color=BLACK, linestyle="--"),
         make_key("full contact", color=RED, linestyle=":"),
-        make_key("multiscale (Persson)", color=GREEN, linestyle="-."),
     ]
     ax.legend(handles=keys, loc="upper left")
     ax.set(xlabel=ENERGY_RATIO, ylabel="share of $w$ that remains", xlim=(0.2, 2.5), ylim=(0, 0.7))

@@ -9,7 +9,7 @@ import logging
 import numpy as np
 import xarray as xr
 
-from common.config.measurements import measurements
+from common.config.entries import measurements
 from common.formatting import amount, percent
 from common.job import start
 from common.real_spectra import configured_spectrum

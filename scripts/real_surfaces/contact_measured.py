@@ -9,8 +9,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from common import conventions
-from common.config import checks
-from common.config.measured_contact import MOST_POINTS, has_units
+from common.config.entries import MOST_POINTS, has_units, measurements
 from common.contact_curves import load_curves
 from common.conventions import VARIANT, logarithmic_grid
 from common.job import start
@@ -19,11 +18,11 @@ from real_surfaces import measured_surface
 from stickiness import datasets
 from stickiness.adhesive import edge_zone
 from stickiness.adhesive import solver as adhesive
-from stickiness.adhesive.laws import Exponential
 from stickiness.measured import periodic, topography
 from stickiness.persson.theory import Persson
 from stickiness.plausibility import PlausibilityWarning
 from stickiness.repulsive import solver as repulsive
+from stickiness.traction_laws import Exponential
 from stickiness.units import si
 
 WAYS = ("taper", "mirror")  # to make heights periodic that are not
@@ -97,7 +96,7 @@ def main(job):
 def read_map(entry):
     """Levelled heights of the measurement whose contact is configured."""
     bem = entry["bem"]
-    measurement = checks.measurements(entry)[bem.get("measurement", 0)][1]
+    measurement = measurements(entry)[bem.get("measurement", 0)][1]
     if bem.get("periodic", False):
         measurement = measurement | {"detrend": "mean"}  # a plane would break the period
     heights = measured_surface.read_levelled(measurement)

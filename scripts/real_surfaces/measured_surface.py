@@ -3,7 +3,7 @@
 from dataclasses import fields
 from inspect import signature
 
-from common.config.measurements import measurements
+from common.config.entries import measurements
 from stickiness.measured import instrument_spectrum, topography
 from stickiness.units import si
 

@@ -20,6 +20,7 @@ And what these rest on:
 
 - `measured`: measured topographies, from the file to a spectrum with its errors
 - `accuracy`: errors and costs of simulations, and the settings that an accuracy needs
+- `traction_laws`: attraction as a function of the gap
 - `arguments`, `units`, `datasets`, `error_budget`, `plausibility`: what all parts share
 
 Names are loaded when they are first used.
@@ -50,7 +51,7 @@ _MODULES = (
     "criteria",
     "remaining",
 )
-_PACKAGES = ("measured", "accuracy", "closed_forms", "datasets")
+_PACKAGES = ("measured", "accuracy", "datasets")
 _FUNCTIONS = {"verdict": "stickiness.criteria.verdict"}
 
 __all__ = [*_MODULES, *_FUNCTIONS, *_PACKAGES, "__version__"]  # noqa: PLE0604

@@ -1,20 +1,207 @@
-"""Adhesion in the DMT limit, from the gaps of a repulsive solution, and the fit of a_V to it."""
+"""Adhesion in the DMT limit, from the gaps of a repulsive solution, and the fit of a_V to it.
 
-from stickiness.adhesive.dmt import adhesive_pressure, attraction_of_areas
-from stickiness.criteria.a_v_fit import AvFit, fit_a_v, local_exponent, window_sensitivity
-from stickiness.repulsive.gaps import attractive_area, gap_density
-from stickiness.repulsive.subpixel import STRIP_WIDTH, boundary_strip, edge_gap
+The attraction does not deform the surfaces, so that every quantity is an integral over the gap
+distribution P(u) of the contact without adhesion. Gaps and ranges share one unit of length,
+pressures are in units of E*, areas are fractions of the nominal area.
 
-__all__ = [
+The discrete contact is made of whole pixels, and its edge lies some 0.15 pixels outside the true
+one. Counting pixels misses that strip of the attractive area at *every* range. Ranges below the gap
+that one pixel spans at the edge, the `edge_gap`, are not seen at all. ``subpixel=True`` places the
+edge between the pixels, with a gap that grows from it by the 3/2 law (`repulsive.subpixel`). On 133
+contacts (magnification 16 to 128, p/(E* q0 h_rms) = 0.001 to 0.5) at 8 pixels per shortest
+wavelength the rms error of the attractive area, against up to 4096 points, is at
+
+=============== ======== ======== ======== ======== ======== =========
+range/edge gap  0.03-0.1 0.1-0.3  0.3-1    1-3      3-10     10-100
+counted         65 %     51 %     33 %     15 %     6.4 %    1.9 %
+sub-pixel       10 %     7 %      4 %      1.8 %    0.7 %    0.16 %
+=============== ======== ======== ======== ======== ======== =========
+
+A strip added at every range, after Yastrebov et al. 2017, leaves 125, 36, 8, 2.7, 1.4 and 0.4 %.
+`repulsive.richardson` estimates the remaining error.
+"""
+
+from __future__ import annotations
+
+from importlib import import_module
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from stickiness.arguments import numbers, positive
+from stickiness.repulsive import subpixel as subpixel_edges
+from stickiness.repulsive.subpixel import STRIP_WIDTH, boundary_strip, edge_gap, gap_and_contact
+from stickiness.traction_laws import TractionLaw
+
+_FIT = ("AvFit", "fit_a_v", "local_exponent")
+
+__all__ = [  # noqa: PLE0604
     "STRIP_WIDTH",
-    "AvFit",
     "adhesive_pressure",
     "attraction_of_areas",
     "attractive_area",
     "boundary_strip",
     "edge_gap",
-    "fit_a_v",
     "gap_density",
-    "local_exponent",
-    "window_sensitivity",
+    *_FIT,
 ]
+
+_RANGES_PER_DECADE = 64  # ranges at which a traction law is integrated over sub-pixel areas
+_SMALLEST_RANGE = 1e-6  # of them, over the largest gap
+
+
+def attractive_area(
+    gap: ArrayLike, eps: ArrayLike, contact: ArrayLike | None = None, *, subpixel: bool = False
+) -> float | NDArray:
+    """Fraction of the nominal area that is out of contact but within the range of attraction.
+
+    Parameters
+    ----------
+    gap : (..., n, n) array
+        Gap [length] of the repulsive solution; any shape without `subpixel`.
+    eps : float or array
+        Range(s) of attraction [length].
+    contact : bool array of the gap's shape, optional
+        True where the surfaces touch; by default where the gap is exactly zero.
+    subpixel : bool
+        Place the edge of contact between the pixels, and the gap beside it by the edge law (see
+        `repulsive.subpixel`). Needs the gap's two axes, periodic.
+
+    Returns
+    -------
+    float or array of the shape of `eps`
+        A_ad/A_nom, the fraction with 0 < gap <= eps, contact points excluded.
+
+    Raises
+    ------
+    ValueError
+        On malformed or negative gaps, or ranges that are not positive.
+
+    Examples
+    --------
+    >>> float(attractive_area([[0.0, 0.1], [0.2, 0.9]], 0.2))
+    0.5
+    """
+    if subpixel:
+        return subpixel_edges.attractive_area(gap, eps, contact)
+    gap, contact = gap_and_contact(gap, contact)
+    (eps,) = positive(eps=eps)
+    # A mask may hold gaps of rounding size on either side of zero; the open ones still count.
+    gaps = np.sort(gap[~contact])
+    area = np.searchsorted(gaps, eps, side="right") / gap.size
+    return area if eps.ndim else float(area)
+
+
+def gap_density(
+    gap: ArrayLike, edges: ArrayLike, contact: ArrayLike | None = None, *, subpixel: bool = False
+) -> NDArray:
+    """Probability density P(u) [1/length] of the open gaps, averaged over each bin, ``(m,)``.
+
+    Its integral is the area fraction of the gaps within the edges: 1 - A_rep/A_nom once they span
+    all of them.
+
+    Parameters
+    ----------
+    gap, contact
+        As for `attractive_area`.
+    edges : (m + 1,) array
+        Increasing bin edges [length].
+    subpixel : bool
+        Take the slope of the sub-pixel `attractive_area` instead of counting pixels.
+
+    Raises
+    ------
+    ValueError
+        On malformed or negative gaps, or edges that do not increase.
+    """
+    gap, contact = gap_and_contact(gap, contact)
+    edges = np.asarray(edges, dtype=float)
+    if edges.ndim != 1 or edges.size < 2 or not np.all(np.diff(edges) > 0):
+        raise ValueError(f"edges must be an increasing sequence of at least two, got {edges!r}")
+    if subpixel:
+        if edges[0] < 0:
+            raise ValueError(f"edges must not be negative, got {edges[0]!r}")
+        from_zero = np.maximum(edges, np.finfo(float).tiny)
+        return np.diff(subpixel_edges.attractive_area(gap, from_zero, contact)) / np.diff(edges)
+    counts, _ = np.histogram(gap[~contact], bins=edges)
+    return counts / (gap.size * np.diff(edges))
+
+
+def adhesive_pressure(
+    gap: ArrayLike, law: TractionLaw, contact: ArrayLike | None = None, *, subpixel: bool = False
+) -> float:
+    """Mean attraction p_ad [E*], the integral of sigma(u) P(u) over the open gaps.
+
+    For the Maugis law (adhesion_length/range) times `attractive_area`. Contact points carry no
+    attraction in this bookkeeping: theirs is part of the repulsive solution.
+
+    Parameters
+    ----------
+    gap : (..., n, n) array
+        Gap [length] of the repulsive solution; any shape without `subpixel`.
+    law : object with ``traction(gap)``
+        Traction law, tension positive [E*].
+    contact : bool array of the gap's shape, optional
+        True where the surfaces touch; by default where the gap is exactly zero.
+    subpixel : bool
+        Integrate the law over the sub-pixel `attractive_area`, at 64 ranges per decade.
+
+    Raises
+    ------
+    ValueError
+        On malformed or negative gaps.
+    """
+    gap, contact = gap_and_contact(gap, contact)
+    if not hasattr(law, "traction"):
+        raise ValueError(f"law must be a traction law such as adhesive.Maugis(...), got {law!r}")
+    if not subpixel:
+        return float(np.sum(law.traction(gap[~contact]))) / gap.size
+    largest = float(gap[~contact].max(initial=0.0))
+    if largest <= 0:
+        return 0.0
+    number = int(-np.log10(_SMALLEST_RANGE) * _RANGES_PER_DECADE)
+    ranges = np.geomspace(_SMALLEST_RANGE * largest, largest, number + 1)
+    jump = getattr(law, "range", None)  # where a law is discontinuous it is at its range
+    if jump is not None and jump <= largest:
+        ranges = np.union1d(ranges, [jump])
+    area = subpixel_edges.attractive_area(gap, ranges, contact)
+    return float(attraction_of_areas(area, ranges, law))
+
+
+def attraction_of_areas(area: ArrayLike, ranges: ArrayLike, law: TractionLaw) -> NDArray:
+    """Mean attraction p_ad [E*] from attractive areas, the integral of sigma over them.
+
+    Gaps up to the smallest range count with the traction at half of it, those beyond the largest
+    not at all. NaN where an area is.
+
+    Parameters
+    ----------
+    area : (..., k) array
+        A_ad/A_nom within each of the ranges.
+    ranges : (k,) array
+        Ranges [length] in increasing order, close to each other on a log scale; where the law is
+        discontinuous one of them.
+    law : object with ``traction(gap)``
+        Traction law, tension positive [E*].
+
+    Raises
+    ------
+    ValueError
+        If the ranges are not positive and increasing, or not one for each area.
+    """
+    area, (ranges,) = numbers("area", area), positive(ranges=ranges)
+    if ranges.ndim != 1 or not np.all(np.diff(ranges) > 0) or area.shape[-1:] != ranges.shape:
+        raise ValueError(
+            "ranges must be an increasing sequence with one area each, "
+            f"got shapes {ranges.shape} and {area.shape}"
+        )
+    middle = np.sqrt(ranges[1:] * ranges[:-1])
+    within = law.traction(ranges[0] / 2) * area[..., 0]
+    return within + np.diff(area) @ law.traction(middle)
+
+
+def __getattr__(name: str):
+    # An import at the top would make every simulation depend on the code of the fit.
+    if name in _FIT:
+        return getattr(import_module("stickiness.criteria.a_v_fit"), name)
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

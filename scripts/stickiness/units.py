@@ -104,7 +104,7 @@ def si(value: str, unit: str) -> float:
 
 @cache
 def _wanted(unit: str) -> str:
-    """Say what is wanted in place of a value, by its SI unit."""
+    """Say which quantity is wanted, by its SI unit."""
     for name, words, example in _QUANTITIES:
         if _registry().Unit(name).dimensionality == _registry().Unit(unit).dimensionality:
             return f"{words} is wanted, e.g. {example!r}"

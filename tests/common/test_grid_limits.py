@@ -5,13 +5,11 @@ import pytest
 import xarray as xr
 
 from common import ensemble_means, grid_limits
-from common.a_v_fits import average
 from common.contact_curves import load_curve
-from common.kappa import fit_slope
-from common.quantities import fit_intervals, slope_of_area
+from common.quantities import average_a_v, fit_intervals, fit_slope, slope_of_area
 from contact.ensembles import AVERAGED, add_statistics
 from stickiness import spectrum, surface
-from stickiness.repulsive import grid_limit
+from stickiness.repulsive import richardson
 
 LOADS = np.array([0.02, 0.2])
 RANGES = np.geomspace(1e-3, 10, 33)
@@ -71,7 +69,7 @@ def test_attractive_areas_alone_are_extrapolated_and_below_the_edge_gap_alone(so
     for name, quantity in AVERAGED.items():
         shift = ensemble[f"{name}_mean"] - ensemble_means.mean(quantity(solved))
         if name == "attractive_area":
-            below = ensemble["range"] < grid_limit.RULES[name].resolved * ensemble.edge_gap_mean
+            below = ensemble["range"] < richardson.RULES[name].resolved * ensemble.edge_gap_mean
             np.testing.assert_array_equal(shift != 0, below.transpose(*shift.dims))
             np.testing.assert_allclose(shift, ensemble.attractive_area_extrapolation, atol=1e-15)
         else:
@@ -114,7 +112,7 @@ def test_errors_of_two_means_add_in_quadrature(ensemble):
 
 def test_a_v_is_that_of_the_extrapolated_areas(ensemble):
     """A fit is linear in the areas: the fit of the mean is the mean of the fits."""
-    dataset = average(fit_intervals(ensemble, WINDOWS), ensemble, WINDOWS)
+    dataset = average_a_v(fit_intervals(ensemble, WINDOWS), ensemble, WINDOWS)
     for variable, fit in (
         ("attractive_area_mean", "a_v_mean"),
         ("attractive_area_discretisation_error", "a_v_discretisation_error"),

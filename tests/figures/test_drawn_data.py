@@ -6,6 +6,7 @@ from types import SimpleNamespace
 
 import matplotlib.pyplot as plt
 import numpy as np
+import pandas as pd
 import pytest
 import xarray as xr
 from matplotlib.collections import LineCollection, PolyCollection, QuadMesh
@@ -25,8 +26,9 @@ from figures import (
     plot_fig10,
 )
 from stability import plot_stability
-from stickiness import datasets, equivalent_sphere
+from stickiness import datasets
 from stickiness import error_budget as budget
+from stickiness.criteria import equivalent_sphere
 from tradeoff import plot_tradeoff
 
 # Relative errors by source of everything "measured" here: in quadrature 3, 4, 12 give 13 %.
@@ -609,16 +611,29 @@ def test_figure_10b_shades_the_error_of_verdicts(ax, edges):
 # ---- accuracy against cost, and the map of validity
 
 
-def test_front_is_what_nothing_cheaper_equals():
-    cost, error = np.array([1.0, 2.0, 3.0, 2.0, 4.0]), np.array([0.5, 0.3, 0.4, 0.2, 0.2])
-    assert list(plot_tradeoff.find_front(cost, error)) == [0, 3]
-
-
-def test_stability_bars_are_shares_of_outcomes(ax):
-    data = xr.Dataset(
-        {"hurst": ("point", [0.2, 0.2, 0.8, 0.8]), "outcome": ("point", [0, 3, 0, 0])}
+def test_lines_of_the_trade_are_errors_against_costs(ax):
+    found = pd.DataFrame(
+        {
+            "quantity": ["area"] * 3,
+            "setting": ["points per wavelength"] * 3,
+            "value": ["4", "8", "2"],
+            "error": [0.1, 0.01, 0.3],
+            "cost": [2.0, 4.0, 1.0],
+        }
     )
-    plot_stability.draw_strip(ax, data, "hurst")
-    heights = np.reshape([bar.get_height() for bar in ax.patches], (4, 2))
-    np.testing.assert_allclose(heights, [[0.5, 1], [0, 0], [0, 0], [0.5, 0]])
-    assert [label.get_text() for label in ax.get_xticklabels()] == ["0.2", "0.8"]
+    plot_tradeoff.draw_grids(ax, found, {"area": "contact area"})
+    np.testing.assert_allclose(ax.lines[0].get_xydata(), [[1, 0.3], [2, 0.1], [4, 0.01]])
+    assert {text.get_text() for text in ax.texts} == {"2", "4", "8"}
+
+
+def test_map_of_validity_shows_the_worst_of_the_variants(ax):
+    data = xr.Dataset(
+        {
+            "hurst": ("point", [0.2, 0.2, 0.8, 0.8]),
+            "grid": ("point", [4.0, 4.0, 4.0, 4.0]),
+            "outcome": ("point", [0, 3, 0, 1]),
+        }
+    )
+    plot_stability.draw_map(ax, data)
+    np.testing.assert_array_equal(ax.images[0].get_array(), [[3], [1]])
+    assert [label.get_text() for label in ax.get_yticklabels()] == ["0.2", "0.8"]

@@ -10,8 +10,8 @@ import runpy
 import signal
 import sys
 
-import jsonschema  # noqa: F401
 import pint  # noqa: F401
+import pydantic  # noqa: F401
 import scipy.optimize  # noqa: F401
 from snakemake.cli import get_argument_parser
 

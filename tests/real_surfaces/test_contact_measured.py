@@ -1,6 +1,5 @@
 """Contact of measured heights that were made periodic."""
 
-import re
 from types import SimpleNamespace
 
 import numpy as np
@@ -9,7 +8,6 @@ import xarray as xr
 
 from criteria.materials import read_material
 from real_surfaces import contact_measured
-from report import measured_contact
 from stickiness import adhesive, datasets, repulsive, surface
 from stickiness.measured.topography import Topography
 from stickiness.repulsive import subpixel
@@ -79,32 +77,6 @@ def test_a_profile_is_refused(tmp_path):
     entry = {"file": str(tmp_path / "line.npy"), "length": "1 um", "height_unit": "nm", "bem": {}}
     with pytest.raises(ValueError, match="is a line profile; bem needs a map"):
         contact_measured.read_map(entry)
-
-
-# On the page
-
-
-def test_rows_of_the_page_hold_value_error_and_theory(whole):
-    _, found = whole
-    rows = measured_contact.describe_loads(found)
-    assert [row["pressure"] for row in rows] == ["0.03", "0.3"]
-    assert re.fullmatch(r"[\d.]+ ± [\d.]+", rows[1]["area"]["value"])
-    assert rows[1]["area"]["ways"][0].startswith("tapered 0.")
-    value, error = measured_contact.combine_ways(found.area_fraction.isel(pressure=1))
-    fine = found.area_fraction.isel(pressure=1, resolution=-1).values
-    assert value == pytest.approx(fine.mean())
-    assert error >= abs(fine[1] - fine[0]) / 2
-
-
-@pytest.mark.parametrize(("range_", "shown"), [("0.2 m", True), ("5 m", False), ("3 mm", False)])
-def test_margin_is_shown_where_the_grid_resolves_the_range(whole, range_, shown):
-    _, found = whole
-    entry = {"plane_strain_modulus": "1 Pa", "work_of_adhesion": "0.1 J/m^2", "range": range_}
-    ends = {"h_rms": ("end", [1.0, 1.0]), "rms_slope": ("end", [3.0, 3.0])}
-    known = found.isel(resolution=-1, periodisation=0)[[]].assign(ends | {"q0": 1.0})
-    row = measured_contact.describe_pair(found, read_material(entry), known)
-    assert row["resolved"] == shown
-    assert (row["margin"] != "–") == shown
 
 
 # Heights that are periodic as they stand, with adhesion
@@ -183,18 +155,6 @@ def test_adhesion_is_that_of_the_solver_at_the_pressures_given(pressed, periodic
         assert at.adhesive_contact_area >= at.area_fraction
     edge = SIDE / 64 * 2e-9 / 40e-9**2
     assert float(pressed.edge_resolution.isel(resolution=-1).max()) == pytest.approx(edge)
-
-
-def test_adhesion_has_its_rows_on_the_page(pressed):
-    rows = measured_contact.describe_adhesion(pressed)
-    assert [row["applied"] for row in rows] == ["250 kPa", "500 kPa"]
-    assert all(re.fullmatch(r"[\d.]+( ± [\d.]+)?", row["area"]) for row in rows)
-    assert measured_contact.describe_loads(pressed)[0]["area"]["ways"][0].startswith(
-        "as they stand"
-    )
-    assert measured_contact.describe_edges(pressed) == "The grid resolves the edges of contact."
-    coarse = pressed.assign(edge_resolution=("resolution", [20.0, 10.0]))
-    assert "does not resolve" in measured_contact.describe_edges(coarse)
 
 
 def test_pressures_with_units_are_the_same_in_both_ways(whole):

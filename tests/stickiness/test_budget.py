@@ -8,7 +8,6 @@ import xarray as xr
 
 from cases import answer_case
 from common import error_budgets
-from stickiness import datasets
 from stickiness import error_budget as budget
 from stickiness.accuracy.error_models import Surface, read_models, single_error
 from stickiness.accuracy.prediction import Problem
@@ -52,16 +51,6 @@ def test_no_error_and_no_value_have_no_source():
     assert np.isnan(found.q_error.isel(x=1)).all()
 
 
-def test_flags_are_those_of_the_conventions_and_survive_the_file(tmp_path):
-    found = quoted([1.0], model=budget.Part(0.5, "m"))
-    datasets.write(found, tmp_path / "a.nc", title="t", parameters={})
-    flag = datasets.read(tmp_path / "a.nc").q_dominant
-    assert flag.dtype == np.int8
-    assert flag.attrs["flag_values"].dtype == np.int8
-    assert len(flag.attrs["flag_values"]) == len(flag.attrs["flag_meanings"].split())
-    assert budget.dominant(xr.Dataset({"q_dominant": flag.isel(x=0)}), "q") == "model"
-
-
 def ensemble_of(seeds, **more):
     made = {"hurst": 0.8, "magnification": 32, "pixels_per_wavelength": 8, "tolerance": 1e-6}
     return error_budgets.Simulation.of(LAWS, {**made, "seeds": list(range(seeds)), **more})
@@ -100,15 +89,6 @@ def test_an_accuracy_of_which_nothing_is_known_is_missed():
     problem = Problem(LAWS, Surface(0.8, 32), at["pressure"], at["column"])
     text = answer_case.describe_miss(answer, problem, {"accuracy": 0.05}, "mine")
     assert text == "error of a_v at pressure 0.1 not known"
-
-
-def test_a_single_seed_has_no_total():
-    value = xr.Dataset({"q": ("pressure", [0.05])}, coords={"pressure": [0.065]})
-    value.q.attrs = {"units": "1", "long_name": "area"}
-    parts = ensemble_of(1).parts("area_fraction", value.q, np.nan * value.q, 0.1 * value.q)
-    found = budget.with_budget(value, "q", **parts)
-    assert np.isnan(found.q_total_error).all()
-    assert budget.dominant(found.isel(pressure=0), "q") == "sampling"
 
 
 def test_errors_between_the_measured_ranges_follow_a_power_law():

@@ -9,19 +9,11 @@ import pytest
 
 import stickiness
 
-PACKAGES = sorted(path.parent for path in Path(stickiness.__file__).parent.glob("*/__init__.py"))
-
 
 @pytest.mark.parametrize("name", dir(stickiness))
 def test_every_name_is_there_and_explained(name):
     assert getattr(stickiness, name)
     assert name == "__version__" or f"`{name}`" in stickiness.__doc__
-
-
-def test_packages_and_facades_are_listed():
-    folder = Path(stickiness.__file__).parent
-    modules = {path.stem for path in folder.glob("*.py")} - {"__init__"}
-    assert modules | {path.name for path in PACKAGES} <= set(dir(stickiness))
 
 
 def test_verdict_is_the_function_whatever_was_imported_before():
@@ -55,10 +47,3 @@ def test_importing_loads_neither_scipy_nor_matplotlib():
 
 def test_the_example_is_right():
     assert doctest.testmod(stickiness).failed == 0
-
-
-@pytest.mark.parametrize("folder", PACKAGES, ids=lambda folder: folder.name)
-def test_a_package_says_what_each_module_is_for(folder):
-    text = (folder / "__init__.py").read_text(encoding="utf-8")
-    for module in folder.glob("*.py"):
-        assert module.stem == "__init__" or f"- `{module.stem}`: " in text, module

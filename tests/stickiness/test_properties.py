@@ -9,13 +9,12 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as arrays
 
-from stickiness import adhesive, criteria, datasets, dmt, equivalent_sphere, repulsive, surface
+from stickiness import adhesive, criteria, datasets, dmt, repulsive, surface
 from stickiness.accuracy import multilevel
-from stickiness.criteria import a_v_table
+from stickiness.criteria import a_v_table, equivalent_sphere
 from stickiness.measured import instrument_spectrum, stitching
 from stickiness.measured.topography import Topography
 from stickiness.persson import Persson
-from stickiness.repulsive import grid_limit
 from stickiness.solids.moduli import Prony, Table, crossings
 from stickiness.spectrum import SelfAffine, Shells
 
@@ -79,20 +78,6 @@ def test_criteria_do_not_know_the_unit(h_rms, log_adhesion, log_range, unit):
         one = criterion(h_rms, q0, la, eps).margin
         other = criterion(h_rms * unit, q0 / unit, la * unit, eps * unit).margin
         assert other == pytest.approx(one, rel=1e-7)
-
-
-@given(
-    arrays.arrays(float, (3, 4), elements=st.floats(0.01, 1.0)),
-    st.floats(-0.5, 0.5),
-    st.integers(1, 10**6),
-    factors,
-)
-def test_limits_of_fine_grids_scale(values, part, edges, factor):
-    one = grid_limit.estimate("mean_gap", list(values), part, edges)
-    other = grid_limit.estimate("mean_gap", list(factor * values), factor * part, edges)
-    np.testing.assert_allclose(other.value, factor * one.value, rtol=1e-12)
-    # An error below the rounding of the values is none.
-    np.testing.assert_allclose(other.error, factor * one.error, rtol=1e-9, atol=1e-18 * factor)
 
 
 @given(seeds, factors, st.floats(-5, 5))
@@ -213,16 +198,6 @@ def test_area_grows_and_gap_falls_with_load(seed, hurst, load, more):
     light, heavy = pressed(h, load), pressed(h, load * more)
     assert light.area_fraction <= heavy.area_fraction + 0.5 / h.size
     assert heavy.mean_gap <= light.mean_gap + 10 * TOL
-
-
-@pytest.mark.slow
-@given(hursts, st.floats(0.05, 6), loads, st.floats(1.001, 100))
-def test_order_in_theory(hurst, decades, load, more):
-    theory = Persson(SelfAffine(hurst=hurst, q0=1.0, q1=10**decades, h_rms=1.0))
-    assert theory.area_fraction(load) <= theory.area_fraction(load * more)
-    assert theory.mean_gap(load) >= theory.mean_gap(load * more)
-    gaps = np.geomspace(1e-6, 1e3, 19)
-    assert np.all(np.diff(theory.gap_cumulative(gaps, load)) >= -1e-12)
 
 
 @given(seeds, loads, st.floats(-5, 1), st.floats(1.01, 30), st.booleans())
@@ -349,14 +324,6 @@ def test_spectra_and_their_stitching_do_not_depend_on_order(seed, hurst):
     np.testing.assert_allclose(other.spectrum.rings.psd, one.spectrum.rings.psd, rtol=1e-9)
     assert other.spectrum.fit.hurst == pytest.approx(one.spectrum.fit.hurst, abs=1e-6)
     assert other.scatter == pytest.approx(one.scatter, rel=1e-6)
-
-
-@pytest.mark.slow
-@given(seeds, laws)
-def test_the_same_adhesion_gives_the_same_bits(seed, law):
-    states = [adhered(heights_of(seed, 16), law, 0.5, 0.1, 0.05) for _ in range(2)]
-    assert states[0].gap.tobytes() == states[1].gap.tobytes()
-    assert states[0].pressure.tobytes() == states[1].pressure.tobytes()
 
 
 # --- files ---

@@ -1,12 +1,9 @@
-"""Checks of the configuration before any job starts.
+"""The configuration: read, checked before any job starts, and documented.
 
-- `checks`: reads the files and checks them; errors name key, value and remedy
-- `cross_checks`: what the schema of config.yaml cannot say
-- `material_entries`: what the schema of materials cannot say
-- `surface_entries`: what the schema of real surfaces cannot say
-- `experiment_entries`: what the schema of experiments cannot say
-- `measured_contact`: what the schema of contact of measured heights cannot say
-- `files`: the files that a configuration names
-- `measurements`: the files of a measured surface
-- `messages`: the sentences of the errors
+- `load`: reads the files and checks them; errors name file, key, value and what would be right
+- `fields`: what the models are made of: sections, numbers, values with units
+- `models`, `campaigns`: models of config.yaml and of campaigns
+- `materials`, `surfaces`, `experiments`: models of the files that config.yaml names
+- `reference`: writes docs/configuration.md from the models
+- `entries`: how scripts read entries
 """

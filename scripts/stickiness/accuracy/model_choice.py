@@ -19,8 +19,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from stickiness.area_load import jtb_limit
 from stickiness.arguments import positive
+from stickiness.criteria.area_load import jtb_limit
 from stickiness.units import si
 
 AXES = ("magnification", "pressure", "range_over_h_rms", "strength")
@@ -81,7 +81,7 @@ def read_table(path: str | Path) -> ErrorTable:
     try:
         lines = Path(path).read_text(encoding="utf-8").splitlines()
     except FileNotFoundError:
-        raise ValueError(f"{path}: no such file; set its path in config/config.yaml") from None
+        raise ValueError(f"{path}: no such file; the target dmt_error makes it") from None
     reader = csv.DictReader(lines)
     if tuple(reader.fieldnames or ()) != COLUMNS:
         raise ValueError(f"{path}: the columns must be {','.join(COLUMNS)}, got {lines[:1]}")

@@ -3,7 +3,7 @@
 The unknown is the gap. Points are free where the gap is open or where the wall would have to pull;
 the others rest at the wall. Directions are Polak-Ribiere's, preconditioned with
 ``1 / (|q| / 2 + |q|_min / 2)`` between masks of the free points, so that the number of iterations
-hardly depends on the grid. Where a law hardens steeply, its own stiffness preconditions.
+hardly depends on the grid. Where a law hardens steeply, its stiffness preconditions.
 
 The step is the exact one for the curvature along the direction, clipped at the wall, shortened
 until the energy falls. Where that curvature is negative, the step is the one of the elastic energy
@@ -20,12 +20,14 @@ and before it is believed, the pressure is recomputed in double precision.
 import numpy as np
 
 from stickiness.adhesive.preconditioner import Preconditioner
-from stickiness.adhesive.state import State, balanced, evaluate, lowered, spans
+from stickiness.adhesive.problem import State, balanced, evaluate, lowered, spans
 
 _REFRESH = 1e-4  # fall of the residual after which the elastic pressure is recomputed
-_SHORTENINGS = 30
-_STIFF = 3.0  # stiffness of a law from which on it preconditions, over a mean of the half-space's
-_CLOSEST = 0.5  # share of its way to the singularity of a law that a point may go in one step
+_MAX_SHORTENINGS = 30
+# Stiffness of a law, over a mean of the half-space's, from which on it preconditions.
+_STIFF_POINT = 3.0
+# Share of its way to the singularity of a law that a point may go in one step.
+_LARGEST_APPROACH = 0.5
 
 
 def descend(problem, gap, tol, max_iterations, observer=None, elastic=None, rough=False):
@@ -86,10 +88,10 @@ class _Conjugate:
     def __init__(self, problem):
         self.problem = problem
         self.spans = spans(problem.surface.heights.shape)
-        # A point on its own is held by the stiffness of a pixel, long waves by that of the longest.
+        # A single point is held by the stiffness of a pixel, long waves by the longest wave's.
         self.pixel = problem.surface.quick.mean_stiffness
         self.longest = problem.surface.smoother.shift
-        self.stiff_limit = _STIFF * np.sqrt(self.longest * self.pixel)
+        self.stiff_limit = _STIFF_POINT * np.sqrt(self.longest * self.pixel)
         self.hardens = problem.law.hardens
         self._stiffness = self.longest
         self._direction = np.empty(problem.surface.heights.shape, np.float32)
@@ -109,7 +111,7 @@ class _Conjugate:
         """
         problem = self.problem
         force = state.force
-        if self.hardens:  # of every point on its own, or in the longest wave
+        if self.hardens:  # of every point alone, or in the longest wave
             self._stiffness = np.where(
                 state.slope > self.stiff_limit, state.slope + self.stiff_limit, self.longest
             )
@@ -201,7 +203,7 @@ def _step(problem, state, direction, image, lower):
     longest = reach / line.largest
     length = min(-line.slope / curvature, longest) if curvature > -line.slope / longest else longest
     slack = 8 * np.finfo(float).eps * abs(state.potential)
-    for _ in range(_SHORTENINGS):
+    for _ in range(_MAX_SHORTENINGS):
         change = _move(problem, state, line, length, lower)
         if change <= slack:
             return True, soft
@@ -243,12 +245,13 @@ class _Line:
 
 def _move(problem, state, line, length, lower):
     """Evaluate the state at a length along a line, within bounds; returns the change of energy."""
-    nearest = _CLOSEST * problem.law.range  # of the way to the singularity, if there is no wall
+    # Without a wall, points stay clear of the singularity of the law.
+    nearest = _LARGEST_APPROACH * problem.law.range
     within = True
     for span in spans(state.gap.shape):
         gap = np.multiply(line.direction[span], length, out=lower.gap[span], dtype=float)
         gap += state.gap[span]
-        lowest = 0.0 if problem.wall else _CLOSEST * state.gap[span] - nearest
+        lowest = 0.0 if problem.wall else _LARGEST_APPROACH * state.gap[span] - nearest
         if np.any(gap < lowest):
             within = False
             np.maximum(gap, lowest, out=gap)
@@ -263,9 +266,9 @@ def _move(problem, state, line, length, lower):
 
 
 def _shortcut(problem, state, lower):
-    """Elastic pressure after a step cut short at bounds; change of energy but the law's own."""
+    """Elastic pressure after a step cut short at bounds; change of energy without the law's."""
     if problem.mean_gap is not None:
-        lowest = 0.0 if problem.wall else _CLOSEST * (state.gap - problem.law.range)
+        lowest = 0.0 if problem.wall else _LARGEST_APPROACH * (state.gap - problem.law.range)
         lower.gap[...] = lowered(lower.gap, problem.mean_gap, lowest)
     step = (lower.gap - state.gap).astype(np.float32)
     image = problem.surface.quick.stiffness(step)

@@ -9,6 +9,11 @@ largest (separation).
 
 A smooth law is relaxed as it is. A state found within a few iterations may be an unstable one
 (two flats at a distance): it is probed for directions of negative curvature, and left along one.
+
+Loading from afar starts from the contact without adhesion. It has wider gaps than any adhesive
+state: a descent from it ends on the branch of approach. The adhesive state on a grid half as fine
+is a better start, unless it lies beyond a jump that the fine grid does not make. So coarser grids
+are used only while no descent on any grid meets negative curvature, without which there is no jump.
 """
 
 from dataclasses import replace
@@ -16,15 +21,19 @@ from dataclasses import replace
 import numpy as np
 
 from stickiness.adhesive.descent import descend
-from stickiness.adhesive.problem import FrozenTraction
+from stickiness.adhesive.problem import FrozenTraction, State, balanced, evaluate, lowered
 from stickiness.adhesive.softening_descent import quick_descent, suits
-from stickiness.adhesive.starts import from_coarser_grids, has_coarser_grids, without_adhesion
-from stickiness.adhesive.state import State, balanced, evaluate, lowered
+from stickiness.repulsive import solver
+from stickiness.repulsive.active_set import PREDICTION
+from stickiness.repulsive.half_space import coarsen, interpolate, sample
 
-_QUICK = 8  # iterations below which convergence says little about stability
-_PROBES = 30
-_FALL = 0.1  # fall of the residual between two updates of a frozen traction
-_ESCAPES = 5
+_FEW_ITERATIONS = 8  # iterations below which convergence says little about stability
+_MAX_PROBES = 30
+_FROZEN_REDUCTION = 0.1  # fall of the residual between two updates of a frozen traction
+_MAX_ESCAPES = 5
+_START_TOLERANCE = 1e-3  # tolerance of a solution without adhesion that is only a start
+_COARSE_GRID_TOLERANCE = 1e-2  # of one on a coarser grid
+_MIN_POINTS_TO_COARSEN = 128  # along the shorter side of a grid
 
 
 def relax(problem, gap, tol, max_iterations, closing=True, logger=None):
@@ -44,14 +53,14 @@ def relax(problem, gap, tol, max_iterations, closing=True, logger=None):
         if state is None:
             gap, pairs = without_adhesion(problem, max_iterations)
             work.append(pairs * gap.size)
-    for _ in range(_ESCAPES):
+    for _ in range(_MAX_ESCAPES):
         if state is None or gap is not None:
             state = run(problem, gap, tol, max_iterations - spent, watch)
         spent += state.iterations
         state.iterations = spent
         if watch.separated or not state.residual <= tol or spent >= max_iterations:
             break
-        unsure = state.last_run < _QUICK and not _surely_stable(problem, state)
+        unsure = state.last_run < _FEW_ITERATIONS and not _surely_stable(problem, state)
         mode = _unstable_mode(problem, state) if unsure else None
         if mode is None:
             break
@@ -101,7 +110,7 @@ def _relax_frozen(problem, gap, tol, max_iterations, watch):
         traction = FrozenTraction(law.maugis_stress * inside, law.range)
         frozen = replace(problem, law=traction)
         if aim is None:
-            aim = max(tol, _FALL * evaluate(frozen, state).residual)
+            aim = max(tol, _FROZEN_REDUCTION * evaluate(frozen, state).residual)
         final = aim <= tol
         left = max_iterations - spent
         state = descend(frozen, state.gap, aim, left, watch, elastic=state.elastic, rough=not final)
@@ -119,7 +128,7 @@ def _relax_frozen(problem, gap, tol, max_iterations, watch):
         elif final:
             break
         else:
-            aim = max(tol, _FALL * aim)
+            aim = max(tol, _FROZEN_REDUCTION * aim)
     evaluate(problem, state)
     state.iterations, state.last_run = spent, spent
     return state
@@ -149,7 +158,7 @@ def _unstable_mode(problem, state):
     residual = _constrained(problem, -load.astype(np.float32), open_points)
     direction, product = None, 0.0
     first = float(np.abs(residual).max())
-    for _ in range(_PROBES):
+    for _ in range(_MAX_PROBES):
         image = problem.surface.smoother.apply(residual)
         image = _constrained(problem, image, open_points)
         last, product = product, float(np.vdot(image, residual))
@@ -181,3 +190,64 @@ def _left(problem, state, mode, closing):
     lowest = 0.0 if problem.wall else 0.5 * (state.gap - problem.law.range)
     gap = np.maximum(state.gap + 0.1 * problem.law.range * mode, lowest)
     return gap if problem.mean_gap is None else lowered(gap, problem.mean_gap, lowest)
+
+
+def has_coarser_grids(problem):
+    """Whether `from_coarser_grids` is for this problem and its grid."""
+    fine = min(problem.surface.heights.shape) >= _MIN_POINTS_TO_COARSEN
+    suited = suits(problem) and problem.law.smooth
+    return fine and suited and problem.pressure is not None
+
+
+def from_coarser_grids(problem, tol, max_iterations, observer, work):
+    """State at a prescribed pressure by way of coarser grids.
+
+    The problem must suit `quick_descent`; None if any descent meets a direction of negative
+    curvature. `work` gets the convolutions of the starts, times their points.
+    """
+    shape = problem.surface.heights.shape
+    if min(shape) < _MIN_POINTS_TO_COARSEN:
+        gap, pairs = without_adhesion(problem, max_iterations)
+        work.append(pairs * gap.size)
+    else:
+        coarser = tuple(coarsen(n) for n in shape)
+        heights = sample(problem.surface.heights, coarser)
+        surface = replace(problem.surface, heights=heights)
+        coarse = replace(problem, surface=surface)
+        before = coarse.surface.pairs
+        state = from_coarser_grids(coarse, _COARSE_GRID_TOLERANCE, max_iterations, None, work)
+        work.append((coarse.surface.pairs - before) * heights.size)
+        if state is None:
+            return None
+        gap = _predicted(problem, interpolate(state.gap, shape))
+    state, finished = quick_descent(problem, gap, tol, max_iterations, observer, convex=True)
+    return state if finished else None
+
+
+def _predicted(problem, gap):
+    """Gap interpolated from a coarser grid, closed where the heights of this one press."""
+    surface = problem.surface
+    pressure = surface.quick.stiffness((gap + surface.heights).astype(np.float32))
+    pressure += problem.pressure + problem.law.traction(np.maximum(gap, 0))
+    pressing = pressure > PREDICTION * surface.quick.mean_stiffness * gap
+    return np.where(pressing, 0, np.maximum(gap, 0))
+
+
+def without_adhesion(problem, max_iterations):
+    """Gap without adhesion at the control of a problem, and the convolutions it took."""
+    surface = problem.surface
+    if problem.pressure is not None:
+        effort = solver.Effort(_START_TOLERANCE)
+        contact = solver.press(
+            surface.heights, surface.sides, problem.pressure, effort, solid=surface.solid
+        )
+        return contact.gap, contact.fft_pairs
+    gap = problem.mean_gap - surface.heights
+    if gap.min() >= 0:
+        return gap, 0.0
+    if problem.mean_gap <= 0:
+        return np.full(gap.shape, problem.mean_gap), 0.0
+    before = surface.pairs
+    alone = replace(problem, law=FrozenTraction(0.0, problem.law.range))
+    gap = descend(alone, lowered(gap, problem.mean_gap), _START_TOLERANCE, max_iterations).gap
+    return gap, surface.pairs - before

@@ -10,8 +10,8 @@ integrated along a parabola of the controlled quantity through both ends and the
 error is of fourth order in the step on a branch; at a jump it does not vanish with the step. So the
 balance sets the steps, and a jump is a step that stays out of balance when it is as short as the
 tolerance for its place. On a grid, attraction of short range passes over points one by one, each
-with a jump of its own (a Maugis zone always does). Below a given size such jumps are not sought
-out: they are left in the dissipated energy of the step they fall into.
+with a small jump (a Maugis zone always does). Jumps below a given size are not located: they add to
+the dissipated energy of the step in which they occur.
 """
 
 import math
@@ -20,8 +20,18 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from stickiness.adhesive.scaling import APPROACH, SEPARATION, Adhesion, Control, Scaled
-from stickiness.adhesive.solver import ConvergenceError, Effort, PullOffError, relax_from, solve
+from stickiness.adhesive.solver import (
+    APPROACH,
+    SEPARATION,
+    Adhesion,
+    Control,
+    ConvergenceError,
+    Effort,
+    PullOffError,
+    Scaled,
+    relax_from,
+    solve,
+)
 from stickiness.arguments import grid, number
 from stickiness.solids import HALF_SPACE
 
@@ -112,7 +122,7 @@ def path(
     Raises
     ------
     ValueError
-        If an argument is not what it should be.
+        If an argument is malformed or out of range; the message names it.
     PullOffError
         If there is no equilibrium at the first value.
     ConvergenceError

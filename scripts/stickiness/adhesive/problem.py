@@ -1,4 +1,4 @@
-"""One problem of adhesive contact in its own units: operators, traction law and what is prescribed.
+"""A problem of adhesive contact in scaled units: operators, traction law, prescribed load or gap.
 
 Lengths along the surface are in units of one side of the cell, heights and gaps in units of
 h_rms (of the range of attraction if the surface is flat), pressures in E* times their quotient.
@@ -6,6 +6,10 @@ The energy per area is ``E(g) = <u K u> / 2 + <phi(g)>``, ``u = g + h``, ``phi' 
 ``K = |q| / 2`` or, for a layer, what `solids` says. A state of equilibrium at the mean pressure p
 has ``r = K u + traction(g) + p = 0``, or, with a hard wall at ``g = 0``, ``r >= 0`` where ``g = 0``
 and ``r = 0`` elsewhere.
+
+A descent goes from `State` to `State`: a gap and all that follows from it point by point. These
+operations are bound by memory. The law goes over the grid in blocks of rows that stay in cache, and
+all write over the arrays of a state that is no longer needed.
 """
 
 from dataclasses import dataclass
@@ -13,8 +17,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from stickiness.adhesive.preconditioner import Smoother
+from stickiness.compiled import compiled
 from stickiness.repulsive import half_space
 from stickiness.solids import HALF_SPACE, Solid
+
+_BLOCK_POINTS = 2**14  # in a block: 128 kB in double precision
 
 
 @dataclass(frozen=True, eq=False)
@@ -89,3 +96,107 @@ class FrozenTraction:
 
 
 _kept_smoother = half_space.keep_per_thread(24)(Smoother)
+
+
+@dataclass(eq=False)
+class State:
+    """A gap with what follows from it."""
+
+    gap: np.ndarray
+    elastic: np.ndarray  #: pressure of zero mean that belongs to the gap
+    traction: np.ndarray  #: of the law at this gap, with its slope
+    slope: np.ndarray
+    free: np.ndarray  #: points that are open or would be pulled by the wall
+    #: Sum of elastic pressure, traction and mean pressure on free points, in the problem's unit and
+    #: in single precision: zero in equilibrium.
+    force: np.ndarray
+    potential: float = 0.0  #: mean of the law's
+    pressure: float = 0.0  #: mean, prescribed or in balance with the prescribed mean gap
+    residual: float = np.inf  #: largest magnitude of the force
+    iterations: int = 0
+    last_run: int = 0  #: iterations since a direction of negative curvature was met
+    start_pairs: float = 0.0  #: convolutions of the start, on coarser grids by share of the points
+
+    @classmethod
+    def empty(cls, shape):
+        """State with arrays of arbitrary content."""
+        doubles = [np.empty(shape) for _ in range(4)]
+        return cls(*doubles, np.empty(shape, bool), np.empty(shape, np.float32))
+
+
+def spans(shape):
+    """Slices of rows that cover a grid block by block."""
+    rows = max(1, _BLOCK_POINTS // shape[1])
+    return [slice(start, start + rows) for start in range(0, shape[0], rows)]
+
+
+def evaluate(problem, state):
+    """Fill in what follows from the gap (not negative at a wall) and elastic pressure of a state.
+
+    The mean pressure, if not prescribed, is the one that balances the open points in the mean.
+    """
+    law, potential = problem.law, 0.0
+    for span in spans(state.gap.shape):
+        values = law.at(span).evaluate(state.gap[span])
+        state.traction[span], state.slope[span], energy = values
+        potential += float(np.sum(energy))
+    state.potential = potential / state.gap.size
+    fields = state.gap.ravel(), state.elastic.ravel(), state.traction.ravel()
+    state.pressure = problem.pressure
+    if state.pressure is None:
+        total, count, least = _unloaded(*fields, problem.wall)
+        # In full contact the least pressure that keeps it.
+        state.pressure = -total / count if count else -least
+    force, free = state.force.ravel(), state.free.ravel()
+    _react(*fields, state.pressure, problem.unit, problem.wall, free, force)
+    state.residual = largest(force)
+    return state
+
+
+@compiled
+def _unloaded(gap, elastic, traction, wall):
+    """Sum and count of reactions without load on open points, and the least on all points."""
+    total, count, least = 0.0, 0, np.inf
+    for i in range(gap.size):
+        reaction = elastic[i] + traction[i]
+        if gap[i] > 0 or not wall:
+            total += reaction
+            count += 1
+        least = min(least, reaction)
+    return total, count, least
+
+
+@compiled
+def _react(gap, elastic, traction, pressure, unit, wall, free, force):
+    """Find the points that are free, and the forces on them."""
+    for i in range(gap.size):
+        reaction = elastic[i] + traction[i] + pressure
+        free[i] = gap[i] > 0 or not reaction >= 0 or not wall  # keeps what is not a number
+        force[i] = reaction / unit if free[i] else 0.0
+
+
+def largest(field):
+    """Largest magnitude in a field; not a number if any is none."""
+    return float(np.maximum(field.max(), -field.min()))
+
+
+def balanced(field, points=None):
+    """Subtract, in place, a constant on some points so that the field has no mean."""
+    if points is None or points.all():
+        field -= field.dtype.type(field.mean(dtype=float))
+    elif points.any():
+        field -= field.dtype.type(field.sum(dtype=float) / np.count_nonzero(points)) * points
+    return field
+
+
+def lowered(gap, mean, lowest=0.0):
+    """Lower a gap rigidly to a given mean, no point below its bound."""
+    gap = np.maximum(gap, lowest)
+    for _ in range(100):
+        excess = float(gap.mean()) - mean
+        movable = gap > lowest
+        count = np.count_nonzero(movable)
+        if count == 0 or abs(excess) <= 1e-15 * abs(mean):
+            break
+        gap = np.maximum(gap - np.where(movable, excess * gap.size / count, 0), lowest)
+    return gap

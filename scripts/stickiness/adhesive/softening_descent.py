@@ -5,29 +5,36 @@ precision within a round, and computed again in double precision between rounds 
 refinement). Once the force is small it changes linearly with the gap: the law is then evaluated,
 and energies are compared, between rounds only.
 
-Until then a step is cut short at the wall, which takes an image of its own: one that passes the
+Until then a step is cut short at the wall, which takes another convolution: a step that passes the
 wall might pass a barrier, too. Afterwards points that pass it by little stay behind it for the rest
 of the round and are put back at its end, and a round ends when the force on them is no longer small
 against the residual. If a round raises the energy or changes nothing, the general descent takes
 over.
+
+The compiled loops at the end do all that they need at one point before they go to the next. Their
+fields are flat: those of steps in single precision, those of states and all sums in double
+precision. Sets of points are booleans.
 """
 
 import numpy as np
 
-from stickiness.adhesive import softening_loops as loops
 from stickiness.adhesive.preconditioner import Preconditioner
-from stickiness.adhesive.state import State, evaluate, largest, spans
+from stickiness.adhesive.problem import State, evaluate, largest, spans
+from stickiness.compiled import compiled
 from stickiness.repulsive import convolution
 
-_FALL = 1e-3  # reduction of the force by a round
-_LINEAR = 1e-3  # residual below which the traction is linear in the change of the gap
-_ROUND = 50  # steps of a round at most
-_NEAR = 0.03  # change of a gap, over the range, up to which that holds
-_CUT = 1.0  # force on points behind the wall over the residual from which a step is cut anyway
-_PUT_OFF = 0.3  # residual over the force on points behind the wall at which a round ends
-_SHORTENINGS = 30
+_ROUND_REDUCTION = 1e-3  # reduction of the force by a round
+_LINEAR_RESIDUAL = 1e-3  # residual below which the traction is linear in the change of the gap
+_MAX_ROUND_STEPS = 50  # steps of a round at most
+_MAX_LINEAR_CHANGE = 0.03  # change of a gap, over the range, up to which that holds
+_CUT_FORCE = (
+    1.0  # force on points behind the wall over the residual from which a step is cut anyway
+)
+_PUT_OFF_FORCE = 0.3  # residual over the force on points behind the wall at which a round ends
+_MAX_SHORTENINGS = 30
 _ROUNDING = 1e-7  # relative error of a sum of energies in single precision
-_MARGIN = 0.8  # of the tolerance that a last round aims for
+_LAST_ROUND_SHARE = 0.8  # of the tolerance that a last round aims for
+_NONE, _HALF = np.float32(0), np.float32(0.5)
 
 
 def suits(problem):
@@ -53,7 +60,9 @@ def quick_descent(problem, gap, tol, max_iterations, observer=None, convex=False
         if done or (observer is not None and observer(state)):
             break
         steps.begin(state)
-        steps.descend(max(_FALL * state.residual, _MARGIN * tol), max_iterations, convex)
+        steps.descend(
+            max(_ROUND_REDUCTION * state.residual, _LAST_ROUND_SHARE * tol), max_iterations, convex
+        )
         finished = not (convex and steps.last_soft) and (steps.soft or steps.change.any())
         finished = finished and _moved(problem, state, steps, other)
         if finished:
@@ -65,14 +74,14 @@ def quick_descent(problem, gap, tol, max_iterations, observer=None, convex=False
 def _moved(problem, state, steps, other):
     """State after a round into the arrays of another; returns whether the energy fell."""
     gaps = state.gap.ravel(), other.gap.ravel()
-    total = loops.move(*gaps, steps.change, problem.unit, steps.above)
+    total = _move_gap(*gaps, steps.change, problem.unit, steps.above)
     if (
         problem.mean_gap is not None and total > 0
     ):  # in proportion: contact stays contact, edges keep their shape
         other.gap *= problem.mean_gap * other.gap.size / total
     other.elastic[...] = problem.surface.elastic(other.gap)
     pressures = state.elastic.ravel(), other.elastic.ravel(), state.pressure
-    change = loops.sum_work_between(*gaps, *pressures)
+    change = _sum_work_between(*gaps, *pressures)
     evaluate(problem, other)
     change = change / state.gap.size + other.potential - state.potential
     return change <= 8 * np.finfo(float).eps * abs(state.potential)
@@ -103,7 +112,7 @@ class _Steps:
 
     def begin(self, state):
         """Begin a round at a state; directions stay conjugate to those of the last one."""
-        self.linear = state.residual < _LINEAR and not self.soft
+        self.linear = state.residual < _LINEAR_RESIDUAL and not self.soft
         self.residual, self.behind, self.soft = state.residual, 0.0, False
         self.change[...] = 0
         self.lowest[...] = state.gap.ravel() / -self.unit
@@ -119,18 +128,18 @@ class _Steps:
         self.force[...] = state.force.ravel()
         if self.at_gap:
             mean = self.force.sum(dtype=float) / max(self.free_points, 1)
-            loops.lower(self.force, np.float32(mean), self.free)
+            _lower(self.force, np.float32(mean), self.free)
         if not self.linear:
             self.potential = self._evaluate(self.change, 0.0, self.traction, self.slope)
             self.slack = _ROUNDING * abs(self.potential)
 
     def descend(self, goal, limit, convex):
         """Go on until the largest force is down to a goal, or curvature is no guide."""
-        limit = min(limit, self.count + _ROUND)
-        while self.count < limit and self.residual > max(goal, _PUT_OFF * self.behind):
+        limit = min(limit, self.count + _MAX_ROUND_STEPS)
+        while self.count < limit and self.residual > max(goal, _PUT_OFF_FORCE * self.behind):
             weight, slope, softening = self._turn()
             self._stiffen(self.direction, self.image)
-            stiffness = loops.dot(self.direction, self.image)
+            stiffness = _dot(self.direction, self.image)
             self.count += 1
             if not slope < 0:
                 if weight == 0:
@@ -155,22 +164,22 @@ class _Steps:
         """
         force = self.force.reshape(self.shape)
         step = self.precondition(force).ravel()
-        total, product, last_product, *forces = loops.sum_over_free(
+        total, product, last_product, *forces = _sum_over_free(
             step, self.free, self.force, self.last_force
         )
         mean = total / max(self.free_points, 1) if self.at_gap else 0.0
         last, self.product = self.product, product - mean * forces[0]
         gain = self.product - (last_product - mean * forces[1])
         weight = max(0.0, gain / last) if last > 0 else 0.0
-        total, count = loops.turn(
+        total, count = _turn_direction(
             self.direction, np.float32(weight), step, np.float32(mean), self.free, self.above
         )
         mean = np.float32(total / count if self.at_gap and count else 0)
-        return weight, *loops.settle(self.direction, mean, self.above, self.force, self.slope)
+        return weight, *_settle_direction(self.direction, mean, self.above, self.force, self.slope)
 
     def _advance(self, slope, length):
         """Go along the direction; returns whether the round may go on."""
-        for _ in range(1 if self.linear else _SHORTENINGS):
+        for _ in range(1 if self.linear else _MAX_SHORTENINGS):
             step = self._within(np.float32(length))
             rise = 0.0 if self.linear else self._rise(*step)
             if self.linear or rise <= self.slack:
@@ -180,25 +189,25 @@ class _Steps:
         return False
 
     def _within(self, length):
-        """Step, its image, and a factor for both; cut short at the wall, of its own image.
+        """Step, its image, and a factor for both; a step cut short at the wall has a new image.
 
         Not if the force on what lies behind the wall is small: that is put off.
         """
-        allowed = max(_CUT * self.residual if self.linear else 0.0, self.behind)
+        allowed = max(_CUT_FORCE * self.residual if self.linear else 0.0, self.behind)
         bound = np.float32(-allowed / self.pixel)
-        if not loops.count_deeper(bound, self.direction, length, self.change, self.lowest):
+        if not _count_deeper(bound, self.direction, length, self.change, self.lowest):
             return self.direction, self.image, length
-        total, count = loops.cut(
+        total, count = _cut_at_wall(
             self.step, self.direction, length, self.change, self.lowest, self.above
         )
         if self.at_gap and count:
-            loops.lower(self.step, np.float32(total / count), self.above)
+            _lower(self.step, np.float32(total / count), self.above)
         self._stiffen(self.step, self.cut_image)
         return self.step, self.cut_image, np.float32(1)
 
     def _rise(self, step, image, factor):
         """Change of energy by a step, summed over the grid; keeps what the law says there."""
-        elastic, work = loops.sum_work(step, factor, image, self.reaction, self.traction)
+        elastic, work = _sum_work(step, factor, image, self.reaction, self.traction)
         self.new_potential = self._evaluate(step, factor, self.new_traction, self.new_slope)
         total = self.unit * (self.unit * elastic - work)
         return total + self.new_potential - self.potential
@@ -206,9 +215,7 @@ class _Steps:
     def _evaluate(self, step, factor, traction, slope):
         """Traction and slope of the law after a step; returns the sum of its potential."""
         gap, total = traction, 0.0  # a block of gaps makes room for tractions
-        loops.find_gaps(
-            step, np.float32(factor), self.change, self.lowest, np.float32(self.unit), gap
-        )
+        _find_gaps(step, np.float32(factor), self.change, self.lowest, np.float32(self.unit), gap)
         gap, traction, slope = (field.reshape(self.shape) for field in (gap, traction, slope))
         for span in spans(self.shape):
             traction[span], slope[span], potential = self.law.at(span).evaluate(gap[span])
@@ -219,24 +226,27 @@ class _Steps:
         """Make a step; returns whether it is short enough for the present tangent."""
         fields = self.change, self.reaction, self.free
         if self.linear:
-            total = loops.go_linearly(step, factor, image, *fields, self.slope)
+            total = _apply_step_linearly(step, factor, image, *fields, self.slope)
         else:
             tractions = self.traction, self.new_traction
-            total = loops.go(step, factor, image, *fields, tractions, np.float32(self.unit))
+            total = _apply_step(step, factor, image, *fields, tractions, np.float32(self.unit))
             self.traction, self.new_traction = self.new_traction, self.traction
             self.slope, self.new_slope = self.new_slope, self.slope
             self.potential = self.new_potential
         if step is self.step:  # no rounding where it ends at the wall
-            loops.end_at_wall(step, self.change, self.lowest, self.free, self.above)
+            _end_at_wall(step, self.change, self.lowest, self.free, self.above)
         mean = total / max(self.free_points, 1) if self.at_gap else 0.0
         self._release(np.float32(mean))
-        return not self.linear or self.unit * largest(self.change) <= _NEAR * self.law.range
+        return (
+            not self.linear
+            or self.unit * largest(self.change) <= _MAX_LINEAR_CHANGE * self.law.range
+        )
 
     def _release(self, mean):
         """Free points that the wall would have to pull, put off those behind it; new forces."""
         self.force, self.last_force = self.last_force, self.force
         height = self.step  # scratch: not in use here
-        self.free_points, changed = loops.release(
+        self.free_points, changed = _release_points(
             *(self.reaction, mean, self.change, self.lowest),
             *(self.above, self.free, self.force, height),
         )
@@ -248,3 +258,184 @@ class _Steps:
     def _stiffen(self, field, out):
         """Pressure that causes a displacement."""
         self.surface.quick.stiffness(field.reshape(self.shape), out=out.reshape(self.shape))
+
+
+@compiled
+def _move_gap(gap, new_gap, change, unit, above):
+    """Gap after a round, zero for what is not above the wall; returns its sum."""
+    total = 0.0
+    for i in range(gap.size):
+        moved = gap[i] + change[i] * unit
+        moved = 0.0 if not above[i] or moved <= 0 else moved  # keeps what is not a number
+        new_gap[i] = moved
+        total += moved
+    return total
+
+
+@compiled
+def _sum_work_between(gap, new_gap, elastic, new_elastic, pressure):
+    """Work against elastic and mean pressure between two gaps, summed over the grid."""
+    total = 0.0
+    for i in range(gap.size):
+        total += (new_gap[i] - gap[i]) * ((elastic[i] + new_elastic[i]) * 0.5 + pressure)
+    return total
+
+
+@compiled
+def _dot(a, b):
+    """Sum of the products of two fields."""
+    total = 0.0
+    for i in range(a.size):
+        total += a[i] * b[i]
+    return total
+
+
+@compiled
+def _sum_over_free(step, free, force, last_force):
+    """Sums over free points: of a step, its products with two forces, and of these forces."""
+    total = product = last_product = forces = last_forces = 0.0
+    for i in range(step.size):
+        part = step[i] if free[i] else _NONE
+        total += part
+        product += part * force[i]
+        last_product += part * last_force[i]
+        forces += force[i]
+        last_forces += last_force[i] if free[i] else _NONE
+    return total, product, last_product, forces, last_forces
+
+
+@compiled
+def _turn_direction(direction, weight, step, mean, free, above):
+    """Turn a direction against a step about its mean; its sum, and the count of points above.
+
+    A free point at the wall, or behind it, can only open.
+    """
+    total, count = 0.0, 0
+    for i in range(direction.size):
+        part = weight * direction[i] - (step[i] - mean) if free[i] else _NONE
+        if above[i]:
+            count += 1
+        elif part < 0:
+            part = _NONE
+        direction[i] = part
+        total += part
+    return total, count
+
+
+@compiled
+def _lower(field, mean, points):
+    """Lower a field on some points."""
+    for i in range(field.size):
+        if points[i]:
+            field[i] -= mean
+
+
+@compiled
+def _settle_direction(direction, mean, above, force, slope):
+    """Lower a direction on points above; slope of the energy along it, curvature by the law."""
+    fall = softening = 0.0
+    for i in range(direction.size):
+        part = direction[i] - mean if above[i] else direction[i]
+        direction[i] = part
+        fall += part * force[i]
+        softening += part * part * slope[i]
+    return fall, softening
+
+
+@compiled
+def _count_deeper(bound, direction, length, change, lowest):
+    """Count points that a step along a direction leaves below a bound."""
+    count = 0
+    for i in range(direction.size):
+        count += direction[i] * length + change[i] - lowest[i] < bound
+    return count
+
+
+@compiled
+def _cut_at_wall(step, direction, length, change, lowest, above):
+    """Step along a direction that ends at the wall, or where a point behind it lies.
+
+    Fills in the step and the points that end above; returns their count and the sum of the step.
+    """
+    total, count = 0.0, 0
+    for i in range(step.size):
+        least = lowest[i] - change[i]
+        least = least if least < 0 else _NONE
+        part = direction[i] * length
+        open_point = part > least
+        above[i] = open_point
+        count += open_point
+        step[i] = part if open_point else least
+        total += step[i]
+    return total, count
+
+
+@compiled
+def _find_gaps(step, factor, change, lowest, unit, gap):
+    """Gap after a step, not below the wall, in the unit of the law."""
+    for i in range(step.size):
+        height = step[i] * factor - lowest[i] + change[i]
+        gap[i] = _NONE if height <= 0 else unit * height
+
+
+@compiled
+def _sum_work(step, factor, image, reaction, traction):
+    """Work of a step against the mean of its reactions, and against the traction."""
+    elastic = attraction = 0.0
+    for i in range(step.size):
+        part = step[i] * factor
+        elastic += part * (image[i] * factor * _HALF + reaction[i])
+        attraction += part * traction[i]
+    return elastic, attraction
+
+
+@compiled
+def _apply_step(step, factor, image, change, reaction, free, tractions, unit):
+    """Make a step that changes the traction; sum of the reactions on free points."""
+    traction, new_traction = tractions
+    total = 0.0
+    for i in range(step.size):
+        change[i] += step[i] * factor
+        reaction[i] += (new_traction[i] - traction[i]) / unit + image[i] * factor
+        total += reaction[i] if free[i] else _NONE
+    return total
+
+
+@compiled
+def _apply_step_linearly(step, factor, image, change, reaction, free, slope):
+    """Make a step along which the traction changes by its slope; else as `_apply_step`."""
+    total = 0.0
+    for i in range(step.size):
+        part = step[i] * factor
+        change[i] += part
+        reaction[i] += part * slope[i] + image[i] * factor
+        total += reaction[i] if free[i] else _NONE
+    return total
+
+
+@compiled
+def _end_at_wall(step, change, lowest, free, above):
+    """Put free points whose step ends at the wall exactly there."""
+    for i in range(step.size):
+        if free[i] and not above[i] and step[i] < 0:
+            change[i] = lowest[i]
+
+
+@compiled
+def _release_points(reaction, mean, change, lowest, above, free, force, height):
+    """Free points above the wall, or that it would have to pull: forces on them, heights of all.
+
+    Returns the counts of free points and of those that changed.
+    """
+    count = changed = 0
+    for i in range(reaction.size):
+        left = reaction[i] - mean
+        reaction[i] = left
+        height[i] = change[i] - lowest[i]
+        above[i] = height[i] > 0
+        now = above[i] or not left >= 0
+        changed += now != free[i]
+        free[i] = now
+        count += now
+        force[i] = left if now else _NONE
+    return count, changed

@@ -7,16 +7,94 @@ import numpy as np
 
 from stickiness.adhesive import edge_zone
 from stickiness.adhesive.equilibrium import relax
-from stickiness.adhesive.scaling import APPROACH, CLOSEST, SEPARATION, Control, Scaled
+from stickiness.adhesive.problem import Problem, Surface, lowered
 from stickiness.arguments import grid, integer, number, numbers
+from stickiness.compiled import compiled
 from stickiness.plausibility import PlausibilityWarning, warn_of_heights, warn_of_pressure
-from stickiness.repulsive.grids import check_length, measure_slope
+from stickiness.repulsive.half_space import check_length, measure_scale, measure_slope
 from stickiness.repulsive.solver import ConvergenceError
 from stickiness.solids import HALF_SPACE, check_solid
 
+APPROACH, SEPARATION = "approach", "separation"
+DEEPEST = 0.9  #: of the range: penetration of a start, or in the mean, without a wall
 # Pixel over epsilon^2/l_a above which edges of contact are a matter of the grid alone. At 2 a
 # sphere of Tabor parameter 5 holds 20 % too much.
-_COARSEST = 4.0
+_UNRESOLVED_PIXEL = 4.0
+
+
+@dataclass(frozen=True, eq=False)
+class Adhesion:
+    """State of equilibrium of an adhesive contact; pressures in units of E*.
+
+    Attributes
+    ----------
+    pressure : numpy.ndarray
+        Net pressure at the interface, repulsion minus attraction, ``(n0, n1)``.
+    gap : numpy.ndarray
+        Gap in the unit of the heights: zero at the hard wall. A law without a wall has its
+        equilibrium separation at gap 0, and negative gaps where it repels.
+    mean_pressure, mean_gap : float
+        Means of pressure and gap that keep the state: one is prescribed, the other follows. The
+        gap is that between the surfaces; the mean compression of a layer is no part of it.
+    repulsive_pressure, adhesive_pressure : float
+        Positive and negative part of `pressure`, each averaged over the nominal area and
+        positive: their difference is `mean_pressure` (to the residual).
+    repulsive_area_fraction : float
+        Share of points at the wall, or with a negative gap if the law has no wall: contact,
+        under whatever pressure.
+    net_repulsive_area_fraction : float
+        Share of those where the net pressure is compressive: next to the edge of contact the
+        attraction outweighs the wall's push.
+    adhesive_area_fraction : float
+        Share of other points with a gap up to the range.
+    elastic_energy, interaction_energy : float
+        Per nominal area, in units of E* times length; the latter is the mean of the potential.
+    residual : float
+        Largest violation of equilibrium at any point, over the larger of the rms pressure that
+        flattens the surface (half its rms gradient times E*) and the law's strength. The
+        violation is the unbalanced pressure, at the wall only if it pulls.
+    iterations : int
+        Iterations of conjugate gradients.
+    fft_pairs : float
+        Convolutions (a forward and a backward transform each), those of the start included.
+    branch, control : str
+        "approach" if the state was reached from wider gaps, "separation" if from closer ones;
+        "pressure" or "mean_gap".
+    law, length : TractionLaw, tuple of float
+        Attraction, sides of the periodic cell.
+    rms_height : float
+        Root mean square of the heights about their mean.
+    """
+
+    pressure: np.ndarray
+    gap: np.ndarray
+    mean_pressure: float
+    repulsive_pressure: float
+    adhesive_pressure: float
+    repulsive_area_fraction: float
+    net_repulsive_area_fraction: float
+    adhesive_area_fraction: float
+    mean_gap: float
+    elastic_energy: float
+    interaction_energy: float
+    residual: float
+    iterations: int
+    fft_pairs: float
+    branch: str
+    control: str
+    law: object
+    length: tuple
+    rms_height: float
+
+    @property
+    def energy(self):
+        """Elastic plus interaction energy per nominal area [E* length]."""
+        return self.elastic_energy + self.interaction_energy
+
+    @property
+    def enthalpy(self):
+        """Energy plus the potential energy of the load, lowest in the deepest state [E* length]."""
+        return self.energy + self.mean_pressure * self.mean_gap
 
 
 class PullOffError(ConvergenceError):
@@ -37,11 +115,11 @@ def solve(
 ):
     """Solve the adhesive contact of an elastic solid with a rigid periodic surface.
 
-    The problem has several solutions in general. The one found is the stable state, an `Adhesion`,
-    that a descent in energy reaches from `start`. At a prescribed pressure the states are ordered:
-    that with the widest gaps is where loading from afar ends, that with the closest where
-    unloading from full contact does. `Adhesion.enthalpy` tells which of two states at one pressure
-    is the deeper minimum, `Adhesion.energy` at one mean gap.
+    In general the problem has several solutions. This function returns the stable state that a
+    descent in energy reaches from `start`. At a prescribed pressure the states are ordered: loading
+    from afar ends in the one with the widest gaps, unloading from full contact in the one with the
+    narrowest. Of two states at the same pressure the one of lower `Adhesion.enthalpy` is the deeper
+    minimum; at the same mean gap, the one of lower `Adhesion.energy`.
 
     Parameters
     ----------
@@ -52,29 +130,33 @@ def solve(
     law : TractionLaw
         Attraction, its adhesion length and range in the same unit.
     pressure, mean_gap : float
-        Give one: mean pressure in units of E*, negative for tension, or mean gap.
+        Exactly one of them: mean pressure in units of E*, negative for tension, or mean gap.
     start : str, Adhesion, repulsive.Contact or array_like, optional
-        "approach" (default): as from the solution without adhesion at the same control; under
-        tension, from the adhesive solution at zero pressure. At a prescribed pressure coarser
-        grids lead there, unless a descent on any of them meets negative curvature, which a jump
-        would; a `solver.Contact` as the start does without them. "separation": from full
-        contact, at a prescribed pressure only (`path` follows a mean gap back). Or any state on
-        the same grid, or its gap: the start of a descent.
+        "approach" (default): the descent starts from the solution without adhesion at the same
+        control or, under tension, from the adhesive solution at zero pressure. At a prescribed
+        pressure coarser grids supply a better start unless a descent on one of them meets negative
+        curvature, as a jump would; pass a `repulsive.Contact` to skip them. "separation": the
+        descent starts from full contact, at a prescribed pressure only (`path` follows a mean gap
+        back). Or any state on the same grid, or its gap.
     tol : float
         Largest accepted `Adhesion.residual`.
     max_iterations : int
         Largest number of iterations.
     logger : logging.Logger, optional
-        Told the progress at level DEBUG.
+        Receives the progress at level DEBUG.
     solid : solids.HalfSpace or solids.Layer, optional
         Elastic solid, a half-space by default; the thickness of a layer is in the unit of
-        `length`. A mean gap is that between the surfaces: see `solids` on the approach of the
-        backing.
+        `length`. The mean gap is measured between the surfaces: see `solids.layers` on the approach
+        of the backing.
+
+    Returns
+    -------
+    Adhesion
 
     Raises
     ------
     ValueError
-        If an argument is not what it should be.
+        If an argument is malformed or out of range; the message names it.
     PullOffError
         If the tension tears the surfaces apart; it carries the last iterate.
     ConvergenceError
@@ -149,8 +231,8 @@ def relax_from(scaled, gap, branch, control, effort, spent=(0, 0)):
         )
     if not state.residual <= tol:
         raise ConvergenceError(
-            f"residual {state.residual:.2e} after {state.iterations} iterations, "
-            f"asked for {tol:.2e}: raise max_iterations, or tol if it is near rounding",
+            f"residual {state.residual:.2e} after {state.iterations} iterations exceeds tol = "
+            f"{tol:.2e}: raise max_iterations, or tol if it is near rounding",
             result,
         )
     return result
@@ -175,7 +257,7 @@ def _find_start(scaled, start, control, effort):
 def _warn_of_edges(pixel, law):
     """Warn if the pixels are far too large for the law to act at the edges of contact."""
     ratio = edge_zone.resolution(pixel, law.range, law.adhesion_length)
-    if ratio > _COARSEST:
+    if ratio > _UNRESOLVED_PIXEL:
         warnings.warn(
             f"a pixel of {pixel:.3g} does not resolve the edges of contact under a range of "
             f"{law.range:.3g} and an adhesion length of {law.adhesion_length:.3g}: points snap in "
@@ -197,6 +279,150 @@ def _check_control(pressure, mean_gap, law):
     if array.ndim or not np.isfinite(array):
         raise ValueError(f"{name} must be a finite number, got {value!r}")
     if mean_gap is not None:
-        lowest = 0.0 if law.hard_wall else -CLOSEST * law.range
+        lowest = 0.0 if law.hard_wall else -DEEPEST * law.range
         if mean_gap < lowest:
             raise ValueError(f"mean_gap must be at least {lowest!r}, got {mean_gap!r}")
+
+
+@dataclass(frozen=True)
+class Control:
+    """What is prescribed, in the caller's units: one of the two, the other is None."""
+
+    pressure: float | None = None
+    mean_gap: float | None = None
+
+
+@dataclass(frozen=True, eq=False)
+class Scaled:
+    """Surface and law in the units of the solver, and the conversion back."""
+
+    surface: Surface
+    law: object
+    original_law: object
+    lengths: tuple
+    height: float  #: unit of heights and gaps
+    rms_height: float
+    residual_unit: float
+
+    @classmethod
+    def of(cls, heights, lengths, law, solid=HALF_SPACE):
+        """Scale heights, law and solid."""
+        mean, rms = measure_scale(heights)
+        height = rms if rms > 0 else law.range
+        scaled = (heights - mean) / height if rms > 0 else np.zeros(heights.shape)
+        surface = Surface(scaled, (1.0, lengths[1] / lengths[0]), solid.in_unit(lengths[0]))
+        scaled_law = replace(
+            law,
+            adhesion_length=law.adhesion_length * lengths[0] / height**2,
+            range=law.range / height,
+        )
+        unit = max(surface.flattening_pressure(), scaled_law.strength)
+        return cls(surface, scaled_law, law, lengths, height, rms, unit)
+
+    @property
+    def stress(self):
+        """Unit of pressure over E*."""
+        return self.height / self.lengths[0]
+
+    def problem(self, control):
+        """Problem at one value of the control."""
+        pressure, mean_gap = control.pressure, control.mean_gap
+        return Problem(
+            self.surface,
+            self.law,
+            self.residual_unit,
+            pressure=None if pressure is None else pressure / self.stress,
+            mean_gap=None if mean_gap is None else mean_gap / self.height,
+        )
+
+    def check_start(self, start, mean_gap):
+        """Raise ValueError unless `start` can be one."""
+        shape = self.surface.heights.shape
+        if isinstance(start, str):
+            if start not in (APPROACH, SEPARATION):
+                raise ValueError(
+                    f"start must be 'approach', 'separation' or a state, got {start!r}"
+                )
+            if start == SEPARATION and mean_gap is not None:
+                raise ValueError(
+                    "start='separation' needs a prescribed pressure, got mean_gap = "
+                    f"{mean_gap!r}: follow the mean gap back with path, or start from a state"
+                )
+        elif start is not None:
+            gap = np.asarray(getattr(start, "gap", start), dtype=float)
+            if gap.shape != shape:
+                raise ValueError(f"start has the shape {gap.shape}, the heights {shape}")
+            if not np.all(np.isfinite(gap)):
+                raise ValueError("start must have finite gaps, got NaN or infinite values")
+
+    def first_gap(self, start, mean_gap=None):
+        """Scaled gap of a state, adjusted to a prescribed mean.
+
+        It is changed in proportion, so that contact stays contact, or rigidly where there is none.
+        """
+        lowest = 0.0 if self.law.hard_wall else -DEEPEST * self.law.range
+        gap = np.asarray(getattr(start, "gap", start), dtype=float) / self.height
+        gap = np.maximum(gap, lowest)
+        if mean_gap is None:
+            return gap
+        mean, old = mean_gap / self.height, float(gap.mean())
+        if self.law.hard_wall and old > 0 and gap.min() == 0:
+            return gap * (mean / old)
+        return lowered(gap + max(mean - old, 0.0), mean, lowest)
+
+    def adhesion(self, state, branch, problem, pairs):
+        """`Adhesion` in the caller's units."""
+        law, gap = self.law, state.gap
+        net = np.empty(gap.shape)
+        fields = gap, state.elastic, state.traction, self.surface.heights, net
+        repulsion, attraction, elastic, *areas = (
+            value / gap.size
+            for value in _sum_up(
+                *(field.ravel() for field in fields), state.pressure, law.hard_wall, law.range
+            )
+        )
+        net *= self.stress
+        energy = self.height * self.stress
+        return Adhesion(
+            pressure=net,
+            gap=gap * self.height,
+            mean_pressure=state.pressure * self.stress,
+            repulsive_pressure=repulsion * self.stress,
+            adhesive_pressure=attraction * self.stress,
+            repulsive_area_fraction=areas[0],
+            net_repulsive_area_fraction=areas[1],
+            adhesive_area_fraction=areas[2],
+            mean_gap=float(gap.mean()) * self.height,
+            elastic_energy=elastic / 2 * energy,
+            interaction_energy=state.potential * energy,
+            residual=state.residual,
+            iterations=state.iterations,
+            fft_pairs=float(pairs),
+            branch=branch,
+            control="pressure" if problem.pressure is not None else "mean_gap",
+            law=self.original_law,
+            length=self.lengths,
+            rms_height=self.rms_height,
+        )
+
+
+@compiled
+def _sum_up(gap, elastic, traction, heights, net, pressure, wall, reach):
+    """Fill in the net pressure at every point, and sum up over all what `Adhesion` has means of.
+
+    Returns sums of repulsion, of attraction and of twice the elastic energy, and counts of points
+    in contact, of those that are compressed, and of others within the reach of the law.
+    """
+    repulsion = attraction = energy = 0.0
+    touching = compressed = near = 0
+    for i in range(gap.size):
+        contact = gap[i] <= 0 if wall else gap[i] < 0
+        push = elastic[i] + traction[i] + pressure if wall and contact else 0.0
+        net[i] = (push if push > 0 else 0.0) - traction[i]
+        repulsion += net[i] if net[i] > 0 else 0.0
+        attraction -= net[i] if net[i] < 0 else 0.0
+        energy += (gap[i] + heights[i]) * elastic[i]
+        touching += contact
+        compressed += contact and net[i] > 0
+        near += not contact and gap[i] <= reach
+    return repulsion, attraction, energy, touching, compressed, near

@@ -17,13 +17,13 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.interpolate import PchipInterpolator
 
 from stickiness.adhesive import edge_zone
-from stickiness.adhesive.laws import TractionLaw
 from stickiness.adhesive.path import PathPoint, path
-from stickiness.adhesive.scaling import SEPARATION
+from stickiness.adhesive.solver import SEPARATION
 from stickiness.arguments import grid, number
 from stickiness.plausibility import PlausibilityWarning
 from stickiness.repulsive.solver import ConvergenceError
 from stickiness.solids import HALF_SPACE, Solid, check_solid
+from stickiness.traction_laws import TractionLaw
 
 REACH = 4.0  #: ranges between the highest point and the surface where the approach begins
 STEPS_ERROR = 0.03  #: relative, of works and pull-off, by the steps of the path
@@ -90,16 +90,6 @@ class Remaining:
     fft_pairs: float
     points: tuple[PathPoint, ...]
 
-    @property
-    def hysteresis(self) -> float:
-        """Work lost between approach and separation over the work of adhesion."""
-        return self.separation - self.approach
-
-    @property
-    def resolved(self) -> bool:
-        """Whether two pixels or more resolve the cohesive zone."""
-        return self.pixels_in_zone * edge_zone.COARSEST >= 1
-
 
 QUOTED = ("approach", "separation", "bound", "pull_off")
 
@@ -136,7 +126,7 @@ def measure(
         Told every state.
     solid : solids.HalfSpace or solids.Layer
         Elastic solid; the thickness of a layer is in the unit of `length`. Works at given mean
-        gaps are those of the surfaces: the mean compression of a layer stores and returns its own.
+        gaps exclude the mean compression of a layer, which stores and returns its energy.
 
     Raises
     ------

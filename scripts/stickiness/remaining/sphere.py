@@ -21,9 +21,9 @@ from functools import cache
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+from scipy import optimize
 
 from stickiness.arguments import plain, positive
-from stickiness.closed_forms.adhesion import JKRSphere, MaugisSphere, maugis_parameter
 from stickiness.remaining.prediction import HYSTERESIS, Roughness
 from stickiness.remaining.share import find_onset, tough_area
 
@@ -31,6 +31,7 @@ from stickiness.remaining.share import find_onset, tough_area
 PINNING = 6.0
 _LEAST, _MOST, _POINTS = 1e-3, 1e3, 121  # Maugis' parameter; JKR and DMT to 0.2 % beyond
 _NOTHING = 1e-200
+_POINT_CONTACT = np.pi / 2  # the angle arccos(a/c) of a point contact within a cohesive zone
 
 
 @dataclass(frozen=True)
@@ -116,6 +117,79 @@ def _table() -> tuple[NDArray, NDArray]:
     """Logarithm of Maugis' parameter, and the pull-off force over pi R l_a."""
     parameters = np.geomspace(_LEAST, _MOST, _POINTS)
     unit = float(maugis_parameter(1.0, 1.0, 1.0))
-    spheres = [MaugisSphere(1.0, 1.0, unit / parameter) for parameter in parameters]
-    forces = np.array([-sphere.pull_off.force for sphere in spheres]) / np.pi
-    return np.log(parameters), np.clip(forces, -JKRSphere(1.0, 1.0).pull_off_force / np.pi, 2.0)
+    forces = np.array([-_pull_off_force(unit / parameter) for parameter in parameters]) / np.pi
+    return np.log(parameters), np.clip(forces, 1.5 * np.pi / np.pi, 2.0)
+
+
+def maugis_parameter(radius: ArrayLike, adhesion_length: ArrayLike, range: ArrayLike) -> NDArray:
+    """Maugis' parameter lambda = 2 sigma_0 (R/(pi w K^2))^(1/3) with K = 4 E*/3, dimensionless.
+
+    It is 1.127 times Tabor's parameter (R l_a^2/range^3)^(1/3) when the range is that of Maugis'
+    law, sigma_0 = w/range. (The 1.157 often quoted compares with the separation of a Lennard-Jones
+    law of the same strength.)
+    """
+    tabor = np.cbrt(radius * adhesion_length**2) / range
+    return 2 * np.cbrt(9 / (16 * np.pi)) * tabor
+
+
+def maugis_curve(
+    angle: ArrayLike, parameter: float
+) -> tuple[ArrayLike, ArrayLike, ArrayLike, ArrayLike]:
+    """Equilibria of Maugis' sphere along their curve.
+
+    The angle t = arccos(a/c) between contact radius a and cohesive radius c runs from 0 (large
+    contact) to pi/2 (point contact). The condition that the gap be the range at c is quadratic in c
+    at fixed t, so that nothing needs to be iterated. Maugis, J. Colloid Interface Sci. 150, 243
+    (1992), doi:10.1016/0021-9797(92)90285-T.
+
+    Parameters
+    ----------
+    angle : float or array
+        Angle t, above 0 and up to pi/2.
+    parameter : float
+        `maugis_parameter`.
+
+    Returns
+    -------
+    contact_radius, cohesive_radius, force, indentation : float or array
+        Radii in units of r = (3 pi l_a R^2/4)^(1/3), force over pi l_a R, indentation over r^2/R.
+    """
+    t = np.asarray(angle, dtype=float)
+    first = parameter / 2 * opening(t)
+    second = 4 / 3 * parameter**2 * (t * np.sin(t) - 2 * np.sin(t / 2) ** 2)
+    c = 2 / (second + np.sqrt(second**2 + 4 * first))  # first c^2 + second c = 1
+    a = np.where(t == _POINT_CONTACT, 0.0, c * np.cos(t))
+    force = a**3 - parameter * c**2 * (np.sin(t) * np.cos(t) + t)
+    indentation = a**2 - 4 / 3 * parameter * c * np.sin(t)
+    return a, c, force, indentation
+
+
+def find_pull_off(parameter: float) -> float:
+    """Angle of the least force along `maugis_curve`, at which a sphere pulls off."""
+
+    def force(angle):
+        return plain(maugis_curve(angle, parameter)[2] * np.pi)
+
+    # Where the curve turns the angle is of order one, and of order 1/lambda for large lambda.
+    t = np.geomspace(1e-3 / (1 + parameter), 1, 401) * _POINT_CONTACT
+    i = int(np.argmin(force(t)))
+    if i == t.size - 1:
+        return _POINT_CONTACT
+    bounds = t[max(i - 1, 0)], t[i + 1]
+    found = optimize.minimize_scalar(
+        force, bounds=bounds, method="bounded", options={"xatol": 1e-10 * t[i]}
+    )
+    return float(found.x)
+
+
+def _pull_off_force(range: float) -> float:
+    """Pull-off force of a sphere of unit radius and adhesion length."""
+    parameter = float(maugis_parameter(1.0, 1.0, range))
+    return float(maugis_curve(find_pull_off(parameter), parameter)[2] * np.pi)
+
+
+def opening(t: NDArray) -> NDArray:
+    """Evaluate sin t cos t - t cos 2t, by its series where the terms cancel."""
+    x = np.minimum(2 * t, 0.5)
+    series = x**3 / 6 * (1 - x**2 / 10 * (1 - x**2 / 28 * (1 - x**2 / 54 * (1 - x**2 / 88))))
+    return np.where(2 * t < 0.5, series, np.sin(2 * t) / 2 - t * np.cos(2 * t))

@@ -1,36 +1,36 @@
 """Active-set iteration of the repulsive contact problem, in dimensionless variables.
 
-`solver` states the problem and the method. Pressures of the contact set are short vectors; whole
-grids are touched once per update of the set. Between updates the pressure is corrected in single
-precision: a correction reduces the gap by a factor of 10 to 1000, for which seven digits are
-enough, and the next update starts from the true gap (iterative refinement). That gap is in double
-precision as soon as rounding matters, and always in what is returned.
+`solver` states the problem and the method. The pressures of the contact set are short vectors;
+whole grids are touched once per update of the set. Between updates the pressure is corrected in
+single precision: a correction reduces the gap by a factor of 10 to 1000, for which seven digits are
+enough, and the next update starts from the true gap (iterative refinement). That gap is computed in
+double precision as soon as rounding matters, and always for the result.
 
-Where few points may touch, corrections are made among these alone, changes of the set included
-(`few_points`), as long as they gain.
+Where few points may touch, only these take part in corrections and in changes of the set
+(`dilute_contact`), as long as this makes progress.
 """
 
 from dataclasses import dataclass
 
 import numpy as np
 
-from stickiness.repulsive import convolution, few_points, free_edges, half_space
-from stickiness.repulsive.conjugate_gradients import close_gap
-from stickiness.repulsive.grids import measure_slope
-from stickiness.repulsive.preconditioner import Preconditioner
+from stickiness.repulsive import convolution, dilute_contact, free_edges, half_space
+from stickiness.repulsive.half_space import measure_slope
+from stickiness.repulsive.preconditioner import Preconditioner, close_gap
 from stickiness.solids import HALF_SPACE, Solid
 
-_GENEROUS = 2.0  # first set over the contact that is expected
-_MOST = 0.5  # of all points: beyond this the first set is all of them
+_FIRST_SET_FACTOR = 2.0  # first set over the contact that is expected
+_LARGEST_FIRST_SET = 0.5  # of all points: beyond this the first set is all of them
 PREDICTION = 0.7  #: c in "contact where p > c k g": 0.5 to 1 predict about equally well
-_LOOSE = 0.4  # reduction of the gap on a set that is still changing much
-_CLOSER = 0.01  # and on one that changes little
-_SETTLED = 1e-3  # share of changing points below which a set changes little
-_DOUBTFUL = 1e-4  # of the largest height: residual below which gaps need double precision
-_PATIENCE = 8  # updates without progress after which the set is solved ten times tighter
-_DOUBT = 2  # updates without progress after which corrections among few points are given up
-_SURRENDER = 40  # updates without progress after which rounding is what limits the residual
-_SURRENDER_UNSURE = 8  # and where `projected_gradients` takes over
+_REDUCTION_WHILE_CHANGING = 0.4  # of the gap, on a set that is still changing much
+_REDUCTION_NEARLY_SETTLED = 0.01  # and on one that changes little
+_FEW_CHANGES = 1e-3  # share of changing points below which a set changes little
+_SINGLE_PRECISION_LIMIT = 1e-4  # of the largest height: a smaller residual needs double precision
+# Updates without progress …
+_STALLED_UPDATES_TO_TIGHTEN = 8  # … after which the set is solved ten times tighter
+_MAX_STALLED_DILUTE = 2  # … after which corrections among few points are given up
+_MAX_STALLED_UPDATES = 40  # … after which rounding is what limits the residual
+_MAX_STALLED_UNSURE = 8  # … and where `projected_gradients` takes over
 
 
 @dataclass(frozen=True, eq=False)
@@ -110,7 +110,7 @@ class _Grid:
         largest = float(np.abs(heights).max())
         if not problem.periodic:  # an absolute displacement is about as large as this
             largest = max(largest, problem.load)
-        self.doubtful = 0.0 if rough else _DOUBTFUL * largest
+        self.single_limit = 0.0 if rough else _SINGLE_PRECISION_LIMIT * largest
         self.solid, self.sides = problem.solid, problem.sides
         self.spent = 0.0  # convolutions on coarser grids, by their share of the points
         self._before = self._count()
@@ -141,7 +141,7 @@ def relax(problem, *, tol, max_iterations, gap=None, pressure=None, rough=False,
     """
     heights, load = problem.heights, problem.load
     sure = problem.solid == HALF_SPACE and problem.periodic
-    surrender = _SURRENDER if sure else _SURRENDER_UNSURE
+    max_stalled = _MAX_STALLED_UPDATES if sure else _MAX_STALLED_UNSURE
     grid = _Grid(problem, rough)
     field = grid.quick if pressure is None else grid.exact
     total = load * heights.size
@@ -157,43 +157,51 @@ def relax(problem, *, tol, max_iterations, gap=None, pressure=None, rough=False,
         full = _full_contact(grid, load)
         if full.pressure.min() >= 0:
             return full
-    few, dilute = None, problem.periodic and few_points.suit(grid.shape, grid.sides, points.size)
+    candidates, dilute = (
+        None,
+        problem.periodic and dilute_contact.is_worthwhile(grid.shape, grid.sides, points.size),
+    )
     best, precondition = None, None
-    iterations, stale, loose, changed = 0, 0, _LOOSE, points.size
+    iterations, stalled, loose, changed = 0, 0, _REDUCTION_WHILE_CHANGING, points.size
     while True:
         shift, gaps, below, residual = _gap(grid, field, points, pressure)
         if residual <= tol and field is not grid.exact:
             field = grid.exact
             continue
-        stale += 1
+        stalled += 1
         if best is None or residual < best[-1]:
-            best, stale = (points, pressure, shift, residual), 0
+            best, stalled = (points, pressure, shift, residual), 0
         if logger is not None:
             logger.info(
                 "%d x %d: residual %.1e h_rms, area %.5f, %d iterations",
                 *(*grid.shape, residual, points.size / heights.size, iterations),
             )
-        if residual <= tol or iterations >= max_iterations or stale > surrender:
+        if residual <= tol or iterations >= max_iterations or stalled > max_stalled:
             break
         if below.size + points.size == 1:
             break
-        if dilute and stale < _DOUBT:
-            few = few_points.gather(grid, few, points, below, field.image, shift)
-            dilute = few is not None
+        if dilute and stalled < _MAX_STALLED_DILUTE:
+            candidates = dilute_contact.select_candidates(
+                grid, candidates, points, below, field.image, shift
+            )
+            dilute = candidates is not None
         else:
-            few, dilute = None, False
+            candidates, dilute = None, False
         if dilute:
-            local = field.image[few.points].astype(float) + shift
+            local = field.image[candidates.points].astype(float) + shift
             left = max_iterations - iterations
-            points, pressure, count = few.settle(points, pressure, local, 0.3 * tol, left)
+            points, pressure, count = candidates.correct_pressure(
+                points, pressure, local, 0.3 * tol, left
+            )
             iterations += count
             # such a correction gains a factor of 100
-            field = grid.quick if residual > 10 * grid.doubtful else grid.exact
+            field = grid.quick if residual > 10 * grid.single_limit else grid.exact
             continue
-        if stale and stale % _PATIENCE == 0:
+        if stalled and stalled % _STALLED_UPDATES_TO_TIGHTEN == 0:
             loose /= 10
         admitted = below[
-            field.image[below] + shift < -few_points.ADMITTED * np.sqrt(gaps @ gaps / gaps.size)
+            field.image[below] + shift
+            < -dilute_contact.ADMITTED_PENETRATION * np.sqrt(gaps @ gaps / gaps.size)
         ]
         if admitted.size:
             gaps = None  # frees memory
@@ -205,7 +213,11 @@ def relax(problem, *, tol, max_iterations, gap=None, pressure=None, rough=False,
         if changed == 0:
             goal = 0.5 * tol
         else:
-            reduction = loose if changed > _SETTLED * points.size else min(loose, _CLOSER)
+            reduction = (
+                loose
+                if changed > _FEW_CHANGES * points.size
+                else min(loose, _REDUCTION_NEARLY_SETTLED)
+            )
             goal = max(reduction * float(np.std(gaps)), 0.1 * tol)
         residuals, scale = _scaled(gaps)
         gaps = None  # frees memory
@@ -222,12 +234,12 @@ def relax(problem, *, tol, max_iterations, gap=None, pressure=None, rough=False,
             pressure *= total / pressure.sum()
             precondition = None
         changed += admitted.size
-        field = grid.quick if residual > grid.doubtful else grid.exact
+        field = grid.quick if residual > grid.single_limit else grid.exact
     return _state(grid, best, field, pressure, iterations)
 
 
 def _full_contact(grid, load):
-    """Full contact of any surface: the pressure is that of the heights as a displacement."""
+    """Full contact of any surface: the pressure that displaces the solid by the heights."""
     operator = grid.exact.operator
     heights = grid.heights.astype(operator.dtype, copy=False)
     pressure = operator.stiffness(heights)
@@ -264,8 +276,12 @@ def _highest(problem):
     """
     heights = problem.heights
     area = 2 * problem.load / (measure_slope(heights, problem.sides) or 1.0)
-    count = int(_GENEROUS * area * heights.size) + 1
-    if not problem.periodic or problem.solid != HALF_SPACE or count > _MOST * heights.size:
+    count = int(_FIRST_SET_FACTOR * area * heights.size) + 1
+    if (
+        not problem.periodic
+        or problem.solid != HALF_SPACE
+        or count > _LARGEST_FIRST_SET * heights.size
+    ):
         return np.arange(heights.size)
     return np.sort(np.argpartition(heights.ravel(), -count)[-count:])
 

@@ -17,10 +17,10 @@ from stickiness.repulsive import convolution, half_space
 class FreeHalfSpace:
     """Displacement of a rectangle of an unbounded half-space under pressure on it.
 
-    It does for a contact problem with free edges what `half_space.HalfSpace` does for a periodic
-    one. `stiffness` only approximates the inverse of `compliance`, as a preconditioner may: it is
-    that of the periodic half-space. `pairs` counts convolutions by their share of the points of the
-    given grid, those on the grid of twice the sides about fourfold.
+    It replaces `half_space.HalfSpace` in contact problems with free edges. Its `stiffness` is that
+    of the periodic half-space, which only approximates the inverse of `compliance`, enough for a
+    preconditioner. `pairs` counts convolutions by their share of the points of the given grid,
+    those on the grid of twice the sides about fourfold.
 
     Parameters
     ----------

@@ -1,11 +1,13 @@
-"""Preconditioner of the repulsive contact problem: an approximate inverse of the compliance.
+"""Preconditioned conjugate gradients on a given set of contact points.
 
-The exact inverse is the stiffness, ``|q| / 2`` of a half-space, between an extension of the
-displacement beyond the edge of contact and the transpose of that extension: that of least energy,
-under which the free surface holds nothing. Next to a straight edge it weights what the contact does
-by the inverse square of the distance (Poisson's kernel of the root of the Laplacian; Landkof,
-*Foundations of Modern Potential Theory*, 1972). A mean with such weights stands for it, taken on a
-grid of a sixteenth of the points.
+The preconditioner is an approximate inverse of the compliance.
+
+The exact inverse is the stiffness, ``|q| / 2`` for a half-space, between an extension of the
+displacement beyond the edge of contact and the transpose of that extension. The extension is the
+one of least energy, under which the free surface carries no pressure. Next to a straight edge it
+weights the displacement in contact by the inverse square of the distance (Poisson's kernel of the
+root of the Laplacian; Landkof, *Foundations of Modern Potential Theory*, 1972). A mean with such
+weights approximates it, taken on a grid with a sixteenth of the points.
 """
 
 import numpy as np
@@ -14,8 +16,51 @@ from stickiness.compiled import compiled
 from stickiness.repulsive import convolution, half_space
 
 _SPACING = 4  # of the grid of the extension, in pixels
-_OWN = 8.0  # weight of a point of that grid beside its next one: 2 to 16 do about equally well
-_REST = 0.3  # weight of rest: far from all contact the extension vanishes
+_SELF_WEIGHT = 8.0  # of a point of that grid; 1 is the weight of its neighbour, 2 to 16 do as well
+_FAR_WEIGHT = 0.3  # of a zero at infinity: far from all contact the extension vanishes
+_SMALLEST_REDUCTION = 1e-4  # of the gap, by a correction in single precision
+
+
+def close_gap(contact, residual, goal, largest, limit):
+    """Change of pressure, of zero sum, that closes the gap on a set of points.
+
+    In single precision until the rms residual (or the `largest`) is down to `goal`. `contact` has
+    the `compliance` on these points and is, when called, a preconditioner. Overwrites `residual`.
+
+    Returns
+    -------
+    change : numpy.ndarray
+        Of the pressure, in single precision.
+    count : int
+        Iterations, at least one.
+    """
+    change, count = np.zeros(residual.size, np.float32), 1
+    if residual.size == 1 or not residual.any():
+        return change, count
+    goal = max(goal, _SMALLEST_REDUCTION)
+    direction, product = None, 1.0
+    while True:
+        z = contact(residual)
+        z -= z.mean()
+        previous, product = product, float(residual @ z)
+        if not product > 0:  # nothing but rounding is left
+            break
+        if direction is None:
+            direction = z
+        else:
+            direction *= np.float32(product / previous)
+            direction += z
+        image = contact.compliance(direction)
+        step = np.float32(product / float(direction @ image))
+        change += step * direction
+        image *= step
+        residual -= image
+        residual -= residual.mean()
+        norm = np.abs(residual).max() if largest else np.sqrt(np.mean(residual**2))
+        if norm <= goal or count >= limit:
+            break
+        count += 1
+    return change, count
 
 
 class Preconditioner:
@@ -33,7 +78,7 @@ class Preconditioner:
             self.quick.field[points] = 0
             self.weights = np.ones(grid.shape, np.float32)
             self.mean.spread(self.weights, self.weights)
-            self.weights += np.float32(_REST)
+            self.weights += np.float32(_FAR_WEIGHT)
             np.divide(1, self.weights, out=self.weights)
             self.weights.ravel()[points] = 0
             grid.spent += 1 / _SPACING**2
@@ -75,7 +120,7 @@ class _Mean:
         steps = [a / m for a, m in zip(sides, coarse, strict=True)]
         axes = [np.fft.fftfreq(m, 1 / m) * step for m, step in zip(coarse, steps, strict=True)]
         square = np.add.outer(axes[0] ** 2, axes[1] ** 2) / (steps[0] * steps[1])
-        square[0, 0] = 1 / _OWN
+        square[0, 0] = 1 / _SELF_WEIGHT
         symbol = np.fft.rfft2(1 / square).real / square.size / _SPACING**2
         self._convolution = convolution.choose(coarse, np.float32)
         self._symbol = self._convolution.symbol(symbol.T)

@@ -1,16 +1,15 @@
 """Projected conjugate gradients for the repulsive contact problem: slower, but sure.
 
 The active-set iteration supposes that pressure on a point moves the others less and less with
-distance, as on a half-space. A stiff film on a soft backing bends, and a thin incompressible layer
-yields only where material can flow off: there it may cycle, or hardly gain. The method of Polonsky
+distance, as on a half-space. A film bends, and a thin incompressible layer yields only where
+material can flow off: there it may cycle, or hardly gain. The method of Polonsky
 and Keer (Wear 231:206, 1999, doi 10.1016/S0043-1648(99)00113-1) changes the set of contact with
 every step. Here the stiffness preconditions it, between masks of the contact, and the directions
 are Polak-Ribiere's: some hundreds of iterations of three convolutions in double precision where
 the original takes thousands.
 
 On 256 points a side, h_rms = 1 and the longest wave 2 pi, it takes 40 to 100 iterations more on
-incompressible layers of d = 0.01 and less, and some 400 on a film of d = 0.1 or 0.3 whose backing
-has a tenth of its modulus. On a backing of a thousandth it does not converge.
+incompressible layers of d = 0.01 and less.
 """
 
 import numpy as np

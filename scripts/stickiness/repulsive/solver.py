@@ -12,12 +12,13 @@ Kato, doi 10.1115/1.2833523).
 * Coarser grids supply a first guess of the gap, which is smooth enough to be interpolated. With the
   exact heights it gives a pressure. A point is put into contact where ``p > c k g``, k being the
   stiffness of a single pixel: this predicts the set to a per cent.
-* Below a per cent of contact only points that may touch take part in corrections (`few_points`).
-* Where that fails on a layer, `projected_gradients` goes on.
+* Below a per cent of contact corrections involve only points that may touch (`dilute_contact`).
+* Where this fails on a layer, `projected_gradients` takes over.
 
-Without a period u is that of a half-space loaded on a rectangle (`free_edges`). All else stands,
-but that the stiffness is only approximate: coarser grids supply a guess of the pressure, full
-contact is no special case, and `projected_gradients` stands by.
+If the surface is not periodic, u is the displacement of a half-space loaded on a rectangle
+(`free_edges`). The method is the same except that the stiffness is only approximate: coarser grids
+supply a guess of the pressure, full contact is no special case, and `projected_gradients` takes
+over if necessary.
 """
 
 from dataclasses import dataclass, replace
@@ -27,7 +28,7 @@ import numpy as np
 from stickiness.arguments import grid, integer, number
 from stickiness.plausibility import warn_of_heights, warn_of_pressure
 from stickiness.repulsive import active_set, free_edges, projected_gradients
-from stickiness.repulsive.grids import (
+from stickiness.repulsive.half_space import (
     check_length,
     coarsen,
     interpolate,
@@ -37,11 +38,13 @@ from stickiness.repulsive.grids import (
 )
 from stickiness.solids import HALF_SPACE, check_solid
 
-_COARSEST = 64  # points along the shorter side of the coarsest grid
-_NEAR = 0.005  # relative change of load up to which the last solution is the better start
-_LOOSEST = 0.1  # of h_rms: beyond this no solution is worth the name
+_MIN_COARSE_POINTS = 64  # points along the shorter side of the coarsest grid
+_MAX_LOAD_CHANGE = (
+    0.005  # relative change of load up to which the last solution is the better start
+)
+_MAX_TOLERANCE = 0.1  # of h_rms: beyond this no solution is worth the name
 # Iterations with active sets on a layer or with free edges: either tens do, or more gain little.
-_MOST_UNSURE = 150
+_MAX_UNSURE_ITERATIONS = 150
 _COARSE_TOLERANCE = 3e-3  # of h_rms: a guess for the next grid needs no more
 
 
@@ -117,7 +120,6 @@ def solve(
     tol=1e-8,
     start=None,
     max_iterations=1000,
-    precision="double",
     logger=None,
     solid=HALF_SPACE,
     periodic=True,
@@ -131,39 +133,36 @@ def solve(
     length : float or tuple of float
         Side of the cell along axis 0 (pixels are then square), or both sides; same unit.
     pressure : float
-        Mean pressure in units of E*. Zero stands for touching at the summit, without contact.
+        Mean pressure in units of E*. At zero the surfaces touch at the summit, without contact.
     tol : float
         Largest accepted `Contact.residual`, relative to h_rms; at most 0.1.
     start : Contact, optional
-        Solution on the same grid at nearly the same load; it saves a quarter of the work at a
-        change of 0.1 % and costs more than it saves beyond 1 %.
+        Solution on the same grid at nearly the same load. It saves a quarter of the work if the
+        load changes by 0.1 %, and costs more than it saves beyond 1 %.
     max_iterations : int
         Largest number of iterations on the given grid.
-    precision : {"double", "single"}
-        Of the last iterations. Single precision reaches a `tol` of about 1e-4 and saves next to
-        nothing: all iterations but the last ones are in single precision anyway.
     logger : logging.Logger, optional
-        Told the progress at level INFO.
+        Receives the progress at level INFO.
     solid : solids.HalfSpace or solids.Layer, optional
         Elastic solid, a half-space by default; the thickness of a layer is in the unit of `length`.
     periodic : bool
-        Whether surface and pressure repeat. If not, the surface is all there is: a rigid body with
-        free edges on a half-space without end, each height being that of a pixel. The total force
-        is `pressure` times the area within `length`. That takes two to five times as long. Only a
-        half-space can have free edges.
+        Whether surface and pressure repeat. If not, the surface is a rigid body with free edges,
+        pressed into an unbounded half-space; each height is that of a pixel. The total force is
+        `pressure` times the area within `length`. This takes two to five times as long, and needs a
+        half-space as `solid`.
 
     Raises
     ------
     ValueError
-        If an argument is not what it should be.
+        If an argument is malformed or out of range; the message names it.
     ConvergenceError
         If `max_iterations` do not suffice; it carries the best iterate.
 
     Warns
     -----
     PlausibilityWarning
-        If heights and length can hardly share a unit, or the pressure is far above any that this
-        surface could need.
+        If heights and length can hardly be in the same unit, or the pressure is far above the one
+        that flattens the surface.
 
     Examples
     --------
@@ -179,7 +178,7 @@ def solve(
     heights = grid("heights", heights)
     lengths = check_length(length, heights.shape)
     pressure = number("pressure", pressure, zero=True)
-    tol = number("tol", tol, most=_LOOSEST)
+    tol = number("tol", tol, most=_MAX_TOLERANCE)
     max_iterations = integer("max_iterations", max_iterations, least=1)
     if not (start is None or isinstance(start, Contact)):
         raise ValueError(f"start must be a Contact of the same grid, got {type(start).__name__}")
@@ -188,8 +187,6 @@ def solve(
             f"start has the shape {start.pressure.shape}, the heights {heights.shape}: "
             "pass a solution on the same grid"
         )
-    if precision not in ("double", "single"):
-        raise ValueError(f"precision must be 'double' or 'single', got {precision!r}")
     solid = check_solid(solid)
     check_edges(periodic, solid)
     scale = measure_scale(heights)
@@ -198,7 +195,7 @@ def solve(
         # a thin layer takes that much more pressure
         stiffening = 1 / solid.factor(2 * np.pi / max(lengths))
         warn_of_pressure(pressure, measure_slope(heights, lengths) * stiffening)
-    effort = Effort(tol, max_iterations, precision == "single", logger)
+    effort = Effort(tol, max_iterations, logger)
     return press(heights, lengths, pressure, effort, start, solid, periodic, scale)
 
 
@@ -214,11 +211,10 @@ def check_edges(periodic, solid):
 
 @dataclass(frozen=True)
 class Effort:
-    """When to stop, whether in single precision throughout, and who is told: see `solve`."""
+    """When to stop, and the logger that is told the progress: see `solve`."""
 
     tol: float
     max_iterations: int = 1000
-    rough: bool = False
     logger: object = None
 
 
@@ -244,7 +240,7 @@ def press(
     )
     guess = start.pressure if start is not None and start.area_fraction > 0 else None
     state = _relax(problem, guess, effort)
-    # The fields are this call's own: scaled in place, for they may be large.
+    # Nothing else refers to these fields: they may be large, and are scaled in place.
     field, gap = (np.asarray(values, dtype=float) for values in (state.pressure, state.gap))
     field *= unit / lengths[0]
     gap *= unit
@@ -265,8 +261,8 @@ def press(
     )
     if not state.residual <= effort.tol:
         raise ConvergenceError(
-            f"residual {state.residual:.2e} h_rms after {state.iterations} iterations, "
-            f"asked for {effort.tol:.2e}: raise max_iterations, or tol if it is near rounding",
+            f"residual {state.residual:.2e} h_rms after {state.iterations} iterations exceeds tol "
+            f"= {effort.tol:.2e}: raise max_iterations, or tol if it is near rounding",
             contact,
         )
     return contact
@@ -287,8 +283,7 @@ def _relax(problem, guess, effort):
     state = active_set.relax(
         problem,
         tol=effort.tol,
-        rough=effort.rough,
-        max_iterations=min(limit, _MOST_UNSURE) if unsure else limit,
+        max_iterations=min(limit, _MAX_UNSURE_ITERATIONS) if unsure else limit,
         pressure=guess,
         gap=gap,
         logger=logger,
@@ -320,7 +315,10 @@ def load_path(heights, length, pressures, tol=1e-8, **options):
     """
     last = None
     for pressure in pressures:
-        near = last is not None and abs(pressure - last.mean_pressure) < _NEAR * last.mean_pressure
+        near = (
+            last is not None
+            and abs(pressure - last.mean_pressure) < _MAX_LOAD_CHANGE * last.mean_pressure
+        )
         start = last if near else None
         last = solve(heights, length, pressure, tol=tol, start=start, **options)
         yield last
@@ -332,7 +330,7 @@ def coarse_gap(problem, work, logger=None):
     `work` gets the convolutions on every coarser grid, times its points.
     """
     shape = problem.heights.shape
-    if min(shape) < 2 * _COARSEST:
+    if min(shape) < 2 * _MIN_COARSE_POINTS:
         return None
     heights = sample(problem.heights, tuple(coarsen(n) for n in shape))
     coarse = replace(problem, heights=heights)
@@ -343,7 +341,7 @@ def coarse_gap(problem, work, logger=None):
 def coarse_pressure(problem, work, logger=None):
     """First guess of the pressure with free edges, else as `coarse_gap`."""
     shape = problem.heights.shape
-    if min(shape) < 2 * _COARSEST:
+    if min(shape) < 2 * _MIN_COARSE_POINTS:
         return None
     heights = free_edges.coarsen_heights(problem.heights)
     sides = tuple(

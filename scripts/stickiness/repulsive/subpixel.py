@@ -65,16 +65,6 @@ def edge_count(contact: ArrayLike) -> int:
     return int(_sides(_mask(contact)).sum())
 
 
-def perimeter(contact: ArrayLike) -> float:
-    """Length of the edge of a contact ``(..., n, n)`` per nominal area [1/pixel].
-
-    The number of crossings of the edge with the grid's lines, by the Cauchy-Crofton formula: exact
-    on average over directions. Divide by the pixel size for the perimeter per area.
-    """
-    contact = _mask(contact)
-    return float(np.pi / 4 * edge_count(contact) / contact.size)
-
-
 def edge_gap(gap: ArrayLike, contact: ArrayLike | None = None) -> float:
     """Median gap [length] of the open pixels that share a side with the contact.
 

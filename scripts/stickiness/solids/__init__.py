@@ -6,7 +6,6 @@
 
 from stickiness.solids.layers import (
     HALF_SPACE,
-    Backing,
     Film,
     HalfSpace,
     Layer,
@@ -14,4 +13,4 @@ from stickiness.solids.layers import (
     check_solid,
 )
 
-__all__ = ["HALF_SPACE", "Backing", "Film", "HalfSpace", "Layer", "Solid", "check_solid"]
+__all__ = ["HALF_SPACE", "Film", "HalfSpace", "Layer", "Solid", "check_solid"]

@@ -1,28 +1,20 @@
 """Compliance of an elastic half-space and of layers of finite thickness, wave by wave.
 
 A pressure wave ``p_q`` displaces the surface of a solid by ``u_q = (2/|q|) S p_q/E*``. E* is the
-plane-strain modulus of the material at the surface, that of the layer. S, the `factor`, is one for
+plane-strain modulus of the material at the surface, i.e. of the layer. S, the `factor`, is one for
 a half-space and a function of ``k = |q| d`` for a layer of thickness d. It follows from plane
 strain (Airy's function ``(A + B z) cosh qz + (C + D z) sinh qz``) with a surface free of shear:
 
 - free to slip on a rigid base: ``S = (cosh 2k - 1)/(sinh 2k + 2k)``;
-- bonded to a half-space, m being the shear modulus of the layer over that of the half-space,
-  ``a = 3 - 4 nu`` and b the same of the half-space, ``D = (1 + m b)(m + a)``:
-
-      S = [(1 - L)/2 cosh 2k + (1 + L)/2 sinh 2k + 2 k K]
-          / [(1 + L)/2 cosh 2k + (1 - L)/2 sinh 2k - (l + K)/2 - 2 k^2 K]
-
-  with ``l = (m b - a)/(1 + m b)``, ``K = (m - 1)/(m + a)`` and ``L = l K`` (O'Sullivan and King,
-  J. Tribol. 110:235, 1988);
-- bonded to a rigid base: the same at m = 0,
+- bonded to a rigid base, with ``a = 3 - 4 nu``:
 
       S = [a sinh 2k - 2k]/[a cosh 2k + 2 k^2 + 5 - 12 nu + 8 nu^2]
 
   (Carbone and Mangialardi, J. Mech. Phys. Solids 56:684, 2008, doi 10.1016/j.jmps.2007.05.009).
 
 S tends to 1 for short waves. For long ones it is k/2 (slip), ``k (1 - 2 nu)/(2 (1 - nu)^2)``
-(bonded, compressible), ``2 k^3/3`` (bonded, nu = 1/2), and E* of the layer over that of an elastic
-backing. The code regroups numerator and denominator into sums of terms that do not cancel.
+(bonded, compressible) or ``2 k^3/3`` (bonded, nu = 1/2). The code regroups numerator and
+denominator into sums of terms that do not cancel.
 
 **Mean pressure.** The wave q = 0 is no limit of the others. A half-space has no finite response,
 and everywhere in this library displacements have no mean: a mean gap is that between the deformed
@@ -72,28 +64,8 @@ class HalfSpace:
 
 
 @dataclass(frozen=True)
-class Backing:
-    """Elastic half-space that a layer is bonded to.
-
-    Parameters
-    ----------
-    modulus_ratio : float
-        Young's modulus of the half-space over that of the layer, positive.
-    poisson : float
-        Poisson's ratio of the half-space, 0 to 0.5.
-    """
-
-    modulus_ratio: float
-    poisson: float
-
-    def __post_init__(self):
-        _set(self, "modulus_ratio", number("modulus_ratio", self.modulus_ratio))
-        _set(self, "poisson", number("poisson", self.poisson, zero=True, most=0.5))
-
-
-@dataclass(frozen=True)
 class Film:
-    """Elastic film, free on its back, that a layer is bonded to, as that of a tape.
+    """Elastic film, free on its back, that a layer is bonded to, such as the film of a tape.
 
     It yields by bending as a plate: a pressure wave moves it by ``p/(D q^4)``, with ``D = E t^3/(12
     (1 - nu^2))``, besides the layer as on a rigid base (Timoshenko and Woinowsky-Krieger, Theory of
@@ -121,7 +93,7 @@ class Film:
 
 @dataclass(frozen=True)
 class Layer:
-    """Elastic layer on a rigid base, on a half-space or on a film.
+    """Elastic layer on a rigid base or on a film.
 
     Parameters
     ----------
@@ -129,9 +101,8 @@ class Layer:
         Thickness d [length], positive.
     poisson : float
         Poisson's ratio nu, 0 to 0.5; exactly 0.5 for an incompressible layer.
-    backing : {"bonded", "slip"}, Backing or Film
-        Bonded to a rigid base, free to slip on it without friction, or bonded to an elastic
-        half-space or to a film that bends.
+    backing : {"bonded", "slip"} or Film
+        Bonded to a rigid base, free to slip on it without friction, or bonded to a film that bends.
 
     Raises
     ------
@@ -149,16 +120,16 @@ class Layer:
 
     thickness: float
     poisson: float
-    backing: Literal["bonded", "slip"] | Backing | Film = "bonded"
+    backing: Literal["bonded", "slip"] | Film = "bonded"
 
     def __post_init__(self):
         _set(self, "thickness", number("thickness", self.thickness))
         _set(self, "poisson", number("poisson", self.poisson, zero=True, most=0.5))
         named = isinstance(self.backing, str) and self.backing in ("bonded", "slip")
-        if not (named or isinstance(self.backing, Backing | Film)):
+        if not (named or isinstance(self.backing, Film)):
             raise ValueError(
-                "backing must be 'bonded', 'slip', a Backing(modulus_ratio, poisson) or a "
-                f"Film(modulus_ratio, poisson, thickness), got {self.backing!r}"
+                "backing must be 'bonded', 'slip' or a Film(modulus_ratio, poisson, thickness), "
+                f"got {self.backing!r}"
             )
 
     @property
@@ -168,8 +139,7 @@ class Layer:
         ``d (1 - 2 nu)/(1 - nu)^2``, which is d (1 + nu)(1 - 2 nu)/((1 - nu) E) per pressure. The
         layer is wide and cannot spread, on a base that it sticks to or slips on alike. (A long
         wave, 2 S/q, finds this compliance if bonded; if it slips, d, for material can flow from
-        crests to troughs.) An elastic backing is not counted: as of any half-space, its own mean
-        displacement is not defined.
+        crests to troughs.)
         """
         return self.thickness * (1 - 2 * self.poisson) / (1 - self.poisson) ** 2
 
@@ -212,27 +182,16 @@ class Layer:
         return gone**2 / np.where(k > 0, below, 1.0)
 
     def _bonded(self, k: NDArray) -> NDArray:
-        """S of a bonded layer, from its numerator and denominator times 2 D exp(-2k)/(1 + m)^2.
+        """S on a rigid base that it sticks to, from its parts times 2 exp(-2k).
 
-        In these groups all terms are positive, but for one that is always outweighed.
+        In these groups all terms are positive.
         """
-        nu, other, soft, hard = self.poisson, 0.0, 0.0, 1.0
-        if isinstance(self.backing, Backing):
-            other = self.backing.poisson
-            ratio = self.backing.modulus_ratio * (1 + nu) / (1 + other)  # 1/m
-            soft, hard = 1 / (1 + ratio), ratio / (1 + ratio)  # m/(1 + m), 1/(1 + m)
-        a, b, open1, open2 = 3 - 4 * nu, 3 - 4 * other, 1 - 2 * nu, 1 - 2 * other
-        mixed = soft * hard
-        plus = 2 * (hard**2 * a + soft**2 * b + 2 * mixed * open1 * open2)  # D (1 + L)
-        minus = mixed * (1 + a) * (1 + b)  # D (1 - L)
-        linear = 2 * hard**2 * open1 + 2 * soft**2 * b - 4 * mixed * nu * open2
-        square = 4 * (1 - nu) * hard * (hard + soft * open2)  # D ((1 + L)/2 - K)
+        a, compressible = 3 - 4 * self.poisson, 1 - 2 * self.poisson
         gone = np.exp(-2 * k)
-        sinh, cosh = -np.expm1(-4 * k), 1 + gone**2
         odd, even = _less_leading_terms(2 * k)
-        above = (minus * cosh + plus * odd) / 2 + 4 * linear * k * gone
-        below = (plus * even + minus * sinh) / 2
-        below += ((hard * (1 + a)) ** 2 + 4 * square * k**2) * gone
+        above = (2 * a * odd) / 2 + 4 * (2 * compressible) * k * gone
+        below = (2 * a * even) / 2
+        below += ((1 + a) ** 2 + 4 * (4 * (1 - self.poisson)) * k**2) * gone
         return above / below
 
 

@@ -5,7 +5,6 @@ from pathlib import Path
 import numpy as np
 import pytest
 import xarray as xr
-import yaml
 
 from adhesion import solve_adhesive
 from common.model_surfaces import cell_size, model_spectrum
@@ -137,8 +136,7 @@ def test_a_missing_table_is_named(tmp_path):
 
 @pytest.fixture(scope="module")
 def committed():
-    config = yaml.safe_load((ROOT / "config/config.yaml").read_text(encoding="utf-8"))
-    return model_choice.read_table(ROOT / config["dmt_error"])
+    return model_choice.read_table(ROOT / "config/dmt_error.csv")
 
 
 @pytest.mark.slow

@@ -2,18 +2,20 @@
 
 import numpy as np
 import pytest
+from references.contact import elastic_pressure
 
 from stickiness import adhesive, repulsive, spectrum, surface
 from stickiness.adhesive import Exponential, LennardJones, Maugis
-from stickiness.solids import Backing, HalfSpace, Layer
+from stickiness.solids import Film, HalfSpace, Layer
 
 LENGTH = 4 * np.pi
+SIDES = (LENGTH, LENGTH)
 ROUGH = spectrum.SelfAffine(hurst=0.8, q0=1.0, q1=4.0, h_rms=1.0)
 SOLIDS = [
     Layer(0.4, 0.5),
     Layer(0.4, 0.2),
     Layer(1.0, 0.5, "slip"),
-    Layer(0.5, 0.4, Backing(0.3, 0.3)),
+    Layer(0.5, 0.4, Film(1e4, 0.4, 0.1)),
 ]
 
 
@@ -22,19 +24,9 @@ def heights():
     return surface.synthesise(ROUGH, n=64, length=LENGTH, seed=3)
 
 
-def stiffen(displacement, solid, side=LENGTH):
-    """Pressure under a displacement by numpy's transforms alone."""
-    n = len(displacement)
-    q = np.hypot(*np.meshgrid(*[2 * np.pi * np.fft.fftfreq(n, side / n)] * 2))
-    q[0, 0] = 1
-    waves = np.fft.fft2(displacement) * solid.stiffness(q)
-    waves[0, 0] = 0
-    return np.fft.ifft2(waves).real
-
-
 def full_energy(heights, solid):
     """Elastic energy of full contact."""
-    return 0.5 * float(np.mean(heights * stiffen(heights, solid)))
+    return 0.5 * float(np.mean(heights * elastic_pressure(heights, SIDES, solid)))
 
 
 @pytest.mark.slow
@@ -46,9 +38,9 @@ def test_states_are_in_equilibrium(heights, solid, kind, control):
     law = kind(energy, 1.0)
     prescribed = {"pressure": 0.05 * energy} if control == "pressure" else {"mean_gap": 0.8}
     a = adhesive.solve(heights, LENGTH, law, tol=1e-8, solid=solid, **prescribed)
-    elastic = stiffen(a.gap + heights, solid)
+    elastic = elastic_pressure(a.gap + heights, SIDES, solid)
     reaction = elastic + law.traction(a.gap) + a.mean_pressure
-    unit = max(np.sqrt(np.mean(stiffen(heights, solid) ** 2)), law.strength)
+    unit = max(np.sqrt(np.mean(elastic_pressure(heights, SIDES, solid) ** 2)), law.strength)
     away = a.gap > 0 if law.hard_wall else np.ones(a.gap.shape, bool)
     assert np.abs(reaction[away]).max(initial=0) < 2e-8 * unit
     if law.hard_wall:
@@ -77,7 +69,8 @@ def test_thick_layers_are_half_spaces(heights):
     assert thick.energy == pytest.approx(half.energy, rel=1e-6)
 
 
-@pytest.mark.parametrize("solid", SOLIDS[:2], ids=str)
+@pytest.mark.slow
+@pytest.mark.parametrize("solid", SOLIDS[:1], ids=str)
 def test_a_path_balances_its_energies(heights, solid):
     """The work at given mean gaps knows nothing of the compression of the layer as a whole."""
     law = Exponential(full_energy(heights, solid), 1.5)
@@ -110,12 +103,3 @@ def test_full_contact_of_a_wave_holds_its_energy():
     a = adhesive.solve(wave, 2 * np.pi, law, pressure=0.0, start="separation", solid=solid)
     assert a.repulsive_area_fraction == 1
     assert a.elastic_energy == pytest.approx(energy, rel=1e-9)
-
-
-@pytest.mark.parametrize("solid", [None, 1.0, Layer])
-def test_bad_solids(heights, solid):
-    law = Exponential(0.1, 0.5)
-    with pytest.raises(ValueError, match="solid must be solids.HalfSpace.. or a solids.Layer"):
-        adhesive.solve(heights, LENGTH, law, pressure=0.1, solid=solid)
-    with pytest.raises(ValueError, match="solid must be solids.HalfSpace"):
-        list(adhesive.path(heights, LENGTH, law, (0.0, 0.1), solid=solid))

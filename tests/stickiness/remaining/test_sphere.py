@@ -2,8 +2,8 @@
 
 import numpy as np
 import pytest
+from references.adhesion import MaugisSphere
 
-from stickiness.closed_forms.adhesion import MaugisSphere
 from stickiness.remaining import Roughness, sphere
 
 RADIUS, LENGTH = 1.0, 1e-6

@@ -4,12 +4,12 @@ import warnings
 
 import numpy as np
 import pytest
-from helpers.direct_contact import solve_directly
+from references import contact as reference
+from references.contact import solve_directly
 from scipy import integrate
 
 from stickiness import repulsive, solids
-from stickiness.closed_forms import contact as reference
-from stickiness.repulsive import active_set, free_edges, projected_gradients, solver
+from stickiness.repulsive import active_set, free_edges, projected_gradients
 
 PATCH = (12, 10)
 SIDES = (1.0, 1.5)
@@ -82,14 +82,8 @@ def test_kernel_is_the_integral_of_one_over_r():
     assert square[0, 0] == pytest.approx(4 * 0.3 * np.log(1 + np.sqrt(2)) / np.pi, rel=1e-14)
 
 
-def test_kernel_is_that_of_a_point_force_far_away():
-    kernel = free_edges.displace_by_pixel((2001, 1), (1.0, 1.0))
-    # the next term is r**-2 / 24, rounding some 1e-16 r**2
-    assert kernel[2000, 0] == pytest.approx(1 / (np.pi * 2000), rel=2e-8)
-
-
 @pytest.mark.parametrize(("dtype", "accuracy"), [(np.float64, 1e-14), (np.float32, 1e-6)])
-@pytest.mark.parametrize("shape", [(12, 10), (7, 11), (64, 66), (1, 9), (1, 1)])
+@pytest.mark.parametrize("shape", [(12, 10), (7, 11), (1, 1)])
 def test_convolution_is_the_direct_sum(shape, dtype, accuracy):
     operator = free_edges.free_half_space(shape, SIDES, dtype)
     pressure = np.random.default_rng(0).random(shape)
@@ -123,8 +117,7 @@ def test_reciprocity_and_positive_work():
     assert np.linalg.eigvalsh(compliance_matrix(PATCH, SIDES)).min() > 0
 
 
-@pytest.mark.parametrize("n", [64, 128, 256])
-@pytest.mark.parametrize("radius", [0.05, 0.1, 0.3])
+@pytest.mark.parametrize(("radius", "n"), [(0.05, 256), (0.1, 128), (0.3, 64)])
 def test_hertz_without_images(radius, n):
     """Also the approach, which a periodic surface does not have."""
     hertz = reference.Hertz(1.0, 4 / 3 * radius**3)
@@ -141,15 +134,6 @@ def test_hertz_without_images(radius, n):
     np.testing.assert_allclose(
         contact.gap[outside], hertz.gap(r)[outside], rtol=0, atol=0.3 * pixel**2 * radius**2
     )
-
-
-def test_the_place_on_the_surface_does_not_matter():
-    load = 4 / 3 * 0.08**3
-    middle = solve(paraboloid(128), 1.0, load, tol=1e-10)
-    corner = solve(paraboloid(128, (0.125, 0.8125)), 1.0, load, tol=1e-10)
-    moved = np.roll(middle.pressure, (-48, 40), (0, 1))
-    np.testing.assert_allclose(corner.pressure, moved, atol=1e-7 * moved.max())
-    assert corner.shift == pytest.approx(middle.shift, rel=1e-6)
 
 
 def test_elliptic_paraboloid():
@@ -180,18 +164,7 @@ def test_flat_square_punch():
     assert 2 * forces[2] - forces[1] == pytest.approx(0.36679 * np.pi, rel=1e-4)
 
 
-def test_a_flat_strip_in_two_orders():
-    """Sides and pixels that differ, in full contact, against dense algebra."""
-    contact = solve(np.zeros(PATCH), SIDES, 0.01)
-    assert_solves(contact, np.zeros(PATCH), SIDES)
-    matrix = compliance_matrix(PATCH, SIDES)
-    stiffness = np.linalg.solve(matrix, np.ones(len(matrix))).mean()
-    assert contact.approach == pytest.approx(0.01 / stiffness, rel=1e-7)
-    turned = solve(np.zeros(PATCH[::-1]), SIDES[::-1], 0.01)
-    np.testing.assert_allclose(turned.pressure.T, contact.pressure, rtol=1e-6)
-
-
-@pytest.mark.parametrize("load", [0.03, 0.3, 3.0, 300.0])
+@pytest.mark.parametrize("load", [0.03, 3.0, 300.0])
 def test_solution_is_that_of_a_direct_method(load):
     heights = rough(PATCH, modes=5, seed=3)
     pressure, active, shift = solve_directly(compliance_matrix(PATCH, SIDES), heights, load)
@@ -203,7 +176,7 @@ def test_solution_is_that_of_a_direct_method(load):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("shape", [(65, 63), (48, 64), (33, 70), (2, 2), (1, 64), (3, 50)])
+@pytest.mark.parametrize("shape", [(65, 63), (33, 70), (2, 2), (1, 64)])
 @pytest.mark.parametrize("pressure", [0.01, 1.0])
 def test_any_grid(shape, pressure):
     heights = np.random.default_rng(0).standard_normal(shape)
@@ -230,17 +203,6 @@ def test_two_methods_one_solution(scaled_pressure):
     # single points at zero pressure and zero gap may fall on either side
     assert state.area_fraction == pytest.approx(contact.area_fraction, abs=3 / heights.size)
     assert contact.mean_gap == pytest.approx(float(state.gap.mean()) * rms, rel=1e-7)
-
-
-@pytest.mark.slow
-def test_projected_gradients_go_on_where_active_sets_fail(monkeypatch):
-    heights = rough((96, 96), seed=7)
-    usual = solve(heights, 1.0, 0.5)
-    monkeypatch.setattr(solver, "_MOST_UNSURE", 3)
-    contact = solve(heights, 1.0, 0.5)
-    assert contact.iterations > 3
-    assert_solves(contact, heights, (1.0, 1.0))
-    np.testing.assert_allclose(contact.pressure, usual.pressure, atol=1e-8 * 10 * np.pi * 96)
 
 
 def test_images_in_a_periodic_cell():
@@ -280,32 +242,6 @@ def test_units_and_symmetries():
     np.testing.assert_allclose(turned.pressure[::-1, ::-1], contact.pressure, atol=1e-5)
 
 
-@pytest.mark.slow
-def test_loading_path_and_starts():
-    """Further loads press further; dF/d(approach), the contact stiffness, grows with the area."""
-    heights = rough((128, 128), seed=5)
-    loads = np.geomspace(0.01, 30, 8)
-    path = list(repulsive.load_path(heights, 1.0, loads, periodic=False))
-    approach = np.array([c.approach for c in path])
-    stiffness = np.diff(loads) / np.diff(approach)
-    assert np.all(stiffness > 0)
-    assert np.all(np.diff(stiffness) > 0)
-    # no contact is stiffer than the flat punch of the same outline
-    assert stiffness[-1] < 0.36679 * np.pi
-    again = solve(heights, 1.0, 1.001 * loads[3], start=path[3])
-    fresh = solve(heights, 1.0, 1.001 * loads[3])
-    assert again.approach == pytest.approx(fresh.approach, rel=1e-7)
-    assert again.fft_pairs < fresh.fft_pairs
-
-
-def test_pressure_peaks_at_free_edges():
-    """Under a large load it is that of a punch: infinite at the edges, finite in the middle."""
-    pressure = solve(rough((64, 64)), 1.0, 100.0).pressure
-    rim = np.ones((64, 64), bool)
-    rim[1:-1, 1:-1] = False
-    assert pressure[rim].mean() > 3 * pressure[16:48, 16:48].mean()
-
-
 def test_no_load():
     heights = rough(PATCH)
     contact = solve(heights, SIDES, 0.0)
@@ -314,49 +250,15 @@ def test_no_load():
     np.testing.assert_array_equal(contact.gap, heights.max() - heights)
 
 
-def test_single_precision():
-    heights = rough((128, 128), seed=6)
-    quick = solve(heights, 1.0, 0.3, tol=1e-3, precision="single")
-    assert quick.residual <= 1e-3
-    assert quick.approach == pytest.approx(solve(heights, 1.0, 0.3).approach, abs=1e-3)
-
-
-def test_too_few_iterations():
-    with pytest.raises(repulsive.ConvergenceError, match="max_iterations") as failure:
-        solve(rough((64, 64)), 1.0, 0.3, max_iterations=2)
-    assert failure.value.residual > 1e-8
-    assert np.isfinite(failure.value.contact.approach)
-
-
 def test_periodic_contact_has_no_approach():
     assert np.isnan(repulsive.solve(rough(PATCH), SIDES, 0.1).approach)
-    assert np.isnan(repulsive.solve(np.zeros(PATCH), SIDES, 0.1).approach)
 
 
-def test_layers_are_refused():
+def test_layers_and_other_words_for_periodic_are_refused():
     with pytest.raises(ValueError, match="periodic=False is for a half-space only"):
         solve(rough(PATCH), SIDES, 0.1, solid=solids.Layer(0.1, 0.3))
-
-
-@pytest.mark.parametrize("periodic", [None, 0, "no", "free"])
-def test_bad_edges(periodic):
     with pytest.raises(ValueError, match="periodic must be True or False"):
-        repulsive.solve(rough(PATCH), SIDES, 0.1, periodic=periodic)
-
-
-@pytest.mark.parametrize(
-    ("name", "value"),
-    [("pressure", -1.0), ("pressure", np.nan), ("length", 0.0), ("tol", 1.0), ("heights", [1.0])],
-)
-def test_other_bad_arguments(name, value):
-    given = {"heights": rough(PATCH), "length": SIDES, "pressure": 0.1} | {name: value}
-    with pytest.raises(ValueError, match=name):
-        repulsive.solve(**given, periodic=False)
-
-
-def test_fields_of_another_shape_are_refused():
-    with pytest.raises(ValueError, match="field has shape"):
-        free_edges.free_half_space(PATCH, SIDES).compliance(np.zeros((3, 3)))
+        repulsive.solve(rough(PATCH), SIDES, 0.1, periodic="free")
 
 
 @pytest.mark.peers

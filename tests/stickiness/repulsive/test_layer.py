@@ -2,15 +2,15 @@
 
 import numpy as np
 import pytest
+from references.contact import displacement, elastic_pressure
 
 from stickiness import repulsive, spectrum, surface
 from stickiness.repulsive import half_space
-from stickiness.repulsive.half_space import wavenumbers
-from stickiness.solids import Backing, HalfSpace, Layer
+from stickiness.solids import Film, HalfSpace, Layer
 
 LENGTH = 4 * np.pi  # two waves of wave number one
 ROUGH = spectrum.SelfAffine(hurst=0.8, q0=1.0, q1=16.0, h_rms=1.0)
-BACKINGS = ["bonded", "slip", Backing(5.0, 0.3), Backing(0.2, 0.3)]
+BACKINGS = ["bonded", "slip", Film(1e4, 0.4, 0.1)]
 
 
 @pytest.fixture(scope="module")
@@ -18,36 +18,18 @@ def heights():
     return surface.synthesise(ROUGH, n=128, length=LENGTH, seed=3)
 
 
-def displace(pressure, solid, side=LENGTH):
-    """Displacement by numpy's transforms alone."""
-    n = len(pressure)
-    q = np.hypot(*np.meshgrid(*[2 * np.pi * np.fft.fftfreq(n, side / n)] * 2))
-    q[0, 0] = 1
-    waves = np.fft.fft2(pressure) * solid.compliance(q)
-    waves[0, 0] = 0
-    return np.fft.ifft2(waves).real
-
-
 def flattening_pressure(heights, solid, side=LENGTH):
     """Root mean square pressure of full contact."""
-    q = wavenumbers(heights.shape, (side, side))
-    q[0, 0] = 1
-    waves = np.fft.rfft2(heights) * solid.stiffness(q)
-    waves[0, 0] = 0
-    return np.fft.irfft2(waves, s=heights.shape).std()
+    return elastic_pressure(heights, (side, side), solid).std()
 
 
 @pytest.mark.parametrize("solid", [Layer(0.3, 0.5), Layer(0.3, 0.2), Layer(2.0, 0.5, "slip")])
-@pytest.mark.parametrize("shape", [(16, 16), (17, 13), (24, 9)])
+@pytest.mark.parametrize("shape", [(16, 16), (17, 13)])
 def test_operators_carry_the_compliance_of_the_solid(shape, solid):
     sides = (0.7, 1.9)
     operator = half_space.HalfSpace(shape, sides, solid=solid)
     pressure = np.random.default_rng(1).standard_normal(shape)
-    q = wavenumbers(shape, sides)
-    q[0, 0] = 1
-    waves = np.fft.rfft2(pressure) * solid.compliance(q)
-    waves[0, 0] = 0
-    expected = np.fft.irfft2(waves, s=shape)
+    expected = displacement(pressure, sides, solid)
     np.testing.assert_allclose(operator.compliance(pressure), expected, rtol=1e-10, atol=1e-15)
     back = operator.stiffness(expected)
     np.testing.assert_allclose(back, pressure - pressure.mean(), atol=1e-10)
@@ -56,14 +38,13 @@ def test_operators_carry_the_compliance_of_the_solid(shape, solid):
     assert operator.stiffness(unit)[0, 0] == pytest.approx(operator.mean_stiffness)
 
 
-@pytest.mark.parametrize("thickness", [0.2, 1.0, 3.0])
+@pytest.mark.parametrize(("thickness", "load"), [(0.2, 0.4), (1.0, 0.03), (3.0, 0.4)])
 @pytest.mark.parametrize("backing", BACKINGS, ids=str)
-@pytest.mark.parametrize("load", [0.03, 0.4])
 def test_contact_conditions(heights, backing, thickness, load):
     solid = Layer(thickness, 0.5, backing)
     pressure = load * flattening_pressure(heights, solid)
     contact = repulsive.solve(heights, LENGTH, pressure, tol=1e-8, solid=solid)
-    gap = displace(contact.pressure, solid) + contact.shift - heights
+    gap = displacement(contact.pressure, (LENGTH, LENGTH), solid) + contact.shift - heights
     touching = contact.pressure > 0
     assert contact.pressure.min() >= 0
     assert contact.pressure.mean() == pytest.approx(pressure, rel=1e-12)
@@ -73,7 +54,7 @@ def test_contact_conditions(heights, backing, thickness, load):
     assert 0 < contact.area_fraction < 1
 
 
-@pytest.mark.parametrize("backing", ["bonded", "slip", Backing(5.0, 0.3)], ids=str)
+@pytest.mark.parametrize("backing", BACKINGS, ids=str)
 def test_a_single_wave_in_full_contact(backing):
     """The mean pressure that just closes a wave is its stiffness times the amplitude."""
     x = 2 * np.pi * np.arange(64) / 64
@@ -87,7 +68,7 @@ def test_a_single_wave_in_full_contact(backing):
     assert repulsive.solve(wave, 2 * np.pi, 0.98 * closing, solid=solid).area_fraction < 1
 
 
-@pytest.mark.parametrize("backing", BACKINGS, ids=str)
+@pytest.mark.parametrize("backing", ["bonded", "slip"])
 @pytest.mark.parametrize("poisson", [0.3, 0.5])
 def test_thick_layers_are_half_spaces(heights, backing, poisson):
     half = repulsive.solve(heights, LENGTH, 0.1, solid=HalfSpace())
@@ -122,19 +103,14 @@ def test_a_thin_compressible_layer_is_a_bed_of_springs(heights):
 
 
 def test_where_active_sets_cycle_projected_gradients_go_on(heights):
-    solid = Layer(0.1, 0.5, Backing(0.1, 0.3))
+    solid = Layer(0.01, 0.5)
     pressure = 0.3 * flattening_pressure(heights, solid)
     contact = repulsive.solve(heights, LENGTH, pressure, solid=solid)
     assert contact.residual <= 1e-8
+    assert contact.iterations > 60
     with pytest.raises(repulsive.ConvergenceError) as failure:
         repulsive.solve(heights, LENGTH, pressure, solid=solid, max_iterations=2)
     assert failure.value.contact.iterations <= 2
-
-
-def test_the_unit_of_length_is_free(heights):
-    one = repulsive.solve(heights, LENGTH, 0.2, solid=Layer(0.5, 0.4))
-    other = repulsive.solve(1e-3 * heights, 1e-3 * LENGTH, 0.2, solid=Layer(0.5e-3, 0.4))
-    np.testing.assert_allclose(other.pressure, one.pressure, rtol=1e-9, atol=1e-9)
 
 
 def press_paraboloid(radius, solid):
@@ -168,8 +144,10 @@ def test_the_reference_of_a_paraboloid_is_hertz_on_a_thick_layer():
     assert approach == pytest.approx(1.0, rel=2e-3)
 
 
-@pytest.mark.parametrize("thickness", [0.5, 1.0, 2.0])
-@pytest.mark.parametrize(("poisson", "backing"), [(0.5, "bonded"), (0.3, "bonded"), (0.5, "slip")])
+@pytest.mark.parametrize(
+    ("poisson", "backing", "thickness"),
+    [(0.5, "bonded", 0.5), (0.3, "bonded", 1.0), (0.5, "slip", 2.0)],
+)
 def test_a_paraboloid_on_a_layer(poisson, backing, thickness):
     n, side, radius = 512, 12.0, 1.5
     solid = Layer(thickness, poisson, backing)
@@ -183,9 +161,3 @@ def test_a_paraboloid_on_a_layer(poisson, backing, thickness):
     if backing == "bonded":
         moved = solid.mean_compliance * contact.mean_pressure - contact.shift
         assert moved == pytest.approx(approach, rel=1e-2)
-
-
-@pytest.mark.parametrize("solid", [None, 1.0, Layer, "layer"])
-def test_bad_solids(heights, solid):
-    with pytest.raises(ValueError, match="solid must be solids.HalfSpace.. or a solids.Layer"):
-        repulsive.solve(heights, LENGTH, 0.1, solid=solid)

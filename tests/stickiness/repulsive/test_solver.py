@@ -1,16 +1,15 @@
 """Repulsive contact: conditions of contact, closed forms, invariances, extremes."""
 
-import logging
-
 import numpy as np
 import pytest
-from helpers.direct_contact import solve_directly
-from helpers.half_space import displacement
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from references import contact as reference
+from references.contact import displacement, solve_directly
 
-from stickiness import repulsive
-from stickiness.closed_forms import contact as reference
+from stickiness import repulsive, spectrum, surface
+from stickiness.repulsive import subpixel
+from stickiness.solids import Layer
 
 
 def rough(n, hurst=0.8, magnification=None, seed=0, modes=64):
@@ -66,16 +65,6 @@ def test_any_grid(shape):
         assert contact.length == pytest.approx(sides)
 
 
-def test_unequal_sides_and_transposition():
-    heights = rough(64, seed=2)[:, :48]
-    contact = repulsive.solve(heights, (1.0, 2.0), 0.5)
-    assert_solves(contact, heights, (1.0, 2.0))
-    turned = repulsive.solve(heights.T, (2.0, 1.0), 0.5)
-    # both are within the tolerance of the one solution; pressures scale as |q|max / 2 * 1e-8
-    np.testing.assert_allclose(turned.gap.T, contact.gap, atol=5e-8)
-    assert turned.area_fraction == contact.area_fraction
-
-
 def test_solution_is_that_of_a_direct_method():
     """Against the stationary point found by exhaustion of active sets, with dense algebra."""
     heights = rough(16, magnification=4, seed=3)
@@ -116,18 +105,6 @@ def test_westergaard_converges(axis):
     assert errors[1] < 1e-3
 
 
-def test_westergaard_in_full_contact_is_exact():
-    n = 32
-    x = np.arange(n) / n
-    heights = np.repeat(0.01 * np.cos(2 * np.pi * x)[:, None], n, axis=1)
-    wave = reference.Westergaard(0.01, 1.0, 0.04)
-    contact = repulsive.solve(heights, 1.0, 0.04)
-    assert contact.area_fraction == wave.area_fraction == 1.0
-    # one Fourier mode is resolved exactly: rounding only
-    np.testing.assert_allclose(contact.pressure[:, 0], wave.contact_pressure(x), rtol=1e-12)
-    assert not contact.gap.any()
-
-
 def test_hertz_in_a_large_box():
     n, radius = 256, 1.0
     hertz = reference.Hertz(radius, 4 / 3 * 0.05**3 / radius)
@@ -164,7 +141,7 @@ def test_wave_in_two_directions_against_both_limits():
 
 def test_full_contact_of_a_rough_surface():
     heights = rough(96, seed=4)
-    exact = reference.full_contact_pressure(heights, 1.0, 0.0)
+    exact = reference.elastic_pressure(heights, (1.0, 1.0))
     threshold = -exact.min()
     contact = repulsive.solve(heights, 1.0, 1.001 * threshold)
     np.testing.assert_allclose(contact.pressure, exact + 1.001 * threshold, atol=1e-11)
@@ -192,16 +169,6 @@ def test_area_and_gap_are_monotonic_in_the_load():
         assert c.mean_gap == pytest.approx(cold.mean_gap, abs=2e-8)
 
 
-def test_path_in_small_steps():
-    heights = rough(64, seed=19)
-    pressures = 0.4 * np.array([1, 1.001, 1.002, 1.001, 0.0, 1.0])
-    path = list(repulsive.load_path(heights, 1.0, pressures))
-    for contact, pressure in zip(path, pressures, strict=True):
-        assert contact.mean_pressure == pressure
-        cold = repulsive.solve(heights, 1.0, pressure)
-        np.testing.assert_allclose(contact.gap, cold.gap, atol=4e-8)
-
-
 @pytest.mark.slow
 def test_work_of_the_load_is_the_elastic_energy():
     """Energy balance: the load working against the mean gap stores the elastic energy."""
@@ -213,31 +180,6 @@ def test_work_of_the_load_is_the_elastic_energy():
     energy = 0.5 * np.mean(path[-1].pressure * displacement(path[-1].pressure, (1.0, 1.0)))
     # the trapezoid rule over steps of 3 % in load: relative error of some 1e-4
     assert work == pytest.approx(energy, rel=1e-3)
-
-
-def test_resolution_refines_the_same_surface():
-    """The same band-limited surface: the mean gap settles as the pixels shrink."""
-    gaps = [
-        repulsive.solve(rough(n, magnification=8, seed=7), 1.0, 0.4).mean_gap
-        for n in (64, 128, 256)
-    ]
-    # the error falls as a power of the pixel, at least as fast as linearly
-    assert abs(gaps[2] - gaps[1]) < 0.6 * abs(gaps[1] - gaps[0])
-    assert gaps[2] == pytest.approx(gaps[1], abs=5e-3)
-
-
-@pytest.mark.filterwarnings("ignore:heights of")  # whose unit is not the length's
-@pytest.mark.parametrize("height_unit", [1e-30, 1.0, 1e30])
-@pytest.mark.parametrize("length_unit", [1e-30, 1.0, 1e30])
-def test_units_do_not_matter(height_unit, length_unit):
-    heights = rough(64, seed=8)
-    base = repulsive.solve(heights, 1.0, 0.4)
-    slope = height_unit / length_unit
-    other = repulsive.solve(heights * height_unit, length_unit, 0.4 * slope)
-    scale = base.pressure.max()
-    np.testing.assert_allclose(other.pressure / slope, base.pressure, atol=1e-12 * scale)
-    np.testing.assert_allclose(other.gap / height_unit, base.gap, atol=1e-12)
-    assert other.residual <= 1e-8
 
 
 def test_an_offset_of_the_heights_shifts_only():
@@ -316,15 +258,6 @@ def test_input_is_neither_changed_nor_restricted_in_layout():
     np.testing.assert_array_equal(repulsive.solve(single, 1.0, 0.3).pressure, same.pressure)
 
 
-def test_same_result_every_time_and_independent_of_what_was_solved_before():
-    heights = rough(128, seed=12)
-    first = repulsive.solve(heights, 1.0, 0.3)
-    repulsive.solve(rough(128, seed=13), 1.0, 2.0)
-    second = repulsive.solve(heights, 1.0, 0.3)
-    np.testing.assert_array_equal(first.pressure, second.pressure)
-    np.testing.assert_array_equal(first.gap, second.gap)
-
-
 def test_warm_start_saves_work():
     heights = rough(256, seed=14)
     near = repulsive.solve(heights, 1.0, 0.4)
@@ -333,11 +266,6 @@ def test_warm_start_saves_work():
     # coarser grids start at 1e-2 of h_rms, a neighbouring solution at the change of load, 5e-4
     assert warm.fft_pairs < 0.9 * cold.fft_pairs
     np.testing.assert_allclose(warm.gap, cold.gap, atol=4e-8)
-
-
-def test_work_hardly_grows_with_the_grid():
-    work = [repulsive.solve(rough(n, seed=15, modes=256), 1.0, 0.4).fft_pairs for n in (128, 512)]
-    assert work[1] < 1.3**2 * work[0]
 
 
 def test_failure_carries_the_best_iterate():
@@ -356,27 +284,17 @@ def test_tolerance_beyond_rounding_fails_in_finite_time():
     assert failure.value.residual < 1e-13
 
 
-def test_logger_is_told_the_progress(caplog):
-    logger = logging.getLogger("contact")
-    with caplog.at_level(logging.INFO, logger="contact"):
-        repulsive.solve(rough(64, seed=18), 1.0, 0.4, logger=logger)
-    assert "64 x 64: residual" in caplog.text
-
-
 @pytest.mark.parametrize(
     ("change", "message"),
     [
-        ({"heights": np.full((4, 4), np.nan)}, "heights must be finite, got 16"),
-        ({"heights": np.array([[0.0, np.inf]])}, "heights must be finite, got 1"),
         ({"heights": np.zeros(4)}, "heights must be a grid"),
         ({"heights": np.zeros((0, 4))}, "heights must be a grid"),
         ({"length": 0.0}, "length must be"),
         ({"length": (1.0, np.nan)}, "length must be"),
-        ({"length": (1.0, 2.0, 3.0)}, "length must be"),
-        ({"pressure": -1.0}, "pressure must be"),
         ({"pressure": np.nan}, "pressure must be"),
-        ({"tol": 0.0}, "tol must be"),
         ({"max_iterations": 0}, "max_iterations must be"),
+        ({"start": repulsive.solve(np.eye(4), 1.0, 0.1)}, "same grid"),
+        ({"solid": Layer}, "solid must be solids.HalfSpace.. or a solids.Layer"),
     ],
 )
 def test_wrong_arguments(change, message):
@@ -385,7 +303,30 @@ def test_wrong_arguments(change, message):
         repulsive.solve(**arguments)
 
 
-def test_start_on_another_grid():
-    start = repulsive.solve(rough(16, magnification=4), 1.0, 0.1)
-    with pytest.raises(ValueError, match="same grid"):
-        repulsive.solve(rough(32), 1.0, 0.1, start=start)
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", [1, 2, 3])
+def test_rough_surface_at_vanishing_load_touches_at_its_summit(seed):
+    band = spectrum.SelfAffine(hurst=0.8, q0=1.0, q1=4.0, h_rms=0.1)
+    length = 2 * np.pi
+    heights = surface.synthesise(band, n=512, length=length, seed=seed)
+    summit = reference.highest_summit(heights, length)
+    departures = []
+    for pressure in (1e-4, 1e-5):
+        contact = repulsive.solve(heights, length, pressure)
+        ellipse = reference.HertzEllipse(summit.curvatures, pressure * length**2)
+        touching = contact.pressure > 0
+        area = contact.area_fraction - subpixel.boundary_strip(touching)
+        departures.append(
+            np.abs(
+                [
+                    area * length**2 / ellipse.area - 1,
+                    contact.pressure.max() / ellipse.largest_pressure - 1,
+                    (summit.height - contact.shift) / ellipse.indentation - 1,
+                ]
+            )
+        )
+    # The spot is 7 to 20 points across and 1/10 of the shortest wavelength at the lighter load,
+    # where the summit departs from a paraboloid by some per cent; that departure and the field
+    # of the neighbouring cells grow with the size of the spot, as the cube root of the load.
+    assert np.all(departures[1] < [0.05, 0.012, 0.06])
+    assert departures[1][2] < 0.6 * departures[0][2]

@@ -2,10 +2,10 @@
 
 import numpy as np
 import pytest
+from references import contact as reference
 from scipy.optimize import brentq
 
 from stickiness import adhesive, dmt, repulsive
-from stickiness.closed_forms import contact as reference
 from stickiness.repulsive import subpixel
 
 
@@ -45,15 +45,6 @@ def test_straight_edges_in_any_direction(direction):
     # The strip: 0.2 pixels, with the scatter of a wave (0.15 at most) over that root.
     edge = 2 / closed.wavelength / 128  # length of edge times a pixel, per area
     assert abs(np.mean(strips)) < 0.1 * edge
-
-
-def test_counting_sees_nothing_below_the_edge_gap():
-    gap, closed = wave((2, 1), 0.35)
-    eps = 0.1 * gap[gap > 0].min()
-    assert dmt.attractive_area(gap, eps) == 0
-    assert subpixel.attractive_area(gap, eps) == pytest.approx(
-        closed_attractive_area(closed, eps), rel=0.15
-    )
 
 
 def test_distance_of_the_first_open_point_from_a_straight_edge():
@@ -102,14 +93,6 @@ def test_attractive_area_does_not_depend_on_axes_or_origin(rough_contacts):
     np.testing.assert_allclose(stacked, area, rtol=1e-12)
 
 
-def test_blocks_of_rows_change_nothing(rough_contacts, monkeypatch):
-    gap, _ = rough_contacts[16]
-    eps = np.geomspace(1e-4, 1, 20)
-    area = subpixel.attractive_area(gap, eps)
-    monkeypatch.setattr(subpixel, "_BLOCK", 1000)
-    np.testing.assert_allclose(subpixel.attractive_area(gap, eps), area, rtol=1e-12)
-
-
 def test_without_edges():
     assert subpixel.attractive_area(np.zeros((8, 8)), 0.1) == 0
     gap = np.full((8, 8), 0.2)
@@ -132,15 +115,6 @@ def test_single_pixels_of_gap_and_contact():
         assert area[1] == pytest.approx(np.mean(~touching) + strip, rel=1e-12)
 
 
-def test_a_mask_may_call_gaps_of_zero_open():
-    gap = np.zeros((6, 6))
-    touching = np.zeros((6, 6), bool)
-    touching[:3] = True
-    assert subpixel.attractive_area(gap, 1e-9, touching) == pytest.approx(
-        0.5 + subpixel.boundary_strip(touching), rel=1e-12
-    )
-
-
 def test_rough_contact_below_the_edge_gap(rough_contacts):
     """Ranges that a count of 8 pixels per wavelength misses nearly whole."""
     reference_area = subpixel.attractive_area(rough_contacts[64][0], [0.003, 0.01, 0.03])
@@ -152,14 +126,6 @@ def test_rough_contact_below_the_edge_gap(rough_contacts):
     # one edge gap; this one has few spots.
     assert np.all(np.abs(found) < [0.25, 0.15, 0.10])
     assert np.all(counted < -3 * np.abs(found))
-
-
-def test_perimeter_of_a_disc():
-    n, r = 400, 100
-    x = np.arange(n) - n / 2 + 0.5
-    disc = np.hypot(*np.meshgrid(x, x, indexing="ij")) < r
-    # The staircase of a convex shape is as long as its bounding box.
-    assert subpixel.perimeter(disc) == pytest.approx(2 * np.pi * r / n**2, rel=1e-12)
 
 
 @pytest.mark.slow
@@ -201,7 +167,6 @@ def test_gap_density_from_subpixel_areas(rough_contacts):
         (lambda: subpixel.attractive_area([[0.0, 1.0]], 0.0), "eps must be positive"),
         (lambda: subpixel.attractive_area([[0.0, -1.0]], 1.0), "gap must not be negative"),
         (lambda: subpixel.boundary_strip([True]), "contact must be at least two-dim"),
-        (lambda: subpixel.perimeter([True]), "contact must be at least two-dim"),
         (lambda: dmt.gap_density([[0.0, 1.0]], [-1.0, 1.0], subpixel=True), "edges must not be"),
     ],
 )

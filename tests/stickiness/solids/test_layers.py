@@ -6,7 +6,7 @@ import mpmath
 import numpy as np
 import pytest
 
-from stickiness.solids import Backing, Film, HalfSpace, Layer
+from stickiness.solids import Film, HalfSpace, Layer
 
 POISSON = [0.0, 0.3, 0.4999, 0.5]
 WAVES = [1e-6, 1e-3, 0.1, 0.74, 0.76, 3.0, 10.0, 40.0]
@@ -32,33 +32,18 @@ def boundary_value_problem(k, poisson, backing):
     with mpmath.workdps(150):
         nu, eye = mpmath.mpf(poisson), mpmath.eye(4)
         through = mpmath.expm(matrix(mpmath.mpf(1), nu) * mpmath.mpf(k))
-        if isinstance(backing, Backing):
-            other = mpmath.mpf(backing.poisson)
-            shear = mpmath.mpf(backing.modulus_ratio) * (1 + nu) / (1 + other)
-            # what decays with depth belongs to the double eigenvalue -1
-            growing = matrix(shear, other) + eye
-            conditions = (growing * growing)[:2, :]
-        else:
-            rows = {"bonded": (0, 1), "slip": (1, 2)}[backing]
-            conditions = mpmath.matrix([[eye[row, j] for j in range(4)] for row in rows])
+        rows = {"bonded": (0, 1), "slip": (1, 2)}[backing]
+        conditions = mpmath.matrix([[eye[row, j] for j in range(4)] for row in rows])
         conditions = conditions * through
         unknown = mpmath.lu_solve(conditions[:, :2], conditions[:, 3])  # zz = -1
         return float(unknown[1] / (1 - nu))  # w E*/2, E* = 2/(1 - nu)
 
 
-BACKINGS = [
-    "bonded",
-    "slip",
-    Backing(3.0, 0.2),
-    Backing(0.3, 0.5),
-    Backing(1e-6, 0.3),
-    Backing(1e6, 0.0),
-    Backing(1.0, 0.5),
-]
+BACKINGS = ["bonded", "slip"]
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("backing", BACKINGS, ids=str)
+@pytest.mark.parametrize("backing", BACKINGS)
 @pytest.mark.parametrize("poisson", POISSON)
 def test_factor_solves_the_boundary_value_problem(poisson, backing):
     waves = np.array(WAVES)
@@ -68,7 +53,7 @@ def test_factor_solves_the_boundary_value_problem(poisson, backing):
     np.testing.assert_allclose(factor, expected, rtol=1e-12)
 
 
-@pytest.mark.parametrize("backing", BACKINGS, ids=str)
+@pytest.mark.parametrize("backing", BACKINGS)
 @pytest.mark.parametrize("poisson", POISSON)
 def test_short_waves_see_a_half_space(poisson, backing):
     layer = Layer(1.0, poisson, backing)
@@ -83,14 +68,12 @@ def test_short_waves_see_a_half_space(poisson, backing):
         (0.3, "bonded", 1, 0.4 / (2 * 0.7**2)),
         (0.3, "slip", 1, 1 / 2),
         (0.5, "slip", 1, 1 / 2),
-        # E* of the layer over that of the backing
-        (0.3, Backing(4.0, 0.5), 0, 0.75 / 0.91 / 4.0),
     ],
 )
 def test_long_waves(poisson, backing, power, prefactor):
     k = np.array([1e-6, 1e-5])
     factor = Layer(1.0, poisson, backing).factor(k)
-    np.testing.assert_allclose(factor, prefactor * k**power, rtol=1e-4 if power == 0 else 1e-9)
+    np.testing.assert_allclose(factor, prefactor * k**power, rtol=1e-9)
 
 
 def test_nearly_incompressible_is_between_its_limits():
@@ -99,17 +82,6 @@ def test_nearly_incompressible_is_between_its_limits():
     k = np.array([1e-8, 1e-6, 1e-4])
     expected = 2 * (1 - 2 * nu) * k + 2 / 3 * k**3
     np.testing.assert_allclose(Layer(1.0, nu).factor(k), expected, rtol=1e-7)
-
-
-def test_the_same_material_below_is_a_half_space():
-    waves = np.geomspace(1e-6, 1e6, 50)
-    np.testing.assert_allclose(Layer(1.0, 0.3, Backing(1.0, 0.3)).factor(waves), 1.0, rtol=1e-14)
-
-
-def test_a_stiff_backing_is_rigid():
-    waves = np.geomspace(1e-2, 1e2, 20)
-    backed = Layer(1.0, 0.3, Backing(1e13, 0.3)).factor(waves)
-    np.testing.assert_allclose(backed, Layer(1.0, 0.3).factor(waves), rtol=1e-10)
 
 
 def test_half_space():
@@ -151,22 +123,13 @@ def test_mean_compression_is_that_of_uniaxial_strain(poisson):
         (("1", 0.3), "thickness must be a number"),
         ((1.0, 0.6), "poisson must be non-negative and at most 0.5, got 0.6"),
         ((1.0, -0.1), "poisson must be non-negative"),
-        ((1.0, 0.3, "glued"), "backing must be 'bonded', 'slip', a Backing.*got 'glued'"),
+        ((1.0, 0.3, "glued"), "backing must be 'bonded', 'slip' or a Film.*got 'glued'"),
         ((1.0, 0.3, 2.0), "backing must be"),
     ],
 )
 def test_bad_layers(arguments, message):
     with pytest.raises(ValueError, match=message):
         Layer(*arguments)
-
-
-@pytest.mark.parametrize(
-    ("arguments", "message"),
-    [((0.0, 0.3), "modulus_ratio must be positive"), ((1.0, 0.51), "poisson .* at most 0.5")],
-)
-def test_bad_backings(arguments, message):
-    with pytest.raises(ValueError, match=message):
-        Backing(*arguments)
 
 
 @pytest.mark.parametrize("solid", [HalfSpace(), Layer(1.0, 0.3)])
@@ -196,6 +159,8 @@ def test_a_film_that_does_not_bend_is_a_rigid_base():
 
 
 def test_bad_films_are_refused():
+    with pytest.raises(ValueError, match="modulus_ratio must be positive"):
+        Film(0.0, 0.4, 1.0)
     with pytest.raises(ValueError, match="thickness must be positive and finite, got 0"):
         Film(1e4, 0.4, 0)
     with pytest.raises(ValueError, match=r"Film\(modulus_ratio, poisson, thickness\), got 'film'"):

@@ -8,8 +8,8 @@ import xarray as xr
 from scipy import integrate
 
 from criteria import materials
-from criteria.probabilities import draw_pair
-from criteria.words import decide_pairs
+from criteria.classification import decide_pairs
+from criteria.judging import judge_samples
 from stickiness.criteria.pair import WORDS
 from stickiness.criteria.registry import EDGES
 from stickiness.remaining.prediction import DEFAULT_SHARE, Roughness
@@ -132,11 +132,11 @@ def test_errors_of_the_spectrum_pass_to_the_margin():
     # Tough: the threshold is in proportion to the elastic energy, whatever h_rms and q0.
     rng = np.random.default_rng(0)
     energy = 1e-7 * np.exp(0.2 * rng.normal(size=4000))
-    found = draw_pair(MATERIAL, drawn(np.full(4000, 1e-6), np.full(4000, 1e5), energy))
+    found = judge_samples(MATERIAL, drawn(np.full(4000, 1e-6), np.full(4000, 1e5), energy))
     assert found.from_spectrum == pytest.approx(0.2, rel=0.05)
     h = 1e-6 * np.exp(0.1 * rng.normal(size=4000))
     q0 = 1e5 * np.exp(0.2 * rng.normal(size=4000))
-    found = draw_pair(MATERIAL, drawn(h, q0, np.full(4000, 1e-7)))
+    found = judge_samples(MATERIAL, drawn(h, q0, np.full(4000, 1e-7)))
     assert found.from_spectrum < 1e-3
 
 
@@ -145,7 +145,7 @@ def test_draws_spread_over_the_error_of_the_model():
     """One spectrum: what is left are the model's errors, of which the limits cover 90 %."""
     many = drawn(np.full(4000, 1e-6), np.full(4000, 1e5), np.full(4000, 1e-7))
     solid = material_at(1.3, ROUGH)
-    found = draw_pair(solid, many)
+    found = judge_samples(solid, many)
     assert found.from_spectrum == pytest.approx(0, abs=1e-12)
     assert found.share_from_spectrum == pytest.approx(0, abs=1e-12)
     length = solid.work_of_adhesion / solid.modulus
@@ -161,7 +161,7 @@ def test_probability_is_the_share_of_the_margin_above_one():
     """Half of them at the threshold, all or none of them well beyond the model's error."""
     many = drawn(np.full(4000, 1e-6), np.full(4000, 1e5), np.full(4000, 1e-7))
     for factor, expected in ((1.0, 0.5), (2.0, 1.0), (0.5, 0.0)):
-        found = draw_pair(material_at(factor, ROUGH), many)
+        found = judge_samples(material_at(factor, ROUGH), many)
         # Binomial error of 4000 draws: below 0.008.
         assert found.probability == pytest.approx(expected, abs=0.025)
         # What sticks is what keeps the wanted share.
@@ -174,7 +174,7 @@ def test_probability_is_the_share_of_the_margin_above_one():
         ((0.85, 0.9, 1.0), 2.0, "sticks fully"),
         ((0.15, 0.3, 0.5), 2.0, "sticks"),
         ((0.05, 0.3, 0.5), 2.0, "depends"),
-        ((0.0, 0.0, 0.08), 2.0, "touches without hold"),
+        ((0.0, 0.0, 0.08), 2.0, "adheres locally, does not hold"),
         ((0.0, 0.0, 0.08), 0.5, "does not stick"),
         ((np.nan,) * 3, 2.0, "depends"),  # not measured: the ends decide
     ],

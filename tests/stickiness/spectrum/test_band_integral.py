@@ -4,9 +4,8 @@ import numpy as np
 import pytest
 from scipy import integrate
 
-from stickiness.solids import Backing, HalfSpace, Layer
+from stickiness.solids import HalfSpace, Layer
 from stickiness.spectrum import SelfAffine, Shells, Tabulated
-from stickiness.spectrum.band_integral import integrate_band
 
 ROUGH = SelfAffine(hurst=0.8, q0=1.0, q1=1e4, h_rms=1.0, q_rolloff=3.0)
 SPECTRA = [
@@ -20,7 +19,7 @@ SPECTRA = [
 @pytest.mark.parametrize("power", [0, 1, 2])
 def test_powers_have_closed_forms(rough, power):
     for low, high in ((rough.q0, rough.q1), (1.1, 1.9), (0.1, 1.5), (5.0, 1e9)):
-        found = integrate_band(rough, lambda q: q**power, low, high)
+        found = rough.integrate(lambda q: q**power, low, high)
         expected = rough.variance_below(high, power) - rough.variance_below(low, power)
         assert found == pytest.approx(float(expected), rel=1e-11)
 
@@ -28,9 +27,7 @@ def test_powers_have_closed_forms(rough, power):
 @pytest.mark.slow
 @pytest.mark.parametrize("rough", SPECTRA, ids=lambda s: type(s).__name__)
 @pytest.mark.parametrize("thickness", [1e-4, 0.05, 1.0, 3.0])
-@pytest.mark.parametrize(
-    ("poisson", "backing"), [(0.5, "bonded"), (0.3, "slip"), (0.4, Backing(9.0, 0.3))]
-)
+@pytest.mark.parametrize(("poisson", "backing"), [(0.5, "bonded"), (0.3, "slip"), (0.4, "bonded")])
 def test_energy_on_a_layer(rough, thickness, poisson, backing):
     solid = Layer(thickness, poisson, backing)
 

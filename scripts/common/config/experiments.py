@@ -1,0 +1,210 @@
+"""Models of config/experiments.yaml."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from typing import Annotated, Any, Literal
+
+from pydantic import Field, model_validator
+
+from common.config import fields as f
+from common.config.entries import CONDITIONS, OBSERVED_UNITS, conditions_of
+from common.config.fields import Section, needed, optional
+from stickiness.units import si
+
+_NEEDED = ("work_of_adhesion", "range", "hurst", "longest_wavelength", "shortest_wavelength")
+# Quantity that a relation gives.
+_RELATIONS = {
+    "conformal_contact": "work_of_approach",
+    "cycle_loss": "work_of_separation",
+    "energy_ratio": "limiting_roughness",
+}
+Criterion = Literal[
+    *("remaining_adhesion", "edge_adhesion", "violano", "violano_constant", "violano_printed"),
+    *("pastewka_robbins", "fuller_tabor", "bearing_area", "persson_tosatti", "dahlquist"),
+]
+
+
+class KnownValue(Section):
+    """A value and how it is known, e.g. `{value: "0.3 nm", known: assumed}`."""
+
+    one_of = (("value", "between"),)
+
+    value: Any = optional("the value, with its unit if it has one")
+    between: f.Pair[Any] = optional("what is plausible, low and high; swept")
+    known: Literal["measured", "read", "recalled", "assumed"] = needed(
+        "measured: by you; read: stands in a public text that was read; recalled: known from the "
+        "literature, not checked; assumed: chosen or inferred here"
+    )
+    note: f.Text = optional("where it stands or why it was assumed")
+
+    @model_validator(mode="before")
+    @classmethod
+    def _require_its_source(cls, given: Any) -> Any:
+        if not isinstance(given, dict):
+            plain = f'"{given}"' if isinstance(given, str) else given
+            raise f.Refusal(
+                f" = {given!r} must say how it is known: write {{value: {plain}, known: "
+                "measured}, or read, recalled, assumed instead of measured"
+            )
+        return given
+
+    def values(self, unit: str | None) -> list[float]:
+        """Return the value, or the ends of what is plausible, in SI units."""
+        given = [self.value] if self.between is None else self.between
+        return given if unit is None else [si(one, unit) for one in given]
+
+    def order_problems(self, unit: str | None) -> Iterable[str]:
+        """Require what is plausible in order."""
+        values = self.values(unit)
+        if values[-1] <= values[0] and self.between is not None:
+            yield f"between = {self.between!r} must be [low, high] with low < high"
+
+
+def known(kind: Any, unit: str | None = None) -> type[KnownValue]:
+    """Return the model of a value of some type, in a unit, that says how it is known."""
+
+    class Checked(KnownValue):
+        value: kind = None
+        between: f.Pair[kind] = None
+
+        def _problems(self, context: Mapping[str, Any]) -> Iterable[str]:
+            return self.order_problems(unit)
+
+    Checked.__name__ = "KnownValue"  # by which the reference calls it
+    return Checked
+
+
+KnownLength, KnownModulus = known(f.Length, "m"), known(f.Modulus, "Pa")
+KnownPoisson = known(f.Poisson)
+KnownHurst = known(Annotated[float, Field(ge=0.01, le=1)])
+
+
+class Conditions(Section):
+    """Conditions of an observation; those of a case replace those of its experiment."""
+
+    radius: KnownLength = optional("radius of the sphere; without it the contact is flat on flat")
+    plane_strain_modulus: KnownModulus = optional("E* of the pair")
+    youngs_modulus: KnownModulus = optional("Young's modulus of the soft solid")
+    poisson_ratio: KnownPoisson = optional("Poisson's ratio of the soft solid")
+    work_of_adhesion: known(f.Energy, "J/m^2") = optional("work of adhesion on a smooth surface")
+    range: KnownLength = optional("range of the attraction")
+    hurst: KnownHurst = optional("Hurst exponent in (0, 1]")
+    longest_wavelength: KnownLength = optional("longest wavelength of the roughness")
+    rolloff_wavelength: KnownLength = optional("wavelength above which the spectrum is flat")
+    shortest_wavelength: KnownLength = optional("shortest wavelength of the roughness")
+    h_rms: KnownLength = optional("rms height")
+
+    def given(self) -> dict[str, KnownValue]:
+        """Return the conditions that are given."""
+        conditions = {key: getattr(self, key) for key in CONDITIONS}
+        return {key: value for key, value in conditions.items() if value is not None}
+
+
+class Observed(KnownValue):
+    """What was observed.
+
+    The quantity is the pull-off force over that from a smooth surface, the rms height at which it
+    falls to a level, the apparent work of adhesion on approach or separation, or whether the pair
+    sticks (a value of true or false).
+
+    Relations are evaluated with the inputs of the case. `conformal_contact`: the work of approach
+    is the work of adhesion on the true area less the elastic energy of full contact. `cycle_loss`:
+    the work of separation exceeds the work of approach by the work of adhesion on the true area.
+    `energy_ratio`: adhesion is lost where the work of adhesion is `factor` times the energy of full
+    contact.
+    """
+
+    one_of = (("value", "between", "relation"),)
+
+    quantity: Literal[(*OBSERVED_UNITS, "sticks")] = needed("what was observed")
+    relation: Literal[tuple(_RELATIONS)] = optional("a relation that was reported")
+    level: Annotated[float, Field(gt=0, lt=1)] = optional(
+        "share of the adhesion that is left at the limiting roughness; default 0.1"
+    )
+    silent: f.Several[Criterion] = optional("criteria in whose terms the observation was stated")
+    error: f.Energy = optional('error of the relation either way, e.g. "4 mJ/m^2"')
+    factor: f.Pair[f.Positive] = optional("limits of true over nominal area or of the energy ratio")
+
+    def _problems(self, context: Mapping[str, Any]) -> Iterable[str]:
+        field = "value" if self.between is None else "between"
+        if self.quantity == "sticks":
+            if not isinstance(self.value, bool):
+                given = getattr(self, field)
+                yield f"value = {given!r} must be true or false for 'sticks'"
+        elif self.relation is not None:
+            quantity = _RELATIONS[self.relation]
+            if self.quantity != quantity:
+                yield f"quantity = {self.quantity!r} must be {quantity!r} for {self.relation!r}"
+            if self.factor is None:
+                yield f": the key 'factor' is missing, the limits of {self.relation!r}"
+            elif not self.factor[0] < self.factor[1]:
+                yield f"factor = {self.factor!r} must be [low, high] with low < high"
+        elif (unit := OBSERVED_UNITS[self.quantity]) is not None:
+            try:
+                values = self.values(unit)
+            except ValueError as error:
+                yield f"{field} = {error}"
+                return
+            if not min(values) > 0:
+                yield f"{field} = {getattr(self, field)!r} must be positive"
+            yield from self.order_problems(unit)
+        else:
+            for value in self.values(None):
+                if isinstance(value, bool) or not isinstance(value, int | float):
+                    yield f"{field} = {value!r} must be a number"
+                elif not 0 <= value <= 10:
+                    yield f"{field} = {value!r} must be between 0 and 10"
+            yield from self.order_problems(None)
+
+
+class ObservedCase(Conditions):
+    """One observation, with the conditions that are its own."""
+
+    label: f.Text = needed("name for readers")
+    observed: Observed = needed("what was observed")
+
+
+class Experiment(Conditions):
+    """A published experiment, with the conditions that its cases share."""
+
+    label: f.Text = needed("name for readers")
+    short: f.Text = optional("author and year, where space is short")
+    published: bool = optional("false for what needs no experiment; shown, but not counted")
+    citation: f.Text = needed("full citation")
+    note: f.Text = optional("what was done and what a reader should know")
+    not_found: list[f.Text] = optional("what was looked for in the source and not found")
+    missed: f.Text = optional("reason looked for, where the prediction misses the observation")
+    cases: f.Names[ObservedCase] = needed("what was observed, by name")
+
+    def _problems(self, context: Mapping[str, Any]) -> Iterable[str]:
+        for name, case in self.cases.items():
+            conditions = conditions_of(self.given(), case.given())
+            for problem in _condition_problems(conditions, case.observed.quantity):
+                yield f"cases.{name}{problem}"
+
+
+class Experiments(Section):
+    """The file of experiments."""
+
+    experiments: f.Names[Experiment] = needed("published experiments by name")
+
+
+def _condition_problems(conditions: Mapping[str, KnownValue], quantity: str) -> Iterable[str]:
+    for key in _NEEDED if quantity == "limiting_roughness" else (*_NEEDED, "h_rms"):
+        if key not in conditions:
+            yield f": the key {key!r} is missing, here and in the experiment"
+            return
+    if {"plane_strain_modulus", "youngs_modulus"} <= set(conditions):
+        yield ": give one of plane_strain_modulus and youngs_modulus"
+    elif "plane_strain_modulus" not in conditions and not (
+        {"youngs_modulus", "poisson_ratio"} <= set(conditions)
+    ):
+        yield ": give plane_strain_modulus, or youngs_modulus and poisson_ratio"
+    # The longest of the shorter waves must be below the shortest of the longer ones.
+    waves = ("shortest_wavelength", "rolloff_wavelength", "longest_wavelength")
+    given = [key for key in waves if key in conditions]
+    for shorter, longer in zip(given, given[1:], strict=False):
+        most, least = conditions[shorter].values("m")[-1], conditions[longer].values("m")[0]
+        if not most < least:
+            yield f".{shorter} reaches {most:g} m and must stay below {longer}, {least:g} m"

@@ -1,0 +1,201 @@
+"""What the models of the configuration are made of: sections, numbers and values with units."""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Iterable, Iterator, Mapping
+from typing import Annotated, Any, ClassVar, Literal, TypeVar
+
+from pydantic import (
+    AfterValidator,
+    BaseModel,
+    BeforeValidator,
+    ConfigDict,
+    Discriminator,
+    Field,
+    Tag,
+    ValidationInfo,
+    model_validator,
+)
+
+from stickiness.units import si
+
+T = TypeVar("T")
+
+
+def _add_choices(schema: dict[str, Any], section: type[Section]) -> None:
+    """Put groups of keys that exclude each other into the JSON schema of a section."""
+    groups = [
+        {"oneOf": [{"required": choice.split(" and ")} for choice in group]}
+        for group in section.one_of
+    ]
+    if groups:
+        schema["allOf"] = groups
+
+
+class Refusal(ValueError):
+    """What is wrong, in words that go on where the path of the key ends."""
+
+
+class Section(BaseModel):
+    """Keys that stand together.
+
+    Models check a configuration and document it; rules and scripts receive the plain dictionaries
+    that were checked. The docstring of a model introduces its table in docs/configuration.md.
+    """
+
+    model_config = ConfigDict(extra="forbid", strict=True, json_schema_extra=_add_choices)
+    #: Groups of choices such as "a" and "b and c", of which exactly one must be given.
+    one_of: ClassVar[tuple[tuple[str, ...], ...]] = ()
+    #: Keys of earlier versions, and what to do about them.
+    old: ClassVar[Mapping[str, str]] = {}
+
+    @model_validator(mode="before")
+    @classmethod
+    def _check_keys(cls, given: Any) -> Any:
+        if isinstance(given, dict):
+            for problem in cls._key_problems(given):
+                raise Refusal(f": {problem}")
+        return given
+
+    @classmethod
+    def _key_problems(cls, given: Mapping[str, Any]) -> Iterator[str]:
+        fields = cls.model_fields
+        for key in given:
+            if key in cls.old:
+                yield f"the key {key!r} {cls.old[key]}"
+            if key not in fields:
+                yield f"unknown key {key!r}; {suggest(key, fields)}"
+        for key, field in fields.items():
+            if field.is_required() and key not in given:
+                yield f"the key {key!r} is missing ({field.description})"
+        for choices in cls.one_of:
+            met = [all(key in given for key in choice.split(" and ")) for choice in choices]
+            if sum(met) != 1:
+                yield f"give exactly one of: {'; '.join(choices)}"
+
+    @model_validator(mode="after")
+    def _check_together(self, info: ValidationInfo) -> Section:
+        for problem in self._problems(info.context or {}):
+            raise Refusal(problem if problem.startswith(":") else f".{problem}")
+        return self
+
+    def _problems(self, context: Mapping[str, Any]) -> Iterable[str]:
+        """Yield what is wrong with several keys together: ``key = value …`` or ``: …``."""
+        return ()
+
+
+def unknown(key: str, value: str, known: Iterable[str]) -> str:
+    """Say that a name is unknown, and which may be meant."""
+    return f"{key} = {value!r} is unknown; {suggest(value, known)}"
+
+
+def suggest(value: Any, known: Iterable[str]) -> str:
+    """Ask whether the closest of the known names is meant; without one, list them all."""
+    known = list(known)
+    close = difflib.get_close_matches(str(value), known, n=1)
+    return f"did you mean {close[0]!r}?" if close else f"choose one of {', '.join(known)}"
+
+
+def needed(text: str) -> Any:
+    """Describe a key that must be given."""
+    return Field(description=text)
+
+
+def optional(text: str) -> Any:
+    """Describe a key that may be left out."""
+    return Field(None, description=text)
+
+
+def by_type(kind: type, of_kind: Any, otherwise: Any) -> Any:
+    """Return the type of a value that is `of_kind` if it is a `kind`, else `otherwise`."""
+    return Annotated[
+        Annotated[of_kind, Tag("<of kind>")] | Annotated[otherwise, Tag("<otherwise>")],
+        Discriminator(lambda value: "<of kind>" if isinstance(value, kind) else "<otherwise>"),
+    ]
+
+
+def both(first: Any, second: Any) -> Any:
+    """Return the type of a list of two values of different types."""
+    return Annotated[tuple[first, second], Field(strict=False)]
+
+
+def quantity(word: str, unit: str, *limits: str) -> Any:
+    """Return the type of a text with a unit, positive and within `limits` if these are given."""
+
+    def check(value: Any) -> str:
+        try:
+            found = si(value, unit)
+        except ValueError as error:
+            raise Refusal(f" = {error}") from None
+        if not found > 0:
+            raise Refusal(f" = {value!r} must be positive")
+        if limits and not si(limits[0], unit) <= found <= si(limits[1], unit):
+            low, high = limits
+            raise Refusal(f" = {value!r} must be in {low} … {high}; no solid is beyond")
+        return value
+
+    return Annotated[str, BeforeValidator(check), Field(json_schema_extra={"quantity": word})]
+
+
+def one_or_two(kind: Any) -> Any:
+    """Return the type of a value or of a list of two of them."""
+    return by_type(list, Pair[kind], kind)
+
+
+def _refuse_repeated(values: list[Any]) -> list[Any]:
+    if len({str(value) for value in values}) < len(values):
+        raise Refusal(f" = {values!r} must not repeat a value")
+    return values
+
+
+Text = Annotated[str, Field(min_length=1)]
+Name = Annotated[str, Field(pattern=r"^[A-Za-z0-9][A-Za-z0-9._-]*$")]
+Names = Annotated[dict[Name, T], Field(min_length=1)]
+Several = Annotated[list[T], Field(min_length=1), AfterValidator(_refuse_repeated)]
+Pair = Annotated[list[T], Field(min_length=2, max_length=2)]
+
+Positive = Annotated[float, Field(gt=0)]
+Share = Annotated[float, Field(gt=0, le=1)]
+Poisson = Annotated[float, Field(ge=0, le=0.5)]
+Count = Annotated[int, Field(ge=1, le=10000)]
+CoarseCount = Annotated[int, Field(ge=32, le=10000)]
+Index = Annotated[int, Field(ge=0)]
+Pixels = Annotated[int, Field(ge=4, multiple_of=2)]
+Values = Several[Positive]
+Loads = Annotated[Values, Field(description="mean pressures over E* q0 h_rms")]
+Hurst = Annotated[float, Field(gt=0, le=1, description="Hurst exponent in (0, 1]")]
+Magnification = Annotated[float, Field(gt=1, description="q1/q0, above 1")]
+Law = Annotated[Literal["exponential", "maugis"], Field(description="traction law")]
+
+Length = quantity("length", "m")
+WaveNumber = quantity("wave number", "1/m")
+Pressure = quantity("pressure", "Pa")
+Frequency = quantity("frequency", "Hz")
+Time = quantity("time", "s")
+# Limits are far wider than the values of real solids and catch mistaken prefixes; tough tapes
+# dissipate 1 kJ/m^2.
+Modulus = quantity("modulus", "Pa", "1 Pa", "100000 GPa")
+Energy = quantity("energy per area", "J/m^2", "1e-9 J/m^2", "10000 J/m^2")
+Range = quantity("length", "m", "1e-12 m", "1e-4 m")
+Thickness = quantity("length", "m", "1e-10 m", "1 m")
+
+
+class Labelled(Section):
+    """Text about an entry."""
+
+    label: Text = needed("name for readers")
+    source: Text = needed("where the values or the data come from")
+    note: str = optional("a remark for readers")
+
+
+class Grid(Section):
+    """Values spaced evenly on a logarithmic axis."""
+
+    minimum: Positive = needed("smallest value")
+    maximum: Positive = needed("largest value")
+    per_decade: Annotated[int, Field(ge=1, le=200)] = needed("values per decade")
+
+    def _problems(self, context: Mapping[str, Any]) -> Iterable[str]:
+        if not self.minimum < self.maximum:
+            yield f"minimum = {self.minimum:g} must be below maximum = {self.maximum:g}"

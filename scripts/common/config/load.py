@@ -1,0 +1,170 @@
+"""Reading the configuration, and checking it before any job starts.
+
+An error is one line that names file, key and value and says what would be right. The models are
+imported only where they are used, since jobs read a configuration that was checked before.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import Any
+
+import yaml
+
+TABLES = ("materials", "surfaces", "experiments")  #: files of their own, by the key that names them
+USER, PAPER = "config/config.yaml", "config/campaigns/paper.yaml"  #: files that are read as one
+
+# What errors of pydantic say here, by its names of them.
+_REASONS = {
+    "greater_than": "must be greater than {gt:g}",
+    "greater_than_equal": "must be at least {ge:g}",
+    "less_than": "must be below {lt:g}",
+    "less_than_equal": "must be at most {le:g}",
+    "multiple_of": "must be a multiple of {multiple_of:g}",
+    "too_short": "needs at least {min_length} entries",
+    "too_long": "takes at most {max_length} entries",
+    "missing": "needs two entries",
+    "string_too_short": "must not be empty",
+    "string_pattern_mismatch": "is no name: use letters, digits, dot, dash and underscore",
+    "int_type": "must be a whole number",
+    "float_type": "must be a number",
+    "string_type": "must be a text",
+    "bool_type": "must be true or false",
+    "list_type": "must be a list",
+    "tuple_type": "must be a list of two",
+    "dict_type": "must hold names and their entries",
+    "model_type": "must hold keys and values",
+}
+
+
+class ConfigError(ValueError):
+    """A key of the configuration is unknown, missing or has a value that cannot be used."""
+
+
+class _UniqueKeys(getattr(yaml, "CSafeLoader", yaml.SafeLoader)):  # libyaml where it is built in
+    """Loader that refuses a key given twice, of which YAML would keep the second."""
+
+    def construct_mapping(self, node: yaml.MappingNode, deep: bool = False) -> dict[Any, Any]:
+        seen = set()
+        for key, _ in node.value:
+            if key.value in seen and key.value != "<<":
+                problem = f"the key {key.value!r} is given twice"
+                raise yaml.constructor.ConstructorError(
+                    problem=problem, problem_mark=key.start_mark
+                )
+            seen.add(key.value)
+        return super().construct_mapping(node, deep)
+
+
+def load(path: str | Path) -> dict[str, Any]:
+    """Read a YAML file of the configuration; a ConfigError says if it is missing or not valid."""
+    try:
+        content = yaml.load(Path(path).read_text(encoding="utf-8"), _UniqueKeys)
+    except FileNotFoundError:
+        raise ConfigError(f"{path}: no such file; set its path in {USER}") from None
+    except yaml.YAMLError as error:
+        mark = getattr(error, "problem_mark", None)
+        line = f" line {mark.line + 1}" if mark else ""
+        raise ConfigError(
+            f"{path}:{line}: not valid YAML: {getattr(error, 'problem', error)}"
+        ) from None
+    if not isinstance(content, dict):
+        raise ConfigError(f"{path}: must hold keys and values, found {type(content).__name__}")
+    return content
+
+
+def defaults(project: str | Path, locate: Callable[[str], str] = str) -> dict[str, Any]:
+    """Read the configuration of the project and of the paper's figures, which users override.
+
+    `locate` turns the paths of the tables in the project into paths from the folder of the run.
+    """
+    config = load(Path(project, PAPER)) | load(Path(project, USER))
+    return config | {table: str(locate(config[table])) for table in TABLES}
+
+
+def campaign(project: str | Path, name: str) -> dict[str, Any]:
+    """Read a campaign of the project: ``tradeoff`` or ``remaining``.
+
+    Campaigns are measured once for all users, whose configuration does not change them.
+    """
+    return load(Path(project, f"config/campaigns/{name}.yaml"))
+
+
+def check_all(
+    config: Mapping[str, Any],
+    campaigns: Mapping[str, Any],
+    given: Mapping[str, Any],
+    name: str = USER,
+    made: bool = False,
+) -> None:
+    """Check the whole configuration and the files it names, without changing any of it.
+
+    Parameters
+    ----------
+    config : mapping
+        `defaults` with everything that overrides them.
+    campaigns : mapping
+        Content of the campaigns by their names.
+    given : mapping
+        What the user gives: errors in it name the file `name`, others that of the paper's figures.
+    name : str
+        File of the user's configuration in errors.
+    made : bool
+        Whether measured files may be missing, since another workflow makes them.
+
+    Raises
+    ------
+    ConfigError
+        One line on what is wrong first.
+    """
+    from common.config import campaigns as models_of_campaigns
+    from common.config.experiments import Experiments
+    from common.config.materials import Materials
+    from common.config.models import Configuration
+    from common.config.surfaces import Surfaces
+
+    try:
+        check(Configuration, config, "")
+    except ConfigError as error:
+        text = str(error).removeprefix(": ")
+        top = re.match(r"\w*", text)[0]
+        paper = top in Configuration.model_fields and top not in given and top in config
+        raise ConfigError(f"{PAPER if paper else name}: {text}") from None
+    materials, surfaces, experiments = (load(config[table]) for table in TABLES)
+    check(Materials, materials, config["materials"], surfaces=surfaces.get("surfaces", {}))
+    check(Surfaces, surfaces, config["surfaces"], made=made)
+    check(Experiments, experiments, config["experiments"])
+    for campaign_name, content in campaigns.items():
+        model = getattr(models_of_campaigns, campaign_name.capitalize())
+        check(model, content, f"config/campaigns/{campaign_name}.yaml", config=config)
+
+
+def check(model: type, content: Mapping[str, Any], file: str, **context: Any) -> None:
+    """Check the content of a file against its model; a ConfigError says what is wrong first."""
+    from pydantic import ValidationError
+
+    try:
+        model.model_validate(content, context=context)
+    except ValidationError as error:
+        raise ConfigError(f"{file}: {one_line(error.errors()[0])}") from None
+
+
+def one_line(error: Mapping[str, Any]) -> str:
+    """Say in one line what pydantic finds wrong: key, value and what would be right."""
+    from common.config.fields import suggest
+
+    # Names of choices between types, and the mark of a name that is wrong, are no keys.
+    steps = [step for step in error["loc"] if not re.match(r"<|\[key\]", str(step))]
+    path = "".join(f"[{step}]" if isinstance(step, int) else f".{step}" for step in steps)[1:]
+    value, details = error["input"], error.get("ctx", {})
+    if error["type"] == "value_error":
+        return f"{path}{details['error']}".lstrip(":. ")
+    if error["type"] == "literal_error":
+        choices = [
+            choice for choice in re.findall(r"[\w.]+", details["expected"]) if choice != "or"
+        ]
+        return f"{path} = {value!r} is unknown; {suggest(value, choices)}"
+    reason = _REASONS.get(error["type"], error["msg"]).format(**details)
+    return f"{path} = {value!r} {reason.replace('1 entries', '1 entry')}"

@@ -1,0 +1,392 @@
+"""Models of config/config.yaml and config/campaigns/paper.yaml, which are read as one."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+from typing import Annotated, Any, Literal
+
+from pydantic import AfterValidator, Field
+
+from common.config import fields as f
+from common.config.fields import Section, needed, optional
+from common.config.surfaces import Direction
+from stickiness.accuracy.quantities import QUANTITIES
+
+# What the figures and the claims read; may be edited but not removed.
+PAPER_CASES = ("H0.8_zeta32", "H0.8_zeta64", "H0.8_zeta128", "H0.8_zeta32_wide")
+PAPER_SWEEPS = ("fig1a", "fig1b", "fig3a", "fig3b", "fig3c", "fig3d")
+PAPER_SETS = ("fig2", "fig4b_rough", "fig4b_rough_near", "fig4b_smooth", "dmt_error")
+
+AtMost = Annotated[int, Field(ge=2, le=128)]
+Estimator = Literal["multilevel", "plain"]
+
+
+def _ascend(values: list[float]) -> list[float]:
+    if values != sorted(values):
+        raise f.Refusal(f" = {values!r} must be in increasing order")
+    return values
+
+
+Axis = Annotated[f.Values, Field(min_length=4), AfterValidator(_ascend)]
+
+
+class Fidelity(Section):
+    """A preset of accuracy.
+
+    Each realisation is also solved on half the points, which gives the discretisation error, and on
+    2 points per shortest wavelength. With `coarse_seeds` further realisations are solved on the
+    coarse grid only; at least 32, so that the effect of their long waves can be fitted.
+    """
+
+    pixels_per_wavelength: f.Pixels = needed("grid points per shortest wavelength")
+    tolerance: Annotated[float, Field(gt=0, le=1e-3)] = needed("residual of the solver over h_rms")
+    seeds: f.Count = needed("realisations of a case")
+    coarse_seeds: f.CoarseCount = optional("realisations on the coarse grid only; default 64")
+    comparisons: f.Several[str] = optional("which of comparisons.surfaces to compute; default all")
+
+
+class Sampling(Section):
+    """How means over realisations are estimated.
+
+    `plain` takes the mean of the seeds; `multilevel` corrects it by coarse solutions of more seeds,
+    and these by the long waves of further seeds, which need no solution.
+    """
+
+    method: Estimator = needed("how the mean is estimated")
+    descriptor_seeds: Annotated[int, Field(ge=100, le=100000)] = needed(
+        "realisations of which only the long waves are used"
+    )
+    at_most: AtMost = optional("largest number of seeds chosen for an accuracy; default 128")
+
+
+class Band(Section):
+    """Spectrum and cell of a random periodic surface."""
+
+    hurst: f.Hurst
+    magnification: f.Magnification
+    window: Annotated[float, Field(ge=1)] = optional("side of the cell over 2 pi/q0; default 1")
+
+
+class BandWithPlateau(Band):
+    """A spectrum that may be flat at long waves."""
+
+    rolloff: f.Magnification = optional("q_rolloff/q0, below which the spectrum is flat")
+
+    def _problems(self, context: Mapping[str, Any]) -> Iterable[str]:
+        if self.rolloff is not None and self.rolloff >= self.magnification:
+            yield (
+                f"rolloff = {self.rolloff:g} must be below magnification = {self.magnification:g}"
+            )
+
+
+class ModelSurface(BandWithPlateau, Direction):
+    """A random periodic surface.
+
+    Error models were measured with gaussian amplitudes (the default) and without a roll-off.
+    """
+
+    amplitudes: Literal["gaussian", "fixed"] = optional("amplitudes of the modes")
+
+
+class Case(Section):
+    """A contact simulation."""
+
+    old = {"carry_to": "is gone: simulate the broad spectrum, or give model: theory"}
+
+    surface: str = needed("name in model_surfaces")
+    pressures: f.Loads
+    accuracy: f.Share = optional("relative error that covers 90 %, e.g. 0.03")
+    at_most: AtMost = optional("largest number of seeds for it; overrides sampling.at_most")
+    quantities: f.Several[Literal[tuple(QUANTITIES)]] = optional(
+        "what is wanted; default all but contact_slope, which needs seeds instead of accuracy"
+    )
+    model: Literal["simulation", "theory"] = optional("Persson's theory alone; default simulation")
+    seeds: f.Count = optional("realisations of this case; overrides all other numbers of them")
+    sampling: Estimator = optional("overrides sampling.method")
+    maps: f.Values = optional("loads at which gaps and pressures of the first seed are kept")
+
+    def _problems(self, context: Mapping[str, Any]) -> Iterable[str]:
+        for key in ("accuracy", "at_most", "seeds", "sampling", "maps"):
+            value = getattr(self, key)
+            if self.model == "theory" and value is not None:
+                yield f"{key} = {value!r} is for simulations; leave it out with model: theory"
+        if self.at_most is not None and self.accuracy is None:
+            yield f"at_most = {self.at_most} needs accuracy; give seeds for a fixed number"
+        for pressure in self.maps or []:
+            if pressure not in self.pressures:
+                yield f"maps: {pressure:g} is not among the case's pressures"
+
+
+class Comparison(Band):
+    """A surface on which theory is compared with simulation."""
+
+    seeds: Annotated[int, Field(ge=2, le=10000)] = needed("realisations")
+    coarse_seeds: f.CoarseCount = optional("realisations on the coarse grid only; default none")
+    pixels_per_wavelength: f.Pixels = optional("upper limit of the number of the fidelity")
+
+
+class Comparisons(Section):
+    """Comparison of theory with simulation, beside the cases."""
+
+    pressures: f.Loads
+    surfaces: f.Names[Comparison] = needed("surfaces by name; one job solves all of one surface")
+
+
+class Table(Section):
+    """Points at which a_V is tabulated, at least 4 along each axis, in increasing order."""
+
+    hurst: Annotated[Axis, Field(description="Hurst exponents")]
+    magnification: Annotated[Axis, Field(description="magnifications q1/q0")]
+    pressure: Annotated[Axis, Field(description="mean pressures over E* q0 h_rms")]
+    range: f.Grid = needed("range over h_rms")
+
+
+class Sweep(Section):
+    """Theory on continuous spectra for every combination of the lists."""
+
+    one_of = (("pressure", "mean_gap"),)
+
+    hurst: f.Several[f.Hurst] = needed("Hurst exponents")
+    magnification: f.Several[f.Magnification] = needed("magnifications q1/q0")
+    pressure: f.Values = optional("mean pressures over E* q0 h_rms")
+    mean_gap: f.Values = optional("mean gaps over h_rms, instead of pressures")
+
+
+class Theory(Section):
+    """Persson's theory."""
+
+    variants: f.Several[Literal["afferrante2018", "almqvist2011"]] = needed(
+        "afferrante2018 is quoted and must be there; others show the spread"
+    )
+    gamma: f.Share = needed("gamma of Yang & Persson's correction; 1 switches the correction off")
+    table: Table = needed("points at which a_V is tabulated")
+    sweeps: f.Names[Sweep] = needed("computations on continuous spectra, by name")
+
+    def _problems(self, context: Mapping[str, Any]) -> Iterable[str]:
+        if "afferrante2018" not in self.variants:
+            yield f"variants = {self.variants!r} lacks 'afferrante2018', which is quoted"
+
+
+class FitIntervals(Section):
+    """Fit of a_V to attractive areas."""
+
+    windows: f.Several[f.Pair[f.Positive]] = needed(
+        "fit intervals [low, high] of range/h_rms; the first is quoted, others show its influence"
+    )
+
+    def _problems(self, context: Mapping[str, Any]) -> Iterable[str]:
+        for index, (low, high) in enumerate(self.windows):
+            if not low < high:
+                yield f"windows[{index}] = {[low, high]!r} must be [low, high] with low < high"
+
+
+class Adhesive(Section):
+    """Adhesive parameters of simulations."""
+
+    one_of = (("q0_h_rms", "window and h_rms"),)
+
+    law: f.Law
+    q0_h_rms: f.Positive = optional("q0 h_rms; or give window and h_rms")
+    window: f.Length = optional('longest wavelength, e.g. "100 um"')
+    h_rms: f.Length = optional('rms height, e.g. "5 um"')
+    adhesion_length_over_range: f.Values = needed("work of adhesion over E* and over the range")
+
+
+class AdhesiveMaps(Section):
+    """States of the first realisation, simulated in full, whose fields are kept."""
+
+    pressures: f.Loads
+    range_over_h_rms: f.Positive = needed("range over h_rms")
+    adhesion_length_over_range: f.Positive = needed("adhesion length over range")
+
+
+class AdhesionSet(Adhesive):
+    """Adhesion for every combination of the lists.
+
+    Adhesion is computed at the mean gaps that the pressures have without it: `dmt` sums the
+    attraction over the gaps without adhesion, `full` simulates by boundary elements, and `auto`
+    takes dmt where its measured error is within the accuracy.
+    """
+
+    case: str = needed("name in cases")
+    range_over_h_rms: f.Values = needed("ranges of attraction over h_rms")
+    pressures: f.Values = needed("some of the case's pressures")
+    model: Literal["auto", "dmt", "full"] = needed("how adhesion is computed")
+    accuracy: f.Share = optional("allowed relative error of 1/kappa_ad, for model: auto")
+    seeds: f.Count = optional("largest number of realisations that are simulated in full")
+    refine: Literal[1, 2, 4] = optional("refinement of the case's grid; default 1")
+    maps: AdhesiveMaps = optional("states whose fields are kept")
+
+    def _problems(self, context: Mapping[str, Any]) -> Iterable[str]:
+        if self.model == "auto" and self.accuracy is None:
+            yield "accuracy is missing; model: auto chooses by it, relative in 1/kappa_ad"
+        if self.model != "auto" and self.accuracy is not None:
+            yield f"accuracy = {self.accuracy:g} needs model: auto, which chooses by it"
+        for key in ("seeds", "refine", "maps"):
+            if self.model == "dmt" and getattr(self, key) is not None:
+                yield f"{key} is of the full model; leave it out with model: dmt"
+
+
+class Loop(Adhesive):
+    """Approach and separation of one realisation."""
+
+    surface: str = needed("name in model_surfaces")
+    range_over_h_rms: f.Positive = needed("range of attraction over h_rms")
+    pressure: f.Positive = needed("largest mean pressure over E* q0 h_rms")
+
+
+class ReferenceCase(Section):
+    """Where the a_V of the paper's criterion is simulated; theory extrapolates it."""
+
+    old = {"measured": "is gone: a_V now comes from the run itself"}
+
+    case: str = needed("name in cases")
+    pressure: f.Positive = needed("one of the pressures of that case, over E* q0 h_rms")
+
+
+class CriterionMap(Section):
+    """Map of the paper's criterion, Figure 5."""
+
+    hurst: f.Hurst
+    shortest_over_range: f.Positive = needed("shortest wavelength over the range of attraction")
+    range_times_q0: f.Grid = needed("range times q0")
+    adhesion_length_over_range: f.Grid = needed("adhesion length over range")
+    slope_parameter: f.Values = needed("range q0/(l_a/range) of the curves of the slope angle")
+    slope_a_v: f.Positive = needed("a_V of these curves")
+
+
+class Compared(Section):
+    """Adhesion that each criterion requires, Figure 9."""
+
+    hurst: f.Hurst
+    range_times_q0: f.Positive = needed("range times q0")
+    h_rms_over_range: f.Grid = needed("rms height over range")
+    quoted_h_rms_over_range: f.Positive = needed("where the magnification is varied")
+    magnification: f.Grid = needed("q1/q0")
+    quoted_magnification: f.Magnification = needed("where the rms height is varied")
+
+
+class Criteria(Section):
+    """Criteria of stickiness."""
+
+    old = {"ranges": "is gone: theory on real surfaces is evaluated at fixed ranges"}
+
+    a_v: ReferenceCase = needed("where the a_V of the paper's criterion is simulated")
+    frequencies: f.Grid = needed("frequencies [Hz] at which pairs are judged, beside 1 Hz")
+    map: CriterionMap = needed("map of the paper's criterion, Figure 5")
+    compared: Compared = needed("adhesion that each criterion requires, Figure 9")
+
+
+class Configuration(Section):
+    """The user's configuration, together with that of the paper's figures."""
+
+    old = {
+        "tradeoff": "is gone: config/campaigns/tradeoff.yaml holds that campaign",
+        "remaining": "is gone: config/campaigns/remaining.yaml holds that campaign",
+        "dmt_error": "is gone: the file is always config/dmt_error.csv",
+    }
+
+    results: f.Text = needed("folder for everything that is computed, with one for each fidelity")
+    fidelity: str = needed("preset to use: draft, standard, fine or one of your own")
+    seeds: f.Count = optional("number of realisations; overrides the preset's")
+    fidelities: f.Names[Fidelity] = needed("presets of accuracy by name")
+    sampling: Sampling = needed("how means over realisations are estimated")
+    gaps: f.Grid = needed("gaps over h_rms at which attractive areas and P(u) are evaluated")
+    model_surfaces: f.Names[ModelSurface] = needed("random periodic surfaces, by name")
+    cases: f.Names[Case] = needed("contact simulations by name")
+    materials: str = needed("file of the materials")
+    surfaces: str = needed("file of the real surfaces")
+    experiments: str = needed("file of the published experiments")
+    comparisons: Comparisons = needed("surfaces on which theory is compared with simulation")
+    theory: Theory = needed("Persson's theory")
+    a_v: FitIntervals = needed("fit of a_V to attractive areas")
+    adhesion: f.Names[AdhesionSet] = needed("sets of adhesive parameters, by name")
+    loops: f.Names[Loop] = needed("approach and separation of one realisation, by name")
+    criteria: Criteria = needed("criteria of stickiness")
+
+    def _problems(self, context: Mapping[str, Any]) -> Iterable[str]:
+        yield from self._paper_problems()
+        for key, name, known in self._references():
+            if name not in known:
+                yield f.unknown(key, name, known)
+        for name in sorted(self.comparisons.surfaces.keys() & self.cases.keys()):
+            yield f"comparisons.surfaces.{name} has the name of a case; give it another"
+        for key, case, pressure in self._loads():
+            if pressure not in self.cases[case].pressures:
+                yield f"{key} = {pressure:g} is not among the pressures of cases.{case}"
+        for key, value, axis, low, high in self._limits():
+            if not low <= value <= high:
+                yield f"{key} = {value:g} must lie within {axis} {low:g} … {high:g}"
+
+    def _paper_problems(self) -> Iterator[str]:
+        """Require what the figures and the claims read."""
+        for table, present, names in (
+            ("cases", self.cases, PAPER_CASES),
+            ("theory.sweeps", self.theory.sweeps, PAPER_SWEEPS),
+            ("adhesion", self.adhesion, PAPER_SETS),
+            ("loops", self.loops, ["fig4a"]),
+        ):
+            for name in names:
+                if name not in present:
+                    yield f"{table}: {name!r} is missing; the paper's figures and claims need it"
+        if self.adhesion["fig2"].maps is None:
+            yield "adhesion.fig2.maps is missing; Figure 2 needs it: {pressures, ...}"
+        if self.adhesion["dmt_error"].model != "full":
+            yield "adhesion.dmt_error.model must be full; the error of the DMT limit is measured"
+        users = dict.fromkeys(PAPER_CASES, "the paper's figures and claims")
+        users |= {asked.case: f"adhesion.{key}" for key, asked in self.adhesion.items()}
+        users[self.criteria.a_v.case] = "criteria.a_v"
+        for name, user in users.items():
+            for key in ("quantities", "model"):
+                value = getattr(self.cases.get(name), key, None)
+                if value not in (None, "simulation"):
+                    yield (
+                        f"cases.{name}.{key} = {value!r}: leave it out, {user} needs every "
+                        "quantity by simulation; or add a case"
+                    )
+
+    def _references(self) -> Iterator[tuple[str, str, Mapping[str, Any]]]:
+        """Yield keys that name entries: key, name, and the entries that there are."""
+        yield "fidelity", self.fidelity, self.fidelities
+        for key, fidelity in self.fidelities.items():
+            for name in fidelity.comparisons or []:
+                yield f"fidelities.{key}.comparisons", name, self.comparisons.surfaces
+        for key, case in self.cases.items():
+            yield f"cases.{key}.surface", case.surface, self.model_surfaces
+        for key, loop in self.loops.items():
+            yield f"loops.{key}.surface", loop.surface, self.model_surfaces
+        for key, asked in self.adhesion.items():
+            yield f"adhesion.{key}.case", asked.case, self.cases
+        yield "criteria.a_v.case", self.criteria.a_v.case, self.cases
+
+    def _loads(self) -> Iterator[tuple[str, str, float]]:
+        """Yield keys whose pressures a case must have: key, case and pressure."""
+        for key, asked in self.adhesion.items():
+            for pressure in asked.pressures:
+                yield f"adhesion.{key}.pressures", asked.case, pressure
+        yield "criteria.a_v.pressure", self.criteria.a_v.case, self.criteria.a_v.pressure
+
+    def _limits(self) -> Iterator[tuple[str, float, str, float, float]]:
+        """Yield keys that the grid of gaps and the table of a_V limit, with both limits."""
+        gaps = "gaps.minimum … gaps.maximum:", self.gaps.minimum, self.gaps.maximum
+        for index, window in enumerate(self.a_v.windows):
+            for end in window:
+                yield f"a_v.windows[{index}]", end, *gaps
+        for key, asked in self.adhesion.items():
+            for value in asked.range_over_h_rms:
+                yield f"adhesion.{key}.range_over_h_rms", value, *gaps
+        table, criteria = self.theory.table, self.criteria
+        hurst, pressure, broad = (
+            (f"theory.table.{axis}", getattr(table, axis)[0], getattr(table, axis)[-1])
+            for axis in ("hurst", "pressure", "magnification")
+        )
+        rough = "theory.table.range, inverted:", 1 / table.range.maximum, 1 / table.range.minimum
+        yield "criteria.a_v.pressure", criteria.a_v.pressure, *pressure
+        yield "criteria.map.hurst", criteria.map.hurst, *hurst
+        compared = criteria.compared
+        yield "criteria.compared.hurst", compared.hurst, *hurst
+        for key, limits in (("magnification", broad), ("h_rms_over_range", rough)):
+            grid, quoted = getattr(compared, key), getattr(compared, f"quoted_{key}")
+            yield f"criteria.compared.{key}.minimum", grid.minimum, *limits
+            yield f"criteria.compared.{key}.maximum", grid.maximum, *limits
+            yield f"criteria.compared.quoted_{key}", quoted, *limits

@@ -1,0 +1,262 @@
+"""Models of config/surfaces.yaml."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator, Mapping
+from pathlib import Path
+from typing import Annotated, Any, Literal
+
+from pydantic import Discriminator, Field, Tag
+
+from common.config import fields as f
+from common.config.entries import has_units, measurements
+from common.config.fields import Section, needed, optional
+from common.config.materials import ElasticPair
+from stickiness import plausibility
+from stickiness.measured import readers
+from stickiness.units import si
+
+_BUILTIN = ("builtin:jacksboro",)
+
+
+class Direction(Section):
+    """Direction of a rough surface."""
+
+    anisotropy: Annotated[float, Field(ge=1, le=100)] = optional(
+        "ratio of the long to the short correlation length; default 1"
+    )
+    angle: Annotated[float, Field(ge=-180, le=180)] = optional(
+        "direction of the long correlation length from x, in degrees"
+    )
+
+
+class RealSurface(f.Labelled):
+    """What every real surface has."""
+
+    kind: Literal["self_affine", "measured"] = needed("parameters of a spectrum, or a measurement")
+
+
+class SelfAffine(RealSurface, Direction):
+    """A surface of `kind: self_affine`."""
+
+    one_of = (("longest_wavelength", "q0"), ("shortest_wavelength", "q1"), ("h_rms", "C0"))
+
+    hurst: f.Hurst
+    longest_wavelength: f.Length = optional('longest wavelength, e.g. "6 mm"; or give q0')
+    shortest_wavelength: f.Length = optional('shortest wavelength, e.g. "1 um"; or give q1')
+    q0: f.WaveNumber = optional('lowest wave number, e.g. "1e3 1/m"')
+    q1: f.WaveNumber = optional('highest wave number, e.g. "1e9 1/m"')
+    rolloff_wavelength: f.Length = optional("wavelength above which the spectrum is flat")
+    h_rms: f.one_or_two(f.Length) = optional('rms height or its range, e.g. ["0.5 um", "2 um"]')
+    C0: f.one_or_two(str) = optional('prefactor of C0 q^(-2(H+1)) or its range, e.g. "1e-3 m^0.4"')
+
+    def _problems(self, context: Mapping[str, Any]) -> Iterable[str]:
+        longest = _wavelength(self.longest_wavelength, self.q0)
+        shortest = _wavelength(self.shortest_wavelength, self.q1)
+        if not shortest < longest:
+            yield f"shortest_wavelength = {shortest:g} m must be below the longest, {longest:g} m"
+        if self.rolloff_wavelength is not None:
+            rolloff = si(self.rolloff_wavelength, "m")
+            if not shortest < rolloff < longest:
+                yield f"rolloff_wavelength = {rolloff:g} m must be in {shortest:g} … {longest:g} m"
+        unit_of_c0 = f"m^{2 - 2 * self.hurst:g}"
+        for key, given, unit in (("C0", self.C0, unit_of_c0), ("h_rms", self.h_rms, "m")):
+            try:
+                values = [si(value, unit) for value in _as_list(given or [])]
+            except ValueError as error:
+                yield f"{key} = {error}"
+                return
+            if not all(value > 0 for value in values):
+                yield f"{key} = {given!r} must be positive"
+            if values != sorted(values):
+                yield f"{key} = {given!r} must be [low, high]"
+
+
+class Reading(Section):
+    """How a measured file is read and analysed."""
+
+    file: f.Text = needed(
+        'path of a file of any instrument, .nc, .npz, .npy or text, or "builtin:jacksboro"'
+    )
+    format: f.Text = optional(
+        "netcdf, numpy, text, instrument or a format of SurfaceTopography, if the name misleads"
+    )
+    channel: f.by_type(str, str, f.Index) = optional("channel of an instrument's file")
+    variable: str = optional("NetCDF variable or npz key")
+    length: f.one_or_two(f.Length) = optional("side, or sides along x and y, of what was measured")
+    pixel_size: f.one_or_two(f.Length) = optional("grid step, instead of length")
+    height_unit: str = optional('unit of the heights, e.g. "nm"')
+    position_unit: str = optional('unit of the positions of a line profile, e.g. "um"')
+    missing_value: float = optional("number that marks missing points besides NaN")
+    missing: Literal["fill", "crop", "refuse"] = optional(
+        "interpolate missing points, cut to the largest rectangle without any, or stop"
+    )
+    max_missing: Annotated[float, Field(ge=0, lt=1)] = optional("largest share that is filled")
+    missing_rim: f.by_type(str, Literal["detect"], f.Index) = optional(
+        "points dropped around missing ones; default detect: as far as they stand out"
+    )
+    spikes: Literal["mask", "keep"] = optional(
+        "treat single points far off all their neighbours as missing (default), or keep them"
+    )
+    detrend: Literal["mean", "plane", "quadratic"] = optional(
+        "what to subtract from the heights; quadratic for curved specimens"
+    )
+    window: Literal["none", "hann", "hann_radial"] = optional(
+        "taper of the heights; none only for periodic heights"
+    )
+    fit_from: f.Length = optional("longest wavelength of the fit; default a quarter of the side")
+    fit_to: f.Length = optional("shortest wavelength of the fit; overrides the next three")
+    resolution: f.Length = optional("shortest wavelength that the instrument resolves")
+    tip_radius: f.Length = optional('radius of a scanning tip, e.g. "10 nm"')
+    cutoff: Literal["detect", "ignore"] = optional("blur and noise in the spectrum; default detect")
+
+
+class Contact(Section):
+    """Contact of the measured heights themselves.
+
+    A job asks for 2 GB of memory at 2048 points along a side, 7 GB at 4096 and 25 GB at 8192. A
+    load without adhesion takes about 5 s of processor at 2048 and 30 s at 4096; with adhesion
+    whose edges the grid does not resolve, about 3 min at 2048 and, extrapolated, 20 min at 4096.
+    """
+
+    pressures: f.Several[f.by_type(str, f.Pressure, f.Positive)] = needed(
+        'mean pressures over E* q0 h_rms; or with a unit, e.g. "0.25 MPa", beside `adhesion`'
+    )
+    shortest_wavelength: f.Length = optional("shortest wavelength to keep")
+    measurement: f.Index = optional("which of `measurements`, counted from 0; default the first")
+    periodic: bool = optional("true: the heights are periodic and pressed on the grid of the file")
+    most_points: Annotated[int, Field(ge=64, le=8192)] = optional(
+        "largest grid along a side; default 2048"
+    )
+    adhesion: ElasticPair = optional(
+        "contact with full adhesion on approach, attraction that decays exponentially, as well"
+    )
+
+    def _problems(self, context: Mapping[str, Any]) -> Iterable[str]:
+        for index, pressure in enumerate(self.pressures if has_units(self.pressures) else []):
+            key = f"pressures[{index}] = {pressure!r}"
+            if not isinstance(pressure, str):
+                yield f"{key} has no unit, while others have; give all of them one kind"
+            elif self.adhesion is None:
+                yield (
+                    f"{key} needs bem.adhesion, which gives the modulus; or give it over "
+                    "E* q0 h_rms, without a unit"
+                )
+        if has_units(self.pressures):
+            values = [f"{si(pressure, 'Pa'):.9e}" for pressure in self.pressures]
+            if len(set(values)) < len(values):
+                yield f"pressures = {self.pressures!r} must not repeat a value"
+
+
+class Measured(RealSurface, Reading):
+    """A surface of `kind: measured`.
+
+    Keys of reading apply to every measurement that does not give its own.
+    """
+
+    one_of = (("file", "measurements"),)
+
+    file: f.Text = None
+    measurements: Annotated[list[Reading], Field(min_length=2)] = optional(
+        "several files of one surface, averaged into one spectrum"
+    )
+    plausibility: Literal["check", "ignore"] = optional(
+        "check (default): no verdict on data that no surface has; ignore: a verdict all the same"
+    )
+    extend_to: f.Length = optional(
+        "shortest wavelength to which the fitted law is extended beyond the instrument"
+    )
+    bem: Contact = optional("contact of the measured heights themselves, made periodic")
+
+    def _problems(self, context: Mapping[str, Any]) -> Iterable[str]:
+        entries = measurements(self.model_dump(exclude_unset=True))
+        for prefix, entry in entries:
+            for problem in _file_problems(entry, context["made"]):
+                yield f"{prefix}{problem}"
+        if self.bem is None:
+            return
+        index = self.bem.measurement or 0
+        if index >= len(entries):
+            yield f"bem.measurement = {index} is counted from 0 and must be below {len(entries)}"
+            return
+        pressed = entries[index][1]
+        if self.bem.periodic and pressed.get("detrend", "mean") != "mean":
+            yield (
+                f"detrend = {pressed['detrend']!r} would break the period that bem.periodic "
+                "states; give detrend: mean"
+            )
+        if self.bem.periodic and pressed.get("missing") == "crop":
+            yield (
+                "missing = 'crop' would break the period that bem.periodic states; "
+                "give missing: fill or refuse"
+            )
+
+
+Surface = Annotated[
+    Annotated[Measured, Tag("<measured>")] | Annotated[SelfAffine, Tag("<self_affine>")],
+    Discriminator(
+        lambda given: (
+            "<measured>"
+            if isinstance(given, dict) and given.get("kind") == "measured"
+            else "<self_affine>"
+        )
+    ),
+]
+
+
+class Surfaces(Section):
+    """The file of real surfaces."""
+
+    surfaces: f.Names[Surface] = needed("real surfaces by name")
+
+
+def _file_problems(measurement: Mapping[str, Any], made: bool) -> Iterator[str]:
+    """Yield what is wrong with a measurement, as far as is known before its file is read."""
+    file = measurement["file"]
+    for key in ("height_unit", "position_unit"):
+        if key in measurement:
+            try:
+                si(f"1 {measurement[key]}", "m")
+            except ValueError as error:
+                yield f"{key} = {error}"
+    if file.startswith("builtin:"):
+        if file not in _BUILTIN:
+            yield f"file = {file!r} is unknown; built in: {', '.join(_BUILTIN)}"
+        return
+    if not Path(file).is_file():
+        if not made:
+            yield f"file = {file!r}: no such file; give a path from the working directory"
+        return
+    sides = _as_list(measurement.get("length", []))
+    for side in [] if measurement.get("plausibility") == "ignore" else sides:
+        if si(side, "m") > plausibility.LONGEST_SIDE:
+            yield f"length = {side!r} {plausibility.REFUSED_SIDE}"
+        if si(side, "m") < plausibility.SHORTEST_SIDE:
+            yield (
+                f"length = {side!r} is shorter than {plausibility.SHORTEST_SIDE:g} m, a few atoms; "
+                "correct it, or give plausibility: ignore if it is so"
+            )
+    if sides and "pixel_size" in measurement:
+        yield f"pixel_size = {measurement['pixel_size']!r}: give length or pixel_size, not both"
+    if measurement.get("missing", "fill") != "fill" and "max_missing" in measurement:
+        yield (
+            f"max_missing = {measurement['max_missing']!r} is the share that missing: fill fills; "
+            f"leave it out with missing: {measurement['missing']}"
+        )
+    kind = readers.format_of(file, measurement.get("format"))
+    if kind != readers.INSTRUMENT and "channel" in measurement:
+        yield f"channel = {measurement['channel']!r}: a {kind} file has no channels; leave it out"
+    if kind not in ("netcdf", "numpy") and "variable" in measurement:
+        yield f"variable = {measurement['variable']!r} is for NetCDF and npz, this file is neither"
+    fit_from, fit_to = (measurement.get(key) for key in ("fit_from", "fit_to"))
+    if fit_from and fit_to and not si(fit_to, "m") < si(fit_from, "m"):
+        yield f"fit_to = {fit_to!r} must be below fit_from = {fit_from!r}"
+
+
+def _wavelength(wavelength: str | None, wave_number: str | None) -> float:
+    return 2 * math.pi / si(wave_number, "1/m") if wavelength is None else si(wavelength, "m")
+
+
+def _as_list(value: Any) -> list[Any]:
+    return value if isinstance(value, list) else [value]

@@ -1,0 +1,253 @@
+"""Correction of the pressure where few points touch: an approximate compliance of these alone.
+
+Below 1 % of contact a convolution spends most of its work on points without pressure. The points
+that may touch, the *candidates*, are few, and mostly near ones displace each other. Their
+compliance is split by wave number, as Ewald split the Coulomb potential (Ann. Phys. 369:253, 1921):
+short waves give a sparse matrix of near pairs, long waves a convolution on a grid with a sixteenth
+of the points, between cubic B-splines (Essmann et al., J. Chem. Phys. 103:8577, 1995, doi
+10.1063/1.470117). It is accurate to 1 %: enough for a correction, after which `active_set` measures
+the true gap.
+"""
+
+import numpy as np
+from scipy import fft, sparse
+
+from stickiness.repulsive import convolution, half_space
+from stickiness.repulsive.preconditioner import close_gap
+
+# Beyond these two limits the whole grid is as cheap.
+_MAX_CANDIDATES = 0.012  # of all points
+_MAX_PAIRS = 0.8  # near pairs, per point of the grid
+_CANDIDATE_GAP = 1.0  # of the rms gap in contact: candidates are what lies below
+_SPACING = 4  # of the grid of long waves, in pixels
+_SPLIT_WIDTH = 0.8  # of the split, in spacings: the shortest wave of that grid keeps 0.013
+_REACH = 10  # of near pairs, in pixels
+_BESIDE = 3  # and of the stiffness that preconditions
+_TABLE = 64  # pixels along the sides of the table of near pairs
+ADMITTED_PENETRATION = (
+    0.7  #: penetrations up to this multiple of the rms gap in contact may yet vanish
+)
+_MAX_SET_CHANGES = 30  # changes of the set in a correction
+_USUAL_REDUCTION = 0.01  # reduction of the gap by a correction
+_BEST_REDUCTION = 0.002  # and one that it can still make, if it is the last
+_REDUCTION_WHILE_CHANGING = 0.1  # and one between changes of the set
+
+
+def is_worthwhile(shape, sides, count):
+    """Whether corrections among `count` candidates pay on a grid, of about square pixels."""
+    pixel = [a / n for a, n in zip(sides, shape, strict=True)]
+    square = max(pixel) < 1.5 * min(pixel)
+    return square and min(shape) >= 2 * _TABLE and count <= _MAX_CANDIDATES * shape[0] * shape[1]
+
+
+def select_candidates(grid, last, points, below, image, shift):
+    """Candidates at an iterate: the `last` ones unless some that penetrate, `below`, are missing.
+
+    `points` touch, and `image` plus `shift` is the gap. None if they are too many.
+    """
+    if last is not None:
+        grid.active[last.points] = True
+        missing = not grid.active[below].all()
+        grid.active[last.points] = False
+        if not missing:
+            return last
+    likely = image < _CANDIDATE_GAP * np.std(image[points]) - shift
+    likely[points] = True
+    if last is not None:
+        likely[last.points] = True
+    likely = np.flatnonzero(likely)
+    if not is_worthwhile(grid.shape, grid.sides, likely.size):
+        return None
+    split = _kept_split(grid.shape, tuple(grid.sides), grid.solid)
+    pairs = _pair(likely, grid.shape, split)
+    return None if pairs is None else Candidates(grid, likely, split, *pairs)
+
+
+class Candidates:
+    """Points that may touch (flat, increasing), and the approximate compliance among them."""
+
+    def __init__(self, grid, points, split, near, beside):
+        self.points = points
+        self._grid, self._split, self._near, self._beside = grid, split, near, beside
+        self._splines = _splines(points, grid.shape, split.coarse)
+        self._transpose = self._splines.T
+
+    def compliance(self, pressure):
+        """Displacement of all candidates, in single precision."""
+        self._grid.spent += 1 / _SPACING**2
+        image = self._splines @ self._split.convolve(self._transpose @ pressure)
+        return _multiply(self._near, pressure, image)
+
+    def stiffness(self, gap):
+        """Pressure for a gap in contact, short waves only: a preconditioner."""
+        return _multiply(self._beside, gap, 0)
+
+    def correct_pressure(self, points, pressure, gap, goal, limit):
+        """Correct a pressure on some candidates so as to close the `gap`, given at all of them.
+
+        Returns points, pressure and the number of iterations, about `limit` at most.
+        """
+        active = np.isin(self.points, points, assume_unique=True)
+        before = np.zeros(self.points.size)
+        before[active] = pressure
+        after, gap, count = before.copy(), gap - gap[active].mean(), 0
+        largest = float(np.abs(gap[active]).max())
+        if goal < _BEST_REDUCTION * largest:
+            goal = _USUAL_REDUCTION * largest
+        image = gap.copy()
+        for _ in range(_MAX_SET_CHANGES):
+            joined = gap < -max(ADMITTED_PENETRATION * float(np.std(gap[active])), goal)
+            settled = not (joined & ~active).any() and np.abs(gap[active]).max() <= goal
+            if settled or count >= limit:
+                break
+            touched, active = active, active | joined
+            misfit = gap[active].mean() - gap[active]
+            scale = float(np.abs(misfit).max()) or 1.0
+            misfit = (misfit / scale).astype(np.float32)
+            reduction = max(_REDUCTION_WHILE_CHANGING, 0.5 * goal / scale)
+            change, more = close_gap(
+                _Touching(self, active), misfit, reduction, True, limit - count
+            )
+            count += more
+            after[active] += (change - change.mean(dtype=float)) * scale
+            steady = not (joined & ~touched).any() and after[active].min() > 0
+            if steady and np.abs(misfit).max() * scale <= goal:
+                break
+            active = after > 0
+            after[~active] = 0
+            after *= pressure.sum() / after.sum()
+            gap = image + self.compliance((after - before).astype(np.float32))
+            gap -= gap[active].mean()
+        return self.points[active], after[active], count
+
+
+class _Touching:
+    """Compliance, and its preconditioner when called, of the candidates that touch."""
+
+    def __init__(self, candidates, active):
+        self._candidates = candidates
+        self._active = np.flatnonzero(active)
+        self._field = np.zeros(active.size, np.float32)
+
+    def compliance(self, pressure):
+        self._field[self._active] = pressure
+        return self._candidates.compliance(self._field)[self._active]
+
+    def __call__(self, gap):
+        self._field[self._active] = gap
+        return self._candidates.stiffness(self._field)[self._active]
+
+
+class _Split:
+    """Short and long waves of the compliance of a periodic solid on a grid."""
+
+    def __init__(self, shape, sides, solid):
+        self.coarse = tuple(fft.next_fast_len(-(-n // _SPACING), real=True) for n in shape)
+        width = _SPLIT_WIDTH * max(a / m for a, m in zip(sides, self.coarse, strict=True))
+        # Near pairs do not feel how large the cell is.
+        table, patch = (_TABLE, _TABLE), [_TABLE * a / n for a, n in zip(sides, shape, strict=True)]
+        q = half_space.effective_wavenumbers(table, patch, solid)
+        self.near = _truncate_kernel(_invert(q) * (1 - _long(table, patch, width)), _REACH)
+        self.beside = _truncate_kernel(q / 2, _BESIDE)
+        symbol = _invert(half_space.effective_wavenumbers(self.coarse, sides, solid))
+        symbol *= _long(self.coarse, sides, width)
+        blur = [np.sinc(np.fft.fftfreq(m)) ** 8 for m in self.coarse]  # of two cubic B-splines
+        symbol /= np.outer(blur[0], blur[1][: symbol.shape[1]]) * (shape[0] * shape[1])
+        self._convolution = convolution.choose(self.coarse, np.float32)
+        self._symbol = self._convolution.symbol(symbol.T)
+        self._image = np.zeros(self.coarse, np.float32)
+
+    def convolve(self, field):
+        """Long waves of all points of the coarse grid; the next call overwrites the result."""
+        field, every = field.reshape(self.coarse), np.arange(self.coarse[0])
+        self._convolution.apply(self._symbol, field, self._image, every, every)
+        return self._image.ravel()
+
+
+_kept_split = half_space.keep_per_thread(12)(_Split)
+
+
+def _long(shape, lengths, width):
+    """Share of a wave that counts as long: the rest falls off with distance to the power -5."""
+    x = (width * half_space.wavenumbers(shape, lengths)) ** 2
+    return np.exp(-x) * (1 + x)
+
+
+def _invert(q):
+    return np.divide(2, q, out=np.zeros_like(q), where=q > 0)
+
+
+def _truncate_kernel(symbol, reach):
+    """Kernel within a reach, on the half of a square that holds every pair once; its diagonal."""
+    kernel = np.fft.irfft2(symbol, (_TABLE, _TABLE)).astype(np.float32)
+    first, second = np.arange(_REACH + 1)[:, None], np.arange(-_REACH, _REACH + 1)
+    return np.where(np.hypot(first, second) <= reach, kernel[first, second], 0), kernel[0, 0]
+
+
+def _multiply(matrix, values, image):
+    """Add to an image the product of values and a symmetric matrix: two halves and diagonal."""
+    upper, lower, diagonal = matrix
+    image = image + upper @ values
+    image += lower @ values
+    image += diagonal * values
+    return image
+
+
+def _pair(points, shape, split):
+    """Matrices, for `_multiply`, of the near compliance and of the stiffness next by.
+
+    None if there are too many pairs.
+    """
+    size, width, span = points.size, shape[1] + 2 * _REACH, np.int32(2 * _REACH + 1)
+    row, column = np.divmod(points.astype(np.int32), np.int32(shape[1]))
+    # Rows go on beyond both ends of the cell, so that neighbours follow one another there too.
+    left, right = np.flatnonzero(column >= shape[1] - _REACH), np.flatnonzero(column < _REACH)
+    index = np.concatenate([np.arange(size, dtype=np.int32), left, right], dtype=np.int32)
+    places = row[index] * np.int32(width) + column[index] + np.int32(_REACH)
+    places[size : size + left.size] -= np.int32(shape[1])
+    places[size + left.size :] += np.int32(shape[1])
+    order = np.argsort(places, kind="stable")
+    places, index = places[order], index[order]
+    # In every row the neighbours are a run of points: the half of a disk holds every pair once.
+    down = np.arange(_REACH + 1, dtype=np.int32)[:, None]
+    half = np.sqrt(_REACH**2 - down**2).astype(np.int32)
+    corner = (row + down) % np.int32(shape[0]) * np.int32(width) + column
+    begin, end = corner + (np.int32(_REACH) - half), corner + (half + np.int32(_REACH + 1))
+    begin[0] += _REACH + 1
+    begin, end = (np.searchsorted(places, a.ravel()).reshape(a.shape).T for a in (begin, end))
+    count = (end - begin).ravel()
+    ends = np.cumsum(count)
+    if ends[-1] > _MAX_PAIRS * shape[0] * shape[1]:
+        return None
+    entry = np.arange(ends[-1], dtype=np.int32)
+    entry += np.repeat((begin.ravel() - ends + count).astype(np.int32), count)
+    offset = np.repeat((down * span - corner).T.ravel(), count) + places[entry]
+    starts = np.concatenate([[0], ends[_REACH :: _REACH + 1]])
+    columns = index[entry]
+    near = _symmetric(split.near, offset, columns, starts)
+    beside = np.flatnonzero(split.beside[0].ravel()[offset])
+    starts = np.searchsorted(beside, starts)
+    return near, _symmetric(split.beside, offset[beside], columns[beside], starts)
+
+
+def _symmetric(kernel_and_diagonal, offset, columns, starts):
+    kernel, diagonal = kernel_and_diagonal
+    size = (starts.size - 1,) * 2
+    data = kernel.ravel()[offset], columns, starts.astype(np.int32)
+    upper = sparse.csr_array(data, shape=size)
+    return upper, upper.T, diagonal
+
+
+def _splines(points, shape, coarse):
+    """Cubic B-splines around the points of the coarse grid, at some of the fine one: a row each."""
+    columns, weights = np.zeros((points.size, 1), np.int32), np.ones((points.size, 1), np.float32)
+    for n, m, at in zip(shape, coarse, np.divmod(points, shape[1]), strict=True):
+        left, t = np.divmod(at[:, None] * (m / n), 1)
+        u = 1 - t
+        w = np.hstack([u**3, 4 + 3 * t**3 - 6 * t**2, 4 + 3 * u**3 - 6 * u**2, t**3]) / 6
+        here = (left.astype(np.int32) + np.arange(-1, 3, dtype=np.int32)) % np.int32(m)
+        columns = (columns[:, :, None] * np.int32(m) + here[:, None]).reshape(points.size, -1)
+        weights = (weights[:, :, None] * w.astype(np.float32)[:, None]).reshape(points.size, -1)
+    starts = np.arange(0, columns.size + 1, columns.shape[1], dtype=np.int32)
+    size = (points.size, coarse[0] * coarse[1])
+    return sparse.csr_array((weights.ravel(), columns.ravel(), starts), shape=size)

@@ -1,0 +1,205 @@
+"""Traction laws of adhesion. To add one, write its class here and name it in `LAWS`.
+
+Pressures are in units of the plane-strain modulus E*, tension positive for tractions; gaps, ranges
+and the adhesion length l_a = (work of adhesion)/E* share one unit of length. A gap of zero is where
+the hard wall of the repulsive solution begins. A law is a small class: traction, derivative and
+potential as functions of the gap, strength, and three properties that say how it is to be solved
+(`hard_wall`, `smooth`, `hardens`).
+"""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from stickiness.arguments import number
+
+# Separation over range at which the traction of the 9-3 law peaks: (range/g)^6 = 1/3.
+_LJ_PEAK = 3.0 ** (1 / 6)
+
+
+def _reals(gap: ArrayLike) -> NDArray:
+    """Gaps as an array of floating point numbers, in single precision if they are."""
+    gap = np.asarray(gap)
+    return gap if np.issubdtype(gap.dtype, np.floating) else gap.astype(float)
+
+
+@dataclass(frozen=True)
+class TractionLaw(ABC):
+    """Attraction between two smooth half-spaces at a uniform gap.
+
+    Parameters
+    ----------
+    adhesion_length : float
+        Work of adhesion over E* [length]; the integral of the traction over the gap.
+    range : float
+        Range of attraction epsilon [length].
+
+    Raises
+    ------
+    ValueError
+        If either is not positive and finite.
+    """
+
+    adhesion_length: float
+    range: float
+    #: Whether a wall at gap 0 repels; if not, the law itself does, and gaps must exceed -range.
+    hard_wall: ClassVar[bool] = True
+    #: Whether the traction is continuous beyond the wall; where it is not it must jump at `range`
+    #: between constants, as in the law of Maugis.
+    smooth: ClassVar[bool] = True
+
+    def __post_init__(self):
+        number("adhesion_length", self.adhesion_length)
+        number("range", self.range)
+
+    @property
+    def maugis_stress(self) -> float:
+        """Return sigma_0/E* = adhesion_length/range, the traction of the Maugis law."""
+        return self.adhesion_length / self.range
+
+    @property
+    @abstractmethod
+    def strength(self) -> float:
+        """Largest traction [E*], the theoretical strength of the interface."""
+
+    @property
+    def strength_gap(self) -> float:
+        """Gap of the largest traction [length], beyond which it never rises again."""
+        return 0.0
+
+    @property
+    def hardens(self) -> bool:
+        """Whether the traction rises anywhere with the gap."""
+        return self.strength_gap > 0
+
+    @abstractmethod
+    def traction(self, gap: ArrayLike) -> NDArray:
+        """Traction [E*] at `gap` [length], positive where the surfaces attract."""
+
+    @abstractmethod
+    def derivative(self, gap: ArrayLike) -> NDArray:
+        """Derivative of the traction with respect to the gap [E*/length]."""
+
+    @abstractmethod
+    def potential(self, gap: ArrayLike) -> NDArray:
+        """Energy per area over E* [length], zero at infinite gap; its slope is the traction."""
+
+    def evaluate(self, gap: ArrayLike) -> tuple[NDArray, NDArray, NDArray]:
+        """Traction, derivative and potential at once, which may be cheaper."""
+        return self.traction(gap), self.derivative(gap), self.potential(gap)
+
+    def at(self, span: slice) -> TractionLaw:
+        """Law of some rows of a grid: the same everywhere."""
+        return self
+
+
+@dataclass(frozen=True)
+class Maugis(TractionLaw):
+    """Constant traction up to the range, none beyond.
+
+    sigma = adhesion_length/range for gap <= range, else 0. The point gap = range is inside, so that
+    the traction and `dmt.attractive_area` count the same points. Maugis, J. Colloid Interface Sci.
+    150, 243 (1992), doi:10.1016/0021-9797(92)90285-T.
+    """
+
+    smooth: ClassVar[bool] = False
+
+    @property
+    def strength(self) -> float:
+        """Return adhesion_length/range [E*]."""
+        return self.maugis_stress
+
+    def traction(self, gap: ArrayLike) -> NDArray:
+        """Traction [E*] at `gap` [length]."""
+        return np.where(np.asarray(gap, dtype=float) <= self.range, self.maugis_stress, 0.0)
+
+    def derivative(self, gap: ArrayLike) -> NDArray:
+        """Return zero: the law is flat on either side of its jump at gap = range."""
+        return np.zeros_like(np.asarray(gap, dtype=float))
+
+    def potential(self, gap: ArrayLike) -> NDArray:
+        """Energy per area over E* [length] at `gap`."""
+        inside = np.maximum(self.range - np.asarray(gap, dtype=float), 0.0)
+        return -self.maugis_stress * inside
+
+
+@dataclass(frozen=True)
+class Exponential(TractionLaw):
+    """Traction that decays exponentially, sigma = (adhesion_length/range) exp(-gap/range)."""
+
+    @property
+    def strength(self) -> float:
+        """Return adhesion_length/range [E*], reached at gap 0."""
+        return self.maugis_stress
+
+    def traction(self, gap: ArrayLike) -> NDArray:
+        """Traction [E*] at `gap` [length]."""
+        return self.maugis_stress * np.exp(_reals(gap) / -self.range)
+
+    def derivative(self, gap: ArrayLike) -> NDArray:
+        """Derivative of the traction with respect to the gap [E*/length]."""
+        return -self.traction(gap) / self.range
+
+    def potential(self, gap: ArrayLike) -> NDArray:
+        """Energy per area over E* [length] at `gap`."""
+        return -self.range * self.traction(gap)
+
+    def evaluate(self, gap: ArrayLike) -> tuple[NDArray, NDArray, NDArray]:
+        """Traction, derivative and potential from one exponential."""
+        traction = self.traction(gap)
+        return traction, traction / -self.range, traction * -self.range
+
+
+@dataclass(frozen=True)
+class LennardJones(TractionLaw):
+    """Lennard-Jones 9-3 law between half-spaces, which also repels below gap 0.
+
+    sigma = (8 adhesion_length/(3 range)) [(range/g)^3 - (range/g)^9] with g = gap + range, so that
+    gap 0 is the equilibrium separation. All methods need gap > -range. With `hard_wall` a wall at
+    gap 0 replaces the repulsion of the law.
+    """
+
+    hard_wall: bool = False
+
+    @property
+    def strength(self) -> float:
+        """Return 16 adhesion_length/(9 sqrt(3) range) [E*], reached at `strength_gap`."""
+        return 16 * self.maugis_stress / (9 * np.sqrt(3.0))
+
+    @property
+    def strength_gap(self) -> float:
+        """Gap of the largest traction [length], (3^(1/6) - 1) range."""
+        return (_LJ_PEAK - 1) * self.range
+
+    def _inverse_separation(self, gap: ArrayLike) -> NDArray:
+        """Return range/g, dimensionless."""
+        separation = np.asarray(gap, dtype=float) + self.range
+        if not np.all(separation > 0):
+            raise ValueError(
+                f"gap must exceed -range = {-self.range!r}, got {separation.min() - self.range!r}"
+            )
+        return self.range / separation
+
+    def traction(self, gap: ArrayLike) -> NDArray:
+        """Traction [E*] at `gap` [length], negative (repulsion) below gap 0."""
+        s = self._inverse_separation(gap)
+        return 8 / 3 * self.maugis_stress * (s**3 - s**9)
+
+    def derivative(self, gap: ArrayLike) -> NDArray:
+        """Derivative of the traction with respect to the gap [E*/length]."""
+        s = self._inverse_separation(gap)
+        return 8 * self.maugis_stress / self.range * (3 * s**10 - s**4)
+
+    def potential(self, gap: ArrayLike) -> NDArray:
+        """Energy per area over E* [length] at `gap`; -adhesion_length at gap 0."""
+        s = self._inverse_separation(gap)
+        return -self.adhesion_length * (4 * s**2 - s**8) / 3
+
+
+#: Laws that a configuration may name.
+LAWS = {"maugis": Maugis, "exponential": Exponential}

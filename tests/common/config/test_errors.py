@@ -1,0 +1,108 @@
+"""A wrong configuration gets one line: file, key, value, and what would be right."""
+
+import copy
+from pathlib import Path
+
+import pytest
+
+from common.config import load
+from common.config.campaigns import Remaining, Tradeoff
+from common.config.experiments import Experiments
+from common.config.fields import Section
+from common.config.materials import Materials
+from common.config.models import Configuration
+from common.config.surfaces import Surfaces
+
+ROOT = Path(__file__).parents[3]
+MODELS = {
+    "config": Configuration,
+    "materials": Materials,
+    "surfaces": Surfaces,
+    "experiments": Experiments,
+    "tradeoff": Tradeoff,
+    "remaining": Remaining,
+}
+CASES = load.load(Path(__file__).with_name("errors.yaml"))
+CAMPAIGNS = ("tradeoff", "remaining")
+
+
+@pytest.fixture(scope="module")
+def files():
+    """The committed configuration by its files."""
+    return {
+        "config": load.defaults(ROOT),
+        **{table: load.load(ROOT / f"config/{table}.yaml") for table in load.TABLES},
+        **{name: load.campaign(ROOT, name) for name in CAMPAIGNS},
+    }
+
+
+@pytest.fixture
+def check(files, monkeypatch):
+    """Check one of the files with other values at some keys, or without these."""
+    monkeypatch.chdir(ROOT)
+
+    def check(file, wrong):
+        content = copy.deepcopy(files[file])
+        for path, value in wrong.items():
+            *keys, last = path.split("/")
+            node = content
+            for key in keys:
+                node = node[key]
+            if value is None:
+                del node[last]
+            else:
+                node[last] = value
+        context = {"config": files["config"], "surfaces": files["surfaces"]["surfaces"]}
+        load.check(MODELS[file], content, f"{file}.yaml", made=False, **context)
+
+    return check
+
+
+@pytest.mark.parametrize(
+    ("file", "case"), [(file, case) for file, cases in CASES.items() for case in cases]
+)
+def test_one_line_says_what_is_wrong(check, file, case):
+    with pytest.raises(load.ConfigError) as caught:
+        check(file, case["wrong"])
+    assert str(caught.value) == f"{file}.yaml: {case['says']}"
+
+
+FILM = {"youngs_modulus": "3 GPa", "poisson_ratio": 0.3, "thickness": "25 um"}
+LAYER = {"materials/psa/thickness": "50 um"}
+TEXT = {"surfaces/jacksboro/file": "README.md"}
+LIMIT = "experiments/wafers/cases/limit"
+KNOWN = {"value": "1 um", "known": "read"}
+
+
+@pytest.mark.parametrize(
+    ("file", "right"),
+    [
+        *((file, {}) for file in MODELS),
+        ("materials", LAYER | {"materials/psa/backing": "slip"}),
+        ("materials", LAYER | {"materials/psa/backing": FILM}),
+        ("materials", {"materials/psa/surface": "asphalt"}),
+        (
+            "surfaces",
+            TEXT
+            | {"surfaces/jacksboro/length": ["160 m", "2 mm"]}
+            | {"surfaces/jacksboro/plausibility": "ignore"},
+        ),
+        ("surfaces", TEXT | {"surfaces/jacksboro/missing_rim": 2}),
+        ("experiments", {f"{LIMIT}/rolloff_wavelength": {"value": "0.1 um", "known": "read"}}),
+        (
+            "experiments",
+            {
+                f"{LIMIT}/observed": {"quantity": "limiting_roughness", **KNOWN}
+                | {"level": 0.03, "silent": ["dahlquist"]}
+            },
+        ),
+        ("config", {"cases/mine": {"surface": "H0.7_zeta64", "pressures": [0.1], "accuracy": 0.1}}),
+    ],
+)
+def test_what_is_right_passes(check, file, right):
+    check(file, right)
+
+
+def test_keys_of_earlier_versions_are_gone():
+    for model in Section.__subclasses__():
+        assert model.model_fields.keys().isdisjoint(model.old)

@@ -1,0 +1,145 @@
+"""Corrections among few points: the solution is that of corrections on the whole grid."""
+
+import numpy as np
+import pytest
+
+from stickiness import repulsive
+from stickiness.repulsive import dilute_contact, half_space
+from stickiness.repulsive.active_set import Problem, _Grid
+from stickiness.solids import HALF_SPACE, Layer
+
+SPREAD = -1.8  # exponent of the amplitudes: a Hurst exponent of 0.8
+ROW = (0.5, 1.0)  # rectangle with square pixels if it has twice as many columns
+
+
+def rough(shape, seed, sides=(1.0, 1.0), shortest=8):
+    """Self-affine heights of unit rms slope, of some pixels per shortest wave."""
+    rng = np.random.default_rng(seed)
+    q = half_space.wavenumbers(shape, sides) / (2 * np.pi)
+    inside = (q > 0) & (q <= shape[0] / sides[0] / shortest)
+    amplitude = np.where(inside, np.where(inside, q, 1.0) ** SPREAD, 0.0)
+    heights = np.fft.irfft2(np.fft.rfft2(rng.standard_normal(shape)) * amplitude, shape)
+    slope = np.hypot(*(np.std(np.diff(heights, axis=i)) * shape[i] / sides[i] for i in (0, 1)))
+    return heights / slope
+
+
+def count_corrections(monkeypatch):
+    """Points of the grid and number of candidates at every correction from now on."""
+    sizes, correct = [], dilute_contact.Candidates.correct_pressure
+
+    def counted(self, *arguments):
+        sizes.append((self._grid.heights.size, self.points.size))
+        return correct(self, *arguments)
+
+    monkeypatch.setattr(dilute_contact.Candidates, "correct_pressure", counted)
+    return sizes
+
+
+def assert_same(monkeypatch, heights, sides, pressure, tol=1e-8, **options):
+    """Compare with the solution on the whole grid; returns that among few points."""
+    sizes = count_corrections(monkeypatch)
+    contact = repulsive.solve(heights, sides, pressure, tol=tol, **options)
+    assert sizes, "no correction among few points"
+    with monkeypatch.context() as patch:
+        patch.setattr(dilute_contact, "is_worthwhile", lambda *arguments: False)
+        count = len(sizes)
+        expected = repulsive.solve(heights, sides, pressure, tol=tol, **options)
+        assert len(sizes) == count
+    assert contact.residual <= tol
+    np.testing.assert_array_equal(contact.pressure > 0, expected.pressure > 0)
+    assert contact.area_fraction == expected.area_fraction
+    np.testing.assert_allclose(contact.gap, expected.gap, atol=4 * tol * contact.rms_height)
+    assert contact.pressure.mean() == pytest.approx(pressure, rel=1e-12)
+    assert np.all(contact.pressure >= 0)
+    assert contact.fft_pairs < expected.fft_pairs
+    return contact
+
+
+@pytest.mark.parametrize(("seed", "pressure"), [(0, 1e-4), (1, 5e-4), (2, 2e-3)])
+def test_same_solution_as_on_the_grid(monkeypatch, seed, pressure):
+    assert_same(monkeypatch, rough((256, 256), seed), 1.0, pressure)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("shape", "sides"),
+    [((255, 255), (1, 1)), ((131, 262), ROW), ((200, 144), (1, 0.8)), ((128, 257), ROW)],
+)
+@pytest.mark.parametrize("tol", [1e-4, 1e-10])
+def test_any_grid(monkeypatch, shape, sides, tol):
+    heights = rough(shape, 5, sides)
+    contact = assert_same(monkeypatch, heights, sides, 5e-4, tol)
+    again = repulsive.solve(heights, sides, 5e-4, tol=tol)
+    np.testing.assert_array_equal(again.pressure, contact.pressure)
+
+
+def test_contact_across_the_boundary_moves_with_the_surface(monkeypatch):
+    heights = rough((256, 256), 3)
+    summit = np.unravel_index(np.argmax(heights), heights.shape)
+    corner = np.roll(heights, [-i for i in summit], (0, 1))
+    contact = assert_same(monkeypatch, corner, 1.0, 5e-4)
+    moved = np.roll(contact.gap, summit, (0, 1))
+    expected = repulsive.solve(heights, 1.0, 5e-4)
+    np.testing.assert_allclose(moved, expected.gap, atol=4e-8 * contact.rms_height)
+
+
+@pytest.mark.parametrize(("thickness", "poisson"), [(0.02, 0.5), (0.3, 0.3)])
+def test_layers(monkeypatch, thickness, poisson):
+    solid = Layer(thickness=thickness, poisson=poisson)
+    assert_same(monkeypatch, rough((256, 256), 1), 1.0, 5e-4, solid=solid)
+
+
+def test_candidates_grow(monkeypatch):
+    # Candidates are first what touches or penetrates at a poor guess: others have to join.
+    monkeypatch.setattr(dilute_contact, "_CANDIDATE_GAP", 0.0)
+    monkeypatch.setattr("stickiness.repulsive.active_set.PREDICTION", 3.0)
+    sizes = count_corrections(monkeypatch)
+    assert_same(monkeypatch, rough((256, 256), 1), 1.0, 2e-3)
+    finest = [count for size, count in sizes if size == 256**2]
+    assert max(finest) > finest[0]
+
+
+def test_one_and_two_points():
+    heights = rough((256, 256), 2)
+    first, second = (10, 20), (110, 250)
+    # far too stiff a peak for others to touch
+    heights[first] = heights.max() + 1.0
+    contact = repulsive.solve(heights, 1.0, 1e-6)
+    assert np.argwhere(contact.pressure).tolist() == [list(first)]
+    assert contact.residual <= 1e-8
+    heights[second] = heights[first]
+    contact = repulsive.solve(heights, 1.0, 1e-6)
+    assert np.argwhere(contact.pressure).tolist() == [list(first), list(second)]
+    assert contact.pressure[first] == pytest.approx(contact.pressure[second])
+
+
+def test_corrections_that_gain_nothing_are_left_to_the_grid(monkeypatch):
+    def idle(self, points, pressure, gap, goal, limit):
+        return points, pressure, 0
+
+    heights = rough((256, 256), 1)
+    expected = repulsive.solve(heights, 1.0, 5e-4)
+    monkeypatch.setattr(dilute_contact.Candidates, "correct_pressure", idle)
+    contact = repulsive.solve(heights, 1.0, 5e-4)
+    assert contact.residual <= 1e-8
+    assert contact.area_fraction == expected.area_fraction
+
+
+@pytest.mark.parametrize(
+    ("shape", "sides"), [((256, 256), (1.0, 1.0)), ((255, 131), (1.0, 131 / 255))]
+)
+@pytest.mark.parametrize("solid", [HALF_SPACE, Layer(thickness=0.05, poisson=0.4)])
+def test_compliance_is_right_to_a_hundredth(shape, sides, solid):
+    rng = np.random.default_rng(0)
+    points = np.flatnonzero(rng.random(shape[0] * shape[1]) < 0.005)
+    problem = Problem(np.zeros(shape), sides, 1.0, solid)
+    split = dilute_contact._kept_split(shape, sides, solid)
+    candidates = dilute_contact.Candidates(
+        _Grid(problem, True), points, split, *dilute_contact._pair(points, shape, split)
+    )
+    pressure = rng.random(points.size).astype(np.float32)
+    field = np.zeros(shape)
+    field.flat[points] = pressure
+    expected = half_space.half_space(shape, sides, solid=solid).compliance(field).flat[points]
+    error = candidates.compliance(pressure) - expected
+    assert np.abs(error).max() < 0.01 * np.ptp(expected)

@@ -1,0 +1,216 @@
+"""Areas, densities and attraction over gaps against closed forms and finer grids; fit of a_V."""
+
+import numpy as np
+import pytest
+
+from stickiness import adhesive, dmt, repulsive
+
+LAWS = (adhesive.Maugis, adhesive.Exponential, adhesive.LennardJones)
+
+
+# --- areas and densities of given gaps -----------------------------------------------------
+
+
+def _hertz_gap(n, side=8.0):
+    """Gap outside a Hertzian contact of unit radius a = R = 1 on an n x n grid."""
+    x = (np.arange(n) + 0.5) / n * side - side / 2
+    r = np.hypot(*np.meshgrid(x, x, indexing="ij"))
+    return np.where(r <= 1, 0.0, _hertz(np.maximum(r, 1.0)))
+
+
+def _hertz(r):
+    # Johnson, Contact Mechanics (1985), eq. 3.42a, with the sphere's parabola subtracted.
+    return ((r**2 - 2) * np.arccos(1 / r) + np.sqrt(r**2 - 1)) / np.pi
+
+
+def test_attractive_area_of_hertz_gap():
+    n, side = 1024, 8.0
+    gap = _hertz_gap(n, side)
+    radii = np.array([1.2, 1.6, 2.5, 3.5])
+    area = dmt.attractive_area(gap, _hertz(radii))
+    exact = np.pi * (radii**2 - 1) / side**2
+    # Pixels along a circle of radius r misplace at most its perimeter times a pixel's diagonal;
+    # random signs leave far less. A tenth of that bound covers them.
+    bound = 0.1 * 2 * np.pi * (radii + 1) * np.sqrt(2) * side / n / side**2
+    np.testing.assert_array_less(np.abs(area - exact), bound)
+
+
+def test_attractive_area_definition():
+    gap = np.array([[0.0, 0.0], [0.1, 0.4]])
+    assert dmt.attractive_area(gap, 0.05) == 0.0
+    assert dmt.attractive_area(gap, 0.1) == 0.25
+    np.testing.assert_array_equal(dmt.attractive_area(gap, [0.1, 0.4, 9.0]), [0.25, 0.5, 0.5])
+    # A mask decides what contact is, down to gaps of rounding size of either sign.
+    contact = np.array([[True, False], [False, False]])
+    gap[0] = -1e-12, 1e-12
+    assert dmt.attractive_area(gap, 0.1, contact) == 0.5
+
+
+def test_gap_density_integrates_to_the_open_area_and_its_moment_to_the_mean_gap():
+    gap = _hertz_gap(256)
+    edges = np.linspace(0, gap.max(), 4001)
+    density = dmt.gap_density(gap, edges)
+    open_area = np.mean(gap > 0)
+    assert np.sum(density * np.diff(edges)) == pytest.approx(open_area, rel=1e-12)
+    centre = (edges[1:] + edges[:-1]) / 2
+    # A value differs from its bin's centre by at most half a bin.
+    assert np.sum(density * centre * np.diff(edges)) == pytest.approx(
+        gap.mean(), abs=(edges[1] - edges[0]) / 2
+    )
+
+
+def test_maugis_pressure_is_stress_times_attractive_area():
+    gap = _hertz_gap(128)
+    law = adhesive.Maugis(adhesion_length=0.02, range=0.1)
+    for subpixel in (False, True):
+        area = dmt.attractive_area(gap, law.range, subpixel=subpixel)
+        pressure = dmt.adhesive_pressure(gap, law, subpixel=subpixel)
+        assert pressure == pytest.approx(0.2 * area, rel=1e-12)
+
+
+@pytest.mark.parametrize("kind", LAWS)
+def test_adhesive_pressure_of_hertz_gap_against_radial_integral(kind):
+    n, side = 1024, 8.0
+    law = kind(adhesion_length=0.02, range=0.4)
+    gap = _hertz_gap(n, side)
+    x = (np.arange(n) + 0.5) / n * side - side / 2
+    near = np.hypot(*np.meshgrid(x, x, indexing="ij")) < side / 2
+    pressure = dmt.adhesive_pressure(np.where(near, gap, 0.0), law)
+    # The midpoint of many thin rings: immune to the jump of the Maugis law but for one ring.
+    r = 1 + (np.arange(200000) + 0.5) * (side / 2 - 1) / 200000
+    ring = 2 * np.pi * r * (side / 2 - 1) / 200000
+    exact = np.sum(law.traction(_hertz(r)) * ring) / side**2
+    # Pixels on the circles at contact edge and range: see the area test; 0.3 % of this area.
+    assert pressure == pytest.approx(exact, rel=3e-3)
+
+
+def test_local_exponent_of_edge_gaps_is_two_thirds():
+    # Strips beside straight edges, u = x^(3/2): the attractive area is exactly eps^(2/3).
+    eps = np.geomspace(1e-3, 1e-1, 12)
+    np.testing.assert_allclose(dmt.local_exponent(eps, eps ** (2 / 3)), 2 / 3, rtol=1e-12)
+    # Beside a Hertzian edge too, once the gap is small: relative corrections are of order of
+    # the strip's width over the radius, here (9 pi eps/(8 sqrt(2)))^(2/3) < 2 %.
+    gap = _hertz_gap(2048, side=2.5)
+    eps = np.geomspace(2e-4, 1e-3, 5)
+    np.testing.assert_allclose(
+        dmt.local_exponent(eps, dmt.attractive_area(gap, eps)), 2 / 3, rtol=0.04
+    )
+
+
+# --- strip of the boundary -----------------------------------------------------------------
+
+
+def test_boundary_strip_of_a_disc_and_a_square():
+    n, r = 400, 100
+    x = np.arange(n) - n / 2 + 0.5
+    disc = np.hypot(*np.meshgrid(x, x, indexing="ij")) < r
+    # The staircase around a convex shape is as long as its bounding box: 8 r sides.
+    assert dmt.boundary_strip(disc) == pytest.approx(dmt.STRIP_WIDTH * 8 * r / n**2, rel=1e-12)
+    assert dmt.boundary_strip(np.ones((8, 8), bool)) == 0.0
+    square = np.zeros((8, 8), bool)
+    square[:3, :3] = True
+    # Periodic neighbours count once: 12 sides.
+    assert dmt.boundary_strip(square) == pytest.approx(dmt.STRIP_WIDTH * 12 / 64, rel=1e-12)
+
+
+@pytest.fixture(scope="module")
+def rough_contacts():
+    """Repulsive contacts of one band-limited surface on grids of 4 to 64 pixels."""
+    top = 8
+    rng = np.random.default_rng(3)
+    k = np.arange(-top, top + 1)
+    kx, ky = np.meshgrid(k, k, indexing="ij")
+    size = np.hypot(kx, ky)
+    amplitude = np.where((size >= 1) & (size <= top), np.maximum(size, 1) ** -1.8, 0.0)
+    modes = amplitude * np.exp(2j * np.pi * rng.random(size.shape))
+
+    def contact(pixels):
+        n = pixels * top
+        full = np.zeros((n, n), complex)
+        full[np.ix_(k % n, k % n)] = modes
+        heights = np.fft.ifft2(full).real * n**2
+        heights /= np.sqrt(np.sum(amplitude**2) / 2)
+        solution = repulsive.solve(heights, length=2 * np.pi, pressure=0.1, tol=1e-6)
+        return solution.gap, solution.pressure > 0
+
+    return {pixels: contact(pixels) for pixels in (4, 8, 16, 64)}
+
+
+def test_edge_gap_falls_as_the_edge_law_says(rough_contacts):
+    gaps = [dmt.edge_gap(*rough_contacts[pixels]) for pixels in (4, 8, 16, 64)]
+    assert gaps == sorted(gaps, reverse=True)
+    # u = C x^(3/2): 16 to 64 pixels per wavelength shrink x four times, u eight times. Medians of
+    # some hundred edge pixels scatter by their square root.
+    assert gaps[2] / gaps[3] == pytest.approx(8, rel=0.25)
+
+
+# --- fit of a_V ----------------------------------------------------------------------------
+
+EPS = np.geomspace(1e-3, 1.0, 31)
+
+
+def test_fit_recovers_an_exact_law_in_any_units():
+    h_rms, q0, a_v, pressure = 2e-6, 3e4, 2.7, 0.065 * 2e-6 * 3e4
+    area = 1.5 * a_v * 0.065 * EPS ** (2 / 3)
+    fit = dmt.fit_a_v(EPS * h_rms, area, pressure, h_rms, q0)
+    assert fit.value == pytest.approx(a_v, rel=1e-12)
+    assert fit.standard_error < 1e-10
+    assert fit.relative_residual < 1e-12
+    # geomspace puts ten points per decade: 0.01 ... 0.1 with both ends.
+    assert fit.n_points == 11
+    assert fit.window == (0.01, 0.1)
+
+
+def test_fit_pools_several_loads():
+    eps = np.tile(EPS, 2)
+    pressure = np.repeat([0.01, 0.05], EPS.size)
+    area = 1.5 * 3.0 * pressure * eps ** (2 / 3)
+    assert dmt.fit_a_v(eps, area, pressure).value == pytest.approx(3.0, rel=1e-12)
+
+
+@pytest.mark.parametrize("weighted", [False, True])
+def test_standard_error_matches_the_scatter_of_fits(weighted):
+    rng = np.random.default_rng(1)
+    truth = 1.5 * 3.0 * 0.065 * EPS ** (2 / 3)
+    noise = 0.02 * truth if weighted else np.full_like(truth, 1e-3)
+    fits = [
+        dmt.fit_a_v(
+            EPS,
+            truth + noise * rng.standard_normal(EPS.size),
+            0.065,
+            sigma=noise if weighted else None,
+        )
+        for _ in range(500)
+    ]
+    values = np.array([fit.value for fit in fits])
+    errors = np.array([fit.standard_error for fit in fits])
+    # 500 fits know their scatter to 3.2 %, their mean to scatter/22: three deviations each.
+    assert values.std() == pytest.approx(np.sqrt(np.mean(errors**2)), rel=0.1)
+    assert values.mean() == pytest.approx(3.0, abs=3 * values.std() / np.sqrt(500))
+
+
+# --- refusals ------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("call", "message"),
+    [
+        (lambda: dmt.attractive_area([[0.0, -1e-9]], 0.1), "gap must not be negative"),
+        (lambda: dmt.attractive_area([[0.0, np.nan]], 0.1), "gap must be a non-empty"),
+        (lambda: dmt.attractive_area([[0.0, 1.0]], 0.0), "eps must be positive"),
+        (lambda: dmt.attractive_area([[0.0, 1.0]], 1.0, [[1, 0]]), "contact must be a boolean"),
+        (lambda: dmt.attractive_area([0.0, 1.0], 1.0, subpixel=True), "two-dimensional"),
+        (lambda: dmt.edge_gap([0.0, 1.0]), "two-dimensional"),
+        (lambda: dmt.gap_density([0.0, 1.0], [1.0, 0.0]), "edges must be an increasing"),
+        (lambda: dmt.local_exponent([1.0, 2.0], [1.0, 2.0]), "eps must be an increasing"),
+        (lambda: dmt.fit_a_v(EPS, EPS, 0.1, window=(0.1, 0.01)), "window must be two"),
+        (lambda: dmt.fit_a_v(EPS, EPS, 0.1, window=(2.0, 3.0)), "must hold at least two"),
+        (lambda: dmt.fit_a_v(EPS, EPS[1:], 0.1), "area must be finite and match"),
+        (lambda: dmt.fit_a_v(EPS, EPS, [0.1, 0.2]), "pressure must have the shape"),
+        (lambda: dmt.fit_a_v(EPS, EPS, 0.0), "pressure must be positive"),
+        (lambda: dmt.fit_a_v(EPS, EPS, 0.1, sigma=-EPS), "sigma must be positive"),
+    ],
+)
+def test_refusals_name_the_argument(call, message):
+    with pytest.raises(ValueError, match=message):
+        call()
