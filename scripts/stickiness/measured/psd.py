@@ -138,9 +138,7 @@ def power_spectrum(
     Returns
     -------
     PowerSpectrum
-        Scaled by the taper's mean square, so that it estimates C whatever the taper. The mean
-        weighted by the taper is subtracted first: the plain mean, zero after levelling, would
-        leave a constant that leaks into the lowest modes.
+        C, whatever the taper: over the taper's mean square.
 
     Raises
     ------
@@ -155,6 +153,7 @@ def power_spectrum(
     nx, ny = heights.shape
     w, blur = _taper(taper, (nx, ny), (dx, dy))
     power = np.mean(w**2)
+    # Less the mean weighted by the taper: else a constant would leak into the lowest modes.
     tapered = w * (heights - np.mean(w * heights) / np.mean(w))
     modes = fft.rfft2(tapered) / (nx * ny)
     cell = (2 * np.pi) ** 2 / (nx * dx * ny * dy)
