@@ -23,7 +23,8 @@ _MOST_EMPTY = 0.5  # share of the grid that may have no point; more are scattere
 _ALTERNATE = 5.0  # step to the next column over that to the next but one, if commas split numbers
 _COMMENT = ("#", "%", "//")
 _MISSING = {"", "na", "n/a", "bad", "null", "none", "-nan", "-", "--", "---", "*", "***"}
-_NUMERIC = re.compile(r"-?nan\b|[-+]?\.?\d", re.IGNORECASE)  # how a row begins
+# How a row begins: with a number, or with missing points before one.
+_NUMERIC = re.compile(r"(?:(?:-{1,3}|\*{1,3})?[\s;,]+)*(?:-?nan\b|[-+]?\.?\d)", re.IGNORECASE)
 _FIELD = re.compile(r"^\W*(width|height|value unit|lateral unit)s?\s*[:=]\s*(.+?)\s*$", re.I)
 #: What SurfaceTopography takes from headers and this reader does not.
 OF_INSTRUMENTS = re.compile(

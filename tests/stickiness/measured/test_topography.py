@@ -80,6 +80,12 @@ def test_uncommented_header_lines_and_missing_marks(tmp_path):
     # The missing one is the mean of its four neighbours 2, 4, 6, 8.
     np.testing.assert_allclose(t.heights, 1e-9 * np.arange(1, 10).reshape(3, 3).T)
     assert t.missing == 1
+    # A first row that begins with a missing point is no header.
+    for first in ("---;2;3", ";2;3", "NaN;2;3"):
+        path.write_text(f"Width: 3 um\nValue units: nm\n{first}\n4;5;6\n7;8;9\n")
+        t = topography.read(path, max_missing=0.2)
+        assert t.heights.shape == (3, 3)
+        assert t.missing == 1
 
 
 @pytest.mark.parametrize(("step", "form"), [(1 / 3, "{:.2f}"), (0.0195, "{:.3f}")])
