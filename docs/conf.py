@@ -16,7 +16,7 @@ from stickiness import __version__ as release  # noqa: E402, F401
 
 project = "stickiness"
 root_doc = "docs/index"
-include_patterns = ["README.md", "CHANGELOG.md", "docs/*.md", "docs/library/*.md", "examples/*"]
+include_patterns = ["README.md", "CHANGELOG.md", "CONTRIBUTING.md", "docs/*.md", "examples/*"]
 exclude_patterns = [
     *(".*", "**/__pycache__", "*.egg-info", "docs/_build", "examples/*.py"),
     *("benchmarks", "config", "data", "envs", "logs", "profiles", "report", "results"),

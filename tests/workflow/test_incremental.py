@@ -28,36 +28,53 @@ def test_a_complete_run_has_no_warnings_and_leaves_nothing_to_do(finished):
     assert finished.planned() == {}
 
 
-@pytest.mark.parametrize(
-    ("path", "old", "new", "reruns"),
-    [
-        (
-            "config/materials.yaml",
-            '"40 mJ/m^2"',
-            '"45 mJ/m^2"',
-            {"judge", "write_surface", "plot_fig9", "check_claims", "write_report"},
-        ),
-        (
-            "config/experiments.yaml",
-            '"37 mJ/m^2"',
-            '"38 mJ/m^2"',
-            {"predict_experiments", "plot_experiments", "check_claims", "write_report"},
-        ),
-    ],
-)
-def test_editing_a_table_reruns_what_reads_it(copy_of_finished, path, old, new, reruns):
-    copy_of_finished.edit(path, old, new)
-    assert set(copy_of_finished.planned()) == reruns
+# File, text and its replacement, rules that run again, rules that do not.
+CHANGES = {
+    "material": (
+        "config/materials.yaml",
+        ('"40 mJ/m^2"', '"45 mJ/m^2"'),
+        {"judge", "judge_surface", "write_surface", "plot_fig9", "check_claims", "write_report"},
+        {"analyse_surface", *SOLUTIONS},
+    ),
+    "experiment": (
+        "config/experiments.yaml",
+        ('"37 mJ/m^2"', '"38 mJ/m^2"'),
+        {"predict_experiments", "plot_experiments", "check_claims", "write_report"},
+        {"judge", "analyse_surface", *SOLUTIONS},
+    ),
+    "seed": (
+        "config/tiny.yaml",
+        (" seeds: 2, coarse_", " seeds: 3, coarse_"),
+        {"synthesise_surface", "solve_repulsive", "average_ensemble"},
+        {"solve_coarse", "persson_sweep", "persson_lattice", "analyse_surface", "judge"},
+    ),
+    "coarse seeds": (
+        "config/tiny.yaml",
+        ("coarse_seeds: 32", "coarse_seeds: 40"),
+        {"solve_coarse", "average_ensemble"},
+        {"synthesise_surface", "solve_repulsive", "persson_lattice"},
+    ),
+    "theory": (
+        "scripts/stickiness/persson/theory.py",
+        ("class Persson", "A_CHANGE = 1\n\n\nclass Persson"),
+        {"persson_sweep", "persson_lattice"},
+        {"analyse_surface", "average_ensemble", *SOLUTIONS},
+    ),
+    "solver": (
+        "scripts/stickiness/repulsive/solver.py",
+        ("def solve(", "A_CHANGE = 1\n\n\ndef solve("),
+        {"solve_repulsive", "solve_coarse", "contact_maps"},
+        {"synthesise_surface", "analyse_surface"},
+    ),
+}
 
 
-def test_adding_a_surface_runs_its_page_alone(copy_of_finished):
-    copy_of_finished.add(
-        "  mine: {kind: self_affine, label: mine, source: own, hurst: 0.8, h_rms: 1 um, "
-        "longest_wavelength: 1 mm, shortest_wavelength: 1 um}\n",
-        "config/tiny_surfaces.yaml",
-    )
-    planned = copy_of_finished.planned("results/tiny/report/surfaces/mine.html")
-    assert set(planned) == {"analyse_surface", "write_surface"}
+@pytest.mark.parametrize(("path", "texts", "reruns", "leaves"), CHANGES.values(), ids=CHANGES)
+def test_a_change_reruns_what_uses_it(copy_of_finished, path, texts, reruns, leaves):
+    copy_of_finished.edit(path, *texts)
+    planned = copy_of_finished.planned().keys()
+    assert reruns <= planned
+    assert leaves.isdisjoint(planned)
 
 
 def test_changes_of_cases_rerun_those_cases_and_what_averages_them(copy_of_finished):
@@ -81,43 +98,6 @@ def test_changes_of_cases_rerun_those_cases_and_what_averages_them(copy_of_finis
     planned = copy_of_finished.planned()
     assert planned["average_ensemble"] == 1
     assert SOLUTIONS.isdisjoint(planned)
-
-
-def test_adding_a_seed_runs_its_file_and_its_averages(copy_of_finished):
-    copy_of_finished.edit("config/tiny.yaml", "seeds: 2", "seeds: 3")
-    planned = copy_of_finished.planned()
-    assert planned["solve_repulsive"] == planned["average_ensemble"] > 1
-    unaffected = {"solve_coarse", "persson_sweep", "persson_lattice", "analyse_surface", "judge"}
-    assert unaffected.isdisjoint(planned)
-
-
-def test_more_coarse_seeds_leave_the_fine_solutions(copy_of_finished):
-    copy_of_finished.edit("config/tiny.yaml", "coarse_seeds: 32", "coarse_seeds: 40")
-    planned = copy_of_finished.planned()
-    assert planned["solve_coarse"] == planned["average_ensemble"] > 1
-    assert {"synthesise_surface", "solve_repulsive", "persson_lattice"}.isdisjoint(planned)
-
-
-@pytest.mark.parametrize(
-    ("module", "reruns", "leaves"),
-    [
-        (
-            "persson/theory.py",
-            {"persson_sweep", "persson_lattice"},
-            {"analyse_surface", "average_ensemble", *SOLUTIONS},
-        ),
-        (
-            "repulsive/solver.py",
-            {"solve_repulsive", "solve_coarse", "contact_maps"},
-            {"synthesise_surface", "analyse_surface"},
-        ),
-    ],
-)
-def test_changing_a_module_reruns_the_stages_that_use_it(copy_of_finished, module, reruns, leaves):
-    copy_of_finished.add("\nA_CHANGE = 1\n", f"scripts/stickiness/{module}")
-    planned = copy_of_finished.planned().keys()
-    assert reruns <= planned
-    assert leaves.isdisjoint(planned)
 
 
 def test_comments_docstrings_and_times_of_change_rerun_nothing(copy_of_finished):

@@ -25,19 +25,10 @@ pytestmark = [
     pytest.mark.skipif(CHROMIUM is None, reason="no chromium on the path (apt install chromium)"),
 ]
 FLAGS = [
-    "--headless",
-    "--no-sandbox",
-    "--disable-gpu",
-    "--disable-quic",
-    "--no-first-run",
-    "--disable-background-networking",
-    "--disable-component-update",
-    "--disable-sync",
-    "--disable-dev-shm-usage",
-    "--hide-scrollbars",
-    "--host-resolver-rules=MAP * ~NOTFOUND",
-    "--enable-logging=stderr",
-    "--virtual-time-budget=5000",
+    *("--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run"),
+    *("--disable-background-networking", "--disable-component-update", "--disable-sync"),
+    *("--disable-dev-shm-usage", "--hide-scrollbars", "--enable-logging=stderr"),
+    *("--host-resolver-rules=MAP * ~NOTFOUND", "--virtual-time-budget=5000"),
 ]
 A4 = 680  # CSS pixels between the margins of 15 mm
 PROBE = """
@@ -111,20 +102,9 @@ setTimeout(async () => {
 
 def chromium(page, profile, *arguments, width=1280):
     """Run the browser on a page; what it prints, and what the page says on its console."""
-    done = subprocess.run(
-        [
-            CHROMIUM,
-            *FLAGS,
-            f"--user-data-dir={profile}",
-            f"--window-size={width},2000",
-            *arguments,
-            page.as_uri(),
-        ],
-        capture_output=True,
-        text=True,
-        timeout=120,
-        check=False,
-    )
+    profile, size = f"--user-data-dir={profile}", f"--window-size={width},2000"
+    command = [CHROMIUM, *FLAGS, profile, size, *arguments, page.as_uri()]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=120, check=False)
     console = [line for line in done.stderr.splitlines() if "CONSOLE" in line]
     return done.stdout, console
 
