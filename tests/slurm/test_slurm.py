@@ -13,8 +13,6 @@ import pytest
 @pytest.mark.skipif(shutil.which("slurmctld") is None, reason="Slurm is not installed (slurm-wlm)")
 def test_run_survives_a_failed_node_and_equals_a_local_one():
     script = Path(__file__).parent / "run.sh"
-    done = subprocess.run(
-        [script, "--fidelity", "tiny"], text=True, capture_output=True, check=False
-    )
+    done = subprocess.run([script], text=True, capture_output=True, check=False)
     assert done.returncode == 0, done.stdout + done.stderr
     assert "PASSED" in done.stdout
