@@ -68,7 +68,7 @@ def test_a_killed_job_and_a_killed_run_lose_nothing_that_was_finished(fresh, fin
     assert not (fresh / SOLVED).exists()
     written = (fresh / SURFACE).stat().st_mtime_ns
     run = start(fresh, SOLVED)  # which is killed as a whole
-    wait_for(lambda: solving_jobs(run), run)
+    os.kill(wait_for(lambda: solving_jobs(run), run)[0], signal.SIGSTOP)  # until then
     second = fresh.snakemake(SOLVED)
     assert second.returncode != 0
     assert "lock" in second.stdout.lower()
