@@ -4,7 +4,6 @@ import numpy as np
 
 from common import plotting, remaining_table
 from common.plotting import BLACK, BLUE, GREEN, GREY, ORANGE, PURPLE, RED, make_dot, make_key
-from stickiness.remaining import theories
 from stickiness.remaining.prediction import SHORT_RANGE, Roughness
 from stickiness.remaining.share import find_onset, tough_share, weak_share
 
@@ -40,7 +39,7 @@ def draw_shares(ax, table):
     plotting.draw_band(ax, RATIOS, low, high, GREY, alpha=0.25)
     ax.plot(RATIOS, share, color=BLACK, linewidth=1.8)
     ax.plot(RATIOS, rough.share(length, SHORT_RANGE), color=BLACK, linestyle="--")
-    ax.plot(RATIOS, theories.full_contact_share(RATIOS), color=RED, linestyle=":")
+    ax.plot(RATIOS, np.maximum(1 - 1 / RATIOS, 0), color=RED, linestyle=":")  # full contact
     for (hurst, magnification), group in tough.groupby(["hurst", "magnification"]):
         look = {"color": colour_of(hurst), "marker": mark_of(magnification)}
         ax.plot(group.energy_ratio, group.bound, linestyle="none", markersize=3.5, **look)

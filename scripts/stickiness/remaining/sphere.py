@@ -115,10 +115,12 @@ def _coefficient(radius: NDArray, length: NDArray, range: NDArray) -> NDArray:
 @cache
 def _table() -> tuple[NDArray, NDArray]:
     """Logarithm of Maugis' parameter, and the pull-off force over pi R l_a."""
-    parameters = np.geomspace(_LEAST, _MOST, _POINTS)
+    parameters, forces = np.geomspace(_LEAST, _MOST, _POINTS), []
     unit = float(maugis_parameter(1.0, 1.0, 1.0))
-    forces = np.array([-_pull_off_force(unit / parameter) for parameter in parameters]) / np.pi
-    return np.log(parameters), np.clip(forces, 1.5 * np.pi / np.pi, 2.0)
+    for given in parameters:
+        parameter = float(maugis_parameter(1.0, 1.0, unit / given))
+        forces.append(-float(maugis_curve(find_pull_off(parameter), parameter)[2] * np.pi))
+    return np.log(parameters), np.clip(np.array(forces) / np.pi, 1.5, 2.0)
 
 
 def maugis_parameter(radius: ArrayLike, adhesion_length: ArrayLike, range: ArrayLike) -> NDArray:
@@ -180,12 +182,6 @@ def find_pull_off(parameter: float) -> float:
         force, bounds=bounds, method="bounded", options={"xatol": 1e-10 * t[i]}
     )
     return float(found.x)
-
-
-def _pull_off_force(range: float) -> float:
-    """Pull-off force of a sphere of unit radius and adhesion length."""
-    parameter = float(maugis_parameter(1.0, 1.0, range))
-    return float(maugis_curve(find_pull_off(parameter), parameter)[2] * np.pi)
 
 
 def opening(t: NDArray) -> NDArray:

@@ -23,7 +23,6 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import brentq, elementwise
 
 from stickiness.arguments import finite, nonnegative, number
-from stickiness.spectrum.interface import Moments
 
 ROUNDING = 1e-12  #: q within this relative distance of the band's end still belongs to it
 MOST = 1e4  #: ratios up to which averages were checked
@@ -49,11 +48,6 @@ class PowerLaws:
     knots: NDArray  #: (m + 1,), increasing wave numbers
     level: NDArray  #: (m,), C at the left end of each segment
     exponent: NDArray  #: (m,), a of each segment
-
-    @classmethod
-    def of(cls, knots: ArrayLike, level: ArrayLike, exponent: ArrayLike) -> PowerLaws:
-        """Power laws from anything that numpy takes for arrays."""
-        return cls(*(np.asarray(values, dtype=float) for values in (knots, level, exponent)))
 
     @property
     def ends(self) -> tuple[float, float]:
@@ -164,31 +158,6 @@ class Ellipse:
         w = np.pi * (np.arange(_NODES) + 0.5) / _NODES
         log_g = -self._log_reach * np.cos(w)
         return float(np.mean(2 * self._fill(w) * np.exp(power * log_g)))
-
-    def moments(self, totals: tuple[float, float, float], axis: float | None = None) -> Moments:
-        """Moments by direction (Longuet-Higgins 1957, doi:10.1098/rsta.1957.0002).
-
-        Parameters
-        ----------
-        totals : (float, float, float)
-            2 pi * integral of Q^(1 + power) C(Q) dQ for powers 0, 2 and 4.
-        axis : float, optional
-            Direction of x in the names of the moments, from the surface's x [rad]: the long
-            correlation length by default.
-        """
-        height, gradient, laplacian = totals
-        a, turn = self.ratio, 0.0 if axis is None else axis - self.angle
-        c2, s2 = np.cos(turn) ** 2, np.sin(turn) ** 2
-        m20, m02 = gradient / 2 / a, gradient / 2 * a
-        m40, m22, m04 = 3 / 8 * laplacian / a**2, laplacian / 8, 3 / 8 * laplacian * a**2
-        return Moments(
-            m00=height,
-            m20=float(c2 * m20 + s2 * m02),
-            m02=float(s2 * m20 + c2 * m02),
-            m40=float(c2**2 * m40 + 6 * c2 * s2 * m22 + s2**2 * m04),
-            m22=float(c2 * s2 * (m40 + m04 - 2 * m22) + (c2 - s2) ** 2 * m22),
-            m04=float(s2**2 * m40 + 6 * c2 * s2 * m22 + c2**2 * m04),
-        )
 
     def mean_psd(self, laws: PowerLaws, q: ArrayLike) -> NDArray:
         """C averaged over directions at wave numbers `q`, exactly."""
