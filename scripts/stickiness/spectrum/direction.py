@@ -7,11 +7,6 @@ Q/sqrt(a), along, to Q sqrt(a), across: the stretch ``g = |q|/Q``, with g^2 = co
 at the angles t of the circle that the ellipse is stretched from, which are evenly filled. Averages
 over t take the variable w in ln g = -ln(sqrt(a)) cos w, which leaves periodic smooth integrands at
 any ratio.
-
-Averaged over directions C is ``<C(q/g)/g^2>``. At the ends of the waves that the ellipses of a knot
-Q_k hold, Q_k/sqrt(a) and Q_k sqrt(a), it is like a square root; in between two knots, beyond these,
-a power law. `Ellipse.average` follows it by power laws between nodes that crowd at those ends, each
-of which holds the height and the gradient variance exactly.
 """
 
 from __future__ import annotations
@@ -112,6 +107,9 @@ class PowerLaws:
 @dataclass(frozen=True)
 class Ellipse:
     """Norm of wave vectors, and the averages over directions that belong to it.
+
+    Averaged over directions C is ``<C(q/g)/g^2>``. It is like a square root at the ends of the
+    waves that the ellipse of a knot holds, and a power law away from them.
 
     Parameters
     ----------
