@@ -90,11 +90,6 @@ def test_what_the_grid_does_not_resolve_is_left_out(heights):
     assert edge_zone.resolution(pixel, law.range, law.adhesion_length) > edge_zone.COARSEST
 
 
-def test_width_of_the_zone_follows_the_edge_law():
-    # u = C x^(3/2) with one pixel from the edge: eight times the gap at four times the distance
-    assert edge_zone.zone_width(0.1, 0.01, 0.08) == pytest.approx(0.4)
-
-
 @pytest.mark.slow
 def test_equal_area_is_found_on_the_load_curve(heights):
     """Against a search for the pressure that gives the same pixels without adhesion."""

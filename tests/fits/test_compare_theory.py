@@ -100,16 +100,6 @@ def test_grid_errors_of_contact_and_gaps_cancel_in_the_distance():
     assert error == pytest.approx(0.1 * gap, rel=0.01)
 
 
-def test_highest_summit_is_that_of_the_window():
-    # Gaussian heights of n independent summits reach about sqrt(2 ln n) h_rms.
-    small, large = (
-        persson_lattice.highest_summit({"hurst": 0.8, "magnification": 8, "window": window})
-        for window in (1, 4)
-    )
-    assert 2.3 < small < 2.8
-    assert 3.3 < large < 4.0
-
-
 @pytest.fixture(scope="module")
 def solved(tmp_path_factory):
     """Ensemble of one job, multilevel."""
@@ -201,3 +191,13 @@ def test_cases_of_one_window_do_not_average_their_errors_out(made_by_theory):
     assert width[1] == pytest.approx(np.log(high / low), rel=0.15)  # eight copies know no more
     # Of 8 windows, some are drawn more than once: errors average out by less than sqrt(8).
     assert 0.35 * width[1] < width[8] < 0.75 * width[1]
+
+
+def test_highest_summit_is_that_of_the_window():
+    # Gaussian heights of n independent summits reach about sqrt(2 ln n) h_rms.
+    small, large = (
+        persson_lattice.highest_summit({"hurst": 0.8, "magnification": 8, "window": window})
+        for window in (1, 4)
+    )
+    assert 2.3 < small < 2.8
+    assert 3.3 < large < 4.0

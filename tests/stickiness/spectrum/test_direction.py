@@ -6,7 +6,6 @@ from scipy import integrate
 
 from stickiness import surface
 from stickiness.measured.psd import power_spectrum
-from stickiness.persson import Persson
 from stickiness.spectrum import SelfAffine
 
 L = 2 * np.pi  # so that wave numbers are lattice indices
@@ -79,14 +78,6 @@ def test_density_is_the_mean_over_directions(ratio):
     assert s.psd([[1.0, 2.0]]).shape == (1, 2)
 
 
-def test_theories_take_the_average():
-    s = made(anisotropy=4.0, angle=1.0)
-    loads = np.array([0.02, 0.3]) * s.rms_slope
-    one, other = Persson(s), Persson(s.averaged())
-    np.testing.assert_array_equal(one.area_fraction(loads), other.area_fraction(loads))
-    np.testing.assert_array_equal(one.mean_gap(loads), other.mean_gap(loads))
-
-
 def test_ratio_one_is_isotropic_to_the_last_bit():
     plain, round_ = made(C0=0.1, h_rms=None), made(C0=0.1, h_rms=None, anisotropy=1, angle=0.7)
     for amplitudes in ("gaussian", "fixed"):
@@ -127,18 +118,6 @@ def test_modes_lie_in_the_ellipse_and_hold_its_variances(angle):
     realised = surface.realised_spectrum(np.fft.ifft2(np.sqrt(power)).real * 72**2, L)
     np.testing.assert_allclose(realised.q, window.q, rtol=1e-12)
     np.testing.assert_allclose(realised.variance, window.variance, rtol=1e-9)
-
-
-def test_seeds_grids_and_bands_of_surfaces_with_a_direction():
-    s = made(q0=2.0, q1=10.0, C0=1.0, h_rms=None, anisotropy=4.0, angle=0.3)
-    h = surface.synthesise(s, 48, L, 7)
-    np.testing.assert_array_equal(h, surface.synthesise(s, 48, L, 7))
-    np.testing.assert_allclose(surface.synthesise(s, 96, L, 7)[::2, ::2], h, atol=1e-12)
-    wide = made(q0=2.0, q1=20.0, C0=1.0, h_rms=None, anisotropy=4.0, angle=0.3)
-    more = surface.synthesise(wide, 96, L, 7) - surface.synthesise(s, 96, L, 7)
-    k = np.fft.fftfreq(96, 1 / 96)
-    inside = s.norm(k[:, None], k[None, :]) <= 10
-    assert np.abs(np.fft.fft2(more)[inside]).max() < 1e-15 * 96**2 * np.abs(h).max()
 
 
 def test_truncation_cuts_the_norm_and_keeps_the_direction():
@@ -201,3 +180,15 @@ def test_measured_dependence_on_direction(ratio):
     amplitude, direction = np.mean(found, axis=0)
     assert amplitude == pytest.approx(want, abs=0.03)
     assert direction == pytest.approx(angle - np.pi / 2, abs=0.03)
+
+
+def test_seeds_grids_and_bands_of_surfaces_with_a_direction():
+    s = made(q0=2.0, q1=10.0, C0=1.0, h_rms=None, anisotropy=4.0, angle=0.3)
+    h = surface.synthesise(s, 48, L, 7)
+    np.testing.assert_array_equal(h, surface.synthesise(s, 48, L, 7))
+    np.testing.assert_allclose(surface.synthesise(s, 96, L, 7)[::2, ::2], h, atol=1e-12)
+    wide = made(q0=2.0, q1=20.0, C0=1.0, h_rms=None, anisotropy=4.0, angle=0.3)
+    more = surface.synthesise(wide, 96, L, 7) - surface.synthesise(s, 96, L, 7)
+    k = np.fft.fftfreq(96, 1 / 96)
+    inside = s.norm(k[:, None], k[None, :]) <= 10
+    assert np.abs(np.fft.fft2(more)[inside]).max() < 1e-15 * 96**2 * np.abs(h).max()
