@@ -120,8 +120,7 @@ def take_dmt_limit(limit):
     none = xr.zeros_like(limit.inverse_kappa)
     dataset = limit[["q0_h_rms", "dmt_valid", "dmt_error"]]
     dataset = dataset.assign(external_pressure=limit.pressure - limit.attraction)
-    for name in (*SLOPES, *FITS):
-        source = CONTROLS[name]
+    for name, source in CONTROLS.items():
         dataset[name] = limit[source]
         dataset[f"{name}_error"] = limit[f"{source}_error"]
     dataset["external_pressure_error"] = limit.attraction_error
@@ -283,11 +282,8 @@ def join(solved, limit, full):
     """Variables of both models, each where it was chosen."""
     dataset = solved.copy()
     for name, values in limit.items():
-        if name not in solved:
-            dataset[name] = values
-            continue
         chosen = full if "pressure" in values.dims else full.any("pressure")
-        dataset[name] = solved[name].where(chosen, values)
+        dataset[name] = solved[name].where(chosen, values) if name in solved else values
     return dataset
 
 

@@ -117,8 +117,8 @@ def test_coarse_solutions_in_parts_are_those_of_one_file(tmp_path):
         )
         files[name] = datasets.read(path)
     assert files["second"].sizes["other"] == 0
-    whole = ensembles.rename_coarse(ensembles.join([files["one"]]))
-    both = ensembles.rename_coarse(ensembles.join([files["first"], files["second"]]))
+    whole = ensembles.join_coarse([files["one"]])
+    both = ensembles.join_coarse([files["first"], files["second"]])
     xr.testing.assert_equal(both, whole)
     assert both.sizes["other"] == 20
 

@@ -110,18 +110,6 @@ def test_truncation_keeps_the_rest(s, q1):
     assert cut.prescribed != "h_rms"  # the part keeps C, not the whole's height
 
 
-def test_table_is_linear_in_log_log():
-    q, C = np.array([1.0, 3.0, 4.0, 50.0]), np.array([2.0, 5.0, 0.1, 1e-6])
-    s = Tabulated(q, C)
-    at = np.array([1.0, 1.7, 3.5, 20.0, 50.0])
-    want = np.exp(np.interp(np.log(at), np.log(q), np.log(C)))
-    np.testing.assert_allclose(s.psd(at), want, rtol=1e-12)
-    for power in (0, 2, 4):
-        want = by_quadrature(s, 1.0, 50.0, power, q)
-        assert s.variance_below(50.0, power) == pytest.approx(want, rel=1e-9)
-    np.testing.assert_array_equal(s.knots, q)
-
-
 def test_shells_sum_up():
     q, variance = np.array([1.0, 2.0, 5.0]), np.array([3.0, 0.5, 0.25])
     s = Shells(q, variance)
