@@ -1,17 +1,8 @@
 """Pull-off of a sphere from a rough surface: Maugis' sphere with the adhesion that remains.
 
-Where the contact holds many of the longest waves, roughness changes only what holds the surfaces
-together per area: the work of adhesion becomes what remains of it, and the distance over which it
-acts becomes that of the rough surface. Both come from `Roughness`. The sphere is then smooth, and
-Maugis' solution goes from JKR to DMT.
-
-A sphere comes off from its edge. Roughness pins the edge, so that it takes more work to part the
-surfaces than remains. Dalvi et al. (PNAS 116, 25484, 2019, doi:10.1073/pnas.1913126116) measured
-what a cycle of contact and removal loses: the work of adhesion times the true area of contact. The
-high limit of the work of separation is what remains plus that loss, but at most `PINNING` elastic
-energies more than a smooth surface takes, which has nothing to pin the edge. The value has no
-pinning, nor has the low limit of the approach: the same authors found no other loss on approach
-than the elastic energy.
+Where the contact holds many of the longest waves, roughness changes only the work of adhesion and
+the distance over which it acts. Both come from `Roughness`. The sphere is then smooth, and Maugis'
+solution goes from JKR to DMT. Its edge may be pinned, see `work_of_separation`.
 """
 
 from __future__ import annotations
@@ -95,7 +86,13 @@ def pull_off(
 def work_of_separation(
     rough: Roughness, adhesion_length: ArrayLike, range: ArrayLike, sign: int = 0
 ) -> NDArray:
-    """Work of separation of a sphere's edge over the work of adhesion; `sign` as in `pull_off`."""
+    """Work of separation of a sphere's edge over the work of adhesion; `sign` as in `pull_off`.
+
+    Roughness pins the edge, so that parting takes more work than remains. Dalvi et al. (PNAS 116,
+    25484, 2019, doi:10.1073/pnas.1913126116) measured what a cycle of contact and removal loses:
+    the work of adhesion times the true area of contact. The high limit is what remains plus that
+    loss, but at most `PINNING` elastic energies more than a smooth surface takes.
+    """
     share = np.asarray(rough.share(adhesion_length, range, sign))
     if sign <= 0:
         return share
