@@ -54,11 +54,10 @@ class Simulation:
 
     def solver(self, name, like):
         """Relative error by the tolerance of the solver, along a variable."""
-        models, surface = self.problem.models, self.problem.surface
-        knob = {"tolerance": self.settings.tolerance}
+        problem, knob = self.problem, {"tolerance": self.settings.tolerance}
 
         def single(column, load):
-            return single_error(models, "solver", column, surface, load, **knob)
+            return single_error(problem.models, "solver", column, problem.surface, load, **knob)
 
         return along(single, name, like)
 
