@@ -225,6 +225,24 @@ def elastic_pressure(displaced, sides, solid=None):
     return np.fft.ifft2(waves).real
 
 
+def assert_contact_conditions(contact, heights, displacement, unit, tol=1e-8):
+    """Check fields, load and residual of a solution, given the displacement under its pressure."""
+    assert np.all(contact.pressure >= 0)
+    assert np.all(contact.gap >= 0)
+    assert not np.any(contact.pressure * contact.gap)
+    # The load is balanced to the rounding of a sum.
+    assert contact.pressure.mean() == pytest.approx(contact.mean_pressure, rel=1e-12)
+    gap = displacement + contact.shift - heights
+    # 1.01 and 1e-13: the residual is measured with other transforms, with other rounding.
+    assert np.abs(gap - contact.gap).max() <= (1.01 * tol + 1e-13) * unit
+    touching = contact.pressure > 0
+    violation = max(np.abs(gap[touching]).max(), -gap.min())
+    assert violation <= (1.01 * contact.residual + 1e-13) * unit
+    assert contact.residual <= tol
+    assert contact.area_fraction == np.mean(touching)
+    assert contact.mean_gap == pytest.approx(contact.gap.mean())
+
+
 def solve_directly(compliance, heights, load):
     """Pressure of all points, flat, which of them touch, and shift, from a dense compliance."""
     n = heights.size
