@@ -52,8 +52,6 @@ def heights(n=64, magnification=8):
     return surface.synthesise(s, n=n, length=LENGTH, seed=5)
 
 
-# --- solutions --------------------------------------------------------------------------------
-
 # What each reaches at worst in these cases, over the strength: Tamaas halts near 1e-6 at a
 # prescribed mean pressure, L-BFGS-B where energies drown in rounding.
 REACHED = {"tamaas": 1e-7, "tamaas_load": 1e-4, "adhesion": 1e-8, "adhesion_lbfgs": 1e-4}
@@ -81,8 +79,6 @@ def test_same_solution(name, range_, drivers):
     np.testing.assert_allclose(theirs.gap, ours.gap, atol=tolerance)
     assert there.contact == pytest.approx(here.contact, abs=3 / h.size)
 
-
-# --- closed forms -----------------------------------------------------------------------------
 
 R, W = 3.0, 2e-5
 

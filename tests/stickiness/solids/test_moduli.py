@@ -22,20 +22,16 @@ ENTRY = {"label": "a", "work_of_adhesion": "70 mJ/m^2", "range": "0.3 nm", "sour
 @pytest.mark.parametrize("frequency", [1e-3, 0.2, 30.0])
 def test_storage_modulus_is_the_sine_transform_of_relaxation(frequency):
     # E' = E_inf + omega * integral of (E(t) - E_inf) sin(omega t) dt, by quadrature.
-    omega = 2 * np.pi * frequency
-    parts = [
-        modulus
-        * integrate.quad(lambda t, tau=tau: np.exp(-t / tau), 0, np.inf, weight="sin", wvar=omega)[
-            0
-        ]
-        for modulus, tau in SERIES.terms
-    ]
-    assert SERIES.storage(frequency) == pytest.approx(1e4 + omega * sum(parts), rel=1e-6)
+    omega, total = 2 * np.pi * frequency, 0.0
+    for modulus, tau in SERIES.terms:
+        ends = {"a": 0, "b": np.inf, "weight": "sin", "wvar": omega}
+        total += modulus * integrate.quad(lambda t, tau=tau: np.exp(-t / tau), **ends)[0]
+    assert SERIES.storage(frequency) == pytest.approx(1e4 + omega * total, rel=1e-6)
 
 
 def test_limits_of_a_prony_series():
-    assert SERIES.storage(1e-9) == pytest.approx(1e4)
-    assert SERIES.storage(1e9) == pytest.approx(2.4e5)
+    extremes = SERIES.storage([1e-300, 1e160, 1e300])
+    np.testing.assert_allclose(extremes, [1e4, 2.4e5, 2.4e5], rtol=1e-15)
     assert np.all(np.diff(SERIES.storage(np.geomspace(1e-3, 1e5, 50))) > 0)
 
 
@@ -43,11 +39,6 @@ def test_table_is_interpolated_in_logarithms_and_says_nothing_beyond():
     table = Table((0.1, 10.0), (1e4, 1e6))
     assert table.storage(1.0) == pytest.approx(1e5)
     assert np.isnan(table.storage([0.01, 100.0])).all()
-
-
-@pytest.mark.parametrize("frequency", [1e-300, 1e160, 1e300])
-def test_extreme_frequencies_have_the_limits(frequency):
-    assert SERIES.storage(frequency) == pytest.approx(1e4 if frequency < 1 else 2.4e5, rel=1e-15)
 
 
 def test_crossings_between_the_end_of_a_table_and_the_next_frequency_count():
@@ -60,9 +51,8 @@ def test_crossings_between_the_end_of_a_table_and_the_next_frequency_count():
 def test_crossings_of_a_table_are_exact_and_know_their_direction():
     table = Table((0.01, 1.0, 100.0), (1e4, 1e6, 1e4))  # slopes +1 and -1
     grid = np.geomspace(1e-3, 1e3, 25)
-    (first, up), (second, up_again) = crossings(table, 1e5, grid)
-    assert (first, second) == pytest.approx((0.1, 10.0))
-    assert (up, up_again) == (True, False)
+    found = [(pytest.approx(0.1), True), (pytest.approx(10.0), False)]
+    assert crossings(table, 1e5, grid) == found
     assert crossings(Constant(1e5), 1e6, grid) == []
 
 
@@ -113,18 +103,14 @@ MATERIAL = materials.read_material(
 )
 
 
-def drawn(h, q0, energy=None):
-    """Spectra of these rms heights and wave numbers; by default of energies as h^2 q0."""
-    return Roughness(h, q0, h**2 * q0 if energy is None else energy)
-
-
-def material_at(factor, rough):
-    """The material with a work of adhesion that is this factor above its threshold."""
-    work = factor * float(rough.threshold(MATERIAL.range)) * MATERIAL.modulus
-    return dataclasses.replace(MATERIAL, work_of_adhesion=work)
-
-
 ROUGH = Roughness(h_rms=1e-6, q0=1e5, elastic_energy=1e-7)
+SAME = np.ones(4000)
+
+
+def material_at(factor):
+    """The material with a work of adhesion that is this factor above its threshold on `ROUGH`."""
+    work = factor * float(ROUGH.threshold(MATERIAL.range)) * MATERIAL.modulus
+    return dataclasses.replace(MATERIAL, work_of_adhesion=work)
 
 
 @pytest.mark.slow
@@ -132,40 +118,35 @@ def test_errors_of_the_spectrum_pass_to_the_margin():
     # Tough: the threshold is in proportion to the elastic energy, whatever h_rms and q0.
     rng = np.random.default_rng(0)
     energy = 1e-7 * np.exp(0.2 * rng.normal(size=4000))
-    found = draw_pair(MATERIAL, drawn(np.full(4000, 1e-6), np.full(4000, 1e5), energy))
+    found = draw_pair(MATERIAL, Roughness(1e-6 * SAME, 1e5 * SAME, energy))
     assert found.from_spectrum == pytest.approx(0.2, rel=0.05)
-    h = 1e-6 * np.exp(0.1 * rng.normal(size=4000))
-    q0 = 1e5 * np.exp(0.2 * rng.normal(size=4000))
-    found = draw_pair(MATERIAL, drawn(h, q0, np.full(4000, 1e-7)))
+    h, q0 = 1e-6 * np.exp(0.1 * rng.normal(size=4000)), 1e5 * np.exp(0.2 * rng.normal(size=4000))
+    found = draw_pair(MATERIAL, Roughness(h, q0, 1e-7 * SAME))
     assert found.from_spectrum < 1e-3
 
 
 @pytest.mark.slow
-def test_draws_spread_over_the_error_of_the_model():
-    """One spectrum: what is left are the model's errors, of which the limits cover 90 %."""
-    many = drawn(np.full(4000, 1e-6), np.full(4000, 1e5), np.full(4000, 1e-7))
-    solid = material_at(1.3, ROUGH)
-    found = draw_pair(solid, many)
+@pytest.mark.parametrize(("factor", "expected"), [(1.0, 0.5), (1.3, None), (2.0, 1.0), (0.5, 0.0)])
+def test_draws_spread_over_the_error_of_the_model(factor, expected):
+    """One spectrum: what is left are the model's errors, of which the limits cover 90 %.
+
+    Half of the draws stick at the threshold, all or none of them well beyond the model's error.
+    """
+    solid = material_at(factor)
+    found = draw_pair(solid, Roughness(1e-6 * SAME, 1e5 * SAME, 1e-7 * SAME))
     assert found.from_spectrum == pytest.approx(0, abs=1e-12)
     assert found.share_from_spectrum == pytest.approx(0, abs=1e-12)
+    # What sticks is what keeps the wanted share.
+    assert np.mean(found.remaining > DEFAULT_SHARE) == found.probability
+    if expected is not None:  # the binomial error of 4000 draws is below 0.008
+        assert found.probability == pytest.approx(expected, abs=0.025)
+        return
     length = solid.work_of_adhesion / solid.modulus
     limits = [length / ROUGH.threshold(solid.range, sign=sign) for sign in (-1, 0, 1)]
     # Standard errors of quantiles of 4000 draws are below 0.5 % of these.
     np.testing.assert_allclose(np.quantile(found.margins, (0.05, 0.5, 0.95)), limits, rtol=0.01)
     shares = [ROUGH.share(length, solid.range, sign) for sign in (-1, 0, 1)]
     np.testing.assert_allclose(np.quantile(found.remaining, (0.05, 0.5, 0.95)), shares, rtol=0.03)
-
-
-@pytest.mark.slow
-def test_probability_is_the_share_of_the_margin_above_one():
-    """Half of them at the threshold, all or none of them well beyond the model's error."""
-    many = drawn(np.full(4000, 1e-6), np.full(4000, 1e5), np.full(4000, 1e-7))
-    for factor, expected in ((1.0, 0.5), (2.0, 1.0), (0.5, 0.0)):
-        found = draw_pair(material_at(factor, ROUGH), many)
-        # Binomial error of 4000 draws: below 0.008.
-        assert found.probability == pytest.approx(expected, abs=0.025)
-        # What sticks is what keeps the wanted share.
-        assert np.mean(found.remaining > DEFAULT_SHARE) == found.probability
 
 
 @pytest.mark.parametrize(
