@@ -41,11 +41,6 @@ class JKRSphere:
     """Adhesive contact of a half-space with a paraboloid, attraction of vanishing range.
 
     Johnson, Kendall & Roberts, Proc. R. Soc. A 324, 301 (1971), doi:10.1098/rspa.1971.0141.
-
-    Parameters
-    ----------
-    radius, adhesion_length : float
-        Radius of curvature, work of adhesion over E* [length].
     """
 
     radius: float
@@ -149,11 +144,6 @@ class MaugisSphere:
     """Adhesive contact of a half-space with a paraboloid, Maugis law, any range.
 
     States are those of `stickiness.remaining.sphere.maugis_curve`, in the caller's units.
-
-    Parameters
-    ----------
-    radius, adhesion_length, range : float
-        Radius of curvature, work of adhesion over E*, range of the traction [length].
     """
 
     radius: float
@@ -260,11 +250,6 @@ class AdhesiveWave(_Wave):
     sqrt(tan psi))``. Johnson, Int. J. Solids Struct. 32, 423 (1995),
     doi:10.1016/0020-7683(94)00111-9; mean gap: Carbone & Mangialardi, J. Mech. Phys. Solids 52,
     1267 (2004), doi:10.1016/j.jmps.2003.12.001.
-
-    Parameters
-    ----------
-    amplitude, wavelength, adhesion_length : float
-        Of the wave, and work of adhesion over E* [length].
     """
 
     # Largest alpha at which contact is partial without load, (27/256)^(1/4) = 0.570: the largest
@@ -353,11 +338,6 @@ class MaugisWave(_Wave):
     has one root a; the curve of equilibria is therefore followed along c, and, once c has reached
     the trough, along a with ``p* sin^2 a - s``. The same problem by other means: Hui, Lin, Baney &
     Kramer, J. Polym. Sci. B 39, 1195 (2001).
-
-    Parameters
-    ----------
-    amplitude, wavelength, adhesion_length, range : float
-        Of the wave, work of adhesion over E*, range of the traction [length].
     """
 
     range: float
@@ -369,7 +349,7 @@ class MaugisWave(_Wave):
 
     def at_cohesive_fraction(self, cohesive_fraction: float) -> WaveState | None:
         """Equilibrium whose attraction covers a given share of the wave, None if there is none."""
-        c = float(self._phase(cohesive_fraction))
+        c = np.pi / 2 * cohesive_fraction
         a = self._contact_phase(c)
         return None if a is None else self._state(a, c)
 
@@ -436,7 +416,7 @@ class MaugisWave(_Wave):
         spread = np.maximum(np.sin(c - a) * np.sin(c + a), 0)
         angle = np.arctan2(np.sqrt(spread), np.cos(c))  # arccos(cos c/cos a), precise for c near a
         pressure = self.full_contact_amplitude * np.sin(a) ** 2 - 2 * self.strength / np.pi * angle
-        return WaveState((pressure), (2 / np.pi * a), (2 / np.pi * c))
+        return WaveState(pressure, 2 / np.pi * a, 2 / np.pi * c)
 
     def _contact_phase(self, c: float) -> float | None:
         """Phase a of the contact with a gap of the range at c; None if even a = 0 falls short."""
