@@ -2,7 +2,6 @@
 
 import os
 import resource
-from contextlib import contextmanager
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
@@ -102,64 +101,44 @@ def test_a_file_of_another_place_is_refused(dataset, tmp_path):
     assert datasets.read(moved / "seed1.nc").equals(dataset)
 
 
-@contextmanager
-def no_file_beyond(size):
-    """A disk with room for no more: what goes beyond is refused by the operating system."""
-    soft, hard = resource.getrlimit(resource.RLIMIT_FSIZE)
-    resource.setrlimit(resource.RLIMIT_FSIZE, (size, hard))
-    try:
-        yield
-    finally:
-        resource.setrlimit(resource.RLIMIT_FSIZE, (soft, hard))
-
-
 def test_a_full_disk_leaves_the_old_file_and_says_so(dataset, tmp_path):
     path = tmp_path / "file.nc"
     write(dataset, path, seed=1)
     larger = xr.Dataset({"height": (("x", "y"), np.random.default_rng(1).normal(size=(200, 200)))})
     datasets.annotate(larger, height=("1", "height"))
     message = r"file\.nc: could not be written .*make room and run the same command again"
-    with no_file_beyond(50_000), pytest.raises(datasets.WriteError, match=message):
-        write(larger, path, seed=2)
+    soft, hard = resource.getrlimit(resource.RLIMIT_FSIZE)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (50_000, hard))  # refuses what goes beyond
+    try:
+        with pytest.raises(datasets.WriteError, match=message):
+            write(larger, path, seed=2)
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, (soft, hard))
     assert datasets.read(path).equals(dataset)
     assert list(tmp_path.iterdir()) == [path]
     write(larger, path, seed=2)
     assert datasets.read(path).equals(larger)
 
 
-@contextmanager
-def as_nobody():
-    """Without the rights of root, who may write anywhere."""
-    if os.geteuid() != 0:
-        yield
-        return
-    os.seteuid(65534)
-    try:
-        yield
-    finally:
-        os.seteuid(0)
-
-
-@pytest.fixture
-def open_folder():
-    """A folder that everyone may look into, unlike pytest's."""
-    with TemporaryDirectory() as folder:
+def test_a_folder_that_may_not_be_written_to_is_named(dataset):
+    with TemporaryDirectory() as folder:  # unlike pytest's, everyone may look into it
         Path(folder).chmod(0o755)
-        yield Path(folder)
-
-
-def test_a_folder_that_may_not_be_written_to_is_named(dataset, open_folder):
-    path = open_folder / "results" / "file.nc"
-    write(dataset, path, seed=1)
-    content = path.read_bytes()
-    path.parent.chmod(0o555)
-    message = r"file\.nc: could not be written .*allow writing in .*results and run"
-    try:
-        with as_nobody(), pytest.raises(datasets.WriteError, match=message):
-            write(dataset, path, seed=2)
-    finally:
-        path.parent.chmod(0o755)
-    assert path.read_bytes() == content
+        path = Path(folder) / "results" / "file.nc"
+        write(dataset, path, seed=1)
+        content = path.read_bytes()
+        path.parent.chmod(0o555)
+        root = os.geteuid() == 0  # who may write anywhere
+        if root:
+            os.seteuid(65534)
+        message = r"file\.nc: could not be written .*allow writing in .*results and run"
+        try:
+            with pytest.raises(datasets.WriteError, match=message):
+                write(dataset, path, seed=2)
+        finally:
+            if root:
+                os.seteuid(0)
+            path.parent.chmod(0o755)
+        assert path.read_bytes() == content
 
 
 def test_texts_that_are_joined_keep_their_length(tmp_path):
