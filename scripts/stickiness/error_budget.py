@@ -14,7 +14,6 @@ A quoted variable ``q`` of a dataset has three more beside it:
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -25,7 +24,6 @@ from stickiness import datasets
 SOURCES = ("discretisation", "solver", "sampling", "bandwidth", "model")
 NONE = -1  #: flag of what has no error, or no value
 ENDINGS = ("_error", "_total_error", "_dominant")
-SOURCE_TEXTS = ("1", "where an error comes from")
 
 
 @dataclass(frozen=True)
@@ -92,13 +90,7 @@ def with_budget(
     quoted = value.assign_attrs(ancillary_variables=" ".join(names))
     added = dict(zip(names, (error, total, largest), strict=True))
     dataset = dataset.assign({name: quoted, **added}).assign_coords(source=list(SOURCES))
-    dataset.source.attrs = dict(zip(("units", "long_name"), SOURCE_TEXTS, strict=True))
-    return dataset
-
-
-def split(error: xr.DataArray, texts: Mapping[str, str]) -> dict[str, Part]:
-    """Parts of a budget from errors along `source` and their texts."""
-    return {s: Part(error.sel(source=s, drop=True), texts[s]) for s in SOURCES}
+    return datasets.annotate(dataset, source=("1", "where an error comes from"))
 
 
 def part(dataset: xr.Dataset, name: str, source: str) -> xr.DataArray:

@@ -12,7 +12,7 @@ from stickiness.arguments import grid, integer, number, numbers
 from stickiness.compiled import compiled
 from stickiness.plausibility import PlausibilityWarning, warn_of_heights, warn_of_pressure
 from stickiness.repulsive.half_space import check_length, measure_scale, measure_slope
-from stickiness.repulsive.solver import ConvergenceError
+from stickiness.repulsive.solver import ConvergenceError, Effort
 from stickiness.solids import HALF_SPACE, check_solid
 
 APPROACH, SEPARATION = "approach", "separation"
@@ -194,15 +194,6 @@ def solve(
     control, effort = Control(pressure, mean_gap), Effort(tol, max_iterations, logger)
     gap, branch, spent = _find_start(scaled, start, control, effort)
     return relax_from(scaled, gap, branch, control, effort, spent)
-
-
-@dataclass(frozen=True)
-class Effort:
-    """When to stop, and who is told the progress: see `solve`."""
-
-    tol: float
-    max_iterations: int
-    logger: object = None
 
 
 def relax_from(scaled, gap, branch, control, effort, spent=(0, 0)):
