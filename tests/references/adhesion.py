@@ -121,11 +121,9 @@ class DMTSphere:
         return -2 * np.pi * self.radius * self.adhesion_length
 
     def contact_radius(self, force: float) -> float:
-        """Contact radius [length] at a force [E* length^2]."""
         return float(np.cbrt(0.75 * self.radius * (force - self.pull_off_force)))
 
     def indentation(self, force: float) -> float:
-        """Approach of distant points [length] at a force [E* length^2]."""
         return self.contact_radius(force) ** 2 / self.radius
 
 
@@ -152,12 +150,10 @@ class MaugisSphere:
 
     @property
     def strength(self) -> float:
-        """Traction within the range [E*]."""
         return self.adhesion_length / self.range
 
     @property
     def maugis_parameter(self) -> float:
-        """Maugis' lambda."""
         return float(sphere.maugis_parameter(self.radius, self.adhesion_length, self.range))
 
     @property
@@ -231,12 +227,10 @@ class _Wave:
         return np.pi / 2 * np.asarray(fraction, dtype=float)
 
     def _position(self, x: ArrayLike) -> NDArray:
-        """Phase of the distance to the nearest crest, from 0 to pi/2."""
         share = np.asarray(x, dtype=float) / self.wavelength
         return np.pi * np.abs(share - np.round(share))
 
     def _westergaard(self, area_fraction: float) -> Westergaard:
-        """Contact of the given extent without adhesion."""
         load = self.full_contact_amplitude * np.sin(np.pi / 2 * area_fraction) ** 2
         return Westergaard(self.amplitude, self.wavelength, float(load))
 
@@ -289,7 +283,6 @@ class AdhesiveWave(_Wave):
         )
 
     def mean_gap(self, area_fraction: float) -> float:
-        """Mean gap [length] of a contact of given area fraction."""
         psi = self._phase(area_fraction)
         load = self.pressure(area_fraction) / self.full_contact_amplitude
         return float(self.amplitude * (np.cos(psi) ** 2 + 2 * load * np.log(np.sin(psi))))
@@ -344,7 +337,6 @@ class MaugisWave(_Wave):
 
     @property
     def strength(self) -> float:
-        """Traction within the range [E*]."""
         return self.adhesion_length / self.range
 
     def at_cohesive_fraction(self, cohesive_fraction: float) -> WaveState | None:

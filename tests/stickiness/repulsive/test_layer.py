@@ -5,7 +5,7 @@ import pytest
 from references.contact import assert_contact_conditions, displacement, elastic_pressure
 
 from stickiness import repulsive, spectrum, surface
-from stickiness.solids import Film, HalfSpace, Layer
+from stickiness.solids import Film, Layer
 
 LENGTH = 4 * np.pi  # two waves of wave number one
 ROUGH = spectrum.SelfAffine(hurst=0.8, q0=1.0, q1=16.0, h_rms=1.0)
@@ -52,16 +52,6 @@ def test_a_single_wave_in_full_contact(backing):
     expected = 1.001 * closing + closing * np.cos(x)
     np.testing.assert_allclose(full.pressure[:, 0], expected, rtol=1e-9, atol=1e-12)
     assert repulsive.solve(wave, 2 * np.pi, 0.98 * closing, solid=solid).area_fraction < 1
-
-
-@pytest.mark.parametrize("backing", ["bonded", "slip"])
-@pytest.mark.parametrize("poisson", [0.3, 0.5])
-def test_thick_layers_are_half_spaces(heights, backing, poisson):
-    half = repulsive.solve(heights, LENGTH, 0.1, solid=HalfSpace())
-    thick = repulsive.solve(heights, LENGTH, 0.1, solid=Layer(1e3, poisson, backing))
-    np.testing.assert_allclose(thick.pressure, half.pressure, atol=1e-6)
-    assert thick.area_fraction == half.area_fraction
-    assert thick.mean_gap == pytest.approx(half.mean_gap, rel=1e-9)
 
 
 def test_a_thin_compressible_layer_is_a_bed_of_springs(heights):

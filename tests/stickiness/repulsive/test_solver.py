@@ -125,33 +125,19 @@ def test_full_contact_of_a_rough_surface():
     assert_solves(almost, heights)
 
 
-def test_area_and_gap_are_monotonic_in_the_load():
-    heights = rough(128, seed=5)
-    pressures = 2 * np.pi * np.geomspace(0.003, 0.3, 6)
-    path = list(repulsive.load_path(heights, 1.0, pressures))
-    areas = np.array([c.area_fraction for c in path])
-    gaps = np.array([c.mean_gap for c in path])
-    assert np.all(np.diff(areas) > 0)
-    assert np.all(np.diff(gaps) < 0)
-    for c, pressure in zip(path, pressures, strict=True):
-        assert_solves(c, heights)
-        cold = repulsive.solve(heights, 1.0, pressure)
-        # two solutions to 1e-8 h_rms; single pixels with a pressure near zero may differ
-        assert c.area_fraction == pytest.approx(cold.area_fraction, abs=2 / heights.size)
-        assert c.mean_gap == pytest.approx(cold.mean_gap, abs=2e-8)
-
-
 @pytest.mark.slow
 def test_work_of_the_load_is_the_elastic_energy():
     """Energy balance: the load working against the mean gap stores the elastic energy."""
     heights = rough(64, seed=6)
     pressures = 2 * np.pi * np.geomspace(1e-6, 0.3, 400)
     path = list(repulsive.load_path(heights, 1.0, pressures, tol=1e-7))
-    gap = np.array([c.mean_gap for c in path])
-    work = -np.trapezoid(pressures, gap)
+    for contact in path[::50]:
+        image = displacement(contact.pressure, (1.0, 1.0))
+        assert_contact_conditions(contact, heights, image, heights.std(), tol=1e-7)
+    gap = [contact.mean_gap for contact in path]
     energy = 0.5 * np.mean(path[-1].pressure * displacement(path[-1].pressure, (1.0, 1.0)))
     # the trapezoid rule over steps of 3 % in load: relative error of some 1e-4
-    assert work == pytest.approx(energy, rel=1e-3)
+    assert -np.trapezoid(pressures, gap) == pytest.approx(energy, rel=1e-3)
 
 
 @pytest.mark.slow
@@ -188,14 +174,6 @@ def test_no_load_and_flat_surfaces():
         assert np.all(flat.pressure == 0.2)
         assert flat.gap.max() == flat.residual == 0
         assert flat.area_fraction == 1
-
-
-def test_any_layout_of_the_heights():
-    heights = rough(64, seed=11)
-    wide = np.zeros((64, 128))
-    wide[:, ::2] = heights
-    found, expected = (repulsive.solve(h, 1.0, 0.3) for h in (wide[:, ::2], heights))
-    np.testing.assert_array_equal(found.gap, expected.gap)
 
 
 def test_warm_start_saves_work():
