@@ -14,6 +14,7 @@ A quoted variable ``q`` of a dataset has three more beside it:
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -91,6 +92,11 @@ def with_budget(
     added = dict(zip(names, (error, total, largest), strict=True))
     dataset = dataset.assign({name: quoted, **added}).assign_coords(source=list(SOURCES))
     return datasets.annotate(dataset, source=("1", "where an error comes from"))
+
+
+def split(error: xr.DataArray, texts: Mapping[str, str]) -> dict[str, Part]:
+    """Parts of a budget from errors along `source` and their texts."""
+    return {s: Part(error.sel(source=s, drop=True), texts[s]) for s in SOURCES}
 
 
 def part(dataset: xr.Dataset, name: str, source: str) -> xr.DataArray:
