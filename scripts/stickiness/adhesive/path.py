@@ -212,7 +212,6 @@ class _Follower:
                 blocked = _Blocked()
 
     def _width(self, value):
-        """Width of the bracket of an event."""
         return self.located * max(abs(value), _NEAR_ZERO * self.span)
 
     def _solve(self, state, value, branch):

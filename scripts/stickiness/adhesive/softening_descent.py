@@ -255,7 +255,6 @@ class _Steps:
             self.precondition = Preconditioner(self.surface, self.free.reshape(self.shape))
 
     def _stiffen(self, field, out):
-        """Pressure that causes a displacement."""
         self.surface.quick.stiffness(field.reshape(self.shape), out=out.reshape(self.shape))
 
 
@@ -282,7 +281,6 @@ def _sum_work_between(gap, new_gap, elastic, new_elastic, pressure):
 
 @compiled
 def _dot(a, b):
-    """Sum of the products of two fields."""
     total = 0.0
     for i in range(a.size):
         total += a[i] * b[i]
@@ -323,7 +321,6 @@ def _turn_direction(direction, weight, step, mean, free, above):
 
 @compiled
 def _lower(field, mean, points):
-    """Lower a field on some points."""
     for i in range(field.size):
         if points[i]:
             field[i] -= mean

@@ -307,7 +307,8 @@ class Scaled:
             adhesion_length=law.adhesion_length * lengths[0] / height**2,
             range=law.range / height,
         )
-        unit = max(surface.flattening_pressure(), scaled_law.strength)
+        flattening = float(np.sqrt(np.mean(surface.exact.stiffness(scaled) ** 2)))
+        unit = max(flattening, scaled_law.strength)
         return cls(surface, scaled_law, law, lengths, height, rms, unit)
 
     @property

@@ -290,7 +290,6 @@ def _predicted_from_gap(grid, gap, load):
 
 
 def _predicted_from_pressure(grid, pressure, total):
-    """Contact set and pressure from a guess of the pressure."""
     flat = pressure.ravel()
     points = np.flatnonzero(flat > 0)
     shift, *_ = _gap(grid, grid.exact, points, _balanced(flat[points], total))

@@ -49,12 +49,8 @@ class FreeHalfSpace(half_space.HalfSpace):
         return out
 
 
-def free_half_space(shape, lengths, dtype=np.float64):
-    """`FreeHalfSpace` of a grid (arguments as there), kept for the next call of the same thread."""
-    return _kept_free_half_space(tuple(shape), tuple(lengths), np.dtype(dtype))
-
-
-_kept_free_half_space = half_space.keep_per_thread(12)(FreeHalfSpace)
+# Kept for the next call of the same thread.
+free_half_space = half_space.keep_per_thread(12)(FreeHalfSpace)
 
 
 def displace_by_pixel(shape, pixel):

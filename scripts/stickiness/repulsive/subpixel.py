@@ -145,7 +145,6 @@ def _require_grid(name: str, array: NDArray) -> None:
 
 
 def _mask(contact: ArrayLike) -> NDArray:
-    """Return a checked mask of the contact."""
     contact = np.asarray(contact)
     if contact.dtype != bool or contact.size == 0:
         raise ValueError(
