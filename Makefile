@@ -7,7 +7,7 @@ BIN := $(VENV)/bin
 PIP := $(BIN)/python -m pip install --quiet --disable-pip-version-check -c envs/constraints.txt
 SNAKEMAKE := $(BIN)/snakemake -j$(CORES)
 
-.PHONY: install reproduce draft test test-quick lint format dag benchmark docs pictures numbers
+.PHONY: install reproduce draft test test-quick lint format dag benchmark docs pictures
 
 install: $(VENV)/.run  ## the environment alone
 
@@ -17,12 +17,11 @@ reproduce: $(VENV)/.run  ## the full reproduction, at standard fidelity
 draft: $(VENV)/.run  ## everything, quick and rough
 	$(SNAKEMAKE) --config fidelity=draft
 
-# Each process goes on with its half of the tests and then with what is left of the other's.
+# A process that has finished its share of the tests takes over what is left of the other's.
 PYTEST := OMP_NUM_THREADS=1 $(BIN)/python -m pytest -n $(CORES) --dist worksteal
 
 test: $(VENV)/.dev $(VENV)/.docs $(VENV)/.peers  ## all tests
-	$(PYTEST) -m "not workflow"
-	$(PYTEST) -m workflow
+	$(PYTEST)
 
 test-quick: $(VENV)/.dev  ## the tests of about a minute: no workflow, no other codes, none that is slow
 	$(PYTEST) -m "not slow and not workflow and not peers"
@@ -30,6 +29,7 @@ test-quick: $(VENV)/.dev  ## the tests of about a minute: no workflow, no other 
 lint: $(VENV)/.dev  ## format and lint, nothing changed
 	$(BIN)/ruff format --check .
 	$(BIN)/ruff check .
+	PYTHONPATH=scripts $(BIN)/lint-imports --no-cache
 	$(BIN)/snakefmt --check Snakefile rules
 	$(BIN)/python tests/helpers/lint_rules.py
 
@@ -46,13 +46,9 @@ dag: $(VENV)/.run  ## what would run
 # Sphinx runs the notebook, too, and takes the root of the project for its folder of sources.
 SPHINX := $(BIN)/python -m sphinx -W --keep-going -c docs
 
-docs: $(VENV)/.docs  ## pages in docs/_build/html, the reference of the configuration, pictures of the rules
+docs: $(VENV)/.docs  ## pages in docs/_build/html, and the reference of the configuration
 	PYTHONPATH=scripts $(BIN)/python -m common.config.reference
-	$(BIN)/python docs/draw_rules.py
 	$(SPHINX) -b html . docs/_build/html
-
-numbers: $(VENV)/.run  ## the numbers of README.md and docs, from results/standard and results/draft
-	$(BIN)/python docs/fill_numbers.py
 
 pictures: $(VENV)/.run  ## the pictures of README.md and docs, from results/standard and with Chromium
 	$(BIN)/python docs/take_pictures.py
@@ -77,8 +73,7 @@ $(VENV)/.docs: envs/docs.txt $(VENV)/.run
 	touch $@
 
 # Reference codes for tests and benchmarks, which leave out those that do not install.
-$(VENV)/.peers: envs/peers.txt envs/instruments.txt $(VENV)/.dev
-	-$(PIP) -r envs/instruments.txt
+$(VENV)/.peers: envs/peers.txt $(VENV)/.dev
 	-$(PIP) -r envs/peers.txt
 	touch $@
 

@@ -5,8 +5,8 @@
 #        └─ spectrum of the cell ─► Persson's theory ─────┘           ▲        claims
 #   real surfaces ──► spectrum, H, C0 ────────────────────────────────┘        report
 #
-# A rule of stage S stands in rules/S.smk, its script is scripts/S/<rule>.py and its results lie
-# in results/<fidelity>/S/.
+# The rules of a stage are in rules/<stage>.smk, their scripts are scripts/<stage>/<rule>.py, and their
+# results are in results/<fidelity>/<stage>/.
 
 from pathlib import Path
 
@@ -15,8 +15,9 @@ from snakemake.utils import min_version
 min_version("9.0")
 
 
-# The user's keys; rules/common.smk adds those that it leaves out.
-if workflow.modifier.is_main_snakefile() and Path("config/config.yaml").exists():
+# What the user sets; rules/common.smk adds the other keys. Snakemake leaves this out in a module that
+# is given its configuration.
+if Path("config/config.yaml").exists():
 
     configfile: "config/config.yaml"
 
@@ -41,7 +42,6 @@ include: "rules/claims.smk"
 include: "rules/report.smk"
 include: "rules/tradeoff.smk"
 include: "rules/stability.smk"
-include: "rules/shared.smk"
 
 
 TARGETS = {
@@ -84,3 +84,6 @@ for target, files in TARGETS.items():
             target
         input:
             files,
+
+
+save_cache()

@@ -1,36 +1,27 @@
 """Drivers of the reference codes with adhesion: same heights, load and law, one thread.
 
 Every driver takes heights ``(n, n)``, the side of the square cell, a traction law, the mean
-pressure in units of E*, a tolerance relative to the law's strength, the mean gap of the solution
-(which some codes are told) and a limit of processor seconds, and returns a `Run`. What a run
+pressure in units of E*, a tolerance relative to the law's strength and a limit of processor
+seconds, and returns a `Run`. What a run
 really reached is measured for all codes by `assess`. Only solutions are timed, not the set-up of
 operators and plans, and in processor seconds.
 
-The peers' own ways, as found with Tamaas 2.9.0 and Adhesion 0.93 with NuMPI 0.18.1:
+Each peer runs in the strongest way found, with Tamaas 2.9.0 and Adhesion 0.93 with NuMPI 0.18.1:
 
-* Tamaas takes attraction as a functional of the gap, so the gap has to be the primal variable;
-  with the pressure as primal variable it returns a field that is no equilibrium. Of the two
-  constraints a mean gap is met in a tenth of the iterations of a mean pressure (which comes to
-  a halt near 1e-6). A load is therefore best found by iterating on the mean gap. Every
-  solution starts afresh, whatever the model holds.
-* Adhesion prescribes a displacement, and minimises with L-BFGS-B of scipy at scipy's tolerances:
-  that is how it comes (`adhesion_shipped`, which is told the displacement that belongs to the
-  load). Its energy and gradient with the gap as variable take a load by one more term, p times
-  the mean gap, if the half-space is told not to resist its mean displacement
-  (``stiffness_q0=0``; the default does). L-BFGS-B then stops at some 1e-6 of the strength however
-  small its tolerances, where changes of the energy drown in rounding. The other minimisers of
-  NuMPI can be given the same energy, its gradient and the package's Hessian products:
-  conjugate gradients with bounds, and a trust-region Newton method, the strongest found.
+* Tamaas takes attraction as a functional of the gap, so the gap has to be the primal variable. It
+  meets a mean gap in a tenth of the iterations that a mean pressure takes, so the load is found by
+  iterating on the mean gap.
+* Adhesion prescribes a displacement. Its energy and gradient with the gap as variable take a load
+  by one more term, p times the mean gap, if the half-space is told not to resist its mean
+  displacement (``stiffness_q0=0``). NuMPI's trust-region Newton method minimises that energy.
 """
 
 import contextlib
-import io
 import time
 import warnings
 from dataclasses import dataclass
 
 import numpy as np
-from scipy import optimize
 
 
 @dataclass(frozen=True, eq=False)
@@ -109,7 +100,7 @@ def assess(gap, heights, length, law, pressure):
     return Assessment(float(residual), float(energy), float(np.mean(gap == 0)), float(near.mean()))
 
 
-def stickiness(heights, length, law, pressure, tol, known=None, limit=np.inf):
+def stickiness(heights, length, law, pressure, tol, limit=np.inf):
     """Run this project's solver."""
     from stickiness import surface
     from stickiness.adhesive import solve
@@ -123,7 +114,7 @@ def stickiness(heights, length, law, pressure, tol, known=None, limit=np.inf):
     return Run(contact.gap, seconds, contact.iterations)
 
 
-def tamaas(heights, length, law, pressure, tol, known=None, limit=np.inf):
+def tamaas(heights, length, law, pressure, tol, limit=np.inf):
     """Run Tamaas, `PolonskyKeerRey` on the gap, at the mean gap that belongs to the load.
 
     Frerot et al. 2020, doi 10.21105/joss.02121; Rey, Anciaux & Molinari 2017, doi
@@ -156,21 +147,7 @@ def tamaas(heights, length, law, pressure, tol, known=None, limit=np.inf):
     return Run(gap, end - begin, None, solves, end - restart)
 
 
-def tamaas_told(heights, length, law, pressure, tol, known=None, limit=np.inf):
-    """Run Tamaas as `tamaas` does, once, at the mean gap that belongs to the load."""
-    begin = time.process_time()
-    gap, _ = _tamaas_solve(heights, length, law, known, tol, by_gap=True)
-    return Run(gap, time.process_time() - begin, None)
-
-
-def tamaas_load(heights, length, law, pressure, tol, known=None, limit=np.inf):
-    """Run Tamaas, `PolonskyKeerRey` on the gap with the mean pressure as its constraint."""
-    begin = time.process_time()
-    gap, _ = _tamaas_solve(heights, length, law, pressure, tol, by_gap=False, max_iter=1000)
-    return Run(gap, time.process_time() - begin, None)
-
-
-def _tamaas_solve(heights, length, law, target, tol, by_gap, max_iter=3000):
+def _tamaas_solve(heights, length, law, target, tol, by_gap):
     """Gap and mean pressure at a prescribed mean gap or pressure."""
     import tamaas as tm
 
@@ -188,7 +165,7 @@ def _tamaas_solve(heights, length, law, target, tol, by_gap, max_iter=3000):
         functional = _tamaas_functional(tm, law)(heights)
         functional.parameters = {"rho": law.range, "surface_energy": law.adhesion_length}
         solver.addFunctionalTerm(functional)
-    solver.max_iter = max_iter
+    solver.max_iter = 3000
     solver.solve(target)
     gap = np.array(model["gap"]).reshape(heights.shape)
     return gap, float(np.array(model.traction).mean())
@@ -205,91 +182,17 @@ def _tamaas_functional(tm, law):
         raise NotImplementedError(f"Tamaas has no {type(law).__name__} law") from None
 
 
-def adhesion(heights, length, law, pressure, tol, known=None, limit=np.inf):
-    """Run Adhesion's energy with NuMPI's bounded trust-region Newton method."""
+def adhesion(heights, length, law, pressure, tol, limit=np.inf):
+    """Run Adhesion's energy with NuMPI's bounded trust-region Newton method.
 
-    def newton(energy, start, system):
-        from NuMPI.Optimization import tr_newton_bounded
-
-        return tr_newton_bounded(
-            energy,
-            start,
-            _hessian_product(system, heights, length),
-            jac=True,
-            bounds_lo=0.0,
-            gtol=tol * law.strength,
-            maxiter=500,
-            delta0=0.1 * heights.std(),
-            delta_max=heights.std(),
-        )
-
-    return _adhesion_run(newton, heights, length, law, pressure, limit)
-
-
-def adhesion_ccg(heights, length, law, pressure, tol, known=None, limit=np.inf):
-    """Run Adhesion's energy with NuMPI's bound-constrained conjugate gradients."""
-
-    def conjugate_gradients(energy, start, system):
-        from NuMPI.Optimization import constrained_conjugate_gradients
-
-        return constrained_conjugate_gradients(
-            energy,
-            _hessian_product(system, heights, length),
-            start,
-            gtol=tol * law.strength,
-            maxiter=5000,
-            bounds=np.zeros_like(start),
-        )
-
-    return _adhesion_run(conjugate_gradients, heights, length, law, pressure, limit)
-
-
-def adhesion_lbfgs(heights, length, law, pressure, tol, known=None, limit=np.inf):
-    """Run Adhesion's energy with scipy's L-BFGS-B, its tolerances as small as they go."""
-    options = {"maxiter": 5000, "maxfun": 10_000, "ftol": 0, "gtol": tol * law.strength}
-
-    def lbfgs(energy, start, system):
-        return optimize.minimize(
-            energy,
-            start,
-            jac=True,
-            method="L-BFGS-B",
-            bounds=optimize.Bounds(0, np.inf),
-            options=options | {"maxcor": 20},
-        )
-
-    return _adhesion_run(lbfgs, heights, length, law, pressure, limit)
-
-
-def adhesion_shipped(heights, length, law, pressure, tol, known=None, limit=np.inf):
-    """Run Adhesion's `minimize_proxy` at the displacement that belongs to the load.
-
-    All is as it comes but for the tolerance of the gradient: scipy's, 1e-5 of whatever unit, is
-    met by the start.
+    It starts from the gap without adhesion, which is not timed.
     """
-    system = _adhesion_system(heights, length, law)
-    # By default the half-space resists its mean displacement as it does the longest wave.
-    offset = pressure * length / np.pi - known - heights.mean()
-    options = {"gtol": tol * law.strength * length**2 / heights.size}
-    begin = time.process_time()
-    with contextlib.redirect_stdout(io.StringIO()):
-        result = system.minimize_proxy(offset=offset, options=options)
-    seconds = time.process_time() - begin
-    gap = np.reshape(result.x, heights.shape) - heights - offset
-    # What rounds to contact is contact: the bound is a difference of heights.
-    gap[gap < 1e-14 * np.abs(heights).max()] = 0
-    return Run(gap, seconds, result.nit)
 
+    from NuMPI.Optimization import tr_newton_bounded
 
-class _OutOfTime(Exception):
-    """Raised by a function that has no time left."""
-
-
-def _adhesion_run(minimise, heights, length, law, pressure, limit):
-    """Minimise Adhesion's energy from the gap without adhesion, which is not timed."""
     from stickiness import repulsive
 
-    system = _adhesion_system(heights, length, law, stiffness_q0=0.0)
+    system = _adhesion_system(heights, length, law)
     objective = system.primal_objective(0.0, gradient=True)
     points_per_area = heights.size / length**2
     start = repulsive.solve(heights, length, pressure, tol=1e-6).gap.ravel()
@@ -306,23 +209,31 @@ def _adhesion_run(minimise, heights, length, law, pressure, limit):
             np.asarray(slope).ravel() * points_per_area + pressure,
         )
 
+    def hessian_product(gap, direction):
+        shaped = (field.reshape(heights.shape) for field in (gap, direction))
+        return system.primal_hessian_product(*shaped).ravel() * points_per_area
+
     with contextlib.suppress(_OutOfTime):
-        last = minimise(energy, start, system).x
+        last = tr_newton_bounded(
+            energy,
+            start,
+            hessian_product,
+            jac=True,
+            bounds_lo=0.0,
+            gtol=tol * law.strength,
+            maxiter=500,
+            delta0=0.1 * heights.std(),
+            delta_max=heights.std(),
+        ).x
     seconds = time.process_time() - begin
     return Run(np.reshape(last, heights.shape), seconds, calls)
 
 
-def _hessian_product(system, heights, length):
-    """Product of Adhesion's Hessian with a direction, per point."""
-
-    def product(gap, direction):
-        shaped = (field.reshape(heights.shape) for field in (gap, direction))
-        return system.primal_hessian_product(*shaped).ravel() * heights.size / length**2
-
-    return product
+class _OutOfTime(Exception):
+    """Raised by a function that has no time left."""
 
 
-def _adhesion_system(heights, length, law, **options):
+def _adhesion_system(heights, length, law):
     """Half-space, heights and interaction as Adhesion has them."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # it warns of a missing MPI on import
@@ -334,7 +245,9 @@ def _adhesion_system(heights, length, law, **options):
     if type(law).__name__ != "Exponential":
         raise NotImplementedError(f"Adhesion's driver has no {type(law).__name__} law")
     sides = (length, length)
-    half_space = ContactMechanics.PeriodicFFTElasticHalfSpace(heights.shape, 1.0, sides, **options)
+    half_space = ContactMechanics.PeriodicFFTElasticHalfSpace(
+        heights.shape, 1.0, sides, stiffness_q0=0.0
+    )
     topography = Topography(heights, physical_sizes=sides, periodic=True)
     return BoundedSmoothContactSystem(
         half_space, Exponential(law.adhesion_length, law.range), topography

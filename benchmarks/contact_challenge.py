@@ -29,7 +29,7 @@ from dataclasses import replace
 os.environ.setdefault("OMP_NUM_THREADS", "1")  # before numpy is loaded
 
 import numpy as np  # noqa: E402
-from scipy import ndimage, optimize, sparse  # noqa: E402
+from scipy import optimize  # noqa: E402
 
 from stickiness import adhesive, repulsive, spectrum, surface  # noqa: E402
 from stickiness import surface as synthesis  # noqa: E402
@@ -51,35 +51,12 @@ CELLS = (
     (3.125, (1024,), (2,), (REFERENCE,)),
     (50.0, (1024, 2048), (1,), (REFERENCE,)),
 )
-# Pixel [um], area with adhesion in the limit of fine grids over that counted at this pixel, and
-# the error of this ratio, at the reference load. From `cells`: 12 instead of 24 nm add 3.5 % on the
-# largest cell, and all finer grids together 2.5 to 3.1 times what this first step adds.
-LIMIT = ((0.0244, 1.10, 0.04), (0.0488, 1.11, 0.05))
-QUANTILES = (0.1, 0.5, 0.9)
 TOLERANCE = 1e-3  # with adhesion; areas change by less than 1e-3 of themselves below it
-
-# What is known of the published results, and how. READ: seen in the source at the address;
-# RECALLED: from memory, to be checked before it is quoted.
-NOTEBOOK = "ContactEngineering/Adhesion, examples/adhesive_simulation_rough.ipynb"
-DEFINITION = "arXiv:1512.02403, abstract"
-PUBLISHED = (
-    ("rms height of the heights, 512^2 points", "0.76217 um", f"READ: {NOTEBOOK}"),
-    ("rms gradient of the same, by differences", "0.73364", f"READ: {NOTEBOOK}"),
-    ("reference load, modulus", "250 kPa, 25 MPa", f"READ: {NOTEBOOK}"),
-    ("work of adhesion, range", "0.05 J/m^2, 2.071 nm", f"READ: {NOTEBOOK}"),
-    ("pressure, 512^2 points, 30 times the range", "245.563 kPa", f"READ: {NOTEBOOK}"),
-    ("areas that the definition states", "0.001 to 0.15", f"READ: {DEFINITION}"),
-    ("reference grid", "65536^2", "READ: www.lms.uni-saarland.de/contact-mechanics-challenge"),
-    ("area at the reference load, adhesion included", "0.027 to 0.03", "RECALLED, vaguely"),
-    ("mean gap, gaps, stresses, patches", "none found", "-"),
-)
 
 
 def main():
     asked = options()
     warnings.simplefilter("ignore", PlausibilityWarning)  # that pixels are too large is the point
-    for what, value, mark in PUBLISHED:
-        print(f"published: {what}: {value} ({mark})")
     if asked.part in ("full", "all"):
         report_full(asked)
     if asked.part in ("sticky", "all"):
@@ -144,11 +121,10 @@ def surfaces_of(asked):
 
 
 def report_full(asked):
-    """Whole surface without adhesion on two grids: areas, mean gaps, distributions."""
+    """Whole surface without adhesion on two grids: areas and mean gaps."""
     loads = sorted(asked.loads or LOADS)
     print("\nwhole surface, without adhesion; area and mean gap [um] +- error of the grid")
     print("surface      p/E*      area     +-      counted  mean gap     +-")
-    found = []
     for name, heights, side in surfaces_of(asked):
         describe_heights(name, heights, side)
         start = time.process_time()
@@ -161,11 +137,7 @@ def report_full(asked):
                 f"  {fine['mean_gap']:.5f}  {gap_error:.5f}",
                 flush=True,
             )
-            found.append((fine["load"], area, area_error, fine["mean_gap"], gap_error))
-            if np.isclose(fine["load"], REFERENCE):
-                print(describe_distributions(fine))
         print(f"{name}: {time.process_time() - start:.0f} s of processor")
-    summarise(np.array(found))
 
 
 def describe_heights(name, heights, side):
@@ -179,31 +151,10 @@ def describe_heights(name, heights, side):
     )
 
 
-def summarise(found):
-    """Table of means over surfaces, with errors of grid and of surfaces in quadrature."""
-    if not len(found):
-        return
-    print(HEAD)
-    for load in np.unique(found[:, 0]):
-        rows = found[found[:, 0] == load]
-        spread = np.std(rows, axis=0, ddof=1) if len(rows) > 1 else np.zeros(5)
-        mean = rows.mean(axis=0)
-        for name, at in (("area without adhesion", 1), ("mean gap without adhesion, um", 3)):
-            # Another surface of this spectrum may be a spread away: the published one is one.
-            print_row(name, load, mean[at], np.hypot(spread[at], mean[at + 1]), "none found")
-
-
-HEAD = "quantity                               p/E*    ours      +-       published"
-
-
-def print_row(quantity, load, value, error, published):
-    print(f"{quantity:36s} {load:7.4f}  {value:8.5f}  {error:7.5f}  {published}", flush=True)
-
-
 def press(heights, side, loads, tol):
     """Rows of quantities without adhesion, from load to load, and the solutions."""
     contacts = repulsive.load_path(heights, side, loads, tol=tol)
-    return [(measure(c.gap, c.pressure, c.mean_pressure), c) for c in contacts]
+    return [(measure(c.gap, c.mean_pressure), c) for c in contacts]
 
 
 def stick(heights, contact):
@@ -214,37 +165,21 @@ def stick(heights, contact):
     """
     load = contact.mean_pressure
     state = adhesive.solve(heights, contact.length, LAW, load, start=contact, tol=TOLERANCE)
-    row = measure(state.gap, state.pressure, load)
+    row = measure(state.gap, load)
     row["attractive"] = float(np.mean((state.gap > 0) & (state.gap <= RANGE)))
     return row
 
 
-def measure(gap, pressure, load):
-    """Area, mean gap and distributions of one solution."""
+def measure(gap, load):
+    """Area and mean gap of one solution."""
     touching = gap <= 0
     counted = float(touching.mean())
-    stress = pressure[touching] / load if touching.any() else np.zeros(1)
     return {
         "load": load,
         "counted": counted,
         "area": counted - subpixel.boundary_strip(touching),
         "mean_gap": float(gap.mean()),
-        "gap_quantiles": np.quantile(gap[~touching], QUANTILES),
-        "stress_mean": float(stress.mean()),
-        "stress_rms": float(np.sqrt(np.mean(stress**2))),
-        "stress_quantiles": np.quantile(stress, QUANTILES),
-        "patches": count_patches(touching),
     }
-
-
-def count_patches(touching):
-    """Number of connected patches of contact, periodic, by sides."""
-    labels, count = ndimage.label(touching)
-    pairs = [(labels[0], labels[-1]), (labels[:, 0], labels[:, -1])]
-    one, other = (np.concatenate(ends) for ends in zip(*pairs, strict=True))
-    both = (one > 0) & (other > 0)
-    links = sparse.coo_array((np.ones(both.sum()), (one[both], other[both])), (count + 1,) * 2)
-    return sparse.csgraph.connected_components(links, directed=False)[0] - 1
 
 
 def continuum_area(coarse, fine):
@@ -255,17 +190,6 @@ def continuum_area(coarse, fine):
     """
     line = richardson.extrapolate(coarse["counted"], fine["counted"])
     return fine["area"], max(abs(fine["area"] - coarse["area"]), abs(fine["area"] - line))
-
-
-def describe_distributions(row):
-    """Return distributions of one solution as a line."""
-    gaps = " ".join(f"{value:.4f}" for value in row["gap_quantiles"])
-    stresses = " ".join(f"{value:.1f}" for value in row["stress_quantiles"])
-    return (
-        f"    open gaps at 10, 50, 90 %: {gaps} um; stress in contact over p at 10, 50, 90 %: "
-        f"{stresses}, mean {row['stress_mean']:.1f}, rms {row['stress_rms']:.1f}; "
-        f"{row['patches']} patches"
-    )
 
 
 def report_sticky(asked):
@@ -283,20 +207,6 @@ def report_sticky(asked):
                 f"  {without['mean_gap']:.5f}  {time.process_time() - start:7.0f}",
                 flush=True,
             )
-            print(describe_distributions(row))
-            if np.isclose(row["load"], REFERENCE):
-                print_sticky(row["counted"], side / len(heights))
-
-
-def print_sticky(counted, pixel):
-    """Row of the area with adhesion in the limit of fine grids, by the factor of the cells."""
-    pixels, factors, errors = np.transpose(LIMIT)
-    if not 0.99 * pixels[0] < pixel < 1.01 * pixels[-1]:
-        return
-    factor, error = (np.interp(pixel, pixels, values) for values in (factors, errors))
-    published = next(f"{value} ({mark})" for what, value, mark in PUBLISHED if "area at" in what)
-    print(HEAD)
-    print_row("area with adhesion", REFERENCE, factor * counted, error * counted, published)
 
 
 def report_cells(asked):

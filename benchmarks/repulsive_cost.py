@@ -1,11 +1,9 @@
-"""Cost of the repulsive solver beside itself: growth with the grid, load curves, memory.
+"""Cost of the repulsive solver against the grid.
 
-`growth` writes a table and a plot of processor time, memory and FFT pairs against the grid, beside
-a bare pair of transforms, the limit of any such method; `loads` prints what a load curve costs and
-the memory by load. Example::
+Writes a table and a plot of processor time, memory and FFT pairs, beside a bare pair of transforms,
+the limit of any such method. Example::
 
-    python benchmarks/repulsive_cost.py growth --sizes 512 1024 2048 4096 8192 --output docs
-    python benchmarks/repulsive_cost.py loads --sizes 1024
+    python benchmarks/repulsive_cost.py --sizes 512 1024 2048 4096 8192 --output docs
 """
 
 import argparse
@@ -28,8 +26,7 @@ from stickiness import repulsive, spectrum, surface  # noqa: E402
 from stickiness.repulsive import half_space  # noqa: E402
 
 Q0 = 2 * np.pi
-LOADS = (0.003, 0.01, 0.065, 0.3, 1.0, 3.0)
-GROWTH = (0.01, 0.1)  # loads of `growth`
+LOADS = (0.01, 0.1)
 FIELDS = ("n", "load", "area", "seconds", "pairs", "pair_seconds", "gigabytes", "arrays")
 _OFTEN = 2048  # sides up to which the least of three times counts
 _ONCE = 4096  # sides beyond which operators are made within the only time
@@ -38,7 +35,6 @@ COLOURS = {0.01: "#0072b2", 0.1: "#d55e00"}
 
 def options():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("what", choices=["growth", "loads"])
     parser.add_argument("--sizes", type=int, nargs="+", default=[512, 1024, 2048])
     parser.add_argument("--hurst", type=float, default=0.8)
     parser.add_argument("--seed", type=int, default=1)
@@ -85,7 +81,7 @@ def growth(chosen):
     for n in chosen.sizes:
         heights = heights_of(n, chosen.hurst, chosen.seed)
         runs = 3 if n <= _OFTEN else 1
-        for load in GROWTH:
+        for load in LOADS:
             most, seconds, contact = peak(heights, load)
             if n <= _ONCE:
                 seconds = min(timed(heights, load)[0] for _ in range(runs))
@@ -107,7 +103,7 @@ def write(path, rows):
 def draw(path, rows):
     figure, (times, memory, pairs) = plt.subplots(1, 3, figsize=(9.5, 3.4), layout="constrained")
     panels = ((times, "seconds"), (memory, "gigabytes"), (pairs, "pairs"))
-    for load, marker in zip(GROWTH, "os", strict=True):
+    for load, marker in zip(LOADS, "os", strict=True):
         among = [row for row in rows if row["load"] == load]
         n = [row["n"] for row in among]
         for axes, name in panels:
@@ -133,40 +129,8 @@ def draw(path, rows):
     figure.savefig(path, dpi=150)
 
 
-def curve(chosen):
-    """Twelve loads from 0.003 to 0.3 on the largest grid, in units of single solutions."""
-    n = chosen.sizes[-1]
-    heights = heights_of(n, chosen.hurst, chosen.seed)
-    timed(heights, 0.065)  # plans
-    begin = time.process_time()
-    pairs = sum(
-        contact.fft_pairs
-        for contact in repulsive.load_path(heights, 1.0, Q0 * np.geomspace(0.003, 0.3, 12))
-    )
-    seconds = time.process_time() - begin
-    for load in (0.003, 0.065, 0.3):
-        alone, contact = timed(heights, load)
-        print(
-            f"n = {n}: 12 loads cost {seconds / alone:.1f} solutions at load {load:g} "
-            f"({pairs / contact.fft_pairs:.1f} by FFT pairs)"
-        )
-
-
-def memory(chosen):
-    n = chosen.sizes[-1]
-    heights = heights_of(n, chosen.hurst, chosen.seed)
-    for load in LOADS:
-        most, _, contact = peak(heights, load)
-        arrays = most / heights.nbytes
-        print(f"n = {n}, load {load:g}, area {contact.area_fraction:.3f}: {arrays:.1f} arrays")
-
-
 def main():
     chosen = options()
-    if chosen.what == "loads":
-        curve(chosen)
-        memory(chosen)
-        return
     rows = growth(chosen)
     write(chosen.output / "repulsive_cost.csv", rows)
     draw(chosen.output / "repulsive_cost.png", rows)

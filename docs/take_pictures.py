@@ -16,7 +16,6 @@ FLAGS = ("--headless", "--no-sandbox", "--disable-gpu", "--hide-scrollbars", "--
 FLAGS += ("--virtual-time-budget=8000",)  # until scripts have drawn
 # Page, height of the window, and what is hidden.
 PAGES = {
-    "report": ("report/report.html", 1250, ""),
     "verdicts": (
         "report/report.html",
         2000,
@@ -29,7 +28,7 @@ PAGES = {
         "main > :not(h1, #touch, #touch + figure) { display: none !important }",
     ),
 }
-FIGURES = ("fig2", "fig3", "fig7", "fig11")
+FIGURES = ("fig11",)
 
 
 def shot(browser: str, page: Path, height: int, hidden: str) -> Image.Image:

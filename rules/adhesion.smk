@@ -31,14 +31,14 @@ def seeds_in_full(adhesion):
 
 def realisations_in_full(wildcards):
     folder = f"{RESULTS}/adhesion/full/{wildcards.adhesion}"
-    parts = plan.seed_parts(len(seeds_in_full(wildcards.adhesion)))
+    parts = plan.seed_batches(len(seeds_in_full(wildcards.adhesion)))
     return [f"{folder}/seeds{part}.nc" for part in parts]
 
 
 def same_without_adhesion(wildcards):
     """Contact without adhesion of the realisations that are solved in full."""
     case, count = case_of(wildcards), len(seeds_in_full(wildcards.adhesion))
-    parts = plan.covering_parts(count, among=len(seeds_of(case)))
+    parts = plan.batches_covering(count, among=len(seeds_of(case)))
     return [f"{RESULTS}/contact/{case}/seeds{part}.nc" for part in parts]
 
 
@@ -56,8 +56,14 @@ rule solve_adhesive:
         surfaces=lambda wildcards: surfaces_of(case_of(wildcards), wildcards.part),
     output:
         f"{RESULTS}/adhesion/full/{{adhesion}}/seeds{{part}}.nc",
+    log:
+        f"{RESULTS}/logs/solve_adhesive/adhesion/full/{{adhesion}}/seeds{{part}}.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/solve_adhesive/adhesion/full/{{adhesion}}/seeds{{part}}.tsv"
     # The longest jobs of a run: started late, they would keep one core busy and leave the others.
     priority: 1
+    conda:
+        "../envs/environment.yaml"
     resources:
         mem_mb=memory(27 + plan.SEEDS_A_FILE, adhesion_size),
         runtime=minutes(4.1, adhesion_size, adhesive_states),
@@ -65,6 +71,7 @@ rule solve_adhesive:
         seeds=lambda wildcards: plan.seeds_in(wildcards.part),
         adhesion=parameters_in_full,
         full=points_in_full,
+        code=source_hash("adhesion/solve_adhesive.py"),
     script:
         "../scripts/adhesion/solve_adhesive.py"
 
@@ -77,11 +84,18 @@ rule average_adhesive:
     output:
         averages=f"{RESULTS}/adhesion/full/{{adhesion}}.nc",
         limit=f"{RESULTS}/adhesion/dmt/{{adhesion}}.nc",
+    log:
+        f"{RESULTS}/logs/average_adhesive/adhesion/full/{{adhesion}}.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/average_adhesive/adhesion/full/{{adhesion}}.tsv"
+    conda:
+        "../envs/environment.yaml"
     params:
         adhesion=lambda wildcards: ADHESION[wildcards.adhesion],
         full=points_in_full,
         dmt_error=lambda wildcards: model_of(wildcards.adhesion).dmt_error.tolist(),
         jtb=lambda wildcards: model_of(wildcards.adhesion).jtb.tolist(),
+        code=source_hash("adhesion/average_adhesive.py"),
     script:
         "../scripts/adhesion/average_adhesive.py"
 
@@ -93,6 +107,14 @@ rule compare_edges:
         alone=same_without_adhesion,
     output:
         f"{RESULTS}/adhesion/edges/{{adhesion}}.nc",
+    log:
+        f"{RESULTS}/logs/compare_edges/adhesion/edges/{{adhesion}}.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/compare_edges/adhesion/edges/{{adhesion}}.tsv"
+    conda:
+        "../envs/environment.yaml"
+    params:
+        code=source_hash("adhesion/compare_edges.py"),
     script:
         "../scripts/adhesion/compare_edges.py"
 
@@ -105,6 +127,14 @@ rule tabulate_dmt_error:
         ],
     output:
         f"{RESULTS}/adhesion/dmt_error.csv",
+    log:
+        f"{RESULTS}/logs/tabulate_dmt_error/adhesion/dmt_error.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/tabulate_dmt_error/adhesion/dmt_error.tsv"
+    conda:
+        "../envs/environment.yaml"
+    params:
+        code=source_hash("adhesion/tabulate_dmt_error.py"),
     script:
         "../scripts/adhesion/tabulate_dmt_error.py"
 
@@ -114,10 +144,17 @@ rule adhesive_maps:
         surfaces=lambda wildcards: surfaces_of(case_of(wildcards)),
     output:
         f"{RESULTS}/adhesion/full/{{adhesion}}/maps.nc",
+    log:
+        f"{RESULTS}/logs/adhesive_maps/adhesion/full/{{adhesion}}/maps.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/adhesive_maps/adhesion/full/{{adhesion}}/maps.tsv"
+    conda:
+        "../envs/environment.yaml"
     resources:
         mem_mb=memory(27 + plan.SEEDS_A_FILE, adhesion_size),
     params:
         adhesion=lambda wildcards: ADHESION[wildcards.adhesion],
+        code=source_hash("adhesion/adhesive_maps.py"),
     script:
         "../scripts/adhesion/adhesive_maps.py"
 
@@ -129,11 +166,18 @@ rule follow_loop:
         ),
     output:
         f"{RESULTS}/adhesion/loops/{{loop}}.nc",
+    log:
+        f"{RESULTS}/logs/follow_loop/adhesion/loops/{{loop}}.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/follow_loop/adhesion/loops/{{loop}}.tsv"
+    conda:
+        "../envs/environment.yaml"
     resources:
         mem_mb=memory(36 + plan.SEEDS_A_FILE, loop_size),
         runtime=60,
     params:
         loop=lambda wildcards: LOOPS[wildcards.loop],
         pixels_per_wavelength=FIDELITY["pixels_per_wavelength"],
+        code=source_hash("adhesion/follow_loop.py"),
     script:
         "../scripts/adhesion/follow_loop.py"

@@ -24,7 +24,6 @@ def describe_plan(wildcards):
         "settings": vars(planned.settings),
         "surface": model_surface_of(wildcards.case),
         "accuracy": case.get("accuracy"),
-        **({"carry_to": case["carry_to"]} if "carry_to" in case else {}),
     }
 
 
@@ -34,8 +33,15 @@ rule answer_case:
         laws=ERROR_MODELS,
     output:
         f"{RESULTS}/cases/{{case}}.nc",
+    log:
+        f"{RESULTS}/logs/answer_case/cases/{{case}}.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/answer_case/cases/{{case}}.tsv"
+    conda:
+        "../envs/environment.yaml"
     params:
         plan=describe_plan,
         fit_interval=config["a_v"]["windows"][0],
+        code=source_hash("cases/answer_case.py"),
     script:
         "../scripts/cases/answer_case.py"

@@ -49,7 +49,7 @@ def ledger_inputs():
         ],
         "seeds": [
             surfaces_of("H0.8_zeta64", part)
-            for part in plan.seed_parts(len(seeds_of("H0.8_zeta64")))
+            for part in plan.seed_batches(len(seeds_of("H0.8_zeta64")))
         ],
     }
 
@@ -57,8 +57,8 @@ def ledger_inputs():
 rule check_claims:
     input:
         **ledger_inputs(),
-        prose=own("report/claims.j2"),
-        page=own("report/claims.md.j2"),
+        prose=project_file("report/claims.j2"),
+        page=project_file("report/claims.md.j2"),
     output:
         dataset=f"{RESULTS}/claims/claims.nc",
         table=report(
@@ -66,5 +66,13 @@ rule check_claims:
             category="Claims",
             caption="../report/claims.rst",
         ),
+    log:
+        f"{RESULTS}/logs/check_claims/claims/claims.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/check_claims/claims/claims.tsv"
+    conda:
+        "../envs/environment.yaml"
+    params:
+        code=source_hash("claims/check_claims.py"),
     script:
         "../scripts/claims/check_claims.py"

@@ -1,60 +1,49 @@
 # Finds the project, checks the configuration and turns it into the tables that the rules use. No rule
 # stands here.
 
+import contextlib
 import os
 import re
-import shutil
 import subprocess
 import sys
 import tempfile
 import time
 from pathlib import Path
 
-from snakemake.sourcecache import HostingProviderFile, LocalSourceFile
 from snakemake.utils import update_config
 
-MODIFIER = workflow.modifier
-MODULE = MODIFIER.namespace  # name that another workflow gives this one as its module, or None
+
+def find_project():
+    """Folder of the project: the one above these rules, or a copy if Snakemake reads them from git."""
+    rules_folder = workflow.current_basedir
+    if os.path.isdir(str(rules_folder)):
+        return Path(str(rules_folder)).parent
+    # Snakemake fetches single files of github(…) and gitlab(…), but scripts import modules, which
+    # must lie in a folder. Its documentation offers no way to the clone that it keeps in its cache.
+    clone = getattr(getattr(rules_folder, "hosted_repo", None), "repo_clone", None)
+    if clone is None:
+        sys.exit(f"{rules_folder}: give the Snakefile as a path, or use a newer Snakemake")
+    git = ["git", "-C", str(clone)]
+    ref = f"{rules_folder.ref}^{{commit}}"
+    commit = subprocess.check_output([*git, "rev-parse", ref], text=True).strip()
+    copy = Path(f"{clone}-{commit}")
+    if not copy.exists():
+        with tempfile.TemporaryDirectory(dir=copy.parent) as folder:
+            content = subprocess.check_output([*git, "archive", "--prefix=copy/", commit])
+            subprocess.run(["tar", "-x", "-C", folder], input=content, check=True)
+            with contextlib.suppress(OSError):  # another run may have been faster
+                os.rename(f"{folder}/copy", copy)
+    return copy
 
 
-def find_project(rules_folder):
-    """Folder of the project: where these rules lie, or a copy if Snakemake reads them from git."""
-    if isinstance(rules_folder, LocalSourceFile):
-        return Path(rules_folder.get_path_or_uri(secret_free=True)).parent
-    if isinstance(rules_folder, HostingProviderFile):
-        return check_out(rules_folder.hosted_repo.repo_clone, rules_folder.ref)
-    sys.exit(f"{rules_folder}: give the Snakefile as a path, github(…) or gitlab(…)")
+PROJECT = find_project()
+# Another workflow may use this one as a module.
+MODULE = None if os.path.samefile(workflow.basedir, PROJECT) else "stickiness"
 
 
-def check_out(repository, ref):
-    """Copy of a commit in Snakemake's cache: scripts import modules, which must lie in a folder."""
-    git = ["git", "-C", str(repository)]
-    commit = subprocess.check_output([*git, "rev-parse", f"{ref}^{{commit}}"], text=True).strip()
-    folder = workflow.sourcecache.cache_path / "stickiness" / commit
-    if not folder.exists():
-        folder.parent.mkdir(parents=True, exist_ok=True)
-        part = tempfile.mkdtemp(dir=folder.parent)
-        content = subprocess.check_output([*git, "archive", commit])
-        subprocess.run(["tar", "-x", "-C", part], input=content, check=True)
-        os.chmod(part, 0o755)
-        try:
-            os.rename(part, folder)
-        except OSError:  # another run was first
-            shutil.rmtree(part)
-    return folder
-
-
-PROJECT = find_project(workflow.current_basedir)
-
-
-def own(path):
-    """A file of the project, from the folder of the run, whatever prefix a module has."""
+def project_file(path):
+    """A file of the project, seen from the folder of the run; a module's prefix does not move it."""
     return local(path if os.path.samefile(PROJECT, ".") else f"{PROJECT}/{path}")
-
-
-def placed(path):
-    """Where a file of results lies if a module has a prefix."""
-    return str(MODIFIER.modify_path(path))
 
 
 # Of this process and, by its environment, of every job.
@@ -70,7 +59,7 @@ for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
 # Made by the first run, which reads units before any job does.
 os.environ.setdefault("STICKINESS_UNITS", os.path.abspath(".snakemake/units"))
 
-from common import source_hash
+from common.source_hash import save_cache, source_hash
 from stickiness.accuracy import plan
 from stickiness.accuracy.error_models import read_models
 from stickiness.accuracy import model_choice
@@ -78,12 +67,16 @@ from common.config import load
 from common.config.entries import MOST_POINTS, measurements
 
 # Tables that this project measured, which are committed.
-ERROR_MODELS, TRADE_SUMMARY = own("config/accuracy.csv"), own("config/tradeoff.csv")
-REMAINING_TABLE, DMT_ERROR_TABLE = own("config/remaining.csv"), own("config/dmt_error.csv")
+ERROR_MODELS, TRADE_SUMMARY = project_file("config/accuracy.csv"), project_file(
+    "config/tradeoff.csv"
+)
+REMAINING_TABLE, DMT_ERROR_TABLE = project_file("config/remaining.csv"), project_file(
+    "config/dmt_error.csv"
+)
 
 try:
     # What a user leaves out is as in the project.
-    given, config = config, load.defaults(PROJECT, own)
+    given, config = config, load.defaults(PROJECT, project_file)
     update_config(config, given)
     TRADE, REMAINING_CAMPAIGN = (load.campaign(PROJECT, name) for name in ("tradeoff", "remaining"))
     if workflow.is_main_process:  # whose jobs read what was checked here
@@ -183,7 +176,7 @@ def surfaces_on(surface, pixels, part="1-1"):
         if each.simulated
         and (each.surface, each.settings.pixels_per_wavelength) == (surface, pixels)
     ]
-    held = plan.covering_parts(plan.seeds_in(part)[-1], among=max(counts, default=1))[-1]
+    held = plan.batches_covering(plan.seeds_in(part)[-1], among=max(counts, default=1))[-1]
     grid = "" if pixels == FIDELITY["pixels_per_wavelength"] else f"@{pixels}"
     return f"{RESULTS}/surfaces/{surface}{grid}/seeds{held}.nc"
 
@@ -196,15 +189,9 @@ def summarise():
     """Say where the results are and what they hold."""
     from common.run_summary import summary
 
-    answers = [placed(f"{RESULTS}/cases/{case}.nc") for case in CASES if "accuracy" in CASES[case]]
-    print(summary(placed(RESULTS), STARTED, answers), file=sys.stderr)
-
-
-onstart:
-    # On this machine there is no rate of jobs to limit, but for its sake Snakemake 9.27 looks for
-    # jobs to start once a second for every job that has ended: 12 % of a core in a long run.
-    if workflow.local_exec and hasattr(workflow.scheduler, "job_rate_limiter"):
-        workflow.scheduler.job_rate_limiter = None
+    results = Path(rules.write_report.output[0]).parents[1]  # with the prefix of a module
+    answers = [results / f"cases/{case}.nc" for case in CASES if "accuracy" in CASES[case]]
+    print(summary(str(results), STARTED, answers), file=sys.stderr)
 
 
 onsuccess:
@@ -214,7 +201,7 @@ onsuccess:
 onerror:
     summarise()
     print(
-        "  failed    Some jobs failed, as said above; what does not depend on them was made. "
-        "Mend what they name\n            and run the same command again: it makes the rest.",
+        "  failed    Some jobs failed, as reported above; whatever does not depend on them was made.\n"
+        "            Fix the cause and run the same command again to make the rest.",
         file=sys.stderr,
     )

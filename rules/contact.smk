@@ -6,16 +6,16 @@
 
 def realisations(wildcards):
     """Fine solutions of a case, which an earlier case on the same surface may hold."""
-    owner = PLANS[wildcards.case].owner
-    parts = plan.covering_parts(len(seeds_of(wildcards.case)), among=len(seeds_of(owner)))
-    return [f"{RESULTS}/contact/{owner}/seeds{part}.nc" for part in parts]
+    solved_by = PLANS[wildcards.case].solved_by
+    parts = plan.batches_covering(len(seeds_of(wildcards.case)), among=len(seeds_of(solved_by)))
+    return [f"{RESULTS}/contact/{solved_by}/seeds{part}.nc" for part in parts]
 
 
 def coarse_solutions(wildcards):
     """Coarse solutions behind a case's means, shared likewise; none for plain means."""
     planned = PLANS[wildcards.case]
-    parts = plan.coarse_parts(planned.settings.coarse_seeds)
-    return [f"{RESULTS}/contact/{planned.owner}/coarse{part}.nc" for part in parts]
+    parts = plan.coarse_batches(planned.settings.coarse_seeds)
+    return [f"{RESULTS}/contact/{planned.solved_by}/coarse{part}.nc" for part in parts]
 
 
 def measured_of(wildcards):
@@ -56,6 +56,12 @@ rule solve_repulsive:
         surfaces=lambda wildcards: surfaces_of(wildcards.case, wildcards.part),
     output:
         f"{RESULTS}/contact/{{case}}/seeds{{part}}.nc",
+    log:
+        f"{RESULTS}/logs/solve_repulsive/contact/{{case}}/seeds{{part}}.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/solve_repulsive/contact/{{case}}/seeds{{part}}.tsv"
+    conda:
+        "../envs/environment.yaml"
     resources:
         mem_mb=memory(17 + plan.SEEDS_A_FILE, case_size),
         runtime=minutes(1.1, case_size, fine_paths),
@@ -68,6 +74,7 @@ rule solve_repulsive:
         ),
         gaps=gaps_of,
         measured=measured_of,
+        code=source_hash("contact/solve_repulsive.py"),
     script:
         "../scripts/contact/solve_repulsive.py"
 
@@ -75,6 +82,12 @@ rule solve_repulsive:
 rule solve_coarse:
     output:
         f"{RESULTS}/contact/{{case}}/coarse{{part}}.nc",
+    log:
+        f"{RESULTS}/logs/solve_coarse/contact/{{case}}/coarse{{part}}.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/solve_coarse/contact/{{case}}/coarse{{part}}.tsv"
+    conda:
+        "../envs/environment.yaml"
     resources:
         mem_mb=memory(4 * 14, coarse_size),
         runtime=minutes(1.1, coarse_size, coarse_paths),
@@ -87,6 +100,7 @@ rule solve_coarse:
         after=lambda wildcards: plan.coarse_range(wildcards.part).start,
         seeds=lambda wildcards: plan.coarse_range(wildcards.part).stop,
         descriptor_seeds=config["sampling"]["descriptor_seeds"],
+        code=source_hash("contact/solve_coarse.py"),
     script:
         "../scripts/contact/solve_coarse.py"
 
@@ -96,11 +110,18 @@ rule contact_maps:
         surfaces=lambda wildcards: surfaces_of(wildcards.case),
     output:
         f"{RESULTS}/contact/{{case}}/maps.nc",
+    log:
+        f"{RESULTS}/logs/contact_maps/contact/{{case}}/maps.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/contact_maps/contact/{{case}}/maps.tsv"
+    conda:
+        "../envs/environment.yaml"
     resources:
         mem_mb=memory(22 + plan.SEEDS_A_FILE, case_size),
     params:
         pressures=lambda wildcards: CASES[wildcards.case].get("maps", []),
         tolerance=lambda wildcards: PLANS[wildcards.case].settings.tolerance,
+        code=source_hash("contact/contact_maps.py"),
     script:
         "../scripts/contact/contact_maps.py"
 
@@ -113,10 +134,17 @@ rule average_ensemble:
     output:
         means=f"{RESULTS}/contact/ensembles/{{case}}.nc",
         kappa=f"{RESULTS}/fits/kappa/{{case}}.nc",
+    log:
+        f"{RESULTS}/logs/average_ensemble/contact/ensembles/{{case}}.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/average_ensemble/contact/ensembles/{{case}}.tsv"
+    conda:
+        "../envs/environment.yaml"
     params:
         seeds=lambda wildcards: seeds_of(wildcards.case),
         pressures=lambda wildcards: PLANS[wildcards.case].pressures,
         quantities=lambda wildcards: PLANS[wildcards.case].quantities,
+        code=source_hash("contact/average_ensemble.py"),
     script:
         "../scripts/contact/average_ensemble.py"
 
@@ -126,6 +154,12 @@ rule solve_ensemble:
         laws=ERROR_MODELS,
     output:
         f"{RESULTS}/contact/ensembles/{{comparison}}.nc",
+    log:
+        f"{RESULTS}/logs/solve_ensemble/contact/ensembles/{{comparison}}.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/solve_ensemble/contact/ensembles/{{comparison}}.tsv"
+    conda:
+        "../envs/environment.yaml"
     resources:
         mem_mb=memory(17, comparison_size),
         runtime=minutes(1.1, comparison_size, comparison_solutions),
@@ -138,5 +172,6 @@ rule solve_ensemble:
         tolerance=FIDELITY["tolerance"],
         pixels_per_wavelength=comparison_pixels,
         gaps=GAPS,
+        code=source_hash("contact/solve_ensemble.py"),
     script:
         "../scripts/contact/solve_ensemble.py"

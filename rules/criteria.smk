@@ -15,9 +15,16 @@ rule map_criterion:
         a_v_table=f"{RESULTS}/fits/a_v_table.nc",
     output:
         f"{RESULTS}/criteria/map.nc",
+    log:
+        f"{RESULTS}/logs/map_criterion/criteria/map.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/map_criterion/criteria/map.tsv"
+    conda:
+        "../envs/environment.yaml"
     params:
         map=config["criteria"]["map"],
         pressure=config["criteria"]["a_v"]["pressure"],
+        code=source_hash("criteria/map_criterion.py"),
     script:
         "../scripts/criteria/map_criterion.py"
 
@@ -28,9 +35,16 @@ rule compare_criteria:
         a_v_table=f"{RESULTS}/fits/a_v_table.nc",
     output:
         f"{RESULTS}/criteria/compared.nc",
+    log:
+        f"{RESULTS}/logs/compare_criteria/criteria/compared.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/compare_criteria/criteria/compared.tsv"
+    conda:
+        "../envs/environment.yaml"
     params:
         compared=config["criteria"]["compared"],
         pressure=config["criteria"]["a_v"]["pressure"],
+        code=source_hash("criteria/compare_criteria.py"),
     script:
         "../scripts/criteria/compare_criteria.py"
 
@@ -51,7 +65,8 @@ JUDGED = {
 
 rule judge:
     input:
-        several("real_surfaces/{surface}.nc", surface=REAL_SURFACES),
+        surfaces=several("real_surfaces/{surface}.nc", surface=REAL_SURFACES),
+        template=project_file("report/verdicts.md.j2"),
     output:
         dataset=f"{RESULTS}/criteria/verdicts.nc",
         table=report(
@@ -59,8 +74,34 @@ rule judge:
             category="Verdicts",
             caption="../report/verdicts.rst",
         ),
+    log:
+        f"{RESULTS}/logs/judge/criteria/verdicts.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/judge/criteria/verdicts.tsv"
+    conda:
+        "../envs/environment.yaml"
     params:
         **JUDGED,
         surfaces=list(REAL_SURFACES),
+        code=source_hash("criteria/judge.py"),
     script:
         "../scripts/criteria/judge.py"
+
+
+rule judge_surface:
+    input:
+        surface=f"{RESULTS}/real_surfaces/{{real_surface}}.nc",
+        own=OWN_SURFACES,
+    output:
+        f"{RESULTS}/criteria/verdicts/{{real_surface}}.nc",
+    log:
+        f"{RESULTS}/logs/judge_surface/criteria/verdicts/{{real_surface}}.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/judge_surface/criteria/verdicts/{{real_surface}}.tsv"
+    conda:
+        "../envs/environment.yaml"
+    params:
+        **JUDGED,
+        code=source_hash("criteria/judge_surface.py"),
+    script:
+        "../scripts/criteria/judge_surface.py"

@@ -2,6 +2,8 @@
 
 
 rule predict_experiments:
+    input:
+        template=project_file("report/experiments.md.j2"),
     output:
         dataset=f"{RESULTS}/experiments/experiments.nc",
         table=report(
@@ -9,8 +11,15 @@ rule predict_experiments:
             category="Experiments",
             caption="../report/experiments.rst",
         ),
+    log:
+        f"{RESULTS}/logs/predict_experiments/experiments/experiments.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/predict_experiments/experiments/experiments.tsv"
+    conda:
+        "../envs/environment.yaml"
     params:
         experiments=EXPERIMENTS,
+        code=source_hash("experiments/predict_experiments.py"),
     script:
         "../scripts/experiments/predict_experiments.py"
 
@@ -25,5 +34,13 @@ rule plot_experiments:
             caption="../report/experiments.rst",
         ),
         pdf=f"{RESULTS}/figures/experiments.pdf",
+    log:
+        f"{RESULTS}/logs/plot_experiments/figures/experiments.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/plot_experiments/figures/experiments.tsv"
+    conda:
+        "../envs/environment.yaml"
+    params:
+        code=source_hash("experiments/plot_experiments.py"),
     script:
         "../scripts/experiments/plot_experiments.py"

@@ -65,8 +65,15 @@ for figure, files in FIGURE_INPUTS.items():
                 caption=f"../report/{figure}.rst",
             ),
             pdf=f"{RESULTS}/figures/{figure}.pdf",
+        log:
+            f"{RESULTS}/logs/plot_{figure}/figures/{figure}.log",
+        benchmark:
+            f"{RESULTS}/benchmarks/plot_{figure}/figures/{figure}.tsv"
+        conda:
+            "../envs/environment.yaml"
         params:
-            figure=figure,
             pressure=config["criteria"]["a_v"]["pressure"],
+            figure=figure,  # the path of the script is formatted when the job runs
+            code=source_hash(f"figures/plot_{figure}.py"),
         script:
             "../scripts/figures/plot_{params.figure}.py"

@@ -11,8 +11,15 @@ rule fit_a_v:
         areas=f"{RESULTS}/contact/ensembles/{{case}}.nc",
     output:
         f"{RESULTS}/fits/a_v/ensembles/{{case}}.nc",
+    log:
+        f"{RESULTS}/logs/fit_a_v/fits/a_v/ensembles/{{case}}.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/fit_a_v/fits/a_v/ensembles/{{case}}.tsv"
+    conda:
+        "../envs/environment.yaml"
     params:
         windows=config["a_v"]["windows"],
+        code=source_hash("fits/fit_a_v.py"),
     script:
         "../scripts/fits/fit_a_v.py"
 
@@ -26,6 +33,14 @@ if SIMULATED:
             theories=several("persson/lattice/{compared}.nc", compared=SIMULATED),
         output:
             several("fits/theory/{compared}.nc", compared=SIMULATED),
+        log:
+            f"{RESULTS}/logs/compare_theory/fits/theory.log",
+        benchmark:
+            f"{RESULTS}/benchmarks/compare_theory/fits/theory.tsv"
+        conda:
+            "../envs/environment.yaml"
+        params:
+            code=source_hash("fits/compare_theory.py"),
         script:
             "../scripts/fits/compare_theory.py"
 
@@ -36,6 +51,14 @@ rule tabulate_a_v:
         comparisons=expand(f"{RESULTS}/fits/theory/{{compared}}.nc", compared=SIMULATED),
     output:
         f"{RESULTS}/fits/a_v_table.nc",
+    log:
+        f"{RESULTS}/logs/tabulate_a_v/fits/a_v_table.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/tabulate_a_v/fits/a_v_table.tsv"
+    conda:
+        "../envs/environment.yaml"
+    params:
+        code=source_hash("fits/tabulate_a_v.py"),
     script:
         "../scripts/fits/tabulate_a_v.py"
 
@@ -46,5 +69,13 @@ rule fit_gamma:
         comparisons=expand(f"{RESULTS}/fits/theory/{{compared}}.nc", compared=SIMULATED),
     output:
         f"{RESULTS}/fits/gamma.nc",
+    log:
+        f"{RESULTS}/logs/fit_gamma/fits/gamma.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/fit_gamma/fits/gamma.tsv"
+    conda:
+        "../envs/environment.yaml"
+    params:
+        code=source_hash("fits/fit_gamma.py"),
     script:
         "../scripts/fits/fit_gamma.py"

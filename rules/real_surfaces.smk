@@ -1,7 +1,7 @@
-# Real surfaces: parameters from the literature, or topographies analysed for their spectrum, and
-# contact of measured heights where that is asked for. Pictures of contact need no asking.
+# Real surfaces: parameters from the literature, or topographies analysed for their spectrum. Every
+# measured map has a picture of its contact; `bem` in its entry adds contact with error estimates.
 
-from report.provided import choose_pictured
+from common.provided import choose_pictured
 
 PICTURED_MATERIAL = choose_pictured(MATERIALS)
 
@@ -26,8 +26,15 @@ rule analyse_surface:
         topographies=topographies,
     output:
         f"{RESULTS}/real_surfaces/{{real_surface}}.nc",
+    log:
+        f"{RESULTS}/logs/analyse_surface/real_surfaces/{{real_surface}}.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/analyse_surface/real_surfaces/{{real_surface}}.tsv"
+    conda:
+        "../envs/environment.yaml"
     params:
         surface=lambda wildcards: REAL_SURFACES[wildcards.real_surface],
+        code=source_hash("real_surfaces/analyse_surface.py"),
     script:
         "../scripts/real_surfaces/analyse_surface.py"
 
@@ -38,6 +45,12 @@ rule contact_measured:
         topographies=topographies,
     output:
         f"{RESULTS}/real_surfaces/contact/{{real_surface}}.nc",
+    log:
+        f"{RESULTS}/logs/contact_measured/real_surfaces/contact/{{real_surface}}.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/contact_measured/real_surfaces/contact/{{real_surface}}.tsv"
+    conda:
+        "../envs/environment.yaml"
     resources:
         mem_mb=memory(36, largest_contact),
         runtime=lambda wildcards: 60 + math.ceil(15 * largest_contact(wildcards)),
@@ -47,35 +60,31 @@ rule contact_measured:
         pixels_per_wavelength=FIDELITY["pixels_per_wavelength"],
         gamma=GAMMA,
         gaps=GAPS,
+        code=source_hash("real_surfaces/contact_measured.py"),
     script:
         "../scripts/real_surfaces/contact_measured.py"
 
 
-rule press_measured:
+rule picture_contact:
     input:
         surface=f"{RESULTS}/real_surfaces/{{real_surface}}.nc",
         topographies=topographies,
     output:
-        dataset=f"{RESULTS}/real_surfaces/pictures/{{real_surface}}.nc",
-        figure=f"{RESULTS}/figures/surfaces/{{real_surface}}_touch.png",
-    params:
-        surface=lambda wildcards: REAL_SURFACES[wildcards.real_surface],
-    script:
-        "../scripts/real_surfaces/press_measured.py"
-
-
-rule pull_measured:
-    input:
-        surface=f"{RESULTS}/real_surfaces/{{real_surface}}.nc",
-        topographies=topographies,
-    output:
-        dataset=f"{RESULTS}/real_surfaces/pull_off/{{real_surface}}.nc",
-        figure=f"{RESULTS}/figures/surfaces/{{real_surface}}_pull_off.png",
+        contact=f"{RESULTS}/real_surfaces/pictures/{{real_surface}}.nc",
+        pull_off=f"{RESULTS}/real_surfaces/pull_off/{{real_surface}}.nc",
+        figure=f"{RESULTS}/figures/surfaces/{{real_surface}}_contact.png",
+    log:
+        f"{RESULTS}/logs/picture_contact/real_surfaces/pictures/{{real_surface}}.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/picture_contact/real_surfaces/pictures/{{real_surface}}.tsv"
+    conda:
+        "../envs/environment.yaml"
     params:
         surface=lambda wildcards: REAL_SURFACES[wildcards.real_surface],
         material=PICTURED_MATERIAL,
         entry=MATERIALS[PICTURED_MATERIAL],
         law=REMAINING_CAMPAIGN["law"],
         squeeze=REMAINING_CAMPAIGN["squeeze"],
+        code=source_hash("real_surfaces/picture_contact.py"),
     script:
-        "../scripts/real_surfaces/pull_measured.py"
+        "../scripts/real_surfaces/picture_contact.py"

@@ -16,6 +16,12 @@ def measured_points(wildcards):
 rule measure_remaining:
     output:
         f"{REMAINING}/{{remaining_set}}/seed{{seed}}.nc",
+    log:
+        f"{REMAINING}/logs/measure_remaining/{{remaining_set}}/seed{{seed}}.log",
+    benchmark:
+        f"{REMAINING}/benchmarks/measure_remaining/{{remaining_set}}/seed{{seed}}.tsv"
+    conda:
+        "../envs/environment.yaml"
     resources:
         mem_mb=2000,
         runtime=120,
@@ -23,6 +29,7 @@ rule measure_remaining:
         surface=lambda wildcards: MEASURED[wildcards.remaining_set],
         law=REMAINING_CAMPAIGN["law"],
         squeeze=REMAINING_CAMPAIGN["squeeze"],
+        code=source_hash("remaining/measure_remaining.py"),
     script:
         "../scripts/remaining/measure_remaining.py"
 
@@ -38,5 +45,13 @@ rule tabulate_remaining:
     output:
         table=f"{REMAINING}/remaining.csv",
         summary=f"{REMAINING}/remaining.md",
+    log:
+        f"{REMAINING}/logs/tabulate_remaining/remaining.log",
+    benchmark:
+        f"{REMAINING}/benchmarks/tabulate_remaining/remaining.tsv"
+    conda:
+        "../envs/environment.yaml"
+    params:
+        code=source_hash("remaining/tabulate_remaining.py"),
     script:
         "../scripts/remaining/tabulate_remaining.py"

@@ -1,44 +1,51 @@
 # The report of all results, and a page for every real surface.
 
-PAGE_PARTS = [own(f"report/{part}") for part in ("macros.html.j2", "page.css", "page.js")]
+PAGE_PARTS = [project_file(f"report/{part}") for part in ("macros.html.j2", "page.css", "page.js")]
 
 
-def datasets_of(figure):
-    """Datasets that a figure draws."""
-    return [str(file) for file in getattr(rules, f"plot_{figure}").input]
+def results_folder(wildcards, output):
+    """Folder of the results, with the prefix that a module may have, which parameters lack."""
+    return Path(output[0]).parents[1]
 
 
-def find_measured_contact(wildcards):
-    """Contact of the measured heights of a surface, if it is asked for."""
-    asked = "bem" in REAL_SURFACES[wildcards.real_surface]
-    return [f"{RESULTS}/real_surfaces/contact/{wildcards.real_surface}.nc"] if asked else []
+def figure_sources(wildcards, output):
+    """Datasets that each figure shows."""
+    moved = f"{results_folder(wildcards, output)}/"
+    return {
+        figure: [
+            str(file).replace(f"{RESULTS}/", moved)
+            for files in FIGURE_INPUTS[figure].values()
+            for file in ([files] if isinstance(files, str) else files)
+        ]
+        for figure in FIGURES
+    }
 
 
-def find_pictures(wildcards):
-    """Contact that the page of a measured surface shows, with its pictures for paper."""
+def contact_of_surface(wildcards):
+    """Simulated contact of measured heights that the page of a surface shows, if there is any."""
     name = wildcards.real_surface
-    if REAL_SURFACES[name]["kind"] != "measured":
-        return []
-    return [
-        f"{RESULTS}/real_surfaces/pictures/{name}.nc",
-        f"{RESULTS}/figures/surfaces/{name}_touch.png",
-        f"{RESULTS}/real_surfaces/pull_off/{name}.nc",
-        f"{RESULTS}/figures/surfaces/{name}_pull_off.png",
-    ]
+    found = {}
+    if "bem" in REAL_SURFACES[name]:
+        found["measured_contact"] = f"{RESULTS}/real_surfaces/contact/{name}.nc"
+    if REAL_SURFACES[name]["kind"] == "measured":
+        found["contact"] = f"{RESULTS}/real_surfaces/pictures/{name}.nc"
+        found["pull_off"] = f"{RESULTS}/real_surfaces/pull_off/{name}.nc"
+        found["contact_figure"] = f"{RESULTS}/figures/surfaces/{name}_contact.png"
+    return found
 
 
 rule write_report:
     input:
-        template=own("report/report.html.j2"),
+        template=project_file("report/report.html.j2"),
         parts=PAGE_PARTS,
         figures=expand(f"{RESULTS}/figures/{{figure}}.png", figure=FIGURES),
-        captions=[own(f"report/{figure}.rst") for figure in FIGURES],
+        captions=[project_file(f"report/{figure}.rst") for figure in FIGURES],
         claims=f"{RESULTS}/claims/claims.nc",
         verdicts=f"{RESULTS}/criteria/verdicts.nc",
         criterion=f"{RESULTS}/criteria/map.nc",
         experiments=f"{RESULTS}/experiments/experiments.nc",
         experiments_figure=f"{RESULTS}/figures/experiments.png",
-        experiments_caption=own("report/experiments.rst"),
+        experiments_caption=project_file("report/experiments.rst"),
         ensembles=expand(f"{RESULTS}/contact/ensembles/{{case}}.nc", case=COMPLETE),
         comparisons=expand(f"{RESULTS}/fits/theory/{{case}}.nc", case=COMPLETE),
         surfaces=expand(f"{RESULTS}/real_surfaces/{{real_surface}}.nc", real_surface=REAL_SURFACES),
@@ -46,15 +53,21 @@ rule write_report:
         laws=ERROR_MODELS,
         trade=TRADE_SUMMARY,
         trade_figure=f"{RESULTS}/figures/tradeoff.png",
-        trade_caption=own("report/tradeoff.rst"),
+        trade_caption=project_file("report/tradeoff.rst"),
     output:
         report(
             f"{RESULTS}/report/report.html",
             category="Report",
             caption="../report/report.rst",
         ),
+    log:
+        f"{RESULTS}/logs/write_report/report/report.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/write_report/report/report.tsv"
+    conda:
+        "../envs/environment.yaml"
     params:
-        benchmarks=placed(f"{RESULTS}/benchmarks"),
+        benchmarks=lambda wildcards, output: str(results_folder(wildcards, output) / "benchmarks"),
         presets={
             "fidelities": config["fidelities"],
             "asked": TRADE["presets"],
@@ -62,37 +75,42 @@ rule write_report:
             "descriptor_seeds": config["sampling"]["descriptor_seeds"],
         },
         fidelity=config["fidelity"],
-        figure_sources={figure: datasets_of(figure) for figure in FIGURES},
+        figure_sources=figure_sources,
+        code=source_hash("report/write_report.py"),
     script:
         "../scripts/report/write_report.py"
 
 
 rule write_surface:
     input:
-        template=own("report/surface.html.j2"),
+        unpack(contact_of_surface),
+        template=project_file("report/surface.html.j2"),
         parts=PAGE_PARTS,
         surface=f"{RESULTS}/real_surfaces/{{real_surface}}.nc",
-        own=OWN_SURFACES,
-        measured_contact=find_measured_contact,
-        pictures=find_pictures,
+        verdicts=f"{RESULTS}/criteria/verdicts/{{real_surface}}.nc",
     output:
         figure=f"{RESULTS}/figures/surfaces/{{real_surface}}.png",
         curves=f"{RESULTS}/figures/surfaces/{{real_surface}}_curves.png",
-        verdicts=f"{RESULTS}/criteria/verdicts/{{real_surface}}.nc",
         page=report(
             f"{RESULTS}/report/surfaces/{{real_surface}}.html",
             category="Surfaces",
             caption="../report/surface.rst",
         ),
+    log:
+        f"{RESULTS}/logs/write_surface/figures/surfaces/{{real_surface}}.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/write_surface/figures/surfaces/{{real_surface}}.tsv"
+    conda:
+        "../envs/environment.yaml"
     params:
-        **JUDGED,
+        code=source_hash("report/write_surface.py"),
     script:
         "../scripts/report/write_surface.py"
 
 
 rule write_findings:
     input:
-        template=own("report/findings.md.j2"),
+        template=project_file("report/findings.md.j2"),
         claims=f"{RESULTS}/claims/claims.nc",
         a_v=several("fits/a_v/ensembles/{case}.nc", case=COMPLETE),
         lattices=several("fits/a_v/lattice/{case}.nc", case=COMPLETE),
@@ -105,7 +123,14 @@ rule write_findings:
         tradeoff=TRADE_SUMMARY,
     output:
         f"{RESULTS}/report/findings.md",
+    log:
+        f"{RESULTS}/logs/write_findings/report/findings.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/write_findings/report/findings.tsv"
+    conda:
+        "../envs/environment.yaml"
     params:
         fidelity=config["fidelity"],
+        code=source_hash("report/write_findings.py"),
     script:
         "../scripts/report/write_findings.py"

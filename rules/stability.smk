@@ -1,45 +1,37 @@
-# Where each part of the library is right, refuses, or fails, at the extremes of its parameters.
+# Where each part of the library is right, refuses, or fails, at the extremes of two parameters.
 # Independent of fidelity and cases.
 
 COMPONENTS = [
     "spectrum",
-    "odd-spectra",
-    "direction",
-    "sums",
-    "synthesise",
-    "directed-surfaces",
-    "measured",
-    "sampling",
-    "accuracy",
-    "persson",
-    "layers",
-    "backed-layers",
-    "layer-theory",
-    "layer-remaining",
-    "repulsive",
-    "layer-contact",
-    "sub-pixel",
-    "dmt",
-    "dmt-limit",
-    "adhesive",
-    "layer-adhesion",
-    "tension",
+    "surface",
+    "wave",
+    "contact",
+    "adhesion",
     "paths",
-    "model-choice",
-    "edge-adhesion",
-    "a_v-table",
+    "theory",
+    "PSD",
     "criteria",
-    "moduli",
+    "verdict",
+    "layer",
+    "layer-contact",
 ]
 
 
 rule probe_stability:
     output:
         f"{RESULTS}/stability/{{component}}.nc",
+    log:
+        f"{RESULTS}/logs/probe_stability/stability/{{component}}.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/probe_stability/stability/{{component}}.tsv"
     wildcard_constraints:
         component=choices(COMPONENTS),
+    conda:
+        "../envs/environment.yaml"
     resources:
         runtime=20,
+    params:
+        code=source_hash("stability/probe_stability.py"),
     script:
         "../scripts/stability/probe_stability.py"
 
@@ -54,5 +46,13 @@ rule plot_stability:
             caption="../report/stability.rst",
         ),
         pdf=f"{RESULTS}/figures/stability.pdf",
+    log:
+        f"{RESULTS}/logs/plot_stability/figures/stability.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/plot_stability/figures/stability.tsv"
+    conda:
+        "../envs/environment.yaml"
+    params:
+        code=source_hash("stability/plot_stability.py"),
     script:
         "../scripts/stability/plot_stability.py"

@@ -9,13 +9,20 @@ def pixels_of(wildcards):
 rule synthesise_surface:
     output:
         f"{RESULTS}/surfaces/{{model_surface}}{{grid}}/seeds{{part}}.nc",
+    log:
+        f"{RESULTS}/logs/synthesise_surface/surfaces/{{model_surface}}{{grid}}/seeds{{part}}.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/synthesise_surface/surfaces/{{model_surface}}{{grid}}/seeds{{part}}.tsv"
     # The longest jobs of a run wait for them.
     priority: 2
+    conda:
+        "../envs/environment.yaml"
     resources:
         mem_mb=memory(9 + plan.SEEDS_A_FILE, surface_size),
     params:
         seeds=lambda wildcards: plan.seeds_in(wildcards.part),
         surface=lambda wildcards: MODEL_SURFACES[wildcards.model_surface],
         pixels_per_wavelength=pixels_of,
+        code=source_hash("surfaces/synthesise_surface.py"),
     script:
         "../scripts/surfaces/synthesise_surface.py"

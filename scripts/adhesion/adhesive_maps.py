@@ -3,9 +3,8 @@
 import numpy as np
 
 from common.adhesion_sets import roughness, scaled_law
-from common.fields import gather_fields
 from common.job import start
-from common.realisations import read_first
+from common.model_surfaces import gather_fields, read_first
 from stickiness import adhesive, datasets
 
 TOLERANCE = 1e-6  # of the residual: far below what a picture shows
@@ -13,10 +12,10 @@ TOLERANCE = 1e-6  # of the residual: far below what a picture shows
 
 def main(job):
     surface = read_first(job.input.surfaces)
-    asked, shown = job.params.adhesion, job.params.adhesion["maps"]
+    adhesion, shown = job.params.adhesion, job.params.adhesion["maps"]
     heights, length = surface.height.values, float(surface.window_length)
     given = {name: shown[name] for name in ("adhesion_length_over_range", "range_over_h_rms")}
-    law = scaled_law(asked, asked["law"], **given)
+    law = scaled_law(adhesion, adhesion["law"], **given)
     pressures = np.sort(np.array(shown["pressures"], dtype=float))
     # Loads grow: each state is where a press would find it on loading.
     states = []
@@ -35,8 +34,8 @@ def main(job):
         title="gap and pressure fields of one realisation in adhesive contact",
         parameters={
             **datasets.parameters(surface),
-            "law": asked["law"],
-            "q0_h_rms": roughness(asked),
+            "law": adhesion["law"],
+            "q0_h_rms": roughness(adhesion),
             **given,
         },
     )

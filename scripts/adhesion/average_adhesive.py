@@ -1,10 +1,11 @@
-"""Adhesion of a set of parameters: in the DMT limit, and at every point by the model chosen.
+"""Adhesion of a set of parameters: in the DMT limit, and at every point by the chosen model.
 
-Of full simulation the realisations are averaged: slopes of the area-load relation, and how far the
-DMT limit is. With kappa = 2 without adhesion, 1/kappa = 1/2 - 1/kappa_ad. The latter is how much
-less pressure goes with the area than without adhesion, relative to that pressure; the sum of the
-tractions gives it directly, as in the DMT limit, but misses the area that they draw in. The area is
-that at a gap of zero, with ``_net`` its compressed part, which converges far more slowly.
+Full simulations are averaged over the realisations: slopes of the area-load relation, and their
+ratio to the DMT limit. With kappa = 2 without adhesion, 1/kappa = 1/2 - 1/kappa_ad. 1/kappa_ad is
+half the relative reduction by adhesion of the pressure that belongs to an area. The sum of the
+tractions gives it directly, as in the DMT limit, but misses the area that the tractions pull into
+contact. Areas are those at a gap of zero; ``_net`` is the compressed part, which converges far more
+slowly.
 """
 
 from dataclasses import replace
@@ -13,51 +14,43 @@ import numpy as np
 import xarray as xr
 from scipy import special
 
-from adhesion.dmt_averages import write_limit
-from adhesion.dmt_limit import DmtLimit, fit_slope, linearity_error
+from adhesion.dmt_limit import DmtLimit, fit_slope, linearity_error, write_limit
 from common import conventions
 from common.adhesion_sets import AXES, MISSING, OUTSIDE, solver_error
 from common.conventions import LINEAR_UP_TO
 from common.ensemble_means import add_errors, coarse, describe_errors, fine
 from common.error_budgets import SIMULATED
 from common.job import start
-from common.model_surfaces import cell_size
-from common.realisations import read_all
+from common.model_surfaces import cell_size, read_all
 from stickiness import datasets
 from stickiness.adhesive import edge_zone
 from stickiness.error_budget import SOURCES, split, with_budget
 from stickiness.statistics import students_t
 
-# Averages, with the quantity of the DMT limit that is their control, if any.
 STATES = {
-    "external_pressure": ("mean pressure over E* q0 h_rms", None),
-    "repulsive_area": ("area at a gap of zero over nominal area", None),
-    "net_repulsive_area": ("area at a gap of zero and compressed over nominal area", None),
-    "attractive_area": ("area within the range, not in contact, over nominal area", None),
+    "external_pressure": "mean pressure over E* q0 h_rms",
+    "repulsive_area": "area at a gap of zero over nominal area",
+    "net_repulsive_area": "area at a gap of zero and compressed over nominal area",
+    "attractive_area": "area within the range, not in contact, over nominal area",
 }
+# Slopes and fits have as their control the quantity of the DMT limit of the same name.
 SLOPES = {
-    "inverse_kappa": ("1/kappa = p_ext A_nom/(A_rep E* h'_rms)", "inverse_kappa"),
-    "inverse_kappa_net": ("1/kappa with the net repulsive area", "inverse_kappa"),
-    "inverse_kappa_ad": ("1/kappa_ad, from the fall of 1/kappa by adhesion", "inverse_kappa_ad"),
-    "inverse_kappa_ad_net": ("1/kappa_ad with the net repulsive area", "inverse_kappa_ad"),
-    "inverse_kappa_ad_direct": ("p_ad/(2 p_rep) of the adhesive contact", "inverse_kappa_ad"),
+    "inverse_kappa": "1/kappa = p_ext A_nom/(A_rep E* h'_rms)",
+    "inverse_kappa_net": "1/kappa with the net repulsive area",
+    "inverse_kappa_ad": "1/kappa_ad, from the fall of 1/kappa by adhesion",
+    "inverse_kappa_ad_net": "1/kappa_ad with the net repulsive area",
+    "inverse_kappa_ad_direct": "p_ad/(2 p_rep) of the adhesive contact",
 }
 FITS = {
-    "inverse_kappa_fit": ("1/kappa fitted over the loads up to 30 % area", "inverse_kappa_fit"),
-    "inverse_kappa_ad_fit": ("1/kappa_ad from fitted 1/kappa", "inverse_kappa_ad_fit"),
+    "inverse_kappa_fit": "1/kappa fitted over the loads up to 30 % area",
+    "inverse_kappa_ad_fit": "1/kappa_ad from fitted 1/kappa",
 }
-LOADWISE = {"inverse_kappa_fit": "inverse_kappa", "inverse_kappa_ad_fit": "inverse_kappa_ad"}
 RATIOS = {
-    "dmt_ratio": ("1/kappa_ad of the full simulation over that of the DMT limit", None),
-    "dmt_ratio_net": ("1/kappa_ad with the net repulsive area over that of the DMT limit", None),
+    "dmt_ratio": "1/kappa_ad of the full simulation over that of the DMT limit",
+    "dmt_ratio_net": "1/kappa_ad with the net repulsive area over that of the DMT limit",
 }
 ALL = STATES | SLOPES | FITS | RATIOS
-OTHERS = {
-    "model": "dmt: attraction over the gaps without adhesion; full: boundary elements with it",
-    "residual": "largest residual of all realisations",
-    "iterations": "mean iterations on the fine grid",
-    "zone_strength": "width of the zone of attraction over range^2/adhesion length",
-}
+NET = [name for name in ALL if "net" in name.split("_")]
 # Along the edge a strip at zero gap is under tension. Next to a smooth edge and for weak attraction
 # it is second order in the strength, (sigma0/B)^2 where the pressure rises as B x^(1/2), but the
 # pixels make it first order: what is left of the difference falls as the root of the pixel only.
@@ -75,6 +68,17 @@ LEFT = {
     "at equal area instead of equal mean gap changes, or what a straight line leaves out",
 }
 FEW = f"DMT limit, {MISSING}, a single seed, or fewer than two loads to fit"
+OTHERS = {
+    "model": "dmt: attraction over the gaps without adhesion; full: boundary elements with it",
+    "residual": "largest residual of all realisations",
+    "iterations": "mean iterations on the fine grid",
+    "zone_strength": "width of the zone of attraction over range^2/adhesion length",
+}
+MEANS = describe_errors(ALL, plain=True)
+MEANS |= describe_errors({name: ALL[name] for name in NET}, plain=True, discretisation=SLOWLY)
+VARIABLES = {name: ("1", text, FEW) for name, text in OTHERS.items()}
+VARIABLES |= {name: (*text[:2], FEW) for name, text in MEANS.items()}
+VARIABLES["dmt_error"] = ("1", "measured relative error of the DMT limit in 1/kappa_ad", OUTSIDE)
 
 
 def main(job):
@@ -83,10 +87,10 @@ def main(job):
     write_limit(job.params.adhesion, ensemble, job.input.laws, errors, job.output.limit)
     limit = datasets.read(job.output.limit)
     full = xr.DataArray(np.array(job.params.full), dims=AXES)
-    asked = datasets.parameters(limit)
-    dmt = DmtLimit.of(asked, ensemble)
+    adhesion = datasets.parameters(limit)
+    dmt = DmtLimit.of(adhesion, ensemble)
     made, seeds = datasets.parameters(ensemble), []
-    dataset = in_dmt_limit(limit)
+    dataset = take_dmt_limit(limit)
     if job.input.realisations:
         states = read_all(job.input.realisations, ["external_pressure"])
         made, seeds = datasets.parameters(states), states.seed.values.tolist()
@@ -96,21 +100,24 @@ def main(job):
     dataset["model"] = (AXES, np.where(full, "full", "dmt"))
     strength = limit.adhesion_length_over_range / limit.q0_h_rms
     dataset["zone_strength"] = zone_width(ensemble, limit) * strength / limit.range_over_h_rms
+    dataset = conventions.annotate(dataset, **VARIABLES)
+    for name in [name for name in ALL if name in dataset]:
+        dataset = with_budget(dataset, name, **split(dataset[f"{name}_error"], LEFT))
     datasets.write(
-        add_budgets(annotate(dataset)),
+        dataset,
         job.output.averages,
         title="adhesive contact averaged over realisations, by the model chosen",
-        parameters={**made, **asked, "seeds": seeds},
+        parameters={**made, **adhesion, "seeds": seeds},
     )
 
 
-def in_dmt_limit(limit):
-    """The averages as the DMT limit has them, which knows one area only."""
+def take_dmt_limit(limit):
+    """The averages in the DMT limit, in which all areas are that without adhesion."""
     none = xr.zeros_like(limit.inverse_kappa)
     dataset = limit[["q0_h_rms", "dmt_valid", "dmt_error"]]
     dataset = dataset.assign(external_pressure=limit.pressure - limit.attraction)
     for name in (*SLOPES, *FITS):
-        source = name.removesuffix("_net").removesuffix("_direct")
+        source = control_of(name)
         dataset[name] = limit[source]
         dataset[f"{name}_error"] = limit[f"{source}_error"]
     dataset["external_pressure_error"] = limit.attraction_error
@@ -120,8 +127,13 @@ def in_dmt_limit(limit):
     return dataset
 
 
+def control_of(name):
+    """Name of the quantity of the DMT limit that controls a slope or a fit."""
+    return name.removesuffix("_net").removesuffix("_direct")
+
+
 def average(states, full, ensemble, dmt, made):
-    """Means over the realisations solved in full; where they are not, their own DMT limit."""
+    """Means over the realisations: full simulations, or their DMT limit where there are none."""
     whole = fine(states.external_pressure).notnull().all("seed") | ~full
     wide = zone_width(ensemble, states) >= edge_zone.NARROWEST * made["pixel"]
     states = add_dmt(states, full)
@@ -133,18 +145,19 @@ def average(states, full, ensemble, dmt, made):
     resolved |= {name: (reported | ~linear).all("pressure") for name in FITS}
     resolved |= dict.fromkeys(RATIOS, reported & full)
     dataset = xr.Dataset()
-    for name, (_, control) in ALL.items():
+    for name in ALL:
         values, more = states[name].where(resolved[name]), None
-        if control is not None:
-            more = controls(ensemble, getattr(dmt, control), states.seed)
+        if name in SLOPES | FITS:
+            more = find_controls(ensemble, getattr(dmt, control_of(name)), states.seed)
         dataset = add_errors(dataset, name, values, more, plain=True)
-        if "net" in name.split("_"):
+        if name in NET:
             dataset[f"{name}_discretisation_error"] *= SLOW
     models = {
         name: fine(states[f"{name}_equal_area"] - states[name]).mean("seed", skipna=False)
         for name in ("inverse_kappa_ad", "dmt_ratio")
     }
-    models |= {name: linearity_error(dataset[of], linear) for name, of in LOADWISE.items()}
+    for name in FITS:
+        models[name] = linearity_error(dataset[name.removesuffix("_fit")], linear)
     solver = solver_error(states)
     fuller = add_slopes(add_pixels(states, made), ensemble, linear)
     for name in ALL:
@@ -175,7 +188,7 @@ def add_pixels(states, made):
 def errors(dataset, name, seeds, *, model, solver, unseen):
     """Errors of a mean of full simulations, along `source`.
 
-    Of multilevel means, too, Student's t is that of the seeds solved in full: more than enough.
+    Student's t is for the seeds solved in full, which is more than enough for multilevel means.
     """
     value = dataset[name]
     if "pressure" not in value.dims:
@@ -192,15 +205,7 @@ def errors(dataset, name, seeds, *, model, solver, unseen):
     return xr.concat(parts, xr.DataArray(list(SOURCES), dims="source", name="source"))
 
 
-def add_budgets(dataset):
-    """All averages with their errors by source."""
-    for name in ALL:
-        if name in dataset:
-            dataset = with_budget(dataset, name, **split(dataset[f"{name}_error"], LEFT))
-    return dataset
-
-
-def controls(ensemble, quantity, seeds):
+def find_controls(ensemble, quantity, seeds):
     """The DMT limit of the coarsest solutions: of these seeds, and of many more."""
     more = coarse(ensemble, quantity)
     if more is None:
@@ -210,7 +215,7 @@ def controls(ensemble, quantity, seeds):
 
 
 def add_dmt(states, full):
-    """States with those of the DMT limit where there is no full one asked for."""
+    """States, in the DMT limit where no full simulation is wanted."""
     limit = {
         "external_pressure": states.pressure - states.attraction_dmt,
         "repulsive_area": states.area_alone,
@@ -288,20 +293,6 @@ def join(solved, limit, full):
         chosen = full if "pressure" in values.dims else full.any("pressure")
         dataset[name] = solved[name].where(chosen, values)
     return dataset
-
-
-def annotate(dataset):
-    texts = {}
-    for name, (text, _) in ALL.items():
-        slow = {"discretisation": SLOWLY} if "net" in name.split("_") else {}
-        texts |= describe_errors(name, text, plain=True, **slow)
-    texts |= {name: ("1", text) for name, text in OTHERS.items()}
-    texts = {name: (*text[:2], FEW) for name, text in texts.items()}
-    return conventions.annotate(
-        dataset,
-        dmt_error=("1", "measured relative error of the DMT limit in 1/kappa_ad", OUTSIDE),
-        **texts,
-    )
 
 
 if __name__ == "__main__":

@@ -1,8 +1,8 @@
 """Full simulation against the model of the edges of contact, at equal area of contact.
 
-Adhesive states are held against the contact without adhesion that has the same area, seed by seed:
-what adhesion takes off the load, over the attraction in the DMT limit, is the effect that
-`stickiness.edge_adhesion` models.
+Adhesive states are compared, seed by seed, with the contact without adhesion that has the same
+area. The reduction of the load by adhesion, over the attraction in the DMT limit, is the effect
+that the equivalent sphere models.
 """
 
 import numpy as np
@@ -12,8 +12,9 @@ from common import conventions
 from common.adhesion_sets import solver_error
 from common.error_budgets import SIMULATED
 from common.job import start
-from common.realisations import read_all
-from stickiness import datasets, dmt, equivalent_sphere
+from common.model_surfaces import read_all
+from stickiness import datasets, dmt
+from stickiness.criteria import equivalent_sphere
 from stickiness.error_budget import Part, with_budget
 from stickiness.statistics import students_t
 from stickiness.traction_laws import LAWS
@@ -24,6 +25,14 @@ MISSING = (
 )
 # Points of the grid that adhesion must draw into contact for their number to tell an area to 10 %.
 FEWEST_POINTS = 100
+EFFECT = "attraction at equal area of contact over the DMT limit"
+VARIABLES = {
+    "attractive_over_contact": ("1", "attractive over contact area without adhesion", MISSING),
+    "edge_strength": ("1", "Tabor's parameter of the edges", MISSING),
+    "effect": ("1", EFFECT, MISSING),
+    "effect_model": ("1", f"{EFFECT}, by the equivalent sphere", MISSING),
+    "over_model": ("1", "simulation over model, mean over realisations", MISSING),
+}
 QUOTED = ("effect", "over_model")
 ALONE = ("pixel_area_fraction", "attractive_area")
 NEEDED = ("external_pressure", "repulsive_area", "attraction_dmt", "area_alone")
@@ -39,7 +48,8 @@ def main(job):
         xr.concat([compare(*pair, q0_h_rms, grid) for pair in pairs], "seed") for grid in (0, -1)
     )
     resolved = states.effect.notnull().all("seed") & averages.dmt_ratio.notnull()
-    dataset = annotate(states.mean("seed").where(resolved).assign(q0_h_rms=q0_h_rms))
+    dataset = states.mean("seed").where(resolved).assign(q0_h_rms=q0_h_rms)
+    dataset = conventions.annotate(dataset, **VARIABLES)
     solver = solver_error(adhesive)
     for name in QUOTED:
         dataset = with_budget(dataset, name, **parts(coarse[name], states[name], solver))
@@ -129,18 +139,6 @@ def attractive_area(areas, ranges, law):
     laws = [LAWS[law](adhesion_length=range_, range=range_) for range_ in ranges.values]
     pulls = [dmt.attraction_of_areas(areas.values, known, law) for law in laws]
     return xr.concat([like.copy(data=pull) for pull in pulls], ranges)
-
-
-def annotate(dataset):
-    effect = "attraction at equal area of contact over the DMT limit"
-    return conventions.annotate(
-        dataset,
-        attractive_over_contact=("1", "attractive over contact area without adhesion", MISSING),
-        edge_strength=("1", "Tabor's parameter of the edges", MISSING),
-        effect=("1", effect, MISSING),
-        effect_model=("1", f"{effect}, by the equivalent sphere", MISSING),
-        over_model=("1", "simulation over model, mean over realisations", MISSING),
-    )
 
 
 if __name__ == "__main__":

@@ -16,8 +16,7 @@ from common.adhesion_sets import LEAST, scaled_law
 from common.conventions import annotate
 from common.error_budgets import SIMULATED
 from common.job import start
-from common.model_surfaces import pixels
-from common.realisations import read_first
+from common.model_surfaces import pixels, read_first
 from stickiness import adhesive, datasets
 from stickiness.error_budget import Part, unknown, with_budget
 from stickiness.plausibility import PlausibilityWarning
@@ -51,36 +50,40 @@ STEPPED = {
     "work": "work of the control on the way from the state before, per nominal area",
     "dissipated": "energy lost on the way from the state before, per nominal area",
 }
+VARIABLES = {
+    n: ("1", text, "beyond the end of the curve") for n, text in (STATES | STEPPED).items()
+}
+VARIABLES |= {"control": "what is prescribed", "state": "number of the state along the curve"}
 
 
 def main(job):
     surface = read_first(job.input.surfaces)
-    asked = job.params.loop
+    loop = job.params.loop
     heights, length = surface.height.values, float(surface.window_length)
-    lengths = np.sort(np.array(asked["adhesion_length_over_range"], dtype=float))
+    lengths = np.sort(np.array(loop["adhesion_length_over_range"], dtype=float))
     finest, curves = pixels(surface), []
     for step, control, value in product(STEPS, CONTROLS, lengths):
-        found = follow(heights[::step, ::step], length, asked, value, control)
+        found = follow(heights[::step, ::step], length, loop, value, control)
         at = {"resolution": finest / step, "control": control, "adhesion_length_over_range": value}
         curves.append(found.expand_dims({name: [where] for name, where in at.items()}))
     longest = max((one.state for one in curves), key=len)
-    dataset = describe(xr.combine_by_coords([one.reindex(state=longest) for one in curves]))
+    dataset = xr.combine_by_coords([one.reindex(state=longest) for one in curves])
     datasets.write(
-        add_quoted(dataset),
+        add_quoted(annotate(dataset, **VARIABLES)),
         job.output[0],
         title="approach and separation of one realisation with adhesion",
-        parameters={**datasets.parameters(surface), **asked},
+        parameters={**datasets.parameters(surface), **loop},
     )
 
 
-def follow(heights, length, asked, adhesion_length_over_range, control):
+def follow(heights, length, loop, adhesion_length_over_range, control):
     """States from afar to the largest pressure and back, along `state`."""
-    law = scaled_law(asked, asked["law"], adhesion_length_over_range, asked["range_over_h_rms"])
+    law = scaled_law(loop, loop["law"], adhesion_length_over_range, loop["range_over_h_rms"])
     far = float(heights.max() - heights.mean()) + MARGIN * law.range
-    nearest = solver.solve(heights, length, asked["pressure"], tol=TOLERANCE).mean_gap
+    nearest = solver.solve(heights, length, loop["pressure"], tol=TOLERANCE).mean_gap
     turns = {
         "mean_gap": (far, nearest, far),
-        "pressure": (0.0, asked["pressure"], -2 * law.strength),
+        "pressure": (0.0, loop["pressure"], -2 * law.strength),
     }
     settings = {"tol": TOLERANCE, "balance": BALANCE, "smallest_jump": BALANCE, "steps": LEAST}
     with warnings.catch_warnings():
@@ -129,17 +132,6 @@ def add_quoted(dataset):
             **SIMULATED,
         )
     return dataset
-
-
-def describe(dataset):
-    missing = "beyond the end of the curve"
-    texts = {key: ("1", text, missing) for key, text in {**STATES, **STEPPED}.items()}
-    return annotate(
-        dataset,
-        control=("1", "what is prescribed"),
-        state=("1", "number of the state along the curve"),
-        **texts,
-    )
 
 
 if __name__ == "__main__":

@@ -23,10 +23,8 @@ from common.adhesion_sets import (
     scaled_law,
     solve_at_gap,
 )
-from common.conventions import RMS_SLOPE
 from common.job import start
-from common.model_surfaces import pixels
-from common.realisations import each_seed
+from common.model_surfaces import each_seed, pixels
 from stickiness import datasets, dmt
 from stickiness.adhesive import edge_zone
 from stickiness.repulsive import solver, subpixel
@@ -49,34 +47,41 @@ ALONE = {
     "mean_gap": "mean gap over h_rms, with and without adhesion",
     "edge_gap": "gap next to the contact without adhesion over h_rms",
 }
-# Not that of the contact without adhesion: a looser one turns single pixels, and their area is all
+VARIABLES = {
+    **ALONE,
+    **{name: ("1", text, f"DMT limit, or {MISSING}") for name, text in STATE.items()},
+    "pressure": "mean pressure without adhesion at the same mean gap over E* q0 h_rms",
+    "rms_slope": conventions.RMS_SLOPE,
+    "attraction_dmt": "attraction over the gaps without adhesion, p_ad/(E* q0 h_rms)",
+}
+# Tighter than without adhesion: a looser one turns single pixels, and their area is all
 # that weak adhesion changes. It costs a third more than 1e-4.
 TOLERANCE = 1e-7
 
 
 def main(job):
     surfaces = datasets.read(job.input.surfaces, ["height", "window_length", "rms_slope"])
-    asked = job.params.adhesion
-    length, refine = float(surfaces.window_length), asked.get("refine", 1)
+    adhesion = job.params.adhesion
+    length, refine = float(surfaces.window_length), adhesion.get("refine", 1)
     points = refine * surfaces.sizes["x"]
-    chosen = combinations(asked, length / points, np.array(job.params.full))
+    chosen = combinations(adhesion, length / points, np.array(job.params.full))
     finest = refine * pixels(surfaces)
     resolution = xr.DataArray([finest / 2, finest], dims="resolution", name="resolution")
 
     def solve(heights):
         fine = resample(heights, points)
-        solved = [states(fine[::step, ::step], length, asked, chosen) for step in (2, 1)]
+        solved = [states(fine[::step, ::step], length, adhesion, chosen) for step in (2, 1)]
         return xr.concat(solved, resolution, coords="minimal")
 
     datasets.write(
-        annotate(each_seed(solve, surfaces, job.params.seeds)),
+        conventions.annotate(each_seed(solve, surfaces, job.params.seeds), **VARIABLES),
         job.output[0],
         title="adhesive contact of realisations at given mean gaps",
         parameters={
             **datasets.parameters(surfaces),
             "seeds": list(job.params.seeds),
-            "q0_h_rms": roughness(asked),
-            "law": asked["law"],
+            "q0_h_rms": roughness(adhesion),
+            "law": adhesion["law"],
             "refine": refine,
             "pixel": length / points,
             "strongest": STRONGEST,
@@ -85,12 +90,12 @@ def main(job):
     )
 
 
-def combinations(asked, pixel, full):
+def combinations(adhesion, pixel, full):
     """By pressure, the indices (l_a/range, range) to be solved in full that the grid resolves."""
-    _, lengths, ranges = axes(asked)
+    _, lengths, ranges = axes(adhesion)
     resolved = np.zeros(full.shape[1:], bool)
     for j, k in np.ndindex(resolved.shape):
-        law = scaled_law(asked, asked["law"], lengths.values[j], ranges.values[k])
+        law = scaled_law(adhesion, adhesion["law"], lengths.values[j], ranges.values[k])
         bent = edge_zone.resolution(pixel, law.range, law.adhesion_length)
         resolved[j, k] = bent <= edge_zone.COARSEST
         if full[:, j, k].any() and not resolved[j, k]:
@@ -98,9 +103,9 @@ def combinations(asked, pixel, full):
     return full & resolved
 
 
-def states(heights, length, asked, chosen, tolerance=TOLERANCE):
+def states(heights, length, adhesion, chosen, tolerance=TOLERANCE):
     """Adhesive states on one grid, NaN where there is none, and the attraction in the DMT limit."""
-    pressures, lengths, ranges = axes(asked)
+    pressures, lengths, ranges = axes(adhesion)
     values = {name: np.full(chosen.shape, np.nan) for name in (*STATE, "attraction_dmt")}
     alone = {name: np.empty(len(pressures)) for name in ALONE}
     path = solver.load_path(heights, length, pressures.values, tol=tolerance)
@@ -110,7 +115,7 @@ def states(heights, length, asked, chosen, tolerance=TOLERANCE):
         alone["edge_gap"][i] = subpixel.edge_gap(contact.gap)
         weaker = {}  # by range, the last state with weak adhesion
         for j, k in itertools.product(range(lengths.size), range(ranges.size)):
-            law = scaled_law(asked, asked["law"], lengths.values[j], ranges.values[k])
+            law = scaled_law(adhesion, adhesion["law"], lengths.values[j], ranges.values[k])
             attraction = dmt.adhesive_pressure(contact.gap, law)
             values["attraction_dmt"][i, j, k] = attraction
             if chosen[i, j, k] and attraction <= STRONGEST * contact.mean_pressure:
@@ -125,17 +130,6 @@ def states(heights, length, asked, chosen, tolerance=TOLERANCE):
         {name: (AXES, value) for name, value in values.items()}
         | {name: ("pressure", value) for name, value in alone.items()},
         coords={one.name: one for one in (pressures, lengths, ranges)},
-    )
-
-
-def annotate(dataset):
-    return conventions.annotate(
-        dataset,
-        pressure=("1", "mean pressure without adhesion at the same mean gap over E* q0 h_rms"),
-        rms_slope=RMS_SLOPE,
-        attraction_dmt=("1", "attraction over the gaps without adhesion, p_ad/(E* q0 h_rms)"),
-        **{name: ("1", text) for name, text in ALONE.items()},
-        **{name: ("1", text, f"DMT limit, or {MISSING}") for name, text in STATE.items()},
     )
 
 

@@ -9,9 +9,10 @@ import xarray as xr
 
 from claims.ledger import Files, Finding, claim, describe_cell, grade
 from common.model_surfaces import cell_size, model_spectrum
-from stickiness import adhesive, criteria, datasets, equivalent_sphere
+from stickiness import adhesive, criteria, datasets
 from stickiness import surface as synthesis
-from stickiness.area_load import JTB_CONSTANT
+from stickiness.criteria import equivalent_sphere
+from stickiness.criteria.area_load import JTB_CONSTANT
 from stickiness.spectrum.kinds import SelfAffine
 from stickiness.statistics import students_t
 

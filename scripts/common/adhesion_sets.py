@@ -43,9 +43,9 @@ ATTRIBUTES = {  # quantities of an adhesive state by their names in files
 AXES = ("pressure", "adhesion_length_over_range", "range_over_h_rms")
 
 
-def axes(asked: Mapping[str, Any]) -> tuple[xr.DataArray, xr.DataArray, xr.DataArray]:
+def axes(adhesion: Mapping[str, Any]) -> tuple[xr.DataArray, xr.DataArray, xr.DataArray]:
     """Pressures, adhesion lengths and ranges of a set, each in increasing order."""
-    lists = (asked["pressures"], *(asked[name] for name in AXES[1:]))
+    lists = (adhesion["pressures"], *(adhesion[name] for name in AXES[1:]))
     values = {
         name: np.sort(np.array(given, float)) for name, given in zip(AXES, lists, strict=True)
     }
@@ -53,10 +53,13 @@ def axes(asked: Mapping[str, Any]) -> tuple[xr.DataArray, xr.DataArray, xr.DataA
 
 
 def scaled_law(
-    asked: Mapping[str, Any], kind: str, adhesion_length_over_range: float, range_over_h_rms: float
+    adhesion: Mapping[str, Any],
+    kind: str,
+    adhesion_length_over_range: float,
+    range_over_h_rms: float,
 ) -> adhesive.TractionLaw:
     """Traction law in the units of the simulations."""
-    strength = adhesion_length_over_range / roughness(asked)
+    strength = adhesion_length_over_range / roughness(adhesion)
     return LAWS[kind](adhesion_length=strength * range_over_h_rms, range=range_over_h_rms)
 
 

@@ -1,19 +1,37 @@
-"""Contact of one surface along its load path, on several grids, under the names of the results."""
+"""Contact of surfaces along their load path, under the names of the results.
+
+Fine solutions are taken on several grids; coarse ones of many more surfaces, with descriptors of
+their long waves, correct the ensemble mean.
+"""
 
 import logging
 
+import numpy as np
 import xarray as xr
 
-from common import conventions
+from common.conventions import RMS_SLOPE
+from common.model_surfaces import cell_size, grid_points, make_heights, model_spectrum
 from stickiness import dmt
+from stickiness import surface as synthesis
+from stickiness.accuracy import multilevel
 from stickiness.accuracy.error_models import COARSE
 from stickiness.accuracy.quantities import COLUMNS, MEASURED
 from stickiness.repulsive import solver, subpixel
 
 SOLVED = ("area_fraction", "mean_gap", "residual", "iterations", "fft_pairs")
 AREAS = ("attractive_area", "pixel_attractive_area")
-# Of quantities that a case may ask for beyond areas and mean gaps.
+COARSELY_SOLVED = ("area_fraction", "mean_gap", "residual", "rms_slope")
+# First seeds of coarse solutions and of described waves; the configuration keeps these sets apart.
+SOLVED_FROM, DESCRIBED_FROM = 100_001, 1_000_001
+# Quantities that a case may want beyond areas and mean gaps.
 MEASURED_TEXTS = {name: ("1", COLUMNS[name].text, "no contact") for name in MEASURED}
+VARIABLES = MEASURED_TEXTS | {
+    "rms_slope": RMS_SLOPE,
+    "other": "seed of a realisation that is not solved",
+    "descriptor": "what is described, lengths in units of 1/q0 and heights of h_rms",
+    "long_waves": "descriptors of the long waves",
+    "other_long_waves": "descriptors of the long waves of seeds that are not solved",
+}
 
 
 def steps_of(pixels_per_wavelength):
@@ -30,12 +48,12 @@ def load_curves(heights, length, steps, *path):
 def load_curve(heights, length, pressures, ranges, tolerance, names=()):
     """Contact quantities at every pressure, each load started from the one before.
 
-    `names` are those of the quantities that are measured because a case asks for them.
+    `names` are further quantities to measure, which a case wants.
     """
     rows = []
     for contact in solver.load_path(heights, length, pressures, tol=tolerance):
-        asked = {name: MEASURED[name](heights, contact.gap, length) for name in names}
-        rows.append(measure(contact, ranges).assign(asked))
+        surface = {name: MEASURED[name](heights, contact.gap, length) for name in names}
+        rows.append(measure(contact, ranges).assign(surface))
         logging.info(
             f"n = {len(heights)}: load {len(rows)} of {len(pressures)}, area "
             f"{contact.area_fraction:.4f}, residual {contact.residual:.1e}, "
@@ -45,7 +63,7 @@ def load_curve(heights, length, pressures, ranges, tolerance, names=()):
 
 
 def measure(contact, ranges):
-    """Quantities of one solution; attractive areas only if there are `ranges` to take them at."""
+    """Quantities of one solution; attractive areas only if there are `ranges` for them."""
     touching = contact.gap == 0
     found = {name: float(getattr(contact, name)) for name in SOLVED}
     found["pixel_area_fraction"] = found["area_fraction"]
@@ -59,5 +77,27 @@ def measure(contact, ranges):
     return xr.Dataset(found)
 
 
-def annotate(dataset):
-    return conventions.annotate(dataset, rms_slope=conventions.RMS_SLOPE, **MEASURED_TEXTS)
+def coarse_solutions(surface, which, others_count, pressures, ranges, tolerance, names=()):
+    """Solve surfaces, numbered from 0, on a coarse grid and describe the long waves of more.
+
+    The file of the first solved surface also has the surfaces that are only described.
+    """
+    spectrum, length = model_spectrum(surface), cell_size(surface)
+    amplitudes = surface.get("amplitudes", "gaussian")
+    seeds = SOLVED_FROM + np.array(which)
+    others = DESCRIBED_FROM + np.arange(others_count if which[0] == 0 else 0)
+    kept = [*COARSELY_SOLVED, *names, *(["attractive_area"] if len(ranges) else [])]
+    curves = []
+    for seed in seeds:
+        logging.info("seed %d", seed)
+        heights = make_heights(surface, grid_points(surface, 2 * COARSE), seed)
+        curve = load_curve(heights[::2, ::2], length, pressures, ranges, tolerance, names)
+        # Of the finer grid: at two pixels the shortest waves are not all there.
+        curve["rms_slope"] = synthesis.moments(heights, length).rms_slope
+        curves.append(curve[kept])
+    dataset = xr.concat(curves, xr.DataArray(seeds, dims="seed", name="seed"))
+    dataset = dataset.assign_coords(descriptor=list(multilevel.DESCRIPTORS), other=others)
+    for name, dim in (("long_waves", "seed"), ("other_long_waves", "other")):
+        rows = multilevel.descriptors(spectrum, length, dataset[dim].values, amplitudes)
+        dataset[name] = (dim, "descriptor"), rows
+    return dataset

@@ -50,14 +50,15 @@ VARIABLES = {
 RMS_SLOPE = ("1", "rms gradient of this realisation over q0 h_rms")
 
 
-def annotate(dataset: xr.Dataset, **own: tuple[str, ...]) -> xr.Dataset:
-    """Describe every variable that `own` or else `VARIABLES` has texts for.
+def annotate(dataset: xr.Dataset, **texts: str | tuple[str, ...]) -> xr.Dataset:
+    """Describe the variables of a dataset by `texts` or else by `VARIABLES`.
 
-    Texts are units, `long_name` and, if values may be missing, what that means. Those of variables
-    that the dataset lacks are left out.
+    A text is the `long_name` of a dimensionless variable, or a tuple of units, `long_name` and, if
+    values may be missing, what that means. Texts of variables that the dataset lacks are ignored.
     """
-    texts = {name: text for name, text in (VARIABLES | own).items() if name in dataset.variables}
-    return datasets.annotate(dataset, **texts)
+    known = {name: text for name, text in (VARIABLES | texts).items() if name in dataset.variables}
+    known = {n: ("1", text) if isinstance(text, str) else text for n, text in known.items()}
+    return datasets.annotate(dataset, **known)
 
 
 def at_load(data: xr.Dataset) -> xr.Dataset:

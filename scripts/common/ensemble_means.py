@@ -18,6 +18,7 @@ SUFFIXES = {
     "standard_error": "standard error of the ensemble mean",
     "discretisation_error": "change from half the resolution",
 }
+MEAN = SUFFIXES["mean"]
 FEWEST = 8  # seeds from which on a slope fitted to them is better than none
 PREFIX = "coarse_"  # of what an ensemble's file keeps of coarse solutions, and of their seeds
 
@@ -26,9 +27,9 @@ PREFIX = "coarse_"  # of what an ensemble's file keeps of coarse solutions, and 
 class Coarse:
     """A quantity of seeds that are solved on the coarsest grid alone, and their long waves.
 
-    `twin` is the same quantity of the seeds of the mean, by default their own values on the
-    coarsest grid. One of its own may be another model, not in proportion to the values: its
-    coefficient is then a slope, and it needs `FEWEST` seeds.
+    `twin` is the same quantity for the seeds of the mean, by default their values on the coarsest
+    grid. It may come from another model that is not proportional to the values; its coefficient is
+    then a slope, and needs `FEWEST` seeds.
     """
 
     values: xr.DataArray  # along `seed`, without `resolution`
@@ -40,8 +41,8 @@ class Coarse:
 def coarse(ensemble: xr.Dataset, quantity: Callable[[xr.Dataset], xr.DataArray]) -> Coarse | None:
     """A quantity of the coarse solutions of an ensemble; None if it has none.
 
-    `quantity` reads the variables of fine solutions, say ``area_fraction``; here it gets those of
-    the coarse ones under the same names.
+    `quantity` reads variables of fine solutions, say ``area_fraction``; here it is passed the
+    coarse ones under the same names.
     """
     if f"{PREFIX}seed" not in ensemble.dims:
         return None
@@ -64,7 +65,7 @@ def standard_error(values):
 def discretisation_error(values):
     """Discretisation error of the mean, from the change between the two finest grids.
 
-    The mean change and its own standard error in quadrature, so that changes of either sign do not
+    The mean change and its standard error in quadrature, so that changes of either sign do not
     cancel. It bounds an error that falls at least in proportion to the pixel size.
     """
     change = fine(values.diff("resolution"))
@@ -80,13 +81,14 @@ def ensemble_mean(values, more=None):
     if more is None or count == 1 or (more.twin is not None and count < FEWEST):
         return plain
     few = fine(values).transpose("seed", ...)
-    own = more.twin is None
-    twin = values.isel(resolution=0, drop=True) if own else more.twin
+    proportional = more.twin is None
+    twin = values.isel(resolution=0, drop=True) if proportional else more.twin
     twin = twin.transpose(*few.dims)
     many = more.values.transpose(*few.dims)
     finite = np.all([np.isfinite(part).all("seed").values for part in (few, twin, many)], axis=0)
     solved = (np.where(finite, part.values, 0.0) for part in (few, twin, many))
-    waves, slopes = (more.controls.values, more.elsewhere.values), {} if own else {"fewest": FEWEST}
+    waves = more.controls.values, more.elsewhere.values
+    slopes = {} if proportional else {"fewest": FEWEST}
     found = multilevel.multilevel_mean(*solved, *waves, **slopes)
     best, error = (part.transpose(*few.dims[1:]) for part in plain)
     return (
@@ -115,15 +117,14 @@ def add_errors(dataset, name, values, more=None, plain=False, limit=None):
     )
 
 
-def describe_errors(name, text, plain=False, units="1", discretisation=None):
-    """Texts of what `add_errors` adds; `discretisation` if not the change of grids."""
-    texts = {f"{name}_{ending}": (units, f"{text}: {what}") for ending, what in SUFFIXES.items()}
-    texts[f"{name}_standard_error"] += ("a single seed",)
-    if discretisation:
-        texts[f"{name}_discretisation_error"] = (units, f"{text}: {discretisation}")
-    if plain:
-        texts[name] = (units, text)
-        del texts[f"{name}_mean"]
+def describe_errors(quantities, plain=False, discretisation=SUFFIXES["discretisation_error"]):
+    """Texts of what `add_errors` adds for `quantities`, texts by names."""
+    texts = {}
+    for name, text in quantities.items():
+        texts[name if plain else f"{name}_mean"] = ("1", text if plain else f"{text}: {MEAN}")
+        error = f"{text}: {SUFFIXES['standard_error']}"
+        texts[f"{name}_standard_error"] = ("1", error, "a single seed")
+        texts[f"{name}_discretisation_error"] = ("1", f"{text}: {discretisation}")
     return texts
 
 

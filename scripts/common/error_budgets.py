@@ -43,7 +43,7 @@ QUADRATURE = {"area_fraction": 1e-9, "mean_gap": 1e-9, "attractive_area": 5e-7, 
 
 @dataclass(frozen=True)
 class Simulation:
-    """Errors of a mean over realisations, beside its own standard error."""
+    """Errors of a mean over realisations, beside its standard error."""
 
     problem: Problem
     settings: Settings
@@ -84,7 +84,7 @@ class Simulation:
     ) -> dict[str, Part]:
         """Parts of the budget of a mean along `pressure`, and `range` or `gap`.
 
-        `name` is that of a variable of an ensemble's file without the ``_mean``, or of a column;
+        `name` is a variable of an ensemble's file without the ``_mean``, or a column;
         `text` says what the discretisation error is.
         """
         if name == "attractive_area" or has_error_model(COLUMN_OF.get(name, name)):
@@ -135,9 +135,9 @@ def widen_gaps(like: xr.DataArray) -> xr.DataArray | float:
 def theory_error(
     models: ErrorModels, name: str, like: xr.DataArray, surface: Mapping[str, Any] | None = None
 ) -> xr.DataArray:
-    """Relative error of theory in place of simulation; NaN for variants not measured.
+    """Relative error of theory against simulation; NaN for variants not measured.
 
-    `name` is that of the variable or of a column. The variable `like` has a coordinate `pressure`;
+    `name` is a variable or a column. The variable `like` has a coordinate `pressure`;
     without a `surface` also `hurst` and `magnification`, of spectra without a periodic cell.
     """
     kind = Surface.of(surface) if surface else Surface(0.8, 1.0, ENDLESS)
@@ -158,7 +158,7 @@ def theory_parts(
     surface: Mapping[str, Any] | None = None,
     like: str = "",
 ) -> dict[str, Part]:
-    """Parts of the budget of a variable of theory's; arguments as of `theory_error`.
+    """Parts of the budget of a variable by theory; arguments as of `theory_error`.
 
     `like` is the variable with the same error of the quadrature, by default the same.
     """

@@ -103,6 +103,18 @@ def prefixed(largest: float, digits: int) -> tuple[float, str]:
     return 10.0**power, _PREFIXES[power]
 
 
+def unit_for(largest: float, unit: str) -> tuple[float, str]:
+    """Factor on SI values, and the prefixed unit, that suit a largest value.
+
+    Examples
+    --------
+    >>> unit_for(3e-4, "m")
+    (1000000.0, 'µm')
+    """
+    scale, prefix = prefixed(largest, 3)
+    return 1 / scale, f"{prefix}{unit}"
+
+
 def superscripted(unit: str) -> str:
     """A unit with ``^2`` as ``²``; broken exponents stay."""
     return re.sub(r"\^(-?\d+)(?![\d.])", lambda found: found[1].translate(_SUPERSCRIPTS), unit)

@@ -1,4 +1,4 @@
-"""What every script shares: its log, and the job that it is when it is run by hand."""
+"""Start of every script: the job that it runs, and its log."""
 
 import logging
 import os
@@ -10,19 +10,29 @@ from typing import Any
 
 
 def start(names: dict[str, Any], rule: str, **wildcards: Any) -> Any:
-    """Return the job's `snakemake` object; open its log and report errors to it.
+    """Return the job's `snakemake` object, open its log and report errors to it.
 
-    `names` are the ``globals()`` of the script, which hold `snakemake` if Snakemake runs it. By
-    hand (from the project's top folder, ``PYTHONPATH=scripts python scripts/fits/fit_a_v.py
-    case=H0.8_zeta128 fidelity=draft``) the job of `rule` is looked up in the workflow, with the
-    wildcards given here unless the command line has others.
+    Run by hand, from the project's top folder, a script looks its job up in the workflow:
+    ``PYTHONPATH=scripts python scripts/fits/fit_a_v.py case=H0.8_zeta128 fidelity=draft``.
+
+    Parameters
+    ----------
+    names : dict
+        The ``globals()`` of the script, which hold `snakemake` if Snakemake runs it.
+    rule : str
+        Name of the rule, for a run by hand.
+    wildcards
+        Wildcards for a run by hand, unless the command line has others.
     """
-    job = names.get("snakemake") or find_job(rule, **wildcards | arguments())
+    job = names.get("snakemake")
+    if job is None:
+        given = dict(argument.split("=", 1) for argument in sys.argv[1:])
+        job = find_job(rule, wildcards | given)
     Path(job.log[0]).parent.mkdir(parents=True, exist_ok=True)
     style = {"level": logging.INFO, "format": "%(asctime)s %(levelname)s %(message)s"}
     logging.basicConfig(filename=job.log[0], filemode="w", force=True, **style)
     sys.excepthook = report_error
-    # Machines that share the folder may have unlike processors.
+    # Machines that share the folder may have different processors.
     compiled = Path(".snakemake", "loops", platform.node()).absolute()
     os.environ.setdefault("NUMBA_CACHE_DIR", str(compiled))
     return job
@@ -35,30 +45,26 @@ def report_error(kind: type[BaseException], error: BaseException, trace: Any) ->
     print(line, file=sys.stderr)
 
 
-def arguments() -> dict[str, str]:
-    """What the command line says as KEY=VALUE: wildcards, or the fidelity."""
-    return dict(argument.split("=", 1) for argument in sys.argv[1:])
+def find_job(rule: str, wildcards: dict[str, Any]) -> SimpleNamespace:
+    """Return the job of a rule with `input`, `output`, `params` and `log` as in a run.
 
-
-def find_job(rule: str, **wildcards: Any) -> SimpleNamespace:
-    """Job of a rule with these wildcards: `input`, `output`, `params` and `log` as in a run."""
+    The documented API of Snakemake runs workflows but does not show single jobs, so this takes the
+    rule from the workflow behind it.
+    """
     from snakemake.api import SnakemakeApi
-    from snakemake.iocontainers import Wildcards
+    from snakemake.rules import Wildcards
     from snakemake.settings.types import ConfigSettings, OutputSettings, ResourceSettings
 
     config = {key: wildcards.pop(key) for key in ("fidelity",) if key in wildcards}
     with SnakemakeApi(OutputSettings(quiet=None)) as api:
-        workflow_api = api.workflow(
+        found = api.workflow(
             ResourceSettings(cores=1),
             config_settings=ConfigSettings(config=config),
             snakefile=Path("Snakefile"),
-        )
-        found = workflow_api._workflow.get_rule(rule)
-        values = Wildcards(fromdict={key: str(value) for key, value in wildcards.items()})
-        inputs, *_ = found.expand_input(values, groupid=None)
-        outputs, _ = found.expand_output(values)
-        params, _ = found.expand_params(values, inputs, outputs, found)
-        log = found.expand_log(values)
-        return SimpleNamespace(
-            rule=rule, wildcards=values, input=inputs, output=outputs, params=params, log=log
-        )
+        )._workflow.get_rule(rule)
+        job = SimpleNamespace(rule=rule, wildcards=Wildcards(fromdict=wildcards))
+        job.input, *_ = found.expand_input(job.wildcards, groupid=None)
+        job.output, _ = found.expand_output(job.wildcards)
+        job.params, _ = found.expand_params(job.wildcards, job.input, job.output, found)
+        job.log = found.expand_log(job.wildcards)
+        return job

@@ -1,6 +1,6 @@
-"""Model surfaces of the configuration, in units of `conventions`: spectrum, cell, heights, grid."""
+"""Model surfaces of the configuration, in units of `conventions`, and files of realisations."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -8,7 +8,7 @@ import xarray as xr
 from numpy.typing import NDArray
 from scipy.fft import next_fast_len
 
-from common.conventions import Q0
+from common.conventions import Q0, annotate
 from stickiness import datasets
 from stickiness.spectrum.kinds import SelfAffine
 from stickiness.surface import synthesise
@@ -44,13 +44,13 @@ def make_heights(surface: Mapping[str, Any], points: int, seed: int) -> NDArray:
     return synthesise(model_spectrum(surface), points, cell_size(surface), int(seed), amplitudes)
 
 
-def grid_points(asked, pixels_per_wavelength):
-    """Number of grid points, good for the FFT, with at least the pixels asked for.
+def grid_points(surface, pixels_per_wavelength):
+    """Number of grid points, good for the FFT, with at least this many pixels per wave.
 
     A multiple of the even number that does so for 2 pixels, so that the coarser grids of the
     solutions are part of it.
     """
-    waves = int(np.ceil(waves_across(asked) - 1e-9))
+    waves = int(np.ceil(waves_across(surface) - 1e-9))
     return pixels_per_wavelength * next_fast_len(waves, real=True)
 
 
@@ -58,3 +58,39 @@ def pixels(surface: xr.Dataset) -> float:
     """Grid points per shortest wavelength of a surface's file, as realised by the grid."""
     made = datasets.parameters(surface)
     return made["grid_points"] / waves_across(made)
+
+
+def each_seed(
+    solve: Callable[[NDArray], xr.Dataset], surfaces: xr.Dataset, seeds: Sequence[int]
+) -> xr.Dataset:
+    """What `solve` makes of the heights of every seed, with the rms slope of the heights."""
+    solved = [solve(surfaces.height.sel(seed=seed).values) for seed in seeds]
+    dataset = xr.concat(solved, xr.DataArray(list(seeds), dims="seed", name="seed"))
+    dataset["rms_slope"] = surfaces.rms_slope.sel(source="heights", seed=list(seeds), drop=True)
+    return dataset
+
+
+def read_first(path: str) -> xr.Dataset:
+    """The first realisation in a file of surfaces."""
+    return datasets.read(path, ["height", "window_length"]).isel(seed=0)
+
+
+def read_all(paths: Iterable[str], variables: Iterable[str]) -> xr.Dataset:
+    """The realisations of all files, with the attributes of the first."""
+    return xr.concat([datasets.read(path, variables) for path in paths], "seed")
+
+
+def gather_fields(
+    states: Sequence[Any], pressures: Any, surface: xr.Dataset, **texts: str
+) -> xr.Dataset:
+    """Gap, pressure and residual of one state a pressure; `texts` describe the latter two."""
+    dims = ("pressure", "x", "y")
+    dataset = xr.Dataset(
+        {
+            "gap": (dims, [state.gap for state in states]),
+            "contact_pressure": (dims, [state.pressure for state in states]),
+            "residual": ("pressure", [state.residual for state in states]),
+        },
+        coords={"pressure": pressures, "x": surface.x, "y": surface.y},
+    )
+    return annotate(dataset, **{name: ("1", text) for name, text in texts.items()})

@@ -1,6 +1,8 @@
-"""The quantities that a case may ask for: how they follow from areas, and from files of results.
+"""Quantities derived from areas: P(u), a_V and kappa, with their errors by source.
 
-The registry of quantities is `stickiness.accuracy.quantities`.
+The registry of quantities that a case may want is `stickiness.accuracy.quantities`. kappa is
+A_rep E* h'_rms/(A_nom p), load by load and fitted. a_V is fitted to the attractive areas of
+simulation or theory in every fit interval (`window`) of the configuration.
 """
 
 from collections.abc import Sequence
@@ -8,15 +10,43 @@ from collections.abc import Sequence
 import numpy as np
 import xarray as xr
 
-from common.conventions import middles
+from common import grid_limits
+from common.conventions import LINEAR_UP_TO, annotate, middles
+from common.ensemble_means import SUFFIXES, add_errors, coarse, describe_errors, standard_error
+from common.error_budgets import BY_THEORY, QUADRATURE, SIMULATED, Simulation, theory_parts
+from stickiness import datasets
+from stickiness.accuracy.error_models import ErrorModels, read_models
 from stickiness.accuracy.quantities import COLUMNS
 from stickiness.criteria import a_v_fit
+from stickiness.error_budget import ENDINGS, Part, unknown, with_budget
+
+KAPPA = "kappa = A_rep E* h'_rms/(A_nom p)"
+KAPPA_VARIABLES = describe_errors(
+    {
+        "kappa": KAPPA,
+        "kappa_fit": f"{KAPPA}, fitted through the origin up to {LINEAR_UP_TO:.0%} area",
+    },
+    plain=True,
+    discretisation=grid_limits.INHERITED,
+)
+A_V_VARIABLES = {
+    "a_v": "a_V, slope of A_ad against (3/2) p (range/h_rms)^(2/3)",
+    "a_v_fit_error": "standard error of the fit of a_V within its window",
+    "window_low": "low end of the fit window of range/h_rms",
+    "window_high": "high end of the fit window of range/h_rms",
+    "exponent": (
+        "1",
+        "local exponent d ln A_ad/d ln range",
+        "a range that the grid does not resolve, or no area within one of them",
+    ),
+    **describe_errors({"a_v": "a_V"}, discretisation=grid_limits.INHERITED),
+}
 
 
 def statistics(column: str, **files: xr.Dataset) -> tuple[xr.DataArray, xr.DataArray, xr.DataArray]:
     """Mean, standard error and discretisation error of a column, along the pressure.
 
-    `files` are ``ensemble`` and, for their own columns, ``a_v`` and ``kappa``, as the rules
+    `files` are ``ensemble`` and, for their columns, ``a_v`` and ``kappa``, as the rules
     `average_ensemble` and `fit_a_v` make them.
     """
     known = COLUMNS[column]
@@ -39,7 +69,7 @@ def quote(column: str, contact: xr.Dataset) -> xr.DataArray:
 def derive(contact: xr.Dataset, fit_interval: Sequence[float]) -> xr.Dataset:
     """Add P(u), a_V and kappa to a contact: area, rms slope and attractive areas by load and range.
 
-    `fit_interval` is that of a_V, in ranges over h_rms.
+    `fit_interval` is for a_V, in ranges over h_rms.
     """
     a_v = fit_a_v(contact.attractive_area, contact.pressure, fit_interval).isel(result=0)
     return contact.assign(gap_density=gap_density(contact), a_v=a_v, kappa=slope_of_area(contact))
@@ -91,3 +121,121 @@ def fit_a_v(area, pressure, fit_interval):
 
 def _at(dataset, column):
     return dataset.sel(column.at, method="nearest", drop=True) if column.at else dataset
+
+
+def fit_kappa(ensemble: xr.Dataset, models: ErrorModels) -> xr.Dataset:
+    """Kappa of an ensemble at every load and fitted, and the mean area, with their errors."""
+    dataset = xr.Dataset({"area_fraction": ensemble.area_fraction_mean})
+    for name, quantity in {"kappa": slope_of_area, "kappa_fit": fit_slope}.items():
+        limit = grid_limits.inherit(ensemble, quantity, ["area_fraction"])
+        values, more = quantity(ensemble), coarse(ensemble, quantity)
+        dataset = add_errors(dataset, name, values, more, plain=True, limit=limit)
+    dataset = annotate(dataset, **KAPPA_VARIABLES)
+    # The errors of the fit are those at the largest of its loads.
+    inside = dataset.area_fraction <= LINEAR_UP_TO
+    loads = {"kappa": dataset.pressure, "kappa_fit": dataset.pressure.where(inside).max()}
+    simulation = Simulation.of(models, datasets.parameters(ensemble))
+    for name, pressure in loads.items():
+        errors = (dataset[f"{name}_{kind}"] for kind in list(SUFFIXES)[1:])
+        value = dataset[name].assign_coords(pressure=pressure)
+        parts = simulation.parts("kappa", value, *errors, grid_limits.INHERITED)
+        dataset = with_budget(dataset, name, **parts)
+    for ending in ENDINGS:
+        dataset[f"area_fraction{ending}"] = ensemble[f"area_fraction_mean{ending}"]
+    return dataset
+
+
+def add_kappa(theory: xr.Dataset, models: ErrorModels, surface: dict) -> xr.Dataset:
+    """Add kappa and its error budget to theory on the lattice spectrum of a surface."""
+    text = f"{KAPPA} by Persson's theory on the lattice spectrum"
+    theory = datasets.annotate(theory.assign(kappa=slope_of_area(theory)), kappa=("1", text))
+    parts = theory_parts(models, "kappa", theory.kappa, surface, "area_fraction")
+    return with_budget(theory, "kappa", **parts)
+
+
+def fit_slope(ensemble):
+    """Least-squares slope of area h'_rms against pressure through the origin, A <= 30 %."""
+    area = ensemble.area_fraction.where(ensemble.area_fraction <= LINEAR_UP_TO)
+    pressure = ensemble.pressure.where(area.notnull())
+    fitted = (area * pressure).sum("pressure") / (pressure**2).sum("pressure")
+    return fitted * ensemble.rms_slope
+
+
+def write_a_v(areas_file, output, windows, laws):
+    """Fit a_V to the attractive areas of a file in all windows, and write it with its errors."""
+    areas = datasets.read(areas_file, ["attractive_area", "pressure"])
+    dataset = fit_intervals(areas, windows)
+    dataset["exponent"] = local_exponent(areas)
+    if "edge_gap_mean" in areas:
+        resolved = areas["range"] >= areas.edge_gap_mean
+        dataset["exponent"] = dataset.exponent.where(resolved)
+    add_budgets = add_theory_budgets
+    if "seed" in dataset.a_v.dims:
+        dataset, add_budgets = average_a_v(dataset, areas, windows), add_simulation_budgets
+    datasets.write(
+        add_budgets(annotate(dataset, **A_V_VARIABLES), areas, read_models(laws)),
+        output,
+        title="a_V from attractive areas",
+        parameters={**datasets.parameters(areas), "windows": windows},
+    )
+
+
+def average_a_v(dataset, ensemble, windows):
+    """Add mean and errors of a_V, in the limit of fine grids of the attractive areas."""
+
+    def quantity(solved):
+        return fit_intervals(solved, windows).a_v
+
+    limit = grid_limits.inherit(ensemble, quantity, ["attractive_area"])
+    return add_errors(dataset, "a_v", dataset.a_v, coarse(ensemble, quantity), limit=limit)
+
+
+def add_simulation_budgets(dataset, ensemble, models):
+    """Budgets of the means over the seeds; the choice of the window is no source of error."""
+    simulation = Simulation.of(models, datasets.parameters(ensemble))
+    mean = (dataset[f"a_v_{kind}"] for kind in SUFFIXES)
+    parts = simulation.parts("a_v", *mean, grid_limits.INHERITED)
+    dataset = with_budget(dataset, "a_v_mean", **parts)
+    solver = simulation.solver("attractive_area", dataset.exponent)
+    factor = simulation.factors("attractive_area", dataset.exponent)
+    limit = grid_limits.inherit(ensemble, local_exponent, ["attractive_area"])
+    seeds = local_exponent(ensemble[["attractive_area", "pressure"]])
+    steps = np.diff(np.log(ensemble["range"].values)).min()
+    return with_budget(
+        dataset,
+        "exponent",
+        discretisation=Part(limit.error, grid_limits.INHERITED),
+        solver=Part(2 * solver / steps, "of neighbouring areas, by the tolerance, as measured"),
+        sampling=Part(factor * standard_error(seeds), "Student's t, of the plain mean of seeds"),
+        **SIMULATED,
+    )
+
+
+def add_theory_budgets(dataset, areas, models):
+    """Budgets of the fits to theory, on a lattice spectrum or on continuous ones."""
+    made = datasets.parameters(areas)
+    like = dataset.a_v.assign_coords(pressure=areas.pressure)
+    surface, quadrature = made if "case" in made else None, "attractive_area"
+    parts = theory_parts(models, "a_v", like, surface, quadrature)
+    dataset = with_budget(dataset, "a_v", **parts)
+    error = 2 * QUADRATURE[quadrature] / np.diff(np.log(areas["range"].values)).min()
+    return with_budget(
+        dataset,
+        "exponent",
+        discretisation=Part(error, "of the quadrature in neighbouring areas"),
+        model=unknown("how theory's error changes with the range is not measured"),
+        **BY_THEORY,
+    )
+
+
+def local_exponent(areas):
+    """Exponent d ln A_ad/d ln(range): 2/3 where P(u) falls as u^(-1/3); of means over seeds."""
+    area = areas.get("attractive_area_mean", areas.attractive_area)
+    ranges = area["range"].values
+    return xr.apply_ufunc(
+        lambda a: a_v_fit.local_exponent(ranges, a) if np.all(a > 0) else np.full(len(a), np.nan),
+        area,
+        input_core_dims=[["range"]],
+        output_core_dims=[["range"]],
+        vectorize=True,
+    )

@@ -12,7 +12,7 @@ COLUMNS = (
     *("set", "hurst", "magnification", "window", "points", "seed", "full_contact_energy"),
     *("energy_ratio", "zone", "range", "adhesion_length", "approach", "separation", "bound"),
     *("pull_off", "pixels_in_zone", "predicted", "predicted_low", "predicted_high"),
-    *("predicted_pull_off", "full_contact", "multiscale", "dmt", "local_margin", "finest_margin"),
+    *("predicted_pull_off", "full_contact", "dmt", "local_margin", "finest_margin"),
 )
 HELD = "_held"  # end of the name of a set that nothing was fitted to
 WEAK = "_weak"  # of a set from weak to tough adhesion
@@ -54,7 +54,7 @@ def is_held(table: pd.DataFrame) -> pd.Series:
 
 def summarise(frame: pd.DataFrame) -> str:
     """Means of simulation and theories by w/U_full, as a table in Markdown."""
-    names = ("approach", "separation", "bound", "predicted", "full_contact", "multiscale", "dmt")
+    names = ("approach", "separation", "bound", "predicted", "full_contact", "dmt")
     tough = frame[(frame.zone < 0.11) & (frame.window > 1)]
     groups = tough.groupby(pd.cut(tough.energy_ratio, BINS), observed=True)
     rows = [

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import jinja2
 import numpy as np
 
 from common import formatting
+from stickiness import datasets
 
 
 def make_environment(folder: str | Path) -> jinja2.Environment:
@@ -30,7 +32,16 @@ def make_environment(folder: str | Path) -> jinja2.Environment:
         "amount": lambda value, unit, digits: formatting.amount(float(value), unit, digits),
     }
     environment.tests["finite"] = np.isfinite
+    environment.globals["table"] = lambda columns, rows: formatting.table(columns, rows).rstrip()
     return environment
+
+
+def write_page(template: str | Path, page: str | Path, **values: Any) -> None:
+    """Render a template and write the page, whole or not at all."""
+    template = Path(template)
+    text = make_environment(template.parent).get_template(template.name).render(values)
+    with datasets.whole_file(page) as path:
+        path.write_text(text, encoding="utf-8")
 
 
 def write_power(value: float) -> str:

@@ -14,10 +14,10 @@ from stickiness.spectrum.kinds import Spectrum
 def theories(
     spectrum: Spectrum, variants: Sequence[str], gamma: float, nodes: float = 1.0
 ) -> dict[str, Persson]:
-    """Theories of a spectrum by names; `nodes` is that of `Persson`.
+    """Theories of a spectrum by names; `nodes` as in `Persson`.
 
-    The variants asked for with the correction of Yang & Persson and `gamma`, then the quoted
-    variant with the other corrections, each with its source's own gamma.
+    These are the `variants` with the correction of Yang & Persson and `gamma`, then the quoted
+    variant with the other corrections, each with the gamma of its source.
     """
     first = Persson(spectrum, variants[0], gamma, nodes)
     found = {name: first.with_variant(name) for name in variants}

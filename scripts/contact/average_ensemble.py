@@ -6,23 +6,18 @@ whatever is derived from those is averaged in the same way, as the slope of area
 
 from common.conventions import LINEAR_UP_TO
 from common.job import start
-from common.kappa import fit_kappa
-from contact.ensembles import add_budgets, annotate, choose_means, ensemble_of
+from common.quantities import fit_kappa
+from contact.ensembles import average_files, choose_means, write_means
 from stickiness import datasets
 from stickiness.accuracy.error_models import read_models
 
 
 def main(job):
     averaged = choose_means(job.params.quantities)
-    asked = list(job.params.seeds), list(job.params.pressures)
-    dataset, parameters = ensemble_of(job.input, *asked, averaged)
+    wanted = list(job.params.seeds), list(job.params.pressures)
+    dataset, parameters = average_files(job.input, *wanted, averaged)
     parameters["case"] = job.wildcards.case
-    datasets.write(
-        add_budgets(annotate(dataset, averaged), parameters, job.input.laws, averaged),
-        job.output.means,
-        title="repulsive contact averaged over realisations",
-        parameters=parameters,
-    )
+    write_means(dataset, parameters, job.input.laws, job.output.means, averaged)
     datasets.write(
         fit_kappa(datasets.read(job.output.means), read_models(job.input.laws)),
         job.output.kappa,

@@ -2,9 +2,8 @@
 
 import numpy as np
 
-from common.fields import gather_fields
 from common.job import start
-from common.realisations import read_first
+from common.model_surfaces import gather_fields, read_first
 from stickiness import datasets
 from stickiness.repulsive import solver
 

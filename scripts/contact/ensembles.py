@@ -6,35 +6,52 @@ import xarray as xr
 
 from common import conventions, grid_limits
 from common.contact_curves import MEASURED_TEXTS
-from common.conventions import RMS_SLOPE, VARIABLES
 from common.ensemble_means import PREFIX, SUFFIXES, add_errors, coarse, describe_errors, mean
 from common.error_budgets import Simulation
 from common.grid_limits import EXTRAPOLATION
+from common.model_surfaces import read_all
 from common.quantities import gap_density
-from common.realisations import read_all
 from stickiness import datasets
 from stickiness.accuracy.error_models import read_models
 from stickiness.accuracy.quantities import MEASURED, QUANTITIES
 from stickiness.error_budget import with_budget
 
-# Of realisations: what an ensemble's file keeps seed by seed, and what is read. COARSE: of coarse
-# solutions. All have the optional ones besides, if the case wants them.
+# Variables of realisations that an ensemble's file keeps seed by seed, all that are read of them,
+# and those of coarse solutions. OPTIONAL are there only if the case wants them.
 KEPT = ("area_fraction", "mean_gap", "residual", "iterations", "rms_slope")
 NEEDED = (*KEPT, "pixel_area_fraction", "edges", "edge_gap")
 COARSE = ("area_fraction", "mean_gap", "rms_slope")
 OPTIONAL = ("attractive_area", *MEASURED)
 LONG_WAVES = ("long_waves", "other_long_waves")
 SURFACES = {"gaussian": "Gaussian surfaces", "fixed": "surfaces of fixed amplitudes"}
+AVERAGED = {
+    **{name: itemgetter(name) for name in ("area_fraction", "mean_gap", "attractive_area")},
+    "gap_density": gap_density,
+}
+TEXTS = {name: conventions.VARIABLES[name][1] for name in AVERAGED}
+VARIABLES = {
+    **MEASURED_TEXTS,
+    **describe_errors(TEXTS, discretisation=grid_limits.DIRECT),
+    **describe_errors(
+        {name: text for name, (_, text, _) in MEASURED_TEXTS.items()},
+        discretisation=grid_limits.FIRST_ORDER,
+    ),
+    "rms_slope": conventions.RMS_SLOPE,
+    "edge_gap_mean": "gap next to the contact over h_rms: smallest range resolved",
+    f"attractive_area_{EXTRAPOLATION}": f"{TEXTS['attractive_area']}: of the mean, extrapolated "
+    "from below the edge gap",
+}
 
 
-def ensemble_of(inputs, seeds, loads, averaged):
-    """Means and errors from the files of realisations and coarse solutions, and what made them.
+def average_files(inputs, seeds, loads, averaged):
+    """Means and errors from files of realisations and coarse solutions, with their parameters.
 
     The files may be those of another case with more seeds and loads.
     """
-    needed = (*NEEDED, *optional(averaged))
-    realisations = read_all(inputs.realisations, needed).sel(seed=seeds, pressure=loads)
-    kept = (*COARSE, *optional(averaged))
+    optional = [name for name in OPTIONAL if name in averaged]
+    realisations = read_all(inputs.realisations, (*NEEDED, *optional))
+    realisations = realisations.sel(seed=seeds, pressure=loads)
+    kept = (*COARSE, *optional)
     others = [datasets.read(path, kept).sel(pressure=loads) for path in inputs.coarse]
     more = rename_coarse(join(others), kept) if others else xr.Dataset()
     dataset = add_statistics(realisations, more, averaged)
@@ -45,17 +62,6 @@ def ensemble_of(inputs, seeds, loads, averaged):
     return dataset, {**parameters, **describe_sampling(parameters, dataset)}
 
 
-def join(files):
-    """Coarse solutions of all files; the seeds that are not solved are in the first."""
-    solved = xr.concat([file.drop_dims("other") for file in files], "seed", data_vars="minimal")
-    return solved.merge(files[0][["other_long_waves"]])
-
-
-def optional(averaged):
-    """Variables of single solutions that only some cases have, of what is averaged."""
-    return [name for name in OPTIONAL if name in averaged]
-
-
 def choose_means(quantities):
     """What to average for the quantities wanted of a case; areas and mean gaps come for free."""
     needed = {mean for quantity in quantities for mean in QUANTITIES[quantity].means}
@@ -64,8 +70,14 @@ def choose_means(quantities):
     return {name: value for name, value in (AVERAGED | measured).items() if name in needed}
 
 
+def join(files):
+    """Coarse solutions of all files; the seeds that are not solved are in the first."""
+    solved = xr.concat([file.drop_dims("other") for file in files], "seed", data_vars="minimal")
+    return solved.merge(files[0][["other_long_waves"]])
+
+
 def rename_coarse(others, kept=(*COARSE, "attractive_area")):
-    """Coarse solutions under names that leave those of the fine ones free."""
+    """Coarse solutions under names that do not clash with the fine ones."""
     names = {name: f"{PREFIX}{name}" for name in (*kept, "seed")}
     return others[[*kept, *LONG_WAVES]].rename(names)
 
@@ -80,15 +92,10 @@ def describe_sampling(made, dataset):
     return meant | counts | {"descriptor_seeds": dataset.sizes["other"], "estimator": "multilevel"}
 
 
-AVERAGED = {
-    **{name: itemgetter(name) for name in ("area_fraction", "mean_gap", "attractive_area")},
-    "gap_density": gap_density,
-}
-
-
 def add_statistics(realisations, others, averaged=AVERAGED):
     """Mean and errors of every quantity, beside the values seed by seed."""
-    dataset = realisations[[*KEPT, *optional(averaged)]].merge(others)
+    optional = [name for name in OPTIONAL if name in averaged]
+    dataset = realisations[[*KEPT, *optional]].merge(others)
     dataset["edge_gap_mean"] = mean(realisations.edge_gap)
     ruled = {name: quantity for name, quantity in averaged.items() if name not in MEASURED}
     limits = grid_limits.estimate_limits(realisations, ruled)
@@ -97,29 +104,18 @@ def add_statistics(realisations, others, averaged=AVERAGED):
     for name, quantity in averaged.items():
         more = coarse(dataset, quantity)
         dataset = add_errors(dataset, name, quantity(realisations), more, limit=limits.get(name))
-    if "attractive_area" in averaged:  # the one quantity that has any
+    if "attractive_area" in averaged:  # the one quantity that is extrapolated
         dataset[f"attractive_area_{EXTRAPOLATION}"] = limits["attractive_area"].shift
     return dataset
 
 
-def add_budgets(dataset, made, laws, averaged=AVERAGED):
-    """The means with their errors by source."""
+def write_means(dataset, made, laws, output, averaged=AVERAGED):
+    """Write the means with their errors by source."""
+    dataset = conventions.annotate(dataset, **VARIABLES)
     simulation = Simulation.of(read_models(laws), made)
     for name in averaged:
         left = grid_limits.FIRST_ORDER if name in MEASURED else grid_limits.LEFT
         parts = simulation.parts(name, *(dataset[f"{name}_{kind}"] for kind in SUFFIXES), left)
         dataset = with_budget(dataset, f"{name}_mean", **parts)
-    return dataset
-
-
-def annotate(dataset, averaged=AVERAGED):
-    texts = MEASURED_TEXTS | {
-        "rms_slope": RMS_SLOPE,
-        "edge_gap_mean": ("1", "gap next to the contact over h_rms: smallest range resolved"),
-    }
-    for name in averaged:
-        kind = grid_limits.FIRST_ORDER if name in MEASURED else grid_limits.DIRECT
-        texts |= describe_errors(name, (VARIABLES | MEASURED_TEXTS)[name][1], discretisation=kind)
-    extrapolated = f"{VARIABLES['attractive_area'][1]}: of the mean, extrapolated from below the"
-    texts[f"attractive_area_{EXTRAPOLATION}"] = ("1", f"{extrapolated} edge gap")
-    return conventions.annotate(dataset, **texts)
+    title = "repulsive contact averaged over realisations"
+    datasets.write(dataset, output, title=title, parameters=made)

@@ -1,21 +1,20 @@
-"""Coarse contact solutions of many realisations, which correct the mean of a few fine ones.
+"""Solve many realisations on a coarse grid, to correct the mean of a few fine solutions.
 
-Their seeds are others. Each surface is solved on 2 pixels per shortest wavelength, as every fine
-one is too. Of still more surfaces only the long waves are described.
+Their seeds differ from those of the fine solutions. Each surface is solved on 2 pixels per shortest
+wavelength, as every fine one is too. Of still more surfaces only the long waves are described.
 """
 
-from common.coarse_solutions import annotate, coarse_solutions
-from common.contact_curves import COARSE
-from common.conventions import logarithmic_grid
+from common.contact_curves import COARSE, VARIABLES, coarse_solutions
+from common.conventions import annotate, logarithmic_grid
 from common.job import start
 from common.model_surfaces import grid_points
 from stickiness import datasets
 
 
 def main(job):
-    asked = job.params.surface
+    surface = job.params.surface
     dataset = coarse_solutions(
-        asked,
+        surface,
         range(job.params.after, job.params.seeds),
         job.params.descriptor_seeds,
         job.params.pressures,
@@ -24,16 +23,16 @@ def main(job):
         job.params.measured,
     )
     datasets.write(
-        annotate(dataset),
+        annotate(dataset, **VARIABLES),
         job.output[0],
         title="coarse contact solutions and long waves of many realisations",
         parameters={
-            **asked,
+            **surface,
             "case": job.wildcards.case,
             "tolerance": job.params.tolerance,
             "largest_residual": float(dataset.residual.max()),
             "pixels_per_wavelength": COARSE,
-            "grid_points": grid_points(asked, COARSE),
+            "grid_points": grid_points(surface, COARSE),
         },
     )
 

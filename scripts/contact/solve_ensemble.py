@@ -1,66 +1,54 @@
-"""All realisations of a case that only theory is compared with: made, pressed and averaged."""
+"""Make, press and average all realisations of a case that only theory is compared with."""
 
 import logging
 
 import numpy as np
 import xarray as xr
 
-from common import coarse_solutions, contact_curves
-from common.conventions import logarithmic_grid
+from common.contact_curves import VARIABLES, coarse_solutions, load_curves, steps_of
+from common.conventions import annotate, logarithmic_grid
 from common.job import start
 from common.model_surfaces import cell_size, grid_points, make_heights, waves_across
-from contact.ensembles import (
-    add_budgets,
-    add_statistics,
-    annotate,
-    describe_sampling,
-    rename_coarse,
-)
-from stickiness import datasets
+from contact.ensembles import add_statistics, describe_sampling, rename_coarse, write_means
 from stickiness import surface as synthesis
 
 
 def main(job):
-    asked, params = job.params.surface, job.params
+    surface, params = job.params.surface, job.params
     curves = np.sort(params.pressures), logarithmic_grid(params.gaps), params.tolerance
     seeds = np.arange(1, params.seeds + 1)
     fine = xr.concat(
-        [realisation(asked, int(seed), params.pixels_per_wavelength, curves) for seed in seeds],
+        [realisation(surface, int(seed), params.pixels_per_wavelength, curves) for seed in seeds],
         xr.DataArray(seeds, dims="seed", name="seed"),
     )
     others = xr.Dataset()
     if params.coarse_seeds:
         count = range(params.coarse_seeds), params.descriptor_seeds
-        others = coarse_solutions.coarse_solutions(asked, *count, *curves)
-        others = rename_coarse(coarse_solutions.annotate(others))
-    dataset = add_statistics(contact_curves.annotate(fine), others)
+        others = coarse_solutions(surface, *count, *curves)
+        others = rename_coarse(annotate(others, **VARIABLES))
+    dataset = add_statistics(annotate(fine, **VARIABLES), others)
     parameters = {
-        **asked,
+        **surface,
         "case": job.wildcards.comparison,
         "seeds": seeds.tolist(),
         "tolerance": params.tolerance,
         "largest_residual": float(fine.residual.max()),
         "pixels_per_wavelength": params.pixels_per_wavelength,
-        "grid_points": grid_points(asked, params.pixels_per_wavelength),
+        "grid_points": grid_points(surface, params.pixels_per_wavelength),
     }
     parameters |= describe_sampling(parameters, dataset)
-    datasets.write(
-        add_budgets(annotate(dataset), parameters, job.input.laws),
-        job.output[0],
-        title="repulsive contact averaged over realisations",
-        parameters=parameters,
-    )
+    write_means(dataset, parameters, job.input.laws, job.output[0])
 
 
-def realisation(asked, seed, pixels_per_wavelength, curves):
+def realisation(surface, seed, pixels_per_wavelength, curves):
     """Contact of one random surface on all its grids."""
     logging.info("seed %d", seed)
-    length, n = cell_size(asked), grid_points(asked, pixels_per_wavelength)
-    heights = make_heights(asked, n, seed)
-    steps = contact_curves.steps_of(pixels_per_wavelength)
-    dataset = contact_curves.load_curves(heights, length, steps, *curves)
+    length, n = cell_size(surface), grid_points(surface, pixels_per_wavelength)
+    heights = make_heights(surface, n, seed)
+    steps = steps_of(pixels_per_wavelength)
+    dataset = load_curves(heights, length, steps, *curves)
     dataset["rms_slope"] = synthesis.moments(heights, length).rms_slope
-    return dataset.assign_coords(resolution=n / waves_across(asked) / np.array(steps))
+    return dataset.assign_coords(resolution=n / waves_across(surface) / np.array(steps))
 
 
 if __name__ == "__main__":

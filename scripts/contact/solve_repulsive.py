@@ -1,17 +1,16 @@
 """Walk realisations along their load path, on their grid, every second point of it, and 2 pixels.
 
-The coarser grids sample the same band-limited surface. What changes from every second point to
-all of them is a measure of the discretisation error; the solution on 2 pixels per shortest
-wavelength is the control of `solve_coarse`'s many others.
+The coarser grids sample the same band-limited surface. The change from every second point to all of
+them measures the discretisation error; the solution on 2 pixels per shortest wavelength is the
+control variate for the many coarse solutions of `solve_coarse`.
 """
 
 import numpy as np
 
-from common.contact_curves import annotate, load_curves, steps_of
-from common.conventions import logarithmic_grid
+from common.contact_curves import VARIABLES, load_curves, steps_of
+from common.conventions import annotate, logarithmic_grid
 from common.job import start
-from common.model_surfaces import pixels
-from common.realisations import each_seed
+from common.model_surfaces import each_seed, pixels
 from stickiness import datasets
 
 
@@ -26,7 +25,7 @@ def main(job):
     )
     dataset = dataset.assign_coords(resolution=pixels(surfaces) / np.array(steps))
     datasets.write(
-        annotate(dataset),
+        annotate(dataset, **VARIABLES),
         job.output[0],
         title="repulsive contact of realisations along their load path",
         parameters={

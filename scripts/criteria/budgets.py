@@ -60,7 +60,7 @@ def find_model_error(dataset, name):
 
 def add_budget_of_probability(dataset, draws):
     """The number of draws limits how well a probability is known: Wilson's interval."""
-    share, number = dataset.probability, xr.DataArray(list(draws.values()), dims="surface")
+    share, number = dataset.probability, xr.DataArray(draws, dims="surface")
     number = number.where(number > 0)
     shrunk = 1 + COVERS**2 / number
     middle = (share + COVERS**2 / (2 * number)) / shrunk

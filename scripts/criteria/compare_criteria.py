@@ -1,4 +1,4 @@
-"""Adhesion that each criterion asks for, over roughness and over the shortest wavelength.
+"""Adhesion that each criterion requires, over roughness and over the shortest wavelength.
 
 Surfaces with one Hurst exponent, the range as unit of length: once over h_rms at a fixed
 magnification, once over the magnification at fixed h_rms and longest wavelength. The second shows
@@ -22,6 +22,14 @@ from stickiness.error_budget import with_budget
 from stickiness.spectrum.kinds import SelfAffine
 
 LOW, HIGH = f"{REMAINING}_low", f"{REMAINING}_high"
+TEXT = "adhesion length over range above which the criterion calls the surface sticky"
+VARIABLES = {
+    "h_rms_over_range": ("1", "rms height over range"),
+    "magnification": ("1", "highest over lowest wave number"),
+    "criterion": ("1", "stickiness criterion; of what remains also its low and high limit"),
+    "against_roughness": ("1", TEXT),
+    "against_magnification": ("1", TEXT),
+}
 
 
 def main(job):
@@ -30,7 +38,7 @@ def main(job):
     constant = measure_a_v(job.input, load).value
     dataset = compare(asked, load, table, constant)
     datasets.write(
-        add_budgets(describe(dataset)),
+        add_budgets(datasets.annotate(dataset, **VARIABLES)),
         job.output[0],
         title="adhesion at the threshold of stickiness by every criterion",
         parameters={**asked, "pressure": load, "constant_a_v": constant},
@@ -100,18 +108,6 @@ def add_budgets(dataset):
         model = replace(model, error=model.error.where(value.criterion == REMAINING))
         dataset = with_budget(dataset, name, model=model, **CLOSED)
     return dataset
-
-
-def describe(dataset):
-    text = "adhesion length over range above which the criterion calls the surface sticky"
-    return datasets.annotate(
-        dataset,
-        h_rms_over_range=("1", "rms height over range"),
-        magnification=("1", "highest over lowest wave number"),
-        criterion=("1", "stickiness criterion; of what remains also its low and high limit"),
-        against_roughness=("1", text),
-        against_magnification=("1", text),
-    )
 
 
 if __name__ == "__main__":

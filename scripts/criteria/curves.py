@@ -5,50 +5,67 @@ from dataclasses import replace
 import numpy as np
 import xarray as xr
 
-from criteria.pairs import DIMS, LIMITS, is_scalable
-from criteria.probabilities import QUANTILES, draw_signs
-from criteria.words import find_limits
+from criteria.classification import find_limits
+from stickiness.criteria.judgement import QUANTITIES, SIGNS
+from stickiness.statistics import COVERS
 
+DIMS = ("material", "surface", "end")
+QUANTILES = (0.05, 0.5, 0.95)  # of the samples of a measured surface
+SEED = 2
 # Factors on E* and on the heights at an unchanged shape of the spectrum; 1 is among both.
 MODULUS_FACTORS = 10.0 ** (np.arange(-60, 41) / 10)
 ROUGHNESS_FACTORS = 10.0 ** (np.arange(-16, 17) / 16)
-OF_RATE = "beyond the material's table, or elastic backing"
+AXES = {  # dimension, description, and why a value may be missing, of every curve
+    "modulus": ("modulus_factor", "for E* times a factor", "elastic backing"),
+    "roughness": ("roughness_factor", "for the pair's heights times a factor", "not judged"),
+    "rate": ("frequency", "at a frequency", "beyond the material's table, or elastic backing"),
+}
+CURVES = {  # units and descriptions of the variables
+    "modulus_factor": ("1", "factor on the plane-strain modulus"),
+    "roughness_factor": ("1", "factor on the heights, at unchanged shape of the spectrum"),
+    **{
+        f"remaining_by_{axis}{end}": (
+            "1",
+            f"{QUANTITIES['remaining'].long_name}, {text}{f', {end[1:]} limit' if end else ''}",
+            missing,
+        )
+        for axis, (_, text, missing) in AXES.items()
+        for end in SIGNS
+    },
+}
 
 
-def follow_remaining(pair, materials, joints, frequencies):
+def follow_remaining(pair, materials, roughness, frequencies):
     """Share that remains along factors on E* and on the heights, and along the rate.
 
-    Limits are those that decide (`words.find_limits`), so that at a factor of 1 they are the
-    pair's. U_full goes with E* and with the square of the heights: no spectrum is integrated again.
-    With an elastic backing the modulus of the layer alone changes the response, which is withheld.
+    Limits are those that decide (`classification.find_limits`), so that at a factor of 1 they are
+    the pair's. U_full goes with E* and with the square of the heights: no spectrum is integrated
+    again. With a film the modulus of the layer alone changes the response, which is withheld.
     """
     solids = list(materials.values())
-    scalable = np.array([is_scalable(solid) for solid in solids])
+    scalable = np.array([solid.is_scalable for solid in solids])
     quoted = np.array([solid.modulus for solid in solids])
-    by_factor = np.where(scalable, MODULUS_FACTORS[:, None] * quoted, np.nan)
     rates = np.transpose([np.atleast_1d(s.plane_strain.storage(frequencies)) for s in solids])
-    by_rate = np.where(scalable, rates, np.nan)
-    unchanged = np.broadcast_to(quoted, (len(ROUGHNESS_FACTORS), len(solids)))
     along = {
-        "modulus_factor": ("modulus", by_factor, np.ones(len(by_factor))),
-        "roughness_factor": ("roughness", unchanged, ROUGHNESS_FACTORS),
-        "frequency": ("rate", by_rate, np.ones(len(by_rate))),
+        "modulus": np.where(scalable, MODULUS_FACTORS[:, None] * quoted, np.nan),
+        "roughness": np.broadcast_to(quoted, (len(ROUGHNESS_FACTORS), len(solids))),
+        "rate": np.where(scalable, rates, np.nan),
     }
-    found = {}
-    for dim, (name, moduli, heights) in along.items():
-        share, low, high = follow(pair, solids, joints, dim, moduli, heights)
-        found |= {f"remaining_by_{name}": share.transpose(*DIMS, dim)}
-        found |= {
-            f"remaining_by_{name}_{end}": limit.transpose(*DIMS[:2], dim)
-            for end, limit in (("low", low), ("high", high))
-        }
-    return found | {
+    found = {
         "modulus_factor": ("modulus_factor", MODULUS_FACTORS),
         "roughness_factor": ("roughness_factor", ROUGHNESS_FACTORS),
     }
+    for axis, moduli in along.items():
+        dim = AXES[axis][0]
+        heights = ROUGHNESS_FACTORS if axis == "roughness" else np.ones(len(moduli))
+        share, low, high = follow(pair, solids, roughness, dim, moduli, heights)
+        found[f"remaining_by_{axis}"] = share.transpose(*DIMS, dim)
+        found[f"remaining_by_{axis}_low"] = low.transpose(*DIMS[:2], dim)
+        found[f"remaining_by_{axis}_high"] = high.transpose(*DIMS[:2], dim)
+    return found
 
 
-def follow(pair, solids, joints, dim, moduli, heights):
+def follow(pair, solids, roughness, dim, moduli, heights):
     """Share with both limits for moduli ``(dim, material)`` and factors on heights ``(dim,)``.
 
     A modulus that is not known is NaN, and so are its shares.
@@ -61,38 +78,43 @@ def follow(pair, solids, joints, dim, moduli, heights):
         modulus=moduli[..., None, None],
         h_rms=pair.h_rms * factor,
         elastic_energy=pair.elastic_energy * factor**2,
-        deep_energy=pair.deep_energy * factor**2,
+        half_space_energy=pair.half_space_energy * factor**2,
     )
-    strain = np.array([[joint.layer_strain for joint in row] for row in joints])
-    drawn = np.array(
+    strain = np.array([[rough.layer_strain for rough in row] for row in roughness])
+    quantiles = np.array(
         [
-            [follow_draws(solid, joint.drawn, moduli[:, i], heights) for joint in joints[i]]
+            [follow_samples(solid, rough.samples, moduli[:, i], heights) for rough in roughness[i]]
             for i, solid in enumerate(solids)
         ]
     )
     found = xr.Dataset(
-        {f"remaining{end}": ((dim, *DIMS), at.remaining(sign)) for end, sign in LIMITS.items()}
+        {f"remaining{end}": ((dim, *DIMS), at.remaining(sign)) for end, sign in SIGNS.items()}
         | {
-            "remaining_quantile": ((*DIMS[:2], dim, "quantile"), drawn),
+            "remaining_quantile": ((*DIMS[:2], dim, "quantile"), quantiles),
             "layer_strain": ((dim, *DIMS), strain * factor),
         }
     )
     return tuple(x.where(known) for x in (found.remaining, *find_limits(found)))
 
 
-def follow_draws(solid, drawn, moduli, heights):
-    """Quantiles of the share over the draws of a surface, ``(dim, quantile)``; NaN without."""
-    if drawn is None:
+def follow_samples(solid, samples, moduli, heights):
+    """Quantiles of the share over the samples of a surface, ``(dim, quantile)``; NaN without."""
+    if samples is None:
         return np.full((len(moduli), len(QUANTILES)), np.nan)
     (moduli, heights), place = np.unique([moduli, heights], axis=1, return_inverse=True)
     factor = heights[:, None]
-    deep = None if drawn.deep_energy is None else drawn.deep_energy * factor**2
+    bound = samples.half_space_energy
     rough = replace(
-        drawn,
-        h_rms=drawn.h_rms * factor,
-        elastic_energy=drawn.elastic_energy * factor**2,
-        deep_energy=deep,
+        samples,
+        h_rms=samples.h_rms * factor,
+        elastic_energy=samples.elastic_energy * factor**2,
+        half_space_energy=None if bound is None else bound * factor**2,
     )
     length = solid.work_of_adhesion / moduli[:, None]
-    shares = rough.share(length, solid.range, draw_signs(drawn))
+    shares = rough.share(length, solid.range, sample_errors(samples))
     return np.quantile(shares, QUANTILES, axis=-1).T[place]
+
+
+def sample_errors(samples):
+    """Errors of the model for every sample, in units of its limits, which cover 90 %."""
+    return np.random.default_rng(SEED).normal(size=len(samples.h_rms)) / COVERS

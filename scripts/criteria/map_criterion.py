@@ -10,10 +10,35 @@ from common.conventions import logarithmic_grid
 from common.job import start
 from criteria.budgets import CLOSED, between_limits
 from criteria.simulated_a_v import measure_a_v
-from stickiness import area_load, criteria, datasets, equivalent_sphere
+from stickiness import criteria, datasets
+from stickiness.criteria import equivalent_sphere
 from stickiness.criteria.a_v_table import NEEDED, AvTable
 from stickiness.error_budget import with_budget
 from stickiness.spectrum.kinds import SelfAffine
+
+LIMIT = "largest h_rms/range that sticks"
+EDGES = f"{LIMIT}, by the edges of contact"
+MISSING = "none for which a_V is tabulated, or none above 1"
+VARIABLES = {  # units, description, and what NaN means
+    "range_times_q0": ("1", "range times lowest wave number"),
+    "adhesion_length_over_range": ("1", "adhesion length over range"),
+    "h_rms_limit": ("1", f"{LIMIT} in the DMT limit, a_V as tabulated", MISSING),
+    "h_rms_limit_low": ("1", f"{LIMIT} in the DMT limit, a_V at its low end", MISSING),
+    "h_rms_limit_high": ("1", f"{LIMIT} in the DMT limit, a_V at its high end", MISSING),
+    "h_rms_limit_edges": ("1", EDGES, MISSING),
+    "h_rms_limit_edges_low": ("1", f"{EDGES}, a_V and model at their low end", MISSING),
+    "h_rms_limit_edges_high": ("1", f"{EDGES}, a_V and model at their high end", MISSING),
+    "h_rms_limit_constant": ("1", f"{LIMIT} in the DMT limit, constant a_V of a broad spectrum"),
+    "h_rms_limit_printed": ("1", f"{LIMIT} in the DMT limit, coefficient 9/4 as printed"),
+    "weak_limit": ("1", "smallest h_rms/range at which the edges of contact are weak", MISSING),
+    "jtb_limit": ("1", "smallest h_rms/range at which the DMT limit holds (JTB)"),
+    "a_v": ("1", "constant a_V of a broad spectrum"),
+    "a_v_low": ("1", "a_V less its error"),
+    "a_v_high": ("1", "a_V plus its error"),
+    "slope_parameter": ("1", "range q0/(adhesion length/range)"),
+    "h_rms_over_range": ("1", "rms height over range"),
+    "slope_angle": ("degree", "angle of the area-load line against the load axis"),
+}
 
 
 def main(job):
@@ -23,7 +48,7 @@ def main(job):
     dataset = find_limits(asked, constant, Roughness(table, asked, job.params.pressure))
     dataset = dataset.merge(find_slopes(asked["slope_parameter"], asked["slope_a_v"]))
     datasets.write(
-        add_budgets(describe(dataset), constant),
+        add_budgets(datasets.annotate(dataset, **VARIABLES), constant),
         job.output[0],
         title="map of the stickiness criterion",
         parameters={**asked, "pressure": job.params.pressure},
@@ -82,7 +107,7 @@ def find_limits(asked, constant, roughness):
     at = np.meshgrid(q0, length, indexing="ij")
 
     def by_dmt(h, q0, length, which):
-        return area_load.traction_ratio(h, q0, length, 1.0, roughness.a_v(h, q0, which))
+        return criteria.traction_ratio(h, q0, length, 1.0, roughness.a_v(h, q0, which))
 
     def attraction(h, q0, length, which):
         slope, a_v = roughness.slope(h, q0), roughness.a_v(h, q0, which)
@@ -147,33 +172,6 @@ def add_budgets(dataset, constant):
     # In proportion to a_V^(3/5).
     parts = constant.parts(3 / 5 * dataset.h_rms_limit_constant)
     return with_budget(dataset, "h_rms_limit_constant", **parts)
-
-
-def describe(dataset):
-    limit = "largest h_rms/range that sticks"
-    edges = f"{limit}, by the edges of contact"
-    missing = "none for which a_V is tabulated, or none above 1"
-    return datasets.annotate(
-        dataset,
-        range_times_q0=("1", "range times lowest wave number"),
-        adhesion_length_over_range=("1", "adhesion length over range"),
-        h_rms_limit=("1", f"{limit} in the DMT limit, a_V as tabulated", missing),
-        h_rms_limit_low=("1", f"{limit} in the DMT limit, a_V at its low end", missing),
-        h_rms_limit_high=("1", f"{limit} in the DMT limit, a_V at its high end", missing),
-        h_rms_limit_edges=("1", edges, missing),
-        h_rms_limit_edges_low=("1", f"{edges}, a_V and model at their low end", missing),
-        h_rms_limit_edges_high=("1", f"{edges}, a_V and model at their high end", missing),
-        h_rms_limit_constant=("1", f"{limit} in the DMT limit, constant a_V of a broad spectrum"),
-        h_rms_limit_printed=("1", f"{limit} in the DMT limit, coefficient 9/4 as printed"),
-        weak_limit=("1", "smallest h_rms/range at which the edges of contact are weak", missing),
-        jtb_limit=("1", "smallest h_rms/range at which the DMT limit holds (JTB)"),
-        a_v=("1", "constant a_V of a broad spectrum"),
-        a_v_low=("1", "a_V less its error"),
-        a_v_high=("1", "a_V plus its error"),
-        slope_parameter=("1", "range q0/(adhesion length/range)"),
-        h_rms_over_range=("1", "rms height over range"),
-        slope_angle=("degree", "angle of the area-load line against the load axis"),
-    )
 
 
 if __name__ == "__main__":

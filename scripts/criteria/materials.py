@@ -26,6 +26,11 @@ class Material:
         """E* at the reference frequency of 1 Hz [Pa]."""
         return float(self.plane_strain.storage(REFERENCE_FREQUENCY))
 
+    @property
+    def is_scalable(self):
+        """Whether all that deforms has the material's modulus: a film has one of its own."""
+        return not isinstance(getattr(self.solid, "backing", None), Film)
+
 
 def read_material(entry):
     """`Material` from its entry in the configuration."""

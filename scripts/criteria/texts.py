@@ -6,14 +6,12 @@ import numpy as np
 import xarray as xr
 
 from common.formatting import NOTHING, interval, number, percent
-from criteria.words import MOST_STRAIN, find_limits
-from stickiness.criteria.pair import DEPENDS, NOT_JUDGED, TOUCHES, WORDS
-from stickiness.remaining.prediction import DEFAULT_SHARE, PULL_OFF_UNKNOWN
+from criteria.classification import find_limits
+from stickiness.remaining.prediction import PULL_OFF_UNKNOWN
 
 LEAST_SHOWN = 1e-3  # share below which a text says 0 %
 KPA, MPA = 1e3, 1e6  # Pa: of the pull-off, and of moduli
 LEAST_STRESS, MOST_STRESS = 1.0, 1e13  # Pa, beyond which a text says so: nobody can use them
-LEAST_EFFECT = 0.05  # relative, of a layer's thickness on the energy of full contact
 
 
 def describe_share(pair: xr.Dataset) -> str:
@@ -95,45 +93,3 @@ def show_stress(value: float, unit: float) -> str:
     if value > MOST_STRESS:
         return f"> {number(MOST_STRESS / unit)}"
     return number(value / unit, 2)
-
-
-def describe_layer(pair: xr.Dataset) -> str:
-    """What the thickness of a layer does to the pair; empty where it does nothing."""
-    low, high = sorted(map(float, pair.stiffening.values))
-    strain = float(pair.layer_strain.max())
-    parts = []
-    if max(high - 1, 1 - low) >= LEAST_EFFECT:
-        parts.append(
-            f"Full contact costs {interval(low, high, 2)} times what it costs a deep solid."
-        )
-    if strain > MOST_STRAIN:
-        parts.append(
-            f"Conforming would strain the layer by about {number(strain, 2)}, beyond what a linear "
-            "layer can tell: all adhesion may be lost."
-        )
-    return " ".join(parts)
-
-
-def say_verdict(material: str, pair: xr.Dataset) -> str:
-    """The verdict on a pair as one sentence; a small first word gets its capital letter."""
-    sentence = _say_verdict(material, pair)
-    first = sentence.split(maxsplit=1)[0]
-    return sentence[0].upper() + sentence[1:] if first.islower() else sentence
-
-
-def _say_verdict(material: str, pair: xr.Dataset) -> str:
-    code, remains = int(pair.verdict), describe_share(pair)
-    if code == NOT_JUDGED:
-        return f"{material}: not judged. {str(pair.not_judged.item()).replace(chr(10), '. ')}."
-    layer = f" {text}" if (text := describe_layer(pair)) else ""
-    if code == DEPENDS:
-        return (
-            f"For {material} it depends: {remains} of its work of adhesion remains, and "
-            f"{percent(DEFAULT_SHARE)} is wanted.{layer}"
-        )
-    if round_share(find_limits(pair)[1]) == 0:
-        remains = "nothing"
-    remains += " of its work of adhesion remains"
-    if code == TOUCHES:
-        remains = f"{remains}, though contact grows by itself at the finest wave"
-    return f"{material} {WORDS[code]}: {remains}.{layer}"

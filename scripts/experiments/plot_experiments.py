@@ -6,8 +6,7 @@ from matplotlib.colors import ListedColormap
 from common import plotting
 from common.job import start
 from common.plotting import BLUE, GREEN, GREY, ORANGE, RED, make_dot, make_key
-from experiments.judgements import COMPATIBLE, SILENT
-from experiments.texts import MARKS
+from experiments.outcomes import COMPATIBLE, MARKS, SILENT
 from stickiness import datasets
 from stickiness.criteria.registry import CRITERIA, EDGES, REMAINING
 

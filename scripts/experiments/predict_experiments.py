@@ -1,24 +1,46 @@
-"""Published experiments: works of approach and separation and pull-off, beside what was seen."""
+"""Published experiments: works of approach and separation and pull-off, beside what was seen.
+
+Everything that is not known is swept: each input between its plausible ends, the others in their
+middle, and all corners. Corners matter where two unknown inputs move a prediction the same way.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cache, cached_property
+from itertools import product
+from typing import Any
 
 import numpy as np
 import xarray as xr
+from numpy.typing import NDArray
 
-from common.config.entries import OBSERVED_UNITS
+from common.config.entries import CONDITIONS, OBSERVED_UNITS, conditions_of
 from common.job import start
-from experiments import judgements, predictions
-from experiments.entries import GRADES, MIDDLE, read_observations
-from experiments.experiment_markdown import write_markdown
+from common.templates import write_page
+from experiments import outcomes
+from experiments.outcomes import COMPATIBLE, GRADES, MISSED, OUTCOMES, SILENT, SOME
 from stickiness import datasets
+from stickiness.criteria.judgement import find_margins
+from stickiness.criteria.pair import Pair
 from stickiness.criteria.registry import CRITERIA
+from stickiness.criteria.verdict import BROAD_A_V, describe_surface, surface_a_v
 from stickiness.error_budget import Part, absent, with_budget
+from stickiness.remaining import sphere
+from stickiness.remaining.prediction import DEFAULT_SHARE, HYSTERESIS, LATE
+from stickiness.spectrum.kinds import SelfAffine
+from stickiness.units import si
 
-QUOTED = {
-    "remaining": ("1", "share of the work of adhesion that remains"),
-    "relative_pull_off": ("1", "pull-off over that from a smooth surface"),
-    "work_of_approach": ("J/m^2", "apparent work of adhesion on approach"),
-    "work_of_separation": ("J/m^2", "apparent work of adhesion on separation"),
-    "limiting_roughness": ("m", "rms height at which adhesion falls to the level observed"),
-}
+SHAPE = ("hurst", "longest_wavelength", "rolloff_wavelength", "shortest_wavelength")
+MOMENTS = ("q0", "rms_slope", "rms_curvature", "elastic_energy")
+MIDDLE = 0  # index of the combination with every input in the middle
+SIGNS = (-1, 0, 1)  # low limit, value, high limit
+ROUGHNESS = np.geomspace(1e-11, 1e-3, 121)  # rms heights [m] along which adhesion is followed
+# Margins are nearly powers of the rms height: between points as far apart as these they are read
+# off to better than 1 %.
+COARSE = ROUGHNESS[::4]
+FACTOR = 4.0  # between the adhesion that a criterion requires and the actual one, if it is right
+LARGEST_EFFECT = 1e9  # of an input, instead of an infinite one
+
 LIMITS = {
     "": "",
     "_low": ", low limit of the model",
@@ -26,165 +48,454 @@ LIMITS = {
     "_lowest": ", lowest limit over all that is plausible",
     "_highest": ", highest limit over all that is plausible",
 }
-NOT_OBSERVED = "not observed"
-LARGEST_EFFECT = 1e9  # of an input, in place of an infinite one
+QUOTED = {
+    "remaining": ("1", "share of the work of adhesion that remains"),
+    "relative_pull_off": ("1", "pull-off over that from a smooth surface"),
+    "work_of_approach": ("J/m^2", "apparent work of adhesion on approach"),
+    "work_of_separation": ("J/m^2", "apparent work of adhesion on separation"),
+    "limiting_roughness": ("m", "rms height at which adhesion falls to the level observed"),
+}
+_OUTCOMES = ", ".join(f"{code} {word}" for code, word in enumerate(OUTCOMES))
+_GRADES = ", ".join(f"{code} {word}" for code, word in enumerate(GRADES))
+NOTHING = "nothing is predicted"
+VARIABLES = {
+    **{
+        f"{name}{end}": (unit, f"{text}{limit}")
+        for name, (unit, text) in (QUOTED | {"pull_off_curve": QUOTED["relative_pull_off"]}).items()
+        for end, limit in LIMITS.items()
+    },
+    **{
+        f"limiting_roughness{end}": (
+            *("m", f"{QUOTED['limiting_roughness'][1]}{limit}"),
+            "beyond the heights followed",
+        )
+        for end, limit in LIMITS.items()
+    },
+    **{
+        f"observed_{name}_{end}": (unit, f"{text}, observed, {end} limit", "not observed")
+        for name, (unit, text) in (QUOTED | {"sticks": ("1", "whether the pair sticks")}).items()
+        if name != "remaining"
+        for end in ("low", "high")
+    },
+    "case": ("1", "experiment and case"),
+    "criterion": ("1", "stickiness criterion"),
+    "roughness": ("m", "rms height"),
+    "quantity": ("1", "what was observed"),
+    "outcome": ("1", f"outcome: {_OUTCOMES}"),
+    "value_inside": ("1", "1 where the value itself agrees, every input in the middle"),
+    "by_relation": ("1", "1 where a relation was observed, evaluated with the inputs"),
+    "tests": ("1", "1 where a published number or answer is compared with the prediction"),
+    "known": ("1", f"how the least known input is known: {_GRADES}"),
+    "observed_known": ("1", f"how the observation is known: {_GRADES}"),
+    "energy_ratio": ("1", "work of adhesion over the elastic energy of full contact"),
+    "waves_in_contact": ("1", "longest waves across what holds at pull-off", "flat on flat"),
+    "work_of_adhesion": ("J/m^2", "work of adhesion"),
+    "h_rms": ("m", "rms height, given or limiting"),
+    "most_effective_input": ("1", "input within whose limits the prediction changes most"),
+    "effect_of_input": (
+        *("1", "factor by which this input changes the prediction, at most 1e9"),
+        NOTHING,
+    ),
+    "effect_of_shortest_wave": (
+        *("1", "factor by which the shortest wave changes the prediction, at most 1e9"),
+        NOTHING,
+    ),
+    "criterion_outcome": ("1", f"outcome by a criterion: -1 nothing decided, {_OUTCOMES}"),
+    "criterion_roughness": (
+        *("m", "rms height up to which a criterion says sticky"),
+        "looks at no roughness, or beyond the heights followed",
+    ),
+}
 
 
 def main(job):
-    observations = list(read_observations(job.params.experiments))
-    dataset = predict_all(observations)
+    experiments = job.params.experiments
+    dataset = predict_all(experiments)
     datasets.write(
         dataset,
         job.output.dataset,
         title="published experiments, predicted",
-        parameters={"experiments": job.params.experiments},
+        parameters={"experiments": experiments},
     )
-    with datasets.whole_file(job.output.table) as path:
-        path.write_text(write_markdown(dataset, job.params.experiments), encoding="utf-8")
+    write_page(
+        job.input.template,
+        job.output.table,
+        **outcomes.describe(dataset, experiments),
+        wanted=DEFAULT_SHARE,
+        factor=FACTOR,
+        fewest_waves=outcomes.FEWEST_WAVES,
+        criteria=[criterion.label for criterion in CRITERIA.values()],
+        survivals=[
+            (experiments[name]["label"], *(outcomes.MARKS[code] for code in codes))
+            for name, codes in outcomes.find_survivals(dataset).items()
+        ],
+    )
 
 
-def predict_all(observations):
-    """Dataset of all observations, along `case`."""
-    cases = [predict_case(observation) for observation in observations]
+def predict_all(experiments):
+    """Dataset of every case of every experiment, in the order of the configuration."""
+    observations = [
+        read_observation(name, case, entry)
+        for name, entry in experiments.items()
+        for case in entry["cases"]
+    ]
+    places = [f"{o.experiment}/{o.name}" for o in observations]
     dataset = xr.concat(
-        cases,
-        xr.DataArray([f"{o.experiment}/{o.name}" for o in observations], dims="case", name="case"),
+        [predict_case(observation) for observation in observations],
+        xr.DataArray(places, dims="case", name="case"),
     )
-    dataset = dataset.assign_coords(criterion=list(CRITERIA), roughness=predictions.ROUGHNESS)
-    return add_budgets(describe(dataset))
+    dataset = dataset.assign_coords(criterion=list(CRITERIA), roughness=ROUGHNESS)
+    dataset = datasets.annotate(dataset, **VARIABLES)
+    dataset.outcome.attrs |= datasets.flags(OUTCOMES)
+    dataset.criterion_outcome.attrs |= datasets.flags(("nothing decided", *OUTCOMES), first=SILENT)
+    for name in ("known", "observed_known"):
+        dataset[name].attrs |= datasets.flags(GRADES)
+    return add_budgets(dataset)
 
 
-def predict_case(observation):
+@dataclass(frozen=True)
+class Observation:
+    """One observation, and the conditions it was made under.
+
+    `inputs` has, by name, arrays of one value for every combination of what is plausible: first all
+    inputs in the middle, then each at its low and high end, the others in the middle, then all
+    corners. `swept` are the names of the inputs that are not known.
+    """
+
+    experiment: str
+    name: str
+    published: bool
+    quantity: str
+    low: float  # limits of what was observed, or of the factor of the relation; 0 or 1 of "sticks"
+    high: float
+    level: float  # share of the adhesion that is left at a limiting roughness
+    relation: str | None  # that was observed instead of a number
+    error: float  # of the relation
+    silent: tuple[str, ...]  # criteria that it does not test
+    inputs: dict[str, NDArray]
+    swept: tuple[str, ...]
+    grades: dict[str, str]  # by input and, under its quantity, of what was observed
+
+    @cached_property
+    def shapes(self):
+        """Moments of unit rms height and a_V for every combination, see `describe_shape`."""
+        absent = np.full(len(self.inputs["hurst"]), None)
+        rows = zip(*(self.inputs.get(key, absent) for key in SHAPE), strict=True)
+        return [describe_shape(*row) for row in rows]
+
+    def pair(self, h_rms: NDArray) -> Pair:
+        """`Pair` at rms heights ``(combination, n)``, for as many of the first combinations."""
+        some = slice(len(h_rms))
+        moments, a_v = zip(*self.shapes[some], strict=True)
+        q0, slope, curvature, energy = (values[:, None] for values in np.transpose(moments))
+        modulus, work, reach = (
+            self.inputs[name][some, None] for name in ("modulus", "work_of_adhesion", "range")
+        )
+        at = [found.at(ratios) for found, ratios in zip(a_v, reach / h_rms, strict=True)]
+        value, low, high = np.swapaxes(at, 0, 1)
+        return Pair(
+            h_rms=h_rms,
+            q0=q0,
+            rms_slope=slope * h_rms,
+            rms_curvature=curvature * h_rms,
+            elastic_energy=energy * h_rms**2,
+            modulus=modulus,
+            work_of_adhesion=work,
+            range=reach,
+            a_v=value,
+            a_v_low=low,
+            a_v_high=high,
+            constant_a_v=BROAD_A_V,
+        )
+
+
+@cache
+def describe_shape(hurst, longest, rolloff, shortest):
+    """`MOMENTS` of a self-affine spectrum of unit rms height, wavelengths in m, and its a_V."""
+    spectrum = SelfAffine(
+        hurst=hurst,
+        q0=2 * np.pi / longest,
+        q1=2 * np.pi / shortest,
+        h_rms=1.0,
+        q_rolloff=None if rolloff is None else 2 * np.pi / rolloff,
+    )
+    known = describe_surface(spectrum)
+    return tuple(known[name] for name in MOMENTS), surface_a_v(spectrum, known)
+
+
+def read_observation(experiment: str, name: str, entry: Mapping[str, Any]) -> Observation:
+    """One case of an experiment of the configuration, in SI units."""
+    case = entry["cases"][name]
+    observed, conditions = case["observed"], conditions_of(entry, case)
+    ends = {key: read_ends(given, CONDITIONS[key]) for key, given in conditions.items()}
+    swept = tuple(key for key, found in ends.items() if len(found) > 1)
+    inputs = combine_inputs(ends, swept)
+    if "plane_strain_modulus" in inputs:
+        inputs["modulus"] = inputs["plane_strain_modulus"]
+    else:
+        inputs["modulus"] = inputs["youngs_modulus"] / (1 - inputs["poisson_ratio"] ** 2)
+    if "relation" in observed:
+        low, high = observed["factor"]
+    else:
+        limits = read_ends(observed, OBSERVED_UNITS.get(observed["quantity"]))
+        low, high = float(limits[0]), float(limits[-1])
+    grades = {key: given["known"] for key, given in conditions.items()}
+    return Observation(
+        experiment=experiment,
+        name=name,
+        published=entry.get("published", True),
+        quantity=observed["quantity"],
+        low=low,
+        high=high,
+        level=observed.get("level", DEFAULT_SHARE),
+        relation=observed.get("relation"),
+        error=si(observed["error"], "J/m^2") if "error" in observed else 0.0,
+        silent=tuple(observed.get("silent", ())),
+        inputs=inputs,
+        swept=swept,
+        grades=grades | {observed["quantity"]: observed["known"]},
+    )
+
+
+def read_ends(given: Any, unit: str | None) -> NDArray:
+    """The value, or both limits."""
+    values = given["between"] if "between" in given else [given["value"]]
+    return np.array([float(value) if unit is None else si(value, unit) for value in values])
+
+
+def combine_inputs(ends: Mapping[str, NDArray], swept: tuple[str, ...]) -> dict[str, NDArray]:
+    """Values of every input for all combinations; see `Observation`."""
+    # Places of the swept inputs between their ends: 0 low, 1 middle, 2 high.
+    places = [[1] * len(swept)]
+    for axis in range(len(swept)):
+        places += [[end if i == axis else 1 for i in range(len(swept))] for end in (0, 2)]
+    places = np.array([*places, *(list(corner) for corner in product((0, 2), repeat=len(swept)))])
+    inputs = {key: np.full(len(places), found[0]) for key, found in ends.items()}
+    for axis, key in enumerate(swept):
+        low, high = ends[key]
+        middle = np.sqrt(low * high) if low > 0 else high / 2
+        inputs[key] = np.array([low, middle, high])[places[:, axis]]
+    return inputs
+
+
+@dataclass(frozen=True)
+class Predicted:
+    """Predictions for every combination of the inputs.
+
+    `values` are by name, ``(sign, combination)``. `curve` is the adhesion along `ROUGHNESS`,
+    ``(sign, combination, roughness)``: the pull-off of a sphere over that from a smooth surface, or
+    the share of the work of adhesion that remains between flats. `pair` is at the rms heights given
+    or, if a limiting one was observed, at that predicted.
+    """
+
+    values: dict[str, NDArray]
+    curve: NDArray
+    pair: Pair
+    waves_in_contact: float  # longest waves across what holds a sphere; NaN of flats
+
+
+def predict(observation: Observation) -> Predicted:
+    """Works of approach and separation and pull-off, with limits, for every combination.
+
+    ValueError if a limiting roughness was observed and none is predicted among `ROUGHNESS`.
+    """
+    of_sphere, count = "radius" in observation.inputs, len(observation.inputs["hurst"])
+    rough = observation.pair(np.broadcast_to(ROUGHNESS, (count, len(ROUGHNESS))))
+    curve = np.array(
+        [
+            pull_off_sphere(observation, rough, sign).relative
+            if of_sphere
+            else np.asarray(rough.remaining(sign))
+            for sign in SIGNS
+        ]
+    )
+    level = observation.level
+    limit = np.array([[find_fall(ROUGHNESS, row, level) for row in rows] for rows in curve])
+    if observation.quantity == "limiting_roughness" and np.isnan(limit).any():
+        raise ValueError(
+            f"{observation.experiment}.cases.{observation.name}: adhesion falls to {level:g} at no "
+            f"rms height from {ROUGHNESS[0]:g} to {ROUGHNESS[-1]:g} m; correct the level or inputs"
+        )
+    pair = observation.pair(observation.inputs.get("h_rms", limit[1])[:, None])
+    share = np.array([pair.remaining(sign)[:, 0] for sign in SIGNS])
+    if of_sphere:
+        found = [pull_off_sphere(observation, pair, sign) for sign in SIGNS]
+        relative, separation = (
+            np.array([getattr(one, name)[:, 0] for one in found]) for name in ("relative", "work")
+        )
+        waves = float((2 * found[1].zone_radius * pair.q0 / (2 * np.pi))[MIDDLE, 0])
+    else:
+        length, reach = pair.adhesion_length, pair.range
+        stress = np.array([pair.roughness.tension(length, reach, sign) for sign in SIGNS])
+        relative = np.minimum(stress * reach / length, 1.0)[..., 0]
+        separation = np.array([*share[:2], np.minimum(share[2] * HYSTERESIS, 1.0)])
+        waves = np.nan
+    work = pair.work_of_adhesion[:, 0]
+    values = {
+        "remaining": share,
+        "relative_pull_off": relative,
+        "work_of_approach": share / np.array([[LATE], [1], [1]]) * work,
+        "work_of_separation": separation * work,
+        "limiting_roughness": limit,
+    }
+    return Predicted(values, curve, pair, waves)
+
+
+def pull_off_sphere(observation: Observation, pair: Pair, sign: int) -> sphere.SpherePullOff:
+    """Pull-off of the sphere of an observation."""
+    radius = observation.inputs["radius"][:, None]
+    return sphere.pull_off(pair.roughness, radius, pair.adhesion_length, pair.range, sign)
+
+
+def find_fall(heights: NDArray, values: NDArray, level: float) -> float:
+    """Rms height [m] at which values fall to a level for good; NaN if that is not among them."""
+    above = np.flatnonzero(values > level)
+    if not above.size or above[-1] == values.size - 1:
+        return float("nan")
+    here = slice(above[-1], above[-1] + 2)
+    ends = values[here] if values[here].min() == 0 else np.log(values[here] / level)
+    first, last = ends - level if values[here].min() == 0 else ends
+    low, high = np.log(heights[here])
+    return float(np.exp(low + first / (first - last) * (high - low)))
+
+
+def find_observed(observation: Observation, pair: Pair) -> NDArray:
+    """Low and high limit ``(end, combination)`` of what was observed, by its relation if any."""
+    factors = np.array([[observation.low], [observation.high]]) * np.ones(len(pair.h_rms))
+    if observation.relation is None:
+        return factors
+    work, energy = pair.work_of_adhesion[:, 0], (pair.elastic_energy * pair.modulus)[:, 0]
+    if observation.relation == "energy_ratio":
+        return (pair.h_rms[:, 0] * np.sqrt(work / (factors * energy)))[::-1]
+    times = 2 if observation.relation == "cycle_loss" else 1
+    found = times * factors * work - energy
+    return np.maximum(found + np.array([[-1], [1]]) * observation.error, 0.0)
+
+
+def agrees(observation: Observation, observed: NDArray, least: NDArray, most: NDArray) -> NDArray:
+    """Whether limits of the prediction overlap with those observed, by combination."""
+    low, high = observed
+    if observation.quantity == "sticks":
+        return most >= DEFAULT_SHARE if observation.low else least < DEFAULT_SHARE
+    return (most >= low) & (least <= high)
+
+
+def summarise(right: NDArray) -> int:
+    """Place in `OUTCOMES` of what is right for all, some or no combination of the inputs."""
+    return COMPATIBLE if np.all(right) else SOME if np.any(right) else MISSED
+
+
+def judge_criteria(observation: Observation, observed: NDArray, pair: Pair) -> list[int]:
+    """Place in `OUTCOMES` of every criterion, or `SILENT`.
+
+    Where a limiting roughness was observed, a criterion is right if it requires there an adhesion
+    within `FACTOR` of the actual one; elsewhere if it says whether the pair was seen to stick.
+    """
+    outcomes = dict.fromkeys(CRITERIA, SILENT)
+    if observation.quantity == "limiting_roughness":
+        at_limits = observation.pair(observed.T)
+        for name, criterion in CRITERIA.items():
+            if criterion.has_length:
+                length = criterion.adhesion_length_threshold(at_limits)
+                ratio = length / at_limits.adhesion_length
+                outcomes[name] = summarise((ratio[:, 0] <= FACTOR) & (ratio[:, 1] >= 1 / FACTOR))
+    else:
+        sticks, decided = find_sticking(observation, *observed)
+        if decided.any():
+            for name, margin in find_margins(pair).items():
+                says = np.broadcast_to(margin, pair.h_rms.shape)[:, 0] > 1
+                outcomes[name] = summarise((says == sticks)[decided])
+    outcomes |= dict.fromkeys(observation.silent, SILENT)
+    return list(outcomes.values())
+
+
+def find_sticking(observation: Observation, low: NDArray, high: NDArray) -> tuple[NDArray, NDArray]:
+    """Whether the pair was observed to stick, and whether that is decided; by combination."""
+    if observation.quantity == "sticks":
+        return low > 0, np.ones(len(low), dtype=bool)
+    of_work = observation.quantity != "relative_pull_off"
+    whole = observation.inputs["work_of_adhesion"] if of_work else 1.0
+    sticks = low / whole >= DEFAULT_SHARE
+    return sticks, sticks | (high / whole <= DEFAULT_SHARE)
+
+
+def find_effects(swept: tuple[str, ...], values: NDArray) -> dict[str, float]:
+    """Factor by which each swept input changes a prediction, the others in the middle.
+
+    Infinite where the prediction vanishes at one end, NaN where it does at all.
+    """
+    effects = {}
+    for place, name in enumerate(swept):
+        along = values[[1 + 2 * place, MIDDLE, 2 + 2 * place]]
+        with np.errstate(divide="ignore", invalid="ignore"):
+            effects[name] = float(along.max() / along.min())
+    return effects
+
+
+def predict_case(observation: Observation) -> xr.Dataset:
     """Prediction, observation and outcome of one case."""
-    predicted = predictions.predict_observation(observation)
-    known = {
-        "quantity": observation.quantity,
-        "outcome": np.int8(judgements.judge_prediction(observation, predicted)),
-        "value_inside": np.int8(judgements.is_value_inside(observation, predicted)),
-        "by_relation": np.int8(observation.relation is not None),
-        "tests": np.int8(observation.published and observation.relation is None),
-        "known": np.int8(max(GRADES.index(grade) for grade in observation.grades.values())),
-        "observed_known": np.int8(GRADES.index(observation.grades[observation.quantity])),
-        "energy_ratio": predicted.energy_ratio[MIDDLE],
-        "waves_in_contact": predicted.waves_in_contact[MIDDLE],
-        "work_of_adhesion": observation.inputs["work_of_adhesion"][MIDDLE],
-        "h_rms": float(predictions.heights_of(observation, predicted.limit[1])[MIDDLE, 0]),
-        **describe_effects(judgements.find_effects(observation, predicted)),
-        **describe_observed(observation, predicted),
-    }
-    for name, values in (predicted.values | {"limiting_roughness": predicted.limit}).items():
-        known |= quote(name, values)
-    along = {
-        f"pull_off_curve{end}": ("roughness", predicted.curve[row, MIDDLE])
-        for row, end in enumerate(("_low", "", "_high"))
-    }
-    along["pull_off_curve_lowest"] = "roughness", predicted.curve[0].min(axis=0)
-    along["pull_off_curve_highest"] = "roughness", predicted.curve[2].max(axis=0)
-    outcomes = judgements.judge_criteria(observation, predicted)
-    roughness = predictions.find_roughness(observation)
-    return xr.Dataset(
-        known
-        | along
-        | {
-            "criterion_outcome": ("criterion", np.array([outcomes[n] for n in CRITERIA], "i1")),
-            "criterion_roughness": ("criterion", [roughness[n] for n in CRITERIA]),
-        }
-    )
-
-
-def quote(name, values):
-    """Value, limits of the model with every input in the middle, and limits over all inputs."""
-    low, value, high = values
-    return {
-        name: value[MIDDLE],
-        f"{name}_low": low[MIDDLE],
-        f"{name}_high": high[MIDDLE],
-        f"{name}_lowest": np.fmin.reduce(low),  # leaves out what is not a number
-        f"{name}_highest": np.fmax.reduce(high),
-    }
-
-
-def describe_effects(effects):
-    """The input that matters most, by how much, and what the shortest wave does."""
+    predicted = predict(observation)
+    pair, quantity = predicted.pair, observation.quantity
+    observed = find_observed(observation, pair)
+    low, value, high = predicted.values["remaining" if quantity == "sticks" else quantity]
+    inside = agrees(observation, observed, value, value)
+    effects = find_effects(observation.swept, value)
     known = {name: effect for name, effect in effects.items() if not np.isnan(effect)}
     most = max(known, key=known.get, default="")
-    return {
+    by_criterion = np.array(judge_criteria(observation, observed, pair), "i1")
+    data = {
+        "quantity": quantity,
+        "outcome": np.int8(summarise(agrees(observation, observed, low, high))),
+        "value_inside": np.int8(inside[MIDDLE]),
+        "by_relation": np.int8(observation.relation is not None),
+        "tests": np.int8(observation.published and observation.relation is None),
+        "known": np.int8(max(map(GRADES.index, observation.grades.values()))),
+        "observed_known": np.int8(GRADES.index(observation.grades[quantity])),
+        "energy_ratio": (pair.adhesion_length / pair.elastic_energy)[MIDDLE, 0],
+        "waves_in_contact": predicted.waves_in_contact,
+        "work_of_adhesion": observation.inputs["work_of_adhesion"][MIDDLE],
+        "h_rms": float(pair.h_rms[MIDDLE, 0]),
         "most_effective_input": most,
         "effect_of_input": min(known.get(most, np.nan if effects else 1.0), LARGEST_EFFECT),
         "effect_of_shortest_wave": min(effects.get("shortest_wavelength", 1.0), LARGEST_EFFECT),
+        "criterion_outcome": ("criterion", by_criterion),
+        "criterion_roughness": ("criterion", find_roughness(observation)),
     }
-
-
-def describe_observed(observation, predicted):
-    """Limits of every quantity that may be observed, inputs in the middle; NaN for all but one."""
-    limits = [limit[MIDDLE] for limit in judgements.observed_limits(observation, predicted)]
-    return {
-        f"observed_{name}_{end}": float(value) if name == observation.quantity else np.nan
-        for name in (*OBSERVED_UNITS, "sticks")
-        for end, value in zip(("low", "high"), limits, strict=True)
-    }
-
-
-def describe(dataset):
-    texts = {}
-    quoted = QUOTED | {"pull_off_curve": QUOTED["relative_pull_off"]}
-    for name, (unit, text) in quoted.items():
-        texts |= {f"{name}{end}": (unit, f"{text}{limit}") for end, limit in LIMITS.items()}
     for name in (*OBSERVED_UNITS, "sticks"):
-        unit, text = QUOTED.get(name, ("1", "whether the pair sticks"))
-        for end in ("low", "high"):
-            texts[f"observed_{name}_{end}"] = unit, f"{text}, observed, {end} limit", NOT_OBSERVED
-    outcomes = ", ".join(f"{code} {word}" for code, word in enumerate(judgements.OUTCOMES))
-    grades = ", ".join(f"{code} {word}" for code, word in enumerate(GRADES))
-    beyond = "beyond the heights followed"
-    for end in LIMITS:
-        name = f"limiting_roughness{end}"
-        texts[name] = (*texts[name], beyond)
-    dataset = datasets.annotate(
-        dataset,
-        case=("1", "experiment and case"),
-        criterion=("1", "stickiness criterion"),
-        roughness=("m", "rms height"),
-        quantity=("1", "what was observed"),
-        outcome=("1", f"outcome: {outcomes}"),
-        value_inside=("1", "1 where the value itself agrees, every input in the middle"),
-        by_relation=("1", "1 where a relation was observed, evaluated with the inputs"),
-        tests=("1", "1 where a published number or answer is held against the prediction"),
-        known=("1", f"how the least known input is known: {grades}"),
-        observed_known=("1", f"how the observation is known: {grades}"),
-        energy_ratio=("1", "work of adhesion over the elastic energy of full contact"),
-        waves_in_contact=("1", "longest waves across what holds at pull-off", "flat on flat"),
-        work_of_adhesion=("J/m^2", "work of adhesion"),
-        h_rms=("m", "rms height, given or limiting"),
-        most_effective_input=("1", "input within whose limits the prediction changes most"),
-        effect_of_input=(
-            "1",
-            "factor by which this input changes the prediction, at most 1e9",
-            "nothing is predicted",
-        ),
-        effect_of_shortest_wave=(
-            "1",
-            "factor by which the shortest wave changes the prediction, at most 1e9",
-            "nothing is predicted",
-        ),
-        criterion_outcome=("1", f"outcome by a criterion: -1 nothing decided, {outcomes}"),
-        criterion_roughness=(
-            "m",
-            "rms height up to which a criterion says sticky",
-            "looks at no roughness, or beyond the heights followed",
-        ),
-        **texts,
-    )
-    dataset.outcome.attrs |= datasets.flags(judgements.OUTCOMES)
-    silent = ("nothing decided", *judgements.OUTCOMES)
-    dataset.criterion_outcome.attrs |= datasets.flags(silent, first=judgements.SILENT)
-    for name in ("known", "observed_known"):
-        dataset[name].attrs |= datasets.flags(GRADES)
-    return dataset
+        limits = observed[:, MIDDLE] if name == quantity else (np.nan, np.nan)
+        data |= {f"observed_{name}_low": limits[0], f"observed_{name}_high": limits[1]}
+    for name, limits in predicted.values.items():
+        data |= {f"{name}{end}": x for end, x in quote(limits).items()}
+    data |= {f"pull_off_curve{end}": ("roughness", x) for end, x in quote(predicted.curve).items()}
+    return xr.Dataset(data)
+
+
+def quote(values: NDArray) -> dict[str, NDArray]:
+    """Value, limits of the model with every input in the middle, and limits over all inputs.
+
+    `values` are ``(sign, combination, …)``; the result is by the endings of `LIMITS`.
+    """
+    low, value, high = values
+    # fmin and fmax leave out what is not a number.
+    lowest, highest = np.fmin.reduce(low), np.fmax.reduce(high)
+    found = value[MIDDLE], low[MIDDLE], high[MIDDLE], lowest, highest
+    return dict(zip(LIMITS, found, strict=True))
+
+
+def find_roughness(observation: Observation) -> list[float]:
+    """Rms height [m] up to which every criterion says sticky, every input in the middle.
+
+    NaN for a criterion that looks at no roughness.
+    """
+    rough = observation.pair(COARSE[None])
+    return [
+        find_fall(COARSE, criterion.margin(rough)[0], 1.0) if criterion.has_length else np.nan
+        for criterion in CRITERIA.values()
+    ]
 
 
 def add_budgets(dataset):
-    """The model's limits, and what is not known of the inputs."""
+    """Add the limits of the model, and what is not known of the inputs."""
     for name in QUOTED:
         value = dataset[name]
         model = np.maximum(dataset[f"{name}_high"] - value, value - dataset[f"{name}_low"])

@@ -5,15 +5,14 @@ Distributions of the gap are compared by the area between the cumulative ones, c
     W1 = int_0^inf |A + int_0^u P du' - the same of theory| du,
 
 which is Wasserstein's distance: the mean length by which gaps would have to be moved to turn one
-distribution into the other. It takes the atom of contact at u = 0 and an infinite P(0) in its
-stride, needs no bins, has a unit, and bounds the difference of mean gaps.
+distribution into the other. It allows for the atom of contact at u = 0 and for an infinite P(0),
+needs no bins, has a unit, and bounds the difference of mean gaps.
 """
 
 import numpy as np
 import xarray as xr
 
 from common import conventions
-from common.conventions import VARIABLES
 from common.ensemble_means import coarse, discretisation_error, ensemble_mean
 from common.grid_limits import EXTRAPOLATION
 from common.job import start
@@ -23,38 +22,46 @@ from stickiness.error_budget import SOURCES, Part, absent, part, with_budget
 PARTS = ("area_fraction", "attractive_area")  # of the cumulative distribution
 WINDOW = ("highest_summit", "margin", "window_holds")  # of theory's file
 COMPARED = ("area_fraction", "mean_gap", "attractive_area", "gap_density")
+DISTANCE = "area between the cumulative distributions of the gap (Wasserstein distance) over h_rms"
+SINGLE, NOTHING = "a single seed", "nothing simulated within the range"
+VARIABLES = {
+    "theory_mean_gap": "mean gap over h_rms by theory",
+    "distance": DISTANCE,
+    "distance_standard_error": ("1", f"{DISTANCE}: standard error", SINGLE),
+    "distance_discretisation_error": f"{DISTANCE}: error in the limit of fine grids",
+    "distance_floor": ("1", f"{DISTANCE}: mean that sampling errors alone give", SINGLE),
+    **{
+        f"{name}_difference": (
+            "1",
+            f"theory over simulation less 1: {conventions.VARIABLES[name][1]}",
+            NOTHING,
+        )
+        for name in COMPARED
+    },
+}
 
 
 def main(job):
     inputs = job.input.ensembles, job.input.theories
     for ensemble, lattice, output in zip(*inputs, job.output, strict=True):
-        compare(ensemble, lattice, output)
-
-
-def compare(ensemble, lattice, output):
-    """Compare theory on a lattice spectrum with an ensemble, and write what is found."""
-    simulated = datasets.read(ensemble, [f"{name}_mean" for name in COMPARED])
-    theory = datasets.read(lattice, [*COMPARED, *WINDOW])
-    dataset = differences(simulated, theory).merge(distance(simulated, theory))
-    dataset = annotate(dataset.assign(theory_mean_gap=theory.mean_gap))
-    datasets.write(
-        add_budgets(dataset, simulated, theory).assign(theory[list(WINDOW)]),
-        output,
-        title="theory on the lattice spectrum against simulation",
-        parameters=datasets.parameters(simulated),
-    )
-
-
-def differences(simulated, theory):
-    """Relative difference of theory from simulation in every quantity."""
-    means = {name: simulated[f"{name}_mean"] for name in COMPARED}
-    ratios = {name: theory[name] / mean.where(mean > 0) for name, mean in means.items()}
-    return xr.Dataset({f"{name}_difference": ratio - 1 for name, ratio in ratios.items()})
+        simulated = datasets.read(ensemble, [f"{name}_mean" for name in COMPARED])
+        theory = datasets.read(lattice, [*COMPARED, *WINDOW])
+        means = {name: simulated[f"{name}_mean"] for name in COMPARED}
+        ratios = {name: theory[name] / mean.where(mean > 0) for name, mean in means.items()}
+        dataset = xr.Dataset({f"{name}_difference": ratio - 1 for name, ratio in ratios.items()})
+        dataset = dataset.merge(distance(simulated, theory)).assign(theory_mean_gap=theory.mean_gap)
+        dataset = conventions.annotate(dataset, **VARIABLES)
+        datasets.write(
+            add_budgets(dataset, simulated, theory).assign(theory[list(WINDOW)]),
+            output,
+            title="theory on the lattice spectrum against simulation",
+            parameters=datasets.parameters(simulated),
+        )
 
 
 def add_budgets(dataset, simulated, theory):
-    """Differences with the errors of the simulation: theory's own is what they are."""
-    own = {"model": absent("the difference is that of the model")}
+    """Add the errors of the simulation to the differences, which are the error of the theory."""
+    model = absent("the difference is the error of the model")
     for name in COMPARED:
         mean = f"{name}_mean"
         scale = theory[name] / simulated[mean].where(simulated[mean] > 0) ** 2
@@ -63,7 +70,7 @@ def add_budgets(dataset, simulated, theory):
             for source in SOURCES
             if source != "model"
         }
-        dataset = with_budget(dataset, f"{name}_difference", **parts, **own)
+        dataset = with_budget(dataset, f"{name}_difference", **parts, model=model)
     # Student's t, the same for all quantities of an ensemble but for the shares of its levels.
     factor = part(simulated, "mean_gap_mean", "sampling") / simulated.mean_gap_standard_error
     solver = [part(simulated, f"{name}_mean", "solver") for name in PARTS]
@@ -74,7 +81,7 @@ def add_budgets(dataset, simulated, theory):
         solver=Part(integral(np.hypot(*solver)), "of both areas, by the tolerance"),
         sampling=Part(factor * dataset.distance_standard_error, "Student's t"),
         bandwidth=absent("one spectrum for both"),
-        **own,
+        model=model,
     )
 
 
@@ -82,7 +89,7 @@ def distance(simulated, theory):
     """W1 with its errors, and the W1 that sampling alone would give.
 
     Contact and gaps next to it trade places: at large gaps errors of the two areas cancel, for
-    together they are all of the surface. So both errors are those of their sum.
+    together they are all of the surface. So both errors are taken of their sum.
     """
     mean, sampling = ensemble_mean(cumulative(simulated), coarse(simulated, cumulative))
     mean = mean + sum(simulated.get(f"{name}_{EXTRAPOLATION}", 0) for name in PARTS)
@@ -125,22 +132,6 @@ def integral(values):
     """Integral over gaps from 0, below the smallest of which the integrand is held constant."""
     ranges = values["range"].values
     return values.integrate("range") + values.isel(range=0, drop=True) * ranges[0]
-
-
-def annotate(dataset):
-    text = "area between the cumulative distributions of the gap (Wasserstein distance) over h_rms"
-    unknown = "a single seed"
-    texts = {
-        "theory_mean_gap": ("1", "mean gap over h_rms by theory"),
-        "distance": ("1", text),
-        "distance_standard_error": ("1", f"{text}: standard error", unknown),
-        "distance_discretisation_error": ("1", f"{text}: error in the limit of fine grids"),
-        "distance_floor": ("1", f"{text}: mean that sampling errors alone give", unknown),
-    }
-    for name in COMPARED:
-        text = f"theory over simulation less 1: {VARIABLES[name][1]}"
-        texts[f"{name}_difference"] = ("1", text, "nothing simulated within the range")
-    return conventions.annotate(dataset, **texts)
 
 
 if __name__ == "__main__":

@@ -1,11 +1,11 @@
 """Fit a_V to the attractive areas of a simulated case."""
 
-from common.a_v_fits import write_fits
 from common.job import start
+from common.quantities import write_a_v
 
 
 def main(job):
-    write_fits(job.input.areas, job.output[0], job.params.windows, job.input.laws)
+    write_a_v(job.input.areas, job.output[0], job.params.windows, job.input.laws)
 
 
 if __name__ == "__main__":

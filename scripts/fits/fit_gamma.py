@@ -1,14 +1,15 @@
 """The gamma of each correction of the theory that agrees best with simulation, and how well.
 
-Cases of one window are made with the same seeds, hence share their long waves, and with these most
-of their deviations (correlations of 0.9 to 1): their errors rise and fall together, and a window is
-drawn with its cases when confidence intervals are taken.
+Cases of one window are made with the same seeds, so they share their long waves and most of their
+deviations (correlations of 0.9 to 1). Their errors rise and fall together, and confidence intervals
+are taken by resampling windows together with their cases.
 """
 
 import numpy as np
 import xarray as xr
 from scipy.interpolate import CubicSpline
 
+from common.conventions import annotate
 from common.job import start
 from common.model_surfaces import cell_size, model_spectrum
 from stickiness import datasets
@@ -26,6 +27,20 @@ QUANTITIES = ("area_fraction", "mean_gap", "attractive_area")
 EVERY = "all"  # the three quantities with equal weights
 CONFIDENCE = 0.95
 RANDOM = {"draws": 1000, "seed": 1}
+MISFIT = "root mean square of ln(theory/simulation) at the"
+INTERVAL = f"{CONFIDENCE:.0%} confidence interval of gamma, over windows, their cases and errors"
+VARIABLES = {
+    "correction": "correction of the theory",
+    "quantity": f"what is compared; {EVERY}: the three with equal weights",
+    "gamma": "gamma at which theory agrees best with simulation",
+    "gamma_low": f"low end of the {INTERVAL}",
+    "gamma_high": f"high end of the {INTERVAL}",
+    "misfit": f"{MISFIT} best gamma",
+    "misfit_own": f"{MISFIT} gamma of the correction's source",
+    "quantities_agree": "1 where one gamma lies within the intervals of the three quantities; "
+    f"where 0, the one for {EVERY} is a compromise that may suit none of them",
+    "own_gamma": "gamma of the correction's source",
+}
 
 
 def main(job):
@@ -50,7 +65,7 @@ def main(job):
     dataset["quantities_agree"] = agreement(dataset).astype("i1")
     dataset["own_gamma"] = "correction", [correction_of(name).gamma for name in CORRECTIONS]
     datasets.write(
-        add_budgets(annotate(dataset.drop_vars("spread")), dataset.spread),
+        add_budgets(annotate(dataset.drop_vars("spread"), **VARIABLES), dataset.spread),
         job.output[0],
         title="gamma of the corrections of Persson's theory by simulation",
         parameters={"cases": len(cases), "ranges": RANGES, "loads": LOADS} | RANDOM,
@@ -87,7 +102,7 @@ def attractive(lattice, gamma, correction, loads):
 
 
 def against(ensemble, name, few, theory):
-    """Logarithms of theory less those of simulation, and the simulation's relative errors."""
+    """Logarithms of theory over simulation, and the simulation's relative errors."""
     simulated = ensemble[[f"{name}_mean", f"{name}_mean_total_error"]].transpose("pressure", ...)
     if "range" in simulated.dims:
         simulated = simulated.sel(pressure=few).interp({"range": list(RANGES)})
@@ -118,7 +133,7 @@ def agreement(dataset):
 
 
 def fit(cases, draws, correction, quantity):
-    """Gamma, the ends of its confidence interval, misfits at it and at the source's own."""
+    """Gamma, the ends of its confidence interval, misfits at it and at the value of the source."""
     names = QUANTITIES if quantity == EVERY else (quantity,)
     every = np.arange(len(cases))[None]
     still = every, np.zeros((len(QUANTITIES), *every.shape))
@@ -137,10 +152,10 @@ def fit(cases, draws, correction, quantity):
 
 
 def add_budgets(dataset, spread):
-    """Gamma with its errors: drawn, and for all quantities together what each asks for."""
+    """Add the errors of gamma: by resampling, and for all quantities how far single ones differ."""
     each = dataset.gamma.sel(quantity=list(QUANTITIES))
     apart = abs(each - dataset.gamma.sel(quantity=EVERY)).max("quantity")
-    text = f"how far the gammas of single quantities are from that of {EVERY}"
+    text = f"how far the gammas of single quantities are from the one for {EVERY}"
     return with_budget(
         dataset,
         "gamma",
@@ -180,26 +195,6 @@ def lowest(curves):
     at += curves.x[:-1].reshape(length.shape)
     at, values = (part.reshape(-1, *slope.shape[1:]) for part in (at, values))
     return np.exp(np.take_along_axis(at, values.argmin(axis=0)[None], axis=0)[0])
-
-
-def annotate(dataset):
-    interval = f"{CONFIDENCE:.0%} confidence interval of gamma, over windows, their cases and "
-    interval += "errors"
-    agree = "1 where one gamma lies within the intervals of the three quantities; where 0, that of "
-    agree += f"{EVERY} is a compromise that none of them may hold"
-    misfit = "root mean square of ln(theory/simulation) at the"
-    return datasets.annotate(
-        dataset,
-        correction=("1", "correction of the theory"),
-        quantity=("1", f"what is compared; {EVERY}: the three with equal weights"),
-        gamma=("1", "gamma at which theory agrees best with simulation"),
-        gamma_low=("1", f"low end of the {interval}"),
-        gamma_high=("1", f"high end of the {interval}"),
-        misfit=("1", f"{misfit} best gamma"),
-        misfit_own=("1", f"{misfit} gamma of the correction's source"),
-        quantities_agree=("1", agree),
-        own_gamma=("1", "gamma of the correction's source"),
-    )
 
 
 if __name__ == "__main__":

@@ -3,6 +3,7 @@
 import numpy as np
 import xarray as xr
 
+from common.conventions import annotate
 from common.job import start
 from stickiness import datasets
 from stickiness.error_budget import ENDINGS, Part, absent, unknown, with_budget
@@ -13,6 +14,23 @@ PER_DECADE = 4  # simulated ranges
 QUOTED = ("a_v", "a_v_limit", "edge_a_v")
 BUDGETS = tuple(f"{name}{ending}" for name in QUOTED for ending in ENDINGS)
 THEORY = (*QUOTED, *BUDGETS, "edge_range", "quadrature_error")
+APART = "ln of how far other variants and corrections of the theory are"
+VARIABLES = {
+    "a_v": "a_V by theory; to be held constant below edge_range",
+    "a_v_limit": "a_V by theory in the limit of infinite magnification",
+    "theory_below": f"{APART} below the quoted",
+    "theory_below_limit": f"{APART} below the quoted, infinite magnification",
+    "theory_above": f"{APART} above the quoted",
+    "theory_above_limit": f"{APART} above the quoted, infinite magnification",
+    "simulated_pressure": "mean pressure over E* q0 h_rms of simulations",
+    "simulated_range": "range of attraction over h_rms of simulations",
+    "simulation_ratio": "simulation over theory at the largest magnification simulated",
+    "simulation_error": "standard relative error of this ratio for a further surface",
+    "simulation_trend": "change of ln of this ratio per doubling of the magnification",
+    "smallest_magnification": "smallest magnification simulated",
+    "largest_magnification": "largest magnification simulated",
+    "extrapolation_error": "standard relative error that a decade below the simulated ranges adds",
+}
 
 
 def main(job):
@@ -22,9 +40,19 @@ def main(job):
         for path in job.input.comparisons
     ]
     dataset = theory[list(THEORY)].isel(variant=0, drop=True).merge(reach(theory))
-    dataset = dataset.merge(simulated(comparisons))
+    dataset = annotate(dataset.merge(simulated(comparisons)), **VARIABLES)
+    # The errors of all cases are in the error of their ratio together.
+    error = COVERS * dataset.simulation_error * dataset.simulation_ratio
+    dataset = with_budget(
+        dataset,
+        "simulation_ratio",
+        **dict.fromkeys(("discretisation", "solver"), absent("counted with the sampling")),
+        sampling=Part(error, "of a further surface, the errors of the cases included"),
+        bandwidth=unknown("the trend beyond the largest magnification is not simulated"),
+        model=absent("simulation over theory is what is quoted"),
+    )
     datasets.write(
-        add_budgets(annotate(dataset)),
+        dataset,
         job.output[0],
         title="a_V as a function of Hurst exponent, magnification, load and range, with its error",
         parameters={
@@ -53,7 +81,7 @@ def simulated(comparisons):
     largest magnification. Cases differ by more than their errors, by Hurst exponent and window: a
     variance between them (a random effect, by moments) enters weights and error, the latter that of
     a further case. It adds what leaving out one case after the other changes (jackknife), and the
-    cases' own errors, not taken to average out, for grids err to one side in all of them.
+    cases' errors, which are not taken to average out, as grids err to one side in all of them.
     """
     points = collect(comparisons)
     loads = np.unique(points.pressure)
@@ -160,40 +188,6 @@ def log_ratio(comparison):
     quoted = quoted.interp({"range": ranges}).where(quoted.window_holds == 1)
     over = 1 + quoted.attractive_area_difference
     return -np.log(over), quoted.attractive_area_difference_total_error / COVERS / over
-
-
-def add_budgets(dataset):
-    """The ratio to simulation with its error, which the errors of all cases are in together."""
-    error = COVERS * dataset.simulation_error * dataset.simulation_ratio
-    return with_budget(
-        dataset,
-        "simulation_ratio",
-        **dict.fromkeys(("discretisation", "solver"), absent("counted with the sampling")),
-        sampling=Part(error, "of a further surface, the errors of the cases included"),
-        bandwidth=unknown("the trend beyond the largest magnification is not simulated"),
-        model=absent("simulation over theory is what is quoted"),
-    )
-
-
-def annotate(dataset):
-    theory, decade = "a_V by theory", "a decade below the simulated ranges"
-    texts = {
-        "a_v": ("1", f"{theory}; to be held constant below edge_range"),
-        "a_v_limit": ("1", f"{theory} in the limit of infinite magnification"),
-        "simulated_pressure": ("1", "mean pressure over E* q0 h_rms of simulations"),
-        "simulated_range": ("1", "range of attraction over h_rms of simulations"),
-        "simulation_ratio": ("1", "simulation over theory at the largest magnification simulated"),
-        "simulation_error": ("1", "standard relative error of this ratio for a further surface"),
-        "simulation_trend": ("1", "change of ln of this ratio per doubling of the magnification"),
-        "smallest_magnification": ("1", "smallest magnification simulated"),
-        "largest_magnification": ("1", "largest magnification simulated"),
-        "extrapolation_error": ("1", f"standard relative error that {decade} adds"),
-    }
-    for name in ("theory_below", "theory_above"):
-        side = name.removeprefix("theory_")
-        text = f"ln of how far other variants and corrections of the theory are {side} the quoted"
-        texts |= {name: ("1", text), f"{name}_limit": ("1", f"{text}, infinite magnification")}
-    return datasets.annotate(dataset, **texts)
 
 
 if __name__ == "__main__":

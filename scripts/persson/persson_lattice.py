@@ -1,18 +1,17 @@
-"""Persson's theory on the lattice spectrum that the window of a simulated case holds, and its a_V.
+"""Persson's theory on the lattice spectrum of the cell of a simulated case, and its a_V.
 
-Theory's heights are Gaussian without end, those of a window end at its highest summit. Where theory
-puts the mean gap near or above it, the window holds too few summits to be compared with.
+The theory's Gaussian heights are unbounded, those of a cell end at its highest summit. Where theory
+predicts a mean gap near or above this summit, the cell has too few summits for a comparison.
 """
 
 import numpy as np
 import xarray as xr
 
-from common.a_v_fits import write_fits
 from common.conventions import annotate, logarithmic_grid
 from common.error_budgets import QUADRATURE, theory_parts
 from common.job import start
-from common.kappa import add_theory
 from common.model_surfaces import cell_size, grid_points, make_heights, model_spectrum
+from common.quantities import add_kappa, write_a_v
 from common.theory import evaluate, theories
 from stickiness import datasets
 from stickiness.accuracy.error_models import read_models
@@ -25,8 +24,8 @@ MARGIN = 0.75  # over h_rms, of theory's mean gap below the highest summit
 
 
 def main(job):
-    asked = job.params.surface
-    lattice = lattice_spectrum(model_spectrum(asked), cell_size(asked))
+    surface = job.params.surface
+    lattice = lattice_spectrum(model_spectrum(surface), cell_size(surface))
     pressures, ranges = np.sort(job.params.pressures), logarithmic_grid(job.params.gaps)
     named = theories(lattice, job.params.variants, job.params.gamma)
     parts = [evaluate(theory, pressures, ranges) for theory in named.values()]
@@ -36,21 +35,21 @@ def main(job):
     dataset = annotate(dataset, rms_slope=("1", text))
     models = read_models(job.input.laws)
     for name in QUADRATURE:
-        dataset = with_budget(dataset, name, **theory_parts(models, name, dataset[name], asked))
+        dataset = with_budget(dataset, name, **theory_parts(models, name, dataset[name], surface))
     if job.params.simulated:
-        dataset = add_window(dataset, asked)
+        dataset = add_window(dataset, surface)
     datasets.write(
-        add_theory(dataset, models, asked),
+        add_kappa(dataset, models, surface),
         job.output.theory,
         title="Persson's theory on the lattice spectrum of a case",
-        parameters={**asked, "case": job.wildcards.compared, "gamma": job.params.gamma},
+        parameters={**surface, "case": job.wildcards.compared, "gamma": job.params.gamma},
     )
-    write_fits(job.output.theory, job.output.a_v, job.params.windows, job.input.laws)
+    write_a_v(job.output.theory, job.output.a_v, job.params.windows, job.input.laws)
 
 
-def add_window(theory, asked):
-    """Add whether the window holds summits enough for theory to be compared with simulation."""
-    summit = highest_summit(asked)
+def add_window(theory, surface):
+    """Add whether the cell has summits enough for theory to be compared with simulation."""
+    summit = highest_summit(surface)
     holds = theory.mean_gap.isel(variant=0, drop=True) < summit - MARGIN
     found = {"highest_summit": summit, "margin": MARGIN, "window_holds": holds.astype("i1")}
     return datasets.annotate(
@@ -61,11 +60,11 @@ def add_window(theory, asked):
     )
 
 
-def highest_summit(made):
-    """Mean height over h_rms of the highest point of a window."""
-    asked = {**made, "magnification": min(made["magnification"], LONG_WAVES)}
-    points = grid_points(asked, 4)
-    return float(np.mean([make_heights(asked, points, seed).max() for seed in range(WINDOWS)]))
+def highest_summit(surface):
+    """Mean height over h_rms of the highest point of a cell."""
+    long = {**surface, "magnification": min(surface["magnification"], LONG_WAVES)}
+    points = grid_points(long, 4)
+    return float(np.mean([make_heights(long, points, seed).max() for seed in range(WINDOWS)]))
 
 
 if __name__ == "__main__":

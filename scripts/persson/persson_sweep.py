@@ -5,11 +5,11 @@ from itertools import product
 import numpy as np
 import xarray as xr
 
-from common.a_v_fits import write_fits
 from common.conventions import annotate, logarithmic_grid
 from common.error_budgets import QUADRATURE, theory_parts
 from common.job import start
 from common.model_surfaces import model_spectrum
+from common.quantities import write_a_v
 from common.theory import evaluate, theories
 from stickiness import datasets
 from stickiness.accuracy.error_models import read_models
@@ -36,7 +36,7 @@ def main(job):
         title="Persson's theory on continuous self-affine spectra",
         parameters={**sweep, "variants": job.params.variants, "gamma": job.params.gamma},
     )
-    write_fits(job.output.theory, job.output.a_v, job.params.windows, job.input.laws)
+    write_a_v(job.output.theory, job.output.a_v, job.params.windows, job.input.laws)
 
 
 def stack(parts, axes):

@@ -6,8 +6,7 @@ from itertools import product
 import numpy as np
 import xarray as xr
 
-from common import conventions
-from common.conventions import VARIANT, logarithmic_grid
+from common.conventions import VARIANT, annotate, logarithmic_grid
 from common.error_budgets import BY_THEORY, theory_parts
 from common.job import start
 from common.model_surfaces import model_spectrum
@@ -25,20 +24,26 @@ VARIANTS = (VARIANT, "almqvist2011")
 INFINITE = 1e36
 NODES = 0.5  # of the quadrature, in units of the library's; `quadrature_error` says what it costs
 REFERENCE_NODES = 1.0
+VARIABLES = {
+    "a_v": "a_V = A_ad/((3/2) p (range/h_rms)^(2/3)); of no meaning below edge_range",
+    "a_v_limit": "a_V in the limit of infinite magnification",
+    "edge_range": "range over h_rms below which theory does not resolve edges of contact",
+    "edge_a_v": "a_V below the edge range by Pastewka and Robbins' attractive area",
+    "quadrature_error": "largest relative error of a_V by the quadrature",
+}
 
 
 def main(job):
-    asked, gamma = job.params.table, job.params.gamma
-    ranges = logarithmic_grid(asked["range"])
-    axes = {name: np.array(asked[name], dtype=float) for name in AXES}
+    table, gamma = job.params.table, job.params.gamma
+    ranges = logarithmic_grid(table["range"])
+    axes = {name: np.array(table[name], dtype=float) for name in AXES}
     dataset = finite(axes, ranges, gamma).merge(infinite(axes, ranges, gamma))
     dataset["quadrature_error"] = quadrature_error(axes, ranges, gamma)
-    dataset = annotate(dataset)
     datasets.write(
-        add_budgets(dataset, read_models(job.input.laws)),
+        add_budgets(annotate(dataset, **VARIABLES), read_models(job.input.laws)),
         job.output[0],
         title="a_V by Persson's theory on self-affine spectra",
-        parameters={**asked, "gamma": gamma, "quoted": VARIANT},
+        parameters={**table, "gamma": gamma, "quoted": VARIANT},
     )
 
 
@@ -104,7 +109,7 @@ def quadrature_error(axes, ranges, gamma):
 
 
 def add_budgets(dataset, models):
-    """a_V with its errors, as large as those of the attractive area, and the edges' estimate."""
+    """Add the errors of a_V, as large as for the attractive area, and of the edges' estimate."""
     limit = dataset.a_v_limit.assign_coords(magnification=np.inf)
     for name, value in {"a_v": dataset.a_v, "a_v_limit": limit}.items():
         quadrature = Part(dataset.quadrature_error * value, "of the quadrature, the largest")
@@ -117,18 +122,8 @@ def add_budgets(dataset, models):
 
 
 def self_affine(hurst, magnification):
+    """Spectrum of a model surface without roll-off."""
     return model_spectrum({"hurst": hurst, "magnification": magnification})
-
-
-def annotate(dataset):
-    return conventions.annotate(
-        dataset,
-        a_v=("1", "a_V = A_ad/((3/2) p (range/h_rms)^(2/3)); of no meaning below edge_range"),
-        a_v_limit=("1", "a_V in the limit of infinite magnification"),
-        edge_range=("1", "range over h_rms below which theory does not resolve edges of contact"),
-        edge_a_v=("1", "a_V below the edge range by Pastewka and Robbins' attractive area"),
-        quadrature_error=("1", "largest relative error of a_V by the quadrature"),
-    )
 
 
 if __name__ == "__main__":

@@ -7,6 +7,7 @@ import warnings
 import numpy as np
 import xarray as xr
 
+from common.conventions import annotate
 from common.job import start
 from common.model_surfaces import cell_size, model_spectrum
 from stickiness import datasets
@@ -28,22 +29,41 @@ OTHERS = {
     "pixels_in_zone": "width of the cohesive zone in pixels",
     "fft_pairs": "convolutions",
 }
-
-
+COARSE, HALF = "the grid does not resolve the cohesive zone", "half grid too coarse"
+NEVER = f"never attracted, or {COARSE}"
+VARIABLES = {
+    **{name: ("1", text, COARSE) for name, text in (QUOTED | OTHERS).items()},
+    **{
+        f"{name}_grid_error": ("1", f"error by half the grid and the steps: {text}", HALF)
+        for name, text in QUOTED.items()
+    },
+    **{name: ("1", text, NEVER) for name, text in OTHERS.items() if "zero_load" in name},
+    "zone": "q0 range^2 over adhesion length",
+    "range_over_h_rms": "range over h_rms",
+    "energy": "work of adhesion over elastic energy of full contact of this surface",
+    "range": "range over h_rms",
+    "adhesion_length": "adhesion length over q0 h_rms^2",
+    "full_contact_energy": "elastic energy of full contact over E* q0 h_rms^2",
+    "rms_slope": "rms slope over q0 h_rms",
+    "rms_curvature": "rms Laplacian over q0^2 h_rms",
+    "shell_q": "wave number over q0",
+    "shell_variance": "variance of the heights on a shell over h_rms^2",
+    "seconds": ("s", "processor time"),
+}
 RESOLVED = 2.0  # pixels in the cohesive zone
 FEWEST_PIXELS = 1.0  # below, points of the grid snap one by one, and the path is endless
 
 
 def main(job):
-    asked, seed = job.params.surface, int(job.wildcards.seed)
-    length = cell_size(asked)
-    heights = synthesis.synthesise(model_spectrum(asked), asked["points"], length, seed)
+    surface, seed = job.params.surface, int(job.wildcards.seed)
+    length = cell_size(surface)
+    heights = synthesis.synthesise(model_spectrum(surface), surface["points"], length, seed)
     spectrum = synthesis.realised_spectrum(heights, length)
     energy = spectrum.elastic_energy()
-    name = "zones" if "zones" in asked else "ranges"
+    name = "zones" if "zones" in surface else "ranges"
     rows = []
-    for ratio in asked["energies"]:
-        for value in asked[name]:
+    for ratio in surface["energies"]:
+        for value in surface[name]:
             began = time.process_time()
             adhesion_length = ratio * energy
             range_ = np.sqrt(value * adhesion_length) if name == "zones" else value
@@ -52,11 +72,11 @@ def main(job):
             row |= {"range": range_, "adhesion_length": adhesion_length}
             rows.append(row | {"seconds": time.process_time() - began})
             logging.info("w/U %g, %s %g: %s", ratio, name, value, row)
-    shape = len(asked["energies"]), len(asked[name])
+    shape = len(surface["energies"]), len(surface[name])
     dims = "energy", {"zones": "zone", "ranges": "range_over_h_rms"}[name]
     dataset = xr.Dataset(
         {key: (dims, np.reshape([row[key] for row in rows], shape)) for key in rows[0]},
-        coords={"energy": asked["energies"], dims[1]: asked[name]},
+        coords={"energy": surface["energies"], dims[1]: surface[name]},
     )
     dataset["full_contact_energy"] = energy
     dataset["rms_slope"] = spectrum.rms_slope
@@ -64,10 +84,10 @@ def main(job):
     dataset["shell_q"] = "shell", spectrum.q
     dataset["shell_variance"] = "shell", spectrum.variance
     datasets.write(
-        annotate(dataset),
+        annotate(dataset, **VARIABLES),
         job.output[0],
         title="adhesion that remains on one rough surface",
-        parameters={**asked, "seed": seed, "law": job.params.law, "squeeze": job.params.squeeze},
+        parameters={**surface, "seed": seed, "law": job.params.law, "squeeze": job.params.squeeze},
     )
 
 
@@ -88,39 +108,6 @@ def measure(heights, length, law, squeeze):
         low, high = getattr(found, f"{key}_limits")
         row[f"{key}_grid_error"] = (high - low) / 2
     return row
-
-
-def annotate(dataset):
-    coarse = "the grid does not resolve the cohesive zone"
-    texts = {key: ("1", text, coarse) for key, text in (QUOTED | OTHERS).items()}
-    texts |= {
-        f"{key}_grid_error": (
-            "1",
-            f"error by half the grid and the steps: {text}",
-            "half grid too coarse",
-        )
-        for key, text in QUOTED.items()
-    }
-    for key in ("gap_at_zero_load", "area_at_zero_load"):
-        texts[key] = (*texts[key][:2], f"never attracted, or {coarse}")
-    coordinates = {
-        "zone": ("1", "q0 range^2 over adhesion length"),
-        "range_over_h_rms": ("1", "range over h_rms"),
-    }
-    texts |= {key: text for key, text in coordinates.items() if key in dataset.coords}
-    return datasets.annotate(
-        dataset,
-        **texts,
-        energy=("1", "work of adhesion over elastic energy of full contact of this surface"),
-        range=("1", "range over h_rms"),
-        adhesion_length=("1", "adhesion length over q0 h_rms^2"),
-        full_contact_energy=("1", "elastic energy of full contact over E* q0 h_rms^2"),
-        rms_slope=("1", "rms slope over q0 h_rms"),
-        rms_curvature=("1", "rms Laplacian over q0^2 h_rms"),
-        shell_q=("1", "wave number over q0"),
-        shell_variance=("1", "variance of the heights on a shell over h_rms^2"),
-        seconds=("s", "processor time"),
-    )
 
 
 if __name__ == "__main__":

@@ -7,7 +7,7 @@ import pandas as pd
 from common import remaining_table
 from common.job import start
 from stickiness import datasets
-from stickiness.remaining import multiscale, theories
+from stickiness.remaining import theories
 from stickiness.remaining.prediction import Roughness
 from stickiness.spectrum.kinds import Shells
 
@@ -48,9 +48,7 @@ def list_rows(path):
     rough = Roughness(h_rms=1.0, q0=made.get("rolloff", 1.0), elastic_energy=energy)
     along = next(name for name in ("zone", "range_over_h_rms") if name in data.dims)
     points = data.stack(point=("energy", along)).dropna("point", subset=["bound"])
-    # Persson's theory of thousand shells takes long, and of forty says the same.
-    few = multiscale.group_shells(spectrum)
-    dmt = theories.dmt_share(few, points.adhesion_length.values, points["range"].values)
+    dmt = theories.dmt_share(spectrum, points.adhesion_length.values, points["range"].values)
     for index, of_dmt in enumerate(dmt):  # where the grid was fine enough
         point = points.isel(point=index)
         ratio, length, range_ = (float(point[n]) for n in ("energy", "adhesion_length", "range"))
@@ -73,7 +71,6 @@ def list_rows(path):
             "predicted_high": high,
             "predicted_pull_off": float(rough.pull_off(length, range_)[0]),
             "full_contact": theories.full_contact_share(ratio),
-            "multiscale": multiscale.remaining_adhesion(spectrum, length, pull_off=False).share,
             "dmt": float(of_dmt),
             "local_margin": length / local,
             "finest_margin": length / finest,

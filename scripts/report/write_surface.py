@@ -1,295 +1,283 @@
-"""Page of one surface: picture, spectrum, parameters, verdicts and their reasons."""
-
-from pathlib import Path
+"""Page of one surface: verdicts and their reasons, curves, contact, parameters and spectrum."""
 
 import numpy as np
+import xarray as xr
 
+from common import provided
 from common.conventions import LOAD
-from common.formatting import NOTHING, amount, interval, number, percent, with_error
+from common.formatting import NOTHING, interval, number, quantity, with_error
 from common.job import start
-from criteria.judging import OF_SURFACES, judge, read_surfaces
-from criteria.materials import describe_modulus, read_material
-from criteria.texts import say_verdict
-from report import (
-    captions,
-    interactive,
-    measured_contact,
-    provided,
-    pull_off,
-    remaining_curves,
-    touch,
-)
-from report.provided import own_first
-from report.surface_figure import draw_surface
-from report.surface_texts import (
-    describe_height,
-    describe_line,
-    describe_slope,
-    say_what_was_seen,
-    warn_of_slope,
-)
-from report.verdict_texts import describe_pair, ends, explain
+from criteria.materials import RATE_KEYS, describe_modulus, read_material
+from criteria.texts import describe_pull_off, describe_share
+from report import contact_figure, interactive, pages, surface_figures
+from report.table_rows import describe_pair, describe_surface, explain
 from stickiness import datasets
+from stickiness.adhesive import edge_zone
+from stickiness.criteria import equivalent_sphere
 from stickiness.criteria.pair import NOT_JUDGED
 from stickiness.remaining.prediction import DEFAULT_SHARE
 from stickiness.solids.moduli import crossings
 from stickiness.statistics import COVERS
 
-CAPTION = """Heights and spectrum of the surface, with the fitted self-affine spectrum and the lines
-of the paper.
-
-Heights are those of the first measurement, levelled. Points of the spectrum are radial averages
-with their sampling errors. Dotted: the cutoff of the instrument. Shaded: the end of the plateau
-with its error, if there is one. Grey: the fit extrapolated beyond the instrument, with its error.
-Errors cover 90 %.
-"""
-CURVES = """Share of the work of adhesion that remains on this surface, with limits.
-Above the dashed line, at {wanted}, it sticks. Filled points: the pair as it is. {shown}
-
-Lines: both ends of what is known of the surface. Of a measured surface these are quantiles of 16
-and 84 % over the spectra compatible with the measurement; of one from the literature, plausible
-ends. Shaded: limits. Of a measured surface these are quantiles of 5 and 95 % over the spectra and
-the errors of the model; of one from the literature, the limits of the model at the plausible ends.
-Those of the model cover 90 % where more than 5 % remains.
-
-Linear elasticity and small slopes are assumed at all heights, also where the rms slope exceeds 1.
-
-Modulus: against E* of the material, all else equal; open circles: the threshold. None of a layer
-with an elastic backing, which would have to change as well.
-
-Roughness: all heights times a factor, at an unchanged shape of the spectrum; the rms height is that
-of the surface, midway between its ends. The roughness of the material's own, if it has one, changes
-as well.
-
-Rate: against the frequency of loading, of materials whose modulus depends on it; the work of
-adhesion does not change.
-"""
-ON_SCREEN = "A press on a name hides its curves or shows them; at first {shown} are shown."
-DRAWN = ("curves", "touch", "pull_off")  # interactive figures of a page
+MANY_MISSING = 0.05  # share of the points from which the reader is told at once
+MOST_SLOPE = 1.0  # rms, up to which slopes count as small
+QUOTED_RANGE = 0.03  # over h_rms, at which a_V of the measured heights is quoted
+MODEL_TOO_HIGH = 0.05  # remaining share below which the model exceeds simulations
 
 
 def main(job):
-    surface = datasets.read(job.input.surface, OF_SURFACES)
-    materials = job.params.materials
-    pairs = write_verdicts(job, surface)
-    draw_surface(surface, job.output.figure)
-    page = render(
+    surface = datasets.read(job.input.surface, ["h_rms", "rms_slope", "psd"])
+    verdicts = datasets.read(job.input.verdicts, ["remaining", "verdict", "margin"])
+    pairs = verdicts.sel(surface=job.wildcards.real_surface)
+    materials = datasets.parameters(verdicts)["materials"]
+    names = provided.user_defined_first(map(str, pairs.material.values), provided.MATERIALS)
+    mine = provided.user_defined(names, provided.MATERIALS)
+    labels = {name: materials[name]["label"] for name in names}
+
+    surface_figures.draw_surface(surface, job.output.figure)
+    surface_figures.draw_curves(pairs, labels, job.output.curves)
+    curves = surface_figures.draw_interactive(pairs, labels)
+    contact = describe_contact(job.input, pairs, {name: materials[name] for name in mine})
+    measured_contact = job.input.get("measured_contact")
+    bem = datasets.read(measured_contact, ["a_v"]) if measured_contact else None
+    pages.write_page(
         job.input.template,
         job.output.page,
-        files={
-            "surface": job.input.surface,
-            "verdicts": job.output.verdicts,
-            "measured_contact": job.input.measured_contact[0] if job.input.measured_contact else "",
-        },
+        files=dict(job.input.items()),
+        report=f"{job.output.page.rsplit('/', 2)[0]}/report.html",
         surface=surface,
-        pairs=pairs,
-        materials=materials,
-        figures={
-            "surface": captions.embed_figure(job.output.figure, CAPTION),
-            "curves": draw_curves(pairs, materials, job.output.curves),
-            **describe_pictures(job.input.pictures, pairs, materials),
-        },
-        bem=datasets.read(job.input.measured_contact[0], ["a_v"])
-        if job.input.measured_contact
-        else None,
-    )
-    with datasets.whole_file(job.output.page) as path:
-        path.write_text(page, encoding="utf-8")
-
-
-def write_verdicts(job, surface):
-    """Verdict for every material on the surface, as they are written."""
-    name, label = job.wildcards.real_surface, datasets.parameters(surface)["label"]
-    own = read_surfaces(job.params.own, job.input.own)
-    verdicts = judge({name: surface}, own, job.params)
-    datasets.write(
-        verdicts,
-        job.output.verdicts,
-        title=f"verdicts of the stickiness criteria: {label}",
-        parameters={"materials": job.params.materials, "label": label},
-    )
-    return verdicts.sel(surface=name)
-
-
-def draw_curves(pairs, materials, output):
-    """Figure of what remains, and its picture, which is written; None if nothing is judged."""
-    labels = {name: materials[name]["label"] for name in order(pairs)}
-    remaining_curves.draw_static(pairs, labels, output)
-    drawn = remaining_curves.draw_interactive(pairs, labels)
-    if drawn is None:
-        return None
-    many = len(labels) > remaining_curves.SHOWN
-    shown = ON_SCREEN.format(shown=remaining_curves.SHOWN) if many else ""
-    caption = CURVES.format(wanted=percent(DEFAULT_SHARE), shown=shown)
-    return {
-        "figure": interactive.embed(drawn),
-        "still": captions.embed_figure(output, caption),
-    }
-
-
-def order(pairs):
-    """Names of the materials, the user's own first."""
-    return own_first(map(str, pairs.material.values), provided.MATERIALS)
-
-
-def render(template, page, *, files, surface, pairs, materials, figures, bem=None):
-    """The page as text, with links to the files behind it from where it will lie.
-
-    `figures` are that of the surface and those `DRAWN` that there are.
-    """
-    made = datasets.parameters(surface)
-    names = order(pairs)
-    any_drawn = any("figure" in (figures.get(name) or {}) for name in DRAWN)
-    return captions.template_of(template, page).render(
-        files_of=files,
-        report=Path(page).parents[1] / "report.html",
-        label=made["label"],
-        kind=made["kind"].replace("_", "-"),
-        source=made.get("source", ""),
-        library=interactive.library() if any_drawn else "",
-        figure=figures["surface"],
-        **{name: figures.get(name) for name in DRAWN},
-        seen=say_what_was_seen(surface),
-        known=list_parameters(surface),
-        remarks=[
-            text
-            for text in (
-                *surface.attrs.get("remarks", "").split("; "),
-                made.get("note"),
-                warn_of_slope(surface),
-            )
-            if text
-        ],
-        measured=[t for t in surface.attrs.get("files", "").split("; ") if t],
-        loads=measured_contact.describe_loads(bem) if bem is not None else [],
-        periodic=bem is not None and "given" in bem.periodisation.values,
-        adhesive_loads=measured_contact.describe_adhesion(bem) if bem is not None else [],
-        edges=measured_contact.describe_edges(bem) if bem is not None else "",
-        load=number(LOAD),
-        wanted=percent(DEFAULT_SHARE),
-        margins=[
-            {"material": materials[name]["label"]}
-            | measured_contact.describe_pair(bem, read_material(materials[name]), surface)
-            for name in names
-            if bem is not None
-        ],
-        not_judged=[t for t in surface.attrs.get("not_judged", "").split("\n") if t],
+        made=datasets.parameters(surface),
+        sizes=describe_sizes(surface),
+        figure=pages.embed_png(job.output.figure),
+        wanted=DEFAULT_SHARE,
         verdicts=[
-            describe_verdict(pairs.sel(material=name), surface, materials[name])
-            | {"own": name not in provided.MATERIALS}
+            describe_verdict(pairs.sel(material=name), materials[name]) | {"mine": name in mine}
             for name in names
         ],
+        shown_at_first=surface_figures.SHOWN,
+        curves={
+            "interactive": interactive.embed(curves),
+            "still": pages.embed_png(job.output.curves),
+        }
+        if curves
+        else None,
+        contact=contact,
+        bem=None
+        if bem is None
+        else describe_measured_contact(bem, surface, {n: materials[n] for n in names}),
+        library=interactive.library() if curves or contact else "",
     )
 
 
-def describe_pictures(paths, pairs, materials):
-    """Contact and pull-off of measured heights, from the files of `find_pictures`, if any."""
-    if not paths:
-        return {}
-    own = provided.own(map(str, pairs.material.values), provided.MATERIALS)
-    solids = {materials[name]["label"]: read_material(materials[name]) for name in own}
-    pressed, pressed_still, pulled, pulled_still = paths
-    return {
-        "touch": touch.describe(pressed, pressed_still, solids),
-        "pull_off": pull_off.describe(pulled, pulled_still, lambda name: pairs.sel(material=name)),
+def describe_sizes(surface):
+    """What the template cannot compute: sizes with errors, and what was seen of the surface."""
+    low, high = surface.C0.values
+    found = describe_surface(surface) | {
+        "steep": float(surface.rms_slope.max()) > MOST_SLOPE,
+        "prefactor": interval(float(low), float(high)),
+        "many_missing": float(surface.get("missing_fraction", 0)) > MANY_MISSING,
     }
-
-
-def list_parameters(surface):
-    """Parameters of the surface with their errors, as pairs of name and text."""
-    unit = surface.C0_reference_upper.attrs["units"]
-    rows = [
-        ("Hurst exponent H", with_error(float(surface.hurst), float(surface.hurst_total_error))),
-        (f"C0 [{surface.C0.attrs['units']}]", describe_prefactor(surface)),
-        (f"C0 at H = 0.8 [{unit}]", describe_line(surface)),
-        *list_heights(surface),
-        ("rms slope", describe_slope(surface)),
-        ("q0 [1/m]", describe_lowest(surface)),
-        ("roll-off", describe_roll_off(surface)),
-        ("q1 [1/m]", number(float(surface.q1))),
-    ]
-    if "axis_ratio" in surface:
-        rows.append(("ratio of correlation lengths", number(float(surface.axis_ratio), 2)))
+    if "C0_relative_error" in surface:
+        # A factor: C0 is known at q = 1, far from the data.
+        factor = float(np.exp(COVERS * surface.C0_relative_error))
+        found["prefactor"] = f"{number(float(low), 2)} ×÷ {number(factor, 2)}"
     if "q_cutoff" in surface:
-        wavelength = 2 * np.pi / float(surface.q_cutoff)
-        text = f"{amount(wavelength, 'm')}: {surface.attrs['cutoff']}"
-        rows.append(("shortest wavelength of the instrument", text))
-        rows.append(("missing points, interpolated", percent(float(surface.missing_fraction))))
-        rows.append(("dropped beside missing points", f"{int(surface.dropped_points)} points"))
-        rows.append(("spikes, not used", f"{int(surface.masked_spikes)} points"))
-        rows.append(("cut off for missing points", percent(float(surface.cropped_fraction))))
-    if "anisotropy" in surface:
-        rows.append(("dependence on direction, 0 … 2", number(float(surface.anisotropy), 2)))
+        found |= {
+            "longest": 2 * np.pi / float(surface.wave_number.min()),
+            "finest": 2 * np.pi / float(surface.q_cutoff),
+            "assumed": 2 * np.pi / float(surface.q1),
+            "extended": float(surface.q1) > float(surface.q_cutoff) * (1 + 1e-9),
+            "not_used": int(surface.dropped_points) + int(surface.masked_spikes) > 0,
+        }
     if "scatter" in surface:
-        rows.append(("factor between measurements in C", number(np.exp(float(surface.scatter)), 3)))
-    return rows
+        found["scatter"] = float(np.exp(surface.scatter))
+    return found
 
 
-def list_heights(surface):
-    """Rows of rms heights: by the spectrum, of the heights, and with the points not used."""
-    if "h_rms_measured" not in surface:
-        return [("rms height", describe_height(surface))]
-    rows = [
-        ("rms height by the spectrum, up to q1", describe_height(surface)),
-        ("rms height of the levelled heights", show_height(surface.h_rms_measured)),
-    ]
-    if int(surface.dropped_points) + int(surface.masked_spikes):
-        rows.append(("the same with the points not used", show_height(surface.h_rms_as_read)))
-    return rows
-
-
-def show_height(value):
-    return amount(float(value), "m")
-
-
-def describe_lowest(surface):
-    """Wave number q0, of a roll-off with its error."""
-    if "q_rolloff" in surface:
-        return with_error(float(surface.q0), float(surface.q_rolloff_total_error))
-    return number(float(surface.q0))
-
-
-def describe_prefactor(surface):
-    """C0, with a factor for its error: it is known at q = 1, far from the data."""
-    c0 = surface.C0.values
-    if "C0_relative_error" not in surface:
-        return interval(*map(float, c0))
-    factor = float(np.exp(COVERS * surface.C0_relative_error))
-    return f"{number(float(c0[0]), 2)} ×÷ {number(factor, 2)}"
-
-
-def describe_roll_off(surface):
-    if "q_rolloff" not in surface:
-        return "none found" if "fitted" in surface else NOTHING
-    return f"{with_error(float(surface.q_rolloff), float(surface.q_rolloff_total_error))} 1/m"
-
-
-def describe_verdict(pair, surface, entry):
-    """Verdict of one material, with its errors and every criterion's reason."""
-    solid = read_material(entry)
-    return {
+def describe_verdict(pair, entry):
+    """Verdict on one material, the rates at which it sticks, and every criterion's reason."""
+    solid, judged = read_material(entry), int(pair.verdict) != NOT_JUDGED
+    rated = solid.depends_on_rate and judged
+    return describe_pair(pair) | {
         "material": entry["label"],
-        "sentence": say_verdict(entry["label"], pair),
         "modulus": describe_modulus(entry),
-        **describe_pair(pair),
-        "rate": describe_rate(solid, pair, ends(pair.modulus_threshold))
-        if solid.depends_on_rate and int(pair.verdict) != NOT_JUDGED
-        else NOTHING,
-        "criteria": explain(pair, surface, solid.work_of_adhesion),
+        "rates": list_rates(solid, pair) if rated else [],
+        "criteria": explain(pair, solid.work_of_adhesion) if judged else [],
     }
 
 
-def describe_rate(solid, pair, thresholds):
-    """Frequencies at which the modulus passes the threshold, at both ends of the surface."""
+def list_rates(solid, pair):
+    """Frequencies at which the pair sticks, as texts, for the thresholds at both ends."""
     texts = []
-    for threshold in dict.fromkeys(thresholds):
+    for threshold in dict.fromkeys(map(float, pair.modulus_threshold.sel(end=["rough", "smooth"]))):
         found = crossings(solid.plane_strain, threshold, pair.frequency.values)
         words = [f"{'below' if up else 'above'} {number(f, 2)} Hz" for f, up in found]
         if not words:
             highest = np.nanmax(pair.modulus.values)
-            words = ["at every frequency" if highest < threshold else "at none"]
+            words = ["at every frequency" if highest < threshold else "at no frequency"]
         texts.append(" and ".join(words))
-    return "sticks " + (" … ".join(dict.fromkeys(texts)))
+    return list(dict.fromkeys(texts))
+
+
+def describe_contact(files, pairs, own):
+    """Simulated contact and pull-off of the measured heights; None where there is no map.
+
+    `own` are the entries of the user's materials by name.
+    """
+    if not files.get("contact"):
+        return None
+    contact, pull_off = datasets.read(files.contact), datasets.read(files.pull_off)
+    if contact.attrs["left_out"]:
+        return None
+    solids = {entry["label"]: read_material(entry) for entry in own.values()}
+    loads = contact_figure.list_loads(contact, solids)
+    figure = contact_figure.draw_interactive(contact, pull_off, loads)
+    made = datasets.parameters(pull_off)
+    found = {
+        "interactive": interactive.embed(figure),
+        "still": pages.embed_png(files.contact_figure),
+        "data": contact,
+        "grid": " by ".join(str(2 * contact.sizes[axis]) for axis in ("x", "y")),
+        "coarse": exceeds(contact.shortest_wavelength, contact.cutoff_wavelength),
+        "loads": loads,
+        "pulled": made["label"],
+        "pull_off": pull_off,
+        "separated": not pull_off.attrs["left_out"],
+    }
+    if found["separated"]:
+        disagreeing = [name for name in ("separation", "pull_off") if not overlap(pull_off, name)]
+        too_high = all(pull_off[name] < pull_off[f"predicted_{name}"] for name in disagreeing)
+        found |= {
+            "pull_off_grid": " by ".join(str(pull_off.sizes[axis]) for axis in ("x", "y")),
+            "rated": any(key in made for key in RATE_KEYS),
+            "longer_range": exceeds(pull_off["range"], pull_off.material_range),
+            "missing_waves": exceeds(pull_off.shortest_wavelength, pull_off.judged_wavelength),
+            "disagreeing": disagreeing,
+            "known_too_high": too_high and float(pull_off.separation) < MODEL_TOO_HIGH,
+            "compared": [
+                {"remaining": describe_share(each), "pull_off": describe_pull_off(each)}
+                for each in (
+                    as_pair(pull_off, ""),
+                    as_pair(pull_off, "predicted_"),
+                    pairs.sel(material=made["material"]),
+                )
+            ],
+        }
+    return found
+
+
+def exceeds(length, other):
+    """Whether a length is longer than another by more than rounding."""
+    return float(length) > 1.001 * float(other)
+
+
+def overlap(pull_off, name):
+    """Whether the limits of simulation and model have values in common."""
+    low, high, model_low, model_high = (
+        float(pull_off[f"{prefix}{name}_{end}"])
+        for prefix in ("", "predicted_")
+        for end in ("low", "high")
+    )
+    return low <= model_high and model_low <= high
+
+
+def as_pair(pull_off, prefix):
+    """Simulated or predicted numbers as a verdict has those of a pair, at ends that agree."""
+    names = {"remaining": "separation", "pull_off": "pull_off"}
+    found = {
+        f"{name}{end}": pull_off[f"{prefix}{simulated}{end}"]
+        for name, simulated in names.items()
+        for end in ("", "_low", "_high")
+    }
+    # Where this is large the model knows no pull-off. A simulation does.
+    found["energy_ratio"] = pull_off.energy_ratio * bool(prefix)
+    return xr.Dataset(found).expand_dims(end=2)
+
+
+def describe_measured_contact(bem, surface, materials):
+    """Contact of the measured heights with error estimates, as rows; loads where `bem` asks."""
+    loads = []
+    for pressure in bem.pressure.values:
+        at = bem.sel(pressure=pressure).interp({"range": QUOTED_RANGE})
+        row = {"pressure": float(pressure)}
+        for name in ("area_fraction", "a_v"):
+            row[name] = {
+                "value": combine_ways(at[name]),
+                "ways": dict(
+                    zip(
+                        map(str, at.periodisation.values),
+                        map(float, at[name].isel(resolution=-1)),
+                        strict=True,
+                    )
+                ),
+                "theory": sorted(map(float, at[f"theory_{name}"].values)),
+            }
+        loads.append(row)
+    found = {
+        "loads": loads,
+        "periodic": "given" in bem.periodisation.values,
+        "load": LOAD,
+        "margins": [
+            {"material": entry["label"]} | find_onset(bem, read_material(entry), surface)
+            for entry in materials.values()
+        ],
+        "adhesive": [],
+    }
+    if "adhesive_contact_area" in bem:
+        found |= {
+            "adhesive": [describe_adhesive_load(bem.sel(pressure=p)) for p in bem.pressure.values],
+            "edge_pixel": float(bem.edge_resolution.isel(resolution=-1).max()),
+            "largest_edge_pixel": edge_zone.COARSEST,
+        }
+    return found
+
+
+def describe_adhesive_load(at):
+    """Areas and mean gap with full adhesion beside those without, each with its error."""
+    names = ("adhesive_contact_area", "area_fraction", "adhesive_attractive_area")
+    names += ("adhesive_mean_gap", "mean_gap")
+    applied = at.applied_pressure.values
+    return {
+        "pressure": float(at.pressure),
+        "applied": quantity(float(applied.min()), float(applied.max()), "Pa"),
+        "values": [combine_ways(at[name]) for name in names],
+        "residual": float(at.adhesive_residual.max()),
+    }
+
+
+def combine_ways(values):
+    """Mean over both ways to make heights periodic, and its error.
+
+    The error is half the difference of the two and the change from half the resolution.
+    """
+    fine = values.isel(resolution=-1)
+    change = values.diff("resolution").isel(resolution=-1).mean("periodisation")
+    return float(fine.mean()), float(np.hypot(np.ptp(fine.values) / 2, change))
+
+
+def find_onset(bem, solid, surface):
+    """a_V at a material's range on the pressed heights, and the onset that follows, as texts.
+
+    There is no a_V where the range lies outside the gaps computed, and no onset where it is below
+    the gap of the pixels next to the contact, which the grid does not resolve.
+    """
+    at = bem.sel(pressure=LOAD, method="nearest")
+    h = float(np.sqrt(np.prod(surface.h_rms.values)))
+    ratio = solid.range / h
+    found = {"range": number(ratio, 2), "a_v": NOTHING, "margin": NOTHING, "resolved": False}
+    ranges = at["range"].values
+    if not ranges[0] <= ratio <= ranges[-1]:
+        return found
+    value, error = combine_ways(at.a_v.interp({"range": ratio}))
+    found |= {"a_v": with_error(value, error)}
+    if ratio < float(at.edge_gap.isel(resolution=-1).max()):
+        return found
+    length = solid.work_of_adhesion / solid.modulus
+    limits = [max(value - error, 0.01 * value), value + error]
+    slope = float(np.sqrt(np.prod(surface.rms_slope.values)))
+    onset = equivalent_sphere.attraction(h, float(surface.q0), slope, length, solid.range, limits)
+    margins = onset.ratio * onset.error_factor ** np.array([-1.0, 1.0])
+    return found | {"margin": interval(*map(float, margins), 2), "resolved": True}
 
 
 if __name__ == "__main__":

@@ -1,85 +1,56 @@
-"""Map of validity: what becomes of every component as each parameter goes to extremes."""
+"""Map of validity: the outcome of every component over its two parameters."""
 
 from pathlib import Path
 
 import numpy as np
+from matplotlib.colors import ListedColormap
 from matplotlib.patches import Patch
 
 from common.job import start
 from common.plotting import BLACK, BLUE, ORANGE, YELLOW, open_figure
+from stability.components import LABELS
 from stickiness import datasets
 
-LABELS = {
-    "magnification": "magnification",
-    "hurst": "Hurst",
-    "pressure": "load",
-    "range_over_h_rms": "range",
-    "adhesion_length_over_range": "adhesion",
-    "q0_h_rms": "roughness",
-    "thickness": "thickness",
-    "poisson": "Poisson",
-    "modulus_ratio": "backing",
-    "anisotropy": "anisotropy",
-    "unit": "unit",
-    "grid": "grid",
-    "frequency": "rate",
-}
-OUTCOMES = ((BLUE, ""), (YELLOW, ""), (ORANGE, "///"), (BLACK, ""))  # colour and hatch, in order
-ROW_HEIGHT = 0.5  # inches
-SMALL = 6.5  # points, of labels in rows that are full
+COLOURS = (BLUE, YELLOW, ORANGE, BLACK)  # of the outcomes, in order
+COLUMNS, HEIGHT = 3, 2.1  # panels beside each other, inches of a row
 
 
 def main(job):
     every = {Path(path).stem: datasets.read(path, ["outcome"]) for path in job.input.components}
-    axes = {name: [axis for axis in LABELS if axis in data] for name, data in every.items()}
-    most = max(map(len, axes.values()))
-    mosaic = [
-        [f"{name}/{axis}" for axis in own] + ["."] * (most - len(own)) for name, own in axes.items()
-    ]
-    with open_figure(job.output, mosaic, ROW_HEIGHT * len(every) + 0.4) as panels:
+    names = [*every, *["."] * (-len(every) % COLUMNS)]
+    rows = [names[k : k + COLUMNS] for k in range(0, len(names), COLUMNS)]
+    with open_figure(job.output, rows, HEIGHT * len(rows)) as panels:
         for name, data in every.items():
-            for axis in axes[name]:
-                draw_strip(panels[f"{name}/{axis}"], data, axis)
-            first = panels[f"{name}/{axes[name][0]}"]
-            look = {"rotation": 0, "ha": "right", "va": "center"}
-            first.set_ylabel(f"{name}\n{data.sizes['point']} points", **look)
-        place = {"loc": "outside lower center", "ncols": len(OUTCOMES)}
-        first.figure.legend(handles=outcome_keys(every.values()), **place)
+            draw_map(panels[name], data)
+            panels[name].set_title(name, loc="left", fontweight="bold")
+        outcomes = datasets.parameters(next(iter(every.values())))["outcomes"]
+        counts = sum(np.bincount(data.outcome.values, minlength=4) for data in every.values())
+        panels[names[0]].figure.legend(
+            handles=[
+                Patch(facecolor=colour, label=f"{outcome}: {count}")
+                for colour, outcome, count in zip(COLOURS, outcomes, counts, strict=True)
+            ],
+            loc="outside lower center",
+            ncols=len(COLOURS),
+        )
 
 
-def draw_strip(ax, data, axis):
-    """Shares of the outcomes at each value of an axis, over all points that have it."""
-    ax.set(yticks=[], ylim=(0, 1))
-    ax.set_title(LABELS[axis], fontsize=SMALL, pad=2.5)
-    ax.tick_params(length=0, labelsize=SMALL, pad=1)
-    for side in ax.spines.values():
-        side.set_visible(False)
-    values = np.unique(data[axis].values)
-    place, bottom = np.arange(len(values)), np.zeros(len(values))
-    here = data[axis].values == values[:, None]
-    for outcome, (colour, hatch) in enumerate(OUTCOMES):
-        share = (here & (data.outcome.values == outcome)).sum(1) / here.sum(1)
-        look = {"facecolor": colour, "hatch": hatch, "edgecolor": "white", "linewidth": 0}
-        ax.bar(place, share, 0.9, bottom=bottom, **look)
-        bottom += share
-    ends = [0, len(values) - 1]
-    ax.set_xticks(ends, [shorten(values[end]) for end in ends])
-    ax.set_xlim(-0.6, len(values) - 0.4)
-
-
-def outcome_keys(every):
-    """Legend of all outcomes with how many points have each."""
-    every = list(every)
-    names = datasets.parameters(every[0])["outcomes"]
-    counts = [sum(int((data.outcome == k).sum()) for data in every) for k in range(len(names))]
-    return [
-        Patch(facecolor=colour, hatch=hatch, edgecolor="white", label=f"{name}: {count}")
-        for (colour, hatch), name, count in zip(OUTCOMES, names, counts, strict=True)
-    ]
+def draw_map(ax, data):
+    """Colour every point by its worst outcome over the variants."""
+    down, across = (axis for axis in data.data_vars if axis in LABELS)
+    frame = data[[down, across, "outcome"]].to_dataframe()
+    worst = frame.pivot_table(index=down, columns=across, values="outcome", aggfunc="max")
+    ax.imshow(worst, cmap=ListedColormap(COLOURS), vmin=0, vmax=3, origin="lower", aspect="auto")
+    ax.set_xticks(range(worst.shape[1]), map(shorten, worst.columns), rotation=90, fontsize=6)
+    ax.set_yticks(range(worst.shape[0]), map(shorten, worst.index), fontsize=6)
+    ax.tick_params(which="both", length=0)
+    ax.minorticks_off()
+    ax.set_xlabel(LABELS[across], fontsize=7)
+    ax.set_ylabel(LABELS[down], fontsize=7)
 
 
 def shorten(value):
-    """A number in few characters."""
+    """Write a number in few characters."""
     exponent = round(np.log10(value)) if value else 0
     if abs(exponent) > 2 and np.isclose(value, 10.0**exponent):
         return rf"$10^{{{exponent}}}$"

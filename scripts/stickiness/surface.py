@@ -1,9 +1,8 @@
 """Random surfaces on a periodic square window: synthesis, spectrum and moments.
 
 A window of side L holds the wave vectors 2 pi (i, j)/L and no others. A surface made on it has its
-lattice spectrum, not the continuous one that was asked for (at H = 0.8 the four modes of the
-longest wavelength carry more than half the height variance): simulation and theory are compared on
-that.
+lattice spectrum, not the continuous one (at H = 0.8 the four modes of the longest wavelength carry
+more than half the height variance). Simulation and theory are compared on the lattice spectrum.
 """
 
 from __future__ import annotations
@@ -15,15 +14,10 @@ from numpy.typing import NDArray
 from scipy import fft
 
 from stickiness.arguments import grid, integer, number
-from stickiness.spectrum.interface import Spectrum
+from stickiness.spectrum.interface import LATTICE_ROUNDING, Moments, Spectrum, check_spectrum
 from stickiness.spectrum.kinds import Shells
-from stickiness.spectrum.moments import Moments
-from stickiness.spectrum.sums import Sum
 
 Amplitudes = Literal["gaussian", "fixed"]
-
-_MOST_WAVES = 2**15  # along a side; beyond, a list of all modes leaves no memory
-_ROUNDING = 1e-9  # relative slack on band limits that coincide with lattice wave numbers
 
 
 def synthesise(
@@ -47,8 +41,8 @@ def synthesise(
         sizes sample the same surface, and a larger q1 adds modes to those already there.
     amplitudes : {"gaussian", "fixed"}
         "gaussian": independent Gaussian modes, the samples of a Gaussian random field.
-        "fixed": every amplitude at its rms value, only the phases random (those of the Gaussian
-        surface of the same seed). Its ensemble is narrower and is not the Gaussian one.
+        "fixed": every amplitude at its rms value, only the phases random (the same as in the
+        Gaussian surface of this seed). Its ensemble is narrower and is not the Gaussian one.
 
     Returns
     -------
@@ -66,8 +60,8 @@ def synthesise(
     _check_grid(spectrum, n, length)
     if amplitudes not in ("gaussian", "fixed"):
         raise ValueError(f"amplitudes must be 'gaussian' or 'fixed', got {amplitudes!r}")
-    i, j, variance = list_modes(spectrum, length)
-    modes = draw_modes(variance, seed, amplitudes)
+    i, j, variance = spectrum.modes(length)
+    modes = sample_modes(variance, seed, amplitudes)
     heights = sum_modes(i, j, modes, n)
     if spectrum.prescribed == "h_rms":
         heights *= spectrum.h_rms / np.sqrt(2 * np.sum(np.abs(modes) ** 2))
@@ -82,7 +76,7 @@ def lattice_spectrum(spectrum: Spectrum, length: float) -> Shells:
     one shell whatever their direction.
     """
     check_window(spectrum, length)
-    i, j, variance = list_modes(spectrum, length)
+    i, j, variance = spectrum.modes(length)
     square, shell = np.unique(i**2 + j**2, return_inverse=True)
     total = 2 * np.bincount(shell, weights=variance)  # each mode and its mirror image
     if spectrum.prescribed == "h_rms":
@@ -139,11 +133,11 @@ def resample(heights: NDArray, n: int) -> NDArray:
 
 
 def check_window(spectrum: Spectrum, length: float) -> None:
-    if not isinstance(spectrum, Spectrum):
-        raise ValueError(f"spectrum must be a Spectrum, got {type(spectrum).__name__}")
+    """Raise a ValueError unless a cell of side `length` holds the longest waves of `spectrum`."""
+    check_spectrum(spectrum)
     length = number("length", length)
     longest = 2 * np.pi / spectrum.band[0]
-    if longest > length * (1 + _ROUNDING):
+    if longest > length * (1 + LATTICE_ROUNDING):
         raise ValueError(
             f"the window does not hold the band: longest wavelength {longest:.6g} "
             f"exceeds length = {length:.6g}; enlarge length, raise q0"
@@ -153,7 +147,7 @@ def check_window(spectrum: Spectrum, length: float) -> None:
 
 def _check_grid(spectrum: Spectrum, n: int, length: float) -> None:
     shortest = 2 * np.pi / spectrum.band[1]
-    if shortest < 2 * length / n * (1 - _ROUNDING):
+    if shortest < 2 * length / n * (1 - LATTICE_ROUNDING):
         lower = f"q1 to {np.pi * n / length:.6g}" if spectrum.isotropic else "q1 or anisotropy"
         raise ValueError(
             f"the grid does not hold the band: shortest wavelength {shortest:.6g} is below two "
@@ -162,80 +156,10 @@ def _check_grid(spectrum: Spectrum, n: int, length: float) -> None:
         )
 
 
-def list_modes(spectrum: Spectrum, length: float) -> tuple[NDArray, NDArray, NDArray]:
-    """Lattice indices (i, j) of the band, one of each pair +-k, by rising norm, with variances.
-
-    In this order random numbers stay with their modes when the band grows at its upper end.
-    """
-    dq = 2 * np.pi / length
-    reach = int(np.floor(spectrum.band[1] / dq * (1 + _ROUNDING)))
-    if reach < 1:
-        raise ValueError(f"no wave vector of a window of length {length:.6g} lies in the band")
-    if reach > _MOST_WAVES:
-        raise ValueError(
-            f"length = {length:.6g} holds {reach} of the shortest waves, more than {_MOST_WAVES}: "
-            f"q0 = {spectrum.q0:.6g} and q1 = {spectrum.q1:.6g} must be in the inverse of its "
-            "unit; otherwise lower q1 or length"
-        )
-    i, j = np.meshgrid(np.arange(reach + 1), np.arange(-reach, reach + 1), indexing="ij")
-    half = (i > 0) | (j > 0)
-    i, j = i[half], j[half]
-    band = _in_band(spectrum, i, j, dq)
-    i, j = i[band], j[band]
-    order = np.lexsort((j, i, _rank(spectrum, i, j)))
-    i, j = i[order], j[order]
-    variance = _mode_variance(spectrum, i, j, dq)
-    if not variance.any():
-        raise ValueError(f"no wave vector of a window of length {length:.6g} lies in the band")
-    return i, j, variance
-
-
-def _in_band(spectrum: Spectrum, i: NDArray, j: NDArray, dq: float) -> NDArray:
-    """Whether lattice vectors lie in the band."""
-    if isinstance(spectrum, Sum):
-        return np.any([_in_band(part, i, j, dq) for part in spectrum.parts], axis=0)
-    norm = dq * spectrum.norm(i, j)
-    return (norm >= spectrum.q0 * (1 - _ROUNDING)) & (norm <= spectrum.q1 * (1 + _ROUNDING))
-
-
-def _rank(spectrum: Spectrum, i: NDArray, j: NDArray) -> NDArray:
-    """Norm of lattice vectors, or what rises with it; equal ones are equal to the last bit."""
-    if spectrum.isotropic or isinstance(spectrum, Sum):
-        return i**2 + j**2
-    return np.round(np.log(spectrum.norm(i, j)), 10)
-
-
-def _mode_variance(spectrum: Spectrum, i: NDArray, j: NDArray, dq: float) -> NDArray:
-    """Height variance of each mode of the band: C dq^2, or a shell's variance in equal parts."""
-    if isinstance(spectrum, Sum):
-        return sum(_part_variance(part, i, j, dq) for part in spectrum.parts)
-    norm = dq * spectrum.norm(i, j)
-    if not isinstance(spectrum, Shells):
-        return spectrum.psd_of_norm(np.clip(norm, spectrum.q0, spectrum.q1)) * dq**2
-    middle = (spectrum.q[1:] + spectrum.q[:-1]) / 2
-    shell = np.searchsorted(middle, norm)
-    on_shell = np.abs(norm - spectrum.q[shell]) <= _ROUNDING * norm
-    count = 2 * np.bincount(shell[on_shell], minlength=len(spectrum.q))  # with mirror images
-    if not count.all():
-        missing = spectrum.q[np.argmin(count)]
-        raise ValueError(f"no wave vector of the window lies on the shell at q = {missing:.6g}")
-    return np.where(on_shell, (spectrum.variance / count)[shell], 0.0)
-
-
-def _part_variance(part: Spectrum, i: NDArray, j: NDArray, dq: float) -> NDArray:
-    """Height variance of the modes of a sum that one part of it holds, at its own height."""
-    own = _in_band(part, i, j, dq)
-    variance = np.zeros(len(i))
-    variance[own] = _mode_variance(part, i[own], j[own], dq)
-    if part.prescribed == "h_rms" and variance.any():
-        variance *= part.h_rms**2 / (2 * variance.sum())
-    return variance
-
-
-def draw_modes(variance: NDArray, seed: int, amplitudes: Amplitudes) -> NDArray:
+def sample_modes(variance: NDArray, seed: int, amplitudes: Amplitudes) -> NDArray:
     """Complex amplitudes of modes of given variances; more modes leave the first ones as are."""
-    draws = np.random.Generator(np.random.PCG64(seed)).standard_normal((len(variance), 2))
-    modes = draws[:, 0] + 1j * draws[:, 1]  # E|modes|^2 = 2
+    samples = np.random.Generator(np.random.PCG64(seed)).standard_normal((len(variance), 2))
+    modes = samples[:, 0] + 1j * samples[:, 1]  # E|modes|^2 = 2
     if amplitudes == "fixed":
         modes *= np.sqrt(2) / np.abs(modes)
     modes *= np.sqrt(variance / 2)

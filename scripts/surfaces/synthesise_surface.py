@@ -14,21 +14,36 @@ from stickiness import surface as synthesis
 SOURCES = ["continuum", "lattice", "heights"]
 MOMENTS = ("h_rms", "rms_slope", "rms_curvature", "nayak")
 SPLIT = ("m40", "m22", "m04")
+VARIABLES = {
+    "x": "position times q0",
+    "y": "position times q0",
+    "height": "height over h_rms",
+    "window_length": "side of the window times q0",
+    "wave_number": "wave number of the shell over q0",
+    "lattice_variance": "expected height variance on the shell over h_rms^2",
+    "realised_variance": "height variance of this surface on the shell over h_rms^2",
+    "source": "what the moments are taken from",
+    "h_rms": "rms height over the prescribed one",
+    "nayak": "Nayak's bandwidth parameter m0 m4/m2^2",
+    "m40": "mean square of d2h/dx2 over q0^4 h_rms^2, from the heights",
+    "m22": "mean square of d2h/dxdy over q0^4 h_rms^2, from the heights",
+    "m04": "mean square of d2h/dy2 over q0^4 h_rms^2, from the heights",
+}
 
 
 def main(job):
-    asked, seeds = job.params.surface, job.params.seeds
-    spectrum, length = model_spectrum(asked), cell_size(asked)
-    n = grid_points(asked, job.params.pixels_per_wavelength)
+    surface, seeds = job.params.surface, job.params.seeds
+    spectrum, length = model_spectrum(surface), cell_size(surface)
+    n = grid_points(surface, job.params.pixels_per_wavelength)
     lattice = synthesis.lattice_spectrum(spectrum, length)
     logging.info("n = %d, %d shells", n, len(lattice.q))
-    heights = np.array([make_heights(asked, n, seed) for seed in seeds])
+    heights = np.array([make_heights(surface, n, seed) for seed in seeds])
     datasets.write(
         to_dataset(heights, seeds, length, spectrum, lattice),
         job.output[0],
         title="random surfaces on a periodic window",
         parameters={
-            **asked,
+            **surface,
             "seeds": list(seeds),
             "pixels_per_wavelength": job.params.pixels_per_wavelength,
             "grid_points": n,
@@ -51,11 +66,11 @@ def to_dataset(heights, seeds, length, spectrum, lattice):
             **{
                 name: (
                     ("seed", "source"),
-                    [[getattr(s, name) for s in (spectrum, lattice, own)] for own in measured],
+                    [[getattr(s, name) for s in (spectrum, lattice, one)] for one in measured],
                 )
                 for name in MOMENTS
             },
-            **{name: ("seed", [getattr(own, name) for own in measured]) for name in SPLIT},
+            **{name: ("seed", [getattr(one, name) for one in measured]) for name in SPLIT},
         },
         coords={
             "seed": list(seeds),
@@ -65,22 +80,7 @@ def to_dataset(heights, seeds, length, spectrum, lattice):
             "source": SOURCES,
         },
     )
-    return annotate(
-        dataset,
-        x=("1", "position times q0"),
-        y=("1", "position times q0"),
-        height=("1", "height over h_rms"),
-        window_length=("1", "side of the window times q0"),
-        wave_number=("1", "wave number of the shell over q0"),
-        lattice_variance=("1", "expected height variance on the shell over h_rms^2"),
-        realised_variance=("1", "height variance of this surface on the shell over h_rms^2"),
-        source=("1", "what the moments are taken from"),
-        h_rms=("1", "rms height over the prescribed one"),
-        nayak=("1", "Nayak's bandwidth parameter m0 m4/m2^2"),
-        m40=("1", "mean square of d2h/dx2 over q0^4 h_rms^2, from the heights"),
-        m22=("1", "mean square of d2h/dxdy over q0^4 h_rms^2, from the heights"),
-        m04=("1", "mean square of d2h/dy2 over q0^4 h_rms^2, from the heights"),
-    )
+    return annotate(dataset, **VARIABLES)
 
 
 def realised_on(lattice, realised):

@@ -1,7 +1,7 @@
-"""Pull the same realisations off with every grid, tolerance and step of the path, and time it.
+"""Pull the same realisations off with every grid and tolerance, and time each separation.
 
-A press separates from a load, as in the loops of the configuration; beside it the pull-off of the
-DMT limit: the lowest of the loads without adhesion, less the attraction over their gaps.
+A press separates from a load, as in the loops of the configuration. Beside it stands the pull-off
+in the DMT limit: the lowest of the loads without adhesion, less the attraction over their gaps.
 """
 
 import logging
@@ -23,76 +23,59 @@ DECADES, PER_DECADE = 4, 10  # of the loads below the largest, for the DMT limit
 
 def main(job):
     surface, pull_off = job.params.case, job.params.pull_off
-    settings, finest = list_settings(pull_off), max(pull_off["pixels"])
+    finest, at_pixels = max(pull_off["pixels"]), pull_off["at_pixels"]
+    settings = measuring.list_settings(
+        pull_off["pixels"], pull_off["tolerances"], at_pixels, pull_off["at_tolerance"]
+    )
     length, n = cell_size(surface), grid_points(surface, finest)
     points = np.array(pull_off["points"])
-    laws = [
-        scaled_law(pull_off, pull_off["law"], strength, range_)
-        for range_, strength in pull_off["points"]
-    ]
+    laws = [scaled_law(pull_off, pull_off["law"], strength, range_) for range_, strength in points]
     seeds, rows = np.arange(1, pull_off["seeds"] + 1), []
     for seed in seeds:
         heights = synthesis.synthesise(model_spectrum(surface), n, length, int(seed))
         parts = [
-            separate(
-                measuring.sample(heights, finest // s["pixels"]),
-                length,
-                laws,
-                pull_off["pressure"],
-                s,
-            )
+            separate(measuring.coarsen(heights, finest // s["pixels"]), length, laws, pull_off, s)
             for s in settings
         ]
-        step = finest // pull_off["at_pixels"]
-        limit = solve_dmt_limit(heights[::step, ::step], length, laws, pull_off)
+        usual = measuring.coarsen(heights, finest // at_pixels)
+        limit = solve_dmt_limit(usual, length, laws, pull_off)
         rows.append(xr.concat(parts, "setting").assign(pull_off_dmt=("point", limit)))
         logging.info("seed %d", seed)
     dataset = measuring.stack(rows, "seed", seeds)
-    for key in (*measuring.SETTING_TEXTS, "balance"):
+    for key in ("knob", "pixels", "tolerance"):
         dataset[key] = "setting", [setting[key] for setting in settings]
     dataset = dataset.assign_coords(
         range_over_h_rms=("point", points[:, 0]), adhesion_length_over_range=("point", points[:, 1])
     )
     datasets.write(
-        annotate(dataset.assign(pair_time=measuring.time_transforms())),
+        datasets.annotate(
+            dataset.assign(pair_time=measuring.time_transforms()),
+            **measuring.TEXTS,
+            pull_off=("1", "lowest mean pressure over E* q0 h_rms"),
+            pull_off_dmt=("1", "lowest mean pressure over E* q0 h_rms in the DMT limit"),
+            range_over_h_rms=VARIABLES["range_over_h_rms"],
+            adhesion_length_over_range=VARIABLES["adhesion_length_over_range"],
+            seconds=("s", "processor time of the separation"),
+        ),
         job.output[0],
         title="pull-off of the same realisations with various settings",
         parameters={**surface, "q0_h_rms": pull_off["q0_h_rms"], "pressure": pull_off["pressure"]},
     )
 
 
-def list_settings(pull_off):
-    """List every setting: grids, then tolerances, then steps of the path on two grids."""
-    pixels = pull_off["at_pixels"]
-    usual = {
-        "knob": "pixels",
-        "pixels": pixels,
-        "tolerance": pull_off["at_tolerance"],
-        "balance": pull_off["at_balance"],
-    }
-    return [
-        *(usual | {"pixels": points} for points in pull_off["pixels"]),
-        *(usual | {"knob": "tolerance", "tolerance": value} for value in pull_off["tolerances"]),
-        *(
-            usual | {"knob": "step", "pixels": points, "balance": value}
-            for points in (pixels // 2, pixels)
-            for value in pull_off["balances"]
-        ),
-    ]
-
-
-def separate(heights, length, laws, load, setting):
-    """Lowest mean pressure on separation from a load with every law, and the time it took."""
+def separate(heights, length, laws, pull_off, setting):
+    """Find the lowest mean pressure on separation with every law, and the time it took."""
+    balance = pull_off["at_balance"]
 
     def lowest(law):
         path = adhesive.path(
             heights,
             length,
             law,
-            (load, -2 * law.strength),
+            (pull_off["pressure"], -2 * law.strength),
             tol=setting["tolerance"],
-            balance=setting["balance"],
-            smallest_jump=setting["balance"],
+            balance=balance,
+            smallest_jump=balance,
             steps=LEAST,
         )
         return min(point.state.mean_pressure for point in path if point.event != "pull-off")
@@ -103,25 +86,11 @@ def separate(heights, length, laws, load, setting):
 
 
 def solve_dmt_limit(heights, length, laws, pull_off):
-    """Lowest of the loads without adhesion, less the attraction over their gaps, with every law."""
+    """Find the lowest of the loads without adhesion, less the attraction over their gaps."""
     largest = pull_off["pressure"]
     loads = np.geomspace(largest / 10**DECADES, largest, DECADES * PER_DECADE + 1)
     path = list(solver.load_path(heights, length, loads, tol=pull_off["at_tolerance"]))
     return [min(c.mean_pressure - dmt.adhesive_pressure(c.gap, law) for c in path) for law in laws]
-
-
-def annotate(dataset):
-    return datasets.annotate(
-        dataset,
-        **measuring.SETTING_TEXTS,
-        **measuring.SHARED_TEXTS,
-        balance=("1", "error of the energy balance of a step over the energies of the path"),
-        pull_off=("1", "lowest mean pressure over E* q0 h_rms"),
-        pull_off_dmt=("1", "lowest mean pressure over E* q0 h_rms in the DMT limit"),
-        range_over_h_rms=VARIABLES["range_over_h_rms"],
-        adhesion_length_over_range=VARIABLES["adhesion_length_over_range"],
-        seconds=("s", "processor time of the separation"),
-    )
 
 
 if __name__ == "__main__":

@@ -1,10 +1,9 @@
-"""What all measurements of accuracy and cost share: quantities, settings, clock, memory."""
+"""What all measurements of accuracy and cost share: quantities, settings and clock."""
 
 from __future__ import annotations
 
 import statistics
 import time
-import tracemalloc
 from collections.abc import Callable, Sequence
 
 import numpy as np
@@ -16,20 +15,18 @@ from common.quantities import derive, quote
 from stickiness.accuracy.quantities import MODELLED, columns_of
 from stickiness.repulsive import half_space
 
-SETTING_TEXTS = {  # of the knobs that every solver has
+UNIT = 1024  # side of the grid whose pair of transforms is the unit of cost
+COVERED = 0.9  # share of cases that a stated error covers
+TEXTS = {
     "knob": ("1", "what the settings vary"),
     "pixels": ("1", "grid points per shortest wavelength"),
     "tolerance": ("1", "tolerance of the solver over h_rms"),
-}
-SHARED_TEXTS = {
     "seed": ("1", "seed of the realisation"),
     "pair_time": ("s", "processor time of a pair of transforms of 1024 x 1024 doubles"),
 }
-UNIT = 1024  # side of the grid whose pair of transforms is the unit of cost
-COVERED = 0.9  # share of cases that a stated error covers
 
 
-def derived(solved: xr.Dataset) -> dict[str, xr.DataArray]:
+def derive_columns(solved: xr.Dataset) -> dict[str, xr.DataArray]:
     """Return the columns of all quantities that have error models, from solutions.
 
     P(u) is taken at all gaps that its error is measured over, not only where it is quoted.
@@ -68,25 +65,19 @@ def time_transforms(repetitions: int = 9) -> float:
     )
 
 
-def measure_memory(task: Callable[[], object]) -> float:
-    """Measure the largest memory [MB] that a task holds at once, its operators included."""
-    half_space.clear_caches()
-    tracemalloc.start()
-    task()
-    peak = tracemalloc.get_traced_memory()[1]
-    tracemalloc.stop()
-    return peak / 1e6
-
-
-def sample(heights: NDArray, step: int) -> NDArray:
+def coarsen(heights: NDArray, step: int) -> NDArray:
     """Take every `step`-th point along both axes."""
     return np.ascontiguousarray(heights[::step, ::step])
 
 
-def select_knob(measured: xr.Dataset, knob: str) -> xr.Dataset:
-    """Select the settings that vary one knob."""
-    chosen = measured.isel(setting=np.flatnonzero(measured.knob == knob))
-    return chosen.assign_coords(setting=np.arange(chosen.sizes["setting"]))
+def list_settings(
+    pixels: Sequence[int], tolerances: Sequence[float], at_pixels: int, at_tolerance: float
+) -> list[dict]:
+    """List every setting to solve with: one is varied while the other stays at its usual value."""
+    return [
+        *({"knob": "pixels", "pixels": p, "tolerance": at_tolerance} for p in pixels),
+        *({"knob": "tolerance", "pixels": at_pixels, "tolerance": t} for t in tolerances),
+    ]
 
 
 def stack(parts: Sequence[xr.Dataset], name: str, values: ArrayLike, **options) -> xr.Dataset:

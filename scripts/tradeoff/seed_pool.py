@@ -1,4 +1,4 @@
-"""Pools of solved seeds from files of `measure_seeds`, and means resampled from them."""
+"""Pools of solved seeds from files of `measure_contact`, and means resampled from them."""
 
 from __future__ import annotations
 
@@ -9,14 +9,13 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from stickiness.accuracy import multilevel
-from stickiness.accuracy.choice import COARSE_SEEDS, SEEDS
 from stickiness.accuracy.error_models import COARSE, Settings
+from stickiness.accuracy.settings import COARSE_SEEDS, SEEDS
 from stickiness.repulsive import richardson
-from tradeoff.measuring import derived
+from tradeoff.measuring import derive_columns
 
 KEPT = ("area_fraction", "mean_gap", "attractive_area", "rms_slope")
 LEVEL = ("mean", "standard_error")
-FINEST = 32  # pixels of the reference in files of `measure_grids`
 FEWEST_FINE = 32  # seeds of a grid that means are drawn from; the finest may have fewer
 
 
@@ -28,8 +27,8 @@ class SeedPool:
     ----------
     fine : dict of (seed, entry) array
         By pixels per shortest wavelength, 2 included.
-    coarse, fixed : (seed, entry) array
-        More seeds on 2 pixels; seeds of fixed amplitudes on 4.
+    coarse : (seed, entry) array
+        More seeds on 2 pixels.
     controls, elsewhere : (seed, descriptor) array
         Descriptors of the long waves of the coarse seeds and of those that are not solved.
     pressure, quantity : (entry,) array
@@ -42,13 +41,11 @@ class SeedPool:
         Mean of the fine seeds alone, on the finest grid, about which plain means drawn from them
         scatter.
     grid_errors : dict of pair of (entry,) arrays
-        By pixels, relative error of the mean by the grid, and the standard error of that; none if
-        no grid is fine enough to tell.
+        By pixels, relative error of the mean by the grid, and its standard error.
     """
 
     fine: dict[int, NDArray]
     coarse: NDArray
-    fixed: NDArray
     controls: NDArray
     elsewhere: NDArray
     pressure: NDArray
@@ -116,36 +113,24 @@ class Resampling:
         return self.levels[count]
 
 
-def make_pool(measured: xr.Dataset, finest: xr.Dataset | None = None) -> SeedPool:
-    """Make the pool of a file of `measure_seeds`.
+def make_pool(measured: xr.Dataset) -> SeedPool:
+    """Make the pool of a file of `measure_contact`.
 
-    Parameters
-    ----------
-    measured
-        The file. Its finest grid, of fewer seeds than the others, is the reference of the truth.
-    finest
-        A file of `measure_grids` of the same surface that holds a finer grid still.
+    Its finest grid, with fewer seeds than the others, is the reference of the truth.
     """
     pixels = [int(p) for p in measured.pixels.values]
-    solved = {p: select_grid(measured, p) for p in pixels}
-    entries = {p: flatten(derived(one)) for p, one in solved.items()}
+    entries = {p: flatten(derive_columns(select_grid(measured, p))) for p in pixels}
     fine = {p: values for p, (values, *_) in entries.items()}
     _, quantity, pressure = entries[COARSE]
-    more = {kind: flatten(derived(rename_seeds(measured, kind)))[0] for kind in ("coarse", "fixed")}
+    coarse = flatten(derive_columns(rename_seeds(measured, "coarse")))[0]
     controls, elsewhere = measured.long_waves.values, measured.other_long_waves.values
-    if finest is None:
-        last, best = pixels[-1], pixels[-2]
-        pairs = {best: (fine[best][: len(fine[last])], fine[last])}
-    else:
-        best, grids = pixels[-1], collect_grids(finest)
-        pairs = {p: (grids[p], grids[FINEST]) for p in grids if best <= p < FINEST}
+    best, last = pixels[-2:]
+    pairs = {best: (fine[best][: len(fine[last])], fine[last])}
     ratio = pairs[best][1].sum(0) / pairs[best][0].sum(0)
-    estimate = multilevel.multilevel_mean(
-        fine[best], fine[COARSE], more["coarse"], controls, elsewhere
-    )
+    estimate = multilevel.multilevel_mean(fine[best], fine[COARSE], coarse, controls, elsewhere)
     return SeedPool(
         fine=fine,
-        **more,
+        coarse=coarse,
         controls=controls,
         elsewhere=elsewhere,
         pressure=pressure,
@@ -155,9 +140,7 @@ def make_pool(measured: xr.Dataset, finest: xr.Dataset | None = None) -> SeedPoo
         fine_mean=fine[best].mean(0) * ratio,
         grid_errors=measure_grid_errors(
             {p: values for p, values in fine.items() if p <= best}, pairs, best
-        )
-        if finest is not None or pixels[-1] >= FINEST
-        else {},
+        ),
     )
 
 
@@ -178,18 +161,6 @@ def measure_grid_errors(fine, pairs, best):
             off, noise = compare(values, fine[best])
             found[p] = (1 + off) * (1 + found[best][0]) - 1, np.hypot(noise, found[best][1])
     return found
-
-
-def collect_grids(finest: xr.Dataset) -> dict[int, NDArray]:
-    """Collect values `(seed, entry)` by grid from a file of `measure_grids`."""
-    grids = finest.isel(setting=np.flatnonzero(finest.knob == "pixels"))
-    pixels = grids.pixels.values
-    solved = {int(p): grids.isel(setting=int(np.argmax(pixels == p))) for p in pixels}
-    return {
-        p: flatten(derived(one.assign(attractive_area=extrapolate_area(solved[p // 2], one))))[0]
-        for p, one in solved.items()
-        if p // 2 in solved
-    }
 
 
 def select_grid(measured: xr.Dataset, pixels: int) -> xr.Dataset:

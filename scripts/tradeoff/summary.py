@@ -1,66 +1,87 @@
-"""Summary of the trade between accuracy and cost: a table that is committed, and how it is shown.
+"""The table of errors and costs: one row for each setting and quantity, on each surface and load.
 
-Rows are medians over surfaces and loads, one for every setting of every knob and every quantity.
+The committed table holds medians over surfaces and loads.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 
 import numpy as np
 import pandas as pd
 
-COLUMNS = ("knob", "setting", "quantity", "error", "cost", "memory")
+KEYS = ["problem", "quantity", "setting", "value"]
+COLUMNS = [*KEYS, "surface", "pressure", "error", "cost", "seconds"]
 COMMENT = """\
-# What every setting errs by and costs, medians over surfaces and loads, from the target tradeoff.
-# To take a new measurement over, copy it here. Errors are relative and cover 90 %; cost in pairs of
-# Fourier transforms of 1024 x 1024 doubles; memory in MB.
+# Error and cost of each setting and each model, from the target tradeoff: medians over surfaces and
+# loads, one setting varied at a time. Errors are relative and cover 90 %. Cost: pairs of Fourier
+# transforms of 1024 x 1024 doubles, per solution (seeds: per mean) at one load. A new measurement
+# is taken over by copying it here.
 """
 
 
+def list_rows(
+    where: tuple[str, str, str, str],
+    errors: Mapping[tuple[str, float], float],
+    seconds: float,
+    unit: float,
+) -> list[tuple]:
+    """List a row for every quantity and load.
+
+    Parameters
+    ----------
+    where
+        Problem, setting, value and surface.
+    errors
+        Relative errors by quantity and load.
+    seconds, unit
+        Processor time [s], and that of the pair of transforms that costs are counted in.
+    """
+    problem, setting, value, surface = where
+    return [
+        (problem, quantity, setting, value, surface, load, float(error), seconds / unit, seconds)
+        for (quantity, load), error in errors.items()
+    ]
+
+
+def take_medians(rows: pd.DataFrame) -> pd.DataFrame:
+    """Take medians over surfaces and loads."""
+    return rows.groupby(KEYS, sort=False)[["error", "cost"]].median().reset_index()
+
+
 def write(path: Path, medians: pd.DataFrame) -> None:
-    """Write the table with its comment."""
-    text = medians[list(COLUMNS)].to_csv(index=False, float_format="%.6g", lineterminator="\n")
+    """Write the table of medians with its comment."""
+    text = medians.to_csv(index=False, float_format="%.6g", lineterminator="\n")
     path.write_text(COMMENT + text, encoding="utf-8")
 
 
 def read(path: str | Path) -> pd.DataFrame:
-    """Read the table.
-
-    Raises
-    ------
-    ValueError
-        Naming the file and what it lacks.
-    """
+    """Read the table of medians; ValueError if it is not there or lacks a column."""
     try:
-        medians = pd.read_csv(path, comment="#", dtype={"setting": str})
+        medians = pd.read_csv(path, comment="#", dtype={"value": str})
     except FileNotFoundError:
         raise ValueError(f"{path}: no such file; the target tradeoff makes it") from None
-    missing = [name for name in COLUMNS if name not in medians]
+    missing = [name for name in (*KEYS, "error", "cost") if name not in medians]
     if missing:
         raise ValueError(f"{path}: lacks the column {missing[0]!r}; the target tradeoff makes it")
     return medians
 
 
 def tables(medians: pd.DataFrame) -> Iterator[tuple[list[str], list[list[str]]]]:
-    """Head and lines of a table for every knob, with one line for every setting, as texts."""
-    for knob in dict.fromkeys(medians.knob):
-        part = medians[medians.knob == knob]
+    """Head and lines of a table for every problem and setting, as texts."""
+    for (problem, setting), part in medians.groupby(["problem", "setting"], sort=False):
         quantities = list(dict.fromkeys(part.quantity))
         lines = []
-        for setting in dict.fromkeys(part.setting):
-            one = part[part.setting == setting]
-            errors = [
-                percent(one.error[one.quantity == quantity].median()) for quantity in quantities
-            ]
-            lines.append([setting, *errors, plain(one.cost.median()), plain(one.memory.median())])
-        yield [knob, *quantities, "cost", "memory [MB]"], lines
+        for value, one in part.groupby("value", sort=False):
+            errors = one.set_index("quantity").error.reindex(quantities)
+            lines.append([value, *map(percent, errors), number(one.cost.median())])
+        yield [f"{problem}: {setting}", *quantities, "cost"], lines
 
 
 def percent(value: float) -> str:
     return "–" if not np.isfinite(value) else f"{100 * value:.2g} %"
 
 
-def plain(value: float) -> str:
+def number(value: float) -> str:
     return "–" if not np.isfinite(value) else f"{value:.3g}"

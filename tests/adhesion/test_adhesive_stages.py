@@ -8,8 +8,7 @@ from scipy import optimize, stats
 from adhesion import average_adhesive, solve_adhesive
 from adhesion.dmt_limit import DmtLimit, fit_slope, linearity_error
 from common.adhesion_sets import scaled_law
-from stickiness import adhesive, dmt, repulsive, spectrum, surface
-from stickiness.accuracy import multilevel
+from stickiness import dmt, repulsive, spectrum, surface
 from stickiness.adhesive import edge_zone
 
 LENGTH = 2 * np.pi
@@ -89,24 +88,6 @@ def test_what_the_grid_does_not_resolve_is_left_out(heights):
     law = scaled_law(ASKED, "maugis", 1.0, 0.3)
     pixel = LENGTH / 64
     assert edge_zone.resolution(pixel, law.range, law.adhesion_length) > edge_zone.COARSEST
-
-
-@pytest.mark.slow
-def test_grid_hardly_matters_to_the_exponential_law(heights):
-    """At half the resolution the relief by adhesion changes by less than a twentieth."""
-    fine, coarse = (
-        solved(part, adhesion_length_over_range=[0.03], law="exponential")
-        for part in (surface.resample(heights, 256), surface.resample(heights, 128))
-    )
-    one, other = (float(part.inverse_kappa_ad.squeeze()) for part in (fine, coarse))
-    assert other == pytest.approx(one, rel=0.05)
-
-
-def test_units_of_the_laws():
-    law = scaled_law({"q0_h_rms": 0.1}, "exponential", 0.05, 0.2)
-    assert isinstance(law, adhesive.Exponential)
-    assert law.maugis_stress == pytest.approx(0.5)  # (l_a/range)/(q0 h_rms)
-    assert law.range == 0.2
 
 
 def test_width_of_the_zone_follows_the_edge_law():
@@ -196,40 +177,3 @@ def test_dmt_attraction_of_areas_is_that_over_the_gaps(heights):
             at = got.sel(adhesion_length_over_range=length, range_over_h_rms=reach)
             # 16 areas a decade, which count the points one by one
             assert float(at) == pytest.approx(expected, rel=0.01)
-
-
-@pytest.mark.slow
-def test_dmt_of_coarse_solutions_is_a_control_without_bias():
-    """Means over eight seeds, controlled, against the plain mean over all of many."""
-    full, coarse = many_solutions(range(320))
-    plain, controlled = [], []
-    groups = np.arange(len(full)).reshape(-1, 8)
-    for group in groups:
-        others = np.setdiff1d(np.arange(len(full)), group)
-        got = multilevel.multilevel_mean(full[group], coarse[group], coarse[others], fewest=8)
-        plain.append(full[group].mean(0))
-        controlled.append(got.mean)
-    plain, controlled = np.array(plain), np.array(controlled)
-    # The means of the groups are nearly the same for all, so it is their difference that tells.
-    difference = controlled - plain
-    error = difference.std(0, ddof=1) / np.sqrt(len(groups))
-    assert np.all(np.abs(difference.mean(0)) < 3 * error)
-    gain = plain.var(0, ddof=1) / controlled.var(0, ddof=1)
-    # With so few pixels much of the scatter is theirs, of which no control knows.
-    assert np.all(gain > 1.5)
-
-
-def many_solutions(seeds):
-    """1/kappa_ad in full, weak and strong adhesion, and in the DMT limit on 2 points a wave."""
-    asked = ASKED | {"law": "exponential", "adhesion_length_over_range": [0.01, 0.1]}
-    s = spectrum.SelfAffine(hurst=0.8, q0=1.0, q1=8.0, h_rms=1.0)
-    none, both = np.zeros((1, 2, 1), bool), np.ones((1, 2, 1), bool)
-    full, limit = [], []
-    for seed in seeds:
-        heights = surface.synthesise(s, 32, LENGTH, seed=seed)
-        one = solve_adhesive.states(heights, LENGTH, asked, both, 1e-6).squeeze()
-        held = one.external_pressure / one.repulsive_area
-        full.append(((1 - held / (one.pressure / one.area_alone)) / 2).values)
-        coarse = solve_adhesive.states(heights[::2, ::2], LENGTH, asked, none, 1e-6).squeeze()
-        limit.append((coarse.attraction_dmt / coarse.pressure / 2).values)
-    return np.array(full), np.array(limit)

@@ -4,7 +4,7 @@ import numpy as np
 import xarray as xr
 
 from adhesion import compare_edges
-from stickiness import equivalent_sphere
+from stickiness.criteria import equivalent_sphere
 
 
 def test_simulation_of_spheres_is_the_model_of_the_edges():

@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from common import coarse_solutions, ensemble_means
+from common import contact_curves, ensemble_means
+from common.conventions import annotate
 from contact import ensembles
 from stickiness import datasets
 from stickiness.accuracy import multilevel
@@ -133,9 +134,11 @@ def test_coarse_solutions_in_parts_are_those_of_one_file(tmp_path):
     parts = {"one": range(48), "first": range(32), "second": range(32, 48)}
     files = {}
     for name, which in parts.items():
-        solved = coarse_solutions.coarse_solutions(asked, which, 20, *curves)
+        solved = contact_curves.coarse_solutions(asked, which, 20, *curves)
         path = tmp_path / f"{name}.nc"
-        datasets.write(coarse_solutions.annotate(solved), path, title=name, parameters=asked)
+        datasets.write(
+            annotate(solved, **contact_curves.VARIABLES), path, title=name, parameters=asked
+        )
         files[name] = datasets.read(path)
     assert files["second"].sizes["other"] == 0
     whole = ensembles.rename_coarse(ensembles.join([files["one"]]))

@@ -5,10 +5,8 @@ import pytest
 import xarray as xr
 
 from common import ensemble_means, grid_limits
-from common.a_v_fits import average
 from common.contact_curves import load_curve
-from common.kappa import fit_slope
-from common.quantities import fit_intervals, slope_of_area
+from common.quantities import average_a_v, fit_intervals, fit_slope, slope_of_area
 from contact.ensembles import AVERAGED, add_statistics
 from stickiness import spectrum, surface
 from stickiness.repulsive import richardson
@@ -114,7 +112,7 @@ def test_errors_of_two_means_add_in_quadrature(ensemble):
 
 def test_a_v_is_that_of_the_extrapolated_areas(ensemble):
     """A fit is linear in the areas: the fit of the mean is the mean of the fits."""
-    dataset = average(fit_intervals(ensemble, WINDOWS), ensemble, WINDOWS)
+    dataset = average_a_v(fit_intervals(ensemble, WINDOWS), ensemble, WINDOWS)
     for variable, fit in (
         ("attractive_area_mean", "a_v_mean"),
         ("attractive_area_discretisation_error", "a_v_discretisation_error"),

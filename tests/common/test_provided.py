@@ -4,7 +4,7 @@ from pathlib import Path
 
 import yaml
 
-from report import provided
+from common import provided
 
 CONFIG = Path(__file__).parents[2] / "config"
 
@@ -15,7 +15,7 @@ def test_names_are_those_of_the_configuration():
         assert file[kind].keys() >= names
 
 
-def test_own_come_first_in_their_order():
+def test_user_defined_names_come_first_in_their_order():
     names = ["steel", "b", "psa", "a"]
-    assert provided.own_first(names, provided.MATERIALS) == ["b", "a", "steel", "psa"]
-    assert provided.own(names, provided.MATERIALS) == ["b", "a"]
+    assert provided.user_defined_first(names, provided.MATERIALS) == ["b", "a", "steel", "psa"]
+    assert provided.user_defined(names, provided.MATERIALS) == ["b", "a"]

@@ -11,8 +11,6 @@ from contact import average_ensemble, solve_coarse, solve_repulsive
 from stickiness import datasets, repulsive, spectrum, surface
 from stickiness import error_budget as budget
 from stickiness.accuracy.quantities import (
-    MODELLED,
-    QUANTITIES,
     Column,
     Quantity,
     slope_within_contact,
@@ -152,7 +150,3 @@ def test_entries_that_nothing_makes_are_refused():
         Quantity("twist", (column,), means=("twist",))
     with pytest.raises(ValueError, match=r"column twist: file = 'fit', must be one of"):
         Column("twist", "twist", "twist", "twist", file="fit")
-
-
-def test_cases_hold_what_has_error_models_unless_they_name_their_quantities():
-    assert set(QUANTITIES) - set(MODELLED) == {"contact_slope"}

@@ -6,12 +6,11 @@ import numpy as np
 import pytest
 import xarray as xr
 
+from criteria.classification import find_limits
 from criteria.curves import MODULUS_FACTORS, ROUGHNESS_FACTORS, follow, follow_remaining
-from criteria.joint import Joint
+from criteria.judging import judge_measured, judge_pairs, stack_pairs
 from criteria.materials import read_material
-from criteria.pairs import DIMS, describe_remaining, gather_pairs
-from criteria.probabilities import find_probabilities
-from criteria.words import find_limits
+from criteria.pair_roughness import PairRoughness
 from stickiness.criteria.a_v_table import SurfaceAv
 from stickiness.remaining import predict
 from stickiness.remaining.prediction import DEFAULT_SHARE, Roughness
@@ -44,28 +43,28 @@ ENTRIES["slow"].pop("youngs_modulus")
 FREQUENCIES, DRAWS = np.geomspace(1e-4, 1e6, 21), 60
 
 
-def made_joint(solid, drawn, strain=0.1):
+def made_roughness(solid, drawn, strain=0.1):
     """Surface of a pair, with spectra drawn around its middle if it was measured."""
     layered = "thickness" in solid
-    softness, factor = (0.5, 1.3) if layered else (1.0, 1.0)
+    compliance, factor = (0.5, 1.3) if layered else (1.0, 1.0)
     draws = None
     if drawn:
         h = np.random.default_rng(1).lognormal(np.log(1.2e-6), 0.35, DRAWS)
         energy = ENERGY[0] * (h / HEIGHTS[0]) ** 2
-        draws = Roughness(h, np.full(DRAWS, Q0), factor * energy, softness, energy)
-    return Joint(
+        draws = Roughness(h, np.full(DRAWS, Q0), factor * energy, compliance, energy)
+    return PairRoughness(
         h_rms=HEIGHTS,
         rms_slope=np.ones(2),
         rms_curvature=np.full(2, 1e7),
         elastic_energy=factor * ENERGY,
-        stiffening=np.full(2, factor),
+        energy_ratio_to_half_space=np.full(2, factor),
         layer_strain=np.full(2, strain if layered else 0.0),
         q0=Q0,
         a_v=(A_V, A_V),
-        softness=softness,
-        deep_energy=ENERGY,
-        widening=1.0,
-        drawn=draws,
+        relative_compliance=compliance,
+        half_space_energy=ENERGY,
+        anisotropy_error_factor=1.0,
+        samples=draws,
     )
 
 
@@ -73,26 +72,24 @@ def made_joint(solid, drawn, strain=0.1):
 def followed(drawn, strain=0.1):
     """Curves beside what is stored of the pairs."""
     materials = {name: read_material(entry) for name, entry in ENTRIES.items()}
-    joints = [[made_joint(entry, drawn, strain)] for entry in ENTRIES.values()]
-    pair = gather_pairs(materials, joints)
+    roughness = [[made_roughness(entry, drawn, strain)] for entry in ENTRIES.values()]
+    pair = stack_pairs(materials, roughness)
     dataset = xr.Dataset(
-        describe_remaining(pair, materials)
-        | {"layer_strain": (DIMS, np.array([[j.layer_strain for j in row] for row in joints]))},
+        judge_pairs(pair, materials, roughness) | judge_measured(materials, roughness),
         coords={"material": list(materials), "surface": ["wall"], "end": ["smooth", "rough"]},
     )
-    dataset = dataset.assign(find_probabilities(materials, joints))
-    curves = follow_remaining(pair, materials, joints, FREQUENCIES)
+    curves = follow_remaining(pair, materials, roughness, FREQUENCIES)
     return dataset.assign(curves).assign_coords(frequency=FREQUENCIES).squeeze("surface")
 
 
 def follow_at(moduli, drawn):
     """Share and limits of the tape at these E* [Pa]."""
     materials = {"tape": read_material(TAPE)}
-    joints = [[made_joint(TAPE, drawn)]]
+    roughness = [[made_roughness(TAPE, drawn)]]
     found = follow(
-        gather_pairs(materials, joints),
+        stack_pairs(materials, roughness),
         list(materials.values()),
-        joints,
+        roughness,
         "modulus_factor",
         np.reshape(moduli, (-1, 1)),
         np.ones(len(moduli)),

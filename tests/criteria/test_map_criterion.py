@@ -6,7 +6,7 @@ from helpers.constant_a_v import ConstantAv
 
 from criteria import map_criterion
 from criteria.simulated_a_v import MeasuredAv
-from stickiness import equivalent_sphere
+from stickiness.criteria import equivalent_sphere
 
 ASKED_MAP = {
     "hurst": 0.8,

@@ -7,13 +7,14 @@ import pytest
 import xarray as xr
 
 from criteria import materials
-from criteria.probabilities import draw_pair
-from criteria.words import decide_pairs
+from criteria.classification import decide_pairs
+from criteria.judging import judge_samples
 from stickiness.criteria.pair import WORDS
 from stickiness.criteria.registry import EDGES
 from stickiness.remaining.prediction import DEFAULT_SHARE, Roughness
 from stickiness.solids.moduli import Prony
 
+SERIES = Prony(1e4, ((3e4, 1.0), (2e5, 1e-3)))
 ENTRY = {"label": "a", "work_of_adhesion": "70 mJ/m^2", "range": "0.3 nm", "source": "b"}
 
 
@@ -25,7 +26,7 @@ def test_materials_in_every_form():
     series = {"equilibrium": "10 kPa", "terms": [["30 kPa", "1 s"], ["0.2 MPa", "1 ms"]]}
     prony = materials.read_material(ENTRY | {"youngs_modulus_prony": series, "poisson_ratio": 0.5})
     assert prony.depends_on_rate
-    assert prony.modulus == pytest.approx(Prony(1e4, ((3e4, 1.0), (2e5, 1e-3))).storage(1.0) / 0.75)
+    assert prony.modulus == pytest.approx(SERIES.storage(1.0) / 0.75)
     pairs = [["10 mHz", "50 kPa"], ["0.1 kHz", "0.5 MPa"]]
     table = materials.read_material(ENTRY | {"youngs_modulus_table": pairs, "poisson_ratio": 0})
     assert table.modulus == pytest.approx(np.sqrt(50e3 * 0.5e6))
@@ -58,10 +59,10 @@ def test_errors_of_the_spectrum_pass_to_the_margin():
     # Tough: the threshold is in proportion to the elastic energy, whatever h_rms and q0.
     rng = np.random.default_rng(0)
     energy = 1e-7 * np.exp(0.2 * rng.normal(size=4000))
-    found = draw_pair(MATERIAL, Roughness(1e-6 * SAME, 1e5 * SAME, energy))
+    found = judge_samples(MATERIAL, Roughness(1e-6 * SAME, 1e5 * SAME, energy))
     assert found.from_spectrum == pytest.approx(0.2, rel=0.05)
     h, q0 = 1e-6 * np.exp(0.1 * rng.normal(size=4000)), 1e5 * np.exp(0.2 * rng.normal(size=4000))
-    found = draw_pair(MATERIAL, Roughness(h, q0, 1e-7 * SAME))
+    found = judge_samples(MATERIAL, Roughness(h, q0, 1e-7 * SAME))
     assert found.from_spectrum < 1e-3
 
 
@@ -73,7 +74,7 @@ def test_draws_spread_over_the_error_of_the_model(factor, expected):
     Half of the draws stick at the threshold, all or none of them well beyond the model's error.
     """
     solid = material_at(factor)
-    found = draw_pair(solid, Roughness(1e-6 * SAME, 1e5 * SAME, 1e-7 * SAME))
+    found = judge_samples(solid, Roughness(1e-6 * SAME, 1e5 * SAME, 1e-7 * SAME))
     assert found.from_spectrum == pytest.approx(0, abs=1e-12)
     assert found.share_from_spectrum == pytest.approx(0, abs=1e-12)
     # What sticks is what keeps the wanted share.
@@ -95,7 +96,7 @@ def test_draws_spread_over_the_error_of_the_model(factor, expected):
         ((0.85, 0.9, 1.0), 2.0, "sticks fully"),
         ((0.15, 0.3, 0.5), 2.0, "sticks"),
         ((0.05, 0.3, 0.5), 2.0, "depends"),
-        ((0.0, 0.0, 0.08), 2.0, "touches without hold"),
+        ((0.0, 0.0, 0.08), 2.0, "adheres locally, does not hold"),
         ((0.0, 0.0, 0.08), 0.5, "does not stick"),
         ((np.nan,) * 3, 2.0, "depends"),  # not measured: the ends decide
     ],

@@ -110,14 +110,6 @@ def test_highest_summit_is_that_of_the_window():
     assert 3.3 < large < 4.0
 
 
-def test_highest_summit_hardly_depends_on_short_waves(monkeypatch):
-    made = {"hurst": 0.8, "magnification": 64}
-    full = persson_lattice.highest_summit(made)
-    monkeypatch.setattr(persson_lattice, "LONG_WAVES", 16.0)
-    # one and the same rms height; four times the waves make it a few per cent higher
-    assert persson_lattice.highest_summit(made) == pytest.approx(full, rel=0.06)
-
-
 @pytest.fixture(scope="module")
 def solved(tmp_path_factory):
     """Ensemble of one job, multilevel."""
@@ -209,25 +201,3 @@ def test_cases_of_one_window_do_not_average_their_errors_out(made_by_theory):
     assert width[1] == pytest.approx(np.log(high / low), rel=0.15)  # eight copies know no more
     # Of 8 windows, some are drawn more than once: errors average out by less than sqrt(8).
     assert 0.35 * width[1] < width[8] < 0.75 * width[1]
-
-
-def test_drawn_cases_come_with_their_window():
-    windows = np.array([1, 1, 1, 1, 4, 4, 4, 4])
-    chosen, off = fit_gamma.sample(np.random.default_rng(1), 400, windows)
-    of_first = (windows[chosen] == 1).mean(axis=1)
-    assert np.mean(np.isin(of_first, (0, 1))) == pytest.approx(0.5, abs=0.1)
-    for shifts, cases in zip(off[0], chosen, strict=True):
-        assert len(np.unique(shifts)) == len(np.unique(windows[cases]))
-
-
-@pytest.mark.parametrize(("lows", "agree"), [((0.4, 0.45, 0.48), True), ((0.3, 0.4, 0.51), False)])
-def test_quantities_agree_where_their_intervals_share_a_gamma(lows, agree):
-    lows = np.array([*lows, 0.45])
-    intervals = xr.Dataset(
-        {
-            "gamma_low": (("correction", "quantity"), [lows]),
-            "gamma_high": (("correction", "quantity"), [lows + 0.2]),
-        },
-        coords={"quantity": [*fit_gamma.QUANTITIES, fit_gamma.EVERY]},
-    )
-    assert bool(fit_gamma.agreement(intervals).all()) is agree

@@ -6,7 +6,8 @@ import json
 import numpy as np
 import xarray as xr
 
-from experiments.entries import OBSERVED_UNITS, read_observation
+from common.config.entries import OBSERVED_UNITS
+from experiments.predict_experiments import read_observation
 from stickiness.criteria.registry import CRITERIA
 
 
@@ -75,7 +76,8 @@ def make_experiments():
 def observe(observed, **conditions):
     """Observation of a case with other conditions than `CONDITIONS`; None: without."""
     entry = {key: given for key, given in (CONDITIONS | conditions).items() if given is not None}
-    return read_observation("mine", "one", entry, {"label": "one", "observed": observed})
+    entry["cases"] = {"one": {"label": "one", "observed": observed}}
+    return read_observation("mine", "one", entry)
 
 
 def make_dataset(rows, experiments=EXPERIMENTS):

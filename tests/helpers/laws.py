@@ -20,7 +20,6 @@ def made_up():
             ("fine_share", column): ErrorModel(math.log(0.1)),
             ("coarse_share", column): ErrorModel(math.log(0.5)),
             ("theory", column): ErrorModel(math.log(0.1)),
-            ("carrying", column): ErrorModel(math.log(0.1)),
         }
     costs = {"fine_cost": ErrorModel(0.0, pixels=2.0), "coarse_cost": ErrorModel(math.log(4.0))}
     costs |= {

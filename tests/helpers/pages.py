@@ -1,51 +1,84 @@
-"""What a reader of a page sees, for tests."""
+"""What a reader of a page sees, for tests, and jobs of the rules that write pages."""
 
 import re
 from html.parser import HTMLParser
+from types import SimpleNamespace
 
 SHOWN = ("alt", "aria-label", "content", "data-label")  # attributes that are read out or drawn
 APART = ("code", "script", "style")  # names of files and code
-LINE, LINES = 95, 5  # characters, of a caption at 1280 pixels
 RAW = re.compile(r"\w_\w|\S?\^\S?")
+VOID = {"meta", "link", "img", "br", "wbr", "input", "hr"}
 
 
-class _Shown(HTMLParser):
-    """Texts and attributes that a page shows, each with the elements that it stands in."""
+class Files(dict):
+    """Paths of a job by name."""
 
-    def __init__(self, page):
+    __getattr__ = dict.__getitem__
+
+    def __getitem__(self, key):
+        return next(iter(self.values())) if key == 0 else super().__getitem__(key)
+
+
+def make_job(inputs, outputs, **params):
+    """A job as Snakemake gives it to a script."""
+    return SimpleNamespace(
+        input=Files(inputs), output=Files(outputs), params=SimpleNamespace(**params)
+    )
+
+
+class Page(HTMLParser):
+    """Nesting errors, tags with their attributes, and texts of a page."""
+
+    def __init__(self, html):
         super().__init__()
-        self.open, self.texts = [], []
-        self.feed(page)
+        self.html = html
+        self.open, self.errors, self.tags, self.shown = [], [], [], []
+        self.feed(html)
 
     def handle_starttag(self, tag, attrs):
         attributes = dict(attrs)
+        self.tags.append((tag, attributes))
         if attributes.get("http-equiv") is None and attributes.get("name") != "viewport":
-            self.texts += [([tag], attributes[name]) for name in SHOWN if name in attributes]
-        if tag not in ("meta", "link", "img", "br", "wbr"):
+            self.shown += [attributes[name] for name in SHOWN if name in attributes]
+        if tag not in VOID:
             self.open.append(tag)
 
     def handle_endtag(self, tag):
-        self.open.pop()
+        if not self.open or self.open.pop() != tag:
+            self.errors.append((tag, self.getpos()))
 
     def handle_data(self, data):
         if not set(self.open) & set(APART):
-            self.texts.append((list(self.open), data))
+            self.shown.append(data)
 
+    @property
+    def text(self):
+        """All that is shown, with plain spaces."""
+        return " ".join(" ".join(self.shown).split()).replace("\u00a0", " ")
 
-def find_raw_symbols(page):
-    """Texts with symbols that nobody set, such as l_a or m^0.4."""
-    return [text for _, text in _Shown(page).texts if RAW.search(text)]
+    @property
+    def links(self):
+        return [attributes["href"] for tag, attributes in self.tags if tag == "a"]
 
-
-def find_long_captions(page):
-    """Captions of tables and figures that take more than five lines before they are unfolded."""
-    captions, inside = [], False
-    for elements, text in _Shown(page).texts:
-        now = "caption" in elements or "figcaption" in elements
-        if now and not inside:
-            captions.append("")
-        if now and "details" not in elements:
-            captions[-1] += text
-        inside = now
-    found = [" ".join(caption.split()) for caption in captions]
-    return [caption for caption in found if len(caption) > LINE * LINES]
+    def check(self):
+        """The page is well-formed, its links within it resolve, and it fetches nothing."""
+        assert not self.errors
+        assert not self.open
+        identities = [attributes["id"] for _, attributes in self.tags if "id" in attributes]
+        assert len(identities) == len(set(identities))
+        assert {link[1:] for link in self.links if link.startswith("#")} <= set(identities)
+        assert [text for text in self.shown if RAW.search(text)] == []
+        for tag, attributes in self.tags:
+            assert tag != "script" or "src" not in attributes
+            assert not any(name.startswith("on") for name in attributes), tag
+            for name in ("src", "srcset", "href", "data", "poster"):
+                address = attributes.get(name, "")
+                outside = re.match(r"\w+:", address)
+                doi = tag == "a" and address.startswith("https://doi.org/10.")
+                assert not outside or doi or address.startswith("data:"), address
+        styles = re.sub(r"<script\b.*?</script>", "", self.html, flags=re.S)
+        assert not re.search(r"@import|url\(", styles)
+        heads = [attributes for tag, attributes in self.tags if tag == "th"]
+        assert all("scope" in attributes for attributes in heads)
+        tables, captions = ([t for t, _ in self.tags if t == n] for n in ("table", "caption"))
+        assert len(tables) == len(captions)

@@ -1,37 +1,29 @@
-"""The report's page, from small made-up data whose texts and numbers are known."""
+"""The report, from small made-up results whose texts and numbers are known."""
 
-import copy
 import json
 import re
 from collections import defaultdict
-from dataclasses import replace
-from html import unescape
-from html.parser import HTMLParser
-from pathlib import Path
 
 import numpy as np
 import pytest
 import xarray as xr
 from bokeh.models import MultiLine, Scatter
 from helpers.experiments import EXPERIMENTS, make_dataset
-from helpers.pages import LINE, LINES, RAW, find_long_captions, find_raw_symbols
+from helpers.pages import Page, make_job
+from matplotlib.figure import Figure
 
 from common import formatting as numbers
 from criteria import texts
-from report import captions, pairs_figure, surface_texts, write_report
-from report import report_parts as report
-from report.benchmarks import processor_time, run_times
-from report.provenance import describe_provenance
+from report import interactive, pages, write_report
+from report.table_rows import describe_pair, describe_surface
+from stickiness import datasets
 from stickiness import error_budget as budget
 from stickiness.criteria.errata import ERRATA
-from stickiness.criteria.pair import DEPENDS, NOT_STICKY, STICKY, TOUCHES
+from stickiness.criteria.pair import DEPENDS, NOT_STICKY, STICKY, TOUCHES, WORDS
 from stickiness.criteria.registry import EDGES, REMAINING
 
-TEMPLATE = Path(__file__).parents[2] / "report" / "report.html.j2"
-CAPTIONS = sorted(TEMPLATE.parent.glob("*.rst"))
 NASTY = '<script>alert("1 & 2")</script>'
 GRADES = ("reproduced", "reproduced with a qualification", "not reproduced", "undecided")
-VOID = {"meta", "link", "img", "br", "wbr", "input", "hr"}
 
 
 def made_by(dataset, **parameters):
@@ -50,8 +42,24 @@ def budgeted(dataset, name, **errors):
     return budget.with_budget(dataset, name, **parts)
 
 
+LAWS, TRADE = "config/accuracy.csv", "config/tradeoff.csv"
+PRESETS = {
+    "fidelities": {
+        "quick": {
+            "pixels_per_wavelength": 4,
+            "tolerance": 1e-4,
+            "seeds": 3,
+            "coarse_seeds": 32,
+        }
+    },
+    "asked": {"accuracy": {"quick": 0.3}, "pressures": [0.065]},
+    "surface": {"hurst": 0.8, "magnification": 64},
+    "descriptor_seeds": 2048,
+}
+
+
 @pytest.fixture(scope="module")
-def made_claims():
+def claims():
     count = len(GRADES)
     columns = {
         "statement": [f"statement {n}" for n in range(1, count)] + [NASTY],
@@ -70,7 +78,7 @@ def made_claims():
 
 
 @pytest.fixture(scope="module")
-def made_verdicts():
+def verdicts():
     """Two materials on two surfaces: jelly sticks to glass, depends on sand; iron does neither.
 
     Iron touches glass without hold. On sand, the other criterion says the opposite of the verdict
@@ -143,10 +151,11 @@ def made_verdicts():
 
 
 @pytest.fixture(scope="module")
-def made_surfaces():
+def surfaces():
     known = xr.Dataset(
         {
             "h_rms": ("end", [2e-7, 2e-6]),
+            "rms_slope": ("end", [0.1, 0.2]),
             "C0_reference_upper": ("end", [1e-5, 1e-3]),
             "hurst": 0.8,
             "q0": 1e3,
@@ -199,35 +208,6 @@ def ensemble(seeds=(1, 2), residual=1e-6):
     )
 
 
-@pytest.fixture
-def claims(made_claims):
-    return copy.deepcopy(made_claims)
-
-
-@pytest.fixture
-def verdicts(made_verdicts):
-    return copy.deepcopy(made_verdicts)
-
-
-@pytest.fixture
-def surfaces(made_surfaces):
-    return copy.deepcopy(made_surfaces)
-
-
-@pytest.fixture(scope="module")
-def figures(tmp_path_factory):
-    from matplotlib.figure import Figure
-
-    made, folder = [], tmp_path_factory.mktemp("figures")
-    for number in range(1, 7):
-        path = folder / f"fig{number}.png"
-        Figure(figsize=(2, 1)).savefig(path, dpi=50)
-        made.append(
-            captions.embed_figure(path, f"Caption {number} of *a* & b < gamma. More {{words}}.")
-        )
-    return made
-
-
 @pytest.fixture(scope="module")
 def benchmarks(tmp_path_factory):
     folder = tmp_path_factory.mktemp("benchmarks")
@@ -237,7 +217,7 @@ def benchmarks(tmp_path_factory):
     (folder / "slow_rule" / "case" / "seed2.tsv").write_text(head + "30.25\t0:00:30\t100.0\t28.5\n")
     (folder / "write_report.tsv").write_text(
         head + "99.0\t0:01:39\t999.0\t99.0\n"
-    )  # an earlier run
+    )  # of an earlier run
     (folder / "quick_rule.tsv").write_text(head + "0.5\t0:00:00\tNA\tNA\n")
     return folder
 
@@ -298,228 +278,205 @@ def experiments(entries=EXPERIMENTS):
     return make_dataset({"ball/work": ball, "plate/steel": plate}, entries)
 
 
-TRADEOFF = {
-    "figure": {
-        "name": "tradeoff",
-        "data": "",
-        "width": 100,
-        "height": 50,
-        "alt": "What it costs.",
-        "caption": "What it costs.",
-        "details": "",
-    },
-    "source": "config/trade.csv",
-    "tables": [(["seeds", "area", "cost"], [["4 plain", "13 %", "40"]])],
-    "presets": [
-        {
-            "name": "quick",
-            "asked": "30 %",
-            "settings": {
-                "pixels_per_wavelength": 4,
-                "tolerance": 1e-4,
-                "seeds": 3,
-                "coarse_seeds": 32,
-            },
-            "cost": "120",
-            "errors": ["1 %"] * 6,
-        }
-    ],
-}
-
-
-@pytest.fixture(scope="module")
-def page(render):
-    """The page with plain spaces inside its numbers."""
-    return render().replace("\u00a0", " ")
-
-
-@pytest.fixture(scope="module")
-def render(made_claims, made_verdicts, made_surfaces, figures, benchmarks):
-    """The page, with other results where they are given."""
-    results = report.Results(
-        claims=made_claims,
-        verdicts=made_verdicts,
-        experiments=experiments(),
-        surfaces=made_surfaces,
-        ensembles=[ensemble()],
-        answers=[answer()],
-        comparisons=[comparison()],
-        criterion=criterion(),
-        paths={
-            "claims": "out/claims.nc",
-            "verdicts": "out/verdicts.nc",
-            "criterion": "out/map.nc",
-            "experiments": "out/experiments.nc",
-            "surfaces": {name: f"out/surfaces/{name}.nc" for name in made_surfaces},
-            "ensembles": {"case_of_two": "out/ensembles/case_of_two.nc"},
-            "answers": {"case_of_two": "out/cases/case_of_two.nc"},
-            "comparisons": {"case_of_two": "out/fits/case_of_two.nc"},
-            "figures": {figure["name"]: [f"out/a/{figure['name']}.nc"] for figure in figures},
-        },
-    )
-
-    def render(**others):
-        return write_report.render(
-            TEMPLATE,
-            "out/report/report.html",
-            replace(results, **others),
-            figures=figures,
-            experiments_figure=figures[0] | {"name": "experiments", "alt": "What was observed."},
-            tradeoff=TRADEOFF,
-            benchmarks=benchmarks,
-            fidelity="draft",
-        )
-
-    return render
-
-
-class Reader(HTMLParser):
-    """Nesting errors, tags with their attributes, and texts of a page."""
-
-    def __init__(self, page):
-        super().__init__()
-        self.open, self.errors, self.tags, self.texts = [], [], [], []
-        self.feed(page)
-
-    def handle_starttag(self, tag, attrs):
-        self.tags.append((tag, dict(attrs)))
-        if tag not in VOID:
-            self.open.append(tag)
-
-    def handle_endtag(self, tag):
-        if not self.open or self.open.pop() != tag:
-            self.errors.append((tag, self.getpos()))
-
-    def handle_data(self, data):
-        self.texts.append(data)
-
-    def attributes(self, tag):
-        return [attributes for name, attributes in self.tags if name == tag]
-
-    @property
-    def text(self):
-        return " ".join(" ".join(self.texts).split())
-
-
-def test_page_is_well_formed(page):
-    reader = Reader(page)
-    assert not reader.errors
-    assert not reader.open
-    identities = [attributes["id"] for _, attributes in reader.tags if "id" in attributes]
-    assert len(identities) == len(set(identities))
-    targets = [a["href"][1:] for a in reader.attributes("a") if a["href"].startswith("#")]
-    assert set(targets) <= set(identities)
-
-
-def test_tables_have_captions_and_scopes(page):
-    reader = Reader(page)
-    assert len(reader.attributes("table")) == len(reader.attributes("caption")) >= 8
-    assert all("scope" in attributes for attributes in reader.attributes("th"))
-
-
-def test_nothing_is_fetched(page):
-    reader = Reader(page)
-    assert not any("src" in attributes for attributes in reader.attributes("script"))
-    for tag, attributes in reader.tags:
-        assert not any(name.startswith("on") for name in attributes), tag
-        for name in ("src", "srcset", "href", "data", "poster"):
-            address = attributes.get(name, "")
-            doi = tag == "a" and address.startswith("https://doi.org/10.")
-            file = tag == "a" and re.fullmatch(r"(\.\./|surfaces/)[\w./]+\.(nc|html)", address)
-            assert doi or file or address.startswith(("#", "data:")) or address == "", address
-    assert not re.search(r"@import|url\(", re.sub(r"<script\b.*?</script>", "", page, flags=re.S))
-
-
-def test_every_claim_and_figure_appears(page):
-    reader = Reader(page)
-    for number in range(1, 4):
-        assert f"statement {number}" in reader.text
-    for grade in GRADES:
-        assert grade in reader.text
-    images = reader.attributes("img")
-    assert [image["alt"] for image in images] == [
-        *(f"Figure {n}: Caption {n} of a & b < gamma." for n in range(1, 7)),
-        "What was observed.",
-        "What it costs.",
-    ]
-    assert all((image["width"], image["height"]) == ("100", "50") for image in images)
-    assert "More {words}." in reader.text
-    for erratum in ERRATA:
-        assert str(captions.typeset(erratum.subject)) in page
-    assert reader.text.count("some number = 0.5") == len(ERRATA)
-
-
-def test_claims_show_value_error_and_files(page):
-    text = Reader(page).text
-    assert "1.891 ± 0.033" in text
-    assert "by sampling : sampling 0.032 discretisation 0.01" in text  # largest first
-    assert "sampling, not known" in text
-    assert "−2 by sampling, not known : sampling not known quantity 1" in text
-    assert "b/ seed1.nc and 1 more" in text
-    assert "closed form" in text
-    # The value leads to the first file behind it, a closed form's to the ledger.
-    assert '<a class="data" href="../a/x.nc" title="a/x.nc">1.891 ± 0.033</a>' in page
-    assert '<a class="data" href="../claims.nc" title="claims.nc">−2</a>' in page
-
-
-def test_texts_are_escaped(page):
-    assert NASTY not in page
-    assert NASTY in unescape(page)
-    assert "jelly &amp; cream" in page
-    assert "sand &lt; 1 mm" in page
-    assert "noisy &lt;spectrum&gt;" in page
-
-
 def criterion():
     """Map of the paper's criterion: what of it the report shows."""
     values = {"a_v": 3.21, "a_v_low": 2.8, "a_v_high": 4.4}
     return xr.Dataset(values, attrs={"parameters": '{"pressure": 0.065}'})
 
 
-def test_summary_counts(claims, verdicts):
-    found = report.summarise(
-        claims, verdicts, criterion(), [ensemble(), ensemble(seeds=range(1, 5))]
+@pytest.fixture(scope="module")
+def results(claims, verdicts, surfaces):
+    """Datasets by the names of the rule's inputs."""
+    return {
+        "claims": claims,
+        "verdicts": verdicts,
+        "criterion": criterion(),
+        "experiments": experiments(),
+        "surfaces": surfaces,
+        "ensembles": {"case_of_two": ensemble()},
+        "answers": {"case_of_two": answer()},
+        "comparisons": {"case_of_two": comparison()},
+    }
+
+
+@pytest.fixture(scope="module")
+def write(results, benchmarks, tmp_path_factory):
+    """Function that writes the report from files, with other results where they are given."""
+    folder = tmp_path_factory.mktemp("results")
+
+    def save(dataset, path):
+        for name, values in dataset.variables.items():
+            values.attrs = {"units": "1", "long_name": name} | values.attrs
+            values.attrs |= {"nan_means": "made up"}
+        made = json.loads(dataset.attrs["parameters"])
+        datasets.write(dataset.assign_attrs(), path, title="made up", parameters=made)
+        return str(path)
+
+    def draw(name):
+        path = folder / f"{name}.png"
+        Figure(figsize=(2, 1)).savefig(path, dpi=50)
+        caption = folder / f"{name}.rst"
+        caption.write_text(f"Caption of *{name}* & b < gamma. More {{words}}.\n\nDetails.")
+        return str(path), str(caption)
+
+    def write(**others):
+        inputs = {"template": "report/report.html.j2"}
+        for kind, found in (results | others).items():
+            place = folder / kind
+            inputs[kind] = (
+                [save(each.copy(deep=True), place / f"{name}.nc") for name, each in found.items()]
+                if isinstance(found, dict)
+                else save(found.copy(deep=True), folder / f"{kind}.nc")
+            )
+        figures = [draw(f"fig{number}") for number in range(1, 4)]
+        inputs["figures"], inputs["captions"] = map(list, zip(*figures, strict=True))
+        inputs["experiments_figure"], inputs["experiments_caption"] = draw("experiments")
+        inputs["trade_figure"], inputs["trade_caption"] = draw("tradeoff")
+        inputs |= {"laws": LAWS, "trade": TRADE}
+        page = folder / "report/report.html"
+        write_report.main(
+            make_job(
+                inputs,
+                {"page": str(page)},
+                benchmarks=benchmarks,
+                presets=PRESETS,
+                fidelity="draft",
+                figure_sources={f"fig{n}": [inputs["claims"]] for n in range(1, 4)},
+            )
+        )
+        return Page(page.read_text(encoding="utf-8"))
+
+    return write
+
+
+@pytest.fixture(scope="module")
+def page(write):
+    return write()
+
+
+@pytest.fixture(scope="module")
+def pairs(verdicts, surfaces):
+    return write_report.arrange_pairs(verdicts, surfaces)
+
+
+def test_page_is_valid_and_self_contained(page):
+    page.check()
+    images = [attributes for tag, attributes in page.tags if tag == "img"]
+    assert len(images) == 5
+    assert all((image["width"], image["height"]) == ("100", "50") for image in images)
+    assert images[0]["alt"] == "Figure 1: Caption of fig1 & b < gamma."
+    for path in {link for link in page.links if link.endswith(".nc")}:
+        assert path.startswith("../")
+    assert "../claims.nc" in page.links
+    assert "surfaces/glass.html" in page.links
+
+
+def test_numbers_of_the_page_come_from_the_files(page):
+    for words in (
+        *(f"statement {number}" for number in range(1, 4)),
+        *GRADES,
+        *(f"1 {word}" for word in WORDS[:4]),
+        "1 of 4 pairs stick",
+        "3.2 Between 2.8 and 4.4",
+        "with 2 realisations",
+        "1.891 ± 0.033 by sampling : sampling 0.032 discretisation 0.01",  # largest first
+        "−2 by sampling, not known : sampling not known quantity 1",
+        " and 1 more",
+        "closed form",
+        "50 … 70 % (40 to 84 %)",
+        "2 … 30 % (1.6 to 36 %)",
+        "load 0.06, requested accuracy 3 %",
+        "area 0.050 ± 0.010 4 % < 0.01 % 20 % 0 % 0 % sampling",
+        "(+10.0 ± 3.0) %",
+        "slow_rule",
+        "0.700 ± 0.020",
+        "E = 1 kPa, ν = 0.5",
+        "multilevel: 32 coarse seeds, 100 long-wave controls",
+    ):
+        assert words in page.text or words in page.html, words
+    assert page.text.count("some number = 0.5") == len(ERRATA)
+    # A value leads to the first file behind it, a closed form to the ledger.
+    assert re.search(r'href="[^"]*out/a/x.nc"[^>]*>1.891', page.html)
+    assert re.search(r'href="../claims.nc"[^>]*>−2', page.html)
+
+
+def test_experiments_are_on_the_page(page):
+    for words in (
+        "30 mJ/m² (relation)",
+        "20 mJ/m² (10 … 25 mJ/m²)",
+        "longest wave (factor 1.4)",
+        "the ball was wet",
+        "Not found: the color of the ball",
+    ):
+        assert words in page.text, words
+
+
+def test_texts_are_escaped(page):
+    assert NASTY not in page.html
+    assert NASTY in page.text
+    assert "jelly &amp; cream" in page.html
+    assert "sand &lt; 1 mm" in page.html
+
+
+@pytest.mark.slow
+def test_labels_with_symbols_are_set_and_other_results_are_told(write, results):
+    verdicts = results["verdicts"]
+    made = json.loads(verdicts.attrs["parameters"])
+    made["materials"]["iron"]["label"] = "iron, l_a = 0.05 range, m^0.4"
+    page = write(
+        verdicts=verdicts.assign_attrs(parameters=json.dumps(made)),
+        answers={"case_of_two": answer(sampling=np.nan).assign_attrs(missed="mine: 0.2 of 0.03")},
     )
-    assert [(name, count) for name, count, _ in found["graded"]] == [(g, 1) for g in GRADES]
-    assert (found["pairs"], found["sticky"], found["touching"]) == (4, 1, 1)
-    assert (found["wanted"], found["full"]) == ("10 %", "80 %")
-    assert [pair[:2] for pair in found["by_verdict"]] == [
-        ("sticks", 1),
-        ("depends", 1),
-        ("touches without hold", 1),
-        ("does not stick", 1),
+    page.check()
+    assert "l<sub>a</sub>\u00a0=\u00a00.05 range, m<sup>0.4</sup>" in page.html
+    assert "requested accuracy 3 %, not reached" in page.text
+    assert "sampling, not known" in page.text
+
+
+def test_rows_of_pairs(pairs):
+    found = {(pair["key"], pair["name"]): pair for pair in pairs}
+    assert list(found) == [
+        ("jelly", "glass"),
+        ("jelly", "sand"),
+        ("iron", "glass"),
+        ("iron", "sand"),
     ]
-    more = verdicts.assign(verdict=verdicts.verdict + 1)
-    fully = report.summarise(claims, more, criterion(), [ensemble()])
-    assert (fully["sticky"], fully["touching"]) == (2, 1)
-    assert fully["by_verdict"][0][:2] == ("sticks fully", 1)
-    assert (found["a_v"], found["a_v_range"]) == ("3.2", "2.8 … 4.4")
-    assert found["realisations"] == "2 … 4"
-
-
-def test_every_verdict_stands_in_its_place(verdicts, surfaces):
-    matrix = report.arrange_verdicts(verdicts, surfaces)
-    assert [material["label"] for material in matrix["materials"]] == ["jelly & cream", "iron"]
-    found = [[cell["verdict"] for cell in row["cells"]] for row in matrix["rows"]]
-    assert found == [["sticks", "touches without hold"], ["depends", "does not stick"]]
-    glass, sand = (row["cells"][0] for row in matrix["rows"])
+    assert [pair["word"] for pair in pairs] == [WORDS[c] for c in (STICKY, DEPENDS, TOUCHES, 0)]
+    glass, sand = found["jelly", "glass"]["text"], found["jelly", "sand"]["text"]
     assert glass["remaining"] == "50 … 70 % (40 to 84 %)"
     assert glass["pull_off"] == "at least 2.5"  # near full contact, not simulated
-    assert (sand["margin"], sand["limits"]) == ("0.5 … 2.0", "0.5 … 2.0")
-    assert sand["remaining"] == "2 … 30 % (1.6 to 36 %)"
+    assert (sand["margin"], sand["energy_ratio"]) == ("0.5 … 2.0", "0.25 … 1.0")
     assert sand["threshold"] == "2.5 (1.5 to 4.5)"
-    assert (glass["own_modulus"], iron_modulus(matrix)) == ("0.0013", "2000")
-    assert sand["energy_ratio"] == "0.25 … 1.0"
-    iron = matrix["rows"][1]["cells"][1]
+    assert (glass["modulus"], found["iron", "sand"]["text"]["modulus"]) == ("0.0013", "2000")
+    iron = found["iron", "sand"]["text"]
     assert (iron["remaining"], iron["pull_off"]) == ("0 %", "–")
-    assert matrix["materials"][0]["work_of_adhesion"] == "50 mJ/m²"
+    # Probabilities are known where spectra were drawn.
+    assert glass["probability"] == glass["errors"] == "–"
+    assert (sand["probability"], iron["probability"]) == ("42 %", "< 1.3 %")
+    assert sand["errors"] == "spectrum 30 %, model 40 %"
+    assert found["jelly", "sand"]["sort"]["errors"] == pytest.approx(0.5)
+    mine = write_report.choose_mine(pairs)
+    assert mine == pairs
+
+
+def test_limits_on_a_measured_surface_are_those_of_its_draws(verdicts):
+    pair = verdicts.sel(material="jelly", surface="glass")
+    quantiles = xr.DataArray([0.31, 0.6, 0.77], dims="quantile")
+    row = describe_pair(pair.assign(remaining_quantile=quantiles))
+    assert row["text"]["remaining"] == "50 … 70 % (31 to 77 %)"
+
+
+def test_the_sentence_of_a_verdict_has_its_share(verdicts, page):
+    for sentence in (
+        "jelly & cream on glass pane sticks: 50 … 70 % (40 to 84 %) of the work of adhesion",
+        "For jelly & cream on sand < 1 mm it depends: 2 … 30 % (1.6 to 36 %)",
+        f"Iron on glass pane {WORDS[TOUCHES]}: 1 % (0.8 to 1.2 %) of the work",
+        "Iron on sand < 1 mm does not stick: nothing of the work of adhesion remains.",
+    ):
+        assert sentence.lower() in page.text.lower(), sentence
 
 
 BEYOND = f"> {numbers.number(1e7)}"
-
-
-def iron_modulus(matrix):
-    return matrix["rows"][1]["cells"][1]["own_modulus"]
 
 
 @pytest.mark.parametrize(
@@ -546,16 +503,15 @@ def test_thresholds_have_one_unit_and_all_limits(verdicts, values, limits, text)
         assert texts.describe_threshold(drawn).endswith("(1 to 4)")
 
 
-def test_every_judged_pair_is_on_one_axis(verdicts, surfaces):
-    pairs = report.arrange_verdicts(verdicts, surfaces)["pairs"]
-    plot = pairs_figure.draw_pairs(verdicts, pairs)
-    points = [r for r in plot.renderers if isinstance(r.glyph, Scatter)]
-    names = ("verdict", "ratio", "share", "low", "high")
+def test_every_judged_pair_is_on_one_axis(verdicts, pairs):
+    plot = interactive.draw_pairs(verdicts, pairs)
     shown = defaultdict(list)
-    for data in (r.data_source.data for r in points):
-        rows = zip(*(data[n] for n in ("material", "surface", *names)), strict=True)
-        for material, surface, *row in rows:
-            shown[material, surface].append(row)
+    for renderer in plot.renderers:
+        if isinstance(renderer.glyph, Scatter):
+            data = renderer.data_source.data
+            names = ("material", "surface", "word", "ratio", "share", "low", "high")
+            for material, surface, *row in zip(*(data[name] for name in names), strict=True):
+                shown[material, surface].append(row)
     assert len(shown) == 4
     (word, *less), (_, *more) = shown["jelly & cream", "sand < 1 mm"]
     assert word == "depends"
@@ -563,94 +519,14 @@ def test_every_judged_pair_is_on_one_axis(verdicts, surfaces):
     assert more == pytest.approx([1.0, 30.0, 30.0, 36.0])
     ((_, *alone),) = shown["iron", "glass pane"]  # both ends agree
     assert alone == pytest.approx([0.05, 1.0, 0.8, 1.2])
-    doubtful = [pair | {"grade": -1} for pair in pairs]
-    (line,) = pairs_figure.draw_pairs(verdicts, doubtful).renderers  # the model alone
-    at = line.data_source.data
-    shares = np.interp(np.log([0.3, 2.0]), np.log(at["x"]), at["y"])
-    assert shares == pytest.approx([0.44, 51.8], rel=0.02)
-
-
-def test_both_ends_of_a_pair_are_one_line(verdicts, surfaces):
-    pairs = report.arrange_verdicts(verdicts, surfaces)["pairs"]
-    plot = pairs_figure.draw_pairs(verdicts, pairs)
     lines = [r.data_source.data for r in plot.renderers if isinstance(r.glyph, MultiLine)]
     drawn = sorted(tuple(xs) for data in lines for xs in data["xs"])
     assert drawn == [(0.005,), (0.05,), (0.25, 1.0), (4.0, 4.5)]
-
-
-def test_verdicts_are_worded_on_the_page(page):
-    text = Reader(page).text
-    for words in (
-        "sticks 50 … 70 % (40 to 84 %)",
-        "depends 2 … 30 % (1.6 to 36 %)",
-        "touches without hold 1 % (0.8 to 1.2 %)",
-        "does not stick 0 %",
-        "1 of 4 pairs stick. 1 touch without hold",
-    ):
-        assert words in text
-    assert "†" not in text
-
-
-def test_experiments_are_on_the_page(page):
-    text = Reader(page).text
-    for words in (
-        # The ball's relation is no test.
-        "overlap with 1 of 1 published observations whatever the unknown inputs, with 0 for some "
-        "of them, and with 0 for none. The value itself agrees with 1.",
-        "Ball 1999 held work of separation 30 mJ/m² (relation) read 20 mJ/m² (10 … 25 mJ/m²) "
-        "missed longest wave (factor 1.4) 3.3, too few ✓ ✗",
-        "hard plate steel on steel sticks does not stick read 5 % (1 to 12 %) compatible, value "
-        "too no unknown input flat ≈ –",
-        "Ball 1999 : the ball was wet",
-        "soft ball : Ball, J. Made Up 1, 2 (1999). Not found: the color of the ball",
-        "hard plate : no source.",
-    ):
-        assert words in text, words
-    assert '<a class="data" href="../experiments.nc" title="experiments.nc">20 mJ/m²' in page
-    assert 'href="#experiments"' in page
-
-
-@pytest.mark.slow
-def test_notes_of_experiments_are_on_the_page(render):
-    noted = copy.deepcopy(EXPERIMENTS)
-    noted["plate"]["note"] = "Two plates & a < b."
-    text = Reader(render(experiments=experiments(noted))).text
-    assert "hard plate : no source. Two plates & a < b." in text
-
-
-def test_verdicts_are_said_in_a_sentence(verdicts):
-    expected = {
-        ("jelly", "glass"): "Jelly sticks: 50 … 70 % (40 to 84 %) of its work of adhesion remains.",
-        ("jelly", "sand"): "For jelly it depends: 2 … 30 % (1.6 to 36 %) of its work of adhesion "
-        "remains, and 10 % is wanted.",
-        ("iron", "glass"): "Iron touches without hold: 1 % (0.8 to 1.2 %) of its work of adhesion "
-        "remains, though contact grows by itself at the finest wave.",
-        ("iron", "sand"): "Iron does not stick: nothing of its work of adhesion remains.",
-    }
-    for (material, surface), sentence in expected.items():
-        pair = verdicts.sel(material=material, surface=surface)
-        assert texts.say_verdict(material, pair) == sentence
-
-
-def test_limits_on_a_measured_surface_are_those_of_its_draws(verdicts):
-    pair = verdicts.sel(material="jelly", surface="glass")
-    quantiles = xr.DataArray([0.31, 0.6, 0.77], dims="quantile")
-    found = texts.describe_share(pair.assign(remaining_quantile=quantiles))
-    assert found == "50 … 70 % (31 to 77 %)"
-
-
-def test_errors_of_a_pair_are_told_where_it_was_drawn(verdicts, surfaces):
-    pairs = report.arrange_verdicts(verdicts, surfaces)["pairs"]
-    assert [(pair["material"], pair["name"]) for pair in pairs][:2] == [
-        ("jelly & cream", "glass"),
-        ("jelly & cream", "sand"),
-    ]
-    on_glass, on_sand = pairs[:2]
-    assert on_glass["probability"] == on_glass["errors"] == "–"
-    assert on_sand["probability"] == "42 %"
-    assert pairs[3]["probability"] == "< 1.3 %"  # of no draw, which are few
-    assert on_sand["errors"] == "spectrum 30 %, model 40 %"
-    assert on_sand["error"] == pytest.approx(0.5)
+    doubtful = [pair | {"code": -1} for pair in pairs]
+    (line,) = interactive.draw_pairs(verdicts, doubtful).renderers  # the model alone
+    at = line.data_source.data
+    shares = np.interp(np.log([0.3, 2.0]), np.log(at["x"]), at["y"])
+    assert shares == pytest.approx([0.44, 51.8], rel=0.02)
 
 
 @pytest.mark.parametrize(
@@ -670,166 +546,56 @@ def test_errors_of_a_pair_are_told_where_it_was_drawn(verdicts, surfaces):
     ],
 )
 def test_symbols_are_set(text, html):
-    assert captions.typeset(text) == html
+    assert pages.typeset(text) == html
 
 
 def test_titles_have_symbols_of_plain_letters():
-    assert captions.plain("C0 = 10⁻³ m^0.4 & l_a < h_rms") == "C₀ = 10⁻³ m⁰·⁴ & lₐ < hᵣₘₛ"
+    assert pages.plain("C0 = 10⁻³ m^0.4 & l_a < h_rms") == "C₀ = 10⁻³ m⁰·⁴ & lₐ < hᵣₘₛ"
 
 
-def raw(data):
-    """The same data with symbols in every label, as a user may write them."""
-    made = json.loads(data.attrs["parameters"])
-    for entry in made.get("materials", {}).values():
-        entry["label"] += ", l_a = 0.05 range"
-    if "label" in made:
-        made["label"] += ", C0 = 10⁻³ m^0.4"
-    return data.assign_attrs(parameters=json.dumps(made))
-
-
-@pytest.mark.slow
-def test_no_raw_symbol_is_shown(render, verdicts, surfaces, claims):
-    assert find_raw_symbols("<p>a_b</p><p>m^2</p><code>c_d</code><img alt='e_f'>") == [
-        *("a_b", "m^2", "e_f"),
-    ]
-    labelled = {name: raw(data) for name, data in surfaces.items()}
-    quantities = claims.quantity.values.astype(object)
-    quantities[0] = "p_ad/2p_rep at l_a/range = 0.1, m^0.4"
-    asked = claims.assign(quantity=("claim", quantities.astype(str)))
-    page = render(verdicts=raw(verdicts), surfaces=labelled, claims=asked)
-    assert find_raw_symbols(page) == []
-    assert "l<sub>a</sub>\u00a0=\u00a00.05 range" in page
-
-
-@pytest.mark.slow
-def test_captions_on_the_page_are_short(render):
-    assert find_long_captions(f"<table><caption>{'long ' * 96}</caption></table>")
-    folded = f"<table><caption>Short.<details>{'long ' * 96}</details></caption></table>"
-    assert find_long_captions(folded) == []
-    assert find_long_captions(render()) == []
-
-
-@pytest.mark.parametrize("path", CAPTIONS, ids=lambda path: path.stem)
-def test_a_caption_is_short_and_its_symbols_are_set(path, tmp_path):
-    from matplotlib.figure import Figure
-
-    picture = tmp_path / f"{path.stem}.png"
-    Figure(figsize=(1, 1)).savefig(picture)
-    made = captions.embed_figure(picture, path.read_text(encoding="utf-8"))
-    first, details = (
-        re.sub("<[^>]*>", "", unescape(str(made[part]))) for part in ("caption", "details")
-    )
-    assert 0 < len(first) <= LINE * LINES
-    assert not RAW.search(first + details)
-    assert not RAW.search(made["alt"])
-    assert "system-message" not in made["caption"] + made["details"]
-    assert details or not path.stem.startswith("fig")
-
-
-def test_disagreement_counts_pairs_by_verdict_and_names_them(verdicts, surfaces):
-    found = report.find_disagreements(verdicts, surfaces)
-    assert [(word, total) for word, _, total in found["heads"]] == [
-        ("sticks", 1),
-        ("depends", 1),
-        ("touches without hold", 1),
-        ("does not stick", 1),
-    ]
-    onset, row = found["rows"]
-    assert (onset["criterion"], onset["counts"]) == ("onset at the finest wave", [0, 0, 1, 0])
+def test_disagreement_counts_pairs_by_verdict_and_names_them(verdicts, pairs):
+    onset, row = write_report.find_disagreements(verdicts, pairs)
+    words = [WORDS[code] for code in (STICKY, DEPENDS, TOUCHES, NOT_STICKY)]
+    assert onset["criterion"] == "onset at the finest wave"
+    assert onset["counts"] == dict(zip(words, [0, 0, 1, 0], strict=True))
     assert onset["sticky"] == ["iron on glass pane"]
-    assert (row["criterion"], row["counts"]) == ("bearing area (BAM)", [0, 0, 0, 1])
-    assert row["sticky"] == ["iron on sand < 1 mm"]
-    assert row["not_sticky"] == []
+    assert row["counts"] == dict(zip(words, [0, 0, 0, 1], strict=True))
+    assert (row["sticky"], row["not_sticky"]) == (["iron on sand < 1 mm"], [])
 
 
-def test_surfaces_with_and_without_errors(surfaces):
-    glass, sand = (report.describe_surface(*item) for item in surfaces.items())
-    assert (glass["hurst"], sand["hurst"]) == ("0.8", "0.700 ± 0.020")
-    assert (glass["c0"], sand["c0"]) == ("(1 … 100) × 10⁻⁵", "0.00530 ± 0.00040")
-    assert glass["h_rms"] == "0.2 … 2 µm"
-    assert sand["remarks"] == ["noisy <spectrum>"]
-
-
-def test_bound_of_prefactor_for_another_hurst_exponent(surfaces):
+def test_sizes_of_surfaces_with_and_without_errors(surfaces):
+    known, measured = (describe_surface(surfaces[name]) for name in ("glass", "sand"))
+    assert known == {"height": "0.2 … 2 µm", "slope": "0.1 … 0.2", "line": "(1 … 100) × 10⁻⁵"}
+    assert measured["line"] == "0.00530 ± 0.00040"
     steeper = surfaces["glass"].assign(hurst=0.9)
-    assert surface_texts.describe_line(steeper).startswith("≤ ")
-
-
-def test_error_budget():
-    budget = report.describe_budgets(answer())
-    area, gap = budget["rows"]
-    assert (budget["load"], budget["asked"]) == ("0.06", "3 %")
-    assert area["errors"]["sampling"] == "20 %"
-    assert area["errors"]["discretisation"] == "4 %"
-    assert (area["dominates"], gap["dominates"]) == ("sampling", "discretisation")
-    # sqrt(0.01^2 + 0.002^2) = 0.0102; the solver's part is far smaller.
-    assert area["value"] == "0.050 ± 0.010"
-    assert gap["errors"]["solver"] == "< 0.01 %"
-
-
-def test_error_budget_of_a_single_seed_leaves_sampling_open():
-    area = report.describe_budgets(answer(sampling=np.nan))["rows"][0]
-    assert area["errors"]["sampling"] == "–"
-    assert area["dominates"] == "sampling, not known"
-
-
-def test_theory_is_compared_at_three_loads():
-    rows = report.compare_theory([comparison()])
-    assert [row["load"] for row in rows] == ["0.03", "0.1", "0.3"]
-    assert all(cell == "(+10.0 ± 3.0) %" for row in rows for cell in row["cells"].values())
+    assert describe_surface(steeper)["line"].startswith("≤ ")
+    sizes = {"h_rms": ("end", [0.9e-6, 1.1e-6]), "rms_slope": ("end", [0.19, 0.21])}
+    found = describe_surface(surfaces["sand"].assign(sizes).assign_coords(draw=[0, 1]))
+    assert (found["height"], found["slope"]) == ("(1.00 ± 0.16) µm", "0.200 ± 0.016")
 
 
 def test_run_times_add_up(benchmarks):
-    times = run_times(benchmarks)
-    slow, quick = times["rows"]
-    assert slow == {
-        "rule": "slow_rule",
-        "jobs": 2,
-        "total": "40.8",  # 10.5 + 30.25
-        "processor": "37.5",  # 9 + 28.5
-        "longest": "30.2",
-        "memory": "200",
-    }
-    assert (quick["rule"], quick["memory"]) == ("quick_rule", "–")
-    assert (times["jobs"], times["total"], times["processor"]) == (3, "41.2", "37.5")
+    times = write_report.read_run_times(benchmarks)
+    assert times.index.tolist() == ["slow_rule", "quick_rule"]
+    slow = times.loc["slow_rule"]
+    assert slow.tolist() == [2, 40.75, 37.5, 30.25, 200]
+    assert times.jobs.sum() == 3
+    assert np.isnan(times.loc["quick_rule"].memory)
 
 
-def test_processor_time_of_some_jobs(benchmarks):
-    assert processor_time(benchmarks, "seed2") == 28.5
-    with pytest.raises(FileNotFoundError, match=r"no benchmark nobody\.tsv"):
-        processor_time(benchmarks, "nobody")
-
-
-def test_mixed_versions_are_pointed_out(claims):
+def test_mixed_versions_are_all_listed(claims):
     other = claims.assign_attrs(version_numpy="1.0")
-    found = describe_provenance([claims, other], [])
-    assert found["versions"] == [("numpy", "1.0, 9.8.7")]
-    assert found["mixed"] == ["numpy"]
-    assert describe_provenance([claims, claims], [])["mixed"] == []
-
-
-@pytest.mark.parametrize(
-    ("seeds", "want"),
-    [((1, 2), "multilevel: 32 coarse seeds, 100 long-wave controls"), ((5,), "plain")],
-)
-def test_estimator_of_an_ensemble_is_named(seeds, want):
-    (row,) = describe_provenance([], [ensemble(seeds=seeds)])["ensembles"]
-    assert row["means"] == want
+    assert write_report.list_versions([claims, other]) == {"numpy": ["1.0", "9.8.7"]}
 
 
 def test_not_a_png_is_refused(tmp_path):
     path = tmp_path / "fig1.png"
     path.write_text("no picture")
     with pytest.raises(ValueError, match="fig1.png: not a PNG"):
-        captions.embed_figure(path, "")
+        pages.embed_png(path)
 
 
 def test_caption_cannot_smuggle_html():
-    html = captions.caption_html(".. raw:: html\n\n   <b>bold</b>\n\nText <i>& more.")
+    html = pages.convert_rst(".. raw:: html\n\n   <b>bold</b>\n\nText <i>& more.")
     assert "<b>" not in html
     assert "&lt;i&gt;&amp; more." in html
-
-
-def test_accuracy_that_was_not_reached_is_named():
-    budget = report.describe_budgets(answer().assign_attrs(missed="mine: error 0.2 of 0.03"))
-    assert budget["asked"] == "3 %, not reached"

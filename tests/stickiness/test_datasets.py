@@ -1,9 +1,6 @@
 """NetCDF between stages: whole or not at all, checked when read."""
 
-import os
 import resource
-from pathlib import Path
-from tempfile import TemporaryDirectory
 
 import numpy as np
 import pytest
@@ -120,25 +117,26 @@ def test_a_full_disk_leaves_the_old_file_and_says_so(dataset, tmp_path):
     assert datasets.read(path).equals(larger)
 
 
-def test_a_folder_that_may_not_be_written_to_is_named(dataset):
-    with TemporaryDirectory() as folder:  # unlike pytest's, everyone may look into it
-        Path(folder).chmod(0o755)
-        path = Path(folder) / "results" / "file.nc"
-        write(dataset, path, seed=1)
-        content = path.read_bytes()
-        path.parent.chmod(0o555)
-        root = os.geteuid() == 0  # who may write anywhere
-        if root:
-            os.seteuid(65534)
-        message = r"file\.nc: could not be written .*allow writing in .*results and run"
-        try:
-            with pytest.raises(datasets.WriteError, match=message):
-                write(dataset, path, seed=2)
-        finally:
-            if root:
-                os.seteuid(0)
-            path.parent.chmod(0o755)
-        assert path.read_bytes() == content
+def test_a_folder_that_may_not_be_written_to_is_named(dataset, tmp_path, monkeypatch):
+    """Root may write anywhere, so that the refusal of the system is made up."""
+    path = tmp_path / "results" / "file.nc"
+    write(dataset, path, seed=1)
+    content = path.read_bytes()
+
+    def refuse(**_):
+        raise PermissionError(13, "Permission denied")
+
+    monkeypatch.setattr(datasets.tempfile, "mkstemp", refuse)
+    message = r"file\.nc: could not be written .*allow writing in .*results and run"
+    with pytest.raises(datasets.WriteError, match=message):
+        write(dataset, path, seed=2)
+    assert path.read_bytes() == content
+
+
+def test_a_file_in_the_place_of_a_folder_is_an_error(dataset, tmp_path):
+    (tmp_path / "results").write_text("a file", encoding="utf-8")
+    with pytest.raises(datasets.WriteError, match=r"results/file\.nc: could not be written"):
+        write(dataset, tmp_path / "results" / "file.nc")
 
 
 def test_texts_that_are_joined_keep_their_length(tmp_path):

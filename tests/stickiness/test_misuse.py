@@ -3,18 +3,9 @@
 import numpy as np
 import pytest
 
-from stickiness import (
-    adhesive,
-    criteria,
-    dmt,
-    equivalent_sphere,
-    repulsive,
-    spectrum,
-    surface,
-    units,
-)
+from stickiness import adhesive, criteria, dmt, repulsive, spectrum, surface, units
 from stickiness.accuracy import model_choice, multilevel
-from stickiness.criteria import a_v_table
+from stickiness.criteria import a_v_table, equivalent_sphere
 from stickiness.measured import instrument_spectrum, psd, topography
 from stickiness.persson import Persson
 from stickiness.plausibility import PlausibilityWarning

@@ -9,9 +9,9 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as arrays
 
-from stickiness import adhesive, criteria, datasets, dmt, equivalent_sphere, repulsive, surface
+from stickiness import adhesive, criteria, datasets, dmt, repulsive, surface
 from stickiness.accuracy import multilevel
-from stickiness.criteria import a_v_table
+from stickiness.criteria import a_v_table, equivalent_sphere
 from stickiness.measured import instrument_spectrum, stitching
 from stickiness.measured.topography import Topography
 from stickiness.persson import Persson

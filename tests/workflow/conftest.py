@@ -1,4 +1,4 @@
-"""A copy of the workflow in a folder of its own, run once at tiny size."""
+"""The workflow in a folder, driven through its command line, and one complete run at tiny size."""
 
 import fcntl
 import json
@@ -15,7 +15,7 @@ TINY = ["--configfile", "config/config.yaml", "config/tiny.yaml"]
 
 
 class Workflow:
-    """The workflow in a folder, driven through its command line."""
+    """A copy of the workflow, with its tiny configuration."""
 
     def __init__(self, folder):
         self.folder = Path(folder)
@@ -24,17 +24,16 @@ class Workflow:
         return self.folder / path
 
     def command(self, *arguments):
-        return [sys.executable, "-m", "snakemake", "-j2", *arguments]
+        return [sys.executable, "-m", "snakemake", "-j2", *arguments, *TINY]
 
     def snakemake(self, *arguments):
         """Run to the end; output and errors together."""
         return subprocess.run(
-            self.command(*arguments, *TINY),
+            self.command(*arguments),
             cwd=self.folder,
             stdout=subprocess.PIPE,
             stderr=subprocess.STDOUT,
             text=True,
-            timeout=3600,  # minutes on a quiet machine
             check=False,
         )
 
@@ -42,27 +41,28 @@ class Workflow:
         return dry_run(self.folder, *arguments, *TINY)
 
     def planned(self, *arguments):
-        """Rules and number of jobs that a dry-run lists, without the target rules."""
+        """Number of jobs by rule that a dry-run lists, without the target rules."""
         listed = jobs(self.dry_run(*arguments, "--quiet", "host", "rules", "reason"))
-        return {rule: count for rule, count in listed.items() if rule != "all"}
+        return {rule: count for rule, count in listed.items() if rule not in ("all", *arguments)}
 
     def edit(self, path, old, new):
-        """Replace a text in a file of this copy, which must be there."""
+        """Replace a text, which must be there, in a file of this copy."""
         file = self / path
         text = file.read_text(encoding="utf-8")
         assert old in text, f"{old!r} is not in {path}"
         file.write_text(text.replace(old, new), encoding="utf-8")
 
-
-def copied(folder):
-    copy_workflow(folder)
-    return Workflow(folder)
+    def add(self, text, path="config/tiny.yaml"):
+        """Add lines to a file of this copy, by default to its configuration."""
+        with (self / path).open("a", encoding="utf-8") as file:
+            file.write(text)
 
 
 @pytest.fixture
 def fresh(tmp_path):
     """The workflow with nothing computed."""
-    return copied(tmp_path)
+    copy_workflow(tmp_path)
+    return Workflow(tmp_path)
 
 
 @pytest.fixture(scope="session")
@@ -75,7 +75,8 @@ def finished(tmp_path_factory):
         workflow, said = Workflow(shared), shared.with_suffix(".json")
         if not said.exists():
             shared.mkdir()
-            run = copied(shared).snakemake()
+            copy_workflow(shared)
+            run = workflow.snakemake()
             said.write_text(json.dumps([run.returncode, run.stdout]), encoding="utf-8")
     code, stdout = json.loads(said.read_text(encoding="utf-8"))
     assert code == 0, stdout

@@ -40,7 +40,7 @@ def test_accuracy_missed_and_reached(fresh):
 
     ask(fresh, f"accuracy: 0.15, seeds: {enough}, sampling: plain")
     _, many, more = answer(fresh)
-    assert set(more) == {*solved, *(f"seeds{part}.nc" for part in plan.seed_parts(enough))}
+    assert set(more) == {*solved, *(f"seeds{part}.nc" for part in plan.seed_batches(enough))}
     assert {name: more[name] for name in solved} == solved
     error = many.value_total_error / many.value
     assert (error < few.value_total_error / few.value).all()

@@ -28,18 +28,6 @@ def exempt(file, name):
     )
 
 
-def missing(results, folder="."):
-    """Files and names of numbers that have neither."""
-    found = []
-    for path in sorted((results / folder).rglob("*.nc")):
-        file, dataset = path.relative_to(results).as_posix(), datasets.read(path)
-        for name in quoted(dataset):
-            whole = all(f"{name}{ending}" in dataset for ending in budget.ENDINGS)
-            if not whole and not exempt(file, name):
-                found.append(f"{file}: {name}")
-    return found
-
-
 def assert_consistent(dataset, name, file):
     """Total, largest source and texts agree with the parts."""
     error, total = dataset[f"{name}_error"], dataset[f"{name}_total_error"]
@@ -55,28 +43,15 @@ def assert_consistent(dataset, name, file):
     assert np.array_equal(chosen[known], parts.max(0)[known]), (file, name)
 
 
-def test_every_number_has_a_budget_or_a_reason(finished):
-    assert missing(finished / "results/tiny") == []
-
-
-def test_budgets_are_consistent(finished):
-    results, count = finished / "results/tiny", 0
+def test_every_number_has_a_consistent_budget_or_a_reason(finished):
+    results, missing, count = finished / "results/tiny", [], 0
     for path in sorted(results.rglob("*.nc")):
-        dataset = datasets.read(path)
+        file, dataset = path.relative_to(results).as_posix(), datasets.read(path)
         for name in quoted(dataset):
-            if f"{name}_total_error" in dataset:
-                assert_consistent(dataset, name, path.as_posix())
+            if all(f"{name}{ending}" in dataset for ending in budget.ENDINGS):
+                assert_consistent(dataset, name, file)
                 count += 1
+            elif not exempt(file, name):
+                missing.append(f"{file}: {name}")
+    assert missing == []
     assert count > 100
-
-
-def test_a_number_without_a_budget_is_found(copy_of_finished):
-    path = copy_of_finished / "results/tiny/fits/kappa/H0.8_zeta64.nc"
-    dataset = datasets.read(path)
-    made, title = datasets.parameters(dataset), dataset.attrs["title"]
-    stripped = dataset.drop_vars("kappa_total_error").rename(kappa_fit="kappa_fitted")
-    datasets.write(stripped, path, title=title, parameters=made)
-    found = missing(copy_of_finished / "results/tiny", "fits/kappa")
-    assert {"fits/kappa/H0.8_zeta64.nc: kappa", "fits/kappa/H0.8_zeta64.nc: kappa_fitted"} <= {
-        *found
-    }

@@ -1,4 +1,4 @@
-"""Faults on the way: one message that says what to do, nothing lost, and the next run completes."""
+"""Runs that are killed and files that are damaged: nothing is lost, and the next run completes."""
 
 import os
 import shutil
@@ -13,83 +13,93 @@ from stickiness import datasets
 
 pytestmark = pytest.mark.workflow
 
-RESULTS = "results/tiny"
-SURFACE = f"{RESULTS}/surfaces/H0.9_zeta64/seeds1-2.nc"
-SOLVED = f"{RESULTS}/contact/H0.9_zeta64/seeds1-2.nc"
-TINY = ["--configfile", "config/config.yaml", "config/tiny.yaml"]
+SURFACE = "results/tiny/surfaces/H0.9_zeta64/seeds1-2.nc"
+SOLVED = "results/tiny/contact/H0.9_zeta64/seeds1-2.nc"
 
 
-def errors(run):
-    """The run has failed, and told so without a trace."""
-    assert run.returncode != 0, run.stdout
-    assert "Traceback" not in run.stdout, run.stdout
-    return run.stdout
-
-
-def completes(workflow, reference):
-    run = workflow.snakemake(SOLVED)
-    assert run.returncode == 0, run.stdout
-    solved = datasets.read(workflow / SOLVED)
-    assert solved.equals(reference)
-    assert not list((workflow / "results").rglob(".*.nc")), "a temporary file was left behind"
-
-
-@pytest.fixture
-def solved(finished, fresh):
-    """A folder with the surface and the solution of one case only, as a run left them."""
-    for path in (SURFACE, SOLVED):
-        (fresh / path).parent.mkdir(parents=True)
-        shutil.copy2(finished / path, fresh / path)
-    return fresh
-
-
-@pytest.fixture
-def reference(finished):
-    return datasets.read(finished / SOLVED)
-
-
-def test_killed_job(fresh, reference):
-    """The job alone, as by the kernel when memory runs out."""
-    run = subprocess.Popen(
-        fresh.command(SOLVED, *TINY),
-        cwd=fresh.folder,
+def start(workflow, *targets):
+    return subprocess.Popen(
+        workflow.command(*targets),
+        cwd=workflow.folder,
         stdout=subprocess.PIPE,
         stderr=subprocess.STDOUT,
         text=True,
+        start_new_session=True,
     )
-    deadline, killed = time.monotonic() + 120, None
-    while killed is None:
-        assert time.monotonic() < deadline, "no job within two minutes"
-        assert run.poll() is None, "the run ended before a job could be killed"
-        for child in psutil.Process(run.pid).children(recursive=True):
-            if any(word.endswith("solve_repulsive.py") for word in cmdline(child)):
-                os.kill(child.pid, signal.SIGKILL)
-                killed = child
+
+
+def wait_for(find, run):
+    """What `find` finds, once it does."""
+    deadline = time.monotonic() + 120
+    while not (found := find()):
+        assert time.monotonic() < deadline, "nothing within two minutes"
+        assert run.poll() is None, "the run has ended before"
         time.sleep(0.02)
+    return found
+
+
+def solving_jobs(run):
+    """Processes of a run that solve for contacts."""
+    found = []
+    for child in psutil.Process(run.pid).children(recursive=True):
+        try:
+            if any(word.endswith("solve_repulsive.py") for word in child.cmdline()):
+                found.append(child.pid)
+        except psutil.Error:
+            pass
+    return found
+
+
+def complete(workflow, finished):
+    """Run again; results are those of an undisturbed run, to the bit."""
+    done = workflow.snakemake("-j1", SOLVED)
+    assert done.returncode == 0, done.stdout
+    for path in (SURFACE, SOLVED):
+        assert datasets.read(workflow / path).equals(datasets.read(finished / path))
+    assert not list((workflow / "results").rglob(".*.nc")), "a temporary file was left behind"
+
+
+def test_a_killed_job_fails_and_what_was_finished_stays(fresh, finished):
+    """The job alone, as by the kernel when memory runs out."""
+    run = start(fresh, SOLVED)
+    os.kill(wait_for(lambda: solving_jobs(run), run)[0], signal.SIGKILL)
     output, _ = run.communicate(timeout=120)
     assert run.returncode != 0
     assert "solve_repulsive" in output
-    assert (fresh / SURFACE).exists(), "what had been finished is lost"
     assert not (fresh / SOLVED).exists()
-    completes(fresh, reference)
+    written = (fresh / SURFACE).stat().st_mtime_ns
+    complete(fresh, finished)
+    assert (fresh / SURFACE).stat().st_mtime_ns == written
 
 
-def cmdline(process):
-    try:
-        return process.cmdline()
-    except psutil.Error:
-        return []
+def test_a_killed_run_leaves_a_lock_and_is_resumed(fresh, finished):
+    run = start(fresh, SOLVED)
+    wait_for(lambda: (fresh / SURFACE).exists(), run)
+    second = fresh.snakemake(SOLVED)
+    assert second.returncode != 0
+    assert "lock" in second.stdout.lower()
+    os.killpg(run.pid, signal.SIGKILL)
+    run.communicate()
+    written = (fresh / SURFACE).stat().st_mtime_ns
+    unlocked = fresh.snakemake("--unlock", SOLVED)  # as Snakemake says
+    assert unlocked.returncode == 0, unlocked.stdout
+    complete(fresh, finished)
+    assert (fresh / SURFACE).stat().st_mtime_ns == written
 
 
-def test_truncated_and_foreign_files(solved, finished, reference):
+def test_truncated_and_misplaced_files_are_named(fresh, finished):
     other = SURFACE.replace("H0.9", "H0.7")
-    good = (solved / SURFACE).read_bytes()
-    (solved / SURFACE).write_bytes(good[: len(good) // 2])
-    (solved / other).parent.mkdir(parents=True)
-    shutil.copy(finished / SURFACE, solved / other)
-    said = errors(solved.snakemake("-k", SOLVED, SOLVED.replace("H0.9", "H0.7")))
-    assert f"{SURFACE}: not a readable NetCDF file" in said
-    assert f"{other}: holds what belongs in {SURFACE.removeprefix('results/')}; delete" in said
-    (solved / SURFACE).unlink()
-    completes(solved, reference)
-    assert (solved / SURFACE).read_bytes() == good
+    for source, target in ((SURFACE, SURFACE), (SOLVED, SOLVED), (SURFACE, other)):
+        (fresh / target).parent.mkdir(parents=True, exist_ok=True)
+        shutil.copy2(finished / source, fresh / target)
+    content = (fresh / SURFACE).read_bytes()
+    (fresh / SURFACE).write_bytes(content[: len(content) // 2])
+    run = fresh.snakemake(SOLVED, SOLVED.replace("H0.9", "H0.7"))
+    assert run.returncode != 0
+    assert "Traceback" not in run.stdout
+    assert f"{SURFACE}: not a readable NetCDF file" in run.stdout
+    assert (
+        f"{other}: holds what belongs in {SURFACE.removeprefix('results/')}; delete" in run.stdout
+    )
+    (fresh / SURFACE).unlink()
+    complete(fresh, finished)

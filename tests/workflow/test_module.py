@@ -85,8 +85,7 @@ def test_example_runs(folder):
     assert {path.name for path in (folder / "results").iterdir()} == {"stickiness", "answer.txt"}
     logs = folder / "results/stickiness/draft/logs"
     assert {path.name for path in logs.iterdir()} == {
-        *("analyse_surface", "press_measured", "pull_measured"),
-        *("judge", "write_surface"),
+        *("analyse_surface", "picture_contact", "judge", "judge_surface", "write_surface"),
     }
     again = dry_run(folder, "-s", EXAMPLE / "Snakefile")
     assert "Nothing to be done" in again.stdout, again.stdout
@@ -100,8 +99,8 @@ def test_a_prefix_holds_for_results_alone(folder):
     (folder / "data/wall.txt").write_text("not read in a dry-run", encoding="utf-8")
     assert jobs(dry_run(folder, f"deep/{PAGE}")) == {
         "stickiness_analyse_surface": 1,
-        "stickiness_press_measured": 1,
-        "stickiness_pull_measured": 1,
+        "stickiness_picture_contact": 1,
+        "stickiness_judge_surface": 1,
         "stickiness_write_surface": 1,
     }
 
@@ -146,4 +145,4 @@ def test_from_any_folder(tmp_path):
     """No configuration of its own at all."""
     page = "results/standard/report/surfaces/asphalt.html"
     planned = jobs(dry_run(tmp_path, "-s", ROOT / "Snakefile", page))
-    assert planned == {"analyse_surface": 1, "write_surface": 1}
+    assert planned == {"analyse_surface": 1, "judge_surface": 1, "write_surface": 1}

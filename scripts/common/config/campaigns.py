@@ -40,45 +40,18 @@ class Presets(Section):
     adhesive: AdhesivePresets = needed("error in full adhesion")
 
 
-class Varied(Section):
-    """Settings of a solver that are varied one at a time."""
+class Settings(Section):
+    """Settings of the solver without adhesion."""
 
-    pixels: Grids
     tolerances: f.Values = needed("tolerances of the solver over h_rms")
     at_pixels: Annotated[int, Field(ge=4)] = optional("grid points while others are varied")
     at_tolerance: f.Positive = needed("tolerance while others are varied")
 
 
-class Settings(Varied):
-    """Settings without adhesion."""
-
-    surfaces: f.Several[f.Name] = needed("names in cases")
-
-
-class Bands(Section):
-    """Spectra that end at several magnifications, the largest of which is the reference."""
-
-    hurst: f.Several[f.Hurst] = needed("Hurst exponents")
-    magnification: f.Several[Annotated[int, Field(ge=2)]] = needed(
-        "magnifications at which spectra end, ascending powers of two"
-    )
-    finest: Annotated[int, Field(ge=2)] = needed("grid points per shortest wavelength")
-    most_points: MostPoints
-    seeds: f.Count = needed("realisations")
-
-
-class Nodes(Section):
-    """Error of theory's quadrature."""
-
-    multiples: f.Values = needed(
-        "multiples of the default number of nodes, the largest of which is the reference"
-    )
-    surfaces: f.Names[ModelSurface] = needed("spectra")
-
-
-class VariedAdhesion(Varied):
+class VariedAdhesion(Settings):
     """Settings of full adhesion that are varied one at a time."""
 
+    pixels: Grids
     points: Points
     seeds: f.Count = needed("realisations solved with every setting")
 
@@ -87,8 +60,7 @@ class PullOff(VariedAdhesion):
     """Pull-off during separation under a press."""
 
     pressure: f.Positive = needed("load over E* q0 h_rms from which the separation starts")
-    balances: f.Values = needed("errors of the energy balance that set the steps")
-    at_balance: f.Positive = needed("error of the energy balance while others are varied")
+    at_balance: f.Positive = needed("error of the energy balance that sets the steps")
 
 
 class FullAdhesion(VariedAdhesion):
@@ -97,9 +69,6 @@ class FullAdhesion(VariedAdhesion):
     surfaces: f.Names[ModelSurface] = needed("surfaces by name")
     q0_h_rms: f.Positive = needed("lowest wave number times rms height")
     law: f.Law
-    other_laws: list[f.Law] = needed(
-        "laws to compare with it at the same range and work of adhesion"
-    )
     pressures: f.Loads
     most_points: MostPoints
     more_seeds: f.Count = needed("realisations solved on `at_pixels` and coarser grids")
@@ -111,7 +80,6 @@ class Counts(Section):
 
     fine: f.Count = needed("solved on every grid but the finest")
     finest: f.Count = needed("solved on the finest grid")
-    fixed: f.Count = needed("of fixed amplitudes")
     coarse: f.Count = needed("solved on 2 points per shortest wavelength only")
     described: f.Count = needed("of which only the long waves are used")
 
@@ -131,20 +99,14 @@ class Tradeoff(Section):
     """What accuracy costs, as `snakemake tradeoff` measures it, and the rule of the presets."""
 
     presets: Presets = needed("rule of the presets")
-    settings: Settings = needed("settings of the solver that are measured")
-    seeds: f.Count = needed("realisations solved with every setting")
+    settings: Settings = needed("tolerances of the solver that are measured")
     pressures: f.Loads
-    bands: Bands = needed("spectra that end at several magnifications")
-    nodes: Nodes = needed("error of theory's quadrature")
     adhesion: FullAdhesion = needed("full adhesion with various settings")
     cases: MeasuredSurfaces = needed("surfaces that the error models are fitted to")
     finer: MeasuredSurfaces = needed("more of them, on finer grids and at other loads")
     validation: MeasuredSurfaces = needed("surfaces that the choice of settings is checked on")
 
     def _problems(self, context: Mapping[str, Any]) -> Iterable[str]:
-        for name in self.settings.surfaces:
-            if name not in self.cases.surfaces:
-                yield f.unknown("settings.surfaces", name, self.cases.surfaces)
         rule, user = self.presets, context["config"]
         if rule.surface not in user["model_surfaces"]:
             yield f.unknown("presets.surface", rule.surface, user["model_surfaces"])

@@ -1,11 +1,10 @@
 """Error models: how errors and costs of a simulation depend on surface, load and settings.
 
 Errors of means over random surfaces, and their costs, were measured on a few surfaces with many
-settings (target `tradeoff`). Each part of them is an `ErrorModel`: a power law in magnification,
-window, pressure, pixels and tolerance, times an exponential of the Hurst exponent. Outside what was
-measured (`MEASURED`) errors are doubled, with the models taken at the edge of it. The table also
-has the errors of theory in place of a simulation, and of a value that theory extrapolates to a
-broader spectrum (part ``carrying``).
+settings (target `tradeoff`). Each part of an error is an `ErrorModel`: a power law in
+magnification, window, pressure, pixels and tolerance, times an exponential of the Hurst exponent.
+Outside the measured range (`MEASURED`) the models are evaluated at its edge and errors are doubled.
+The table also has the error of Persson's theory relative to a simulation.
 """
 
 from __future__ import annotations
@@ -22,9 +21,9 @@ import numpy as np
 
 from stickiness.accuracy.quantities import MODELLED, columns_of
 
-PARTS = ("discretisation", "solver", "scatter", "fine_share", "coarse_share", "theory", "carrying")
+PARTS = ("discretisation", "solver", "scatter", "fine_share", "coarse_share", "theory")
 COSTS = ("fine_cost", "coarse_cost", "described_cost", "tolerance_cost")
-COARSE = 2  #: pixels per shortest wavelength of the coarse seeds, the fewest that hold it
+COARSE = 2  #: pixels per shortest wavelength of the coarse seeds, the fewest that resolve it
 FULL = 1e-8  #: tolerance at which costs were measured
 # Where the models were fitted or, at the largest Hurst exponent and the smallest pressure, compared
 # with other simulations.
@@ -41,10 +40,10 @@ OUTSIDE = 2.0  #: factor by which errors outside are widened; P(u) at magnificat
 
 @dataclass(frozen=True)
 class Surface:
-    """What settings depend on: Hurst exponent, q1/q0, side of the cell over longest wavelength.
+    """Surface as the error models see it.
 
-    Only isotropic surfaces of Gaussian amplitudes without a roll-off were measured:
-    ``kind_measured`` is false for others.
+    `window` is the side of the cell over the longest wavelength. Only isotropic surfaces of
+    Gaussian amplitudes without a roll-off were measured: ``kind_measured`` is false for others.
     """
 
     hurst: float

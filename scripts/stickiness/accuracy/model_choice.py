@@ -19,8 +19,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from stickiness.area_load import jtb_limit
 from stickiness.arguments import positive
+from stickiness.criteria.area_load import jtb_limit
 from stickiness.units import si
 
 AXES = ("magnification", "pressure", "range_over_h_rms", "strength")

@@ -39,7 +39,7 @@ from scipy import fft
 
 from stickiness.arguments import integer
 from stickiness.spectrum.kinds import Spectrum
-from stickiness.surface import Amplitudes, check_window, draw_modes, list_modes, sum_modes
+from stickiness.surface import Amplitudes, check_window, sample_modes, sum_modes
 
 _SUMMITS = (0.01, 0.03, 0.1, 0.3)  # share of the area whose mean height is taken
 DESCRIPTORS = (
@@ -261,7 +261,7 @@ def descriptors(
     if not cutoff >= 1:
         raise ValueError(f"cutoff must be at least 1, got {cutoff!r}")
     dq = 2 * np.pi / length
-    i, j, variance = list_modes(spectrum, length)
+    i, j, variance = spectrum.modes(length)
     q = dq * np.hypot(i, j)
     low = q <= cutoff * spectrum.q0 * (1 + _SINGULAR)
     beyond = [float(np.sum(2 * (variance * q**k)[~low])) for k in range(3)]
@@ -272,7 +272,7 @@ def descriptors(
     if not isinstance(seeds, Iterable):
         raise ValueError(f"seeds must be a sequence of integers, got {seeds!r}")
     for seed in seeds:
-        modes = draw_modes(variance, integer("seeds", seed, least=0), amplitudes)
+        modes = sample_modes(variance, integer("seeds", seed, least=0), amplitudes)
         power = 2 * np.abs(modes) ** 2
         square, energy, slope = (beyond[k] + float(np.sum(power * q**k)) for k in range(3))
         heights = np.sort(sum_modes(i, j, modes, n), axis=None)

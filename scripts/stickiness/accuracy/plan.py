@@ -1,21 +1,12 @@
-"""What each case of the configuration is solved with, and which cases share their solutions."""
+"""The settings of each case of the configuration, and which cases share their solutions."""
 
 from __future__ import annotations
 
-import itertools
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
-from stickiness.accuracy import adhesion
-from stickiness.accuracy.choice import (
-    SEEDS,
-    UnreachableError,
-    allow_for_few_seeds,
-    cheapest,
-)
 from stickiness.accuracy.error_models import ErrorModels, Settings, Surface
-from stickiness.accuracy.extrapolation import left_to_simulation
 from stickiness.accuracy.prediction import Problem
 from stickiness.accuracy.quantities import (
     MEASURED,
@@ -24,6 +15,7 @@ from stickiness.accuracy.quantities import (
     columns_of,
     refuse_unknown,
 )
+from stickiness.accuracy.settings import SEEDS, UnreachableError, allow_for_few_seeds, cheapest
 
 FEWEST_COARSE = 64  #: coarse seeds if nothing says how many
 FIRST_FILE = 64  #: coarse seeds in the first file of a case
@@ -35,13 +27,13 @@ class Plan:
     """How one case is solved."""
 
     settings: Settings
-    quantities: tuple[str, ...]  #: what is wanted, of `quantities.QUANTITIES`
+    quantities: tuple[str, ...]  #: names in `quantities.QUANTITIES`
     pressures: tuple[float, ...]  #: ascending
     surface: str  #: name of the model surface
-    simulated: bool  #: false if theory alone is asked for
-    #: Case whose solutions of single realisations are used: the case itself or an earlier one on
-    #: the same surface and settings that has all its loads.
-    owner: str
+    simulated: bool  #: false if the case takes Persson's theory alone
+    #: Case whose solutions of single realisations are used: the case itself, or an earlier one on
+    #: the same surface with the same settings and all its loads.
+    solved_by: str
 
     @property
     def gaps(self) -> bool:
@@ -50,12 +42,12 @@ class Plan:
 
     @property
     def measured(self) -> tuple[str, ...]:
-        """Quantities that are measured on every solution because the case asks for them."""
+        """Quantities that are measured on every solution because the case names them."""
         return tuple(name for name in self.quantities if name in MEASURED)
 
     @property
     def complete(self) -> bool:
-        """Whether the case is simulated and holds what figures and report need."""
+        """Whether the case is simulated and has what figures and report need."""
         return self.simulated and set(self.quantities) >= set(MODELLED)
 
 
@@ -65,9 +57,10 @@ def plans_of(config: Mapping[str, Any], models: ErrorModels) -> dict[str, Plan]:
     Raises
     ------
     UnreachableError
-        If a case asks for more than any settings are predicted to reach; names the case.
+        If no settings are predicted to reach the accuracy of a case; names the case.
     ValueError
-        If theory or error models do not know a quantity that a case asks them for.
+        If a quantity of a case is not given by theory, or has no error model though the case has an
+        accuracy.
     """
     plans: dict[str, Plan] = {}
     for name, case in config["cases"].items():
@@ -76,21 +69,21 @@ def plans_of(config: Mapping[str, Any], models: ErrorModels) -> dict[str, Plan]:
         refuse_unknown(
             quantities,
             f"cases.{name}.quantities",
-            by_theory=not simulated or "carry_to" in case,
+            by_theory=not simulated,
             within_accuracy="accuracy" in case,
         )
         settings, pressures = settings_of(name, config, models), tuple(sorted(case["pressures"]))
-        own = Plan(settings, quantities, pressures, case["surface"], simulated, name)
-        owner = next((key for key, plan in plans.items() if shares(plan, own)), name)
-        plans[name] = replace(own, owner=owner)
+        plan = Plan(settings, quantities, pressures, case["surface"], simulated, name)
+        earlier = (key for key, other in plans.items() if can_reuse(plan, other))
+        plans[name] = replace(plan, solved_by=next(earlier, name))
     return plans
 
 
 def settings_of(name: str, config: Mapping[str, Any], models: ErrorModels) -> Settings:
     """Return the settings of a case: the cheapest for its accuracy, or those of the preset.
 
-    `sampling` stands above both, and so do `seeds` of the case. `seeds` of the whole configuration
-    stand above the preset.
+    `sampling` and `seeds` of the case override both. `seeds` at the top of the configuration
+    override the preset.
     """
     case = config["cases"][name]
     if "accuracy" in case:
@@ -99,12 +92,11 @@ def settings_of(name: str, config: Mapping[str, Any], models: ErrorModels) -> Se
         return replace(chosen, seeds=case.get("seeds", min(chosen.seeds, at_most)))
     chosen = preset(config["fidelities"][config["fidelity"]])
     seeds = case.get("seeds", config.get("seeds", chosen.seeds))
-    coarse = 0 if plain(case, config) else chosen.coarse_seeds
+    coarse = 0 if takes_plain_means(case, config) else chosen.coarse_seeds
     return replace(chosen, seeds=seeds, coarse_seeds=coarse)
 
 
-def plain(case: Mapping[str, Any], config: Mapping[str, Any]) -> bool:
-    """Whether a case takes plain means."""
+def takes_plain_means(case: Mapping[str, Any], config: Mapping[str, Any]) -> bool:
     return case.get("sampling", config["sampling"]["method"]) == "plain"
 
 
@@ -115,8 +107,9 @@ def preset(fidelity: Mapping[str, Any]) -> Settings:
 
 
 def cheapest_for(name: str, config: Mapping[str, Any], models: ErrorModels) -> Settings:
-    """Return the settings predicted to be the cheapest for the accuracy that a case asks for."""
+    """Return the settings predicted to be the cheapest for the accuracy of a case."""
     case = config["cases"][name]
+    accuracy = case["accuracy"]
     problem = Problem(
         models,
         Surface.of(config["model_surfaces"][case["surface"]]),
@@ -124,57 +117,24 @@ def cheapest_for(name: str, config: Mapping[str, Any], models: ErrorModels) -> S
         columns_of(case.get("quantities", MODELLED)),
         config["sampling"]["descriptor_seeds"],
     )
-    refused, accuracy = f"cases.{name}.accuracy = {case['accuracy']!r} is out of reach: ", None
-    if "carry_to" in case:
-        accuracy = left_to_simulation(problem, case["accuracy"], case["carry_to"])
-        if accuracy <= 0:
-            raise UnreachableError(
-                f"{refused}the error of theory's extrapolation to magnification "
-                f"{case['carry_to']:g} is larger; ask for less accuracy, a smaller carry_to, or "
-                "simulate a larger magnification"
-            )
-        refused += f"extrapolated by theory, the simulation has to reach {accuracy:.2g}, and "
+    only_plain = True if takes_plain_means(case, config) else None
     try:
-        only_plain = True if plain(case, config) else None
-        wanted = accuracy or case["accuracy"]
-        return allow_for_few_seeds(problem, cheapest(problem, wanted, plain=only_plain), wanted)
+        return allow_for_few_seeds(problem, cheapest(problem, accuracy, plain=only_plain), accuracy)
     except UnreachableError as error:
-        raise UnreachableError(f"{refused}{error}; {error.remedy}") from None
+        raise UnreachableError(
+            f"cases.{name}.accuracy = {accuracy!r} is out of reach: {error}; {error.remedy}"
+        ) from None
 
 
-def preset_by_rule(
-    models: ErrorModels,
-    asked: Mapping[str, Any],
-    name: str,
-    surface: Mapping[str, Any],
-    descriptor_seeds: int,
-    free: bool = False,
-) -> Settings:
-    """Return the cheapest settings for the error of a preset in every quantity, adhesive ones too.
-
-    `asked` is what the configuration says under ``tradeoff.presets``, `surface` the model surface
-    that it names. `free` leaves aside the quantities of full adhesion, on the same realisations.
-    """
-    where, least = (models, Surface.of(surface), asked["pressures"]), None
-    if not free:
-        wanted = asked["adhesive"]
-        columns = tuple(itertools.chain(*(adhesion.QUANTITIES[q] for q in wanted["quantities"])))
-        least = adhesion.cheapest(
-            Problem(*where, columns, descriptor_seeds), wanted["accuracy"][name]
-        )
-    problem = Problem(*where, columns_of(MODELLED), descriptor_seeds)
-    return cheapest(problem, asked["accuracy"][name], plain=False, least=least)
-
-
-def shares(plan: Plan, own: Plan) -> bool:
-    """Whether the realisations that one plan solves hold those of another."""
+def can_reuse(plan: Plan, other: Plan) -> bool:
+    """Whether a plan can use the realisations that another one solves."""
     return (
-        (plan.surface, *grid(plan)) == (own.surface, *grid(own))
+        (plan.surface, *grid(plan)) == (other.surface, *grid(other))
         and plan.simulated
-        and own.simulated
-        and set(own.pressures) <= set(plan.pressures)
-        and plan.gaps >= own.gaps
-        and set(own.measured) <= set(plan.measured)
+        and other.simulated
+        and set(plan.pressures) <= set(other.pressures)
+        and other.gaps >= plan.gaps
+        and set(plan.measured) <= set(other.measured)
     )
 
 
@@ -183,7 +143,7 @@ def grid(plan: Plan) -> tuple[int, float]:
     return plan.settings.pixels_per_wavelength, plan.settings.tolerance
 
 
-def coarse_parts(count: int) -> list[str]:
+def coarse_batches(count: int) -> list[str]:
     """Return the names of the files of so many coarse seeds: the first and the last of each.
 
     Files end at the same seeds whatever the number, but for the last: a case that asks for more
@@ -191,7 +151,7 @@ def coarse_parts(count: int) -> list[str]:
 
     Examples
     --------
-    >>> coarse_parts(160)
+    >>> coarse_batches(160)
     ['1-64', '65-128', '129-160']
     """
     last, parts = 0, []
@@ -201,27 +161,27 @@ def coarse_parts(count: int) -> list[str]:
     return parts
 
 
-def seed_parts(count: int) -> list[str]:
+def seed_batches(count: int) -> list[str]:
     """Return the names of the files of so many fine seeds, `SEEDS_A_FILE` in each but the last.
 
     Examples
     --------
-    >>> seed_parts(9)
+    >>> seed_batches(9)
     ['1-4', '5-8', '9-9']
     """
     firsts = range(1, count + 1, SEEDS_A_FILE)
     return [f"{first}-{min(first + SEEDS_A_FILE - 1, count)}" for first in firsts]
 
 
-def covering_parts(count: int, among: int) -> list[str]:
+def batches_covering(count: int, among: int) -> list[str]:
     """Return the files that hold so many fine seeds, those of `among` seeds where they do.
 
     Examples
     --------
-    >>> covering_parts(6, among=8), covering_parts(6, among=3)
+    >>> batches_covering(6, among=8), batches_covering(6, among=3)
     (['1-4', '5-8'], ['1-4', '5-6'])
     """
-    return [part for part in seed_parts(max(count, among)) if seeds_in(part)[0] <= count]
+    return [part for part in seed_batches(max(count, among)) if seeds_in(part)[0] <= count]
 
 
 def seeds_in(part: str) -> list[int]:

@@ -17,7 +17,6 @@ from numpy.typing import NDArray
 _MEANS = ("area_fraction", "mean_gap", "attractive_area", "gap_density")
 _FILES = ("ensemble", "a_v", "kappa")
 
-OfTheory = Callable[[Any, float], float]
 Measure = Callable[[NDArray, NDArray, float], float]
 
 
@@ -33,9 +32,6 @@ class Column:
     #: where along `range` or `gap`, over h_rms
     at: Mapping[str, float] = field(default_factory=dict)
     file: str = "ensemble"  #: or the fit ``a_v`` or ``kappa``
-    #: Value by a `Persson` at a pressure, up to a factor that no magnification changes. Without
-    #: it theory alone cannot answer a case, nor extrapolate it to a broader spectrum.
-    of_theory: OfTheory | None = None
 
     def __post_init__(self) -> None:
         if self.file not in _FILES:
@@ -50,7 +46,8 @@ class Quantity:
     columns: tuple[Column, ...]
     means: tuple[str, ...]  #: of the ensemble, that it needs
     #: Measures it on one solution, from heights (n, n) over h_rms, gaps (n, n) over h_rms and
-    #: the side of the cell over 1/q0. Solvers call it if a case asks for the quantity.
+    #: the side of the cell over 1/q0. Solvers call it if a case asks for the quantity; theory
+    #: cannot give it.
     measure: Measure | None = None
     #: Whether its errors were measured. Cases have all such quantities by default.
     has_error_model: bool = True
@@ -99,11 +96,9 @@ TABLE = (
         "contact area",
         "area_fraction",
         ["area_fraction"],
-        of_theory=lambda theory, pressure: theory.area_fraction(pressure),
     ),
     _single(
         *("mean_gap", "mean gap over h_rms", "mean gap", "mean_gap", ["mean_gap"]),
-        of_theory=lambda theory, pressure: theory.mean_gap(pressure),
     ),
     Quantity(
         "attractive_area",
@@ -115,7 +110,6 @@ TABLE = (
                 "attractive_area",
                 heading=f"A_ad({at:g})",
                 at={"range": at},
-                of_theory=lambda theory, pressure, at=at: theory.gap_cumulative(at, pressure),
             )
             for at in (0.01, 0.1)
         ),
@@ -129,23 +123,15 @@ TABLE = (
         ["attractive_area", "gap_density"],
         heading="P(u)",
         at={"gap": 0.1},
-        of_theory=lambda theory, pressure: theory.gap_density(0.1, pressure),
     ),
     _single(
         *("a_v", "a_V", "a_V", "a_v", ["attractive_area"]),
         heading="a_V",
         file="a_v",
-        # Fitted between the two ranges.
-        of_theory=lambda theory, pressure: np.sqrt(
-            np.prod(theory.gap_cumulative(np.array([0.01, 0.1]), pressure))
-        ),
     ),
     _single(
         *("kappa", "kappa_rep", "κ", "kappa", ["area_fraction"]),
         file="kappa",
-        of_theory=lambda theory, pressure: (
-            theory.area_fraction(pressure) * theory.spectrum.rms_slope
-        ),
     ),
     _single(
         "contact_slope",
@@ -190,7 +176,7 @@ def refuse_unknown(
         if name not in QUANTITIES:
             raise ValueError(f"{key}: {name!r} is not one of {', '.join(QUANTITIES)}")
         quantity = QUANTITIES[name]
-        if by_theory and not all(column.of_theory for column in quantity.columns):
+        if by_theory and quantity.measure:
             raise ValueError(f"{key}: theory does not give {name}; simulate it, or leave it out")
         if within_accuracy and not quantity.has_error_model:
             raise ValueError(

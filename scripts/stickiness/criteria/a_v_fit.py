@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
@@ -10,7 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from stickiness.arguments import positive
 
-__all__ = ["AvFit", "fit_a_v", "local_exponent", "window_sensitivity"]
+__all__ = ["AvFit", "fit_a_v", "local_exponent"]
 
 
 def local_exponent(eps: ArrayLike, area: ArrayLike) -> NDArray:
@@ -128,16 +127,3 @@ def fit_a_v(
         n_points=n,
         relative_residual=float(np.sqrt(np.mean(residual**2) / np.mean(y**2))) if y.any() else 0.0,
     )
-
-
-def window_sensitivity(
-    eps: ArrayLike,
-    area: ArrayLike,
-    pressure: ArrayLike,
-    windows: Iterable[tuple[float, float]],
-    h_rms: float = 1.0,
-    q0: float = 1.0,
-    sigma: ArrayLike | None = None,
-) -> tuple[AvFit, ...]:
-    """Fit a_V in each of several intervals; see `fit_a_v` for the parameters."""
-    return tuple(fit_a_v(eps, area, pressure, h_rms, q0, window, sigma) for window in windows)

@@ -46,11 +46,11 @@ def edge_range(ranges: ArrayLike, infinite: ArrayLike, finite: ArrayLike) -> flo
 
     Below it one variant of the theory lets P(u) grow without bound, the other tends to a constant,
     while gaps next to an edge have P ~ u^(-1/3). The range is the largest at which the attractive
-    area of the one is `PARTED` times that of the other. What theory has there, held constant below,
-    is 1.0 to 1.2 times what simulation finds next to edges (H = 0.7 to 0.9, magnification 32 to
-    128, loads from 0.0065 to 0.46), and agrees with the estimate of Pastewka and Robbins, which
-    knows nothing of this theory: for magnifications of 10^3 and 10^6 it is 1.4 times theirs at H =
-    0.6, 1.2 and 1.1 at 0.7, 1.1 and 0.95 at 0.8, 0.95 and 0.8 at 0.9.
+    area of the first is `PARTED` times the second. The theory there, held constant below, is 1.0
+    to 1.2 times what simulation finds next to edges (H = 0.7 to 0.9, magnification 32 to 128, loads
+    from 0.0065 to 0.46). It agrees with the independent estimate of Pastewka and Robbins: for
+    magnifications of 10^3 and 10^6 it is 1.4 times theirs at H = 0.6, 1.2 and 1.1 at 0.7, 1.1 and
+    0.95 at 0.8, 0.95 and 0.8 at 0.9.
 
     `infinite` and `finite` are the attractive areas (or a_V) (n,) at increasing `ranges` by the
     variants with infinite and finite P(0). The result is between the ranges, along a power law; the
@@ -104,10 +104,10 @@ def theory_a_v(
     """a_V by both variants of Persson's theory and by the edge law.
 
     Ranges are over h_rms and increase; the pressure is the mean one over E* q0 h_rms, with the q0
-    of the spectrum unless one is given; `edge_a_v` is that of `formulas.pastewka_robbins_a_v`,
+    of the spectrum unless one is given; `edge_a_v` is from `formulas.pastewka_robbins_a_v`,
     `gamma` the correction of the theory's elastic energy. Returns the names (`VARIANTS` and
     `EDGE_LAW`), their a_V and the edge range over h_rms. Below that the variants are held constant,
-    and the edge law takes its own value.
+    and the edge law takes `edge_a_v`.
     """
     ranges = np.asarray(ranges, dtype=float)
     h_rms, q0 = spectrum.h_rms, float(spectrum.q0 if q0 is None else q0)
@@ -232,7 +232,7 @@ class AvTable:
         """Standard error that extrapolation adds below the simulated ranges, a step a decade.
 
         Theory and simulation follow the same power laws there: self-affine scaling, then the 3/2
-        law of the gap next to edges. Their ratio therefore has no trend of its own. From one
+        law of the gap next to edges. Their ratio therefore has no trend. From one
         simulated decade to the next its drift changes size, and at small loads sign.
         """
         decades = np.clip(np.log10(self._simulated / eps), 0, None)

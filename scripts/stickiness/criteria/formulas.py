@@ -16,7 +16,8 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import minimize_scalar
 from scipy.special import ndtr
 
-from stickiness.area_load import (  # noqa: F401
+from stickiness.arguments import plain, positive
+from stickiness.criteria.area_load import (  # noqa: F401
     h_rms_limit,
     inverse_kappa,
     inverse_kappa_ad,
@@ -27,14 +28,13 @@ from stickiness.area_load import (  # noqa: F401
     traction_ratio,
     violano_c0_limit,
 )
-from stickiness.arguments import plain, positive
 from stickiness.spectrum.kinds import Spectrum
 
 __all__ = [  # noqa: PLE0604
     *("CRYSTAL_RANGE_RATIO", "DAHLQUIST_LIMIT", "PRINTED_A_V", "PR_CONSTANT", "DmtValidity"),
-    *("Verdict", "bearing_area", "bearing_area_pull_off", "dahlquist", "dmt_validity"),
+    *("Verdict", "bearing_area", "dahlquist", "dmt_validity"),
     *("fuller_tabor", "h_rms_limit", "inverse_kappa", "inverse_kappa_ad", "jtb_limit", "kappa"),
-    *("modulus_threshold", "nayak_summit_radius", "pastewka_robbins", "pastewka_robbins_a_v"),
+    *("modulus_threshold", "pastewka_robbins", "pastewka_robbins_a_v"),
     *("pastewka_robbins_a_v_power_law", "pastewka_robbins_range", "persson_tosatti", "slope_angle"),
     *("traction_ratio", "violano", "violano_c0_limit", "violano_printed"),
 ]
@@ -233,7 +233,7 @@ def fuller_tabor(
     radius : array_like, optional
         Summit radius R [length], originally that of equal spheres. Default: 2/h'', the radius of
         the paraboloid whose Laplacian is the root mean square one. Nayak's mean summit curvature
-        gives 1.085/h'' (`nayak_summit_radius`), a theta larger by 1.36.
+        (8/3) sqrt(m4/pi) gives 1.085/h'', a theta larger by 1.36.
     threshold : float
         Largest sticky theta.
 
@@ -249,13 +249,6 @@ def fuller_tabor(
     )
     (radius,) = positive(radius=2 / curvature if radius is None else radius)
     return _verdict("fuller_tabor", threshold * np.sqrt(radius) * length / h**1.5)
-
-
-def nayak_summit_radius(rms_curvature: ArrayLike) -> float | NDArray:
-    """Inverse of Nayak's mean summit curvature (8/3) sqrt(m4/pi), with h''^2 = 8 m4/3."""
-    (curvature,) = positive(rms_curvature=rms_curvature)
-    m4 = 3 / 8 * curvature**2
-    return plain(3 / 8 * np.sqrt(np.pi / m4))
 
 
 def bearing_area(
@@ -292,39 +285,6 @@ def bearing_area(
     # Ranges of hundreds of h_rms stick without bound; the infinite margin says so.
     with np.errstate(over="ignore"):
         return _verdict("bearing_area", np.exp(scale + _log_maximum(range / h)))
-
-
-def bearing_area_pull_off(
-    h_rms: float, q0: float, adhesion_length: float, range: float, repulsion: float = 1.0
-) -> tuple[float, float]:
-    """Minimum of the external pressure over the mean gap in the bearing-area model.
-
-    Parameters are those of `bearing_area`, as scalars.
-
-    Returns
-    -------
-    pressure : float
-        Smallest p_rep - p_ad [E*] over gaps up to 8 h_rms beyond the range, negative if sticky.
-    mean_gap : float
-        Mean gap [length] where it is reached.
-    """
-    given = positive(
-        h_rms=h_rms, q0=q0, adhesion_length=adhesion_length, range=range, repulsion=repulsion
-    )
-    h, q0, adhesion_length, range, repulsion = map(float, given)
-    relative = range / h
-
-    def pressure(x: float) -> float:
-        attraction = adhesion_length / range * _bearing_fraction(x, relative)
-        return repulsion * q0 * h * np.exp(-2 * x) - attraction
-
-    # Below range/2 the attraction rises and the repulsion falls, so the minimum lies above. A
-    # grid first: towards infinity the pressure vanishes from above and is a second trough.
-    grid = relative / 2 + np.linspace(0, relative / 2 + 8, 400)
-    best = int(np.argmin([pressure(x) for x in grid]))
-    bounds = grid[max(best - 1, 0)], grid[min(best + 1, grid.size - 1)]
-    found = minimize_scalar(pressure, bounds=bounds, method="bounded", options={"xatol": 1e-10})
-    return float(found.fun), float(found.x * h)
 
 
 def _bearing_fraction(x: float, width: float) -> float:

@@ -40,11 +40,7 @@ class Line:
 
 @dataclass(frozen=True)
 class Criterion:
-    """One criterion; it has exactly one of `power`, `length` and `modulus`.
-
-    A ValueError says that a name, label or reason is empty, that the reason quotes a fact not in
-    `FACTS`, or that there is not exactly one threshold.
-    """
+    """One criterion; it has exactly one of `power`, `length` and `modulus`."""
 
     name: str  #: in datasets
     label: str  #: for people
@@ -59,9 +55,6 @@ class Criterion:
     line: Line = Line()  #: in figure 9
 
     def __post_init__(self):
-        for entry in ("name", "label", "reason"):
-            if not getattr(self, entry):
-                raise ValueError(f"criterion {self.name!r} has no {entry}")
         quoted = {field for _, field, _, _ in string.Formatter().parse(self.reason) if field}
         if unknown := sorted(quoted - FACTS):
             raise ValueError(
@@ -117,8 +110,8 @@ _TABLE = (
     Criterion(
         EDGES,
         "onset at the finest wave",
-        margin=lambda pair: pair.attraction().ratio,
-        length=lambda pair: pair.edge_threshold(pair.a_v),
+        margin=lambda pair: pair.edges.ratio,
+        length=lambda pair: pair.edge_threshold(),
         reason="Above 1 contact grows by itself at the finest wave, which is not to say that it "
         "holds. The attractive area is {attractive_over_contact} of the contact area. The "
         "Tabor parameter of the edges is {edge_strength} ({regime}). The attraction is "

@@ -12,17 +12,15 @@ from numpy.typing import ArrayLike
 from stickiness.arguments import positive
 from stickiness.criteria.a_v_table import VARIANTS, SurfaceAv, theory_a_v
 from stickiness.criteria.formulas import pastewka_robbins_a_v
-from stickiness.criteria.pair import REGIMES, WORDS, Pair, classify_edges, decide
+from stickiness.criteria.judgement import find_margins, judge
+from stickiness.criteria.pair import REGIMES, WORDS, Pair, decide
 from stickiness.criteria.registry import CRITERIA, EDGES, REMAINING
-from stickiness.measured import instrument_spectrum
-from stickiness.measured.plausibility import doubt_heights
-from stickiness.measured.topography import Topography
 from stickiness.plausibility import PlausibilityWarning, warn_of_si
 from stickiness.remaining.prediction import (
     DEFAULT_SHARE,
     PULL_OFF_UNKNOWN,
-    find_deep_energy,
-    find_widening,
+    find_anisotropy_error_factor,
+    find_half_space_energy,
 )
 from stickiness.solids import HALF_SPACE, Layer, Solid
 from stickiness.spectrum.direction import find_ratio
@@ -44,8 +42,8 @@ class StickinessVerdict:
     ----------
     word : str
         One of `WORDS`: "depends" if the wanted share lies within the limits of what remains,
-        "touches without hold" if contact grows by itself at the finest wave but less remains,
-        "sticks fully" if at least `pair.FULL_SHARE` does.
+        "adheres locally, does not hold" if contact grows by itself at the finest wave but less
+        than the wanted share remains, "sticks fully" if at least `pair.FULL_SHARE` does.
     remaining, remaining_limits : float, (float, float)
         Share of the work of adhesion that remains on the rough surface, and its limits.
     pull_off, pull_off_limits : float, (float, float)
@@ -84,39 +82,39 @@ class StickinessVerdict:
     pair: Pair
 
     def __str__(self) -> str:
+        pair = self.pair
         low, high = self.remaining_limits
         least, most = self.pull_off_limits
+        pull_off = f"{self.pull_off:.2g} Pa ({least:.2g} to {most:.2g} Pa)"
+        if pair.adhesion_length > PULL_OFF_UNKNOWN * pair.elastic_energy:
+            pull_off = f"at least {least:.2g} Pa (full contact, which was not simulated)"
         modulus = [x / 1e6 for x in (self.modulus_threshold, *self.modulus_threshold_limits)]
-        beyond = "" if self.simulated else " (beyond what was simulated)"
         others = "; ".join(
             f"{CRITERIA[name].label} {margin:.3g}"
             for name, margin in self.margins.items()
             if name != REMAINING
         )
-        pair = self.pair
-        asked = (
-            f"asked: E* = {pair.modulus:.3g} Pa, work of adhesion "
+        lines = [
+            f"{self.word}: {self.remaining:.2g} of the work of adhesion remains "
+            f"({low:.2g} to {high:.2g}); {pair.wanted_share:g} is wanted",
+            f"pull-off stress: {pull_off}",
+            f"sticks below E* = {modulus[0]:.3g} MPa ({modulus[1]:.3g} to {modulus[2]:.3g} MPa)",
+            f"edges at the finest wave: {self.regime}"
+            f"{'' if self.simulated else ' (beyond what was simulated)'}",
+            f"a_V = {self.a_v:.3g} ({self.a_v_limits[0]:.3g} to {self.a_v_limits[1]:.3g})",
+            f"margins by other criteria: {others}",
+        ]
+        if pair.anisotropy_error_factor > 1:
+            lines.append(
+                f"the errors of what remains are multiplied by {pair.anisotropy_error_factor:.3g}: "
+                "few surfaces with a direction were simulated"
+            )
+        lines.append(
+            f"given: E* = {pair.modulus:.3g} Pa, work of adhesion "
             f"{pair.work_of_adhesion:.3g} J/m^2, range {pair.range:.3g} m, "
             f"h_rms = {pair.h_rms:.3g} m, longest wave {2 * np.pi / pair.q0:.3g} m"
         )
-        pull_off = f"{self.pull_off:.2g} Pa ({least:.2g} to {most:.2g} Pa)"
-        if pair.adhesion_length > PULL_OFF_UNKNOWN * pair.elastic_energy:
-            pull_off = f"at least {least:.2g} Pa (full contact, which was not simulated)"
-        unlike = (
-            f"limits of what remains allow for {pair.widening:.3g} times the errors: "
-            "few surfaces with a direction were simulated\n"
-        )
-        return (
-            f"{self.word}: {self.remaining:.2g} of the work of adhesion remains "
-            f"({low:.2g} to {high:.2g}); {pair.wanted_share:g} is wanted\n"
-            f"pull-off stress: {pull_off}\n"
-            f"sticks below E* = {modulus[0]:.3g} MPa ({modulus[1]:.3g} to {modulus[2]:.3g} MPa)\n"
-            f"edges at the finest wave: {self.regime}{beyond}\n"
-            f"a_V = {self.a_v:.3g} ({self.a_v_limits[0]:.3g} to {self.a_v_limits[1]:.3g})\n"
-            f"margins by other criteria: {others}\n"
-            f"{unlike if pair.widening > 1 else ''}"
-            f"{asked}"
-        )
+        return "\n".join(lines)
 
 
 def verdict(
@@ -189,8 +187,8 @@ def verdict(
     positive(modulus=modulus, work_of_adhesion=work_of_adhesion, range=range)
     if isinstance(solid, Layer) and poisson != solid.poisson:
         raise ValueError(
-            f"poisson = {poisson!r} must be that of the layer, {solid.poisson!r}: the modulus is "
-            "the layer's"
+            f"poisson = {poisson!r} must equal the layer's, {solid.poisson!r}: `modulus` is that "
+            "of the layer"
         )
     if poisson is not None and not -1 < poisson <= 0.5:
         raise ValueError(f"poisson must be above -1 and at most 0.5, got {poisson!r}")
@@ -208,7 +206,7 @@ def verdict(
             f"{known['h_rms']:.3g}: for this attraction the surface is smooth"
         )
     if a_v is None:
-        a_v = estimate_a_v(spectrum, known, range / known["h_rms"])
+        a_v = surface_a_v(spectrum, known).at(range / known["h_rms"])
     value, low, high = map(float, positive(a_v=a_v)[0])
     if not low <= value <= high:
         raise ValueError(f"a_v must be (value, low, high) with low <= value <= high, got {a_v!r}")
@@ -223,32 +221,27 @@ def verdict(
         constant_a_v=constant_a_v,
         wanted_share=wanted_share,
     )
-    return judge_pair(pair)
+    found = {name: quantity.item() for name, quantity in judge(pair).items()}
+    margins = {name: margin.item() for name, margin in find_margins(pair).items()}
 
+    def limits(name):
+        return found[f"{name}_low"], found[f"{name}_high"]
 
-def judge_pair(pair: Pair) -> StickinessVerdict:
-    """Verdict on a pair of numbers."""
-    edges = pair.attraction()
-    margins = {name: float(criterion.margin(pair)) for name, criterion in CRITERIA.items()}
-    low, remaining, high = (float(pair.remaining(sign)) for sign in (-1, 0, 1))
-    pull_off, *pull_off_limits = (float(x * pair.modulus) for x in pair.pull_off())
-    lowest, value, highest = (
-        pair.work_of_adhesion / pair.remaining_threshold(sign) for sign in (-1, 0, 1)
-    )
+    code = int(decide(*limits("remaining"), margins[EDGES] > 1, wanted_share))
     return StickinessVerdict(
-        word=WORDS[int(decide(low, high, margins[EDGES] > 1, pair.wanted_share))],
-        remaining=remaining,
-        remaining_limits=(low, high),
-        pull_off=pull_off,
-        pull_off_limits=tuple(pull_off_limits),
+        word=WORDS[code],
+        remaining=found["remaining"],
+        remaining_limits=limits("remaining"),
+        pull_off=found["pull_off"],
+        pull_off_limits=limits("pull_off"),
         margin=margins[REMAINING],
-        margin_limits=tuple(map(float, pair.margin_limits())),
-        modulus_threshold=float(value),
-        modulus_threshold_limits=(float(lowest), float(highest)),
-        regime=REGIMES[int(classify_edges(edges))],
-        simulated=bool(edges.simulated),
-        a_v=float(pair.a_v),
-        a_v_limits=(float(pair.a_v_low), float(pair.a_v_high)),
+        margin_limits=limits("margin"),
+        modulus_threshold=found["modulus_threshold"],
+        modulus_threshold_limits=limits("modulus_threshold"),
+        regime=REGIMES[found["regime"]],
+        simulated=bool(found["simulated"]),
+        a_v=value,
+        a_v_limits=(low, high),
         margins=margins,
         pair=pair,
     )
@@ -257,33 +250,16 @@ def judge_pair(pair: Pair) -> StickinessVerdict:
 def describe_surface(
     surface: Spectrum | ArrayLike, length: Any = None, solid: Solid = HALF_SPACE
 ) -> dict[str, Any]:
-    """Spectrum of a surface and its moments by the names of `Pair`; see `verdict`."""
+    """Return the `spectrum` of a surface, and its moments by the names of `Pair`.
+
+    Parameters and errors are those of `verdict`.
+    """
     if isinstance(surface, Spectrum):
         if length is not None:
             raise ValueError(f"length is of measured heights; a spectrum has none, got {length!r}")
         spectrum, q0, ratio = surface, surface.q_longest, surface.anisotropy
     else:
-        if length is None:
-            raise ValueError("length is missing: the side of the measured heights in m")
-        heights = np.asarray(surface, dtype=float)
-        if heights.ndim != 2:
-            raise ValueError(f"heights must be an (nx, ny) array, got the shape {heights.shape}")
-        if np.ndim(length) == 0 and heights.shape[0] != heights.shape[1]:
-            raise ValueError(
-                f"length must be both sides of heights of the shape {heights.shape}, got {length!r}"
-            )
-        sides = np.broadcast_to(positive(length=length)[0], 2)
-        for side in dict.fromkeys(map(float, sides)):
-            warn_of_si(length=side, stacklevel=4)
-        dx, dy = (float(side) / n for side, n in zip(sides, heights.shape, strict=True))
-        measured = instrument_spectrum.analyse(
-            Topography(heights, dx, dy, "heights").detrended("plane")
-        )
-        for doubt in doubt_heights(heights, measured.fit):
-            warnings.warn(f"heights: {doubt}", PlausibilityWarning, stacklevel=3)
-        spectrum = measured.spectrum()
-        q0 = measured.fit.q_rolloff or measured.lowest
-        ratio = find_ratio(np.nan_to_num(measured.anisotropy), measured.fit.hurst)
+        spectrum, q0, ratio = analyse_heights(surface, length)
     return {
         "spectrum": spectrum,
         "q0": float(q0),
@@ -291,21 +267,43 @@ def describe_surface(
         "rms_slope": spectrum.rms_slope,
         "rms_curvature": spectrum.rms_curvature,
         "elastic_energy": spectrum.elastic_energy(solid),
-        "softness": float(solid.factor(q0)),
-        "deep_energy": find_deep_energy(spectrum, solid),
-        "widening": find_widening(ratio),
+        "relative_compliance": float(solid.factor(q0)),
+        "half_space_energy": find_half_space_energy(spectrum, solid),
+        "anisotropy_error_factor": find_anisotropy_error_factor(ratio),
     }
 
 
-def estimate_a_v(
-    spectrum: Spectrum, known: dict[str, float], range_over_h_rms: float
-) -> tuple[float, float, float]:
-    """a_V by theory on a spectrum with its limits; `known` has q0 and the moments."""
-    return surface_a_v(spectrum, known).at(range_over_h_rms)
+def analyse_heights(heights: ArrayLike, length: Any) -> tuple[Spectrum, float, float]:
+    """Spectrum of measured heights, its longest waves and its ratio of correlation lengths."""
+    # A verdict on a spectrum needs no reader of measured files.
+    from stickiness.measured import instrument_spectrum
+    from stickiness.measured.plausibility import doubt_heights
+    from stickiness.measured.topography import Topography
+
+    if length is None:
+        raise ValueError("length is missing: the side of the measured heights in m")
+    heights = np.asarray(heights, dtype=float)
+    if heights.ndim != 2:
+        raise ValueError(f"heights must be an (nx, ny) array, got the shape {heights.shape}")
+    if np.ndim(length) == 0 and heights.shape[0] != heights.shape[1]:
+        raise ValueError(
+            f"length must be both sides of heights of the shape {heights.shape}, got {length!r}"
+        )
+    sides = np.broadcast_to(positive(length=length)[0], 2)
+    for side in dict.fromkeys(map(float, sides)):
+        warn_of_si(length=side, stacklevel=5)
+    dx, dy = (float(side) / n for side, n in zip(sides, heights.shape, strict=True))
+    measured = instrument_spectrum.analyse(
+        Topography(heights, dx, dy, "heights").detrended("plane")
+    )
+    for doubt in doubt_heights(heights, measured.fit):
+        warnings.warn(f"heights: {doubt}", PlausibilityWarning, stacklevel=4)
+    ratio = find_ratio(np.nan_to_num(measured.anisotropy), measured.fit.hurst)
+    return measured.spectrum(), measured.fit.q_rolloff or measured.lowest, ratio
 
 
 def surface_a_v(spectrum: Spectrum, known: dict[str, float]) -> SurfaceAv:
-    """a_V by theory on a spectrum at every range; `known` has q0 and the moments."""
+    """Compute a_V by theory on a spectrum at every range; `known` has q0 and the moments."""
     moments = (known[name] for name in ("q0", "h_rms", "rms_slope", "rms_curvature"))
     edge_a_v = float(pastewka_robbins_a_v(*moments))
     names, a_v, _ = theory_a_v(spectrum, RANGES, LOAD, edge_a_v, q0=known["q0"])

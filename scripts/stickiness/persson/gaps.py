@@ -1,17 +1,35 @@
-"""Where Persson's theory loses contact, scale by scale, and the gaps that opens: see `theory`."""
+"""Where Persson's theory loses contact, scale by scale, and the distribution of gaps it opens.
+
+At one load, contact lost on resolving a scale opens the gap u1 (see `theory`). u1 is a sum over all
+finer scales, far dearer than anything else that the distribution of gaps needs, yet smooth: a shell
+of a discrete spectrum sets in with all its derivatives zero. Quadrature nodes of P(u), on the other
+hand, follow every step of q(m), because the widths of the Gaussians have kinks there. So ln u1 is
+summed at Chebyshev points of panels that are halved until the series has converged (`GapCurve`),
+and interpolated at the nodes of P(u) (`GapProfile`). All variants of the theory share the curve.
+"""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import logging
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.special import erf, erfc
 
-from stickiness.persson.lost_contact import TAIL_LOG, GapCurve, LostContact, Setting, visible_range
-from stickiness.persson.scale_quadrature import knots
-from stickiness.spectrum.kinds import Shells
+from stickiness.persson.kernels import Kernels
+from stickiness.persson.scale_quadrature import ScaleNodes
+from stickiness.spectrum.interface import Spectrum
 
+SMALLEST_LOG = 45.0  #: gaps below exp(-45) of the others count as zero
+TAIL_LOG = 38.0  #: area lost beyond holds less than exp(-38) of what is lost in all
+_SERIES_ORDER = 16  # Chebyshev points of a panel
+# Widths in ln(y - y_end) of the first panels of the series, and where halving ends.
+_SERIES_PANEL, _LEAST_PANEL = 1.5, 1e-3
+_ANGLES = np.pi * (np.arange(_SERIES_ORDER) + 0.5) / _SERIES_ORDER
+_POINTS = -np.cos(_ANGLES)
+_TO_SERIES = np.polynomial.chebyshev.chebvander(_POINTS, _SERIES_ORDER - 1).T * (2 / _SERIES_ORDER)
+_TO_SERIES[0] /= 2
 # Gauss quadrature, by the least change that a panel sees.
 _RULES = {
     least: np.polynomial.legendre.leggauss(order)
@@ -28,6 +46,137 @@ _SHARES = np.geomspace(0.03, 30.0, 7)  # height variance left in a shell over th
 _FAR = 9.5  # widths from which on a Gaussian is nothing
 _BLOCK = 10  # gaps that are looked at together
 _NARROWEST = 1e-150  # Gaussians that much narrower than the widest are points
+
+
+@dataclass(frozen=True)
+class Setting:
+    """A surface as the theory sees it, at no particular load."""
+
+    spectrum: Spectrum
+    kernels: Kernels
+    scales: ScaleNodes
+    m2: float  #: profile variance of the gradient of the whole surface
+    variant: str  #: see `persson.Persson`
+    nodes: float  #: multiplies the number of quadrature nodes
+    curves: dict[float, GapCurve] = field(default_factory=dict)  #: by load, whatever the variant
+
+    def curve(self, p: float) -> GapCurve:
+        """u1 at the load `p`, made once."""
+        if p not in self.curves:
+            if len(self.curves) >= 64:
+                self.curves.clear()
+            self.curves[p] = GapCurve.at(self, p)
+        return self.curves[p]
+
+
+@dataclass(frozen=True)
+class LostContact:
+    """Contact lost at the scales where A = erf(y), y = y_end + step: what P(u) is made of."""
+
+    y: NDArray
+    step: NDArray
+    m: NDArray
+    rest: NDArray  #: M - m
+
+    @classmethod
+    def at(cls, setting: Setting, p: float, y_end: float, log_step: NDArray) -> LostContact:
+        """At values of ln(y - y_end), in order."""
+        step = np.exp(log_step)
+        rest = p**2 * setting.kernels.area_scale_step(y_end, step)
+        y = y_end + step
+        return cls(y, step, p**2 * setting.kernels.area_scale(y), rest)
+
+    def __getitem__(self, part: slice) -> LostContact:
+        """Return a part of the scales."""
+        return LostContact(self.y[part], self.step[part], self.m[part], self.rest[part])
+
+
+@dataclass(frozen=True)
+class GapCurve:
+    """Ln u1 against ln(y - y_end) at one load: Chebyshev series of its smooth part on panels.
+
+    Errs by some 1e-7 with the default number of nodes, like the sum over scales itself.
+    """
+
+    p: float
+    y_end: float  #: A = erf(y_end) at the finest resolution
+    edges: NDArray  #: (k + 1,), of the panels
+    series: NDArray  #: (k, order)
+
+    @classmethod
+    def at(cls, setting: Setting, p: float) -> GapCurve:
+        """Sum u1 on panels halved until the last terms of each series are small."""
+        y_end = float(setting.kernels.invert_area_scale(setting.m2 / p**2))
+        low, high = visible_range(setting, y_end)
+        tolerance = max(1e-7 * setting.nodes**-6, 1e-10)
+        edges = np.linspace(
+            low, high, 1 + int(np.ceil((high - low) * setting.nodes / _SERIES_PANEL))
+        )
+        panels, done = np.stack([edges[:-1], edges[1:]], axis=1), []
+        while len(panels):
+            start, end = panels.T
+            series = _series(setting, p, y_end, start, end)
+            ready = np.abs(series[:, -3:]).max(axis=1) < tolerance
+            narrow = ~ready & (end - start < _LEAST_PANEL)
+            if narrow.any():
+                logging.info("p = %g: %d panels of gaps not converged", p, narrow.sum())
+            ready |= narrow
+            done += zip(start[ready], series[ready], strict=True)
+            middle = 0.5 * (start + end)
+            halves = np.stack([start, middle, middle, end], axis=1)
+            panels = halves[~ready].reshape(-1, 2)
+        starts, series = zip(*sorted(done, key=lambda panel: panel[0]), strict=True)
+        return cls(p, y_end, np.array([*starts, high]), np.array(series))
+
+    def log_gap(self, log_step: NDArray, lost: LostContact) -> NDArray:
+        """Ln u1, free of underflow: u1 spans hundreds of orders of magnitude.
+
+        Below the panels, where u1 is zero beside all others, its smooth part is held.
+        """
+        inside = np.clip(log_step, self.edges[0], self.edges[-1])
+        panel = np.clip(np.searchsorted(self.edges, inside) - 1, 0, len(self.series) - 1)
+        start, end = self.edges[panel], self.edges[panel + 1]
+        x = (2 * inside - start - end) / (end - start)
+        terms = np.polynomial.chebyshev.chebvander(x, _SERIES_ORDER - 1)
+        smooth = np.einsum("ij,ij->i", terms, self.series[panel])
+        return lost.y**2 - (self.p / erf(lost.y)) ** 2 / lost.rest + smooth
+
+
+def visible_range(setting: Setting, y_end: float) -> tuple[float, float]:
+    """Range of ln(y - y_end) over which gaps are not negligible beside all others."""
+    high = np.log(TAIL_LOG / (y_end + np.sqrt(y_end**2 + TAIL_LOG)))
+    slope = y_end**3 * float(setting.kernels.diffusion(y_end)) / 2
+    low = float(np.log(slope / erf(y_end) ** 2 / (SMALLEST_LOG + y_end**2)))
+    return min(low, high - 1.0), high  # next to full contact all gaps are that small
+
+
+def _series(setting: Setting, p: float, y_end: float, start: NDArray, end: NDArray) -> NDArray:
+    """Chebyshev series, row by row, of the smooth part of ln u1 on panels."""
+    log_step = 0.5 * ((start + end)[:, None] + (end - start)[:, None] * _POINTS)
+    lost = LostContact.at(setting, p, y_end, log_step.ravel())
+    parts = (lost[i : i + _SERIES_ORDER] for i in range(0, log_step.size, _SERIES_ORDER))
+    return np.log([scaled_gap(setting, p, part) for part in parts]) @ _TO_SERIES.T
+
+
+def scaled_gap(setting: Setting, p: float, lost: LostContact) -> NDArray:
+    """u1 over exp(y^2 - p(m)^2/(M - m)), by the sum over scales finer than each m."""
+    kernel = setting.kernels
+    nodes = setting.scales.beyond(lost.m.min(), lost.m.max())
+    coarse = lost.m < 0.5 * setting.m2
+    s2 = np.empty((len(coarse), len(nodes.weight)))
+    s2[coarse] = nodes.below - lost.m[coarse, None]
+    s2[~coarse] = lost.rest[~coarse, None] - nodes.above
+    pressure2 = ((p / erf(lost.y)) ** 2)[:, None]
+    finest = pressure2 / lost.rest[:, None]
+    # What is not finer ends where the exponential is zero.
+    np.maximum(s2, pressure2 / (finest + 740.0), out=s2)
+    x2 = pressure2 / s2
+    a = np.sqrt(np.pi) * p**2 * erf(lost.y) / (lost.y**3 * kernel.diffusion(lost.y))
+    terms = np.exp(finest - x2)
+    terms *= kernel.gap_kernel(x2)
+    terms *= s2 * np.exp(-(lost.y**2))[:, None] + 0.5 * a[:, None]
+    terms /= np.sqrt(s2)
+    return 2 / np.sqrt(np.pi) * (terms @ nodes.weight)
 
 
 @dataclass(frozen=True)
@@ -79,15 +228,6 @@ def _panel_nodes(edges: NDArray, change: NDArray, few: bool) -> tuple[NDArray, N
     return at[order], weights[order]
 
 
-def _step_range(setting: Setting, y_end: float) -> tuple[float, float]:
-    """Range of ln(y - y_end) that matters."""
-    low, high = visible_range(setting, y_end)
-    if setting.variant == "almqvist2011":
-        # u1 may vanish but the width goes as (M - m)^(1/2): that much must be negligible.
-        low = np.log(y_end) - 42.0
-    return low, high
-
-
 def _width(setting: Setting, lost: LostContact, gap: NDArray) -> NDArray:
     """Standard deviation of the Gaussians."""
     spectrum, m2 = setting.spectrum, setting.m2
@@ -113,7 +253,10 @@ def _panel_edges(setting: Setting, curve: GapCurve, reach: float) -> tuple[NDArr
     zero and move by more of their widths. A change of 1 needs ten nodes.
     """
     p, y_end = curve.p, curve.y_end
-    low, high = _step_range(setting, y_end)
+    low, high = visible_range(setting, y_end)
+    if setting.variant == "almqvist2011":
+        # u1 may vanish but the width goes as (M - m)^(1/2): that much must be negligible.
+        low = np.log(y_end) - 42.0
     probe = np.linspace(low, high, 300)
     # u1 grows as exp(y^2) where y is large.
     number = (probe - low) / _LOOK + (y_end + np.exp(probe)) ** 2 / _LOOK_FAR
@@ -147,18 +290,17 @@ def _breaks(setting: Setting, p: float, y_end: float) -> tuple[NDArray, NDArray]
     as exp(-p(m)^2/(m_shell - m)), and h falls to what the finer shells hold.
     """
     spectrum = setting.spectrum
-    shells = isinstance(spectrum, Shells)
-    if shells:
+    if spectrum.is_discrete:
         most, q, jump = _MOST_SHELLS, spectrum.q[:-1], np.diff(np.log(spectrum.q))
     else:
-        most, q = _MOST_KNOTS, knots(spectrum)
+        most, q = _MOST_KNOTS, spectrum.knots[1:-1]
         at = np.concatenate([[spectrum.q0], q, [spectrum.q1]])
         jump = np.abs(np.diff(np.diff(np.log(spectrum.psd(at))) / np.diff(np.log(at))))
     m = 0.5 * spectrum.variance_below(q, 2)
     y = setting.kernels.invert_area_scale(m / p**2)
     matter = (y > y_end) & (y**2 < y_end**2 + TAIL_LOG)
     chosen = np.flatnonzero(matter)[np.argsort(jump[matter])[::-1][:most]]
-    strong = chosen[jump[chosen] > _STRONG] if shells else chosen[:0]
+    strong = chosen[jump[chosen] > _STRONG] if spectrum.is_discrete else chosen[:0]
     depth = (p / erf(y[strong])) ** 2 / _ONSETS[:, None]
     finer = 0.5 * q[strong] ** 2 * spectrum.variance_above(q[strong])
     depth = np.concatenate([depth, finer * _SHARES[:, None]])
@@ -225,15 +367,3 @@ def _cumulative_of_neighbours(u: NDArray, profile: GapProfile) -> NDArray:
         series = small * np.exp(-centre2) * (1 + (2 * centre2 - 1) / 3 * small**2)
         pair = np.where(tiny, 4 / np.sqrt(np.pi) * series, pair)
     return 0.5 * pair @ weight + profile.weight[within].sum()
-
-
-def closure_error(profile: GapProfile) -> float:
-    """Integral of u P over all u less the mean gap [length], the integral of u1 over the area.
-
-    The pair of Gaussians about u1 and -u1, taken at positive gaps, has a larger mean.
-    """
-    width = np.maximum(profile.width, _least_width(profile))
-    ratio = profile.gap / width
-    excess = np.sqrt(2 / np.pi) * width * np.exp(-0.5 * ratio**2)
-    excess -= profile.gap * erfc(ratio / np.sqrt(2))
-    return float(profile.weight @ excess)

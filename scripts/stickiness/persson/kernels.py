@@ -242,7 +242,7 @@ class Kernels:
 
 @lru_cache(maxsize=128)
 def kernels(gamma: float | None = None, correction: CorrectionName = "yang2008") -> Kernels:
-    """Tabulate the universal functions; arguments and errors are those of `correction_of`."""
+    """Tabulate the universal functions; arguments and errors as in `correction_of`."""
     chosen = correction_of(correction, gamma)
     gap = _gap_table(chosen)
     return Kernels(chosen, _area_table(chosen), gap, _mean_table(gap))

@@ -2,12 +2,11 @@
 
 On a half-space a wave h_q costs the pressure ``(|q|/2) h_q`` and the energy ``(|q|/4) |h_q|^2`` in
 full contact (E* = 1); on a layer both times 1/S, see `solids`. With ``m(q) = pi int q'^3 C/S^2
-dq'`` in place of the profile variance of the gradient, the pressure has the variance m/2 as before,
+dq'`` instead of the profile variance of the gradient, the pressure has the variance m/2 as before,
 and the walk of pressures, hence the area A(m), is that of the half-space. The waves dm cost the
-energy ``(1/2) (S/q) dm`` in place of ``dm/(2 q)``, and partial contact the same share of it: every
-1/q in
-the mean gap becomes S/q. (``p du/dp = -dU/dp`` holds with the energy of the waves alone, for what
-the mean pressure stores in a layer is the work that it does on its mean compression.) Hence
+energy ``(1/2) (S/q) dm`` instead of ``dm/(2 q)``, and partial contact the same share of it: every
+1/q in the mean gap becomes S/q. (``p du/dp = -dU/dp`` holds with the energy of the waves alone, for
+what the mean pressure stores in a layer is the work that it does on its mean compression.) Hence
 
     ubar(p) = (2/sqrt(pi)) int ds F(p/s) S/q,   s^2 = m(q).
 
@@ -31,8 +30,7 @@ from numpy.typing import NDArray
 from stickiness.persson.kernels import Kernels
 from stickiness.persson.scale_quadrature import scale_edges
 from stickiness.solids import Layer
-from stickiness.spectrum.band_integral import integrate_band
-from stickiness.spectrum.kinds import Shells, Spectrum
+from stickiness.spectrum.interface import Spectrum
 
 _ORDER = 8  # of Gauss quadrature on panels
 _FINE, _MOST_PARTS = 0.1, 20  # parts of panels, in ln m
@@ -44,7 +42,7 @@ class LayeredScales:
     def __init__(self, spectrum: Spectrum, solid: Layer, nodes: float = 1.0):
         self.spectrum, self.solid = spectrum, solid
         self.m2 = self.variance_below(spectrum.q1)
-        if isinstance(spectrum, Shells):
+        if spectrum.is_discrete:
             self._q = spectrum.q
             self._m = np.cumsum(0.5 * spectrum.variance * self._slope_weight(self._q))
         else:
@@ -52,20 +50,20 @@ class LayeredScales:
 
     def variance_below(self, q: float) -> float:
         """Return m of the waves up to `q`."""
-        return 0.5 * integrate_band(self.spectrum, self._slope_weight, self.spectrum.q0, q)
+        return 0.5 * self.spectrum.integrate(self._slope_weight, self.spectrum.q0, q)
 
     def mean_gap(self, p: NDArray, universal: Kernels) -> NDArray:
         """Mean gap [length] at mean pressures `p` > 0 [E*]."""
-        s, softness = np.sqrt(self._m), self.solid.factor(self._q) / self._q
+        s, per_pressure = np.sqrt(self._m), self.solid.factor(self._q) / self._q
         x2 = (p[..., None] / s) ** 2
         faded = np.exp(-x2)
         # within a shell S/q stands still: int F(p/s) ds = s kappa(p/s)
-        if isinstance(self.spectrum, Shells):
+        if self.spectrum.is_discrete:
             terms = np.diff(s * faded * universal.mean_kernel(x2), axis=-1, prepend=0.0)
         else:
             terms = faded * universal.gap_kernel(x2) * self._growth / (2 * s)
             terms[..., 0] = s[0] * faded[..., 0] * universal.mean_kernel(x2[..., 0])
-        return 2 / np.sqrt(np.pi) * np.sum(softness * terms, axis=-1)
+        return 2 / np.sqrt(np.pi) * np.sum(per_pressure * terms, axis=-1)
 
     def _slope_weight(self, q: NDArray) -> NDArray:
         return (q / self.solid.factor(q)) ** 2

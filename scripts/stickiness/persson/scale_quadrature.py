@@ -14,7 +14,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from stickiness.spectrum.kinds import Shells, Spectrum
+from stickiness.spectrum.interface import Spectrum
+from stickiness.spectrum.kinds import Shells
 
 _ORDER = 7  # of Gauss quadrature on panels
 _WIDEST = 0.7  # panels, in ln q
@@ -67,10 +68,10 @@ class ScaleNodes:
 def scale_nodes(spectrum: Spectrum, nodes: float = 1.0) -> ScaleNodes:
     """Quadratures over the scales of a spectrum; `nodes` multiplies their numbers of nodes.
 
-    Gauss quadrature for continuous spectra; every shell is a node of its own. Where there are very
+    Gauss quadrature for continuous spectra; every shell is a node. Where there are very
     many shells or points of a table, neighbours are put together.
     """
-    if isinstance(spectrum, Shells):
+    if spectrum.is_discrete:
         return _grouped_nodes(_shell_nodes(spectrum), nodes)
     edges = scale_edges(spectrum)
     order = max(2, round(_ORDER * nodes))
@@ -87,11 +88,6 @@ def scale_nodes(spectrum: Spectrum, nodes: float = 1.0) -> ScaleNodes:
     return ScaleNodes(fine, coarse, edge, order * start, order * panels, _PANEL_MARGIN)
 
 
-def knots(spectrum: Spectrum) -> NDArray:
-    """Wave numbers within the band at which C(q) is not smooth."""
-    return getattr(spectrum, "knots", np.empty(0))[1:-1]
-
-
 def scale_edges(spectrum: Spectrum) -> NDArray:
     """Edges of panels in ln(q/q0), graded towards both ends and split at kinks of C.
 
@@ -104,7 +100,7 @@ def scale_edges(spectrum: Spectrum) -> NDArray:
     middle = np.linspace(width, span - width, count + 1) if count else [width]
     low, high = width * 4.0 ** np.arange(-13, 0), width * 4.0 ** np.arange(-1, -10, -1)
     edges = np.concatenate([[0.0], low, middle, span - high, [span]])
-    return np.union1d(edges, np.log(knots(spectrum) / spectrum.q0))
+    return np.union1d(edges, np.log(spectrum.knots[1:-1] / spectrum.q0))
 
 
 def _gauss_nodes(spectrum: Spectrum, edges: NDArray, order: int) -> Nodes:
@@ -147,9 +143,9 @@ def _grouped_nodes(discrete: Nodes, nodes: float) -> ScaleNodes:
 
 
 def _grouped(nodes: Nodes, label: NDArray, first: NDArray) -> tuple[Nodes, NDArray]:
-    """Two nodes in place of all that share a label, and where those of `first` have gone.
+    """Replace all nodes of one label by two, and return where those of `first` have gone.
 
-    They are the Gauss quadrature of the group's own distribution over m, which keeps four moments
+    They are the Gauss quadrature of the group's distribution over m, which keeps four moments
     and so errs by the fourth power of the group's width.
     """
     begin = np.flatnonzero(np.diff(label, prepend=-np.inf))

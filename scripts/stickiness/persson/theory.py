@@ -39,21 +39,20 @@ from scipy.optimize import brentq
 from scipy.special import erf
 
 from stickiness.arguments import finite, nonnegative, number, positive
-from stickiness.persson.gaps import GapProfile, closure_error, gap_profile
+from stickiness.persson.gaps import GapProfile, Setting, gap_profile
 from stickiness.persson.gaps import cumulative as _cumulative
 from stickiness.persson.gaps import density as _density
 from stickiness.persson.kernels import CorrectionName, kernels
 from stickiness.persson.layered_scales import LayeredScales
-from stickiness.persson.lost_contact import Setting
 from stickiness.persson.scale_quadrature import scale_nodes
 from stickiness.plausibility import warn_of_pressure
 from stickiness.solids import HALF_SPACE, Solid, check_solid
-from stickiness.spectrum.kinds import Spectrum
+from stickiness.spectrum.interface import Spectrum, check_spectrum
 
 Variant = Literal["afferrante2018", "almqvist2011"]
 
 _VARIANTS = ("afferrante2018", "almqvist2011")
-_REACH = 17.0  # gaps up to 0.6 of this many h_rms (10) are resolved without being asked for
+_REACH = 17.0  # gaps up to 0.6 of this many h_rms (10) are always resolved
 _FARTHEST = 1024.0  # in h_rms; the theory's tail P ~ 1/(u ln u)^2 beyond means nothing
 
 
@@ -73,8 +72,8 @@ class Persson:
         in sight yet (Almqvist et al. 2011, doi:10.1016/j.jmps.2011.08.004), or h_eff with
         h_eff^-2 = h^-2 + u1^-2 (Afferrante et al. 2018, doi:10.1007/s11249-018-1026-x).
     gamma : float, optional
-        Parameter of the correction, in (0, 1]: by default the source's own, 0.45, 5/9 and 0.45.
-        1 switches "yang2008" and "xu2024" off.
+        Parameter of the correction, in (0, 1]: by default the value of the source, 0.45, 5/9 and
+        0.45. 1 switches "yang2008" and "xu2024" off.
     nodes : float
         Multiplies the number of quadrature nodes. 1 errs by less than 1e-9 in the area and the mean
         gap, 5e-7 in P(u) and its integral and 1e-10 in the normalisation, for magnifications from
@@ -118,8 +117,7 @@ class Persson:
         correction: CorrectionName = "yang2008",
         solid: Solid = HALF_SPACE,
     ):
-        if not isinstance(spectrum, Spectrum):
-            raise ValueError(f"spectrum must be a Spectrum, got {type(spectrum).__name__}")
+        check_spectrum(spectrum)
         _check_variant(variant)
         nodes = number("nodes", nodes)
         universal = kernels(gamma, correction)
@@ -154,7 +152,7 @@ class Persson:
             Mean pressure over E*, p >= 0.
         magnification : float, optional
             Resolution zeta' >= 1 (q up to zeta' q0) at which the area is seen; the finest by
-            default. With a direction q0 is that of the longest of all waves.
+            default. With a direction, q0 is the wave number of the longest of all waves.
         """
         (p,) = finite(p=p)
         if not np.all(p >= 0):
@@ -218,16 +216,6 @@ class Persson:
         relative attractive area of a traction that acts up to `u`. Arguments as of `gap_density`.
         """
         return self._over_gaps(u, p, _cumulative)
-
-    def first_moment(self, p: ArrayLike) -> NDArray:
-        """Mean gap [length] that P(u) implies, int u P du.
-
-        The difference from `mean_gap` measures how well P(u) closes.
-        """
-        self._check_gaps_known()
-        (p,) = positive(p=p)
-        errors = [closure_error(self._profile(float(x), _REACH)) for x in p.ravel()]
-        return self.mean_gap(p) + np.reshape(errors, p.shape)[()]
 
     def _pressure_at(self, target: float) -> float:
         def excess(log_p: float) -> float:

@@ -2,13 +2,20 @@
 
 - `measurement`: works of approach and separation and pull-off of given heights, simulated
 - `theories`: local criterion, energy of full contact and DMT form, to compare
-- `multiscale`: Persson's theory of adhesion over scales
 - `share`: share of the work of adhesion that remains, from weak to tough, in closed form
 - `prediction`: the same of a spectrum, with limits, and the adhesion that a share needs
 - `sphere`: pull-off of a sphere from a rough surface
 """
 
-from stickiness.remaining.measurement import Remaining, measure
+from importlib import import_module
+
 from stickiness.remaining.prediction import Prediction, Roughness, predict
 
-__all__ = ["Prediction", "Remaining", "Roughness", "measure", "predict"]
+__all__ = ["Prediction", "Remaining", "Roughness", "measure", "predict"]  # noqa: PLE0604
+
+
+def __getattr__(name: str):
+    # Predictions need no solver: it is loaded with the first simulation.
+    if name in ("Remaining", "measure"):
+        return getattr(import_module("stickiness.remaining.measurement"), name)
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

@@ -90,16 +90,6 @@ class Remaining:
     fft_pairs: float
     points: tuple[PathPoint, ...]
 
-    @property
-    def hysteresis(self) -> float:
-        """Work lost between approach and separation over the work of adhesion."""
-        return self.separation - self.approach
-
-    @property
-    def resolved(self) -> bool:
-        """Whether two pixels or more resolve the cohesive zone."""
-        return self.pixels_in_zone * edge_zone.COARSEST >= 1
-
 
 QUOTED = ("approach", "separation", "bound", "pull_off")
 
@@ -136,7 +126,7 @@ def measure(
         Told every state.
     solid : solids.HalfSpace or solids.Layer
         Elastic solid; the thickness of a layer is in the unit of `length`. Works at given mean
-        gaps are those of the surfaces: the mean compression of a layer stores and returns its own.
+        gaps exclude the mean compression of a layer, which stores and returns its energy.
 
     Raises
     ------

@@ -11,7 +11,7 @@ from scipy.optimize import elementwise
 from stickiness.arguments import number, plain, positive
 from stickiness.remaining.share import ONSET, find_onset, remaining_share, tough_area
 from stickiness.solids import HALF_SPACE, Film, Layer, Solid, check_solid
-from stickiness.spectrum.interface import Spectrum
+from stickiness.spectrum.interface import Spectrum, check_spectrum
 
 # Errors of the onset; of a share, relative and in proportion to what is lost; and of a share,
 # absolute, which is all that is known of small ones. In simulations of two by two waves and more
@@ -40,7 +40,7 @@ SHORT_RANGE = 1e-6  #: over h_rms; at 1e-4 no share differs by more than 3e-5
 LEAST_LENGTH = 1e-12  #: of thresholds, over the energy of full contact
 DEFAULT_SHARE = 0.1  #: of the work of adhesion, from which a pair is said to stick
 # Factor on the errors of surfaces unlike those simulated, at a ratio of correlation lengths, see
-# `find_widening`.
+# `find_anisotropy_error_factor`.
 UNLIKE, UNLIKE_RATIO = 2.0, 4.0
 
 
@@ -68,9 +68,9 @@ class Prediction:
     tabor : float
         Tabor's parameter of the longest waves, (l_a^2/(q0^2 h_rms range^3))^(1/3): the range drops
         out where it is large. On a layer the longest waves see the modulus E*/S instead of E*.
-    widening : float
+    anisotropy_error_factor : float
         Factor on the errors that limits stand for: above 1 for surfaces unlike those simulated, see
-        `find_widening`.
+        `find_anisotropy_error_factor`.
     """
 
     approach: float
@@ -82,7 +82,7 @@ class Prediction:
     pull_off_limits: tuple[float, float]
     energy_ratio: float
     tabor: float
-    widening: float = 1.0
+    anisotropy_error_factor: float = 1.0
 
 
 @dataclass(frozen=True)
@@ -92,43 +92,43 @@ class Roughness:
     h_rms: ArrayLike
     q0: ArrayLike  #: of the longest waves, or of the roll-off
     elastic_energy: ArrayLike  #: of full contact per nominal area over E* [length]
-    softness: ArrayLike = 1.0  #: S of the longest waves on a layer, see `solids`
+    relative_compliance: ArrayLike = 1.0  #: S of the longest waves on a layer, see `solids`
     #: Energy of a half-space, which bounds that of a layer; NaN: it does not.
-    deep_energy: ArrayLike | None = None
-    widening: ArrayLike = 1.0  #: factor on the errors, see `find_widening`
+    half_space_energy: ArrayLike | None = None
+    anisotropy_error_factor: ArrayLike = 1.0  #: see `find_anisotropy_error_factor`
 
     def share(
         self, adhesion_length: ArrayLike, range: ArrayLike, sign: ArrayLike = 0
     ) -> float | NDArray:
         """Share of the work of adhesion that remains; `sign` -1 or +1 for its low or high limit."""
-        sign = sign * self.widening
+        sign = sign * self.anisotropy_error_factor
         ratio = np.asarray(adhesion_length) / self.elastic_energy
         zone = self.zone(adhesion_length, range)
         reach = np.asarray(range) / self.h_rms
         onset = ONSET - sign * ONSET_ERROR
-        share = remaining_share(ratio, reach, zone, onset, self.softness)
+        share = remaining_share(ratio, reach, zone, onset, self.relative_compliance)
         sign, lost = np.asarray(sign), 1 - np.asarray(share)
         fades = np.minimum(ratio / ONSET, 1.0)  # of absolute errors, below the onset
         share = share * (1 + SHARE_ERROR * lost) ** sign + sign * LEAST_ERROR * fades * lost
-        harder = 1 - np.asarray(self.softness)
+        harder = 1 - np.asarray(self.relative_compliance)
         less, more = np.minimum(abs(harder), 1.0), np.maximum(harder, 0.0)
         layer = sign * np.where(sign < 0, LAYER_LESS * less, LAYER_MORE * more)
         share = share + layer * fades * lost
-        if self.deep_energy is not None:
+        if self.half_space_energy is not None:
             share = self._bound(share, adhesion_length, range, sign)
         # Full contact is a state that the surfaces may take.
         return plain(np.clip(share, np.maximum(1 - 1 / ratio, 0.0), 1.0))
 
     def _bound(self, share, adhesion_length, range, sign) -> NDArray:
-        """Bound the share of a layer by that of a half-space.
+        """Bound the share of a layer by the share of a half-space.
 
         A solid that is stiffer to every wave has no state of less energy, and a softer one has
         none of more.
         """
-        known = np.isfinite(self.deep_energy)
-        energy = np.where(known, self.deep_energy, self.elastic_energy)
+        known = np.isfinite(self.half_space_energy)
+        energy = np.where(known, self.half_space_energy, self.elastic_energy)
         deep = Roughness(self.h_rms, self.q0, energy).share(adhesion_length, range, sign)
-        stiffer = np.asarray(self.softness) <= 1
+        stiffer = np.asarray(self.relative_compliance) <= 1
         bound = np.where(stiffer, np.minimum(share, deep), np.maximum(share, deep))
         return np.where(known, bound, share)
 
@@ -143,7 +143,7 @@ class Roughness:
         That is twice the stiffness q0/(2 S) of these waves over the slope w/range^2 of the law,
         so that attraction reaches over gaps the more, the stiffer a layer holds them.
         """
-        softened = np.asarray(adhesion_length) * self.softness
+        softened = np.asarray(adhesion_length) * self.relative_compliance
         return self.q0 * np.asarray(range) ** 2 / softened
 
     def pull_off(
@@ -166,7 +166,7 @@ class Roughness:
             length
             / self.distance(length, range)
             * self.share(length, range, sign)
-            * (1 + PULL_OFF_ERROR) ** (np.asarray(sign) * self.widening)
+            * (1 + PULL_OFF_ERROR) ** (np.asarray(sign) * self.anisotropy_error_factor)
         )
         known, unknown = np.log(PULL_OFF_KNOWN), np.log(PULL_OFF_UNKNOWN)
         beyond = np.clip(
@@ -179,12 +179,13 @@ class Roughness:
     ) -> float | NDArray:
         """Adhesion length from which on at least a share remains.
 
-        With `sign` +1 or -1 that of the high or low limit of the share, which is shorter or longer.
+        With `sign` +1 or -1, from which on the high or low limit of the share is at least that.
         """
         range = np.asarray(range, dtype=float)
         surface = {name: value for name, value in vars(self).items() if value is not None}
-        sign = np.multiply(sign, surface.pop("widening"))
-        deep = {"deep_energy": surface.pop("deep_energy")} if "deep_energy" in surface else {}
+        sign = np.multiply(sign, surface.pop("anisotropy_error_factor"))
+        bound = {"half_space_energy"} & surface.keys()
+        deep = {name: surface.pop(name) for name in bound}
         at = np.broadcast_arrays(*positive(**surface), *deep.values(), *positive(range=range), sign)
         surface |= deep
         energy = at[list(surface).index("elastic_energy")]
@@ -201,7 +202,7 @@ class Roughness:
         return plain(np.where(always, LEAST_LENGTH * energy, np.exp(found.x)))
 
 
-def find_deep_energy(spectrum: Spectrum, solid: Solid) -> float | None:
+def find_half_space_energy(spectrum: Spectrum, solid: Solid) -> float | None:
     """Elastic energy that bounds that of a layer; none where some waves are softer, others stiffer.
 
     A film that bends is softer than a half-space to long waves, and its layer stiffer to others.
@@ -210,7 +211,7 @@ def find_deep_energy(spectrum: Spectrum, solid: Solid) -> float | None:
     return None if solid == HALF_SPACE or bends else spectrum.elastic_energy()
 
 
-def find_widening(ratio: float) -> float:
+def find_anisotropy_error_factor(ratio: float) -> float:
     """Factor on the errors of a prediction for a ratio of correlation lengths: 1 without direction.
 
     It is `UNLIKE` at `UNLIKE_RATIO` and grows on. Simulations of ratios up to 4 lie within the
@@ -228,9 +229,9 @@ def predict(
 ) -> Prediction:
     """Predict what remains of adhesion on a rough surface.
 
-    The limits are those of surfaces that hold many of the longest waves. In a periodic cell of one
-    wave, realisations scatter by a factor of two and keep more: compare simulations in cells of
-    four by four waves, with their own spectrum (`surface.realised_spectrum`).
+    The limits are for surfaces with many of the longest waves. In a periodic cell of one wave,
+    realisations scatter by a factor of two and keep more. Compare with simulations in cells of four
+    by four waves, and use the spectrum of those heights (`surface.realised_spectrum`).
 
     Parameters
     ----------
@@ -241,7 +242,7 @@ def predict(
     range : float
         Range of the attraction [length].
     q0 : float, optional
-        Wave number of the longest waves that matter [1/length]; by default that of the roll-off,
+        Wave number of the longest waves that matter [1/length]; by default the roll-off,
         or the lowest of the spectrum, with a direction of its norm.
     solid : solids.HalfSpace or solids.Layer
         Elastic solid; the thickness of a layer is in the unit of the spectrum. On thin
@@ -261,8 +262,7 @@ def predict(
     >>> print(f"{found.separation:.2f} of the work of adhesion remains")
     0.39 of the work of adhesion remains
     """
-    if not isinstance(spectrum, Spectrum):
-        raise ValueError(f"spectrum must be a Spectrum, got {type(spectrum).__name__}")
+    check_spectrum(spectrum)
     length, range = number("adhesion_length", adhesion_length), number("range", range)
     if q0 is None:
         q0 = spectrum.q_longest
@@ -271,9 +271,9 @@ def predict(
         h_rms=h,
         q0=q0,
         elastic_energy=spectrum.elastic_energy(solid),
-        softness=check_solid(solid).factor(q0),
-        deep_energy=find_deep_energy(spectrum, solid),
-        widening=find_widening(spectrum.anisotropy),
+        relative_compliance=check_solid(solid).factor(q0),
+        half_space_energy=find_half_space_energy(spectrum, solid),
+        anisotropy_error_factor=find_anisotropy_error_factor(spectrum.anisotropy),
     )
     low, share, high = (float(rough.share(length, range, sign)) for sign in (-1, 0, 1))
     ratio = length / rough.elastic_energy
@@ -287,6 +287,6 @@ def predict(
         separation_limits=(low, min(HYSTERESIS * high, 1.0)),
         pull_off_limits=tuple(pull_off_limits),
         energy_ratio=ratio,
-        tabor=float(np.cbrt((length * rough.softness) ** 2 / (q0**2 * h * range**3))),
-        widening=rough.widening,
+        tabor=float(np.cbrt((length * rough.relative_compliance) ** 2 / (q0**2 * h * range**3))),
+        anisotropy_error_factor=rough.anisotropy_error_factor,
     )

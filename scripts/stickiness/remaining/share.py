@@ -35,11 +35,11 @@ them, which adds 9 % at most.
 
 **Thin layers** (`spring_share`). Waves much longer than a thin compressible layer, or one that
 slips, all have one stiffness: the layer is a bed of springs, and every point of the surface closes
-and opens on its own. For Gaussian heights that limit is exact, and nothing is fitted. The longest
-waves tell how near it is, by their S (see `solids`): the share is that of the half-space (with the
-energy of full contact of the layer, and its zone) and, weighted by ``(1 - S)^2``, what springs keep
-beyond it. That weight follows simulations of S = 0.1 to 0.5. Long waves of a thin incompressible
-layer are stiffer than springs, and keep more.
+and opens independently. For Gaussian heights that limit is exact, and nothing is fitted. The
+longest waves tell how near it is, by their S (see `solids`): the share is the half-space's (with
+the energy of full contact of the layer, and its zone) and, weighted by ``(1 - S)^2``, what springs
+keep beyond it. That weight follows simulations of S = 0.1 to 0.5. Long waves of a thin
+incompressible layer are stiffer than springs, and keep more.
 """
 
 from __future__ import annotations
@@ -116,9 +116,9 @@ def _mean_attraction(range_ratio: NDArray) -> NDArray:
 
 
 def spring_share(energy_ratio: ArrayLike, range_ratio: ArrayLike) -> float | NDArray:
-    """Share that remains on a bed of springs, where each point of the surface is on its own.
+    """Share that remains on a bed of springs, where each point of the surface is independent.
 
-    A point whose undeformed surfaces are c apart (all energies over that of full contact) is
+    A point whose undeformed surfaces are c apart (all energies over the energy of full contact) is
     closed, ``c^2 - x``, or open at the gap g that balances the exponential law,
     ``(c - g)^2 - x exp(-g/e)`` with ``y = (c - g)/e``, ``y exp(-y) = x/(2 e^2) exp(-c/e)``.
     """
@@ -149,18 +149,19 @@ def remaining_share(
     range_ratio: ArrayLike,
     zone: ArrayLike,
     onset: float = ONSET,
-    softness: ArrayLike = 1.0,
+    relative_compliance: ArrayLike = 1.0,
 ) -> float | NDArray:
     """Share that remains, from weak to tough: the larger of both, its corner rounded.
 
-    `softness` is S of the longest waves on a layer: below 1 its points are partly on their own.
+    `relative_compliance` is S of the longest waves on a layer: below 1 its points are
+    partly independent.
     """
     tough = np.asarray(tough_share(energy_ratio, find_onset(zone, onset)))
     weak = np.asarray(weak_share(energy_ratio, range_ratio))
     larger, smaller = np.maximum(tough, weak), np.minimum(tough, weak)
     ratio = smaller / np.where(larger > 0, larger, 1.0)
     share = np.minimum(larger * (1 + ratio**SHARPNESS) ** (1 / SHARPNESS), 1.0)
-    alone = np.maximum(1 - np.asarray(softness), 0.0) ** 2
+    alone = np.maximum(1 - np.asarray(relative_compliance), 0.0) ** 2
     if np.any(alone > 0):
         share = share + alone * np.maximum(spring_share(energy_ratio, range_ratio) - share, 0.0)
     return plain(share)

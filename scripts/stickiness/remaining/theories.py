@@ -1,8 +1,7 @@
-"""Other theories of the adhesion that remains, to hold beside simulations.
+"""Other theories of the adhesion that remains, to compare with simulations.
 
-The local criterion and the energy of full contact look at one end of the problem each. The DMT
-form of the paper adds attraction to the gaps of contact without adhesion. Persson's multiscale
-theory has a module of its own, `multiscale`.
+The local criterion and the energy of full contact each describe one end of the problem. The DMT
+form of the paper adds attraction to the gaps of contact without adhesion.
 """
 
 from __future__ import annotations
@@ -12,7 +11,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from stickiness.arguments import plain, positive
 from stickiness.persson.theory import Persson
-from stickiness.spectrum.kinds import Spectrum
+from stickiness.spectrum.interface import Spectrum
+from stickiness.spectrum.kinds import Shells
 
 # Of the tough limit of `adhesion.equivalent_sphere` with the a_V of the edges of contact and a
 # slope of area against load of 2: contact grows by itself from l_a = LOCAL h'^3/h'' on.
@@ -20,6 +20,7 @@ LOCAL = 0.28
 _CUTS = 60
 _LOADS, _LOWEST, _HIGHEST = 60, 1e-5, 4.0  # over the rms gradient
 _GAPS = np.geomspace(1e-4, 16, 80)  # over h_rms
+_MOST_SHELLS = 40  # a thousand shells take long, and forty give the same
 
 
 def full_contact_share(energy_ratio: ArrayLike) -> float | NDArray:
@@ -68,6 +69,7 @@ def dmt_share(spectrum: Spectrum, adhesion_length: ArrayLike, range: ArrayLike) 
         Work of adhesion over E*, and range of the exponential law [length]; of one shape.
     """
     length, range = np.broadcast_arrays(*positive(adhesion_length=adhesion_length, range=range))
+    spectrum = _group_shells(spectrum) if spectrum.is_discrete else spectrum
     theory = Persson(spectrum)
     load = np.geomspace(_LOWEST, _HIGHEST, _LOADS) * spectrum.rms_slope
     gap, area = theory.mean_gap(load), theory.area_fraction(load)
@@ -83,3 +85,17 @@ def dmt_share(spectrum: Spectrum, adhesion_length: ArrayLike, range: ArrayLike) 
     attraction = np.trapezoid(decay / reach * within, u, axis=-1) + decay[..., -1] * within[:, -1]
     gained = np.max(area + attraction - energy / length[..., None], axis=-1)
     return plain(np.maximum(gained, 0.0))
+
+
+def _group_shells(shells: Shells, most: int = _MOST_SHELLS) -> Shells:
+    """Merge shells to at most `most`, with the same slope and energy of full contact."""
+    if len(shells.q) <= most:
+        return shells
+    bins = np.geomspace(shells.q0, shells.q1, most + 1)[1:-1]
+    index = np.searchsorted(bins, shells.q, side="right")
+    slope, energy = (
+        np.bincount(index, shells.variance * shells.q**power, minlength=most) for power in (2, 1)
+    )
+    there = energy > 0
+    q = slope[there] / energy[there]
+    return Shells(q, slope[there] / q**2)

@@ -1,15 +1,75 @@
-"""What every spectrum of a rough surface can tell: moments, and the average over directions."""
+"""The interface of every spectrum of a rough surface: density, moments, modes of a periodic cell.
+
+A new kind of spectrum is a subclass of `Spectrum` in `kinds`, named in `__init__`. It must have
+`psd`, `variance_below`, `variance_above`, `at_gradient_variance` and `truncated`; it overrides
+`knots` where C(q) has kinks, and `modes_in_band` and `mode_variance` where its modes are not those
+of a density.
+"""
 
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
+from collections.abc import Callable
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from stickiness.arguments import number
 from stickiness.solids import HALF_SPACE, Solid, check_solid
-from stickiness.spectrum.direction import CIRCLE
-from stickiness.spectrum.moments import Moments
+
+# Gauss quadrature on panels in ln q. What layers make of a wave has its nearest singularity
+# about one unit of ln q off the real axis: such panels err by less than 1e-13.
+_ORDER, _WIDEST = 12, 0.7
+_MOST_WAVES = 2**15  # along a side; beyond, a list of all modes leaves no memory
+LATTICE_ROUNDING = 1e-9  #: relative slack on band limits that coincide with lattice wave numbers
+
+
+@dataclass(frozen=True)
+class Moments:
+    """Spectral moments of a surface: ``m20`` is the mean of (dh/dx)^2 and so on.
+
+    ``m22`` is the mean of (d2h/dx dy)^2. Lengths are in the unit of the heights and the cell.
+    """
+
+    m00: float
+    m20: float
+    m02: float
+    m40: float
+    m22: float
+    m04: float
+
+    @classmethod
+    def of_isotropic(cls, height: float, gradient: float, laplacian: float) -> Moments:
+        """Moments of an isotropic surface from its mean squares of h, grad h and the Laplacian."""
+        m2, m4 = gradient / 2, 3 / 8 * laplacian
+        return cls(m00=height, m20=m2, m02=m2, m40=m4, m22=laplacian / 8, m04=m4)
+
+    @property
+    def h_rms(self) -> float:
+        """Root mean square height."""
+        return float(np.sqrt(self.m00))
+
+    @property
+    def rms_slope(self) -> float:
+        """Root mean square gradient."""
+        return float(np.sqrt(self.m20 + self.m02))
+
+    @property
+    def rms_curvature(self) -> float:
+        """Root mean square Laplacian."""
+        return float(np.sqrt(self.m40 + 2 * self.m22 + self.m04))
+
+    @property
+    def nayak(self) -> float:
+        """Bandwidth m0 m4/m2^2 with m2, m4 averaged over direction for an isotropic surface."""
+        m2 = (self.m20 + self.m02) / 2
+        m4 = 3 / 8 * (self.m40 + 2 * self.m22 + self.m04)
+        return self.m00 * m4 / m2**2
+
+    def plus(self, other: Moments) -> Moments:
+        """Moments of the sum of this surface and an independent one, by the same axes."""
+        return Moments(**{name: getattr(self, name) + getattr(other, name) for name in vars(self)})
 
 
 class Spectrum(ABC):
@@ -22,6 +82,8 @@ class Spectrum(ABC):
 
     q0: float
     q1: float
+    prescribed: str = "C"  # what fixes the size of the spectrum
+    is_discrete: bool = False  # whether it sits on shells, with arrays `q` and `variance`
     isotropic: bool = True
     anisotropy: float = 1.0  # ratio of the correlation lengths
 
@@ -52,14 +114,14 @@ class Spectrum(ABC):
         without a direction they equal `moment`. By default the axis is the long correlation
         length, so that these are the smallest and the largest.
         """
-        return CIRCLE.moments(tuple(self.total_variance(power) for power in (0, 2, 4)))
+        return Moments.of_isotropic(*(self.total_variance(power) for power in (0, 2, 4)))
 
     @abstractmethod
     def variance_below(self, q: ArrayLike, power: float = 0) -> NDArray:
         """Return 2 pi * integral from q0 to `q` of q'^(1 + power) C(q') dq'.
 
-        ``power`` 0 gives the variance of the heights, 2 that of the gradient, 4 that of the
-        Laplacian, each of the part of the surface with wave numbers up to `q`.
+        ``power`` 0, 2 and 4 give the variances of the heights, the gradient and the Laplacian of
+        the part of the surface with wave numbers up to `q`.
         """
 
     @abstractmethod
@@ -77,6 +139,11 @@ class Spectrum(ABC):
     @abstractmethod
     def truncated(self, q1: float) -> Spectrum:
         """Return the same spectrum cut at the high wave number `q1`."""
+
+    @property
+    def knots(self) -> NDArray:
+        """Wave numbers, both ends of the band included, between which C(q) is smooth."""
+        return np.array([self.q0, self.q1])
 
     @property
     def band(self) -> tuple[float, float]:
@@ -132,11 +199,97 @@ class Spectrum(ABC):
         """Elastic energy of full contact per nominal area over E* [length].
 
         (pi/2) * integral of q^2 C dq (Persson & Tosatti 2001, doi:10.1063/1.1398300); of q^2 C/S
-        for a `solid` that is a layer, to 1e-12. The mean pressure's own energy is no part of it.
+        for a `solid` that is a layer, to 1e-12. The energy of the mean pressure is not included.
         """
         if check_solid(solid) == HALF_SPACE:
             return self.total_variance(1) / 4
-        from stickiness.spectrum.band_integral import integrate_band
-
         averaged = self.averaged()
-        return integrate_band(averaged, lambda q: q / solid.factor(q), *averaged.band) / 4
+        return averaged.integrate(lambda q: q / solid.factor(q), *averaged.band) / 4
+
+    def integrate(self, function: Callable[[NDArray], NDArray], low: float, high: float) -> float:
+        """Return 2 pi * integral from `low` to `high` of q f(q) C(q) dq for a smooth f.
+
+        This is the mean of f over the waves in between, a shell at `high` included, times their
+        height variance.
+        """
+        low, high = max(low, self.q0), min(high, self.q1)
+        if not high > low:
+            return 0.0
+        kinks = self.knots
+        knots = np.concatenate([[low], kinks[(kinks > low) & (kinks < high)], [high]])
+        x, w = np.polynomial.legendre.leggauss(_ORDER)
+        parts = np.ceil(np.diff(np.log(knots)) / _WIDEST).astype(int)
+        start = np.concatenate([[0], np.cumsum(parts)])
+        edges = np.interp(np.arange(start[-1] + 1), start, np.log(knots))
+        half = 0.5 * np.diff(edges)[:, None]
+        q = np.exp(edges[:-1, None] + half * (1 + x))
+        return float(2 * np.pi * np.sum(half * w * q**2 * self.psd(q) * function(q)))
+
+    def modes(self, length: float) -> tuple[NDArray, NDArray, NDArray]:
+        """Modes of a periodic cell of side `length` that lie in the band.
+
+        Returns
+        -------
+        i, j : (m,) int arrays
+            Lattice indices of the wave vectors 2 pi (i, j)/length, one of each pair +-k, by rising
+            norm. In this order random numbers stay with their modes when the band grows at its
+            upper end.
+        variance : (m,) array
+            Height variance of each mode [length^2].
+
+        Raises
+        ------
+        ValueError
+            If the cell holds no mode of the band, or too many.
+        """
+        dq = 2 * np.pi / length
+        reach = int(np.floor(self.band[1] / dq * (1 + LATTICE_ROUNDING)))
+        if reach < 1:
+            raise ValueError(f"no wave vector of a window of length {length:.6g} lies in the band")
+        if reach > _MOST_WAVES:
+            raise ValueError(
+                f"length = {length:.6g} holds {reach} of the shortest waves, more than "
+                f"{_MOST_WAVES}: q0 = {self.q0:.6g} and q1 = {self.q1:.6g} must be in the inverse "
+                "of its unit; otherwise lower q1 or length"
+            )
+        i, j = np.meshgrid(np.arange(reach + 1), np.arange(-reach, reach + 1), indexing="ij")
+        half = (i > 0) | (j > 0)
+        i, j = i[half], j[half]
+        band = self.modes_in_band(i, j, dq)
+        i, j = i[band], j[band]
+        order = np.lexsort((j, i, self.rank_modes(i, j)))
+        i, j = i[order], j[order]
+        variance = self.mode_variance(i, j, dq)
+        if not variance.any():
+            raise ValueError(f"no wave vector of a window of length {length:.6g} lies in the band")
+        return i, j, variance
+
+    def modes_in_band(self, i: NDArray, j: NDArray, dq: float) -> NDArray:
+        """Whether lattice vectors dq (i, j) lie in the band."""
+        norm = dq * self.norm(i, j)
+        above = norm >= self.q0 * (1 - LATTICE_ROUNDING)
+        return above & (norm <= self.q1 * (1 + LATTICE_ROUNDING))
+
+    def rank_modes(self, i: NDArray, j: NDArray) -> NDArray:
+        """Numbers that rise with the norm of lattice vectors; equal norms give equal numbers."""
+        return i**2 + j**2 if self.isotropic else np.round(np.log(self.norm(i, j)), 10)
+
+    def mode_variance(self, i: NDArray, j: NDArray, dq: float) -> NDArray:
+        """Height variance C dq^2 of each mode of the band."""
+        norm = dq * self.norm(i, j)
+        return self.psd_of_norm(np.clip(norm, self.q0, self.q1)) * dq**2
+
+
+def check_spectrum(spectrum: Spectrum) -> Spectrum:
+    """Return `spectrum`; ValueError if it is not a `Spectrum`."""
+    if not isinstance(spectrum, Spectrum):
+        raise ValueError(f"spectrum must be a Spectrum, got {type(spectrum).__name__}")
+    return spectrum
+
+
+def check_cut(spectrum: Spectrum, q1: float) -> None:
+    """Raise a ValueError unless `spectrum` can be truncated at `q1`."""
+    if not spectrum.q0 < number("q1", q1) <= spectrum.q1:
+        raise ValueError(
+            f"truncated: q1 must lie in (q0, q1] = ({spectrum.q0!r}, {spectrum.q1!r}], got {q1!r}"
+        )

@@ -8,16 +8,15 @@ heights, gradients, curvatures and energy of full contact.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from stickiness.arguments import nonnegative, number
-from stickiness.spectrum.direction import CIRCLE, Ellipse
-from stickiness.spectrum.interface import Spectrum
-from stickiness.spectrum.moments import Moments
-from stickiness.spectrum.power_laws import ROUNDING, PowerLaws
+from stickiness.spectrum.direction import CIRCLE, ROUNDING, Ellipse, PowerLaws
+from stickiness.spectrum.interface import LATTICE_ROUNDING, Moments, Spectrum, check_cut
 
 
 class PowerLawSegments(Spectrum):
@@ -32,8 +31,6 @@ class PowerLawSegments(Spectrum):
     ellipse : direction.Ellipse
         Norm that takes the place of ``|q|`` in them: ``|q|`` by default.
     """
-
-    prescribed = "C"
 
     def __init__(
         self, knots: ArrayLike, level: ArrayLike, exponent: ArrayLike, ellipse: Ellipse = CIRCLE
@@ -258,6 +255,7 @@ class Shells(Spectrum):
     """
 
     prescribed = "variance"
+    is_discrete = True
 
     def __init__(self, q: ArrayLike, variance: ArrayLike):
         q, variance = _check_points(q, variance, "variance", least=1)
@@ -308,6 +306,23 @@ class Shells(Spectrum):
         keep = self.q <= q1 * (1 + ROUNDING)
         return Shells(self.q[keep], self.variance[keep])
 
+    def integrate(self, function: Callable[[NDArray], NDArray], low: float, high: float) -> float:
+        """See `Spectrum.integrate`."""
+        inside = (self.q >= low) & (self.q <= high)
+        return float(np.sum(self.variance[inside] * function(self.q[inside])))
+
+    def mode_variance(self, i: NDArray, j: NDArray, dq: float) -> NDArray:
+        """Height variance of each mode of the band: its shell's variance in equal parts."""
+        norm = dq * self.norm(i, j)
+        middle = (self.q[1:] + self.q[:-1]) / 2
+        shell = np.searchsorted(middle, norm)
+        on_shell = np.abs(norm - self.q[shell]) <= LATTICE_ROUNDING * norm
+        count = 2 * np.bincount(shell[on_shell], minlength=len(self.q))  # with mirror images
+        if not count.all():
+            missing = self.q[np.argmin(count)]
+            raise ValueError(f"no wave vector of the window lies on the shell at q = {missing:.6g}")
+        return np.where(on_shell, (self.variance / count)[shell], 0.0)
+
 
 def _check_points(q: ArrayLike, values: ArrayLike, name: str, least: int) -> tuple[NDArray, ...]:
     q, values = np.asarray(q, dtype=float), np.asarray(values, dtype=float)
@@ -329,11 +344,4 @@ def _check_band(hurst: float, q0: float, q1: float, q_rolloff: float | None) -> 
     if q_rolloff is not None and not q0 < number("q_rolloff", q_rolloff) < q1:
         raise ValueError(
             f"q_rolloff must lie between q0 = {q0!r} and q1 = {q1!r}, got {q_rolloff!r}"
-        )
-
-
-def check_cut(spectrum: Spectrum, q1: float) -> None:
-    if not spectrum.q0 < number("q1", q1) <= spectrum.q1:
-        raise ValueError(
-            f"truncated: q1 must lie in (q0, q1] = ({spectrum.q0!r}, {spectrum.q1!r}], got {q1!r}"
         )

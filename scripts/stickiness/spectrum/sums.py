@@ -1,4 +1,4 @@
-"""Spectra of independent roughness that adds up, as that of two rough solids in contact."""
+"""Spectra of independent roughness that adds up, such as two rough solids in contact."""
 
 from __future__ import annotations
 
@@ -9,9 +9,8 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import elementwise
 
 from stickiness.arguments import nonnegative
-from stickiness.spectrum.interface import Spectrum
-from stickiness.spectrum.kinds import Shells, check_cut
-from stickiness.spectrum.moments import Moments
+from stickiness.spectrum.interface import Moments, Spectrum, check_cut
+from stickiness.spectrum.kinds import Shells
 
 _ALIKE = 1e-9  # shells or knots that much apart, relatively, are one
 _STEPS = 64  # of the table in ln q that inversion starts from, besides the knots
@@ -49,7 +48,7 @@ def combine(first: Spectrum, *others: Spectrum) -> Spectrum:
             raise ValueError(
                 f"combine takes spectra one by one, combine(*spectra), got {type(one).__name__}"
             )
-    shells = [isinstance(one, Shells) for one in spectra]
+    shells = [one.is_discrete for one in spectra]
     if all(shells):
         return reduce(_merge_shells, spectra)
     if any(shells):
@@ -64,11 +63,9 @@ def combine(first: Spectrum, *others: Spectrum) -> Spectrum:
 class Sum(Spectrum):
     """Sum of the densities of independent surfaces; see `combine`.
 
-    A surface of it has the sum of the mode variances that each part's own would have on the
-    window: those of a part with prescribed h_rms are scaled to it.
+    Its surfaces have the sum of the mode variances of the parts, each part with a prescribed h_rms
+    being scaled to it.
     """
-
-    prescribed = "C"
 
     def __init__(self, *parts: Spectrum):
         self.parts = parts
@@ -79,8 +76,7 @@ class Sum(Spectrum):
     @property
     def knots(self) -> NDArray:
         """Wave numbers, both ends included, between which C is smooth if it is isotropic."""
-        every = [[part.q0, part.q1, *getattr(part, "knots", ())] for part in self.parts]
-        q = np.sort(np.concatenate(every))
+        q = np.sort(np.concatenate([part.knots for part in self.parts]))
         kept = q[_find_first(q)]
         kept[-1] = q[-1]
         return kept
@@ -158,6 +154,26 @@ class Sum(Spectrum):
         kept = [part for part in self.parts if part.q0 < q1]
         cut = [part.truncated(q1) if part.q1 > q1 else part for part in kept]
         return Sum(*cut) if len(cut) > 1 else cut[0]
+
+    def modes_in_band(self, i: NDArray, j: NDArray, dq: float) -> NDArray:
+        """Whether lattice vectors lie in the band of any part."""
+        return np.any([part.modes_in_band(i, j, dq) for part in self.parts], axis=0)
+
+    def rank_modes(self, i: NDArray, j: NDArray) -> NDArray:
+        """See `Spectrum.rank_modes`: the parts have no common norm, ``|q|`` ranks them."""
+        return i**2 + j**2
+
+    def mode_variance(self, i: NDArray, j: NDArray, dq: float) -> NDArray:
+        """Sum of what the parts contribute, each scaled to its prescribed h_rms."""
+        total = 0
+        for part in self.parts:
+            inside = part.modes_in_band(i, j, dq)
+            variance = np.zeros(len(i))
+            variance[inside] = part.mode_variance(i[inside], j[inside], dq)
+            if part.prescribed == "h_rms" and variance.any():
+                variance *= part.h_rms**2 / (2 * variance.sum())
+            total = total + variance
+        return total
 
     def __repr__(self) -> str:
         return f"Sum({', '.join(map(repr, self.parts))})"

@@ -46,7 +46,7 @@ def test_the_committed_configuration_passes_unchanged(folder):
         (load.USER, "fidelity", "config/config.yaml: fidelity = 3 must be a text"),
         (load.USER, "fidelty", "config/config.yaml: unknown key 'fidelty'; did you mean"),
         (load.PAPER, "theory", "config/campaigns/paper.yaml: theory = 3 must hold keys"),
-        ("config/campaigns/tradeoff.yaml", "nodes", "config/campaigns/tradeoff.yaml: nodes = 3"),
+        ("config/campaigns/tradeoff.yaml", "finer", "config/campaigns/tradeoff.yaml: finer = 3"),
         ("config/materials.yaml", "materials", "config/materials.yaml: materials = 3 must hold"),
     ],
 )

@@ -12,15 +12,6 @@ from scipy import stats
 
 from stickiness import dmt, repulsive, spectrum, surface
 from stickiness.accuracy import plan
-from stickiness.accuracy.choice import (
-    COARSE_SEEDS,
-    PIXELS,
-    SEEDS,
-    TOLERANCES,
-    UnreachableError,
-    cheapest,
-    seeds_enough,
-)
 from stickiness.accuracy.error_models import (
     OUTSIDE,
     ErrorModel,
@@ -32,7 +23,6 @@ from stickiness.accuracy.error_models import (
     single_error,
     write_models,
 )
-from stickiness.accuracy.extrapolation import carrying_error
 from stickiness.accuracy.prediction import (
     SAFETY,
     Problem,
@@ -41,6 +31,16 @@ from stickiness.accuracy.prediction import (
     joint_error,
     predicted_cost,
     worst_error,
+)
+from stickiness.accuracy.settings import (
+    COARSE_SEEDS,
+    PIXELS,
+    SEEDS,
+    TOLERANCES,
+    UnreachableError,
+    cheapest,
+    preset_by_rule,
+    seeds_enough,
 )
 from stickiness.statistics import COVERS
 
@@ -162,7 +162,7 @@ def test_presets_are_what_the_rule_gives(config):
     laws, asked = read_models(TABLE), trade["presets"]
     surface_asked = config["model_surfaces"][asked["surface"]]
     for name in asked["accuracy"]:
-        chosen = plan.preset_by_rule(
+        chosen = preset_by_rule(
             laws, asked, name, surface_asked, config["sampling"]["descriptor_seeds"]
         )
         assert plan.preset(config["fidelities"][name]) == chosen, name
@@ -275,7 +275,6 @@ def test_kinds_of_surfaces_that_were_not_measured_have_wider_errors(other):
     usual = error_parts(problem(), settings, 0.1, "area")
     for part, error in error_parts(problem(surface=asked), settings, 0.1, "area").items():
         assert error == pytest.approx(OUTSIDE * usual[part]), part
-    assert carrying_error(made_up(), asked, 256, 0.4, "area", 0.1) == pytest.approx(0.08)
     # What the grids of the case say stands alone, even if the error model promises less.
     assert grid_error(made_up(), "area", asked, 0.1, 8, 0.5) == 0.5
 
@@ -304,17 +303,6 @@ def test_grid_error_is_the_smaller_of_law_and_case_within_the_measurement():
     assert grid_error(made_up(), *where, 0.5) == pytest.approx(2 / 64)
     assert grid_error(made_up(), *where, 0.01) == 0.01
     assert grid_error(made_up(), "area", Surface(0.8, 128.0), 0.1, 8, 0.5) == 0.5
-
-
-def test_carrying_is_refused_beyond_what_was_measured():
-    where = made_up(), Surface(0.8, 32.0)
-    found = carrying_error(*where, 256, 0.4, "area", 0.1)
-    assert found == pytest.approx(0.04)
-    # The cut itself may be beyond what was simulated for everything else.
-    wide = made_up(), Surface(0.8, 128.0)
-    assert carrying_error(*wide, 512, 0.4, "area", 0.1) == pytest.approx(0.04)
-    with pytest.raises(ValueError, match="carry_to = 300 must be at most 8 times"):
-        carrying_error(*where, 300, 0.4, "area", 0.1)
 
 
 # --- the worst of several errors ----------------------------------------------------------------

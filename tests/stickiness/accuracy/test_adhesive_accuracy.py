@@ -1,4 +1,4 @@
-"""Settings for full adhesion from laws whose answers are known, and how such laws are measured."""
+"""Settings for full adhesion from error models whose answers are known."""
 
 import itertools
 import math
@@ -7,14 +7,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-import xarray as xr
 import yaml
 
 from adhesion import solve_adhesive
 from common import ensemble_means
 from stickiness import adhesive, repulsive, spectrum, surface
-from stickiness.accuracy import adhesion, plan
-from stickiness.accuracy.choice import COARSE_SEEDS, PIXELS, SEEDS, TOLERANCES, UnreachableError
+from stickiness.accuracy import plan
 from stickiness.accuracy.error_models import (
     ErrorModel,
     Settings,
@@ -23,7 +21,21 @@ from stickiness.accuracy.error_models import (
     single_error,
 )
 from stickiness.accuracy.prediction import Problem
-from tradeoff.adhesion_rows import scattered, threshold, varied
+from stickiness.accuracy.settings import (
+    ADHESIVE_COLUMNS,
+    ADHESIVE_QUANTITIES,
+    ADHESIVE_TOLERANCE,
+    COARSE_SEEDS,
+    FEWEST,
+    PIXELS,
+    SEEDS,
+    TOLERANCES,
+    UnreachableError,
+    adhesive_cost,
+    adhesive_error,
+    cheapest_adhesive,
+    worst_adhesive_error,
+)
 
 ROOT = Path(__file__).parents[3]
 TABLE = ROOT / "config/accuracy.csv"
@@ -33,7 +45,7 @@ SMOOTH, LOADS = Surface(hurst=0.8, magnification=32.0), [0.02, 0.2]
 def made_up():
     """Error 1/pixels^2 of the grid, scatter 0.3; controls leave a third."""
     laws = {}
-    for column in adhesion.COLUMNS:
+    for column in ADHESIVE_COLUMNS:
         laws |= {
             ("discretisation", column): ErrorModel(0.0, pixels=-2.0),
             ("solver", column): ErrorModel(0.0, tolerance=1.0),
@@ -47,18 +59,18 @@ def made_up():
 
 
 def problem(models=None):
-    return Problem(models or made_up(), SMOOTH, LOADS, adhesion.COLUMNS)
+    return Problem(models or made_up(), SMOOTH, LOADS, ADHESIVE_COLUMNS)
 
 
 def test_constants_are_those_of_the_stages():
-    assert adhesion.TOLERANCE == solve_adhesive.TOLERANCE
-    assert adhesion.FEWEST == ensemble_means.FEWEST
+    assert ADHESIVE_TOLERANCE == solve_adhesive.TOLERANCE
+    assert FEWEST == ensemble_means.FEWEST
 
 
 def test_few_seeds_have_no_control():
     def found(seeds, coarse):
         settings = Settings(16, 1e-8, seeds, coarse)
-        return adhesion.predicted_error(problem(), settings, 0.1, "threshold")
+        return adhesive_error(problem(), settings, 0.1, "threshold")
 
     assert found(4, 64) == pytest.approx(found(4, 0))
     assert found(8, 64) < 0.6 * found(8, 0)
@@ -66,7 +78,7 @@ def test_few_seeds_have_no_control():
 
 def test_pull_off_is_of_one_surface():
     settings = Settings(4, 1e-3, 2, 0)
-    found = adhesion.predicted_error(problem(), settings, 0.1, "pull_off")
+    found = adhesive_error(problem(), settings, 0.1, "pull_off")
     assert found == pytest.approx(1 / 16)
 
 
@@ -74,72 +86,22 @@ def test_pull_off_is_of_one_surface():
 @pytest.mark.parametrize("asked", [0.3, 0.12, 0.06])
 def test_chosen_is_the_cheapest_of_all(asked):
     wanted = problem()
-    chosen = adhesion.cheapest(wanted, asked)
-    assert adhesion.worst_error(wanted, chosen)[0] <= asked
+    chosen = cheapest_adhesive(wanted, asked)
+    assert worst_adhesive_error(wanted, chosen)[0] <= asked
     every = itertools.product(PIXELS, TOLERANCES[:1], SEEDS, COARSE_SEEDS)
     costs = [
-        adhesion.predicted_cost(wanted, settings)
+        adhesive_cost(wanted, settings)
         for settings in itertools.starmap(Settings, every)
-        if adhesion.worst_error(wanted, settings)[0] <= asked
+        if worst_adhesive_error(wanted, settings)[0] <= asked
     ]
-    assert adhesion.predicted_cost(wanted, chosen) == pytest.approx(min(costs))
+    assert adhesive_cost(wanted, chosen) == pytest.approx(min(costs))
 
 
 def test_out_of_reach_names_the_quantity():
     laws = made_up()
     laws["discretisation", "threshold"] = ErrorModel(0.0)
     with pytest.raises(UnreachableError, match="for threshold at pressure"):
-        adhesion.cheapest(problem(laws), 0.1)
-
-
-# --- how the laws are measured ----------------------------------------------------------------
-
-
-def test_threshold_between_adhesion_lengths():
-    """A pressure that falls by 0.1 for every factor e vanishes at e^2 times the first length."""
-    reach = np.array([1.0, 0.1, 0.1, 0.1, 0.1])
-    lengths = 0.01 * np.exp([9.0, 1.0, 0.0, 3.0, 4.0])
-    external = xr.DataArray(
-        0.2 - 0.1 * np.log(lengths / 0.01),
-        dims="point",
-        coords={
-            "range_over_h_rms": ("point", reach),
-            "adhesion_length_over_range": ("point", lengths),
-        },
-    )
-    assert float(threshold(external)) == pytest.approx(0.01 * math.exp(2))
-    closed = external.where(lengths < 0.01 * math.exp(3.5))  # windows that close, beyond
-    assert float(threshold(closed)) == pytest.approx(0.01 * math.exp(2))
-    assert np.isnan(float(threshold(external + 1)))
-
-
-def test_every_knob_has_its_reference():
-    names = "knob", "pixels", "tolerance", "balance"
-    rows = [
-        *(("pixels", pixels, 1e-5, 0.01) for pixels in (4, 8, 16)),
-        *(("tolerance", 8, tolerance, 0.01) for tolerance in (1e-3, 1e-7)),
-        *(("balance", pixels, 1e-5, 0.1) for pixels in (4, 8)),
-    ]
-    measured = xr.Dataset(
-        {name: ("setting", [row[k] for row in rows]) for k, name in enumerate(names)}
-    )
-    assert sorted(varied(measured)) == [
-        ("balance", "0.1 on 4", 5, 0),
-        ("balance", "0.1 on 8", 6, 1),
-        ("pixels", "4", 0, 2),
-        ("pixels", "8", 1, 2),
-        ("tolerance", "0.001", 3, 4),
-        ("tolerance", "1e-05", 1, 4),
-    ]
-
-
-def test_what_a_control_leaves():
-    rng = np.random.default_rng(3)
-    twin, noise = rng.standard_normal((2, 4000))
-    full = 10 + 4 * twin + 3 * noise
-    scatter, share = scattered(xr.DataArray(full, dims="seed"), xr.DataArray(twin, dims="seed"))
-    assert float(scatter) == pytest.approx(0.5, rel=0.05)
-    assert float(share) == pytest.approx(0.6, rel=0.05)
+        cheapest_adhesive(problem(laws), 0.1)
 
 
 # --- the table that is used -------------------------------------------------------------------
@@ -150,13 +112,13 @@ def test_presets_reach_their_error_with_full_adhesion():
     trade = yaml.safe_load((ROOT / "config/campaigns/tradeoff.yaml").read_text(encoding="utf-8"))
     laws, asked = read_models(TABLE), trade["presets"]
     wanted, surface_asked = asked["adhesive"], config["model_surfaces"][asked["surface"]]
-    columns = list(itertools.chain(*(adhesion.QUANTITIES[q] for q in wanted["quantities"])))
+    columns = list(itertools.chain(*(ADHESIVE_QUANTITIES[q] for q in wanted["quantities"])))
     given = Problem(laws, Surface.of(surface_asked), asked["pressures"], columns)
     for name, error in wanted["accuracy"].items():
         settings = plan.preset(config["fidelities"][name])
-        assert adhesion.worst_error(given, settings)[0] <= error, name
+        assert worst_adhesive_error(given, settings)[0] <= error, name
         few = replace(settings, seeds=2, coarse_seeds=0)
-        assert adhesion.worst_error(given, few)[0] > error, name
+        assert worst_adhesive_error(given, few)[0] > error, name
 
 
 @pytest.mark.slow

@@ -7,14 +7,13 @@ import pytest
 from helpers.laws import made_up, problem
 
 from stickiness.accuracy import plan
-from stickiness.accuracy.choice import UnreachableError, cheapest
 from stickiness.accuracy.error_models import Settings
 from stickiness.accuracy.prediction import (
     covering_factor,
     error_parts,
     joint_error,
-    worst_error,
 )
+from stickiness.accuracy.settings import UnreachableError, cheapest
 
 PRESET = {"pixels_per_wavelength": 8, "tolerance": 1e-8, "seeds": 5, "coarse_seeds": 40}
 
@@ -82,25 +81,15 @@ def test_seeds_of_a_case_stand_above_its_accuracy_and_a_cap_holds_for_what_is_ch
 
 @pytest.mark.parametrize("count", [0, 1, 32, 64, 65, 320, 2048])
 def test_files_of_coarse_seeds_hold_each_once(count):
-    parts = plan.coarse_parts(count)
+    parts = plan.coarse_batches(count)
     seeds = [seed for part in parts for seed in plan.coarse_range(part)]
     assert seeds == list(range(count))
 
 
 @pytest.mark.parametrize(("count", "more"), [(64, 65), (96, 128), (320, 1024)])
 def test_more_coarse_seeds_keep_all_files_but_the_last(count, more):
-    few, many = plan.coarse_parts(count), plan.coarse_parts(more)
+    few, many = plan.coarse_batches(count), plan.coarse_batches(more)
     assert few[:-1] == many[: len(few) - 1]
-
-
-def test_extrapolation_leaves_less_to_the_simulation():
-    asked = {"accuracy": 0.2, "quantities": ["area"]}
-    plans = plan.plans_of(config(a=asked, b=asked | {"carry_to": 64}), made_up())
-    errors = [worst_error(problem("area"), plans[name].settings)[0] for name in "ab"]
-    assert errors[1] < errors[0]
-    asked = {"accuracy": 0.01, "quantities": ["area"], "carry_to": 256}
-    with pytest.raises(UnreachableError, match=r"theory's extrapolation to magnification 256"):
-        plan.plans_of(config(a=asked), made_up())
 
 
 @pytest.mark.parametrize(
@@ -108,7 +97,6 @@ def test_extrapolation_leaves_less_to_the_simulation():
     [
         ({"accuracy": 0.1}, r"cases\.a\.quantities: the errors of contact_slope were not measured"),
         ({"model": "theory"}, r"cases\.a\.quantities: theory does not give contact_slope"),
-        ({"carry_to": 64}, r"cases\.a\.quantities: theory does not give contact_slope"),
     ],
 )
 def test_quantities_that_nothing_knows_are_refused_at_start(case, message):
@@ -119,7 +107,11 @@ def test_quantities_that_nothing_knows_are_refused_at_start(case, message):
 def test_solutions_without_a_measured_quantity_are_not_shared_with_what_needs_it():
     slope = {"quantities": ["area", "contact_slope"]}
     plans = plan.plans_of(config(first={}, later=slope, last=slope), made_up())
-    assert [plans[name].owner for name in ("first", "later", "last")] == ["first", "later", "later"]
+    assert [plans[name].solved_by for name in ("first", "later", "last")] == [
+        "first",
+        "later",
+        "later",
+    ]
     assert plans["later"].measured == ("contact_slope",)
 
 
@@ -131,7 +123,7 @@ def test_accuracy_out_of_reach_names_the_case():
 
 
 @pytest.mark.parametrize(
-    ("later", "shares"),
+    ("later", "reuses"),
     [
         ({"pressures": [0.1]}, True),
         ({"quantities": ["area"]}, True),
@@ -142,11 +134,11 @@ def test_accuracy_out_of_reach_names_the_case():
         ({"model": "theory"}, False),
     ],
 )
-def test_sharing(later, shares):
+def test_which_solutions_are_reused(later, reuses):
     plans = plan.plans_of(config(first={}, later=later), made_up())
-    assert plans["later"].owner == ("first" if shares else "later")
+    assert plans["later"].solved_by == ("first" if reuses else "later")
 
 
 def test_what_holds_no_gaps_is_not_shared_with_what_needs_them():
     plans = plan.plans_of(config(first={"quantities": ["area"]}, later={}), made_up())
-    assert plans["later"].owner == "later"
+    assert plans["later"].solved_by == "later"

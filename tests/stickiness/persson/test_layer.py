@@ -92,7 +92,6 @@ def test_the_distribution_of_gaps_is_refused():
     for ask in (
         lambda: theory.gap_density(0.1, 0.1),
         lambda: theory.gap_cumulative(0.1, 0.1),
-        lambda: theory.first_moment(0.1),
     ):
         with pytest.raises(NotImplementedError, match="known for a half-space only"):
             ask()

@@ -1,11 +1,11 @@
-"""Persson's theory against the multiprecision table of `make_persson_reference.py`."""
+"""Persson's theory against the multiprecision table of `benchmarks/persson_reference.py`."""
 
 import csv
 
 import mpmath
 import numpy as np
+import persson_reference as reference
 import pytest
-from helpers import make_persson_reference as reference
 
 from stickiness.persson import Persson
 from stickiness.spectrum import SelfAffine, Shells, Tabulated

@@ -5,6 +5,7 @@ import pytest
 
 from stickiness import adhesive, surface
 from stickiness.remaining import measure
+from stickiness.solids import HalfSpace, Layer
 from stickiness.spectrum import SelfAffine
 
 LENGTH = 4 * np.pi
@@ -22,14 +23,14 @@ def test_flat_surfaces_part_at_the_full_work():
 
 
 @pytest.mark.slow
-def test_full_contact_of_a_wave_costs_its_energy():
+@pytest.mark.parametrize("solid", [HalfSpace(), Layer(0.3, 0.5)])
+def test_full_contact_of_a_wave_costs_its_energy(solid):
     x = np.arange(64) / 64
-    heights = np.cos(2 * np.pi * x)[:, None] * np.ones(64)  # U_full = pi/4 for a cell of side 1
-    heights *= 0.05
-    energy = np.pi / 4 * 0.05**2
-    law = adhesive.Exponential(4 * energy, 0.01)
-    found = measure(heights, 1.0, law, squeeze=0.05, half_grid=False)
-    assert found.bound == pytest.approx(1 - 1 / 4, abs=0.01)
+    heights = 0.05 * np.cos(2 * np.pi * x)[:, None] * np.ones(64)
+    energy = 0.05**2 / 4 * solid.stiffness(2 * np.pi)
+    law = adhesive.Exponential(4 * energy, 0.02)
+    found = measure(heights, 1.0, law, squeeze=1.0, half_grid=False, solid=solid)
+    assert found.bound == pytest.approx(1 - 1 / 4, abs=0.02)
     assert found.area_at_zero_load == pytest.approx(1, abs=0.02)
 
 
@@ -39,8 +40,7 @@ def test_without_jumps_all_works_are_the_energy_gained():
     assert found.jumps == 0
     assert found.approach == pytest.approx(found.bound, rel=0.03)
     assert found.separation == pytest.approx(found.bound, rel=0.03)
-    assert found.hysteresis == pytest.approx(0, abs=0.03 * found.bound)
-    assert found.resolved
+    assert found.pixels_in_zone > 2
     assert [point.state.mean_gap for point in found.points] == list(found.gap)
     assert found.points[0].state.gap.shape == (64, 64)
 
@@ -55,7 +55,7 @@ def test_the_grid_resolves_or_says_so():
         coarse.separation, rel=0.02
     )
     narrow = adhesive.Exponential(0.3, 0.3)
-    assert not measure(random_heights(32), LENGTH, narrow, 0.1, half_grid=False).resolved
+    assert measure(random_heights(32), LENGTH, narrow, 0.1, half_grid=False).pixels_in_zone < 2
 
 
 @pytest.mark.slow

@@ -75,13 +75,13 @@ def test_limits_are_wider_for_surfaces_with_a_direction():
     as_if = SelfAffine(hurst=0.8, q0=1.0, q1=1e4, h_rms=unlike.h_rms)
     length = TOUGH["adhesion_length"] * as_if.elastic_energy() / unlike.elastic_energy()
     alike = predict(as_if, length, TOUGH["range"])
-    assert (found.widening, alike.widening) == (UNLIKE, 1)
+    assert (found.anisotropy_error_factor, alike.anisotropy_error_factor) == (UNLIKE, 1)
     assert found.energy_ratio == pytest.approx(alike.energy_ratio)
     assert found.separation == pytest.approx(alike.separation, rel=0.01)
     for name in ("separation_limits", "pull_off_limits"):
         wide, narrow = (np.ptp(np.log(getattr(each, name))) for each in (found, alike))
         assert wide > 1.1 * narrow
-    surface = Roughness(unlike.h_rms, 1.0, unlike.elastic_energy(), widening=UNLIKE)
+    surface = Roughness(unlike.h_rms, 1.0, unlike.elastic_energy(), anisotropy_error_factor=UNLIKE)
     length = surface.threshold(TOUGH["range"], 0.2, 1)
     assert surface.share(length, TOUGH["range"], 1) == pytest.approx(0.2, rel=1e-6)
 
@@ -94,7 +94,10 @@ def test_two_rough_solids_are_one_surface_of_their_sum():
 
 
 def test_limits_widen_steadily_with_the_direction():
-    widening = [predict(rough(anisotropy=a), **TOUGH).widening for a in (1, 1.0001, 2, 3.9, 4, 99)]
+    widening = [
+        predict(rough(anisotropy=a), **TOUGH).anisotropy_error_factor
+        for a in (1, 1.0001, 2, 3.9, 4, 99)
+    ]
     assert widening[0] == 1
     assert widening[1:3] == pytest.approx([1, 2**0.5], abs=1e-4)
     assert widening[3:] == pytest.approx([2, 2, 99**0.5], abs=0.04)
@@ -114,8 +117,3 @@ def test_limits_hold_the_value():
 def test_bad_arguments_are_named(name, bad):
     with pytest.raises(ValueError, match=name):
         predict(rough(), **(TOUGH | {name: bad}))
-
-
-def test_heights_in_place_of_a_spectrum_are_refused():
-    with pytest.raises(ValueError, match="spectrum must be a Spectrum, got ndarray"):
-        predict(np.zeros((8, 8)), **TOUGH)

@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 
-from stickiness import equivalent_sphere
+from stickiness.criteria import equivalent_sphere
 from stickiness.criteria.formulas import pastewka_robbins_a_v
-from stickiness.remaining.multiscale import remaining_adhesion
 from stickiness.remaining.theories import dmt_share, full_contact_share, local_threshold
 from stickiness.spectrum import SelfAffine
+from stickiness.surface import lattice_spectrum
 
 
 def rough(magnification):
@@ -51,6 +51,11 @@ def test_theories_take_the_average_over_directions():
     mean = turned.averaged()
     assert local_threshold(turned) == local_threshold(mean)
     assert dmt_share(turned, 1.0, 0.3) == pytest.approx(dmt_share(mean, 1.0, 0.3), rel=1e-7)
-    w = turned.elastic_energy()
-    one, other = (remaining_adhesion(s, w, pull_off=False) for s in (turned, mean))
-    assert (one.share, one.area) == (other.share, other.area)
+
+
+@pytest.mark.slow
+def test_dmt_form_of_many_shells_is_that_of_the_spectrum():
+    surface = rough(32.0)
+    shells = lattice_spectrum(surface, 16 * np.pi)
+    assert len(shells.q) > 1000
+    assert dmt_share(shells, 1.0, 0.3) == pytest.approx(dmt_share(surface, 1.0, 0.3), rel=0.03)

@@ -1,7 +1,5 @@
 """Spectra with a direction: 2D integrals, averages, moments by direction, surfaces, errors."""
 
-import doctest
-
 import numpy as np
 import pytest
 from scipy import integrate
@@ -10,8 +8,6 @@ from stickiness import surface
 from stickiness.measured.psd import power_spectrum
 from stickiness.persson import Persson
 from stickiness.spectrum import SelfAffine
-from stickiness.spectrum import kinds as module
-from stickiness.spectrum.direction import Ellipse
 
 L = 2 * np.pi  # so that wave numbers are lattice indices
 GOOD = {"hurst": 0.8, "q0": 1.0, "q1": 16.0, "h_rms": 1.0}
@@ -83,41 +79,12 @@ def test_density_is_the_mean_over_directions(ratio):
     assert s.psd([[1.0, 2.0]]).shape == (1, 2)
 
 
-def test_average_holds_the_variance_of_the_density_between_knots():
-    s = made(anisotropy=4.0)
-    mean = s.averaged()
-    for k in (10, 60, 90):
-        ends = np.log(mean.knots[[k, k + 3]])
-        want, _ = integrate.quad(
-            lambda t: 2 * np.pi * np.exp(2 * t) * float(s.psd(np.exp(t))), *ends, epsabs=0
-        )
-        got = np.diff(mean.variance_below(np.exp(ends)))[0]
-        assert got == pytest.approx(want, rel=1e-9)
-        assert np.diff(s.variance_below(np.exp(ends)))[0] == got
-
-
 def test_theories_take_the_average():
     s = made(anisotropy=4.0, angle=1.0)
     loads = np.array([0.02, 0.3]) * s.rms_slope
     one, other = Persson(s), Persson(s.averaged())
     np.testing.assert_array_equal(one.area_fraction(loads), other.area_fraction(loads))
     np.testing.assert_array_equal(one.mean_gap(loads), other.mean_gap(loads))
-    # a sum of many isotropic spectra, each one direction of the ellipse
-    angle = (np.arange(400) + 0.5) / 400 * np.pi / 2
-    stretch = np.sqrt(np.cos(angle) ** 2 / 4 + 4 * np.sin(angle) ** 2)
-    gradient = np.mean(stretch**2) * made().rms_slope ** 2
-    assert one.area_fraction(loads) == pytest.approx(
-        Persson(made(h_rms=np.sqrt(gradient) / made().rms_slope)).area_fraction(loads), rel=1e-9
-    )
-
-
-@pytest.mark.slow
-def test_mean_gap_of_full_range_of_loads_gives_the_energy():
-    # int ubar dp is the energy of full contact
-    s = made(anisotropy=6.0)
-    p = np.geomspace(1e-8, 20, 4000) * s.rms_slope
-    gaps = Persson(s).mean_gap(p)
-    assert integrate.trapezoid(gaps * p, np.log(p)) == pytest.approx(s.elastic_energy(), rel=1e-5)
 
 
 def test_moments_by_direction():
@@ -176,32 +143,6 @@ def test_slopes_of_surfaces_by_direction(angle):
     want = s.directional_moments(0.0)
     for name in ("m00", "m20", "m02", "m40", "m22", "m04"):
         assert getattr(m, name) == pytest.approx(getattr(want, name), rel=0.02)
-
-
-def test_ratio_of_slopes_of_gaussian_surfaces():
-    s = made(q0=2.0, q1=16.0, anisotropy=4.0)
-    logs = []
-    for seed in range(24):
-        m = surface.moments(surface.synthesise(s, 72, L, seed), L)
-        assert m.h_rms == pytest.approx(1.0, rel=1e-12)
-        logs.append(np.log(m.m02 / m.m20))
-    error = np.std(logs, ddof=1) / np.sqrt(len(logs))
-    assert error < 0.05
-    # C is sampled on the lattice: 3 %
-    assert np.mean(logs) == pytest.approx(np.log(16), abs=3 * error + 0.03)
-
-
-def test_a_right_angle_transposes_the_statistics():
-    along, across = (made(anisotropy=4.0, q0=2.0, angle=turn) for turn in (0.0, np.pi / 2))
-    one, other = (surface.lattice_spectrum(s, L) for s in (along, across))
-    np.testing.assert_allclose(other.q, one.q, rtol=1e-12)
-    np.testing.assert_allclose(other.variance, one.variance, rtol=1e-9)
-    first, second = (
-        surface.moments(surface.synthesise(s, 72, L, 2, amplitudes="fixed"), L)
-        for s in (along, across)
-    )
-    assert (second.m20, second.m40) == pytest.approx((first.m02, first.m04), rel=1e-9)
-    assert (second.m02, second.m22) == pytest.approx((first.m20, first.m22), rel=1e-9)
 
 
 @pytest.mark.parametrize("angle", [0.0, 0.3])
@@ -275,15 +216,6 @@ def test_cells_and_grids_that_do_not_hold_the_waves_are_named():
     assert surface.lattice_spectrum(long, L).h_rms == pytest.approx(1.0, rel=1e-12)
 
 
-def test_norm_and_its_reach():
-    ellipse = Ellipse(9.0, 0.5)
-    along, across = (np.array([np.cos(t), np.sin(t)]) for t in (0.5, 0.5 + np.pi / 2))
-    assert ellipse.norm(*along) == pytest.approx(3.0)
-    assert ellipse.norm(*across) == pytest.approx(1 / 3)
-    assert ellipse.reach == 3.0
-    assert ellipse.mean_stretch(0) == pytest.approx(1, rel=1e-14)
-
-
 @pytest.mark.parametrize("ratio", [1.5, 4.0])
 def test_measured_dependence_on_direction(ratio):
     # C ~ 1 + A cos 2(phi - phi0), phi0 across the long correlation length
@@ -300,7 +232,3 @@ def test_measured_dependence_on_direction(ratio):
     amplitude, direction = np.mean(found, axis=0)
     assert amplitude == pytest.approx(want, abs=0.03)
     assert direction == pytest.approx(angle - np.pi / 2, abs=0.03)
-
-
-def test_examples_in_the_documentation():
-    assert doctest.testmod(module).failed == 0

@@ -7,8 +7,10 @@ import numpy as np
 import pytest
 from scipy import integrate
 
-from stickiness import spectrum as module
-from stickiness.spectrum import SelfAffine, Shells, Tabulated
+from stickiness import spectrum
+from stickiness.persson import theory
+from stickiness.remaining import prediction
+from stickiness.spectrum import SelfAffine, Shells, Tabulated, kinds, sums
 
 
 def by_quadrature(s, a, b, power, breaks=()):
@@ -154,14 +156,6 @@ def test_table_is_linear_in_log_log():
     np.testing.assert_array_equal(s.knots, q)
 
 
-def test_table_of_a_plateau_and_a_power_law_is_the_roll_off_spectrum():
-    s = SelfAffine(hurst=0.7, q0=1.0, q1=1e3, C0=1.0, q_rolloff=10.0)
-    q = np.array([1.0, 4.0, 10.0, 90.0, 1e3])
-    table = Tabulated(q, s.psd(q))
-    for order in (0, 2, 4):
-        assert table.moment(order) == pytest.approx(s.moment(order), rel=1e-12)
-
-
 def test_shells_sum_up():
     q, variance = np.array([1.0, 2.0, 5.0]), np.array([3.0, 0.5, 0.25])
     s = Shells(q, variance)
@@ -216,7 +210,8 @@ def test_elastic_energy():
     assert s.elastic_energy() == pytest.approx(want, rel=1e-12)
 
 
-def test_examples_in_the_documentation():
+@pytest.mark.parametrize("module", [spectrum, kinds, sums, theory, prediction])
+def test_examples_in_the_documentation(module):
     assert doctest.testmod(module).failed == 0
 
 

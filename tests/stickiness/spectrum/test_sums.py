@@ -1,13 +1,11 @@
 """Sums of spectra: additive integrals, the inverse, one doubled spectrum, surfaces, errors."""
 
-import doctest
-
 import numpy as np
 import pytest
 
 from stickiness import surface
 from stickiness.persson import Persson
-from stickiness.spectrum import SelfAffine, Shells, Sum, Tabulated, combine, sums
+from stickiness.spectrum import SelfAffine, Shells, Sum, Tabulated, combine
 
 L = 2 * np.pi
 ONE = SelfAffine(hurst=0.8, q0=1.0, q1=64.0, h_rms=1.0)
@@ -136,7 +134,3 @@ def test_bad_parts_are_named():
         combine(ONE, Shells([1.0], [1.0]))
     with pytest.raises(ValueError, match="takes spectra one by one, .* got float"):
         combine(ONE, 1.0)
-
-
-def test_examples_in_the_documentation():
-    assert doctest.testmod(sums).failed == 0

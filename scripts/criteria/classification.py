@@ -1,0 +1,78 @@
+"""The verdict on every pair, and which criteria disagree with it."""
+
+import numpy as np
+import xarray as xr
+
+from stickiness.criteria.pair import NOT_JUDGED, decide
+from stickiness.criteria.registry import EDGES, REMAINING
+
+MOST_STRAIN = 0.3  # up to which a layer is taken for linear
+
+
+def decide_pairs(dataset):
+    """Code of the verdict over the whole range of the surface and the limits of the model."""
+    low, high = find_limits(dataset)
+    grows = (dataset.margin.sel(criterion=EDGES, drop=True) > 1).any("end")
+    return low.copy(data=decide(low, high, grows))
+
+
+def find_doubts(materials, surfaces, own):
+    """Why pairs are not judged, a text each, empty for those that are.
+
+    The reasons are those of the surface and of the one that the material has itself.
+    """
+    doubts = [
+        [
+            "\n".join(
+                reason
+                for one in (surface, own.get(material.surface))
+                if one is not None and (reason := one.attrs.get("not_judged"))
+            )
+            for surface in surfaces.values()
+        ]
+        for material in materials.values()
+    ]
+    return xr.DataArray(np.array(doubts, dtype=object), dims=("material", "surface"))
+
+
+def withhold(dataset):
+    """The dataset without any number of pairs where there are doubts about a surface."""
+    judged = dataset.not_judged == ""
+    if judged.all():
+        return dataset
+    with xr.set_options(keep_attrs=True):
+        numbers = {
+            name: values.where(judged).transpose(*values.dims)
+            for name, values in dataset.items()
+            if values.dtype.kind == "f" and {"material", "surface"} <= set(values.dims)
+        }
+        verdict = dataset.verdict.where(judged, NOT_JUDGED).astype(dataset.verdict.dtype)
+        disagrees = dataset.disagrees.where(judged, 0).astype("i1")
+    for values in numbers.values():
+        known = values.attrs.get("nan_means")
+        values.attrs["nan_means"] = f"{known}, or not judged" if known else "not judged"
+    return dataset.assign(numbers | {"verdict": verdict, "disagrees": disagrees})
+
+
+def find_limits(dataset, name="remaining"):
+    """Low and high limit of what is known of a pair: of the share that remains, they decide.
+
+    Over both ends of the surface and the limits of the model. On a measured surface those of the
+    spectra drawn within its errors, which have the errors of the model as well, by quantiles.
+    `name` may be another quantity that follows from what remains.
+    """
+    low, high = dataset[f"{name}_low"].min("end"), dataset[f"{name}_high"].max("end")
+    if f"{name}_quantile" in dataset:
+        drawn = dataset[f"{name}_quantile"]
+        low = drawn.isel(quantile=0, drop=True).fillna(low)
+        high = drawn.isel(quantile=-1, drop=True).fillna(high)
+    if "layer_strain" in dataset:
+        # Heights that a linear layer cannot take stiffen it: nothing may remain.
+        low = low.where(dataset.layer_strain.max("end") <= MOST_STRAIN, 0.0)
+    return low, high
+
+
+def find_disagreement(dataset):
+    """1 where a criterion says the opposite of what remains at either end."""
+    sticky = dataset.margin > 1
+    return (sticky != sticky.sel(criterion=REMAINING)).any("end").astype("i1")

@@ -1,0 +1,22 @@
+"""Verdict for every material on one surface."""
+
+from common.job import start
+from criteria.judging import judge, read_surfaces
+from stickiness import datasets
+
+
+def main(job):
+    name = job.wildcards.real_surface
+    surfaces = read_surfaces([name], [job.input.surface])
+    own = read_surfaces(job.params.own, job.input.own)
+    label = datasets.parameters(surfaces[name])["label"]
+    datasets.write(
+        judge(surfaces, own, job.params),
+        job.output[0],
+        title=f"verdicts of the stickiness criteria: {label}",
+        parameters={"materials": job.params.materials, "label": label},
+    )
+
+
+if __name__ == "__main__":
+    main(start(globals(), "judge_surface", real_surface="jacksboro"))

@@ -1,0 +1,352 @@
+"""Contact and pull-off of measured heights, simulated, and the picture of both.
+
+The heights are pressed at a few loads without adhesion. One material is then pressed on and pulled
+off with adhesion. The grid cannot resolve a molecular range, so the range is as long as the
+cohesive zone needs to span some pixels. More adhesion then remains than at the material's range.
+The prediction of the verdicts for the same heights and the same range stands beside it.
+"""
+
+import logging
+import warnings
+from dataclasses import dataclass
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+from scipy.ndimage import maximum_filter1d
+from scipy.special import erfinv
+
+from common.config.entries import measurements
+from common.contact_curves import load_curve, measure
+from common.formatting import amount, percent
+from common.job import start
+from criteria.materials import read_material
+from criteria.texts import LEAST_SHOWN
+from real_surfaces.measured_surface import find_cutoff, read_levelled
+from report.contact_figure import draw_still
+from stickiness import datasets, remaining
+from stickiness.measured import periodic, topography
+from stickiness.plausibility import PlausibilityWarning
+from stickiness.repulsive import solver
+from stickiness.repulsive.half_space import measure_slope
+from stickiness.repulsive.solver import ConvergenceError
+from stickiness.traction_laws import LAWS
+
+PERIODISATION = "smooth"  # a tapered rim is flat: it sticks better than the surface
+MOST_PIXELS, LEAST_PIXELS = 8, 4  # per shortest wavelength
+ROUNDING = 1e-9
+CONTACT_POINTS = 512  # along the longer side, at most; the fields kept have half of them
+# Shares of the area in contact by theory: at small loads those solved are up to 1.8 times as large.
+AREAS = np.geomspace(1e-3, 0.3, 8)
+CONTACT_TOLERANCE = 1e-4
+PULL_OFF_POINTS = 192  # along the longer side, at most
+# In the width of the cohesive zone: half the grid, which tells the error, resolves it with two.
+PIXELS_IN_ZONE = 4.0
+PULL_OFF_TOLERANCE = 1e-3
+OPEN, ATTRACTED, TOUCHING = range(3)
+NOT_JUDGED = "the surface is not judged"
+NO_MAP = "it was measured along lines only, and contact needs a map of heights"
+
+RELATIVE_CHANGE = "largest relative change from half the grid at this load and its neighbours"
+CONTACT_TEXTS = {
+    "x": ("m", "position along x"),
+    "y": ("m", "position along y"),
+    "pressure": ("1", "mean pressure over E* q0 h_rms"),
+    "heights": ("m", "heights pressed: periodic, without waves that the grid does not hold"),
+    "contact": ("1", "share of a block of two by two points in contact"),
+    "gap": ("m", "mean gap of a block"),
+    "contact_pressure": ("1", "mean pressure of a block over E*"),
+    "mean_pressure": ("1", "mean pressure over E*"),
+    "area_fraction": ("1", "contact area over nominal area, edges of contact between pixels"),
+    "area_fraction_discretisation_error": ("1", f"area times {RELATIVE_CHANGE}"),
+    "mean_gap": ("m", "mean gap"),
+    "mean_gap_discretisation_error": ("m", f"mean gap times {RELATIVE_CHANGE}"),
+    "residual": ("1", "complementarity residual over the rms height"),
+    "q0": ("1/m", "lowest wave number of the self-affine range of the surface"),
+    "h_rms": ("m", "rms height of the heights pressed"),
+    "rms_slope": ("1", "rms gradient of the heights pressed"),
+    "shortest_wavelength": ("m", "shortest wave of the heights pressed"),
+    "cutoff_wavelength": ("m", "shortest wave that the instrument resolves"),
+    "change": ("1", "rms change that made the heights periodic, over the rms height"),
+}
+QUOTED = {
+    "approach": "work of approach over the work of adhesion",
+    "separation": "work of separation over the work of adhesion",
+    "pull_off": "largest mean tension on separation",
+}
+PULL_OFF_TEXTS = {
+    "x": ("m", "position along x"),
+    "y": ("m", "position along y"),
+    "mean_gap": ("m", "mean gap"),
+    "mean_traction": ("Pa", "mean tension, negative where the surfaces press"),
+    "separating": ("1", "1 on the way back"),
+    "contact_area": ("1", "area at a gap of zero over nominal area, by pixels"),
+    "attracted_area": ("1", "area with gaps up to the range over nominal area, by pixels"),
+    "zone": ("1", "state of a pixel"),
+    "jumps": ("1", "jumps on the way there and back"),
+    "range": ("m", "range of the attraction simulated"),
+    "material_range": ("m", "range of the attraction of the material"),
+    "zone_width": ("1", "width of the cohesive zone, range^2/(adhesion length), times q0"),
+    "energy_ratio": ("1", "work of adhesion over elastic energy of full contact"),
+    "h_rms": ("m", "rms height of the heights simulated"),
+    "shortest_wavelength": ("m", "shortest wave of the heights simulated"),
+    "judged_wavelength": ("m", "shortest wave of the spectrum judged"),
+    "squeeze_pressure": ("Pa", "mean pressure before separation, at least"),
+}
+
+
+class LeftOutError(Exception):
+    """There is nothing to simulate; the message says why."""
+
+
+def main(job):
+    surface = datasets.read(job.input.surface, ["q0", "q1", "q_cutoff"])
+    asked, entry = job.params.surface, job.params.entry
+    contact = pull_off = None
+    try:
+        heights, q_cutoff = find_heights(surface, asked)
+        contact = press(prepare(heights, q_cutoff, CONTACT_POINTS), float(surface.q0), q_cutoff)
+        pull_off = separate(
+            prepare(heights, q_cutoff, PULL_OFF_POINTS),
+            (float(surface.q0), float(surface.q1)),
+            read_material(entry),
+            job.params.law,
+            job.params.squeeze,
+        )
+    except LeftOutError as reason:
+        logging.info("not simulated: %s", reason)
+        missing = xr.Dataset(attrs={"left_out": str(reason)})
+        contact = missing if contact is None else contact
+        pull_off = missing
+    for dataset in (contact, pull_off):
+        if not dataset.attrs["left_out"] and len(measurements(asked)) > 1:
+            dataset.attrs["measurement"] = heights.source
+    name = job.wildcards.real_surface
+    datasets.write(
+        contact,
+        job.output.contact,
+        title=f"where the heights touch: {asked['label']}",
+        parameters={"surface": name, **asked},
+    )
+    datasets.write(
+        pull_off,
+        job.output.pull_off,
+        title=f"pull-off of {entry['label']} from {asked['label']}",
+        parameters={
+            "surface": name,
+            "material": job.params.material,
+            **entry,
+            "source": asked["source"],
+        },
+    )
+    draw_still(contact, pull_off, job.output.figure)
+
+
+def find_heights(surface, asked):
+    """Levelled heights of the first measurement that is a map, and its cutoff [1/m].
+
+    Raises
+    ------
+    LeftOutError
+        If there is no map or the surface is not judged.
+    """
+    if surface.attrs["not_judged"]:
+        raise LeftOutError(NOT_JUDGED)
+    for index, (_, measurement) in enumerate(measurements(asked)):
+        heights = read_levelled(measurement)
+        if isinstance(heights, topography.Topography):
+            return heights, find_cutoff(asked, index, heights, float(surface.q_cutoff))
+    raise LeftOutError(NO_MAP)
+
+
+@dataclass(frozen=True)
+class PeriodicHeights:
+    """Heights [m] made periodic, without the waves that the grid cannot hold."""
+
+    heights: NDArray
+    sides: tuple[float, float]  # m
+    shortest_wavelength: float  # m
+    change: float  # rms change by which the heights became periodic, over their rms
+
+    @property
+    def h_rms(self) -> float:
+        """Root mean square of the heights about their mean [m]."""
+        return float(np.std(self.heights))
+
+    def pixel_centres(self, step: int = 1) -> tuple[NDArray, NDArray]:
+        """Middles of blocks of `step` by `step` pixels along both sides [m]."""
+        shape = (n // step for n in self.heights.shape)
+        return tuple(
+            (np.arange(n) + 0.5) * side / n for n, side in zip(shape, self.sides, strict=True)
+        )
+
+
+def prepare(heights, q_cutoff, points):
+    """`PeriodicHeights` with waves up to the cutoff [1/m], that of the map or that of the grid.
+
+    The grid has at most `points` along the longer side, and fewer where they resolve all waves.
+    """
+    whole = periodic.periodise(heights.heights, PERIODISATION)
+    waves = max(heights.size) / (2 * np.pi)  # per wave number along the longer side
+    nyquist = np.pi / max(heights.dx, heights.dy)
+    q_max = min(q_cutoff, nyquist, points / (LEAST_PIXELS * waves)) * (1 - ROUNDING)
+    pixels = min(MOST_PIXELS, points / (waves * q_max)) * (1 - ROUNDING)
+    limited = periodic.band_limited(whole, heights.size, q_max, pixels)
+    change = float(np.std(whole - heights.heights) / np.std(heights.heights))
+    return PeriodicHeights(limited - limited.mean(), heights.size, 2 * np.pi / q_max, change)
+
+
+def press(rough, q0, q_cutoff):
+    """Contact and gap of `PeriodicHeights` without adhesion, at every load, as a dataset."""
+    h_rms, slope = rough.h_rms, measure_slope(rough.heights, rough.sides)
+    # By theory a share erf(sqrt(2) p/(E* slope)) of the area touches.
+    loads = slope * erfinv(AREAS) / np.sqrt(2)
+    fields = {"contact": [], "gap": [], "contact_pressure": []}
+    rows = []
+    for state in solver.load_path(rough.heights, rough.sides, loads, tol=CONTACT_TOLERANCE):
+        fields["contact"].append(halve(state.gap == 0))
+        fields["gap"].append(halve(state.gap))
+        fields["contact_pressure"].append(halve(state.pressure))
+        rows.append(measure(state, ()))
+        logging.info("load %d: area %.4f", len(rows), state.area_fraction)
+    fine = xr.concat(rows, "pressure")
+    coarse = load_curve(rough.heights[::2, ::2], rough.sides, loads, (), CONTACT_TOLERANCE)
+    x, y = rough.pixel_centres(2)
+    data = {name: (("pressure", "x", "y"), np.float32(field)) for name, field in fields.items()}
+    for name in ("area_fraction", "mean_gap"):
+        error = find_error(fine[name].values, coarse[name].values)
+        data[name] = fine[name]
+        data[f"{name}_discretisation_error"] = "pressure", error
+    dataset = xr.Dataset(
+        {
+            **data,
+            "heights": (("x", "y"), np.float32(halve(rough.heights))),
+            "mean_pressure": ("pressure", loads),
+            "residual": fine.residual,
+            "q0": q0,
+            "h_rms": h_rms,
+            "rms_slope": slope,
+            "shortest_wavelength": rough.shortest_wavelength,
+            "cutoff_wavelength": 2 * np.pi / q_cutoff,
+            "change": rough.change,
+        },
+        coords={"pressure": loads / (q0 * h_rms), "x": x, "y": y},
+        attrs={"left_out": "", "measurement": ""},
+    )
+    for name in (*fields, "heights"):
+        dataset[name].encoding = {"zlib": True}
+    return datasets.annotate(dataset, **CONTACT_TEXTS)
+
+
+def halve(field):
+    """Mean of every block of two by two points."""
+    return field.reshape(field.shape[0] // 2, 2, field.shape[1] // 2, 2).mean(axis=(1, 3))
+
+
+def find_error(fine, coarse):
+    """Error at every load, from a coarser grid.
+
+    The change passes through zero between loads. The neighbouring loads show how large it is there.
+    """
+    return fine * maximum_filter1d(abs(coarse / fine - 1), 3, mode="nearest")
+
+
+def separate(rough, band, material, law, squeeze):
+    """States of approach, squeeze and separation of `PeriodicHeights`, as a dataset.
+
+    Parameters
+    ----------
+    rough : PeriodicHeights
+    band : tuple of float
+        q0 and q1 [1/m] of the spectrum that is judged.
+    material : criteria.materials.Material
+    law : str
+        Name of the traction law.
+    squeeze : float
+        Mean pressure before separation over E* q0 h_rms.
+
+    Raises
+    ------
+    LeftOutError
+        If the grid cannot show this pair, or the simulation does not converge.
+    """
+    if material.surface is not None:
+        raise LeftOutError("the material has a roughness of its own, which the picture would lack")
+    q0, q1 = band
+    h_rms, sides, solid = rough.h_rms, rough.sides, material.solid
+    length = material.work_of_adhesion / material.modulus
+    pixel = sides[0] / rough.heights.shape[0]
+    range_ = max(material.range, np.sqrt(PIXELS_IN_ZONE * pixel * length))
+    if range_ > h_rms:
+        raise LeftOutError(
+            f"the shortest range that the grid resolves, {metres(range_)}, is longer than the rms "
+            f"height, {metres(h_rms)}"
+        )
+    spectrum = periodic.shells(rough.heights, sides)
+    predicted = remaining.predict(spectrum, length, range_, q0, solid)
+    if predicted.separation_limits[1] < LEAST_SHOWN:
+        raise LeftOutError(
+            f"the model predicts that less than {percent(LEAST_SHOWN)} of the work of adhesion "
+            f"remains, even at a range of {metres(range_)}, the shortest that the grid resolves"
+        )
+    settings = {"squeeze": squeeze * q0 * h_rms, "tol": PULL_OFF_TOLERANCE, "solid": solid}
+    try:
+        with warnings.catch_warnings():
+            # What a coarse grid does to the result is in the limits.
+            warnings.simplefilter("ignore", PlausibilityWarning)
+            found = remaining.measure(rough.heights, sides, LAWS[law](length, range_), **settings)
+    except ConvergenceError as error:
+        raise LeftOutError(f"the simulation did not converge ({error})") from None
+    dataset = describe_states(found, rough, material.modulus)
+    for name, text in QUOTED.items():
+        for prefix, of in (("", found), ("predicted_", predicted)):
+            scale, unit = (material.modulus, "Pa") if name == "pull_off" else (1.0, "1")
+            values = (getattr(of, name), *getattr(of, f"{name}_limits"))
+            for end, value in zip(("", "_low", "_high"), values, strict=True):
+                long_name = f"{text}{', by the model' * bool(prefix)}{end.replace('_', ', ')}"
+                attrs = {"units": unit, "long_name": long_name}
+                dataset[f"{prefix}{name}{end}"] = (), scale * value, attrs
+    dataset = dataset.assign(
+        jumps=found.jumps,
+        range=range_,
+        material_range=material.range,
+        zone_width=q0 * range_**2 / length,
+        energy_ratio=predicted.energy_ratio,
+        h_rms=h_rms,
+        shortest_wavelength=rough.shortest_wavelength,
+        judged_wavelength=2 * np.pi / q1,
+        squeeze_pressure=settings["squeeze"] * material.modulus,
+    )
+    return datasets.annotate(dataset, **PULL_OFF_TEXTS).assign_attrs(left_out="", measurement="")
+
+
+def metres(length):
+    return amount(length, "m", 2)
+
+
+def describe_states(found, rough, modulus):
+    """Curve of tension against gap, and the zones of every state."""
+    zones = np.array([find_zones(point.state) for point in found.points])
+    dataset = xr.Dataset(
+        {
+            "zone": (("state", "x", "y"), zones),
+            "mean_gap": ("state", found.gap),
+            "mean_traction": ("state", -modulus * found.pressure),
+            "separating": ("state", found.separating.astype("i1")),
+            "contact_area": ("state", (zones == TOUCHING).mean(axis=(1, 2))),
+            "attracted_area": ("state", (zones == ATTRACTED).mean(axis=(1, 2))),
+        },
+        coords=dict(zip(("x", "y"), rough.pixel_centres(), strict=True)),
+    )
+    dataset.zone.encoding = {"zlib": True}
+    return dataset
+
+
+def find_zones(state):
+    """Pixels that touch, that are within the range of the attraction, and that are open."""
+    zone = np.where(state.gap <= state.law.range, ATTRACTED, OPEN)
+    return np.where(state.gap <= 0, TOUCHING, zone).astype("u1")
+
+
+if __name__ == "__main__":
+    main(start(globals(), "picture_contact", real_surface="jacksboro"))

@@ -1,0 +1,123 @@
+"""Closed forms and limits that the components are compared with, in units of E*."""
+
+from __future__ import annotations
+
+from decimal import Decimal, localcontext
+from functools import cache
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.integrate import quad
+from scipy.optimize import brentq
+from scipy.special import erf, erfinv
+
+THICK = 40.0  # thickness times wave number from which a layer is a half-space to 1e-30
+
+
+@cache
+def integrate_band(hurst: float, magnification: float, power: float) -> float:
+    """Integral of x^(1 + power - 2 (1 + H)) over the band, x = q/q0 up to the magnification."""
+    exponent, span = power - 2 * hurst, np.log(magnification)
+    # Scaled by the largest value of the integrand, which is at one of the ends.
+    largest = max(exponent * span, 0.0)
+    pieces = np.linspace(0, span, 2 + int(span))
+    parts = [
+        quad(lambda s: np.exp(exponent * s - largest), *ends, epsrel=1e-12)[0]
+        for ends in zip(pieces[:-1], pieces[1:], strict=True)
+    ]
+    return float(np.exp(largest) * np.sum(parts))
+
+
+def westergaard(pressure: float) -> tuple[float, float]:
+    """Area fraction and mean gap of a wave cos(x) on a half-space, full from a pressure of 1/2.
+
+    Westergaard, J. Appl. Mech. 6, 49 (1939), doi:10.1115/1.4008919. The mean gap integrates
+    dp/d(gap): 0 at full contact, 1 at the first touch.
+    """
+    share = min(2 * pressure, 1.0)
+    gap = 1 - share + share * np.log(share) if share > 0 else 1.0
+    return 2 / np.pi * np.arcsin(np.sqrt(share)), gap
+
+
+def hertz_attraction(t: float) -> float:
+    """Attraction on a sphere without its own effect on the gap, over that of DMT.
+
+    Work of Hertz' pressure on an unit traction, with t the ratio of attractive to contact area.
+    """
+    root = np.sqrt(t)
+    return float(2 / np.pi * ((1 + 1 / t) * np.arctan(root) + 1 / root))
+
+
+def law_of_traction(kind: str, x: NDArray) -> NDArray:
+    """Traction at a gap x over the range, over the work of adhesion per range."""
+    if kind == "maugis":
+        return np.where(x <= 1, 1.0, 0.0)
+    if kind == "exponential":
+        return np.exp(-x)
+    return 8 / 3 * (np.exp(-3 * np.log1p(x)) - np.exp(-9 * np.log1p(x)))
+
+
+_GAMMA = 0.45  # of Yang and Persson (2008)
+
+
+def persson_area_error(pressure: float, area: float, m2: float) -> float:
+    """Relative error of the variance m2 at which Persson's theory gives an area.
+
+    The diffusion of pressure is integrated anew, with the suppression S = g + (1 - g) A^2 of Yang
+    and Persson, J. Phys.: Condens. Matter 20, 215214 (2008), doi:10.1088/0953-8984/20/21/215214.
+    """
+    if area > 1 - 1e-9 or area < 1e-12:  # erf leaves no digits to invert
+        return 0.0
+    y = float(erfinv(area))
+    # dV/p^2 = dy/(y^3 S); in t = ln(y'/y), from y to where the contact is full.
+    scale = 2 / y**2 * quad(
+        lambda t: np.exp(-2 * t) / (_GAMMA + (1 - _GAMMA) * erf(y * np.exp(t)) ** 2),
+        0, 20, points=[max(np.log(1 / y), 0.1)] if y < 1 else None, limit=400, epsrel=1e-10,
+    )[0]  # fmt: skip
+    # Near full contact the area hardly depends on the variance: errors weigh as in the area.
+    return abs(scale * pressure**2 / m2 - 1) * y * np.exp(-(y**2)) / area
+
+
+@cache
+def layer_response(k: float, poisson: float, backing: str) -> float:
+    """Compliance of a layer on a rigid base over that of a half-space, at k = |q| d, in 150 digits.
+
+    Johnson, Contact Mechanics (1985), section 5.8: the base is bonded, or slips without friction.
+    """
+    if k > THICK:
+        return 1.0
+    with localcontext(prec=150):
+        x, nu = Decimal(k), Decimal(poisson)
+        up, down = (2 * x).exp(), (-2 * x).exp()
+        sinh, cosh = (up - down) / 2, (up + down) / 2
+        if backing == "slip":
+            return float((cosh - 1) / (sinh + 2 * x))
+        kappa = 3 - 4 * nu
+        return float((kappa * sinh - 2 * x) / (kappa * cosh + 2 * x * x + (1 + kappa * kappa) / 2))
+
+
+def press_springs(heights: NDArray, overlap: float) -> tuple[float, float]:
+    """Mean gap and area fraction of heights on springs that are pressed in by a mean overlap."""
+    top = float(heights.max())
+    level = brentq(
+        lambda z: np.mean(np.maximum(heights - z, 0)) - overlap,
+        float(heights.mean()) - overlap - float(np.ptp(heights)), top, xtol=1e-14, rtol=1e-14,
+    )  # fmt: skip
+    return float(np.mean(np.maximum(level - heights, 0))), float(np.mean(heights > level))
+
+
+def elastic_pressure(displacement: NDArray, unit: float) -> NDArray:
+    """Pressure of zero mean that a displacement needs on a half-space, on a side of 2 pi units."""
+    n = len(displacement)
+    k = np.hypot(*np.meshgrid(*[np.fft.fftfreq(n, 1 / n)] * 2)) / unit
+    return np.fft.ifft2(np.fft.fft2(displacement) * k / 2).real
+
+
+def displace(pressure: NDArray, unit: float, compliance) -> NDArray:
+    """Displacement of zero mean under a pressure, by the compliance of each wave."""
+    n = len(pressure)
+    q = np.hypot(*np.meshgrid(*[np.fft.fftfreq(n, 1 / n)] * 2)) / unit
+    q[0, 0] = q[0, 1]
+    waves = np.fft.fft2(pressure) * compliance(q)
+    waves[0, 0] = 0
+    return np.fft.ifft2(waves).real

@@ -1,0 +1,211 @@
+"""What a material and a surface bring to their contact: layers, two rough solids, direction."""
+
+import json
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from criteria import judging, pair_roughness
+from criteria.materials import describe_modulus, read_material
+from criteria.pair_roughness import ENDS, combine, half_space_pair
+from report.table_rows import describe_pair
+from stickiness.criteria.a_v_table import SurfaceAv
+from stickiness.spectrum import SelfAffine, Tabulated
+
+A_V = SurfaceAv(np.array([1e-9, 1.0]), np.full((2, 2), 3.0), 0, 0.1)
+TAPE = {
+    "label": "tape",
+    "youngs_modulus": "0.1 MPa",
+    "poisson_ratio": 0.5,
+    "work_of_adhesion": "70 mJ/m^2",
+    "range": "0.3 nm",
+    "source": "made up",
+}
+LONGEST = 2e-4  # of the made-up wall [m]
+
+
+@pytest.fixture(autouse=True)
+def fixed_a_v(monkeypatch):
+    """Of a_V nothing here depends, and theory takes its time."""
+    monkeypatch.setattr(pair_roughness, "find_a_v", lambda surface: (A_V, A_V))
+
+
+def joined(material, surface, own=None):
+    return combine(material, surface, half_space_pair(surface), own)
+
+
+def wall(h_rms=1e-6, draws=0, **more):
+    """Analysed surface whose rough end has twice the rms height of the smooth one."""
+    spectra = [
+        SelfAffine(hurst=0.8, q0=2 * np.pi / LONGEST, q1=1e8, h_rms=factor * h_rms)
+        for factor in (1, 2)
+    ]
+    q = np.geomspace(spectra[0].q0, spectra[0].q1, 200)
+    spectra = [Tabulated(q, spectrum.psd(q)) for spectrum in spectra]
+    data = {
+        name: ("end", [getattr(spectrum, name) for spectrum in spectra])
+        for name in ("h_rms", "rms_slope", "rms_curvature")
+    }
+    data["elastic_energy"] = "end", [spectrum.elastic_energy() for spectrum in spectra]
+    data["psd"] = ("end", "wave_number"), [spectrum.psd(q) for spectrum in spectra]
+    if draws:
+        for name in ("h_rms", "elastic_energy"):
+            data[f"{name}_draws"] = "draw", np.full(draws, data[name][1][0])
+        data["q0_draws"] = "draw", np.full(draws, q[0])
+    data |= {"q0": q[0], "q1": q[-1], "hurst": 0.8, **more}
+    made = {"label": "wall", "kind": "self_affine"}
+    dataset = xr.Dataset(data, coords={"end": list(ENDS), "wave_number": q})
+    return dataset.assign_attrs(parameters=json.dumps(made))
+
+
+def layer_factor(k, backing):
+    """S of an incompressible layer, as physics books have it."""
+    if backing == "slip":
+        return (np.cosh(2 * k) - 1) / (np.sinh(2 * k) + 2 * k)
+    return (np.sinh(2 * k) - 2 * k) / (np.cosh(2 * k) + 2 * k**2 + 1)
+
+
+@pytest.mark.parametrize("backing", ["bonded", "slip"])
+def test_a_layer_takes_the_energy_of_its_response(backing):
+    surface = wall()
+    material = read_material(TAPE | {"thickness": "40 um", "backing": backing})
+    found = joined(material, surface)
+    q = np.geomspace(float(surface.q0), float(surface.q1), 20001)
+    psd = np.exp(np.interp(np.log(q), np.log(surface.wave_number), np.log(surface.psd[0])))
+    factor = layer_factor(np.minimum(q * 40e-6, 300), backing)
+    ratio = np.trapezoid(q**3 * psd / factor, np.log(q)) / np.trapezoid(q**3 * psd, np.log(q))
+    assert found.energy_ratio_to_half_space == pytest.approx([ratio, ratio], rel=1e-5)
+    assert found.elastic_energy == pytest.approx(ratio * surface.elastic_energy.values, rel=1e-5)
+    assert found.relative_compliance == pytest.approx(
+        layer_factor(float(surface.q0) * 40e-6, backing)
+    )
+    assert found.layer_strain == pytest.approx([1 / 40, 2 / 40], rel=1e-3)
+
+
+def test_a_thick_layer_is_a_half_space():
+    thick, deep = (
+        joined(read_material(TAPE | keys), wall()) for keys in ({"thickness": "1 m"}, {})
+    )
+    assert thick.elastic_energy == pytest.approx(deep.elastic_energy, rel=1e-12)
+    assert thick.relative_compliance == deep.relative_compliance == 1
+    assert (deep.energy_ratio_to_half_space == 1).all()
+
+
+def test_a_tape_on_a_film_takes_less_energy_than_on_a_rigid_base():
+    film = {"youngs_modulus": "3 GPa", "poisson_ratio": 0.4, "thickness": "25 um"}
+    base, tape, thin = (
+        joined(read_material(TAPE | {"thickness": "40 um", "backing": backing}), wall())
+        for backing in ("bonded", film, film | {"thickness": "2 um"})
+    )
+    assert (base.energy_ratio_to_half_space > tape.energy_ratio_to_half_space).all()
+    assert (tape.energy_ratio_to_half_space > thin.energy_ratio_to_half_space).all()
+    assert np.isnan(tape.half_space_energy).all()  # a half-space bounds nothing
+    assert np.isfinite(base.half_space_energy).all()
+
+
+@pytest.mark.slow
+def test_no_threshold_with_a_film():
+    film = {"youngs_modulus": "3 GPa", "poisson_ratio": 0.4, "thickness": "25 um"}
+    found = judged(
+        {
+            "base": TAPE | {"thickness": "40 um"},
+            "film": TAPE | {"thickness": "40 um", "backing": film},
+        },
+        {"wall": wall()},
+    )
+    assert np.isfinite(found.modulus_threshold.sel(material="base")).all()
+    assert np.isnan(found.modulus_threshold.sel(material="film")).all()
+    measured = judged(
+        {"film": TAPE | {"thickness": "40 um", "backing": film}}, {"wall": wall(draws=5)}
+    )
+    assert np.isfinite(measured.probability).all()
+    shares = found.remaining.sel(surface="wall", end="rough")
+    assert float(shares.sel(material="film")) >= float(shares.sel(material="base"))
+
+
+def test_the_layer_acts_on_draws_as_on_both_ends():
+    found = joined(read_material(TAPE | {"thickness": "40 um"}), wall(draws=3))
+    plain = joined(read_material(TAPE), wall(draws=3))
+    ratio = found.samples.elastic_energy / plain.samples.elastic_energy
+    assert ratio == pytest.approx(np.full(3, found.energy_ratio_to_half_space[0]))
+    assert found.samples.relative_compliance == found.relative_compliance < 1
+
+
+def test_roughness_of_both_solids_adds():
+    surface = wall(draws=4)
+    both = joined(read_material(TAPE), surface, own=surface)
+    one = joined(read_material(TAPE), surface)
+    for name in ("h_rms", "rms_slope", "rms_curvature"):
+        assert getattr(both, name) == pytest.approx(np.sqrt(2) * getattr(one, name))
+    assert both.elastic_energy == pytest.approx(2 * one.elastic_energy)
+    assert both.q0 == pytest.approx(one.q0)
+    assert both.samples.h_rms == pytest.approx(np.sqrt(2) * one.samples.h_rms)
+    assert both.samples.elastic_energy == pytest.approx(2 * one.samples.elastic_energy)
+    assert both.anisotropy_error_factor == 1
+
+
+def test_a_smooth_partner_changes_nothing():
+    rough, smooth = wall(), wall(h_rms=1e-11)
+    both = joined(read_material(TAPE), rough, own=smooth)
+    assert both.elastic_energy == pytest.approx(rough.elastic_energy.values, rel=1e-6)
+    assert both.q0 == pytest.approx(float(rough.q0), rel=1e-6)
+
+
+def test_a_direction_widens_limits():
+    plain, ground = (joined(read_material(TAPE), wall(**k)) for k in ({}, {"axis_ratio": 4.0}))
+    assert (plain.anisotropy_error_factor, ground.anisotropy_error_factor) == (1, 2)
+
+
+def judged(materials, surfaces):
+    solids = {name: read_material(entry) for name, entry in materials.items()}
+    return judging.find_verdicts(solids, surfaces, surfaces, np.array([1.0]))
+
+
+@pytest.mark.slow
+def test_thinner_tapes_keep_less_and_the_row_says_why():
+    tapes = {"deep": {}} | {d: {"thickness": f"{d} um"} for d in ("50", "20")}
+    found = judged({name: TAPE | keys for name, keys in tapes.items()}, {"wall": wall(h_rms=3e-6)})
+    remaining = found.remaining.sel(surface="wall", end="smooth").values
+    assert remaining[0] > remaining[1] > remaining[2]
+    thick = found.sel(material="20", surface="wall").assign(layer_strain=("end", [0.15, 0.301]))
+    deep, thin = (describe_pair(found.sel(material=d, surface="wall")) for d in ("deep", "50"))
+    assert (deep["stiffening"], deep["strain"], thin["strain"]) == ("", "", "")
+    assert thin["stiffening"].startswith("1")
+    assert describe_pair(thick)["strain"] == "0.3"
+
+
+@pytest.mark.slow
+def test_a_material_with_a_surface_sticks_less():
+    rough = judged(
+        {"smooth": TAPE, "rough": TAPE | {"surface": "wall"}}, {"wall": wall(h_rms=3e-6)}
+    )
+    shares = rough.remaining.sel(surface="wall", end="smooth")
+    assert float(shares.sel(material="rough")) < float(shares.sel(material="smooth"))
+    ratios = rough.energy_ratio.sel(surface="wall", end="smooth")
+    assert float(ratios.sel(material="rough")) == pytest.approx(
+        float(ratios.sel(material="smooth")) / 2
+    )
+
+
+@pytest.mark.parametrize(
+    ("keys", "text"),
+    [
+        ({}, "E = 0.1 MPa, ν = 0.5"),
+        ({"thickness": "50 um"}, "E = 0.1 MPa, ν = 0.5, 50 µm thick on a rigid base"),
+        (
+            {"thickness": "50 um", "backing": "slip"},
+            "E = 0.1 MPa, ν = 0.5, 50 µm thick, free to slip on a rigid base",
+        ),
+        ({"surface": "wall"}, "E = 0.1 MPa, ν = 0.5, rough as wall"),
+        (
+            {
+                "thickness": "50 um",
+                "backing": {"youngs_modulus": "3 GPa", "poisson_ratio": 0.4, "thickness": "25 um"},
+            },
+            "E = 0.1 MPa, ν = 0.5, 50 µm thick on a film of 25 µm and 3 GPa",
+        ),
+    ],
+)
+def test_layers_are_described(keys, text):
+    assert describe_modulus(TAPE | keys) == text

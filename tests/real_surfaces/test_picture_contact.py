@@ -1,0 +1,257 @@
+"""Contact and pull-off of measured heights for their picture: fields, loads, errors, states."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+import xarray as xr
+from bokeh.models import GlyphRenderer
+
+from criteria.materials import Material, read_material
+from real_surfaces import (
+    analyse_surface,
+    contact_measured,
+    measured_surface,
+    picture_contact,
+)
+from real_surfaces.picture_contact import ATTRACTED, OPEN, TOUCHING, LeftOutError
+from remaining import measure_remaining
+from report import contact_figure, write_surface
+from stickiness import repulsive, surface
+from stickiness.measured import periodic
+from stickiness.measured.topography import Topography
+from stickiness.repulsive import subpixel
+from stickiness.solids.moduli import Constant
+from stickiness.spectrum import SelfAffine
+
+SIDE, Q0 = 1e-4, 2 * np.pi * 4 / 1e-4
+Q1 = 4 * Q0
+GEL = read_material(
+    {"plane_strain_modulus": "0.1 MPa", "work_of_adhesion": "20 mJ/m^2", "range": "0.3 nm"}
+)
+
+
+def plate(n=128, seed=1, width=None):
+    """Patch of a rough surface that is not periodic, with waves of 2 pixels and more."""
+    s = SelfAffine(hurst=0.8, q0=1.0, q1=n / 2.0, h_rms=1e-6, q_rolloff=4.0)
+    h = surface.synthesise(s, n=2 * n, length=4 * np.pi, seed=seed)[:n, : width or n]
+    return Topography(h, SIDE / n, SIDE / n, "here")
+
+
+@pytest.fixture(scope="module")
+def pressed():
+    cutoff = 2 * np.pi / SIDE * 16
+    return picture_contact.press(picture_contact.prepare(plate(), cutoff, 128), Q0, cutoff)
+
+
+def separate(material=GEL, h_rms=2e-6):
+    s = SelfAffine(hurst=0.8, q0=4.0, q1=16.0, h_rms=h_rms)
+    h = surface.synthesise(s, n=64, length=2 * np.pi, seed=2)
+    rough = picture_contact.prepare(Topography(h, SIDE / 64, SIDE / 64, "here"), Q1, 64)
+    return picture_contact.separate(rough, (Q0, Q1), material, "exponential", 0.1)
+
+
+@pytest.fixture(scope="module")
+def pulled():
+    return separate()
+
+
+def test_contact_grows_with_the_load(pressed):
+    assert pressed.contact.dims == ("pressure", "x", "y")
+    assert pressed.contact.shape == (8, 64, 64)
+    assert set(np.unique(pressed.contact)) <= {0, 0.25, 0.5, 0.75, 1}
+    assert np.all(np.diff(pressed.area_fraction) > 0)
+    assert np.all(np.diff(pressed.mean_gap) < 0)
+    # Where it touches once it touches at every higher load.
+    lost = pressed.contact.values[1:] < pressed.contact.values[:-1]
+    assert lost.mean() < 1e-3
+    assert 5e-4 < float(pressed.area_fraction[0]) < 3e-3
+    assert 0.3 < float(pressed.area_fraction[-1]) < 0.5
+
+
+def test_traction_balances_the_load_and_gaps_are_where_nothing_touches(pressed):
+    traction = pressed.contact_pressure.mean(["x", "y"])
+    np.testing.assert_allclose(traction, pressed.mean_pressure, rtol=1e-5)
+    np.testing.assert_allclose(pressed.gap.mean(["x", "y"]), pressed.mean_gap, rtol=1e-5)
+    closed = pressed.contact.values == 1
+    assert closed.any()
+    assert np.all(pressed.gap.values[closed] == 0)
+    assert np.all(pressed.gap.values[~closed] > 0)
+    assert np.all(pressed.contact_pressure.values[pressed.contact.values == 0] == 0)
+    assert float(pressed.residual.max()) <= picture_contact.CONTACT_TOLERANCE
+
+
+def test_area_is_within_its_error_of_a_direct_solution_on_a_finer_grid(pressed):
+    whole = periodic.periodise(plate().heights, "smooth")
+    fine = periodic.band_limited(whole, (SIDE, SIDE), 2 * np.pi / SIDE * 15.99, 32)
+    assert fine.shape[0] >= 4 * len(pressed.x)
+    for index in (3, 5, 7):
+        at = pressed.isel(pressure=index)
+        contact = repulsive.solve(fine, SIDE, float(at.mean_pressure), tol=1e-5)
+        area = contact.area_fraction - subpixel.boundary_strip(contact.gap == 0)
+        assert abs(float(at.area_fraction) - area) <= float(at.area_fraction_discretisation_error)
+
+
+def test_error_does_not_vanish_where_the_change_does():
+    fine = np.array([1.0, 2.0, 4.0, 8.0, 16.0])
+    error = picture_contact.find_error(fine, fine * [1.01, 1.0, 0.97, 1.02, 1.0])
+    np.testing.assert_allclose(error / fine, [0.01, 0.03, 0.03, 0.03, 0.02])
+
+
+@pytest.mark.parametrize(
+    ("width", "points", "shape", "shortest"),
+    [
+        (128, 64, (64, 64), SIDE / 16),  # too coarse a grid leaves waves out
+        (128, 512, (256, 256), SIDE / 32),
+        (64, 128, (128, 64), SIDE / 32),
+    ],
+)
+def test_the_grid_resolves_the_waves_it_keeps(width, points, shape, shortest):
+    rough = picture_contact.prepare(plate(width=width), 2 * np.pi / SIDE * 32, points)
+    assert rough.heights.shape == shape
+    assert rough.shortest_wavelength == pytest.approx(shortest)
+    assert rough.sides == pytest.approx((SIDE, SIDE * width / 128))
+
+
+def test_a_cutoff_beyond_the_map_leaves_waves_of_two_pixels():
+    """The cutoff of another measurement, or pixels longer along one side."""
+    heights = plate(100)
+    found = picture_contact.prepare(heights, 1e8, 512)
+    assert found.shortest_wavelength == pytest.approx(2 * heights.dx)
+    oblong = Topography(heights.heights, heights.dx, 2 * heights.dy, "here")
+    found = picture_contact.prepare(oblong, 1e8, 512)
+    assert found.shortest_wavelength == pytest.approx(4 * heights.dx)
+
+
+def analysed(q_cutoff, not_judged=""):
+    return xr.Dataset({"q_cutoff": q_cutoff}, attrs={"not_judged": not_judged})
+
+
+def test_the_first_measurement_that_is_a_map_is_pressed(tmp_path):
+    line, area = tmp_path / "line.txt", tmp_path / "map.txt"
+    heights = plate(64).heights
+    np.savetxt(line, heights[:, 0] * 1e6)
+    np.savetxt(area, heights.T * 1e6)
+    units = {"kind": "measured", "height_unit": "um", "length": "100 um"}
+    profile, matrix = {"file": str(line)}, {"file": str(area)}
+    several = units | {"measurements": [profile, matrix]}
+    found, _ = picture_contact.find_heights(analysed(1e9), several)
+    assert found.source == str(area)
+    assert found.heights.shape == (64, 64)
+    with pytest.raises(LeftOutError, match="along lines only"):
+        picture_contact.find_heights(analysed(1e9), units | profile)
+    with pytest.raises(LeftOutError, match="not judged"):
+        picture_contact.find_heights(analysed(1e9, "a spike"), several)
+
+
+def test_a_map_has_its_own_cutoff_and_not_that_of_a_finer_one(tmp_path):
+    paths = [tmp_path / name for name in ("coarse.txt", "fine.txt")]
+    for seed, path in enumerate(paths):
+        np.savetxt(path, plate(seed=seed).heights.T * 1e6)
+    units = {"kind": "measured", "label": "both", "source": "own", "height_unit": "um"}
+    coarse, fine = (
+        {"file": str(path), "length": length}
+        for path, length in zip(paths, ("100 um", "20 um"), strict=True)
+    )
+    both = units | {"measurements": [coarse, fine]}
+    finest = float(analyse_surface.analyse(units | fine).q_cutoff)
+    alone = float(analyse_surface.analyse(units | coarse).q_cutoff)
+    found, cutoff = picture_contact.find_heights(analysed(finest), both)
+    assert cutoff == pytest.approx(alone)
+    assert picture_contact.find_heights(analysed(finest), units | fine)[1] == finest > 2 * cutoff
+    prepared = picture_contact.prepare(found, cutoff, 512)
+    assert prepared.shortest_wavelength == pytest.approx(2 * np.pi / alone)
+    # Contact that is asked for (bem) is of one measurement, too.
+    for measurement, expected in ((0, cutoff), (1, finest)):
+        asked = both | {"bem": {"measurement": measurement}}
+        heights = contact_measured.read_map(asked)
+        pressed = measured_surface.find_cutoff(asked, measurement, heights, finest)
+        assert pressed == pytest.approx(expected)
+
+
+def test_surfaces_meet_are_squeezed_and_part(pulled):
+    there, back = (pulled.isel(state=pulled.separating.values == way) for way in (0, 1))
+    for way, order in ((there, -1), (back, 1)):
+        assert np.all(order * np.diff(way.mean_gap) > 0)
+    for state in (there.isel(state=0), back.isel(state=-1)):
+        assert np.all(state.zone == OPEN)
+    assert -float(there.mean_traction[-1]) >= float(pulled.squeeze_pressure)
+    for name, code in (("contact_area", TOUCHING), ("attracted_area", ATTRACTED)):
+        np.testing.assert_allclose((pulled.zone == code).mean(["x", "y"]), pulled[name])
+    assert float(pulled.contact_area.max()) > 0.1
+
+
+def test_quoted_numbers_are_those_of_the_curve(pulled):
+    back = pulled.isel(state=pulled.separating.values == 1)
+    assert float(pulled.pull_off) == pytest.approx(float(back.mean_traction.max()))
+    work = np.trapezoid(np.maximum(back.mean_traction, 0), back.mean_gap)
+    assert float(pulled.separation) == pytest.approx(work / GEL.work_of_adhesion, rel=0.1)
+    found = contact_figure.find_moments(pulled)
+    assert float(pulled.mean_traction[found["pull-off"]]) == pytest.approx(float(pulled.pull_off))
+    assert pulled.separating[found["unloaded"]] == 0
+    assert abs(pulled.mean_traction[found["unloaded"]]) < 0.5 * pulled.pull_off
+
+
+def test_range_is_that_of_the_grid_and_a_longer_one_that_of_the_material(pulled):
+    length = GEL.work_of_adhesion / GEL.modulus
+    zone = float(pulled["range"]) ** 2 / length
+    assert zone / (SIDE / pulled.sizes["x"]) == pytest.approx(picture_contact.PIXELS_IN_ZONE)
+    assert float(pulled.material_range) == GEL.range
+    wide = replace(GEL, range=1.9e-6)
+    assert float(separate(wide)["range"]) == wide.range
+    # Errors are told from half the grid, as those of the simulations behind the model.
+    assert picture_contact.PIXELS_IN_ZONE >= 2 * measure_remaining.RESOLVED
+
+
+def test_simulation_agrees_with_the_model_of_the_verdicts(pulled):
+    """On Gaussian heights, periodic, of several long waves."""
+    assert write_surface.overlap(pulled, "separation")
+    assert write_surface.overlap(pulled, "pull_off")
+    assert not write_surface.overlap(
+        pulled.assign(predicted_pull_off_high=pulled.pull_off_low / 2), "pull_off"
+    )
+    assert 0.05 < float(pulled.predicted_separation) < 0.9
+
+
+def test_what_is_not_simulated_says_why():
+    with pytest.raises(LeftOutError, match=r"less than 0\.1 % of the work"):
+        separate(replace(GEL, plane_strain=Constant(2e11)))
+    with pytest.raises(LeftOutError, match=r"longer than the rms height, 9\.9 nm"):
+        separate(h_rms=1e-8)
+    with pytest.raises(LeftOutError, match="roughness of its own"):
+        separate(replace(GEL, surface="plate"))
+
+
+def test_pressures_are_given_for_deep_and_smooth_solids(pressed):
+    rated = Material(GEL.plane_strain, 0.05, 3e-10, depends_on_rate=True)
+    rough = Material(GEL.plane_strain, 0.05, 3e-10, depends_on_rate=False, surface="plate")
+    rows = contact_figure.list_loads(pressed, {"gel": GEL, "rated": rated, "rough": rough})
+    assert [list(row["pressures"]) for row in rows] == [["gel", "rated at 1 Hz"]] * 8
+    first = float(pressed.mean_pressure[0]) * 0.1e6
+    assert rows[0]["pressures"]["gel"].startswith(f"{first:.2g} ")
+    for row in rows:
+        for text in (row["area"], row["gap"]):
+            value, error = text.split(")")[0].strip("(").split(" ± ")
+            assert len(value.replace(".", "").lstrip("0")) <= 3, text
+            assert float(error) > 0, text
+
+
+@pytest.mark.slow
+def test_figures_show_every_load_and_the_curve(pressed, pulled, tmp_path):
+    nothing = xr.Dataset(attrs={"left_out": "it is dark"})
+    for name, shown in {
+        "both": (pressed, pulled),
+        "contact": (pressed, nothing),
+        "reason": (nothing, nothing),
+    }.items():
+        contact_figure.draw_still(*shown, tmp_path / f"{name}.png")
+        assert (tmp_path / f"{name}.png").read_bytes().startswith(b"\x89PNG")
+    loads = contact_figure.list_loads(pressed, {})
+    drawn = contact_figure.draw_interactive(pressed, pulled, loads)
+    slider = drawn.select_one({"name": "load"})
+    assert (slider.start, slider.end) == (0, 7)
+    tensions = [
+        r.data_source.data.get("tension", []) for r in drawn.select({"type": GlyphRenderer})
+    ]
+    shown = np.concatenate([tension for tension in tensions if len(tension)])
+    assert len(shown) == pulled.sizes["state"]
