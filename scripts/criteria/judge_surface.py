@@ -1,7 +1,7 @@
 """Verdict for every material on one surface."""
 
 from common.job import start
-from criteria.judging import judge, read_surfaces
+from criteria.judging import judge_materials, read_surfaces
 from stickiness import datasets
 
 
@@ -11,7 +11,7 @@ def main(job):
     own = read_surfaces(job.params.own, job.input.own)
     label = datasets.parameters(surfaces[name])["label"]
     datasets.write(
-        judge(surfaces, own, job.params),
+        judge_materials(surfaces, own, job.params),
         job.output[0],
         title=f"verdicts of the stickiness criteria: {label}",
         parameters={"materials": job.params.materials, "label": label},

@@ -31,19 +31,13 @@ class PairRoughness:
     rms_curvature: NDArray
     elastic_energy: NDArray  # of full contact per area over E*
     energy_ratio_to_half_space: NDArray
-    layer_strain: NDArray  # of a layer, see `find_strain`; 0 of a half-space
+    layer_strain: NDArray  # of a layer, as an order of magnitude; 0 of a half-space
     q0: float
     a_v: tuple[SurfaceAv, ...]  # by end
     relative_compliance: float  # S of the longest waves on a layer
     half_space_energy: NDArray  # NaN where it does not bound that of the layer
     anisotropy_error_factor: float
     samples: Roughness | None  # of a measured surface, arrays ``(draw,)``
-
-    def a_v_at(self, reach: float) -> NDArray:
-        """a_V with its low and high limit for a range [m], ``(end, 3)``."""
-        return np.array(
-            [found.at(reach / h) for found, h in zip(self.a_v, self.h_rms, strict=True)]
-        )
 
 
 def combine(material, surface, smooth, own=None):
@@ -70,24 +64,18 @@ def combine(material, surface, smooth, own=None):
             relative_compliance=compliance,
             half_space_energy=samples.elastic_energy * bound,
         )
+    # Where the longest waves are longer than the layer is thick, material has to flow along it, and
+    # shears by 1/(q0 thickness) more than the rms height over the thickness.
+    thickness = material.solid.thickness
     return replace(
         pair,
         elastic_energy=pair.elastic_energy * ratio,
         half_space_energy=pair.half_space_energy * bound,
         energy_ratio_to_half_space=ratio,
-        layer_strain=find_strain(pair, material.solid),
+        layer_strain=pair.h_rms / (thickness * min(1.0, pair.q0 * thickness)),
         relative_compliance=compliance,
         samples=samples,
     )
-
-
-def find_strain(pair, layer):
-    """Strain that conforming demands of a layer, ``(end,)``, as an order of magnitude.
-
-    The rms height over the thickness; where the longest waves are longer than the layer is thick,
-    material has to flow along it, and shears by 1/(q0 thickness) more.
-    """
-    return pair.h_rms / (layer.thickness * min(1.0, pair.q0 * layer.thickness))
 
 
 def find_spectra(surface, own=None):
@@ -100,10 +88,9 @@ def find_spectra(surface, own=None):
 def half_space_pair(surface):
     """`PairRoughness` of a smooth half-space on a surface."""
     by_end = {name: surface[name].sel(end=list(ENDS)).values for name in BY_END}
-    directed = "axis_ratio" in surface
-    factor = find_anisotropy_error_factor(float(surface.axis_ratio)) if directed else 1.0
+    factor = find_anisotropy_error_factor(float(surface.get("axis_ratio", 1.0)))
     samples = None
-    if all(name in surface for name in SAMPLED):
+    if set(SAMPLED) <= set(surface):
         values = (surface[name].values for name in SAMPLED)
         samples = Roughness(*values, anisotropy_error_factor=factor)
     return PairRoughness(
@@ -153,38 +140,33 @@ def add_surfaces(surface, own, one, solid):
         surface_a_v(spectrum, {n: float(moments[n][end]) for n in MOMENTS} | {"q0": q0})
         for end, spectrum in enumerate(find_spectra(surface, own))
     ]
-    return PairRoughness(
+    return replace(
+        one,
         **moments,
         elastic_energy=energy,
         half_space_energy=energy,
-        energy_ratio_to_half_space=np.ones(len(ENDS)),
-        layer_strain=np.zeros(len(ENDS)),
         q0=q0,
         a_v=tuple(a_v),
-        relative_compliance=1.0,
         anisotropy_error_factor=max(one.anisotropy_error_factor, other.anisotropy_error_factor),
         samples=add_samples(one.samples, other, share),
     )
 
 
 def add_samples(samples, other, share):
-    """Samples of a measured surface with another surface added.
-
-    None if the other one is only known between two ends.
-    """
+    """Samples of a measured surface with another one added; None if that has two ends only."""
     if samples is None:
         return None
+    names = ("h_rms", "q0", "elastic_energy")
     if other.samples is not None:
-        number = len(samples.h_rms)
-        names = ("h_rms", "q0", "elastic_energy")
-        more = Roughness(*(np.resize(getattr(other.samples, name), number) for name in names))
+        size = len(samples.h_rms)
+        h_rms, q0, energy = (np.resize(getattr(other.samples, name), size) for name in names)
     elif np.ptp(other.h_rms) == 0:
-        more = Roughness(other.h_rms[0], other.q0, other.elastic_energy[0])
+        h_rms, q0, energy = other.h_rms[0], other.q0, other.elastic_energy[0]
     else:
         return None
     return Roughness(
-        h_rms=np.hypot(samples.h_rms, more.h_rms),
-        q0=samples.q0**share * more.q0 ** (1 - share),
-        elastic_energy=samples.elastic_energy + more.elastic_energy,
+        h_rms=np.hypot(samples.h_rms, h_rms),
+        q0=samples.q0**share * q0 ** (1 - share),
+        elastic_energy=samples.elastic_energy + energy,
         anisotropy_error_factor=max(samples.anisotropy_error_factor, other.anisotropy_error_factor),
     )

@@ -133,11 +133,11 @@ def test_errors_of_the_spectrum_pass_to_the_margin():
     rng = np.random.default_rng(0)
     energy = 1e-7 * np.exp(0.2 * rng.normal(size=4000))
     found = judge_samples(MATERIAL, drawn(np.full(4000, 1e-6), np.full(4000, 1e5), energy))
-    assert found.from_spectrum == pytest.approx(0.2, rel=0.05)
+    assert found["error_of_spectrum"] == pytest.approx(0.2, rel=0.05)
     h = 1e-6 * np.exp(0.1 * rng.normal(size=4000))
     q0 = 1e5 * np.exp(0.2 * rng.normal(size=4000))
     found = judge_samples(MATERIAL, drawn(h, q0, np.full(4000, 1e-7)))
-    assert found.from_spectrum < 1e-3
+    assert found["error_of_spectrum"] < 1e-3
 
 
 @pytest.mark.slow
@@ -146,14 +146,14 @@ def test_draws_spread_over_the_error_of_the_model():
     many = drawn(np.full(4000, 1e-6), np.full(4000, 1e5), np.full(4000, 1e-7))
     solid = material_at(1.3, ROUGH)
     found = judge_samples(solid, many)
-    assert found.from_spectrum == pytest.approx(0, abs=1e-12)
-    assert found.share_from_spectrum == pytest.approx(0, abs=1e-12)
+    assert found["error_of_spectrum"] == pytest.approx(0, abs=1e-12)
+    assert found["share_error_of_spectrum"] == pytest.approx(0, abs=1e-12)
     length = solid.work_of_adhesion / solid.modulus
     limits = [length / ROUGH.threshold(solid.range, sign=sign) for sign in (-1, 0, 1)]
     # Standard errors of quantiles of 4000 draws are below 0.5 % of these.
-    np.testing.assert_allclose(np.quantile(found.margins, (0.05, 0.5, 0.95)), limits, rtol=0.01)
+    np.testing.assert_allclose(np.quantile(found["margin"], (0.05, 0.5, 0.95)), limits, rtol=0.01)
     shares = [ROUGH.share(length, solid.range, sign) for sign in (-1, 0, 1)]
-    np.testing.assert_allclose(np.quantile(found.remaining, (0.05, 0.5, 0.95)), shares, rtol=0.03)
+    np.testing.assert_allclose(np.quantile(found["remaining"], (0.05, 0.5, 0.95)), shares, rtol=0.03)
 
 
 @pytest.mark.slow
@@ -163,9 +163,9 @@ def test_probability_is_the_share_of_the_margin_above_one():
     for factor, expected in ((1.0, 0.5), (2.0, 1.0), (0.5, 0.0)):
         found = judge_samples(material_at(factor, ROUGH), many)
         # Binomial error of 4000 draws: below 0.008.
-        assert found.probability == pytest.approx(expected, abs=0.025)
+        assert found["probability"] == pytest.approx(expected, abs=0.025)
         # What sticks is what keeps the wanted share.
-        assert np.mean(found.remaining > DEFAULT_SHARE) == found.probability
+        assert np.mean(found["remaining"] > DEFAULT_SHARE) == found["probability"]
 
 
 @pytest.mark.parametrize(
