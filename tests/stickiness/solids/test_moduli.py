@@ -153,7 +153,9 @@ def test_draws_spread_over_the_error_of_the_model():
     # Standard errors of quantiles of 4000 draws are below 0.5 % of these.
     np.testing.assert_allclose(np.quantile(found["margin"], (0.05, 0.5, 0.95)), limits, rtol=0.01)
     shares = [ROUGH.share(length, solid.range, sign) for sign in (-1, 0, 1)]
-    np.testing.assert_allclose(np.quantile(found["remaining"], (0.05, 0.5, 0.95)), shares, rtol=0.03)
+    np.testing.assert_allclose(
+        np.quantile(found["remaining"], (0.05, 0.5, 0.95)), shares, rtol=0.03
+    )
 
 
 @pytest.mark.slow
