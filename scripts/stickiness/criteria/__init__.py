@@ -8,7 +8,6 @@
 - `verdict`: every quantity of pairs, and from a surface and a material to a verdict
 - `a_v_fit`: the prefactor a_V fitted to attractive areas
 - `a_v_table`: a_V by theory: of a spectrum, and tabulated for self-affine surfaces
-- `errata`: errors of the manuscript, as data that recompute themselves
 """
 
 from stickiness.criteria import formulas

@@ -116,8 +116,6 @@ def test_a_new_criterion_is_on_figure_9(made_up, judged):
     plot_fig9.draw_surfaces(panels["C"], judged)
 
 
-
-
 @pytest.mark.slow
 def test_every_threshold_is_where_the_margin_is_one(judged, road):
     """Also for margins that are no power of the adhesion length."""
