@@ -9,7 +9,7 @@ from common import remaining_table
 from common.conventions import VARIANT, at_load
 from common.job import start
 from common.templates import make_environment
-from figures.edge_points import join_certain
+from figures.plot_fig10 import select_certain
 from stickiness import datasets, error_budget
 from stickiness.criteria import equivalent_sphere
 
@@ -101,7 +101,7 @@ def compare_dmt(data):
 
 def compare_sphere(edges):
     """Simulated weak attraction over that of the equivalent sphere: mean, scatter and number."""
-    area, strength, _, ratio, _ = join_certain(edges)
+    area, strength, _, ratio, _ = select_certain(edges)
     ratio = ratio[(strength < equivalent_sphere.WEAK) & (area >= LEAST_AREA)]
     return {"ratio": (ratio.mean(), ratio.std(ddof=1)), "points": ratio.size}
 
