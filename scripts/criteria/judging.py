@@ -22,10 +22,7 @@ ERRORS = {  # of measured surfaces
     "probability": ("1", "share of draws that stick", "surface not measured"),
     "error_of_spectrum": ("1", "standard deviation of ln margin by the spectrum", UNMEASURED),
     "error_of_model": ("1", "standard deviation of ln margin by the model", UNMEASURED),
-    "share_error_of_spectrum": (
-        *("1", f"standard deviation of the {REMAINS}, by the spectrum"),
-        UNMEASURED,
-    ),
+    "share_error_of_spectrum": ("1", f"standard deviation by the spectrum: {REMAINS}", UNMEASURED),
 }
 # Units, descriptions and, where a value may be missing, what that means.
 VARIABLES = {
@@ -45,10 +42,7 @@ VARIABLES = {
     "frequency": ("Hz", "frequency of loading"),
     "margin": ("1", "threshold over actual value in the criterion's own form; sticky above 1"),
     "margin_quantile": ("1", "quantiles of the margin", UNMEASURED),
-    "modulus_threshold_quantile": (
-        *("Pa", f"quantiles of the {LIMITED['modulus_threshold'][1]}"),
-        f"{UNMEASURED}, or {FILM}",
-    ),
+    "modulus_threshold_quantile": ("Pa", "quantiles of the threshold", f"{UNMEASURED}, or {FILM}"),
     "threshold_by_criterion": ("Pa", "plane-strain modulus below which a criterion says sticky"),
     "work_of_adhesion": ("J/m^2", "work of adhesion"),
     "stiffening": ("1", "energy of full contact over that of a half-space"),

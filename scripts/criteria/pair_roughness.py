@@ -55,15 +55,13 @@ def combine(material, surface, smooth, own=None):
     # A film is softer to some waves, its layer stiffer to others: a half-space bounds nothing.
     bound = np.nan if isinstance(material.solid.backing, Film) else 1.0
     compliance = float(material.solid.factor(pair.q0))
-    samples = pair.samples
-    if samples is not None:
-        # The spectra of the samples are not kept: the layer acts on them as on both ends.
-        samples = replace(
-            samples,
-            elastic_energy=samples.elastic_energy * np.sqrt(np.prod(ratio)),
-            relative_compliance=compliance,
-            half_space_energy=samples.elastic_energy * bound,
-        )
+    # The spectra of the samples are not kept: the layer acts on them as on both ends.
+    samples = pair.samples and replace(
+        pair.samples,
+        elastic_energy=pair.samples.elastic_energy * np.sqrt(np.prod(ratio)),
+        relative_compliance=compliance,
+        half_space_energy=pair.samples.elastic_energy * bound,
+    )
     # Where the longest waves are longer than the layer is thick, material has to flow along it, and
     # shears by 1/(q0 thickness) more than the rms height over the thickness.
     thickness = material.solid.thickness
@@ -109,16 +107,13 @@ def half_space_pair(surface):
 def find_a_v(surface):
     """a_V by theory on both ends; it is computed once where they differ by a factor only."""
     ratio = surface.psd.sel(end=ENDS[0]) / surface.psd.sel(end=ENDS[-1])
-    same = np.ptp(ratio.values) < 1e-6 * ratio.values.max()
-    found = [
-        surface_a_v(
-            real_spectrum(surface, end),
-            {name: float(surface[name].sel(end=end)) for name in MOMENTS}
-            | {"q0": float(surface.q0)},
-        )
-        for end in (ENDS[:1] if same else ENDS)
-    ]
-    return tuple(found * len(ENDS) if same else found)
+    ends = ENDS[:1] if np.ptp(ratio.values) < 1e-6 * ratio.values.max() else ENDS
+    found = []
+    for end in ends:
+        moments = {name: float(surface[name].sel(end=end)) for name in MOMENTS}
+        known = moments | {"q0": float(surface.q0)}
+        found.append(surface_a_v(real_spectrum(surface, end), known))
+    return tuple(found * (len(ENDS) // len(found)))
 
 
 def add_surfaces(surface, own, one, solid):
@@ -130,11 +125,8 @@ def add_surfaces(surface, own, one, solid):
     moments = {name: np.hypot(getattr(one, name), getattr(other, name)) for name in MOMENTS}
     energy = one.elastic_energy + other.elastic_energy
     # The longest waves that matter are those of the surface that stores the energy.
-    stored = [
-        np.sum([real_spectrum(each, end).elastic_energy(solid) for end in ENDS])
-        for each in (surface, own)
-    ]
-    share = float(stored[0] / np.sum(stored))
+    stored = [sum(s.elastic_energy(solid) for s in find_spectra(each)) for each in (surface, own)]
+    share = float(stored[0] / sum(stored))
     q0 = one.q0**share * other.q0 ** (1 - share)
     a_v = [
         surface_a_v(spectrum, {n: float(moments[n][end]) for n in MOMENTS} | {"q0": q0})

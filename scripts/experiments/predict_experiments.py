@@ -57,7 +57,7 @@ QUOTED = {
 BEYOND = {"limiting_roughness": ["beyond the heights followed"]}  # what NaN means
 _OUTCOMES = ", ".join(f"{code} {word}" for code, word in enumerate(OUTCOMES))
 _GRADES = ", ".join(f"{code} {word}" for code, word in enumerate(GRADES))
-_NOTHING = "nothing is predicted"
+_CHANGES, _NOTHING = "changes the prediction, at most 1e9", "nothing is predicted"
 VARIABLES = {
     **{
         f"{name}{end}": (unit, f"{text}{limit}", *BEYOND.get(name, []))
@@ -85,14 +85,8 @@ VARIABLES = {
     "work_of_adhesion": ("J/m^2", "work of adhesion"),
     "h_rms": ("m", "rms height, given or limiting"),
     "most_effective_input": ("1", "input within whose limits the prediction changes most"),
-    "effect_of_input": (
-        *("1", "factor by which this input changes the prediction, at most 1e9"),
-        _NOTHING,
-    ),
-    "effect_of_shortest_wave": (
-        *("1", "factor by which the shortest wave changes the prediction, at most 1e9"),
-        _NOTHING,
-    ),
+    "effect_of_input": ("1", f"factor by which this input {_CHANGES}", _NOTHING),
+    "effect_of_shortest_wave": ("1", f"factor by which the shortest wave {_CHANGES}", _NOTHING),
     "criterion_outcome": ("1", f"outcome by a criterion: -1 nothing decided, {_OUTCOMES}"),
     "criterion_roughness": (
         *("m", "rms height up to which a criterion says sticky"),
@@ -246,13 +240,11 @@ def combine_inputs(ends, swept):
 
 
 def predict(observation):
-    """Predictions for every combination of the inputs, the pair, and waves in the contact.
+    """Predictions ``(sign, combination)`` by name, the pair, and waves in the contact.
 
-    The predictions are by name, ``(sign, combination)``. Their curve is the adhesion along
-    `ROUGHNESS`, ``(sign, combination, roughness)``: the pull-off of a sphere over that from a
+    The curve, ``(sign, combination, roughness)``, is the pull-off of a sphere over that from a
     smooth surface, or the share of the work of adhesion that remains between flats. The pair is at
-    the rms heights given or, if a limiting one was observed, at the predicted one. ValueError if
-    none is predicted among `ROUGHNESS`.
+    the rms heights given or, if a limiting one was observed, at the predicted one.
     """
     count = len(observation.inputs["hurst"])
     rough = observation.pair(np.broadcast_to(ROUGHNESS, (count, len(ROUGHNESS))))
