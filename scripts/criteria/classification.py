@@ -34,11 +34,13 @@ def find_limits(dataset, name="remaining"):
     return low, high
 
 
-def find_doubts(materials, surfaces, own):
+def find_doubts(materials, surfaces, material_surfaces):
     """Why pairs are not judged, for reasons of either surface; empty for those that are."""
 
     def find_reasons(material, surface):
-        both = [one for one in (surface, own.get(material.surface)) if one is not None]
+        both = [
+            one for one in (surface, material_surfaces.get(material.surface)) if one is not None
+        ]
         return "\n".join(filter(None, (one.attrs.get("not_judged") for one in both)))
 
     doubts = [

@@ -17,8 +17,8 @@ def main(job):
     surfaces = read_surfaces(job.params.surfaces, job.input.surfaces)
     materials = job.params.materials
     labels = {name: datasets.parameters(surface)["label"] for name, surface in surfaces.items()}
-    own = {name: surfaces[name] for name in job.params.own}
-    dataset = judge_materials(surfaces, own, job.params)
+    material_surfaces = {name: surfaces[name] for name in job.params.material_surfaces}
+    dataset = judge_materials(surfaces, material_surfaces, job.params)
     datasets.write(
         dataset,
         job.output.dataset,

@@ -40,7 +40,7 @@ VARIABLES = {
     "criterion": ("1", "stickiness criterion"),
     "quantile": ("1", "quantile of the draws"),
     "frequency": ("Hz", "frequency of loading"),
-    "margin": ("1", "threshold over actual value in the criterion's own form; sticky above 1"),
+    "margin": ("1", "threshold over actual value in the criterion's usual form; sticky above 1"),
     "margin_quantile": ("1", "quantiles of the margin", UNMEASURED),
     "modulus_threshold_quantile": ("Pa", "quantiles of the threshold", f"{UNMEASURED}, or {FILM}"),
     "threshold_by_criterion": ("Pa", "plane-strain modulus below which a criterion says sticky"),
@@ -61,23 +61,25 @@ def read_surfaces(names, paths):
     return {name: datasets.read(path, OF_SURFACES) for name, path in zip(names, paths, strict=True)}
 
 
-def judge_materials(surfaces, own, asked):
+def judge_materials(surfaces, material_surfaces, asked):
     """Judge the `materials` of a rule's parameters at its `frequencies`; see `find_verdicts`."""
     materials = {name: read_material(entry) for name, entry in asked.materials.items()}
-    return find_verdicts(materials, surfaces, own, logarithmic_grid(asked.frequencies))
+    return find_verdicts(
+        materials, surfaces, material_surfaces, logarithmic_grid(asked.frequencies)
+    )
 
 
-def find_verdicts(materials, surfaces, own, frequencies):
+def find_verdicts(materials, surfaces, material_surfaces, frequencies):
     """Every variable of `VARIABLES`, with error budgets, for `Material`s on surfaces by name.
 
-    `own` has the datasets of the surfaces of materials that are rough themselves; frequencies are
-    in Hz.
+    `material_surfaces` has the datasets of the surfaces of materials that are rough themselves.
+    The frequencies are in Hz.
     """
     solids = list(materials.values())
     smooth = [half_space_pair(surface) for surface in surfaces.values()]
     roughness = [
         [
-            combine(solid, surface, one, own.get(solid.surface))
+            combine(solid, surface, one, material_surfaces.get(solid.surface))
             for surface, one in zip(surfaces.values(), smooth, strict=True)
         ]
         for solid in solids
@@ -93,7 +95,7 @@ def find_verdicts(materials, surfaces, own, frequencies):
             "modulus": (("material", "frequency"), moduli),
             "modulus_quoted": ("material", [solid.modulus for solid in solids]),
             "depends_on_rate": ("material", [int(solid.depends_on_rate) for solid in solids]),
-            "not_judged": find_doubts(materials, surfaces, own),
+            "not_judged": find_doubts(materials, surfaces, material_surfaces),
         },
         coords={
             "material": list(materials),

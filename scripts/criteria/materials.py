@@ -19,7 +19,7 @@ class Material:
     range: float  # of the attraction, m
     depends_on_rate: bool  # whether the modulus is more than a constant
     solid: Solid = HALF_SPACE  # or a layer, thickness in m
-    surface: str | None = None  # name of its own rough surface
+    surface: str | None = None  # name of the rough surface of the material
 
     @property
     def modulus(self):
@@ -28,7 +28,7 @@ class Material:
 
     @property
     def is_scalable(self):
-        """Whether all that deforms has the material's modulus: a film has one of its own."""
+        """Whether all that deforms has the material's modulus: a film has another."""
         return not isinstance(getattr(self.solid, "backing", None), Film)
 
 
@@ -77,7 +77,7 @@ def read_modulus(entry):
 
 
 def describe_modulus(entry):
-    """Modulus as the configuration states it, with the layer and the solid's own roughness."""
+    """Modulus as the configuration states it, with the layer and the roughness of the solid."""
     if "plane_strain_modulus" in entry:
         text = f"E* = {entry['plane_strain_modulus']}"
     else:

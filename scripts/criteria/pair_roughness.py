@@ -40,16 +40,16 @@ class PairRoughness:
     samples: Roughness | None  # of a measured surface, arrays ``(draw,)``
 
 
-def combine(material, surface, smooth, own=None):
+def combine(material, surface, smooth, second=None):
     """Combine a `Material` and the dataset of a surface to their `PairRoughness`.
 
-    `smooth` is the roughness of a smooth half-space on the surface (`half_space_pair`), `own` the
-    dataset of the surface of a material that is rough itself.
+    `smooth` is the roughness of a smooth half-space on the surface (`half_space_pair`), `second`
+    the dataset of the surface of a material that is rough itself.
     """
-    pair = smooth if own is None else add_surfaces(surface, own, smooth, material.solid)
+    pair = smooth if second is None else add_surfaces(surface, second, smooth, material.solid)
     if material.solid == HALF_SPACE:
         return pair
-    spectra = find_spectra(surface, own)
+    spectra = find_spectra(surface, second)
     energy = np.array([spectrum.elastic_energy(material.solid) for spectrum in spectra])
     ratio = energy / np.array([spectrum.elastic_energy() for spectrum in spectra])
     # A film is softer to some waves, its layer stiffer to others: a half-space bounds nothing.
@@ -76,11 +76,11 @@ def combine(material, surface, smooth, own=None):
     )
 
 
-def find_spectra(surface, own=None):
+def find_spectra(surface, second=None):
     """Spectra of both ends."""
-    if own is None:
+    if second is None:
         return [real_spectrum(surface, end) for end in ENDS]
-    return [sums.combine(real_spectrum(surface, end), real_spectrum(own, end)) for end in ENDS]
+    return [sums.combine(real_spectrum(surface, end), real_spectrum(second, end)) for end in ENDS]
 
 
 def half_space_pair(surface):
@@ -116,21 +116,23 @@ def find_a_v(surface):
     return tuple(found * (len(ENDS) // len(found)))
 
 
-def add_surfaces(surface, own, one, solid):
+def add_surfaces(surface, second, one, solid):
     """`PairRoughness` of two rough solids, whose roughness is independent.
 
     `one` is the roughness of `surface` alone.
     """
-    other = half_space_pair(own)
+    other = half_space_pair(second)
     moments = {name: np.hypot(getattr(one, name), getattr(other, name)) for name in MOMENTS}
     energy = one.elastic_energy + other.elastic_energy
     # The longest waves that matter are those of the surface that stores the energy.
-    stored = [sum(s.elastic_energy(solid) for s in find_spectra(each)) for each in (surface, own)]
+    stored = [
+        sum(s.elastic_energy(solid) for s in find_spectra(each)) for each in (surface, second)
+    ]
     share = float(stored[0] / sum(stored))
     q0 = one.q0**share * other.q0 ** (1 - share)
     a_v = [
         surface_a_v(spectrum, {n: float(moments[n][end]) for n in MOMENTS} | {"q0": q0})
-        for end, spectrum in enumerate(find_spectra(surface, own))
+        for end, spectrum in enumerate(find_spectra(surface, second))
     ]
     return replace(
         one,

@@ -34,7 +34,7 @@ class MeasuredAv:
         return float(np.linalg.norm(parts))
 
     def parts(self, times):
-        """Parts of a budget: `times` its own relative errors."""
+        """Parts of a budget: the relative errors of a_V times a number."""
         scale = times / self.value
         interval = Part(self.fit_interval * scale, "half the spread between intervals of the fit")
         return {

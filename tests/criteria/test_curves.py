@@ -1,4 +1,4 @@
-"""What remains along the modulus, the heights and the rate: the pair's own, thresholds, order."""
+"""What remains along the modulus, the heights and the rate."""
 
 from functools import cache
 

@@ -32,8 +32,8 @@ def fixed_a_v(monkeypatch):
     monkeypatch.setattr(pair_roughness, "find_a_v", lambda surface: (A_V, A_V))
 
 
-def joined(material, surface, own=None):
-    return combine(material, surface, half_space_pair(surface), own)
+def joined(material, surface, second=None):
+    return combine(material, surface, half_space_pair(surface), second)
 
 
 def wall(h_rms=1e-6, draws=0, **more):
@@ -126,7 +126,7 @@ def test_the_layer_acts_on_draws_as_on_both_ends():
 
 def test_roughness_of_both_solids_adds():
     surface = wall(draws=4)
-    both = joined(read_material(TAPE), surface, own=surface)
+    both = joined(read_material(TAPE), surface, second=surface)
     one = joined(read_material(TAPE), surface)
     for name in ("h_rms", "rms_slope", "rms_curvature"):
         assert getattr(both, name) == pytest.approx(np.sqrt(2) * getattr(one, name))
@@ -139,7 +139,7 @@ def test_roughness_of_both_solids_adds():
 
 def test_a_smooth_partner_changes_nothing():
     rough, smooth = wall(), wall(h_rms=1e-11)
-    both = joined(read_material(TAPE), rough, own=smooth)
+    both = joined(read_material(TAPE), rough, second=smooth)
     assert both.elastic_energy == pytest.approx(rough.elastic_energy.values, rel=1e-6)
     assert both.q0 == pytest.approx(float(rough.q0), rel=1e-6)
 

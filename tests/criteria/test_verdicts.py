@@ -145,7 +145,7 @@ def test_library_rule_and_prediction_give_the_same_numbers(modulus, reach):
 
 
 def test_errors_of_the_spectrum_are_counted_once():
-    """The model's limits are its own; what the spectrum adds is apart, and none if there is one."""
+    """Limits are of the model alone; the spectrum adds a part, which is 0 for one spectrum."""
     found = judge(1e4, 1e-9)
     for name in ("remaining", "pull_off", "margin", "modulus_threshold"):
         assert np.all(found[f"{name}_error"].sel(source="sampling") == 0), name

@@ -7,7 +7,7 @@
 - `registry`: every criterion with its threshold, reason and line in figures, in one table
 - `verdict`: every quantity of pairs, and from a surface and a material to a verdict
 - `a_v_fit`: the prefactor a_V fitted to attractive areas
-- `a_v_table`: a_V by theory: of a spectrum, and tabulated for self-affine surfaces
+- `a_v_table`: a_V from Persson's theory: of a spectrum, and tabulated for self-affine surfaces
 """
 
 from stickiness.criteria import formulas

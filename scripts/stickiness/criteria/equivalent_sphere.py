@@ -6,8 +6,8 @@ Tabor's parameter of the edge alone, ``tau = l_a d/range^2``: at ``tau << 1`` th
 without adhesion (*weak*), at ``tau >> 1`` the work of adhesion alone counts, as in JKR (*tough*).
 
 A rough contact is taken for its *equivalent sphere*: the one of equal tau and equal t, attractive
-over contact area, after Maugis. With ``a`` the radius of contact, c that of the zone and c_0 that
-without the closing by its traction, attraction at equal area over that of the DMT limit is
+over contact area, after Maugis. Its contact has the radius a, its zone the radius c, or c_0 if its
+traction would not close it further. The attraction at equal area over its DMT limit is
 
     R = 2 [c^2 arccos(a/c) + a sqrt(c^2 - a^2)]/(pi (c_0^2 - a^2)).
 
@@ -41,7 +41,7 @@ from stickiness.remaining.sphere import opening
 KAPPA_REP = 2.0  #: area over load without adhesion, A_rep/A_nom = kappa p/(E* h'_rms)
 
 WEAK = 0.2  #: strength tau up to which adhesion is weak
-STRONGEST_SIMULATED = 4.0  #: strength tau up to which the model was held against simulation
+STRONGEST_SIMULATED = 4.0  #: strength tau up to which the model was compared with simulation
 TOUGH, TOUGH_WITHIN = 2.0, 0.1  # see `tough`
 SMALLEST_SIMULATED = 0.13  #: attractive over contact area from which on it was
 # Factors, up or down, within which simulation agrees with the model; beyond what was simulated a
@@ -62,7 +62,7 @@ class EdgeAttraction:
 
     @property
     def simulated(self) -> bool | NDArray:
-        """Whether the model was held against simulation there."""
+        """Whether the model was compared with simulation there."""
         return plain(np.asarray(self.error_factor) < ERROR_BEYOND)
 
     @property
@@ -157,7 +157,7 @@ def weak_effect(attractive_over_contact: ArrayLike) -> float | NDArray:
 
 
 def weak_effect_at_approach(attractive_over_contact: ArrayLike) -> float | NDArray:
-    """`weak_effect` at equal approach of the sphere, in place of equal area of contact.
+    """`weak_effect` at equal approach of the sphere, instead of equal area of contact.
 
     ``2 [(1 + t) arctan(sqrt t) - sqrt t]/(pi t)``, which tends to 1 at large t as well, but to
     ``(4/3pi) sqrt(t)`` at small t. A pull at the radius r of an open edge takes ``(2/pi)

@@ -36,7 +36,7 @@ class Criterion:
 
     name: str  #: in datasets
     label: str  #: for people
-    #: threshold over actual value in the criterion's own form; sticky above 1
+    #: threshold over actual value in the criterion's usual form; sticky above 1
     margin: Callable[[Pair], NDArray]
     reason: str  #: what it looks at, for `str.format` with the facts of a pair on its page
     power: float | None = None  #: of the adhesion length, that the margin is proportional to
@@ -90,7 +90,7 @@ _TABLE = (
         reason="Above 1 contact grows by itself at the finest wave, which is not to say that it "
         "holds. The attractive area is {attractive_over_contact} of the contact area. The "
         "Tabor parameter of the edges is {edge_strength} ({regime}). The attraction is "
-        "{over_dmt} times that of the DMT limit at equal area of contact.",
+        "{over_dmt} times its DMT limit at equal area of contact.",
         line=Line("red", "--", 1.2, filled=False),
     ),
     Criterion(

@@ -58,9 +58,9 @@ QUANTITIES = {
     "pair_a_v_high": ("1", "high limit of the pair's a_V"),
     "edge_strength": ("1", "Tabor's parameter of the edges of contact, l_a d/range^2"),
     "attractive_over_contact": ("1", "area within the range over area of contact"),
-    "over_dmt": ("1", "attraction over that of the DMT limit, at equal area of contact"),
+    "over_dmt": ("1", "attraction over its DMT limit, at equal area of contact"),
     "regime": ("1", "edges: 0 weak, 1 between, 2 tough (JKR), 3 strong, not JKR"),
-    "simulated": ("1", "1 where full simulation bears the model out"),
+    "simulated": ("1", "1 where full simulation agrees with the model"),
     "jtb_margin": ("1", "rms height over the smallest at which the DMT limit holds (JTB)"),
 }
 
@@ -182,9 +182,9 @@ def verdict(
     length : float or pair of floats
         Sides [m] of measured heights; only with these.
     a_v : (value, low, high), optional
-        a_V of the pair with its limits. By default that of Persson's theory on the spectrum. Its
-        limits are those of two variants of the theory and of Pastewka and Robbins' estimate,
-        widened by `THEORY_ERROR`.
+        a_V of the pair with its limits. By default Persson's theory on the spectrum gives it, and
+        two variants of the theory and Pastewka and Robbins' estimate give its limits, widened by
+        `THEORY_ERROR`.
     constant_a_v : float
         a_V of a broad spectrum, for the criterion that takes one.
     wanted_share : float
@@ -324,7 +324,7 @@ def analyse_heights(heights: ArrayLike, length: Any) -> tuple[Spectrum, float, f
 
 
 def surface_a_v(spectrum: Spectrum, known: dict[str, float]) -> SurfaceAv:
-    """Compute a_V by theory on a spectrum at every range; `known` has q0 and the moments."""
+    """a_V of a spectrum from Persson's theory at every range; `known` has q0 and the moments."""
     moments = (known[name] for name in ("q0", "h_rms", "rms_slope", "rms_curvature"))
     edge_a_v = float(pastewka_robbins_a_v(*moments))
     names, a_v, _ = theory_a_v(spectrum, RANGES, LOAD, edge_a_v, q0=known["q0"])
