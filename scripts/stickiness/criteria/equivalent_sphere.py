@@ -6,8 +6,8 @@ Tabor's parameter of the edge alone, ``tau = l_a d/range^2``: at ``tau << 1`` th
 without adhesion (*weak*), at ``tau >> 1`` the work of adhesion alone counts, as in JKR (*tough*).
 
 A rough contact is taken for its *equivalent sphere*: the one of equal tau and equal t, attractive
-over contact area, after Maugis. Its contact has the radius a, its zone the radius c, or c_0 if its
-traction would not close it further. The attraction at equal area over its DMT limit is
+over contact area, after Maugis. Its contact has the radius a and its zone the radius c, which is
+c_0 at vanishing traction. The attraction at equal area over its DMT limit is
 
     R = 2 [c^2 arccos(a/c) + a sqrt(c^2 - a^2)]/(pi (c_0^2 - a^2)).
 
