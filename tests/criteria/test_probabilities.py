@@ -4,13 +4,9 @@ import dataclasses
 
 import numpy as np
 import pytest
-import xarray as xr
 
 from criteria import materials
-from criteria.classification import decide_pairs
 from criteria.judging import judge_samples
-from stickiness.criteria.pair import WORDS
-from stickiness.criteria.registry import EDGES
 from stickiness.remaining.prediction import DEFAULT_SHARE, Roughness
 from stickiness.solids.moduli import Prony
 
@@ -89,25 +85,3 @@ def test_draws_spread_over_the_error_of_the_model(factor, expected):
     np.testing.assert_allclose(np.quantile(found["margin"], quantiles), limits, rtol=0.01)
     shares = [ROUGH.share(length, solid.range, sign) for sign in (-1, 0, 1)]
     np.testing.assert_allclose(np.quantile(found["remaining"], quantiles), shares, rtol=0.03)
-
-
-@pytest.mark.parametrize(
-    ("quantiles", "grows", "expected"),
-    [
-        ((0.85, 0.9, 1.0), 2.0, "sticks fully"),
-        ((0.15, 0.3, 0.5), 2.0, "sticks"),
-        ((0.05, 0.3, 0.5), 2.0, "depends"),
-        ((0.0, 0.0, 0.08), 2.0, "adheres locally, does not hold"),
-        ((0.0, 0.0, 0.08), 0.5, "does not stick"),
-        ((np.nan,) * 3, 2.0, "depends"),  # not measured: the ends decide
-    ],
-)
-def test_verdict_on_a_measured_surface_is_that_of_its_draws(quantiles, grows, expected):
-    data = {
-        "remaining_low": ("end", [0.0, 0.0]),
-        "remaining_high": ("end", [1.0, 1.0]),
-        "margin": (("end", "criterion"), [[grows], [grows]]),
-        "remaining_quantile": ("quantile", list(quantiles)),
-    }
-    dataset = xr.Dataset(data, coords={"criterion": [EDGES]})
-    assert WORDS[int(decide_pairs(dataset))] == expected

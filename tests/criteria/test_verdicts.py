@@ -68,20 +68,29 @@ def test_pair_takes_its_own_range():
         assert found == pytest.approx(expected)
 
 
+UNMEASURED = (np.nan,) * 3
+
+
 @pytest.mark.parametrize(
-    ("low", "high", "grows", "expected"),
+    ("low", "high", "grows", "quantiles", "expected"),
     [
-        ((0.9, 0.15), (1.0, 0.9), (0.1, 0.1), "sticks"),  # the onset does not matter here
-        ((0.5, 0.0), (0.6, 0.0), (0.1, 0.1), "depends"),
-        ((0.0, 0.0), (0.09, 0.0), (1.1, 0.1), "adheres locally, does not hold"),
-        ((0.0, 0.0), (0.09, 0.0), (0.9, 0.1), "does not stick"),
+        ((0.9, 0.15), (1.0, 0.9), 0.1, UNMEASURED, "sticks"),  # the onset does not matter here
+        ((0.5, 0.0), (0.6, 0.0), 0.1, UNMEASURED, "depends"),
+        ((0.0, 0.0), (0.09, 0.0), 1.1, UNMEASURED, "adheres locally, does not hold"),
+        ((0.0, 0.0), (0.09, 0.0), 0.9, UNMEASURED, "does not stick"),
+        # On a measured surface the draws decide.
+        ((0.0, 0.0), (1.0, 1.0), 2.0, (0.85, 0.9, 1.0), "sticks fully"),
+        ((0.0, 0.0), (1.0, 1.0), 2.0, (0.15, 0.3, 0.5), "sticks"),
+        ((0.0, 0.0), (1.0, 1.0), 2.0, (0.05, 0.3, 0.5), "depends"),
+        ((0.0, 0.0), (1.0, 1.0), 0.5, (0.0, 0.0, 0.08), "does not stick"),
     ],
 )
-def test_word_follows_from_shares_at_both_ends(low, high, grows, expected):
+def test_word_follows_from_shares_at_both_ends_or_of_draws(low, high, grows, quantiles, expected):
     data = {
         "remaining_low": ("end", list(low)),
         "remaining_high": ("end", list(high)),
-        "margin": (("end", "criterion"), [[x] for x in grows]),
+        "margin": (("end", "criterion"), [[grows], [0.1]]),
+        "remaining_quantile": ("quantile", list(quantiles)),
     }
     assert WORDS[int(decide_pairs(xr.Dataset(data, coords={"criterion": [EDGES]})))] == expected
 
