@@ -80,8 +80,15 @@ def defaults(project: str | Path, locate: Callable[[str], str] = str) -> dict[st
 
     `locate` turns the paths of the tables in the project into paths from the folder of the run.
     """
-    config = load(Path(project, PAPER)) | load(Path(project, USER))
+    config = _merge(load(Path(project, PAPER)), load(Path(project, USER)))
     return config | {table: str(locate(config[table])) for table in TABLES}
+
+
+def _merge(given: Any, other: Any) -> Any:
+    """Override single keys at any depth, as Snakemake does with its configuration files."""
+    if not (isinstance(given, dict) and isinstance(other, dict)):
+        return other
+    return given | {key: _merge(given.get(key), value) for key, value in other.items()}
 
 
 def campaign(project: str | Path, name: str) -> dict[str, Any]:
