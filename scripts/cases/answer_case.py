@@ -19,9 +19,8 @@ from stickiness.accuracy.error_models import (
     read_models,
     single_error,
 )
-from stickiness.accuracy.prediction import Problem, covering_factor, joint_error
 from stickiness.accuracy.quantities import COLUMNS, columns_of, has_error_model
-from stickiness.accuracy.settings import seeds_enough
+from stickiness.accuracy.settings import Problem, covering_factor, joint_error, seeds_enough
 from stickiness.error_budget import SOURCES, Part, absent, part, with_budget
 from stickiness.statistics import students_t
 

@@ -10,7 +10,7 @@ from cases import answer_case
 from common import error_budgets
 from stickiness import error_budget as budget
 from stickiness.accuracy.error_models import Surface, read_models, single_error
-from stickiness.accuracy.prediction import Problem
+from stickiness.accuracy.settings import Problem
 
 LAWS = read_models(Path(__file__).parents[2] / "config/accuracy.csv")
 NONE = budget.absent("made up")
