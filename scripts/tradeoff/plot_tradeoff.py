@@ -38,15 +38,11 @@ PRESET_MARKS = {"draft": "v", "standard": "o", "fine": "^"}
 
 
 def main(job):
-    medians, models, params = (
-        summary.read(job.input.summary),
-        read_models(job.input.laws),
-        job.params,
-    )
+    medians, params = summary.read(job.input.summary), job.params
+    models, surface = read_models(job.input.laws), Surface.of(params.surface)
     tolerances = pd.to_numeric(medians.value, errors="coerce")
     medians["x"] = medians.cost.where(medians.setting != "tolerance", tolerances)
-    is_contact, surface = medians.problem == "contact", Surface.of(params.surface)
-    pressures = params.presets["pressures"]
+    is_contact, pressures = medians.problem == "contact", params.presets["pressures"]
     presets = {
         name: plan.preset(params.fidelities[name])
         for name in PRESET_MARKS
@@ -73,8 +69,10 @@ def main(job):
                 else:
                     draw_setting(panels[name], chosen[chosen.error > SMALLEST], styles, setting)
             keys = [make_key(labels[name], **style) for name, style in styles.items()]
-            place = "lower left" if title == "contact" else "lower right"
-            panels[names[0]].legend(handles=keys, loc=place)
+            panels[names[1]].legend(handles=keys, loc="upper left")
+        kinds = {"plain mean": "--", "with a control variate": "-"}
+        keys = [make_key(text, linestyle=line) for text, line in kinds.items()]
+        panels["F"].legend(handles=keys, loc="lower left")
 
 
 def cost_of_one_load(problem, settings):
@@ -95,9 +93,6 @@ def draw_setting(ax, found, styles, setting):
             at = {"xytext": (0, 4), "textcoords": "offset points", "ha": "center", "fontsize": 7}
             ax.annotate(value, (top.cost, top.error), **at)
         ax.margins(y=0.12)
-    elif setting == "seeds":
-        kinds = {"plain mean": "--", "with a control variate": "-"}
-        ax.legend(handles=[make_key(k, linestyle=v) for k, v in kinds.items()], loc="lower left")
 
 
 def draw_models(ax, found, styles):
