@@ -8,12 +8,13 @@ from helpers.laws import made_up, problem
 
 from stickiness.accuracy import plan
 from stickiness.accuracy.error_models import Settings
-from stickiness.accuracy.prediction import (
+from stickiness.accuracy.settings import (
+    UnreachableError,
+    cheapest,
     covering_factor,
     error_parts,
     joint_error,
 )
-from stickiness.accuracy.settings import UnreachableError, cheapest
 
 PRESET = {"pixels_per_wavelength": 8, "tolerance": 1e-8, "seeds": 5, "coarse_seeds": 40}
 
