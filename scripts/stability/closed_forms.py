@@ -106,18 +106,11 @@ def press_springs(heights: NDArray, overlap: float) -> tuple[float, float]:
     return float(np.mean(np.maximum(level - heights, 0))), float(np.mean(heights > level))
 
 
-def elastic_pressure(displacement: NDArray, unit: float) -> NDArray:
-    """Pressure of zero mean that a displacement needs on a half-space, on a side of 2 pi units."""
-    n = len(displacement)
-    k = np.hypot(*np.meshgrid(*[np.fft.fftfreq(n, 1 / n)] * 2)) / unit
-    return np.fft.ifft2(np.fft.fft2(displacement) * k / 2).real
-
-
-def displace(pressure: NDArray, unit: float, compliance) -> NDArray:
-    """Displacement of zero mean under a pressure, by the compliance of each wave."""
-    n = len(pressure)
-    q = np.hypot(*np.meshgrid(*[np.fft.fftfreq(n, 1 / n)] * 2)) / unit
-    q[0, 0] = q[0, 1]
-    waves = np.fft.fft2(pressure) * compliance(q)
+def filter_waves(field: NDArray, factor) -> NDArray:
+    """Field on a side of 2 pi with each wave multiplied by a factor of its wave number, no mean."""
+    index = np.fft.fftfreq(len(field), 1 / len(field))
+    q = np.hypot(index[:, None], index[None, :])
+    q[0, 0] = 1.0
+    waves = np.fft.fft2(field) * factor(q)
     waves[0, 0] = 0
     return np.fft.ifft2(waves).real
