@@ -9,7 +9,7 @@ from common import remaining_table
 from common.conventions import VARIANT, at_load
 from common.job import start
 from common.templates import make_environment
-from figures.edge_points import join_certain
+from figures.plot_fig10 import select_certain
 from stickiness import datasets, error_budget
 from stickiness.criteria import equivalent_sphere
 
@@ -18,7 +18,7 @@ RESOLVED = 3.9  # pixels in the cohesive zone from which simulated works are tak
 LEAST = 0.05  # remaining share from which predicted works are compared
 LEAST_AREA = 0.2  # attractive over contact area from which the sphere is compared
 ENERGY_RATIOS = (0.3, 0.4, 0.6, 0.8, 1.1, 1.5, 2.5)  # bins of w/U_full
-SHOWN_SETTINGS = {"pixels": "grid points per shortest wavelength", "seeds": "seeds"}
+SHOWN_SETTINGS = ("points per wavelength", "seeds", "model")  # of contact without adhesion
 
 
 def main(job):
@@ -101,7 +101,7 @@ def compare_dmt(data):
 
 def compare_sphere(edges):
     """Simulated weak attraction over that of the equivalent sphere: mean, scatter and number."""
-    area, strength, _, ratio, _ = join_certain(edges)
+    area, strength, _, ratio, _ = select_certain(edges)
     ratio = ratio[(strength < equivalent_sphere.WEAK) & (area >= LEAST_AREA)]
     return {"ratio": (ratio.mean(), ratio.std(ddof=1)), "points": ratio.size}
 
@@ -158,13 +158,13 @@ def count_experiments(data):
 
 
 def list_settings(table):
-    """Median error and cost of every setting, one table for each knob that is shown."""
+    """Median error and cost of every value of a setting, one table for each setting."""
     shown = {}
-    for knob, title in SHOWN_SETTINGS.items():
-        part = table[table.knob == knob]
-        errors = part.pivot_table(index="setting", columns="quantity", values="error", sort=False)
-        costs = part.groupby("setting", sort=False).cost.median()
-        shown[title] = {
+    for setting in SHOWN_SETTINGS:
+        part = table[(table.problem == "contact") & (table.setting == setting)]
+        errors = part.pivot_table(index="value", columns="quantity", values="error", sort=False)
+        costs = part.groupby("value", sort=False).cost.median()
+        shown[setting] = {
             "quantities": [str(name).replace("_", " ") for name in errors.columns],
             "rows": [
                 (name, list(row), costs[name])

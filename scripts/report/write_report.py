@@ -1,7 +1,5 @@
 """The report: one self-contained page of figures, claims, verdicts, errors and run times."""
 
-from __future__ import annotations
-
 import dataclasses
 from collections import Counter
 from pathlib import Path

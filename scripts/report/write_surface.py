@@ -1,7 +1,5 @@
 """Page of one surface: verdicts and their reasons, curves, contact, parameters and spectrum."""
 
-from __future__ import annotations
-
 import numpy as np
 import xarray as xr
 
