@@ -79,6 +79,11 @@ def require(name, met):
     return Check(name, float(not met), 0.5)
 
 
+def bound(name, errors, tolerance=SCALED):
+    """Check the largest of some errors, 0 if there are none."""
+    return Check(name, float(np.max(errors, initial=0)), tolerance)
+
+
 def compare(name, value, expected, tolerance=SCALED):
     """Check the largest relative deviation of any element."""
     return Check(name, float(np.max(np.abs(np.divide(value, expected) - 1))), tolerance)
@@ -151,7 +156,7 @@ def limit_time():
         signal.signal(signal.SIGPROF, before)
 
 
-def model(hurst: float, magnification: float, q0_h_rms=1.0, unit=1.0) -> SelfAffine:
+def model(hurst, magnification, q0_h_rms=1.0, unit=1.0):
     """Self-affine spectrum with 1/q0 = unit."""
     return SelfAffine(hurst=hurst, q0=1 / unit, q1=magnification / unit, h_rms=q0_h_rms * unit)
 
@@ -190,9 +195,8 @@ def probe_surface(magnification, grid):
         yield compare("rms height", np.sqrt(np.mean(heights**2)), 1)
     yield Check("mean", abs(float(heights.mean())), SCALED)
     finer = synthesis.synthesise(s, n=2 * grid, length=length, seed=3)
-    largest = float(np.max(np.abs(heights)))
-    off = float(np.max(np.abs(finer[::2, ::2] - heights)))
-    yield Check("finer grid", off / max(largest, 1e-300), SCALED)
+    largest = max(np.max(np.abs(heights)), 1e-300)
+    yield bound("finer grid", np.abs(finer[::2, ::2] - heights) / largest)
     power = np.abs(np.fft.fft2(heights)) ** 2
     index = np.fft.fftfreq(grid, 1 / grid)
     radius = np.hypot(index[:, None], index[None, :])
@@ -200,8 +204,7 @@ def probe_surface(magnification, grid):
     yield Check("power outside the band", power[outside].sum() / power.sum(), 1e-20)
     other = model(0.8, magnification, Q0_H_RMS, UNIT)
     same = synthesis.synthesise(other, n=grid, length=2 * np.pi * UNIT, seed=3)
-    off = float(np.max(np.abs(same / (Q0_H_RMS * UNIT) - heights)))
-    yield Check("other unit", off / max(largest, 1e-300), SCALED)
+    yield bound("other unit", np.abs(same / (Q0_H_RMS * UNIT) - heights) / largest)
 
 
 # --- Contact: a wave by Westergaard, and equilibrium of rough contact by plain transforms. ---
@@ -237,9 +240,9 @@ def check_contact(c, heights, compliance):
     softest = float(np.max(compliance(np.geomspace(1, 46, 99))))
     allowed = 2 * (TOLERANCE * c.rms_height + 1e-14 * float(c.pressure.max()) * max(softest, 6))
     touching = c.pressure > 0
-    yield Check("gap in contact", float(np.max(np.abs(gap[touching]), initial=0)) / allowed, 1)
-    yield Check("penetration", float(np.max(-gap[~touching], initial=0)) / allowed, 1)
-    yield Check("gap reported", float(np.max(np.abs(np.maximum(gap, 0) - c.gap))) / allowed, 1)
+    yield bound("gap in contact", np.abs(gap[touching]), allowed)
+    yield bound("penetration", -gap[~touching], allowed)
+    yield bound("gap reported", np.abs(np.maximum(gap, 0) - c.gap), allowed)
     yield require("no tension", c.pressure.min() >= 0)
     yield compare("area", c.area_fraction, np.mean(touching), 1e-12)
 
@@ -265,8 +268,8 @@ def check_equilibrium(state, heights):
         jump = np.abs(state.gap - law.range) <= 1e-9 * law.range
         within = (elastic <= TOLERANCE * stress) & (-elastic <= law.strength * (1 + 1e-9))
         free &= ~(jump & within)
-    yield Check("equilibrium", float(np.max(np.abs(excess[free]), initial=0)) / stress, 2e-8)
-    yield Check("wall", float(np.max(-excess[at_wall], initial=0)) / stress, 2e-8)
+    yield bound("equilibrium", np.abs(excess[free]) / stress, 2e-8)
+    yield bound("wall", -excess[at_wall] / stress, 2e-8)
 
 
 def probe_adhesion(range_over_h_rms, adhesion_length_over_range, variant):
@@ -277,14 +280,14 @@ def probe_adhesion(range_over_h_rms, adhesion_length_over_range, variant):
     yield from check_equilibrium(state, heights)
     x = np.array([0.1, 0.5, 2.0, 10.0])
     traction = adhesion_length_over_range * law_of_traction(variant, x)
-    off = float(np.max(np.abs(law.traction(x * range_over_h_rms) - traction)))
-    yield Check("law of traction", off / adhesion_length_over_range, SCALED)
+    off = np.abs(law.traction(x * range_over_h_rms) - traction)
+    yield bound("law of traction", off / adhesion_length_over_range)
     stress = max(float(np.std(elastic_pressure(heights))), law.strength)
     yield Check("mean pressure", abs(state.pressure.mean() - pressure) / stress, 2e-8)
-    stored = 0.5 * float(np.mean((state.gap + heights) * elastic_pressure(state.gap + heights)))
-    gained = float(np.mean(law.potential(state.gap)))
-    scale = stored + law.adhesion_length
-    yield Check("energy", abs(state.energy - stored - gained) / scale, 1e-6)
+    displaced = state.gap + heights
+    stored = 0.5 * np.mean(displaced * elastic_pressure(displaced))
+    off = abs(state.energy - stored - np.mean(law.potential(state.gap)))
+    yield bound("energy", off / (stored + law.adhesion_length), 1e-6)
     if law.hard_wall:
         closed = adhesive.solve(heights, 2 * np.pi, law, mean_gap=0.0, tol=TOLERANCE)
         yield Check("full contact", 1 - closed.repulsive_area_fraction, 0.5 / heights.size)
@@ -322,7 +325,7 @@ def probe_path(pressure, adhesion_length_over_range, variant):
 
 
 @lru_cache(maxsize=8)
-def make_theory(variant, magnification, *size) -> Persson:
+def make_theory(variant, magnification, *size):
     return Persson(model(0.8, magnification, *size), variant=variant)
 
 
