@@ -5,13 +5,12 @@ from pathlib import Path
 import numpy as np
 import xarray as xr
 
-from claims import adhesion_claims, contact_claims, criterion_claims, remaining_claims
+from claims import adhesion_claims, contact_claims, criterion_claims, errata, remaining_claims
 from claims.ledger import collect
 from common import remaining_table
 from common.job import start
 from common.templates import make_environment
 from stickiness import datasets, error_budget
-from stickiness.criteria.errata import ERRATA
 
 CLAIMS = collect(contact_claims, adhesion_claims, criterion_claims, remaining_claims)
 PROSE = ("statement", "quantity", "remark", "comment")
@@ -31,14 +30,17 @@ def main(job):
     paths = find_paths(job.input, CLAIMS)
     files = {name: read(path) for name, path in paths.items()}
     environment = make_environment(Path(job.input.prose).parent)
+    recomputed = errata.recompute()
     rows = [examine(claim, files, paths, environment) for claim in CLAIMS]
     datasets.write(
         to_dataset(rows),
         job.output.dataset,
         title="claims of the paper, recomputed",
-        parameters={"errata": {str(erratum.number): erratum.recompute() for erratum in ERRATA}},
+        parameters={"errata": recomputed},
     )
-    page = environment.get_template(Path(job.input.page).name).render(claims=rows, errata=ERRATA)
+    page = environment.get_template(Path(job.input.page).name).render(
+        claims=rows, recomputed=recomputed
+    )
     with datasets.whole_file(job.output.table) as path:
         path.write_text(page, encoding="utf-8")
 

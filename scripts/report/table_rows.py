@@ -128,7 +128,7 @@ def explain(pair: xr.Dataset, work_of_adhesion: float) -> list[dict[str, Any]]:
 
 
 def gather_facts(pair: xr.Dataset, work_of_adhesion: float) -> dict[str, str]:
-    """Texts by the names of `registry.FACTS`; intervals go from the smooth to the rough end."""
+    """Texts that the reasons in `registry` quote; intervals go from the smooth to the rough end."""
     rough = pair.sel(end="rough")
     curvature = float(rough.pair_rms_curvature)
     energy = work_of_adhesion / float(rough.energy_ratio)

@@ -19,7 +19,6 @@ from stickiness.accuracy import plan
 from stickiness.accuracy.error_models import Surface, read_models
 from stickiness.accuracy.quantities import COLUMNS, MODELLED, columns_of
 from stickiness.accuracy.settings import Problem, predicted_cost, worst_error
-from stickiness.criteria.errata import ERRATA
 from stickiness.criteria.pair import FULL_SHARE, NOT_JUDGED, WORDS
 from stickiness.criteria.registry import CRITERIA, REMAINING
 from stickiness.remaining.prediction import DEFAULT_SHARE
@@ -72,7 +71,6 @@ def main(job):
         criterion=datasets.read(inputs.criterion, ["a_v"]),
         claims=describe_claims(claims),
         grades=count_grades(claims),
-        errata=ERRATA,
         recomputed=datasets.parameters(claims)["errata"],
         infinity=np.inf,
         wanted=DEFAULT_SHARE,
