@@ -51,7 +51,7 @@ PRESETS = {
             "coarse_seeds": 32,
         }
     },
-    "asked": {"accuracy": {"quick": 0.3}, "pressures": [0.065]},
+    "presets": {"accuracy": {"quick": 0.3}, "pressures": [0.065]},
     "surface": {"hurst": 0.8, "magnification": 64},
     "descriptor_seeds": 2048,
 }
