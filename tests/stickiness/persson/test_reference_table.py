@@ -60,11 +60,8 @@ def test_the_program_still_makes_the_table():
     """Area and mean gap of one case, which take it a second."""
     case = next(c for c in reference.CASES if c[0] == "shell")
     with mpmath.workdps(20):
-        kernel = reference.universal(case[2], mpmath.mpf(case[3]))
-        spectrum = reference.spectrum_of(case[0])
-        p = mpmath.mpf(case[4]) * spectrum.q0 * spectrum.h_rms
-        theory = reference.Theory(spectrum, case[1], kernel, p, reference.DENSITY)
-        made = float(theory.area()), float(theory.mean_gap() / spectrum.h_rms)
+        theory = reference.theory_of(case)
+        made = float(theory.area()), float(theory.mean_gap() / theory.spectrum.h_rms)
     rows = next(rows for key, rows in table() if key[0] == "shell")
     kept = float(rows[0]["area_fraction"]), float(rows[0]["mean_gap"])
     np.testing.assert_allclose(made, kept, rtol=1e-12)
