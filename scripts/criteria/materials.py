@@ -2,7 +2,6 @@
 
 from dataclasses import dataclass
 
-from common.formatting import write_powers
 from stickiness.solids import HALF_SPACE, Film, Layer, Solid
 from stickiness.solids.moduli import REFERENCE_FREQUENCY, Constant, Modulus, Prony, Table
 from stickiness.units import si
@@ -78,7 +77,7 @@ def read_modulus(entry):
 
 def describe_modulus(entry):
     """Modulus as the configuration states it, with the layer and the solid's own roughness."""
-    text = write_powers(describe_elasticity(entry))
+    text = describe_elasticity(entry)
     return f"{text}, rough as {entry['surface']}" if "surface" in entry else text
 
 

@@ -98,8 +98,8 @@ ERRATA = (
         1,
         "Fuller-Tabor parameter",
         "the ratio of work of adhesion to modulus stands upside down, "
-        "theta = (work of adhesion/E*) h_rms^(3/2)/R^(1/2)",
-        "theta = E* h_rms^(3/2)/(R^(1/2) (work of adhesion))",
+        "θ = (work of adhesion/E*) h_rms^(3/2)/R^(1/2)",
+        "θ = E* h_rms^(3/2)/(R^(1/2) (work of adhesion))",
         "Dimensions: as printed it is a length squared; corrected it is dimensionless.",
         _fuller_tabor_units,
     ),
@@ -115,10 +115,10 @@ ERRATA = (
     Erratum(
         3,
         "Closed form of a_V",
-        "a further factor 3/2, beta^(-8/3) and (4/9)^(1/3)",
-        "no further factor (the attractive area holds it already), beta^(4/3) and 2/3",
+        "a further factor 3/2, β^(-8/3) and (4/9)^(1/3)",
+        "no further factor (the attractive area holds it already), β^(4/3) and 2/3",
         "Gaps u = C x^(3/2) with C = 4B/(3E*) along the perimeter (B^2/2) p sqrt(2/(pi V^3)) "
-        "exp(-p^2/2V), with B proportional to beta.",
+        "exp(-p^2/2V), with B proportional to β.",
         _a_v_closed_form,
     ),
     Erratum(
@@ -142,9 +142,9 @@ ERRATA = (
         "Constants of the a_V equivalent to Pastewka & Robbins",
         "1.4622 and, for a power law with H = 0.8, 0.252",
         "1.458 and 0.2528; the printed 1.4622 would give 0.2535",
-        "1.4622 comes from Delta_r/range rounded to 1.1 in place of sqrt(1.2), and 0.252 from "
+        "1.4622 comes from Δ_r/range rounded to 1.1 in place of sqrt(1.2), and 0.252 from "
         "cutting 0.2528 short. Both measure the attractive area; for the verdict, with "
-        "Delta_r = range, the constants are 1.372 and 0.2379.",
+        "Δ_r = range, the constants are 1.372 and 0.2379.",
         _pastewka_robbins_numbers,
     ),
 )
