@@ -26,7 +26,7 @@ RAISED = re.compile(
 )
 # Spaces within a number: beside its signs and before its unit.
 WITHIN = re.compile(
-    r"(?<=\S) (?=[×±%])|(?<=[×±≤≥<=]) (?=[\d−(])"
+    r"(?<=\S) (?=[×±%])|(?<=[×±≤≥<=]) (?=[\d−(])|(?<=&lt;) (?=\d)|(?<=\d) (?=to \d)|(?<= to) (?=\d)"
     r"|(?<=[\d)⁰¹²³⁴-⁹]) (?=[GMkmµn]?(?:Pa|m|J|N|Hz|s)(?:/m²)?(?![A-Za-z0-9]))"
 )
 LONGEST_TEXT = 100_000  # characters; what is longer is a picture or a script
@@ -90,7 +90,5 @@ def typeset(text: str) -> Markup:
             continue
         part = re.sub(r"(?<=\d )um\b", "µm", part)
         part = LOWERED.sub(lambda m: f"{m[1] or m[3]}<sub>{m[2] or m[4]}</sub>", part)
-        parts[index] = RAISED.sub(
-            lambda m: f"<sup>{m[1] or m[2]}</sup>".replace("-", "−"), part
-        )
+        parts[index] = RAISED.sub(lambda m: f"<sup>{m[1] or m[2]}</sup>".replace("-", "−"), part)
     return Markup("".join(parts))
