@@ -209,7 +209,7 @@ def draw_curve(plot, one, visible):
         share=[show(*sorted(ends)) for ends in one.points[["rough", "smooth"]].values],
         limits=[show(*ends, " to ") for ends in one.points[["low", "high"]].values],
     )
-    source = ColumnDataSource(points)
+    source = ColumnDataSource(points.to_dict("list"))
     look = {"color": COLOURS[one.place % len(COLOURS)], "visible": visible}
     band = plot.varea("x", "low", "high", source=source, fill_alpha=0.15, **look)
     style = look | {"line_dash": DASHES[one.place % len(DASHES)], "line_width": 2}
