@@ -33,11 +33,6 @@ MARKERS = ("o", "s", "^", "D", "v", "P", "X")
 GREY = "0.45"
 BARS, HOLLOW, FILLED = 3, 3.5, 4  # from back to front: error bars, open points, filled points
 WIDTH = 7.1  # inches, two columns of a journal
-VARIANT_LINES = {"afferrante2018": "-", "almqvist2011": "--"}
-VARIANT_LABELS = {
-    "afferrante2018": "Afferrante et al. 2018",
-    "almqvist2011": "Almqvist et al. 2011",
-}
 
 # Labels of axes that several figures have.
 PRESSURE = r"pressure $p/(E^*q_0h_\mathrm{rms})$"
@@ -193,6 +188,12 @@ def push_apart(positions, factor):
     for index in np.argsort(positions):
         below = positions[index] = max(positions[index], below * factor)
     return positions
+
+
+def interpolate(data, name, value):
+    """Values between those tabulated along a coordinate, by a power law from point to point."""
+    logs = np.log(data).assign_coords({name: np.log(data[name])})
+    return np.exp(logs.interp({name: np.log(value)}))
 
 
 def write_ticks(axis, values):

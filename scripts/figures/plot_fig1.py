@@ -4,7 +4,7 @@ import numpy as np
 
 from common import plotting
 from common.conventions import VARIANT
-from common.plotting import COLOURS, GREY, make_dot, make_key, state
+from common.plotting import COLOURS, GREY, interpolate, make_dot, make_key, state
 from common.theory import between_corrections
 from stickiness import datasets
 
@@ -13,6 +13,10 @@ LOADS = [0.0065, 0.065, 0.26]  # over E* q0 h_rms, of panel C
 REFERENCE_GAP = 0.03  # over h_rms, where the power law u^(-1/3) of panel B is anchored
 LARGEST_POWER_LAW_GAP = 0.1  # over h_rms, beyond which that power law does not hold
 LOWEST_DENSITY = 1e-6  # a band down to zero has no lower end on a log axis
+VARIANTS = {
+    "afferrante2018": ("-", "Afferrante et al. 2018"),
+    "almqvist2011": ("--", "Almqvist et al. 2011"),
+}
 DENSITY = r"probability density $h_\mathrm{rms}P(u)$"
 
 
@@ -45,15 +49,12 @@ def draw_magnifications(ax, theory):
 
 
 def draw_variants(ax, density, **look):
-    for variant, line in plotting.VARIANT_LINES.items():
+    for variant, (line, _) in VARIANTS.items():
         ax.plot(density.gap, density.sel(variant=variant), line, **look)
 
 
 def make_variant_keys():
-    return [
-        make_key(text, linestyle=plotting.VARIANT_LINES[name])
-        for name, text in plotting.VARIANT_LABELS.items()
-    ]
+    return [make_key(text, linestyle=line) for line, text in VARIANTS.values()]
 
 
 def draw_convergence(ax, theory):
@@ -61,12 +62,13 @@ def draw_convergence(ax, theory):
     hurst, theory = float(theory.hurst[0]), theory.isel(hurst=0, load=0)
     zeta, density = theory.magnification, theory.gap_density
     corrections = between_corrections(density)
-    curves = [at_gap(density.sel(variant=VARIANT), gap) for gap in GAPS]
+    curves = [interpolate(density.sel(variant=VARIANT), "gap", gap).values for gap in GAPS]
     limit, last = curves[GAPS.index(REFERENCE_GAP)][-1], float(zeta[-1])
     heights = plotting.push_apart([curve[-1] for curve in curves], 1.15)
     for (colour, gap), curve, height in zip(plotting.shade(GAPS), curves, heights, strict=True):
         ax.plot(zeta, curve, ".-", color=colour)
-        plotting.draw_band(ax, zeta, *(at_gap(end, gap) for end in corrections), colour)
+        ends = (interpolate(end, "gap", gap).values for end in corrections)
+        plotting.draw_band(ax, zeta, *ends, colour)
         ax.text(1.7 * last, height, f"{gap:g}", color=colour, va="center", fontsize=8)
         if gap <= LARGEST_POWER_LAW_GAP:
             level = limit * (gap / REFERENCE_GAP) ** (-1 / 3)
@@ -78,12 +80,6 @@ def draw_convergence(ax, theory):
     ax.text(1.7 * last, 2.95, r"$u/h_\mathrm{rms}$", ha="center", fontsize=8)
     law = rf"$u^{{-1/3}}$ through $u/h_\mathrm{{rms}}$ = {REFERENCE_GAP:g}"
     ax.legend(handles=[make_key(law, linestyle=":")], loc="upper left")
-
-
-def at_gap(density, gap):
-    """Density at a gap between those tabulated, along a power law from point to point."""
-    logs = np.log(density).assign_coords(gap=np.log(density.gap))
-    return np.exp(logs.interp(gap=np.log(gap))).values
 
 
 def draw_simulation(ax, ensemble, lattice):

@@ -7,12 +7,18 @@ import numpy as np
 from common import plotting
 from common.formatting import number
 from common.plotting import BLACK, GREY, pick_look, state
-from figures.edge_points import BINS, COLUMNS, select_certain
 from stickiness import datasets
 from stickiness.criteria import equivalent_sphere
 
 LOOK = {"markersize": 3.5, "linestyle": "none", "elinewidth": 0.7}
 WEAKEST_EDGE = 1e-3  # left end of panel B
+COLUMNS = (
+    *("attractive_over_contact", "edge_strength"),
+    *("effect", "over_model", "over_model_total_error"),
+)
+LARGEST_ERROR = 0.25  # of a point that is drawn; covers 90 %
+# Tabor parameters between which ratios are averaged: from about 0.2 on they have a trend.
+BINS = (1e-3, 0.01, 0.05, 0.2, 0.5, 1.0, 1.5, 2.5, 4.0)
 
 
 def main(job):
@@ -24,10 +30,26 @@ def main(job):
 
 def join_surfaces(files):
     """Certain points of every surface, by its name: of one file or several."""
-    points = {}
+    surfaces = {}
     for data in files:
-        points.setdefault(name_surface(data), []).append(select_certain(data))
-    return {name: np.concatenate(parts, axis=1) for name, parts in points.items()}
+        made = datasets.parameters(data)
+        roughness = float(number(made["q0_h_rms"], 2))
+        name = state(magnification=made["magnification"], q0_h_rms=roughness)
+        surfaces.setdefault(name, []).append(data)
+    return {name: select_certain(parts) for name, parts in surfaces.items()}
+
+
+def select_certain(files):
+    """Points with an error small enough to say something, by `COLUMNS`: ``(column, point)``."""
+    points = np.array(
+        [
+            np.concatenate(
+                [data[name].transpose(*data.effect.dims).values.ravel() for data in files]
+            )
+            for name in COLUMNS
+        ]
+    )
+    return points[:, points[-1] < LARGEST_ERROR]
 
 
 def draw_weak(ax, points):
@@ -81,12 +103,6 @@ def draw_means(ax, strength, ratio):
             ax.errorbar(np.sqrt(low * high), inside.mean(), error, **look)
     ax.plot([], [], **look, label="means, with standard errors")
     ax.legend(loc="upper left")
-
-
-def name_surface(data):
-    made = datasets.parameters(data)
-    roughness = float(number(made["q0_h_rms"], 2))
-    return state(magnification=made["magnification"], q0_h_rms=roughness)
 
 
 if __name__ == "__main__":

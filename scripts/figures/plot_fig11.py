@@ -3,7 +3,7 @@
 import numpy as np
 
 from common import plotting, remaining_table
-from common.plotting import BLACK, BLUE, GREEN, GREY, ORANGE, PURPLE, RED, make_dot, make_key
+from common.plotting import BLACK, BLUE, GREEN, GREY, ORANGE, PURPLE, RED, make_dot
 from stickiness.remaining import theories
 from stickiness.remaining.prediction import SHORT_RANGE, Roughness
 from stickiness.remaining.share import find_onset, tough_share, weak_share
@@ -31,36 +31,21 @@ def main(job):
 def draw_shares(ax, table):
     """Share that remains against w/U_full: simulations at short ranges, and the theories."""
     tough = table[remaining_table.is_wide(table) & ~remaining_table.is_weak(table)]
-    tough = tough[
-        tough.groupby(["set", "seed", "energy_ratio"]).zone.transform("min") == tough.zone
-    ]
+    narrowest = tough.groupby(["set", "seed", "energy_ratio"]).zone.transform("min")
+    tough = tough[tough.zone == narrowest]
     rough = Roughness(h_rms=1.0, q0=1.0, elastic_energy=0.55)  # amid the surfaces simulated
     length = RATIOS * rough.elastic_energy
     low, share, high = (rough.share(length, np.sqrt(ZONE * length), sign) for sign in (-1, 0, 1))
     plotting.draw_band(ax, RATIOS, low, high, GREY, alpha=0.25)
-    ax.plot(RATIOS, share, color=BLACK, linewidth=1.8)
-    ax.plot(RATIOS, rough.share(length, SHORT_RANGE), color=BLACK, linestyle="--")
-    ax.plot(RATIOS, theories.full_contact_share(RATIOS), color=RED, linestyle=":")
+    ax.plot(RATIOS, share, color=BLACK, linewidth=1.8, label="this theory")
+    ax.plot(RATIOS, rough.share(length, SHORT_RANGE), "--", color=BLACK, label="range → 0")
+    ax.plot(RATIOS, theories.full_contact_share(RATIOS), ":", color=RED, label="full contact")
     for (hurst, magnification), group in tough.groupby(["hurst", "magnification"]):
-        look = {"color": colour_of(hurst), "marker": mark_of(magnification)}
-        ax.plot(group.energy_ratio, group.bound, linestyle="none", markersize=3.5, **look)
-    keys = [
-        make_key("this theory", color=BLACK, linewidth=1.8),
-        make_key("range → 0", color=BLACK, linestyle="--"),
-        make_key("full contact", color=RED, linestyle=":"),
-    ]
-    ax.legend(handles=keys, loc="upper left")
+        colour = HURST_COLOURS[min(HURST_COLOURS, key=lambda known: abs(known - hurst))]
+        marker = MARKERS[min(MARKERS, key=lambda known: abs(np.log(known / magnification)))]
+        ax.plot(group.energy_ratio, group.bound, marker, color=colour, markersize=3.5)
+    ax.legend(loc="upper left")
     ax.set(xlabel=ENERGY_RATIO, ylabel="share of $w$ that remains", xlim=(0.2, 2.5), ylim=(0, 0.7))
-
-
-def colour_of(hurst):
-    nearest = min(HURST_COLOURS, key=lambda known: abs(known - hurst))
-    return HURST_COLOURS[nearest]
-
-
-def mark_of(magnification):
-    nearest = min(MARKERS, key=lambda known: abs(np.log(known / magnification)))
-    return MARKERS[nearest]
 
 
 def draw_errors(ax, table):
@@ -72,10 +57,8 @@ def draw_errors(ax, table):
         for held, colour in ((False, BLUE), (True, RED)):
             rows = table[(remaining_table.is_held(table) == held) & (table[name] > LEAST)]
             look = {"marker": marker, "color": colour, "mfc": colour if held else "white"}
-            ratio, fine = rows.predicted / rows[name], rows.pixels_in_zone >= FINE
-            for which, alpha in ((fine, 1), (~fine, PALE)):
-                points = rows.energy_ratio[which], ratio[which]
-                ax.plot(*points, linestyle="none", markersize=3.5, alpha=alpha, **look)
+            ratio = rows.predicted / rows[name]
+            draw_works(ax, rows.energy_ratio, ratio, rows, **look, markersize=3.5)
     keys = [
         make_dot("approach", color=GREY, marker="v"),
         make_dot("separation", color=GREY, marker="^"),
@@ -83,6 +66,13 @@ def draw_errors(ax, table):
     ]
     ax.legend(handles=keys, loc="lower left")
     ax.set(xlabel=ENERGY_RATIO, ylabel="theory over simulation", xscale="log", ylim=(0.4, 1.6))
+
+
+def draw_works(ax, x, y, rows, **look):
+    """Points of these rows, pale where the grid does not resolve the cohesive zone."""
+    fine = rows.pixels_in_zone >= FINE
+    for which, alpha in ((fine, 1), (~fine, PALE)):
+        ax.plot(x[which], y[which], linestyle="none", alpha=alpha, **look)
 
 
 def draw_ranges(ax, table):
@@ -95,12 +85,8 @@ def draw_ranges(ax, table):
         ax.plot(zone, line, color=colour)
         here = rows[rows.energy_ratio == ratio].sort_values("zone")
         ax.plot(here.zone, here.bound, "o", color=colour)
-        fine = here.pixels_in_zone >= FINE
         for name, marker in (("approach", "v"), ("separation", "^")):
-            ax.plot(here.zone[fine], here[name][fine], marker, color=colour, mfc="white")
-            ax.plot(
-                here.zone[~fine], here[name][~fine], marker, color=colour, mfc="white", alpha=PALE
-            )
+            draw_works(ax, here.zone, here[name], here, marker=marker, color=colour, mfc="white")
         ax.text(0.32, line[-1], f"{ratio:g}", color=colour, fontsize=8, va="center")
     keys = [
         make_dot("energy"),

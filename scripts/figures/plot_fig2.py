@@ -11,7 +11,7 @@ from common.plotting import BLACK, BLUE, GREY, make_dot, make_key, pick_look, st
 from stickiness import datasets
 
 DETAIL = 0.3  # side of the detail in panels G to I, in window sides
-GAP_COLOUR, CONTACT_COLOUR, ATTRACTION_COLOUR = "white", BLACK, "#FF2A00"
+ATTRACTION_COLOUR = "#FF2A00"
 SIZE = 3.5  # of markers
 
 
@@ -51,9 +51,8 @@ def draw_slopes(ax, kappas, lattices):
         pressure = plotting.move_aside(kappa.pressure, index - 1)
         plotting.draw_points(ax, pressure, kappa, "kappa", **look, markersize=SIZE)
         beyond = kappa.kappa.where(kappa.area_fraction > LINEAR_UP_TO)
-        plotting.draw_hollow(
-            ax, pressure, beyond, **look, markersize=SIZE, zorder=plotting.FILLED + 1
-        )
+        above = {"markersize": SIZE, "zorder": plotting.FILLED + 1}
+        plotting.draw_hollow(ax, pressure, beyond, **look, **above)
         handles.append(make_dot(state(magnification=magnification(kappa)), **look))
     ax.axhline(2, color=GREY, linestyle="--", linewidth=0.9)
     ax.set(xscale="log", ylim=(1.4, 3.7), xlabel=plotting.PRESSURE)
@@ -82,11 +81,10 @@ def draw_threshold(ax, limit, adhesive):
         make_key("DMT limit", linestyle=":"),
     ]
     ax.add_artist(ax.legend(loc="upper right", borderaxespad=0.2))
-    low, high = -0.35, 0.68
-    ax.axhspan(low, 0, color=GREY, alpha=0.15, linewidth=0)
+    ax.axhspan(-0.35, 0, color=GREY, alpha=0.15, linewidth=0)
     ax.text(0.03, 0.03, "sticky", transform=ax.transAxes, fontsize=8)
     ax.set(xlabel=plotting.ADHESION_LENGTH, ylabel=r"$1/\kappa$ with adhesion")
-    ax.set(ylim=(low, high), xscale="log")
+    ax.set(ylim=(-0.35, 0.68), xscale="log")
     ax.set_title(state(q0_h_rms=float(adhesive.q0_h_rms), pressure=load))
     ax.legend(handles=kinds, loc="lower left", bbox_to_anchor=(0, 0.08))
 
@@ -133,13 +131,12 @@ def find_densest(contact):
 def draw_contact(ax, solution, range_):
     """Repulsive contact black and, if a range is given, gaps up to it red."""
     gap = solution.gap.transpose("y", "x").values
-    picture = np.empty((*gap.shape, 3))
-    picture[:] = to_rgb(GAP_COLOUR)
+    picture = np.ones((*gap.shape, 3))
     if range_ is not None:
         picture[gap <= range_] = to_rgb(ATTRACTION_COLOUR)
-    picture[gap == 0] = to_rgb(CONTACT_COLOUR)
-    extent = (0, 1, 0, 1)  # the window, as unit of length
-    ax.imshow(picture, origin="lower", extent=extent, aspect="equal", interpolation="none")
+    picture[gap == 0] = to_rgb(BLACK)
+    # The window is the unit of length.
+    ax.imshow(picture, origin="lower", extent=(0, 1, 0, 1), aspect="equal", interpolation="none")
     ax.set_xlabel("$x/L$")
     ax.set_title(state(pressure=float(solution.pressure)))
 

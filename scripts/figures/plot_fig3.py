@@ -45,7 +45,10 @@ class Case:
 def main(job):
     sweeps = [datasets.read(path, ["attractive_area", "pressure"]) for path in job.input.sweeps]
     fits = [datasets.read(path, ["a_v", "window_low", "exponent"]) for path in job.input.fits]
-    cases = read_cases(job.input)
+    files = zip(job.input.bem, job.input.bem_fits, job.input.lattice_fits, strict=True)
+    variables = ["attractive_area_mean"], ["a_v_mean"], ["a_v"]
+    cases = [Case(*map(datasets.read, paths, variables)) for paths in files]
+    cases.sort(key=lambda case: case.order)
     alike = [case for case in cases if case.order[0] == float(sweeps[0].hurst[0])]
     rows = "AB;CD;EE"
     with plotting.open_figure(job.output, rows, 8.6, height_ratios=[1, 1, 0.85]) as panels:
@@ -54,18 +57,6 @@ def main(job):
         draw_a_v(panels["C"], sweeps[2], fits[2], cases)
         draw_a_v_of_pressure(panels["D"], sweeps[3], fits[3], alike)
         draw_exponents(panels["E"], fits[0], alike)
-
-
-def read_cases(files):
-    cases = [
-        Case(
-            datasets.read(areas, ["attractive_area_mean"]),
-            datasets.read(fit, ["a_v_mean"]),
-            datasets.read(lattice, ["a_v"]),
-        )
-        for areas, fit, lattice in zip(files.bem, files.bem_fits, files.lattice_fits, strict=True)
-    ]
-    return sorted(cases, key=lambda case: case.order)
 
 
 def draw_magnifications(ax, theory, cases):

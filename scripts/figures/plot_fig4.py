@@ -17,7 +17,9 @@ def main(job):
     loop = datasets.read(job.input.loop, ["mean_pressure", "repulsive_area_fraction"])
     pressure = job.params.pressure
     surfaces = [read_at(paths, pressure) for paths in (job.input.rough, [job.input.smooth])]
-    a_v = [read_a_v(path, pressure) for path in job.input.a_v]
+    # In the fit interval that is quoted.
+    fits = (datasets.read(path, ["a_v_mean"]).isel(window=0) for path in job.input.a_v)
+    a_v = [float(fit.a_v_mean.sel(pressure=pressure, method="nearest")) for fit in fits]
     with plotting.open_figure(job.output, "AB;CB", 5.4, width_ratios=[1, 1.15]) as panels:
         draw_loops(panels["A"], loop.isel(resolution=-1))
         draw_lengths(panels["B"], surfaces, a_v)
@@ -30,12 +32,6 @@ def read_at(paths, pressure):
     data = xr.concat(parts, "range_over_h_rms", data_vars="minimal", join="exact")
     data = data.sortby("range_over_h_rms")
     return data.sel(pressure=pressure, method="nearest")
-
-
-def read_a_v(path, pressure):
-    """a_V of the surfaces of one set, in the fit interval that is quoted."""
-    fit = datasets.read(path, ["a_v_mean"]).sel(pressure=pressure, method="nearest")
-    return float(fit.a_v_mean.isel(window=0))
 
 
 def draw_loops(ax, loop):
@@ -86,17 +82,16 @@ def draw_lengths(ax, surfaces, a_v):
             draw_slopes(ax, lengths, here, "inverse_kappa_ad_fit", **look)
             chosen = here.inverse_kappa_ad.where(here.model == "dmt")
             ax.plot(lengths, chosen, "x", color=RED, markersize=3.5, zorder=6)
-    low, high = 1e-7, 1e3
-    ax.axhspan(THRESHOLD, high, color=GREY, alpha=0.15, linewidth=0)
+    ax.axhspan(THRESHOLD, 1e3, color=GREY, alpha=0.15, linewidth=0)
     ax.text(0.03, 0.965, r"sticky: $1/\kappa_\mathrm{ad}$ > 1/2", transform=ax.transAxes, va="top")
-    ax.set(xscale="log", yscale="log", ylim=(low, high))
+    ax.set(xscale="log", yscale="log", ylim=(1e-7, 1e3))
     ax.set(xlabel=plotting.ADHESION_LENGTH, ylabel=r"$1/\kappa_\mathrm{ad}$")
     ax.set_title(state(pressure=float(surfaces[0].pressure)))
     ranges = plotting.shade(surfaces[0].range_over_h_rms.values)
     families = [make_key(f"{range_:g}", color=colour) for colour, range_ in ranges]
     place = {"loc": "upper left", "bbox_to_anchor": (0, 0.95), "ncols": 2, "alignment": "left"}
     ax.add_artist(ax.legend(handles=families, title=r"$\epsilon/h_\mathrm{rms}$", **place))
-    ax.legend(handles=[*make_surface_keys(surfaces), *make_kind_keys()], loc="lower right")
+    ax.legend(handles=make_keys(surfaces), loc="lower right")
 
 
 def by_formula(data, lengths, range_, a_v):
@@ -111,19 +106,17 @@ def draw_slopes(ax, x, data, name, scale=1.0, **look):
     plotting.draw_points(ax, x, data, name, scale, **look)
 
 
-def make_surface_keys(surfaces):
+def make_keys(surfaces):
+    """Handles of the surfaces by their markers, and of the kinds of points and lines."""
     keys = []
     for marker, data in zip(MARKERS, surfaces, strict=False):
         made = datasets.parameters(data)
         height = made["h_rms"].replace("um", "µm")
         label = rf"{state(magnification=made['magnification'])}, $h_\mathrm{{rms}}$ = {height}"
         keys.append(make_dot(label, color=BLACK, marker=marker))
-    return keys
-
-
-def make_kind_keys():
     small = {"markersize": SMALL, "color": BLACK}
     return [
+        *keys,
         make_dot("by fitted slopes", **small),
         make_dot(r"$p_\mathrm{ad}/2p_\mathrm{rep}$", **small, mfc="white"),
         make_dot("DMT limit chosen", marker="x", color=RED),

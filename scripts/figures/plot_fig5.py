@@ -1,12 +1,11 @@
 """Figure 5: largest roughness that sticks, and the slope of the area-load line."""
 
-import numpy as np
-
 from common import plotting
-from common.plotting import BLACK, COLOURS, GREY, RED, make_dot, make_key, state
+from common.plotting import BLACK, COLOURS, GREY, RED, interpolate, make_dot, make_key, state
 from stickiness import datasets
 
-LENGTHS = [0.001, 0.01, 0.1, 1.0, 10.0]  # l_a/range
+LENGTH = "adhesion_length_over_range"
+LENGTHS = [0.001, 0.01, 0.1, 1.0, 10.0]
 EMPHASISED = 0.05  # l_a/range of a crystal on itself
 CLAIMED = {1e-6: 1e3, 1e-9: 6.7e4, 1e-12: 1e6}  # range q0 and the paper's limit of h_rms/range
 EDGES = "h_rms_limit_edges"
@@ -32,23 +31,16 @@ def draw_limits(ax, data):
     """Limit of stickiness for a few adhesion lengths, by the edges, and where its forms hold."""
     x = data.range_times_q0
     for colour, length in plotting.shade(LENGTHS):
-        ax.plot(x, interpolate(data[EDGES], length), color=colour, label=f"{length:g}")
-    low, high = (interpolate(data[f"{EDGES}_{end}"], EMPHASISED) for end in ("low", "high"))
-    plotting.draw_band(ax, x, low, high, RED, alpha=0.25)
+        ax.plot(x, interpolate(data[EDGES], LENGTH, length), color=colour, label=f"{length:g}")
+    ends = (interpolate(data[f"{EDGES}_{end}"], LENGTH, EMPHASISED) for end in ("low", "high"))
+    plotting.draw_band(ax, x, *ends, RED, alpha=0.25)
     for name, look in LOOKS.items():
-        ax.plot(x, interpolate(data[name], EMPHASISED), **look)
+        ax.plot(x, interpolate(data[name], LENGTH, EMPHASISED), **look)
     ax.plot(CLAIMED.keys(), CLAIMED.values(), "o", color=RED, mfc="white", zorder=5)
     ax.set(xscale="log", yscale="log", xlim=(4e-13, 1e-2), ylim=(1, 1e14))
     ax.set(xlabel=r"lowest wave number $\epsilon q_0$", ylabel=f"largest sticky {ROUGHNESS}")
     ax.add_artist(ax.legend(title=plotting.SYMBOLS["adhesion_length"], loc="lower left", ncols=2))
     ax.legend(handles=make_limit_keys(data), loc="upper right")
-
-
-def interpolate(limit, length):
-    """A limit between the adhesion lengths tabulated, nearly a power law of them."""
-    name = "adhesion_length_over_range"
-    logs = np.log(limit).assign_coords({name: np.log(limit[name])})
-    return np.exp(logs.interp({name: np.log(length)}))
 
 
 def make_limit_keys(data):

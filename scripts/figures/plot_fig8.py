@@ -1,9 +1,6 @@
 """Figure 8: Persson's theory over simulation, by surface and by theory, and gamma by simulation."""
 
-from dataclasses import dataclass
-
 import numpy as np
-import xarray as xr
 
 from common import plotting
 from common.conventions import LOAD, VARIANT
@@ -39,44 +36,21 @@ LARGEST_GAP = 3  # over h_rms, up to which P(u) counts
 SMALL = {"va": "center", "fontsize": 7}
 
 
-@dataclass(frozen=True)
-class Case:
-    """Differences of theory from simulation for one surface."""
-
-    differences: xr.Dataset
-
-    @property
-    def order(self):
-        """Hurst exponent, magnification, and longest waves a side of the cell."""
-        made = datasets.parameters(self.differences)
-        return made["hurst"], made["magnification"], made.get("window", 1)
-
-    @property
-    def label(self):
-        """What tells the surface from the others, for an axis."""
-        hurst, magnification, window = self.order
-        return f"{state(hurst=hurst, magnification=magnification)}, {window:g}×{window:g}"
-
-    @property
-    def holds(self):
-        """Where the window holds summits enough."""
-        return self.differences.window_holds.values == 1
-
-    def nearest(self, load):
-        """Place of the load that is nearest on a log axis."""
-        return int(np.argmin(np.abs(np.log(self.differences.pressure.values / load))))
-
-
 def main(job):
-    cases = order_cases([datasets.read(path, ["window_holds"]) for path in job.input.comparisons])
+    cases = [datasets.read(path, ["window_holds"]) for path in job.input.comparisons]
+    cases.sort(key=read_surface)
     gamma = datasets.read(job.input.gamma, ["gamma", "gamma_low", "gamma_high", "quantities_agree"])
     rows, heights = "AABBCC;DDDEEE;FFFFFF", [0.3 * len(cases) + 0.6, 2.2, 2.2]
-    with plotting.open_figure(
-        job.output, rows, sum(heights) + 0.9, height_ratios=heights
-    ) as panels:
+    height = sum(heights) + 0.9
+    with plotting.open_figure(job.output, rows, height, height_ratios=heights) as panels:
         for letter, name in zip("ABC", TITLES, strict=True):
             draw_ratios(panels[letter], name, cases)
-        name_cases(panels["A"], cases)
+        labels = [
+            f"{state(hurst=hurst, magnification=magnification)}, {window:g}×{window:g}"
+            for hurst, magnification, window in map(read_surface, cases)
+        ]
+        panels["A"].set_yticks(range(len(cases)), labels)
+        panels["A"].tick_params(axis="y", length=0)
         for letter in "BC":
             panels[letter].tick_params(labelleft=False)
         draw_theories(panels["D"], cases)
@@ -87,58 +61,52 @@ def main(job):
         )
 
 
-def order_cases(comparisons):
-    """Cases by Hurst exponent, magnification and window."""
-    return sorted(map(Case, comparisons), key=lambda case: case.order)
+def read_surface(case):
+    """Hurst exponent, magnification, and longest waves a side of the cell."""
+    made = datasets.parameters(case)
+    return made["hurst"], made["magnification"], made.get("window", 1)
+
+
+def find_nearest(case, load):
+    """Place of the load that is nearest on a log axis."""
+    return int(np.argmin(np.abs(np.log(case.pressure.values / load))))
 
 
 def make_load_keys(cases):
     """Handles of the loads, each with the range of its cases' nearest ones."""
     keys = []
     for load, (colour, marker) in LOADS.items():
-        near = [float(case.differences.pressure[case.nearest(load)]) for case in cases]
+        near = [float(case.pressure[find_nearest(case, load)]) for case in cases]
         text = rf"$\hat{{p}}$ = {interval(min(near), max(near), 2)}"
         keys.append(make_dot(text, color=colour, marker=marker))
     return [*keys, make_dot("cell too small for the load", mfc="white")]
 
 
 def draw_ratios(ax, name, cases):
-    """Theory over simulation of one quantity: a row for every case, a point for every load."""
+    """Theory over simulation of one quantity: a row for every case, a point for every load.
+
+    Points are open where the window is too small for the load.
+    """
     for row, case in enumerate(cases):
-        at = case.differences.sel(variant=VARIANT)
+        at = case.sel(variant=VARIANT)
         at = at.interp({"range": RANGE}) if name == "attractive_area" else at
         for place, (load, (colour, marker)) in enumerate(LOADS.items()):
-            one = at.isel(pressure=case.nearest(load))
-            draw_ratio(
-                ax,
-                row + 0.25 * (place - 1),
-                1 + float(one[f"{name}_difference"]),
-                float(np.nan_to_num(one[f"{name}_difference_total_error"])),
-                {"color": colour, "marker": marker},
-                holds=case.holds[case.nearest(load)],
-            )
+            one, height = at.isel(pressure=find_nearest(case, load)), row + 0.25 * (place - 1)
+            ratio = 1 + float(one[f"{name}_difference"])
+            error = float(np.nan_to_num(one[f"{name}_difference_total_error"]))
+            ax.errorbar(ratio, height, xerr=error, color=colour, elinewidth=0.8, alpha=0.6)
+            inside = np.clip(ratio, *SHOWN)  # an arrow if it lies outside
+            marker = marker if inside == ratio else ("<" if ratio < inside else ">")
+            face = colour if one.window_holds == 1 else "white"
+            look = {"color": colour, "mfc": face, "markersize": 4, "mew": 0.8, "clip_on": False}
+            ax.plot(inside, height, marker, **look)
     for row, (one, other) in enumerate(zip(cases, cases[1:], strict=False)):
-        if one.order[0] != other.order[0]:
+        if read_surface(one)[0] != read_surface(other)[0]:
             ax.axhline(row + 0.5, color=GREY, linewidth=0.5)
     ax.axvspan(1 - GOOD_DIFFERENCE, 1 + GOOD_DIFFERENCE, color=GREY, alpha=0.15, linewidth=0)
     ax.axvline(1, color=GREY, linewidth=0.7, zorder=0)
     ax.set(xlim=SHOWN, ylim=(len(cases) - 0.4, -0.6), title=TITLES[name], yticks=[])
     ax.set_xlabel(f"theory/simulation, {SYMBOLS[name]}")
-
-
-def draw_ratio(ax, height, ratio, error, look, *, holds):
-    """One point with its error; open where the window is too small, an arrow if it lies outside."""
-    ax.errorbar(ratio, height, xerr=error, color=look["color"], elinewidth=0.8, alpha=0.6)
-    face = look["color"] if holds else "white"
-    inside = np.clip(ratio, *SHOWN)
-    marker = look["marker"] if inside == ratio else ("<" if ratio < inside else ">")
-    look = look | {"marker": marker, "clip_on": False, "markersize": 4, "mew": 0.8}
-    ax.plot(inside, height, linestyle="none", **look, mfc=face)
-
-
-def name_cases(ax, cases):
-    ax.set_yticks(range(len(cases)), [case.label for case in cases])
-    ax.tick_params(axis="y", length=0)
 
 
 def draw_theories(ax, cases):
@@ -162,12 +130,12 @@ def root_mean_square(name, theory, cases):
     """In per cent, over every case and load whose window holds."""
     found = []
     for case in cases:
-        at = case.differences.sel(variant=theory)
+        at = case.sel(variant=theory)
         if name == "gap_density":
             found.append(find_density_differences(at))
             continue
         at = at.interp({"range": RANGE}) if name == "attractive_area" else at
-        found.append(at[f"{name}_difference"].values[case.holds])
+        found.append(at[f"{name}_difference"].values[case.window_holds.values == 1])
     return 100 * np.sqrt(np.nanmean(np.concatenate(found) ** 2))
 
 
@@ -207,15 +175,15 @@ def draw_gamma(ax, gamma):
 def draw_windows(ax, cases):
     """Attractive area, simulation over theory, against what of the highest summit is in reach."""
     for case in cases:
-        at = case.differences.sel(variant=VARIANT).interp({"range": RANGE})
+        at = case.sel(variant=VARIANT).interp({"range": RANGE})
         over = 1 / (1 + at.attractive_area_difference)
         error = np.nan_to_num(over**2 * at.attractive_area_difference_total_error)
         below = at.highest_summit - at.theory_mean_gap
-        colour, marker = (RED, "o") if case.order[2] == 1 else (BLUE, "s")
+        colour, marker = (RED, "o") if read_surface(case)[2] == 1 else (BLUE, "s")
         look = {"linestyle": "none", "markersize": 3, "elinewidth": 0.6, "mew": 0.7}
         ax.errorbar(below, over, error, **look, color=colour, marker=marker)
     ax.axhline(1, color=GREY, linewidth=0.7, zorder=0)
-    margin = float(cases[0].differences.margin)
+    margin = float(cases[0].margin)
     ax.axvline(margin, color=GREY, linestyle=":")
     ax.set(yscale="log", xlim=(-0.8, 3.2))
     ax.text(margin, 0.93, "too few summits ", ha="right", transform=ax.get_xaxis_transform())

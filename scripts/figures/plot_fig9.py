@@ -34,9 +34,7 @@ def draw_thresholds(ax, thresholds, made, held):
     low, high = (thresholds.sel(criterion=f"{REMAINING}_{end}") for end in ("low", "high"))
     plotting.draw_band(ax, x, low, high, plotting.RED, alpha=0.2)
     for criterion in select_criteria(thresholds):
-        line, label = criterion.line, criterion.label.replace("a_V", "$a_V$")
-        look = {"color": colour_of(criterion), "linestyle": line.style, "linewidth": line.width}
-        ax.plot(x, thresholds.sel(criterion=criterion.name), label=label, **look)
+        ax.plot(x, thresholds.sel(criterion=criterion.name), **look_of(criterion))
     ax.set(xscale="log", yscale="log", ylim=LIMITS, ylabel=LENGTH_LABEL)
     ax.text(0.03, 0.93, "sticky above", transform=ax.transAxes, color=plotting.GREY)
     both = rf"$H$ = {made['hurst']:g}, $\epsilon q_0$ = {number(made['range_times_q0'])}"
@@ -53,16 +51,17 @@ def make_keys(criteria):
     """Legend handles: the lines of A and B with the points of C; the verdict's has no points."""
     others = [criterion for criterion in criteria if criterion.name != REMAINING]
     for criterion in criteria:
-        line = criterion.line
-        look = {"color": colour_of(criterion), "linestyle": line.style, "linewidth": line.width}
+        look = look_of(criterion)
         if criterion in others:
-            face = look["color"] if line.filled else "white"
+            face = look["color"] if criterion.line.filled else "white"
             look |= {"marker": plotting.pick_look(others.index(criterion))["marker"], "mfc": face}
-        yield plotting.make_key(criterion.label.replace("a_V", "$a_V$"), **look)
+        yield plotting.make_key(**look)
 
 
-def colour_of(criterion):
-    return getattr(plotting, criterion.line.colour.upper())
+def look_of(criterion):
+    line, label = criterion.line, criterion.label.replace("a_V", "$a_V$")
+    look = {"color": getattr(plotting, line.colour.upper()), "label": label}
+    return look | {"linestyle": line.style, "linewidth": line.width}
 
 
 def draw_surfaces(ax, verdicts):
@@ -77,10 +76,10 @@ def draw_surfaces(ax, verdicts):
         middle = 10 ** found.mean(("material", "end"))
         low, high = (10 ** end(("material", "end")) for end in (found.min, found.max))
         x = places + 0.09 * (index - (len(others) - 1) / 2)
-        look = plotting.pick_look(index) | {"color": colour_of(criterion), "linestyle": "none"}
-        ax.vlines(x, low, high, color=look["color"], linewidth=1.2)
-        face = look["color"] if criterion.line.filled else "white"
-        ax.plot(x, middle, **look, markerfacecolor=face, markersize=4.5)
+        colour, marker = look_of(criterion)["color"], plotting.pick_look(index)["marker"]
+        ax.vlines(x, low, high, color=colour, linewidth=1.2)
+        face = colour if criterion.line.filled else "white"
+        ax.plot(x, middle, marker, color=colour, markerfacecolor=face, markersize=4.5)
     ax.axhline(1, color=plotting.RED, linewidth=2)
     ax.set_xticks(places, [name.replace("_", "\n") for name in by.surface.values])
     ax.set(yscale="log", ylim=(1e-5, 3e8), ylabel="threshold of E* over that of the verdict")

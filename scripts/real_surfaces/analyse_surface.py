@@ -26,6 +26,7 @@ END_QUANTILES = (0.16, 0.84)  # of the draws: one standard error
 DRAWS, SEED = 200, 1
 REFERENCE_HURST = 0.8  # of the paper's lines C0 = 1e-3 and 1e-5 m^0.4
 POINTS_PER_DECADE = 10
+MOMENTS = ("h_rms", "rms_slope", "rms_curvature")
 # Spikes beyond which a remark tells what they change: share of the points, relative rms height.
 MANY_SPIKES, LARGE_CHANGE = 1e-3, 0.1
 PICTURE_POINTS = 400  # along a side of the picture of the heights
@@ -95,25 +96,20 @@ def self_affine(entry):
     smooth = spectra[0]
     points = int(np.ceil(POINTS_PER_DECADE * np.log10(smooth.magnification))) + 2
     q = np.geomspace(smooth.q0, smooth.q1, points)
-    dataset = moments_of(spectra)
-    dataset["psd"] = (("end", "wave_number"), [s.psd(q) for s in spectra])
-    dataset["C0"] = ("end", [s.C0 for s in spectra])
     line = [(s.psd(q) * q ** (2 * REFERENCE_HURST + 2)).max() for s in spectra]
-    dataset["C0_reference_upper"] = ("end", line)
+    data = {
+        **{name: ("end", [getattr(s, name) for s in spectra]) for name in MOMENTS},
+        "elastic_energy": ("end", [s.elastic_energy() for s in spectra]),
+        "psd": (("end", "wave_number"), [s.psd(q) for s in spectra]),
+        "C0": ("end", [s.C0 for s in spectra]),
+        "C0_reference_upper": ("end", line),
+        "hurst": entry["hurst"],
+        "q0": smooth.q0 if smooth.q_rolloff is None else smooth.q_rolloff,
+        "q1": smooth.q1,
+    }
     if "anisotropy" in entry:
-        dataset["axis_ratio"] = entry["anisotropy"]
-    return dataset.assign(
-        hurst=entry["hurst"],
-        q0=smooth.q0 if smooth.q_rolloff is None else smooth.q_rolloff,
-        q1=smooth.q1,
-    ).assign_coords(wave_number=q)
-
-
-def moments_of(spectra):
-    names = ("h_rms", "rms_slope", "rms_curvature")
-    data = {name: ("end", [getattr(s, name) for s in spectra]) for name in names}
-    data["elastic_energy"] = "end", [s.elastic_energy() for s in spectra]
-    return xr.Dataset(data, coords={"end": ENDS})
+        data["axis_ratio"] = entry["anisotropy"]
+    return xr.Dataset(data, coords={"end": ENDS, "wave_number": q})
 
 
 def analyse(entry):
@@ -293,23 +289,8 @@ def remarks_on_spectrum(spectrum, stitched, extend_to):
     return found
 
 
-def add_budgets(dataset, errors):
-    """Add the errors of the quoted parameters; both ends of the others are in the dataset."""
-    given, band = absent("given in the configuration"), absent("of the band that was fitted")
-    for name, error in STANDARD_ERRORS.items():
-        if name not in dataset:
-            continue
-        fitted = error in errors
-        parts = dict.fromkeys(("discretisation", "solver", "bandwidth"), band if fitted else given)
-        parts |= {"sampling": given, "model": given}
-        if fitted:
-            parts["sampling"] = Part(COVERS * errors[error], "of the spectrum measured")
-            parts["model"] = absent("the law is what is quoted; its misfit stands beside")
-        dataset = with_budget(dataset, name, **parts)
-    return dataset
-
-
 def annotate(dataset):
+    """Add units and texts, and the errors of quoted parameters; moments have both their ends."""
     errors = {name: dataset[name] for name in STANDARD_ERRORS.values() if name in dataset}
     dataset = dataset.drop_vars(errors)
     reference = f"m^{2 - 2 * REFERENCE_HURST:g}"
@@ -321,7 +302,17 @@ def annotate(dataset):
     present = {name: text for name, text in texts.items() if name in dataset.variables}
     dataset = datasets.annotate(dataset, **present)
     dataset.psd.attrs["comment"] = "h_rms^2 = 2 pi int q C dq"
-    return add_budgets(dataset, errors)
+    given, band = absent("given in the configuration"), absent("of the band that was fitted")
+    for name, error in STANDARD_ERRORS.items():
+        if name not in dataset:
+            continue
+        parts = dict.fromkeys(("discretisation", "solver", "bandwidth", "sampling", "model"), given)
+        if error in errors:
+            parts |= dict.fromkeys(("discretisation", "solver", "bandwidth"), band)
+            parts["sampling"] = Part(COVERS * errors[error], "of the spectrum measured")
+            parts["model"] = absent("the law is what is quoted; its misfit stands beside")
+        dataset = with_budget(dataset, name, **parts)
+    return dataset
 
 
 if __name__ == "__main__":

@@ -66,7 +66,7 @@ class Setting:
     absolute: bool = False
     material: Material | None = None  # for contact with adhesion
     ways: tuple[str, ...] = WAYS
-    own_grid: bool = False  # periodic heights are not resampled
+    resampled: bool = True  # if False, periodic heights stay on their grid
     most_points: int = MOST_POINTS
 
 
@@ -129,7 +129,7 @@ def read_setting(bem, **settings):
         absolute=absolute,
         material=material,
         ways=AS_THEY_STAND if bem.get("periodic", False) else WAYS,
-        own_grid="shortest_wavelength" not in bem,
+        resampled="shortest_wavelength" in bem,
         most_points=bem.get("most_points", MOST_POINTS),
         **settings,
     )
@@ -178,7 +178,7 @@ def solve_periodic(heights, way, q0, q_max, setting):
 
 def make_periodic(heights, way, q_max, setting):
     """Heights on the grid to be solved, sides, highest wave number, points per wavelength."""
-    if way in AS_THEY_STAND and setting.own_grid:
+    if way in AS_THEY_STAND and not setting.resampled:
         shape = heights.heights.shape
         if max(shape) > setting.most_points or any(n % 2 for n in shape):
             raise ValueError(

@@ -35,21 +35,15 @@ def find_cutoff(entry, index, heights, finest):
 
 def find_spectrum(heights, measurement):
     """Spectrum of one measurement; an error names the file and what helps."""
+    names = [field.name for field in fields(instrument_spectrum.Limits) if field.name != "detect"]
+    lengths = {name: si(measurement[name], "m") for name in names if name in measurement}
+    detect = measurement.get("cutoff", "detect") == "detect"
+    limits = instrument_spectrum.Limits(**lengths, detect=detect)
     try:
-        return instrument_spectrum.analyse(
-            heights, measurement.get("window", "hann"), limits_of(measurement)
-        )
+        return instrument_spectrum.analyse(heights, measurement.get("window", "hann"), limits)
     except ValueError as error:
         points = " x ".join(map(str, heights.heights.shape))
         raise ValueError(
             f"{heights.source}: no fit to the spectrum of {points} points: {error}; a map needs "
             f"about {FEWEST_POINTS} points along its shorter side, a profile {FEWEST_ON_LINE}"
         ) from None
-
-
-def limits_of(measurement):
-    """Limits of the instrument, as configured."""
-    names = [field.name for field in fields(instrument_spectrum.Limits) if field.name != "detect"]
-    lengths = {name: si(measurement[name], "m") for name in names if name in measurement}
-    detect = measurement.get("cutoff", "detect") == "detect"
-    return instrument_spectrum.Limits(**lengths, detect=detect)

@@ -236,7 +236,7 @@ def test_page_shows_contact_with_adhesion_of_periodic_heights(single, folder):
         tolerance=1e-4,
         gamma=0.45,
         ways=("given",),
-        own_grid=True,
+        resampled=False,
     )
     bem = contact_measured.solve(given, float(single.q0), 1.0, setting)
     page = write_page(single, folder, bem=contact_measured.annotate(bem))

@@ -6,7 +6,6 @@ The spectrum ends where the instrument stops resolving the surface: by its tip, 
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -15,25 +14,21 @@ from scipy import special
 from stickiness.arguments import number, numbers
 from stickiness.measured import profiles
 from stickiness.measured.psd import RadialPSD, Taper, merge_rings, power_spectrum, radial_average
-from stickiness.measured.self_affine_fit import (
-    LOWEST_MODES,
-    NYQUIST_SHARE,
-    SelfAffineFit,
-    fit_rings,
-    narrow_rings,
-)
+from stickiness.measured.self_affine_fit import FINE, SelfAffineFit, fit_rings
 from stickiness.measured.topography import Profile, Topography
 from stickiness.spectrum.kinds import Tabulated
 
 RINGS = 10  #: per decade, of the spectrum that is shown and integrated
 TIP_FACTOR = 0.5  #: curvature over 1/R from which the tip's shape shows (Sanner et al. 2022)
+LOWEST_MODES = 4  #: lattice steps left out at low q if the heights were tapered
+NYQUIST_SHARE = 0.5  #: default highest q over q_Nyquist
 BLUR_EXPONENT = 5.0  #: C ~ q^-s falls faster than any self-affine surface does (s = 4 at H = 1)
 NOISE_EXPONENT = 1.5  #: and slower than any (s = 2 at H = 0)
 
 _BEND_RINGS = 20  # per decade
 _WIDTH = np.log(10) / 4  # of the interval for the local exponent
 _SCATTER = 0.05  # of ln C beyond sampling, so that rings of many modes do not decide alone
-_ROOM = 10**0.5  # smallest ratio of the bend to the lowest wave number
+_ROOM = 10**0.5  # smallest ratio of a bend to the lowest wave number
 _ROUNDING = 1e-13  # relative range of heights below which they are all the same
 
 
@@ -54,17 +49,10 @@ class MeasuredSpectrum:
     #: (m,), of each ring in the plane of q [1/length^2]; the sum of C times it is the variance
     area: NDArray
     narrow: RadialPSD  #: rings for the fit
-    q_min: float  #: lowest wave number that taper and levelling do not change [1/length]
-    cutoff: Cutoff  #: highest wave number that the instrument resolves
+    fit: SelfAffineFit  #: from the lowest to the highest q that taper and instrument leave
+    cutoff: Cutoff  #: highest wave number that the instrument resolves, as the fit found data
     lowest: float  #: wave number of the scan [1/length]
-    anisotropy: float  #: amplitude of the dependence on direction; NaN for profiles
-    fit: SelfAffineFit  #: between `q_min` and the cutoff
-
-    @classmethod
-    def within_fit(cls, rings, area, narrow, cutoff, lowest, anisotropy, fit) -> MeasuredSpectrum:
-        """Spectrum whose limits are those within which `fit` found data."""
-        limits = fit.q_min, replace(cutoff, q=fit.q_max)
-        return cls(rings, area, narrow, *limits, lowest, anisotropy, fit)
+    anisotropy: float = np.nan  #: amplitude of the dependence on direction; NaN for profiles
 
     def spectrum(self) -> Tabulated:
         """Return the spectrum as measured, up to the cutoff, as theories and `verdict` take it."""
@@ -123,16 +111,16 @@ def analyse(
     if isinstance(heights, Profile):
         return _analyse_profile(heights, taper, limits)
     plane = power_spectrum(heights.heights, heights.dx, heights.dy, taper)
-    narrow = narrow_rings(plane)
-    step = max(plane.dqx, plane.dqy)
-    q_min = _lowest(limits, step, plane.blur)
+    narrow = radial_average(plane, bins_per_decade=FINE)
+    q_min = _lowest(limits, max(plane.dqx, plane.dqy), plane.blur)
     steps = heights.dx, heights.dy
-    cutoff = _cutoff(limits, narrow, q_min, plane.q_nyquist, heights.heights, steps)
+    cutoff = _find_cutoff(limits, narrow, q_min, plane.q_nyquist, heights.heights, steps)
     fit = fit_rings(narrow, q_min, cutoff.q)
     rings = radial_average(plane, bins_per_decade=RINGS)
-    area, lowest = rings.modes * plane.dqx * plane.dqy, min(plane.dqx, plane.dqy)
+    area, lowest = rings.modes(plane) * plane.dqx * plane.dqy, min(plane.dqx, plane.dqy)
     anisotropy = plane.anisotropy(fit.q_min, fit.q_max)[0]
-    return MeasuredSpectrum.within_fit(rings, area, narrow, cutoff, lowest, anisotropy, fit)
+    cutoff = replace(cutoff, q=fit.q_max)
+    return MeasuredSpectrum(rings, area, narrow, fit, cutoff, lowest, anisotropy)
 
 
 def _analyse_profile(heights: Profile, taper: Taper, limits: Limits) -> MeasuredSpectrum:
@@ -141,14 +129,14 @@ def _analyse_profile(heights: Profile, taper: Taper, limits: Limits) -> Measured
     q_min = _lowest(limits, lowest, line.blur)
     # Unevenly spaced points resolve no wave shorter than twice their largest gap.
     nyquist = min(line.q_nyquist, np.pi / max(heights.largest_gap, heights.dx))
-    pilot = line.rings(profiles.FINE)
+    pilot = line.rings(FINE)
     pilot = replace(pilot, psd=pilot.psd / pilot.q)  # proportional to C
-    cutoff = _cutoff(limits, pilot, q_min, nyquist, heights.heights, (heights.dx,))
+    cutoff = _find_cutoff(limits, pilot, q_min, nyquist, heights.heights, (heights.dx,))
     narrow, fit = profiles.isotropic(line, q_min, cutoff.q)
     q, mean, dof = merge_rings(narrow, narrow.psd, RINGS)
-    rings = RadialPSD(q, mean, mean / np.sqrt(dof), np.rint(dof).astype(int), dof)
-    area = ring_areas(q, lowest)
-    return MeasuredSpectrum.within_fit(rings, area, narrow, cutoff, lowest, np.nan, fit)
+    rings = RadialPSD(q, mean, dof)
+    cutoff = replace(cutoff, q=fit.q_max)
+    return MeasuredSpectrum(rings, ring_areas(q, lowest), narrow, fit, cutoff, lowest)
 
 
 def ring_areas(q: NDArray, lowest: float) -> NDArray:
@@ -167,7 +155,7 @@ def _lowest(limits: Limits, step: float, blur: float) -> float:
     return (LOWEST_MODES if blur else 1) * step
 
 
-def _cutoff(
+def _find_cutoff(
     limits: Limits,
     rings: RadialPSD,
     q_min: float,
@@ -186,10 +174,7 @@ def _cutoff(
         if blunt is not None:
             found.append(Cutoff(2 * np.pi / blunt, "shape of the tip", detected=True))
     bend = find_bend(rings, q_min, q_nyquist) if limits.detect else None
-    if bend is not None:
-        reason = f"{bend.kind} of the instrument (C falls as q^-{max(bend.exponent, 0):.1f} beyond)"
-        found.append(Cutoff(bend.q, reason, detected=True))
-    lowest = min(found, key=lambda cutoff: cutoff.q)
+    lowest = min([*found, bend] if bend else found, key=lambda cutoff: cutoff.q)
     if not lowest.q > q_min:
         end = f"at wavelengths of {2 * np.pi / lowest.q:.3g} m" if lowest.q else "everywhere"
         raise ValueError(
@@ -198,19 +183,6 @@ def _cutoff(
             "fit_from and fit_to"
         )
     return lowest
-
-
-# Where an instrument stops resolving the surface: tip radius, blur and noise
-
-
-@dataclass(frozen=True)
-class Bend:
-    """Wave number beyond which a spectrum is the instrument's rather than the surface's."""
-
-    q: float  #: highest wave number of the surface's spectrum [1/length]
-    #: whether the spectrum beyond falls faster or slower than any surface's
-    kind: Literal["blur", "noise"]
-    exponent: float  #: s in C ~ q^-s just beyond
 
 
 def tip_cutoff(heights: ArrayLike, steps: tuple[float, ...], radius: float) -> float | None:
@@ -228,34 +200,25 @@ def tip_cutoff(heights: ArrayLike, steps: tuple[float, ...], radius: float) -> f
     """
     if not radius > 0:
         raise ValueError(f"radius must be positive, got {radius!r}")
-    heights = np.asarray(heights, dtype=float)
-    found = [
-        _tip_cutoff_along(np.moveaxis(heights, axis, 0), step, TIP_FACTOR / radius)
-        for axis, step in enumerate(steps)
-    ]
-    return max((length for length in found if length is not None), default=None)
+    heights, limit, found = np.asarray(heights, dtype=float), TIP_FACTOR / radius, []
+    for axis, step in enumerate(steps):
+        h = np.moveaxis(heights, axis, 0)
+        distances = np.unique(np.geomspace(1, len(h) // 4, 30).astype(int))
+        sharpest = [-float(np.min(h[2 * k :] - 2 * h[k:-k] + h[: -2 * k])) for k in distances]
+        curvatures = np.array(sharpest) / (distances * step) ** 2
+        below = np.flatnonzero(curvatures < limit)
+        if not len(below):
+            found.append(np.inf)
+        elif below[0] > 0:
+            # The curve falls as a power between the two distances.
+            sharp, blunt = curvatures[below[0] - 1], max(curvatures[below[0]], limit * 1e-9)
+            near, far = distances[below[0] - 1], distances[below[0]]
+            share = np.log(sharp / limit) / np.log(sharp / blunt)
+            found.append(float(2 * (near * (far / near) ** share) * step))
+    return max(found, default=None)
 
 
-def _tip_cutoff_along(h: NDArray, step: float, limit: float) -> float | None:
-    def sharpest(k: int) -> float:
-        return -float(np.min(h[2 * k :] - 2 * h[k:-k] + h[: -2 * k])) / (k * step) ** 2
-
-    distances = np.unique(np.geomspace(1, len(h) // 4, 30).astype(int))
-    curvatures = np.array([sharpest(int(k)) for k in distances])
-    if curvatures[0] < limit:
-        return None
-    below = np.flatnonzero(curvatures < limit)
-    if not len(below):
-        return np.inf
-    i = below[0]  # the curve falls as a power between the two distances
-    share = np.log(curvatures[i - 1] / limit) / np.log(
-        curvatures[i - 1] / max(curvatures[i], limit * 1e-9)
-    )
-    k = distances[i - 1] * (distances[i] / distances[i - 1]) ** share
-    return float(2 * k * step)
-
-
-def find_bend(rings: RadialPSD, q_min: float, q_nyquist: float) -> Bend | None:
+def find_bend(rings: RadialPSD, q_min: float, q_nyquist: float) -> Cutoff | None:
     """Find the wave number beyond which blur or noise of the instrument dominates, if any does.
 
     The local exponent s of C ~ q^-s is fitted in intervals of a quarter of a decade. From the
@@ -263,19 +226,19 @@ def find_bend(rings: RadialPSD, q_min: float, q_nyquist: float) -> Bend | None:
     that, one that falls faster than q^-5 is blur: no self-affine surface has either, whatever its
     roll-off. A bend less than half a decade above `q_min` is ignored; the surface may be smooth.
     """
-    q, slope = local_exponents(rings.between(q_min, q_nyquist))
-    if not len(q):
-        return None
-    end = len(q)
-    noise = _run_from_the_top(slope < NOISE_EXPONENT)
-    blur = _run_from_the_top((slope > BLUR_EXPONENT)[: end - noise])
-    for kind, length, start in (("blur", blur, end - noise - blur), ("noise", noise, end - noise)):
-        if length and start and q[start - 1] > q_min * _ROOM:
-            return Bend(float(q[start - 1]), kind, float(slope[start]))
+    q, slope = _local_exponents(rings.between(q_min, q_nyquist))
+    # Everything from the last exponent on that is not noise's, and likewise from blur's.
+    noise = _start_of_last_run(slope < NOISE_EXPONENT)
+    blur = _start_of_last_run(slope[:noise] > BLUR_EXPONENT)
+    for kind, start, end in (("blur", blur, noise), ("noise", noise, len(q))):
+        if 0 < start < end and q[start - 1] > q_min * _ROOM:
+            falls = f"C falls as q^-{max(float(slope[start]), 0):.1f} beyond"
+            reason = f"{kind} of the instrument ({falls})"
+            return Cutoff(float(q[start - 1]), reason, detected=True)
     return None
 
 
-def local_exponents(rings: RadialPSD) -> tuple[NDArray, NDArray]:
+def _local_exponents(rings: RadialPSD) -> tuple[NDArray, NDArray]:
     """Wave numbers and exponents s of C ~ q^-s about rings with others on both sides."""
     if not len(rings):
         return np.empty(0), np.empty(0)
@@ -295,7 +258,7 @@ def local_exponents(rings: RadialPSD) -> tuple[NDArray, NDArray]:
     return q, slope
 
 
-def _run_from_the_top(flags: NDArray) -> int:
-    """Number of the last entries that are all true."""
+def _start_of_last_run(flags: NDArray) -> int:
+    """Index from which on all are true; the length if the last is not."""
     others = np.flatnonzero(~flags)
-    return len(flags) - (others[-1] + 1 if len(others) else 0)
+    return int(others[-1]) + 1 if len(others) else 0

@@ -1,9 +1,8 @@
 """Levelling of measured heights; missing points, dropped, filled or cut off; spikes.
 
-Spikes are single points far off their neighbours, as errors of instruments are. White-light and
-focus-variation instruments write them where light is lost, scanning probes where the loop slips,
-converters where a marker of missing points was taken for a height. One is enough to set rms height,
-slope and energy of a map, because its spectrum is white.
+Spikes are single points far off their neighbours, as instruments write them where light is lost or
+a loop slips, and converters where they take a marker of missing points for a height. One is enough
+to set rms height, slope and energy of a map, because its spectrum is white.
 """
 
 from __future__ import annotations
@@ -38,19 +37,18 @@ def detrend(heights: NDArray, kind: Detrend = "plane") -> NDArray:
     `kind` is a polynomial of total degree 0, 1 or 2 in x and y, fitted by least squares. The
     heights (nx, ny) or (n,) are finite.
     """
-    degree = _degree(kind)
     heights = np.asarray(heights, dtype=float)
     if heights.ndim not in (1, 2) or not np.all(np.isfinite(heights)):
         raise ValueError(f"heights must be finite and 1D or 2D, got shape {heights.shape}")
     # Legendre polynomials of each axis: nearly orthogonal on the grid, so the normal equations
     # (small, whatever the grid) lose no digits.
+    bases, powers = _polynomials(heights.shape, kind)
     if heights.ndim == 1:
-        basis = _legendre(len(heights), degree)
-        return heights - basis @ np.linalg.lstsq(basis, heights, rcond=None)[0]
-    px, py = (_legendre(n, degree) for n in heights.shape)
-    i, j = _terms(degree)
+        return heights - bases[0] @ np.linalg.lstsq(bases[0], heights, rcond=None)[0]
+    px, py = bases
+    i, j = powers
     gram = (px.T @ px)[np.ix_(i, i)] * (py.T @ py)[np.ix_(j, j)]
-    trend = np.zeros((degree + 1, degree + 1))
+    trend = np.zeros((px.shape[1], py.shape[1]))
     trend[i, j] = np.linalg.lstsq(gram, (px.T @ heights @ py)[i, j], rcond=None)[0]
     return heights - px @ trend @ py.T
 
@@ -58,28 +56,22 @@ def detrend(heights: NDArray, kind: Detrend = "plane") -> NDArray:
 def rms_of_known(heights: NDArray, kind: Detrend = "plane") -> float:
     """Root mean square of the finite points of a map or profile about the trend that fits them."""
     heights = heights if heights.ndim == 2 else heights[:, None]
-    known, degree = np.isfinite(heights), _degree(kind)
-    px, py = (_legendre(n, degree) for n in heights.shape)
-    design = np.array([np.outer(px[:, i], py[:, j])[known] for i, j in _terms(degree).T])
+    known = np.isfinite(heights)
+    (px, py), powers = _polynomials(heights.shape, kind)
+    design = np.array([np.outer(px[:, i], py[:, j])[known] for i, j in powers.T])
     values = heights[known]
     trend = np.linalg.lstsq(design @ design.T, design @ values, rcond=None)[0]
     return float(np.sqrt(np.mean((values - trend @ design) ** 2)))
 
 
-def _degree(kind: str) -> int:
+def _polynomials(shape: tuple[int, ...], kind: Detrend) -> tuple[list[NDArray], NDArray]:
+    """Legendre polynomials along every axis, and their powers (2, m) up to the total degree."""
     if kind not in _DEGREES:
         raise ValueError(f"detrend must be one of {sorted(_DEGREES)}, got {kind!r}")
-    return _DEGREES[kind]
-
-
-def _legendre(n: int, degree: int) -> NDArray:
-    t = np.linspace(-1, 1, n) if n > 1 else np.zeros(1)
-    return np.polynomial.legendre.legvander(t, degree)
-
-
-def _terms(degree: int) -> NDArray:
-    """Powers of x and y, (2, m), of a polynomial of this total degree."""
-    return np.array([(i, j) for i in range(degree + 1) for j in range(degree + 1 - i)]).T
+    degree = _DEGREES[kind]
+    axes = [np.linspace(-1, 1, n) if n > 1 else np.zeros(1) for n in shape]
+    powers = [(i, j) for i in range(degree + 1) for j in range(degree + 1 - i)]
+    return [np.polynomial.legendre.legvander(t, degree) for t in axes], np.array(powers).T
 
 
 def without_rims(heights: NDArray, rim: Rim = "detect") -> tuple[NDArray, int]:
@@ -98,32 +90,28 @@ def outstanding_rim(heights: NDArray) -> int:
     """Width of the rim around missing points with much larger steps of height than elsewhere.
 
     A rim stands out if the rms step from it to the points beyond is more than `OUTSTANDING` times
-    that between neighbours beyond. The ratio is 0.75 to 3.4 around holes cut into three measured
-    surfaces where these are steepest, sharpest, lowest, highest or at random. It is 40 around the
-    holes of an instrument that wrote outliers there and, one point further out, 0.9.
+    that between neighbours beyond. The ratio is 0.75 to 3.4 around holes cut into measured
+    surfaces, and 40 around the holes of an instrument that wrote outliers there.
     """
     hole = ~np.isfinite(heights)
+    steps = [np.diff(heights, axis=axis) for axis in range(heights.ndim)]
     for rim in range(LARGEST_RIM if hole.any() else 0, 0, -1):
-        # 0 within, 1 the last of the rim, 2 beyond.
+        # 0 within, 1 the last of the rim, 2 beyond; so a step has 2 to the rim, 4 beyond it.
         zone = 2 - _widen(hole, rim - 1).astype(int) - _widen(hole, rim)
-        to_rim, beyond = [], []
-        for axis in range(heights.ndim):
-            step = np.diff(heights, axis=axis)
-            pair = np.delete(zone, 0, axis) * np.delete(zone, -1, axis)
-            to_rim.append(step[pair == 2])
-            beyond.append(step[pair == 4])
-        at_rim, elsewhere = (_rms(np.concatenate(steps)) for steps in (to_rim, beyond))
-        if at_rim > OUTSTANDING * elsewhere > 0:
-            return rim
+        pairs = [np.delete(zone, 0, a) * np.delete(zone, -1, a) for a in range(heights.ndim)]
+        to_rim, beyond = (
+            np.concatenate([step[pair == kind] for step, pair in zip(steps, pairs, strict=True)])
+            for kind in (2, 4)
+        )
+        if to_rim.size and beyond.size:
+            elsewhere = np.sqrt(np.mean(beyond**2))
+            if np.sqrt(np.mean(to_rim**2)) > OUTSTANDING * elsewhere > 0:
+                return rim
     return 0
 
 
 def _widen(hole: NDArray, rim: int) -> NDArray:
     return ndimage.maximum_filter(hole, size=2 * rim + 1, mode="constant", cval=False)
-
-
-def _rms(values: NDArray) -> float:
-    return float(np.sqrt(np.mean(values**2))) if values.size else 0.0
 
 
 def fill_missing(
@@ -199,7 +187,13 @@ def find_spikes(heights: NDArray) -> NDArray:
 
     Returns a mask of the shape of the heights.
     """
-    level = _without_slope(np.asarray(heights, dtype=float))
+    level = np.where(np.isfinite(heights), heights, np.nan)
+    for axis, n in enumerate(level.shape):
+        steps = np.diff(level, axis=axis)
+        steps = steps[np.isfinite(steps)]
+        if steps.size:
+            along = np.expand_dims(np.arange(n), [i for i in range(level.ndim) if i != axis])
+            level = level - np.median(steps) * along
     distance = _neighbour_distance(level)
     known = distance[np.isfinite(distance)]
     if not known.size or not known.max() > 0:
@@ -217,30 +211,16 @@ def find_spikes(heights: NDArray) -> NDArray:
     return spikes
 
 
-def _without_slope(heights: NDArray) -> NDArray:
-    level = np.where(np.isfinite(heights), heights, np.nan)
-    for axis, n in enumerate(level.shape):
-        steps = np.diff(level, axis=axis)
-        steps = steps[np.isfinite(steps)]
-        if steps.size:
-            along = np.expand_dims(np.arange(n), [i for i in range(level.ndim) if i != axis])
-            level = level - np.median(steps) * along
-    return level
-
-
 def _neighbour_distance(heights: NDArray) -> NDArray:
     """Distance of every point to its third closest neighbour of eight, second of four on a line."""
-    if heights.ndim == 1:
-        padded, n = np.pad(heights, 2, constant_values=np.nan), len(heights)
-        around = [np.abs(padded[i : i + n] - heights) for i in (0, 1, 3, 4)]
-        return np.partition(around, 1, axis=0)[1]  # NaN comes last
-    padded = np.pad(heights, 1, constant_values=np.nan)
-    nx, ny = heights.shape
-    shifts = [(i, j) for i in range(3) for j in range(3) if (i, j) != (1, 1)]
+    reach, rank = (2, 2) if heights.ndim == 1 else (1, 3)
+    padded = np.pad(heights, reach, constant_values=np.nan)
+    around = np.lib.stride_tricks.sliding_window_view(padded, (2 * reach + 1,) * heights.ndim)
     found = np.empty(heights.shape)
-    for start in range(0, nx, _ROWS):
-        stop = min(start + _ROWS, nx)
-        here = heights[start:stop]
-        around = [np.abs(padded[start + i : stop + i, j : j + ny] - here) for i, j in shifts]
-        found[start:stop] = np.partition(around, 2, axis=0)[2]
+    for start in range(0, len(heights), _ROWS):
+        rows = slice(start, start + _ROWS)
+        here = heights[rows]
+        distance = np.abs(around[rows].reshape(*here.shape, -1) - here[..., None])
+        # The point itself is the closest; NaN comes last.
+        found[rows] = np.partition(distance, rank, axis=-1)[..., rank]
     return found

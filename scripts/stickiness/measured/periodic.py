@@ -1,11 +1,9 @@
 """Measured heights made periodic, for a solver of periodic surfaces.
 
-There are three ways, and their difference shows the error. A taper keeps the size of the scan, but
-pulls its rim to the mean plane, where height variance is lost; a rim so flat sticks better than the
-surface. A mirror keeps every height and joins them without a jump, at four times the cost; but its
-long waves are coherent, and slopes change sign across the seams. A smooth correction takes away the
-steps between opposite sides, which lie next to the border, and hardly changes heights further in
-(Moisan, J. Math. Imaging Vis. 39, 161, 2011, doi:10.1007/s10851-010-0227-1).
+There are three ways, and their difference shows the error. A taper pulls the rim of the scan to the
+mean plane; a rim so flat sticks better than the surface. A mirror keeps every height, at four times
+the cost, but slopes change sign across the seams. A smooth correction takes away the steps between
+opposite sides and hardly changes heights further in (Moisan 2011, doi:10.1007/s10851-010-0227-1).
 """
 
 from __future__ import annotations
@@ -33,10 +31,9 @@ def periodise(heights: ArrayLike, kind: Periodisation) -> NDArray:
     heights : (nx, ny) array
         Levelled heights, in any unit.
     kind : {"taper", "mirror", "smooth", "given"}
-        "taper": the heights about their mean, times a taper that is 1 except in a cosine rim of an
-        eighth of each side. "mirror": the heights and their mirror images. "smooth": the heights
-        less the smoothest map that has the same steps between opposite sides. "given": the heights
-        are periodic already and are not changed.
+        "taper": the heights about their mean, times a taper that is 1 except in a cosine rim
+        (`RIM`). "mirror": the heights and their mirror images. "smooth": the heights less the
+        smoothest map that has the same steps between opposite sides. "given": no change.
 
     Returns
     -------
@@ -59,7 +56,9 @@ def periodise(heights: ArrayLike, kind: Periodisation) -> NDArray:
         return heights - _steps_between_sides(heights)
     if kind != "taper":
         raise ValueError(f"kind must be 'taper', 'mirror', 'smooth' or 'given', got {kind!r}")
-    wx, wy = (_rim(n) for n in heights.shape)
+    centres = ((np.arange(n) + 0.5) / n for n in heights.shape)
+    depths = (np.minimum(np.minimum(x, 1 - x) / RIM, 1.0) for x in centres)
+    wx, wy = (np.sin(np.pi / 2 * depth) ** 2 for depth in depths)
     taper = wx[:, None] * wy
     return taper * (heights - np.sum(taper * heights) / taper.sum())
 
@@ -76,12 +75,6 @@ def _steps_between_sides(heights: NDArray) -> NDArray:
     laplacian = curvature[0][:, None] + curvature[1]
     laplacian[0, 0] = 1.0  # the mean of the steps is zero
     return fft.ifft2(fft.fft2(steps) / laplacian).real
-
-
-def _rim(n: int) -> NDArray:
-    x = (np.arange(n) + 0.5) / n
-    depth = np.minimum(np.minimum(x, 1 - x) / RIM, 1.0)
-    return np.sin(np.pi / 2 * depth) ** 2
 
 
 def band_limited(
@@ -118,17 +111,13 @@ def band_limited(
     index = [np.rint(fft.fftfreq(n, 1 / n)).astype(int) for n in heights.shape]
     qx, qy = (2 * np.pi * i / side for i, side in zip(index, sides, strict=True))
     modes[np.hypot(qx[:, None], qy) > q_max] = 0.0
-    shape = tuple(_points(side * q_max / (2 * np.pi) * pixels) for side in sides)
+    least = [int(np.ceil(side * q_max / (2 * np.pi) * pixels / 4)) for side in sides]
+    shape = tuple(4 * fft.next_fast_len(n, real=True) for n in least)
     keep = [np.flatnonzero(np.abs(i) < m / 2) for i, m in zip(index, shape, strict=True)]
     fine = np.zeros(shape, dtype=complex)
     where = np.ix_(*(i[k] % m for i, k, m in zip(index, keep, shape, strict=True)))
     fine[where] = modes[np.ix_(*keep)]
     return fft.ifft2(fine).real * fine.size
-
-
-def _points(least: float) -> int:
-    """Smallest number of points, at least `least`, that is 4 times one fast to transform."""
-    return 4 * fft.next_fast_len(int(np.ceil(least / 4)), real=True)
 
 
 def shells(heights: ArrayLike, sides: tuple[float, float]) -> Shells:

@@ -17,10 +17,9 @@ from numpy.typing import ArrayLike, NDArray
 from scipy import fft, special
 
 from stickiness.measured.psd import RadialPSD, Taper, average_by_ring, logarithmic_rings
-from stickiness.measured.self_affine_fit import SelfAffineFit, fit_rings
+from stickiness.measured.self_affine_fit import FINE, SelfAffineFit, fit_rings
 
 LOWEST_HURST = -0.4  #: at -1/2 the transform of q^(-2(H+1)) no longer exists
-FINE = 200  #: rings per decade for the fit
 _ROUNDS = 20
 
 
@@ -40,19 +39,11 @@ class ProfileSpectrum:
         """Highest wave number, pi over the step [1/length]."""
         return float(self.q[0]) * self.n / 2
 
-    def total(self) -> float:
-        """Sum of C1 over both signs of q times dq: equals `variance` [length^2]."""
-        both = np.full(len(self.q), 2.0)
-        if self.n % 2 == 0:
-            both[-1] = 1.0  # the Nyquist mode is its own conjugate
-        return float(both @ self.psd * self.q[0])
-
     def rings(self, bins_per_decade: float) -> RadialPSD:
         """Means of C1 (not C) over logarithmic intervals of q."""
         ring = logarithmic_rings(self.q, self.q[0], bins_per_decade)
         q, mean, modes = average_by_ring(ring, np.ones(len(self.q)), self.q, self.psd)
-        dof = modes * self.independence
-        return RadialPSD(q, mean, mean / np.sqrt(dof), modes.astype(int), dof)
+        return RadialPSD(q, mean, modes * self.independence)
 
 
 def profile_spectrum(heights: ArrayLike, dx: float, taper: Taper = "hann") -> ProfileSpectrum:
@@ -123,7 +114,7 @@ def isotropic(
     says that the spectrum falls more slowly than any isotropic surface's: noise.
     """
     profile = spectrum.rings(FINE)
-    rings = _scale(profile, 1 / profile.q)
+    rings = replace(profile, psd=profile.psd * (1 / profile.q))
     fit = fit_rings(rings, q_min, q_max, rolloff)
     for _ in range(_ROUNDS):
         before = fit
@@ -132,13 +123,10 @@ def isotropic(
                 f"the profile's spectrum falls as q^{-2 * fit.hurst - 1:.2f}: too slowly for a "
                 "surface, rather noise; lower the highest wave number of the fit"
             )
-        rings = _scale(profile, abel_ratio(profile.q, fit.hurst, fit.q_rolloff))
+        ratio = abel_ratio(profile.q, fit.hurst, fit.q_rolloff)
+        rings = replace(profile, psd=profile.psd * ratio)
         # The model stays once it is chosen: else a plateau might come and go for ever.
         fit = fit_rings(rings, q_min, q_max, fit.q_rolloff is not None)
         if abs(fit.hurst - before.hurst) < 1e-3 * fit.hurst_se:
             break
     return rings, fit
-
-
-def _scale(rings: RadialPSD, ratio: NDArray) -> RadialPSD:
-    return replace(rings, psd=rings.psd * ratio, standard_error=rings.standard_error * ratio)

@@ -37,7 +37,6 @@ class PowerSpectrum:
     #: Half width of the taper's main lobe, in lattice steps: 0 without a taper. Modes nearer to
     #: q = 0 than this are mixed with the mean and the trend.
     blur: float
-    taper: str  #: its name
 
     @property
     def dqx(self) -> float:
@@ -97,19 +96,26 @@ class RadialPSD:
 
     q: NDArray  #: (m,), of the ring, geometric mean over its modes [1/length]
     psd: NDArray  #: (m,), mean of C over the modes of the ring [length^4]
-    standard_error: NDArray  #: of `psd` by sampling a Gaussian isotropic surface, psd/sqrt(dof)
-    modes: NDArray  #: of the full plane in the ring
-    #: Independent exponentially distributed values among them: half of `modes` (conjugate
+    #: (m,), independent exponentially distributed values among the modes: half of them (conjugate
     #: pairs), times `independence`. The mean has a Gamma distribution of this shape.
     dof: NDArray
 
     def __len__(self) -> int:
         return len(self.q)
 
+    @property
+    def standard_error(self) -> NDArray:
+        """Of `psd`, by sampling a Gaussian isotropic surface (m,) [length^4]."""
+        return self.psd / np.sqrt(self.dof)
+
+    def modes(self, plane: PowerSpectrum) -> NDArray:
+        """Modes of the full plane of the spectrum averaged in each ring (m,)."""
+        return np.rint(2 * self.dof / plane.independence).astype(int)
+
     def between(self, q_min: float, q_max: float) -> RadialPSD:
         """Return the rings with q_min <= q <= q_max."""
         keep = (self.q >= q_min) & (self.q <= q_max)
-        return RadialPSD(*(getattr(self, name)[keep] for name in self.__dataclass_fields__))
+        return RadialPSD(self.q[keep], self.psd[keep], self.dof[keep])
 
 
 def power_spectrum(
@@ -127,15 +133,12 @@ def power_spectrum(
         "none" for periodic heights. "hann": product of a Hann taper along each axis.
         "hann_radial": Hann taper of the distance from the centre, zero beyond the largest
         inscribed circle; isotropic, but it uses less of the data. Both are centred on the middle
-        of the area, so that a mirrored map has the same rings; SurfaceTopography's are centred on
-        pixel n//2, half a pixel aside if n is even.
+        of the area (SurfaceTopography's on pixel n//2), so that a mirrored map has the same rings.
 
     Returns
     -------
     PowerSpectrum
-        Scaled by the taper's mean square, so that it estimates C whatever the taper. The mean
-        weighted by the taper is subtracted first: the plain mean, zero after levelling, would
-        leave a constant that leaks into the lowest modes.
+        C, whatever the taper: over the taper's mean square.
 
     Raises
     ------
@@ -150,6 +153,7 @@ def power_spectrum(
     nx, ny = heights.shape
     w, blur = _taper(taper, (nx, ny), (dx, dy))
     power = np.mean(w**2)
+    # Less the mean weighted by the taper: else a constant would leak into the lowest modes.
     tapered = w * (heights - np.mean(w * heights) / np.mean(w))
     modes = fft.rfft2(tapered) / (nx * ny)
     cell = (2 * np.pi) ** 2 / (nx * dx * ny * dy)
@@ -169,7 +173,6 @@ def power_spectrum(
         variance=variance,
         independence=float(power**2 / np.mean(w**4)),
         blur=blur,
-        taper=taper,
     )
 
 
@@ -177,14 +180,9 @@ def radial_average(spectrum: PowerSpectrum, bins_per_decade: float = 10) -> Radi
     """Average a 2D spectrum over logarithmic rings of ``|q|``.
 
     Every mode but q = 0 falls into exactly one ring, those in the corners beyond `q_nyquist`
-    included, so that the sum of psd * modes * dqx * dqy is still the variance.
-
-    Parameters
-    ----------
-    spectrum : PowerSpectrum
-    bins_per_decade : float
-        Rings per decade. The average over a ring exceeds C at its mean q by about
-        s^2 (ln 10/bins_per_decade)^2/24 for C ~ q^-s: 3 % at 10 a decade and s = 3.6.
+    included, so that the sum of psd * modes * dqx * dqy is still the variance. The average over a
+    ring exceeds C at its mean q by about s^2 (ln 10/bins_per_decade)^2/24 for C ~ q^-s: 3 % at 10
+    a decade and s = 3.6.
     """
     bins_per_decade = number("bins_per_decade", bins_per_decade)
     q = spectrum.q.ravel()
@@ -192,8 +190,7 @@ def radial_average(spectrum: PowerSpectrum, bins_per_decade: float = 10) -> Radi
     q, weight, psd = q[1:], weight[1:], spectrum.psd.ravel()[1:]  # the first mode is q = 0
     ring = logarithmic_rings(q, q.min(), bins_per_decade)
     q, mean, modes = average_by_ring(ring, weight, q, psd)
-    dof = modes / 2 * spectrum.independence
-    return RadialPSD(q, mean, mean / np.sqrt(dof), np.rint(modes).astype(int), dof)
+    return RadialPSD(q, mean, modes / 2 * spectrum.independence)
 
 
 def logarithmic_rings(q: NDArray, lowest: float, bins_per_decade: float) -> NDArray:

@@ -6,10 +6,9 @@ read by SurfaceTopography. It is imported when it is needed: that takes two seco
 
 from __future__ import annotations
 
-import difflib
 import re
 import warnings
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -24,8 +23,11 @@ Length = str | float  # "10 um", or metres
 INSTRUMENT = "instrument"
 
 _FORMATS = ("netcdf", "numpy", "text")  # not by SurfaceTopography
-_SUFFIXES = {".nc": "netcdf", ".nc4": "netcdf", ".cdf": "netcdf", ".npz": "numpy", ".npy": "numpy"}
-_TEXT_OF_INSTRUMENTS = (".hfm", ".sdf", ".nms")  # readable, but no matrix of heights
+_SUFFIXES = {
+    **dict.fromkeys((".nc", ".nc4", ".cdf"), "netcdf"),
+    **dict.fromkeys((".npz", ".npy"), "numpy"),
+    **dict.fromkeys((".hfm", ".sdf", ".nms"), INSTRUMENT),  # text, but no matrix of heights
+}
 _X_NAMES = ("x", "lon", "longitude", "easting")
 _Y_NAMES = ("y", "lat", "latitude", "northing")
 # Channels that hold something else, some of them in metres, unless they say height.
@@ -40,16 +42,14 @@ _LONGEST = 200  # characters of SurfaceTopography's words
 
 @dataclass(frozen=True)
 class Raw:
-    """Content of a file, heights in the unit of the file."""
+    """Content of a file; what the file does not tell is None."""
 
     heights: NDArray  #: (nx, ny), the first axis along x, or a line profile (n,); NaN where missing
     source: str  #: file, and variable or channel
-    unit: str | None = None  #: of the heights; None: the file does not tell (all below likewise)
-    steps: tuple[float, ...] | None = None  #: of the grid [m]
-    positions: NDArray | None = None  #: (n,), of the points of a line profile
-    #: (2,) grid steps of a list of points x y z, in `position_unit`, instead of `steps`
-    grid: tuple[float, float] | None = None
-    position_unit: str | None = None
+    unit: str | None = None  #: of the heights
+    #: Grid steps of a map, or positions (n,) of the points of a line profile.
+    places: Sequence[float] | NDArray | None = None
+    place_unit: str | None = None
 
 
 def metres(value: Length, name: str) -> float:
@@ -87,14 +87,12 @@ def format_of(path: str | Path, fmt: str | None = None) -> str:
     suffix = Path(path).suffix.lower()
     if suffix in _SUFFIXES:
         return _SUFFIXES[suffix]
-    if suffix in _TEXT_OF_INSTRUMENTS:
-        return INSTRUMENT
     with Path(path).open("rb") as file:
         head = file.read(1 << 20)  # headers in text may be long
     if not head.startswith(plain_text.UTF16) and b"\0" in head:
         return INSTRUMENT
     header, _ = plain_text.split_header(plain_text.decode(head[: len(head) // 2 * 2]))
-    return INSTRUMENT if plain_text.is_of_instrument(header) else "text"
+    return INSTRUMENT if plain_text.OF_INSTRUMENTS.search("\n".join(header)) else "text"
 
 
 def read(
@@ -118,9 +116,9 @@ def read(
         raise ValueError(f"{path}: variable is for NetCDF and npz, this is of kind {kind!r}")
     if kind == INSTRUMENT:
         return _read_instrument(path, None if fmt == INSTRUMENT else fmt, channel)
-    if kind == "netcdf":
-        return _read_netcdf(path, variable)
-    return _read_numpy(path, variable) if kind == "numpy" else _read_text(path)
+    if kind == "text":
+        return _read_text(path)
+    return (_read_netcdf if kind == "netcdf" else _read_numpy)(path, variable)
 
 
 def _read_netcdf(path: Path, variable: str | None) -> Raw:
@@ -130,35 +128,35 @@ def _read_netcdf(path: Path, variable: str | None) -> Raw:
         dataset = xr.load_dataset(path)
     except (OSError, ValueError) as error:
         raise ValueError(f"{path}: not a readable NetCDF file ({error})") from error
-    dimensions = {str(n): v.ndim for n, v in dataset.variables.items()}
-    candidates = [str(n) for n in dataset.data_vars]
-    name = _choose(dimensions, candidates, variable, path, "variable")
-    data = dataset[name]
+    name = _choose(dataset.variables, dataset.data_vars, variable, path, "variable")
+    data = dataset[name].astype(float)
     known = {"source": f"{path}: {name}", "unit": data.attrs.get("units")}
+    along = [dataset.get(dim) for dim in data.dims]
+    if any(c is None or "units" not in c.attrs for c in along):
+        along = None
     if data.ndim == 1:
-        along = dataset.get(str(data.dims[0]))
-        if along is not None and "units" in along.attrs:
-            known["positions"] = np.array(along.values, dtype=float)
-            known["position_unit"] = along.attrs["units"]
-        return Raw(np.array(data.values, dtype=float), **known)
-    first, second = (str(d).lower() for d in data.dims)
-    data = data if first in _X_NAMES or second in _Y_NAMES else data.transpose()
-    steps = tuple(_coordinate_step(dataset.get(str(d)), path) for d in data.dims)
-    return Raw(np.array(data.values, dtype=float), steps=None if None in steps else steps, **known)
+        if along:
+            known |= {"places": along[0].values.astype(float), "place_unit": along[0].units}
+        return Raw(data.values, **known)
+    first, second = (str(dim).lower() for dim in data.dims)
+    if not (first in _X_NAMES or second in _Y_NAMES):
+        data, along = data.transpose(), along and along[::-1]
+    steps = [_find_step(coordinate, path) for coordinate in along or ()]
+    if steps and None not in steps:
+        known |= {"places": steps, "place_unit": "m"}
+    return Raw(np.array(data.values), **known)
 
 
-def _choose(
-    dimensions: dict[str, int], candidates: Sequence[str], wanted: str | None, path: Path, what: str
-) -> str:
+def _choose(arrays: Mapping, candidates: Mapping, wanted: str | None, path: Path, what: str) -> str:
     """Name of the array to read: the one wanted, else the only map, else the only profile."""
     if wanted is not None:
-        if wanted not in dimensions:
-            raise ValueError(f"{path}: no {what} {wanted!r}; the file has {sorted(dimensions)}")
-        if dimensions[wanted] not in (1, 2):
+        if wanted not in arrays:
+            raise ValueError(f"{path}: no {what} {wanted!r}; the file has {sorted(arrays)}")
+        if arrays[wanted].ndim not in (1, 2):
             raise ValueError(f"{path}: {what} {wanted!r} is neither a map (2D) nor a profile (1D)")
         return wanted
-    maps = [name for name in candidates if dimensions[name] == 2]
-    found = maps or [name for name in candidates if dimensions[name] == 1]
+    maps = [name for name in candidates if arrays[name].ndim == 2]
+    found = maps or [name for name in candidates if arrays[name].ndim == 1]
     if len(found) != 1:
         raise ValueError(
             f"{path}: needs one two-dimensional {what}, or one profile, found {sorted(found)}; "
@@ -167,19 +165,16 @@ def _choose(
     return found[0]
 
 
-def _coordinate_step(coordinate, path: Path) -> float | None:
-    """Step of an evenly spaced coordinate with a unit of length [m]; None if it has no unit."""
-    if coordinate is None or "units" not in coordinate.attrs:
-        return None
-    steps = np.diff(np.asarray(coordinate.values, dtype=float))
+def _find_step(coordinate, path: Path) -> float | None:
+    """Step of an evenly spaced coordinate [m]; None if its unit is no length."""
+    steps = np.diff(coordinate.values.astype(float))
     if len(steps) == 0 or np.ptp(steps) > 1e-3 * abs(steps.mean()):
         name = coordinate.name
         raise ValueError(f"{path}: coordinate {name!r} is not evenly spaced; resample the data")
     try:
-        unit = si(f"1 {coordinate.attrs['units']}", "m")
+        return abs(float(steps.mean())) * si(f"1 {coordinate.units}", "m")
     except ValueError:
         return None  # degrees, pixels: the caller must say
-    return abs(float(steps.mean())) * unit
 
 
 def _read_numpy(path: Path, variable: str | None) -> Raw:
@@ -196,47 +191,49 @@ def _read_numpy(path: Path, variable: str | None) -> Raw:
             )
         return Raw(np.array(loaded.T, dtype=float), str(path))
     with loaded:
-        arrays = {name: loaded[name] for name in loaded.files}
-    dimensions = {name: array.ndim for name, array in arrays.items()}
-    name = _choose(dimensions, list(arrays), variable, path, "key")
+        arrays = dict(loaded)
+    name = _choose(arrays, arrays, variable, path, "key")
     return Raw(np.array(arrays[name].T, dtype=float), f"{path}: {name}")
 
 
 def _read_text(path: Path) -> Raw:
-    text = plain_text.parse(path)
-    heights, source = text.values.T, str(path)
-    unit, lateral_unit = text.fields.get("value_unit"), text.fields.get("lateral_unit")
-    if plain_text.is_list(text.values):
-        mapped, grid = plain_text.map_points(path, text.values)
-        plain_text.check_counts(path, text.header, mapped.shape, heights.shape)
-        return Raw(mapped, source, unit, grid=grid, position_unit=lateral_unit)
-    is_profile = len(heights) == 1 or (len(heights) == 2 and heights.shape[1] > 2)
-    # Headers of profiles count points along x, or rows of the table.
-    also = [(heights.shape[1], 1)] if is_profile else []
-    plain_text.check_counts(path, text.header, heights.shape, *also)
-    if len(heights) == 1:
-        return Raw(heights[0], source, unit)
-    if is_profile:
-        return Raw(heights[1], source, unit, positions=heights[0], position_unit=lateral_unit)
-    steps = None
-    if "width" in text.fields:
+    values, header, fields = plain_text.parse(path)
+    heights, known = values.T, {"source": str(path), "unit": fields.get("value unit")}
+    if len(heights) == 3 and heights.shape[1] >= plain_text.FEWEST_POINTS:
+        mapped, steps = plain_text.map_points(path, values)
+        plain_text.check_counts(path, header, mapped.shape, heights.shape)
+        return Raw(mapped, places=steps, place_unit=fields.get("lateral unit"), **known)
+    if len(heights) == 1 or (len(heights) == 2 and heights.shape[1] > 2):
+        # Headers of profiles count points along x, or rows of the table.
+        plain_text.check_counts(path, header, heights.shape, (heights.shape[1], 1))
+        if len(heights) == 1:
+            return Raw(heights[0], **known)
+        unit = fields.get("lateral unit")
+        return Raw(heights[1], places=heights[0], place_unit=unit, **known)
+    plain_text.check_counts(path, header, heights.shape)
+    if "width" in fields:
         # Without a height the pixels are square.
-        size = [text.fields[name] for name in ("width", "height") if name in text.fields]
+        size = [fields[name] for name in ("width", "height") if name in fields]
         size = size if len(size) == 2 else size[0]
         size = sides(size, heights.shape, f"{path}: Width, Height in the header")
-        steps = tuple(side / n for side, n in zip(size, heights.shape, strict=True))
-    return Raw(heights, source, unit, steps)
+        steps = [side / n for side, n in zip(size, heights.shape, strict=True)]
+        known |= {"places": steps, "place_unit": "m"}
+    return Raw(heights, **known)
 
 
 def _read_instrument(path: Path, fmt: str | None, channel: str | int | None) -> Raw:
     """Read a channel of heights; `fmt` as SurfaceTopography names it."""
-    reader = _open(path, fmt)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # of what SurfaceTopography imports
+        from SurfaceTopography import IO
+    if fmt is not None and fmt not in IO.lookup_reader_by_format:
+        known = ", ".join(sorted(IO.lookup_reader_by_format))
+        raise ValueError(f"{path}: SurfaceTopography has no format {fmt!r}; it knows {known}")
+    reader = _call(path, lambda: IO.open_topography(str(path), format=fmt))
     channels, info = _call(path, lambda: (reader.channels, reader.default_channel))
     heights_in = ", ".join(repr(c.channel_id) for c in channels if holds_heights(c))
     if channel is not None:
-        named = [c for c in channels if channel in (c.channel_id, c.name)]
-        if isinstance(channel, int):
-            named = channels[channel : channel + 1] if channel >= 0 else []
+        named = [c for i, c in enumerate(channels) if channel in (i, c.channel_id, c.name)]
         if not named:
             raise ValueError(
                 f"{path}: no channel {channel!r}; the file has "
@@ -250,17 +247,16 @@ def _read_instrument(path: Path, fmt: str | None, channel: str | int | None) -> 
     known = info.physical_sizes is not None
     size = {} if known else {"physical_sizes": tuple(float(n) for n in info.nb_grid_pts)}
     data = _call(path, lambda: reader.topography(channel_index=info.index, **size))
-    unit = data.unit
-    scale = metres(f"1 {unit}", f"{source}: unit of length in the file") if known and unit else None
     # Points that could not be measured come masked.
     heights = np.array(np.ma.filled(np.ma.asarray(data.heights(), dtype=float), np.nan), float)
-    if heights.ndim == 1:
-        positions = np.asarray(data.positions(), dtype=float) if scale else None
-        return Raw(heights, source, unit, positions=positions, position_unit=unit)
-    if scale is None:
+    unit = data.unit
+    if not (known and unit):
         return Raw(heights, source, unit)
+    if heights.ndim == 1:
+        return Raw(heights, source, unit, np.asarray(data.positions(), dtype=float), unit)
+    scale = metres(f"1 {unit}", f"{source}: unit of length in the file")
     lengths = zip(data.physical_sizes, heights.shape, strict=True)
-    return Raw(heights, source, unit, tuple(float(side) * scale / n for side, n in lengths))
+    return Raw(heights, source, unit, [float(side) * scale / n for side, n in lengths], "m")
 
 
 def holds_heights(channel) -> bool:
@@ -272,45 +268,7 @@ def holds_heights(channel) -> bool:
     return channel.is_height_channel and not isinstance(channel.unit, tuple)
 
 
-def _open(path: Path, fmt: str | None):
-    """Open a file; if no reader can, report the error of the format that it claims to have."""
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")  # of what SurfaceTopography imports
-        from SurfaceTopography import IO
-
-        if fmt is None:
-            try:
-                return IO.open_topography(str(path))
-            except Exception:  # the names of all formats tried help nobody
-                fmt = _claimed_format(IO, path)
-    if fmt not in IO.lookup_reader_by_format:
-        known = sorted(IO.lookup_reader_by_format)
-        close = difflib.get_close_matches(fmt, known, n=1)
-        hint = f"did you mean {close[0]!r}?" if close else f"it knows {', '.join(known)}"
-        raise ValueError(f"{path}: SurfaceTopography has no format {fmt!r}; {hint}")
-    return _call(path, lambda: IO.open_topography(str(path), format=fmt), fmt)
-
-
-def _claimed_format(IO, path: Path) -> str:
-    """Format that a file has by its first bytes, else by its name."""
-    head = path.read_bytes()[:4096]
-    suffix = path.suffix.lower().lstrip(".")
-    by_head = [r for r in IO.readers if str(r.can_read(head)).endswith("YES")]
-    by_name = [
-        r
-        for r in IO.readers
-        if suffix in (r.file_extensions() or ())
-        and not (b"\0" in head and "text/plain" in (r.mime_types() or ()))
-    ]
-    for reader in [*by_head, *by_name]:
-        return reader.format()
-    raise ValueError(
-        f"{path}: neither its content nor its name is of a format that SurfaceTopography "
-        "reads; export it as a text matrix, .nc or .npy, or give format"
-    ) from None
-
-
-def _call(path: Path, call: Callable, fmt: str = ""):
+def _call(path: Path, call: Callable):
     """Call SurfaceTopography; whatever it raises becomes one line that names the file."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
@@ -319,8 +277,9 @@ def _call(path: Path, call: Callable, fmt: str = ""):
         except Exception as error:  # readers of broken files raise nearly anything
             words = " ".join(re.sub("'?<_io[^>]*>'?", "", str(error)).split())
             reason = f"{type(error).__name__}: {words[:_LONGEST]}".removesuffix(": ")
-            as_format = f" as {fmt}" if fmt else ""
+            if type(error).__name__ == "CannotDetectFileFormat":
+                reason = "no reader takes it; give format to see what its reader says"
             raise ValueError(
-                f"{path}: SurfaceTopography cannot read it{as_format} ({reason}); is the file "
-                "complete?"
+                f"{path}: SurfaceTopography cannot read it ({reason}); is the file complete? Else "
+                "export it as a text matrix, .nc or .npy"
             ) from error

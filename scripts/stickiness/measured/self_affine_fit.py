@@ -1,12 +1,11 @@
 """Hurst exponent and prefactor of a measured spectrum, by Whittle's likelihood.
 
-A mode of the periodogram of a Gaussian surface is exponentially distributed about C(q); the mean
-of nu independent modes has a Gamma distribution of shape nu. Least squares on its logarithm are
-biased by digamma(nu) - ln(nu) (-0.58 for a single mode); the likelihood -sum nu (ln C + I/C)
-(Whittle 1953, doi:10.1007/BF02590998) is not. There are so many modes at high q that they alone
-would determine the exponent, even of a spectrum that is no power law. So a ring of modes has the
-weight nu/(1 + nu tau^2), with tau the rms misfit beyond sampling, found from the scatter of the
-rings (Paule & Mandel 1982, doi:10.6028/jres.087.022).
+The mean of nu independent modes of the periodogram of a Gaussian surface has a Gamma distribution
+of shape nu. Least squares on its logarithm are biased by digamma(nu) - ln(nu) (-0.58 for a single
+mode); the likelihood -sum nu (ln C + I/C) (Whittle 1953, doi:10.1007/BF02590998) is not. The many
+modes at high q alone would determine the exponent, even of a spectrum that is no power law. So a
+ring has the weight nu/(1 + nu tau^2), with tau the rms misfit beyond sampling, found from the
+scatter of the rings (Paule & Mandel 1982, doi:10.6028/jres.087.022).
 """
 
 from __future__ import annotations
@@ -20,24 +19,16 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy import optimize, special
 
-from stickiness.measured.psd import (
-    PowerSpectrum,
-    RadialPSD,
-    merge_rings,
-    radial_average,
-    wide_rings,
-)
+from stickiness.measured.psd import RadialPSD, merge_rings, wide_rings
 from stickiness.spectrum.kinds import SelfAffine
 
-LOWEST_MODES = 4  #: lattice steps left out at low q if the heights were tapered
-NYQUIST_SHARE = 0.5  #: default highest q over q_Nyquist
+FINE = 200  #: narrow rings per decade: C varies by 4 % across one, its mean by 7e-5
 ROLLOFF_AIC = 10.0  #: gain in AIC below which the simpler model is kept
 LARGE_MISFIT = 0.3  #: relative; above, a power law describes the spectrum badly
 LARGE_ANISOTROPY = 0.5  #: C along and across the lay then differ by a factor of three
 
 COARSE = 10  #: rings per decade for the misfit
 
-_FINE = 200  # narrow rings per decade: C varies by 4 % across one, its mean by 7e-5
 _ALTERNATIONS = 20
 _SLOPES = (-1e3, 1e3)  # bracket of the exponent s in C ~ q^-s; wide, plateaus are tried anywhere
 
@@ -57,9 +48,7 @@ class SelfAffineFit:
     """Power law C = C0 q^(-2(H+1)) fitted to a spectrum, with a plateau below `q_rolloff`."""
 
     hurst: float  #: as fitted; it may be outside 0 < H <= 1
-    hurst_se: float  #: standard error
     c0: float  #: [length^(2 - 2H)], so that its unit depends on H
-    c0_se: float
     #: Of (ln c0, hurst) or (ln c0, hurst, ln q_rolloff). ln c0 and hurst are strongly
     #: correlated: q = 1 lies far from the data.
     log_covariance: NDArray
@@ -67,13 +56,19 @@ class SelfAffineFit:
     q_max: float
     q_rolloff: float | None  #: end of the plateau [1/length]; None if the data show none
     #: Relative rms departure of the spectrum from the fit beyond sampling noise; 0 if sampling
-    #: explains it all. Every ring's weight is limited to 1/misfit^2, and the standard errors
-    #: grow with it: more modes do not determine the exponent of a spectrum that is no power law.
+    #: explains it all. The standard errors grow with it.
     misfit: float
-    #: Akaike's criterion without plateau minus with one; positive speaks for a plateau. NaN if
-    #: not compared.
-    aic_gain: float
     rings: RadialPSD  #: narrow ones, that the fit used
+
+    @property
+    def hurst_se(self) -> float:
+        """Standard error of `hurst`."""
+        return float(np.sqrt(self.log_covariance[1, 1]))
+
+    @property
+    def c0_se(self) -> float:
+        """Standard error of `c0`."""
+        return self.c0 * float(np.sqrt(self.log_covariance[0, 0]))
 
     @property
     def q_rolloff_se(self) -> float | None:
@@ -131,7 +126,7 @@ def fit_rings(
     Parameters
     ----------
     rings : RadialPSD
-        So narrow that their mean C is C at `rings.q`, in ascending order (`narrow_rings`).
+        So narrow that their mean C is C at `rings.q` (`FINE` a decade), in ascending order.
     q_min, q_max : float
         Lowest and highest wave number used [1/length].
     rolloff : bool, optional
@@ -152,13 +147,13 @@ def fit_rings(
     if room is None:
         if rolloff:
             raise ValueError("rolloff=True needs a wider range of q: lower q_min or raise q_max")
-        return _result(rings, scale, plain, plain_misfit, np.nan)
+        return _result(rings, scale, plain, plain_misfit)
     bent, bent_misfit = weighted_fit(partial(fit_rolloff, room), x, rings)
     limited = limit_weight(rings, bent_misfit)
     gain = 2 * (deviance(x, limited, *plain) - deviance(x, limited, *bent)) - 2
     if rolloff or gain > ROLLOFF_AIC:
-        return _result(rings, scale, bent, bent_misfit, gain)
-    return _result(rings, scale, plain, plain_misfit, gain)
+        return _result(rings, scale, bent, bent_misfit)
+    return _result(rings, scale, plain, plain_misfit)
 
 
 def remarks(fit: SelfAffineFit, anisotropy: float = 0.0) -> list[str]:
@@ -179,11 +174,6 @@ def remarks(fit: SelfAffineFit, anisotropy: float = 0.0) -> list[str]:
     return found
 
 
-def narrow_rings(spectrum: PowerSpectrum) -> RadialPSD:
-    """Return rings so narrow that the mean of C over one is C at its wave number."""
-    return radial_average(spectrum, bins_per_decade=_FINE)
-
-
 def _within(rings: RadialPSD, low: float, high: float) -> RadialPSD:
     if not 0 < low < high:
         raise ValueError(f"need 0 < q_min < q_max, got q_min = {low:.6g}, q_max = {high:.6g}")
@@ -202,29 +192,23 @@ def _within(rings: RadialPSD, low: float, high: float) -> RadialPSD:
 
 
 def _result(
-    rings: RadialPSD, scale: float, parameters: tuple[float, ...], misfit: float, gain: float
+    rings: RadialPSD, scale: float, parameters: tuple[float, ...], misfit: float
 ) -> SelfAffineFit:
     a, s, *corner = parameters
     x = np.log(rings.q / scale)
     # In the unit of the data: ln C = ln c0 - 2 (H + 1) max(ln q, ln q_r).
     log_q = np.maximum(x, *corner) if corner else x
-    design = [np.ones_like(x), -2 * (log_q + np.log(scale))]
-    design += [-s * (x < c) for c in corner]
-    design = np.array(design)
+    slopes = [np.ones_like(x), -2 * (log_q + np.log(scale)), *(-s * (x < c) for c in corner)]
+    design = np.array(slopes)
     information = (design * limit_weight(rings, misfit).dof) @ design.T
-    covariance = np.linalg.inv(information)
-    c0 = float(np.exp(a + s * np.log(scale)))
     return SelfAffineFit(
         hurst=s / 2 - 1,
-        hurst_se=float(np.sqrt(covariance[1, 1])),
-        c0=c0,
-        c0_se=c0 * float(np.sqrt(covariance[0, 0])),
-        log_covariance=covariance,
+        c0=float(np.exp(a + s * np.log(scale))),
+        log_covariance=np.linalg.inv(information),
         q_min=float(rings.q[0]),
         q_max=float(rings.q[-1]),
         q_rolloff=scale * float(np.exp(corner[0])) if corner else None,
         misfit=misfit,
-        aic_gain=float(gain),
         rings=rings,
     )
 

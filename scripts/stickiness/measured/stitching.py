@@ -5,10 +5,10 @@ they overlap, ln C is averaged with weights 1/(sampling variance + tau^2), in wh
 scatter between measurements: place, calibration, instrument (Jacobs, Junge & Pastewka 2017,
 doi:10.1088/2051-672X/aa51f8, recommend geometric averages of spectra).
 
-Errors of moments come from drawing spectra that agree with the measured one. In each draw, every
-ring varies by its sampling error, every measurement by the scatter between measurements, the
-extrapolated part and the end of the plateau by the covariance of the fit. All that follows from
-the spectrum is computed for each draw, so that correlated errors stay correlated.
+Errors of moments come from drawing spectra that agree with the measured one. Every ring varies by
+its sampling error, every measurement by the scatter between measurements, the extrapolated part and
+the end of the plateau by the covariance of the fit. Every moment is computed for each draw, so that
+correlated errors stay correlated.
 """
 
 from __future__ import annotations
@@ -49,47 +49,46 @@ class Stitched:
 def stitch(measurements: Sequence[MeasuredSpectrum]) -> Stitched:
     """Log-average two or more measurements of one surface into one spectrum.
 
-    Each counts between its `q_min` and its cutoff. The one of the lowest wave numbers also counts
-    below its `q_min`, where most of the variance of the heights is. The errors of the fit are those
-    of the rings plus, for each measurement, the change of the fit when it alone is raised by tau:
-    offsets tilt the spectrum.
+    Each counts within the interval of its fit, the one of the lowest wave numbers also below, where
+    most of the variance of the heights is. The errors of the fit are those of the rings plus, for
+    each measurement, the change of the fit when it alone is raised by tau: offsets tilt the
+    spectrum.
     """
     if len(measurements) < 2:
         raise ValueError(f"stitching needs two measurements at least, got {len(measurements)}")
-    broadest = min(measurements, key=lambda m: m.lowest)
-    q_low = broadest.lowest
-    logs, variances, q, present = _on_common_rings(measurements, broadest, q_low)
+    logs, variances, q = _on_common_rings(measurements)
     tau2 = _variance_between(logs, variances)
-    mean, error2 = _average(logs, variances, tau2)
-    rings = _as_rings(q, mean, error2)
+    mean, rings = _average(q, logs, variances, tau2)
     top = max(measurements, key=lambda m: m.cutoff.q)
-    q_min = min(m.q_min for m in measurements)
-    fit = fit_rings(rings, q_min, top.cutoff.q)
-    tau = float(np.sqrt(tau2)) if np.isfinite(tau2) else np.nan
+    band = min(m.fit.q_min for m in measurements), top.cutoff.q
+    fit = fit_rings(rings, *band)
+    tau = float(np.sqrt(tau2))
     if tau > 0:
-        fit = _add_offsets(fit, logs, variances, tau, q, (q_min, top.cutoff.q))
+        fit = _add_offsets(fit, logs, variances, tau, q, band)
+    present = np.isfinite(logs)
     both = present & (present.sum(0) > 1)
     offsets = np.full(len(logs), np.nan)
     for k in np.flatnonzero(both.any(1)):
         offsets[k] = np.mean((logs[k] - mean)[both[k]])
     anisotropy = float(np.fmax.reduce([m.anisotropy for m in measurements]))
+    q_low = min(m.lowest for m in measurements)
     area = ring_areas(rings.q, q_low)
-    whole = MeasuredSpectrum.within_fit(rings, area, rings, top.cutoff, q_low, anisotropy, fit)
+    cutoff = replace(top.cutoff, q=fit.q_max)
+    whole = MeasuredSpectrum(rings, area, rings, fit, cutoff, q_low, anisotropy)
     levels = np.exp(logs + special.digamma(rings.dof) - np.log(rings.dof))
     return Stitched(whole, levels, offsets, _shares(variances, tau2), tau)
 
 
-def _on_common_rings(
-    measurements: Sequence[MeasuredSpectrum], broadest: MeasuredSpectrum, q_low: float
-) -> tuple[NDArray, NDArray, NDArray, NDArray]:
-    """Logarithm of C and its variance (k, m), wave numbers (m,), where there are data (k, m)."""
-    top = max(m.cutoff.q for m in measurements)
+def _on_common_rings(measurements: Sequence[MeasuredSpectrum]) -> tuple[NDArray, NDArray, NDArray]:
+    """Logarithm of C and its variance (k, m), NaN where there are no data; wave numbers (m,)."""
+    broadest = min(measurements, key=lambda m: m.lowest)
+    q_low, top = broadest.lowest, max(m.cutoff.q for m in measurements)
     count = int(np.ceil(np.log10(top / q_low) * RINGS)) + 1
     centres = q_low * 10 ** (np.arange(count) / RINGS)
     logs = np.full((len(measurements), count), np.nan)
     variances = np.full_like(logs, np.nan)
     for k, measurement in enumerate(measurements):
-        low = measurement.lowest if measurement is broadest else measurement.q_min
+        low = measurement.lowest if measurement is broadest else measurement.fit.q_min
         slack = 1 + 1e-9
         rings = measurement.narrow.between(low / slack, measurement.cutoff.q * slack)
         index = np.rint(np.log10(rings.q / q_low) * RINGS).astype(int)
@@ -102,14 +101,23 @@ def _on_common_rings(
         bias = special.digamma(dof[here]) - np.log(dof[here])
         logs[k, here] = np.log(sums[here] / dof[here]) - bias
         variances[k, here] = special.polygamma(1, dof[here])
-    present = np.isfinite(logs)
-    used = present.any(0)
-    return logs[:, used], variances[:, used], centres[used], present[:, used]
+    used = np.isfinite(logs).any(0)
+    return logs[:, used], variances[:, used], centres[used]
 
 
-def _average(logs: NDArray, variances: NDArray, tau2: float) -> tuple[NDArray, NDArray]:
-    total = np.nansum(_weights(variances, tau2), axis=0)
-    return np.nansum(_shares(variances, tau2) * logs, axis=0), 1 / total
+def _average(
+    q: NDArray, logs: NDArray, variances: NDArray, tau2: float
+) -> tuple[NDArray, RadialPSD]:
+    """Weighted mean of ln C (m,), and rings whose ln C has this mean and its variance."""
+    mean = np.nansum(_shares(variances, tau2) * logs, axis=0)
+    error2 = 1 / np.nansum(_weights(variances, tau2), axis=0)
+    # Solve polygamma(1, dof) = error2: Newton's method on its inverse, nearly linear in dof.
+    dof = 0.5 + 1 / error2
+    for _ in range(20):
+        trigamma = special.polygamma(1, dof)
+        dof = dof + trigamma * (1 - trigamma / error2) / special.polygamma(2, dof)
+    level = np.exp(mean + special.digamma(dof) - np.log(dof))
+    return mean, RadialPSD(q, level, dof)
 
 
 def _weights(variances: NDArray, tau2: float) -> NDArray:
@@ -136,23 +144,6 @@ def _variance_between(logs: NDArray, variances: NDArray) -> float:
     return float(np.mean(squares)) / 2 if squares else np.nan
 
 
-def _as_rings(q: NDArray, mean: NDArray, error2: NDArray) -> RadialPSD:
-    """Rings whose ln C has this mean and variance; of one measurement alone they are unchanged."""
-    dof = _inverse_trigamma(error2)
-    level = np.exp(mean + special.digamma(dof) - np.log(dof))
-    modes = np.maximum(np.rint(dof), 1).astype(int)
-    return RadialPSD(q, level, level / np.sqrt(dof), modes, dof)
-
-
-def _inverse_trigamma(value: NDArray) -> NDArray:
-    """Solve polygamma(1, x) = value: Newton's method on 1/polygamma, nearly linear in x."""
-    x = 0.5 + 1 / value
-    for _ in range(20):
-        trigamma = special.polygamma(1, x)
-        x = x + trigamma * (1 - trigamma / value) / special.polygamma(2, x)
-    return x
-
-
 def _add_offsets(
     fit: SelfAffineFit,
     logs: NDArray,
@@ -167,17 +158,12 @@ def _add_offsets(
     for k in range(len(logs)):
         raised = logs.copy()
         raised[k] += tau
-        mean, error2 = _average(raised, variances, tau**2)
-        other = fit_rings(_as_rings(q, mean, error2), *band, rolloff=bent)
+        _, rings = _average(q, raised, variances, tau**2)
+        other = fit_rings(rings, *band, rolloff=bent)
         change = [np.log(other.c0 / fit.c0), other.hurst - fit.hurst]
         change += [np.log(other.q_rolloff / fit.q_rolloff)] if bent else []
         covariance += np.outer(change, change)
-    return replace(
-        fit,
-        log_covariance=covariance,
-        hurst_se=float(np.sqrt(covariance[1, 1])),
-        c0_se=fit.c0 * float(np.sqrt(covariance[0, 0])),
-    )
+    return replace(fit, log_covariance=covariance)
 
 
 # Moments and their errors
@@ -233,8 +219,16 @@ def draw(
     ValueError
         If the fit is to extrapolate, but is not self-affine or `extend_to` is below the cutoff.
     """
-    if extend_to is not None:
-        check_extension(spectrum, extend_to)
+    if extend_to is not None and not spectrum.fit.is_self_affine:
+        raise ValueError(
+            f"extend_to: the fitted H = {spectrum.fit.hurst:.2f} is no self-affine surface's and "
+            "cannot extrapolate the spectrum; leave extend_to out or narrow fit_from … fit_to"
+        )
+    if extend_to is not None and not extend_to > spectrum.cutoff.q:
+        raise ValueError(
+            f"extend_to must be below the shortest wavelength measured, "
+            f"{2 * np.pi / spectrum.cutoff.q:.3g} m, got {2 * np.pi / extend_to:.3g} m"
+        )
     rng = np.random.default_rng(seed)
     rings, top = spectrum.rings, spectrum.cutoff.q * (1 + 1e-9)
     levels = rings.psd * _relative(spectrum, count, rng, stitched)
@@ -245,26 +239,17 @@ def draw(
         inside = rings.q <= (np.inf if order == 0 and extend_to is None else top)
         variance = (levels * np.where(inside, spectrum.area * rings.q**order, 0.0)).sum(1)
         if extend_to is not None:
-            variance = variance + _beyond(spectrum.cutoff.q, extend_to, law, order)
+            ends = [spectrum.cutoff.q, extend_to]
+            laws = (
+                PowerLawSegments(ends, [np.exp(level)], [-2 * (hurst + 1)])
+                for level, hurst in law[:, :2]
+            )
+            variance = variance + [beyond.variance_below(extend_to, order) for beyond in laws]
         moments[name] = variance / 4 if order == 1 else np.sqrt(variance)
     q0 = np.full(count, spectrum.lowest)
     if spectrum.fit.q_rolloff is not None:
         q0 = np.exp(law[:, 2])
     return Draws(moments, q0)
-
-
-def check_extension(spectrum: MeasuredSpectrum, extend_to: float) -> None:
-    """Raise ValueError if the fit cannot extrapolate the spectrum to `extend_to` [1/length]."""
-    if not spectrum.fit.is_self_affine:
-        raise ValueError(
-            f"extend_to: the fitted H = {spectrum.fit.hurst:.2f} is no self-affine surface's and "
-            "cannot extrapolate the spectrum; leave extend_to out or narrow fit_from … fit_to"
-        )
-    if not extend_to > spectrum.cutoff.q:
-        raise ValueError(
-            f"extend_to must be below the shortest wavelength measured, "
-            f"{2 * np.pi / spectrum.cutoff.q:.3g} m, got {2 * np.pi / extend_to:.3g} m"
-        )
 
 
 def _relative(
@@ -292,12 +277,3 @@ def _draw_power_laws(spectrum: MeasuredSpectrum, count: int, rng: np.random.Gene
     law = rng.multivariate_normal(centre, fit.log_covariance, size=count, method="eigh")
     law[:, 0] -= 2 * (law[:, 1] + 1) * np.log(spectrum.cutoff.q)
     return law
-
-
-def _beyond(q: float, q_end: float, law: NDArray, order: float) -> NDArray:
-    """2 pi times the integral of q^(1 + order) C from `q` to `q_end` under every law drawn."""
-    drawn = (
-        PowerLawSegments([q, q_end], [np.exp(level)], [-2 * (hurst + 1)])
-        for level, hurst in law[:, :2]
-    )
-    return np.array([segments.variance_below(q_end, order) for segments in drawn])

@@ -59,31 +59,12 @@ class _Heights:
 
 @dataclass(frozen=True)
 class Topography(_Heights):
-    """Heights of a surface on a rectangular grid.
+    """Heights of a surface on a rectangular grid."""
 
-    Parameters
-    ----------
-    heights : (nx, ny) array
-        Finite heights, the first axis along x [m].
-    dx, dy : float
-        Grid steps along x and y [m].
-    source : str
-        File (and variable or channel) of the heights, for messages.
-    missing, dropped, spikes : int, optional
-        Numbers of points that were interpolated, that were measured beside missing ones and not
-        used, and that were far off their neighbours and not used.
-    cropped : float, optional
-        Share of the measured points that was cut off to leave no missing ones.
-    as_read : array, optional
-        Heights before points were dropped, masked or filled, NaN where missing [m].
-    doubts : tuple of str, optional
-        Reasons why no verdict should rest on these heights.
-    """
-
-    heights: NDArray
-    dx: float
+    heights: NDArray  #: (nx, ny), finite, the first axis along x [m]
+    dx: float  #: grid steps along x and y [m]
     dy: float
-    source: str
+    source: str  #: file (and variable or channel) of the heights, for messages
 
     @property
     def size(self) -> tuple[float, float]:
@@ -102,26 +83,13 @@ class Topography(_Heights):
 
 @dataclass(frozen=True)
 class Profile(_Heights):
-    """Evenly spaced heights along a line.
+    """Evenly spaced heights along a line."""
 
-    Parameters
-    ----------
-    heights : (n,) array
-        Finite heights [m].
-    dx : float
-        Step [m].
-    source : str
-        File (and variable or channel) of the heights, for messages.
-    largest_gap : float, optional
-        Largest distance between neighbouring points as measured [m]; above `dx` if they were
-        unevenly spaced and have been interpolated.
-    missing, dropped, spikes, cropped, as_read, doubts
-        As in `Topography`.
-    """
-
-    heights: NDArray
-    dx: float
-    source: str
+    heights: NDArray  #: (n,), finite [m]
+    dx: float  #: step [m]
+    source: str  #: file (and variable or channel) of the heights, for messages
+    #: Largest distance between neighbouring points as measured [m]; above `dx` if they were
+    #: unevenly spaced and have been interpolated.
     largest_gap: float = 0.0
 
     @property
@@ -158,8 +126,7 @@ def read(
     pixel_size : length or pair of lengths, optional
         Grid step, instead of `length`.
     height_unit, position_unit : str, optional
-        Unit of the heights, and of the positions of a line profile: "nm", if the file does not say
-        so.
+        Unit of the heights, and of positions, if the file does not tell: "nm".
     variable : str, optional
         NetCDF variable or npz key. Default: the only two-dimensional one, else the only profile.
     channel : str or int, optional
@@ -170,16 +137,15 @@ def read(
     missing_value : float, optional
         Number that marks missing points, besides NaN and masked values.
     missing : {"fill", "crop", "refuse"}
-        "fill": interpolate missing points harmonically from their neighbours, which smooths the
-        surface there. "crop": keep the largest rectangle (or stretch of a profile) without any.
-        "refuse": raise.
+        "fill": interpolate missing points from their neighbours, which smooths the surface there.
+        "crop": keep the largest rectangle (or stretch of a profile) without any.
     max_missing : float
         Largest share of missing points, those dropped included, that may be filled.
     missing_rim : int or "detect"
-        Width of the rim around missing points in which measured points are dropped [points];
-        "detect" as in `levelling.without_rims`.
+        Width of the rim around missing points in which measured points are dropped [points]
+        (`levelling.without_rims`).
     spikes : {"mask", "keep"}
-        Take points far off all their neighbours (`spikes.find_spikes`) for missing, or not.
+        Take points far off all their neighbours (`levelling.find_spikes`) for missing, or not.
 
     Returns
     -------
@@ -196,11 +162,9 @@ def read(
 
     Notes
     -----
-    In NetCDF the axis named x (or lon) is x, else the last one; grid steps come from evenly
-    spaced coordinates with a unit of length. A text matrix may have a header as Gwyddion
-    writes it (Width, Height, Value units); other headers are SurfaceTopography's. Text in three
-    columns is a list of points x y z on a grid. `doubts` of what is returned say which values
-    are none that surfaces have (`stickiness.measured.plausibility`).
+    In NetCDF the axis named x (or lon) is x, else the last one. A text matrix may have a header as
+    Gwyddion writes it (Width, Height, Value units). Text in three columns is a list of points
+    x y z on a grid.
     """
     path = Path(path)
     if not path.is_file():
@@ -219,14 +183,12 @@ def read(
     source, heights = raw.source, raw.heights
     if missing_value is not None:
         heights = np.where(heights == missing_value, np.nan, heights)
+    x, steps = None, _places(raw, length, pixel_size, position_unit)
     if heights.ndim == 1:
-        x = _positions(raw, length, pixel_size, position_unit)
-        order = np.argsort(x, kind="stable")
-        x, heights = x[order], heights[order]
+        order = np.argsort(steps, kind="stable")
+        x, heights = steps[order], heights[order]
         if len(x) < 2 or not np.all(np.diff(x) > 0):
             raise ValueError(f"{source}: positions of a line profile must all differ")
-    else:
-        x, steps = None, _steps(raw, length, pixel_size, position_unit)
 
     left, dropped = levelling.without_rims(heights, missing_rim)
     spiky = levelling.find_spikes(left) if spikes == "mask" else np.zeros(left.shape, bool)
@@ -241,15 +203,6 @@ def read(
     name += f", {masked} spikes masked" if masked else ""
     limit = 0.0 if missing == "refuse" else max_missing
     filled, count = levelling.fill_missing(left, limit, name, x)
-
-    scale = _scale(source, "height_unit", height_unit, raw.unit)
-    numbers = {
-        "missing": count,
-        "cropped": 1 - left.size / heights.size,
-        "dropped": dropped,
-        "spikes": masked,
-        "as_read": heights * scale if dropped or masked else None,
-    }
     if x is not None:
         if len(x) < 2:
             raise ValueError(f"{source}: a line profile needs two points at least")
@@ -257,50 +210,46 @@ def read(
         steps = (float(even[1] - even[0]),)
         if np.ptp(gaps) > 1e-3 * steps[0]:
             filled = np.interp(even, x, filled)
+    scale = _scale(source, "height_unit", height_unit, raw.unit)
     filled = filled * scale
     if np.ptp(filled) == 0:
         raise ValueError(f"{source}: all heights are {filled.flat[0]:g} m; nothing to analyse")
     doubts += doubt_sizes(filled, steps)
-    numbers["doubts"] = tuple(f"{source}: {doubt}" for doubt in doubts)
+    known = {
+        "missing": count,
+        "cropped": 1 - left.size / heights.size,
+        "dropped": dropped,
+        "spikes": masked,
+        "as_read": heights * scale if dropped or masked else None,
+        "doubts": tuple(f"{source}: {doubt}" for doubt in doubts),
+    }
     if x is not None:
-        return Profile(filled, *steps, source, float(gaps.max()), **numbers)
-    return Topography(filled, *steps, source, **numbers)
+        return Profile(filled, *steps, source, float(gaps.max()), **known)
+    return Topography(filled, *steps, source, **known)
 
 
-def _positions(raw: Raw, length: Size, pixel_size: Size, position_unit: str | None) -> NDArray:
-    """Positions of a profile's points [m], from the caller or else from the file."""
-    n = len(raw.heights)
-    if length is not None:
-        return np.arange(n) * sides(length, (n,), f"{raw.source}: length")[0] / n
-    if pixel_size is not None:
-        return np.arange(n) * sides(pixel_size, (1,), f"{raw.source}: pixel_size")[0]
-    if raw.positions is None:
-        raise ValueError(
-            f"{raw.source}: the file does not tell the profile's length; give length or pixel_size"
-        )
-    if not np.all(np.isfinite(raw.positions)):
-        raise ValueError(f"{raw.source}: a position of the profile is missing")
-    return raw.positions * _scale(raw.source, "position_unit", position_unit, raw.position_unit)
-
-
-def _steps(
+def _places(
     raw: Raw, length: Size, pixel_size: Size, position_unit: str | None
-) -> tuple[float, ...]:
-    """Grid steps [m], from the caller or else from the file."""
-    shape = raw.heights.shape
+) -> tuple[float, ...] | NDArray:
+    """Grid steps of a map, or positions of a profile's points [m], from the caller or the file."""
+    shape, is_profile = raw.heights.shape, raw.heights.ndim == 1
     if length is not None:
         size = sides(length, shape, f"{raw.source}: length")
+        if is_profile:
+            return np.arange(shape[0]) * size[0] / shape[0]
         return tuple(side / n for side, n in zip(size, shape, strict=True))
     if pixel_size is not None:
-        return sides(pixel_size, (1, 1), f"{raw.source}: pixel_size")
-    if raw.grid is not None:
-        scale = _scale(raw.source, "position_unit", position_unit, raw.position_unit)
-        return tuple(step * scale for step in raw.grid)
-    if raw.steps is None:
-        raise ValueError(
-            f"{raw.source}: the file does not tell its size; give length or pixel_size"
-        )
-    return raw.steps
+        steps = sides(pixel_size, (1,) * len(shape), f"{raw.source}: pixel_size")
+        return np.arange(shape[0]) * steps[0] if is_profile else steps
+    if raw.places is None:
+        what = "the profile's length" if is_profile else "its size"
+        raise ValueError(f"{raw.source}: the file does not tell {what}; give length or pixel_size")
+    if not np.all(np.isfinite(raw.places)):
+        raise ValueError(f"{raw.source}: a position of the profile is missing")
+    places = np.asarray(raw.places) * _scale(
+        raw.source, "position_unit", position_unit, raw.place_unit
+    )
+    return places if is_profile else tuple(places.tolist())
 
 
 def _scale(source: str, key: str, given: str | None, in_file: str | None) -> float:
@@ -330,14 +279,9 @@ def jacksboro() -> Topography:
         latitude = np.deg2rad((float(data["ymin"]) + float(data["ymax"])) / 2)
         heights = np.ascontiguousarray(data["elevation"].T, dtype=float)
         dx, dy = float(data["dx"]), float(data["dy"])
-    east, north = metres_per_degree(latitude)
+    # Lengths of a degree, by the radii of curvature across and along the meridian.
+    w = 1 - _WGS84_E2 * np.sin(latitude) ** 2
+    east = float(np.deg2rad(_WGS84_A / np.sqrt(w) * np.cos(latitude)))
+    north = float(np.deg2rad(_WGS84_A * (1 - _WGS84_E2) / w**1.5))
     source = "matplotlib sample data jacksboro_fault_dem.npz: elevation"
     return Topography(heights, dx * east, dy * north, source)
-
-
-def metres_per_degree(latitude: float) -> tuple[float, float]:
-    """Length of a degree of longitude and of latitude on WGS 84 [m] at `latitude` [rad]."""
-    w = 1 - _WGS84_E2 * np.sin(latitude) ** 2
-    east = _WGS84_A / np.sqrt(w) * np.cos(latitude)
-    north = _WGS84_A * (1 - _WGS84_E2) / w**1.5
-    return float(np.deg2rad(east)), float(np.deg2rad(north))

