@@ -26,7 +26,8 @@ RAISED = re.compile(
 )
 # Spaces within a number: beside its signs and before its unit.
 WITHIN = re.compile(
-    r"(?<=\S) (?=[×±%=])|(?<=[×±≤≥<=]) (?=[\d−(])|(?<=&lt;) (?=\d)|(?<=\d) (?=to \d)|(?<= to) (?=\d)"
+    r"(?<=\S) (?=[×±%=])|(?<=[×±≤≥<=]) (?=[\d−(])|(?<=&lt;) (?=\d)"
+    r"|(?<=\d) (?=to \d)|(?<= to) (?=\d)"
     r"|(?<=[\d)⁰¹²³⁴-⁹]) (?=[GMkmµn]?(?:Pa|m|J|N|Hz|s)(?:/m²)?(?![A-Za-z0-9]))"
 )
 LONGEST_TEXT = 100_000  # characters; what is longer is a picture or a script
