@@ -77,7 +77,7 @@ def read_modulus(entry):
 
 def describe_modulus(entry):
     """Modulus as the configuration states it, with the layer and the solid's own roughness."""
-    text = describe_elasticity(entry)
+    text = describe_elasticity(entry).replace(" um", " µm")
     return f"{text}, rough as {entry['surface']}" if "surface" in entry else text
 
 
