@@ -9,12 +9,19 @@ slowly.
 """
 
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 import xarray as xr
 from scipy import special
 
-from adhesion.dmt_limit import DmtLimit, fit_slope, linearity_error, write_limit
+from adhesion.dmt_limit import (
+    find_linear,
+    fit_slope,
+    linearity_error,
+    quantities_of,
+    write_limit,
+)
 from common import conventions
 from common.adhesion_sets import AXES, MISSING, OUTSIDE, solver_error
 from common.conventions import LINEAR_UP_TO
@@ -49,13 +56,13 @@ RATIOS = {
     "dmt_ratio": "1/kappa_ad of the full simulation over that of the DMT limit",
     "dmt_ratio_net": "1/kappa_ad with the net repulsive area over that of the DMT limit",
 }
+CONTROLS = {n: n.removesuffix("_net").removesuffix("_direct") for n in SLOPES | FITS}
 ALL = STATES | SLOPES | FITS | RATIOS
 NET = [name for name in ALL if "net" in name.split("_")]
 # Along the edge a strip at zero gap is under tension. Next to a smooth edge and for weak attraction
 # it is second order in the strength, (sigma0/B)^2 where the pressure rises as B x^(1/2), but the
 # pixels make it first order: what is left of the difference falls as the root of the pixel only.
 SLOW = 1 / (np.sqrt(2) - 1)  # over the change from half the resolution
-SLOWLY = "2.4 times the change from half the resolution, as it falls with the root of the pixel"
 AREA_OF_DMT = ("repulsive_area", "net_repulsive_area")  # without what attraction draws in
 COVERED = 0.9  # confidence of the upper limit of a count of pixels
 LEFT = {
@@ -74,10 +81,8 @@ OTHERS = {
     "iterations": "mean iterations on the fine grid",
     "zone_strength": "width of the zone of attraction over range^2/adhesion length",
 }
-MEANS = describe_errors(ALL, plain=True)
-MEANS |= describe_errors({name: ALL[name] for name in NET}, plain=True, discretisation=SLOWLY)
 VARIABLES = {name: ("1", text, FEW) for name, text in OTHERS.items()}
-VARIABLES |= {name: (*text[:2], FEW) for name, text in MEANS.items()}
+VARIABLES |= {name: (*text[:2], FEW) for name, text in describe_errors(ALL, plain=True).items()}
 VARIABLES["dmt_error"] = ("1", "measured relative error of the DMT limit in 1/kappa_ad", OUTSIDE)
 
 
@@ -88,13 +93,12 @@ def main(job):
     limit = datasets.read(job.output.limit)
     full = xr.DataArray(np.array(job.params.full), dims=AXES)
     adhesion = datasets.parameters(limit)
-    dmt = DmtLimit.of(adhesion, ensemble)
     made, seeds = datasets.parameters(ensemble), []
     dataset = take_dmt_limit(limit)
     if job.input.realisations:
         states = read_all(job.input.realisations, ["external_pressure"])
         made, seeds = datasets.parameters(states), states.seed.values.tolist()
-        solved = average(states, full, ensemble, dmt, made)
+        solved = average(states, full, ensemble, adhesion, made)
         dataset = join(solved, dataset, full)
     dataset = dataset.drop_vars(n for n in dataset if n.endswith("_discretisation_error"))
     dataset["model"] = (AXES, np.where(full, "full", "dmt"))
@@ -116,8 +120,7 @@ def take_dmt_limit(limit):
     none = xr.zeros_like(limit.inverse_kappa)
     dataset = limit[["q0_h_rms", "dmt_valid", "dmt_error"]]
     dataset = dataset.assign(external_pressure=limit.pressure - limit.attraction)
-    for name in (*SLOPES, *FITS):
-        source = control_of(name)
+    for name, source in CONTROLS.items():
         dataset[name] = limit[source]
         dataset[f"{name}_error"] = limit[f"{source}_error"]
     dataset["external_pressure_error"] = limit.attraction_error
@@ -127,28 +130,29 @@ def take_dmt_limit(limit):
     return dataset
 
 
-def control_of(name):
-    """Name of the quantity of the DMT limit that controls a slope or a fit."""
-    return name.removesuffix("_net").removesuffix("_direct")
-
-
-def average(states, full, ensemble, dmt, made):
+def average(states, full, ensemble, adhesion, made):
     """Means over the realisations: full simulations, or their DMT limit where there are none."""
     whole = fine(states.external_pressure).notnull().all("seed") | ~full
     wide = zone_width(ensemble, states) >= edge_zone.NARROWEST * made["pixel"]
     states = add_dmt(states, full)
-    linear = dmt.linear & ~(fine(states.repulsive_area).mean("seed") > LINEAR_UP_TO)
+    in_limit = find_linear(adhesion, ensemble)
+    linear = in_limit & ~(fine(states.repulsive_area).mean("seed") > LINEAR_UP_TO)
     states = add_slopes(states, ensemble, linear)
     # A mean over the seeds that happen to be solved would leave out the stickiest ones.
     reported = whole & (wide | ~full)
     resolved = dict.fromkeys(STATES | SLOPES, reported)
     resolved |= {name: (reported | ~linear).all("pressure") for name in FITS}
     resolved |= dict.fromkeys(RATIOS, reported & full)
+    # The DMT limit of the coarsest solutions: of these seeds, and of many more.
+    limit = partial(quantities_of, adhesion, in_limit)
+    controls = coarse(ensemble, limit)
+    twins = controls and limit(ensemble.sel(seed=states.seed)).isel(resolution=0, drop=True)
     dataset = xr.Dataset()
     for name in ALL:
         values, more = states[name].where(resolved[name]), None
-        if name in SLOPES | FITS:
-            more = find_controls(ensemble, getattr(dmt, control_of(name)), states.seed)
+        if controls and name in CONTROLS:
+            control = CONTROLS[name]
+            more = replace(controls, values=controls.values[control], twin=twins[control])
         dataset = add_errors(dataset, name, values, more, plain=True)
         if name in NET:
             dataset[f"{name}_discretisation_error"] *= SLOW
@@ -203,15 +207,6 @@ def errors(dataset, name, seeds, *, model, solver, unseen):
     }
     parts = [(xr.zeros_like(value) + parts[source]).transpose(*value.dims) for source in SOURCES]
     return xr.concat(parts, xr.DataArray(list(SOURCES), dims="source", name="source"))
-
-
-def find_controls(ensemble, quantity, seeds):
-    """The DMT limit of the coarsest solutions: of these seeds, and of many more."""
-    more = coarse(ensemble, quantity)
-    if more is None:
-        return None
-    twin = quantity(ensemble.sel(seed=seeds)).isel(resolution=0, drop=True)
-    return replace(more, twin=twin)
 
 
 def add_dmt(states, full):
@@ -287,11 +282,8 @@ def join(solved, limit, full):
     """Variables of both models, each where it was chosen."""
     dataset = solved.copy()
     for name, values in limit.items():
-        if name not in solved:
-            dataset[name] = values
-            continue
         chosen = full if "pressure" in values.dims else full.any("pressure")
-        dataset[name] = solved[name].where(chosen, values)
+        dataset[name] = solved[name].where(chosen, values) if name in solved else values
     return dataset
 
 

@@ -1,14 +1,7 @@
-"""Adhesion in the DMT limit, from the attractive areas of contact without adhesion.
+"""Adhesion in the DMT limit, from the attractive areas of contact without adhesion."""
 
-The quantities accept the variables of an ensemble, of its coarse solutions or of its means, see
-`ensemble_means.coarse`, so that one function gives a mean and its control.
-"""
-
-from __future__ import annotations
-
-from collections.abc import Mapping
-from dataclasses import dataclass
-from typing import Any
+from dataclasses import replace
+from functools import partial
 
 import numpy as np
 import xarray as xr
@@ -40,67 +33,53 @@ MODEL = "of the DMT limit against full simulation, as measured"
 MODEL_OF_FIT = f"{MODEL}, and what the straight line leaves out"
 
 
-@dataclass(frozen=True)
-class DmtLimit:
-    """Quantities of a set of adhesive parameters."""
-
-    adhesion: Mapping[str, Any]  # the set, as in the configuration
-    linear: xr.DataArray  # by pressure, whether the area is one that a slope is fitted to
-
-    @classmethod
-    def of(cls, adhesion: Mapping[str, Any], ensemble: xr.Dataset) -> DmtLimit:
-        """Limit for an ensemble, whose mean area says where it is linear in the load."""
-        area = ensemble.area_fraction_mean.sel(pressure=axes(adhesion)[0])
-        return cls(adhesion, (area <= LINEAR_UP_TO).drop_vars(set(area.coords) - {"pressure"}))
-
-    def at_loads(self, solved: xr.Dataset) -> xr.Dataset:
-        """Solutions at the pressures of the set."""
-        return solved.sel(pressure=axes(self.adhesion)[0])
-
-    def attraction(self, solved: xr.Dataset) -> xr.DataArray:
-        """Mean attraction, the integral of the law over the gaps."""
-        _, lengths, ranges = axes(self.adhesion)
-        logs = np.log(np.maximum(self.at_loads(solved).attractive_area, SMALLEST))
-        known = logs["range"].values
-        count = round(np.log10(known[-1] / known[0]) * PER_DECADE) + 1
-        logs = logs.assign_coords(range=np.log(known))
-        parts = []
-        for range_ in ranges.values:
-            # In proportion to the adhesion length: once for the smallest of them.
-            law = scaled_law(self.adhesion, self.adhesion["law"], float(lengths[0]), range_)
-            nodes = np.union1d(np.geomspace(known[0], known[-1], count), [range_])
-            area = np.exp(logs.interp(range=np.log(nodes).clip(*np.log(known[[0, -1]]))))
-            area = area.transpose(..., "range")
-            pull = dmt.attraction_of_areas(area.values, nodes, law)
-            parts.append(area.isel(range=0, drop=True).copy(data=pull))
-        return xr.concat(parts, ranges) * (lengths / lengths[0])
-
-    def inverse_kappa(self, solved: xr.Dataset) -> xr.DataArray:
-        """1/kappa, the external pressure over area times slope."""
-        held = self.at_loads(solved)
-        external = held.pressure - self.attraction(solved)
-        return external / (held.area_fraction * held.rms_slope)
-
-    def inverse_kappa_ad(self, solved: xr.Dataset) -> xr.DataArray:
-        """1/kappa_ad, half the attraction over the repulsion."""
-        attraction = self.attraction(solved)
-        return attraction / attraction.pressure / 2
-
-    def inverse_kappa_fit(self, solved: xr.Dataset) -> xr.DataArray:
-        """1/kappa over all loads whose area is linear."""
-        held = self.at_loads(solved)
-        external = held.pressure - self.attraction(solved)
-        return fit_slope(external, held.area_fraction * held.rms_slope, self.linear)
-
-    def inverse_kappa_ad_fit(self, solved: xr.Dataset) -> xr.DataArray:
-        """1/kappa_ad by the fall of that slope."""
-        held = self.at_loads(solved)
-        area = held.area_fraction * held.rms_slope
-        fall = fit_slope(self.attraction(solved), area, self.linear)
-        return fall / fit_slope(held.pressure, area, self.linear) / 2
+def find_linear(adhesion, ensemble):
+    """By pressure of a set, whether the mean area is one that a slope is fitted to."""
+    area = ensemble.area_fraction_mean.sel(pressure=axes(adhesion)[0])
+    return (area <= LINEAR_UP_TO).drop_vars(set(area.coords) - {"pressure"})
 
 
-def fit_slope(external: xr.DataArray, area: xr.DataArray, linear: xr.DataArray) -> xr.DataArray:
+def quantities_of(adhesion, linear, solved):
+    """`QUANTITIES` of a set of adhesive parameters.
+
+    `solved` has the variables of an ensemble, of its coarse solutions or of its means, see
+    `ensemble_means.coarse`, so that one function gives a mean and its control.
+    """
+    solved = solved.sel(pressure=axes(adhesion)[0])
+    attraction = integrate_law(adhesion, solved.attractive_area)
+    external, area = solved.pressure - attraction, solved.area_fraction * solved.rms_slope
+    fall = fit_slope(attraction, area, linear)
+    return xr.Dataset(
+        {
+            "attraction": attraction,
+            "inverse_kappa": external / area,
+            "inverse_kappa_ad": attraction / attraction.pressure / 2,
+            "inverse_kappa_fit": fit_slope(external, area, linear),
+            "inverse_kappa_ad_fit": fall / fit_slope(solved.pressure, area, linear) / 2,
+        }
+    )
+
+
+def integrate_law(adhesion, areas):
+    """Mean attraction, the integral of the law over the gaps."""
+    _, lengths, ranges = axes(adhesion)
+    logs = np.log(np.maximum(areas, SMALLEST))
+    known = logs["range"].values
+    count = round(np.log10(known[-1] / known[0]) * PER_DECADE) + 1
+    logs = logs.assign_coords(range=np.log(known))
+    parts = []
+    for range_ in ranges.values:
+        # In proportion to the adhesion length: once for the smallest of them.
+        law = scaled_law(adhesion, adhesion["law"], float(lengths[0]), range_)
+        nodes = np.union1d(np.geomspace(known[0], known[-1], count), [range_])
+        area = np.exp(logs.interp(range=np.log(nodes).clip(*np.log(known[[0, -1]]))))
+        area = area.transpose(..., "range")
+        pull = dmt.attraction_of_areas(area.values, nodes, law)
+        parts.append(area.isel(range=0, drop=True).copy(data=pull))
+    return xr.concat(parts, ranges) * (lengths / lengths[0])
+
+
+def fit_slope(external, area, linear):
     """Fitted slope of pressure against area through the origin; NaN for fewer than two loads.
 
     Where a load is missing there is no slope: the others alone would have another.
@@ -111,7 +90,7 @@ def fit_slope(external: xr.DataArray, area: xr.DataArray, linear: xr.DataArray) 
     return slope.where((product.notnull() | ~inside).all("pressure") & inside.any("pressure"))
 
 
-def linearity_error(values: xr.DataArray, linear: xr.DataArray) -> xr.DataArray:
+def linearity_error(values, linear):
     """Half the range over the loads of a fit: what its straight line leaves out."""
     inside = values.where(linear)
     return (inside.max("pressure") - inside.min("pressure")) / 2
@@ -122,7 +101,6 @@ def write_limit(adhesion, ensemble, laws, errors, output):
 
     `errors` has, at every point, ``dmt_valid`` and ``dmt_error``, the measured error of the limit.
     """
-    limit = DmtLimit.of(adhesion, ensemble)
     pressures, lengths, ranges = axes(adhesion)
     dataset = xr.Dataset(
         {
@@ -133,14 +111,16 @@ def write_limit(adhesion, ensemble, laws, errors, output):
         },
         coords={one.name: one for one in (pressures, lengths, ranges)},
     )
+    linear = find_linear(adhesion, ensemble)
+    quantities = partial(quantities_of, adhesion, linear)
+    left = grid_limits.inherit(ensemble, quantities, ["area_fraction", "attractive_area"])
+    values, more = quantities(ensemble), coarse(ensemble, quantities)
     for name in QUANTITIES:
-        quantity = getattr(limit, name)
-        left = grid_limits.inherit(ensemble, quantity, ["area_fraction", "attractive_area"])
-        values, more = quantity(ensemble), coarse(ensemble, quantity)
-        dataset = add_errors(dataset, name, values, more, plain=True, limit=left)
+        controls = more and replace(more, values=more.values[name])
+        limit = grid_limits.Limit(left.shift[name], left.error[name])
+        dataset = add_errors(dataset, name, values[name], controls, plain=True, limit=limit)
     simulation = Simulation.of(read_models(laws), datasets.parameters(ensemble))
-    dataset = conventions.annotate(dataset, **VARIABLES)
-    dataset = add_budgets(dataset, simulation, limit.linear)
+    dataset = add_budgets(conventions.annotate(dataset, **VARIABLES), simulation, linear)
     for ending in ENDINGS:
         known = ensemble[f"area_fraction_mean{ending}"]
         dataset[f"area_fraction{ending}"] = known.sel(pressure=pressures)
@@ -154,12 +134,15 @@ def write_limit(adhesion, ensemble, laws, errors, output):
 
 def add_budgets(dataset, simulation, linear):
     """Add the errors of every quantity, for fits those at the least certain of their loads."""
+    like = dataset.attraction.rename(range_over_h_rms="range")
+    area = simulation.solver("area_fraction", dataset.area_fraction)
+    gaps = simulation.solver("attractive_area", like).rename(range="range_over_h_rms")
+    factor = simulation.factors("attractive_area", like).rename(range="range_over_h_rms")
+    at_loads = np.hypot(area, gaps), factor, dataset.dmt_error
+    of_fits = [one.where(linear).max("pressure") for one in at_loads]
     for name in QUANTITIES:
         fitted = "fit" in name
-        solver, factor, model = (
-            one.where(linear).max("pressure") if fitted else one
-            for one in relative(dataset, simulation)
-        )
+        solver, factor, model = of_fits if fitted else at_loads
         pull = dataset[name]
         if name.startswith("inverse_kappa") and "ad" not in name.split("_"):
             # The fall by attraction from what is left without.
@@ -179,12 +162,3 @@ def add_budgets(dataset, simulation, linear):
             model=Part(error, MODEL_OF_FIT if fitted else MODEL),
         )
     return dataset.drop_vars(f"{name}_discretisation_error" for name in QUANTITIES)
-
-
-def relative(dataset, simulation):
-    """Relative error by the solver, factor of standard errors, relative error of the DMT limit."""
-    like = dataset.attraction.rename(range_over_h_rms="range")
-    area = simulation.solver("area_fraction", dataset.area_fraction)
-    gaps = simulation.solver("attractive_area", like).rename(range="range_over_h_rms")
-    factor = simulation.factors("attractive_area", like).rename(range="range_over_h_rms")
-    return np.hypot(area, gaps), factor, dataset.dmt_error

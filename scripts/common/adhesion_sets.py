@@ -5,8 +5,6 @@ sigma0/E* = l_a/range becomes (l_a/range)/(q0 h_rms).
 """
 
 import logging
-from collections.abc import Mapping
-from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -43,44 +41,33 @@ ATTRIBUTES = {  # quantities of an adhesive state by their names in files
 AXES = ("pressure", "adhesion_length_over_range", "range_over_h_rms")
 
 
-def axes(adhesion: Mapping[str, Any]) -> tuple[xr.DataArray, xr.DataArray, xr.DataArray]:
+def axes(adhesion):
     """Pressures, adhesion lengths and ranges of a set, each in increasing order."""
     lists = (adhesion["pressures"], *(adhesion[name] for name in AXES[1:]))
-    values = {
-        name: np.sort(np.array(given, float)) for name, given in zip(AXES, lists, strict=True)
-    }
-    return tuple(xr.DataArray(v, {name: v}, [name], name) for name, v in values.items())
+    values = [np.sort(np.array(given, float)) for given in lists]
+    return tuple(xr.DataArray(v, {n: v}, [n], n) for n, v in zip(AXES, values, strict=True))
 
 
-def scaled_law(
-    adhesion: Mapping[str, Any],
-    kind: str,
-    adhesion_length_over_range: float,
-    range_over_h_rms: float,
-) -> adhesive.TractionLaw:
+def scaled_law(adhesion, kind, adhesion_length_over_range, range_over_h_rms):
     """Traction law in the units of the simulations."""
     strength = adhesion_length_over_range / roughness(adhesion)
     return LAWS[kind](adhesion_length=strength * range_over_h_rms, range=range_over_h_rms)
 
 
-def first_gap(contact, weaker, adhesion_length):
-    """First guess of the gap: without adhesion, or extrapolated if adhesion is weak.
+def solve_at_gap(heights, length, law, contact, tolerance, weaker=None):
+    """State, and its gap, at the mean gap of a contact without adhesion.
 
     `weaker` is None or the adhesion length and the gap of a state with the same range and mean gap.
-    While the attraction is below `NEARLY_LINEAR` of the load, the gap changes in proportion to it.
+    While the attraction is below `NEARLY_LINEAR` of the load, the gap changes in proportion to it,
+    and the first guess is extrapolated.
     """
-    if weaker is None:
-        return contact.gap
-    length, gap = weaker
-    change = gap - contact.gap
-    change *= adhesion_length / length
-    change += contact.gap
-    return np.maximum(change, 0, out=change)
-
-
-def solve_at_gap(heights, length, law, contact, tolerance, weaker=None):
-    """State, and its gap, at the mean gap of a contact without adhesion, from `first_gap`."""
-    start = first_gap(contact, weaker, law.adhesion_length)
+    start = contact.gap
+    if weaker is not None:
+        known_length, gap = weaker
+        start = gap - contact.gap
+        start *= law.adhesion_length / known_length
+        start += contact.gap
+        np.maximum(start, 0, out=start)
     state = adhesive.solve(
         heights, length, law, mean_gap=contact.mean_gap, start=start, tol=tolerance
     )

@@ -3,11 +3,7 @@
 Model surfaces have q0 = 1, h_rms = 1 and E* = 1: pressures come out in units of E* q0 h_rms.
 """
 
-from collections.abc import Mapping
-
 import numpy as np
-import xarray as xr
-from numpy.typing import NDArray
 
 from stickiness import datasets
 
@@ -50,7 +46,7 @@ VARIABLES = {
 RMS_SLOPE = ("1", "rms gradient of this realisation over q0 h_rms")
 
 
-def annotate(dataset: xr.Dataset, **texts: str | tuple[str, ...]) -> xr.Dataset:
+def annotate(dataset, **texts):
     """Describe the variables of a dataset by `texts` or else by `VARIABLES`.
 
     A text is the `long_name` of a dimensionless variable, or a tuple of units, `long_name` and, if
@@ -61,12 +57,12 @@ def annotate(dataset: xr.Dataset, **texts: str | tuple[str, ...]) -> xr.Dataset:
     return datasets.annotate(dataset, **known)
 
 
-def at_load(data: xr.Dataset) -> xr.Dataset:
+def at_load(data):
     """The point next to `LOAD`."""
     return data.sel(pressure=LOAD, method="nearest")
 
 
-def logarithmic_grid(grid: Mapping[str, float] | None) -> NDArray:
+def logarithmic_grid(grid):
     """Points from `minimum` to `maximum` with about `per_decade` a decade; none of None."""
     if grid is None:
         return np.array([])
@@ -74,6 +70,6 @@ def logarithmic_grid(grid: Mapping[str, float] | None) -> NDArray:
     return np.geomspace(grid["minimum"], grid["maximum"], round(decades * grid["per_decade"]) + 1)
 
 
-def middles(edges: NDArray) -> NDArray:
+def middles(edges):
     """Geometric middles of neighbouring points."""
     return np.sqrt(edges[1:] * edges[:-1])

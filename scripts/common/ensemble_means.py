@@ -5,7 +5,6 @@ the case says otherwise. It is the plain one over the seeds, or if there are coa
 many more seeds the multilevel one of `stickiness.accuracy.multilevel`.
 """
 
-from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -38,7 +37,7 @@ class Coarse:
     twin: xr.DataArray | None = None
 
 
-def coarse(ensemble: xr.Dataset, quantity: Callable[[xr.Dataset], xr.DataArray]) -> Coarse | None:
+def coarse(ensemble, quantity):
     """A quantity of the coarse solutions of an ensemble; None if it has none.
 
     `quantity` reads variables of fine solutions, say ``area_fraction``; here it is passed the
@@ -46,8 +45,7 @@ def coarse(ensemble: xr.Dataset, quantity: Callable[[xr.Dataset], xr.DataArray])
     """
     if f"{PREFIX}seed" not in ensemble.dims:
         return None
-    names = [name for name in ensemble.data_vars if name.startswith(PREFIX)]
-    names = {name: name.removeprefix(PREFIX) for name in (*names, f"{PREFIX}seed")}
+    names = {n: n.removeprefix(PREFIX) for n in ensemble.variables if n.startswith(PREFIX)}
     solved = ensemble[list(names)].rename(names)
     return Coarse(quantity(solved), ensemble.long_waves, ensemble.other_long_waves)
 

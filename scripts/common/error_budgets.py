@@ -4,18 +4,14 @@ The models are for the columns of their table. What lies between two of the rang
 interpolated, and what lies outside is widened like all that was not measured.
 """
 
-from __future__ import annotations
-
-from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
-from typing import Any
 
 import numpy as np
 import xarray as xr
 
 from common.conventions import GAPS_MEASURED, VARIANT
 from common.grid_limits import LEFT
-from stickiness.accuracy.error_models import OUTSIDE, ErrorModels, Settings, Surface, single_error
+from stickiness.accuracy.error_models import OUTSIDE, Settings, Surface, single_error
 from stickiness.accuracy.prediction import Problem, covering_factor
 from stickiness.accuracy.quantities import COLUMNS, has_error_model
 from stickiness.error_budget import Part, absent, unknown
@@ -49,24 +45,23 @@ class Simulation:
     settings: Settings
 
     @classmethod
-    def of(cls, models: ErrorModels, made: Mapping[str, Any]) -> Simulation:
+    def of(cls, models, made):
         """From the parameters of an ensemble's file, or of one that derives from it."""
-        seeds, described = len(made["seeds"]), made.get("descriptor_seeds", 2048)
-        knobs = made["pixels_per_wavelength"], made["tolerance"], seeds
+        knobs = made["pixels_per_wavelength"], made["tolerance"], len(made["seeds"])
         settings = Settings(*knobs, made.get("coarse_seeds", 0))
+        described = made.get("descriptor_seeds", 2048)
         return cls(Problem(models, Surface.of(made), (), (), described), settings)
 
-    def solver(self, name: str, like: xr.DataArray) -> xr.DataArray:
+    def solver(self, name, like):
         """Relative error by the tolerance of the solver, along a variable."""
-        models, surface = self.problem.models, self.problem.surface
-        knob = {"tolerance": self.settings.tolerance}
+        problem, knob = self.problem, {"tolerance": self.settings.tolerance}
 
         def single(column, load):
-            return single_error(models, "solver", column, surface, load, **knob)
+            return single_error(problem.models, "solver", column, problem.surface, load, **knob)
 
         return along(single, name, like)
 
-    def factors(self, name: str, like: xr.DataArray) -> xr.DataArray:
+    def factors(self, name, like):
         """Standard errors that cover 90 % of means, along a variable, wherever that is."""
 
         def single(column, load):
@@ -74,14 +69,7 @@ class Simulation:
 
         return along(single, name, like, widened=False)
 
-    def parts(
-        self,
-        name: str,
-        value: xr.DataArray,
-        standard_error: xr.DataArray,
-        discretisation: xr.DataArray,
-        text: str = LEFT,
-    ) -> dict[str, Part]:
+    def parts(self, name, value, standard_error, discretisation, text=LEFT):
         """Parts of the budget of a mean along `pressure`, and `range` or `gap`.
 
         `name` is a variable of an ensemble's file without the ``_mean``, or a column;
@@ -99,23 +87,23 @@ class Simulation:
         return parts | SIMULATED
 
 
-def along(
-    model: Callable[..., float], name: str, like: xr.DataArray, at: Any = (), widened: bool = True
-) -> xr.DataArray:
+def along(model, name, like, at=(), widened=True):
     """Values of a model by column, further coordinates `at` and pressure, along a variable."""
 
     def by(column):
         return xr.apply_ufunc(model, column, *at, like.pressure, vectorize=True)
 
-    if name != "attractive_area":
-        return by(COLUMN_OF.get(name, name)) * (widen_gaps(like) if widened else 1.0)
-    ends = {range_: by(column) for range_, column in COLUMN_AT_RANGE.items()}
-    return interpolate_ranges(ends, like["range"], widened)
+    if name == "attractive_area":
+        ends = {range_: by(column) for range_, column in COLUMN_AT_RANGE.items()}
+        return interpolate_ranges(ends, like["range"], widened)
+    found = by(COLUMN_OF.get(name, name))
+    if not (widened and "gap" in like.dims):
+        return found
+    inside = (like.gap >= GAPS_MEASURED[0]) & (like.gap <= GAPS_MEASURED[1])
+    return found * xr.where(inside, 1.0, OUTSIDE)
 
 
-def interpolate_ranges(
-    ends: Mapping[float, xr.DataArray], ranges: xr.DataArray, widened: bool = True
-) -> xr.DataArray:
+def interpolate_ranges(ends, ranges, widened=True):
     """A power law between the two ranges measured, held and widened outside."""
     (low, first), (high, last) = ends.items()
     share = np.log(ranges / low) / np.log(high / low)
@@ -124,17 +112,7 @@ def interpolate_ranges(
     return found * xr.where(share == inside, 1, OUTSIDE) if widened else found
 
 
-def widen_gaps(like: xr.DataArray) -> xr.DataArray | float:
-    """Factor for gaps outside those that the error of P(u) was measured over."""
-    if "gap" not in like.dims:
-        return 1.0
-    inside = (like.gap >= GAPS_MEASURED[0]) & (like.gap <= GAPS_MEASURED[1])
-    return xr.where(inside, 1.0, OUTSIDE)
-
-
-def theory_error(
-    models: ErrorModels, name: str, like: xr.DataArray, surface: Mapping[str, Any] | None = None
-) -> xr.DataArray:
+def theory_error(models, name, like, surface=None):
     """Relative error of theory against simulation; NaN for variants not measured.
 
     `name` is a variable or a column. The variable `like` has a coordinate `pressure`;
@@ -151,13 +129,7 @@ def theory_error(
     return found.where(like["variant"] == VARIANT) if "variant" in like.coords else found
 
 
-def theory_parts(
-    models: ErrorModels,
-    name: str,
-    value: xr.DataArray,
-    surface: Mapping[str, Any] | None = None,
-    like: str = "",
-) -> dict[str, Part]:
+def theory_parts(models, name, value, surface=None, like=""):
     """Parts of the budget of a variable by theory; arguments as of `theory_error`.
 
     `like` is the variable with the same error of the quadrature, by default the same.

@@ -4,7 +4,6 @@ For areas, gaps and P(u) `stickiness.repulsive.richardson` gives both. What deri
 inherits shift and error to first order.
 """
 
-from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -28,9 +27,7 @@ class Limit:
     error: xr.DataArray
 
 
-def estimate_limits(
-    realisations: xr.Dataset, quantities: dict[str, Callable[[xr.Dataset], xr.DataArray]]
-) -> dict[str, Limit]:
+def estimate_limits(realisations, quantities):
     """Limits of means over seeds, for quantities by the names of the rules of `richardson`."""
     fine = realisations.isel(resolution=-1, drop=True)
     edge_gap = fine.edge_gap.mean("seed")
@@ -52,7 +49,7 @@ def estimate_limits(
     return limits
 
 
-def estimate_first_order(values: xr.DataArray) -> Limit:
+def estimate_first_order(values):
     """Limit of the mean of a quantity that counts whole pixels at the edge: no shift, a wide error.
 
     What a grid leaves out is then as much as its last change. Twice that covers single surfaces,
@@ -62,7 +59,7 @@ def estimate_first_order(values: xr.DataArray) -> Limit:
     return Limit(xr.zeros_like(fine), 2 * abs(fine - half))
 
 
-def find_halved(realisations: xr.Dataset) -> list[int]:
+def find_halved(realisations):
     """Indices, up to three, of the finest grids that are each twice as fine as the one before."""
     resolution = realisations.resolution.values
     chosen = [len(resolution) - 1]
@@ -73,7 +70,7 @@ def find_halved(realisations: xr.Dataset) -> list[int]:
     return chosen
 
 
-def subpixel_part(name: str, fine: xr.Dataset, values: xr.DataArray) -> xr.DataArray:
+def subpixel_part(name, fine, values):
     """What sub-pixel edges contribute to a quantity on one grid, see `richardson.estimate`."""
     area = fine.area_fraction - fine.pixel_area_fraction
     if name == "area_fraction":
@@ -88,9 +85,7 @@ def subpixel_part(name: str, fine: xr.Dataset, values: xr.DataArray) -> xr.DataA
     return values * share.assign_coords(gap=values.gap)
 
 
-def inherit(
-    ensemble: xr.Dataset, quantity: Callable[[xr.Dataset], xr.DataArray], names: Sequence[str]
-) -> Limit:
+def inherit(ensemble, quantity, names):
     """Limit of what derives from the means `names` of an ensemble, to first order.
 
     The errors of one mean at all loads and ranges are taken to rise and fall together, those of

@@ -1,11 +1,7 @@
 """Model surfaces of the configuration, in units of `conventions`, and files of realisations."""
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
-from typing import Any
-
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 from scipy.fft import next_fast_len
 
 from common.conventions import Q0, annotate
@@ -14,7 +10,7 @@ from stickiness.spectrum.kinds import SelfAffine
 from stickiness.surface import synthesise
 
 
-def model_spectrum(surface: Mapping[str, Any]) -> SelfAffine:
+def model_spectrum(surface):
     """Spectrum of a model surface of the configuration, in units of q0 and h_rms."""
     rolloff = surface.get("rolloff")
     return SelfAffine(
@@ -28,17 +24,17 @@ def model_spectrum(surface: Mapping[str, Any]) -> SelfAffine:
     )
 
 
-def cell_size(surface: Mapping[str, Any]) -> float:
+def cell_size(surface):
     """Side of a model surface's periodic cell, in units of 1/q0."""
     return surface.get("window", 1.0) * 2 * np.pi / Q0
 
 
-def waves_across(surface: Mapping[str, Any]) -> float:
+def waves_across(surface):
     """Shortest wavelengths along the side of a model surface's cell."""
     return surface["magnification"] * surface.get("window", 1.0)
 
 
-def make_heights(surface: Mapping[str, Any], points: int, seed: int) -> NDArray:
+def make_heights(surface, points, seed):
     """Heights over h_rms of one realisation of a model surface on a grid of `points` a side."""
     amplitudes = surface.get("amplitudes", "gaussian")
     return synthesise(model_spectrum(surface), points, cell_size(surface), int(seed), amplitudes)
@@ -54,15 +50,13 @@ def grid_points(surface, pixels_per_wavelength):
     return pixels_per_wavelength * next_fast_len(waves, real=True)
 
 
-def pixels(surface: xr.Dataset) -> float:
+def pixels(surface):
     """Grid points per shortest wavelength of a surface's file, as realised by the grid."""
     made = datasets.parameters(surface)
     return made["grid_points"] / waves_across(made)
 
 
-def each_seed(
-    solve: Callable[[NDArray], xr.Dataset], surfaces: xr.Dataset, seeds: Sequence[int]
-) -> xr.Dataset:
+def each_seed(solve, surfaces, seeds):
     """What `solve` makes of the heights of every seed, with the rms slope of the heights."""
     solved = [solve(surfaces.height.sel(seed=seed).values) for seed in seeds]
     dataset = xr.concat(solved, xr.DataArray(list(seeds), dims="seed", name="seed"))
@@ -70,19 +64,17 @@ def each_seed(
     return dataset
 
 
-def read_first(path: str) -> xr.Dataset:
+def read_first(path):
     """The first realisation in a file of surfaces."""
     return datasets.read(path, ["height", "window_length"]).isel(seed=0)
 
 
-def read_all(paths: Iterable[str], variables: Iterable[str]) -> xr.Dataset:
+def read_all(paths, variables):
     """The realisations of all files, with the attributes of the first."""
     return xr.concat([datasets.read(path, variables) for path in paths], "seed")
 
 
-def gather_fields(
-    states: Sequence[Any], pressures: Any, surface: xr.Dataset, **texts: str
-) -> xr.Dataset:
+def gather_fields(states, pressures, surface, **texts):
     """Gap, pressure and residual of one state a pressure; `texts` describe the latter two."""
     dims = ("pressure", "x", "y")
     dataset = xr.Dataset(
@@ -93,4 +85,4 @@ def gather_fields(
         },
         coords={"pressure": pressures, "x": surface.x, "y": surface.y},
     )
-    return annotate(dataset, **{name: ("1", text) for name, text in texts.items()})
+    return annotate(dataset, **texts)

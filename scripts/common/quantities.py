@@ -5,8 +5,6 @@ A_rep E* h'_rms/(A_nom p), load by load and fitted. a_V is fitted to the attract
 simulation or theory in every fit interval (`window`) of the configuration.
 """
 
-from collections.abc import Sequence
-
 import numpy as np
 import xarray as xr
 
@@ -15,7 +13,7 @@ from common.conventions import LINEAR_UP_TO, annotate, middles
 from common.ensemble_means import SUFFIXES, add_errors, coarse, describe_errors, standard_error
 from common.error_budgets import BY_THEORY, QUADRATURE, SIMULATED, Simulation, theory_parts
 from stickiness import datasets
-from stickiness.accuracy.error_models import ErrorModels, read_models
+from stickiness.accuracy.error_models import read_models
 from stickiness.accuracy.quantities import COLUMNS
 from stickiness.criteria import a_v_fit
 from stickiness.error_budget import ENDINGS, Part, unknown, with_budget
@@ -43,54 +41,73 @@ A_V_VARIABLES = {
 }
 
 
-def statistics(column: str, **files: xr.Dataset) -> tuple[xr.DataArray, xr.DataArray, xr.DataArray]:
+def statistics(column, **files):
     """Mean, standard error and discretisation error of a column, along the pressure.
 
     `files` are ``ensemble`` and, for their columns, ``a_v`` and ``kappa``, as the rules
     `average_ensemble` and `fit_a_v` make them.
     """
     known = COLUMNS[column]
-    found = files[known.file]
-    if known.file == "kappa":
-        mean = found[known.variable]
-    else:
-        found = found.isel(window=0) if known.file == "a_v" else _at(found, known)
-        mean = found[f"{known.variable}_mean"]
-    endings = ("standard_error", "discretisation_error")
-    return mean, *(found[f"{known.variable}_{ending}"] for ending in endings)
+    found, name = files[known.file], known.variable
+    found = found.isel(window=0) if known.file == "a_v" else at_point(found, known)
+    mean = found[name if known.file == "kappa" else f"{name}_mean"]
+    return mean, found[f"{name}_standard_error"], found[f"{name}_discretisation_error"]
 
 
-def quote(column: str, contact: xr.Dataset) -> xr.DataArray:
+def quote(column, contact):
     """A column of a contact to which `derive` has added its quantities."""
     known = COLUMNS[column]
-    return _at(contact, known)[known.variable]
+    return at_point(contact, known)[known.variable]
 
 
-def derive(contact: xr.Dataset, fit_interval: Sequence[float]) -> xr.Dataset:
+def at_point(dataset, column):
+    return dataset.sel(column.at, method="nearest", drop=True) if column.at else dataset
+
+
+def derive(contact, fit_interval):
     """Add P(u), a_V and kappa to a contact: area, rms slope and attractive areas by load and range.
 
     `fit_interval` is for a_V, in ranges over h_rms.
     """
-    a_v = fit_a_v(contact.attractive_area, contact.pressure, fit_interval).isel(result=0)
+    a_v = fit_a_v(contact, fit_interval).isel(result=0)
     return contact.assign(gap_density=gap_density(contact), a_v=a_v, kappa=slope_of_area(contact))
 
 
-def gap_density(solutions: xr.Dataset) -> xr.DataArray:
+def gap_density(solutions):
     """P(u) between neighbouring ranges, as the slope of the attractive area."""
     edges = solutions["range"].values
     density = solutions.attractive_area.diff("range") / xr.DataArray(np.diff(edges), dims="range")
     return density.rename(range="gap").assign_coords(gap=middles(edges))
 
 
-def slope_of_area(solutions: xr.Dataset) -> xr.DataArray:
+def slope_of_area(solutions):
     """kappa, area times rms slope over pressure, load by load."""
     return solutions.area_fraction * solutions.rms_slope / solutions.pressure
 
 
+def fit_slope(ensemble):
+    """Least-squares slope of area h'_rms against pressure through the origin, A <= 30 %."""
+    area = ensemble.area_fraction.where(ensemble.area_fraction <= LINEAR_UP_TO)
+    pressure = ensemble.pressure.where(area.notnull())
+    fitted = (area * pressure).sum("pressure") / (pressure**2).sum("pressure")
+    return fitted * ensemble.rms_slope
+
+
+def fit_a_v(areas, fit_interval):
+    """a_V and the standard error of its fit, along the dimension `result`."""
+    ranges = areas["range"].values
+
+    def fit(area, pressure):
+        found = a_v_fit.fit_a_v(ranges, area, float(pressure), window=tuple(fit_interval))
+        return np.array([found.value, found.standard_error])
+
+    dims = {"input_core_dims": [["range"], []], "output_core_dims": [["result"]]}
+    return xr.apply_ufunc(fit, areas.attractive_area, areas.pressure, **dims, vectorize=True)
+
+
 def fit_intervals(areas, windows):
     """a_V and the standard error of its fit along every dimension but the range's."""
-    fits = [fit_a_v(areas.attractive_area, areas.pressure, window) for window in windows]
-    both = xr.concat(fits, "window")
+    both = xr.concat([fit_a_v(areas, window) for window in windows], "window")
     return xr.Dataset(
         {
             "a_v": both.isel(result=0),
@@ -101,29 +118,20 @@ def fit_intervals(areas, windows):
     )
 
 
-def fit_a_v(area, pressure, fit_interval):
-    """a_V and the standard error of its fit, along the dimension `result`."""
+def local_exponent(areas):
+    """Exponent d ln A_ad/d ln(range): 2/3 where P(u) falls as u^(-1/3); of means over seeds."""
+    area = areas.get("attractive_area_mean", areas.attractive_area)
     ranges = area["range"].values
-
-    def fit(values, load):
-        found = a_v_fit.fit_a_v(ranges, values, float(load), window=tuple(fit_interval))
-        return np.array([found.value, found.standard_error])
-
     return xr.apply_ufunc(
-        fit,
+        lambda a: a_v_fit.local_exponent(ranges, a) if np.all(a > 0) else np.full(len(a), np.nan),
         area,
-        pressure,
-        input_core_dims=[["range"], []],
-        output_core_dims=[["result"]],
+        input_core_dims=[["range"]],
+        output_core_dims=[["range"]],
         vectorize=True,
     )
 
 
-def _at(dataset, column):
-    return dataset.sel(column.at, method="nearest", drop=True) if column.at else dataset
-
-
-def fit_kappa(ensemble: xr.Dataset, models: ErrorModels) -> xr.Dataset:
+def fit_kappa(ensemble, models):
     """Kappa of an ensemble at every load and fitted, and the mean area, with their errors."""
     dataset = xr.Dataset({"area_fraction": ensemble.area_fraction_mean})
     for name, quantity in {"kappa": slope_of_area, "kappa_fit": fit_slope}.items():
@@ -145,20 +153,12 @@ def fit_kappa(ensemble: xr.Dataset, models: ErrorModels) -> xr.Dataset:
     return dataset
 
 
-def add_kappa(theory: xr.Dataset, models: ErrorModels, surface: dict) -> xr.Dataset:
+def add_kappa(theory, models, surface):
     """Add kappa and its error budget to theory on the lattice spectrum of a surface."""
     text = f"{KAPPA} by Persson's theory on the lattice spectrum"
     theory = datasets.annotate(theory.assign(kappa=slope_of_area(theory)), kappa=("1", text))
     parts = theory_parts(models, "kappa", theory.kappa, surface, "area_fraction")
     return with_budget(theory, "kappa", **parts)
-
-
-def fit_slope(ensemble):
-    """Least-squares slope of area h'_rms against pressure through the origin, A <= 30 %."""
-    area = ensemble.area_fraction.where(ensemble.area_fraction <= LINEAR_UP_TO)
-    pressure = ensemble.pressure.where(area.notnull())
-    fitted = (area * pressure).sum("pressure") / (pressure**2).sum("pressure")
-    return fitted * ensemble.rms_slope
 
 
 def write_a_v(areas_file, output, windows, laws):
@@ -215,27 +215,14 @@ def add_theory_budgets(dataset, areas, models):
     """Budgets of the fits to theory, on a lattice spectrum or on continuous ones."""
     made = datasets.parameters(areas)
     like = dataset.a_v.assign_coords(pressure=areas.pressure)
-    surface, quadrature = made if "case" in made else None, "attractive_area"
-    parts = theory_parts(models, "a_v", like, surface, quadrature)
+    surface = made if "case" in made else None
+    parts = theory_parts(models, "a_v", like, surface, "attractive_area")
     dataset = with_budget(dataset, "a_v", **parts)
-    error = 2 * QUADRATURE[quadrature] / np.diff(np.log(areas["range"].values)).min()
+    error = 2 * QUADRATURE["attractive_area"] / np.diff(np.log(areas["range"].values)).min()
     return with_budget(
         dataset,
         "exponent",
         discretisation=Part(error, "of the quadrature in neighbouring areas"),
         model=unknown("how theory's error changes with the range is not measured"),
         **BY_THEORY,
-    )
-
-
-def local_exponent(areas):
-    """Exponent d ln A_ad/d ln(range): 2/3 where P(u) falls as u^(-1/3); of means over seeds."""
-    area = areas.get("attractive_area_mean", areas.attractive_area)
-    ranges = area["range"].values
-    return xr.apply_ufunc(
-        lambda a: a_v_fit.local_exponent(ranges, a) if np.all(a > 0) else np.full(len(a), np.nan),
-        area,
-        input_core_dims=[["range"]],
-        output_core_dims=[["range"]],
-        vectorize=True,
     )

@@ -1,19 +1,14 @@
 """Variants and corrections of Persson's theory that stages compute beside each other."""
 
-from collections.abc import Sequence
-
 import numpy as np
 import xarray as xr
 
 from common.conventions import VARIANT, middles
 from stickiness.persson.kernels import CORRECTIONS
 from stickiness.persson.theory import Persson
-from stickiness.spectrum.kinds import Spectrum
 
 
-def theories(
-    spectrum: Spectrum, variants: Sequence[str], gamma: float, nodes: float = 1.0
-) -> dict[str, Persson]:
+def theories(spectrum, variants, gamma, nodes=1.0):
     """Theories of a spectrum by names; `nodes` as in `Persson`.
 
     These are the `variants` with the correction of Yang & Persson and `gamma`, then the quoted
@@ -27,7 +22,7 @@ def theories(
     return found
 
 
-def between_corrections(values: xr.DataArray) -> tuple[xr.DataArray, xr.DataArray]:
+def between_corrections(values):
     """Lowest and highest of the quoted variant by all its corrections, along `variant`."""
     names = [name for name in values["variant"].values if str(name).startswith(VARIANT)]
     chosen = values.sel(variant=names)

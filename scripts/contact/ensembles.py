@@ -53,7 +53,7 @@ def average_files(inputs, seeds, loads, averaged):
     realisations = realisations.sel(seed=seeds, pressure=loads)
     kept = (*COARSE, *optional)
     others = [datasets.read(path, kept).sel(pressure=loads) for path in inputs.coarse]
-    more = rename_coarse(join(others), kept) if others else xr.Dataset()
+    more = join_coarse(others, kept) if others else xr.Dataset()
     dataset = add_statistics(realisations, more, averaged)
     parameters = datasets.parameters(realisations) | {
         "seeds": seeds,
@@ -70,16 +70,14 @@ def choose_means(quantities):
     return {name: value for name, value in (AVERAGED | measured).items() if name in needed}
 
 
-def join(files):
-    """Coarse solutions of all files; the seeds that are not solved are in the first."""
+def join_coarse(files, kept=(*COARSE, "attractive_area")):
+    """Coarse solutions of all files under names that do not clash with the fine ones.
+
+    The seeds that are not solved are in the first file.
+    """
     solved = xr.concat([file.drop_dims("other") for file in files], "seed", data_vars="minimal")
-    return solved.merge(files[0][["other_long_waves"]])
-
-
-def rename_coarse(others, kept=(*COARSE, "attractive_area")):
-    """Coarse solutions under names that do not clash with the fine ones."""
-    names = {name: f"{PREFIX}{name}" for name in (*kept, "seed")}
-    return others[[*kept, *LONG_WAVES]].rename(names)
+    solved = solved.merge(files[0][["other_long_waves"]])[[*kept, *LONG_WAVES]]
+    return solved.rename({name: f"{PREFIX}{name}" for name in (*kept, "seed")})
 
 
 def describe_sampling(made, dataset):

@@ -9,7 +9,7 @@ from common.contact_curves import VARIABLES, coarse_solutions, load_curves, step
 from common.conventions import annotate, logarithmic_grid
 from common.job import start
 from common.model_surfaces import cell_size, grid_points, make_heights, waves_across
-from contact.ensembles import add_statistics, describe_sampling, rename_coarse, write_means
+from contact.ensembles import add_statistics, describe_sampling, join_coarse, write_means
 from stickiness import surface as synthesis
 
 
@@ -25,7 +25,7 @@ def main(job):
     if params.coarse_seeds:
         count = range(params.coarse_seeds), params.descriptor_seeds
         others = coarse_solutions(surface, *count, *curves)
-        others = rename_coarse(annotate(others, **VARIABLES))
+        others = join_coarse([annotate(others, **VARIABLES)])
     dataset = add_statistics(annotate(fine, **VARIABLES), others)
     parameters = {
         **surface,

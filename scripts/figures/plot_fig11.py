@@ -4,7 +4,6 @@ import numpy as np
 
 from common import plotting, remaining_table
 from common.plotting import BLACK, BLUE, GREEN, GREY, ORANGE, PURPLE, RED, make_dot
-from stickiness.remaining import theories
 from stickiness.remaining.prediction import SHORT_RANGE, Roughness
 from stickiness.remaining.share import find_onset, tough_share, weak_share
 
@@ -39,7 +38,7 @@ def draw_shares(ax, table):
     plotting.draw_band(ax, RATIOS, low, high, GREY, alpha=0.25)
     ax.plot(RATIOS, share, color=BLACK, linewidth=1.8, label="this theory")
     ax.plot(RATIOS, rough.share(length, SHORT_RANGE), "--", color=BLACK, label="range → 0")
-    ax.plot(RATIOS, theories.full_contact_share(RATIOS), ":", color=RED, label="full contact")
+    ax.plot(RATIOS, np.maximum(1 - 1 / RATIOS, 0), ":", color=RED, label="full contact")
     for (hurst, magnification), group in tough.groupby(["hurst", "magnification"]):
         colour = HURST_COLOURS[min(HURST_COLOURS, key=lambda known: abs(known - hurst))]
         marker = MARKERS[min(MARKERS, key=lambda known: abs(np.log(known / magnification)))]

@@ -62,7 +62,9 @@ def main(job):
         {name: (dims, value) for name, value in zip(names, values, strict=True)},
         coords={"correction": list(CORRECTIONS), "quantity": [*QUANTITIES, EVERY]},
     )
-    dataset["quantities_agree"] = agreement(dataset).astype("i1")
+    each = dataset.sel(quantity=list(QUANTITIES))
+    agree = each.gamma_low.max("quantity") <= each.gamma_high.min("quantity")
+    dataset["quantities_agree"] = agree.astype("i1")
     dataset["own_gamma"] = "correction", [correction_of(name).gamma for name in CORRECTIONS]
     datasets.write(
         add_budgets(annotate(dataset.drop_vars("spread"), **VARIABLES), dataset.spread),
@@ -89,16 +91,11 @@ def case(ensemble, comparison):
         for name in ("area_fraction", "mean_gap"):
             values = [getattr(t, name)(ensemble.pressure.values) for t in at]
             theory[name].append(np.log(values))
-        areas = [attractive(lattice, g, correction, few) for g in FEW]
+        coarser = [Persson(lattice, gamma=g, correction=correction, nodes=0.5) for g in FEW]
+        areas = [t.gap_cumulative(np.array(RANGES), few).ravel() for t in coarser]
         theory["attractive_area"].append(CubicSpline(np.log(FEW), np.log(areas))(np.log(GRID)))
     found = {name: against(ensemble, name, few, np.array(theory[name])) for name in QUANTITIES}
     return {**found, "window": made.get("window", 1)}
-
-
-def attractive(lattice, gamma, correction, loads):
-    """Attractive areas at all loads and ranges, one after the other."""
-    theory = Persson(lattice, gamma=gamma, correction=correction, nodes=0.5)
-    return theory.gap_cumulative(np.array(RANGES), loads).ravel()
 
 
 def against(ensemble, name, few, theory):
@@ -124,12 +121,6 @@ def sample(rng, count, windows):
         row[:] = rng.choice(np.concatenate([np.flatnonzero(member == w) for w in drawn]), size)
     off = rng.standard_normal((len(QUANTITIES), count, len(names)))
     return chosen, np.take_along_axis(off, member[chosen][None], axis=2)
-
-
-def agreement(dataset):
-    """Whether one gamma lies within the intervals of all quantities, for each correction."""
-    each = dataset.sel(quantity=list(QUANTITIES))
-    return each.gamma_low.max("quantity") <= each.gamma_high.min("quantity")
 
 
 def fit(cases, draws, correction, quantity):

@@ -84,10 +84,9 @@ def simulated(comparisons):
     cases' errors, which are not taken to average out, as grids err to one side in all of them.
     """
     points = collect(comparisons)
-    loads = np.unique(points.pressure)
-    between = scatter(points)
+    loads, largest = np.unique(points.pressure), float(points.magnification.max())
+    between = scatter(points, loads, largest)
     error = np.hypot(points.error, between)
-    largest = float(points.magnification.max())
     mean, trend = fit(points, error, loads, largest)
     say = 1 / (error**2 * points.sharing)
     common = (say * points.error**2).sum("point") / say.sum("point")
@@ -114,12 +113,11 @@ def collect(comparisons):
         logs, errors = log_ratio(comparison)
         part = xr.Dataset({"log": logs, "error": errors}).rename(pressure="point")
         part = part.dropna("point")
-        part["case"] = "point", np.full(part.sizes["point"], case)
-        part["sharing"] = "point", np.full(part.sizes["point"], part.sizes["point"])
-        zeta = float(datasets.parameters(comparison)["magnification"])
-        part["magnification"] = "point", np.full(part.sizes["point"], zeta)
-        part["pressure"] = "point", part.point.values
-        parts.append(part.drop_vars("point"))
+        count, zeta = part.sizes["point"], float(datasets.parameters(comparison)["magnification"])
+        known = {"case": case, "sharing": count, "magnification": zeta}
+        known = {name: ("point", np.full(count, value)) for name, value in known.items()}
+        known["pressure"] = "point", part.point.values
+        parts.append(part.assign(known).drop_vars("point"))
     points = xr.concat(parts, "point").transpose("point", "range")
     if not points.sizes["point"]:
         raise ValueError(
@@ -152,10 +150,8 @@ def fit(points, error, loads, largest):
     )
 
 
-def scatter(points):
+def scatter(points, loads, largest):
     """Standard deviation between cases at each range, what their errors explain taken away."""
-    loads = np.unique(points.pressure)
-    largest = float(points.magnification.max())
     mean, trend = fit(points, xr.ones_like(points.error), loads, largest)
     doublings = np.log2(points.magnification / largest)
     left = points.log - mean.sel(pressure=points.pressure).drop_vars("pressure") - trend * doublings

@@ -37,7 +37,7 @@ def main(job):
     table, gamma = job.params.table, job.params.gamma
     ranges = logarithmic_grid(table["range"])
     axes = {name: np.array(table[name], dtype=float) for name in AXES}
-    dataset = finite(axes, ranges, gamma).merge(infinite(axes, ranges, gamma))
+    dataset = tabulate(axes, ranges, gamma)
     dataset["quadrature_error"] = quadrature_error(axes, ranges, gamma)
     datasets.write(
         add_budgets(annotate(dataset, **VARIABLES), read_models(job.input.laws)),
@@ -47,42 +47,34 @@ def main(job):
     )
 
 
-def finite(axes, ranges, gamma):
-    """a_V, edge range and the estimate of Pastewka and Robbins, at every magnification."""
-    shape = tuple(map(len, axes.values()))
-    rows, edge, robbins = [], np.empty(shape), np.empty(shape[:2])
-    for (i, hurst), (j, magnification) in product(
-        enumerate(axes["hurst"]), enumerate(axes["magnification"])
-    ):
+def tabulate(axes, ranges, gamma):
+    """a_V, edge range and the estimate of Pastewka and Robbins, at every magnification.
+
+    At an infinite one contact vanishes and all that was contact lies within the range: with the
+    contact, the area converges far sooner.
+    """
+    rows, limit, edge, robbins = [], [], [], []
+    for hurst, magnification in product(axes["hurst"], (*axes["magnification"], INFINITE)):
         spectrum = self_affine(hurst, magnification)
         named = theories(spectrum, VARIANTS, gamma, NODES)
+        if magnification == INFINITE:
+            limit.append(a_v_of(named.values(), axes["pressure"], ranges, contact=True))
+            continue
         a_v = a_v_of(named.values(), axes["pressure"], ranges)
-        edge[i, j] = [edge_range(ranges, *pair) for pair in zip(*a_v[:2], strict=True)]
         rows.append(a_v)
+        edge.append([edge_range(ranges, *pair) for pair in zip(*a_v[:2], strict=True)])
         moments = spectrum.rms_slope, spectrum.rms_curvature
-        robbins[i, j] = criteria.pastewka_robbins_a_v(1.0, 1.0, *moments)
+        robbins.append(criteria.pastewka_robbins_a_v(1.0, 1.0, *moments))
         logging.info("H = %g, zeta = %g", hurst, magnification)
+    shape = tuple(map(len, axes.values()))
     a_v = np.stack(rows, axis=1).reshape(len(named), *shape, len(ranges))
     data = {
         "a_v": (("variant", *axes, "range"), a_v),
-        "edge_range": (tuple(axes), edge),
-        "edge_a_v": (("hurst", "magnification"), robbins),
+        "edge_range": (tuple(axes), np.reshape(edge, shape)),
+        "edge_a_v": (("hurst", "magnification"), np.reshape(robbins, shape[:2])),
+        "a_v_limit": (("variant", "hurst", "pressure", "range"), np.stack(limit, axis=1)),
     }
     return xr.Dataset(data, coords={**axes, "variant": list(named), "range": ranges})
-
-
-def infinite(axes, ranges, gamma):
-    """a_V in the limit of infinite magnification.
-
-    There contact vanishes and all that was contact lies within the range: with the contact, the
-    area converges far sooner.
-    """
-    rows = []
-    for hurst in axes["hurst"]:
-        named = theories(self_affine(hurst, INFINITE), VARIANTS, gamma, NODES)
-        rows.append(a_v_of(named.values(), axes["pressure"], ranges, contact=True))
-    dims = ("variant", "hurst", "pressure", "range")
-    return xr.Dataset({"a_v_limit": (dims, np.stack(rows, axis=1))})
 
 
 def a_v_of(theories, pressures, ranges, contact=False):

@@ -3,6 +3,7 @@
 import logging
 import time
 import warnings
+from itertools import product
 
 import numpy as np
 import xarray as xr
@@ -60,29 +61,30 @@ def main(job):
     heights = synthesis.synthesise(model_spectrum(surface), surface["points"], length, seed)
     spectrum = synthesis.realised_spectrum(heights, length)
     energy = spectrum.elastic_energy()
-    name = "zones" if "zones" in surface else "ranges"
+    along, values = "zone", surface.get("zones")
+    if values is None:
+        along, values = "range_over_h_rms", surface["ranges"]
     rows = []
-    for ratio in surface["energies"]:
-        for value in surface[name]:
-            began = time.process_time()
-            adhesion_length = ratio * energy
-            range_ = np.sqrt(value * adhesion_length) if name == "zones" else value
-            law = LAWS[job.params.law](adhesion_length, range_)
-            row = measure(heights, length, law, job.params.squeeze)
-            row |= {"range": range_, "adhesion_length": adhesion_length}
-            rows.append(row | {"seconds": time.process_time() - began})
-            logging.info("w/U %g, %s %g: %s", ratio, name, value, row)
-    shape = len(surface["energies"]), len(surface[name])
-    dims = "energy", {"zones": "zone", "ranges": "range_over_h_rms"}[name]
+    for ratio, value in product(surface["energies"], values):
+        began, adhesion_length = time.process_time(), ratio * energy
+        range_ = np.sqrt(value * adhesion_length) if along == "zone" else value
+        law = LAWS[job.params.law](adhesion_length, range_)
+        row = measure(heights, length, law, job.params.squeeze)
+        row |= {"range": range_, "adhesion_length": adhesion_length}
+        rows.append(row | {"seconds": time.process_time() - began})
+        logging.info("w/U %g, %s %g: %s", ratio, along, value, row)
+    dims, shape = ("energy", along), (len(surface["energies"]), len(values))
     dataset = xr.Dataset(
-        {key: (dims, np.reshape([row[key] for row in rows], shape)) for key in rows[0]},
-        coords={"energy": surface["energies"], dims[1]: surface[name]},
+        {
+            **{key: (dims, np.reshape([row[key] for row in rows], shape)) for key in rows[0]},
+            "full_contact_energy": energy,
+            "rms_slope": spectrum.rms_slope,
+            "rms_curvature": spectrum.rms_curvature,
+            "shell_q": ("shell", spectrum.q),
+            "shell_variance": ("shell", spectrum.variance),
+        },
+        coords={"energy": surface["energies"], along: values},
     )
-    dataset["full_contact_energy"] = energy
-    dataset["rms_slope"] = spectrum.rms_slope
-    dataset["rms_curvature"] = spectrum.rms_curvature
-    dataset["shell_q"] = "shell", spectrum.q
-    dataset["shell_variance"] = "shell", spectrum.variance
     datasets.write(
         annotate(dataset, **VARIABLES),
         job.output[0],

@@ -113,7 +113,11 @@ def read(path: str | Path, variables: Iterable[str] = ()) -> xr.Dataset:
         raise DatasetError(
             f"{path}: not a readable NetCDF file ({error}); delete it and re-run"
         ) from None
-    _check_origin(dataset, path)
+    if "parameters" not in dataset.attrs:
+        raise DatasetError(f"{path}: not written by this project; delete it and re-run")
+    written_as = dataset.attrs.get("written_as", path.name)
+    if not path.absolute().as_posix().endswith(f"/{written_as}"):
+        raise DatasetError(f"{path}: holds what belongs in {written_as}; delete it and re-run")
     missing = [name for name in variables if name not in dataset.variables]
     if missing:
         raise DatasetError(f"{path}: lacks the variable {missing[0]!r}; delete it and re-run")
@@ -127,15 +131,6 @@ def parameters(dataset: xr.Dataset) -> dict[str, Any]:
 
 def _is_text(values: Any) -> bool:
     return values.dtype.kind in "OU"
-
-
-def _check_origin(dataset: xr.Dataset, path: Path) -> None:
-    """Refuse a file that no stage wrote, or that was written as another one and put here."""
-    if "parameters" not in dataset.attrs:
-        raise DatasetError(f"{path}: not written by this project; delete it and re-run")
-    written_as = dataset.attrs.get("written_as", path.name)
-    if not path.absolute().as_posix().endswith(f"/{written_as}"):
-        raise DatasetError(f"{path}: holds what belongs in {written_as}; delete it and re-run")
 
 
 def _place(path: Path) -> tuple[str, ...]:

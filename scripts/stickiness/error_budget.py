@@ -25,7 +25,6 @@ from stickiness import datasets
 SOURCES = ("discretisation", "solver", "sampling", "bandwidth", "model")
 NONE = -1  #: flag of what has no error, or no value
 ENDINGS = ("_error", "_total_error", "_dominant")
-SOURCE_TEXTS = ("1", "where an error comes from")
 
 
 @dataclass(frozen=True)
@@ -92,8 +91,7 @@ def with_budget(
     quoted = value.assign_attrs(ancillary_variables=" ".join(names))
     added = dict(zip(names, (error, total, largest), strict=True))
     dataset = dataset.assign({name: quoted, **added}).assign_coords(source=list(SOURCES))
-    dataset.source.attrs = dict(zip(("units", "long_name"), SOURCE_TEXTS, strict=True))
-    return dataset
+    return datasets.annotate(dataset, source=("1", "where an error comes from"))
 
 
 def split(error: xr.DataArray, texts: Mapping[str, str]) -> dict[str, Part]:

@@ -9,8 +9,6 @@ from __future__ import annotations
 
 import warnings
 
-__all__ = ["PlausibilityWarning", "warn_of_heights", "warn_of_pressure", "warn_of_si"]
-
 _MOST_PRESSURE = 1000.0  # over the rms slope; half of that slope is what flattens a surface
 _MOST_HEIGHT, _LEAST_HEIGHT = 100.0, 1e-9  # rms height over the side of the cell
 LONGEST_SIDE = 0.5  #: [m]; the longest travel of profilometers is 0.3 m
@@ -33,7 +31,7 @@ class PlausibilityWarning(UserWarning):
     """An argument is allowed, but the result is probably not what was meant."""
 
 
-def warn_of_pressure(pressure: float, rms_slope: float, stacklevel: int = 3) -> None:
+def warn_of_pressure(pressure: float, rms_slope: float) -> None:
     """Warn if a mean pressure [E*] exceeds all that contact of a rms slope could need.
 
     Beyond 1000 times the slope contact is full anyway. In units in which heights stand for lengths
@@ -44,18 +42,18 @@ def warn_of_pressure(pressure: float, rms_slope: float, stacklevel: int = 3) -> 
             f"pressure = {pressure!r} is in units of E* and closes any gap of this surface "
             f"(rms slope {rms_slope:.3g}) many times over: divide pascals by E*",
             PlausibilityWarning,
-            stacklevel=stacklevel,
+            stacklevel=3,
         )
 
 
-def warn_of_heights(rms_height: float, length: float, stacklevel: int = 3) -> None:
+def warn_of_heights(rms_height: float, length: float) -> None:
     """Warn if heights and the side of the cell can hardly be in one unit of length."""
     if rms_height > 0 and not _LEAST_HEIGHT <= rms_height / length <= _MOST_HEIGHT:
         warnings.warn(
             f"heights of {rms_height:.3g} rms on a cell of length = {length:.3g}: heights and "
             "length must be in one unit, are they?",
             PlausibilityWarning,
-            stacklevel=stacklevel,
+            stacklevel=3,
         )
 
 

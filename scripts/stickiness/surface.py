@@ -7,6 +7,7 @@ more than half the height variance). Simulation and theory are compared on the l
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
@@ -14,10 +15,47 @@ from numpy.typing import NDArray
 from scipy import fft
 
 from stickiness.arguments import grid, integer, number
-from stickiness.spectrum.interface import LATTICE_ROUNDING, Moments, Spectrum, check_spectrum
+from stickiness.spectrum.interface import LATTICE_ROUNDING, Spectrum, check_spectrum
 from stickiness.spectrum.kinds import Shells
 
 Amplitudes = Literal["gaussian", "fixed"]
+
+
+@dataclass(frozen=True)
+class Moments:
+    """Spectral moments of a surface: ``m20`` is the mean of (dh/dx)^2 and so on.
+
+    ``m22`` is the mean of (d2h/dx dy)^2. Lengths are in the unit of the heights and the cell.
+    """
+
+    m00: float
+    m20: float
+    m02: float
+    m40: float
+    m22: float
+    m04: float
+
+    @property
+    def h_rms(self) -> float:
+        """Root mean square height."""
+        return float(np.sqrt(self.m00))
+
+    @property
+    def rms_slope(self) -> float:
+        """Root mean square gradient."""
+        return float(np.sqrt(self.m20 + self.m02))
+
+    @property
+    def rms_curvature(self) -> float:
+        """Root mean square Laplacian."""
+        return float(np.sqrt(self.m40 + 2 * self.m22 + self.m04))
+
+    @property
+    def nayak(self) -> float:
+        """Bandwidth m0 m4/m2^2 with m2, m4 averaged over direction for an isotropic surface."""
+        m2 = (self.m20 + self.m02) / 2
+        m4 = 3 / 8 * (self.m40 + 2 * self.m22 + self.m04)
+        return self.m00 * m4 / m2**2
 
 
 def synthesise(
@@ -57,7 +95,14 @@ def synthesise(
     """
     check_window(spectrum, length)
     n, seed = integer("n", n, least=2), integer("seed", seed, least=0)
-    _check_grid(spectrum, n, length)
+    shortest = 2 * np.pi / spectrum.band[1]
+    if shortest < 2 * length / n * (1 - LATTICE_ROUNDING):
+        lower = f"q1 to {np.pi * n / length:.6g}" if spectrum.isotropic else "q1 or anisotropy"
+        raise ValueError(
+            f"the grid does not hold the band: shortest wavelength {shortest:.6g} is below two "
+            f"pixels of length/n = {length / n:.6g}; take n >= "
+            f"{int(np.ceil(2 * length / shortest))} or lower {lower}"
+        )
     if amplitudes not in ("gaussian", "fixed"):
         raise ValueError(f"amplitudes must be 'gaussian' or 'fixed', got {amplitudes!r}")
     i, j, variance = spectrum.modes(length)
@@ -142,17 +187,6 @@ def check_window(spectrum: Spectrum, length: float) -> None:
             f"the window does not hold the band: longest wavelength {longest:.6g} "
             f"exceeds length = {length:.6g}; enlarge length, raise q0"
             f"{'' if spectrum.isotropic else ' or lower anisotropy'}"
-        )
-
-
-def _check_grid(spectrum: Spectrum, n: int, length: float) -> None:
-    shortest = 2 * np.pi / spectrum.band[1]
-    if shortest < 2 * length / n * (1 - LATTICE_ROUNDING):
-        lower = f"q1 to {np.pi * n / length:.6g}" if spectrum.isotropic else "q1 or anisotropy"
-        raise ValueError(
-            f"the grid does not hold the band: shortest wavelength {shortest:.6g} is below two "
-            f"pixels of length/n = {length / n:.6g}; take n >= "
-            f"{int(np.ceil(2 * length / shortest))} or lower {lower}"
         )
 
 

@@ -32,10 +32,9 @@ _QUANTITIES = (
     ("mol/m^3", "a concentration", "1 mol/m^3"),
 )
 # Spellings by which a unit that pint does not know is recognised, by the SI unit that is wanted.
-_PREFIXES = {"m": ("k", "", "c", "m", "u", "n", "p"), "Pa": ("", "k", "M", "G")}
 _SPELLINGS = {
-    "m": [f"{prefix}m" for prefix in _PREFIXES["m"]],
-    "Pa": [f"{prefix}Pa" for prefix in _PREFIXES["Pa"]],
+    "m": ["km", "m", "cm", "mm", "um", "nm", "pm"],
+    "Pa": ["Pa", "kPa", "MPa", "GPa"],
     "J/m^2": ["J/m^2", "mJ/m^2", "N/m", "mN/m", "uJ/m^2", "erg/cm^2"],
     "1/m": ["1/m", "1/mm", "1/um", "1/nm"],
     "s": ["s", "ms", "us"],

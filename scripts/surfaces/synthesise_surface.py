@@ -39,7 +39,7 @@ def main(job):
     logging.info("n = %d, %d shells", n, len(lattice.q))
     heights = np.array([make_heights(surface, n, seed) for seed in seeds])
     datasets.write(
-        to_dataset(heights, seeds, length, spectrum, lattice),
+        to_dataset(heights, list(seeds), length, spectrum, lattice),
         job.output[0],
         title="random surfaces on a periodic window",
         parameters={
@@ -57,6 +57,7 @@ def to_dataset(heights, seeds, length, spectrum, lattice):
     x = np.arange(n) * (length / n)
     realised = [realised_on(lattice, synthesis.realised_spectrum(h, length)) for h in heights]
     measured = [synthesis.moments(h, length) for h in heights]
+    sources = [(spectrum, lattice, one) for one in measured]
     dataset = xr.Dataset(
         {
             "height": (("seed", "x", "y"), heights),
@@ -64,21 +65,12 @@ def to_dataset(heights, seeds, length, spectrum, lattice):
             "lattice_variance": ("wave_number", lattice.variance),
             "realised_variance": (("seed", "wave_number"), realised),
             **{
-                name: (
-                    ("seed", "source"),
-                    [[getattr(s, name) for s in (spectrum, lattice, one)] for one in measured],
-                )
+                name: (("seed", "source"), [[getattr(s, name) for s in row] for row in sources])
                 for name in MOMENTS
             },
             **{name: ("seed", [getattr(one, name) for one in measured]) for name in SPLIT},
         },
-        coords={
-            "seed": list(seeds),
-            "x": x,
-            "y": x,
-            "wave_number": lattice.q,
-            "source": SOURCES,
-        },
+        coords={"seed": seeds, "x": x, "y": x, "wave_number": lattice.q, "source": SOURCES},
     )
     return annotate(dataset, **VARIABLES)
 

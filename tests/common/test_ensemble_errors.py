@@ -82,16 +82,6 @@ def test_discretisation_error_does_not_depend_on_the_estimator(ensemble):
         np.testing.assert_allclose(found.area_discretisation_error, want, rtol=1e-12)
 
 
-def test_plain_without_coarse_solutions(ensemble):
-    plain = ensemble.drop_dims("coarse_seed")
-    assert ensemble_means.coarse(plain, product) is None
-    found = ensemble_means.add_errors(xr.Dataset(), "area", plain.area, plain=True)
-    fine = plain.area.isel(resolution=-1)
-    np.testing.assert_allclose(found.area, fine.mean("seed"), rtol=1e-14)
-    error = fine.std("seed", ddof=1) / np.sqrt(FINE)
-    np.testing.assert_allclose(found.area_standard_error, error, rtol=1e-14)
-
-
 def test_a_single_seed_has_no_standard_error(ensemble):
     one = ensemble.isel(seed=[0])
     found = ensemble_means.add_errors(
@@ -112,20 +102,6 @@ def test_entries_that_are_not_finite_everywhere_are_plain(ensemble):
     assert best[1] != plain[1]
 
 
-def test_dimensions_may_come_in_any_order(ensemble):
-    def turned(solved):
-        return solved.area.transpose("pressure", ...)
-
-    best, error = ensemble_means.ensemble_mean(
-        turned(ensemble), ensemble_means.coarse(ensemble, turned)
-    )
-    want = ensemble_means.ensemble_mean(
-        ensemble.area, ensemble_means.coarse(ensemble, attrgetter("area"))
-    )
-    xr.testing.assert_allclose(best, want[0], rtol=1e-14)
-    xr.testing.assert_allclose(error, want[1], rtol=1e-14)
-
-
 @pytest.mark.slow
 def test_coarse_solutions_in_parts_are_those_of_one_file(tmp_path):
     """Parts are read back from files: those after the first describe no other seeds."""
@@ -141,7 +117,21 @@ def test_coarse_solutions_in_parts_are_those_of_one_file(tmp_path):
         )
         files[name] = datasets.read(path)
     assert files["second"].sizes["other"] == 0
-    whole = ensembles.rename_coarse(ensembles.join([files["one"]]))
-    both = ensembles.rename_coarse(ensembles.join([files["first"], files["second"]]))
+    whole = ensembles.join_coarse([files["one"]])
+    both = ensembles.join_coarse([files["first"], files["second"]])
     xr.testing.assert_equal(both, whole)
     assert both.sizes["other"] == 20
+
+
+def test_dimensions_may_come_in_any_order(ensemble):
+    def turned(solved):
+        return solved.area.transpose("pressure", ...)
+
+    best, error = ensemble_means.ensemble_mean(
+        turned(ensemble), ensemble_means.coarse(ensemble, turned)
+    )
+    want = ensemble_means.ensemble_mean(
+        ensemble.area, ensemble_means.coarse(ensemble, attrgetter("area"))
+    )
+    xr.testing.assert_allclose(best, want[0], rtol=1e-14)
+    xr.testing.assert_allclose(error, want[1], rtol=1e-14)

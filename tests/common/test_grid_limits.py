@@ -97,19 +97,6 @@ def test_slopes_inherit_the_relative_error_of_the_area(ensemble):
     assert limit.error.min() < fit.error < limit.error.max()
 
 
-def test_errors_of_two_means_add_in_quadrature(ensemble):
-    def product(solved):
-        return solved.area_fraction * solved.mean_gap
-
-    found = grid_limits.inherit(ensemble, product, ["area_fraction", "mean_gap"])
-    relative = [
-        ensemble[f"{name}_discretisation_error"] / ensemble[f"{name}_mean"]
-        for name in ("area_fraction", "mean_gap")
-    ]
-    mean = ensemble.area_fraction_mean * ensemble.mean_gap_mean
-    np.testing.assert_allclose(found.error, mean * np.hypot(*relative), rtol=1e-6)
-
-
 def test_a_v_is_that_of_the_extrapolated_areas(ensemble):
     """A fit is linear in the areas: the fit of the mean is the mean of the fits."""
     dataset = average_a_v(fit_intervals(ensemble, WINDOWS), ensemble, WINDOWS)
@@ -125,3 +112,16 @@ def test_a_v_is_that_of_the_extrapolated_areas(ensemble):
     np.testing.assert_allclose(
         dataset.a_v_standard_error, ensemble_means.standard_error(dataset.a_v), rtol=1e-12
     )
+
+
+def test_errors_of_two_means_add_in_quadrature(ensemble):
+    def product(solved):
+        return solved.area_fraction * solved.mean_gap
+
+    found = grid_limits.inherit(ensemble, product, ["area_fraction", "mean_gap"])
+    relative = [
+        ensemble[f"{name}_discretisation_error"] / ensemble[f"{name}_mean"]
+        for name in ("area_fraction", "mean_gap")
+    ]
+    mean = ensemble.area_fraction_mean * ensemble.mean_gap_mean
+    np.testing.assert_allclose(found.error, mean * np.hypot(*relative), rtol=1e-6)

@@ -29,13 +29,6 @@ def test_a_wave_number_is_its_wavelength():
     assert given.q1 == pytest.approx(configured_spectrum(STEEL, 0).q1, rel=1e-6)
 
 
-def test_a_prefactor_has_the_unit_of_its_hurst_exponent():
-    asked = {key: value for key, value in STEEL.items() if key != "h_rms"}
-    found = configured_spectrum(asked | {"C0": "1e-3 m^0.4"}, 0)
-    q = 1e6
-    assert float(found.psd(q)) == pytest.approx(1e-3 * q**-3.6)
-
-
 @pytest.mark.parametrize(("end", "h_rms"), [("smooth", 0.5e-6), ("rough", 1e-6)])
 def test_the_dataset_gives_the_spectrum_back(end, h_rms):
     dataset = analyse_surface.self_affine(STEEL)
@@ -51,3 +44,10 @@ def test_waves_beyond_q1_do_not_count():
     found = real_spectrum(dataset.assign(q1=q1))
     assert found.q1 == pytest.approx(q1)
     assert found.rms_slope < 0.5 * real_spectrum(dataset).rms_slope
+
+
+def test_a_prefactor_has_the_unit_of_its_hurst_exponent():
+    asked = {key: value for key, value in STEEL.items() if key != "h_rms"}
+    found = configured_spectrum(asked | {"C0": "1e-3 m^0.4"}, 0)
+    q = 1e6
+    assert float(found.psd(q)) == pytest.approx(1e-3 * q**-3.6)

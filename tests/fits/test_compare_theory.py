@@ -1,23 +1,17 @@
 """Theory against simulation: distance of distributions, gamma, and ensembles of one job."""
 
-from pathlib import Path
-
 import numpy as np
 import pytest
 import xarray as xr
 
-from contact import solve_ensemble
-from contact.ensembles import AVERAGED
 from fits import compare_theory, fit_gamma
 from persson import persson_lattice
-from stickiness import datasets
 from stickiness.persson import Persson
 from stickiness.spectrum import SelfAffine
 from stickiness.statistics import COVERS
 from stickiness.surface import lattice_spectrum
 
 RANGES = np.geomspace(1e-4, 10, 161)
-ASKED = {"hurst": 0.8, "magnification": 4, "window": 1}
 
 
 def exponential(contact, mean):
@@ -100,58 +94,6 @@ def test_grid_errors_of_contact_and_gaps_cancel_in_the_distance():
     assert error == pytest.approx(0.1 * gap, rel=0.01)
 
 
-def test_highest_summit_is_that_of_the_window():
-    # Gaussian heights of n independent summits reach about sqrt(2 ln n) h_rms.
-    small, large = (
-        persson_lattice.highest_summit({"hurst": 0.8, "magnification": 8, "window": window})
-        for window in (1, 4)
-    )
-    assert 2.3 < small < 2.8
-    assert 3.3 < large < 4.0
-
-
-@pytest.fixture(scope="module")
-def solved(tmp_path_factory):
-    """Ensemble of one job, multilevel."""
-    path = tmp_path_factory.mktemp("ensemble") / "e.nc"
-
-    class Job:
-        class wildcards:  # noqa: N801
-            comparison = "small"
-
-        class params:  # noqa: N801
-            surface = ASKED
-            pressures = [0.2, 0.05]
-            seeds = 3
-            coarse_seeds = 32
-            descriptor_seeds = 100
-            tolerance = 1e-8
-            pixels_per_wavelength = 4
-            gaps = {"minimum": 1e-3, "maximum": 10, "per_decade": 8}
-
-        class input:  # noqa: A001, N801
-            laws = Path(__file__).parents[2] / "config/accuracy.csv"
-
-        output = [path]
-
-    solve_ensemble.main(Job)
-    return datasets.read(path)
-
-
-@pytest.mark.slow
-def test_ensemble_of_one_job_has_what_averages_have(solved):
-    for name in AVERAGED:
-        for kind in ("mean", "standard_error", "discretisation_error"):
-            assert f"{name}_{kind}" in solved
-    made = datasets.parameters(solved)
-    assert made["estimator"] == "multilevel"
-    assert made["seeds"] == [1, 2, 3]
-    assert list(solved.pressure) == [0.05, 0.2]
-    assert solved.resolution.values.tolist() == [2.0, 4.0]
-    assert np.all(np.diff(solved.area_fraction_mean) > 0)
-    assert datasets.parameters(solved)["largest_residual"] <= 1e-8
-
-
 GAMMA = 0.52
 
 
@@ -201,3 +143,13 @@ def test_cases_of_one_window_do_not_average_their_errors_out(made_by_theory):
     assert width[1] == pytest.approx(np.log(high / low), rel=0.15)  # eight copies know no more
     # Of 8 windows, some are drawn more than once: errors average out by less than sqrt(8).
     assert 0.35 * width[1] < width[8] < 0.75 * width[1]
+
+
+def test_highest_summit_is_that_of_the_window():
+    # Gaussian heights of n independent summits reach about sqrt(2 ln n) h_rms.
+    small, large = (
+        persson_lattice.highest_summit({"hurst": 0.8, "magnification": 8, "window": window})
+        for window in (1, 4)
+    )
+    assert 2.3 < small < 2.8
+    assert 3.3 < large < 4.0

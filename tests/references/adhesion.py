@@ -17,6 +17,7 @@ as without adhesion. `AdhesiveWave` is the limit of short range.
 
 from __future__ import annotations
 
+import itertools
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -41,11 +42,6 @@ class JKRSphere:
     """Adhesive contact of a half-space with a paraboloid, attraction of vanishing range.
 
     Johnson, Kendall & Roberts, Proc. R. Soc. A 324, 301 (1971), doi:10.1098/rspa.1971.0141.
-
-    Parameters
-    ----------
-    radius, adhesion_length : float
-        Radius of curvature, work of adhesion over E* [length].
     """
 
     radius: float
@@ -126,11 +122,9 @@ class DMTSphere:
         return -2 * np.pi * self.radius * self.adhesion_length
 
     def contact_radius(self, force: float) -> float:
-        """Contact radius [length] at a force [E* length^2]."""
         return float(np.cbrt(0.75 * self.radius * (force - self.pull_off_force)))
 
     def indentation(self, force: float) -> float:
-        """Approach of distant points [length] at a force [E* length^2]."""
         return self.contact_radius(force) ** 2 / self.radius
 
 
@@ -149,11 +143,6 @@ class MaugisSphere:
     """Adhesive contact of a half-space with a paraboloid, Maugis law, any range.
 
     States are those of `stickiness.remaining.sphere.maugis_curve`, in the caller's units.
-
-    Parameters
-    ----------
-    radius, adhesion_length, range : float
-        Radius of curvature, work of adhesion over E*, range of the traction [length].
     """
 
     radius: float
@@ -162,12 +151,10 @@ class MaugisSphere:
 
     @property
     def strength(self) -> float:
-        """Traction within the range [E*]."""
         return self.adhesion_length / self.range
 
     @property
     def maugis_parameter(self) -> float:
-        """Maugis' lambda."""
         return float(sphere.maugis_parameter(self.radius, self.adhesion_length, self.range))
 
     @property
@@ -241,12 +228,10 @@ class _Wave:
         return np.pi / 2 * np.asarray(fraction, dtype=float)
 
     def _position(self, x: ArrayLike) -> NDArray:
-        """Phase of the distance to the nearest crest, from 0 to pi/2."""
         share = np.asarray(x, dtype=float) / self.wavelength
         return np.pi * np.abs(share - np.round(share))
 
     def _westergaard(self, area_fraction: float) -> Westergaard:
-        """Contact of the given extent without adhesion."""
         load = self.full_contact_amplitude * np.sin(np.pi / 2 * area_fraction) ** 2
         return Westergaard(self.amplitude, self.wavelength, float(load))
 
@@ -260,11 +245,6 @@ class AdhesiveWave(_Wave):
     sqrt(tan psi))``. Johnson, Int. J. Solids Struct. 32, 423 (1995),
     doi:10.1016/0020-7683(94)00111-9; mean gap: Carbone & Mangialardi, J. Mech. Phys. Solids 52,
     1267 (2004), doi:10.1016/j.jmps.2003.12.001.
-
-    Parameters
-    ----------
-    amplitude, wavelength, adhesion_length : float
-        Of the wave, and work of adhesion over E* [length].
     """
 
     # Largest alpha at which contact is partial without load, (27/256)^(1/4) = 0.570: the largest
@@ -304,7 +284,6 @@ class AdhesiveWave(_Wave):
         )
 
     def mean_gap(self, area_fraction: float) -> float:
-        """Mean gap [length] of a contact of given area fraction."""
         psi = self._phase(area_fraction)
         load = self.pressure(area_fraction) / self.full_contact_amplitude
         return float(self.amplitude * (np.cos(psi) ** 2 + 2 * load * np.log(np.sin(psi))))
@@ -332,13 +311,13 @@ class AdhesiveWave(_Wave):
 
 @dataclass(frozen=True)
 class WaveState:
-    """One equilibrium of the wave under the Maugis law, or arrays of them along a curve."""
+    """One equilibrium of the wave under the Maugis law."""
 
-    pressure: float | NDArray  #: mean [E*]
-    area_fraction: float | NDArray  #: share of the wave in contact
+    pressure: float  #: mean [E*]
+    area_fraction: float  #: share of the wave in contact
     #: Share of the wave within the range of attraction, that in contact included; one if the
     #: cohesive zones of neighbouring crests have met.
-    cohesive_fraction: float | NDArray
+    cohesive_fraction: float
 
 
 @dataclass(frozen=True)
@@ -353,45 +332,37 @@ class MaugisWave(_Wave):
     has one root a; the curve of equilibria is therefore followed along c, and, once c has reached
     the trough, along a with ``p* sin^2 a - s``. The same problem by other means: Hui, Lin, Baney &
     Kramer, J. Polym. Sci. B 39, 1195 (2001).
-
-    Parameters
-    ----------
-    amplitude, wavelength, adhesion_length, range : float
-        Of the wave, work of adhesion over E*, range of the traction [length].
     """
 
     range: float
 
     @property
     def strength(self) -> float:
-        """Traction within the range [E*]."""
         return self.adhesion_length / self.range
 
-    def at_cohesive_fraction(self, cohesive_fraction: float) -> WaveState | None:
-        """Equilibrium whose attraction covers a given share of the wave, None if there is none."""
-        c = float(self._phase(cohesive_fraction))
+    def at_cohesive_fraction(self, place: float) -> WaveState | None:
+        """Equilibrium whose attraction covers a given share of the wave, None if there is none.
+
+        From a `place` of one on to two the attraction covers all, and the contact grows.
+        """
+        c = np.pi / 2 * min(place, 1.0)
         a = self._contact_phase(c)
-        return None if a is None else self._state(a, c)
+        if place > 1:
+            a = a or 0.0
+            a += (place - 1) * (np.pi / 2 - a)
+        if a is None:
+            return None
+        angle = np.arctan2(np.sqrt(max(np.sin(c - a) * np.sin(c + a), 0)), np.cos(c))
+        pressure = self.full_contact_amplitude * np.sin(a) ** 2 - 2 * self.strength / np.pi * angle
+        return WaveState(float(pressure), 2 / np.pi * a, 2 / np.pi * c)
 
     @cached_property
-    def _curve(self) -> tuple[NDArray, NDArray]:
-        """Phases a and c along the curve of equilibria, by rising c and then a.
-
-        a is nan where no contact has its attraction end at c.
-        """
-        even = np.linspace(0, 1, _SAMPLES + 1)[1:]
-        start = np.geomspace(1e-4, even[0], 50)[:-1]  # short ranges begin with small contacts
-        c = np.append(start, even) * np.pi / 2
-        a = np.array([self._contact_phase(float(x)) for x in c], dtype=float)  # None is nan
-        widest = 0.0 if np.isnan(a[-1]) else a[-1]
-        wider = np.linspace(widest, np.pi / 2, _SAMPLES)[1:-1]
-        return np.append(a, wider), np.append(c, np.full_like(wider, np.pi / 2))
-
-    def curve(self) -> WaveState:
-        """Equilibria from the smallest to full contact, arrays of some hundred points."""
-        a, c = self._curve
-        there = ~np.isnan(a)
-        return self._state(a[there], c[there])
+    def curve(self) -> list[tuple[float, WaveState]]:
+        """Places along the curve of equilibria, from the smallest to full contact, and states."""
+        even = np.linspace(0, 2, 2 * _SAMPLES + 1)[1:-1]
+        places = np.append(np.geomspace(1e-4, even[0], 50)[:-1], even)  # small contacts first
+        states = [(place, self.at_cohesive_fraction(place)) for place in places]
+        return [(place, state) for place, state in states if state is not None]
 
     def equilibria(self, pressure: float) -> tuple[list[WaveState], list[bool]]:
         """All partial contacts at a mean pressure [E*] and whether each is stable.
@@ -400,13 +371,17 @@ class MaugisWave(_Wave):
         contact. States follow each other by growing attractive area. The point contact where the
         curve starts, and full contact where it ends, are left out.
         """
-        a, c = self._curve
-        excess = self._state(a, c).pressure - pressure
         states, stable = [], []
-        crossed = (excess[1:] * excess[:-1] < 0) | (excess[:-1] == 0)  # nan crosses nothing
-        for i in np.flatnonzero(crossed):
-            states.append(self._between(pressure, (a[i], c[i]), (a[i + 1], c[i + 1])))
-            stable.append(bool(excess[i + 1] > excess[i]))
+        for (low, before), (high, after) in itertools.pairwise(self.curve):
+            if (before.pressure < pressure) != (after.pressure < pressure):
+                place = optimize.brentq(
+                    lambda x: self.at_cohesive_fraction(x).pressure - pressure,
+                    low,
+                    high,
+                    xtol=1e-14,
+                )
+                states.append(self.at_cohesive_fraction(place))
+                stable.append(after.pressure > before.pressure)
         return states, stable
 
     def contact_pressure(self, x: ArrayLike, state: WaveState):
@@ -419,24 +394,6 @@ class MaugisWave(_Wave):
         angle = np.arctan2(np.sqrt(outer), np.cos(c) * np.sqrt(inside))
         angle = np.where(here > a, np.pi / 2, angle)
         return np.where(here > c, 0.0, hertzian - 2 * self.strength / np.pi * angle)
-
-    def _between(self, pressure: float, low: tuple, high: tuple) -> WaveState:
-        """Equilibrium at a pressure between two neighbours of the curve."""
-        if low[1] == np.pi / 2:
-            sine = np.sqrt((pressure + self.strength) / self.full_contact_amplitude)
-            return self._state(float(np.arcsin(sine)), np.pi / 2)
-
-        def excess(c):
-            return self._state(self._contact_phase(c), c).pressure - pressure
-
-        c = optimize.brentq(excess, low[1], high[1], xtol=1e-14)
-        return self._state(self._contact_phase(c), c)
-
-    def _state(self, a, c) -> WaveState:
-        spread = np.maximum(np.sin(c - a) * np.sin(c + a), 0)
-        angle = np.arctan2(np.sqrt(spread), np.cos(c))  # arccos(cos c/cos a), precise for c near a
-        pressure = self.full_contact_amplitude * np.sin(a) ** 2 - 2 * self.strength / np.pi * angle
-        return WaveState((pressure), (2 / np.pi * a), (2 / np.pi * c))
 
     def _contact_phase(self, c: float) -> float | None:
         """Phase a of the contact with a gap of the range at c; None if even a = 0 falls short."""

@@ -10,6 +10,8 @@ import numpy as np
 import pytest
 from scipy import optimize, special
 
+from stickiness.solids import HALF_SPACE
+
 
 @dataclass(frozen=True)
 class Westergaard:
@@ -183,22 +185,14 @@ def wave_full_contact_pressure(amplitude, wavelength):
     return np.sqrt(2) * np.pi * amplitude / wavelength
 
 
-def wave_small_load_area(ratio):
-    """Area fraction of the doubly sinusoidal wave at small loads: Hertz on every crest.
+def wave_area(ratio):
+    """Area fractions of the doubly sinusoidal wave in the limits of small loads and full contact.
 
-    `ratio` is the mean pressure over that of full contact, well below one (Johnson, Greenwood and
-    Higginson 1985, eq. 25).
+    `ratio` is the mean pressure over that of full contact. At small loads every crest is a Hertzian
+    contact; near full contact the troughs keep circular holes, loaded like pressurised penny-shaped
+    cracks (Johnson, Greenwood and Higginson 1985, eq. 25 and below).
     """
-    return np.pi * (3 * ratio / (8 * np.pi)) ** (2 / 3)
-
-
-def wave_large_load_area(ratio):
-    """Area fraction of the doubly sinusoidal wave near full contact, `ratio` just below one.
-
-    The troughs keep circular holes, loaded like pressurised penny-shaped cracks (Johnson, Greenwood
-    and Higginson 1985).
-    """
-    return 1 - 1.5 / np.pi * (1 - ratio)
+    return np.pi * (3 * ratio / (8 * np.pi)) ** (2 / 3), 1 - 1.5 / np.pi * (1 - ratio)
 
 
 def wavenumbers(shape, sides):
@@ -207,22 +201,42 @@ def wavenumbers(shape, sides):
     return np.hypot(*np.meshgrid(*q, indexing="ij"))
 
 
-def displacement(pressure, sides, solid=None):
+def displacement(pressure, sides, solid=HALF_SPACE):
     """Displacement of zero mean under a pressure, of a half-space or another solid."""
-    q = wavenumbers(pressure.shape, sides)
-    q[0, 0] = 1
-    waves = np.fft.fft2(pressure) * (2 / q if solid is None else solid.compliance(q))
-    waves[0, 0] = 0
-    return np.fft.ifft2(waves).real
+    half_space = solid == HALF_SPACE
+    return _multiply_waves(pressure, sides, lambda q: 2 / q if half_space else solid.compliance(q))
 
 
-def elastic_pressure(displaced, sides, solid=None):
+def elastic_pressure(displaced, sides, solid=HALF_SPACE):
     """Pressure of zero mean that causes a displacement; arguments as of `displacement`."""
-    q = wavenumbers(displaced.shape, sides)
+    half_space = solid == HALF_SPACE
+    return _multiply_waves(displaced, sides, lambda q: q / 2 if half_space else solid.stiffness(q))
+
+
+def _multiply_waves(field, sides, factor):
+    q = wavenumbers(field.shape, sides)
     q[0, 0] = 1
-    waves = np.fft.fft2(displaced) * (q / 2 if solid is None else solid.stiffness(q))
+    waves = np.fft.fft2(field) * factor(q)
     waves[0, 0] = 0
     return np.fft.ifft2(waves).real
+
+
+def assert_contact_conditions(contact, heights, displacement, unit, tol=1e-8):
+    """Check fields, load and residual of a solution, given the displacement under its pressure."""
+    assert np.all(contact.pressure >= 0)
+    assert np.all(contact.gap >= 0)
+    assert not np.any(contact.pressure * contact.gap)
+    # The load is balanced to the rounding of a sum.
+    assert contact.pressure.mean() == pytest.approx(contact.mean_pressure, rel=1e-12)
+    gap = displacement + contact.shift - heights
+    # 1.01 and 1e-13: the residual is measured with other transforms, with other rounding.
+    assert np.abs(gap - contact.gap).max() <= (1.01 * tol + 1e-13) * unit
+    touching = contact.pressure > 0
+    violation = max(np.abs(gap[touching]).max(), -gap.min())
+    assert violation <= (1.01 * contact.residual + 1e-13) * unit
+    assert contact.residual <= tol
+    assert contact.area_fraction == np.mean(touching)
+    assert contact.mean_gap == pytest.approx(contact.gap.mean())
 
 
 def solve_directly(compliance, heights, load):

@@ -80,45 +80,28 @@ def test_highest_summit_of_a_wave_off_the_grid():
 # --- adhesive spheres -------------------------------------------------------------------------
 
 
-def deflection(pressure, r, breaks):
-    """Displacement of a half-space at r under an axisymmetric pressure, E* = 1.
+def quadrature(breaks):
+    """Radii and weights of Gauss' rule from zero over all breaks.
 
-    Rings of radius s act through complete elliptic integrals. The substitution at each piece's
-    ends takes square-root singularities and logarithms.
+    The substitution takes square-root singularities and logarithms at the ends of each piece.
     """
-
-    def ring(s):
-        return 4 / np.pi * pressure(s) * s / (r + s) * special.ellipkm1(((r - s) / (r + s)) ** 2)
-
-    def piece(low, high):
-        def integrand(t):
-            s = low + (high - low) * t**2 * (3 - 2 * t)
-            return ring(s) * (high - low) * 6 * t * (1 - t)
-
-        return integrate.quad(integrand, 0, 1, epsabs=0, epsrel=1e-10, limit=200)[0]
-
-    edges = sorted({0.0, *breaks, *([r] if 0 < r < max(breaks) else [])})
-    return sum(piece(low, high) for low, high in zip(edges, edges[1:], strict=False))
+    t, weight = np.polynomial.legendre.leggauss(300)
+    t, weight = (t + 1) / 2, weight / 2
+    low, high = (np.array(edges)[:, None] for edges in ([0.0, *breaks[:-1]], breaks))
+    s = low + (high - low) * t**2 * (3 - 2 * t)
+    return s.ravel(), ((high - low) * 6 * t * (1 - t) * weight).ravel()
 
 
 def axial_gap(pressure, r, breaks, indentation):
-    return r**2 / (2 * R) - indentation + deflection(pressure, r, breaks)
+    """Gap at r under an axisymmetric pressure: rings act through complete elliptic integrals."""
+    s, weight = quadrature(sorted({*breaks, r} - {0.0} if r < max(breaks) else breaks))
+    ring = 4 / np.pi * pressure(s) * s / (r + s) * special.ellipkm1(((r - s) / (r + s)) ** 2)
+    return r**2 / (2 * R) - indentation + np.sum(ring * weight)
 
 
 def total(pressure, breaks):
-    edges = [0.0, *breaks]
-    return sum(
-        integrate.quad(
-            lambda t, low=low, high=high: (
-                2 * np.pi * pressure(s := high - (high - low) * t**2) * s * 2 * t * (high - low)
-            ),
-            0,
-            1,
-            epsrel=1e-11,
-            epsabs=0,
-        )[0]
-        for low, high in zip(edges, edges[1:], strict=False)
-    )
+    s, weight = quadrature(breaks)
+    return np.sum(2 * np.pi * pressure(s) * s * weight)
 
 
 def test_jkr_published_numbers():

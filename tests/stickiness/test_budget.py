@@ -8,6 +8,7 @@ import xarray as xr
 
 from cases import answer_case
 from common import error_budgets
+from stickiness import datasets
 from stickiness import error_budget as budget
 from stickiness.accuracy.error_models import Surface, read_models, single_error
 from stickiness.accuracy.prediction import Problem
@@ -18,11 +19,8 @@ NONE = budget.absent("made up")
 
 def quoted(values, **parts):
     """Dataset of one variable `q` with a budget."""
-    known = {"units": "m", "long_name": "height"}
-    dataset = xr.Dataset({"q": ("x", np.array(values, float))}).assign_attrs()
-    dataset["q"].attrs = known
-    dataset = dataset.assign_coords(x=np.arange(len(values)))
-    dataset.x.attrs = {"units": "1", "long_name": "place"}
+    dataset = xr.Dataset({"q": ("x", np.array(values, float))}, {"x": np.arange(len(values))})
+    datasets.annotate(dataset, q=("m", "height"), x=("1", "place"))
     return budget.with_budget(dataset, "q", **{**dict.fromkeys(budget.SOURCES, NONE), **parts})
 
 
@@ -34,18 +32,15 @@ def test_errors_add_in_quadrature_and_the_largest_is_named():
     np.testing.assert_allclose(budget.part(found, "q", "discretisation"), [3.0, 1.0])
     assert found.q.attrs["ancillary_variables"] == "q_error q_total_error q_dominant"
     assert found.q_error.attrs["units"] == found.q_total_error.attrs["units"] == "m"
-    assert "discretisation: of the grid" in found.q_error.attrs["comment"]
-    assert "solver: none, made up" in found.q_error.attrs["comment"]
+    for text in ("discretisation: of the grid", "solver: none, made up"):
+        assert text in found.q_error.attrs["comment"]
 
 
-def test_what_is_not_known_counts_as_the_largest_and_leaves_no_total():
+def test_errors_that_are_not_known_and_values_that_are_not_there():
     found = quoted([1.0], sampling=budget.unknown("a single seed"), model=budget.Part(9.0, "m"))
     assert np.isnan(found.q_total_error).all()
-    assert budget.dominant(found.isel(x=0), "q") == "sampling"
+    assert budget.dominant(found.isel(x=0), "q") == "sampling"  # it counts as the largest
     assert "a single seed" in found.q_total_error.attrs["nan_means"]
-
-
-def test_no_error_and_no_value_have_no_source():
     found = quoted([1.0, np.nan], model=budget.Part(xr.DataArray([0.0, 1.0], dims="x"), "m"))
     assert [budget.dominant(found.isel(x=i), "q") for i in (0, 1)] == ["none", "none"]
     assert np.isnan(found.q_error.isel(x=1)).all()
@@ -99,22 +94,15 @@ def test_errors_between_the_measured_ranges_follow_a_power_law():
     np.testing.assert_allclose(found, [0.08, 0.04, 0.02, 0.01, 0.02])
 
 
-@pytest.mark.parametrize("kind", [{"rolloff": 3.0}, {"amplitudes": "fixed"}])
-def test_errors_of_theory_are_wider_on_surfaces_that_were_not_measured(kind):
-    like = xr.DataArray([1.0], {"pressure": [0.065]}, ("pressure",))
-    surface = {"hurst": 0.8, "magnification": 32}
-    usual, other = (
-        error_budgets.theory_error(LAWS, "area_fraction", like, asked)
-        for asked in (surface, surface | kind)
-    )
-    np.testing.assert_allclose(other, 2 * usual)
-
-
-def test_theory_errs_as_measured_and_other_variants_by_what_nobody_knows():
+def test_theory_errs_as_measured_and_elsewhere_by_more():
     axes = {"variant": ["afferrante2018", "almqvist2011"], "pressure": [0.01, 0.065]}
     like = xr.DataArray(np.ones((2, 2)), axes, tuple(axes))
-    found = error_budgets.theory_error(LAWS, "mean_gap", like, {"hurst": 0.8, "magnification": 32})
+    made = {"hurst": 0.8, "magnification": 32}
+    found = error_budgets.theory_error(LAWS, "mean_gap", like, made)
     surface = Surface(0.8, 32)
     wanted = [single_error(LAWS, "theory", "mean_gap", surface, p) for p in (0.01, 0.065)]
     np.testing.assert_allclose(found.sel(variant="afferrante2018"), wanted)
-    assert np.isnan(found.sel(variant="almqvist2011")).all()
+    assert np.isnan(found.sel(variant="almqvist2011")).all()  # which nobody has measured
+    for other in ({"rolloff": 3.0}, {"amplitudes": "fixed"}):
+        wider = error_budgets.theory_error(LAWS, "mean_gap", like, made | other)
+        np.testing.assert_allclose(wider, 2 * found)

@@ -1,5 +1,7 @@
 """Compiled loops do what their Python source says."""
 
+import inspect
+
 import numpy as np
 import pytest
 
@@ -9,111 +11,74 @@ from stickiness.compiled import compiled
 from stickiness.repulsive import convolution, preconditioner
 
 SIZE = 60
-_RNG = np.random.default_rng(1)
+RNG = np.random.default_rng(1)
+MASKS = {"above", "free", "points"}
+NUMBERS = {"bound", "factor", "length", "mean", "pressure", "reach", "unit", "weight"}
+LOOPS = [
+    function
+    for module in (smoother, problem, softening_descent, solver, convolution, preconditioner)
+    for function in vars(module).values()
+    if hasattr(function, "__wrapped__") and function.__module__ == module.__name__
+]
+IN_DOUBLE = (problem._unloaded, problem._react, solver._sum_up)
 
 
 def single(*shape):
-    return _RNG.standard_normal(shape or SIZE).astype(np.float32)
-
-
-def double():
-    return _RNG.standard_normal(SIZE)
-
-
-def points():
-    return _RNG.random(SIZE) < 0.7
-
-
-def real(value):
-    return np.float32(value)
+    return RNG.standard_normal(shape or SIZE).astype(np.float32)
 
 
 def interpolation():
     return preconditioner._interpolation(12, 3), preconditioner._interpolation(5, 2)
 
 
-LOOPS = {
-    softening_descent._move_gap: lambda: (double(), double(), single(), 0.7, points()),
-    softening_descent._sum_work_between: lambda: (double(), double(), double(), double(), 0.3),
-    softening_descent._dot: lambda: (single(), single()),
-    softening_descent._sum_over_free: lambda: (single(), points(), single(), single()),
-    softening_descent._turn_direction: lambda: (
-        single(),
-        real(0.6),
-        single(),
-        real(0.1),
-        points(),
-        points(),
+# Arguments of loops over grids of more than one dimension.
+ON_GRIDS = {
+    smoother._add_around: (single(6, 10), single(3, 5), single(10)),
+    smoother._spread: (single(3, 5), np.float32(0.3), single(6, 10), single(6, 10), single(6)),
+    convolution._combine: (*single(2, 4, 5), *single(2, 4, 10), single(10)),
+    preconditioner._add_to_coarse: (
+        *single(2, 12, 5),
+        *interpolation(),
+        single(3, 5),
+        single(3, 2),
     ),
-    softening_descent._lower: lambda: (single(), real(0.1), points()),
-    softening_descent._settle_direction: lambda: (
-        single(),
-        real(0.1),
-        points(),
-        single(),
-        single(),
-    ),
-    softening_descent._count_deeper: lambda: (real(-0.2), single(), real(0.5), single(), single()),
-    softening_descent._cut_at_wall: lambda: (
-        *(single(), single(), real(0.5)),
-        *(single(), single(), points()),
-    ),
-    softening_descent._find_gaps: lambda: (
-        *(single(), real(0.5), single(), single()),
-        *(real(0.7), single()),
-    ),
-    softening_descent._sum_work: lambda: (single(), real(0.5), single(), single(), single()),
-    softening_descent._apply_step: lambda: (
-        *(single(), real(0.5), single(), single(), single()),
-        *(points(), (single(), single()), real(0.7)),
-    ),
-    softening_descent._apply_step_linearly: lambda: (
-        *(single(), real(0.5), single(), single(), single()),
-        *(points(), single()),
-    ),
-    softening_descent._end_at_wall: lambda: (single(), single(), single(), points(), points()),
-    softening_descent._release_points: lambda: (
-        *(single(), real(0.1), single(), single()),
-        *(points(), points(), single(), single()),
-    ),
-    problem._unloaded: lambda: (double(), double(), double(), True),
-    problem._react: lambda: (double(), double(), double(), 0.3, 0.7, True, points(), single()),
-    solver._sum_up: lambda: (
-        *(double(), double(), double(), double(), double()),
-        *(0.3, True, 0.5),
-    ),
-    smoother._add_around: lambda: (single(6, 10), single(3, 5), single(10)),
-    smoother._spread: lambda: (single(3, 5), real(0.3), single(6, 10), single(6, 10), single(6)),
-    convolution._combine: lambda: (
-        *(single(4, 5), single(4, 5), single(4, 10)),
-        *(single(4, 10), single(10)),
-    ),
-    preconditioner._add_to_coarse: lambda: (
-        *(single(12, 5), single(12, 5), *interpolation()),
-        *(single(3, 5), single(3, 2)),
-    ),
-    preconditioner._interpolate: lambda: (
-        *(single(3, 2), *interpolation(), single(3, 5)),
-        *(single(12, 5), single(12, 5)),
-    ),
-    preconditioner._interpolate_at: lambda: (
-        *(np.array([0, 7, 59]), single(3, 2), *interpolation()),
-        single(3),
+    preconditioner._interpolate: (single(3, 2), *interpolation(), single(3, 5), *single(2, 12, 5)),
+    preconditioner._interpolate_at: (
+        *(np.array([0, 7, 59]), single(3, 2), *interpolation(), single(3)),
     ),
 }
 
 
+def arguments(loop):
+    """Arguments of a loop over one index, by their names; masks, numbers and fields."""
+    if loop in ON_GRIDS:
+        return [np.copy(a) if isinstance(a, np.ndarray) else a for a in ON_GRIDS[loop]]
+    made = []
+    for name in inspect.signature(loop).parameters:
+        if name in MASKS:
+            made.append(RNG.random(SIZE) < 0.7)
+        elif name == "wall":
+            made.append(True)
+        elif name in NUMBERS:
+            made.append(0.6 if loop in IN_DOUBLE else np.float32(0.6))
+        elif name == "tractions":
+            made.append((single(), single()))
+        else:
+            made.append(RNG.standard_normal(SIZE) if loop in IN_DOUBLE else single())
+    return made
+
+
 @pytest.mark.parametrize("loop", LOOPS, ids=lambda loop: loop.__name__)
 def test_loop_does_what_its_source_says(loop):
-    arguments = LOOPS[loop]()
-    fields = [one for one in arguments if isinstance(one, np.ndarray)]
+    given = arguments(loop)
+    fields = [one for one in given if isinstance(one, np.ndarray)]
     before = [one.copy() for one in fields]
-    result = loop(*arguments)
+    result = loop(*given)
     after = [one.copy() for one in fields]
     for one, value in zip(fields, before, strict=True):
         one[...] = value
     with np.errstate(all="ignore"):
-        expected = loop.__wrapped__(*arguments)
+        expected = loop.__wrapped__(*given)
     np.testing.assert_allclose(result or 0, expected or 0, rtol=1e-5, atol=1e-5)
     for one, value in zip(fields, after, strict=True):
         np.testing.assert_allclose(value, one, rtol=1e-5, atol=1e-5)

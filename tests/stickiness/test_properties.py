@@ -56,18 +56,33 @@ def test_contact_scales_with_lengths_and_with_heights(seed, hurst, load, unit, f
     assert other.mean_gap / (unit * flat) == pytest.approx(one.mean_gap, rel=1e-6, abs=10 * TOL)
 
 
-@pytest.mark.slow
-@given(hursts, st.floats(0.05, 8), loads, factors, factors, st.floats(-3, 1))
-def test_theory_scales(hurst, decades, load, unit, flat, log_gap):
-    zeta = 10**decades
-    one = Persson(SelfAffine(hurst=hurst, q0=1.0, q1=zeta, h_rms=1.0))
-    other = Persson(SelfAffine(hurst=hurst, q0=1 / unit, q1=zeta / unit, h_rms=unit * flat))
-    u = 10**log_gap
+def assert_theory_scales(one, other, load, unit, flat):
     assert other.area_fraction(load * flat) == pytest.approx(one.area_fraction(load), rel=1e-9)
     gap = other.mean_gap(load * flat) / (unit * flat)
     assert gap == pytest.approx(one.mean_gap(load), rel=1e-8, abs=1e-12)
+
+
+@pytest.mark.slow
+@given(hursts, st.floats(0.05, 8), loads, factors, factors, st.floats(-3, 1))
+def test_theory_scales(hurst, decades, load, unit, flat, log_gap):
+    zeta, u = 10**decades, 10**log_gap
+    one = Persson(SelfAffine(hurst=hurst, q0=1.0, q1=zeta, h_rms=1.0))
+    other = Persson(SelfAffine(hurst=hurst, q0=1 / unit, q1=zeta / unit, h_rms=unit * flat))
+    assert_theory_scales(one, other, load, unit, flat)
     share = other.gap_cumulative(u * unit * flat, load * flat)
     assert share == pytest.approx(one.gap_cumulative(u, load), rel=1e-6, abs=1e-9)
+
+
+@given(arrays.arrays(float, 5, elements=st.floats(1e-6, 1.0)), hursts, loads, factors, factors)
+def test_theory_of_shells_scales(variance, hurst, load, unit, flat):
+    """Spectra with gaps between few shells, over up to eight decades."""
+    q = np.array([1.0, 1.001, 30.0, 1e4, 1e8])
+    variance = variance * q ** (-2 * hurst)
+    one = Persson(Shells(q, variance))
+    other = Persson(Shells(q / unit, variance * (unit * flat) ** 2))
+    assert_theory_scales(one, other, load, unit, flat)
+    whole = one.area_fraction(load) + one.gap_cumulative(np.inf, load)
+    assert whole == pytest.approx(1, abs=1e-8)
 
 
 @given(factors, st.floats(-6, 1), st.floats(-6, 1), factors)
@@ -89,22 +104,6 @@ def test_means_shift_and_scale_with_what_is_averaged(seed, factor, shift):
     other = multilevel.controlled_mean(factor * (values + shift), control[:20], control[20:])
     assert other.mean == pytest.approx(factor * (one.mean + shift), rel=1e-8, abs=1e-8 * factor)
     assert other.standard_error == pytest.approx(factor * one.standard_error, rel=1e-6)
-
-
-@given(arrays.arrays(float, 5, elements=st.floats(1e-6, 1.0)), hursts, loads, factors, factors)
-def test_theory_of_shells_scales(variance, hurst, load, unit, flat):
-    """Spectra with gaps between few shells, over up to eight decades."""
-    q = np.array([1.0, 1.001, 30.0, 1e4, 1e8])
-    variance = variance * q ** (-2 * hurst)
-    one, other = (
-        Persson(Shells(q, variance)),
-        Persson(Shells(q / unit, variance * (unit * flat) ** 2)),
-    )
-    assert other.area_fraction(load * flat) == pytest.approx(one.area_fraction(load), rel=1e-9)
-    gap = other.mean_gap(load * flat) / (unit * flat)
-    assert gap == pytest.approx(one.mean_gap(load), rel=1e-8, abs=1e-12)
-    whole = one.area_fraction(load) + one.gap_cumulative(np.inf, load)
-    assert whole == pytest.approx(1, abs=1e-8)
 
 
 @given(st.floats(-12, 3), st.floats(-6, 7), factors, st.floats(0, 3), st.floats(-9, 9))
@@ -192,28 +191,22 @@ def test_moduli_rise_with_the_rate_and_pass_a_threshold_once(rest, glassy, decad
     assert table.storage(found) == pytest.approx(threshold, rel=1e-9)
 
 
-@given(seeds, hursts, loads, st.floats(1.01, 10))
-def test_area_grows_and_gap_falls_with_load(seed, hurst, load, more):
-    h = heights_of(seed, hurst=hurst)
+@given(seeds, grids, hursts, loads, st.floats(1.01, 10), st.floats(-5, 1), st.booleans())
+def test_order_with_load_and_range(seed, n, hurst, load, more, log_range, subpixel):
+    """Area and attraction grow, the gap falls."""
+    h = heights_of(seed, n, hurst)
     light, heavy = pressed(h, load), pressed(h, load * more)
     assert light.area_fraction <= heavy.area_fraction + 0.5 / h.size
     assert heavy.mean_gap <= light.mean_gap + 10 * TOL
-
-
-@given(seeds, loads, st.floats(-5, 1), st.floats(1.01, 30), st.booleans())
-def test_attraction_grows_with_the_range(seed, load, log_range, more, subpixel):
-    contact = pressed(heights_of(seed), load)
-    near, far = 10**log_range, 10**log_range * more
-    area = dmt.attractive_area(contact.gap, [near, far], subpixel=subpixel)
+    ranges = [10**log_range, 10**log_range * more**3]
+    area = dmt.attractive_area(light.gap, ranges, subpixel=subpixel)
     assert area[0] <= area[1] + 1e-12
     # At one strength, not at one work of adhesion, for which a longer range is a weaker pull.
-    tractions = [
-        dmt.adhesive_pressure(contact.gap, adhesive.Exponential(0.1 * r, r)) for r in (near, far)
-    ]
+    tractions = [dmt.adhesive_pressure(light.gap, adhesive.Exponential(0.1 * r, r)) for r in ranges]
     assert tractions[0] <= tractions[1] * (1 + 1e-12)
 
 
-# --- conservation ---
+# --- conservation, determinism ---
 
 
 @given(seeds, grids, hursts, loads)
@@ -221,8 +214,7 @@ def test_mean_pressure_complementarity_and_energy(seed, n, hurst, load):
     h = heights_of(seed, n, hurst)
     c = pressed(h, load)
     assert c.pressure.mean() == pytest.approx(load, rel=1e-11)
-    assert c.pressure.min() >= 0
-    assert c.gap.min() >= 0
+    assert min(c.pressure.min(), c.gap.min()) >= 0
     assert np.max(c.pressure * c.gap) <= 2 * TOL * c.pressure.max()
     # What the pressure stores is half its work on the displacement u = gap + h - shift; in full
     # contact nothing can be stored beyond what flattens the surface.
@@ -230,6 +222,10 @@ def test_mean_pressure_complementarity_and_energy(seed, n, hurst, load):
     k = np.hypot(*np.meshgrid(*[np.fft.fftfreq(n, 1 / n)] * 2))
     flattened = 0.25 * np.sum(k * np.abs(np.fft.fft2(h) / n**2) ** 2)
     assert -1e-9 <= stored <= flattened * (1 + 1e-6) + 1e-9
+    again, same = heights_of(seed, n, hurst), pressed(h, load)
+    assert again.tobytes() == h.tobytes()
+    assert same.pressure.tobytes() == c.pressure.tobytes()
+    assert (same.gap.tobytes(), same.shift) == (c.gap.tobytes(), c.shift)
 
 
 @given(seeds, laws, loads, st.floats(-1, 1), st.floats(-4, 0))
@@ -244,8 +240,8 @@ def test_adhesive_balance(seed, law, load, log_range, log_tension):
 
 @given(hursts, st.floats(0.01, 8), loads, st.sampled_from(["yang2008", "wang2017", "xu2024"]))
 def test_probabilities_add_up_to_one(hurst, decades, load, correction):
-    spectrum = SelfAffine(hurst=hurst, q0=1.0, q1=10**decades, h_rms=1.0)
-    theory = Persson(spectrum, correction=correction)
+    rough = SelfAffine(hurst=hurst, q0=1.0, q1=10**decades, h_rms=1.0)
+    theory = Persson(rough, correction=correction)
     total = theory.area_fraction(load) + theory.gap_cumulative(np.inf, load)
     assert total == pytest.approx(1, abs=1e-8)
 
@@ -269,16 +265,6 @@ def test_shift_mirror_and_transpose_of_heights(seed, n, load, shift, transpose):
         assert areas[0] == pytest.approx(areas[1], abs=2.5 / h.size)
 
 
-@pytest.mark.slow
-@given(seeds, laws, loads, st.integers(0, 30))
-def test_symmetry_of_adhesive_contact(seed, law, load, shift):
-    """Where the state is unique: adhesion too weak for jumps."""
-    h = heights_of(seed, 16)
-    one = adhered(h, law, 1.0, 0.05, load)
-    other = adhered(np.roll(h, shift, 0).T, law, 1.0, 0.05, load)
-    assert other.mean_gap == pytest.approx(one.mean_gap, rel=1e-5, abs=1e-5)
-
-
 @given(seeds, grids)
 def test_moments_do_not_know_shift_mirror_or_sign(seed, n):
     h = heights_of(seed, n)
@@ -288,19 +274,6 @@ def test_moments_do_not_know_shift_mirror_or_sign(seed, n):
         assert found.m40 == pytest.approx(one.m40, rel=1e-9)
         assert found.m22 == pytest.approx(one.m22, rel=1e-9)
     assert surface.moments(h.T, 1.0).m20 == pytest.approx(one.m02, rel=1e-9)
-
-
-# --- determinism ---
-
-
-@given(seeds, grids, hursts, loads)
-def test_the_same_input_gives_the_same_bits(seed, n, hurst, load):
-    fields = []
-    for _ in range(2):
-        h = heights_of(seed, n, hurst)
-        c = pressed(h, load)
-        fields.append((h.tobytes(), c.pressure.tobytes(), c.gap.tobytes(), c.shift))
-    assert fields[0] == fields[1]
 
 
 @pytest.mark.slow

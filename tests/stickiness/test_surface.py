@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from stickiness import surface
-from stickiness.spectrum import SelfAffine, Shells, Tabulated
+from stickiness.spectrum import SelfAffine, Shells
 
 L = 2 * np.pi  # so that wave numbers are lattice indices
 
@@ -56,26 +56,6 @@ def test_moments_of_one_wave():
     np.testing.assert_allclose([m.m02, m.m22, m.m04], 0, atol=1e-12 * m.m40)
     product = a * np.cos(2 * k * x)[:, None] * np.sin(k * x)
     assert surface.moments(product, length).m22 == pytest.approx(4 * k**4 * a**2 / 4)
-
-
-@pytest.mark.parametrize("amplitudes", ["gaussian", "fixed"])
-def test_height_is_as_prescribed(amplitudes):
-    for seed in range(3):
-        h = surface.synthesise(power_law(h_rms=0.2), 40, L, seed, amplitudes)
-        assert h.mean() == pytest.approx(0, abs=1e-15)
-        assert h.std() == pytest.approx(0.2, rel=1e-13)
-        assert h.shape == (40, 40)
-        assert h.dtype == np.float64
-
-
-def test_seed_decides():
-    s = power_law()
-    first, again, other = (surface.synthesise(s, 32, L, seed) for seed in (7, 7, 8))
-    np.testing.assert_array_equal(first, again)
-    correlation = np.mean(first * other)
-    # four modes hold more than half the variance, so chance correlations are sizeable
-    assert abs(correlation) < 0.9
-    assert np.abs(first - other).max() > 0.1
 
 
 @pytest.mark.parametrize("amplitudes", ["gaussian", "fixed"])
@@ -153,24 +133,6 @@ def test_surface_of_shells(amplitudes):
         surface.synthesise(Shells([1.0, 2.5], [1.0, 1.0]), 24, L, 6)
 
 
-def test_truncated_and_tabulated_spectra_can_be_synthesised():
-    s = power_law(20.0, C0=1.0)
-    q = np.geomspace(1, 20, 5)
-    want = surface.synthesise(s.truncated(8.0), 64, L, 1)
-    got = surface.synthesise(Tabulated(q, s.psd(q)).truncated(8.0), 64, L, 1)
-    np.testing.assert_allclose(got, want, atol=1e-12)
-    plateau = SelfAffine(hurst=0.8, q0=1.0, q1=20.0, C0=1.0, q_rolloff=10.0).truncated(5.0)
-    window = surface.lattice_spectrum(plateau, L)
-    # 80 lattice points other than the origin lie within a radius of 5
-    assert window.h_rms**2 == pytest.approx(80 * 10**-3.6, rel=1e-12)
-
-
-def test_units_of_length_do_not_matter():
-    one = surface.synthesise(power_law(), 32, L, 1)
-    nano = SelfAffine(hurst=0.8, q0=1e9, q1=16e9, h_rms=1e-9)
-    np.testing.assert_allclose(surface.synthesise(nano, 32, L * 1e-9, 1) * 1e9, one, atol=1e-12)
-
-
 @pytest.mark.parametrize(
     ("change", "name"),
     [
@@ -187,8 +149,3 @@ def test_bad_arguments_are_named(change, name):
     good = {"spectrum": power_law(), "n": 32, "length": L, "seed": 0}
     with pytest.raises(ValueError, match=name):
         surface.synthesise(**{**good, **change})
-
-
-def test_heights_must_be_square():
-    with pytest.raises(ValueError, match="square"):
-        surface.moments(np.zeros((3, 4)), 1.0)

@@ -156,17 +156,13 @@ class _Conjugate:
         elif soft:
             step = smooth(force)
         else:
-            step = self._of_free_points(state.free)(force)
+            if self._free is None or not np.array_equal(self._free, state.free):
+                self._free = state.free.copy()
+                self._of_free_points = Preconditioner(self.problem.surface, self._free)
+            step = self._of_free_points(force)
         for span in self.spans:
             step[span] *= state.free[span]
         return self._balance(step, state.free) if self.problem.pressure is None else step
-
-    def _of_free_points(self, free):
-        """Preconditioner, the last one as long as the free points stay."""
-        if self._free is None or not np.array_equal(self._free, free):
-            self._free = free.copy()
-            self._kept = Preconditioner(self.problem.surface, free)
-        return self._kept
 
     def _less_mean(self, force, points):
         """Subtract, in place, the mean force on some points, by what each would give way."""

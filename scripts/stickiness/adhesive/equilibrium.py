@@ -48,10 +48,11 @@ def relax(problem, gap, tol, max_iterations, closing=True, logger=None):
     run = _relax_smooth if problem.law.smooth else _relax_frozen
     spent, state, work = 0, None, []
     if gap is None:
-        if has_coarser_grids(problem):
-            state = from_coarser_grids(problem, tol, max_iterations, watch, work)
+        fine = min(problem.surface.heights.shape) >= _MIN_POINTS_TO_COARSEN
+        if fine and suits(problem) and problem.law.smooth and problem.pressure is not None:
+            state = _from_coarser_grids(problem, tol, max_iterations, watch, work)
         if state is None:
-            gap, pairs = without_adhesion(problem, max_iterations)
+            gap, pairs = _without_adhesion(problem, max_iterations)
             work.append(pairs * gap.size)
     for _ in range(_MAX_ESCAPES):
         if state is None or gap is not None:
@@ -155,12 +156,17 @@ def _unstable_mode(problem, state):
     x1 = np.cos(2 * np.pi * np.arange(softening.shape[1]) / softening.shape[1])
     # A prescribed mean gap leaves a uniform load no work to do.
     load = softening / softening.max() * (1 + 0.1 * (x0[:, None] + x1[None, :]))
-    residual = _constrained(problem, -load.astype(np.float32), open_points)
+
+    def constrained(field):
+        """Part of a field on open points, without a mean if the mean gap is prescribed."""
+        field = field * open_points
+        return balanced(field, open_points) if problem.pressure is None else field
+
+    residual = constrained(-load.astype(np.float32))
     direction, product = None, 0.0
     first = float(np.abs(residual).max())
     for _ in range(_MAX_PROBES):
-        image = problem.surface.smoother.apply(residual)
-        image = _constrained(problem, image, open_points)
+        image = constrained(problem.surface.smoother.apply(residual))
         last, product = product, float(np.vdot(image, residual))
         if not product > 0:
             return None
@@ -169,17 +175,11 @@ def _unstable_mode(problem, state):
         curvature = float(np.vdot(direction, stress))
         if curvature < 0:
             return direction
-        stress = _constrained(problem, stress.astype(np.float32), open_points)
+        stress = constrained(stress.astype(np.float32))
         residual = residual + np.float32(product / curvature) * stress
         if float(np.abs(residual).max()) < 1e-3 * first:
             return None
     return None
-
-
-def _constrained(problem, field, points):
-    """Part of a field on some points, without a mean if the mean gap is prescribed."""
-    field = field * points
-    return balanced(field, points) if problem.pressure is None else field
 
 
 def _left(problem, state, mode, closing):
@@ -192,14 +192,7 @@ def _left(problem, state, mode, closing):
     return gap if problem.mean_gap is None else lowered(gap, problem.mean_gap, lowest)
 
 
-def has_coarser_grids(problem):
-    """Whether `from_coarser_grids` is for this problem and its grid."""
-    fine = min(problem.surface.heights.shape) >= _MIN_POINTS_TO_COARSEN
-    suited = suits(problem) and problem.law.smooth
-    return fine and suited and problem.pressure is not None
-
-
-def from_coarser_grids(problem, tol, max_iterations, observer, work):
+def _from_coarser_grids(problem, tol, max_iterations, observer, work):
     """State at a prescribed pressure by way of coarser grids.
 
     The problem must suit `quick_descent`; None if any descent meets a direction of negative
@@ -207,7 +200,7 @@ def from_coarser_grids(problem, tol, max_iterations, observer, work):
     """
     shape = problem.surface.heights.shape
     if min(shape) < _MIN_POINTS_TO_COARSEN:
-        gap, pairs = without_adhesion(problem, max_iterations)
+        gap, pairs = _without_adhesion(problem, max_iterations)
         work.append(pairs * gap.size)
     else:
         coarser = tuple(coarsen(n) for n in shape)
@@ -215,7 +208,7 @@ def from_coarser_grids(problem, tol, max_iterations, observer, work):
         surface = replace(problem.surface, heights=heights)
         coarse = replace(problem, surface=surface)
         before = coarse.surface.pairs
-        state = from_coarser_grids(coarse, _COARSE_GRID_TOLERANCE, max_iterations, None, work)
+        state = _from_coarser_grids(coarse, _COARSE_GRID_TOLERANCE, max_iterations, None, work)
         work.append((coarse.surface.pairs - before) * heights.size)
         if state is None:
             return None
@@ -233,7 +226,7 @@ def _predicted(problem, gap):
     return np.where(pressing, 0, np.maximum(gap, 0))
 
 
-def without_adhesion(problem, max_iterations):
+def _without_adhesion(problem, max_iterations):
     """Gap without adhesion at the control of a problem, and the convolutions it took."""
     surface = problem.surface
     if problem.pressure is not None:

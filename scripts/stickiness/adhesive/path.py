@@ -35,7 +35,6 @@ from stickiness.adhesive.solver import (
 from stickiness.arguments import grid, number
 from stickiness.solids import HALF_SPACE
 
-_CONTROLS = ("pressure", "mean_gap")
 # Smooth law or not: by which a step may be refined for the sake of the balance alone.
 _SUBSTEPS = {True: 16, False: 4}
 _LEAST_SCALE = 1e-3  # of energies, over the work of adhesion
@@ -128,15 +127,18 @@ def path(
     ConvergenceError
         If a state does not converge or `max_states` do not suffice.
     """
-    values = _check_values(values)
-    if control not in _CONTROLS:
+    values = [float(value) for value in values]
+    if len(values) < 2 or not np.all(np.isfinite(values)):
+        raise ValueError(f"values must be at least two finite numbers, got {values!r}")
+    if not np.all(np.diff(values)):
+        raise ValueError(f"values must differ from one to the next, got {values!r}")
+    if control not in ("pressure", "mean_gap"):
         raise ValueError(f"control must be 'pressure' or 'mean_gap', got {control!r}")
     sizes = {"balance": balance, "smallest_jump": smallest_jump, "located": located, "steps": steps}
     for name, value in sizes.items():
         number(name, value)
-    options = {"start": start, "tol": tol, "max_iterations": max_iterations, "logger": logger}
-    options["solid"] = solid
-    first = solve(heights, length, law, **{control: values[0]}, **options)
+    options = {"tol": tol, "max_iterations": max_iterations, "logger": logger, "solid": solid}
+    first = solve(heights, length, law, **{control: values[0]}, start=start, **options)
     yield PathPoint(first)
     follower = _Follower(
         first=first,
@@ -149,6 +151,7 @@ def path(
         span=float(np.ptp(values)),
         left=max_states - 1,
         logger=logger,
+        scale=_LEAST_SCALE * law.adhesion_length,
     )
     last = first
     for target in values[1:]:
@@ -173,10 +176,7 @@ class _Follower:
     span: float  #: between the largest and the smallest value of the control
     left: int  #: states that may still be computed
     logger: object
-    scale: float = 0.0  #: largest change of elastic plus interaction energy so far [E* length]
-
-    def __post_init__(self):
-        self.scale = _LEAST_SCALE * self.first.law.adhesion_length
+    scale: float  #: largest change of elastic plus interaction energy so far [E* length]
 
     def leg(self, state, target, steps):
         """Points from a state (left out) to a value of the control."""
@@ -212,7 +212,6 @@ class _Follower:
                 blocked = _Blocked()
 
     def _width(self, value):
-        """Width of the bracket of an event."""
         return self.located * max(abs(value), _NEAR_ZERO * self.span)
 
     def _solve(self, state, value, branch):
@@ -227,13 +226,10 @@ class _Follower:
         except PullOffError:
             return None
         if self.logger is not None:
-            self.logger.info(
-                "pressure %.6g, mean gap %.6g, area %.4f, %d iterations",
-                successor.mean_pressure,
-                successor.mean_gap,
-                successor.repulsive_area_fraction,
-                successor.iterations,
-            )
+            text = "pressure %.6g, mean gap %.6g, area %.4f, %d iterations"
+            area = successor.repulsive_area_fraction
+            told = successor.mean_pressure, successor.mean_gap, area, successor.iterations
+            self.logger.info(text, *told)
         return successor
 
     def _point(self, before, state, successor):
@@ -285,12 +281,3 @@ def _integral(points):
         curvature = ((y2 - y1) / step - (y1 - y0) / (x1 - x0)) / (x2 - x0)
         total -= step**3 / 6 * curvature
     return total
-
-
-def _check_values(values):
-    values = [float(value) for value in values]
-    if len(values) < 2 or not np.all(np.isfinite(values)):
-        raise ValueError(f"values must be at least two finite numbers, got {values!r}")
-    if not np.all(np.diff(values)):
-        raise ValueError(f"values must differ from one to the next, got {values!r}")
-    return values

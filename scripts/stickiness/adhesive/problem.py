@@ -56,10 +56,6 @@ class Surface:
         """Pressure of zero mean that deforms the solid to a gap."""
         return self.exact.stiffness(gap + self.heights)
 
-    def flattening_pressure(self):
-        """Root mean square pressure that closes the gap everywhere."""
-        return float(np.sqrt(np.mean(self.exact.stiffness(self.heights) ** 2)))
-
 
 @dataclass(frozen=True, eq=False)
 class Problem:

@@ -27,9 +27,8 @@ _ROUND_REDUCTION = 1e-3  # reduction of the force by a round
 _LINEAR_RESIDUAL = 1e-3  # residual below which the traction is linear in the change of the gap
 _MAX_ROUND_STEPS = 50  # steps of a round at most
 _MAX_LINEAR_CHANGE = 0.03  # change of a gap, over the range, up to which that holds
-_CUT_FORCE = (
-    1.0  # force on points behind the wall over the residual from which a step is cut anyway
-)
+# Force on points behind the wall, over the residual, from which on a step is cut anyway.
+_CUT_FORCE = 1.0
 _PUT_OFF_FORCE = 0.3  # residual over the force on points behind the wall at which a round ends
 _MAX_SHORTENINGS = 30
 _ROUNDING = 1e-7  # relative error of a sum of energies in single precision
@@ -256,7 +255,6 @@ class _Steps:
             self.precondition = Preconditioner(self.surface, self.free.reshape(self.shape))
 
     def _stiffen(self, field, out):
-        """Pressure that causes a displacement."""
         self.surface.quick.stiffness(field.reshape(self.shape), out=out.reshape(self.shape))
 
 
@@ -283,7 +281,6 @@ def _sum_work_between(gap, new_gap, elastic, new_elastic, pressure):
 
 @compiled
 def _dot(a, b):
-    """Sum of the products of two fields."""
     total = 0.0
     for i in range(a.size):
         total += a[i] * b[i]
@@ -324,7 +321,6 @@ def _turn_direction(direction, weight, step, mean, free, above):
 
 @compiled
 def _lower(field, mean, points):
-    """Lower a field on some points."""
     for i in range(field.size):
         if points[i]:
             field[i] -= mean

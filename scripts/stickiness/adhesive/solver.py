@@ -12,7 +12,7 @@ from stickiness.arguments import grid, integer, number, numbers
 from stickiness.compiled import compiled
 from stickiness.plausibility import PlausibilityWarning, warn_of_heights, warn_of_pressure
 from stickiness.repulsive.half_space import check_length, measure_scale, measure_slope
-from stickiness.repulsive.solver import ConvergenceError
+from stickiness.repulsive.solver import ConvergenceError, Effort
 from stickiness.solids import HALF_SPACE, check_solid
 
 APPROACH, SEPARATION = "approach", "separation"
@@ -196,15 +196,6 @@ def solve(
     return relax_from(scaled, gap, branch, control, effort, spent)
 
 
-@dataclass(frozen=True)
-class Effort:
-    """When to stop, and who is told the progress: see `solve`."""
-
-    tol: float
-    max_iterations: int
-    logger: object = None
-
-
 def relax_from(scaled, gap, branch, control, effort, spent=(0, 0)):
     """Find the state that a descent from a gap in scaled units ends in; errors as of `solve`.
 
@@ -316,7 +307,8 @@ class Scaled:
             adhesion_length=law.adhesion_length * lengths[0] / height**2,
             range=law.range / height,
         )
-        unit = max(surface.flattening_pressure(), scaled_law.strength)
+        flattening = float(np.sqrt(np.mean(surface.exact.stiffness(scaled) ** 2)))
+        unit = max(flattening, scaled_law.strength)
         return cls(surface, scaled_law, law, lengths, height, rms, unit)
 
     @property

@@ -1,16 +1,15 @@
 """Where Persson's theory loses contact, scale by scale, and the distribution of gaps it opens.
 
-At one load, contact lost on resolving a scale opens the gap u1 (see `theory`). u1 is a sum over all
-finer scales, far dearer than anything else that the distribution of gaps needs, yet smooth: a shell
-of a discrete spectrum sets in with all its derivatives zero. Quadrature nodes of P(u), on the other
-hand, follow every step of q(m), because the widths of the Gaussians have kinks there. So ln u1 is
-summed at Chebyshev points of panels that are halved until the series has converged (`GapCurve`),
-and interpolated at the nodes of P(u) (`GapProfile`). All variants of the theory share the curve.
+Contact lost on resolving a scale opens the gap u1 (see `theory`), a smooth but expensive sum over
+all finer scales. P(u) needs many nodes, because the widths of its Gaussians have a kink at every
+step of q(m). So ln u1 is summed at Chebyshev points (`GapCurve`, which all variants of the theory
+share) and interpolated at the nodes of P(u) (`GapProfile`).
 """
 
 from __future__ import annotations
 
 import logging
+from collections.abc import Callable
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -21,8 +20,8 @@ from stickiness.persson.kernels import Kernels
 from stickiness.persson.scale_quadrature import ScaleNodes
 from stickiness.spectrum.interface import Spectrum
 
-SMALLEST_LOG = 45.0  #: gaps below exp(-45) of the others count as zero
-TAIL_LOG = 38.0  #: area lost beyond holds less than exp(-38) of what is lost in all
+_SMALLEST_LOG = 45.0  # gaps below exp(-45) of the others count as zero
+_TAIL_LOG = 38.0  # area lost beyond holds less than exp(-38) of what is lost in all
 _SERIES_ORDER = 16  # Chebyshev points of a panel
 # Widths in ln(y - y_end) of the first panels of the series, and where halving ends.
 _SERIES_PANEL, _LEAST_PANEL = 1.5, 1e-3
@@ -107,11 +106,10 @@ class GapCurve:
     def at(cls, setting: Setting, p: float) -> GapCurve:
         """Sum u1 on panels halved until the last terms of each series are small."""
         y_end = float(setting.kernels.invert_area_scale(setting.m2 / p**2))
-        low, high = visible_range(setting, y_end)
+        low, high = _visible_range(setting, y_end)
         tolerance = max(1e-7 * setting.nodes**-6, 1e-10)
-        edges = np.linspace(
-            low, high, 1 + int(np.ceil((high - low) * setting.nodes / _SERIES_PANEL))
-        )
+        count = int(np.ceil((high - low) * setting.nodes / _SERIES_PANEL))
+        edges = np.linspace(low, high, 1 + count)
         panels, done = np.stack([edges[:-1], edges[1:]], axis=1), []
         while len(panels):
             start, end = panels.T
@@ -142,11 +140,11 @@ class GapCurve:
         return lost.y**2 - (self.p / erf(lost.y)) ** 2 / lost.rest + smooth
 
 
-def visible_range(setting: Setting, y_end: float) -> tuple[float, float]:
+def _visible_range(setting: Setting, y_end: float) -> tuple[float, float]:
     """Range of ln(y - y_end) over which gaps are not negligible beside all others."""
-    high = np.log(TAIL_LOG / (y_end + np.sqrt(y_end**2 + TAIL_LOG)))
+    high = np.log(_TAIL_LOG / (y_end + np.sqrt(y_end**2 + _TAIL_LOG)))
     slope = y_end**3 * float(setting.kernels.diffusion(y_end)) / 2
-    low = float(np.log(slope / erf(y_end) ** 2 / (SMALLEST_LOG + y_end**2)))
+    low = float(np.log(slope / erf(y_end) ** 2 / (_SMALLEST_LOG + y_end**2)))
     return min(low, high - 1.0), high  # next to full contact all gaps are that small
 
 
@@ -199,8 +197,9 @@ def gap_profile(setting: Setting, p: float, reach: float) -> GapProfile:
     curve = setting.curve(p)
     y_end = curve.y_end
     edges, change, thinned = _panel_edges(setting, curve, reach)
-    few = len(change) < _MANY_PANELS * setting.nodes
-    log_step, weight = _panel_nodes(edges, change, few)
+    if len(change) < _MANY_PANELS * setting.nodes:
+        change = np.full(len(change), np.inf)
+    log_step, weight = _panel_nodes(edges, change)
     lost = LostContact.at(setting, p, y_end, log_step)
     gap = np.exp(curve.log_gap(log_step, lost))
     width = _width(setting, lost, gap)
@@ -214,11 +213,11 @@ def gap_profile(setting: Setting, p: float, reach: float) -> GapProfile:
     return GapProfile(weight * area_per_log_step, gap, width, closed)
 
 
-def _panel_nodes(edges: NDArray, change: NDArray, few: bool) -> tuple[NDArray, NDArray]:
+def _panel_nodes(edges: NDArray, change: NDArray) -> tuple[NDArray, NDArray]:
     """Gauss-Legendre nodes, in order, and weights; fewer on panels that see little change."""
     at, weights, left = [], [], np.ones(len(change), dtype=bool)
     for least, (x, w) in _RULES.items():
-        chosen = left & ((change >= least) | few)
+        chosen = left & (change >= least)
         left &= ~chosen
         half = 0.5 * np.diff(edges)[chosen, None]
         at.append((edges[:-1][chosen, None] + half * (1 + x)).ravel())
@@ -253,7 +252,7 @@ def _panel_edges(setting: Setting, curve: GapCurve, reach: float) -> tuple[NDArr
     zero and move by more of their widths. A change of 1 needs ten nodes.
     """
     p, y_end = curve.p, curve.y_end
-    low, high = visible_range(setting, y_end)
+    low, high = _visible_range(setting, y_end)
     if setting.variant == "almqvist2011":
         # u1 may vanish but the width goes as (M - m)^(1/2): that much must be negligible.
         low = np.log(y_end) - 42.0
@@ -298,7 +297,7 @@ def _breaks(setting: Setting, p: float, y_end: float) -> tuple[NDArray, NDArray]
         jump = np.abs(np.diff(np.diff(np.log(spectrum.psd(at))) / np.diff(np.log(at))))
     m = 0.5 * spectrum.variance_below(q, 2)
     y = setting.kernels.invert_area_scale(m / p**2)
-    matter = (y > y_end) & (y**2 < y_end**2 + TAIL_LOG)
+    matter = (y > y_end) & (y**2 < y_end**2 + _TAIL_LOG)
     chosen = np.flatnonzero(matter)[np.argsort(jump[matter])[::-1][:most]]
     strong = chosen[jump[chosen] > _STRONG] if spectrum.is_discrete else chosen[:0]
     depth = (p / erf(y[strong])) ** 2 / _ONSETS[:, None]
@@ -309,21 +308,17 @@ def _breaks(setting: Setting, p: float, y_end: float) -> tuple[NDArray, NDArray]
     return np.log(y[chosen] - y_end), np.log(near[near > y_end] - y_end)
 
 
-def density(u: NDArray, profile: GapProfile) -> NDArray:
-    """P(u) [1/length] at gaps `u`, `(k,)`."""
+def over_blocks(function: Callable, u: NDArray, profile: GapProfile) -> NDArray:
+    """Evaluate `density` or `cumulative` at gaps `u`, `(k,)`, taking those near each other."""
     result = np.zeros(len(u))
-    for block in _neighbours(u):
-        result[block] = _density_of_neighbours(u[block], profile)
+    if len(u):
+        for block in np.array_split(np.argsort(u), max(1, len(u) // _BLOCK)):
+            result[block] = function(u[block], profile)
     return result
 
 
-def _neighbours(u: NDArray) -> list[NDArray]:
-    """Indices of gaps, in blocks of ones near each other."""
-    return np.array_split(np.argsort(u), max(1, len(u) // _BLOCK)) if len(u) else []
-
-
-def _density_of_neighbours(u: NDArray, profile: GapProfile) -> NDArray:
-    """P(u) of gaps near each other: most Gaussians are too far off to count."""
+def density(u: NDArray, profile: GapProfile) -> NDArray:
+    """P(u) [1/length] at gaps near each other: most Gaussians are too far off to count."""
     far = _FAR * profile.width
     near = (profile.gap - far < u.max()) & (profile.gap + far > u.min())
     near &= profile.width > _NARROWEST * profile.width.max()
@@ -335,26 +330,14 @@ def _density_of_neighbours(u: NDArray, profile: GapProfile) -> NDArray:
     return pair @ (profile.weight[near] / (np.sqrt(2 * np.pi) * width))
 
 
-def _least_width(profile: GapProfile) -> float:
-    """Least width that may be divided by."""
-    return max(_NARROWEST * float(profile.width.max()), 1e-300)
-
-
 def cumulative(u: NDArray, profile: GapProfile) -> NDArray:
-    """Integral of P from 0 to `u`, `(k,)`."""
-    result = np.zeros(len(u))
-    for block in _neighbours(u):
-        result[block] = _cumulative_of_neighbours(u[block], profile)
-    return result + np.where(u > 0, profile.closed, 0.0)
-
-
-def _cumulative_of_neighbours(u: NDArray, profile: GapProfile) -> NDArray:
     """Integral of P to gaps near each other: Gaussians far off are within all or none of them."""
     far = _FAR * profile.width
     within = profile.gap + far <= u.min()
     near = ~within & (profile.gap - far < u.max())
     gap, weight = profile.gap[near], profile.weight[near]
-    width = np.sqrt(2) * np.maximum(profile.width[near], _least_width(profile))
+    least = max(_NARROWEST * float(profile.width.max()), 1e-300)  # that may be divided by
+    width = np.sqrt(2) * np.maximum(profile.width[near], least)
     to_left = (u[:, None] - gap) / width
     pair = erf(to_left)
     to_left += 2 * gap / width
@@ -366,4 +349,5 @@ def _cumulative_of_neighbours(u: NDArray, profile: GapProfile) -> NDArray:
         centre2 = np.minimum((gap / width) ** 2, 700.0)
         series = small * np.exp(-centre2) * (1 + (2 * centre2 - 1) / 3 * small**2)
         pair = np.where(tiny, 4 / np.sqrt(np.pi) * series, pair)
-    return 0.5 * pair @ weight + profile.weight[within].sum()
+    open_area = 0.5 * pair @ weight + profile.weight[within].sum()
+    return open_area + np.where(u > 0, profile.closed, 0.0)

@@ -12,7 +12,6 @@ contact. Then the theory needs three functions:
 
 from __future__ import annotations
 
-from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from functools import lru_cache
 from typing import ClassVar, Literal
@@ -31,24 +30,17 @@ _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(8)
 
 
 @dataclass(frozen=True)
-class Correction(ABC):
+class Correction:
     """How lost contact slows the diffusion of pressure and takes elastic energy from each scale.
 
-    A function of y, A = erf(y) being the relative contact area; S goes from gamma at A = 0 to 1.
+    Of a function y, A = erf(y) being the relative contact area, subclasses give `diffusion`,
+    S = dV_eff/dV, the growth of the pressure variance over that in full contact, from gamma at
+    A = 0 to 1, and `energy`, K = d(A S)/dA, the growth of a scale's elastic energy with the area.
     """
 
-    gamma: float  #: S as the contact vanishes
-
-    own_gamma: ClassVar[float]  #: the source's
+    gamma: float
+    own_gamma: ClassVar[float] = 0.45  #: the source's
     lowest_gamma: ClassVar[float] = 0.0  #: not itself allowed
-
-    @abstractmethod
-    def diffusion(self, y: ArrayLike) -> NDArray:
-        """S = dV_eff/dV, growth of the pressure variance over that in full contact."""
-
-    @abstractmethod
-    def energy(self, y: ArrayLike) -> NDArray:
-        """K = d(A S)/dA, growth of a scale's elastic energy with the area."""
 
 
 class Yang2008(Correction):
@@ -60,14 +52,10 @@ class Yang2008(Correction):
     `Xu2024` has 0.42 as the default of this one.
     """
 
-    own_gamma = 0.45
-
     def diffusion(self, y: ArrayLike) -> NDArray:
-        """See `Correction.diffusion`."""
         return self.gamma + (1 - self.gamma) * erf(y) ** 2
 
     def energy(self, y: ArrayLike) -> NDArray:
-        """See `Correction.energy`."""
         return self.gamma + 3 * (1 - self.gamma) * erf(y) ** 2
 
 
@@ -81,12 +69,10 @@ class Wang2017(Correction):
     lowest_gamma = 0.0185
 
     def diffusion(self, y: ArrayLike) -> NDArray:
-        """See `Correction.diffusion`."""
         a2 = erf(y) ** 2
         return self.gamma + a2 * (-2 / 9 + (11 / 9 - self.gamma) * a2)
 
     def energy(self, y: ArrayLike) -> NDArray:
-        """See `Correction.energy`."""
         a2 = erf(y) ** 2
         return self.gamma + a2 * (-2 / 3 + 5 * (11 / 9 - self.gamma) * a2)
 
@@ -103,8 +89,6 @@ class Xu2024(Correction):
     energies. It takes gamma = 0.45 for areas and pressures and 0.42 for energies.
     """
 
-    own_gamma = 0.45
-
     def _parts(self, y: ArrayLike) -> tuple[NDArray, NDArray, NDArray, NDArray]:
         """Return y, A, g and dg/dy."""
         y = np.asarray(y, dtype=float)
@@ -114,12 +98,10 @@ class Xu2024(Correction):
         return y, area, self.gamma + lacking * area, slope
 
     def diffusion(self, y: ArrayLike) -> NDArray:
-        """See `Correction.diffusion`."""
         y, _, g, slope = self._parts(y)
         return g**2 / (g + 0.5 * y * slope)
 
     def energy(self, y: ArrayLike) -> NDArray:
-        """See `Correction.energy`."""
         y, area, g, slope = self._parts(y)
         below = g + 0.5 * y * slope
         # 2 below - g (3/2 - y^2), without the terms that cancel
@@ -127,12 +109,8 @@ class Xu2024(Correction):
         return g**2 / below + area * (1 - self.gamma) * g * change / below**2
 
 
-_CORRECTIONS: dict[str, type[Correction]] = {
-    "yang2008": Yang2008,
-    "wang2017": Wang2017,
-    "xu2024": Xu2024,
-}
-CORRECTIONS = tuple(_CORRECTIONS)
+_KINDS = {"yang2008": Yang2008, "wang2017": Wang2017, "xu2024": Xu2024}
+CORRECTIONS = tuple(_KINDS)
 
 
 def correction_of(name: CorrectionName, gamma: float | None = None) -> Correction:
@@ -140,11 +118,10 @@ def correction_of(name: CorrectionName, gamma: float | None = None) -> Correctio
 
     The source's gamma by default. ValueError if the name is unknown or gamma out of range.
     """
-    if name not in _CORRECTIONS:
+    if name not in _KINDS:
         raise ValueError(f"correction must be one of {CORRECTIONS}, got {name!r}")
-    kind = _CORRECTIONS[name]
-    if gamma is None:
-        return kind(kind.own_gamma)
+    kind = _KINDS[name]
+    gamma = kind.own_gamma if gamma is None else gamma
     if not kind.lowest_gamma < gamma <= 1:
         raise ValueError(f"gamma must be in ({kind.lowest_gamma:g}, 1] for {name}, got {gamma!r}")
     return kind(gamma)
@@ -248,10 +225,10 @@ def kernels(gamma: float | None = None, correction: CorrectionName = "yang2008")
     return Kernels(chosen, _area_table(chosen), gap, _mean_table(gap))
 
 
-def _panels(edges: NDArray) -> tuple[NDArray, NDArray]:
-    """Gauss-Legendre nodes and weights, `(panels, 8)`, between consecutive edges."""
-    half = 0.5 * np.diff(edges)[:, None]
-    return edges[:-1, None] + half * (1 + _NODES), half * _WEIGHTS
+def _panels(log_x: NDArray) -> tuple[NDArray, NDArray]:
+    """Gauss-Legendre nodes and weights, `(panels, 8)`, between consecutive logarithms."""
+    half = 0.5 * np.diff(log_x)[:, None]
+    return log_x[:-1, None] + half * (1 + _NODES), half * _WEIGHTS
 
 
 def _from_the_right(integrals: NDArray, start: float) -> NDArray:
@@ -260,7 +237,6 @@ def _from_the_right(integrals: NDArray, start: float) -> NDArray:
 
 
 def _grid(low: float, high: float) -> NDArray:
-    """Logarithms from `low` to `high`."""
     return np.linspace(np.log(low), np.log(high), 1 + int(np.log(high / low) / _STEP))
 
 

@@ -1,10 +1,9 @@
 """Quadrature over the scales of a rough surface, for Persson's contact theory.
 
 The theory integrates over d(-1/q) functions that depend on q through m(q) alone, the profile
-variance of the gradient up to q. Such a function sets in at some m like exp(-c m/(m(q) - m)): all
-its derivatives vanish there, but c is about a third at small loads, so that Gauss quadrature takes
-some hundred nodes per unit of ln m across the onset. Beyond, seven nodes do for any panel that is
-not wider than thrice its distance. Hence two sets of nodes.
+variance of the gradient up to q. They set in at some m like exp(-c m/(m(q) - m)). With c about a
+third, at small loads, Gauss quadrature takes some hundred nodes per unit of ln m across the onset,
+and seven for any panel farther away than a third of its width. Hence two sets of nodes.
 """
 
 from __future__ import annotations

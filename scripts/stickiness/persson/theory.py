@@ -17,21 +17,13 @@ shells do not have, drops out):
 
 the integral running from q(m) up and ending with a jump of -1/q to zero at q1. T and K belong to
 the correction of the theory, see `kernels`.
-
-Between the finest scale and the rms height, h(zeta) << u << h_rms, contact is lost at the
-magnification z at gaps u1 ~ z^(-H) while A ~ z^(H-1), so that P ~ u^((1-2H)/H) and the area within
-u of contact, A + int P du, ~ u^((1-H)/H): exponents -3/4 and 1/4 at H = 0.8, against -1/3 and 2/3
-at the edges of single contacts, which agree at H = 0.6 only. At zeta = 1e8 the steepest exponents
-of P are -0.321, -0.556, -0.737 and -0.858 for H = 0.6, 0.7, 0.8 and 0.9 (laws: -0.333, -0.571,
--0.750, -0.889). The prefactor a_V of a 2/3 law then grows as (eps/h_rms)^((3-5H)/(3H)) as the
-range eps falls towards h(zeta), where it is some zeta^((5H-3)/3).
 """
 
 from __future__ import annotations
 
 from copy import copy
 from dataclasses import replace
-from typing import Literal
+from typing import Literal, get_args
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -39,9 +31,7 @@ from scipy.optimize import brentq
 from scipy.special import erf
 
 from stickiness.arguments import finite, nonnegative, number, positive
-from stickiness.persson.gaps import GapProfile, Setting, gap_profile
-from stickiness.persson.gaps import cumulative as _cumulative
-from stickiness.persson.gaps import density as _density
+from stickiness.persson import gaps
 from stickiness.persson.kernels import CorrectionName, kernels
 from stickiness.persson.layered_scales import LayeredScales
 from stickiness.persson.scale_quadrature import scale_nodes
@@ -51,7 +41,6 @@ from stickiness.spectrum.interface import Spectrum, check_spectrum
 
 Variant = Literal["afferrante2018", "almqvist2011"]
 
-_VARIANTS = ("afferrante2018", "almqvist2011")
 _REACH = 17.0  # gaps up to 0.6 of this many h_rms (10) are always resolved
 _FARTHEST = 1024.0  # in h_rms; the theory's tail P ~ 1/(u ln u)^2 beyond means nothing
 
@@ -63,10 +52,9 @@ class Persson:
     ----------
     spectrum : Spectrum
         Continuous, tabulated, or the shells of a periodic window. With a direction, its average
-        over directions is used, all that the theory knows of a surface; quadrature errs by 1e-6
-        in the mean gap and 3e-5 in P(u) then. Simulated areas over theory's are
-        larger than without a direction by 1, 10 and 17 % at ratios of 2, 4 and 8 at small loads, by
-        1, 3 and 4 % at half contact (`benchmarks/direction.py`).
+        over directions is used; quadrature errs by 1e-6 in the mean gap and 3e-5 in P(u) then.
+        Simulated areas over theory's are larger than without a direction by 1, 10 and 17 % at
+        ratios of 2, 4 and 8 at small loads (`benchmarks/direction.py`).
     variant : {"afferrante2018", "almqvist2011"}
         Width of the Gaussians that P(u) is made of: the rms height h of the roughness that is not
         in sight yet (Almqvist et al. 2011, doi:10.1016/j.jmps.2011.08.004), or h_eff with
@@ -129,8 +117,8 @@ class Persson:
             self._layered = LayeredScales(spectrum, solid, nodes)
         m2 = self._variance_below(spectrum.q1)
         scales = scale_nodes(spectrum, nodes)
-        self._setting = Setting(spectrum, universal, scales, m2, variant, nodes)
-        self._profiles: dict[tuple[float, float], GapProfile] = {}
+        self._setting = gaps.Setting(spectrum, universal, scales, m2, variant, nodes)
+        self._profiles: dict[tuple[float, float], gaps.GapProfile] = {}
 
     def with_variant(self, variant: Variant) -> Persson:
         """Return the same theory with another width of the Gaussians.
@@ -164,8 +152,7 @@ class Persson:
                 raise ValueError(
                     f"magnification must be a number of at least 1, got {magnification!r}"
                 )
-            q = magnification * self.spectrum.q0
-            m = self._variance_below(q)
+            m = self._variance_below(magnification * self.spectrum.q0)
         if m == 0:
             return np.where(p > 0, 1.0, 0.0)[()]
         y = self._setting.kernels.invert_area_scale(m / np.where(p > 0, p, 1.0) ** 2)
@@ -180,10 +167,11 @@ class Persson:
         (p,) = positive(p=p)
         if self._layered is not None:
             return self._layered.mean_gap(p, self._setting.kernels)
-        s = np.sqrt(self._setting.scales.fine.below)
+        nodes = self._setting.scales.fine
+        s = np.sqrt(nodes.below)
         x2 = (p[..., None] / s) ** 2
         kernel = s * np.exp(-x2) * self._setting.kernels.mean_kernel(x2)
-        return 2 / np.sqrt(np.pi) * np.sum(self._setting.scales.fine.weight * kernel, axis=-1)
+        return 2 / np.sqrt(np.pi) * np.sum(nodes.weight * kernel, axis=-1)
 
     def pressure_at(self, mean_gap: ArrayLike) -> NDArray:
         """Mean pressure over E* at which the mean gap is `mean_gap` > 0 [length].
@@ -204,7 +192,7 @@ class Persson:
         p : array_like
             Mean pressure over E*.
         """
-        density = self._over_gaps(u, p, _density)
+        density = self._over_gaps(u, p, gaps.density)
         if self.variant == "afferrante2018":
             density = np.where(np.asarray(u) == 0, np.inf, density)[()]
         return density
@@ -215,7 +203,7 @@ class Persson:
         The integral of P from 0 to `u`, in closed form under the integral over scales. Also the
         relative attractive area of a traction that acts up to `u`. Arguments as of `gap_density`.
         """
-        return self._over_gaps(u, p, _cumulative)
+        return self._over_gaps(u, p, gaps.cumulative)
 
     def _pressure_at(self, target: float) -> float:
         def excess(log_p: float) -> float:
@@ -241,15 +229,12 @@ class Persson:
             return self._layered.variance_below(q)
         return 0.5 * float(self.spectrum.variance_below(q, 2))
 
-    def _check_gaps_known(self) -> None:
+    def _over_gaps(self, u: ArrayLike, p: ArrayLike, function) -> NDArray:
         if self._layered is not None:
             raise NotImplementedError(
                 "the distribution of gaps is known for a half-space only: on a layer take "
                 "area_fraction, mean_gap and pressure_at, or the gaps of repulsive.solve"
             )
-
-    def _over_gaps(self, u: ArrayLike, p: ArrayLike, evaluate) -> NDArray:
-        self._check_gaps_known()
         (p,) = positive(p=p)
         (u,) = nonnegative(u=u)
         finite = u[np.isfinite(u)]
@@ -257,17 +242,16 @@ class Persson:
         # In powers of two, so that profiles are shared between calls.
         doublings = max(0.0, np.ceil(np.log2(max(largest, 1.0) / (0.6 * _REACH))))
         reach = min(_REACH * 2**doublings, _FARTHEST)
-        rows = [evaluate(u.ravel(), self._profile(float(x), reach)) for x in p.ravel()]
+        rows = []
+        for load in map(float, p.ravel()):
+            if (load, reach) not in self._profiles:
+                if len(self._profiles) >= 64:
+                    self._profiles.clear()
+                self._profiles[load, reach] = gaps.gap_profile(self._setting, load, reach)
+            rows.append(gaps.over_blocks(function, u.ravel(), self._profiles[load, reach]))
         return np.reshape(rows, p.shape + u.shape)[()]
-
-    def _profile(self, p: float, reach: float) -> GapProfile:
-        if (p, reach) not in self._profiles:
-            if len(self._profiles) >= 64:
-                self._profiles.clear()
-            self._profiles[p, reach] = gap_profile(self._setting, p, reach)
-        return self._profiles[p, reach]
 
 
 def _check_variant(variant: str) -> None:
-    if variant not in _VARIANTS:
-        raise ValueError(f"variant must be one of {_VARIANTS}, got {variant!r}")
+    if variant not in get_args(Variant):
+        raise ValueError(f"variant must be one of {get_args(Variant)}, got {variant!r}")

@@ -1,7 +1,6 @@
 """How much adhesion remains on a rough surface: simulated, or predicted from the spectrum.
 
 - `measurement`: works of approach and separation and pull-off of given heights, simulated
-- `theories`: local criterion, energy of full contact and DMT form, to compare
 - `share`: share of the work of adhesion that remains, from weak to tough, in closed form
 - `prediction`: the same of a spectrum, with limits, and the adhesion that a share needs
 - `sphere`: pull-off of a sphere from a rough surface

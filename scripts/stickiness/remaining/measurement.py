@@ -78,10 +78,6 @@ class Remaining:
     pull_off: float
     area_at_zero_load: float
     gap_at_zero_load: float
-    approach_limits: tuple[float, float]
-    separation_limits: tuple[float, float]
-    bound_limits: tuple[float, float]
-    pull_off_limits: tuple[float, float]
     pixels_in_zone: float
     jumps: int
     gap: NDArray
@@ -89,9 +85,10 @@ class Remaining:
     separating: NDArray
     fft_pairs: float
     points: tuple[PathPoint, ...]
-
-
-QUOTED = ("approach", "separation", "bound", "pull_off")
+    approach_limits: tuple[float, float] = (np.nan, np.nan)
+    separation_limits: tuple[float, float] = (np.nan, np.nan)
+    bound_limits: tuple[float, float] = (np.nan, np.nan)
+    pull_off_limits: tuple[float, float] = (np.nan, np.nan)
 
 
 def measure(
@@ -154,8 +151,13 @@ def measure(
         # The half grid is coarse on purpose: what that changes is the error.
         warnings.simplefilter("ignore", PlausibilityWarning)
         coarse = replace(_follow(heights[::2, ::2], length, law, squeeze, settings), points=())
-    found = _follow(heights, length, law, squeeze, settings)
-    return replace(found, **_limits(found, coarse))
+    found, limits = _follow(heights, length, law, squeeze, settings), {}
+    for name in ("approach", "separation", "bound", "pull_off"):
+        value = getattr(found, name)
+        # The change from half the grid, more than what this one still lacks, and the steps.
+        error = np.hypot(value - getattr(coarse, name), STEPS_ERROR * value)
+        limits[f"{name}_limits"] = (max(value - error, 0.0), value + error)
+    return replace(found, **limits)
 
 
 def _follow(heights, length, law, squeeze, options):
@@ -185,77 +187,62 @@ def _follow(heights, length, law, squeeze, options):
             break
     else:
         raise ConvergenceError("the surfaces have not parted at the end of the path", point.state)
-    ways = [_Curve.of(points) for points in (approach, separation)]
     points = approach + separation
-    gap, area = ways[0].zero_load()
+    gap = np.array([point.state.mean_gap for point in points])
+    pressure = np.array([point.state.mean_pressure for point in points])
+    jumped = np.array([point.event is not None for point in points])
+    ways = slice(len(approach)), slice(len(approach), None)
+    works = [
+        (_work(gap[way], pressure[way], jumped[way]) - far.state.energy) / law.adhesion_length
+        # Beyond both ends of the path the tension does as much work as there is energy left.
+        for way, far in zip(ways, (approach[0], separation[-1]), strict=True)
+    ]
     energy = min(point.state.energy for point in points)
     pixel = float(np.broadcast_to(length, 2)[0]) / heights.shape[0]
-    unknown = (np.nan, np.nan)
-    # Beyond both ends of the path the tension does as much work as there is energy left.
+    gap_at_zero_load, area_at_zero_load = _zero_load([point.state for point in approach])
     return Remaining(
-        approach=(ways[0].work() - approach[0].state.energy) / law.adhesion_length,
-        separation=(ways[1].work() - separation[-1].state.energy) / law.adhesion_length,
+        approach=works[0],
+        separation=works[1],
         bound=max(-energy, 0.0) / law.adhesion_length,
-        pull_off=max(-float(ways[1].pressure.min()), 0.0),
-        area_at_zero_load=area,
-        gap_at_zero_load=gap,
-        approach_limits=unknown,
-        separation_limits=unknown,
-        bound_limits=unknown,
-        pull_off_limits=unknown,
+        pull_off=max(-float(pressure[ways[1]].min()), 0.0),
+        area_at_zero_load=area_at_zero_load,
+        gap_at_zero_load=gap_at_zero_load,
         pixels_in_zone=1 / edge_zone.resolution(pixel, law.range, law.adhesion_length),
-        jumps=sum(point.event is not None for point in points),
-        gap=np.concatenate([way.gap for way in ways]),
-        pressure=np.concatenate([way.pressure for way in ways]),
-        separating=np.repeat([False, True], [len(way.gap) for way in ways]),
+        jumps=int(jumped.sum()),
+        gap=gap,
+        pressure=pressure,
+        separating=np.arange(len(points)) >= len(approach),
         fft_pairs=sum(point.state.fft_pairs for point in points),
         points=tuple(points),
     )
 
 
-@dataclass(frozen=True, eq=False)
-class _Curve:
-    """Mean pressure over the mean gap one way, with the places of its jumps."""
+def _work(gap, pressure, jumped):
+    """Integral of the tension over the gap one way [E* length], positive."""
+    ends = [0, *np.flatnonzero(jumped), len(gap)]
+    total = 0.0
+    for start, end in pairwise(ends):
+        if end - start > 1:
+            total += _tension_over_gap(gap[start:end], pressure[start:end])
+        if start > 0:  # across the jump before
+            before = slice(start - 1, start + 1)
+            total += abs(np.trapezoid(np.maximum(-pressure[before], 0), gap[before]))
+    return float(total)
 
-    gap: NDArray
-    pressure: NDArray
-    area: NDArray
-    jumped: NDArray  #: whether a jump led to a state
 
-    @classmethod
-    def of(cls, points):
-        states = [point.state for point in points]
-        return cls(
-            gap=np.array([state.mean_gap for state in states]),
-            pressure=np.array([state.mean_pressure for state in states]),
-            area=np.array([state.repulsive_area_fraction for state in states]),
-            jumped=np.array([point.event is not None for point in points]),
-        )
-
-    def work(self):
-        """Integral of the tension over the gap [E* length], positive."""
-        ends = [0, *np.flatnonzero(self.jumped), len(self.gap)]
-        total = 0.0
-        for start, end in pairwise(ends):
-            if end - start > 1:
-                total += _tension_over_gap(self.gap[start:end], self.pressure[start:end])
-            if start > 0:  # across the jump before
-                before = slice(start - 1, start + 1)
-                tension = np.maximum(-self.pressure[before], 0)
-                total += abs(np.trapezoid(tension, self.gap[before]))
-        return float(total)
-
-    def zero_load(self):
-        """Mean gap and area where tension turns into pressure."""
-        crossing = np.flatnonzero((self.pressure[:-1] < 0) & (self.pressure[1:] >= 0))
-        if not crossing.size:
-            # Full contact holds tension at a gap of zero, and is the state at zero load too.
-            closed = self.pressure[-1] < 0
-            return (float(self.gap[-1]), float(self.area[-1])) if closed else (np.nan, np.nan)
-        i = crossing[-1]
-        share = -self.pressure[i] / (self.pressure[i + 1] - self.pressure[i])
-        gap, area = (x[i] + share * (x[i + 1] - x[i]) for x in (self.gap, self.area))
-        return float(gap), float(area)
+def _zero_load(states):
+    """Mean gap and area where tension turns into pressure."""
+    for one, other in reversed(list(pairwise(states))):
+        if one.mean_pressure < 0 <= other.mean_pressure:
+            share = -one.mean_pressure / (other.mean_pressure - one.mean_pressure)
+            return tuple(
+                float(getattr(one, name) + share * (getattr(other, name) - getattr(one, name)))
+                for name in ("mean_gap", "repulsive_area_fraction")
+            )
+    # Full contact holds tension at a gap of zero, and is the state at zero load too.
+    last = states[-1]
+    closed = last.mean_pressure < 0
+    return (last.mean_gap, last.repulsive_area_fraction) if closed else (np.nan, np.nan)
 
 
 def _tension_over_gap(gap, pressure):
@@ -266,13 +253,3 @@ def _tension_over_gap(gap, pressure):
     fine = np.append(fine, gap[-1])
     tension = np.maximum(-PchipInterpolator(gap, pressure)(fine), 0)
     return np.trapezoid(tension, fine)
-
-
-def _limits(fine, coarse):
-    """Limits by the change from half the grid, more than what it still lacks, and by the steps."""
-    found = {}
-    for name in QUOTED:
-        value = getattr(fine, name)
-        error = np.hypot(value - getattr(coarse, name), STEPS_ERROR * value)
-        found[f"{name}_limits"] = (max(value - error, 0.0), value + error)
-    return found

@@ -54,8 +54,8 @@ class Prediction:
     ----------
     approach, separation : float
         Works of approach and of separation at given mean gaps, over the work of adhesion. The
-        theory has no jumps: both are the energy gained. Jumps lower the one and raise the other;
-        the limits allow for as much of it as was simulated.
+        theory has no jumps: both are the energy gained. The limits allow for the jumps that were
+        simulated.
     pull_off : float
         Largest mean tension on separation [E*].
     area_at_zero_load : float
@@ -114,7 +114,7 @@ class Roughness:
         less, more = np.minimum(abs(harder), 1.0), np.maximum(harder, 0.0)
         layer = sign * np.where(sign < 0, LAYER_LESS * less, LAYER_MORE * more)
         share = share + layer * fades * lost
-        if self.half_space_energy is not None:
+        if self.half_space_energy is not None and np.isfinite(self.half_space_energy).any():
             share = self._bound(share, adhesion_length, range, sign)
         # Full contact is a state that the surfaces may take.
         return plain(np.clip(share, np.maximum(1 - 1 / ratio, 0.0), 1.0))
@@ -182,17 +182,16 @@ class Roughness:
         With `sign` +1 or -1, from which on the high or low limit of the share is at least that.
         """
         range = np.asarray(range, dtype=float)
-        surface = {name: value for name, value in vars(self).items() if value is not None}
-        sign = np.multiply(sign, surface.pop("anisotropy_error_factor"))
-        bound = {"half_space_energy"} & surface.keys()
-        deep = {name: surface.pop(name) for name in bound}
-        at = np.broadcast_arrays(*positive(**surface), *deep.values(), *positive(range=range), sign)
-        surface |= deep
-        energy = at[list(surface).index("elastic_energy")]
+        names = ("h_rms", "q0", "elastic_energy", "relative_compliance")
+        values = positive(**{name: getattr(self, name) for name in names}, range=range)
+        half_space = np.nan if self.half_space_energy is None else self.half_space_energy
+        sign = np.multiply(sign, self.anisotropy_error_factor)
+        at = np.broadcast_arrays(*values, half_space, sign)
+        energy = at[names.index("elastic_energy")]
 
         def excess(log_length, *at):
-            *values, range, sign = at
-            rough = Roughness(**dict(zip(surface, values, strict=True)))
+            *surface, range, half_space, sign = at
+            rough = Roughness(*surface, half_space)
             return np.asarray(rough.share(np.exp(log_length), range, sign)) - share
 
         bracket = np.log(LEAST_LENGTH * energy), np.log(20 * energy / (1 - share))

@@ -4,42 +4,8 @@
 ``range_ratio`` e = range/h_rms.
 ``zone`` z = q0 range^2/(adhesion length): width of the cohesive zone over the longest waves.
 
-**Tough contact** (`tough_share`). Let A(x) be the contact area of the deepest state at zero load.
-The energy gained per area, w times the share S, grows with w by just that area, d(x S)/dx = A
-(the state is a minimum). Contact begins at an onset x0, and S must tend to 1 - 1/x, what full
-contact leaves. The simplest area that does both is ``A = 1 - exp(-(x - x0)/(1 - x0))``, hence
-
-    S = 1 - 1/x + (1 - x0)/x exp(-(x - x0)/(1 - x0)),   x > x0.
-
-The one constant is the onset. It was fitted to simulations of H = 0.5 to 0.9 and magnifications 4
-to 64, between which it hardly differs: what is predicted over what was simulated rises with the
-magnification, from about 0.9 at 4 to 1.15 at 64. U_full of H > 1/2 depends on the rms height and
-the longest waves alone in the end, and so does the share. Attraction that reaches over gaps
-advances the onset, ``x0 = ONSET/(1 + ADVANCE sqrt(z))``. Simulations reach z = 0.05. What short
-ranges leave is extrapolated: other forms fit as well, with onsets of 0.36 to 0.51 at z = 0.
-
-**Weak attraction** (`weak_share`). The heights hardly deform, and attraction acts over the gaps
-between them. The share is the largest of ``<exp(-gap/range)> - U(gap)/w`` over the mean gap, for
-Gaussian heights, as in the bearing area model of Ciavarella (Meccanica 53, 241, 2018,
-doi:10.1007/s11012-017-0701-6). U is the elastic energy of contact without adhesion,
-``U_full exp(-2.2 t - 0.2 t^2)`` at the mean gap t h_rms, a law through simulations. No constant is
-fitted to adhesion. This share does not vanish with the range, because undeformed heights that
-overlap count as contact: 0.4 % is left at x = 0.3, 1.1 % at 0.4 and 2 % at 0.5. So the onset of
-tough contact is not where the model begins to leave anything.
-
-At x = 0.25 to 0.5 the share is the small difference of two nearly equal terms, at t of 1.3 to 2.
-There the law gives too little energy, and the share comes out too large near the onset.
-
-The deeper of two states is that with the larger share; `remaining_share` rounds the corner between
-them, which adds 9 % at most.
-
-**Thin layers** (`spring_share`). Waves much longer than a thin compressible layer, or one that
-slips, all have one stiffness: the layer is a bed of springs, and every point of the surface closes
-and opens independently. For Gaussian heights that limit is exact, and nothing is fitted. The
-longest waves tell how near it is, by their S (see `solids`): the share is the half-space's (with
-the energy of full contact of the layer, and its zone) and, weighted by ``(1 - S)^2``, what springs
-keep beyond it. That weight follows simulations of S = 0.1 to 0.5. Long waves of a thin
-incompressible layer are stiffer than springs, and keep more.
+Contact is tough (`tough_share`), or weak attraction acts over gaps (`weak_share`): the deeper of
+both states has the larger share. On thin layers `spring_share` adds to it.
 """
 
 from __future__ import annotations
@@ -67,7 +33,12 @@ _HEIGHTS = np.exp(-((_LEVELS[:, None] - _CLEARANCES) ** 2) / 2) * (_STEP / np.sq
 def tough_share(energy_ratio: ArrayLike, onset: ArrayLike = ONSET) -> float | NDArray:
     """Share that remains where contact is tough (JKR at the long waves).
 
-    ValueError if the ratio is not positive.
+    The energy gained per area, w times the share S, grows with w by the area of contact of the
+    deepest state at zero load, d(x S)/dx = A. Contact begins at an onset x0, and S must tend to
+    1 - 1/x, what full contact leaves. The simplest area that does both, `tough_area`, gives
+    ``S = 1 - 1/x + (1 - x0)/x exp(-(x - x0)/(1 - x0))``. The onset was fitted to simulations of
+    H = 0.5 to 0.9 and magnifications 4 to 64: what is predicted over what was simulated rises with
+    the magnification, from about 0.9 at 4 to 1.15 at 64.
     """
     (x,) = positive(energy_ratio=energy_ratio)
     rest = 1 - np.asarray(onset)
@@ -78,15 +49,20 @@ def tough_share(energy_ratio: ArrayLike, onset: ArrayLike = ONSET) -> float | ND
 def tough_area(energy_ratio: ArrayLike, onset: ArrayLike = ONSET) -> float | NDArray:
     """Area of contact over the nominal one at zero load, where contact is tough.
 
-    An upper estimate: 1.0 to 1.7 times what simulations have at an energy ratio of 1, 1.2 to 2.4
-    times at 0.5, where attraction over gaps stands in for contact.
+    ``A = 1 - exp(-(x - x0)/(1 - x0))``, an upper estimate: 1.0 to 1.7 times what simulations have
+    at an energy ratio of 1, 1.2 to 2.4 times at 0.5, where attraction over gaps stands in for
+    contact.
     """
     (x,) = positive(energy_ratio=energy_ratio)
     return plain(-np.expm1(-np.maximum(x - onset, 0) / (1 - np.asarray(onset))))
 
 
 def find_onset(zone: ArrayLike, onset: float = ONSET) -> float | NDArray:
-    """Onset of contact for a width of the cohesive zone q0 range^2/(adhesion length)."""
+    """Onset of contact for a width of the cohesive zone, which lets attraction reach over gaps.
+
+    Simulations reach z = 0.05. What short ranges leave is extrapolated: other forms fit as well,
+    with onsets of 0.36 to 0.51 at z = 0.
+    """
     (zone,) = positive(zone=zone)
     return plain(onset / (1 + ADVANCE * np.sqrt(zone)))
 
@@ -94,7 +70,12 @@ def find_onset(zone: ArrayLike, onset: float = ONSET) -> float | NDArray:
 def weak_share(energy_ratio: ArrayLike, range_ratio: ArrayLike) -> float | NDArray:
     """Share that remains where attraction acts over the gaps of Gaussian heights.
 
-    Overlap of undeformed heights counts as contact, so that a short range leaves a share as well.
+    The largest of ``<exp(-gap/range)> - U(gap)/w`` over the mean gap, as in the bearing area model
+    of Ciavarella (Meccanica 53, 241, 2018, doi:10.1007/s11012-017-0701-6). U, the elastic energy of
+    contact without adhesion, is a law through simulations; no constant is fitted to adhesion.
+    Overlap of undeformed heights counts as contact, so that a short range leaves a share as well:
+    0.4 % at x = 0.3, 1.1 % at 0.4 and 2 % at 0.5. There U is too low at the gaps that matter, 1.3
+    to 2 rms heights, and the share comes out too large.
     """
     x, e = np.broadcast_arrays(*positive(energy_ratio=energy_ratio, range_ratio=range_ratio))
     energy = np.exp(-ENERGY_DECAY * _GAPS - ENERGY_CURVATURE * _GAPS**2)
@@ -120,7 +101,8 @@ def spring_share(energy_ratio: ArrayLike, range_ratio: ArrayLike) -> float | NDA
 
     A point whose undeformed surfaces are c apart (all energies over the energy of full contact) is
     closed, ``c^2 - x``, or open at the gap g that balances the exponential law,
-    ``(c - g)^2 - x exp(-g/e)`` with ``y = (c - g)/e``, ``y exp(-y) = x/(2 e^2) exp(-c/e)``.
+    ``(c - g)^2 - x exp(-g/e)`` with ``y = (c - g)/e``, ``y exp(-y) = x/(2 e^2) exp(-c/e)``. Thin
+    layers that are compressible or slip are such beds to waves much longer than they are thick.
     """
     x, e = np.broadcast_arrays(*positive(energy_ratio=energy_ratio, range_ratio=range_ratio))
     blocks = -(-x.size // _BLOCK)  # arrays that fit the cache
@@ -153,8 +135,10 @@ def remaining_share(
 ) -> float | NDArray:
     """Share that remains, from weak to tough: the larger of both, its corner rounded.
 
-    `relative_compliance` is S of the longest waves on a layer: below 1 its points are
-    partly independent.
+    `relative_compliance` is S of the longest waves on a layer. Below 1 its points are partly
+    independent: what springs keep beyond the rest counts by (1 - S)^2, which follows simulations of
+    S = 0.1 to 0.5. Long waves of a thin incompressible layer are stiffer than springs, and keep
+    more.
     """
     tough = np.asarray(tough_share(energy_ratio, find_onset(zone, onset)))
     weak = np.asarray(weak_share(energy_ratio, range_ratio))

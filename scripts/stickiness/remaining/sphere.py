@@ -1,17 +1,8 @@
 """Pull-off of a sphere from a rough surface: Maugis' sphere with the adhesion that remains.
 
-Where the contact holds many of the longest waves, roughness changes only what holds the surfaces
-together per area: the work of adhesion becomes what remains of it, and the distance over which it
-acts becomes that of the rough surface. Both come from `Roughness`. The sphere is then smooth, and
-Maugis' solution goes from JKR to DMT.
-
-A sphere comes off from its edge. Roughness pins the edge, so that it takes more work to part the
-surfaces than remains. Dalvi et al. (PNAS 116, 25484, 2019, doi:10.1073/pnas.1913126116) measured
-what a cycle of contact and removal loses: the work of adhesion times the true area of contact. The
-high limit of the work of separation is what remains plus that loss, but at most `PINNING` elastic
-energies more than a smooth surface takes, which has nothing to pin the edge. The value has no
-pinning, nor has the low limit of the approach: the same authors found no other loss on approach
-than the elastic energy.
+Where the contact holds many of the longest waves, roughness changes only the work of adhesion and
+the distance over which it acts. Both come from `Roughness`. The sphere is then smooth, and Maugis'
+solution goes from JKR to DMT. Its edge may be pinned, see `work_of_separation`.
 """
 
 from __future__ import annotations
@@ -95,7 +86,13 @@ def pull_off(
 def work_of_separation(
     rough: Roughness, adhesion_length: ArrayLike, range: ArrayLike, sign: int = 0
 ) -> NDArray:
-    """Work of separation of a sphere's edge over the work of adhesion; `sign` as in `pull_off`."""
+    """Work of separation of a sphere's edge over the work of adhesion; `sign` as in `pull_off`.
+
+    Roughness pins the edge, so that parting takes more work than remains. Dalvi et al. (PNAS 116,
+    25484, 2019, doi:10.1073/pnas.1913126116) measured what a cycle of contact and removal loses:
+    the work of adhesion times the true area of contact. The high limit is what remains plus that
+    loss, but at most `PINNING` elastic energies more than a smooth surface takes.
+    """
     share = np.asarray(rough.share(adhesion_length, range, sign))
     if sign <= 0:
         return share
@@ -115,10 +112,12 @@ def _coefficient(radius: NDArray, length: NDArray, range: NDArray) -> NDArray:
 @cache
 def _table() -> tuple[NDArray, NDArray]:
     """Logarithm of Maugis' parameter, and the pull-off force over pi R l_a."""
-    parameters = np.geomspace(_LEAST, _MOST, _POINTS)
+    parameters, forces = np.geomspace(_LEAST, _MOST, _POINTS), []
     unit = float(maugis_parameter(1.0, 1.0, 1.0))
-    forces = np.array([-_pull_off_force(unit / parameter) for parameter in parameters]) / np.pi
-    return np.log(parameters), np.clip(forces, 1.5 * np.pi / np.pi, 2.0)
+    for given in parameters:
+        parameter = float(maugis_parameter(1.0, 1.0, unit / given))
+        forces.append(-float(maugis_curve(find_pull_off(parameter), parameter)[2] * np.pi))
+    return np.log(parameters), np.clip(np.array(forces) / np.pi, 1.5, 2.0)
 
 
 def maugis_parameter(radius: ArrayLike, adhesion_length: ArrayLike, range: ArrayLike) -> NDArray:
@@ -180,12 +179,6 @@ def find_pull_off(parameter: float) -> float:
         force, bounds=bounds, method="bounded", options={"xatol": 1e-10 * t[i]}
     )
     return float(found.x)
-
-
-def _pull_off_force(range: float) -> float:
-    """Pull-off force of a sphere of unit radius and adhesion length."""
-    parameter = float(maugis_parameter(1.0, 1.0, range))
-    return float(maugis_curve(find_pull_off(parameter), parameter)[2] * np.pi)
 
 
 def opening(t: NDArray) -> NDArray:

@@ -85,13 +85,6 @@ class _Field:
         self.field[points] = 0
         return self.image
 
-    def spread(self, points, values, wanted):
-        """Values, at other points, of a field that is zero but for `values` at `points`."""
-        self.field[points] = values
-        spread = self.field[wanted].astype(float, copy=False)
-        self.field[points] = 0
-        return spread
-
 
 class _Grid:
     """Heights on a grid, and scratch fields in single and, unless `rough`, double precision."""
@@ -103,9 +96,9 @@ class _Grid:
         self.active = np.zeros(heights.size, bool)
         dtype = np.float32 if rough else np.float64
         self.exact = _Field(problem.operator(dtype))
-        self.quick = (
-            self.exact if rough else _Field(problem.operator(np.float32), memory=self.exact)
-        )
+        self.quick = self.exact
+        if not rough:
+            self.quick = _Field(problem.operator(np.float32), memory=self.exact)
         # Below this residual rounding in single precision (some 1e-6 of the heights) is felt.
         largest = float(np.abs(heights).max())
         if not problem.periodic:  # an absolute displacement is about as large as this
@@ -157,11 +150,8 @@ def relax(problem, *, tol, max_iterations, gap=None, pressure=None, rough=False,
         full = _full_contact(grid, load)
         if full.pressure.min() >= 0:
             return full
-    candidates, dilute = (
-        None,
-        problem.periodic and dilute_contact.is_worthwhile(grid.shape, grid.sides, points.size),
-    )
-    best, precondition = None, None
+    dilute = problem.periodic and dilute_contact.is_worthwhile(grid.shape, grid.sides, points.size)
+    best = precondition = candidates = None
     iterations, stalled, loose, changed = 0, 0, _REDUCTION_WHILE_CHANGING, points.size
     while True:
         shift, gaps, below, residual = _gap(grid, field, points, pressure)
@@ -213,11 +203,8 @@ def relax(problem, *, tol, max_iterations, gap=None, pressure=None, rough=False,
         if changed == 0:
             goal = 0.5 * tol
         else:
-            reduction = (
-                loose
-                if changed > _FEW_CHANGES * points.size
-                else min(loose, _REDUCTION_NEARLY_SETTLED)
-            )
+            few = changed <= _FEW_CHANGES * points.size
+            reduction = min(loose, _REDUCTION_NEARLY_SETTLED) if few else loose
             goal = max(reduction * float(np.std(gaps)), 0.1 * tol)
         residuals, scale = _scaled(gaps)
         gaps = None  # frees memory
@@ -303,7 +290,6 @@ def _predicted_from_gap(grid, gap, load):
 
 
 def _predicted_from_pressure(grid, pressure, total):
-    """Contact set and pressure from a guess of the pressure."""
     flat = pressure.ravel()
     points = np.flatnonzero(flat > 0)
     shift, *_ = _gap(grid, grid.exact, points, _balanced(flat[points], total))
@@ -328,7 +314,9 @@ def _joined(grid, field, points, pressure, extra, shift):
     grid.active[extra] = True
     joined = np.flatnonzero(grid.active)
     grid.active[joined] = False
-    spread = grid.exact.spread(points, pressure, joined)
+    spread = np.zeros(joined.size)
+    # In the precision of the grid, be it single.
+    spread[np.searchsorted(joined, points)] = pressure.astype(grid.exact.field.dtype, copy=False)
     gaps = field.image[joined].astype(float, copy=False)
     gaps += shift
     return joined, spread, gaps

@@ -24,9 +24,8 @@ _SPLIT_WIDTH = 0.8  # of the split, in spacings: the shortest wave of that grid 
 _REACH = 10  # of near pairs, in pixels
 _BESIDE = 3  # and of the stiffness that preconditions
 _TABLE = 64  # pixels along the sides of the table of near pairs
-ADMITTED_PENETRATION = (
-    0.7  #: penetrations up to this multiple of the rms gap in contact may yet vanish
-)
+#: Penetrations up to this multiple of the rms gap in contact may yet vanish.
+ADMITTED_PENETRATION = 0.7
 _MAX_SET_CHANGES = 30  # changes of the set in a correction
 _USUAL_REDUCTION = 0.01  # reduction of the gap by a correction
 _BEST_REDUCTION = 0.002  # and one that it can still make, if it is the last

@@ -14,13 +14,12 @@ from scipy import fft
 from stickiness.repulsive import convolution, half_space
 
 
-class FreeHalfSpace:
+class FreeHalfSpace(half_space.HalfSpace):
     """Displacement of a rectangle of an unbounded half-space under pressure on it.
 
-    It replaces `half_space.HalfSpace` in contact problems with free edges. Its `stiffness` is that
-    of the periodic half-space, which only approximates the inverse of `compliance`, enough for a
-    preconditioner. `pairs` counts convolutions by their share of the points of the given grid,
-    those on the grid of twice the sides about fourfold.
+    Its `stiffness` is that of the periodic half-space, which only approximates the inverse of
+    `compliance`, enough for a preconditioner. `pairs` counts convolutions by their share of the
+    points of the given grid, those on the grid of twice the sides about fourfold.
 
     Parameters
     ----------
@@ -33,48 +32,25 @@ class FreeHalfSpace:
     """
 
     def __init__(self, shape, lengths, dtype=np.float64):
-        self.dtype = np.dtype(dtype)
-        self.shape = tuple(int(n) for n in shape)
-        self.lengths = tuple(float(a) for a in lengths)
-        self.pairs = 0.0
-        self._periodic = half_space.half_space(self.shape, self.lengths, self.dtype)
-        self.mean_stiffness = self._periodic.mean_stiffness
+        super().__init__(shape, lengths, dtype)
         padded = tuple(2 * fft.next_fast_len(n, real=True) for n in self.shape)
+        pixel = tuple(a / n for a, n in zip(self.lengths, self.shape, strict=True))
         self._share = padded[0] * padded[1] / (self.shape[0] * self.shape[1])
-        self._convolution = convolution.choose(padded, self.dtype)
-        self._symbol = self._convolution.symbol(_transform_kernel(padded, self._pixel()))
-
-    def _pixel(self):
-        return tuple(a / n for a, n in zip(self.lengths, self.shape, strict=True))
+        self._padded = convolution.choose(padded, self.dtype)
+        self._symbol = self._padded.symbol(_transform_kernel(padded, pixel))
 
     def compliance(self, pressure, out=None, rows_in=None, rows_out=None):
         """Displacement, zero far away and in the unit of `lengths`, under a pressure [E*].
 
         `rows_in`, `rows_out`: as of `half_space.HalfSpace.compliance`.
         """
-        if pressure.shape != self.shape:
-            raise ValueError(f"field has shape {pressure.shape}, the half-space {self.shape}")
-        if out is None:
-            out = np.zeros(self.shape, self.dtype)
-        every = np.arange(self.shape[0])
-        rows_in = every if rows_in is None else rows_in
-        rows_out = every if rows_out is None else rows_out
-        self._convolution.apply(self._symbol, pressure, out, rows_in, rows_out)
-        self.pairs += self._share
+        out = self._convolve(self._padded, pressure, self._symbol, out, rows_in, rows_out)
+        self.pairs += self._share - 1  # which has been counted as one
         return out
 
-    def stiffness(self, displacement, out=None, rows_in=None, rows_out=None):
-        """Pressure [E*] that causes about a displacement; arguments as of `compliance`."""
-        self.pairs += 1
-        return self._periodic.stiffness(displacement, out, rows_in, rows_out)
 
-
-def free_half_space(shape, lengths, dtype=np.float64):
-    """`FreeHalfSpace` of a grid (arguments as there), kept for the next call of the same thread."""
-    return _kept_free_half_space(tuple(shape), tuple(lengths), np.dtype(dtype))
-
-
-_kept_free_half_space = half_space.keep_per_thread(12)(FreeHalfSpace)
+# Kept for the next call of the same thread.
+free_half_space = half_space.keep_per_thread(12)(FreeHalfSpace)
 
 
 def displace_by_pixel(shape, pixel):

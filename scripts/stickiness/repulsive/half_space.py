@@ -118,13 +118,15 @@ class HalfSpace:
         `rows_in`: increasing indices of the only rows with pressure; `rows_out`: those wanted of
         the displacement, the others stay as they are in `out` (default: all).
         """
-        return self._convolve(pressure, self._compliance, out, rows_in, rows_out)
+        kernel = self._compliance
+        return self._convolve(self._convolution, pressure, kernel, out, rows_in, rows_out)
 
     def stiffness(self, displacement, out=None, rows_in=None, rows_out=None):
         """Pressure [E*], of zero mean, that causes a displacement; arguments as in `compliance`."""
-        return self._convolve(displacement, self._stiffness, out, rows_in, rows_out)
+        kernel = self._stiffness
+        return self._convolve(self._convolution, displacement, kernel, out, rows_in, rows_out)
 
-    def _convolve(self, field, symbol, out, rows_in, rows_out):
+    def _convolve(self, convolution, field, symbol, out, rows_in, rows_out):
         if field.shape != self.shape:
             raise ValueError(f"field has shape {field.shape}, the half-space {self.shape}")
         if out is None:
@@ -133,7 +135,7 @@ class HalfSpace:
         every = np.arange(self.shape[0])
         rows_in = every if rows_in is None else rows_in
         rows_out = every if rows_out is None else rows_out
-        self._convolution.apply(symbol, field, out, rows_in, rows_out)
+        convolution.apply(symbol, field, out, rows_in, rows_out)
         self.pairs += 1
         return out
 

@@ -176,7 +176,6 @@ def _add_to_coarse(field, weights, axis0, axis1, rows, coarse):
 
 @compiled
 def _interpolate(coarse, axis0, axis1, rows, weights, out):
-    """Interpolate along both axes, and multiply by weights."""
     left, right, t = axis1
     for i in range(rows.shape[0]):
         for j in range(rows.shape[1]):
@@ -191,7 +190,6 @@ def _interpolate(coarse, axis0, axis1, rows, weights, out):
 
 @compiled
 def _interpolate_at(points, coarse, axis0, axis1, out):
-    """Interpolate along both axes at some points."""
     left0, right0, t0 = axis0
     left1, right1, t1 = axis1
     for k in range(points.size):

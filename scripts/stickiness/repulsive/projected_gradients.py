@@ -48,7 +48,12 @@ def relax(problem, pressure, *, tol, max_iterations, logger=None):
         direction += fall
         old, iterations = gap_in_contact, iterations + 1
         last = product if _step(problem, operator, pressure, gap, direction) else np.inf
-    return _state(best, iterations, operator.pairs - before)
+    residual, shift, pressure, gap = best
+    touching = pressure > 0
+    np.maximum(gap, 0.0, out=gap)
+    gap[touching] = 0
+    area, pairs = float(np.mean(touching)), operator.pairs - before
+    return State(pressure, gap, shift, area, residual, iterations, pairs)
 
 
 def _gap(problem, operator, pressure):
@@ -77,12 +82,3 @@ def _step(problem, operator, pressure, gap, direction):
     pressure[joined] = _JOINING * problem.load
     pressure *= problem.load / pressure.mean()
     return not joined.any()
-
-
-def _state(best, iterations, pairs):
-    residual, shift, pressure, gap = best
-    touching = pressure > 0
-    np.maximum(gap, 0.0, out=gap)
-    gap[touching] = 0
-    area = float(np.mean(touching))
-    return State(pressure, gap, shift, area, residual, iterations, pairs)

@@ -39,9 +39,8 @@ from stickiness.repulsive.half_space import (
 from stickiness.solids import HALF_SPACE, check_solid
 
 _MIN_COARSE_POINTS = 64  # points along the shorter side of the coarsest grid
-_MAX_LOAD_CHANGE = (
-    0.005  # relative change of load up to which the last solution is the better start
-)
+# Relative change of load up to which the last solution is the better start.
+_MAX_LOAD_CHANGE = 0.005
 _MAX_TOLERANCE = 0.1  # of h_rms: beyond this no solution is worth the name
 # Iterations with active sets on a layer or with free edges: either tens do, or more gain little.
 _MAX_UNSURE_ITERATIONS = 150
@@ -188,7 +187,12 @@ def solve(
             "pass a solution on the same grid"
         )
     solid = check_solid(solid)
-    check_edges(periodic, solid)
+    if not isinstance(periodic, bool | np.bool_):
+        raise ValueError(f"periodic must be True or False, got {periodic!r}")
+    if not periodic and solid != HALF_SPACE:
+        raise ValueError(
+            f"periodic=False is for a half-space only, got solid={solid!r}; leave out one of them"
+        )
     scale = measure_scale(heights)
     warn_of_heights(scale[1], lengths[0])
     if pressure > 1:
@@ -197,16 +201,6 @@ def solve(
         warn_of_pressure(pressure, measure_slope(heights, lengths) * stiffening)
     effort = Effort(tol, max_iterations, logger)
     return press(heights, lengths, pressure, effort, start, solid, periodic, scale)
-
-
-def check_edges(periodic, solid):
-    """Refuse free edges of anything but a half-space."""
-    if not isinstance(periodic, bool | np.bool_):
-        raise ValueError(f"periodic must be True or False, got {periodic!r}")
-    if not periodic and solid != HALF_SPACE:
-        raise ValueError(
-            f"periodic=False is for a half-space only, got solid={solid!r}; leave out one of them"
-        )
 
 
 @dataclass(frozen=True)
@@ -238,7 +232,7 @@ def press(
         solid.in_unit(lengths[0]),
         bool(periodic),
     )
-    guess = start.pressure if start is not None and start.area_fraction > 0 else None
+    guess = {"pressure": start.pressure} if start is not None and start.area_fraction > 0 else None
     state = _relax(problem, guess, effort)
     # Nothing else refers to these fields: they may be large, and are scaled in place.
     field, gap = (np.asarray(values, dtype=float) for values in (state.pressure, state.gap))
@@ -269,24 +263,17 @@ def press(
 
 
 def _relax(problem, guess, effort):
-    """State of a scaled problem from a guess of the pressure or, without one, coarser grids.
+    """Solve a scaled problem from a guess or, without one, from coarser grids.
 
     Its iterations and convolutions are those of all methods, the latter on all grids.
     """
     work, logger, limit = [], effort.logger, effort.max_iterations
     unsure = problem.solid != HALF_SPACE or not problem.periodic
-    gap = None
-    if guess is None and problem.periodic:
-        gap = coarse_gap(problem, work, logger)
-    elif guess is None:
-        guess = coarse_pressure(problem, work, logger)
+    if guess is None:
+        guess = _guess_from_coarser_grids(problem, work, logger)
+    first_limit = min(limit, _MAX_UNSURE_ITERATIONS) if unsure else limit
     state = active_set.relax(
-        problem,
-        tol=effort.tol,
-        max_iterations=min(limit, _MAX_UNSURE_ITERATIONS) if unsure else limit,
-        pressure=guess,
-        gap=gap,
-        logger=logger,
+        problem, tol=effort.tol, max_iterations=first_limit, logger=logger, **guess
     )
     iterations, pairs = state.iterations, state.pairs
     if unsure and not state.residual <= effort.tol and iterations < limit:
@@ -315,55 +302,39 @@ def load_path(heights, length, pressures, tol=1e-8, **options):
     """
     last = None
     for pressure in pressures:
-        near = (
-            last is not None
-            and abs(pressure - last.mean_pressure) < _MAX_LOAD_CHANGE * last.mean_pressure
+        near = last is not None and (
+            abs(pressure - last.mean_pressure) < _MAX_LOAD_CHANGE * last.mean_pressure
         )
         start = last if near else None
         last = solve(heights, length, pressure, tol=tol, start=start, **options)
         yield last
 
 
-def coarse_gap(problem, work, logger=None):
-    """First guess of the gap from coarser grids, in single precision; None for a small grid.
+def _guess_from_coarser_grids(problem, work, logger):
+    """First guess of the gap or, with free edges, of the pressure; empty for a small grid.
 
-    `work` gets the convolutions on every coarser grid, times its points.
+    It is found in single precision. `work` gets the convolutions on every coarser grid, times its
+    points.
     """
     shape = problem.heights.shape
     if min(shape) < 2 * _MIN_COARSE_POINTS:
-        return None
-    heights = sample(problem.heights, tuple(coarsen(n) for n in shape))
-    coarse = replace(problem, heights=heights)
-    state = _relax_roughly(coarse, work, logger, gap=coarse_gap(coarse, work, logger))
-    return interpolate(state.gap, shape)
-
-
-def coarse_pressure(problem, work, logger=None):
-    """First guess of the pressure with free edges, else as `coarse_gap`."""
-    shape = problem.heights.shape
-    if min(shape) < 2 * _MIN_COARSE_POINTS:
-        return None
-    heights = free_edges.coarsen_heights(problem.heights)
-    sides = tuple(
-        a * 2 * m / n for a, m, n in zip(problem.sides, heights.shape, shape, strict=True)
-    )
+        return {}
+    if problem.periodic:
+        heights, sides = sample(problem.heights, tuple(coarsen(n) for n in shape)), problem.sides
+    else:
+        heights = free_edges.coarsen_heights(problem.heights)
+        sides = tuple(
+            a * 2 * m / n for a, m, n in zip(problem.sides, heights.shape, shape, strict=True)
+        )
     coarse = replace(problem, heights=heights, sides=sides)
-    state = _relax_roughly(coarse, work, logger, pressure=coarse_pressure(coarse, work, logger))
-    return free_edges.refine_pressure(state.pressure, shape)
-
-
-def _relax_roughly(coarse, work, logger, **guess):
-    """State on a coarser grid, in single precision; `work` as in `coarse_gap`."""
+    guess = _guess_from_coarser_grids(coarse, work, logger)
     state = active_set.relax(
-        coarse,
-        tol=_COARSE_TOLERANCE,
-        max_iterations=200,
-        rough=True,
-        logger=logger,
-        **guess,
+        coarse, tol=_COARSE_TOLERANCE, max_iterations=200, rough=True, logger=logger, **guess
     )
-    work.append(state.pairs * coarse.heights.size)
-    return state
+    work.append(state.pairs * heights.size)
+    if problem.periodic:
+        return {"gap": interpolate(state.gap, shape)}
+    return {"pressure": free_edges.refine_pressure(state.pressure, shape)}
 
 
 def _without_iterations(heights, lengths, pressure, rms, periodic):

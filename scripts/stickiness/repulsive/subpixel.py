@@ -19,8 +19,6 @@ a line, s is interpolated linearly between neighbouring points.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
@@ -101,18 +99,20 @@ def attractive_area(
     weights = sides / sides.sum() if sides.any() else np.array([0.5, 0.5])
     length = np.zeros(levels.size)
     edges = []
-    for field, touching in zip(_grids(gap), _grids(contact), strict=True):
+    grids = (array.reshape(-1, *array.shape[-2:]) for array in (gap, contact))
+    for field, touching in zip(*grids, strict=True):
         s = np.cbrt(np.maximum(field, 0.0)) ** 2
         found = [_edges(s, touching, axis) for axis in (0, 1)]
         # A point opens on the grid when the edge is still 0.2 pixels short of it, with next to no
         # gap: it gets the one that the edge law has there.
-        for each in found:
-            np.maximum.at(s, each.index, each.lifted)
+        for index, _, _, lifted in found:
+            np.maximum.at(s, index, lifted)
         for axis, weight in enumerate(weights):
             rows, mask = (s, touching) if axis == 1 else (s.T, touching.T)
             for part in _blocks(rows.shape):
                 length += weight * _between_open_points(rows[part], mask[part], levels)
-            edges.append(found[axis].table(s, weight))
+            index, distance, second, _ = found[axis]
+            edges.append([distance, s[index], second, np.full(distance.size, weight)])
     length += _beside_edges(np.concatenate(edges, axis=1), levels)
     area = length[inverse].reshape(eps.shape) / gap.size
     return area if eps.ndim else float(area)
@@ -145,7 +145,6 @@ def _require_grid(name: str, array: NDArray) -> None:
 
 
 def _mask(contact: ArrayLike) -> NDArray:
-    """Return a checked mask of the contact."""
     contact = np.asarray(contact)
     if contact.dtype != bool or contact.size == 0:
         raise ValueError(
@@ -161,10 +160,6 @@ def _sides(contact: NDArray) -> NDArray:
     return np.array(
         [float(np.count_nonzero(contact ^ np.roll(contact, 1, axis))) for axis in (-2, -1)]
     )
-
-
-def _grids(array: NDArray) -> NDArray:
-    return array.reshape(-1, *array.shape[-2:])
 
 
 def _blocks(shape: tuple[int, int]) -> list[slice]:
@@ -198,24 +193,13 @@ def _between_open_points(s: NDArray, contact: NDArray, levels: NDArray) -> NDArr
     return whole + levels * rates - offsets
 
 
-@dataclass(frozen=True)
-class _Edges:
-    """Edges of contact on the grid lines along one axis, all arrays of one length."""
+def _edges(s: NDArray, contact: NDArray, axis: int) -> tuple:
+    """Find the edges on lines along an axis and how far they are from the first open points.
 
-    index: tuple[NDArray, NDArray]  #: of the first open point
-    distance: NDArray  #: of that point from the edge, in pixels
-    second: NDArray  #: s of the point beyond, NaN where the gap closes again
-    lifted: NDArray  #: s of the first point by the edge law, zero where the solution's is as good
-
-    def table(self, s: NDArray, weight: float) -> NDArray:
-        """Rows of distance, first s, second s and the weight of the lines."""
-        return np.array(
-            [self.distance, s[self.index], self.second, np.full(self.distance.size, weight)]
-        )
-
-
-def _edges(s: NDArray, contact: NDArray, axis: int) -> _Edges:
-    """Find the edges on lines along an axis and how far they are from the first open points."""
+    Returns indices of the first open points, their distances from the edge in pixels, s of the
+    points beyond (NaN where the gap closes again), and s of the first points by the edge law (zero
+    where the solution's is as good), all of one length.
+    """
     parts = []
     for step in (1, -1):
         index = np.nonzero(contact & ~np.roll(contact, -step, axis))
@@ -231,11 +215,14 @@ def _edges(s: NDArray, contact: NDArray, axis: int) -> _Edges:
     low = rises & (ratio < _LOW)
     lifted = np.where(low, second * distance / (1 + distance), 0.0)
     # Where the gap closes again there is no second point to tell the slope.
-    return _Edges((row, column), distance, np.where(rises, second, np.nan), lifted)
+    return (row, column), distance, np.where(rises, second, np.nan), lifted
 
 
 def _beside_edges(edges: NDArray, levels: NDArray) -> NDArray:
-    """Length up to every level of the intervals between an edge and the first open point."""
+    """Length up to every level of the intervals between an edge and the first open point.
+
+    Rows of `edges`: distance, s of the first and of the second point, weight of the line.
+    """
     distance, first, second, weight = edges
     if distance.size == 0:
         return np.zeros(levels.size)

@@ -7,11 +7,6 @@ Q/sqrt(a), along, to Q sqrt(a), across: the stretch ``g = |q|/Q``, with g^2 = co
 at the angles t of the circle that the ellipse is stretched from, which are evenly filled. Averages
 over t take the variable w in ln g = -ln(sqrt(a)) cos w, which leaves periodic smooth integrands at
 any ratio.
-
-Averaged over directions C is ``<C(q/g)/g^2>``. At the ends of the waves that the ellipses of a knot
-Q_k hold, Q_k/sqrt(a) and Q_k sqrt(a), it is like a square root; in between two knots, beyond these,
-a power law. `Ellipse.average` follows it by power laws between nodes that crowd at those ends, each
-of which holds the height and the gradient variance exactly.
 """
 
 from __future__ import annotations
@@ -23,7 +18,6 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import brentq, elementwise
 
 from stickiness.arguments import finite, nonnegative, number
-from stickiness.spectrum.interface import Moments
 
 ROUNDING = 1e-12  #: q within this relative distance of the band's end still belongs to it
 MOST = 1e4  #: ratios up to which averages were checked
@@ -49,11 +43,6 @@ class PowerLaws:
     knots: NDArray  #: (m + 1,), increasing wave numbers
     level: NDArray  #: (m,), C at the left end of each segment
     exponent: NDArray  #: (m,), a of each segment
-
-    @classmethod
-    def of(cls, knots: ArrayLike, level: ArrayLike, exponent: ArrayLike) -> PowerLaws:
-        """Power laws from anything that numpy takes for arrays."""
-        return cls(*(np.asarray(values, dtype=float) for values in (knots, level, exponent)))
 
     @property
     def ends(self) -> tuple[float, float]:
@@ -119,6 +108,9 @@ class PowerLaws:
 class Ellipse:
     """Norm of wave vectors, and the averages over directions that belong to it.
 
+    Averaged over directions C is ``<C(q/g)/g^2>``. It is like a square root at the ends of the
+    waves that the ellipse of a knot holds, and a power law away from them.
+
     Parameters
     ----------
     ratio : float
@@ -164,31 +156,6 @@ class Ellipse:
         w = np.pi * (np.arange(_NODES) + 0.5) / _NODES
         log_g = -self._log_reach * np.cos(w)
         return float(np.mean(2 * self._fill(w) * np.exp(power * log_g)))
-
-    def moments(self, totals: tuple[float, float, float], axis: float | None = None) -> Moments:
-        """Moments by direction (Longuet-Higgins 1957, doi:10.1098/rsta.1957.0002).
-
-        Parameters
-        ----------
-        totals : (float, float, float)
-            2 pi * integral of Q^(1 + power) C(Q) dQ for powers 0, 2 and 4.
-        axis : float, optional
-            Direction of x in the names of the moments, from the surface's x [rad]: the long
-            correlation length by default.
-        """
-        height, gradient, laplacian = totals
-        a, turn = self.ratio, 0.0 if axis is None else axis - self.angle
-        c2, s2 = np.cos(turn) ** 2, np.sin(turn) ** 2
-        m20, m02 = gradient / 2 / a, gradient / 2 * a
-        m40, m22, m04 = 3 / 8 * laplacian / a**2, laplacian / 8, 3 / 8 * laplacian * a**2
-        return Moments(
-            m00=height,
-            m20=float(c2 * m20 + s2 * m02),
-            m02=float(s2 * m20 + c2 * m02),
-            m40=float(c2**2 * m40 + 6 * c2 * s2 * m22 + s2**2 * m04),
-            m22=float(c2 * s2 * (m40 + m04 - 2 * m22) + (c2 - s2) ** 2 * m22),
-            m04=float(s2**2 * m40 + 6 * c2 * s2 * m22 + c2**2 * m04),
-        )
 
     def mean_psd(self, laws: PowerLaws, q: ArrayLike) -> NDArray:
         """C averaged over directions at wave numbers `q`, exactly."""

@@ -1,16 +1,13 @@
 """The interface of every spectrum of a rough surface: density, moments, modes of a periodic cell.
 
-A new kind of spectrum is a subclass of `Spectrum` in `kinds`, named in `__init__`. It must have
-`psd`, `variance_below`, `variance_above`, `at_gradient_variance` and `truncated`; it overrides
-`knots` where C(q) has kinks, and `modes_in_band` and `mode_variance` where its modes are not those
-of a density.
+A new kind of spectrum is a subclass of `Spectrum` in `kinds`. It overrides `knots` where C(q) has
+kinks, and `modes_in_band` and `mode_variance` where its modes are not those of a density.
 """
 
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -23,53 +20,6 @@ from stickiness.solids import HALF_SPACE, Solid, check_solid
 _ORDER, _WIDEST = 12, 0.7
 _MOST_WAVES = 2**15  # along a side; beyond, a list of all modes leaves no memory
 LATTICE_ROUNDING = 1e-9  #: relative slack on band limits that coincide with lattice wave numbers
-
-
-@dataclass(frozen=True)
-class Moments:
-    """Spectral moments of a surface: ``m20`` is the mean of (dh/dx)^2 and so on.
-
-    ``m22`` is the mean of (d2h/dx dy)^2. Lengths are in the unit of the heights and the cell.
-    """
-
-    m00: float
-    m20: float
-    m02: float
-    m40: float
-    m22: float
-    m04: float
-
-    @classmethod
-    def of_isotropic(cls, height: float, gradient: float, laplacian: float) -> Moments:
-        """Moments of an isotropic surface from its mean squares of h, grad h and the Laplacian."""
-        m2, m4 = gradient / 2, 3 / 8 * laplacian
-        return cls(m00=height, m20=m2, m02=m2, m40=m4, m22=laplacian / 8, m04=m4)
-
-    @property
-    def h_rms(self) -> float:
-        """Root mean square height."""
-        return float(np.sqrt(self.m00))
-
-    @property
-    def rms_slope(self) -> float:
-        """Root mean square gradient."""
-        return float(np.sqrt(self.m20 + self.m02))
-
-    @property
-    def rms_curvature(self) -> float:
-        """Root mean square Laplacian."""
-        return float(np.sqrt(self.m40 + 2 * self.m22 + self.m04))
-
-    @property
-    def nayak(self) -> float:
-        """Bandwidth m0 m4/m2^2 with m2, m4 averaged over direction for an isotropic surface."""
-        m2 = (self.m20 + self.m02) / 2
-        m4 = 3 / 8 * (self.m40 + 2 * self.m22 + self.m04)
-        return self.m00 * m4 / m2**2
-
-    def plus(self, other: Moments) -> Moments:
-        """Moments of the sum of this surface and an independent one, by the same axes."""
-        return Moments(**{name: getattr(self, name) + getattr(other, name) for name in vars(self)})
 
 
 class Spectrum(ABC):
@@ -99,22 +49,9 @@ class Spectrum(ABC):
         """C [length^4] of wave vectors of this `norm`; 0 off the band."""
         return self.psd(norm)
 
-    def psd_of_vector(self, qx: ArrayLike, qy: ArrayLike) -> NDArray:
-        """C(qx, qy) [length^4] of wave vectors; 0 off the band."""
-        return self.psd_of_norm(self.norm(qx, qy))
-
     def averaged(self) -> Spectrum:
         """Return the isotropic spectrum that this one is on average over directions."""
         return self
-
-    def directional_moments(self, axis: float | None = None) -> Moments:
-        """Profile moments by direction (Longuet-Higgins 1957, doi:10.1098/rsta.1957.0002).
-
-        ``m20`` and ``m40`` are of profiles along `axis` [rad from x], ``m02`` and ``m04`` across;
-        without a direction they equal `moment`. By default the axis is the long correlation
-        length, so that these are the smallest and the largest.
-        """
-        return Moments.of_isotropic(*(self.total_variance(power) for power in (0, 2, 4)))
 
     @abstractmethod
     def variance_below(self, q: ArrayLike, power: float = 0) -> NDArray:

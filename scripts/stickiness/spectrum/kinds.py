@@ -16,7 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from stickiness.arguments import nonnegative, number
 from stickiness.spectrum.direction import CIRCLE, ROUNDING, Ellipse, PowerLaws
-from stickiness.spectrum.interface import LATTICE_ROUNDING, Moments, Spectrum, check_cut
+from stickiness.spectrum.interface import LATTICE_ROUNDING, Spectrum, check_cut
 
 
 class PowerLawSegments(Spectrum):
@@ -35,24 +35,16 @@ class PowerLawSegments(Spectrum):
     def __init__(
         self, knots: ArrayLike, level: ArrayLike, exponent: ArrayLike, ellipse: Ellipse = CIRCLE
     ):
-        self.ellipse, self._laws = ellipse, PowerLaws.of(knots, level, exponent)
+        laws = (np.asarray(values, dtype=float) for values in (knots, level, exponent))
+        self.ellipse, self._laws = ellipse, PowerLaws(*laws)
         self.q0, self.q1 = self._laws.ends
-        self.isotropic = ellipse.is_circle
+        self.isotropic, self.anisotropy = ellipse.is_circle, ellipse.ratio
+        self.angle = ellipse.angle  # of the long correlation length from x [rad]
 
     @cached_property
     def _mean(self) -> PowerLaws:
         """The power laws averaged over directions."""
         return self._laws if self.isotropic else self.ellipse.average(self._laws)
-
-    @property
-    def anisotropy(self) -> float:
-        """Ratio of the correlation lengths."""
-        return self.ellipse.ratio
-
-    @property
-    def angle(self) -> float:
-        """Direction of the long correlation length from x [rad]."""
-        return self.ellipse.angle
 
     @property
     def knots(self) -> NDArray:
@@ -61,7 +53,6 @@ class PowerLawSegments(Spectrum):
 
     @property
     def band(self) -> tuple[float, float]:
-        """See `Spectrum.band`."""
         return self.q0 / self.ellipse.reach, self.q1 * self.ellipse.reach
 
     def psd(self, q: ArrayLike) -> NDArray:
@@ -71,38 +62,26 @@ class PowerLawSegments(Spectrum):
         return self.ellipse.mean_psd(self._laws, q)
 
     def norm(self, qx: ArrayLike, qy: ArrayLike) -> NDArray:
-        """See `Spectrum.norm`."""
         return self.ellipse.norm(qx, qy)
 
     def psd_of_norm(self, norm: ArrayLike) -> NDArray:
-        """See `Spectrum.psd_of_norm`."""
         return self._laws.psd(norm)
 
     def averaged(self) -> PowerLawSegments:
-        """See `Spectrum.averaged`."""
         if self.isotropic:
             return self
         return PowerLawSegments(self._mean.knots, self._mean.level, self._mean.exponent)
 
-    def directional_moments(self, axis: float | None = None) -> Moments:
-        """See `Spectrum.directional_moments`."""
-        of_norm = tuple(float(self._laws.below(self.q1, power)) for power in (0, 2, 4))
-        return self.ellipse.moments(of_norm, axis)
-
     def total_variance(self, power: float = 0) -> float:
-        """See `Spectrum.total_variance`."""
         return float(self._laws.below(self.q1, power)) * self.ellipse.mean_stretch(power)
 
     def variance_below(self, q: ArrayLike, power: float = 0) -> NDArray:
-        """See `Spectrum.variance_below`."""
         return self._mean.below(q, power)
 
     def variance_above(self, q: ArrayLike, power: float = 0) -> NDArray:
-        """See `Spectrum.variance_above`."""
         return self._mean.above(q, power)
 
     def at_gradient_variance(self, variance: ArrayLike) -> tuple[NDArray, NDArray]:
-        """See `Spectrum.at_gradient_variance`."""
         q = self._mean.invert_gradient(variance)
         return q, self.variance_above(q)
 
@@ -152,9 +131,8 @@ class SelfAffine(PowerLawSegments):
     >>> round(s.h_rms, 12), round(s.magnification)
     (1.0, 64)
     >>> ground = SelfAffine(hurst=0.8, q0=1.0, q1=64.0, h_rms=1.0, anisotropy=4.0)
-    >>> profiles = ground.directional_moments()  # m20 along the long waves, m02 across
-    >>> round(profiles.m02 / profiles.m20, 12), round(ground.rms_slope / s.rms_slope, 3)
-    (16.0, 1.458)
+    >>> round(ground.h_rms, 12), round(ground.rms_slope / s.rms_slope, 3)
+    (1.0, 1.458)
     """
 
     def __init__(
@@ -292,7 +270,6 @@ class Shells(Spectrum):
         return after[np.searchsorted(self.q, q, side="right")]
 
     def at_gradient_variance(self, variance: ArrayLike) -> tuple[NDArray, NDArray]:
-        """See `Spectrum.at_gradient_variance`."""
         gradient = np.cumsum(self.variance * self.q**2)
         (variance,) = nonnegative(variance=variance)
         i = np.minimum(np.searchsorted(gradient, variance, side="left"), len(self.q) - 1)
@@ -307,7 +284,6 @@ class Shells(Spectrum):
         return Shells(self.q[keep], self.variance[keep])
 
     def integrate(self, function: Callable[[NDArray], NDArray], low: float, high: float) -> float:
-        """See `Spectrum.integrate`."""
         inside = (self.q >= low) & (self.q <= high)
         return float(np.sum(self.variance[inside] * function(self.q[inside])))
 

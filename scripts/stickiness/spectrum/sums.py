@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import elementwise
 
 from stickiness.arguments import nonnegative
-from stickiness.spectrum.interface import Moments, Spectrum, check_cut
+from stickiness.spectrum.interface import Spectrum, check_cut
 from stickiness.spectrum.kinds import Shells
 
 _ALIKE = 1e-9  # shells or knots that much apart, relatively, are one
@@ -83,7 +83,6 @@ class Sum(Spectrum):
 
     @property
     def band(self) -> tuple[float, float]:
-        """See `Spectrum.band`."""
         low, high = zip(*(part.band for part in self.parts), strict=True)
         return min(low), max(high)
 
@@ -101,33 +100,19 @@ class Sum(Spectrum):
         """C(q) [length^4], averaged over directions; zero off all bands."""
         return sum(part.psd(q) for part in self.parts)
 
-    def psd_of_vector(self, qx: ArrayLike, qy: ArrayLike) -> NDArray:
-        """See `Spectrum.psd_of_vector`."""
-        return sum(part.psd_of_vector(qx, qy) for part in self.parts)
-
     def averaged(self) -> Spectrum:
-        """See `Spectrum.averaged`."""
         return self if self.isotropic else Sum(*(part.averaged() for part in self.parts))
 
-    def directional_moments(self, axis: float | None = None) -> Moments:
-        """See `Spectrum.directional_moments`; the axis is x by default."""
-        every = [part.directional_moments(axis or 0.0) for part in self.parts]
-        return reduce(Moments.plus, every)
-
     def total_variance(self, power: float = 0) -> float:
-        """See `Spectrum.total_variance`."""
         return sum(part.total_variance(power) for part in self.parts)
 
     def variance_below(self, q: ArrayLike, power: float = 0) -> NDArray:
-        """See `Spectrum.variance_below`."""
         return sum(part.variance_below(q, power) for part in self.parts)
 
     def variance_above(self, q: ArrayLike, power: float = 0) -> NDArray:
-        """See `Spectrum.variance_above`."""
         return sum(part.variance_above(q, power) for part in self.parts)
 
     def at_gradient_variance(self, variance: ArrayLike) -> tuple[NDArray, NDArray]:
-        """See `Spectrum.at_gradient_variance`."""
         (variance,) = nonnegative(variance=variance)
         low, high = np.log(self.band)
         table = np.union1d(np.log(self.averaged().knots), np.linspace(low, high, _STEPS))

@@ -6,7 +6,7 @@ from references.contact import elastic_pressure
 
 from stickiness import adhesive, repulsive, spectrum, surface
 from stickiness.adhesive import Exponential, LennardJones, Maugis
-from stickiness.solids import Film, HalfSpace, Layer
+from stickiness.solids import Film, Layer
 
 LENGTH = 4 * np.pi
 SIDES = (LENGTH, LENGTH)
@@ -57,40 +57,18 @@ def test_weak_adhesion_is_contact_without(heights):
     adhesion = adhesive.solve(heights, LENGTH, law, pressure=1.0, solid=solid)
     contact = repulsive.solve(heights, LENGTH, 1.0, solid=solid)
     np.testing.assert_allclose(adhesion.gap, contact.gap, atol=1e-6)
-    assert adhesion.mean_gap == pytest.approx(contact.mean_gap, rel=1e-6)
-
-
-def test_thick_layers_are_half_spaces(heights):
-    law = Exponential(0.5, 0.7)
-    half = adhesive.solve(heights, LENGTH, law, pressure=0.05, solid=HalfSpace())
-    assert half.mean_gap == adhesive.solve(heights, LENGTH, law, pressure=0.05).mean_gap
-    thick = adhesive.solve(heights, LENGTH, law, pressure=0.05, solid=Layer(1e3, 0.5))
-    assert thick.mean_gap == pytest.approx(half.mean_gap, rel=1e-6)
-    assert thick.energy == pytest.approx(half.energy, rel=1e-6)
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("solid", SOLIDS[:1], ids=str)
-def test_a_path_balances_its_energies(heights, solid):
+def test_a_path_balances_its_energies(heights):
     """The work at given mean gaps knows nothing of the compression of the layer as a whole."""
-    law = Exponential(full_energy(heights, solid), 1.5)
-    points = list(
-        adhesive.path(
-            heights,
-            LENGTH,
-            law,
-            (4.0, 1.0),
-            control="mean_gap",
-            tol=1e-6,
-            balance=1e-4,
-            solid=solid,
-        )
-    )
-    work = sum(point.work for point in points)
+    law = Exponential(full_energy(heights, SOLIDS[0]), 1.5)
+    fine = {"tol": 1e-6, "balance": 1e-4, "solid": SOLIDS[0]}
+    points = list(adhesive.path(heights, LENGTH, law, (4.0, 1.0), control="mean_gap", **fine))
     gain = points[-1].state.energy - points[0].state.energy
     assert len(points) > 10
     assert all(point.event is None for point in points)
-    assert work == pytest.approx(gain, rel=2e-3)
+    assert sum(point.work for point in points) == pytest.approx(gain, rel=2e-3)
 
 
 def test_full_contact_of_a_wave_holds_its_energy():

@@ -25,18 +25,9 @@ def sphere_law(kind, tabor, pull_off_radius):
 
 def pull_off(heights, length, law, expected, start=None):
     """Pull-off pressure, by unloading from half of what is expected."""
-    points = adhesive.path(
-        heights,
-        length,
-        law,
-        (0.5 * expected, 2 * expected),
-        start=start,
-        balance=1e-2,
-        smallest_jump=5e-2,
-        located=1e-3,
-        steps=6,
-    )
-    *_, last = points
+    fine = {"balance": 1e-2, "smallest_jump": 5e-2, "located": 1e-3, "steps": 6}
+    ends = (0.5 * expected, 2 * expected)
+    *_, last = adhesive.path(heights, length, law, ends, start=start, **fine)
     assert last.event == "pull-off"
     held, torn = last.bracket
     assert torn < held < 0
@@ -150,8 +141,7 @@ def test_wave_pulls_off_as_maugis_has_it(strength, tolerance):
     length = 0.3**2 * 1e-6 / references.AdhesiveWave(amplitude, 1.0, 1e-6).alpha ** 2
     exact = references.MaugisWave(amplitude, 1.0, length, length / (strength * full))
     law = Maugis(length, exact.range)
-    curve = exact.curve()
-    lowest = curve.pressure[curve.area_fraction < 0.6].min()
+    lowest = min(state.pressure for _, state in exact.curve if state.area_fraction < 0.6)
     if strength == 1.0:
         (_, johnson), _ = references.AdhesiveWave(amplitude, 1.0, length).turning_points
         assert lowest == pytest.approx(johnson, rel=0.01)
@@ -198,10 +188,9 @@ def test_both_controls_do_the_same_work(kind):
     first, last = (adhesive.solve(heights, 1.0, law, pressure=p) for p in (1e-3, 1e-2))
     works = []
     for control in ("pressure", "mean_gap"):
-        values = (1e-3, 1e-2) if control == "pressure" else (first.mean_gap, last.mean_gap)
-        points = list(
-            adhesive.path(heights, 1.0, law, values, control=control, start=first, balance=1e-6)
-        )
+        ends = (1e-3, 1e-2) if control == "pressure" else (first.mean_gap, last.mean_gap)
+        points = adhesive.path(heights, 1.0, law, ends, control, start=first, balance=1e-6)
+        points = list(points)
         assert not any(point.event for point in points)
         np.testing.assert_allclose(points[-1].state.gap, last.gap, atol=1e-6 * np.ptp(heights))
         works.append(sum(point.work for point in points))
@@ -218,11 +207,8 @@ def test_jumps_are_bracketed_and_found_again_by_other_steps():
     heights = bumps(32)
     runs = {}
     for steps in (8, 13):
-        points = list(
-            adhesive.path(
-                heights, 1.0, law, (0.0, 0.02, -0.2), balance=1e-4, smallest_jump=1e-2, steps=steps
-            )
-        )
+        fine = {"balance": 1e-4, "smallest_jump": 1e-2, "steps": steps}
+        points = list(adhesive.path(heights, 1.0, law, (0.0, 0.02, -0.2), **fine))
         runs[steps] = [point for point in points if point.event]
         for before, point in itertools.pairwise(points):
             if point.event is None:
@@ -256,19 +242,8 @@ def test_loop_encloses_the_energy_that_its_jumps_lose():
     for n in (64, 96):
         heights = paraboloid(n)
         far, near = heights.max() - heights.mean() + law.range * np.array([4.5, 1.5])
-        points = list(
-            adhesive.path(
-                heights,
-                1.0,
-                law,
-                (far, near, far),
-                control="mean_gap",
-                balance=1e-4,
-                smallest_jump=1e-2,
-                located=1e-3,
-                steps=60,
-            )
-        )
+        fine = {"balance": 1e-4, "smallest_jump": 1e-2, "located": 1e-3, "steps": 60}
+        points = list(adhesive.path(heights, 1.0, law, (far, near, far), "mean_gap", **fine))
         assert {point.event for point in points} == {None, "jump-in", "jump-out"}
         gaps = np.array([point.state.gap.mean() for point in points])
         pressures = np.array([point.state.pressure.mean() for point in points])
@@ -292,16 +267,8 @@ def test_mean_gap_follows_the_curve_beyond_pull_off():
     expected = references.DMTSphere(RADIUS, law.adhesion_length).pull_off_force
     force = pull_off(heights, 1.0, law, expected)
     loaded = adhesive.solve(heights, 1.0, law, pressure=0.0)
-    points = list(
-        adhesive.path(
-            heights,
-            1.0,
-            law,
-            (loaded.mean_gap, loaded.mean_gap + 5 * law.range),
-            control="mean_gap",
-            start=loaded,
-        )
-    )
+    ends = (loaded.mean_gap, loaded.mean_gap + 5 * law.range)
+    points = list(adhesive.path(heights, 1.0, law, ends, "mean_gap", start=loaded))
     pressures = np.array([point.state.mean_pressure for point in points])
     assert points[0].state.mean_pressure == pytest.approx(0, abs=1e-6 * abs(force))
     # the minimum is flat, and sampled: its depth to a thousandth
@@ -320,7 +287,7 @@ def test_path_gives_up_when_told_to():
 
 
 @pytest.mark.parametrize(
-    ("change", "message"),
+    ("options", "message"),
     [
         ({"values": (0.1,)}, "values must be at least two"),
         ({"values": (0.1, 0.1, 0.2)}, "values must differ from one to the next"),
@@ -328,8 +295,8 @@ def test_path_gives_up_when_told_to():
         ({"balance": 0.0}, "balance must be"),
     ],
 )
-def test_arguments_are_checked(change, message):
-    arguments = {"heights": np.zeros((8, 8)), "length": 1.0, "law": Maugis(1e-4, 1e-3)}
-    arguments |= {"values": (0.0, 0.1)} | change
+def test_arguments_are_checked(options, message):
     with pytest.raises(ValueError, match=message):
-        list(adhesive.path(**arguments))
+        list(
+            adhesive.path(np.zeros((8, 8)), 1.0, Maugis(1e-4, 1e-3), **{"values": (0, 1)} | options)
+        )

@@ -1,49 +1,19 @@
 """Adhesion beside reference codes (envs/peers.txt): Tamaas, Adhesion and its closed forms."""
 
-import importlib.util
-import pathlib
-import warnings
-
 import numpy as np
 import pytest
+from helpers.peers import import_peer, load_drivers
 from references import adhesion as references
 
 from stickiness import adhesive, spectrum, surface
 
 pytestmark = pytest.mark.peers
-
-DRIVERS = pathlib.Path(__file__).parents[3] / "benchmarks" / "adhesive_codes.py"
-REASON = "reference code not installed: pip install -r envs/peers.txt"
 LENGTH, PRESSURE = 1.0, 0.0065
 
 
 @pytest.fixture(scope="module")
 def drivers():
-    spec = importlib.util.spec_from_file_location("adhesive_codes", DRIVERS)
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
-
-
-@pytest.fixture
-def solutions():
-    """Closed forms of Adhesion."""
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")  # the peers warn of a missing MPI on import
-        pytest.importorskip("Adhesion", reason=REASON)
-        from Adhesion import ReferenceSolutions
-
-        for name in ("JKR", "MaugisDugdale", "sinewave.JKR"):
-            importlib.import_module(f"Adhesion.ReferenceSolutions.{name}")
-    return ReferenceSolutions
-
-
-def peer(name, drivers):
-    module = {"tamaas": "tamaas", "tamaas_load": "tamaas"}.get(name, "Adhesion")
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")
-        pytest.importorskip(module, reason=REASON)
-    return getattr(drivers, name)
+    return load_drivers("adhesive_codes")
 
 
 def heights(n=64, magnification=8):
@@ -52,8 +22,6 @@ def heights(n=64, magnification=8):
     return surface.synthesise(s, n=n, length=LENGTH, seed=5)
 
 
-# --- solutions --------------------------------------------------------------------------------
-
 # What each reaches at worst in these cases, over the strength.
 REACHED = {"tamaas": 1e-7, "adhesion": 1e-8}
 
@@ -61,7 +29,8 @@ REACHED = {"tamaas": 1e-7, "adhesion": 1e-8}
 @pytest.mark.parametrize("name", REACHED)
 @pytest.mark.parametrize("range_", [1.0, 0.2])
 def test_same_solution(name, range_, drivers):
-    code = peer(name, drivers)
+    import_peer({"tamaas": "tamaas", "adhesion": "Adhesion"}[name])
+    code = getattr(drivers, name)
     h = heights()
     range_ *= h.std()
     law = adhesive.Exponential(adhesion_length=0.02 * range_, range=range_)
@@ -81,14 +50,12 @@ def test_same_solution(name, range_, drivers):
     assert there.contact == pytest.approx(here.contact, abs=3 / h.size)
 
 
-# --- closed forms -----------------------------------------------------------------------------
-
 R, W = 3.0, 2e-5
 
 
-def test_jkr(solutions):
+def test_jkr():
     ours = references.JKRSphere(R, W)
-    theirs = solutions.JKR
+    theirs = import_peer("Adhesion.ReferenceSolutions.JKR")
     for a in np.array([0.7, 1.0, 3.0]) * ours.pull_off_radius:
         scales = {"radius": R, "contact_modulus": 1.0, "work_of_adhesion": W}
         assert ours.force(a) == pytest.approx(theirs.force(contact_radius=a, **scales), rel=1e-10)
@@ -97,19 +64,20 @@ def test_jkr(solutions):
 
 
 @pytest.mark.parametrize("range_", [1e-2, 1e-3, 2e-4])
-def test_maugis_sphere(solutions, range_):
+def test_maugis_sphere(range_):
+    theirs = import_peer("Adhesion.ReferenceSolutions.MaugisDugdale")
     ours = references.MaugisSphere(R, W, range_)
     for a in np.array([0.2, 1.0, 5.0]) * references.JKRSphere(R, W).pull_off_radius:
         state = ours.at_contact_radius(a)
-        force, depth = solutions.MaugisDugdale.load_and_displacement(a, R, 1.0, W, W / range_)
+        force, depth = theirs.load_and_displacement(a, R, 1.0, W, W / range_)
         # they find the cohesive zone by bisection to brentq's default of 1e-12
         assert state.force == pytest.approx(force, rel=1e-8)
         assert state.indentation == pytest.approx(depth, rel=1e-8)
 
 
-def test_wave(solutions):
+def test_wave():
     ours = references.AdhesiveWave(0.02, 1.0, 1e-4)
-    theirs = solutions.sinewave.JKR
+    theirs = import_peer("Adhesion.ReferenceSolutions.sinewave.JKR")
     scale = ours.full_contact_amplitude
     for fraction in (0.1, 0.4, 0.8):
         mean = theirs.mean_pressure(fraction / 2, ours.alpha)

@@ -9,20 +9,10 @@ from stickiness.persson.kernels import EvenTable, correction_of
 from stickiness.spectrum import SelfAffine, Shells
 
 CORRECTIONS = ("yang2008", "wang2017", "xu2024")
-OWN_GAMMA = {"yang2008": 0.45, "wang2017": 5 / 9, "xu2024": 0.45}
 
 
 def power_law(magnification=1000.0, hurst=0.8):
     return SelfAffine(hurst=hurst, q0=1.0, q1=magnification, h_rms=1.0)
-
-
-def test_every_source_has_its_own_gamma():
-    s = power_law(10.0)
-    for name, gamma in OWN_GAMMA.items():
-        theory = Persson(s, correction=name)
-        assert theory.gamma == gamma
-        assert theory.mean_gap(0.1) == Persson(s, gamma=gamma, correction=name).mean_gap(0.1)
-    assert Persson(s).mean_gap(0.1) == Persson(s, "afferrante2018", 0.45, 1.0).mean_gap(0.1)
 
 
 @pytest.mark.parametrize("name", CORRECTIONS)
@@ -35,14 +25,6 @@ def test_energy_kernel_is_the_derivative_of_the_energy(name, gamma):
     slope = (energy[1] - energy[0]) / (special.erf(y + step) - special.erf(y - step))
     # central differences of relative step 1e-5: their own error and rounding, 1e-10 each
     np.testing.assert_allclose(c.energy(y), slope, rtol=1e-8)
-
-
-@pytest.mark.parametrize("name", CORRECTIONS)
-def test_diffusion_from_no_contact_to_full_contact(name):
-    c = correction_of(name, 0.4)
-    np.testing.assert_allclose(c.diffusion(np.array([1e-14, 8.0])), [0.4, 1.0], rtol=1e-12)
-    assert np.all(c.diffusion(np.geomspace(1e-3, 5, 200)) > 0)
-    assert np.all(c.energy(np.geomspace(1e-3, 5, 200)) > 0)
 
 
 def test_area_of_the_closed_form():
@@ -98,31 +80,6 @@ def test_work_of_squeezing_is_the_elastic_energy_of_full_contact(name, gamma, sp
     work = integrate.simpson(theory.mean_gap(p) * p, x=log_p)
     # below the first pressure lies less than 1e-11 of it, the rest is Simpson's error
     assert work == pytest.approx(spectrum.elastic_energy(), rel=1e-7)
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("name", CORRECTIONS)
-@pytest.mark.parametrize("variant", ["afferrante2018", "almqvist2011"])
-def test_normalised(name, variant):
-    p = np.array([1e-6, 1e-3, 0.065, 1.0, 30.0])
-    for s in (power_law(1.001), power_law(5e4), power_law(1e8, 0.05), power_law(1e8, 1.0)):
-        theory = Persson(s, variant, correction=name)
-        total = theory.gap_cumulative(np.inf, p) + theory.area_fraction(p)
-        np.testing.assert_allclose(total, 1.0, rtol=0, atol=1e-10)
-
-
-@pytest.mark.parametrize(
-    ("make", "name"),
-    [
-        (lambda s: Persson(s, correction="persson2001"), "correction must"),
-        (lambda s: Persson(s, gamma=0.01, correction="wang2017"), "gamma must"),
-        (lambda s: Persson(s, gamma=0.0, correction="xu2024"), "gamma must"),
-        (lambda s: Persson(s, gamma=1.5, correction="xu2024"), "gamma must"),
-    ],
-)
-def test_bad_arguments_are_named(make, name):
-    with pytest.raises(ValueError, match=name):
-        make(power_law(10.0))
 
 
 def local_exponents(values, u):

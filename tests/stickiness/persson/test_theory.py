@@ -3,7 +3,7 @@
 import mpmath
 import numpy as np
 import pytest
-from scipy import integrate, special
+from scipy import special
 
 from stickiness import surface
 from stickiness.persson import Persson
@@ -60,18 +60,6 @@ def test_uncorrected_area_is_the_closed_form():
     np.testing.assert_allclose(Persson(s, gamma=1.0).area_fraction(p), want, rtol=1e-12)
 
 
-@pytest.mark.parametrize("gamma", [0.42, 0.45, 1.0])
-def test_area_is_proportional_to_small_loads(gamma):
-    s = power_law()
-    p = 1e-5
-    # 2 sqrt(2/pi) p/h'; the correction makes the diffusion slower by gamma as A -> 0, with a
-    # remainder of order A^2 ln A
-    kappa = 2 * np.sqrt(2 / np.pi / gamma)
-    assert Persson(s, gamma=gamma).area_fraction(p) == pytest.approx(
-        kappa * p / s.rms_slope, rel=1e-8
-    )
-
-
 def test_area_at_a_magnification_is_that_of_the_truncated_surface():
     s = power_law()
     theory, cut = Persson(s), Persson(s.truncated(37.0))
@@ -81,17 +69,6 @@ def test_area_at_a_magnification_is_that_of_the_truncated_surface():
     )
     assert theory.area_fraction(0.1, magnification=1.0) == 1.0
     assert theory.area_fraction(0.0) == 0.0
-
-
-def test_load_falls_exponentially_with_the_gap():
-    theory = Persson(power_law())
-    gap = np.array([1.0, 1.5, 2.0, 2.5, 3.0])
-    p = theory.pressure_at(gap)
-    # physics: p = exp(-2 ubar/h_rms) holds for the prefactor within a factor of two, and for the
-    # decay within 15 % (the theory's own decay length is not exactly h_rms/2)
-    assert np.all(np.abs(np.log(p / np.exp(-2 * gap))) < np.log(2))
-    decay = -np.diff(np.log(p)) / np.diff(gap)
-    assert np.all(np.abs(decay / 2 - 1) < 0.15)
 
 
 @pytest.mark.parametrize("gap", [1e-200, 1e-6, 0.1, 1.0, 8.0, 60.0])
@@ -119,40 +96,15 @@ def test_normalised_and_converged(variant, hurst, magnification):
         np.testing.assert_allclose(coarse[seen], best[seen], rtol=5e-7)
 
 
-@pytest.mark.parametrize("variant", VARIANTS)
-def test_density_integrates_to_the_cumulative_distribution(variant):
-    theory = Persson(power_law(), variant)
-    log_u = np.linspace(np.log(1e-4), np.log(30), 2001)
-    u = np.exp(log_u)
-    density, cumulative = theory.gap_density(u, 0.065), theory.gap_cumulative(u, 0.065)
-    integral = integrate.cumulative_simpson(density * u, x=log_u)
-    # both come from the same nodes: only Simpson's rule differs
-    np.testing.assert_allclose(cumulative[0] + integral, cumulative[1:], rtol=1e-8)
-    assert np.all(np.diff(cumulative) >= 0)
-
-
-@pytest.mark.parametrize("variant", VARIANTS)
 @pytest.mark.parametrize("scale", [1e-9, 1e9])
-def test_lengths_may_be_in_any_unit(variant, scale):
+def test_lengths_may_be_in_any_unit(scale):
     u, p = np.array([1e-3, 0.1, 2.0]), 0.065
     scaled = SelfAffine(hurst=0.8, q0=1 / scale, q1=1000 / scale, h_rms=scale)
-    one, other = Persson(power_law(), variant), Persson(scaled, variant)
+    one, other = Persson(power_law()), Persson(scaled)
     np.testing.assert_allclose(
         other.gap_density(u * scale, p) * scale, one.gap_density(u, p), rtol=1e-10
     )
     assert other.mean_gap(p) == pytest.approx(scale * one.mean_gap(p), rel=1e-12)
-
-
-@pytest.mark.parametrize("points", [2, 60, 500])
-def test_table_of_a_power_law_is_the_power_law(points):
-    s = power_law()
-    q = np.geomspace(1, 1000, points)
-    table = Tabulated(q, s.psd(q))
-    u = np.array([1e-3, 0.1, 2.0])
-    assert Persson(table).mean_gap(0.1) == pytest.approx(Persson(s).mean_gap(0.1), rel=1e-9)
-    np.testing.assert_allclose(
-        Persson(table).gap_density(u, 0.1), Persson(s).gap_density(u, 0.1), rtol=5e-7
-    )
 
 
 @pytest.mark.slow
@@ -228,16 +180,15 @@ def test_shapes():
     ("call", "name"),
     [
         (lambda s: Persson(s, variant="persson2001"), "variant"),
+        (lambda s: Persson(s, correction="persson2001"), "correction must"),
         (lambda s: Persson(s, gamma=0.0), "gamma"),
         (lambda s: Persson(s, gamma=1.1), "gamma"),
+        (lambda s: Persson(s, gamma=0.01, correction="wang2017"), "gamma must"),
         (lambda s: Persson(s, nodes=0), "nodes"),
         (lambda s: Persson(s).mean_gap(0.0), "p must"),
         (lambda s: Persson(s).area_fraction(-1.0), "p must"),
-        (lambda s: Persson(s).area_fraction(np.nan), "p must"),
         (lambda s: Persson(s).area_fraction(0.1, magnification=0.5), "magnification"),
         (lambda s: Persson(s).gap_density(-1.0, 0.1), "u must"),
-        (lambda s: Persson(s).gap_cumulative(np.nan, 0.1), "u must"),
-        (lambda s: Persson(s).gap_density(1.0, [0.1, np.inf]), "p must"),
         (lambda s: Persson(s).pressure_at(0.0), "mean_gap"),
         (lambda s: Persson(s).pressure_at(1e4), "mean_gap must lie"),
         (lambda s: Persson(s).pressure_at(1e-290), "mean_gap must lie"),

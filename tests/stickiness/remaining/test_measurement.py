@@ -58,16 +58,6 @@ def test_the_grid_resolves_or_says_so():
     assert measure(random_heights(32), LENGTH, narrow, 0.1, half_grid=False).pixels_in_zone < 2
 
 
-@pytest.mark.slow
-def test_more_adhesion_holds_more():
-    laws = [adhesive.Exponential(w, 0.5) for w in (0.1, 0.3, 0.6)]
-    found = [measure(random_heights(), LENGTH, law, 0.1, half_grid=False) for law in laws]
-    shares = [one.separation for one in found]
-    assert shares == sorted(shares)
-    assert [one.pull_off for one in found] == sorted(one.pull_off for one in found)
-    assert found[0].gap_at_zero_load > found[-1].gap_at_zero_load
-
-
 @pytest.mark.parametrize("squeeze", [0.0, -0.1, np.nan])
 def test_bad_squeeze_is_refused(squeeze):
     with pytest.raises(ValueError, match="squeeze"):

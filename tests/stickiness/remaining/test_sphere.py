@@ -50,13 +50,6 @@ def test_smooth_spheres_are_those_of_maugis():
         assert found.force == pytest.approx(expected, rel=0.002)
 
 
-def test_the_zone_is_jkr_s_contact_or_derjaguin_s():
-    tough = sphere.pull_off(rough(1e-14), RADIUS, LENGTH, TOUGH)
-    assert tough.zone_radius == pytest.approx((9 * np.pi / 8 * LENGTH) ** (1 / 3), rel=1e-6)
-    weak = sphere.pull_off(rough(1e-14), RADIUS, LENGTH, WEAK)
-    assert weak.zone_radius == pytest.approx((2 * WEAK) ** 0.5, rel=1e-6)
-
-
 @pytest.mark.parametrize("sign", [-1, 0, 1])
 def test_a_rough_sphere_is_that_of_maugis_with_what_remains_and_its_distance(sign):
     surface, radius, length, reach = draw(300)
@@ -78,24 +71,6 @@ def test_a_rough_sphere_is_that_of_maugis_with_what_remains_and_its_distance(sig
     assert max(factors) > 1.9
 
 
-@pytest.mark.parametrize("sign", [-1, 0])
-@pytest.mark.parametrize("reach", [1e-8, 1e-6, 1e-4])
-def test_pull_off_falls_with_roughness(reach, sign):
-    found = sphere.pull_off(rough(np.geomspace(1e-8, 1e-3, 60)), RADIUS, LENGTH, reach, sign)
-    # Where all of the work remains, a law of longer reach may add what is between JKR and DMT.
-    lost = found.work < 0.9
-    assert lost.sum() > 20
-    assert np.all(np.diff(found.relative[lost]) <= 1e-12)
-    assert found.relative[-1] < 0.01
-
-
-def test_pull_off_of_a_tough_sphere_goes_with_the_share():
-    # At x = 2 the share is 1 - 1/x + 0.57/x exp(-(x - 0.43)/0.57), by hand.
-    found = sphere.pull_off(at_ratio(2.0), RADIUS, LENGTH, 1e-11)
-    assert found.work == pytest.approx(0.5181, rel=2e-3)
-    assert found.force == pytest.approx(1.5 * np.pi * LENGTH * 0.5181, rel=5e-3)
-
-
 def test_limits_hold_the_value():
     at = draw(2000)
     low, value, high = (sphere.pull_off(*at, sign) for sign in (-1, 0, 1))
@@ -104,26 +79,6 @@ def test_limits_hold_the_value():
         assert np.all(found[0] <= found[1] * (1 + 1e-12)), name
         assert np.all(found[1] <= found[2] * (1 + 1e-12)), name
         assert np.mean(found[0] < found[2]) > 0.9
-
-
-@pytest.mark.parametrize(
-    ("ratio", "expected"),
-    [
-        # Onset 0.35: share 0.65/e = 0.239 with its error 0.278; area at onset 0.43: 1 - 1/e.
-        (1.0, 0.2781 + 0.6321),
-        # The whole area would add 1; six energies of 1/20 add less.
-        (20.0, 1.3),
-    ],
-)
-def test_a_pinned_edge_takes_the_area_more(ratio, expected):
-    high = sphere.work_of_separation(at_ratio(ratio), LENGTH, 1e-11, 1)
-    assert high == pytest.approx(expected, rel=2e-3)
-
-
-def test_jumps_may_add_to_the_share_where_there_is_no_area():
-    surface = at_ratio(0.36)
-    high = sphere.work_of_separation(surface, LENGTH, 1e-11, 1)
-    assert high == pytest.approx(1.6 * surface.share(LENGTH, 1e-11, 1), rel=1e-9)
 
 
 def test_the_high_limit_is_the_larger_of_jumps_and_a_pinned_edge():
@@ -138,31 +93,6 @@ def test_the_high_limit_is_the_larger_of_jumps_and_a_pinned_edge():
     for one, other in ((jumps, pinned), (pinned, jumps)):
         assert np.sum(one > other) > 100  # either one decides
     assert 1.6 < np.max(high) < 2  # both are at most the work of adhesion
-
-
-def test_without_a_pinned_edge_the_share_remains():
-    surface, _, length, reach = draw(50)
-    for sign in (-1, 0):
-        found = sphere.work_of_separation(surface, length, reach, sign)
-        np.testing.assert_array_equal(found, surface.share(length, reach, sign))
-
-
-def test_arrays_broadcast():
-    radii, lengths = np.array([[1.0], [2.0]]), np.array([1e-7, 1e-6, 1e-5])
-    found = sphere.pull_off(rough(1e-6), radii, lengths, 1e-8)
-    assert found.relative.shape == found.force.shape == found.zone_radius.shape == (2, 3)
-    for row, radius in enumerate(radii[:, 0]):
-        for column, length in enumerate(lengths):
-            one = sphere.pull_off(rough(1e-6), radius, length, 1e-8)
-            assert isinstance(one.force, float)
-            assert found.force[row, column] == pytest.approx(one.force, rel=1e-12)
-
-
-@pytest.mark.parametrize("sign", [-1, 0, 1])
-def test_nothing_remains_of_the_weakest_adhesion(sign):
-    found = sphere.pull_off(Roughness(1.0, 1.0, 0.6), 1e3, 1e-30, 1e-3, sign)
-    assert found.relative == pytest.approx(0, abs=1e-20)
-    assert found.zone_radius < 1e3
 
 
 @pytest.mark.parametrize("unit", [1e-9, 1e6])

@@ -39,21 +39,20 @@ def boundary_value_problem(k, poisson, backing):
         return float(unknown[1] / (1 - nu))  # w E*/2, E* = 2/(1 - nu)
 
 
-BACKINGS = ["bonded", "slip"]
+BACKINGS = pytest.mark.parametrize("backing", ["bonded", "slip"])
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("backing", BACKINGS)
+@BACKINGS
 @pytest.mark.parametrize("poisson", POISSON)
 def test_factor_solves_the_boundary_value_problem(poisson, backing):
-    waves = np.array(WAVES)
     expected = [boundary_value_problem(k, poisson, backing) for k in WAVES]
     # a thickness of two: k = q d
-    factor = Layer(2.0, poisson, backing).factor(waves / 2)
+    factor = Layer(2.0, poisson, backing).factor(np.array(WAVES) / 2)
     np.testing.assert_allclose(factor, expected, rtol=1e-12)
 
 
-@pytest.mark.parametrize("backing", BACKINGS)
+@BACKINGS
 @pytest.mark.parametrize("poisson", POISSON)
 def test_short_waves_see_a_half_space(poisson, backing):
     layer = Layer(1.0, poisson, backing)
@@ -61,39 +60,20 @@ def test_short_waves_see_a_half_space(poisson, backing):
     assert layer.compliance(1e6) == pytest.approx(HalfSpace().compliance(1e6), rel=1e-13)
 
 
-@pytest.mark.parametrize(
-    ("poisson", "backing", "power", "prefactor"),
-    [
-        (0.5, "bonded", 3, 2 / 3),
-        (0.3, "bonded", 1, 0.4 / (2 * 0.7**2)),
-        (0.3, "slip", 1, 1 / 2),
-        (0.5, "slip", 1, 1 / 2),
-    ],
-)
-def test_long_waves(poisson, backing, power, prefactor):
-    k = np.array([1e-6, 1e-5])
+@BACKINGS
+@pytest.mark.parametrize("poisson", [0.3, 0.5, 0.5 * (1 - 1e-12)])
+def test_long_waves(poisson, backing):
+    k = np.array([1e-6, 1e-5, 1e-4])
+    # Bonded, what the volume and what the shape give add up: k and, if incompressible, k^3.
+    bonded = (1 - 2 * poisson) / (2 * (1 - poisson) ** 2) * k + 2 / 3 * k**3
     factor = Layer(1.0, poisson, backing).factor(k)
-    np.testing.assert_allclose(factor, prefactor * k**power, rtol=1e-9)
+    np.testing.assert_allclose(factor, bonded if backing == "bonded" else k / 2, rtol=1e-7)
 
 
-def test_nearly_incompressible_is_between_its_limits():
-    # 1 - 2 nu = 1e-12: compressible for k < 1e-6, as (1 - 2 nu) k and k^3 add up
-    nu = 0.5 * (1 - 1e-12)
-    k = np.array([1e-8, 1e-6, 1e-4])
-    expected = 2 * (1 - 2 * nu) * k + 2 / 3 * k**3
-    np.testing.assert_allclose(Layer(1.0, nu).factor(k), expected, rtol=1e-7)
-
-
-def test_half_space():
+def test_half_space_units_and_inverse():
     solid = HalfSpace()
-    assert solid.compliance(4.0) == 0.5
-    assert solid.stiffness(4.0) == 2.0
-    assert solid.mean_compliance == 0.0
+    assert (solid.compliance(4.0), solid.stiffness(4.0), solid.mean_compliance) == (0.5, 2.0, 0.0)
     assert solid.in_unit(3.0) == solid
-    assert isinstance(solid.compliance([1.0, 2.0]), np.ndarray)
-
-
-def test_stiffness_inverts_compliance_and_the_unit_of_length_is_free():
     layer, waves = Layer(0.3, 0.45), np.geomspace(1e-3, 1e3, 30)
     np.testing.assert_allclose(layer.stiffness(waves) * layer.compliance(waves), 1, rtol=1e-14)
     small = layer.in_unit(0.01)
@@ -115,30 +95,6 @@ def test_mean_compression_is_that_of_uniaxial_strain(poisson):
     assert Layer(0.7, poisson, "slip").mean_compliance == layer.mean_compliance
 
 
-@pytest.mark.parametrize(
-    ("arguments", "message"),
-    [
-        ((0.0, 0.3), "thickness must be positive"),
-        ((math.inf, 0.3), "thickness must be positive and finite"),
-        (("1", 0.3), "thickness must be a number"),
-        ((1.0, 0.6), "poisson must be non-negative and at most 0.5, got 0.6"),
-        ((1.0, -0.1), "poisson must be non-negative"),
-        ((1.0, 0.3, "glued"), "backing must be 'bonded', 'slip' or a Film.*got 'glued'"),
-        ((1.0, 0.3, 2.0), "backing must be"),
-    ],
-)
-def test_bad_layers(arguments, message):
-    with pytest.raises(ValueError, match=message):
-        Layer(*arguments)
-
-
-@pytest.mark.parametrize("solid", [HalfSpace(), Layer(1.0, 0.3)])
-def test_bad_waves(solid):
-    for ask in (solid.compliance, solid.stiffness):
-        with pytest.raises(ValueError, match="q must be positive and finite, got 0"):
-            ask(0.0)
-
-
 @pytest.mark.parametrize("poisson", [0.3, 0.5])
 def test_a_film_bends_besides_the_layer_on_a_rigid_base(poisson):
     thickness, modulus, ratio, nu = 0.1, 2.0, 50.0, 0.4
@@ -152,16 +108,19 @@ def test_a_film_bends_besides_the_layer_on_a_rigid_base(poisson):
     assert layer.in_unit(0.1).compliance(0.1 * 2) == pytest.approx(layer.compliance(2.0) / 0.1)
 
 
-def test_a_film_that_does_not_bend_is_a_rigid_base():
-    stiff = Layer(0.2, 0.5, Film(1e14, 0.4, 0.1))
-    q = np.geomspace(1, 100, 5)
-    np.testing.assert_allclose(stiff.factor(q), Layer(0.2, 0.5).factor(q), rtol=1e-6)
-
-
-def test_bad_films_are_refused():
-    with pytest.raises(ValueError, match="modulus_ratio must be positive"):
-        Film(0.0, 0.4, 1.0)
-    with pytest.raises(ValueError, match="thickness must be positive and finite, got 0"):
-        Film(1e4, 0.4, 0)
-    with pytest.raises(ValueError, match=r"Film\(modulus_ratio, poisson, thickness\), got 'film'"):
-        Layer(1.0, 0.5, "film")
+@pytest.mark.parametrize(
+    ("make", "message"),
+    [
+        (lambda: Layer(math.inf, 0.3), "thickness must be positive and finite"),
+        (lambda: Layer("1", 0.3), "thickness must be a number"),
+        (lambda: Layer(1.0, 0.6), "poisson must be non-negative and at most 0.5, got 0.6"),
+        (lambda: Layer(1.0, 0.3, "glued"), "backing must be 'bonded', 'slip' or a Film.*'glued'"),
+        (lambda: Film(0.0, 0.4, 1.0), "modulus_ratio must be positive"),
+        (lambda: Film(1e4, 0.4, 0), "thickness must be positive and finite, got 0"),
+        (lambda: HalfSpace().compliance(0.0), "q must be positive and finite, got 0"),
+        (lambda: Layer(1.0, 0.3).stiffness(0.0), "q must be positive and finite, got 0"),
+    ],
+)
+def test_wrong_arguments(make, message):
+    with pytest.raises(ValueError, match=message):
+        make()

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy import integrate
 
-from stickiness.solids import HalfSpace, Layer
+from stickiness.solids import Layer
 from stickiness.spectrum import SelfAffine, Shells, Tabulated
 
 ROUGH = SelfAffine(hurst=0.8, q0=1.0, q1=1e4, h_rms=1.0, q_rolloff=3.0)
@@ -50,14 +50,3 @@ def test_energy_of_shells_is_a_sum():
     solid = Layer(0.3, 0.5)
     expected = np.sum(shells.variance * solid.stiffness(shells.q)) / 2
     assert shells.elastic_energy(solid) == pytest.approx(expected, rel=1e-14)
-
-
-@pytest.mark.parametrize("rough", [*SPECTRA, Shells([1.0, 2.0], [1.0, 0.2])])
-def test_thick_layers_and_half_spaces_agree(rough):
-    assert rough.elastic_energy(HalfSpace()) == rough.elastic_energy()
-    assert rough.elastic_energy(Layer(1e3, 0.5)) == pytest.approx(rough.elastic_energy(), rel=1e-12)
-
-
-def test_a_bad_solid_is_named():
-    with pytest.raises(ValueError, match="solid must be solids.HalfSpace"):
-        ROUGH.elastic_energy(3.0)

@@ -43,33 +43,6 @@ def test_moments_of_self_affine_spectra_agree_with_quadrature(hurst, q1, q_rollo
     assert s.variance_below(q1, power) == pytest.approx(s.variance_above(2.0, power), rel=1e-14)
 
 
-@pytest.mark.parametrize("hurst", [0.2, 0.5, 0.9])
-def test_power_law_moments_in_closed_form(hurst):
-    q0, zeta, C0 = 0.7, 300.0, 2.0
-    s = SelfAffine(hurst=hurst, q0=q0, q1=q0 * zeta, C0=C0)
-    m0 = np.pi * C0 / hurst * q0 ** (-2 * hurst) * (1 - zeta ** (-2 * hurst))
-    m2 = np.pi * C0 / (2 - 2 * hurst) * q0 ** (2 - 2 * hurst) * (zeta ** (2 - 2 * hurst) - 1)
-    e4 = 4 - 2 * hurst
-    m4 = 0.75 * np.pi * C0 / e4 * q0**e4 * (zeta**e4 - 1)
-    for order, want in ((0, m0), (2, m2), (4, m4)):
-        assert s.moment(order) == pytest.approx(want, rel=1e-12)
-    assert s.h_rms == pytest.approx(np.sqrt(m0), rel=1e-12)
-    assert s.rms_slope == pytest.approx(np.sqrt(2 * m2), rel=1e-12)
-    assert s.rms_curvature == pytest.approx(np.sqrt(8 * m4 / 3), rel=1e-12)
-    assert s.nayak == pytest.approx(m0 * m4 / m2**2, rel=1e-12)
-
-
-def test_removable_singularities():
-    q0, zeta = 2.0, 1e3
-    unit_slope = SelfAffine(hurst=1.0, q0=q0, q1=q0 * zeta, C0=1.0)
-    assert unit_slope.moment(2) == pytest.approx(np.pi * np.log(zeta), rel=1e-14)
-    flat = SelfAffine(hurst=1e-14, q0=q0, q1=q0 * zeta, C0=1.0)
-    assert flat.moment(0) == pytest.approx(2 * np.pi * np.log(zeta), rel=1e-12)
-    near = SelfAffine(hurst=1 - 1e-9, q0=q0, q1=q0 * zeta, C0=1.0)
-    # relative change of m2 is (1 - H) ln(q0^2 zeta), here 1e-8
-    assert near.moment(2) == pytest.approx(unit_slope.moment(2), rel=2e-8)
-
-
 @pytest.mark.parametrize("q_rolloff", [None, 30.0])
 @pytest.mark.parametrize("zeta", [1.001, 64.0, 1e10])
 def test_prescribed_height(q_rolloff, zeta):
@@ -137,25 +110,6 @@ def test_truncation_keeps_the_rest(s, q1):
     assert cut.prescribed != "h_rms"  # the part keeps C, not the whole's height
 
 
-def test_psd_is_zero_off_the_band_and_level_on_the_plateau():
-    s = SelfAffine(hurst=0.8, q0=1.0, q1=100.0, C0=2.0, q_rolloff=10.0)
-    assert list(s.psd([0.5, 100.1])) == [0, 0]
-    np.testing.assert_allclose(s.psd([1.0, 5.0, 10.0]), 2.0 * 10**-3.6, rtol=1e-13)
-    np.testing.assert_allclose(s.psd(100.0), 2.0 * 100**-3.6, rtol=1e-13)
-
-
-def test_table_is_linear_in_log_log():
-    q, C = np.array([1.0, 3.0, 4.0, 50.0]), np.array([2.0, 5.0, 0.1, 1e-6])
-    s = Tabulated(q, C)
-    at = np.array([1.0, 1.7, 3.5, 20.0, 50.0])
-    want = np.exp(np.interp(np.log(at), np.log(q), np.log(C)))
-    np.testing.assert_allclose(s.psd(at), want, rtol=1e-12)
-    for power in (0, 2, 4):
-        want = by_quadrature(s, 1.0, 50.0, power, q)
-        assert s.variance_below(50.0, power) == pytest.approx(want, rel=1e-9)
-    np.testing.assert_array_equal(s.knots, q)
-
-
 def test_shells_sum_up():
     q, variance = np.array([1.0, 2.0, 5.0]), np.array([3.0, 0.5, 0.25])
     s = Shells(q, variance)
@@ -172,15 +126,6 @@ def test_shells_sum_up():
     assert s.h_rms**2 == pytest.approx(3.75)
     assert s.rms_slope**2 == pytest.approx(3 + 2 + 6.25)
     assert s.rms_curvature**2 == pytest.approx(3 + 8 + 156.25)
-
-
-def test_shells_fill_in_proportion():
-    s = Shells([1.0, 2.0], [3.0, 0.5])
-    gradient = np.array([0.0, 1.5, 3.0, 4.0, 5.0])
-    q, above = s.at_gradient_variance(gradient)
-    np.testing.assert_array_equal(q, [1, 1, 1, 2, 2])
-    # half of the first shell leaves half its 3.0 and the 0.5 of the second
-    np.testing.assert_allclose(above, [3.5, 2.0, 0.5, 0.25, 0.0], atol=1e-15)
 
 
 def test_density_of_shells_holds_their_variance():
