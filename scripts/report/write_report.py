@@ -30,6 +30,7 @@ CLAIM_TONES = {
     "reproduced with a qualification": "partly",
     "not reproduced": "no",
 }
+WORD_TONES = dict(zip(WORDS[NOT_JUDGED - 1 :: -1], TONES[NOT_JUDGED - 1 :: -1], strict=True))
 COMPARED_RANGE = 0.03  # over h_rms, where attractive areas are compared: amid the fit interval
 COMPARED = {
     "area_fraction": COLUMNS["area"].label,
@@ -62,12 +63,12 @@ def main(job):
         figure_sources=params.figure_sources,
         criterion=datasets.read(inputs.criterion, ["a_v"]),
         claims=describe_claims(claims),
-        grades=count_grades(claims),
+        grades=count(map(str, claims.verdict.values), CLAIM_TONES),
         errata=ERRATA,
         recomputed=datasets.parameters(claims)["errata"],
         wanted=DEFAULT_SHARE,
         full=FULL_SHARE,
-        words=count_words(verdicts),
+        words=count((pair["word"] for pair in pairs), WORD_TONES),
         local_word=WORDS[TOUCHES],
         pairs=pairs,
         materials=[
@@ -145,18 +146,11 @@ def group_seeds(paths):
     return sorted(found, key=lambda group: group[1] > 0)
 
 
-def count_grades(claims):
-    """Claims by grade, as grade, count and tone."""
-    counts = Counter(map(str, claims.verdict.values))
-    order = [*CLAIM_TONES, *sorted(counts.keys() - CLAIM_TONES.keys())]
-    return [(name, counts[name], CLAIM_TONES.get(name, "open")) for name in order if counts[name]]
-
-
-def count_words(verdicts):
-    """Pairs by verdict, from sticky to not sticky, as word, count and tone."""
-    codes = Counter(verdicts.verdict.values.ravel().tolist())
-    order = [*reversed(range(NOT_JUDGED)), NOT_JUDGED]
-    return [(WORDS[code], codes[code], TONES[code]) for code in order if codes[code]]
+def count(words, tones):
+    """Words with their number and tone, in the order of `tones`; other words come last."""
+    counts = Counter(words)
+    order = [*tones, *sorted(counts.keys() - tones.keys())]
+    return [(word, counts[word], tones.get(word, "open")) for word in order if counts[word]]
 
 
 def arrange_pairs(verdicts, surfaces):
