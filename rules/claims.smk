@@ -59,6 +59,7 @@ rule check_claims:
         **ledger_inputs(),
         prose=project_file("report/claims.j2"),
         page=project_file("report/claims.md.j2"),
+        errata=project_file("report/errata.j2"),
     output:
         dataset=f"{RESULTS}/claims/claims.nc",
         table=report(

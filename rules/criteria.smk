@@ -49,15 +49,15 @@ rule compare_criteria:
         "../scripts/criteria/compare_criteria.py"
 
 
-def own_surfaces():
+def material_surfaces():
     """Surfaces of the materials that are rough themselves."""
     return sorted({entry["surface"] for entry in MATERIALS.values() if "surface" in entry})
 
 
-OWN_SURFACES = several("real_surfaces/{surface}.nc", surface=own_surfaces())
+MATERIAL_SURFACES = several("real_surfaces/{surface}.nc", surface=material_surfaces())
 # What a verdict depends on beside the surface.
 JUDGED = {
-    "own": own_surfaces(),
+    "material_surfaces": material_surfaces(),
     "materials": MATERIALS,
     "frequencies": config["criteria"]["frequencies"],
 }
@@ -91,7 +91,7 @@ rule judge:
 rule judge_surface:
     input:
         surface=f"{RESULTS}/real_surfaces/{{real_surface}}.nc",
-        own=OWN_SURFACES,
+        material_surfaces=MATERIAL_SURFACES,
     output:
         f"{RESULTS}/criteria/verdicts/{{real_surface}}.nc",
     log:

@@ -1,4 +1,4 @@
-# Published experiments, and simulations of others, predicted and held against every criterion.
+# Published experiments, and simulations of others, compared with predictions and every criterion.
 
 
 rule predict_experiments:

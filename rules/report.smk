@@ -37,7 +37,7 @@ def contact_of_surface(wildcards):
 rule write_report:
     input:
         template=project_file("report/report.html.j2"),
-        parts=PAGE_PARTS,
+        parts=[*PAGE_PARTS, project_file("report/errata.j2")],
         figures=expand(f"{RESULTS}/figures/{{figure}}.png", figure=FIGURES),
         captions=[project_file(f"report/{figure}.rst") for figure in FIGURES],
         claims=f"{RESULTS}/claims/claims.nc",

@@ -4,13 +4,12 @@ from pathlib import Path
 
 import xarray as xr
 
-from claims import adhesion_claims, contact_claims, criterion_claims, remaining_claims
+from claims import adhesion_claims, contact_claims, criterion_claims, errata, remaining_claims
 from claims.ledger import collect
 from common import remaining_table
 from common.job import start
 from common.templates import make_environment, write_page
 from stickiness import datasets, error_budget
-from stickiness.criteria.errata import ERRATA
 
 CLAIMS = collect(contact_claims, adhesion_claims, criterion_claims, remaining_claims)
 PROSE = ("statement", "quantity", "remark", "comment")
@@ -33,14 +32,15 @@ COLUMNS = {
 def main(job):
     paths = find_paths(job.input, CLAIMS)
     files = {name: read(path) for name, path in paths.items()}
+    recomputed = errata.recompute()
     rows = [examine(claim, files, paths, job.input.prose) for claim in CLAIMS]
     datasets.write(
         to_dataset(rows),
         job.output.dataset,
         title="claims of the paper, recomputed",
-        parameters={"errata": {str(erratum.number): erratum.recompute() for erratum in ERRATA}},
+        parameters={"errata": recomputed},
     )
-    write_page(job.input.page, job.output.table, claims=rows, errata=ERRATA)
+    write_page(job.input.page, job.output.table, claims=rows, recomputed=recomputed)
 
 
 def find_paths(inputs, claims):

@@ -16,46 +16,34 @@ CLOSED = {
 }
 OF_MODEL = "of the model, the farther of both limits"
 OF_SPECTRUM = "of the spectrum measured; none of one end of what is given"
-OF_OURS = f"{OF_MODEL}; other criteria state none"
 
 
 def add_budgets(dataset, draws):
-    """Add error budgets to what is quoted of pairs: the spectrum, and the model."""
-    model = between_limits(dataset, "pair_a_v")
-    dataset = with_budget(dataset, "pair_a_v", model=model, **CLOSED)
-    for name, from_spectrum in find_spectrum_errors(dataset).items():
-        parts = CLOSED | {"sampling": Part(from_spectrum, OF_SPECTRUM)}
-        dataset = with_budget(dataset, name, model=find_model_error(dataset, name), **parts)
-    return add_budget_of_probability(dataset, draws)
-
-
-def find_spectrum_errors(dataset):
-    """Errors by the spectrum, by variable; only the verdict's criterion has them.
+    """Add error budgets to what is quoted of pairs: the spectrum, and the model.
 
     Ends of a surface that was not measured are two surfaces, each known exactly. The threshold is
     the modulus times the margin and has the same relative error; the pull-off goes with the share.
+    Other criteria than the verdict's state no error.
     """
     ours = dataset.criterion == REMAINING
     of_margin = np.expm1(COVERS * dataset.error_of_spectrum.fillna(0.0))
     of_share = COVERS * dataset.share_error_of_spectrum.fillna(0.0)
-    relative = (of_share / dataset.remaining).where(dataset.remaining > 0, 0.0)
-    return {
-        "margin": dataset.margin * of_margin.where(ours, 0.0),
-        "modulus_threshold": dataset.modulus_threshold * of_margin,
-        "remaining": relative * dataset.remaining,
-        "pull_off": relative * dataset.pull_off,
-        "threshold_by_criterion": dataset.threshold_by_criterion * of_margin.where(ours, 0.0),
-    }
-
-
-def find_model_error(dataset, name):
-    """Part of the model's error; other criteria than the verdict's state none."""
-    limits = {"threshold_by_criterion": "modulus_threshold"}.get(name, name)
-    part = between_limits(dataset, limits)
-    if "criterion" not in dataset[name].dims:
-        return part
-    error = part.error.where(dataset.criterion == REMAINING)
-    return Part(error, OF_OURS)
+    of_share = (of_share / dataset.remaining).where(dataset.remaining > 0, 0.0)
+    model = between_limits(dataset, "pair_a_v")
+    dataset = with_budget(dataset, "pair_a_v", model=model, **CLOSED)
+    for name, limits, relative in (
+        ("margin", "margin", of_margin.where(ours, 0.0)),
+        ("modulus_threshold", "modulus_threshold", of_margin),
+        ("remaining", "remaining", of_share),
+        ("pull_off", "pull_off", of_share),
+        ("threshold_by_criterion", "modulus_threshold", of_margin.where(ours, 0.0)),
+    ):
+        model = between_limits(dataset, limits)
+        if "criterion" in dataset[name].dims:
+            model = Part(model.error.where(ours), f"{OF_MODEL}; other criteria state none")
+        parts = CLOSED | {"sampling": Part(relative * dataset[name], OF_SPECTRUM), "model": model}
+        dataset = with_budget(dataset, name, **parts)
+    return add_budget_of_probability(dataset, draws)
 
 
 def add_budget_of_probability(dataset, draws):
@@ -65,24 +53,16 @@ def add_budget_of_probability(dataset, draws):
     shrunk = 1 + COVERS**2 / number
     middle = (share + COVERS**2 / (2 * number)) / shrunk
     half = COVERS * np.sqrt(share * (1 - share) / number + (COVERS / (2 * number)) ** 2) / shrunk
-    scatter = abs(middle - share) + half
-    inside = absent("drawn")
-    return with_budget(
-        dataset,
-        "probability",
-        discretisation=inside,
-        solver=CLOSED["solver"],
-        sampling=Part(scatter.fillna(0.0), "of the number of draws"),
-        bandwidth=CLOSED["bandwidth"],
-        model=inside,
-    )
+    scatter = Part((abs(middle - share) + half).fillna(0.0), "of the number of draws")
+    parts = {"discretisation": absent("drawn"), "sampling": scatter, "model": absent("drawn")}
+    return with_budget(dataset, "probability", **CLOSED | parts)
 
 
-def between_limits(dataset: xr.Dataset, name: str) -> Part:
+def between_limits(dataset, name):
     """Part of the budget of a variable that has a low and a high limit beside it."""
     return between(*(dataset[f"{name}{end}"] for end in ("", "_low", "_high")))
 
 
-def between(value: xr.DataArray, low: xr.DataArray, high: xr.DataArray) -> Part:
+def between(value, low, high):
     """Part of the budget of a value that is known between two limits."""
     return Part(np.maximum(abs(high - value), abs(value - low)), OF_MODEL)

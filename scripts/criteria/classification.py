@@ -1,10 +1,10 @@
-"""The verdict on every pair, and which criteria disagree with it."""
+"""The verdict on every pair, its limits, and which pairs are not judged."""
 
 import numpy as np
 import xarray as xr
 
 from stickiness.criteria.pair import NOT_JUDGED, decide
-from stickiness.criteria.registry import EDGES, REMAINING
+from stickiness.criteria.registry import EDGES
 
 MOST_STRAIN = 0.3  # up to which a layer is taken for linear
 
@@ -14,44 +14,6 @@ def decide_pairs(dataset):
     low, high = find_limits(dataset)
     grows = (dataset.margin.sel(criterion=EDGES, drop=True) > 1).any("end")
     return low.copy(data=decide(low, high, grows))
-
-
-def find_doubts(materials, surfaces, own):
-    """Why pairs are not judged, a text each, empty for those that are.
-
-    The reasons are those of the surface and of the one that the material has itself.
-    """
-    doubts = [
-        [
-            "\n".join(
-                reason
-                for one in (surface, own.get(material.surface))
-                if one is not None and (reason := one.attrs.get("not_judged"))
-            )
-            for surface in surfaces.values()
-        ]
-        for material in materials.values()
-    ]
-    return xr.DataArray(np.array(doubts, dtype=object), dims=("material", "surface"))
-
-
-def withhold(dataset):
-    """The dataset without any number of pairs where there are doubts about a surface."""
-    judged = dataset.not_judged == ""
-    if judged.all():
-        return dataset
-    with xr.set_options(keep_attrs=True):
-        numbers = {
-            name: values.where(judged).transpose(*values.dims)
-            for name, values in dataset.items()
-            if values.dtype.kind == "f" and {"material", "surface"} <= set(values.dims)
-        }
-        verdict = dataset.verdict.where(judged, NOT_JUDGED).astype(dataset.verdict.dtype)
-        disagrees = dataset.disagrees.where(judged, 0).astype("i1")
-    for values in numbers.values():
-        known = values.attrs.get("nan_means")
-        values.attrs["nan_means"] = f"{known}, or not judged" if known else "not judged"
-    return dataset.assign(numbers | {"verdict": verdict, "disagrees": disagrees})
 
 
 def find_limits(dataset, name="remaining"):
@@ -72,7 +34,35 @@ def find_limits(dataset, name="remaining"):
     return low, high
 
 
-def find_disagreement(dataset):
-    """1 where a criterion says the opposite of what remains at either end."""
-    sticky = dataset.margin > 1
-    return (sticky != sticky.sel(criterion=REMAINING)).any("end").astype("i1")
+def find_doubts(materials, surfaces, material_surfaces):
+    """Why pairs are not judged, for reasons of either surface; empty for those that are."""
+
+    def find_reasons(material, surface):
+        both = [
+            one for one in (surface, material_surfaces.get(material.surface)) if one is not None
+        ]
+        return "\n".join(filter(None, (one.attrs.get("not_judged") for one in both)))
+
+    doubts = [
+        [find_reasons(m, surface) for surface in surfaces.values()] for m in materials.values()
+    ]
+    return xr.DataArray(np.array(doubts, dtype=object), dims=("material", "surface"))
+
+
+def withhold(dataset):
+    """The dataset without any number of pairs where there are doubts about a surface."""
+    judged = dataset.not_judged == ""
+    if judged.all():
+        return dataset
+    with xr.set_options(keep_attrs=True):
+        found = {
+            name: values.where(judged).transpose(*values.dims)
+            for name, values in dataset.items()
+            if values.dtype.kind == "f" and {"material", "surface"} <= set(values.dims)
+        }
+        for values in found.values():
+            known = values.attrs.get("nan_means")
+            values.attrs["nan_means"] = f"{known}, or not judged" if known else "not judged"
+        for name, code in (("verdict", NOT_JUDGED), ("disagrees", 0)):
+            found[name] = dataset[name].where(judged, code).astype("i1")
+    return dataset.assign(found)

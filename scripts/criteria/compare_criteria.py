@@ -21,7 +21,7 @@ from stickiness.criteria.registry import CRITERIA, REMAINING
 from stickiness.error_budget import with_budget
 from stickiness.spectrum.kinds import SelfAffine
 
-LOW, HIGH = f"{REMAINING}_low", f"{REMAINING}_high"
+LIMITS = {REMAINING: 0, f"{REMAINING}_low": 1, f"{REMAINING}_high": -1}  # names and signs
 TEXT = "adhesion length over range above which the criterion calls the surface sticky"
 VARIABLES = {
     "h_rms_over_range": ("1", "rms height over range"),
@@ -47,20 +47,19 @@ def main(job):
 
 def compare(asked, load, table, constant):
     """Thresholds over roughness and over magnification, each with the other held."""
-    roughness = logarithmic_grid(asked["h_rms_over_range"])
-    zetas = logarithmic_grid(asked["magnification"])
-    one_zeta = np.full_like(roughness, asked["quoted_magnification"])
+    heights, zetas = (logarithmic_grid(asked[key]) for key in ("h_rms_over_range", "magnification"))
+    one_zeta = np.full_like(heights, asked["quoted_magnification"])
     one_height = np.full_like(zetas, asked["quoted_h_rms_over_range"])
     over_h, over_zeta = (
         find_thresholds(model_pair(asked, h, zeta, load, table, constant))
-        for h, zeta in ((roughness, one_zeta), (one_height, zetas))
+        for h, zeta in ((heights, one_zeta), (one_height, zetas))
     )
     return xr.Dataset(
         {
             "against_roughness": (("criterion", "h_rms_over_range"), list(over_h.values())),
             "against_magnification": (("criterion", "magnification"), list(over_zeta.values())),
         },
-        coords={"h_rms_over_range": roughness, "magnification": zetas, "criterion": list(over_h)},
+        coords={"h_rms_over_range": heights, "magnification": zetas, "criterion": list(over_h)},
     )
 
 
@@ -78,9 +77,7 @@ def model_pair(asked, h_rms, magnification, load, table, constant):
         rms_slope=np.array([s.rms_slope for s in spectra]),
         rms_curvature=np.array([s.rms_curvature for s in spectra]),
         elastic_energy=np.array([s.elastic_energy() for s in spectra]),
-        modulus=1.0,
-        work_of_adhesion=1.0,
-        range=1.0,
+        **dict.fromkeys(("modulus", "work_of_adhesion", "range"), 1.0),
         a_v=a_v.value,
         a_v_low=a_v.low,
         a_v_high=a_v.high,
@@ -90,21 +87,20 @@ def model_pair(asked, h_rms, magnification, load, table, constant):
 
 def find_thresholds(pair):
     """Adhesion length over range at which each criterion begins to call surfaces sticky."""
-    found = {
+    others = {
         name: criterion.adhesion_length_threshold(pair)
         for name, criterion in CRITERIA.items()
         if criterion.has_length and name != REMAINING
     }
-    lengths = (pair.remaining_threshold(sign) for sign in (0, 1, -1))
-    return found | dict(zip((REMAINING, LOW, HIGH), lengths, strict=True))
+    return others | {name: pair.remaining_threshold(sign) for name, sign in LIMITS.items()}
 
 
 def add_budgets(dataset):
     """Add error budgets to the thresholds; only that of what remains states an error."""
     for name in ("against_roughness", "against_magnification"):
         value = dataset[name]
-        ends = (value.sel(criterion=end, drop=True) for end in (LOW, HIGH))
-        model = between(value, *ends)
+        low, high = (value.sel(criterion=end, drop=True) for end in list(LIMITS)[1:])
+        model = between(value, low, high)
         model = replace(model, error=model.error.where(value.criterion == REMAINING))
         dataset = with_budget(dataset, name, model=model, **CLOSED)
     return dataset

@@ -6,7 +6,7 @@ import numpy as np
 import xarray as xr
 
 from criteria.classification import find_limits
-from stickiness.criteria.judgement import QUANTITIES, SIGNS
+from stickiness.criteria.verdict import LIMITED, SIGNS
 from stickiness.statistics import COVERS
 
 DIMS = ("material", "surface", "end")
@@ -26,7 +26,7 @@ CURVES = {  # units and descriptions of the variables
     **{
         f"remaining_by_{axis}{end}": (
             "1",
-            f"{QUANTITIES['remaining'].long_name}, {text}{f', {end[1:]} limit' if end else ''}",
+            f"{LIMITED['remaining'][1]}, {text}{f', {end[1:]} limit' if end else ''}",
             missing,
         )
         for axis, (_, text, missing) in AXES.items()
@@ -35,21 +35,20 @@ CURVES = {  # units and descriptions of the variables
 }
 
 
-def follow_remaining(pair, materials, roughness, frequencies):
+def follow_remaining(pair, solids, roughness, rates):
     """Share that remains along factors on E* and on the heights, and along the rate.
 
-    Limits are those that decide (`classification.find_limits`), so that at a factor of 1 they are
-    the pair's. U_full goes with E* and with the square of the heights: no spectrum is integrated
-    again. With a film the modulus of the layer alone changes the response, which is withheld.
+    `rates` are moduli ``(material, frequency)``. Limits are those that decide
+    (`classification.find_limits`), so that at a factor of 1 they are the pair's. U_full goes with
+    E* and with the square of the heights: no spectrum is integrated again. With a film the modulus
+    of the layer alone changes the response, which is withheld.
     """
-    solids = list(materials.values())
     scalable = np.array([solid.is_scalable for solid in solids])
     quoted = np.array([solid.modulus for solid in solids])
-    rates = np.transpose([np.atleast_1d(s.plane_strain.storage(frequencies)) for s in solids])
     along = {
         "modulus": np.where(scalable, MODULUS_FACTORS[:, None] * quoted, np.nan),
         "roughness": np.broadcast_to(quoted, (len(ROUGHNESS_FACTORS), len(solids))),
-        "rate": np.where(scalable, rates, np.nan),
+        "rate": np.where(scalable, rates.T, np.nan),
     }
     found = {
         "modulus_factor": ("modulus_factor", MODULUS_FACTORS),
@@ -58,10 +57,9 @@ def follow_remaining(pair, materials, roughness, frequencies):
     for axis, moduli in along.items():
         dim = AXES[axis][0]
         heights = ROUGHNESS_FACTORS if axis == "roughness" else np.ones(len(moduli))
-        share, low, high = follow(pair, solids, roughness, dim, moduli, heights)
-        found[f"remaining_by_{axis}"] = share.transpose(*DIMS, dim)
-        found[f"remaining_by_{axis}_low"] = low.transpose(*DIMS[:2], dim)
-        found[f"remaining_by_{axis}_high"] = high.transpose(*DIMS[:2], dim)
+        curves = follow(pair, solids, roughness, dim, moduli, heights)
+        for end, values in zip(SIGNS, curves, strict=True):
+            found[f"remaining_by_{axis}{end}"] = values
     return found
 
 
@@ -81,20 +79,19 @@ def follow(pair, solids, roughness, dim, moduli, heights):
         half_space_energy=pair.half_space_energy * factor**2,
     )
     strain = np.array([[rough.layer_strain for rough in row] for row in roughness])
-    quantiles = np.array(
-        [
-            [follow_samples(solid, rough.samples, moduli[:, i], heights) for rough in roughness[i]]
-            for i, solid in enumerate(solids)
-        ]
-    )
+    quantiles = [
+        [follow_samples(solid, rough.samples, moduli[:, i], heights) for rough in roughness[i]]
+        for i, solid in enumerate(solids)
+    ]
     found = xr.Dataset(
         {f"remaining{end}": ((dim, *DIMS), at.remaining(sign)) for end, sign in SIGNS.items()}
         | {
-            "remaining_quantile": ((*DIMS[:2], dim, "quantile"), quantiles),
+            "remaining_quantile": ((*DIMS[:2], dim, "quantile"), np.array(quantiles)),
             "layer_strain": ((dim, *DIMS), strain * factor),
         }
     )
-    return tuple(x.where(known) for x in (found.remaining, *find_limits(found)))
+    curves = (found.remaining, *find_limits(found))
+    return tuple(x.where(known).transpose(*DIMS, dim, missing_dims="ignore") for x in curves)
 
 
 def follow_samples(solid, samples, moduli, heights):

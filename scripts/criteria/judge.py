@@ -3,16 +3,9 @@
 from common.formatting import NOTHING, interval
 from common.job import start
 from common.templates import write_page
+from criteria import texts
 from criteria.classification import find_limits
-from criteria.judging import judge, read_surfaces
-from criteria.texts import (
-    MPA,
-    describe_pull_off,
-    describe_share,
-    describe_threshold,
-    show_probability,
-    show_stress,
-)
+from criteria.judging import judge_materials, read_surfaces
 from stickiness import datasets
 from stickiness.criteria.pair import FULL_SHARE, NOT_JUDGED, WORDS
 from stickiness.criteria.registry import CRITERIA, EDGES, REMAINING
@@ -21,12 +14,11 @@ from stickiness.remaining.prediction import DEFAULT_SHARE
 
 
 def main(job):
-    surfaces, materials = (
-        read_surfaces(job.params.surfaces, job.input.surfaces),
-        job.params.materials,
-    )
+    surfaces = read_surfaces(job.params.surfaces, job.input.surfaces)
+    materials = job.params.materials
     labels = {name: datasets.parameters(surface)["label"] for name, surface in surfaces.items()}
-    dataset = judge(surfaces, {name: surfaces[name] for name in job.params.own}, job.params)
+    material_surfaces = {name: surfaces[name] for name in job.params.material_surfaces}
+    dataset = judge_materials(surfaces, material_surfaces, job.params)
     datasets.write(
         dataset,
         job.output.dataset,
@@ -38,6 +30,7 @@ def main(job):
 
 def describe_page(dataset, materials, labels):
     """What the page shows; `labels` are those of the surfaces."""
+    others = [c for c in CRITERIA.values() if c.has_length and c.name != REMAINING]
     return {
         "wanted": DEFAULT_SHARE,
         "full": FULL_SHARE,
@@ -51,8 +44,8 @@ def describe_page(dataset, materials, labels):
             for material in dataset.material.values
             for surface in dataset.surface.values
         ],
-        "others": [criterion.label for criterion in find_others()],
-        "thresholds": compare_thresholds(dataset, labels),
+        "others": [criterion.label for criterion in others],
+        "thresholds": compare_thresholds(dataset, others, labels),
     }
 
 
@@ -62,44 +55,36 @@ def describe_pair(pair):
         return WORDS[NOT_JUDGED], *[NOTHING] * 10
     differs = [CRITERIA[str(c)].label for c in pair.criterion.values[pair.disagrees == 1]]
     dmt = pair.margin.sel(criterion="violano") ** (5 / 3)  # h_rms limit over h_rms, as a ratio
-    onset = pair.margin.sel(criterion=EDGES)
     return (
         WORDS[int(pair.verdict)],
-        describe_share(pair),
-        describe_pull_off(pair),
-        show_stress(float(pair.modulus_quoted), MPA),
-        describe_threshold(pair),
-        show_probability(pair),
-        show_interval(pair.energy_ratio.min(), pair.energy_ratio.max()),
-        show_interval(*find_limits(pair, "margin")),
-        show_interval(onset.min(), onset.max()),
-        show_interval(dmt.min(), dmt.max()),
+        texts.describe_share(pair),
+        texts.describe_pull_off(pair),
+        texts.show_stress(float(pair.modulus_quoted), texts.MPA),
+        texts.describe_threshold(pair),
+        texts.show_probability(pair),
+        show_range(pair.energy_ratio),
+        interval(*map(float, find_limits(pair, "margin")), 2),
+        show_range(pair.margin.sel(criterion=EDGES)),
+        show_range(dmt),
         ", ".join(differs) or "none",
     )
 
 
-def compare_thresholds(dataset, labels):
+def compare_thresholds(dataset, others, labels):
     """Rows of thresholds by every criterion, one a surface, over all materials and both ends."""
     by = dataset.threshold_by_criterion
     ours = by.sel(criterion=REMAINING)
     length = dataset.work_of_adhesion / ours * 1e9
-    columns = [length, *(by.sel(criterion=c.name) / ours for c in find_others())]
-    rows = []
-    for surface in by.surface.values:
-        if ours.sel(surface=surface).isnull().all():  # not judged
-            continue
-        cells = [column.sel(surface=surface) for column in columns]
-        rows.append((labels[surface], *(show_interval(x.min(), x.max()) for x in cells)))
-    return rows
+    columns = [length, *(by.sel(criterion=criterion.name) / ours for criterion in others)]
+    return [
+        (labels[surface], *(show_range(column.sel(surface=surface)) for column in columns))
+        for surface in by.surface.values
+        if ours.sel(surface=surface).notnull().any()  # else it is not judged
+    ]
 
 
-def find_others():
-    """Criteria with a threshold that are compared with what remains."""
-    return [c for c in CRITERIA.values() if c.has_length and c.name != REMAINING]
-
-
-def show_interval(low, high):
-    return interval(float(low), float(high), 2)
+def show_range(values):
+    return interval(float(values.min()), float(values.max()), 2)
 
 
 if __name__ == "__main__":

@@ -1,17 +1,17 @@
 """Verdict for every material on one surface."""
 
 from common.job import start
-from criteria.judging import judge, read_surfaces
+from criteria.judging import judge_materials, read_surfaces
 from stickiness import datasets
 
 
 def main(job):
     name = job.wildcards.real_surface
     surfaces = read_surfaces([name], [job.input.surface])
-    own = read_surfaces(job.params.own, job.input.own)
+    material_surfaces = read_surfaces(job.params.material_surfaces, job.input.material_surfaces)
     label = datasets.parameters(surfaces[name])["label"]
     datasets.write(
-        judge(surfaces, own, job.params),
+        judge_materials(surfaces, material_surfaces, job.params),
         job.output[0],
         title=f"verdicts of the stickiness criteria: {label}",
         parameters={"materials": job.params.materials, "label": label},

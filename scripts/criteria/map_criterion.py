@@ -18,18 +18,19 @@ from stickiness.spectrum.kinds import SelfAffine
 
 LIMIT = "largest h_rms/range that sticks"
 EDGES = f"{LIMIT}, by the edges of contact"
+DMT = f"{LIMIT} in the DMT limit"
 MISSING = "none for which a_V is tabulated, or none above 1"
 VARIABLES = {  # units, description, and what NaN means
     "range_times_q0": ("1", "range times lowest wave number"),
     "adhesion_length_over_range": ("1", "adhesion length over range"),
-    "h_rms_limit": ("1", f"{LIMIT} in the DMT limit, a_V as tabulated", MISSING),
-    "h_rms_limit_low": ("1", f"{LIMIT} in the DMT limit, a_V at its low end", MISSING),
-    "h_rms_limit_high": ("1", f"{LIMIT} in the DMT limit, a_V at its high end", MISSING),
+    "h_rms_limit": ("1", f"{DMT}, a_V as tabulated", MISSING),
+    "h_rms_limit_low": ("1", f"{DMT}, a_V at its low end", MISSING),
+    "h_rms_limit_high": ("1", f"{DMT}, a_V at its high end", MISSING),
     "h_rms_limit_edges": ("1", EDGES, MISSING),
     "h_rms_limit_edges_low": ("1", f"{EDGES}, a_V and model at their low end", MISSING),
     "h_rms_limit_edges_high": ("1", f"{EDGES}, a_V and model at their high end", MISSING),
-    "h_rms_limit_constant": ("1", f"{LIMIT} in the DMT limit, constant a_V of a broad spectrum"),
-    "h_rms_limit_printed": ("1", f"{LIMIT} in the DMT limit, coefficient 9/4 as printed"),
+    "h_rms_limit_constant": ("1", f"{DMT}, constant a_V of a broad spectrum"),
+    "h_rms_limit_printed": ("1", f"{DMT}, coefficient 9/4 as printed"),
     "weak_limit": ("1", "smallest h_rms/range at which the edges of contact are weak", MISSING),
     "jtb_limit": ("1", "smallest h_rms/range at which the DMT limit holds (JTB)"),
     "a_v": ("1", "constant a_V of a broad spectrum"),
@@ -39,6 +40,7 @@ VARIABLES = {  # units, description, and what NaN means
     "h_rms_over_range": ("1", "rms height over range"),
     "slope_angle": ("degree", "angle of the area-load line against the load axis"),
 }
+ENDS = {"": ("value", 0), "_low": ("low", -1), "_high": ("high", 1)}  # of a_V, and of the model
 
 
 def main(job):
@@ -46,7 +48,7 @@ def main(job):
     constant = measure_a_v(job.input, job.params.pressure)
     table = AvTable(datasets.read(job.input.a_v_table, NEEDED))
     dataset = find_limits(asked, constant, Roughness(table, asked, job.params.pressure))
-    dataset = dataset.merge(find_slopes(asked["slope_parameter"], asked["slope_a_v"]))
+    dataset = dataset.assign(find_slopes(asked["slope_parameter"], asked["slope_a_v"]))
     datasets.write(
         add_budgets(datasets.annotate(dataset, **VARIABLES), constant),
         job.output[0],
@@ -72,11 +74,9 @@ class Roughness:
     def slope(self, h, q0):
         """Root mean square gradient."""
         zeta = self.magnification(q0)
-        unit = [
-            SelfAffine(hurst=self._hurst, q0=1.0, q1=z, h_rms=1.0).rms_slope
-            for z in np.unique(zeta)
-        ]
-        return h * q0 * np.interp(np.log(zeta), np.log(np.unique(zeta)), unit)
+        every = np.unique(zeta)
+        unit = [SelfAffine(hurst=self._hurst, q0=1.0, q1=z, h_rms=1.0).rms_slope for z in every]
+        return h * q0 * np.interp(np.log(zeta), np.log(every), unit)
 
     def a_v(self, h, q0, which):
         """Value, low or high limit of a_V at the range over h.
@@ -101,48 +101,43 @@ def find_limits(asked, constant, roughness):
 
     With the range as unit of length only range q0, l_a/range and the shortest wavelength remain.
     """
-    q0 = logarithmic_grid(asked["range_times_q0"])
-    length = logarithmic_grid(asked["adhesion_length_over_range"])
     dims = ("range_times_q0", "adhesion_length_over_range")
-    at = np.meshgrid(q0, length, indexing="ij")
-
-    def by_dmt(h, q0, length, which):
-        return criteria.traction_ratio(h, q0, length, 1.0, roughness.a_v(h, q0, which))
+    axes = [logarithmic_grid(asked[dim]) for dim in dims]
+    at = np.meshgrid(*axes, indexing="ij")
 
     def attraction(h, q0, length, which):
         slope, a_v = roughness.slope(h, q0), roughness.a_v(h, q0, which)
         return equivalent_sphere.attraction(h, q0, slope, length, 1.0, a_v)
 
-    def by_edges(h, q0, length, which):
+    def by_dmt(h, q0, length, which, sign):
+        return criteria.traction_ratio(h, q0, length, 1.0, roughness.a_v(h, q0, which))
+
+    def by_edges(h, q0, length, which, sign):
         found = attraction(h, q0, length, which)
-        return found.ratio * found.error_factor ** {"low": -1, "value": 0, "high": 1}[which]
+        return found.ratio * found.error_factor**sign
 
     def over_weak(h, q0, length):
         return attraction(h, q0, length, "value").strength / equivalent_sphere.WEAK
 
-    ends = {"": "value", "_low": "low", "_high": "high"}
-    implicit = {
-        f"{name}{end}": partial(ratio, which=which)
-        for name, ratio in (("h_rms_limit", by_dmt), ("h_rms_limit_edges", by_edges))
-        for end, which in ends.items()
-    } | {"weak_limit": over_weak}
-    data = {
-        name: (dims, find_largest(ratio, *at, roughness.largest))
-        for name, ratio in implicit.items()
-    }
-    for name, value in (("constant", constant.value), ("printed", criteria.PRINTED_A_V)):
-        data[f"h_rms_limit_{name}"] = dims, criteria.h_rms_limit(*at, 1.0, value)
-    data["jtb_limit"] = dims, criteria.jtb_limit(*at, 1.0)
-    scalars = {"a_v": constant.value, "a_v_low": constant.low, "a_v_high": constant.high}
-    return xr.Dataset(data | scalars, coords=dict(zip(dims, (q0, length), strict=True)))
+    ratios = {"weak_limit": over_weak}
+    for ending, (which, sign) in ENDS.items():
+        ratios[f"h_rms_limit{ending}"] = partial(by_dmt, which=which, sign=sign)
+        ratios[f"h_rms_limit_edges{ending}"] = partial(by_edges, which=which, sign=sign)
+    found = {name: find_largest(ratio, *at, roughness.largest) for name, ratio in ratios.items()}
+    found["h_rms_limit_constant"] = criteria.h_rms_limit(*at, 1.0, constant.value)
+    found["h_rms_limit_printed"] = criteria.h_rms_limit(*at, 1.0, criteria.PRINTED_A_V)
+    found["jtb_limit"] = criteria.jtb_limit(*at, 1.0)
+    a_v, error = constant.value, constant.error
+    scalars = {"a_v": a_v, "a_v_low": max(a_v - error, 0.01 * a_v), "a_v_high": a_v + error}
+    fields = {name: (dims, values) for name, values in found.items()}
+    return xr.Dataset(fields | scalars, coords=dict(zip(dims, axes, strict=True)))
 
 
 def find_largest(ratio, q0, length, end):
     """Find the h_rms at which a ratio that falls with it passes 1, from 1 to `end`; NaN if none."""
-    ends = np.zeros_like(q0), np.full_like(q0, np.log(end))
     found = elementwise.find_root(
         lambda log_h, q0, length: np.log(ratio(np.exp(log_h), q0, length)),
-        ends,
+        (np.zeros_like(q0), np.full_like(q0, np.log(end))),
         args=(q0, length),
         tolerances={"xatol": 1e-6},
     )
@@ -151,17 +146,14 @@ def find_largest(ratio, q0, length, end):
 
 def find_slopes(parameters, a_v):
     """Angle of the area-load line against h_rms/range for range q0/(l_a/range) = parameter."""
-    roughness = np.geomspace(0.1, 100, 301)
-    angles = [
-        criteria.slope_angle(
-            criteria.inverse_kappa(criteria.inverse_kappa_ad(roughness, parameter, 1.0, 1.0, a_v))
-        )
-        for parameter in parameters
-    ]
-    return xr.Dataset(
-        {"slope_angle": (("slope_parameter", "h_rms_over_range"), np.degrees(angles))},
-        coords={"slope_parameter": list(parameters), "h_rms_over_range": roughness},
-    )
+    h = np.geomspace(0.1, 100, 301)
+    inverse = criteria.inverse_kappa_ad(h, np.reshape(parameters, (-1, 1)), 1.0, 1.0, a_v)
+    angles = np.degrees(criteria.slope_angle(criteria.inverse_kappa(inverse)))
+    return {
+        "slope_parameter": list(parameters),
+        "h_rms_over_range": h,
+        "slope_angle": (("slope_parameter", "h_rms_over_range"), angles),
+    }
 
 
 def add_budgets(dataset, constant):

@@ -18,7 +18,7 @@ class Material:
     range: float  # of the attraction, m
     depends_on_rate: bool  # whether the modulus is more than a constant
     solid: Solid = HALF_SPACE  # or a layer, thickness in m
-    surface: str | None = None  # name of its own rough surface
+    surface: str | None = None  # name of the rough surface of the material
 
     @property
     def modulus(self):
@@ -27,7 +27,7 @@ class Material:
 
     @property
     def is_scalable(self):
-        """Whether all that deforms has the material's modulus: a film has one of its own."""
+        """Whether all that deforms has the material's modulus: a film has another."""
         return not isinstance(getattr(self.solid, "backing", None), Film)
 
 
@@ -61,10 +61,10 @@ def read_modulus(entry):
         return Constant(si(entry["plane_strain_modulus"], "Pa"))
     factor = 1 / (1 - entry["poisson_ratio"] ** 2)
     if "youngs_modulus_table" in entry:
-        pairs = entry["youngs_modulus_table"]
+        frequencies, moduli = zip(*entry["youngs_modulus_table"], strict=True)
         return Table(
-            tuple(si(frequency, "Hz") for frequency, _ in pairs),
-            tuple(factor * si(modulus, "Pa") for _, modulus in pairs),
+            tuple(si(frequency, "Hz") for frequency in frequencies),
+            tuple(factor * si(modulus, "Pa") for modulus in moduli),
         )
     if "youngs_modulus_prony" in entry:
         series = entry["youngs_modulus_prony"]
@@ -76,33 +76,30 @@ def read_modulus(entry):
 
 
 def describe_modulus(entry):
-    """Modulus as the configuration states it, with the layer and the solid's own roughness."""
-    text = describe_elasticity(entry).replace(" um", " µm")
+    """Modulus as the configuration states it, with the layer and the roughness of the solid."""
+    if "plane_strain_modulus" in entry:
+        text = f"E* = {entry['plane_strain_modulus']}"
+    else:
+        text = f"{describe_youngs_modulus(entry)}, ν = {entry['poisson_ratio']}"
+        text += describe_layer(entry) if "thickness" in entry else ""
+    text = text.replace(" um", " µm")
     return f"{text}, rough as {entry['surface']}" if "surface" in entry else text
 
 
-def describe_elasticity(entry):
-    """Modulus, Poisson's ratio and layer."""
-    if "plane_strain_modulus" in entry:
-        return f"E* = {entry['plane_strain_modulus']}"
+def describe_youngs_modulus(entry):
     if "youngs_modulus_table" in entry:
         pairs = entry["youngs_modulus_table"]
-        text = f"E′ = {pairs[0][1]} at {pairs[0][0]} … {pairs[-1][1]} at {pairs[-1][0]}"
-    elif "youngs_modulus_prony" in entry:
+        return f"E′ = {pairs[0][1]} at {pairs[0][0]} … {pairs[-1][1]} at {pairs[-1][0]}"
+    if "youngs_modulus_prony" in entry:
         series = entry["youngs_modulus_prony"]
-        text = f"E = {series['equilibrium']} at rest, {len(series['terms'])} Prony terms"
-    else:
-        text = f"E = {entry['youngs_modulus']}"
-    text += f", ν = {entry['poisson_ratio']}"
-    return f"{text}, {describe_layer(entry)}" if "thickness" in entry else text
+        return f"E = {series['equilibrium']} at rest, {len(series['terms'])} Prony terms"
+    return f"E = {entry['youngs_modulus']}"
 
 
 def describe_layer(entry):
-    """Thickness and backing in words."""
-    backing = entry.get("backing", "bonded")
+    text, backing = f", {entry['thickness']} thick", entry.get("backing", "bonded")
     if backing == "slip":
-        return f"{entry['thickness']} thick, free to slip on a rigid base"
+        return f"{text}, free to slip on a rigid base"
     if backing == "bonded":
-        return f"{entry['thickness']} thick on a rigid base"
-    film = f"{backing['thickness']} and {backing['youngs_modulus']}"
-    return f"{entry['thickness']} thick on a film of {film}"
+        return f"{text} on a rigid base"
+    return f"{text} on a film of {backing['thickness']} and {backing['youngs_modulus']}"

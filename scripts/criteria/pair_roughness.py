@@ -31,7 +31,7 @@ class PairRoughness:
     rms_curvature: NDArray
     elastic_energy: NDArray  # of full contact per area over E*
     energy_ratio_to_half_space: NDArray
-    layer_strain: NDArray  # of a layer, see `find_strain`; 0 of a half-space
+    layer_strain: NDArray  # of a layer, as an order of magnitude; 0 of a half-space
     q0: float
     a_v: tuple[SurfaceAv, ...]  # by end
     relative_compliance: float  # S of the longest waves on a layer
@@ -39,71 +39,56 @@ class PairRoughness:
     anisotropy_error_factor: float
     samples: Roughness | None  # of a measured surface, arrays ``(draw,)``
 
-    def a_v_at(self, reach: float) -> NDArray:
-        """a_V with its low and high limit for a range [m], ``(end, 3)``."""
-        return np.array(
-            [found.at(reach / h) for found, h in zip(self.a_v, self.h_rms, strict=True)]
-        )
 
-
-def combine(material, surface, smooth, own=None):
+def combine(material, surface, smooth, second=None):
     """Combine a `Material` and the dataset of a surface to their `PairRoughness`.
 
-    `smooth` is the roughness of a smooth half-space on the surface (`half_space_pair`), `own` the
-    dataset of the surface of a material that is rough itself.
+    `smooth` is the roughness of a smooth half-space on the surface (`half_space_pair`), `second`
+    the dataset of the surface of a material that is rough itself.
     """
-    pair = smooth if own is None else add_surfaces(surface, own, smooth, material.solid)
+    pair = smooth if second is None else add_surfaces(surface, second, smooth, material.solid)
     if material.solid == HALF_SPACE:
         return pair
-    spectra = find_spectra(surface, own)
+    spectra = find_spectra(surface, second)
     energy = np.array([spectrum.elastic_energy(material.solid) for spectrum in spectra])
     ratio = energy / np.array([spectrum.elastic_energy() for spectrum in spectra])
     # A film is softer to some waves, its layer stiffer to others: a half-space bounds nothing.
     bound = np.nan if isinstance(material.solid.backing, Film) else 1.0
     compliance = float(material.solid.factor(pair.q0))
-    samples = pair.samples
-    if samples is not None:
-        # The spectra of the samples are not kept: the layer acts on them as on both ends.
-        samples = replace(
-            samples,
-            elastic_energy=samples.elastic_energy * np.sqrt(np.prod(ratio)),
-            relative_compliance=compliance,
-            half_space_energy=samples.elastic_energy * bound,
-        )
+    # The spectra of the samples are not kept: the layer acts on them as on both ends.
+    samples = pair.samples and replace(
+        pair.samples,
+        elastic_energy=pair.samples.elastic_energy * np.sqrt(np.prod(ratio)),
+        relative_compliance=compliance,
+        half_space_energy=pair.samples.elastic_energy * bound,
+    )
+    # Where the longest waves are longer than the layer is thick, material has to flow along it, and
+    # shears by 1/(q0 thickness) more than the rms height over the thickness.
+    thickness = material.solid.thickness
     return replace(
         pair,
         elastic_energy=pair.elastic_energy * ratio,
         half_space_energy=pair.half_space_energy * bound,
         energy_ratio_to_half_space=ratio,
-        layer_strain=find_strain(pair, material.solid),
+        layer_strain=pair.h_rms / (thickness * min(1.0, pair.q0 * thickness)),
         relative_compliance=compliance,
         samples=samples,
     )
 
 
-def find_strain(pair, layer):
-    """Strain that conforming demands of a layer, ``(end,)``, as an order of magnitude.
-
-    The rms height over the thickness; where the longest waves are longer than the layer is thick,
-    material has to flow along it, and shears by 1/(q0 thickness) more.
-    """
-    return pair.h_rms / (layer.thickness * min(1.0, pair.q0 * layer.thickness))
-
-
-def find_spectra(surface, own=None):
+def find_spectra(surface, second=None):
     """Spectra of both ends."""
-    if own is None:
+    if second is None:
         return [real_spectrum(surface, end) for end in ENDS]
-    return [sums.combine(real_spectrum(surface, end), real_spectrum(own, end)) for end in ENDS]
+    return [sums.combine(real_spectrum(surface, end), real_spectrum(second, end)) for end in ENDS]
 
 
 def half_space_pair(surface):
     """`PairRoughness` of a smooth half-space on a surface."""
     by_end = {name: surface[name].sel(end=list(ENDS)).values for name in BY_END}
-    directed = "axis_ratio" in surface
-    factor = find_anisotropy_error_factor(float(surface.axis_ratio)) if directed else 1.0
+    factor = find_anisotropy_error_factor(float(surface.get("axis_ratio", 1.0)))
     samples = None
-    if all(name in surface for name in SAMPLED):
+    if set(SAMPLED) <= set(surface):
         values = (surface[name].values for name in SAMPLED)
         samples = Roughness(*values, anisotropy_error_factor=factor)
     return PairRoughness(
@@ -122,69 +107,60 @@ def half_space_pair(surface):
 def find_a_v(surface):
     """a_V by theory on both ends; it is computed once where they differ by a factor only."""
     ratio = surface.psd.sel(end=ENDS[0]) / surface.psd.sel(end=ENDS[-1])
-    same = np.ptp(ratio.values) < 1e-6 * ratio.values.max()
-    found = [
-        surface_a_v(
-            real_spectrum(surface, end),
-            {name: float(surface[name].sel(end=end)) for name in MOMENTS}
-            | {"q0": float(surface.q0)},
-        )
-        for end in (ENDS[:1] if same else ENDS)
-    ]
-    return tuple(found * len(ENDS) if same else found)
+    ends = ENDS[:1] if np.ptp(ratio.values) < 1e-6 * ratio.values.max() else ENDS
+    found = []
+    for end in ends:
+        moments = {name: float(surface[name].sel(end=end)) for name in MOMENTS}
+        known = moments | {"q0": float(surface.q0)}
+        found.append(surface_a_v(real_spectrum(surface, end), known))
+    return tuple(found * (len(ENDS) // len(found)))
 
 
-def add_surfaces(surface, own, one, solid):
+def add_surfaces(surface, second, one, solid):
     """`PairRoughness` of two rough solids, whose roughness is independent.
 
     `one` is the roughness of `surface` alone.
     """
-    other = half_space_pair(own)
+    other = half_space_pair(second)
     moments = {name: np.hypot(getattr(one, name), getattr(other, name)) for name in MOMENTS}
     energy = one.elastic_energy + other.elastic_energy
     # The longest waves that matter are those of the surface that stores the energy.
     stored = [
-        np.sum([real_spectrum(each, end).elastic_energy(solid) for end in ENDS])
-        for each in (surface, own)
+        sum(s.elastic_energy(solid) for s in find_spectra(each)) for each in (surface, second)
     ]
-    share = float(stored[0] / np.sum(stored))
+    share = float(stored[0] / sum(stored))
     q0 = one.q0**share * other.q0 ** (1 - share)
     a_v = [
         surface_a_v(spectrum, {n: float(moments[n][end]) for n in MOMENTS} | {"q0": q0})
-        for end, spectrum in enumerate(find_spectra(surface, own))
+        for end, spectrum in enumerate(find_spectra(surface, second))
     ]
-    return PairRoughness(
+    return replace(
+        one,
         **moments,
         elastic_energy=energy,
         half_space_energy=energy,
-        energy_ratio_to_half_space=np.ones(len(ENDS)),
-        layer_strain=np.zeros(len(ENDS)),
         q0=q0,
         a_v=tuple(a_v),
-        relative_compliance=1.0,
         anisotropy_error_factor=max(one.anisotropy_error_factor, other.anisotropy_error_factor),
         samples=add_samples(one.samples, other, share),
     )
 
 
 def add_samples(samples, other, share):
-    """Samples of a measured surface with another surface added.
-
-    None if the other one is only known between two ends.
-    """
+    """Samples of a measured surface with another one added; None if that has two ends only."""
     if samples is None:
         return None
+    names = ("h_rms", "q0", "elastic_energy")
     if other.samples is not None:
-        number = len(samples.h_rms)
-        names = ("h_rms", "q0", "elastic_energy")
-        more = Roughness(*(np.resize(getattr(other.samples, name), number) for name in names))
+        size = len(samples.h_rms)
+        h_rms, q0, energy = (np.resize(getattr(other.samples, name), size) for name in names)
     elif np.ptp(other.h_rms) == 0:
-        more = Roughness(other.h_rms[0], other.q0, other.elastic_energy[0])
+        h_rms, q0, energy = other.h_rms[0], other.q0, other.elastic_energy[0]
     else:
         return None
     return Roughness(
-        h_rms=np.hypot(samples.h_rms, more.h_rms),
-        q0=samples.q0**share * more.q0 ** (1 - share),
-        elastic_energy=samples.elastic_energy + more.elastic_energy,
+        h_rms=np.hypot(samples.h_rms, h_rms),
+        q0=samples.q0**share * q0 ** (1 - share),
+        elastic_energy=samples.elastic_energy + energy,
         anisotropy_error_factor=max(samples.anisotropy_error_factor, other.anisotropy_error_factor),
     )

@@ -3,11 +3,12 @@
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from common.conventions import VARIANT
 from stickiness import datasets
 from stickiness.error_budget import Part, absent, part
+
+SIMULATED = ("a_v_mean", "a_v_mean_error")
 
 
 @dataclass(frozen=True)
@@ -27,36 +28,22 @@ class MeasuredAv:
     bandwidth: float  # change over the last two decades of magnification, in which a_V still grows
 
     @property
-    def error(self) -> float:
+    def error(self):
         """All parts in quadrature."""
         parts = (self.sampling, self.discretisation, self.fit_interval, self.bandwidth)
         return float(np.linalg.norm(parts))
 
-    def parts(self, times: ArrayLike) -> dict[str, Part]:
-        """Parts of a budget: `times` its own relative errors."""
+    def parts(self, times):
+        """Parts of a budget: the relative errors of a_V times a number."""
         scale = times / self.value
+        interval = Part(self.fit_interval * scale, "half the spread between intervals of the fit")
         return {
             "discretisation": Part(self.discretisation * scale, "of the case simulated"),
             "solver": absent("far below the errors of the case simulated"),
             "sampling": Part(self.sampling * scale, "of the case simulated"),
             "bandwidth": Part(self.bandwidth * scale, "growth over the last two decades"),
-            "model": Part(
-                self.fit_interval * scale, "half the spread between intervals of the fit"
-            ),
+            "model": interval,
         }
-
-    @property
-    def low(self) -> float:
-        """Value less its error, kept positive."""
-        return max(self.value - self.error, 0.01 * self.value)
-
-    @property
-    def high(self) -> float:
-        """Value plus its error."""
-        return self.value + self.error
-
-
-SIMULATED = ("a_v_mean", "a_v_mean_error")
 
 
 def measure_a_v(inputs, pressure):

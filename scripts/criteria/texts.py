@@ -1,9 +1,6 @@
 """What remains of adhesion on a pair, as texts with limits, rounded for readers."""
 
-from __future__ import annotations
-
 import numpy as np
-import xarray as xr
 
 from common.formatting import NOTHING, interval, number, percent
 from criteria.classification import find_limits
@@ -14,7 +11,7 @@ KPA, MPA = 1e3, 1e6  # Pa: of the pull-off, and of moduli
 LEAST_STRESS, MOST_STRESS = 1.0, 1e13  # Pa, beyond which a text says so: nobody can use them
 
 
-def describe_share(pair: xr.Dataset) -> str:
+def describe_share(pair):
     """Share of the work of adhesion that remains, with the limits that decide the verdict."""
     low, high = (round_share(limit) for limit in find_limits(pair))
     value = show_shares(*sorted(map(round_share, pair.remaining.values)))
@@ -22,18 +19,18 @@ def describe_share(pair: xr.Dataset) -> str:
     return value if limits == value else f"{value} ({limits})"
 
 
-def round_share(share: float) -> float:
+def round_share(share):
     """The share, or 0 where it is too small to be shown."""
     return float(share) if float(share) >= LEAST_SHOWN else 0.0
 
 
-def show_shares(low: float, high: float, between: str = " … ") -> str:
+def show_shares(low, high, between=" … "):
     """Two shares as percentages, or one where they agree."""
     texts = percent(low), percent(high)
     return texts[1] if texts[0] == texts[1] else f"{texts[0].removesuffix(' %')}{between}{texts[1]}"
 
 
-def describe_pull_off(pair: xr.Dataset) -> str:
+def describe_pull_off(pair):
     """Pull-off stress [kPa] with its limits; a dash where nothing holds.
 
     Near full contact, which was not simulated, only a low limit is known.
@@ -46,7 +43,7 @@ def describe_pull_off(pair: xr.Dataset) -> str:
     return describe_stress(pair, "pull_off", KPA)
 
 
-def show_probability(pair: xr.Dataset) -> str:
+def show_probability(pair):
     """Share of the draws that stick; of none or all of them a bound, for draws are few."""
     share = float(pair.probability)
     if share not in (0, 1):
@@ -55,12 +52,12 @@ def show_probability(pair: xr.Dataset) -> str:
     return f"< {percent(error)}" if share == 0 else f"> {percent(1 - error)}"
 
 
-def describe_threshold(pair: xr.Dataset) -> str:
+def describe_threshold(pair):
     """E* [MPa] below which the wanted share remains, with its limits."""
     return describe_stress(pair, "modulus_threshold", MPA)
 
 
-def describe_stress(pair: xr.Dataset, name: str, unit: float) -> str:
+def describe_stress(pair, name, unit):
     """Values in a unit [Pa] at both ends of the surface, with the limits of all that is unknown."""
     low, high = map(float, find_limits(pair, name))
     if np.isnan(low):
@@ -71,7 +68,7 @@ def describe_stress(pair: xr.Dataset, name: str, unit: float) -> str:
     return f"{show_stresses(*values, unit)} ({show_stresses(low, high, unit, ' to ')})"
 
 
-def show_stresses(low: float, high: float, unit: float, between: str = " … ") -> str:
+def show_stresses(low, high, unit, between=" … "):
     """Two stresses [Pa] in a unit [Pa], or one where they agree; outside of what matters, bounds.
 
     Examples
@@ -86,7 +83,7 @@ def show_stresses(low: float, high: float, unit: float, between: str = " … ") 
     return between.join(dict.fromkeys(show_stress(x, unit) for x in (low, high)))
 
 
-def show_stress(value: float, unit: float) -> str:
+def show_stress(value, unit):
     """A stress [Pa] in a unit [Pa], or the bound that it is beyond."""
     if 0 < value < LEAST_STRESS:
         return f"< {number(LEAST_STRESS / unit)}"

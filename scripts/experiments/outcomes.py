@@ -68,7 +68,8 @@ def describe_case(case, experiments):
     """One case in words; `case` is the dataset at one place along `case`."""
     experiment, name = case.case.item().split("/")
     entry = experiments[experiment]
-    outcome = int(case.outcome)
+    outcome, waves = int(case.outcome), float(case.waves_in_contact)
+    few = ", too few" if waves < FEWEST_WAVES else ""
     return {
         "experiment": entry.get("short", entry["label"]),
         "case": entry["cases"][name]["label"],
@@ -80,7 +81,7 @@ def describe_case(case, experiments):
         "outcome": OUTCOMES[outcome] + (", value too" if case.value_inside else ""),
         "tone": TONES[outcome],
         "depends": describe_effect(case),
-        "waves": describe_waves(case),
+        "waves": "flat" if np.isnan(waves) else number(waves, 2) + few,
         "marks": {
             name: {"mark": MARKS[code], "tone": TONES[code]}
             for name, code in zip(CRITERIA, case.criterion_outcome.values.tolist(), strict=True)
@@ -131,20 +132,12 @@ def describe_effect(case):
     return f"{INPUTS[case.most_effective_input.item()]} ({factor})"
 
 
-def describe_waves(case):
-    """Longest waves across what holds a sphere; marked where they are few."""
-    waves = float(case.waves_in_contact)
-    if np.isnan(waves):
-        return "flat"
-    return number(waves, 2) + (", too few" if waves < FEWEST_WAVES else "")
-
-
 def find_survivals(dataset):
     """Worst outcome of every criterion by experiment; `SILENT` where nothing is tested."""
-    experiments = [name.split("/")[0] for name in dataset.case.values.tolist()]
+    experiments = np.array([name.split("/")[0] for name in dataset.case.values])
     table = {}
-    for name in dict.fromkeys(experiments):
-        rows = dataset.criterion_outcome.values[[e == name for e in experiments]]
+    for name in dict.fromkeys(experiments.tolist()):
+        rows = dataset.criterion_outcome.values[experiments == name]
         worst = np.where(rows == SILENT, COMPATIBLE + 1, rows).min(axis=0)
         table[name] = np.where(worst > COMPATIBLE, SILENT, worst).tolist()
     return table

@@ -10,14 +10,7 @@ from experiments.outcomes import COMPATIBLE, MARKS, SILENT
 from stickiness import datasets
 from stickiness.criteria.registry import CRITERIA, EDGES, REMAINING
 
-NEEDED = (
-    "quantity",
-    "h_rms",
-    "outcome",
-    "criterion_outcome",
-    "criterion_roughness",
-    "pull_off_curve",
-)
+NEEDED = ("quantity", "h_rms", "criterion_outcome", "criterion_roughness", "pull_off_curve")
 FOLLOWED = "fuller_tabor"  # experiment whose pull-off is drawn against roughness
 WORKS = ("work_of_approach", "work_of_separation")
 LEAST_SHOWN = 0.005  # relative pull-off
@@ -66,50 +59,47 @@ def draw_pull_off(ax, dataset, experiments):
 
 def draw_observed(ax, case, colour):
     """What was observed: a range of roughness at its level, or of pull-off at its roughness."""
-    ends = ("low", "high")
-    if case["quantity"].item() == "limiting_roughness":
-        limits = [float(case[f"observed_limiting_roughness_{end}"]) * 1e6 for end in ends]
-        level = np.interp(
-            float(case.limiting_roughness), case.roughness.values, case.pull_off_curve.values
-        )
-        ax.plot(limits, [level] * 2, color=colour, linewidth=5, solid_capstyle="butt")
-        return
-    limits = [float(case[f"observed_relative_pull_off_{end}"]) for end in ends]
-    at = [float(case.h_rms) * 1e6] * 2
-    ax.plot(at, np.maximum(limits, LEAST_SHOWN), color=colour, linewidth=5, solid_capstyle="butt")
+    observed = case["quantity"].item()
+    limits = find_observed(case, observed)
+    if observed == "limiting_roughness":
+        at, curve = float(case.limiting_roughness), case.pull_off_curve.values
+        x, y = limits * 1e6, [np.interp(at, case.roughness.values, curve)] * 2
+    else:
+        x, y = [float(case.h_rms) * 1e6] * 2, np.maximum(limits, LEAST_SHOWN)
+    ax.plot(x, y, color=colour, linewidth=5, solid_capstyle="butt")
+
+
+def find_observed(case, name):
+    return np.array([float(case[f"observed_{name}_{end}"]) for end in ("low", "high")])
 
 
 def draw_works(ax, dataset, experiments):
     """Predicted against observed works of adhesion, with all limits."""
     ax.plot([NOTHING, 300], [NOTHING, 300], color=GREY, linewidth=0.8)
     shown = {}
-    for case in dataset.transpose("case", ...).case.values:
+    for case in dataset.case.values:
         point = dataset.sel(case=case)
         name = point["quantity"].item()
         if name not in WORKS:
             continue
         experiment = case.split("/")[0]
         look = shown.setdefault(experiment, plotting.pick_look(len(shown)))
-        observed = clip([float(point[f"observed_{name}_{end}"]) for end in ("low", "high")])
-        low, value, high = clip(
-            [float(point[f"{name}{end}"]) for end in ("_lowest", "", "_highest")]
-        )
+        # In mJ/m^2, none at the edge of the panel.
+        observed = np.maximum(find_observed(point, name) * 1e3, NOTHING)
+        predicted = np.array([point[f"{name}{end}"] for end in ("_lowest", "", "_highest")])
+        low, value, high = np.maximum(predicted * 1e3, NOTHING)
         middle = np.sqrt(observed[0] * observed[1])
         bars = {"color": look["color"], "linewidth": 0.9}
         ax.plot(observed, [value] * 2, **bars)
         ax.plot([middle] * 2, [low, high], **bars)
         filled = {} if name == "work_of_approach" else {"mfc": "white"}
         ax.plot(middle, value, **look, **filled)
-    keys = [make_dot(name_briefly(experiments[e]), **look) for e, look in shown.items()]
+    labels = {e: experiments[e].get("short", experiments[e]["label"]) for e in shown}
+    keys = [make_dot(labels[e], **look) for e, look in shown.items()]
     keys.append(make_dot("open: separation", mfc="white"))
     ax.legend(handles=keys, loc="lower right", fontsize=7)
     ax.set(xscale="log", yscale="log", xlim=(NOTHING, 300), ylim=(NOTHING / 2, 300))
     ax.set(xlabel="observed work of adhesion [mJ/m²]", ylabel="predicted [mJ/m²]")
-
-
-def clip(values):
-    """Works in mJ/m^2, none at the edge of the panel."""
-    return np.maximum(np.array(values) * 1e3, NOTHING)
 
 
 def draw_criteria(ax, dataset, experiments):
@@ -141,11 +131,6 @@ def name_case(case, experiments):
     entry = experiments[experiment]
     label = entry["cases"][name]["label"]
     return f"{entry['short']}: {label}" if "short" in entry else label
-
-
-def name_briefly(entry):
-    """Author and year, or the label."""
-    return entry.get("short", entry["label"])
 
 
 if __name__ == "__main__":

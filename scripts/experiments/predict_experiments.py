@@ -20,7 +20,6 @@ from common.templates import write_page
 from experiments import outcomes
 from experiments.outcomes import COMPATIBLE, GRADES, MISSED, OUTCOMES, SILENT, SOME
 from stickiness import datasets
-from stickiness.criteria.judgement import find_margins
 from stickiness.criteria.pair import Pair
 from stickiness.criteria.registry import CRITERIA
 from stickiness.criteria.verdict import BROAD_A_V, describe_surface, surface_a_v
@@ -55,20 +54,14 @@ QUOTED = {
     "work_of_separation": ("J/m^2", "apparent work of adhesion on separation"),
     "limiting_roughness": ("m", "rms height at which adhesion falls to the level observed"),
 }
+BEYOND = {"limiting_roughness": ["beyond the heights followed"]}  # what NaN means
 _OUTCOMES = ", ".join(f"{code} {word}" for code, word in enumerate(OUTCOMES))
 _GRADES = ", ".join(f"{code} {word}" for code, word in enumerate(GRADES))
-NOTHING = "nothing is predicted"
+_CHANGES, _NOTHING = "changes the prediction, at most 1e9", "nothing is predicted"
 VARIABLES = {
     **{
-        f"{name}{end}": (unit, f"{text}{limit}")
+        f"{name}{end}": (unit, f"{text}{limit}", *BEYOND.get(name, []))
         for name, (unit, text) in (QUOTED | {"pull_off_curve": QUOTED["relative_pull_off"]}).items()
-        for end, limit in LIMITS.items()
-    },
-    **{
-        f"limiting_roughness{end}": (
-            *("m", f"{QUOTED['limiting_roughness'][1]}{limit}"),
-            "beyond the heights followed",
-        )
         for end, limit in LIMITS.items()
     },
     **{
@@ -92,14 +85,8 @@ VARIABLES = {
     "work_of_adhesion": ("J/m^2", "work of adhesion"),
     "h_rms": ("m", "rms height, given or limiting"),
     "most_effective_input": ("1", "input within whose limits the prediction changes most"),
-    "effect_of_input": (
-        *("1", "factor by which this input changes the prediction, at most 1e9"),
-        NOTHING,
-    ),
-    "effect_of_shortest_wave": (
-        *("1", "factor by which the shortest wave changes the prediction, at most 1e9"),
-        NOTHING,
-    ),
+    "effect_of_input": ("1", f"factor by which this input {_CHANGES}", _NOTHING),
+    "effect_of_shortest_wave": ("1", f"factor by which the shortest wave {_CHANGES}", _NOTHING),
     "criterion_outcome": ("1", f"outcome by a criterion: -1 nothing decided, {_OUTCOMES}"),
     "criterion_roughness": (
         *("m", "rms height up to which a criterion says sticky"),
@@ -132,27 +119,6 @@ def main(job):
     )
 
 
-def predict_all(experiments):
-    """Dataset of every case of every experiment, in the order of the configuration."""
-    observations = [
-        read_observation(name, case, entry)
-        for name, entry in experiments.items()
-        for case in entry["cases"]
-    ]
-    places = [f"{o.experiment}/{o.name}" for o in observations]
-    dataset = xr.concat(
-        [predict_case(observation) for observation in observations],
-        xr.DataArray(places, dims="case", name="case"),
-    )
-    dataset = dataset.assign_coords(criterion=list(CRITERIA), roughness=ROUGHNESS)
-    dataset = datasets.annotate(dataset, **VARIABLES)
-    dataset.outcome.attrs |= datasets.flags(OUTCOMES)
-    dataset.criterion_outcome.attrs |= datasets.flags(("nothing decided", *OUTCOMES), first=SILENT)
-    for name in ("known", "observed_known"):
-        dataset[name].attrs |= datasets.flags(GRADES)
-    return add_budgets(dataset)
-
-
 @dataclass(frozen=True)
 class Observation:
     """One observation, and the conditions it was made under.
@@ -162,19 +128,15 @@ class Observation:
     corners. `swept` are the names of the inputs that are not known.
     """
 
-    experiment: str
-    name: str
+    place: str  # experiment and case
     published: bool
     quantity: str
+    observed: Mapping[str, Any]  # as the configuration states it
     low: float  # limits of what was observed, or of the factor of the relation; 0 or 1 of "sticks"
     high: float
-    level: float  # share of the adhesion that is left at a limiting roughness
-    relation: str | None  # that was observed instead of a number
-    error: float  # of the relation
-    silent: tuple[str, ...]  # criteria that it does not test
     inputs: dict[str, NDArray]
     swept: tuple[str, ...]
-    grades: dict[str, str]  # by input and, under its quantity, of what was observed
+    grades: dict[str, str]  # how the inputs are known
 
     @cached_property
     def shapes(self):
@@ -208,6 +170,11 @@ class Observation:
             constant_a_v=BROAD_A_V,
         )
 
+    def pull_off(self, pair: Pair) -> list[sphere.SpherePullOff]:
+        """Pull-off of the sphere: low limit, value, high limit."""
+        at = self.inputs["radius"][:, None], pair.adhesion_length, pair.range
+        return [sphere.pull_off(pair.roughness, *at, sign) for sign in SIGNS]
+
 
 @cache
 def describe_shape(hurst, longest, rolloff, shortest):
@@ -223,7 +190,7 @@ def describe_shape(hurst, longest, rolloff, shortest):
     return tuple(known[name] for name in MOMENTS), surface_a_v(spectrum, known)
 
 
-def read_observation(experiment: str, name: str, entry: Mapping[str, Any]) -> Observation:
+def read_observation(experiment, name, entry):
     """One case of an experiment of the configuration, in SI units."""
     case = entry["cases"][name]
     observed, conditions = case["observed"], conditions_of(entry, case)
@@ -235,41 +202,35 @@ def read_observation(experiment: str, name: str, entry: Mapping[str, Any]) -> Ob
     else:
         inputs["modulus"] = inputs["youngs_modulus"] / (1 - inputs["poisson_ratio"] ** 2)
     if "relation" in observed:
-        low, high = observed["factor"]
+        limits = observed["factor"]
     else:
         limits = read_ends(observed, OBSERVED_UNITS.get(observed["quantity"]))
-        low, high = float(limits[0]), float(limits[-1])
-    grades = {key: given["known"] for key, given in conditions.items()}
     return Observation(
-        experiment=experiment,
-        name=name,
+        place=f"{experiment}/{name}",
         published=entry.get("published", True),
         quantity=observed["quantity"],
-        low=low,
-        high=high,
-        level=observed.get("level", DEFAULT_SHARE),
-        relation=observed.get("relation"),
-        error=si(observed["error"], "J/m^2") if "error" in observed else 0.0,
-        silent=tuple(observed.get("silent", ())),
+        observed=observed,
+        low=float(limits[0]),
+        high=float(limits[-1]),
         inputs=inputs,
         swept=swept,
-        grades=grades | {observed["quantity"]: observed["known"]},
+        grades={key: given["known"] for key, given in conditions.items()},
     )
 
 
-def read_ends(given: Any, unit: str | None) -> NDArray:
+def read_ends(given, unit):
     """The value, or both limits."""
     values = given["between"] if "between" in given else [given["value"]]
     return np.array([float(value) if unit is None else si(value, unit) for value in values])
 
 
-def combine_inputs(ends: Mapping[str, NDArray], swept: tuple[str, ...]) -> dict[str, NDArray]:
+def combine_inputs(ends, swept):
     """Values of every input for all combinations; see `Observation`."""
     # Places of the swept inputs between their ends: 0 low, 1 middle, 2 high.
     places = [[1] * len(swept)]
     for axis in range(len(swept)):
         places += [[end if i == axis else 1 for i in range(len(swept))] for end in (0, 2)]
-    places = np.array([*places, *(list(corner) for corner in product((0, 2), repeat=len(swept)))])
+    places = np.array([*places, *map(list, product((0, 2), repeat=len(swept)))])
     inputs = {key: np.full(len(places), found[0]) for key, found in ends.items()}
     for axis, key in enumerate(swept):
         low, high = ends[key]
@@ -278,51 +239,32 @@ def combine_inputs(ends: Mapping[str, NDArray], swept: tuple[str, ...]) -> dict[
     return inputs
 
 
-@dataclass(frozen=True)
-class Predicted:
-    """Predictions for every combination of the inputs.
+def predict(observation):
+    """Predictions ``(sign, combination)`` by name, the pair, and waves in the contact.
 
-    `values` are by name, ``(sign, combination)``. `curve` is the adhesion along `ROUGHNESS`,
-    ``(sign, combination, roughness)``: the pull-off of a sphere over that from a smooth surface, or
-    the share of the work of adhesion that remains between flats. `pair` is at the rms heights given
-    or, if a limiting one was observed, at that predicted.
+    The curve, ``(sign, combination, roughness)``, is the pull-off of a sphere over that from a
+    smooth surface, or the share of the work of adhesion that remains between flats. The pair is at
+    the rms heights given or, if a limiting one was observed, at the predicted one.
     """
-
-    values: dict[str, NDArray]
-    curve: NDArray
-    pair: Pair
-    waves_in_contact: float  # longest waves across what holds a sphere; NaN of flats
-
-
-def predict(observation: Observation) -> Predicted:
-    """Works of approach and separation and pull-off, with limits, for every combination.
-
-    ValueError if a limiting roughness was observed and none is predicted among `ROUGHNESS`.
-    """
-    of_sphere, count = "radius" in observation.inputs, len(observation.inputs["hurst"])
+    count = len(observation.inputs["hurst"])
     rough = observation.pair(np.broadcast_to(ROUGHNESS, (count, len(ROUGHNESS))))
-    curve = np.array(
-        [
-            pull_off_sphere(observation, rough, sign).relative
-            if of_sphere
-            else np.asarray(rough.remaining(sign))
-            for sign in SIGNS
-        ]
-    )
-    level = observation.level
+    if "radius" in observation.inputs:
+        curve = np.array([found.relative for found in observation.pull_off(rough)])
+    else:
+        curve = np.array([rough.remaining(sign) for sign in SIGNS])
+    level = observation.observed.get("level", DEFAULT_SHARE)
     limit = np.array([[find_fall(ROUGHNESS, row, level) for row in rows] for rows in curve])
     if observation.quantity == "limiting_roughness" and np.isnan(limit).any():
         raise ValueError(
-            f"{observation.experiment}.cases.{observation.name}: adhesion falls to {level:g} at no "
+            f"{observation.place.replace('/', '.cases.')}: adhesion falls to {level:g} at no "
             f"rms height from {ROUGHNESS[0]:g} to {ROUGHNESS[-1]:g} m; correct the level or inputs"
         )
     pair = observation.pair(observation.inputs.get("h_rms", limit[1])[:, None])
     share = np.array([pair.remaining(sign)[:, 0] for sign in SIGNS])
-    if of_sphere:
-        found = [pull_off_sphere(observation, pair, sign) for sign in SIGNS]
-        relative, separation = (
-            np.array([getattr(one, name)[:, 0] for one in found]) for name in ("relative", "work")
-        )
+    if "radius" in observation.inputs:
+        found = observation.pull_off(pair)
+        relative = np.array([one.relative[:, 0] for one in found])
+        separation = np.array([one.work[:, 0] for one in found])
         waves = float((2 * found[1].zone_radius * pair.q0 / (2 * np.pi))[MIDDLE, 0])
     else:
         length, reach = pair.adhesion_length, pair.range
@@ -337,42 +279,38 @@ def predict(observation: Observation) -> Predicted:
         "work_of_approach": share / np.array([[LATE], [1], [1]]) * work,
         "work_of_separation": separation * work,
         "limiting_roughness": limit,
+        "pull_off_curve": curve,
     }
-    return Predicted(values, curve, pair, waves)
+    return values, pair, waves
 
 
-def pull_off_sphere(observation: Observation, pair: Pair, sign: int) -> sphere.SpherePullOff:
-    """Pull-off of the sphere of an observation."""
-    radius = observation.inputs["radius"][:, None]
-    return sphere.pull_off(pair.roughness, radius, pair.adhesion_length, pair.range, sign)
-
-
-def find_fall(heights: NDArray, values: NDArray, level: float) -> float:
+def find_fall(heights, values, level):
     """Rms height [m] at which values fall to a level for good; NaN if that is not among them."""
     above = np.flatnonzero(values > level)
     if not above.size or above[-1] == values.size - 1:
         return float("nan")
     here = slice(above[-1], above[-1] + 2)
-    ends = values[here] if values[here].min() == 0 else np.log(values[here] / level)
-    first, last = ends - level if values[here].min() == 0 else ends
+    ends = values[here]
+    first, last = ends - level if ends.min() == 0 else np.log(ends / level)
     low, high = np.log(heights[here])
     return float(np.exp(low + first / (first - last) * (high - low)))
 
 
-def find_observed(observation: Observation, pair: Pair) -> NDArray:
+def find_observed(observation, pair):
     """Low and high limit ``(end, combination)`` of what was observed, by its relation if any."""
     factors = np.array([[observation.low], [observation.high]]) * np.ones(len(pair.h_rms))
-    if observation.relation is None:
+    relation = observation.observed.get("relation")
+    if relation is None:
         return factors
     work, energy = pair.work_of_adhesion[:, 0], (pair.elastic_energy * pair.modulus)[:, 0]
-    if observation.relation == "energy_ratio":
+    if relation == "energy_ratio":
         return (pair.h_rms[:, 0] * np.sqrt(work / (factors * energy)))[::-1]
-    times = 2 if observation.relation == "cycle_loss" else 1
-    found = times * factors * work - energy
-    return np.maximum(found + np.array([[-1], [1]]) * observation.error, 0.0)
+    found = (2 if relation == "cycle_loss" else 1) * factors * work - energy
+    error = si(observation.observed.get("error", "0 J/m^2"), "J/m^2")
+    return np.maximum(found + np.array([[-1], [1]]) * error, 0.0)
 
 
-def agrees(observation: Observation, observed: NDArray, least: NDArray, most: NDArray) -> NDArray:
+def agrees(observation, observed, least, most):
     """Whether limits of the prediction overlap with those observed, by combination."""
     low, high = observed
     if observation.quantity == "sticks":
@@ -380,46 +318,42 @@ def agrees(observation: Observation, observed: NDArray, least: NDArray, most: ND
     return (most >= low) & (least <= high)
 
 
-def summarise(right: NDArray) -> int:
+def summarise(right):
     """Place in `OUTCOMES` of what is right for all, some or no combination of the inputs."""
     return COMPATIBLE if np.all(right) else SOME if np.any(right) else MISSED
 
 
-def judge_criteria(observation: Observation, observed: NDArray, pair: Pair) -> list[int]:
+def judge_criteria(observation, observed, pair):
     """Place in `OUTCOMES` of every criterion, or `SILENT`.
 
     Where a limiting roughness was observed, a criterion is right if it requires there an adhesion
     within `FACTOR` of the actual one; elsewhere if it says whether the pair was seen to stick.
     """
-    outcomes = dict.fromkeys(CRITERIA, SILENT)
+    found = dict.fromkeys(CRITERIA, SILENT)
     if observation.quantity == "limiting_roughness":
         at_limits = observation.pair(observed.T)
         for name, criterion in CRITERIA.items():
             if criterion.has_length:
                 length = criterion.adhesion_length_threshold(at_limits)
                 ratio = length / at_limits.adhesion_length
-                outcomes[name] = summarise((ratio[:, 0] <= FACTOR) & (ratio[:, 1] >= 1 / FACTOR))
+                found[name] = summarise((ratio[:, 0] <= FACTOR) & (ratio[:, 1] >= 1 / FACTOR))
     else:
-        sticks, decided = find_sticking(observation, *observed)
-        if decided.any():
-            for name, margin in find_margins(pair).items():
-                says = np.broadcast_to(margin, pair.h_rms.shape)[:, 0] > 1
-                outcomes[name] = summarise((says == sticks)[decided])
-    outcomes |= dict.fromkeys(observation.silent, SILENT)
-    return list(outcomes.values())
+        low, high = observed
+        if observation.quantity == "sticks":
+            sticks, decided = low > 0, np.ones(len(low), dtype=bool)
+        else:
+            of_work = observation.quantity != "relative_pull_off"
+            whole = observation.inputs["work_of_adhesion"] if of_work else 1.0
+            sticks = low / whole >= DEFAULT_SHARE
+            decided = sticks | (high / whole <= DEFAULT_SHARE)
+        for name, criterion in CRITERIA.items():
+            if decided.any():
+                says = np.broadcast_to(criterion.margin(pair), pair.h_rms.shape)[:, 0] > 1
+                found[name] = summarise((says == sticks)[decided])
+    return found | dict.fromkeys(observation.observed.get("silent", ()), SILENT)
 
 
-def find_sticking(observation: Observation, low: NDArray, high: NDArray) -> tuple[NDArray, NDArray]:
-    """Whether the pair was observed to stick, and whether that is decided; by combination."""
-    if observation.quantity == "sticks":
-        return low > 0, np.ones(len(low), dtype=bool)
-    of_work = observation.quantity != "relative_pull_off"
-    whole = observation.inputs["work_of_adhesion"] if of_work else 1.0
-    sticks = low / whole >= DEFAULT_SHARE
-    return sticks, sticks | (high / whole <= DEFAULT_SHARE)
-
-
-def find_effects(swept: tuple[str, ...], values: NDArray) -> dict[str, float]:
+def find_effects(swept, values):
     """Factor by which each swept input changes a prediction, the others in the middle.
 
     Infinite where the prediction vanishes at one end, NaN where it does at all.
@@ -432,57 +366,7 @@ def find_effects(swept: tuple[str, ...], values: NDArray) -> dict[str, float]:
     return effects
 
 
-def predict_case(observation: Observation) -> xr.Dataset:
-    """Prediction, observation and outcome of one case."""
-    predicted = predict(observation)
-    pair, quantity = predicted.pair, observation.quantity
-    observed = find_observed(observation, pair)
-    low, value, high = predicted.values["remaining" if quantity == "sticks" else quantity]
-    inside = agrees(observation, observed, value, value)
-    effects = find_effects(observation.swept, value)
-    known = {name: effect for name, effect in effects.items() if not np.isnan(effect)}
-    most = max(known, key=known.get, default="")
-    by_criterion = np.array(judge_criteria(observation, observed, pair), "i1")
-    data = {
-        "quantity": quantity,
-        "outcome": np.int8(summarise(agrees(observation, observed, low, high))),
-        "value_inside": np.int8(inside[MIDDLE]),
-        "by_relation": np.int8(observation.relation is not None),
-        "tests": np.int8(observation.published and observation.relation is None),
-        "known": np.int8(max(map(GRADES.index, observation.grades.values()))),
-        "observed_known": np.int8(GRADES.index(observation.grades[quantity])),
-        "energy_ratio": (pair.adhesion_length / pair.elastic_energy)[MIDDLE, 0],
-        "waves_in_contact": predicted.waves_in_contact,
-        "work_of_adhesion": observation.inputs["work_of_adhesion"][MIDDLE],
-        "h_rms": float(pair.h_rms[MIDDLE, 0]),
-        "most_effective_input": most,
-        "effect_of_input": min(known.get(most, np.nan if effects else 1.0), LARGEST_EFFECT),
-        "effect_of_shortest_wave": min(effects.get("shortest_wavelength", 1.0), LARGEST_EFFECT),
-        "criterion_outcome": ("criterion", by_criterion),
-        "criterion_roughness": ("criterion", find_roughness(observation)),
-    }
-    for name in (*OBSERVED_UNITS, "sticks"):
-        limits = observed[:, MIDDLE] if name == quantity else (np.nan, np.nan)
-        data |= {f"observed_{name}_low": limits[0], f"observed_{name}_high": limits[1]}
-    for name, limits in predicted.values.items():
-        data |= {f"{name}{end}": x for end, x in quote(limits).items()}
-    data |= {f"pull_off_curve{end}": ("roughness", x) for end, x in quote(predicted.curve).items()}
-    return xr.Dataset(data)
-
-
-def quote(values: NDArray) -> dict[str, NDArray]:
-    """Value, limits of the model with every input in the middle, and limits over all inputs.
-
-    `values` are ``(sign, combination, …)``; the result is by the endings of `LIMITS`.
-    """
-    low, value, high = values
-    # fmin and fmax leave out what is not a number.
-    lowest, highest = np.fmin.reduce(low), np.fmax.reduce(high)
-    found = value[MIDDLE], low[MIDDLE], high[MIDDLE], lowest, highest
-    return dict(zip(LIMITS, found, strict=True))
-
-
-def find_roughness(observation: Observation) -> list[float]:
+def find_roughness(observation):
     """Rms height [m] up to which every criterion says sticky, every input in the middle.
 
     NaN for a criterion that looks at no roughness.
@@ -494,8 +378,65 @@ def find_roughness(observation: Observation) -> list[float]:
     ]
 
 
-def add_budgets(dataset):
-    """Add the limits of the model, and what is not known of the inputs."""
+def predict_case(observation):
+    """Prediction, observation and outcome of one case."""
+    values, pair, waves = predict(observation)
+    quantity = observation.quantity
+    observed = find_observed(observation, pair)
+    low, value, high = values["remaining" if quantity == "sticks" else quantity]
+    effects = find_effects(observation.swept, value)
+    known = {name: effect for name, effect in effects.items() if not np.isnan(effect)}
+    most = max(known, key=known.get, default="")
+    by_criterion = list(judge_criteria(observation, observed, pair).values())
+    grade = observation.observed["known"]
+    by_relation = "relation" in observation.observed
+    data = {
+        "quantity": quantity,
+        "outcome": np.int8(summarise(agrees(observation, observed, low, high))),
+        "value_inside": np.int8(agrees(observation, observed, value, value)[MIDDLE]),
+        "by_relation": np.int8(by_relation),
+        "tests": np.int8(observation.published and not by_relation),
+        "known": np.int8(max(map(GRADES.index, [grade, *observation.grades.values()]))),
+        "observed_known": np.int8(GRADES.index(grade)),
+        "energy_ratio": (pair.adhesion_length / pair.elastic_energy)[MIDDLE, 0],
+        "waves_in_contact": waves,
+        "work_of_adhesion": observation.inputs["work_of_adhesion"][MIDDLE],
+        "h_rms": float(pair.h_rms[MIDDLE, 0]),
+        "most_effective_input": most,
+        "effect_of_input": min(known.get(most, np.nan if effects else 1.0), LARGEST_EFFECT),
+        "effect_of_shortest_wave": min(effects.get("shortest_wavelength", 1.0), LARGEST_EFFECT),
+        "criterion_outcome": ("criterion", np.array(by_criterion, "i1")),
+        "criterion_roughness": ("criterion", find_roughness(observation)),
+    }
+    for name in (*OBSERVED_UNITS, "sticks"):
+        limits = observed[:, MIDDLE] if name == quantity else (np.nan, np.nan)
+        data |= {f"observed_{name}_low": limits[0], f"observed_{name}_high": limits[1]}
+    for name, (low, value, high) in values.items():
+        # fmin and fmax leave out what is not a number.
+        lowest, highest = np.fmin.reduce(low), np.fmax.reduce(high)
+        ends = value[MIDDLE], low[MIDDLE], high[MIDDLE], lowest, highest
+        dims = ["roughness"] if name == "pull_off_curve" else []
+        data |= {f"{name}{end}": (dims, x) for end, x in zip(LIMITS, ends, strict=True)}
+    return xr.Dataset(data)
+
+
+def predict_all(experiments):
+    """Dataset of every case of every experiment, in the order of the configuration."""
+    observations = [
+        read_observation(name, case, entry)
+        for name, entry in experiments.items()
+        for case in entry["cases"]
+    ]
+    dataset = xr.concat(
+        [predict_case(observation) for observation in observations],
+        xr.DataArray([one.place for one in observations], dims="case", name="case"),
+    )
+    dataset = dataset.assign_coords(criterion=list(CRITERIA), roughness=ROUGHNESS)
+    dataset = datasets.annotate(dataset, **VARIABLES)
+    dataset.outcome.attrs |= datasets.flags(OUTCOMES)
+    dataset.criterion_outcome.attrs |= datasets.flags(("nothing decided", *OUTCOMES), first=SILENT)
+    for name in ("known", "observed_known"):
+        dataset[name].attrs |= datasets.flags(GRADES)
     for name in QUOTED:
         value = dataset[name]
         model = np.maximum(dataset[f"{name}_high"] - value, value - dataset[f"{name}_low"])

@@ -97,7 +97,7 @@ def explain(pair, work_of_adhesion):
 
 
 def gather_facts(pair, work_of_adhesion):
-    """Texts by the names of `registry.FACTS`; intervals are over both ends of the surface."""
+    """Texts that the reasons in `registry` quote; intervals are over both ends of the surface."""
     rough = pair.sel(end="rough")
     curvature = float(rough.pair_rms_curvature)
     intervals = ("attractive_over_contact", "edge_strength", "over_dmt")

@@ -20,7 +20,6 @@ from stickiness.accuracy import plan
 from stickiness.accuracy.error_models import Surface, read_models
 from stickiness.accuracy.prediction import Problem, predicted_cost, worst_error
 from stickiness.accuracy.quantities import COLUMNS, MODELLED, columns_of
-from stickiness.criteria.errata import ERRATA
 from stickiness.criteria.pair import FULL_SHARE, NOT_JUDGED, TOUCHES, WORDS
 from stickiness.criteria.registry import CRITERIA, REMAINING
 from stickiness.remaining.prediction import DEFAULT_SHARE
@@ -64,7 +63,6 @@ def main(job):
         criterion=datasets.read(inputs.criterion, ["a_v"]),
         claims=describe_claims(claims),
         grades=count(map(str, claims.verdict.values), CLAIM_TONES),
-        errata=ERRATA,
         recomputed=datasets.parameters(claims)["errata"],
         wanted=DEFAULT_SHARE,
         full=FULL_SHARE,

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from helpers.claim_files import files_by_name
 
-from claims import check_claims
+from claims import check_claims, errata
 from claims.check_claims import CLAIMS, PROSE
 from claims.ledger import OPEN, REPRODUCED, VERDICTS, claim
 from common.templates import write_page
@@ -14,7 +14,7 @@ TEXTS = "report/claims.j2"
 
 
 def write_table(rows, path):
-    write_page("report/claims.md.j2", path, claims=rows, errata=[])
+    write_page("report/claims.md.j2", path, claims=rows, recomputed=errata.recompute())
     return path.read_text(encoding="utf-8")
 
 

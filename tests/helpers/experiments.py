@@ -1,6 +1,5 @@
 """Made-up experiments: entries of the configuration, observations, and a dataset of outcomes."""
 
-import copy
 import json
 
 import numpy as np
@@ -66,11 +65,6 @@ EXPERIMENTS = {
         },
     },
 }
-
-
-def make_experiments():
-    """`EXPERIMENTS`, to be changed at will."""
-    return copy.deepcopy(EXPERIMENTS)
 
 
 def observe(observed, **conditions):

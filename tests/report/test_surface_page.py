@@ -74,9 +74,9 @@ def write_page(found, folder, materials=MATERIALS, bem=None, **pictures):
     made = datasets.parameters(found) | {"surface": "plate"}
     datasets.write(found, paths["plate"], title="a", parameters=made)
     job = make_job(
-        {"surface": paths["plate"], "own": []},
+        {"surface": paths["plate"], "material_surfaces": []},
         {"verdicts": paths["verdicts"]},
-        own=[],
+        material_surfaces=[],
         materials=materials,
         frequencies=FREQUENCIES,
         wildcards=PLATE,

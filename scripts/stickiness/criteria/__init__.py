@@ -5,11 +5,9 @@
 - `equivalent_sphere`: attraction by the edges of contact, from weak to tough
 - `pair`: a material on a surface, as all criteria see it, and the words of verdicts
 - `registry`: every criterion with its threshold, reason and line in figures, in one table
-- `judgement`: every quantity of pairs, for numbers or arrays, in one table
-- `verdict`: from a surface and a material to a verdict
+- `verdict`: every quantity of pairs, and from a surface and a material to a verdict
 - `a_v_fit`: the prefactor a_V fitted to attractive areas
-- `a_v_table`: a_V by theory: of a spectrum, and tabulated for self-affine surfaces
-- `errata`: errors of the manuscript, as data that recompute themselves
+- `a_v_table`: a_V from Persson's theory: of a spectrum, and tabulated for self-affine surfaces
 """
 
 from stickiness.criteria import formulas

@@ -9,8 +9,6 @@ from numpy.typing import ArrayLike, NDArray
 
 from stickiness.arguments import positive
 
-__all__ = ["AvFit", "fit_a_v", "local_exponent"]
-
 
 def local_exponent(eps: ArrayLike, area: ArrayLike) -> NDArray:
     """Local exponent d ln A_ad/d ln eps; 2/3 where the edges alone govern the small gaps.
@@ -34,25 +32,16 @@ def local_exponent(eps: ArrayLike, area: ArrayLike) -> NDArray:
 class AvFit:
     """Prefactor a_V of A_ad/A_nom = (3/2) a_V p/(E* q0 h_rms) (range/h_rms)^(2/3).
 
-    Attributes
-    ----------
-    value, standard_error : float
-        Fitted a_V and its error by the fit. Areas at several ranges of one surface are strongly
-        correlated: without `sigma` the error says how well the 2/3 law holds in the fit interval,
-        not how surfaces scatter, which only several surfaces show.
-    window : (float, float)
-        Fit interval: limits of range/h_rms.
-    n_points : int
-        Number of points in it.
-    relative_residual : float
-        Root mean square residual over the root mean square area.
+    Areas at several ranges of one surface are strongly correlated: without `sigma` the standard
+    error says how well the 2/3 law holds in the fit interval, not how surfaces scatter, which only
+    several surfaces show.
     """
 
     value: float
     standard_error: float
-    window: tuple[float, float]
-    n_points: int
-    relative_residual: float
+    window: tuple[float, float]  #: fit interval, limits of range/h_rms
+    n_points: int  #: in the fit interval
+    relative_residual: float  #: root mean square residual over the root mean square area
 
 
 def fit_a_v(

@@ -48,9 +48,7 @@ def edge_range(ranges: ArrayLike, infinite: ArrayLike, finite: ArrayLike) -> flo
     while gaps next to an edge have P ~ u^(-1/3). The range is the largest at which the attractive
     area of the first is `PARTED` times the second. The theory there, held constant below, is 1.0
     to 1.2 times what simulation finds next to edges (H = 0.7 to 0.9, magnification 32 to 128, loads
-    from 0.0065 to 0.46). It agrees with the independent estimate of Pastewka and Robbins: for
-    magnifications of 10^3 and 10^6 it is 1.4 times theirs at H = 0.6, 1.2 and 1.1 at 0.7, 1.1 and
-    0.95 at 0.8, 0.95 and 0.8 at 0.9.
+    from 0.0065 to 0.46), and 0.8 to 1.4 times the independent estimate of Pastewka and Robbins.
 
     `infinite` and `finite` are the attractive areas (or a_V) (n,) at increasing `ranges` by the
     variants with infinite and finite P(0). The result is between the ranges, along a power law; the
@@ -146,7 +144,6 @@ class AvEstimate:
     #: standard relative error of the ratio of simulation to theory, with what its trend may
     #: change beyond the simulated magnifications and its drift below the simulated ranges
     simulation: NDArray
-    quadrature: NDArray  #: largest relative error of the theory's quadrature
     edge: NDArray  #: where the range is below the edge range, so that a_V no longer depends on it
 
 
@@ -157,12 +154,8 @@ class AvTable:
     """
 
     def __init__(self, table: xr.Dataset):
-        missing = [name for name in NEEDED if name not in table]
-        if missing:
-            raise ValueError(f"the table lacks {missing[0]!r}")
-        self._bounds = {
-            name: (float(table[name].min()), float(table[name].max())) for name in _AXES
-        }
+        #: ends of hurst, magnification, pressure and range (over h_rms) in the table
+        self.bounds = {name: (float(table[name].min()), float(table[name].max())) for name in _AXES}
         self._finite = {
             "a_v": _interpolate(np.log(table.a_v), _AXES, "cubic"),
             "edge": _interpolate(np.log(table.edge_range), _AXES[:3], "cubic"),
@@ -170,11 +163,11 @@ class AvTable:
             "above": _interpolate(table.theory_above, _AXES),
             "edge_a_v": _interpolate(np.log(table.edge_a_v), _AXES[:2], "cubic"),
         }
-        self._limit = {
-            "a_v": _interpolate(np.log(table.a_v_limit), _LIMIT_AXES, "cubic"),
-            "below": _interpolate(table.theory_below_limit, _LIMIT_AXES),
-            "above": _interpolate(table.theory_above_limit, _LIMIT_AXES),
-        }
+        self._limit = (
+            _interpolate(np.log(table.a_v_limit), _LIMIT_AXES, "cubic"),
+            _interpolate(table.theory_below_limit, _LIMIT_AXES),
+            _interpolate(table.theory_above_limit, _LIMIT_AXES),
+        )
         self._quadrature = float(table.quadrature_error)
         self._ratio = _held(np.log(table.simulation_ratio))
         self._ratio_error = _held(table.simulation_error)
@@ -183,11 +176,6 @@ class AvTable:
         self._doublings = np.log2([float(end) for end in ends])
         self._simulated = float(table.simulated_range.min())
         self._extrapolation = float(table.extrapolation_error)
-
-    @property
-    def bounds(self) -> dict[str, tuple[float, float]]:
-        """Ends of hurst, magnification, pressure and range (over h_rms) in the table."""
-        return dict(self._bounds)
 
     def a_v_at(
         self,
@@ -209,50 +197,39 @@ class AvTable:
         logs, below, above = np.empty((3, h.size))
         edge, broad = np.zeros(h.size, dtype=bool), np.isinf(zeta)
         at = np.stack([h, np.log(p), np.log(eps)], axis=-1)[broad]
-        for found, name in ((logs, "a_v"), (below, "below"), (above, "above")):
-            found[broad] = self._limit[name](at)
+        for found, limit in zip((logs, below, above), self._limit, strict=True):
+            found[broad] = limit(at)
         rest = ~broad
         if rest.any():
             found = self._at_finite(*(np.log(x[rest]) for x in (zeta, p, eps)), h[rest])
             logs[rest], below[rest], above[rest], edge[rest] = found
         where = np.stack([np.log(p), np.log(eps)], axis=-1)
         trend = self._trend(where[:, 1:])
-        held = np.clip(np.log2(zeta), *self._doublings) - self._doublings[1]
+        least, most = self._doublings
+        held = np.clip(np.log2(zeta), least, most) - most
         value = np.exp(logs + self._ratio(where) + trend * held)
-        simulation = np.hypot(self._ratio_error(where), trend * self._unseen(zeta))
-        simulation = np.hypot(simulation, self._drift(eps))
+        # The ratio has a limit, because simulation and theory both converge. Its trend does not
+        # level off where it was simulated; it is taken to go on for half as many doublings.
+        unseen = np.clip(np.log2(zeta) - most, 0, (most - least) / 2)
+        simulation = np.hypot(self._ratio_error(where), trend * unseen)
+        # Below the simulated ranges theory and simulation follow the same power laws, self-affine
+        # scaling and then the 3/2 law of the gap next to edges. Their ratio therefore has no trend,
+        # but from one simulated decade to the next its drift changes size, and at small loads sign:
+        # a step a decade.
+        decades = np.clip(np.log10(self._simulated / eps), 0, None)
+        simulation = np.hypot(simulation, self._extrapolation * np.sqrt(decades))
         others = (NORMAL_90 * simulation) ** 2 + self._quadrature**2
         low = value * np.exp(-np.sqrt(below**2 + others))
         high = value * np.exp(np.sqrt(above**2 + others))
-        quadrature = np.full(h.size, self._quadrature)
-        parts = value, low, high, below, above, simulation, quadrature, edge
+        parts = value, low, high, below, above, simulation, edge
         return AvEstimate(*(part.reshape(shape)[()] for part in parts))
-
-    def _drift(self, eps):
-        """Standard error that extrapolation adds below the simulated ranges, a step a decade.
-
-        Theory and simulation follow the same power laws there: self-affine scaling, then the 3/2
-        law of the gap next to edges. Their ratio therefore has no trend. From one
-        simulated decade to the next its drift changes size, and at small loads sign.
-        """
-        decades = np.clip(np.log10(self._simulated / eps), 0, None)
-        return self._extrapolation * np.sqrt(decades)
-
-    def _unseen(self, zeta):
-        """Doublings of the magnification over which the trend may go on beyond simulation.
-
-        The ratio has a limit, because simulation and theory both converge. Its trend does not
-        level off where it was simulated; it is taken to go on for half as many doublings.
-        """
-        low, high = self._doublings
-        return np.clip(np.log2(zeta) - high, 0, (high - low) / 2)
 
     def _at_finite(self, log_zeta, log_p, log_eps, h):
         """Logarithm of a_V, reach of the other theories below and above, below the edge range."""
         know = self._finite
         log_edge = know["edge"](np.stack([h, log_zeta, log_p], axis=-1))
         edge = log_eps < log_edge
-        held = np.clip(np.where(edge, log_edge, log_eps), None, np.log(self._bounds["range"][1]))
+        held = np.clip(np.where(edge, log_edge, log_eps), None, np.log(self.bounds["range"][1]))
         at = np.stack([h, log_zeta, log_p, held], axis=-1)
         logs, below, above = (know[name](at) for name in ("a_v", "below", "above"))
         # The variants part here by definition; another estimate of what edges give takes over.
@@ -262,17 +239,16 @@ class AvTable:
         return logs, below, above, edge
 
     def _check(self, name: str, values: NDArray) -> None:
-        low, high = self._bounds[name]
-        slack = 1e-9
-        inside = (values >= low * (1 - slack)) & (values <= high * (1 + slack))
+        low, high = self.bounds[name]
+        inside = (values >= low * (1 - 1e-9)) & (values <= high * (1 + 1e-9))
+        infinite = ""
         if name == "magnification":
             inside |= np.isposinf(values)
+            infinite = " or infinite"
         if not inside.all():
-            worst = np.asarray(values)[~inside].flat[0]
-            infinite = " or infinite" if name == "magnification" else ""
             raise ValueError(
                 f"{name} must lie between {low:g} and {high:g}{infinite}, where a_V is "
-                f"tabulated, got {worst:g}"
+                f"tabulated, got {values[~inside].flat[0]:g}"
             )
 
 

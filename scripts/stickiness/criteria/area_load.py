@@ -26,8 +26,7 @@ def traction_ratio(
 ) -> float | NDArray:
     """Ratio p_ad/p_rep of attraction to repulsion in the DMT limit, independent of the load.
 
-    (3 a_V/2) (l_a/range) (range/h_rms)^(2/3)/(q0 h_rms); the contact is sticky above 1 (Violano et
-    al., doi:10.1080/00218464.2019.1685384).
+    (3 a_V/2) (l_a/range) (range/h_rms)^(2/3)/(q0 h_rms); the contact is sticky above 1.
 
     Parameters
     ----------
@@ -37,11 +36,6 @@ def traction_ratio(
         Work of adhesion over E* and range of attraction [length].
     a_v : array_like
         Prefactor of the attractive area, see `dmt.fit_a_v`.
-
-    Raises
-    ------
-    ValueError
-        If an argument is not positive and finite.
     """
     h_rms, q0, adhesion_length, range, a_v = positive(
         h_rms=h_rms, q0=q0, adhesion_length=adhesion_length, range=range, a_v=a_v

@@ -1,57 +1,29 @@
 """Attraction next to the edges of contact at equal area: from weak edges to tough ones as in JKR.
 
-Next to an edge of contact the pressure is ``B x^(1/2)`` inside and the gap ``C x^(3/2)`` outside,
-with ``C = 4B/3E*``. A traction sigma pulling at a distance s outside, per length of edge, presses
-the edge together with ``sigma/(pi sqrt(s x))``: the edge moves until the singularity is gone, by
-``2 sigma/(pi B sqrt(s))``. Maugis' traction sigma_0 over a zone of width c so moves it by
+Next to an edge the pressure is ``B x^(1/2)`` inside and the gap ``C x^(3/2)`` outside, with ``C =
+4B/3E*``. Maugis' traction over the width ``d = (range/C)^(2/3)`` within the range depends on
+Tabor's parameter of the edge alone, ``tau = l_a d/range^2``: at ``tau << 1`` the gaps are those
+without adhesion (*weak*), at ``tau >> 1`` the work of adhesion alone counts, as in JKR (*tough*).
 
-    delta = (4 sigma_0/pi B) sqrt(c),     C c^(3/2) + (4/pi) (sigma_0/E*) c = range,
-
-where the second term is what the zone closes by itself. In units of the width ``d =
-(range/C)^(2/3)`` without that term, ``y = c/d``, all depends on one number, Tabor's parameter of
-the edge, ``tau = l_a d/range^2``:
-
-* ``tau << 1``, *weak*: ``c = d``, the gaps are those without adhesion, as in the DMT limit. But the
-  same load spread evenly would move the edge by ``(dA/dF) sigma_0 d`` per length only. The ratio
-  grows as ``d^(-1/2)``, that is range^(-1/3).
-* ``tau >> 1``, *tough*: ``delta = (2/B) sqrt(E* w/pi)`` knows the work of adhesion w alone, as in
-  JKR. The traction and its range drop out. Small zones are within 10 % of that from ``tau = 2`` on;
-  zones as wide as the patches of contact (t above about 1) later, t = 10 at ``tau = 13``.
-
-At a given area of contact the external load is smaller by ``int delta ds/(dA/dF)`` than without
-adhesion. Where the zone is not small against the patches of contact, the sphere shows what becomes
-of this: Maugis' solution, in which ``a`` is the radius of contact, c that of the zone and c_0 that
-without its own closing, has the ratio to DMT's attraction ``sigma_0 pi (c_0^2 - a^2)``
+A rough contact is taken for its *equivalent sphere*: the one of equal tau and equal t, attractive
+over contact area, after Maugis. Its contact has the radius a and its zone the radius c, which is
+c_0 at vanishing traction. The attraction at equal area over its DMT limit is
 
     R = 2 [c^2 arccos(a/c) + a sqrt(c^2 - a^2)]/(pi (c_0^2 - a^2)).
 
-Weak is not the same as DMT's limit, and what differs depends on what is kept. With l_a -> 0 at a
-fixed range and area of contact, t is fixed and R tends to ``2 [(1 + t) arctan(sqrt t) +
-sqrt t]/(pi t)``, above 1. At a fixed approach it tends to ``2 [(1 + t) arctan(sqrt t) -
-sqrt t]/(pi t)``, below 1 (`weak_effect_at_approach`): the same edges lie further out, and what they
-carry makes up for part of the pull. Maugis' limit, lambda -> 0 at a fixed load and work of
-adhesion, is another: the range then grows without bound, and with it t, where both tend to 1, to
-DMT. Which force a given approach or area has in the DMT limit is an old question: Muller,
-Derjaguin & Toporov (1983), Pashley (1984), Greenwood (2007).
-
-A rough contact is taken for its *equivalent sphere*: the one of equal t, attractive over contact
-area, and equal tau. This has no constant to fit. Full simulation at equal area over the model (103
-sets of magnification 32 to 128, load 0.0065 to 0.2, t from 0.2 to 85, tau up to 2.3) is 1.03 +- .06
-for tau < 0.2 (0.89 to 1.17; 1.25 at t < 0.2, where the grid hardly resolves the zone) and 0.75 to
-1.35 beyond; finer grids (benchmarks/tough_edges.py) reach tau = 4.6 with 0.87 to 1.25. For small t
-the effect is ``c t^(-1/2)`` with c = 4/pi = 1.27 here, while edges of simulated contacts, whose B
-scatters, have 1.2 to 1.6. For smaller t and larger tau than were simulated the model is an
-extrapolation.
+This has no constant to fit. Full simulation at equal area over the model (103 sets of magnification
+32 to 128, load 0.0065 to 0.2, t from 0.2 to 85, tau up to 2.3) is 1.03 +- .06 for tau < 0.2 (0.89
+to 1.17; 1.25 at t < 0.2, where the grid hardly resolves the zone) and 0.75 to 1.35 beyond; finer
+grids (benchmarks/tough_edges.py) reach tau = 4.6 with 0.87 to 1.25. For smaller t and larger tau
+the model is an extrapolation.
 
 Lengths are in one unit of the caller's choice, wave numbers in its inverse, pressures in units of
 E*; l_a = w/E*. Arguments broadcast.
 
 References
 ----------
-Maugis, J. Colloid Interface Sci. 150, 243 (1992), doi:10.1016/0021-9797(92)90285-T; the weight
-functions of edges: Tada, Paris & Irwin, The Stress Analysis of Cracks Handbook, 3rd ed. (2000).
-Muller, Derjaguin & Toporov, Colloids Surf. 7, 251 (1983); Pashley, Colloids Surf. 12, 69 (1984);
-Greenwood, Tribol. Lett. 26, 203 (2007).
+Maugis, J. Colloid Interface Sci. 150, 243 (1992), doi:10.1016/0021-9797(92)90285-T; on the force in
+the DMT limit Greenwood, Tribol. Lett. 26, 203 (2007).
 """
 
 from __future__ import annotations
@@ -69,7 +41,7 @@ from stickiness.remaining.sphere import opening
 KAPPA_REP = 2.0  #: area over load without adhesion, A_rep/A_nom = kappa p/(E* h'_rms)
 
 WEAK = 0.2  #: strength tau up to which adhesion is weak
-STRONGEST_SIMULATED = 4.0  #: strength tau up to which the model was held against simulation
+STRONGEST_SIMULATED = 4.0  #: strength tau up to which the model was compared with simulation
 TOUGH, TOUGH_WITHIN = 2.0, 0.1  # see `tough`
 SMALLEST_SIMULATED = 0.13  #: attractive over contact area from which on it was
 # Factors, up or down, within which simulation agrees with the model; beyond what was simulated a
@@ -90,7 +62,7 @@ class EdgeAttraction:
 
     @property
     def simulated(self) -> bool | NDArray:
-        """Whether the model was held against simulation there."""
+        """Whether the model was compared with simulation there."""
         return plain(np.asarray(self.error_factor) < ERROR_BEYOND)
 
     @property
@@ -185,7 +157,7 @@ def weak_effect(attractive_over_contact: ArrayLike) -> float | NDArray:
 
 
 def weak_effect_at_approach(attractive_over_contact: ArrayLike) -> float | NDArray:
-    """`weak_effect` at equal approach of the sphere, in place of equal area of contact.
+    """`weak_effect` at equal approach of the sphere, instead of equal area of contact.
 
     ``2 [(1 + t) arctan(sqrt t) - sqrt t]/(pi t)``, which tends to 1 at large t as well, but to
     ``(4/3pi) sqrt(t)`` at small t. A pull at the radius r of an open edge takes ``(2/pi)
@@ -221,60 +193,30 @@ def tough(attractive_over_contact: ArrayLike, strength: ArrayLike) -> bool | NDA
     return plain((tau >= TOUGH) & (np.abs(over - 1) <= TOUGH_WITHIN))
 
 
-def zone_share(strength: ArrayLike) -> float | NDArray:
-    """Width y of a small zone over its width d without its own closing.
-
-    Solution of ``y^(3/2) + (4/pi) tau y = 1``.
-    """
-    (tau,) = positive(strength=strength)
-    factor = 4 / np.pi * tau
-    root = np.minimum(1.0, factor**-0.5)  # of y, from above: the cubic is convex
-    for _ in range(50):
-        root = root - (root**3 + factor * root**2 - 1) / (3 * root**2 + 2 * factor * root)
-    return plain(root**2)
-
-
-def edge_advance(
-    edge_pressure: ArrayLike, adhesion_length: ArrayLike, range: ArrayLike
-) -> float | NDArray:
-    """Distance [length] by which attraction moves an edge of contact at given load.
-
-    `edge_pressure` is B/E* of the pressure ``B x^(1/2)`` without adhesion [length^(-1/2)].
-    """
-    b, length, reach = positive(
-        edge_pressure=edge_pressure, adhesion_length=adhesion_length, range=range
-    )
-    width = np.cbrt(0.75 * reach / b) ** 2
-    width = width * zone_share(length * width / reach**2)
-    return plain(4 * length / (np.pi * reach * b) * np.sqrt(width))
-
-
 def adhesion_length_threshold(
     h_rms: ArrayLike,
     q0: ArrayLike,
     rms_slope: ArrayLike,
     range: ArrayLike,
     a_v: ArrayLike,
-    factor: ArrayLike = 1.0,
     kappa_rep: float = KAPPA_REP,
 ) -> float | NDArray:
-    """Adhesion length [length] at which `factor` times the attraction balances the repulsion.
+    """Adhesion length [length] at which the attraction balances the repulsion.
 
     The modulus threshold is the work of adhesion over it. Parameters as of `attraction`.
     """
-    h, q0, slope, range, a_v, factor = np.broadcast_arrays(
-        *positive(h_rms=h_rms, q0=q0, rms_slope=rms_slope, range=range, a_v=a_v, factor=factor)
+    surface = h, q0, slope, range, a_v = np.broadcast_arrays(
+        *positive(h_rms=h_rms, q0=q0, rms_slope=rms_slope, range=range, a_v=a_v)
     )
-    surface = h, q0, slope, range, a_v, factor
 
-    def excess(log_length, h, q0, slope, range, a_v, factor):
+    def excess(log_length, h, q0, slope, range, a_v):
         found = attraction(h, q0, slope, np.exp(log_length), range, a_v, kappa_rep)
-        return np.log(found.ratio * factor)
+        return np.log(found.ratio)
 
     # What either limit has for the threshold, and the larger of both is near.
     unit = attraction(h, q0, slope, range, range, a_v, kappa_rep)
     t, tau = unit.attractive_over_contact, unit.strength
-    dmt = factor * traction_ratio(h, q0, range, range, a_v)
+    dmt = traction_ratio(h, q0, range, range, a_v)
     weak = range / (dmt * weak_effect(t))
     tough = range / (dmt * tough_effect(t, tau)) ** 2
     bracket = np.log(0.5 * weak), np.log(4 * (weak + tough))

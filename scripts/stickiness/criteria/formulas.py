@@ -48,37 +48,20 @@ CRYSTAL_RANGE_RATIO = float(np.sqrt(24 * 0.05))  #: Delta_r/range at l_a = 0.05 
 
 @dataclass(frozen=True)
 class Verdict:
-    """Answer of one criterion.
+    """Answer of one criterion."""
 
-    Attributes
-    ----------
-    name : str
-        Name of the criterion.
-    sticky : bool or bool array
-        Whether the contact sustains tension, ``margin > 1``.
-    margin : float or array
-        Threshold over actual value; how the ratio is formed is in the criterion's docstring.
-    """
-
-    name: str
-    sticky: bool | NDArray
+    name: str  #: of the criterion
+    sticky: bool | NDArray  #: whether the contact sustains tension, ``margin > 1``
+    #: threshold over actual value; how the ratio is formed is in the criterion's docstring
     margin: float | NDArray
 
 
 @dataclass(frozen=True)
 class DmtValidity:
-    """Whether adhesion is weak enough for the repulsive gaps to hold.
+    """Whether adhesion is weak enough for the repulsive gaps to describe the attraction."""
 
-    Attributes
-    ----------
-    valid : bool or bool array
-        Whether ``margin > 1``.
-    margin : float or array
-        h_rms over its lower limit `jtb_limit`.
-    """
-
-    valid: bool | NDArray
-    margin: float | NDArray
+    valid: bool | NDArray  #: whether ``margin > 1``
+    margin: float | NDArray  #: h_rms over its lower limit `jtb_limit`
 
 
 def _verdict(name: str, margin: ArrayLike) -> Verdict:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from functools import cached_property
 
 import numpy as np
@@ -50,14 +50,7 @@ class Pair:
     @property
     def roughness(self) -> Roughness:
         """The surface as `stickiness.remaining` needs it."""
-        return Roughness(
-            self.h_rms,
-            self.q0,
-            self.elastic_energy,
-            self.relative_compliance,
-            self.half_space_energy,
-            self.anisotropy_error_factor,
-        )
+        return Roughness(**{field.name: getattr(self, field.name) for field in fields(Roughness)})
 
     def remaining(self, sign: int = 0) -> float | NDArray:
         """Share of the work of adhesion that remains; `sign` -1 or +1 for its low or high limit."""
@@ -89,21 +82,10 @@ class Pair:
 def decide(
     low: ArrayLike, high: ArrayLike, grows: ArrayLike, wanted: float = DEFAULT_SHARE
 ) -> NDArray:
-    """Decide whether pairs stick.
+    """Codes of the verdicts (int8), their places in `WORDS`.
 
-    Parameters
-    ----------
-    low, high : array_like
-        Limits of the share of the work of adhesion that remains.
-    grows : array_like of bool
-        Whether contact grows by itself at the finest wave.
-    wanted : float
-        Share that must remain for a pair to stick.
-
-    Returns
-    -------
-    int8 array
-        Codes of the verdicts, their places in `WORDS`.
+    `low` and `high` are limits of the share of the work of adhesion that remains, `wanted` is the
+    share from which a pair sticks; `grows` says whether contact grows by itself at the finest wave.
     """
     low, high = np.asarray(low), np.asarray(high)
     return np.select(

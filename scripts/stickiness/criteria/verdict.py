@@ -1,4 +1,8 @@
-"""From a rough surface and a material to a verdict on whether they stick."""
+"""From a rough surface and a material to a verdict on whether they stick.
+
+`QUANTITIES` lists what is said of a pair, and the stages write all of it to their files. To add a
+quantity, give it a line there and one in `judge`.
+"""
 
 from __future__ import annotations
 
@@ -7,13 +11,12 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from stickiness.arguments import positive
 from stickiness.criteria.a_v_table import VARIANTS, SurfaceAv, theory_a_v
-from stickiness.criteria.formulas import pastewka_robbins_a_v
-from stickiness.criteria.judgement import find_margins, judge
-from stickiness.criteria.pair import REGIMES, WORDS, Pair, decide
+from stickiness.criteria.formulas import dmt_validity, pastewka_robbins_a_v
+from stickiness.criteria.pair import REGIMES, WORDS, Pair, classify_edges, decide
 from stickiness.criteria.registry import CRITERIA, EDGES, REMAINING
 from stickiness.plausibility import PlausibilityWarning, warn_of_si
 from stickiness.remaining.prediction import (
@@ -32,54 +35,85 @@ RANGES = np.geomspace(1e-14, 10, 61)  #: over h_rms, where theory's a_V is evalu
 # doubled as for all spectra broader than those measured.
 THEORY_ERROR = 0.25
 BROAD_A_V = 3.0  #: of broad spectra, as Violano et al. (2019) find it
+SIGNS = {"": 0, "_low": -1, "_high": 1}  #: value, low and high limit, by the ending of a name
+LIMITED = {  #: units and descriptions of the quantities that have limits by the model
+    "remaining": ("1", "share of the work of adhesion that remains"),
+    "pull_off": ("Pa", "largest mean tension on separation"),
+    "margin": ("1", "adhesion length over the one at which the wanted share remains"),
+    "modulus_threshold": ("Pa", "plane-strain modulus below which the wanted share remains"),
+}
+QUANTITIES = {
+    f"{name}{ending}": (units, f"{text}, {ending[1:]} limit of the model" if ending else text)
+    for name, (units, text) in LIMITED.items()
+    for ending in SIGNS
+} | {
+    "energy_ratio": ("1", "work of adhesion over the elastic energy of full contact"),
+    "range_over_h_rms": ("1", "range of attraction over rms height"),
+    "pair_h_rms": ("m", "rms height of the pair, of both solids if both are rough"),
+    "pair_q0": ("1/m", "wave number of the longest waves of the pair that matter"),
+    "pair_rms_slope": ("1", "rms gradient of the pair"),
+    "pair_rms_curvature": ("1/m", "rms Laplacian of the pair"),
+    "pair_a_v": ("1", "a_V of the pair: its surface's spectrum, its range over h_rms"),
+    "pair_a_v_low": ("1", "low limit of the pair's a_V"),
+    "pair_a_v_high": ("1", "high limit of the pair's a_V"),
+    "edge_strength": ("1", "Tabor's parameter of the edges of contact, l_a d/range^2"),
+    "attractive_over_contact": ("1", "area within the range over area of contact"),
+    "over_dmt": ("1", "attraction over its DMT limit, at equal area of contact"),
+    "regime": ("1", "edges: 0 weak, 1 between, 2 tough (JKR), 3 strong, not JKR"),
+    "simulated": ("1", "1 where full simulation agrees with the model"),
+    "jtb_margin": ("1", "rms height over the smallest at which the DMT limit holds (JTB)"),
+}
+
+
+def judge(pair: Pair) -> dict[str, NDArray]:
+    """Compute every quantity of `QUANTITIES` for a pair, by name."""
+    length, edges = pair.adhesion_length, pair.edges
+    found = {}
+    for ending, sign in SIGNS.items():
+        threshold = pair.remaining_threshold(sign)
+        found[f"remaining{ending}"] = pair.remaining(sign)
+        found[f"pull_off{ending}"] = pair.pull_off(sign)
+        found[f"margin{ending}"] = length / threshold
+        found[f"modulus_threshold{ending}"] = pair.work_of_adhesion / threshold
+    found |= {
+        "energy_ratio": length / pair.elastic_energy,
+        "range_over_h_rms": pair.range / pair.h_rms,
+        "edge_strength": edges.strength,
+        "attractive_over_contact": edges.attractive_over_contact,
+        "over_dmt": edges.effect,
+        "regime": classify_edges(edges).astype("i1"),
+        "simulated": np.asarray(edges.simulated).astype("i1"),
+        "jtb_margin": dmt_validity(pair.h_rms, pair.q0, length, pair.range).margin,
+    }
+    for name in ("h_rms", "q0", "rms_slope", "rms_curvature", "a_v", "a_v_low", "a_v_high"):
+        found[f"pair_{name}"] = getattr(pair, name)
+    return {name: np.asarray(value) for name, value in found.items()}
 
 
 @dataclass(frozen=True)
 class StickinessVerdict:
-    """Answer for one material on one surface.
+    """Answer for one material on one surface; every pair of limits is (low, high)."""
 
-    Attributes
-    ----------
-    word : str
-        One of `WORDS`: "depends" if the wanted share lies within the limits of what remains,
-        "adheres locally, does not hold" if contact grows by itself at the finest wave but less
-        than the wanted share remains, "sticks fully" if at least `pair.FULL_SHARE` does.
-    remaining, remaining_limits : float, (float, float)
-        Share of the work of adhesion that remains on the rough surface, and its limits.
-    pull_off, pull_off_limits : float, (float, float)
-        Largest mean tension on separation, and its limits [Pa].
-    margin, margin_limits : float, (float, float)
-        Adhesion length over the one at which the wanted share remains; sticks above 1.
-    modulus_threshold, modulus_threshold_limits : float, (float, float)
-        Plane-strain modulus below which the wanted share remains, and its limits [Pa]. Margin and
-        threshold have the same relative errors.
-    regime : str
-        One of `REGIMES`, by the Tabor parameter of the edges of contact at the finest wave.
-    simulated : bool
-        Whether full simulation covers the state of the edges.
-    a_v, a_v_limits : float, (float, float)
-        a_V of the pair, and its limits.
-    margins : dict of float
-        Margin by every criterion of `registry.CRITERIA`; sticky above 1.
-    pair : Pair
-        What was asked of, in SI units.
-    """
-
+    #: One of `WORDS`: "depends" if the wanted share lies within the limits of what remains,
+    #: "adheres locally, does not hold" if contact grows by itself at the finest wave but less than
+    #: the wanted share remains, "sticks fully" if at least `pair.FULL_SHARE` does.
     word: str
-    remaining: float
+    remaining: float  #: share of the work of adhesion that remains on the rough surface
     remaining_limits: tuple[float, float]
-    pull_off: float
+    pull_off: float  #: largest mean tension on separation [Pa]
     pull_off_limits: tuple[float, float]
+    #: Adhesion length over the one at which the wanted share remains; sticks above 1. Margin and
+    #: threshold have the same relative errors.
     margin: float
     margin_limits: tuple[float, float]
-    modulus_threshold: float
+    modulus_threshold: float  #: plane-strain modulus below which the wanted share remains [Pa]
     modulus_threshold_limits: tuple[float, float]
-    regime: str
-    simulated: bool
-    a_v: float
+    regime: str  #: one of `REGIMES`, by the Tabor parameter of the contact edges
+    simulated: bool  #: whether full simulation covers the state of the edges
+    a_v: float  #: a_V of the pair
     a_v_limits: tuple[float, float]
-    margins: dict[str, float]
-    pair: Pair
+    margins: dict[str, float]  #: by every criterion of `registry.CRITERIA`; sticky above 1
+    pair: Pair  #: the surface and the material, in SI units
 
     def __str__(self) -> str:
         pair = self.pair
@@ -89,6 +123,7 @@ class StickinessVerdict:
         if pair.adhesion_length > PULL_OFF_UNKNOWN * pair.elastic_energy:
             pull_off = f"at least {least:.2g} Pa (full contact, which was not simulated)"
         modulus = [x / 1e6 for x in (self.modulus_threshold, *self.modulus_threshold_limits)]
+        beyond = "" if self.simulated else " (beyond what was simulated)"
         others = "; ".join(
             f"{CRITERIA[name].label} {margin:.3g}"
             for name, margin in self.margins.items()
@@ -99,8 +134,7 @@ class StickinessVerdict:
             f"({low:.2g} to {high:.2g}); {pair.wanted_share:g} is wanted",
             f"pull-off stress: {pull_off}",
             f"sticks below E* = {modulus[0]:.3g} MPa ({modulus[1]:.3g} to {modulus[2]:.3g} MPa)",
-            f"edges at the finest wave: {self.regime}"
-            f"{'' if self.simulated else ' (beyond what was simulated)'}",
+            f"edges at the finest wave: {self.regime}{beyond}",
             f"a_V = {self.a_v:.3g} ({self.a_v_limits[0]:.3g} to {self.a_v_limits[1]:.3g})",
             f"margins by other criteria: {others}",
         ]
@@ -148,9 +182,9 @@ def verdict(
     length : float or pair of floats
         Sides [m] of measured heights; only with these.
     a_v : (value, low, high), optional
-        a_V of the pair with its limits. By default that of Persson's theory on the spectrum. Its
-        limits are those of two variants of the theory and of Pastewka and Robbins' estimate,
-        widened by `THEORY_ERROR`.
+        a_V of the pair with its limits. By default Persson's theory on the spectrum gives it, and
+        two variants of the theory and Pastewka and Robbins' estimate give its limits, widened by
+        `THEORY_ERROR`.
     constant_a_v : float
         a_V of a broad spectrum, for the criterion that takes one.
     wanted_share : float
@@ -193,12 +227,8 @@ def verdict(
     if poisson is not None and not -1 < poisson <= 0.5:
         raise ValueError(f"poisson must be above -1 and at most 0.5, got {poisson!r}")
     known = describe_surface(surface, length, solid)
-    warn_of_si(
-        modulus=modulus,
-        work_of_adhesion=work_of_adhesion,
-        range=range,
-        rms_slope=known["rms_slope"],
-    )
+    material = {"modulus": modulus, "work_of_adhesion": work_of_adhesion, "range": range}
+    warn_of_si(**material, rms_slope=known["rms_slope"])
     spectrum = known.pop("spectrum")
     if range > RANGES[-1] * known["h_rms"]:
         raise ValueError(
@@ -210,11 +240,11 @@ def verdict(
     value, low, high = map(float, positive(a_v=a_v)[0])
     if not low <= value <= high:
         raise ValueError(f"a_v must be (value, low, high) with low <= value <= high, got {a_v!r}")
+    if poisson is not None:
+        material["modulus"] = modulus / (1 - poisson**2)
     pair = Pair(
         **known,
-        modulus=modulus if poisson is None else modulus / (1 - poisson**2),
-        work_of_adhesion=work_of_adhesion,
-        range=range,
+        **material,
         a_v=value,
         a_v_low=low,
         a_v_high=high,
@@ -222,22 +252,13 @@ def verdict(
         wanted_share=wanted_share,
     )
     found = {name: quantity.item() for name, quantity in judge(pair).items()}
-    margins = {name: margin.item() for name, margin in find_margins(pair).items()}
-
-    def limits(name):
-        return found[f"{name}_low"], found[f"{name}_high"]
-
-    code = int(decide(*limits("remaining"), margins[EDGES] > 1, wanted_share))
+    margins = {name: float(criterion.margin(pair)) for name, criterion in CRITERIA.items()}
+    limits = {f"{name}_limits": (found[f"{name}_low"], found[f"{name}_high"]) for name in LIMITED}
+    grows = margins[EDGES] > 1
     return StickinessVerdict(
-        word=WORDS[code],
-        remaining=found["remaining"],
-        remaining_limits=limits("remaining"),
-        pull_off=found["pull_off"],
-        pull_off_limits=limits("pull_off"),
-        margin=margins[REMAINING],
-        margin_limits=limits("margin"),
-        modulus_threshold=found["modulus_threshold"],
-        modulus_threshold_limits=limits("modulus_threshold"),
+        word=WORDS[int(decide(*limits["remaining_limits"], grows, wanted_share))],
+        **{name: found[name] for name in LIMITED},
+        **limits,
         regime=REGIMES[found["regime"]],
         simulated=bool(found["simulated"]),
         a_v=value,
@@ -303,7 +324,7 @@ def analyse_heights(heights: ArrayLike, length: Any) -> tuple[Spectrum, float, f
 
 
 def surface_a_v(spectrum: Spectrum, known: dict[str, float]) -> SurfaceAv:
-    """Compute a_V by theory on a spectrum at every range; `known` has q0 and the moments."""
+    """a_V of a spectrum from Persson's theory at every range; `known` has q0 and the moments."""
     moments = (known[name] for name in ("q0", "h_rms", "rms_slope", "rms_curvature"))
     edge_a_v = float(pastewka_robbins_a_v(*moments))
     names, a_v, _ = theory_a_v(spectrum, RANGES, LOAD, edge_a_v, q0=known["q0"])

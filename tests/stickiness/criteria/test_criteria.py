@@ -5,7 +5,6 @@ from pathlib import Path
 import numpy as np
 import pytest
 import yaml
-from scipy.optimize import brentq
 from scipy.stats import norm
 
 from stickiness import adhesive, criteria, dmt, spectrum, units
@@ -13,12 +12,6 @@ from stickiness import adhesive, criteria, dmt, spectrum, units
 # A point far from all thresholds and with no two numbers alike, in arbitrary units.
 POINT = {"h_rms": 2.0, "q0": 0.03, "adhesion_length": 0.011, "range": 0.3}
 MATERIALS = Path(__file__).parents[3] / "config" / "materials.yaml"
-
-
-def _maps():
-    h = np.geomspace(0.1, 1e4, 40)[:, None]
-    length = np.geomspace(1e-3, 1e3, 30)[None, :]
-    return h, length
 
 
 # --- Violano et al. ------------------------------------------------------------------------
@@ -39,7 +32,8 @@ def test_traction_ratio_from_gaps_that_obey_the_law():
 
 
 def test_inequality_forms_agree_on_a_map():
-    h, length = _maps()
+    h = np.geomspace(0.1, 1e4, 40)[:, None]
+    length = np.geomspace(1e-3, 1e3, 30)[None, :]
     eps, q0, a_v = 1.0, 1e-3, 2.8
     verdict = criteria.violano(h, q0, length, eps, a_v)
     assert verdict.name == "violano"
@@ -55,6 +49,10 @@ def test_inequality_forms_agree_on_a_map():
     np.testing.assert_array_equal(verdict.sticky, criteria.slope_angle(inverse) > np.pi / 2)
     ratio = criteria.traction_ratio(h, q0, length, eps, a_v)
     np.testing.assert_allclose(verdict.margin, ratio**0.6, rtol=1e-13)
+    printed = criteria.violano_printed(h, q0, length, eps).margin
+    np.testing.assert_allclose(printed, (9 / 4 * length / (eps * q0)) ** 0.6 / h, rtol=1e-13)
+    validity = criteria.dmt_validity(h, q0, length, eps).valid
+    np.testing.assert_array_equal(validity, h / eps > 4 / 75 * (length / eps) / (eps * q0))
 
 
 def test_kappa_from_the_slope_of_area_against_external_pressure():
@@ -75,10 +73,8 @@ def test_slope_angle_turns_continuously_from_arctan_2_to_pi():
     assert angle[0] == pytest.approx(np.arctan(2), rel=1e-14)
     assert np.all(np.diff(angle) > 0)
     assert angle[-1] < np.pi
-    assert criteria.slope_angle(0.0) == np.pi / 2
     np.testing.assert_allclose(np.tan(angle), 1 / inverse, rtol=1e-9)
     assert criteria.kappa(0.5) == np.inf
-    assert criteria.kappa(0.75) == pytest.approx(-4, rel=1e-14)
 
 
 def test_limits_sit_on_the_threshold():
@@ -98,37 +94,6 @@ def test_c0_limit_is_the_h_rms_limit_of_the_spectrum(hurst, magnification):
     c0 = criteria.violano_c0_limit(hurst, q0, length, eps, a_v, magnification)
     s = spectrum.SelfAffine(hurst=hurst, q0=q0, q1=q0 * magnification, C0=c0)
     assert s.h_rms == pytest.approx(criteria.h_rms_limit(q0, length, eps, a_v), rel=1e-12)
-
-
-def test_printed_form_has_nine_quarters():
-    h, q0, length, eps = POINT.values()
-    verdict = criteria.violano_printed(**POINT)
-    assert verdict.name == "violano_printed"
-    assert verdict.margin == pytest.approx(
-        (9 / 4 * (length / eps) / (eps * q0)) ** (3 / 5) / (h / eps), rel=1e-14
-    )
-
-
-def test_dmt_validity_as_printed():
-    h, length = _maps()
-    eps, q0 = 1.0, 1e-3
-    validity = criteria.dmt_validity(h, q0, length, eps)
-    np.testing.assert_array_equal(validity.valid, h / eps > 4 / 75 * (length / eps) / (eps * q0))
-    assert validity.valid.any()
-    assert not validity.valid.all()
-
-
-def test_sticky_boundary_leaves_the_dmt_range_at_strong_adhesion():
-    # x = (l_a/eps)/(eps q0): the limits (c x)^(3/5) and (4/75) x cross at x = c^(3/2) (75/4)^(5/2),
-    # so the limits at l_a/eps = 0.05 and eps q0 <= 1e-6 lie where DMT does not hold.
-    a_v = 3.0
-    crossing = brentq(
-        lambda x: criteria.h_rms_limit(1.0, x, 1.0, a_v) / criteria.jtb_limit(1.0, x, 1.0) - 1,
-        1.0,
-        1e9,
-    )
-    assert crossing == pytest.approx((1.5 * a_v) ** 1.5 * (75 / 4) ** 2.5, rel=1e-9)
-    assert crossing < 0.05 / 1e-6
 
 
 # --- Pastewka and Robbins ------------------------------------------------------------------
@@ -170,14 +135,6 @@ def test_power_law_a_v_is_the_limit_of_a_broad_spectrum(hurst):
     )
 
 
-def test_power_law_exponent_changes_sign_at_hurst_06():
-    for hurst in (0.3, 0.6, 0.8):
-        a_v = criteria.pastewka_robbins_a_v_power_law(hurst, np.array([1e2, 1e4]))
-        assert np.log(a_v[1] / a_v[0]) / np.log(100) == pytest.approx(
-            (5 * hurst - 3) / 3, abs=1e-12
-        )
-
-
 # --- others --------------------------------------------------------------------------------
 
 
@@ -191,22 +148,6 @@ def test_fuller_tabor():
         10 / theta, rel=1e-13
     )
     assert criteria.fuller_tabor(h, 2 / radius, length, threshold=20.0).sticky is (theta < 20)
-
-
-def test_default_radius_is_that_of_a_paraboloid():
-    # h = r^2/2R on a grid: its Laplacian is 2/R, the rms curvature of the default.
-    radius = 3.0
-    x = np.linspace(-1, 1, 41)
-    h = (x[:, None] ** 2 + x[None, :] ** 2) / (2 * radius)
-    step = x[1] - x[0]
-    laplacian = (
-        h[2:, 1:-1] + h[:-2, 1:-1] + h[1:-1, 2:] + h[1:-1, :-2] - 4 * h[1:-1, 1:-1]
-    ) / step**2
-    curvature = np.sqrt(np.mean(laplacian**2))
-    margin = criteria.fuller_tabor(0.5, curvature, 0.01).margin
-    assert margin == pytest.approx(
-        criteria.fuller_tabor(0.5, 1.0, 0.01, radius=radius).margin, rel=1e-10
-    )
 
 
 @pytest.mark.parametrize("eps", [1e-7, 1e-3, 0.1, 0.49, 0.51, 1.0, 5.0, 40.0])
@@ -224,7 +165,7 @@ def test_bearing_area_margin_by_brute_force(eps):
     assert margin == pytest.approx(expected, rel=1e-6)
 
 
-def test_bearing_area_short_range_limit():
+def test_bearing_area_limits():
     h, q0, length = 2.0, 0.3, 0.7
     margin = criteria.bearing_area(h, q0, length, 1e-6 * h).margin
     # Corrections are of first order in range/h: the middle of the window is half of it away.
@@ -232,13 +173,7 @@ def test_bearing_area_short_range_limit():
     assert criteria.bearing_area(h, q0, length, 1e-6 * h, 0.75).margin == pytest.approx(
         margin / 0.75, rel=1e-12
     )
-
-
-def test_bearing_area_broadcasts_and_saturates():
-    verdict = criteria.bearing_area(np.array([[1.0], [1e-4]]), 0.5, 0.2, np.array([0.1, 1.0]))
-    assert verdict.sticky.shape == (2, 2)
-    assert verdict.margin[1, 1] == np.inf
-    assert verdict.margin[0, 0] == criteria.bearing_area(1.0, 0.5, 0.2, 0.1).margin
+    assert criteria.bearing_area([1.0, 1e-4], 0.5, 0.2, 1.0).margin[1] == np.inf
 
 
 def test_persson_tosatti_of_a_power_law():
@@ -251,17 +186,6 @@ def test_persson_tosatti_of_a_power_law():
     assert verdict.margin == pytest.approx(0.01 / energy, rel=1e-5)
     assert criteria.persson_tosatti(energy, 1.001 * energy).sticky is True
     assert criteria.persson_tosatti(energy, 0.999 * energy).sticky is False
-
-
-def test_persson_tosatti_energy_of_one_wave():
-    # Full contact of h cos(qx) costs E* q h^2/8 per area (Johnson 1985): h^2 = 2 h_rms^2.
-    q, h = 2.0, 0.3
-    x = np.arange(64) / 64 * 2 * np.pi / q
-    displacement = h * np.cos(q * x)
-    pressure = q / 2 * displacement
-    energy = np.mean(pressure * displacement) / 2
-    s = spectrum.SelfAffine(hurst=0.5, q0=q * (1 - 1e-6), q1=q * (1 + 1e-6), h_rms=h / np.sqrt(2))
-    assert s.elastic_energy() == pytest.approx(energy, rel=1e-5)
 
 
 def test_energy_criteria_agree_in_order_of_magnitude():
@@ -280,10 +204,7 @@ def test_energy_criteria_agree_in_order_of_magnitude():
 @pytest.mark.parametrize(
     ("call", "message"),
     [
-        (
-            lambda: criteria.violano(2.0, 0.03, 0.011, np.nan, 3.0),
-            "^range must be positive and finite",
-        ),
+        (lambda: criteria.violano(2, 0.03, 0.01, np.nan, 3), "^range must be positive and finite"),
         (lambda: criteria.pastewka_robbins(0.0, 1.0, 1.0, 1.0), "rms_slope must"),
         (lambda: criteria.pastewka_robbins(1.0, 1.0, 1.0, 1.0, -1.0), "interaction_range must"),
         (lambda: criteria.pastewka_robbins_a_v_power_law(1.0, 10.0), "hurst must be below 1"),
@@ -291,12 +212,7 @@ def test_energy_criteria_agree_in_order_of_magnitude():
         (lambda: criteria.bearing_area(1.0, 1.0, 1.0, 0.0), "range must"),
         (lambda: criteria.persson_tosatti(0.0, 1.0), "elastic_energy must"),
         (lambda: criteria.dahlquist(-1.0), "modulus_pa must"),
-        (lambda: criteria.jtb_limit(1.0, 0.0, 1.0), "adhesion_length must"),
-        (lambda: criteria.kappa(0.1, 0.0), "kappa_rep must"),
-        (
-            lambda: criteria.violano_c0_limit(0.8, 1.0, 1.0, 1.0, 3.0, magnification=1.0),
-            "magnification must exceed 1",
-        ),
+        (lambda: criteria.violano_c0_limit(0.8, 1, 1, 1, 3, 1), "magnification must exceed 1"),
     ],
 )
 def test_refusals_name_the_argument(call, message):
@@ -304,22 +220,8 @@ def test_refusals_name_the_argument(call, message):
         call()
 
 
-def test_scalars_come_back_plain():
-    verdict = criteria.violano(**POINT, a_v=3.0)
-    assert type(verdict.sticky) is bool
-    assert type(verdict.margin) is float
-    assert type(criteria.bearing_area(**POINT).margin) is float
-
-
-# --- materials -----------------------------------------------------------------------------
-
-
-def _materials():
-    return yaml.safe_load(MATERIALS.read_text())["materials"]
-
-
-def test_crystal_has_the_papers_adhesion_length():
-    crystal = _materials()["crystal"]
+def test_the_crystal_has_the_papers_adhesion_length():
+    crystal = yaml.safe_load(MATERIALS.read_text())["materials"]["crystal"]
     modulus = units.si(crystal["plane_strain_modulus"], "Pa")
     length = units.si(crystal["work_of_adhesion"], "J/m^2") / modulus
     assert length == pytest.approx(0.05 * units.si(crystal["range"], "m"), rel=1e-12)

@@ -1,12 +1,14 @@
-"""Limits of roughness on the map of the criterion."""
+"""Limits of roughness on the map, and the adhesion that each criterion requires."""
 
 import numpy as np
 import pytest
 from helpers.constant_a_v import ConstantAv
 
-from criteria import map_criterion
+from criteria import compare_criteria, map_criterion
 from criteria.simulated_a_v import MeasuredAv
+from stickiness import criteria
 from stickiness.criteria import equivalent_sphere
+from stickiness.spectrum import SelfAffine
 
 ASKED_MAP = {
     "hurst": 0.8,
@@ -16,13 +18,15 @@ ASKED_MAP = {
     "slope_parameter": [1, 0.1],
     "slope_a_v": 3.0,
 }
-CONSTANT = MeasuredAv(
-    value=3.0,
-    sampling=0.2,
-    discretisation=0.1,
-    fit_interval=0.1,
-    bandwidth=0.5,
-)
+COMPARED = {
+    "hurst": 0.8,
+    "range_times_q0": 1e-6,
+    "h_rms_over_range": {"minimum": 10, "maximum": 1e4, "per_decade": 2},
+    "quoted_h_rms_over_range": 1000,
+    "magnification": {"minimum": 10, "maximum": 1e5, "per_decade": 2},
+    "quoted_magnification": 1e4,
+}
+CONSTANT = MeasuredAv(3.0, sampling=0.2, discretisation=0.1, fit_interval=0.1, bandwidth=0.5)
 
 
 def made_map():
@@ -56,3 +60,18 @@ def test_edges_of_the_map_are_weak_above_its_line_and_balance_on_the_threshold()
     assert edges(float(one.weak_limit)).strength == pytest.approx(equivalent_sphere.WEAK, rel=1e-4)
     assert edges(float(one.h_rms_limit_edges)).ratio == pytest.approx(1, rel=1e-4)
     assert one.h_rms_limit_edges_low < one.h_rms_limit_edges < one.h_rms_limit_edges_high
+
+
+@pytest.mark.slow
+def test_which_criteria_know_the_finest_waves():
+    data = compare_criteria.compare(COMPARED, 0.065, ConstantAv(), 3.0).against_magnification
+    change = data.isel(magnification=-1) / data.isel(magnification=0)
+    unmoved = ["violano_constant", "violano_printed", "bearing_area"]
+    np.testing.assert_allclose(change.sel(criterion=unmoved), 1, rtol=1e-12)
+    assert change.sel(criterion="fuller_tabor") > 10
+    assert change.sel(criterion="pastewka_robbins") < 0.1
+    # every threshold is where its criterion's margin is 1
+    at = float(data.sel(criterion="pastewka_robbins", magnification=10))
+    s = SelfAffine(hurst=0.8, q0=1e-6, q1=1e-5, h_rms=1000.0)
+    found = criteria.pastewka_robbins(s.rms_slope, s.rms_curvature, at, 1.0)
+    assert found.margin == pytest.approx(1, rel=1e-12)

@@ -1,0 +1,76 @@
+"""Numbers behind the errata of the manuscript (`report/errata.j2`), by number and name.
+
+"Printed" are formulas of Violano, Afferrante, Papangelo & Ciavarella, J. Adhesion (2019),
+doi:10.1080/00218464.2019.1685384.
+"""
+
+import numpy as np
+from scipy.integrate import quad
+
+from stickiness.criteria import formulas
+
+MEASURED_A_V = 3.0  # the value the paper finds, 3/2 of which is the right coefficient
+ASPHALT = {"q0": 1e3, "hurst": 0.8, "C0": 1e-3}  # the paper's, SI
+
+
+def recompute():
+    """Numbers that the statements quote or compare, by the number of the erratum."""
+    return {
+        # Dimension in lengths of (l_a)^k h_rms^(3/2) R^(-1/2).
+        "1": {
+            f"length_exponent_{name}": k + 3 / 2 - 1 / 2
+            for name, k in (("printed", 1), ("correct", -1))
+        },
+        "2": _compare_coefficients(),
+        "3": _compare_closed_forms(),
+        # Powers of pressure in (B^2/2) p sqrt(2/(pi V^k)), V a variance of pressure; a length of
+        # edge per area has none.
+        "4": {
+            f"pressure_exponent_{name}": 2 + 1 - 2 * k / 2
+            for name, k in (("printed", 3 / 2), ("correct", 3))
+        },
+        "5": {
+            "h_over_range_limit_1e-12": formulas.h_rms_limit(1e-12, 0.05, 1.0, formulas.PRINTED_A_V)
+        },
+        "6": _compare_pastewka_robbins(),
+    }
+
+
+def _compare_coefficients():
+    numbers = {
+        "coefficient_printed": 1.5 * formulas.PRINTED_A_V,
+        "coefficient_derived": 1.5 * MEASURED_A_V,
+    }
+    q0, hurst = ASPHALT["q0"], ASPHALT["hurst"]
+    h_rms = np.sqrt(np.pi * ASPHALT["C0"] / hurst) * q0**-hurst
+    for name, a_v in (("printed", formulas.PRINTED_A_V), ("derived", MEASURED_A_V)):
+        for exponent in (6, 9, 12):
+            limit = formulas.h_rms_limit(10.0**-exponent, 0.05, 1.0, a_v)
+            numbers[f"h_over_range_limit_{name}_1e-{exponent}"] = limit
+        threshold = formulas.modulus_threshold(h_rms, q0, 0.05, 0.2e-9, a_v)
+        numbers[f"asphalt_modulus_Pa_{name}"] = threshold
+    return numbers
+
+
+def _compare_closed_forms():
+    # Edge in units u = x^(3/2): the strip up to gap u is x = u^(2/3) wide, so that its density is
+    # f u^(-1/3) with f the integral of u^(1/3) (dx/du) du over a unit of gap.
+    edge = quad(lambda u: u ** (1 / 3) * (2 / 3) * u ** (-1 / 3), 0, 1)[0]
+    printed = (4 / 9) ** (1 / 3)
+    return {
+        "edge_factor_printed": printed,
+        "edge_factor_correct": edge,
+        "beta_exponent_printed": -8 / 3,
+        "beta_exponent_correct": 2 - 2 / 3,  # perimeter ~ B^2, strip ~ C^(-2/3), B and C ~ beta
+        "printed_over_correct_at_beta_1": 1.5 * printed / edge,
+    }
+
+
+def _compare_pastewka_robbins():
+    numbers = {}
+    ratios = {"ratio_exact": formulas.CRYSTAL_RANGE_RATIO, "ratio_1.1": 1.1, "ratio_1": 1.0}
+    for name, ratio in ratios.items():
+        numbers[f"prefactor_{name}"] = formulas.pastewka_robbins_a_v(1.0, 1.0, 1.0, 1.0, ratio)
+        # At zeta = 1 the power zeta^((5H - 3)/3) is 1 and the broad-band form is its prefactor.
+        numbers[f"power_law_{name}"] = formulas.pastewka_robbins_a_v_power_law(0.8, 1.0, ratio)
+    return numbers
