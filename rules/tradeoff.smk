@@ -51,45 +51,24 @@ rule measure_contact:
         "../scripts/tradeoff/measure_contact.py"
 
 
-rule measure_adhesive:
+rule measure_adhesion:
     output:
-        f"{TRADEOFF}/adhesive/{{trade_case}}.nc",
+        states=f"{TRADEOFF}/adhesive/{{trade_case}}.nc",
+        pull_off=f"{TRADEOFF}/pull_off/{{trade_case}}.nc",
     log:
-        f"{TRADEOFF}/logs/measure_adhesive/adhesive/{{trade_case}}.log",
+        f"{TRADEOFF}/logs/measure_adhesion/{{trade_case}}.log",
     benchmark:
-        f"{TRADEOFF}/benchmarks/measure_adhesive/adhesive/{{trade_case}}.tsv"
+        f"{TRADEOFF}/benchmarks/measure_adhesion/{{trade_case}}.tsv"
     conda:
         "../envs/environment.yaml"
     resources:
         mem_mb=2000,
     params:
         case=lambda wildcards: ADHESIVE_SURFACES[wildcards.trade_case],
-        adhesion={
-            key: value
-            for key, value in TRADE["adhesion"].items()
-            if key not in ("surfaces", "pull_off")
-        },
-        code=source_hash("tradeoff/measure_adhesive.py"),
+        adhesion={key: value for key, value in TRADE["adhesion"].items() if key != "surfaces"},
+        code=source_hash("tradeoff/measure_adhesion.py"),
     script:
-        "../scripts/tradeoff/measure_adhesive.py"
-
-
-rule measure_pull_off:
-    output:
-        f"{TRADEOFF}/pull_off/{{trade_case}}.nc",
-    log:
-        f"{TRADEOFF}/logs/measure_pull_off/pull_off/{{trade_case}}.log",
-    benchmark:
-        f"{TRADEOFF}/benchmarks/measure_pull_off/pull_off/{{trade_case}}.tsv"
-    conda:
-        "../envs/environment.yaml"
-    params:
-        case=lambda wildcards: ADHESIVE_SURFACES[wildcards.trade_case],
-        pull_off=TRADE["adhesion"]["pull_off"]
-        | {key: TRADE["adhesion"][key] for key in ("q0_h_rms", "law", "at_pixels")},
-        code=source_hash("tradeoff/measure_pull_off.py"),
-    script:
-        "../scripts/tradeoff/measure_pull_off.py"
+        "../scripts/tradeoff/measure_adhesion.py"
 
 
 rule tabulate_tradeoff:

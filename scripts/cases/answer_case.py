@@ -19,9 +19,8 @@ from stickiness.accuracy.error_models import (
     read_models,
     single_error,
 )
-from stickiness.accuracy.prediction import Problem, covering_factor, joint_error
 from stickiness.accuracy.quantities import COLUMNS, columns_of, has_error_model
-from stickiness.accuracy.settings import seeds_enough
+from stickiness.accuracy.settings import Problem, covering_factor, joint_error, seeds_enough
 from stickiness.error_budget import SOURCES, Part, absent, part, with_budget
 from stickiness.statistics import students_t
 
@@ -38,11 +37,7 @@ THEORY_ALONE = {
     "sampling": BY_THEORY["sampling"].text,
     "model": "of theory in place of simulation, as measured",
 }
-MISSED = (
-    "error {error:.3g} of {accuracy:g} asked, largest in {column} at pressure {pressure:g}, "
-    "with {seeds} seeds and {coarse_seeds} coarse ones; {remedy}"
-)
-MORE_SEEDS = "set cases.{case}.seeds to {seeds}, which is predicted to be enough"
+OUTSIDE = "1 where surface, load, grid or tolerance is outside what the laws were measured on"
 NO_SEEDS = (
     "no number of seeds is predicted to be enough; ask for less accuracy, or for more than is "
     "needed, so that a finer grid is chosen"
@@ -51,13 +46,19 @@ NO_SEEDS = (
 
 def main(job):
     plan, case = job.params.plan, job.wildcards.case
-    columns = list(columns_of(plan["quantities"]))
+    columns, loads = list(columns_of(plan["quantities"])), plan["pressures"]
     models, surface = read_models(job.input.laws), Surface.of(plan["surface"])
-    problem = Problem(models, surface, plan["pressures"], columns)
+    problem, settings = Problem(models, surface, loads, columns), Settings(**plan["settings"])
+    # Grid and tolerance matter to a simulation alone.
+    knobs = {}
     if plan["simulated"]:
-        settings, texts = Settings(**plan["settings"]), dict(BY_SIMULATION)
-        files = read_files(job.input)
+        knobs = {"pixels": settings.pixels_per_wavelength, "tolerance": settings.tolerance}
+        files = {"ensemble": datasets.read(job.input.solved, ["area_fraction_mean"])}
+        for name in ("a_v", "kappa"):
+            if job.input.get(name):
+                files[name] = datasets.read(job.input[name], [f"{name}_standard_error"])
         found = [simulate(problem, settings, column, files) for column in columns]
+        texts = dict(BY_SIMULATION)
     else:
         state = datasets.read(job.input.solved, ["area_fraction", "mean_gap", "attractive_area"])
         state = derive(state.sel(variant=VARIANT), job.params.fit_interval)
@@ -65,52 +66,30 @@ def main(job):
     if lacking := [column for column in columns if not has_error_model(column)]:
         texts["solver"] += f"; of {', '.join(lacking)} not known: {NOT_MEASURED}"
 
-    values = np.array([value for value, _ in found])
-    errors = {
-        source: np.abs([parts.get(source, np.zeros_like(value)) for value, parts in found])
-        for source in SOURCES
-    }
-    parts = {s: Part(xr.DataArray(errors[s], dims=DIMS), text) for s, text in texts.items()}
-    # Grid and tolerance matter to a simulation alone.
-    names = ("pixels_per_wavelength", "tolerance") if plan["simulated"] else ()
-    knobs = [plan["settings"][name] for name in names]
-    unmeasured = [extrapolated(surface, load, *knobs) for load in plan["pressures"]]
+    values, outside = (
+        [value for value, _ in found],
+        [extrapolated(surface, load, **knobs) for load in loads],
+    )
     dataset = conventions.annotate(
         xr.Dataset(
-            {
-                "value": (DIMS, values),
-                "extrapolated": ("pressure", np.array(unmeasured).astype(np.int8)),
-            },
-            coords={"column": columns, "pressure": plan["pressures"]},
+            {"value": (DIMS, values), "extrapolated": ("pressure", np.array(outside, np.int8))},
+            coords={"column": columns, "pressure": loads},
         ),
         column=("1", "; ".join(f"{column}: {COLUMNS[column].text}" for column in columns)),
         value=("1", "value of the column at a load"),
-        extrapolated=(
-            "1",
-            "1 where surface, load, grid or tolerance is outside what the laws were measured on",
-        ),
+        extrapolated=("1", OUTSIDE),
     )
+    parts = {}
+    for source in (one for one in SOURCES if one in texts):
+        errors = [np.abs(by_source.get(source, np.zeros(len(loads)))) for _, by_source in found]
+        parts[source] = Part(xr.DataArray(errors, dims=DIMS), texts[source])
     dataset = with_budget(dataset, "value", bandwidth=absent("the case's own spectrum"), **parts)
-    if plan["accuracy"] and (text := describe_miss(dataset, problem, plan, case)):
+    if plan["accuracy"] and (text := describe_miss(dataset, problem, settings, plan, case)):
         dataset.attrs["missed"] = f"{case}: {text}"
         logging.warning("%s", text)
-    datasets.write(
-        dataset,
-        job.output[0],
-        title="quantities of a case and their errors",
-        parameters={**plan, "case": case},
-    )
-
-
-def read_files(inputs):
-    """Read the ensemble of a case and its fits, by the names of `Column.file`."""
-    fits = {
-        name: datasets.read(inputs[name], [f"{name}_standard_error"])
-        for name in ("a_v", "kappa")
-        if inputs.get(name)
-    }
-    ensemble = datasets.read(inputs.solved, ["area_fraction_mean", "mean_gap_mean"])
-    return {"ensemble": ensemble, **fits}
+    parameters = {**plan, "case": case}
+    title = "quantities of a case and their errors"
+    datasets.write(dataset, job.output[0], title=title, parameters=parameters)
 
 
 def simulate(problem, settings, column, files):
@@ -122,21 +101,15 @@ def simulate(problem, settings, column, files):
             "solver": np.full_like(mean, np.nan),
             "sampling": students_t(settings.seeds) * standard_error,
         }
-    models, surface, loads = problem.models, problem.surface, problem.pressures
-    tolerance, pixels = settings.tolerance, settings.pixels_per_wavelength
-    size = np.abs(mean)
-    by_grid = [
-        grid_error(models, column, surface, load, pixels, found)
-        for load, found in zip(loads, np.abs(left) / size, strict=True)
-    ]
-    at = models, "solver", column, surface
-    by_solver = [single_error(*at, load, tolerance=tolerance) for load in loads]
-    factor = [covering_factor(problem, settings, load, column) for load in loads]
-    return mean, {
-        "discretisation": size * by_grid,
-        "solver": size * by_solver,
-        "sampling": factor * standard_error,
-    }
+    models, surface, size = problem.models, problem.surface, np.abs(mean)
+    pixels, tolerance = settings.pixels_per_wavelength, settings.tolerance
+    grid, solver, factor = [], [], []
+    for load, found in zip(problem.pressures, np.abs(left) / size, strict=True):
+        grid.append(grid_error(models, column, surface, load, pixels, found))
+        solver.append(single_error(models, "solver", column, surface, load, tolerance=tolerance))
+        factor.append(covering_factor(problem, settings, load, column))
+    sampling = factor * standard_error
+    return mean, {"discretisation": size * grid, "solver": size * solver, "sampling": sampling}
 
 
 def by_theory(problem, column, state):
@@ -147,29 +120,25 @@ def by_theory(problem, column, state):
     return values, {"discretisation": QUADRATURE["gap_density"] * values, "model": values * model}
 
 
-def describe_miss(dataset, problem, plan, case):
+def describe_miss(dataset, problem, settings, plan, case):
     """Say by how much a case misses its accuracy, and what would help; None if it does not."""
     relative = (dataset.value_total_error / abs(dataset.value)).values
-    if not np.isfinite(relative).all():
-        row, at = np.argwhere(~np.isfinite(relative))[0]
-        column, load = problem.columns[row], problem.pressures[at]
-        return f"error of {column} at pressure {load:g} not known"
+    unknown = ~np.isfinite(relative)
+    worst = np.argwhere(unknown)[0] if unknown.any() else np.argwhere(relative == relative.max())[0]
+    where = f"{problem.columns[worst[0]]} at pressure {problem.pressures[worst[1]]:g}"
+    if unknown.any():
+        return f"error of {where} not known"
     error, accuracy = float(joint_error(relative.ravel())), plan["accuracy"]
     if error <= accuracy:
         return None
-    row, at = np.unravel_index(relative.argmax(), relative.shape)
-    settings = Settings(**plan["settings"])
     sampling = (part(dataset, "value", "sampling") / abs(dataset.value)).values
     fixed = np.sqrt(np.maximum(relative**2 - sampling**2, 0))
-    enough = seeds_enough(problem, settings, accuracy, fixed, sampling)
-    return MISSED.format(
-        error=error,
-        accuracy=accuracy,
-        column=problem.columns[row],
-        pressure=problem.pressures[at],
-        seeds=settings.seeds,
-        coarse_seeds=settings.coarse_seeds,
-        remedy=MORE_SEEDS.format(case=case, seeds=enough) if enough else NO_SEEDS,
+    remedy = NO_SEEDS
+    if enough := seeds_enough(problem, settings, accuracy, fixed, sampling):
+        remedy = f"set cases.{case}.seeds to {enough}, which is predicted to be enough"
+    return (
+        f"error {error:.3g} of {accuracy:g} asked, largest in {where}, with {settings.seeds} seeds "
+        f"and {settings.coarse_seeds} coarse ones; {remedy}"
     )
 
 

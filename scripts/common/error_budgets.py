@@ -12,8 +12,8 @@ import xarray as xr
 from common.conventions import GAPS_MEASURED, VARIANT
 from common.grid_limits import LEFT
 from stickiness.accuracy.error_models import OUTSIDE, Settings, Surface, single_error
-from stickiness.accuracy.prediction import Problem, covering_factor
 from stickiness.accuracy.quantities import COLUMNS, has_error_model
+from stickiness.accuracy.settings import Problem, covering_factor
 from stickiness.error_budget import Part, absent, unknown
 from stickiness.statistics import students_t
 

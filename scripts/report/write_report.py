@@ -18,8 +18,8 @@ from report.table_rows import TONES, describe_pair, describe_surface
 from stickiness import datasets, error_budget
 from stickiness.accuracy import plan
 from stickiness.accuracy.error_models import Surface, read_models
-from stickiness.accuracy.prediction import Problem, predicted_cost, worst_error
 from stickiness.accuracy.quantities import COLUMNS, MODELLED, columns_of
+from stickiness.accuracy.settings import Problem, predicted_cost, worst_error
 from stickiness.criteria.pair import FULL_SHARE, NOT_JUDGED, TOUCHES, WORDS
 from stickiness.criteria.registry import CRITERIA, REMAINING
 from stickiness.remaining.prediction import DEFAULT_SHARE

@@ -1,12 +1,9 @@
 """Closed forms and limits that the components are compared with, in units of E*."""
 
-from __future__ import annotations
-
 from decimal import Decimal, localcontext
 from functools import cache
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.integrate import quad
 from scipy.optimize import brentq
 from scipy.special import erf, erfinv
@@ -15,7 +12,7 @@ THICK = 40.0  # thickness times wave number from which a layer is a half-space t
 
 
 @cache
-def integrate_band(hurst: float, magnification: float, power: float) -> float:
+def integrate_band(hurst, magnification, power):
     """Integral of x^(1 + power - 2 (1 + H)) over the band, x = q/q0 up to the magnification."""
     exponent, span = power - 2 * hurst, np.log(magnification)
     # Scaled by the largest value of the integrand, which is at one of the ends.
@@ -28,7 +25,7 @@ def integrate_band(hurst: float, magnification: float, power: float) -> float:
     return float(np.exp(largest) * np.sum(parts))
 
 
-def westergaard(pressure: float) -> tuple[float, float]:
+def westergaard(pressure):
     """Area fraction and mean gap of a wave cos(x) on a half-space, full from a pressure of 1/2.
 
     Westergaard, J. Appl. Mech. 6, 49 (1939), doi:10.1115/1.4008919. The mean gap integrates
@@ -39,7 +36,7 @@ def westergaard(pressure: float) -> tuple[float, float]:
     return 2 / np.pi * np.arcsin(np.sqrt(share)), gap
 
 
-def hertz_attraction(t: float) -> float:
+def hertz_attraction(t):
     """Attraction on a sphere without its own effect on the gap, over that of DMT.
 
     Work of Hertz' pressure on an unit traction, with t the ratio of attractive to contact area.
@@ -48,7 +45,7 @@ def hertz_attraction(t: float) -> float:
     return float(2 / np.pi * ((1 + 1 / t) * np.arctan(root) + 1 / root))
 
 
-def law_of_traction(kind: str, x: NDArray) -> NDArray:
+def law_of_traction(kind, x):
     """Traction at a gap x over the range, over the work of adhesion per range."""
     if kind == "maugis":
         return np.where(x <= 1, 1.0, 0.0)
@@ -60,7 +57,7 @@ def law_of_traction(kind: str, x: NDArray) -> NDArray:
 _GAMMA = 0.45  # of Yang and Persson (2008)
 
 
-def persson_area_error(pressure: float, area: float, m2: float) -> float:
+def persson_area_error(pressure, area, m2):
     """Relative error of the variance m2 at which Persson's theory gives an area.
 
     The diffusion of pressure is integrated anew, with the suppression S = g + (1 - g) A^2 of Yang
@@ -79,7 +76,7 @@ def persson_area_error(pressure: float, area: float, m2: float) -> float:
 
 
 @cache
-def layer_response(k: float, poisson: float, backing: str) -> float:
+def layer_response(k, poisson, backing):
     """Compliance of a layer on a rigid base over that of a half-space, at k = |q| d, in 150 digits.
 
     Johnson, Contact Mechanics (1985), section 5.8: the base is bonded, or slips without friction.
@@ -96,7 +93,7 @@ def layer_response(k: float, poisson: float, backing: str) -> float:
         return float((kappa * sinh - 2 * x) / (kappa * cosh + 2 * x * x + (1 + kappa * kappa) / 2))
 
 
-def press_springs(heights: NDArray, overlap: float) -> tuple[float, float]:
+def press_springs(heights, overlap):
     """Mean gap and area fraction of heights on springs that are pressed in by a mean overlap."""
     top = float(heights.max())
     level = brentq(
@@ -106,18 +103,11 @@ def press_springs(heights: NDArray, overlap: float) -> tuple[float, float]:
     return float(np.mean(np.maximum(level - heights, 0))), float(np.mean(heights > level))
 
 
-def elastic_pressure(displacement: NDArray, unit: float) -> NDArray:
-    """Pressure of zero mean that a displacement needs on a half-space, on a side of 2 pi units."""
-    n = len(displacement)
-    k = np.hypot(*np.meshgrid(*[np.fft.fftfreq(n, 1 / n)] * 2)) / unit
-    return np.fft.ifft2(np.fft.fft2(displacement) * k / 2).real
-
-
-def displace(pressure: NDArray, unit: float, compliance) -> NDArray:
-    """Displacement of zero mean under a pressure, by the compliance of each wave."""
-    n = len(pressure)
-    q = np.hypot(*np.meshgrid(*[np.fft.fftfreq(n, 1 / n)] * 2)) / unit
-    q[0, 0] = q[0, 1]
-    waves = np.fft.fft2(pressure) * compliance(q)
+def filter_waves(field, factor):
+    """Field on a side of 2 pi with each wave multiplied by a factor of its wave number, no mean."""
+    index = np.fft.fftfreq(len(field), 1 / len(field))
+    q = np.hypot(index[:, None], index[None, :])
+    q[0, 0] = 1.0
+    waves = np.fft.fft2(field) * factor(q)
     waves[0, 0] = 0
     return np.fft.ifft2(waves).real

@@ -9,21 +9,20 @@ from __future__ import annotations
 import signal
 import traceback
 import warnings
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable
 from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import lru_cache
 from itertools import product
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 import stickiness
 from stability.closed_forms import (
     THICK,
-    displace,
-    elastic_pressure,
+    filter_waves,
     hertz_attraction,
     integrate_band,
     law_of_traction,
@@ -75,15 +74,19 @@ class Check(NamedTuple):
     tolerance: float
 
 
-def require(name: str, met: bool) -> Check:
+def require(name, met):
     """Check a condition."""
     return Check(name, float(not met), 0.5)
 
 
-def compare(name: str, value, expected, tolerance: float = SCALED) -> Check:
+def bound(name, errors, tolerance=SCALED):
+    """Check the largest of some errors, 0 if there are none."""
+    return Check(name, float(np.max(errors, initial=0)), tolerance)
+
+
+def compare(name, value, expected, tolerance=SCALED):
     """Check the largest relative deviation of any element."""
-    value, expected = np.asarray(value, dtype=float), np.asarray(expected, dtype=float)
-    return Check(name, float(np.max(np.abs(value / expected - 1))), tolerance)
+    return Check(name, float(np.max(np.abs(np.divide(value, expected) - 1))), tolerance)
 
 
 @dataclass(frozen=True)
@@ -93,18 +96,16 @@ class Component:
     `probe` takes the parameters by name, and `variant` if there are any.
     """
 
-    probe: Callable[..., Iterable[Check]]
-    values: Mapping[str, tuple[float, ...]]
-    variants: Sequence[str] = ()
+    probe: Callable
+    values: dict
+    variants: tuple[str, ...] = ()
 
-    def points(self) -> list[dict[str, Any]]:
+    def points(self):
         """List every combination of the values and variants."""
-        found = [
-            dict(zip(self.values, point, strict=True)) for point in product(*self.values.values())
-        ]
-        return [p | {"variant": v} for p in found for v in self.variants] or found
+        values = self.values | ({"variant": self.variants} if self.variants else {})
+        return [dict(zip(values, point, strict=True)) for point in product(*values.values())]
 
-    def middle(self) -> dict[str, Any]:
+    def middle(self):
         """Return the point in the middle of all values."""
         point = {name: values[len(values) // 2] for name, values in self.values.items()}
         return point | ({"variant": self.variants[0]} if self.variants else {})
@@ -118,17 +119,19 @@ class Result(NamedTuple):
     text: str
 
 
-def probe_point(component: Component, point: Mapping[str, Any]) -> Result:
+def probe_point(component, point):
     """Return the outcome of one point."""
     try:
-        with warnings.catch_warnings(), limit_time(TIME_LIMIT):
+        with warnings.catch_warnings(), limit_time():
             warnings.simplefilter("error")
             warnings.simplefilter("ignore", PlausibilityWarning)  # coarse grids are the point
             checks = list(component.probe(**point))
     except solver.ConvergenceError as error:  # of adhesive contact, too
         return Result(UNCONVERGED, np.nan, str(error))
     except Exception as error:  # whatever it is belongs on the map
-        outcome = REFUSED if is_refusal(error) else FAILED
+        *_, last = traceback.extract_tb(error.__traceback__)
+        in_library = Path(last.filename).is_relative_to(Path(stickiness.__file__).parent)
+        outcome = REFUSED if isinstance(error, ValueError) and in_library else FAILED
         return Result(outcome, np.nan, f"{type(error).__name__}: {error}")
     # A NaN must not hide behind a comparison that is false.
     excess = [c.error / c.tolerance if np.isfinite(c.error) else np.inf for c in checks]
@@ -137,20 +140,15 @@ def probe_point(component: Component, point: Mapping[str, Any]) -> Result:
     return Result(outcome, float(excess[worst]), checks[worst].name)
 
 
-def is_refusal(error: Exception) -> bool:
-    """Whether the library itself refused an argument."""
-    *_, last = traceback.extract_tb(error.__traceback__)
-    library = Path(stickiness.__file__).parent
-    return isinstance(error, ValueError) and Path(last.filename).is_relative_to(library)
-
-
 @contextmanager
-def limit_time(seconds: float) -> Iterator[None]:
-    def expired(*_: Any) -> None:
-        raise TimeoutError(f"took more than {seconds:g} s")
+def limit_time():
+    """Raise TimeoutError after `TIME_LIMIT` of computing."""
+
+    def expired(*_):
+        raise TimeoutError(f"took more than {TIME_LIMIT:g} s")
 
     before = signal.signal(signal.SIGPROF, expired)
-    signal.setitimer(signal.ITIMER_PROF, seconds)
+    signal.setitimer(signal.ITIMER_PROF, TIME_LIMIT)
     try:
         yield
     finally:
@@ -158,7 +156,7 @@ def limit_time(seconds: float) -> Iterator[None]:
         signal.signal(signal.SIGPROF, before)
 
 
-def model(hurst: float, magnification: float, q0_h_rms=1.0, unit=1.0) -> SelfAffine:
+def model(hurst, magnification, q0_h_rms=1.0, unit=1.0):
     """Self-affine spectrum with 1/q0 = unit."""
     return SelfAffine(hurst=hurst, q0=1 / unit, q1=magnification / unit, h_rms=q0_h_rms * unit)
 
@@ -174,7 +172,7 @@ def make_heights(magnification, grid, q0_h_rms=1.0, unit=1.0):
 # --- Surface: moments against quadrature, the same surface on other grids and in other units. ---
 
 
-def probe_spectrum(hurst, magnification) -> Iterator[Check]:
+def probe_spectrum(hurst, magnification):
     s = model(hurst, magnification)
     variance = integrate_band(hurst, magnification, 0)
     for name, value, power in (("slope", s.rms_slope, 2), ("curvature", s.rms_curvature, 4)):
@@ -190,16 +188,15 @@ def probe_spectrum(hurst, magnification) -> Iterator[Check]:
     yield compare("slope, other unit", other.rms_slope / Q0_H_RMS, s.rms_slope)
 
 
-def probe_surface(magnification, grid) -> Iterator[Check]:
+def probe_surface(magnification, grid):
     s, length = model(0.8, magnification), 2 * np.pi
     heights = synthesis.synthesise(s, n=grid, length=length, seed=3)
     if grid > 2 * magnification:  # beyond Nyquist, where the grid shows half of some modes
         yield compare("rms height", np.sqrt(np.mean(heights**2)), 1)
     yield Check("mean", abs(float(heights.mean())), SCALED)
     finer = synthesis.synthesise(s, n=2 * grid, length=length, seed=3)
-    largest = float(np.max(np.abs(heights)))
-    off = float(np.max(np.abs(finer[::2, ::2] - heights)))
-    yield Check("finer grid", off / max(largest, 1e-300), SCALED)
+    largest = max(np.max(np.abs(heights)), 1e-300)
+    yield bound("finer grid", np.abs(finer[::2, ::2] - heights) / largest)
     power = np.abs(np.fft.fft2(heights)) ** 2
     index = np.fft.fftfreq(grid, 1 / grid)
     radius = np.hypot(index[:, None], index[None, :])
@@ -207,14 +204,13 @@ def probe_surface(magnification, grid) -> Iterator[Check]:
     yield Check("power outside the band", power[outside].sum() / power.sum(), 1e-20)
     other = model(0.8, magnification, Q0_H_RMS, UNIT)
     same = synthesis.synthesise(other, n=grid, length=2 * np.pi * UNIT, seed=3)
-    off = float(np.max(np.abs(same / (Q0_H_RMS * UNIT) - heights)))
-    yield Check("other unit", off / max(largest, 1e-300), SCALED)
+    yield bound("other unit", np.abs(same / (Q0_H_RMS * UNIT) - heights) / largest)
 
 
 # --- Contact: a wave by Westergaard, and equilibrium of rough contact by plain transforms. ---
 
 
-def probe_wave(pressure, grid) -> Iterator[Check]:
+def probe_wave(pressure, grid):
     heights = np.repeat(np.cos(2 * np.pi * np.arange(grid) / grid)[:, None], grid, axis=1)
     c = solver.solve(heights, 2 * np.pi, pressure, tol=TOLERANCE)
     area, gap = westergaard(pressure)
@@ -223,7 +219,7 @@ def probe_wave(pressure, grid) -> Iterator[Check]:
     yield require("full contact", c.area_fraction == 1 or pressure < 0.5)
 
 
-def probe_contact(pressure, magnification) -> Iterator[Check]:
+def probe_contact(pressure, magnification):
     heights = make_heights(magnification, 32)
     c = solver.solve(heights, 2 * np.pi, pressure, tol=TOLERANCE)
     yield compare("mean pressure", c.pressure.mean(), pressure, 1e-11)
@@ -237,16 +233,16 @@ def probe_contact(pressure, magnification) -> Iterator[Check]:
     yield Check("gap, other unit", off / max(c.mean_gap, TOLERANCE), 1e-6)
 
 
-def check_contact(c, heights, compliance) -> Iterator[Check]:
+def check_contact(c, heights, compliance):
     """Check that gaps follow from pressures by a transform, and that nothing pulls or overlaps."""
-    gap = displace(c.pressure, 1.0, compliance) - heights + c.shift
+    gap = filter_waves(c.pressure, compliance) - heights + c.shift
     # Rounding of the transform grows with the largest pressure, far beyond full contact.
     softest = float(np.max(compliance(np.geomspace(1, 46, 99))))
     allowed = 2 * (TOLERANCE * c.rms_height + 1e-14 * float(c.pressure.max()) * max(softest, 6))
     touching = c.pressure > 0
-    yield Check("gap in contact", float(np.max(np.abs(gap[touching]), initial=0)) / allowed, 1)
-    yield Check("penetration", float(np.max(-gap[~touching], initial=0)) / allowed, 1)
-    yield Check("gap reported", float(np.max(np.abs(np.maximum(gap, 0) - c.gap))) / allowed, 1)
+    yield bound("gap in contact", np.abs(gap[touching]), allowed)
+    yield bound("penetration", -gap[~touching], allowed)
+    yield bound("gap reported", np.abs(np.maximum(gap, 0) - c.gap), allowed)
     yield require("no tension", c.pressure.min() >= 0)
     yield compare("area", c.area_fraction, np.mean(touching), 1e-12)
 
@@ -254,11 +250,16 @@ def check_contact(c, heights, compliance) -> Iterator[Check]:
 # --- Adhesion: equilibrium at every point, whole paths without energy out of nothing. ---
 
 
-def check_equilibrium(state, heights) -> Iterator[Check]:
+def elastic_pressure(displacement):
+    """Pressure of zero mean that a displacement needs on a half-space."""
+    return filter_waves(displacement, lambda q: q / 2)
+
+
+def check_equilibrium(state, heights):
     """Check the balance of pressures at every point of an adhesive state."""
     law = state.law
-    stress = max(float(np.std(elastic_pressure(heights, 1.0))), law.strength)
-    elastic = elastic_pressure(state.gap + heights, 1.0) + state.mean_pressure
+    stress = max(float(np.std(elastic_pressure(heights))), law.strength)
+    elastic = elastic_pressure(state.gap + heights) + state.mean_pressure
     excess = elastic + law.traction(state.gap)  # what is left for the wall
     at_wall = (state.gap <= 0) & law.hard_wall
     free = ~at_wall
@@ -267,11 +268,11 @@ def check_equilibrium(state, heights) -> Iterator[Check]:
         jump = np.abs(state.gap - law.range) <= 1e-9 * law.range
         within = (elastic <= TOLERANCE * stress) & (-elastic <= law.strength * (1 + 1e-9))
         free &= ~(jump & within)
-    yield Check("equilibrium", float(np.max(np.abs(excess[free]), initial=0)) / stress, 2e-8)
-    yield Check("wall", float(np.max(-excess[at_wall], initial=0)) / stress, 2e-8)
+    yield bound("equilibrium", np.abs(excess[free]) / stress, 2e-8)
+    yield bound("wall", -excess[at_wall] / stress, 2e-8)
 
 
-def probe_adhesion(range_over_h_rms, adhesion_length_over_range, variant) -> Iterator[Check]:
+def probe_adhesion(range_over_h_rms, adhesion_length_over_range, variant):
     """At a load, and at a mean gap of zero, where contact is full if there is a wall."""
     heights, pressure = make_heights(8, 16), 0.03
     law = LAWS[variant](adhesion_length_over_range * range_over_h_rms, range_over_h_rms)
@@ -279,22 +280,20 @@ def probe_adhesion(range_over_h_rms, adhesion_length_over_range, variant) -> Ite
     yield from check_equilibrium(state, heights)
     x = np.array([0.1, 0.5, 2.0, 10.0])
     traction = adhesion_length_over_range * law_of_traction(variant, x)
-    off = float(np.max(np.abs(law.traction(x * range_over_h_rms) - traction)))
-    yield Check("law of traction", off / adhesion_length_over_range, SCALED)
-    stress = max(float(np.std(elastic_pressure(heights, 1.0))), law.strength)
+    off = np.abs(law.traction(x * range_over_h_rms) - traction)
+    yield bound("law of traction", off / adhesion_length_over_range)
+    stress = max(float(np.std(elastic_pressure(heights))), law.strength)
     yield Check("mean pressure", abs(state.pressure.mean() - pressure) / stress, 2e-8)
-    stored = 0.5 * float(
-        np.mean((state.gap + heights) * elastic_pressure(state.gap + heights, 1.0))
-    )
-    gained = float(np.mean(law.potential(state.gap)))
-    scale = stored + law.adhesion_length
-    yield Check("energy", abs(state.energy - stored - gained) / scale, 1e-6)
+    displaced = state.gap + heights
+    stored = 0.5 * np.mean(displaced * elastic_pressure(displaced))
+    off = abs(state.energy - stored - np.mean(law.potential(state.gap)))
+    yield bound("energy", off / (stored + law.adhesion_length), 1e-6)
     if law.hard_wall:
         closed = adhesive.solve(heights, 2 * np.pi, law, mean_gap=0.0, tol=TOLERANCE)
         yield Check("full contact", 1 - closed.repulsive_area_fraction, 0.5 / heights.size)
 
 
-def probe_path(pressure, adhesion_length_over_range, variant) -> Iterator[Check]:
+def probe_path(pressure, adhesion_length_over_range, variant):
     """Load, unload and pull off."""
     heights = make_heights(4, 16)
     law = LAWS[variant](adhesion_length_over_range * 0.3, 0.3)
@@ -326,15 +325,13 @@ def probe_path(pressure, adhesion_length_over_range, variant) -> Iterator[Check]
 
 
 @lru_cache(maxsize=8)
-def make_theory(variant, magnification, *size) -> Persson:
+def make_theory(variant, magnification, *size):
     return Persson(model(0.8, magnification, *size), variant=variant)
 
 
-def probe_theory(magnification, pressure, variant) -> Iterator[Check]:
-    t, same = (
-        make_theory(variant, magnification),
-        make_theory(variant, magnification, Q0_H_RMS, UNIT),
-    )
+def probe_theory(magnification, pressure, variant):
+    t = make_theory(variant, magnification)
+    same = make_theory(variant, magnification, Q0_H_RMS, UNIT)
     area, gap = float(t.area_fraction(pressure)), float(t.mean_gap(pressure))
     below, everything = (float(t.gap_cumulative(x, pressure)) for x in (0.3, np.inf))
     yield Check("area + gaps = 1", abs(area + everything - 1), 1e-8)
@@ -350,7 +347,7 @@ def probe_theory(magnification, pressure, variant) -> Iterator[Check]:
         yield compare("load at the gap", t.pressure_at(gap), pressure, 1e-6)
 
 
-def probe_psd(hurst, grid) -> Iterator[Check]:
+def probe_psd(hurst, grid):
     """Parseval, the power law that was put in, and the same map in other units."""
     found, plane, heights = analyse_map(hurst, grid)
     same, *_ = analyse_map(hurst, grid, Q0_H_RMS, UNIT)
@@ -378,7 +375,7 @@ def analyse_map(hurst, grid, q0_h_rms=1.0, unit=1.0):
 # --- Criteria and verdict. ---
 
 
-def probe_criteria(range_over_h_rms, adhesion_length_over_range) -> Iterator[Check]:
+def probe_criteria(range_over_h_rms, adhesion_length_over_range):
     s, a_v, q0_h_rms = model(0.8, 64), 3.0, 1.0
     eps, la = range_over_h_rms, adhesion_length_over_range * range_over_h_rms
     limit = criteria.h_rms_limit(1.0, la, eps, a_v)
@@ -406,7 +403,7 @@ def probe_criteria(range_over_h_rms, adhesion_length_over_range) -> Iterator[Che
         yield compare("Hertz' limit", sphere.effect, weak, 1e-4)
 
 
-def probe_verdict(adhesion_length_over_range, magnification) -> Iterator[Check]:
+def probe_verdict(adhesion_length_over_range, magnification):
     """What remains of adhesion: its order, bounds and energy, and the same in other units."""
     s, eps = model(0.8, magnification), 0.1
     length = adhesion_length_over_range * eps
@@ -429,23 +426,17 @@ def probe_verdict(adhesion_length_over_range, magnification) -> Iterator[Check]:
 # --- Layers: response of each wave, and contact in the limits of a half-space and of springs. ---
 
 
-def probe_layer(thickness, poisson, variant) -> Iterator[Check]:
-    layer, expected = (
-        Layer(thickness, poisson, variant),
-        layer_response(thickness, poisson, variant),
-    )
+def probe_layer(thickness, poisson, variant):
+    layer = Layer(thickness, poisson, variant)
+    expected = layer_response(thickness, poisson, variant)
     yield compare("response", layer.factor(1.0), expected, 1e-12)
     yield compare("compliance", layer.compliance(1.0), 2 * expected, 1e-12)
     yield compare("stiffness", layer.stiffness(1.0), 0.5 / expected, 1e-12)
-    yield compare(
-        "other unit",
-        Layer(thickness * UNIT, poisson, variant).in_unit(UNIT).factor(1.0),
-        expected,
-        1e-12,
-    )
+    same = Layer(thickness * UNIT, poisson, variant).in_unit(UNIT)
+    yield compare("other unit", same.factor(1.0), expected, 1e-12)
 
 
-def probe_layer_contact(thickness, pressure, variant) -> Iterator[Check]:
+def probe_layer_contact(thickness, pressure, variant):
     """The pressure is in units of the longest waves' stiffness."""
     solid, heights = Layer(thickness, 0.3, variant), make_heights(8, 32)
     p = pressure / float(solid.factor(1.0))

@@ -1,28 +1,21 @@
 """Rows of the table and points of the error models for full adhesion and the pull-off."""
 
-from __future__ import annotations
-
-import itertools
-from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
 import xarray as xr
 
 from stickiness import datasets
-from stickiness.accuracy.error_models import COARSE, Surface
+from stickiness.accuracy.error_models import COARSE
 from stickiness.statistics import COVERS
-from tradeoff.fit_models import Conditions, Points
-from tradeoff.measuring import COVERED
-from tradeoff.summary import list_rows
+from tradeoff.measuring import COVERED, SETTINGS
 
 MEANS = (4, 8, 16, 32)  # seeds that rows are given for
-LABELS = {"pixels": "points per wavelength", "tolerance": "tolerance"}
 
 
 @dataclass(frozen=True)
 class Measured:
-    """A quantity of full adhesion (setting, seed, pressure) and its value in the DMT limit.
+    """A quantity of full adhesion along settings, seed and pressure, and in the DMT limit.
 
     `seconds` is the processor time of full adhesion. `modelled` says whether an error model is
     fitted to it: for 1/kappa_ad to the weakest adhesion of each range, which has the largest error.
@@ -34,14 +27,8 @@ class Measured:
     seconds: xr.DataArray
     modelled: bool = True
 
-    def drop_closed(self) -> Measured:
-        """Leave out loads at which a window closes with some setting."""
-        loads = {"pressure": self.full.notnull().any("seed").all("setting").values}
-        full, limit, seconds = (x.sel(loads) for x in (self.full, self.limit, self.seconds))
-        return replace(self, full=full, limit=limit, seconds=seconds)
 
-
-def list_states(measured: xr.Dataset) -> Iterator[Measured]:
+def list_states(measured):
     """List 1/kappa_ad at every point, and the threshold of all points together."""
     measured = measured.where(measured.external_pressure.notnull())
     for k in range(measured.sizes["point"]):
@@ -57,24 +44,19 @@ def list_states(measured: xr.Dataset) -> Iterator[Measured]:
             bool(one.adhesion_length_over_range == weakest),
         )
     left = measured.pressure - measured.attraction_dmt
-    yield Measured(
-        "threshold",
-        find_threshold(measured.external_pressure),
-        find_threshold(left),
-        measured.seconds.mean("point"),
-    )
+    thresholds = (find_threshold(x) for x in (measured.external_pressure, left))
+    yield Measured("threshold", *thresholds, measured.seconds.mean("point"))
 
 
-def list_pull_offs(measured: xr.Dataset) -> Iterator[Measured]:
+def list_pull_offs(measured):
     """List the pull-off at every point, from the load at which separation starts."""
     measured = measured.expand_dims(pressure=[datasets.parameters(measured)["pressure"]])
     for k in range(measured.sizes["point"]):
         one = measured.isel(point=k)
-        limit = one.pull_off_dmt.expand_dims(setting=measured.sizes["setting"])
-        yield Measured("pull_off", one.pull_off, limit, one.seconds)
+        yield Measured("pull_off", one.pull_off, one.pull_off_dmt, one.seconds)
 
 
-def find_threshold(external: xr.DataArray) -> xr.DataArray:
+def find_threshold(external):
     """Find l_a/range at which an external pressure vanishes, NaN if it does so nowhere.
 
     There 1/kappa_ad is 1/2 whatever the area; E* at given work of adhesion and range is inversely
@@ -97,100 +79,83 @@ def find_threshold(external: xr.DataArray) -> xr.DataArray:
     return xr.apply_ufunc(crossing, chosen, input_core_dims=[["point"]], vectorize=True)
 
 
-def list_variations(measured: xr.Dataset) -> Iterator[tuple[str, int, int]]:
-    """List what is varied, the setting with each value, and that of the finest value.
-
-    The usual setting, among the grids, counts among the tolerances too.
-    """
-    knob, pixels, tolerance = (measured[x].values for x in ("knob", "pixels", "tolerance"))
-    grids, tolerances = np.flatnonzero(knob == "pixels"), np.flatnonzero(knob == "tolerance")
-    tolerances = np.append(grids[pixels[grids] == pixels[tolerances[0]]], tolerances)
-    for name, group, finest in (
-        ("pixels", grids, grids[pixels[grids].argmax()]),
-        ("tolerance", tolerances, tolerances[tolerance[tolerances].argmin()]),
-    ):
-        for k in group:
-            if k != finest:
-                yield name, int(k), int(finest)
-
-
-def tabulate_adhesion(
-    name: str, measured: xr.Dataset, quantities: Iterator[Measured], problem: str, points: Points
-) -> list[tuple]:
-    """List rows of every setting, the DMT limit and numbers of seeds, and add points."""
-    rows, unit = [], float(measured.pair_time)
-    surface = Surface.of(datasets.parameters(measured))
-    variations = list(list_variations(measured))
-    usual = next(k for knob, k, _ in variations if knob == "tolerance")
-    for one in (each.drop_closed() for each in quantities):
-        if not one.seconds.size:
-            continue
-        seconds = one.seconds.mean("seed").mean("pressure")
-        for knob, k, finest in variations:
-            error = one.full.isel(setting=k) / one.full.isel(setting=finest) - 1
-            where = problem, LABELS[knob], f"{float(measured[knob][k]):g}", name
-            covering = cover_seeds(one.name, error)
-            rows += list_rows(where, covering, float(seconds.isel(setting=k)), unit)
-            if one.modelled and knob == "pixels" and measured.pixels[k] != COARSE:
-                add_grid_points(points, surface, float(measured.pixels[k]), one.name, error)
-            elif one.modelled and knob == "tolerance":
-                # Next to nothing changes but where a pixel turns: all loads and seeds together.
-                at = Conditions(surface, tolerance=float(measured.tolerance[k]))
-                points.add("solver", one.name, at, float(abs(error).quantile(COVERED)))
-        limit = one.limit.isel(setting=usual) / one.full.isel(setting=usual) - 1
+def tabulate_adhesion(measured, list_quantities, records):
+    """Add rows of every setting, the DMT limit and numbers of seeds, and points."""
+    made, unit = datasets.parameters(measured), float(measured.pair_time)
+    measured = measured.set_index(solution=list(SETTINGS)).unstack("solution")
+    usual = {"pixels": made["at_pixels"], "tolerance": made["tolerance"]}
+    axes = {knob: usual | {knob: measured[knob]} for knob in usual}
+    finest = {"pixels": measured.pixels.max(), "tolerance": measured.tolerance.min()}
+    for one in list_quantities(measured):
+        # Without loads at which a window closes with some setting.
+        opened = [
+            one.full.sel(along).notnull().any("seed").all(knob) for knob, along in axes.items()
+        ]
+        loads = {"pressure": (opened[0] & opened[1]).values}
+        full, limit, seconds = (x.sel(loads) for x in (one.full, one.limit, one.seconds))
+        one = replace(one, full=full, limit=limit, seconds=seconds)
+        for knob, along in axes.items() if loads["pressure"].any() else ():
+            errors = full.sel(along) / full.sel(usual | {knob: finest[knob]}) - 1
+            costs = seconds.sel(along).mean("seed").mean("pressure") / unit
+            for value in measured[knob].drop_sel({knob: finest[knob]}).values:
+                tabulate_setting(one, knob, value, errors.sel({knob: value}), costs, records)
         # The DMT limit costs nothing once the contact without adhesion is solved.
-        rows += list_rows((problem, "model", "DMT", name), cover_seeds(one.name, limit), 0.0, unit)
-        if problem == "adhesion":
-            rows += tabulate_seeds(name, surface, one, usual, unit, points)
-    if problem == "adhesion":
-        for k in np.flatnonzero((measured.knob == "pixels") & (measured.pixels != COARSE)):
-            at = Conditions(surface, pixels=float(measured.pixels[k]))
-            points.add(
-                "adhesive_cost", "", at, float(measured.seconds.isel(setting=k).mean()) / unit
-            )
-    return [row for row in rows if np.isfinite(row[6])]
+        error = limit.sel(usual) / full.sel(usual) - 1
+        records.add("model", "DMT", cover_seeds(one.name, error), 0.0)
+        if records.problem == "adhesion":
+            tabulate_seeds(one, usual, unit, records)
+    if records.problem == "adhesion":
+        for pixels in measured.pixels.values[measured.pixels.values != COARSE]:
+            cost = float(measured.seconds.sel(usual | {"pixels": pixels}).mean()) / unit
+            records.add_point("adhesive_cost", "", cost, pixels=pixels)
+
+
+def tabulate_setting(one, knob, value, error, costs, records):
+    """Add rows and points of one setting, from its errors along seeds and loads."""
+    label = "points per wavelength" if knob == "pixels" else knob
+    records.add(label, f"{value:g}", cover_seeds(one.name, error), costs.sel({knob: value}))
+    if not one.modelled or value == COARSE:
+        return
+    if knob == "tolerance":
+        # Next to nothing changes but where a pixel turns: all loads and seeds together.
+        size = abs(error).quantile(COVERED)
+        records.add_point("solver", one.name, size, tolerance=value)
+        return
+    for load in error.pressure.values:
+        off = error.sel(pressure=load).dropna("seed").values
+        if not off.size:
+            continue
+        size, noise = off.mean(), off.std(ddof=1) / np.sqrt(off.size)
+        if one.name == "pull_off":  # of one surface; all others are means
+            size, noise = np.sqrt(np.mean(off**2)), 0.0
+        records.add_point("discretisation", one.name, size, noise, pressure=load, pixels=value)
 
 
 def cover_seeds(quantity, error):
     """Error of single surfaces at every load that covers 90 %."""
     covering = abs(error).quantile(COVERED, "seed")
-    return {(quantity, float(load)): covering.sel(pressure=load) for load in error.pressure.values}
+    return {(quantity, load): covering.sel(pressure=load) for load in error.pressure.values}
 
 
-def add_grid_points(points, surface, pixels, column, error):
-    """Add errors of the grid, at loads at which windows stay open."""
-    for load in error.pressure.values:
-        off = error.sel(pressure=load).dropna("seed").values
-        if not off.size:
-            continue
-        if column == "pull_off":  # of one surface; all others are means
-            size, noise = np.sqrt(np.mean(off**2)), 0.0
-        else:
-            size, noise = off.mean(), off.std(ddof=1) / np.sqrt(off.size)
-        points.add("discretisation", column, Conditions(surface, load, pixels), size, noise)
-
-
-def tabulate_seeds(name, surface, one, usual, unit, points):
-    """List rows of means, plain and with the DMT limit of the coarsest grid as control variate."""
-    rows = []
-    scatter, share = measure_scatter(one.full.isel(setting=usual), one.limit.isel(setting=0))
-    seconds = one.seconds.isel(setting=usual).mean("seed")
+def tabulate_seeds(one, usual, unit, records):
+    """Add means, plain and with the DMT limit of the coarsest grid as control variate."""
+    twin = one.limit.sel(usual | {"pixels": one.limit.pixels.min()})
+    scatter, share = measure_scatter(one.full.sel(usual), twin)
+    seconds = one.seconds.sel(usual).mean("seed")
     for load in one.full.pressure.values:
         spread, left, cost = (float(x.sel(pressure=load)) for x in (scatter, share, seconds))
         if not np.isfinite(spread * left):
             continue
         if one.modelled:
-            points.add("scatter", one.name, Conditions(surface, load), spread)
-            points.add("fine_share", one.name, Conditions(surface, load), left)
-        kinds = {"plain": 1.0, "controlled": left}
-        for seeds, (kind, rest) in itertools.product(MEANS, kinds.items()):
-            error = {(one.name, float(load)): COVERS * spread * rest / np.sqrt(seeds)}
-            where = "adhesion", "seeds", f"{seeds} {kind}", name
-            rows += list_rows(where, error, seeds * cost, unit)
-    return rows
+            records.add_point("scatter", one.name, spread, pressure=load)
+            records.add_point("fine_share", one.name, left, pressure=load)
+        for seeds in MEANS:
+            for kind, rest in (("plain", 1.0), ("controlled", left)):
+                error = {(one.name, load): COVERS * spread * rest / np.sqrt(seeds)}
+                records.add("seeds", f"{seeds} {kind}", error, seeds * cost / unit)
 
 
-def measure_scatter(full: xr.DataArray, twin: xr.DataArray) -> tuple[xr.DataArray, xr.DataArray]:
+def measure_scatter(full, twin):
     """Standard deviation of single surfaces over the mean, and the share a control leaves of it.
 
     The control is the DMT limit of the same seeds on the coarsest grid, its mean taken as known;

@@ -1,24 +1,25 @@
-"""What all measurements of accuracy and cost share: quantities, settings and clock."""
+"""What all measurements of accuracy and cost share: solutions with their settings, and a clock."""
 
-from __future__ import annotations
-
+import logging
 import statistics
 import time
-from collections.abc import Callable, Sequence
 
 import numpy as np
 import xarray as xr
-from numpy.typing import ArrayLike, NDArray
 
 from common.conventions import FIT_MEASURED, GAPS_MEASURED
+from common.model_surfaces import grid_points
+from common.model_surfaces import make_heights as make_surface
 from common.quantities import derive, quote
+from stickiness import datasets
+from stickiness.accuracy.error_models import COARSE
 from stickiness.accuracy.quantities import MODELLED, columns_of
 from stickiness.repulsive import half_space
 
 UNIT = 1024  # side of the grid whose pair of transforms is the unit of cost
 COVERED = 0.9  # share of cases that a stated error covers
+SETTINGS = ("pixels", "tolerance", "seed")
 TEXTS = {
-    "knob": ("1", "what the settings vary"),
     "pixels": ("1", "grid points per shortest wavelength"),
     "tolerance": ("1", "tolerance of the solver over h_rms"),
     "seed": ("1", "seed of the realisation"),
@@ -26,36 +27,56 @@ TEXTS = {
 }
 
 
-def derive_columns(solved: xr.Dataset) -> dict[str, xr.DataArray]:
-    """Return the columns of all quantities that have error models, from solutions.
+def record(wanted, solve):
+    """Solve with every (pixels, tolerance, seed) that is wanted; settings along `solution`."""
+    wanted, parts = list(dict.fromkeys(wanted)), []
+    for pixels, tolerance, seed in wanted:
+        logging.info("seed %d on %d points, tolerance %g", seed, pixels, tolerance)
+        parts.append(solve(pixels, tolerance, seed))
+    settings = zip(SETTINGS, zip(*wanted, strict=True), strict=True)
+    found = xr.concat(parts, "solution")
+    return found.assign_coords({name: ("solution", list(values)) for name, values in settings})
+
+
+def write(dataset, path, title, parameters, **texts):
+    """Write solutions with the time of a pair of transforms."""
+    dataset = datasets.annotate(dataset.assign(pair_time=time_transforms()), **TEXTS, **texts)
+    datasets.write(dataset, path, title=title, parameters=parameters)
+
+
+def select(measured, pixels, tolerance):
+    """Solutions with one grid and tolerance, along the seed."""
+    chosen = (measured.pixels == pixels) & (measured.tolerance == tolerance)
+    found = measured.isel(solution=np.flatnonzero(chosen)).swap_dims(solution="seed")
+    return found.drop_vars(SETTINGS[:2])
+
+
+def derive_columns(solved):
+    """Columns of all quantities that have error models, from solutions.
 
     P(u) is taken at all gaps that its error is measured over, not only where it is quoted.
-
-    Parameters
-    ----------
-    solved
-        With ``area_fraction``, ``mean_gap``, ``rms_slope`` and ``attractive_area`` along
-        ``pressure`` and ``range``, and any other dimensions.
     """
     contact = derive(solved, FIT_MEASURED)
     found = {name: quote(name, contact) for name in columns_of(MODELLED)}
     return found | {"gap_distribution": contact.gap_density.sel(gap=slice(*GAPS_MEASURED))}
 
 
-def rms(values: xr.DataArray, dims: str | list[str] = "gap") -> xr.DataArray:
-    """Root mean square over those of `dims` that the values have."""
-    dims = [dim for dim in np.atleast_1d(dims) if dim in values.dims]
-    return np.sqrt((values**2).mean(dims)) if dims else abs(values)
+def make_heights(surface, pixels, seed):
+    """Heights on a grid and, with twice as many points if it is coarse, on a finer one."""
+    # Two points do not resolve the slope of the shortest waves: it is taken from four.
+    finer = make_surface(surface, grid_points(surface, max(pixels, 2 * COARSE)), seed)
+    step = max(2 * COARSE // pixels, 1)
+    return np.ascontiguousarray(finer[::step, ::step]), finer
 
 
-def time_task(task: Callable[[], object]) -> tuple[object, float]:
+def time_task(task):
     """Return what a task returns, and the processor time [s] it took."""
     begin = time.process_time()
     found = task()
     return found, time.process_time() - begin
 
 
-def time_transforms(repetitions: int = 9) -> float:
+def time_transforms(repetitions=9):
     """Measure the unit of cost: median processor time [s] of a pair of transforms."""
     space = half_space.half_space((UNIT, UNIT), (1.0, 1.0), np.float64)
     field = np.random.default_rng(1).standard_normal((UNIT, UNIT))
@@ -63,23 +84,3 @@ def time_transforms(repetitions: int = 9) -> float:
     return statistics.median(
         time_task(lambda: space.compliance(field))[1] for _ in range(repetitions)
     )
-
-
-def coarsen(heights: NDArray, step: int) -> NDArray:
-    """Take every `step`-th point along both axes."""
-    return np.ascontiguousarray(heights[::step, ::step])
-
-
-def list_settings(
-    pixels: Sequence[int], tolerances: Sequence[float], at_pixels: int, at_tolerance: float
-) -> list[dict]:
-    """List every setting to solve with: one is varied while the other stays at its usual value."""
-    return [
-        *({"knob": "pixels", "pixels": p, "tolerance": at_tolerance} for p in pixels),
-        *({"knob": "tolerance", "pixels": at_pixels, "tolerance": t} for t in tolerances),
-    ]
-
-
-def stack(parts: Sequence[xr.Dataset], name: str, values: ArrayLike, **options) -> xr.Dataset:
-    """Concatenate datasets along a new dimension with these coordinates."""
-    return xr.concat(parts, xr.DataArray(values, dims=name, name=name), **options)

@@ -1,15 +1,15 @@
 """Plot what each setting and each model costs, and how far it errs, for each quantity."""
 
-import numpy as np
+import pandas as pd
 
 from common import plotting
 from common.job import start
-from common.plotting import COLOURS, MARKERS, write_ticks
+from common.plotting import COLOURS, MARKERS, make_key, write_ticks
 from stickiness.accuracy import plan
 from stickiness.accuracy.error_models import Surface, read_models
-from stickiness.accuracy.prediction import Problem, predicted_cost, predicted_error
-from stickiness.accuracy.settings import adhesive_cost, adhesive_error
+from stickiness.accuracy.settings import Problem, predicted_cost, predicted_error
 from tradeoff import summary
+from tradeoff.presets import adhesive_cost, adhesive_error
 
 CONTACT = {
     "area": "contact area",
@@ -24,8 +24,13 @@ ADHESION = {
     "threshold": "threshold",
     "pull_off": "pull-off",
 }
+SETTINGS = {
+    "points per wavelength": "points per shortest wavelength",
+    "tolerance": "tolerance of the solver",
+    "seeds": "number of random surfaces",
+    "model": "model, presets",
+}
 COST = r"cost [FFT pairs of $1024^2$]"
-ERROR = "error, covers 90 %"
 ERROR_TICKS = (1e-4, 1e-3, 0.01, 0.1, 1)
 COST_TICKS = (1, 3, 10, 30, 100, 300, 1000, 3000, 10000)
 SMALLEST = 2e-5  # error that is shown
@@ -33,112 +38,94 @@ PRESET_MARKS = {"draft": "v", "standard": "o", "fine": "^"}
 
 
 def main(job):
-    medians, models = summary.read(job.input.summary), read_models(job.input.laws)
-    is_contact = medians.problem == "contact"
-    where = models, Surface.of(job.params.surface), job.params.presets["pressures"]
+    medians, params = summary.read(job.input.summary), job.params
+    models, surface = read_models(job.input.laws), Surface.of(params.surface)
+    tolerances = pd.to_numeric(medians.value, errors="coerce")
+    medians["x"] = medians.cost.where(medians.setting != "tolerance", tolerances)
+    is_contact, pressures = medians.problem == "contact", params.presets["pressures"]
     presets = {
-        name: plan.preset(job.params.fidelities[name])
+        name: plan.preset(params.fidelities[name])
         for name in PRESET_MARKS
-        if name in job.params.fidelities
+        if name in params.fidelities
     }
     with plotting.open_figure(job.output, "AB;CD;EF;GH", 9.5) as panels:
-        for names, title, found, shown, error, cost in (
+        for names, title, found, labels, error, cost in (
             ("ACEG", "contact", medians[is_contact], CONTACT, predicted_error, cost_of_one_load),
             ("BDFH", "adhesion", medians[~is_contact], ADHESION, adhesive_error, adhesive_cost),
         ):
-            grids, tolerances, seeds, choices = (panels[name] for name in names)
-            draw_grids(grids, found, shown)
-            draw_tolerances(tolerances, found, shown)
-            draw_seeds(seeds, found, shown)
-            problem = Problem(*where, list(shown), job.params.descriptor_seeds)
-            draw_models(choices, found, problem, presets, error, cost)
-            for ax, setting in (
-                (grids, "points per shortest wavelength"),
-                (tolerances, "tolerance of the solver"),
-                (seeds, "number of random surfaces"),
-                (choices, "model, presets"),
-            ):
-                ax.set_title(f"{title}: {setting}", loc="right")
+            styles = {
+                quantity: {"color": colour, "marker": marker}
+                for quantity, colour, marker in zip(labels, COLOURS, MARKERS, strict=False)
+            }
+            for name, (setting, text) in zip(names, SETTINGS.items(), strict=True):
+                panels[name].set_title(f"{title}: {text}", loc="right")
+                chosen = found[(found.setting == setting) & found.quantity.isin(labels)]
+                if setting == "model":
+                    draw_models(panels[name], chosen, styles)
+                    problem = Problem(
+                        models, surface, pressures, list(labels), params.descriptor_seeds
+                    )
+                    draw_presets(panels[name], problem, presets, styles, error, cost)
+                else:
+                    draw_setting(panels[name], chosen[chosen.error > SMALLEST], styles, setting)
+            keys = [make_key(labels[name], **style) for name, style in styles.items()]
+            panels[names[1]].legend(handles=keys, loc="upper left")
+        kinds = {"plain mean": "--", "with a control variate": "-"}
+        keys = [make_key(text, linestyle=line) for text, line in kinds.items()]
+        panels["F"].legend(handles=keys, loc="lower left")
 
 
 def cost_of_one_load(problem, settings):
     return predicted_cost(problem, settings) / len(problem.pressures)
 
 
-def draw_grids(ax, found, shown):
-    """Error against cost, the points per wavelength written beside the largest error."""
-    chosen = found[(found.setting == "points per wavelength") & (found.error > SMALLEST)]
-    for colour, marker, (quantity, label) in zip(COLOURS, MARKERS, shown.items(), strict=False):
-        one = chosen[chosen.quantity == quantity].sort_values("cost")
-        ax.plot(one.cost, one.error, marker=marker, color=colour, label=label)
-    for value, part in chosen[chosen.quantity.isin(shown)].groupby("value"):
-        top = part.loc[part.error.idxmax()]
-        at = {"xytext": (0, 4), "textcoords": "offset points", "ha": "center", "fontsize": 7}
-        ax.annotate(value, (top.cost, top.error), **at)
-    finish(ax)
-    ax.margins(y=0.12)
-    ax.legend(loc="lower left" if "area" in shown else "lower right")
-
-
-def draw_tolerances(ax, found, shown):
-    """Error against the tolerance, which hardly changes the cost."""
-    chosen = found[(found.setting == "tolerance") & (found.error > SMALLEST)]
-    for colour, marker, quantity in zip(COLOURS, MARKERS, shown, strict=False):
-        one = chosen[chosen.quantity == quantity]
-        one = one.iloc[np.argsort(one.value.astype(float))]
-        ax.plot(one.value.astype(float), one.error, marker=marker, color=colour)
-    ax.set(xscale="log", yscale="log", xlabel="tolerance", ylabel=ERROR)
-
-
-def draw_seeds(ax, found, shown):
-    """Error of means against cost, plain (dashed) and with a control variate."""
-    chosen = found[found.setting == "seeds"]
-    for colour, marker, quantity in zip(COLOURS, MARKERS, shown, strict=False):
-        one = chosen[chosen.quantity == quantity].sort_values("cost")
+def draw_setting(ax, found, styles, setting):
+    """Error against cost or tolerance; plain means are dashed beside those with a control."""
+    for quantity, style in styles.items():
+        one = found[found.quantity == quantity].sort_values("x")
         plain = one.value.str.endswith("plain")
-        for line, part, fill in (("--", one[plain], "white"), ("-", one[~plain], colour)):
-            look = {"marker": marker, "color": colour, "markerfacecolor": fill}
-            ax.plot(part.cost, part.error, line, **look)
-    finish(ax)
-    kinds = {"plain mean": "--", "with a control variate": "-"}
-    ax.legend(
-        handles=[plotting.make_key(text, linestyle=line) for text, line in kinds.items()],
-        loc="lower left",
-    )
+        for part, line, fill in ((one[plain], "--", "white"), (one[~plain], "-", style["color"])):
+            ax.plot(part.x, part.error, line, markerfacecolor=fill, **style)
+    finish(ax, "tolerance" if setting == "tolerance" else COST)
+    if setting == "points per wavelength":
+        for value, part in found.groupby("value"):
+            top = part.loc[part.error.idxmax()]
+            at = {"xytext": (0, 4), "textcoords": "offset points", "ha": "center", "fontsize": 7}
+            ax.annotate(value, (top.cost, top.error), **at)
+        ax.margins(y=0.12)
 
 
-def draw_models(ax, found, problem, presets, error, cost):
-    """Error and cost of the approximate model, and of simulations with each preset."""
-    approximate = found[found.setting == "model"].set_index("quantity")
-    for colour, quantity in zip(COLOURS, problem.columns, strict=False):
-        if quantity in approximate.index:
-            one = approximate.loc[quantity]
-            if one.cost > 0:
-                ax.plot(one.cost, one.error, "*", color=colour, markersize=8)
-            else:  # free once the contact without adhesion is solved
-                ax.axhline(one.error, color=colour, linestyle=":", linewidth=1)
-        for name, mark in PRESET_MARKS.items():
-            if name in presets:
-                settings = presets[name]
-                worst = max(error(problem, settings, p, quantity) for p in problem.pressures)
-                ax.plot(cost(problem, settings), worst, mark, color=colour)
-    finish(ax)
-    label = approximate.value.iloc[0]
-    free = {"linestyle": ":"} if label == "DMT" else {"linestyle": "", "marker": "*"}
-    handles = [plotting.make_key("DMT limit" if label == "DMT" else label, **free)]
-    handles += [
-        plotting.make_key(f"simulation, {name}", linestyle="", marker=PRESET_MARKS[name])
-        for name in presets
-    ]
-    ax.legend(handles=handles, loc="lower left")
+def draw_models(ax, found, styles):
+    """Error and cost of the approximate model; a line where it is free once contact is solved."""
+    for one in found.itertuples():
+        colour = styles[one.quantity]["color"]
+        if one.cost > 0:
+            ax.plot(one.cost, one.error, "*", color=colour, markersize=8)
+        else:
+            ax.axhline(one.error, color=colour, linestyle=":", linewidth=1)
 
 
-def finish(ax):
-    ax.set(xscale="log", yscale="log", xlabel=COST, ylabel=ERROR)
+def draw_presets(ax, problem, presets, styles, error, cost):
+    """Predicted error and cost of simulations with each preset."""
+    keys = [make_key("theory", linestyle="", marker="*")]
+    if error is adhesive_error:
+        keys = [make_key("DMT limit", linestyle=":")]
+    for name, settings in presets.items():
+        keys.append(make_key(f"simulation, {name}", linestyle="", marker=PRESET_MARKS[name]))
+        for quantity, style in styles.items():
+            worst = max(error(problem, settings, p, quantity) for p in problem.pressures)
+            ax.plot(cost(problem, settings), worst, PRESET_MARKS[name], color=style["color"])
+    finish(ax, COST)
+    ax.legend(handles=keys, loc="lower left")
+
+
+def finish(ax, label):
+    ax.set(xscale="log", yscale="log", xlabel=label, ylabel="error, covers 90 %")
     low, high = ax.get_ylim()
     write_ticks(ax.yaxis, [tick for tick in ERROR_TICKS if low <= tick <= high])
     low, high = ax.get_xlim()
-    write_ticks(ax.xaxis, [tick for tick in COST_TICKS if low <= tick <= high] or [low, high])
+    if label == COST:
+        write_ticks(ax.xaxis, [tick for tick in COST_TICKS if low <= tick <= high] or [low, high])
 
 
 if __name__ == "__main__":

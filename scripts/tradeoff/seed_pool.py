@@ -1,25 +1,23 @@
 """Pools of solved seeds from files of `measure_contact`, and means resampled from them."""
 
-from __future__ import annotations
-
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
-import xarray as xr
-from numpy.typing import NDArray
 
+from common.contact_curves import SOLVED_FROM
+from stickiness import datasets
 from stickiness.accuracy import multilevel
-from stickiness.accuracy.error_models import COARSE, Settings
+from stickiness.accuracy.error_models import COARSE
 from stickiness.accuracy.settings import COARSE_SEEDS, SEEDS
 from stickiness.repulsive import richardson
-from tradeoff.measuring import derive_columns
+from tradeoff.measuring import derive_columns, select
 
-KEPT = ("area_fraction", "mean_gap", "attractive_area", "rms_slope")
-LEVEL = ("mean", "standard_error")
 FEWEST_FINE = 32  # seeds of a grid that means are drawn from; the finest may have fewer
+REPETITIONS = 60  # of means that are resampled
+DESCRIBED_SEEDS = 2048
 
 
-@dataclass(frozen=True)
+@dataclass
 class SeedPool:
     """Solved seeds of one surface, the last axis running over loads and entries of quantities.
 
@@ -33,39 +31,43 @@ class SeedPool:
         Descriptors of the long waves of the coarse seeds and of those that are not solved.
     pressure, quantity : (entry,) array
         What the entries are.
-    truth : (entry,) array
-        Best estimate of the mean over all surfaces, on the finest grid.
-    truth_error : (entry,) array
-        Its standard error.
+    truth, truth_error : (entry,) array
+        Best estimate of the mean over all surfaces, on the finest grid, and its standard error.
     fine_mean : (entry,) array
         Mean of the fine seeds alone, on the finest grid, about which plain means drawn from them
         scatter.
-    grid_errors : dict of pair of (entry,) arrays
-        By pixels, relative error of the mean by the grid, and its standard error.
+    costs : dict
+        Of all loads of one seed, by pixels, as ``"coarse"``, and of the waves ``"described"``.
     """
 
-    fine: dict[int, NDArray]
-    coarse: NDArray
-    controls: NDArray
-    elsewhere: NDArray
-    pressure: NDArray
-    quantity: NDArray
-    truth: NDArray
-    truth_error: NDArray
-    fine_mean: NDArray
-    grid_errors: dict[int, tuple[NDArray, NDArray]]
+    fine: dict
+    coarse: np.ndarray
+    controls: np.ndarray
+    elsewhere: np.ndarray
+    pressure: np.ndarray
+    quantity: np.ndarray
+    truth: np.ndarray
+    truth_error: np.ndarray
+    fine_mean: np.ndarray
+    costs: dict = field(default_factory=dict)
 
-    def by_quantity(self, errors: NDArray) -> dict[tuple[str, float], NDArray]:
+    def by_quantity(self, errors):
         """Root mean square over the entries of each quantity at each load; leading axes stay."""
         keys = dict.fromkeys(zip(self.quantity.tolist(), self.pressure.tolist(), strict=True))
-        return {
-            (quantity, load): np.sqrt(
-                np.mean(
-                    errors[..., (self.quantity == quantity) & (self.pressure == load)] ** 2, axis=-1
-                )
-            )
-            for quantity, load in keys
-        }
+        found = {}
+        for quantity, load in keys:
+            entries = (self.quantity == quantity) & (self.pressure == load)
+            found[quantity, load] = np.sqrt(np.mean(errors[..., entries] ** 2, axis=-1))
+        return found
+
+    def cost(self, settings):
+        """Measured cost of a mean at all loads, without what a larger tolerance saves."""
+        pixels = settings.pixels_per_wavelength
+        total = settings.seeds * sum(self.costs[p] for p in {pixels, pixels // 2, COARSE})
+        if settings.coarse_seeds:
+            total += settings.coarse_seeds * self.costs["coarse"]
+            total += DESCRIBED_SEEDS * self.costs["described"]
+        return total
 
 
 class Resampling:
@@ -76,122 +78,105 @@ class Resampling:
     fewer, as the rounds of a case do.
     """
 
-    def __init__(self, pool: SeedPool, repetitions: int, described: int, seed: int = 1):
-        rng = np.random.default_rng(seed)
+    def __init__(self, pool, repetitions=REPETITIONS, described=DESCRIBED_SEEDS):
+        rng = np.random.default_rng(1)
         self.pool, self.levels = pool, {}
         count = min(len(fine) for fine in pool.fine.values() if len(fine) >= FEWEST_FINE)
         self.fine = rng.integers(count, size=(SEEDS[-1], repetitions))
         self.many = rng.integers(len(pool.coarse), size=(repetitions, COARSE_SEEDS[-1]))
         self.others = rng.integers(len(pool.elsewhere), size=(repetitions, described))
 
-    def draw(self, settings: Settings) -> tuple[NDArray, NDArray]:
-        """Relative errors and standard errors of the repetitions, `(repetition, entry)`.
-
-        The standard errors are relative to the mean estimated, the errors to that of the pool.
-        """
+    def draw(self, settings):
+        """Relative errors of the means of every repetition, by quantity and load."""
         pool, chosen = self.pool, self.fine[: settings.seeds]
-        fine = pool.fine[settings.pixels_per_wavelength][chosen]
-        if settings.coarse_seeds:
-            twin, level = pool.fine[COARSE][chosen], self.solve_level(settings.coarse_seeds)
-            found, truth = multilevel.corrected_mean(fine, twin, level), pool.truth
-        else:
-            found, truth = multilevel.plain_mean(fine), pool.fine_mean
-        return found.mean / truth - 1, found.standard_error / np.abs(found.mean)
+        fine, truth = pool.fine[settings.pixels_per_wavelength][chosen], pool.fine_mean
+        mean = fine.mean(0)
+        if count := settings.coarse_seeds:
+            if count not in self.levels:
+                self.levels[count] = self.average_coarse(count)
+            twin, truth = pool.fine[COARSE][chosen], pool.truth
+            mean = multilevel.corrected_mean(fine, twin, self.levels[count]).mean
+        return pool.by_quantity(mean / truth - 1)
 
-    def solve_level(self, count: int) -> multilevel.Estimate:
-        """Estimate the means of so many coarse solutions, for all repetitions."""
-        if count not in self.levels:
-            pool = self.pool
-            found = [
-                multilevel.controlled_mean(
-                    pool.coarse[many[:count]], pool.controls[many[:count]], pool.elsewhere[others]
-                )
-                for many, others in zip(self.many, self.others, strict=True)
-            ]
-            parts = (np.array([getattr(one, name) for one in found]) for name in LEVEL)
-            self.levels[count] = multilevel.Estimate(*parts, np.empty(0))
-        return self.levels[count]
+    def average_coarse(self, count):
+        """Means of so many coarse solutions, for all repetitions."""
+        pool = self.pool
+        found = [
+            multilevel.controlled_mean(
+                pool.coarse[many[:count]], pool.controls[many[:count]], pool.elsewhere[others]
+            )
+            for many, others in zip(self.many, self.others, strict=True)
+        ]
+        mean, error = (
+            np.array([vars(one)[k] for one in found]) for k in ("mean", "standard_error")
+        )
+        return multilevel.Estimate(mean, error, np.empty(0))
 
 
-def make_pool(measured: xr.Dataset) -> SeedPool:
-    """Make the pool of a file of `measure_contact`.
+def make_pool(measured):
+    """Make the pool of a file of `measure_contact`, and find its errors by the grid.
 
-    Its finest grid, with fewer seeds than the others, is the reference of the truth.
+    Its finest grid, with fewer seeds than the others, is the reference of the truth. The errors are
+    relative, of the mean of every entry, with their standard error, by pixels.
     """
-    pixels = [int(p) for p in measured.pixels.values]
-    entries = {p: flatten(derive_columns(select_grid(measured, p))) for p in pixels}
+    usual = datasets.parameters(measured)["tolerance"]
+    is_fine = (measured.seed < SOLVED_FROM).values
+    fine_ones, coarse_ones = (
+        measured.isel(solution=np.flatnonzero(k)) for k in (is_fine, ~is_fine)
+    )
+    *_, best, last = pixels = np.unique(measured.pixels).tolist()
+    solved = {p: select(fine_ones, p, usual) for p in pixels}
+    more, unit = select(coarse_ones, COARSE, usual), float(measured.pair_time)
+    entries = {p: flatten(derive_columns(extrapolate(solved, p))) for p in pixels}
     fine = {p: values for p, (values, *_) in entries.items()}
     _, quantity, pressure = entries[COARSE]
-    coarse = flatten(derive_columns(rename_seeds(measured, "coarse")))[0]
+    coarse = flatten(derive_columns(more))[0]
     controls, elsewhere = measured.long_waves.values, measured.other_long_waves.values
-    best, last = pixels[-2:]
-    pairs = {best: (fine[best][: len(fine[last])], fine[last])}
-    ratio = pairs[best][1].sum(0) / pairs[best][0].sum(0)
+    few = fine[best][: len(fine[last])]
+    ratio = fine[last].sum(0) / few.sum(0)
     estimate = multilevel.multilevel_mean(fine[best], fine[COARSE], coarse, controls, elsewhere)
-    return SeedPool(
-        fine=fine,
-        coarse=coarse,
-        controls=controls,
-        elsewhere=elsewhere,
-        pressure=pressure,
-        quantity=quantity,
-        truth=estimate.mean * ratio,
-        truth_error=estimate.standard_error * ratio,
-        fine_mean=fine[best].mean(0) * ratio,
-        grid_errors=measure_grid_errors(
-            {p: values for p, values in fine.items() if p <= best}, pairs, best
-        ),
+    costs = {p: float(one.seconds.mean()) / unit for p, one in solved.items()}
+    costs |= {
+        "coarse": float(more.seconds.mean()) / unit,
+        "described": float(measured.describing_seconds) / unit,
+    }
+    # Up to the `best` grid with many seeds against it, from there on with few against the finest.
+    grid_errors = {best: compare_means(few, fine[last])}
+    for p in pixels[:-2]:
+        off, noise = compare_means(fine[p], fine[best])
+        first, its_noise = grid_errors[best]
+        grid_errors[p] = (1 + off) * (1 + first) - 1, np.hypot(noise, its_noise)
+    pool = SeedPool(
+        *(fine, coarse, controls, elsewhere, pressure, quantity),
+        *(estimate.mean * ratio, estimate.standard_error * ratio, fine[best].mean(0) * ratio),
+        costs,
     )
+    return pool, grid_errors
 
 
-def measure_grid_errors(fine, pairs, best):
-    """Relative errors by the grid and their standard errors; see `SeedPool`.
-
-    Up to the `best` grid with many seeds against it, from there on with few against the finest.
-    """
-
-    def compare(coarse, exact):
-        count = len(exact)
-        noise = (coarse / exact.mean(0) - exact * coarse.mean(0) / exact.mean(0) ** 2).std(0)
-        return coarse.mean(0) / exact.mean(0) - 1, noise / np.sqrt(max(count - 1, 1))
-
-    found = {p: compare(*pair) for p, pair in pairs.items()}
-    for p, values in fine.items():
-        if p < best:
-            off, noise = compare(values, fine[best])
-            found[p] = (1 + off) * (1 + found[best][0]) - 1, np.hypot(noise, found[best][1])
-    return found
+def compare_means(coarse, exact):
+    """Relative difference of two means over the same seeds, and its standard error."""
+    noise = (coarse / exact.mean(0) - exact * coarse.mean(0) / exact.mean(0) ** 2).std(0)
+    return coarse.mean(0) / exact.mean(0) - 1, noise / np.sqrt(max(len(exact) - 1, 1))
 
 
-def select_grid(measured: xr.Dataset, pixels: int) -> xr.Dataset:
-    """Select one grid and the seeds solved on it; areas are in the limit of fine grids."""
-    one = measured.sel(pixels=pixels)
-    one = one.isel(seed=np.flatnonzero(one.area_fraction.notnull().all("pressure").values))
+def extrapolate(solved, pixels):
+    """Solutions on one grid, attractive areas in the limit of fine grids, as in ensembles."""
+    one = solved[pixels]
     if pixels == COARSE:
         return one
-    half = measured.sel(pixels=pixels // 2, seed=one.seed)
-    return one.assign(attractive_area=extrapolate_area(half, one))
-
-
-def extrapolate_area(half: xr.Dataset, one: xr.Dataset) -> xr.DataArray:
-    """Extrapolate attractive areas from below the edge gap, as those of ensembles are."""
-    edge_gap = one.edge_gap.mean("seed")
-    return richardson.estimate(
+    edge_gap, half = one.edge_gap.mean("seed"), solved[pixels // 2].sel(seed=one.seed)
+    limit = richardson.estimate(
         "attractive_area",
         [half.attractive_area, one.attractive_area],
         one.attractive_area - one.pixel_attractive_area,
         one.edges,
         (one["range"] / edge_gap).where(edge_gap > 0, np.inf),
-    ).value
+    )
+    return one.assign(attractive_area=limit.value)
 
 
-def rename_seeds(measured: xr.Dataset, kind: str) -> xr.Dataset:
-    """Give more seeds of a kind the names of the fine ones."""
-    names = {f"{kind}_{name}": name for name in (*KEPT, "seed")}
-    return measured[[f"{kind}_{name}" for name in KEPT]].rename(names)
-
-
-def flatten(quantities: dict[str, xr.DataArray]) -> tuple[NDArray, NDArray, NDArray]:
+def flatten(quantities):
     """Flatten all quantities at all loads to `(seed, entry)`; quantity and load of each entry."""
     values, names, loads = [], [], []
     for name, of_seeds in quantities.items():

@@ -3,16 +3,11 @@
 The committed table holds medians over surfaces and loads.
 """
 
-from __future__ import annotations
-
-from collections.abc import Iterator, Mapping
-from pathlib import Path
-
 import numpy as np
 import pandas as pd
 
 KEYS = ["problem", "quantity", "setting", "value"]
-COLUMNS = [*KEYS, "surface", "pressure", "error", "cost", "seconds"]
+COLUMNS = [*KEYS, "surface", "pressure", "error", "cost"]
 COMMENT = """\
 # Error and cost of each setting and each model, from the target tradeoff: medians over surfaces and
 # loads, one setting varied at a time. Errors are relative and cover 90 %. Cost: pairs of Fourier
@@ -21,42 +16,44 @@ COMMENT = """\
 """
 
 
-def list_rows(
-    where: tuple[str, str, str, str],
-    errors: Mapping[tuple[str, float], float],
-    seconds: float,
-    unit: float,
-) -> list[tuple]:
-    """List a row for every quantity and load.
+class Records:
+    """Rows of the table, and the points that error models are fitted to."""
 
-    Parameters
-    ----------
-    where
-        Problem, setting, value and surface.
-    errors
-        Relative errors by quantity and load.
-    seconds, unit
-        Processor time [s], and that of the pair of transforms that costs are counted in.
-    """
-    problem, setting, value, surface = where
-    return [
-        (problem, quantity, setting, value, surface, load, float(error), seconds / unit, seconds)
-        for (quantity, load), error in errors.items()
-    ]
+    def __init__(self):
+        self.rows, self.points = [], []
+
+    def start(self, problem, name, surface):
+        """Name the problem and the surface of what is added from now on."""
+        self.problem, self.name, self.surface = problem, name, surface
+
+    def add(self, setting, value, errors, cost):
+        """Add a row for every error, by quantity and load."""
+        for (quantity, load), error in errors.items():
+            if np.isfinite(error):
+                where = self.problem, quantity, setting, value, self.name
+                self.rows.append((*where, float(load), float(error), float(cost)))
+
+    def add_point(
+        self, part, quantity, value, noise=0.0, *, pressure=1.0, pixels=1.0, tolerance=1.0
+    ):
+        """Add a value of one part of the error models and its standard error, 0 if known well."""
+        surface = self.surface.hurst, self.surface.magnification, self.surface.window
+        at = pressure, pixels, tolerance
+        self.points.append((part, quantity, *surface, *at, float(value), float(noise)))
 
 
-def take_medians(rows: pd.DataFrame) -> pd.DataFrame:
+def take_medians(rows):
     """Take medians over surfaces and loads."""
     return rows.groupby(KEYS, sort=False)[["error", "cost"]].median().reset_index()
 
 
-def write(path: Path, medians: pd.DataFrame) -> None:
+def write(path, medians):
     """Write the table of medians with its comment."""
     text = medians.to_csv(index=False, float_format="%.6g", lineterminator="\n")
     path.write_text(COMMENT + text, encoding="utf-8")
 
 
-def read(path: str | Path) -> pd.DataFrame:
+def read(path):
     """Read the table of medians; ValueError if it is not there or lacks a column."""
     try:
         medians = pd.read_csv(path, comment="#", dtype={"value": str})
@@ -68,20 +65,17 @@ def read(path: str | Path) -> pd.DataFrame:
     return medians
 
 
-def tables(medians: pd.DataFrame) -> Iterator[tuple[list[str], list[list[str]]]]:
+def tables(medians):
     """Head and lines of a table for every problem and setting, as texts."""
     for (problem, setting), part in medians.groupby(["problem", "setting"], sort=False):
-        quantities = list(dict.fromkeys(part.quantity))
-        lines = []
-        for value, one in part.groupby("value", sort=False):
-            errors = one.set_index("quantity").error.reindex(quantities)
-            lines.append([value, *map(percent, errors), number(one.cost.median())])
-        yield [f"{problem}: {setting}", *quantities, "cost"], lines
+        errors = part.pivot_table("error", "value", "quantity", sort=False)
+        cost = part.groupby("value", sort=False).cost.median()
+        lines = [
+            [value, *map(percent, row), f"{cost[value]:.3g}"] for value, row in errors.iterrows()
+        ]
+        yield [f"{problem}: {setting}", *errors.columns, "cost"], lines
 
 
-def percent(value: float) -> str:
-    return "–" if not np.isfinite(value) else f"{100 * value:.2g} %"
-
-
-def number(value: float) -> str:
-    return "–" if not np.isfinite(value) else f"{value:.3g}"
+def percent(value):
+    """Write a share to two digits."""
+    return f"{100 * value:.2g} %" if np.isfinite(value) else "–"

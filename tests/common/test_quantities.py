@@ -9,7 +9,7 @@ from cases import answer_case
 from contact import average_ensemble, solve_coarse, solve_repulsive
 from stickiness import datasets, repulsive, spectrum, surface
 from stickiness import error_budget as budget
-from stickiness.accuracy.quantities import Column, Quantity, slope_within_contact
+from stickiness.accuracy.quantities import slope_within_contact
 from surfaces import synthesise_surface
 
 ASKED = {"hurst": 0.8, "magnification": 8}
@@ -112,11 +112,3 @@ def test_case_is_answered_with_what_is_not_known(means):
     assert budget.dominant(slope.isel(pressure=0), "value") == "solver"
     assert "contact_slope not known: " in answer.value_error.comment
     assert np.isfinite(answer.sel(column="area").value_total_error).all()
-
-
-def test_entries_that_nothing_makes_are_refused():
-    column = Column("twist", "twist", "twist", "twist")
-    with pytest.raises(ValueError, match=r"quantity twist: nothing makes the mean 'twist'"):
-        Quantity("twist", (column,), means=("twist",))
-    with pytest.raises(ValueError, match=r"column twist: file = 'fit', must be one of"):
-        Column("twist", "twist", "twist", "twist", file="fit")

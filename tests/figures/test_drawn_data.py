@@ -450,9 +450,10 @@ def test_lines_of_the_trade_are_errors_against_costs(ax):
     found = pd.DataFrame(
         {"value": ["4", "8", "2"], "error": [0.1, 0.01, 0.3], "cost": [2.0, 4.0, 1.0]}
     )
-    found = found.assign(quantity="area", setting="points per wavelength")
-    plot_tradeoff.draw_grids(ax, found, {"area": "contact area"})
-    np.testing.assert_allclose(ax.lines[0].get_xydata(), [[1, 0.3], [2, 0.1], [4, 0.01]])
+    found = found.assign(quantity="area", x=found.cost)
+    styles = {"area": {"color": "black", "marker": "o"}}
+    plot_tradeoff.draw_setting(ax, found, styles, "points per wavelength")
+    np.testing.assert_allclose(ax.lines[1].get_xydata(), [[1, 0.3], [2, 0.1], [4, 0.01]])
     assert {text.get_text() for text in ax.texts} == {"2", "4", "8"}
 
 

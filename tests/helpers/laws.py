@@ -3,8 +3,8 @@
 import math
 
 from stickiness.accuracy.error_models import ErrorModel, Surface
-from stickiness.accuracy.prediction import Problem
 from stickiness.accuracy.quantities import MODELLED, columns_of
+from stickiness.accuracy.settings import Problem
 
 SMOOTH = Surface(hurst=0.8, magnification=32.0)
 

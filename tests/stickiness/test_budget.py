@@ -11,7 +11,7 @@ from common import error_budgets
 from stickiness import datasets
 from stickiness import error_budget as budget
 from stickiness.accuracy.error_models import Surface, read_models, single_error
-from stickiness.accuracy.prediction import Problem
+from stickiness.accuracy.settings import Problem
 
 LAWS = read_models(Path(__file__).parents[2] / "config/accuracy.csv")
 NONE = budget.absent("made up")
@@ -82,7 +82,7 @@ def test_an_accuracy_of_which_nothing_is_known_is_missed():
     known = xr.DataArray([[0.01, 0.01], [0.01, np.nan]], dims=list(at), coords=at)
     answer = xr.Dataset({"value": xr.ones_like(known), "value_total_error": known})
     problem = Problem(LAWS, Surface(0.8, 32), at["pressure"], at["column"])
-    text = answer_case.describe_miss(answer, problem, {"accuracy": 0.05}, "mine")
+    text = answer_case.describe_miss(answer, problem, None, {"accuracy": 0.05}, "mine")
     assert text == "error of a_v at pressure 0.1 not known"
 
 

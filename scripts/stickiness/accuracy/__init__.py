@@ -2,8 +2,7 @@
 
 - `quantities`: the quantities that a case may ask for, in one table
 - `error_models`: errors and costs as measured, as functions of surface, load and settings
-- `prediction`: error and cost of settings, from these models
-- `settings`: the cheapest settings for an accuracy, with and without adhesion
+- `settings`: error and cost of settings by these models, and the cheapest for an accuracy
 - `plan`: the settings of each case of the configuration, and which cases share solutions
 - `multilevel`: means over random surfaces, with control variates on two levels
 - `model_choice`: whether the DMT limit is accurate enough, or full adhesion is needed

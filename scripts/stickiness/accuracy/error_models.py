@@ -33,8 +33,9 @@ MEASURED = {
     "window": (1.0, 4.0),
     "pressure": (0.0065, 0.3),
 }
-# Finer settings have at most the error at the edge; coarser ones are outside what was measured.
-KNOBS = {"pixels": (4.0, 16.0), "tolerance": (1e-8, 1e-3)}
+# Finer settings have at most the error of the finest; coarser ones are outside what was measured.
+FINEST = {"pixels": 16.0, "tolerance": 1e-8}
+COARSEST = {"pixels": 4.0, "tolerance": 1e-3}
 OUTSIDE = 2.0  #: factor by which errors outside are widened; P(u) at magnification 128 needs 1.1
 
 
@@ -120,13 +121,20 @@ def nearest_measured(surface: Surface, pressure: float) -> tuple[Surface, float,
 
 
 def single_error(
-    models: ErrorModels, part: str, column: str, surface: Surface, pressure: float, **knob: float
+    models: ErrorModels,
+    part: str,
+    column: str,
+    surface: Surface,
+    pressure: float,
+    pixels: float = FINEST["pixels"],
+    tolerance: float = FINEST["tolerance"],
 ) -> float:
     """Return one part of an error, covering 90 %; widened outside what was measured."""
     model, (surface, pressure, factor) = models[part, column], nearest_measured(surface, pressure)
-    if is_coarse(**knob):
+    if is_coarse(pixels, tolerance):
         factor *= OUTSIDE
-    return factor * model.spread * model(surface, pressure, **at_most_finest(**knob))
+    finest = min(pixels, FINEST["pixels"]), max(tolerance, FINEST["tolerance"])
+    return factor * model.spread * model(surface, pressure, *finest)
 
 
 def grid_error(
@@ -143,20 +151,16 @@ def grid_error(
     return float(np.fmin(found, by_model))
 
 
-def is_coarse(pixels: float = 8.0, tolerance: float = 1e-8) -> bool:
+def is_coarse(pixels: float, tolerance: float) -> bool:
     """Whether a grid or a tolerance is coarser than what was measured."""
-    return pixels < KNOBS["pixels"][0] or tolerance > KNOBS["tolerance"][1]
-
-
-def at_most_finest(**knob: float) -> dict[str, float]:
-    """Return pixels or tolerance as given, or if they are finer the finest measured."""
-    finest = {"pixels": KNOBS["pixels"][1], "tolerance": KNOBS["tolerance"][0]}
-    finer = {"pixels": min, "tolerance": max}
-    return {name: finer[name](value, finest[name]) for name, value in knob.items()}
+    return pixels < COARSEST["pixels"] or tolerance > COARSEST["tolerance"]
 
 
 def extrapolated(
-    surface: Surface, pressure: float, pixels: float = 8.0, tolerance: float = 1e-8
+    surface: Surface,
+    pressure: float,
+    pixels: float = FINEST["pixels"],
+    tolerance: float = FINEST["tolerance"],
 ) -> bool:
     """Whether anything that errors are taken from is outside what was measured."""
     return nearest_measured(surface, pressure)[-1] > 1 or is_coarse(pixels, tolerance)

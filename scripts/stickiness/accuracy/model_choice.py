@@ -1,10 +1,9 @@
 """Which adhesive model a set of parameters gets: the DMT limit where it is good enough, or full.
 
-The DMT limit costs nothing once the contact without adhesion is solved. Where it holds within the
-accuracy asked is read off a table of its measured error, over all that a contact depends on: law,
-Hurst exponent and magnification of the surface (Gaussian, a window of one longest wavelength),
-pressure p/(E* q0 h_rms), range/h_rms and strength (l_a/range)/(q0 h_rms) of the attraction. Beyond
-the table nothing is known, and the full model is chosen.
+The DMT limit costs nothing once the contact without adhesion is solved. A table of its measured
+error says where it holds within an accuracy, by law, Hurst exponent and magnification of the
+surface (Gaussian, a window of one longest wavelength), pressure p/(E* q0 h_rms), range/h_rms and
+strength (l_a/range)/(q0 h_rms). Beyond the table nothing is known, and the full model is chosen.
 """
 
 from __future__ import annotations
@@ -19,13 +18,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from stickiness.accuracy.error_models import Surface
 from stickiness.arguments import positive
 from stickiness.criteria.area_load import jtb_limit
 from stickiness.units import si
 
 AXES = ("magnification", "pressure", "range_over_h_rms", "strength")
 COLUMNS = ("law", "hurst", *AXES, "ratio", "error")
-
 _ROUNDING = 1e-9  # relative, of the ends of an axis
 
 
@@ -50,21 +49,22 @@ class ErrorTable:
             return np.nan
         positive(values=values)
         axes, ratio, error = self.lattices[law, hurst]
-        weights = [_weights(axis, np.log(value)) for axis, value in zip(axes, values, strict=True)]
-        if any(weight is None for weight in weights):
+        # Without neighbours, outside the table, no corner is left.
+        corners = [_neighbours(axis, np.log(v)) for axis, v in zip(axes, values, strict=True)]
+        if not all(corners):
             return np.nan
         mean, spread = 0.0, 0.0
-        for corner in product(*weights):
+        for corner in product(*corners):
             index, share = zip(*corner, strict=True)
             mean += np.prod(share) * ratio[index]
             spread += np.prod(share) * error[index]
         return float(max(abs(np.expm1(-mean - spread)), abs(np.expm1(-mean + spread))))
 
 
-def _weights(axis: NDArray, value: float) -> list[tuple[int, float]] | None:
-    """Neighbouring points of an axis and their shares in a value between; None outside."""
+def _neighbours(axis: NDArray, value: float) -> list[tuple[int, float]]:
+    """Neighbouring points of an axis and their shares in a value between; none outside."""
     if not axis[0] - _ROUNDING <= value <= axis[-1] + _ROUNDING:
-        return None
+        return []
     exact = np.flatnonzero(np.isclose(axis, value, rtol=0, atol=_ROUNDING))
     if exact.size:
         return [(int(exact[0]), 1.0)]
@@ -82,32 +82,28 @@ def read_table(path: str | Path) -> ErrorTable:
         lines = Path(path).read_text(encoding="utf-8").splitlines()
     except FileNotFoundError:
         raise ValueError(f"{path}: no such file; the target dmt_error makes it") from None
-    reader = csv.DictReader(lines)
-    if tuple(reader.fieldnames or ()) != COLUMNS:
+    if tuple(lines[0].split(",")) != COLUMNS:
         raise ValueError(f"{path}: the columns must be {','.join(COLUMNS)}, got {lines[:1]}")
-    rows: dict[tuple[str, float], dict[tuple[float, ...], tuple[float, float]]] = {}
-    for row in reader:
+    groups: dict[tuple[str, float], list[list[float]]] = {}
+    for number, (law, *texts) in enumerate(csv.reader(lines[1:]), 2):
         try:
-            hurst, *point, ratio, error = (float(row[name]) for name in COLUMNS[1:])
-        except (TypeError, ValueError):
-            hurst, point, ratio, error = 0.0, [0.0], 0.0, 0.0
-        if min(*point, ratio) <= 0 or not error >= 0:
+            hurst, *values, error = map(float, texts)
+            if len(texts) + 1 != len(COLUMNS) or min(values) <= 0 or not error >= 0:
+                raise ValueError
+        except ValueError:
             raise ValueError(
-                f"{path}: line {reader.line_num}: {lines[reader.line_num - 1]!r} must hold "
-                "positive numbers after the law"
-            )
-        logs = tuple(float(value) for value in np.log(point))
-        rows.setdefault((row["law"], hurst), {})[logs] = np.log(ratio), error / ratio
-    return ErrorTable({group: _lattice(points) for group, points in rows.items()})
-
-
-def _lattice(points):
-    axes = tuple(np.unique(values) for values in zip(*points, strict=True))
-    ratio, error = np.full((2, *map(len, axes)), np.nan)
-    for point, values in points.items():
-        index = tuple(int(np.searchsorted(a, v)) for a, v in zip(axes, point, strict=True))
-        ratio[index], error[index] = values
-    return axes, ratio, error
+                f"{path}: line {number}: {lines[number - 1]!r} must hold positive numbers after "
+                "the law"
+            ) from None
+        groups.setdefault((law, hurst), []).append([*np.log(values), error / values[-1]])
+    lattices = {}
+    for group, rows in groups.items():
+        *points, ratios, errors = np.transpose(rows)
+        axes, places = zip(*(np.unique(x, return_inverse=True) for x in points), strict=True)
+        lattice = np.full((2, *map(len, axes)), np.nan)
+        lattice[:, *places] = ratios, errors
+        lattices[group] = axes, *lattice
+    return ErrorTable(lattices)
 
 
 @dataclass(frozen=True, eq=False)
@@ -134,23 +130,15 @@ def choose(asked: Mapping[str, Any], surface: Mapping[str, Any], table: ErrorTab
     limit = jtb_limit(1.0, lengths[:, None] * ranges * q0_h_rms, ranges * q0_h_rms)
     jtb = np.broadcast_to(q0_h_rms > limit, shape)
     error = np.full(shape, np.nan)
-    if is_tabulated(surface):
-        kind = asked["law"], surface["hurst"], surface["magnification"]
+    kind = Surface.of(surface)
+    if kind.kind_measured and kind.window == 1:
         for i, j, k in np.ndindex(shape):
             point = pressures[i], ranges[k], lengths[j] / q0_h_rms
-            error[i, j, k] = table.relative_error(*kind, *point)
+            of_surface = asked["law"], kind.hurst, kind.magnification
+            error[i, j, k] = table.relative_error(*of_surface, *point)
     good = jtb & (error <= asked.get("accuracy", 0.0))
     full = {"dmt": np.zeros(shape, bool), "full": np.ones(shape, bool), "auto": ~good}
     return Choice(full[asked["model"]], error, jtb)
-
-
-def is_tabulated(surface: Mapping[str, Any]) -> bool:
-    """Whether a model surface is of the kind that the table was measured on."""
-    return (
-        surface.get("window", 1) == 1
-        and "rolloff" not in surface
-        and surface.get("amplitudes", "gaussian") == "gaussian"
-    )
 
 
 def roughness(asked: Mapping[str, Any]) -> float:

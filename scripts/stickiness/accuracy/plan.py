@@ -7,15 +7,14 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from stickiness.accuracy.error_models import ErrorModels, Settings, Surface
-from stickiness.accuracy.prediction import Problem
-from stickiness.accuracy.quantities import (
-    MEASURED,
-    MODELLED,
-    QUANTITIES,
-    columns_of,
-    refuse_unknown,
+from stickiness.accuracy.quantities import MEASURED, MODELLED, QUANTITIES, columns_of
+from stickiness.accuracy.settings import (
+    SEEDS,
+    Problem,
+    UnreachableError,
+    allow_for_few_seeds,
+    cheapest,
 )
-from stickiness.accuracy.settings import SEEDS, UnreachableError, allow_for_few_seeds, cheapest
 
 FEWEST_COARSE = 64  #: coarse seeds if nothing says how many
 FIRST_FILE = 64  #: coarse seeds in the first file of a case
@@ -66,12 +65,17 @@ def plans_of(config: Mapping[str, Any], models: ErrorModels) -> dict[str, Plan]:
     for name, case in config["cases"].items():
         quantities = tuple(case.get("quantities", MODELLED))
         simulated = case.get("model", "simulation") == "simulation"
-        refuse_unknown(
-            quantities,
-            f"cases.{name}.quantities",
-            by_theory=not simulated,
-            within_accuracy="accuracy" in case,
-        )
+        for quantity in quantities:
+            key = f"cases.{name}.quantities"
+            if quantity in MEASURED and not simulated:
+                raise ValueError(
+                    f"{key}: theory does not give {quantity}; simulate it, or leave it out"
+                )
+            if quantity not in MODELLED and "accuracy" in case:
+                raise ValueError(
+                    f"{key}: the errors of {quantity} were not measured, so that no accuracy can "
+                    "be promised; give seeds in place of accuracy, or leave it out"
+                )
         settings, pressures = settings_of(name, config, models), tuple(sorted(case["pressures"]))
         plan = Plan(settings, quantities, pressures, case["surface"], simulated, name)
         earlier = (key for key, other in plans.items() if can_reuse(plan, other))
@@ -85,45 +89,35 @@ def settings_of(name: str, config: Mapping[str, Any], models: ErrorModels) -> Se
     `sampling` and `seeds` of the case override both. `seeds` at the top of the configuration
     override the preset.
     """
-    case = config["cases"][name]
-    if "accuracy" in case:
-        chosen = cheapest_for(name, config, models)
-        at_most = case.get("at_most", config["sampling"].get("at_most", SEEDS[-1]))
-        return replace(chosen, seeds=case.get("seeds", min(chosen.seeds, at_most)))
-    chosen = preset(config["fidelities"][config["fidelity"]])
-    seeds = case.get("seeds", config.get("seeds", chosen.seeds))
-    coarse = 0 if takes_plain_means(case, config) else chosen.coarse_seeds
-    return replace(chosen, seeds=seeds, coarse_seeds=coarse)
-
-
-def takes_plain_means(case: Mapping[str, Any], config: Mapping[str, Any]) -> bool:
-    return case.get("sampling", config["sampling"]["method"]) == "plain"
+    case, sampling = config["cases"][name], config["sampling"]
+    plain = case.get("sampling", sampling["method"]) == "plain"
+    if "accuracy" not in case:
+        chosen = preset(config["fidelities"][config["fidelity"]])
+        seeds = case.get("seeds", config.get("seeds", chosen.seeds))
+        return replace(chosen, seeds=seeds, coarse_seeds=0 if plain else chosen.coarse_seeds)
+    problem = Problem(
+        models,
+        Surface.of(config["model_surfaces"][case["surface"]]),
+        sorted(case["pressures"]),
+        columns_of(case.get("quantities", MODELLED)),
+        sampling["descriptor_seeds"],
+    )
+    accuracy = case["accuracy"]
+    try:
+        chosen = cheapest(problem, accuracy, plain=plain or None)
+    except UnreachableError as error:
+        raise UnreachableError(
+            f"cases.{name}.accuracy = {accuracy!r} is out of reach: {error}"
+        ) from None
+    chosen = allow_for_few_seeds(problem, chosen, accuracy)
+    at_most = case.get("at_most", sampling.get("at_most", SEEDS[-1]))
+    return replace(chosen, seeds=case.get("seeds", min(chosen.seeds, at_most)))
 
 
 def preset(fidelity: Mapping[str, Any]) -> Settings:
     """Return the settings of a preset of the configuration."""
     chosen = (fidelity[key] for key in ("pixels_per_wavelength", "tolerance", "seeds"))
     return Settings(*chosen, fidelity.get("coarse_seeds", FEWEST_COARSE))
-
-
-def cheapest_for(name: str, config: Mapping[str, Any], models: ErrorModels) -> Settings:
-    """Return the settings predicted to be the cheapest for the accuracy of a case."""
-    case = config["cases"][name]
-    accuracy = case["accuracy"]
-    problem = Problem(
-        models,
-        Surface.of(config["model_surfaces"][case["surface"]]),
-        sorted(case["pressures"]),
-        columns_of(case.get("quantities", MODELLED)),
-        config["sampling"]["descriptor_seeds"],
-    )
-    only_plain = True if takes_plain_means(case, config) else None
-    try:
-        return allow_for_few_seeds(problem, cheapest(problem, accuracy, plain=only_plain), accuracy)
-    except UnreachableError as error:
-        raise UnreachableError(
-            f"cases.{name}.accuracy = {accuracy!r} is out of reach: {error}; {error.remedy}"
-        ) from None
 
 
 def can_reuse(plan: Plan, other: Plan) -> bool:

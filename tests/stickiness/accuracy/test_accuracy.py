@@ -6,12 +6,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-import yaml
 from helpers.laws import SMOOTH, made_up, problem
 from scipy import stats
 
 from stickiness import dmt, repulsive, spectrum, surface
-from stickiness.accuracy import plan
 from stickiness.accuracy.error_models import (
     OUTSIDE,
     ErrorModel,
@@ -23,24 +21,21 @@ from stickiness.accuracy.error_models import (
     single_error,
     write_models,
 )
-from stickiness.accuracy.prediction import (
+from stickiness.accuracy.settings import (
+    COARSE_SEEDS,
+    PIXELS,
     SAFETY,
+    SEEDS,
+    TOLERANCES,
     Problem,
+    UnreachableError,
+    cheapest,
     covering_factor,
     error_parts,
     joint_error,
     predicted_cost,
-    worst_error,
-)
-from stickiness.accuracy.settings import (
-    COARSE_SEEDS,
-    PIXELS,
-    SEEDS,
-    TOLERANCES,
-    UnreachableError,
-    cheapest,
-    preset_by_rule,
     seeds_enough,
+    worst_error,
 )
 from stickiness.statistics import COVERS
 
@@ -74,27 +69,18 @@ def test_cost_by_hand():
     assert cost == pytest.approx(2 * saved * (3 * (64 + 16 + 4) + 50 * 4) + 2000 * 0.001)
 
 
-@pytest.fixture(scope="module")
-def every():
-    """Worst error and cost at all settings."""
-    wanted = problem("area", "a_v", pressures=LOADS)
-    return [
-        (worst_error(wanted, settings)[0], predicted_cost(wanted, settings))
-        for settings in itertools.starmap(
-            Settings, itertools.product(PIXELS, TOLERANCES, SEEDS, COARSE_SEEDS)
-        )
-    ]
-
-
 @pytest.mark.slow
-@pytest.mark.parametrize("asked", [0.3, 0.1, 0.05, 0.02])
-def test_cheapest_is_that_of_all_settings(asked, every):
-    wanted = problem("area", "a_v", pressures=LOADS)
-    chosen = cheapest(wanted, asked)
-    costs = [cost for error, cost in every if error <= asked]
-    assert worst_error(wanted, chosen)[0] <= asked
-    cost = predicted_cost(wanted, chosen)
-    assert min(costs) <= cost * (1 + 1e-9) <= 1.05 * min(costs) * (1 + 1e-8)
+def test_cheapest_is_that_of_all_settings():
+    wanted, every = problem("area", "a_v", pressures=LOADS), []
+    for one in itertools.product(PIXELS, TOLERANCES, SEEDS, COARSE_SEEDS):
+        settings = Settings(*one)
+        every.append((worst_error(wanted, settings)[0], predicted_cost(wanted, settings)))
+    for asked in (0.3, 0.1, 0.05, 0.02):
+        chosen = cheapest(wanted, asked)
+        least = min(cost for error, cost in every if error <= asked)
+        assert worst_error(wanted, chosen)[0] <= asked
+        cost = predicted_cost(wanted, chosen)
+        assert least <= cost * (1 + 1e-9) <= 1.05 * least * (1 + 1e-8)
 
 
 def test_least_settings_are_kept():
@@ -146,26 +132,6 @@ def test_bad_tables(tmp_path):
     (tmp_path / "laws.csv").write_text("part,quantity,constant\nscatter,area,x\n", encoding="utf-8")
     with pytest.raises(ValueError, match="not a table of error models"):
         read_models(tmp_path / "laws.csv")
-
-
-# --- the table that is used -------------------------------------------------------------------
-
-
-@pytest.fixture(scope="module")
-def config():
-    return yaml.safe_load((ROOT / "config/config.yaml").read_text(encoding="utf-8"))
-
-
-@pytest.mark.slow
-def test_presets_are_what_the_rule_gives(config):
-    trade = yaml.safe_load((ROOT / "config/campaigns/tradeoff.yaml").read_text(encoding="utf-8"))
-    laws, asked = read_models(TABLE), trade["presets"]
-    surface_asked = config["model_surfaces"][asked["surface"]]
-    for name in asked["accuracy"]:
-        chosen = preset_by_rule(
-            laws, asked, name, surface_asked, config["sampling"]["descriptor_seeds"]
-        )
-        assert plan.preset(config["fidelities"][name]) == chosen, name
 
 
 @pytest.mark.slow
@@ -252,18 +218,18 @@ def test_outside_the_measurement_laws_stop_and_widen():
 
 
 @pytest.mark.parametrize(
-    ("knob", "factor"), [({"pixels": 2.0}, 2.0), ({"pixels": 64.0}, 1.0), ({"pixels": 8.0}, 1.0)]
+    ("part", "knob", "error"),
+    [
+        ("discretisation", {"pixels": 2.0}, 2 * 2 / 2**2),
+        ("discretisation", {"pixels": 8.0}, 2 / 8**2),
+        ("discretisation", {"pixels": 64.0}, 2 / 16**2),
+        ("solver", {"tolerance": 1e-2}, 2e-2),
+        ("solver", {"tolerance": 1e-14}, 1e-8),
+    ],
 )
-def test_grids_outside_the_measurement_widen(knob, factor):
-    """Coarser ones by a factor; finer ones are not taken to be better than the finest measured."""
-    found = single_error(made_up(), "discretisation", "area", SMOOTH, 0.1, **knob)
-    assert found == pytest.approx(factor * 2 / min(knob["pixels"], 16.0) ** 2)
-
-
-def test_tolerances_outside_the_measurement_widen():
-    where = made_up(), "solver", "area", SMOOTH, 0.1
-    assert single_error(*where, tolerance=1e-2) == pytest.approx(2e-2)
-    assert single_error(*where, tolerance=1e-14) == pytest.approx(1e-8)
+def test_settings_outside_the_measurement(part, knob, error):
+    """Coarser ones widen the error; finer ones are not taken to be better than the finest."""
+    assert single_error(made_up(), part, "area", SMOOTH, 0.1, **knob) == pytest.approx(error)
 
 
 SAME = {"hurst": 0.8, "magnification": 32}

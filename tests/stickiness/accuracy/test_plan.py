@@ -8,12 +8,13 @@ from helpers.laws import made_up, problem
 
 from stickiness.accuracy import plan
 from stickiness.accuracy.error_models import Settings
-from stickiness.accuracy.prediction import (
+from stickiness.accuracy.settings import (
+    UnreachableError,
+    cheapest,
     covering_factor,
     error_parts,
     joint_error,
 )
-from stickiness.accuracy.settings import UnreachableError, cheapest
 
 PRESET = {"pixels_per_wavelength": 8, "tolerance": 1e-8, "seeds": 5, "coarse_seeds": 40}
 
@@ -79,17 +80,12 @@ def test_seeds_of_a_case_stand_above_its_accuracy_and_a_cap_holds_for_what_is_ch
     assert len(grids) == 1  # more seeds keep what is solved
 
 
-@pytest.mark.parametrize("count", [0, 1, 32, 64, 65, 320, 2048])
-def test_files_of_coarse_seeds_hold_each_once(count):
-    parts = plan.coarse_batches(count)
-    seeds = [seed for part in parts for seed in plan.coarse_range(part)]
-    assert seeds == list(range(count))
-
-
-@pytest.mark.parametrize(("count", "more"), [(64, 65), (96, 128), (320, 1024)])
-def test_more_coarse_seeds_keep_all_files_but_the_last(count, more):
+@pytest.mark.parametrize(("count", "more"), [(0, 1), (32, 64), (64, 65), (96, 128), (320, 1024)])
+def test_files_of_coarse_seeds_hold_each_once_and_more_seeds_keep_all_but_the_last(count, more):
     few, many = plan.coarse_batches(count), plan.coarse_batches(more)
-    assert few[:-1] == many[: len(few) - 1]
+    seeds = [seed for part in few for seed in plan.coarse_range(part)]
+    assert seeds == list(range(count))
+    assert few[:-1] == many[: max(len(few) - 1, 0)]
 
 
 @pytest.mark.parametrize(
@@ -104,15 +100,15 @@ def test_quantities_that_nothing_knows_are_refused_at_start(case, message):
         plan.plans_of(config(a={"quantities": ["contact_slope"], **case}), made_up())
 
 
-def test_solutions_without_a_measured_quantity_are_not_shared_with_what_needs_it():
-    slope = {"quantities": ["area", "contact_slope"]}
-    plans = plan.plans_of(config(first={}, later=slope, last=slope), made_up())
-    assert [plans[name].solved_by for name in ("first", "later", "last")] == [
-        "first",
-        "later",
-        "later",
-    ]
-    assert plans["later"].measured == ("contact_slope",)
+@pytest.mark.parametrize(
+    ("first", "needed"),
+    [({}, ["area", "contact_slope"]), ({"quantities": ["area"]}, ["area", "attractive_area"])],
+)
+def test_solutions_that_lack_a_quantity_are_not_shared_with_what_needs_it(first, needed):
+    cases = config(first=first, later={"quantities": needed}, last={"quantities": needed})
+    plans = plan.plans_of(cases, made_up())
+    assert [one.solved_by for one in plans.values()] == ["first", "later", "later"]
+    assert set(plans["later"].measured) == set(needed) & {"contact_slope"}
 
 
 def test_accuracy_out_of_reach_names_the_case():
@@ -137,8 +133,3 @@ def test_accuracy_out_of_reach_names_the_case():
 def test_which_solutions_are_reused(later, reuses):
     plans = plan.plans_of(config(first={}, later=later), made_up())
     assert plans["later"].solved_by == ("first" if reuses else "later")
-
-
-def test_what_holds_no_gaps_is_not_shared_with_what_needs_them():
-    plans = plan.plans_of(config(first={"quantities": ["area"]}, later={}), made_up())
-    assert plans["later"].solved_by == "later"
