@@ -17,6 +17,7 @@ WELL_KNOWN = 0.25  # relative error of a predicted work that counts as met
 RESOLVED = 3.9  # pixels in the cohesive zone from which simulated works are taken as known
 LEAST = 0.05  # remaining share from which predicted works are compared
 LEAST_AREA = 0.2  # attractive over contact area from which the sphere is compared
+ENERGY_RATIOS = (0.3, 0.4, 0.6, 0.8, 1.1, 1.5, 2.5)  # bins of w/U_full
 SHOWN_SETTINGS = ("points per wavelength", "seeds", "model")  # without adhesion
 
 
@@ -83,7 +84,7 @@ def compare_remaining(table):
         [(fine.predicted / fine[n])[fine[n] > LEAST] for n in ("approach", "separation")]
     )
     tough = table[table.zone < 0.11]
-    groups = tough.groupby(pd.cut(tough.energy_ratio, remaining_table.BINS), observed=True)
+    groups = tough.groupby(pd.cut(tough.energy_ratio, ENERGY_RATIOS), observed=True)
     columns = ["energy_ratio", "approach", "separation", "predicted", "pull_off"]
     return {
         "points": len(table),
