@@ -3,7 +3,7 @@
 from collections.abc import Iterable, Mapping
 from typing import Any
 
-from criteria.materials import read_material
+from common.materials import read_material
 
 MATERIALS = ("psa", "pdms", "natural_rubber", "pmma", "steel", "crystal", "soft_block")
 SURFACES = ("upper_line", "lower_line", "asphalt", "sandblasted_pmma", "ground_steel")

@@ -20,8 +20,8 @@ from common.config.entries import measurements
 from common.contact_curves import load_curve, measure
 from common.formatting import amount, percent
 from common.job import start
-from criteria.materials import read_material
-from criteria.texts import LEAST_SHOWN
+from common.materials import read_material
+from common.verdicts import LEAST_SHOWN
 from real_surfaces.measured_surface import find_cutoff, read_levelled
 from report.contact_figure import draw_still
 from stickiness import datasets, remaining

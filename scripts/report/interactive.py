@@ -8,7 +8,7 @@ from bokeh.resources import Resources
 from markupsafe import Markup
 
 from common.plotting import BLUE, GREEN, ORANGE, RED
-from criteria.classification import find_limits
+from common.verdicts import find_limits
 from stickiness.remaining.prediction import DEFAULT_SHARE, SHORT_RANGE, Roughness
 
 LOOKS = (  # of the verdicts, in the order of their codes

@@ -10,7 +10,7 @@ from bokeh.models.layouts import TabPanel
 from common import plotting
 from common.formatting import number, quantity, unit_for
 from common.plotting import BLACK, COLOURS, GREY, MARKERS
-from criteria.texts import MPA, round_share, show_shares, show_stress
+from common.verdicts import MPA, round_share, show_shares, show_stress
 from report.interactive import draw_wanted_share, make_plot
 from stickiness.criteria.pair import NOT_JUDGED
 from stickiness.remaining.prediction import DEFAULT_SHARE

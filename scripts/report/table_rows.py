@@ -12,12 +12,13 @@ from common.formatting import (
     quantity_with_error,
     with_error,
 )
-from criteria.classification import MOST_STRAIN, find_limits
-from criteria.texts import (
+from common.verdicts import (
+    MOST_STRAIN,
     MPA,
     describe_pull_off,
     describe_share,
     describe_threshold,
+    find_limits,
     round_share,
     show_probability,
     show_stress,

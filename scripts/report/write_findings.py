@@ -4,6 +4,7 @@ import numpy as np
 import pandas as pd
 
 from common import remaining_table
+from common import tradeoff_table as summary
 from common.conventions import VARIANT, at_load
 from common.job import start
 from common.templates import write_page
@@ -11,7 +12,6 @@ from figures.plot_fig10 import select_certain
 from stickiness import datasets, error_budget
 from stickiness.criteria import equivalent_sphere
 from stickiness.criteria.pair import WORDS
-from tradeoff import summary
 
 WELL_KNOWN = 0.25  # relative error of a predicted work that counts as met
 RESOLVED = 3.9  # pixels in the cohesive zone from which simulated works are taken as known

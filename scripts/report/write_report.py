@@ -7,12 +7,12 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
+from common import experiment_outcomes as experiments
 from common import provided
 from common.conventions import at_load
 from common.job import start
+from common.materials import describe_modulus
 from common.templates import write_page
-from criteria.materials import describe_modulus
-from experiments import outcomes as experiments
 from report import interactive, pages
 from report.table_rows import TONES, describe_pair, describe_surface
 from stickiness import datasets, error_budget

@@ -7,9 +7,9 @@ from common import provided
 from common.conventions import LOAD
 from common.formatting import NOTHING, interval, number, quantity, with_error
 from common.job import start
+from common.materials import RATE_KEYS, describe_modulus, read_material
 from common.templates import write_page
-from criteria.materials import RATE_KEYS, describe_modulus, read_material
-from criteria.texts import describe_pull_off, describe_share
+from common.verdicts import describe_pull_off, describe_share
 from report import contact_figure, interactive, pages, surface_figures
 from report.table_rows import describe_pair, describe_surface, explain
 from stickiness import datasets

@@ -7,9 +7,10 @@ import numpy as np
 import pytest
 from helpers.experiments import EXPERIMENTS, known, make_dataset, observe, seen
 
-from experiments import outcomes, plot_experiments
+from common import experiment_outcomes as outcomes
+from common.experiment_outcomes import COMPATIBLE, MISSED, SILENT, SOME
+from experiments import plot_experiments
 from experiments import predict_experiments as experiments
-from experiments.outcomes import COMPATIBLE, MISSED, SILENT, SOME
 from experiments.predict_experiments import ROUGHNESS
 from stickiness import datasets
 from stickiness.criteria.registry import CRITERIA

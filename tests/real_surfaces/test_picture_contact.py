@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from criteria.materials import Material, read_material
+from common.materials import Material, read_material
 from real_surfaces import (
     analyse_surface,
     contact_measured,

@@ -12,8 +12,8 @@ from helpers.experiments import EXPERIMENTS, make_dataset
 from helpers.pages import Page, make_job
 from matplotlib.figure import Figure
 
+from common import verdicts as texts
 from common.formatting import number
-from criteria import texts
 from report import interactive, pages, write_report
 from report.table_rows import describe_pair, describe_surface
 from stickiness import datasets

@@ -10,9 +10,10 @@ import xarray as xr
 from helpers.pages import Page, make_job
 
 from common.formatting import number, with_error
+from common.materials import read_material
+from common.verdicts import find_limits
 from criteria import judge_surface, judging, pair_roughness
-from criteria.classification import find_doubts, find_limits
-from criteria.materials import read_material
+from criteria.classification import find_doubts
 from real_surfaces import analyse_surface, contact_measured, picture_contact
 from report import contact_figure, surface_figures, write_surface
 from report.table_rows import describe_pair

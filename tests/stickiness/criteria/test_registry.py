@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 import xarray as xr
 
+from common.materials import read_material
 from common.plotting import make_panels
 from criteria import compare_criteria, judging, pair_roughness
 from criteria.judge import describe_page
-from criteria.materials import read_material
 from figures import plot_fig9
 from report import table_rows, write_report
 from stickiness.criteria.a_v_table import SurfaceAv
