@@ -25,7 +25,8 @@ PAGES = {
     "surface": (
         "report/surfaces/jacksboro.html",
         1300,
-        "main > :not(h1, #touch, #touch + figure) { display: none !important }",
+        "main > :not(h1, #contact, #contact + p, #contact + p + figure)"
+        "{ display: none !important }",
     ),
 }
 FIGURES = ("fig11",)

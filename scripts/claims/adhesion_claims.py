@@ -36,6 +36,7 @@ def kappa_threshold(files: Files) -> Finding:
     range_ = crossed[0] if crossed else solved.range_over_h_rms[-1]
     at = full.sel(range_over_h_rms=range_)
     threshold, errors = find_zero(at, "inverse_kappa")
+    fitted, fit_errors = find_zero(at, "inverse_kappa_fit")  # over all loads
     crosses = bool(np.isfinite(threshold))
     weakest = limit.sel(range_over_h_rms=range_).isel(adhesion_length_over_range=0)
     smallest = full.isel(range_over_h_rms=0)
@@ -51,18 +52,12 @@ def kappa_threshold(files: Files) -> Finding:
             "cell": describe_cell(full),
             "dmt": weakest.adhesion_length_over_range / (2 * weakest.inverse_kappa_ad),
             "lowest": at.inverse_kappa.min().fillna(0.5),
-            "fitted": fit_threshold(at),
+            "fitted": (fitted, np.linalg.norm([*fit_errors.values()])),
             "half": describe_half(at) if crosses else None,
             "areas": list_areas(loads.sel(range_over_h_rms=float(range_))),
             "smallest": (smallest.range_over_h_rms, largest_simulated(smallest)),
         },
     )
-
-
-def fit_threshold(data: xr.Dataset) -> tuple[float, float]:
-    """Threshold of the slope fitted over all loads, with its error; NaN if there is none."""
-    fitted, errors = find_zero(data, "inverse_kappa_fit")
-    return fitted, float(np.linalg.norm([*errors.values()]))
 
 
 def describe_half(data: xr.Dataset) -> dict:

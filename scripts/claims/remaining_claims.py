@@ -16,7 +16,7 @@ from claims.criterion_claims import (
     WORK_OF_ADHESION,
 )
 from claims.ledger import NOT, OPEN, QUALIFIED, REPRODUCED, Files, Finding, claim, grade
-from experiments.outcomes import COMPATIBLE, GRADES, MISSED, SILENT, SOME
+from common.experiment_outcomes import COMPATIBLE, GRADES, MISSED, SILENT, SOME
 from stickiness import criteria, datasets
 from stickiness.remaining import Roughness, predict
 from stickiness.remaining.prediction import DEFAULT_SHARE

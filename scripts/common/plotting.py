@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import logging
 import string
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
@@ -15,13 +15,10 @@ mpl.use("Agg")  # no display on a cluster
 
 import matplotlib.pyplot as plt
 import numpy as np
-import xarray as xr
 from matplotlib.axes import Axes
-from matplotlib.axis import Axis
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.ticker import FixedLocator, FuncFormatter, NullFormatter
-from numpy.typing import ArrayLike, NDArray
 
 from common.formatting import number
 from common.job import start
@@ -90,12 +87,23 @@ def start_figure(names: dict[str, Any]) -> Any:
     return start(names, Path(names["__file__"]).stem)
 
 
-def make_panels(
-    rows: str | Sequence[Sequence[str]], height: float, **grid: Any
-) -> tuple[Figure, dict[str, Axes]]:
+def make_panels(rows: Any, height: float, **grid: Any) -> tuple[Figure, dict[str, Axes]]:
     """Figure of `height` inches with lettered panels laid out as in ``subplot_mosaic("AB;CC")``."""
     mpl.rcParams.update(SETTINGS)
     return plt.subplot_mosaic(rows, figsize=(WIDTH, height), **grid)
+
+
+@contextmanager
+def open_figure(
+    outputs: Iterable[str], rows: Any, height: float, **grid: Any
+) -> Iterator[dict[str, Axes]]:
+    """Panels to draw in; at the end those named by a letter show it and the files are written."""
+    figure, panels = make_panels(rows, height, **grid)
+    yield panels
+    for name, ax in panels.items():
+        if name in string.ascii_uppercase:
+            ax.set_title(name, loc="left", fontweight="bold", fontsize=10)
+    save(figure, outputs)
 
 
 def save(figure: Figure, outputs: Iterable[str]) -> None:
@@ -112,45 +120,30 @@ def save(figure: Figure, outputs: Iterable[str]) -> None:
     plt.close(figure)
 
 
-@contextmanager
-def open_figure(
-    outputs: Iterable[str], rows: str | Sequence[Sequence[str]], height: float, **grid: Any
-) -> Iterator[dict[str, Axes]]:
-    """Panels to draw in; at the end those named by a letter show it and the files are written."""
-    figure, panels = make_panels(rows, height, **grid)
-    yield panels
-    for name, ax in panels.items():
-        if name in string.ascii_uppercase:
-            ax.set_title(name, loc="left", fontweight="bold", fontsize=10)
-    save(figure, outputs)
-
-
 def state(**values: float) -> str:
     """Equations like "H = 0.8, ζ = 64" for the quantities of `SYMBOLS`."""
     return ", ".join(f"{SYMBOLS[name]} = {number(value)}" for name, value in values.items())
 
 
-def pick_look(index: int, **more: Any) -> dict[str, Any]:
+def pick_look(index, **more):
     """Colour and marker of one of several sets of points."""
     colour, marker = COLOURS[index % len(COLOURS)], MARKERS[index % len(MARKERS)]
     return {"color": colour, "marker": marker} | more
 
 
-def shade(values: Sequence) -> Iterator[tuple[NDArray, Any]]:
+def shade(values):
     """Every value of an ordered family with its colour, from dark to light."""
     colours = mpl.colormaps["cividis"](np.linspace(0, 0.9, len(values)))
     return zip(colours, values, strict=True)
 
 
-def read_errors(data: xr.Dataset, name: str) -> tuple[xr.DataArray, xr.DataArray]:
+def read_errors(data, name):
     """Sampling error of a variable, and all errors in quadrature; unknown ones are left out."""
     by_source = data[f"{name}_error"]
     return by_source.sel(source="sampling").fillna(0), np.sqrt((by_source**2).sum("source"))
 
 
-def draw_points(
-    ax: Axes, x: ArrayLike, data: xr.Dataset, name: str, scale: float = 1.0, **look: Any
-) -> None:
+def draw_points(ax, x, data, name, scale=1.0, **look):
     """A variable over `scale`: a thick bar for its sampling error, a thin one for all errors."""
     y, (sampling, total) = data[name] / scale, read_errors(data, name)
     bars = {"linestyle": "none", "color": look["color"], "zorder": BARS}
@@ -159,9 +152,7 @@ def draw_points(
     ax.plot(x, y, **{"linestyle": "none", "marker": "o", "zorder": FILLED} | look)
 
 
-def draw_spectrum(
-    ax: Axes, q: ArrayLike, psd: NDArray, standard_error: NDArray, **look: Any
-) -> None:
+def draw_spectrum(ax, q, psd, standard_error, **look):
     """Rings of a measured spectrum with bars that cover 90 %, on log axes."""
     error = COVERS * standard_error
     below = np.minimum(error, 0.9 * psd)  # a bar down to zero has no end on a log axis
@@ -169,30 +160,28 @@ def draw_spectrum(
     ax.errorbar(q, psd, [below, error], **look)
 
 
-def draw_hollow(ax: Axes, x: ArrayLike, y: ArrayLike, **look: Any) -> None:
+def draw_hollow(ax, x, y, **look):
     """Open points, above the error bars and below the filled points that they are beside."""
     ax.plot(x, y, **{"linestyle": "none", "mfc": "white", "zorder": HOLLOW} | look)
 
 
-def draw_band(
-    ax: Axes, x: ArrayLike, low: ArrayLike, high: ArrayLike, colour: Any, alpha: float = 0.3
-) -> None:
+def draw_band(ax, x, low, high, colour, alpha=0.3):
     """Shaded area between two curves."""
     ax.fill_between(x, low, high, color=colour, alpha=alpha, linewidth=0)
 
 
-def move_aside(x: ArrayLike, steps: float, step: float = 1.05) -> NDArray:
+def move_aside(x, steps, step=1.05):
     """Abscissae of a log axis moved by a few per cent, so that equal ones can be told apart."""
     return np.asarray(x) * step**steps
 
 
-def draw_guide(ax: Axes, x: ArrayLike, y: ArrayLike, text: str, at: tuple[float, float]) -> None:
+def draw_guide(ax, x, y, text, at):
     """Thin line that shows a power law or a formula, with its name."""
     ax.plot(x, y, color=GREY, linewidth=0.9, linestyle=":")
     ax.text(*at, text, color=GREY, fontsize=8)
 
 
-def push_apart(positions: Iterable[float], factor: float) -> list[float]:
+def push_apart(positions, factor):
     """Heights of labels on a log axis, pushed up until neighbours differ by `factor`."""
     positions = list(positions)
     below = 0.0
@@ -201,24 +190,24 @@ def push_apart(positions: Iterable[float], factor: float) -> list[float]:
     return positions
 
 
-def interpolate(data: xr.DataArray, name: str, value: float) -> xr.DataArray:
+def interpolate(data, name, value):
     """Values between those tabulated along a coordinate, by a power law from point to point."""
     logs = np.log(data).assign_coords({name: np.log(data[name])})
     return np.exp(logs.interp({name: np.log(value)}))
 
 
-def write_ticks(axis: Axis, values: Iterable[float]) -> None:
+def write_ticks(axis, values):
     """Ticks of a log axis of few decades at these values, written out."""
     axis.set_major_locator(FixedLocator(list(values)))
     axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
     axis.set_minor_formatter(NullFormatter())
 
 
-def make_key(label: str, **look: Any) -> Line2D:
+def make_key(label, **look):
     """Legend handle of a line that belongs to no curve in particular."""
     return Line2D([], [], label=label, **({"color": GREY} | look))
 
 
-def make_dot(label: str, **look: Any) -> Line2D:
+def make_dot(label, **look):
     """Legend handle of a point."""
     return make_key(label, **({"linestyle": "none", "marker": "o"} | look))

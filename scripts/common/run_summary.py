@@ -15,25 +15,24 @@ def summary(results: str, since: float, answers: Iterable[str] = ()) -> str:
     out that were written before `since` [s since the epoch], which are of an earlier run.
     """
 
-    def find_new(pattern: str) -> list[Path]:
-        found = sorted(Path(results).glob(pattern))
-        return [path for path in found if path.stat().st_mtime >= since]
+    def find(pattern):
+        paths = sorted(Path(results).glob(pattern))
+        return [path for path in paths if path.stat().st_mtime >= since]
 
     lines = [("results", results)]
-    lines += [("report", path) for path in find_new("report/report.html")]
-    for path in find_new("claims/claims.nc"):
+    lines += [("report", path) for path in find("report/report.html")]
+    for path in find("claims/claims.nc"):
         lines.append(("claims", count(datasets.read(path, ["verdict"]).verdict.values)))
-    for path in find_new("criteria/verdicts.nc"):
+    for path in find("criteria/verdicts.nc"):
         codes = datasets.read(path, ["verdict"]).verdict.values.ravel()
         lines.append(("pairs", count(WORDS[code] for code in codes)))
-    for path in filter(Path.exists, map(Path, answers)):
-        answer = datasets.read(path)
-        lines += [("missed", answer.attrs["missed"])] if "missed" in answer.attrs else []
-    if pages := find_new("report/surfaces/*.html"):
+    found = [datasets.read(path) for path in answers if Path(path).exists()]
+    lines += [("missed", one.attrs["missed"]) for one in found if "missed" in one.attrs]
+    if pages := find("report/surfaces/*.html"):
         lines.append(("pages", ", ".join(map(str, pages))))
     return "\n".join(f"  {what:<9} {text}" for what, text in lines)
 
 
 def count(words: Iterable[str]) -> str:
-    """The words by their number: ``23 does not stick, 12 sticks``."""
-    return ", ".join(f"{n} {word}" for word, n in Counter(map(str, words)).most_common())
+    """The words by their number: ``23 does not stick; 12 sticks``."""
+    return "; ".join(f"{n} {word}" for word, n in Counter(map(str, words)).most_common())

@@ -1,56 +1,95 @@
-"""Templates of pages and tables, with filters that write numbers for readers."""
+"""Pages and tables from the templates in `report/`, with filters that write numbers and symbols."""
 
 from __future__ import annotations
 
+import os
+import re
 from pathlib import Path
 from typing import Any
 
 import jinja2
 import numpy as np
+from markupsafe import Markup, escape
 
 from common import formatting
 from stickiness import datasets
 
+FORMATS = ("number", "percent", "change", "interval", "with_error", "amount")
+DOI = re.compile(r"doi:(10\.\d{4,9}/(?:\([^\s()]*\)|[^\s,;:()&]*[^\s,;:()&.])+)")
+# Symbols as texts of datasets and labels spell them, escaped: h_rms, q0, x^2, m^(2/3).
+LOWERED = re.compile(
+    r"(?<![A-Za-z_])([A-Za-zΔκσ](?:&#39;|'){0,2})_([A-Za-z]+(?:,[A-Z]+)?|\d)(?![A-Za-z0-9_])"
+    r"|(?<!\w)([qCσ])([01])(?![A-Za-z0-9_])"
+)
+RAISED = re.compile(
+    r"(?<=[\w)*>])\^(?:\(((?:[^()]|\([^()]*\))+)\)|(-?\d+(?:\.\d+)?|[A-Za-z](?!\w)))"
+)
+# Spaces within a number: beside its signs and before its unit.
+WITHIN = re.compile(
+    r"(?<=\S) (?=[×±%=])|(?<=[×±≤≥<=]) (?=[\d−(])|(?<=&lt;) (?=\d)"
+    r"|(?<=\d) (?=to \d)|(?<= to) (?=\d)"
+    r"|(?<=[\d)⁰¹²³⁴-⁹]) (?=[GMkmµn]?(?:Pa|m|J|N|Hz|s)(?:/m²)?(?![A-Za-z0-9]))"
+)
+LONGEST_TEXT = 100_000  # characters; what is longer is a picture or a script
 
-def make_environment(folder: str | Path) -> jinja2.Environment:
-    """Environment for the templates in a folder; a name that nobody gives is an error."""
+
+def write_page(template: str | Path, page: str | Path, **values: Any) -> None:
+    """Render a template and write the page, whole or not at all."""
+    template = Path(template)
+    text = make_environment(template.parent, page).get_template(template.name).render(values)
+    with datasets.whole_file(page) as path:
+        path.write_text(text, encoding="utf-8")
+
+
+def make_environment(folder: str | Path, page: str | Path = "page") -> jinja2.Environment:
+    """Environment for the templates in a folder; a name that nobody gives is an error.
+
+    Templates of HTML escape what they show. Their links are relative to the folder of `page`:
+    ``{{ path | href }}``, or as the reader sees it ``{{ path | place }}``.
+    """
+
+    def href(target: str | Path) -> str:
+        return Path(os.path.relpath(target, Path(page).parent)).as_posix()
+
     environment = jinja2.Environment(
         loader=jinja2.FileSystemLoader(folder),
+        autoescape=lambda name: ".html" in (name or ""),
         undefined=jinja2.StrictUndefined,
+        finalize=keep_whole,
         trim_blocks=True,
         lstrip_blocks=True,
         keep_trailing_newline=True,
     )
-    environment.filters |= {
+    environment.filters |= {name: getattr(formatting, name) for name in FORMATS} | {
         "fixed": lambda value, digits=2: f"{float(value):.{digits}f}",
-        "g": lambda value, digits=6: f"{float(value):.{digits}g}",
-        "power": write_power,
-        "plus_minus": write_with_error,
-        "percent": lambda share: formatting.percent(float(share)),
-        "change": lambda share: formatting.change(float(share)),
-        "number": formatting.number,
-        "amount": lambda value, unit, digits: formatting.amount(float(value), unit, digits),
+        "typeset": typeset,
+        "capital": lambda text: text[0].upper() + text[1:],
+        "breakable": lambda text: Markup(re.sub("([/_])", r"\1<wbr>", str(escape(text)))),
+        "href": href,
+        "place": lambda target: re.sub(r"^(\.\./)+", "", href(target)),
     }
     environment.tests["finite"] = np.isfinite
     environment.globals["table"] = lambda columns, rows: formatting.table(columns, rows).rstrip()
     return environment
 
 
-def write_page(template: str | Path, page: str | Path, **values: Any) -> None:
-    """Render a template and write the page, whole or not at all."""
-    template = Path(template)
-    text = make_environment(template.parent).get_template(template.name).render(values)
-    with datasets.whole_file(page) as path:
-        path.write_text(text, encoding="utf-8")
+@jinja2.pass_eval_context
+def keep_whole(context: Any, value: Any) -> Any:
+    """What a page of HTML is about to show, with no-break spaces inside its numbers."""
+    if not (context.autoescape and isinstance(value, str) and len(value) < LONGEST_TEXT):
+        return value
+    kept = WITHIN.sub("\u00a0", value)
+    return Markup(kept) if isinstance(value, Markup) else kept
 
 
-def write_power(value: float) -> str:
-    """Magnification as 1000 or 5e4."""
-    value = float(value)
-    return f"{value:g}" if value < 1e4 else f"{value:.2g}".replace("e+0", "e")
-
-
-def write_with_error(pair: tuple[float, float]) -> str:
-    """Value with its error, if that is known."""
-    value, error = pair
-    return f"{value:.2f}" + (f" ± {error:.2f}" if np.isfinite(error) else "")
+def typeset(text: str) -> Markup:
+    """Escaped text with its DOIs made links, and symbols such as h_rms, q0 and x^(2/3) set."""
+    parts = DOI.split(str(escape(text)))
+    for index, part in enumerate(parts):
+        if index % 2:
+            parts[index] = f'<a href="https://doi.org/{part}">doi:{part}</a>'
+            continue
+        part = re.sub(r"(?<=\d )um\b", "µm", part)
+        part = LOWERED.sub(lambda m: f"{m[1] or m[3]}<sub>{m[2] or m[4]}</sub>", part)
+        parts[index] = RAISED.sub(lambda m: f"<sup>{m[1] or m[2]}</sup>".replace("-", "−"), part)
+    return Markup("".join(parts))

@@ -3,10 +3,9 @@
 import numpy as np
 import xarray as xr
 
+from common.verdicts import find_limits
 from stickiness.criteria.pair import NOT_JUDGED, decide
 from stickiness.criteria.registry import EDGES
-
-MOST_STRAIN = 0.3  # up to which a layer is taken for linear
 
 
 def decide_pairs(dataset):
@@ -14,24 +13,6 @@ def decide_pairs(dataset):
     low, high = find_limits(dataset)
     grows = (dataset.margin.sel(criterion=EDGES, drop=True) > 1).any("end")
     return low.copy(data=decide(low, high, grows))
-
-
-def find_limits(dataset, name="remaining"):
-    """Low and high limit of what is known of a pair: of the share that remains, they decide.
-
-    Over both ends of the surface and the limits of the model. On a measured surface those of the
-    spectra drawn within its errors, which have the errors of the model as well, by quantiles.
-    `name` may be another quantity that follows from what remains.
-    """
-    low, high = dataset[f"{name}_low"].min("end"), dataset[f"{name}_high"].max("end")
-    if f"{name}_quantile" in dataset:
-        drawn = dataset[f"{name}_quantile"]
-        low = drawn.isel(quantile=0, drop=True).fillna(low)
-        high = drawn.isel(quantile=-1, drop=True).fillna(high)
-    if "layer_strain" in dataset:
-        # Heights that a linear layer cannot take stiffen it: nothing may remain.
-        low = low.where(dataset.layer_strain.max("end") <= MOST_STRAIN, 0.0)
-    return low, high
 
 
 def find_doubts(materials, surfaces, material_surfaces):

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import xarray as xr
 
-from criteria.classification import find_limits
+from common.verdicts import find_limits
 from stickiness.criteria.verdict import LIMITED, SIGNS
 from stickiness.statistics import COVERS
 
@@ -39,7 +39,7 @@ def follow_remaining(pair, solids, roughness, rates):
     """Share that remains along factors on E* and on the heights, and along the rate.
 
     `rates` are moduli ``(material, frequency)``. Limits are those that decide
-    (`classification.find_limits`), so that at a factor of 1 they are the pair's. U_full goes with
+    (`find_limits`), so that at a factor of 1 they are the pair's. U_full goes with
     E* and with the square of the heights: no spectrum is integrated again. With a film the modulus
     of the layer alone changes the response, which is withheld.
     """

@@ -1,10 +1,10 @@
 """Verdict for every material on every surface, and the same as a page."""
 
+from common import verdicts as texts
 from common.formatting import NOTHING, interval
 from common.job import start
 from common.templates import write_page
-from criteria import texts
-from criteria.classification import find_limits
+from common.verdicts import find_limits
 from criteria.judging import judge_materials, read_surfaces
 from stickiness import datasets
 from stickiness.criteria.pair import FULL_SHARE, NOT_JUDGED, WORDS

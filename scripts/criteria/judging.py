@@ -4,10 +4,10 @@ import numpy as np
 import xarray as xr
 
 from common.conventions import logarithmic_grid
+from common.materials import read_material
 from criteria.budgets import add_budgets
 from criteria.classification import decide_pairs, find_doubts, withhold
 from criteria.curves import CURVES, DIMS, QUANTILES, follow_remaining, sample_errors
-from criteria.materials import read_material
 from criteria.pair_roughness import BY_END, ENDS, combine, half_space_pair
 from stickiness import datasets
 from stickiness.criteria.pair import REGIMES, WORDS, Pair

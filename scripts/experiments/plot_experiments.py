@@ -4,9 +4,9 @@ import numpy as np
 from matplotlib.colors import ListedColormap
 
 from common import plotting
+from common.experiment_outcomes import COMPATIBLE, MARKS, SILENT
 from common.job import start
 from common.plotting import BLUE, GREEN, GREY, ORANGE, RED, make_dot, make_key
-from experiments.outcomes import COMPATIBLE, MARKS, SILENT
 from stickiness import datasets
 from stickiness.criteria.registry import CRITERIA, EDGES, REMAINING
 

@@ -14,11 +14,11 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from common import experiment_outcomes as outcomes
 from common.config.entries import CONDITIONS, OBSERVED_UNITS, conditions_of
+from common.experiment_outcomes import COMPATIBLE, GRADES, MISSED, OUTCOMES, SILENT, SOME
 from common.job import start
 from common.templates import write_page
-from experiments import outcomes
-from experiments.outcomes import COMPATIBLE, GRADES, MISSED, OUTCOMES, SILENT, SOME
 from stickiness import datasets
 from stickiness.criteria.pair import Pair
 from stickiness.criteria.registry import CRITERIA

@@ -13,7 +13,7 @@ from common.config.entries import MOST_POINTS, has_units, measurements
 from common.contact_curves import load_curves
 from common.conventions import VARIANT, logarithmic_grid
 from common.job import start
-from criteria.materials import Material, read_material
+from common.materials import Material, read_material
 from real_surfaces import measured_surface
 from stickiness import datasets
 from stickiness.adhesive import edge_zone

@@ -20,8 +20,8 @@ from common.config.entries import measurements
 from common.contact_curves import load_curve, measure
 from common.formatting import amount, percent
 from common.job import start
-from criteria.materials import read_material
-from criteria.texts import LEAST_SHOWN
+from common.materials import read_material
+from common.verdicts import LEAST_SHOWN
 from real_surfaces.measured_surface import find_cutoff, read_levelled
 from report.contact_figure import draw_still
 from stickiness import datasets, remaining
@@ -44,8 +44,7 @@ PULL_OFF_POINTS = 192  # along the longer side, at most
 PIXELS_IN_ZONE = 4.0
 PULL_OFF_TOLERANCE = 1e-3
 OPEN, ATTRACTED, TOUCHING = range(3)
-NOT_JUDGED = "the surface is not judged"
-NO_MAP = "it was measured along lines only, and contact needs a map of heights"
+SIMULATED = {"left_out": "", "measurement": ""}  # attributes of a dataset that is not empty
 
 RELATIVE_CHANGE = "largest relative change from half the grid at this load and its neighbours"
 CONTACT_TEXTS = {
@@ -101,62 +100,42 @@ class LeftOutError(Exception):
 
 def main(job):
     surface = datasets.read(job.input.surface, ["q0", "q1", "q_cutoff"])
-    asked, entry = job.params.surface, job.params.entry
+    asked, material, params = job.params.surface, read_material(job.params.entry), job.params
     contact = pull_off = None
     try:
         heights, q_cutoff = find_heights(surface, asked)
+        source = heights.source if len(measurements(asked)) > 1 else ""
         contact = press(prepare(heights, q_cutoff, CONTACT_POINTS), float(surface.q0), q_cutoff)
-        pull_off = separate(
-            prepare(heights, q_cutoff, PULL_OFF_POINTS),
-            (float(surface.q0), float(surface.q1)),
-            read_material(entry),
-            job.params.law,
-            job.params.squeeze,
-        )
+        contact.attrs["measurement"] = source
+        rough, band = prepare(heights, q_cutoff, PULL_OFF_POINTS), (surface.q0, surface.q1)
+        pull_off = separate(rough, map(float, band), material, params.law, params.squeeze)
+        pull_off.attrs["measurement"] = source
     except LeftOutError as reason:
         logging.info("not simulated: %s", reason)
-        missing = xr.Dataset(attrs={"left_out": str(reason)})
-        contact = missing if contact is None else contact
-        pull_off = missing
-    for dataset in (contact, pull_off):
-        if not dataset.attrs["left_out"] and len(measurements(asked)) > 1:
-            dataset.attrs["measurement"] = heights.source
-    name = job.wildcards.real_surface
+        pull_off = xr.Dataset(attrs={"left_out": str(reason)})
+        contact = pull_off.copy() if contact is None else contact
+    name, entry = job.wildcards.real_surface, params.entry
     datasets.write(
         contact,
         job.output.contact,
         title=f"where the heights touch: {asked['label']}",
         parameters={"surface": name, **asked},
     )
-    datasets.write(
-        pull_off,
-        job.output.pull_off,
-        title=f"pull-off of {entry['label']} from {asked['label']}",
-        parameters={
-            "surface": name,
-            "material": job.params.material,
-            **entry,
-            "source": asked["source"],
-        },
-    )
+    made = {"surface": name, "material": params.material, **entry, "source": asked["source"]}
+    title = f"pull-off of {entry['label']} from {asked['label']}"
+    datasets.write(pull_off, job.output.pull_off, title=title, parameters=made)
     draw_still(contact, pull_off, job.output.figure)
 
 
 def find_heights(surface, asked):
-    """Levelled heights of the first measurement that is a map, and its cutoff [1/m].
-
-    Raises
-    ------
-    LeftOutError
-        If there is no map or the surface is not judged.
-    """
+    """Levelled heights of the first measurement that is a map, and its cutoff [1/m]."""
     if surface.attrs["not_judged"]:
-        raise LeftOutError(NOT_JUDGED)
+        raise LeftOutError("the surface is not judged")
     for index, (_, measurement) in enumerate(measurements(asked)):
         heights = read_levelled(measurement)
         if isinstance(heights, topography.Topography):
             return heights, find_cutoff(asked, index, heights, float(surface.q_cutoff))
-    raise LeftOutError(NO_MAP)
+    raise LeftOutError("it was measured along lines only, and contact needs a map of heights")
 
 
 @dataclass(frozen=True)
@@ -168,17 +147,11 @@ class PeriodicHeights:
     shortest_wavelength: float  # m
     change: float  # rms change by which the heights became periodic, over their rms
 
-    @property
-    def h_rms(self) -> float:
-        """Root mean square of the heights about their mean [m]."""
-        return float(np.std(self.heights))
-
-    def pixel_centres(self, step: int = 1) -> tuple[NDArray, NDArray]:
-        """Middles of blocks of `step` by `step` pixels along both sides [m]."""
-        shape = (n // step for n in self.heights.shape)
-        return tuple(
-            (np.arange(n) + 0.5) * side / n for n, side in zip(shape, self.sides, strict=True)
-        )
+    def centres(self, step=1):
+        """Centres of blocks of `step` by `step` pixels along both sides [m], by axis."""
+        counts = (n // step for n in self.heights.shape)
+        places = zip(("x", "y"), self.sides, counts, strict=True)
+        return {axis: (np.arange(n) + 0.5) * side / n for axis, side, n in places}
 
 
 def prepare(heights, q_cutoff, points):
@@ -198,7 +171,7 @@ def prepare(heights, q_cutoff, points):
 
 def press(rough, q0, q_cutoff):
     """Contact and gap of `PeriodicHeights` without adhesion, at every load, as a dataset."""
-    h_rms, slope = rough.h_rms, measure_slope(rough.heights, rough.sides)
+    h_rms, slope = float(np.std(rough.heights)), measure_slope(rough.heights, rough.sides)
     # By theory a share erf(sqrt(2) p/(E* slope)) of the area touches.
     loads = slope * erfinv(AREAS) / np.sqrt(2)
     fields = {"contact": [], "gap": [], "contact_pressure": []}
@@ -211,28 +184,23 @@ def press(rough, q0, q_cutoff):
         logging.info("load %d: area %.4f", len(rows), state.area_fraction)
     fine = xr.concat(rows, "pressure")
     coarse = load_curve(rough.heights[::2, ::2], rough.sides, loads, (), CONTACT_TOLERANCE)
-    x, y = rough.pixel_centres(2)
     data = {name: (("pressure", "x", "y"), np.float32(field)) for name, field in fields.items()}
     for name in ("area_fraction", "mean_gap"):
         error = find_error(fine[name].values, coarse[name].values)
-        data[name] = fine[name]
-        data[f"{name}_discretisation_error"] = "pressure", error
-    dataset = xr.Dataset(
-        {
-            **data,
-            "heights": (("x", "y"), np.float32(halve(rough.heights))),
-            "mean_pressure": ("pressure", loads),
-            "residual": fine.residual,
-            "q0": q0,
-            "h_rms": h_rms,
-            "rms_slope": slope,
-            "shortest_wavelength": rough.shortest_wavelength,
-            "cutoff_wavelength": 2 * np.pi / q_cutoff,
-            "change": rough.change,
-        },
-        coords={"pressure": loads / (q0 * h_rms), "x": x, "y": y},
-        attrs={"left_out": "", "measurement": ""},
-    )
+        data |= {name: fine[name], f"{name}_discretisation_error": ("pressure", error)}
+    data |= {
+        "heights": (("x", "y"), np.float32(halve(rough.heights))),
+        "mean_pressure": ("pressure", loads),
+        "residual": fine.residual,
+        "q0": q0,
+        "h_rms": h_rms,
+        "rms_slope": slope,
+        "shortest_wavelength": rough.shortest_wavelength,
+        "cutoff_wavelength": 2 * np.pi / q_cutoff,
+        "change": rough.change,
+    }
+    coords = {"pressure": loads / (q0 * h_rms), **rough.centres(2)}
+    dataset = xr.Dataset(data, coords=coords, attrs=SIMULATED)
     for name in (*fields, "heights"):
         dataset[name].encoding = {"zlib": True}
     return datasets.annotate(dataset, **CONTACT_TEXTS)
@@ -254,91 +222,72 @@ def find_error(fine, coarse):
 def separate(rough, band, material, law, squeeze):
     """States of approach, squeeze and separation of `PeriodicHeights`, as a dataset.
 
-    Parameters
-    ----------
-    rough : PeriodicHeights
-    band : tuple of float
-        q0 and q1 [1/m] of the spectrum that is judged.
-    material : criteria.materials.Material
-    law : str
-        Name of the traction law.
-    squeeze : float
-        Mean pressure before separation over E* q0 h_rms.
-
-    Raises
-    ------
-    LeftOutError
-        If the grid cannot show this pair, or the simulation does not converge.
+    `band` are q0 and q1 [1/m] of the spectrum that is judged, `squeeze` is the mean pressure before
+    separation over E* q0 h_rms. What the grid cannot show, or does not converge, is left out.
     """
     if material.surface is not None:
         raise LeftOutError("the material has a roughness of its own, which the picture would lack")
     q0, q1 = band
-    h_rms, sides, solid = rough.h_rms, rough.sides, material.solid
-    length = material.work_of_adhesion / material.modulus
-    pixel = sides[0] / rough.heights.shape[0]
+    heights, sides = rough.heights, rough.sides
+    h_rms, length = float(np.std(heights)), material.work_of_adhesion / material.modulus
+    pixel = sides[0] / heights.shape[0]
     range_ = max(material.range, np.sqrt(PIXELS_IN_ZONE * pixel * length))
+    shortest = amount(range_, "m", 2)
     if range_ > h_rms:
         raise LeftOutError(
-            f"the shortest range that the grid resolves, {metres(range_)}, is longer than the rms "
-            f"height, {metres(h_rms)}"
+            f"the shortest range that the grid resolves, {shortest}, is longer than the rms "
+            f"height, {amount(h_rms, 'm', 2)}"
         )
-    spectrum = periodic.shells(rough.heights, sides)
-    predicted = remaining.predict(spectrum, length, range_, q0, solid)
+    spectrum = periodic.shells(heights, sides)
+    predicted = remaining.predict(spectrum, length, range_, q0, material.solid)
     if predicted.separation_limits[1] < LEAST_SHOWN:
         raise LeftOutError(
             f"the model predicts that less than {percent(LEAST_SHOWN)} of the work of adhesion "
-            f"remains, even at a range of {metres(range_)}, the shortest that the grid resolves"
+            f"remains, even at a range of {shortest}, the shortest that the grid resolves"
         )
-    settings = {"squeeze": squeeze * q0 * h_rms, "tol": PULL_OFF_TOLERANCE, "solid": solid}
+    squeeze = squeeze * q0 * h_rms
+    settings = {"squeeze": squeeze, "tol": PULL_OFF_TOLERANCE, "solid": material.solid}
     try:
         with warnings.catch_warnings():
             # What a coarse grid does to the result is in the limits.
             warnings.simplefilter("ignore", PlausibilityWarning)
-            found = remaining.measure(rough.heights, sides, LAWS[law](length, range_), **settings)
+            found = remaining.measure(heights, sides, LAWS[law](length, range_), **settings)
     except ConvergenceError as error:
         raise LeftOutError(f"the simulation did not converge ({error})") from None
-    dataset = describe_states(found, rough, material.modulus)
-    for name, text in QUOTED.items():
-        for prefix, of in (("", found), ("predicted_", predicted)):
-            scale, unit = (material.modulus, "Pa") if name == "pull_off" else (1.0, "1")
-            values = (getattr(of, name), *getattr(of, f"{name}_limits"))
-            for end, value in zip(("", "_low", "_high"), values, strict=True):
-                long_name = f"{text}{', by the model' * bool(prefix)}{end.replace('_', ', ')}"
-                attrs = {"units": unit, "long_name": long_name}
-                dataset[f"{prefix}{name}{end}"] = (), scale * value, attrs
-    dataset = dataset.assign(
-        jumps=found.jumps,
-        range=range_,
-        material_range=material.range,
-        zone_width=q0 * range_**2 / length,
-        energy_ratio=predicted.energy_ratio,
-        h_rms=h_rms,
-        shortest_wavelength=rough.shortest_wavelength,
-        judged_wavelength=2 * np.pi / q1,
-        squeeze_pressure=settings["squeeze"] * material.modulus,
-    )
-    return datasets.annotate(dataset, **PULL_OFF_TEXTS).assign_attrs(left_out="", measurement="")
-
-
-def metres(length):
-    return amount(length, "m", 2)
-
-
-def describe_states(found, rough, modulus):
-    """Curve of tension against gap, and the zones of every state."""
     zones = np.array([find_zones(point.state) for point in found.points])
     dataset = xr.Dataset(
         {
             "zone": (("state", "x", "y"), zones),
             "mean_gap": ("state", found.gap),
-            "mean_traction": ("state", -modulus * found.pressure),
+            "mean_traction": ("state", -material.modulus * found.pressure),
             "separating": ("state", found.separating.astype("i1")),
             "contact_area": ("state", (zones == TOUCHING).mean(axis=(1, 2))),
             "attracted_area": ("state", (zones == ATTRACTED).mean(axis=(1, 2))),
+            "jumps": found.jumps,
+            "range": range_,
+            "material_range": material.range,
+            "zone_width": q0 * range_**2 / length,
+            "energy_ratio": predicted.energy_ratio,
+            "h_rms": h_rms,
+            "shortest_wavelength": rough.shortest_wavelength,
+            "judged_wavelength": 2 * np.pi / q1,
+            "squeeze_pressure": squeeze * material.modulus,
         },
-        coords=dict(zip(("x", "y"), rough.pixel_centres(), strict=True)),
+        coords=rough.centres(),
+        attrs=SIMULATED,
     )
     dataset.zone.encoding = {"zlib": True}
+    dataset = datasets.annotate(dataset, **PULL_OFF_TEXTS)
+    for name, text in QUOTED.items():
+        scale, unit = (material.modulus, "Pa") if name == "pull_off" else (1.0, "1")
+        for prefix, said, of in (
+            ("", text, found),
+            ("predicted_", f"{text}, by the model", predicted),
+        ):
+            values = (getattr(of, name), *getattr(of, f"{name}_limits"))
+            for end, value in zip(("", "_low", "_high"), values, strict=True):
+                attrs = {"units": unit, "long_name": said + end.replace("_", ", ")}
+                dataset[f"{prefix}{name}{end}"] = (), scale * value, attrs
     return dataset
 
 

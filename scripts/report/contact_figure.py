@@ -1,53 +1,42 @@
 """Contact and pull-off of measured heights: for print, and with a slider over the loads."""
 
-from __future__ import annotations
-
-from collections.abc import Mapping
-from typing import Any
-
 import numpy as np
-import xarray as xr
 from bokeh.layouts import column, row
 from bokeh.models import (
     ColorBar,
     ColumnDataSource,
     CustomJS,
-    CustomJSHover,
     DataRange1d,
     Div,
     HoverTool,
-    LayoutDOM,
     LinearColorMapper,
     Slider,
     Span,
 )
 from matplotlib import colormaps
 from matplotlib.cm import ScalarMappable
-from matplotlib.colors import ListedColormap, Normalize, to_hex, to_rgba
-from matplotlib.patches import Patch
+from matplotlib.colors import ListedColormap, Normalize, to_hex
 
 from common import plotting
-from common.formatting import amount, number, percent, unit_for, with_rough_error
-from common.plotting import BLACK, BLUE, GREY, RED, SKY
+from common.formatting import amount, number, percent, quantity_with_error, unit_for, with_error
+from common.plotting import BLUE, GREY, RED
 from report.interactive import make_plot
 from stickiness.solids import HALF_SPACE
 
-GAPS = colormaps["bone_r"]
-ZONES = {"open": "#f2f2f2", "attracted": SKY, "in contact": RED}  # in the order of the codes
+CONTACT = 255  # code of a pixel in contact; lower ones are gaps
+GAPS = [to_hex(colormaps["bone_r"](code / (CONTACT - 1))) for code in range(CONTACT)]
 WAYS = ((0, "approach", BLUE), (1, "separation", RED))
-PRINTED_LOADS, PRINTED_POINTS = 4, 128  # beside one another, and along their longer side
+PRINTED_LOADS = 4  # beside one another
 FIRST_LOAD = 4  # that the slider shows at first
-HIGHEST_CODE = 255
-SHARES = [f"{RED}{alpha}" for alpha in ("00", "73", "a6", "d9", "ff")]  # by points of four
 SHOW_LOAD = """
 const k = slider.value;
-shown.data = {gap: [stored.data.gap[k]], contact: [stored.data.contact[k]]};
+shown.data = {code: [stored[k]]};
 text.text = texts[k];
 """
 
 
-def draw_still(contact: xr.Dataset, pull_off: xr.Dataset, output: str) -> None:
-    """Write contact at some of the loads and, below, the curve of tension with two states.
+def draw_still(contact, pull_off, output):
+    """Write contact at some of the loads and, below, the curve of tension.
 
     Where nothing was simulated the picture says why.
     """
@@ -57,117 +46,77 @@ def draw_still(contact: xr.Dataset, pull_off: xr.Dataset, output: str) -> None:
             reason = f"Not simulated: {contact.attrs['left_out']}."
             panels["text"].text(0, 0.5, reason, va="center", wrap=True)
         return
-    sides = sides_of(contact)
-    map_height = min(max(1.5 * sides[1] / sides[0], 0.8), 3.0)
-    separated = not pull_off.attrs["left_out"]
-    rows, height = ["ABCD", "EEFG"][: 1 + separated], map_height + 0.9 + 2.4 * separated
-    ratios = [map_height, 2.2][: len(rows)]
-    with plotting.open_figure([output], ";".join(rows), height, height_ratios=ratios) as panels:
-        count = contact.sizes["pressure"]
-        loads = np.linspace(1, count - 1, PRINTED_LOADS).round().astype(int)
-        widest = widest_gap(contact)
+    codes, widest = code_maps(contact)
+    (width, height), unit = sides_of(contact)
+    ratios = [min(max(1.5 * height / width, 0.8), 3.0), 2.2]
+    rows = ["ABCD", ".EE."]
+    if pull_off.attrs["left_out"]:
+        rows, ratios = rows[:1], ratios[:1]
+    heights = {"height_ratios": ratios}
+    with plotting.open_figure([output], ";".join(rows), sum(ratios) + 0.9, **heights) as panels:
+        loads = np.linspace(1, len(codes) - 1, PRINTED_LOADS).round().astype(int)
+        look = {"cmap": ListedColormap([*GAPS, RED]), "vmin": 0, "vmax": CONTACT}
+        look |= {"extent": [0, width, 0, height], "origin": "lower", "interpolation": "nearest"}
         for letter, index in zip(rows[0], loads, strict=True):
-            draw_contact(panels[letter], contact.isel(pressure=index), widest)
+            panels[letter].imshow(codes[index], **look)
+            area = percent(contact.area_fraction[index])
+            panels[letter].set_title(f"{area} contact", loc="right")
+            panels[letter].set_xlabel(f"x [{unit}]")
             panels[letter].tick_params(labelleft=letter == "A")
         per_gap, unit = unit_for(widest, "m")
-        scale = ScalarMappable(Normalize(0, widest * per_gap), GAPS)
-        bar = panels["A"].figure.colorbar(scale, ax=[panels[name] for name in rows[0]], shrink=0.8)
-        bar.set_label(f"gap [{unit}]")
-        if separated:
-            draw_separation(panels, pull_off)
+        scale = ScalarMappable(Normalize(0, widest * per_gap), ListedColormap(GAPS))
+        axes = [panels[letter] for letter in rows[0]]
+        axes[0].figure.colorbar(scale, ax=axes, shrink=0.8, label=f"gap [{unit}]")
+        if "E" in panels:
+            curves, gap, tension, limits = follow_tension(pull_off)
+            for name, colour, curve in curves:
+                panels["E"].plot(curve["gap"], curve["tension"], color=colour, label=name)
+            panels["E"].axhline(0, color=GREY, linewidth=0.7)
+            panels["E"].set(ylim=limits, xlabel=gap, ylabel=tension)
+            panels["E"].legend(loc="lower right")
 
 
-def draw_contact(ax: Any, at: xr.Dataset, widest: float) -> None:
-    """Gap as a shade of grey, and contact in orange on top of it."""
-    gap, share = (thin(at[name].values.T) for name in ("gap", "contact"))
-    share = share[..., None]
-    colours = (1 - share) * GAPS(gap / widest) + share * to_rgba(RED)
-    extent, unit = extent_of(at)
-    ax.imshow(colours, extent=extent, origin="lower", interpolation="nearest")
-    ax.set_title(f"{percent(float(at.area_fraction))} contact", loc="right")
-    ax.set_xlabel(f"x [{unit}]")
+def code_maps(contact):
+    """Code of every pixel by load, y and x, and the gap [m] of the highest code of gaps.
+
+    A few gaps at the smallest load are wider. A pixel is a block of two by two points, and in
+    contact if half of them are.
+    """
+    widest = float(contact.gap.isel(pressure=0).quantile(0.995))
+    codes = np.rint((CONTACT - 1) * np.clip(contact.gap / widest, 0, 1))
+    codes = codes.where(contact.contact < 0.5, CONTACT).transpose("pressure", "y", "x")
+    return codes.values.astype("u1"), widest
 
 
-def thin(field):
-    """Field of at most `PRINTED_POINTS` a side, by means of two by two points."""
-    if max(field.shape) <= PRINTED_POINTS:
-        return field
-    return field.reshape(field.shape[0] // 2, 2, field.shape[1] // 2, 2).mean(axis=(1, 3))
-
-
-def draw_separation(panels: Mapping[str, Any], pull_off: xr.Dataset) -> None:
-    """Tension against gap, and the zones of the squeezed state and at pull-off."""
-    ax = panels["E"]
-    per_gap, unit_gap = unit_for(float(pull_off.mean_gap.max()), "m")
-    per_tension, unit = tension_unit(pull_off)
-    for way, name, colour in WAYS:
-        curve = pull_off.isel(state=pull_off.separating.values == way)
-        ax.plot(
-            curve.mean_gap * per_gap,
-            curve.mean_traction * per_tension,
-            color=colour,
-            label=name,
-        )
-    ax.axhline(0, color=GREY, linewidth=0.7)
-    ax.set_ylim(*(limit * per_tension for limit in tension_limits(pull_off)))
-    ax.set(xlabel=f"mean gap [{unit_gap}]", ylabel=f"mean tension [{unit}]")
-    ax.legend(loc="lower right")
-    extent, unit_x = extent_of(pull_off)
-    for letter, (name, index) in zip("FG", find_moments(pull_off).items(), strict=True):
-        at = pull_off.isel(state=index)
-        place = float(at.mean_gap) * per_gap, float(at.mean_traction) * per_tension
-        ax.plot(*place, "o", color=BLACK, clip_on=True)
-        ax.annotate(letter, place, xytext=(4, 4), textcoords="offset points", annotation_clip=True)
-        colours = ListedColormap(list(ZONES.values()))
-        look = {"vmin": 0, "vmax": 2, "origin": "lower", "cmap": colours}
-        panels[letter].imshow(at.zone.values.T, extent=extent, **look)
-        panels[letter].set_title(name, loc="right")
-        panels[letter].set_xlabel(f"x [{unit_x}]")
-    keys = [Patch(facecolor=c, edgecolor=GREY, linewidth=0.5, label=n) for n, c in ZONES.items()]
-    ax.figure.legend(handles=keys, loc="outside lower right", ncols=3)
-
-
-def find_moments(pull_off: xr.Dataset) -> dict[str, int]:
-    """Indices of two states: pressed together without load on approach, and pull-off."""
-    tension, back = pull_off.mean_traction.values, pull_off.separating.values.astype(bool)
-    there = np.flatnonzero(~back)
-    attracted = there[tension[there] > 0]
-    around = there[np.isin(there, attracted[-1] + np.arange(2))] if attracted.size else there
-    return {
-        "unloaded": int(min(around, key=lambda index: abs(tension[index]))),
-        "pull-off": int(np.flatnonzero(back)[np.argmax(tension[back])]),
-    }
-
-
-def sides_of(dataset: xr.Dataset) -> tuple[float, float]:
-    """Sides of the map along x and y [m]; positions are middles of pixels."""
-    return tuple(float(dataset[axis][0] + dataset[axis][-1]) for axis in ("x", "y"))
-
-
-def extent_of(dataset: xr.Dataset) -> tuple[list[float], str]:
-    """Ends of the map as matplotlib takes them, and the unit that suits them."""
-    sides = sides_of(dataset)
+def sides_of(dataset):
+    """Sides of the map along x and y in a unit that suits them; positions are pixel centres."""
+    sides = [float(dataset[axis][0] + dataset[axis][-1]) for axis in ("x", "y")]
     factor, unit = unit_for(max(sides), "m")
-    return [0, sides[0] * factor, 0, sides[1] * factor], unit
+    return [factor * side for side in sides], unit
 
 
-def widest_gap(contact: xr.Dataset) -> float:
-    """Gap [m] at the end of the colours, which few points exceed at the smallest load."""
-    return float(contact.gap.isel(pressure=0).quantile(0.995))
-
-
-def tension_unit(pull_off: xr.Dataset) -> tuple[float, str]:
-    """Factor and unit that suit the largest tension; pascals at least."""
-    return unit_for(max(float(pull_off.mean_traction.max()), 1.0), "Pa")
-
-
-def tension_limits(pull_off: xr.Dataset) -> tuple[float, float]:
-    """Ends of an axis [Pa] that shows the tension; the squeeze may be far beyond."""
+def follow_tension(pull_off):
+    """Curves of tension against gap with their names and colours, labels, and limits of tension."""
+    per_gap, gap = unit_for(float(pull_off.mean_gap.max()), "m")
     largest = float(pull_off.mean_traction.max())
-    return max(-2 * largest, 1.1 * float(pull_off.mean_traction.min())), 1.3 * largest
+    per_tension, tension = unit_for(max(largest, 1.0), "Pa")
+    curves = []
+    for way, name, colour in WAYS:
+        states = pull_off.isel(state=pull_off.separating.values == way)
+        columns = {
+            "gap": states.mean_gap.values * per_gap,
+            "tension": states.mean_traction.values * per_tension,
+            "contact": list(map(percent, states.contact_area.values)),
+            "attracted": list(map(percent, states.attracted_area.values)),
+        }
+        curves.append((name, colour, columns))
+    # The squeeze may press far harder than the surfaces attract each other.
+    lowest = max(-2 * largest, 1.1 * float(pull_off.mean_traction.min()))
+    limits = lowest * per_tension, 1.3 * largest * per_tension
+    return curves, f"mean gap [{gap}]", f"mean tension [{tension}]", limits
 
 
-def list_loads(contact: xr.Dataset, materials: Mapping[str, Any]) -> list[dict[str, Any]]:
+def list_loads(contact, materials):
     """Texts of every load: pressure, contact area and mean gap.
 
     Pressures [Pa] are given for those of the `materials`, by label, that are deep and smooth, as
@@ -179,39 +128,29 @@ def list_loads(contact: xr.Dataset, materials: Mapping[str, Any]) -> list[dict[s
         if solid.solid == HALF_SPACE and solid.surface is None
     }
     rows = []
-    for pressure in contact.pressure.values:
-        at = contact.sel(pressure=pressure)
+    for at in (contact.isel(pressure=index) for index in range(contact.sizes["pressure"])):
+        area = with_error(100 * at.area_fraction, 100 * at.area_fraction_discretisation_error)
         gap, gap_error = float(at.mean_gap), float(at.mean_gap_discretisation_error)
-        factor, unit = unit_for(gap, "m")
-        area, area_error = float(at.area_fraction), float(at.area_fraction_discretisation_error)
         rows.append(
             {
-                "pressure": number(float(pressure), 2),
+                "pressure": number(at.pressure, 2),
                 "pressures": {
                     label: amount(float(at.mean_pressure) * modulus, "Pa", 2)
                     for label, modulus in suited.items()
                 },
-                "area": with_rough_error(100 * area, 100 * area_error, "%"),
-                "gap": with_rough_error(gap * factor, gap_error * factor, unit),
+                "area": f"({area}) %",
+                "gap": quantity_with_error(gap, gap_error, "m"),
             }
         )
     return rows
 
 
-def draw_interactive(
-    contact: xr.Dataset, pull_off: xr.Dataset, loads: list[Mapping[str, Any]]
-) -> LayoutDOM:
+def draw_interactive(contact, pull_off, loads):
     """Contact under a slider over the `loads` of `list_loads`, and the curve of tension."""
-    widest, first = widest_gap(contact), min(FIRST_LOAD, len(loads) - 1)
-    codes = np.rint(HIGHEST_CODE * np.clip(contact.gap.values / widest, 0, 1)).astype("u1")
-    stored = ColumnDataSource(
-        {
-            "gap": [field.T for field in codes],
-            "contact": [np.uint8(np.rint(4 * share.T)) for share in contact.contact.values],
-        }
-    )
-    shown = ColumnDataSource({name: [fields[first]] for name, fields in stored.data.items()})
+    codes, widest = code_maps(contact)
     texts = [describe_load(load) for load in loads]
+    first = min(FIRST_LOAD, len(loads) - 1)
+    shown = ColumnDataSource({"code": [codes[first]]})
     text = Div(text=texts[first], sizing_mode="stretch_width")
     slider = Slider(
         name="load",
@@ -222,26 +161,26 @@ def draw_interactive(
         show_value=False,
         sizing_mode="stretch_width",
     )
-    passed = {"slider": slider, "shown": shown, "stored": stored, "text": text, "texts": texts}
+    passed = {"slider": slider, "shown": shown, "stored": list(codes), "text": text, "texts": texts}
     slider.js_on_change("value", CustomJS(args=passed, code=SHOW_LOAD))
     plots = [draw_map(contact, shown, widest)]
     if not pull_off.attrs["left_out"]:
-        plots.append(draw_curve(pull_off))
+        plots.append(draw_tension(pull_off))
     for plot in plots:
         plot.styles = {"flex": "1 1 20rem", "min-width": "0", "max-width": "40rem"}
     beside = row(*plots, sizing_mode="stretch_width", styles={"flex-wrap": "wrap"})
     return column(slider, text, beside, sizing_mode="stretch_width")
 
 
-def describe_load(load: Mapping[str, Any]) -> str:
+def describe_load(load):
     pressures = [f"{pressure} for {label}" for label, pressure in load["pressures"].items()]
     pressure = ", ".join(pressures) or f"{load['pressure']} E* q₀ hᵣₘₛ"
     return f"Mean pressure: {pressure}. Contact area: {load['area']}. Mean gap: {load['gap']}."
 
 
-def draw_map(contact: xr.Dataset, source: ColumnDataSource, widest: float) -> Any:
+def draw_map(contact, source, widest):
     """Gap as a shade of grey and contact in orange, in a box with the shape of the map."""
-    (_, width, _, height), unit = extent_of(contact)
+    (width, height), unit = sides_of(contact)
     plot = make_plot(
         x_range=DataRange1d(range_padding=0),  # of fixed ranges a narrow window changes the shape
         y_range=DataRange1d(range_padding=0),
@@ -252,59 +191,29 @@ def draw_map(contact: xr.Dataset, source: ColumnDataSource, widest: float) -> An
         y_axis_label=f"y [{unit}]",
     )
     plot.grid.visible = False
-    box = {"x": 0, "y": 0, "dw": width, "dh": height, "source": source}
-    palette = [to_hex(GAPS(code / HIGHEST_CODE)) for code in range(HIGHEST_CODE + 1)]
-    coded = LinearColorMapper(palette=palette, low=0, high=HIGHEST_CODE)
-    plot.image("gap", color_mapper=coded, **box)
-    shares = LinearColorMapper(palette=SHARES, low=0, high=4)
-    top = plot.image("contact", color_mapper=shares, **box)
-    per_gap, unit_gap = unit_for(widest, "m")
-    scale = LinearColorMapper(palette=palette, low=0, high=widest * per_gap)
-    plot.add_layout(ColorBar(color_mapper=scale, title=f"gap [{unit_gap}]", height=12), "below")
-    decode = f"return ({widest * per_gap / HIGHEST_CODE} * value).toPrecision(3)"
-    tips = [
-        ("x, y", f"$x{{0.000}}, $y{{0.000}} {unit}"),
-        ("gap", f"@gap{{custom}} {unit_gap}"),
-        ("in contact", "@contact of 4 points"),
-    ]
-    formatters = {"@gap": CustomJSHover(code=decode)}
-    plot.add_tools(HoverTool(renderers=[top], tooltips=tips, formatters=formatters))
+    colours = LinearColorMapper(palette=[*GAPS, RED], low=0, high=CONTACT)
+    plot.image("code", x=0, y=0, dw=width, dh=height, source=source, color_mapper=colours)
+    per_gap, unit = unit_for(widest, "m")
+    scale = LinearColorMapper(palette=GAPS, low=0, high=widest * per_gap)
+    plot.add_layout(ColorBar(color_mapper=scale, title=f"gap [{unit}]", height=12), "below")
     return plot
 
 
-def draw_curve(pull_off: xr.Dataset) -> Any:
+def draw_tension(pull_off):
     """Mean tension against mean gap, on approach and separation."""
-    per_gap, unit_gap = unit_for(float(pull_off.mean_gap.max()), "m")
-    per_tension, unit = tension_unit(pull_off)
-    plot = make_plot(
-        sizing_mode="stretch_width",
-        height=400,
-        y_range=tuple(limit * per_tension for limit in tension_limits(pull_off)),
-        x_axis_label=f"mean gap [{unit_gap}]",
-        y_axis_label=f"mean tension [{unit}]",
-    )
+    curves, gap, tension, limits = follow_tension(pull_off)
+    plot = make_plot(height=400, y_range=limits, x_axis_label=gap, y_axis_label=tension)
     plot.add_layout(Span(location=0, dimension="width", line_color="#737373"))
-    lines = []
-    for way, name, colour in WAYS:
-        curve = pull_off.isel(state=pull_off.separating.values == way)
-        source = ColumnDataSource(
-            {
-                "gap": curve.mean_gap.values * per_gap,
-                "tension": curve.mean_traction.values * per_tension,
-                "contact": [percent(float(share)) for share in curve.contact_area],
-                "attracted": [percent(float(share)) for share in curve.attracted_area],
-                "way": [name] * curve.sizes["state"],
-            }
-        )
-        look = {"color": colour, "line_width": 2, "legend_label": name}
-        lines.append(plot.line("gap", "tension", source=source, **look))
-    tips = [
-        ("", "@way"),
-        ("mean gap", f"@gap{{0.000}} {unit_gap}"),
-        ("mean tension", f"@tension{{0.000}} {unit}"),
-        ("in contact", "@contact"),
-        ("within the range", "@attracted"),
-    ]
-    plot.add_tools(HoverTool(renderers=lines, tooltips=tips, visible=False))
+    for name, colour, curve in curves:
+        look = {"color": colour, "line_width": 2, "legend_label": name, "name": name}
+        line = plot.line("gap", "tension", source=ColumnDataSource(curve), **look)
+        told = [
+            ("", "$name"),
+            (gap, "@gap{0.000}"),
+            (tension, "@tension{0.000}"),
+            ("in contact", "@contact"),
+            ("within the range", "@attracted"),
+        ]
+        plot.add_tools(HoverTool(renderers=[line], tooltips=told, visible=False))
     plot.legend.location = "bottom_right"
     return plot

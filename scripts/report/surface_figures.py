@@ -1,23 +1,17 @@
 """Figures of a surface: heights and spectrum, and the adhesion that remains on it."""
 
-from __future__ import annotations
-
-from dataclasses import dataclass
-from typing import Any
+from typing import NamedTuple
 
 import numpy as np
-import xarray as xr
-from bokeh.models import ColumnDataSource, DataRange1d, HoverTool, Legend, Span, Tabs
+import pandas as pd
+from bokeh.models import ColumnDataSource, DataRange1d, HoverTool, Legend, Tabs
 from bokeh.models.layouts import TabPanel
-from bokeh.plotting import figure
-from matplotlib.ticker import FixedLocator, NullLocator
-from numpy.typing import NDArray
 
 from common import plotting
 from common.formatting import number, quantity, unit_for
 from common.plotting import BLACK, COLOURS, GREY, MARKERS
-from criteria.texts import MPA, describe_threshold, round_share, show_shares, show_stress
-from report.interactive import make_plot
+from common.verdicts import MPA, round_share, show_shares, show_stress
+from report.interactive import draw_wanted_share, make_plot
 from stickiness.criteria.pair import NOT_JUDGED
 from stickiness.remaining.prediction import DEFAULT_SHARE
 from stickiness.statistics import COVERS
@@ -27,15 +21,14 @@ LINES = (1e-3, 1e-5)  # C0 of these [m^0.4]
 
 SHOWN = 3  # materials at first, and in print: more is a bundle
 DASHES = ("solid", "dashed", "dotted", "dotdash", "dashdot", [8, 3, 2, 3, 2, 3], [12, 3])
+PRINTED_DASHES = ("-", "--", ":")
 POINTS = ("circle", "square", "triangle", "diamond", "inverted_triangle", "plus", "x")
-FACTORS = (0.1, 0.2, 0.5, 1, 2, 5, 10)  # on the heights, that have a tick
 MATTERS = 0.99, 1e-3  # shares beyond which a curve along the modulus says nothing more
-SAME = 0.2  # %, difference of curves that nobody sees
 ROOM = 3.0  # factor on the modulus by which its curve goes on there
 TABS = {"modulus": "Modulus", "roughness": "Roughness", "rate": "Rate"}
 LABELS = {
     "modulus": "plane-strain modulus E* [MPa]",
-    "roughness": "factor on the heights, and rms height",
+    "roughness": "factor on the heights",
     "rate": "frequency [Hz]",
 }
 REMAINS = "remaining share [%]"
@@ -51,37 +44,31 @@ LEGEND = {  # one column below the figure: long names fit a phone
 }
 
 
-def draw_surface(surface: xr.Dataset, output: str) -> None:
+def draw_surface(surface, output):
     """Write a figure with the heights, if there are any, and the spectrum."""
-    pictures = {"heights": draw_heights, "profile": draw_profile}
-    pictured = next((name for name in pictures if name in surface), None)
+    pictured = [name for name in ("heights", "profile") if name in surface]
     row = "AB" if pictured else "AA"
     with plotting.open_figure([output], row, 3.3) as panels:
         if pictured:
-            pictures[pictured](panels["A"], surface)
+            draw_heights(panels["A"], surface[pictured[0]])
         draw_spectrum(panels[row[1]], surface)
 
 
-def draw_heights(ax, surface):
-    """Levelled heights as colours, in units that suit them."""
-    per_x, unit_x = unit_for(float(max(surface.x.max(), surface.y.max())), "m")
-    heights = surface.heights.values
-    # A few outliers must not take all the colours.
-    low, high = np.percentile(heights, [0.2, 99.8])
+def draw_heights(ax, heights):
+    """Levelled heights, as colours or as a profile, in units that suit them."""
+    per_x, unit_x = unit_for(max(float(heights[axis][-1]) for axis in heights.dims), "m")
+    low, high = np.percentile(heights, [0.2, 99.8])  # a few outliers must not take all the colours
     per_h, unit_h = unit_for(max(abs(low), abs(high)), "m")
-    extent = [0, float(surface.x[-1]) * per_x, 0, float(surface.y[-1]) * per_x]
+    ax.set_xlabel(f"x [{unit_x}]")
+    if heights.ndim == 1:
+        ax.plot(heights.x * per_x, heights * per_h, color=COLOURS[0], linewidth=0.7)
+        ax.set_ylabel(f"height [{unit_h}]")
+        return
+    extent = [0, float(heights.x[-1]) * per_x, 0, float(heights.y[-1]) * per_x]
     look = {"origin": "lower", "extent": extent, "cmap": "cividis", "interpolation": "nearest"}
-    image = ax.imshow(heights.T * per_h, vmin=low * per_h, vmax=high * per_h, **look)
+    image = ax.imshow(heights.values.T * per_h, vmin=low * per_h, vmax=high * per_h, **look)
     ax.figure.colorbar(image, ax=ax, label=f"height [{unit_h}]", shrink=0.8)
-    ax.set(xlabel=f"x [{unit_x}]", ylabel=f"y [{unit_x}]")
-
-
-def draw_profile(ax, surface):
-    """Levelled heights of a profile."""
-    per_x, unit_x = unit_for(float(surface.x.max()), "m")
-    per_h, unit_h = unit_for(float(np.abs(surface.profile).max()), "m")
-    ax.plot(surface.x * per_x, surface.profile * per_h, color=COLOURS[0], linewidth=0.7)
-    ax.set(xlabel=f"x [{unit_x}]", ylabel=f"height [{unit_h}]")
+    ax.set_ylabel(f"y [{unit_x}]")
 
 
 def draw_spectrum(ax, surface):
@@ -134,30 +121,16 @@ def draw_limits(ax, surface):
         ax.axvspan(max(q - error, q / 3), q + error, color=COLOURS[2], alpha=0.25, linewidth=0)
 
 
-@dataclass(frozen=True)
-class Curve:
-    """Remaining share [%] of one material along an axis."""
+class Curve(NamedTuple):
+    """Remaining share of one material along an axis."""
 
     label: str
     place: int  # among all materials of the page, for its look
-    x: NDArray
-    rough: NDArray  # at the rough end of the surface
-    smooth: NDArray
-    low: NDArray  # limits
-    high: NDArray
-    at: list[str]  # abscissae in words
-    pair: int  # place of the pair as it is
-    thresholds: NDArray  # abscissae where the wanted share remains
-    threshold: str
-
-    @property
-    def ends(self) -> tuple[str, ...]:
-        """Ends of the surface that are drawn: one where the eye could not tell them apart."""
-        same = np.allclose(self.rough, self.smooth, rtol=0, atol=SAME)
-        return ("rough",) if same else ("rough", "smooth")
+    points: pd.DataFrame  # x, the same in words, and shares [%]: at both ends and their limits
+    pair: int  # row of the pair as it is
 
 
-def find_curves(pairs: xr.Dataset, labels: dict[str, str]) -> dict[str, list[Curve]]:
+def find_curves(pairs, labels):
     """Curves of the materials that are judged, by axis; along the rate where the modulus varies.
 
     `labels` are those of the materials in order.
@@ -165,74 +138,52 @@ def find_curves(pairs: xr.Dataset, labels: dict[str, str]) -> dict[str, list[Cur
     judged = [name for name in labels if int(pairs.verdict.sel(material=name)) != NOT_JUDGED]
     found = {}
     for axis in TABS:
-        curves = []
         for place, name in enumerate(judged):
             pair = pairs.sel(material=name)
             known = bool(np.isfinite(pair[f"remaining_by_{axis}_low"]).any())
             if known and (axis != "rate" or int(pair.depends_on_rate)):
-                curves.append(follow(axis, pair, labels[name], place))
-        if curves:
-            found[axis] = curves
+                curve = Curve(labels[name], place, *follow(axis, pair))
+                found.setdefault(axis, []).append(curve)
     return found
 
 
-def follow(axis: str, pair: xr.Dataset, label: str, place: int) -> Curve:
-    """Curve of one material along an axis, where it is known and says something."""
-    share = pair[f"remaining_by_{axis}"]
-    low, high = (pair[f"remaining_by_{axis}_{end}"].values for end in ("low", "high"))
-    x, at, own = locate(axis, pair)
+def follow(axis, pair):
+    """Points of the curve along an axis, where it is known and says something, and the pair's."""
+    if axis == "modulus":
+        factors = pair.modulus_factor.values
+        x = float(pair.modulus_quoted) * factors / MPA
+        at = [f"E* = {show_stress(modulus * MPA, MPA)} MPa" for modulus in x]
+    elif axis == "roughness":
+        x = factors = pair.roughness_factor.values
+        heights = pair.pair_h_rms.values
+        at = [f"rms height {quantity(*(factor * heights), 'm', 2)}" for factor in factors]
+    else:
+        x = factors = pair.frequency.values  # the modulus is quoted at 1 Hz
+        moduli = [show_stress(modulus, MPA) for modulus in pair.modulus.values]
+        at = [f"{number(f, 2)} Hz, E* = {e} MPa" for f, e in zip(x, moduli, strict=True)]
+    own = int(np.argmin(abs(np.log(factors))))
+    share = f"remaining_by_{axis}"
+    low, high = pair[f"{share}_low"].values, pair[f"{share}_high"].values
     kept = np.isfinite(low)
-    of_modulus = axis == "modulus"
-    if of_modulus:
+    if axis == "modulus":
         telling = (low < MATTERS[0]) & (high > MATTERS[1])
         telling[own] = True
         kept &= (x >= x[telling].min() / ROOM) & (x <= x[telling].max() * ROOM)
-    return Curve(
-        label=label,
-        place=place,
-        x=x[kept],
-        rough=100 * share.sel(end="rough").values[kept],
-        smooth=100 * share.sel(end="smooth").values[kept],
-        low=100 * low[kept],
-        high=100 * high[kept],
-        at=[at[i] for i in np.flatnonzero(kept)],
-        pair=int(np.count_nonzero(kept[:own])),
-        thresholds=pair.modulus_threshold.values / MPA if of_modulus else np.array([]),
-        threshold=f"{describe_threshold(pair)} MPa" if of_modulus else "",
-    )
+    shares = {end: pair[share].sel(end=end).values for end in ("rough", "smooth")}
+    percents = {n: 100 * values for n, values in (shares | {"low": low, "high": high}).items()}
+    points = pd.DataFrame({"x": x, "at": at} | percents)[kept]
+    return points.reset_index(drop=True), int(np.count_nonzero(kept[:own]))
 
 
-def locate(axis: str, pair: xr.Dataset) -> tuple[NDArray, list[str], int]:
-    """Abscissae along an axis, the same in words, and the place of the pair as it is."""
-
-    def say(moduli):
-        return [f"E* = {show_stress(float(modulus), MPA)} MPa" for modulus in moduli]
-
-    if axis == "modulus":
-        factors = pair.modulus_factor.values
-        moduli = float(pair.modulus_quoted) * factors
-        x, at = moduli / MPA, say(moduli)
-    elif axis == "roughness":
-        x = factors = pair.roughness_factor.values
-        heights = np.sort(pair.pair_h_rms.values)
-        at = [f"rms height {quantity(*map(float, f * heights), 'm', 2)}" for f in factors]
-    else:
-        x = factors = pair.frequency.values  # the modulus is quoted at 1 Hz
-        moduli = say(pair.modulus.values)
-        at = [f"{number(float(f), 2)} Hz, {text}" for f, text in zip(x, moduli, strict=True)]
-    return x, at, int(np.argmin(abs(np.log(factors))))
-
-
-def draw_interactive(pairs: xr.Dataset, labels: dict[str, str]) -> Tabs | None:
-    """Tabs with a figure for each axis; None if nothing is judged."""
+def draw_interactive(found):
+    """Tabs with a figure for each axis."""
     panels = [
-        TabPanel(title=TABS[axis], child=draw_axis(axis, curves, pairs))
-        for axis, curves in find_curves(pairs, labels).items()
+        TabPanel(title=TABS[axis], child=draw_axis(axis, curves)) for axis, curves in found.items()
     ]
-    return Tabs(tabs=panels, sizing_mode="stretch_width") if panels else None
+    return Tabs(tabs=panels, sizing_mode="stretch_width")
 
 
-def draw_axis(axis: str, curves: list[Curve], pairs: xr.Dataset) -> figure:
+def draw_axis(axis, curves):
     """Interactive figure of all curves along one axis."""
     plot = make_plot(
         height=340 + LEGEND_ROW * len(curves),
@@ -242,104 +193,60 @@ def draw_axis(axis: str, curves: list[Curve], pairs: xr.Dataset) -> figure:
         x_axis_label=LABELS[axis],
         y_axis_label=REMAINS,
     )
-    plot.add_layout(
-        Span(location=100 * DEFAULT_SHARE, dimension="width", line_dash="dashed", line_color="#666")
-    )
+    draw_wanted_share(plot)
     items = [
         (one.label, draw_curve(plot, one, visible=place < SHOWN))
         for place, one in enumerate(curves)
     ]
     plot.add_layout(Legend(items=items, click_policy="hide", **LEGEND), "below")
-    if axis == "roughness":
-        ticks = label_heights(pairs)
-        plot.xaxis.ticker = list(ticks)
-        plot.xaxis.major_label_overrides = ticks
     return plot
 
 
-def draw_curve(plot: figure, one: Curve, visible: bool) -> list[Any]:
-    """Limits, both ends of the surface, the pair as it is and its threshold, as renderers."""
-    columns = {name: getattr(one, name) for name in ("x", "rough", "smooth", "low", "high", "at")}
-    columns |= {
-        "label": [one.label] * len(one.x),
-        "share": [show(*sorted(pair)) for pair in zip(one.rough, one.smooth, strict=True)],
-        "limits": [show(*pair, " to ") for pair in zip(one.low, one.high, strict=True)],
-    }
-    source = ColumnDataSource(columns)
+def draw_curve(plot, one, visible):
+    """Limits, both ends of the surface and the pair as it is, as renderers."""
+    points = one.points.assign(
+        label=one.label,
+        share=[show(*sorted(ends)) for ends in one.points[["rough", "smooth"]].values],
+        limits=[show(*ends, " to ") for ends in one.points[["low", "high"]].values],
+    )
+    source = ColumnDataSource(points.to_dict("list"))
     look = {"color": COLOURS[one.place % len(COLOURS)], "visible": visible}
     band = plot.varea("x", "low", "high", source=source, fill_alpha=0.15, **look)
-    dash = DASHES[one.place % len(DASHES)]
-    lines = [
-        plot.line("x", end, source=source, line_dash=dash, line_width=2, **look) for end in one.ends
-    ]
+    style = look | {"line_dash": DASHES[one.place % len(DASHES)], "line_width": 2}
+    lines = [plot.line("x", end, source=source, **style) for end in ("rough", "smooth")]
     told = [("", "@label"), ("at", "@at"), ("remains", "@share"), ("limits", "@limits")]
     plot.add_tools(HoverTool(renderers=lines, tooltips=told, visible=False))
-    x, y = [one.x[one.pair]] * len(one.ends), [getattr(one, end)[one.pair] for end in one.ends]
-    point = POINTS[one.place % len(POINTS)]
-    marks = plot.scatter(x, y, marker=point, size=10, **look)
-    return [*lines, marks, band, *draw_thresholds(plot, one, look)]
+    own = points.loc[one.pair]
+    marker = POINTS[one.place % len(POINTS)]
+    marks = plot.scatter([own.x] * 2, [own.rough, own.smooth], marker=marker, size=10, **look)
+    return [*lines, marks, band]
 
 
-def draw_thresholds(plot: figure, one: Curve, look: dict[str, Any]) -> list[Any]:
-    """Where the curve of each end passes the wanted share, if that is in sight."""
-    at = one.thresholds[: len(one.ends)]
-    at = at[(at >= one.x[0]) & (at <= one.x[-1])]
-    if not at.size:
-        return []
-    texts = {"label": [one.label] * len(at), "threshold": [one.threshold] * len(at)}
-    source = ColumnDataSource({"x": at, "y": np.full(len(at), 100 * DEFAULT_SHARE)} | texts)
-    hollow = look | {"fill_color": "white", "line_width": 2, "size": 9}
-    circles = plot.scatter("x", "y", source=source, marker="circle", **hollow)
-    told = [("", "@label"), ("threshold of E*", "@threshold")]
-    plot.add_tools(HoverTool(renderers=[circles], tooltips=told, visible=False))
-    return [circles]
-
-
-def show(low: float, high: float, between: str = " … ") -> str:
+def show(low, high, between=" … "):
     """Two shares [%] as text."""
     return show_shares(round_share(low / 100), round_share(high / 100), between)
 
 
-def label_heights(pairs: xr.Dataset) -> dict[float, str]:
-    """Ticks of the factor on the heights, with the rms height that results."""
-    smooth_solid = pairs.pair_h_rms.min("material")  # without the roughness of materials
-    height = float(np.sqrt(smooth_solid.prod("end")))
-    return {f: f"×{f:g}\n{quantity(f * height, f * height, 'm', 2)}" for f in FACTORS}
-
-
-def draw_curves(pairs: xr.Dataset, labels: dict[str, str], output: str) -> None:
+def draw_still(found, output):
     """Write the curves of the first materials for print; say so if nothing is judged."""
-    found = find_curves(pairs, labels)
     with plotting.open_figure([output], "ABC"[: max(len(found), 1)], 2.9) as panels:
         if not found:
             panels["A"].set_axis_off()
             panels["A"].text(0.5, 0.5, "not judged", ha="center")
-        for ax, (axis, curves) in zip(panels.values(), found.items(), strict=False):
+            return
+        for ax, (axis, curves) in zip(panels.values(), found.items(), strict=True):
             for one in curves[:SHOWN]:
-                draw_line(ax, one)
+                points, own = one.points, one.points.loc[[one.pair]]
+                look = {"color": COLOURS[one.place % len(COLOURS)]}
+                plotting.draw_band(ax, points.x, points.low, points.high, look["color"], alpha=0.15)
+                look["linestyle"] = PRINTED_DASHES[one.place % SHOWN]
+                look["marker"] = MARKERS[one.place % len(MARKERS)]
+                for end in ("rough", "smooth"):
+                    ax.plot(points.x, points[end], **look | {"marker": ""})
+                    ax.plot(own.x, own[end], **look)
+                ax.plot([], [], **look, label=one.label)
             ax.axhline(100 * DEFAULT_SHARE, color=GREY, linewidth=0.9, linestyle="--")
             ax.set(xscale="log", ylim=(-2, 102), xlabel=LABELS[axis], ylabel=REMAINS)
-            if axis == "roughness":
-                ticks = label_heights(pairs)
-                few = [f for f in ticks if f in (0.1, 1, 10)]
-                ax.xaxis.set_major_locator(FixedLocator(few))
-                ax.xaxis.set_minor_locator(NullLocator())
-                ax.set_xticklabels([ticks[f] for f in few])
-        if found:
-            handles, texts = panels["A"].get_legend_handles_labels()
-            panels["A"].figure.legend(
-                handles, texts, loc="outside lower center", ncols=SHOWN, handlelength=3
-            )
-
-
-def draw_line(ax: Any, one: Curve) -> None:
-    """Curve of one material in print."""
-    colour = COLOURS[one.place % len(COLOURS)]
-    look = {"color": colour, "linestyle": DASHES[one.place % len(DASHES)]}
-    plotting.draw_band(ax, one.x, one.low, one.high, colour, alpha=0.15)
-    marker = MARKERS[one.place % len(MARKERS)]
-    for end in one.ends:
-        share = getattr(one, end)
-        ax.plot(one.x, share, **look)
-        ax.plot(one.x[one.pair], share[one.pair], color=colour, marker=marker)
-    ax.plot([], [], marker=marker, **look, label=one.label)
+        handles, texts = panels["A"].get_legend_handles_labels()
+        look = {"loc": "outside lower center", "ncols": SHOWN, "handlelength": 3}
+        panels["A"].figure.legend(handles, texts, **look)

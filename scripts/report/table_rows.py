@@ -1,11 +1,6 @@
 """Verdicts, criteria and sizes of surfaces as rows of tables, for both kinds of page."""
 
-from __future__ import annotations
-
-from typing import Any
-
 import numpy as np
-import xarray as xr
 
 from common.formatting import (
     NOTHING,
@@ -17,17 +12,18 @@ from common.formatting import (
     quantity_with_error,
     with_error,
 )
-from criteria.classification import MOST_STRAIN, find_limits
-from criteria.texts import (
+from common.verdicts import (
+    MOST_STRAIN,
     MPA,
     describe_pull_off,
     describe_share,
     describe_threshold,
+    find_limits,
     round_share,
     show_probability,
     show_stress,
 )
-from stickiness.criteria.pair import DEPENDS, NOT_JUDGED, TOUCHES, WORDS
+from stickiness.criteria.pair import NOT_JUDGED, WORDS
 from stickiness.criteria.registry import CRITERIA, EDGES, REMAINING
 from stickiness.criteria.verdict import BROAD_A_V
 from stickiness.remaining.prediction import DEFAULT_SHARE
@@ -40,23 +36,14 @@ COLUMNS = ("remaining", "pull_off", "threshold", "energy_ratio", "margin", "onse
 COLUMNS += ("errors", "modulus")
 
 
-def describe_pair(pair: xr.Dataset) -> dict[str, Any]:
+def describe_pair(pair):
     """Verdict on a pair: `text` by column for readers, `sort` by column for sorting.
 
     Intervals go from the rough to the smooth end of the surface. A pair that is not judged has no
     numbers and comes last in every order.
     """
     code = int(pair.verdict)
-    row = {
-        "code": code,
-        "word": WORDS[code],
-        "tone": TONES[code],
-        "depends": code == DEPENDS,
-        "adheres_locally": code == TOUCHES,
-        "not_judged": "",
-        "stiffening": "",
-        "strain": "",
-    }
+    row = {"code": code, "word": WORDS[code], "tone": TONES[code], "stiffening": "", "strain": ""}
     if code == NOT_JUDGED:
         return row | {
             "code": -1,
@@ -64,121 +51,90 @@ def describe_pair(pair: xr.Dataset) -> dict[str, Any]:
             "text": dict.fromkeys(COLUMNS, NOTHING),
             "sort": dict.fromkeys(COLUMNS, -1.0),
         }
-    stiffening, strain = pair.stiffening.values, float(pair.layer_strain.max())
-    if max(stiffening.max() - 1, 1 - stiffening.min()) >= LEAST_EFFECT:
-        row["stiffening"] = interval(*map(float, stiffening), 2)
-    if strain > MOST_STRAIN:
-        row["strain"] = number(strain, 2)
+    if abs(pair.stiffening - 1).max() >= LEAST_EFFECT:
+        row["stiffening"] = interval(*pair.stiffening.values, 2)
+    if pair.layer_strain.max() > MOST_STRAIN:
+        row["strain"] = number(pair.layer_strain.max(), 2)
     margin, onset = (pair.margin.sel(criterion=name) for name in (REMAINING, EDGES))
     drawn = bool(np.isfinite(pair.probability))  # spectra from the errors of a measurement
-    errors = [
-        f"{name} {percent(float(pair[f'error_of_{name}']))}" for name in ("spectrum", "model")
-    ]
+    errors = f"spectrum {percent(pair.error_of_spectrum)}, model {percent(pair.error_of_model)}"
+    cells = {
+        "remaining": (describe_share(pair), pair.remaining.mean()),
+        "pull_off": (describe_pull_off(pair), pair.pull_off.mean()),
+        "threshold": (describe_threshold(pair), pair.modulus_threshold.sel(end="rough")),
+        "energy_ratio": (interval(*pair.energy_ratio.values, 2), pair.energy_ratio.mean()),
+        "margin": (interval(*find_limits(pair, "margin"), 2), np.sqrt(margin.prod("end"))),
+        "onset": (interval(*onset.values, 2), onset.mean()),
+        "probability": (show_probability(pair) if drawn else NOTHING, pair.probability),
+        "errors": (
+            errors if drawn else NOTHING,
+            np.hypot(pair.error_of_spectrum, pair.error_of_model),
+        ),
+        "modulus": (show_stress(float(pair.modulus_quoted), MPA), pair.modulus_quoted),
+    }
     return row | {
+        "not_judged": "",
         "nothing": round_share(find_limits(pair)[1]) == 0,
-        "text": {
-            "remaining": describe_share(pair),
-            "pull_off": describe_pull_off(pair),
-            "threshold": describe_threshold(pair),
-            "energy_ratio": interval(*ends(pair.energy_ratio), 2),
-            "margin": interval(*map(float, find_limits(pair, "margin")), 2),
-            "onset": interval(*ends(onset), 2),
-            "probability": show_probability(pair) if drawn else NOTHING,
-            "errors": ", ".join(errors) if drawn else NOTHING,
-            "modulus": show_stress(float(pair.modulus_quoted), MPA),
-        },
-        "sort": {
-            "remaining": float(pair.remaining.mean()),
-            "pull_off": float(pair.pull_off.mean()),
-            "threshold": float(pair.modulus_threshold.sel(end="rough")),
-            "energy_ratio": float(pair.energy_ratio.mean()),
-            "margin": float(np.sqrt(margin.prod("end"))),
-            "onset": float(onset.mean()),
-            "probability": float(pair.probability),
-            "errors": float(np.hypot(pair.error_of_spectrum, pair.error_of_model)),
-        },
+        "text": {name: text for name, (text, _) in cells.items()},
+        "sort": {name: float(value) for name, (_, value) in cells.items()},
     }
 
 
-def ends(values: xr.DataArray) -> tuple[float, float]:
-    """Values at the rough and at the smooth end of the surface."""
-    return float(values.sel(end="rough")), float(values.sel(end="smooth"))
-
-
-def explain(pair: xr.Dataset, work_of_adhesion: float) -> list[dict[str, Any]]:
+def explain(pair, work_of_adhesion):
     """What every criterion says of a judged pair, with its margins and its reason."""
     facts = gather_facts(pair, work_of_adhesion)
-    ours = pair.margin.sel(criterion=REMAINING) > 1
-    rows = []
-    for name in map(str, pair.criterion.values):
-        margin = pair.margin.sel(criterion=name)
-        sticky = margin > 1
-        rows.append(
-            {
-                "name": CRITERIA[name].label,
-                "answer": ("does not stick", "depends", "sticks")[
-                    int(sticky.any()) + int(sticky.all())
-                ],
-                "margins": interval(*ends(margin), 2),
-                "disagrees": bool((sticky != ours).any()),
-                "reason": CRITERIA[name].reason.format(**facts),
-            }
-        )
-    return rows
+    sticky = pair.margin > 1
+    return [
+        {
+            "name": CRITERIA[name].label,
+            "answer": ("does not stick", "depends", "sticks")[int(says.any()) + int(says.all())],
+            "margins": interval(*pair.margin.sel(criterion=name).values, 2),
+            "disagrees": bool((says != sticky.sel(criterion=REMAINING)).any()),
+            "reason": CRITERIA[name].reason.format(**facts),
+        }
+        for name in map(str, pair.criterion.values)
+        for says in [sticky.sel(criterion=name)]
+    ]
 
 
-def gather_facts(pair: xr.Dataset, work_of_adhesion: float) -> dict[str, str]:
-    """Texts that the reasons in `registry` quote; intervals go from the smooth to the rough end."""
+def gather_facts(pair, work_of_adhesion):
+    """Texts that the reasons in `registry` quote; intervals are over both ends of the surface."""
     rough = pair.sel(end="rough")
     curvature = float(rough.pair_rms_curvature)
-    energy = work_of_adhesion / float(rough.energy_ratio)
-    of_edges = {
-        name: interval(*sorted(map(float, pair[name].values)), 2)
-        for name in ("attractive_over_contact", "edge_strength", "over_dmt")
-    }
-    return of_edges | {
+    intervals = ("attractive_over_contact", "edge_strength", "over_dmt")
+    return {name: interval(*pair[name].values, 2) for name in intervals} | {
         "remaining": describe_share(pair),
         "wanted": percent(DEFAULT_SHARE),
         "regime": " to ".join(dict.fromkeys(REGIME_TEXTS[int(code)] for code in pair.regime)),
-        "h_rms": quantity(*sorted(map(float, pair.pair_h_rms.values)), "m"),
-        "q0": number(float(rough.pair_q0)),
-        "a_v": number(float(pair.pair_a_v.mean()), 2),
+        "h_rms": quantity(*pair.pair_h_rms.values, "m"),
+        "q0": number(rough.pair_q0),
+        "a_v": number(pair.pair_a_v.mean(), 2),
         "constant_a_v": number(BROAD_A_V, 2),
-        "rms_slope": number(float(rough.pair_rms_slope), 2),
+        "rms_slope": number(rough.pair_rms_slope, 2),
         "rms_curvature": number(curvature, 2),
         "summit_radius": amount(2 / curvature, "m", 2),
-        "energy": f"{number(energy, 2)} J/m²",
+        "energy": f"{number(work_of_adhesion / float(rough.energy_ratio), 2)} J/m²",
         "work_of_adhesion": f"{number(work_of_adhesion, 2)} J/m²",
-        "modulus": amount(float(pair.modulus_quoted), "Pa", 2),
+        "modulus": amount(pair.modulus_quoted, "Pa", 2),
     }
 
 
-def describe_surface(surface: xr.Dataset) -> dict[str, str]:
+def describe_surface(surface):
     """Rms height, rms slope and C0 at H = 0.8 of a surface, rounded to what is known of them.
 
     Both ends of a measured surface are one standard error off; errors shown cover 90 %.
     """
-    height, slope = (
-        tuple(map(float, surface[name].sel(end=["smooth", "rough"])))
-        for name in ("h_rms", "rms_slope")
-    )
+    height, slope = (surface[name].values for name in ("h_rms", "rms_slope"))
     if "draw" in surface.dims:
         texts = {
-            "height": quantity_with_error(*middle(height), "m"),
-            "slope": with_error(*middle(slope)),
+            "height": quantity_with_error(height.mean(), COVERS * np.ptp(height) / 2, "m"),
+            "slope": with_error(slope.mean(), COVERS * np.ptp(slope) / 2),
         }
     else:
         texts = {"height": quantity(*height, "m"), "slope": interval(*slope)}
     if "C0_reference" in surface:
-        error = float(surface.C0_reference_total_error)
-        return texts | {"line": with_error(float(surface.C0_reference), error)}
-    # The highest line with H = 0.8 that the spectrum touches.
-    bound = "" if np.isclose(float(surface.hurst), 0.8) else "≤ "
-    low, high = map(float, surface.C0_reference_upper.sel(end=["smooth", "rough"]))
-    return texts | {"line": bound + interval(low, high, digits=2)}
-
-
-def middle(ends: tuple[float, float]) -> tuple[float, float]:
-    """Value between two ends that are one standard error off, and its error, which covers 90 %."""
-    low, high = ends
-    return (low + high) / 2, COVERS * (high - low) / 2
+        line = with_error(surface.C0_reference, surface.C0_reference_total_error)
+    else:  # the highest line with H = 0.8 that the spectrum touches
+        bound = "" if np.isclose(float(surface.hurst), 0.8) else "≤ "
+        line = bound + interval(*surface.C0_reference_upper.values, 2)
+    return texts | {"line": line}

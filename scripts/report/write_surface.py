@@ -7,8 +7,9 @@ from common import provided
 from common.conventions import LOAD
 from common.formatting import NOTHING, interval, number, quantity, with_error
 from common.job import start
-from criteria.materials import RATE_KEYS, describe_modulus, read_material
-from criteria.texts import describe_pull_off, describe_share
+from common.materials import RATE_KEYS, describe_modulus, read_material
+from common.templates import write_page
+from common.verdicts import describe_pull_off, describe_share
 from report import contact_figure, interactive, pages, surface_figures
 from report.table_rows import describe_pair, describe_surface, explain
 from stickiness import datasets
@@ -26,24 +27,35 @@ MODEL_TOO_HIGH = 0.05  # remaining share below which the model exceeds simulatio
 
 
 def main(job):
-    surface = datasets.read(job.input.surface, ["h_rms", "rms_slope", "psd"])
-    verdicts = datasets.read(job.input.verdicts, ["remaining", "verdict", "margin"])
+    inputs = job.input
+    surface = datasets.read(inputs.surface, ["h_rms", "rms_slope", "psd"])
+    verdicts = datasets.read(inputs.verdicts, ["remaining", "verdict", "margin"])
     pairs = verdicts.sel(surface=job.wildcards.real_surface)
-    materials = datasets.parameters(verdicts)["materials"]
+    entries = datasets.parameters(verdicts)["materials"]
     names = provided.user_defined_first(map(str, pairs.material.values), provided.MATERIALS)
-    mine = provided.user_defined(names, provided.MATERIALS)
-    labels = {name: materials[name]["label"] for name in names}
+    materials = {name: entries[name] for name in names}
+    labels = {name: entry["label"] for name, entry in materials.items()}
+    mine = [name for name in names if name not in provided.MATERIALS]
 
     surface_figures.draw_surface(surface, job.output.figure)
-    surface_figures.draw_curves(pairs, labels, job.output.curves)
-    curves = surface_figures.draw_interactive(pairs, labels)
-    contact = describe_contact(job.input, pairs, {name: materials[name] for name in mine})
-    measured_contact = job.input.get("measured_contact")
-    bem = datasets.read(measured_contact, ["a_v"]) if measured_contact else None
-    pages.write_page(
-        job.input.template,
+    found = surface_figures.find_curves(pairs, labels)
+    surface_figures.draw_still(found, job.output.curves)
+    curves = contact = bem = None
+    if found:
+        curves = {
+            "interactive": interactive.embed(surface_figures.draw_interactive(found)),
+            "still": pages.embed_png(job.output.curves),
+        }
+    if inputs.get("contact"):
+        contact = describe_contact(inputs, pairs, [materials[name] for name in mine])
+    if inputs.get("measured_contact"):
+        bem = describe_measured_contact(
+            datasets.read(inputs.measured_contact, ["a_v"]), surface, materials.values()
+        )
+    write_page(
+        inputs.template,
         job.output.page,
-        files=dict(job.input.items()),
+        files=dict(inputs.items()),
         report=f"{job.output.page.rsplit('/', 2)[0]}/report.html",
         surface=surface,
         made=datasets.parameters(surface),
@@ -55,16 +67,9 @@ def main(job):
             for name in names
         ],
         shown_at_first=surface_figures.SHOWN,
-        curves={
-            "interactive": interactive.embed(curves),
-            "still": pages.embed_png(job.output.curves),
-        }
-        if curves
-        else None,
+        curves=curves,
         contact=contact,
-        bem=None
-        if bem is None
-        else describe_measured_contact(bem, surface, {n: materials[n] for n in names}),
+        bem=bem,
         library=interactive.library() if curves or contact else "",
     )
 
@@ -74,13 +79,13 @@ def describe_sizes(surface):
     low, high = surface.C0.values
     found = describe_surface(surface) | {
         "steep": float(surface.rms_slope.max()) > MOST_SLOPE,
-        "prefactor": interval(float(low), float(high)),
+        "prefactor": interval(low, high),
         "many_missing": float(surface.get("missing_fraction", 0)) > MANY_MISSING,
     }
     if "C0_relative_error" in surface:
         # A factor: C0 is known at q = 1, far from the data.
-        factor = float(np.exp(COVERS * surface.C0_relative_error))
-        found["prefactor"] = f"{number(float(low), 2)} ×÷ {number(factor, 2)}"
+        factor = np.exp(COVERS * surface.C0_relative_error)
+        found["prefactor"] = f"{number(low, 2)} ×÷ {number(factor, 2)}"
     if "q_cutoff" in surface:
         found |= {
             "longest": 2 * np.pi / float(surface.wave_number.min()),
@@ -97,11 +102,10 @@ def describe_sizes(surface):
 def describe_verdict(pair, entry):
     """Verdict on one material, the rates at which it sticks, and every criterion's reason."""
     solid, judged = read_material(entry), int(pair.verdict) != NOT_JUDGED
-    rated = solid.depends_on_rate and judged
     return describe_pair(pair) | {
         "material": entry["label"],
         "modulus": describe_modulus(entry),
-        "rates": list_rates(solid, pair) if rated else [],
+        "rates": list_rates(solid, pair) if solid.depends_on_rate and judged else [],
         "criteria": explain(pair, solid.work_of_adhesion) if judged else [],
     }
 
@@ -109,35 +113,32 @@ def describe_verdict(pair, entry):
 def list_rates(solid, pair):
     """Frequencies at which the pair sticks, as texts, for the thresholds at both ends."""
     texts = []
-    for threshold in dict.fromkeys(map(float, pair.modulus_threshold.sel(end=["rough", "smooth"]))):
+    for threshold in pair.modulus_threshold.sel(end=["rough", "smooth"]).values:
         found = crossings(solid.plane_strain, threshold, pair.frequency.values)
         words = [f"{'below' if up else 'above'} {number(f, 2)} Hz" for f, up in found]
         if not words:
-            highest = np.nanmax(pair.modulus.values)
-            words = ["at every frequency" if highest < threshold else "at no frequency"]
+            always = np.nanmax(pair.modulus.values) < threshold
+            words = ["at every frequency" if always else "at no frequency"]
         texts.append(" and ".join(words))
     return list(dict.fromkeys(texts))
 
 
-def describe_contact(files, pairs, own):
+def describe_contact(files, pairs, mine):
     """Simulated contact and pull-off of the measured heights; None where there is no map.
 
-    `own` are the entries of the user's materials by name.
+    `mine` are the entries of the user's materials.
     """
-    if not files.get("contact"):
-        return None
     contact, pull_off = datasets.read(files.contact), datasets.read(files.pull_off)
     if contact.attrs["left_out"]:
         return None
-    solids = {entry["label"]: read_material(entry) for entry in own.values()}
+    solids = {entry["label"]: read_material(entry) for entry in mine}
     loads = contact_figure.list_loads(contact, solids)
-    figure = contact_figure.draw_interactive(contact, pull_off, loads)
     made = datasets.parameters(pull_off)
+    figure = contact_figure.draw_interactive(contact, pull_off, loads)
     found = {
         "interactive": interactive.embed(figure),
         "still": pages.embed_png(files.contact_figure),
         "data": contact,
-        "grid": " by ".join(str(2 * contact.sizes[axis]) for axis in ("x", "y")),
         "coarse": exceeds(contact.shortest_wavelength, contact.cutoff_wavelength),
         "loads": loads,
         "pulled": made["label"],
@@ -147,8 +148,12 @@ def describe_contact(files, pairs, own):
     if found["separated"]:
         disagreeing = [name for name in ("separation", "pull_off") if not overlap(pull_off, name)]
         too_high = all(pull_off[name] < pull_off[f"predicted_{name}"] for name in disagreeing)
+        compared = (
+            as_pair(pull_off, ""),
+            as_pair(pull_off, "predicted_"),
+            pairs.sel(material=made["material"]),
+        )
         found |= {
-            "pull_off_grid": " by ".join(str(pull_off.sizes[axis]) for axis in ("x", "y")),
             "rated": any(key in made for key in RATE_KEYS),
             "longer_range": exceeds(pull_off["range"], pull_off.material_range),
             "missing_waves": exceeds(pull_off.shortest_wavelength, pull_off.judged_wavelength),
@@ -156,11 +161,7 @@ def describe_contact(files, pairs, own):
             "known_too_high": too_high and float(pull_off.separation) < MODEL_TOO_HIGH,
             "compared": [
                 {"remaining": describe_share(each), "pull_off": describe_pull_off(each)}
-                for each in (
-                    as_pair(pull_off, ""),
-                    as_pair(pull_off, "predicted_"),
-                    pairs.sel(material=made["material"]),
-                )
+                for each in compared
             ],
         }
     return found
@@ -173,20 +174,16 @@ def exceeds(length, other):
 
 def overlap(pull_off, name):
     """Whether the limits of simulation and model have values in common."""
-    low, high, model_low, model_high = (
-        float(pull_off[f"{prefix}{name}_{end}"])
-        for prefix in ("", "predicted_")
-        for end in ("low", "high")
-    )
-    return low <= model_high and model_low <= high
+    low, model_low = pull_off[f"{name}_low"], pull_off[f"predicted_{name}_low"]
+    high, model_high = pull_off[f"{name}_high"], pull_off[f"predicted_{name}_high"]
+    return bool(low <= model_high and model_low <= high)
 
 
 def as_pair(pull_off, prefix):
-    """Simulated or predicted numbers as a verdict has those of a pair, at ends that agree."""
-    names = {"remaining": "separation", "pull_off": "pull_off"}
+    """Simulated or predicted numbers under the names of a verdict, at ends that agree."""
     found = {
         f"{name}{end}": pull_off[f"{prefix}{simulated}{end}"]
-        for name, simulated in names.items()
+        for name, simulated in (("remaining", "separation"), ("pull_off", "pull_off"))
         for end in ("", "_low", "_high")
     }
     # Where this is large the model knows no pull-off. A simulation does.
@@ -195,41 +192,35 @@ def as_pair(pull_off, prefix):
 
 
 def describe_measured_contact(bem, surface, materials):
-    """Contact of the measured heights with error estimates, as rows; loads where `bem` asks."""
-    loads = []
-    for pressure in bem.pressure.values:
-        at = bem.sel(pressure=pressure).interp({"range": QUOTED_RANGE})
-        row = {"pressure": float(pressure)}
-        for name in ("area_fraction", "a_v"):
-            row[name] = {
-                "value": combine_ways(at[name]),
-                "ways": dict(
-                    zip(
-                        map(str, at.periodisation.values),
-                        map(float, at[name].isel(resolution=-1)),
-                        strict=True,
-                    )
-                ),
-                "theory": sorted(map(float, at[f"theory_{name}"].values)),
-            }
-        loads.append(row)
+    """Contact of the measured heights with error estimates, by load, with and without adhesion."""
+    loads = [bem.sel(pressure=pressure) for pressure in bem.pressure.values]
     found = {
-        "loads": loads,
+        "loads": [describe_load(load.interp({"range": QUOTED_RANGE})) for load in loads],
         "periodic": "given" in bem.periodisation.values,
         "load": LOAD,
-        "margins": [
-            {"material": entry["label"]} | find_onset(bem, read_material(entry), surface)
-            for entry in materials.values()
-        ],
+        "margins": [find_onset(bem, entry, surface) for entry in materials],
         "adhesive": [],
     }
     if "adhesive_contact_area" in bem:
         found |= {
-            "adhesive": [describe_adhesive_load(bem.sel(pressure=p)) for p in bem.pressure.values],
+            "adhesive": list(map(describe_adhesive_load, loads)),
             "edge_pixel": float(bem.edge_resolution.isel(resolution=-1).max()),
             "largest_edge_pixel": edge_zone.COARSEST,
         }
     return found
+
+
+def describe_load(at):
+    """Area and a_V with their errors, by every way to make heights periodic and by theory."""
+    ways = list(map(str, at.periodisation.values))
+    return {"pressure": float(at.pressure)} | {
+        name: {
+            "value": combine_ways(at[name]),
+            "ways": dict(zip(ways, at[name].isel(resolution=-1).values, strict=True)),
+            "theory": np.sort(at[f"theory_{name}"].values),
+        }
+        for name in ("area_fraction", "a_v")
+    }
 
 
 def describe_adhesive_load(at):
@@ -239,7 +230,7 @@ def describe_adhesive_load(at):
     applied = at.applied_pressure.values
     return {
         "pressure": float(at.pressure),
-        "applied": quantity(float(applied.min()), float(applied.max()), "Pa"),
+        "applied": quantity(applied.min(), applied.max(), "Pa"),
         "values": [combine_ways(at[name]) for name in names],
         "residual": float(at.adhesive_residual.max()),
     }
@@ -255,29 +246,29 @@ def combine_ways(values):
     return float(fine.mean()), float(np.hypot(np.ptp(fine.values) / 2, change))
 
 
-def find_onset(bem, solid, surface):
+def find_onset(bem, entry, surface):
     """a_V at a material's range on the pressed heights, and the onset that follows, as texts.
 
     There is no a_V where the range lies outside the gaps computed, and no onset where it is below
     the gap of the pixels next to the contact, which the grid does not resolve.
     """
+    solid = read_material(entry)
     at = bem.sel(pressure=LOAD, method="nearest")
-    h = float(np.sqrt(np.prod(surface.h_rms.values)))
+    h, slope = (float(np.sqrt(np.prod(surface[name].values))) for name in ("h_rms", "rms_slope"))
     ratio = solid.range / h
-    found = {"range": number(ratio, 2), "a_v": NOTHING, "margin": NOTHING, "resolved": False}
-    ranges = at["range"].values
-    if not ranges[0] <= ratio <= ranges[-1]:
-        return found
+    texts = {"a_v": NOTHING, "margin": NOTHING, "resolved": False}
+    texts |= {"material": entry["label"], "range": number(ratio, 2)}
+    if not at["range"][0] <= ratio <= at["range"][-1]:
+        return texts
     value, error = combine_ways(at.a_v.interp({"range": ratio}))
-    found |= {"a_v": with_error(value, error)}
+    texts["a_v"] = with_error(value, error)
     if ratio < float(at.edge_gap.isel(resolution=-1).max()):
-        return found
+        return texts
     length = solid.work_of_adhesion / solid.modulus
     limits = [max(value - error, 0.01 * value), value + error]
-    slope = float(np.sqrt(np.prod(surface.rms_slope.values)))
     onset = equivalent_sphere.attraction(h, float(surface.q0), slope, length, solid.range, limits)
     margins = onset.ratio * onset.error_factor ** np.array([-1.0, 1.0])
-    return found | {"margin": interval(*map(float, margins), 2), "resolved": True}
+    return texts | {"margin": interval(*margins, 2), "resolved": True}
 
 
 if __name__ == "__main__":

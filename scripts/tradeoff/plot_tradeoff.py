@@ -3,12 +3,12 @@
 import pandas as pd
 
 from common import plotting
+from common import tradeoff_table as summary
 from common.job import start
 from common.plotting import COLOURS, MARKERS, make_key, write_ticks
 from stickiness.accuracy import plan
 from stickiness.accuracy.error_models import Surface, read_models
 from stickiness.accuracy.settings import Problem, predicted_cost, predicted_error
-from tradeoff import summary
 from tradeoff.presets import adhesive_cost, adhesive_error
 
 CONTACT = {

@@ -8,6 +8,7 @@ they are plain. A pull-off is a result of one realisation, not a mean: only its 
 import itertools
 from dataclasses import replace
 
+from common.tradeoff_table import percent
 from stickiness.accuracy.error_models import Settings, Surface, single_error
 from stickiness.accuracy.plan import preset
 from stickiness.accuracy.quantities import MODELLED, columns_of
@@ -23,7 +24,6 @@ from stickiness.accuracy.settings import (
     predicted_cost,
     predicted_error,
 )
-from tradeoff.summary import percent
 
 ADHESIVE_QUANTITIES = {
     "inverse_kappa_ad": ("inverse_kappa_ad_0.0075", "inverse_kappa_ad_0.1", "inverse_kappa_ad_1"),

@@ -8,13 +8,13 @@ import numpy as np
 import pandas as pd
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 
+from common import tradeoff_table as summary
 from common.formatting import table as markdown_table
 from common.job import start
 from stickiness import datasets
 from stickiness.accuracy.error_models import FULL, Surface, read_models, single_error, write_models
 from stickiness.accuracy.quantities import MODELLED, columns_of
 from stickiness.accuracy.settings import Problem, UnreachableError, cheapest
-from tradeoff import summary
 from tradeoff.adhesion_table import list_pull_offs, list_states, tabulate_adhesion
 from tradeoff.contact_table import tabulate_contact
 from tradeoff.fit_models import fit_models

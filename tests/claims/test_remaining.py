@@ -8,7 +8,7 @@ from claims import remaining_claims as claims
 from claims.ledger import NOT, OPEN, QUALIFIED, REPRODUCED
 from claims.remaining_claims import sticky_asphalt, sticky_roughness, truncation
 from common import remaining_table
-from experiments.outcomes import COMPATIBLE, MISSED, SILENT, SOME
+from common.experiment_outcomes import COMPATIBLE, MISSED, SILENT, SOME
 
 
 @pytest.mark.parametrize(("growth", "verdict"), [(0.0, REPRODUCED), (0.3, QUALIFIED)])

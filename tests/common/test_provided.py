@@ -1,21 +1,21 @@
 """What comes with the project, and what is the user's own."""
 
-from pathlib import Path
-
+import pytest
 import yaml
 
 from common import provided
 
-CONFIG = Path(__file__).parents[2] / "config"
+STIFF = {"plane_strain_modulus": "1 GPa", "work_of_adhesion": "0.1 J/m^2", "range": "0.3 nm"}
 
 
-def test_names_are_those_of_the_configuration():
-    for kind, names in (("materials", provided.MATERIALS), ("surfaces", provided.SURFACES)):
-        file = yaml.safe_load((CONFIG / f"{kind}.yaml").read_text(encoding="utf-8"))
-        assert file[kind].keys() >= names
+@pytest.mark.parametrize("kind", ["materials", "surfaces"])
+def test_names_are_in_the_configuration(kind):
+    with open(f"config/{kind}.yaml", encoding="utf-8") as file:
+        names = yaml.safe_load(file)[kind].keys()
+    assert names >= set(getattr(provided, kind.upper()))
 
 
-def test_user_defined_names_come_first_in_their_order():
-    names = ["steel", "b", "psa", "a"]
-    assert provided.user_defined_first(names, provided.MATERIALS) == ["b", "a", "steel", "psa"]
-    assert provided.user_defined(names, provided.MATERIALS) == ["b", "a"]
+def test_the_material_pulled_is_the_users_first_one_or_the_softest():
+    given = {"steel": STIFF, "pdms": STIFF | {"plane_strain_modulus": "1 kPa"}}
+    assert provided.choose_pictured(given) == "pdms"
+    assert provided.choose_pictured(given | {"mine": STIFF, "too": given["pdms"]}) == "mine"

@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from criteria.classification import find_limits
+from common.materials import read_material
+from common.verdicts import find_limits
 from criteria.curves import MODULUS_FACTORS, ROUGHNESS_FACTORS, follow, follow_remaining
 from criteria.judging import judge_measured, judge_pairs, stack_pairs
-from criteria.materials import read_material
 from criteria.pair_roughness import PairRoughness
 from stickiness.criteria.a_v_table import SurfaceAv
 from stickiness.remaining import predict

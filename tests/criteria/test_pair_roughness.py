@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 import xarray as xr
 
+from common.materials import describe_modulus, read_material
 from criteria import judging, pair_roughness
-from criteria.materials import describe_modulus, read_material
 from criteria.pair_roughness import ENDS, combine, half_space_pair
 from report.table_rows import describe_pair
 from stickiness.criteria.a_v_table import SurfaceAv

@@ -5,7 +5,7 @@ import dataclasses
 import numpy as np
 import pytest
 
-from criteria import materials
+from common import materials
 from criteria.judging import judge_samples
 from stickiness.remaining.prediction import DEFAULT_SHARE, Roughness
 from stickiness.solids.moduli import Prony

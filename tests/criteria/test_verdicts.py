@@ -8,10 +8,10 @@ import pytest
 import xarray as xr
 from scipy.stats import binomtest, norm
 
+from common.materials import read_material
 from criteria import judging, pair_roughness
 from criteria.budgets import add_budget_of_probability
 from criteria.classification import decide_pairs
-from criteria.materials import read_material
 from criteria.simulated_a_v import measure_a_v
 from stickiness import criteria, datasets
 from stickiness import error_budget as budget

@@ -7,9 +7,10 @@ import numpy as np
 import pytest
 from helpers.experiments import EXPERIMENTS, known, make_dataset, observe, seen
 
-from experiments import outcomes, plot_experiments
+from common import experiment_outcomes as outcomes
+from common.experiment_outcomes import COMPATIBLE, MISSED, SILENT, SOME
+from experiments import plot_experiments
 from experiments import predict_experiments as experiments
-from experiments.outcomes import COMPATIBLE, MISSED, SILENT, SOME
 from experiments.predict_experiments import ROUGHNESS
 from stickiness import datasets
 from stickiness.criteria.registry import CRITERIA
@@ -247,7 +248,7 @@ def test_the_dataset_has_predictions_limits_and_outcomes(dataset):
         (
             {"quantity": "limiting_roughness", "observed": (1e-6, 4e-6)}
             | {"predicted": (3e-6, 1.5e-6, 6e-6), "waves_in_contact": 4.04},
-            {"observed": "1 … 4 µm", "predicted": "3 µm (1.5 … 6.0 µm)", "waves": "4, too few"},
+            {"observed": "1 … 4 µm", "predicted": "3 µm (1.5 … 6 µm)", "waves": "4, too few"},
         ),
         (
             {"quantity": "work_of_separation", "observed": (0.03, 0.03), "by_relation": 1}

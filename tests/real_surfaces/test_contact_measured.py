@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from criteria.materials import read_material
+from common.materials import read_material
 from real_surfaces import contact_measured
 from stickiness import adhesive, datasets, repulsive, surface
 from stickiness.measured.topography import Topography

@@ -5,9 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import xarray as xr
-from bokeh.models import GlyphRenderer
 
-from criteria.materials import Material, read_material
+from common.materials import Material, read_material
 from real_surfaces import (
     analyse_surface,
     contact_measured,
@@ -186,10 +185,6 @@ def test_quoted_numbers_are_those_of_the_curve(pulled):
     assert float(pulled.pull_off) == pytest.approx(float(back.mean_traction.max()))
     work = np.trapezoid(np.maximum(back.mean_traction, 0), back.mean_gap)
     assert float(pulled.separation) == pytest.approx(work / GEL.work_of_adhesion, rel=0.1)
-    found = contact_figure.find_moments(pulled)
-    assert float(pulled.mean_traction[found["pull-off"]]) == pytest.approx(float(pulled.pull_off))
-    assert pulled.separating[found["unloaded"]] == 0
-    assert abs(pulled.mean_traction[found["unloaded"]]) < 0.5 * pulled.pull_off
 
 
 def test_range_is_that_of_the_grid_and_a_longer_one_that_of_the_material(pulled):
@@ -229,29 +224,25 @@ def test_pressures_are_given_for_deep_and_smooth_solids(pressed):
     assert [list(row["pressures"]) for row in rows] == [["gel", "rated at 1 Hz"]] * 8
     first = float(pressed.mean_pressure[0]) * 0.1e6
     assert rows[0]["pressures"]["gel"].startswith(f"{first:.2g} ")
-    for row in rows:
-        for text in (row["area"], row["gap"]):
-            value, error = text.split(")")[0].strip("(").split(" ± ")
-            assert len(value.replace(".", "").lstrip("0")) <= 3, text
-            assert float(error) > 0, text
+    assert all("±" in row[name] for row in rows for name in ("area", "gap"))
 
 
-@pytest.mark.slow
-def test_figures_show_every_load_and_the_curve(pressed, pulled, tmp_path):
+def test_both_figures_show_the_contact_and_the_curve(pressed, pulled, tmp_path):
     nothing = xr.Dataset(attrs={"left_out": "it is dark"})
-    for name, shown in {
-        "both": (pressed, pulled),
-        "contact": (pressed, nothing),
-        "reason": (nothing, nothing),
-    }.items():
-        contact_figure.draw_still(*shown, tmp_path / f"{name}.png")
-        assert (tmp_path / f"{name}.png").read_bytes().startswith(b"\x89PNG")
+    for shown in ((pressed, pulled), (pressed, nothing), (nothing, nothing)):
+        contact_figure.draw_still(*shown, tmp_path / "still.png")
+        assert (tmp_path / "still.png").read_bytes().startswith(b"\x89PNG")
+    codes, widest = contact_figure.code_maps(pressed)
+    assert codes.shape == (8, 64, 64)
+    touching = (codes == contact_figure.CONTACT).transpose(0, 2, 1)
+    assert np.all(pressed.contact.values[touching] >= 0.5)
+    gaps = np.minimum(pressed.gap.values, widest)[~touching]
+    shown = codes.transpose(0, 2, 1)[~touching] * widest / (contact_figure.CONTACT - 1)
+    np.testing.assert_allclose(shown, gaps, atol=0.002 * widest)
     loads = contact_figure.list_loads(pressed, {})
     drawn = contact_figure.draw_interactive(pressed, pulled, loads)
     slider = drawn.select_one({"name": "load"})
     assert (slider.start, slider.end) == (0, 7)
-    tensions = [
-        r.data_source.data.get("tension", []) for r in drawn.select({"type": GlyphRenderer})
-    ]
-    shown = np.concatenate([tension for tension in tensions if len(tension)])
-    assert len(shown) == pulled.sizes["state"]
+    curves, _, _, (lowest, highest) = contact_figure.follow_tension(pulled)
+    assert sum(len(curve["gap"]) for _, _, curve in curves) == pulled.sizes["state"]
+    assert lowest < 0 < max(curves[1][2]["tension"]) < highest

@@ -12,8 +12,8 @@ from helpers.experiments import EXPERIMENTS, make_dataset
 from helpers.pages import Page, make_job
 from matplotlib.figure import Figure
 
-from common import formatting as numbers
-from criteria import texts
+from common import verdicts as texts
+from common.formatting import number
 from report import interactive, pages, write_report
 from report.table_rows import describe_pair, describe_surface
 from stickiness import datasets
@@ -78,10 +78,9 @@ def claims():
 
 @pytest.fixture(scope="module")
 def verdicts():
-    """Two materials on two surfaces: jelly sticks to glass, depends on sand; iron does neither.
+    """Jelly sticks to glass and depends on sand; iron adheres locally to glass alone.
 
-    Iron touches glass without hold. On sand, the other criterion says the opposite of the verdict
-    for iron alone.
+    On sand, the other criterion says the opposite of the verdict for iron alone.
     """
     derived = [[[9.0, 8.0], [2.0, 0.5]], [[0.1, 0.1], [0.01, 0.01]]]
     other = [[[9.0, 8.0], [2.0, 0.5]], [[0.1, 0.1], [3.0, 2.0]]]
@@ -358,23 +357,11 @@ def pairs(verdicts, surfaces):
     return write_report.arrange_pairs(verdicts, surfaces)
 
 
-def test_page_is_valid_and_self_contained(page):
-    page.check()
-    images = [attributes for tag, attributes in page.tags if tag == "img"]
-    assert len(images) == 5
-    assert all((image["width"], image["height"]) == ("100", "50") for image in images)
-    assert images[0]["alt"] == "Figure 1: Caption of fig1 & b < gamma."
-    for path in {link for link in page.links if link.endswith(".nc")}:
-        assert path.startswith("../")
-    assert "../claims.nc" in page.links
-    assert "surfaces/glass.html" in page.links
-
-
-def test_numbers_of_the_page_come_from_the_files(page):
-    for words in (
+def test_the_report_shows_what_is_in_the_files(page):
+    page.check(
         *(f"statement {number}" for number in range(1, 4)),
-        *GRADES,
-        *(f"1 {word}" for word in WORDS[:4]),
+        *(f"1 {word}" for word in (*GRADES, *WORDS[:4])),
+        NASTY,
         "1 of 4 pairs stick",
         "3.2 Between 2.8 and 4.4",
         "with 2 realisations",
@@ -382,39 +369,34 @@ def test_numbers_of_the_page_come_from_the_files(page):
         "−2 by sampling, not known : sampling not known quantity 1",
         " and 1 more",
         "closed form",
-        "50 … 70 % (40 to 84 %)",
-        "2 … 30 % (1.6 to 36 %)",
         "load 0.06, requested accuracy 3 %",
         "area 0.050 ± 0.010 4 % < 0.01 % 20 % 0 % 0 % sampling",
-        "(+10.0 ± 3.0) %",
-        "slow_rule",
+        "10.0 ± 3.0",
         "0.700 ± 0.020",
         "E = 1 kPa, ν = 0.5",
         "multilevel: 32 coarse seeds, 100 long-wave controls",
-    ):
-        assert words in page.text or words in page.html, words
-    assert page.text.count("some number = 0.5") == 6
-    # A value leads to the first file behind it, a closed form to the ledger.
-    assert re.search(r'href="[^"]*out/a/x.nc"[^>]*>1.891', page.html)
-    assert re.search(r'href="../claims.nc"[^>]*>−2', page.html)
-
-
-def test_experiments_are_on_the_page(page):
-    for words in (
+        # The sentences of the verdicts.
+        "Jelly & cream on glass pane sticks: 50 … 70 % (40 to 84 %) of the work of adhesion",
+        "For jelly & cream on sand < 1 mm it depends: 2 … 30 % (1.6 to 36 %)",
+        f"Iron on glass pane {WORDS[TOUCHES]}: 1 % (0.8 to 1.2 %) of the work",
+        "Iron on sand < 1 mm does not stick: nothing of the work of adhesion remains.",
+        # Experiments.
         "30 mJ/m² (relation)",
         "20 mJ/m² (10 … 25 mJ/m²)",
         "longest wave (factor 1.4)",
         "the ball was wet",
         "Not found: the color of the ball",
-    ):
-        assert words in page.text, words
-
-
-def test_texts_are_escaped(page):
+    )
+    assert "slow_rule" in page.html
+    assert page.text.count("some number = 0.5") == 6
     assert NASTY not in page.html
-    assert NASTY in page.text
-    assert "jelly &amp; cream" in page.html
-    assert "sand &lt; 1 mm" in page.html
+    images = [attributes for tag, attributes in page.tags if tag == "img"]
+    assert [(image["width"], image["height"]) for image in images] == [("100", "50")] * 5
+    assert images[0]["alt"] == "Figure 1: Caption of fig1 & b < gamma."
+    assert {"../claims.nc", "surfaces/glass.html"} <= set(page.links)
+    # A value leads to the first file behind it, a closed form to the ledger.
+    assert re.search(r'href="[^"]*out/a/x.nc"[^>]*>1.891', page.html)
+    assert re.search(r'href="../claims.nc"[^>]*>−2', page.html)
 
 
 @pytest.mark.slow
@@ -426,56 +408,32 @@ def test_labels_with_symbols_are_set_and_other_results_are_told(write, results):
         verdicts=verdicts.assign_attrs(parameters=json.dumps(made)),
         answers={"case_of_two": answer(sampling=np.nan).assign_attrs(missed="mine: 0.2 of 0.03")},
     )
-    page.check()
+    page.check("requested accuracy 3 %, not reached", "sampling, not known")
     assert "l<sub>a</sub>\u00a0=\u00a00.05 range, m<sup>0.4</sup>" in page.html
-    assert "requested accuracy 3 %, not reached" in page.text
-    assert "sampling, not known" in page.text
 
 
-def test_rows_of_pairs(pairs):
-    found = {(pair["key"], pair["name"]): pair for pair in pairs}
-    assert list(found) == [
-        ("jelly", "glass"),
-        ("jelly", "sand"),
-        ("iron", "glass"),
-        ("iron", "sand"),
-    ]
+def test_rows_of_pairs(pairs, verdicts):
+    jelly_glass, jelly_sand, iron_glass, iron_sand = pairs
     assert [pair["word"] for pair in pairs] == [WORDS[c] for c in (STICKY, DEPENDS, TOUCHES, 0)]
-    glass, sand = found["jelly", "glass"]["text"], found["jelly", "sand"]["text"]
+    glass, sand, iron = jelly_glass["text"], jelly_sand["text"], iron_sand["text"]
     assert glass["remaining"] == "50 … 70 % (40 to 84 %)"
     assert glass["pull_off"] == "at least 2.5"  # near full contact, not simulated
-    assert (sand["margin"], sand["energy_ratio"]) == ("0.5 … 2.0", "0.25 … 1.0")
+    assert (sand["margin"], sand["energy_ratio"]) == ("0.5 … 2", "0.25 … 1")
     assert sand["threshold"] == "2.5 (1.5 to 4.5)"
-    assert (glass["modulus"], found["iron", "sand"]["text"]["modulus"]) == ("0.0013", "2000")
-    iron = found["iron", "sand"]["text"]
+    assert (glass["modulus"], iron["modulus"]) == ("0.0013", "2000")
     assert (iron["remaining"], iron["pull_off"]) == ("0 %", "–")
     # Probabilities are known where spectra were drawn.
     assert glass["probability"] == glass["errors"] == "–"
     assert (sand["probability"], iron["probability"]) == ("42 %", "< 1.3 %")
     assert sand["errors"] == "spectrum 30 %, model 40 %"
-    assert found["jelly", "sand"]["sort"]["errors"] == pytest.approx(0.5)
-    mine = write_report.choose_mine(pairs)
-    assert mine == pairs
+    assert jelly_sand["sort"]["errors"] == pytest.approx(0.5)
+    assert write_report.choose_mine(pairs) == pairs
+    drawn = verdicts.sel(material="jelly", surface="glass")
+    drawn = drawn.assign(remaining_quantile=("quantile", [0.31, 0.6, 0.77]))
+    assert describe_pair(drawn)["text"]["remaining"] == "50 … 70 % (31 to 77 %)"
 
 
-def test_limits_on_a_measured_surface_are_those_of_its_draws(verdicts):
-    pair = verdicts.sel(material="jelly", surface="glass")
-    quantiles = xr.DataArray([0.31, 0.6, 0.77], dims="quantile")
-    row = describe_pair(pair.assign(remaining_quantile=quantiles))
-    assert row["text"]["remaining"] == "50 … 70 % (31 to 77 %)"
-
-
-def test_the_sentence_of_a_verdict_has_its_share(verdicts, page):
-    for sentence in (
-        "jelly & cream on glass pane sticks: 50 … 70 % (40 to 84 %) of the work of adhesion",
-        "For jelly & cream on sand < 1 mm it depends: 2 … 30 % (1.6 to 36 %)",
-        f"Iron on glass pane {WORDS[TOUCHES]}: 1 % (0.8 to 1.2 %) of the work",
-        "Iron on sand < 1 mm does not stick: nothing of the work of adhesion remains.",
-    ):
-        assert sentence.lower() in page.text.lower(), sentence
-
-
-BEYOND = f"> {numbers.number(1e7)}"
+BEYOND = f"> {number(1e7)}"
 
 
 @pytest.mark.parametrize(
@@ -483,8 +441,8 @@ BEYOND = f"> {numbers.number(1e7)}"
     [
         ((3.5e6, 3.5e6), (0.79e6, 30e6), "3.5 (0.79 to 30)"),
         ((2e6, 1e6), (0.5e6, 4e6), "1 … 2 (0.5 to 4)"),
-        ((8e-3, 8e-3), (1e-3, 0.9), f"< {numbers.number(1e-6)}"),
-        ((0.5, 3e6), (0.0, 4e6), f"< {numbers.number(1e-6)} … 3 (0 to 4)"),
+        ((8e-3, 8e-3), (1e-3, 0.9), f"< {number(1e-6)}"),
+        ((0.5, 3e6), (0.0, 4e6), f"< {number(1e-6)} … 3 (0 to 4)"),
         ((2e12, 1e20), (1.5e11, 1e21), f"2 × 10⁶ … {BEYOND} (1.5 × 10⁵ to {BEYOND})"),
         ((np.nan, np.nan), (np.nan, np.nan), "–"),
     ],
@@ -497,9 +455,6 @@ def test_thresholds_have_one_unit_and_all_limits(verdicts, values, limits, text)
         modulus_threshold_high=("end", [limits[1]] * 2),
     )
     assert texts.describe_threshold(found) == text
-    drawn = found.assign(modulus_threshold_quantile=("quantile", [1e6, 2e6, 4e6]))
-    if np.isfinite(limits[0]):
-        assert texts.describe_threshold(drawn).endswith("(1 to 4)")
 
 
 def test_every_judged_pair_is_on_one_axis(verdicts, pairs):
@@ -516,11 +471,9 @@ def test_every_judged_pair_is_on_one_axis(verdicts, pairs):
     assert word == "depends"
     assert less == pytest.approx([0.25, 2.0, 1.6, 2.0])
     assert more == pytest.approx([1.0, 30.0, 30.0, 36.0])
-    ((_, *alone),) = shown["iron", "glass pane"]  # both ends agree
-    assert alone == pytest.approx([0.05, 1.0, 0.8, 1.2])
     lines = [r.data_source.data for r in plot.renderers if isinstance(r.glyph, MultiLine)]
     drawn = sorted(tuple(xs) for data in lines for xs in data["xs"])
-    assert drawn == [(0.005,), (0.05,), (0.25, 1.0), (4.0, 4.5)]
+    assert drawn == [(0.005, 0.005), (0.05, 0.05), (0.25, 1.0), (4.0, 4.5)]
     doubtful = [pair | {"code": -1} for pair in pairs]
     (line,) = interactive.draw_pairs(verdicts, doubtful).renderers  # the model alone
     at = line.data_source.data
@@ -528,43 +481,16 @@ def test_every_judged_pair_is_on_one_axis(verdicts, pairs):
     assert shares == pytest.approx([0.44, 51.8], rel=0.02)
 
 
-@pytest.mark.parametrize(
-    ("text", "html"),
-    [
-        ("u/h_rms, q0 h'_rms", "u/h<sub>rms</sub>, q<sub>0</sub> h&#39;<sub>rms</sub>"),
-        ("a_V,PR ~ zeta^((5H-3)/3)", "a<sub>V,PR</sub> ~ ζ<sup>(5H−3)/3</sup>"),
-        ("C0 = 1e-3 m^0.4", "C<sub>0</sub> = 10⁻³ m<sup>0.4</sup>"),
-        ("shape_a q01 x_rms_y", "shape_a q01 x_rms_y"),
-        ("2.15 +- 0.15 um [um] <= 2", "2.15 ± 0.15 µm [µm] ≤ 2"),
-        ("zeta = 6.77e+04 (-0.3, -1e5)", "ζ = 6.77 × 10⁴ (−0.3, −10⁵)"),
-        ("p_ad/2p_rep, w/U_full", "p<sub>ad</sub>/2p<sub>rep</sub>, w/U<sub>full</sub>"),
-        (
-            "<i> & doi:10.1234/q0",
-            '&lt;i&gt; &amp; <a href="https://doi.org/10.1234/q0">doi:10.1234/q0</a>',
-        ),
-    ],
-)
-def test_symbols_are_set(text, html):
-    assert pages.typeset(text) == html
-
-
-def test_titles_have_symbols_of_plain_letters():
-    assert pages.plain("C0 = 10⁻³ m^0.4 & l_a < h_rms") == "C₀ = 10⁻³ m⁰·⁴ & lₐ < hᵣₘₛ"
-
-
-def test_disagreement_counts_pairs_by_verdict_and_names_them(verdicts, pairs):
-    onset, row = write_report.find_disagreements(verdicts, pairs)
-    words = [WORDS[code] for code in (STICKY, DEPENDS, TOUCHES, NOT_STICKY)]
-    assert onset["criterion"] == "onset at the finest wave"
-    assert onset["counts"] == dict(zip(words, [0, 0, 1, 0], strict=True))
-    assert onset["sticky"] == ["iron on glass pane"]
-    assert row["counts"] == dict(zip(words, [0, 0, 0, 1], strict=True))
-    assert (row["sticky"], row["not_sticky"]) == (["iron on sand < 1 mm"], [])
+def test_disagreement_counts_pairs_by_verdict(verdicts):
+    assert write_report.find_disagreements(verdicts) == [
+        {"criterion": "onset at the finest wave", "counts": {WORDS[TOUCHES]: 1}},
+        {"criterion": "bearing area (BAM)", "counts": {WORDS[NOT_STICKY]: 1}},
+    ]
 
 
 def test_sizes_of_surfaces_with_and_without_errors(surfaces):
     known, measured = (describe_surface(surfaces[name]) for name in ("glass", "sand"))
-    assert known == {"height": "0.2 … 2 µm", "slope": "0.1 … 0.2", "line": "(1 … 100) × 10⁻⁵"}
+    assert known == {"height": "0.2 … 2 µm", "slope": "0.1 … 0.2", "line": "10⁻⁵ … 0.001"}
     assert measured["line"] == "0.00530 ± 0.00040"
     steeper = surfaces["glass"].assign(hurst=0.9)
     assert describe_surface(steeper)["line"].startswith("≤ ")
@@ -576,9 +502,7 @@ def test_sizes_of_surfaces_with_and_without_errors(surfaces):
 def test_run_times_add_up(benchmarks):
     times = write_report.read_run_times(benchmarks)
     assert times.index.tolist() == ["slow_rule", "quick_rule"]
-    slow = times.loc["slow_rule"]
-    assert slow.tolist() == [2, 40.75, 37.5, 30.25, 200]
-    assert times.jobs.sum() == 3
+    assert times.loc["slow_rule"].tolist() == [2, 40.75, 37.5, 30.25, 200]
     assert np.isnan(times.loc["quick_rule"].memory)
 
 

@@ -11,6 +11,7 @@ import yaml
 
 from adhesion import solve_adhesive
 from common import ensemble_means
+from common import tradeoff_table as summary
 from stickiness import adhesive, repulsive, spectrum, surface
 from stickiness.accuracy import plan
 from stickiness.accuracy.error_models import (
@@ -21,7 +22,7 @@ from stickiness.accuracy.error_models import (
     single_error,
 )
 from stickiness.accuracy.settings import Problem, UnreachableError
-from tradeoff import fit_models, presets, seed_pool, summary
+from tradeoff import fit_models, presets, seed_pool
 from tradeoff.adhesion_table import find_threshold, measure_scatter
 from tradeoff.presets import ADHESIVE_COLUMNS, adhesive_error, cheapest_adhesive, preset_by_rule
 

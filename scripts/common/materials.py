@@ -2,7 +2,6 @@
 
 from dataclasses import dataclass
 
-from common.formatting import write_powers
 from stickiness.solids import HALF_SPACE, Film, Layer, Solid
 from stickiness.solids.moduli import REFERENCE_FREQUENCY, Constant, Modulus, Prony, Table
 from stickiness.units import si
@@ -83,7 +82,7 @@ def describe_modulus(entry):
     else:
         text = f"{describe_youngs_modulus(entry)}, ν = {entry['poisson_ratio']}"
         text += describe_layer(entry) if "thickness" in entry else ""
-    text = write_powers(text)
+    text = text.replace(" um", " µm")
     return f"{text}, rough as {entry['surface']}" if "surface" in entry else text
 
 

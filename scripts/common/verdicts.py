@@ -1,14 +1,32 @@
-"""What remains of adhesion on a pair, as texts with limits, rounded for readers."""
+"""Verdicts on pairs: the limits that decide them, and their numbers as texts for readers."""
 
 import numpy as np
 
 from common.formatting import NOTHING, interval, number, percent
-from criteria.classification import find_limits
 from stickiness.remaining.prediction import PULL_OFF_UNKNOWN
 
 LEAST_SHOWN = 1e-3  # share below which a text says 0 %
 KPA, MPA = 1e3, 1e6  # Pa: of the pull-off, and of moduli
 LEAST_STRESS, MOST_STRESS = 1.0, 1e13  # Pa, beyond which a text says so: nobody can use them
+MOST_STRAIN = 0.3  # up to which a layer is taken for linear
+
+
+def find_limits(dataset, name="remaining"):
+    """Low and high limit of what is known of a pair: of the share that remains, they decide.
+
+    Over both ends of the surface and the limits of the model. On a measured surface those of the
+    spectra drawn within its errors, which have the errors of the model as well, by quantiles.
+    `name` may be another quantity that follows from what remains.
+    """
+    low, high = dataset[f"{name}_low"].min("end"), dataset[f"{name}_high"].max("end")
+    if f"{name}_quantile" in dataset:
+        drawn = dataset[f"{name}_quantile"]
+        low = drawn.isel(quantile=0, drop=True).fillna(low)
+        high = drawn.isel(quantile=-1, drop=True).fillna(high)
+    if "layer_strain" in dataset:
+        # Heights that a linear layer cannot take stiffen it: nothing may remain.
+        low = low.where(dataset.layer_strain.max("end") <= MOST_STRAIN, 0.0)
+    return low, high
 
 
 def describe_share(pair):

@@ -1,0 +1,62 @@
+"""Numbers as readers see them."""
+
+import numpy as np
+import pytest
+
+from common import formatting
+
+INF, NAN = np.inf, np.nan
+CASES = {
+    "number": [
+        ((-1e7,), "−10⁷"),
+        ((1.04e-6,), "1.04 × 10⁻⁶"),
+        ((0.0012345,), "0.00123"),
+        ((12345.0,), "12300"),
+        ((9.9996e-7,), "10⁻⁶"),
+        ((INF,), "∞"),
+    ],
+    "with_error": [
+        ((1.8912, 0.0331), "1.891 ± 0.033"),
+        ((3.68, 1.0), "3.7 ± 1.0"),
+        ((0.99, 0.0996), "0.99 ± 0.10"),
+        ((-4.2e-6, 3e-7), "(−4.20 ± 0.30) × 10⁻⁶"),
+        ((67720, 120), "67720 ± 120"),
+        ((-1e-4, 3.0), "0.0 ± 3.0"),  # what rounds to nothing has no sign
+        ((2.0, NAN), "2"),
+        ((NAN, NAN), "–"),
+    ],
+    "interval": [
+        ((1.0, 1.0004), "1"),
+        ((20.0, 0.1), "0.1 … 20"),
+        ((7e-6, 3.0), "7 × 10⁻⁶ … 3"),
+        ((0.0, INF), "0 … ∞"),
+    ],
+    "quantity": [
+        ((999.9999, 999.9999, "Pa"), "1 kPa"),
+        ((2e-12, 2e-12, "m"), "0.002 nm"),
+        ((7.3e-7, 7.3e-7, "m", 2), "730 nm"),
+        ((7.3e-7, 7.3e-7, "m", 2, 1.7e-6), "0.73 µm"),  # the prefix of what stands beside
+        ((0.0, 0.0, "J/m²", 3, 8e-8), "0 nJ/m²"),
+    ],
+    "quantity_with_error": [
+        ((1.6347e2, 20.49, "m"), "(163 ± 20) m"),
+        ((2.7049e-8, 2.449e-9, "m"), "(27.0 ± 2.4) nm"),
+        ((1.2e-6, 0.0, "m"), "1.2 µm"),
+    ],
+    "percent": [
+        ((0.0,), "0 %"),
+        ((3e-6,), "< 0.01 %"),
+        ((0.0044,), "0.44 %"),
+        ((1.0,), "100 %"),
+        ((NAN,), "–"),
+    ],
+    "change": [((0.034,), "+3 %"), ((-0.4,), "−40 %"), ((-0.004,), "0 %")],
+}
+
+
+@pytest.mark.parametrize(
+    ("name", "given", "text"),
+    [(name, given, text) for name, cases in CASES.items() for given, text in cases],
+)
+def test_numbers_are_rounded_to_what_is_known(name, given, text):
+    assert getattr(formatting, name)(*given) == text
