@@ -34,8 +34,8 @@ def read_cell(results):
 
 
 def read_dmt_ratio(results):
-    found = dict(write_findings.compare_dmt(datasets.read(results / "adhesion/full/dmt_error.nc")))
-    return found[1.0]
+    rows = write_findings.compare_dmt(datasets.read(results / "adhesion/full/dmt_error.nc"))
+    return next(tuple(map(float, ratio)) for range_, ratio in rows if float(range_) == 1)
 
 
 def read_sphere(results):
@@ -49,7 +49,7 @@ def read_works(results):
 
 
 def count_sticking(results):
-    counts = write_findings.list_verdicts(datasets.read(results / "criteria/verdicts.nc"))["counts"]
+    counts = write_findings.count_words(datasets.read(results / "criteria/verdicts.nc"))["counts"]
     return counts["sticks"] + counts["sticks fully"], 0.0
 
 
