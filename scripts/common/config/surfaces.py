@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
-from typing import Annotated, Any, Literal
+from typing import Annotated, Literal
 
-from pydantic import Discriminator, Field, Tag
+from pydantic import Field
 
 from common.config import fields as f
 from common.config.entries import has_units, measurements
@@ -17,7 +16,7 @@ from stickiness import plausibility
 from stickiness.measured import readers
 from stickiness.units import si
 
-_BUILTIN = ("builtin:jacksboro",)
+_BUILTIN = "builtin:jacksboro"
 
 
 class Direction(Section):
@@ -51,7 +50,7 @@ class SelfAffine(RealSurface, Direction):
     h_rms: f.one_or_two(f.Length) = optional('rms height or its range, e.g. ["0.5 um", "2 um"]')
     C0: f.one_or_two(str) = optional('prefactor of C0 q^(-2(H+1)) or its range, e.g. "1e-3 m^0.4"')
 
-    def _problems(self, context: Mapping[str, Any]) -> Iterable[str]:
+    def _problems(self, context):
         longest = _wavelength(self.longest_wavelength, self.q0)
         shortest = _wavelength(self.shortest_wavelength, self.q1)
         if not shortest < longest:
@@ -133,7 +132,7 @@ class Contact(Section):
         "contact with full adhesion on approach, attraction that decays exponentially, as well"
     )
 
-    def _problems(self, context: Mapping[str, Any]) -> Iterable[str]:
+    def _problems(self, context):
         for index, pressure in enumerate(self.pressures if has_units(self.pressures) else []):
             key = f"pressures[{index}] = {pressure!r}"
             if not isinstance(pressure, str):
@@ -169,7 +168,7 @@ class Measured(RealSurface, Reading):
     )
     bem: Contact = optional("contact of the measured heights themselves, made periodic")
 
-    def _problems(self, context: Mapping[str, Any]) -> Iterable[str]:
+    def _problems(self, context):
         entries = measurements(self.model_dump(exclude_unset=True))
         for prefix, entry in entries:
             for problem in _file_problems(entry, context["made"]):
@@ -193,16 +192,11 @@ class Measured(RealSurface, Reading):
             )
 
 
-Surface = Annotated[
-    Annotated[Measured, Tag("<measured>")] | Annotated[SelfAffine, Tag("<self_affine>")],
-    Discriminator(
-        lambda given: (
-            "<measured>"
-            if isinstance(given, dict) and given.get("kind") == "measured"
-            else "<self_affine>"
-        )
-    ),
-]
+def _is_measured(given):
+    return isinstance(given, dict) and given.get("kind") == "measured"
+
+
+Surface = f.choose(_is_measured, Measured, SelfAffine)
 
 
 class Surfaces(Section):
@@ -211,7 +205,7 @@ class Surfaces(Section):
     surfaces: f.Names[Surface] = needed("real surfaces by name")
 
 
-def _file_problems(measurement: Mapping[str, Any], made: bool) -> Iterator[str]:
+def _file_problems(measurement, made):
     """Yield what is wrong with a measurement, as far as is known before its file is read."""
     file = measurement["file"]
     for key in ("height_unit", "position_unit"):
@@ -221,8 +215,8 @@ def _file_problems(measurement: Mapping[str, Any], made: bool) -> Iterator[str]:
             except ValueError as error:
                 yield f"{key} = {error}"
     if file.startswith("builtin:"):
-        if file not in _BUILTIN:
-            yield f"file = {file!r} is unknown; built in: {', '.join(_BUILTIN)}"
+        if file != _BUILTIN:
+            yield f"file = {file!r} is unknown; built in: {_BUILTIN}"
         return
     if not Path(file).is_file():
         if not made:
@@ -254,9 +248,9 @@ def _file_problems(measurement: Mapping[str, Any], made: bool) -> Iterator[str]:
         yield f"fit_to = {fit_to!r} must be below fit_from = {fit_from!r}"
 
 
-def _wavelength(wavelength: str | None, wave_number: str | None) -> float:
+def _wavelength(wavelength, wave_number):
     return 2 * math.pi / si(wave_number, "1/m") if wavelength is None else si(wavelength, "m")
 
 
-def _as_list(value: Any) -> list[Any]:
+def _as_list(value):
     return value if isinstance(value, list) else [value]
