@@ -1,7 +1,6 @@
 """Numbers as text for readers: rounded to what is known, with powers of ten and SI prefixes."""
 
 import math
-from collections.abc import Iterable
 
 NOTHING = "–"
 _SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
@@ -100,7 +99,7 @@ def change(share: float) -> str:
     return f"{rounded:+d} %".replace("-", "−") if rounded else "0 %"
 
 
-def table(columns: Iterable[object], rows: Iterable[Iterable[object]]) -> str:
+def table(columns, rows) -> str:
     """Markdown table with these column heads and rows of texts."""
     columns = list(columns)
     lines = [
