@@ -95,8 +95,7 @@ class Conditions(Section):
 
     def given(self) -> dict[str, KnownValue]:
         """Return the conditions that are given."""
-        conditions = {key: getattr(self, key) for key in CONDITIONS}
-        return {key: value for key, value in conditions.items() if value is not None}
+        return {key: known for key in CONDITIONS if (known := getattr(self, key)) is not None}
 
 
 class Observed(KnownValue):
@@ -126,9 +125,9 @@ class Observed(KnownValue):
 
     def _problems(self, context):
         field = "value" if self.between is None else "between"
+        given = getattr(self, field)
         if self.quantity == "sticks":
             if not isinstance(self.value, bool):
-                given = getattr(self, field)
                 yield f"value = {given!r} must be true or false for 'sticks'"
         elif self.relation is not None:
             quantity = _RELATIONS[self.relation]
@@ -145,7 +144,7 @@ class Observed(KnownValue):
                 yield f"{field} = {error}"
                 return
             if not min(values) > 0:
-                yield f"{field} = {getattr(self, field)!r} must be positive"
+                yield f"{field} = {given!r} must be positive"
             yield from self._order_problems(unit)
         else:
             for value in self.values(None):

@@ -46,7 +46,7 @@ def models_of(annotation: Any) -> Iterator[type[Section]]:
         yield from models_of(part)
 
 
-def collect(model: type[Section], found: dict[str, type[Section]]) -> dict[str, type[Section]]:
+def collect(model: type[Section], found: dict[str, type[Section]]) -> None:
     """Add a model, those that it extends and those of its keys to the models `found` by title."""
     if title(model.__name__) not in found:
         if own_keys(model):
@@ -56,7 +56,6 @@ def collect(model: type[Section], found: dict[str, type[Section]]) -> dict[str, 
         for field in model.model_fields.values():
             for inner in models_of(field.annotation):
                 collect(inner, found)
-    return found
 
 
 def shared(model: type[Section]) -> list[type[Section]]:
@@ -129,12 +128,11 @@ def page() -> str:
     Models that several files share stand with the first.
     """
     head, _, _ = PAGE.read_text(encoding="utf-8").partition(MARK)
-    parts, shown = [head + MARK], set()
+    parts, found = [head + MARK], {}
     for model, file in FILES.values():
-        found = collect(model, {})
-        parts.append(f"## {file}")
-        parts += [table(each) for name, each in found.items() if name not in shown]
-        shown |= found.keys()
+        shown = len(found)
+        collect(model, found)
+        parts += [f"## {file}", *map(table, list(found.values())[shown:])]
     return "\n\n".join(parts) + "\n"
 
 

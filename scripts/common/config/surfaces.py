@@ -133,19 +133,17 @@ class Contact(Section):
     )
 
     def _problems(self, context):
-        for index, pressure in enumerate(self.pressures if has_units(self.pressures) else []):
+        if not has_units(self.pressures):
+            return
+        for index, pressure in enumerate(self.pressures):
             key = f"pressures[{index}] = {pressure!r}"
             if not isinstance(pressure, str):
                 yield f"{key} has no unit, while others have; give all of them one kind"
             elif self.adhesion is None:
-                yield (
-                    f"{key} needs bem.adhesion, which gives the modulus; or give it over "
-                    "E* q0 h_rms, without a unit"
-                )
-        if has_units(self.pressures):
-            values = [f"{si(pressure, 'Pa'):.9e}" for pressure in self.pressures]
-            if len(set(values)) < len(values):
-                yield f"pressures = {self.pressures!r} must not repeat a value"
+                remedy = "or give it over E* q0 h_rms, without a unit"
+                yield f"{key} needs bem.adhesion, which gives the modulus; {remedy}"
+        if len({f"{si(pressure, 'Pa'):.9e}" for pressure in self.pressures}) < len(self.pressures):
+            yield f"pressures = {self.pressures!r} must not repeat a value"
 
 
 class Measured(RealSurface, Reading):
@@ -180,16 +178,11 @@ class Measured(RealSurface, Reading):
             yield f"bem.measurement = {index} is counted from 0 and must be below {len(entries)}"
             return
         pressed = entries[index][1]
+        breaks = "would break the period that bem.periodic states; give"
         if self.bem.periodic and pressed.get("detrend", "mean") != "mean":
-            yield (
-                f"detrend = {pressed['detrend']!r} would break the period that bem.periodic "
-                "states; give detrend: mean"
-            )
+            yield f"detrend = {pressed['detrend']!r} {breaks} detrend: mean"
         if self.bem.periodic and pressed.get("missing") == "crop":
-            yield (
-                "missing = 'crop' would break the period that bem.periodic states; "
-                "give missing: fill or refuse"
-            )
+            yield f"missing = 'crop' {breaks} missing: fill or refuse"
 
 
 def _is_measured(given):
