@@ -119,7 +119,7 @@ def write_limit(adhesion, ensemble, laws, errors, output):
         controls = more and replace(more, values=more.values[name])
         limit = grid_limits.Limit(left.shift[name], left.error[name])
         dataset = add_errors(dataset, name, values[name], controls, plain=True, limit=limit)
-    simulation = Simulation.of(read_models(laws), datasets.parameters(ensemble))
+    simulation = Simulation(read_models(laws), datasets.parameters(ensemble))
     dataset = add_budgets(conventions.annotate(dataset, **VARIABLES), simulation, linear)
     for ending in ENDINGS:
         known = ensemble[f"area_fraction_mean{ending}"]

@@ -49,7 +49,6 @@ def axes(adhesion):
 
 
 def scaled_law(adhesion, kind, adhesion_length_over_range, range_over_h_rms):
-    """Traction law in the units of the simulations."""
     strength = adhesion_length_over_range / roughness(adhesion)
     return LAWS[kind](adhesion_length=strength * range_over_h_rms, range=range_over_h_rms)
 

@@ -58,7 +58,6 @@ def annotate(dataset, **texts):
 
 
 def at_load(data):
-    """The point next to `LOAD`."""
     return data.sel(pressure=LOAD, method="nearest")
 
 

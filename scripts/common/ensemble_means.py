@@ -17,7 +17,6 @@ SUFFIXES = {
     "standard_error": "standard error of the ensemble mean",
     "discretisation_error": "change from half the resolution",
 }
-MEAN = SUFFIXES["mean"]
 FEWEST = 8  # seeds from which on a slope fitted to them is better than none
 PREFIX = "coarse_"  # of what an ensemble's file keeps of coarse solutions, and of their seeds
 
@@ -119,8 +118,9 @@ def describe_errors(quantities, plain=False, discretisation=SUFFIXES["discretisa
     """Texts of what `add_errors` adds for `quantities`, texts by names."""
     texts = {}
     for name, text in quantities.items():
-        texts[name if plain else f"{name}_mean"] = ("1", text if plain else f"{text}: {MEAN}")
+        mean_text = text if plain else f"{text}: {SUFFIXES['mean']}"
         error = f"{text}: {SUFFIXES['standard_error']}"
+        texts[name if plain else f"{name}_mean"] = ("1", mean_text)
         texts[f"{name}_standard_error"] = ("1", error, "a single seed")
         texts[f"{name}_discretisation_error"] = ("1", f"{text}: {discretisation}")
     return texts

@@ -4,7 +4,7 @@ The models are for the columns of their table. What lies between two of the rang
 interpolated, and what lies outside is widened like all that was not measured.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 import xarray as xr
@@ -37,20 +37,17 @@ MODEL = f"of {VARIANT} against simulation, as measured; of other variants not me
 QUADRATURE = {"area_fraction": 1e-9, "mean_gap": 1e-9, "attractive_area": 5e-7, "gap_density": 5e-6}
 
 
-@dataclass(frozen=True)
 class Simulation:
-    """Errors of a mean over realisations, beside its standard error."""
+    """Errors of a mean over realisations, beside its standard error.
 
-    problem: Problem
-    settings: Settings
+    `made` are the parameters of an ensemble's file, or of one that derives from it.
+    """
 
-    @classmethod
-    def of(cls, models, made):
-        """From the parameters of an ensemble's file, or of one that derives from it."""
+    def __init__(self, models, made):
         knobs = made["pixels_per_wavelength"], made["tolerance"], len(made["seeds"])
-        settings = Settings(*knobs, made.get("coarse_seeds", 0))
+        self.settings = Settings(*knobs, made.get("coarse_seeds", 0))
         described = made.get("descriptor_seeds", 2048)
-        return cls(Problem(models, Surface.of(made), (), (), described), settings)
+        self.problem = Problem(models, Surface.of(made), (), (), described)
 
     def solver(self, name, like):
         """Relative error by the tolerance of the solver, along a variable."""

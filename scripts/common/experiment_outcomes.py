@@ -90,7 +90,6 @@ def describe_case(case, experiments):
 
 
 def describe_observed(case):
-    """What was observed, with its limits."""
     observed = case["quantity"].item()
     low, high = (float(case[f"observed_{observed}_{end}"]) for end in ("low", "high"))
     if observed == "sticks":

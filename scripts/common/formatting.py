@@ -1,7 +1,6 @@
 """Numbers as text for readers: rounded to what is known, with powers of ten and SI prefixes."""
 
 import math
-from collections.abc import Iterable
 
 NOTHING = "–"
 _SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
@@ -11,13 +10,7 @@ _LEAST_SHARE = 1e-4  # that a percentage tells from none
 
 
 def number(value: float, digits: int = 3) -> str:
-    """Value to `digits` significant digits, without trailing zeros.
-
-    Examples
-    --------
-    >>> number(1.04e-6), number(-1e7), number(12345.0)
-    ('1.04 × 10⁻⁶', '−10⁷', '12300')
-    """
+    """Value to `digits` significant digits, without trailing zeros."""
     value = float(value)
     if math.isnan(value):
         return NOTHING
@@ -72,13 +65,7 @@ def quantity_with_error(value: float, error: float, unit: str) -> str:
 
 
 def unit_for(largest: float, unit: str, digits: int = 3) -> tuple[float, str]:
-    """Factor on SI values, and the prefixed unit, that suit a largest value once it is rounded.
-
-    Examples
-    --------
-    >>> unit_for(3e-4, "m")
-    (1000000.0, 'µm')
-    """
+    """Factor on SI values, and the prefixed unit, that suit a largest value once it is rounded."""
     power = 3 * (_exponent(largest, digits) // 3)
     power = min(max(power, min(_PREFIXES)), max(_PREFIXES))
     return 10.0**-power, _PREFIXES[power] + unit
@@ -100,7 +87,7 @@ def change(share: float) -> str:
     return f"{rounded:+d} %".replace("-", "−") if rounded else "0 %"
 
 
-def table(columns: Iterable[object], rows: Iterable[Iterable[object]]) -> str:
+def table(columns, rows) -> str:
     """Markdown table with these column heads and rows of texts."""
     columns = list(columns)
     lines = [

@@ -65,7 +65,6 @@ def each_seed(solve, surfaces, seeds):
 
 
 def read_first(path):
-    """The first realisation in a file of surfaces."""
     return datasets.read(path, ["height", "window_length"]).isel(seed=0)
 
 

@@ -1,13 +1,9 @@
 """Look of the figures: colours that the colour-blind can tell apart, error bars, files."""
 
-from __future__ import annotations
-
 import logging
 import string
-from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Any
 
 import matplotlib as mpl
 
@@ -15,8 +11,6 @@ mpl.use("Agg")  # no display on a cluster
 
 import matplotlib.pyplot as plt
 import numpy as np
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.ticker import FixedLocator, FuncFormatter, NullFormatter
 
@@ -82,21 +76,19 @@ SETTINGS = {
 }
 
 
-def start_figure(names: dict[str, Any]) -> Any:
+def start_figure(names):
     """Job of the figure whose script has these ``globals()``, found by the script's name."""
     return start(names, Path(names["__file__"]).stem)
 
 
-def make_panels(rows: Any, height: float, **grid: Any) -> tuple[Figure, dict[str, Axes]]:
+def make_panels(rows, height, **grid):
     """Figure of `height` inches with lettered panels laid out as in ``subplot_mosaic("AB;CC")``."""
     mpl.rcParams.update(SETTINGS)
     return plt.subplot_mosaic(rows, figsize=(WIDTH, height), **grid)
 
 
 @contextmanager
-def open_figure(
-    outputs: Iterable[str], rows: Any, height: float, **grid: Any
-) -> Iterator[dict[str, Axes]]:
+def open_figure(outputs, rows, height, **grid):
     """Panels to draw in; at the end those named by a letter show it and the files are written."""
     figure, panels = make_panels(rows, height, **grid)
     yield panels
@@ -106,7 +98,7 @@ def open_figure(
     save(figure, outputs)
 
 
-def save(figure: Figure, outputs: Iterable[str]) -> None:
+def save(figure, outputs):
     """Write the figure to every path, whole or not at all, free of the time of writing."""
     if (engine := figure.get_layout_engine()) is not None:
         engine.execute(figure)  # once for all paths
@@ -120,7 +112,7 @@ def save(figure: Figure, outputs: Iterable[str]) -> None:
     plt.close(figure)
 
 
-def state(**values: float) -> str:
+def state(**values):
     """Equations like "H = 0.8, ζ = 64" for the quantities of `SYMBOLS`."""
     return ", ".join(f"{SYMBOLS[name]} = {number(value)}" for name, value in values.items())
 
@@ -166,7 +158,6 @@ def draw_hollow(ax, x, y, **look):
 
 
 def draw_band(ax, x, low, high, colour, alpha=0.3):
-    """Shaded area between two curves."""
     ax.fill_between(x, low, high, color=colour, alpha=alpha, linewidth=0)
 
 
@@ -209,5 +200,4 @@ def make_key(label, **look):
 
 
 def make_dot(label, **look):
-    """Legend handle of a point."""
     return make_key(label, **({"linestyle": "none", "marker": "o"} | look))

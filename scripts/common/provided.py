@@ -1,8 +1,5 @@
 """Materials and surfaces that come with the project; a user's entries are shown before them."""
 
-from collections.abc import Iterable, Mapping
-from typing import Any
-
 from common.materials import read_material
 
 MATERIALS = ("psa", "pdms", "natural_rubber", "pmma", "steel", "crystal", "soft_block")
@@ -10,7 +7,7 @@ SURFACES = ("upper_line", "lower_line", "asphalt", "sandblasted_pmma", "ground_s
 SURFACES += ("polished_steel", "jacksboro")
 
 
-def user_defined_first(names: Iterable[str], provided: Iterable[str]) -> list[str]:
+def user_defined_first(names, provided):
     """The names, those that do not come with the project first.
 
     Examples
@@ -21,7 +18,7 @@ def user_defined_first(names: Iterable[str], provided: Iterable[str]) -> list[st
     return sorted(names, key=lambda name: name in provided)
 
 
-def choose_pictured(materials: Mapping[str, Mapping[str, Any]]) -> str:
+def choose_pictured(materials):
     """The material whose pull-off is pictured: the user's first one, or else the softest."""
     softest = min(materials, key=lambda name: read_material(materials[name]).modulus)
     return next((name for name in materials if name not in MATERIALS), softest)

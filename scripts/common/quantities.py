@@ -142,7 +142,7 @@ def fit_kappa(ensemble, models):
     # The errors of the fit are those at the largest of its loads.
     inside = dataset.area_fraction <= LINEAR_UP_TO
     loads = {"kappa": dataset.pressure, "kappa_fit": dataset.pressure.where(inside).max()}
-    simulation = Simulation.of(models, datasets.parameters(ensemble))
+    simulation = Simulation(models, datasets.parameters(ensemble))
     for name, pressure in loads.items():
         errors = (dataset[f"{name}_{kind}"] for kind in list(SUFFIXES)[1:])
         value = dataset[name].assign_coords(pressure=pressure)
@@ -192,7 +192,7 @@ def average_a_v(dataset, ensemble, windows):
 
 def add_simulation_budgets(dataset, ensemble, models):
     """Budgets of the means over the seeds; the choice of the window is no source of error."""
-    simulation = Simulation.of(models, datasets.parameters(ensemble))
+    simulation = Simulation(models, datasets.parameters(ensemble))
     mean = (dataset[f"a_v_{kind}"] for kind in SUFFIXES)
     parts = simulation.parts("a_v", *mean, grid_limits.INHERITED)
     dataset = with_budget(dataset, "a_v_mean", **parts)

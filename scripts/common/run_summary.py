@@ -1,14 +1,13 @@
 """What a finished run holds, in a few lines for the terminal."""
 
 from collections import Counter
-from collections.abc import Iterable
 from pathlib import Path
 
 from stickiness import datasets
 from stickiness.criteria.pair import WORDS
 
 
-def summary(results: str, since: float, answers: Iterable[str] = ()) -> str:
+def summary(results, since, answers=()):
     """Where the report is, how claims and pairs came out, and which cases missed their accuracy.
 
     `results` is the folder, `answers` those files of cases that ask for an accuracy. Files are left
@@ -33,6 +32,6 @@ def summary(results: str, since: float, answers: Iterable[str] = ()) -> str:
     return "\n".join(f"  {what:<9} {text}" for what, text in lines)
 
 
-def count(words: Iterable[str]) -> str:
+def count(words):
     """The words by their number: ``23 does not stick; 12 sticks``."""
     return "; ".join(f"{n} {word}" for word, n in Counter(map(str, words)).most_common())

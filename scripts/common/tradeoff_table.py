@@ -43,12 +43,10 @@ class Records:
 
 
 def take_medians(rows):
-    """Take medians over surfaces and loads."""
     return rows.groupby(KEYS, sort=False)[["error", "cost"]].median().reset_index()
 
 
 def write(path, medians):
-    """Write the table of medians with its comment."""
     text = medians.to_csv(index=False, float_format="%.6g", lineterminator="\n")
     path.write_text(COMMENT + text, encoding="utf-8")
 
@@ -77,5 +75,4 @@ def tables(medians):
 
 
 def percent(value):
-    """Write a share to two digits."""
     return f"{100 * value:.2g} %" if np.isfinite(value) else "–"

@@ -110,7 +110,7 @@ def add_statistics(realisations, others, averaged=AVERAGED):
 def write_means(dataset, made, laws, output, averaged=AVERAGED):
     """Write the means with their errors by source."""
     dataset = conventions.annotate(dataset, **VARIABLES)
-    simulation = Simulation.of(read_models(laws), made)
+    simulation = Simulation(read_models(laws), made)
     for name in averaged:
         left = grid_limits.FIRST_ORDER if name in MEASURED else grid_limits.LEFT
         parts = simulation.parts(name, *(dataset[f"{name}_{kind}"] for kind in SUFFIXES), left)

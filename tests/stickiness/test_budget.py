@@ -48,7 +48,7 @@ def test_errors_that_are_not_known_and_values_that_are_not_there():
 
 def ensemble_of(seeds, **more):
     made = {"hurst": 0.8, "magnification": 32, "pixels_per_wavelength": 8, "tolerance": 1e-6}
-    return error_budgets.Simulation.of(LAWS, {**made, "seeds": list(range(seeds)), **more})
+    return error_budgets.Simulation(LAWS, {**made, "seeds": list(range(seeds)), **more})
 
 
 @pytest.mark.parametrize(("seeds", "factor"), [(2, 6.314), (8, 1.895)])

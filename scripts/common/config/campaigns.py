@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
-from typing import Annotated, Any, Literal
+from typing import Annotated, Literal
 
 from pydantic import Field
 
@@ -106,7 +105,7 @@ class Tradeoff(Section):
     finer: MeasuredSurfaces = needed("more of them, on finer grids and at other loads")
     validation: MeasuredSurfaces = needed("surfaces that the choice of settings is checked on")
 
-    def _problems(self, context: Mapping[str, Any]) -> Iterable[str]:
+    def _problems(self, context):
         rule, user = self.presets, context["config"]
         if rule.surface not in user["model_surfaces"]:
             yield f.unknown("presets.surface", rule.surface, user["model_surfaces"])
@@ -127,7 +126,7 @@ class RemainingSet(BandWithPlateau):
     zones: f.Values = optional("q0 range^2/adhesion_length")
     ranges: f.Values = optional("ranges over h_rms")
 
-    def _problems(self, context: Mapping[str, Any]) -> Iterable[str]:
+    def _problems(self, context):
         yield from super()._problems(context)
         least = 2 * self.magnification * (self.window or 1)
         if self.points < least:

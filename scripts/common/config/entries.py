@@ -44,7 +44,6 @@ def measurements(surface: Mapping[str, Any]) -> list[tuple[str, dict[str, Any]]]
 
 
 def has_units(pressures: list[float | str]) -> bool:
-    """Whether pressures of an entry are given with units."""
     return any(isinstance(pressure, str) for pressure in pressures)
 
 

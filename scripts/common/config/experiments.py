@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
 from typing import Annotated, Any, Literal
 
 from pydantic import Field, model_validator
@@ -40,7 +39,7 @@ class KnownValue(Section):
 
     @model_validator(mode="before")
     @classmethod
-    def _require_its_source(cls, given: Any) -> Any:
+    def _require_its_source(cls, given):
         if not isinstance(given, dict):
             plain = f'"{given}"' if isinstance(given, str) else given
             raise f.Refusal(
@@ -54,8 +53,7 @@ class KnownValue(Section):
         given = [self.value] if self.between is None else self.between
         return given if unit is None else [si(one, unit) for one in given]
 
-    def order_problems(self, unit: str | None) -> Iterable[str]:
-        """Require what is plausible in order."""
+    def _order_problems(self, unit):
         values = self.values(unit)
         if values[-1] <= values[0] and self.between is not None:
             yield f"between = {self.between!r} must be [low, high] with low < high"
@@ -68,8 +66,8 @@ def known(kind: Any, unit: str | None = None) -> type[KnownValue]:
         value: kind = None
         between: f.Pair[kind] = None
 
-        def _problems(self, context: Mapping[str, Any]) -> Iterable[str]:
-            return self.order_problems(unit)
+        def _problems(self, context):
+            return self._order_problems(unit)
 
     Checked.__name__ = "KnownValue"  # by which the reference calls it
     return Checked
@@ -97,8 +95,7 @@ class Conditions(Section):
 
     def given(self) -> dict[str, KnownValue]:
         """Return the conditions that are given."""
-        conditions = {key: getattr(self, key) for key in CONDITIONS}
-        return {key: value for key, value in conditions.items() if value is not None}
+        return {key: known for key in CONDITIONS if (known := getattr(self, key)) is not None}
 
 
 class Observed(KnownValue):
@@ -126,11 +123,11 @@ class Observed(KnownValue):
     error: f.Energy = optional('error of the relation either way, e.g. "4 mJ/m^2"')
     factor: f.Pair[f.Positive] = optional("limits of true over nominal area or of the energy ratio")
 
-    def _problems(self, context: Mapping[str, Any]) -> Iterable[str]:
+    def _problems(self, context):
         field = "value" if self.between is None else "between"
+        given = getattr(self, field)
         if self.quantity == "sticks":
             if not isinstance(self.value, bool):
-                given = getattr(self, field)
                 yield f"value = {given!r} must be true or false for 'sticks'"
         elif self.relation is not None:
             quantity = _RELATIONS[self.relation]
@@ -147,15 +144,15 @@ class Observed(KnownValue):
                 yield f"{field} = {error}"
                 return
             if not min(values) > 0:
-                yield f"{field} = {getattr(self, field)!r} must be positive"
-            yield from self.order_problems(unit)
+                yield f"{field} = {given!r} must be positive"
+            yield from self._order_problems(unit)
         else:
             for value in self.values(None):
                 if isinstance(value, bool) or not isinstance(value, int | float):
                     yield f"{field} = {value!r} must be a number"
                 elif not 0 <= value <= 10:
                     yield f"{field} = {value!r} must be between 0 and 10"
-            yield from self.order_problems(None)
+            yield from self._order_problems(None)
 
 
 class ObservedCase(Conditions):
@@ -177,7 +174,7 @@ class Experiment(Conditions):
     missed: f.Text = optional("reason looked for, where the prediction misses the observation")
     cases: f.Names[ObservedCase] = needed("what was observed, by name")
 
-    def _problems(self, context: Mapping[str, Any]) -> Iterable[str]:
+    def _problems(self, context):
         for name, case in self.cases.items():
             conditions = conditions_of(self.given(), case.given())
             for problem in _condition_problems(conditions, case.observed.quantity):
@@ -190,7 +187,7 @@ class Experiments(Section):
     experiments: f.Names[Experiment] = needed("published experiments by name")
 
 
-def _condition_problems(conditions: Mapping[str, KnownValue], quantity: str) -> Iterable[str]:
+def _condition_problems(conditions, quantity):
     for key in _NEEDED if quantity == "limiting_roughness" else (*_NEEDED, "h_rms"):
         if key not in conditions:
             yield f": the key {key!r} is missing, here and in the experiment"

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import difflib
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from typing import Annotated, Any, ClassVar, Literal, TypeVar
 
 from pydantic import (
@@ -23,14 +23,11 @@ from stickiness.units import si
 T = TypeVar("T")
 
 
-def _add_choices(schema: dict[str, Any], section: type[Section]) -> None:
+def _add_choices(schema, section):
     """Put groups of keys that exclude each other into the JSON schema of a section."""
-    groups = [
-        {"oneOf": [{"required": choice.split(" and ")} for choice in group]}
-        for group in section.one_of
-    ]
-    if groups:
-        schema["allOf"] = groups
+    for group in section.one_of:
+        choices = [{"required": choice.split(" and ")} for choice in group]
+        schema.setdefault("allOf", []).append({"oneOf": choices})
 
 
 class Refusal(ValueError):
@@ -52,14 +49,13 @@ class Section(BaseModel):
 
     @model_validator(mode="before")
     @classmethod
-    def _check_keys(cls, given: Any) -> Any:
-        if isinstance(given, dict):
-            for problem in cls._key_problems(given):
-                raise Refusal(f": {problem}")
+    def _check_keys(cls, given):
+        for problem in cls._key_problems(given) if isinstance(given, dict) else ():
+            raise Refusal(f": {problem}")
         return given
 
     @classmethod
-    def _key_problems(cls, given: Mapping[str, Any]) -> Iterator[str]:
+    def _key_problems(cls, given):
         fields = cls.model_fields
         for key in given:
             if key in cls.old:
@@ -75,12 +71,12 @@ class Section(BaseModel):
                 yield f"give exactly one of: {'; '.join(choices)}"
 
     @model_validator(mode="after")
-    def _check_together(self, info: ValidationInfo) -> Section:
+    def _check_together(self, info: ValidationInfo):
         for problem in self._problems(info.context or {}):
             raise Refusal(problem if problem.startswith(":") else f".{problem}")
         return self
 
-    def _problems(self, context: Mapping[str, Any]) -> Iterable[str]:
+    def _problems(self, context):
         """Yield what is wrong with several keys together: ``key = value …`` or ``: …``."""
         return ()
 
@@ -98,21 +94,24 @@ def suggest(value: Any, known: Iterable[str]) -> str:
 
 
 def needed(text: str) -> Any:
-    """Describe a key that must be given."""
     return Field(description=text)
 
 
 def optional(text: str) -> Any:
-    """Describe a key that may be left out."""
     return Field(None, description=text)
+
+
+def choose(test: Callable[[Any], bool], met: Any, otherwise: Any) -> Any:
+    """Return the type of a value that is `met` if it passes the test, else `otherwise`."""
+    return Annotated[
+        Annotated[met, Tag("<met>")] | Annotated[otherwise, Tag("<otherwise>")],
+        Discriminator(lambda value: "<met>" if test(value) else "<otherwise>"),
+    ]
 
 
 def by_type(kind: type, of_kind: Any, otherwise: Any) -> Any:
     """Return the type of a value that is `of_kind` if it is a `kind`, else `otherwise`."""
-    return Annotated[
-        Annotated[of_kind, Tag("<of kind>")] | Annotated[otherwise, Tag("<otherwise>")],
-        Discriminator(lambda value: "<of kind>" if isinstance(value, kind) else "<otherwise>"),
-    ]
+    return choose(lambda value: isinstance(value, kind), of_kind, otherwise)
 
 
 def both(first: Any, second: Any) -> Any:
@@ -131,8 +130,7 @@ def quantity(word: str, unit: str, *limits: str) -> Any:
         if not found > 0:
             raise Refusal(f" = {value!r} must be positive")
         if limits and not si(limits[0], unit) <= found <= si(limits[1], unit):
-            low, high = limits
-            raise Refusal(f" = {value!r} must be in {low} … {high}; no solid is beyond")
+            raise Refusal(f" = {value!r} must be in {' … '.join(limits)}; no solid is beyond")
         return value
 
     return Annotated[str, BeforeValidator(check), Field(json_schema_extra={"quantity": word})]
@@ -143,7 +141,7 @@ def one_or_two(kind: Any) -> Any:
     return by_type(list, Pair[kind], kind)
 
 
-def _refuse_repeated(values: list[Any]) -> list[Any]:
+def _refuse_repeated(values):
     if len({str(value) for value in values}) < len(values):
         raise Refusal(f" = {values!r} must not repeat a value")
     return values
@@ -196,6 +194,6 @@ class Grid(Section):
     maximum: Positive = needed("largest value")
     per_decade: Annotated[int, Field(ge=1, le=200)] = needed("values per decade")
 
-    def _problems(self, context: Mapping[str, Any]) -> Iterable[str]:
+    def _problems(self, context):
         if not self.minimum < self.maximum:
             yield f"minimum = {self.minimum:g} must be below maximum = {self.maximum:g}"

@@ -65,11 +65,9 @@ def load(path: str | Path) -> dict[str, Any]:
     except FileNotFoundError:
         raise ConfigError(f"{path}: no such file; set its path in {USER}") from None
     except yaml.YAMLError as error:
-        mark = getattr(error, "problem_mark", None)
+        mark, problem = getattr(error, "problem_mark", None), getattr(error, "problem", error)
         line = f" line {mark.line + 1}" if mark else ""
-        raise ConfigError(
-            f"{path}:{line}: not valid YAML: {getattr(error, 'problem', error)}"
-        ) from None
+        raise ConfigError(f"{path}:{line}: not valid YAML: {problem}") from None
     if not isinstance(content, dict):
         raise ConfigError(f"{path}: must hold keys and values, found {type(content).__name__}")
     return content
@@ -92,10 +90,7 @@ def _merge(given: Any, other: Any) -> Any:
 
 
 def campaign(project: str | Path, name: str) -> dict[str, Any]:
-    """Read a campaign of the project: ``tradeoff`` or ``remaining``.
-
-    Campaigns are measured once for all users, whose configuration does not change them.
-    """
+    """Read a campaign, ``tradeoff`` or ``remaining``, which users do not configure."""
     return load(Path(project, f"config/campaigns/{name}.yaml"))
 
 
@@ -126,26 +121,23 @@ def check_all(
     ConfigError
         One line on what is wrong first.
     """
-    from common.config import campaigns as models_of_campaigns
-    from common.config.experiments import Experiments
-    from common.config.materials import Materials
-    from common.config.models import Configuration
-    from common.config.surfaces import Surfaces
+    from common.config.reference import FILES
 
+    models = {name: model for name, (model, _) in FILES.items()}
     try:
-        check(Configuration, config, "")
+        check(models["config"], config, "")
     except ConfigError as error:
         text = str(error).removeprefix(": ")
         top = re.match(r"\w*", text)[0]
-        paper = top in Configuration.model_fields and top not in given and top in config
+        paper = top in models["config"].model_fields and top not in given and top in config
         raise ConfigError(f"{PAPER if paper else name}: {text}") from None
-    materials, surfaces, experiments = (load(config[table]) for table in TABLES)
-    check(Materials, materials, config["materials"], surfaces=surfaces.get("surfaces", {}))
-    check(Surfaces, surfaces, config["surfaces"], made=made)
-    check(Experiments, experiments, config["experiments"])
+    tables = {table: load(config[table]) for table in TABLES}
+    surfaces = tables["surfaces"].get("surfaces", {})
+    for table, content in tables.items():
+        check(models[table], content, config[table], surfaces=surfaces, made=made)
     for campaign_name, content in campaigns.items():
-        model = getattr(models_of_campaigns, campaign_name.capitalize())
-        check(model, content, f"config/campaigns/{campaign_name}.yaml", config=config)
+        file = f"config/campaigns/{campaign_name}.yaml"
+        check(models[campaign_name], content, file, config=config)
 
 
 def check(model: type, content: Mapping[str, Any], file: str, **context: Any) -> None:
@@ -160,7 +152,7 @@ def check(model: type, content: Mapping[str, Any], file: str, **context: Any) ->
 
 def one_line(error: Mapping[str, Any]) -> str:
     """Say in one line what pydantic finds wrong: key, value and what would be right."""
-    from common.config.fields import suggest
+    from common.config.fields import unknown
 
     # Names of choices between types, and the mark of a name that is wrong, are no keys.
     steps = [step for step in error["loc"] if not re.match(r"<|\[key\]", str(step))]
@@ -169,9 +161,7 @@ def one_line(error: Mapping[str, Any]) -> str:
     if error["type"] == "value_error":
         return f"{path}{details['error']}".lstrip(":. ")
     if error["type"] == "literal_error":
-        choices = [
-            choice for choice in re.findall(r"[\w.]+", details["expected"]) if choice != "or"
-        ]
-        return f"{path} = {value!r} is unknown; {suggest(value, choices)}"
+        choices = (word for word in re.findall(r"[\w.]+", details["expected"]) if word != "or")
+        return unknown(path, value, choices)
     reason = _REASONS.get(error["type"], error["msg"]).format(**details)
     return f"{path} = {value!r} {reason.replace('1 entries', '1 entry')}"

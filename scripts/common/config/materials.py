@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
 from itertools import pairwise
-from typing import Annotated, Any, Literal
+from typing import Annotated, Literal
 
 from pydantic import Field
 
@@ -60,7 +59,7 @@ class Material(ElasticPair, f.Labelled):
     )
     surface: str = optional("name of the rough surface of the solid itself, added to the other")
 
-    def _problems(self, context: Mapping[str, Any]) -> Iterable[str]:
+    def _problems(self, context):
         pairs = self.youngs_modulus_table or []
         frequencies = [si(frequency, "Hz") for frequency, _ in pairs]
         if any(b <= a for a, b in pairwise(frequencies)):

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
-from typing import Annotated, Any, Literal
+from typing import Annotated, Literal
 
 from pydantic import AfterValidator, Field
 
@@ -21,7 +20,7 @@ AtMost = Annotated[int, Field(ge=2, le=128)]
 Estimator = Literal["multilevel", "plain"]
 
 
-def _ascend(values: list[float]) -> list[float]:
+def _ascend(values):
     if values != sorted(values):
         raise f.Refusal(f" = {values!r} must be in increasing order")
     return values
@@ -72,11 +71,10 @@ class BandWithPlateau(Band):
 
     rolloff: f.Magnification = optional("q_rolloff/q0, below which the spectrum is flat")
 
-    def _problems(self, context: Mapping[str, Any]) -> Iterable[str]:
+    def _problems(self, context):
         if self.rolloff is not None and self.rolloff >= self.magnification:
-            yield (
-                f"rolloff = {self.rolloff:g} must be below magnification = {self.magnification:g}"
-            )
+            limit = f"magnification = {self.magnification:g}"
+            yield f"rolloff = {self.rolloff:g} must be below {limit}"
 
 
 class ModelSurface(BandWithPlateau, Direction):
@@ -105,7 +103,7 @@ class Case(Section):
     sampling: Estimator = optional("overrides sampling.method")
     maps: f.Values = optional("loads at which gaps and pressures of the first seed are kept")
 
-    def _problems(self, context: Mapping[str, Any]) -> Iterable[str]:
+    def _problems(self, context):
         for key in ("accuracy", "at_most", "seeds", "sampling", "maps"):
             value = getattr(self, key)
             if self.model == "theory" and value is not None:
@@ -162,7 +160,7 @@ class Theory(Section):
     table: Table = needed("points at which a_V is tabulated")
     sweeps: f.Names[Sweep] = needed("computations on continuous spectra, by name")
 
-    def _problems(self, context: Mapping[str, Any]) -> Iterable[str]:
+    def _problems(self, context):
         if "afferrante2018" not in self.variants:
             yield f"variants = {self.variants!r} lacks 'afferrante2018', which is quoted"
 
@@ -174,7 +172,7 @@ class FitIntervals(Section):
         "fit intervals [low, high] of range/h_rms; the first is quoted, others show its influence"
     )
 
-    def _problems(self, context: Mapping[str, Any]) -> Iterable[str]:
+    def _problems(self, context):
         for index, (low, high) in enumerate(self.windows):
             if not low < high:
                 yield f"windows[{index}] = {[low, high]!r} must be [low, high] with low < high"
@@ -217,7 +215,7 @@ class AdhesionSet(Adhesive):
     refine: Literal[1, 2, 4] = optional("refinement of the case's grid; default 1")
     maps: AdhesiveMaps = optional("states whose fields are kept")
 
-    def _problems(self, context: Mapping[str, Any]) -> Iterable[str]:
+    def _problems(self, context):
         if self.model == "auto" and self.accuracy is None:
             yield "accuracy is missing; model: auto chooses by it, relative in 1/kappa_ad"
         if self.model != "auto" and self.accuracy is not None:
@@ -304,21 +302,27 @@ class Configuration(Section):
     loops: f.Names[Loop] = needed("approach and separation of one realisation, by name")
     criteria: Criteria = needed("criteria of stickiness")
 
-    def _problems(self, context: Mapping[str, Any]) -> Iterable[str]:
+    def _problems(self, context):
         yield from self._paper_problems()
         for key, name, known in self._references():
             if name not in known:
                 yield f.unknown(key, name, known)
         for name in sorted(self.comparisons.surfaces.keys() & self.cases.keys()):
             yield f"comparisons.surfaces.{name} has the name of a case; give it another"
-        for key, case, pressure in self._loads():
+        a_v = self.criteria.a_v
+        loads = [
+            (f"adhesion.{key}.pressures", asked.case, pressure)
+            for key, asked in self.adhesion.items()
+            for pressure in asked.pressures
+        ]
+        for key, case, pressure in (*loads, ("criteria.a_v.pressure", a_v.case, a_v.pressure)):
             if pressure not in self.cases[case].pressures:
                 yield f"{key} = {pressure:g} is not among the pressures of cases.{case}"
         for key, value, axis, low, high in self._limits():
             if not low <= value <= high:
                 yield f"{key} = {value:g} must lie within {axis} {low:g} … {high:g}"
 
-    def _paper_problems(self) -> Iterator[str]:
+    def _paper_problems(self):
         """Require what the figures and the claims read."""
         for table, present, names in (
             ("cases", self.cases, PAPER_CASES),
@@ -345,7 +349,7 @@ class Configuration(Section):
                         "quantity by simulation; or add a case"
                     )
 
-    def _references(self) -> Iterator[tuple[str, str, Mapping[str, Any]]]:
+    def _references(self):
         """Yield keys that name entries: key, name, and the entries that there are."""
         yield "fidelity", self.fidelity, self.fidelities
         for key, fidelity in self.fidelities.items():
@@ -359,14 +363,7 @@ class Configuration(Section):
             yield f"adhesion.{key}.case", asked.case, self.cases
         yield "criteria.a_v.case", self.criteria.a_v.case, self.cases
 
-    def _loads(self) -> Iterator[tuple[str, str, float]]:
-        """Yield keys whose pressures a case must have: key, case and pressure."""
-        for key, asked in self.adhesion.items():
-            for pressure in asked.pressures:
-                yield f"adhesion.{key}.pressures", asked.case, pressure
-        yield "criteria.a_v.pressure", self.criteria.a_v.case, self.criteria.a_v.pressure
-
-    def _limits(self) -> Iterator[tuple[str, float, str, float, float]]:
+    def _limits(self):
         """Yield keys that the grid of gaps and the table of a_V limit, with both limits."""
         gaps = "gaps.minimum … gaps.maximum:", self.gaps.minimum, self.gaps.maximum
         for index, window in enumerate(self.a_v.windows):

@@ -39,14 +39,14 @@ _WORDS = {"integer": "whole number", "boolean": "true or false", "string": "text
 
 
 def models_of(annotation: Any) -> Iterator[type[Section]]:
-    """Yield the models in the type of a key, or of a file."""
+    """Yield the models in the type of a key."""
     if isinstance(annotation, type) and issubclass(annotation, Section):
         yield annotation
     for part in get_args(annotation):
         yield from models_of(part)
 
 
-def collect(model: type[Section], found: dict[str, type[Section]]) -> dict[str, type[Section]]:
+def collect(model: type[Section], found: dict[str, type[Section]]) -> None:
     """Add a model, those that it extends and those of its keys to the models `found` by title."""
     if title(model.__name__) not in found:
         if own_keys(model):
@@ -56,7 +56,6 @@ def collect(model: type[Section], found: dict[str, type[Section]]) -> dict[str, 
         for field in model.model_fields.values():
             for inner in models_of(field.annotation):
                 collect(inner, found)
-    return found
 
 
 def shared(model: type[Section]) -> list[type[Section]]:
@@ -66,11 +65,8 @@ def shared(model: type[Section]) -> list[type[Section]]:
 
 def own_keys(model: type[Section]) -> list[str]:
     """Return the keys of a model that it does not take from one that it extends."""
-    return [
-        key
-        for key in model.model_fields
-        if not any(key in base.model_fields for base in shared(model))
-    ]
+    taken = {key for base in shared(model) for key in base.model_fields}
+    return [key for key in model.model_fields if key not in taken]
 
 
 def title(name: str) -> str:
@@ -79,8 +75,8 @@ def title(name: str) -> str:
 
 
 def link(name: str) -> str:
-    """Return a link to the table of a model."""
-    return f"[{title(name).lower()}](#{title(name).lower().replace(' ', '-')})"
+    heading = title(name).lower()
+    return f"[{heading}](#{heading.replace(' ', '-')})"
 
 
 def value(schema: dict[str, Any], models: dict[str, Any]) -> str:
@@ -91,9 +87,8 @@ def value(schema: dict[str, Any], models: dict[str, Any]) -> str:
         return f"*{schema['quantity']}*"
     if choices := schema.get("enum", [schema["const"]] if "const" in schema else []):
         return ", ".join(f"`{choice}`" for choice in choices)
-    for key in ("anyOf", "oneOf"):
-        if key in schema:
-            return " or ".join(value(choice, models) for choice in reversed(schema[key]))
+    if kinds := schema.get("anyOf") or schema.get("oneOf"):
+        return " or ".join(value(kind, models) for kind in reversed(kinds))
     if "patternProperties" in schema:
         (entry,) = schema["patternProperties"].values()
         return f"names, each {value(entry, models)}"
@@ -109,7 +104,6 @@ def value(schema: dict[str, Any], models: dict[str, Any]) -> str:
 
 
 def table(model: type[Section]) -> str:
-    """Write the section of a model."""
     schema = model.model_json_schema()
     models = schema.get("$defs", {})
     lines = [f"### {title(model.__name__)}", "", inspect.cleandoc(model.__doc__), ""]
@@ -134,12 +128,11 @@ def page() -> str:
     Models that several files share stand with the first.
     """
     head, _, _ = PAGE.read_text(encoding="utf-8").partition(MARK)
-    parts, shown = [head + MARK], set()
+    parts, found = [head + MARK], {}
     for model, file in FILES.values():
-        found = collect(model, {})
-        parts.append(f"## {file}")
-        parts += [table(each) for name, each in found.items() if name not in shown]
-        shown |= found.keys()
+        shown = len(found)
+        collect(model, found)
+        parts += [f"## {file}", *map(table, list(found.values())[shown:])]
     return "\n\n".join(parts) + "\n"
 
 

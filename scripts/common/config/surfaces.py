@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
-from typing import Annotated, Any, Literal
+from typing import Annotated, Literal
 
-from pydantic import Discriminator, Field, Tag
+from pydantic import Field
 
 from common.config import fields as f
 from common.config.entries import has_units, measurements
@@ -17,7 +16,7 @@ from stickiness import plausibility
 from stickiness.measured import readers
 from stickiness.units import si
 
-_BUILTIN = ("builtin:jacksboro",)
+_BUILTIN = "builtin:jacksboro"
 
 
 class Direction(Section):
@@ -51,7 +50,7 @@ class SelfAffine(RealSurface, Direction):
     h_rms: f.one_or_two(f.Length) = optional('rms height or its range, e.g. ["0.5 um", "2 um"]')
     C0: f.one_or_two(str) = optional('prefactor of C0 q^(-2(H+1)) or its range, e.g. "1e-3 m^0.4"')
 
-    def _problems(self, context: Mapping[str, Any]) -> Iterable[str]:
+    def _problems(self, context):
         longest = _wavelength(self.longest_wavelength, self.q0)
         shortest = _wavelength(self.shortest_wavelength, self.q1)
         if not shortest < longest:
@@ -133,20 +132,18 @@ class Contact(Section):
         "contact with full adhesion on approach, attraction that decays exponentially, as well"
     )
 
-    def _problems(self, context: Mapping[str, Any]) -> Iterable[str]:
-        for index, pressure in enumerate(self.pressures if has_units(self.pressures) else []):
+    def _problems(self, context):
+        if not has_units(self.pressures):
+            return
+        for index, pressure in enumerate(self.pressures):
             key = f"pressures[{index}] = {pressure!r}"
             if not isinstance(pressure, str):
                 yield f"{key} has no unit, while others have; give all of them one kind"
             elif self.adhesion is None:
-                yield (
-                    f"{key} needs bem.adhesion, which gives the modulus; or give it over "
-                    "E* q0 h_rms, without a unit"
-                )
-        if has_units(self.pressures):
-            values = [f"{si(pressure, 'Pa'):.9e}" for pressure in self.pressures]
-            if len(set(values)) < len(values):
-                yield f"pressures = {self.pressures!r} must not repeat a value"
+                remedy = "or give it over E* q0 h_rms, without a unit"
+                yield f"{key} needs bem.adhesion, which gives the modulus; {remedy}"
+        if len({f"{si(pressure, 'Pa'):.9e}" for pressure in self.pressures}) < len(self.pressures):
+            yield f"pressures = {self.pressures!r} must not repeat a value"
 
 
 class Measured(RealSurface, Reading):
@@ -169,7 +166,7 @@ class Measured(RealSurface, Reading):
     )
     bem: Contact = optional("contact of the measured heights themselves, made periodic")
 
-    def _problems(self, context: Mapping[str, Any]) -> Iterable[str]:
+    def _problems(self, context):
         entries = measurements(self.model_dump(exclude_unset=True))
         for prefix, entry in entries:
             for problem in _file_problems(entry, context["made"]):
@@ -181,28 +178,18 @@ class Measured(RealSurface, Reading):
             yield f"bem.measurement = {index} is counted from 0 and must be below {len(entries)}"
             return
         pressed = entries[index][1]
+        breaks = "would break the period that bem.periodic states; give"
         if self.bem.periodic and pressed.get("detrend", "mean") != "mean":
-            yield (
-                f"detrend = {pressed['detrend']!r} would break the period that bem.periodic "
-                "states; give detrend: mean"
-            )
+            yield f"detrend = {pressed['detrend']!r} {breaks} detrend: mean"
         if self.bem.periodic and pressed.get("missing") == "crop":
-            yield (
-                "missing = 'crop' would break the period that bem.periodic states; "
-                "give missing: fill or refuse"
-            )
+            yield f"missing = 'crop' {breaks} missing: fill or refuse"
 
 
-Surface = Annotated[
-    Annotated[Measured, Tag("<measured>")] | Annotated[SelfAffine, Tag("<self_affine>")],
-    Discriminator(
-        lambda given: (
-            "<measured>"
-            if isinstance(given, dict) and given.get("kind") == "measured"
-            else "<self_affine>"
-        )
-    ),
-]
+def _is_measured(given):
+    return isinstance(given, dict) and given.get("kind") == "measured"
+
+
+Surface = f.choose(_is_measured, Measured, SelfAffine)
 
 
 class Surfaces(Section):
@@ -211,7 +198,7 @@ class Surfaces(Section):
     surfaces: f.Names[Surface] = needed("real surfaces by name")
 
 
-def _file_problems(measurement: Mapping[str, Any], made: bool) -> Iterator[str]:
+def _file_problems(measurement, made):
     """Yield what is wrong with a measurement, as far as is known before its file is read."""
     file = measurement["file"]
     for key in ("height_unit", "position_unit"):
@@ -221,8 +208,8 @@ def _file_problems(measurement: Mapping[str, Any], made: bool) -> Iterator[str]:
             except ValueError as error:
                 yield f"{key} = {error}"
     if file.startswith("builtin:"):
-        if file not in _BUILTIN:
-            yield f"file = {file!r} is unknown; built in: {', '.join(_BUILTIN)}"
+        if file != _BUILTIN:
+            yield f"file = {file!r} is unknown; built in: {_BUILTIN}"
         return
     if not Path(file).is_file():
         if not made:
@@ -254,9 +241,9 @@ def _file_problems(measurement: Mapping[str, Any], made: bool) -> Iterator[str]:
         yield f"fit_to = {fit_to!r} must be below fit_from = {fit_from!r}"
 
 
-def _wavelength(wavelength: str | None, wave_number: str | None) -> float:
+def _wavelength(wavelength, wave_number):
     return 2 * math.pi / si(wave_number, "1/m") if wavelength is None else si(wavelength, "m")
 
 
-def _as_list(value: Any) -> list[Any]:
+def _as_list(value):
     return value if isinstance(value, list) else [value]

@@ -6,22 +6,11 @@ from pathlib import Path
 import pytest
 
 from common.config import load
-from common.config.campaigns import Remaining, Tradeoff
-from common.config.experiments import Experiments
 from common.config.fields import Section
-from common.config.materials import Materials
-from common.config.models import Configuration
-from common.config.surfaces import Surfaces
+from common.config.reference import FILES
 
 ROOT = Path(__file__).parents[3]
-MODELS = {
-    "config": Configuration,
-    "materials": Materials,
-    "surfaces": Surfaces,
-    "experiments": Experiments,
-    "tradeoff": Tradeoff,
-    "remaining": Remaining,
-}
+MODELS = {name: model for name, (model, _) in FILES.items()}
 CASES = load.load(Path(__file__).with_name("errors.yaml"))
 CAMPAIGNS = ("tradeoff", "remaining")
 
