@@ -65,7 +65,7 @@ def count_failed_claims(results):
         ("a_V is only 1.8", 1.8, 0.05, read_cell),
         ("by a factor of 1.1", 1.1, 0.05, read_dmt_ratio),
         ("simulation is 1.03 times", 1.03, 0.005, read_sphere),
-        ("95 % of the predicted works", 95, 0.5, read_works),
+        ("95 % of the predicted works of approach and separation", 95, 0.5, read_works),
         ("49 pairs of material and surface, 7 stick", 7, 0, count_sticking),
         ("Of 22 graded claims, 5 are not reproduced", 5, 0, count_failed_claims),
     ],
