@@ -104,7 +104,6 @@ REMAINING = f"{config['results']}/remaining"
 MODEL_SURFACES, CASES = config["model_surfaces"], config["cases"]
 SWEEPS, ADHESION, LOOPS = config["theory"]["sweeps"], config["adhesion"], config["loops"]
 GAMMA, GAPS = config["theory"]["gamma"], config["gaps"]
-FIGURES = [f"fig{number}" for number in range(1, 12)]
 MEASURED_SURFACES = [name for name, entry in REAL_SURFACES.items() if entry["kind"] == "measured"]
 # Figures and report show the cases that are simulated for every quantity.
 COMPLETE = [case for case, planned in PLANS.items() if planned.complete]
@@ -131,7 +130,6 @@ wildcard_constraints:
     adhesion=choices(ADHESION),
     loop=choices(LOOPS),
     real_surface=choices(REAL_SURFACES),
-    figure=choices(FIGURES),
 
 
 def model_surface_of(name):

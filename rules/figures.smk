@@ -49,6 +49,7 @@ FIGURE_INPUTS = {
     "fig10": {"edges": several("adhesion/edges/{adhesion}.nc", adhesion=SIMULATED_IN_FULL)},
     "fig11": {"table": REMAINING_TABLE},
 }
+FIGURES = list(FIGURE_INPUTS)
 
 
 for figure, files in FIGURE_INPUTS.items():

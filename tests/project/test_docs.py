@@ -9,7 +9,8 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).parents[2]
-PAGES = [ROOT / "README.md", *sorted(ROOT.glob("docs/*.md"))]
+PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", ROOT / "config/README.md"]
+PAGES += sorted(ROOT.glob("docs/*.md"))
 
 
 def anchors(page):
@@ -25,6 +26,13 @@ def test_links_lead_somewhere(page):
             place = page.parent / file if file else page
             assert place.exists(), target
             assert not anchor or anchor in anchors(place), target
+
+
+def test_paths_in_the_map_exist():
+    text = (ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8")
+    paths = re.findall(r"`((?:scripts|rules|report|config|docs|tests)/[\w./]+)`", text)
+    assert len(paths) > 10
+    assert [path for path in paths if not (ROOT / path).exists()] == []
 
 
 @pytest.mark.slow

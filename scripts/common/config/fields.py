@@ -18,6 +18,7 @@ from pydantic import (
     model_validator,
 )
 
+from stickiness.traction_laws import LAWS
 from stickiness.units import si
 
 T = TypeVar("T")
@@ -164,7 +165,7 @@ Values = Several[Positive]
 Loads = Annotated[Values, Field(description="mean pressures over E* q0 h_rms")]
 Hurst = Annotated[float, Field(gt=0, le=1, description="Hurst exponent in (0, 1]")]
 Magnification = Annotated[float, Field(gt=1, description="q1/q0, above 1")]
-Law = Annotated[Literal["exponential", "maugis"], Field(description="traction law")]
+Law = Annotated[Literal[tuple(sorted(LAWS))], Field(description="traction law")]
 
 Length = quantity("length", "m")
 WaveNumber = quantity("wave number", "1/m")
