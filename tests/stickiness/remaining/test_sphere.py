@@ -81,31 +81,6 @@ def test_limits_hold_the_value():
         assert np.mean(found[0] < found[2]) > 0.9
 
 
-def test_the_high_limit_is_the_larger_of_jumps_and_a_pinned_edge():
-    surface, _, length, reach = draw(4000)
-    high = sphere.work_of_separation(surface, length, reach, 1)
-    ratio = length / surface.elastic_energy
-    onset = 0.43 / (1 + 1.3 * np.sqrt(surface.q0 * reach**2 / length))
-    area = 1 - np.exp(-np.maximum(ratio - onset, 0) / (1 - onset))
-    share = surface.share(length, reach, 1)
-    jumps, pinned = np.minimum(1.6 * share, 1), np.minimum(share + area, 1 + 6 / ratio)
-    np.testing.assert_allclose(high, np.maximum(jumps, pinned), rtol=1e-9)
-    for one, other in ((jumps, pinned), (pinned, jumps)):
-        assert np.sum(one > other) > 100  # either one decides
-    assert 1.6 < np.max(high) < 2  # both are at most the work of adhesion
-
-
-@pytest.mark.parametrize("unit", [1e-9, 1e6])
-def test_units_do_not_matter(unit):
-    found = sphere.pull_off(at_ratio(2.0), RADIUS, LENGTH, 1e-7)
-    known = at_ratio(2.0)
-    scaled = Roughness(known.h_rms * unit, known.q0 / unit, known.elastic_energy * unit)
-    again = sphere.pull_off(scaled, RADIUS * unit, LENGTH * unit, 1e-7 * unit)
-    assert again.relative == pytest.approx(found.relative, rel=1e-9)
-    assert again.force == pytest.approx(found.force * unit**2, rel=1e-9)
-    assert again.zone_radius == pytest.approx(found.zone_radius * unit, rel=1e-9)
-
-
 @pytest.mark.parametrize("name", ["radius", "adhesion_length", "range"])
 @pytest.mark.parametrize("bad", [0.0, -1.0, np.nan, np.inf, "1"])
 def test_bad_arguments_are_named(name, bad):
