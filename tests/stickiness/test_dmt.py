@@ -72,6 +72,7 @@ def test_adhesive_pressure_of_hertz_gap_against_radial_integral(kind):
     assert pressure == pytest.approx(exact, rel=3e-3)
 
 
+@pytest.mark.slow
 def test_local_exponent_of_edge_gaps_is_two_thirds():
     # Strips beside straight edges, u = x^(3/2): the attractive area is exactly eps^(2/3).
     eps = np.geomspace(1e-3, 1e-1, 12)

@@ -34,6 +34,7 @@ def pressed(heights, load, length=2 * np.pi):
 # --- scale ---
 
 
+@pytest.mark.slow
 @pytest.mark.filterwarnings("ignore:heights of")  # whose unit is not the length's
 @given(seeds, hursts, loads, factors, factors)
 def test_contact_scales_with_lengths_and_with_heights(seed, hurst, load, unit, flat):

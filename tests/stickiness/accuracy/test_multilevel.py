@@ -59,6 +59,7 @@ def test_fine_coefficient_leaves_its_own_sample_out():
         assert got.standard_error[column] == pytest.approx(error, rel=1e-10)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("few", [8, 16])
 def test_two_levels_without_bias_and_with_an_honest_error(few):
     found = []

@@ -150,6 +150,7 @@ def test_fuller_tabor():
     assert criteria.fuller_tabor(h, 2 / radius, length, threshold=20.0).sticky is (theta < 20)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("eps", [1e-7, 1e-3, 0.1, 0.49, 0.51, 1.0, 5.0, 40.0])
 def test_bearing_area_margin_by_brute_force(eps):
     # Grid search with scipy's normal distribution; its tail difference loses digits below

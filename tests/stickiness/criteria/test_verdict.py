@@ -95,6 +95,7 @@ def test_values_in_other_units_are_warned_of(change, message):
         verdict(ROUGH, **GEL | change)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("known", "length", "factor", "spike", "messages"),
     [

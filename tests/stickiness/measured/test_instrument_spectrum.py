@@ -65,6 +65,7 @@ def test_tip_cutoff_of_a_wave_is_known():
         tip_cutoff(heights, (0.02,), 0.0)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("limits", "reason", "wavelength"),
     [
@@ -133,6 +134,7 @@ def test_stitched_spectrum_covers_its_truth(scans):
         assert 0.4 < np.sqrt(np.mean(z**2)) < 1.5
 
 
+@pytest.mark.slow
 def test_an_offset_is_seen_and_widens_the_errors(scans):
     _, pairs = scans
     large, small = pairs[2]
@@ -143,6 +145,7 @@ def test_an_offset_is_seen_and_widens_the_errors(scans):
     assert off.spectrum.fit.hurst_se > 2 * plain.spectrum.fit.hurst_se
 
 
+@pytest.mark.slow
 def test_measurements_that_do_not_overlap_say_nothing_of_their_offset(scans):
     _, pairs = scans
     large, small = pairs[0]

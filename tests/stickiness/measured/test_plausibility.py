@@ -49,6 +49,7 @@ def test_numbers_of_surfaces_are_not(values):
     assert not list(plausibility.doubt_values(values))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "marker", [1.9558671260099585, -1e-9, 1 / 3e7, -3.4028234663852886e38, 7.0]
 )

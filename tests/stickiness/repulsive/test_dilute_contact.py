@@ -96,6 +96,7 @@ def test_one_and_two_points():
     assert contact.pressure[first] == pytest.approx(contact.pressure[second])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("shape", "sides"), [((256, 256), (1.0, 1.0)), ((255, 131), (1.0, 131 / 255))]
 )
