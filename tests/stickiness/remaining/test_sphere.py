@@ -16,11 +16,6 @@ def rough(h_rms, q0=1e4):
     return Roughness(h_rms, q0, 2 / 3 * q0 * h_rms**2)
 
 
-def at_ratio(ratio, **more):
-    """A surface that this energy ratio makes with `LENGTH`."""
-    return rough(np.sqrt(1.5 * LENGTH / (ratio * 1e4)), **more)
-
-
 def draw(count, seed=3):
     """Surfaces, radii, adhesion lengths and ranges from full contact to none."""
     random = np.random.default_rng(seed)
