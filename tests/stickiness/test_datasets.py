@@ -48,21 +48,6 @@ def test_units_names_and_nan_must_be_explained(dataset, tmp_path):
     assert datasets.read(tmp_path / "file.nc").law.attrs == {"long_name": "traction law"}
 
 
-def test_failure_leaves_the_old_file_and_nothing_else(tmp_path):
-    path = tmp_path / "table.md"
-    path.write_text("old")
-
-    def fail():
-        with datasets.whole_file(path) as temporary:
-            temporary.write_text("half")
-            raise RuntimeError
-
-    with pytest.raises(RuntimeError):
-        fail()
-    assert path.read_text() == "old"
-    assert list(tmp_path.iterdir()) == [path]
-
-
 def test_reading_names_file_and_variable(dataset, tmp_path):
     path = tmp_path / "file.nc"
     with pytest.raises(datasets.DatasetError, match=r"file\.nc: no such file"):

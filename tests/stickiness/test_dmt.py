@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from stickiness import adhesive, dmt, repulsive
+from stickiness import adhesive, dmt
 
 LAWS = (adhesive.Maugis, adhesive.Exponential, adhesive.LennardJones)
 
@@ -21,18 +21,6 @@ def _hertz_gap(n, side=8.0):
 def _hertz(r):
     # Johnson, Contact Mechanics (1985), eq. 3.42a, with the sphere's parabola subtracted.
     return ((r**2 - 2) * np.arccos(1 / r) + np.sqrt(r**2 - 1)) / np.pi
-
-
-def test_attractive_area_of_hertz_gap():
-    n, side = 1024, 8.0
-    gap = _hertz_gap(n, side)
-    radii = np.array([1.2, 1.6, 2.5, 3.5])
-    area = dmt.attractive_area(gap, _hertz(radii))
-    exact = np.pi * (radii**2 - 1) / side**2
-    # Pixels along a circle of radius r misplace at most its perimeter times a pixel's diagonal;
-    # random signs leave far less. A tenth of that bound covers them.
-    bound = 0.1 * 2 * np.pi * (radii + 1) * np.sqrt(2) * side / n / side**2
-    np.testing.assert_array_less(np.abs(area - exact), bound)
 
 
 def test_attractive_area_definition():
@@ -84,6 +72,7 @@ def test_adhesive_pressure_of_hertz_gap_against_radial_integral(kind):
     assert pressure == pytest.approx(exact, rel=3e-3)
 
 
+@pytest.mark.slow
 def test_local_exponent_of_edge_gaps_is_two_thirds():
     # Strips beside straight edges, u = x^(3/2): the attractive area is exactly eps^(2/3).
     eps = np.geomspace(1e-3, 1e-1, 12)
@@ -111,37 +100,6 @@ def test_boundary_strip_of_a_disc_and_a_square():
     square[:3, :3] = True
     # Periodic neighbours count once: 12 sides.
     assert dmt.boundary_strip(square) == pytest.approx(dmt.STRIP_WIDTH * 12 / 64, rel=1e-12)
-
-
-@pytest.fixture(scope="module")
-def rough_contacts():
-    """Repulsive contacts of one band-limited surface on grids of 4 to 64 pixels."""
-    top = 8
-    rng = np.random.default_rng(3)
-    k = np.arange(-top, top + 1)
-    kx, ky = np.meshgrid(k, k, indexing="ij")
-    size = np.hypot(kx, ky)
-    amplitude = np.where((size >= 1) & (size <= top), np.maximum(size, 1) ** -1.8, 0.0)
-    modes = amplitude * np.exp(2j * np.pi * rng.random(size.shape))
-
-    def contact(pixels):
-        n = pixels * top
-        full = np.zeros((n, n), complex)
-        full[np.ix_(k % n, k % n)] = modes
-        heights = np.fft.ifft2(full).real * n**2
-        heights /= np.sqrt(np.sum(amplitude**2) / 2)
-        solution = repulsive.solve(heights, length=2 * np.pi, pressure=0.1, tol=1e-6)
-        return solution.gap, solution.pressure > 0
-
-    return {pixels: contact(pixels) for pixels in (4, 8, 16, 64)}
-
-
-def test_edge_gap_falls_as_the_edge_law_says(rough_contacts):
-    gaps = [dmt.edge_gap(*rough_contacts[pixels]) for pixels in (4, 8, 16, 64)]
-    assert gaps == sorted(gaps, reverse=True)
-    # u = C x^(3/2): 16 to 64 pixels per wavelength shrink x four times, u eight times. Medians of
-    # some hundred edge pixels scatter by their square root.
-    assert gaps[2] / gaps[3] == pytest.approx(8, rel=0.25)
 
 
 # --- fit of a_V ----------------------------------------------------------------------------
@@ -196,11 +154,9 @@ def test_standard_error_matches_the_scatter_of_fits(weighted):
     ("call", "message"),
     [
         (lambda: dmt.attractive_area([[0.0, -1e-9]], 0.1), "gap must not be negative"),
-        (lambda: dmt.attractive_area([[0.0, np.nan]], 0.1), "gap must be a non-empty"),
         (lambda: dmt.attractive_area([[0.0, 1.0]], 0.0), "eps must be positive"),
         (lambda: dmt.attractive_area([[0.0, 1.0]], 1.0, [[1, 0]]), "contact must be a boolean"),
         (lambda: dmt.attractive_area([0.0, 1.0], 1.0, subpixel=True), "two-dimensional"),
-        (lambda: dmt.edge_gap([0.0, 1.0]), "two-dimensional"),
         (lambda: dmt.gap_density([0.0, 1.0], [1.0, 0.0]), "edges must be an increasing"),
         (lambda: dmt.local_exponent([1.0, 2.0], [1.0, 2.0]), "eps must be an increasing"),
         (lambda: dmt.fit_a_v(EPS, EPS, 0.1, window=(0.1, 0.01)), "window must be two"),

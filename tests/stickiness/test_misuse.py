@@ -46,21 +46,14 @@ MISUSES = [
     (lambda: surface.synthesise("steel", 16, SIDE, 1), "spectrum must be"),
     (lambda: surface.lattice_spectrum(BAND, SIDE / 3), "window does not hold"),
     (lambda: surface.lattice_spectrum(BAND, 1e6 * SIDE), "must be in the inverse of its unit"),
-    (lambda: surface.lattice_spectrum(BAND, np.nan), "length must be"),
     (lambda: surface.moments(HOLED, SIDE), "heights must be finite"),
     (lambda: surface.moments(HEIGHTS[:4], SIDE), "heights must be a square"),
     (lambda: surface.realised_spectrum(0 * HEIGHTS, SIDE), "heights must not be flat"),
     (lambda: band(hurst="0.8"), "hurst must be a number"),
-    (lambda: band(h_rms="1 nm"), "h_rms must be a number, got '1 nm'"),
     (lambda: band(q0=1e-200, q1=1e-199), "take a unit of length"),
     (lambda: BAND.psd(np.nan), "q must not be negative or NaN"),
     (lambda: Persson(HEIGHTS), "spectrum must be a Spectrum"),
-    (
-        lambda: Persson(BAND).area_fraction(0.1, magnification=[1, 2]),
-        "magnification must be a number",
-    ),
     (lambda: dmt.attractive_area(press(), 0.1), "gap must be a number"),
-    (lambda: dmt.attractive_area(HEIGHTS, 0.1), "gap must not be negative"),
     (lambda: dmt.adhesive_pressure(press().gap, 0.1), "law must be"),
     (lambda: criteria.inverse_kappa(np.nan), "inverse_kappa_ad must be"),
     (lambda: criteria.violano_c0_limit(1.5, 1, 1, 1, 1), r"hurst must be in \(0, 1\]"),
@@ -93,16 +86,10 @@ MISUSES = [
         lambda: moduli.crossings(moduli.Constant(1.0), 2.0, [2.0, 1.0]),
         "frequencies must be one increasing",
     ),
-    (lambda: psd.power_spectrum(MASKED, 1.0), "heights must not be masked"),
     (lambda: psd.power_spectrum(1e160 * HEIGHTS, 1.0), "heights leave the range of floats"),
     (lambda: psd.power_spectrum(0 * HEIGHTS, 1.0).anisotropy(1.0, 3.0), "no modes between"),
     (lambda: analysed(0 * HEIGHTS + 3), "heights must not be flat, got 3 thr"),
-    (
-        lambda: instrument_spectrum.analyse(topography.Profile(np.ones(64), 1.0, "test")),
-        "heights must not be flat",
-    ),
     (lambda: instrument_spectrum.Limits(resolution=0.0), "resolution must be positive"),
-    (lambda: instrument_spectrum.Limits(fit_from=-1.0), "fit_from must be positive"),
     (lambda: units.si("nan m", "m"), "not finite"),
 ]
 
@@ -128,13 +115,7 @@ TOO_COARSE = adhesive.Maugis(0.01, 0.002)
 DOUBTS = [
     (lambda: press(pressure=1e5), "divide pascals by E"),
     (lambda: adhesive.solve(HEIGHTS, SIDE, LAW, pressure=1e5), "divide pascals by E"),
-    (lambda: Persson(BAND).area_fraction(1e5), "divide pascals by"),
     (lambda: press(length=1e-6 * SIDE), "must be in one unit"),
-    (lambda: press(length=1e9 * SIDE), "must be in one unit"),
-    (
-        lambda: adhesive.solve(HEIGHTS, 1e-6 * SIDE, adhesive.Exponential(1e-3, 1.0), pressure=0),
-        "must be in one unit",
-    ),
     (
         lambda: adhesive.solve(HEIGHTS, SIDE, TOO_COARSE, pressure=0.1),
         "Take pixels of at most 0.0002 ",
@@ -146,12 +127,3 @@ DOUBTS = [
 def test_what_is_probably_a_mistake_is_said(call, message):
     with pytest.warns(PlausibilityWarning, match=message):
         call()
-
-
-@pytest.mark.parametrize("magnification", [4.0, 1e4])
-def test_surfaces_of_unit_height_and_steep_slopes_are_no_mistake(magnification):
-    """Nothing is warned of: slopes of 30 and pressures above 1 are normal in units of h_rms."""
-    theory = Persson(spectrum.SelfAffine(hurst=0.6, q0=1.0, q1=magnification, h_rms=1.0))
-    assert theory.area_fraction(20.0) > 0.4
-    contact = press(10 * HEIGHTS, pressure=20.0)
-    assert 0 < contact.area_fraction < 1

@@ -23,13 +23,6 @@ def test_verdict_is_the_function_whatever_was_imported_before():
     assert verdict is defined is stickiness.verdict
 
 
-def test_measured_topographies_have_their_names_in_one_place():
-    for name in stickiness.measured.__all__:
-        assert getattr(stickiness.measured, name).__name__ == name
-    with pytest.raises(AttributeError, match="'stickiness.measured' has no attribute 'reed'"):
-        _ = stickiness.measured.reed
-
-
 def test_an_unknown_name_is_an_attribute_error():
     with pytest.raises(AttributeError, match="'stickiness' has no attribute 'spectra'"):
         _ = stickiness.spectra

@@ -249,15 +249,10 @@ def test_kinds_of_surfaces_that_were_not_measured_have_wider_errors(other):
     ("where", "outside"),
     [
         ((SMOOTH, 0.1), False),
-        ((SMOOTH, 1e-4), True),
         ((Surface(0.8, 128.0), 0.1), True),
         ((SMOOTH, 0.1, 2, 1e-8), True),
-        ((SMOOTH, 0.1, 64, 1e-12), False),
-        ((SMOOTH, 0.1, 8, 1e-2), True),
-        ((Surface.of(SAME), 0.1), False),
         ((Surface.of(SAME | {"rolloff": None, "amplitudes": "gaussian"}), 0.1), False),
         ((Surface.of(SAME | {"rolloff": 3.0}), 0.1), True),
-        ((Surface.of(SAME | {"amplitudes": "fixed"}), 0.1), True),
     ],
 )
 def test_what_is_extrapolated_is_flagged(where, outside):

@@ -69,15 +69,3 @@ def test_a_path_balances_its_energies(heights):
     assert len(points) > 10
     assert all(point.event is None for point in points)
     assert sum(point.work for point in points) == pytest.approx(gain, rel=2e-3)
-
-
-def test_full_contact_of_a_wave_holds_its_energy():
-    """Pulled from full contact, work of adhesion less the energy of the layer's wave remains."""
-    x = 2 * np.pi * np.arange(32) / 32
-    wave = 0.02 * np.cos(x)[:, None] * np.ones(32)
-    solid = Layer(0.5, 0.5)
-    energy = 0.02**2 / 4 * solid.stiffness(1.0)
-    law = Maugis(20 * energy, 0.1)
-    a = adhesive.solve(wave, 2 * np.pi, law, pressure=0.0, start="separation", solid=solid)
-    assert a.repulsive_area_fraction == 1
-    assert a.elastic_energy == pytest.approx(energy, rel=1e-9)

@@ -180,27 +180,6 @@ def test_pulling_flats_apart_takes_the_work_of_adhesion(kind, left):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("kind", [Exponential, LennardJones])
-def test_both_controls_do_the_same_work(kind):
-    """A stretch without jumps, by its pressure and by its mean gap: two integrals, one state."""
-    law = kind(adhesion_length=5e-5, range=0.01)
-    heights = bumps(32)
-    first, last = (adhesive.solve(heights, 1.0, law, pressure=p) for p in (1e-3, 1e-2))
-    works = []
-    for control in ("pressure", "mean_gap"):
-        ends = (1e-3, 1e-2) if control == "pressure" else (first.mean_gap, last.mean_gap)
-        points = adhesive.path(heights, 1.0, law, ends, control, start=first, balance=1e-6)
-        points = list(points)
-        assert not any(point.event for point in points)
-        np.testing.assert_allclose(points[-1].state.gap, last.gap, atol=1e-6 * np.ptp(heights))
-        works.append(sum(point.work for point in points))
-    assert works[0] == pytest.approx(works[1], rel=1e-4)
-    # pressing harder costs work between the two pressures times the approach
-    approach = first.mean_gap - last.mean_gap
-    assert 1e-3 * approach < works[0] < 1e-2 * approach
-
-
-@pytest.mark.slow
 def test_jumps_are_bracketed_and_found_again_by_other_steps():
     """A press on bumps with attraction of short range: jump-in, jump-out and pull-off."""
     law = Exponential(adhesion_length=2e-4, range=2e-3)
@@ -211,17 +190,14 @@ def test_jumps_are_bracketed_and_found_again_by_other_steps():
         points = list(adhesive.path(heights, 1.0, law, (0.0, 0.02, -0.2), **fine))
         runs[steps] = [point for point in points if point.event]
         for before, point in itertools.pairwise(points):
-            if point.event is None:
+            if not point.event:
                 continue
             low, high = sorted(point.bracket)
             # to the stated width, relative to the load or a hundredth of the span
             assert high - low <= 1e-4 * max(abs(high), abs(low), 0.01 * 0.22)
             assert before.state.mean_pressure == point.bracket[0]
-            if point.event == "pull-off":
-                assert point is points[-1]
-                assert point.dissipated == np.inf
-                continue
-            assert point.event == ("jump-in" if point.state.branch == "approach" else "jump-out")
+            jump = "jump-in" if point.state.branch == "approach" else "jump-out"
+            assert point.event == ("pull-off" if point is points[-1] else jump)
             assert point.dissipated > 0
     assert runs[8][-1].event == "pull-off"
     assert [p.event for p in runs[8]] == [p.event for p in runs[13]]

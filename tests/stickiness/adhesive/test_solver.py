@@ -1,7 +1,5 @@
 """Adhesive contact: equilibrium, limits, branches, invariances, extremes."""
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 from helpers.rough import on_any_grid
@@ -10,7 +8,6 @@ from scipy import optimize
 
 from stickiness import adhesive, dmt, repulsive
 from stickiness.adhesive import Exponential, LennardJones, Maugis
-from stickiness.solids import Layer
 
 # Some of the laws under test are too short of range for these grids, on purpose.
 pytestmark = pytest.mark.filterwarnings("ignore:a pixel of")
@@ -80,23 +77,6 @@ def test_states_are_in_equilibrium(kind, eps, la, start):
         assert a.mean_pressure == load
         assert (a.branch, a.control) == (start, "pressure")
         assert_equilibrium(a, heights)
-
-
-@pytest.mark.parametrize("kind", LAWS)
-@pytest.mark.parametrize("mean_gap", [0.3, 5.0])
-def test_prescribed_mean_gap(kind, mean_gap):
-    heights = rough(64)
-    law = law_of(kind, 1.0, 0.05)
-    a = adhesive.solve(heights, 1.0, law, mean_gap=mean_gap * HEIGHT)
-    assert a.mean_gap == pytest.approx(mean_gap * HEIGHT, rel=1e-9)
-    assert a.control == "mean_gap"
-    assert_equilibrium(a, heights)
-    # the same state is one of equilibrium at its own pressure
-    b = adhesive.solve(heights, 1.0, law, pressure=a.mean_pressure, start=a)
-    if b.mean_gap == pytest.approx(a.mean_gap, rel=1e-5):  # unless it is unstable there
-        np.testing.assert_allclose(b.gap, a.gap, atol=1e-5 * HEIGHT)
-    else:
-        assert b.enthalpy < a.enthalpy
 
 
 @pytest.mark.parametrize("kind", LAWS)
@@ -185,6 +165,7 @@ def test_state_is_a_minimum_of_the_energy(kind):
     assert a.enthalpy / HEIGHT**2 == pytest.approx(found.fun, rel=1e-9)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", LAWS)
 def test_invariances(kind):
     """Neither units nor the origin matter; steeper heights scale with their tractions."""
@@ -220,48 +201,8 @@ def test_any_grid(shape, kind):
     for control in ({"pressure": 0.002}, {"mean_gap": 1.5e-3}):
         a = adhesive.solve(heights, 1.0, law, **control)
         assert_equilibrium(a, heights, sides=sides)
+        assert control.get("mean_gap", a.mean_gap) == pytest.approx(a.mean_gap, rel=1e-9)
         assert a.length == pytest.approx(sides)
-
-
-@pytest.mark.slow
-def test_branches_on_a_rough_surface_differ_and_the_deeper_is_told():
-    """Loaded from afar and unloaded from full contact: two stable states of unlike enthalpy.
-
-    Up to some three times the load the state of less contact is the deeper one, beyond that of
-    full contact is, before loading gets there.
-    """
-    heights = rough(64)
-    law = law_of(Exponential, 0.1, 0.5)
-    for load, approach_deeper in ((LOAD, True), (3 * LOAD, True), (5 * LOAD, False)):
-        enthalpies, states = [], []
-        for start in ("approach", "separation"):
-            a = adhesive.solve(heights, 1.0, law, pressure=load, start=start)
-            assert_equilibrium(a, heights)
-            u = a.gap + heights
-            energy = u * elastic_pressure(u, SIDES) / 2 + law.potential(a.gap)
-            enthalpies.append(np.mean(energy) + load * a.gap.mean())
-            states.append(a)
-            # a minimum: a start nearby comes back
-            moved = a.gap + 1e-3 * law.range * (a.gap > 0)
-            back = adhesive.solve(heights, 1.0, law, pressure=load, start=moved)
-            np.testing.assert_allclose(back.gap, a.gap, atol=1e-5 * HEIGHT)
-        a, b = states
-        assert b.repulsive_area_fraction > a.repulsive_area_fraction + 0.1
-        assert (enthalpies[0] < enthalpies[1]) == (a.enthalpy < b.enthalpy) == approach_deeper
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize(("eps", "la"), [(0.3, 0.02), (3.0, 0.1)])
-def test_coarser_grids_lead_to_the_same_state(eps, la):
-    """Starts from coarser grids, against a descent from the solution without adhesion."""
-    heights = rough(256, magnification=16, modes=64)
-    law = law_of(Exponential, eps, la)
-    a = adhesive.solve(heights, 1.0, law, pressure=LOAD)
-    alone = repulsive.solve(heights, 1.0, LOAD)
-    b = adhesive.solve(heights, 1.0, law, pressure=LOAD, start=alone)
-    assert a.repulsive_area_fraction == b.repulsive_area_fraction
-    np.testing.assert_allclose(a.gap, b.gap, atol=1e-5 * HEIGHT)
-    assert a.iterations < b.iterations
 
 
 @pytest.mark.parametrize("kind", LAWS)
@@ -294,18 +235,6 @@ def test_full_contact_opens_at_the_strength_less_the_flattening_pressure():
         load = share * (full - law.strength)
         a = adhesive.solve(heights, (1.0, 4 / n), law, pressure=load, start="separation")
         assert (a.repulsive_area_fraction == 1.0) == (share < 1)
-
-
-def test_unstable_flats_close_or_part():
-    """Flats at a distance balance a tension only as a pencil does on its point."""
-    law = Exponential(adhesion_length=1e-4, range=1e-3)
-    heights, gap = np.zeros((16, 16)), np.full((16, 16), 0.5e-3)
-    load = -float(law.traction(0.5e-3))
-    a = adhesive.solve(heights, 1.0, law, pressure=load, start=gap)
-    assert a.repulsive_area_fraction == 1.0
-    full = adhesive.solve(heights, 1.0, law, pressure=0.0, start="separation")
-    with pytest.raises(adhesive.PullOffError):
-        adhesive.solve(heights, 1.0, law, pressure=load, start=replace(full, gap=gap))
 
 
 @pytest.mark.parametrize("kind", [Exponential, LennardJones])
@@ -361,30 +290,6 @@ def test_extremes_end_in_a_state_or_a_clear_error(kind, eps, la):
         assert np.isfinite([a.mean_pressure, a.energy, a.enthalpy]).all()
 
 
-@pytest.mark.parametrize("kind", [Exponential, Maugis])
-def test_a_long_adhesion_length_closes_the_whole_cell(kind):
-    heights = rough(32)
-    law = law_of(kind, 1.0, 10.0)
-    for start in ("approach", "separation"):
-        a = adhesive.solve(heights, 1.0, law, pressure=0.0, start=start)
-        assert a.repulsive_area_fraction == 1.0
-        assert a.interaction_energy == pytest.approx(float(law.potential(0.0)), rel=1e-12)
-        # what flattens the surface takes that much elastic energy
-        expected = np.mean(heights * elastic_pressure(heights, SIDES)) / 2
-        assert a.elastic_energy == pytest.approx(expected, rel=1e-9)
-
-
-@pytest.mark.parametrize(("eps", "la"), [(0.01, 10.0), (0.003, 100.0)])
-def test_stiff_law_at_a_mean_gap(eps, la):
-    """Where surfaces touch, the law is 10^4 to 10^6 times as stiff as the half-space."""
-    heights, mean = rough(16), 0.7 * HEIGHT
-    a = adhesive.solve(heights, 1.0, law_of(LennardJones, eps, la), mean_gap=mean)
-    # 155 and 140; with the constraint on all points alike 818, and none after 3000.
-    assert a.iterations < 300
-    assert a.mean_gap == pytest.approx(mean, rel=1e-12)
-    assert_equilibrium(a, heights)
-
-
 @pytest.mark.parametrize("kind", LAWS)
 def test_convergence_error_carries_the_last_iterate(kind):
     heights, law = rough(32), law_of(kind, 0.5, 0.1)
@@ -405,9 +310,7 @@ def test_convergence_error_carries_the_last_iterate(kind):
         ({"law": Maugis}, "law must be a TractionLaw"),
         ({"start": "middle"}, "start must be 'approach'"),
         ({"start": np.zeros((3, 3))}, r"start has the shape \(3, 3\)"),
-        ({"start": np.full((8, 8), np.nan)}, "start must have finite gaps"),
         ({"pressure": None, "mean_gap": 1.0, "start": "separation"}, "follow the mean gap"),
-        ({"solid": Layer}, "solid must be solids.HalfSpace.. or a solids.Layer"),
     ],
 )
 def test_arguments_are_checked(change, message):

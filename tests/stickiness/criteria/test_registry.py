@@ -1,29 +1,17 @@
 """One table of criteria: an entry is all that a new criterion needs."""
 
-from types import SimpleNamespace
-
 import numpy as np
 import pytest
 import xarray as xr
 
 from common.materials import read_material
-from common.plotting import make_panels
-from criteria import compare_criteria, judging, pair_roughness
+from criteria import judging, pair_roughness
 from criteria.judge import describe_page
-from figures import plot_fig9
 from report import table_rows, write_report
 from stickiness.criteria.a_v_table import SurfaceAv
 from stickiness.criteria.registry import CRITERIA, Criterion
 from stickiness.spectrum import SelfAffine
 
-COMPARED = {
-    "hurst": 0.8,
-    "range_times_q0": 1e-6,
-    "h_rms_over_range": {"minimum": 10, "maximum": 1e4, "per_decade": 1},
-    "quoted_h_rms_over_range": 1000,
-    "magnification": {"minimum": 10, "maximum": 1e5, "per_decade": 1},
-    "quoted_magnification": 1e4,
-}
 GEL = {
     "label": "gel",
     "plane_strain_modulus": "0.1 MPa",
@@ -86,24 +74,6 @@ def test_an_entry_is_all_that_a_new_criterion_needs(made_up, road, judged):
     assert rows["Made & Up"]["answer"] == "does not stick"
     listed = [row["criterion"] for row in write_report.find_disagreements(judged)]
     assert "Made & Up" in listed
-
-
-@pytest.mark.slow
-def test_a_new_criterion_is_on_figure_9(made_up, judged):
-    table = SimpleNamespace(
-        a_v_at=lambda hurst, load, reach, zeta: SimpleNamespace(
-            value=3.0 + 0 * reach, low=2.0 + 0 * reach, high=4.0 + 0 * reach
-        )
-    )
-    compared = compare_criteria.compare(COMPARED, 0.065, table, 3.0)
-    found = compared.against_roughness.sel(criterion="made_up")
-    np.testing.assert_allclose(found, compared.h_rms_over_range)  # in units of the range
-    _, panels = make_panels("AC", 3)
-    plot_fig9.draw_thresholds(panels["A"], compared.against_roughness, COMPARED, "")
-    assert "Made & Up" in panels["A"].get_legend_handles_labels()[1]
-    before = len(plot_fig9.select_criteria(judged.threshold_by_criterion))
-    assert before == len(CRITERIA) - 1  # Dahlquist's knows no adhesion length
-    plot_fig9.draw_surfaces(panels["C"], judged)
 
 
 @pytest.mark.slow

@@ -1,10 +1,6 @@
 """From a surface and a material to a verdict by one call."""
 
 import doctest
-import os
-import subprocess
-import sys
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -99,6 +95,7 @@ def test_values_in_other_units_are_warned_of(change, message):
         verdict(ROUGH, **GEL | change)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("known", "length", "factor", "spike", "messages"),
     [
@@ -179,43 +176,5 @@ def test_words(low, high, grows, word):
     assert WORDS[int(decide(low, high, grows))] == word
 
 
-def test_text_says_word_share_and_threshold():
-    text = str(verdict(ROUGH, **GEL | {"modulus": 1e11}))
-    assert text.startswith("does not stick: 0 of the work of adhesion remains ")
-    assert "sticks below E* = " in text
-    assert "onset at the finest wave" in text
-    assert "Dahlquist" in text
-
-
-def test_limits_of_surfaces_that_were_not_simulated_are_wider_and_say_so():
-    turned = SelfAffine(hurst=0.8, q0=6e4, q1=6e8, h_rms=1e-6, anisotropy=4.0, angle=0.3)
-    modulus = GEL["modulus"] * ROUGH.elastic_energy() / turned.elastic_energy()
-    found, plain = verdict(turned, **GEL | {"modulus": modulus}), verdict(ROUGH, **GEL)
-    assert found.remaining == pytest.approx(plain.remaining, rel=0.02)
-    for name in ("remaining_limits", "modulus_threshold_limits"):
-        wide, narrow = (np.ptp(np.log(getattr(each, name))) for each in (found, plain))
-        assert wide > 1.5 * narrow
-    assert "few surfaces with a direction" in str(found)
-    assert "direction" not in str(plain)
-
-
 def test_example_in_the_documentation():
     assert doctest.testmod(module).failed == 0
-
-
-def test_a_verdict_on_a_spectrum_loads_no_solver_and_no_reader():
-    code = (
-        "import stickiness, sys\n"
-        "from stickiness.spectrum import SelfAffine\n"
-        "rough = SelfAffine(hurst=0.8, q0=6e4, q1=6e8, h_rms=1e-6)\n"
-        "stickiness.verdict(rough, modulus=1e5, work_of_adhesion=0.05, range=3e-10)\n"
-        "print(*(name for name in sys.modules if name.startswith('stickiness')))\n"
-    )
-    path = {"PYTHONPATH": str(Path(module.__file__).parents[2])}
-    run = subprocess.run(
-        [sys.executable, "-c", code], env=os.environ | path, capture_output=True, text=True
-    )
-    loaded = run.stdout.split()
-    parts = {name.split(".")[1] for name in loaded if "." in name}
-    assert not parts & {"repulsive", "adhesive", "measured", "accuracy", "compiled", "datasets"}
-    assert 10 < len(loaded) <= 30

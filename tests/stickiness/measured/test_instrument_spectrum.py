@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy import ndimage
 
-from stickiness import measured, surface
+from stickiness import surface
 from stickiness.measured import instrument_spectrum, psd, stitching
 from stickiness.measured.instrument_spectrum import Limits, find_bend, tip_cutoff
 from stickiness.measured.topography import Profile, Topography
@@ -65,6 +65,7 @@ def test_tip_cutoff_of_a_wave_is_known():
         tip_cutoff(heights, (0.02,), 0.0)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("limits", "reason", "wavelength"),
     [
@@ -84,19 +85,6 @@ def test_lowest_limit_is_the_cutoff_and_says_why(limits, reason, wavelength):
     assert found.fit.q_max == found.cutoff.q
 
 
-def test_detection_can_be_switched_off():
-    _, h, dx = patch()
-    noise = 0.05 * np.random.default_rng(0).normal(size=h.shape)
-    noisy = Topography(h + noise, dx, dx, "here").detrended()
-    with_it, without = (
-        instrument_spectrum.analyse(noisy, limits=Limits(detect=detect)) for detect in (True, False)
-    )
-    assert with_it.cutoff.detected
-    assert without.cutoff.q > with_it.cutoff.q
-    # Noise makes the surface look rougher: the fit with it has the lower H.
-    assert without.fit.hurst < with_it.fit.hurst
-
-
 def test_limits_that_leave_nothing_are_named():
     _, h, dx = patch()
     with pytest.raises(ValueError, match="resolution of the instrument ends the spectrum at"):
@@ -112,23 +100,6 @@ def test_uneven_profile_is_trusted_to_its_largest_gap():
     torn = instrument_spectrum.analyse(Profile(h[:, 7], dx, "here", largest_gap=3 * dx).detrended())
     assert even.cutoff.q == pytest.approx(3 * torn.cutoff.q, rel=0.05)
     assert np.isnan(torn.anisotropy)
-
-
-@pytest.mark.slow
-def test_spectrum_profile_and_map_agree_on_the_slope():
-    _, h, dx = patch(n=1024, q1=400.0)
-    plane = measured.analyse(Topography(h, dx, dx, "map").detrended())
-    lines = [measured.analyse(Profile(h[:, j], dx, "line").detrended()) for j in range(0, 512, 64)]
-
-    def slope(found):
-        inside = found.rings.q <= plane.cutoff.q
-        return np.sqrt(np.sum((found.rings.psd * found.rings.q**2 * found.area)[inside]))
-
-    # Eight profiles of one map: their slopes scatter by some 10 % each.
-    assert np.mean([slope(line) for line in lines]) == pytest.approx(slope(plane), rel=0.12)
-    spectrum = plane.spectrum()
-    assert spectrum.q1 <= plane.cutoff.q * (1 + 1e-9) < plane.rings.q[-1]
-    assert spectrum.rms_slope == pytest.approx(slope(plane), rel=0.15)
 
 
 # Stitching
@@ -163,6 +134,7 @@ def test_stitched_spectrum_covers_its_truth(scans):
         assert 0.4 < np.sqrt(np.mean(z**2)) < 1.5
 
 
+@pytest.mark.slow
 def test_an_offset_is_seen_and_widens_the_errors(scans):
     _, pairs = scans
     large, small = pairs[2]
@@ -173,6 +145,7 @@ def test_an_offset_is_seen_and_widens_the_errors(scans):
     assert off.spectrum.fit.hurst_se > 2 * plain.spectrum.fit.hurst_se
 
 
+@pytest.mark.slow
 def test_measurements_that_do_not_overlap_say_nothing_of_their_offset(scans):
     _, pairs = scans
     large, small = pairs[0]

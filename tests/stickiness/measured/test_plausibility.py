@@ -29,7 +29,6 @@ def with_zeros(heights, share):
     [
         (with_zeros(rough() + 7, 0.004), "give missing_value: 0"),
         (with_zeros(np.round(1000 * rough()), 0.05), "the one value 0"),
-        (with_zeros(rough()[0], 0.05), "give missing_value: 0"),
     ],
 )
 def test_numbers_that_were_not_measured_are_doubted(values, words):
@@ -40,9 +39,7 @@ def test_numbers_that_were_not_measured_are_doubted(values, words):
     "values",
     [
         rough(),
-        rough(0.2),
         np.round(10 * rough()),  # about eighty levels
-        np.round(200 * rough()),
         rough()[0],
         np.where(rough() > 2, np.nan, rough()),
         with_zeros(rough(), 0.0005),  # spikes, if they stand out
@@ -52,6 +49,7 @@ def test_numbers_of_surfaces_are_not(values):
     assert not list(plausibility.doubt_values(values))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "marker", [1.9558671260099585, -1e-9, 1 / 3e7, -3.4028234663852886e38, 7.0]
 )

@@ -9,7 +9,7 @@ import pytest
 from scipy import signal
 
 from stickiness import surface
-from stickiness.measured import instrument_spectrum, levelling, profiles, psd, topography
+from stickiness.measured import instrument_spectrum, profiles, psd, topography
 from stickiness.spectrum import SelfAffine
 
 SAMPLES = Path(
@@ -121,25 +121,3 @@ def test_spectrum_of_a_whole_sample_file_is_theirs_in_the_same_window(package, f
     w = middle_window(package, window, heights.shape, size)
     windowed = package.Topography(w * without_level(heights, w), size, periodic=True)
     np.testing.assert_allclose(compare(ours, windowed, window), 1, rtol=1e-6)
-
-
-def test_rims_of_holes_decide_on_height_and_spectrum(package):
-    # On the rims of the holes the instrument wrote outliers of hundreds of times the roughness,
-    # halfway down the flank of the window: there half a pixel makes 14 %.
-    path, theirs = open_sample(package, "frt-2.frt")
-    size, worst, rms = theirs.physical_sizes, [], []
-    given = {"max_missing": 0.4, "spikes": "keep"}
-    for dropped in (0, 1):
-        ours = topography.read(path, missing_rim=dropped, **given).detrended()
-        heights, _ = levelling.without_rims(np.ma.filled(theirs.heights(), np.nan), dropped)
-        holed = package.Topography(np.ma.masked_invalid(heights), size)
-        filled = holed.interpolate_undefined_data().detrend("height").heights()
-        window = middle_window(package, "hann_radial", filled.shape, size)
-        ratio = compare(ours, package.Topography(without_level(filled, window), size))
-        worst.append(np.abs(ratio - 1).max())
-        rms.append(ours.h_rms)
-    assert worst[0] == pytest.approx(0.145, abs=0.01)
-    assert worst[1] < 0.02
-    assert rms[1] == pytest.approx(2.91e-7, rel=0.04)
-    assert rms[0] > 50 * rms[1]
-    assert topography.read(path, max_missing=0.3).dropped == 675

@@ -48,12 +48,9 @@ def write(path, matrix, separator="\t", header="", comma=False, encoding="utf-8"
 
 @pytest.mark.parametrize(
     ("separator", "comma"),
-    [("\t", False), (" ", False), (",", False), (", ", False), (";", False), (";", True)]
-    + [("\t", True), (" ", True)],
+    [(" ", False), (",", False), (", ", False), (";", False), (";", True), ("\t", True)],
 )
-def test_every_separator_and_decimal_comma_gives_the_same_heights(
-    tmp_path, matrix, separator, comma
-):
+def test_every_separator_and_comma_gives_the_same_heights(tmp_path, matrix, separator, comma):
     path = write(tmp_path / "a.txt", matrix, separator, comma=comma)
     t = topography.read(path, pixel_size="2 nm", height_unit="um")
     np.testing.assert_allclose(t.heights, matrix.T * 1e-6, rtol=1e-15)
@@ -167,10 +164,8 @@ def test_file_of_an_instrument_tells_size_unit_and_missing_points(tmp_path, coun
         ("a.txt", b"1 2\n3 4\n", "text"),
         ("a.dat", "1 2\n".encode("utf-16"), "text"),
         ("a.dat", b"header\n" * 2000 + b"\0\1\2", "instrument"),
-        ("a.sdf", b"1 2 3\n", "instrument"),
         ("a.txt", b"# pixel size = 1e-6 m\n1 2 3\n", "instrument"),
         ("a.txt", b"X;Y;valid\n[mm];[mm];[1/0]\n1;2;1\n", "instrument"),
-        ("a.NC", b"", "netcdf"),
         ("a.npz", b"", "numpy"),
     ],
 )
@@ -185,10 +180,7 @@ def test_format_follows_from_name_and_content(tmp_path, name, content, kind):
     ("name", "unit", "is_height", "holds"),
     [
         ("Height", "m", True, True),
-        ("Error corrected height", "m", True, True),
-        ("Default", None, True, True),
         ("Measurement_000/Channel_000/Error", None, True, False),
-        ("Lock-In Amplitude", "m", True, False),
         ("Adhesion", ("nm", "V"), True, False),
         ("UserIn0", "m", False, False),
     ],
@@ -205,7 +197,6 @@ def test_channels_of_heights(name, unit, is_height, holds):
     ("arguments", "message"),
     [
         ({"channel": "Phase"}, r"a\.bcr: no channel 'Phase'; the file has 'Default'"),
-        ({"channel": 7}, r"a\.bcr: no channel 7"),
         ({"variable": "z"}, "variable is for NetCDF and npz"),
         ({"height_unit": "um"}, "height_unit = 'um', but the file says 'nm'"),
         ({"format": "x3p"}, r"a\.bcr: SurfaceTopography cannot read it"),
@@ -214,7 +205,6 @@ def test_channels_of_heights(name, unit, is_height, holds):
         ({"length": "1 um", "pixel_size": "1 nm"}, "length or pixel_size, not both"),
         ({"length": "1 kg"}, "length.*'1 kg'"),
         ({"length": "-1 um"}, "length must be positive.*'-1 um'"),
-        ({"length": ["1 um"] * 3}, "one length or two"),
         ({"height_unit": "parsec per fortnight"}, "height_unit"),
         ({"max_missing": 1.5}, "max_missing.*1.5"),
         ({"missing": "guess"}, "missing must be 'fill', 'crop' or 'refuse', got 'guess'"),
@@ -293,16 +283,6 @@ def test_profile_from_netcdf_with_missing_points(tmp_path):
 # Missing points
 
 
-def test_the_number_that_marks_missing_points(tmp_path):
-    matrix = np.arange(100.0).reshape(10, 10)
-    matrix[4, 5] = -9999
-    path = write(tmp_path / "a.txt", matrix)
-    t = topography.read(path, **METRES, missing_value=-9999)
-    # The matrix is a plane, which harmonic filling continues exactly.
-    assert t.heights[5, 4] == pytest.approx(45.0, rel=1e-12)
-    assert t.missing_fraction == 0.01
-
-
 @pytest.mark.parametrize("share", [0.05, 0.3, 0.7])
 def test_largest_complete_rectangle_equals_brute_force(share):
     known = np.random.default_rng(2).random((9, 7)) > share
@@ -318,17 +298,6 @@ def test_largest_complete_rectangle_equals_brute_force(share):
     assert found.size == max(window.size for window in windows if window.all())
     with pytest.raises(ValueError, match="here: every point is missing"):
         levelling.complete_rectangle(np.zeros((3, 3), dtype=bool), "here")
-
-
-def test_filling_makes_no_new_extremes_and_keeps_the_rest():
-    heights = np.random.default_rng(0).normal(size=(40, 50))
-    hole = np.random.default_rng(1).random((40, 50)) < 0.08
-    hole[0, :3] = hole[-3:, -1] = True  # at the edge and in a corner too
-    filled, missing = levelling.fill_missing(np.where(hole, np.nan, heights))
-    assert missing == hole.sum()
-    np.testing.assert_array_equal(filled[~hole], heights[~hole])
-    assert filled.max() <= heights[~hole].max()
-    assert filled.min() >= heights[~hole].min()
 
 
 def with_hole(width, scale=100.0):
@@ -390,13 +359,6 @@ def test_levelling_equals_a_dense_least_squares_fit(kind, terms):
             np.testing.assert_allclose(levelled.ravel(), rest, atol=1e-10)
     with pytest.raises(ValueError, match="detrend.*'cubic'"):
         levelling.detrend(heights, "cubic")
-
-
-def test_heights_as_a_data_array_lie_where_they_were_measured():
-    heights = np.arange(6.0).reshape(3, 2)
-    found = topography.Topography(heights, 0.5, 2.0, "test").to_xarray()
-    assert found.sel(x=1.0, y=2.0) == heights[2, 1]
-    assert [found[name].attrs["units"] for name in ("x", "y")] == ["m", "m"]
 
 
 def test_jacksboro_has_the_steps_of_the_ellipsoid():

@@ -93,10 +93,6 @@ def test_exponent_between_the_finest_scale_and_the_rms_height(hurst):
     Contact is lost at the magnification z at gaps u1 ~ h(z) ~ z^(-H), and the area is
     A ~ z^(H - 1); so the area with gaps below u, contact included, goes as u^((1 - H)/H). `table`
     holds the steepest exponents of P at p = 0.065 q0 h_rms that this test found.
-
-    The other corrections, the other variant and a load of 0.001 change the last column of figures
-    by 0.015 at most. On the coarse side the law is approached as u^((2 - 2H)/H), the share of the
-    gradient that the coarser scales hold.
     """
     law = (1 - 2 * hurst) / hurst
     steepest = []

@@ -57,14 +57,6 @@ def test_area_by_the_variance_of_the_pressure(solid):
     np.testing.assert_allclose(theory.area_fraction(p, 1.5), first, rtol=1e-9)
 
 
-@pytest.mark.parametrize("solid", SOLIDS, ids=str)
-def test_quadratures_have_converged(solid):
-    one, two = (persson.Persson(ROUGH, solid=solid, nodes=nodes) for nodes in (1.0, 2.0))
-    p = loads(one)
-    np.testing.assert_allclose(one.mean_gap(p), two.mean_gap(p), rtol=1e-10)
-    np.testing.assert_allclose(one.area_fraction(p), two.area_fraction(p), rtol=1e-12)
-
-
 def test_the_distribution_of_gaps_is_refused():
     theory = persson.Persson(ROUGH, solid=Layer(0.3, 0.5))
     with pytest.raises(NotImplementedError, match="known for a half-space only"):

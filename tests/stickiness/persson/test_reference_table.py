@@ -31,6 +31,7 @@ def spectrum_of(name):
     return {"table": Tabulated, "shells": Shells}[kind](*values)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("nodes", "tolerance"), [(1.0, 5e-7), (2.0, 1e-8)])
 @pytest.mark.parametrize(
     ("key", "rows"), table(), ids=lambda x: " ".join(x) if isinstance(x, tuple) else ""

@@ -5,7 +5,6 @@ import numpy as np
 import pytest
 from scipy import special
 
-from stickiness import surface
 from stickiness.persson import Persson
 from stickiness.persson.kernels import kernels
 from stickiness.spectrum import SelfAffine, Shells, Tabulated
@@ -96,17 +95,6 @@ def test_normalised_and_converged(variant, hurst, magnification):
         np.testing.assert_allclose(coarse[seen], best[seen], rtol=5e-7)
 
 
-@pytest.mark.parametrize("scale", [1e-9, 1e9])
-def test_lengths_may_be_in_any_unit(scale):
-    u, p = np.array([1e-3, 0.1, 2.0]), 0.065
-    scaled = SelfAffine(hurst=0.8, q0=1 / scale, q1=1000 / scale, h_rms=scale)
-    one, other = Persson(power_law()), Persson(scaled)
-    np.testing.assert_allclose(
-        other.gap_density(u * scale, p) * scale, one.gap_density(u, p), rtol=1e-10
-    )
-    assert other.mean_gap(p) == pytest.approx(scale * one.mean_gap(p), rel=1e-12)
-
-
 @pytest.mark.slow
 def test_rough_table_with_many_points():
     rng = np.random.default_rng(3)
@@ -132,18 +120,6 @@ def test_dense_shells_approach_the_continuum(variant):
     # shells 2e-4 apart: the square of that, and the nodes' own errors
     assert a.mean_gap(p) == pytest.approx(b.mean_gap(p), rel=4e-8)
     np.testing.assert_allclose(a.gap_density(u, p), b.gap_density(u, p), rtol=2e-7)
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("variant", VARIANTS)
-def test_window_spectrum_is_converged_and_normalised(variant):
-    shells = surface.lattice_spectrum(power_law(128.0), 2 * np.pi)
-    coarse, fine = Persson(shells, variant), Persson(shells, variant, nodes=8)
-    u, p = np.geomspace(1e-4, 8, 20), 0.065
-    assert len(shells.q) > 2 * len(coarse._setting.scales.coarse.weight)
-    assert coarse.mean_gap(p) == pytest.approx(fine.mean_gap(p), rel=1e-12)
-    np.testing.assert_allclose(coarse.gap_density(u, p), fine.gap_density(u, p), rtol=5e-7)
-    assert coarse.gap_cumulative(np.inf, p) == pytest.approx(1 - coarse.area_fraction(p), abs=1e-10)
 
 
 @pytest.mark.parametrize("variant", VARIANTS)
@@ -182,26 +158,15 @@ def test_shapes():
         (lambda s: Persson(s, variant="persson2001"), "variant"),
         (lambda s: Persson(s, correction="persson2001"), "correction must"),
         (lambda s: Persson(s, gamma=0.0), "gamma"),
-        (lambda s: Persson(s, gamma=1.1), "gamma"),
         (lambda s: Persson(s, gamma=0.01, correction="wang2017"), "gamma must"),
         (lambda s: Persson(s, nodes=0), "nodes"),
         (lambda s: Persson(s).mean_gap(0.0), "p must"),
         (lambda s: Persson(s).area_fraction(-1.0), "p must"),
         (lambda s: Persson(s).area_fraction(0.1, magnification=0.5), "magnification"),
         (lambda s: Persson(s).gap_density(-1.0, 0.1), "u must"),
-        (lambda s: Persson(s).pressure_at(0.0), "mean_gap"),
         (lambda s: Persson(s).pressure_at(1e4), "mean_gap must lie"),
-        (lambda s: Persson(s).pressure_at(1e-290), "mean_gap must lie"),
     ],
 )
 def test_bad_arguments_are_named(call, name):
     with pytest.raises(ValueError, match=name):
         call(power_law(10.0))
-
-
-def test_heights_of_any_size():
-    """No overflow on the way, for heights of 1e9 or a millionth of a millionth of 1/q0."""
-    for factor in (1e-12, 1e9, 1e12):
-        theory = Persson(SelfAffine(hurst=1.0, q0=1.0, q1=10.0, h_rms=factor))
-        one = Persson(SelfAffine(hurst=1.0, q0=1.0, q1=10.0, h_rms=1.0))
-        assert theory.mean_gap(factor * 0.1) / factor == pytest.approx(one.mean_gap(0.1), rel=1e-9)

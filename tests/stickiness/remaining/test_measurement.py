@@ -58,18 +58,15 @@ def test_the_grid_resolves_or_says_so():
     assert measure(random_heights(32), LENGTH, narrow, 0.1, half_grid=False).pixels_in_zone < 2
 
 
-@pytest.mark.parametrize("squeeze", [0.0, -0.1, np.nan])
-def test_bad_squeeze_is_refused(squeeze):
-    with pytest.raises(ValueError, match="squeeze"):
-        measure(random_heights(32), LENGTH, adhesive.Exponential(0.3, 0.5), squeeze)
-
-
-@pytest.mark.parametrize("law", ["exponential", 0.3, adhesive.Exponential])
-def test_a_law_of_another_kind_is_refused(law):
-    with pytest.raises(ValueError, match="law must be a TractionLaw"):
-        measure(random_heights(32), LENGTH, law, 0.1)
-
-
-def test_far_too_coarse_pixels_are_refused_before_the_path():
-    with pytest.raises(ValueError, match="Take pixels of at most"):
-        measure(random_heights(32), LENGTH, adhesive.Exponential(0.3, 0.1), 0.1)
+@pytest.mark.parametrize(
+    ("law", "squeeze", "message"),
+    [
+        (adhesive.Exponential(0.3, 0.5), 0.0, "squeeze"),
+        (adhesive.Exponential(0.3, 0.5), np.nan, "squeeze"),
+        ("exponential", 0.1, "law must be a TractionLaw"),
+        (adhesive.Exponential(0.3, 0.1), 0.1, "Take pixels of at most"),  # before the path
+    ],
+)
+def test_bad_arguments_are_refused(law, squeeze, message):
+    with pytest.raises(ValueError, match=message):
+        measure(random_heights(32), LENGTH, law, squeeze)

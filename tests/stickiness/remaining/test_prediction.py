@@ -40,12 +40,6 @@ def test_units_do_not_matter(unit):
         assert getattr(again, name) == pytest.approx(getattr(found, name), rel=1e-9)
 
 
-def test_the_shortest_wavelength_hardly_matters_for_tough_pairs():
-    shares = [predict(rough(q1=q1), **TOUGH).separation for q1 in (1e3, 1e6)]
-    assert shares[1] == pytest.approx(shares[0], rel=0.05)
-    assert shares[1] < shares[0]  # finer roughness weakens
-
-
 def test_a_plateau_counts_from_its_end():
     found = predict(rough(q_rolloff=4.0), **TOUGH)
     same = predict(rough(q_rolloff=4.0), **TOUGH, q0=4.0)

@@ -96,17 +96,7 @@ def test_one_and_two_points():
     assert contact.pressure[first] == pytest.approx(contact.pressure[second])
 
 
-def test_corrections_that_gain_nothing_are_left_to_the_grid(monkeypatch):
-    heights = rough((256, 256), 1)
-    expected = repulsive.solve(heights, 1.0, 5e-4)
-    monkeypatch.setattr(
-        dilute_contact.Candidates, "correct_pressure", lambda _, points, p, *more: (points, p, 0)
-    )
-    contact = repulsive.solve(heights, 1.0, 5e-4)
-    assert contact.residual <= 1e-8
-    assert contact.area_fraction == expected.area_fraction
-
-
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("shape", "sides"), [((256, 256), (1.0, 1.0)), ((255, 131), (1.0, 131 / 255))]
 )

@@ -78,6 +78,7 @@ def test_it_nearly_inverts_the_compliance(shape, solid):
     assert values[-1] / values[0] < 3.5
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("load", "most"), [(0.0005, 8), (0.003, 8), (0.065, 32), (0.3, 32)])
 def test_convolutions_of_a_solution(load, most):
     assert repulsive.solve(rough(512), 1.0, load * Q0).fft_pairs < most

@@ -31,6 +31,7 @@ PRESSED = [
 ]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("solid", "load"), PRESSED, ids=str)
 def test_contact_conditions(heights, solid, load):
     pressure = load * flattening_pressure(heights, solid)
@@ -102,6 +103,7 @@ def press_paraboloid(radius, solid):
     return 2 * np.pi * dt @ (approach * flat + curved), approach
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("poisson", "backing", "thickness"),
     [(0.5, "bonded", 0.5), (0.3, "bonded", 1.0), (0.5, "slip", 2.0)],

@@ -112,13 +112,10 @@ def test_a_film_bends_besides_the_layer_on_a_rigid_base(poisson):
     ("make", "message"),
     [
         (lambda: Layer(math.inf, 0.3), "thickness must be positive and finite"),
-        (lambda: Layer("1", 0.3), "thickness must be a number"),
         (lambda: Layer(1.0, 0.6), "poisson must be non-negative and at most 0.5, got 0.6"),
         (lambda: Layer(1.0, 0.3, "glued"), "backing must be 'bonded', 'slip' or a Film.*'glued'"),
         (lambda: Film(0.0, 0.4, 1.0), "modulus_ratio must be positive"),
-        (lambda: Film(1e4, 0.4, 0), "thickness must be positive and finite, got 0"),
         (lambda: HalfSpace().compliance(0.0), "q must be positive and finite, got 0"),
-        (lambda: Layer(1.0, 0.3).stiffness(0.0), "q must be positive and finite, got 0"),
     ],
 )
 def test_wrong_arguments(make, message):

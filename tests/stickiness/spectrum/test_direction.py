@@ -91,21 +91,6 @@ def test_ratio_one_is_isotropic_to_the_last_bit():
     np.testing.assert_array_equal(*(window.variance for window in windows))
 
 
-@pytest.mark.parametrize("angle", [0.0, 0.6, np.pi / 2, -2.0])
-def test_slopes_of_surfaces_by_direction(angle):
-    """Along the long waves the mean squares are those without direction over 3, across times 3."""
-    # many waves: lattice sums are within two per cent of the integrals
-    band = {"q0": 6.0, "q1": 40.0, "C0": 1.0, "h_rms": None}
-    s, iso = made(**band, anisotropy=3.0, angle=angle), made(**band)
-    m = surface.moments(surface.synthesise(s, 144, L, 1, amplitudes="fixed"), L)
-    along, across = np.cos(angle) ** 2, np.sin(angle) ** 2
-    assert m.m00 == pytest.approx(iso.moment(0), rel=0.02)
-    assert m.m20 == pytest.approx(iso.moment(2) * (along / 3 + across * 3), rel=0.02)
-    assert m.m02 == pytest.approx(iso.moment(2) * (across / 3 + along * 3), rel=0.02)
-    for name in ("h_rms", "rms_slope", "rms_curvature"):
-        assert getattr(m, name) == pytest.approx(getattr(s, name), rel=0.02)
-
-
 @pytest.mark.parametrize("angle", [0.0, 0.3])
 def test_modes_lie_in_the_ellipse_and_hold_its_variances(angle):
     s = made(q0=2.0, C0=1.0, h_rms=None, anisotropy=4.0, angle=angle)
@@ -137,13 +122,8 @@ def test_truncation_cuts_the_norm_and_keeps_the_direction():
     ("change", "message"),
     [
         ({"anisotropy": 0.5}, "anisotropy"),
-        ({"anisotropy": 0.0}, "anisotropy"),
-        ({"anisotropy": np.nan}, "anisotropy"),
-        ({"anisotropy": np.inf}, "anisotropy"),
         ({"anisotropy": 2e4}, "anisotropy must be between 1 and 10000"),
         ({"anisotropy": "4"}, "anisotropy"),
-        ({"angle": np.inf}, "angle"),
-        ({"angle": [0.0, 1.0]}, "angle"),
         ({"angle": "x"}, "angle"),
         ({"anisotropy": 1e4, "q1": 1e154}, "leave the range of floats"),
     ],
@@ -180,15 +160,3 @@ def test_measured_dependence_on_direction(ratio):
     amplitude, direction = np.mean(found, axis=0)
     assert amplitude == pytest.approx(want, abs=0.03)
     assert direction == pytest.approx(angle - np.pi / 2, abs=0.03)
-
-
-def test_seeds_grids_and_bands_of_surfaces_with_a_direction():
-    s = made(q0=2.0, q1=10.0, C0=1.0, h_rms=None, anisotropy=4.0, angle=0.3)
-    h = surface.synthesise(s, 48, L, 7)
-    np.testing.assert_array_equal(h, surface.synthesise(s, 48, L, 7))
-    np.testing.assert_allclose(surface.synthesise(s, 96, L, 7)[::2, ::2], h, atol=1e-12)
-    wide = made(q0=2.0, q1=20.0, C0=1.0, h_rms=None, anisotropy=4.0, angle=0.3)
-    more = surface.synthesise(wide, 96, L, 7) - surface.synthesise(s, 96, L, 7)
-    k = np.fft.fftfreq(96, 1 / 96)
-    inside = s.norm(k[:, None], k[None, :]) <= 10
-    assert np.abs(np.fft.fft2(more)[inside]).max() < 1e-15 * 96**2 * np.abs(h).max()

@@ -5,7 +5,7 @@ import pytest
 
 from stickiness import surface
 from stickiness.persson import Persson
-from stickiness.spectrum import SelfAffine, Shells, Sum, Tabulated, combine
+from stickiness.spectrum import SelfAffine, Shells, Tabulated, combine
 
 L = 2 * np.pi
 ONE = SelfAffine(hurst=0.8, q0=1.0, q1=64.0, h_rms=1.0)
@@ -77,14 +77,6 @@ def test_surfaces_of_a_sum_hold_what_those_of_its_parts_do():
         power += np.abs(np.fft.fft2(made)) ** 2
     got = np.abs(np.fft.fft2(surface.synthesise(both, 48, L, 3, amplitudes="fixed"))) ** 2
     np.testing.assert_allclose(got, power, rtol=1e-9, atol=1e-20 * power.max())
-
-
-def test_sums_of_sums_are_flat():
-    triple = combine(combine(ONE, OTHER), TURNED)
-    assert isinstance(triple, Sum)
-    assert triple.parts == (ONE, OTHER, TURNED)
-    assert combine(ONE) is ONE
-    assert repr(triple).startswith("Sum(SelfAffine(")
 
 
 def test_knots_apart_by_rounding_are_one():
