@@ -18,12 +18,9 @@ from scipy.interpolate import RegularGridInterpolator
 from scipy.special import ndtri
 
 from stickiness.arguments import plain, positive
-from stickiness.persson.theory import Persson
-from stickiness.spectrum.kinds import Spectrum
 
 PARTED = 1.5  #: ratio of the theory's variants from which on neither resolves the edges of contact
 VARIANTS = ("afferrante2018", "almqvist2011")  #: P(0) infinite and finite: limits on the truth
-EDGE_LAW = "pastewka_robbins"  #: independent estimate of what the edges alone give
 NORMAL_90 = float(ndtri(0.95))  #: standard errors either side that cover 90 %
 NEEDED = (
     *("a_v", "a_v_limit", "edge_range", "edge_a_v", "quadrature_error", "extrapolation_error"),
@@ -88,38 +85,6 @@ class SurfaceAv:
             plain(every.min(axis=0) * max(1 - self.relative_error, 0.01)),
             plain(every.max(axis=0) * (1 + self.relative_error)),
         )
-
-
-def theory_a_v(
-    spectrum: Spectrum,
-    ranges: ArrayLike,
-    pressure: float,
-    edge_a_v: float,
-    *,
-    q0: float | None = None,
-    gamma: float = 0.45,
-) -> tuple[list[str], list[NDArray], float]:
-    """a_V by both variants of Persson's theory and by the edge law.
-
-    Ranges are over h_rms and increase; the pressure is the mean one over E* q0 h_rms, with the q0
-    of the spectrum unless one is given; `edge_a_v` is from `formulas.pastewka_robbins_a_v`,
-    `gamma` the correction of the theory's elastic energy. Returns the names (`VARIANTS` and
-    `EDGE_LAW`), their a_V and the edge range over h_rms. Below that the variants are held constant,
-    and the edge law takes `edge_a_v`.
-    """
-    ranges = np.asarray(ranges, dtype=float)
-    h_rms, q0 = spectrum.h_rms, float(spectrum.q0 if q0 is None else q0)
-    theory = Persson(spectrum, gamma=gamma)
-    areas = [
-        theory.with_variant(variant).gap_cumulative(ranges * h_rms, pressure * q0 * h_rms)
-        for variant in VARIANTS
-    ]
-    resolved = [local_a_v(area, pressure, ranges) for area in areas]
-    edge = edge_range(ranges, *resolved)
-    at_edge = np.exp(np.interp(np.log(edge), np.log(ranges), np.log(resolved[0])))
-    a_v = [np.where(ranges < edge, at_edge, a) for a in resolved]
-    a_v.append(np.where(ranges < edge, edge_a_v, a_v[0]))
-    return [*VARIANTS, EDGE_LAW], a_v, edge
 
 
 @dataclass(frozen=True)

@@ -78,17 +78,16 @@ def attraction(
     adhesion_length: ArrayLike,
     range: ArrayLike,
     a_v: ArrayLike,
-    kappa_rep: float = KAPPA_REP,
 ) -> EdgeAttraction:
     """Attraction over repulsion at equal area of contact, by the equivalent sphere.
 
-    `rms_slope` is the root mean square gradient of all waves, `kappa_rep` the slope of area against
-    load without adhesion; the other arguments are those of `criteria.area_load.traction_ratio`.
+    `rms_slope` is the root mean square gradient of all waves; the other arguments are those of
+    `criteria.area_load.traction_ratio`.
     """
-    slope, kappa_rep = positive(rms_slope=rms_slope, kappa_rep=kappa_rep)
+    (slope,) = positive(rms_slope=rms_slope)
     dmt = traction_ratio(h_rms, q0, adhesion_length, range, a_v)
     # Mean pressure in the contact is E* h'/kappa, attraction over it sigma_0 t.
-    strength_over_pressure = np.asarray(adhesion_length) / range * kappa_rep / slope
+    strength_over_pressure = np.asarray(adhesion_length) / range * KAPPA_REP / slope
     area = dmt / strength_over_pressure
     tau = edge_strength(area, strength_over_pressure)
     change = effect(area, tau)
@@ -199,7 +198,6 @@ def adhesion_length_threshold(
     rms_slope: ArrayLike,
     range: ArrayLike,
     a_v: ArrayLike,
-    kappa_rep: float = KAPPA_REP,
 ) -> float | NDArray:
     """Adhesion length [length] at which the attraction balances the repulsion.
 
@@ -210,11 +208,11 @@ def adhesion_length_threshold(
     )
 
     def excess(log_length, h, q0, slope, range, a_v):
-        found = attraction(h, q0, slope, np.exp(log_length), range, a_v, kappa_rep)
+        found = attraction(h, q0, slope, np.exp(log_length), range, a_v)
         return np.log(found.ratio)
 
     # What either limit has for the threshold, and the larger of both is near.
-    unit = attraction(h, q0, slope, range, range, a_v, kappa_rep)
+    unit = attraction(h, q0, slope, range, range, a_v)
     t, tau = unit.attractive_over_contact, unit.strength
     dmt = traction_ratio(h, q0, range, range, a_v)
     weak = range / (dmt * weak_effect(t))

@@ -22,21 +22,19 @@ from stickiness.criteria.area_load import (  # noqa: F401
     inverse_kappa,
     inverse_kappa_ad,
     jtb_limit,
-    kappa,
     modulus_threshold,
     slope_angle,
     traction_ratio,
-    violano_c0_limit,
 )
 from stickiness.spectrum.kinds import Spectrum
 
 __all__ = [  # noqa: PLE0604
     *("CRYSTAL_RANGE_RATIO", "DAHLQUIST_LIMIT", "PRINTED_A_V", "PR_CONSTANT", "DmtValidity"),
     *("Verdict", "bearing_area", "dahlquist", "dmt_validity"),
-    *("fuller_tabor", "h_rms_limit", "inverse_kappa", "inverse_kappa_ad", "jtb_limit", "kappa"),
+    *("fuller_tabor", "h_rms_limit", "inverse_kappa", "inverse_kappa_ad", "jtb_limit"),
     *("modulus_threshold", "pastewka_robbins", "pastewka_robbins_a_v"),
-    *("pastewka_robbins_a_v_power_law", "pastewka_robbins_range", "persson_tosatti", "slope_angle"),
-    *("traction_ratio", "violano", "violano_c0_limit", "violano_printed"),
+    *("pastewka_robbins_a_v_power_law", "persson_tosatti", "slope_angle"),
+    *("traction_ratio", "violano", "violano_printed"),
 ]
 
 PRINTED_A_V = 1.5  #: the coefficient 9/4 printed in the paper is (3/2) a_V with this a_V
@@ -103,16 +101,6 @@ def dmt_validity(
     return DmtValidity(plain(margin > 1), plain(margin))
 
 
-def pastewka_robbins_range(adhesion_length: ArrayLike, range: ArrayLike) -> float | NDArray:
-    """Width Delta_r = sqrt(24 l_a range) [length] of the attraction in the Pastewka-Robbins form.
-
-    As Violano et al. (2019) state it; 1.095 range for a crystal on itself (l_a = 0.05 range). For
-    soft solids it grows far beyond the range, which may then be passed in its place.
-    """
-    adhesion_length, range = positive(adhesion_length=adhesion_length, range=range)
-    return plain(np.sqrt(24 * adhesion_length * range))
-
-
 def pastewka_robbins(
     rms_slope: ArrayLike,
     rms_curvature: ArrayLike,
@@ -132,7 +120,8 @@ def pastewka_robbins(
     adhesion_length, range : array_like
         As in `traction_ratio`.
     interaction_range : array_like, optional
-        Delta_r [length]; `pastewka_robbins_range` by default.
+        Width Delta_r of the attraction [length]; by default sqrt(24 l_a range), as Violano et al.
+        (2019) state it. For soft solids that grows far beyond the range.
 
     References
     ----------
@@ -145,7 +134,7 @@ def pastewka_robbins(
         range=range,
     )
     if interaction_range is None:
-        interaction_range = pastewka_robbins_range(adhesion_length, range)
+        interaction_range = np.sqrt(24 * adhesion_length * range)
     (delta,) = positive(interaction_range=interaction_range)
     diameter = 4 * slope / curvature
     actual = slope * delta / (2 * adhesion_length) * (slope * diameter / (4 * delta)) ** (2 / 3)
@@ -201,12 +190,10 @@ def fuller_tabor(
     rms_curvature: ArrayLike,
     adhesion_length: ArrayLike,
     radius: ArrayLike | None = None,
-    threshold: float = 10.0,
 ) -> Verdict:
     """Fuller & Tabor (1975): sticky when theta = h_rms^(3/2)/(R^(1/2) l_a) is below 10.
 
-    The margin is threshold over theta. The threshold is where the pull-off force has practically
-    gone.
+    The margin is 10 over theta: at 10 the pull-off force has practically gone.
 
     Parameters
     ----------
@@ -217,21 +204,16 @@ def fuller_tabor(
         Summit radius R [length], originally that of equal spheres. Default: 2/h'', the radius of
         the paraboloid whose Laplacian is the root mean square one. Nayak's mean summit curvature
         (8/3) sqrt(m4/pi) gives 1.085/h'', a theta larger by 1.36.
-    threshold : float
-        Largest sticky theta.
 
     References
     ----------
     Fuller & Tabor, Proc. R. Soc. A 345, 327 (1975), doi:10.1098/rspa.1975.0138.
     """
-    h, curvature, length, threshold = positive(
-        h_rms=h_rms,
-        rms_curvature=rms_curvature,
-        adhesion_length=adhesion_length,
-        threshold=threshold,
+    h, curvature, length = positive(
+        h_rms=h_rms, rms_curvature=rms_curvature, adhesion_length=adhesion_length
     )
     (radius,) = positive(radius=2 / curvature if radius is None else radius)
-    return _verdict("fuller_tabor", threshold * np.sqrt(radius) * length / h**1.5)
+    return _verdict("fuller_tabor", 10.0 * np.sqrt(radius) * length / h**1.5)
 
 
 def bearing_area(
@@ -311,11 +293,11 @@ def persson_tosatti(elastic_energy: ArrayLike | Spectrum, adhesion_length: Array
     return _verdict("persson_tosatti", length / energy)
 
 
-def dahlquist(modulus_pa: ArrayLike, limit: float = DAHLQUIST_LIMIT) -> Verdict:
+def dahlquist(modulus_pa: ArrayLike) -> Verdict:
     """Dahlquist's empirical rule: sticky when the modulus [Pa] is below about 1 MPa.
 
     The margin is limit over modulus. Forms of the rule for adhesive tapes ask 0.1 to 0.3 MPa
     (Creton 2003, doi:10.1557/mrs2003.124).
     """
-    modulus, limit = positive(modulus_pa=modulus_pa, limit=limit)
-    return _verdict("dahlquist", limit / modulus)
+    (modulus,) = positive(modulus_pa=modulus_pa)
+    return _verdict("dahlquist", DAHLQUIST_LIMIT / modulus)

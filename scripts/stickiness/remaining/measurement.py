@@ -98,7 +98,6 @@ def measure(
     squeeze: float,
     tol: float = 1e-4,
     half_grid: bool = True,
-    logger=None,
     solid: Solid = HALF_SPACE,
 ) -> Remaining:
     """Measure what remains of adhesion on given heights.
@@ -119,8 +118,6 @@ def measure(
         Residual of every state, see `adhesive.solve`.
     half_grid : bool
         Whether to solve on every second point as well, for the limits.
-    logger : logging.Logger, optional
-        Told every state.
     solid : solids.HalfSpace or solids.Layer
         Elastic solid; the thickness of a layer is in the unit of `length`. Works at given mean
         gaps exclude the mean compression of a layer, which stores and returns its energy.
@@ -144,7 +141,7 @@ def measure(
             "range^2/adhesion_length: points would snap one by one. Take pixels of at most "
             f"{edge_zone.COARSEST * pixel / coarse:.3g} or a longer range"
         )
-    settings = {"tol": tol, "logger": logger, "solid": check_solid(solid)}
+    settings = {"tol": tol, "solid": check_solid(solid)}
     if not half_grid:
         return _follow(heights, length, law, squeeze, settings)
     with warnings.catch_warnings():

@@ -146,13 +146,6 @@ class Roughness:
         softened = np.asarray(adhesion_length) * self.relative_compliance
         return self.q0 * np.asarray(range) ** 2 / softened
 
-    def pull_off(
-        self, adhesion_length: ArrayLike, range: ArrayLike
-    ) -> tuple[ArrayLike, ArrayLike, ArrayLike]:
-        """Largest mean tension on separation over E*: value, low and high limit."""
-        low, value, high = (self.tension(adhesion_length, range, sign) for sign in (-1, 0, 1))
-        return value, low, high
-
     def tension(
         self, adhesion_length: ArrayLike, range: ArrayLike, sign: ArrayLike = 0
     ) -> float | NDArray:
@@ -276,7 +269,7 @@ def predict(
     )
     low, share, high = (float(rough.share(length, range, sign)) for sign in (-1, 0, 1))
     ratio = length / rough.elastic_energy
-    pull_off, *pull_off_limits = map(float, rough.pull_off(length, range))
+    least, pull_off, most = (float(rough.tension(length, range, sign)) for sign in (-1, 0, 1))
     return Prediction(
         approach=share,
         separation=share,
@@ -284,7 +277,7 @@ def predict(
         area_at_zero_load=float(tough_area(ratio, find_onset(rough.zone(length, range)))),
         approach_limits=(low / LATE, high),
         separation_limits=(low, min(HYSTERESIS * high, 1.0)),
-        pull_off_limits=tuple(pull_off_limits),
+        pull_off_limits=(least, most),
         energy_ratio=ratio,
         tabor=float(np.cbrt((length * rough.relative_compliance) ** 2 / (q0**2 * h * range**3))),
         anisotropy_error_factor=rough.anisotropy_error_factor,

@@ -40,8 +40,22 @@ _SERIES = 1.5  # 2k below which sinh and cosh are expanded
 _TERMS = 12
 
 
+class _Compliant:
+    """What follows from the compliance over that of a half-space."""
+
+    def compliance(self, q: ArrayLike) -> float | NDArray:
+        """Displacement per pressure u_q E*/p_q = 2 S/q [length] of waves `q` > 0 [1/length]."""
+        (q,) = positive(q=q)
+        return plain(2 / q * self.factor(q))
+
+    def stiffness(self, q: ArrayLike) -> float | NDArray:
+        """Pressure per displacement p_q/(u_q E*) [1/length] of waves `q` > 0 [1/length]."""
+        (q,) = positive(q=q)
+        return plain(q / 2 / self.factor(q))
+
+
 @dataclass(frozen=True)
-class HalfSpace:
+class HalfSpace(_Compliant):
     """Elastic half-space: the default everywhere."""
 
     mean_compliance = 0.0  # undefined; displacements are counted from their mean
@@ -49,14 +63,6 @@ class HalfSpace:
     def factor(self, q: ArrayLike) -> float:
         """Compliance over that of a half-space: one."""
         return 1.0
-
-    def compliance(self, q: ArrayLike) -> float | NDArray:
-        """Displacement per pressure u_q E*/p_q = 2/q [length] of waves `q` > 0 [1/length]."""
-        return _compliance(self, q)
-
-    def stiffness(self, q: ArrayLike) -> float | NDArray:
-        """Pressure per displacement p_q/(u_q E*) = q/2 [1/length] of waves `q` > 0 [1/length]."""
-        return _stiffness(self, q)
 
     def in_unit(self, length: float) -> HalfSpace:
         """Return the solid with `length` as the unit of length."""
@@ -92,7 +98,7 @@ class Film:
 
 
 @dataclass(frozen=True)
-class Layer:
+class Layer(_Compliant):
     """Elastic layer on a rigid base or on a film.
 
     Parameters
@@ -153,14 +159,6 @@ class Layer:
             factor += self._bending(q)
         return plain(factor)
 
-    def compliance(self, q: ArrayLike) -> float | NDArray:
-        """Displacement per pressure u_q E*/p_q = 2 S/q [length] of waves `q` > 0 [1/length]."""
-        return _compliance(self, q)
-
-    def stiffness(self, q: ArrayLike) -> float | NDArray:
-        """Pressure per displacement p_q/(u_q E*) [1/length] of waves `q` > 0 [1/length]."""
-        return _stiffness(self, q)
-
     def in_unit(self, length: float) -> Layer:
         """Return the solid with `length` as the unit of length."""
         backing = self.backing
@@ -209,16 +207,6 @@ def check_solid(solid: Solid) -> Solid:
 
 def _set(frozen, name, value):
     object.__setattr__(frozen, name, value)
-
-
-def _compliance(solid: Solid, q: ArrayLike) -> float | NDArray:
-    (q,) = positive(q=q)
-    return plain(2 / q * solid.factor(q))
-
-
-def _stiffness(solid: Solid, q: ArrayLike) -> float | NDArray:
-    (q,) = positive(q=q)
-    return plain(q / 2 / solid.factor(q))
 
 
 def _less_leading_terms(x: NDArray) -> tuple[NDArray, NDArray]:
