@@ -1,13 +1,9 @@
-"""Area-load relation of an adhesive contact in the DMT limit (Violano et al. 2019).
+"""Area-load relation of an adhesive contact in the DMT limit.
 
-The attraction is proportional to the repulsion, p_ad/p_rep = (3 a_V/2) (l_a/range)
-(range/h_rms)^(2/3)/(q0 h_rms), whatever the load; all that follows rearranges this ratio. Lengths
-are in one unit of the caller's choice, wave numbers in its inverse, and l_a = (work of
+Attraction is proportional to repulsion whatever the load; all that follows rearranges this ratio,
+see `traction_ratio`. Lengths are in one unit, wave numbers in its inverse, l_a = (work of
 adhesion)/E*. Arguments broadcast; ValueError if a length, a wave number or a_V is not positive.
-
-References
-----------
-Violano, Afferrante, Papangelo & Ciavarella, J. Adhesion (2019),
+Source: Violano, Afferrante, Papangelo & Ciavarella, J. Adhesion (2019),
 doi:10.1080/00218464.2019.1685384.
 """
 

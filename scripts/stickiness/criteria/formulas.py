@@ -151,10 +151,8 @@ def pastewka_robbins_a_v(
     """Return a_V of the attractive area that Pastewka & Robbins assume.
 
     (4 pi/3) (3/16)^(2/3) (Delta_r/range)^(2/3) q0 h_rms^(5/3) (h''^2/h'^7)^(1/3), with the
-    arguments of `pastewka_robbins` and `range_ratio` = Delta_r/range. The default ratio is that at
-    l_a = 0.05 range and gives the prefactor 1.458; a ratio of 1 gives 1.372, with which `violano`
-    reproduces the verdict of `pastewka_robbins` for Delta_r = range. (For another Delta_r the
-    verdicts agree with 1.372 (Delta_r/range)^(-1/3), because the stress falls as the width grows.)
+    arguments of `pastewka_robbins` and `range_ratio` = Delta_r/range, by default for l_a = 0.05
+    range. With it over `range_ratio`, `violano` reproduces the verdict of `pastewka_robbins`.
     """
     q0, h, slope, curvature, ratio = positive(
         q0=q0,

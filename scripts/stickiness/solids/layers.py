@@ -2,27 +2,18 @@
 
 A pressure wave ``p_q`` displaces the surface of a solid by ``u_q = (2/|q|) S p_q/E*``. E* is the
 plane-strain modulus of the material at the surface, i.e. of the layer. S, the `factor`, is one for
-a half-space and a function of ``k = |q| d`` for a layer of thickness d. It follows from plane
-strain (Airy's function ``(A + B z) cosh qz + (C + D z) sinh qz``) with a surface free of shear:
+a half-space and for short waves, and a function of ``k = |q| d`` for a layer of thickness d:
 
 - free to slip on a rigid base: ``S = (cosh 2k - 1)/(sinh 2k + 2k)``;
-- bonded to a rigid base, with ``a = 3 - 4 nu``:
+- bonded to a rigid base: ``S = [a sinh 2k - 2k]/[a cosh 2k + 2 k^2 + 5 - 12 nu + 8 nu^2]``, with
+  ``a = 3 - 4 nu`` (Carbone and Mangialardi 2008, doi 10.1016/j.jmps.2007.05.009).
 
-      S = [a sinh 2k - 2k]/[a cosh 2k + 2 k^2 + 5 - 12 nu + 8 nu^2]
+The code regroups numerator and denominator into sums of terms that do not cancel.
 
-  (Carbone and Mangialardi, J. Mech. Phys. Solids 56:684, 2008, doi 10.1016/j.jmps.2007.05.009).
-
-S tends to 1 for short waves. For long ones it is k/2 (slip), ``k (1 - 2 nu)/(2 (1 - nu)^2)``
-(bonded, compressible) or ``2 k^3/3`` (bonded, nu = 1/2). The code regroups numerator and
-denominator into sums of terms that do not cancel.
-
-**Mean pressure.** The wave q = 0 is no limit of the others. A half-space has no finite response,
-and everywhere in this library displacements have no mean: a mean gap is that between the deformed
-surfaces, whatever the solid. A layer as a whole yields by `mean_compliance` times the mean
-pressure besides. Who controls the approach of the backing (the distance by which its far side has
-come closer) adds that: approach = ``mean_compliance * pressure - shift`` in the terms of
-`repulsive.Contact`. The work of the load on the mean compression is stored there, so that mean
-gaps, energies and works of adhesion do not depend on it.
+Displacements have no mean: a mean gap is the gap between the deformed surfaces, whatever the solid.
+A layer as a whole also yields by `mean_compliance` times the mean pressure: the approach of its
+backing is ``mean_compliance * pressure - shift`` in the terms of `repulsive.Contact`. Mean gaps,
+energies and works of adhesion do not depend on it.
 """
 
 from __future__ import annotations
