@@ -27,17 +27,12 @@ _FIT = ("AvFit", "fit_a_v", "local_exponent")
 
 __all__ = [  # noqa: PLE0604
     "STRIP_WIDTH",
-    "adhesive_pressure",
     "attraction_of_areas",
     "attractive_area",
     "boundary_strip",
     "edge_gap",
-    "gap_density",
     *_FIT,
 ]
-
-_RANGES_PER_DECADE = 64  # ranges at which a traction law is integrated over sub-pixel areas
-_SMALLEST_RANGE = 1e-6  # of them, over the largest gap
 
 
 def attractive_area(
@@ -80,82 +75,6 @@ def attractive_area(
     gaps = np.sort(gap[~contact])
     area = np.searchsorted(gaps, eps, side="right") / gap.size
     return area if eps.ndim else float(area)
-
-
-def gap_density(
-    gap: ArrayLike, edges: ArrayLike, contact: ArrayLike | None = None, *, subpixel: bool = False
-) -> NDArray:
-    """Probability density P(u) [1/length] of the open gaps, averaged over each bin, ``(m,)``.
-
-    Its integral is the area fraction of the gaps within the edges: 1 - A_rep/A_nom once they span
-    all of them.
-
-    Parameters
-    ----------
-    gap, contact
-        As for `attractive_area`.
-    edges : (m + 1,) array
-        Increasing bin edges [length].
-    subpixel : bool
-        Take the slope of the sub-pixel `attractive_area` instead of counting pixels.
-
-    Raises
-    ------
-    ValueError
-        On malformed or negative gaps, or edges that do not increase.
-    """
-    gap, contact = gap_and_contact(gap, contact)
-    edges = np.asarray(edges, dtype=float)
-    if edges.ndim != 1 or edges.size < 2 or not np.all(np.diff(edges) > 0):
-        raise ValueError(f"edges must be an increasing sequence of at least two, got {edges!r}")
-    if subpixel:
-        if edges[0] < 0:
-            raise ValueError(f"edges must not be negative, got {edges[0]!r}")
-        from_zero = np.maximum(edges, np.finfo(float).tiny)
-        return np.diff(subpixel_edges.attractive_area(gap, from_zero, contact)) / np.diff(edges)
-    counts, _ = np.histogram(gap[~contact], bins=edges)
-    return counts / (gap.size * np.diff(edges))
-
-
-def adhesive_pressure(
-    gap: ArrayLike, law: TractionLaw, contact: ArrayLike | None = None, *, subpixel: bool = False
-) -> float:
-    """Mean attraction p_ad [E*], the integral of sigma(u) P(u) over the open gaps.
-
-    For the Maugis law (adhesion_length/range) times `attractive_area`. Contact points carry no
-    attraction in this bookkeeping: theirs is part of the repulsive solution.
-
-    Parameters
-    ----------
-    gap : (..., n, n) array
-        Gap [length] of the repulsive solution; any shape without `subpixel`.
-    law : object with ``traction(gap)``
-        Traction law, tension positive [E*].
-    contact : bool array of the gap's shape, optional
-        True where the surfaces touch; by default where the gap is exactly zero.
-    subpixel : bool
-        Integrate the law over the sub-pixel `attractive_area`, at 64 ranges per decade.
-
-    Raises
-    ------
-    ValueError
-        On malformed or negative gaps.
-    """
-    gap, contact = gap_and_contact(gap, contact)
-    if not hasattr(law, "traction"):
-        raise ValueError(f"law must be a traction law such as adhesive.Maugis(...), got {law!r}")
-    if not subpixel:
-        return float(np.sum(law.traction(gap[~contact]))) / gap.size
-    largest = float(gap[~contact].max(initial=0.0))
-    if largest <= 0:
-        return 0.0
-    number = int(-np.log10(_SMALLEST_RANGE) * _RANGES_PER_DECADE)
-    ranges = np.geomspace(_SMALLEST_RANGE * largest, largest, number + 1)
-    jump = getattr(law, "range", None)  # where a law is discontinuous it is at its range
-    if jump is not None and jump <= largest:
-        ranges = np.union1d(ranges, [jump])
-    area = subpixel_edges.attractive_area(gap, ranges, contact)
-    return float(attraction_of_areas(area, ranges, law))
 
 
 def attraction_of_areas(area: ArrayLike, ranges: ArrayLike, law: TractionLaw) -> NDArray:

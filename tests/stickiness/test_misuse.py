@@ -61,7 +61,6 @@ MISUSES = [
     ),
     (lambda: dmt.attractive_area(press(), 0.1), "gap must be a number"),
     (lambda: dmt.attractive_area(HEIGHTS, 0.1), "gap must not be negative"),
-    (lambda: dmt.adhesive_pressure(press().gap, 0.1), "law must be"),
     (lambda: criteria.inverse_kappa(np.nan), "inverse_kappa_ad must be"),
     (lambda: criteria.pastewka_robbins_a_v_power_law(0.8, 0.5), "magnification must be at least 1"),
     (lambda: multilevel.descriptors(BAND, SIDE, 3), "seeds must be"),
