@@ -27,6 +27,7 @@ _FIT = ("AvFit", "fit_a_v", "local_exponent")
 
 __all__ = [  # noqa: PLE0604
     "STRIP_WIDTH",
+    "adhesive_pressure",
     "attraction_of_areas",
     "attractive_area",
     "boundary_strip",
@@ -75,6 +76,24 @@ def attractive_area(
     gaps = np.sort(gap[~contact])
     area = np.searchsorted(gaps, eps, side="right") / gap.size
     return area if eps.ndim else float(area)
+
+
+def adhesive_pressure(gap: ArrayLike, law: TractionLaw, contact: ArrayLike | None = None) -> float:
+    """Mean attraction p_ad [E*], the integral of sigma(u) P(u) over the open gaps.
+
+    For the Maugis law (adhesion_length/range) times `attractive_area`, whose `gap` and `contact`
+    these are. Contact points carry no attraction in this bookkeeping: theirs is part of the
+    repulsive solution. `law` has a ``traction(gap)``, tension positive [E*].
+
+    Raises
+    ------
+    ValueError
+        On malformed or negative gaps.
+    """
+    gap, contact = gap_and_contact(gap, contact)
+    if not hasattr(law, "traction"):
+        raise ValueError(f"law must be a traction law such as adhesive.Maugis(...), got {law!r}")
+    return float(np.sum(law.traction(gap[~contact]))) / gap.size
 
 
 def attraction_of_areas(area: ArrayLike, ranges: ArrayLike, law: TractionLaw) -> NDArray:

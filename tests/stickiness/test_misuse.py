@@ -61,6 +61,7 @@ MISUSES = [
     ),
     (lambda: dmt.attractive_area(press(), 0.1), "gap must be a number"),
     (lambda: dmt.attractive_area(HEIGHTS, 0.1), "gap must not be negative"),
+    (lambda: dmt.adhesive_pressure(press().gap, 0.1), "law must be"),
     (lambda: criteria.inverse_kappa(np.nan), "inverse_kappa_ad must be"),
     (lambda: criteria.pastewka_robbins_a_v_power_law(0.8, 0.5), "magnification must be at least 1"),
     (lambda: multilevel.descriptors(BAND, SIDE, 3), "seeds must be"),
@@ -74,6 +75,10 @@ MISUSES = [
     (
         lambda: a_v_table.edge_range([1, 2], [np.nan, 1], [1, 1]),
         "infinite must be positive and finite",
+    ),
+    (
+        lambda: equivalent_sphere.attraction(1, 1, 1, 0.1, 0.1, 2, kappa_rep=np.nan),
+        "kappa_rep must be positive",
     ),
     (lambda: equivalent_sphere.error_factor(1.0, -1.0), "strength must be positive"),
     (

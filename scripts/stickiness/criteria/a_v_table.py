@@ -43,9 +43,8 @@ def edge_range(ranges: ArrayLike, infinite: ArrayLike, finite: ArrayLike) -> flo
 
     Below it one variant of the theory lets P(u) grow without bound, the other tends to a constant,
     while gaps next to an edge have P ~ u^(-1/3). The range is the largest at which the attractive
-    area of the first is `PARTED` times the second. The theory there, held constant below, is 1.0
-    to 1.2 times what simulation finds next to edges (H = 0.7 to 0.9, magnification 32 to 128, loads
-    from 0.0065 to 0.46), and 0.8 to 1.4 times the independent estimate of Pastewka and Robbins.
+    area of the first is `PARTED` times the second. The theory there is 1.0 to 1.2 times what
+    simulation finds next to edges, and 0.8 to 1.4 times the estimate of Pastewka and Robbins.
 
     `infinite` and `finite` are the attractive areas (or a_V) (n,) at increasing `ranges` by the
     variants with infinite and finite P(0). The result is between the ranges, along a power law; the
@@ -91,12 +90,10 @@ class SurfaceAv:
 class AvEstimate:
     """a_V with its error; arrays of the common shape of the arguments.
 
-    `value` is theory as quoted times the ratio of simulation to theory, which follows the trend
-    with the magnification between simulated ones and is held constant beyond them. `low` and `high`
-    are meant to cover about 90 %, as factors. They add in quadrature `NORMAL_90` times the standard
-    error of the ratio, the spread of the other theories and the largest error of the quadrature;
-    the latter two are extremes already. Not covered are assumptions that all theories and
-    simulations share (Gaussian heights, elastic half-space, no roll-off).
+    `value` is theory as quoted times the ratio of simulation to theory. `low` and `high` cover
+    about 90 %, as factors: in quadrature `NORMAL_90` times the standard error of the ratio, the
+    spread of the other theories and the largest error of the quadrature. Not covered are
+    assumptions that all of them share (Gaussian heights, elastic half-space, no roll-off).
     """
 
     value: NDArray

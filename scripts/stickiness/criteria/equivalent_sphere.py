@@ -66,16 +66,17 @@ def attraction(
     adhesion_length: ArrayLike,
     range: ArrayLike,
     a_v: ArrayLike,
+    kappa_rep: float = KAPPA_REP,
 ) -> EdgeAttraction:
     """Attraction over repulsion at equal area of contact, by the equivalent sphere.
 
-    `rms_slope` is the root mean square gradient of all waves; the other arguments are those of
-    `criteria.area_load.traction_ratio`.
+    `rms_slope` is the root mean square gradient of all waves, `kappa_rep` the slope of area against
+    load without adhesion; the other arguments are those of `criteria.area_load.traction_ratio`.
     """
-    (slope,) = positive(rms_slope=rms_slope)
+    slope, kappa_rep = positive(rms_slope=rms_slope, kappa_rep=kappa_rep)
     dmt = traction_ratio(h_rms, q0, adhesion_length, range, a_v)
     # Mean pressure in the contact is E* h'/kappa, attraction over it sigma_0 t.
-    strength_over_pressure = np.asarray(adhesion_length) / range * KAPPA_REP / slope
+    strength_over_pressure = np.asarray(adhesion_length) / range * kappa_rep / slope
     area = dmt / strength_over_pressure
     tau = edge_strength(area, strength_over_pressure)
     change = effect(area, tau)
@@ -147,9 +148,7 @@ def weak_effect_at_approach(attractive_over_contact: ArrayLike) -> float | NDArr
 
     ``2 [(1 + t) arctan(sqrt t) - sqrt t]/(pi t)``, which tends to 1 at large t as well, but to
     ``(4/3pi) sqrt(t)`` at small t. A pull at the radius r of an open edge takes ``(2/pi)
-    arccos(a/r)`` of itself off the load, by reciprocity with the flat punch, whose surface is at
-    ``(2/pi) arcsin(a/r)`` of its indentation there. The edge may be held, since at a fixed approach
-    the load does not change with it to first order.
+    arccos(a/r)`` of itself off the load, by reciprocity with the flat punch.
     """
     (t,) = positive(attractive_over_contact=attractive_over_contact)
     root = np.sqrt(t)

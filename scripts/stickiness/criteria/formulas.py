@@ -215,36 +215,24 @@ def fuller_tabor(
 
 
 def bearing_area(
-    h_rms: ArrayLike,
-    q0: ArrayLike,
-    adhesion_length: ArrayLike,
-    range: ArrayLike,
-    repulsion: ArrayLike = 1.0,
+    h_rms: ArrayLike, q0: ArrayLike, adhesion_length: ArrayLike, range: ArrayLike
 ) -> Verdict:
     """Bearing-area model (BAM, Ciavarella 2018).
 
-    Repulsion p_rep = repulsion E* q0 h_rms exp(-2 u/h_rms) at the mean gap u, attraction
-    (l_a/range) times the fraction of Gaussian heights between u - range and u. Sticky when the
-    total is tensile at some u. The margin is the largest p_ad/p_rep over u; for range << h_rms it
-    is e^2/sqrt(2 pi) l_a/(repulsion q0 h_rms^2).
-
-    Parameters
-    ----------
-    h_rms, q0, adhesion_length, range : array_like
-        As in `traction_ratio`.
-    repulsion : array_like
-        Prefactor of the repulsion. 1 is the asymptote of Violano et al. (2019); 3/4 is that of
-        Papangelo, Hoffmann & Ciavarella (Sci. Rep. 7, 6900, 2017), used in later forms of the
-        model.
+    Repulsion p_rep = E* q0 h_rms exp(-2 u/h_rms) at the mean gap u, attraction (l_a/range) times
+    the fraction of Gaussian heights between u - range and u. Sticky when the total is tensile at
+    some u. The margin is the largest p_ad/p_rep over u; for range << h_rms it is e^2/sqrt(2 pi)
+    l_a/(q0 h_rms^2). Later forms of the model multiply the repulsion by 3/4, after Papangelo,
+    Hoffmann & Ciavarella (Sci. Rep. 7, 6900, 2017). Parameters as in `traction_ratio`.
 
     References
     ----------
     Ciavarella, Meccanica 53, 241 (2018), doi:10.1007/s11012-017-0701-6.
     """
-    h, q0, adhesion_length, range, repulsion = positive(
-        h_rms=h_rms, q0=q0, adhesion_length=adhesion_length, range=range, repulsion=repulsion
+    h, q0, adhesion_length, range = positive(
+        h_rms=h_rms, q0=q0, adhesion_length=adhesion_length, range=range
     )
-    scale = np.log(adhesion_length / range / (repulsion * q0 * h))
+    scale = np.log(adhesion_length / range / (q0 * h))
     # Ranges of hundreds of h_rms stick without bound; the infinite margin says so.
     with np.errstate(over="ignore"):
         return _verdict("bearing_area", np.exp(scale + _log_maximum(range / h)))
