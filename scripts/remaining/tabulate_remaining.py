@@ -66,7 +66,7 @@ def list_rows(path):
             "predicted": share,
             "predicted_low": low,
             "predicted_high": high,
-            "predicted_pull_off": float(rough.pull_off(length, range_)[0]),
+            "predicted_pull_off": float(rough.tension(length, range_)),
             "full_contact": max(1 - 1 / ratio, 0.0),
         }
 

@@ -1,15 +1,9 @@
 """Error budgets: beside every quoted number its errors, source by source.
 
-A quoted variable ``q`` of a dataset has three more beside it:
-
-``q_error(source, …)``
-    Errors by their source (`SOURCES`), each covering 90 %: 0 where a source does not apply and NaN
-    where it is not known, both for a reason that the attribute ``comment`` states.
-``q_total_error(…)``
-    All of them in quadrature; NaN where one of them is not known.
-``q_dominant(…)``
-    Which is the largest, by the flags of the CF conventions (§3.5). One that is not known counts
-    as the largest.
+A quoted variable ``q`` has three more beside it: ``q_error`` along `SOURCES`, each covering 90 % (0
+where a source does not apply, NaN where it is not known; ``comment`` says why), ``q_total_error``
+in quadrature, and ``q_dominant``, a flag of the largest. One that is not known counts as the
+largest.
 """
 
 from __future__ import annotations

@@ -1,8 +1,8 @@
 """Random surfaces on a periodic square window: synthesis, spectrum and moments.
 
-A window of side L holds the wave vectors 2 pi (i, j)/L and no others. A surface made on it has its
-lattice spectrum, not the continuous one (at H = 0.8 the four modes of the longest wavelength carry
-more than half the height variance). Simulation and theory are compared on the lattice spectrum.
+A surface on a window of side L has the lattice spectrum of the wave vectors 2 pi (i, j)/L, on which
+simulation and theory are compared. At H = 0.8 the four longest modes carry more than half the
+height variance.
 """
 
 from __future__ import annotations

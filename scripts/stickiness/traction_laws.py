@@ -111,11 +111,9 @@ class Maugis(TractionLaw):
 
     @property
     def strength(self) -> float:
-        """Return adhesion_length/range [E*]."""
         return self.maugis_stress
 
     def traction(self, gap: ArrayLike) -> NDArray:
-        """Traction [E*] at `gap` [length]."""
         return np.where(np.asarray(gap, dtype=float) <= self.range, self.maugis_stress, 0.0)
 
     def derivative(self, gap: ArrayLike) -> NDArray:
@@ -123,7 +121,6 @@ class Maugis(TractionLaw):
         return np.zeros_like(np.asarray(gap, dtype=float))
 
     def potential(self, gap: ArrayLike) -> NDArray:
-        """Energy per area over E* [length] at `gap`."""
         inside = np.maximum(self.range - np.asarray(gap, dtype=float), 0.0)
         return -self.maugis_stress * inside
 
@@ -134,23 +131,18 @@ class Exponential(TractionLaw):
 
     @property
     def strength(self) -> float:
-        """Return adhesion_length/range [E*], reached at gap 0."""
         return self.maugis_stress
 
     def traction(self, gap: ArrayLike) -> NDArray:
-        """Traction [E*] at `gap` [length]."""
         return self.maugis_stress * np.exp(_reals(gap) / -self.range)
 
     def derivative(self, gap: ArrayLike) -> NDArray:
-        """Derivative of the traction with respect to the gap [E*/length]."""
         return -self.traction(gap) / self.range
 
     def potential(self, gap: ArrayLike) -> NDArray:
-        """Energy per area over E* [length] at `gap`."""
         return -self.range * self.traction(gap)
 
     def evaluate(self, gap: ArrayLike) -> tuple[NDArray, NDArray, NDArray]:
-        """Traction, derivative and potential from one exponential."""
         traction = self.traction(gap)
         return traction, traction / -self.range, traction * -self.range
 
@@ -173,7 +165,6 @@ class LennardJones(TractionLaw):
 
     @property
     def strength_gap(self) -> float:
-        """Gap of the largest traction [length], (3^(1/6) - 1) range."""
         return (_LJ_PEAK - 1) * self.range
 
     def _inverse_separation(self, gap: ArrayLike) -> NDArray:
@@ -191,7 +182,6 @@ class LennardJones(TractionLaw):
         return 8 / 3 * self.maugis_stress * (s**3 - s**9)
 
     def derivative(self, gap: ArrayLike) -> NDArray:
-        """Derivative of the traction with respect to the gap [E*/length]."""
         s = self._inverse_separation(gap)
         return 8 * self.maugis_stress / self.range * (3 * s**10 - s**4)
 

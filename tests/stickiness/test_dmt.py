@@ -34,42 +34,33 @@ def test_attractive_area_definition():
     assert dmt.attractive_area(gap, 0.1, contact) == 0.5
 
 
-def test_gap_density_integrates_to_the_open_area_and_its_moment_to_the_mean_gap():
-    gap = _hertz_gap(256)
-    edges = np.linspace(0, gap.max(), 4001)
-    density = dmt.gap_density(gap, edges)
-    open_area = np.mean(gap > 0)
-    assert np.sum(density * np.diff(edges)) == pytest.approx(open_area, rel=1e-12)
-    centre = (edges[1:] + edges[:-1]) / 2
-    # A value differs from its bin's centre by at most half a bin.
-    assert np.sum(density * centre * np.diff(edges)) == pytest.approx(
-        gap.mean(), abs=(edges[1] - edges[0]) / 2
-    )
-
-
-def test_maugis_pressure_is_stress_times_attractive_area():
+def test_maugis_attraction_is_stress_times_attractive_area():
     gap = _hertz_gap(128)
     law = adhesive.Maugis(adhesion_length=0.02, range=0.1)
+    ranges = np.geomspace(1e-6, 1.0, 385) * law.range
     for subpixel in (False, True):
-        area = dmt.attractive_area(gap, law.range, subpixel=subpixel)
-        pressure = dmt.adhesive_pressure(gap, law, subpixel=subpixel)
-        assert pressure == pytest.approx(0.2 * area, rel=1e-12)
+        area = dmt.attractive_area(gap, ranges, subpixel=subpixel)
+        attraction = dmt.attraction_of_areas(area, ranges, law)
+        assert attraction == pytest.approx(0.2 * area[-1], rel=1e-12)
 
 
 @pytest.mark.parametrize("kind", LAWS)
-def test_adhesive_pressure_of_hertz_gap_against_radial_integral(kind):
+def test_attraction_of_hertz_gap_against_radial_integral(kind):
     n, side = 1024, 8.0
     law = kind(adhesion_length=0.02, range=0.4)
     gap = _hertz_gap(n, side)
     x = (np.arange(n) + 0.5) / n * side - side / 2
     near = np.hypot(*np.meshgrid(x, x, indexing="ij")) < side / 2
-    pressure = dmt.adhesive_pressure(np.where(near, gap, 0.0), law)
+    ranges = np.union1d(np.geomspace(1e-6, 1.0, 385) * gap.max(), [law.range])
+    gap = np.where(near, gap, 0.0)
+    attraction = dmt.attraction_of_areas(dmt.attractive_area(gap, ranges), ranges, law)
     # The midpoint of many thin rings: immune to the jump of the Maugis law but for one ring.
     r = 1 + (np.arange(200000) + 0.5) * (side / 2 - 1) / 200000
     ring = 2 * np.pi * r * (side / 2 - 1) / 200000
     exact = np.sum(law.traction(_hertz(r)) * ring) / side**2
     # Pixels on the circles at contact edge and range: see the area test; 0.3 % of this area.
-    assert pressure == pytest.approx(exact, rel=3e-3)
+    assert attraction == pytest.approx(exact, rel=3e-3)
+    assert dmt.adhesive_pressure(gap, law) == pytest.approx(exact, rel=3e-3)
 
 
 @pytest.mark.slow
@@ -113,9 +104,6 @@ def test_fit_recovers_an_exact_law_in_any_units():
     fit = dmt.fit_a_v(EPS * h_rms, area, pressure, h_rms, q0)
     assert fit.value == pytest.approx(a_v, rel=1e-12)
     assert fit.standard_error < 1e-10
-    assert fit.relative_residual < 1e-12
-    # geomspace puts ten points per decade: 0.01 ... 0.1 with both ends.
-    assert fit.n_points == 11
     assert fit.window == (0.01, 0.1)
 
 
@@ -126,19 +114,11 @@ def test_fit_pools_several_loads():
     assert dmt.fit_a_v(eps, area, pressure).value == pytest.approx(3.0, rel=1e-12)
 
 
-@pytest.mark.parametrize("weighted", [False, True])
-def test_standard_error_matches_the_scatter_of_fits(weighted):
+def test_standard_error_matches_the_scatter_of_fits():
     rng = np.random.default_rng(1)
     truth = 1.5 * 3.0 * 0.065 * EPS ** (2 / 3)
-    noise = 0.02 * truth if weighted else np.full_like(truth, 1e-3)
     fits = [
-        dmt.fit_a_v(
-            EPS,
-            truth + noise * rng.standard_normal(EPS.size),
-            0.065,
-            sigma=noise if weighted else None,
-        )
-        for _ in range(500)
+        dmt.fit_a_v(EPS, truth + 1e-3 * rng.standard_normal(EPS.size), 0.065) for _ in range(500)
     ]
     values = np.array([fit.value for fit in fits])
     errors = np.array([fit.standard_error for fit in fits])
@@ -157,14 +137,13 @@ def test_standard_error_matches_the_scatter_of_fits(weighted):
         (lambda: dmt.attractive_area([[0.0, 1.0]], 0.0), "eps must be positive"),
         (lambda: dmt.attractive_area([[0.0, 1.0]], 1.0, [[1, 0]]), "contact must be a boolean"),
         (lambda: dmt.attractive_area([0.0, 1.0], 1.0, subpixel=True), "two-dimensional"),
-        (lambda: dmt.gap_density([0.0, 1.0], [1.0, 0.0]), "edges must be an increasing"),
+        (lambda: dmt.edge_gap([0.0, 1.0]), "two-dimensional"),
         (lambda: dmt.local_exponent([1.0, 2.0], [1.0, 2.0]), "eps must be an increasing"),
         (lambda: dmt.fit_a_v(EPS, EPS, 0.1, window=(0.1, 0.01)), "window must be two"),
         (lambda: dmt.fit_a_v(EPS, EPS, 0.1, window=(2.0, 3.0)), "must hold at least two"),
         (lambda: dmt.fit_a_v(EPS, EPS[1:], 0.1), "area must be finite and match"),
         (lambda: dmt.fit_a_v(EPS, EPS, [0.1, 0.2]), "pressure must have the shape"),
         (lambda: dmt.fit_a_v(EPS, EPS, 0.0), "pressure must be positive"),
-        (lambda: dmt.fit_a_v(EPS, EPS, 0.1, sigma=-EPS), "sigma must be positive"),
     ],
 )
 def test_refusals_name_the_argument(call, message):

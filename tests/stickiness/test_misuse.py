@@ -56,7 +56,6 @@ MISUSES = [
     (lambda: dmt.attractive_area(press(), 0.1), "gap must be a number"),
     (lambda: dmt.adhesive_pressure(press().gap, 0.1), "law must be"),
     (lambda: criteria.inverse_kappa(np.nan), "inverse_kappa_ad must be"),
-    (lambda: criteria.violano_c0_limit(1.5, 1, 1, 1, 1), r"hurst must be in \(0, 1\]"),
     (lambda: criteria.pastewka_robbins_a_v_power_law(0.8, 0.5), "magnification must be at least 1"),
     (lambda: multilevel.descriptors(BAND, SIDE, 3), "seeds must be"),
     (lambda: subpixel.boundary_strip(HEIGHTS), "contact must be a non-em"),

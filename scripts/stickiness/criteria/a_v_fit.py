@@ -32,16 +32,13 @@ def local_exponent(eps: ArrayLike, area: ArrayLike) -> NDArray:
 class AvFit:
     """Prefactor a_V of A_ad/A_nom = (3/2) a_V p/(E* q0 h_rms) (range/h_rms)^(2/3).
 
-    Areas at several ranges of one surface are strongly correlated: without `sigma` the standard
-    error says how well the 2/3 law holds in the fit interval, not how surfaces scatter, which only
-    several surfaces show.
+    Areas at several ranges of one surface are strongly correlated: the standard error says how well
+    the 2/3 law holds in the fit interval, not how surfaces scatter.
     """
 
     value: float
     standard_error: float
     window: tuple[float, float]  #: fit interval, limits of range/h_rms
-    n_points: int  #: in the fit interval
-    relative_residual: float  #: root mean square residual over the root mean square area
 
 
 def fit_a_v(
@@ -51,7 +48,6 @@ def fit_a_v(
     h_rms: float = 1.0,
     q0: float = 1.0,
     window: tuple[float, float] = (0.01, 0.1),
-    sigma: ArrayLike | None = None,
 ) -> AvFit:
     """Fit a_V by least squares through the origin within an interval of ranges.
 
@@ -66,9 +62,6 @@ def fit_a_v(
         Root mean square height [length] and lowest wave number [1/length].
     window : (float, float)
         Limits of eps/h_rms, both included.
-    sigma : (m,) array, optional
-        Standard deviations of `area`. They weight the points and set the standard error;
-        without them the residuals do.
 
     Raises
     ------
@@ -82,15 +75,12 @@ def fit_a_v(
     """
     eps, pressure, h_rms, q0 = positive(eps=eps, pressure=pressure, h_rms=h_rms, q0=q0)
     area = np.asarray(area, dtype=float)
-    if sigma is not None:
-        (sigma,) = positive(sigma=sigma)
     if eps.ndim != 1 or area.shape != eps.shape or not np.all(np.isfinite(area)):
         raise ValueError(
             f"area must be finite and match eps of shape {eps.shape}, got shape {area.shape}"
         )
-    for name, values in (("pressure", pressure), ("sigma", sigma)):
-        if values is not None and values.ndim and values.shape != eps.shape:
-            raise ValueError(f"{name} must have the shape {eps.shape} of eps, got {values.shape}")
+    if pressure.ndim and pressure.shape != eps.shape:
+        raise ValueError(f"pressure must have the shape {eps.shape} of eps, got {pressure.shape}")
     low, high = map(float, window)
     if not 0 <= low < high:
         raise ValueError(f"window must be two increasing limits of eps/h_rms, got {window!r}")
@@ -103,16 +93,6 @@ def fit_a_v(
         raise ValueError(f"window {window!r} must hold at least two of eps/h_rms, holds {n}")
     x = (1.5 * pressure / (q0 * h_rms) * ratio ** (2 / 3))[inside]
     y = area[inside]
-    weight = 1.0 if sigma is None else 1 / np.broadcast_to(sigma, eps.shape)[inside]
-    (value,), *_ = np.linalg.lstsq((weight * x)[:, None], weight * y)
-    residual = y - value * x
-    variance = 1 / np.sum((weight * x) ** 2)
-    if sigma is None:
-        variance *= np.sum(residual**2) / (n - 1)
-    return AvFit(
-        value=float(value),
-        standard_error=float(np.sqrt(variance)),
-        window=(low, high),
-        n_points=n,
-        relative_residual=float(np.sqrt(np.mean(residual**2) / np.mean(y**2))) if y.any() else 0.0,
-    )
+    (value,), *_ = np.linalg.lstsq(x[:, None], y)
+    variance = np.sum((y - value * x) ** 2) / (n - 1) * (1 / np.sum(x**2))
+    return AvFit(float(value), float(np.sqrt(variance)), (low, high))

@@ -18,12 +18,9 @@ from scipy.interpolate import RegularGridInterpolator
 from scipy.special import ndtri
 
 from stickiness.arguments import plain, positive
-from stickiness.persson.theory import Persson
-from stickiness.spectrum.kinds import Spectrum
 
 PARTED = 1.5  #: ratio of the theory's variants from which on neither resolves the edges of contact
 VARIANTS = ("afferrante2018", "almqvist2011")  #: P(0) infinite and finite: limits on the truth
-EDGE_LAW = "pastewka_robbins"  #: independent estimate of what the edges alone give
 NORMAL_90 = float(ndtri(0.95))  #: standard errors either side that cover 90 %
 NEEDED = (
     *("a_v", "a_v_limit", "edge_range", "edge_a_v", "quadrature_error", "extrapolation_error"),
@@ -46,9 +43,8 @@ def edge_range(ranges: ArrayLike, infinite: ArrayLike, finite: ArrayLike) -> flo
 
     Below it one variant of the theory lets P(u) grow without bound, the other tends to a constant,
     while gaps next to an edge have P ~ u^(-1/3). The range is the largest at which the attractive
-    area of the first is `PARTED` times the second. The theory there, held constant below, is 1.0
-    to 1.2 times what simulation finds next to edges (H = 0.7 to 0.9, magnification 32 to 128, loads
-    from 0.0065 to 0.46), and 0.8 to 1.4 times the independent estimate of Pastewka and Robbins.
+    area of the first is `PARTED` times the second. The theory there is 1.0 to 1.2 times what
+    simulation finds next to edges, and 0.8 to 1.4 times the estimate of Pastewka and Robbins.
 
     `infinite` and `finite` are the attractive areas (or a_V) (n,) at increasing `ranges` by the
     variants with infinite and finite P(0). The result is between the ranges, along a power law; the
@@ -90,48 +86,14 @@ class SurfaceAv:
         )
 
 
-def theory_a_v(
-    spectrum: Spectrum,
-    ranges: ArrayLike,
-    pressure: float,
-    edge_a_v: float,
-    *,
-    q0: float | None = None,
-    gamma: float = 0.45,
-) -> tuple[list[str], list[NDArray], float]:
-    """a_V by both variants of Persson's theory and by the edge law.
-
-    Ranges are over h_rms and increase; the pressure is the mean one over E* q0 h_rms, with the q0
-    of the spectrum unless one is given; `edge_a_v` is from `formulas.pastewka_robbins_a_v`,
-    `gamma` the correction of the theory's elastic energy. Returns the names (`VARIANTS` and
-    `EDGE_LAW`), their a_V and the edge range over h_rms. Below that the variants are held constant,
-    and the edge law takes `edge_a_v`.
-    """
-    ranges = np.asarray(ranges, dtype=float)
-    h_rms, q0 = spectrum.h_rms, float(spectrum.q0 if q0 is None else q0)
-    theory = Persson(spectrum, gamma=gamma)
-    areas = [
-        theory.with_variant(variant).gap_cumulative(ranges * h_rms, pressure * q0 * h_rms)
-        for variant in VARIANTS
-    ]
-    resolved = [local_a_v(area, pressure, ranges) for area in areas]
-    edge = edge_range(ranges, *resolved)
-    at_edge = np.exp(np.interp(np.log(edge), np.log(ranges), np.log(resolved[0])))
-    a_v = [np.where(ranges < edge, at_edge, a) for a in resolved]
-    a_v.append(np.where(ranges < edge, edge_a_v, a_v[0]))
-    return [*VARIANTS, EDGE_LAW], a_v, edge
-
-
 @dataclass(frozen=True)
 class AvEstimate:
     """a_V with its error; arrays of the common shape of the arguments.
 
-    `value` is theory as quoted times the ratio of simulation to theory, which follows the trend
-    with the magnification between simulated ones and is held constant beyond them. `low` and `high`
-    are meant to cover about 90 %, as factors. They add in quadrature `NORMAL_90` times the standard
-    error of the ratio, the spread of the other theories and the largest error of the quadrature;
-    the latter two are extremes already. Not covered are assumptions that all theories and
-    simulations share (Gaussian heights, elastic half-space, no roll-off).
+    `value` is theory as quoted times the ratio of simulation to theory. `low` and `high` cover
+    about 90 %, as factors: in quadrature `NORMAL_90` times the standard error of the ratio, the
+    spread of the other theories and the largest error of the quadrature. Not covered are
+    assumptions that all of them share (Gaussian heights, elastic half-space, no roll-off).
     """
 
     value: NDArray

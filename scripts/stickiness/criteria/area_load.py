@@ -1,13 +1,9 @@
-"""Area-load relation of an adhesive contact in the DMT limit (Violano et al. 2019).
+"""Area-load relation of an adhesive contact in the DMT limit.
 
-The attraction is proportional to the repulsion, p_ad/p_rep = (3 a_V/2) (l_a/range)
-(range/h_rms)^(2/3)/(q0 h_rms), whatever the load; all that follows rearranges this ratio. Lengths
-are in one unit of the caller's choice, wave numbers in its inverse, and l_a = (work of
+Attraction is proportional to repulsion whatever the load; all that follows rearranges this ratio,
+see `traction_ratio`. Lengths are in one unit, wave numbers in its inverse, l_a = (work of
 adhesion)/E*. Arguments broadcast; ValueError if a length, a wave number or a_V is not positive.
-
-References
-----------
-Violano, Afferrante, Papangelo & Ciavarella, J. Adhesion (2019),
+Source: Violano, Afferrante, Papangelo & Ciavarella, J. Adhesion (2019),
 doi:10.1080/00218464.2019.1685384.
 """
 
@@ -70,13 +66,6 @@ def inverse_kappa(inverse_kappa_ad: ArrayLike, kappa_rep: ArrayLike = 2.0) -> fl
     return plain(1 / kappa_rep - inverse_kappa_ad)
 
 
-def kappa(inverse_kappa_ad: ArrayLike, kappa_rep: ArrayLike = 2.0) -> float | NDArray:
-    """Area-load slope kappa; infinite at the threshold, negative beyond."""
-    inverse = np.asarray(inverse_kappa(inverse_kappa_ad, kappa_rep))
-    # At the threshold the slope is vertical, approached from the non-sticky side.
-    return plain(np.divide(1.0, inverse, out=np.full(inverse.shape, np.inf), where=inverse != 0))
-
-
 def slope_angle(inverse_kappa: ArrayLike) -> float | NDArray:
     """Angle [rad] of the area-load line against the load axis, arctan(kappa) made continuous.
 
@@ -99,31 +88,6 @@ def h_rms_limit(
         q0=q0, adhesion_length=adhesion_length, range=range, a_v=a_v
     )
     return plain(range * (1.5 * a_v * (adhesion_length / range) / (range * q0)) ** 0.6)
-
-
-def violano_c0_limit(
-    hurst: ArrayLike,
-    q0: ArrayLike,
-    adhesion_length: ArrayLike,
-    range: ArrayLike,
-    a_v: ArrayLike,
-    magnification: ArrayLike = np.inf,
-) -> float | NDArray:
-    """Largest C0 [length^(2 - 2 hurst)] that sticks, for a spectrum C = C0 q^(-2(1 + hurst)).
-
-    `h_rms_limit` inserted in h_rms^2 = (pi C0/H) q0^(-2H) (1 - zeta^(-2H)); for H = 0.8 and a
-    broad band (0.8/pi) range^(4/5) q0^(2/5) [(3 a_V/2) l_a/range]^(6/5). `hurst` is in (0, 1],
-    `magnification` zeta = q1/q0 > 1, infinite for a broad band; the others as in `traction_ratio`.
-    """
-    hurst, q0 = positive(hurst=hurst, q0=q0)
-    if not np.all(hurst <= 1):
-        raise ValueError(f"hurst must be in (0, 1], got {hurst!r}")
-    magnification = np.asarray(magnification, dtype=float)
-    if not np.all(magnification > 1):
-        raise ValueError(f"magnification must exceed 1, got {magnification!r}")
-    h = np.asarray(h_rms_limit(q0, adhesion_length, range, a_v))
-    band = -np.expm1(-2 * hurst * np.log(magnification))
-    return plain(hurst / np.pi * h**2 * q0 ** (2 * hurst) / band)
 
 
 def modulus_threshold(

@@ -1,29 +1,17 @@
 """Attraction next to the edges of contact at equal area: from weak edges to tough ones as in JKR.
 
 Next to an edge the pressure is ``B x^(1/2)`` inside and the gap ``C x^(3/2)`` outside, with ``C =
-4B/3E*``. Maugis' traction over the width ``d = (range/C)^(2/3)`` within the range depends on
-Tabor's parameter of the edge alone, ``tau = l_a d/range^2``: at ``tau << 1`` the gaps are those
-without adhesion (*weak*), at ``tau >> 1`` the work of adhesion alone counts, as in JKR (*tough*).
+4B/3E*``. Maugis' traction over the width ``d = (range/C)^(2/3)`` depends on Tabor's parameter of
+the edge alone, ``tau = l_a d/range^2``: edges are weak at ``tau << 1``, tough at ``tau >> 1``.
 
-A rough contact is taken for its *equivalent sphere*: the one of equal tau and equal t, attractive
-over contact area, after Maugis. Its contact has the radius a and its zone the radius c, which is
-c_0 at vanishing traction. The attraction at equal area over its DMT limit is
+A rough contact is taken for its *equivalent sphere*: of equal tau and equal t, attractive over
+contact area, after Maugis (doi:10.1016/0021-9797(92)90285-T). Its contact has the radius a and its
+zone the radius c, which is c_0 at vanishing traction; the attraction over its DMT limit is ``R = 2
+[c^2 arccos(a/c) + a sqrt(c^2 - a^2)]/(pi (c_0^2 - a^2))``, without a constant to fit. Simulation
+over the model is 1.03 +- .06 for tau < 0.2 and 0.75 to 1.35 beyond, up to tau = 4.6 and down to
+t = 0.2 (benchmarks/tough_edges.py).
 
-    R = 2 [c^2 arccos(a/c) + a sqrt(c^2 - a^2)]/(pi (c_0^2 - a^2)).
-
-This has no constant to fit. Full simulation at equal area over the model (103 sets of magnification
-32 to 128, load 0.0065 to 0.2, t from 0.2 to 85, tau up to 2.3) is 1.03 +- .06 for tau < 0.2 (0.89
-to 1.17; 1.25 at t < 0.2, where the grid hardly resolves the zone) and 0.75 to 1.35 beyond; finer
-grids (benchmarks/tough_edges.py) reach tau = 4.6 with 0.87 to 1.25. For smaller t and larger tau
-the model is an extrapolation.
-
-Lengths are in one unit of the caller's choice, wave numbers in its inverse, pressures in units of
-E*; l_a = w/E*. Arguments broadcast.
-
-References
-----------
-Maugis, J. Colloid Interface Sci. 150, 243 (1992), doi:10.1016/0021-9797(92)90285-T; on the force in
-the DMT limit Greenwood, Tribol. Lett. 26, 203 (2007).
+Lengths are in one unit of the caller's choice, pressures in units of E*; l_a = w/E*.
 """
 
 from __future__ import annotations
@@ -148,8 +136,7 @@ def effect(attractive_over_contact: ArrayLike, strength: ArrayLike) -> float | N
 def weak_effect(attractive_over_contact: ArrayLike) -> float | NDArray:
     """`effect` at vanishing strength, ``2 [(1 + t) arctan(sqrt t) + sqrt t]/(pi t)``.
 
-    It tends to 1 at large t, where attraction reaches far beyond the contact, and to
-    ``(4/pi) t^(-1/2)`` at small t.
+    It tends to 1 at large t and to ``(4/pi) t^(-1/2)`` at small t.
     """
     (t,) = positive(attractive_over_contact=attractive_over_contact)
     root = np.sqrt(t)
@@ -161,9 +148,7 @@ def weak_effect_at_approach(attractive_over_contact: ArrayLike) -> float | NDArr
 
     ``2 [(1 + t) arctan(sqrt t) - sqrt t]/(pi t)``, which tends to 1 at large t as well, but to
     ``(4/3pi) sqrt(t)`` at small t. A pull at the radius r of an open edge takes ``(2/pi)
-    arccos(a/r)`` of itself off the load, by reciprocity with the flat punch, whose surface is at
-    ``(2/pi) arcsin(a/r)`` of its indentation there. The edge may be held, since at a fixed approach
-    the load does not change with it to first order.
+    arccos(a/r)`` of itself off the load, by reciprocity with the flat punch.
     """
     (t,) = positive(attractive_over_contact=attractive_over_contact)
     root = np.sqrt(t)
@@ -199,7 +184,6 @@ def adhesion_length_threshold(
     rms_slope: ArrayLike,
     range: ArrayLike,
     a_v: ArrayLike,
-    kappa_rep: float = KAPPA_REP,
 ) -> float | NDArray:
     """Adhesion length [length] at which the attraction balances the repulsion.
 
@@ -210,11 +194,11 @@ def adhesion_length_threshold(
     )
 
     def excess(log_length, h, q0, slope, range, a_v):
-        found = attraction(h, q0, slope, np.exp(log_length), range, a_v, kappa_rep)
+        found = attraction(h, q0, slope, np.exp(log_length), range, a_v)
         return np.log(found.ratio)
 
     # What either limit has for the threshold, and the larger of both is near.
-    unit = attraction(h, q0, slope, range, range, a_v, kappa_rep)
+    unit = attraction(h, q0, slope, range, range, a_v)
     t, tau = unit.attractive_over_contact, unit.strength
     dmt = traction_ratio(h, q0, range, range, a_v)
     weak = range / (dmt * weak_effect(t))

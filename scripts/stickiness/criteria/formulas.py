@@ -22,21 +22,19 @@ from stickiness.criteria.area_load import (  # noqa: F401
     inverse_kappa,
     inverse_kappa_ad,
     jtb_limit,
-    kappa,
     modulus_threshold,
     slope_angle,
     traction_ratio,
-    violano_c0_limit,
 )
 from stickiness.spectrum.kinds import Spectrum
 
 __all__ = [  # noqa: PLE0604
     *("CRYSTAL_RANGE_RATIO", "DAHLQUIST_LIMIT", "PRINTED_A_V", "PR_CONSTANT", "DmtValidity"),
     *("Verdict", "bearing_area", "dahlquist", "dmt_validity"),
-    *("fuller_tabor", "h_rms_limit", "inverse_kappa", "inverse_kappa_ad", "jtb_limit", "kappa"),
+    *("fuller_tabor", "h_rms_limit", "inverse_kappa", "inverse_kappa_ad", "jtb_limit"),
     *("modulus_threshold", "pastewka_robbins", "pastewka_robbins_a_v"),
-    *("pastewka_robbins_a_v_power_law", "pastewka_robbins_range", "persson_tosatti", "slope_angle"),
-    *("traction_ratio", "violano", "violano_c0_limit", "violano_printed"),
+    *("pastewka_robbins_a_v_power_law", "persson_tosatti", "slope_angle"),
+    *("traction_ratio", "violano", "violano_printed"),
 ]
 
 PRINTED_A_V = 1.5  #: the coefficient 9/4 printed in the paper is (3/2) a_V with this a_V
@@ -103,16 +101,6 @@ def dmt_validity(
     return DmtValidity(plain(margin > 1), plain(margin))
 
 
-def pastewka_robbins_range(adhesion_length: ArrayLike, range: ArrayLike) -> float | NDArray:
-    """Width Delta_r = sqrt(24 l_a range) [length] of the attraction in the Pastewka-Robbins form.
-
-    As Violano et al. (2019) state it; 1.095 range for a crystal on itself (l_a = 0.05 range). For
-    soft solids it grows far beyond the range, which may then be passed in its place.
-    """
-    adhesion_length, range = positive(adhesion_length=adhesion_length, range=range)
-    return plain(np.sqrt(24 * adhesion_length * range))
-
-
 def pastewka_robbins(
     rms_slope: ArrayLike,
     rms_curvature: ArrayLike,
@@ -132,7 +120,8 @@ def pastewka_robbins(
     adhesion_length, range : array_like
         As in `traction_ratio`.
     interaction_range : array_like, optional
-        Delta_r [length]; `pastewka_robbins_range` by default.
+        Width Delta_r of the attraction [length]; by default sqrt(24 l_a range), as Violano et al.
+        (2019) state it. For soft solids that grows far beyond the range.
 
     References
     ----------
@@ -145,7 +134,7 @@ def pastewka_robbins(
         range=range,
     )
     if interaction_range is None:
-        interaction_range = pastewka_robbins_range(adhesion_length, range)
+        interaction_range = np.sqrt(24 * adhesion_length * range)
     (delta,) = positive(interaction_range=interaction_range)
     diameter = 4 * slope / curvature
     actual = slope * delta / (2 * adhesion_length) * (slope * diameter / (4 * delta)) ** (2 / 3)
@@ -162,10 +151,8 @@ def pastewka_robbins_a_v(
     """Return a_V of the attractive area that Pastewka & Robbins assume.
 
     (4 pi/3) (3/16)^(2/3) (Delta_r/range)^(2/3) q0 h_rms^(5/3) (h''^2/h'^7)^(1/3), with the
-    arguments of `pastewka_robbins` and `range_ratio` = Delta_r/range. The default ratio is that at
-    l_a = 0.05 range and gives the prefactor 1.458; a ratio of 1 gives 1.372, with which `violano`
-    reproduces the verdict of `pastewka_robbins` for Delta_r = range. (For another Delta_r the
-    verdicts agree with 1.372 (Delta_r/range)^(-1/3), because the stress falls as the width grows.)
+    arguments of `pastewka_robbins` and `range_ratio` = Delta_r/range, by default for l_a = 0.05
+    range. With it over `range_ratio`, `violano` reproduces the verdict of `pastewka_robbins`.
     """
     q0, h, slope, curvature, ratio = positive(
         q0=q0,
@@ -201,12 +188,10 @@ def fuller_tabor(
     rms_curvature: ArrayLike,
     adhesion_length: ArrayLike,
     radius: ArrayLike | None = None,
-    threshold: float = 10.0,
 ) -> Verdict:
     """Fuller & Tabor (1975): sticky when theta = h_rms^(3/2)/(R^(1/2) l_a) is below 10.
 
-    The margin is threshold over theta. The threshold is where the pull-off force has practically
-    gone.
+    The margin is 10 over theta: at 10 the pull-off force has practically gone.
 
     Parameters
     ----------
@@ -217,54 +202,37 @@ def fuller_tabor(
         Summit radius R [length], originally that of equal spheres. Default: 2/h'', the radius of
         the paraboloid whose Laplacian is the root mean square one. Nayak's mean summit curvature
         (8/3) sqrt(m4/pi) gives 1.085/h'', a theta larger by 1.36.
-    threshold : float
-        Largest sticky theta.
 
     References
     ----------
     Fuller & Tabor, Proc. R. Soc. A 345, 327 (1975), doi:10.1098/rspa.1975.0138.
     """
-    h, curvature, length, threshold = positive(
-        h_rms=h_rms,
-        rms_curvature=rms_curvature,
-        adhesion_length=adhesion_length,
-        threshold=threshold,
+    h, curvature, length = positive(
+        h_rms=h_rms, rms_curvature=rms_curvature, adhesion_length=adhesion_length
     )
     (radius,) = positive(radius=2 / curvature if radius is None else radius)
-    return _verdict("fuller_tabor", threshold * np.sqrt(radius) * length / h**1.5)
+    return _verdict("fuller_tabor", 10.0 * np.sqrt(radius) * length / h**1.5)
 
 
 def bearing_area(
-    h_rms: ArrayLike,
-    q0: ArrayLike,
-    adhesion_length: ArrayLike,
-    range: ArrayLike,
-    repulsion: ArrayLike = 1.0,
+    h_rms: ArrayLike, q0: ArrayLike, adhesion_length: ArrayLike, range: ArrayLike
 ) -> Verdict:
     """Bearing-area model (BAM, Ciavarella 2018).
 
-    Repulsion p_rep = repulsion E* q0 h_rms exp(-2 u/h_rms) at the mean gap u, attraction
-    (l_a/range) times the fraction of Gaussian heights between u - range and u. Sticky when the
-    total is tensile at some u. The margin is the largest p_ad/p_rep over u; for range << h_rms it
-    is e^2/sqrt(2 pi) l_a/(repulsion q0 h_rms^2).
-
-    Parameters
-    ----------
-    h_rms, q0, adhesion_length, range : array_like
-        As in `traction_ratio`.
-    repulsion : array_like
-        Prefactor of the repulsion. 1 is the asymptote of Violano et al. (2019); 3/4 is that of
-        Papangelo, Hoffmann & Ciavarella (Sci. Rep. 7, 6900, 2017), used in later forms of the
-        model.
+    Repulsion p_rep = E* q0 h_rms exp(-2 u/h_rms) at the mean gap u, attraction (l_a/range) times
+    the fraction of Gaussian heights between u - range and u. Sticky when the total is tensile at
+    some u. The margin is the largest p_ad/p_rep over u; for range << h_rms it is e^2/sqrt(2 pi)
+    l_a/(q0 h_rms^2). Later forms of the model multiply the repulsion by 3/4, after Papangelo,
+    Hoffmann & Ciavarella (Sci. Rep. 7, 6900, 2017). Parameters as in `traction_ratio`.
 
     References
     ----------
     Ciavarella, Meccanica 53, 241 (2018), doi:10.1007/s11012-017-0701-6.
     """
-    h, q0, adhesion_length, range, repulsion = positive(
-        h_rms=h_rms, q0=q0, adhesion_length=adhesion_length, range=range, repulsion=repulsion
+    h, q0, adhesion_length, range = positive(
+        h_rms=h_rms, q0=q0, adhesion_length=adhesion_length, range=range
     )
-    scale = np.log(adhesion_length / range / (repulsion * q0 * h))
+    scale = np.log(adhesion_length / range / (q0 * h))
     # Ranges of hundreds of h_rms stick without bound; the infinite margin says so.
     with np.errstate(over="ignore"):
         return _verdict("bearing_area", np.exp(scale + _log_maximum(range / h)))
@@ -311,11 +279,11 @@ def persson_tosatti(elastic_energy: ArrayLike | Spectrum, adhesion_length: Array
     return _verdict("persson_tosatti", length / energy)
 
 
-def dahlquist(modulus_pa: ArrayLike, limit: float = DAHLQUIST_LIMIT) -> Verdict:
+def dahlquist(modulus_pa: ArrayLike) -> Verdict:
     """Dahlquist's empirical rule: sticky when the modulus [Pa] is below about 1 MPa.
 
     The margin is limit over modulus. Forms of the rule for adhesive tapes ask 0.1 to 0.3 MPa
     (Creton 2003, doi:10.1557/mrs2003.124).
     """
-    modulus, limit = positive(modulus_pa=modulus_pa, limit=limit)
-    return _verdict("dahlquist", limit / modulus)
+    (modulus,) = positive(modulus_pa=modulus_pa)
+    return _verdict("dahlquist", DAHLQUIST_LIMIT / modulus)

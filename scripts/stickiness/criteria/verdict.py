@@ -14,10 +14,11 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from stickiness.arguments import positive
-from stickiness.criteria.a_v_table import VARIANTS, SurfaceAv, theory_a_v
+from stickiness.criteria.a_v_table import VARIANTS, SurfaceAv, edge_range, local_a_v
 from stickiness.criteria.formulas import dmt_validity, pastewka_robbins_a_v
 from stickiness.criteria.pair import REGIMES, WORDS, Pair, classify_edges, decide
 from stickiness.criteria.registry import CRITERIA, EDGES, REMAINING
+from stickiness.persson.theory import Persson
 from stickiness.plausibility import PlausibilityWarning, warn_of_si
 from stickiness.remaining.prediction import (
     DEFAULT_SHARE,
@@ -324,8 +325,19 @@ def analyse_heights(heights: ArrayLike, length: Any) -> tuple[Spectrum, float, f
 
 
 def surface_a_v(spectrum: Spectrum, known: dict[str, float]) -> SurfaceAv:
-    """a_V of a spectrum from Persson's theory at every range; `known` has q0 and the moments."""
+    """a_V of a spectrum at every range, by both variants of Persson's theory and by the edge law.
+
+    `known` has q0 and the moments. Below the edge range, where the variants part, they are held
+    constant, and Pastewka and Robbins' estimate is the edge law.
+    """
     moments = (known[name] for name in ("q0", "h_rms", "rms_slope", "rms_curvature"))
     edge_a_v = float(pastewka_robbins_a_v(*moments))
-    names, a_v, _ = theory_a_v(spectrum, RANGES, LOAD, edge_a_v, q0=known["q0"])
-    return SurfaceAv(RANGES, np.array(a_v), names.index(VARIANTS[0]), THEORY_ERROR)
+    h_rms, theory = spectrum.h_rms, Persson(spectrum)
+    load = LOAD * float(known["q0"]) * h_rms
+    areas = [theory.with_variant(name).gap_cumulative(RANGES * h_rms, load) for name in VARIANTS]
+    resolved = [local_a_v(area, LOAD, RANGES) for area in areas]
+    edge = edge_range(RANGES, *resolved)
+    at_edge = np.exp(np.interp(np.log(edge), np.log(RANGES), np.log(resolved[0])))
+    a_v = [np.where(edge > RANGES, at_edge, a) for a in resolved]
+    a_v.append(np.where(edge > RANGES, edge_a_v, a_v[0]))
+    return SurfaceAv(RANGES, np.array(a_v), 0, THEORY_ERROR)

@@ -246,10 +246,8 @@ def _width(setting: Setting, lost: LostContact, gap: NDArray) -> NDArray:
 def _panel_edges(setting: Setting, curve: GapCurve, reach: float) -> tuple[NDArray, NDArray, bool]:
     """Edges of panels in ln(y - y_end), the change over each, and whether they are too few.
 
-    Over each the Gaussians move by some four of their widths at most, their widths and the area
-    that is left change by factors that ten nodes follow, and nothing has a strong kink. Next to
-    full contact of a broad spectrum the Gaussians are thousands of times narrower than far from
-    zero and move by more of their widths. A change of 1 needs ten nodes.
+    A change of 1, some four widths of the Gaussians, needs ten nodes. Next to full contact of a
+    broad spectrum the Gaussians are so narrow that they move by more of their widths.
     """
     p, y_end = curve.p, curve.y_end
     low, high = _visible_range(setting, y_end)

@@ -1,12 +1,10 @@
 """Universal functions of Persson's contact theory, tabulated once per correction of the theory.
 
-They depend on no surface or load. A correction slows the diffusion of pressure by a factor S(A) of
-the relative contact area A, and makes the elastic energy of a scale A S(A) times that of full
-contact. Then the theory needs three functions:
+A correction slows the diffusion of pressure by a factor S(A) of the relative contact area A, and
+makes the elastic energy of a scale A S(A) times that of full contact. With K = d(A S)/dA:
 
-- T(y), twice the full-contact pressure variance over the mean pressure squared, at which the
-  relative contact area has shrunk to erf(y);
-- F(x), the inner integral of the mean gap, over the energy kernel K = d(A S)/dA;
+- T(y), twice the full-contact pressure variance over the mean pressure squared, at A = erf(y);
+- F(x) = int_x^inf (dt/t) K(t) exp(-t^2), the inner integral of the mean gap;
 - kappa(x) = x int_x^inf F(t)/t^2 dt, its average over the scales that contribute.
 """
 

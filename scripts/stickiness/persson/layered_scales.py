@@ -1,19 +1,14 @@
 """Scales of a rough surface on a layer, for Persson's contact theory.
 
-On a half-space a wave h_q costs the pressure ``(|q|/2) h_q`` and the energy ``(|q|/4) |h_q|^2`` in
-full contact (E* = 1); on a layer both times 1/S, see `solids`. With ``m(q) = pi int q'^3 C/S^2
-dq'`` instead of the profile variance of the gradient, the pressure has the variance m/2 as before,
-and the walk of pressures, hence the area A(m), is that of the half-space. The waves dm cost the
-energy ``(1/2) (S/q) dm`` instead of ``dm/(2 q)``, and partial contact the same share of it: every
-1/q in the mean gap becomes S/q. (``p du/dp = -dU/dp`` holds with the energy of the waves alone, for
-what the mean pressure stores in a layer is the work that it does on its mean compression.) Hence
+On a layer a wave costs 1/S times the pressure and the energy in full contact of a half-space, see
+`solids`. With ``m(q) = pi int q'^3 C/S^2 dq'`` the area A(m) is that of the half-space; waves dm
+cost the energy ``(1/2) (S/q) dm``, so that every 1/q in the mean gap becomes S/q:
 
     ubar(p) = (2/sqrt(pi)) int ds F(p/s) S/q,   s^2 = m(q).
 
 Unlike 1/q, S/q may rise with q. So this integral is not taken by parts, as in `theory`, and the
-density of gaps is left out: u1 may be negative. The mean gap is within 6 % of simulations. The area
-is too small, by up to a half on thin incompressible layers: the correction of the theory was fitted
-to half-spaces.
+distribution of gaps is left out: u1 may be negative. The mean gap is within 6 % of simulations. The
+area is too small, by up to a half on thin incompressible layers.
 """
 
 from __future__ import annotations

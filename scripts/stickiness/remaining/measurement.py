@@ -40,51 +40,26 @@ MOST_STATES = 1000
 class Remaining:
     """What remains of the work of adhesion on a rough surface, by simulation.
 
-    Limits (low, high) hold the change from a grid of every second point and `STEPS_ERROR` for the
-    steps of the path; NaN if that grid was not solved.
-
-    Attributes
-    ----------
-    approach, separation : float
-        Work of approach, from afar to zero load, and of separation, from zero load after the
-        squeeze to parting, at given mean gaps, per nominal area over the work of adhesion.
-    bound : float
-        Largest gain of energy on the path over the work of adhesion: attraction less elastic
-        energy. Without jumps approach, bound and separation are equal; with them approach is less
-        and separation more.
-    pull_off : float
-        Largest mean tension on separation at given mean gaps [E*].
-    area_at_zero_load, gap_at_zero_load : float
-        Share of points in contact, and mean gap [length] at zero load on approach; NaN if the
-        surfaces never attract one another.
-    approach_limits, separation_limits, bound_limits, pull_off_limits : (float, float)
-        See above.
-    pixels_in_zone : float
-        Width of the cohesive zone, range^2/adhesion_length, in pixels. Below two, points of the
-        grid snap one by one.
-    jumps : int
-        Jumps on the path.
-    gap, pressure, separating : numpy.ndarray
-        Curve: mean gap [length], mean pressure [E*], whether on the way back.
-    fft_pairs : float
-        Convolutions that it took.
-    points : tuple of PathPoint
-        States of the curve with their fields.
+    Works are per nominal area over the work of adhesion. Without jumps approach, bound and
+    separation are equal; with them approach is less and separation more. Limits (low, high) hold
+    the change from a grid of every second point and `STEPS_ERROR` for the steps of the path; NaN if
+    that grid was not solved.
     """
 
-    approach: float
-    separation: float
-    bound: float
-    pull_off: float
-    area_at_zero_load: float
-    gap_at_zero_load: float
+    approach: float  #: work at given mean gaps from afar to zero load
+    separation: float  #: the same from zero load after the squeeze to parting
+    bound: float  #: largest gain of energy on the path: attraction less elastic energy
+    pull_off: float  #: largest mean tension on separation at given mean gaps [E*]
+    area_at_zero_load: float  #: share of points in contact on approach; NaN without attraction
+    gap_at_zero_load: float  #: mean gap [length] on approach; NaN without attraction
+    #: Width of the cohesive zone, range^2/adhesion_length; below two, points snap one by one.
     pixels_in_zone: float
-    jumps: int
-    gap: NDArray
-    pressure: NDArray
-    separating: NDArray
-    fft_pairs: float
-    points: tuple[PathPoint, ...]
+    jumps: int  #: on the path
+    gap: NDArray  #: mean gaps of the curve [length]
+    pressure: NDArray  #: mean pressures of the curve [E*]
+    separating: NDArray  #: whether a point of the curve is on the way back
+    fft_pairs: float  #: convolutions that it took
+    points: tuple[PathPoint, ...]  #: states of the curve with their fields
     approach_limits: tuple[float, float] = (np.nan, np.nan)
     separation_limits: tuple[float, float] = (np.nan, np.nan)
     bound_limits: tuple[float, float] = (np.nan, np.nan)
@@ -98,7 +73,6 @@ def measure(
     squeeze: float,
     tol: float = 1e-4,
     half_grid: bool = True,
-    logger=None,
     solid: Solid = HALF_SPACE,
 ) -> Remaining:
     """Measure what remains of adhesion on given heights.
@@ -119,8 +93,6 @@ def measure(
         Residual of every state, see `adhesive.solve`.
     half_grid : bool
         Whether to solve on every second point as well, for the limits.
-    logger : logging.Logger, optional
-        Told every state.
     solid : solids.HalfSpace or solids.Layer
         Elastic solid; the thickness of a layer is in the unit of `length`. Works at given mean
         gaps exclude the mean compression of a layer, which stores and returns its energy.
@@ -144,7 +116,7 @@ def measure(
             "range^2/adhesion_length: points would snap one by one. Take pixels of at most "
             f"{edge_zone.COARSEST * pixel / coarse:.3g} or a longer range"
         )
-    settings = {"tol": tol, "logger": logger, "solid": check_solid(solid)}
+    settings = {"tol": tol, "solid": check_solid(solid)}
     if not half_grid:
         return _follow(heights, length, law, squeeze, settings)
     with warnings.catch_warnings():

@@ -48,40 +48,25 @@ UNLIKE, UNLIKE_RATIO = 2.0, 4.0
 class Prediction:
     """What remains of the work of adhesion on a rough surface, predicted.
 
-    Limits cover 90 % where more than 5 % remains.
-
-    Attributes
-    ----------
-    approach, separation : float
-        Works of approach and of separation at given mean gaps, over the work of adhesion. The
-        theory has no jumps: both are the energy gained. The limits allow for the jumps that were
-        simulated.
-    pull_off : float
-        Largest mean tension on separation [E*].
-    area_at_zero_load : float
-        Share of the nominal area in contact, 0 where attraction acts over gaps; an upper estimate,
-        see `share.tough_area`.
-    approach_limits, separation_limits, pull_off_limits : (float, float)
-        Low and high.
-    energy_ratio : float
-        Work of adhesion over the elastic energy of full contact.
-    tabor : float
-        Tabor's parameter of the longest waves, (l_a^2/(q0^2 h_rms range^3))^(1/3): the range drops
-        out where it is large. On a layer the longest waves see the modulus E*/S instead of E*.
-    anisotropy_error_factor : float
-        Factor on the errors that limits stand for: above 1 for surfaces unlike those simulated, see
-        `find_anisotropy_error_factor`.
+    Works are over the work of adhesion. The theory has no jumps: approach and separation are both
+    the energy gained, and their limits allow for the jumps that were simulated. Limits (low, high)
+    cover 90 % where more than 5 % remains.
     """
 
-    approach: float
+    approach: float  #: work at given mean gaps
     separation: float
-    pull_off: float
+    pull_off: float  #: largest mean tension on separation [E*]
+    #: Share of the nominal area in contact, 0 where attraction acts over gaps; an upper estimate,
+    #: see `share.tough_area`.
     area_at_zero_load: float
     approach_limits: tuple[float, float]
     separation_limits: tuple[float, float]
     pull_off_limits: tuple[float, float]
-    energy_ratio: float
+    energy_ratio: float  #: work of adhesion over the elastic energy of full contact
+    #: Tabor's parameter of the longest waves, (l_a^2/(q0^2 h_rms range^3))^(1/3): the range drops
+    #: out where it is large. On a layer the longest waves see the modulus E*/S instead of E*.
     tabor: float
+    #: Factor on the errors that limits stand for, see `find_anisotropy_error_factor`.
     anisotropy_error_factor: float = 1.0
 
 
@@ -145,13 +130,6 @@ class Roughness:
         """
         softened = np.asarray(adhesion_length) * self.relative_compliance
         return self.q0 * np.asarray(range) ** 2 / softened
-
-    def pull_off(
-        self, adhesion_length: ArrayLike, range: ArrayLike
-    ) -> tuple[ArrayLike, ArrayLike, ArrayLike]:
-        """Largest mean tension on separation over E*: value, low and high limit."""
-        low, value, high = (self.tension(adhesion_length, range, sign) for sign in (-1, 0, 1))
-        return value, low, high
 
     def tension(
         self, adhesion_length: ArrayLike, range: ArrayLike, sign: ArrayLike = 0
@@ -276,7 +254,7 @@ def predict(
     )
     low, share, high = (float(rough.share(length, range, sign)) for sign in (-1, 0, 1))
     ratio = length / rough.elastic_energy
-    pull_off, *pull_off_limits = map(float, rough.pull_off(length, range))
+    least, pull_off, most = (float(rough.tension(length, range, sign)) for sign in (-1, 0, 1))
     return Prediction(
         approach=share,
         separation=share,
@@ -284,7 +262,7 @@ def predict(
         area_at_zero_load=float(tough_area(ratio, find_onset(rough.zone(length, range)))),
         approach_limits=(low / LATE, high),
         separation_limits=(low, min(HYSTERESIS * high, 1.0)),
-        pull_off_limits=tuple(pull_off_limits),
+        pull_off_limits=(least, most),
         energy_ratio=ratio,
         tabor=float(np.cbrt((length * rough.relative_compliance) ** 2 / (q0**2 * h * range**3))),
         anisotropy_error_factor=rough.anisotropy_error_factor,

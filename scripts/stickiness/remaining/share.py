@@ -1,11 +1,9 @@
 """Share of the work of adhesion that remains, as a function of three numbers.
 
-``energy_ratio`` x = w/U_full: work of adhesion over the elastic energy of full contact.
-``range_ratio`` e = range/h_rms.
-``zone`` z = q0 range^2/(adhesion length): width of the cohesive zone over the longest waves.
-
-Contact is tough (`tough_share`), or weak attraction acts over gaps (`weak_share`): the deeper of
-both states has the larger share. On thin layers `spring_share` adds to it.
+``energy_ratio`` x = w/U_full, work of adhesion over the elastic energy of full contact;
+``range_ratio`` e = range/h_rms; ``zone`` z = q0 range^2/(adhesion length), width of the cohesive
+zone over the longest waves. Contact is tough (`tough_share`), or weak attraction acts over gaps
+(`weak_share`): the deeper state has the larger share. On thin layers `spring_share` adds to it.
 """
 
 from __future__ import annotations

@@ -27,24 +27,13 @@ _POINT_CONTACT = np.pi / 2  # the angle arccos(a/c) of a point contact within a 
 
 @dataclass(frozen=True)
 class SpherePullOff:
-    """Pull-off of a sphere from a rough surface; numbers or arrays.
+    """Pull-off of a sphere from a rough surface; numbers or arrays."""
 
-    Attributes
-    ----------
-    force : float or array
-        Pull-off force [E* length^2], positive.
-    relative : float or array
-        The same over that from a smooth surface.
-    work : float or array
-        Work of separation per area over the work of adhesion of smooth surfaces.
-    zone_radius : float or array
-        Radius [length] of what is in contact or attracts at pull-off: the larger of JKR's contact
-        and Derjaguin's zone. The model needs many of the longest waves across it.
-    """
-
-    force: float | NDArray
-    relative: float | NDArray
-    work: float | NDArray
+    force: float | NDArray  #: [E* length^2], positive
+    relative: float | NDArray  #: force over the pull-off force from a smooth surface
+    work: float | NDArray  #: of separation per area over the work of adhesion of smooth surfaces
+    #: Radius [length] of what is in contact or attracts at pull-off: the larger of JKR's contact
+    #: and Derjaguin's zone. The model needs many of the longest waves across it.
     zone_radius: float | NDArray
 
 

@@ -2,27 +2,18 @@
 
 A pressure wave ``p_q`` displaces the surface of a solid by ``u_q = (2/|q|) S p_q/E*``. E* is the
 plane-strain modulus of the material at the surface, i.e. of the layer. S, the `factor`, is one for
-a half-space and a function of ``k = |q| d`` for a layer of thickness d. It follows from plane
-strain (Airy's function ``(A + B z) cosh qz + (C + D z) sinh qz``) with a surface free of shear:
+a half-space and for short waves, and a function of ``k = |q| d`` for a layer of thickness d:
 
 - free to slip on a rigid base: ``S = (cosh 2k - 1)/(sinh 2k + 2k)``;
-- bonded to a rigid base, with ``a = 3 - 4 nu``:
+- bonded to a rigid base: ``S = [a sinh 2k - 2k]/[a cosh 2k + 2 k^2 + 5 - 12 nu + 8 nu^2]``, with
+  ``a = 3 - 4 nu`` (Carbone and Mangialardi 2008, doi 10.1016/j.jmps.2007.05.009).
 
-      S = [a sinh 2k - 2k]/[a cosh 2k + 2 k^2 + 5 - 12 nu + 8 nu^2]
+The code regroups numerator and denominator into sums of terms that do not cancel.
 
-  (Carbone and Mangialardi, J. Mech. Phys. Solids 56:684, 2008, doi 10.1016/j.jmps.2007.05.009).
-
-S tends to 1 for short waves. For long ones it is k/2 (slip), ``k (1 - 2 nu)/(2 (1 - nu)^2)``
-(bonded, compressible) or ``2 k^3/3`` (bonded, nu = 1/2). The code regroups numerator and
-denominator into sums of terms that do not cancel.
-
-**Mean pressure.** The wave q = 0 is no limit of the others. A half-space has no finite response,
-and everywhere in this library displacements have no mean: a mean gap is that between the deformed
-surfaces, whatever the solid. A layer as a whole yields by `mean_compliance` times the mean
-pressure besides. Who controls the approach of the backing (the distance by which its far side has
-come closer) adds that: approach = ``mean_compliance * pressure - shift`` in the terms of
-`repulsive.Contact`. The work of the load on the mean compression is stored there, so that mean
-gaps, energies and works of adhesion do not depend on it.
+Displacements have no mean: a mean gap is the gap between the deformed surfaces, whatever the solid.
+A layer as a whole also yields by `mean_compliance` times the mean pressure: the approach of its
+backing is ``mean_compliance * pressure - shift`` in the terms of `repulsive.Contact`. Mean gaps,
+energies and works of adhesion do not depend on it.
 """
 
 from __future__ import annotations
@@ -40,8 +31,22 @@ _SERIES = 1.5  # 2k below which sinh and cosh are expanded
 _TERMS = 12
 
 
+class _Compliant:
+    """What follows from the compliance over that of a half-space."""
+
+    def compliance(self, q: ArrayLike) -> float | NDArray:
+        """Displacement per pressure u_q E*/p_q = 2 S/q [length] of waves `q` > 0 [1/length]."""
+        (q,) = positive(q=q)
+        return plain(2 / q * self.factor(q))
+
+    def stiffness(self, q: ArrayLike) -> float | NDArray:
+        """Pressure per displacement p_q/(u_q E*) [1/length] of waves `q` > 0 [1/length]."""
+        (q,) = positive(q=q)
+        return plain(q / 2 / self.factor(q))
+
+
 @dataclass(frozen=True)
-class HalfSpace:
+class HalfSpace(_Compliant):
     """Elastic half-space: the default everywhere."""
 
     mean_compliance = 0.0  # undefined; displacements are counted from their mean
@@ -49,14 +54,6 @@ class HalfSpace:
     def factor(self, q: ArrayLike) -> float:
         """Compliance over that of a half-space: one."""
         return 1.0
-
-    def compliance(self, q: ArrayLike) -> float | NDArray:
-        """Displacement per pressure u_q E*/p_q = 2/q [length] of waves `q` > 0 [1/length]."""
-        return _compliance(self, q)
-
-    def stiffness(self, q: ArrayLike) -> float | NDArray:
-        """Pressure per displacement p_q/(u_q E*) = q/2 [1/length] of waves `q` > 0 [1/length]."""
-        return _stiffness(self, q)
 
     def in_unit(self, length: float) -> HalfSpace:
         """Return the solid with `length` as the unit of length."""
@@ -92,7 +89,7 @@ class Film:
 
 
 @dataclass(frozen=True)
-class Layer:
+class Layer(_Compliant):
     """Elastic layer on a rigid base or on a film.
 
     Parameters
@@ -153,14 +150,6 @@ class Layer:
             factor += self._bending(q)
         return plain(factor)
 
-    def compliance(self, q: ArrayLike) -> float | NDArray:
-        """Displacement per pressure u_q E*/p_q = 2 S/q [length] of waves `q` > 0 [1/length]."""
-        return _compliance(self, q)
-
-    def stiffness(self, q: ArrayLike) -> float | NDArray:
-        """Pressure per displacement p_q/(u_q E*) [1/length] of waves `q` > 0 [1/length]."""
-        return _stiffness(self, q)
-
     def in_unit(self, length: float) -> Layer:
         """Return the solid with `length` as the unit of length."""
         backing = self.backing
@@ -209,16 +198,6 @@ def check_solid(solid: Solid) -> Solid:
 
 def _set(frozen, name, value):
     object.__setattr__(frozen, name, value)
-
-
-def _compliance(solid: Solid, q: ArrayLike) -> float | NDArray:
-    (q,) = positive(q=q)
-    return plain(2 / q * solid.factor(q))
-
-
-def _stiffness(solid: Solid, q: ArrayLike) -> float | NDArray:
-    (q,) = positive(q=q)
-    return plain(q / 2 / solid.factor(q))
 
 
 def _less_leading_terms(x: NDArray) -> tuple[NDArray, NDArray]:

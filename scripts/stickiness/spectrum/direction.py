@@ -1,12 +1,9 @@
 """Power laws of the wave number, and surfaces with a direction: power laws of an elliptic norm.
 
 C(q) = C(Q), where Q^2 = a k^2 + s^2/a, k and s being the components of q along the long correlation
-length and across it, a the ratio of the correlation lengths. The norm keeps areas, so that C(Q)
-has the same height variance at any ratio. On an ellipse of constant Q the wave number runs from
-Q/sqrt(a), along, to Q sqrt(a), across: the stretch ``g = |q|/Q``, with g^2 = cos^2 t/a + a sin^2 t
-at the angles t of the circle that the ellipse is stretched from, which are evenly filled. Averages
-over t take the variable w in ln g = -ln(sqrt(a)) cos w, which leaves periodic smooth integrands at
-any ratio.
+length and across it, a the ratio of the correlation lengths. On an ellipse of constant Q the
+stretch ``g = |q|/Q`` is g^2 = cos^2 t/a + a sin^2 t at evenly filled angles t. Averages over t take
+the variable w in ln g = -ln(sqrt(a)) cos w, which leaves periodic smooth integrands at any ratio.
 """
 
 from __future__ import annotations

@@ -62,7 +62,7 @@ def test_kappa_from_the_slope_of_area_against_external_pressure():
     p_rep = np.array([1e-3, 2e-3])
     area, external = kappa_rep * p_rep / slope, p_rep * (1 - ratio)
     inverse_ad = criteria.inverse_kappa_ad(**POINT, a_v=2.8, kappa_rep=kappa_rep)
-    assert criteria.kappa(inverse_ad, kappa_rep) == pytest.approx(
+    assert 1 / criteria.inverse_kappa(inverse_ad, kappa_rep) == pytest.approx(
         slope * np.diff(area).item() / np.diff(external).item(), rel=1e-10
     )
 
@@ -74,7 +74,6 @@ def test_slope_angle_turns_continuously_from_arctan_2_to_pi():
     assert np.all(np.diff(angle) > 0)
     assert angle[-1] < np.pi
     np.testing.assert_allclose(np.tan(angle), 1 / inverse, rtol=1e-9)
-    assert criteria.kappa(0.5) == np.inf
 
 
 def test_limits_sit_on_the_threshold():
@@ -85,15 +84,6 @@ def test_limits_sit_on_the_threshold():
     modulus = criteria.modulus_threshold(h, q0, 0.05, eps, 2.8)
     assert criteria.violano(h, q0, 0.05 / modulus, eps, 2.8).margin == pytest.approx(1, rel=1e-13)
     assert criteria.violano(h, q0, 0.05 / (0.99 * modulus), eps, 2.8).sticky is True
-
-
-@pytest.mark.parametrize("hurst", [0.3, 0.8, 1.0])
-@pytest.mark.parametrize("magnification", [3.0, 1e4])
-def test_c0_limit_is_the_h_rms_limit_of_the_spectrum(hurst, magnification):
-    q0, length, eps, a_v = 0.02, 0.05, 1.0, 3.0
-    c0 = criteria.violano_c0_limit(hurst, q0, length, eps, a_v, magnification)
-    s = spectrum.SelfAffine(hurst=hurst, q0=q0, q1=q0 * magnification, C0=c0)
-    assert s.h_rms == pytest.approx(criteria.h_rms_limit(q0, length, eps, a_v), rel=1e-12)
 
 
 # --- Pastewka and Robbins ------------------------------------------------------------------
@@ -147,7 +137,6 @@ def test_fuller_tabor():
     assert criteria.fuller_tabor(h, 99.0, length, radius=radius).margin == pytest.approx(
         10 / theta, rel=1e-13
     )
-    assert criteria.fuller_tabor(h, 2 / radius, length, threshold=20.0).sticky is (theta < 20)
 
 
 @pytest.mark.slow
@@ -171,9 +160,6 @@ def test_bearing_area_limits():
     margin = criteria.bearing_area(h, q0, length, 1e-6 * h).margin
     # Corrections are of first order in range/h: the middle of the window is half of it away.
     assert margin == pytest.approx(np.e**2 / np.sqrt(2 * np.pi) * length / (q0 * h**2), rel=1e-5)
-    assert criteria.bearing_area(h, q0, length, 1e-6 * h, 0.75).margin == pytest.approx(
-        margin / 0.75, rel=1e-12
-    )
     assert criteria.bearing_area([1.0, 1e-4], 0.5, 0.2, 1.0).margin[1] == np.inf
 
 
@@ -189,6 +175,19 @@ def test_persson_tosatti_of_a_power_law():
     assert criteria.persson_tosatti(energy, 0.999 * energy).sticky is False
 
 
+def test_energy_criteria_agree_in_order_of_magnitude():
+    # For a broad band of H = 0.8 and lambda = 2 pi/q0 the bearing-area model (repulsion 3/4) gives
+    # h_rms < sqrt(0.6 lambda l_a), the energy balance sqrt(0.24 lambda l_a): they are known to be
+    # close (Ciavarella 2019, arXiv:1908.06380).
+    q0, length = 1.0, 0.01
+    s = spectrum.SelfAffine(hurst=0.8, q0=q0, q1=1e9, h_rms=1.0)
+    energy = criteria.persson_tosatti(s, length).margin
+    bearing = criteria.bearing_area(1.0, q0, length, 1e-6).margin / 0.75
+    wave = 2 * np.pi / q0 * length
+    assert energy / wave == pytest.approx(0.24, abs=0.005)
+    assert bearing / wave == pytest.approx(0.6, abs=0.05)
+
+
 @pytest.mark.parametrize(
     ("call", "message"),
     [
@@ -200,7 +199,6 @@ def test_persson_tosatti_of_a_power_law():
         (lambda: criteria.bearing_area(1.0, 1.0, 1.0, 0.0), "range must"),
         (lambda: criteria.persson_tosatti(0.0, 1.0), "elastic_energy must"),
         (lambda: criteria.dahlquist(-1.0), "modulus_pa must"),
-        (lambda: criteria.violano_c0_limit(0.8, 1, 1, 1, 3, 1), "magnification must exceed 1"),
     ],
 )
 def test_refusals_name_the_argument(call, message):

@@ -125,7 +125,7 @@ def test_rough_contact_below_the_edge_gap(rough_contacts):
 
 @pytest.mark.slow
 @pytest.mark.parametrize("kind", [adhesive.Maugis, adhesive.Exponential])
-def test_adhesive_pressure_of_a_short_range(kind):
+def test_attraction_of_a_short_range(kind):
     """On a coarse grid, at a range far below the edge gap, against the closed form."""
     rng = np.random.default_rng(0)
     found, counted, exact = [], [], []
@@ -135,24 +135,13 @@ def test_adhesive_pressure_of_a_short_range(kind):
         x = (np.arange(200_000) + 0.5) / 400_000 * closed.wavelength
         outside = x > closed.area_fraction * closed.wavelength / 2
         exact.append(np.sum(law.traction(closed.gap(x[outside]))) / x.size)
-        found.append(dmt.adhesive_pressure(gap, law, subpixel=True))
+        ranges = np.union1d(np.geomspace(1e-6, 1.0, 385) * gap.max(), [law.range])
+        area = subpixel.attractive_area(gap, ranges)
+        found.append(dmt.attraction_of_areas(area, ranges, law))
         counted.append(dmt.adhesive_pressure(gap, law))
     # 20 pixels per wavelength: the edge law's next term is worth some per cent of an area.
     assert np.mean(found) == pytest.approx(np.mean(exact), rel=0.1)
     assert np.mean(counted) < 0.5 * np.mean(exact)
-
-
-def test_gap_density_from_subpixel_areas(rough_contacts):
-    gap, touching = rough_contacts[8]
-    edges = np.concatenate([[0.0], np.geomspace(1e-4, 1.1 * gap.max(), 60)])
-    density = dmt.gap_density(gap, edges, touching, subpixel=True)
-    open_area = 1 - touching.mean() + subpixel.boundary_strip(touching)
-    assert np.sum(density * np.diff(edges)) == pytest.approx(open_area, rel=1e-12)
-    # Edge law below the edge gap: P falls as u^(-1/3), whatever the pixels.
-    middle = np.sqrt(edges[2:12] * edges[1:11])
-    np.testing.assert_allclose(
-        density[1:11] * middle ** (1 / 3) / (density[1] * middle[0] ** (1 / 3)), 1, rtol=0.05
-    )
 
 
 @pytest.mark.parametrize(
@@ -160,7 +149,6 @@ def test_gap_density_from_subpixel_areas(rough_contacts):
     [
         (lambda: subpixel.attractive_area([0.0, 1.0], 1.0), "gap must be at least two-dim"),
         (lambda: subpixel.boundary_strip([True]), "contact must be at least two-dim"),
-        (lambda: dmt.gap_density([[0.0, 1.0]], [-1.0, 1.0], subpixel=True), "edges must not be"),
     ],
 )
 def test_refusals_name_the_argument(call, message):
