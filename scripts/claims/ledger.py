@@ -4,11 +4,8 @@ A claim is a function from files to a `Finding`, decorated with `claim`. It take
 a file or a closed form. Its statement and remark are in ``report/claims.j2``.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
-from types import ModuleType
 from typing import Any
 
 import numpy as np
@@ -55,7 +52,7 @@ class Finding:
             raise ValueError(f"{unknown} is neither an error source nor a verdict")
 
     @property
-    def uncertainty(self) -> float:
+    def uncertainty(self):
         """All errors in quadrature; NaN if one of them is not known."""
         return float(np.linalg.norm([*self.errors.values()])) if self.errors else 0.0
 
@@ -68,17 +65,17 @@ class Claim:
     files: tuple[str, ...]  # as the rule names them; the file of the value comes first
     examine: Callable[[Files], Finding]
 
-    def __call__(self, files: Files) -> Finding:
+    def __call__(self, files):
         """Examine the claim with its files out of all."""
         return self.examine({name: files[name] for name in self.files})
 
 
-def claim(number: int, *files: str) -> Callable[[Callable[[Files], Finding]], Claim]:
+def claim(number, *files):
     """Make the decorated function the claim with this number."""
     return lambda examine: Claim(number, files, examine)
 
 
-def collect(*topics: ModuleType) -> tuple[Claim, ...]:
+def collect(*topics):
     """Claims of some modules, sorted by number.
 
     Raises
@@ -96,22 +93,22 @@ def collect(*topics: ModuleType) -> tuple[Claim, ...]:
     return tuple(claims)
 
 
-def grade(fully: bool, partly: bool) -> str:
+def grade(fully, partly):
     """Verdict on a claim that is true outright, or within limits that the remark states."""
     return REPRODUCED if fully else QUALIFIED if partly else NOT
 
 
-def errors_by_source(data: xr.Dataset, name: str) -> dict[str, float]:
+def errors_by_source(data, name):
     """Errors of a single number by source."""
     return {source: float(error_budget.part(data, name, source)) for source in SOURCES}
 
 
-def value_and_error(data: xr.Dataset, name: str) -> tuple[float, float]:
+def value_and_error(data, name):
     """A single number of a dataset with its total error."""
     return float(data[name]), float(error_budget.total_error(data, name))
 
 
-def describe_cell(data: xr.Dataset) -> dict[str, float]:
+def describe_cell(data):
     """Magnification of a simulated case, and the side of its cell in longest wavelengths."""
     made = datasets.parameters(data)
     return {"zeta": made["magnification"], "waves": made.get("window", 1)}
