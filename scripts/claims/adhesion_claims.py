@@ -82,10 +82,7 @@ def list_areas(loads):
 
 
 def find_zero(data, name):
-    """Adhesion length over range at which a slope is zero, and its errors by source.
-
-    They are the errors of the less certain of the two simulated points beside it.
-    """
+    """Adhesion length over range at which a slope is zero, and its errors by source."""
     data = data.where(np.isfinite(data[name]), drop=True)
     log_length = np.log(data.adhesion_length_over_range.values)
     value, error = data[name].values, error_budget.total_error(data, name).values
@@ -95,6 +92,7 @@ def find_zero(data, name):
     i = below[0]
     slope = (value[i] - value[i - 1]) / (log_length[i] - log_length[i - 1])
     zero = float(np.exp(log_length[i - 1] - value[i - 1] / slope))
+    # The error is that of the less certain of the two simulated points beside it.
     worse = data.isel(adhesion_length_over_range=i - 1 + int(np.argmax(error[i - 1 : i + 1])))
     sizes = errors_by_source(worse, name)
     return zero, {source: float(zero * size / abs(slope)) for source, size in sizes.items()}

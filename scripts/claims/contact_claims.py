@@ -80,10 +80,18 @@ def density_converges(files):
 
 @claim(3, "fig3a")
 def small_gap_exponent(files):
-    exponent = density_exponent(files["fig3a"])
+    sweep = files["fig3a"].gap_density.sel(variant=VARIANT, gap=slice(None, 1))
+    density = sweep.isel(hurst=0, load=0)
+    exponent = xr.apply_ufunc(
+        lambda values: a_v_fit.local_exponent(density.gap.values, values),
+        density,
+        input_core_dims=[["gap"]],
+        output_core_dims=[["gap"]],
+        vectorize=True,
+    )
     shown = exponent.sel(magnification=SHOWN, method="nearest")
     broad = exponent.isel(magnification=-1)
-    at, beyond = (exponents_at(one, SMALL_GAPS) for one in (shown, broad))
+    at, beyond = (np.interp(np.log(SMALL_GAPS), np.log(one.gap), one) for one in (shown, broad))
     off, off_beyond = (float(np.abs(values + 1 / 3).max()) for values in (at, beyond))
     spans = {
         float(z): close_to_third(exponent.sel(magnification=z)) for z in exponent.magnification
@@ -100,23 +108,6 @@ def small_gap_exponent(files):
             "hurst": float(exponent.hurst),
             "widest": (widest, spans[widest]),
         },
-    )
-
-
-def exponents_at(exponent, gaps):
-    """Exponent at one magnification, interpolated between the gaps of its grid."""
-    return np.interp(np.log(gaps), np.log(exponent.gap), exponent)
-
-
-def density_exponent(sweep):
-    """Local exponent d ln P/d ln u of the gap density below h_rms, by magnification."""
-    density = sweep.gap_density.sel(variant=VARIANT, gap=slice(None, 1)).isel(hurst=0, load=0)
-    return xr.apply_ufunc(
-        lambda values: a_v_fit.local_exponent(density.gap.values, values),
-        density,
-        input_core_dims=[["gap"]],
-        output_core_dims=[["gap"]],
-        vectorize=True,
     )
 
 

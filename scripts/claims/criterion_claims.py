@@ -50,11 +50,8 @@ def slope_angle(files):
 
 
 def largest_dmt(a_v):
-    """Largest h_rms/range that is sticky and within the DMT range.
-
-    The threshold (c x)^(3/5) with c = (3/2) a_V and x = (l_a/range)/(range q0) meets the JTB
-    line (4/75) x at h_rms/range = (75 c/4)^(3/2), whatever the materials.
-    """
+    """Largest h_rms/range that is sticky and within the DMT range, whatever the materials."""
+    # The threshold (3/2 a_V x)^(3/5), x = (l_a/range)/(range q0), meets the JTB line (4/75) x.
     return (1.5 * a_v / JTB_CONSTANT) ** 1.5
 
 
@@ -86,7 +83,10 @@ def measured_a_v(m):
 
 @claim(14, "asphalt", "map", "measured_surfaces")
 def real_surfaces(files):
-    h_rms, q0 = printed_asphalt(files)
+    # Rms height of the example, by the power law down to no cutoff.
+    rough = files["asphalt"].sel(end="rough")
+    q0, c0, hurst = float(rough.q0), float(rough.C0), float(rough.hurst)
+    h_rms = float(np.sqrt(np.pi * c0 / hurst) * q0**-hurst)
     a_v = measured_a_v(files["map"])
     printed, derived, low, high = (
         criteria.modulus_threshold(h_rms, q0, WORK_OF_ADHESION, RANGE, value) / 1e6
@@ -110,13 +110,6 @@ def real_surfaces(files):
             ],
         },
     )
-
-
-def printed_asphalt(files):
-    """Rms height and lowest wave number of the example, by the power law down to no cutoff."""
-    rough = files["asphalt"].sel(end="rough")
-    q0, c0, hurst = float(rough.q0), float(rough.C0), float(rough.hurst)
-    return float(np.sqrt(np.pi * c0 / hurst) * q0**-hurst), q0
 
 
 @claim(15, "verdicts", "polished_steel")
@@ -183,10 +176,7 @@ def pastewka_robbins_a_v(s):
 
 
 def threshold_by_moments(s, range_=1e-30):
-    """Adhesion length at the threshold with Pastewka and Robbins' a_V, which needs only moments.
-
-    At the default range the edges are tough.
-    """
+    """Threshold in l_a with Pastewka and Robbins' a_V; at the default range edges are tough."""
     return equivalent_sphere.adhesion_length_threshold(
         s.h_rms, s.q0, s.rms_slope, range_, pastewka_robbins_a_v(s)
     )
@@ -222,11 +212,7 @@ def spectral_moments(files):
 
 
 def moment_ratios(heights, length):
-    """Ratios that are 1 on an isotropic surface, in rows; columns along x and y.
-
-    3 m22/m4, h'_rms/sqrt(2 m2), h''_rms/sqrt(8 m4/3), with the profile moments m2, m4 of each
-    direction.
-    """
+    """Ratios that are 1 on an isotropic surface, in rows; columns along x and y."""
     m = synthesis.moments(heights, length)
     m2, m4 = np.array([m.m20, m.m02]), np.array([m.m40, m.m04])
     return np.array(

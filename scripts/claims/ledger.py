@@ -1,15 +1,14 @@
 """The ledger of claims: which files test a claim, and what they say about it.
 
-A claim is a function from files to a `Finding`, decorated with `claim`. It takes every number from
-a file or a closed form. Its statement and remark are in ``report/claims.j2``.
+A claim is a function from files by name (datasets, lists of them or tables) to a `Finding`,
+decorated with `claim`. It takes every number from a file or a closed form. Its statement and remark
+are in ``report/claims.j2``.
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import Any
 
 import numpy as np
-import xarray as xr
 
 from stickiness import datasets, error_budget
 from stickiness.error_budget import SOURCES
@@ -20,32 +19,17 @@ NOT = "not reproduced"
 OPEN = "not decided"
 VERDICTS = (REPRODUCED, QUALIFIED, NOT, OPEN)
 
-# A name may stand for several files (a list of datasets) or for a table (a pandas.DataFrame).
-Files = Mapping[str, xr.Dataset]
-
 
 @dataclass(frozen=True, kw_only=True)
 class Finding:
-    """What the files say about a claim.
-
-    Attributes
-    ----------
-    value, claimed : float
-        The value found here, and the paper's value; NaN if the paper gives none.
-    verdict : str
-        One of `VERDICTS`.
-    errors : mapping from str to float
-        Errors of the value by source, each covering 90 %. NaN: the error is not known. A source
-        that does not apply is left out.
-    facts : mapping
-        Further numbers and names for the remark.
-    """
+    """What the files say about a claim."""
 
     value: float
-    verdict: str
-    claimed: float = np.nan
-    errors: Mapping[str, float] = field(default_factory=dict)
-    facts: Mapping[str, Any] = field(default_factory=dict)
+    verdict: str  # one of `VERDICTS`
+    claimed: float = np.nan  # the paper's value, NaN if it gives none
+    # By source, each covering 90 %; NaN if not known. A source that does not apply is left out.
+    errors: dict = field(default_factory=dict)
+    facts: dict = field(default_factory=dict)  # further numbers and names for the remark
 
     def __post_init__(self):
         if unknown := {*self.errors} - {*SOURCES} or {self.verdict} - {*VERDICTS}:
@@ -63,7 +47,7 @@ class Claim:
 
     number: int
     files: tuple[str, ...]  # as the rule names them; the file of the value comes first
-    examine: Callable[[Files], Finding]
+    examine: Callable
 
     def __call__(self, files):
         """Examine the claim with its files out of all."""
@@ -71,18 +55,11 @@ class Claim:
 
 
 def claim(number, *files):
-    """Make the decorated function the claim with this number."""
     return lambda examine: Claim(number, files, examine)
 
 
 def collect(*topics):
-    """Claims of some modules, sorted by number.
-
-    Raises
-    ------
-    ValueError
-        If the numbers are not 1, 2, 3 …, each once.
-    """
+    """Claims of some modules, sorted by number; ValueError unless they run from 1 on."""
     claims = [found for topic in topics for found in vars(topic).values() if type(found) is Claim]
     claims.sort(key=lambda found: found.number)
     for position, found in enumerate(claims, 1):

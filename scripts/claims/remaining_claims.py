@@ -50,10 +50,7 @@ def sticky_roughness(files):
 
 
 def find_roughness(range_times_q0, shortest, sign):
-    """h_rms/range at which the wanted share just remains, with roughness down to `shortest`.
-
-    All in units of the range. `sign` -1 or +1: by the low or high limit of the share.
-    """
+    """h_rms/range at which the wanted share, or its low or high limit by `sign`, just remains."""
     q1 = 2 * np.pi / shortest
     unit = SelfAffine(hurst=0.8, q0=range_times_q0, q1=q1, h_rms=1.0).elastic_energy()
 
@@ -122,18 +119,11 @@ def truncation(files):
 
 
 def extend(hurst):
-    """Predicted share with all waves up to `BROADEST` over that up to `BROAD`, range to nothing.
-
-    The work of adhesion is the energy of full contact up to `BROAD`. Both spectra have one C0.
-    """
+    """Predicted share with all waves up to `BROADEST` over that up to `BROAD`, range to nothing."""
     broad = SelfAffine(hurst=hurst, q0=1.0, q1=BROADEST, h_rms=1.0)
     narrow = broad.truncated(BROAD)
-    work = narrow.elastic_energy()
-    shares = [
-        predict(spectrum, adhesion_length=work, range=1e-6).separation
-        for spectrum in (narrow, broad)
-    ]
-    return shares[1] / shares[0]
+    given = {"adhesion_length": narrow.elastic_energy(), "range": 1e-6}
+    return predict(broad, **given).separation / predict(narrow, **given).separation
 
 
 def compare(table, hurst):
