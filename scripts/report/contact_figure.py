@@ -28,11 +28,8 @@ text.text = texts[k];
 
 
 def list_loads(contact, materials):
-    """Texts of every load: pressure, contact area and mean gap.
-
-    Pressures [Pa] are given for those of the `materials`, by label, that are deep and smooth, as
-    the simulated solid is. A modulus that depends on the rate is that at 1 Hz.
-    """
+    """Texts of every load: pressure over E* and for each suited material, area and mean gap."""
+    # Suited are materials that are deep and smooth, as the simulated solid is.
     suited = {
         f"{label} at 1 Hz" if solid.depends_on_rate else label: solid.modulus
         for label, solid in materials.items()
@@ -59,7 +56,12 @@ def list_loads(contact, materials):
 def draw_interactive(contact, pull_off, loads):
     """Contact under a slider over the `loads` of `list_loads`, and the curve of tension."""
     codes, widest = code_maps(contact)
-    texts = [describe_load(load) for load in loads]
+    texts = []
+    for load in loads:
+        pressures = [f"{pressure} for {label}" for label, pressure in load["pressures"].items()]
+        pressure = ", ".join(pressures) or f"{load['pressure']} E* q₀ hᵣₘₛ"
+        area, gap = load["area"], load["gap"]
+        texts.append(f"Mean pressure: {pressure}. Contact area: {area}. Mean gap: {gap}.")
     first = min(FIRST_LOAD, len(loads) - 1)
     shown = ColumnDataSource({"code": [codes[first]]})
     text = Div(text=texts[first], sizing_mode="stretch_width")
@@ -81,12 +83,6 @@ def draw_interactive(contact, pull_off, loads):
         plot.styles = {"flex": "1 1 20rem", "min-width": "0", "max-width": "40rem"}
     beside = row(*plots, sizing_mode="stretch_width", styles={"flex-wrap": "wrap"})
     return column(slider, text, beside, sizing_mode="stretch_width")
-
-
-def describe_load(load):
-    pressures = [f"{pressure} for {label}" for label, pressure in load["pressures"].items()]
-    pressure = ", ".join(pressures) or f"{load['pressure']} E* q₀ hᵣₘₛ"
-    return f"Mean pressure: {pressure}. Contact area: {load['area']}. Mean gap: {load['gap']}."
 
 
 def draw_map(contact, source, widest):
