@@ -1,14 +1,11 @@
 """Claims on contact with adhesion: threshold of kappa, loop and 1/kappa_ad."""
 
-from __future__ import annotations
-
 import numpy as np
 import xarray as xr
 
 from claims.ledger import (
     OPEN,
     QUALIFIED,
-    Files,
     Finding,
     claim,
     describe_cell,
@@ -25,7 +22,7 @@ LARGEST_ERROR = 0.3  # over the formula, of points that are compared with it
 
 
 @claim(5, "adhesive_fig2", "adhesion_fig2")
-def kappa_threshold(files: Files) -> Finding:
+def kappa_threshold(files):
     loads = files["adhesive_fig2"]
     full, limit = at_load(loads), at_load(files["adhesion_fig2"])
     solved = full.inverse_kappa.dropna("range_over_h_rms", how="all")
@@ -60,7 +57,7 @@ def kappa_threshold(files: Files) -> Finding:
     )
 
 
-def describe_half(data: xr.Dataset) -> dict:
+def describe_half(data):
     """1/kappa of both definitions of the area, where about half of it is left."""
     nearest = abs(data.inverse_kappa - 0.25).argmin("adhesion_length_over_range")
     half = data.isel(adhesion_length_over_range=nearest)
@@ -71,7 +68,7 @@ def describe_half(data: xr.Dataset) -> dict:
     }
 
 
-def list_areas(loads: xr.Dataset) -> list[tuple[float, float, float]]:
+def list_areas(loads):
     """Threshold, area of contact there and load, for every load that has a threshold."""
     found = []
     for load in loads.pressure.values:
@@ -84,11 +81,8 @@ def list_areas(loads: xr.Dataset) -> list[tuple[float, float, float]]:
     return found
 
 
-def find_zero(data: xr.Dataset, name: str) -> tuple[float, dict[str, float]]:
-    """Adhesion length over range at which a slope is zero, and its errors by source.
-
-    They are the errors of the less certain of the two simulated points beside it.
-    """
+def find_zero(data, name):
+    """Adhesion length over range at which a slope is zero, and its errors by source."""
     data = data.where(np.isfinite(data[name]), drop=True)
     log_length = np.log(data.adhesion_length_over_range.values)
     value, error = data[name].values, error_budget.total_error(data, name).values
@@ -98,19 +92,20 @@ def find_zero(data: xr.Dataset, name: str) -> tuple[float, dict[str, float]]:
     i = below[0]
     slope = (value[i] - value[i - 1]) / (log_length[i] - log_length[i - 1])
     zero = float(np.exp(log_length[i - 1] - value[i - 1] / slope))
+    # The error is that of the less certain of the two simulated points beside it.
     worse = data.isel(adhesion_length_over_range=i - 1 + int(np.argmax(error[i - 1 : i + 1])))
     sizes = errors_by_source(worse, name)
     return zero, {source: float(zero * size / abs(slope)) for source, size in sizes.items()}
 
 
-def largest_simulated(data: xr.Dataset) -> float:
+def largest_simulated(data):
     """Largest adhesion length over range that was simulated at one range; 0 if none was."""
     length = data.adhesion_length_over_range.where(np.isfinite(data.inverse_kappa))
     return float(length.max().fillna(0))
 
 
 @claim(10, "loop")
-def hysteresis(files: Files) -> Finding:
+def hysteresis(files):
     coarse, loop = (files["loop"].isel(resolution=i) for i in (0, -1))
     strongest = loop.isel(adhesion_length_over_range=-1)
     error = abs(pull_off(coarse) - pull_off(loop))
@@ -145,13 +140,13 @@ def hysteresis(files: Files) -> Finding:
     )
 
 
-def pull_off(loop: xr.Dataset) -> float:
+def pull_off(loop):
     """Mean pressure of the last state under a press, at the largest adhesion length."""
     press = loop.isel(adhesion_length_over_range=-1).sel(control="pressure")
     return float(press.mean_pressure.dropna("state")[-1])
 
 
-def area_at(curve: xr.Dataset, load: float, way: int) -> float:
+def area_at(curve, load, way):
     """Repulsive area at a load, on approach (`way` 0) or separation (1)."""
     leg = curve.where(curve.separating == way, drop=True)
     order = np.argsort(leg.mean_pressure.values)
@@ -166,7 +161,7 @@ def area_at(curve: xr.Dataset, load: float, way: int) -> float:
     "fit_bem_64",
     "fit_bem_128",
 )
-def inverse_kappa_ad(files: Files) -> Finding:
+def inverse_kappa_ad(files):
     sets = [ratios_to_formula(files[f"adhesive_{s}"], files[f"adhesion_{s}"]) for s in SETS]
     ratios = {name: np.concatenate([ratio[name] for ratio in sets]) for name in sets[0]}
     slopes = ratios["inverse_kappa_ad"]
@@ -199,7 +194,7 @@ def inverse_kappa_ad(files: Files) -> Finding:
     )
 
 
-def ratios_to_formula(full: xr.Dataset, limit: xr.Dataset) -> dict[str, np.ndarray]:
+def ratios_to_formula(full, limit):
     """All points of one set, and their errors, over the formula; `direct` and `dmt` as such."""
     full, limit = at_load(full), at_load(limit)
     formula = xr.zeros_like(full.inverse_kappa_ad) + criteria.inverse_kappa_ad(

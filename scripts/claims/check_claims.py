@@ -45,16 +45,13 @@ def main(job):
 
 def find_paths(inputs, claims):
     """Paths, or lists of paths, by the names that the claims use."""
-    known = list(inputs.keys())
-    for claim in claims:
-        for name in claim.files:
-            if name not in known:
-                raise ValueError(
-                    f"claim {claim.number} reads {name!r}, which the rule check_claims does not "
-                    f"give; it gives {', '.join(sorted(known))}: add the file to ledger_inputs in "
-                    "rules/"
-                )
-    return {name: inputs[name] for claim in claims for name in claim.files}
+    wanted = {name: claim.number for claim in claims for name in claim.files}
+    for name in wanted.keys() - inputs.keys():
+        raise ValueError(
+            f"claim {wanted[name]} reads {name!r}, which the rule check_claims does not give; it "
+            f"gives {', '.join(sorted(inputs.keys()))}: add the file to ledger_inputs in rules/"
+        )
+    return {name: inputs[name] for name in wanted}
 
 
 def read(path):

@@ -1,15 +1,9 @@
 """Claims on contact without adhesion: area, gaps and a_V, from simulation and theory."""
 
-from __future__ import annotations
-
-from collections.abc import Sequence
-
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
 from claims.ledger import (
-    Files,
     Finding,
     claim,
     describe_cell,
@@ -27,7 +21,7 @@ MIDDLE = slice(1e3, 1e5)  # magnifications at which a_V should be about 3
 
 
 @claim(1, "kappa_128", "kappa_64", "kappa_wide", "lattice_128")
-def area_slope(files: Files) -> Finding:
+def area_slope(files):
     k = files["kappa_128"]
     at, theory = at_load(k), at_load(files["lattice_128"]).kappa.sel(variant=VARIANT)
     value = float(at.kappa)
@@ -58,14 +52,14 @@ def area_slope(files: Files) -> Finding:
     )
 
 
-def kappa_ends(fit: xr.Dataset, largest: float = LINEAR_UP_TO) -> list[tuple[float, float]]:
+def kappa_ends(fit, largest=LINEAR_UP_TO):
     """Area and kappa at the smallest load and at the last with an area of at most `largest`."""
     inside = np.flatnonzero(fit.area_fraction <= largest)
     return [(float(fit.area_fraction[i]), float(fit.kappa[i])) for i in inside[[0, -1]]]
 
 
 @claim(2, "fig1b")
-def density_converges(files: Files) -> Finding:
+def density_converges(files):
     sweep = files["fig1b"].gap_density.sel(variant=VARIANT).isel(hurst=0, load=0)
     last = sweep.isel(magnification=-1)
     before = sweep.sel(magnification=float(last.magnification) / 100, method="nearest")
@@ -85,11 +79,19 @@ def density_converges(files: Files) -> Finding:
 
 
 @claim(3, "fig3a")
-def small_gap_exponent(files: Files) -> Finding:
-    exponent = density_exponent(files["fig3a"])
+def small_gap_exponent(files):
+    sweep = files["fig3a"].gap_density.sel(variant=VARIANT, gap=slice(None, 1))
+    density = sweep.isel(hurst=0, load=0)
+    exponent = xr.apply_ufunc(
+        lambda values: a_v_fit.local_exponent(density.gap.values, values),
+        density,
+        input_core_dims=[["gap"]],
+        output_core_dims=[["gap"]],
+        vectorize=True,
+    )
     shown = exponent.sel(magnification=SHOWN, method="nearest")
     broad = exponent.isel(magnification=-1)
-    at, beyond = (exponents_at(one, SMALL_GAPS) for one in (shown, broad))
+    at, beyond = (np.interp(np.log(SMALL_GAPS), np.log(one.gap), one) for one in (shown, broad))
     off, off_beyond = (float(np.abs(values + 1 / 3).max()) for values in (at, beyond))
     spans = {
         float(z): close_to_third(exponent.sel(magnification=z)) for z in exponent.magnification
@@ -109,24 +111,7 @@ def small_gap_exponent(files: Files) -> Finding:
     )
 
 
-def exponents_at(exponent: xr.DataArray, gaps: Sequence[float]) -> NDArray:
-    """Exponent at one magnification, interpolated between the gaps of its grid."""
-    return np.interp(np.log(gaps), np.log(exponent.gap), exponent)
-
-
-def density_exponent(sweep: xr.Dataset) -> xr.DataArray:
-    """Local exponent d ln P/d ln u of the gap density below h_rms, by magnification."""
-    density = sweep.gap_density.sel(variant=VARIANT, gap=slice(None, 1)).isel(hurst=0, load=0)
-    return xr.apply_ufunc(
-        lambda values: a_v_fit.local_exponent(density.gap.values, values),
-        density,
-        input_core_dims=[["gap"]],
-        output_core_dims=[["gap"]],
-        vectorize=True,
-    )
-
-
-def close_to_third(exponent: xr.DataArray, within: float = 0.05) -> tuple[float, float]:
+def close_to_third(exponent, within=0.05):
     """Ends of the longest unbroken range of gaps whose exponent is about -1/3; 1, 1 if none."""
     close = np.abs(exponent.values + 1 / 3) < within
     edges = np.flatnonzero(np.diff(np.concatenate([[0], close.astype(int), [0]])))
@@ -138,7 +123,7 @@ def close_to_third(exponent: xr.DataArray, within: float = 0.05) -> tuple[float,
 
 
 @claim(4, "fig3d", "ensemble_wide", "lattice_wide")
-def load_separation(files: Files) -> Finding:
+def load_separation(files):
     sweep = files["fig3d"].sel(variant=VARIANT).isel(hurst=0, magnification=0)
     ratio = over_exponential(sweep.pressure, sweep.mean_gap)
     bem = files["ensemble_wide"]
@@ -164,18 +149,18 @@ def load_separation(files: Files) -> Finding:
     )
 
 
-def over_exponential(pressure: xr.DataArray, mean_gap: xr.DataArray) -> xr.DataArray:
+def over_exponential(pressure, mean_gap):
     """Ratio p/exp(-2 mean gap) where the mean gap is 1 to 3, NaN elsewhere."""
     return (pressure * np.exp(2 * mean_gap)).where((mean_gap >= 1) & (mean_gap <= 3))
 
 
-def farthest(ratio: xr.DataArray) -> float:
+def farthest(ratio):
     """Largest factor, up or down, by which ratios differ from 1."""
     return float(np.exp(np.abs(np.log(ratio)).max()))
 
 
 @claim(6, "fig3a", "fit_fig3a")
-def area_against_range(files: Files) -> Finding:
+def area_against_range(files):
     area = files["fig3a"].attractive_area.sel(variant=VARIANT).isel(hurst=0, load=0)
     last, before = area.isel(magnification=-1), area.sel(magnification=1e4, method="nearest")
     small, large = (float((last / before).interp(range=e)) - 1 for e in (0.01, 0.1))
@@ -197,7 +182,7 @@ def area_against_range(files: Files) -> Finding:
 
 
 @claim(7, "fig3b", "ensemble_wide", "lattice_wide")
-def area_against_load(files: Files) -> Finding:
+def area_against_load(files):
     sweep = files["fig3b"].sel(variant=VARIANT).isel(hurst=0, magnification=0)
     loads = sweep.pressure.values
     theory = load_exponent(loads, sweep.attractive_area)
@@ -223,13 +208,13 @@ def area_against_load(files: Files) -> Finding:
     )
 
 
-def load_exponent(loads: np.ndarray, area: xr.DataArray, at: float = 0.03) -> np.ndarray:
+def load_exponent(loads, area, at=0.03):
     """Local exponent d ln A_ad/d ln p at one range, load by load."""
     return np.gradient(np.log(area.interp(range=at).values), np.log(loads))
 
 
 @claim(8, "fit_fig3c", "fit_bem_128", "fit_lattice_128", "fit_bem_wide")
-def a_v_against_magnification(files: Files) -> Finding:
+def a_v_against_magnification(files):
     fit = files["fit_fig3c"].sel(variant=VARIANT).isel(load=0)
     intervals = fit.a_v.isel(magnification=-1).sel(hurst=0.8, method="nearest")
     first = fit.a_v.isel(window=0)
@@ -262,7 +247,7 @@ def a_v_against_magnification(files: Files) -> Finding:
     )
 
 
-def compare_simulated_a_v(files: Files, continuous: xr.DataArray) -> dict:
+def compare_simulated_a_v(files, continuous):
     """a_V of two simulations, and of theory on the spectrum of the smaller cell and beyond it."""
     narrow, wide, lattice = (
         at_load(files[name]).isel(window=0)
@@ -282,7 +267,7 @@ def compare_simulated_a_v(files: Files, continuous: xr.DataArray) -> dict:
 
 
 @claim(9, "fit_fig3d", "fig3d", "fit_bem_wide", "fit_bem_128")
-def a_v_against_load(files: Files) -> Finding:
+def a_v_against_load(files):
     fit = files["fit_fig3d"].sel(variant=VARIANT).isel(hurst=0, magnification=0, window=0)
     pressure = files["fig3d"].pressure.sel(variant=VARIANT).isel(hurst=0, magnification=0)
     inside = (pressure >= 1e-3) & (pressure <= 0.1)

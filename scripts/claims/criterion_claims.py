@@ -1,13 +1,8 @@
 """Claims on the criterion and its predictions for real surfaces, and on spectral moments."""
 
-from __future__ import annotations
-
-from collections.abc import Callable
-
 import numpy as np
-import xarray as xr
 
-from claims.ledger import Files, Finding, claim, describe_cell, grade
+from claims.ledger import Finding, claim, describe_cell, grade
 from common.model_surfaces import cell_size, model_spectrum
 from stickiness import adhesive, criteria, datasets
 from stickiness import surface as synthesis
@@ -26,7 +21,7 @@ UPPER_LINE = 1e-3  # m^0.4, C0 of the line above real surfaces
 
 
 @claim(12, "map")
-def slope_angle(files: Files) -> Finding:
+def slope_angle(files):
     m = files["map"].sortby("slope_parameter")
     a_v = datasets.parameters(m)["slope_a_v"]
     crossing = []
@@ -54,17 +49,14 @@ def slope_angle(files: Files) -> Finding:
     )
 
 
-def largest_dmt(a_v: float) -> float:
-    """Largest h_rms/range that is sticky and within the DMT range.
-
-    The threshold (c x)^(3/5) with c = (3/2) a_V and x = (l_a/range)/(range q0) meets the JTB
-    line (4/75) x at h_rms/range = (75 c/4)^(3/2), whatever the materials.
-    """
+def largest_dmt(a_v):
+    """Largest h_rms/range that is sticky and within the DMT range, whatever the materials."""
+    # The threshold (3/2 a_V x)^(3/5), x = (l_a/range)/(range q0), meets the JTB line (4/75) x.
     return (1.5 * a_v / JTB_CONSTANT) ** 1.5
 
 
 @claim(13, "map")
-def roughness_limits(files: Files) -> Finding:
+def roughness_limits(files):
     a_v, low, high = measured_a_v(files["map"])
     printed, derived, low, high = (
         criteria.h_rms_limit(EXAMPLES, CRYSTAL, 1.0, value)
@@ -84,14 +76,17 @@ def roughness_limits(files: Files) -> Finding:
     )
 
 
-def measured_a_v(m: xr.Dataset) -> tuple[float, float, float]:
+def measured_a_v(m):
     """a_V of the derived criterion with its low and high end."""
     return tuple(float(m[name]) for name in ("a_v", "a_v_low", "a_v_high"))
 
 
 @claim(14, "asphalt", "map", "measured_surfaces")
-def real_surfaces(files: Files) -> Finding:
-    h_rms, q0 = printed_asphalt(files)
+def real_surfaces(files):
+    # Rms height of the example, by the power law down to no cutoff.
+    rough = files["asphalt"].sel(end="rough")
+    q0, c0, hurst = float(rough.q0), float(rough.C0), float(rough.hurst)
+    h_rms = float(np.sqrt(np.pi * c0 / hurst) * q0**-hurst)
     a_v = measured_a_v(files["map"])
     printed, derived, low, high = (
         criteria.modulus_threshold(h_rms, q0, WORK_OF_ADHESION, RANGE, value) / 1e6
@@ -117,15 +112,8 @@ def real_surfaces(files: Files) -> Finding:
     )
 
 
-def printed_asphalt(files: Files) -> tuple[float, float]:
-    """Rms height and lowest wave number of the example, by the power law down to no cutoff."""
-    rough = files["asphalt"].sel(end="rough")
-    q0, c0, hurst = float(rough.q0), float(rough.C0), float(rough.hurst)
-    return float(np.sqrt(np.pi * c0 / hurst) * q0**-hurst), q0
-
-
 @claim(15, "verdicts", "polished_steel")
-def polished_steel(files: Files) -> Finding:
+def polished_steel(files):
     steel, verdicts = files["polished_steel"].sel(end="rough"), files["verdicts"]
     h, q0 = float(steel.h_rms), float(steel.q0)
     margin = verdicts.jtb_margin.sel(surface="polished_steel", end="rough").sortby("material")
@@ -146,7 +134,7 @@ def polished_steel(files: Files) -> Finding:
 
 
 @claim(16)
-def crystal_strength(files: Files) -> Finding:
+def crystal_strength(files):
     law = adhesive.LennardJones(adhesion_length=1.0, range=1.0)
     gaps = np.linspace(0, 2, 200001)
     strength = float(law.traction(gaps).max())
@@ -162,7 +150,7 @@ def crystal_strength(files: Files) -> Finding:
 
 
 @claim(17)
-def pastewka_robbins(files: Files) -> Finding:
+def pastewka_robbins(files):
     hursts = np.array([0.5, 0.6, 0.7, 0.8])
     errors = [fractal_exponent(h, pastewka_robbins_a_v) - (5 * h - 3) / 3 for h in hursts]
     tough = [fractal_exponent(h, threshold_by_moments) - (1 - 2 * h) for h in hursts]
@@ -175,7 +163,7 @@ def pastewka_robbins(files: Files) -> Finding:
     )
 
 
-def fractal_exponent(hurst: float, quantity: Callable[[SelfAffine], float]) -> float:
+def fractal_exponent(hurst, quantity):
     """Exponent of a quantity in zeta, from two broad power-law spectra with exact moments."""
     low, high = (
         quantity(SelfAffine(hurst=hurst, q0=1.0, q1=zeta, h_rms=1.0)) for zeta in (1e12, 1e13)
@@ -183,22 +171,19 @@ def fractal_exponent(hurst: float, quantity: Callable[[SelfAffine], float]) -> f
     return float(np.log10(high / low))
 
 
-def pastewka_robbins_a_v(s: SelfAffine) -> float:
+def pastewka_robbins_a_v(s):
     return criteria.pastewka_robbins_a_v(s.q0, s.h_rms, s.rms_slope, s.rms_curvature)
 
 
-def threshold_by_moments(s: SelfAffine, range_: float = 1e-30) -> float:
-    """Adhesion length at the threshold with Pastewka and Robbins' a_V, which needs only moments.
-
-    At the default range the edges are tough.
-    """
+def threshold_by_moments(s, range_=1e-30):
+    """Threshold in l_a with Pastewka and Robbins' a_V; at the default range edges are tough."""
     return equivalent_sphere.adhesion_length_threshold(
         s.h_rms, s.q0, s.rms_slope, range_, pastewka_robbins_a_v(s)
     )
 
 
 @claim(18, "seeds")
-def spectral_moments(files: Files) -> Finding:
+def spectral_moments(files):
     surfaces = [data.sel(seed=seed) for data in files["seeds"] for seed in data.seed]
     ratios = np.array(
         [moment_ratios(data.height.values, float(data.window_length)) for data in surfaces]
@@ -226,12 +211,8 @@ def spectral_moments(files: Files) -> Finding:
     )
 
 
-def moment_ratios(heights: np.ndarray, length: float) -> np.ndarray:
-    """Ratios that are 1 on an isotropic surface, in rows; columns along x and y.
-
-    3 m22/m4, h'_rms/sqrt(2 m2), h''_rms/sqrt(8 m4/3), with the profile moments m2, m4 of each
-    direction.
-    """
+def moment_ratios(heights, length):
+    """Ratios that are 1 on an isotropic surface, in rows; columns along x and y."""
     m = synthesis.moments(heights, length)
     m2, m4 = np.array([m.m20, m.m02]), np.array([m.m40, m.m04])
     return np.array(
@@ -239,7 +220,7 @@ def moment_ratios(heights: np.ndarray, length: float) -> np.ndarray:
     )
 
 
-def fixed_amplitudes(data: xr.Dataset) -> tuple[np.ndarray, float]:
+def fixed_amplitudes(data):
     """Surface whose modes have exactly the variances expected of those of `data`."""
     surface = datasets.parameters(data)
     length = cell_size(surface)

@@ -1,18 +1,14 @@
 """The ledger of claims: which files test a claim, and what they say about it.
 
-A claim is a function from files to a `Finding`, decorated with `claim`. It takes every number from
-a file or a closed form. Its statement and remark are in ``report/claims.j2``.
+A claim is a function from files by name (datasets, lists of them or tables) to a `Finding`,
+decorated with `claim`. It takes every number from a file or a closed form. Its statement and remark
+are in ``report/claims.j2``.
 """
 
-from __future__ import annotations
-
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from dataclasses import dataclass, field
-from types import ModuleType
-from typing import Any
 
 import numpy as np
-import xarray as xr
 
 from stickiness import datasets, error_budget
 from stickiness.error_budget import SOURCES
@@ -23,39 +19,24 @@ NOT = "not reproduced"
 OPEN = "not decided"
 VERDICTS = (REPRODUCED, QUALIFIED, NOT, OPEN)
 
-# A name may stand for several files (a list of datasets) or for a table (a pandas.DataFrame).
-Files = Mapping[str, xr.Dataset]
-
 
 @dataclass(frozen=True, kw_only=True)
 class Finding:
-    """What the files say about a claim.
-
-    Attributes
-    ----------
-    value, claimed : float
-        The value found here, and the paper's value; NaN if the paper gives none.
-    verdict : str
-        One of `VERDICTS`.
-    errors : mapping from str to float
-        Errors of the value by source, each covering 90 %. NaN: the error is not known. A source
-        that does not apply is left out.
-    facts : mapping
-        Further numbers and names for the remark.
-    """
+    """What the files say about a claim."""
 
     value: float
-    verdict: str
-    claimed: float = np.nan
-    errors: Mapping[str, float] = field(default_factory=dict)
-    facts: Mapping[str, Any] = field(default_factory=dict)
+    verdict: str  # one of `VERDICTS`
+    claimed: float = np.nan  # the paper's value, NaN if it gives none
+    # By source, each covering 90 %; NaN if not known. A source that does not apply is left out.
+    errors: dict = field(default_factory=dict)
+    facts: dict = field(default_factory=dict)  # further numbers and names for the remark
 
     def __post_init__(self):
         if unknown := {*self.errors} - {*SOURCES} or {self.verdict} - {*VERDICTS}:
             raise ValueError(f"{unknown} is neither an error source nor a verdict")
 
     @property
-    def uncertainty(self) -> float:
+    def uncertainty(self):
         """All errors in quadrature; NaN if one of them is not known."""
         return float(np.linalg.norm([*self.errors.values()])) if self.errors else 0.0
 
@@ -66,26 +47,19 @@ class Claim:
 
     number: int
     files: tuple[str, ...]  # as the rule names them; the file of the value comes first
-    examine: Callable[[Files], Finding]
+    examine: Callable
 
-    def __call__(self, files: Files) -> Finding:
+    def __call__(self, files):
         """Examine the claim with its files out of all."""
         return self.examine({name: files[name] for name in self.files})
 
 
-def claim(number: int, *files: str) -> Callable[[Callable[[Files], Finding]], Claim]:
-    """Make the decorated function the claim with this number."""
+def claim(number, *files):
     return lambda examine: Claim(number, files, examine)
 
 
-def collect(*topics: ModuleType) -> tuple[Claim, ...]:
-    """Claims of some modules, sorted by number.
-
-    Raises
-    ------
-    ValueError
-        If the numbers are not 1, 2, 3 …, each once.
-    """
+def collect(*topics):
+    """Claims of some modules, sorted by number; ValueError unless they run from 1 on."""
     claims = [found for topic in topics for found in vars(topic).values() if type(found) is Claim]
     claims.sort(key=lambda found: found.number)
     for position, found in enumerate(claims, 1):
@@ -96,22 +70,22 @@ def collect(*topics: ModuleType) -> tuple[Claim, ...]:
     return tuple(claims)
 
 
-def grade(fully: bool, partly: bool) -> str:
+def grade(fully, partly):
     """Verdict on a claim that is true outright, or within limits that the remark states."""
     return REPRODUCED if fully else QUALIFIED if partly else NOT
 
 
-def errors_by_source(data: xr.Dataset, name: str) -> dict[str, float]:
+def errors_by_source(data, name):
     """Errors of a single number by source."""
     return {source: float(error_budget.part(data, name, source)) for source in SOURCES}
 
 
-def value_and_error(data: xr.Dataset, name: str) -> tuple[float, float]:
+def value_and_error(data, name):
     """A single number of a dataset with its total error."""
     return float(data[name]), float(error_budget.total_error(data, name))
 
 
-def describe_cell(data: xr.Dataset) -> dict[str, float]:
+def describe_cell(data):
     """Magnification of a simulated case, and the side of its cell in longest wavelengths."""
     made = datasets.parameters(data)
     return {"zeta": made["magnification"], "waves": made.get("window", 1)}

@@ -1,10 +1,6 @@
 """Claims on what sticks, compared with the adhesion that remains and with experiments."""
 
-from __future__ import annotations
-
 import numpy as np
-import pandas as pd
-import xarray as xr
 from scipy.optimize import brentq
 
 from claims.criterion_claims import (
@@ -15,7 +11,7 @@ from claims.criterion_claims import (
     RANGE,
     WORK_OF_ADHESION,
 )
-from claims.ledger import NOT, OPEN, QUALIFIED, REPRODUCED, Files, Finding, claim, grade
+from claims.ledger import NOT, OPEN, QUALIFIED, REPRODUCED, Finding, claim, grade
 from common.experiment_outcomes import COMPATIBLE, GRADES, MISSED, SILENT, SOME
 from stickiness import criteria, datasets
 from stickiness.remaining import Roughness, predict
@@ -32,7 +28,7 @@ RUBBER = "fuller_tabor/one_MPa"
 
 
 @claim(19, "map")
-def sticky_roughness(files: Files) -> Finding:
+def sticky_roughness(files):
     shortest = datasets.parameters(files["map"])["shortest_over_range"]
     value, low, high = (
         np.array([find_roughness(q0, shortest, sign) for q0 in EXAMPLES]) for sign in (0, -1, 1)
@@ -53,15 +49,12 @@ def sticky_roughness(files: Files) -> Finding:
     )
 
 
-def find_roughness(range_times_q0: float, shortest: float, sign: int) -> float:
-    """h_rms/range at which the wanted share just remains, with roughness down to `shortest`.
-
-    All in units of the range. `sign` -1 or +1: by the low or high limit of the share.
-    """
+def find_roughness(range_times_q0, shortest, sign):
+    """h_rms/range at which the wanted share, or its low or high limit by `sign`, just remains."""
     q1 = 2 * np.pi / shortest
     unit = SelfAffine(hurst=0.8, q0=range_times_q0, q1=q1, h_rms=1.0).elastic_energy()
 
-    def excess(log_h: float) -> float:
+    def excess(log_h):
         h = np.exp(log_h)
         rough = Roughness(h_rms=h, q0=range_times_q0, elastic_energy=unit * h**2)
         return float(np.log(rough.threshold(1.0, sign=sign) / CRYSTAL))
@@ -70,7 +63,7 @@ def find_roughness(range_times_q0: float, shortest: float, sign: int) -> float:
 
 
 @claim(20, "asphalt")
-def sticky_asphalt(files: Files) -> Finding:
+def sticky_asphalt(files):
     ends = [files["asphalt"].sel(end=end) for end in ("rough", "smooth")]
     value, smooth = (find_modulus(end, 0) for end in ends)
     low, high = find_modulus(ends[0], -1), find_modulus(ends[1], 1)
@@ -93,7 +86,7 @@ def sticky_asphalt(files: Files) -> Finding:
     )
 
 
-def find_modulus(surface: xr.Dataset, sign: int) -> float:
+def find_modulus(surface, sign):
     """Modulus [MPa] below which the wanted share of the paper's example remains on a surface."""
     names = ("h_rms", "q0", "elastic_energy")
     rough = Roughness(**{name: float(surface[name]) for name in names})
@@ -101,7 +94,7 @@ def find_modulus(surface: xr.Dataset, sign: int) -> float:
 
 
 @claim(21, "remaining")
-def truncation(files: Files) -> Finding:
+def truncation(files):
     table = files["remaining"]
     ratios = {hurst: compare(table, hurst) for hurst in (0.8, 0.5)}
     smooth, rough = (float(np.mean(ratios[hurst])) for hurst in (0.8, 0.5))
@@ -125,22 +118,15 @@ def truncation(files: Files) -> Finding:
     )
 
 
-def extend(hurst: float) -> float:
-    """Predicted share with all waves up to `BROADEST` over that up to `BROAD`, range to nothing.
-
-    The work of adhesion is the energy of full contact up to `BROAD`. Both spectra have one C0.
-    """
+def extend(hurst):
+    """Predicted share with all waves up to `BROADEST` over that up to `BROAD`, range to nothing."""
     broad = SelfAffine(hurst=hurst, q0=1.0, q1=BROADEST, h_rms=1.0)
     narrow = broad.truncated(BROAD)
-    work = narrow.elastic_energy()
-    shares = [
-        predict(spectrum, adhesion_length=work, range=1e-6).separation
-        for spectrum in (narrow, broad)
-    ]
-    return shares[1] / shares[0]
+    given = {"adhesion_length": narrow.elastic_energy(), "range": 1e-6}
+    return predict(broad, **given).separation / predict(narrow, **given).separation
 
 
-def compare(table: pd.DataFrame, hurst: float) -> list[float]:
+def compare(table, hurst):
     """Energy gained with finer waves over that without, at one work of adhesion, by surface."""
     rows = table[(table.hurst == hurst) & (table.window == 2) & np.isclose(table.zone, ZONE)]
     ratios = []
@@ -153,7 +139,7 @@ def compare(table: pd.DataFrame, hurst: float) -> list[float]:
 
 
 @claim(22, "experiments")
-def stickiness_of_experiments(files: Files) -> Finding:
+def stickiness_of_experiments(files):
     dataset = files["experiments"]
     entries = datasets.parameters(dataset)["experiments"]
     rubber = dataset.sel(case=RUBBER)
@@ -180,7 +166,7 @@ def stickiness_of_experiments(files: Files) -> Finding:
     )
 
 
-def name_case(case: str, experiments: dict) -> str:
+def name_case(case, experiments):
     """Author and label of a case."""
     experiment, name = case.split("/")
     entry = experiments[experiment]

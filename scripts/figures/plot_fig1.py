@@ -108,16 +108,13 @@ def draw_simulation(ax, ensemble, lattice):
 
 
 def draw_measured(ax, measured, colour):
-    """Mean with a dark band for the sampling error and a light one for all errors.
-
-    Points are hollow below the gap next to the edge of contact, where the law by which gaps leave
-    an edge stands in for the grid.
-    """
+    """Mean with a dark band for the sampling error and a light one for all errors."""
     mean = measured.gap_density_mean.where(measured.gap_density_mean > 0)
     sampling, total = plotting.read_errors(measured, "gap_density_mean")
     for error, strength in ((total, 0.15), (sampling, 0.3)):
         low = np.maximum(mean - error, LOWEST_DENSITY)
         plotting.draw_band(ax, mean.gap, low, mean + error, colour, strength)
+    # Below the gap next to the edge of contact the edge law replaces the grid: hollow points.
     resolved = mean.gap >= measured.edge_gap_mean
     small = {"color": colour, "linestyle": "none"}
     ax.plot(mean.gap, mean.where(resolved), marker=".", markersize=3.5, **small)

@@ -5,6 +5,7 @@ from itertools import pairwise
 import numpy as np
 
 from common import plotting
+from common.edge_points import COLUMNS, select_certain
 from common.formatting import number
 from common.plotting import BLACK, GREY, pick_look, state
 from stickiness import datasets
@@ -12,11 +13,6 @@ from stickiness.criteria import equivalent_sphere
 
 LOOK = {"markersize": 3.5, "linestyle": "none", "elinewidth": 0.7}
 WEAKEST_EDGE = 1e-3  # left end of panel B
-COLUMNS = (
-    *("attractive_over_contact", "edge_strength"),
-    *("effect", "over_model", "over_model_total_error"),
-)
-LARGEST_ERROR = 0.25  # of a point that is drawn; covers 90 %
 # Tabor parameters between which ratios are averaged: from about 0.2 on they have a trend.
 BINS = (1e-3, 0.01, 0.05, 0.2, 0.5, 1.0, 1.5, 2.5, 4.0)
 
@@ -37,19 +33,6 @@ def join_surfaces(files):
         name = state(magnification=made["magnification"], q0_h_rms=roughness)
         surfaces.setdefault(name, []).append(data)
     return {name: select_certain(parts) for name, parts in surfaces.items()}
-
-
-def select_certain(files):
-    """Points with an error small enough to say something, by `COLUMNS`: ``(column, point)``."""
-    points = np.array(
-        [
-            np.concatenate(
-                [data[name].transpose(*data.effect.dims).values.ravel() for data in files]
-            )
-            for name in COLUMNS
-        ]
-    )
-    return points[:, points[-1] < LARGEST_ERROR]
 
 
 def draw_weak(ax, points):

@@ -40,10 +40,6 @@ def draw_limits(ax, data):
     ax.set(xscale="log", yscale="log", xlim=(4e-13, 1e-2), ylim=(1, 1e14))
     ax.set(xlabel=r"lowest wave number $\epsilon q_0$", ylabel=f"largest sticky {ROUGHNESS}")
     ax.add_artist(ax.legend(title=plotting.SYMBOLS["adhesion_length"], loc="lower left", ncols=2))
-    ax.legend(handles=make_limit_keys(data), loc="upper right")
-
-
-def make_limit_keys(data):
     texts = {
         EDGES: f"edges, {state(adhesion_length=EMPHASISED)}, with error",
         "h_rms_limit": "DMT limit, $a_V$ as tabulated",
@@ -53,7 +49,8 @@ def make_limit_keys(data):
         "weak_limit": "edges weak above, stronger below",
     }
     keys = [make_key(text, **LOOKS[name]) for name, text in texts.items()]
-    return [*keys[:4], make_dot("the paper's numbers", color=RED, mfc="white"), *keys[4:]]
+    keys.insert(4, make_dot("the paper's numbers", color=RED, mfc="white"))
+    ax.legend(handles=keys, loc="upper right")
 
 
 def draw_angles(ax, data):

@@ -65,10 +65,8 @@ def draw_parametric(ax, surface, power, colour):
 
 
 def draw_measured(ax, surface, power, colour):
-    """Radial averages with their sampling errors, and the fit within its range.
-
-    What the fit extrapolates beyond the instrument's cutoff is no measurement and not drawn.
-    """
+    """Radial averages with their sampling errors, and the fit within its range."""
+    # Beyond the instrument's cutoff the fit is no measurement.
     if "q_cutoff" in surface and float(surface.q1) > float(surface.q_cutoff):
         inside = surface.wave_number.values <= float(surface.q_cutoff) * (1 + 1e-9)
         surface = surface.isel(wave_number=np.flatnonzero(inside))

@@ -91,9 +91,8 @@ def draw_weak(ax, data):
     ax.axhline(1, color=GREY, linewidth=0.9)
     ax.set(xscale="log", yscale="log", xlabel=plotting.RANGE, ylabel=RATIO)
     plotting.write_ticks(ax.yaxis, [0.5, 1, 2, 4, 8])
-    plotting.draw_hollow(
-        ax, [], [], color=GREY, marker="o", markersize=3.5, label="compressed area"
-    )
+    look = {"color": GREY, "marker": "o", "markersize": 3.5, "label": "compressed area"}
+    plotting.draw_hollow(ax, [], [], **look)
     length = float(weak.adhesion_length_over_range)
     ax.set_title(f"weak adhesion, {state(adhesion_length=length)}")
     ax.legend(loc="upper right")

@@ -56,9 +56,8 @@ def main(job):
         draw_theories(panels["D"], cases)
         draw_gamma(panels["E"], gamma)
         draw_windows(panels["F"], cases)
-        panels["A"].figure.legend(
-            handles=make_load_keys(cases), loc="outside upper center", ncols=len(LOADS) + 1
-        )
+        keys = make_load_keys(cases)
+        panels["A"].figure.legend(handles=keys, loc="outside upper center", ncols=len(keys))
 
 
 def read_surface(case):
@@ -83,10 +82,7 @@ def make_load_keys(cases):
 
 
 def draw_ratios(ax, name, cases):
-    """Theory over simulation of one quantity: a row for every case, a point for every load.
-
-    Points are open where the window is too small for the load.
-    """
+    """Theory over simulation: a row for every case, a point for every load, open as in the key."""
     for row, case in enumerate(cases):
         at = case.sel(variant=VARIANT)
         at = at.interp({"range": RANGE}) if name == "attractive_area" else at
@@ -131,27 +127,19 @@ def root_mean_square(name, theory, cases):
     found = []
     for case in cases:
         at = case.sel(variant=theory)
-        if name == "gap_density":
-            found.append(find_density_differences(at))
+        if name == "gap_density":  # at the load of the paper's figures, where simulation knows it
+            one = at.sel(pressure=LOAD, method="nearest")
+            difference, error = one.gap_density_difference, one.gap_density_difference_total_error
+            known = (error < KNOWN_TO * (1 + difference)) & (one.gap < LARGEST_GAP)
+            found.append(difference.where(known).values)
             continue
         at = at.interp({"range": RANGE}) if name == "attractive_area" else at
         found.append(at[f"{name}_difference"].values[case.window_holds.values == 1])
     return 100 * np.sqrt(np.nanmean(np.concatenate(found) ** 2))
 
 
-def find_density_differences(at):
-    """Differences of P(u) at the load of the paper's figures, where simulation knows it."""
-    one = at.sel(pressure=LOAD, method="nearest")
-    difference, error = one.gap_density_difference, one.gap_density_difference_total_error
-    known = (error < KNOWN_TO * (1 + difference)) & (one.gap < LARGEST_GAP)
-    return difference.where(known).values
-
-
 def draw_gamma(ax, gamma):
-    """Gamma with its confidence interval for each correction and quantity.
-
-    Of all quantities together only where they agree, for else it is nobody's gamma.
-    """
+    """Gamma with its confidence interval for each correction and quantity, of all if they agree."""
     count = gamma.sizes["quantity"]
     for index, (correction, label) in enumerate(CORRECTIONS.items()):
         at = gamma.sel(correction=correction)

@@ -18,12 +18,12 @@ from scipy.special import erfinv
 
 from common.config.entries import measurements
 from common.contact_curves import load_curve, measure
+from common.contact_picture import draw_still
 from common.formatting import amount, percent
 from common.job import start
 from common.materials import read_material
 from common.verdicts import LEAST_SHOWN
 from real_surfaces.measured_surface import find_cutoff, read_levelled
-from report.contact_figure import draw_still
 from stickiness import datasets, remaining
 from stickiness.measured import periodic, topography
 from stickiness.plausibility import PlausibilityWarning

@@ -43,14 +43,11 @@ def embed(model):
 
 
 def make_plot(**settings):
-    """Empty plot, as wide as the page; `settings` are further arguments of Bokeh's `figure`.
-
-    Dragging and scrolling stay the page's until a tool is chosen.
-    """
+    """Empty plot, as wide as the page; `settings` are further arguments of Bokeh's `figure`."""
     plot = figure(
         **{"sizing_mode": "stretch_width"} | settings,
         tools="pan,wheel_zoom,box_zoom,reset,save",
-        active_drag=None,
+        active_drag=None,  # dragging and scrolling move the page until a tool is chosen
         active_scroll=None,
         toolbar_location="above",
     )
@@ -65,11 +62,7 @@ def draw_wanted_share(plot):
 
 
 def draw_pairs(verdicts, pairs):
-    """Remaining share of all judged pairs, with its limits, against w/U_full.
-
-    `pairs` are their rows, as `write_report.arrange_pairs` makes them. A line joins both ends of
-    what is known of a surface.
-    """
+    """Remaining share of the `pairs` of `write_report.arrange_pairs`, with limits, by w/U_full."""
     plot = make_plot(
         height=460,
         x_axis_type="log",
@@ -109,10 +102,7 @@ def draw_pairs(verdicts, pairs):
 
 
 def locate(pair):
-    """Ends of what is known, the less share first: w/U_full, share [%] and its bar.
-
-    The bar of the first reaches down to the low limit, the bar of the last up to the high one.
-    """
+    """Ends of what is known, the less share first: w/U_full, share [%] and its bar."""
     ratios = np.clip(pair.energy_ratio.values, LEAST_RATIO, MOST_RATIO)
     ends = sorted(zip(100 * pair.remaining.values, ratios, strict=True))
     ends = [{"ratio": ratio, "share": share, "low": share, "high": share} for share, ratio in ends]

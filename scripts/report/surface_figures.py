@@ -108,11 +108,7 @@ def draw_measured(ax, surface, q, low, high):
     text = f"fit: $H$ = {float(surface.hurst):.2f} ± {float(surface.hurst_total_error):.2f}"
     text += ", roll-off" if "q_rolloff" in surface else ""
     ax.plot(q, fit, color=BLACK, linewidth=0.9, zorder=5, label=text)
-    draw_limits(ax, surface)
-
-
-def draw_limits(ax, surface):
-    """The instrument's cutoff and, if found, the end of the plateau."""
+    # The instrument's cutoff and, if found, the end of the plateau.
     look = {"color": COLOURS[1], "linewidth": 0.9, "linestyle": ":"}
     ax.axvline(float(surface.q_cutoff), **look)
     ax.plot([], [], **look, label="cutoff (found)" if int(surface.cutoff_detected) else "cutoff")
@@ -131,10 +127,7 @@ class Curve(NamedTuple):
 
 
 def find_curves(pairs, labels):
-    """Curves of the materials that are judged, by axis; along the rate where the modulus varies.
-
-    `labels` are those of the materials in order.
-    """
+    """Curves of the judged materials by axis, in the order of the `labels` by name."""
     judged = [name for name in labels if int(pairs.verdict.sel(material=name)) != NOT_JUDGED]
     found = {}
     for axis in TABS:
@@ -177,9 +170,7 @@ def follow(axis, pair):
 
 def draw_interactive(found):
     """Tabs with a figure for each axis."""
-    panels = [
-        TabPanel(title=TABS[axis], child=draw_axis(axis, curves)) for axis, curves in found.items()
-    ]
+    panels = [TabPanel(title=TABS[axis], child=draw_axis(axis, found[axis])) for axis in found]
     return Tabs(tabs=panels, sizing_mode="stretch_width")
 
 
@@ -194,10 +185,7 @@ def draw_axis(axis, curves):
         y_axis_label=REMAINS,
     )
     draw_wanted_share(plot)
-    items = [
-        (one.label, draw_curve(plot, one, visible=place < SHOWN))
-        for place, one in enumerate(curves)
-    ]
+    items = [(one.label, draw_curve(plot, one, k < SHOWN)) for k, one in enumerate(curves)]
     plot.add_layout(Legend(items=items, click_policy="hide", **LEGEND), "below")
     return plot
 

@@ -120,12 +120,9 @@ def gather_facts(pair, work_of_adhesion):
 
 
 def describe_surface(surface):
-    """Rms height, rms slope and C0 at H = 0.8 of a surface, rounded to what is known of them.
-
-    Both ends of a measured surface are one standard error off; errors shown cover 90 %.
-    """
+    """Rms height, rms slope and C0 at H = 0.8 of a surface, rounded to what is known of them."""
     height, slope = (surface[name].values for name in ("h_rms", "rms_slope"))
-    if "draw" in surface.dims:
+    if "draw" in surface.dims:  # both ends are one standard error off; errors shown cover 90 %
         texts = {
             "height": quantity_with_error(height.mean(), COVERS * np.ptp(height) / 2, "m"),
             "slope": with_error(slope.mean(), COVERS * np.ptp(slope) / 2),

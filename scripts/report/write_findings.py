@@ -6,9 +6,9 @@ import pandas as pd
 from common import remaining_table
 from common import tradeoff_table as summary
 from common.conventions import VARIANT, at_load
+from common.edge_points import select_certain
 from common.job import start
 from common.templates import write_page
-from figures.plot_fig10 import select_certain
 from stickiness import datasets, error_budget
 from stickiness.criteria import equivalent_sphere
 from stickiness.criteria.pair import WORDS

@@ -250,11 +250,7 @@ def compare_theory(comparisons):
 
 
 def read_run_times(folder):
-    """Jobs, seconds, processor seconds and memory [MB] of each rule, from Snakemake's benchmarks.
-
-    The report's benchmark, if there is one, is of an earlier run and left out. So are numbers of
-    runs that were too short to tell.
-    """
+    """Jobs, times [s] and memory [MB] of each rule, from Snakemake's benchmarks."""
     runs = [
         pd.read_csv(path, sep="\t", na_values=["-"]).assign(
             rule=path.relative_to(folder).parts[0].removesuffix(".tsv")
@@ -263,20 +259,13 @@ def read_run_times(folder):
     ]
     if not runs:
         return pd.DataFrame(columns=["jobs", "total", "processor", "longest", "memory"])
+    # A benchmark of the report is of an earlier run. Runs too short to tell have no numbers.
     table = pd.concat(runs).query("rule != 'write_report'")
     numbers = ["s", "cpu_time", "max_rss"]
     table[numbers] = table[numbers].apply(pd.to_numeric, errors="coerce")
-    return (
-        table.groupby("rule")
-        .agg(
-            jobs=("s", "size"),
-            total=("s", "sum"),
-            processor=("cpu_time", "sum"),
-            longest=("s", "max"),
-            memory=("max_rss", "max"),
-        )
-        .sort_values("total", ascending=False)
-    )
+    columns = {"jobs": ("s", "size"), "total": ("s", "sum"), "processor": ("cpu_time", "sum")}
+    columns |= {"longest": ("s", "max"), "memory": ("max_rss", "max")}
+    return table.groupby("rule").agg(**columns).sort_values("total", ascending=False)
 
 
 def list_versions(files):

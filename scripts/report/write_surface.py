@@ -23,6 +23,8 @@ from stickiness.statistics import COVERS
 MANY_MISSING = 0.05  # share of the points from which the reader is told at once
 MOST_SLOPE = 1.0  # rms, up to which slopes count as small
 QUOTED_RANGE = 0.03  # over h_rms, at which a_V of the measured heights is quoted
+COMPARED = ("adhesive_contact_area", "area_fraction", "adhesive_attractive_area")
+COMPARED += ("adhesive_mean_gap", "mean_gap")
 MODEL_TOO_HIGH = 0.05  # remaining share below which the model exceeds simulations
 
 
@@ -124,10 +126,7 @@ def list_rates(solid, pair):
 
 
 def describe_contact(files, pairs, mine):
-    """Simulated contact and pull-off of the measured heights; None where there is no map.
-
-    `mine` are the entries of the user's materials.
-    """
+    """Simulated contact and pull-off of the measured heights; None where there is no map."""
     contact, pull_off = datasets.read(files.contact), datasets.read(files.pull_off)
     if contact.attrs["left_out"]:
         return None
@@ -225,39 +224,31 @@ def describe_load(at):
 
 def describe_adhesive_load(at):
     """Areas and mean gap with full adhesion beside those without, each with its error."""
-    names = ("adhesive_contact_area", "area_fraction", "adhesive_attractive_area")
-    names += ("adhesive_mean_gap", "mean_gap")
     applied = at.applied_pressure.values
     return {
         "pressure": float(at.pressure),
         "applied": quantity(applied.min(), applied.max(), "Pa"),
-        "values": [combine_ways(at[name]) for name in names],
+        "values": [combine_ways(at[name]) for name in COMPARED],
         "residual": float(at.adhesive_residual.max()),
     }
 
 
 def combine_ways(values):
-    """Mean over both ways to make heights periodic, and its error.
-
-    The error is half the difference of the two and the change from half the resolution.
-    """
+    """Mean over both ways to make heights periodic; its error, also by half the resolution."""
     fine = values.isel(resolution=-1)
     change = values.diff("resolution").isel(resolution=-1).mean("periodisation")
     return float(fine.mean()), float(np.hypot(np.ptp(fine.values) / 2, change))
 
 
 def find_onset(bem, entry, surface):
-    """a_V at a material's range on the pressed heights, and the onset that follows, as texts.
-
-    There is no a_V where the range lies outside the gaps computed, and no onset where it is below
-    the gap of the pixels next to the contact, which the grid does not resolve.
-    """
+    """a_V at a material's range on the pressed heights, and the onset that follows, as texts."""
     solid = read_material(entry)
     at = bem.sel(pressure=LOAD, method="nearest")
     h, slope = (float(np.sqrt(np.prod(surface[name].values))) for name in ("h_rms", "rms_slope"))
     ratio = solid.range / h
     texts = {"a_v": NOTHING, "margin": NOTHING, "resolved": False}
     texts |= {"material": entry["label"], "range": number(ratio, 2)}
+    # No a_V outside the gaps computed; no onset for ranges that the grid does not resolve.
     if not at["range"][0] <= ratio <= at["range"][-1]:
         return texts
     value, error = combine_ways(at.a_v.interp({"range": ratio}))

@@ -15,17 +15,13 @@ MEANS = (4, 8, 16, 32)  # seeds that rows are given for
 
 @dataclass(frozen=True)
 class Measured:
-    """A quantity of full adhesion along settings, seed and pressure, and in the DMT limit.
-
-    `seconds` is the processor time of full adhesion. `modelled` says whether an error model is
-    fitted to it: for 1/kappa_ad to the weakest adhesion of each range, which has the largest error.
-    """
+    """A quantity of full adhesion along settings, seed and pressure, and in the DMT limit."""
 
     name: str
     full: xr.DataArray
     limit: xr.DataArray
-    seconds: xr.DataArray
-    modelled: bool = True
+    seconds: xr.DataArray  # processor time of full adhesion
+    modelled: bool = True  # whether an error model is fitted to it
 
 
 def list_states(measured):
@@ -35,6 +31,7 @@ def list_states(measured):
         one = measured.isel(point=k)
         same_range = measured.range_over_h_rms == one.range_over_h_rms
         weakest = measured.adhesion_length_over_range.where(same_range).min()
+        # Of each range the weakest adhesion is modelled, which has the largest error.
         fall = one.external_pressure / one.repulsive_area * one.area_alone / one.pressure
         yield Measured(
             f"inverse_kappa_ad_{float(one.range_over_h_rms):g}",
@@ -57,12 +54,8 @@ def list_pull_offs(measured):
 
 
 def find_threshold(external):
-    """Find l_a/range at which an external pressure vanishes, NaN if it does so nowhere.
-
-    There 1/kappa_ad is 1/2 whatever the area; E* at given work of adhesion and range is inversely
-    proportional to it. Between the adhesion lengths of the range that has the most of them, along
-    their logarithm.
-    """
+    """Find l_a/range at which an external pressure vanishes, NaN if it does so nowhere."""
+    # Between the adhesion lengths of the range that has the most of them, along their logarithm.
     ranges, counts = np.unique(external.range_over_h_rms, return_counts=True)
     chosen = external.isel(
         point=np.flatnonzero(external.range_over_h_rms == ranges[counts.argmax()])
@@ -156,12 +149,9 @@ def tabulate_seeds(one, usual, unit, records):
 
 
 def measure_scatter(full, twin):
-    """Standard deviation of single surfaces over the mean, and the share a control leaves of it.
-
-    The control is the DMT limit of the same seeds on the coarsest grid, its mean taken as known;
-    its coefficient is a slope over the seeds, which leaves two degrees of freedom less. NaN where
-    a window closes with any seed.
-    """
+    """Standard deviation of single surfaces over the mean, and the share a control leaves of it."""
+    # The control's coefficient is a slope over the seeds, which costs two degrees of freedom. NaN
+    # where a window closes with any seed.
     off, of_twin = (x - x.mean("seed", skipna=False) for x in (full, twin))
     slope = (off * of_twin).sum("seed", skipna=False) / (of_twin**2).sum("seed", skipna=False)
     count = full.sizes["seed"]

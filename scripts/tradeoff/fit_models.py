@@ -40,25 +40,19 @@ def fit_least_squares(features, values):
 
 
 def fit_noisy(features, values, noise):
-    """Fit the standard deviation of values of either sign that are known with some noise.
-
-    Values are taken as normal about zero with the variances of the model and of the noise, so that
-    few realisations do not make an error seem larger than it is. The spread compares each value
-    with a model fitted without its surface.
-    """
-    surfaces = features[:, 1:4]
-    every, ratio = np.ones(len(values), bool), np.empty(len(values))
+    """Fit the standard deviation of values of either sign that are known with some noise."""
+    # The spread compares each value with a model fitted without its surface.
+    surfaces, ratio = features[:, 1:4], np.empty(len(values))
     for surface in np.unique(surfaces, axis=0):
         here = (surfaces == surface).all(axis=1)
-        others = every if here.all() else ~here
-        model = np.exp(features[here] @ maximise_likelihood(features, values, noise, others))
-        ratio[here] = np.abs(values[here]) / np.hypot(model, noise[here])
-    return make_model(maximise_likelihood(features, values, noise, every), ratio)
+        others = here if here.all() else ~here
+        fitted = maximise_likelihood(features[others], values[others], noise[others])
+        ratio[here] = np.abs(values[here]) / np.hypot(np.exp(features[here] @ fitted), noise[here])
+    return make_model(maximise_likelihood(features, values, noise), ratio)
 
 
-def maximise_likelihood(features, values, noise, chosen):
-    """Coefficients of the features that are likeliest, by the chosen values."""
-    features, values, noise = features[chosen], values[chosen], noise[chosen]
+def maximise_likelihood(features, values, noise):
+    """Likeliest coefficients for values that are normal about zero by the model and the noise."""
     varied = find_varied(features)
     centre = np.where(np.arange(varied.sum()) > 0, features[:, varied].mean(0), 0.0)
     apart = features[:, varied] - centre

@@ -1,9 +1,7 @@
 """Solve full adhesion on the same realisations with every grid and tolerance, and time it.
 
 A few realisations are solved with every setting, more on the usual grid and coarser ones alone:
-those tell how the quantities scatter, and how much of the scatter is left by their control variate,
-the DMT limit on the coarsest grid. A press that separates from a load, as in the loops of the
-configuration, gives the pull-off.
+those tell how the quantities scatter. A press that separates from a load gives the pull-off.
 """
 
 from itertools import product

@@ -39,24 +39,20 @@ FINEST_TOLERANCE = 1e-12  # the reference of the other tolerances
 def main(job):
     params, surface, counts = job.params, job.params.case, job.params.counts
     ranges, usual = logarithmic_grid(params.gaps), params.tolerance
-    loads, spectrum, length = (
-        np.array(params.pressures),
-        model_spectrum(surface),
-        cell_size(surface),
-    )
+    loads, length = np.array(params.pressures), cell_size(surface)
     fine, coarse, described = (
         range(params.first_seed + start, params.first_seed + start + counts[kind])
         for kind, start in (("fine", 0), ("coarse", SOLVED_FROM), ("described", DESCRIBED_FROM))
     )
 
     def solve(pixels, tolerance, seed):
-        def solve_loads():
-            heights, finer = measuring.make_heights(surface, pixels, seed)
-            slope = synthesis.moments(finer, length).rms_slope
-            curve = load_curve(heights, length, loads, ranges, tolerance)
-            return curve.assign(rms_slope=slope)
+        heights, finer = measuring.make_heights(surface, pixels, seed)
+        slope = synthesis.moments(finer, length).rms_slope
+        curve = load_curve(heights, length, loads, ranges, tolerance)
+        return curve.assign(rms_slope=slope)
 
-        curve, seconds = measuring.time_task(solve_loads)
+    def solve_timed(*setting):
+        curve, seconds = measuring.time_task(lambda: solve(*setting))
         return curve.assign(seconds=seconds)
 
     # Only a few seeds are solved on the finest grid, which is the reference of the others.
@@ -68,21 +64,17 @@ def main(job):
         *product([params.at_pixels], [*params.tolerances, FINEST_TOLERANCE], few),
         *product([COARSE], [usual], coarse),
     ]
-    dataset = measuring.record(wanted, solve)
-    waves, seconds = zip(
-        *(
-            measuring.time_task(lambda s=seeds: multilevel.descriptors(spectrum, length, s))
-            for seeds in (coarse, described)
-        ),
-        strict=True,
-    )
-    per_seed = [
-        taken / len(seeds) for taken, seeds in zip(seconds, (coarse, described), strict=True)
-    ]
+    dataset = measuring.record(wanted, solve_timed)
+
+    def describe(seeds):
+        return multilevel.descriptors(model_spectrum(surface), length, seeds)
+
+    waves, seconds = measuring.time_task(lambda: describe(coarse))
+    other_waves, other_seconds = measuring.time_task(lambda: describe(described))
     dataset = dataset.assign(
-        long_waves=(("coarse_seed", "descriptor"), waves[0]),
-        other_long_waves=(("other", "descriptor"), waves[1]),
-        describing_seconds=np.mean(per_seed),
+        long_waves=(("coarse_seed", "descriptor"), waves),
+        other_long_waves=(("other", "descriptor"), other_waves),
+        describing_seconds=np.mean([seconds / len(coarse), other_seconds / len(described)]),
     ).assign_coords(coarse_seed=coarse, other=described, descriptor=list(multilevel.DESCRIPTORS))
     measuring.write(
         dataset[[name for name in TEXTS if name in dataset.data_vars]],

@@ -52,10 +52,7 @@ def select(measured, pixels, tolerance):
 
 
 def derive_columns(solved):
-    """Columns of all quantities that have error models, from solutions.
-
-    P(u) is taken at all gaps that its error is measured over, not only where it is quoted.
-    """
+    """Columns of all quantities with error models; P(u) at all gaps that its error covers."""
     contact = derive(solved, FIT_MEASURED)
     found = {name: quote(name, contact) for name in columns_of(MODELLED)}
     return found | {"gap_distribution": contact.gap_density.sel(gap=slice(*GAPS_MEASURED))}

@@ -79,11 +79,7 @@ def cheapest_adhesive(problem, accuracy):
 
 
 def preset_by_rule(models, asked, name, surface, descriptor_seeds, free=False):
-    """Cheapest settings for the error of a preset in every quantity.
-
-    `asked` is the entry ``presets`` of the campaign, `surface` the model surface that it names.
-    With `free` the quantities of full adhesion are left out.
-    """
+    """Cheapest settings for the error of a preset; `free` of the quantities of full adhesion."""
     where, least = (models, Surface.of(surface), asked["pressures"]), LEAST
     if not free:
         wanted = asked["adhesive"]

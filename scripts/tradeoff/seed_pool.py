@@ -19,37 +19,18 @@ DESCRIBED_SEEDS = 2048
 
 @dataclass
 class SeedPool:
-    """Solved seeds of one surface, the last axis running over loads and entries of quantities.
+    """Solved seeds of one surface; an entry is one load of one column of a quantity."""
 
-    Attributes
-    ----------
-    fine : dict of (seed, entry) array
-        By pixels per shortest wavelength, 2 included.
-    coarse : (seed, entry) array
-        More seeds on 2 pixels.
-    controls, elsewhere : (seed, descriptor) array
-        Descriptors of the long waves of the coarse seeds and of those that are not solved.
-    pressure, quantity : (entry,) array
-        What the entries are.
-    truth, truth_error : (entry,) array
-        Best estimate of the mean over all surfaces, on the finest grid, and its standard error.
-    fine_mean : (entry,) array
-        Mean of the fine seeds alone, on the finest grid, about which plain means drawn from them
-        scatter.
-    costs : dict
-        Of all loads of one seed, by pixels, as ``"coarse"``, and of the waves ``"described"``.
-    """
-
-    fine: dict
-    coarse: np.ndarray
-    controls: np.ndarray
-    elsewhere: np.ndarray
-    pressure: np.ndarray
+    fine: dict  # (seed, entry), by pixels per shortest wavelength, 2 included
+    coarse: np.ndarray  # (seed, entry): more seeds on 2 pixels
+    controls: np.ndarray  # (seed, descriptor): long waves of the coarse seeds
+    elsewhere: np.ndarray  # (seed, descriptor): long waves of seeds that are not solved
+    pressure: np.ndarray  # of the entries
     quantity: np.ndarray
-    truth: np.ndarray
-    truth_error: np.ndarray
-    fine_mean: np.ndarray
-    costs: dict = field(default_factory=dict)
+    truth: np.ndarray  # best estimate of the mean over all surfaces, on the finest grid
+    truth_error: np.ndarray  # its standard error
+    fine_mean: np.ndarray  # mean of the fine seeds alone, about which their plain means scatter
+    costs: dict = field(default_factory=dict)  # of all loads of a seed, by pixels or kind
 
     def by_quantity(self, errors):
         """Root mean square over the entries of each quantity at each load; leading axes stay."""
@@ -71,14 +52,11 @@ class SeedPool:
 
 
 class Resampling:
-    """Repeated estimates from random seeds of a pool.
-
-    Seeds are drawn with replacement: a mean of few of them then scatters about that of all as it
-    would about that of the whole ensemble. Within one repetition more seeds hold all those of
-    fewer, as the rounds of a case do.
-    """
+    """Repeated estimates from random seeds of a pool."""
 
     def __init__(self, pool, repetitions=REPETITIONS, described=DESCRIBED_SEEDS):
+        # With replacement: means of few seeds then scatter about the mean of all as they would
+        # about the mean of the whole ensemble. More seeds include those of fewer, as in a case.
         rng = np.random.default_rng(1)
         self.pool, self.levels = pool, {}
         count = min(len(fine) for fine in pool.fine.values() if len(fine) >= FEWEST_FINE)
@@ -93,13 +71,12 @@ class Resampling:
         mean = fine.mean(0)
         if count := settings.coarse_seeds:
             if count not in self.levels:
-                self.levels[count] = self.average_coarse(count)
+                self.levels[count] = self._average_coarse(count)
             twin, truth = pool.fine[COARSE][chosen], pool.truth
             mean = multilevel.corrected_mean(fine, twin, self.levels[count]).mean
         return pool.by_quantity(mean / truth - 1)
 
-    def average_coarse(self, count):
-        """Means of so many coarse solutions, for all repetitions."""
+    def _average_coarse(self, count):
         pool = self.pool
         found = [
             multilevel.controlled_mean(
@@ -107,17 +84,15 @@ class Resampling:
             )
             for many, others in zip(self.many, self.others, strict=True)
         ]
-        mean, error = (
-            np.array([vars(one)[k] for one in found]) for k in ("mean", "standard_error")
-        )
+        mean, error = (np.array([getattr(e, k) for e in found]) for k in ("mean", "standard_error"))
         return multilevel.Estimate(mean, error, np.empty(0))
 
 
 def make_pool(measured):
     """Make the pool of a file of `measure_contact`, and find its errors by the grid.
 
-    Its finest grid, with fewer seeds than the others, is the reference of the truth. The errors are
-    relative, of the mean of every entry, with their standard error, by pixels.
+    The finest grid, which has fewer seeds, is the reference. The relative errors of the mean of
+    every entry come with their standard error, by pixels.
     """
     usual = datasets.parameters(measured)["tolerance"]
     is_fine = (measured.seed < SOLVED_FROM).values

@@ -93,11 +93,7 @@ def main(job):
 
 
 def validate(models, paths, accuracies):
-    """Let cases ask for accuracies on surfaces that the models were not fitted to.
-
-    Settings are chosen by the error models, and seeds are drawn from a pool of solved ones. Their
-    mean is compared with that of all.
-    """
+    """Compare means from chosen settings with the truth on surfaces that nothing was fitted to."""
     rows = []
     for path in paths:
         measured = datasets.read(path)

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
+from common import contact_picture
 from common.materials import Material, read_material
 from real_surfaces import (
     analyse_surface,
@@ -230,7 +231,7 @@ def test_pressures_are_given_for_deep_and_smooth_solids(pressed):
 def test_both_figures_show_the_contact_and_the_curve(pressed, pulled, tmp_path):
     nothing = xr.Dataset(attrs={"left_out": "it is dark"})
     for shown in ((pressed, pulled), (pressed, nothing), (nothing, nothing)):
-        contact_figure.draw_still(*shown, tmp_path / "still.png")
+        contact_picture.draw_still(*shown, tmp_path / "still.png")
         assert (tmp_path / "still.png").read_bytes().startswith(b"\x89PNG")
     codes, widest = contact_figure.code_maps(pressed)
     assert codes.shape == (8, 64, 64)

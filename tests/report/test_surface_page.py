@@ -9,13 +9,14 @@ import pytest
 import xarray as xr
 from helpers.pages import Page, make_job
 
+from common import contact_picture
 from common.formatting import number, with_error
 from common.materials import read_material
 from common.verdicts import find_limits
 from criteria import judge_surface, judging, pair_roughness
 from criteria.classification import find_doubts
 from real_surfaces import analyse_surface, contact_measured, picture_contact
-from report import contact_figure, surface_figures, write_surface
+from report import surface_figures, write_surface
 from report.table_rows import describe_pair
 from stickiness import datasets, surface
 from stickiness.criteria.pair import NOT_JUDGED
@@ -374,7 +375,7 @@ def save_pictures(folder, contact, pull_off):
     made = {"surface": "plate", "material": "tape", **TAPE}
     datasets.write(pull_off, paths["pull_off"], title="a", parameters=made)
     still = str(folder / "plate_contact.png")
-    contact_figure.draw_still(contact, pull_off, still)
+    contact_picture.draw_still(contact, pull_off, still)
     return paths | {"contact_figure": still}
 
 

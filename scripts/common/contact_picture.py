@@ -1,0 +1,90 @@
+"""Picture of contact and pull-off of measured heights, and what its interactive form shares."""
+
+import numpy as np
+from matplotlib import colormaps
+from matplotlib.cm import ScalarMappable
+from matplotlib.colors import ListedColormap, Normalize, to_hex
+
+from common import plotting
+from common.formatting import percent, unit_for
+from common.plotting import BLUE, GREY, RED
+
+CONTACT = 255  # code of a pixel in contact; lower ones are gaps
+GAPS = [to_hex(colormaps["bone_r"](code / (CONTACT - 1))) for code in range(CONTACT)]
+WAYS = ((0, "approach", BLUE), (1, "separation", RED))
+PRINTED_LOADS = 4  # beside one another
+
+
+def draw_still(contact, pull_off, output):
+    """Write contact at some loads above the curve of tension, or why nothing was simulated."""
+    if contact.attrs["left_out"]:
+        with plotting.open_figure([output], [["text"]], 0.6) as panels:
+            panels["text"].axis("off")
+            reason = f"Not simulated: {contact.attrs['left_out']}."
+            panels["text"].text(0, 0.5, reason, va="center", wrap=True)
+        return
+    codes, widest = code_maps(contact)
+    (width, height), unit = sides_of(contact)
+    ratios = [min(max(1.5 * height / width, 0.8), 3.0), 2.2]
+    rows = ["ABCD", ".EE."]
+    if pull_off.attrs["left_out"]:
+        rows, ratios = rows[:1], ratios[:1]
+    heights = {"height_ratios": ratios}
+    with plotting.open_figure([output], ";".join(rows), sum(ratios) + 0.9, **heights) as panels:
+        loads = np.linspace(1, len(codes) - 1, PRINTED_LOADS).round().astype(int)
+        look = {"cmap": ListedColormap([*GAPS, RED]), "vmin": 0, "vmax": CONTACT}
+        look |= {"extent": [0, width, 0, height], "origin": "lower", "interpolation": "nearest"}
+        for letter, index in zip(rows[0], loads, strict=True):
+            panels[letter].imshow(codes[index], **look)
+            area = percent(contact.area_fraction[index])
+            panels[letter].set_title(f"{area} contact", loc="right")
+            panels[letter].set_xlabel(f"x [{unit}]")
+            panels[letter].tick_params(labelleft=letter == "A")
+        per_gap, unit = unit_for(widest, "m")
+        scale = ScalarMappable(Normalize(0, widest * per_gap), ListedColormap(GAPS))
+        axes = [panels[letter] for letter in rows[0]]
+        axes[0].figure.colorbar(scale, ax=axes, shrink=0.8, label=f"gap [{unit}]")
+        if "E" in panels:
+            curves, gap, tension, limits = follow_tension(pull_off)
+            for name, colour, curve in curves:
+                panels["E"].plot(curve["gap"], curve["tension"], color=colour, label=name)
+            panels["E"].axhline(0, color=GREY, linewidth=0.7)
+            panels["E"].set(ylim=limits, xlabel=gap, ylabel=tension)
+            panels["E"].legend(loc="lower right")
+
+
+def code_maps(contact):
+    """Code of every pixel by load, y and x, and the gap [m] of the highest code of gaps."""
+    # A pixel is a block of two by two points, and in contact if half of them are.
+    widest = float(contact.gap.isel(pressure=0).quantile(0.995))
+    codes = np.rint((CONTACT - 1) * np.clip(contact.gap / widest, 0, 1))
+    codes = codes.where(contact.contact < 0.5, CONTACT).transpose("pressure", "y", "x")
+    return codes.values.astype("u1"), widest
+
+
+def sides_of(dataset):
+    """Sides of the map along x and y in a unit that suits them; positions are pixel centres."""
+    sides = [float(dataset[axis][0] + dataset[axis][-1]) for axis in ("x", "y")]
+    factor, unit = unit_for(max(sides), "m")
+    return [factor * side for side in sides], unit
+
+
+def follow_tension(pull_off):
+    """Curves of tension against gap with their names and colours, labels, and limits of tension."""
+    per_gap, gap = unit_for(float(pull_off.mean_gap.max()), "m")
+    largest = float(pull_off.mean_traction.max())
+    per_tension, tension = unit_for(max(largest, 1.0), "Pa")
+    curves = []
+    for way, name, colour in WAYS:
+        states = pull_off.isel(state=pull_off.separating.values == way)
+        columns = {
+            "gap": states.mean_gap.values * per_gap,
+            "tension": states.mean_traction.values * per_tension,
+            "contact": list(map(percent, states.contact_area.values)),
+            "attracted": list(map(percent, states.attracted_area.values)),
+        }
+        curves.append((name, colour, columns))
+    # The squeeze may press far harder than the surfaces attract each other.
+    lowest = max(-2 * largest, 1.1 * float(pull_off.mean_traction.min()))
+    limits = lowest * per_tension, 1.3 * largest * per_tension
+    return curves, f"mean gap [{gap}]", f"mean tension [{tension}]", limits
