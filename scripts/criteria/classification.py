@@ -19,10 +19,9 @@ def find_doubts(materials, surfaces, material_surfaces):
     """Why pairs are not judged, for reasons of either surface; empty for those that are."""
 
     def find_reasons(material, surface):
-        both = [
-            one for one in (surface, material_surfaces.get(material.surface)) if one is not None
-        ]
-        return "\n".join(filter(None, (one.attrs.get("not_judged") for one in both)))
+        both = (surface, material_surfaces.get(material.surface))
+        given = (one.attrs.get("not_judged") for one in both if one is not None)
+        return "\n".join(filter(None, given))
 
     doubts = [
         [find_reasons(m, surface) for surface in surfaces.values()] for m in materials.values()

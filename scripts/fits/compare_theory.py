@@ -93,7 +93,7 @@ def distance(simulated, theory):
     """
     mean, sampling = ensemble_mean(cumulative(simulated), coarse(simulated, cumulative))
     mean = mean + sum(simulated.get(f"{name}_{EXTRAPOLATION}", 0) for name in PARTS)
-    difference = mean - (theory.area_fraction + theory.attractive_area)
+    difference = mean - cumulative(theory)
     side = np.sign(difference)
 
     def moved(solved):

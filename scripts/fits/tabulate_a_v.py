@@ -168,11 +168,9 @@ def jackknife(points, error, loads, largest):
     cases = np.unique(points.case)
     if len(cases) == 1:
         return 0.0
-    means = []
-    for case in cases:
-        kept = (points.case != case).values
-        rest = points.isel(point=kept), error.isel(point=kept)
-        means.append(fit(*rest, loads, largest)[0])
+    without = [(points.case != case).values for case in cases]
+    rest = [(points.isel(point=kept), error.isel(point=kept)) for kept in without]
+    means = [fit(*each, loads, largest)[0] for each in rest]
     return np.sqrt((len(cases) - 1) * xr.concat(means, "case").var("case"))
 
 

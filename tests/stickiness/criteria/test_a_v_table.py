@@ -23,8 +23,7 @@ RATIO, RATIO_ERROR = 1.1, 0.05
 
 @pytest.fixture(scope="module")
 def table():
-    theory = persson_table.finite(AXES, RANGES, GAMMA)
-    theory = theory.merge(persson_table.infinite(AXES, RANGES, GAMMA))
+    theory = persson_table.tabulate(AXES, RANGES, GAMMA)
     theory["quadrature_error"] = persson_table.quadrature_error(AXES, RANGES, GAMMA)
     dataset = theory.isel(variant=0).merge(tabulate_a_v.reach(theory))
     return dataset.merge(tabulate_a_v.simulated([comparison(RATIO), comparison(RATIO)]))
