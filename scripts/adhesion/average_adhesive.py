@@ -137,9 +137,8 @@ def average(states, full, ensemble, adhesion, made):
     states = add_slopes(states, ensemble, linear)
     # A mean over the seeds that happen to be solved would leave out the stickiest ones.
     reported = whole & (wide | ~full)
-    resolved = dict.fromkeys(STATES | SLOPES, reported)
-    resolved |= {name: (reported | ~linear).all("pressure") for name in FITS}
-    resolved |= dict.fromkeys(RATIOS, reported & full)
+    resolved = dict.fromkeys(STATES | SLOPES, reported) | dict.fromkeys(RATIOS, reported & full)
+    resolved |= dict.fromkeys(FITS, (reported | ~linear).all("pressure"))
     # The DMT limit of the coarsest solutions: of these seeds, and of many more.
     limit = partial(quantities_of, adhesion, in_limit)
     controls = coarse(ensemble, limit)
