@@ -50,10 +50,8 @@ def compare(asked, load, table, constant):
     heights, zetas = (logarithmic_grid(asked[key]) for key in ("h_rms_over_range", "magnification"))
     one_zeta = np.full_like(heights, asked["quoted_magnification"])
     one_height = np.full_like(zetas, asked["quoted_h_rms_over_range"])
-    over_h, over_zeta = (
-        find_thresholds(asked, h, zeta, load, table, constant)
-        for h, zeta in ((heights, one_zeta), (one_height, zetas))
-    )
+    over_h = find_thresholds(asked, heights, one_zeta, load, table, constant)
+    over_zeta = find_thresholds(asked, one_height, zetas, load, table, constant)
     return xr.Dataset(
         {
             "against_roughness": (("criterion", "h_rms_over_range"), list(over_h.values())),

@@ -4,11 +4,9 @@ Everything that is not known is swept: each input between its plausible ends, th
 middle, and all corners. Corners matter where two unknown inputs move a prediction the same way.
 """
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cache, cached_property
 from itertools import product
-from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -131,7 +129,7 @@ class Observation:
     place: str  # experiment and case
     published: bool
     quantity: str
-    observed: Mapping[str, Any]  # as the configuration states it
+    observed: dict  # as the configuration states it
     low: float  # limits of what was observed, or of the factor of the relation; 0 or 1 of "sticks"
     high: float
     inputs: dict[str, NDArray]
@@ -310,10 +308,9 @@ def find_observed(observation, pair):
 
 def agrees(observation, observed, least, most):
     """Whether limits of the prediction overlap with those observed, by combination."""
-    low, high = observed
     if observation.quantity == "sticks":
         return most >= DEFAULT_SHARE if observation.low else least < DEFAULT_SHARE
-    return (most >= low) & (least <= high)
+    return (most >= observed[0]) & (least <= observed[1])
 
 
 def summarise(right):
