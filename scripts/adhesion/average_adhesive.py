@@ -15,13 +15,7 @@ import numpy as np
 import xarray as xr
 from scipy import special
 
-from adhesion.dmt_limit import (
-    find_linear,
-    fit_slope,
-    linearity_error,
-    quantities_of,
-    write_limit,
-)
+from adhesion.dmt_limit import find_linear, fit_slope, linearity_error, quantities_of, write_limit
 from common import conventions
 from common.adhesion_sets import AXES, MISSING, OUTSIDE, solver_error
 from common.conventions import LINEAR_UP_TO
@@ -99,7 +93,10 @@ def main(job):
         states = read_all(job.input.realisations, ["external_pressure"])
         made, seeds = datasets.parameters(states), states.seed.values.tolist()
         solved = average(states, full, ensemble, adhesion, made)
-        dataset = join(solved, dataset, full)
+        for name in dataset.keys() & solved.keys():
+            chosen = full if "pressure" in dataset[name].dims else full.any("pressure")
+            solved[name] = solved[name].where(chosen, dataset[name])
+        dataset = dataset.assign(solved)
     dataset = dataset.drop_vars(n for n in dataset if n.endswith("_discretisation_error"))
     dataset["model"] = (AXES, np.where(full, "full", "dmt"))
     strength = limit.adhesion_length_over_range / limit.q0_h_rms
@@ -140,9 +137,8 @@ def average(states, full, ensemble, adhesion, made):
     states = add_slopes(states, ensemble, linear)
     # A mean over the seeds that happen to be solved would leave out the stickiest ones.
     reported = whole & (wide | ~full)
-    resolved = dict.fromkeys(STATES | SLOPES, reported)
-    resolved |= {name: (reported | ~linear).all("pressure") for name in FITS}
-    resolved |= dict.fromkeys(RATIOS, reported & full)
+    resolved = dict.fromkeys(STATES | SLOPES, reported) | dict.fromkeys(RATIOS, reported & full)
+    resolved |= dict.fromkeys(FITS, (reported | ~linear).all("pressure"))
     # The DMT limit of the coarsest solutions: of these seeds, and of many more.
     limit = partial(quantities_of, adhesion, in_limit)
     controls = coarse(ensemble, limit)
@@ -165,9 +161,23 @@ def average(states, full, ensemble, adhesion, made):
     solver = solver_error(states)
     fuller = add_slopes(add_pixels(states, made), ensemble, linear)
     for name in ALL:
-        unseen = fine(fuller[name] - states[name]).mean("seed")
-        parts = {"model": models.get(name, 0.0), "solver": solver, "unseen": abs(unseen)}
-        dataset[f"{name}_error"] = errors(dataset, name, states.sizes["seed"], **parts)
+        value, at_worst = dataset[name], solver
+        if "pressure" not in value.dims:
+            at_worst = solver.max("pressure")
+        scale = abs(value) + value.pressure if name == "external_pressure" else abs(value)
+        unseen = abs(fine(fuller[name] - states[name]).mean("seed"))
+        # For the seeds solved in full, which is more than enough for multilevel means.
+        sampling = students_t(states.sizes["seed"]) * dataset[f"{name}_standard_error"]
+        parts = {
+            "discretisation": dataset[f"{name}_discretisation_error"],
+            "solver": at_worst * scale,
+            "sampling": np.maximum(sampling, unseen),
+            "bandwidth": 0.0,
+            "model": abs(models.get(name, 0.0)),
+        }
+        parts = [(xr.zeros_like(value) + parts[s]).transpose(*value.dims) for s in SOURCES]
+        source = xr.DataArray(list(SOURCES), dims="source", name="source")
+        dataset[f"{name}_error"] = xr.concat(parts, source)
     dataset["residual"] = states.residual.max(["seed", "resolution"])
     dataset["iterations"] = fine(states.iterations).mean("seed")
     return dataset
@@ -187,26 +197,6 @@ def add_pixels(states, made):
     unseen = xr.apply_ufunc(special.gammaincinv, turned + 1, COVERED) - turned
     areas = [name for name in STATES if name.endswith("_area")]
     return states.assign({name: states[name] + unseen / pixels for name in areas})
-
-
-def errors(dataset, name, seeds, *, model, solver, unseen):
-    """Errors of a mean of full simulations, along `source`.
-
-    Student's t is for the seeds solved in full, which is more than enough for multilevel means.
-    """
-    value = dataset[name]
-    if "pressure" not in value.dims:
-        solver = solver.max("pressure")
-    parts = {
-        "discretisation": dataset[f"{name}_discretisation_error"],
-        "solver": solver
-        * (abs(value) + value.pressure if name == "external_pressure" else abs(value)),
-        "sampling": np.maximum(students_t(seeds) * dataset[f"{name}_standard_error"], unseen),
-        "bandwidth": 0.0,
-        "model": abs(model),
-    }
-    parts = [(xr.zeros_like(value) + parts[source]).transpose(*value.dims) for source in SOURCES]
-    return xr.concat(parts, xr.DataArray(list(SOURCES), dims="source", name="source"))
 
 
 def add_dmt(states, full):
@@ -239,8 +229,12 @@ def add_slopes(states, ensemble, linear):
     slopes["inverse_kappa_fit"] = fit / states.rms_slope
     slopes["inverse_kappa_ad_fit"] = (1 - fit / fit_alone) / 2
     limit = states.attraction_dmt / states.pressure / 2
+    mean_limit = limit.mean("seed", skipna=False)
     for ending in ("", "_net", "_equal_area"):
-        slopes[f"dmt_ratio{ending}"] = ratio(slopes[f"inverse_kappa_ad{ending}"], limit)
+        # Ratio of the means over seeds, as samples that scatter about it to first order.
+        values = slopes[f"inverse_kappa_ad{ending}"]
+        best = values.mean("seed", skipna=False) / mean_limit
+        slopes[f"dmt_ratio{ending}"] = best + (values - best * limit) / mean_limit
     return states.assign(slopes)
 
 
@@ -262,13 +256,6 @@ def pressure_at(states, ensemble):
     return xr.apply_ufunc(invert, area, curve, input_core_dims=dims, vectorize=True)
 
 
-def ratio(values, others):
-    """Ratio of the means over seeds, as samples that scatter about it to first order."""
-    value, other = values.mean("seed", skipna=False), others.mean("seed", skipna=False)
-    best = value / other
-    return best + (values - best * others) / other
-
-
 def zone_width(ensemble, at):
     """Mean width of the zone of attraction without adhesion, times q0."""
     made = datasets.parameters(ensemble)
@@ -276,15 +263,6 @@ def zone_width(ensemble, at):
     edge, range_ = xr.broadcast(edge, at.range_over_h_rms)
     pixel = cell_size(made) / made["grid_points"]
     return edge.copy(data=edge_zone.zone_width(pixel, edge.values, range_.values))
-
-
-def join(solved, limit, full):
-    """Variables of both models, each where it was chosen."""
-    dataset = solved.copy()
-    for name, values in limit.items():
-        chosen = full if "pressure" in values.dims else full.any("pressure")
-        dataset[name] = solved[name].where(chosen, values) if name in solved else values
-    return dataset
 
 
 if __name__ == "__main__":

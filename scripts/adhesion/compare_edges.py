@@ -51,26 +51,25 @@ def main(job):
     dataset = states.mean("seed").where(resolved).assign(q0_h_rms=q0_h_rms)
     dataset = conventions.annotate(dataset, **VARIABLES)
     solver = solver_error(adhesive)
+    seeds = states.sizes["seed"]
     for name in QUOTED:
-        dataset = with_budget(dataset, name, **parts(coarse[name], states[name], solver))
+        fine = states[name]
+        change = abs((fine - coarse[name]).mean("seed", skipna=False))
+        error = students_t(seeds) * fine.std("seed", ddof=1) / np.sqrt(seeds)
+        dataset = with_budget(
+            dataset,
+            name,
+            discretisation=Part(change, "change from half the resolution"),
+            solver=Part(solver * fine.mean("seed"), "by tolerance and branch, as measured"),
+            sampling=Part(error, "Student's t"),
+            **SIMULATED,
+        )
     datasets.write(
         dataset,
         job.output[0],
         title="attraction at equal area of contact, simulation and model of the edges",
         parameters=datasets.parameters(averages),
     )
-
-
-def parts(coarse, fine, solver):
-    """Parts of the budget of a mean over seeds, known on two grids."""
-    change = abs((fine - coarse).mean("seed", skipna=False))
-    error = students_t(fine.sizes["seed"]) * fine.std("seed", ddof=1)
-    return {
-        "discretisation": Part(change, "change from half the resolution"),
-        "solver": Part(solver * fine.mean("seed"), "by tolerance and branch, as measured"),
-        "sampling": Part(error / np.sqrt(fine.sizes["seed"]), "Student's t"),
-        **SIMULATED,
-    }
 
 
 def compare(adhesive, alone, q0_h_rms, grid):

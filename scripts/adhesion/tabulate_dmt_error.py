@@ -6,26 +6,24 @@ import numpy as np
 
 from common.job import start
 from stickiness import datasets
-from stickiness import error_budget as budget
 from stickiness.accuracy.model_choice import COLUMNS
 
 
 def main(job):
-    rows = []
-    for path in job.input.adhesive:
-        rows += list_rows(datasets.read(path, ["dmt_ratio", "dmt_ratio_total_error", "q0_h_rms"]))
+    needed = ["dmt_ratio", "dmt_ratio_total_error", "q0_h_rms"]
     with datasets.whole_file(job.output[0]) as temporary, temporary.open("w", newline="") as file:
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(COLUMNS)
-        writer.writerows(rows)
+        for path in job.input.adhesive:
+            writer.writerows(list_rows(datasets.read(path, needed)))
 
 
 def list_rows(data):
     """Rows of the table for every point that the grid resolves."""
-    made, error = datasets.parameters(data), budget.total_error(data, "dmt_ratio")
+    made = datasets.parameters(data)
     for index in np.ndindex(data.dmt_ratio.shape):
-        at = dict(zip(data.dmt_ratio.dims, index, strict=True))
-        point, spread = data.isel(at), float(error.isel(at))
+        point = data.isel(dict(zip(data.dmt_ratio.dims, index, strict=True)))
+        spread = float(point.dmt_ratio_total_error)
         if np.isfinite(spread):
             yield (
                 *(made[name] for name in ("law", "hurst", "magnification")),

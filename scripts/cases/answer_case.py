@@ -66,18 +66,16 @@ def main(job):
     if lacking := [column for column in columns if not has_error_model(column)]:
         texts["solver"] += f"; of {', '.join(lacking)} not known: {NOT_MEASURED}"
 
-    values, outside = (
-        [value for value, _ in found],
-        [extrapolated(surface, load, **knobs) for load in loads],
+    outside = np.array([extrapolated(surface, load, **knobs) for load in loads], np.int8)
+    dataset = xr.Dataset(
+        {"value": (DIMS, [value for value, _ in found]), "extrapolated": ("pressure", outside)},
+        coords={"column": columns, "pressure": loads},
     )
     dataset = conventions.annotate(
-        xr.Dataset(
-            {"value": (DIMS, values), "extrapolated": ("pressure", np.array(outside, np.int8))},
-            coords={"column": columns, "pressure": loads},
-        ),
-        column=("1", "; ".join(f"{column}: {COLUMNS[column].text}" for column in columns)),
-        value=("1", "value of the column at a load"),
-        extrapolated=("1", OUTSIDE),
+        dataset,
+        column="; ".join(f"{column}: {COLUMNS[column].text}" for column in columns),
+        value="value of the column at a load",
+        extrapolated=OUTSIDE,
     )
     parts = {}
     for source in (one for one in SOURCES if one in texts):
@@ -87,9 +85,8 @@ def main(job):
     if plan["accuracy"] and (text := describe_miss(dataset, problem, settings, plan, case)):
         dataset.attrs["missed"] = f"{case}: {text}"
         logging.warning("%s", text)
-    parameters = {**plan, "case": case}
     title = "quantities of a case and their errors"
-    datasets.write(dataset, job.output[0], title=title, parameters=parameters)
+    datasets.write(dataset, job.output[0], title=title, parameters={**plan, "case": case})
 
 
 def simulate(problem, settings, column, files):

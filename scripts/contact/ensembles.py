@@ -55,10 +55,8 @@ def average_files(inputs, seeds, loads, averaged):
     others = [datasets.read(path, kept).sel(pressure=loads) for path in inputs.coarse]
     more = join_coarse(others, kept) if others else xr.Dataset()
     dataset = add_statistics(realisations, more, averaged)
-    parameters = datasets.parameters(realisations) | {
-        "seeds": seeds,
-        "largest_residual": float(realisations.residual.max()),
-    }
+    largest = float(realisations.residual.max())
+    parameters = datasets.parameters(realisations) | {"seeds": seeds, "largest_residual": largest}
     return dataset, {**parameters, **describe_sampling(parameters, dataset)}
 
 
@@ -97,11 +95,11 @@ def add_statistics(realisations, others, averaged=AVERAGED):
     dataset["edge_gap_mean"] = mean(realisations.edge_gap)
     ruled = {name: quantity for name, quantity in averaged.items() if name not in MEASURED}
     limits = grid_limits.estimate_limits(realisations, ruled)
-    for name in averaged.keys() & MEASURED.keys():
-        limits[name] = grid_limits.estimate_first_order(averaged[name](realisations))
     for name, quantity in averaged.items():
-        more = coarse(dataset, quantity)
-        dataset = add_errors(dataset, name, quantity(realisations), more, limit=limits.get(name))
+        values, more = quantity(realisations), coarse(dataset, quantity)
+        if name in MEASURED:
+            limits[name] = grid_limits.estimate_first_order(values)
+        dataset = add_errors(dataset, name, values, more, limit=limits.get(name))
     if "attractive_area" in averaged:  # the one quantity that is extrapolated
         dataset[f"attractive_area_{EXTRAPOLATION}"] = limits["attractive_area"].shift
     return dataset

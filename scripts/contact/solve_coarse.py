@@ -12,16 +12,10 @@ from stickiness import datasets
 
 
 def main(job):
-    surface = job.params.surface
-    dataset = coarse_solutions(
-        surface,
-        range(job.params.after, job.params.seeds),
-        job.params.descriptor_seeds,
-        job.params.pressures,
-        logarithmic_grid(job.params.gaps),
-        job.params.tolerance,
-        job.params.measured,
-    )
+    surface, asked = job.params.surface, job.params
+    seeds = range(asked.after, asked.seeds), asked.descriptor_seeds
+    path = asked.pressures, logarithmic_grid(asked.gaps), asked.tolerance
+    dataset = coarse_solutions(surface, *seeds, *path, asked.measured)
     datasets.write(
         annotate(dataset, **VARIABLES),
         job.output[0],
@@ -29,7 +23,7 @@ def main(job):
         parameters={
             **surface,
             "case": job.wildcards.case,
-            "tolerance": job.params.tolerance,
+            "tolerance": asked.tolerance,
             "largest_residual": float(dataset.residual.max()),
             "pixels_per_wavelength": COARSE,
             "grid_points": grid_points(surface, COARSE),

@@ -19,10 +19,9 @@ def find_doubts(materials, surfaces, material_surfaces):
     """Why pairs are not judged, for reasons of either surface; empty for those that are."""
 
     def find_reasons(material, surface):
-        both = [
-            one for one in (surface, material_surfaces.get(material.surface)) if one is not None
-        ]
-        return "\n".join(filter(None, (one.attrs.get("not_judged") for one in both)))
+        both = (surface, material_surfaces.get(material.surface))
+        given = (one.attrs.get("not_judged") for one in both if one is not None)
+        return "\n".join(filter(None, given))
 
     doubts = [
         [find_reasons(m, surface) for surface in surfaces.values()] for m in materials.values()
@@ -35,15 +34,13 @@ def withhold(dataset):
     judged = dataset.not_judged == ""
     if judged.all():
         return dataset
+    found = {}
     with xr.set_options(keep_attrs=True):
-        found = {
-            name: values.where(judged).transpose(*values.dims)
-            for name, values in dataset.items()
-            if values.dtype.kind == "f" and {"material", "surface"} <= set(values.dims)
-        }
-        for values in found.values():
-            known = values.attrs.get("nan_means")
-            values.attrs["nan_means"] = f"{known}, or not judged" if known else "not judged"
+        for name, values in dataset.items():
+            if values.dtype.kind == "f" and {"material", "surface"} <= set(values.dims):
+                reasons = filter(None, (values.attrs.get("nan_means"), "not judged"))
+                found[name] = values.where(judged).transpose(*values.dims)
+                found[name].attrs["nan_means"] = ", or ".join(reasons)
         for name, code in (("verdict", NOT_JUDGED), ("disagrees", 0)):
             found[name] = dataset[name].where(judged, code).astype("i1")
     return dataset.assign(found)

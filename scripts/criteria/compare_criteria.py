@@ -50,10 +50,8 @@ def compare(asked, load, table, constant):
     heights, zetas = (logarithmic_grid(asked[key]) for key in ("h_rms_over_range", "magnification"))
     one_zeta = np.full_like(heights, asked["quoted_magnification"])
     one_height = np.full_like(zetas, asked["quoted_h_rms_over_range"])
-    over_h, over_zeta = (
-        find_thresholds(model_pair(asked, h, zeta, load, table, constant))
-        for h, zeta in ((heights, one_zeta), (one_height, zetas))
-    )
+    over_h = find_thresholds(asked, heights, one_zeta, load, table, constant)
+    over_zeta = find_thresholds(asked, one_height, zetas, load, table, constant)
     return xr.Dataset(
         {
             "against_roughness": (("criterion", "h_rms_over_range"), list(over_h.values())),
@@ -63,15 +61,15 @@ def compare(asked, load, table, constant):
     )
 
 
-def model_pair(asked, h_rms, magnification, load, table, constant):
-    """`Pair` of self-affine surfaces with the range and its adhesion length as unit of length."""
+def find_thresholds(asked, h_rms, magnification, load, table, constant):
+    """Adhesion length over range at which each criterion begins to call surfaces sticky."""
     hurst, q0 = asked["hurst"], asked["range_times_q0"]
     spectra = [
         SelfAffine(hurst=hurst, q0=q0, q1=q0 * zeta, h_rms=h)
         for h, zeta in zip(h_rms, magnification, strict=True)
     ]
     a_v = table.a_v_at(hurst, load, 1 / h_rms, magnification)
-    return Pair(
+    pair = Pair(  # with the range and the adhesion length as unit of length
         h_rms=h_rms,
         q0=q0,
         rms_slope=np.array([s.rms_slope for s in spectra]),
@@ -83,10 +81,6 @@ def model_pair(asked, h_rms, magnification, load, table, constant):
         a_v_high=a_v.high,
         constant_a_v=constant,
     )
-
-
-def find_thresholds(pair):
-    """Adhesion length over range at which each criterion begins to call surfaces sticky."""
     others = {
         name: criterion.adhesion_length_threshold(pair)
         for name, criterion in CRITERIA.items()

@@ -50,10 +50,7 @@ def follow_remaining(pair, solids, roughness, rates):
         "roughness": np.broadcast_to(quoted, (len(ROUGHNESS_FACTORS), len(solids))),
         "rate": np.where(scalable, rates.T, np.nan),
     }
-    found = {
-        "modulus_factor": ("modulus_factor", MODULUS_FACTORS),
-        "roughness_factor": ("roughness_factor", ROUGHNESS_FACTORS),
-    }
+    found = {"modulus_factor": MODULUS_FACTORS, "roughness_factor": ROUGHNESS_FACTORS}
     for axis, moduli in along.items():
         dim = AXES[axis][0]
         heights = ROUGHNESS_FACTORS if axis == "roughness" else np.ones(len(moduli))

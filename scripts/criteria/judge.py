@@ -1,5 +1,7 @@
 """Verdict for every material on every surface, and the same as a page."""
 
+from itertools import product
+
 from common import verdicts as texts
 from common.formatting import NOTHING, interval
 from common.job import start
@@ -36,13 +38,8 @@ def describe_page(dataset, materials, labels):
         "full": FULL_SHARE,
         "theory_error": THEORY_ERROR,
         "pairs": [
-            (
-                materials[material]["label"],
-                labels[surface],
-                *describe_pair(dataset.sel(material=material, surface=surface)),
-            )
-            for material in dataset.material.values
-            for surface in dataset.surface.values
+            (materials[m]["label"], labels[s], *describe_pair(dataset.sel(material=m, surface=s)))
+            for m, s in product(dataset.material.values, dataset.surface.values)
         ],
         "others": [criterion.label for criterion in others],
         "thresholds": compare_thresholds(dataset, others, labels),

@@ -64,9 +64,8 @@ def read_surfaces(names, paths):
 def judge_materials(surfaces, material_surfaces, asked):
     """Judge the `materials` of a rule's parameters at its `frequencies`; see `find_verdicts`."""
     materials = {name: read_material(entry) for name, entry in asked.materials.items()}
-    return find_verdicts(
-        materials, surfaces, material_surfaces, logarithmic_grid(asked.frequencies)
-    )
+    frequencies = logarithmic_grid(asked.frequencies)
+    return find_verdicts(materials, surfaces, material_surfaces, frequencies)
 
 
 def find_verdicts(materials, surfaces, material_surfaces, frequencies):
@@ -77,11 +76,9 @@ def find_verdicts(materials, surfaces, material_surfaces, frequencies):
     """
     solids = list(materials.values())
     smooth = [half_space_pair(surface) for surface in surfaces.values()]
+    on = list(zip(surfaces.values(), smooth, strict=True))
     roughness = [
-        [
-            combine(solid, surface, one, material_surfaces.get(solid.surface))
-            for surface, one in zip(surfaces.values(), smooth, strict=True)
-        ]
+        [combine(solid, *one, material_surfaces.get(solid.surface)) for one in on]
         for solid in solids
     ]
     pair = stack_pairs(solids, roughness)
@@ -130,15 +127,12 @@ def stack_pairs(solids, roughness) -> Pair:
     known |= {name: stack(roughness, name) for name in (*BY_END, "half_space_energy")}
     for name in ("q0", "relative_compliance", "anisotropy_error_factor"):
         known[name] = stack(roughness, name)[..., None]
-    a_v = [
-        [
-            [a_v.at(solid.range / h) for a_v, h in zip(pair.a_v, pair.h_rms, strict=True)]
-            for pair in row
-        ]
-        for solid, row in zip(solids, roughness, strict=True)
-    ]
-    known |= dict(zip(("a_v", "a_v_low", "a_v_high"), np.moveaxis(a_v, -1, 0), strict=True))
     shape = known["h_rms"].shape
+    a_v = np.empty((3, *shape))  # value and both limits
+    for i, j, end in np.ndindex(shape):
+        pair = roughness[i][j]
+        a_v[:, i, j, end] = pair.a_v[end].at(solids[i].range / pair.h_rms[end])
+    known |= dict(zip(("a_v", "a_v_low", "a_v_high"), a_v, strict=True))
     return Pair(
         **{name: np.broadcast_to(value, shape) for name, value in known.items()},
         constant_a_v=BROAD_A_V,
@@ -157,13 +151,11 @@ def judge_pairs(pair, solids, roughness):
         found[name] = np.where(scalable, found[name], np.nan)
     found["stiffening"] = stack(roughness, "energy_ratio_to_half_space")
     found["layer_strain"] = stack(roughness, "layer_strain")
-    by_criterion = {
-        "margin": [criterion.margin(pair) for criterion in CRITERIA.values()],
-        "threshold_by_criterion": [c.modulus_threshold(pair) for c in CRITERIA.values()],
-    }
+    margins = [criterion.margin(pair) for criterion in CRITERIA.values()]
+    thresholds = [criterion.modulus_threshold(pair) for criterion in CRITERIA.values()]
     return {name: (DIMS, values) for name, values in found.items()} | {
-        name: ((*DIMS, "criterion"), np.stack(values, axis=-1))
-        for name, values in by_criterion.items()
+        "margin": ((*DIMS, "criterion"), np.stack(margins, axis=-1)),
+        "threshold_by_criterion": ((*DIMS, "criterion"), np.stack(thresholds, axis=-1)),
     }
 
 

@@ -125,10 +125,10 @@ def add_surfaces(surface, second, one, solid):
     moments = {name: np.hypot(getattr(one, name), getattr(other, name)) for name in MOMENTS}
     energy = one.elastic_energy + other.elastic_energy
     # The longest waves that matter are those of the surface that stores the energy.
-    stored = [
+    stored, more = (
         sum(s.elastic_energy(solid) for s in find_spectra(each)) for each in (surface, second)
-    ]
-    share = float(stored[0] / sum(stored))
+    )
+    share = float(stored / (stored + more))
     q0 = one.q0**share * other.q0 ** (1 - share)
     a_v = [
         surface_a_v(spectrum, {n: float(moments[n][end]) for n in MOMENTS} | {"q0": q0})

@@ -1,6 +1,6 @@
 """a_V of the paper's criterion: simulated for one case, carried to a broad spectrum by theory."""
 
-from dataclasses import dataclass
+from dataclasses import astuple, dataclass
 
 import numpy as np
 
@@ -30,8 +30,7 @@ class MeasuredAv:
     @property
     def error(self):
         """All parts in quadrature."""
-        parts = (self.sampling, self.discretisation, self.fit_interval, self.bandwidth)
-        return float(np.linalg.norm(parts))
+        return float(np.linalg.norm(astuple(self)[1:]))
 
     def parts(self, times):
         """Parts of a budget: the relative errors of a_V times a number."""

@@ -22,11 +22,9 @@ OUTCOME_COLOURS = ("#DDDDDD", "#F2B48C", "#F7E6A1", "#9CD1BE")
 def main(job):
     dataset = datasets.read(job.input[0], NEEDED)
     experiments = datasets.parameters(dataset)["experiments"]
-    margins = {"left": 0.09, "right": 0.985, "top": 0.97, "bottom": 0.1}
-    grid = {**margins, "wspace": 1.6, "hspace": 0.22, "height_ratios": [1, 2]}
-    with plotting.open_figure(
-        job.output, "AAABBB;..CCCC", 9.2, layout="none", gridspec_kw=grid
-    ) as panels:
+    grid = {"left": 0.09, "right": 0.985, "top": 0.97, "bottom": 0.1, "wspace": 1.6, "hspace": 0.22}
+    look = {"layout": "none", "gridspec_kw": grid | {"height_ratios": [1, 2]}}
+    with plotting.open_figure(job.output, "AAABBB;..CCCC", 9.2, **look) as panels:
         draw_pull_off(panels["A"], dataset, experiments)
         draw_works(panels["B"], dataset, experiments)
         draw_criteria(panels["C"], dataset, experiments)
@@ -105,13 +103,8 @@ def draw_works(ax, dataset, experiments):
 def draw_criteria(ax, dataset, experiments):
     """Every criterion on every case: right, right for some inputs, wrong, nothing decided."""
     outcomes = dataset.criterion_outcome.transpose("case", "criterion").values
-    ax.imshow(
-        outcomes,
-        cmap=ListedColormap(OUTCOME_COLOURS),
-        vmin=SILENT - 0.5,
-        vmax=COMPATIBLE + 0.5,
-        aspect="auto",
-    )
+    limits = {"vmin": SILENT - 0.5, "vmax": COMPATIBLE + 0.5}
+    ax.imshow(outcomes, cmap=ListedColormap(OUTCOME_COLOURS), aspect="auto", **limits)
     for (row, column), code in np.ndenumerate(outcomes):
         ax.text(column, row, MARKS[int(code)], ha="center", va="center", fontsize=8)
     labels = [criterion.label.replace("a_V", "$a_V$") for criterion in CRITERIA.values()]
@@ -119,10 +112,9 @@ def draw_criteria(ax, dataset, experiments):
     ax.set_yticks(range(len(outcomes)), [name_case(c, experiments) for c in dataset.case.values])
     ax.get_xticklabels()[list(CRITERIA).index(REMAINING)].set_fontweight("bold")
     ax.tick_params(length=0)
-    starts = [case.split("/")[0] for case in dataset.case.values]
-    for row in range(1, len(starts)):
-        if starts[row] != starts[row - 1]:
-            ax.axhline(row - 0.5, color="white", linewidth=3)
+    starts = np.array([case.split("/")[0] for case in dataset.case.values])
+    for row in np.flatnonzero(starts[1:] != starts[:-1]):
+        ax.axhline(row + 0.5, color="white", linewidth=3)
 
 
 def name_case(case, experiments):

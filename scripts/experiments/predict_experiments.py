@@ -4,11 +4,9 @@ Everything that is not known is swept: each input between its plausible ends, th
 middle, and all corners. Corners matter where two unknown inputs move a prediction the same way.
 """
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cache, cached_property
 from itertools import product
-from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -131,7 +129,7 @@ class Observation:
     place: str  # experiment and case
     published: bool
     quantity: str
-    observed: Mapping[str, Any]  # as the configuration states it
+    observed: dict  # as the configuration states it
     low: float  # limits of what was observed, or of the factor of the relation; 0 or 1 of "sticks"
     high: float
     inputs: dict[str, NDArray]
@@ -201,10 +199,8 @@ def read_observation(experiment, name, entry):
         inputs["modulus"] = inputs["plane_strain_modulus"]
     else:
         inputs["modulus"] = inputs["youngs_modulus"] / (1 - inputs["poisson_ratio"] ** 2)
-    if "relation" in observed:
-        limits = observed["factor"]
-    else:
-        limits = read_ends(observed, OBSERVED_UNITS.get(observed["quantity"]))
+    unit = OBSERVED_UNITS.get(observed["quantity"])
+    limits = observed["factor"] if "relation" in observed else read_ends(observed, unit)
     return Observation(
         place=f"{experiment}/{name}",
         published=entry.get("published", True),
@@ -312,10 +308,9 @@ def find_observed(observation, pair):
 
 def agrees(observation, observed, least, most):
     """Whether limits of the prediction overlap with those observed, by combination."""
-    low, high = observed
     if observation.quantity == "sticks":
         return most >= DEFAULT_SHARE if observation.low else least < DEFAULT_SHARE
-    return (most >= low) & (least <= high)
+    return (most >= observed[0]) & (least <= observed[1])
 
 
 def summarise(right):
@@ -353,24 +348,8 @@ def judge_criteria(observation, observed, pair):
     return found | dict.fromkeys(observation.observed.get("silent", ()), SILENT)
 
 
-def find_effects(swept, values):
-    """Factor by which each swept input changes a prediction, the others in the middle.
-
-    Infinite where the prediction vanishes at one end, NaN where it does at all.
-    """
-    effects = {}
-    for place, name in enumerate(swept):
-        along = values[[1 + 2 * place, MIDDLE, 2 + 2 * place]]
-        with np.errstate(divide="ignore", invalid="ignore"):
-            effects[name] = float(along.max() / along.min())
-    return effects
-
-
 def find_roughness(observation):
-    """Rms height [m] up to which every criterion says sticky, every input in the middle.
-
-    NaN for a criterion that looks at no roughness.
-    """
+    """Rms height [m] up to which every criterion says sticky; NaN if it looks at no roughness."""
     rough = observation.pair(COARSE[None])
     return [
         find_fall(COARSE, criterion.margin(rough)[0], 1.0) if criterion.has_length else np.nan
@@ -384,7 +363,13 @@ def predict_case(observation):
     quantity = observation.quantity
     observed = find_observed(observation, pair)
     low, value, high = values["remaining" if quantity == "sticks" else quantity]
-    effects = find_effects(observation.swept, value)
+    # Factor by which each swept input changes the prediction, the others in the middle: infinite
+    # where the prediction vanishes at one end, NaN where it vanishes everywhere.
+    effects = {}
+    for place, name in enumerate(observation.swept):
+        along = value[[1 + 2 * place, MIDDLE, 2 + 2 * place]]
+        with np.errstate(divide="ignore", invalid="ignore"):
+            effects[name] = float(along.max() / along.min())
     known = {name: effect for name, effect in effects.items() if not np.isnan(effect)}
     most = max(known, key=known.get, default="")
     by_criterion = list(judge_criteria(observation, observed, pair).values())
@@ -421,7 +406,6 @@ def predict_case(observation):
 
 
 def predict_all(experiments):
-    """Dataset of every case of every experiment, in the order of the configuration."""
     observations = [
         read_observation(name, case, entry)
         for name, entry in experiments.items()

@@ -23,6 +23,7 @@ PARTS = ("area_fraction", "attractive_area")  # of the cumulative distribution
 WINDOW = ("highest_summit", "margin", "window_holds")  # of theory's file
 COMPARED = ("area_fraction", "mean_gap", "attractive_area", "gap_density")
 DISTANCE = "area between the cumulative distributions of the gap (Wasserstein distance) over h_rms"
+DIFFERENCE = "theory over simulation less 1"
 SINGLE, NOTHING = "a single seed", "nothing simulated within the range"
 VARIABLES = {
     "theory_mean_gap": "mean gap over h_rms by theory",
@@ -30,14 +31,10 @@ VARIABLES = {
     "distance_standard_error": ("1", f"{DISTANCE}: standard error", SINGLE),
     "distance_discretisation_error": f"{DISTANCE}: error in the limit of fine grids",
     "distance_floor": ("1", f"{DISTANCE}: mean that sampling errors alone give", SINGLE),
-    **{
-        f"{name}_difference": (
-            "1",
-            f"theory over simulation less 1: {conventions.VARIABLES[name][1]}",
-            NOTHING,
-        )
-        for name in COMPARED
-    },
+}
+VARIABLES |= {
+    f"{n}_difference": ("1", f"{DIFFERENCE}: {conventions.VARIABLES[n][1]}", NOTHING)
+    for n in COMPARED
 }
 
 
@@ -65,12 +62,8 @@ def add_budgets(dataset, simulated, theory):
     for name in COMPARED:
         mean = f"{name}_mean"
         scale = theory[name] / simulated[mean].where(simulated[mean] > 0) ** 2
-        parts = {
-            source: Part(scale * part(simulated, mean, source), "of the simulation")
-            for source in SOURCES
-            if source != "model"
-        }
-        dataset = with_budget(dataset, f"{name}_difference", **parts, model=model)
+        parts = {s: Part(scale * part(simulated, mean, s), "of the simulation") for s in SOURCES}
+        dataset = with_budget(dataset, f"{name}_difference", **parts | {"model": model})
     # Student's t, the same for all quantities of an ensemble but for the shares of its levels.
     factor = part(simulated, "mean_gap_mean", "sampling") / simulated.mean_gap_standard_error
     solver = [part(simulated, f"{name}_mean", "solver") for name in PARTS]
@@ -93,7 +86,7 @@ def distance(simulated, theory):
     """
     mean, sampling = ensemble_mean(cumulative(simulated), coarse(simulated, cumulative))
     mean = mean + sum(simulated.get(f"{name}_{EXTRAPOLATION}", 0) for name in PARTS)
-    difference = mean - (theory.area_fraction + theory.attractive_area)
+    difference = mean - cumulative(theory)
     side = np.sign(difference)
 
     def moved(solved):

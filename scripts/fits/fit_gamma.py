@@ -45,11 +45,8 @@ VARIABLES = {
 
 def main(job):
     files = zip(job.input.ensembles, job.input.comparisons, strict=True)
-    cases = [
-        case(datasets.read(ensemble), datasets.read(comparison, ["window_holds"]))
-        for ensemble, comparison in files
-    ]
-    cases = list(filter(None, cases))
+    read = ((datasets.read(one), datasets.read(other, ["window_holds"])) for one, other in files)
+    cases = [found for both in read if (found := case(*both))]
     windows = [deviations.pop("window") for deviations in cases]
     draws = sample(np.random.default_rng(RANDOM["seed"]), RANDOM["draws"], windows)
     rows = [
@@ -94,17 +91,15 @@ def case(ensemble, comparison):
         coarser = [Persson(lattice, gamma=g, correction=correction, nodes=0.5) for g in FEW]
         areas = [t.gap_cumulative(np.array(RANGES), few).ravel() for t in coarser]
         theory["attractive_area"].append(CubicSpline(np.log(FEW), np.log(areas))(np.log(GRID)))
-    found = {name: against(ensemble, name, few, np.array(theory[name])) for name in QUANTITIES}
-    return {**found, "window": made.get("window", 1)}
-
-
-def against(ensemble, name, few, theory):
-    """Logarithms of theory over simulation, and the simulation's relative errors."""
-    simulated = ensemble[[f"{name}_mean", f"{name}_mean_total_error"]].transpose("pressure", ...)
-    if "range" in simulated.dims:
-        simulated = simulated.sel(pressure=few).interp({"range": list(RANGES)})
-    mean, error = (part.values.ravel() for part in simulated.values())
-    return theory - np.log(mean), np.nan_to_num(error / COVERS / mean)
+    found = {"window": made.get("window", 1)}
+    for name, logs in theory.items():
+        simulated = ensemble[[f"{name}_mean", f"{name}_mean_total_error"]]
+        simulated = simulated.transpose("pressure", ...)
+        if "range" in simulated.dims:
+            simulated = simulated.sel(pressure=few).interp({"range": list(RANGES)})
+        mean, error = (part.values.ravel() for part in simulated.values())
+        found[name] = np.array(logs) - np.log(mean), np.nan_to_num(error / COVERS / mean)
+    return found
 
 
 def sample(rng, count, windows):

@@ -57,7 +57,7 @@ def main(job):
         title="a_V as a function of Hurst exponent, magnification, load and range, with its error",
         parameters={
             **datasets.parameters(theory),
-            "variants": [str(name) for name in theory.variant.values],
+            "variants": theory.variant.values.tolist(),
             "cases": [datasets.parameters(comparison)["case"] for comparison in comparisons],
         },
     )
@@ -107,12 +107,20 @@ def simulated(comparisons):
 
 
 def collect(comparisons):
-    """Logarithms of the ratio and their errors at every load of every case that is known."""
+    """Logarithms of simulation over theory and their errors at every load of every case.
+
+    Loads at which the window is too small are left out.
+    """
     parts = []
+    count = round(-np.log10(SMALLEST_RANGE) * PER_DECADE) + 1
+    ranges = np.geomspace(SMALLEST_RANGE, 1, count)
     for case, comparison in enumerate(comparisons):
-        logs, errors = log_ratio(comparison)
-        part = xr.Dataset({"log": logs, "error": errors}).rename(pressure="point")
-        part = part.dropna("point")
+        quoted = comparison.isel(variant=0, drop=True).interp({"range": ranges})
+        quoted = quoted.where(quoted.window_holds == 1)
+        over = 1 + quoted.attractive_area_difference
+        error = quoted.attractive_area_difference_total_error / COVERS / over
+        part = xr.Dataset({"log": -np.log(over), "error": error})
+        part = part.rename(pressure="point").dropna("point")
         count, zeta = part.sizes["point"], float(datasets.parameters(comparison)["magnification"])
         known = {"case": case, "sharing": count, "magnification": zeta}
         known = {name: ("point", np.full(count, value)) for name, value in known.items()}
@@ -168,22 +176,10 @@ def jackknife(points, error, loads, largest):
     cases = np.unique(points.case)
     if len(cases) == 1:
         return 0.0
-    means = []
-    for case in cases:
-        kept = (points.case != case).values
-        rest = points.isel(point=kept), error.isel(point=kept)
-        means.append(fit(*rest, loads, largest)[0])
+    without = [(points.case != case).values for case in cases]
+    rest = [(points.isel(point=kept), error.isel(point=kept)) for kept in without]
+    means = [fit(*each, loads, largest)[0] for each in rest]
     return np.sqrt((len(cases) - 1) * xr.concat(means, "case").var("case"))
-
-
-def log_ratio(comparison):
-    """Logarithm of simulation over theory and its error, where the window is large enough."""
-    quoted = comparison.isel(variant=0, drop=True)
-    decades = -np.log10(SMALLEST_RANGE)
-    ranges = np.geomspace(SMALLEST_RANGE, 1, round(decades * PER_DECADE) + 1)
-    quoted = quoted.interp({"range": ranges}).where(quoted.window_holds == 1)
-    over = 1 + quoted.attractive_area_difference
-    return -np.log(over), quoted.attractive_area_difference_total_error / COVERS / over
 
 
 if __name__ == "__main__":

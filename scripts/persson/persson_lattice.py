@@ -31,8 +31,7 @@ def main(job):
     parts = [evaluate(theory, pressures, ranges) for theory in named.values()]
     names = xr.DataArray(list(named), dims="variant", name="variant")
     dataset = xr.concat(parts, names).assign(rms_slope=lattice.rms_slope)
-    text = "rms gradient of the lattice spectrum over q0 h_rms"
-    dataset = annotate(dataset, rms_slope=("1", text))
+    dataset = annotate(dataset, rms_slope="rms gradient of the lattice spectrum over q0 h_rms")
     models = read_models(job.input.laws)
     for name in QUADRATURE:
         dataset = with_budget(dataset, name, **theory_parts(models, name, dataset[name], surface))

@@ -9,10 +9,10 @@ from common.job import start
 from stickiness import datasets
 from stickiness.remaining.prediction import Roughness
 
+QUOTED = ("approach", "separation", "bound", "pull_off")
 SIMULATED = (
-    *("approach", "separation", "bound", "pull_off", "area_at_zero_load", "gap_at_zero_load"),
-    *("jumps", "pixels_in_zone", "approach_grid_error", "separation_grid_error"),
-    *("bound_grid_error", "pull_off_grid_error"),
+    *(*QUOTED, "area_at_zero_load", "gap_at_zero_load", "jumps", "pixels_in_zone"),
+    *(f"{name}_grid_error" for name in QUOTED),
 )
 MADE = ("hurst", "magnification", "window", "points", "seed")
 DIGITS = 5
@@ -32,10 +32,9 @@ q0 range^2/l_a up to 0.1, of surfaces of two by two waves and more.
 
 def main(job):
     frame = pd.DataFrame([row for path in job.input for row in list_rows(path)])
-    numbers = frame.select_dtypes("number").columns
-    rounded = frame.assign(
-        **{name: frame[name].map(lambda x: float(f"{x:.{DIGITS}g}")) for name in numbers}
-    )
+    rounded = frame.copy()
+    for name in frame.select_dtypes("number"):
+        rounded[name] = frame[name].map(lambda x: float(f"{x:.{DIGITS}g}"))
     with datasets.whole_file(job.output.table) as path:
         path.write_text(COMMENT + rounded.to_csv(index=False), encoding="utf-8")
     with datasets.whole_file(job.output.summary) as path:

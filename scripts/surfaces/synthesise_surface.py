@@ -55,7 +55,12 @@ def main(job):
 def to_dataset(heights, seeds, length, spectrum, lattice):
     n = heights.shape[-1]
     x = np.arange(n) * (length / n)
-    realised = [realised_on(lattice, synthesis.realised_spectrum(h, length)) for h in heights]
+    # On the lattice's shells, zero where a surface holds nothing.
+    realised = np.zeros((len(heights), len(lattice.q)))
+    for variance, h in zip(realised, heights, strict=True):
+        found = synthesis.realised_spectrum(h, length)
+        index = np.searchsorted(lattice.q * (1 - 1e-9), found.q) - 1
+        np.add.at(variance, index, found.variance)
     measured = [synthesis.moments(h, length) for h in heights]
     sources = [(spectrum, lattice, one) for one in measured]
     dataset = xr.Dataset(
@@ -73,14 +78,6 @@ def to_dataset(heights, seeds, length, spectrum, lattice):
         coords={"seed": seeds, "x": x, "y": x, "wave_number": lattice.q, "source": SOURCES},
     )
     return annotate(dataset, **VARIABLES)
-
-
-def realised_on(lattice, realised):
-    """Realised variances on the lattice's shells, zero where the surface holds nothing."""
-    index = np.searchsorted(lattice.q * (1 - 1e-9), realised.q) - 1
-    variance = np.zeros(len(lattice.q))
-    np.add.at(variance, index, realised.variance)
-    return variance
 
 
 if __name__ == "__main__":
