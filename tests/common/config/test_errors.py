@@ -8,7 +8,6 @@ import pytest
 from common.config import load
 from common.config.campaigns import Remaining, Tradeoff
 from common.config.experiments import Experiments
-from common.config.fields import Section
 from common.config.materials import Materials
 from common.config.models import Configuration
 from common.config.surfaces import Surfaces
@@ -101,8 +100,3 @@ KNOWN = {"value": "1 um", "known": "read"}
 )
 def test_what_is_right_passes(check, file, right):
     check(file, right)
-
-
-def test_keys_of_earlier_versions_are_gone():
-    for model in Section.__subclasses__():
-        assert model.model_fields.keys().isdisjoint(model.old)
