@@ -167,19 +167,6 @@ def test_thinner_tapes_keep_less_and_the_row_says_why():
     assert describe_pair(thick)["strain"] == "0.3"
 
 
-@pytest.mark.slow
-def test_a_material_with_a_surface_sticks_less():
-    rough = judged(
-        {"smooth": TAPE, "rough": TAPE | {"surface": "wall"}}, {"wall": wall(h_rms=3e-6)}
-    )
-    shares = rough.remaining.sel(surface="wall", end="smooth")
-    assert float(shares.sel(material="rough")) < float(shares.sel(material="smooth"))
-    ratios = rough.energy_ratio.sel(surface="wall", end="smooth")
-    assert float(ratios.sel(material="rough")) == pytest.approx(
-        float(ratios.sel(material="smooth")) / 2
-    )
-
-
 @pytest.mark.parametrize(
     ("keys", "text"),
     [

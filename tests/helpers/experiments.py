@@ -86,18 +86,9 @@ def make_dataset(rows, experiments=EXPERIMENTS):
     return dataset.assign_attrs(parameters=json.dumps({"experiments": experiments}))
 
 
-FLAGS = {
-    "outcome": 2,
-    "value_inside": 0,
-    "by_relation": 0,
-    "tests": 1,
-    "observed_known": 1,
-    "known": 3,
-    "effect_of_input": 1.0,
-    "waves_in_contact": np.nan,
-    "work_of_adhesion": 0.05,
-    "h_rms": 1e-6,
-}
+FLAGS = {"outcome": 2, "value_inside": 0, "by_relation": 0, "tests": 1, "observed_known": 1}
+FLAGS |= {"known": 3, "effect_of_input": 1.0, "waves_in_contact": np.nan}
+FLAGS |= {"work_of_adhesion": 0.05, "h_rms": 1e-6}
 
 
 def make_row(

@@ -290,6 +290,7 @@ def pairs(verdicts, surfaces):
     return write_report.arrange_pairs(verdicts, surfaces)
 
 
+@pytest.mark.slow
 def test_the_report_shows_what_is_in_the_files(page):
     page.check(
         *(f"statement {number}" for number in range(1, 4)),

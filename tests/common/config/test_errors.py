@@ -58,12 +58,12 @@ def check(files, monkeypatch):
 
 
 @pytest.mark.parametrize(
-    ("file", "case"), [(file, case) for file, cases in CASES.items() for case in cases]
+    ("file", "wrong", "says"), [(file, *case) for file, cases in CASES.items() for case in cases]
 )
-def test_one_line_says_what_is_wrong(check, file, case):
+def test_one_line_says_what_is_wrong(check, file, wrong, says):
     with pytest.raises(load.ConfigError) as caught:
-        check(file, case["wrong"])
-    assert str(caught.value) == f"{file}.yaml: {case['says']}"
+        check(file, wrong)
+    assert str(caught.value) == f"{file}.yaml: {says}"
 
 
 FILM = {"youngs_modulus": "3 GPa", "poisson_ratio": 0.3, "thickness": "25 um"}

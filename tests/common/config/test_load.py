@@ -8,7 +8,7 @@ import pytest
 import yaml
 
 from common.config import entries, load
-from common.config.reference import FILES, PAGE, page
+from common.config.reference import PAGE, page
 
 ROOT = Path(__file__).parents[3]
 CAMPAIGNS = ("tradeoff", "remaining")
@@ -84,12 +84,6 @@ def test_files_that_cannot_be_read(folder, text, message):
         check()
 
 
-def test_paths_of_the_tables_are_located():
-    config = load.defaults(ROOT, lambda path: f"/project/{path}")
-    for table in load.TABLES:
-        assert config[table] == f"/project/config/{table}.yaml"
-
-
 def test_keys_beside_the_list_apply_to_every_measurement():
     surface = {
         "kind": "measured",
@@ -112,11 +106,3 @@ def test_conditions_of_a_case_replace_those_of_its_experiment(other):
 
 def test_the_reference_is_up_to_date():
     assert PAGE.read_text(encoding="utf-8") == page(), "run: make docs"
-
-
-def test_every_key_is_described_and_the_schemas_are_made():
-    rows = [line.split(" | ") for line in page().splitlines() if line.startswith(("| `", "| **"))]
-    assert len(rows) <= 250
-    assert all(len(row) == 3 and row[2].strip("| ") for row in rows)
-    for model, _ in FILES.values():
-        assert model.model_json_schema()["properties"]
