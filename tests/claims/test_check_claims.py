@@ -52,8 +52,8 @@ def test_a_claim_of_which_nothing_is_known_is_open_and_written(tmp_path):
     row = check_claims.examine(eleventh, files, dict.fromkeys(eleventh.files, "full.nc"), TEXTS)
     assert row["verdict"] == OPEN
     assert ": not known |" in write_table([row], tmp_path / "claims.md")
-    dataset = check_claims.to_dataset([row | {"errors": {"sampling": 0.3, "model": np.nan}}])
-    datasets.write(dataset, tmp_path / "claims.nc", title="claims", parameters={})
-    assert np.isnan(datasets.read(tmp_path / "claims.nc").value.item())
     row |= {"errors": {"sampling": 0.3, "model": np.nan}}
     assert "| model (not known) |" in write_table([row], tmp_path / "claims.md")
+    dataset = check_claims.to_dataset([row])
+    datasets.write(dataset, tmp_path / "claims.nc", title="claims", parameters={})
+    assert np.isnan(datasets.read(tmp_path / "claims.nc").value.item())

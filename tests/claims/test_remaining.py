@@ -7,7 +7,6 @@ from helpers import claim_files
 from claims import remaining_claims as claims
 from claims.ledger import NOT, OPEN, QUALIFIED, REPRODUCED
 from claims.remaining_claims import sticky_asphalt, sticky_roughness, truncation
-from common import remaining_table
 from common.experiment_outcomes import COMPATIBLE, MISSED, SILENT, SOME
 
 
@@ -16,13 +15,6 @@ def test_verdict_follows_from_the_energy_gained(growth, verdict):
     found = truncation({"remaining": claim_files.remaining(growth)})
     assert found.verdict == verdict
     assert found.value == pytest.approx(1 / (1 + growth))
-
-
-def test_simulated_works_on_the_committed_table():
-    table = remaining_table.read("config/remaining.csv")
-    found = truncation({"remaining": table})
-    assert found.verdict == QUALIFIED
-    assert 0.3 < found.value < 0.7
 
 
 def test_what_converges_decides_the_grade(monkeypatch):

@@ -14,14 +14,8 @@ from stickiness.criteria.a_v_table import SurfaceAv
 from stickiness.spectrum import SelfAffine, Tabulated
 
 A_V = SurfaceAv(np.array([1e-9, 1.0]), np.full((2, 2), 3.0), 0, 0.1)
-TAPE = {
-    "label": "tape",
-    "youngs_modulus": "0.1 MPa",
-    "poisson_ratio": 0.5,
-    "work_of_adhesion": "70 mJ/m^2",
-    "range": "0.3 nm",
-    "source": "made up",
-}
+TAPE = {"label": "tape", "youngs_modulus": "0.1 MPa", "poisson_ratio": 0.5}
+TAPE |= {"work_of_adhesion": "70 mJ/m^2", "range": "0.3 nm", "source": "made up"}
 FILM = {"youngs_modulus": "3 GPa", "poisson_ratio": 0.4, "thickness": "25 um"}
 LONGEST = 2e-4  # of the made-up wall [m]
 

@@ -112,16 +112,12 @@ def test_adhesion_falls_for_good():
     assert np.isnan(experiments.find_fall(heights, np.full(61, 0.2), 0.1))
 
 
-@pytest.mark.parametrize(
-    "conditions",
-    [
-        {"plane_strain_modulus": known("0.001 Pa")},  # which holds on any of these heights
-        {"plane_strain_modulus": known("1e30 Pa"), "range": known("1e-15 m")},  # and on none
-    ],
-)
-def test_a_limiting_roughness_beyond_the_heights_is_an_error_that_names_the_case(conditions):
+# Which holds on any of these heights, and on none.
+@pytest.mark.parametrize(("modulus", "reach"), [("0.001 Pa", "0.3 nm"), ("1e30 Pa", "1e-15 m")])
+def test_a_limiting_roughness_beyond_the_heights_is_an_error_that_names_the_case(modulus, reach):
+    given = {"plane_strain_modulus": known(modulus), "range": known(reach)}
     with pytest.raises(ValueError, match="^mine.cases.one: adhesion falls to 0.1 at no rms"):
-        experiments.predict(observe(LIMIT, **conditions))
+        experiments.predict(observe(LIMIT, **given))
 
 
 @pytest.mark.parametrize(

@@ -157,14 +157,10 @@ def loop(pull_off=-0.02, area=0.03, wider=1.5):
         "dissipated": np.full(122, 0.25),
     }
     dims = "resolution", "control", "adhesion_length_over_range", "state"
+    coords = [4.0, 8.0], ["mean_gap", "pressure"], [0.05, 0.1], np.arange(122)
     data = xr.Dataset(
         {name: (dims, np.broadcast_to(value, (2, 2, 2, 122))) for name, value in values.items()},
-        coords={
-            "resolution": [4.0, 8.0],
-            "control": ["mean_gap", "pressure"],
-            "adhesion_length_over_range": [0.05, 0.1],
-            "state": np.arange(122),
-        },
+        coords=dict(zip(dims, coords, strict=True)),
     )
     return made_by(data, range_over_h_rms=0.1, q0_h_rms=0.1, **case(32))
 
@@ -186,19 +182,11 @@ def stickiness_map():
 
 
 def real_surface(label, kind="self_affine", q0=1e3, c0=1e-3, h_rms=1e-6):
-    data = xr.Dataset(
-        {
-            "C0": ("end", [c0 / 10, c0]),
-            "C0_reference_upper": ("end", [c0 / 10, c0]),
-            "h_rms": ("end", [h_rms / 10, h_rms]),
-            "rms_slope": ("end", [0.1, 1.0]),
-            "elastic_energy": ("end", [q0 * h_rms**2 / 150, q0 * h_rms**2 / 1.5]),
-            "q0": q0,
-            "q1": 2 * np.pi / 1e-6,
-            "hurst": 0.8,
-        },
-        coords={"end": ["smooth", "rough"]},
-    )
+    values = {name: ("end", [c0 / 10, c0]) for name in ("C0", "C0_reference_upper")}
+    values |= {"h_rms": ("end", [h_rms / 10, h_rms]), "rms_slope": ("end", [0.1, 1.0])}
+    values |= {"elastic_energy": ("end", [q0 * h_rms**2 / 150, q0 * h_rms**2 / 1.5])}
+    values |= {"q0": q0, "q1": 2 * np.pi / 1e-6, "hurst": 0.8}
+    data = xr.Dataset(values, coords={"end": ["smooth", "rough"]})
     return made_by(data, kind=kind, label=label)
 
 

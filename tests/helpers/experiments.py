@@ -29,41 +29,19 @@ CONDITIONS = {
     "longest_wavelength": known("100 um"),
     "shortest_wavelength": known("1 um"),
 }
+BALL = {"label": "soft ball", "short": "Ball 1999", "citation": "Ball, J. Made Up 1, 2 (1999)"}
+BALL |= {"not_found": ["the color of the ball"], "missed": "the ball was wet"}
+BALL |= CONDITIONS | {"radius": known("5 mm")}
+BALL |= {"longest_wavelength": known(["50 um", "100 um"], "assumed")}
+LOST = seen("limiting_roughness", ["1 um", "4 um"], "recalled")
+HELD = {"h_rms": known("1 um"), "observed": seen("work_of_separation", "30 mJ/m^2")}
+PLATE = {"label": "hard plate", "citation": "no source"} | CONDITIONS
+PLATE |= {"plane_strain_modulus": known(["100 GPa", "200 GPa"], "assumed")}
+STEEL = {"h_rms": known("1 um"), "observed": seen("sticks", False, "recalled")}
 EXPERIMENTS = {
-    "ball": {
-        "label": "soft ball",
-        "short": "Ball 1999",
-        "citation": "Ball, J. Made Up 1, 2 (1999)",
-        "not_found": ["the color of the ball"],
-        "missed": "the ball was wet",
-        "radius": known("5 mm"),
-        **CONDITIONS,
-        "longest_wavelength": known(["50 um", "100 um"], "assumed"),
-        "cases": {
-            "limit": {
-                "label": "lost",
-                "observed": seen("limiting_roughness", ["1 um", "4 um"], "recalled"),
-            },
-            "work": {
-                "label": "held",
-                "h_rms": known("1 um"),
-                "observed": seen("work_of_separation", "30 mJ/m^2"),
-            },
-        },
-    },
-    "plate": {
-        "label": "hard plate",
-        "citation": "no source",
-        **CONDITIONS,
-        "plane_strain_modulus": known(["100 GPa", "200 GPa"], "assumed"),
-        "cases": {
-            "steel": {
-                "label": "steel on steel",
-                "h_rms": known("1 um"),
-                "observed": seen("sticks", False, "recalled"),
-            }
-        },
-    },
+    "ball": BALL
+    | {"cases": {"limit": {"label": "lost", "observed": LOST}, "work": {"label": "held"} | HELD}},
+    "plate": PLATE | {"cases": {"steel": {"label": "steel on steel"} | STEEL}},
 }
 
 

@@ -90,17 +90,13 @@ def test_error_does_not_vanish_where_the_change_does():
 
 
 @pytest.mark.parametrize(
-    ("width", "points", "shape", "shortest"),
-    [
-        (128, 64, (64, 64), SIDE / 16),  # too coarse a grid leaves waves out
-        (128, 512, (256, 256), SIDE / 32),
-        (64, 128, (128, 64), SIDE / 32),
-    ],
+    ("width", "points", "shape", "waves"),  # too coarse a grid leaves waves out
+    [(128, 64, (64, 64), 16), (128, 512, (256, 256), 32), (64, 128, (128, 64), 32)],
 )
-def test_the_grid_resolves_the_waves_it_keeps(width, points, shape, shortest):
+def test_the_grid_resolves_the_waves_it_keeps(width, points, shape, waves):
     rough = picture_contact.prepare(plate(width=width), 2 * np.pi / SIDE * 32, points)
     assert rough.heights.shape == shape
-    assert rough.shortest_wavelength == pytest.approx(shortest)
+    assert rough.shortest_wavelength == pytest.approx(SIDE / waves)
     assert rough.sides == pytest.approx((SIDE, SIDE * width / 128))
 
 

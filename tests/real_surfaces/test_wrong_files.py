@@ -63,7 +63,6 @@ def netcdf(z="um", x="mm", y="mm"):
 # What is refused: content of the file, keys of the entry, words of the error.
 HEADER = "# x-pixels = 128\n# x-length = 5\n# z-unit = nm\n"
 REFUSED = {
-    "other columns": ("# x-pixels: 64\n" + table(), ENTRY, ["128 columns", "'# x-pixels: 64'"]),
     "other rows": ("# rows: 256\n" + table(), ENTRY, ["128 rows", "'# rows: 256'", "complete"]),
     "x y z of other columns": ("# nx: 64 ny: 128\n" + points(), ENTRY, ["128 columns"]),
     "decimal commas": (table(ROUGH + 9, ",", comma=True), ENTRY, ["256 columns", "alternate"]),
@@ -92,7 +91,6 @@ REFUSED = {
     "half missing": (np.where(ROUGH > 0, np.nan, ROUGH), {}, ["more than the 10.0 %", "crop"]),
     "three dimensions": (np.ones((3, 4, 5)), {}, ["two-dimensional array or a profile"]),
     "no npz": (b"not binary at all", {"name": "a.npz", **ENTRY}, ["not a readable numpy file"]),
-    "two sides": (ROUGH[0], {"length": ["1 mm", "2 mm"]}, ["one length for a line profile"]),
     "torn": (b"DIGITAL SURF\0\0\0\1\2", {"name": "a.sur"}, ["SurfaceTopography cannot read it"]),
     "a torn text": (HEADER + "1 2 3 4\n5 6\n", {"format": "asc"}, ["truncated"]),
 }

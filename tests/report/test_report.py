@@ -80,39 +80,35 @@ def verdicts():
     other = [[[9.0, 8.0], [2.0, 0.5]], [[0.1, 0.1], [3.0, 2.0]]]
     onset = [[[9.0, 8.0], [2.0, 0.5]], [[5.0, 4.0], [0.1, 0.1]]]
     remaining = np.array([[[0.7, 0.5], [0.3, 0.02]], [[0.01, 0.01], [0.0, 0.0]]])
-    pull_off = 1e4 * remaining
-    dims = ("material", "surface", "end")
+    dims, ones = ("material", "surface", "end"), np.ones((2, 2, 2))
+    known = {
+        "remaining": (remaining, 0.8, 1.2),
+        "pull_off": (1e4 * remaining, 0.5, 2),
+        "modulus_threshold": (2.5e6 * ones, 0.6, 1.8),
+        "pair_a_v": (3 * ones, 0.7, 1.3),
+    }
+    found = {
+        f"{name}{end}": (dims, factor * value)
+        for name, (value, low, high) in known.items()
+        for end, factor in (("", 1), ("_low", low), ("_high", high))
+    }
     dataset = xr.Dataset(
         {
+            **found,
             "margin": ((*dims, "criterion"), np.stack([derived, onset, other], axis=-1)),
+            "margin_low": (dims, 0.9 * np.array(derived)),
+            "margin_high": (dims, 1.1 * np.array(derived)),
+            "margin_quantile": ((*dims[:2], "quantile"), np.tile([0.5, 1.0, 2.0], (2, 2, 1))),
             "modulus_quoted": ("material", [4e3 / 3, 2e9]),
-            "modulus_threshold": (dims, np.full((2, 2, 2), 2.5e6)),
-            "remaining": (dims, remaining),
-            "remaining_low": (dims, 0.8 * remaining),
-            "remaining_high": (dims, 1.2 * remaining),
-            "pull_off": (dims, pull_off),
-            "pull_off_low": (dims, 0.5 * pull_off),
-            "pull_off_high": (dims, 2 * pull_off),
-            "stiffening": (dims, np.ones(remaining.shape)),
-            "layer_strain": (dims, np.zeros(remaining.shape)),
+            "stiffening": (dims, ones),
+            "layer_strain": (dims, 0 * ones),
             "energy_ratio": (dims, np.array(derived) / 2),
             "verdict": (dims[:2], [[STICKY, DEPENDS], [TOUCHES, NOT_STICKY]]),
-            "modulus_threshold_low": (dims, np.full((2, 2, 2), 1.5e6)),
-            "modulus_threshold_high": (dims, np.full((2, 2, 2), 4.5e6)),
-            "margin_low": (dims, np.array(derived) * 0.9),
-            "margin_high": (dims, np.array(derived) * 1.1),
-            "pair_a_v": (dims, np.full((2, 2, 2), 3.0)),
-            "pair_a_v_low": (dims, np.full((2, 2, 2), 2.0)),
-            "pair_a_v_high": (dims, np.full((2, 2, 2), 4.0)),
             "probability": (dims[:2], [[np.nan, 0.42], [np.nan, 0.0]]),
             "probability_total_error": (dims[:2], [[np.nan, 0.06], [np.nan, 0.013]]),
-            "margin_quantile": ((*dims[:2], "quantile"), np.tile([0.5, 1.0, 2.0], (2, 2, 1))),
-            "error_of_spectrum": (dims[:2], np.full((2, 2), 0.3)),
-            "error_of_model": (dims[:2], np.full((2, 2), 0.4)),
-            "disagrees": (
-                (*dims[:2], "criterion"),
-                [[[0, 0, 0], [0, 0, 0]], [[0, 1, 0], [0, 0, 1]]],
-            ),
+            "error_of_spectrum": (dims[:2], 0.3 * ones[0]),
+            "error_of_model": (dims[:2], 0.4 * ones[0]),
+            "disagrees": ((*dims[:2], "criterion"), [[[0] * 3] * 2, [[0, 1, 0], [0, 0, 1]]]),
         },
         coords={
             "material": ["jelly", "iron"],
@@ -187,9 +183,8 @@ def benchmarks(tmp_path_factory):
     head = "s\th:m:s\tmax_rss\tcpu_time\n"
     (folder / "slow_rule" / "case" / "seed1.tsv").write_text(head + "10.5\t0:00:10\t200.0\t9.0\n")
     (folder / "slow_rule" / "case" / "seed2.tsv").write_text(head + "30.25\t0:00:30\t100.0\t28.5\n")
-    (folder / "write_report.tsv").write_text(
-        head + "99.0\t0:01:39\t999.0\t99.0\n"
-    )  # of an earlier run
+    # Of an earlier run:
+    (folder / "write_report.tsv").write_text(head + "99.0\t0:01:39\t999.0\t99.0\n")
     (folder / "quick_rule.tsv").write_text(head + "0.5\t0:00:00\tNA\tNA\n")
     return folder
 
@@ -197,13 +192,12 @@ def benchmarks(tmp_path_factory):
 def comparison():
     """Theory 10 % above simulation, known to 3 %, at every load."""
     ranges = np.geomspace(1e-3, 1, 20)
-    shape = (1, 5)
     data = {}
     for kind, value in (("difference", 0.1), ("difference_total_error", 0.03)):
         for name in ("area_fraction", "mean_gap"):
-            data[f"{name}_{kind}"] = (("variant", "pressure"), np.full(shape, value))
-        full = np.full((*shape, 20), value)
-        data[f"attractive_area_{kind}"] = (("variant", "pressure", "range"), full)
+            data[f"{name}_{kind}"] = (("variant", "pressure"), np.full((1, 5), value))
+        full = ("variant", "pressure", "range"), np.full((1, 5, 20), value)
+        data[f"attractive_area_{kind}"] = full
     coords = {"variant": ["a"], "pressure": [0.01, 0.03, 0.1, 0.3, 0.5], "range": ranges}
     return made_by(xr.Dataset(data, coords=coords), case="case_of_two")
 

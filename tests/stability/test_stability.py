@@ -85,7 +85,7 @@ def test_the_middle_of_every_map_is_right(name):
         ("criteria", equivalent_sphere, "effect"),
         ("verdict", remaining.Roughness, "share"),
         ("layer", layers.Layer, "factor"),
-        ("adhesion", Exponential, "traction"),
+        pytest.param("adhesion", Exponential, "traction", marks=pytest.mark.slow),
     ],
 )
 def test_a_wrong_model_is_detected(monkeypatch, component, place, name):
