@@ -28,11 +28,6 @@ def test_finer_waves_matter_less_the_smoother_the_surface():
     assert rough < smooth < 1
 
 
-@pytest.fixture
-def files():
-    return claim_files.files_by_name()
-
-
 def test_sticky_roughness_is_that_of_the_energy_of_full_contact(files):
     found = sticky_roughness(files)
     assert found.verdict == NOT
