@@ -13,13 +13,8 @@ from stickiness.adhesive import edge_zone
 
 LENGTH = 2 * np.pi
 AXES = "pressures", "adhesion_length_over_range", "range_over_h_rms"
-ASKED = {
-    "q0_h_rms": 0.1,
-    "range_over_h_rms": [0.3],
-    "adhesion_length_over_range": [1e-3],
-    "pressures": [0.1],
-    "law": "maugis",
-}
+ASKED = {"q0_h_rms": 0.1, "range_over_h_rms": [0.3], "adhesion_length_over_range": [1e-3]}
+ASKED |= {"pressures": [0.1], "law": "maugis"}
 
 
 @pytest.fixture(scope="module")

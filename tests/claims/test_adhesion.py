@@ -37,8 +37,7 @@ def test_threshold_that_is_not_reached_is_no_number_of_its_own(files):
 
 
 @pytest.mark.parametrize(
-    ("made", "verdict"),
-    [({}, REPRODUCED), ({"wider": 1.0}, QUALIFIED), ({"pull_off": 0.01}, NOT)],
+    ("made", "verdict"), [({}, REPRODUCED), ({"wider": 1.0}, QUALIFIED), ({"pull_off": 0.01}, NOT)]
 )
 def test_loop_is_graded_by_its_width_and_its_pull_off(files, made, verdict):
     files["loop"] = loop(**made)

@@ -31,11 +31,6 @@ def test_kappa_is_that_of_the_load_and_not_of_the_fit(files):
     assert contact.area_slope(files).verdict == NOT
 
 
-def test_kappa_ends_start_at_the_smallest_load():
-    (small, _), (large, _) = contact.kappa_ends(kappa(64))
-    assert (small, large) == (LOADS[0], LOADS[-2])  # half of kappa = 2: the area is the load
-
-
 def test_exponent_is_that_of_the_density(files):
     files["fig3a"] = sweep((1000.0, 5e4), exponent=-0.55)
     claim = contact.small_gap_exponent(files)
@@ -86,8 +81,7 @@ def test_growth_with_magnification_is_graded_though_the_area_is_linear(files):
 
 
 @pytest.mark.parametrize(
-    ("theory", "simulation", "verdict"),
-    [(1, 1, REPRODUCED), (1, 0.8, QUALIFIED), (0.8, 0.7, NOT)],
+    ("theory", "simulation", "verdict"), [(1, 1, REPRODUCED), (1, 0.8, QUALIFIED), (0.8, 0.7, NOT)]
 )
 def test_load_is_graded_on_theory_and_simulation(files, theory, simulation, verdict):
     files["fig3b"] = sweep(loads=(0.0065, 0.03, 0.13, 0.52), power=theory)

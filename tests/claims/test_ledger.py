@@ -18,11 +18,6 @@ def topic(*numbers):
     return types.SimpleNamespace(**made)
 
 
-def test_claims_of_all_topics_stand_in_the_order_of_their_numbers():
-    collected = collect(topic(3, 1), topic(4, 2))
-    assert [found.number for found in collected] == [1, 2, 3, 4]
-
-
 @pytest.mark.parametrize(
     ("numbers", "message"),
     [((1, 2, 2), "two claims have the number 2"), ((1, 3), "no claim has the number 2")],

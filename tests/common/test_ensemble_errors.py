@@ -121,17 +121,3 @@ def test_coarse_solutions_in_parts_are_those_of_one_file(tmp_path):
     both = ensembles.join_coarse([files["first"], files["second"]])
     xr.testing.assert_equal(both, whole)
     assert both.sizes["other"] == 20
-
-
-def test_dimensions_may_come_in_any_order(ensemble):
-    def turned(solved):
-        return solved.area.transpose("pressure", ...)
-
-    best, error = ensemble_means.ensemble_mean(
-        turned(ensemble), ensemble_means.coarse(ensemble, turned)
-    )
-    want = ensemble_means.ensemble_mean(
-        ensemble.area, ensemble_means.coarse(ensemble, attrgetter("area"))
-    )
-    xr.testing.assert_allclose(best, want[0], rtol=1e-14)
-    xr.testing.assert_allclose(error, want[1], rtol=1e-14)

@@ -1,18 +1,8 @@
 """What comes with the project, and what is the user's own."""
 
-import pytest
-import yaml
-
 from common import provided
 
 STIFF = {"plane_strain_modulus": "1 GPa", "work_of_adhesion": "0.1 J/m^2", "range": "0.3 nm"}
-
-
-@pytest.mark.parametrize("kind", ["materials", "surfaces"])
-def test_names_are_in_the_configuration(kind):
-    with open(f"config/{kind}.yaml", encoding="utf-8") as file:
-        names = yaml.safe_load(file)[kind].keys()
-    assert names >= set(getattr(provided, kind.upper()))
 
 
 def test_the_material_pulled_is_the_users_first_one_or_the_softest():

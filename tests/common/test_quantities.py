@@ -72,6 +72,7 @@ def means(tmp_path_factory):
     return folder / "means.nc"
 
 
+@pytest.mark.slow
 def test_slope_in_contact_is_averaged_with_its_errors(means):
     ensemble = datasets.read(means)
     slope, whole = ensemble.contact_slope_mean, ensemble.rms_slope.mean()
@@ -86,21 +87,12 @@ def test_slope_in_contact_is_averaged_with_its_errors(means):
     assert np.isnan(ensemble.contact_slope_mean_total_error).all()
 
 
+@pytest.mark.slow
 def test_case_is_answered_with_what_is_not_known(means):
     folder = means.parent
-    plan = {
-        "quantities": WANTED,
-        "pressures": LOADS,
-        "simulated": True,
-        "settings": {
-            "pixels_per_wavelength": 4,
-            "tolerance": 1e-6,
-            "seeds": 3,
-            "coarse_seeds": 40,
-        },
-        "surface": ASKED,
-        "accuracy": None,
-    }
+    settings = {"pixels_per_wavelength": 4, "tolerance": 1e-6, "seeds": 3, "coarse_seeds": 40}
+    plan = {"quantities": WANTED, "pressures": LOADS, "simulated": True, "settings": settings}
+    plan |= {"surface": ASKED, "accuracy": None}
     inputs = SimpleNamespace(solved=str(means), laws=TABLE, get=lambda name: None)
     asked = job(folder, {}, {"plan": plan, "fit_interval": [0.01, 0.1]}, "answer.nc")
     asked.input = inputs

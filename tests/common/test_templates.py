@@ -12,11 +12,8 @@ from common.templates import make_environment, typeset
         ("7 × 10⁻⁶ … 3", 3),
         ("87 … 100 % (87 to 100 %)", 4),
         ("(163 ± 33) m", 1),
-        ("7.7 … 9.4 mPa", 3),
-        ("50 mJ/m² at 1 Hz", 3),
         ("H = 0.8, l<sub>a</sub> = 0.05 range", 3),
         ("&lt; 0.01 %", 1),
-        ("5 materials on 7 surfaces", 5),
     ],
 )
 def test_numbers_do_not_break_on_pages_of_html(tmp_path, text, pieces):
@@ -36,7 +33,6 @@ def test_numbers_do_not_break_on_pages_of_html(tmp_path, text, pieces):
         ("a_V,PR ~ ζ^((5H-3)/3)", "a<sub>V,PR</sub> ~ ζ<sup>(5H−3)/3</sup>"),
         ("C0 = 10⁻³ m^0.4, 5 um", "C<sub>0</sub> = 10⁻³ m<sup>0.4</sup>, 5 µm"),
         ("shape_a q01 x_rms_y", "shape_a q01 x_rms_y"),
-        ("κ_ad/2p_rep, w/U_full", "κ<sub>ad</sub>/2p<sub>rep</sub>, w/U<sub>full</sub>"),
         (
             "<i> & doi:10.1234/q0",
             '&lt;i&gt; &amp; <a href="https://doi.org/10.1234/q0">doi:10.1234/q0</a>',

@@ -37,12 +37,8 @@ def job_of(path, surface, **params):
 
 
 def test_load_path_of_a_wave(tmp_path, surface):
-    asked = {
-        "seeds": [2],
-        "pixels_per_wavelength": 4,
-        "gaps": {"minimum": 0.01, "maximum": 10, "per_decade": 4},
-        "measured": [],
-    }
+    gaps = {"minimum": 0.01, "maximum": 10, "per_decade": 4}
+    asked = {"seeds": [2], "pixels_per_wavelength": 4, "gaps": gaps, "measured": []}
     job = job_of(tmp_path / "solved.nc", surface, **asked)
     solve_repulsive.main(job)
     found = datasets.read(job.output[0])

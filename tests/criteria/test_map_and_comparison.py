@@ -1,8 +1,9 @@
 """Limits of roughness on the map, and the adhesion that each criterion requires."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
-from helpers.constant_a_v import ConstantAv
 
 from criteria import compare_criteria, map_criterion
 from criteria.simulated_a_v import MeasuredAv
@@ -10,23 +11,25 @@ from stickiness import criteria
 from stickiness.criteria import equivalent_sphere
 from stickiness.spectrum import SelfAffine
 
-ASKED_MAP = {
-    "hurst": 0.8,
-    "shortest_over_range": 4,
-    "range_times_q0": {"minimum": 1e-7, "maximum": 1e-2, "per_decade": 2},
-    "adhesion_length_over_range": {"minimum": 1e-3, "maximum": 10, "per_decade": 2},
-    "slope_parameter": [1, 0.1],
-    "slope_a_v": 3.0,
-}
-COMPARED = {
-    "hurst": 0.8,
-    "range_times_q0": 1e-6,
-    "h_rms_over_range": {"minimum": 10, "maximum": 1e4, "per_decade": 2},
-    "quoted_h_rms_over_range": 1000,
-    "magnification": {"minimum": 10, "maximum": 1e5, "per_decade": 2},
-    "quoted_magnification": 1e4,
-}
+LENGTHS = {"minimum": 1e-3, "maximum": 10, "per_decade": 2}
+WAVE_NUMBERS = {"minimum": 1e-7, "maximum": 1e-2, "per_decade": 2}
+ASKED_MAP = {"hurst": 0.8, "shortest_over_range": 4, "slope_parameter": [1, 0.1], "slope_a_v": 3.0}
+ASKED_MAP |= {"range_times_q0": WAVE_NUMBERS, "adhesion_length_over_range": LENGTHS}
+COMPARED = {"hurst": 0.8, "range_times_q0": 1e-6}
+COMPARED |= {"h_rms_over_range": {"minimum": 10, "maximum": 1e4, "per_decade": 2}}
+COMPARED |= {"magnification": {"minimum": 10, "maximum": 1e5, "per_decade": 2}}
+COMPARED |= {"quoted_h_rms_over_range": 1000, "quoted_magnification": 1e4}
 CONSTANT = MeasuredAv(3.0, sampling=0.2, discretisation=0.1, fit_interval=0.1, bandwidth=0.5)
+
+
+class ConstantAv:
+    """A table of a_V that has one value, 20 % low and 30 % high ends."""
+
+    bounds = {"magnification": (10.0, 1e8), "range": (1e-12, 1.0)}  # noqa: RUF012
+
+    def a_v_at(self, hurst, pressure, range_over_h_rms, magnification):
+        value = np.full(np.broadcast(range_over_h_rms, magnification).shape, 3.0)
+        return SimpleNamespace(value=value, low=0.8 * value, high=1.3 * value)
 
 
 def made_map():

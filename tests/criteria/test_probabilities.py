@@ -31,15 +31,8 @@ def test_materials_in_every_form():
     )
 
 
-MATERIAL = materials.read_material(
-    ENTRY
-    | {
-        "youngs_modulus_prony": {"equilibrium": "1 MPa", "terms": [["1 GPa", "1 ms"]]},
-        "poisson_ratio": 0.5,
-    }
-)
-
-
+FORM = {"youngs_modulus_prony": {"equilibrium": "1 MPa", "terms": [["1 GPa", "1 ms"]]}}
+MATERIAL = materials.read_material(ENTRY | FORM | {"poisson_ratio": 0.5})
 ROUGH = Roughness(h_rms=1e-6, q0=1e5, elastic_energy=1e-7)
 SAME = np.ones(4000)
 

@@ -153,6 +153,7 @@ def test_library_rule_and_prediction_give_the_same_numbers(modulus, reach):
     assert float(by_rule.energy_ratio) == pytest.approx(expected.energy_ratio, rel=1e-9)
 
 
+@pytest.mark.slow
 def test_errors_of_the_spectrum_are_counted_once():
     """Limits are of the model alone; the spectrum adds a part, which is 0 for one spectrum."""
     found = judge(1e4, 1e-9)
@@ -167,7 +168,8 @@ def test_errors_of_the_spectrum_are_counted_once():
     assert np.isnan(others).all()  # other criteria state no error
 
 
-@pytest.mark.parametrize("h_rms", [0.1e-6, 1e-6, 1e-5])
+@pytest.mark.slow
+@pytest.mark.parametrize("h_rms", [0.1e-6, 1e-5])
 def test_steel_does_not_stick(h_rms):
     """Nor does its contact grow by itself, from polished to coarse."""
     found = judge(230e9, 3e-10, h_rms)
@@ -192,24 +194,20 @@ def fit_file(path, name, coords, **parameters):
     return path
 
 
-@pytest.fixture
-def inputs(tmp_path):
+@pytest.fixture(scope="module")
+def inputs(tmp_path_factory):
     """Simulation with a_V = 2, theory 2 on the same spectrum and on all others."""
-    loads = [0.03, 0.065]
-    lattice = {"variant": ["afferrante2018"], "pressure": loads}
-    sweep = {
-        "variant": ["afferrante2018"],
-        "hurst": [0.8],
-        "magnification": [1e2, 1e4, 1e6],
-        "load": [0],
-    }
+    folder, loads = tmp_path_factory.mktemp("a_v"), {"pressure": [0.03, 0.065]}
+    variant = {"variant": ["afferrante2018"]}
+    sweep = variant | {"hurst": [0.8], "magnification": [1e2, 1e4, 1e6], "load": [0]}
     return SimpleNamespace(
-        a_v=fit_file(tmp_path / "case.nc", "a_v_mean", {"pressure": loads}),
-        lattice=fit_file(tmp_path / "lattice.nc", "a_v", lattice, hurst=0.8),
-        theory=fit_file(tmp_path / "theory.nc", "a_v", sweep),
+        a_v=fit_file(folder / "case.nc", "a_v_mean", loads),
+        lattice=fit_file(folder / "lattice.nc", "a_v", variant | loads, hurst=0.8),
+        theory=fit_file(folder / "theory.nc", "a_v", sweep),
     )
 
 
+@pytest.mark.slow
 def test_a_v_is_that_of_the_simulation_in_the_file(inputs):
     found = measure_a_v(inputs, 0.065)
     assert found.value == 2.0

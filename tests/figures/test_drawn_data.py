@@ -414,12 +414,10 @@ def test_figure_9c_has_geometric_means_and_the_range_over_materials_and_ends(ax)
 def edges():
     coords = {"pressure": [0.065], "adhesion_length_over_range": [0.01, 0.1]}
     coords |= {"range_over_h_rms": [0.1, 1.0]}
-    variables = {
-        "attractive_over_contact": [[[0.2, 1.0], [2.0, 3.0]]],
-        "edge_strength": [[[0.01, 0.02], [1.0, 0.03]]],
-        "effect": [[[3.0, 2.0], [1.5, 1.2]]],
-        "over_model*": [[[1.1, 0.9], [0.8, 4.0]]],  # the last with too large an error
-    }
+    variables = {"attractive_over_contact": [[[0.2, 1.0], [2.0, 3.0]]]}
+    variables |= {"edge_strength": [[[0.01, 0.02], [1.0, 0.03]]]}
+    variables |= {"effect": [[[3.0, 2.0], [1.5, 1.2]]]}
+    variables |= {"over_model*": [[[1.1, 0.9], [0.8, 4.0]]]}  # the last with too large an error
     return dataset(coords, variables, magnification=32, q0_h_rms=0.314159)
 
 
@@ -447,10 +445,8 @@ def test_figure_10b_shades_the_error_of_verdicts(ax, edges):
 
 
 def test_lines_of_the_trade_are_errors_against_costs(ax):
-    found = pd.DataFrame(
-        {"value": ["4", "8", "2"], "error": [0.1, 0.01, 0.3], "cost": [2.0, 4.0, 1.0]}
-    )
-    found = found.assign(quantity="area", x=found.cost)
+    errors = {"value": ["4", "8", "2"], "error": [0.1, 0.01, 0.3], "cost": [2.0, 4.0, 1.0]}
+    found = pd.DataFrame(errors).assign(quantity="area", x=errors["cost"])
     styles = {"area": {"color": "black", "marker": "o"}}
     plot_tradeoff.draw_setting(ax, found, styles, "points per wavelength")
     np.testing.assert_allclose(ax.lines[1].get_xydata(), [[1, 0.3], [2, 0.1], [4, 0.01]])

@@ -1,6 +1,7 @@
 """Made-up files behind the claims, for which the verdict and the number are known."""
 
 import functools
+import itertools
 import json
 
 import numpy as np
@@ -156,64 +157,36 @@ def loop(pull_off=-0.02, area=0.03, wider=1.5):
         "dissipated": np.full(122, 0.25),
     }
     dims = "resolution", "control", "adhesion_length_over_range", "state"
+    coords = [4.0, 8.0], ["mean_gap", "pressure"], [0.05, 0.1], np.arange(122)
     data = xr.Dataset(
         {name: (dims, np.broadcast_to(value, (2, 2, 2, 122))) for name, value in values.items()},
-        coords={
-            "resolution": [4.0, 8.0],
-            "control": ["mean_gap", "pressure"],
-            "adhesion_length_over_range": [0.05, 0.1],
-            "state": np.arange(122),
-        },
+        coords=dict(zip(dims, coords, strict=True)),
     )
     return made_by(data, range_over_h_rms=0.1, q0_h_rms=0.1, **case(32))
 
 
-LIMIT_FACTORS = {
-    "h_rms_limit": 1.0,
-    "h_rms_limit_edges": 2.0,
-    "h_rms_limit_edges_low": 1.0,
-    "h_rms_limit_edges_high": 3.0,
-    "weak_limit": 4.0,
-}
-
-
-def stickiness_map(a_v=(3.5, 2.5, 4.5)):
+def stickiness_map():
     dims = "range_times_q0", "adhesion_length_over_range"
     q0, length = np.geomspace(1e-12, 1e-2, 11), np.array([0.01, 0.1])
     limit = 1 / np.sqrt(q0[:, None]) * length
+    factors = {"": 1.0, "_edges": 2.0, "_edges_low": 1.0, "_edges_high": 3.0}
+    limits = {f"h_rms_limit{name}": (dims, factor * limit) for name, factor in factors.items()}
+    limits |= {"weak_limit": (dims, 4 * limit), "a_v": 3.5, "a_v_low": 2.5, "a_v_high": 4.5}
     roughness, parameters = np.geomspace(0.1, 100, 301), np.array([1, 0.5])
     inverse = criteria.inverse_kappa_ad(roughness, parameters[:, None], 1.0, 1.0, 3.0)
     angles = np.degrees(criteria.slope_angle(criteria.inverse_kappa(inverse)))
-    data = xr.Dataset(
-        {
-            "slope_angle": (("slope_parameter", "h_rms_over_range"), angles),
-            **dict(zip(("a_v", "a_v_low", "a_v_high"), a_v, strict=True)),
-            **{name: (dims, factor * limit) for name, factor in LIMIT_FACTORS.items()},
-        },
-        coords={
-            "slope_parameter": parameters,
-            "h_rms_over_range": roughness,
-            dims[0]: q0,
-            dims[1]: length,
-        },
-    )
+    limits |= {"slope_angle": (("slope_parameter", "h_rms_over_range"), angles)}
+    coords = {"slope_parameter": parameters, "h_rms_over_range": roughness}
+    data = xr.Dataset(limits, coords=coords | {dims[0]: q0, dims[1]: length})
     return made_by(data, slope_a_v=3.0, shortest_over_range=4)
 
 
 def real_surface(label, kind="self_affine", q0=1e3, c0=1e-3, h_rms=1e-6):
-    data = xr.Dataset(
-        {
-            "C0": ("end", [c0 / 10, c0]),
-            "C0_reference_upper": ("end", [c0 / 10, c0]),
-            "h_rms": ("end", [h_rms / 10, h_rms]),
-            "rms_slope": ("end", [0.1, 1.0]),
-            "elastic_energy": ("end", [q0 * h_rms**2 / 150, q0 * h_rms**2 / 1.5]),
-            "q0": q0,
-            "q1": 2 * np.pi / 1e-6,
-            "hurst": 0.8,
-        },
-        coords={"end": ["smooth", "rough"]},
-    )
+    values = {name: ("end", [c0 / 10, c0]) for name in ("C0", "C0_reference_upper")}
+    values |= {"h_rms": ("end", [h_rms / 10, h_rms]), "rms_slope": ("end", [0.1, 1.0])}
+    values |= {"elastic_energy": ("end", [q0 * h_rms**2 / 150, q0 * h_rms**2 / 1.5])}
+    values |= {"q0": q0, "q1": 2 * np.pi / 1e-6, "hurst": 0.8}
+    data = xr.Dataset(values, coords={"end": ["smooth", "rough"]})
     return made_by(data, kind=kind, label=label)
 
 
@@ -243,36 +216,18 @@ def fig3c():
 def remaining(growth=0.0):
     """Energy gained by two surfaces; finer waves raise the energy of full contact by `growth`."""
     rows = []
-    for hurst in (0.5, 0.8):
-        for seed in (1, 2):
-            for magnification in (4, 32):
-                energy = 0.4 * (1 + growth * (magnification == 32))
-                ratios = np.array([0.5, 1.0, 2.0])
-                rows.append(
-                    pd.DataFrame(
-                        {
-                            "hurst": hurst,
-                            "seed": seed,
-                            "window": 2,
-                            "zone": 0.1,
-                            "magnification": magnification,
-                            "full_contact_energy": energy,
-                            "adhesion_length": ratios * energy,
-                            "bound": 0.25 * ratios,
-                        }
-                    )
-                )
-    return pd.concat(rows, ignore_index=True)
+    for hurst, seed, magnification in itertools.product((0.5, 0.8), (1, 2), (4, 32)):
+        energy = 0.4 * (1 + growth * (magnification == 32))
+        same = {"hurst": hurst, "seed": seed, "magnification": magnification, "window": 2}
+        same |= {"zone": 0.1, "full_contact_energy": energy}
+        for ratio in (0.5, 1.0, 2.0):
+            rows.append(same | {"adhesion_length": ratio * energy, "bound": 0.25 * ratio})
+    return pd.DataFrame(rows)
 
 
-RUBBER = {
-    "fuller_tabor": {
-        "label": "rubber spheres",
-        "short": "Rubber 1975",
-        "citation": "no source",
-        "cases": {"one_MPa": {"label": "rubber of 1 MPa"}},
-    }
-}
+RUBBER_CASES = {"one_MPa": {"label": "rubber of 1 MPa"}}
+RUBBER = {"label": "rubber spheres", "short": "Rubber 1975", "citation": "no source"}
+RUBBER = {"fuller_tabor": RUBBER | {"cases": RUBBER_CASES}}
 
 
 def experiments(outcomes=(2, 2, 2), limit=40e-6, grades=(1, 1, 1), tests=(1, 1, 1)):

@@ -29,41 +29,19 @@ CONDITIONS = {
     "longest_wavelength": known("100 um"),
     "shortest_wavelength": known("1 um"),
 }
+BALL = {"label": "soft ball", "short": "Ball 1999", "citation": "Ball, J. Made Up 1, 2 (1999)"}
+BALL |= {"not_found": ["the color of the ball"], "missed": "the ball was wet"}
+BALL |= CONDITIONS | {"radius": known("5 mm")}
+BALL |= {"longest_wavelength": known(["50 um", "100 um"], "assumed")}
+LOST = seen("limiting_roughness", ["1 um", "4 um"], "recalled")
+HELD = {"h_rms": known("1 um"), "observed": seen("work_of_separation", "30 mJ/m^2")}
+PLATE = {"label": "hard plate", "citation": "no source"} | CONDITIONS
+PLATE |= {"plane_strain_modulus": known(["100 GPa", "200 GPa"], "assumed")}
+STEEL = {"h_rms": known("1 um"), "observed": seen("sticks", False, "recalled")}
 EXPERIMENTS = {
-    "ball": {
-        "label": "soft ball",
-        "short": "Ball 1999",
-        "citation": "Ball, J. Made Up 1, 2 (1999)",
-        "not_found": ["the color of the ball"],
-        "missed": "the ball was wet",
-        "radius": known("5 mm"),
-        **CONDITIONS,
-        "longest_wavelength": known(["50 um", "100 um"], "assumed"),
-        "cases": {
-            "limit": {
-                "label": "lost",
-                "observed": seen("limiting_roughness", ["1 um", "4 um"], "recalled"),
-            },
-            "work": {
-                "label": "held",
-                "h_rms": known("1 um"),
-                "observed": seen("work_of_separation", "30 mJ/m^2"),
-            },
-        },
-    },
-    "plate": {
-        "label": "hard plate",
-        "citation": "no source",
-        **CONDITIONS,
-        "plane_strain_modulus": known(["100 GPa", "200 GPa"], "assumed"),
-        "cases": {
-            "steel": {
-                "label": "steel on steel",
-                "h_rms": known("1 um"),
-                "observed": seen("sticks", False, "recalled"),
-            }
-        },
-    },
+    "ball": BALL
+    | {"cases": {"limit": {"label": "lost", "observed": LOST}, "work": {"label": "held"} | HELD}},
+    "plate": PLATE | {"cases": {"steel": {"label": "steel on steel"} | STEEL}},
 }
 
 
@@ -86,18 +64,9 @@ def make_dataset(rows, experiments=EXPERIMENTS):
     return dataset.assign_attrs(parameters=json.dumps({"experiments": experiments}))
 
 
-FLAGS = {
-    "outcome": 2,
-    "value_inside": 0,
-    "by_relation": 0,
-    "tests": 1,
-    "observed_known": 1,
-    "known": 3,
-    "effect_of_input": 1.0,
-    "waves_in_contact": np.nan,
-    "work_of_adhesion": 0.05,
-    "h_rms": 1e-6,
-}
+FLAGS = {"outcome": 2, "value_inside": 0, "by_relation": 0, "tests": 1, "observed_known": 1}
+FLAGS |= {"known": 3, "effect_of_input": 1.0, "waves_in_contact": np.nan}
+FLAGS |= {"work_of_adhesion": 0.05, "h_rms": 1e-6}
 
 
 def make_row(

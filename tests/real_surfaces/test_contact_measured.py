@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from common.materials import read_material
 from real_surfaces import contact_measured
 from stickiness import adhesive, datasets, repulsive, surface
 from stickiness.measured.topography import Topography
@@ -41,12 +40,9 @@ def test_both_ways_bracket_nothing_absurd(whole):
     # The mirror keeps the variance but for the waves beyond the band that its seams make.
     assert float(found.h_rms.sel(periodisation="mirror")) == pytest.approx(np.std(h), rel=0.02)
     assert float(found.h_rms.sel(periodisation="taper")) < np.std(h)
-    fine = found.isel(resolution=-1)
-    assert np.all(fine.area_fraction.isel(pressure=1) > fine.area_fraction.isel(pressure=0))
-    assert np.all(np.diff(fine.attractive_area, axis=-1) >= 0)
-    # Area grows nearly linearly, and Persson's is within a third on one small surface.
-    ratio = (fine.area_fraction / fine.theory_area_fraction).isel(pressure=1)
-    assert np.all(np.abs(ratio - 1) < 0.35)
+    # Persson's area is within a third on one small surface.
+    fine = found.isel(resolution=-1, pressure=1)
+    assert np.all(np.abs(fine.area_fraction / fine.theory_area_fraction - 1) < 0.35)
 
 
 @pytest.mark.slow
@@ -94,15 +90,9 @@ def periodic_file(tmp_path_factory):
 
 
 def asked_of(path, **bem):
-    return {
-        "kind": "measured",
-        "label": "plate",
-        "source": "own",
-        "file": str(path),
-        "length": "10 um",
-        "height_unit": "m",
-        "bem": {"periodic": True, "pressures": ["0.5 MPa", "250 kPa"], "adhesion": SOLID} | bem,
-    }
+    asked = {"kind": "measured", "file": str(path), "length": "10 um", "height_unit": "m"}
+    bem = {"periodic": True, "pressures": ["0.5 MPa", "250 kPa"], "adhesion": SOLID} | bem
+    return asked | {"label": "plate", "source": "own", "bem": bem}
 
 
 @pytest.fixture(scope="module")
@@ -155,16 +145,6 @@ def test_adhesion_is_that_of_the_solver_at_the_pressures_given(pressed, periodic
         assert at.adhesive_contact_area >= at.area_fraction
     edge = SIDE / 64 * 2e-9 / 40e-9**2
     assert float(pressed.edge_resolution.isel(resolution=-1).max()) == pytest.approx(edge)
-
-
-def test_pressures_with_units_are_the_same_in_both_ways(whole):
-    h, _ = whole
-    entry = {"plane_strain_modulus": "1 Pa", "work_of_adhesion": "20 mJ/m^2", "range": "0.5 m"}
-    found = contact_of(
-        h, pressures=np.array([0.3]), absolute=True, material=read_material(entry), pixels=2
-    )
-    np.testing.assert_allclose(found.applied_pressure, 0.3, rtol=1e-12)
-    assert np.all(found.adhesive_contact_area > 0)
 
 
 @pytest.mark.parametrize(

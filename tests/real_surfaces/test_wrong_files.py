@@ -61,51 +61,18 @@ def netcdf(z="um", x="mm", y="mm"):
 
 
 # What is refused: content of the file, keys of the entry, words of the error.
+HEADER = "# x-pixels = 128\n# x-length = 5\n# z-unit = nm\n"
 REFUSED = {
-    "header states other columns": (
-        "# x-pixels: 64\n" + table(),
-        ENTRY,
-        ["128 columns", "'# x-pixels: 64'", "decimal commas"],
-    ),
-    "header states other rows": (
-        "# columns: 128\n# rows: 256\n" + table(),
-        ENTRY,
-        ["128 rows", "'# rows: 256'", "complete"],
-    ),
-    "x y z of another number of columns": (
-        "# nx: 64 ny: 128\n" + points(),
-        ENTRY,
-        ["128 columns", "'# nx: 64 ny: 128'"],
-    ),
-    "decimal commas between commas": (
-        table(ROUGH + 9, ",", comma=True),
-        ENTRY,
-        ["256 columns", "alternate", "separate by tabs or semicolons"],
-    ),
+    "other rows": ("# rows: 256\n" + table(), ENTRY, ["128 rows", "'# rows: 256'", "complete"]),
+    "x y z of other columns": ("# nx: 64 ny: 128\n" + points(), ENTRY, ["128 columns"]),
+    "decimal commas": (table(ROUGH + 9, ",", comma=True), ENTRY, ["256 columns", "alternate"]),
     **{
-        line: (f"# {line}\n" + table(), ENTRY, [f"'# {line}'", "not read", "format: instrument"])
-        for line in (
-            "z factor: 0.5 nm per count",
-            "Scale factor for heights = 2",
-            "Vertical scale: 0.5 um",
-            "Detector: 0.5 nm/count",
-        )
+        line: (f"# {line}\n" + table(), ENTRY, [f"'# {line}'", "format: instrument"])
+        for line in ("z factor: 0.5 nm per count", "Vertical scale: 0.5 um")
     },
-    "an instrument's header, read as text": (
-        "# pixel size = 1e-6 m\n" + table(),
-        {"format": "text"},
-        ["'# pixel size = 1e-6 m'", "give format: instrument"],
-    ),
-    "x y z off the grid": (
-        points(shift=0.3),
-        ENTRY,
-        ["three columns", "no even grid along x", "export a matrix"],
-    ),
-    "x y z of few points": (
-        points(slice(None, None, 40)),
-        ENTRY,
-        ["three columns", "empty", "resample"],
-    ),
+    "a header as text": ("# pixel size = 1e-6 m\n" + table(), {"format": "text"}, ["instrument"]),
+    "x y z off the grid": (points(shift=0.3), ENTRY, ["three columns", "no even grid along x"]),
+    "few x y z": (points(slice(None, None, 40)), ENTRY, ["three columns", "empty", "resample"]),
     "x y z twice": (points() + "\n0 0 1", ENTRY, ["two points at one place"]),
     "x y z without a unit": (points(), {"height_unit": "um"}, ["give position_unit"]),
     "ragged rows": (table() + "\n1.0\t2.0", ENTRY, ["line 129: 2 numbers", "128"]),
@@ -113,94 +80,36 @@ REFUSED = {
     "no numbers": ("nothing\n", ENTRY, ["no line of numbers found"]),
     "no unit": (table(), {"length": "2 mm"}, ["unit of height; give height_unit"]),
     "no size": (table(), {"height_unit": "um"}, ["size; give length or pixel_size"]),
-    "another unit than the file's": (
-        GWYDDION + table(),
-        {"height_unit": "nm"},
-        ["height_unit = 'nm'", "the file says 'um'"],
-    ),
-    "a unit that is no length": (
-        GWYDDION.replace("units: um", "units: V") + table(),
-        {},
-        ["height_unit", "'1 V' is in V; a length is wanted"],
-    ),
+    "another unit": (GWYDDION + table(), {"height_unit": "nm"}, ["'nm'", "the file says 'um'"]),
+    "no length": (GWYDDION.replace("units: um", "units: V") + table(), {}, ["'1 V' is in V"]),
     "a voltage in NetCDF": (netcdf(z="V"), {}, ["a length is wanted, e.g. '10 um'"]),
     "degrees in NetCDF": (netcdf(x="degrees"), {}, ["size; give length or pixel_size"]),
     "ten by ten": (ROUGH[:10, :10], {}, ["10 x 10 points", "64 points along its shorter side"]),
     "a short profile": (ROUGH[0, :30], {}, ["of 30 points", "a profile 256"]),
     "flat": (np.ones((N, N)), {}, ["all heights are 1e-06 m; nothing to analyse"]),
     "all missing": (np.full((N, N), np.nan), {}, ["16384 points, which are all, are missing"]),
-    "half missing": (
-        np.where(ROUGH > 0, np.nan, ROUGH),
-        {},
-        ["are missing, more than the 10.0 % that are filled", "missing: crop"],
-    ),
-    "three dimensions": (
-        np.ones((3, 4, 5)),
-        {},
-        ["needs a two-dimensional array or a profile, got shape (5, 4, 3)"],
-    ),
-    "not what the name says": (
-        b"not binary at all",
-        {"name": "a.npz", **ENTRY},
-        ["not a readable numpy file"],
-    ),
-    "a profile with two sides": (
-        ROUGH[0],
-        {"length": ["1 mm", "2 mm"]},
-        ["one length for a line profile"],
-    ),
-    "a torn file": (
-        b"DIGITAL SURF\0\0\0\1\2",
-        {"name": "a.sur"},
-        ["SurfaceTopography cannot read it", "is the file complete?", "export it as a text matrix"],
-    ),
-    "a torn text of an instrument": (
-        "# x-pixels = 128\n# x-length = 5\n# z-unit = nm\n1 2 3 4\n5 6\n",
-        {"format": "asc"},
-        ["different numbers of values", "truncated"],
-    ),
+    "half missing": (np.where(ROUGH > 0, np.nan, ROUGH), {}, ["more than the 10.0 %", "crop"]),
+    "three dimensions": (np.ones((3, 4, 5)), {}, ["two-dimensional array or a profile"]),
+    "no npz": (b"not binary at all", {"name": "a.npz", **ENTRY}, ["not a readable numpy file"]),
+    "torn": (b"DIGITAL SURF\0\0\0\1\2", {"name": "a.sur"}, ["SurfaceTopography cannot read it"]),
+    "a torn text": (HEADER + "1 2 3 4\n5 6\n", {"format": "asc"}, ["truncated"]),
 }
 # What is read but not judged: heights, keys of the entry, words of the reasons.
+BLURRED = surface.synthesise(SelfAffine(hurst=0.8, q0=3, q1=40, h_rms=1), N, 2.1, 1)
+NOISE = np.random.default_rng(0).standard_normal((N, N))
+SPIKES = changed((slice(None, None, 5), slice(None, None, 7)), value=40.0)
 WITHHELD = {
-    "zeros at 5 % of the points": (
-        zeros(0.05),
-        {},
-        ["0.051 of the points have the one value 0", "give missing_value: 0"],
-    ),
-    "a saturated block": (
-        changed((slice(0, 30), slice(0, 30)), value=3.7),
-        {},
-        ["the one value 3.7", "missing_value: 3.7"],
-    ),
+    "zeros": (zeros(0.05), {}, ["0.051 of the points", "give missing_value: 0"]),
+    "a saturated block": (changed((slice(30), slice(30)), value=3.7), {}, ["missing_value: 3.7"]),
     "few levels": (np.round(2 * ROUGH), {}, ["different heights", "more digits"]),
-    "spikes kept": (
-        changed((60, 70), value=1e6),
-        {"spikes": "keep"},
-        ["the heights range over 1 m, more than the side of 0.002 m", "H = -", "spikes"],
-    ),
-    "spikes everywhere": (
-        changed((slice(None, None, 5), slice(None, None, 7)), value=40.0),
-        {},
-        ["H = -", "noise, spikes or lost points"],
-    ),
-    "2 m for 2 mm": (
-        ROUGH,
-        {"length": "2 m"},
-        ["the side of 2 m is longer", "(2 mm, not 2 m?)"],
-    ),
+    "spikes kept": (changed((60, 70), value=1e6), {"spikes": "keep"}, ["range over 1 m", "H = -"]),
+    "spikes everywhere": (SPIKES, {}, ["H = -", "noise, spikes or lost points"]),
+    "2 m for 2 mm": (ROUGH, {"length": "2 m"}, ["the side of 2 m is longer", "(2 mm, not 2 m?)"]),
     "160 m in NetCDF": (netcdf(x="km", y="km"), {}, ["the side of", "longer than 0.5 m"]),
-    "heights in mm for um": (ROUGH, {"height_unit": "mm"}, ["range over", "correct height_unit"]),
+    "heights in mm": (ROUGH, {"height_unit": "mm"}, ["range over", "correct height_unit"]),
     "too flat to be": (ROUGH * 1e-6, {}, ["the rms slope between points is", "outside 1e-07"]),
-    "noise": (
-        np.random.default_rng(0).standard_normal((N, N)),
-        {},
-        ["outside 0 < H <= 1", "resolution or fit_to"],
-    ),
-    "blurred": (
-        surface.synthesise(SelfAffine(hurst=0.8, q0=3, q1=40, h_rms=1), N, 2.1, 1),
-        {},
-        ["it falls as blur does", "departs from a power law"],
-    ),
+    "noise": (NOISE, {}, ["outside 0 < H <= 1", "resolution or fit_to"]),
+    "blurred": (BLURRED, {}, ["it falls as blur does", "departs from a power law"]),
 }
 
 
@@ -224,23 +133,10 @@ def test_an_implausible_measurement_is_not_judged(tmp_path, name):
     assert "(plausibility: ignore)" in told.remarks
 
 
-HARMLESS = """
-X Resolution: 0.15625 um
-Grid: 10 x 10 um
-W: 10 um
-Lines: 500/mm
-Skipped columns: 2
-nx: 128 ny: 128
-columns: 128, rows: 128
-Zoom factor: 20
-Colour scale: 1
-x scale: 2
-Scale bar: 5 um
-16 bits per pixel
-"""
+HARMLESS = ("X Resolution: 0.15625 um", "Lines: 500/mm", "columns: 128, rows: 128", "x scale: 2")
 
 
-@pytest.mark.parametrize("line", HARMLESS.strip().splitlines())
+@pytest.mark.parametrize("line", HARMLESS)
 def test_headers_that_state_neither_counts_nor_factors_are_passed_over(tmp_path, line):
     assert analyse(tmp_path, f"# {line}\n" + table(), **ENTRY).not_judged == ""
 
@@ -275,13 +171,12 @@ def test_a_masked_spike_changes_nothing_and_is_told(tmp_path):
     found = analyse(tmp_path, changed((60, 70), value=1e6))
     assert found.not_judged == ""
     assert int(found.masked_spikes) == 1
-    assert "spikes, which are not used: 1 (spikes: keep uses them)" in found.remarks
     for name in ("h_rms", "h_rms_measured", "hurst", "elastic_energy"):
         np.testing.assert_allclose(found[name], clean[name], rtol=2e-3)
     # One point of 1 m in 128 x 128.
     assert float(found.h_rms_as_read) == pytest.approx(1 / 128, rel=0.01)
     assert "the rms height is 7.81 mm with all points, " in found.remarks
-    assert "if they are part of the surface, give spikes: keep" in found.remarks
+    assert "give spikes: keep" in found.remarks
 
 
 def test_many_spikes_are_told_with_their_share(tmp_path):

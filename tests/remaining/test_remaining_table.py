@@ -9,15 +9,8 @@ import xarray as xr
 from common import remaining_table
 from remaining import measure_remaining, tabulate_remaining
 
-ASKED = {
-    "hurst": 0.8,
-    "magnification": 4,
-    "window": 2,
-    "points": 64,
-    "seeds": [5],
-    "energies": [0.6, 1.5],
-    "zones": [0.05, 0.8],
-}
+ASKED = {"hurst": 0.8, "magnification": 4, "window": 2, "points": 64, "seeds": [5]}
+ASKED |= {"energies": [0.6, 1.5], "zones": [0.05, 0.8]}
 
 
 def run(script, **job):

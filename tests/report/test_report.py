@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 import xarray as xr
 from bokeh.models import MultiLine, Scatter
-from helpers.experiments import EXPERIMENTS, make_dataset
+from helpers.experiments import make_dataset
 from helpers.pages import Page, make_job
 from matplotlib.figure import Figure
 
@@ -42,15 +42,9 @@ def budgeted(dataset, name, **errors):
 
 
 LAWS, TRADE = "config/accuracy.csv", "config/tradeoff.csv"
+QUICK = {"pixels_per_wavelength": 4, "tolerance": 1e-4, "seeds": 3, "coarse_seeds": 32}
 PRESETS = {
-    "fidelities": {
-        "quick": {
-            "pixels_per_wavelength": 4,
-            "tolerance": 1e-4,
-            "seeds": 3,
-            "coarse_seeds": 32,
-        }
-    },
+    "fidelities": {"quick": QUICK},
     "presets": {"accuracy": {"quick": 0.3}, "pressures": [0.065]},
     "surface": {"hurst": 0.8, "magnification": 64},
     "descriptor_seeds": 2048,
@@ -86,39 +80,35 @@ def verdicts():
     other = [[[9.0, 8.0], [2.0, 0.5]], [[0.1, 0.1], [3.0, 2.0]]]
     onset = [[[9.0, 8.0], [2.0, 0.5]], [[5.0, 4.0], [0.1, 0.1]]]
     remaining = np.array([[[0.7, 0.5], [0.3, 0.02]], [[0.01, 0.01], [0.0, 0.0]]])
-    pull_off = 1e4 * remaining
-    dims = ("material", "surface", "end")
+    dims, ones = ("material", "surface", "end"), np.ones((2, 2, 2))
+    known = {
+        "remaining": (remaining, 0.8, 1.2),
+        "pull_off": (1e4 * remaining, 0.5, 2),
+        "modulus_threshold": (2.5e6 * ones, 0.6, 1.8),
+        "pair_a_v": (3 * ones, 0.7, 1.3),
+    }
+    found = {
+        f"{name}{end}": (dims, factor * value)
+        for name, (value, low, high) in known.items()
+        for end, factor in (("", 1), ("_low", low), ("_high", high))
+    }
     dataset = xr.Dataset(
         {
+            **found,
             "margin": ((*dims, "criterion"), np.stack([derived, onset, other], axis=-1)),
+            "margin_low": (dims, 0.9 * np.array(derived)),
+            "margin_high": (dims, 1.1 * np.array(derived)),
+            "margin_quantile": ((*dims[:2], "quantile"), np.tile([0.5, 1.0, 2.0], (2, 2, 1))),
             "modulus_quoted": ("material", [4e3 / 3, 2e9]),
-            "modulus_threshold": (dims, np.full((2, 2, 2), 2.5e6)),
-            "remaining": (dims, remaining),
-            "remaining_low": (dims, 0.8 * remaining),
-            "remaining_high": (dims, 1.2 * remaining),
-            "pull_off": (dims, pull_off),
-            "pull_off_low": (dims, 0.5 * pull_off),
-            "pull_off_high": (dims, 2 * pull_off),
-            "stiffening": (dims, np.ones(remaining.shape)),
-            "layer_strain": (dims, np.zeros(remaining.shape)),
+            "stiffening": (dims, ones),
+            "layer_strain": (dims, 0 * ones),
             "energy_ratio": (dims, np.array(derived) / 2),
             "verdict": (dims[:2], [[STICKY, DEPENDS], [TOUCHES, NOT_STICKY]]),
-            "modulus_threshold_low": (dims, np.full((2, 2, 2), 1.5e6)),
-            "modulus_threshold_high": (dims, np.full((2, 2, 2), 4.5e6)),
-            "margin_low": (dims, np.array(derived) * 0.9),
-            "margin_high": (dims, np.array(derived) * 1.1),
-            "pair_a_v": (dims, np.full((2, 2, 2), 3.0)),
-            "pair_a_v_low": (dims, np.full((2, 2, 2), 2.0)),
-            "pair_a_v_high": (dims, np.full((2, 2, 2), 4.0)),
             "probability": (dims[:2], [[np.nan, 0.42], [np.nan, 0.0]]),
             "probability_total_error": (dims[:2], [[np.nan, 0.06], [np.nan, 0.013]]),
-            "margin_quantile": ((*dims[:2], "quantile"), np.tile([0.5, 1.0, 2.0], (2, 2, 1))),
-            "error_of_spectrum": (dims[:2], np.full((2, 2), 0.3)),
-            "error_of_model": (dims[:2], np.full((2, 2), 0.4)),
-            "disagrees": (
-                (*dims[:2], "criterion"),
-                [[[0, 0, 0], [0, 0, 0]], [[0, 1, 0], [0, 0, 1]]],
-            ),
+            "error_of_spectrum": (dims[:2], 0.3 * ones[0]),
+            "error_of_model": (dims[:2], 0.4 * ones[0]),
+            "disagrees": ((*dims[:2], "criterion"), [[[0] * 3] * 2, [[0, 1, 0], [0, 0, 1]]]),
         },
         coords={
             "material": ["jelly", "iron"],
@@ -129,22 +119,10 @@ def verdicts():
     )
     model = np.full((2, 2, 2, 3), 0.5)
     dataset = budgeted(dataset, "margin", model=model)
-    materials = {
-        "jelly": {
-            "label": "jelly & cream",
-            "youngs_modulus": "1 kPa",
-            "poisson_ratio": 0.5,
-            "work_of_adhesion": "50 mJ/m^2",
-            "range": "1 nm",
-            "source": "own",
-        },
-        "iron": {
-            "label": "iron",
-            "plane_strain_modulus": "2 GPa",
-            "work_of_adhesion": "1 J/m^2",
-            "range": "1 nm",
-        },
-    }
+    jelly = {"label": "jelly & cream", "youngs_modulus": "1 kPa", "poisson_ratio": 0.5}
+    iron = {"label": "iron", "plane_strain_modulus": "2 GPa"}
+    both = {"work_of_adhesion": "50 mJ/m^2", "range": "1 nm", "source": "own"}
+    materials = {"jelly": jelly | both, "iron": iron | both}
     return made_by(dataset, materials=materials, pressure=0.065)
 
 
@@ -172,38 +150,30 @@ def surfaces():
     }
 
 
-def ensemble(seeds=(1, 2), residual=1e-6):
+def ensemble():
     """Area 0.05 ± 0.01 ± 0.002, gap 1 ± 0.001 ± 0.02, attractive area 2 range^(2/3)."""
-    ranges = np.geomspace(1e-3, 1, 200)
-    sampled = len(seeds) > 1
+    ranges = np.geomspace(1e-3, 1, 20)
+    area = ("pressure", "range"), np.tile(2 * ranges ** (2 / 3), (2, 1))
     data = {
-        "residual": (("seed", "resolution", "pressure"), np.full((len(seeds), 2, 2), residual)),
-        "attractive_area_mean": (("pressure", "range"), np.tile(2 * ranges ** (2 / 3), (2, 1))),
+        "residual": (("seed", "resolution", "pressure"), np.full((2, 2, 2), 1e-6)),
+        "attractive_area_mean": area,
+        **{
+            f"attractive_area_{name}": (area[0], np.zeros((2, 20)))
+            for name in ("standard_error", "discretisation_error")
+        },
     }
     for name, mean, sampling, discretisation in (
         ("area_fraction", 0.05, 0.01, 0.002),
         ("mean_gap", 1.0, 0.001, 0.02),
     ):
         data[f"{name}_mean"] = ("pressure", [mean, 7.0])
-        data[f"{name}_standard_error"] = ("pressure", [sampling if sampled else np.nan, 7.0])
+        data[f"{name}_standard_error"] = ("pressure", [sampling, 7.0])
         data[f"{name}_discretisation_error"] = ("pressure", [discretisation, 7.0])
-    for name in ("standard_error", "discretisation_error"):
-        data[f"attractive_area_{name}"] = data["attractive_area_mean"][0], np.zeros((2, 200))
-    coords = {"seed": list(seeds), "resolution": [2, 4], "pressure": [0.06, 0.3], "range": ranges}
-    return made_by(
-        xr.Dataset(data, coords=coords),
-        case="case_of_two",
-        hurst=0.8,
-        magnification=64,
-        grid_points=256,
-        pixels_per_wavelength=4,
-        tolerance=1e-6,
-        largest_residual=residual,
-        seeds=list(seeds),
-        estimator="multilevel" if sampled else "plain",
-        coarse_seeds=32,
-        descriptor_seeds=100,
-    )
+    coords = {"seed": [1, 2], "resolution": [2, 4], "pressure": [0.06, 0.3], "range": ranges}
+    made = {"case": "case_of_two", "hurst": 0.8, "magnification": 64, "grid_points": 256}
+    made |= {"pixels_per_wavelength": 4, "tolerance": 1e-6, "largest_residual": 1e-6}
+    made |= {"seeds": [1, 2], "estimator": "multilevel", "coarse_seeds": 32}
+    return made_by(xr.Dataset(data, coords=coords), descriptor_seeds=100, **made)
 
 
 @pytest.fixture(scope="module")
@@ -213,9 +183,8 @@ def benchmarks(tmp_path_factory):
     head = "s\th:m:s\tmax_rss\tcpu_time\n"
     (folder / "slow_rule" / "case" / "seed1.tsv").write_text(head + "10.5\t0:00:10\t200.0\t9.0\n")
     (folder / "slow_rule" / "case" / "seed2.tsv").write_text(head + "30.25\t0:00:30\t100.0\t28.5\n")
-    (folder / "write_report.tsv").write_text(
-        head + "99.0\t0:01:39\t999.0\t99.0\n"
-    )  # of an earlier run
+    # Of an earlier run:
+    (folder / "write_report.tsv").write_text(head + "99.0\t0:01:39\t999.0\t99.0\n")
     (folder / "quick_rule.tsv").write_text(head + "0.5\t0:00:00\tNA\tNA\n")
     return folder
 
@@ -223,63 +192,37 @@ def benchmarks(tmp_path_factory):
 def comparison():
     """Theory 10 % above simulation, known to 3 %, at every load."""
     ranges = np.geomspace(1e-3, 1, 20)
-    shape = (1, 5)
     data = {}
     for kind, value in (("difference", 0.1), ("difference_total_error", 0.03)):
         for name in ("area_fraction", "mean_gap"):
-            data[f"{name}_{kind}"] = (("variant", "pressure"), np.full(shape, value))
-        full = np.full((*shape, 20), value)
-        data[f"attractive_area_{kind}"] = (("variant", "pressure", "range"), full)
+            data[f"{name}_{kind}"] = (("variant", "pressure"), np.full((1, 5), value))
+        full = ("variant", "pressure", "range"), np.full((1, 5, 20), value)
+        data[f"attractive_area_{kind}"] = full
     coords = {"variant": ["a"], "pressure": [0.01, 0.03, 0.1, 0.3, 0.5], "range": ranges}
     return made_by(xr.Dataset(data, coords=coords), case="case_of_two")
 
 
-def answer(sampling=0.01):
+def answer():
     """Area 0.05 ± 0.01 ± 0.002, gap 1 ± 0.001 ± 0.02, and a solver's part of 1e-6 in both."""
     errors = {
         "discretisation": [[0.002, 0], [0.02, 0]],
         "solver": [[1e-6, 0], [1e-6, 0]],
-        "sampling": [[sampling, 0], [0.001, 0]],
+        "sampling": [[0.01, 0], [0.001, 0]],
     }
-    dims = ("column", "pressure")
-    dataset = xr.Dataset(
-        {
-            "value": (dims, [[0.05, 7.0], [1.0, 7.0]]),
-        },
-        coords={"column": ["area", "mean_gap"], "pressure": [0.06, 0.3]},
-    )
-    dataset = budgeted(dataset, "value", **errors)
-    return made_by(dataset, case="case_of_two", accuracy=0.03)
+    values = {"value": (("column", "pressure"), [[0.05, 7.0], [1.0, 7.0]])}
+    coords = {"column": ["area", "mean_gap"], "pressure": [0.06, 0.3]}
+    dataset = budgeted(xr.Dataset(values, coords=coords), "value", **errors)
+    made = made_by(dataset, case="case_of_two", accuracy=0.03)
+    return made.assign_attrs(missed="mine: 0.2 of 0.03")
 
 
-def experiments(entries=EXPERIMENTS):
+def experiments():
     """A ball that holds and is missed, and a plate that does not stick."""
-    ball = {
-        "quantity": "work_of_separation",
-        "observed": (0.03, 0.03),
-        "predicted": (0.02, 0.01, 0.025),
-        "outcome": 0,
-        "effect_of_input": 1.4142,
-        "most_effective_input": "longest_wavelength",
-        "waves_in_contact": 3.3,
-        "by_relation": 1,
-        "tests": 0,
-        "criteria": {"violano": 2, EDGES: 0},
-    }
-    plate = {
-        "quantity": "sticks",
-        "observed": (0.0, 0.0),
-        "predicted": (0.05, 0.01, 0.12),
-        "value_inside": 1,
-        "criteria": {"violano": 1},
-    }
-    return make_dataset({"ball/work": ball, "plate/steel": plate}, entries)
-
-
-def criterion():
-    """Map of the paper's criterion: what of it the report shows."""
-    values = {"a_v": 3.21, "a_v_low": 2.8, "a_v_high": 4.4}
-    return xr.Dataset(values, attrs={"parameters": '{"pressure": 0.065}'})
+    ball = {"quantity": "work_of_separation", "observed": (0.03, 0.03), "by_relation": 1}
+    ball |= {"predicted": (0.02, 0.01, 0.025), "outcome": 0, "tests": 0, "effect_of_input": 1.4142}
+    ball |= {"most_effective_input": "longest_wavelength", "criteria": {"violano": 2, EDGES: 0}}
+    plate = {"quantity": "sticks", "observed": (0.0, 0.0), "predicted": (0.05, 0.01, 0.12)}
+    return make_dataset({"ball/work": ball, "plate/steel": plate | {"criteria": {"violano": 1}}})
 
 
 @pytest.fixture(scope="module")
@@ -288,7 +231,9 @@ def results(claims, verdicts, surfaces):
     return {
         "claims": claims,
         "verdicts": verdicts,
-        "criterion": criterion(),
+        "criterion": made_by(
+            xr.Dataset({"a_v": 3.21, "a_v_low": 2.8, "a_v_high": 4.4}), pressure=0.065
+        ),
         "experiments": experiments(),
         "surfaces": surfaces,
         "ensembles": {"case_of_two": ensemble()},
@@ -298,58 +243,40 @@ def results(claims, verdicts, surfaces):
 
 
 @pytest.fixture(scope="module")
-def write(results, benchmarks, tmp_path_factory):
-    """Function that writes the report from files, with other results where they are given."""
+def page(results, benchmarks, tmp_path_factory):
+    """The report on files with these results."""
     folder = tmp_path_factory.mktemp("results")
 
     def save(dataset, path):
+        dataset = dataset.copy(deep=True)
         for name, values in dataset.variables.items():
-            values.attrs = {"units": "1", "long_name": name} | values.attrs
-            values.attrs |= {"nan_means": "made up"}
+            values.attrs = {"units": "1", "long_name": name, "nan_means": "made up"} | values.attrs
         made = json.loads(dataset.attrs["parameters"])
-        datasets.write(dataset.assign_attrs(), path, title="made up", parameters=made)
+        datasets.write(dataset, path, title="made up", parameters=made)
         return str(path)
 
     def draw(name):
-        path = folder / f"{name}.png"
+        path, caption = folder / f"{name}.png", folder / f"{name}.rst"
         Figure(figsize=(2, 1)).savefig(path, dpi=50)
-        caption = folder / f"{name}.rst"
         caption.write_text(f"Caption of *{name}* & b < gamma. More {{words}}.\n\nDetails.")
         return str(path), str(caption)
 
-    def write(**others):
-        inputs = {"template": "report/report.html.j2"}
-        for kind, found in (results | others).items():
-            place = folder / kind
-            inputs[kind] = (
-                [save(each.copy(deep=True), place / f"{name}.nc") for name, each in found.items()]
-                if isinstance(found, dict)
-                else save(found.copy(deep=True), folder / f"{kind}.nc")
-            )
-        figures = [draw(f"fig{number}") for number in range(1, 4)]
-        inputs["figures"], inputs["captions"] = map(list, zip(*figures, strict=True))
-        inputs["experiments_figure"], inputs["experiments_caption"] = draw("experiments")
-        inputs["trade_figure"], inputs["trade_caption"] = draw("tradeoff")
-        inputs |= {"laws": LAWS, "trade": TRADE}
-        page = folder / "report/report.html"
-        write_report.main(
-            make_job(
-                inputs,
-                {"page": str(page)},
-                benchmarks=benchmarks,
-                presets=PRESETS,
-                fidelity="draft",
-                figure_sources={f"fig{n}": [inputs["claims"]] for n in range(1, 4)},
-            )
+    inputs = {"template": "report/report.html.j2", "laws": LAWS, "trade": TRADE}
+    for kind, found in results.items():
+        inputs[kind] = (
+            [save(each, folder / kind / f"{name}.nc") for name, each in found.items()]
+            if isinstance(found, dict)
+            else save(found, folder / f"{kind}.nc")
         )
-        return Page(page.read_text(encoding="utf-8"))
-
-    return write
-
-
-@pytest.fixture(scope="module")
-def page(write):
-    return write()
+    figures = [draw(f"fig{number}") for number in range(1, 4)]
+    inputs["figures"], inputs["captions"] = map(list, zip(*figures, strict=True))
+    inputs["experiments_figure"], inputs["experiments_caption"] = draw("experiments")
+    inputs["trade_figure"], inputs["trade_caption"] = draw("tradeoff")
+    path = folder / "report/report.html"
+    settings = {"benchmarks": benchmarks, "presets": PRESETS, "fidelity": "draft"}
+    settings["figure_sources"] = {f"fig{n}": [inputs["claims"]] for n in range(1, 4)}
+    write_report.main(make_job(inputs, {"page": str(path)}, **settings))
+    return Page(path.read_text(encoding="utf-8"))
 
 
 @pytest.fixture(scope="module")
@@ -357,6 +284,7 @@ def pairs(verdicts, surfaces):
     return write_report.arrange_pairs(verdicts, surfaces)
 
 
+@pytest.mark.slow
 def test_the_report_shows_what_is_in_the_files(page):
     page.check(
         *(f"statement {number}" for number in range(1, 4)),
@@ -369,7 +297,7 @@ def test_the_report_shows_what_is_in_the_files(page):
         "−2 by sampling, not known : sampling not known quantity 1",
         " and 1 more",
         "closed form",
-        "load 0.06, requested accuracy 3 %",
+        "load 0.06, requested accuracy 3 %, not reached",
         "area 0.050 ± 0.010 4 % < 0.01 % 20 % 0 % 0 % sampling",
         "10.0 ± 3.0",
         "0.700 ± 0.020",
@@ -397,19 +325,6 @@ def test_the_report_shows_what_is_in_the_files(page):
     # A value leads to the first file behind it, a closed form to the ledger.
     assert re.search(r'href="[^"]*out/a/x.nc"[^>]*>1.891', page.html)
     assert re.search(r'href="../claims.nc"[^>]*>−2', page.html)
-
-
-@pytest.mark.slow
-def test_labels_with_symbols_are_set_and_other_results_are_told(write, results):
-    verdicts = results["verdicts"]
-    made = json.loads(verdicts.attrs["parameters"])
-    made["materials"]["iron"]["label"] = "iron, l_a = 0.05 range, m^0.4"
-    page = write(
-        verdicts=verdicts.assign_attrs(parameters=json.dumps(made)),
-        answers={"case_of_two": answer(sampling=np.nan).assign_attrs(missed="mine: 0.2 of 0.03")},
-    )
-    page.check("requested accuracy 3 %, not reached", "sampling, not known")
-    assert "l<sub>a</sub>\u00a0=\u00a00.05 range, m<sup>0.4</sup>" in page.html
 
 
 def test_rows_of_pairs(pairs, verdicts):
@@ -440,8 +355,6 @@ BEYOND = f"> {number(1e7)}"
     ("values", "limits", "text"),
     [
         ((3.5e6, 3.5e6), (0.79e6, 30e6), "3.5 (0.79 to 30)"),
-        ((2e6, 1e6), (0.5e6, 4e6), "1 … 2 (0.5 to 4)"),
-        ((8e-3, 8e-3), (1e-3, 0.9), f"< {number(1e-6)}"),
         ((0.5, 3e6), (0.0, 4e6), f"< {number(1e-6)} … 3 (0 to 4)"),
         ((2e12, 1e20), (1.5e11, 1e21), f"2 × 10⁶ … {BEYOND} (1.5 × 10⁵ to {BEYOND})"),
         ((np.nan, np.nan), (np.nan, np.nan), "–"),

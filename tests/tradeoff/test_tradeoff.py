@@ -30,9 +30,6 @@ ROOT = Path(__file__).parents[2]
 LAWS = ROOT / "config/accuracy.csv"
 
 
-# --- Fits. ---
-
-
 def fit(part, *points):
     """Fit one model to (surface, value, noise, sizes)."""
     records = summary.Records()
@@ -77,9 +74,6 @@ def test_powers_are_found_from_exact_values():
     assert model.spread == pytest.approx(1)
 
 
-# --- Tables. ---
-
-
 def test_control_variates_of_a_pool_reduce_the_error():
     """Two quantities at two loads, linear in one long wave, with more scatter on the fine grid."""
     rng = np.random.default_rng(4)
@@ -113,14 +107,9 @@ def test_control_variates_of_a_pool_reduce_the_error():
 def test_threshold_between_adhesion_lengths():
     """A pressure that falls by 0.1 for every factor e vanishes at e^2 times the first length."""
     lengths = 0.01 * np.exp([9.0, 1.0, 0.0, 3.0, 4.0])
-    external = xr.DataArray(
-        0.2 - 0.1 * np.log(lengths / 0.01),
-        dims="point",
-        coords={
-            "range_over_h_rms": ("point", [1.0, 0.1, 0.1, 0.1, 0.1]),
-            "adhesion_length_over_range": ("point", lengths),
-        },
-    )
+    coords = {"range_over_h_rms": ("point", [1.0, 0.1, 0.1, 0.1, 0.1])}
+    coords |= {"adhesion_length_over_range": ("point", lengths)}
+    external = xr.DataArray(0.2 - 0.1 * np.log(lengths / 0.01), coords, "point")
     closed = external.where(lengths < 0.01 * math.exp(3.5))  # windows that close, beyond
     for one in (external, closed):
         assert float(find_threshold(one)) == pytest.approx(0.01 * math.exp(2))
@@ -141,9 +130,6 @@ def test_committed_table_survives_writing(tmp_path):
     assert summary.read(tmp_path / "again.csv").equals(medians)
     with pytest.raises(ValueError, match="no such file"):
         summary.read(tmp_path / "nowhere.csv")
-
-
-# --- Presets. ---
 
 
 def made_up():
@@ -190,11 +176,8 @@ def test_presets_are_what_the_rule_gives():
         yaml.safe_load((ROOT / "config" / name).read_text(encoding="utf-8"))
         for name in ("config.yaml", "campaigns/tradeoff.yaml")
     )
-    asked = trade["presets"]
-    rough, seeds = (
-        config["model_surfaces"][asked["surface"]],
-        config["sampling"]["descriptor_seeds"],
-    )
+    asked, seeds = trade["presets"], config["sampling"]["descriptor_seeds"]
+    rough = config["model_surfaces"][asked["surface"]]
     for name in asked["accuracy"]:
         chosen = preset_by_rule(read_models(LAWS), asked, name, rough, seeds)
         assert plan.preset(config["fidelities"][name]) == chosen, name

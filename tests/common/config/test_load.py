@@ -8,7 +8,7 @@ import pytest
 import yaml
 
 from common.config import entries, load
-from common.config.reference import FILES, PAGE, page
+from common.config.reference import PAGE, page
 
 ROOT = Path(__file__).parents[3]
 CAMPAIGNS = ("tradeoff", "remaining")
@@ -82,12 +82,6 @@ def test_files_that_cannot_be_read(folder, text, message):
         Path("config/materials.yaml").write_text(text, encoding="utf-8")
     with pytest.raises(load.ConfigError, match=message):
         check()
-
-
-def test_paths_of_the_tables_are_located():
-    config = load.defaults(ROOT, lambda path: f"/project/{path}")
-    for table in load.TABLES:
-        assert config[table] == f"/project/config/{table}.yaml"
 
 
 def test_keys_beside_the_list_apply_to_every_measurement():
