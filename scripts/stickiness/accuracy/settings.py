@@ -247,15 +247,8 @@ def seeds_enough(
 ) -> int | None:
     """Return the fewest fine seeds that are predicted to be enough; None if none of `SEEDS` are.
 
-    Parameters
-    ----------
-    problem, settings
-        What was solved.
-    accuracy : float
-        Relative error that is to cover 90 %.
-    fixed, sampling : (column, pressure) array
-        Relative errors measured with the settings, covering 90 %: those that more seeds do not
-        change, and the sampling error, which changes with the seeds as the error models say.
+    `fixed` and `sampling` (column, pressure) are the relative errors measured with the settings,
+    covering 90 %: those that more seeds do not change, and the sampling error.
     """
     if settings.seeds < 2:
         return None
@@ -270,10 +263,5 @@ def seeds_enough(
 
 def _stated_sampling(problem, settings):
     """Sampling error that an answer is expected to state at every point, with Student's t."""
-    return np.array(
-        [
-            covering_factor(problem, settings, *at)
-            * math.sqrt(mean_variance(problem, settings, *at))
-            for at in problem.points
-        ]
-    )
+    points = [(problem, settings, *at) for at in problem.points]
+    return np.array([covering_factor(*at) * math.sqrt(mean_variance(*at)) for at in points])

@@ -59,15 +59,10 @@ class PowerSpectrum:
         return float(min(np.abs(self.qx).max(), self.qy.max()))
 
     def anisotropy(self, q_min: float, q_max: float) -> tuple[float, float]:
-        """Dependence of C on direction between two wave numbers.
+        """Return A and phi0 [rad] in C ~ 1 + A cos 2(phi - phi0) between two wave numbers.
 
-        Returns
-        -------
-        amplitude : float
-            A in C ~ 1 + A cos 2(phi - phi0), averaged over the modes after division by the mean
-            of their ring: 0 if isotropic, towards 2 for a pure lay.
-        direction : float
-            phi0 [rad], the direction of the wave vectors with the largest C, in (-pi/2, pi/2].
+        The amplitude A is 0 if C is isotropic, towards 2 for a pure lay; phi0 in (-pi/2, pi/2] is
+        the direction of the wave vectors with the largest C.
         """
         number("q_min", q_min)
         q = self.q

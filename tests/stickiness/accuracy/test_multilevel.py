@@ -256,7 +256,7 @@ def test_wrong_levels_are_named(arguments, words):
         ((np.ones(8), np.ones(8), np.ones((9, 1))), r"controls must be of shape \(8, k\)"),
         ((np.ones(8), np.ones((7, 1)), np.ones((9, 1))), r"controls must be of shape \(8, k\)"),
         ((np.ones(8), np.ones((8, 1)), np.ones((9, 2))), r"elsewhere must be of shape \(M, 1\)"),
-        ((np.ones(11), np.ones((11, 2)), np.ones((9, 2))), "at least 12 samples to fit 2"),
+        ((np.ones(11), np.ones((11, 2)), np.ones((9, 2))), "at least 12 samples"),
     ],
 )
 def test_wrong_controls_are_named(arguments, words):
