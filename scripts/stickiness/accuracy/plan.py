@@ -53,13 +53,9 @@ class Plan:
 def plans_of(config: Mapping[str, Any], models: ErrorModels) -> dict[str, Plan]:
     """Return the plan of every case of a checked configuration.
 
-    Raises
-    ------
-    UnreachableError
-        If no settings are predicted to reach the accuracy of a case; names the case.
-    ValueError
-        If a quantity of a case is not given by theory, or has no error model though the case has an
-        accuracy.
+    An UnreachableError names the case whose accuracy no settings are predicted to reach, a
+    ValueError the one with a quantity that theory does not give, or that has no error model though
+    the case has an accuracy.
     """
     plans: dict[str, Plan] = {}
     for name, case in config["cases"].items():

@@ -195,9 +195,7 @@ def logarithmic_rings(q: NDArray, lowest: float, bins_per_decade: float) -> NDAr
     return np.floor(np.log10(q / lowest) * bins_per_decade + 0.5).astype(int)
 
 
-def average_by_ring(
-    ring: NDArray, weight: NDArray, q: NDArray, values: NDArray
-) -> tuple[NDArray, NDArray, NDArray]:
+def average_by_ring(ring, weight, q, values) -> tuple[NDArray, NDArray, NDArray]:
     """Average over the rings that hold any weight: geometric mean of q, mean of values, weight."""
     total = np.bincount(ring, weights=weight)
     keep = total > 0
@@ -212,9 +210,7 @@ def wide_rings(rings: RadialPSD, bins_per_decade: float) -> NDArray:
     return np.floor(np.log10(rings.q / rings.q[0]) * bins_per_decade + 1e-9).astype(int)
 
 
-def merge_rings(
-    rings: RadialPSD, values: NDArray, bins_per_decade: float
-) -> tuple[NDArray, NDArray, NDArray]:
+def merge_rings(rings: RadialPSD, values, bins_per_decade) -> tuple[NDArray, NDArray, NDArray]:
     """Gather narrow rings into wider ones: geometric mean q, mean of `values`, independent modes.
 
     The means are weighted by independent modes.

@@ -228,9 +228,7 @@ def read(
     return Topography(filled, *steps, source, **known)
 
 
-def _places(
-    raw: Raw, length: Size, pixel_size: Size, position_unit: str | None
-) -> tuple[float, ...] | NDArray:
+def _places(raw: Raw, length, pixel_size, position_unit) -> tuple[float, ...] | NDArray:
     """Grid steps of a map, or positions of a profile's points [m], from the caller or the file."""
     shape, is_profile = raw.heights.shape, raw.heights.ndim == 1
     if length is not None:
