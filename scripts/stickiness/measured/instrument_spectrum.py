@@ -116,10 +116,10 @@ def analyse(
     steps = heights.dx, heights.dy
     cutoff = _find_cutoff(limits, narrow, q_min, plane.q_nyquist, heights.heights, steps)
     fit = fit_rings(narrow, q_min, cutoff.q)
+    cutoff = replace(cutoff, q=fit.q_max)
     rings = radial_average(plane, bins_per_decade=RINGS)
     area, lowest = rings.modes(plane) * plane.dqx * plane.dqy, min(plane.dqx, plane.dqy)
     anisotropy = plane.anisotropy(fit.q_min, fit.q_max)[0]
-    cutoff = replace(cutoff, q=fit.q_max)
     return MeasuredSpectrum(rings, area, narrow, fit, cutoff, lowest, anisotropy)
 
 
