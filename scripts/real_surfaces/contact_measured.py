@@ -207,17 +207,16 @@ def press_with_adhesion(heights, lengths, pressures, law):
             load = {"pressure": contact.mean_pressure, "start": contact}
             state = adhesive.solve(heights, lengths, law, **load, **PRECISION)
         attracted = (state.gap > 0) & (state.gap <= state.law.range)
+        area = state.repulsive_area_fraction
         row = {
-            "adhesive_contact_area": state.repulsive_area_fraction,
+            "adhesive_contact_area": area,
             "adhesive_attractive_area": np.mean(attracted),
             "adhesive_mean_gap": state.mean_gap,
             "adhesive_residual": state.residual,
         }
         rows.append(xr.Dataset(row))
-        logging.info(
-            f"n = {len(heights)}: with adhesion, load {len(rows)} of {len(pressures)}, area "
-            f"{state.repulsive_area_fraction:.4f}, {state.iterations} iterations"
-        )
+        at = f"n = {len(heights)}: with adhesion, load {len(rows)} of {len(pressures)}"
+        logging.info("%s, area %.4f, %d iterations", at, area, state.iterations)
     curve = xr.concat(rows, xr.DataArray(list(pressures), dims="pressure", name="pressure"))
     pixel = max(side / n for side, n in zip(lengths, heights.shape, strict=True))
     resolution = edge_zone.resolution(pixel, law.range, law.adhesion_length)

@@ -109,15 +109,12 @@ def multilevel_mean(
         The same quantities of the same seeds on the coarse grid.
     many : (N, ...) array
         The same quantities on the coarse grid for other seeds, none of them among the first n.
-    controls : (N, k) array, optional
-        Controls of the seeds of `many`, see `descriptors`; without them the plain mean is taken.
-    elsewhere : (M, k) array, optional
-        The same controls of seeds of which there is no solution at all.
+    controls, elsewhere : (N, k) and (M, k) array, optional
+        Controls (`descriptors`) of the seeds of `many`, and of seeds of which there is no solution
+        at all; without them the plain mean is taken.
     fewest : int
         Fine seeds from which on the coefficient of the coarse solution is the slope of fine against
-        coarse, entry by entry; with fewer it is the ratio of their means. Sixteen for solutions
-        that differ by their grid. Fewer will do where the two are close to a straight line that is
-        not one through the origin.
+        coarse, entry by entry; with fewer it is the ratio of their means.
 
     Raises
     ------

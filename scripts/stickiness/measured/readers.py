@@ -227,10 +227,8 @@ def _read_instrument(path: Path, fmt: str | None, channel: str | int | None) -> 
     if channel is not None:
         named = [c for i, c in enumerate(channels) if channel in (i, c.channel_id, c.name)]
         if not named:
-            raise ValueError(
-                f"{path}: no channel {channel!r}; the file has "
-                f"{heights_in or 'no channel of heights'}"
-            )
+            there = heights_in or "no channel of heights"
+            raise ValueError(f"{path}: no channel {channel!r}; the file has {there}")
         info = named[0]
     source = f"{path}: {info.name}"
     if not holds_heights(info):

@@ -5,10 +5,9 @@ they overlap, ln C is averaged with weights 1/(sampling variance + tau^2), in wh
 scatter between measurements: place, calibration, instrument (Jacobs, Junge & Pastewka 2017,
 doi:10.1088/2051-672X/aa51f8, recommend geometric averages of spectra).
 
-Errors of moments come from drawing spectra that agree with the measured one. Every ring varies by
-its sampling error, every measurement by the scatter between measurements, the extrapolated part and
-the end of the plateau by the covariance of the fit. Every moment is computed for each draw, so that
-correlated errors stay correlated.
+Errors of moments come from drawing spectra that agree with the measured one: rings vary by their
+sampling error, measurements by their scatter, extrapolation and plateau by the covariance of the
+fit. Every moment is computed for each draw, so that correlated errors stay correlated.
 """
 
 from __future__ import annotations

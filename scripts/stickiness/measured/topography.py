@@ -244,9 +244,8 @@ def _places(raw: Raw, length, pixel_size, position_unit) -> tuple[float, ...] | 
         raise ValueError(f"{raw.source}: the file does not tell {what}; give length or pixel_size")
     if not np.all(np.isfinite(raw.places)):
         raise ValueError(f"{raw.source}: a position of the profile is missing")
-    places = np.asarray(raw.places) * _scale(
-        raw.source, "position_unit", position_unit, raw.place_unit
-    )
+    scale = _scale(raw.source, "position_unit", position_unit, raw.place_unit)
+    places = np.asarray(raw.places) * scale
     return places if is_profile else tuple(places.tolist())
 
 
@@ -258,10 +257,8 @@ def _scale(source: str, key: str, given: str | None, in_file: str | None) -> flo
         raise ValueError(f"{source}: the file does not tell the unit of {what}; give {key}")
     scales = [metres(f"1 {unit}", f"{source}: {key}") for unit in units]
     if not np.isclose(scales[0], scales[-1], rtol=1e-12, atol=0):
-        raise ValueError(
-            f"{source}: {key} = {given!r}, but the file says {in_file!r}; "
-            f"leave {key} out, or correct the file"
-        )
+        said = f"{source}: {key} = {given!r}, but the file says {in_file!r}"
+        raise ValueError(f"{said}; leave {key} out, or correct the file")
     return scales[0]
 
 
