@@ -121,10 +121,8 @@ def analyse(entry):
     spectrum = stitched.spectrum if stitched else spectra[0]
     extend_to = 2 * np.pi / si(entry["extend_to"], "m") if "extend_to" in entry else None
     drawn = stitching.draw(spectrum, DRAWS, SEED, stitched=stitched, extend_to=extend_to)
-    as_read = [
-        h.h_rms_as_read(one.get("detrend", "plane"))
-        for h, one in zip(heights, entries, strict=True)
-    ]
+    trends = [one.get("detrend", "plane") for one in entries]
+    as_read = [h.h_rms_as_read(trend) for h, trend in zip(heights, trends, strict=True)]
     remarks = self_affine_fit.remarks(spectrum.fit, np.nan_to_num(spectrum.anisotropy))
     for one, before in zip(heights, as_read, strict=True):
         remarks += remarks_on_file(one, before)
@@ -147,13 +145,11 @@ def analyse(entry):
     dataset["q0_draws"] = "draw", drawn.q0
     dataset = dataset.assign_coords(draw=np.arange(DRAWS)).merge(picture_of(heights[0]))
     if stitched:
-        by_ring = "measurement", "wave_number_measured"
-        dataset["psd_measurement"] = by_ring, stitched.levels
+        places = {"measurement": np.arange(len(heights)), "wave_number_measured": spectrum.rings.q}
+        dataset = dataset.assign_coords(places)
+        dataset["psd_measurement"] = tuple(places), stitched.levels
         dataset["offset"] = "measurement", stitched.offsets
         dataset["scatter"] = stitched.scatter
-        dataset = dataset.assign_coords(
-            measurement=np.arange(len(heights)), wave_number_measured=spectrum.rings.q
-        )
     return dataset.assign(
         h_rms_measured=heights[0].h_rms,
         h_rms_as_read=as_read[0],
@@ -174,8 +170,7 @@ def describe_spectrum(spectrum, extend_to):
     fit, rings = spectrum.fit, spectrum.rings
     line = fit.c0_at_hurst(REFERENCE_HURST)
     q, psd, error = rings.q, rings.psd, rings.standard_error
-    psd = [psd, psd]
-    top = spectrum.cutoff.q
+    psd, top = [psd, psd], spectrum.cutoff.q
     if extend_to is not None:
         inside = q <= top * (1 + 1e-9)
         count = int(np.ceil(np.log10(extend_to / top) * POINTS_PER_DECADE)) + 1

@@ -30,9 +30,8 @@ AS_THEY_STAND = ("given",)
 SOLVED_VARIABLES = ["area_fraction", "mean_gap", "edge_gap", "residual", "attractive_area"]
 # With adhesion. Areas of contact change by less than 1e-3 of themselves from here to 1e-5 where
 # the grid hardly resolves the attraction, which is where solutions are slow.
-ADHESIVE_TOLERANCE = 1e-3
+PRECISION = {"tol": 1e-3, "max_iterations": 10000}
 START_TOLERANCE = 1e-4  # of the contact without adhesion, over h_rms
-MAX_ITERATIONS = 10000
 VARIABLE_TEXTS = {
     "periodisation": ("1", "way in which the heights were made periodic"),
     "resolution": ("1", "grid points per shortest wavelength, at least"),
@@ -78,15 +77,11 @@ def main(job):
     index, finest = bem.get("measurement", 0), float(surface.q_cutoff)
     cutoff = measured_surface.find_cutoff(entry, index, heights, finest)
     q_max = highest_wave_number(bem, cutoff)
-    setting = read_setting(
-        bem,
-        ranges=logarithmic_grid(job.params.gaps),
-        pixels=job.params.pixels_per_wavelength,
-        tolerance=job.params.tolerance,
-        gamma=job.params.gamma,
-    )
+    params, ranges = job.params, logarithmic_grid(job.params.gaps)
+    grid = {"pixels": params.pixels_per_wavelength, "tolerance": params.tolerance}
+    setting = read_setting(bem, ranges=ranges, gamma=params.gamma, **grid)
     datasets.write(
-        annotate(solve(heights, float(surface.q0), q_max, setting)),
+        conventions.annotate(solve(heights, float(surface.q0), q_max, setting), **VARIABLE_TEXTS),
         job.output[0],
         title=f"contact of measured heights: {entry['label']}",
         parameters={"surface": job.wildcards.real_surface, "source": heights.source, **entry},
@@ -164,12 +159,10 @@ def solve_periodic(heights, way, q0, q_max, setting):
         modulus = setting.material.modulus
         length = setting.material.work_of_adhesion / modulus
         # In the units of the scaled heights, pressures over E* q0 h_rms.
-        law = Exponential(
-            adhesion_length=length / (q0 * h_rms**2), range=setting.material.range / h_rms
-        )
-        curves = [
-            press_with_adhesion(scaled[::step, ::step], lengths, pressures, law) for step in (2, 1)
-        ]
+        law = Exponential(length / (q0 * h_rms**2), setting.material.range / h_rms)
+        fine = scaled, lengths, pressures, law
+        coarse = scaled[::2, ::2], *fine[1:]
+        curves = [press_with_adhesion(*grid) for grid in (coarse, fine)]
         block = block.merge(xr.concat(curves, "resolution"))
         block["applied_pressure"] = "pressure", pressures * modulus * q0 * h_rms
     block = block.assign_coords(resolution=[pixels / 2, float(pixels)])
@@ -211,35 +204,23 @@ def press_with_adhesion(heights, lengths, pressures, law):
     for contact in repulsive.load_path(heights, lengths, pressures, tol=START_TOLERANCE):
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", PlausibilityWarning)
-            state = adhesive.solve(
-                heights,
-                lengths,
-                law,
-                pressure=contact.mean_pressure,
-                start=contact,
-                tol=ADHESIVE_TOLERANCE,
-                max_iterations=MAX_ITERATIONS,
-            )
+            load = {"pressure": contact.mean_pressure, "start": contact}
+            state = adhesive.solve(heights, lengths, law, **load, **PRECISION)
         attracted = (state.gap > 0) & (state.gap <= state.law.range)
+        area = state.repulsive_area_fraction
         row = {
-            "adhesive_contact_area": state.repulsive_area_fraction,
+            "adhesive_contact_area": area,
             "adhesive_attractive_area": np.mean(attracted),
             "adhesive_mean_gap": state.mean_gap,
             "adhesive_residual": state.residual,
         }
         rows.append(xr.Dataset(row))
-        logging.info(
-            f"n = {len(heights)}: with adhesion, load {len(rows)} of {len(pressures)}, area "
-            f"{state.repulsive_area_fraction:.4f}, {state.iterations} iterations"
-        )
+        at = f"n = {len(heights)}: with adhesion, load {len(rows)} of {len(pressures)}"
+        logging.info("%s, area %.4f, %d iterations", at, area, state.iterations)
     curve = xr.concat(rows, xr.DataArray(list(pressures), dims="pressure", name="pressure"))
     pixel = max(side / n for side, n in zip(lengths, heights.shape, strict=True))
     resolution = edge_zone.resolution(pixel, law.range, law.adhesion_length)
     return curve.assign(edge_resolution=resolution)
-
-
-def annotate(dataset):
-    return conventions.annotate(dataset, **VARIABLE_TEXTS)
 
 
 if __name__ == "__main__":

@@ -101,7 +101,7 @@ class LeftOutError(Exception):
 def main(job):
     surface = datasets.read(job.input.surface, ["q0", "q1", "q_cutoff"])
     asked, material, params = job.params.surface, read_material(job.params.entry), job.params
-    contact = pull_off = None
+    contact = None
     try:
         heights, q_cutoff = find_heights(surface, asked)
         source = heights.source if len(measurements(asked)) > 1 else ""
@@ -115,12 +115,8 @@ def main(job):
         pull_off = xr.Dataset(attrs={"left_out": str(reason)})
         contact = pull_off.copy() if contact is None else contact
     name, entry = job.wildcards.real_surface, params.entry
-    datasets.write(
-        contact,
-        job.output.contact,
-        title=f"where the heights touch: {asked['label']}",
-        parameters={"surface": name, **asked},
-    )
+    title, made = f"where the heights touch: {asked['label']}", {"surface": name, **asked}
+    datasets.write(contact, job.output.contact, title=title, parameters=made)
     made = {"surface": name, "material": params.material, **entry, "source": asked["source"]}
     title = f"pull-off of {entry['label']} from {asked['label']}"
     datasets.write(pull_off, job.output.pull_off, title=title, parameters=made)
@@ -174,12 +170,11 @@ def press(rough, q0, q_cutoff):
     h_rms, slope = float(np.std(rough.heights)), measure_slope(rough.heights, rough.sides)
     # By theory a share erf(sqrt(2) p/(E* slope)) of the area touches.
     loads = slope * erfinv(AREAS) / np.sqrt(2)
-    fields = {"contact": [], "gap": [], "contact_pressure": []}
-    rows = []
+    fields, rows = {"contact": [], "gap": [], "contact_pressure": []}, []
     for state in solver.load_path(rough.heights, rough.sides, loads, tol=CONTACT_TOLERANCE):
-        fields["contact"].append(halve(state.gap == 0))
-        fields["gap"].append(halve(state.gap))
-        fields["contact_pressure"].append(halve(state.pressure))
+        found = state.gap == 0, state.gap, state.pressure
+        for blocks, field in zip(fields.values(), found, strict=True):
+            blocks.append(halve(field))
         rows.append(measure(state, ()))
         logging.info("load %d: area %.4f", len(rows), state.area_fraction)
     fine = xr.concat(rows, "pressure")
@@ -280,10 +275,8 @@ def separate(rough, band, material, law, squeeze):
     dataset = datasets.annotate(dataset, **PULL_OFF_TEXTS)
     for name, text in QUOTED.items():
         scale, unit = (material.modulus, "Pa") if name == "pull_off" else (1.0, "1")
-        for prefix, said, of in (
-            ("", text, found),
-            ("predicted_", f"{text}, by the model", predicted),
-        ):
+        by_model = "predicted_", f"{text}, by the model", predicted
+        for prefix, said, of in (("", text, found), by_model):
             values = (getattr(of, name), *getattr(of, f"{name}_limits"))
             for end, value in zip(("", "_low", "_high"), values, strict=True):
                 attrs = {"units": unit, "long_name": said + end.replace("_", ", ")}

@@ -20,18 +20,9 @@ from typing import NamedTuple
 import numpy as np
 
 import stickiness
-from stability.closed_forms import (
-    THICK,
-    filter_waves,
-    hertz_attraction,
-    integrate_band,
-    law_of_traction,
-    layer_response,
-    persson_area_error,
-    press_springs,
-    westergaard,
-)
-from stickiness import adhesive, criteria, remaining
+from stability import closed_forms
+from stability.closed_forms import THICK, filter_waves, integrate_band, layer_response
+from stickiness import adhesive, criteria, remaining, traction_laws
 from stickiness import surface as synthesis
 from stickiness.criteria import equivalent_sphere
 from stickiness.measured import instrument_spectrum, psd
@@ -59,11 +50,7 @@ LABELS = {
     "poisson": "Poisson's ratio of a layer",
     "grid": "grid points a side",
 }
-LAWS = {
-    "maugis": adhesive.Maugis,
-    "exponential": adhesive.Exponential,
-    "lennard_jones": adhesive.LennardJones,
-}
+LAWS = traction_laws.LAWS | {"lennard_jones": adhesive.LennardJones}
 
 
 class Check(NamedTuple):
@@ -213,7 +200,7 @@ def probe_surface(magnification, grid):
 def probe_wave(pressure, grid):
     heights = np.repeat(np.cos(2 * np.pi * np.arange(grid) / grid)[:, None], grid, axis=1)
     c = solver.solve(heights, 2 * np.pi, pressure, tol=TOLERANCE)
-    area, gap = westergaard(pressure)
+    area, gap = closed_forms.westergaard(pressure)
     yield Check("Westergaard's area", abs(c.area_fraction - area), 2 / grid)
     yield Check("Westergaard's mean gap", abs(c.mean_gap - gap), 4 / grid**2 + 1e-6)
     yield require("full contact", c.area_fraction == 1 or pressure < 0.5)
@@ -279,7 +266,7 @@ def probe_adhesion(range_over_h_rms, adhesion_length_over_range, variant):
     state = adhesive.solve(heights, 2 * np.pi, law, pressure=pressure, tol=TOLERANCE)
     yield from check_equilibrium(state, heights)
     x = np.array([0.1, 0.5, 2.0, 10.0])
-    traction = adhesion_length_over_range * law_of_traction(variant, x)
+    traction = adhesion_length_over_range * closed_forms.law_of_traction(variant, x)
     off = np.abs(law.traction(x * range_over_h_rms) - traction)
     yield bound("law of traction", off / adhesion_length_over_range)
     stress = max(float(np.std(elastic_pressure(heights))), law.strength)
@@ -338,7 +325,7 @@ def probe_theory(magnification, pressure, variant):
     yield require("sign", min(area, gap, below, float(t.gap_density(0.3, pressure))) >= 0)
     yield Check("order", max(below - everything, 0.0), 1e-12)
     m2 = 0.5 * t.spectrum.rms_slope**2
-    yield Check("area", persson_area_error(pressure, area, m2), 1e-7)
+    yield Check("area", closed_forms.persson_area_error(pressure, area, m2), 1e-7)
     p = pressure * Q0_H_RMS
     yield Check("area, other unit", abs(area - float(same.area_fraction(p))), SCALED)
     other = float(same.mean_gap(p)) / (Q0_H_RMS * UNIT)
@@ -397,7 +384,7 @@ def probe_criteria(range_over_h_rms, adhesion_length_over_range):
     sphere = equivalent_sphere.attraction(1.0, 1.0, s.rms_slope, la, eps, a_v)
     t = 0.75 * a_v * range_over_h_rms ** (2 / 3) * s.rms_slope
     yield compare("attractive over contact", sphere.attractive_over_contact, t)
-    weak = hertz_attraction(t)
+    weak = closed_forms.hertz_attraction(t)
     yield Check("below Hertz' limit", sphere.effect / weak - 1, 1e-9)
     if sphere.strength * np.sqrt(1 + t) < 1e-6:
         yield compare("Hertz' limit", sphere.effect, weak, 1e-4)
@@ -448,7 +435,7 @@ def probe_layer_contact(thickness, pressure, variant):
         off = abs(c.area_fraction - half.area_fraction) * heights.size
         yield Check("area on a half-space", off / 1.5, 1)
     if thickness <= 2e-4:
-        gap, area = press_springs(heights, p * float(solid.compliance(1e-9)))
+        gap, area = closed_forms.press_springs(heights, p * float(solid.compliance(1e-9)))
         yield Check("area on springs", abs(c.area_fraction - area), 0.01)
         yield Check("gap on springs", abs(c.mean_gap - gap), 0.01)
 

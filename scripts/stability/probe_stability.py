@@ -18,12 +18,9 @@ def main(job):
     dataset = map_validity(COMPONENTS[name])
     counts = Counter(OUTCOMES[k] for k in dataset.outcome.values)
     logging.info("%s: %d points, %s", name, dataset.sizes["point"], dict(counts))
-    datasets.write(
-        dataset,
-        job.output[0],
-        title=f"validity of {name} over its parameters",
-        parameters={"component": name, "outcomes": list(OUTCOMES), **counts},
-    )
+    title = f"validity of {name} over its parameters"
+    parameters = {"component": name, "outcomes": list(OUTCOMES), **counts}
+    datasets.write(dataset, job.output[0], title=title, parameters=parameters)
 
 
 def map_validity(component):

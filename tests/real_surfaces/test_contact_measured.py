@@ -6,6 +6,11 @@ import numpy as np
 import pytest
 import xarray as xr
 
+<<<<<<< HEAD
+=======
+from common import conventions
+from common.materials import read_material
+>>>>>>> room/measured3
 from real_surfaces import contact_measured
 from stickiness import adhesive, datasets, repulsive, surface
 from stickiness.measured.topography import Topography
@@ -32,7 +37,7 @@ def contact_of(h, q_max=16.0, **changed):
 def whole():
     s = SelfAffine(hurst=0.8, q0=1.0, q1=16.0, h_rms=1.0)
     h = surface.synthesise(s, n=128, length=2 * np.pi, seed=5)
-    return h, contact_measured.annotate(contact_of(h))
+    return h, conventions.annotate(contact_of(h), **contact_measured.VARIABLE_TEXTS)
 
 
 def test_both_ways_bracket_nothing_absurd(whole):

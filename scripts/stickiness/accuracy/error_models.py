@@ -55,11 +55,8 @@ class Surface:
     @classmethod
     def of(cls, made: Mapping[str, Any]) -> Surface:
         """From a model surface of the configuration, or the parameters of a file."""
-        usual = (
-            made.get("rolloff") is None
-            and made.get("amplitudes", "gaussian") == "gaussian"
-            and made.get("anisotropy", 1) == 1
-        )
+        usual = made.get("rolloff") is None and made.get("anisotropy", 1) == 1
+        usual &= made.get("amplitudes", "gaussian") == "gaussian"
         return cls(made["hurst"], made["magnification"], made.get("window", 1.0), usual)
 
 
@@ -121,13 +118,7 @@ def nearest_measured(surface: Surface, pressure: float) -> tuple[Surface, float,
 
 
 def single_error(
-    models: ErrorModels,
-    part: str,
-    column: str,
-    surface: Surface,
-    pressure: float,
-    pixels: float = FINEST["pixels"],
-    tolerance: float = FINEST["tolerance"],
+    models, part, column, surface, pressure, pixels=FINEST["pixels"], tolerance=FINEST["tolerance"]
 ) -> float:
     """Return one part of an error, covering 90 %; widened outside what was measured."""
     model, (surface, pressure, factor) = models[part, column], nearest_measured(surface, pressure)
@@ -156,12 +147,7 @@ def is_coarse(pixels: float, tolerance: float) -> bool:
     return pixels < COARSEST["pixels"] or tolerance > COARSEST["tolerance"]
 
 
-def extrapolated(
-    surface: Surface,
-    pressure: float,
-    pixels: float = FINEST["pixels"],
-    tolerance: float = FINEST["tolerance"],
-) -> bool:
+def extrapolated(surface, pressure, pixels=FINEST["pixels"], tolerance=FINEST["tolerance"]) -> bool:
     """Whether anything that errors are taken from is outside what was measured."""
     return nearest_measured(surface, pressure)[-1] > 1 or is_coarse(pixels, tolerance)
 

@@ -53,13 +53,9 @@ class Plan:
 def plans_of(config: Mapping[str, Any], models: ErrorModels) -> dict[str, Plan]:
     """Return the plan of every case of a checked configuration.
 
-    Raises
-    ------
-    UnreachableError
-        If no settings are predicted to reach the accuracy of a case; names the case.
-    ValueError
-        If a quantity of a case is not given by theory, or has no error model though the case has an
-        accuracy.
+    An UnreachableError names the case whose accuracy no settings are predicted to reach, a
+    ValueError the one with a quantity that theory does not give, or that has no error model though
+    the case has an accuracy.
     """
     plans: dict[str, Plan] = {}
     for name, case in config["cases"].items():
@@ -141,12 +137,7 @@ def coarse_batches(count: int) -> list[str]:
     """Return the names of the files of so many coarse seeds: the first and the last of each.
 
     Files end at the same seeds whatever the number, but for the last: a case that asks for more
-    keeps what is solved. The first has `FIRST_FILE` seeds, and each doubles their number.
-
-    Examples
-    --------
-    >>> coarse_batches(160)
-    ['1-64', '65-128', '129-160']
+    keeps what is solved. 160 seeds are in '1-64', '65-128' and '129-160'.
     """
     last, parts = 0, []
     while last < count:
@@ -156,25 +147,13 @@ def coarse_batches(count: int) -> list[str]:
 
 
 def seed_batches(count: int) -> list[str]:
-    """Return the names of the files of so many fine seeds, `SEEDS_A_FILE` in each but the last.
-
-    Examples
-    --------
-    >>> seed_batches(9)
-    ['1-4', '5-8', '9-9']
-    """
+    """Return the names of the files of so many fine seeds: '1-4', '5-8' and '9-9' of nine."""
     firsts = range(1, count + 1, SEEDS_A_FILE)
     return [f"{first}-{min(first + SEEDS_A_FILE - 1, count)}" for first in firsts]
 
 
 def batches_covering(count: int, among: int) -> list[str]:
-    """Return the files that hold so many fine seeds, those of `among` seeds where they do.
-
-    Examples
-    --------
-    >>> batches_covering(6, among=8), batches_covering(6, among=3)
-    (['1-4', '5-8'], ['1-4', '5-6'])
-    """
+    """Return the files that hold so many fine seeds, those of `among` seeds where they do."""
     return [part for part in seed_batches(max(count, among)) if seeds_in(part)[0] <= count]
 
 

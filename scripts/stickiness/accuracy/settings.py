@@ -1,14 +1,8 @@
 """Error and cost that settings are predicted to have, and the cheapest for an accuracy.
 
-The relative error of one column at one load that covers 90 % is
-
-    error^2 = discretisation^2 + solver^2
-              + z^2 scatter^2 (fine_share^2/n + coarse_share^2/N + (1 - coarse_share^2)/M)
-
-with n fine seeds, N coarse ones, M whose long waves alone are looked at (see
-`accuracy.multilevel`), and z = 1.645; for plain means the inner bracket is 1/n. The shares are what
-a control leaves of the standard deviation. All columns at all loads are within the accuracy in
-90 % of cases by `joint_error`.
+The error of one column at one load is `predicted_error`. The shares in it are what a control leaves
+of the standard deviation. All columns at all loads are within the accuracy in 90 % of cases by
+`joint_error`.
 """
 
 from __future__ import annotations
@@ -70,9 +64,7 @@ class Problem:
         return list(itertools.product(self.pressures, self.columns))
 
 
-def error_parts(
-    problem: Problem, settings: Settings, pressure: float, column: str
-) -> dict[str, NDArray]:
+def error_parts(problem, settings, pressure, column) -> dict[str, NDArray]:
     """Return the relative errors by discretisation, solver and sampling, each covering 90 %.
 
     The numbers of seeds in the settings may be arrays that broadcast.
@@ -87,7 +79,14 @@ def error_parts(
 
 
 def predicted_error(problem: Problem, settings: Settings, pressure: float, column: str) -> NDArray:
-    """Return the relative error that covers 90 % of means: `error_parts` in quadrature."""
+    """Return the relative error that covers 90 % of means: `error_parts` in quadrature.
+
+    error^2 = discretisation^2 + solver^2
+              + z^2 scatter^2 (fine_share^2/n + coarse_share^2/N + (1 - coarse_share^2)/M)
+
+    with n fine seeds, N coarse ones, M whose long waves alone are looked at, and z = 1.645; for
+    plain means the inner bracket is 1/n.
+    """
     parts = error_parts(problem, settings, pressure, column)
     return np.sqrt(sum(part**2 for part in parts.values()))
 
@@ -179,20 +178,10 @@ def cheapest(
 
     Among settings whose cost is within 5 % of the lowest, the most accurate.
 
-    Parameters
-    ----------
-    problem : Problem
-    accuracy : float
-        Relative error that is to cover 90 %.
-    plain : bool, optional
-        True for plain means only, False for multilevel ones only; by default whichever is cheaper.
-    least : Settings, optional
-        Fewest pixels and seeds, coarse ones too, and largest tolerance that are allowed.
-
-    Raises
-    ------
-    UnreachableError
-        Saying what could be reached, for which quantity and at which pressure.
+    The accuracy is the relative error that is to cover 90 %. `plain` is true for plain means only,
+    false for multilevel ones only; by default whichever is cheaper. `least` has the fewest pixels
+    and seeds, coarse ones too, and the largest tolerance that are allowed. An UnreachableError says
+    what could be reached, for which quantity and at which pressure.
     """
     waves = problem.surface.magnification * problem.surface.window
     coarsest = least.pixels_per_wavelength
@@ -247,15 +236,8 @@ def seeds_enough(
 ) -> int | None:
     """Return the fewest fine seeds that are predicted to be enough; None if none of `SEEDS` are.
 
-    Parameters
-    ----------
-    problem, settings
-        What was solved.
-    accuracy : float
-        Relative error that is to cover 90 %.
-    fixed, sampling : (column, pressure) array
-        Relative errors measured with the settings, covering 90 %: those that more seeds do not
-        change, and the sampling error, which changes with the seeds as the error models say.
+    `fixed` and `sampling` (column, pressure) are the relative errors measured with the settings,
+    covering 90 %: those that more seeds do not change, and the sampling error.
     """
     if settings.seeds < 2:
         return None
@@ -270,10 +252,5 @@ def seeds_enough(
 
 def _stated_sampling(problem, settings):
     """Sampling error that an answer is expected to state at every point, with Student's t."""
-    return np.array(
-        [
-            covering_factor(problem, settings, *at)
-            * math.sqrt(mean_variance(problem, settings, *at))
-            for at in problem.points
-        ]
-    )
+    points = [(problem, settings, *at) for at in problem.points]
+    return np.array([covering_factor(*at) * math.sqrt(mean_variance(*at)) for at in points])

@@ -116,10 +116,10 @@ def analyse(
     steps = heights.dx, heights.dy
     cutoff = _find_cutoff(limits, narrow, q_min, plane.q_nyquist, heights.heights, steps)
     fit = fit_rings(narrow, q_min, cutoff.q)
+    cutoff = replace(cutoff, q=fit.q_max)
     rings = radial_average(plane, bins_per_decade=RINGS)
     area, lowest = rings.modes(plane) * plane.dqx * plane.dqy, min(plane.dqx, plane.dqy)
     anisotropy = plane.anisotropy(fit.q_min, fit.q_max)[0]
-    cutoff = replace(cutoff, q=fit.q_max)
     return MeasuredSpectrum(rings, area, narrow, fit, cutoff, lowest, anisotropy)
 
 
@@ -155,26 +155,18 @@ def _lowest(limits: Limits, step: float, blur: float) -> float:
     return (LOWEST_MODES if blur else 1) * step
 
 
-def _find_cutoff(
-    limits: Limits,
-    rings: RadialPSD,
-    q_min: float,
-    q_nyquist: float,
-    heights: NDArray,
-    steps: tuple[float, ...],
-) -> Cutoff:
+def _find_cutoff(limits, rings, q_min, q_nyquist, heights, steps) -> Cutoff:
     """Lowest of the cutoffs that are given, detected or general."""
     if limits.fit_to is not None:
         return Cutoff(2 * np.pi / limits.fit_to, "as given (fit_to)")
     found = [Cutoff(NYQUIST_SHARE * q_nyquist, "half the Nyquist wave number")]
     if limits.resolution is not None:
         found.append(Cutoff(2 * np.pi / limits.resolution, "resolution of the instrument"))
-    if limits.tip_radius is not None:
-        blunt = tip_cutoff(heights, steps, limits.tip_radius)
-        if blunt is not None:
-            found.append(Cutoff(2 * np.pi / blunt, "shape of the tip", detected=True))
-    bend = find_bend(rings, q_min, q_nyquist) if limits.detect else None
-    lowest = min([*found, bend] if bend else found, key=lambda cutoff: cutoff.q)
+    if limits.tip_radius is not None and (blunt := tip_cutoff(heights, steps, limits.tip_radius)):
+        found.append(Cutoff(2 * np.pi / blunt, "shape of the tip", detected=True))
+    if limits.detect and (bend := find_bend(rings, q_min, q_nyquist)):
+        found.append(bend)
+    lowest = min(found, key=lambda cutoff: cutoff.q)
     if not lowest.q > q_min:
         end = f"at wavelengths of {2 * np.pi / lowest.q:.3g} m" if lowest.q else "everywhere"
         raise ValueError(
@@ -190,13 +182,8 @@ def tip_cutoff(heights: ArrayLike, steps: tuple[float, ...], radius: float) -> f
 
     A tip of radius R leaves no peak sharper than itself: heights are unreliable at distances over
     which some second difference reaches -1/(2R) (Sanner, Nöhring, Thimons, Jacobs & Pastewka
-    2022, doi:10.1016/j.apsadv.2021.100190).
-
-    Returns
-    -------
-    float or None
-        Length of the stencil at which the sharpest peak reaches the limit, the largest over all
-        axes; None if no peak is so sharp; infinity if there is one at every distance.
+    2022, doi:10.1016/j.apsadv.2021.100190). The wavelength is the length of the stencil, the
+    largest over all axes; None if no peak is so sharp, infinity if there is one at every distance.
     """
     if not radius > 0:
         raise ValueError(f"radius must be positive, got {radius!r}")
@@ -260,5 +247,4 @@ def _local_exponents(rings: RadialPSD) -> tuple[NDArray, NDArray]:
 
 def _start_of_last_run(flags: NDArray) -> int:
     """Index from which on all are true; the length if the last is not."""
-    others = np.flatnonzero(~flags)
-    return int(others[-1]) + 1 if len(others) else 0
+    return int(np.max(np.flatnonzero(~flags) + 1, initial=0))

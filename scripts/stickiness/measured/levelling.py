@@ -115,10 +115,7 @@ def _widen(hole: NDArray, rim: int) -> NDArray:
 
 
 def fill_missing(
-    heights: NDArray,
-    max_missing: float = MAX_MISSING,
-    source: str = "heights",
-    positions: NDArray | None = None,
+    heights: NDArray, max_missing=MAX_MISSING, source="heights", positions=None
 ) -> tuple[NDArray, int]:
     """Fill points of a map or profile that are not finite from their neighbours.
 

@@ -76,20 +76,9 @@ def parse(path: Path) -> tuple[NDArray, list[str], dict[str, str]]:
     not begin with a number. Decimal commas are allowed if the separator is another. Missing points
     may be written as NaN, ---, *** or left empty between tabs, semicolons or commas.
 
-    Returns
-    -------
-    values : (rows, columns) array
-        Numbers as written, NaN where a point is marked as missing.
-    header : list of str
-        Comments, and lines before the first row.
-    fields : dict
-        `width` (along the rows), `height`, `value unit` and `lateral unit`, where they are given.
-
-    Raises
-    ------
-    ValueError
-        If there are no numbers, rows differ in length, a field is no number, commas split the
-        numbers, or the header says what is not read. The message names file and line.
+    Returns the numbers as written (rows, columns), NaN where a point is marked as missing; comments
+    and lines before the first row; and the `width` (along the rows), `height`, `value unit` and
+    `lateral unit` that these give. A ValueError names the file, and the line that cannot be read.
     """
     header, rows = split_header(decode(path.read_bytes()))
     if not rows:

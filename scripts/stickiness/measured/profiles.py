@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy import fft, special
 
+from stickiness.arguments import number
 from stickiness.measured.psd import RadialPSD, Taper, average_by_ring, logarithmic_rings
 from stickiness.measured.self_affine_fit import FINE, SelfAffineFit, fit_rings
 
@@ -50,20 +51,13 @@ def profile_spectrum(heights: ArrayLike, dx: float, taper: Taper = "hann") -> Pr
     """One-dimensional power spectral density of heights (n,) along a line, levelled beforehand.
 
     Along a line both Hann tapers are the same.
-
-    Raises
-    ------
-    ValueError
-        If the heights are not at least 16 finite values, the step is not positive or the taper
-        is unknown.
     """
     heights = np.asarray(heights, dtype=float)
     if heights.ndim != 1 or len(heights) < 16 or not np.all(np.isfinite(heights)):
         raise ValueError(
             f"heights of a profile must be 1D, finite and at least 16, got {heights.shape}"
         )
-    if not (np.isfinite(dx) and dx > 0):
-        raise ValueError(f"dx must be positive and finite, got {dx!r}")
+    dx = number("dx", dx)
     if taper not in ("none", "hann", "hann_radial"):
         raise ValueError(f"taper must be 'none', 'hann' or 'hann_radial', got {taper!r}")
     n = len(heights)

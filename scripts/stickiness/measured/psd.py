@@ -59,15 +59,10 @@ class PowerSpectrum:
         return float(min(np.abs(self.qx).max(), self.qy.max()))
 
     def anisotropy(self, q_min: float, q_max: float) -> tuple[float, float]:
-        """Dependence of C on direction between two wave numbers.
+        """Return A and phi0 [rad] in C ~ 1 + A cos 2(phi - phi0) between two wave numbers.
 
-        Returns
-        -------
-        amplitude : float
-            A in C ~ 1 + A cos 2(phi - phi0), averaged over the modes after division by the mean
-            of their ring: 0 if isotropic, towards 2 for a pure lay.
-        direction : float
-            phi0 [rad], the direction of the wave vectors with the largest C, in (-pi/2, pi/2].
+        The amplitude A is 0 if C is isotropic, towards 2 for a pure lay; phi0 in (-pi/2, pi/2] is
+        the direction of the wave vectors with the largest C.
         """
         number("q_min", q_min)
         q = self.q
@@ -200,9 +195,7 @@ def logarithmic_rings(q: NDArray, lowest: float, bins_per_decade: float) -> NDAr
     return np.floor(np.log10(q / lowest) * bins_per_decade + 0.5).astype(int)
 
 
-def average_by_ring(
-    ring: NDArray, weight: NDArray, q: NDArray, values: NDArray
-) -> tuple[NDArray, NDArray, NDArray]:
+def average_by_ring(ring, weight, q, values) -> tuple[NDArray, NDArray, NDArray]:
     """Average over the rings that hold any weight: geometric mean of q, mean of values, weight."""
     total = np.bincount(ring, weights=weight)
     keep = total > 0
@@ -217,9 +210,7 @@ def wide_rings(rings: RadialPSD, bins_per_decade: float) -> NDArray:
     return np.floor(np.log10(rings.q / rings.q[0]) * bins_per_decade + 1e-9).astype(int)
 
 
-def merge_rings(
-    rings: RadialPSD, values: NDArray, bins_per_decade: float
-) -> tuple[NDArray, NDArray, NDArray]:
+def merge_rings(rings: RadialPSD, values, bins_per_decade) -> tuple[NDArray, NDArray, NDArray]:
     """Gather narrow rings into wider ones: geometric mean q, mean of `values`, independent modes.
 
     The means are weighted by independent modes.

@@ -95,19 +95,11 @@ def format_of(path: str | Path, fmt: str | None = None) -> str:
     return INSTRUMENT if plain_text.OF_INSTRUMENTS.search("\n".join(header)) else "text"
 
 
-def read(
-    path: Path,
-    fmt: str | None = None,
-    variable: str | None = None,
-    channel: str | int | None = None,
-) -> Raw:
+def read(path: Path, fmt=None, variable=None, channel=None) -> Raw:
     """Read a file with the reader that `format_of` names.
 
-    Raises
-    ------
-    ValueError
-        If the file is not what its name or `fmt` says, if it does not hold one usable array or
-        channel, or if `variable` (NetCDF, npz) or `channel` (instruments) does not apply to it.
+    A ValueError says that the file is not what its name or `fmt` says, that it does not hold one
+    usable array or channel, or that `variable` or `channel` does not apply to it.
     """
     kind = format_of(path, fmt)
     if channel is not None and kind != INSTRUMENT:
@@ -235,10 +227,8 @@ def _read_instrument(path: Path, fmt: str | None, channel: str | int | None) -> 
     if channel is not None:
         named = [c for i, c in enumerate(channels) if channel in (i, c.channel_id, c.name)]
         if not named:
-            raise ValueError(
-                f"{path}: no channel {channel!r}; the file has "
-                f"{heights_in or 'no channel of heights'}"
-            )
+            there = heights_in or "no channel of heights"
+            raise ValueError(f"{path}: no channel {channel!r}; the file has {there}")
         info = named[0]
     source = f"{path}: {info.name}"
     if not holds_heights(info):

@@ -121,22 +121,12 @@ class SelfAffineFit:
 def fit_rings(
     rings: RadialPSD, q_min: float, q_max: float, rolloff: bool | None = None
 ) -> SelfAffineFit:
-    """Fit a self-affine spectrum, with or without a plateau at low q.
+    """Fit a self-affine spectrum between two wave numbers, with or without a plateau at low q.
 
-    Parameters
-    ----------
-    rings : RadialPSD
-        So narrow that their mean C is C at `rings.q` (`FINE` a decade), in ascending order.
-    q_min, q_max : float
-        Lowest and highest wave number used [1/length].
-    rolloff : bool, optional
-        Fit a plateau or not. Default: only if it gains more than 10 in Akaike's criterion.
-
-    Raises
-    ------
-    ValueError
-        If fewer than five rings (ten a decade) or 20 independent modes lie in the fit interval,
-        or the spectrum vanishes there.
+    The rings, in ascending order, are so narrow that their mean C is C at `rings.q` (`FINE` a
+    decade). By default a plateau is fitted if it gains more than 10 in Akaike's criterion. A
+    ValueError says that fewer than five rings (ten a decade) or 20 independent modes lie in the fit
+    interval, or that the spectrum vanishes there.
     """
     rings = _within(rings, q_min, q_max)
     # ln q about the middle of the data, where exponent and level are least correlated.
@@ -144,15 +134,14 @@ def fit_rings(
     x = np.log(rings.q / scale)
     plain, plain_misfit = weighted_fit(fit_power_law, x, rings)
     room = None if rolloff is False else rolloff_room(x, rings)
-    if room is None:
-        if rolloff:
-            raise ValueError("rolloff=True needs a wider range of q: lower q_min or raise q_max")
-        return _result(rings, scale, plain, plain_misfit)
-    bent, bent_misfit = weighted_fit(partial(fit_rolloff, room), x, rings)
-    limited = limit_weight(rings, bent_misfit)
-    gain = 2 * (deviance(x, limited, *plain) - deviance(x, limited, *bent)) - 2
-    if rolloff or gain > ROLLOFF_AIC:
-        return _result(rings, scale, bent, bent_misfit)
+    if room is None and rolloff:
+        raise ValueError("rolloff=True needs a wider range of q: lower q_min or raise q_max")
+    if room is not None:
+        bent, bent_misfit = weighted_fit(partial(fit_rolloff, room), x, rings)
+        limited = limit_weight(rings, bent_misfit)
+        gain = 2 * (deviance(x, limited, *plain) - deviance(x, limited, *bent)) - 2
+        if rolloff or gain > ROLLOFF_AIC:
+            return _result(rings, scale, bent, bent_misfit)
     return _result(rings, scale, plain, plain_misfit)
 
 
@@ -191,9 +180,7 @@ def _within(rings: RadialPSD, low: float, high: float) -> RadialPSD:
     return rings
 
 
-def _result(
-    rings: RadialPSD, scale: float, parameters: tuple[float, ...], misfit: float
-) -> SelfAffineFit:
+def _result(rings, scale, parameters, misfit) -> SelfAffineFit:
     a, s, *corner = parameters
     x = np.log(rings.q / scale)
     # In the unit of the data: ln C = ln c0 - 2 (H + 1) max(ln q, ln q_r).
@@ -238,12 +225,10 @@ def rolloff_room(x: NDArray, rings: RadialPSD) -> tuple[float, float] | None:
     return (float(inside[0]), float(inside[-1])) if len(inside) > 1 else None
 
 
-def fit_rolloff(
-    room: tuple[float, float], x: NDArray, rings: RadialPSD
-) -> tuple[float, float, float]:
+def fit_rolloff(room, x, rings) -> tuple[float, float, float]:
     """Maximise the likelihood of ln C = a - s max(x, c), c within `room`: (a, s, c)."""
 
-    def cost(c: float) -> float:
+    def cost(c):
         return deviance(x, rings, *fit_power_law(np.maximum(x, c), rings), c)
 
     # The likelihood has kinks and several maxima in c: scan, then refine.

@@ -5,10 +5,9 @@ they overlap, ln C is averaged with weights 1/(sampling variance + tau^2), in wh
 scatter between measurements: place, calibration, instrument (Jacobs, Junge & Pastewka 2017,
 doi:10.1088/2051-672X/aa51f8, recommend geometric averages of spectra).
 
-Errors of moments come from drawing spectra that agree with the measured one. Every ring varies by
-its sampling error, every measurement by the scatter between measurements, the extrapolated part and
-the end of the plateau by the covariance of the fit. Every moment is computed for each draw, so that
-correlated errors stay correlated.
+Errors of moments come from drawing spectra that agree with the measured one: rings vary by their
+sampling error, measurements by their scatter, extrapolation and plateau by the covariance of the
+fit. Every moment is computed for each draw, so that correlated errors stay correlated.
 """
 
 from __future__ import annotations
@@ -67,9 +66,9 @@ def stitch(measurements: Sequence[MeasuredSpectrum]) -> Stitched:
         fit = _add_offsets(fit, logs, variances, tau, q, band)
     present = np.isfinite(logs)
     both = present & (present.sum(0) > 1)
-    offsets = np.full(len(logs), np.nan)
-    for k in np.flatnonzero(both.any(1)):
-        offsets[k] = np.mean((logs[k] - mean)[both[k]])
+    offsets = np.array(
+        [np.mean((log - mean)[b]) if b.any() else np.nan for log, b in zip(logs, both, strict=True)]
+    )
     anisotropy = float(np.fmax.reduce([m.anisotropy for m in measurements]))
     q_low = min(m.lowest for m in measurements)
     area = ring_areas(rings.q, q_low)
@@ -105,9 +104,7 @@ def _on_common_rings(measurements: Sequence[MeasuredSpectrum]) -> tuple[NDArray,
     return logs[:, used], variances[:, used], centres[used]
 
 
-def _average(
-    q: NDArray, logs: NDArray, variances: NDArray, tau2: float
-) -> tuple[NDArray, RadialPSD]:
+def _average(q, logs, variances, tau2) -> tuple[NDArray, RadialPSD]:
     """Weighted mean of ln C (m,), and rings whose ln C has this mean and its variance."""
     mean = np.nansum(_shares(variances, tau2) * logs, axis=0)
     error2 = 1 / np.nansum(_weights(variances, tau2), axis=0)
@@ -144,14 +141,7 @@ def _variance_between(logs: NDArray, variances: NDArray) -> float:
     return float(np.mean(squares)) / 2 if squares else np.nan
 
 
-def _add_offsets(
-    fit: SelfAffineFit,
-    logs: NDArray,
-    variances: NDArray,
-    tau: float,
-    q: NDArray,
-    band: tuple[float, float],
-) -> SelfAffineFit:
+def _add_offsets(fit, logs, variances, tau, q, band) -> SelfAffineFit:
     """Add to the covariance what raising each measurement by tau changes."""
     covariance = fit.log_covariance.copy()
     bent = fit.q_rolloff is not None
@@ -252,9 +242,7 @@ def draw(
     return Draws(moments, q0)
 
 
-def _relative(
-    spectrum: MeasuredSpectrum, count: int, rng: np.random.Generator, stitched: Stitched | None
-) -> NDArray:
+def _relative(spectrum, count, rng, stitched) -> NDArray:
     """Drawn over measured C in every ring (count, m)."""
     # The mean of dof exponential values has the relative variance 1/dof. A log-normal distribution
     # of that mean and variance is positive and lacks the far tail of the posterior of a single

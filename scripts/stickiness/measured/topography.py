@@ -228,9 +228,7 @@ def read(
     return Topography(filled, *steps, source, **known)
 
 
-def _places(
-    raw: Raw, length: Size, pixel_size: Size, position_unit: str | None
-) -> tuple[float, ...] | NDArray:
+def _places(raw: Raw, length, pixel_size, position_unit) -> tuple[float, ...] | NDArray:
     """Grid steps of a map, or positions of a profile's points [m], from the caller or the file."""
     shape, is_profile = raw.heights.shape, raw.heights.ndim == 1
     if length is not None:
@@ -246,9 +244,8 @@ def _places(
         raise ValueError(f"{raw.source}: the file does not tell {what}; give length or pixel_size")
     if not np.all(np.isfinite(raw.places)):
         raise ValueError(f"{raw.source}: a position of the profile is missing")
-    places = np.asarray(raw.places) * _scale(
-        raw.source, "position_unit", position_unit, raw.place_unit
-    )
+    scale = _scale(raw.source, "position_unit", position_unit, raw.place_unit)
+    places = np.asarray(raw.places) * scale
     return places if is_profile else tuple(places.tolist())
 
 
@@ -260,10 +257,8 @@ def _scale(source: str, key: str, given: str | None, in_file: str | None) -> flo
         raise ValueError(f"{source}: the file does not tell the unit of {what}; give {key}")
     scales = [metres(f"1 {unit}", f"{source}: {key}") for unit in units]
     if not np.isclose(scales[0], scales[-1], rtol=1e-12, atol=0):
-        raise ValueError(
-            f"{source}: {key} = {given!r}, but the file says {in_file!r}; "
-            f"leave {key} out, or correct the file"
-        )
+        said = f"{source}: {key} = {given!r}, but the file says {in_file!r}"
+        raise ValueError(f"{said}; leave {key} out, or correct the file")
     return scales[0]
 
 
