@@ -6,11 +6,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
-<<<<<<< HEAD
-=======
 from common import conventions
-from common.materials import read_material
->>>>>>> room/measured3
 from real_surfaces import contact_measured
 from stickiness import adhesive, datasets, repulsive, surface
 from stickiness.measured.topography import Topography

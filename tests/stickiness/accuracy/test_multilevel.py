@@ -212,33 +212,4 @@ def test_rough_contacts():
 )
 def test_wrong_arguments_are_named(call, arguments, words):
     with pytest.raises(ValueError, match=words):
-<<<<<<< HEAD
         getattr(multilevel, call)(*arguments)
-=======
-        multilevel.multilevel_mean(*arguments)
-
-
-@pytest.mark.parametrize(
-    ("arguments", "words"),
-    [
-        ((np.ones(8), np.ones(8), np.ones((9, 1))), r"controls must be of shape \(8, k\)"),
-        ((np.ones(8), np.ones((7, 1)), np.ones((9, 1))), r"controls must be of shape \(8, k\)"),
-        ((np.ones(8), np.ones((8, 1)), np.ones((9, 2))), r"elsewhere must be of shape \(M, 1\)"),
-        ((np.ones(11), np.ones((11, 2)), np.ones((9, 2))), "at least 12 samples"),
-    ],
-)
-def test_wrong_controls_are_named(arguments, words):
-    with pytest.raises(ValueError, match=words):
-        multilevel.controlled_mean(*arguments)
-
-
-def test_wrong_descriptors_are_named():
-    with pytest.raises(ValueError, match="cutoff must be at least 1"):
-        multilevel.descriptors(power_law(), L, [1], cutoff=0.5)
-    with pytest.raises(ValueError, match="amplitudes must be"):
-        multilevel.descriptors(power_law(), L, [1], "uniform")
-    with pytest.raises(ValueError, match="the window does not hold the band"):
-        multilevel.descriptors(power_law(), 0.01, [1])
-    with pytest.raises(ValueError, match="length must be positive and finite"):
-        multilevel.descriptors(power_law(), np.nan, [1])
->>>>>>> room/measured3
