@@ -8,7 +8,7 @@ import pytest
 import yaml
 
 from common.config import entries, load
-from common.config.reference import PAGE, page
+from common.config.reference import FILES, PAGE, page
 
 ROOT = Path(__file__).parents[3]
 CAMPAIGNS = ("tradeoff", "remaining")
