@@ -15,7 +15,7 @@ from common.job import start
 from common.model_surfaces import read_all
 from stickiness import datasets, dmt
 from stickiness.criteria import equivalent_sphere
-from stickiness.error_budget import Part, with_budget
+from stickiness.error_budget import ErrorComponent, with_budget
 from stickiness.statistics import students_t
 from stickiness.traction_laws import LAWS
 
@@ -59,9 +59,11 @@ def main(job):
         dataset = with_budget(
             dataset,
             name,
-            discretisation=Part(change, "change from half the resolution"),
-            solver=Part(solver * fine.mean("seed"), "by tolerance and branch, as measured"),
-            sampling=Part(error, "Student's t"),
+            discretisation=ErrorComponent(change, "change from half the resolution"),
+            solver=ErrorComponent(
+                solver * fine.mean("seed"), "by tolerance and branch, as measured"
+            ),
+            sampling=ErrorComponent(error, "Student's t"),
             **SIMULATED,
         )
     datasets.write(

@@ -13,7 +13,7 @@ from common.ensemble_means import add_errors, coarse, describe_errors
 from common.error_budgets import SIMULATED, Simulation
 from stickiness import datasets, dmt
 from stickiness.accuracy.error_models import read_models
-from stickiness.error_budget import ENDINGS, Part, with_budget
+from stickiness.error_budget import ENDINGS, ErrorComponent, with_budget
 
 PER_DECADE = 64  # ranges at which a traction law is integrated
 SMALLEST = 1e-300  # area: none at ranges that a coarse grid does not see
@@ -155,10 +155,14 @@ def add_budgets(dataset, simulation, linear):
         dataset = with_budget(
             dataset,
             name,
-            discretisation=Part(dataset[f"{name}_discretisation_error"], grid_limits.INHERITED),
-            solver=Part(solver * (abs(dataset[name]) + abs(pull)), "by the tolerance, as measured"),
-            sampling=Part(factor * dataset[f"{name}_standard_error"], "Student's t"),
+            discretisation=ErrorComponent(
+                dataset[f"{name}_discretisation_error"], grid_limits.INHERITED
+            ),
+            solver=ErrorComponent(
+                solver * (abs(dataset[name]) + abs(pull)), "by the tolerance, as measured"
+            ),
+            sampling=ErrorComponent(factor * dataset[f"{name}_standard_error"], "Student's t"),
             bandwidth=SIMULATED["bandwidth"],
-            model=Part(error, MODEL_OF_FIT if fitted else MODEL),
+            model=ErrorComponent(error, MODEL_OF_FIT if fitted else MODEL),
         )
     return dataset.drop_vars(f"{name}_discretisation_error" for name in QUANTITIES)

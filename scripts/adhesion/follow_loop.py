@@ -18,7 +18,7 @@ from common.error_budgets import SIMULATED
 from common.job import start
 from common.model_surfaces import pixels, read_first
 from stickiness import adhesive, datasets
-from stickiness.error_budget import Part, unknown, with_budget
+from stickiness.error_budget import ErrorComponent, unknown_error, with_budget
 from stickiness.plausibility import PlausibilityWarning
 from stickiness.repulsive import solver
 
@@ -126,9 +126,9 @@ def add_quoted(dataset):
         dataset = with_budget(
             dataset,
             name,
-            discretisation=Part(fine - coarse, "change from half the resolution"),
-            solver=Part(SOLVER * fine, "by the tolerance, as measured of pull-offs"),
-            sampling=unknown("a single realisation"),
+            discretisation=ErrorComponent(fine - coarse, "change from half the resolution"),
+            solver=ErrorComponent(SOLVER * fine, "by the tolerance, as measured of pull-offs"),
+            sampling=unknown_error("a single realisation"),
             **SIMULATED,
         )
     return dataset

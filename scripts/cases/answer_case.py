@@ -21,7 +21,7 @@ from stickiness.accuracy.error_models import (
 )
 from stickiness.accuracy.quantities import COLUMNS, columns_of, has_error_model
 from stickiness.accuracy.settings import Problem, covering_factor, joint_error, seeds_enough
-from stickiness.error_budget import SOURCES, Part, absent, part, with_budget
+from stickiness.error_budget import SOURCES, ErrorComponent, not_applicable, part, with_budget
 from stickiness.statistics import students_t
 
 DIMS = ("column", "pressure")
@@ -80,8 +80,10 @@ def main(job):
     parts = {}
     for source in (one for one in SOURCES if one in texts):
         errors = [np.abs(by_source.get(source, np.zeros(len(loads)))) for _, by_source in found]
-        parts[source] = Part(xr.DataArray(errors, dims=DIMS), texts[source])
-    dataset = with_budget(dataset, "value", bandwidth=absent("the case's own spectrum"), **parts)
+        parts[source] = ErrorComponent(xr.DataArray(errors, dims=DIMS), texts[source])
+    dataset = with_budget(
+        dataset, "value", bandwidth=not_applicable("the case's own spectrum"), **parts
+    )
     if plan["accuracy"] and (text := describe_miss(dataset, problem, settings, plan, case)):
         dataset.attrs["missed"] = f"{case}: {text}"
         logging.warning("%s", text)

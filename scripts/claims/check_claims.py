@@ -89,7 +89,7 @@ def to_dataset(rows):
     parts = {}
     for source in error_budget.SOURCES:
         error = xr.DataArray([row["errors"].get(source, 0.0) for row in rows], dims="claim")
-        parts[source] = error_budget.Part(error, "see the comment of each claim")
+        parts[source] = error_budget.ErrorComponent(error, "see the comment of each claim")
     return error_budget.with_budget(dataset, "value", **parts)
 
 

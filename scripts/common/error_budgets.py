@@ -14,7 +14,7 @@ from common.grid_limits import LEFT
 from stickiness.accuracy.error_models import OUTSIDE, Settings, Surface, single_error
 from stickiness.accuracy.quantities import COLUMNS, has_error_model
 from stickiness.accuracy.settings import Problem, covering_factor
-from stickiness.error_budget import Part, absent, unknown
+from stickiness.error_budget import ErrorComponent, not_applicable, unknown_error
 from stickiness.statistics import students_t
 
 # Columns of the error models, by variables of an ensemble's file and, over h_rms, by ranges.
@@ -24,13 +24,13 @@ NOT_MEASURED = "how this quantity changes with the tolerance is not measured"
 ENDLESS = np.inf  # window of a continuous spectrum
 
 SIMULATED = {
-    "bandwidth": absent("the case's own spectrum is simulated"),
-    "model": absent("linear elastic half-space and hard wall define the quantity"),
+    "bandwidth": not_applicable("the case's own spectrum is simulated"),
+    "model": not_applicable("linear elastic half-space and hard wall define the quantity"),
 }
 BY_THEORY = {
-    "solver": absent("nothing is iterated"),
-    "sampling": absent("theory is of the ensemble"),
-    "bandwidth": absent("of the spectrum stated"),
+    "solver": not_applicable("nothing is iterated"),
+    "sampling": not_applicable("theory is of the ensemble"),
+    "bandwidth": not_applicable("of the spectrum stated"),
 }
 MODEL = f"of {VARIANT} against simulation, as measured; of other variants not measured"
 # Relative, of the quadrature with the default number of nodes, see `stickiness.persson.Persson`.
@@ -74,12 +74,14 @@ class Simulation:
         """
         if name == "attractive_area" or has_error_model(COLUMN_OF.get(name, name)):
             error, factor = self.solver(name, value), self.factors(name, value)
-            solver = Part(error * abs(value), "by the tolerance, as measured")
-            sampling = Part(factor * standard_error, "Student's t of the standard error")
+            solver = ErrorComponent(error * abs(value), "by the tolerance, as measured")
+            sampling = ErrorComponent(factor * standard_error, "Student's t of the standard error")
         else:
-            factor, solver = students_t(self.settings.seeds), unknown(NOT_MEASURED)
-            sampling = Part(factor * standard_error, "Student's t by the fine seeds alone")
-        discretisation = Part(discretisation, text)
+            factor, solver = students_t(self.settings.seeds), unknown_error(NOT_MEASURED)
+            sampling = ErrorComponent(
+                factor * standard_error, "Student's t by the fine seeds alone"
+            )
+        discretisation = ErrorComponent(discretisation, text)
         parts = {"discretisation": discretisation, "solver": solver, "sampling": sampling}
         return parts | SIMULATED
 
@@ -133,7 +135,7 @@ def theory_parts(models, name, value, surface=None, like=""):
     """
     quadrature = QUADRATURE[like or name] * abs(value)
     return {
-        "discretisation": Part(quadrature, "of the quadrature, as tested"),
-        "model": Part(theory_error(models, name, value, surface) * abs(value), MODEL),
+        "discretisation": ErrorComponent(quadrature, "of the quadrature, as tested"),
+        "model": ErrorComponent(theory_error(models, name, value, surface) * abs(value), MODEL),
         **BY_THEORY,
     }

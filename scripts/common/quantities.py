@@ -16,7 +16,7 @@ from stickiness import datasets
 from stickiness.accuracy.error_models import read_models
 from stickiness.accuracy.quantities import COLUMNS
 from stickiness.criteria import a_v_fit
-from stickiness.error_budget import ENDINGS, Part, unknown, with_budget
+from stickiness.error_budget import ENDINGS, ErrorComponent, unknown_error, with_budget
 
 KAPPA = "kappa = A_rep E* h'_rms/(A_nom p)"
 KAPPA_VARIABLES = describe_errors(
@@ -204,9 +204,13 @@ def add_simulation_budgets(dataset, ensemble, models):
     return with_budget(
         dataset,
         "exponent",
-        discretisation=Part(limit.error, grid_limits.INHERITED),
-        solver=Part(2 * solver / steps, "of neighbouring areas, by the tolerance, as measured"),
-        sampling=Part(factor * standard_error(seeds), "Student's t, of the plain mean of seeds"),
+        discretisation=ErrorComponent(limit.error, grid_limits.INHERITED),
+        solver=ErrorComponent(
+            2 * solver / steps, "of neighbouring areas, by the tolerance, as measured"
+        ),
+        sampling=ErrorComponent(
+            factor * standard_error(seeds), "Student's t, of the plain mean of seeds"
+        ),
         **SIMULATED,
     )
 
@@ -222,7 +226,7 @@ def add_theory_budgets(dataset, areas, models):
     return with_budget(
         dataset,
         "exponent",
-        discretisation=Part(error, "of the quadrature in neighbouring areas"),
-        model=unknown("how theory's error changes with the range is not measured"),
+        discretisation=ErrorComponent(error, "of the quadrature in neighbouring areas"),
+        model=unknown_error("how theory's error changes with the range is not measured"),
         **BY_THEORY,
     )

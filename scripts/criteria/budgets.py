@@ -4,15 +4,15 @@ import numpy as np
 import xarray as xr
 
 from stickiness.criteria.registry import REMAINING
-from stickiness.error_budget import Part, absent, with_budget
+from stickiness.error_budget import ErrorComponent, not_applicable, with_budget
 from stickiness.statistics import COVERS
 
-IN_A_V = absent("in a_V's error, counted with the model")
+IN_A_V = not_applicable("in a_V's error, counted with the model")
 CLOSED = {
     "discretisation": IN_A_V,
-    "solver": absent("closed forms"),
+    "solver": not_applicable("closed forms"),
     "sampling": IN_A_V,
-    "bandwidth": absent("of the spectrum stated"),
+    "bandwidth": not_applicable("of the spectrum stated"),
 }
 OF_MODEL = "of the model, the farther of both limits"
 OF_SPECTRUM = "of the spectrum measured; none of one end of what is given"
@@ -40,8 +40,13 @@ def add_budgets(dataset, draws):
     ):
         model = between_limits(dataset, limits)
         if "criterion" in dataset[name].dims:
-            model = Part(model.error.where(ours), f"{OF_MODEL}; other criteria state none")
-        parts = CLOSED | {"sampling": Part(relative * dataset[name], OF_SPECTRUM), "model": model}
+            model = ErrorComponent(
+                model.error.where(ours), f"{OF_MODEL}; other criteria state none"
+            )
+        parts = CLOSED | {
+            "sampling": ErrorComponent(relative * dataset[name], OF_SPECTRUM),
+            "model": model,
+        }
         dataset = with_budget(dataset, name, **parts)
     return add_budget_of_probability(dataset, draws)
 
@@ -53,16 +58,20 @@ def add_budget_of_probability(dataset, draws):
     shrunk = 1 + COVERS**2 / number
     middle = (share + COVERS**2 / (2 * number)) / shrunk
     half = COVERS * np.sqrt(share * (1 - share) / number + (COVERS / (2 * number)) ** 2) / shrunk
-    scatter = Part((abs(middle - share) + half).fillna(0.0), "of the number of draws")
-    parts = {"discretisation": absent("drawn"), "sampling": scatter, "model": absent("drawn")}
+    scatter = ErrorComponent((abs(middle - share) + half).fillna(0.0), "of the number of draws")
+    parts = {
+        "discretisation": not_applicable("drawn"),
+        "sampling": scatter,
+        "model": not_applicable("drawn"),
+    }
     return with_budget(dataset, "probability", **CLOSED | parts)
 
 
 def between_limits(dataset, name):
-    """Part of the budget of a variable that has a low and a high limit beside it."""
+    """ErrorComponent of the budget of a variable that has a low and a high limit beside it."""
     return between(*(dataset[f"{name}{end}"] for end in ("", "_low", "_high")))
 
 
 def between(value, low, high):
-    """Part of the budget of a value that is known between two limits."""
-    return Part(np.maximum(abs(high - value), abs(value - low)), OF_MODEL)
+    """ErrorComponent of the budget of a value that is known between two limits."""
+    return ErrorComponent(np.maximum(abs(high - value), abs(value - low)), OF_MODEL)

@@ -6,7 +6,7 @@ import numpy as np
 
 from common.conventions import VARIANT
 from stickiness import datasets
-from stickiness.error_budget import Part, absent, part
+from stickiness.error_budget import ErrorComponent, not_applicable, part
 
 SIMULATED = ("a_v_mean", "a_v_mean_error")
 
@@ -35,12 +35,14 @@ class MeasuredAv:
     def parts(self, times):
         """Parts of a budget: the relative errors of a_V times a number."""
         scale = times / self.value
-        interval = Part(self.fit_interval * scale, "half the spread between intervals of the fit")
+        interval = ErrorComponent(
+            self.fit_interval * scale, "half the spread between intervals of the fit"
+        )
         return {
-            "discretisation": Part(self.discretisation * scale, "of the case simulated"),
-            "solver": absent("far below the errors of the case simulated"),
-            "sampling": Part(self.sampling * scale, "of the case simulated"),
-            "bandwidth": Part(self.bandwidth * scale, "growth over the last two decades"),
+            "discretisation": ErrorComponent(self.discretisation * scale, "of the case simulated"),
+            "solver": not_applicable("far below the errors of the case simulated"),
+            "sampling": ErrorComponent(self.sampling * scale, "of the case simulated"),
+            "bandwidth": ErrorComponent(self.bandwidth * scale, "growth over the last two decades"),
             "model": interval,
         }
 

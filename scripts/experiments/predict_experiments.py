@@ -21,7 +21,7 @@ from stickiness import datasets
 from stickiness.criteria.pair import Pair
 from stickiness.criteria.registry import CRITERIA
 from stickiness.criteria.verdict import BROAD_A_V, describe_surface, surface_a_v
-from stickiness.error_budget import Part, absent, with_budget
+from stickiness.error_budget import ErrorComponent, not_applicable, with_budget
 from stickiness.remaining import sphere
 from stickiness.remaining.prediction import DEFAULT_SHARE, HYSTERESIS, LATE
 from stickiness.spectrum.kinds import SelfAffine
@@ -139,8 +139,8 @@ class Observation:
     @cached_property
     def shapes(self):
         """Moments of unit rms height and a_V for every combination, see `describe_shape`."""
-        absent = np.full(len(self.inputs["hurst"]), None)
-        rows = zip(*(self.inputs.get(key, absent) for key in SHAPE), strict=True)
+        not_applicable = np.full(len(self.inputs["hurst"]), None)
+        rows = zip(*(self.inputs.get(key, not_applicable) for key in SHAPE), strict=True)
         return [describe_shape(*row) for row in rows]
 
     def pair(self, h_rms: NDArray) -> Pair:
@@ -429,11 +429,11 @@ def predict_all(experiments):
         dataset = with_budget(
             dataset,
             name,
-            discretisation=absent("closed form"),
-            solver=absent("closed form"),
-            sampling=Part(inputs, "of all that is plausible of the inputs"),
-            bandwidth=absent("the spectrum is swept with the inputs"),
-            model=Part(model, "larger side of its limits"),
+            discretisation=not_applicable("closed form"),
+            solver=not_applicable("closed form"),
+            sampling=ErrorComponent(inputs, "of all that is plausible of the inputs"),
+            bandwidth=not_applicable("the spectrum is swept with the inputs"),
+            model=ErrorComponent(model, "larger side of its limits"),
         )
     return dataset
 

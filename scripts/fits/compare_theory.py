@@ -17,7 +17,7 @@ from common.ensemble_means import coarse, discretisation_error, ensemble_mean
 from common.grid_limits import EXTRAPOLATION
 from common.job import start
 from stickiness import datasets
-from stickiness.error_budget import SOURCES, Part, absent, part, with_budget
+from stickiness.error_budget import SOURCES, ErrorComponent, not_applicable, part, with_budget
 
 PARTS = ("area_fraction", "attractive_area")  # of the cumulative distribution
 WINDOW = ("highest_summit", "margin", "window_holds")  # of theory's file
@@ -58,11 +58,14 @@ def main(job):
 
 def add_budgets(dataset, simulated, theory):
     """Add the errors of the simulation to the differences, which are the error of the theory."""
-    model = absent("the difference is the error of the model")
+    model = not_applicable("the difference is the error of the model")
     for name in COMPARED:
         mean = f"{name}_mean"
         scale = theory[name] / simulated[mean].where(simulated[mean] > 0) ** 2
-        parts = {s: Part(scale * part(simulated, mean, s), "of the simulation") for s in SOURCES}
+        parts = {
+            s: ErrorComponent(scale * part(simulated, mean, s), "of the simulation")
+            for s in SOURCES
+        }
         dataset = with_budget(dataset, f"{name}_difference", **parts | {"model": model})
     # Student's t, the same for all quantities of an ensemble but for the shares of its levels.
     factor = part(simulated, "mean_gap_mean", "sampling") / simulated.mean_gap_standard_error
@@ -70,10 +73,12 @@ def add_budgets(dataset, simulated, theory):
     return with_budget(
         dataset,
         "distance",
-        discretisation=Part(dataset.distance_discretisation_error, "in the limit of fine grids"),
-        solver=Part(integral(np.hypot(*solver)), "of both areas, by the tolerance"),
-        sampling=Part(factor * dataset.distance_standard_error, "Student's t"),
-        bandwidth=absent("one spectrum for both"),
+        discretisation=ErrorComponent(
+            dataset.distance_discretisation_error, "in the limit of fine grids"
+        ),
+        solver=ErrorComponent(integral(np.hypot(*solver)), "of both areas, by the tolerance"),
+        sampling=ErrorComponent(factor * dataset.distance_standard_error, "Student's t"),
+        bandwidth=not_applicable("one spectrum for both"),
         model=model,
     )
 

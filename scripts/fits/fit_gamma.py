@@ -13,7 +13,7 @@ from common.conventions import annotate
 from common.job import start
 from common.model_surfaces import cell_size, model_spectrum
 from stickiness import datasets
-from stickiness.error_budget import Part, absent, with_budget
+from stickiness.error_budget import ErrorComponent, not_applicable, with_budget
 from stickiness.persson.kernels import CORRECTIONS, correction_of
 from stickiness.persson.theory import Persson
 from stickiness.statistics import COVERS
@@ -145,10 +145,10 @@ def add_budgets(dataset, spread):
     return with_budget(
         dataset,
         "gamma",
-        **dict.fromkeys(("discretisation", "solver"), absent("drawn with the sampling")),
-        sampling=Part(spread, "windows, cases and their errors drawn"),
-        bandwidth=absent("of the spectra simulated"),
-        model=Part(apart.where(dataset.quantity == EVERY, 0.0), text),
+        **dict.fromkeys(("discretisation", "solver"), not_applicable("drawn with the sampling")),
+        sampling=ErrorComponent(spread, "windows, cases and their errors drawn"),
+        bandwidth=not_applicable("of the spectra simulated"),
+        model=ErrorComponent(apart.where(dataset.quantity == EVERY, 0.0), text),
     )
 
 

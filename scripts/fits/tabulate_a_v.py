@@ -6,7 +6,13 @@ import xarray as xr
 from common.conventions import annotate
 from common.job import start
 from stickiness import datasets
-from stickiness.error_budget import ENDINGS, Part, absent, unknown, with_budget
+from stickiness.error_budget import (
+    ENDINGS,
+    ErrorComponent,
+    not_applicable,
+    unknown_error,
+    with_budget,
+)
 from stickiness.statistics import COVERS
 
 SMALLEST_RANGE = 0.01  # over h_rms; below, simulated areas are extrapolated on most grids
@@ -46,10 +52,10 @@ def main(job):
     dataset = with_budget(
         dataset,
         "simulation_ratio",
-        **dict.fromkeys(("discretisation", "solver"), absent("counted with the sampling")),
-        sampling=Part(error, "of a further surface, the errors of the cases included"),
-        bandwidth=unknown("the trend beyond the largest magnification is not simulated"),
-        model=absent("simulation over theory is what is quoted"),
+        **dict.fromkeys(("discretisation", "solver"), not_applicable("counted with the sampling")),
+        sampling=ErrorComponent(error, "of a further surface, the errors of the cases included"),
+        bandwidth=unknown_error("the trend beyond the largest magnification is not simulated"),
+        model=not_applicable("simulation over theory is what is quoted"),
     )
     datasets.write(
         dataset,

@@ -14,7 +14,7 @@ from common.theory import theories
 from stickiness import criteria, datasets
 from stickiness.accuracy.error_models import read_models
 from stickiness.criteria.a_v_table import edge_range, local_a_v
-from stickiness.error_budget import Part, absent, unknown, with_budget
+from stickiness.error_budget import ErrorComponent, not_applicable, unknown_error, with_budget
 from stickiness.persson.theory import Persson
 
 AXES = ("hurst", "magnification", "pressure")
@@ -104,12 +104,14 @@ def add_budgets(dataset, models):
     """Add the errors of a_V, as large as for the attractive area, and of the edges' estimate."""
     limit = dataset.a_v_limit.assign_coords(magnification=np.inf)
     for name, value in {"a_v": dataset.a_v, "a_v_limit": limit}.items():
-        quadrature = Part(dataset.quadrature_error * value, "of the quadrature, the largest")
+        quadrature = ErrorComponent(
+            dataset.quadrature_error * value, "of the quadrature, the largest"
+        )
         parts = theory_parts(models, "attractive_area", value) | {"discretisation": quadrature}
         dataset = with_budget(dataset, name, **parts)
-    parts = dict.fromkeys(("discretisation", "solver", "sampling"), absent("a closed form"))
+    parts = dict.fromkeys(("discretisation", "solver", "sampling"), not_applicable("a closed form"))
     parts |= {"bandwidth": BY_THEORY["bandwidth"]}
-    unmeasured = unknown("another estimate of what edges give")
+    unmeasured = unknown_error("another estimate of what edges give")
     return with_budget(dataset, "edge_a_v", **parts, model=unmeasured)
 
 

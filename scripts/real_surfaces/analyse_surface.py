@@ -15,7 +15,7 @@ from common.job import start
 from common.real_spectra import configured_spectrum
 from real_surfaces.measured_surface import find_spectrum, read_levelled
 from stickiness import datasets
-from stickiness.error_budget import Part, absent, with_budget
+from stickiness.error_budget import ErrorComponent, not_applicable, with_budget
 from stickiness.measured import plausibility, self_affine_fit, stitching
 from stickiness.spectrum.direction import find_ratio
 from stickiness.statistics import COVERS
@@ -297,15 +297,18 @@ def annotate(dataset):
     present = {name: text for name, text in texts.items() if name in dataset.variables}
     dataset = datasets.annotate(dataset, **present)
     dataset.psd.attrs["comment"] = "h_rms^2 = 2 pi int q C dq"
-    given, band = absent("given in the configuration"), absent("of the band that was fitted")
+    given, band = (
+        not_applicable("given in the configuration"),
+        not_applicable("of the band that was fitted"),
+    )
     for name, error in STANDARD_ERRORS.items():
         if name not in dataset:
             continue
         parts = dict.fromkeys(("discretisation", "solver", "bandwidth", "sampling", "model"), given)
         if error in errors:
             parts |= dict.fromkeys(("discretisation", "solver", "bandwidth"), band)
-            parts["sampling"] = Part(COVERS * errors[error], "of the spectrum measured")
-            parts["model"] = absent("the law is what is quoted; its misfit stands beside")
+            parts["sampling"] = ErrorComponent(COVERS * errors[error], "of the spectrum measured")
+            parts["model"] = not_applicable("the law is what is quoted; its misfit stands beside")
         dataset = with_budget(dataset, name, **parts)
     return dataset
 

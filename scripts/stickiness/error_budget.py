@@ -22,32 +22,32 @@ ENDINGS = ("_error", "_total_error", "_dominant")
 
 
 @dataclass(frozen=True)
-class Part:
+class ErrorComponent:
     """Error by one source, absolute and covering 90 %, and what it is or why there is none."""
 
     error: xr.DataArray | float
     text: str
 
 
-def absent(why: str) -> Part:
-    """Part of a source that does not apply."""
-    return Part(0.0, f"none, {why}")
+def not_applicable(why: str) -> ErrorComponent:
+    """ErrorComponent of a source that does not apply."""
+    return ErrorComponent(0.0, f"none, {why}")
 
 
-def unknown(why: str) -> Part:
-    """Part of a source that contributes, by an amount that is not known."""
-    return Part(np.nan, f"not known, {why}")
+def unknown_error(why: str) -> ErrorComponent:
+    """ErrorComponent of a source that contributes, by an amount that is not known."""
+    return ErrorComponent(np.nan, f"not known, {why}")
 
 
 def with_budget(
     dataset: xr.Dataset,
     name: str,
     *,
-    discretisation: Part,
-    solver: Part,
-    sampling: Part,
-    bandwidth: Part,
-    model: Part,
+    discretisation: ErrorComponent,
+    solver: ErrorComponent,
+    sampling: ErrorComponent,
+    bandwidth: ErrorComponent,
+    model: ErrorComponent,
 ) -> xr.Dataset:
     """Add the budget of a variable that has `units` and `long_name`.
 
@@ -88,9 +88,9 @@ def with_budget(
     return datasets.annotate(dataset, source=("1", "where an error comes from"))
 
 
-def split(error: xr.DataArray, texts: Mapping[str, str]) -> dict[str, Part]:
+def split(error: xr.DataArray, texts: Mapping[str, str]) -> dict[str, ErrorComponent]:
     """Parts of a budget from errors along `source` and their texts."""
-    return {s: Part(error.sel(source=s, drop=True), texts[s]) for s in SOURCES}
+    return {s: ErrorComponent(error.sel(source=s, drop=True), texts[s]) for s in SOURCES}
 
 
 def part(dataset: xr.Dataset, name: str, source: str) -> xr.DataArray:

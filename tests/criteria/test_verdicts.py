@@ -182,12 +182,12 @@ def fit_file(path, name, coords, **parameters):
     shape = (3, *(len(values) for values in coords.values()))
     data = xr.Dataset({name: (dims, np.full(shape, 2.0))}, coords=coords)
     described = {key: ("1", key) for key in data.variables}
-    none = budget.absent("made up")
+    none = budget.not_applicable("made up")
     data = budget.with_budget(
         datasets.annotate(data, **described),
         name,
-        discretisation=budget.Part(0.1, "made up"),
-        sampling=budget.Part(0.38, "made up"),
+        discretisation=budget.ErrorComponent(0.1, "made up"),
+        sampling=budget.ErrorComponent(0.38, "made up"),
         **dict.fromkeys(("solver", "bandwidth", "model"), none),
     )
     datasets.write(data, path, title="t", parameters=parameters)

@@ -32,11 +32,13 @@ def case(zeta, **more):
 
 def with_errors(dataset, *names, model=0.0):
     """Sampling errors of 3 % and discretisation errors of 4 %: 5 % in all, but for the model's."""
-    none = budget.absent("made up")
+    none = budget.not_applicable("made up")
     for name in names:
         value = dataset[name] = dataset[name].assign_attrs(units="1", long_name="made up")
         parts = {"discretisation": 0.04, "sampling": 0.03, "model": model}
-        parts = {source: budget.Part(part * value, "made up") for source, part in parts.items()}
+        parts = {
+            source: budget.ErrorComponent(part * value, "made up") for source, part in parts.items()
+        }
         dataset = budget.with_budget(dataset, name, solver=none, bandwidth=none, **parts)
     return dataset
 

@@ -33,9 +33,11 @@ def budgeted(dataset, name, **errors):
     """The dataset with a budget of one of its variables; sources left out have no part."""
     value = dataset[name] = dataset[name].assign_attrs(units="1", long_name=name)
     parts = {
-        source: budget.Part(xr.DataArray(errors.get(source, 0.0), dims=value.dims), "made up")
+        source: budget.ErrorComponent(
+            xr.DataArray(errors.get(source, 0.0), dims=value.dims), "made up"
+        )
         if source in errors
-        else budget.absent("made up")
+        else budget.not_applicable("made up")
         for source in budget.SOURCES
     }
     return budget.with_budget(dataset, name, **parts)

@@ -14,7 +14,7 @@ from stickiness.accuracy.error_models import Surface, read_models, single_error
 from stickiness.accuracy.settings import Problem
 
 LAWS = read_models(Path(__file__).parents[2] / "config/accuracy.csv")
-NONE = budget.absent("made up")
+NONE = budget.not_applicable("made up")
 
 
 def quoted(values, **parts):
@@ -25,8 +25,10 @@ def quoted(values, **parts):
 
 
 def test_errors_add_in_quadrature_and_the_largest_is_named():
-    grid = budget.Part(xr.DataArray([3.0, -1.0], dims="x"), "of the grid")
-    found = quoted([10.0, 20.0], discretisation=grid, model=budget.Part(4.0, "of the model"))
+    grid = budget.ErrorComponent(xr.DataArray([3.0, -1.0], dims="x"), "of the grid")
+    found = quoted(
+        [10.0, 20.0], discretisation=grid, model=budget.ErrorComponent(4.0, "of the model")
+    )
     np.testing.assert_allclose(found.q_total_error, [5.0, np.sqrt(17)])
     assert budget.dominant(found.isel(x=0), "q") == "model"
     np.testing.assert_allclose(budget.part(found, "q", "discretisation"), [3.0, 1.0])
@@ -37,11 +39,15 @@ def test_errors_add_in_quadrature_and_the_largest_is_named():
 
 
 def test_errors_that_are_not_known_and_values_that_are_not_there():
-    found = quoted([1.0], sampling=budget.unknown("a single seed"), model=budget.Part(9.0, "m"))
+    found = quoted(
+        [1.0], sampling=budget.unknown_error("a single seed"), model=budget.ErrorComponent(9.0, "m")
+    )
     assert np.isnan(found.q_total_error).all()
     assert budget.dominant(found.isel(x=0), "q") == "sampling"  # it counts as the largest
     assert "a single seed" in found.q_total_error.attrs["nan_means"]
-    found = quoted([1.0, np.nan], model=budget.Part(xr.DataArray([0.0, 1.0], dims="x"), "m"))
+    found = quoted(
+        [1.0, np.nan], model=budget.ErrorComponent(xr.DataArray([0.0, 1.0], dims="x"), "m")
+    )
     assert [budget.dominant(found.isel(x=i), "q") for i in (0, 1)] == ["none", "none"]
     assert np.isnan(found.q_error.isel(x=1)).all()
 
