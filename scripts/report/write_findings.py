@@ -14,7 +14,6 @@ from stickiness.criteria import equivalent_sphere
 from stickiness.criteria.pair import WORDS
 
 WELL_KNOWN = 0.25  # relative error of a predicted work that counts as met
-RESOLVED = 3.9  # pixels in the cohesive zone from which simulated works are taken as known
 LEAST = 0.05  # remaining share from which predicted works are compared
 LEAST_AREA = 0.2  # attractive over contact area from which the sphere is compared
 ENERGY_RATIOS = (0.3, 0.4, 0.6, 0.8, 1.1, 1.5, 2.5)  # bins of w/U_full
@@ -73,24 +72,26 @@ def compare_sphere(edges):
     """Simulated weak attraction over that of the equivalent sphere: mean, scatter and number."""
     area, strength, _, ratio, _ = select_certain(edges)
     ratio = ratio[(strength < equivalent_sphere.WEAK) & (area >= LEAST_AREA)]
-    return {"ratio": (ratio.mean(), ratio.std(ddof=1)), "points": ratio.size}
+    return {"ratio": (ratio.mean(), ratio.std(ddof=1)), "points": ratio.size, "least": LEAST_AREA}
 
 
 def compare_remaining(table):
     """Share of predicted works near the simulated ones, and means by energy ratio."""
-    table = table[remaining_table.is_wide(table)]
-    fine = table[table.pixels_in_zone >= RESOLVED]
-    works = pd.concat(
-        [(fine.predicted / fine[n])[fine[n] > LEAST] for n in ("approach", "separation")]
-    )
+    wide = remaining_table.is_wide(table)
+    ratios = {
+        name: pd.concat(
+            [(rows.predicted / rows[n])[rows[n] > LEAST] for n in ("approach", "separation")]
+        )
+        for name, rows in (("wide", table[wide]), ("narrow", table[~wide]))
+    }
+    table = table[wide]
     tough = table[table.zone < 0.11]
     groups = tough.groupby(pd.cut(tough.energy_ratio, ENERGY_RATIOS), observed=True)
     columns = ["energy_ratio", "approach", "separation", "predicted", "pull_off"]
     return {
         "points": len(table),
-        "resolved": len(fine),
-        "works": len(works),
-        "near": float((abs(works - 1) < WELL_KNOWN).mean()),
+        "works": {name: len(ratio) for name, ratio in ratios.items()},
+        "near": {n: float((abs(ratio - 1) < WELL_KNOWN).mean()) for n, ratio in ratios.items()},
         "within": WELL_KNOWN,
         "least": LEAST,
         "means": groups[columns].mean(),
