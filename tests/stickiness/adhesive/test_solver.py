@@ -318,3 +318,30 @@ def test_arguments_are_checked(change, message):
     arguments |= {"pressure": 0.1} | change
     with pytest.raises(ValueError, match=message):
         adhesive.solve(**arguments)
+
+
+@pytest.mark.slow
+def test_branches_on_a_rough_surface_differ_and_the_deeper_is_told():
+    """Loaded from afar and unloaded from full contact: two stable states of unlike enthalpy.
+
+    Up to some three times the load the state of less contact is the deeper one, beyond that of
+    full contact is, before loading gets there.
+    """
+    heights = rough(64)
+    law = law_of(Exponential, 0.1, 0.5)
+    for load, approach_deeper in ((LOAD, True), (3 * LOAD, True), (5 * LOAD, False)):
+        enthalpies, states = [], []
+        for start in ("approach", "separation"):
+            a = adhesive.solve(heights, 1.0, law, pressure=load, start=start)
+            assert_equilibrium(a, heights)
+            u = a.gap + heights
+            energy = u * elastic_pressure(u, SIDES) / 2 + law.potential(a.gap)
+            enthalpies.append(np.mean(energy) + load * a.gap.mean())
+            states.append(a)
+            # a minimum: a start nearby comes back
+            moved = a.gap + 1e-3 * law.range * (a.gap > 0)
+            back = adhesive.solve(heights, 1.0, law, pressure=load, start=moved)
+            np.testing.assert_allclose(back.gap, a.gap, atol=1e-5 * HEIGHT)
+        a, b = states
+        assert b.repulsive_area_fraction > a.repulsive_area_fraction + 0.1
+        assert (enthalpies[0] < enthalpies[1]) == (a.enthalpy < b.enthalpy) == approach_deeper

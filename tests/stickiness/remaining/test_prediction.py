@@ -94,3 +94,10 @@ def test_limits_hold_the_value():
 def test_bad_arguments_are_named(name, bad):
     with pytest.raises(ValueError, match=name):
         predict(rough(), **(TOUGH | {name: bad}))
+
+
+def test_thresholds_are_in_the_order_of_their_limits():
+    surface = Roughness(h_rms=1.0, q0=1.0, elastic_energy=0.6)
+    high, value, low = (surface.threshold(np.array([1e-4, 0.3, 1]), sign=k) for k in (1, 0, -1))
+    assert np.all(high < value)
+    assert np.all(value < low)
