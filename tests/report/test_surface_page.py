@@ -201,7 +201,7 @@ def test_page_tells_of_steep_slopes_missing_points_and_contact_of_periodic_heigh
         missing_fraction=single.missing_fraction.copy(data=0.29),
     )
     odd = odd.assign_attrs(remarks="h_rms is small; C falls as q^-5.3")
-    page = write_page(odd, folder, bem=contact_measured.annotate(bem))
+    page = write_page(odd, folder, bem=conventions.annotate(bem, **contact_measured.VARIABLE_TEXTS))
     page.check("The rms slope is 2.00 ± 0.16.", "are extrapolated.", "29 % of the points")
     words = "The heights are periodic as they stand", "The same contact with full adhesion"
     page.check(*words, "100 kPa")
