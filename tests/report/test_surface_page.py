@@ -9,7 +9,7 @@ import pytest
 import xarray as xr
 from helpers.pages import Page, make_job
 
-from common import contact_picture
+from common import contact_picture, conventions
 from common.formatting import number, with_error
 from common.materials import read_material
 from criteria import judge_surface, judging, pair_roughness
