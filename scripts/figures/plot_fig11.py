@@ -61,7 +61,7 @@ def draw_errors(ax, table):
     keys = [
         make_dot("approach", color=GREY, marker="v"),
         make_dot("separation", color=GREY, marker="^"),
-        make_dot("nothing was fitted to", color=RED),
+        make_dot("not used in the fit", color=RED),
     ]
     ax.legend(handles=keys, loc="lower left")
     ax.set(xlabel=ENERGY_RATIO, ylabel="theory over simulation", xscale="log", ylim=(0.4, 1.6))
