@@ -118,13 +118,13 @@ def test_standard_error_matches_the_scatter_of_fits():
     rng = np.random.default_rng(1)
     truth = 1.5 * 3.0 * 0.065 * EPS ** (2 / 3)
     fits = [
-        dmt.fit_a_v(EPS, truth + 1e-3 * rng.standard_normal(EPS.size), 0.065) for _ in range(500)
+        dmt.fit_a_v(EPS, truth + 1e-3 * rng.standard_normal(EPS.size), 0.065) for _ in range(2000)
     ]
     values = np.array([fit.value for fit in fits])
     errors = np.array([fit.standard_error for fit in fits])
-    # 500 fits know their scatter to 3.2 %, their mean to scatter/22: three deviations each.
-    assert values.std() == pytest.approx(np.sqrt(np.mean(errors**2)), rel=0.1)
-    assert values.mean() == pytest.approx(3.0, abs=3 * values.std() / np.sqrt(500))
+    # 2000 fits know their scatter to 1.6 %, their mean to scatter/45: three deviations each.
+    assert values.std() == pytest.approx(np.sqrt(np.mean(errors**2)), rel=0.05)
+    assert values.mean() == pytest.approx(3.0, abs=3 * values.std() / np.sqrt(2000))
 
 
 # --- refusals ------------------------------------------------------------------------------
