@@ -37,8 +37,8 @@ FACTORS = [1.0, 1.2, 0.5]  # of the variants, so that the band is from 1 to 1.2
 
 @pytest.fixture
 def ax():
-    figure, panels = plotting.make_panels("A", 3)
-    yield panels["A"]
+    figure, ax = plt.subplots(figsize=(plotting.WIDTH, 3))
+    yield ax
     plt.close(figure)
 
 
