@@ -14,7 +14,7 @@ from markupsafe import Markup, escape
 from common import formatting
 from stickiness import datasets
 
-FORMATS = ("number", "percent", "change", "interval", "with_error", "amount")
+FORMATS = ("number", "percent", "change", "interval", "with_error", "amount", "quantity")
 DOI = re.compile(r"doi:(10\.\d{4,9}/(?:\([^\s()]*\)|[^\s,;:()&]*[^\s,;:()&.])+)")
 # Symbols as texts of datasets and labels spell them, escaped: h_rms, q0, x^2, m^(2/3).
 LOWERED = re.compile(
@@ -69,6 +69,7 @@ def make_environment(folder: str | Path, page: str | Path = "page") -> jinja2.En
         "place": lambda target: re.sub(r"^(\.\./)+", "", href(target)),
     }
     environment.tests["finite"] = np.isfinite
+    environment.globals["np"] = np
     environment.globals["table"] = lambda columns, rows: formatting.table(columns, rows).rstrip()
     return environment
 
