@@ -89,11 +89,15 @@ def main(job):
             }
             for name, surface in surfaces.items()
         },
-        budgets=list(map(describe_budget, answers.values())),
+        answers={
+            name: (at_load(answer), datasets.parameters(answer)) for name, answer in answers.items()
+        },
+        columns=COLUMNS,
+        dominant_source=error_budget.dominant,
         trade_figure=pages.embed_figure(inputs.trade_figure, inputs.trade_caption),
         presets=describe_presets(read_models(inputs.laws), **params.presets),
         modelled=[COLUMNS[n].label if n in COLUMNS else n.replace("_", " ") for n in MODELLED],
-        comparisons=compare_theory(comparisons.values()),
+        comparisons={name: compare_theory(one) for name, one in comparisons.items()},
         compared=COMPARED,
         run_times=read_run_times(params.benchmarks),
         versions=list_versions([claims, verdicts, tested, *surfaces.values(), *ensembles.values()]),
@@ -103,35 +107,15 @@ def main(job):
 
 def describe_claims(claims):
     """Every claim with its errors, the largest first, and the files behind it."""
-    rows = []
-    for number in claims.claim.values:
-        claim = claims.sel(claim=number)
-        errors = claim.value_error.fillna(np.inf)  # one that is not known counts as the largest
-        errors = errors.where(errors > 0, drop=True).sortby(-errors)
-        texts = ("statement", "quantity", "remark")
-        rows.append(
-            {name: str(claim[name].item()) for name in texts}
-            | {
-                "number": int(number),
-                "grade": str(claim.verdict.item()),
-                "tone": CLAIM_TONES.get(claim.verdict.item(), "open"),
-                "value": float(claim.value),
-                "error": float(claim.value_total_error),
-                "errors": dict(zip(errors.source.values, errors.values, strict=True)),
-                "dominant": name_dominant(claim),
-                "claimed": float(claim.claimed),
-                "files": group_seeds(str(claim.sources.item()).split()),
-            }
-        )
+    # An error that is not known counts as the largest.
+    errors = claims.value_error.fillna(np.inf).transpose("claim", "source").to_pandas()
+    rows = claims.drop_dims("source").to_dataframe().reset_index().to_dict("records")
+    for row in rows:
+        by_source = errors.loc[row["claim"]].sort_values(ascending=False, kind="stable")
+        row["errors"] = by_source[by_source > 0].to_dict()
+        row["tone"] = CLAIM_TONES.get(row["verdict"], "open")
+        row["files"] = group_seeds(row["sources"].split())
     return rows
-
-
-def name_dominant(data):
-    """Source of the largest error of the value."""
-    source = error_budget.dominant(data, "value")
-    if source == "none":
-        return "–"
-    return source if np.isfinite(data.value_total_error) else f"{source}, not known"
 
 
 def group_seeds(paths):
@@ -173,53 +157,22 @@ def choose_mine(pairs):
 
 def find_disagreements(verdicts):
     """Number of pairs, by word, on which each criterion contradicts the verdict."""
-    words = [WORDS[int(code)] for code in verdicts.verdict.values.ravel()]
-    return [
-        {
-            "criterion": CRITERIA[name].label,
-            "counts": Counter(
-                word
-                for word, against in zip(
-                    words, verdicts.disagrees.sel(criterion=name).values.ravel(), strict=True
-                )
-                if against
-            ),
-        }
-        for name in map(str, verdicts.criterion.values)
-        if name != REMAINING
-    ]
-
-
-def describe_budget(answer):
-    """Error budget of every column of a case at the load of the paper's figures."""
-    at, made = at_load(answer), datasets.parameters(answer)
-    relative = at.value_error / at.value.where(at.value != 0)
+    words = np.array(WORDS)[verdicts.verdict.values.astype(int)]
+    others = [name for name in map(str, verdicts.criterion.values) if name != REMAINING]
     return {
-        "case": made["case"],
-        "load": float(at.pressure),
-        "accuracy": made["accuracy"],
-        "missed": "missed" in answer.attrs,
-        "rows": [
-            {
-                "quantity": COLUMNS[str(name)].label,
-                "value": float(at.value.sel(column=name)),
-                "error": float(at.value_total_error.sel(column=name)),
-                "errors": relative.sel(column=name, source=list(error_budget.SOURCES)).values,
-                "dominant": name_dominant(at.sel(column=name)),
-            }
-            for name in at.column.values
-        ],
+        CRITERIA[name].label: Counter(words[verdicts.disagrees.sel(criterion=name) == 1].tolist())
+        for name in others
     }
 
 
 def describe_presets(models, fidelities, presets, surface, descriptor_seeds):
     """Settings of every preset, with their predicted cost and errors."""
     given = models, Surface.of(surface), presets["pressures"]
+    whole = Problem(*given, columns_of(MODELLED), descriptor_seeds)
     rows = []
     for name, error in presets["accuracy"].items():
         chosen = plan.preset(fidelities[name])
         problems = [Problem(*given, columns_of([one]), descriptor_seeds) for one in MODELLED]
-        whole = Problem(*given, columns_of(MODELLED), descriptor_seeds)
         rows.append(
             {
                 "name": name,
@@ -232,21 +185,11 @@ def describe_presets(models, fidelities, presets, surface, descriptor_seeds):
     return rows
 
 
-def compare_theory(comparisons):
-    """Relative difference of theory from simulation [%] for every case, at three of its loads."""
-    rows = []
-    for comparison in comparisons:
-        at = 100 * comparison.isel(variant=0).interp({"range": COMPARED_RANGE})
-        case = datasets.parameters(comparison)["case"]
-        count = at.sizes["pressure"]
-        for index in np.unique(np.linspace(0, count - 1, 5).astype(int)[1:4]):
-            here = at.isel(pressure=index)
-            found = [
-                (here[f"{name}_difference"], here[f"{name}_difference_total_error"])
-                for name in COMPARED
-            ]
-            rows.append({"case": case, "load": float(here.pressure), "differences": found})
-    return rows
+def compare_theory(comparison):
+    """Relative difference of theory from simulation [%] at three of the loads of a case."""
+    at = 100 * comparison.isel(variant=0).interp({"range": COMPARED_RANGE})
+    loads = np.unique(np.linspace(0, at.sizes["pressure"] - 1, 5).astype(int)[1:4])
+    return [at.isel(pressure=load) for load in loads]
 
 
 def read_run_times(folder):

@@ -397,10 +397,10 @@ def test_every_judged_pair_is_on_one_axis(verdicts, pairs):
 
 
 def test_disagreement_counts_pairs_by_verdict(verdicts):
-    assert write_report.find_disagreements(verdicts) == [
-        {"criterion": "onset at the finest wave", "counts": {WORDS[TOUCHES]: 1}},
-        {"criterion": "bearing area (BAM)", "counts": {WORDS[NOT_STICKY]: 1}},
-    ]
+    assert write_report.find_disagreements(verdicts) == {
+        "onset at the finest wave": {WORDS[TOUCHES]: 1},
+        "bearing area (BAM)": {WORDS[NOT_STICKY]: 1},
+    }
 
 
 def test_sizes_of_surfaces_with_and_without_errors(surfaces):
