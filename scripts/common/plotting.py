@@ -144,15 +144,6 @@ def draw_guide(ax, x, y, text, at):
     ax.text(*at, text, color=GREY, fontsize=8)
 
 
-def push_apart(positions, factor):
-    """Heights of labels on a log axis, pushed up until neighbours differ by `factor`."""
-    positions = list(positions)
-    below = 0.0
-    for index in np.argsort(positions):
-        below = positions[index] = max(positions[index], below * factor)
-    return positions
-
-
 def interpolate(data, name, value):
     """Values between those tabulated along a coordinate, by a power law from point to point."""
     logs = np.log(data).assign_coords({name: np.log(data[name])})
@@ -173,3 +164,8 @@ def make_key(label, **look):
 
 def make_dot(label, **look):
     return make_key(label, **({"linestyle": "none", "marker": "o"} | look))
+
+
+def add_legend(ax, *keys, **place):
+    """Legend of what is labelled, and of these keys."""
+    return ax.legend(handles=[*ax.get_legend_handles_labels()[0], *keys], **place)

@@ -32,7 +32,6 @@ def main(job):
 
 
 def read_all(paths, variables):
-    """Datasets of all cases in the order of their magnification."""
     return sorted((datasets.read(path, variables) for path in paths), key=magnification)
 
 
@@ -42,24 +41,22 @@ def magnification(dataset):
 
 def draw_slopes(ax, kappas, lattices):
     """kappa_rep load by load; open symbols beyond the area that is called linear."""
-    handles = []
     for index, (kappa, lattice) in enumerate(zip(kappas, lattices, strict=True)):
-        look = pick_look(index)
+        look = pick_look(index, markersize=SIZE)
         # Both variants of the theory have the same area.
         theory = lattice.kappa.sel(variant=VARIANT)
         ax.plot(theory.pressure, theory, color=look["color"], linewidth=0.9)
         pressure = plotting.move_aside(kappa.pressure, index - 1)
-        plotting.draw_points(ax, pressure, kappa, "kappa", **look, markersize=SIZE)
+        label = state(magnification=magnification(kappa))
+        plotting.draw_points(ax, pressure, kappa, "kappa", **look, label=label)
         beyond = kappa.kappa.where(kappa.area_fraction > LINEAR_UP_TO)
-        above = {"markersize": SIZE, "zorder": plotting.FILLED + 1}
-        plotting.draw_hollow(ax, pressure, beyond, **look, **above)
-        handles.append(make_dot(state(magnification=magnification(kappa)), **look))
+        plotting.draw_hollow(ax, pressure, beyond, **look | {"zorder": plotting.FILLED + 1})
     ax.axhline(2, color=GREY, linestyle="--", linewidth=0.9)
     ax.set(xscale="log", ylim=(1.4, 3.7), xlabel=plotting.PRESSURE)
     ax.set(ylabel=r"$\kappa_\mathrm{rep}=A_\mathrm{rep}h'_\mathrm{rms}E^*/(A_\mathrm{nom}p)$")
     ax.set_title(f"open: area above {100 * LINEAR_UP_TO:.0f} %")
-    lines = [make_key("theory"), make_key(r"$\kappa$ = 2", linestyle="--", linewidth=0.9)]
-    ax.legend(handles=[*handles, *lines], loc="upper right")
+    straight = make_key(r"$\kappa$ = 2", linestyle="--", linewidth=0.9)
+    plotting.add_legend(ax, make_key("theory"), straight, loc="upper right")
 
 
 def draw_threshold(ax, limit, adhesive):
@@ -73,8 +70,7 @@ def draw_threshold(ax, limit, adhesive):
         ax.plot(dmt.adhesion_length_over_range, dmt.inverse_kappa, ":", color=colour)
         ax.plot(lengths, full.inverse_kappa_fit, "-", color=colour, linewidth=0.9)
         plotting.draw_hollow(ax, lengths, full.inverse_kappa_net, **look)
-        label = state(range=range_)
-        plotting.draw_points(ax, lengths, full, "inverse_kappa", **look, label=label)
+        plotting.draw_points(ax, lengths, full, "inverse_kappa", **look, label=state(range=range_))
     kinds = [
         make_key("fit over loads", linewidth=0.9),
         make_dot("compressed", markersize=SIZE, mfc="white"),
@@ -109,13 +105,12 @@ def draw_maps(panels, maps, adhesive):
     loads = maps.pressure.values
     middle = maps.gap.sel(pressure=loads[len(loads) // 2]).transpose("y", "x").values
     x, y = find_densest(middle == 0)
-    for name, load in zip("DEF", loads, strict=False):
-        draw_contact(panels[name], maps.sel(pressure=load), None)
-        panels[name].add_patch(Rectangle((x, y), DETAIL, DETAIL, fill=False, color=BLUE))
-        panels[name].set(xticks=[0, 0.5, 1], yticks=[0, 0.5, 1])
-    for name, load in zip("GHI", loads, strict=False):
-        draw_contact(panels[name], adhesive.sel(pressure=load, method="nearest"), range_)
-        panels[name].set(xlim=(x, x + DETAIL), ylim=(y, y + DETAIL))
+    for whole, detail, load in zip("DEF", "GHI", loads, strict=False):
+        draw_contact(panels[whole], maps.sel(pressure=load), None)
+        panels[whole].add_patch(Rectangle((x, y), DETAIL, DETAIL, fill=False, color=BLUE))
+        panels[whole].set(xticks=[0, 0.5, 1], yticks=[0, 0.5, 1])
+        draw_contact(panels[detail], adhesive.sel(pressure=load, method="nearest"), range_)
+        panels[detail].set(xlim=(x, x + DETAIL), ylim=(y, y + DETAIL))
     panels["D"].set_ylabel("repulsive contact\n$y/L$")
     panels["G"].set_ylabel("blue frame, with adhesion\n$y/L$")
 

@@ -1,6 +1,6 @@
 """Figure 3: attractive area against range, and the prefactor a_V of its power law."""
 
-from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 import xarray as xr
@@ -20,8 +20,7 @@ WIDE_MARKER = MARKERS[3]  # of windows of several wavelengths, in panel C
 THEORY_ON_WINDOW = make_dot("theory, window's spectrum", mfc="white")
 
 
-@dataclass(frozen=True)
-class Case:
+class Case(NamedTuple):
     """A simulated case: its areas, its fits of a_V and those of theory on its spectrum."""
 
     areas: xr.Dataset
@@ -98,13 +97,11 @@ def dress_areas(ax, top):
 
 
 def draw_pressures(ax, theory):
-    """Areas at one magnification for a few pressures."""
     hurst, theory = float(theory.hurst[0]), theory.isel(hurst=0, magnification=0)
     for colour, load in plotting.shade(range(theory.sizes["load"])):
         at = theory.isel(load=load)
-        pressure = float(at.pressure.sel(variant=VARIANT))
-        x = at["range"] ** EXPONENT
-        draw_theory(ax, x, at.attractive_area, colour, label=f"{pressure:g}")
+        label = f"{float(at.pressure.sel(variant=VARIANT)):g}"
+        draw_theory(ax, at["range"] ** EXPONENT, at.attractive_area, colour, label=label)
     dress_areas(ax, 0.75)
     ax.set_title(f"{state(hurst=hurst, magnification=float(theory.magnification))}, theory")
     ax.legend(title=r"$\hat{p}$ =", loc="upper left", ncols=2, alignment="left")
@@ -115,31 +112,24 @@ def draw_a_v(ax, sweep, fit, cases):
     a_v, sweep = fit.a_v.isel(load=0), sweep.sel(variant=VARIANT).isel(load=0)
     for index, hurst in enumerate(fit.hurst.values):
         look = pick_look(index)
-        colour = look["color"]
+        draw_intervals(ax, fit.magnification, a_v.sel(hurst=hurst), look["color"])
         moments = sweep.sel(hurst=hurst)
-        draw_intervals(ax, fit.magnification, a_v.sel(hurst=hurst), colour)
         slope, curvature = moments.rms_slope.values, moments.rms_curvature.values
         robbins = criteria.pastewka_robbins_a_v(1.0, 1.0, slope, curvature)
-        ax.plot(fit.magnification, robbins, "--", color=colour, linewidth=0.9)
-        for case in cases:
-            own, window, magnification = case.order
-            if own == hurst:
-                x = plotting.move_aside(magnification, 2 * (index - 1))
-                marker = WIDE_MARKER if window > 1 else look["marker"]
-                draw_case(ax, case, x, [LOAD], color=colour, marker=marker)
+        ax.plot(fit.magnification, robbins, "--", color=look["color"], linewidth=0.9)
         ax.plot([], [], label=state(hurst=hurst), **look)
+        for case in cases:
+            if case.order[0] == hurst:
+                x = plotting.move_aside(case.order[2], 2 * (index - 1))
+                wide = {"marker": WIDE_MARKER} if case.order[1] > 1 else {}
+                draw_case(ax, case, x, [LOAD], **look | wide)
     ax.set(xscale="log", yscale="log", ylim=(0.6, 400))
     ax.set(xlabel=plotting.MAGNIFICATION, ylabel=r"$a_V$")
     ax.set_title(state(pressure=float(sweep.pressure[0, 0])))
-    handles, _ = ax.get_legend_handles_labels()
-    kinds = [
-        make_key("theory"),
-        make_dot("BEM"),
-        make_dot("BEM, wide window", marker=WIDE_MARKER),
-        THEORY_ON_WINDOW,
-        make_key("Pastewka & Robbins", linestyle="--"),
-    ]
-    ax.legend(handles=[*handles, *kinds], loc="upper left")
+    wide = make_dot("BEM, wide window", marker=WIDE_MARKER)
+    kinds = [make_key("theory"), make_dot("BEM"), wide, THEORY_ON_WINDOW]
+    kinds.append(make_key("Pastewka & Robbins", linestyle="--"))
+    plotting.add_legend(ax, *kinds, loc="upper left")
 
 
 def draw_intervals(ax, x, a_v, colour):
@@ -151,17 +141,14 @@ def draw_intervals(ax, x, a_v, colour):
 
 def draw_case(ax, case, x, pressures, **look):
     """a_V of a case at some pressures, with theory on its spectrum."""
-    fit, lattice = (
-        data.isel(window=0).sel(pressure=pressures, method="nearest")
-        for data in (case.fit, case.lattice)
-    )
+    at = {"pressure": pressures, "method": "nearest"}
+    fit, lattice = (data.isel(window=0).sel(**at) for data in (case.fit, case.lattice))
     x = np.broadcast_to(x, fit.pressure.shape)
     plotting.draw_hollow(ax, x, lattice.a_v.sel(variant=VARIANT), **look)
     plotting.draw_points(ax, x, fit, "a_v_mean", **look)
 
 
 def draw_a_v_of_pressure(ax, sweep, fit, cases):
-    """a_V against pressure."""
     hurst = float(sweep.hurst[0])
     sweep = sweep.sel(variant=VARIANT).isel(hurst=0, magnification=0)
     draw_intervals(ax, sweep.pressure, fit.a_v.isel(hurst=0, magnification=0), GREY)
