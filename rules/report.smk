@@ -47,10 +47,8 @@ rule write_report:
         experiments_figure=f"{RESULTS}/figures/experiments.png",
         experiments_caption=project_file("report/experiments.rst"),
         ensembles=several("contact/ensembles/{case}.nc", case=COMPLETE),
-        comparisons=several("fits/theory/{case}.nc", case=COMPLETE),
         surfaces=several("real_surfaces/{surface}.nc", surface=REAL_SURFACES),
         answers=several("cases/{case}.nc", case=CASES),
-        laws=ERROR_MODELS,
         trade=TRADE_SUMMARY,
         trade_figure=f"{RESULTS}/figures/tradeoff.png",
         trade_caption=project_file("report/tradeoff.rst"),
@@ -68,7 +66,6 @@ rule write_report:
         "../envs/environment.yaml"
     params:
         benchmarks=lambda wildcards, output: str(results_folder(wildcards, output) / "benchmarks"),
-        presets=PRESETS,
         fidelity=config["fidelity"],
         figure_sources=figure_sources,
         code=source_hash("report/write_report.py"),

@@ -1,6 +1,5 @@
 """The report: one self-contained page of figures, claims, verdicts, errors and run times."""
 
-import dataclasses
 from collections import Counter
 from pathlib import Path
 
@@ -16,10 +15,7 @@ from common.templates import write_page
 from report import interactive, pages
 from report.table_rows import TONES, describe_pair, describe_surface
 from stickiness import datasets, error_budget
-from stickiness.accuracy import plan
-from stickiness.accuracy.error_models import Surface, read_models
-from stickiness.accuracy.quantities import COLUMNS, MODELLED, columns_of
-from stickiness.accuracy.settings import Problem, predicted_cost, worst_error
+from stickiness.accuracy.quantities import COLUMNS
 from stickiness.criteria.pair import FULL_SHARE, NOT_JUDGED, TOUCHES, WORDS
 from stickiness.criteria.registry import CRITERIA, REMAINING
 from stickiness.remaining.prediction import DEFAULT_SHARE
@@ -30,12 +26,6 @@ CLAIM_TONES = {
     "not reproduced": "no",
 }
 WORD_TONES = dict(zip(WORDS[NOT_JUDGED - 1 :: -1], TONES[NOT_JUDGED - 1 :: -1], strict=True))
-COMPARED_RANGE = 0.03  # over h_rms, where attractive areas are compared: amid the fit interval
-COMPARED = {
-    "area_fraction": COLUMNS["area"].label,
-    "mean_gap": COLUMNS["mean_gap"].label,
-    "attractive_area": f"attractive area at range {COMPARED_RANGE:g}",
-}
 
 
 def main(job):
@@ -43,9 +33,9 @@ def main(job):
     claims = datasets.read(inputs.claims, ["value", "claimed", "verdict", "sources"])
     verdicts = datasets.read(inputs.verdicts, ["remaining", "verdict", "margin", "disagrees"])
     tested = datasets.read(inputs.experiments, ["outcome", "criterion_outcome"])
-    surfaces, ensembles, comparisons, answers = (
+    surfaces, ensembles, answers = (
         {Path(path).stem: datasets.read(path) for path in inputs[kind]}
-        for kind in ("surfaces", "ensembles", "comparisons", "answers")
+        for kind in ("surfaces", "ensembles", "answers")
     )
     pairs = arrange_pairs(verdicts, surfaces)
     materials = datasets.parameters(verdicts)["materials"]
@@ -95,10 +85,6 @@ def main(job):
         columns=COLUMNS,
         dominant_source=error_budget.dominant,
         trade_figure=pages.embed_figure(inputs.trade_figure, inputs.trade_caption),
-        presets=describe_presets(read_models(inputs.laws), **params.presets),
-        modelled=[COLUMNS[n].label if n in COLUMNS else n.replace("_", " ") for n in MODELLED],
-        comparisons={name: compare_theory(one) for name, one in comparisons.items()},
-        compared=COMPARED,
         run_times=read_run_times(params.benchmarks),
         versions=list_versions([claims, verdicts, tested, *surfaces.values(), *ensembles.values()]),
         ensembles=list(map(datasets.parameters, ensembles.values())),
@@ -163,33 +149,6 @@ def find_disagreements(verdicts):
         CRITERIA[name].label: Counter(words[verdicts.disagrees.sel(criterion=name) == 1].tolist())
         for name in others
     }
-
-
-def describe_presets(models, fidelities, presets, surface, descriptor_seeds):
-    """Settings of every preset, with their predicted cost and errors."""
-    given = models, Surface.of(surface), presets["pressures"]
-    whole = Problem(*given, columns_of(MODELLED), descriptor_seeds)
-    rows = []
-    for name, error in presets["accuracy"].items():
-        chosen = plan.preset(fidelities[name])
-        problems = [Problem(*given, columns_of([one]), descriptor_seeds) for one in MODELLED]
-        rows.append(
-            {
-                "name": name,
-                "asked": error,
-                "settings": dataclasses.asdict(chosen),
-                "cost": predicted_cost(whole, chosen),
-                "errors": [worst_error(problem, chosen)[0] for problem in problems],
-            }
-        )
-    return rows
-
-
-def compare_theory(comparison):
-    """Relative difference of theory from simulation [%] at three of the loads of a case."""
-    at = 100 * comparison.isel(variant=0).interp({"range": COMPARED_RANGE})
-    loads = np.unique(np.linspace(0, at.sizes["pressure"] - 1, 5).astype(int)[1:4])
-    return [at.isel(pressure=load) for load in loads]
 
 
 def read_run_times(folder):

@@ -4,7 +4,7 @@ import numpy as np
 import xarray as xr
 
 from common import provided
-from common.formatting import amount, interval, number, quantity_with_error, with_error
+from common.formatting import amount, number, quantity_with_error, with_error
 from common.job import start
 from common.materials import RATE_KEYS, describe_modulus, read_material
 from common.templates import write_page
@@ -51,7 +51,8 @@ def main(job):
         report=f"{job.output.page.rsplit('/', 2)[0]}/report.html",
         surface=surface,
         made=datasets.parameters(surface),
-        sizes=describe_surface(surface) | {"prefactor": describe_prefactor(surface)},
+        sizes=describe_surface(surface),
+        covers=COVERS,
         figure=pages.embed_png(job.output.figure),
         wanted=DEFAULT_SHARE,
         verdicts=[
@@ -64,14 +65,6 @@ def main(job):
         bem=bem,
         library=interactive.library() if curves or contact else "",
     )
-
-
-def describe_prefactor(surface):
-    """C0 at both ends, or with the factor of its error: it is known at q = 1, far from the data."""
-    low, high = surface.C0.values
-    if "C0_relative_error" not in surface:
-        return interval(low, high)
-    return f"{number(low, 2)} ×÷ {number(np.exp(COVERS * surface.C0_relative_error), 2)}"
 
 
 def describe_verdict(pair, entry):

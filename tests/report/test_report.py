@@ -43,16 +43,6 @@ def budgeted(dataset, name, **errors):
     return budget.with_budget(dataset, name, **parts)
 
 
-LAWS, TRADE = "config/accuracy.csv", "config/tradeoff.csv"
-QUICK = {"pixels_per_wavelength": 4, "tolerance": 1e-4, "seeds": 3, "coarse_seeds": 32}
-PRESETS = {
-    "fidelities": {"quick": QUICK},
-    "presets": {"accuracy": {"quick": 0.3}, "pressures": [0.065]},
-    "surface": {"hurst": 0.8, "magnification": 64},
-    "descriptor_seeds": 2048,
-}
-
-
 @pytest.fixture(scope="module")
 def claims():
     count = len(GRADES)
@@ -191,19 +181,6 @@ def benchmarks(tmp_path_factory):
     return folder
 
 
-def comparison():
-    """Theory 10 % above simulation, known to 3 %, at every load."""
-    ranges = np.geomspace(1e-3, 1, 20)
-    data = {}
-    for kind, value in (("difference", 0.1), ("difference_total_error", 0.03)):
-        for name in ("area_fraction", "mean_gap"):
-            data[f"{name}_{kind}"] = (("variant", "pressure"), np.full((1, 5), value))
-        full = ("variant", "pressure", "range"), np.full((1, 5, 20), value)
-        data[f"attractive_area_{kind}"] = full
-    coords = {"variant": ["a"], "pressure": [0.01, 0.03, 0.1, 0.3, 0.5], "range": ranges}
-    return made_by(xr.Dataset(data, coords=coords), case="case_of_two")
-
-
 def answer():
     """Area 0.05 ± 0.01 ± 0.002, gap 1 ± 0.001 ± 0.02, and a solver's part of 1e-6 in both."""
     errors = {
@@ -240,7 +217,6 @@ def results(claims, verdicts, surfaces):
         "surfaces": surfaces,
         "ensembles": {"case_of_two": ensemble()},
         "answers": {"case_of_two": answer()},
-        "comparisons": {"case_of_two": comparison()},
     }
 
 
@@ -263,7 +239,7 @@ def page(results, benchmarks, tmp_path_factory):
         caption.write_text(f"Caption of *{name}* & b < gamma. More {{words}}.\n\nDetails.")
         return str(path), str(caption)
 
-    inputs = {"template": "report/report.html.j2", "laws": LAWS, "trade": TRADE}
+    inputs = {"template": "report/report.html.j2", "trade": "config/tradeoff.csv"}
     for kind, found in results.items():
         inputs[kind] = (
             [save(each, folder / kind / f"{name}.nc") for name, each in found.items()]
@@ -275,7 +251,7 @@ def page(results, benchmarks, tmp_path_factory):
     inputs["experiments_figure"], inputs["experiments_caption"] = draw("experiments")
     inputs["trade_figure"], inputs["trade_caption"] = draw("tradeoff")
     path = folder / "report/report.html"
-    settings = {"benchmarks": benchmarks, "presets": PRESETS, "fidelity": "draft"}
+    settings = {"benchmarks": benchmarks, "fidelity": "draft"}
     settings["figure_sources"] = {f"fig{n}": [inputs["claims"]] for n in range(1, 4)}
     write_report.main(make_job(inputs, {"page": str(path)}, **settings))
     return Page(path.read_text(encoding="utf-8"))
@@ -301,7 +277,6 @@ def test_the_report_shows_what_is_in_the_files(page):
         "closed form",
         "load 0.06, requested accuracy 3 %, not reached",
         "area 0.050 ± 0.010 4 % < 0.01 % 20 % 0 % 0 % sampling",
-        "10.0 ± 3.0",
         "0.700 ± 0.020",
         "E = 1 kPa, ν = 0.5",
         "multilevel: 32 coarse seeds, 100 long-wave controls",
