@@ -66,17 +66,20 @@ def draw_loops(ax, loop):
 
 def draw_lengths(ax, surfaces, a_v):
     """1/kappa_ad by slopes and directly, beside the formula with either a_V."""
+    keys = []
     for marker, data, measured in zip(MARKERS, surfaces, a_v, strict=False):
+        made = datasets.parameters(data)
+        height = made["h_rms"].replace("um", "µm")
+        label = rf"{state(magnification=made['magnification'])}, $h_\mathrm{{rms}}$ = {height}"
+        keys.append(make_dot(label, color=BLACK, marker=marker))
         lengths = data.adhesion_length_over_range.values
         for colour, range_ in plotting.shade(data.range_over_h_rms.values):
             here = data.sel(range_over_h_rms=range_)
             for value, line in ((PAPER_A_V, "-"), (measured, "--")):
                 formula = by_formula(data, lengths, range_, value)
                 ax.plot(lengths, formula, line, color=colour, linewidth=0.8)
-            look = {"color": colour, "marker": marker}
-            plotting.draw_hollow(
-                ax, lengths, here.inverse_kappa_ad_direct, **look, markersize=SMALL
-            )
+            look, direct = {"color": colour, "marker": marker}, here.inverse_kappa_ad_direct
+            plotting.draw_hollow(ax, lengths, direct, **look, markersize=SMALL)
             draw_slopes(ax, lengths, here, "inverse_kappa_ad_fit", **look)
             chosen = here.inverse_kappa_ad.where(here.model == "dmt")
             ax.plot(lengths, chosen, "x", color=RED, markersize=3.5, zorder=6)
@@ -89,12 +92,6 @@ def draw_lengths(ax, surfaces, a_v):
     families = [make_key(f"{range_:g}", color=colour) for colour, range_ in ranges]
     place = {"loc": "upper left", "bbox_to_anchor": (0, 0.95), "ncols": 2, "alignment": "left"}
     ax.add_artist(ax.legend(handles=families, title=r"$\epsilon/h_\mathrm{rms}$", **place))
-    keys = []
-    for marker, data in zip(MARKERS, surfaces, strict=False):
-        made = datasets.parameters(data)
-        height = made["h_rms"].replace("um", "µm")
-        label = rf"{state(magnification=made['magnification'])}, $h_\mathrm{{rms}}$ = {height}"
-        keys.append(make_dot(label, color=BLACK, marker=marker))
     small = {"markersize": SMALL, "color": BLACK}
     keys += [
         make_dot("by fitted slopes", **small),

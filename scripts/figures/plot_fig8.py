@@ -165,16 +165,13 @@ def draw_windows(ax, cases):
     ax.axhline(1, color=GREY, linewidth=0.7, zorder=0)
     margin = float(cases[0].margin)
     ax.axvline(margin, color=GREY, linestyle=":")
-    ax.set(yscale="log", xlim=(-0.8, 3.2))
     ax.text(margin, 0.93, "too few summits ", ha="right", transform=ax.get_xaxis_transform())
+    label = f"simulation/theory, {SYMBOLS['attractive_area']}"
+    ax.set(yscale="log", xlim=(-0.8, 3.2), ylabel=label)
     plotting.write_ticks(ax.yaxis, [0.7, 1, 1.5, 2, 3])
     ax.set_xlabel(r"highest summit less theory's mean gap, over $h_\mathrm{rms}$")
-    ax.set_ylabel(f"simulation/theory, {SYMBOLS['attractive_area']}")
-    keys = [
-        make_dot("cell of one longest wave", color=RED),
-        make_dot("of several", color=BLUE, marker="s"),
-    ]
-    ax.legend(handles=keys, loc="upper right")
+    several = make_dot("of several", color=BLUE, marker="s")
+    ax.legend(handles=[make_dot("cell of one longest wave", color=RED), several])
 
 
 if __name__ == "__main__":

@@ -26,7 +26,7 @@ from common.contact_picture import CONTACT, GAPS, code_maps, follow_tension, sid
 from common.formatting import unit_for
 from common.plotting import BLUE, COLOURS, GREEN, ORANGE, RED
 from common.verdicts import find_limits
-from report.surface_figures import LABELS, REMAINS, SHOWN, TABS
+from report.surface_figures import DASHES, LABELS, REMAINS, SHOWN, TABS
 from stickiness.remaining.prediction import DEFAULT_SHARE, SHORT_RANGE, Roughness
 
 LOOKS = (  # of the verdicts, in the order of their codes
@@ -45,18 +45,12 @@ TOLD_OF_PAIR = [
     ("pull-off [kPa]", "@pull_off"),
     ("E* threshold [MPa]", "@threshold; the material: @modulus"),
 ]
-DASHES = ("solid", "dashed", "dotted", "dotdash", "dashdot", [8, 3, 2, 3, 2, 3], [12, 3])
 POINTS = ("circle", "square", "triangle", "diamond", "inverted_triangle", "plus", "x")
 LEGEND_ROW = 17  # px
-LEGEND = {  # one column below the figure: long names fit a phone
-    "location": "left",
-    "label_text_font_size": "12px",
-    "glyph_height": LEGEND_ROW - 2,
-    "label_height": LEGEND_ROW - 2,
-    "spacing": 2,
-    "padding": 2,
-    "border_line_color": None,
-}
+# One column below the figure: long names fit a phone.
+LEGEND = {"location": "left", "label_text_font_size": "12px", "border_line_color": None}
+LEGEND |= {"glyph_height": LEGEND_ROW - 2, "label_height": LEGEND_ROW - 2}
+LEGEND |= {"spacing": 2, "padding": 2}
 FIRST_LOAD = 4  # that the slider shows at first
 SHOW_LOAD = """
 const k = slider.value;
@@ -183,15 +177,9 @@ def draw_contact(contact, pull_off, texts):
     first = min(FIRST_LOAD, len(texts) - 1)
     shown = ColumnDataSource({"code": [codes[first]]})
     text = Div(text=texts[first], sizing_mode="stretch_width")
-    slider = Slider(
-        name="load",
-        title="Load, from light to heavy",
-        start=0,
-        end=len(texts) - 1,
-        value=first,
-        show_value=False,
-        sizing_mode="stretch_width",
-    )
+    look = {"title": "Load, from light to heavy", "show_value": False}
+    look |= {"name": "load", "sizing_mode": "stretch_width"}
+    slider = Slider(start=0, end=len(texts) - 1, value=first, **look)
     passed = {"slider": slider, "shown": shown, "stored": list(codes), "text": text, "texts": texts}
     slider.js_on_change("value", CustomJS(args=passed, code=SHOW_LOAD))
     plots = [draw_map(contact, shown, widest)]

@@ -16,7 +16,7 @@ from stickiness.statistics import COVERS
 HURST = 0.8  # of the paper's lines
 LINES = {1e-3: r"$C_0$ = $10^{-3}$ and $10^{-5}$ m$^{0.4}$", 1e-5: None}
 SHOWN = 3  # materials at first, and in print: more is a bundle
-PRINTED_DASHES = ("-", "--", ":")
+DASHES = ("solid", "dashed", "dotted", "dotdash", "dashdot", [8, 3, 2, 3, 2, 3], [12, 3])
 MATTERS = 0.99, 1e-3  # shares beyond which a curve along the modulus says nothing more
 ROOM = 3.0  # factor on the modulus by which its curve goes on there
 TABS = {"modulus": "Modulus", "roughness": "Roughness", "rate": "Rate"}
@@ -153,7 +153,7 @@ def draw_still(found, output):
             for label, place, points, own in curves[:SHOWN]:
                 colour, marker = COLOURS[place % len(COLOURS)], MARKERS[place % len(MARKERS)]
                 plotting.draw_band(ax, points.x, points.low, points.high, colour, alpha=0.15)
-                look = {"color": colour, "linestyle": PRINTED_DASHES[place % SHOWN]}
+                look = {"color": colour, "linestyle": DASHES[place % SHOWN]}
                 for end in ("rough", "smooth"):
                     ax.plot(points.x, points[end], **look)
                     ax.plot(own.x, own[end], marker, color=colour)
