@@ -1,10 +1,9 @@
-"""The report: one self-contained page of figures, claims, verdicts, errors and run times."""
+"""The report: one self-contained page of figures, claims, verdicts and errors."""
 
 from collections import Counter
 from pathlib import Path
 
 import numpy as np
-import pandas as pd
 
 from common import experiment_outcomes as experiments
 from common import provided
@@ -85,7 +84,6 @@ def main(job):
         columns=COLUMNS,
         dominant_source=error_budget.dominant,
         trade_figure=pages.embed_figure(inputs.trade_figure, inputs.trade_caption),
-        run_times=read_run_times(params.benchmarks),
         versions=list_versions([claims, verdicts, tested, *surfaces.values(), *ensembles.values()]),
         ensembles=list(map(datasets.parameters, ensembles.values())),
     )
@@ -149,25 +147,6 @@ def find_disagreements(verdicts):
         CRITERIA[name].label: Counter(words[verdicts.disagrees.sel(criterion=name) == 1].tolist())
         for name in others
     }
-
-
-def read_run_times(folder):
-    """Jobs, times [s] and memory [MB] of each rule, from Snakemake's benchmarks."""
-    runs = [
-        pd.read_csv(path, sep="\t", na_values=["-"]).assign(
-            rule=path.relative_to(folder).parts[0].removesuffix(".tsv")
-        )
-        for path in sorted(Path(folder).rglob("*.tsv"))
-    ]
-    if not runs:
-        return pd.DataFrame(columns=["jobs", "total", "processor", "longest", "memory"])
-    # A benchmark of the report is of an earlier run. Runs too short to tell have no numbers.
-    table = pd.concat(runs).query("rule != 'write_report'")
-    numbers = ["s", "cpu_time", "max_rss"]
-    table[numbers] = table[numbers].apply(pd.to_numeric, errors="coerce")
-    columns = {"jobs": ("s", "size"), "total": ("s", "sum"), "processor": ("cpu_time", "sum")}
-    columns |= {"longest": ("s", "max"), "memory": ("max_rss", "max")}
-    return table.groupby("rule").agg(**columns).sort_values("total", ascending=False)
 
 
 def list_versions(files):

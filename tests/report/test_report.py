@@ -168,19 +168,6 @@ def ensemble():
     return made_by(xr.Dataset(data, coords=coords), descriptor_seeds=100, **made)
 
 
-@pytest.fixture(scope="module")
-def benchmarks(tmp_path_factory):
-    folder = tmp_path_factory.mktemp("benchmarks")
-    (folder / "slow_rule" / "case").mkdir(parents=True)
-    head = "s\th:m:s\tmax_rss\tcpu_time\n"
-    (folder / "slow_rule" / "case" / "seed1.tsv").write_text(head + "10.5\t0:00:10\t200.0\t9.0\n")
-    (folder / "slow_rule" / "case" / "seed2.tsv").write_text(head + "30.25\t0:00:30\t100.0\t28.5\n")
-    # Of an earlier run:
-    (folder / "write_report.tsv").write_text(head + "99.0\t0:01:39\t999.0\t99.0\n")
-    (folder / "quick_rule.tsv").write_text(head + "0.5\t0:00:00\tNA\tNA\n")
-    return folder
-
-
 def answer():
     """Area 0.05 ± 0.01 ± 0.002, gap 1 ± 0.001 ± 0.02, and a solver's part of 1e-6 in both."""
     errors = {
@@ -221,7 +208,7 @@ def results(claims, verdicts, surfaces):
 
 
 @pytest.fixture(scope="module")
-def page(results, benchmarks, tmp_path_factory):
+def page(results, tmp_path_factory):
     """The report on files with these results."""
     folder = tmp_path_factory.mktemp("results")
 
@@ -251,7 +238,7 @@ def page(results, benchmarks, tmp_path_factory):
     inputs["experiments_figure"], inputs["experiments_caption"] = draw("experiments")
     inputs["trade_figure"], inputs["trade_caption"] = draw("tradeoff")
     path = folder / "report/report.html"
-    settings = {"benchmarks": benchmarks, "fidelity": "draft"}
+    settings = {"fidelity": "draft"}
     settings["figure_sources"] = {f"fig{n}": [inputs["claims"]] for n in range(1, 4)}
     write_report.main(make_job(inputs, {"page": str(path)}, **settings))
     return Page(path.read_text(encoding="utf-8"))
@@ -292,7 +279,6 @@ def test_the_report_shows_what_is_in_the_files(page):
         "the ball was wet",
         "Not found: the color of the ball",
     )
-    assert "slow_rule" in page.html
     assert page.text.count("some number = 0.5") == 6
     assert NASTY not in page.html
     images = [attributes for tag, attributes in page.tags if tag == "img"]
@@ -387,13 +373,6 @@ def test_sizes_of_surfaces_with_and_without_errors(surfaces):
     sizes = {"h_rms": ("end", [0.9e-6, 1.1e-6]), "rms_slope": ("end", [0.19, 0.21])}
     found = describe_surface(surfaces["sand"].assign(sizes).assign_coords(draw=[0, 1]))
     assert (found["height"], found["slope"]) == ("(1.00 ± 0.16) µm", "0.200 ± 0.016")
-
-
-def test_run_times_add_up(benchmarks):
-    times = write_report.read_run_times(benchmarks)
-    assert times.index.tolist() == ["slow_rule", "quick_rule"]
-    assert times.loc["slow_rule"].tolist() == [2, 40.75, 37.5, 30.25, 200]
-    assert np.isnan(times.loc["quick_rule"].memory)
 
 
 def test_mixed_versions_are_all_listed(claims):
