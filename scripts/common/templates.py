@@ -1,7 +1,5 @@
 """Pages and tables from the templates in `report/`, with filters that write numbers and symbols."""
 
-from __future__ import annotations
-
 import os
 import re
 from pathlib import Path
@@ -42,11 +40,7 @@ def write_page(template: str | Path, page: str | Path, **values: Any) -> None:
 
 
 def make_environment(folder: str | Path, page: str | Path = "page") -> jinja2.Environment:
-    """Environment for the templates in a folder; a name that nobody gives is an error.
-
-    Templates of HTML escape what they show. Their links are relative to the folder of `page`:
-    ``{{ path | href }}``, or as the reader sees it ``{{ path | place }}``.
-    """
+    """Environment for the templates in a folder; links are relative to the folder of `page`."""
 
     def href(target: str | Path) -> str:
         return Path(os.path.relpath(target, Path(page).parent)).as_posix()
@@ -54,7 +48,7 @@ def make_environment(folder: str | Path, page: str | Path = "page") -> jinja2.En
     environment = jinja2.Environment(
         loader=jinja2.FileSystemLoader(folder),
         autoescape=lambda name: ".html" in (name or ""),
-        undefined=jinja2.StrictUndefined,
+        undefined=jinja2.StrictUndefined,  # a name that nobody gives is an error
         finalize=keep_whole,
         trim_blocks=True,
         lstrip_blocks=True,

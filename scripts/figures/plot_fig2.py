@@ -71,18 +71,15 @@ def draw_threshold(ax, limit, adhesive):
         ax.plot(lengths, full.inverse_kappa_fit, "-", color=colour, linewidth=0.9)
         plotting.draw_hollow(ax, lengths, full.inverse_kappa_net, **look)
         plotting.draw_points(ax, lengths, full, "inverse_kappa", **look, label=state(range=range_))
-    kinds = [
-        make_key("fit over loads", linewidth=0.9),
-        make_dot("compressed", markersize=SIZE, mfc="white"),
-        make_key("DMT limit", linestyle=":"),
-    ]
+    compressed = make_dot("compressed", markersize=SIZE, mfc="white")
+    fit, dmt = make_key("fit over loads", linewidth=0.9), make_key("DMT limit", linestyle=":")
     ax.add_artist(ax.legend(loc="upper right", borderaxespad=0.2))
     ax.axhspan(-0.35, 0, color=GREY, alpha=0.15, linewidth=0)
     ax.text(0.03, 0.03, "sticky", transform=ax.transAxes, fontsize=8)
     ax.set(xlabel=plotting.ADHESION_LENGTH, ylabel=r"$1/\kappa$ with adhesion")
     ax.set(ylim=(-0.35, 0.68), xscale="log")
     ax.set_title(state(q0_h_rms=float(adhesive.q0_h_rms), pressure=load))
-    ax.legend(handles=kinds, loc="lower left", bbox_to_anchor=(0, 0.08))
+    ax.legend(handles=[fit, compressed, dmt], loc="lower left", bbox_to_anchor=(0, 0.08))
 
 
 def draw_areas(ax, ensembles, lattices):

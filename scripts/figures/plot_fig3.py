@@ -65,29 +65,28 @@ def draw_magnifications(ax, theory, cases):
     for colour, magnification in plotting.shade(theory.magnification.values):
         area = theory.attractive_area.sel(magnification=magnification)
         draw_theory(ax, area["range"] ** EXPONENT, area, colour, label=number(magnification))
-    for index, case in enumerate(cases):
-        area = case.areas.sel(pressure=pressure, method="nearest").sel(range=SIMULATED_RANGES)
-        area = area.isel(range=slice(None, None, 4))
-        x = area["range"] ** EXPONENT + 0.004 * (index - 1)  # sideways
-        plotting.draw_points(ax, x, area, "attractive_area_mean", **pick_look(index))
-    x = np.array([0, LARGEST_RANGE**EXPONENT])
-    ax.plot(x, 1.5 * CONVERGED_A_V * pressure * x, ":", color=BLACK, zorder=5)
     dress_areas(ax, 0.22)
     ax.set_title(state(hurst=hurst, pressure=pressure))
     place = {"loc": "upper left", "ncols": 2, "alignment": "left"}
     ax.add_artist(ax.legend(title=r"theory, $\zeta$ =", **place))
-    law = make_key(state(a_v=CONVERGED_A_V), linestyle=":", color=BLACK)
-    ax.legend(handles=[*make_case_keys(cases), law], loc="upper right", title="BEM")
+    for index, case in enumerate(cases):
+        area = case.areas.sel(pressure=pressure, method="nearest").sel(range=SIMULATED_RANGES)
+        area = area.isel(range=slice(None, None, 4))
+        x = area["range"] ** EXPONENT + 0.004 * (index - 1)  # sideways
+        look = pick_look(index, label=case.label)
+        plotting.draw_points(ax, x, area, "attractive_area_mean", **look)
+    x = np.array([0, LARGEST_RANGE**EXPONENT])
+    look = {"color": BLACK, "zorder": 5, "label": state(a_v=CONVERGED_A_V)}
+    ax.plot(x, 1.5 * CONVERGED_A_V * pressure * x, ":", **look)
+    handles, _ = ax.get_legend_handles_labels()
+    handles = handles[theory.sizes["magnification"] :]
+    ax.legend(handles=handles, loc="upper right", title="BEM")
 
 
 def draw_theory(ax, x, values, colour, **look):
     """Quoted variant of the theory, and a band between its corrections."""
     plotting.draw_band(ax, x, *between_corrections(values), colour)
     ax.plot(x, values.sel(variant=VARIANT), color=colour, **look)
-
-
-def make_case_keys(cases):
-    return [make_dot(case.label, **pick_look(index)) for index, case in enumerate(cases)]
 
 
 def dress_areas(ax, top):
@@ -139,13 +138,13 @@ def draw_intervals(ax, x, a_v, colour):
     draw_theory(ax, x, a_v.isel(window=0), colour)
 
 
-def draw_case(ax, case, x, pressures, **look):
+def draw_case(ax, case, x, pressures, label=None, **look):
     """a_V of a case at some pressures, with theory on its spectrum."""
     at = {"pressure": pressures, "method": "nearest"}
     fit, lattice = (data.isel(window=0).sel(**at) for data in (case.fit, case.lattice))
     x = np.broadcast_to(x, fit.pressure.shape)
     plotting.draw_hollow(ax, x, lattice.a_v.sel(variant=VARIANT), **look)
-    plotting.draw_points(ax, x, fit, "a_v_mean", **look)
+    plotting.draw_points(ax, x, fit, "a_v_mean", **look, label=label)
 
 
 def draw_a_v_of_pressure(ax, sweep, fit, cases):
@@ -155,12 +154,12 @@ def draw_a_v_of_pressure(ax, sweep, fit, cases):
     for index, case in enumerate(cases):
         pressures = case.fit.pressure.values
         x = plotting.move_aside(pressures, index - 1)
-        draw_case(ax, case, x, pressures, **pick_look(index))
+        draw_case(ax, case, x, pressures, case.label, **pick_look(index))
     ax.set(xscale="log", yscale="log", ylim=(0.8, 25), xlabel=plotting.PRESSURE, ylabel=r"$a_V$")
     plotting.write_ticks(ax.yaxis, [1, 2, 3, 5, 10, 20])
     ax.set_title(state(hurst=hurst))
     theory = make_key(f"theory, {state(magnification=float(sweep.magnification))}")
-    ax.legend(handles=[theory, *make_case_keys(cases), THEORY_ON_WINDOW], loc="upper right")
+    plotting.add_legend(ax, theory, THEORY_ON_WINDOW, loc="upper right")
 
 
 def draw_exponents(ax, fit, cases):
@@ -172,7 +171,7 @@ def draw_exponents(ax, fit, cases):
     for index, case in enumerate(cases):
         exponent = case.fit.exponent.sel(pressure=LOAD, method="nearest")
         exponent = exponent.isel(range=slice(None, None, 2))
-        look = pick_look(index, linestyle="none", markersize=3)
+        look = pick_look(index, linestyle="none", markersize=3, label=case.label)
         ax.plot(exponent["range"], exponent, **look)
     for x, level, text, side in (
         (9, EXPONENT, "2/3: edges", "right"),
@@ -182,7 +181,7 @@ def draw_exponents(ax, fit, cases):
         ax.text(x, level + 0.015, text, ha=side, fontsize=8)
     ax.set(xscale="log", xlim=(1e-4, 10), ylim=(0, 1.3), xlabel=plotting.RANGE)
     ax.set_ylabel(r"$\mathrm{d}\,\ln A_\mathrm{ad}\,/\,\mathrm{d}\,\ln\epsilon$")
-    ax.legend(handles=make_case_keys(cases), loc="upper left", title="BEM")
+    ax.legend(loc="upper left", title="BEM")
     ax.set_title(f"{state(hurst=hurst, pressure=LOAD)}, theory as in A")
 
 

@@ -54,12 +54,8 @@ def draw_loops(ax, loop):
     ax.set_ylabel(plotting.CONTACT_AREA)
     ax.locator_params(axis="x", nbins=5)
     ax.set_title(state(magnification=made["magnification"], range=made["range_over_h_rms"]))
-    kinds = [
-        make_key("loading"),
-        make_key("unloading", linestyle="--"),
-        make_key("at given gap", linewidth=0.6),
-        make_dot("pull-off"),
-    ]
+    kinds = [make_key("loading"), make_key("unloading", linestyle="--")]
+    kinds += [make_key("at given gap", linewidth=0.6), make_dot("pull-off")]
     ax.add_artist(ax.legend(handles=kinds, loc="lower right"))
     ax.legend(title=r"$l_a/\epsilon$", loc="upper left")
 

@@ -34,12 +34,11 @@ def main(job):
     surface_figures.draw_surface(surface, job.output.figure)
     found = surface_figures.find_curves(pairs, {name: entries[name]["label"] for name in names})
     surface_figures.draw_still(found, job.output.curves)
-    curves = contact = bem = None
-    if found:
-        curves = {
-            "interactive": interactive.embed(interactive.draw_curves(found)),
-            "still": pages.embed_png(job.output.curves),
-        }
+    curves = found and {
+        "interactive": interactive.embed(interactive.draw_curves(found)),
+        "still": pages.embed_png(job.output.curves),
+    }
+    contact = bem = None
     if inputs.get("contact"):
         contact = describe_contact(inputs, pairs, [entries[name] for name in mine])
     if inputs.get("measured_contact"):
