@@ -57,6 +57,7 @@ def make_environment(folder: str | Path, page: str | Path = "page") -> jinja2.En
     environment.filters |= {name: getattr(formatting, name) for name in FORMATS} | {
         "fixed": lambda value, digits=2: f"{float(value):.{digits}f}",
         "typeset": typeset,
+        "parameters": datasets.parameters,
         "capital": lambda text: text[0].upper() + text[1:],
         "breakable": lambda text: Markup(re.sub("([/_])", r"\1<wbr>", str(escape(text)))),
         "href": href,

@@ -16,27 +16,20 @@ SIZE = 3.5  # of markers
 
 
 def main(job):
-    kappas = read_all(job.input.kappa, ["kappa", "area_fraction"])
-    ensembles = read_all(job.input.ensembles, ["area_fraction_mean", "rms_slope"])
-    lattices = read_all(job.input.lattices, ["area_fraction", "kappa"])
-    maps = datasets.read(job.input.maps, ["gap"])
-    limit = datasets.read(job.input.adhesion, ["inverse_kappa", "q0_h_rms"])
-    adhesive = datasets.read(job.input.adhesive, ["inverse_kappa", "q0_h_rms"])
-    adhesive_maps = datasets.read(job.input.adhesive_maps, ["gap"])
+    read = datasets.read
+    kappas = [read(path, ["kappa", "area_fraction"]) for path in job.input.kappa]
+    ensembles = [read(path, ["area_fraction_mean", "rms_slope"]) for path in job.input.ensembles]
+    lattices = [read(path, ["area_fraction", "kappa"]) for path in job.input.lattices]
+    maps = read(job.input.maps, ["gap"])
+    limit = read(job.input.adhesion, ["inverse_kappa", "q0_h_rms"])
+    adhesive = read(job.input.adhesive, ["inverse_kappa", "q0_h_rms"])
+    adhesive_maps = read(job.input.adhesive_maps, ["gap"])
     rows = "ABC;DEF;GHI"
     with plotting.open_figure(job.output, rows, 7.9, height_ratios=[1.15, 1, 1]) as panels:
         draw_slopes(panels["A"], kappas, lattices)
         draw_threshold(panels["B"], limit, adhesive)
         draw_areas(panels["C"], ensembles, lattices)
         draw_maps(panels, maps, adhesive_maps)
-
-
-def read_all(paths, variables):
-    return sorted((datasets.read(path, variables) for path in paths), key=magnification)
-
-
-def magnification(dataset):
-    return datasets.parameters(dataset)["magnification"]
 
 
 def draw_slopes(ax, kappas, lattices):
@@ -47,7 +40,7 @@ def draw_slopes(ax, kappas, lattices):
         theory = lattice.kappa.sel(variant=VARIANT)
         ax.plot(theory.pressure, theory, color=look["color"], linewidth=0.9)
         pressure = plotting.move_aside(kappa.pressure, index - 1)
-        label = state(magnification=magnification(kappa))
+        label = state(magnification=datasets.parameters(kappa)["magnification"])
         plotting.draw_points(ax, pressure, kappa, "kappa", **look, label=label)
         beyond = kappa.kappa.where(kappa.area_fraction > LINEAR_UP_TO)
         plotting.draw_hollow(ax, pressure, beyond, **look | {"zorder": plotting.FILLED + 1})

@@ -163,7 +163,6 @@ def draw_a_v_of_pressure(ax, sweep, fit, cases):
 
 
 def draw_exponents(ax, fit, cases):
-    """Local exponent of the attractive area against the range."""
     hurst, exponents = float(fit.hurst[0]), fit.exponent.isel(hurst=0, load=0)
     for colour, magnification in plotting.shade(fit.magnification.values):
         curve = exponents.sel(magnification=magnification)

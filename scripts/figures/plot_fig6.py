@@ -50,7 +50,6 @@ def draw_spectra(ax, surfaces, power):
 
 
 def draw_parametric(ax, surface, power, colour):
-    """The range between the smooth and the rough end."""
     q = surface.wave_number
     smooth, rough = (surface.psd.sel(end=end) * q**power for end in ("smooth", "rough"))
     plotting.draw_band(ax, q, smooth, rough, colour)

@@ -26,7 +26,7 @@ from common.contact_picture import CONTACT, GAPS, code_maps, follow_tension, sid
 from common.formatting import unit_for
 from common.plotting import BLUE, COLOURS, GREEN, ORANGE, RED
 from common.verdicts import find_limits
-from report.surface_figures import DASHES, LABELS, REMAINS, SHOWN, TABS
+from report.surface_figures import DASHES, LABELS, REMAINS, SHOWN
 from stickiness.remaining.prediction import DEFAULT_SHARE, SHORT_RANGE, Roughness
 
 LOOKS = (  # of the verdicts, in the order of their codes
@@ -138,7 +138,9 @@ def locate(verdicts, row):
 
 def draw_curves(found):
     """Tabs with a figure of all `found` curves of a surface for each axis."""
-    panels = [TabPanel(title=TABS[axis], child=draw_axis(axis, found[axis])) for axis in found]
+    panels = [
+        TabPanel(title=axis.capitalize(), child=draw_axis(axis, found[axis])) for axis in found
+    ]
     return Tabs(tabs=panels, sizing_mode="stretch_width")
 
 
@@ -217,11 +219,8 @@ def draw_tension(pull_off):
     curves, gap, tension, limits = follow_tension(pull_off)
     plot = make_plot(height=400, y_range=limits, x_axis_label=gap, y_axis_label=tension)
     plot.add_layout(Span(location=0, dimension="width", line_color="#737373"))
-    told = [("", "$name"), (gap, "@gap{0.000}"), (tension, "@tension{0.000}")]
-    told += [("in contact", "@contact"), ("within the range", "@attracted")]
     for name, colour, curve in curves:
-        look = {"color": colour, "line_width": 2, "legend_label": name, "name": name}
-        line = plot.line("gap", "tension", source=ColumnDataSource(curve), **look)
-        plot.add_tools(HoverTool(renderers=[line], tooltips=told, visible=False))
+        look = {"color": colour, "line_width": 2, "legend_label": name}
+        plot.line("gap", "tension", source=ColumnDataSource(curve), **look)
     plot.legend.location = "bottom_right"
     return plot

@@ -19,7 +19,6 @@ SHOWN = 3  # materials at first, and in print: more is a bundle
 DASHES = ("solid", "dashed", "dotted", "dotdash", "dashdot", [8, 3, 2, 3, 2, 3], [12, 3])
 MATTERS = 0.99, 1e-3  # shares beyond which a curve along the modulus says nothing more
 ROOM = 3.0  # factor on the modulus by which its curve goes on there
-TABS = {"modulus": "Modulus", "roughness": "Roughness", "rate": "Rate"}
 LABELS = {
     "modulus": "plane-strain modulus E* [MPa]",
     "roughness": "factor on the heights",
@@ -113,7 +112,7 @@ def find_curves(pairs, labels):
     """Curves of the judged materials by axis, in the order of the `labels` by name."""
     judged = [name for name in labels if int(pairs.verdict.sel(material=name)) != NOT_JUDGED]
     found = {}
-    for axis in TABS:
+    for axis in LABELS:
         for place, name in enumerate(judged):
             pair = pairs.sel(material=name)
             known = bool(np.isfinite(pair[f"remaining_by_{axis}_low"]).any())

@@ -50,21 +50,14 @@ def main(job):
 
 
 def compare_cells(simulated, lattices):
-    """a_V of every complete case beside theory on the spectrum of its cell, at the paper's load."""
+    """a_V of every complete case, its error, and theory on the spectrum of its cell."""
     rows = []
     for found, lattice in zip(simulated, lattices, strict=True):
-        made = datasets.parameters(found)
-        at = at_load(found).isel(window=0)
-        rows.append(
-            {
-                "hurst": made["hurst"],
-                "zeta": made["magnification"],
-                "waves": made.get("window", 1),
-                "a_v": (at.a_v_mean, error_budget.total_error(at, "a_v_mean")),
-                "theory": at_load(lattice).isel(window=0).sel(variant=VARIANT).a_v,
-            }
-        )
-    return sorted(rows, key=lambda row: (row["waves"], row["hurst"], row["zeta"]))
+        made, at = datasets.parameters(found), at_load(found).isel(window=0)
+        cell = made.get("window", 1), made["hurst"], made["magnification"]
+        theory = at_load(lattice).isel(window=0).sel(variant=VARIANT).a_v
+        rows.append((*cell, at.a_v_mean, error_budget.total_error(at, "a_v_mean"), theory))
+    return sorted(rows, key=lambda row: row[:3])
 
 
 def compare_sphere(edges):

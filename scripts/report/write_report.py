@@ -70,17 +70,9 @@ def main(job):
         experiments_figure=pages.embed_figure(
             inputs.experiments_figure, inputs.experiments_caption
         ),
-        surfaces={
-            name: {
-                "data": surface,
-                "made": datasets.parameters(surface),
-                "sizes": describe_surface(surface),
-            }
-            for name, surface in surfaces.items()
-        },
-        answers={
-            name: (at_load(answer), datasets.parameters(answer)) for name, answer in answers.items()
-        },
+        surfaces=surfaces,
+        sizes={name: describe_surface(surface) for name, surface in surfaces.items()},
+        answers={name: at_load(answer) for name, answer in answers.items()},
         columns=COLUMNS,
         dominant_source=error_budget.dominant,
         trade_figure=pages.embed_figure(inputs.trade_figure, inputs.trade_caption),
