@@ -15,7 +15,7 @@ WAVE_NUMBERS = (1e-4, 1e10)  # 1/m
 def main(job):
     surfaces = [datasets.read(path, ["psd", "wave_number"]) for path in job.input.surfaces]
     # The lines of constant C0 are surfaces, too, but drawn without ends.
-    surfaces = [surface for surface in surfaces if not name_surface(surface).startswith("C0 =")]
+    surfaces = [s for s in surfaces if not datasets.parameters(s)["label"].startswith("C0 =")]
     ratios = [1.25, 1]
     with plotting.open_figure(job.output, "A;B", 7.2, sharex=True, height_ratios=ratios) as panels:
         draw_spectra(panels["A"], surfaces, 0)
@@ -25,10 +25,6 @@ def main(job):
         unit = f"m$^{{{4 - EXPONENT:g}}}$"
         panels["B"].set_ylabel(rf"compensated, $C(q)\,q^{{{EXPONENT:g}}}$ [{unit}]")
         panels["B"].set_xlabel(r"wave number $q$ [1/m]")
-
-
-def name_surface(surface):
-    return datasets.parameters(surface)["label"]
 
 
 def draw_spectra(ax, surfaces, power):
@@ -54,7 +50,9 @@ def draw_parametric(ax, surface, power, colour):
     smooth, rough = (surface.psd.sel(end=end) * q**power for end in ("smooth", "rough"))
     plotting.draw_band(ax, q, smooth, rough, colour)
     ax.plot(q, smooth, q, rough, color=colour, linewidth=0.9)
-    ax.plot([], [], color=colour, linewidth=4, alpha=0.6, label=name_surface(surface))
+    ax.plot(
+        [], [], color=colour, linewidth=4, alpha=0.6, label=datasets.parameters(surface)["label"]
+    )
 
 
 def draw_measured(ax, surface, power, colour):
@@ -65,7 +63,7 @@ def draw_measured(ax, surface, power, colour):
         surface = surface.isel(wave_number=np.flatnonzero(inside))
     scale = surface.wave_number**power
     psd, error = surface.psd.isel(end=0) * scale, surface.psd_standard_error * scale
-    look = {"color": colour, "label": name_surface(surface)}
+    look = {"color": colour, "label": datasets.parameters(surface)["label"]}
     plotting.draw_spectrum(ax, surface.wave_number, psd, error, **look)
     fit = (surface.psd_fit * scale).where(surface.fitted == 1)
     ax.plot(surface.wave_number, fit, color=BLACK, linewidth=0.9, zorder=5)

@@ -48,15 +48,13 @@ def draw_plane(ax, data):
     contour = make_key(r"$l_ad/\epsilon^2$ = 1", color=BLACK)
     ax.legend(handles=[contour], loc="upper left")
     jtb = 1 / criteria.jtb_limit(float(data.q0_h_rms), 1.0, 1.0)
-    if limits["ylim"][0] < jtb < limits["ylim"][1]:
-        ax.axhline(jtb, color=BLACK, linestyle="--", linewidth=0.9)
+    ax.axhline(jtb, color=BLACK, linestyle="--", linewidth=0.9)
     ax.set(**limits)
     bar = ax.figure.colorbar(mesh, ax=ax, label=RATIO)
     plotting.write_ticks(bar.ax.yaxis, [0.25, 0.5, 1, 2, 4])
     bar.ax.minorticks_off()
-    made, pressure = datasets.parameters(data), float(data.pressure)
-    surface = {"magnification": made["magnification"], "q0_h_rms": float(data.q0_h_rms)}
-    ax.set_title(state(**surface, pressure=pressure))
+    zeta = datasets.parameters(data)["magnification"]
+    ax.set_title(state(magnification=zeta, q0_h_rms=data.q0_h_rms, pressure=data.pressure))
 
 
 def error_of_dmt(data):

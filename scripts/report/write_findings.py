@@ -24,7 +24,8 @@ def main(job):
     read, inputs = datasets.read, job.input
     weakest = at_load(read(inputs.dmt_error)).isel(adhesion_length_over_range=0)
     verdicts = read(inputs.verdicts).verdict.transpose("material", "surface").to_pandas()
-    experiments = read(inputs.experiments)
+    experiments, trade = read(inputs.experiments), summary.read(inputs.tradeoff)
+    of_contact = trade.problem == "contact"
     write_page(
         inputs.template,
         job.output[0],
@@ -41,11 +42,7 @@ def main(job):
         verdicts=verdicts.map(WORDS.__getitem__),
         outcomes=pd.Series(experiments.outcome.values[experiments.tests.values == 1]),
         outcome_words=OUTCOMES,
-        settings=[
-            (head, lines)
-            for head, lines in summary.tables(summary.read(inputs.tradeoff))
-            if head[0] in [f"contact: {name}" for name in SHOWN_SETTINGS]
-        ],
+        settings=summary.tables(trade[of_contact & trade.setting.isin(SHOWN_SETTINGS)]),
     )
 
 

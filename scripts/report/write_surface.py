@@ -111,9 +111,8 @@ def describe_contact(files, pairs, mine):
         "pulled": made["label"],
         "rated": any(key in made for key in RATE_KEYS),
         "pull_off": pull_off,
-        "separated": not pull_off.attrs["left_out"],
     }
-    if found["separated"]:
+    if not pull_off.attrs["left_out"]:
         verdict = pairs.sel(material=made["material"])
         outside = [name for name in ("separation", "pull_off") if not overlap(pull_off, name)]
         found |= {
