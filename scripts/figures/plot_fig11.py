@@ -75,8 +75,7 @@ def draw_ranges(ax, table):
     """Works and energy against the width of the cohesive zone, on one surface."""
     rows = table[table["set"] == "H0.8_zeta8_2x2"]
     zone = np.geomspace(0.01, 0.3, 50)
-    ratios = sorted(rows.energy_ratio.unique())
-    for colour, ratio in plotting.shade(ratios):
+    for colour, ratio in plotting.shade(sorted(rows.energy_ratio.unique())):
         line = tough_share(ratio, find_onset(zone))
         ax.plot(zone, line, color=colour)
         here = rows[rows.energy_ratio == ratio].sort_values("zone")

@@ -3,13 +3,12 @@
 import xarray as xr
 
 from common import plotting
-from common.plotting import BLACK, GREY, MARKERS, RED, make_dot, make_key, state
+from common.plotting import BLACK, COLOURS, GREY, MARKERS, RED, make_dot, make_key, state
 from stickiness import criteria, datasets
 
 PAPER_A_V = 2.8
 THRESHOLD = 0.5  # of 1/kappa_ad, beyond which the contact is sticky
 PROPORTIONAL_UP_TO = 0.12  # 1/kappa_ad that is in proportion to l_a within the errors
-LOOP_COLOURS = (plotting.BLUE, RED, plotting.GREEN, plotting.ORANGE)
 SMALL = 3  # size of open markers
 
 
@@ -36,7 +35,7 @@ def read_ranges(paths):
 def draw_loops(ax, loop):
     """Repulsive area on approach and separation, at given mean gap and under a press."""
     lengths = loop.adhesion_length_over_range.values
-    for length, colour in zip(lengths, LOOP_COLOURS, strict=False):
+    for length, colour in zip(lengths, COLOURS, strict=False):
         curves = loop.sel(adhesion_length_over_range=length)
         gap, press = curves.sel(control="mean_gap"), curves.sel(control="pressure")
         turn = int(press.separating.sum("state") and press.separating.argmax("state"))

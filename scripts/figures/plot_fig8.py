@@ -41,8 +41,9 @@ def main(job):
     cases = sorted((file.interp({"range": RANGE}) for file in files), key=read_surface)
     gamma = datasets.read(job.input.gamma, ["gamma", "gamma_low", "gamma_high", "quantities_agree"])
     rows, heights = "AABBCC;DDDEEE;FFFFFF", [0.3 * len(cases) + 0.6, 2.2, 2.2]
-    height = sum(heights) + 0.9
-    with plotting.open_figure(job.output, rows, height, height_ratios=heights) as panels:
+    with plotting.open_figure(
+        job.output, rows, sum(heights) + 0.9, height_ratios=heights
+    ) as panels:
         for letter, name in zip("ABC", TITLES, strict=True):
             draw_ratios(panels[letter], name, cases)
         labels = [

@@ -8,9 +8,6 @@ from common.plotting import GREY, RED, make_key
 from stickiness import datasets
 from stickiness.criteria.registry import CRITERIA, REMAINING
 
-LENGTH_LABEL = r"adhesion length at the threshold $l_a/\epsilon$"
-LIMITS = 1e-4, 1e4
-
 
 def main(job):
     compared = datasets.read(job.input.compared, ["against_roughness", "against_magnification"])
@@ -34,7 +31,8 @@ def draw_thresholds(ax, thresholds, made, held):
     plotting.draw_band(ax, x, low, high, RED, alpha=0.2)
     for criterion in select_criteria(thresholds):
         ax.plot(x, thresholds.sel(criterion=criterion.name), **look_of(criterion))
-    ax.set(xscale="log", yscale="log", ylim=LIMITS, ylabel=LENGTH_LABEL)
+    label = r"adhesion length at the threshold $l_a/\epsilon$"
+    ax.set(xscale="log", yscale="log", ylim=(1e-4, 1e4), ylabel=label)
     ax.text(0.03, 0.93, "sticky above", transform=ax.transAxes, color=GREY)
     both = rf"$H$ = {made['hurst']:g}, $\epsilon q_0$ = {number(made['range_times_q0'])}"
     ax.text(0.97, 0.04, f"{both}\n{held}", transform=ax.transAxes, ha="right")

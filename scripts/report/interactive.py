@@ -41,7 +41,6 @@ TOLD_OF_PAIR = [
     ("", "@material on @surface"),
     ("verdict", "@word"),
     ("remains", "@remaining"),
-    ("work over energy", "@energy_ratio"),
     ("pull-off [kPa]", "@pull_off"),
     ("E* threshold [MPa]", "@threshold; the material: @modulus"),
 ]

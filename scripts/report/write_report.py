@@ -38,7 +38,7 @@ def main(job):
     )
     pairs = arrange_pairs(verdicts, surfaces)
     materials = datasets.parameters(verdicts)["materials"]
-    figures = zip(inputs.figures, inputs.captions, strict=True)
+    embed = pages.embed_figure
     write_page(
         inputs.template,
         job.output[0],
@@ -47,7 +47,7 @@ def main(job):
             kind: path if isinstance(path, str) else {Path(one).stem: one for one in path}
             for kind, path in inputs.items()
         },
-        figures=[pages.embed_figure(*figure) for figure in figures],
+        figures=list(map(embed, inputs.figures, inputs.captions)),
         figure_sources=params.figure_sources,
         criterion=datasets.read(inputs.criterion, ["a_v"]),
         claims=describe_claims(claims),
@@ -67,15 +67,13 @@ def main(job):
         every_pair=interactive.embed(interactive.draw_pairs(verdicts, pairs)),
         disagreements=find_disagreements(verdicts),
         experiments=experiments.describe(tested),
-        experiments_figure=pages.embed_figure(
-            inputs.experiments_figure, inputs.experiments_caption
-        ),
+        experiments_figure=embed(inputs.experiments_figure, inputs.experiments_caption),
         surfaces=surfaces,
         sizes={name: describe_surface(surface) for name, surface in surfaces.items()},
         answers={name: at_load(answer) for name, answer in answers.items()},
         columns=COLUMNS,
         dominant_source=error_budget.dominant,
-        trade_figure=pages.embed_figure(inputs.trade_figure, inputs.trade_caption),
+        trade_figure=embed(inputs.trade_figure, inputs.trade_caption),
         versions=list_versions([claims, verdicts, tested, *surfaces.values(), *ensembles.values()]),
         ensembles=list(map(datasets.parameters, ensembles.values())),
     )
