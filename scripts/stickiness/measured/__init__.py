@@ -8,8 +8,7 @@
 - `plain_text`: matrices and lists of points as text, and what their headers say
 - `levelling`: levelling, missing points, spikes
 - `plausibility`: doubts about a measurement
-- `psd`: power spectral density of a map, averages over rings
-- `profiles`: spectra of line profiles, and the isotropic ones behind them
+- `psd`: power spectral density of a map or line profile, averages over rings
 - `self_affine_fit`: Hurst exponent, prefactor and roll-off of a spectrum, by Whittle's likelihood
 - `instrument_spectrum`: spectrum of one measurement, up to where the instrument resolves
 - `stitching`: several measurements as one spectrum, moments with their errors

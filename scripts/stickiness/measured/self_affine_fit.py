@@ -20,15 +20,12 @@ from numpy.typing import ArrayLike, NDArray
 from scipy import optimize, special
 
 from stickiness.measured.psd import RadialPSD, merge_rings, wide_rings
-from stickiness.spectrum.kinds import SelfAffine
 
 FINE = 200  #: narrow rings per decade: C varies by 4 % across one, its mean by 7e-5
 ROLLOFF_AIC = 10.0  #: gain in AIC below which the simpler model is kept
 LARGE_MISFIT = 0.3  #: relative; above, a power law describes the spectrum badly
 LARGE_ANISOTROPY = 0.5  #: C along and across the lay then differ by a factor of three
-
 COARSE = 10  #: rings per decade for the misfit
-
 _ALTERNATIONS = 20
 _SLOPES = (-1e3, 1e3)  # bracket of the exponent s in C ~ q^-s; wide, plateaus are tried anywhere
 
@@ -71,10 +68,8 @@ class SelfAffineFit:
         return self.c0 * float(np.sqrt(self.log_covariance[0, 0]))
 
     @property
-    def q_rolloff_se(self) -> float | None:
-        """Standard error of `q_rolloff` [1/length]; None without one."""
-        if self.q_rolloff is None:
-            return None
+    def q_rolloff_se(self) -> float:
+        """Standard error of `q_rolloff`, if there is one [1/length]."""
         return self.q_rolloff * float(np.sqrt(self.log_covariance[2, 2]))
 
     @property
@@ -88,28 +83,14 @@ class SelfAffineFit:
         q = q if self.q_rolloff is None else np.maximum(q, self.q_rolloff)
         return self.c0 * q ** (-2 * (self.hurst + 1))
 
-    def spectrum(self, q0: float | None = None, q1: float | None = None) -> SelfAffine:
-        """Return the fit as a `SelfAffine` spectrum, by default from `q_min` to `q_max`."""
-        if not self.is_self_affine:
-            raise ValueError(f"hurst must be in 0 < H <= 1 for a spectrum, fitted {self.hurst:.3f}")
-        return SelfAffine(
-            hurst=self.hurst,
-            q0=self.q_min if q0 is None else q0,
-            q1=self.q_max if q1 is None else q1,
-            C0=self.c0,
-            q_rolloff=self.q_rolloff,
-        )
-
-    def c0_at_hurst(self, hurst: float = 0.8, bins_per_decade: float = 10) -> HurstLine:
+    def c0_at_hurst(self, hurst: float) -> HurstLine:
         """Prefactors at an imposed exponent, in a unit that can be compared between surfaces.
 
         The line is fitted above `q_rolloff`; the values of the rings cover the whole fit interval.
         """
-        if not 0 < hurst <= 1:
-            raise ValueError(f"hurst must be in 0 < H <= 1, got {hurst!r}")
         rings = self.rings
         level = rings.psd * rings.q ** (2 * (hurst + 1))
-        q, mean, dof = merge_rings(rings, level, bins_per_decade)
+        q, mean, dof = merge_rings(rings, level, COARSE)
         sloped = q >= (0.0 if self.q_rolloff is None else self.q_rolloff)
         logs = (np.log(mean) - special.digamma(dof) + np.log(dof))[sloped]
         scatter = np.std(logs, ddof=1) if len(logs) > 1 else np.nan
@@ -124,25 +105,50 @@ def fit_rings(
     """Fit a self-affine spectrum between two wave numbers, with or without a plateau at low q.
 
     The rings, in ascending order, are so narrow that their mean C is C at `rings.q` (`FINE` a
-    decade). By default a plateau is fitted if it gains more than 10 in Akaike's criterion. A
-    ValueError says that fewer than five rings (ten a decade) or 20 independent modes lie in the fit
-    interval, or that the spectrum vanishes there.
+    decade). By default a plateau is fitted if it gains more than 10 in Akaike's criterion.
     """
-    rings = _within(rings, q_min, q_max)
+    if not 0 < q_min < q_max:
+        raise ValueError(f"need 0 < q_min < q_max, got q_min = {q_min:.6g}, q_max = {q_max:.6g}")
+    # The slack keeps modes exactly on a limit, whatever the rounding of |q|.
+    rings = rings.between(q_min * (1 - 1e-9), q_max * (1 + 1e-9))
+    wide = len(merge_rings(rings, rings.psd, COARSE)[0]) if len(rings) else 0
+    if wide < 5 or rings.dof.sum() < 20:
+        raise ValueError(
+            f"too few modes between q_min = {q_min:.6g} and q_max = {q_max:.6g} for a fit: "
+            f"{rings.dof.sum():.0f} independent ones in {wide} rings, need 20 in 5"
+        )
+    if not np.all(rings.psd > 0):
+        raise ValueError(f"the spectrum vanishes at q = {rings.q[np.argmin(rings.psd)]:.6g}")
     # ln q about the middle of the data, where exponent and level are least correlated.
     scale = float(np.exp(np.average(np.log(rings.q), weights=rings.dof)))
     x = np.log(rings.q / scale)
-    plain, plain_misfit = weighted_fit(fit_power_law, x, rings)
-    room = None if rolloff is False else rolloff_room(x, rings)
-    if room is None and rolloff:
+    parameters, misfit = weighted_fit(fit_power_law, x, rings)
+    # A plateau may end above four modes, a tenth of a decade below the top.
+    room = x[(np.cumsum(rings.dof) > 4) & (x < x[-1] - np.log(10) / 10)]
+    if rolloff and len(room) < 2:
         raise ValueError("rolloff=True needs a wider range of q: lower q_min or raise q_max")
-    if room is not None:
-        bent, bent_misfit = weighted_fit(partial(fit_rolloff, room), x, rings)
+    if rolloff is not False and len(room) > 1:
+        bent, bent_misfit = weighted_fit(partial(fit_rolloff, (room[0], room[-1])), x, rings)
         limited = limit_weight(rings, bent_misfit)
-        gain = 2 * (deviance(x, limited, *plain) - deviance(x, limited, *bent)) - 2
+        gain = 2 * (deviance(x, limited, *parameters) - deviance(x, limited, *bent)) - 2
         if rolloff or gain > ROLLOFF_AIC:
-            return _result(rings, scale, bent, bent_misfit)
-    return _result(rings, scale, plain, plain_misfit)
+            parameters, misfit = bent, bent_misfit
+    a, s, *corner = parameters
+    # In the unit of the data: ln C = ln c0 - 2 (H + 1) max(ln q, ln q_r).
+    log_q = np.maximum(x, *corner) if corner else x
+    slopes = [np.ones_like(x), -2 * (log_q + np.log(scale)), *(-s * (x < c) for c in corner)]
+    design = np.array(slopes)
+    information = (design * limit_weight(rings, misfit).dof) @ design.T
+    return SelfAffineFit(
+        hurst=s / 2 - 1,
+        c0=float(np.exp(a + s * np.log(scale))),
+        log_covariance=np.linalg.inv(information),
+        q_min=float(rings.q[0]),
+        q_max=float(rings.q[-1]),
+        q_rolloff=scale * float(np.exp(corner[0])) if corner else None,
+        misfit=misfit,
+        rings=rings,
+    )
 
 
 def remarks(fit: SelfAffineFit, anisotropy: float = 0.0) -> list[str]:
@@ -163,43 +169,6 @@ def remarks(fit: SelfAffineFit, anisotropy: float = 0.0) -> list[str]:
     return found
 
 
-def _within(rings: RadialPSD, low: float, high: float) -> RadialPSD:
-    if not 0 < low < high:
-        raise ValueError(f"need 0 < q_min < q_max, got q_min = {low:.6g}, q_max = {high:.6g}")
-    # The slack keeps modes exactly on a limit, whatever the rounding of |q|.
-    low, high = low * (1 - 1e-9), high * (1 + 1e-9)
-    rings = rings.between(low, high)
-    wide = len(merge_rings(rings, rings.psd, COARSE)[0]) if len(rings) else 0
-    if wide < 5 or rings.dof.sum() < 20:
-        raise ValueError(
-            f"too few modes between q_min = {low:.6g} and q_max = {high:.6g} for a fit: "
-            f"{rings.dof.sum():.0f} independent ones in {wide} rings, need 20 in 5"
-        )
-    if not np.all(rings.psd > 0):
-        raise ValueError(f"the spectrum vanishes at q = {rings.q[np.argmin(rings.psd)]:.6g}")
-    return rings
-
-
-def _result(rings, scale, parameters, misfit) -> SelfAffineFit:
-    a, s, *corner = parameters
-    x = np.log(rings.q / scale)
-    # In the unit of the data: ln C = ln c0 - 2 (H + 1) max(ln q, ln q_r).
-    log_q = np.maximum(x, *corner) if corner else x
-    slopes = [np.ones_like(x), -2 * (log_q + np.log(scale)), *(-s * (x < c) for c in corner)]
-    design = np.array(slopes)
-    information = (design * limit_weight(rings, misfit).dof) @ design.T
-    return SelfAffineFit(
-        hurst=s / 2 - 1,
-        c0=float(np.exp(a + s * np.log(scale))),
-        log_covariance=np.linalg.inv(information),
-        q_min=float(rings.q[0]),
-        q_max=float(rings.q[-1]),
-        q_rolloff=scale * float(np.exp(corner[0])) if corner else None,
-        misfit=misfit,
-        rings=rings,
-    )
-
-
 # Whittle's likelihood, with weights limited by the misfit
 
 
@@ -217,12 +186,6 @@ def fit_power_law(x: NDArray, rings: RadialPSD) -> tuple[float, float]:
 
     s = optimize.brentq(lambda s: moments(s)[1], *_SLOPES, xtol=1e-12)
     return moments(s)[0] + s * centre, s
-
-
-def rolloff_room(x: NDArray, rings: RadialPSD) -> tuple[float, float] | None:
-    """Interval in which a plateau may end: above four modes, a tenth of a decade below the top."""
-    inside = x[(np.cumsum(rings.dof) > 4) & (x < x[-1] - np.log(10) / 10)]
-    return (float(inside[0]), float(inside[-1])) if len(inside) > 1 else None
 
 
 def fit_rolloff(room, x, rings) -> tuple[float, float, float]:

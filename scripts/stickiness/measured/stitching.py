@@ -34,14 +34,10 @@ ORDERS = {"h_rms": 0, "rms_slope": 2, "rms_curvature": 4, "elastic_energy": 1}
 class Stitched:
     """Several measurements of one surface as one spectrum."""
 
-    #: the whole; the errors of `fit` include the scatter between measurements
-    spectrum: MeasuredSpectrum
-    #: (k, m), C of each measurement in the rings of `spectrum`, NaN outside its band
-    levels: NDArray
-    #: (k,), mean of ln C minus the stitched one where measurements overlap, else NaN
-    offsets: NDArray
-    #: (k, m), weight of each measurement in each ring; the sum over measurements is 1
-    shares: NDArray
+    spectrum: MeasuredSpectrum  #: errors of its `fit` include the scatter between measurements
+    levels: NDArray  #: (k, m), C of each measurement in the rings, NaN outside its band
+    offsets: NDArray  #: (k,), mean of ln C minus the stitched one where they overlap, else NaN
+    shares: NDArray  #: (k, m), weight of each measurement in each ring; they add up to 1
     scatter: float  #: tau, standard deviation of the offsets in ln C; NaN if no two overlap
 
 
@@ -49,33 +45,29 @@ def stitch(measurements: Sequence[MeasuredSpectrum]) -> Stitched:
     """Log-average two or more measurements of one surface into one spectrum.
 
     Each counts within the interval of its fit, the one of the lowest wave numbers also below, where
-    most of the variance of the heights is. The errors of the fit are those of the rings plus, for
-    each measurement, the change of the fit when it alone is raised by tau: offsets tilt the
-    spectrum.
+    most of the variance of the heights is.
     """
     if len(measurements) < 2:
         raise ValueError(f"stitching needs two measurements at least, got {len(measurements)}")
     logs, variances, q = _on_common_rings(measurements)
     tau2 = _variance_between(logs, variances)
-    mean, rings = _average(q, logs, variances, tau2)
+    mean, shares, rings = _average(q, logs, variances, tau2)
     top = max(measurements, key=lambda m: m.cutoff.q)
     band = min(m.fit.q_min for m in measurements), top.cutoff.q
     fit = fit_rings(rings, *band)
     tau = float(np.sqrt(tau2))
     if tau > 0:
         fit = _add_offsets(fit, logs, variances, tau, q, band)
-    present = np.isfinite(logs)
-    both = present & (present.sum(0) > 1)
-    offsets = np.array(
-        [np.mean((log - mean)[b]) if b.any() else np.nan for log, b in zip(logs, both, strict=True)]
-    )
+    known = np.isfinite(logs)
+    both = known & (known.sum(0) > 1)
+    offsets = [np.mean(d[b]) if b.any() else np.nan for d, b in zip(logs - mean, both, strict=True)]
     anisotropy = float(np.fmax.reduce([m.anisotropy for m in measurements]))
     q_low = min(m.lowest for m in measurements)
     area = ring_areas(rings.q, q_low)
     cutoff = replace(top.cutoff, q=fit.q_max)
     whole = MeasuredSpectrum(rings, area, rings, fit, cutoff, q_low, anisotropy)
     levels = np.exp(logs + special.digamma(rings.dof) - np.log(rings.dof))
-    return Stitched(whole, levels, offsets, _shares(variances, tau2), tau)
+    return Stitched(whole, levels, np.array(offsets), shares, tau)
 
 
 def _on_common_rings(measurements: Sequence[MeasuredSpectrum]) -> tuple[NDArray, NDArray, NDArray]:
@@ -104,26 +96,19 @@ def _on_common_rings(measurements: Sequence[MeasuredSpectrum]) -> tuple[NDArray,
     return logs[:, used], variances[:, used], centres[used]
 
 
-def _average(q, logs, variances, tau2) -> tuple[NDArray, RadialPSD]:
-    """Weighted mean of ln C (m,), and rings whose ln C has this mean and its variance."""
-    mean = np.nansum(_shares(variances, tau2) * logs, axis=0)
-    error2 = 1 / np.nansum(_weights(variances, tau2), axis=0)
+def _average(q, logs, variances, tau2) -> tuple[NDArray, NDArray, RadialPSD]:
+    """Mean of ln C (m,), shares of its weights (k, m), rings whose ln C has it and its variance."""
+    weight = np.nan_to_num(1 / (variances + np.nan_to_num(tau2)))
+    shares = weight / weight.sum(axis=0)
+    mean = np.nansum(shares * logs, axis=0)
+    error2 = 1 / weight.sum(axis=0)
     # Solve polygamma(1, dof) = error2: Newton's method on its inverse, nearly linear in dof.
     dof = 0.5 + 1 / error2
     for _ in range(20):
         trigamma = special.polygamma(1, dof)
         dof = dof + trigamma * (1 - trigamma / error2) / special.polygamma(2, dof)
     level = np.exp(mean + special.digamma(dof) - np.log(dof))
-    return mean, RadialPSD(q, level, dof)
-
-
-def _weights(variances: NDArray, tau2: float) -> NDArray:
-    return 1 / (variances + (tau2 if np.isfinite(tau2) else 0.0))
-
-
-def _shares(variances: NDArray, tau2: float) -> NDArray:
-    weight = np.nan_to_num(_weights(variances, tau2))
-    return weight / weight.sum(axis=0)
+    return mean, shares, RadialPSD(q, level, dof)
 
 
 def _variance_between(logs: NDArray, variances: NDArray) -> float:
@@ -142,14 +127,13 @@ def _variance_between(logs: NDArray, variances: NDArray) -> float:
 
 
 def _add_offsets(fit, logs, variances, tau, q, band) -> SelfAffineFit:
-    """Add to the covariance what raising each measurement by tau changes."""
+    """Add to the covariance what raising each measurement by tau changes: offsets tilt spectra."""
     covariance = fit.log_covariance.copy()
     bent = fit.q_rolloff is not None
     for k in range(len(logs)):
         raised = logs.copy()
         raised[k] += tau
-        _, rings = _average(q, raised, variances, tau**2)
-        other = fit_rings(rings, *band, rolloff=bent)
+        other = fit_rings(_average(q, raised, variances, tau**2)[-1], *band, rolloff=bent)
         change = [np.log(other.c0 / fit.c0), other.hurst - fit.hurst]
         change += [np.log(other.q_rolloff / fit.q_rolloff)] if bent else []
         covariance += np.outer(change, change)
@@ -222,7 +206,11 @@ def draw(
     rng = np.random.default_rng(seed)
     rings, top = spectrum.rings, spectrum.cutoff.q * (1 + 1e-9)
     levels = rings.psd * _relative(spectrum, count, rng, stitched)
-    law = _draw_power_laws(spectrum, count, rng)
+    # ln C at the cutoff, H and, with a plateau, ln q_rolloff.
+    fit = spectrum.fit
+    centre = [np.log(fit.c0), fit.hurst] + ([np.log(fit.q_rolloff)] if fit.q_rolloff else [])
+    law = rng.multivariate_normal(centre, fit.log_covariance, size=count, method="eigh")
+    law[:, 0] -= 2 * (law[:, 1] + 1) * np.log(spectrum.cutoff.q)
     moments = {}
     for name, order in ORDERS.items():
         # Beyond the cutoff slope, curvature and energy would be the instrument's.
@@ -236,10 +224,7 @@ def draw(
             )
             variance = variance + [beyond.variance_below(extend_to, order) for beyond in laws]
         moments[name] = variance / 4 if order == 1 else np.sqrt(variance)
-    q0 = np.full(count, spectrum.lowest)
-    if spectrum.fit.q_rolloff is not None:
-        q0 = np.exp(law[:, 2])
-    return Draws(moments, q0)
+    return Draws(moments, np.exp(law[:, 2]) if fit.q_rolloff else np.full(count, spectrum.lowest))
 
 
 def _relative(spectrum, count, rng, stitched) -> NDArray:
@@ -256,12 +241,3 @@ def _relative(spectrum, count, rng, stitched) -> NDArray:
         sampling = np.maximum(variance - tau**2 * np.sum(stitched.shares**2, axis=0), 0.0)
     normal = rng.normal(size=(count, len(variance)))
     return np.exp(logs + normal * np.sqrt(sampling) - variance / 2)
-
-
-def _draw_power_laws(spectrum: MeasuredSpectrum, count: int, rng: np.random.Generator) -> NDArray:
-    """Draws of (ln C at the cutoff, H) and, with a plateau, ln q_rolloff: (count, 2 or 3)."""
-    fit = spectrum.fit
-    centre = [np.log(fit.c0), fit.hurst] + ([np.log(fit.q_rolloff)] if fit.q_rolloff else [])
-    law = rng.multivariate_normal(centre, fit.log_covariance, size=count, method="eigh")
-    law[:, 0] -= 2 * (law[:, 1] + 1) * np.log(spectrum.cutoff.q)
-    return law
