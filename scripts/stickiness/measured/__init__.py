@@ -4,8 +4,7 @@
 `periodise` and `band_limited` heights that the solvers take. The modules:
 
 - `topography`: maps and line profiles, read from files
-- `readers`: content of a file, by NetCDF, numpy or SurfaceTopography
-- `plain_text`: matrices and lists of points as text, and what their headers say
+- `readers`: content of a file: NetCDF, numpy, text, or by SurfaceTopography
 - `levelling`: levelling, missing points, spikes
 - `plausibility`: doubts about a measurement
 - `psd`: power spectral density of a map or line profile, averages over rings

@@ -32,11 +32,7 @@ _ROWS = 256  # worked on at a time
 
 
 def detrend(heights: NDArray, kind: Detrend = "plane") -> NDArray:
-    """Subtract the mean, plane or quadratic surface that fits a map or profile best.
-
-    `kind` is a polynomial of total degree 0, 1 or 2 in x and y, fitted by least squares. The
-    heights (nx, ny) or (n,) are finite.
-    """
+    """Subtract the mean, plane or quadratic surface that fits a map or profile best."""
     heights = np.asarray(heights, dtype=float)
     if heights.ndim not in (1, 2) or not np.all(np.isfinite(heights)):
         raise ValueError(f"heights must be finite and 1D or 2D, got shape {heights.shape}")
@@ -77,9 +73,7 @@ def _polynomials(shape: tuple[int, ...], kind: Detrend) -> tuple[list[NDArray], 
 def without_rims(heights: NDArray, rim: Rim = "detect") -> tuple[NDArray, int]:
     """Drop the points beside missing ones, where instruments may write values that are far off.
 
-    `rim` is their width [points], diagonals counted as one; "detect": as far as they stand out
-    (`outstanding_rim`). Returns a copy, NaN where missing or dropped, and how many points were
-    measured and are dropped.
+    Returns a copy, NaN where missing or dropped, and how many points were dropped.
     """
     hole = ~np.isfinite(heights)
     wide = _widen(hole, outstanding_rim(heights) if rim == "detect" else rim)
@@ -117,13 +111,10 @@ def _widen(hole: NDArray, rim: int) -> NDArray:
 def fill_missing(
     heights: NDArray, max_missing=MAX_MISSING, source="heights", positions=None
 ) -> tuple[NDArray, int]:
-    """Fill points of a map or profile that are not finite from their neighbours.
+    """Fill points that are not finite from their neighbours; returns a copy, and how many.
 
-    In a map (nx, ny) each filled point is the mean of its (up to four) neighbours: there are no new
-    extremes, and a plane stays a plane. In a profile (n,) with increasing `positions` it is
-    interpolated linearly, and heights are constant beyond the first and the last known one.
-    Returns a copy, and how many points were missing. A ValueError names `source` if that is more
-    than the share `max_missing`.
+    In a map each is the mean of its (up to four) neighbours: there are no new extremes, and a plane
+    stays a plane. In a profile, at increasing `positions`, it is interpolated linearly.
     """
     hole = ~np.isfinite(heights)
     missing = int(np.count_nonzero(hole))
@@ -171,20 +162,12 @@ def complete_rectangle(known: NDArray, source: str = "heights") -> tuple[slice, 
 
 
 def find_spikes(heights: NDArray) -> NDArray:
-    """Mark points that are far off their neighbours.
+    """Mask of points more than `OUTLYING` times as far off their neighbours as 99 % of points are.
 
-    The distance of a point of a map (nx, ny) is its difference in height to the third closest in
-    height of its eight neighbours, so that points of an edge, a corner or a ridge two points wide
-    are close to each other, and up to three spikes may touch. On a line profile (n,) it is the
-    difference to the second closest of four. A spike is more than `OUTLYING` times as far off as
-    99 % of the points are. Points of a scratch or fibre one point wide are as far off, but not
-    alone: groups of more than `MOST_TOUCHING` such points that touch are no spikes. An island of
-    one point is taken for a spike. Slopes are taken out by the medians of the steps. Points that
-    are not finite are neither spikes nor neighbours.
-
-    Returns a mask of the shape of the heights.
+    Points that are not finite are neither spikes nor neighbours.
     """
     level = np.where(np.isfinite(heights), heights, np.nan)
+    # Slopes are taken out by the medians of the steps.
     for axis, n in enumerate(level.shape):
         steps = np.diff(level, axis=axis)
         steps = steps[np.isfinite(steps)]
@@ -201,7 +184,8 @@ def find_spikes(heights: NDArray) -> NDArray:
     distance = np.nan_to_num(distance, nan=0.0, posinf=0.0)
     spikes = distance > OUTLYING * typical
     if level.ndim == 2 and spikes.any():
-        # By a lower limit, or a scratch of varying depth would fall to pieces as small as spikes.
+        # Points of a scratch or fibre one point wide are as far off, but not alone. By a lower
+        # limit, or a scratch of varying depth would fall to pieces as small as spikes.
         marked = distance > _CONNECTS * OUTLYING * typical
         groups, _ = ndimage.label(marked, structure=np.ones((3, 3)))  # touch by side or corner
         spikes &= (np.bincount(groups.ravel()) <= MOST_TOUCHING)[groups]
@@ -209,7 +193,11 @@ def find_spikes(heights: NDArray) -> NDArray:
 
 
 def _neighbour_distance(heights: NDArray) -> NDArray:
-    """Distance of every point to its third closest neighbour of eight, second of four on a line."""
+    """Difference in height of every point to its third closest neighbour of eight.
+
+    So points of an edge, a corner or a ridge two points wide are close to each other, and up to
+    three spikes may touch. On a line it is the second closest of four.
+    """
     reach, rank = (2, 2) if heights.ndim == 1 else (1, 3)
     padded = np.pad(heights, reach, constant_values=np.nan)
     around = np.lib.stride_tricks.sliding_window_view(padded, (2 * reach + 1,) * heights.ndim)
